@@ -1,4 +1,4 @@
-//! Elastic bodies as the cases use them: a structured block of any element, mapped; conditions from a known field; solution,
+//! Elastic bodies of the cases: a mapped structured block of any element, boundary conditions from a known field, its solution,
 //! errors, and the claims of a convergence study.
 
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
@@ -15,7 +15,7 @@ use asperity_fem::term::{Instant, Term};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-/// A known displacement field and the body force that holds it.
+/// A known displacement field and the body force that balances it.
 pub trait Field<const D: usize> {
     /// Displacement and its gradient.
     fn at(&self, x: &[f64; D]) -> FieldValue;
@@ -53,13 +53,13 @@ pub fn unit_block<const D: usize>(kind: ElementKind, divisions: [usize; D]) -> R
     Ok(Block { min: [0.0; D], max: [1.0; D], divisions, grading, kind }.mesh()?)
 }
 
-/// Moves every node: elements of second order get curved edges.
+/// Maps every node: second-order elements get curved edges.
 pub fn mapped<const D: usize>(mut mesh: Mesh<D>, map: impl Fn(&[f64; D]) -> [f64; D]) -> Mesh<D> {
     mesh.nodes.iter_mut().for_each(|x| *x = map(x));
     mesh
 }
 
-/// Moves the corners; nodes between them stay midway, so that edges are straight.
+/// Maps the corner nodes; midside nodes stay midway, so that edges remain straight.
 pub fn straight<const D: usize>(mut mesh: Mesh<D>, map: impl Fn(&[f64; D]) -> [f64; D]) -> Mesh<D> {
     let before = mesh.nodes.clone();
     for cells in &mesh.blocks {
@@ -81,18 +81,19 @@ pub fn straight<const D: usize>(mut mesh: Mesh<D>, map: impl Fn(&[f64; D]) -> [f
 /// Shape of the cells of a unit block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
-    /// Corners inside move by a fixed share of the element size to alternating sides: shapes do not improve with refinement.
+    /// Interior corners move by a fixed fraction of the element size in alternating directions: shapes do not improve with
+    /// refinement.
     Crooked,
-    /// Corners inside move by a smooth map.
+    /// Interior corners move by a smooth map.
     Mapped,
-    /// One constant shear: affine images of the reference element.
+    /// Uniform shear: elements are affine images of the reference element.
     Sheared,
 }
 
-/// Shares of the element size, or of the block, by which corners move.
+/// Displacements of corners as fractions of the element size or of the block.
 const MOVE: [f64; 3] = [0.13, -0.09, 0.11];
 
-/// A unit block of n elements an axis, distorted, its lower corner at `lower`.
+/// A distorted unit block of n elements along each axis with its lower corner at `lower`.
 pub fn distorted<const D: usize>(
     kind: ElementKind,
     n: usize,
@@ -105,7 +106,7 @@ pub fn distorted<const D: usize>(
         index.iter().all(|&i| i > 0 && i < n).then_some(index)
     };
     let moved = straight(mesh, |x| match (shape, inside(x)) {
-        // About an axis, x = 0 has to stay where it is.
+        // In axisymmetry the boundary x = 0 must not move.
         (Shape::Sheared, _) => {
             std::array::from_fn(|c| x[c] + if c == 0 { 0.0 } else { 0.3 * x[0] + 0.15 * x[(c + 1) % D] })
         }
@@ -122,7 +123,7 @@ pub fn distorted<const D: usize>(
     Ok(mapped(moved, |x| std::array::from_fn(|c| x[c] + lower[c])))
 }
 
-/// A mesh with its stiffness, and what is prescribed on it.
+/// A mesh with its stiffness, prescribed displacements and loads.
 #[derive(Clone)]
 pub struct Body<const D: usize> {
     /// Mesh.
@@ -138,14 +139,14 @@ pub struct Body<const D: usize> {
 pub struct Solved {
     /// Displacement \[m\].
     pub u: Vec<f64>,
-    /// Unknowns, factorisations, solves.
+    /// Cost of the solution: unknowns, factorisations, solves.
     pub work: Cost,
     /// Unknowns.
     pub unknowns: usize,
 }
 
 impl<const D: usize> Body<D> {
-    /// A body without conditions.
+    /// A body without boundary conditions.
     pub fn new(
         mesh: Mesh<D>,
         material: &Elastic,
@@ -156,12 +157,12 @@ impl<const D: usize> Body<D> {
         Ok(Self { mesh, block, material: *material, prescribed: BTreeMap::new(), forces: Vec::new() })
     }
 
-    /// Components of the displacement.
+    /// Number of displacement components of a node.
     fn components(&self) -> usize {
         self.block.idealisation().components()
     }
 
-    /// Faces of sets.
+    /// Faces of the side sets.
     fn sides(&self, sets: &[&str]) -> Vec<Side> {
         sets.iter().filter_map(|name| self.mesh.side_sets.get(*name)).flatten().copied().collect()
     }
@@ -203,7 +204,7 @@ impl<const D: usize> Body<D> {
         })
     }
 
-    /// Applies a traction on sets, already multiplied with the length of the normal it is given.
+    /// Applies a traction on sets. The traction must include the area factor, the length of the normal passed to it.
     pub fn load(mut self, sets: &[&str], traction: impl Fn(&FacePoint<D>, &mut [f64])) -> Self {
         let sides = self.sides(sets);
         self.forces.extend(surface::integrate(&self.mesh, &sides, self.block.idealisation(), traction));
@@ -263,7 +264,7 @@ impl<const D: usize> Body<D> {
         self.block.stress_error(u, exact) / self.block.stress_error(&vec![0.0; u.len()], exact)
     }
 
-    /// Displacement of the node nearest to a place.
+    /// Displacement of the node nearest to a point.
     pub fn at(&self, u: &[f64], place: [f64; D]) -> [f64; 3] {
         let distance = |x: &[f64; D]| x.iter().zip(place).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
         let nodes = self.mesh.nodes.iter().enumerate();
@@ -280,18 +281,18 @@ pub struct Level {
     pub h: f64,
     /// Relative errors of displacement (L2) and its gradient (H1).
     pub errors: [f64; 2],
-    /// The same of the yardstick: of the field's nodal values interpolated on the same mesh.
+    /// The same errors of the nodal interpolant of the field on the same mesh, for comparison.
     pub nodal: [f64; 2],
     /// Relative error of the stress (L2 at quadrature points).
     pub stress: f64,
     /// Unknowns.
     pub unknowns: usize,
-    /// Cost of stiffness and solution.
+    /// Cost of assembly and solution.
     pub cost: Cost,
 }
 
-/// Solves one level. `build` makes the body with its conditions for an element; with a mean pressure a second-order element
-/// keeps the order of the first-order element on its corners, whose interpolation is then the yardstick.
+/// Solves one level. `build` makes the body with its boundary conditions for an element. With a mean pressure a second-order
+/// element keeps the order of the first-order element on its corners, whose interpolant then serves for comparison.
 pub fn level<const D: usize>(
     h: f64,
     kind: ElementKind,
@@ -317,27 +318,27 @@ pub fn level<const D: usize>(
     Ok(Level { h, errors, nodal, stress, unknowns: solved.unknowns, cost })
 }
 
-/// Claims of a study.
+/// Expectations of a convergence study.
 pub struct Orders {
-    /// Orders of displacement and gradient in theory.
+    /// Theoretical orders of displacement and gradient.
     pub expected: [f64; 2],
     /// Deviation allowed for observed orders.
     pub within: [f64; 2],
-    /// True if higher ones are fine.
+    /// True if higher orders are accepted.
     pub or_better: bool,
     /// True if loads drive the body: see [`COMPLIANCE`].
     pub loaded: bool,
-    /// Reason why these orders.
+    /// Reason for these orders.
     pub because: String,
-    /// Subject of the evidence.
+    /// Capabilities covered.
     pub covers: Vec<Capability>,
     /// Kind of evidence and its source.
     pub evidence: (Evidence, &'static str),
 }
 
-/// Factors for problems whose displacement is prescribed on the whole boundary, or whose symmetry leaves no rigid motion. In the
-/// energy norm no function of the space with these boundary values is nearer than the solution (Céa), and
-/// G |∇v|² <= a(v, v) <= (λ + 2G) |∇v|² for v = 0 on the boundary: √((λ+2G)/G) = 1.87 for ν = 0.3. In L2 the lemma of Aubin and
+/// Bounds of the error over that of the interpolant, for displacements prescribed on the whole boundary or symmetry that excludes
+/// rigid motion. In the energy norm no function of the space with these boundary values is closer than the solution (Céa), and G
+/// |∇v|² <= a(v, v) <= (λ + 2G) |∇v|² for v = 0 on the boundary: √((λ+2G)/G) = 1.87 for ν = 0.3. In L2 the lemma of Aubin and
 /// Nitsche gives the order but no sharp constant; 2 is chosen.
 const CEA: [f64; 2] = [2.0, 1.9];
 
@@ -345,8 +346,8 @@ const CEA: [f64; 2] = [2.0, 1.9];
 const CEA_REASON: &str = "interpolation of the exact field on the same mesh, computed before the solution, times 1.9 \
      in H1 (Cea: sqrt((lambda+2G)/G) = 1.87 for nu = 0.3) and 2 in L2 (duality gives the order; the factor is chosen)";
 
-/// Addition of a load to the bound in L2: it works on a displacement that is too small by the square of the relative energy error
-/// (Galerkin), everywhere in the body at once.
+/// Addition of loads to the bound in L2: the work of the load falls short by the square of the relative energy error (Galerkin),
+/// and with it the displacement in the whole body.
 const COMPLIANCE: &str =
     "; and, as a load drives the body, the square of the bound in H1: by that share its work is too small";
 

@@ -1,4 +1,4 @@
-//! Tools common to the cases of nonlinear bodies: meshes, one block with its displacements, implicit and forward steps.
+//! Common tools of the nonlinear-body cases: meshes, one block with its displacements, implicit and forward steps.
 
 use crate::CaseError;
 use asperity_fem::assembly::{Storage, Symmetry, System};
@@ -19,13 +19,13 @@ use std::f64::consts::FRAC_PI_2;
 /// A degree of freedom and its value: a displacement \[m\] or a force.
 pub type Entry = (usize, f64);
 
-/// A model without options.
+/// A model with default limits and the standard formulation.
 pub fn model(material: Material, idealisation: Idealisation, kinematics: Kinematics) -> Model {
     let formulation = Formulation::Standard;
     Model { material, idealisation, kinematics, formulation, limits: Limits::default() }
 }
 
-/// The same with averaged dilatation.
+/// The same model with averaged dilatation.
 pub fn averaged(model: Model) -> Model {
     Model { formulation: Formulation::BBar, ..model }
 }
@@ -45,7 +45,7 @@ pub fn grid<const D: usize>(
     Ok(Box { min, max, divisions, grading: [Grading::Uniform; D], kind }.mesh()?)
 }
 
-/// Moves the inner nodes of a box of cells of first order by at most `share` of a cell, the same way each time.
+/// Moves the interior nodes of a box of first-order cells by at most the fraction `share` of a cell, reproducibly.
 pub fn distorted<const D: usize>(mut mesh: Mesh<D>, max: [f64; D], size: f64, share: f64) -> Mesh<D> {
     for (k, x) in mesh.nodes.iter_mut().enumerate() {
         // Positions on the boundary are exact: the generator gives 0 and the upper corner without rounding.
@@ -107,11 +107,11 @@ pub fn turned_stress(angle: f64, s: &[f64; 6]) -> [f64; 6] {
 /// Largest difference of components over all points.
 pub fn largest_difference(found: &[[f64; 6]], exact: &[f64; 6]) -> f64 {
     let differences = found.iter().flat_map(|s| s.iter().zip(exact).map(|(a, b)| (a - b).abs()));
-    // A NaN must survive.
+    // Keep a NaN.
     differences.fold(0.0, |m, d| if d.is_nan() || d > m { d } else { m })
 }
 
-/// Work done.
+/// Computational work.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Work {
     /// Steps.
@@ -129,15 +129,15 @@ pub struct Work {
 pub struct Forward {
     /// Fraction of the step taken.
     pub fraction: f64,
-    /// The limit that bound last.
+    /// The limit that determined the fraction.
     pub limit: Option<Fraction>,
 }
 
-/// Most iterations of Newton's method: it takes below ten where it converges.
+/// Maximum of Newton iterations; fewer than ten are needed where it converges.
 const MOST_ITERATIONS: usize = 40;
-/// Passes in which a forward step with a constant part, which does not scale with it, finds its fraction.
+/// Maximum of passes to find the fraction of a forward step, whose constant forces do not scale with it.
 const MOST_PASSES: usize = 6;
-/// A fraction this close to the whole is the whole.
+/// A fraction this close to 1 counts as the whole step.
 const WHOLE: f64 = 1e-12;
 /// Systems up to this size are factored as dense matrices.
 const DENSE: usize = 150;
@@ -151,25 +151,25 @@ pub struct Body<const D: usize> {
     pub block: Block<D>,
     /// Displacements at the end of the last step \[m\].
     pub u: Vec<f64>,
-    /// Work so far.
+    /// Computational work so far.
     pub work: Work,
     /// Time at the end of the last step \[s\].
     pub time: f64,
-    /// True if a forward step takes up the force that the one before left unbalanced.
+    /// True if a forward step corrects the force that the previous step left unbalanced.
     pub carry: bool,
-    /// Forces of the block less the loads after the last forward step, where they are carried.
+    /// Unbalanced forces after the last forward step: forces of the block less the loads, if carried.
     left: Vec<f64>,
-    /// Loads of all forward steps.
+    /// Accumulated loads of all forward steps.
     loaded: Vec<f64>,
     pattern: Pattern,
     system: System,
 }
 
 impl<const D: usize> Body<D> {
-    /// A body at rest with these degrees of freedom prescribed.
+    /// A body at rest with the degrees of freedom `fixed` prescribed.
     pub fn new(mesh: Mesh<D>, model: Model, fixed: &[usize]) -> Result<Self, CaseError> {
         let dofs = mesh.nodes.len() * model.idealisation.components();
-        // Tangents of small-strain materials are symmetric and positive below the limit load.
+        // Tangents of small-strain materials are symmetric and positive definite below the limit load.
         let symmetry =
             if model.kinematics == Kinematics::Small { Symmetry::Positive } else { Symmetry::General };
         let block = Block::new(&mesh, 0, model)?;
@@ -207,8 +207,9 @@ impl<const D: usize> Body<D> {
         self.work.steps += 1;
     }
 
-    /// A step of length `dt` with Newton's method to `prescribed` displacements under the nodal forces `load`, until no free
-    /// force is larger than `tolerance`; returns the forces. The first iterate is the linear prediction, or `guess`.
+    /// A step of length `dt` with Newton's method to `prescribed` displacements under the nodal forces `load`, until no
+    /// unbalanced force on a free degree of freedom is larger than `tolerance`; returns the forces. The first iterate is `guess`
+    /// or else the linear prediction.
     pub fn implicit(
         &mut self,
         prescribed: &[Entry],
@@ -266,7 +267,7 @@ impl<const D: usize> Body<D> {
         rhs
     }
 
-    /// Largest unbalanced force on a free degree of freedom at the present state under `load`.
+    /// Largest unbalanced force on a free degree of freedom in the current state under `load`.
     pub fn drift(&mut self, load: &[Entry]) -> Result<f64, CaseError> {
         let u = self.u.clone();
         let r = self.forces(&u, 0.0).map_err(|refusal| refusal.to_string())?;
@@ -312,7 +313,7 @@ impl<const D: usize> Body<D> {
         Ok((values, constant))
     }
 
-    /// A forward step: increments of displacements and loads over `dt`, scaled by what the block admits.
+    /// A forward step: increments of displacements and loads over `dt`, scaled by the fraction that the block admits.
     pub fn forward(&mut self, prescribed: &[Entry], load: &[Entry], dt: f64) -> Result<Forward, CaseError> {
         let (values, mut constant) = self.rate(dt)?;
         self.factor(&values)?;
@@ -352,7 +353,7 @@ impl<const D: usize> Body<D> {
     }
 }
 
-/// Product of a tangent with a vector.
+/// Product of a tangent and a vector.
 fn product(pattern: &Pattern, values: &[f64], v: &[f64]) -> Vec<f64> {
     let mut out = vec![0.0; v.len()];
     let mut rest = values;
@@ -366,7 +367,7 @@ fn product(pattern: &Pattern, values: &[f64], v: &[f64]) -> Vec<f64> {
     out
 }
 
-/// Entries of both directions of nodes in the plane, displaced as `f` says.
+/// Entries of both components at nodes in the plane, with the displacement `f`.
 pub fn moved(mesh: &Mesh<2>, nodes: &[usize], f: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<Entry> {
     let entries = nodes.iter().map(|&n| (n, f(mesh.nodes[n])));
     entries.flat_map(|(n, [x, y])| [(2 * n, x), (2 * n + 1, y)]).collect()
@@ -377,7 +378,7 @@ pub fn dofs(entries: &[Entry]) -> Vec<usize> {
     entries.iter().map(|e| e.0).collect()
 }
 
-/// Root of a function that changes its sign once between `low` and `high`, to the last bits; it may end on its zero.
+/// Root, to machine precision, of a function that changes sign once between `low` and `high` or is zero at an end.
 pub fn root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
     let rising = f(low) < 0.0;
     loop {

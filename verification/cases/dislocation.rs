@@ -1,7 +1,8 @@
 //! Stress of edge dislocations in the plane and below a free surface by complex potentials.
 //!
-//! In the plane `φ = A ln(z - z0)`, `ψ = Ā ln(z - z0) - A z̄0/(z - z0)` with `A = G b/(πi (κ + 1))` and κ = 3 - 4ν; the potentials that
-//! free the surface `y = 0` of the lower half-plane follow by reflection, `φ1 = -z φ̄' - ψ̄` and `ψ1 = -φ̄ - z φ1'` (Muskhelishvili).
+//! In the plane `φ = A ln(z - z0)`, `ψ = Ā ln(z - z0) - A z̄0/(z - z0)` with `A = G b/(πi (κ + 1))` and κ = 3 - 4ν; the
+//! potentials that remove the traction on the surface `y = 0` of the lower half-plane follow by reflection, `φ1 = -z φ̄' - ψ̄`
+//! and `ψ1 = -φ̄ - z φ1'` (Muskhelishvili).
 
 use nalgebra::{Complex, ComplexField};
 
@@ -28,7 +29,7 @@ fn strength(b: C, shear_modulus: f64, poisson: f64) -> C {
 }
 
 impl Stress {
-    /// Adds what φ', φ'' and ψ' give at `z`.
+    /// Adds the stress of φ', φ'' and ψ' at `z`.
     fn add(&mut self, z: C, phi: [C; 2], psi: C) {
         let sum = 4.0 * phi[0].re;
         let difference = (phi[1] * z.conj() + psi) * 2.0;
@@ -44,13 +45,15 @@ impl Stress {
     }
 }
 
-/// Adds the stress at `z` of a dislocation at `z0` \[m\] in the plane whose displacement grows by `b` \[m\] in an anticlockwise circuit.
+/// Adds the stress at `z` of a dislocation at `z0` \[m\] in the plane whose displacement grows by `b` \[m\] in an anticlockwise
+/// circuit.
 pub fn add_in_plane(stress: &mut Stress, z: C, z0: C, b: C, shear_modulus: f64, poisson: f64) {
     let (phi, psi) = direct(z, z0, strength(b, shear_modulus, poisson));
     stress.add(z, phi, psi);
 }
 
-/// Adds the stress at `z` of a dislocation at `z0` \[m\] below the free surface `y = 0` whose displacement grows by `b` \[m\] in an anticlockwise circuit.
+/// Adds the stress at `z` of a dislocation at `z0` \[m\] below the free surface `y = 0` whose displacement grows by `b` \[m\] in
+/// an anticlockwise circuit.
 pub fn add(stress: &mut Stress, z: C, z0: C, b: C, shear_modulus: f64, poisson: f64) {
     let a = strength(b, shear_modulus, poisson);
     let (ac, z0c) = (a.conj(), z0.conj());

@@ -1,14 +1,14 @@
-//! Parts common to the cases of energy budgets: a run of a fault with its report, and with one of the places where it restarts.
+//! Common parts of the energy-budget cases: a fault run with its report and one of its restart points.
 
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity_cycles::{Balance, Event, FaultRun, Faults, Moment, Rupture, Settings, resume};
 use asperity_driver::fault::{Plan, Report};
 use asperity_ode::{Control, ObserveError, Observer, Outcome};
 
-/// Sums works, and keeps one of the places where the run restarts.
+/// Sums the energy balance and keeps one of the restart points.
 struct Look<'a> {
     balance: Balance<'a>,
-    /// Restarts until the one to keep.
+    /// Restart points before the one to keep.
     wait: usize,
     kept: Option<FaultRun>,
 }
@@ -32,23 +32,23 @@ impl Observer<Faults> for Look<'_> {
 pub struct Followed {
     /// The run.
     pub run: FaultRun,
-    /// Its balances and events.
+    /// Balances and events of the run.
     pub report: Report,
-    /// Time and steps.
+    /// Wall time and steps.
     pub cost: Cost,
     kept: Option<FaultRun>,
 }
 
 impl Followed {
-    /// From the start of a plan until the events it asks for have ended.
+    /// Runs a plan from its start until the required events have ended.
     ///
     /// # Errors
-    /// If they do not come.
+    /// If the events do not occur.
     pub fn new(plan: &Plan) -> Result<Self, CaseError> {
         Self::with(plan, plan.problem.settings.tolerance)
     }
 
-    /// The same with another tolerance of ln V.
+    /// The same run with another tolerance of ln V.
     ///
     /// # Errors
     /// As [`Followed::new`].
@@ -76,16 +76,16 @@ impl Followed {
         self.run.events()
     }
 
-    /// \[s\].
+    /// Onsets of the events \[s\].
     #[must_use]
     pub fn onsets(&self) -> Vec<f64> {
         self.events().iter().map(|e| e.onset.seconds()).collect()
     }
 
-    /// Claims that a run from the restart that was kept ends with the same bits.
+    /// Claims that a run resumed from the kept restart point ends with the same bits.
     ///
     /// # Errors
-    /// If the run never restarted.
+    /// If the run had no restart point.
     pub fn restarted(&self, ledger: &mut Ledger, plan: &Plan, tolerance: f64) -> Result<(), CaseError> {
         let kept = self.kept.clone().ok_or("the run never restarted")?;
         let again = Self::from(plan, Settings { tolerance, ..plan.problem.settings }, kept)?;
@@ -102,7 +102,7 @@ impl Followed {
         Ok(())
     }
 
-    /// Of unknowns and of events.
+    /// Bits of unknowns and events.
     fn bits(&self) -> Vec<u64> {
         let events = self
             .events()

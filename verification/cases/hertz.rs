@@ -1,4 +1,4 @@
-//! Hertz contacts as the cases use them: scenes with one thing changed at a time, tractions of a run, closed forms.
+//! Hertz contacts of the cases: scenes with single changes, tractions of a run, closed-form solutions.
 
 use crate::{CaseError, Cost, Ledger, Plot, Series};
 use asperity_driver::report::{Outcome, RunReport};
@@ -39,7 +39,7 @@ fn blocks(scene: &mut Scene) -> impl Iterator<Item = &mut BlockMesh> {
     })
 }
 
-/// Cells `times` smaller in the zones of contact of all bodies, and the penalty in proportion.
+/// Cells `times` smaller in the contact zones of all bodies, with the penalty scaled accordingly.
 pub fn refined(mut scene: Scene, times: f64) -> Scene {
     for mesh in blocks(&mut scene) {
         for axis in mesh.spacing.iter_mut().flat_map(|s| s.get_mut()) {
@@ -51,7 +51,7 @@ pub fn refined(mut scene: Scene, times: f64) -> Scene {
     stiffened(scene, times)
 }
 
-/// Another size of the cells in the zone of contact of one body \[m\].
+/// Another cell size in the contact zone of one body \[m\].
 pub fn sized(mut scene: Scene, body: &str, size: f64) -> Result<Scene, CaseError> {
     let body = scene.bodies.get_mut(body).ok_or_else(|| format!("no body {body}"))?;
     if let MeshSource::Block(mesh) = &mut body.mesh {
@@ -116,17 +116,17 @@ pub fn pressed_by(mut scene: Scene, set: &str, depth: f64) -> Scene {
     scene
 }
 
-/// A finished run.
+/// A completed run.
 pub struct Done {
     /// Report.
     pub report: RunReport,
-    /// Fields.
+    /// Recorded fields.
     pub record: Recorder,
     /// Cost.
     pub cost: Cost,
 }
 
-/// Runs a scene to its end.
+/// Runs a scene to completion.
 pub fn simulate(scene: &Scene) -> Result<Done, CaseError> {
     let mut record = Recorder::new();
     let (report, cost) = Cost::of(|| -> Result<RunReport, CaseError> {
@@ -141,9 +141,9 @@ pub fn simulate(scene: &Scene) -> Result<Done, CaseError> {
     Ok(Done { report, record, cost })
 }
 
-/// Tractions along the slave side at the end of a stage, ascending in a coordinate, as a rule x; SI units.
+/// Tractions along the slave side at the end of a stage in SI units, sorted by a coordinate, usually x.
 pub struct Tractions {
-    /// Loads on the first set of the scene's forces: along x, and the size of that along y.
+    /// Forces on the first force set of the scene: along x, and the magnitude of that along y.
     pub load: [f64; 2],
     /// Coordinates.
     pub x: Vec<f64>,
@@ -151,7 +151,7 @@ pub struct Tractions {
     pub area: Vec<f64>,
     /// Averaged pressure.
     pub p: Vec<f64>,
-    /// Pressure of the points, the coefficients of a mortar interface.
+    /// Pressure at the points; on a mortar interface, its coefficients.
     pub coefficient: Vec<f64>,
     /// Averaged shear traction.
     pub q: Vec<f64>,
@@ -165,7 +165,7 @@ impl Done {
         self.tractions_by(stage, |x| x[0])
     }
 
-    /// Tractions at the end of a stage over some coordinate of the points.
+    /// Tractions at the end of a stage against a coordinate of the points.
     pub fn tractions_by(
         &self,
         stage: &str,
@@ -223,7 +223,7 @@ impl Hertz {
         self.p0 * (1.0 - (x / self.a).powi(2)).max(0.0).sqrt()
     }
 
-    /// Shear traction of Cattaneo and Mindlin in a line contact that sticks over the half-width c.
+    /// Shear traction of Cattaneo and Mindlin in a line contact with a stick zone of half-width c.
     pub fn shear(&self, x: f64, mu: f64, c: f64) -> f64 {
         let inner = (1.0 - (x / c).powi(2)).max(0.0).sqrt();
         mu * (self.pressure(x) - self.p0 * c / self.a * inner)
@@ -248,7 +248,7 @@ impl Tractions {
         self.p.iter().copied().fold(0.0, f64::max)
     }
 
-    /// a and p0 of the ellipse nearest to the pressures: p² = p0² (1 - x²/a²) fitted over the nodes within 0.9 `a`, weighted by their areas.
+    /// a and p0 of the ellipse p² = p0² (1 - x²/a²) fitted to the pressures of the nodes within 0.9 `a`, weighted by their areas.
     pub fn ellipse(&self, a: f64) -> Hertz {
         let (mut n, mut s, mut ss, mut t, mut st) = (0.0, 0.0, 0.0, 0.0, 0.0);
         for ((x, w), p) in self.x.iter().zip(&self.area).zip(&self.p) {
@@ -267,7 +267,7 @@ impl Tractions {
     }
 }
 
-/// Averaged pressures of runs over the ellipse of Hertz at their own loads.
+/// Plots averaged pressures of runs with the Hertz ellipse at their own loads.
 pub fn ellipse(ledger: &mut Ledger, runs: &[(&str, &Tractions, &Hertz)]) {
     const SHOWN: f64 = 1.4;
     let mut plot = Plot::xy("Pressure over the ellipse of Hertz", "x/a [-]", "p/p0 [-]");

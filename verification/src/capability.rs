@@ -10,10 +10,10 @@ macro_rules! capabilities {
         pub enum Capability { $($(#[$doc])* #[serde(rename = $text)] $variant,)* }
 
         impl Capability {
-            /// All of them, in the order of the matrix.
+            /// All capabilities, in the order of the matrix.
             pub const ALL: &[Capability] = &[$(Capability::$variant,)*];
 
-            /// The row's title.
+            /// Title of the row.
             pub fn title(self) -> &'static str {
                 match self { $(Capability::$variant => $text,)* }
             }
@@ -26,7 +26,7 @@ capabilities! {
     PlaneStrain => "plane-strain elasticity",
     /// Linear elasticity in plane stress.
     PlaneStress => "plane-stress elasticity",
-    /// Linear elasticity about an axis of revolution.
+    /// Axisymmetric linear elasticity.
     Axisymmetric => "axisymmetric elasticity",
     /// Antiplane elasticity.
     Antiplane => "antiplane elasticity",
@@ -38,9 +38,9 @@ capabilities! {
     Quadrilaterals => "elements quad4, quad9",
     /// Linear hexahedra and tetrahedra.
     Solids => "elements hex8, tet4",
-    /// Quadrilaterals and hexahedra without nodes inside.
+    /// Quadrilaterals and hexahedra without interior nodes.
     Serendipity => "elements quad8, hex20",
-    /// Quadratic solids that hold all quadratic polynomials.
+    /// Quadratic solids with complete quadratic polynomials.
     QuadraticSolids => "elements tet10, hex27",
     /// Prisms.
     Wedges => "elements wedge6, wedge15",
@@ -54,29 +54,29 @@ capabilities! {
     Viscoelasticity => "viscoelasticity",
     /// Forward steps of bodies and their limits r1, r2, r3.
     BodyLimits => "forward steps of nonlinear bodies",
-    /// Dirichlet conditions, ramps, holds, symmetry planes and stages.
+    /// Prescribed displacements, ramps, holds, symmetry planes and stages.
     Stages => "prescribed displacements and stages",
     /// Traction, pressure, body force, initial stress.
     Loads => "traction, pressure, body force, initial stress",
     /// Node-to-point penalty contact in the plane.
     PenaltyContact2d => "penalty contact, 2D",
-    /// Node-to-point penalty contact in space.
+    /// Node-to-point penalty contact in three dimensions.
     PenaltyContact3d => "penalty contact, 3D",
     /// Mortar contact: gaps averaged over the overlap of facets.
     Mortar => "mortar contact",
-    /// Contacts whose size follows from the load, on curved sides.
+    /// Contact of curved bodies with a contact area that depends on the load.
     Hertz => "contact of curved bodies (Hertz, partial slip)",
     /// Contact by multipliers: Uzawa's method and augmented Lagrangian.
     Multipliers => "contact by multipliers",
-    /// Contact on the edge: limit of friction, gaps, overlaps, bodies held by contact alone, corners.
+    /// Contact problems near the limit of solvability: limit of friction, gaps, overlaps, bodies held by contact alone, corners.
     HardContact => "contact on the edge of solvability",
-    /// Contact under changes of units, numbering, order and extreme meshes.
+    /// Contact under changes of units, numbering and order, and on extreme meshes.
     ContactInvariance => "contact: units, numbering, order, extreme meshes",
-    /// Rate-and-state friction between bodies, in time.
+    /// Rate-and-state friction between bodies over time.
     InterfaceStates => "interfaces: rate and state in time",
-    /// Interfaces whose law loses strength faster than the bodies unload them.
+    /// Interfaces with a law that weakens faster than the bodies unload.
     InterfaceInstability => "interfaces: the end of quasi-static equilibrium",
-    /// Pairing that follows large sliding.
+    /// Pairing updated in large sliding.
     FiniteSliding => "finite sliding on flat segments",
     /// Coulomb friction.
     Coulomb => "Coulomb friction",
@@ -86,19 +86,19 @@ capabilities! {
     SlipLaw => "rate and state, slip law",
     /// Rate-and-state friction, ageing law.
     AgeingLaw => "rate and state, ageing law",
-    /// Bare, regularised, cut-off and Arrhenius strengths with every evolution law.
+    /// Unregularised, regularised, cut-off and Arrhenius strengths with every evolution law.
     LawFamily => "family of rate and state laws",
     /// Any number of state variables.
     SeveralStates => "several state variables",
     /// Memory of normal traction (Linker and Dieterich).
     NormalMemory => "memory of normal traction",
-    /// Slip rate from traction, and the implicit step of a point.
+    /// Slip rate from traction and the implicit step of a point.
     PointSolver => "point solver",
     /// One slider on a spring.
     Slider => "spring-slider",
     /// Faults through earthquake cycles.
     FaultCycles => "faults through earthquake cycles",
-    /// Sliders with springs between them.
+    /// Sliders coupled by springs.
     CoupledSliders => "coupled sliders",
     /// Detection of events and extremes.
     Events => "events",
@@ -118,10 +118,10 @@ capabilities! {
     Determinism => "results independent of the number of threads",
     /// Runs resumed from their checkpoints.
     Restarts => "runs resumed from checkpoints",
-    /// Scenes, their refusal, and the plan.
+    /// Scenes, their validation, and the plan.
     Scenes => "scene reader and plan",
     /// Files written by a run.
     Outputs => "output files",
-    /// Files that other programs read, and files of other programs that are read.
+    /// Files exchanged with other programs, in both directions.
     Interop => "interop with other programs",
 }

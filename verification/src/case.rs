@@ -1,4 +1,4 @@
-//! A case, and running it.
+//! A case and its execution.
 
 use crate::capability::Capability;
 use crate::ledger::{Ledger, Record};
@@ -6,21 +6,21 @@ use crate::readme;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
-/// Reason why a case could not run to its end: any error, so that `?` works on all of them.
+/// Reason why a case could not complete: any error type, so that `?` works on all of them.
 pub type CaseError = Box<dyn std::error::Error + Send + Sync>;
 
 /// A case of the suite.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
-    /// Name: that of its folder under `verification/cases`.
+    /// Name of the case and of its folder under `verification/cases`.
     pub name: &'static str,
-    /// Its README, which is its page in the report.
+    /// README of the case, shown on its page of the report.
     pub readme: &'static str,
-    /// Capabilities its claims are evidence for, unless a claim names its own.
+    /// Capabilities for which its claims are evidence, unless a claim names others.
     pub covers: &'static [Capability],
-    /// True if it belongs to the quick suite (seconds); the others run with `--full` only.
+    /// True if the case belongs to the quick suite (seconds); the others run only with `--full`.
     pub quick: bool,
-    /// Computes and claims.
+    /// Function that computes and makes the claims.
     pub run: fn(&mut Ledger) -> Result<(), CaseError>,
 }
 
@@ -29,7 +29,7 @@ pub struct Case {
 pub struct Outcome {
     /// The case.
     pub case: Case,
-    /// Its record.
+    /// Record of the case.
     pub record: Record,
     /// Wall time \[s\].
     pub wall: f64,
@@ -42,7 +42,7 @@ impl Case {
         if title.is_empty() { self.name } else { title }
     }
 
-    /// Runs the case. An error, a panic and silence each become one claim that disagrees; what was recorded before stays.
+    /// Runs the case. An error, a panic and a run without claims each become one claim that disagrees; earlier claims are kept.
     pub fn execute(&self) -> Outcome {
         let start = Instant::now();
         let mut ledger = Ledger::new(self.covers);
@@ -57,7 +57,7 @@ impl Case {
     }
 }
 
-/// The error with its sources.
+/// The error with its chain of sources.
 fn chain(error: &(dyn std::error::Error + 'static)) -> String {
     let mut text = error.to_string();
     let mut source = error.source();

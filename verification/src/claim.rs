@@ -1,8 +1,8 @@
-//! Claims and their judgement.
+//! Claims and their assessment.
 //!
-//! A claim states a quantity, the evidence its reference value rests on, a bound, and the reason for the bound. The
-//! harness computes the error, compares it with the bound, and then turns on itself: the same claim with its value moved by
-//! three bounds must fail, or the bound does not judge anything and the claim disagrees.
+//! A claim states a quantity, the evidence behind its reference value, a bound, and the reason for the bound. The harness
+//! computes the error and compares it with the bound. As a negative control, the same claim with its value shifted by three
+//! bounds must fail; if it does not, the bound is meaningless and the claim disagrees.
 
 use crate::capability::Capability;
 use crate::cost::Cost;
@@ -16,10 +16,10 @@ pub const SLACK_BELOW: f64 = 0.1;
 /// Above this ratio of error to bound a claim is thin.
 pub const THIN_ABOVE: f64 = 0.8;
 
-/// Factor of the bound by which the negative control moves a value.
+/// Number of bounds by which the negative control shifts a value.
 pub const CONTROL_BOUNDS: f64 = 3.0;
 
-/// The kind of evidence a reference rests on.
+/// Kind of evidence behind a reference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Evidence {
@@ -38,7 +38,7 @@ pub enum Evidence {
 }
 
 impl Evidence {
-    /// All kinds, in the order of the coverage matrix.
+    /// All kinds of evidence, in the order of the coverage matrix.
     pub const ALL: [Evidence; 6] = [
         Evidence::Exact,
         Evidence::Manufactured,
@@ -48,7 +48,7 @@ impl Evidence {
         Evidence::Experiment,
     ];
 
-    /// Its name in the report.
+    /// Name in the report.
     pub fn name(self) -> &'static str {
         match self {
             Evidence::Exact => "exact",
@@ -61,7 +61,7 @@ impl Evidence {
     }
 }
 
-/// Norm that makes the differences of several values one error.
+/// Norm that combines the differences of several values into one error.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Norm {
@@ -75,7 +75,7 @@ pub enum Norm {
 impl Norm {
     fn of(self, values: impl Iterator<Item = f64>) -> f64 {
         match self {
-            // A NaN must survive: `f64::max` would drop it.
+            // Keep a NaN: `f64::max` would drop it.
             Norm::Largest => values.fold(0.0, |m, v| if v.is_nan() || v.abs() > m { v.abs() } else { m }),
             Norm::RootMeanSquare => {
                 let (sum, n) = values.fold((0.0, 0.0), |(s, n), v| (s + v * v, n + 1.0));
@@ -115,14 +115,14 @@ pub enum Test {
     AtMost {
         /// Value of the code.
         value: f64,
-        /// The limit from above.
+        /// Upper limit.
         bound: f64,
     },
     /// value ≥ bound, with a positive bound.
     AtLeast {
         /// Value of the code.
         value: f64,
-        /// The limit from below.
+        /// Lower limit.
         bound: f64,
     },
     /// A convergence order.
@@ -134,12 +134,12 @@ pub enum Test {
         /// Reference value.
         expected: u64,
     },
-    /// A case that could not be run, with what went wrong.
+    /// A case that could not be run, with the error.
     NotRun {
         /// The error or the message of the panic.
         error: String,
     },
-    /// A quantity that no issue names, with the reason why it is not covered.
+    /// A quantity that is not covered and that no issue names, with the reason.
     NotCovered {
         /// The reason.
         reason: String,
@@ -151,9 +151,9 @@ pub enum Test {
 pub struct Measured {
     /// The error.
     pub error: f64,
-    /// The bound it is held against.
+    /// The bound.
     pub bound: f64,
-    /// error/bound; the claim holds when this is at most 1.
+    /// Ratio error/bound; the claim holds if it is at most 1.
     pub ratio: f64,
 }
 
@@ -164,7 +164,7 @@ impl Measured {
 }
 
 impl Test {
-    /// Error and bound, or why the test cannot be judged.
+    /// Error and bound, or the reason why the test cannot be assessed.
     ///
     /// # Errors
     /// A sentence saying what is not finite, not positive, or does not fit.
@@ -187,7 +187,7 @@ impl Test {
             }
             Test::AtLeast { value, bound } => {
                 let m = judged(*value, *bound)?;
-                // The nearer the value is to the limit, the thinner; at or below zero no ratio is large enough.
+                // The ratio approaches 1 as the value approaches the limit; for values at or below zero it is infinite.
                 let ratio = if *value > 0.0 { bound / value } else { f64::INFINITY };
                 Ok(Measured { ratio, ..m })
             }
@@ -204,9 +204,10 @@ impl Test {
         }
     }
 
-    /// The same test with its value moved by `bounds` bounds in the direction in which it already errs.
+    /// The same test with its value shifted by `bounds` bounds in the direction of its error.
     ///
-    /// One-sided tests move from the limit when the value stands on its safe side. `None` where nothing can be moved.
+    /// In one-sided tests a value above a lower bound is shifted from that bound, and a negative value below an upper bound from
+    /// zero. `None` if there is no value to shift.
     pub fn perturbed(&self, bounds: f64) -> Option<Test> {
         let mut moved = self.clone();
         match &mut moved {
@@ -224,7 +225,8 @@ impl Test {
         Some(moved)
     }
 
-    /// The size of the reference in the unit of its uncertainty, times the bound: what the uncertainty is held against.
+    /// Bound in the unit of the uncertainty, for comparison with the uncertainty: a relative bound is multiplied by the size of
+    /// the reference.
     fn absolute_bound(&self) -> Option<f64> {
         match self {
             Test::Absolute { bound, .. } | Test::AtMost { bound, .. } | Test::AtLeast { bound, .. } => {
@@ -238,7 +240,7 @@ impl Test {
     }
 }
 
-/// Moves every value away from its reference.
+/// Shifts every value away from its reference.
 fn push(values: &mut [f64], references: &[f64], by: f64) {
     for (value, reference) in values.iter_mut().zip(references) {
         *value += if *value < *reference { -by } else { by };
@@ -272,11 +274,11 @@ fn judged(error: f64, bound: f64) -> Result<Measured, String> {
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
-    /// The error is within the bound, and the negative control fails as it must.
+    /// The error is within the bound, and the negative control fails as required.
     Holds,
-    /// It is not, or it could not be judged.
+    /// The claim does not hold, or it could not be assessed.
     Disagrees,
-    /// Nothing is claimed, for this reason.
+    /// The quantity is not covered, for this reason.
     NotCovered(String),
 }
 
@@ -284,22 +286,22 @@ pub enum Verdict {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Mark {
-    /// The bound is more than ten times the error, and the claim says why.
+    /// The bound is more than ten times the error, and the claim gives the reason.
     Slack,
     /// The bound is more than ten times the error, without a reason.
     SlackUnexplained,
-    /// The error is within a fifth of the bound.
+    /// The error is more than 0.8 of the bound.
     Thin,
 }
 
-/// Statement of a case.
+/// A claim of a case.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Claim {
     /// The quantity, with its conditions.
     pub quantity: String,
     /// Unit of values, references, errors and bounds.
     pub unit: String,
-    /// The norm in words, where it is not the plain one.
+    /// Norm in words, if it is not the default.
     pub norm: String,
     /// Test of the claim.
     pub test: Test,
@@ -311,9 +313,9 @@ pub struct Claim {
     pub uncertainty: f64,
     /// Reason for the bound; a claim without a reason disagrees.
     pub because: String,
-    /// Reason why the bound may not be tighter, when the error is far below it.
+    /// Reason why the bound is not tighter although the error is far below it.
     pub why_not_tighter: String,
-    /// Capabilities this claim is evidence for.
+    /// Capabilities for which this claim is evidence.
     pub covers: Vec<Capability>,
     /// Cost of the run behind it.
     pub cost: Cost,
@@ -325,18 +327,18 @@ pub struct Judged {
     /// The claim.
     #[serde(flatten)]
     pub claim: Claim,
-    /// Error and bound, where they could be measured.
+    /// Error and bound, if they could be measured.
     pub measured: Option<Measured>,
     /// The outcome.
     pub verdict: Verdict,
     /// The remark on the bound.
     pub mark: Option<Mark>,
-    /// Reason why it disagrees, in a sentence.
+    /// Reason why the claim disagrees, in a sentence.
     pub problem: Option<String>,
 }
 
 impl Claim {
-    /// Judges the claim and, when it holds, its negative control.
+    /// Judges the claim and, if it holds, its negative control.
     pub fn judge(self) -> Judged {
         if let Test::NotCovered { reason } = &self.test {
             let verdict = Verdict::NotCovered(reason.clone());
@@ -361,7 +363,7 @@ impl Claim {
         self.incomplete().or_else(|| self.control())
     }
 
-    /// Part that the claim fails to state.
+    /// First required part that is missing from the claim.
     fn incomplete(&self) -> Option<String> {
         if self.evidence.is_none() || self.source.trim().is_empty() {
             return Some("the kind of evidence or its source is missing".into());
@@ -381,7 +383,7 @@ impl Claim {
         }
     }
 
-    /// The negative control: a claim that still holds when its value is three bounds off judges nothing.
+    /// Problem found by the negative control: a claim that still holds with its value three bounds off tests nothing.
     fn control(&self) -> Option<String> {
         let moved = self.test.perturbed(CONTROL_BOUNDS)?;
         match moved.measure() {

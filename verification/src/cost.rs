@@ -8,10 +8,10 @@ use std::time::Instant;
 /// The cost of the run behind a claim.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Cost {
-    /// Wall time \[s\], if it was measured. Reported under `run` only.
+    /// Wall time \[s\], if it was measured. Reported only under `run`.
     #[serde(skip)]
     pub wall: Option<f64>,
-    /// Counts of work by name: steps, factorisations, solves, residuals ...
+    /// Work counts by name: steps, factorisations, solves, residuals ...
     pub work: BTreeMap<String, f64>,
 }
 

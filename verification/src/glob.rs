@@ -1,11 +1,11 @@
-//! Matching case names: `*` for any run of characters, `?` for one.
+//! Matching of case names: `*` for any run of characters, `?` for one.
 
 /// True if `name` matches `pattern` as a whole.
 pub fn matches(pattern: &str, name: &str) -> bool {
     let pattern: Vec<char> = pattern.chars().collect();
     let name: Vec<char> = name.chars().collect();
     let (mut p, mut n) = (0, 0);
-    // Where to resume when a later character fails: just past the last star, one character further in the name.
+    // Position to resume from if a later character fails: just past the last star, one character further in the name.
     let mut star: Option<(usize, usize)> = None;
     while n < name.len() {
         match pattern.get(p) {

@@ -1,4 +1,4 @@
-//! Record that a case writes into: claims, order studies, plots, tables, notes.
+//! Ledger of a case: claims, order studies, plots, tables, notes.
 //!
 //! ```
 //! # use asperity_verification::{Cost, Evidence, Ledger};
@@ -36,7 +36,7 @@ pub struct Table {
     pub rows: Vec<Vec<String>>,
 }
 
-/// A drawing of the case's page: a field, a mesh, a sketch.
+/// A drawing on the page of a case: a field, a mesh or a sketch.
 #[derive(Clone, Debug)]
 pub struct Picture {
     /// Title.
@@ -62,7 +62,7 @@ pub struct Record {
     pub notes: Vec<String>,
 }
 
-/// Collects what a case states. Claims are judged as they are recorded.
+/// Collects the claims and figures of a case. Claims are judged as they are recorded.
 #[derive(Debug)]
 pub struct Ledger {
     covers: &'static [Capability],
@@ -70,12 +70,12 @@ pub struct Ledger {
 }
 
 impl Ledger {
-    /// An empty ledger whose claims are evidence for these capabilities unless they name their own.
+    /// An empty ledger whose claims are evidence for these capabilities unless they name others.
     pub fn new(covers: &'static [Capability]) -> Ledger {
         Ledger { covers, record: Record::default() }
     }
 
-    /// Begins a claim on a quantity. It counts only once `record` is called.
+    /// Begins a claim on a quantity. It counts only after `record` is called.
     pub fn claim(&mut self, quantity: impl Into<String>) -> Draft<'_> {
         let common = Common::new(quantity.into(), self.covers);
         Draft {
@@ -94,7 +94,7 @@ impl Ledger {
         OrderDraft { ledger: self, common, test: OrderTest::default(), finest: None }
     }
 
-    /// States that a quantity is not covered, and why. Only for quantities that no issue names.
+    /// States that a quantity is not covered, with the reason. Only for quantities that no issue names.
     pub fn not_covered(&mut self, quantity: impl Into<String>, reason: impl Into<String>) {
         let claim = Common::new(quantity.into(), &[]).with(Test::NotCovered { reason: reason.into() });
         self.record.claims.push(claim.judge());
@@ -144,16 +144,16 @@ impl Ledger {
         self.record.claims.push(claim.judge());
     }
 
-    /// Record.
+    /// Finishes the ledger and returns its record.
     pub fn finish(self) -> Record {
         self.record
     }
 }
 
-/// Reason why a claim that two settings agree holds for nothing.
+/// Reason why a claim that two settings agree is void.
 const ALONE: &str = "the two settings that are to agree are the same";
 
-/// Parts of every kind of claim.
+/// Parts common to all kinds of claims.
 #[derive(Debug)]
 struct Common {
     quantity: String,
@@ -166,7 +166,7 @@ struct Common {
     why_not_tighter: String,
     covers: Vec<Capability>,
     cost: Cost,
-    /// True if the two settings the claim compares are one.
+    /// True if the two settings that the claim compares are identical.
     alone: bool,
 }
 
@@ -213,13 +213,13 @@ macro_rules! common_setters {
             self
         }
 
-        /// The norm or the selection in words, such as "largest over the eight probes".
+        /// Norm or selection in words, such as "largest over the eight probes".
         pub fn norm(mut self, text: impl Into<String>) -> Self {
             self.common.norm = text.into();
             self
         }
 
-        /// The kind of evidence, and where the reference comes from.
+        /// Kind of evidence and source of the reference.
         pub fn evidence(mut self, kind: Evidence, source: impl Into<String>) -> Self {
             self.common.evidence = Some(kind);
             self.common.source = source.into();
@@ -232,13 +232,13 @@ macro_rules! common_setters {
             self
         }
 
-        /// Reason why the bound may not be tighter although the error is below a tenth of it.
+        /// Reason why the bound is not tighter although the error is below a tenth of it.
         pub fn why_not_tighter(mut self, reason: impl Into<String>) -> Self {
             self.common.why_not_tighter = reason.into();
             self
         }
 
-        /// Capabilities this claim is evidence for, instead of those of the case.
+        /// Capabilities for which this claim is evidence, instead of those of the case.
         pub fn covers(mut self, capabilities: &[Capability]) -> Self {
             self.common.covers = capabilities.to_vec();
             self
@@ -252,7 +252,7 @@ macro_rules! common_setters {
     };
 }
 
-/// State of a drafted claim: what the last call chose to test.
+/// Kind of test selected by the last call on a draft.
 #[derive(Clone, Copy, Debug)]
 enum Choice {
     Absolute(f64),
@@ -277,8 +277,8 @@ pub struct Draft<'a> {
 impl Draft<'_> {
     common_setters!();
 
-    /// The two settings that are to agree: scenes, their texts or their plans. Where they are the same, the claim disagrees,
-    /// since it compares a run with itself.
+    /// The two settings that should agree: scenes, their texts or their plans. If they are identical, the claim disagrees, since
+    /// it compares a run with itself.
     pub fn between<T: Debug + ?Sized>(mut self, one: &T, other: &T) -> Self {
         self.common.alone |= format!("{one:?}") == format!("{other:?}");
         self
@@ -289,7 +289,7 @@ impl Draft<'_> {
         self.values(&[value])
     }
 
-    /// Values of the code, several under one norm.
+    /// Several values of the code, compared in one norm.
     pub fn values(mut self, values: &[f64]) -> Self {
         self.values = values.to_vec();
         self
@@ -306,13 +306,13 @@ impl Draft<'_> {
         self
     }
 
-    /// Uncertainty of the reference, in its unit. Coarser than the bound, it makes the claim disagree.
+    /// Uncertainty of the reference, in its unit. If it exceeds the bound, the claim disagrees.
     pub fn uncertainty(mut self, uncertainty: f64) -> Self {
         self.common.uncertainty = uncertainty;
         self
     }
 
-    /// Takes the root mean square of the differences instead of the largest.
+    /// Uses the root mean square of the differences instead of the largest.
     pub fn root_mean_square(mut self) -> Self {
         self.norm = Norm::RootMeanSquare;
         self
@@ -330,19 +330,19 @@ impl Draft<'_> {
         self
     }
 
-    /// Bounds the one value from above by a positive number: for errors, residuals and remainders.
+    /// Bounds a single value from above by a positive number, for errors, residuals and remainders.
     pub fn at_most(mut self, bound: f64) -> Self {
         self.test = Some(Choice::AtMost(bound));
         self
     }
 
-    /// Bounds the one value from below by a positive number: for factors and ratios.
+    /// Bounds a single value from below by a positive number, for factors and ratios.
     pub fn at_least(mut self, bound: f64) -> Self {
         self.test = Some(Choice::AtLeast(bound));
         self
     }
 
-    /// Claims an exact count. Only where control flow cannot depend on the last bits.
+    /// Claims an exact count. Only valid if control flow cannot depend on the last bits.
     pub fn count(mut self, value: u64, expected: u64) -> Self {
         self.test = Some(Choice::Count(value, expected));
         self
@@ -364,7 +364,7 @@ impl Draft<'_> {
     }
 }
 
-/// A claim on an order being written. It becomes two: the order, and the error on the finest level.
+/// A claim on an order being written. It becomes two claims: on the order, and on the error of the finest level.
 #[derive(Debug)]
 #[must_use = "a claim counts only once it is recorded"]
 pub struct OrderDraft<'a> {
@@ -383,31 +383,31 @@ impl OrderDraft<'_> {
         self
     }
 
-    /// The order theory gives.
+    /// Theoretical order.
     pub fn expected(mut self, order: f64) -> Self {
         self.test.expected = order;
         self
     }
 
-    /// Largest deviation from it.
+    /// Largest allowed deviation from the expected order.
     pub fn within(mut self, tolerance: f64) -> Self {
         self.test.tolerance = tolerance;
         self
     }
 
-    /// A higher order than expected is fine, too.
+    /// Accepts higher orders than expected.
     pub fn or_better(mut self) -> Self {
         self.test.or_better = true;
         self
     }
 
-    /// The floor the errors may reach: levels at or below it say nothing about the order.
+    /// Floor that the errors may reach: levels at or below it are ignored in the order.
     pub fn floor(mut self, floor: Floor, level: f64) -> Self {
         self.test.plateau = Some(Plateau { floor, level });
         self
     }
 
-    /// Bounds the error on the finest level; an order without one disagrees.
+    /// Bounds the error on the finest level; an order without this bound disagrees.
     pub fn finest(mut self, bound: f64, because: impl Into<String>) -> Self {
         self.finest = Some((bound, because.into()));
         self

@@ -1,12 +1,12 @@
 //! The verification suite: cases that make claims, the harness that judges them, and the report.
 //!
-//! * [`claim`]: what a claim states and how it is judged; [`order`] judges convergence orders.
-//! * [`ledger`]: what a case writes its claims, plots, tables and notes into.
-//! * [`case`]: a case, and how it is run without ever taking the suite down with it.
-//! * [`suite`]: which cases run, and the outcome of the whole.
+//! * [`claim`]: claims and their assessment; [`order`] assesses convergence orders.
+//! * [`ledger`]: record of the claims, plots, tables and notes of a case.
+//! * [`case`]: a case and its execution, isolated so that its failure does not stop the suite.
+//! * [`suite`]: selection of cases and outcome of the suite.
 //! * [`report`]: `report.json` and the HTML pages.
-//! * [`cases`]: the one list of cases.
-//! * [`benchmarks`]: reference values and entries of the benchmarks that others can enter.
+//! * [`cases`]: the list of cases.
+//! * [`benchmarks`]: reference values and entries of the benchmarks for other programs.
 
 pub mod benchmarks;
 pub mod capability;

@@ -19,7 +19,7 @@ use std::time::Instant;
 /// Runs the verification cases one after another, judges their claims and writes a report.
 #[derive(Parser)]
 struct Options {
-    /// Run the long cases, too.
+    /// Also run the long cases.
     #[arg(long)]
     full: bool,
     /// Run only cases whose name matches this pattern (`*` any characters, `?` one).
@@ -28,19 +28,19 @@ struct Options {
     /// Folder of the report.
     #[arg(long, value_name = "DIR", default_value = "target/verify")]
     out: PathBuf,
-    /// Also write the claims as JUnit's XML.
+    /// Also write the claims as JUnit XML.
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
-    /// Keep error, bound and cost of the cases as those of a release, in verification/history/TAG.json.
+    /// Store error, bound and cost of the cases for a release in verification/history/TAG.json.
     #[arg(long, value_name = "TAG")]
     keep: Option<String>,
-    /// The tests of the workspace passed just before: the pages say so.
+    /// State on the pages that the workspace tests passed immediately before.
     #[arg(long)]
     tested: bool,
 }
 
 fn main() -> ExitCode {
-    // Cases that measure or interrupt a process start this program as `asperity`, so that they run what was built with them.
+    // Cases that measure or interrupt a process start this program as `asperity`, so that they run the code built with them.
     let mut words = std::env::args_os().skip(1).peekable();
     if words.peek().is_some_and(|word| word == programs::NAME) {
         return asperity(&Arguments::parse_from(words));

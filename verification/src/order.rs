@@ -6,9 +6,9 @@ use serde::Serialize;
 /// One level of a convergence study.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Level {
-    /// Mesh size, time step, 1/penalty ...: what is refined.
+    /// Refined quantity: mesh size, time step, 1/penalty ...
     pub size: f64,
-    /// The error there.
+    /// Error at this size.
     pub error: f64,
 }
 
@@ -18,24 +18,24 @@ impl From<(f64, f64)> for Level {
     }
 }
 
-/// Floor of an error.
+/// Cause of an error floor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Floor {
-    /// The mesh, while time is refined.
+    /// Mesh size, while the time step is refined.
     Space,
-    /// The time step, while the mesh is refined.
+    /// Time step, while the mesh is refined.
     Time,
-    /// The tolerance of an iteration.
+    /// Tolerance of an iteration.
     Iteration,
-    /// The penalty stiffness.
+    /// Penalty stiffness.
     Penalty,
     /// Floating-point rounding.
     Rounding,
 }
 
 impl Floor {
-    /// Its name in the report.
+    /// Name in the report.
     pub fn name(self) -> &'static str {
         match self {
             Floor::Space => "space",
@@ -47,17 +47,17 @@ impl Floor {
     }
 }
 
-/// The plateau a study may reach.
+/// Plateau that the errors of a study may reach.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Plateau {
-    /// Which floor it is.
+    /// Cause of the plateau.
     pub floor: Floor,
-    /// Levels with an error at or below this one are on the floor and say nothing about the order.
+    /// Levels with an error at or below this value are on the floor and are ignored in the order.
     pub level: f64,
 }
 
-/// Number of the finest levels above the plateau that the order is fitted to: enough that one lucky level does not decide, few
-/// enough that levels far from the asymptotic range do not either.
+/// Number of the finest levels above the plateau to which the order is fitted: enough that a single lucky level does not decide,
+/// few enough to exclude levels far from the asymptotic range.
 pub const FITTED_LEVELS: usize = 3;
 
 /// A claim on an order.
@@ -65,18 +65,18 @@ pub const FITTED_LEVELS: usize = 3;
 pub struct OrderTest {
     /// The levels, from coarse to fine.
     pub levels: Vec<Level>,
-    /// The order theory gives.
+    /// Theoretical order.
     pub expected: f64,
     /// Largest deviation of the observed order.
     pub tolerance: f64,
-    /// True if a higher order than expected is fine.
+    /// True if a higher order than expected is accepted.
     pub or_better: bool,
-    /// The plateau allowed.
+    /// Plateau allowed.
     pub plateau: Option<Plateau>,
 }
 
 impl OrderTest {
-    /// True if the level stands on the plateau.
+    /// True if the level is on the plateau.
     pub fn on_plateau(&self, level: &Level) -> bool {
         self.plateau.as_ref().is_some_and(|p| level.error <= p.level)
     }
@@ -85,7 +85,7 @@ impl OrderTest {
     /// the plateau.
     ///
     /// # Errors
-    /// If the levels do not form a study: too few, not refined, not positive.
+    /// If the levels are too few, not refined or not positive.
     pub fn observed(&self) -> Result<f64, String> {
         if self.levels.len() < FITTED_LEVELS {
             return Err(format!("an order needs {FITTED_LEVELS} levels, here are {}", self.levels.len()));
@@ -120,21 +120,21 @@ impl OrderTest {
         self.levels.iter().filter(|l| !self.on_plateau(l)).collect()
     }
 
-    /// Levels that the order is fitted to.
+    /// Levels to which the order is fitted.
     pub fn fitted(&self) -> Vec<&Level> {
         let above = self.above();
         above[above.len().saturating_sub(FITTED_LEVELS)..].to_vec()
     }
 
-    /// Distance of an observed order from what is claimed \[-\].
+    /// Deviation of an observed order from the claimed one \[-\].
     pub fn deviation(&self, observed: f64) -> f64 {
         let short = self.expected - observed;
         if self.or_better { short.max(0.0) } else { short.abs() }
     }
 
-    /// The same study with every error decaying slower, by `bounds` tolerances in the order below the lower of the observed
-    /// and the expected one. Errors grow only, away from the coarsest fitted level, so that no level newly falls on the
-    /// plateau; those on it stay.
+    /// The same study with slower decay of errors: the order is reduced to `bounds` tolerances below the smaller of the observed
+    /// and expected orders. Errors only grow, increasingly with distance from the coarsest fitted level, so that no further level
+    /// falls on the plateau; levels on the plateau do not change.
     pub(crate) fn perturbed(&self, bounds: f64) -> OrderTest {
         let mut moved = self.clone();
         let Ok(observed) = self.observed() else { return moved };
@@ -149,7 +149,7 @@ impl OrderTest {
         moved
     }
 
-    /// Order between each level and the one before it.
+    /// Order between each level and the previous one.
     pub fn pairwise(&self) -> Vec<Option<f64>> {
         let mut orders = vec![None; self.levels.len().min(1)];
         for pair in self.levels.windows(2) {

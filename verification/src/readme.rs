@@ -1,6 +1,6 @@
-//! The fixed shape of a case's README, which is its page in the report.
+//! Required structure of a case's README, which is shown on its page of the report.
 
-/// The second-level headings every case README has, in this order and no others.
+/// Second-level headings of every case README: exactly these, in this order.
 pub const HEADINGS: [&str; 6] = [
     "Problem",
     "Why it is here",
@@ -10,7 +10,7 @@ pub const HEADINGS: [&str; 6] = [
     "Literature",
 ];
 
-/// Faults of a README, one sentence each; empty when there are none.
+/// Problems of a README, one sentence each; empty if there are none.
 pub fn problems(text: &str) -> Vec<String> {
     let mut found = Vec::new();
     if !text.starts_with("# ") {
@@ -29,12 +29,12 @@ pub fn problems(text: &str) -> Vec<String> {
     found
 }
 
-/// The title: the text of the first-level heading, or nothing.
+/// Title, the text of the first-level heading; empty if there is none.
 pub fn title(text: &str) -> &str {
     text.lines().find_map(|line| line.strip_prefix("# ")).unwrap_or("").trim()
 }
 
-/// Second-level headings with the lines below each, fenced blocks not searched for headings.
+/// Second-level headings with the lines below each; headings in fenced blocks are ignored.
 fn sections(text: &str) -> Vec<(&str, Vec<&str>)> {
     let mut sections: Vec<(&str, Vec<&str>)> = Vec::new();
     let mut fenced = false;

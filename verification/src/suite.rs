@@ -1,4 +1,4 @@
-//! Choosing and running cases, and the outcome of the whole.
+//! Selection and execution of cases, and the outcome of the suite.
 
 use crate::case::{Case, Outcome};
 use crate::claim::{Judged, Mark, Verdict};
@@ -7,42 +7,42 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt;
 
-/// Which cases to run.
+/// Selection of cases.
 #[derive(Clone, Debug, Default)]
 pub struct Selection {
-    /// True if the long cases run, too.
+    /// True if long cases are included.
     pub full: bool,
-    /// Only cases whose name matches.
+    /// Pattern that the names of cases must match.
     pub glob: Option<String>,
 }
 
-/// Nothing to run.
+/// Reason why a selection has no cases.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SelectionError {
-    /// The list is empty.
+    /// The list of cases is empty.
     #[error("there is no case to run: a suite without cases is no evidence")]
     NoCases,
-    /// The pattern matches nothing.
+    /// The pattern matches no case.
     #[error("no case matches `{pattern}`; there are: {}", .names.join(", "))]
     NoMatch {
         /// The pattern.
         pattern: String,
-        /// The names there are.
+        /// Names of all cases.
         names: Vec<String>,
     },
-    /// Everything chosen is long.
+    /// All selected cases are long.
     #[error("only long cases are chosen ({}); add --full to run them", .names.join(", "))]
     OnlyLong {
-        /// Their names.
+        /// Names of the selected cases.
         names: Vec<String>,
     },
 }
 
 impl Selection {
-    /// The chosen cases, in the order of the list.
+    /// The selected cases, in the order of the list.
     ///
     /// # Errors
-    /// If none is left.
+    /// If no case is selected.
     pub fn of<'a>(&self, cases: &'a [Case]) -> Result<Vec<&'a Case>, SelectionError> {
         if cases.is_empty() {
             return Err(SelectionError::NoCases);
@@ -66,7 +66,7 @@ fn names(cases: &[&Case]) -> Vec<String> {
     cases.iter().map(|case| case.name.to_owned()).collect()
 }
 
-/// The counts of the last line.
+/// Counts of claims by outcome.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Summary {
     /// Claims that hold.
@@ -77,7 +77,7 @@ pub struct Summary {
     pub not_covered: usize,
     /// Claims whose bound is slack without a reason.
     pub slack_unexplained: usize,
-    /// Claims whose error is near the bound.
+    /// Claims with an error close to the bound.
     pub thin: usize,
 }
 
@@ -105,7 +105,7 @@ impl Summary {
         Summary::of(outcomes.iter().flat_map(|outcome| &outcome.record.claims))
     }
 
-    /// Sentence on unusual bounds; empty if there are none.
+    /// Remarks on slack and thin bounds, in a sentence; empty if there are none.
     pub fn remarks(&self) -> String {
         let near = match self.thin {
             0 => None,
@@ -120,7 +120,7 @@ impl Summary {
         near.into_iter().chain(loose).collect::<Vec<_>>().join("; ")
     }
 
-    /// True if the suite passes: something was claimed, and nothing disagrees.
+    /// True if the suite passes: there are claims, and none disagrees.
     pub fn passes(&self) -> bool {
         self.disagree == 0 && self.hold > 0
     }

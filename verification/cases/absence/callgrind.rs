@@ -16,7 +16,7 @@ pub fn is_installed() -> bool {
     version.is_ok_and(|status| status.success())
 }
 
-/// Runs a scene under callgrind, in a process of its own. The report of the run is left in `folder`.
+/// Runs a scene under callgrind in a separate process. The report of the run is kept in `folder`.
 ///
 /// # Errors
 /// If the run fails or its counts cannot be read.
@@ -55,10 +55,10 @@ pub fn narrows_vectors() -> bool {
     return false;
 }
 
-/// Sums the costs of an output of callgrind by file. Code that was inlined counts for the file it was written in.
+/// Sums the costs in callgrind output by source file. Inlined code counts for the file in which it is written.
 ///
-/// Cost lines are `line cost`, after a line `fl=`, `fi=` or `fe=` that names their file. A line after `calls=` holds the cost
-/// of a call, which is counted where it arises. Instructions of line 0 belong to no line of the source.
+/// Cost lines are `line cost`, after a line `fl=`, `fi=` or `fe=` that names their file. A line after `calls=` holds the cost of
+/// a call, which is counted in the called function. Instructions of line 0 belong to no line of the source.
 fn read(text: &str) -> Instructions {
     let mut sums = Instructions::new();
     let (mut file, mut is_call) = (None, false);
@@ -79,7 +79,7 @@ fn read(text: &str) -> Instructions {
     sums
 }
 
-/// The path from the root of the workspace, of a file of its crates.
+/// Path of a file of the workspace's crates, relative to its root.
 fn of_workspace(path: &str) -> Option<&str> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent()?.to_str()?;
     path.strip_prefix(root)?.strip_prefix('/').or(Some(path)).filter(|p| p.starts_with("crates/"))

@@ -44,7 +44,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         .enumerate()
         .map(|(i, scene)| measure(scene, &folder.path().join(i.to_string())))
         .collect();
-    // The scenes that ran are judged even if another did not.
+    // The scenes that ran are judged even if another one failed.
     for run in runs.iter().flatten() {
         claims(ledger, run);
         if callgrind::narrows_vectors() {
@@ -67,7 +67,7 @@ fn measure(scene: Declared, folder: &Path) -> Result<Measured, CaseError> {
     Ok(Measured { scene, instructions, state, differing, cost })
 }
 
-/// Bytes of friction state that a report states; none where bodies do not touch.
+/// Bytes of friction state in a report; none where bodies do not touch.
 fn state_bytes(report: PathBuf) -> Result<Option<u64>, CaseError> {
     let report: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(report)?)?;
     Ok(report["plan"]["state_bytes"].as_u64())
@@ -87,7 +87,7 @@ fn claims(ledger: &mut Ledger, run: &Measured) {
         .because("an absent term has no code to run")
         .cost(&run.cost)
         .record();
-    // Without this control, counts that were not read would pass as zeros.
+    // Without this check, counts that could not be read would pass as zeros.
     let least = declared.iter().map(instructions).min().unwrap_or(0);
     ledger
         .claim(format!("{name}: instructions of terms that are declared"))

@@ -8,18 +8,18 @@ use asperity_vary::SceneText;
 pub struct Declared {
     /// Name on the page.
     pub name: &'static str,
-    /// Text.
+    /// Text of the scene.
     pub text: String,
-    /// Its terms.
+    /// Terms it declares.
     pub terms: &'static [Term],
     /// Bytes of friction state between steps; none where the scene has no stages with interfaces.
     pub state: Option<u64>,
 }
 
-/// Bytes of a state variable: that of the last step and that of the trial.
+/// Bytes of a state variable: the accepted value and the trial value.
 const STATE: u64 = 16;
 
-/// The scenes.
+/// All scenes of the case.
 pub fn all() -> Result<Vec<Declared>, CaseError> {
     let contact: &[Term] = &[Bodies, Contact, Mortar];
     let friction: &[Term] = &[Bodies, Contact, Mortar, Friction];

@@ -7,7 +7,7 @@ use super::callgrind::Instructions;
 pub enum Term {
     /// Bodies with stiffness.
     Bodies,
-    /// Bodies whose stress depends on their history: plastic, viscous or finite.
+    /// Bodies that store their stress: plastic, viscous or of finite strain.
     History,
     /// Plasticity.
     Plasticity,
@@ -51,7 +51,7 @@ impl Term {
         Self::Plots,
     ];
 
-    /// Its name on the page.
+    /// Name on the report page.
     pub fn name(self) -> &'static str {
         match self {
             Self::Bodies => "bodies",
@@ -70,7 +70,7 @@ impl Term {
         }
     }
 
-    /// Beginnings of the paths of the files that compute it.
+    /// Prefixes of the paths of the files that compute it.
     fn files(self) -> &'static [&'static str] {
         match self {
             Self::Bodies => &["crates/fem/src/"],
@@ -104,8 +104,8 @@ impl Term {
     }
 }
 
-/// Files that compute no term: the tables of the names of laws, which the reader of scenes consults before it reads a scene, and
-/// the list of the states of a point, which may be empty.
+/// Files that compute no term: the tables of the names of laws, which the scene reader consults before it reads a scene, and the
+/// list of state variables of a point, which may be empty.
 const NO_TERM: [&str; 3] = [
     "crates/friction/src/kind.rs",
     "crates/friction/src/evolution/table.rs",

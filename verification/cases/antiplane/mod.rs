@@ -19,9 +19,9 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// Divisions of a length of 1.
+/// Elements along a unit length.
 const SIZES: [u32; 4] = [8, 16, 32, 64];
-/// Room of the bound over the error that the last two levels let expect.
+/// Factor of the bound over the error predicted from the last two levels.
 const ROOM: f64 = 1.5;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -31,7 +31,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     prestress::claims(ledger)
 }
 
-/// Runs a scene and takes its last samples.
+/// Runs a scene and returns its last samples.
 fn simulate(text: &str) -> Result<(Samples, Cost), CaseError> {
     let (result, cost) = Cost::of(|| {
         let scene = scene::read(text).map_err(|e| e.to_string())?;
@@ -48,7 +48,7 @@ fn simulate(text: &str) -> Result<(Samples, Cost), CaseError> {
     Ok((samples, cost.count("unknowns", report.plan.dofs as f64)))
 }
 
-/// The scene with cells of another size and element, of a mesh whose keys of both are these.
+/// The scene with another cell size and element; the keys of both are given.
 fn refined(text: &str, [size, of_kind]: [&str; 2], n: u32, element: &str) -> Result<String, CaseError> {
     let scene = SceneText::new(text).with_or_same(size, 1.0 / f64::from(n)).with_or_same(of_kind, element);
     Ok(scene.text()?)
@@ -93,7 +93,7 @@ fn crack(ledger: &mut Ledger, element: &str) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Displacement of the middle of the prism; terms fall by exp(-pi) and more.
+/// Displacement at the centre of the prism; successive terms of the series fall by a factor of exp(-pi) or more.
 fn middle() -> f64 {
     let term = |k: i32| {
         let n = f64::from(2 * k + 1);

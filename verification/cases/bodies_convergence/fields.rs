@@ -14,11 +14,11 @@ pub struct Waves {
 }
 
 impl Waves {
-    /// General waves of moderate length.
+    /// General waves of moderate wavelength.
     pub fn general(material: &Elastic, space: Idealisation) -> Self {
         let lame = match space {
             Idealisation::PlaneStress => material.plane_stress_lame(),
-            // The force of the only component is that of λ = -G.
+            // The single component has the body force of λ = -G.
             Idealisation::Antiplane => -material.shear(),
             _ => material.lame(),
         };
@@ -30,7 +30,7 @@ impl Waves {
         if space.dimension() == 2 {
             waves.iter_mut().for_each(|(a, k, _)| (a[2], k[2]) = (0.0, 0.0));
         } else {
-            // Longer in space, where meshes are coarser.
+            // Longer waves in 3D, where meshes are coarser.
             waves.iter_mut().for_each(|(_, k, _)| *k = k.map(|k| 0.5 * k));
         }
         Self { shear: material.shear(), lame, waves }

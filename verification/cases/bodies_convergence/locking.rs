@@ -1,4 +1,4 @@
-//! Nearly incompressible bodies: what becomes of the error as ν approaches 0.5.
+//! Nearly incompressible bodies: the error as ν approaches 0.5.
 
 use super::super::bodies::{self, Body, Level, Shape};
 use super::fields::Waves;
@@ -11,7 +11,7 @@ use asperity_fem::material::elastic::Elastic;
 /// Poisson's ratios: λ/G = 1.5, 49, 5e3, 5e6.
 const POISSON: [f64; 4] = [0.3, 0.49, 0.4999, 0.499_999_9];
 
-/// Locks and does not.
+/// Runs all elements with and without the formulations against locking.
 pub fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     use ElementKind::{Hex8, Hex20, Hex27, Quad4, Quad8, Quad9, Tet10, Tri6};
     let title = "Nearly incompressible bodies on a fixed mesh";
@@ -91,7 +91,7 @@ fn enter(
             )
             .why_not_tighter("how far it locks depends on the mesh and the dimension; the plot shows it")
             .record(),
-        // Second order without projection: between the two, shown in the plot.
+        // Second-order elements without projection lie between the two and are only plotted.
         None => draft
             .at_least(2.0)
             .because("control: without projection an element of second order loses accuracy, if not all of it")

@@ -22,7 +22,7 @@ pub const CASE: Case = Case {
 
 const YOUNG: f64 = 2.5;
 
-/// Capability behind an idealisation.
+/// Capability that an idealisation covers.
 fn space_capability(space: Idealisation) -> Capability {
     match space {
         Idealisation::PlaneStrain => Capability::PlaneStrain,
@@ -37,7 +37,7 @@ fn is_serendipity(kind: ElementKind) -> bool {
     matches!(kind, ElementKind::Quad8 | ElementKind::Hex20 | ElementKind::Wedge15)
 }
 
-/// Plots of error against unknowns and against time, in the plane and in space.
+/// Plots of error against unknowns and against wall time, in 2D and 3D.
 struct Plots {
     unknowns: [Plot; 2],
     wall: [Plot; 2],
@@ -127,7 +127,7 @@ fn study<const D: usize>(
     let sizes = match (D, kind.order()) {
         (2, 1) => [16, 32, 64],
         (2, _) => [8, 16, 32],
-        // With a mean pressure and no node inside their faces they come to their order late.
+        // With a mean pressure and no nodes inside their faces, these elements reach their order late.
         (_, 2) if mean_pressure => {
             if kind == ElementKind::Tet10 {
                 [6, 9, 13]
@@ -147,7 +147,7 @@ fn study<const D: usize>(
     sizes.into_iter().map(at).collect()
 }
 
-/// Order of the theory.
+/// Theoretical orders.
 fn orders(
     kind: ElementKind,
     (space, formulation): (Idealisation, Formulation),

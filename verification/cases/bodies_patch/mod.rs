@@ -1,4 +1,4 @@
-//! Patch test and motions without energy of every element, idealisation and formulation.
+//! Patch test and zero-energy modes of every element, idealisation and formulation.
 
 use super::bodies::{self, Body, Field, Shape};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
@@ -25,7 +25,7 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// Capability behind an element.
+/// Capability that an element covers.
 pub fn capability(kind: ElementKind) -> Capability {
     match kind {
         ElementKind::Tri3 | ElementKind::Tri6 => Capability::Triangles,
@@ -48,7 +48,7 @@ pub fn variants(kind: ElementKind) -> impl Iterator<Item = (Idealisation, Formul
 
 const GRADIENT: [[f64; 3]; 3] = [[0.02, 0.011, -0.007], [-0.004, 0.015, 0.006], [0.003, -0.009, 0.012]];
 
-/// Largest displacement of the patch, about \[m\]; strain of [`GRADIENT`].
+/// Approximate largest displacement of the patch \[m\] and strain of [`GRADIENT`].
 const SCALES: [f64; 2] = [0.1, 0.02];
 
 /// u = s + H x.
@@ -163,7 +163,7 @@ fn patch<const D: usize>(
     let solved = body.solve()?;
     let displacement =
         solved.u.iter().zip(body.nodal(&field)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    // The stress is uniform: taken anywhere.
+    // The stress is uniform: any point will do.
     let exact = bodies::stress(material, space, &lower, Field::<D>::at(&field, &lower));
     let stress = body.block.stress_at_points(&solved.u).into_iter().flat_map(|s| {
         let differences: [f64; 6] = std::array::from_fn(|k| (s[k] - exact[k]).abs());
@@ -204,7 +204,7 @@ fn spectrum<const D: usize>(
     Ok((zero, forces.fold(0.0, f64::max)))
 }
 
-/// The first cell of a mesh alone.
+/// Mesh of the first cell only.
 fn single<const D: usize>(mesh: &Mesh<D>) -> Mesh<D> {
     let mut cells = mesh.blocks[0].clone();
     let nodes = cells.cell(0).iter().map(|&n| mesh.nodes[n]).collect();
@@ -212,7 +212,7 @@ fn single<const D: usize>(mesh: &Mesh<D>) -> Mesh<D> {
     Mesh { nodes, blocks: vec![cells], ..Mesh::default() }
 }
 
-/// Motion `mode` without strain.
+/// Rigid motion number `mode`.
 fn rigid<const D: usize>(space: Idealisation, x: &[f64; D], mode: usize) -> [f64; 3] {
     let unit = |c: usize| std::array::from_fn(|k| if k == c { 1.0 } else { 0.0 });
     match (space, mode) {

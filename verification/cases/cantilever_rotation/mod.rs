@@ -1,4 +1,4 @@
-//! A slender beam rolled up by its end section, and bent by a dead force.
+//! A slender beam rolled up by rotation of its end section, and bent by a dead load.
 
 use super::body::{self, Body, Entry, Work};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
@@ -18,7 +18,7 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// With E = L = 1 forces are t^3/12 and stiffnesses 1: rounding of displacements of 1 leaves 1e-15.
+/// With E = L = 1 forces are about t^3/12 and stiffnesses about 1: rounding of displacements of 1 leaves residuals of 1e-15.
 const BALANCED: f64 = 2e-14;
 const SOURCE: &str = "elastica (Bisshopp and Drucker 1945), elliptic integrals by Gauss's rule to 1e-14";
 
@@ -29,11 +29,11 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     refinement(ledger)
 }
 
-/// A beam of length 1 along x, its middle line at y = 0, with the root clamped and perhaps the end section prescribed.
+/// A beam of length 1 along x with its middle line at y = 0 and its root clamped; the end section is prescribed if `ends`.
 fn beam(thickness: f64, cells: usize, ends: bool) -> Result<Body<2>, CaseError> {
     let half = 0.5 * thickness;
-    // Thinning under radial stress varies as a parabola across the section: one cell holds 5/6 of its energy, which leaves
-    // (kappa t)^2/30 in the moment; two hold 99 %.
+    // Thinning under radial stress varies as a parabola across the section. One cell captures 5/6 of its energy, which leaves an
+    // error of (kappa t)^2/30 in the moment; two cells capture 99 %.
     let layers = if ends { 2 } else { 1 };
     let mesh = body::grid::<2>(ElementKind::Quad9, [0.0, -half], [1.0, half], [cells, layers])?;
     let material = Material::Elastic(Elastic::new(1.0, 0.0)?);
@@ -46,20 +46,20 @@ fn beam(thickness: f64, cells: usize, ends: bool) -> Result<Body<2>, CaseError> 
     Body::new(mesh, options, &fixed)
 }
 
-/// Displacement of a point of the beam rolled to the angle `phi` with sections that stay as they are.
+/// Displacement of a point of the beam rolled to the angle `phi` with undeformed sections.
 fn rolled(phi: f64, [x, y]: [f64; 2]) -> [f64; 2] {
     let radius = 1.0 / phi;
     let (s, c) = (phi * x).sin_cos();
     [(radius - y) * s - x, radius - (radius - y) * c - y]
 }
 
-/// Node nearest to a place.
+/// Node nearest to a point.
 fn node_at(body: &Body<2>, place: [f64; 2]) -> usize {
     let distance = |n: usize| (body.mesh.nodes[n][0] - place[0]).hypot(body.mesh.nodes[n][1] - place[1]);
     (0..body.mesh.nodes.len()).min_by(|&a, &b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
 }
 
-/// Root moment over E I phi, height of the middle of the beam over the diameter, and the moment along the way.
+/// Root moment over E I phi, height of the beam's midpoint over the diameter, the curve of moment against rotation, and the work.
 type Rolled = (f64, f64, Vec<(f64, f64)>, Work);
 
 fn roll(thickness: f64, cells: usize, steps: usize) -> Result<Rolled, CaseError> {
@@ -125,7 +125,7 @@ fn rolled_up(ledger: &mut Ledger) -> Result<(), CaseError> {
         .because("the body differs from the beam by the square of its surface strain")
         .cost(&last)
         .record();
-    // Steps turn the end by 2 pi/144; cells are of length h.
+    // Each step rotates the end by 2 pi/144; cells have the length h.
     let (turn, h) = (TAU / STEPS as f64, 1.0 / CELLS as f64);
     let locked = TAU * TAU * h.powi(4) / (30.0 * 0.02 * 0.02);
     let bound = turn * turn / 8.0 + 2.0 * h * strain * strain + locked;
@@ -154,7 +154,7 @@ fn rolled_up(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Composite Gauss rule: 64 intervals of three points on smooth integrands that vary over 1.
+/// Composite Gauss rule: 64 intervals of three points, for smooth integrands that vary over lengths of order 1.
 fn integral(from: f64, to: f64, f: impl Fn(f64) -> f64) -> f64 {
     let n = 256;
     let h = (to - from) / f64::from(n);
@@ -215,7 +215,7 @@ fn bend(thickness: f64, cells: usize, alphas: &[f64], step: f64) -> Result<Bent,
 fn forced(ledger: &mut Ledger) -> Result<(), CaseError> {
     let thickness = 0.0125;
     let alphas = [1.0, 2.0, 5.0, 10.0];
-    // Table of the literature, four digits: the integrals are the right ones.
+    // The integrals agree with the table of the literature to four digits.
     let table = [0.3017, 0.4935, 0.7138, 0.8106];
     let exact = alphas.map(elastica);
     ledger

@@ -1,4 +1,4 @@
-//! One combination: its scene, what came of it, and the strength its law gives.
+//! One combination: its scene, its outcome, and the strength of its friction law.
 
 use crate::CaseError;
 use asperity_driver::report::Outcome;
@@ -10,17 +10,17 @@ use std::path::Path;
 
 const SCENE: &str = include_str!("scene.toml");
 
-/// Space the bodies live in.
+/// Kinematics of the bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kinematics {
     PlaneStrain,
     PlaneStress,
-    /// A ring that grows into a tube and slides along it.
+    /// A ring that expands against a tube and slides along it.
     Axisymmetric,
     Space,
 }
 
-/// Material of the slab, and the measure of its strain.
+/// Material and strain measure of the slab.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bodies {
     pub plastic: bool,
@@ -38,7 +38,7 @@ impl Bodies {
     ];
 }
 
-/// Measure of gaps and slip.
+/// Contact measure and sliding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pairing {
     pub mortar: bool,
@@ -53,7 +53,7 @@ impl Pairing {
         Self { mortar: true, follows: true },
     ];
 
-    /// Way of the die, over half the slab's cells where pairs follow, and a part of a cell where they do not \[m\].
+    /// Travel of the die \[m\]: over half the slab's cells in finite sliding, a fraction of a cell in small sliding.
     pub fn way(self) -> f64 {
         if self.follows { 0.5 } else { 0.002 }
     }
@@ -62,9 +62,9 @@ impl Pairing {
 /// Instant at which friction begins to act.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Start {
-    /// With the second stage.
+    /// From the second stage on.
     Smooth,
-    /// With the first touch.
+    /// From first contact on.
     Rough,
 }
 
@@ -72,7 +72,7 @@ pub enum Start {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Face {
     Flat,
-    /// Part of a cylinder, of a ball in space; its border never touches.
+    /// Part of a cylinder, or of a ball in 3D; its edge never touches.
     Round,
 }
 
@@ -89,7 +89,7 @@ pub enum Law {
     Slip,
 }
 
-/// All of them.
+/// All friction laws.
 pub const LAWS: [Law; 8] = [
     Law::Coulomb,
     Law::Capped,
@@ -108,17 +108,17 @@ const UZAWA: &str =
     "{ kind = \"uzawa\", normal = \"20 E/h\", tangential = \"20 E/h\", penetration = \"1e-9 h\" }";
 const UNKNOWNS: &str = "{ kind = \"augmented-lagrangian\", normal = \"1 E/h\", tangential = \"1 E/h\" }";
 
-/// Steps where bodies yield, or where points close under friction within implicit steps (static-explicit ones end at each closing). No
-/// error estimate sees either. Plastic flow over half a metre of sliding errs by 1e-3 of the force in either stepper at the usual
-/// twentieth of a stage, by 4e-5 in steps of 20 ms, and by 1e-5 in steps of 5 ms.
+/// Step limit where bodies yield, or where points close under friction within implicit steps (static-explicit steps end at each
+/// closing). No error estimate covers either. Plastic flow over half a metre of sliding causes an error of 1e-3 of the force in
+/// both steppers at the default step of a twentieth of a stage, 4e-5 in steps of 20 ms, and 1e-5 in steps of 5 ms.
 const SHORT_STEPS: Change<'_> = Add("time.max_step", "5 ms");
-/// The same of plastic bodies in space, where a step costs ten times as much.
+/// The same for plastic bodies in 3D, where a step costs ten times as much.
 const SHORT_STEPS_IN_SPACE: Change<'_> = Add("time.max_step", "20 ms");
 
 const MU: f64 = 0.4;
-/// Static friction of the law that drops.
+/// Static friction coefficient of the static-kinetic law.
 const STATIC: f64 = 0.44;
-/// F_limit of the capped laws \[Pa\]; the mean normal traction is some 20 MPa.
+/// F_limit of the capped laws \[Pa\]; the mean normal traction is about 20 MPa.
 const CAP: f64 = 5e6;
 /// a and b.
 const A: f64 = 0.015;
@@ -127,7 +127,7 @@ const B: f64 = 0.01;
 const V_REF: f64 = 1e-3;
 
 impl Law {
-    /// As a table says it.
+    /// Name in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Coulomb => "Coulomb",
@@ -141,7 +141,7 @@ impl Law {
         }
     }
 
-    /// As a scene says it, for a way \[m\] of the die: twenty lengths of its states, ten of its weakening.
+    /// Text in a scene, for a travel of the die \[m\] of twenty state evolution distances or ten weakening distances.
     fn text(self, way: f64) -> String {
         let rate = format!("form = \"regularised\", mu0 = {MU}, a = {A}, v_ref = \"1 mm/s\"");
         let state = format!(
@@ -162,7 +162,7 @@ impl Law {
         }
     }
 
-    /// Part of friction that the state carries, of a state variable as outputs show it, or in the steady state of a rate.
+    /// Contribution of the state to friction: of a state variable in output form, or in steady state at a rate.
     fn of_state(self, state: Option<f64>, rate: f64) -> f64 {
         match (self, state) {
             (Self::Ageing, Some(psi)) => B * psi,
@@ -172,7 +172,8 @@ impl Law {
         }
     }
 
-    /// Shear traction \[Pa\] of a point that slides at the rate \[m/s\] under a normal traction \[Pa\], with this state, else the steady one.
+    /// Shear traction \[Pa\] of a point that slides at a rate \[m/s\] under a normal traction \[Pa\], with the given state or in
+    /// steady state.
     pub fn strength(self, normal: f64, rate: f64, state: Option<f64>) -> f64 {
         let friction = A * (rate / (2.0 * V_REF) * ((MU + self.of_state(state, rate)) / A).exp()).asinh();
         match self {
@@ -183,8 +184,8 @@ impl Law {
         }
     }
 
-    /// Distance of a shear traction from the strength. A point at rest bears anything up to the static strength, and under a law that
-    /// drops a point comes to rest again while others slide.
+    /// Difference between a shear traction and the strength. A point at rest bears any traction up to the static strength; under
+    /// the static-kinetic law a point may come to rest again while others slide.
     fn distance(self, shear: f64, strength: f64, normal: f64, rests: bool) -> f64 {
         if self == Self::Kinetic && rests {
             (shear - STATIC * normal).max(0.0)
@@ -193,7 +194,7 @@ impl Law {
         }
     }
 
-    /// True if a state evolves with slip over a length.
+    /// True if the law has a state that evolves with slip over a characteristic distance.
     pub fn evolves(self) -> bool {
         matches!(self, Self::Ageing | Self::Slip)
     }
@@ -215,25 +216,25 @@ pub struct Cell {
 /// Outcome of a combination.
 #[derive(Clone, Debug)]
 pub enum End {
-    /// It ran to its end.
+    /// It completed.
     Ran {
         /// Force on the die at the ends of both stages \[N, N/m\].
         forces: [[f64; 3]; 2],
-        /// Largest distance of a shear traction from the strength at the end, with the point's own rate and state, over the largest
+        /// Largest difference between shear traction and strength at the end, at each point's rate and state, over the largest
         /// strength.
         missed: f64,
-        /// The same from the strength in the steady state, where there is one.
+        /// The same with the strength in steady state, if there is one.
         unsteady: Option<f64>,
         /// Largest residual left by a step, over the largest force.
         residual: f64,
     },
-    /// It was refused, with the reason.
+    /// It was refused for this reason.
     Refused(String),
-    /// It stopped, with the reason.
+    /// It stopped for this reason.
     Stopped(String),
 }
 
-/// The scene about an axis: a ring in place of the die, which grows into a tube.
+/// The axisymmetric scene: a ring in place of the die, expanded against a tube.
 const AXIS: [Change<'_>; 15] = [
     With("kinematics", "axisymmetric"),
     With("bodies.slab.mesh.block.min", r#"["1.4 m", "0 m"]"#),
@@ -252,7 +253,7 @@ const AXIS: [Change<'_>; 15] = [
     With("output.forces.die.set", "die.left"),
 ];
 
-/// The scene in space.
+/// The scene in 3D.
 const SPACE: [Change<'_>; 11] = [
     With("kinematics", "3d"),
     With("bodies.slab.mesh.block.element", "hex8"),
@@ -268,10 +269,10 @@ const SPACE: [Change<'_>; 11] = [
 ];
 
 impl Cell {
-    /// Its scene.
+    /// Text of its scene.
     ///
     /// # Errors
-    /// If the scene has no key that is varied.
+    /// If the scene lacks a key that is varied.
     pub fn text(&self) -> Result<String, CaseError> {
         let way = self.pairing.way();
         let mut scene = self
@@ -310,7 +311,7 @@ impl Cell {
         Ok(scene.text()?)
     }
 
-    /// The scene in its kinematics, with the face and the way of the die.
+    /// The scene with the kinematics, face and travel of the die.
     fn in_space(&self, scene: SceneText) -> SceneText {
         let way = format!("{{ to = \"{} m\" }}", self.pairing.way());
         let drawn = "stages[1].conditions[0]";
@@ -335,7 +336,7 @@ impl Cell {
     /// Runs the combination.
     ///
     /// # Errors
-    /// If its run cannot be set up after its plan was accepted, or has no force to show.
+    /// If the run cannot be set up after its plan was accepted, or records no force.
     pub fn end(&self) -> Result<End, CaseError> {
         let text = self.text()?;
         let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -364,7 +365,7 @@ impl Cell {
             unsteady = unsteady.max((shear - steady).abs());
             largest = largest.max(own);
         }
-        // Points of a round face are loaded and unloaded as they pass nodes: their rates, and their states, never settle.
+        // Points of a round face are loaded and unloaded as they pass nodes, so that their rates and states never become steady.
         let settles = self.law.evolves() && self.face == Face::Flat;
         let residual = report.steps.iter().map(|s| s.residual_ratio).fold(0.0, f64::max);
         Ok(End::Ran {

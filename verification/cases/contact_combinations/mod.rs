@@ -53,8 +53,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     closing(ledger)
 }
 
-/// A round die is pressed with friction from the first touch. Points close one after the other, and implicit steps that hold several
-/// closings take their friction together.
+/// A round die is pressed with friction from first contact on. Points close one after another; an implicit step that contains
+/// several closings applies their friction at once.
 fn closing(ledger: &mut Ledger) -> Result<(), CaseError> {
     let cell = Cell {
         kinematics: Kinematics::PlaneStress,
@@ -93,7 +93,7 @@ fn closing(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// All of them in these kinematics.
+/// All combinations in these kinematics.
 ///
 /// # Errors
 /// If a run cannot be set up after its plan was accepted.
@@ -110,10 +110,10 @@ pub fn everything(ledger: &mut Ledger, kinematics: &[Kinematics]) -> Result<(), 
     Ok(())
 }
 
-/// Faces, starts, enforcements and laws of these bodies and this contact.
+/// Adds all faces, starts, enforcements and laws for these bodies and this contact.
 fn add(cells: &mut Vec<Cell>, kinematics: Kinematics, bodies: Bodies, pairing: Pairing) {
     for face in [Face::Flat, Face::Round] {
-        // A side of a ring is round already.
+        // The side of a ring is already round.
         if (kinematics, face) == (Kinematics::Axisymmetric, Face::Round) {
             continue;
         }

@@ -1,22 +1,23 @@
-//! The outcomes of all combinations, and what is claimed of them.
+//! Outcomes of all combinations and the claims on them.
 
 use super::cell::{Cell, ENFORCEMENTS, End, Face, Kinematics, LAWS, Law, Start};
 use crate::{Capability, CaseError, Evidence, Ledger};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Bound on forces of forward against implicit steps, over their size: twice what a forward step may leave unbalanced.
+/// Bound on the relative difference of forces between forward and implicit steps: twice the residual that a forward step may leave.
 const APART: f64 = 2e-4;
-/// Bound on tractions against the strength at the shown rate and state, over the largest: rounding, of the rate under
-/// the law's exponential.
+/// Bound on the difference between traction and strength at the recorded rate and state, over the largest strength: rounding of
+/// the rate, amplified by the exponential of the law.
 const MISSED: f64 = 1e-12;
-/// The same where tractions are unknowns and their law is an equation, which Newton's method solves to 1e-11 of the largest force: the
-/// point at a corner of the die bears a normal force 2.5 times as large as its shear force, on half the area of the others.
+/// The same where tractions are unknowns and the friction law is an equation, which Newton's method solves to 1e-11 of the
+/// largest force. The point at a corner of the die bears a normal force 2.5 times its shear force, on half the area of the
+/// others.
 const SOLVED: f64 = 5e-11;
-/// Bound on tractions against the strength in the steady state, over the largest.
+/// Bound on the difference between traction and steady-state strength, over the largest strength.
 const UNSTEADY: f64 = 2e-4;
 
-/// Long tables print a line after so many combinations.
+/// Number of combinations between two progress lines.
 const PROGRESS: usize = 200;
 
 /// The enforcement whose multipliers are unknowns.
@@ -27,24 +28,24 @@ const UNKNOWNS: &str = ENFORCEMENTS[2];
 pub struct Table {
     rows: Vec<Vec<String>>,
     reasons: Vec<String>,
-    /// Differences of forces between the steppers, of combinations that ran with both.
+    /// Differences of forces between the steppers, for combinations that ran with both.
     apart: Vec<f64>,
-    /// Distances of tractions from their strength.
+    /// Differences between traction and strength.
     missed: Vec<f64>,
-    /// The same of tractions that are unknowns.
+    /// The same where tractions are unknowns.
     solved: Vec<f64>,
-    /// The same in the steady state.
+    /// The same with the strength in steady state.
     unsteady: Vec<f64>,
     residual: f64,
     stopped: u64,
-    /// Runs that end where a drop of friction lets go of many points at once.
+    /// Number of runs that end where a drop of friction releases many points at once.
     events: u64,
     refused: u64,
     ran: u64,
 }
 
 impl Table {
-    /// Runs combinations with both steppers. Combinations that differ in the law alone stand side by side.
+    /// Runs combinations with both steppers. Combinations that differ only in the law share a row.
     ///
     /// # Errors
     /// If a run cannot be set up after its plan was accepted.
@@ -81,7 +82,7 @@ impl Table {
         Ok(table)
     }
 
-    /// Two rows, of both steppers.
+    /// Adds two rows, one for each stepper.
     fn begin(&mut self, name: &str, enforcement: &str) {
         for stepper in ["implicit", "static-explicit"] {
             let mut row: Vec<String> = [name, enforcement, stepper].map(str::to_owned).into();
@@ -90,7 +91,7 @@ impl Table {
         }
     }
 
-    /// Outcomes of a law with both steppers, into the last two rows.
+    /// Enters the outcomes of a law with both steppers into the last two rows.
     fn add(&mut self, cell: &Cell, ends: &[End; 2]) {
         let mut words = [self.note(cell, &ends[0]), self.note(cell, &ends[1])];
         if let [End::Ran { forces: one, .. }, End::Ran { forces: other, .. }] = ends {
@@ -104,7 +105,7 @@ impl Table {
         }
     }
 
-    /// Takes note of an outcome; what the table says of it.
+    /// Counts an outcome and returns its text in the table.
     fn note(&mut self, cell: &Cell, end: &End) -> String {
         match end {
             End::Ran { missed, unsteady, residual, .. } => {
@@ -143,7 +144,7 @@ fn largest(values: &[f64]) -> f64 {
     values.iter().copied().fold(0.0, f64::max)
 }
 
-/// Distance of two forces over the size of the first.
+/// Difference of two forces over the magnitude of the first.
 pub fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     let size = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     size(std::array::from_fn(|i| a[i] - b[i])) / size(*a)
@@ -168,7 +169,7 @@ fn in_words(cell: &Cell) -> String {
     )
 }
 
-/// Records claims and table.
+/// Records the claims and the table.
 pub fn claims(ledger: &mut Ledger, table: Table) {
     ledger
         .claim("combinations that stopped before their end")

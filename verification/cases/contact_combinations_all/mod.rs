@@ -1,4 +1,4 @@
-//! All combinations of `contact_combinations` in the plane and about an axis.
+//! All combinations of `contact_combinations` in the plane and in axisymmetry.
 
 use super::contact_combinations::{cell::Kinematics, everything};
 use crate::{Capability, Case};

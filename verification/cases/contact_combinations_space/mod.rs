@@ -1,4 +1,4 @@
-//! All combinations of `contact_combinations` in space.
+//! All combinations of `contact_combinations` in 3D.
 
 use super::contact_combinations::{cell::Kinematics, everything};
 use crate::{Capability, Case};

@@ -1,4 +1,4 @@
-//! Condition of the system of all free degrees of freedom, by singular values.
+//! Condition number of the system of all free degrees of freedom, from its singular values.
 
 use crate::CaseError;
 use asperity_contact::{
@@ -11,7 +11,7 @@ use asperity_fem::term::{Instant, Linearized};
 use asperity_friction::law::RateBounds;
 use nalgebra::DMatrix;
 
-/// Condition in the 2-norm of the tangent in stick on the matching mesh; that of Uzawa's method is the penalty's.
+/// Condition number, in the 2-norm, of the tangent in stick on the matching mesh. Uzawa's method has that of the penalty method.
 pub fn of(kind: EnforcementKind, factor: f64) -> Result<f64, CaseError> {
     let (scene, _) = super::scene(kind, factor, Measure::NodeToPoint, 4)?;
     let AnyPlan::Two(plan) = plan::plan(&scene).map_err(|e| e.to_string())? else {
@@ -46,7 +46,7 @@ pub fn of(kind: EnforcementKind, factor: f64) -> Result<f64, CaseError> {
     Ok(singular.max() / singular.min())
 }
 
-/// The planned interface on all degrees of freedom.
+/// Specification of the planned interface on all degrees of freedom.
 fn spec(plan: &Plan<2>, planned: &PlannedInterface, unknowns: usize) -> InterfaceSpec<2> {
     let labels = interface_nodes(planned);
     let local = |node: usize| labels.partition_point(|&n| n < node);

@@ -1,4 +1,4 @@
-//! Penalty, Uzawa's method and multipliers as unknowns against the exact solution of the constrained problem, over eight
+//! Penalty, Uzawa's method and Lagrange multipliers as unknowns against the exact solution of the constrained problem, over eight
 //! decades of the penalty.
 
 mod condition;
@@ -27,7 +27,7 @@ const DOWN: f64 = 0.01;
 const ALONG: f64 = 0.02;
 /// E/h of the slave \[Pa/m\].
 const UNIT: f64 = 4000.0;
-/// Uzawa: penetration over element size.
+/// Penetration tolerance of Uzawa's method over the element size.
 const TOLERANCE: f64 = 1e-9;
 /// Exponents of the penalties over E/h.
 const DECADES: std::ops::RangeInclusive<i32> = -2..=6;
@@ -47,7 +47,7 @@ struct Exact {
     pressure: f64,
     shear: f64,
     slip: f64,
-    /// Motion at which slip begins \[m\].
+    /// Tangential displacement at which slip begins \[m\].
     onset: f64,
 }
 
@@ -62,16 +62,16 @@ impl Exact {
     }
 }
 
-/// Findings of a run.
+/// Results of a run.
 struct Found {
     report: RunReport,
     cost: Cost,
     /// Largest relative errors against the constrained problem: pressure, shear traction, slip.
     errors: [f64; 3],
-    /// Largest relative deviations from the solution with the springs of the penalty.
+    /// Largest relative deviations from the solution with springs of the penalty stiffness.
     springs: [f64; 3],
     penetration: f64,
-    /// Iterations and augmentations of the pressing step, and of all.
+    /// Iterations and augmentations of the pressing step, and of all steps.
     press: (usize, usize),
     all: (usize, usize),
     /// Augmentations of the last step, in which the block slides under constant tractions.
@@ -222,7 +222,7 @@ fn claim(ledger: &mut Ledger, kind: EnforcementKind, name: &str, found: &[(f64, 
     }
 }
 
-/// Largest of a figure, NaN when any is.
+/// Largest value, NaN if any is.
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |a: f64, b| if b > a || b.is_nan() { b } else { a })
 }
@@ -378,7 +378,7 @@ fn unknowns(ledger: &mut Ledger, name: &str, found: &[(f64, Found)]) {
         .record();
 }
 
-/// Condition of the system in stick against the penalty.
+/// Condition number of the system in stick against the penalty.
 fn conditions(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut curves = Vec::new();
     let mut of_unknowns = Vec::new();

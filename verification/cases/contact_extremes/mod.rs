@@ -1,4 +1,4 @@
-//! Extreme meshes, ties, and what must not change a result: units, numbers of nodes, the order of bodies.
+//! Extreme meshes, ties, and changes that must not affect results: units, node numbers, the order of bodies.
 
 use super::contact_hard::scenes::{Done, Pair, block};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
@@ -23,7 +23,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     along_an_edge(ledger)
 }
 
-/// A block pressed and pushed over another with friction; lengths times `length`, stresses times `stress`.
+/// A block pressed on another and pushed over it with friction; lengths are scaled by `length`, stresses by `stress`.
 fn pushed(measure: &'static str, length: f64, stress: f64) -> Pair {
     let l = |x: &[f64]| x.iter().map(|v| v * length).collect::<Vec<f64>>();
     let mut pair = Pair::new(
@@ -163,7 +163,7 @@ fn renumbered(pair: &Pair) -> Result<(String, Recorder, Vec<usize>), CaseError> 
     Ok((pair.text(), record, order))
 }
 
-/// Slave and master exchanged, and a mirror image, on meshes that match: every slave node on a vertex of the master.
+/// Exchange of slave and master, and a mirror image, on matching meshes: every slave node lies on a vertex of the master.
 fn exchange(ledger: &mut Ledger) -> Result<(), CaseError> {
     for measure in MEASURES {
         let press =
@@ -176,7 +176,7 @@ fn exchange(ledger: &mut Ledger) -> Result<(), CaseError> {
         (pair.measure, pair.sliding) = (measure, "small");
         let one = pair.run()?;
         let mirrored: Vec<f64> = one.end()?.normal_traction.iter().rev().copied().collect();
-        // One run, read twice.
+        // The same run, read in reverse order.
         let read = ("from the right", mirrored.as_slice());
         same(ledger, &format!("read from the right, {measure}"), &one, read, "the scene is symmetric")?;
         pair.sets.reverse();
@@ -211,7 +211,7 @@ fn exchange(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Uniform pressure through a hundred elements against one, and through elements a thousand times as long as thick.
+/// Uniform pressure across a hundred elements against one, and across elements a thousand times as long as thick.
 fn meshes(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (measure, lower, upper, named) in [
         ("node-to-point", [1, 2], [100, 2], "a hundred slave elements on one"),
@@ -250,7 +250,7 @@ fn meshes(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Slave nodes that slide along edges which two master faces share, over vertices.
+/// Slave nodes that slide over vertices along edges shared by two master faces.
 fn along_an_edge(ledger: &mut Ledger) -> Result<(), CaseError> {
     for measure in MEASURES {
         let mut pair = Pair::new(

@@ -1,4 +1,4 @@
-//! A round block dragged over a flat one: how friction pulses with facets, and how that falls with their size.
+//! A round block dragged over a flat one: oscillation of friction from facets and its decay with facet size.
 
 use super::texts::simulate;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
@@ -16,7 +16,7 @@ pub const CASE: Case = Case {
 
 /// Cells across the round block.
 const CELLS: [usize; 3] = [6, 9, 12];
-/// On which measures are compared.
+/// Number of cells at which the contact measures are compared.
 const COMPARED: usize = 9;
 const MORTAR: Change<'_> = With("interfaces.contact.measure", "mortar");
 const TETRAHEDRA: [Change<'_>; 2] =
@@ -96,15 +96,15 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Course of the force along the way.
+/// Statistics of the force during sliding.
 struct Way {
-    /// Root of the mean square of friction across the way, over mu N.
+    /// Root mean square of friction across the sliding direction, over mu N.
     across: f64,
-    /// The same of what friction along it differs by from its mean.
+    /// Root mean square deviation of friction along the sliding direction from its mean, over mu N.
     pulse: f64,
-    /// Mean of friction along the way over mu N.
+    /// Mean friction along the sliding direction, over mu N.
     ratio: f64,
-    /// Mean of the normal force \[N\].
+    /// Mean normal force \[N\].
     normal: f64,
     cost: Cost,
     iterations: usize,
@@ -145,7 +145,7 @@ impl Way {
         })
     }
 
-    /// Root of the mean square of the distance from the mean along the way, over mu N.
+    /// Root mean square deviation of friction along the sliding direction, over mu N.
     fn swing(&self) -> f64 {
         self.across.hypot(self.pulse)
     }

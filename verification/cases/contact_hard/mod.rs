@@ -26,7 +26,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     corners(ledger)
 }
 
-/// The scene with another shear.
+/// The scene with another shear load, Poisson's ratio, measure and sliding.
 fn sheared(share: f64, poisson: f64, measure: &str, sliding: &str) -> Result<String, CaseError> {
     let shear = 0.5e6 * share;
     let scene = SceneText::new(SCENE)
@@ -41,7 +41,7 @@ fn sheared(share: f64, poisson: f64, measure: &str, sliding: &str) -> Result<Str
     Ok(scene.text()?)
 }
 
-/// Iterations of one step, with the common reason.
+/// Claims the iterations of a single step.
 fn iterations(ledger: &mut Ledger, what: &str, done: &Done, bound: f64) {
     ledger
         .claim(format!("most Newton iterations of a step, {what}"))
@@ -55,7 +55,7 @@ fn iterations(ledger: &mut Ledger, what: &str, done: &Done, bound: f64) {
         .record();
 }
 
-/// On the edge of slip, a hair below it and exactly there: every point sticks, or slips with the whole load borne.
+/// Exactly at the limit of slip and just below it: every point sticks, or slips while the whole load is borne.
 fn edge_of_slip(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (share, named) in [(1.0 - 1e-9, "a billionth below"), (1.0, "exactly at")] {
         for (measure, sliding) in [("node-to-point", "small"), ("mortar", "small")] {
@@ -66,7 +66,7 @@ fn edge_of_slip(ledger: &mut Ledger) -> Result<(), CaseError> {
                 .claim(format!("elastic displacement of every point, {what}"))
                 .unit("m")
                 .values(&end.relative_displacement)
-                // The upper block is drawn along x, against the tangent of a master below it.
+                // The upper block is pulled along x, opposite to the tangent of the master below.
                 .equals_each(&vec![-0.5e6 * share * 0.25 / 100e9; end.gap.len()])
                 .relative(1e-8)
                 .evidence(Evidence::Exact, "uniform stress: traction over tangential penalty, h/(100 E) times the shear")
@@ -90,7 +90,7 @@ fn edge_of_slip(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Beyond the limit there is no solution: the run stops there, says what slides, and keeps the last good state.
+/// Beyond the limit load there is no solution: the run stops there, reports what slides, and keeps the last good state.
 fn limit_load(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (share, poisson) in [(1.0 + 1e-9, 0.0), (1.1, 0.0), (1.1, 0.3)] {
         let done = Done::of(&sheared(share, poisson, "node-to-point", "small")?)?;
@@ -133,7 +133,7 @@ fn limit_load(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// A block on a slope under its own weight, all of it in the first step: partial slip up to the limit.
+/// A block on a slope under its own weight, applied in a single step: partial slip up to the limit.
 fn slope(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (measure, share, bound) in
         [("node-to-point", 0.9, 10.0), ("node-to-point", 0.99, 15.0), ("mortar", 0.9, 10.0)]
@@ -169,7 +169,7 @@ fn slope(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 const HELD: &str = "{ set = \"lower.bottom\", x = 0, y = 0 }, ";
 
-/// Columns in series behind a gap that closes, and with an overlap that is pushed out, in one step.
+/// Columns in series with a gap that closes, and with an initial overlap that is removed, in one step.
 fn gap_and_overlap(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (measure, sliding) in [("node-to-point", "small"), ("node-to-point", "finite"), ("mortar", "finite")]
     {
@@ -203,7 +203,7 @@ fn gap_and_overlap(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// A body that contact alone holds, touching from the start, or a gap away from what will hold it.
+/// A body held by contact alone, touching from the start or separated by a gap from its support.
 fn crossing(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (measure, bound) in [("node-to-point", 10.0), ("mortar", 15.0)] {
         for gap in [0.0, 1e-3] {
@@ -232,7 +232,7 @@ fn crossing(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// A corner on a flat, and a flat on a corner, pressed in by 50 mm in one step of the scene.
+/// A corner pressed on a flat surface, and a flat surface on a corner, by 50 mm in one step of the scene.
 fn corners(ledger: &mut Ledger) -> Result<(), CaseError> {
     let diamond = "mesh.quadrilateral = { corners = [[0.5, 0], [1, 0.5], [0.5, 1], [0, 0.5]], divisions = [8, 8], element = \"quad4\" }";
     let down = format!(

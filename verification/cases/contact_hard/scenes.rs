@@ -6,12 +6,12 @@ use asperity_driver::{plan, run, scene};
 use asperity_output::Recorder;
 use asperity_output::view::InterfaceFields;
 
-/// A scene of two bodies; every string is a piece of its file.
+/// A scene of two bodies; the strings are parts of its file.
 #[derive(Clone, Debug)]
 pub struct Pair {
-    /// Kinematics.
+    /// Kinematics of the scene.
     pub kinematics: &'static str,
-    /// Mesh of the lower and of the upper body.
+    /// Meshes of the lower and the upper body.
     pub meshes: [String; 2],
     /// Young's modulus \[Pa\] and Poisson's ratio.
     pub elastic: (f64, f64),
@@ -19,17 +19,17 @@ pub struct Pair {
     pub gravity: String,
     /// Slave and master sets.
     pub sets: [&'static str; 2],
-    /// Measure.
+    /// Contact measure.
     pub measure: &'static str,
-    /// Sliding.
+    /// Small or finite sliding.
     pub sliding: &'static str,
-    /// Both penalties.
+    /// Normal and tangential penalty.
     pub penalty: String,
-    /// Coefficient of friction, where there is any.
+    /// Coefficient of friction; frictionless if none.
     pub mu: Option<f64>,
-    /// Conditions of the stages, each of one second.
+    /// Boundary conditions of the stages, each of one second.
     pub stages: Vec<String>,
-    /// Steps per stage; adaptive where none.
+    /// Steps per stage; adaptive if none.
     pub steps: Option<usize>,
 }
 
@@ -42,7 +42,7 @@ pub fn block(min: &[f64], max: &[f64], divisions: &[usize]) -> String {
 }
 
 impl Pair {
-    /// Two blocks of E = 1 GPa, node-to-point, finite sliding, without friction, in one step a stage.
+    /// Two blocks of E = 1 GPa with node-to-point contact and finite sliding, frictionless, one step a stage.
     pub fn new(lower: String, upper: String, stages: &[&str]) -> Self {
         Self {
             kinematics: "plane-strain",
@@ -59,7 +59,7 @@ impl Pair {
         }
     }
 
-    /// The file.
+    /// Text of the scene file.
     pub fn text(&self) -> String {
         let (young, poisson) = self.elastic;
         let [lower, upper] = &self.meshes;
@@ -92,16 +92,16 @@ impl Pair {
         text + "[time]\nstepper = \"implicit\"\n"
     }
 
-    /// Runs it.
+    /// Runs the scene.
     pub fn run(&self) -> Result<Done, CaseError> {
         Done::of(&self.text())
     }
 }
 
-/// A run, completed or not.
+/// A run, completed or stopped.
 #[derive(Debug)]
 pub struct Done {
-    /// Scene.
+    /// Text of the scene.
     pub scene: String,
     /// Report.
     pub report: RunReport,
@@ -112,7 +112,7 @@ pub struct Done {
 }
 
 impl Done {
-    /// Runs the scene in a file.
+    /// Runs the scene in `text`.
     pub fn of(text: &str) -> Result<Self, CaseError> {
         let scene = scene::read(text).map_err(|e| format!("{e}\n{text}"))?;
         let plan = plan::plan(&scene).map_err(|e| e.to_string())?;
@@ -131,7 +131,7 @@ impl Done {
         Ok(&self.record.stage_ends().last().ok_or("no stage was completed")?.interfaces[0])
     }
 
-    /// Time of the last good state and why the run stopped there.
+    /// Time of the last good state and the reason why the run stopped there.
     pub fn stopped(&self) -> Result<(f64, &str), CaseError> {
         match &self.report.outcome {
             Outcome::Completed | Outcome::Interrupted { .. } => Err("the run did not stop by itself".into()),
@@ -139,12 +139,12 @@ impl Done {
         }
     }
 
-    /// Sum of a field times the areas \[N/m\].
+    /// Sum of a field times the nodal areas \[N/m\].
     pub fn total(&self, field: &[f64]) -> f64 {
         field.iter().zip(self.record.areas(0)).map(|(f, a)| f * a).sum()
     }
 
-    /// Most iterations of a step, those of trials that failed not counted.
+    /// Largest number of iterations of a step, without those of failed trials.
     pub fn most_iterations(&self) -> f64 {
         self.record.records().iter().map(|s| s.iterations).max().unwrap_or(0) as f64
     }

@@ -1,24 +1,24 @@
-//! Two bodies as mesh files, carried elsewhere by a rigid motion, a reflection or another unit.
+//! Two bodies as mesh files, transformed by a rotation, a reflection or a change of units.
 
 use std::fmt::Write;
 
-/// Transformation of all places and displacements: `x -> size Q x`.
+/// Transformation of all positions and displacements: `x -> size Q x`.
 #[derive(Clone, Copy, Debug)]
 pub struct Change {
-    /// As claims call it.
+    /// Name in claims.
     pub name: &'static str,
     /// Rows of an orthogonal matrix.
     pub q: [[f64; 3]; 3],
-    /// Numbers of the new unit of length to a metre.
+    /// New units of length per metre.
     pub size: f64,
-    /// Numbers of the new unit of stress to a pascal.
+    /// New units of stress per pascal.
     pub stress: f64,
 }
 
 const SAME: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 impl Change {
-    /// Nothing, and everything that must not matter.
+    /// The identity and all transformations that must not affect results.
     pub fn all(space: bool) -> [Self; 4] {
         let (s, c) = 37_f64.to_radians().sin_cos();
         let about_z = [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]];
@@ -35,12 +35,12 @@ impl Change {
         ]
     }
 
-    /// A place or displacement of the changed scene.
+    /// A position or displacement in the transformed scene.
     pub fn of(&self, x: [f64; 3]) -> [f64; 3] {
         self.q.map(|row| self.size * row.iter().zip(x).map(|(q, x)| q * x).sum::<f64>())
     }
 
-    /// A vector of the changed scene in the axes of the first, without change of unit.
+    /// A vector of the transformed scene in the axes of the original one, without change of units.
     pub fn back(&self, v: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|i| (0..3).map(|k| self.q[k][i] * v[k]).sum())
     }
@@ -72,9 +72,9 @@ pub struct Grid {
 #[derive(Clone, Copy, Debug)]
 pub enum Side {
     Flat,
-    /// A ball, in the plane a circle, of this radius about x = z = 0 \[m\].
+    /// A ball, or a circle in the plane, of this radius about x = z = 0 \[m\].
     Round(f64),
-    /// A cosine along x of this amplitude and length \[m\].
+    /// A cosine along x of this amplitude and wavelength \[m\].
     Wavy(f64, f64),
 }
 
@@ -102,7 +102,7 @@ impl Grid {
         x
     }
 
-    /// The changed grid as a file of Gmsh's format 2.2 with the sides `bottom` and `top`.
+    /// The transformed grid as a Gmsh 2.2 file with the sides `bottom` and `top`.
     pub fn file(&self, change: &Change) -> Result<String, std::fmt::Error> {
         let [nx, ny, nz] = self.cells;
         let space = nz > 0;
@@ -143,7 +143,7 @@ impl Grid {
     }
 }
 
-/// All triples below a bound, the last fastest.
+/// All index triples below a bound, the last index fastest.
 fn walk([a, b, c]: [usize; 3]) -> impl Iterator<Item = (usize, usize, usize)> {
     (0..a).flat_map(move |i| (0..b).flat_map(move |j| (0..c).map(move |k| (i, j, k))))
 }

@@ -1,4 +1,4 @@
-//! Curved contact turned, mirrored and in other units.
+//! Curved contact rotated, mirrored and in other units.
 
 pub mod bodies;
 
@@ -18,7 +18,7 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// Measure as claims call it, what a scene says for it, and sliding.
+/// Name of the measure in claims, its keys in the scene, and sliding.
 const MEASURES: [(&str, &[Vary<'_>], &str); 5] = [
     ("node-to-point, small", &[], "small"),
     ("node-to-point", &[], "finite"),
@@ -34,7 +34,7 @@ const ENFORCEMENTS: [(&str, &str); 3] = [
     ("unknowns", "{ kind = \"augmented-lagrangian\", normal = \"1 E/h\", tangential = \"1 E/h\" }"),
 ];
 
-/// Invariants: normal tractions, shear tractions and forces of a run, each over the largest.
+/// Bound on the differences of normal tractions, shear tractions and forces, each over its largest value.
 const BOUND: f64 = 1e-10;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -70,7 +70,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// A run in the axes and units of the first.
+/// Results of a run in the axes and units of the original scene.
 struct Found {
     done: Done,
     normal: Vec<f64>,
@@ -100,12 +100,12 @@ impl Found {
         Ok(Self { done, normal, shear, forces })
     }
 
-    /// Scene and nodes.
+    /// Scene and nodal positions.
     fn setting(&self) -> (&str, &[[f64; 3]]) {
         (&self.done.scene, &self.done.record.setup().mesh.nodes)
     }
 
-    /// Largest difference, each kind over its largest value.
+    /// Largest difference, each quantity over its largest value.
     fn differs(&self, other: &Self) -> f64 {
         let kinds =
             [(&self.normal, &other.normal), (&self.shear, &other.shear), (&self.forces, &other.forces)];
@@ -129,7 +129,7 @@ fn scene(
         each.collect::<Vec<_>>().join(", ")
     };
     let held = axes.chars().map(|a| format!("{a} = 0")).collect::<Vec<_>>().join(", ");
-    // Pairs of small sliding do not follow.
+    // With small sliding the pairs of points are fixed.
     let way = if sliding == "small" { 0.01 } else { 0.15 };
     let along = if space { 0.5 * way } else { 0.0 };
     let scene = SceneText::new(include_str!("scene.toml"))
@@ -147,7 +147,7 @@ fn scene(
     Ok(scene.text()?)
 }
 
-/// Both mesh files in a folder of their own. No node of one body lies above an edge of the other.
+/// Writes both mesh files to a separate folder. No node of one body lies above an edge of the other.
 fn write(space: bool, change: &Change) -> Result<PathBuf, CaseError> {
     let deep = |z: [f64; 2]| if space { z } else { [0.0; 2] };
     let (flat, round) = (deep([-0.57, 0.67]), deep([-0.35, 0.35]));

@@ -1,4 +1,4 @@
-//! Matching contact patch test: a uniform pressure passes through the interface, whatever the element.
+//! Contact patch test on matching meshes: a uniform pressure passes through the interface with every element.
 
 use super::sandwich::{self, POISSON, U_X, YOUNG};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};

@@ -1,4 +1,4 @@
-//! Contact patch test on meshes that do not match: mortar passes, node-to-point does not.
+//! Contact patch test on non-matching meshes: mortar passes, node-to-point does not.
 
 mod overhang;
 
@@ -45,7 +45,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     overhang::claims(ledger)
 }
 
-/// A finished run with its scene's exact pressure.
+/// A completed run and the exact pressure of its scene.
 struct Done {
     report: RunReport,
     record: Recorder,
@@ -125,7 +125,7 @@ impl Done {
     }
 }
 
-/// Claims the nodal tractions and the balance of a mortar run.
+/// Claims the nodal tractions and the equilibrium of a mortar run.
 fn passes(ledger: &mut Ledger, what: &str, done: &Done, covers: &[Capability]) -> Result<(), CaseError> {
     let tractions = done.tractions()?;
     ledger
@@ -157,7 +157,7 @@ fn passes(ledger: &mut Ledger, what: &str, done: &Done, covers: &[Capability]) -
     Ok(())
 }
 
-/// Bound of tractions: rounding times the stiffness of the penalty over that of the bodies.
+/// Bound on tractions: rounding times the ratio of penalty to body stiffness.
 const TRACTION: f64 = 1e-10;
 
 fn plane(ledger: &mut Ledger, slave: usize, master: usize, factor: f64) -> Result<[String; 5], CaseError> {
@@ -204,7 +204,7 @@ fn plane(ledger: &mut Ledger, slave: usize, master: usize, factor: f64) -> Resul
     row.try_into().map_err(|_| "a row of five".into())
 }
 
-/// Elements of second order, small sliding.
+/// Second-order elements with small sliding.
 fn second_order(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (upper, lower) in [("quad9", "tri6"), ("tri6", "quad4"), ("quad8", "quad9"), ("tri3", "quad8")] {
         let eps = 4.0 * YOUNG;

@@ -1,4 +1,4 @@
-//! A pressed and sheared pair turned as a whole: its contact forces turn with it.
+//! A pressed and sheared pair rotated as a whole: its contact forces rotate with it.
 
 use super::texts::{Done, simulate};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
@@ -17,7 +17,7 @@ pub const CASE: Case = Case {
 const PLANE: &str = include_str!("scene.toml");
 const SOLID: &str = include_str!("solid.toml");
 
-/// A variant: its name, what is changed in the scene, and capabilities besides those of the case.
+/// A variant: its name, its changes to the scene, and its capability beyond those of the case.
 type Variant = (&'static str, &'static [Change<'static>], Capability);
 
 const MORTAR: Change<'_> = With("interfaces.contact.measure", "mortar");
@@ -65,7 +65,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     rate_form(ledger)
 }
 
-/// `v` turned by `angle` about `axis`.
+/// `v` rotated by `angle` about `axis`.
 fn turned(v: [f64; 3], axis: [f64; 3], angle: f64) -> [f64; 3] {
     let size = axis.iter().map(|a| a * a).sum::<f64>().sqrt();
     let a = axis.map(|c| c / size);
@@ -79,7 +79,7 @@ fn size(v: [f64; 3]) -> f64 {
     v.iter().map(|c| c * c).sum::<f64>().sqrt()
 }
 
-/// Largest |F - R F0|/|F0| over the steps of the turn by `angle` \[rad\].
+/// Largest |F - R F0|/|F0| over the steps of the rotation by `angle` \[rad\].
 fn deviation(done: &Done, axis: [f64; 3], angle: f64) -> Result<f64, CaseError> {
     let forces = done.force("contact")?;
     let first = done.steps_until("shear")?;
@@ -142,7 +142,7 @@ fn total_form(
     ])
 }
 
-/// Forward steps on flat, smoothed and averaged segments.
+/// Forward steps with flat, smoothed and averaged segments.
 fn rate_form(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (name, changes) in
         [("flat segments", None), ("smoothed segments", Some(SMOOTHED)), ("mortar", Some(MORTAR))]
@@ -152,7 +152,7 @@ fn rate_form(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// A quarter of a turn in forward steps of a degree, as a scene has them by default.
+/// A quarter turn in forward steps of one degree, the default of a scene.
 fn quarter(ledger: &mut Ledger, name: &str, changes: Option<Change<'static>>) -> Result<(), CaseError> {
     let scene = SceneText::new(PLANE)
         .with("time.stepper", "static-explicit")

@@ -1,4 +1,4 @@
-//! A ring pushed up a cone: sliding about an axis.
+//! A ring pushed up a cone: axisymmetric sliding.
 
 use super::{COEFFICIENTS, MEASURES, ratio, with_friction};
 use crate::cases::texts::simulate;
@@ -7,7 +7,7 @@ use asperity_vary::Change::{self, With};
 
 const SCENE: &str = include_str!("cone.toml");
 
-/// Sides of the interface: about the mortar, whose normals are the slave's, the rigid cone has to be the slave.
+/// Slave and master exchanged: mortar contact uses the normals of the slave, so the rigid cone must be the slave.
 const SWAPPED: [Change<'_>; 2] =
     [With("interfaces.contact.slave", "cone.right"), With("interfaces.contact.master", "ring.left")];
 
@@ -47,7 +47,7 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Force that the contact pushes outwards and the hoop stress holds: R = 2 pi times the integral of s_zz over the section.
+/// Radial contact force balanced by the hoop stress: R = 2 pi times the integral of s_zz over the section.
 fn hoop(
     ledger: &mut Ledger,
     name: &str,

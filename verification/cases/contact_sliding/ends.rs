@@ -1,4 +1,4 @@
-//! Over segments, past the end of the master, and back.
+//! Sliding over segments, past the end of the master, and back.
 
 use super::{MEASURES, with_friction};
 use crate::cases::texts::{Done, simulate, work};
@@ -9,7 +9,7 @@ use asperity_vary::SceneText;
 const SCENE: &str = include_str!("ends.toml");
 /// Travel \[m\].
 const TRAVEL: f64 = 2.2;
-/// Other surfaces of the body below: name, and changes of the scene.
+/// Other surface descriptions of the lower body: name and changes to the scene.
 const SURFACES: [(&str, &[Change<'_>]); 2] = [
     ("node-to-point on smoothed facets", &[Add("interfaces.contact.smoothing", "cubic")]),
     (
@@ -76,11 +76,11 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Balance of the second cycle.
+/// Energy balance of the second cycle.
 struct Cycle {
-    /// Work put in \[J/m\].
+    /// External work \[J/m\].
     work: f64,
-    /// Sum of its parts without their signs.
+    /// Sum of the absolute values of its parts \[J/m\].
     moved: f64,
     dissipated: f64,
 }
@@ -100,7 +100,7 @@ impl Cycle {
     }
 }
 
-/// Back at its start the block feels what it felt there.
+/// Claims that forces and tractions of the block recur when it is back at its start.
 fn returns(
     ledger: &mut Ledger,
     name: &str,

@@ -1,4 +1,4 @@
-//! A round die drawn over a soft slab: how much the force oscillates with facets, smoothed facets, arcs and mortar.
+//! A round die drawn over a soft slab: oscillation of the force with facets, smoothed facets, arcs and mortar.
 
 use crate::cases::texts::{Done, simulate_in, work};
 use crate::{Capability, CaseError, Evidence, Ledger, Plot, Series};
@@ -6,12 +6,12 @@ use asperity_vary::Change::{self, Add, With};
 use asperity_vary::SceneText;
 
 const SCENE: &str = include_str!("ironing.toml");
-/// Time from which the motion is steady: by then the die has moved by its own width of contact and more \[s\].
+/// Time from which the motion is steady: by then the die has moved by more than the width of contact \[s\].
 const STEADY: f64 = 1.4;
 /// Travel of the die \[m\].
 const TRAVEL: f64 = 4.0;
 
-/// A surface of the die: name, changes of the scene, largest oscillation claimed, why, and what it covers.
+/// A surface description of the die: name, changes to the scene, bound on the oscillation, its reason, and capabilities covered.
 struct Variant {
     name: &'static str,
     changes: &'static [Change<'static>],
@@ -138,7 +138,7 @@ struct Steady {
     ratio: f64,
     work: f64,
     dissipated: f64,
-    /// F_x \[kN/m\] over the way \[m\].
+    /// F_x \[kN/m\] against travel \[m\].
     curve: Vec<(f64, f64)>,
 }
 

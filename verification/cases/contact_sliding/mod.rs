@@ -1,4 +1,4 @@
-//! Sliding: on a slope, up a wedge, up a cone, past an end and back, and with a curved master over a soft slab.
+//! Sliding on a slope, up a wedge, up a cone, past an end and back, and of a round die over a soft slab.
 
 mod cone;
 mod ends;
@@ -18,7 +18,7 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// Measures.
+/// Contact measures and their capabilities.
 const MEASURES: [(&str, Capability); 2] =
     [("node-to-point", Capability::PenaltyContact2d), ("mortar", Capability::Mortar)];
 
@@ -36,12 +36,12 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     ironing::run(ledger)
 }
 
-/// Force along over force across that pushes a body up a slope.
+/// Ratio of the pushing force to the transverse force for a body that moves up the slope.
 fn ratio(mu: f64) -> f64 {
     (SLOPE + mu) / (1.0 - mu * SLOPE)
 }
 
-/// A scene with another coefficient of friction on its interface; without friction where it is zero.
+/// A scene with another coefficient of friction on its interface; frictionless if it is zero.
 fn with_friction(text: &str, interface: &str, mu: f64) -> SceneText {
     let scene = SceneText::new(text);
     let key = |name: &str| format!("interfaces.{interface}.{name}");
@@ -49,6 +49,6 @@ fn with_friction(text: &str, interface: &str, mu: f64) -> SceneText {
         return scene.with_or_same(&key("law.mu"), mu);
     }
     let scene = scene.without(&key("law")).without(&key("enforcement.tangential"));
-    // Without friction there is none to leave out.
+    // The stage key `frictionless` goes too: there is no friction to leave out.
     if text.contains("\nfrictionless") { scene.without("stages[0].frictionless") } else { scene }
 }

@@ -9,7 +9,7 @@ use asperity_vary::SceneText;
 const SCENE: &str = include_str!("../../../scenes/slope.toml");
 const MU: f64 = 0.3;
 
-/// Share of the critical angle by which the tilt stays below and goes beyond it.
+/// Fraction of the critical angle by which the tilt stays below or exceeds it.
 const BESIDE: f64 = 1e-3;
 
 pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {

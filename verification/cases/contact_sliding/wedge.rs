@@ -12,7 +12,7 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         for mu in COEFFICIENTS {
             let scene = with_friction(SCENE, "slope", mu).with_or_same("interfaces.slope.measure", name);
             let done = simulate(&scene.text()?)?;
-            // The first step turns the tractions of the loaded wedge around.
+            // The first step reverses the shear tractions of the loaded wedge.
             let first = done.steps_until("load")? + 1;
             let ratios: Vec<f64> = done.force("base")?[first..].iter().map(|f| -f[0] / f[1]).collect();
             let exact = ratio(mu);

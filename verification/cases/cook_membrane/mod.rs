@@ -1,4 +1,4 @@
-//! Cook's membrane: displacement of its tip, order limited by the corner, locking.
+//! Cook's membrane: tip displacement, order of convergence limited by the corner singularity, locking.
 
 use super::bodies::{self, Body};
 use super::bodies_patch::capability;
@@ -16,7 +16,7 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// A variant with its reference at (48, 60) and (48, 52), and the uncertainty of each.
+/// A variant with its reference displacements at (48, 60) and (48, 52) and their uncertainties.
 struct Variant {
     name: &'static str,
     space: Idealisation,
@@ -85,14 +85,14 @@ const VARIANTS: [Variant; 3] = [
     },
 ];
 
-/// Elements along an edge. Second-order elements with a mean pressure come to the order of the corner late: their regular part is
-/// of order 2 and, at first, of the size of the singular one; they get the last mesh, too.
+/// Elements along an edge. Second-order elements with a mean pressure reach the order of the corner late: the regular part of
+/// their error is of order 2 and initially as large as the singular part. They also use the finest mesh.
 const SIZES: [usize; 5] = [8, 16, 32, 64, 128];
 
-/// Elements along an edge, displacement at the two places, cost.
+/// Elements along an edge, displacements at the two points, cost.
 type Run = (usize, [f64; 2], Cost);
 
-/// Meshes of an element.
+/// Mesh sizes used with an element.
 fn sizes(
     variant: &Variant,
     (kind, formulation): (ElementKind, Formulation),
@@ -110,7 +110,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     locking(ledger, &VARIANTS[2])
 }
 
-/// Least root λ of 4 κ sin²(λω) = (κ+1)² - 4 λ² sin²ω in (0, 1) \[-\]: displacements r^λ at a corner of angle ω between a clamped
+/// Smallest root λ of 4 κ sin²(λω) = (κ+1)² - 4 λ² sin²ω in (0, 1) \[-\]: displacements r^λ at a corner of angle ω between a clamped
 /// and a free edge (Williams 1952). `None` without a root.
 fn exponent(variant: &Variant, omega: f64) -> Option<f64> {
     let nu = variant.poisson;
@@ -202,7 +202,7 @@ fn covers(variant: &Variant, (kind, formulation): (ElementKind, Formulation)) ->
 }
 
 /// True if the regular and the singular part of the error at (48, 52) have opposite signs and cancel on one of the meshes: then
-/// neither an order nor an estimate from two meshes means anything there.
+/// neither an order nor an extrapolation from two meshes is meaningful there.
 fn cancels(variant: &Variant, element: (ElementKind, Formulation)) -> bool {
     variant.poisson > 0.49 && element == (ElementKind::Quad8, Formulation::BBar)
 }
@@ -213,7 +213,7 @@ fn relative(variant: &Variant, runs: &[Run]) -> Vec<(f64, f64)> {
     runs.iter().map(|(n, tip, _)| (1.0 / *n as f64, error(tip))).collect()
 }
 
-/// Order at (48, 52), whose reference is the sharper one. Returns the points of the plot.
+/// Claims the order at (48, 52), where the reference is more accurate. Returns the points of the plot.
 fn order(
     ledger: &mut Ledger,
     variant: &Variant,
@@ -242,7 +242,7 @@ fn order(
              a larger constant, still dominates (elements of first order, and a mean pressure)",
         )
         .finest(
-            // A bending beam of n elements in height: the regular part, of order h², with the constant of a cubic.
+            // Regular part of the error, of order h²: a beam in bending with n elements over its height.
             if first_order { 16.0 / (n * n) } else { n.powf(-2.0 * lambda) },
             "(h/L)^(2 lambda) with constant one for second order; for first order 16 (h/L)^2, the square of the aspect of \
              the panel in elements of its mean height, and the corner's part beside it",
@@ -254,7 +254,7 @@ fn order(
     points
 }
 
-/// Both displacements, extrapolated with the theory's order from the two finest meshes.
+/// Claims both displacements, extrapolated with the theoretical order from the two finest meshes.
 fn finest(
     ledger: &mut Ledger,
     variant: &Variant,

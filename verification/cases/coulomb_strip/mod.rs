@@ -1,4 +1,4 @@
-//! Two blocks sheared to and fro under Coulomb friction: force, loop, dissipated work.
+//! Two blocks sheared back and forth under Coulomb friction: force, hysteresis loop, dissipated energy.
 
 use super::texts::{Done, simulate, work};
 use crate::{Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
@@ -24,7 +24,7 @@ const STRENGTH: f64 = 1.0;
 /// Largest displacement \[m\].
 const REACH: f64 = 8.2e-3;
 
-/// Force per displacement while everything sticks, blocks of 1 m: 1/(2H/G + 1/E_t) \[Pa/m\].
+/// Force per displacement while everything sticks, for blocks of 1 m: 1/(2H/G + 1/E_t) \[Pa/m\].
 fn slope() -> f64 {
     1.0 / (2.0 / SHEAR + 1.0 / PENALTY)
 }
@@ -44,7 +44,7 @@ const SOLID: [Change<'_>; 12] = [
     With("output.probes.contact", "3"),
 ];
 
-/// A variant: its name, what is changed in the scene, and what it covers.
+/// A variant: its name, its changes to the scene, and the capabilities it covers.
 type Variant<'a> = (&'a str, Vec<Change<'a>>, &'a [Capability]);
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -75,7 +75,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         let done = simulate(&SceneText::new(SCENE).changed(&changes).text()?)?;
         let run = Loop::of(&done)?;
         run.force(ledger, name, covers, &done);
-        // In space the records hold sizes only.
+        // In 3D the records hold magnitudes only.
         if !covers.contains(&Capability::PenaltyContact3d) {
             run.energy(ledger, name, covers, &done)?;
         }
@@ -97,7 +97,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Force over displacement, from the end of pressing on.
+/// Force against displacement after the pressing stage.
 struct Loop {
     way: Vec<f64>,
     force: Vec<f64>,
@@ -121,7 +121,7 @@ impl Loop {
         })
     }
 
-    /// The exact force: an elastic, perfectly plastic spring.
+    /// The exact force: that of an elastic, perfectly plastic spring.
     fn exact(&self) -> Vec<f64> {
         let (mut f, mut u) = (0.0, 0.0);
         self.way
@@ -149,7 +149,7 @@ impl Loop {
             .record();
     }
 
-    /// Work of each part of the path against stored and dissipated energy.
+    /// Claims the external work of each part of the path against stored and dissipated energy.
     fn energy(
         &self,
         ledger: &mut Ledger,
@@ -162,7 +162,7 @@ impl Loop {
         let sum = |v: &[f64], from: usize, to: usize| v[from..to].iter().sum::<f64>();
         let yielding = STRENGTH / slope();
         let cycle = 4.0 * STRENGTH * (REACH - yielding);
-        // Of `put`, entry k is the step that ends at k + 1.
+        // Entry k of `put` belongs to the step that ends at sample k + 1.
         let (first, second, third) = (until(2.0), until(4.0), until(6.0));
         let losses = [sum(&self.dissipated, first, second), sum(&self.dissipated, second, third)];
         ledger

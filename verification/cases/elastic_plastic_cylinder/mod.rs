@@ -1,4 +1,4 @@
-//! Thick cylinder under inner pressure, from the first yield to the limit load.
+//! Thick-walled cylinder under internal pressure, from first yield to the limit load.
 
 use super::body::{self, Body, Entry, Work};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
@@ -30,9 +30,9 @@ const REFERENCE: [(f64, f64); 5] =
 /// Relative uncertainty of the reference.
 const UNCERTAINTY: f64 = 1e-5;
 const SOURCE: &str = "radial finite elements of another program, 1e-5 relative (Hill's formula beside)";
-/// Forces are some GPa mm; rounding of stiffness times displacement leaves 1e-13.
+/// Forces are a few GPa mm; rounding of stiffness times displacement leaves 1e-13.
 const BALANCED: f64 = 1e-10;
-/// The same for the limit load, where displacements are 6 mm and entries of stiffness 1e6.
+/// The same for the limit load, where displacements are 6 mm and stiffness entries 1e6.
 const BALANCED_FAR: f64 = 1e-8;
 /// Height of the slice \[mm\].
 const HEIGHT: f64 = 4.0;
@@ -45,7 +45,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     limit_load(ledger)
 }
 
-/// Ring in the plane or slice of a body of revolution.
+/// A ring in the plane or a slice of a body of revolution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Shape {
     Ring,
@@ -64,7 +64,7 @@ impl Shape {
         }
     }
 
-    /// The cylinder with its symmetry planes held, and further degrees of freedom prescribed.
+    /// The cylinder with symmetry conditions; the inner displacement is prescribed if `inner`.
     fn body(self, kind: ElementKind, n: usize, inner: bool) -> Result<Body<2>, CaseError> {
         let mesh = self.mesh(kind, n)?;
         let material = body::j2(YOUNG, POISSON, Hardening::perfect(YIELD)?)?;
@@ -79,7 +79,7 @@ impl Shape {
     }
 }
 
-/// Lame's pressure at which the Mises stress at radius `r` is the yield stress.
+/// Pressure at which the Mises stress of Lamé's solution at radius `r` reaches the yield stress.
 fn yields_at(r: f64) -> f64 {
     // Stresses of a unit pressure: A - B/r², A + B/r², 2 nu A.
     let a = INNER * INNER / (OUTER * OUTER - INNER * INNER);
@@ -87,7 +87,7 @@ fn yields_at(r: f64) -> f64 {
     YIELD / (3.0 * b * b + (a * (1.0 - 2.0 * POISSON)).powi(2)).sqrt()
 }
 
-/// Hill's outer displacement at a pressure.
+/// Outer displacement of Hill's solution at a pressure.
 fn hill(p: f64) -> f64 {
     let y = 2.0 * YIELD / 3.0_f64.sqrt();
     let flexible = (1.0 - POISSON * POISSON) / YOUNG;
@@ -105,7 +105,7 @@ fn scaled(load: &[Entry], p: f64) -> Vec<Entry> {
     load.iter().map(|&(dof, f)| (dof, p * f)).collect()
 }
 
-/// Outer displacements at the pressures of the reference, each interval in `steps` load steps, and the body at the end.
+/// Outer displacements at the reference pressures, each interval in `steps` load steps, and the final body.
 fn pressed(
     shape: Shape,
     kind: ElementKind,
@@ -240,11 +240,11 @@ fn judge(ledger: &mut Ledger, what: &str, found: &[f64], bound: f64, cost: &Cost
     }
 }
 
-/// Stresses along the radius at the last pressure, and displacements, Hill beside.
+/// Plots stresses along the radius at the last pressure, and displacements, with Hill's solution.
 fn profiles(ledger: &mut Ledger, body: &Body<2>, stresses: &[[f64; 6]]) {
     let radii: Vec<f64> = body::points(&body.mesh, Idealisation::Axisymmetric).iter().map(|x| x[0]).collect();
     let series = |i: usize| -> Vec<(f64, f64)> {
-        // Three by three points of a cell: those of one height.
+        // A cell has three by three points: take those of one height.
         radii.iter().zip(stresses).step_by(3).map(|(r, s)| (*r, s[i])).collect()
     };
     let y = 2.0 * YIELD / 3.0_f64.sqrt();
@@ -340,7 +340,7 @@ fn load_steps(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Pressure from the reaction at a prescribed inner displacement far beyond yield.
+/// Limit pressure from the reaction at a prescribed inner displacement far beyond yield.
 fn limit(shape: Shape, kind: ElementKind, n: usize) -> Result<(f64, Work), CaseError> {
     let mut body = shape.body(kind, n, true)?;
     let inner = body::side(&body.mesh, "left")?;

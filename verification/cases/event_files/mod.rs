@@ -1,4 +1,4 @@
-//! Events in the formats of seismology: QuakeML and CMTSOLUTION, with moment tensors and places on Earth.
+//! Events in the seismological formats QuakeML and CMTSOLUTION, with moment tensors and geographic locations.
 
 use crate::cases::written::Written;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
@@ -40,7 +40,7 @@ const MECHANISMS: [Mechanism; 4] = [
 ];
 
 impl Mechanism {
-    /// The scene with this mechanism: the rock below the fault stays on the left.
+    /// The scene with this mechanism: the footwall remains on the left.
     fn scene(&self) -> Result<String, CaseError> {
         let (up, across) = self.dip.to_radians().sin_cos();
         let (dips, along) = self.rake.to_radians().sin_cos();
@@ -56,7 +56,7 @@ impl Mechanism {
         Ok(scene.text()?)
     }
 
-    /// Moment tensor over the moment, up, south and east (Aki and Richards 2002, box 4.4).
+    /// Moment tensor over the scalar moment; axes up, south and east (Aki and Richards 2002, box 4.4).
     fn tensor(&self) -> [f64; 6] {
         let (ss, cs) = self.strike.to_radians().sin_cos();
         let (s2s, c2s) = (2.0 * self.strike).to_radians().sin_cos();
@@ -73,7 +73,7 @@ impl Mechanism {
         [zz, xx, yy, xz, -yz, -xy]
     }
 
-    /// North and east of the origin, and above it \[m\], of a place of the scene.
+    /// North, east and up offsets \[m\] of a point of the scene from the origin.
     fn offset(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         let (up, across) = self.dip.to_radians().sin_cos();
         let (right, along) = (x * up - y * across, -z);
@@ -82,7 +82,7 @@ impl Mechanism {
     }
 }
 
-/// End of the great circle of this length on a sphere, degrees north and east.
+/// Latitude and longitude \[degrees\] at the end of a great circle with this offset on a sphere.
 fn travelled([north, east, _]: [f64; 3]) -> [f64; 2] {
     let (distance, azimuth) = (north.hypot(east) / EARTH, east.atan2(north));
     let (sine, cosine) = ORIGIN[0].to_radians().sin_cos();
@@ -92,7 +92,7 @@ fn travelled([north, east, _]: [f64; 3]) -> [f64; 2] {
     [latitude.to_degrees(), ORIGIN[1] + turned.to_degrees()]
 }
 
-/// Number that follows a name, in a line of its own or in an element `value`.
+/// Number that follows a name, on the same line or in an element `value`.
 fn number(text: &str, name: &str) -> Result<f64, CaseError> {
     let after = text.split_once(name).ok_or_else(|| format!("no {name}"))?.1;
     let digits = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | 'e' | 'E');
@@ -101,14 +101,14 @@ fn number(text: &str, name: &str) -> Result<f64, CaseError> {
     Ok(word.parse()?)
 }
 
-/// Largest values of all mechanisms.
+/// Largest errors over all mechanisms.
 #[derive(Default)]
 struct Worst {
-    /// Of components over the moment, in QuakeML and in CMTSOLUTION.
+    /// Errors of tensor components over the moment, in QuakeML and in CMTSOLUTION.
     tensors: [f64; 2],
     moment: f64,
     magnitude: f64,
-    /// Of angles between places and those on a sphere, over what the plane leaves.
+    /// Angles between the locations and those on a sphere, over the error of the plane projection.
     places: f64,
     depth: f64,
 }

@@ -3,7 +3,7 @@
 use crate::CaseError;
 use crate::cases::written::Folder;
 
-/// Rows that a polynomial goes through, half of them on either side.
+/// Rows that the interpolating polynomial passes through, half of them on either side.
 const AROUND: usize = 6;
 
 /// Rows of a station.
@@ -11,7 +11,7 @@ struct History {
     time: Vec<f64>,
     slip: Vec<f64>,
     rate: Vec<f64>,
-    /// Traction that friction resists with \[Pa\].
+    /// Frictional resistance \[Pa\].
     shear: Vec<f64>,
 }
 
@@ -46,19 +46,19 @@ impl Histories {
         self.0[station].rate_at(time)
     }
 
-    /// Fall of the shear traction of a station between two times \[Pa\].
+    /// Drop of the shear traction of a station between two times \[Pa\].
     pub fn fell(&self, station: usize, from: f64, to: f64) -> f64 {
         self.0[station].shear_at(from) - self.0[station].shear_at(to)
     }
 }
 
 impl History {
-    /// Row that begins the interval of a time.
+    /// Row at the start of the interval that contains a time.
     fn before(&self, time: f64) -> usize {
         self.time.partition_point(|t| *t <= time).clamp(1, self.time.len() - 1) - 1
     }
 
-    /// Slip at a time: the cubic with the slip and slip rates of both rows around it.
+    /// Slip at a time: the cubic through the slip and slip rates of the two adjacent rows.
     fn slip_at(&self, time: f64) -> f64 {
         let k = self.before(time);
         let step = self.time[k + 1] - self.time[k];
@@ -75,7 +75,7 @@ impl History {
         self.rate[k].powf(1.0 - x) * self.rate[k + 1].powf(x)
     }
 
-    /// Shear traction at a time: the polynomial through the rows around it.
+    /// Shear traction at a time: the polynomial through the adjacent rows.
     fn shear_at(&self, time: f64) -> f64 {
         let most = self.time.len().saturating_sub(AROUND);
         let first = (self.before(time) + 1).saturating_sub(AROUND / 2).min(most);

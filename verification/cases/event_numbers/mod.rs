@@ -1,4 +1,4 @@
-//! Numbers derived from events of faults, in the files of runs: moment, area, slip, stress drop, hypocentre, magnitude.
+//! Quantities derived from fault events, in output files: moment, area, slip, stress drop, hypocentre, magnitude.
 
 mod history;
 
@@ -28,12 +28,12 @@ const DENSITIES: [f64; 2] = [2500.0, 3000.0];
 const ON: f64 = 1e-3;
 const OFF: f64 = 1e-4;
 
-/// Modulus of the uniform medium in which slip loads its plane as it does between both rocks \[Pa\].
+/// Shear modulus of the uniform medium in which slip loads its plane as it does between the two rocks \[Pa\].
 fn modulus() -> f64 {
     2.0 * MODULI[0] * MODULI[1] / (MODULI[0] + MODULI[1])
 }
 
-/// Traction per slip rate that shear waves take to both sides \[Pa s/m\].
+/// Traction per slip rate radiated by shear waves to both sides \[Pa s/m\].
 fn damping() -> f64 {
     let [soft, stiff] = [0, 1].map(|k: usize| (MODULI[k] * DENSITIES[k]).sqrt());
     1.0 / (1.0 / soft + 1.0 / stiff)
@@ -44,11 +44,11 @@ fn spring() -> f64 {
     1.0 / (1e3 / MODULI[0] + 1e3 / MODULI[1])
 }
 
-/// Reason for the modulus of moments.
+/// Source of the modulus of moments.
 const SERIES: &str =
     "2 G1 G2/(G1 + G2): the uniform medium in which slip on its plane causes the same tractions";
 
-/// A pair of blocks that slips uniformly, beside one that does not.
+/// A pair of blocks that slips uniformly, beside a pair that creeps.
 fn pairs(ledger: &mut Ledger) -> Result<(), CaseError> {
     let done = Written::of(include_str!("pairs.toml"))?;
     let events = done.files.table("events.csv")?;
@@ -94,7 +94,7 @@ fn pairs(ledger: &mut Ledger) -> Result<(), CaseError> {
         .why_not_tighter("the tolerance is of one step; how many of them add up depends on the path")
         .cost(&done.cost)
         .record();
-    // In the catalogue of its own fault, without the creep of the other.
+    // The catalogue of its own fault excludes the creep of the other.
     let own = done.report.faults.iter().find(|f| f.fault == "rupture").and_then(|f| f.events.first());
     let magnitude = own.and_then(|e| e.located.as_ref()?.magnitude).ok_or("no magnitude")?;
     ledger
@@ -110,7 +110,7 @@ fn pairs(ledger: &mut Ledger) -> Result<(), CaseError> {
     nucleates(ledger, &done)
 }
 
-/// Place and slip of the uniform event.
+/// Claims hypocentre and slip of the uniform event.
 fn nucleates(ledger: &mut Ledger, done: &Written) -> Result<(), CaseError> {
     let events = done.files.table("events.csv")?;
     let on_its_fault = events.words("fault")? == ["rupture"] && events.only("y")? >= -3e3 - 1e-6;
@@ -163,10 +163,10 @@ fn stable(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Distance of the points of the fault \[m\], and their number.
+/// Spacing of the points of the fault \[m\], and their number.
 const APART: f64 = 250.0;
 const POINTS: usize = 25;
-/// Share of the largest slip above which a point counts as slipped, as NOTATION has it.
+/// Fraction of the largest slip above which a point counts as slipped, see NOTATION.
 const SLIPPED: f64 = 0.01;
 
 /// Sums over the points of an event, from the files of its stations.
@@ -195,7 +195,7 @@ impl Sums {
     }
 }
 
-/// An event whose slip differs from point to point.
+/// Claims of an event with non-uniform slip.
 fn rupture(ledger: &mut Ledger) -> Result<(), CaseError> {
     let done = Written::of(include_str!("rupture.toml"))?;
     let events = done.files.table("events.csv")?;

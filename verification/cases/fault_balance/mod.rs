@@ -1,4 +1,4 @@
-//! Balances of a fault through cycles: energy, slip, and a run that restarts.
+//! Balances of a fault through earthquake cycles: energy, slip, and a restarted run.
 
 use crate::cases::followed::Followed;
 use crate::cases::seas;
@@ -13,7 +13,7 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// Tolerance of the run whose imbalance is bounded, and of one more exact.
+/// Tolerances of the run whose imbalance is bounded and of a more accurate run.
 const TOLERANCES: [f64; 2] = [1e-4, 1e-6];
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {

@@ -1,4 +1,4 @@
-//! A fault with a restraining bend: tractions of slip across it, and events that stop there.
+//! A fault with a restraining bend: tractions caused by slip across it, and events that stop there.
 
 use crate::cases::dislocation::{self, Stress};
 use crate::cases::seas;
@@ -21,7 +21,7 @@ const SCENE: &str = include_str!("../../../scenes/fault-bend.toml");
 /// Distance of the bend along the fault, and length of the fault \[m\].
 pub(crate) const BEND: f64 = 15e3;
 const LENGTH: f64 = 30e3;
-/// Turn of the lower half \[rad\].
+/// Rotation of the lower half \[rad\].
 const TURN: f64 = std::f64::consts::FRAC_PI_6;
 const SHEAR_MODULUS: f64 = 80.0953008e9 / 2.5;
 const POISSON: f64 = 0.25;
@@ -36,7 +36,7 @@ fn bent(size: f64) -> SceneText {
     SceneText::new(SCENE).with_or_same("bodies.plate.mesh.fault.spacing", format!("{size} m"))
 }
 
-/// The same without the bend, under the stress of the upper half.
+/// The same scene without the bend, under the stress of the upper half.
 fn straight(size: f64) -> SceneText {
     bent(size)
         .with("bodies.plate.mesh.fault.trace[2]", "[\"0 km\", \"-15 km\"]")
@@ -44,7 +44,7 @@ fn straight(size: f64) -> SceneText {
         .with("faults.main.profiles.shear.points[1][1]", "26e6")
 }
 
-/// The same in a box ten times as large, for the comparison with the whole plane; its cells differ away from the fault only.
+/// The same scene in a box ten times as large, for comparison with the infinite plane; the cells differ only away from the fault.
 fn far(size: f64) -> Result<Plan, CaseError> {
     let scene = bent(size)
         .with("bodies.plate.mesh.fault.min", "[\"-1000 km\", \"-1000 km\"]")
@@ -52,17 +52,17 @@ fn far(size: f64) -> Result<Plan, CaseError> {
     seas::plan(&scene.text()?)
 }
 
-/// Slip across the bend \[m\] over the distance along the fault \[m\].
+/// Slip across the bend \[m\] against distance along the fault \[m\].
 fn slip(along: f64) -> f64 {
     (1.0 - ((along - BEND) / 10e3).powi(2)).max(0.0).powi(3)
 }
 
-/// Direction up the half of the fault at this distance.
+/// Unit tangent, pointing up, of the half of the fault at this distance.
 fn tangent(along: f64) -> [f64; 2] {
     if along < BEND { [0.0, 1.0] } else { [TURN.sin(), TURN.cos()] }
 }
 
-/// Place at this distance, from the bend.
+/// Position at this distance, relative to the bend.
 fn place(along: f64) -> Complex<f64> {
     let [x, y] = tangent(along);
     Complex::new(x, y) * (BEND - along)
@@ -71,9 +71,9 @@ fn place(along: f64) -> Complex<f64> {
 /// Length of the pieces of the reference \[m\].
 const PIECE: f64 = 25.0;
 
-/// Shear and normal tractions at `at` of [`slip`], by pieces of constant slip and the dislocations at their ends.
+/// Shear and normal tractions at `at` due to [`slip`], from pieces of constant slip with dislocations at their ends.
 fn tractions(at: f64) -> (f64, f64) {
-    // Seen from a piece, dislocations at its ends lie half a piece away on either side; a piece ends at the bend.
+    // The point `at` is the midpoint of a piece, half a piece away from the dislocations at its ends. A piece ends at the bend.
     let mut ends: Vec<f64> = (0..=(LENGTH / PIECE) as usize + 1)
         .map(|k| (k as f64 - 0.5) * PIECE + at % PIECE)
         .filter(|&s| (BEND - s).abs() > 0.01 * PIECE)
@@ -85,9 +85,9 @@ fn tractions(at: f64) -> (f64, f64) {
     for w in ends.windows(2) {
         let middle = 0.5 * (w[0] + w[1]);
         let [x, y] = tangent(middle);
-        // A circuit about the upper end leads from plus to minus, one about the lower end back.
+        // A circuit about the upper end leads from plus to minus; one about the lower end leads back.
         let b = Complex::new(x, y) * slip(middle);
-        // Ends lie on the half of their piece, the bend on both.
+        // The ends lie on the same half of the fault as their piece; the bend lies on both halves.
         let on = |s: f64| Complex::new(x, y) * (BEND - s);
         dislocation::add_in_plane(&mut stress, z, on(w[0]), -b, SHEAR_MODULUS, POISSON);
         dislocation::add_in_plane(&mut stress, z, on(w[1]), b, SHEAR_MODULUS, POISSON);
@@ -99,7 +99,7 @@ fn tractions(at: f64) -> (f64, f64) {
 /// Distance from the bend within which tractions are not compared \[m\]: they grow as 1/r.
 const NEAR: f64 = 2000.0;
 
-/// Tractions of [`slip`] over the distance along the fault.
+/// Tractions due to [`slip`] along the fault.
 pub(crate) struct Tractions {
     /// Distances along the fault \[m\].
     pub along: Vec<f64>,
@@ -109,7 +109,7 @@ pub(crate) struct Tractions {
     pub normal: Vec<f64>,
 }
 
-/// Tractions of [`slip`] on cells of this size \[m\], in a box so large that it hardly matters.
+/// Tractions due to [`slip`] on cells of this size \[m\], in a box large enough for its boundary to have little effect.
 pub(crate) fn statics_of(size: f64) -> Result<Tractions, CaseError> {
     far(size).map(|plan| found(&plan))
 }
@@ -168,7 +168,7 @@ fn statics(ledger: &mut Ledger) -> Result<(), CaseError> {
     signs(ledger, &tractions, &cost)
 }
 
-/// Normal tractions on both sides of the bend, where the dislocation there rules.
+/// Claims the signs of normal traction on both sides of the bend, where the dislocation at the bend dominates.
 fn signs(ledger: &mut Ledger, t: &Tractions, cost: &Cost) -> Result<(), CaseError> {
     let at = |s: f64| {
         let k = (0..t.along.len()).min_by(|&i, &j| (t.along[i] - s).abs().total_cmp(&(t.along[j] - s).abs()));
@@ -215,7 +215,7 @@ fn events(ledger: &mut Ledger) -> Result<(), CaseError> {
     })?;
     let straight = seas::plan(&straight(250.0).text()?)?;
     let beside = seas::found(&straight, &straight.problem.settings, |_| {})?;
-    // Half of each half: neither the tips nor the cells at the bend.
+    // The central part of each half, without the tips and the cells at the bend.
     let (upper, lower) = ([4e3, 13e3], [17e3, 26e3]);
     let ratio = |plan: &Plan, e: &Event<Rupture>| {
         mean(plan, e, lower[0], lower[1]) / mean(plan, e, upper[0], upper[1])
@@ -276,7 +276,7 @@ fn average(plan: &Plan, values: &[f64], from: f64, to: f64) -> f64 {
     sum / area
 }
 
-/// The motion of the sides presses the lower half together, and the run leaves it so.
+/// Claims that the motion of the sides compresses the lower half and that it remains compressed at the end of the run.
 fn clamped(ledger: &mut Ledger, plan: &Plan, normal: &[f64], cost: &Cost) {
     let (shear, pressing) = plan.problem.loading.rates(1.0, plan.points.len(), true);
     ledger

@@ -28,12 +28,12 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     arc_in_space(ledger)
 }
 
-/// Friction of faults whose operator alone is asked for.
+/// Friction of faults of which only the operator is used.
 const LAW: &str = r#"law = { kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, a = 0.02, b = 0.015, l = "8 mm", v_ref = "1 um/s", v_initial = "1e-9 m/s" }
 normal = "50 MPa"
 rate = "1e-9 m/s""#;
 
-/// A scene from its materials, bodies, faults and conditions.
+/// A scene from its materials, bodies, faults and boundary conditions.
 fn scene(kinematics: &str, parts: &str, conditions: &str) -> String {
     format!(
         "schema = 1\ntitle = \"faults of bodies\"\nkinematics = \"{kinematics}\"\n{parts}\n[[stages]]\nname = \"still\"\nduration = \"1 yr\"\n\
@@ -41,17 +41,17 @@ fn scene(kinematics: &str, parts: &str, conditions: &str) -> String {
     )
 }
 
-/// A material of a shear modulus \[Pa\] with nu = 0.25.
+/// A material with this shear modulus \[Pa\] and nu = 0.25.
 fn material(name: &str, shear_modulus: f64) -> String {
     format!("[materials.{name}]\nyoung = {}\npoisson = 0.25\ndensity = 2700\n", 2.5 * shear_modulus)
 }
 
 /// Half length of the crack \[m\].
 const A: f64 = 1000.0;
-/// Half size of the box: supports there change slip by about the square of A over it.
+/// Half size of the box \[m\]: its supports change slip by a fraction of about the square of A over it.
 const WIDE: f64 = 100.0 * A;
 
-/// A crack on the plane between a left and a right medium of these shear moduli \[Pa\].
+/// A crack on the interface between a left and a right medium of these shear moduli \[Pa\].
 fn joined(left: f64, right: f64) -> Result<Plan, CaseError> {
     let tip = A / 500.0;
     let across = format!("[[{}, {}], [0, {tip}], [{WIDE}, {}]]", -WIDE, WIDE / 4.0, WIDE / 4.0);
@@ -79,7 +79,7 @@ fn joined(left: f64, right: f64) -> Result<Plan, CaseError> {
     seas::plan(&scene("antiplane", &parts, r#"{ set = "L.left", z = 0 }, { set = "R.right", z = 0 }"#))
 }
 
-/// Shear moduli of the two media \[Pa\], their harmonic mean being 16 GPa.
+/// Shear moduli of the two media \[Pa\]; their harmonic mean is 16 GPa.
 const MODULI: [f64; 2] = [10e9, 40e9];
 const MEAN: f64 = 16e9;
 
@@ -133,7 +133,7 @@ fn interface(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Distance of the parallel faults \[m\].
+/// Distance between the parallel faults \[m\].
 const APART: f64 = 10e3;
 /// Depth to which they slip \[m\].
 const DEEP: f64 = 20e3;
@@ -145,7 +145,7 @@ fn bump(depth: f64) -> f64 {
     (1.0 - ((depth - 10e3) / 8e3).powi(2)).max(0.0).powi(3)
 }
 
-/// Traction at a distance from a fault that slips and a depth \[m\], of screw dislocations and their images above the surface.
+/// Traction at a distance from the slipping fault and a depth \[m\], from screw dislocations and their images above the surface.
 fn screws(distance: f64, depth: f64, slip: fn(f64) -> f64) -> f64 {
     const PIECE: f64 = 20.0;
     let shift = depth - PIECE * ((depth / PIECE).floor() + 0.5);
@@ -192,7 +192,7 @@ fn slabs(size: f64) -> Result<Plan, CaseError> {
     seas::plan(&scene("antiplane", &parts, r#"{ set = "A.left", z = 0 }, { set = "C.right", z = 0 }"#))
 }
 
-/// Largest errors of tractions on the fault that slips and on the other, each over the largest there.
+/// Largest errors of tractions on the slipping fault and on the other, each over the largest traction there.
 fn interaction(plan: &Plan) -> [f64; 2] {
     let n = plan.points.len();
     let (own, other) = (plan.faults[0].points.clone(), plan.faults[1].points.clone());
@@ -209,7 +209,7 @@ fn interaction(plan: &Plan) -> [f64; 2] {
     })
 }
 
-/// Two faults below a free surface that act on each other.
+/// Two interacting faults below a free surface.
 fn parallel(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut levels = [Vec::new(), Vec::new()];
     let mut last = None;
@@ -248,7 +248,7 @@ type Pair = (&'static str, f64, &'static str, f64);
 /// Both rest on stiffnesses G/2H of half the critical one.
 const PAIRS: [Pair; 2] = [("P", 0.008, "\"radiation\"", 1000.0), ("Q", 0.013, "\"20 MPa s/m\"", 1600.0)];
 
-/// Pairs of blocks, drawn past each other.
+/// Pairs of blocks, driven past each other.
 fn blocks(pairs: &[Pair], events: usize) -> Result<Plan, CaseError> {
     let (mut parts, mut sides) = (material("rock", ROCK), String::new());
     for (k, (name, _, damping, half)) in pairs.iter().enumerate() {
@@ -295,7 +295,7 @@ fn first_event(plan: &Plan, fault: &str) -> Result<([f64; 3], Cost), CaseError> 
     Ok(([found.onsets[k], event.peak, event.details.slip.component(0)[points.start]], found.cost))
 }
 
-/// Pairs of blocks in one scene do what they do alone.
+/// Claims that pairs of blocks in one scene behave as they do alone.
 fn pairs(ledger: &mut Ledger) -> Result<(), CaseError> {
     let both = blocks(&PAIRS, 4)?;
     for pair in PAIRS {
@@ -329,11 +329,11 @@ fn on_arc(along: f64) -> f64 {
     (1.0 - ((along - 8e3) / 6e3).powi(2)).max(0.0).powi(3)
 }
 
-/// Distance of the sides from the arc \[m\].
+/// Distance of the box sides from the arc \[m\].
 const FAR: f64 = 1e6;
 
-/// A fault that is an arc from upright at the surface to a dip of 45 degrees, of as many straight cells, in plane strain; its trace has a
-/// vertex at every corner of a cell, or so many segments, and smooth curves between.
+/// A fault along an arc, vertical at the surface and of dip 45 degrees at its lower end, of `cells` straight cells, in plane
+/// strain. Its trace has a vertex at every corner of a cell, or `segments` segments with smooth curves between vertices.
 fn curved(cells: usize, segments: Option<usize>) -> Result<Plan, CaseError> {
     let sides = r#"{ set = "crust.left", x = 0, y = 0 }, { set = "crust.right", x = 0, y = 0 }"#;
     let parts = match segments {
@@ -353,7 +353,7 @@ fn arc_parts(cells: usize, body: &str, fault: &str) -> String {
     arc_between(cells, (cells, "polyline"), body, fault)
 }
 
-/// Body and fault of the arc, whose trace has so many segments with these lines between.
+/// Body and fault of the arc, with the number of segments of its trace and their interpolation.
 fn arc_between(cells: usize, (segments, interpolation): (usize, &str), body: &str, fault: &str) -> String {
     let angle = |k: usize| FRAC_PI_4 * k as f64 / segments as f64;
     let vertex = |k: usize| {
@@ -361,7 +361,8 @@ fn arc_between(cells: usize, (segments, interpolation): (usize, &str), body: &st
         format!("[{}, {}]", RADIUS * (1.0 - c), -RADIUS * s)
     };
     let trace: Vec<String> = (0..=segments).map(vertex).collect();
-    // Cells are at most so large: a curve that is longer than the arc by its error must not have one more.
+    // `size` is the largest cell size: a curve that is longer than the arc by its interpolation error must not get an additional
+    // cell.
     let size = if segments == cells { 1.0 } else { 1.01 } * RADIUS * FRAC_PI_4 / cells as f64;
     format!(
         "{}[bodies.crust]\nmaterial = \"rock\"\nmesh.fault = {{ trace = [{}], interpolation = \"{interpolation}\", spacing = [[0, {size}]], min = [{}, {}], max = [{FAR}, 0], growth = 1.25, element = \"quad9\" }}\n{body}\n\
@@ -373,9 +374,9 @@ fn arc_between(cells: usize, (segments, interpolation): (usize, &str), body: &st
     )
 }
 
-/// Shear and normal tractions of slip on the arc at an angle along it.
+/// Shear and normal tractions caused by slip on the arc, at an angle along it.
 fn arc_tractions(angle: f64) -> (f64, f64) {
-    // Pieces as long as 20 m, one of them around the place asked for.
+    // Pieces 20 m long, one of them centred at the point.
     let piece = 20.0 / RADIUS;
     let place = |psi: f64| Complex::new(RADIUS * (1.0 - psi.cos()), -RADIUS * psi.sin());
     let down = |psi: f64| Complex::new(psi.sin(), -psi.cos());
@@ -385,7 +386,7 @@ fn arc_tractions(angle: f64) -> (f64, f64) {
     for k in 0..(FRAC_PI_4 / piece).ceil() as usize {
         let (top, bottom) = (k as f64 * piece + shift, (k as f64 + 1.0) * piece + shift);
         let middle = 0.5 * (top + bottom);
-        // Plus, above the fault, slides up the dip; a circuit about the upper end leads from plus to minus.
+        // The plus side, above the fault, slides up-dip; a circuit about the upper end leads from plus to minus.
         let b = down(middle) * on_arc(middle * RADIUS);
         if top > 0.0 {
             dislocation::add(&mut stress, z, place(top), b, ROCK, POISSON);
@@ -407,7 +408,7 @@ fn arc_errors(plan: &Plan) -> [f64; 2] {
     plan.problem.fault.operator.shear(&slip, &mut shear);
     plan.problem.fault.operator.normal(&slip, &mut normal);
     let (mut worst, mut scale) = ([0.0_f64; 2], 0.0_f64);
-    // At the surface and at the tip tractions are averages over half as much.
+    // At the surface and at the tip tractions are averages over half a length.
     for p in (0..n).filter(|&p| angle(p) * RADIUS > 1e3 && angle(p) * RADIUS < 15e3) {
         let (t, f) = arc_tractions(angle(p));
         scale = scale.max(t.abs());
@@ -416,10 +417,10 @@ fn arc_errors(plan: &Plan) -> [f64; 2] {
     worst.map(|w| w / scale)
 }
 
-/// Segments of the trace of an arc of which few vertices are known: 3.9 km, a fifth of the radius.
+/// Number of segments of a trace with few vertices; each is 3.9 km long, a fifth of the radius.
 const FEW: usize = 4;
 
-/// An arc below a free surface against dislocations, by all corners of its cells and by few vertices.
+/// An arc below a free surface against dislocations, with a trace through all cell corners or through few vertices.
 fn arc(ledger: &mut Ledger) -> Result<(), CaseError> {
     arc_of(ledger, None, "")?;
     arc_of(ledger, Some(FEW), " that is known at five places")
@@ -458,10 +459,10 @@ fn arc_of(ledger: &mut Ledger, segments: Option<usize>, which: &str) -> Result<(
     Ok(())
 }
 
-/// Cells of the arc that is drawn through a slab.
+/// Number of cells of the arc extruded through a slab.
 const DRAWN: usize = 8;
 
-/// The arc drawn through a slab of space, one layer of cells thick and held so that it moves as the plane does, against the plane.
+/// The arc extruded through a 3D slab, one layer of cells thick and constrained to plane motion, against the plane model.
 fn arc_in_space(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (kinematics, rake, faces, held) in [
         ("plane-strain", "[0, 1, 0]", "z = 0", "x = 0, y = 0"),
@@ -480,7 +481,7 @@ fn arc_in_space(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Tractions of slip that is uniform across the slab against those of the plane.
+/// Claims tractions of uniform slip across the slab against those of the plane model.
 fn drawn(
     ledger: &mut Ledger,
     kinematics: &str,
@@ -491,7 +492,7 @@ fn drawn(
         |p: usize, q: usize| (0..2).all(|c| (plane.points[p].at[c] - solid.points[q].at[c]).abs() < 1e-3);
     let across =
         DMatrix::from_fn(solid.points.len(), plane.points.len(), |q, p| f64::from(u8::from(near(p, q))));
-    // Without partners both sides of the comparison would be zero.
+    // Without matching points both sides of the comparison would be zero.
     if across.row_iter().any(|row| row.sum() != 1.0) {
         return Err("a point of the slab has no partner in the plane".into());
     }

@@ -50,7 +50,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Slips of all points \[m\] by their distance along the fault.
+/// Slip distributions over the points \[m\] as functions of distance along the fault.
 fn slips(plan: &Plan) -> [(&'static str, Vec<f64>); 4] {
     let n = plan.points.len();
     let along = |p: usize| plan.points[p].along;
@@ -59,12 +59,12 @@ fn slips(plan: &Plan) -> [(&'static str, Vec<f64>); 4] {
         ("smooth", all(&|p| (-(along(p) / 1e4 - 1.0).powi(2)).exp())),
         ("alternating", all(&|p| if p % 2 == 0 { 1.0 } else { -1.0 })),
         ("of one point", all(&|p| if p == n / 3 { 1.0 } else { 0.0 })),
-        // Multiples of a prime in a ring.
+        // Multiples of a prime modulo 1000.
         ("irregular", all(&|p| ((p * 7919) % 1000) as f64 / 1000.0)),
     ]
 }
 
-/// Tractions of slip: shear and, where it changes them, normal ones.
+/// Shear tractions of slip, or its normal tractions if `normal`.
 fn tractions(plan: &Plan, slip: &[f64], normal: bool) -> Vec<f64> {
     let mut out = vec![0.0; slip.len()];
     if normal {
@@ -77,7 +77,7 @@ fn tractions(plan: &Plan, slip: &[f64], normal: bool) -> Vec<f64> {
 
 fn products(ledger: &mut Ledger, name: &str, dense: &Plan, compressed: &Plan, cost: &Cost) {
     let area = |p: usize| dense.points[p].area;
-    // The largest entry of the matrix of forces stands on its diagonal.
+    // The largest entry of the force matrix is on its diagonal.
     let n = dense.points.len();
     let mut unit = vec![0.0; n];
     let mut largest = 0.0_f64;

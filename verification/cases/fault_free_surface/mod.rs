@@ -1,4 +1,4 @@
-//! Displacements of bodies around a fault that slips in space, below a free surface and between two rocks.
+//! Displacements of bodies around a slipping fault in 3D, below a free surface and between two rocks.
 
 use crate::cases::okada::Rectangle;
 use crate::cases::seas;
@@ -15,11 +15,11 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// Distance over which slip falls to nothing \[m\].
+/// Distance over which slip decreases to zero \[m\].
 const REACH: f64 = 6e3;
-/// Half size of the box \[m\]: displacements at its sides are those of a double couple, some (REACH/FAR)² of slip.
+/// Half size of the box \[m\]: displacements at its sides are those of a double couple, about (REACH/FAR)² of slip.
 const FAR: f64 = 120e3;
-/// Width of the rim of slip where tractions of both sides are not compared \[m\].
+/// Width of the rim of the slip area where the tractions of the two sides are not compared \[m\].
 const RIM: f64 = 2.2e3;
 /// Length of the rectangles of the reference \[m\].
 const PIECE: f64 = 250.0;
@@ -31,7 +31,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     contact(ledger)
 }
 
-/// The reference against the table that was printed with it.
+/// Claims the reference solution against its published table.
 fn table(ledger: &mut Ledger) {
     let printed = [
         [-8.689e-3, -4.298e-3, -2.747e-3],
@@ -80,7 +80,8 @@ fn slip(depth: f64, along: f64) -> f64 {
     part(depth) * part(along)
 }
 
-/// Half of the problem, z > 0, with cells of this size \[m\] at the fault and as `near` to it, and shear moduli of both sides \[Pa\].
+/// Half of the problem, z > 0, with cells of this size \[m\] at the fault and up to the distance `near`, and the shear moduli of
+/// both sides \[Pa\].
 fn plan(size: f64, near: f64, moduli: [f64; 2]) -> Result<Plan, CaseError> {
     let zone =
         |from: f64, to: f64| format!("{{ size = {size:?}, from = {from:?}, to = {to:?}, ratio = 1.5 }}");
@@ -136,7 +137,7 @@ fn displaced(plan: &Plan) -> Result<Displaced<'_>, CaseError> {
     Ok((view, values, displacement))
 }
 
-/// Displacement of the surface by the slip of the problem, of plus relative to minus along z, at x and z.
+/// Displacement of the surface at x and z due to the slip of the problem, of plus relative to minus along z.
 fn reference(x: f64, z: f64) -> [f64; 3] {
     let pieces = (REACH / PIECE) as i32;
     let mut u = [0.0; 3];
@@ -159,14 +160,14 @@ fn reference(x: f64, z: f64) -> [f64; 3] {
     u
 }
 
-/// Displacements of the surface.
+/// Claims displacements of the surface.
 fn surface(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (mut levels, mut last) = (Vec::new(), None);
     for size in [2e3, 1e3, 0.5e3] {
         let (found, cost) = Cost::of(|| plan(size, 4e3, [30e9; 2]));
         let plan = found?;
         let (view, _, displacement) = displaced(&plan)?;
-        // Nodes of the coarser mesh, beside the fault and away from it.
+        // Nodes of the coarser mesh, at the fault and away from it.
         let mut worst = 0.0_f64;
         for (node, u) in view.nodes.iter().zip(&displacement) {
             let even = |v: f64| (v / 2e3 - (v / 2e3).round()).abs() < 1e-9;
@@ -195,7 +196,7 @@ fn surface(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Jump, opening and tractions between two rocks.
+/// Claims displacement jump, opening and tractions between two rocks.
 fn contact(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (mut between, mut against) = (Vec::new(), Vec::new());
     let mut last = None;
@@ -253,8 +254,8 @@ fn contact(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Shear tractions along z at the middles of the faces of the fault, from the cells of minus and plus and from the operator, in the
-/// middle of the slip.
+/// Shear tractions along z at the centres of fault faces in the inner part of the slip area: from the cells of minus and plus,
+/// and from the operator.
 fn tractions(
     plan: &Plan,
     view: &BodiesView,
@@ -276,7 +277,7 @@ fn tractions(
     for face in faces {
         let corners: Vec<[usize; 2]> = face.iter().map(|&p| view.sides[p]).collect();
         let places: Vec<[f64; 3]> = corners.iter().map(|c| view.nodes[c[0]]).collect();
-        // The rim, where slip bends, and the surface, where areas are halves, are left out.
+        // Leave out the rim, where slip curves strongly, and the surface, where tributary areas are halved.
         if places.iter().any(|x| x[1] > -1.4e3 || x[1] < RIM - REACH || x[2] > REACH - RIM) {
             continue;
         }
@@ -289,7 +290,7 @@ fn tractions(
             let middle = places.iter().map(|x| x[2]).sum::<f64>() / 4.0;
             for (corner, x) in corners.iter().zip(&places) {
                 let (u, v, w) = (displacement[corner[k]], beside(x, 1.0)?, beside(x, 2.0)?);
-                // One-sided, of second order; four corners.
+                // One-sided differences of second order, averaged over four corners.
                 by_x += sign * (4.0 * v[2] - 3.0 * u[2] - w[2]) / (8.0 * size);
                 by_z += (x[2] - middle).signum() * u[0] / (2.0 * size);
             }

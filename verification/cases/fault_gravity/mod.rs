@@ -1,4 +1,4 @@
-//! Weight of bodies between rollers, resolved onto faults.
+//! Gravity of bodies between rollers, resolved onto faults.
 
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
@@ -16,10 +16,10 @@ pub const CASE: Case = Case {
 
 const DENSITY: f64 = 2670.0;
 const GRAVITY: f64 = 9.81;
-/// Depth of the box \[m\]; faults end at half of it.
+/// Depth of the box \[m\]; faults end at half this depth.
 const DEPTH: f64 = 20e3;
-/// Error of tractions over the largest of second-order cells: rounding of an elimination of some thousand unknowns, whose condition number is about the square of
-/// the number of cells across the box, 1e4.
+/// Bound on errors of tractions over the largest one with second-order cells: rounding of an elimination of about a thousand
+/// unknowns with a condition number of about 1e4, the square of the number of cells across the box.
 const ROUNDING: f64 = 1e-10;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -37,7 +37,7 @@ struct Dipping {
     element: &'static str,
     /// Size of cells \[m\].
     size: f64,
-    /// More keys of the body.
+    /// Further keys of the body.
     body: &'static str,
 }
 
@@ -100,7 +100,8 @@ fn shear(plan: &Plan, point: usize, rates: &[f64]) -> f64 {
         + fault.damping[point] * rates[point]
 }
 
-/// Largest errors of f_n and of τ_0 over the largest f_n; the point at the surface, which friction takes from its floor, has no τ_0 of the weight.
+/// Largest errors of f_n and of τ_0 over the largest f_n. The surface point has no τ_0 from gravity, since its normal traction is
+/// the floor.
 fn errors(plan: &Plan, exact: impl Fn(f64) -> [f64; 2]) -> [f64; 2] {
     let layout = Layout::of(&plan.problem.fault);
     let mut rates = vec![0.0; plan.points.len()];
@@ -133,7 +134,7 @@ fn planes(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Claims of errors that are rounding.
+/// Claims that errors are due to rounding.
 fn exact(ledger: &mut Ledger, what: &str, errors: &[f64], cost: &Cost) {
     for (name, error) in ["f_n", "tau_0"].iter().zip(errors) {
         ledger
@@ -152,7 +153,7 @@ fn exact(ledger: &mut Ledger, what: &str, errors: &[f64], cost: &Cost) {
     }
 }
 
-/// Cells of first order have one stress where the exact one is linear.
+/// First-order cells have constant stress where the exact stress is linear.
 fn first_order(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut levels = Vec::new();
     let mut total = None;
@@ -181,13 +182,13 @@ fn first_order(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Weight on top of a uniform initial stress, and without it in the course of the run.
+/// Gravity added to a uniform initial stress, and its absence from the loading during the run.
 fn with_stress(ledger: &mut Ledger) -> Result<(), CaseError> {
     let body = "gravity = [0, -9.81]\ninitial_stress = [\"-10 MPa\", \"-30 MPa\", \"0 MPa\"]";
     let case = Dipping { dip: 60.0, poisson: 0.25, element: "quad9", size: 1000.0, body };
     let (plan, cost) = Cost::of(|| case.plan());
     let plan = plan?;
-    // On a plane of dip 60: f_n = 30/4 + 3/4 10, and τ of half the difference times sin 120.
+    // On a plane of dip 60 degrees: f_n = 30/4 + 3/4 10, and τ is half the difference times sin 120.
     let stress = [15e6, -10e6 * 120f64.to_radians().sin()];
     let sum = |z: f64| {
         let weight = case.exact(z);
@@ -212,7 +213,7 @@ fn with_stress(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// A vertical fault through a box in space, welded where sides hold it along its slip.
+/// A vertical fault through a 3D box, welded where the sides constrain motion along its slip.
 fn in_space(ledger: &mut Ledger) -> Result<(), CaseError> {
     let poisson = 0.3;
     let block = |name: &str, from: f64, to: f64| {

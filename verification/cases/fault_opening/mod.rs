@@ -1,4 +1,4 @@
-//! Faults that open: cracks in a plate that is pulled, and shallow faults through events.
+//! Faults that open: cracks in a plate under tension, and shallow faults through events.
 
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
@@ -27,13 +27,13 @@ const THRUST: &str = include_str!("thrust.toml");
 const YOUNG: f64 = 80e9;
 const POISSON: f64 = 0.25;
 const SHEAR_MODULUS: f64 = 32e9;
-/// Half length of the cracks at the end; the fault is twice as long \[m\].
+/// Final half length of the cracks \[m\]; the fault is twice as long.
 const A: f64 = 1000.0;
-/// Half size of the plate over that: its sides, which are held, change openings by some of the square of the inverse.
+/// Half size of the plate over the half length: its fixed sides change openings by a fraction of order 1/FAR².
 const FAR: f64 = 200.0;
-/// Pull at the end, less the pressure in the middle of the fault at the start \[Pa\].
+/// Final tension less the initial pressure in the middle of the fault \[Pa\].
 const PULL: f64 = 10e6;
-/// Pressure in the middle at the start \[Pa\].
+/// Initial pressure in the middle \[Pa\].
 const PRESSED: f64 = 1e6;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -43,7 +43,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     shallow(ledger)
 }
 
-/// Two blocks without contraction across, each 1 km long, that are pulled apart by 1 m: in the plane, and in space with slip along one direction or along any.
+/// Two blocks without lateral contraction, each 1 km long, pulled apart by 1 m: in the plane, and in 3D with slip along one
+/// direction or with vector slip.
 fn apart(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (kinematics, element, slip) in [
         ("plane-strain", "quad9", ""),
@@ -52,7 +53,7 @@ fn apart(ledger: &mut Ledger) -> Result<(), CaseError> {
     ] {
         let (opening, cost) = Cost::of(|| parted(kinematics, element, slip));
         let (least, most) = opening?;
-        // What pulls before it opens, over the stiffness of both blocks.
+        // Less the elongation at which the fault opens, from the stiffness of both blocks.
         let exact = 1.0 - PRESSED * 2.0 * A / YOUNG;
         ledger
             .claim(format!("least and largest opening between two blocks that are pulled apart, {kinematics}, {element}"))
@@ -70,7 +71,7 @@ fn apart(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Least and largest opening between the blocks at the end \[m\].
+/// Smallest and largest final opening between the blocks \[m\].
 fn parted(kinematics: &str, element: &str, slip: &str) -> Result<(f64, f64), CaseError> {
     let flat = kinematics != "3d";
     let block = |name: &str, from: f64, to: f64| {
@@ -123,11 +124,11 @@ method = "stabilised"
     Ok(opening.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), o| (l.min(*o), m.max(*o))))
 }
 
-/// A plate with cells of this size along a fault across its middle, which is pulled evenly until the pull is that above; `normal` are points of the normal traction at the start over
-/// the distance along the fault, whose middle is at 2 [`A`].
+/// A plate with cells of this size along a fault across its middle, pulled steadily up to the tension [`PULL`]. `normal` lists
+/// points of initial normal traction against distance along the fault, whose middle is at 2 [`A`].
 fn plate(size: f64, normal: &[(f64, f64)]) -> String {
     let half = FAR * A;
-    // Free above and below: no stress along the fault.
+    // Top and bottom are free: no stress along the fault.
     let way = (PULL + PRESSED) * (1.0 - POISSON * POISSON) / YOUNG * half;
     let points: Vec<String> = normal.iter().map(|(s, f)| format!("[{s:?}, {f:?}]")).collect();
     format!(
@@ -168,22 +169,22 @@ method = "stabilised"
     )
 }
 
-/// Pull at a time, less what presses in the middle at the start \[Pa\].
+/// Tension at a time, less the initial pressure in the middle \[Pa\].
 fn pull(time: f64) -> f64 {
     (PULL + PRESSED) * time / seas::YEAR - PRESSED
 }
 
 /// Results of a plate.
 struct Pulled {
-    /// Of its points, from the middle of the fault \[m\].
+    /// Positions of the points relative to the middle of the fault \[m\].
     at: Vec<f64>,
     opening: Vec<f64>,
     slip: Vec<f64>,
-    /// Fall of the shear traction in the middle \[Pa\].
+    /// Drop of the shear traction in the middle \[Pa\].
     fall: f64,
-    /// Times with the distance of the farthest open point from the middle.
+    /// Times and the distance of the farthest open point from the middle.
     fronts: Vec<(f64, f64)>,
-    /// Work on openings \[J/m\].
+    /// Work of the openings \[J/m\].
     work: f64,
     /// Imbalance of the energy budget.
     imbalance: f64,
@@ -219,7 +220,7 @@ fn pulled(plan: &Plan) -> Result<Pulled, CaseError> {
 }
 
 impl Pulled {
-    /// Relative error in the middle and largest error over the value in the middle.
+    /// Error in the middle and largest error, both over the exact value in the middle.
     fn errors(&self, found: &[f64], peak: f64, shape: impl Fn(f64) -> f64) -> [f64; 2] {
         let mut nearest = (f64::INFINITY, 0.0);
         let mut largest = 0.0_f64;
@@ -239,7 +240,8 @@ const COMPLIANCE: f64 = 2.0 * (1.0 - POISSON) * A / SHEAR_MODULUS;
 const SNEDDON: &str =
     "2 (1 - nu) p/G sqrt(a^2 - x^2), a crack in the plane under uniform traction (Sneddon 1946)";
 
-/// A part of the fault that little presses, between parts that the pull does not reach: it opens from end to end, and slips under the shear traction it had.
+/// A weakly compressed part of the fault between parts that the tension cannot open: it opens from end to end, and slips as it
+/// releases its initial shear traction.
 fn uniform(ledger: &mut Ledger) -> Result<(), CaseError> {
     let edge = 1e-3;
     let normal = [(A, 1e9), (A + edge, PRESSED), (3.0 * A - edge, PRESSED), (3.0 * A, 1e9)];
@@ -297,7 +299,7 @@ fn uniform(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// The claim that a budget of energy closes.
+/// Claims that an energy budget closes.
 fn closes(ledger: &mut Ledger, what: &str, imbalance: f64, cost: &Cost) {
     ledger
         .claim(format!("imbalance of the energy budget over its largest part, {what}"))
@@ -311,13 +313,14 @@ fn closes(ledger: &mut Ledger, what: &str, imbalance: f64, cost: &Cost) {
         .record();
 }
 
-/// Pressure on the fault grows with the square of the distance from its middle: the front of the crack is where it closes without a singularity.
+/// Pressure on the fault grows with the square of the distance from its middle: the crack front is where the crack closes
+/// smoothly, without a singularity.
 fn smooth(ledger: &mut Ledger) -> Result<(), CaseError> {
     let exact = "(4 (1 - nu)/(3 G)) p a (1 - x^2/a^2)^(3/2), a^2 = A^2 p/P, where p - 2 P x^2/A^2 pulls: by Chebyshev polynomials";
     let mut levels = Vec::new();
     let mut last = None;
     for size in [400.0, 200.0, 100.0, 50.0] {
-        // At each point, so that it is exact there.
+        // A profile point at each fault point, so that the traction is exact there.
         let at = |k: u32| 0.25 * size * f64::from(k);
         let count = (16.0 * A / size).round() as u32;
         let normal: Vec<(f64, f64)> =
@@ -344,7 +347,7 @@ fn smooth(ledger: &mut Ledger) -> Result<(), CaseError> {
         .cost(&found.cost)
         .record();
     let exact_front = |time: f64| A * (pull(time) / PULL).max(0.0).sqrt();
-    // Cracks of fewer than ten points on either side have no shape yet.
+    // Cracks of fewer than ten points on either side are not resolved yet.
     let long = found.fronts.iter().filter(|(time, _)| exact_front(*time) > 5.0 * size);
     let off = |&(time, front): &(f64, f64)| (front - exact_front(time)).abs();
     ledger
@@ -362,7 +365,7 @@ fn smooth(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// A shallow fault through three events.
+/// Results of a shallow fault through three events.
 struct Shallow {
     /// Onsets \[yr\].
     onsets: Vec<f64>,
@@ -391,7 +394,7 @@ fn events(text: &str, floor: f64, opens: bool) -> Result<Shallow, CaseError> {
     Ok(Shallow { onsets, report, cost })
 }
 
-/// Floors \[MPa\], each half of the one before.
+/// Floors of the normal traction \[MPa\], each half of the previous one.
 const FLOORS: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
 
 fn shallow(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -457,7 +460,7 @@ fn shallow(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// The claim that nothing pulls across a fault, and that it has opened.
+/// Claims that a fault bears no tension and that it has opened.
 fn pulls(ledger: &mut Ledger, what: &str, report: &Report, cost: &Cost) {
     let (floor, opened) = (&report.floors[0], &report.openings[0]);
     ledger

@@ -1,4 +1,4 @@
-//! Tractions that slip causes in plane strain: a crack, a surface that slips as a whole, and the free surface.
+//! Tractions caused by slip in plane strain: a crack, a fault that slips uniformly, and dipping faults below a free surface.
 
 use crate::cases::{dislocation, seas};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
@@ -15,17 +15,17 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// Size of cells of the faults from the surface \[m\].
+/// Cell size of the faults from the surface \[m\].
 const SIZE: f64 = 500.0;
 const POISSON: f64 = 0.25;
 const SHEAR_MODULUS: f64 = 32e9;
 /// Half length of the crack \[m\].
 const A: f64 = 1000.0;
-/// Depth of its middle and half size of the box, over its half length: the free surface and the sides change slip by about the
-/// square of the inverse.
+/// Depth of the crack's middle and half size of the box over the half length: the free surface and the sides change slip by a
+/// fraction of about 1/FAR².
 const FAR: f64 = 200.0;
 
-/// A scene with one fault; `conditions` of the sides.
+/// A scene with one fault; `conditions` are those of the sides.
 fn scene(mesh: &str, fault: &str, conditions: &str) -> String {
     format!(
         r#"
@@ -82,7 +82,7 @@ pub(crate) fn matrix(plan: &Plan, normal: bool) -> DMatrix<f64> {
     all
 }
 
-/// A buried crack of dip 60 degrees with cells of this size \[m\] and, where `tip` is given, of that size at its tips.
+/// A buried crack of dip 60 degrees with cells of this size \[m\]; `tip`, if given, is their size at its tips.
 fn cracked(size: f64, tip: Option<f64>) -> Result<Plan, CaseError> {
     let (c, s) = (A / 2.0, A * 0.75_f64.sqrt());
     let (depth, box_) = (FAR * A, 2.0 * FAR * A);
@@ -104,14 +104,14 @@ fn cracked(size: f64, tip: Option<f64>) -> Result<Plan, CaseError> {
     seas::plan(&scene(&mesh, "", STILL))
 }
 
-/// Slip under a uniform fall of shear traction against 2 (1 - nu) dtau/G sqrt(a^2 - x^2).
+/// Slip under a uniform drop of shear traction against 2 (1 - nu) dtau/G sqrt(a^2 - x^2).
 struct Slip {
     /// Error of the slip in the middle.
     middle: f64,
     /// Largest error over the slip in the middle.
     largest: f64,
     cost: Cost,
-    /// Largest change of normal over that of shear traction.
+    /// Largest change of normal traction over the change of shear traction.
     normal: f64,
 }
 
@@ -207,7 +207,8 @@ fn crack(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// A scene with a fault of this dip \[degrees\] with cells of this size \[m\], through the box from the surface, that creeps below 40 km.
+/// A scene with a fault of this dip \[degrees\] with cells of this size \[m\]. It runs from the surface through the box and
+/// creeps below 40 km.
 pub(crate) fn through(dip: f64, size: f64) -> String {
     let (s, c) = dip.to_radians().sin_cos();
     let (deep, wide) = (1e6, 1e6);
@@ -222,7 +223,7 @@ pub(crate) fn through(dip: f64, size: f64) -> String {
         -deep,
         wide + bottom
     );
-    // Plus slides up the dip past minus.
+    // The plus side slides up-dip past the minus side.
     let half = 0.5e-9;
     let (x, y) = (-half * c, half * s);
     let sides = format!(
@@ -232,7 +233,7 @@ pub(crate) fn through(dip: f64, size: f64) -> String {
     scene(&mesh, "creep = { beyond = \"40 km\", rate = \"1e-9 m/s\" }", &sides)
 }
 
-/// Plates that move rigidly along a fault that slips as fast everywhere are without stress.
+/// Claims that plates in rigid motion along a uniformly slipping fault are free of stress.
 fn plates(ledger: &mut Ledger) -> Result<(), CaseError> {
     for dip in [90.0, 60.0, 30.0] {
         let (plan, cost) = Cost::of(|| seas::plan(&through(dip, SIZE)));
@@ -263,22 +264,22 @@ fn plates(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Shear and normal tractions of `slip` on a plane of this dip from the surface, by pieces of constant slip of length `piece` \[m\]
-/// and their dislocations, at the middle of pieces.
+/// Shear and normal tractions due to `slip` on a plane of this dip from the surface, from pieces of constant slip of length
+/// `piece` \[m\] with dislocations at their ends, at the midpoint of a piece.
 fn tractions(dip: f64, slip: impl Fn(f64) -> f64, piece: f64, deepest: f64, at: f64) -> (f64, f64) {
     let (s, c) = dip.to_radians().sin_cos();
     let point = |along: f64| Complex::new(along * c, -along * s);
     let mut stress = Stress::default();
-    // Seen from a piece, dislocations at its ends lie half a piece away on either side.
+    // The point `at` is the midpoint of a piece, half a piece away from the dislocations at its ends.
     let shift = at - piece * ((at / piece).floor() + 0.5);
     let pieces = (deepest / piece).ceil() as usize + 1;
     for k in 0..=pieces {
-        // Slip is constant from one end to the next; the first piece begins at the surface.
+        // Slip is constant between two ends; the first piece begins at the surface.
         let (top, bottom) = ((k as f64 * piece + shift).max(0.0), (k as f64 + 1.0) * piece + shift);
         if bottom <= 0.0 {
             continue;
         }
-        // Plus, above the fault, slides up the dip; a circuit about the upper end leads from plus to minus.
+        // The plus side, above the fault, slides up-dip; a circuit about the upper end leads from plus to minus.
         let b = Complex::new(c, -s) * slip(0.5 * (top + bottom));
         let z = point(at);
         if top > 0.0 {
@@ -289,15 +290,15 @@ fn tractions(dip: f64, slip: impl Fn(f64) -> f64, piece: f64, deepest: f64, at: 
     stress.on([-c, s], [s, c])
 }
 
-/// Depth down the dip to which the fault slips \[m\].
+/// Down-dip extent of slip \[m\].
 const DEEPEST: f64 = 30e3;
-/// Length of the pieces of the reference \[m\]: their error is of second order in it over the scale of slip.
+/// Length of the pieces of the reference \[m\]: the error is of second order in their length over the length scale of slip.
 const PIECE: f64 = 25.0;
-/// Tractions are compared below this distance from the surface \[m\]: at a node tractions are averages over the cells around it, which
-/// the reference is not.
+/// Tractions are compared below this distance from the surface \[m\]: nodal tractions are averages over the adjacent cells, the
+/// reference is pointwise.
 const BELOW: f64 = 2000.0;
 
-/// A name and slip \[m\] over the distance from the surface \[m\].
+/// A name and slip \[m\] against distance from the surface \[m\].
 type Slips = (&'static str, fn(f64) -> f64);
 
 /// Slip that reaches the surface, and slip that does not.

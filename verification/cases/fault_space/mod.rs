@@ -1,4 +1,4 @@
-//! Faults in three dimensions: slip along a rake, slip across it held at zero, and the opening.
+//! Faults in three dimensions: slip along a rake, with slip across the rake and opening constrained to zero.
 
 use crate::cases::fault_operator::matrix;
 use crate::cases::seas;
@@ -36,14 +36,14 @@ struct Blocks<'a> {
     moduli: [f64; 2],
     /// Extent along x of the left block, mirrored in the right one \[m\].
     wide: f64,
-    /// `min` and `max` along the other axes.
+    /// Values of `min` and `max` along the other axes.
     ends: &'a [[f64; 2]],
-    /// Keys of the sizes of cells: of the left and of the right block.
+    /// Keys of the cell sizes of the left and the right block.
     cells: [&'a str; 2],
-    /// More keys of the fault.
+    /// Further keys of the fault.
     fault: &'a str,
     conditions: &'a str,
-    /// After `[time]`.
+    /// Text after `[time]`.
     rest: &'a str,
     duration: &'a str,
 }
@@ -99,7 +99,7 @@ fn on(sides: &[&str], motion: &str) -> String {
     of("L") + &of("R")
 }
 
-/// A slab one layer of cells thick against the plane, by the way it is held at its faces.
+/// A slab one layer of cells thick against the plane model, for each way in which its faces are constrained.
 fn slab(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (kinematics, rake, faces, ends) in [
         ("plane-strain", "[0, 1, 0]", "z = 0", "x = 0, y = 0"),
@@ -135,7 +135,7 @@ fn slab(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Tractions of slip that is uniform across a slab against those of the plane.
+/// Claims tractions of uniform slip across a slab against those of the plane model.
 fn against_plane(ledger: &mut Ledger, motion: &str, (plane, solid): (&Plan, &Plan), cost: &Cost) {
     let largest = matrix(plane, false).amax();
     for normal in [false, true] {
@@ -158,7 +158,7 @@ fn against_plane(ledger: &mut Ledger, motion: &str, (plane, solid): (&Plan, &Pla
     }
 }
 
-/// Normal tractions of slip that may turn, between two media below a free surface, against those of slip held along either direction.
+/// Normal tractions of vector slip, between two media below a free surface, against those of slip along each direction alone.
 fn both_directions(ledger: &mut Ledger) -> Result<(), CaseError> {
     let creep = r#"creep = { outside = { y = { from = "-3 km" }, z = { from = "-3 km", to = "3 km" } }, rate = 0.0 }"#;
     let with = |more: &str| {
@@ -175,7 +175,7 @@ fn both_directions(ledger: &mut Ledger) -> Result<(), CaseError> {
         }
         .plan()
     };
-    // Normal along x: the second direction, normal x rake, is -y.
+    // The normal is along x, so that the second direction, normal x rake, is -y.
     let (plans, cost) = Cost::of(|| -> Result<_, CaseError> {
         Ok([
             with("rake = [0, 0, 1]\nslip = \"free\"")?,
@@ -240,9 +240,9 @@ fn quarter(patch: f64, size: f64, wide: f64) -> Result<Plan, CaseError> {
 /// Width of the Gaussian \[m\]: slip exp(-r²/2s²).
 const WIDTH: f64 = 1000.0;
 
-/// Traction at a place of the Gaussian, from the stiffness of each wave vector \[Pa/m\].
+/// Traction at a point of the Gaussian, from the stiffness of each wave vector \[Pa/m\].
 fn waves(y: f64, z: f64) -> f64 {
-    // Even and smooth in k, periodic in the angle: equal steps converge faster than any power.
+    // The integrand is even and smooth in k and periodic in the angle: equal steps converge faster than any power.
     let (steps, angles, most) = (300, 128, 9.0);
     let dk = most / f64::from(steps);
     let mut sum = 0.0;
@@ -342,7 +342,7 @@ fn penny(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Two blocks in space through a cycle against antiplane motion.
+/// Two 3D blocks through a cycle against antiplane motion.
 fn blocks(ledger: &mut Ledger) -> Result<(), CaseError> {
     let rest = "log_rate_tolerance = 1e-7\n[events]\nabove = \"1e-4 m/s\"\nstop_after = 1\n";
     let drawn = |more: &str| {
@@ -365,7 +365,7 @@ fn blocks(ledger: &mut Ledger) -> Result<(), CaseError> {
         kinematics: "3d",
         ends: &[[0.0, 1e3], [0.0, 2e3]],
         cells: ["divisions = [1, 1, 2]"; 2],
-        // What of the rake points out of the fault, and its length, do not count.
+        // The component of the rake normal to the fault and its length do not matter.
         fault: "damping = \"radiation\"\nrake = [0.3, 0, 2]",
         conditions: &(drawn(", x = 0, y = 0") + &on(&["back", "front"], "x = 0, y = 0")),
         ..plane

@@ -1,4 +1,4 @@
-//! Growth rates of perturbations of steady sliding per wavelength against linear theory.
+//! Growth rates of perturbations of steady sliding, by wavelength, against linear theory.
 
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
@@ -32,9 +32,9 @@ const A: f64 = 0.010;
 const B: f64 = 0.015;
 /// Slip rate \[m/s\].
 const RATE: f64 = 1e-6;
-/// The mode that has the critical wavelength between half-spaces.
+/// The mode of the critical wavelength between half-spaces.
 const CRITICAL: usize = 4;
-/// Highest mode compared: three cells of the coarsest mesh to its wavelength.
+/// Highest mode compared: the coarsest mesh has three cells per wavelength.
 const HIGHEST: usize = 6;
 
 /// L \[m\]: the critical wavelength π G L/(σ (b - a)) is 2 W/4.
@@ -42,7 +42,7 @@ fn length() -> f64 {
     2.0 * WIDTH / CRITICAL as f64 * NORMAL * (B - A) / (PI * SHEAR_MODULUS)
 }
 
-/// Differences of a scene.
+/// A variant of the scene.
 #[derive(Clone, Copy)]
 struct Variant {
     size: f64,
@@ -53,14 +53,14 @@ struct Variant {
     sides: Sides,
 }
 
-/// Motion and outer faces.
+/// Motion and boundary conditions of the outer faces.
 #[derive(Clone, Copy, PartialEq)]
 enum Sides {
-    /// Antiplane, both outer faces held.
+    /// Antiplane, both outer faces fixed.
     Held,
-    /// Antiplane, that of B free.
+    /// Antiplane, outer face of B free.
     OneFree,
-    /// Plane strain, both held, twice as thick.
+    /// Plane strain, both outer faces fixed, layers twice as thick.
     Plane,
 }
 
@@ -78,7 +78,7 @@ impl Variant {
             .with_or_same("faults.main.damping", format!("{:e}", self.damping));
         let scene = match self.sides {
             Sides::Held => scene,
-            // The traction stays as it is while B moves as a whole.
+            // The traction does not change while B moves as a whole.
             Sides::OneFree => scene.with("stages[0].conditions[0].z", 0).without("stages[0].conditions[1]"),
             Sides::Plane => {
                 let held = scene
@@ -101,7 +101,7 @@ impl Variant {
         seas::plan(&scene.text()?)
     }
 
-    /// Stiffness of the bodies to slip of mode `n` \[Pa/m\].
+    /// Stiffness of the bodies under slip of mode `n` \[Pa/m\].
     fn stiffness(&self, n: usize) -> f64 {
         let k = PI * n as f64 / WIDTH;
         let tanh = (k * THICKNESS).tanh();
@@ -124,7 +124,7 @@ impl Variant {
     }
 }
 
-/// Largest distance of a root from the nearest of the theory.
+/// Largest distance between a root and the nearest theoretical one.
 fn distance(found: &[Complex<f64>; 2], expected: &[Complex<f64>; 2]) -> f64 {
     let nearest = |e: &Complex<f64>| found.iter().map(|f| (f - e).norm()).fold(f64::INFINITY, f64::min);
     expected.iter().map(nearest).fold(0.0, f64::max)
@@ -137,10 +137,10 @@ fn eigenvalues(m: &Matrix2<f64>) -> [Complex<f64>; 2] {
     [root + half, -root + half]
 }
 
-/// Perturbation of m and of ln θ: central differences leave its square times third derivatives of order one.
+/// Perturbation of m and of ln θ: the error of central differences is its square times third derivatives of order one.
 const KICK: f64 = 1e-5;
 
-/// Growth rates over V/L of a mode from the rates of the equations, and what they do beside the mode, over V/L.
+/// Growth rates of a mode over V/L from the linearised equations, and the largest rate outside the mode over V/L.
 fn linearised(plan: &Plan, mode: &Mode) -> ([Complex<f64>; 2], f64) {
     let (shear, normal) =
         plan.problem.loading.rates(1.0, plan.points.len(), plan.problem.fault.operator.couples_normal());
@@ -169,7 +169,7 @@ fn linearised(plan: &Plan, mode: &Mode) -> ([Complex<f64>; 2], f64) {
     (eigenvalues(&matrix), beside)
 }
 
-/// A change of ln V by one in m, or in the state.
+/// Change of m or of the state that corresponds to a unit change of ln V.
 fn scale(plan: &Plan, part: usize) -> f64 {
     if part == 0 { 1.0 } else { plan.problem.fault.law.state_scale(0) }
 }
@@ -205,7 +205,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     in_time(ledger)
 }
 
-/// The modes compared with theory: in plane strain those that do not feel the outer faces, to 1e-6.
+/// Modes compared with theory: in plane strain, those that the outer faces affect by less than 1e-6.
 fn which(sides: Sides) -> &'static [usize] {
     if sides == Sides::Plane { &[3, 4, 5, 6] } else { &[0, 1, 2, 3, 4, 5, 6] }
 }
@@ -242,16 +242,16 @@ fn orders(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Bound of the error on the finest mesh: decay is fastest for the sixth mode, K L/(σ a) = 0.75.
+/// Bound on the error on the finest mesh: decay is fastest for the sixth mode, K L/(σ a) = 0.75.
 fn finest(order: f64) -> f64 {
     let kh = PI * HIGHEST as f64 / WIDTH * 31.25;
     let constant = if order < 3.0 { 12.0 } else { 90.0 };
     0.75 * kh.powf(order) / constant
 }
 
-/// Both laws, damping, a free face: on one mesh.
+/// Both laws, damping and a free face, on a single mesh.
 fn variants(ledger: &mut Ledger) -> Result<(), CaseError> {
-    // ηV of the size of σ (b - a)/2.5.
+    // ηV is of the size of σ (b - a)/2.5.
     let damping = 1e5 / RATE;
     for (words, variant) in [
         ("ageing law", FIRST),
@@ -332,7 +332,7 @@ fn critical(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Growth rates from the integration of the scene: those of the flow over half of L/V, from starts with all modes perturbed.
+/// Growth rates from integration of the scene over half of L/V, started with perturbations of all modes.
 fn in_time(ledger: &mut Ledger) -> Result<(), CaseError> {
     for evolution in ["ageing", "slip"] {
         let variant = Variant { evolution, ..FIRST };
@@ -365,9 +365,9 @@ fn in_time(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Perturbation of each mode in time.
+/// Initial perturbation of each mode in the integration.
 const SEED: f64 = 1e-4;
-/// Time the flow is followed over L/V: well within half a period of every mode, so that the logarithm has one branch.
+/// Duration of the integration over L/V: well below half a period of every mode, so that the logarithm has one branch.
 const FOLLOWED: f64 = 0.5;
 
 /// Growth rates of a mode over V/L.

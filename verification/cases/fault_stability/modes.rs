@@ -9,19 +9,19 @@ use std::f64::consts::PI;
 pub struct Mode {
     /// Traction over slip \[Pa/m\].
     pub stiffness: f64,
-    /// Slip of the points, its root mean square √(1/2), or 1 where it is uniform.
+    /// Slip of the points, with a root mean square of √(1/2), or 1 if it is uniform.
     pub shape: Vec<f64>,
-    /// Tributary areas over what makes the amplitude of the shape 1.
+    /// Tributary areas, scaled so that the amplitude of the shape is 1.
     weights: Vec<f64>,
 }
 
 impl Mode {
-    /// Share of the mode in `values`.
+    /// Amplitude of the mode in `values`.
     pub fn amplitude(&self, values: &[f64]) -> f64 {
         values.iter().zip(&self.weights).zip(&self.shape).map(|((v, w), c)| v * w * c).sum()
     }
 
-    /// Share of cos(n π y/W) in the mode, of either sign.
+    /// Magnitude of the projection of cos(n π y/W) on the mode.
     pub fn cosine(&self, plan: &Plan, n: usize) -> f64 {
         let cosine: Vec<f64> =
             plan.points.iter().map(|p| (PI * n as f64 * p.at[1] / super::WIDTH).cos()).collect();
@@ -29,7 +29,7 @@ impl Mode {
     }
 }
 
-/// The `count` softest modes, from the softest on.
+/// The `count` softest modes, softest first.
 pub fn of(plan: &Plan, count: usize) -> Result<Vec<Mode>, CaseError> {
     let n = plan.points.len();
     let (mut unit, mut column) = (vec![0.0; n], vec![0.0; n]);

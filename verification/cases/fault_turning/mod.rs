@@ -1,4 +1,4 @@
-//! Slip in two directions on a fault in space: along a line, with turned axes, and where it turns.
+//! Vector slip on a fault in 3D: along a line, with rotated axes, and with a changing direction.
 
 mod reference;
 mod surface;
@@ -20,7 +20,7 @@ pub const CASE: Case = Case {
 };
 
 const SCENE: &str = include_str!("scene.toml");
-/// Rate at which each block is drawn \[m/s\].
+/// Rate at which each block is driven \[m/s\].
 const HALF: f64 = 0.5e-9;
 /// Tolerance of ln V of the scene.
 const TOLERANCE: f64 = 1e-7;
@@ -32,7 +32,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     surface::gaussian(ledger)
 }
 
-/// The scene with the blocks drawn in this direction, (y, z), in two directions of slip or one.
+/// The scene with the blocks driven in this direction, (y, z), with vector slip or slip along the rake only.
 fn scene(drawn: [f64; 2], rake: [f64; 2], free: bool, events: usize) -> Result<String, CaseError> {
     let [y, z] = drawn.map(|c| HALF * c);
     let rate = |value: f64| format!("{value:e}");
@@ -52,7 +52,7 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max)
 }
 
-/// Blocks that are drawn along the direction in which slip began.
+/// Blocks driven along the initial direction of slip.
 fn lines(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (sine, cosine) = 30f64.to_radians().sin_cos();
     let (axis, turned) = ([0.0, 1.0], [sine, cosine]);
@@ -93,7 +93,7 @@ fn lines(ledger: &mut Ledger) -> Result<(), CaseError> {
 const INDEPENDENT: &str =
     "slip and state with V from |t| = f_n f + eta V by Newton's method, tolerance 1e-11";
 
-/// Blocks drawn at 60 degrees from the traction at the start.
+/// Blocks driven at 60 degrees from the initial traction.
 fn turning(ledger: &mut Ledger) -> Result<(), CaseError> {
     let plan = seas::plan(SCENE)?;
     let found = Followed::new(&plan)?;
@@ -113,7 +113,7 @@ fn turning(ledger: &mut Ledger) -> Result<(), CaseError> {
     balances(ledger, &plan, &found)
 }
 
-/// Slip vectors of the events.
+/// Claims the slip vectors of the events.
 fn vectors(ledger: &mut Ledger, plan: &Plan, found: &Followed, expected: &[Slid]) -> Result<(), CaseError> {
     let area: f64 = plan.points.iter().map(|p| p.area).sum();
     let (mut slips, mut angles, mut rows) = (0.0_f64, 0.0_f64, Vec::new());
@@ -190,7 +190,7 @@ fn vectors(ledger: &mut Ledger, plan: &Plan, found: &Followed, expected: &[Slid]
     Ok(())
 }
 
-/// Energy, moment, and a run resumed from a restart.
+/// Claims energy, moment, and a run resumed from a restart.
 fn balances(ledger: &mut Ledger, plan: &Plan, found: &Followed) -> Result<(), CaseError> {
     energy(ledger, "five events while slip turns", found);
     let last = found.report.events.last().ok_or("no event")?;
@@ -209,10 +209,10 @@ fn balances(ledger: &mut Ledger, plan: &Plan, found: &Followed) -> Result<(), Ca
     found.restarted(ledger, plan, TOLERANCE)
 }
 
-/// Events of blocks whose friction varies.
+/// Number of events of the blocks with variable friction.
 const VARIED: usize = 2;
 
-/// The blocks with a that grows along y, so that slip turns at different times in different places.
+/// The blocks with a growing along y, so that slip changes direction at different times at different points.
 fn varied(ledger: &mut Ledger) -> Result<(), CaseError> {
     let scene = SceneText::new(SCENE)
         .with("bodies.left.mesh.block.divisions", "[1, 4, 1]")
@@ -278,7 +278,7 @@ fn varied(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// The balance of energy.
+/// Claims the energy balance.
 fn energy(ledger: &mut Ledger, name: &str, found: &Followed) {
     ledger
         .claim(format!("imbalance of energy over its largest part, {name}"))

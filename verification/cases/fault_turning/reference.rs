@@ -1,4 +1,4 @@
-//! A fault whose slip may turn, by slip and state: a slider on a spring that is as stiff in both directions, or points with an operator.
+//! A fault with vector slip, solved for slip and state: a slider on an isotropic spring, or points coupled by an operator.
 
 use crate::CaseError;
 use asperity_cycles::operator::Operator;
@@ -11,36 +11,36 @@ const A: f64 = 0.01;
 const B: f64 = 0.015;
 const L: f64 = 8e-3;
 const V0: f64 = 1e-6;
-/// f_n \[Pa\], slip rate at the start and the rate at which the state then is steady \[m/s\].
+/// f_n \[Pa\], initial slip rate, and the rate at which the initial state is steady \[m/s\].
 const NORMAL: f64 = 50e6;
 const START: f64 = 1.1e-9;
 const STEADY: f64 = 1e-9;
-/// G \[Pa\], distance of the faces that are drawn \[m\].
+/// G \[Pa\] and the distance between the driven faces \[m\].
 const MODULUS: f64 = 32e9;
 const WIDE: f64 = 2e3;
 const DENSITY: f64 = 2670.0;
 
 /// Tolerance of the integration.
 const EXACT: f64 = 1e-11;
-/// Newton's steps at most; from the last rate a few suffice.
+/// Maximum of Newton steps; a few suffice from the previous rate.
 const MOST: usize = 100;
 
 /// Tractions caused by slip.
 enum Elastic<'a> {
-    /// A spring of stiffness G/W in both directions, drawn at these rates \[m/s\].
+    /// A spring of stiffness G/W in both directions, driven at these rates \[m/s\].
     Spring([f64; 2]),
-    /// The operator of a plan, and rates of tractions of its loads, component by component \[Pa/s\].
+    /// The operator of a plan, and the traction rates of its loads, component by component \[Pa/s\].
     Body(&'a dyn Operator, Vec<f64>),
 }
 
-/// Unknowns: slip of all points along the traction at the start, then across \[m\], then ln(V0 theta/L).
+/// Problem with the unknowns slip of all points along the initial traction, then across it \[m\], then ln(V0 theta/L).
 pub struct Fault<'a> {
     elastic: Elastic<'a>,
     /// a of each point.
     a: Vec<f64>,
-    /// Traction of each point at the start, along the first axis \[Pa\].
+    /// Initial traction of each point, along the first axis \[Pa\].
     first: Vec<f64>,
-    /// \[Pa s/m\].
+    /// Damping coefficient \[Pa s/m\].
     damping: f64,
     /// Thresholds of an event \[m/s\].
     thresholds: [f64; 2],
@@ -48,27 +48,28 @@ pub struct Fault<'a> {
 
 /// An event.
 pub struct Slid {
-    /// \[s\].
+    /// Onset \[s\].
     pub onset: f64,
-    /// Of all points, along the first axis and then across \[m\].
+    /// Slip of all points, along the first axis and then across it \[m\].
     pub slip: Vec<f64>,
 }
 
-/// f at a, ln V and the state, and its derivative by ln V.
+/// f at a, ln V and the state, and its derivative with respect to ln V.
 fn friction(a: f64, log: f64, psi: f64) -> (f64, f64) {
-    // asinh(x) with ln x, for x that may be large or small.
+    // Argument x of asinh from ln x, for large and small x.
     let x = (log - (2.0 * V0).ln() + (F0 + B * psi) / a).exp();
     (a * x.asinh(), a * x / x.hypot(1.0))
 }
 
 impl<'a> Fault<'a> {
-    /// One point on a spring, drawn at this angle from slip at the start \[rad\], at this rate \[m/s\], with the thresholds of a plan.
+    /// One point on a spring, driven at this angle from the initial slip \[rad\] and this rate \[m/s\], with the thresholds of a
+    /// plan.
     pub fn slider(plan: &Plan, angle: f64, rate: f64) -> Self {
         let (sine, cosine) = angle.sin_cos();
         Self::new(plan, Elastic::Spring([rate * cosine, rate * sine]), vec![A])
     }
 
-    /// The points of a plan, with its operator, loads and thresholds, and with a of each point.
+    /// The points of a plan with its operator, loads and thresholds; `a` gives a of each point.
     pub fn of(plan: &'a Plan, a: impl Fn(usize) -> f64) -> Self {
         let n = plan.points.len();
         let pull = plan.problem.loading.rates(1.0, n, false).0;
@@ -77,13 +78,13 @@ impl<'a> Fault<'a> {
 
     fn new(plan: &Plan, elastic: Elastic<'a>, a: Vec<f64>) -> Self {
         let damping = 0.5 * (MODULUS * DENSITY).sqrt();
-        // The state is steady where V0 theta/L = V0/V.
+        // The steady state is V0 theta/L = V0/V.
         let first = |a: &f64| NORMAL * friction(*a, START.ln(), (V0 / STEADY).ln()).0 + damping * START;
         let thresholds = [plan.problem.settings.thresholds.on, plan.problem.settings.thresholds.off];
         Self { elastic, first: a.iter().map(first).collect(), a, damping, thresholds }
     }
 
-    /// Tractions of all points, along the first axis and then across \[Pa\].
+    /// Tractions of all points, along the first axis and then across it \[Pa\].
     fn tractions(&self, time: f64, slip: &[f64]) -> Vec<f64> {
         let n = self.a.len();
         let mut tractions = vec![0.0; 2 * n];
@@ -102,9 +103,9 @@ impl<'a> Fault<'a> {
         tractions
     }
 
-    /// ln V of a point whose traction has this size.
+    /// ln V of a point whose traction has this magnitude.
     fn log_rate(&self, point: usize, size: f64, psi: f64) -> f64 {
-        // |t| - f_n f - eta V falls with ln V: bracketed, Newton's step where it stays within.
+        // |t| - f_n f - eta V decreases with ln V: the root is bracketed, and a Newton step is taken where it stays within.
         let (mut low, mut high) = (-80.0, 5.0);
         let mut log = START.ln();
         for _ in 0..MOST {
@@ -126,16 +127,16 @@ impl<'a> Fault<'a> {
         log
     }
 
-    /// Number of events from the start on.
+    /// The first `most` events.
     ///
     /// # Errors
-    /// If they do not come.
+    /// If there are fewer events.
     pub fn events(&self, most: usize) -> Result<Vec<Slid>, CaseError> {
         let n = self.a.len();
         let options = Options {
             method: Method::Dop853,
             rtol: EXACT,
-            // Slip of L and a state of one.
+            // Absolute tolerances for slip of the size of L and a state of order one.
             atol: [vec![EXACT * L; 2 * n], vec![EXACT; n]].concat(),
             first_step: None,
             begin_stiff: false,
@@ -193,7 +194,7 @@ impl Problem for Fault<'_> {
 struct Found {
     most: usize,
     points: usize,
-    /// Onset \[s\] and slip then \[m\].
+    /// Onset \[s\] and slip at onset \[m\] of an event in progress.
     open: Option<(f64, Vec<f64>)>,
     events: Vec<Slid>,
 }

@@ -1,4 +1,4 @@
-//! Slip in an oblique direction on a surface in an infinite body, upright and dipping.
+//! Oblique slip on a vertical and on a dipping surface in an infinite body.
 
 use crate::cases::seas;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
@@ -17,10 +17,10 @@ const FAR: f64 = 12.0 * WIDTH;
 /// Slip along the rake and across it \[-\].
 const DIRECTION: [f64; 2] = [0.8, 0.6];
 
-/// Tractions along both directions at a place of a Gaussian, from the stiffness of each wave vector n k \[Pa/m\]: a wave of slip s loads by
-/// `-(G k/2) (s + ν/(1-ν) n (n·s))`.
+/// Tractions along both directions at a point of a Gaussian, from the stiffness of each wave vector n k \[Pa/m\]. A wave of slip
+/// s causes the traction `-(G k/2) (s + ν/(1-ν) n (n·s))`.
 fn waves(at: [f64; 2]) -> [f64; 2] {
-    // Even and smooth in k, periodic in the angle: equal steps converge faster than any power.
+    // The integrand is even and smooth in k and periodic in the angle: equal steps converge faster than any power.
     let (steps, angles, most) = (300, 128, 9.0);
     let dk = most / f64::from(steps);
     let mut sum = [0.0; 2];
@@ -37,7 +37,7 @@ fn waves(at: [f64; 2]) -> [f64; 2] {
     sum.map(|v| -ROCK / (2.0 * WIDTH) * v * dk / f64::from(angles))
 }
 
-/// Places from -FAR to FAR, `size` apart in the part that slips and growing beyond.
+/// Coordinates from -FAR to FAR, with spacing `size` in the slipping part and growing spacing beyond.
 fn places(size: f64) -> Vec<f64> {
     let mut half = vec![0.0];
     let (mut x, mut step) = (0.0, size);
@@ -103,7 +103,7 @@ stepper = "fault-ode"
     seas::plan(&text)
 }
 
-/// Largest error of both tractions, and of normal traction, over the largest shear traction.
+/// Largest errors of the shear tractions and of the normal traction, over the largest shear traction.
 fn errors(plan: &Plan) -> [f64; 2] {
     let n = plan.points.len();
     let dot = |a: &[f64; 3], b: &[f64; 3]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();

@@ -6,7 +6,7 @@ use asperity_fem::material::elastic::Elastic;
 use asperity_fem::quadrature;
 use std::f64::consts::{PI, TAU};
 
-/// Force P \[N/m\] on a line of the surface, along the depth (Flamant), in plane strain:
+/// Line force P \[N/m\] on the surface in the depth direction (Flamant), in plane strain:
 /// u_d = -C ln r - M x²/r², u_x = M x d/r² - K φ with φ = atan(x/d), C = P (1-ν)/(π G), M = P/(2π G), K = M (1-2ν).
 pub struct Flamant {
     c: f64,
@@ -15,14 +15,14 @@ pub struct Flamant {
 }
 
 impl Flamant {
-    /// A force in a material.
+    /// Solution for a force on a material.
     pub fn new(material: &Elastic, force: f64) -> Self {
         let m = force / (TAU * material.shear());
         let nu = material.poisson();
         Self { c: 2.0 * m * (1.0 - nu), m, k: m * (1.0 - 2.0 * nu) }
     }
 
-    /// Integral of the displacement over x, and its derivative along the depth; constants do not matter.
+    /// Integral of the displacement over x and its derivative with depth, up to constants.
     fn integral(&self, x: f64, d: f64) -> ([f64; 2], [f64; 2]) {
         let (c, m, k) = (self.c, self.m, self.k);
         let r2 = x * x + d * d;
@@ -66,14 +66,14 @@ pub struct Strip(pub Flamant);
 impl Field<2> for Strip {
     fn at(&self, &[x, d]: &[f64; 2]) -> FieldValue {
         let ((u1, d1), (u0, d0)) = (self.0.integral(x + 1.0, d), self.0.integral(x - 1.0, d));
-        // The derivative along x of an integral from x - 1 to x + 1 is the difference of the integrand.
+        // The x-derivative of an integral from x - 1 to x + 1 is the difference of the integrand at its ends.
         let (p1, p0) = (self.0.at(&[x + 1.0, d]).0, self.0.at(&[x - 1.0, d]).0);
         let gradient = [[p1[0] - p0[0], d1[0] - d0[0], 0.0], [p1[1] - p0[1], d1[1] - d0[1], 0.0], [0.0; 3]];
         ([u1[0] - u0[0], u1[1] - u0[1], 0.0], gradient)
     }
 }
 
-/// Force P \[N\] at a point of the surface of a half-space, along the depth (Boussinesq), ρ² = r² + z², k = P/(4π G):
+/// Point force P \[N\] on the surface of a half-space in the depth direction (Boussinesq), ρ² = r² + z², k = P/(4π G):
 /// u_r = k (r z/ρ³ - (1-2ν) r/(ρ (ρ+z))), u_z = k (2(1-ν)/ρ + z²/ρ³).
 pub struct Boussinesq {
     k: f64,
@@ -81,7 +81,7 @@ pub struct Boussinesq {
 }
 
 impl Boussinesq {
-    /// A force in a material.
+    /// Solution for a force on a material.
     pub fn new(material: &Elastic, force: f64) -> Self {
         Self { k: force / (2.0 * TAU * material.shear()), poisson: material.poisson() }
     }
@@ -109,19 +109,20 @@ impl Field<2> for Boussinesq {
     }
 }
 
-/// Pressure on the disc r < 1, by quadrature over the disc: for places that are not near it. No gradient.
+/// Pressure on the disc r < 1, by quadrature over the disc; for points not close to it. Without gradient.
 pub struct Disc {
     unit: Boussinesq,
     /// Radius and weight (pressure included).
     rings: Vec<(f64, f64)>,
 }
 
-/// Rings of five Gauss points, and places on a half circle: at 3 radii from the disc the relative error is below 1e-12 in both.
+/// Numbers of rings, with five Gauss points each, and of points on a half circle: at 3 radii from the disc the relative error of
+/// both is below 1e-12.
 const RINGS: usize = 4;
 const PLACES: usize = 48;
 
 impl Disc {
-    /// A pressure on a material.
+    /// Solution for a pressure on a material.
     pub fn new(material: &Elastic, pressure: f64) -> Self {
         let ring = |k: usize| {
             quadrature::gauss(5, 1).into_iter().map(move |(x, w)| {

@@ -34,7 +34,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     disc(ledger, &material)
 }
 
-/// From the unit square to 1 < r < 4 with geometric sizes, and an angle from 0 to `angle`, positions on the axis exact.
+/// The unit square mapped to 1 < r < 4 with geometric cell sizes and to angles from 0 to `angle`; positions on the axis are exact.
 fn annulus(kind: ElementKind, [n, m]: [usize; 2], angle: f64) -> Result<Mesh<2>, CaseError> {
     let mesh = bodies::unit_block(kind, [n, m])?;
     Ok(bodies::mapped(mesh, |x| {
@@ -48,7 +48,7 @@ fn annulus(kind: ElementKind, [n, m]: [usize; 2], angle: f64) -> Result<Mesh<2>,
     }))
 }
 
-/// Point loads with their neighbourhood cut out.
+/// Point loads, with their neighbourhood excluded.
 fn points(ledger: &mut Ledger, material: &Elastic) -> Result<(), CaseError> {
     use ElementKind::{Quad4, Quad8, Quad9, Tri6};
     let mut plot = Plot::work_precision("Point loads", "relative error of the displacement, L2", "unknowns");
@@ -122,7 +122,7 @@ fn strip(ledger: &mut Ledger, material: &Elastic) -> Result<(), CaseError> {
             let mesh = bodies::mapped(mesh, |x| [SIZE * (2.0 * x[0] - 1.0), SIZE * x[1]]);
             let body = Body::new(mesh, material, Idealisation::PlaneStrain, Formulation::Standard)?;
             let body = body.load(&["bottom"], |point, t| {
-                // Elements end at the edges of the strip: quadrature points lie on one side or the other.
+                // Element boundaries coincide with the edges of the strip, so that quadrature points lie clearly inside or outside.
                 t[1] = if point.position[0].abs() < 1.0 { -FORCE * point.normal[1] } else { 0.0 };
             });
             Ok(body.hold(&["left", "right", "top"], &field))
@@ -151,7 +151,7 @@ fn strip(ledger: &mut Ledger, material: &Elastic) -> Result<(), CaseError> {
             .claim(format!("settlement of the strip's centre, {}, 8 elements in its half width", kind.name()))
             .value(centre)
             .equals(field.at(&[0.0, 0.0]).0[1])
-            // h/a = 1/8; the error of a value away from the edges is the product of two energy errors.
+            // h/a = 1/8; the error of a point value away from the edges is the product of two energy errors.
             .relative(1.0 / 64.0)
             .evidence(Evidence::Exact, "integral of Flamant's solution over the strip")
             .because("(h/a)^2, a the half width, with constant one: product of the energy errors of solution and dual")
@@ -202,7 +202,8 @@ fn disc(ledger: &mut Ledger, material: &Elastic) -> Result<(), CaseError> {
             last = Cost { work: solved.work.work, ..cost };
         }
         let h = points.last().map_or(f64::NAN, |p| p.0);
-        // Largest errors of elements of first order carry a logarithm: the slope of h² ln(a/h) between these meshes.
+        // Largest errors of first-order elements contain a logarithm: the order expected is the slope of h² ln(a/h) between these
+        // meshes.
         let logarithmic = |h: f64| h * h * (1.0 / h).ln();
         let coarsest = points.first().map_or(f64::NAN, |p| p.0);
         let expected = if kind.order() == 1 {

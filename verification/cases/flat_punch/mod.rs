@@ -17,9 +17,9 @@ pub const CASE: Case = Case {
 
 /// Half-width \[m\].
 const A: f64 = 1e-3;
-/// Share of the half-width over which pressures are compared.
+/// Fraction of the half-width over which pressures are compared.
 const INNER: f64 = 0.8;
-/// Cells on the half-width of the scene.
+/// Cells per half-width of the scene.
 const N: f64 = 20.0;
 const EXACT: &str = "P/(pi sqrt(a^2 - x^2)), a rigid punch on a half-plane (Sadowsky)";
 
@@ -32,9 +32,9 @@ fn scene(text: &str, measure: Measure, n: f64) -> Result<Scene, CaseError> {
     Ok(hertz::refined(hertz::measured(hertz::read(text)?, measure, Sliding::Small), n / N))
 }
 
-/// Error in L2 of the averaged pressure within the inner part, relative, at the load of the run.
+/// Relative L2 error of the averaged pressure within the inner part, at the load of the run.
 fn error(at: &Tractions) -> f64 {
-    // The scene is half of the punch.
+    // The scene models half of the punch.
     let load = 2.0 * at.load[1];
     let (mut error, mut norm) = (0.0, 0.0);
     for ((x, area), p) in at.x.iter().zip(&at.area).zip(&at.p).filter(|((x, _), _)| **x <= INNER * A) {
@@ -52,7 +52,7 @@ fn solve(scene: &Scene) -> Result<(f64, Cost), CaseError> {
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let uniform = include_str!("scene.toml");
-    // Cells eight times as fine where the edge is.
+    // Cells eight times smaller near the edge.
     let edge = |axis: usize, body: &str, from: &str, to: &str| {
         let spacing = |key: &str| format!("bodies.{body}.mesh.block.spacing[{axis}].{key}");
         [("size", "0.00625 mm"), ("from", from), ("to", to)]
@@ -65,14 +65,14 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         edge(1, "punch", "0 mm", "0.1 mm"),
     ];
     let graded = finer.iter().flatten().fold(SceneText::new(uniform), |scene, (key, value)| {
-        // One end of some of the parts stays where it is.
+        // One end of some parts does not change.
         scene.with_or_same(key, value)
     });
     let graded = graded.text()?;
     for (name, measure, capability) in MEASURES {
         let mut levels = Vec::new();
         let mut last = None;
-        // With 10 cells the last node compared lies two cells from the edge, where the error is not yet of its order.
+        // With 10 cells the last node compared lies two cells from the edge, where the error has not reached its asymptotic order.
         for n in [20.0, 40.0, 80.0] {
             let (error, cost) = solve(&scene(uniform, measure, n)?)?;
             levels.push((A / n, error));

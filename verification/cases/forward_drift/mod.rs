@@ -1,4 +1,4 @@
-//! Forward steps on an elasto-plastic path: events hit, drift with its order.
+//! Forward steps on an elasto-plastic path: accuracy of yield events and order of the drift.
 
 use super::body::{self, Body, Entry};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
@@ -20,9 +20,9 @@ pub const CASE: Case = Case {
 const YOUNG: f64 = 2.5;
 const POISSON: f64 = 0.3;
 const YIELD: f64 = 0.02;
-/// Displacement of the top edge over the edge, sideways; upwards a fifth of it.
+/// Lateral displacement of the top edge over the edge length; the upward displacement is a fifth of it.
 const END: f64 = 0.1;
-/// Points of nine cells.
+/// Quadrature points of nine cells.
 const POINTS: u64 = 36;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -44,7 +44,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// The square, with the increment of its edges over the whole path.
+/// The square and the displacement increments of its edges over the whole path.
 fn square(kinematics: Kinematics, limits: Limits, carry: bool) -> Result<(Body<2>, Vec<Entry>), CaseError> {
     let mesh = body::grid::<2>(ElementKind::Quad4, [0.0; 2], [1.0; 2], [3; 2])?;
     let mesh = body::distorted(mesh, [1.0; 2], 1.0 / 3.0, 0.2);
@@ -65,9 +65,9 @@ struct Run {
     drift: f64,
     /// Steps that ended with a point at yield.
     yields: u64,
-    /// Largest distance of the most stressed elastic point from yield at the end of such a step, relative.
+    /// Largest relative distance of the most stressed elastic point from yield at the end of such a step.
     missed: f64,
-    /// Largest excess of an elastic point over the yield stress in any step, relative.
+    /// Largest relative excess of an elastic point over the yield stress in any step.
     beyond: f64,
     /// Points in plastic flow at the end.
     plastic: u64,
@@ -127,7 +127,7 @@ fn equal_steps(ledger: &mut Ledger, carry: bool) -> Result<Vec<(f64, f64)>, Case
         work.push((run.drift, run.cost.wall.unwrap_or(f64::NAN)));
         last = run.cost;
     }
-    // A step of 400 turns the direction of flow by at most 2 G de/q = 0.012 at yield and less later, and misses half the square.
+    // One of 400 steps rotates the flow direction by at most 2 G de/q = 0.012 at yield and less later; its error is half the square.
     let (order, bound, because) = if carry {
         (2.0, 1e-4, "a step misses half the square of the angle 2 G de/q by which a point may turn, 7e-5")
     } else {

@@ -1,4 +1,4 @@
-//! Traps of rate-and-state friction in numbers: what a naive form gives, what ours gives.
+//! Numerical pitfalls of rate-and-state friction: results of naive formulations and of ours.
 
 use super::slider::{self, Kind, Set};
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
@@ -25,7 +25,7 @@ pub const CASE: Case = Case {
 
 const V_REF: f64 = 1e-6;
 
-/// A row of the table: trap, naive, ours.
+/// A row of the table: pitfall, naive result, our result.
 type Row = [String; 3];
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -48,7 +48,7 @@ fn row(trap: &str, naive: impl std::fmt::Display, ours: impl std::fmt::Display) 
     [trap.to_string(), naive.to_string(), ours.to_string()]
 }
 
-/// The bare logarithm at V = 0.
+/// The unregularised logarithm at V = 0.
 fn rest(ledger: &mut Ledger) -> Result<Row, CaseError> {
     let naive = 0.6 + 0.01 * f64::ln(0.0 / V_REF);
     let parameters = || Parameters::new(0.6, 0.01, V_REF);
@@ -70,12 +70,12 @@ fn rest(ledger: &mut Ledger) -> Result<Row, CaseError> {
     ))
 }
 
-/// Friction of the step before, behind a spring: growth of a small disturbance per step of dt = s a f_n/(k V).
+/// Growth factor per step of a small disturbance, with friction from the previous step and a spring; dt = s a f_n/(k V).
 fn lagged_growth(s: f64) -> f64 {
     let (a, normal, k, load) = (0.01, 5e6, 1e9, 1e-6);
     let dt = s * a * normal / (k * load);
     let mu = |v: f64| 0.6 + a * (v / V_REF).ln();
-    // Slip rate follows from k (u_load - u) = f_n μ(V of the step before).
+    // The slip rate follows from k (u_load - u) = f_n μ(V of the previous step).
     let (mut v, mut traction) = (load * (1.0 + 1e-9), normal * mu(load));
     let mut sizes = Vec::new();
     for _ in 0..200 {
@@ -87,7 +87,7 @@ fn lagged_growth(s: f64) -> f64 {
     (sizes[160] / sizes[80]).powf(1.0 / 80.0)
 }
 
-/// Below dt = 2 a f_n/(k V) the scheme that takes friction from the step before is unstable: small steps are the bad ones.
+/// Below dt = 2 a f_n/(k V) the scheme with friction from the previous step is unstable: it fails for small steps.
 fn lagged(ledger: &mut Ledger) -> Result<Row, CaseError> {
     let (mut low, mut high) = (1.5, 2.5);
     while high - low > 1e-9 {
@@ -103,7 +103,7 @@ fn lagged(ledger: &mut Ledger) -> Result<Row, CaseError> {
         .because("a disturbance of 1e-9 leaves nonlinear terms of 1e-9 and rounding of V over 1e-9: 1e-6 in the growth over 80 steps, 1e-5 in the threshold")
         .why_not_tighter("rounding over the disturbance")
         .record();
-    // The exact tangent: the implicit step at a thousandth of that length.
+    // The implicit step with the exact tangent, at a thousandth of that step.
     let form = Bare(Parameters::new(0.6, 0.01, V_REF)?);
     let parts: [Component<Stateless>; 0] = [];
     let mut solver = Solver::new(&form, &parts, 1.0);
@@ -116,7 +116,7 @@ fn lagged(ledger: &mut Ledger) -> Result<Row, CaseError> {
         traction = normal * s.mu;
     }
     let left = ((traction / normal - 0.6) / a).abs() / 1e-6;
-    // Each implicit step shrinks it by 1 + 2e-3.
+    // Each implicit step reduces it by the factor 1 + 2e-3.
     let expected = (1.0 + 2e-3f64).powi(-3000);
     ledger
         .claim("implicit step of a point at a thousandth of that length: what is left of a disturbance after 3000 steps")
@@ -141,7 +141,7 @@ fn lagged(ledger: &mut Ledger) -> Result<Row, CaseError> {
     ))
 }
 
-/// 1 - e^(-x) for steps short against L/V.
+/// 1 - e^(-x) for steps much shorter than L/V.
 fn small_steps(ledger: &mut Ledger) -> Result<Row, CaseError> {
     let (b, length) = (0.015, 1e-5);
     let law = Slip::new(b, length, V_REF)?;
@@ -166,11 +166,11 @@ fn small_steps(ledger: &mut Ledger) -> Result<Row, CaseError> {
     ))
 }
 
-/// The net force on a creeping mass is the difference of two tractions that agree to all digits.
+/// The net force on a creeping mass is the difference of two tractions that agree to almost all digits.
 fn net_force(ledger: &mut Ledger) -> Result<Row, CaseError> {
     let set = Set { load: 1e-9, ..slider::INERTIAL };
     let mut plan = set.plan(Kind::Ageing, 1.0, 2000.0)?;
-    // Held back by an older contact it creeps at a thousandth of the rate of the load point and gains speed.
+    // Held back by an aged contact it creeps at a thousandth of the load-point rate and accelerates.
     let mut states = vec![0.0];
     plan.system.sliders()[0].law.steady((set.load * 1e-3).ln(), &mut states);
     plan.start = plan.system.start(&[set.load * 1e-3], &[states])?;
@@ -183,8 +183,8 @@ fn net_force(ledger: &mut Ledger) -> Result<Row, CaseError> {
     let condition = segment.condition(0, 2000.0, &last);
     let mut rates = vec![0.0; last.len()];
     segment.rates(2000.0, &last, &mut rates);
-    // Without mass the slider would gain dV/dt = (k (V_load - V) - f_n dphi/dt) V/(a f_n); mass changes that by its share of
-    // a f_n/V, some 1e-10 here.
+    // Without mass the slider would gain dV/dt = (k (V_load - V) - f_n dphi/dt) V/(a f_n); mass changes this by its ratio to a
+    // f_n/V, about 1e-10 here.
     let ageing = set.b * rates[1];
     let quasi = (set.stiffness * (set.load - condition.rate) - set.normal * ageing) * condition.rate
         / (set.a * set.normal);
@@ -225,7 +225,7 @@ fn overflow(ledger: &mut Ledger) -> Result<Row, CaseError> {
     Ok(row("exp((mu0 + phi)/a) at a = 1e-4, friction coefficient", naive, found))
 }
 
-/// θ over thirty decades: from 1e-20 s, at rest for 1e10 s, then at 1 m/s.
+/// θ over thirty decades: from 1e-20 s, after 1e10 s at rest, then at 1 m/s.
 fn decades(ledger: &mut Ledger) -> Result<Row, CaseError> {
     let length = 1e-5;
     let law = Ageing::new(0.015, length, V_REF)?;
@@ -255,7 +255,7 @@ fn decades(ledger: &mut Ledger) -> Result<Row, CaseError> {
     ))
 }
 
-/// Newton's method in V that stops when V moves by less than 1e-12 m/s, where V is 1e-18 m/s.
+/// Newton's method in V with an absolute stopping tolerance of 1e-12 m/s, at V = 1e-18 m/s.
 fn stopping(ledger: &mut Ledger) -> Result<Row, CaseError> {
     let (a, normal, damping, v) = (0.01, 5e6, 5e6, 1e-18);
     let form = Regularised(Parameters::new(0.6, a, V_REF)?);
@@ -295,7 +295,7 @@ fn swallowed(ledger: &mut Ledger) -> Result<Row, CaseError> {
     for n in 0..1000 {
         naive += 1e-9;
         clock = clock.later(1e-9);
-        // Moved into the base now and then, as at every event.
+        // The local time is moved into the base from time to time, as at every event.
         if n % 100 == 99 {
             clock = clock.rebased();
         }
@@ -315,7 +315,7 @@ fn swallowed(ledger: &mut Ledger) -> Result<Row, CaseError> {
     Ok(row("a thousand steps of 1 ns at 1e9 s [s]", naive - 1e9, passed))
 }
 
-/// Events of the reference cycle last 14 s or so; the tenth one happens at 2.7e9 s, where times are 5e-7 s apart.
+/// Events of the reference cycle last about 14 s; the tenth occurs at 2.7e9 s, where floating-point times are 5e-7 s apart.
 fn durations(ledger: &mut Ledger) -> Result<Row, CaseError> {
     let mut plan = slider::REFERENCE.plan(Kind::Ageing, 1.5, 1e12)?;
     slider::events(&mut plan, 10);

@@ -1,4 +1,4 @@
-//! Steady friction over 24 decades of the slip rate, and where the two forms of the strength part.
+//! Steady friction over 24 decades of slip rate, and the difference between the two forms of strength.
 
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_friction::evolution::{Evolution, ageing::Ageing, nagata::Nagata, prz::Prz, slip::Slip};
@@ -45,7 +45,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     inverse(ledger)
 }
 
-/// Steady shear tractions at slip rates, from the law's initial states and its coefficient.
+/// Steady shear tractions at slip rates, from initial states and friction coefficient of the law.
 fn tractions<F: Form + 'static, E: Evolution + 'static>(
     form: F,
     evolution: E,
@@ -92,7 +92,8 @@ fn steady(
     Ok(())
 }
 
-/// The regularised form lies above the bare one by `a ln[(1 + sqrt(1 + 4 e^(-2m)))/2]` with m = μ_bare/a: a e^(-2m) for large m.
+/// The regularised form exceeds the unregularised one by `a ln[(1 + sqrt(1 + 4 e^(-2m)))/2]` with m = μ_bare/a: a e^(-2m) for
+/// large m.
 fn parting(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (a, b) = (0.02, 0.005);
     let rates: Vec<f64> = (0..=260).map(|n| 10f64.powf(-30.0 + 0.1 * f64::from(n))).collect();
@@ -104,7 +105,7 @@ fn parting(ledger: &mut Ledger) -> Result<(), CaseError> {
         .iter()
         .map(|t| {
             let m = t / NORMAL / a;
-            // asinh(e^m/2) written for both signs of m.
+            // asinh(e^m/2), evaluated without overflow for both signs of m.
             if m > 0.0 {
                 t + NORMAL * a * (0.5 * (1.0 + (1.0 + 4.0 * (-2.0 * m).exp()).sqrt())).ln()
             } else {
@@ -123,7 +124,7 @@ fn parting(ledger: &mut Ledger) -> Result<(), CaseError> {
         .why_not_tighter("the bound is that of the largest logarithm")
         .cost(&cost)
         .record();
-    // Where the two differ by one percent of a: e^(-2m) = 0.01.
+    // Slip rate at which the two differ by one percent of a: e^(-2m) = 0.01.
     let parted =
         rates.iter().zip(found.iter().zip(&bare)).rev().find(|(_, (r, b))| (*r - *b) > 0.01 * a * NORMAL);
     let m = 0.5 * 100f64.ln();
@@ -150,7 +151,7 @@ fn parting(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// The rate a steady traction was made of comes back from it, with radiation damping.
+/// Claims that the slip rate is recovered from its steady traction, with radiation damping.
 fn inverse(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (a, b) = (0.01, 0.015);
     let rates = rates();

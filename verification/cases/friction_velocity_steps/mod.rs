@@ -69,7 +69,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     slide_hold_slide(ledger)
 }
 
-/// The state at a constant slip rate, as a problem of the integrator.
+/// The state at constant slip rate, as a problem for the integrator.
 struct State<'a, E> {
     evolution: &'a E,
     speed: Speed,
@@ -89,7 +89,7 @@ impl<E: Evolution> Problem for State<'_, E> {
     }
 }
 
-/// Keeps the solution at the ends of the steps.
+/// Records the solution at the ends of steps.
 struct Keep(Vec<(f64, f64)>);
 
 impl Sink for Keep {
@@ -103,7 +103,7 @@ impl Sink for Keep {
     }
 }
 
-/// One step of the rate: by the exact step of the law, in one go and from point to point, and by the integrator.
+/// A velocity step: by the exact update of the law, in one step and in many, and by the integrator.
 fn stepped<E: Evolution>(
     ledger: &mut Ledger,
     name: &str,
@@ -216,7 +216,7 @@ fn slide_hold_slide(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Peak friction above steady after a hold of the load point.
+/// Peak friction above steady state after a hold of the load point.
 fn healing(set: &Set, kind: Kind, hold: f64) -> Result<f64, CaseError> {
     let begin = 1.0;
     let (stop, go) = (begin, begin + hold);

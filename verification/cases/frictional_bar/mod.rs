@@ -1,4 +1,4 @@
-//! A bar pushed over a foundation that rubs: slip front, displacement, loop.
+//! A bar pushed over a frictional foundation: slip front, displacement, hysteresis loop.
 
 use super::texts::{Done, simulate, work};
 use crate::{Capability, Case, CaseError, Evidence, Floor, Ledger, Plot, Series};
@@ -21,12 +21,12 @@ const REACH: f64 = 0.25;
 const FRICTION: f64 = 50.0;
 /// Length of the bar \[m\].
 const LENGTH: f64 = 150.0;
-/// Numbers of elements along the bar: with a node at the exact end of the part that slips.
+/// Numbers of elements along the bar, with a node at the exact slip front.
 const LEVELS: [usize; 3] = [6, 15, 30];
-/// (4/3) (h/l)^2: what the shear of a bar of height h takes of the displacement of its end, which the theory of bars leaves out.
+/// (4/3) (h/l)^2: fraction of the end displacement due to shear of a bar of height h, which bar theory neglects.
 const SHEARED: f64 = 1.4e-4;
 
-/// Length of the part that slips, sqrt(2 E h u/tau) \[m\].
+/// Length of the slipping part, sqrt(2 E h u/tau) \[m\].
 fn front() -> f64 {
     (2.0 * YOUNG * REACH / FRICTION).sqrt()
 }
@@ -97,7 +97,7 @@ impl Profile {
         let places: Vec<f64> = done.record.setup().interfaces[0].positions.iter().map(|p| p[0]).collect();
         let end = done.record.stage_end("push").ok_or("the stage was not reached")?;
         let u = &end.bodies.as_ref().ok_or("the bodies were not kept")?.displacement;
-        // The nodes of the foundation lie at the same places and do not move.
+        // The nodes of the foundation coincide with those of the bar and do not move.
         let nodes = done.record.setup().mesh.nodes.iter().zip(u).filter(|(x, _)| x[1] == 0.0);
         let below: Vec<(f64, f64)> = nodes.map(|(x, u)| (x[0], u[0].abs())).collect();
         let at = |x: &f64| below.iter().filter(|n| n.0 == *x).fold(0.0, |m: f64, n| m.max(n.1));
@@ -111,14 +111,14 @@ impl Profile {
         each.fold(0.0, f64::max) / REACH
     }
 
-    /// Largest error in the middle between nodes, over the displacement of the end.
+    /// Largest error midway between nodes, over the end displacement.
     fn error(&self) -> f64 {
         let pairs = self.places.windows(2).zip(self.moved.windows(2));
         let each = pairs.map(|(x, u)| (0.5 * (u[0] + u[1]) - displacement(0.5 * (x[0] + x[1]))).abs());
         each.fold(0.0, f64::max) / REACH
     }
 
-    /// The last node that slips \[m\].
+    /// Position of the last slipping node \[m\].
     fn front(&self) -> f64 {
         self.places.iter().zip(&self.slip).filter(|(_, s)| **s > 0.0).fold(0.0, |m: f64, (x, _)| m.max(*x))
     }
@@ -182,12 +182,12 @@ impl Profile {
     }
 }
 
-/// To and fro: energy and the loop.
+/// Cyclic motion: energy and hysteresis loop.
 fn cycles(ledger: &mut Ledger) -> Result<(), CaseError> {
     let done = simulate(SCENE)?;
     let from = done.steps_until("draw")? - 1;
     let times = &done.record.times()[from..];
-    // What holds the bar against friction is the hand that moves its end, along x: against the tangent of a master below.
+    // Friction is balanced by the external force that moves the end along x, opposite to the tangent of the master below.
     let hand: Vec<f64> = done.friction().iter().map(|f| -f).collect();
     let way: Vec<f64> =
         times.iter().map(|t| REACH * (2.0 * ((t - 2.0).rem_euclid(2.0) - 1.0).abs() - 1.0)).collect();

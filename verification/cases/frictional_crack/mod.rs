@@ -1,4 +1,4 @@
-//! Cracks in a plane: closed with friction under compression, and opened by pressure.
+//! Cracks in a plane: closed under compression with friction, and opened by pressure.
 
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_driver::report::{Outcome, RunReport};
@@ -26,14 +26,15 @@ const POISSON: f64 = 0.25;
 const COMPRESSION: f64 = 100e6;
 /// Pressure in the open crack \[Pa\].
 const PRESSURE: f64 = 2e6;
-/// Uniform meshes: cells on b, and the growth of cells away from the crack, whose logarithm halves with them.
+/// Uniform meshes: cells per half-length b, and growth factor of cells away from the crack, whose logarithm halves with the cell
+/// size.
 const LEVELS: [(f64, f64); 4] = [(4.0, 1.5), (8.0, 1.225), (16.0, 1.107), (32.0, 1.052)];
-/// Room of the bound over the error that the last two levels let expect.
+/// Factor of the bound over the error predicted from the last two levels.
 const ROOM: f64 = 1.5;
-/// Distances from the tip at which K_II is read off \[m\]: far from it in cells, near it in half-lengths.
+/// Range of distances from the tip used to determine K_II \[m\]: many cells from the tip but a small fraction of the half-length.
 const NEAR: [f64; 2] = [0.02, 0.2];
 
-/// The closed crack.
+/// Exact solution of the closed crack.
 struct Exact {
     normal: f64,
     shear: f64,
@@ -50,7 +51,7 @@ fn exact() -> Exact {
     Exact { normal, shear, slip: compliance() * drop, k: drop * PI.sqrt() }
 }
 
-/// Jump in the middle of a crack of half-length 1 m per stress on its sides \[m/Pa\].
+/// Displacement jump in the middle of a crack of half-length 1 m per stress on its faces \[m/Pa\].
 fn compliance() -> f64 {
     4.0 * (1.0 - POISSON * POISSON) / YOUNG
 }
@@ -89,9 +90,9 @@ fn measured_by(mut scene: Scene, measure: Measure) -> Result<Scene, CaseError> {
     Ok(scene)
 }
 
-/// A finished run.
+/// A completed run.
 struct Done {
-    /// Distance of each point from the middle along the crack, with its sign \[m\].
+    /// Signed distance of each point from the middle along the crack \[m\].
     along: Vec<f64>,
     areas: Vec<f64>,
     fields: InterfaceFields,
@@ -134,7 +135,7 @@ impl Done {
         self.slip()[self.at(0.0)]
     }
 
-    /// Relative error of values in the L2 norm against an ellipse of this height.
+    /// Relative L2 error of values against an ellipse of this height.
     fn profile(&self, values: &[f64], height: f64) -> f64 {
         let (mut error, mut whole) = (0.0, 0.0);
         for ((x, a), v) in self.along.iter().zip(&self.areas).zip(values) {
@@ -145,7 +146,7 @@ impl Done {
         (error / whole).sqrt()
     }
 
-    /// K_II by the fit of the README \[Pa √m\], from the side of the upper tip.
+    /// K_II \[Pa √m\] at the upper tip by the fit described in the README.
     fn k(&self) -> Option<f64> {
         let near: Vec<(f64, f64)> = self
             .along
@@ -205,7 +206,7 @@ fn name_of(measure: Measure) -> &'static str {
     }
 }
 
-/// The error in the middle on uniform cells.
+/// Order of the error in the middle with uniform cells.
 fn order(ledger: &mut Ledger, measure: Measure) -> Result<(), CaseError> {
     let (mut levels, mut cost) = (Vec::new(), Cost::default());
     for (n, growth) in LEVELS {
@@ -233,7 +234,7 @@ fn order(ledger: &mut Ledger, measure: Measure) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Cells that grow from the tips: the scene as it is written.
+/// Cells that grow from the tips: the unmodified scene.
 fn graded(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut rows = Vec::new();
     let mut plot = Plot::xy("Slip along the crack", "x [m]", "slip [mm]");
@@ -335,7 +336,7 @@ fn tractions(ledger: &mut Ledger, name: &str, done: &Done) {
         .cost(&done.cost)
         .record();
     let middle = done.at(0.0);
-    // A uniform closing by f_n/E_n asks for less stress than an elliptic one of the same height.
+    // A uniform closing by f_n/E_n requires less stress than an elliptic one of the same height.
     let mean = done.areas.iter().sum::<f64>() / done.areas.len() as f64;
     let bound = mean / (100.0 * YOUNG * compliance());
     ledger
@@ -352,7 +353,7 @@ fn tractions(ledger: &mut Ledger, name: &str, done: &Done) {
         .record();
 }
 
-/// Action and reaction.
+/// Claims that action equals reaction.
 fn balance(ledger: &mut Ledger, done: &Done) {
     let balance = &done.report.balance[0];
     ledger
@@ -366,7 +367,7 @@ fn balance(ledger: &mut Ledger, done: &Done) {
         .record();
 }
 
-/// The mesh inclined by 20 degrees and the compression along y, instead of the other way round.
+/// The mesh inclined by 20 degrees and compression along y, instead of inclined compression.
 fn inclined(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (sin, cos) = (PI / 9.0).sin_cos();
     let mut scene = closed()?;
@@ -391,7 +392,7 @@ fn inclined(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Uniform cells in the box that others used.
+/// Uniform cells in the box used by other authors.
 fn comparison(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut rows = Vec::new();
     for (n, theirs) in [(10.0, "-3.9"), (20.0, "-2.1"), (40.0, "-1.2"), (80.0, "-0.7")] {

@@ -19,9 +19,9 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// Cells of the scene \[mm\].
+/// Cell size of the scene \[mm\].
 const SIZE: f64 = 0.12;
-/// Cells at which both measures are held to claims \[mm\].
+/// Cell size at which claims are made on both measures \[mm\].
 const CLAIMED: f64 = 0.08;
 const MU: f64 = 0.3;
 
@@ -86,9 +86,9 @@ struct Ball {
     done: Done,
     pressed: Tractions,
     sheared: Tractions,
-    /// At the end of pressing.
+    /// Exact contact at the end of pressing.
     hertz: Hertz,
-    /// At the end of shearing, and the radius of the zone of stick \[m\].
+    /// Exact contact at the end of shearing, and the radius of the stick zone \[m\].
     mindlin: (Hertz, f64),
 }
 
@@ -98,7 +98,7 @@ impl Ball {
         let done = hertz::simulate(&hertz::measured(scene, measure, Sliding::Small))?;
         let radius = |x: [f64; 3]| x[0].hypot(x[2]);
         let [pressed, sheared] = [done.tractions_by("press", radius)?, done.tractions_by("shear", radius)?];
-        // The scene is one half.
+        // The scene models one half.
         let exact = |at: &Tractions| Hertz::ball(2.0 * at.load[1], 8e-3, compliance([(1e9, 0.0); 2]));
         let (hertz, outer) = (exact(&pressed), exact(&sheared));
         let c = outer.a * (1.0 - sheared.load[0] / (MU * sheared.load[1])).max(0.0).cbrt();
@@ -118,7 +118,7 @@ impl Ball {
         self.pressed.peak() / self.hertz.p0 - 1.0
     }
 
-    /// Radii of the outermost node that sticks and the innermost that slips \[m\].
+    /// Radii of the outermost sticking node and the innermost slipping node \[m\].
     fn edge(&self) -> [f64; 2] {
         let (mut stick, mut slip) = (0.0_f64, f64::INFINITY);
         for (r, status) in self.sheared.x.iter().zip(&self.sheared.status) {

@@ -1,4 +1,4 @@
-//! Line contact of Hertz: load, half-width, peak and profile of the pressure.
+//! Hertzian line contact: load, half-width, peak and profile of the pressure.
 
 use super::hertz::{self, Done, Hertz, Tractions, compliance};
 use crate::{Capability, Case, CaseError, Evidence, Floor, Ledger};
@@ -33,7 +33,7 @@ fn contact(load: f64) -> Hertz {
     Hertz::line(load, RADIUS, compliance([(YOUNG, POISSON); 2]))
 }
 
-/// A run with its tractions and the contact of Hertz under its load.
+/// A run with its tractions and the Hertz contact under its load.
 struct Pressed {
     done: Done,
     at: Tractions,
@@ -106,7 +106,7 @@ fn table(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Run, its peak and L2 bounds.
+/// A run with bounds on its peak and L2 error.
 fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mortar = |e: &str, sliding| -> Result<Scene, CaseError> {
         Ok(hertz::measured(hertz::with_element(scene(N)?, e), Measure::Mortar, sliding))
@@ -207,14 +207,14 @@ fn profile(ledger: &mut Ledger, what: &str, r: &Pressed, capability: Capability)
         .record();
 }
 
-/// Approach for a half-width \[mm\] on these blocks, to 0.1 %: the load is 912.87 N/mm at 18.6 micrometres and grows with the power 1.16 of
-/// the approach between 18 and 25.
+/// Approach for a half-width \[mm\] on these blocks, accurate to 0.1 %: the load is 912.87 N/mm at 18.6 micrometres and grows
+/// with the power 1.16 of the approach between 18 and 25 micrometres.
 fn approach(a: f64) -> f64 {
     let load = 906.229 * a * a;
     APPROACH * (load / 912.87).powf(1.0 / 1.16)
 }
 
-/// L2 over meshes, each as root mean square over four places of the edge within a cell.
+/// L2 errors over meshes, each a root mean square over four positions of the contact edge within a cell.
 fn order(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (name, measure) in [("mortar", Measure::Mortar), ("node-to-point", Measure::NodeToPoint)] {
         let mut levels = Vec::new();
@@ -248,7 +248,7 @@ fn order(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Peak over the penalty, against the hardest.
+/// Peak pressure against the penalty, compared with that of the stiffest penalty.
 fn penalty(ledger: &mut Ledger) -> Result<(), CaseError> {
     let peak = |factor: f64| -> Result<f64, CaseError> {
         Ok(Pressed::of(&hertz::stiffened(scene(10.0)?, factor / 100.0))?.peak())
@@ -275,7 +275,7 @@ fn penalty(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Blocks of 80 a, in which the half-spaces of Hertz are nearer.
+/// Blocks of 80 a, closer to the half-spaces of Hertz.
 fn large_blocks(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut scene = scene(N)?;
     for body in scene.bodies.values_mut() {

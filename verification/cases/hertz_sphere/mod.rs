@@ -1,4 +1,4 @@
-//! A ball on a rigid flat, about an axis.
+//! A ball on a rigid flat, axisymmetric.
 
 use super::hertz::{self, Hertz, Tractions, compliance};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
@@ -13,9 +13,9 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// Cells of the scene \[mm\].
+/// Cell size of the scene \[mm\].
 const SIZE: f64 = 0.02;
-/// The finest cells \[mm\].
+/// Finest cell size \[mm\].
 const FINEST: f64 = 0.01;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -29,7 +29,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
             let scene = hertz::refined(hertz::read(include_str!("scene.toml"))?, SIZE / size);
             let done = hertz::simulate(&hertz::measured(scene, measure, Sliding::Small))?;
             let at = done.tractions("press")?;
-            // The flat does not deform.
+            // The flat is rigid.
             let exact = Hertz::ball(at.load[1], 8e-3, compliance([(1e9, 0.3), (f64::INFINITY, 0.0)]));
             let fit = at.ellipse(exact.a);
             let l2 = at.l2(&at.p, exact.a, |x| exact.pressure(x));

@@ -1,4 +1,4 @@
-//! A rigid block on a spring, as bodies and interfaces: where quasi-static equilibrium ends, and when.
+//! A rigid block on a spring, modelled by bodies and interfaces: onset of instability of quasi-static equilibrium, and its time.
 
 use super::slider;
 use super::texts::{Done, attempt, simulate};
@@ -31,17 +31,17 @@ const A: f64 = 0.005;
 const B: f64 = 0.02;
 /// L \[m\].
 const LENGTH: f64 = 10e-6;
-/// Rate of the load, and of the steady state the law starts from \[m/s\].
+/// Load rate, also the rate of the initial steady state of the law \[m/s\].
 const LOAD: f64 = 1e-6;
 /// Slip rate at which runs stop \[m/s\].
 const LIMIT: f64 = 10e-3;
-/// Stage that presses \[s\].
+/// Duration of the pressing stage \[s\].
 const PRESSED: f64 = 1.0;
-/// Coefficients and length of slip weakening.
+/// Coefficients and slip-weakening distance \[m\].
 const MU_S: f64 = 0.6;
 const MU_K: f64 = 0.3;
 const D_C: f64 = 100e-6;
-/// Stiffness of the bond in the run that measures the system \[Pa/m\].
+/// Stiffness of the bond in the run that measures the compliance of the system \[Pa/m\].
 const PROBE: f64 = 1e10;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -61,11 +61,11 @@ fn scene(spring: f64, law: &str, duration: f64, time: &[Change<'_>]) -> Result<S
     Ok(scene.text()?)
 }
 
-/// Traction on the block: measured where friction holds it.
+/// Normal traction and compliance of the system, measured with a block held by friction.
 struct System {
     /// f_n \[Pa\].
     normal: f64,
-    /// Compliance beside that of the bond \[m/Pa\].
+    /// Compliance in series with the bond \[m/Pa\].
     compliance: f64,
 }
 
@@ -76,19 +76,19 @@ impl System {
         Ok(Self { normal, compliance: 100.0 * LOAD / shear - 1.0 / PROBE })
     }
 
-    /// Stiffness of the bond for a stiffness of all \[Pa/m\].
+    /// Stiffness of the bond for a total stiffness \[Pa/m\].
     fn bond(&self, stiffness: f64) -> f64 {
         1.0 / (1.0 / stiffness - self.compliance)
     }
 }
 
-/// Mean normal and shear traction of the fault at the end \[Pa\].
+/// Final mean normal and shear traction of the fault \[Pa\].
 fn tractions(done: &Done) -> Result<[f64; 2], CaseError> {
     let last = done.report.results.iter().rfind(|r| r.interface == "fault").ok_or("no results")?;
     Ok([last.mean_normal_traction, last.mean_shear_traction.abs()])
 }
 
-/// Time since shear began at which a run stopped at an instability \[s\]; none where it completed.
+/// Time from the start of shear to the instability at which a run stopped \[s\]; none if it completed.
 fn onset(done: &Done) -> Result<Option<f64>, CaseError> {
     match &done.report.outcome {
         Outcome::Completed => Ok(None),
@@ -98,7 +98,7 @@ fn onset(done: &Done) -> Result<Option<f64>, CaseError> {
     }
 }
 
-/// 1 where a run stopped at an instability, 0 where it completed.
+/// 1 if a run stopped at an instability, 0 if it completed.
 fn told(onset: Option<f64>) -> f64 {
     f64::from(u8::from(onset.is_some()))
 }
@@ -114,7 +114,7 @@ fn states(ledger: &mut Ledger, system: &System) -> Result<(), CaseError> {
     );
     let limit = format!("{LIMIT:e}");
     let limit = [Add("time.slip_rate_limit", &limit)];
-    // Loading takes some 500 s; then 150 L of slip.
+    // Loading takes about 500 s; then follow 150 L of slip.
     let at =
         |ratio: f64, time: &[Change<'_>]| attempt(&scene(system.bond(ratio * critical), &law, 2000.0, time)?);
     let fine = [limit[0], Add("time.max_step", "0.5 s")];
@@ -159,19 +159,19 @@ fn states(ledger: &mut Ledger, system: &System) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Time at which a slider on a spring, without traction at first, passes the limit \[s\].
+/// Time at which a slider on an initially slack spring exceeds the limit rate \[s\].
 fn by_slider(normal: f64, stiffness: f64) -> Result<f64, CaseError> {
     let form = Regularised(Parameters::new(slider::MU0, A, slider::V_REF)?);
     let law = Arc::new(RateLaw::new(form, Ageing::new(B, LENGTH, slider::V_REF)?, LOAD, None)?);
     let slider = Slider { law, stiffness, damping: 0.0, mass: None, normal: History::Constant(normal) };
     let mut plan = slider::plan(slider, History::Constant(LOAD), LOAD, 1.0, 1e5)?;
-    // mu/a: the spring is slack.
+    // mu/a is zero: the spring is slack.
     plan.start[0] = 0.0;
     plan.method = Method::Radau5;
     plan.tolerance = 1e-9;
     plan.events = Some(Thresholds { on: LIMIT, off: 0.1 * LIMIT });
     plan.most_events = Some(1);
-    // Nothing ends what follows: the run fails once the limit has been passed.
+    // The run has no end condition: it fails after the limit has been exceeded.
     let run = cycles::run(&plan, &mut ())?;
     Ok(Entry::all(&run).first().ok_or("the slider did not pass the limit")?.onset)
 }
@@ -226,7 +226,7 @@ fn weakening(ledger: &mut Ledger, system: &System) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Static-kinetic friction of a whole surface at once.
+/// Static-kinetic friction of a whole surface that slips at once.
 fn dropping(ledger: &mut Ledger, system: &System) -> Result<(), CaseError> {
     let law = format!("{{ kind = \"static-kinetic\", mu_s = {MU_S}, mu_k = {MU_K} }}");
     let stiffness = 2e10;

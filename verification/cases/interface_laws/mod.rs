@@ -1,4 +1,4 @@
-//! Laws of interfaces, as scenes name them, on a column whose points are sliders on springs: tractions and slips that are known.
+//! Friction laws of interfaces on a column whose points are sliders on springs, with known tractions and slip.
 
 use super::texts::{self, Done};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
@@ -18,13 +18,13 @@ const CORNERS: &str = include_str!("corners.toml");
 const SPACE: &str = include_str!("../interface_rate_state/scene-3d.toml");
 /// E_n times the penetration \[Pa\].
 const NORMAL: f64 = 10e6;
-/// Compliance of the column, whose shear modulus is a fifth of 2 E with ν = 1/4, and of the tangential penalty \[m/Pa\].
+/// Compliance of the column, whose shear modulus is 2 E/5 with ν = 1/4, and of the tangential penalty \[m/Pa\].
 const COMPLIANCE: f64 = 0.2 / (10e9 / 2.5) + 1.0 / 1000e9;
 /// Width of the column \[m\].
 const WIDTH: f64 = 0.1;
 /// Time at which the column is pressed and free to slide \[s\].
 const PRESSED: f64 = 2.0;
-/// Both steppers and measures.
+/// Combinations of stepper and contact measure.
 const RUNS: [(&str, &str); 4] = [
     ("implicit", "node-to-point"),
     ("implicit", "mortar"),
@@ -41,7 +41,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     turning(ledger)
 }
 
-/// An instant of a course, between which load, tractions and slip change in proportion to time.
+/// A vertex of a loading path; load, tractions and slip vary linearly in time between vertices.
 #[derive(Clone, Copy, Debug)]
 struct Vertex {
     /// Displacement of the top \[m\].
@@ -56,7 +56,7 @@ impl Vertex {
     /// Pressed, at rest.
     const START: Self = Self { load: 0.0, normal: NORMAL, traction: 0.0 };
 
-    /// Slip and traction under the normal traction of the start: the load is that of the spring.
+    /// Vertex of this slip and traction under the initial normal traction; the load follows from the spring.
     fn new(slip: f64, traction: f64) -> Self {
         Self { load: slip + traction * COMPLIANCE, normal: NORMAL, traction }
     }
@@ -66,7 +66,7 @@ impl Vertex {
     }
 }
 
-/// Vertices with the times of their stages' ends; the top moves by 1 um/s, and for 10 s at least.
+/// Vertices with the end times of their stages; the top moves at 1 um/s, or slower in stages of the minimum duration of 10 s.
 fn timed(course: &[Vertex]) -> Vec<(f64, Vertex)> {
     let (mut time, mut last, mut all) = (PRESSED, Vertex::START, vec![(PRESSED, Vertex::START)]);
     for vertex in course {
@@ -100,8 +100,8 @@ fn scene(law: &str, course: &[Vertex], (stepper, measure): (&str, &str)) -> Resu
     Ok(scene.text()?)
 }
 
-/// Largest errors of normal traction and shear traction over the largest normal traction, and of slip over what gives the same error of
-/// the spring's traction.
+/// Largest errors of normal traction and shear traction over the largest normal traction, and of the traction of the spring that
+/// corresponds to the slip.
 fn errors(done: &Done, course: &[Vertex]) -> [f64; 3] {
     let timed = timed(course);
     let mut errors = [0.0_f64; 3];
@@ -112,7 +112,7 @@ fn errors(done: &Done, course: &[Vertex]) -> [f64; 3] {
             [mean(&|v| v.normal), mean(&|v| v.traction), mean(&|v| v.slip()) / COMPLIANCE]
         });
         for point in &done.record.histories()[0].points {
-            // Along the motion, against the tangent of a master below.
+            // Components along the motion, opposite to the tangent of the master below.
             let found = [point.normal_traction[k], -point.shear_traction[k], -point.slip[k] / COMPLIANCE];
             for (error, (found, wanted)) in
                 errors.iter_mut().zip(found.iter().zip(at.unwrap_or([f64::NAN; 3])))
@@ -125,7 +125,7 @@ fn errors(done: &Done, course: &[Vertex]) -> [f64; 3] {
     errors
 }
 
-/// Claims tractions and slips along a course by both steppers and measures.
+/// Claims tractions and slip along a loading path with both steppers and measures.
 fn follows(
     ledger: &mut Ledger,
     title: &str,
@@ -164,7 +164,7 @@ fn coulomb(ledger: &mut Ledger) -> Result<(), CaseError> {
         // The cap of 4 MPa is below mu f_n of 6 MPa.
         at(cap * COMPLIANCE, NORMAL, cap),
         at(cap * COMPLIANCE + 100e-6, NORMAL, cap),
-        // mu f_n reaches the cap from above, and falls to 3 MPa.
+        // mu f_n falls below the cap, and further to 3 MPa.
         at(cap * COMPLIANCE + 150e-6, cap / mu, cap),
         at(cap * COMPLIANCE + 200e-6, 5e6, 3e6),
         // Stick while it is pressed again, then slide back.
@@ -194,7 +194,7 @@ fn slip_weakening(ledger: &mut Ledger) -> Result<(), CaseError> {
     let law = |more: &str| {
         format!("{{ kind = \"slip-weakening\", mu_s = {MU_S}, mu_k = {MU_K}, d_c = {D_C:e}{more} }}")
     };
-    // Half of d_c forwards and half of it backwards, some way on at the residual strength, and forwards again.
+    // Half of d_c forwards and half backwards, further slip at the residual strength, and forwards again.
     let half = 0.5 * D_C;
     let course = [
         Vertex::new(0.0, strength(0.0)),
@@ -222,7 +222,7 @@ fn slip_weakening(ledger: &mut Ledger) -> Result<(), CaseError> {
         .cost(&runs[0].cost)
         .record();
     let cap = 5e6;
-    // Where the strength has fallen to the cap.
+    // Slip at which the strength has fallen to the cap.
     let leaves = D_C * (MU_S - cap / NORMAL) / (MU_S - MU_K);
     let course = [
         Vertex::new(0.0, cap),
@@ -234,7 +234,7 @@ fn slip_weakening(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Work of friction beyond the residual strength per area \[J/m²\].
+/// Frictional work above the residual strength per area \[J/m²\].
 fn fracture(done: &Done) -> Result<f64, CaseError> {
     let work: f64 = done.dissipated().iter().sum();
     let path: f64 = done.record.histories()[0].points[0].slip.windows(2).map(|s| (s[1] - s[0]).abs()).sum();
@@ -244,7 +244,7 @@ fn fracture(done: &Done) -> Result<f64, CaseError> {
 /// E_t of the corners \[Pa/m\].
 const CORNER: f64 = 100e9;
 
-/// Static-kinetic friction of two corners, which leave rest at different times.
+/// Static-kinetic friction of two corners that begin to slip at different times.
 fn static_kinetic(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (mu_s, mu_k) = (0.6, 0.4);
     for (title, cap) in
@@ -294,7 +294,7 @@ fn static_kinetic(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Ends of the stages that move the corners \[s\], and the place of the left one then \[m\].
+/// End times of the stages that move the corners \[s\], and the positions of the left corner at these times \[m\].
 const LEGS: [(f64, f64); 5] = [(1.0, 0.0), (101.0, 200e-6), (111.0, 200e-6), (211.0, 300e-6), (311.0, 0.0)];
 
 /// Largest error of a corner's traction over f_n.
@@ -311,14 +311,14 @@ fn corners(done: &Done, rest: f64, slide: f64) -> f64 {
     largest
 }
 
-/// Traction of a corner that goes `reach` times as far as the left one, before and after a fall at that instant.
+/// Traction of a corner that moves `reach` times as far as the left one, before and after a possible drop at that instant.
 fn corner(time: f64, reach: f64, rest: f64, slide: f64) -> [f64; 2] {
     let mut traction = 0.0;
     for leg in LEGS.windows(2) {
         let [(begin, from), (end, to)] = [leg[0], leg[1]];
         let share = ((time - begin) / (end - begin)).min(1.0);
         let way = f64::signum(to - from);
-        // Elastic from the traction at which it stood still, up to the strength of rest; beyond it slides.
+        // Elastic from its traction at rest up to the static strength; beyond it slides.
         let trial: f64 = traction + CORNER * reach * share * (to - from);
         let (reached, passed) = (way * trial >= rest * (1.0 - EDGE), way * trial > rest * (1.0 + EDGE));
         let [before, after] =
@@ -331,20 +331,20 @@ fn corner(time: f64, reach: f64, rest: f64, slide: f64) -> [f64; 2] {
     [f64::NAN; 2]
 }
 
-/// Relative distance to the strength within which rounding tells whether a point has left rest.
+/// Relative distance to the strength within which rounding decides whether a point slides.
 const EDGE: f64 = 1e-12;
 
-/// Stages in which the top moves by so much at so much \[m, m/s\]: from a slack spring, faster, and slower again.
+/// Displacement and rate of the top in each stage \[m, m/s\]: from a slack spring, faster, and slower again.
 const DRAGGED: [(f64, f64); 3] = [(600e-6, SLOW), (600e-6, FAST), (300e-6, SLOW)];
 const SLOW: f64 = 1e-6;
 const FAST: f64 = 100e-6;
-/// Parameters of laws of the rate; Vref is the slow rate. L in \[m\].
+/// Parameters of rate-dependent laws; Vref is the slow rate. L in \[m\].
 const MU0: f64 = 0.6;
 const A: f64 = 0.01;
 const B: f64 = 0.015;
 const LENGTH: f64 = 1e-5;
 
-/// Begins of the stages that drag, and the end \[s\].
+/// Start times of the dragging stages, and the end time \[s\].
 fn begins() -> Vec<f64> {
     let mut begins = vec![PRESSED];
     for (way, rate) in DRAGGED {
@@ -353,7 +353,7 @@ fn begins() -> Vec<f64> {
     begins
 }
 
-/// The column dragged under a law of the rate.
+/// Runs the column dragged under a rate-dependent law.
 fn dragged(law: &str, (stepper, measure): (&str, &str)) -> Result<Done, CaseError> {
     let mut scene = SceneText::new(SCENE)
         .add("interfaces.fault.law", law)
@@ -373,14 +373,14 @@ fn dragged(law: &str, (stepper, measure): (&str, &str)) -> Result<Done, CaseErro
     texts::simulate(&scene.text()?)
 }
 
-/// A row of a point while it is dragged.
+/// A record of a point while it is dragged.
 struct Row {
-    /// Stage, and time since its begin \[s\].
+    /// Stage, and time since its start \[s\].
     stage: usize,
     since: f64,
-    /// Along the motion \[Pa\].
+    /// Shear traction along the motion \[Pa\].
     traction: f64,
-    /// Along the motion \[m/s\].
+    /// Slip rate along the motion \[m/s\].
     rate: f64,
     /// True in the first step of a stage.
     first: bool,
@@ -407,15 +407,15 @@ fn rows(done: &Done) -> Vec<Row> {
     rows
 }
 
-/// Runs of a law by both steppers and measures.
+/// Results of a law with both steppers and measures.
 struct Capped {
     /// Shear tractions at the ends of the stages over f_n.
     ends: Vec<f64>,
-    /// Largest errors where the cap holds: of traction over the cap, and of the slip rate over that of the load.
+    /// Largest errors while the cap is active: of traction over the cap, and of the slip rate over the load rate.
     errors: [Vec<f64>; 2],
-    /// Rows in which the cap holds.
+    /// Number of records with an active cap.
     held: usize,
-    /// Rows on the wrong side of the cap.
+    /// Number of records that exceed the cap.
     wrong: u64,
     cost: Cost,
 }
@@ -434,7 +434,7 @@ fn capped(law: &str, cap: f64, holds: impl Fn(&Row) -> Option<bool>) -> Result<C
                 Some(true) => {
                     held += 1;
                     largest[0] = largest[0].max((row.traction / cap - 1.0).abs());
-                    // A difference over two steps spreads the jump of the rate over the first step of a stage.
+                    // A difference over two steps smears the jump of the rate over the first step of a stage.
                     if !row.first {
                         largest[1] = largest[1].max((row.rate / DRAGGED[row.stage].1 - 1.0).abs());
                     }
@@ -449,7 +449,7 @@ fn capped(law: &str, cap: f64, holds: impl Fn(&Row) -> Option<bool>) -> Result<C
     Ok(Capped { ends, errors, held, wrong, cost: cost.ok_or("nothing was run")? })
 }
 
-/// Claims of a law under its cap.
+/// Claims on a law with a cap.
 fn under_cap(ledger: &mut Ledger, name: &str, found: &Capped, ends: [f64; 3], released: &str) {
     let [tractions, rates] = &found.errors;
     for (what, errors, bound, because) in [
@@ -500,12 +500,12 @@ fn under_cap(ledger: &mut Ledger, name: &str, found: &Capped, ends: [f64; 3], re
     }
 }
 
-/// Friction without a state in steady sliding.
+/// Steady friction of a law without state.
 fn steady(rate: f64, effect: f64) -> f64 {
     MU0 + effect * (rate / SLOW).ln()
 }
 
-/// A law of the rate alone, which the cap holds at the high rate.
+/// A purely rate-dependent law, capped at the high rate.
 fn capped_rate(ledger: &mut Ledger) -> Result<(), CaseError> {
     let cap = 6.3e6;
     let law = format!("{{ kind = \"rate\", mu0 = {MU0}, a = {A}, v_ref = {SLOW:e}, f_limit = {cap} }}");
@@ -518,7 +518,7 @@ fn capped_rate(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Laws with a state, which the cap holds at the low rate; it lets go at the high one once the state has evolved.
+/// Laws with a state, capped at the low rate; the cap is released at the high rate once the state has evolved.
 fn capped_states(ledger: &mut Ledger) -> Result<(), CaseError> {
     let cap = 5.9e6;
     let jump = (FAST / SLOW).ln();
@@ -559,7 +559,7 @@ fn capped_states(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// A column in space dragged along x until it slides and then along z: its traction turns from x to z.
+/// A 3D column dragged along x until it slides and then along z: its traction rotates from x to z.
 fn turning(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (mu, drag) = (0.6, 600e-6_f64);
     let length = mu * NORMAL * COMPLIANCE;

@@ -1,4 +1,4 @@
-//! Bodies that start with the stress of their weight, and interfaces that start with its tractions.
+//! Bodies with initial gravitational stress, and interfaces with the corresponding initial tractions.
 
 use super::texts::{Done, simulate_in};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
@@ -31,9 +31,10 @@ const K0: f64 = 0.5;
 /// Height of the blocks and of the cells at their interface \[m\].
 const HEIGHT: f64 = 1000.0;
 const CELL: f64 = 125.0;
-/// By how much blocks without initial stress settle: ρ g H²/2 over the modulus of uniaxial strain \[m\].
+/// Settlement of blocks without initial stress: ρ g H²/2 over the modulus of uniaxial strain \[m\].
 const SETTLED: f64 = WEIGHT * HEIGHT * HEIGHT / 2.0 / (50e9 * 0.75 / (1.25 * 0.5));
-/// Rounding of displacements: forces of 1e10 N/m cancel to 1e-15 of themselves at each node, which some hundred nodes above each other add up.
+/// Rounding of displacements \[m\]: forces of 1e10 N/m cancel to a relative 1e-15 at each node, and about a hundred nodes above
+/// each other add up.
 const ROUNDING: f64 = 1e-10;
 const MOHR: &str =
     "stresses on Mohr's circle: f_n = v (cos² + K0 sin²), t = v (1 - K0) sin cos, v = rho g depth";
@@ -70,7 +71,7 @@ const SPACE: [Change<'_>; 6] = [
     ),
 ];
 
-/// Variations, and whether tractions are values at nodes (coefficients of a field) or means over what nodes stand for.
+/// Variants, and whether tractions are nodal values (coefficients of a field) or means over tributary areas.
 const PLANE: [(&str, Changes, bool); 14] = [
     ("node-to-point", &[], false),
     ("node-to-point, finite sliding", &[FINITE], false),
@@ -102,7 +103,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     as_pressed_by_loads(ledger)
 }
 
-/// Parts that move at rest.
+/// Spurious motion of the parts at rest.
 struct Rest {
     /// Largest displacement \[m\].
     moved: f64,
@@ -121,7 +122,7 @@ fn rest(text: &str) -> Result<Rest, CaseError> {
     Ok(Rest { moved, slipped, done })
 }
 
-/// Depth of the traction that a node bears \[m\].
+/// Depth that corresponds to the traction of a node \[m\].
 fn depth(y: f64, at_nodes: bool) -> f64 {
     let ends = |y: f64| {
         if y > -1.0 {
@@ -143,7 +144,7 @@ fn wrong(rest: &Rest, at_nodes: bool) -> f64 {
     let last = |v: &[f64]| v.last().copied().unwrap_or(f64::NAN);
     let errors = points.iter().map(|p| {
         let vertical = WEIGHT * depth(p.position[1], at_nodes);
-        // The left block hangs over the right one and is driven down, along the tangent.
+        // The left block overhangs the right one and is driven down, along the tangent.
         let (f, t) =
             (last(&p.normal_traction) - normal * vertical, last(&p.shear_traction) - shear * vertical);
         f.abs().max(t.abs())
@@ -214,7 +215,7 @@ fn blocks(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Cells on the one side that are not those on the other.
+/// Non-matching cells on the two sides of the interface.
 fn meshes_that_do_not_match(ledger: &mut Ledger) -> Result<(), CaseError> {
     let refined = |own: usize, other: usize, changes: Changes| -> Result<Rest, CaseError> {
         let scene = SceneText::new(BLOCKS)
@@ -287,9 +288,9 @@ fn wedge(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Tractions that the stress brings act like those that loads bring: what comes later finds no difference.
+/// Claims that tractions from initial stress act like tractions from loads in later stages.
 fn as_pressed_by_loads(ledger: &mut Ledger) -> Result<(), CaseError> {
-    // Uniaxial strain under 5 MPa: the sides bear nu/(1 - nu) of it.
+    // Uniaxial strain under 5 MPa: the lateral stress is nu/(1 - nu) times as large.
     let stress = format!("[{0:e}, -5e6, {0:e}, 0, 0, 0]", -5e6 / 3.0);
     let by_loads = SceneText::new(PRESSED);
     let by_stress = SceneText::new(PRESSED)

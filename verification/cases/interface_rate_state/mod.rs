@@ -1,4 +1,4 @@
-//! A column that slides on a base, whose equations are those of a slider on a spring: rate-and-state friction through an interface.
+//! Rate-and-state friction of an interface: a column that slides on a base and obeys the equations of a slider on a spring.
 
 use super::slider::{self, Kind};
 use super::texts::{self, Done};
@@ -31,30 +31,30 @@ const SPACE: &str = include_str!("scene-3d.toml");
 const A: f64 = 0.010;
 const B: f64 = 0.015;
 const LENGTH: f64 = 10e-6;
-/// Rate of the load, and of the steady state the law starts from \[m/s\].
+/// Load rate, also the rate of the initial steady state of the law \[m/s\].
 const LOAD: f64 = 1e-6;
 /// Penalty times penetration \[Pa\].
 const NORMAL: f64 = 1e12 * 10e-6;
-/// Height of the column \[m\] and its shear modulus \[Pa\], a fifth of 2 E with ν = 1/4.
+/// Height of the column \[m\] and its shear modulus \[Pa\], 2 E/5 with ν = 1/4.
 const HEIGHT: f64 = 0.2;
 const SHEAR: f64 = 10e9 / 2.5;
 /// Tangential penalty \[Pa/m\].
 const PENALTY: f64 = 1e12;
-/// Stage that presses \[s\].
+/// Duration of the pressing stage \[s\].
 const PRESSED: f64 = 1.0;
-/// Ends of the stages since then \[s\], and the rate of the load in each \[m/s\].
+/// End times of the later stages, counted from the end of pressing \[s\], and the load rate in each \[m/s\].
 const STAGES: [(f64, f64); 5] =
     [(600.0, LOAD), (620.0, 10.0 * LOAD), (720.0, LOAD), (1720.0, 0.0), (1870.0, LOAD)];
-/// Height of the column that runs away \[m\]: G/h is half of f_n (b - a)/L.
+/// Height of the unstable column \[m\]: G/h is half of f_n (b - a)/L.
 const SOFT: f64 = 1.6;
-/// Slip rate at which it has \[m/s\].
+/// Slip rate at which it counts as unstable \[m/s\].
 const LIMIT: f64 = 10e-3;
 /// Tolerance of the references.
 const TIGHT: f64 = 1e-10;
 
-/// Both evolutions.
+/// Both evolution laws.
 const KINDS: [Kind; 2] = [Kind::Ageing, Kind::Slip];
-/// Error of friction that the default of scenes stays below.
+/// Bound on the error of friction at the default tolerance of scenes.
 const DEFAULT: f64 = 1e-4;
 /// Source of the references.
 const SOURCE: &str = "one slider on a spring, Radau IIA of order 5 at 1e-10";
@@ -70,7 +70,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     work(ledger)
 }
 
-/// The default of scenes, for both laws, measures and kinds of sliding.
+/// Implicit steps at the default tolerance of scenes, for both laws, measures and kinds of sliding.
 fn in_time(ledger: &mut Ledger, space: &str, scene: &str) -> Result<(), CaseError> {
     for kind in KINDS {
         let (mut found, mut cost) = (Vec::new(), None);
@@ -98,7 +98,7 @@ fn in_time(ledger: &mut Ledger, space: &str, scene: &str) -> Result<(), CaseErro
     Ok(())
 }
 
-/// Static-explicit steps at the default of scenes.
+/// Static-explicit steps at the default tolerance of scenes.
 fn forward(ledger: &mut Ledger, space: &str, scene: &str) -> Result<(), CaseError> {
     let scene = SceneText::new(scene).with("time.stepper", "static-explicit");
     for kind in KINDS {
@@ -179,7 +179,7 @@ fn orders(ledger: &mut Ledger) -> Result<(), CaseError> {
                 ]);
                 cost = Some(done.cost);
             }
-            // V rises by a factor of some 13, most of it over the time of two L at the new rate: steps of 0.02 e-folds.
+            // V rises by a factor of about 13, mostly within the time of a load of two L at the new rate: steps of 0.02 e-folds.
             let finest = if rule == "bdf2" { 1e-5 } else { 1e-3 };
             ledger
                 .order(format!("friction through a velocity step in equal steps, {} law, {name}", word(kind)))
@@ -200,7 +200,7 @@ fn orders(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Time at which a column below the critical stiffness runs away.
+/// Time at which a column below the critical stiffness becomes unstable.
 fn onset(ledger: &mut Ledger) -> Result<(), CaseError> {
     for kind in KINDS {
         let scene = SceneText::new(PLANE)
@@ -237,7 +237,7 @@ fn onset(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Error against work of both rules.
+/// Error against computational work of both rules.
 fn work(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut rows = Vec::new();
     for kind in KINDS {
@@ -293,7 +293,7 @@ fn work(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Work at which an error is reached: between the settings on its two sides, on a line in logarithms; beyond the last, along the last line.
+/// Work at which an error is reached, interpolated logarithmically between the adjacent settings and extrapolated beyond the last.
 fn at(points: &[(f64, f64)], error: f64) -> Option<f64> {
     let mut pairs = points.windows(2);
     let pair = pairs.clone().find(|w| w[0].0 > error && w[1].0 <= error).or_else(|| pairs.next_back())?;
@@ -316,7 +316,7 @@ fn with(
     Ok(scene.changed(time).text()?)
 }
 
-/// Stiffness of a column of some height \[m\] and the penalty in series \[Pa/m\].
+/// Stiffness of a column of this height \[m\] in series with the penalty \[Pa/m\].
 fn stiffness(height: f64) -> f64 {
     1.0 / (height / SHEAR + 1.0 / PENALTY)
 }
@@ -336,12 +336,12 @@ fn law(kind: Kind) -> Result<Arc<dyn Sliding>, CaseError> {
     })
 }
 
-/// A slider whose spring is slack.
+/// A slider on an initially slack spring.
 fn slack(kind: Kind, stiffness: f64, load: History, end: f64) -> Result<Problem, CaseError> {
     let slider =
         Slider { law: law(kind)?, stiffness, damping: 0.0, mass: None, normal: History::Constant(NORMAL) };
     let mut plan = slider::plan(slider, load, LOAD, 1.0, end)?;
-    // mu/a.
+    // The unknown mu/a is zero: the spring is slack.
     plan.start[0] = 0.0;
     plan.method = Method::Radau5;
     plan.tolerance = TIGHT;
@@ -368,12 +368,12 @@ fn reference(kind: Kind, stiffness: f64, done: &Done) -> Result<Vec<f64>, CaseEr
     Ok(friction)
 }
 
-/// Time at which the slider passes the limit \[s\].
+/// Time at which the slider exceeds the limit rate \[s\].
 fn by_slider(kind: Kind, stiffness: f64) -> Result<f64, CaseError> {
     let mut plan = slack(kind, stiffness, History::Constant(LOAD), 1e5)?;
     plan.events = Some(Thresholds { on: LIMIT, off: 0.1 * LIMIT });
     plan.most_events = Some(1);
-    // Nothing ends what follows: the run fails once the limit has been passed.
+    // The run has no end condition: it fails after the limit has been exceeded.
     let run = cycles::run(&plan, &mut ())?;
     Ok(Entry::all(&run).first().ok_or("the slider did not pass the limit")?.onset)
 }
@@ -383,7 +383,7 @@ fn error(done: &Done, reference: &[f64]) -> f64 {
     error_since(0.0, done, reference)
 }
 
-/// The same since a time of the run \[s\].
+/// The same difference after a given time of the run \[s\].
 fn error_since(time: f64, done: &Done, reference: &[f64]) -> f64 {
     let times = done.record.times();
     let before = (times.len() - reference.len()).max(times.iter().take_while(|&&t| t <= time).count());

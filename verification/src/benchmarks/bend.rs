@@ -1,4 +1,4 @@
-//! `fault-bend/v1`: tractions of given slip across a bend of a fault.
+//! `fault-bend/v1`: tractions caused by given slip across a fault bend.
 
 use super::entry::Entry;
 use super::independent::Results;
@@ -8,9 +8,9 @@ use crate::CaseError;
 use crate::cases::fault_bend;
 use asperity_driver::benchmark::{Place, Quantity};
 
-/// Error of scipy's quadrature, and of twelve digits of the file \[MPa\].
+/// Error of scipy's quadrature and of the twelve digits in the file \[MPa\].
 const QUADRATURE: f64 = 1e-6;
-/// Cells of this program's entry \[m\].
+/// Cell size of this program's entry \[m\].
 const SIZE: f64 = 125.0;
 
 pub fn make() -> Result<Made, CaseError> {

@@ -12,11 +12,11 @@ use asperity_cycles::Moment;
 use asperity_driver::benchmark::Quantity;
 use asperity_driver::fault::Plan;
 
-/// Elements of this program's entry \[mm\].
+/// Element size of this program's entry \[mm\].
 const SIZE: f64 = 0.3125;
 /// Length L of the stiff and the soft machine \[m\].
 const LENGTHS: [f64; 2] = [0.5e-6, 10e-6];
-/// Shares of the second interval.
+/// Fractions of the second interval.
 const SHARES: [f64; 9] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9];
 
 const THREE: &str = "limit of scipy's sparse solver and DOP853 with 40, 80 and 160 elements along the face";
@@ -39,7 +39,7 @@ impl Runs {
         Ok(Self(runs.into_iter().map(|run| run.1).collect()))
     }
 
-    /// A value of each mesh.
+    /// One value from each mesh.
     fn each(&self, key: &str, k: usize, factor: f64) -> Result<Vec<f64>, CaseError> {
         self.0.iter().map(|run| Ok(run.at(key)?.numbers()?[k] * factor)).collect()
     }

@@ -1,4 +1,4 @@
-//! `seas-bp1-quick/v1`: the first three events of the community's benchmark BP1-QD.
+//! `seas-bp1-quick/v1`: the first three events of the SEAS community benchmark BP1-QD.
 
 use super::entry::Entry;
 use super::independent::Results;
@@ -9,20 +9,20 @@ use crate::cases::seas;
 use asperity_driver::benchmark::Quantity;
 use asperity_vary::bp1::bp1;
 
-/// Seconds of a year, as in the benchmark of the community.
+/// Seconds in a year, as in the community benchmark.
 const YEAR: f64 = 365.25 * 86_400.0;
-/// Events.
+/// Number of events.
 const EVENTS: usize = 3;
-/// Cells of this program's entry \[m\].
+/// Cell size of this program's entry \[m\].
 const SIZE: f64 = 78.125;
-/// Depths of slip rates \[m\], with the names of their quantities.
+/// Depths of slip rates \[m\] with the names of their quantities.
 const DEPTHS: [(f64, &str, &str); 3] = [
     (10e3, "log_rate_10km", "log10 of the slip rate in m/s, 10 km deep"),
     (16e3, "log_rate_16km", "log10 of the slip rate in m/s, 16 km deep"),
     (20e3, "log_rate_20km", "log10 of the slip rate in m/s, 20 km deep"),
 ];
 
-/// First onsets of QDYN with cells of 156, 78 and 39 m \[yr\].
+/// Onsets of the first event in QDYN with cells of 156, 78 and 39 m \[yr\].
 const QDYN: [f64; 3] = [197.162, 196.509, 196.400];
 
 const FOUR: &str = "limit of boundary elements (cycles.py) with cells of 156, 78, 39 and 19.5 m";
@@ -35,7 +35,7 @@ pub fn make() -> Result<Made, CaseError> {
     Ok(Made { reference, entries })
 }
 
-/// Summary of a run: onsets, intervals, largest rates of the last two events, time of the last above 1 mm/s.
+/// Summary of a run: onsets, intervals, largest rates of the last two events, and duration of the last one above 1 mm/s.
 fn summary(onsets: &[f64], peaks: &[f64], above: f64) -> [(&'static str, f64); 6] {
     [
         ("first_onset", onsets[0]),

@@ -1,4 +1,4 @@
-//! `hertz/v1` and `partial-slip/v1`: a line contact under load, and under shear.
+//! `hertz/v1` and `partial-slip/v1`: a line contact under normal load and under shear.
 
 use super::entry::Entry;
 use super::independent::Results;
@@ -8,11 +8,11 @@ use crate::cases::hertz::{self, Hertz, Tractions, compliance};
 use asperity_driver::benchmark::Quantity;
 use asperity_driver::scene::model::{Motion, Scene, here};
 
-/// Places of pressures, over the half-width.
+/// Positions of pressures over the half-width.
 const PRESSURES: [f64; 11] = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95];
-/// Places of shear tractions: not next to the edge of the stick zone, at 0.71.
+/// Positions of shear tractions over the half-width, away from the edge of the stick zone at 0.71.
 const SHEARS: [f64; 9] = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 0.95];
-/// The same after unloading: neither there nor next to the edge of the reversed slip, at 0.87.
+/// The same after unloading, also away from the edge of reversed slip at 0.87.
 const UNLOADED: [f64; 8] = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.95];
 
 const MU: f64 = 0.3;
@@ -21,12 +21,12 @@ const CELLS: f64 = 40.0;
 
 const HALF_SPACES: &str = "closed form for half-spaces";
 
-/// Pressure of Hertz over its peak.
+/// Hertz pressure over its peak.
 fn ellipse(x: f64) -> f64 {
     (1.0 - x * x).max(0.0).sqrt()
 }
 
-/// Shear traction over mu p0 that is left where a zone of half-width c sticks.
+/// Shear traction over mu p0 with a stick zone of half-width c.
 fn cattaneo(x: f64, c: f64) -> f64 {
     ellipse(x) - c * ellipse(x / c)
 }
@@ -55,7 +55,7 @@ pub fn hertz() -> Result<Made, CaseError> {
     Ok(Made { reference, entries: vec![pressed()?, boundary_elements_pressed()?] })
 }
 
-/// Error that a nodal pressure may have: end cells are wrong by the root of twice their length over a.
+/// Tolerance of nodal pressures: end cells have an error of the root of twice their length over a.
 const PRESSURE: f64 = 0.01;
 /// The same at 0.95 a, within a cell or two of the end.
 const PRESSURE_AT_END: f64 = 0.05;
@@ -106,11 +106,11 @@ pub fn partial_slip() -> Result<Made, CaseError> {
     Ok(Made { reference, entries: vec![sheared()?, boundary_elements_sheared()?] })
 }
 
-/// Error that a nodal shear traction may have.
+/// Tolerance of nodal shear tractions.
 const SHEAR: f64 = 0.02;
 const SHEAR_BECAUSE: &str = "2 % for ten cells per half-width; at 0.95 a the end cell is near, whose traction errs by the root of its length";
 
-/// Pressures or shear tractions as shares, at places over a; means of both sides.
+/// Pressures or shear tractions over the peak pressure, at positions over a; means of both sides.
 fn profile(at: &Tractions, values: &[f64], exact: &Hertz, places: &[f64]) -> Vec<f64> {
     let of = |x: f64| interpolated(&at.x, values, x * exact.a);
     places.iter().map(|&x| 0.5 * (of(x) + of(-x)) / exact.p0).collect()
@@ -146,7 +146,7 @@ fn pressed() -> Result<Entry, CaseError> {
         .with("pressure", profile(&at, &at.p, &exact, &PRESSURES)))
 }
 
-/// The scene drawn by `forth` \[m\] and then to `back` \[m\].
+/// The scene with the cylinder displaced by `forth` \[m\] and then to `back` \[m\].
 fn drawn(forth: f64, back: Option<f64>) -> Result<Scene, CaseError> {
     let mut scene = hertz::refined(hertz::sheared()?, CELLS / 20.0);
     let mut stages = vec![forth];
@@ -164,20 +164,21 @@ fn drawn(forth: f64, back: Option<f64>) -> Result<Scene, CaseError> {
     Ok(scene)
 }
 
-/// Shear tractions along x, in which the cylinder is drawn: the tangent of the flat below it points along -x.
+/// Shear tractions along x, the direction in which the cylinder is displaced: the tangent of the flat below points along -x.
 fn along_x(mut at: Tractions) -> Tractions {
     at.q.iter_mut().for_each(|q| *q = -*q);
     at
 }
 
-/// Ways at which the search for Q = mu P/2 begins \[m\]: that of the scene, and one near it.
+/// Initial displacements in the search for Q = mu P/2 \[m\]: that of the scene and one near it.
 const FORTH: [f64; 2] = [4e-6, 4.2e-6];
-/// The same for Q = 0, after slip has left some way.
+/// The same for Q = 0, where slip leaves a residual displacement.
 const BACK: [f64; 2] = [0.0, 0.5e-6];
-/// Share of mu P within which a load is met.
+/// Tolerance of the load in the search, over mu P.
 const MET: f64 = 1e-6;
 
-/// Way at which the load on the last stage is `share` of mu P, by secants from two first ways, and the tractions there.
+/// Displacement at which the load of the last stage is `share` of mu P, by the secant method from two initial displacements, and
+/// the tractions there.
 fn loaded(
     share: f64,
     mut ways: [f64; 2],
@@ -216,7 +217,7 @@ fn sheared() -> Result<Entry, CaseError> {
         .with("moment_unloaded", [moment(&back, 4.0)]))
 }
 
-/// The finest run of the boundary elements, and its places.
+/// The finest boundary-element run and its positions.
 fn boundary_elements() -> Result<(Results, Vec<f64>), CaseError> {
     let all = Results::read(include_str!("../../independent/line_contact.json"))?;
     let last = all.at("runs")?.list()?.pop().ok_or("no runs")?;

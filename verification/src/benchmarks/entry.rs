@@ -1,19 +1,19 @@
-//! A result of a benchmark, as a table that `asperity compare` reads.
+//! Results of a benchmark as a table that `asperity compare` reads.
 
 use super::rounded::digits;
 use asperity_driver::benchmark::Reference;
 use std::fmt::Write as _;
 
-/// Digits of the values of an entry.
+/// Significant digits of the values of an entry.
 const DIGITS: usize = 9;
 
-/// A result.
+/// Results of one code.
 pub struct Entry {
-    /// Name of its file, without extension.
+    /// Name of the file, without extension.
     pub file: &'static str,
-    /// Remarks at its head: code, method, discretisation.
+    /// Remarks at the top of the file: code, method, discretisation.
     pub remarks: Vec<(&'static str, String)>,
-    /// Values of quantities, of each in the order of the reference.
+    /// Values of each quantity in the order of the reference.
     pub values: Vec<(&'static str, Vec<f64>)>,
 }
 
@@ -34,7 +34,7 @@ impl Entry {
         self
     }
 
-    /// The table of results.
+    /// Text of the table of results.
     #[must_use]
     pub fn text(&self, reference: &Reference) -> String {
         let mut text = format!("# benchmark: {}\n", reference.benchmark);

@@ -12,12 +12,12 @@ impl Results {
         Ok(Self(serde_json::from_str(text)?))
     }
 
-    /// The part below a key.
+    /// The value of a key.
     pub fn at(&self, key: &str) -> Result<Self, CaseError> {
         self.0.get(key).cloned().map(Self).ok_or_else(|| format!("the results have no `{key}`").into())
     }
 
-    /// Members of a list.
+    /// The members of a list.
     pub fn list(&self) -> Result<Vec<Self>, CaseError> {
         let list = self.0.as_array().ok_or("the results have no list here")?;
         Ok(list.iter().cloned().map(Self).collect())

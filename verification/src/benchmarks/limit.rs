@@ -1,20 +1,20 @@
-//! Limits of values on meshes that are halved each time, with their uncertainty.
+//! Limits of values on successively halved meshes, with their uncertainty.
 
 use super::rounded::digits;
 use asperity_driver::benchmark::Place;
 
-/// Largest ratio of successive differences that is extrapolated: order 0.4. Slower sequences amplify what is not of the leading order.
+/// Largest ratio of successive differences that is extrapolated, order 0.4. Extrapolation of slower sequences amplifies errors of
+/// other orders.
 const SLOWEST: f64 = 0.75;
 
-/// Share of the tolerance below which an uncertainty does not matter.
+/// Fraction of the tolerance below which an uncertainty does not matter.
 const FINE: f64 = 1e-4;
-/// Units of the last digit by which a number may exceed a round one because of rounding.
+/// Units of the last digit by which rounding may raise a number above a round one.
 const ROUNDING: f64 = 1e-6;
-/// Uncertainties that a tolerance has at least.
+/// Smallest ratio of tolerance to uncertainty.
 const SAFE: f64 = 3.0;
 
-/// Share of the largest uncertainty along a curve that its other places have at least: where errors change their sign, a small
-/// correction says nothing.
+/// Smallest uncertainty of points on a curve over the largest one: where errors change sign, a small correction is not significant.
 const ALONG: f64 = 0.1;
 
 /// Reference values along a curve, from coordinates and limits.
@@ -29,13 +29,13 @@ pub fn places(limits: &[(f64, Limit)], tolerance: f64) -> Vec<Place> {
 /// A limit and its uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limit {
-    /// Estimate for cells of no size.
+    /// Estimate for zero cell size.
     pub value: f64,
     /// Uncertainty.
     pub uncertainty: f64,
 }
 
-/// Extrapolation (Richardson, with the order of the values themselves) of three values; `None` if they do not shrink towards a limit.
+/// Richardson extrapolation of three values with their observed order; `None` if their differences do not decrease fast enough.
 fn extrapolated(values: &[f64]) -> Option<f64> {
     let [a, b, c] = values else { return None };
     let ratio = (c - b) / (b - a);
@@ -45,9 +45,9 @@ fn extrapolated(values: &[f64]) -> Option<f64> {
 impl Limit {
     /// Limit of at least three values, the finest last.
     ///
-    /// The uncertainty of an extrapolation is the size of its correction, or its change from the extrapolation one mesh coarser, if
-    /// that is more. Values that swing around their limit, and ever less, have it between the last two: the uncertainty is twice
-    /// their difference. Of others it is the larger of the last two differences.
+    /// The uncertainty of an extrapolation is the size of its correction or, if larger, its change from the extrapolation one
+    /// mesh coarser. Values with a decreasing oscillation have their limit between the last two; the uncertainty is twice their
+    /// difference. For other values it is the larger of the last two differences.
     pub fn of(values: &[f64]) -> Self {
         let n = values.len();
         let last = values[n - 1];
@@ -62,15 +62,15 @@ impl Limit {
         Self { value, uncertainty: change.max((value - last).abs()) }
     }
 
-    /// The limit, no better known than the limit of another method is near.
+    /// The limit, with an uncertainty not below its difference from the limit of another method.
     pub fn beside(self, other: Self) -> Self {
         Self { uncertainty: self.uncertainty.max((self.value - other.value).abs()), ..self }
     }
 
-    /// As a reference value: the uncertainty rounded up to two digits, the value to its hundredth.
+    /// Reference value: the uncertainty is rounded up to two digits, the value to one digit more.
     ///
-    /// An uncertainty below [`FINE`] of the tolerance is raised to it, since it cannot matter. A tolerance below [`SAFE`] uncertainties
-    /// is raised to them, since the reference cannot judge more closely.
+    /// An uncertainty below [`FINE`] of the tolerance is raised to this value, where it does not matter. A tolerance below
+    /// [`SAFE`] uncertainties is raised to them, since the reference allows no closer comparison.
     pub fn place(self, at: Option<f64>, tolerance: f64) -> Place {
         let floor = self.uncertainty.max(FINE * tolerance);
         let unit = 10f64.powf(floor.log10().floor() - 1.0);

@@ -1,5 +1,4 @@
-//! Benchmarks that other programs can enter: where their reference values come from, and the entries of this program and of the
-//! independent ones.
+//! Benchmarks for other programs: origin of their reference values, and the entries of this program and of the independent ones.
 //!
 //! The program `asperity-benchmarks` writes them to `docs/src/benchmarks`. Reference values are closed forms, or limits of the
 //! independent programs of `verification/independent`; no value of this program is a reference.
@@ -20,11 +19,11 @@ use crate::CaseError;
 pub use entry::Entry;
 pub use parts::Made;
 
-/// A benchmark and the function that makes it.
+/// A benchmark and the function that computes it.
 pub struct Maker {
     /// Name with version.
     pub name: &'static str,
-    /// Makes it; runs scenes for a minute or so.
+    /// Computes the benchmark; runs scenes for about a minute.
     pub make: fn() -> Result<Made, CaseError>,
 }
 

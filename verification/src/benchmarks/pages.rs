@@ -1,4 +1,4 @@
-//! Files of a benchmark that follow from its reference values and the results beside them.
+//! Files of a benchmark that are derived from its reference values and results.
 
 use crate::CaseError;
 use asperity_driver::benchmark::{Judgement, Reference, Submission};
@@ -6,12 +6,12 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Marks of the parts of a page that are written by the program.
+/// Marks that delimit the generated parts of a page.
 const VALUES: [&str; 2] = ["<!-- values -->\n", "<!-- end of values -->\n"];
 /// See [`VALUES`].
 const RESULTS: [&str; 2] = ["<!-- results -->\n", "<!-- end of results -->\n"];
 
-/// A file and what it should hold.
+/// A derived file and its expected contents.
 pub struct Derived {
     /// Path.
     pub path: PathBuf,
@@ -19,10 +19,10 @@ pub struct Derived {
     pub text: String,
 }
 
-/// Files in the folder of a benchmark that follow from the others: tables of values, the template, the parts of the page.
+/// Derived files in the folder of a benchmark: tables of values, the template, the generated parts of the page.
 ///
 /// # Errors
-/// A file that cannot be read.
+/// If a file cannot be read.
 pub fn derived(folder: &Path) -> Result<Vec<Derived>, CaseError> {
     let reference: Reference = serde_json::from_str(&read(&folder.join("reference.json"))?)?;
     let page = folder.join("README.md");
@@ -39,7 +39,7 @@ fn read(path: &Path) -> Result<String, CaseError> {
     fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()).into())
 }
 
-/// The text with another part between two marks.
+/// The text with the part between two marks replaced.
 fn replaced(text: &str, marks: [&str; 2], part: &str) -> Result<String, CaseError> {
     let cut = text.split_once(marks[0]).and_then(|(head, rest)| Some((head, rest.split_once(marks[1])?.1)));
     let (head, tail) = cut.ok_or_else(|| format!("the page has no part {}", marks[0].trim()))?;
@@ -108,7 +108,7 @@ fn results(folder: &Path, reference: &Reference) -> Result<String, CaseError> {
 /// Longest line of a page outside of tables.
 const WIDTH: usize = 100;
 
-/// The text with long lines broken, but for tables.
+/// The text with long lines wrapped, except in tables.
 fn wrapped(text: &str) -> String {
     let mut out = String::new();
     for line in text.lines() {

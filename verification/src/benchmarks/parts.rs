@@ -1,4 +1,4 @@
-//! Parts that the benchmarks share.
+//! Common parts of the benchmarks.
 
 use super::entry::Entry;
 use super::rounded::digits;
@@ -8,16 +8,16 @@ use asperity_driver::benchmark::{Along, Place, Quantity, Reference};
 /// Licence of the values.
 const LICENSE: &str = "CC0-1.0";
 
-/// Pascals in megapascals.
+/// Megapascals per pascal.
 pub const PER_PASCAL: f64 = 1e-6;
-/// Metres of a micrometre.
+/// Metres per micrometre.
 pub const MICROMETRE: f64 = 1e-6;
 
-/// A benchmark as it is made.
+/// A computed benchmark.
 pub struct Made {
     /// Reference values.
     pub reference: Reference,
-    /// Results that are kept beside them.
+    /// Results stored with them.
     pub entries: Vec<Entry>,
 }
 
@@ -32,7 +32,7 @@ pub fn reference(benchmark: &str, title: &str, quantities: Vec<Quantity>) -> Ref
     }
 }
 
-/// A quantity in words.
+/// Description of a quantity.
 pub struct Words {
     /// Name.
     pub name: &'static str,
@@ -47,12 +47,12 @@ pub struct Words {
 }
 
 impl Words {
-    /// The quantity with one value.
+    /// The quantity with a single value.
     pub fn one(self, place: Place) -> Quantity {
         self.quantity(None, vec![place])
     }
 
-    /// The quantity along a coordinate, given in words and unit.
+    /// The quantity along a coordinate with this meaning and unit.
     pub fn along(self, meaning: &str, unit: &str, places: Vec<Place>) -> Quantity {
         let along = Along { meaning: meaning.into(), unit: unit.into() };
         self.quantity(Some(along), places)
@@ -72,7 +72,7 @@ impl Words {
     }
 }
 
-/// The quantity, which a result need not have.
+/// The quantity, marked as optional in results.
 pub fn optional(quantity: Quantity) -> Quantity {
     Quantity { required: false, ..quantity }
 }
@@ -82,7 +82,7 @@ pub fn exact(at: Option<f64>, value: f64, tolerance: f64) -> Place {
     Place { at, value: digits(value, 12), uncertainty: 0.0, tolerance }
 }
 
-/// Value at `x` of a line through points of ascending abscissa, linear between them.
+/// Value at `x` by linear interpolation between points of ascending abscissa.
 pub fn interpolated(xs: &[f64], ys: &[f64], x: f64) -> f64 {
     let k = xs.partition_point(|&known| known < x).clamp(1, xs.len() - 1);
     let share = (x - xs[k - 1]) / (xs[k] - xs[k - 1]);

@@ -9,7 +9,7 @@ use crate::cases::sandwich::{self, PRESSED, Run, V_LOAD};
 use asperity_driver::benchmark::Quantity;
 use asperity_driver::report::mean;
 
-/// Heights of the places of slip \[m\], and the names of their quantities.
+/// Heights of the slip probes \[m\] and the names of their quantities.
 const HEIGHTS: [(f64, &str, &str); 3] = [
     (12.5e-3, "slip_y12", "Slip at y = 12.5 mm"),
     (25e-3, "slip_y25", "Slip at y = 25 mm"),
@@ -17,9 +17,9 @@ const HEIGHTS: [(f64, &str, &str); 3] = [
 ];
 /// Tolerance of the friction coefficient: 1 % of the slip rate, a dV/V.
 const FRICTION: f64 = 1e-4;
-/// Error of slip that a step of this program's entry may have \[m\]: a hundredth of the tolerances.
+/// Tolerance of slip per step in this program's entry \[m\]: a hundredth of the benchmark tolerances.
 const STEP: f64 = 2e-10;
-/// Cells of this program's entry \[mm\].
+/// Cell size of this program's entry \[mm\].
 const SIZE: f64 = 0.3125;
 
 const SLIP_BECAUSE: &str = "cells of 2.5 mm err by up to 0.015 um; no less than three times the uncertainty";
@@ -37,19 +37,19 @@ pub fn make() -> Result<Made, CaseError> {
     Ok(Made { reference, entries })
 }
 
-/// Ways of the upper edge at which histories are told \[um\].
+/// Displacements of the upper edge at which histories are given \[um\].
 fn moved(histories: &Results) -> Result<Vec<f64>, CaseError> {
     Ok(histories.at("u_y [mm]")?.numbers()?.iter().map(|u| (u * 1e4).round() / 10.0).collect())
 }
 
-/// Mean normal traction after the press on the four meshes \[MPa\].
+/// Mean normal traction after pressing on the four meshes \[MPa\].
 fn pressed(results: &Results, variant: &str) -> Result<Vec<f64>, CaseError> {
     let runs = results.at(variant)?;
     let of = |h: &str| runs.at(h)?.at("mean_normal_stress_mpa")?.number();
     ["2.5", "1.25", "0.625", "0.3125"].into_iter().map(of).collect()
 }
 
-/// Slip histories on the four meshes \[um\]: mesh, way, height.
+/// Slip histories on the four meshes \[um\], indexed by mesh, displacement and height.
 fn slips(histories: &Results) -> Result<Vec<Vec<Vec<f64>>>, CaseError> {
     histories.at("meshes")?.list()?.iter().map(|m| m.at("slip [um], rows u_y, columns y")?.rows()).collect()
 }
@@ -113,7 +113,7 @@ fn quantities(results: &Results, histories: &Results) -> Result<Vec<Quantity>, C
     Ok(all)
 }
 
-/// The press without overhang, with the two bars in series and a contact that does not yield.
+/// Pressing without overhang: two bars in series with a rigid contact.
 fn no_overhang() -> Quantity {
     let (young, poisson, width, way) = (44.8e3, 0.12, 50.0, 9.66e-3);
     Words {
@@ -126,7 +126,7 @@ fn no_overhang() -> Quantity {
     .one(exact(None, young * way / ((1.0 - poisson * poisson) * width), 0.005))
 }
 
-/// Values at the positions of the upper edge, from the steps of a run.
+/// Values at displacements of the upper edge, interpolated from the steps of a run.
 fn history(run: &Run, ways: &[f64], values: &[f64]) -> Vec<f64> {
     let time = |way: &f64| PRESSED + way * MICROMETRE / V_LOAD;
     ways.iter().map(|way| interpolated(run.record.times(), values, time(way))).collect()

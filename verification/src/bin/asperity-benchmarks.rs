@@ -1,5 +1,5 @@
-//! Writes the benchmarks that other programs can enter: reference values, the entries of this program and of the independent ones,
-//! and the tables of their pages.
+//! Writes the benchmarks for other programs: reference values, the entries of this program and of the independent ones, and the
+//! tables of their pages.
 #![allow(
     clippy::print_stdout,
     clippy::print_stderr,
@@ -19,10 +19,10 @@ struct Options {
     /// Folder of the benchmarks.
     #[arg(long, value_name = "DIR", default_value = "docs/src/benchmarks")]
     folder: PathBuf,
-    /// Run nothing: write the tables of values, templates and pages from the reference values and results that are there.
+    /// Run no scenes; write the tables of values, templates and pages from the existing reference values and results.
     #[arg(long)]
     pages: bool,
-    /// Only benchmarks with this in their names.
+    /// Only benchmarks whose names contain this text.
     #[arg(value_name = "PART")]
     only: Option<String>,
 }

@@ -11,12 +11,12 @@ use crate::ledger::Table;
 use crate::suite::Summary;
 use std::fmt::Write as _;
 
-/// Surroundings of the page of a case.
+/// Context of a page.
 #[derive(Clone, Copy, Debug)]
 pub struct Context<'a> {
-    /// The case before and the case after it.
+    /// Previous and next case.
     pub neighbours: [Option<&'a str>; 2],
-    /// Its sources.
+    /// Sources of the case.
     pub files: &'a Files,
     /// Releases of the history.
     pub releases: &'a [Release],
@@ -62,7 +62,7 @@ fn split(readme: &str) -> (&str, &str) {
     }
 }
 
-/// Ways from the page: subject, neighbours, scenes, sources, JSON.
+/// Links of the page: subject, neighbours, scenes, sources, JSON.
 fn links(outcome: &Outcome, context: Context<'_>) -> String {
     let name = outcome.case.name;
     let subject = subjects::subject(&subjects::all(), name);
@@ -130,7 +130,7 @@ fn free_table(table: &Table) -> String {
     )
 }
 
-/// Error and bound of each claim at the last release, where they were not what they are now.
+/// Error and bound of each claim at the last release, where they differ from the current ones.
 fn before(outcome: &Outcome, releases: &[Release]) -> Vec<String> {
     let ids = ids::of(&outcome.record.claims);
     let last = releases.last().and_then(|r| Some((&r.tag, r.cases.get(outcome.case.name)?)));

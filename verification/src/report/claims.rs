@@ -1,4 +1,4 @@
-//! Claims as blocks of a page: what is compared on top, reasons and sources folded.
+//! Claims as blocks of a page: the comparison on top, reasons and sources folded.
 
 use super::page::{Depth, escape, number, word};
 use crate::claim::{Evidence, Judged, Mark, Test, Verdict};
@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 /// Values of a list that are shown unfolded.
 const SHOWN: usize = 4;
 
-/// Counts in a sentence, each word of which is explained.
+/// Counts in a sentence, with links to the explanation of each term.
 pub fn summary(summary: &Summary, depth: Depth) -> String {
     let class = if summary.passes() { "good" } else { "bad" };
     let mut text = format!("<p class=\"summary {class}\">{}</p>\n", escape(&summary.to_string()));
@@ -21,7 +21,7 @@ pub fn summary(summary: &Summary, depth: Depth) -> String {
     text
 }
 
-/// All claims of a case with their permalinks, and a remark on each at the last release.
+/// All claims of a case with their permalinks and a remark on each claim's values at the last release.
 pub fn all(claims: &[Judged], ids: &[String], before: &[String]) -> String {
     claims.iter().zip(ids).zip(before).map(|((judged, id), before)| one(judged, id, before)).collect()
 }
@@ -76,7 +76,7 @@ fn numbers(judged: &Judged, id: &str) -> String {
     list + &entry("evidence", &if kind.is_empty() { String::new() } else { word(kind, kind, Depth::Below) })
 }
 
-/// Unit of the bound, where it is not the unit of the value.
+/// Unit of the bound if it differs from that of the value.
 fn scale(test: &Test) -> &'static str {
     match test {
         Test::Relative { .. } => " <span class=\"small\">relative</span>",
@@ -128,7 +128,7 @@ fn values(judged: &Judged, id: &str) -> String {
     }
 }
 
-/// Values with seven digits; long lists show their first ones.
+/// Values with seven digits; of long lists the first ones are shown.
 fn list(values: &[f64], unit: &str) -> String {
     let digits =
         |v: &f64| if v.abs() < 1e6 && v.abs() > 1e-3 { format!("{v:.7}") } else { format!("{v:.7e}") };

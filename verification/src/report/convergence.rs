@@ -1,17 +1,17 @@
-//! Convergence figures of claims of order: errors against what is refined, with the expected slope as a triangle.
+//! Convergence figures of claims on orders: errors against the refined size, with the expected slope as a triangle.
 
 use super::page::number;
 use crate::claim::Claim;
 use crate::order::OrderTest;
 use asperity_output::plots::{Diagram, Series, Slope};
 
-/// Distance of the triangle from the errors in decades: a fixed part, and a part of their range.
+/// Distance of the triangle from the errors in decades: a fixed part and a fraction of their range.
 const APART: (f64, f64) = (0.08, 0.10);
 
-/// Part of the fitted levels below which the triangle stands.
+/// Fraction of the range of fitted levels below which the triangle is drawn.
 const SPAN: (f64, f64) = (0.35, 0.85);
 
-/// The figure of a claim of order.
+/// The figure of a claim on an order.
 pub fn diagram(claim: &Claim, order: &OrderTest) -> Diagram {
     let points: Vec<(f64, f64)> = order.levels.iter().map(|l| (l.size, l.error)).collect();
     let unit = if claim.unit.is_empty() { "–" } else { &claim.unit };
@@ -29,7 +29,7 @@ pub fn diagram(claim: &Claim, order: &OrderTest) -> Diagram {
     }
 }
 
-/// The triangle below the fitted levels; none where they have no logarithms.
+/// The triangle below the fitted levels; none if they have no logarithms.
 fn slope(order: &OrderTest) -> Option<Slope> {
     let fitted = order.fitted();
     let (coarse, fine) = (fitted.first()?, fitted.last()?);

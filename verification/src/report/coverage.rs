@@ -1,4 +1,4 @@
-//! The coverage matrix: which capability rests on which kind of evidence.
+//! The coverage matrix: kinds of evidence for each capability.
 
 use super::ids::slug;
 use super::page::{Depth, escape, page, word};
@@ -15,7 +15,7 @@ pub struct Cell {
     pub hold: usize,
     /// Claims that disagree.
     pub disagree: usize,
-    /// Cases they stand in, in the order of the report.
+    /// Cases with these claims, in the order of the report.
     pub cases: Vec<&'static str>,
 }
 

@@ -1,4 +1,4 @@
-//! Field pictures: the Mises stress at the end of a stage of a scene of the case, by the product's plots.
+//! Field pictures: Mises stress at the end of a stage of a scene of the case, drawn by the product's plots.
 
 use super::figures;
 use super::page::escape;
@@ -33,7 +33,7 @@ const FIELDS: [(&str, &str, &str); 22] = [
     ("wavy_sliding", "verification/cases/wavy_sliding/scene.toml", "slide"),
 ];
 
-/// Pictures of a case; what cannot be drawn says why.
+/// Pictures of a case, or the reason why one cannot be drawn.
 pub fn of(case: &str) -> String {
     let fields = FIELDS.iter().filter(|(name, ..)| *name == case);
     fields.map(|(_, scene, stage)| one(scene, stage)).collect()

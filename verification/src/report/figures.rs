@@ -1,4 +1,4 @@
-//! Figures of a page: drawings by the product's plots, each with one title and a caption.
+//! Figures of a page, drawn by the product's plots, each with a title and a caption.
 
 use super::page::{escape, number};
 use crate::claim::{Judged, Test};
@@ -6,7 +6,7 @@ use crate::ledger::{Picture, Record};
 use asperity_output::plots::Diagram;
 use std::fmt::Write as _;
 
-/// Convergence figures of a case that are shown without being unfolded.
+/// Largest number of convergence figures of a case that are shown unfolded.
 const UNFOLDED: usize = 9;
 
 /// A figure with its title above the drawing.
@@ -18,7 +18,7 @@ pub fn figure(id: &str, title: &str, drawing: &str, caption: &str) -> String {
     format!("<figure{id}>{title}{drawing}{caption}</figure>\n")
 }
 
-/// Figures side by side where there is room.
+/// Figures side by side if there is room.
 pub fn side_by_side(figures: &str) -> String {
     if figures.is_empty() { String::new() } else { format!("<div class=\"figures\">\n{figures}</div>\n") }
 }
@@ -29,7 +29,7 @@ pub fn diagram(diagram: &Diagram) -> String {
     figure("", &escape(&diagram.title), &drawn.svg(), &caption(diagram))
 }
 
-/// Caption of a diagram, with what could not be drawn.
+/// Caption of a diagram, with a note on points that could not be drawn.
 fn caption(diagram: &Diagram) -> String {
     let mut caption = escape(&diagram.caption);
     for series in &diagram.series {
@@ -53,12 +53,12 @@ pub fn of_case(record: &Record) -> String {
     pictures.chain(diagrams).collect()
 }
 
-/// A drawing that a case brings along.
+/// A drawing provided by a case.
 pub fn picture(picture: &Picture) -> String {
     figure("", &escape(&picture.title), &picture.svg, &escape(&picture.caption))
 }
 
-/// A convergence figure for each claim of order; many are folded.
+/// A convergence figure for each claim on an order; folded if there are many.
 pub fn of_orders(claims: &[Judged], ids: &[String]) -> String {
     let one = |(judged, id): (&Judged, &String)| {
         let Test::Order(order) = &judged.claim.test else { return None };

@@ -1,4 +1,4 @@
-//! History: error, bound and cost of the suite at each release, in small files, and what has changed since the last one.
+//! History: error, bound and cost of the suite at each release, in small files, and changes since the last release.
 
 use super::ids;
 use super::page::{Depth, escape, number, page, time};
@@ -11,16 +11,16 @@ use std::path::{Path, PathBuf};
 /// Version of the format of the files.
 pub const SCHEMA: u32 = 1;
 
-/// Factor by which an error or a wall time has to change to be listed.
+/// Smallest factor of change of an error or a wall time that is listed.
 const LISTED: f64 = 2.0;
 
-/// Share of its bound below which a growing error is not listed: it is noise.
+/// Fraction of the bound below which a growing error is not listed, as noise.
 const NOISE: f64 = 0.1;
 
-/// Shortest wall time that is compared: below it the machine decides \[s\].
+/// Shortest wall time that is compared \[s\]; shorter times depend on the machine.
 const SHORTEST: f64 = 1.0;
 
-/// Error and bound of a claim; none where it could not be measured.
+/// Error and bound of a claim; none if it could not be measured.
 pub type Pair = (Option<f64>, Option<f64>);
 
 /// A case at a release.
@@ -51,13 +51,13 @@ pub struct Release {
     pub cases: BTreeMap<String, KeptCase>,
 }
 
-/// Three significant digits: what is compared changes by more.
+/// Rounds to three significant digits, enough for changes that are listed.
 fn short(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
 }
 
 impl Release {
-    /// Results of a run for the history. Cases that did not run keep those of an earlier file of the same release.
+    /// History file of a run. Cases that did not run keep the entries of an earlier file of the same release.
     pub fn of(tag: &str, outcomes: &[Outcome], run: &Provenance, earlier: Option<Release>) -> Release {
         let mut cases = earlier.map(|release| release.cases).unwrap_or_default();
         cases.extend(outcomes.iter().map(|outcome| (outcome.case.name.to_owned(), kept(outcome))));
@@ -72,7 +72,7 @@ impl Release {
         }
     }
 
-    /// The text of its file, one claim a line.
+    /// Text of the file, one claim a line.
     ///
     /// # Errors
     /// If it cannot be encoded.
@@ -109,17 +109,17 @@ fn kept(outcome: &Outcome) -> KeptCase {
     KeptCase { wall: short(outcome.wall), claims: pairs }
 }
 
-/// The folder of the files.
+/// Folder of the history files.
 pub fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("history")
 }
 
-/// Numbers of a version such as `v0.10.2`, by which releases are sorted.
+/// Numbers of a version such as `v0.10.2`, used to sort releases.
 fn version(tag: &str) -> Vec<u64> {
     tag.split(|c: char| !c.is_ascii_digit()).filter_map(|part| part.parse().ok()).collect()
 }
 
-/// Releases in a folder, old ones first. Files that are none are left out.
+/// Releases in a folder, oldest first. Other files are ignored.
 pub fn releases(folder: &Path) -> Vec<Release> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let texts = entries.filter_map(|entry| std::fs::read_to_string(entry.path()).ok());
@@ -129,7 +129,7 @@ pub fn releases(folder: &Path) -> Vec<Release> {
     found
 }
 
-/// Time that cases took at their last releases.
+/// Wall time of cases at their last releases.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Forecast {
     /// Sum of the known times \[s\].
@@ -140,7 +140,7 @@ pub struct Forecast {
     pub machine: String,
 }
 
-/// Time that these cases will take.
+/// Forecast of the wall time of these cases.
 pub fn forecast(releases: &[Release], cases: &[&Case]) -> Forecast {
     let machine = releases.last().map(|release| release.machine.clone()).unwrap_or_default();
     let mut forecast = Forecast { machine, ..Forecast::default() };
@@ -183,15 +183,15 @@ pub struct Change {
 /// Changes since a release.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Changes {
-    /// Bounds that are not the same.
+    /// Bounds that have changed.
     pub bounds: Vec<Change>,
-    /// Errors that have grown or fallen.
+    /// Errors that have increased or decreased.
     pub errors: Vec<Change>,
-    /// Wall times of cases, with empty names of claims.
+    /// Wall times of cases; names of claims are empty.
     pub costs: Vec<Change>,
-    /// Number of claims that the release did not have.
+    /// Number of claims that are new since the release.
     pub new: usize,
-    /// Claims that are gone, of cases that ran.
+    /// Claims removed since the release, of cases that ran.
     pub gone: Vec<(String, String)>,
 }
 
@@ -300,7 +300,7 @@ fn gone(gone: &[(String, String)]) -> String {
     )
 }
 
-/// Releases with their sizes.
+/// Table of releases with their numbers of cases and claims.
 fn table(releases: &[Release]) -> String {
     let row = |release: &Release| {
         let claims: usize = release.cases.values().map(|case| case.claims.len()).sum();

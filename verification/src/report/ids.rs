@@ -1,12 +1,12 @@
-//! Names of claims that stay the same from run to run: their permalinks, and their keys in the history.
+//! Names of claims that do not change between runs: their permalinks and their keys in the history.
 
 use crate::claim::Judged;
 use std::collections::BTreeMap;
 
-/// Characters of a name at most, but for the number of a repeated one.
+/// Maximum length of a name, without the number appended to a repeated one.
 const LONGEST: usize = 72;
 
-/// Names of the claims of a case, each once.
+/// Unique names of the claims of a case.
 pub fn of(claims: &[Judged]) -> Vec<String> {
     let mut seen: BTreeMap<String, usize> = BTreeMap::new();
     let name = |judged: &Judged| {
@@ -18,7 +18,7 @@ pub fn of(claims: &[Judged]) -> Vec<String> {
     claims.iter().map(name).collect()
 }
 
-/// Lower-case letters and digits of a text, joined by hyphens; of a long text the beginning and a number made of the rest.
+/// Lower-case letters and digits of a text, joined by hyphens; a long text is shortened to its beginning and a hash.
 pub fn slug(text: &str) -> String {
     let mut slug = String::new();
     for c in text.chars() {
@@ -32,7 +32,7 @@ pub fn slug(text: &str) -> String {
     if slug.len() <= LONGEST {
         return if slug.is_empty() { "claim".to_owned() } else { slug.to_owned() };
     }
-    // Fowler, Noll and Vo's hash, 32 bits of it.
+    // FNV-1a hash (Fowler, Noll and Vo), 32 bits.
     let hash = slug.bytes().fold(0x811c_9dc5_u32, |h, b| (h ^ u32::from(b)).wrapping_mul(0x0100_0193));
     format!("{}-{hash:08x}", &slug[..LONGEST - 9])
 }

@@ -1,4 +1,4 @@
-//! The first page: the outcome, and the cases by subject with a filter and a search.
+//! The first page: the outcome and the cases by subject, with a filter and a search.
 
 use super::claims;
 use super::history::Release;
@@ -34,7 +34,7 @@ pub fn whole(outcomes: &[Outcome], releases: &[Release], run: &Provenance) -> St
     page("asperity: verification", Depth::Top, run, &body)
 }
 
-/// Sentence on the changes since the last release.
+/// Changes since the last release, in a sentence.
 fn since(outcomes: &[Outcome], releases: &[Release]) -> String {
     let Some(last) = releases.last() else { return String::new() };
     let changes = super::history::changes(last, outcomes);
@@ -47,7 +47,7 @@ fn since(outcomes: &[Outcome], releases: &[Release]) -> String {
     )
 }
 
-/// Filter and search; a script shows them, since without one they do nothing.
+/// Filter and search; shown by a script, since they need it to work.
 fn controls(subjects: &[Subject]) -> String {
     let options: String = subjects
         .iter()
@@ -103,7 +103,7 @@ fn row(outcome: &Outcome) -> String {
     )
 }
 
-/// Words the filter looks for.
+/// Words used by the filter.
 fn states(outcome: &Outcome, summary: &Summary) -> String {
     let orders = outcome.record.claims.iter().any(|j| matches!(j.claim.test, crate::claim::Test::Order(_)));
     let states = [
@@ -120,7 +120,7 @@ fn worst(claims: &[Judged]) -> Option<f64> {
     claims.iter().filter_map(|judged| judged.measured.map(|m| m.ratio)).max_by(f64::total_cmp)
 }
 
-/// Claims as the search reads them: case, name, quantity, state.
+/// Claims as the search needs them: case, name, quantity, state.
 fn searched(outcomes: &[Outcome]) -> String {
     let mut found = Vec::new();
     for outcome in outcomes {

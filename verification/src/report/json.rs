@@ -1,4 +1,4 @@
-//! `report.json`: everything reproducible at the top, everything that depends on the machine under `run`. Its schema is
+//! `report.json`: reproducible results at the top, machine-dependent ones under `run`. Its schema is
 //! `docs/src/verification.schema.json`.
 
 use super::ids;
@@ -24,7 +24,7 @@ pub struct Report<'a> {
     pub schema: u32,
     /// Counts of all claims.
     pub summary: Summary,
-    /// Cases, in the order they ran.
+    /// Cases in the order in which they ran.
     pub cases: Vec<CaseReport<'a>>,
     /// Values that depend on the machine.
     pub run: Run<'a>,
@@ -46,7 +46,7 @@ pub struct CaseReport<'a> {
 /// A claim with its name.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct ClaimReport<'a> {
-    /// Name: its permalink on the page of the case and its key in the history.
+    /// Name, which is its permalink on the page of the case and its key in the history.
     pub id: String,
     /// The judged claim.
     #[serde(flatten)]
@@ -59,16 +59,16 @@ pub struct Run<'a> {
     /// Provenance.
     #[serde(flatten)]
     pub provenance: &'a Provenance,
-    /// Wall times by case, and what may contain them.
+    /// Wall times, and diagrams, tables and notes that may contain them, by case.
     pub walls: BTreeMap<&'a str, Walls<'a>>,
 }
 
-/// Wall times of a case, and what may contain them: diagrams, tables and notes.
+/// Wall times of a case, and diagrams, tables and notes that may contain them.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct Walls<'a> {
-    /// Of the case \[s\].
+    /// Wall time of the case \[s\].
     pub case: f64,
-    /// Of the runs behind its claims, in the order of the claims \[s\].
+    /// Wall times of the runs behind its claims, in the order of the claims \[s\].
     pub claims: Vec<Option<f64>>,
     /// Diagrams.
     pub plots: &'a [Diagram],

@@ -1,4 +1,4 @@
-//! Claims as JUnit's XML, which continuous integration reads.
+//! Claims as JUnit XML for continuous integration.
 
 use super::page::escape;
 use crate::case::Outcome;

@@ -1,4 +1,4 @@
-//! Markdown with formulas between dollars, typeset as MathML, which browsers draw without a script.
+//! Markdown with formulas between dollar signs, typeset as MathML, which browsers render without a script.
 
 use super::page::escape;
 use pulldown_cmark::{CowStr, Event, Options, Parser, html};
@@ -21,7 +21,7 @@ fn typeset(event: Event<'_>) -> Event<'_> {
     }
 }
 
-/// MathML of a formula; its text where it cannot be read.
+/// MathML of a formula, or its text if it cannot be parsed.
 fn formula(text: &str, display_mode: DisplayMode) -> String {
     let storage = Storage::new();
     let events: Vec<_> = Formula::new(text, &storage).collect();

@@ -31,20 +31,20 @@ use std::path::{Path, PathBuf};
 /// Reason why a report could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
-    /// A file or folder.
+    /// A file or folder could not be written.
     #[error("cannot write {}: {source}", .path.display())]
     Write {
-        /// Which.
+        /// Path of the file or folder.
         path: PathBuf,
-        /// Reason.
+        /// Cause.
         source: std::io::Error,
     },
-    /// Encoding.
+    /// A result could not be encoded.
     #[error("cannot encode a result: {0}")]
     Encode(#[from] serde_json::Error),
 }
 
-/// Writes the whole report into `folder`, replacing the pages of an earlier one.
+/// Writes the whole report into `folder`, replacing the pages of an earlier report.
 ///
 /// # Errors
 /// If a file cannot be written.
@@ -86,7 +86,7 @@ fn text(value: &impl Serialize) -> Result<String, ReportError> {
     Ok(serde_json::to_string_pretty(value)?)
 }
 
-/// An empty folder inside a folder.
+/// Creates or empties a folder inside a folder.
 fn emptied(folder: &Path, name: &str) -> Result<PathBuf, ReportError> {
     let path = folder.join(name);
     let fault = |source| ReportError::Write { path: path.clone(), source };
@@ -97,7 +97,7 @@ fn emptied(folder: &Path, name: &str) -> Result<PathBuf, ReportError> {
     Ok(path)
 }
 
-/// Writes a file and the folders it stands in.
+/// Writes a file and creates its parent folders.
 ///
 /// # Errors
 /// If it cannot be written.

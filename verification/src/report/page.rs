@@ -1,5 +1,5 @@
-//! Parts of every page: the frame, the stamp, and how texts and numbers are printed. Pages need no network; without scripts
-//! they show everything.
+//! Common parts of pages: the frame, the stamp, and the format of texts and numbers. Pages need no network; without scripts they
+//! show everything.
 
 use super::provenance::Provenance;
 
@@ -32,14 +32,14 @@ pub fn escape(text: &str) -> String {
     out
 }
 
-/// A number as the report prints it: four significant digits, plain where that is short.
+/// A number in the format of the report: four significant digits, without exponent if that is short.
 pub fn number(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 || !value.is_finite() {
         return value.to_string();
     }
     if (1e-2..1e5).contains(&size) {
-        // Significant digits after the point: fewer for larger numbers.
+        // Digits after the point: fewer for larger numbers.
         let decimals = (3 - size.log10().floor() as i32).max(0) as usize;
         let text = format!("{value:.decimals$}");
         return if text.contains('.') {
@@ -61,22 +61,22 @@ pub fn time(seconds: f64) -> String {
     }
 }
 
-/// A word that the page of words explains.
+/// A word linked to its explanation on the page of words.
 pub fn word(anchor: &str, text: &str, depth: Depth) -> String {
     format!("<a class=\"word\" href=\"{}words.html#{anchor}\">{}</a>", depth.up(), escape(text))
 }
 
-/// Place of a page in the folder of the report.
+/// Level of a page in the folder of the report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
-    /// Beside the first page.
+    /// In the folder of the first page.
     Top,
     /// One folder below.
     Below,
 }
 
 impl Depth {
-    /// The way to the first page.
+    /// Relative path to the first page.
     pub fn up(self) -> &'static str {
         match self {
             Depth::Top => "",
@@ -85,7 +85,7 @@ impl Depth {
     }
 }
 
-/// A whole page around a body.
+/// A complete page with this body.
 pub fn page(title: &str, depth: Depth, run: &Provenance, body: &str) -> String {
     let links: String = PAGES
         .iter()
@@ -101,7 +101,7 @@ pub fn page(title: &str, depth: Depth, run: &Provenance, body: &str) -> String {
     )
 }
 
-/// Facts that every page is stamped with.
+/// Provenance printed on every page.
 fn stamp(run: &Provenance) -> String {
     let facts = [
         ("commit", run.commit.clone()),

@@ -1,4 +1,4 @@
-//! Planted defects and the claims that notice them.
+//! Planted defects and the claims that detect them.
 
 use super::ids::slug;
 use super::page::{Depth, escape, number, page, word};
@@ -15,29 +15,29 @@ pub struct Noticed {
     /// Quantity.
     #[serde(default)]
     pub claim: String,
-    /// Error over bound.
+    /// Ratio of error to bound.
     pub margin: Option<f64>,
 }
 
-/// The suite under a defect.
+/// Result of the suite with a defect.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct Result {
-    /// End of the run.
+    /// Outcome of the run.
     #[serde(default)]
     pub status: String,
     /// Claims that disagree.
     pub noticed: Vec<Noticed>,
 }
 
-/// Words on a defect.
+/// Description of a defect.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
 pub struct Definition {
-    /// The mistake.
+    /// The error in the code.
     pub wrong: String,
-    /// Reason for which somebody would make it.
+    /// Reason why such an error is plausible.
     #[serde(default)]
     pub why: String,
-    /// Cases that should notice it.
+    /// Cases that should detect it.
     #[serde(default)]
     pub expected: Vec<String>,
 }
@@ -45,9 +45,9 @@ pub struct Definition {
 /// Defects with their results, by name.
 #[derive(Clone, Debug, Default)]
 pub struct Defects {
-    /// Words on them.
+    /// Descriptions of the defects.
     pub definitions: BTreeMap<String, Definition>,
-    /// Results of those that were made.
+    /// Results of the defects that were run.
     pub results: BTreeMap<String, Result>,
 }
 
@@ -57,7 +57,7 @@ fn root() -> PathBuf {
 }
 
 impl Defects {
-    /// Reads definitions and results of the repository; none where the sources are not at hand.
+    /// Reads definitions and results from the repository; none if the sources are not available.
     pub fn read() -> Defects {
         let root = root();
         let folder = root.join("verification/defects");
@@ -70,7 +70,7 @@ impl Defects {
     }
 }
 
-/// Names and texts of the files of a kind.
+/// Names and contents of the files with this ending.
 fn texts(folder: &Path, end: &str) -> Vec<(String, String)> {
     let paths = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
     let named = |path: PathBuf| {
@@ -110,7 +110,7 @@ impl Result {
     }
 }
 
-/// The page of all of them.
+/// The page of all defects.
 pub fn whole(defects: &Defects, run: &Provenance) -> String {
     let noticed = defects.results.values().filter(|result| !result.noticed.is_empty()).count();
     let mut body = format!(
@@ -174,10 +174,10 @@ fn size(margin: f64) -> String {
     if margin.is_infinite() { "∞".to_owned() } else { number(margin) }
 }
 
-/// Number of claims of a case that notice a defect, and their largest margin.
+/// Number of claims of a case that detect a defect, and their largest margin.
 type Margins<'a> = BTreeMap<&'a str, (usize, f64)>;
 
-/// Defects by cases with the largest margins. It folds, since it is wide.
+/// Table of defects by cases with the largest margins; folded, since it is wide.
 fn matrix(defects: &Defects) -> String {
     let rows: Vec<(&String, Margins<'_>)> =
         defects.results.iter().map(|(name, result)| (name, result.by_case())).collect();
@@ -206,12 +206,12 @@ fn matrix(defects: &Defects) -> String {
     )
 }
 
-/// Decadic logarithm of a margin, rounded.
+/// Rounded decimal logarithm of a margin.
 fn decades(margin: f64) -> String {
     if margin.is_infinite() { "∞".to_owned() } else { format!("{:.0}", margin.max(1.0).log10()) }
 }
 
-/// Shade of a cell, 0 to 3: just above the bound, ten, a thousand times it, and beyond.
+/// Shade of a cell, 0 to 3: margins up to ten, above ten, above a thousand, infinite.
 fn shade(margin: f64) -> u8 {
     u8::from(margin > 10.0) + u8::from(margin > 1e3) + u8::from(margin.is_infinite())
 }

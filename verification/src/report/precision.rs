@@ -1,4 +1,4 @@
-//! Work against precision: all diagrams of the suite that set errors against work, with the cost to reach given errors.
+//! Work and precision: all diagrams of errors against computational work, with the cost to reach given errors.
 
 use super::figures;
 use super::page::{Depth, escape, number, page, word};
@@ -6,7 +6,7 @@ use super::provenance::Provenance;
 use crate::case::Outcome;
 use asperity_output::plots::{Diagram, Series};
 
-/// Errors whose cost is told.
+/// Errors for which the cost is reported.
 const TARGETS: [f64; 3] = [1e-2, 1e-3, 1e-4];
 
 /// The cost of an error along a curve.
@@ -14,13 +14,13 @@ const TARGETS: [f64; 3] = [1e-2, 1e-3, 1e-4];
 pub enum Reached {
     /// Between measured points, interpolated on logarithms.
     At(f64),
-    /// Even the cheapest run is more precise; it costs this much.
+    /// The cheapest run is already more accurate and has this cost.
     Below(f64),
-    /// No run is as precise.
+    /// No run reaches this accuracy.
     Never,
 }
 
-/// The least cost to reach an error: the cheapest way along the curve, in the order of its points.
+/// Smallest cost to reach an error along the curve, in the order of its points.
 pub fn cost_to_reach(series: &Series, target: f64) -> Reached {
     let usable = |p: &&(f64, f64)| p.0 > 0.0 && p.1 > 0.0 && p.0.is_finite() && p.1.is_finite();
     let points: Vec<(f64, f64)> = series.points.iter().filter(usable).copied().collect();
@@ -40,7 +40,7 @@ pub fn cost_to_reach(series: &Series, target: f64) -> Reached {
     least.map_or(Reached::Never, Reached::At)
 }
 
-/// True if errors are fractions: their label names no unit but [-].
+/// True if errors are relative: their label has no unit except [-].
 fn is_relative(diagram: &Diagram) -> bool {
     diagram.x_label.split_once('[').is_none_or(|(_, unit)| unit.starts_with("-]") || unit.starts_with("–]"))
 }
@@ -70,7 +70,7 @@ fn cell(reached: Reached) -> String {
     format!("<td class=\"number\">{text}</td>")
 }
 
-/// The page of all of them.
+/// The page of all diagrams.
 pub fn whole(outcomes: &[Outcome], run: &Provenance) -> String {
     let mut body = format!(
         "<h1>Work and precision</h1>\n<p>Methods are compared at equal error. The tables interpolate on \

@@ -10,28 +10,28 @@ use std::time::{SystemTime, UNIX_EPOCH};
 pub struct Provenance {
     /// Version of the suite.
     pub version: String,
-    /// Commit of the sources, with `+` when they were changed; empty outside a repository.
+    /// Commit of the sources, followed by `+` if they were modified; empty outside a repository.
     pub commit: String,
-    /// The command that ran it.
+    /// Command that was run.
     pub command: String,
-    /// Compiler and profile it was built with.
+    /// Compiler and build profile.
     pub compiler: String,
-    /// Time of its end, UTC.
+    /// Time of completion, UTC.
     pub date: String,
-    /// System and processor.
+    /// Operating system and processor.
     pub machine: String,
     /// Threads available.
     pub threads: usize,
-    /// True if the long cases ran, too.
+    /// True if the long cases were included.
     pub full: bool,
-    /// True if the tests of the workspace passed just before.
+    /// True if the workspace tests passed immediately before.
     pub tested: bool,
-    /// Wall time of the whole \[s\].
+    /// Total wall time \[s\].
     pub wall: f64,
 }
 
 impl Provenance {
-    /// Gathers them now.
+    /// Collects the provenance of the current run.
     pub fn gather(full: bool, tested: bool, wall: f64) -> Provenance {
         let seconds = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
         Provenance {

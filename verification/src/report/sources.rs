@@ -1,4 +1,4 @@
-//! Sources of a case: its program and its scenes, each on a page that needs no network.
+//! Sources of a case: its program and its scenes, on a page that needs no network.
 
 use super::page::{Depth, escape, page};
 use super::provenance::Provenance;
@@ -9,8 +9,8 @@ use std::path::{Component, Path, PathBuf};
 /// Files of one case, by their path in the repository.
 pub type Files = BTreeMap<String, String>;
 
-/// Reads the files of a case: all of its folder but its README, files it shares with others, and scenes that they include. None where the sources
-/// are not at hand.
+/// Reads the files of a case: its folder without the README, files shared with other cases, and scenes that they include. None if
+/// the sources are not available.
 pub fn files(case: &Case) -> Files {
     let package = Path::new(env!("CARGO_MANIFEST_DIR"));
     let root = package.parent().unwrap_or(package);
@@ -52,14 +52,14 @@ fn includes(program: &str) -> Vec<String> {
     paths.filter(|path| path.ends_with(".toml")).collect()
 }
 
-/// Names of files beside the folders of the cases that a program uses.
+/// Names of the shared files, beside the case folders, that a program uses.
 fn helpers(program: &str) -> Vec<String> {
     let parts = ["super::", "cases::"].into_iter().flat_map(|path| program.split(path).skip(1));
     let name = |part: &str| part.chars().take_while(|c| c.is_ascii_lowercase() || *c == '_').collect();
     parts.map(name).filter(|name: &String| name.len() > 1).collect()
 }
 
-/// A path without steps up.
+/// A path with `..` resolved.
 fn plain(path: &Path) -> PathBuf {
     let mut out = PathBuf::new();
     for part in path.components() {

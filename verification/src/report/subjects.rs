@@ -3,7 +3,7 @@
 /// The chapter of the book with the list of cases.
 const CHAPTER: &str = include_str!("../../../docs/src/verification.md");
 
-/// Subject of cases that the chapter does not list.
+/// Subject of cases that are not listed in the chapter.
 const OTHER: &str = "Other";
 
 /// A subject and the names of its cases.

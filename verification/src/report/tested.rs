@@ -1,11 +1,11 @@
-//! Tests of the workspace that are the evidence for what no case can claim: the reader of scenes, files, other programs.
+//! Tests of the workspace that are evidence where cases cannot make claims: the scene reader, files, other programs.
 
 use super::page::{Depth, escape, page};
 use super::provenance::Provenance;
 use crate::capability::Capability;
 use std::path::{Path, PathBuf};
 
-/// Files whose tests are evidence for a capability, by the beginnings of their paths.
+/// Files with tests that are evidence for a capability, by path prefix.
 const GROUPS: [(Capability, &[&str]); 3] = [
     (
         Capability::Scenes,
@@ -38,7 +38,7 @@ const GROUPS: [(Capability, &[&str]); 3] = [
     (Capability::Interop, &["interop/", "crates/driver/tests/all/mesh"]),
 ];
 
-/// A file with the propositions that its tests state.
+/// A file with the names of its tests in words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Tested {
     /// Path in the repository.
@@ -47,7 +47,7 @@ pub struct Tested {
     pub tests: Vec<String>,
 }
 
-/// Tests behind a capability.
+/// Tests that are evidence for a capability.
 #[derive(Clone, Debug)]
 pub struct Group {
     /// The capability.
@@ -63,7 +63,7 @@ impl Group {
     }
 }
 
-/// Reads the tests from the sources, where they are at hand.
+/// Reads the tests from the sources, if these are available.
 pub fn groups() -> Vec<Group> {
     let package = Path::new(env!("CARGO_MANIFEST_DIR"));
     let root = package.parent().unwrap_or(package);
@@ -118,7 +118,7 @@ fn words(name: &str) -> String {
     name.trim().split('_').collect::<Vec<_>>().join(" ")
 }
 
-/// The page of all of them.
+/// The page of all tests.
 pub fn whole(groups: &[Group], run: &Provenance) -> String {
     let state = if run.tested {
         "They passed just before this run: <code>cargo xtask verify</code> stops where one fails."

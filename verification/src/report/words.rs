@@ -1,9 +1,9 @@
-//! Words of the pages, each explained once.
+//! Glossary of the pages.
 
 use super::page::{Depth, escape, page};
 use super::provenance::Provenance;
 
-/// Anchor, word and its meaning.
+/// Anchor, word and meaning.
 const WORDS: [(&str, &str, &str); 25] = [
     (
         "claim",
@@ -100,7 +100,7 @@ const WORDS: [(&str, &str, &str); 25] = [
     ),
 ];
 
-/// The page of words.
+/// Page of the glossary.
 pub fn whole(run: &Provenance) -> String {
     let entries: String = WORDS
         .iter()

@@ -1,4 +1,4 @@
-//! Bodies.
+//! Sketches of body problems.
 
 use asperity_output::plots::Sketch;
 
@@ -103,7 +103,7 @@ fn point_load() -> Sketch {
 }
 
 fn cook() -> Sketch {
-    // One millimetre is a unit.
+    // One unit is one millimetre.
     let at = |x: f64, y: f64| (24.0 + x, 8.0 + y);
     Sketch::new(78.0)
         .body(&[at(0.0, 0.0), at(48.0, 44.0), at(48.0, 60.0), at(0.0, 44.0)], "")

@@ -1,4 +1,4 @@
-//! Contact.
+//! Sketches of contact problems.
 
 use asperity_output::plots::Sketch;
 

@@ -1,4 +1,4 @@
-//! Faults through earthquake cycles.
+//! Sketches of faults through earthquake cycles.
 
 use asperity_output::plots::Sketch;
 

@@ -1,4 +1,4 @@
-//! Interfaces with rate and state, and the sandwich.
+//! Sketches of interfaces with rate-and-state friction, and of the sandwich.
 
 use asperity_output::plots::Sketch;
 

@@ -1,4 +1,4 @@
-//! Friction laws and spring-sliders.
+//! Sketches of friction laws and spring-sliders.
 
 use asperity_output::plots::Sketch;
 
@@ -26,7 +26,7 @@ pub(super) fn of(name: &str) -> Option<Sketch> {
     Some(sketch)
 }
 
-/// A block that is forced along.
+/// A block with prescribed motion.
 fn forced(motion: &str, text: &str) -> Sketch {
     Sketch::new(50.0)
         .block((36.0, 14.0), (56.0, 28.0), "")
