@@ -141,10 +141,12 @@ fn cylinder() -> SceneText {
     SceneText::new(include_str!("../../../scenes/cylinder.toml"))
 }
 
+/// Steps take 10 ms and more; where iterations fail, the run stops instead of taking a hundred thousand steps.
 fn sandwich() -> SceneText {
     SceneText::new(include_str!("../../../scenes/sandwich.toml"))
         .with("bodies.A.mesh.block.size", "5 mm")
         .with("bodies.B.mesh.block.size", "5 mm")
+        .add("time.min_step", "1 ms")
 }
 
 fn in_space() -> SceneText {
