@@ -69,6 +69,7 @@ mod fault_operator;
 mod fault_space;
 mod fault_stability;
 mod fault_turning;
+mod first_slip;
 mod flamant_boussinesq;
 mod flat_punch;
 mod followed;
@@ -223,6 +224,7 @@ pub const ALL: &[Case] = &[
     // Nonlinear bodies.
     cantilever_rotation::CASE,
     elastic_plastic_cylinder::CASE,
+    first_slip::CASE,
     forward_drift::CASE,
     static_explicit_jumps::CASE,
     jaumann_shear::CASE,

@@ -32,6 +32,7 @@ pub fn all() -> Result<Vec<Declared>, CaseError> {
         declared("elastic body", elastic(), &[Bodies], Some(0))?,
         declared("plastic body", plastic(), &[Bodies, History, Plasticity], Some(0))?,
         declared("viscous body", viscous(), &[Bodies, History, Viscosity], Some(0))?,
+        declared("body with an iterative solver", iterative(), &[Bodies, IterativeSolver], Some(0))?,
         declared("frictionless contact", frictionless(), contact, Some(0))?,
         declared("Coulomb friction", coulomb(), friction, Some(0))?,
         declared("finite sliding of points", sliding(), points, Some(0))?,
@@ -65,6 +66,35 @@ fn plastic() -> SceneText {
 
 fn viscous() -> SceneText {
     elastic().with("kinematics", "plane-strain").add("materials.panel.viscosity", "1 Pa s")
+}
+
+/// A block in space, of more nodes than one task of the solver takes.
+fn iterative() -> SceneText {
+    SceneText::new(
+        r#"
+schema = 1
+title = "iterative solver"
+kinematics = "3d"
+[materials.rock]
+young = "50 GPa"
+poisson = 0.25
+[bodies.block]
+mesh.block = { min = [0, 0, 0], max = [1, 1, 1], divisions = [10, 10, 10], element = "hex8" }
+material = "rock"
+[[stages]]
+name = "press"
+duration = "1 s"
+steps = 1
+conditions = [
+    { set = "block.bottom", x = 0, y = 0, z = 0 },
+    { set = "block.top", y = "-1 mm" },
+]
+[time]
+stepper = "implicit"
+[solver]
+method = "iterative"
+"#,
+    )
 }
 
 fn coulomb() -> SceneText {

@@ -13,6 +13,8 @@ pub enum Term {
     Plasticity,
     /// Viscosity.
     Viscosity,
+    /// Iterative solution of linear systems.
+    IterativeSolver,
     /// Contact.
     Contact,
     /// Mortar contact.
@@ -35,11 +37,12 @@ pub enum Term {
 
 impl Term {
     /// All terms.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Bodies,
         Self::History,
         Self::Plasticity,
         Self::Viscosity,
+        Self::IterativeSolver,
         Self::Contact,
         Self::Mortar,
         Self::FinitePoints,
@@ -58,6 +61,7 @@ impl Term {
             Self::History => "stress history",
             Self::Plasticity => "plasticity",
             Self::Viscosity => "viscosity",
+            Self::IterativeSolver => "iterative solver",
             Self::Contact => "contact",
             Self::Mortar => "mortar",
             Self::FinitePoints => "finite sliding of points",
@@ -77,6 +81,7 @@ impl Term {
             Self::History => &["crates/fem/src/nonlinear/", "crates/fem/src/material/constitutive.rs"],
             Self::Plasticity => &["crates/fem/src/material/j2.rs", "crates/fem/src/material/hardening.rs"],
             Self::Viscosity => &["crates/fem/src/material/maxwell.rs"],
+            Self::IterativeSolver => &["crates/fem/src/iterative/"],
             Self::Contact => &["crates/contact/src/"],
             Self::Mortar => &["crates/contact/src/measure/mortar/"],
             Self::FinitePoints => &[

@@ -1,6 +1,7 @@
 //! Contact patch test on non-matching meshes: mortar passes, node-to-point does not.
 
 mod overhang;
+mod sliver;
 
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_driver::report::{Outcome, RunReport};
@@ -42,7 +43,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     second_order(ledger)?;
     axisymmetric(ledger)?;
     solids(ledger)?;
-    overhang::claims(ledger)
+    overhang::claims(ledger)?;
+    sliver::claims(ledger)
 }
 
 /// A completed run and the exact pressure of its scene.

@@ -16,6 +16,7 @@ pub(super) fn of(name: &str) -> Option<Sketch> {
         "contact_rotation" => rotation(),
         "contact_sliding" => sliding(),
         "coulomb_strip" => strip(),
+        "first_slip" => first_slip(),
         "flat_punch" => punch(),
         "frictional_bar" => bar(),
         "frictional_crack" => crack(),
@@ -174,6 +175,18 @@ fn punch() -> Sketch {
         .text((55.0, 27.0), "a = 1 mm")
         .guide(&[(50.0, 29.0), (50.0, 40.0)])
         .note((62.0, 38.0), "no friction")
+}
+
+fn first_slip() -> Sketch {
+    Sketch::new(66.0)
+        .block((24.0, 10.0), (64.0, 32.0), "held")
+        .block((29.0, 32.0), (55.0, 54.0), "held")
+        .fault(&[(29.0, 32.0), (55.0, 32.0)])
+        .load((29.0, 54.0), (55.0, 54.0), (0.0, -5.0), "10 mm; then +15, 0, −5 mm")
+        .arrow((56.0, 48.0), (68.0, 48.0), "")
+        .note((69.0, 48.0), "20 mm")
+        .note((66.0, 32.0), "ε = 1000 Pa/m, along and across")
+        .dimension((24.0, 5.0), (64.0, 5.0), "1 m")
 }
 
 fn bar() -> Sketch {

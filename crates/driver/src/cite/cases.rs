@@ -1,7 +1,7 @@
 //! Literature of the cases of the verification suite. A test of the suite compares it with their pages.
 
 /// Cases and the keys of their literature.
-const CASES: [(&str, &[&str]); 91] = [
+const CASES: [(&str, &[&str]); 92] = [
     ("absence", &["weidendorfer2004"]),
     ("antiplane", &["nehari1952", "strang1973", "timoshenko1970"]),
     ("block_dragged", &["codeaster"]),
@@ -36,6 +36,7 @@ const CASES: [(&str, &[&str]); 91] = [
     ("fault_space", &["eshelby1957", "segall2010"]),
     ("fault_stability", &["riceruina1983", "rice2001"]),
     ("fault_turning", &["rice1983", "jiang2022"]),
+    ("first_slip", &["yamada1968", "ida1972"]),
     ("flamant_boussinesq", &["johnson1985", "haverkamp1984"]),
     ("flat_punch", &["sadowsky1928", "johnson1985"]),
     ("forward_drift", &["yamada1968", "xing2002b"]),
