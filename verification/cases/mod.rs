@@ -131,6 +131,7 @@ mod slider_stability;
 mod slider_states;
 mod slider_work_precision;
 mod static_explicit_jumps;
+mod steel_strip;
 pub mod texts;
 mod two_rings;
 mod uniaxial_hardening;
@@ -227,6 +228,7 @@ pub const ALL: &[Case] = &[
     first_slip::CASE,
     forward_drift::CASE,
     static_explicit_jumps::CASE,
+    steel_strip::CASE,
     jaumann_shear::CASE,
     large_rotation::CASE,
     maxwell_relaxation::CASE,

@@ -54,6 +54,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     }
     let measured = runs.into_iter().collect::<Result<Vec<Measured>, CaseError>>()?;
     table(ledger, &measured);
+    crates(ledger, &measured);
     Ok(())
 }
 
@@ -129,13 +130,32 @@ fn repeated(ledger: &mut Ledger, run: &Measured) {
 
 fn table(ledger: &mut Ledger, runs: &[Measured]) {
     let head: Vec<&str> = ["scene"].into_iter().chain(Term::ALL.iter().map(|t| t.name())).collect();
-    let cell = |run: &Measured, term: &Term| match term.instructions(&run.instructions) {
-        0 => "0".to_owned(),
-        count => format!("{:.2e}", count as f64),
-    };
+    let cell = |run: &Measured, term: &Term| written(term.instructions(&run.instructions));
     let row = |run: &Measured| {
         let cells = Term::ALL.iter().map(|term| cell(run, term));
         std::iter::once(run.scene.name.to_owned()).chain(cells).collect::<Vec<String>>()
     };
     ledger.table("Instructions by term", &head, runs.iter().map(row));
+}
+
+/// Instructions in the files of each crate.
+fn crates(ledger: &mut Ledger, runs: &[Measured]) {
+    const CRATES: [&str; 9] =
+        ["friction", "fem", "ode", "contact", "mechanics", "cycles", "scene", "output", "driver"];
+    let head: Vec<&str> = ["scene"].into_iter().chain(CRATES).collect();
+    let cell = |run: &Measured, name: &str| {
+        let prefix = format!("crates/{name}/");
+        let of_crate = run.instructions.iter().filter(|(path, _)| path.starts_with(&prefix));
+        written(of_crate.map(|(_, count)| count).sum())
+    };
+    let row = |run: &Measured| {
+        let cells = CRATES.iter().map(|name| cell(run, name));
+        std::iter::once(run.scene.name.to_owned()).chain(cells).collect::<Vec<String>>()
+    };
+    ledger.table("Instructions by crate", &head, runs.iter().map(row));
+}
+
+/// A count in a table.
+fn written(count: u64) -> String {
+    if count == 0 { "0".to_owned() } else { format!("{:.2e}", count as f64) }
 }

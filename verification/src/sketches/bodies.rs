@@ -17,6 +17,7 @@ pub(super) fn of(name: &str) -> Option<Sketch> {
         "flamant_boussinesq" => point_load(),
         "cook_membrane" => cook(),
         "cantilever_rotation" => cantilever(),
+        "steel_strip" => strip(),
         "large_rotation" => turning(),
         "jaumann_shear" => sheared("γ = 4", "all displacements prescribed"),
         "maxwell_relaxation" => sheared("γ(t) or τ(t)", "G and η; besides a thick cylinder under p"),
@@ -124,6 +125,18 @@ fn cantilever() -> Sketch {
         .guide(&Sketch::arc((12.0, 39.5), 23.0, (-90.0, 60.0)))
         .note((40.0, 44.0), "rolled up by M L/(E I) = φ")
         .dimension((12.0, 6.0), (84.0, 6.0), "L")
+}
+
+fn strip() -> Sketch {
+    Sketch::new(56.0)
+        .block((12.0, 40.0), (84.0, 42.0), "")
+        .held((12.0, 47.0), (12.0, 35.0))
+        .load((12.0, 42.0), (84.0, 42.0), (0.0, -5.0), "weight 0.3032 N")
+        .arrow((84.0, 39.0), (84.0, 28.0), "F")
+        .guide(&[(12.0, 41.0), (30.0, 36.0), (45.0, 26.0), (54.0, 14.0), (57.0, 6.0)])
+        .note((62.0, 8.0), "bent by up to 281 mm")
+        .dimension((12.0, 31.0), (80.0, 31.0), "400 mm")
+        .text((30.0, 20.0), "25 × 0.4 mm")
 }
 
 fn turning() -> Sketch {

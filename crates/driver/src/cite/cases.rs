@@ -1,7 +1,7 @@
 //! Literature of the cases of the verification suite. A test of the suite compares it with their pages.
 
 /// Cases and the keys of their literature.
-const CASES: [(&str, &[&str]); 92] = [
+const CASES: [(&str, &[&str]); 93] = [
     ("absence", &["weidendorfer2004"]),
     ("antiplane", &["nehari1952", "strang1973", "timoshenko1970"]),
     ("block_dragged", &["codeaster"]),
@@ -102,6 +102,7 @@ const CASES: [(&str, &[&str]); 92] = [
     ("slider_states", &["gu1984", "huang1990"]),
     ("slider_work_precision", &["hairer1993", "hairer1996"]),
     ("static_explicit_jumps", &["timoshenko1970"]),
+    ("steel_strip", &["belendez2003"]),
     ("two_rings", &["michell1899", "timoshenko1970"]),
     ("uniaxial_hardening", &["simo1998"]),
     ("volumetric_path", &["prager1961", "belytschko2000"]),
