@@ -27,6 +27,9 @@ const MISSED: f64 = 1e-14;
 /// friction, whose default is larger, keeps it as well.
 const DRIFT: f64 = 1e-4;
 
+/// Bound on the difference of forces if the other body moves: the imbalance that implicit steps may leave.
+const FRAMES: f64 = 1e-11;
+
 const MORTAR: Vary<'_> = With("interfaces.fault.measure", "mortar");
 const AGEING: Vary<'_> = With(
     "interfaces.fault.law",
@@ -40,7 +43,8 @@ const STATIC_EXPLICIT: [Vary<'_>; 2] = [With("time.stepper", "static-explicit"),
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let folder = std::env::temp_dir().join(format!("asperity-wavy-sliding-{}", std::process::id()));
-    let written = write(&folder).and_then(|()| compare(ledger, &folder));
+    let written =
+        write(&folder).and_then(|()| compare(ledger, &folder)).and_then(|()| frames(ledger, &folder));
     std::fs::remove_dir_all(&folder)?;
     written
 }
@@ -106,6 +110,40 @@ fn law(ledger: &mut Ledger, name: &str, done: &Done) -> Result<(), CaseError> {
         .evidence(Evidence::Exact, "|t| = mu f_n")
         .because("tractions are answers of the law at every accepted state")
         .why_not_tighter("rounding of a product, which happens to be none here")
+        .record();
+    Ok(())
+}
+
+/// The same motion of the block along the base, as motion of the block and as motion of both in opposite directions.
+fn frames(ledger: &mut Ledger, folder: &Path) -> Result<(), CaseError> {
+    let run = |conditions: &str| -> Result<(Done, Vec<[f64; 3]>), CaseError> {
+        let scene = SceneText::new(include_str!("scene.toml"))
+            .with("stages[1].conditions", conditions)
+            .add("stages[1].steps", 200)
+            .without("time.tolerance");
+        let done = simulate_in(&scene.text()?, &folder.to_string_lossy())?;
+        let from = done.steps_until("press")?;
+        let forces = done.force("upper")?.split_off(from);
+        Ok((done, forces))
+    };
+    let (one, alone) = run(r#"[{ set = "upper.top", x = { to = "40 mm" } }]"#)?;
+    let (two, both) = run(
+        r#"[{ set = "upper.top", x = { to = "20 mm" } }, { set = "lower.bottom", x = { to = "-20 mm" } }]"#,
+    )?;
+    let size = |f: &[f64; 3]| f.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let apart = |(a, b): (&[f64; 3], &[f64; 3])| size(&std::array::from_fn(|i| a[i] - b[i])) / size(a);
+    let largest = alone.iter().zip(&both).map(apart).fold(0.0, f64::max);
+    ledger
+        .claim("difference of the force on the block, if the base moves against it instead, over its size")
+        .norm(format!("largest over {} steps of 0.2 mm", alone.len()))
+        .value(if alone.len() == both.len() { largest } else { f64::NAN })
+        .at_most(FRAMES)
+        .between(&one.scene, &two.scene)
+        .evidence(Evidence::Exact, "contact depends on relative motion alone")
+        .because("both runs balance forces to 1e-11 of the largest")
+        .why_not_tighter("where the last iteration of Newton's method ends below its tolerance is chance")
+        .covers(&[Capability::FiniteSliding])
+        .cost(&two.cost)
         .record();
     Ok(())
 }
