@@ -91,6 +91,7 @@ mod jaumann_shear;
 mod lame_cylinder;
 mod large_rotation;
 mod maxwell_relaxation;
+mod mesh_files;
 mod nafems_roller;
 mod newton_convergence;
 mod okada;
@@ -130,6 +131,7 @@ mod slider_scene;
 mod slider_stability;
 mod slider_states;
 mod slider_work_precision;
+mod stage_paths;
 mod static_explicit_jumps;
 mod steel_strip;
 pub mod texts;
@@ -228,6 +230,8 @@ pub const ALL: &[Case] = &[
     first_slip::CASE,
     forward_drift::CASE,
     static_explicit_jumps::CASE,
+    mesh_files::CASE,
+    stage_paths::CASE,
     steel_strip::CASE,
     jaumann_shear::CASE,
     large_rotation::CASE,

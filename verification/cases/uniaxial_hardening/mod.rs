@@ -27,15 +27,27 @@ const PATH: [f64; 8] = [0.005, 0.012, 0.03, 0.024, 0.05, 0.08, 0.02, 0.1];
 const BALANCED: f64 = 2e-15;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let hardenings = [
-        ("linear hardening", Hardening::linear(YIELD, MODULUS)?),
-        ("power law", Hardening::swift(YIELD, 0.01, 0.4)?),
-        ("table", Hardening::table(&[(0.0, YIELD), (0.01, 0.03), (0.04, 0.035)])?),
+    let curves = [
+        Curve {
+            name: "linear hardening",
+            law: Hardening::linear(YIELD, MODULUS)?,
+            exact: |e| YIELD + MODULUS * e,
+        },
+        Curve {
+            name: "power law",
+            law: Hardening::swift(YIELD, 0.01, 0.4)?,
+            exact: |e| YIELD * (1.0 + e / 0.01).powf(0.4),
+        },
+        Curve {
+            name: "table",
+            law: Hardening::table(&[(0.0, YIELD), (0.01, 0.03), (0.04, 0.035)])?,
+            exact: |e| (YIELD + e).min(0.03 + (e - 0.01) / 6.0).min(0.035),
+        },
     ];
     let mut plot = Plot::xy("Uniaxial stress", "strain [-]", "stress [E/2.5]");
-    for (name, hardening) in &hardenings {
-        small(ledger, name, hardening)?;
-        let mut bar = Bar::new(hardening);
+    for hardening in &curves {
+        small(ledger, hardening)?;
+        let mut bar = Bar::new(hardening.exact);
         let mut curve = vec![(0.0, 0.0)];
         for strain in PATH {
             let from = curve[curve.len() - 1].0;
@@ -44,36 +56,42 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
                 curve.push((now, bar.to(now)));
             }
         }
-        plot = plot.series(Series::line(*name, &curve));
+        plot = plot.series(Series::line(hardening.name, &curve));
     }
     ledger.plot(plot.caption("Exact curves; the program's points lie on them to rounding."));
-    slope(ledger, &hardenings[0].1)?;
+    slope(ledger, &curves[0].law)?;
     large(ledger)
 }
 
+/// A hardening curve, and the yield stress at a plastic strain written once more.
+struct Curve {
+    name: &'static str,
+    law: Hardening,
+    exact: fn(f64) -> f64,
+}
+
 /// Exact solution of the bar in one dimension.
-struct Bar<'a> {
-    hardening: &'a Hardening,
+struct Bar {
+    strength: fn(f64) -> f64,
     /// Plastic strain with its sign, and accumulated plastic strain.
     plastic: f64,
     total: f64,
 }
 
-impl<'a> Bar<'a> {
-    fn new(hardening: &'a Hardening) -> Self {
-        Self { hardening, plastic: 0.0, total: 0.0 }
+impl Bar {
+    fn new(strength: fn(f64) -> f64) -> Self {
+        Self { strength, plastic: 0.0, total: 0.0 }
     }
 
     /// Takes the bar to a strain and returns its stress.
     fn to(&mut self, strain: f64) -> f64 {
         let trial = YOUNG * (strain - self.plastic);
-        let beyond = trial.abs() - self.hardening.at(self.total).stress;
+        let beyond = trial.abs() - (self.strength)(self.total);
         if beyond <= 0.0 {
             return trial;
         }
-        let flow = body::root(0.0, beyond / YOUNG, |d| {
-            YOUNG * d + self.hardening.at(self.total + d).stress - trial.abs()
-        });
+        let flow =
+            body::root(0.0, beyond / YOUNG, |d| YOUNG * d + (self.strength)(self.total + d) - trial.abs());
         self.total += flow;
         self.plastic += flow * trial.signum();
         YOUNG * (strain - self.plastic)
@@ -111,10 +129,9 @@ fn stretched<const D: usize>(mesh: Mesh<D>, options: Model, axis: usize) -> Resu
     Ok((found, others, body.work))
 }
 
-fn small(ledger: &mut Ledger, name: &str, hardening: &Hardening) -> Result<(), CaseError> {
-    let options = |i| {
-        Ok::<_, CaseError>(body::model(body::j2(YOUNG, POISSON, hardening.clone())?, i, Kinematics::Small))
-    };
+fn small(ledger: &mut Ledger, Curve { name, law, exact }: &Curve) -> Result<(), CaseError> {
+    let options =
+        |i| Ok::<_, CaseError>(body::model(body::j2(YOUNG, POISSON, law.clone())?, i, Kinematics::Small));
     let square = |kind| body::grid::<2>(kind, [0.0; 2], [1.0; 2], [2; 2]);
     let quads = || Ok::<_, CaseError>(body::distorted(square(ElementKind::Quad4)?, [1.0; 2], 0.5, 0.2));
     let cube = || {
@@ -138,7 +155,7 @@ fn small(ledger: &mut Ledger, name: &str, hardening: &Hardening) -> Result<(), C
     for (what, run) in runs {
         let (outcome, cost) = Cost::of(&run);
         let (found, others, work) = outcome?;
-        let mut bar = Bar::new(hardening);
+        let mut bar = Bar::new(*exact);
         let (mut stress, mut plastic) = (0.0_f64, 0.0_f64);
         for (strain, points) in PATH.into_iter().zip(&found) {
             let exact = bar.to(strain);

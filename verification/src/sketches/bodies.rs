@@ -18,6 +18,8 @@ pub(super) fn of(name: &str) -> Option<Sketch> {
         "cook_membrane" => cook(),
         "cantilever_rotation" => cantilever(),
         "steel_strip" => strip(),
+        "stage_paths" => stages(),
+        "mesh_files" => bar_of_cells(),
         "large_rotation" => turning(),
         "jaumann_shear" => sheared("γ = 4", "all displacements prescribed"),
         "maxwell_relaxation" => sheared("γ(t) or τ(t)", "G and η; besides a thick cylinder under p"),
@@ -125,6 +127,30 @@ fn cantilever() -> Sketch {
         .guide(&Sketch::arc((12.0, 39.5), 23.0, (-90.0, 60.0)))
         .note((40.0, 44.0), "rolled up by M L/(E I) = φ")
         .dimension((12.0, 6.0), (84.0, 6.0), "L")
+}
+
+fn stages() -> Sketch {
+    Sketch::new(56.0)
+        .block((14.0, 20.0), (58.0, 42.0), "")
+        .rollers((14.0, 42.0), (14.0, 20.0))
+        .rollers((14.0, 20.0), (58.0, 20.0))
+        .load((58.0, 20.0), (58.0, 42.0), (7.0, 0.0), "2, 3, 1, 4 MPa")
+        .note((64.0, 24.0), "then u = 5, 1, 2 mm")
+        .dimension((14.0, 8.0), (58.0, 8.0), "2 m")
+        .text((36.0, 31.0), "uniaxial strain")
+}
+
+fn bar_of_cells() -> Sketch {
+    Sketch::new(56.0)
+        .block((26.0, 12.0), (62.0, 48.0), "")
+        .held((26.0, 48.0), (26.0, 12.0))
+        .guide(&[(26.0, 12.0), (62.0, 48.0)])
+        .guide(&[(26.0, 30.0), (62.0, 30.0)])
+        .guide(&[(44.0, 12.0), (44.0, 48.0)])
+        .arrow((62.0, 30.0), (74.0, 30.0), "")
+        .note((75.0, 30.0), "10 mm, or weight")
+        .dimension((26.0, 5.0), (62.0, 5.0), "1 m")
+        .note((64.0, 44.0), "ν = 0")
 }
 
 fn strip() -> Sketch {

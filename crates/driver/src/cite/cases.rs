@@ -1,7 +1,7 @@
 //! Literature of the cases of the verification suite. A test of the suite compares it with their pages.
 
 /// Cases and the keys of their literature.
-const CASES: [(&str, &[&str]); 93] = [
+const CASES: [(&str, &[&str]); 95] = [
     ("absence", &["weidendorfer2004"]),
     ("antiplane", &["nehari1952", "strang1973", "timoshenko1970"]),
     ("block_dragged", &["codeaster"]),
@@ -56,6 +56,7 @@ const CASES: [(&str, &[&str]); 93] = [
     ("lame_cylinder", &["timoshenko1970", "ciarlet1978"]),
     ("large_rotation", &["hugheswinget1980", "rubinstein1983"]),
     ("maxwell_relaxation", &["simo1998", "lee1955"]),
+    ("mesh_files", &["geuzaine2009"]),
     ("nafems_roller", &["konter2006", "johnson1985"]),
     ("newton_convergence", &["deuflhard2011"]),
     ("output_files", &["erickson2020"]),
@@ -101,6 +102,7 @@ const CASES: [(&str, &[&str]); 93] = [
     ("slider_stability", &["ruina1983", "riceruina1983"]),
     ("slider_states", &["gu1984", "huang1990"]),
     ("slider_work_precision", &["hairer1993", "hairer1996"]),
+    ("stage_paths", &["timoshenko1970"]),
     ("static_explicit_jumps", &["timoshenko1970"]),
     ("steel_strip", &["belendez2003"]),
     ("two_rings", &["michell1899", "timoshenko1970"]),

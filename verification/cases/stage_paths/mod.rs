@@ -1,0 +1,145 @@
+//! Loads and motions that carry over from stage to stage, and the forces and stresses that a run reports.
+
+use super::texts;
+use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use asperity_vary::Change::{self, With};
+use asperity_vary::SceneText;
+
+/// See the README.
+pub const CASE: Case = Case {
+    name: "stage_paths",
+    readme: include_str!("README.md"),
+    covers: &[Capability::Stages, Capability::Loads, Capability::Outputs],
+    quick: true,
+    run,
+};
+
+/// P-wave modulus, E (1 - ν)/((1 + ν)(1 - 2 ν)) \[Pa\].
+const MODULUS: f64 = 10e9 * 0.75 / (1.25 * 0.5);
+/// Length of the bar \[m\]; its height is 1 m.
+const LENGTH: f64 = 2.0;
+/// Tractions of the first four stages at the ends of their steps \[MPa\].
+const TRACTIONS: [f64; 9] = [1.0, 2.0, 2.5, 3.0, 2.0, 1.0, 2.5, 4.0, 4.0];
+/// Displacements of the moved side at the ends of the steps of the next four stages \[mm\], the first two from where it was.
+const MOVED: [f64; 9] = [1.0, 2.0, f64::NAN, 5.0, 5.0, 3.0, 1.0, 1.5, 2.0];
+/// Bound on ratios: rounding of a dozen unknowns, or the 1e-11 at which the balance of forces ends.
+const ROUNDING: f64 = 1e-10;
+
+fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
+    stages(ledger, "implicit", &[])?;
+    stages(ledger, "static-explicit", &[With("time.stepper", "static-explicit")])?;
+    column(ledger)
+}
+
+/// Displacements of the drawn side at the ends of all steps \[m\].
+fn path() -> Vec<f64> {
+    let drawn = |traction: f64| traction * 1e6 * LENGTH / MODULUS;
+    let mut path = TRACTIONS.map(drawn).to_vec();
+    let start = drawn(TRACTIONS[TRACTIONS.len() - 1]);
+    path.extend(MOVED.iter().enumerate().map(|(k, mm)| match k {
+        0 | 1 => start + 1e-3 * mm,
+        2 => 0.5 * (start + 2e-3 + 5e-3),
+        _ => 1e-3 * mm,
+    }));
+    path.push(start);
+    path
+}
+
+fn stages(ledger: &mut Ledger, name: &str, changes: &[Change<'_>]) -> Result<(), CaseError> {
+    let done = texts::simulate(&SceneText::new(include_str!("scene.toml")).changed(changes).text()?)?;
+    let exact = path();
+    let samples = done.record.samples();
+    let found: Vec<f64> = samples.iter().map(|s| s.points[0].displacement[0]).collect();
+    ledger
+        .claim(format!("displacement of the drawn side at the end of each step, nine stages, {name} steps"))
+        .unit("m")
+        .values(&found)
+        .equals_each(&exact)
+        .relative(ROUNDING)
+        .evidence(
+            Evidence::Exact,
+            "uniaxial strain: traction over modulus times length, or the motion prescribed",
+        )
+        .because("a uniform strain lies in the space of the cells; balance of forces to 1e-11")
+        .why_not_tighter("where the last iteration of Newton's method ends below its tolerance is chance")
+        .cost(&done.cost)
+        .record();
+    for (set, sign) in [("right", 1.0), ("left", -1.0)] {
+        let forces: Vec<f64> = done.force(set)?.iter().map(|f| sign * f[0]).collect();
+        ledger
+            .claim(format!("force on the {set} side at the end of each step, nine stages, {name} steps"))
+            .unit("N/m")
+            .values(&forces)
+            .equals_each(&exact.iter().map(|u| u * MODULUS / LENGTH).collect::<Vec<_>>())
+            .relative(ROUNDING)
+            .evidence(Evidence::Exact, "uniaxial strain: modulus times strain times height")
+            .because("as for displacements; what drives the side, load or motion, is part of the force")
+            .why_not_tighter("where the last iteration of Newton's method ends below its tolerance is chance")
+            .cost(&done.cost)
+            .record();
+    }
+    Ok(())
+}
+
+/// Stresses at corners, on edges and within cells, and forces on sets that share nodes with loaded ones.
+fn column(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let done = texts::simulate(include_str!("column.toml"))?;
+    let sample = done.record.samples().last().ok_or("no step was taken")?;
+    // The points in the order of their names: corner, edge, inside, top.
+    let along = [0.0, 2.0, 4.7, 8.0].map(|y: f64| -1e6 - WEIGHT * (HEIGHT - y));
+    let exact: Vec<f64> = along.iter().flat_map(|yy| [yy / 3.0, *yy]).collect();
+    let found: Vec<f64> = sample.points.iter().flat_map(|p| [p.stress[0], p.stress[1]]).collect();
+    let cost = &done.cost;
+    compared(
+        ledger,
+        "stresses xx and yy at a corner, on an edge, within a cell and at the top",
+        "Pa",
+        (&found, &exact),
+        cost,
+    );
+    let force =
+        |name: &str| done.force(name)?.last().copied().ok_or_else(|| CaseError::from("no step was taken"));
+    let (bottom, left, top) = (force("bottom")?, force("left")?, force("top")?);
+    let across = HEIGHT * (1e6 + 0.5 * WEIGHT * HEIGHT) / 3.0;
+    let found = [bottom[1], left[0], top[1]];
+    let exact = [WIDTH * (1e6 + WEIGHT * HEIGHT), across, -1e6 * WIDTH];
+    compared(
+        ledger,
+        "forces on the bottom, along y, the left side, along x, and the top",
+        "N/m",
+        (&found, &exact),
+        cost,
+    );
+    // Loads on the top, and the weight, are not of the left side, although it shares nodes with them. The corner that it shares
+    // with the bottom takes the reaction on its part of a cell of 1 m: a sixth, by Simpson's rule.
+    let corner = (1e6 + WEIGHT * HEIGHT) / 6.0;
+    compared(
+        ledger,
+        "force on the left side, along y, which is that on its lowest node",
+        "N/m",
+        (&[left[1]], &[corner]),
+        cost,
+    );
+    Ok(())
+}
+
+/// ρ g \[N/m3\], height and width of the column \[m\].
+const WEIGHT: f64 = 2.7e4;
+const HEIGHT: f64 = 8.0;
+const WIDTH: f64 = 2.0;
+
+fn compared(ledger: &mut Ledger, name: &str, unit: &str, (found, exact): (&[f64], &[f64]), cost: &Cost) {
+    ledger
+        .claim(format!("column under weight and pressure: {name}"))
+        .unit(unit)
+        .values(found)
+        .equals_each(exact)
+        .relative(ROUNDING)
+        .evidence(Evidence::Exact, "uniaxial strain: -p - rho g (H - y), a third of it across for nu = 1/4")
+        .because(
+            "displacements are parabolas, which lie in the space of quad9; its stresses are linear: rounding",
+        )
+        .why_not_tighter("where the last iteration of Newton's method ends below its tolerance is chance")
+        .cost(cost)
+        .record();
+}
