@@ -53,7 +53,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         ledger.not_covered("results under another vector width", "this processor has no vectors of 512 bits");
     }
     let measured = runs.into_iter().collect::<Result<Vec<Measured>, CaseError>>()?;
-    table(ledger, &measured);
+    measured.iter().for_each(|run| table(ledger, run));
     crates(ledger, &measured);
     Ok(())
 }
@@ -128,14 +128,15 @@ fn repeated(ledger: &mut Ledger, run: &Measured) {
         .record();
 }
 
-fn table(ledger: &mut Ledger, runs: &[Measured]) {
-    let head: Vec<&str> = ["scene"].into_iter().chain(Term::ALL.iter().map(|t| t.name())).collect();
-    let cell = |run: &Measured, term: &Term| written(term.instructions(&run.instructions));
-    let row = |run: &Measured| {
-        let cells = Term::ALL.iter().map(|term| cell(run, term));
-        std::iter::once(run.scene.name.to_owned()).chain(cells).collect::<Vec<String>>()
+/// What a scene declares against what was built for it.
+fn table(ledger: &mut Ledger, run: &Measured) {
+    let declared = |term: &Term| if run.scene.terms.contains(term) { "yes" } else { "no" };
+    let row = |term: &Term| {
+        [term.name().to_owned(), declared(term).to_owned(), written(term.instructions(&run.instructions))]
     };
-    ledger.table("Instructions by term", &head, runs.iter().map(row));
+    let state = run.state.map(|bytes| ["friction state".to_owned(), String::new(), format!("{bytes} bytes")]);
+    let rows = Term::ALL.iter().map(row).chain(state);
+    ledger.table(format!("{}: built", run.scene.name), &["term", "declared", "instructions"], rows);
 }
 
 /// Instructions in the files of each crate.

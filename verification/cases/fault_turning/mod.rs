@@ -209,6 +209,23 @@ fn balances(ledger: &mut Ledger, plan: &Plan, found: &Followed) -> Result<(), Ca
     found.restarted(ledger, plan, TOLERANCE)
 }
 
+/// Time during which the fastest point is above the rate of onset.
+fn above(ledger: &mut Ledger, found: &Followed, expected: &[Slid]) {
+    let times: Vec<f64> = found.events().iter().map(|e| e.details.above).collect();
+    let exact: Vec<f64> = expected.iter().map(Slid::above).collect();
+    ledger
+        .claim("two events where a varies and slip turns, time above the rate of onset")
+        .unit("s")
+        .values(&times)
+        .equals_each(&exact)
+        .relative(3e-6)
+        .evidence(Evidence::Exact, "the reference passes the rate at the same times")
+        .because("thirty tolerances: the rate is passed at times that lie in the dense output of steps")
+        .why_not_tighter("errors of dense outputs are of lower order than those of steps")
+        .cost(&found.cost)
+        .record();
+}
+
 /// Number of events of the blocks with variable friction.
 const VARIED: usize = 2;
 
@@ -247,6 +264,7 @@ fn varied(ledger: &mut Ledger) -> Result<(), CaseError> {
         .covers(&[Capability::FaultCycles])
         .cost(&found.cost)
         .record();
+    above(ledger, &found, &expected);
     for (name, value, bound, because) in [
         (
             "onsets, largest relative difference",

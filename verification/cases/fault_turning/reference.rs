@@ -52,6 +52,15 @@ pub struct Slid {
     pub onset: f64,
     /// Slip of all points, along the first axis and then across it \[m\].
     pub slip: Vec<f64>,
+    /// Times at which the fastest point rises above the rate of onset or falls below it, in turn \[s\].
+    pub passed: Vec<f64>,
+}
+
+impl Slid {
+    /// Time during which the fastest point is above the rate of onset \[s\].
+    pub fn above(&self) -> f64 {
+        self.passed.as_chunks::<2>().0.iter().map(|[up, down]| down - up).sum()
+    }
 }
 
 /// f at a, ln V and the state, and its derivative with respect to ln V.
@@ -194,8 +203,8 @@ impl Problem for Fault<'_> {
 struct Found {
     most: usize,
     points: usize,
-    /// Onset \[s\] and slip at onset \[m\] of an event in progress.
-    open: Option<(f64, Vec<f64>)>,
+    /// Slip at onset \[m\] of an event in progress, and the times at which it passed the rate of onset \[s\].
+    open: Option<(Vec<f64>, Vec<f64>)>,
     events: Vec<Slid>,
 }
 
@@ -206,10 +215,17 @@ impl Sink for Found {
 
     fn occurred(&mut self, occurrence: &Occurrence) -> Control {
         let slip = occurrence.state[..2 * self.points].to_vec();
+        let now = occurrence.at.seconds();
         match (occurrence.event, occurrence.rising, self.open.take()) {
-            (0, true, None) => self.open = Some((occurrence.at.seconds(), slip)),
-            (1, false, Some((onset, before))) => {
-                self.events.push(Slid { onset, slip: slip.iter().zip(before).map(|(s, b)| s - b).collect() });
+            (0, true, None) => self.open = Some((slip, vec![now])),
+            (0, _, Some((before, mut passed))) => {
+                passed.push(now);
+                self.open = Some((before, passed));
+            }
+            (1, false, Some((before, passed))) => {
+                let onset = passed.first().copied().unwrap_or(f64::NAN);
+                let slip = slip.iter().zip(before).map(|(s, b)| s - b).collect();
+                self.events.push(Slid { onset, slip, passed });
             }
             (_, _, open) => self.open = open,
         }

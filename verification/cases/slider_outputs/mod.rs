@@ -3,7 +3,9 @@
 use super::slider::{self, Independent, MU0, V_REF};
 use super::slider_scene::{FRICTION, RATE, SLIP, STATE, TIME, files, plan, planned, text};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use asperity_cycles::slider::Problem;
 use asperity_friction::evolution::definitions;
+use asperity_ode::Method;
 use asperity_vary::SceneText;
 
 /// See the README.
@@ -14,6 +16,9 @@ pub const CASE: Case = Case {
     quick: true,
     run,
 };
+
+/// Tolerance at which rows between steps are compared.
+const LOOSE: f64 = 1e-6;
 
 /// a, L \[m\] and f_n \[Pa\] of all scenes.
 const A: f64 = 0.01;
@@ -27,7 +32,9 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     backwards(ledger)?;
     holds(ledger, &reference)?;
     strengthening(ledger)?;
-    stiffness(ledger)
+    stiffness(ledger)?;
+    drawn(ledger)?;
+    between_steps(ledger)
 }
 
 /// A law with these values of b and L.
@@ -384,5 +391,84 @@ fn stiffness(ledger: &mut Ledger) -> Result<(), CaseError> {
         .why_not_tighter("the digits printed")
         .covers(&[Capability::Slider, Capability::SeveralStates, Capability::LawFamily])
         .record();
+    Ok(())
+}
+
+/// A slider that one with an imposed rate draws by a spring: what the spring carries is friction and damping.
+fn drawn(ledger: &mut Ledger) -> Result<(), CaseError> {
+    const SPRING: f64 = 1e9;
+    for (order, names) in [("first", ["puller", "block"]), ("last", ["block", "puller"])] {
+        let scene = format!(
+            "schema = 1\ntitle = \"t\"\nkinematics = \"spring-slider\"\n\
+             [sliders.block]\nnormal = \"5 MPa\"\ndamping = \"4 MPa s/m\"\nlaw = {0}\n\
+             [sliders.puller]\nnormal = \"5 MPa\"\nrate = {1}\nlaw = {0}\n\
+             [[springs]]\nbetween = [\"{2}\", \"{3}\"]\nstiffness = \"1 GPa/m\"\n\
+             [time]\nend = \"60 s\"\n[output]\ninterval = \"0.5 s\"\n",
+            law("ageing", "0.005", "l = \"10 um\""),
+            "{ table = [[\"0 s\", \"1 um/s\"], [\"10 s\", \"1 um/s\"], [\"10 s\", \"4 um/s\"]] }",
+            names[0],
+            names[1],
+        );
+        let (rows, cost) = Cost::of(|| files("drawn", &plan(&scene)?));
+        let [rows, _] = rows?;
+        let traction = |row: &[f64]| NORMAL * row[FRICTION] + 4e6 * row[RATE];
+        let first = traction(rows.first().ok_or("no rows")?);
+        let travelled = |t: f64| 1e-6 * t + 3e-6 * (t - 10.0).max(0.0);
+        let missing = rows
+            .iter()
+            .map(|row| (SPRING * (travelled(row[TIME]) - row[SLIP]) - (traction(row) - first)).abs() / first);
+        ledger
+            .claim(format!("slider drawn by another one, named {order} in the spring: what the spring carries less friction and damping, over the first traction"))
+            .norm(format!("largest of {} rows", rows.len()))
+            .value(missing.fold(0.0, f64::max))
+            .at_most(1e-12)
+            .evidence(Evidence::Exact, "balance of forces, with the travel of the imposed rate")
+            .because("slip is computed from this balance, in the spring's 1e9 Pa/m times 0.2 mm: rounding of friction")
+            .why_not_tighter("rounding")
+            .cost(&cost)
+            .record();
+    }
+    Ok(())
+}
+
+/// Rows between the steps of each method, and how their number grows with the accuracy.
+fn between_steps(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let problem = |method: Method, tolerance: f64| -> Result<Problem, CaseError> {
+        let law = law("ageing", "0.005", "l = \"10 um\"");
+        let load = "[load]\nrate = { table = [[\"0 s\", \"1 um/s\"], [\"20 s\", \"10 um/s\"]] }";
+        let slider = "stiffness = \"1 GPa/m\"\ndamping = \"4 MPa s/m\"";
+        let rest = "[time]\nend = \"40 s\"\n[output]\ninterval = \"0.1 s\"";
+        Ok(Problem { method, tolerance, ..plan(&text(load, slider, &law, rest))? })
+    };
+    let [reference, _] = files("reference", &problem(Method::Radau5, 1e-13)?)?;
+    for method in [Method::Tsit5, Method::Dop853, Method::Radau5, Method::Switching] {
+        let (rows, cost) = Cost::of(|| files("between", &problem(method, LOOSE)?));
+        let [rows, _] = rows?;
+        let apart = rows.iter().zip(&reference).map(|(row, exact)| (row[RATE] / exact[RATE]).ln().abs());
+        ledger
+            .claim(format!("{}: ln of the slip rate in rows between steps against a run at a tolerance of 1e-13", method.name()))
+            .norm(format!("largest of {} rows", reference.len()))
+            .value(if rows.len() == reference.len() { apart.fold(0.0, f64::max) } else { f64::NAN })
+            .at_most(10.0 * LOOSE)
+            .evidence(Evidence::ConvergedSelf, "Radau IIA at a tolerance of 1e-13")
+            .because("a tolerance a step, over some tens of steps, and the dense output of a step may err by as much")
+            .why_not_tighter("how errors of steps add up is not known beforehand")
+            .cost(&cost)
+            .record();
+    }
+    for (method, order) in [(Method::Tsit5, 5.0), (Method::Dop853, 8.0)] {
+        let steps = |tolerance: f64| -> Result<f64, CaseError> {
+            Ok(slider::finish(&problem(method, tolerance)?)?.counts.steps as f64)
+        };
+        let growth = steps(1e-6 * LOOSE)? / steps(LOOSE)?;
+        ledger
+            .claim(format!("{}: steps for a tolerance of 1e-12 over those for 1e-6, over the ratio that its order gives", method.name()))
+            .value(growth / 1e6_f64.powf(1.0 / order))
+            .at_most(1.5)
+            .evidence(Evidence::Exact, "the error of a step of order p falls with the power p of its length, as the estimate is scaled")
+            .because("loose steps are bounded by stability as well, which lowers the ratio; half as much again for steps at the corners of the load")
+            .why_not_tighter("the ratio falls below one where stability bounds the steps")
+            .record();
+    }
     Ok(())
 }

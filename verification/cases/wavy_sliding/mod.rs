@@ -45,6 +45,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let folder = std::env::temp_dir().join(format!("asperity-wavy-sliding-{}", std::process::id()));
     let written =
         write(&folder).and_then(|()| compare(ledger, &folder)).and_then(|()| frames(ledger, &folder));
+    let written = written.and_then(|()| curve(ledger, &folder));
     std::fs::remove_dir_all(&folder)?;
     written
 }
@@ -146,6 +147,67 @@ fn frames(ledger: &mut Ledger, folder: &Path) -> Result<(), CaseError> {
         .cost(&two.cost)
         .record();
     Ok(())
+}
+
+/// Gaps from a smoothed side, whose nodes lie on a cosine, against distances from the cosine.
+fn curve(ledger: &mut Ledger, folder: &Path) -> Result<(), CaseError> {
+    let [same, ..] = Change::all(false);
+    let probe =
+        Grid { min: [0.3, 0.0, 0.0], max: [1.7, 1.0, 0.0], cells: [13, 1, 0], sides: [WAVE, Side::Flat] };
+    std::fs::write(folder.join("probe.msh"), probe.file(&same)?)?;
+    let (mut levels, mut last) = (Vec::new(), None);
+    for cells in [16, 32, 64] {
+        let side = Grid {
+            min: [-1.0, -1.0, 0.0],
+            max: [3.0, 0.0, 0.0],
+            cells: [4 * cells, 1, 0],
+            sides: [Side::Flat, WAVE],
+        };
+        std::fs::write(folder.join("fine.msh"), side.file(&same)?)?;
+        let done = simulate_in(include_str!("held.toml"), &folder.to_string_lossy())?;
+        let points = &done.record.histories()[0].points;
+        let missed = points.iter().map(|point| {
+            let gap = point.normal_traction.last().copied().unwrap_or(f64::NAN) / HELD;
+            (gap - depth(point.position)).abs()
+        });
+        levels.push((1.0 / cells as f64, missed.fold(0.0, f64::max)));
+        last = Some(done);
+    }
+    let done = last.ok_or("nothing was run")?;
+    ledger
+        .order("gaps from a smoothed side, in the size of its faces over the wavelength")
+        .levels(&levels)
+        .expected(3.0)
+        .within(0.3)
+        .finest(
+            4e-7,
+            "w''' h^3/6 times the largest xi (1 - xi)(1 - 2 xi), 0.096, with w''' = 0.02 (2 pi)^3: 3.0e-7 m, and a third for the next order",
+        )
+        .evidence(Evidence::Exact, "distances from the cosine on which the nodes lie")
+        .because("tangents of the parabola through a node and its neighbours err by w''' h^2/6, alike at both ends of an edge")
+        .why_not_tighter("the points lie anywhere on the faces")
+        .covers(&[Capability::FiniteSliding])
+        .cost(&done.cost)
+        .record();
+    Ok(())
+}
+
+/// Penalty of the sides that are held \[Pa/m\], and the depth to which one is pressed \[m\].
+const HELD: f64 = 1e9;
+const PRESSED: f64 = 5e-3;
+
+/// Distance of a pressed node from the cosine \[m\].
+fn depth([x, y, _]: [f64; 3]) -> f64 {
+    let (amplitude, k) = (0.02, std::f64::consts::TAU);
+    let y = y - PRESSED;
+    let mut s = x;
+    // Newton's method for the foot: (s - x) + (w - y) w' = 0.
+    for _ in 0..20 {
+        let (sin, cos) = (k * s).sin_cos();
+        let (w, first, second) = (amplitude * cos, -amplitude * k * sin, -amplitude * k * k * cos);
+        s -= ((s - x) + (w - y) * first) / (1.0 + first * first + (w - y) * second);
+    }
+    (s - x).hypot(amplitude * (k * s).cos() - y)
 }
 
 /// Writes both mesh files.
