@@ -128,7 +128,7 @@ fn repeated(ledger: &mut Ledger, run: &Measured) {
         .record();
 }
 
-/// What a scene declares against what was built for it.
+/// Table of the terms that a scene declares and of those built for it.
 fn table(ledger: &mut Ledger, run: &Measured) {
     let declared = |term: &Term| if run.scene.terms.contains(term) { "yes" } else { "no" };
     let row = |term: &Term| {
