@@ -220,6 +220,7 @@ fn rupture(ledger: &mut Ledger) -> Result<(), CaseError> {
             .relative(bound)
             .evidence(Evidence::Exact, cubics)
             .because(because)
+            .why_not_tighter("the last digits of onsets and rows may be off by any part of a half")
             .cost(&done.cost)
             .record();
     }

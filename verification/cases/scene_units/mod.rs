@@ -85,6 +85,7 @@ fn times(ledger: &mut Ledger) -> Result<(), CaseError> {
             .at_most(ROUNDING)
             .evidence(Evidence::Exact, BIPM)
             .because("each stage is longer than all before it, and files have all digits")
+            .why_not_tighter("numbers of a unit are wrong by a factor, if at all; rounding varies with the processor")
             .cost(&cost)
             .record();
     }
@@ -161,6 +162,7 @@ fn amounts(ledger: &mut Ledger) -> Result<(), CaseError> {
         .absolute(1e-12)
         .evidence(Evidence::Exact, BIPM)
         .because("rounding of the solution, of forces by stresses over 50 GPa, and of files with some 15 digits")
+        .why_not_tighter("a unit is wrong by a factor, if at all; rounding varies with the mesh")
         .cost(&cost)
         .record();
     Ok(())
@@ -185,6 +187,7 @@ fn overburden(ledger: &mut Ledger) -> Result<(), CaseError> {
         .relative(1e-12)
         .evidence(Evidence::Exact, "rho g h, with 1 g/cm^3 = 1e-3 kg/(1e-2 m)^3")
         .because("balance of forces, to rounding of a few cells")
+        .why_not_tighter("a unit is wrong by a factor, if at all; rounding varies with the mesh")
         .cost(&cost)
         .record();
     Ok(())
