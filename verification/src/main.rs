@@ -1,11 +1,7 @@
 //! Runs the verification suite and writes its report.
-#![allow(
-    clippy::print_stdout,
-    clippy::print_stderr,
-    reason = "a program speaks through its standard streams"
-)]
 
 use asperity_driver::cli::{self, Arguments};
+use asperity_output::printing;
 use asperity_verification::case::Outcome;
 use asperity_verification::report::{self, history, junit, provenance::Provenance};
 use asperity_verification::suite::{Selection, Summary};
@@ -49,7 +45,7 @@ fn main() -> ExitCode {
         Ok(summary) if summary.passes() => ExitCode::SUCCESS,
         Ok(_) => ExitCode::FAILURE,
         Err(error) => {
-            eprintln!("error: {error}");
+            printing::err(format_args!("error: {error}\n"));
             ExitCode::FAILURE
         }
     }
@@ -60,7 +56,7 @@ fn asperity(arguments: &Arguments) -> ExitCode {
     match cli::execute(arguments) {
         Ok(end) => ExitCode::from(end.code()),
         Err(error) => {
-            eprintln!("error: {error:?}");
+            printing::err(format_args!("error: {error:?}\n"));
             ExitCode::FAILURE
         }
     }
@@ -71,10 +67,10 @@ fn suite(options: &Options) -> Result<Summary, Box<dyn Error>> {
     let chosen = Selection { full: options.full, glob: options.case.clone() }.of(cases::ALL)?;
     if options.full {
         let forecast = history::forecast(&history::releases(&history::folder()), &chosen);
-        println!("{} cases: {forecast}", chosen.len());
+        printing::out(format_args!("{} cases: {forecast}\n", chosen.len()));
     }
     let width = chosen.iter().map(|case| case.name.len()).max().unwrap_or(0);
-    println!("{:width$}   hold  disagree  not covered   loose  near     time", "case");
+    printing::out(format_args!("{:width$}   hold  disagree  not covered   loose  near     time\n", "case"));
     let mut outcomes: Vec<Outcome> = Vec::new();
     for case in chosen {
         let outcome = case.execute();
@@ -90,25 +86,29 @@ fn suite(options: &Options) -> Result<Summary, Box<dyn Error>> {
         report::keep(&history::folder().join(format!("{tag}.json")), tag, &outcomes, &run)?;
     }
     let summary = Summary::of_all(&outcomes);
-    println!();
-    println!("report: {}", options.out.join("index.html").display());
+    printing::out(format_args!("\n"));
+    printing::out(format_args!("report: {}\n", options.out.join("index.html").display()));
     if !summary.remarks().is_empty() {
-        println!("{}", summary.remarks());
+        printing::out(format_args!("{}\n", summary.remarks()));
     }
-    println!("{summary}");
+    printing::out(format_args!("{summary}\n"));
     Ok(summary)
 }
 
 fn print_row(outcome: &Outcome, width: usize) {
     let s = Summary::of(&outcome.record.claims);
-    println!(
-        "{:width$} {:>6} {:>9} {:>12} {:>7} {:>5} {:>7.2} s",
+    printing::out(format_args!(
+        "{:width$} {:>6} {:>9} {:>12} {:>7} {:>5} {:>7.2} s\n",
         outcome.case.name, s.hold, s.disagree, s.not_covered, s.slack_unexplained, s.thin, outcome.wall
-    );
+    ));
     for judged in outcome.record.claims.iter().filter(|judged| judged.verdict == Verdict::Disagrees) {
         let size = judged
             .measured
             .map_or(String::new(), |m| format!(" (error {:.3e}, bound {:.3e})", m.error, m.bound));
-        println!("  disagrees: {}: {}{size}", judged.claim.quantity, judged.problem.as_deref().unwrap_or(""));
+        printing::out(format_args!(
+            "  disagrees: {}: {}{size}\n",
+            judged.claim.quantity,
+            judged.problem.as_deref().unwrap_or("")
+        ));
     }
 }
