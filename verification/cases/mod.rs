@@ -55,6 +55,7 @@ mod contact_sliding;
 mod cook_membrane;
 mod coulomb_strip;
 mod dislocation;
+pub mod drawn;
 mod elastic_plastic_cylinder;
 mod event_files;
 mod event_numbers;

@@ -1,6 +1,6 @@
 //! Parts shared by the cases of spring-sliders: parameter sets, laws, runs, and references of the second implementation.
 
-use crate::CaseError;
+use crate::{Axis, CaseError, Plot};
 use asperity_cycles::Thresholds;
 use asperity_cycles::slider::{self, Now, Problem, SliderRun};
 use asperity_friction::evolution::{ageing::Ageing, slip::Slip};
@@ -156,9 +156,12 @@ pub fn plan(slider: Slider, load: History, steady: f64, factor: f64, end: f64) -
     Ok(plan)
 }
 
+/// Slip rate above which an event begins \[m/s\].
+pub const EVENT: f64 = 1e-3;
+
 /// Stops the plan after `number` events above 1 mm/s, and records their peaks.
 pub fn events(plan: &mut Problem, number: usize) {
-    plan.events = Some(Thresholds { on: 1e-3, off: 1e-4 });
+    plan.events = Some(Thresholds { on: EVENT, off: 1e-4 });
     plan.most_events = Some(number);
     plan.peaks = true;
 }
@@ -186,6 +189,24 @@ pub fn finish(plan: &Problem) -> Result<SliderRun, CaseError> {
         .into()),
         Outcome::Completed | Outcome::Stopped => Ok(run),
     }
+}
+
+/// Times \[s\] and slip rates \[m/s\] of the first slider at the steps of a run.
+///
+/// # Errors
+/// If it fails.
+pub fn rates(plan: &Problem) -> Result<Vec<(f64, f64)>, CaseError> {
+    let mut seen = Vec::new();
+    let mut look = |now: &Now<'_>| seen.push((now.at.seconds(), now.conditions[0].rate));
+    match slider::run(plan, &mut look)?.outcome {
+        Outcome::Failed { reason } => Err(reason.to_string().into()),
+        Outcome::Completed | Outcome::Stopped => Ok(seen),
+    }
+}
+
+/// A diagram of slip rates against time, without curves.
+pub fn through_time(title: &str) -> Plot {
+    Plot::xy(title, "time [s]", "slip rate [m/s]").axes(Axis::Linear, Axis::Log)
 }
 
 /// Slip rate and friction of the first slider at the given times, each from a separate run that ends there.

@@ -47,6 +47,17 @@ pub struct Picture {
     pub caption: String,
 }
 
+/// A part of a case with a page of its own.
+#[derive(Clone, Debug)]
+pub struct Sheet {
+    /// Title.
+    pub title: String,
+    /// Scene it is about.
+    pub scene: String,
+    /// Tables.
+    pub tables: Vec<Table>,
+}
+
 /// Everything a case recorded.
 #[derive(Debug, Default)]
 pub struct Record {
@@ -58,6 +69,8 @@ pub struct Record {
     pub plots: Vec<Diagram>,
     /// Tables.
     pub tables: Vec<Table>,
+    /// Pages of their own.
+    pub sheets: Vec<Sheet>,
     /// Notes.
     pub notes: Vec<String>,
 }
@@ -103,6 +116,11 @@ impl Ledger {
     /// Adds a plot to the case's page.
     pub fn plot(&mut self, plot: Diagram) {
         self.record.plots.push(plot);
+    }
+
+    /// Adds a page that the case's page links to.
+    pub fn sheet(&mut self, sheet: Sheet) {
+        self.record.sheets.push(sheet);
     }
 
     /// Adds a drawing to the case's page.

@@ -5,6 +5,7 @@ mod scenes;
 mod terms;
 
 use super::programs::Folder;
+use crate::ledger::{Sheet, Table};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use callgrind::Instructions;
 use rayon::prelude::*;
@@ -53,7 +54,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         ledger.not_covered("results under another vector width", "this processor has no vectors of 512 bits");
     }
     let measured = runs.into_iter().collect::<Result<Vec<Measured>, CaseError>>()?;
-    measured.iter().for_each(|run| table(ledger, run));
+    measured.iter().for_each(|run| ledger.sheet(sheet(run)));
     crates(ledger, &measured);
     Ok(())
 }
@@ -128,29 +129,44 @@ fn repeated(ledger: &mut Ledger, run: &Measured) {
         .record();
 }
 
-/// Table of the terms that a scene declares and of those built for it.
-fn table(ledger: &mut Ledger, run: &Measured) {
+/// The page of a scene: what it declares, what was built for it, and what ran.
+fn sheet(run: &Measured) -> Sheet {
     let declared = |term: &Term| if run.scene.terms.contains(term) { "yes" } else { "no" };
     let row = |term: &Term| {
-        [term.name().to_owned(), declared(term).to_owned(), written(term.instructions(&run.instructions))]
+        vec![term.name().to_owned(), declared(term).to_owned(), written(term.instructions(&run.instructions))]
     };
-    let state = run.state.map(|bytes| ["friction state".to_owned(), String::new(), format!("{bytes} bytes")]);
-    let rows = Term::ALL.iter().map(row).chain(state);
-    ledger.table(format!("{}: built", run.scene.name), &["term", "declared", "instructions"], rows);
+    let state = run.state.map_or("none".to_owned(), |bytes| format!("{bytes} bytes"));
+    let crates = CRATES.iter().map(|name| vec![(*name).to_owned(), written(of_crate(run, name))]);
+    let table = |title: &str, head: &[&str], rows: Vec<Vec<String>>| Table {
+        title: title.to_owned(),
+        head: head.iter().map(|&cell| cell.to_owned()).collect(),
+        rows,
+    };
+    Sheet {
+        title: format!("{}: declared and built", run.scene.name),
+        scene: run.scene.text.clone(),
+        tables: vec![
+            table("Physics", &["term", "declared", "instructions"], Term::ALL.iter().map(row).collect()),
+            table("State", &["quantity", "size"], vec![vec!["friction state".to_owned(), state]]),
+            table("Instructions by crate", &["crate", "instructions"], crates.collect()),
+        ],
+    }
+}
+
+const CRATES: [&str; 9] =
+    ["friction", "fem", "ode", "contact", "mechanics", "cycles", "scene", "output", "driver"];
+
+/// Instructions in the files of a crate.
+fn of_crate(run: &Measured, name: &str) -> u64 {
+    let prefix = format!("crates/{name}/");
+    run.instructions.iter().filter(|(path, _)| path.starts_with(&prefix)).map(|(_, count)| count).sum()
 }
 
 /// Instructions in the files of each crate.
 fn crates(ledger: &mut Ledger, runs: &[Measured]) {
-    const CRATES: [&str; 9] =
-        ["friction", "fem", "ode", "contact", "mechanics", "cycles", "scene", "output", "driver"];
     let head: Vec<&str> = ["scene"].into_iter().chain(CRATES).collect();
-    let cell = |run: &Measured, name: &str| {
-        let prefix = format!("crates/{name}/");
-        let of_crate = run.instructions.iter().filter(|(path, _)| path.starts_with(&prefix));
-        written(of_crate.map(|(_, count)| count).sum())
-    };
     let row = |run: &Measured| {
-        let cells = CRATES.iter().map(|name| cell(run, name));
+        let cells = CRATES.iter().map(|name| written(of_crate(run, name)));
         std::iter::once(run.scene.name.to_owned()).chain(cells).collect::<Vec<String>>()
     };
     ledger.table("Instructions by crate", &head, runs.iter().map(row));

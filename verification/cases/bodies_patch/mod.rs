@@ -1,6 +1,7 @@
 //! Patch test and zero-energy modes of every element, idealisation and formulation.
 
 use super::bodies::{self, Body, Field, Shape};
+use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_fem::block::{FieldValue, LinearBlock};
 use asperity_fem::element::ElementKind;
@@ -90,7 +91,11 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
             element::<3>(ledger, kind, [0.5, -0.3, 0.1])?;
         }
     }
-    Ok(())
+    let material = Elastic::new(2.5, 0.3)?;
+    let field = Linear::new(Idealisation::PlaneStrain, &material);
+    let mesh = bodies::distorted(ElementKind::Quad9, 3, Shape::Crooked, [0.5, -0.3])?;
+    let body = Body::new(mesh, &material, Idealisation::PlaneStrain, Formulation::Standard)?.hold_all(&field);
+    drawn::displacement(ledger, "Linear field, quad9", &body.mesh, &body.solve()?.u, false)
 }
 
 fn element<const D: usize>(ledger: &mut Ledger, kind: ElementKind, lower: [f64; D]) -> Result<(), CaseError> {

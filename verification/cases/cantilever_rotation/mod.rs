@@ -1,6 +1,7 @@
 //! A slender beam rolled up by rotation of its end section, and bent by a dead load.
 
 use super::body::{self, Body, Entry, Work};
+use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
@@ -180,8 +181,8 @@ fn elastica(alpha: f64) -> [f64; 2] {
     [1.0 - 2.0 * second / alpha.sqrt(), 1.0 - (2.0 * slope.sin() / alpha).sqrt()]
 }
 
-/// Tip deflection and shortening at the given alphas, in steps of `step`; shape of the middle line at the end.
-type Bent = (Vec<[f64; 2]>, Vec<(f64, f64)>, Work);
+/// Tip deflection and shortening at the given alphas, in steps of `step`; shape of the middle line at the end; the bent body.
+type Bent = (Vec<[f64; 2]>, Vec<(f64, f64)>, Body<2>);
 
 fn bend(thickness: f64, cells: usize, alphas: &[f64], step: f64) -> Result<Bent, CaseError> {
     let mut body = beam(thickness, cells, false)?;
@@ -209,7 +210,8 @@ fn bend(thickness: f64, cells: usize, alphas: &[f64], step: f64) -> Result<Bent,
     let middle = (body.mesh.nodes.iter().zip(body.u.chunks_exact(2)))
         .filter(|(x, _)| x[1].abs() < 0.1 * thickness)
         .map(|(x, u)| (x[0] + u[0], x[1] + u[1]));
-    Ok((found, middle.collect(), body.work))
+    let middle = middle.collect();
+    Ok((found, middle, body))
 }
 
 fn forced(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -228,8 +230,9 @@ fn forced(ledger: &mut Ledger) -> Result<(), CaseError> {
         .because("the digits of the table")
         .record();
     let (outcome, cost) = Cost::of(|| bend(thickness, 80, &alphas, 0.125));
-    let (found, middle, work) = outcome?;
-    let cost = cost.counts(&work);
+    let (found, middle, body) = outcome?;
+    let cost = cost.counts(&body.work);
+    drawn::displacement(ledger, "Bent by P L^2/(E I) = 10", &body.mesh, &body.u, true)?;
     for ((alpha, exact), found) in alphas.into_iter().zip(exact).zip(&found) {
         for (what, i) in [("deflection", 0), ("shortening", 1)] {
             ledger
@@ -257,9 +260,9 @@ fn thickness(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (mut levels, mut last) = (Vec::new(), Cost::default());
     for thickness in [0.1, 0.05, 0.025] {
         let (outcome, cost) = Cost::of(|| bend(thickness, 64, &[10.0], 0.125));
-        let (found, _, work) = outcome?;
+        let (found, _, body) = outcome?;
         levels.push((thickness, (found[0][0] - exact[0]).hypot(found[0][1] - exact[1])));
-        last = cost.counts(&work);
+        last = cost.counts(&body.work);
     }
     ledger
         .order("tip at P L^2/(E I) = 10 against the elastica, over L, in the thickness")
@@ -279,8 +282,8 @@ fn refinement(ledger: &mut Ledger) -> Result<(), CaseError> {
     let thickness = 0.025;
     let tip = |cells: usize, step: f64| -> Result<([f64; 2], Cost), CaseError> {
         let (outcome, cost) = Cost::of(|| bend(thickness, cells, &[10.0], step));
-        let (found, _, work) = outcome?;
-        Ok((found[0], cost.counts(&work)))
+        let (found, _, body) = outcome?;
+        Ok((found[0], cost.counts(&body.work)))
     };
     let distance = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
     let (finest, _) = tip(64, 0.5)?;

@@ -4,7 +4,9 @@ pub mod cell;
 mod table;
 
 use super::texts::simulate;
+use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
+use asperity_driver::scene;
 use asperity_vary::SceneText;
 use cell::{Bodies, Cell, ENFORCEMENTS, Face, Kinematics, LAWS, Law, Pairing, Start};
 use table::{Table, claims, distance};
@@ -105,6 +107,10 @@ pub fn everything(ledger: &mut Ledger, kinematics: &[Kinematics]) -> Result<(), 
                 add(&mut cells, kinematics, bodies, pairing);
             }
         }
+    }
+    if let Some(cell) = cells.iter().find(|cell| cell.face == Face::Round) {
+        let scene = scene::read(&cell.text()?).map_err(|error| error.to_string())?;
+        drawn::stage(ledger, "One of the runs", &scene, "draw")?;
     }
     claims(ledger, Table::of(&cells)?);
     Ok(())

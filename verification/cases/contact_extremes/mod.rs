@@ -1,6 +1,7 @@
 //! Extreme meshes, ties, and changes that must not affect results: units, node numbers, the order of bodies.
 
 use super::contact_hard::scenes::{Done, Pair, block};
+use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_driver::{plan, run as driver_run, scene};
 use asperity_output::Recorder;
@@ -71,6 +72,12 @@ fn same(
 fn invariance(ledger: &mut Ledger) -> Result<(), CaseError> {
     for measure in MEASURES {
         let si = pushed(measure, 1.0, 1.0).run()?;
+        let svg = drawn::recorded(&si.record, "")?;
+        ledger.picture(
+            format!("Blocks pushed together, {measure}"),
+            svg,
+            "Mises stress after the first stage.",
+        );
         let mm = pushed(measure, 1e3, 1e-6).run()?;
         let pascal: Vec<f64> = mm.end()?.normal_traction.iter().map(|t| t * 1e6).collect();
         same(

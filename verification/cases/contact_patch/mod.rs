@@ -1,6 +1,7 @@
 //! Contact patch test on matching meshes: a uniform pressure passes through the interface with every element.
 
 use super::sandwich::{self, POISSON, U_X, YOUNG};
+use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 
 /// See the README.
@@ -35,6 +36,9 @@ fn patch(ledger: &mut Ledger, element: &str, covers: &[Capability]) -> Result<()
         sandwich::element(scene, element)
     };
     let scene = sandwich::press_only(scene);
+    if element == "quad9" {
+        drawn::stage(ledger, "Pressed blocks of quad9", &scene, "press")?;
+    }
     let (run, cost) = Cost::of(|| sandwich::simulate(&scene));
     let run = run?;
     let modulus = YOUNG / (1.0 - POISSON * POISSON);

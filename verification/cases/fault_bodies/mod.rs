@@ -3,7 +3,7 @@
 use crate::cases::dislocation;
 use crate::cases::fault_operator::matrix;
 use crate::cases::seas;
-use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_driver::fault::Plan;
 use asperity_vary::SceneText;
 use dislocation::Stress;
@@ -417,6 +417,27 @@ fn arc_errors(plan: &Plan) -> [f64; 2] {
     worst.map(|w| w / scale)
 }
 
+/// Draws the tractions on the arc on those of dislocations.
+fn overlay(ledger: &mut Ledger, plan: &Plan) {
+    let n = plan.points.len();
+    let angle = |p: usize| (-plan.points[p].at[1]).atan2(RADIUS - plan.points[p].at[0]);
+    let slip: Vec<f64> = (0..n).map(|p| on_arc(angle(p) * RADIUS)).collect();
+    let (mut shear, mut normal) = (vec![0.0; n], vec![0.0; n]);
+    plan.problem.fault.operator.shear(&slip, &mut shear);
+    plan.problem.fault.operator.normal(&slip, &mut normal);
+    let inside = |p: &usize| angle(*p) * RADIUS > 1e3 && angle(*p) * RADIUS < 15e3;
+    let at = |value: &dyn Fn(usize) -> f64| -> Vec<(f64, f64)> {
+        (0..n).filter(inside).map(|p| (angle(p).to_degrees(), value(p) / 1e6)).collect()
+    };
+    ledger.plot(
+        Plot::xy("Tractions of slip on the arc", "angle from the surface [degrees]", "traction [MPa]")
+            .series(Series::line("shear, dislocations", &at(&|p| arc_tractions(angle(p)).0)))
+            .series(Series::points("shear, this code", &at(&|p| shear[p])))
+            .series(Series::line("normal, dislocations", &at(&|p| arc_tractions(angle(p)).1)))
+            .series(Series::points("normal, this code", &at(&|p| normal[p]))),
+    );
+}
+
 /// Number of segments of a trace with few vertices; each is 3.9 km long, a fifth of the radius.
 const FEW: usize = 4;
 
@@ -431,8 +452,11 @@ fn arc_of(ledger: &mut Ledger, segments: Option<usize>, which: &str) -> Result<(
     let mut last = None;
     for cells in [16, 32, 64] {
         let (plan, cost) = Cost::of(|| curved(cells, segments));
-        let size = RADIUS * FRAC_PI_4 / cells as f64;
-        for (list, error) in levels.iter_mut().zip(arc_errors(&plan?)) {
+        let (plan, size) = (plan?, RADIUS * FRAC_PI_4 / cells as f64);
+        if cells == 64 && segments.is_none() {
+            overlay(ledger, &plan);
+        }
+        for (list, error) in levels.iter_mut().zip(arc_errors(&plan)) {
             list.push((size, error));
         }
         last = Some(cost);

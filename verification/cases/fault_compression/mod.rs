@@ -1,7 +1,7 @@
 //! The compressed operator against the dense one.
 
 use crate::cases::{fault_operator, seas};
-use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_cycles::operator::Form;
 use asperity_driver::fault::{Plan, plan_with};
 use asperity_driver::scene;
@@ -75,6 +75,22 @@ fn tractions(plan: &Plan, slip: &[f64], normal: bool) -> Vec<f64> {
     out
 }
 
+/// Draws normal tractions by the compressed operator on those by the dense one.
+fn overlay(ledger: &mut Ledger, name: &str, plan: &Plan, [dense, compressed]: [&[f64]; 2]) {
+    let at = |values: &[f64]| -> Vec<(f64, f64)> {
+        plan.points.iter().zip(values).map(|(p, t)| (p.along / 1e3, t / 1e6)).collect()
+    };
+    ledger.plot(
+        Plot::xy(
+            format!("{name}: normal tractions of smooth slip"),
+            "distance from the surface [km]",
+            "traction [MPa]",
+        )
+        .series(Series::line("dense", &at(dense)))
+        .series(Series::points("compressed", &at(compressed))),
+    );
+}
+
 fn products(ledger: &mut Ledger, name: &str, dense: &Plan, compressed: &Plan, cost: &Cost) {
     let area = |p: usize| dense.points[p].area;
     // The largest entry of the force matrix is on its diagonal.
@@ -98,6 +114,9 @@ fn products(ledger: &mut Ledger, name: &str, dense: &Plan, compressed: &Plan, co
             let norm = |v: &dyn Fn(usize) -> f64| (0..n).map(|p| v(p).powi(2)).sum::<f64>().sqrt();
             worst = worst.max(norm(&|p| (a[p] - b[p]) * area(p)) / (largest * norm(&|p| slip[p])));
             if shape == "smooth" {
+                if normal {
+                    overlay(ledger, name, dense, [&a, &b]);
+                }
                 let off = (0..n).map(|p| (a[p] - b[p]).abs()).fold(0.0, f64::max);
                 ledger
                     .claim(format!("{name}: {kind} tractions of smooth slip, largest error over the largest traction"))

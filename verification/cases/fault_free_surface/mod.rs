@@ -2,7 +2,7 @@
 
 use crate::cases::okada::Rectangle;
 use crate::cases::seas;
-use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_driver::fault::{BodiesView, Plan};
 use std::collections::BTreeMap;
 
@@ -160,6 +160,30 @@ fn reference(x: f64, z: f64) -> [f64; 3] {
     u
 }
 
+/// Draws displacements of the surface on those of dislocations.
+fn overlay(ledger: &mut Ledger, view: &BodiesView, displacement: &[[f64; 3]]) {
+    const FARTHEST: f64 = 12e3;
+    let across = |z: f64| {
+        let mut found: Vec<(f64, [f64; 3])> = (view.nodes.iter().zip(displacement))
+            .filter(|(x, _)| x[1] == 0.0 && x[2] == z && x[0] > 0.0 && x[0] < FARTHEST)
+            .map(|(x, u)| (x[0], *u))
+            .collect();
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        found
+    };
+    let mut diagram =
+        Plot::xy("Displacement of the surface", "distance from the fault [km]", "displacement [m]");
+    for (name, z, c) in [("along slip at z = 0", 0.0, 2), ("across the fault at z = 4 km", 4e3, 0)] {
+        let found = across(z);
+        let exact: Vec<(f64, f64)> = found.iter().map(|(x, _)| (x / 1e3, reference(*x, z)[c])).collect();
+        let points: Vec<(f64, f64)> = found.iter().map(|(x, u)| (x / 1e3, u[c])).collect();
+        diagram = diagram
+            .series(Series::line(format!("{name}, dislocations"), &exact))
+            .series(Series::points(format!("{name}, this code"), &points));
+    }
+    ledger.plot(diagram);
+}
+
 /// Claims displacements of the surface.
 fn surface(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (mut levels, mut last) = (Vec::new(), None);
@@ -176,6 +200,9 @@ fn surface(ledger: &mut Ledger) -> Result<(), CaseError> {
                 let expected = reference(node[0], node[2]);
                 worst = (0..3).map(|c| (u[c] - expected[c]).abs()).fold(worst, f64::max);
             }
+        }
+        if size < 1e3 {
+            overlay(ledger, view, &displacement);
         }
         levels.push((size, worst));
         last = Some(cost.count("degrees of freedom", plan.dofs as f64));

@@ -1,7 +1,7 @@
 //! Gravity of bodies between rollers, resolved onto faults.
 
 use crate::cases::seas;
-use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_cycles::Layout;
 use asperity_driver::fault::Plan;
 
@@ -124,11 +124,28 @@ fn errors(plan: &Plan, exact: impl Fn(f64) -> [f64; 2]) -> [f64; 2] {
     worst
 }
 
+/// Draws normal tractions on the closed form.
+fn overlay(ledger: &mut Ledger, plan: &Plan, case: &Dipping) {
+    let points = || plan.points.iter().enumerate().map(|(p, point)| (p, -point.at[1]));
+    let found: Vec<(f64, f64)> =
+        points().map(|(p, z)| (z / 1e3, plan.problem.fault.normal[p] / 1e6)).collect();
+    let exact: Vec<(f64, f64)> = points().map(|(_, z)| (z / 1e3, case.exact(z)[0] / 1e6)).collect();
+    ledger.plot(
+        Plot::xy("Normal traction under weight, dip 60 degrees", "depth [km]", "f_n [MPa]")
+            .series(Series::line("closed form", &exact))
+            .series(Series::points("this code", &found)),
+    );
+}
+
 fn planes(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (dip, poisson) in [(60.0, 0.25), (30.0, 0.35), (45.0, 0.2), (75.0, 0.3)] {
         let case = Dipping { dip, poisson, element: "quad9", size: 1000.0, body: WEIGHS };
         let (plan, cost) = Cost::of(|| case.plan());
-        let found = errors(&plan?, |z| case.exact(z));
+        let plan = plan?;
+        if dip == 60.0 {
+            overlay(ledger, &plan, &case);
+        }
+        let found = errors(&plan, |z| case.exact(z));
         exact(ledger, &format!("dip {dip}, nu {poisson}"), &found, &cost);
     }
     Ok(())

@@ -1,7 +1,7 @@
 //! Tractions caused by slip in plane strain: a crack, a fault that slips uniformly, and dipping faults below a free surface.
 
 use crate::cases::{dislocation, seas};
-use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_driver::fault::Plan;
 use dislocation::Stress;
 use nalgebra::{Complex, DMatrix, DVector};
@@ -113,6 +113,8 @@ struct Slip {
     cost: Cost,
     /// Largest change of normal traction over the change of shear traction.
     normal: f64,
+    /// Distance from the upper tip over a, slip and exact slip over the exact slip in the middle.
+    profile: Vec<[f64; 3]>,
 }
 
 fn slip(plan: &Plan) -> Result<Slip, CaseError> {
@@ -132,6 +134,8 @@ fn slip(plan: &Plan) -> Result<Slip, CaseError> {
     let exact = |along: f64| peak * (1.0 - ((along - A) / A).powi(2)).max(0.0).sqrt();
     let errors: Vec<f64> =
         plan.points.iter().zip(slip.iter()).map(|(p, s)| (s - exact(p.along)) / peak).collect();
+    let profile =
+        plan.points.iter().zip(slip.iter()).map(|(p, s)| [p.along / A, s / peak, exact(p.along) / peak]);
     let middle = (0..errors.len())
         .min_by(|&i, &j| {
             let off = |k: usize| (plan.points[k].along - A).abs();
@@ -143,6 +147,7 @@ fn slip(plan: &Plan) -> Result<Slip, CaseError> {
         middle: errors[middle].abs(),
         largest,
         normal,
+        profile: profile.collect(),
         cost: cost.count("points", errors.len() as f64),
     })
 }
@@ -184,6 +189,16 @@ fn crack(ledger: &mut Ledger) -> Result<(), CaseError> {
         .record();
     let tip = A / 1000.0;
     let graded = slip(&cracked(A / 10.0, Some(tip))?)?;
+    let curve = |which: usize| graded.profile.iter().map(|row| (row[0], row[which])).collect::<Vec<_>>();
+    ledger.plot(
+        Plot::xy(
+            "Slip of the crack",
+            "distance from the upper tip over a [-]",
+            "slip over that in the middle [-]",
+        )
+        .series(Series::line("closed form", &curve(2)))
+        .series(Series::points("graded cells", &curve(1))),
+    );
     let cells = "cells from a/1000 at the tips to a/10";
     ledger
         .claim(format!("slip in the middle of the crack, relative error, {cells}"))
@@ -325,6 +340,32 @@ fn errors(plan: &Plan, dip: f64, slip: impl Fn(f64) -> f64 + Copy) -> [f64; 2] {
     worst.map(|w| w / scale)
 }
 
+/// Draws the tractions of a slip on those of dislocations.
+fn overlay(ledger: &mut Ledger, plan: &Plan, dip: f64, (name, slip): Slips) {
+    let values: Vec<f64> = plan.points.iter().map(|p| slip(p.along)).collect();
+    let mut found = [vec![0.0; values.len()], vec![0.0; values.len()]];
+    plan.problem.fault.operator.shear(&values, &mut found[0]);
+    plan.problem.fault.operator.normal(&values, &mut found[1]);
+    let near = |p: &usize| plan.points[*p].along > BELOW && plan.points[*p].along < DEEPEST;
+    let points: Vec<usize> = (0..values.len()).filter(near).collect();
+    let exact = points.iter().map(|&p| tractions(dip, slip, PIECE, DEEPEST, plan.points[p].along));
+    let exact: Vec<(f64, f64)> = exact.collect();
+    let at = |value: &dyn Fn(usize) -> f64| -> Vec<(f64, f64)> {
+        points.iter().enumerate().map(|(k, &p)| (plan.points[p].along / 1e3, value(k) / 1e6)).collect()
+    };
+    ledger.plot(
+        Plot::xy(
+            format!("Slip {name}, dip {dip} degrees"),
+            "distance from the surface [km]",
+            "traction [MPa]",
+        )
+        .series(Series::line("shear, dislocations", &at(&|k| exact[k].0)))
+        .series(Series::points("shear, this code", &at(&|k| found[0][points[k]])))
+        .series(Series::line("normal, dislocations", &at(&|k| exact[k].1)))
+        .series(Series::points("normal, this code", &at(&|k| found[1][points[k]]))),
+    );
+}
+
 const REFERENCE: &str = "edge dislocations below a free surface by complex potentials, pieces of 25 m";
 
 /// Dipping faults below a free surface against dislocations.
@@ -332,6 +373,9 @@ fn surface(ledger: &mut Ledger) -> Result<(), CaseError> {
     for dip in [90.0, 60.0, 30.0] {
         let (plan, cost) = Cost::of(|| seas::plan(&through(dip, SIZE)));
         let plan = plan?;
+        if dip < 45.0 {
+            overlay(ledger, &plan, dip, slips()[1]);
+        }
         for (name, slip) in slips() {
             for (kind, error) in ["shear", "normal"].into_iter().zip(errors(&plan, dip, slip)) {
                 ledger

@@ -2,7 +2,7 @@
 
 use crate::cases::fault_operator::matrix;
 use crate::cases::seas;
-use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_driver::fault::Plan;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -257,6 +257,25 @@ fn waves(y: f64, z: f64) -> f64 {
     -ROCK / (2.0 * WIDTH) * sum * dk / f64::from(angles)
 }
 
+/// Draws tractions along the two axes of the Gaussian on those from wave vectors.
+fn overlay(ledger: &mut Ledger, plan: &Plan, found: &[f64]) {
+    let mut diagram =
+        Plot::xy("Tractions of a Gaussian of slip", "distance over s [-]", "shear traction [MPa]");
+    for (name, along, other) in [("across the slip", 1, 2), ("along the slip", 2, 1)] {
+        let on = |p: &usize| {
+            plan.points[*p].at[other].abs() < 1e-6 * WIDTH && plan.points[*p].at[along] < 2.5 * WIDTH
+        };
+        let at = |value: &dyn Fn(usize) -> f64| -> Vec<(f64, f64)> {
+            (0..found.len()).filter(on).map(|p| (plan.points[p].at[along] / WIDTH, value(p) / 1e6)).collect()
+        };
+        let exact = at(&|p| waves(plan.points[p].at[1], plan.points[p].at[2]));
+        diagram = diagram
+            .series(Series::line(format!("{name}, wave vectors"), &exact))
+            .series(Series::points(format!("{name}, this code"), &at(&|p| found[p])));
+    }
+    ledger.plot(diagram);
+}
+
 /// Tractions of a Gaussian of slip.
 fn gaussian(ledger: &mut Ledger) -> Result<(), CaseError> {
     let middle = -ROCK / (4.0 * WIDTH) * (1.0 + 1.0 / (1.0 - POISSON)) * FRAC_PI_2.sqrt();
@@ -275,6 +294,9 @@ fn gaussian(ledger: &mut Ledger) -> Result<(), CaseError> {
         let near = plan.points.iter().zip(&found).filter(|(p, _)| p.at[1].hypot(p.at[2]) < 2.5 * WIDTH);
         let errors = near.map(|(p, t)| (t - waves(p.at[1], p.at[2])).abs());
         levels.push((WIDTH / part, errors.fold(0.0, f64::max) / middle.abs()));
+        if part > 2.0 {
+            overlay(ledger, &plan, &found);
+        }
         last = Some(cost.count("points", slip.len() as f64));
     }
     let cost = last.ok_or("no level")?;

@@ -4,6 +4,7 @@ mod fields;
 
 use super::bodies::{self, Body, Field, Level, Orders};
 use super::bodies_patch::capability;
+use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::{Formulation, Idealisation};
@@ -74,7 +75,10 @@ fn points(ledger: &mut Ledger, material: &Elastic) -> Result<(), CaseError> {
         plot = enter(ledger, plot, &name, (kind, Capability::Axisymmetric, "Boussinesq"), &levels);
     }
     ledger.plot(plot);
-    Ok(())
+    let body =
+        Body::new(annulus(Quad9, [16, 32], PI)?, material, Idealisation::PlaneStrain, Formulation::Standard)?;
+    let body = body.pull(&["left"], &flamant).hold(&["right"], &flamant);
+    drawn::displacement(ledger, "Line force on a half-plane", &body.mesh, &body.solve()?.u, false)
 }
 
 fn study(

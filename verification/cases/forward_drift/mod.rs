@@ -1,6 +1,7 @@
 //! Forward steps on an elasto-plastic path: accuracy of yield events and order of the drift.
 
 use super::body::{self, Body, Entry};
+use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_fem::block::von_mises;
 use asperity_fem::element::ElementKind;
@@ -74,8 +75,13 @@ struct Run {
     cost: Cost,
 }
 
-/// Runs the whole path in steps of at most 1/`steps`.
-fn driven(kinematics: Kinematics, limits: Limits, carry: bool, steps: usize) -> Result<Run, CaseError> {
+/// Runs the whole path in steps of at most 1/`steps`. Returns the body as well.
+fn driven(
+    kinematics: Kinematics,
+    limits: Limits,
+    carry: bool,
+    steps: usize,
+) -> Result<(Run, Body<2>), CaseError> {
     let (mut body, path) = square(kinematics, limits, carry)?;
     let mut run = Run::default();
     let (outcome, cost) = Cost::of(|| -> Result<(), CaseError> {
@@ -108,7 +114,7 @@ fn driven(kinematics: Kinematics, limits: Limits, carry: bool, steps: usize) -> 
     run.cost = cost.counts(&body.work);
     let plastic = body.block.plastic_strain_at_points().ok_or("no plastic strain is kept")?;
     run.plastic = plastic.iter().filter(|e| **e > 1e-12).count() as u64;
-    Ok(run)
+    Ok((run, body))
 }
 
 /// Unbalanced force over the largest reaction.
@@ -122,7 +128,7 @@ fn drift(body: &mut Body<2>, path: &[Entry]) -> Result<f64, CaseError> {
 fn equal_steps(ledger: &mut Ledger, carry: bool) -> Result<Vec<(f64, f64)>, CaseError> {
     let (mut levels, mut work, mut last) = (Vec::new(), Vec::new(), Cost::default());
     for steps in [50, 100, 200, 400] {
-        let run = driven(Kinematics::Small, Limits::default(), carry, steps)?;
+        let (run, _) = driven(Kinematics::Small, Limits::default(), carry, steps)?;
         levels.push((1.0 / steps as f64, run.drift));
         work.push((run.drift, run.cost.wall.unwrap_or(f64::NAN)));
         last = run.cost;
@@ -153,7 +159,8 @@ fn equal_steps(ledger: &mut Ledger, carry: bool) -> Result<Vec<(f64, f64)>, Case
 }
 
 fn events(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let run = driven(Kinematics::Small, Limits::default(), false, 50)?;
+    let (run, body) = driven(Kinematics::Small, Limits::default(), false, 50)?;
+    drawn::displacement(ledger, "The square at the end of its path", &body.mesh, &body.u, true)?;
     ledger
         .claim("steps that end with a point at yield, 36 points, all of them in plastic flow at the end")
         .count(run.yields.min(run.plastic), POINTS)
@@ -185,7 +192,7 @@ fn limited_steps(ledger: &mut Ledger, carry: bool) -> Result<(), CaseError> {
     let (mut levels, mut last) = (Vec::new(), Cost::default());
     for strain in [4e-3, 2e-3, 1e-3, 5e-4] {
         let limits = Limits { strain, rotation: strain, ..Limits::default() };
-        let run = driven(Kinematics::UpdatedLagrangian, limits, carry, 1)?;
+        let (run, _) = driven(Kinematics::UpdatedLagrangian, limits, carry, 1)?;
         levels.push((strain, run.drift));
         last = run.cost;
     }

@@ -1,6 +1,7 @@
 //! Simple shear under the Jaumann rate: the oscillation, and how plasticity ends it.
 
 use super::body::{self, Body, Work};
+use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
@@ -34,8 +35,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     plot(ledger)
 }
 
-/// Stress after simple shear to `gamma` in equal steps, the error of s_xx + s_yy = 0, and the work.
-fn sheared(material: Material, gamma: f64, steps: usize) -> Result<(Pair, f64, Work), CaseError> {
+/// A body after simple shear to `gamma` in equal steps.
+fn sheared_body(material: Material, gamma: f64, steps: usize) -> Result<Body<2>, CaseError> {
     let mesh = body::grid::<2>(ElementKind::Quad4, [0.0; 2], [1.0; 2], [2; 2])?;
     let mesh = body::distorted(mesh, [1.0; 2], 0.5, 0.2);
     let mut body = Body::new(
@@ -48,6 +49,12 @@ fn sheared(material: Material, gamma: f64, steps: usize) -> Result<(Pair, f64, W
         let u = body::field(&body.mesh, |x| [now * x[1], 0.0]);
         body.follow(u, 1.0)?;
     }
+    Ok(body)
+}
+
+/// Stress after simple shear to `gamma` in equal steps, the error of s_xx + s_yy = 0, and the work.
+fn sheared(material: Material, gamma: f64, steps: usize) -> Result<(Pair, f64, Work), CaseError> {
+    let body = sheared_body(material, gamma, steps)?;
     let s = body.block.stress_at_points()[5];
     Ok(([0.5 * (s[0] - s[1]), s[3]], s[0] + s[1], body.work))
 }
@@ -288,6 +295,8 @@ fn hardening(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 fn plot(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let body = sheared_body(hypoelastic()?, 1.0, 20)?;
+    drawn::displacement(ledger, "Simple shear, gamma = 1", &body.mesh, &body.u, true)?;
     let gammas: Vec<f64> = (1..=60).map(|k| 0.1 * f64::from(k)).collect();
     let computed =
         |material: &dyn Fn() -> Result<Material, CaseError>| -> Result<Vec<(f64, f64)>, CaseError> {

@@ -3,6 +3,7 @@
 mod viscous;
 
 use super::body::{self, Body};
+use crate::cases::drawn;
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
@@ -127,8 +128,8 @@ fn forces(ledger: &mut Ledger) -> Result<(), CaseError> {
 const STRETCH: f64 = 0.02;
 
 /// Stretches a strip between its grips and turns it by 90 degrees in `steps` forward steps. Returns the largest error
-/// of the stress over the largest stress.
-fn strip(steps: usize, carry: bool) -> Result<(f64, Cost), CaseError> {
+/// of the stress over the largest stress, and the body.
+fn strip(steps: usize, carry: bool) -> Result<(f64, Body<2>, Cost), CaseError> {
     let mesh = body::grid::<2>(ElementKind::Quad4, [0.0; 2], [2.0, 1.0], [4, 2])?;
     let mesh = body::distorted(mesh, [2.0, 1.0], 0.5, 0.2);
     let material = Material::Elastic(Elastic::new(YOUNG, POISSON)?);
@@ -163,13 +164,17 @@ fn strip(steps: usize, carry: bool) -> Result<(f64, Cost), CaseError> {
         error = error.max(body::largest_difference(&[*found], &exact));
         scale = exact.iter().fold(scale, |m, s| m.max(s.abs()));
     }
-    Ok((error / scale, cost.counts(&body.work)))
+    let cost = cost.counts(&body.work);
+    Ok((error / scale, body, cost))
 }
 
 fn turning(ledger: &mut Ledger, carry: bool) -> Result<(), CaseError> {
     let (mut levels, mut last) = (Vec::new(), Cost::default());
     for steps in [90, 180, 360, 720] {
-        let (error, cost) = strip(steps, carry)?;
+        let (error, body, cost) = strip(steps, carry)?;
+        if carry && steps == 90 {
+            drawn::displacement(ledger, "Strip turned by 90 degrees", &body.mesh, &body.u, true)?;
+        }
         levels.push((90.0 / steps as f64, error));
         last = cost;
     }

@@ -3,6 +3,7 @@
 mod sheet;
 
 use super::body::{self, Body, Entry, Work};
+use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Floor, Ledger, Plot, Series};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
@@ -234,8 +235,8 @@ fn exact_cylinder(r: f64, t: f64) -> f64 {
     ring * (0.5 * r * plane + 0.5 * OUTER * OUTER / r * (1.0 / SHEAR + t / VISCOSITY))
 }
 
-/// Displacements of the inner and outer face at `end`.
-fn pressed(cells: usize, end: f64, steps: usize) -> Result<([f64; 2], Work), CaseError> {
+/// Displacements of the inner and outer face at `end`, and the body.
+fn pressed(cells: usize, end: f64, steps: usize) -> Result<([f64; 2], Body<2>), CaseError> {
     let mesh = body::grid::<2>(ElementKind::Quad9, [INNER, 0.0], [OUTER, 0.05], [cells, 1])?;
     let load: Vec<Entry> = body::unit_pressure(&mesh, "left", Idealisation::Axisymmetric)?
         .into_iter()
@@ -252,7 +253,7 @@ fn pressed(cells: usize, end: f64, steps: usize) -> Result<([f64; 2], Work), Cas
     for _ in 0..steps {
         body.implicit(&[], &load, end / steps as f64, balanced, None)?;
     }
-    Ok(([body.u[2 * inner], body.u[2 * outer]], body.work))
+    Ok(([body.u[2 * inner], body.u[2 * outer]], body))
 }
 
 fn cylinder(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -261,11 +262,14 @@ fn cylinder(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (mut levels, mut work, mut last) = (Vec::new(), Vec::new(), Cost::default());
     for steps in [2, 4, 8, 16] {
         let (outcome, cost) = Cost::of(|| pressed(32, end, steps));
-        let (found, counts) = outcome?;
+        let (found, body) = outcome?;
         let error = (found[0] - exact[0]).hypot(found[1] - exact[1]) / exact[0];
         levels.push((1.0 / steps as f64, error));
         work.push((error, cost.wall.unwrap_or(f64::NAN)));
-        last = cost.counts(&counts);
+        last = cost.counts(&body.work);
+        if steps == 16 {
+            drawn::displacement(ledger, "Slice of the cylinder at the end", &body.mesh, &body.u, false)?;
+        }
     }
     ledger
         .order("displacements of a Maxwell cylinder under constant pressure over 2 relaxation times, relative, in the step")
@@ -280,7 +284,7 @@ fn cylinder(ledger: &mut Ledger) -> Result<(), CaseError> {
         .cost(&last)
         .record();
     let (outcome, cost) = Cost::of(|| pressed(32, 0.0, 1));
-    let (found, counts) = outcome?;
+    let (found, body) = outcome?;
     ledger
         .claim("displacements of the cylinder at the moment of loading")
         .values(&found)
@@ -289,7 +293,7 @@ fn cylinder(ledger: &mut Ledger) -> Result<(), CaseError> {
         .evidence(Evidence::Exact, "Lame; a step of no length is elastic")
         .because("(h/a)^4 = 1e-6 with a constant of a tenth")
         .why_not_tighter("a power with a guessed constant")
-        .cost(&cost.counts(&counts))
+        .cost(&cost.counts(&body.work))
         .record();
     ledger.plot(
         Plot::work_precision("Work and precision of the cylinder", "relative error [-]", "time [s]")

@@ -2,6 +2,7 @@
 
 use super::programs::Folder;
 use super::texts;
+use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_vary::SceneText;
 use std::path::PathBuf;
@@ -53,6 +54,9 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
             bar(&mut found, &file, dimension).map_err(|error| format!("{file}: {error}"))?;
         }
         claims(ledger, &format!("{name}, {} formats", endings.len()), &found);
+        if let Some(svg) = found.picture.filter(|_| name == "unit_tet10") {
+            ledger.picture("Drawn bar of tet10", svg, "Mises stress, uniform.");
+        }
     }
     faces(ledger)
 }
@@ -64,6 +68,8 @@ struct Found {
     drawn: Vec<f64>,
     /// Forces that hold the bar against its weight.
     weights: Vec<f64>,
+    /// Mises stress of the drawn bar.
+    picture: Option<String>,
     cost: Cost,
 }
 
@@ -106,6 +112,7 @@ fn bar(found: &mut Found, file: &str, dimension: usize) -> Result<(), CaseError>
         .add("stages[0].conditions", format!("[{low}, {high}]"))
         .add("output.points", format!("{{ {} }}", points.join(", ")));
     let done = texts::simulate_in(&drawn.text()?, &folder())?;
+    found.picture = Some(drawn::recorded(&done.record, "")?);
     let values = &done.record.samples().last().ok_or("no step was taken")?.points;
     for (at, point) in POINTS.iter().zip(values) {
         found.drawn.extend([point.displacement[0] / (DRAWN * at[0]), point.stress[0] / STRESS]);

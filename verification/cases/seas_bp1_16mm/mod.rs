@@ -1,5 +1,6 @@
 //! BP1 with a characteristic slip distance of 16 mm: two events of each law against their limit in cell size and tolerance.
 
+use crate::cases::drawn;
 use crate::cases::seas::{self, Found};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_vary::SceneText;
@@ -67,6 +68,14 @@ fn found(law: &Law, size: f64) -> Result<Found, CaseError> {
 }
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let scene = text(&LAWS[0], SIZE)?;
+    drawn::plot(
+        ledger,
+        "Slip rate through time",
+        &scene,
+        "main_rate",
+        "L = 16 mm, ageing law, cells of 156 m.",
+    )?;
     for law in &LAWS {
         let fine = found(law, 156.25)?;
         events(ledger, law, &fine);

@@ -1,5 +1,6 @@
 //! The limit in cell size and tolerance of the two events of the case `seas_bp1_16mm`.
 
+use crate::cases::drawn;
 use crate::cases::seas;
 use crate::cases::seas_bp1_16mm::{LAWS, Law, text};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
@@ -20,6 +21,14 @@ const SIZES: [f64; 3] = [156.25, 78.125, 39.0625];
 const TIGHT: f64 = 1e-6;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let scene = text(&LAWS[0], SIZES[0])?;
+    drawn::plot(
+        ledger,
+        "Slip rate through time",
+        &scene,
+        "main_rate",
+        "L = 16 mm, ageing law, cells of 156 m.",
+    )?;
     for law in &LAWS {
         limit(ledger, law)?;
     }

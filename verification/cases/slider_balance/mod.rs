@@ -1,7 +1,7 @@
 //! Energy budget of spring-sliders through stick-slip cycles.
 
 use super::slider::{self, Kind, Set};
-use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Series};
 use asperity_cycles::Energy;
 use asperity_cycles::slider::{Now, Problem, SliderRun, run as integrate};
 use asperity_driver::slider::{Entry, Report};
@@ -31,6 +31,10 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     ] {
         closes(ledger, name, &set, kind)?;
     }
+    let mut problem = slider::MILD.plan(Kind::Ageing, 1.5, 1e12)?;
+    slider::events(&mut problem, EVENTS);
+    let curve = Series::line("mild, ageing law", &slider::rates(&problem)?);
+    ledger.plot(slider::through_time("Slip rate of one of the runs").series(curve));
     steady(ledger)
 }
 

@@ -1,7 +1,7 @@
 //! Sliders with mass: all runs reach their events with the right intervals, at nearly the least cost.
 
 use super::slider::{MU0, V_REF, plan, work};
-use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Series};
 use asperity_cycles::slider::{self as cycles, Problem};
 use asperity_driver::slider::Entry;
 use asperity_friction::evolution::{ageing::Ageing, slip::Slip};
@@ -73,6 +73,13 @@ pub fn all() -> Vec<Set> {
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     independent(ledger)?;
     let sets: Vec<Set> = all().into_iter().step_by(EACH).collect();
+    if let Some(set) = sets.first() {
+        let curve = Series::line(
+            "one of the sets",
+            &super::slider::rates(&set.plan(Method::Radau5, 1e-8, MOST_STEPS)?)?,
+        );
+        ledger.plot(super::slider::through_time("Slip rate with inertia").series(curve));
+    }
     agree(ledger, &sets)?;
     compare(ledger, &each_third(sets))
 }

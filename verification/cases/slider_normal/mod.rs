@@ -1,7 +1,7 @@
 //! Normal traction that steps, oscillates and vanishes.
 
 use super::slider::{self, Independent, MU0, Set, V_REF};
-use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Series};
 use asperity_cycles::slider::Problem;
 use asperity_friction::component::Component;
 use asperity_friction::evolution::ageing::Ageing;
@@ -116,6 +116,13 @@ fn oscillation(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseE
     let times = reference.numbers(name, "t_s")?;
     let (found, cost) = Cost::of(|| slider::at_times(&plan(0.2, normal)?, &times));
     let (v, mu) = (reference.numbers(name, "v")?, reference.numbers(name, "mu")?);
+    let end = times.iter().copied().fold(0.0, f64::max);
+    let curve = slider::rates(&Problem { end, ..plan(0.2, History::sine(5e6, 5e5, 5.0, 0.0)?)? })?;
+    let points: Vec<(f64, f64)> = times.iter().copied().zip(v.iter().copied()).collect();
+    let diagram = slider::through_time("Oscillating normal traction, alpha = 0.2");
+    ledger.plot(
+        diagram.series(Series::line("this code", &curve)).series(Series::points(slider::SOURCE, &points)),
+    );
     compare(ledger, "oscillating normal traction, alpha = 0.2", &found?, (&v, &mu), &cost);
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! Growth rates of small perturbations of steady sliding against the eigenvalues of the linear theory.
 
 use super::slider::{self, Kind, Set, V_REF};
-use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_cycles::slider::{Problem, critical_stiffness};
 use asperity_friction::component::Component;
 use asperity_friction::evolution::{Evolution, ageing::Ageing, nagata::Nagata, slip::Slip};
@@ -112,6 +112,13 @@ fn sweep(
         Ok((largest, growth))
     });
     let (largest, growth) = result?;
+    let theory: Vec<(f64, f64)> = growth.iter().map(|(k, t, _)| (*k, *t)).collect();
+    let measured: Vec<(f64, f64)> = growth.iter().map(|(k, _, f)| (*k, *f)).collect();
+    ledger.plot(
+        Plot::xy(format!("Growth rates, {name}"), "k/k_c [-]", "growth rate [V/L]")
+            .series(Series::line("theory", &theory))
+            .series(Series::points("measured", &measured)),
+    );
     ledger.table(
         format!("growth rates, {name} [V/L]"),
         &["k/k_c", "theory", "measured"],

@@ -1,7 +1,7 @@
 //! Several states, neutral friction, two coupled sliders.
 
 use super::slider::{self, Independent, Kind, MU0, Set, V_REF};
-use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Series};
 use asperity_cycles::slider::Problem;
 use asperity_driver::slider::{Entry, Report};
 use asperity_friction::component::Component;
@@ -65,6 +65,12 @@ fn two_states(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseEr
     let (run, cost) = Cost::of(|| slider::finish(&plan));
     let run = run?;
     let cost = cost.counts(&Report::new(&plan, &run).counts);
+    let onsets: Vec<(f64, f64)> = expected.iter().map(|t| (*t, slider::EVENT)).collect();
+    ledger.plot(
+        slider::through_time("Two states")
+            .series(Series::line("this code", &slider::rates(&plan)?))
+            .series(Series::points("onsets of the reference", &onsets)),
+    );
     let found: Vec<f64> = Entry::all(&run).iter().map(|e| e.onset).collect();
     times(ledger, "slip law with two states", &found, &expected, &[Capability::SeveralStates], &cost);
     Ok(())

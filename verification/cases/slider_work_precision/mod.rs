@@ -49,6 +49,10 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     ] {
         cycles.push(cycle(ledger, name, &set, Kind::Ageing, events)?);
     }
+    let mut problem = slider::MILD.plan(Kind::Ageing, 1.5, 1e12)?;
+    slider::events(&mut problem, 5);
+    let curve = Series::line("mild, ageing law", &slider::rates(&problem)?);
+    ledger.plot(slider::through_time("Slip rate of the mild cycle").series(curve));
     judge(ledger, &cycles);
     defaults(ledger)
 }

@@ -1,6 +1,7 @@
 //! Uniaxial stress: hardening, unloading and reversal; hardening at large strain.
 
 use super::body::{self, Body, Work};
+use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
@@ -208,8 +209,8 @@ fn slope(ledger: &mut Ledger, hardening: &Hardening) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Force on a unit cube stretched to lambda in equal steps.
-fn pulled(lambda: f64, steps: usize) -> Result<(f64, Work), CaseError> {
+/// Force on a unit cube stretched to lambda in equal steps, and the cube.
+fn pulled(lambda: f64, steps: usize) -> Result<(f64, Body<3>), CaseError> {
     let mesh = body::grid::<3>(ElementKind::Hex8, [0.0; 3], [1.0; 3], [2; 3])?;
     let mesh = body::distorted(mesh, [1.0; 3], 0.5, 0.1);
     let material = body::j2(YOUNG, POISSON, Hardening::linear(YIELD, MODULUS)?)?;
@@ -226,7 +227,7 @@ fn pulled(lambda: f64, steps: usize) -> Result<(f64, Work), CaseError> {
         let r = body.implicit(&entries, &[], 1.0, 10.0 * BALANCED, None)?;
         force = end.iter().map(|n| r[3 * n]).sum();
     }
-    Ok((force, body.work))
+    Ok((force, body))
 }
 
 fn large(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -237,9 +238,12 @@ fn large(ledger: &mut Ledger) -> Result<(), CaseError> {
     let sizes = [10, 20, 40, 80];
     for steps in sizes {
         let (outcome, cost) = Cost::of(|| pulled(lambda, steps));
-        let (force, work) = outcome?;
+        let (force, body) = outcome?;
         levels.push((1.0 / steps as f64, (force / exact - 1.0).abs()));
-        last = cost.counts(&work);
+        last = cost.counts(&body.work);
+        if steps == 10 {
+            drawn::displacement(ledger, "Cube stretched to lambda = 1.5", &body.mesh, &body.u, true)?;
+        }
     }
     // Each step replaces ln(1 + x) by x/(1 + x/2), which is x^3/12 smaller, with x up to 0.5/80.
     let bound = tangent * 80.0 * (0.5_f64 / 80.0).powi(3) / 12.0 / (exact * lambda);

@@ -3,6 +3,7 @@
 mod disc;
 
 use super::body::{self, Body, Work};
+use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
@@ -41,14 +42,20 @@ fn solid() -> Result<Body<3>, CaseError> {
     Body::new(mesh, body::model(material, Idealisation::ThreeD, Kinematics::UpdatedLagrangian), &[])
 }
 
-/// Stress after stretches to `STRETCH` along the given axes in equal steps.
-fn stretched(axes: [f64; 3], steps: usize) -> Result<([f64; 6], f64, Work), CaseError> {
+/// A body after stretches to `STRETCH` along the given axes in equal steps.
+fn stretched_body(axes: [f64; 3], steps: usize) -> Result<Body<3>, CaseError> {
     let mut body = solid()?;
     for k in 1..=steps {
         let s = (STRETCH - 1.0) * k as f64 / steps as f64;
         let u = body::field(&body.mesh, |x| std::array::from_fn(|c| s * axes[c] * x[c]));
         body.follow(u, 1.0)?;
     }
+    Ok(body)
+}
+
+/// Stress after stretches to `STRETCH` along the given axes in equal steps, its spread over the points, and the work.
+fn stretched(axes: [f64; 3], steps: usize) -> Result<([f64; 6], f64, Work), CaseError> {
+    let body = stretched_body(axes, steps)?;
     let stresses = body.block.stress_at_points();
     let spread = body::largest_difference(&stresses, &stresses[0]);
     Ok((stresses[0], spread, body.work))
@@ -107,6 +114,8 @@ fn cube(ledger: &mut Ledger) -> Result<(), CaseError> {
         .evidence(Evidence::Exact, "the two differ by J = 2.197")
         .because("as for the stress itself")
         .record();
+    let body = stretched_body([1.0; 3], 10)?;
+    drawn::displacement(ledger, "Cube expanded to l = 1.3", &body.mesh, &body.u, true)?;
     let (stress, spread, _) = stretched([1.0; 3], 80)?;
     let deviator = (0..3).map(|i| (stress[i] - found).abs()).chain((3..6).map(|i| stress[i].abs()));
     ledger

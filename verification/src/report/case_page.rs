@@ -4,10 +4,9 @@ use super::history::Release;
 use super::page::{Depth, escape, number, page, time};
 use super::provenance::Provenance;
 use super::sources::Files;
-use super::{claims, fields, figures, ids, mathml, precision, subjects};
+use super::{claims, fields, figures, ids, mathml, precision, sheets, subjects, tables};
 use crate::case::Outcome;
 use crate::claim::Test;
-use crate::ledger::Table;
 use crate::suite::Summary;
 use std::fmt::Write as _;
 
@@ -44,7 +43,8 @@ pub fn whole(outcome: &Outcome, context: Context<'_>) -> String {
     );
     body += &figures::of_orders(&record.claims, &ids);
     body += &costs(outcome);
-    record.tables.iter().for_each(|table| body += &free_table(table));
+    record.tables.iter().for_each(|table| body += &tables::free(table));
+    body += &sheets::links(outcome.case.name, &record.sheets);
     if !record.notes.is_empty() {
         body += "<h2>Notes</h2>\n";
     }
@@ -111,23 +111,6 @@ fn costs(outcome: &Outcome) -> String {
         .map(|diagram| format!("<h4>{}</h4>{}", escape(&diagram.title), precision::table(diagram)))
         .collect();
     if tables.is_empty() { tables } else { format!("<h2 id=\"costs\">Work and precision</h2>\n{tables}") }
-}
-
-fn free_table(table: &Table) -> String {
-    let row = |cells: &Vec<String>| {
-        let cells: String = cells
-            .iter()
-            .zip(&table.head)
-            .map(|(cell, head)| format!("<td data-head=\"{}\">{}</td>", escape(head), escape(cell)))
-            .collect();
-        format!("<tr>{cells}</tr>\n")
-    };
-    let rows: String = table.rows.iter().map(row).collect();
-    let head: String = table.head.iter().map(|cell| format!("<th>{}</th>", escape(cell))).collect();
-    format!(
-        "<h3>{}</h3>\n<table class=\"free\">\n<thead><tr>{head}</tr></thead>\n<tbody>{rows}</tbody></table>\n",
-        escape(&table.title)
-    )
 }
 
 /// Error and bound of each claim at the last release, where they differ from the current ones.

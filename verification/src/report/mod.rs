@@ -16,8 +16,10 @@ pub mod page;
 pub mod planted;
 pub mod precision;
 pub mod provenance;
+mod sheets;
 mod sources;
 mod subjects;
+mod tables;
 mod tested;
 mod words;
 
@@ -67,6 +69,9 @@ pub fn write(folder: &Path, outcomes: &[Outcome], run: &Provenance) -> Result<()
         let files = sources::files(&outcome.case);
         let context = Context { neighbours, files: &files, releases: &releases, run };
         put(&pages.join(format!("{name}.html")), &case_page::whole(outcome, context))?;
+        for sheet in &outcome.record.sheets {
+            put(&pages.join(sheets::address(name, sheet)), &sheets::whole(name, sheet, run))?;
+        }
         put(&pages.join(format!("{name}.json")), &text(&json::case(outcome))?)?;
         put(&sources.join(format!("{name}.html")), &sources::whole(&outcome.case, &files, run))?;
     }

@@ -1,5 +1,5 @@
-//! The Mises field at the end of a stage, interpolated from the nodes. With finite sliding or finite strain it is drawn on the
-//! current configuration of the bodies, otherwise on the reference configuration.
+//! Fields over the bodies, interpolated from the nodes: the Mises stress at the end of a stage, displacements. With finite
+//! sliding or finite strain they are drawn on the current configuration of the bodies, otherwise on the reference configuration.
 
 use super::super::record::StageEnd;
 use super::super::view::{BodyFields, MeshView};
@@ -7,7 +7,7 @@ use super::axes::{Axis, Frame};
 use super::colour::{INK, PAPER, Rgb, viridis};
 use super::faces::{Corner, Visible, visible};
 use super::figure::{Anchor, Figure, Image, Point};
-use super::units::{LENGTH, STRESS, Unit};
+use super::units::{LENGTH, STRESS, Unit, Units};
 
 /// Largest width and height of the map in a plot of a run.
 pub(super) const LARGE: Point = (560.0, 460.0);
@@ -26,7 +26,17 @@ const COVERED: f64 = 0.99;
 /// Ratio of the largest value to the covered ones above which the colours do not extend to the largest value.
 const FAR_ABOVE: f64 = 1.15;
 
-/// Draws the field; `None` if there is no face to draw or no finite position.
+/// Values at the nodes of a mesh, to be drawn in colours.
+struct Field<'a> {
+    mesh: &'a MeshView,
+    /// Positions of the nodes \[m\].
+    places: Vec<[f64; 3]>,
+    values: &'a [f64],
+    quantity: &'a str,
+    units: Units,
+}
+
+/// Draws the Mises field at the end of a stage; `None` if there is no face to draw or no finite position.
 pub(super) fn mises(
     scene: &str,
     mesh: &MeshView,
@@ -34,53 +44,68 @@ pub(super) fn mises(
     fields: &BodyFields,
     room: Point,
 ) -> Option<Figure> {
-    let seen = visible(mesh);
-    let places = places(mesh, fields);
-    let (lo, hi) = extent(&places, &seen)?;
-    let (width, height) = (hi.0 - lo.0, hi.1 - lo.1);
-    let scale = (room.0 / width).min(room.1 / height);
-    let length = LENGTH.of([lo.0, lo.1, hi.0, hi.1].iter().fold(0.0, |most, v| most.max(v.abs())));
-    let frame = Frame {
-        at: (96.0, 40.0),
-        size: (width * scale, height * scale),
-        x: Axis::exact((lo.0 / length.factor, hi.0 / length.factor), format!("x [{}]", length.name)),
-        y: Axis::exact((lo.1 / length.factor, hi.1 / length.factor), format!("y [{}]", length.name)),
-    };
-    let colours = Colours::of(&seen, &fields.node_mises);
-    let below = (frame.size.1 + 62.0).max(BAR + 20.0);
-    let mut figure = Figure::new(frame.at.0 + frame.size.0.max(180.0) + 150.0, frame.at.1 + below);
-    if !scene.is_empty() {
-        super::title::title(&mut figure, &frame, scene, &format!("end of stage “{}”", end.name));
-    }
-    figure.image(map(&places, &seen, &fields.node_mises, &colours, &frame, (lo, hi)));
-    for line in &seen.outline {
-        let at = |&node: &usize| {
-            let [x, y, _] = places[node];
-            frame.point(x / length.factor, y / length.factor)
+    let places = places(mesh, &fields.displacement);
+    let field = Field { mesh, places, values: &fields.node_mises, quantity: "Mises stress", units: STRESS };
+    let title = (!scene.is_empty()).then(|| (scene, format!("end of stage “{}”", end.name)));
+    field.draw(title, room)
+}
+
+/// Draws the magnitude of displacements \[m\]; `None` if there is no face to draw or no finite position.
+pub(super) fn displacement(mesh: &MeshView, displacement: &[[f64; 3]], room: Point) -> Option<Figure> {
+    let values: Vec<f64> = displacement.iter().map(|[x, y, z]| x.hypot(*y).hypot(*z)).collect();
+    let places = places(mesh, displacement);
+    Field { mesh, places, values: &values, quantity: "displacement", units: LENGTH }.draw(None, room)
+}
+
+impl Field<'_> {
+    fn draw(&self, title: Option<(&str, String)>, room: Point) -> Option<Figure> {
+        let seen = visible(self.mesh);
+        let (lo, hi) = extent(&self.places, &seen)?;
+        let (width, height) = (hi.0 - lo.0, hi.1 - lo.1);
+        let scale = (room.0 / width).min(room.1 / height);
+        let length = LENGTH.of([lo.0, lo.1, hi.0, hi.1].iter().fold(0.0, |most, v| most.max(v.abs())));
+        let frame = Frame {
+            at: (96.0, 40.0),
+            size: (width * scale, height * scale),
+            x: Axis::exact((lo.0 / length.factor, hi.0 / length.factor), format!("x [{}]", length.name)),
+            y: Axis::exact((lo.1 / length.factor, hi.1 / length.factor), format!("y [{}]", length.name)),
         };
-        figure.line(line.iter().map(at).collect(), 1.0, INK);
+        let colours = Colours::of(&seen, self.values, self.units);
+        let below = (frame.size.1 + 62.0).max(BAR + 20.0);
+        let mut figure = Figure::new(frame.at.0 + frame.size.0.max(180.0) + 150.0, frame.at.1 + below);
+        if let Some((scene, when)) = title {
+            super::title::title(&mut figure, &frame, scene, &when);
+        }
+        figure.image(map(&self.places, &seen, self.values, &colours, &frame, (lo, hi)));
+        for line in &seen.outline {
+            let at = |&node: &usize| {
+                let [x, y, _] = self.places[node];
+                frame.point(x / length.factor, y / length.factor)
+            };
+            figure.line(line.iter().map(at).collect(), 1.0, INK);
+        }
+        frame.draw(&mut figure);
+        let unit = colours.unit;
+        let bar = Bar {
+            range: (colours.lo / unit.factor, colours.hi / unit.factor),
+            above: colours.above.map(|above| format!("max {:.1}", above / unit.factor)),
+            label: format!("{} [{}]", self.quantity, unit.name),
+        };
+        bar.draw(&mut figure, &frame);
+        Some(figure)
     }
-    frame.draw(&mut figure);
-    let unit = colours.unit;
-    let bar = Bar {
-        range: (colours.lo / unit.factor, colours.hi / unit.factor),
-        above: colours.above.map(|above| format!("max {:.1}", above / unit.factor)),
-        label: format!("Mises stress [{}]", unit.name),
-    };
-    bar.draw(&mut figure, &frame);
-    Some(figure)
 }
 
 /// Positions of the nodes \[m\].
-fn places(mesh: &MeshView, fields: &BodyFields) -> Vec<[f64; 3]> {
+fn places(mesh: &MeshView, displacement: &[[f64; 3]]) -> Vec<[f64; 3]> {
     if !mesh.moves {
         return mesh.nodes.clone();
     }
     let moved = |(x, u): (&[f64; 3], &[f64; 3])| [x[0] + u[0], x[1] + u[1], x[2] + u[2]];
-    mesh.nodes.iter().zip(&fields.displacement).map(moved).collect()
+    mesh.nodes.iter().zip(displacement).map(moved).collect()
 }
 
-/// Range of stresses covered by the colours.
+/// Range of values covered by the colours.
 struct Colours {
     unit: Unit,
     lo: f64,
@@ -90,21 +115,21 @@ struct Colours {
 }
 
 impl Colours {
-    fn of(seen: &Visible, values: &[f64]) -> Self {
+    fn of(seen: &Visible, values: &[f64], units: Units) -> Self {
         let mut nodes: Vec<usize> = seen.triangles.iter().flatten().flatten().copied().collect();
         nodes.sort_unstable();
         nodes.dedup();
         let mut sorted: Vec<f64> = nodes.iter().map(|&n| values[n]).filter(|v| v.is_finite()).collect();
         sorted.sort_by(f64::total_cmp);
         let (Some(&lo), Some(&most)) = (sorted.first(), sorted.last()) else {
-            return Self { unit: STRESS.of(1.0), lo: 0.0, hi: 1.0, above: None };
+            return Self { unit: units.of(1.0), lo: 0.0, hi: 1.0, above: None };
         };
         let covered = sorted[((sorted.len() - 1) as f64 * COVERED) as usize];
         let (hi, above) = if most > FAR_ABOVE * covered { (covered, Some(most)) } else { (most, None) };
         // A uniform field gets a colour bar around its value.
         let room =
             if hi - lo <= FLAT * hi.abs() { if hi == 0.0 { 1.0 } else { 0.1 * hi.abs() } } else { 0.0 };
-        Self { unit: STRESS.of(most.abs()), lo: lo - room, hi: hi + room, above }
+        Self { unit: units.of(most.abs()), lo: lo - room, hi: hi + room, above }
     }
 
     fn colour(&self, value: f64) -> Rgb {
@@ -250,10 +275,10 @@ mod tests {
 
     #[test]
     fn bodies_are_drawn_where_their_equations_hold() {
-        let fields = BodyFields { displacement: vec![[0.5, -0.25, 0.0]; 2], ..BodyFields::default() };
+        let displacement = [[0.5, -0.25, 0.0]; 2];
         let mut mesh = MeshView { nodes: vec![[1.0, 2.0, 0.0], [3.0, 4.0, 0.0]], ..MeshView::default() };
-        assert_eq!(places(&mesh, &fields), mesh.nodes);
+        assert_eq!(places(&mesh, &displacement), mesh.nodes);
         mesh.moves = true;
-        assert_eq!(places(&mesh, &fields), [[1.5, 1.75, 0.0], [3.5, 3.75, 0.0]]);
+        assert_eq!(places(&mesh, &displacement), [[1.5, 1.75, 0.0], [3.5, 3.75, 0.0]]);
     }
 }

@@ -29,6 +29,7 @@ pub use diagram::{Diagram, Failed, Scale, Series, Slope};
 pub use sketch::Sketch;
 pub use style::STYLES;
 
+use super::view::MeshView;
 use super::{OutputError, Recorder, atomic};
 use crate::names::stems;
 use figure::Figure;
@@ -67,6 +68,12 @@ pub fn field(recorder: &Recorder, stage: &str) -> Option<String> {
     let end = recorder.stage_ends().iter().find(|end| end.name == stage)?;
     let figure = field::mises("", &setup.mesh, end, end.bodies.as_ref()?, field::SMALL)?;
     Some(svg::paint(&figure))
+}
+
+/// The magnitude of displacements \[m\] over a mesh as SVG, of the size of [`field`]. None where there is no face to draw.
+#[must_use]
+pub fn displacement(mesh: &MeshView, displacement: &[[f64; 3]]) -> Option<String> {
+    Some(svg::paint(&field::displacement(mesh, displacement, field::SMALL)?))
 }
 
 fn write_all(folder: &Path, figures: Vec<(String, Figure)>) -> Result<Vec<PathBuf>, OutputError> {
