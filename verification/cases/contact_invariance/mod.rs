@@ -3,6 +3,7 @@
 pub mod bodies;
 
 use super::texts::{Done, simulate_in};
+use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_vary::Change::{self as Vary, Add, With};
 use asperity_vary::SceneText;
@@ -43,6 +44,14 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         for measure in MEASURES {
             for enforcement in ENFORCEMENTS {
                 let reference = Found::of(space, measure, enforcement.1, &same)?;
+                if !space && enforcement == ENFORCEMENTS[0] {
+                    let svg = drawn::recorded(&reference.done.record, "drag")?;
+                    ledger.picture(
+                        format!("Dragged, {}", measure.0),
+                        svg,
+                        "Mises stress at the end of stage “drag”.",
+                    );
+                }
                 for change in &changes {
                     let found = Found::of(space, measure, enforcement.1, change)?;
                     let where_ = if space { "in space" } else { "in the plane" };

@@ -2,6 +2,7 @@
 
 use super::slider;
 use super::texts::{Done, attempt, simulate};
+use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_cycles::Thresholds;
 use asperity_cycles::slider::{self as cycles};
@@ -45,7 +46,7 @@ const D_C: f64 = 100e-6;
 const PROBE: f64 = 1e10;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let system = System::measured()?;
+    let system = System::measured(ledger)?;
     states(ledger, &system)?;
     weakening(ledger, &system)?;
     dropping(ledger, &system)
@@ -70,8 +71,13 @@ struct System {
 }
 
 impl System {
-    fn measured() -> Result<Self, CaseError> {
+    fn measured(ledger: &mut Ledger) -> Result<Self, CaseError> {
         let done = simulate(&scene(PROBE, "{ kind = \"coulomb\", mu = 1e3 }", 100.0, &[])?)?;
+        ledger.picture(
+            "The block held by a spring",
+            drawn::recorded(&done.record, "")?,
+            "Mises stress after the first stage.",
+        );
         let [normal, shear] = tractions(&done)?;
         Ok(Self { normal, compliance: 100.0 * LOAD / shear - 1.0 / PROBE })
     }

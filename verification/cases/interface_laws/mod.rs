@@ -1,6 +1,7 @@
 //! Friction laws of interfaces on a column whose points are sliders on springs, with known tractions and slip.
 
 use super::texts::{self, Done};
+use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_vary::SceneText;
 
@@ -138,6 +139,9 @@ fn follows(
     for run in RUNS {
         let done = texts::simulate(&scene(law, course, run)?)?;
         largest.extend(errors(&done, course));
+        if law.contains("coulomb") && all.is_empty() {
+            ledger.picture(title, drawn::recorded(&done.record, "")?, "Mises stress after the first stage.");
+        }
         all.push(done);
     }
     ledger

@@ -2,6 +2,7 @@
 
 use super::slider::{self, Kind};
 use super::texts::{self, Done};
+use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Evidence, Floor, Ledger, Plot, Series};
 use asperity_cycles::Thresholds;
 use asperity_cycles::slider::{self as cycles, Now, Problem, Rows};
@@ -78,6 +79,14 @@ fn in_time(ledger: &mut Ledger, space: &str, scene: &str) -> Result<(), CaseErro
             for sliding in ["small", "finite"] {
                 let done = texts::simulate(&with(SceneText::new(scene), kind, measure, sliding, &[])?)?;
                 found.push(error(&done, &reference(kind, stiffness(HEIGHT), &done)?));
+                if cost.is_none() && kind == KINDS[0] {
+                    let title = format!("{} law {space}", word(kind));
+                    ledger.picture(
+                        title,
+                        drawn::recorded(&done.record, "")?,
+                        "Mises stress after the first stage.",
+                    );
+                }
                 cost.get_or_insert(done.cost);
             }
         }

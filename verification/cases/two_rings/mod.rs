@@ -3,6 +3,7 @@
 mod exact;
 mod mesh;
 
+use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_driver::report::Outcome;
 use asperity_driver::scene::model::{Measure, here};
@@ -38,6 +39,8 @@ struct Errors {
     pressure: f64,
     /// Pressure at least [`END`] from the planes of symmetry.
     inside: f64,
+    /// Mises stress of the rings.
+    picture: String,
     cost: Cost,
 }
 
@@ -67,6 +70,7 @@ fn simulate(measure: Measure, order: usize, fine: usize, exact: &Rings) -> Resul
         displacement: displacement(&record, u, exact),
         pressure: pressure(&record, &end.interfaces[0].normal_traction, exact, 0.0),
         inside: pressure(&record, &end.interfaces[0].normal_traction, exact, END),
+        picture: drawn::recorded(&record, "press")?,
         cost,
     })
 }
@@ -180,6 +184,10 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         let pressures: Vec<(f64, f64)> = errors.iter().map(|(h, e)| (*h, e.pressure)).collect();
         plot = plot.series(Series::marked(study.name, &pressures));
         claim(ledger, study, &errors);
+        if let Some((_, coarsest)) = errors.first().filter(|_| finest.is_empty()) {
+            let caption = format!("Mises stress, {}, coarsest mesh.", study.name);
+            ledger.picture("The rings pressed together", coarsest.picture.clone(), caption);
+        }
         finest.extend(errors.pop().map(|(_, e)| e));
     }
     beside(ledger, &finest);

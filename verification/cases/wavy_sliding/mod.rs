@@ -2,6 +2,7 @@
 
 use super::contact_invariance::bodies::{Change, Grid, Side};
 use super::texts::{Done, simulate_in};
+use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_vary::Change::{self as Vary, With, Without};
 use asperity_vary::SceneText;
@@ -63,6 +64,13 @@ fn compare(ledger: &mut Ledger, folder: &Path) -> Result<(), CaseError> {
         };
         let (implicit, forward) = (run(&[])?, run(&STATIC_EXPLICIT)?);
         claims(ledger, name, &implicit, &forward)?;
+        if changes.is_empty() {
+            ledger.picture(
+                name,
+                drawn::recorded(&implicit.record, "")?,
+                "Mises stress after the first stage.",
+            );
+        }
         if !changes.contains(&AGEING) {
             law(ledger, name, &forward)?;
         }

@@ -9,7 +9,7 @@ use asperity_driver::scene;
 use std::path::Path;
 
 /// Case, scene in the repository, and stage.
-const FIELDS: [(&str, &str, &str); 39] = [
+const FIELDS: [(&str, &str, &str); 33] = [
     ("antiplane", "verification/cases/antiplane/crack.toml", ""),
     ("antiplane", "verification/cases/antiplane/prism.toml", ""),
     ("block_dragged", "verification/cases/block_dragged/scene.toml", "press"),
@@ -17,7 +17,6 @@ const FIELDS: [(&str, &str, &str); 39] = [
     ("contact_enforcement", "verification/cases/contact_enforcement/scene.toml", "shear"),
     ("contact_facets", "verification/cases/contact_facets/scene.toml", "drag"),
     ("contact_hard", "verification/cases/contact_hard/scene.toml", "shear"),
-    ("contact_invariance", "verification/cases/contact_invariance/scene.toml", ""),
     ("contact_patch_mortar", "verification/cases/contact_patch_mortar/scene.toml", "press"),
     ("contact_rotation", "verification/cases/contact_rotation/scene.toml", "turn"),
     ("contact_sliding", "verification/cases/contact_sliding/wedge.toml", "push"),
@@ -32,10 +31,7 @@ const FIELDS: [(&str, &str, &str); 39] = [
     ("hertz_ball", "verification/cases/hertz_ball/scene.toml", "press"),
     ("hertz_line", "scenes/hertz.toml", "press"),
     ("hertz_sphere", "verification/cases/hertz_sphere/scene.toml", "press"),
-    ("interface_instability", "verification/cases/interface_instability/scene.toml", "press"),
-    ("interface_laws", "verification/cases/interface_laws/scene.toml", ""),
     ("interface_prestress", "verification/cases/interface_prestress/wedge.toml", "rest"),
-    ("interface_rate_state", "verification/cases/interface_rate_state/scene.toml", ""),
     ("nafems_roller", "verification/cases/nafems_roller/scene.toml", "press"),
     ("newton_convergence", "scenes/ironing.toml", "draw"),
     ("partial_slip", "scenes/hertz.toml", "shear"),
@@ -47,8 +43,6 @@ const FIELDS: [(&str, &str, &str); 39] = [
     ("stage_paths", "verification/cases/stage_paths/scene.toml", ""),
     ("static_explicit_jumps", "verification/cases/static_explicit_jumps/blocks.toml", "shear"),
     ("steel_strip", "verification/cases/steel_strip/scene.toml", ""),
-    ("two_rings", "verification/cases/two_rings/scene.toml", "press"),
-    ("wavy_sliding", "verification/cases/wavy_sliding/scene.toml", ""),
 ];
 
 /// Case, scene in the repository, plot of its run, and title, for faults and spring-sliders.
