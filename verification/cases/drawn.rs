@@ -9,6 +9,12 @@ use asperity_output::view::MeshView;
 use asperity_output::{Recorder, plots};
 use std::path::Path;
 
+/// Every so many of these points that single markers can be told apart.
+pub fn apart(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    const MARKERS: usize = 30;
+    points.iter().step_by(points.len().div_ceil(MARKERS).max(1)).copied().collect()
+}
+
 /// Draws the magnitude of nodal displacements \[m\] of a body built without a scene. A `moved` body is drawn in its current
 /// configuration.
 ///

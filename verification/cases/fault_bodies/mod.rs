@@ -1,6 +1,7 @@
 //! Several faults, several materials, curved faults.
 
 use crate::cases::dislocation;
+use crate::cases::drawn;
 use crate::cases::fault_operator::matrix;
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
@@ -432,9 +433,9 @@ fn overlay(ledger: &mut Ledger, plan: &Plan) {
     ledger.plot(
         Plot::xy("Tractions of slip on the arc", "angle from the surface [degrees]", "traction [MPa]")
             .series(Series::line("shear, dislocations", &at(&|p| arc_tractions(angle(p)).0)))
-            .series(Series::points("shear, this code", &at(&|p| shear[p])))
+            .series(Series::points("shear, this code", &drawn::apart(&at(&|p| shear[p]))))
             .series(Series::line("normal, dislocations", &at(&|p| arc_tractions(angle(p)).1)))
-            .series(Series::points("normal, this code", &at(&|p| normal[p]))),
+            .series(Series::points("normal, this code", &drawn::apart(&at(&|p| normal[p])))),
     );
 }
 

@@ -1,5 +1,6 @@
 //! The compressed operator against the dense one.
 
+use crate::cases::drawn;
 use crate::cases::{fault_operator, seas};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_cycles::operator::Form;
@@ -87,7 +88,7 @@ fn overlay(ledger: &mut Ledger, name: &str, plan: &Plan, [dense, compressed]: [&
             "traction [MPa]",
         )
         .series(Series::line("dense", &at(dense)))
-        .series(Series::points("compressed", &at(compressed))),
+        .series(Series::points("compressed", &drawn::apart(&at(compressed)))),
     );
 }
 

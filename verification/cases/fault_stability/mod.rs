@@ -1,7 +1,7 @@
 //! Growth rates of perturbations of steady sliding, by wavelength, against linear theory.
 
 use crate::cases::seas;
-use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_cycles::{Equations, Layout, run as integrate};
 use asperity_driver::fault::Plan;
 use asperity_ode::{Clock, Outcome, Problem};
@@ -175,7 +175,7 @@ fn scale(plan: &Plan, part: usize) -> f64 {
 }
 
 /// Largest error of growth rates over V/L of these modes.
-fn errors(variant: &Variant, which: &[usize]) -> Result<(f64, f64, Vec<[String; 6]>), CaseError> {
+fn errors(variant: &Variant, which: &[usize]) -> Result<(f64, f64, Vec<[f64; 6]>), CaseError> {
     let plan = variant.plan()?;
     let found = modes::of(&plan, HIGHEST + 1)?;
     let (mut worst, mut beside, mut rows) = (0.0_f64, 0.0_f64, Vec::new());
@@ -185,12 +185,12 @@ fn errors(variant: &Variant, which: &[usize]) -> Result<(f64, f64, Vec<[String; 
         worst = worst.max(distance(&roots, &expected));
         beside = beside.max(rest);
         rows.push([
-            n.to_string(),
-            format!("{:.6e}", found[n].stiffness),
-            format!("{:.6e}", variant.stiffness(n)),
-            format!("{:.8}", roots[0].re),
-            format!("{:.8}", expected[0].re),
-            format!("{:.8}", expected[0].im),
+            n as f64,
+            found[n].stiffness,
+            variant.stiffness(n),
+            roots[0].re,
+            expected[0].re,
+            expected[0].im,
         ]);
     }
     Ok((worst, beside, rows))
@@ -253,6 +253,7 @@ fn finest(order: f64) -> f64 {
 fn variants(ledger: &mut Ledger) -> Result<(), CaseError> {
     // ηV is of the size of σ (b - a)/2.5.
     let damping = 1e5 / RATE;
+    let mut diagram = Plot::xy("Growth of modes", "mode n [-]", "growth rate Re s [V/L]");
     for (words, variant) in [
         ("ageing law", FIRST),
         ("slip law", Variant { evolution: "slip", ..FIRST }),
@@ -262,10 +263,18 @@ fn variants(ledger: &mut Ledger) -> Result<(), CaseError> {
     ] {
         let (result, cost) = Cost::of(|| errors(&variant, which(variant.sides)));
         let (worst, beside, rows) = result?;
+        let curve = |column: usize| rows.iter().map(|row| (row[0], row[column])).collect::<Vec<_>>();
+        diagram = diagram
+            .series(Series::line(format!("{words}, theory"), &curve(4)))
+            .series(Series::points(format!("{words}, this code"), &curve(3)));
+        let written = |[n, found, exact, rate, theory, turn]: &[f64; 6]| {
+            let [rate, theory, turn] = [rate, theory, turn].map(|s| format!("{s:.8}"));
+            [n.to_string(), format!("{found:.6e}"), format!("{exact:.6e}"), rate, theory, turn]
+        };
         ledger.table(
             format!("modes, antiplane, {words}, quad9 of 62.5 m"),
             &["n", "stiffness [Pa/m]", "theory", "Re s [V/L]", "theory", "Im s, theory"],
-            rows,
+            rows.iter().map(written),
         );
         ledger
             .claim(format!("growth rates of modes 0 to 6, antiplane, {words}, quad9 of 62.5 m, largest error"))
@@ -288,6 +297,7 @@ fn variants(ledger: &mut Ledger) -> Result<(), CaseError> {
             .cost(&cost)
             .record();
     }
+    ledger.plot(diagram);
     Ok(())
 }
 

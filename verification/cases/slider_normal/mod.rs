@@ -121,7 +121,9 @@ fn oscillation(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseE
     let points: Vec<(f64, f64)> = times.iter().copied().zip(v.iter().copied()).collect();
     let diagram = slider::through_time("Oscillating normal traction, alpha = 0.2");
     ledger.plot(
-        diagram.series(Series::line("this code", &curve)).series(Series::points(slider::SOURCE, &points)),
+        diagram
+            .series(Series::line("this code", &curve))
+            .series(Series::points("the independent program", &points)),
     );
     compare(ledger, "oscillating normal traction, alpha = 0.2", &found?, (&v, &mu), &cost);
     Ok(())

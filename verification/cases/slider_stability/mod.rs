@@ -103,11 +103,9 @@ fn sweep(
             // The time is a fraction of a period, so that the logarithm has one branch.
             let found = measured(&plan, &set, 0.5 * set.length / set.load)?;
             largest = largest.max(distance(&found, &expected));
-            growth.push((
-                ratio,
-                expected[0].re,
-                found.iter().map(|f| f.re).fold(f64::NEG_INFINITY, f64::max),
-            ));
+            let fastest =
+                |roots: &[Complex<f64>]| roots.iter().map(|s| s.re).fold(f64::NEG_INFINITY, f64::max);
+            growth.push((ratio, fastest(&expected), fastest(&found)));
         }
         Ok((largest, growth))
     });
