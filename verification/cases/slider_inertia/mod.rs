@@ -73,15 +73,17 @@ pub fn all() -> Vec<Set> {
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     independent(ledger)?;
     let sets: Vec<Set> = all().into_iter().step_by(EACH).collect();
-    if let Some(set) = sets.first() {
-        let curve = Series::line(
-            "one of the sets",
-            &super::slider::rates(&set.plan(Method::Radau5, 1e-8, MOST_STEPS)?)?,
-        );
-        ledger.plot(super::slider::through_time("Slip rate with inertia").series(curve));
-    }
+    drawn(ledger, &sets[0])?;
     agree(ledger, &sets)?;
     compare(ledger, &each_third(sets))
+}
+
+/// Draws the slip rate of a set.
+pub fn drawn(ledger: &mut Ledger, set: &Set) -> Result<(), CaseError> {
+    let curve = super::slider::rates(&set.plan(Method::Radau5, 1e-8, MOST_STEPS)?)?;
+    let diagram = super::slider::through_time("Slip rate with inertia");
+    ledger.plot(diagram.series(Series::line("one of the sets", &curve)));
+    Ok(())
 }
 
 /// Every third set: methods are compared on these in the quick suite, since that takes thirty runs a set.

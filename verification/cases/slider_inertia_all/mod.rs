@@ -1,6 +1,6 @@
 //! All sliders with mass of `slider_inertia`.
 
-use super::slider_inertia::{agree, all, compare};
+use super::slider_inertia::{agree, all, compare, drawn};
 use crate::{Capability, Case, CaseError, Ledger};
 
 /// See the README.
@@ -14,6 +14,7 @@ pub const CASE: Case = Case {
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let sets = all();
+    drawn(ledger, &sets[0])?;
     agree(ledger, &sets)?;
     compare(ledger, &sets)
 }
