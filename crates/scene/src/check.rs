@@ -7,6 +7,7 @@ mod fault_physics;
 mod faults;
 mod interfaces;
 mod materials;
+mod medium;
 mod meshes;
 mod output;
 mod place;

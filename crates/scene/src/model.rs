@@ -5,6 +5,7 @@
 
 mod body;
 mod fault;
+mod medium;
 mod place;
 mod solver;
 mod stress;
@@ -17,6 +18,7 @@ pub use crate::spanned::Spanned;
 use crate::warning::Warning;
 pub use body::*;
 pub use fault::*;
+pub use medium::*;
 pub use place::Place;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -40,7 +42,10 @@ pub struct Scene {
     /// Materials by name.
     pub materials: BTreeMap<String, Material>,
     /// Bodies by name.
+    #[serde(default)]
     pub bodies: BTreeMap<String, Body>,
+    /// Homogeneous rock around faults, instead of bodies.
+    pub medium: Option<Medium>,
     /// Interfaces by name.
     #[serde(default)]
     pub interfaces: BTreeMap<String, Interface>,

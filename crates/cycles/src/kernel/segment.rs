@@ -27,6 +27,13 @@ impl Segment {
         Ok(Self { space, ends: ends.map(|[x, z]| Complex::new(x, z)) })
     }
 
+    /// Position half way between the ends (x, z) \[m\].
+    #[must_use]
+    pub fn middle(&self) -> [f64; 2] {
+        let middle = 0.5 * (self.ends[0] + self.ends[1]);
+        [middle.re, middle.im]
+    }
+
     /// Unit vector t from the first end to the second.
     #[must_use]
     pub fn tangent(&self) -> [f64; 2] {

@@ -1,9 +1,11 @@
-//! Media around sliding points: bodies condensed onto the points of faults, and springs between sliders.
+//! Media around sliding points: bodies condensed onto the points of faults, homogeneous rock without bodies, and springs between
+//! sliders.
 
 mod bodies;
 mod condensed;
 mod held;
 mod machine;
+pub mod patches;
 mod place;
 mod point;
 mod refusal;

@@ -6,11 +6,13 @@ mod dense;
 mod form;
 mod hierarchical;
 mod low_rank;
+mod toeplitz;
 
 pub use both::Both;
 pub use dense::Dense;
 pub use form::{Form, in_form};
 pub use hierarchical::{Geometry, Hierarchical, Sizes};
+pub use toeplitz::{Lattice, Toeplitz};
 
 /// Linear operator from slip to the tractions of all points of a fault. Slip and shear tractions of several components
 /// are stored component by component.

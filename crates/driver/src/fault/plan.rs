@@ -67,7 +67,9 @@ pub struct Plan {
     pub problem: Problem,
     /// Cadence of the output.
     pub cadence: Cadence,
-    /// Degrees of freedom of the bodies.
+    /// Description of the rock around the faults.
+    pub medium: &'static str,
+    /// Degrees of freedom of the bodies; 0 without bodies.
     pub dofs: usize,
     /// Points whose slip rate is prescribed.
     pub creeping: usize,
@@ -107,10 +109,7 @@ impl Plan {
         let mut line = |name: &str, value: String| {
             let _ = writeln!(text, "  {name:<9} {value}");
         };
-        line(
-            "physics",
-            format!("linear elasticity, small strain, {}, condensed onto the faults", self.kinematics),
-        );
+        line("physics", format!("linear elasticity, small strain, {}, {}", self.kinematics, self.medium));
         for fault in &self.faults {
             let law = &self.problem.fault.law;
             line(
@@ -148,11 +147,12 @@ impl Plan {
         }
         let s = &self.problem.settings;
         line("stepper", format!("fault-ode: {} with tolerance {:e} in ln V", s.method.name(), s.tolerance));
+        let bodies =
+            if self.dofs > 0 { format!("{} degrees of freedom, ", self.dofs) } else { String::new() };
         line(
             "size",
             format!(
-                "{} degrees of freedom, {} unknowns, about {:.0} MB",
-                self.dofs,
+                "{bodies}{} unknowns, about {:.0} MB",
                 self.problem.start.len(),
                 self.memory_bytes as f64 / 1e6
             ),

@@ -7,7 +7,7 @@ use crate::scene::units::{self, Dimension, Length};
 use asperity_fem::element::ElementKind;
 use asperity_fem::mesh::curve::{Curve, Profile, bend};
 use asperity_fem::mesh::extrude::extrude;
-use asperity_fem::mesh::fault::{FaultMesh, Interpolation, Spacing};
+use asperity_fem::mesh::fault::{Departure, FaultMesh, Interpolation, Spacing};
 use asperity_fem::mesh::generate::{Block, Grading, Grid, SIDES, divisions_for};
 use asperity_fem::mesh::split::{Surface, split};
 use asperity_fem::mesh::{Cells, GroupTag, Mesh, MeshError, Options, RawMesh, Side, abaqus, gmsh};
@@ -257,18 +257,19 @@ pub fn notes(scene: &scene::Scene) -> Result<Vec<String>, Diagnostic> {
         let scene::MeshSource::Fault(spec) = &body.mesh else { continue };
         let departure = faulted(spec)?.departure();
         let departure = departure.map_err(|e| Diagnostic::body(name, spec.trace.span(), e.to_string()))?;
-        notes.extend(departure.map(|d| {
-            format!(
-                "the fault of body `{name}` is a smooth curve through the {} vertices of its trace, at most {:.4} m from straight lines between them, at \
-                 ({:.4}, {:.4}) m; `interpolation = \"polyline\"` keeps corners",
-                spec.trace.get_ref().len(),
-                d.distance,
-                d.at[0],
-                d.at[1]
-            )
-        }));
+        let vertices = spec.trace.get_ref().len();
+        notes.extend(departure.map(|d| smooth(&format!("the fault of body `{name}`"), vertices, d)));
     }
     Ok(notes)
+}
+
+/// Note on a smooth curve through vertices.
+pub fn smooth(what: &str, vertices: usize, departure: Departure) -> String {
+    format!(
+        "{what} is a smooth curve through the {vertices} vertices of its trace, at most {:.4} m from straight lines between them, at \
+         ({:.4}, {:.4}) m; `interpolation = \"polyline\"` keeps corners",
+        departure.distance, departure.at[0], departure.at[1]
+    )
 }
 
 /// A box around a fault, as generated. Lengths along the fault are measured from the first vertex of its trace.
@@ -276,10 +277,7 @@ fn faulted(spec: &scene::FaultMesh) -> Result<FaultMesh, Diagnostic> {
     let point = |x: &[Length; 2]| x.map(|c| c.0);
     Ok(FaultMesh {
         trace: spec.trace.get_ref().iter().map(point).collect(),
-        interpolation: match spec.interpolation {
-            scene::InterpolationSpec::Spline => Interpolation::Spline,
-            scene::InterpolationSpec::Polyline => Interpolation::Polyline,
-        },
+        interpolation: interpolation(spec.interpolation),
         spacing: spacing(spec.spacing.get_ref()),
         thickness: spec.thickness.as_ref().map(|t| t.get_ref().0),
         min: point(spec.min.get_ref()),
@@ -289,8 +287,16 @@ fn faulted(spec: &scene::FaultMesh) -> Result<FaultMesh, Diagnostic> {
     })
 }
 
+/// Curve through the vertices of a line.
+pub fn interpolation(spec: scene::InterpolationSpec) -> Interpolation {
+    match spec {
+        scene::InterpolationSpec::Spline => Interpolation::Spline,
+        scene::InterpolationSpec::Polyline => Interpolation::Polyline,
+    }
+}
+
 /// Cell sizes along a line.
-fn spacing(spec: &scene::SpacingSpec) -> Spacing {
+pub fn spacing(spec: &scene::SpacingSpec) -> Spacing {
     match spec {
         scene::SpacingSpec::Constant(size) => Spacing::Constant(size.0),
         scene::SpacingSpec::Graded(table) => Spacing::Graded(table.iter().map(|e| e.map(|x| x.0)).collect()),

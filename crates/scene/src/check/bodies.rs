@@ -6,8 +6,12 @@ use crate::near::suggest;
 
 impl Checker<'_> {
     pub(super) fn bodies(&mut self) {
-        if self.scene.bodies.is_empty() {
-            self.error(self.scene.kinematics.span(), "the scene has no body", "add a table `[bodies.A]`");
+        if self.scene.bodies.is_empty() && self.scene.medium.is_none() {
+            self.error(
+                self.scene.kinematics.span(),
+                "the scene has no body",
+                "add a table `[bodies.A]`, or `[medium]` for faults in homogeneous rock",
+            );
         }
         for (name, body) in &self.scene.bodies {
             self.name("a body", name, body.material.span());

@@ -65,7 +65,7 @@ impl Checker<'_> {
         let weight = self.scene.bodies.values().find_map(|b| b.gravity.as_ref()).filter(|_| in_plane);
         if normal.is_none() && !pressed && weight.is_none() {
             self.error(
-                fault.minus.span(),
+                fault.span(),
                 "nothing presses the fault: it has no `normal`",
                 "such as `normal = \"50 MPa\"`, `profiles.normal`, `gravity`, or an `initial_stress` of its bodies with components in the plane",
             );

@@ -16,10 +16,8 @@ impl Checker<'_> {
         let scene = self.scene;
         self.stepper_of_faults();
         for (name, fault) in &scene.faults {
-            self.name("a fault", name, fault.minus.span());
-            for set in [&fault.minus, &fault.plus] {
-                self.set(set);
-            }
+            self.name("a fault", name, fault.span());
+            self.geometry(name, fault);
             self.friction(fault);
             self.start_of(fault);
             self.physics_of(fault);
@@ -50,6 +48,7 @@ impl Checker<'_> {
         self.events();
         self.springs();
         self.left_out();
+        self.medium();
     }
 
     /// Refuses keys that do not apply to faults and would be ignored silently.
@@ -87,7 +86,7 @@ impl Checker<'_> {
                 &place,
                 format!("`{key}` has no meaning in a scene with faults"),
                 "remove it; outputs of faults are `stations` in `[output]`, the catalogue and profiles of slip",
-                (&fault.minus.span(), "a fault"),
+                (&fault.span(), "a fault"),
             );
         }
     }
@@ -131,7 +130,7 @@ impl Checker<'_> {
                 &stepper.span(),
                 "faults are integrated by the stepper \"fault-ode\"",
                 "use `stepper = \"fault-ode\"`, or interfaces instead of faults",
-                (&fault.minus.span(), "a fault"),
+                (&fault.span(), "a fault"),
             ),
             Some(fault) => {
                 if let Some((name, interface)) = scene.interfaces.iter().next() {
@@ -139,7 +138,7 @@ impl Checker<'_> {
                         &interface.slave.span(),
                         format!("interface `{name}` in a scene with faults"),
                         "a scene has interfaces or faults",
-                        (&fault.minus.span(), "a fault"),
+                        (&fault.span(), "a fault"),
                     );
                 }
                 if let Some(second) = scene.stages.get(1) {
@@ -260,7 +259,7 @@ impl Checker<'_> {
         let free = fault.slip.as_ref().is_some_and(|s| *s.get_ref() == SlipSpec::Free);
         match (&fault.rake, self.in_space()) {
             (None, true) => self.error(
-                fault.minus.span(),
+                fault.span(),
                 "a fault in three dimensions has no `rake`",
                 "the direction in which plus slips past minus, such as `rake = [0, 0, 1]`; slip across it is held at zero, or with `slip = \"free\"` turns from there",
             ),
@@ -286,7 +285,7 @@ impl Checker<'_> {
                     &rake.span(),
                     "creep has a direction of its own where slip may not turn",
                     "add `slip = \"free\"` to the fault, or leave the `rake` of the creep out",
-                    (&fault.minus.span(), "the fault"),
+                    (&fault.span(), "the fault"),
                 );
             }
         }
@@ -305,7 +304,7 @@ impl Checker<'_> {
         let kind = |f: &Fault| f.slip.as_ref().map_or(SlipSpec::AlongRake, |s| *s.get_ref());
         let Some(first) = scene.faults.values().next() else { return };
         if let Some(other) = scene.faults.values().find(|f| kind(f) != kind(first)) {
-            let place = |f: &Fault| f.slip.as_ref().map_or(f.minus.span(), Spanned::span);
+            let place = |f: &Fault| f.slip.as_ref().map_or(f.span(), Spanned::span);
             self.conflict(
                 &place(other),
                 "slip of one fault may turn and that of another may not",
@@ -330,6 +329,8 @@ impl Checker<'_> {
                 "one of them says where the fault creeps",
                 (&beyond.span(), "`beyond`"),
             ),
+            // In a medium the continuation of the fault creeps.
+            (None, None) if self.scene.medium.is_some() => {}
             (None, None) => self.error(
                 creep.rate.span(),
                 "the creep of a fault says nowhere",
@@ -368,7 +369,7 @@ impl Checker<'_> {
                             format!(
                                 "such as `outside = {{ {axis} = {{ from = \"-40 km\", to = \"40 km\" }} }}`"
                             ),
-                            (&fault.minus.span(), "the fault"),
+                            (&fault.span(), "the fault"),
                         );
                     }
                 }

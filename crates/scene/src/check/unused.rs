@@ -102,8 +102,9 @@ impl Checker<'_> {
     }
 
     fn materials_of_no_body(&mut self) {
-        let used: BTreeSet<&str> =
-            self.scene.bodies.values().flat_map(|body| body.materials().map(|m| m.1)).collect();
+        let of_bodies = self.scene.bodies.values().flat_map(|body| body.materials().map(|m| m.1));
+        let of_medium = self.scene.medium.iter().map(|medium| medium.material.get_ref().as_str());
+        let used: BTreeSet<&str> = of_bodies.chain(of_medium).collect();
         for (name, material) in self.scene.materials.iter().filter(|m| !used.contains(m.0.as_str())) {
             let message = format!("no body is made of the material `{name}`");
             self.warn(material.young.span(), message, "name it as the `material` of a body, or remove it");

@@ -1,6 +1,7 @@
 //! Faults as declared in a scene, for simulations of earthquake cycles.
 
-use super::LawSpec;
+use super::{FaultLine, FaultRectangle, LawSpec};
+use crate::here::here;
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
 use crate::units::{Damping, Length, Pressure, Time, Velocity};
@@ -9,15 +10,22 @@ use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
 use std::fmt;
+use std::ops::Range;
 
 /// A fault: two coincident sides that slide past each other. Their displacement jump is the unknown.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fault {
-    /// Minus side, such as `BODY.fault.minus`.
+    /// Minus side, such as `BODY.fault.minus`; not in a medium.
+    #[serde(default = "absent")]
     pub minus: Spanned<String>,
-    /// Plus side, such as `BODY.fault.plus`; slip is that of plus relative to minus.
+    /// Plus side, such as `BODY.fault.plus`; slip is that of plus relative to minus; not in a medium.
+    #[serde(default = "absent")]
     pub plus: Spanned<String>,
+    /// In a medium, in the plane: the line of the fault.
+    pub line: Option<FaultLine>,
+    /// In a medium, in space: the rectangle of the fault.
+    pub rectangle: Option<FaultRectangle>,
     /// A [friction law](laws.md) of kind `"rate-and-state"` or `"rate"`, without `f_limit`.
     pub law: Spanned<LawSpec>,
     /// Values of `a`, `b`, `l`, `normal` or `shear` along the fault.
@@ -48,6 +56,31 @@ pub struct Fault {
     pub normal_floor: Option<Spanned<Pressure>>,
     /// `true`: the sides separate where there is no compression; needs `normal_floor`; default `false`.
     pub opening: Option<Spanned<bool>>,
+}
+
+/// The name of a side that is not given.
+fn absent() -> Spanned<String> {
+    here(String::new())
+}
+
+impl Fault {
+    /// Position of its geometry in the file: its sides, its line or its rectangle.
+    #[must_use]
+    pub fn span(&self) -> Range<usize> {
+        let line = self.line.as_ref().map(|line| line.trace.span());
+        let rectangle = self.rectangle.as_ref().map(|rectangle| rectangle.from.span());
+        match line.or(rectangle) {
+            Some(span) if !self.has_sides() => span,
+            _ if self.minus.get_ref().is_empty() => self.law.span(),
+            _ => self.minus.span(),
+        }
+    }
+
+    /// True if sides of bodies are named.
+    #[must_use]
+    pub fn has_sides(&self) -> bool {
+        !(self.minus.get_ref().is_empty() && self.plus.get_ref().is_empty())
+    }
 }
 
 /// Treatment of a fault whose points are farther apart than the length of the cohesive zone.

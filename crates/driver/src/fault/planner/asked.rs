@@ -2,11 +2,9 @@
 
 use super::placed::{Placed, at};
 use crate::diagnostic::Diagnostic;
-use crate::model::{self, Model};
 use crate::scene::model::{Along, Fault as Spec, LawSpec, Profile, Profiled, Scene, Spanned, Station};
 use crate::warning::Warning;
 use asperity_cycles::medium::Place;
-use asperity_fem::mesh::face_nodes;
 use asperity_mechanics::coordinates;
 
 /// Smallest and largest of some values.
@@ -80,7 +78,7 @@ pub(super) fn nothing_slides<const D: usize>(
     let mut all = faults.iter().enumerate().filter_map(|(k, f)| Some((f.0, of(k), f.1.creep.as_ref()?)));
     let Some((name, places, creep)) = all.next() else {
         return Diagnostic::at(
-            faults.first().map_or(0..0, |f| f.1.minus.span()),
+            faults.first().map_or(0..0, |f| f.1.span()),
             "no point of the faults is free to slide",
             "`minus` and `plus` are two sides that can separate",
         );
@@ -169,15 +167,15 @@ fn constant<const D: usize>(
     ))
 }
 
-/// Refuses a station farther than one cell from the nearest sliding point, which is number `point` of `placed`.
+/// Refuses a station farther than `size` \[m\] from the nearest sliding point, which is number `point` of `placed`.
 ///
 /// # Errors
 /// [`Diagnostic`] at the station.
 pub(super) fn station<const D: usize>(
-    model: &Model<D>,
-    (name, spec): (&str, &Spec),
+    name: &str,
     asked: &Spanned<Station>,
     (placed, point): (&[Placed<D>], usize),
+    size: f64,
 ) -> Result<(), Diagnostic> {
     let place = &placed[point].point.place;
     let (off, wanted, found) = match asked.get_ref() {
@@ -189,7 +187,7 @@ pub(super) fn station<const D: usize>(
             (squares.sum::<f64>().sqrt(), wanted, coordinates::in_words(&place.at))
         }
     };
-    if off <= cell(model, spec, place)? {
+    if off <= size {
         return Ok(());
     }
     let extent = extent(placed.iter().map(|p| &p.point.place));
@@ -200,24 +198,6 @@ pub(super) fn station<const D: usize>(
         ),
         "a position on the part of the fault that slides freely",
     ))
-}
-
-/// Largest extent of the faces at a point \[m\].
-fn cell<const D: usize>(model: &Model<D>, spec: &Spec, place: &Place<D>) -> Result<f64, Diagnostic> {
-    let mut size = 0.0_f64;
-    for side in model::sides(model, &spec.minus)? {
-        let nodes = face_nodes(&model.mesh, side);
-        if !nodes.contains(&place.minus) {
-            continue;
-        }
-        for (k, &a) in nodes.iter().enumerate() {
-            for &b in &nodes[..k] {
-                let (a, b) = (&model.mesh.nodes[a], &model.mesh.nodes[b]);
-                size = size.max(a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt());
-            }
-        }
-    }
-    Ok(size)
 }
 
 /// Error for a body that cannot contain a fault.

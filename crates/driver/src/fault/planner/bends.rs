@@ -30,24 +30,26 @@ pub(super) fn note<const D: usize>(
             around.entry(node).or_default().push(normal);
         }
     }
-    let mut most = (0.0, 0);
-    for (&node, normals) in &around {
-        for (k, a) in normals.iter().enumerate() {
-            for b in &normals[..k] {
-                let angle = angle(a, b);
-                if angle > most.0 {
-                    most = (angle, node);
-                }
-            }
-        }
-    }
-    let (angle, node) = most;
-    Ok((angle >= NOTED).then(|| {
+    let pairs = around.iter().flat_map(|(&node, normals)| {
+        let pairs = normals.iter().enumerate().flat_map(|(k, a)| normals[..k].iter().map(|b| [*a, *b]));
+        pairs.map(move |pair| (pair, model.mesh.nodes[node]))
+    });
+    Ok(sharpest(name, pairs))
+}
+
+/// Note on the sharpest of some bends: normals of neighbouring cells, and their common position.
+pub(super) fn sharpest<const D: usize>(
+    name: &str,
+    pairs: impl Iterator<Item = ([[f64; 3]; 2], [f64; D])>,
+) -> Option<String> {
+    let bends = pairs.map(|([a, b], at)| (angle(&a, &b), at));
+    let (angle, at) = bends.reduce(|most, bend| if bend.0 > most.0 { bend } else { most })?;
+    (angle >= NOTED).then(|| {
         format!(
             "fault `{name}` turns by up to {angle:.1} degrees from one cell to the next, at {}: tractions there grow as cells shrink",
-            coordinates::in_words(&model.mesh.nodes[node])
+            coordinates::in_words(&at)
         )
-    }))
+    })
 }
 
 /// Angle between two vectors \[degrees\].

@@ -3,7 +3,7 @@
 use crate::amounts;
 use crate::diagnostic::Diagnostic;
 use crate::model::{self, Model};
-use crate::scene::model::{Motion, Scene, Spanned};
+use crate::scene::model::{Fault, Motion, Scene, Spanned};
 use asperity_cycles::medium::{Loads, Place, Point, Refusal};
 use asperity_fem::mesh::nodes_of_sides;
 use asperity_mechanics::coordinates;
@@ -101,7 +101,7 @@ impl<const D: usize> Asked<'_, D> {
             Where::Body(body) => scene.bodies.get(body).map(|b| b.material.span()),
             Where::Spring => springs(),
         };
-        found.or_else(|| scene.faults.values().next().map(|f| f.minus.span())).unwrap_or(0..0)
+        found.or_else(|| scene.faults.values().next().map(Fault::span)).unwrap_or(0..0)
     }
 
     /// Error for a condensation that needs more memory than is allowed.

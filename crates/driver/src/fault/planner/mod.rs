@@ -8,11 +8,13 @@ mod frame;
 mod held;
 mod medium;
 mod meet;
+mod meshed;
 mod place;
 mod placed;
 mod plates;
 mod prestress;
 mod resolution;
+mod rock;
 mod sense;
 mod start_doubts;
 mod weight;
@@ -40,8 +42,9 @@ use asperity_cycles::medium::{
     Conditions, Loads, Place, Point, Refusal, Spring, Surroundings, Tractions, across, condense, least_bytes,
 };
 use asperity_cycles::operator::{Form, Geometry, Operator, in_form};
-use asperity_cycles::{Crack, Fault, Floor, Injection, Layout, Pressure, Problem, Settings, Thresholds};
-use asperity_fem::mesh::{Side, face_nodes};
+use asperity_cycles::{
+    Crack, Fault, Floor, Injection, Layout, Loading, Opening, Pressure, Problem, Settings, Thresholds,
+};
 use asperity_friction::Failure;
 use asperity_friction::evolution;
 use asperity_friction::fault::FaultLaw;
@@ -49,9 +52,10 @@ use asperity_friction::turning::Turning;
 use asperity_ode::{Clock, Method};
 use held::Asked;
 use medium::{Media, Medium};
+use meshed::Meshed;
 use placed::{Placed, at, components, in_space, slides};
-use prestress::Prestress;
-use std::collections::BTreeMap;
+use prestress::{Prestress, Resolved};
+use std::ops::Range;
 
 /// Default method. Among the explicit ones it needs the fewest evaluations for an error of 1e-5 of the recurrence time in the first events of BP1.
 const DEFAULT_METHOD: Method = Method::Tsit5;
@@ -116,15 +120,26 @@ fn loads<const D: usize>(model: &Model<D>, stage: &Stage) -> Loads {
 
 /// Settings for the condensation of the bodies of a scene.
 fn conditions(scene: &Scene, components: usize) -> Conditions {
-    // The scene check ensures that all faults have the same.
-    let free = |s: &Spec| s.slip.as_ref().is_some_and(|s| *s.get_ref() == SlipSpec::Free);
-    let turns = scene.faults.values().any(free);
     let keep = scene.output.bodies.as_ref().is_some_and(|b| *b.get_ref());
-    let tangents = if turns { 2 } else { 1 };
+    let tangents = if turns(scene) { 2 } else { 1 };
     Conditions { components, tangents, memory: amounts::memory(scene), keep }
 }
 
+/// True if slip may turn. The scene check ensures that all faults have the same.
+fn turns(scene: &Scene) -> bool {
+    let free = |s: &Spec| s.slip.as_ref().is_some_and(|s| *s.get_ref() == SlipSpec::Free);
+    scene.faults.values().any(free)
+}
+
 fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Diagnostic> {
+    match &scene.medium {
+        Some(medium) => rock::plan::<D>(scene, medium, form),
+        None => between_bodies::<D>(scene, form),
+    }
+}
+
+/// Plans faults between bodies.
+fn between_bodies<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Diagnostic> {
     let mut model = model::build::<D>(scene)?;
     if let Some(body) = model.bodies.iter().find(|b| b.nonlinear.is_some()) {
         return Err(asked::not_linear(scene, &body.name));
@@ -147,52 +162,111 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Diagnostic
     let loads = loads(&model, stage);
     admit(Asked { scene, model: &model, loads: &loads, points: &points }, conditions)?;
     let bodies = model.take_stiffness();
-    let turns = conditions.tangents > 1;
     let asked = Asked { scene, model: &model, loads: &loads, points: &points };
     let surroundings = condense(bodies, &loads, &points, conditions).map_err(|e| asked.error(&e))?;
     let (creeping, mut placed): (Vec<_>, Vec<_>) = placed.into_iter().partition(|p| p.point.creep.is_some());
     warnings.extend(doubts(scene, (&model, stage), (&placed, &creeping), &surroundings));
     notes.extend(weight::press(scene, (&model, stage), surroundings.weight.as_ref(), &mut placed)?);
     let resolution = early.map_or_else(|| resolved(scene, &placed, &mut warnings), Ok)?;
-    let Some(first) = placed.first() else {
+    if placed.is_empty() {
         return Err(asked::nothing_slides(&named, &creeping));
-    };
-    let at_law = |e: Failure| crate::refused::refused(&named[first.fault].1.law, &e);
+    }
     asked::opens(&named, &placed, surroundings.opening.as_ref().map_or(&[], |o| o.points()))?;
+    let sides = placed.iter().map(|p| [p.point.place.minus, p.point.place.plus]).collect();
+    let around = Around {
+        medium: "condensed onto the faults",
+        dofs: model.dofs(),
+        creeping: creeping.len(),
+        memory_bytes: held.with_faults(surroundings.bytes),
+        bodies: surroundings.bodies.map(|bodies| BodiesView::new(bodies, &model, sides)),
+        resolution,
+        warnings,
+        notes,
+    };
+    let surrounded = Surrounded {
+        operator: operator(surroundings.operator, &placed, form),
+        placed,
+        opening: surroundings.opening,
+        loading: surroundings.loading,
+        end: stage.end,
+    };
+    plan_of(scene, surrounded, around, &Meshed { model: &model })
+}
+
+/// Points of faults that slide freely, and what acts on them.
+struct Surrounded<const D: usize> {
+    placed: Vec<Placed<D>>,
+    operator: Box<dyn Operator>,
+    opening: Option<Opening>,
+    loading: Loading,
+    end: f64,
+}
+
+/// Description of the surroundings of faults for the output.
+struct Around {
+    medium: &'static str,
+    dofs: usize,
+    creeping: usize,
+    memory_bytes: usize,
+    bodies: Option<BodiesView>,
+    resolution: Vec<Resolution>,
+    warnings: Vec<Warning>,
+    notes: Vec<String>,
+}
+
+/// Cells of faults, whose corners or centres are their points.
+trait Cells<const D: usize> {
+    /// Largest extent of the cells at a point \[m\].
+    fn size(&self, spec: &Spec, point: &Placed<D>) -> Result<f64, Diagnostic>;
+
+    /// Faces between points that slide freely, by their numbers within the fault.
+    fn faces(&self, fault: (usize, &Spec), placed: &[Placed<D>]) -> Result<Vec<Vec<usize>>, Diagnostic>;
+}
+
+/// Plan of faults from their points and surroundings.
+fn plan_of<const D: usize>(
+    scene: &Scene,
+    surrounded: Surrounded<D>,
+    around: Around,
+    cells: &dyn Cells<D>,
+) -> Result<Plan, Diagnostic> {
+    let Surrounded { placed, operator, opening, loading, end } = surrounded;
+    let named: Vec<(&String, &Spec)> = scene.faults.iter().collect();
+    let at_law = |e: Failure| crate::refused::refused(&named[placed[0].fault].1.law, &e);
+    let turns = turns(scene);
     let law = friction(&named, &placed, at_law)?;
     let law = if turns { Box::new(Turning::new(law)) } else { law };
     let fault = Fault {
-        operator: operator(surroundings.operator, &placed, form),
+        operator,
         law,
         damping: placed.iter().map(|p| p.damping).collect(),
         normal: placed.iter().map(|p| p.normal).collect(),
         pressure: pressure(scene, &placed)?,
         floor: Floor::new(placed.iter().map(|p| p.floor)),
-        opening: surroundings.opening,
+        opening,
     };
     let start = start(scene, &placed, &fault).map_err(at_law)?;
+    let mut warnings = around.warnings;
     warnings.extend(start_doubts::check(scene, &placed, &fault));
-    let (faults, views) = views(scene, &model, &placed, turns)?;
-    let sides = || placed.iter().map(|p| [p.point.place.minus, p.point.place.plus]).collect();
-    let bodies = surroundings.bodies.map(|bodies| BodiesView::new(bodies, &model, sides()));
+    let (faults, points) = views(scene, cells, &placed, turns)?;
     let areas = placed.iter().map(|p| p.point.place.area).collect();
-    let settings = settings(scene, stage.end)?;
     Ok(Plan {
         title: scene.title.clone(),
         faults,
-        points: views,
-        cadence: cadence(scene, &fault, stage.end),
-        problem: Problem { fault, areas, loading: surroundings.loading, start, settings },
-        dofs: model.dofs(),
-        creeping: points.len() - placed.len(),
-        memory_bytes: held.with_faults(surroundings.bytes),
-        bodies,
+        points,
+        cadence: cadence(scene, &fault, end),
+        problem: Problem { fault, areas, loading, start, settings: settings(scene, end)? },
+        medium: around.medium,
+        dofs: around.dofs,
+        creeping: around.creeping,
+        memory_bytes: around.memory_bytes,
+        bodies: around.bodies,
         frame: frame::of(scene, D == 3)?,
         in_space: D == 3,
         kinematics: scene.kinematics.get_ref().words(),
-        resolution,
+        resolution: around.resolution,
         warnings,
-        notes,
+        notes: around.notes,
     })
 }
 
@@ -274,12 +348,18 @@ fn resolved<const D: usize>(
 
 /// Operator in the given form.
 fn operator<const D: usize>(tractions: Tractions, placed: &[Placed<D>], form: Form) -> Box<dyn Operator> {
-    let places: Vec<[f64; 3]> = placed.iter().map(|p| in_space(&p.point.place.at)).collect();
-    let areas: Vec<f64> = placed.iter().map(|p| p.point.place.area).collect();
+    let (places, areas, faults) = geometry(placed);
+    in_form(tractions, &Geometry { places: &places, faults: &faults, areas: &areas }, form)
+}
+
+/// Positions and areas of points, and the points of each fault that has some.
+fn geometry<const D: usize>(placed: &[Placed<D>]) -> (Vec<[f64; 3]>, Vec<f64>, Vec<Range<usize>>) {
+    let places = placed.iter().map(|p| in_space(&p.point.place.at)).collect();
+    let areas = placed.iter().map(|p| p.point.place.area).collect();
     let last = placed.last().map_or(0, |p| p.fault);
     let first = |fault: usize| placed.partition_point(|p| p.fault < fault);
-    let faults: Vec<_> = (0..=last).map(|f| first(f)..first(f + 1)).filter(|r| !r.is_empty()).collect();
-    in_form(tractions, &Geometry { places: &places, faults: &faults, areas: &areas }, form)
+    let faults = (0..=last).map(|f| first(f)..first(f + 1)).filter(|r| !r.is_empty()).collect();
+    (places, areas, faults)
 }
 
 fn points_of<const D: usize>(
@@ -289,50 +369,83 @@ fn points_of<const D: usize>(
     fault: usize,
     warnings: &mut Vec<Warning>,
 ) -> Result<Vec<Placed<D>>, Diagnostic> {
-    let base = laws::choose(&spec.law).map_err(|errors| {
-        let first = errors.into_iter().next();
-        first.unwrap_or_else(|| asked::incomplete(&spec.law))
-    })?;
+    let base = base_law(spec)?;
     let mut placed = Vec::new();
     let media = Media::new(scene, model, spec)?;
     let spacings = resolution::spacings(model, model::sides(model, &spec.minus)?);
-    let choice = floor::choice(spec);
     let stress = Prestress::new(scene, (name, spec));
     let weighs = scene.bodies.values().any(|b| b.gravity.is_some());
     let (places, doubtful) = place::places(model, name, spec)?;
     warnings.extend(doubtful);
     for place in places {
-        let value = |profile: &Option<Profiled>| profile.as_ref().map(|p| largest(p, &place));
         let creep = spec.creep.as_ref().filter(|c| creeps(c, &place, CLOSE * model.scale));
-        let medium = media.at(&place);
         let given = stress.as_ref().filter(|_| creep.is_none());
-        let given = given.map(|s| s.start(model, &place, weighs)).transpose()?;
-        let shear = value(&spec.profiles.shear).or(spec.shear.as_ref().map(|s| s.get_ref().0));
-        // The scene check ensures that one of them is given; where the fault creeps, neither is needed.
-        let normal = value(&spec.profiles.normal).or(spec.normal.as_ref().map(|n| n.get_ref().0));
-        placed.push(Placed {
-            fault,
-            medium,
-            damping: damping(spec, &medium)?,
-            normal: given.and_then(|g| g.normal).or(normal).unwrap_or_default(),
-            shear: given.map(|g| g.shear).or(shear),
-            prestress: given.unwrap_or_default(),
+        let given = Given {
+            medium: media.at(&place),
             spacing: spacings.get(&place.minus).copied().unwrap_or_default(),
-            floor: choice.floor,
-            law: varied(&base, value(&spec.profiles.a), value(&spec.profiles.b), value(&spec.profiles.l)),
+            stress: given.map(|s| s.start(model, &place, weighs)).transpose()?,
             creep: creep.map(|c| c.rate.get_ref().0),
             components: model.idealisation.components(),
-            point: Point {
-                creep: creep.map(|c| components(&place, c.rate.get_ref().0)),
-                normal_changes: choice.changes,
-                opens: choice.opens,
-                place,
-            },
-        });
+        };
+        placed.push(placed_at(spec, (fault, &base), place, given)?);
     }
     asked::creep((name, spec), &placed)?;
     asked::profiles((name, spec), &placed, warnings);
     Ok(placed)
+}
+
+/// Law of a fault, whose parameters may vary along it.
+fn base_law(spec: &Spec) -> Result<LawChoice, Diagnostic> {
+    laws::choose(&spec.law).map_err(|errors| {
+        let first = errors.into_iter().next();
+        first.unwrap_or_else(|| asked::incomplete(&spec.law))
+    })
+}
+
+/// Surroundings of a point.
+struct Given {
+    medium: Medium,
+    /// Distance to the farthest neighbour \[m\].
+    spacing: f64,
+    /// Tractions of the initial stress of bodies.
+    stress: Option<Resolved>,
+    /// Creep rate \[m/s\].
+    creep: Option<f64>,
+    /// Number of components of displacement.
+    components: usize,
+}
+
+/// A point of a fault with its law and initial tractions.
+fn placed_at<const D: usize>(
+    spec: &Spec,
+    (fault, base): (usize, &LawChoice),
+    place: Place<D>,
+    given: Given,
+) -> Result<Placed<D>, Diagnostic> {
+    let value = |profile: &Option<Profiled>| profile.as_ref().map(|p| largest(p, &place));
+    let choice = floor::choice(spec);
+    let shear = value(&spec.profiles.shear).or(spec.shear.as_ref().map(|s| s.get_ref().0));
+    // The scene check ensures that one of them is given; where the fault creeps, neither is needed.
+    let normal = value(&spec.profiles.normal).or(spec.normal.as_ref().map(|n| n.get_ref().0));
+    Ok(Placed {
+        fault,
+        medium: given.medium,
+        damping: damping(spec, &given.medium)?,
+        normal: given.stress.and_then(|g| g.normal).or(normal).unwrap_or_default(),
+        shear: given.stress.map(|g| g.shear).or(shear),
+        prestress: given.stress.unwrap_or_default(),
+        spacing: given.spacing,
+        floor: choice.floor,
+        law: varied(base, value(&spec.profiles.a), value(&spec.profiles.b), value(&spec.profiles.l)),
+        creep: given.creep,
+        components: given.components,
+        point: Point {
+            creep: given.creep.map(|rate| components(&place, rate)),
+            normal_changes: choice.changes,
+            opens: choice.opens,
+            place,
+        },
+    })
 }
 
 /// Distance from the boundary of the creeping part within which a point counts as on it, relative to the size of the
@@ -505,24 +618,10 @@ fn theta(law: &LawChoice) -> Option<(f64, f64)> {
     evolution::definition(evolution.name)?.variable.theta(state.b, state.l, strength.v_ref)
 }
 
-/// Faces of the minus side whose nodes are among these points, by point numbers.
-fn faces<const D: usize>(
-    model: &Model<D>,
-    spec: &Spec,
-    placed: &[Placed<D>],
-) -> Result<Vec<Vec<usize>>, Diagnostic> {
-    let points = placed.iter().enumerate().map(|(p, placed)| (placed.point.place.minus, p));
-    let points: BTreeMap<usize, usize> = points.collect();
-    let of = |side: &Side| {
-        face_nodes(&model.mesh, side).iter().map(|n| points.get(n).copied()).collect::<Option<Vec<usize>>>()
-    };
-    Ok(model::sides(model, &spec.minus)?.iter().filter_map(of).collect())
-}
-
 /// Faults and points, as needed by the output.
 fn views<const D: usize>(
     scene: &Scene,
-    model: &Model<D>,
+    cells: &dyn Cells<D>,
     placed: &[Placed<D>],
     turns: bool,
 ) -> Result<(Vec<FaultView>, Vec<PointView>), Diagnostic> {
@@ -559,7 +658,8 @@ fn views<const D: usize>(
         let mut stations = Vec::new();
         for asked in asked.iter().flat_map(|a| a.get_ref()) {
             let Some(point) = nearest(asked.get_ref()) else { continue };
-            asked::station(model, (name, spec), asked, (&placed[first..last], point - first))?;
+            let size = cells.size(spec, &placed[point])?;
+            asked::station(name, asked, (&placed[first..last], point - first), size)?;
             let station = match asked.get_ref() {
                 Asking::Along(s) => Station::Along(*s),
                 Asking::At(at) => Station::At(at.clone()),
@@ -571,7 +671,7 @@ fn views<const D: usize>(
             points: first..last,
             normal: floor::choice(spec),
             stations,
-            faces: faces(model, spec, &placed[first..last])?,
+            faces: cells.faces((k, spec), &placed[first..last])?,
         });
     }
     Ok((faults, points))

@@ -62,13 +62,19 @@ fn driven<const D: usize>(
         return Some(Warning::at(
             spec.rate.span(),
             format!(
-                "the loads drive fault `{name}` against `rate`: shear traction changes by {:.3e} Pa/s on average, and `rate` has the plus side `{}` \
+                "the loads drive fault `{name}` against `rate`: shear traction changes by {:.3e} Pa/s on average, and `rate` has the plus side{} \
                  slip along ({x:.3}, {y:.3}, {z:.3})",
                 force / area,
-                spec.plus.get_ref()
+                plus(spec)
             ),
             "turn the sign of the motions that load it, or those of `rate`, `shear` and creep",
         ));
     }
     None
+}
+
+/// Name of the plus side, in backquotes after a space, if it has one.
+fn plus(spec: &Spec) -> String {
+    let name = spec.plus.get_ref();
+    if name.is_empty() { String::new() } else { format!(" `{name}`") }
 }

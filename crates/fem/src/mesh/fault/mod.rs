@@ -6,6 +6,7 @@
 
 mod check;
 mod curve;
+mod divided;
 mod error;
 mod grid;
 mod map;
@@ -15,6 +16,7 @@ mod spine;
 
 pub use super::spacing::{MOST_CELLS, Spacing, SpacingError};
 pub use curve::Departure;
+pub use divided::{Divided, divided};
 pub use error::FaultMeshError;
 pub use quality::{Quality, quality, scaled_jacobian};
 pub use spec::{FaultMesh, Interpolation};

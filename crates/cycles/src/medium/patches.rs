@@ -1,0 +1,270 @@
+//! Homogeneous rock without bodies: tractions that uniform slip of patches causes at their centres, from dislocations in closed
+//! form.
+//!
+//! Positions of faults have y up; the free surface of a half-space is y = 0. The axes of [`crate::kernel`] have z up: in the plane
+//! (x, z) of a kernel is (x, y) here, in space (x, y, z) of a kernel is (z, x, y) here, which keeps the handedness.
+
+use super::condensed::Tractions;
+use crate::kernel::{Rectangle, Segment};
+use crate::loading::Loading;
+use crate::operator::{Both, Dense, Form, Geometry, Lattice, Operator, Toeplitz, in_form};
+use asperity_fem::material::elastic::Elastic;
+use asperity_fem::table::Table;
+use nalgebra::Vector3;
+use rayon::prelude::*;
+
+/// Patches of uniform slip.
+#[derive(Clone, Debug)]
+pub enum Patches {
+    /// Segments of the plane that slip out of it.
+    Antiplane(Vec<Segment>),
+    /// Segments of the plane that slip along themselves.
+    Plane(Vec<Segment>),
+    /// Rectangles in space, in grids of equal ones.
+    Space {
+        /// Rectangles.
+        tiles: Vec<Tile>,
+        /// Grids; every tile belongs to one.
+        grids: Vec<Lattice>,
+    },
+}
+
+/// A rectangle with its directions of slip.
+#[derive(Clone, Copy, Debug)]
+pub struct Tile {
+    /// The rectangle, in the axes of kernels.
+    pub rectangle: Rectangle,
+    /// Unit direction of the first component of slip.
+    pub rake: [f64; 3],
+    /// Unit direction of the second component.
+    pub across: [f64; 3],
+    /// Unit normal from minus to plus.
+    pub normal: [f64; 3],
+    /// Centre \[m\].
+    pub at: [f64; 3],
+    /// Number of its grid.
+    pub grid: usize,
+    /// Column and row in its grid.
+    pub cell: [usize; 2],
+}
+
+/// Position or vector in the axes of kernels.
+#[must_use]
+pub fn to_kernel(v: &[f64; 3]) -> Vector3<f64> {
+    Vector3::new(v[2], v[0], v[1])
+}
+
+/// Position or vector from the axes of kernels.
+#[must_use]
+pub fn from_kernel(v: &Vector3<f64>) -> [f64; 3] {
+    [v[1], v[2], v[0]]
+}
+
+/// Ratio of the change of normal traction, or of shear traction across slip, to that along slip, below which it is
+/// rounding: that of differences of the terms of corners whose coordinates are a thousand times the size of a patch.
+const UNCOUPLED: f64 = 1e-11;
+
+/// Tractions at a point per slip of a patch: along both tangents, and the normal traction, compression positive \[Pa/m\].
+type Pull = [f64; 3];
+/// Number of the normal traction in a [`Pull`].
+const NORMAL: usize = 2;
+
+/// Slip and its effects that an operator holds.
+#[derive(Clone, Copy, Debug)]
+pub struct Slip<'a> {
+    /// Number of components of slip.
+    pub tangents: usize,
+    /// For each patch, whether slip changes its normal traction.
+    pub changes: &'a [bool],
+}
+
+impl Patches {
+    /// Number of patches.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        match self {
+            Self::Antiplane(segments) | Self::Plane(segments) => segments.len(),
+            Self::Space { tiles, .. } => tiles.len(),
+        }
+    }
+
+    /// The grid to which all patches belong.
+    fn grid(&self) -> Option<(&[Tile], &Lattice)> {
+        match self {
+            Self::Space { tiles, grids } if grids.len() == 1 => Some((tiles, &grids[0])),
+            _ => None,
+        }
+    }
+
+    /// Operator of these patches. Of a single grid it is a [`Toeplitz`] unless another form is asked for.
+    #[must_use]
+    pub fn operator(
+        &self,
+        rock: &Elastic,
+        slip: Slip<'_>,
+        (geometry, form): (&Geometry<'_>, Form),
+    ) -> Box<dyn Operator> {
+        match self.grid().filter(|_| form == Form::Fitting) {
+            Some((tiles, lattice)) => of_grid(tiles, lattice, rock, slip),
+            None => in_form(self.tractions(rock, slip), geometry, form),
+        }
+    }
+
+    /// Largest memory that making the operator in [`Form::Fitting`] takes \[bytes\].
+    #[must_use]
+    pub fn bytes(&self, tangents: usize) -> usize {
+        let matrices = match self {
+            Self::Antiplane(_) => 1,
+            Self::Plane(_) => 2,
+            Self::Space { .. } => tangents * (tangents + 1),
+        };
+        let entries = match self.grid() {
+            // A table of pulls, and real and imaginary parts of spectra of twice the number of columns.
+            Some((_, grid)) => grid.distances() * grid.rows.pow(2) * (Pull::default().len() + matrices * 2),
+            None => matrices * self.count().pow(2),
+        };
+        entries * size_of::<f64>()
+    }
+
+    /// Tractions in the centres of all patches caused by slip of each.
+    fn tractions(&self, rock: &Elastic, slip: Slip<'_>) -> Tractions {
+        let n = self.count();
+        let along = |component: usize| {
+            let shear = self.matrix(rock, component, component);
+            let least = UNCOUPLED * largest(&shear);
+            let normal = slip.changes.contains(&true).then(|| {
+                let mut normal = self.matrix(rock, component, NORMAL);
+                let rows = normal.chunks_exact_mut(n).zip(slip.changes);
+                rows.filter(|(_, changes)| !**changes).for_each(|(row, _)| row.fill(0.0));
+                normal
+            });
+            (Dense::new(n, shear, normal.filter(|m| largest(m) > least)), least)
+        };
+        let (first, least) = along(0);
+        if slip.tangents == 1 {
+            return Tractions::One(first);
+        }
+        let across = [(1, 0), (0, 1)].map(|(component, part)| self.matrix(rock, component, part));
+        let across = across
+            .iter()
+            .any(|m| largest(m) > least)
+            .then(|| Box::new(across.map(|m| Dense::new(n, m, None))));
+        Tractions::Two { along: Box::new([first, along(1).0]), across }
+    }
+
+    /// Matrix of a part of the tractions per slip of a component, row by row.
+    fn matrix(&self, rock: &Elastic, component: usize, part: usize) -> Vec<f64> {
+        match self {
+            Self::Antiplane(all) => filled(all.len(), |k, j| out_of_plane(&all[k], &all[j], rock)[part]),
+            Self::Plane(all) => filled(all.len(), |k, j| in_plane(&all[k], &all[j], rock)[part]),
+            Self::Space { tiles, grids } => {
+                let tables: Vec<Vec<Pull>> = grids.iter().map(|g| table(tiles, g, rock, component)).collect();
+                filled(tiles.len(), |k, j| {
+                    let (point, patch) = (&tiles[k], &tiles[j]);
+                    if point.grid == patch.grid {
+                        tables[point.grid][grids[point.grid].entry(point.cell, patch.cell)][part]
+                    } else {
+                        on_tile(point, patch, rock, component)[part]
+                    }
+                })
+            }
+        }
+    }
+}
+
+/// A square matrix of these entries, row by row.
+fn filled(n: usize, entry: impl Fn(usize, usize) -> f64 + Sync) -> Vec<f64> {
+    let mut matrix = vec![0.0; n * n];
+    let rows = matrix.par_chunks_exact_mut(n).enumerate();
+    rows.for_each(|(k, row)| row.iter_mut().enumerate().for_each(|(j, value)| *value = entry(k, j)));
+    matrix
+}
+
+/// Tractions in the middle of a segment per slip of another out of the plane.
+fn out_of_plane(point: &Segment, patch: &Segment, rock: &Elastic) -> Pull {
+    let n = point.normal();
+    let s = patch.screw(point.middle(), 1.0).stress(rock.shear());
+    [n[0] * s[0] + n[1] * s[1], 0.0, 0.0]
+}
+
+/// Tractions in the middle of a segment per slip of another along itself.
+fn in_plane(point: &Segment, patch: &Segment, rock: &Elastic) -> Pull {
+    let (n, t) = (point.normal(), point.tangent());
+    let [xx, zz, xz] = patch.edge(point.middle(), [1.0, 0.0], rock).stress;
+    let on = [xx * n[0] + xz * n[1], xz * n[0] + zz * n[1]];
+    [t[0] * on[0] + t[1] * on[1], 0.0, -(n[0] * on[0] + n[1] * on[1])]
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |m: f64, v| m.max(v.abs()))
+}
+
+/// Tractions in the middle of a tile per slip of another in a component.
+fn on_tile(point: &Tile, patch: &Tile, rock: &Elastic, component: usize) -> Pull {
+    let slip = to_kernel([&patch.rake, &patch.across][component]);
+    let field = patch.rectangle.field(&to_kernel(&point.at), &slip, rock.poisson());
+    let normal = to_kernel(&point.normal);
+    let traction = field.traction(rock, &normal);
+    let along = |v: &[f64; 3]| traction.dot(&to_kernel(v));
+    [along(&point.rake), along(&point.across), -traction.dot(&normal)]
+}
+
+/// Different tractions within a grid, in the order of [`Lattice::entry`]. Tiles of a grid are equal along strike, so that
+/// tractions depend on the distance along it: c columns and r rows have (2 c - 1) r² different ones instead of c² r².
+fn table(tiles: &[Tile], grid: &Lattice, rock: &Elastic, component: usize) -> Vec<Pull> {
+    let (columns, rows) = (grid.columns, grid.rows);
+    let tile = |row: usize, column: usize| &tiles[grid.points[row * columns + column]];
+    let mut table = vec![Pull::default(); grid.distances() * rows * rows];
+    table.par_chunks_exact_mut(rows * rows).enumerate().for_each(|(distance, block)| {
+        // The pair of columns at this distance that lies at an end of the grid.
+        let (point, patch) =
+            if distance < columns { (0, columns - 1 - distance) } else { (distance + 1 - columns, 0) };
+        for (k, pull) in block.iter_mut().enumerate() {
+            *pull = on_tile(tile(k / rows, point), tile(k % rows, patch), rock, component);
+        }
+    });
+    table
+}
+
+/// Operator of a single grid.
+fn of_grid(tiles: &[Tile], lattice: &Lattice, rock: &Elastic, slip: Slip<'_>) -> Box<dyn Operator> {
+    let part = |table: &[Pull], part: usize| -> Vec<f64> { table.iter().map(|pull| pull[part]).collect() };
+    let coupled = |values: &Vec<f64>, shear: &[f64]| largest(values) > UNCOUPLED * largest(shear);
+    let of = |component: usize| {
+        let table = table(tiles, lattice, rock, component);
+        let shear = part(&table, component);
+        // All points of a fault have one choice.
+        let normal = slip.changes.contains(&true).then(|| part(&table, NORMAL));
+        let normal = normal.filter(|m| coupled(m, &shear));
+        let across = (slip.tangents > 1).then(|| part(&table, 1 - component));
+        let across = across.filter(|m| coupled(m, &shear));
+        (Toeplitz::new(lattice.clone(), &shear, normal.as_deref()), across)
+    };
+    let (first, by_first) = of(0);
+    if slip.tangents == 1 {
+        return Box::new(first);
+    }
+    let (second, by_second) = of(1);
+    let boxed =
+        |table: Vec<f64>| -> Box<dyn Operator> { Box::new(Toeplitz::new(lattice.clone(), &table, None)) };
+    let across = by_second.zip(by_first).map(|(a, b)| [boxed(a), boxed(b)]);
+    Box::new(Both::new([Box::new(first), Box::new(second)], across))
+}
+
+/// Loads of slip deficit (J. C. Savage, J. Geophys. Res. 88 (1983) 4984): all patches slip backwards at the rates of the plates,
+/// which are given component by component \[m/s\]. On a plane fault it is the load of its continuation, which creeps at these
+/// rates. Returns the loads until `end` \[s\].
+#[must_use]
+pub fn deficit(operator: &dyn Operator, rates: &[f64], end: f64) -> Loading {
+    let backwards: Vec<f64> = rates.iter().map(|rate| -rate).collect();
+    let mut shear = vec![0.0; rates.len()];
+    operator.shear(&backwards, &mut shear);
+    let mut normal = Vec::new();
+    if operator.couples_normal() {
+        normal.resize(operator.points(), 0.0);
+        operator.normal(&backwards, &mut normal);
+    }
+    let mut loading = Loading::new(operator.components());
+    loading.add(Table::new(vec![0.0, end], vec![0.0, end]), shear, normal);
+    loading
+}

@@ -1,0 +1,405 @@
+//! The operator of a grid of equal cells: tractions depend on the distance along strike alone, and a product is a convolution.
+//!
+//! With slip s of the cells of patch row j at column c, the traction of row i is `t_i(c) = Σ_j Σ_c' k_ij(c - c') s_j(c')`. The
+//! discrete Fourier transform along strike turns the inner sum into a product: `T_i(f) = Σ_j K_ij(f) S_j(f)`. Rows are padded with
+//! zeros to twice their length, so that the convolution does not wrap around and is exact. For r rows of c columns a product takes
+//! `O(c r² + c r ln c)` operations, and the operator c r² numbers, where a full matrix has c² r².
+
+use super::{Operator, dense::dot};
+use rayon::prelude::*;
+use realfft::num_complex::Complex;
+use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use std::fmt;
+use std::sync::{Arc, Mutex, PoisonError};
+
+type C = Complex<f64>;
+
+/// Arrangement of the points of an operator in a grid.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Lattice {
+    /// Number of cells along strike.
+    pub columns: usize,
+    /// Number of cells down dip.
+    pub rows: usize,
+    /// Point of each cell, row by row.
+    pub points: Vec<usize>,
+}
+
+impl Lattice {
+    /// Number of an entry of a table of tractions: by distance along strike from the patch to the point, then by row of the point,
+    /// then by row of the patch. Cells are given as column and row.
+    #[must_use]
+    pub fn entry(&self, point: [usize; 2], patch: [usize; 2]) -> usize {
+        let distance = point[0] + self.columns - 1 - patch[0];
+        (distance * self.rows + point[1]) * self.rows + patch[1]
+    }
+
+    /// Number of distances along strike, in both directions.
+    #[must_use]
+    pub fn distances(&self) -> usize {
+        (2 * self.columns).saturating_sub(1)
+    }
+}
+
+/// Operator of a grid of equal cells.
+pub struct Toeplitz {
+    lattice: Lattice,
+    forward: Arc<dyn RealToComplex<f64>>,
+    inverse: Arc<dyn ComplexToReal<f64>>,
+    shear: Spectrum,
+    normal: Option<Spectrum>,
+    stiffness: Vec<f64>,
+    work: Mutex<Work>,
+}
+
+/// Fourier transform of a table of tractions along strike: for each frequency a matrix of rows of points by rows of patches.
+#[derive(Debug)]
+struct Spectrum {
+    real: Vec<f64>,
+    /// Imaginary part; empty where tractions are the same on both sides of a patch.
+    imaginary: Vec<f64>,
+}
+
+/// Working memory of a product.
+#[derive(Debug, Default)]
+struct Work {
+    /// Padded rows in space.
+    rows: Vec<f64>,
+    /// Transformed rows.
+    transformed: Vec<C>,
+    /// Real and imaginary parts of slip, frequency by frequency.
+    slip: Vec<f64>,
+    /// Tractions likewise.
+    traction: Vec<f64>,
+}
+
+/// Imaginary part of a spectrum, relative to its largest value, below which it is rounding of the entries of the table.
+const EVEN: f64 = 1e-11;
+/// Frequencies of a task. Their number is fixed, so that results do not depend on the number of threads.
+const FREQUENCIES: usize = 8;
+/// Number of values of a spectrum above which a product is divided into tasks: starting them takes some microseconds.
+const WORTH_TASKS: usize = 100_000;
+
+impl Toeplitz {
+    /// Operator of tables with the entries of [`Lattice::entry`]: shear and, where slip changes them, normal tractions per slip
+    /// \[Pa/m\].
+    #[must_use]
+    pub fn new(lattice: Lattice, shear: &[f64], normal: Option<&[f64]>) -> Self {
+        let padded = fitting(2 * lattice.columns);
+        let mut planner = RealFftPlanner::new();
+        let (forward, inverse) = (planner.plan_fft_forward(padded), planner.plan_fft_inverse(padded));
+        let spectrum = |table: &[f64]| Spectrum::new(&lattice, table, forward.as_ref());
+        let (shear_spectrum, normal_spectrum) = (spectrum(shear), normal.map(spectrum));
+        let stiffness = stiffness(&lattice, &[Some(shear), normal].map(|t| t.unwrap_or_default()));
+        Self {
+            shear: shear_spectrum,
+            normal: normal_spectrum,
+            forward,
+            inverse,
+            stiffness,
+            work: Mutex::default(),
+            lattice,
+        }
+    }
+
+    /// Length of the padded rows.
+    fn padded(&self) -> usize {
+        self.forward.len()
+    }
+
+    /// Number of frequencies.
+    fn frequencies(&self) -> usize {
+        self.padded() / 2 + 1
+    }
+
+    fn product(&self, spectrum: &Spectrum, slip: &[f64], tractions: &mut [f64]) {
+        let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
+        work.fit(self.lattice.rows, self.padded());
+        let Work { rows, transformed, slip: s, traction: t } = &mut *work;
+        self.spread(slip, rows);
+        self.transform(rows, transformed);
+        self.split(transformed, s);
+        spectrum.times(self.lattice.rows, s, t);
+        self.unite(t, transformed);
+        self.back(transformed, rows);
+        self.gather(rows, tractions);
+    }
+
+    /// Writes the values of points into padded rows.
+    fn spread(&self, values: &[f64], rows: &mut [f64]) {
+        rows.fill(0.0);
+        let columns = self.lattice.columns;
+        let of_rows = rows.chunks_exact_mut(self.padded()).zip(self.lattice.points.chunks_exact(columns));
+        for (row, points) in of_rows {
+            row.iter_mut().zip(points).for_each(|(value, &p)| *value = values[p]);
+        }
+    }
+
+    /// Reads the values of points from padded rows.
+    fn gather(&self, rows: &[f64], values: &mut [f64]) {
+        let columns = self.lattice.columns;
+        let of_rows = rows.chunks_exact(self.padded()).zip(self.lattice.points.chunks_exact(columns));
+        // The inverse transform does not divide by the length.
+        let scale = 1.0 / self.padded() as f64;
+        for (row, points) in of_rows {
+            row.iter().zip(points).for_each(|(value, &p)| values[p] = value * scale);
+        }
+    }
+
+    fn transform(&self, rows: &mut [f64], transformed: &mut [C]) {
+        let rows = rows.par_chunks_exact_mut(self.padded());
+        rows.zip(transformed.par_chunks_exact_mut(self.frequencies())).for_each_init(
+            || self.forward.make_scratch_vec(),
+            |scratch, (row, out)| {
+                let done = self.forward.process_with_scratch(row, out, scratch);
+                debug_assert!(done.is_ok(), "lengths are those of the plan");
+            },
+        );
+    }
+
+    fn back(&self, transformed: &mut [C], rows: &mut [f64]) {
+        let spectra = transformed.par_chunks_exact_mut(self.frequencies());
+        spectra.zip(rows.par_chunks_exact_mut(self.padded())).for_each_init(
+            || self.inverse.make_scratch_vec(),
+            |scratch, (spectrum, row)| {
+                // Both ends of the spectrum of a real row are real; their imaginary parts here are rounding.
+                let last = spectrum.len() - 1;
+                spectrum[0].im = 0.0;
+                spectrum[last].im = 0.0;
+                let done = self.inverse.process_with_scratch(spectrum, row, scratch);
+                debug_assert!(done.is_ok(), "lengths are those of the plan");
+            },
+        );
+    }
+
+    /// Parts of transformed rows, frequency by frequency: real parts of all rows, then imaginary parts.
+    fn split(&self, transformed: &[C], parts: &mut [f64]) {
+        let (rows, frequencies) = (self.lattice.rows, self.frequencies());
+        for (f, parts) in parts.chunks_exact_mut(2 * rows).enumerate() {
+            let (real, imaginary) = parts.split_at_mut(rows);
+            for (row, (re, im)) in real.iter_mut().zip(imaginary).enumerate() {
+                let value = transformed[row * frequencies + f];
+                (*re, *im) = (value.re, value.im);
+            }
+        }
+    }
+
+    /// The reverse of [`Self::split`].
+    fn unite(&self, parts: &[f64], transformed: &mut [C]) {
+        let (rows, frequencies) = (self.lattice.rows, self.frequencies());
+        for (f, parts) in parts.chunks_exact(2 * rows).enumerate() {
+            let (real, imaginary) = parts.split_at(rows);
+            for (row, (re, im)) in real.iter().zip(imaginary).enumerate() {
+                transformed[row * frequencies + f] = C::new(*re, *im);
+            }
+        }
+    }
+}
+
+/// Smallest length from `least` of which fast transforms exist: even, without prime factors above 5.
+fn fitting(least: usize) -> usize {
+    let smooth = |n: &usize| {
+        let mut rest = *n;
+        for prime in [2, 3, 5] {
+            while rest.is_multiple_of(prime) {
+                rest /= prime;
+            }
+        }
+        rest == 1
+    };
+    (least.max(2)..).filter(|n| n.is_multiple_of(2)).find(smooth).unwrap_or(least)
+}
+
+/// Sums of the absolute values in the columns of the matrix of each table, by point.
+fn stiffness(lattice: &Lattice, tables: &[&[f64]]) -> Vec<f64> {
+    let (columns, rows) = (lattice.columns, lattice.rows);
+    let mut by_distance = vec![0.0; lattice.distances() * rows];
+    for table in tables {
+        for (distance, block) in table.chunks_exact(rows * rows).enumerate() {
+            let sums = &mut by_distance[distance * rows..][..rows];
+            let of_point = |row: &[f64]| sums.iter_mut().zip(row).for_each(|(sum, v)| *sum += v.abs());
+            block.chunks_exact(rows).for_each(of_point);
+        }
+    }
+    let mut all = vec![0.0; columns * rows];
+    for row in 0..rows {
+        // A patch at column c sees the distances from -c to columns - 1 - c.
+        for column in 0..columns {
+            let first = columns - 1 - column;
+            let sum = (first..first + columns).map(|d| by_distance[d * rows + row]).sum();
+            all[lattice.points[row * columns + column]] = sum;
+        }
+    }
+    all
+}
+
+impl Work {
+    fn fit(&mut self, rows: usize, padded: usize) {
+        let frequencies = padded / 2 + 1;
+        self.rows.resize(rows * padded, 0.0);
+        self.transformed.resize(rows * frequencies, C::default());
+        self.slip.resize(2 * rows * frequencies, 0.0);
+        self.traction.resize(2 * rows * frequencies, 0.0);
+    }
+}
+
+impl Spectrum {
+    fn new(lattice: &Lattice, table: &[f64], forward: &dyn RealToComplex<f64>) -> Self {
+        let (columns, size, padded) = (lattice.columns, lattice.rows.pow(2), forward.len());
+        let frequencies = padded / 2 + 1;
+        let mut real = vec![0.0; frequencies * size];
+        let mut imaginary = vec![0.0; frequencies * size];
+        let (mut row, mut out) = (forward.make_input_vec(), forward.make_output_vec());
+        for pair in 0..size {
+            row.fill(0.0);
+            for distance in 0..lattice.distances() {
+                // Distances behind the patch are at the end of the period.
+                let at = (distance + padded + 1 - columns) % padded;
+                row[at] = table[distance * size + pair];
+            }
+            let done = forward.process(&mut row, &mut out);
+            debug_assert!(done.is_ok(), "lengths are those of the plan");
+            for (f, value) in out.iter().enumerate() {
+                (real[f * size + pair], imaginary[f * size + pair]) = (value.re, value.im);
+            }
+        }
+        let largest = |values: &[f64]| values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        if largest(&imaginary) <= EVEN * largest(&real) {
+            imaginary = Vec::new();
+        }
+        Self { real, imaginary }
+    }
+
+    /// Product with slip, frequency by frequency.
+    fn times(&self, rows: usize, slip: &[f64], tractions: &mut [f64]) {
+        let size = rows * rows;
+        let of_frequencies = |first: usize, t: &mut [f64]| {
+            for (k, t) in t.chunks_exact_mut(2 * rows).enumerate() {
+                let f = first + k;
+                let (re, im) = slip[2 * f * rows..][..2 * rows].split_at(rows);
+                let (t_re, t_im) = t.split_at_mut(rows);
+                let matrix = &self.real[f * size..][..size];
+                for (i, row) in matrix.chunks_exact(rows).enumerate() {
+                    (t_re[i], t_im[i]) = (dot(row, re), dot(row, im));
+                }
+                let Some(matrix) = self.imaginary.get(f * size..(f + 1) * size) else { continue };
+                for (i, row) in matrix.chunks_exact(rows).enumerate() {
+                    t_re[i] -= dot(row, im);
+                    t_im[i] += dot(row, re);
+                }
+            }
+        };
+        if self.real.len() < WORTH_TASKS {
+            of_frequencies(0, tractions);
+        } else {
+            let tasks = tractions.par_chunks_mut(FREQUENCIES * 2 * rows).enumerate();
+            tasks.for_each(|(k, t)| of_frequencies(k * FREQUENCIES, t));
+        }
+    }
+
+    fn bytes(&self) -> usize {
+        (self.real.len() + self.imaginary.len()) * size_of::<f64>()
+    }
+}
+
+impl fmt::Debug for Toeplitz {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Toeplitz").field("lattice", &self.lattice).finish_non_exhaustive()
+    }
+}
+
+impl Operator for Toeplitz {
+    fn points(&self) -> usize {
+        self.lattice.points.len()
+    }
+
+    fn couples_normal(&self) -> bool {
+        self.normal.is_some()
+    }
+
+    fn shear(&self, slip: &[f64], shear: &mut [f64]) {
+        self.product(&self.shear, slip, shear);
+    }
+
+    fn normal(&self, slip: &[f64], normal: &mut [f64]) {
+        if let Some(spectrum) = &self.normal {
+            self.product(spectrum, slip, normal);
+        }
+    }
+
+    fn stiffness(&self) -> &[f64] {
+        &self.stiffness
+    }
+
+    fn bytes(&self) -> usize {
+        self.shear.bytes() + self.normal.as_ref().map_or(0, Spectrum::bytes)
+    }
+
+    fn words(&self) -> String {
+        format!(
+            "grid of {} x {} equal cells: Fourier transform along strike, {:.1} kB",
+            self.lattice.columns,
+            self.lattice.rows,
+            self.bytes() as f64 / 1e3
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::operator::Dense;
+
+    /// Tables without symmetry and the full matrices of the same entries.
+    fn both(columns: usize, rows: usize) -> (Toeplitz, Dense) {
+        // Points in an order of their own: column by column.
+        let points = (0..columns * rows).map(|k| (k % columns) * rows + k / columns).collect();
+        let lattice = Lattice { columns, rows, points };
+        let n = columns * rows;
+        let entry = |k: usize, seed: f64| (seed * (k as f64 + 1.0)).sin() / (1.0 + k as f64);
+        let table = |seed: f64| -> Vec<f64> {
+            (0..lattice.distances() * rows * rows).map(|k| entry(k, seed)).collect()
+        };
+        let tables = [table(1.3), table(2.7)];
+        let full = |table: &[f64]| {
+            let mut matrix = vec![0.0; n * n];
+            for (k, &point) in lattice.points.iter().enumerate() {
+                for (j, &patch) in lattice.points.iter().enumerate() {
+                    let cell = |k: usize| [k % columns, k / columns];
+                    matrix[point * n + patch] = table[lattice.entry(cell(k), cell(j))];
+                }
+            }
+            matrix
+        };
+        let dense = Dense::new(n, full(&tables[0]), Some(full(&tables[1])));
+        (Toeplitz::new(lattice, &tables[0], Some(&tables[1])), dense)
+    }
+
+    #[test]
+    fn products_are_those_of_the_full_matrix() {
+        // Odd and even lengths, a single row and a single column; the last is divided into tasks.
+        for (columns, rows) in [(1, 1), (7, 3), (8, 5), (1, 6), (13, 1), (40, 55)] {
+            let (fast, dense) = both(columns, rows);
+            let n = columns * rows;
+            let slip: Vec<f64> = (0..n).map(|k| (0.7 * k as f64).cos()).collect();
+            let mut found = [vec![0.0; n], vec![0.0; n]];
+            let mut wanted = found.clone();
+            fast.shear(&slip, &mut found[0]);
+            fast.normal(&slip, &mut found[1]);
+            dense.shear(&slip, &mut wanted[0]);
+            dense.normal(&slip, &mut wanted[1]);
+            let size = wanted.iter().flatten().fold(0.0, |m: f64, v| m.max(v.abs()));
+            for (a, b) in found.iter().flatten().zip(wanted.iter().flatten()) {
+                assert!((a - b).abs() <= 1e-14 * size, "{columns} x {rows}: {a} {b}");
+            }
+            for (a, b) in fast.stiffness().iter().zip(dense.stiffness()) {
+                assert!((a / b - 1.0).abs() < 1e-12, "{columns} x {rows}: {a} {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn lengths_have_small_factors() {
+        assert_eq!([1, 2, 7, 14, 200, 362].map(fitting), [2, 2, 8, 16, 200, 384]);
+    }
+}

@@ -1,0 +1,178 @@
+//! Plans faults in homogeneous rock without bodies: cells with a point at the centre of each.
+
+mod apart;
+mod lines;
+mod rectangles;
+
+use super::medium::Medium;
+use super::placed::{Placed, components};
+use super::{
+    Around, Cells, Given, Surrounded, asked, base_law, geometry, placed_at, plan_of, resolution, resolved,
+    sense, turns,
+};
+use crate::amounts;
+use crate::diagnostic::Diagnostic;
+use crate::forecast;
+use crate::idealisation;
+use crate::model::materials;
+use crate::scene::model::{Fault as Spec, Medium as Rock, MediumKind, Scene, Spanned};
+use asperity_cycles::kernel::Space;
+use asperity_cycles::medium::Place;
+use asperity_cycles::medium::patches::{Patches, Slip, deficit};
+use asperity_cycles::operator::{Form, Geometry};
+use asperity_fem::material::elastic::Elastic;
+
+/// Bytes of the program with its libraries, tables and plots.
+const PROGRAM: usize = 38_000_000;
+
+/// Cells of the faults of a scene, in the order of their points.
+struct Tiling<const D: usize> {
+    patches: Patches,
+    /// Points at the centres, fault by fault.
+    places: Vec<Vec<Place<D>>>,
+    /// Largest extent of each cell \[m\], fault by fault.
+    sizes: Vec<Vec<f64>>,
+    /// Faces between centres of neighbouring cells, by the numbers of their points within the fault.
+    faces: Vec<Vec<Vec<usize>>>,
+    notes: Vec<String>,
+}
+
+/// Plans faults in homogeneous rock.
+///
+/// # Errors
+/// [`Diagnostic`] with the place in the scene.
+pub(super) fn plan<const D: usize>(
+    scene: &Scene,
+    rock: &Rock,
+    form: Form,
+) -> Result<super::Plan, Diagnostic> {
+    let [stage] = scene.stages.as_slice() else { return Err(asked::stages(scene)) };
+    let end = stage.duration.get_ref().0;
+    let elastic = elastic(scene, rock)?;
+    let tiling = tiling::<D>(scene, rock)?;
+    let mut warnings = scene.warnings.clone();
+    let placed = placed(scene, rock, &elastic, &tiling, &mut warnings)?;
+    apart::check(scene, &placed)?;
+    let resolution = resolved(scene, &placed, &mut warnings)?;
+    let slip = Slip {
+        tangents: if turns(scene) { 2 } else { 1 },
+        changes: &placed.iter().map(|p| p.point.normal_changes).collect::<Vec<bool>>(),
+    };
+    let memory = admit(scene, &tiling.patches, slip)?;
+    let (places, areas, faults) = geometry(&placed);
+    let geometry = Geometry { places: &places, faults: &faults, areas: &areas };
+    let operator = tiling.patches.operator(&elastic, slip, (&geometry, form));
+    let loading = deficit(operator.as_ref(), &plates(scene, &placed, slip.tangents), end);
+    warnings.extend(sense::check(scene, (&placed, &[]), &loading, end));
+    let around = Around {
+        medium: match rock.kind.get_ref() {
+            MediumKind::HalfSpace => "homogeneous half-space without bodies",
+            MediumKind::WholeSpace => "homogeneous whole-space without bodies",
+        },
+        dofs: 0,
+        creeping: 0,
+        memory_bytes: PROGRAM + memory,
+        bodies: None,
+        resolution,
+        warnings,
+        notes: tiling.notes.clone(),
+    };
+    let surrounded = Surrounded { placed, operator, opening: None, loading, end };
+    plan_of(scene, surrounded, around, &tiling)
+}
+
+/// Elastic constants of the rock.
+fn elastic(scene: &Scene, rock: &Rock) -> Result<Elastic, Diagnostic> {
+    materials::elastic(materials::find(scene, rock.material.get_ref(), rock.material.span())?)
+}
+
+fn space(rock: &Rock) -> Space {
+    match rock.kind.get_ref() {
+        MediumKind::HalfSpace => Space::Half,
+        MediumKind::WholeSpace => Space::Whole,
+    }
+}
+
+fn tiling<const D: usize>(scene: &Scene, rock: &Rock) -> Result<Tiling<D>, Diagnostic> {
+    if D == 2 { lines::tiling(scene, space(rock)) } else { rectangles::tiling(scene, space(rock)) }
+}
+
+/// Points of all faults.
+fn placed<const D: usize>(
+    scene: &Scene,
+    rock: &Rock,
+    elastic: &Elastic,
+    tiling: &Tiling<D>,
+    warnings: &mut Vec<crate::warning::Warning>,
+) -> Result<Vec<Placed<D>>, Diagnostic> {
+    let idealisation = idealisation::of(*scene.kinematics.get_ref());
+    let density = scene.materials.get(rock.material.get_ref()).and_then(|m| m.density.as_ref());
+    let medium = Medium {
+        shear_modulus: elastic.shear(),
+        stiffness: resolution::modulus(idealisation, elastic.shear(), elastic.poisson()),
+        // Half the impedance of shear waves: both sides are the same rock.
+        radiation: density.map(|d| 0.5 * (elastic.shear() * d.get_ref().0).sqrt()),
+    };
+    let mut all = Vec::new();
+    for (fault, (name, spec)) in scene.faults.iter().enumerate() {
+        let base = base_law(spec)?;
+        let cells = tiling.places[fault].iter().zip(&tiling.sizes[fault]);
+        let of = |(place, &spacing): (&Place<D>, &f64)| {
+            let components = idealisation.components();
+            let given = Given { medium, spacing, stress: None, creep: None, components };
+            placed_at(spec, (fault, &base), place.clone(), given)
+        };
+        let placed: Vec<Placed<D>> = cells.map(of).collect::<Result<_, _>>()?;
+        asked::profiles((name, spec), &placed, warnings);
+        all.extend(placed);
+    }
+    Ok(all)
+}
+
+/// Memory of the operator while it is made \[bytes\]; refuses what exceeds the memory.
+fn admit(scene: &Scene, patches: &Patches, slip: Slip<'_>) -> Result<usize, Diagnostic> {
+    let needed = patches.bytes(slip.tangents);
+    forecast::fits(scene, needed)?;
+    let allowed = amounts::memory(scene);
+    if needed <= allowed {
+        return Ok(needed);
+    }
+    let place = scene.solver.memory.as_ref().map(Spanned::span);
+    let place = place.or_else(|| scene.faults.values().next().map(Spec::span));
+    Err(Diagnostic::at(
+        place.unwrap_or_default(),
+        format!(
+            "the operator of {} cells needs about {}, and {} are allowed",
+            patches.count(),
+            amounts::size(needed),
+            amounts::size(allowed)
+        ),
+        "raise `memory` in `[solver]` where the machine has it, or take larger cells",
+    ))
+}
+
+/// Rates of the plates at all points, component by component \[m/s\]: zero on faults without creep.
+fn plates<const D: usize>(scene: &Scene, placed: &[Placed<D>], tangents: usize) -> Vec<f64> {
+    let specs: Vec<&Spec> = scene.faults.values().collect();
+    let rates = placed.iter().map(|p| {
+        let creep = specs[p.fault].creep.as_ref();
+        creep.map_or([0.0; 2], |c| components(&p.point.place, c.rate.get_ref().0))
+    });
+    let rates: Vec<[f64; 2]> = rates.collect();
+    (0..tangents).flat_map(|c| rates.iter().map(move |r| r[c])).collect()
+}
+
+/// A dimension that the caller has established.
+fn in_dimension<const A: usize, const B: usize>(v: &[f64; A]) -> [f64; B] {
+    std::array::from_fn(|c| v.get(c).copied().unwrap_or(0.0))
+}
+
+impl<const D: usize> Cells<D> for Tiling<D> {
+    fn size(&self, _: &Spec, point: &Placed<D>) -> Result<f64, Diagnostic> {
+        Ok(point.spacing)
+    }
+
+    fn faces(&self, (fault, _): (usize, &Spec), _: &[Placed<D>]) -> Result<Vec<Vec<usize>>, Diagnostic> {
+        Ok(self.faces[fault].clone())
+    }
+}

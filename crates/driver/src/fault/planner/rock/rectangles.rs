@@ -1,0 +1,156 @@
+//! Plane rectangular faults in space, divided into equal cells.
+
+use super::super::place::directions;
+use super::super::placed::in_space;
+use super::{Tiling, in_dimension};
+use crate::diagnostic::Diagnostic;
+use crate::scene::model::{Fault as Spec, FaultRectangle, Scene};
+use asperity_cycles::kernel::{Placement, Rectangle, Space};
+use asperity_cycles::medium::patches::{Patches, Tile, from_kernel, to_kernel};
+use asperity_cycles::medium::{Place, across, unit};
+use asperity_cycles::operator::Lattice;
+use std::f64::consts::FRAC_PI_2;
+
+/// Cells of all faults.
+///
+/// # Errors
+/// [`Diagnostic`] at the rectangle that leaves the rock.
+pub(super) fn tiling<const D: usize>(scene: &Scene, space: Space) -> Result<Tiling<D>, Diagnostic> {
+    let (mut tiles, mut grids): (Vec<Tile>, Vec<Lattice>) = (Vec::new(), Vec::new());
+    let mut tiling = Tiling {
+        patches: Patches::Antiplane(Vec::new()),
+        places: Vec::new(),
+        sizes: Vec::new(),
+        faces: Vec::new(),
+        notes: Vec::new(),
+    };
+    for (name, spec) in &scene.faults {
+        let Some(rectangle) = &spec.rectangle else { continue };
+        let grid = Grid::of(rectangle);
+        let first = tiles.len();
+        let mut places = Vec::with_capacity(grid.count());
+        for k in 0..grid.count() {
+            let cell = [k % grid.columns, k / grid.columns];
+            let patch = Rectangle::new(space, &grid.placement(cell)).map_err(|e| {
+                Diagnostic::at(
+                    rectangle.from.span(),
+                    format!("fault `{name}`: {e}"),
+                    "y points up: depths are negative",
+                )
+            })?;
+            let place = place::<D>((name, spec), first + k, &grid, (cell, &patch))?;
+            tiles.push(tile(&place, patch, (grids.len(), cell)));
+            places.push(place);
+        }
+        tiling.places.push(places);
+        tiling.sizes.push(vec![grid.cell[0].max(grid.cell[1]); grid.count()]);
+        tiling.faces.push(grid.faces());
+        tiling.notes.push(grid.words(name));
+        grids.push(Lattice {
+            columns: grid.columns,
+            rows: grid.rows,
+            points: (first..tiles.len()).collect(),
+        });
+    }
+    tiling.patches = Patches::Space { tiles, grids };
+    Ok(tiling)
+}
+
+/// Grid of cells of a rectangle.
+struct Grid {
+    columns: usize,
+    rows: usize,
+    /// Size of a cell along strike and down dip \[m\].
+    cell: [f64; 2],
+    /// First end of the upper edge.
+    from: [f64; 3],
+    /// Unit vectors along strike and down dip.
+    axes: [[f64; 3]; 2],
+    /// Strike in the axes of kernels \[rad\].
+    strike: f64,
+    dip: f64,
+}
+
+impl Grid {
+    fn of(spec: &FaultRectangle) -> Self {
+        let [from, to] = [&spec.from, &spec.to].map(|end| end.get_ref().map(|x| x.0));
+        let (x, z) = (to[0] - from[0], to[2] - from[2]);
+        let length = x.hypot(z);
+        let (width, size) = (spec.width.get_ref().0, spec.size.get_ref().0);
+        // The scene check admits no dip above a right angle beyond rounding.
+        let dip = spec.dip.as_ref().map_or(FRAC_PI_2, |d| d.get_ref().0.min(FRAC_PI_2));
+        let [columns, rows] = [length, width].map(|extent| ((extent / size).round() as usize).max(1));
+        let [sx, sz] = [x / length, z / length];
+        // To the right of strike, seen from above: y up, and z towards the viewer of the (x, y) plane.
+        let (sin, cos) = dip.sin_cos();
+        let cos = if dip == FRAC_PI_2 { 0.0 } else { cos };
+        let down = [-sz * cos, -sin, sx * cos];
+        Self {
+            columns,
+            rows,
+            cell: [length / columns as f64, width / rows as f64],
+            from,
+            axes: [[sx, 0.0, sz], down],
+            strike: x.atan2(z),
+            dip,
+        }
+    }
+
+    fn count(&self) -> usize {
+        self.columns * self.rows
+    }
+
+    /// Centre of a cell \[m\].
+    fn centre(&self, [column, row]: [usize; 2]) -> [f64; 3] {
+        let along = (column as f64 + 0.5) * self.cell[0];
+        let down = (row as f64 + 0.5) * self.cell[1];
+        std::array::from_fn(|c| self.from[c] + along * self.axes[0][c] + down * self.axes[1][c])
+    }
+
+    fn placement(&self, cell: [usize; 2]) -> Placement {
+        let centre = to_kernel(&self.centre(cell)).into();
+        let [length, width] = self.cell;
+        Placement { centre, strike: self.strike, dip: self.dip, length, width }
+    }
+
+    /// Quadrilaterals between the centres of neighbouring cells; lines in a grid of one row or column.
+    fn faces(&self) -> Vec<Vec<usize>> {
+        let (columns, rows) = (self.columns, self.rows);
+        if columns == 1 || rows == 1 {
+            return (1..self.count()).map(|k| vec![k - 1, k]).collect();
+        }
+        let corners = |row: usize, column: usize| {
+            let k = row * columns + column;
+            vec![k, k + 1, k + columns + 1, k + columns]
+        };
+        (0..rows - 1).flat_map(|row| (0..columns - 1).map(move |column| corners(row, column))).collect()
+    }
+
+    fn words(&self, name: &str) -> String {
+        let [length, width] = self.cell;
+        format!(
+            "fault `{name}` has {} x {} cells along strike and down dip, of {length} m x {width} m",
+            self.columns, self.rows
+        )
+    }
+}
+
+/// Point at the centre of a cell.
+fn place<const D: usize>(
+    fault: (&str, &Spec),
+    number: usize,
+    grid: &Grid,
+    (cell, patch): ([usize; 2], &Rectangle),
+) -> Result<Place<D>, Diagnostic> {
+    let at = in_dimension(&grid.centre(cell));
+    let frame = patch.frame();
+    let normal = unit(in_dimension(&from_kernel(&frame.column(2).into())));
+    let [rake, creeps] = directions(fault, &at, &normal)?;
+    let area = grid.cell[0] * grid.cell[1];
+    Ok(Place { minus: number, plus: number, at, area, normal, rake, creeps, along: 0.0 })
+}
+
+fn tile<const D: usize>(place: &Place<D>, rectangle: Rectangle, (grid, cell): (usize, [usize; 2])) -> Tile {
+    let (normal, rake, at) = (in_space(&place.normal), in_space(&place.rake), in_space(&place.at));
+    Tile { rectangle, rake, across: across(&normal, &rake), normal, at, grid, cell }
+}

@@ -1,0 +1,230 @@
+//! Homogeneous rock without bodies, and the geometry of faults in it.
+
+use super::Checker;
+use crate::model::{Fault, FaultLine, FaultRectangle, Kinematics, Medium, MediumKind, SpacingSpec, Spanned};
+use crate::near::suggest;
+use std::f64::consts::FRAC_PI_2;
+
+/// Largest number of cells of a rectangle: the operator of more exceeds any memory.
+const MOST_CELLS: f64 = 1e6;
+/// Excess of an angle over a right one, relative, that is rounding of degrees.
+const ROUNDING: f64 = 1e-12;
+
+impl Checker<'_> {
+    /// Checks the geometry of a fault: sides of bodies, or a line or a rectangle in a medium.
+    pub(super) fn geometry(&mut self, name: &str, fault: &Fault) {
+        let Some(medium) = &self.scene.medium else {
+            self.sides_of(name, fault);
+            return;
+        };
+        if fault.has_sides() {
+            self.conflict(
+                &fault.minus.span(),
+                format!("fault `{name}` has sides, and a medium has no bodies"),
+                "describe it by `line` in the plane or by `rectangle` in space",
+                (&medium.kind.span(), "the medium"),
+            );
+        }
+        let in_space = *self.scene.kinematics.get_ref() == Kinematics::ThreeD;
+        let (wanted, example) = if in_space {
+            (
+                "rectangle",
+                "such as `rectangle = { from = [\"0 km\", \"0 km\", \"-50 km\"], to = [\"0 km\", \"0 km\", \"50 km\"], width = \"40 km\", size = \"1 km\" }`",
+            )
+        } else {
+            (
+                "line",
+                "such as `line = { trace = [[\"0 km\", \"0 km\"], [\"0 km\", \"-40 km\"]], spacing = \"100 m\" }`",
+            )
+        };
+        match (&fault.line, &fault.rectangle) {
+            (Some(line), None) if !in_space => self.line(line, medium),
+            (None, Some(rectangle)) if in_space => self.rectangle(rectangle, medium),
+            _ => self.error(
+                fault.span(),
+                format!("fault `{name}` needs `{wanted}` alone in {}", self.idealisation()),
+                example,
+            ),
+        }
+        self.without_medium_of(fault);
+    }
+
+    fn sides_of(&mut self, name: &str, fault: &Fault) {
+        let line = fault.line.as_ref().map(|l| ("line", l.trace.span()));
+        let rectangle = fault.rectangle.as_ref().map(|r| ("rectangle", r.from.span()));
+        if let Some((key, place)) = line.or(rectangle) {
+            self.error(
+                place,
+                format!("fault `{name}` has `{key}`, which is for faults in a medium"),
+                "add `[medium]` and remove the bodies, or name the sides `minus` and `plus`",
+            );
+            return;
+        }
+        for (key, set) in [("minus", &fault.minus), ("plus", &fault.plus)] {
+            if set.get_ref().is_empty() {
+                self.error(
+                    fault.law.span(),
+                    format!("fault `{name}` has no side `{key}`"),
+                    format!("add `{key} = \"BODY.SIDE\"`"),
+                );
+            } else {
+                self.set(set);
+            }
+        }
+    }
+
+    /// Refuses keys of a fault that a medium does not offer.
+    fn without_medium_of(&mut self, fault: &Fault) {
+        if let Some(opening) = fault.opening.as_ref().filter(|o| *o.get_ref()) {
+            self.error(
+                opening.span(),
+                "faults do not open in a medium yet",
+                "remove `opening`; faults between bodies open",
+            );
+        }
+        let creep = fault.creep.as_ref();
+        let border = creep
+            .and_then(|c| c.beyond.as_ref().map(Spanned::span).or(c.outside.as_ref().map(Spanned::span)));
+        if let Some(place) = border {
+            self.error(
+                place,
+                "creep in a medium has no border: it is that of the continuation of the fault",
+                "remove it, and let the line or the rectangle end where the creep begins",
+            );
+        }
+    }
+
+    /// Checks the medium and what a scene with a medium cannot have.
+    pub(super) fn medium(&mut self) {
+        let Some(medium) = &self.scene.medium else { return };
+        let scene = self.scene;
+        let material = medium.material.get_ref();
+        match scene.materials.get(material) {
+            None => {
+                let known = scene.materials.keys().map(String::as_str);
+                self.error(
+                    medium.material.span(),
+                    format!("there is no material `{material}`"),
+                    suggest(material, "materials", known),
+                );
+            }
+            Some(found) if !found.is_elastic() => self.error(
+                medium.material.span(),
+                format!("a medium is elastic, and the material `{material}` is not"),
+                "plastic and viscous rock needs bodies",
+            ),
+            Some(_) => {}
+        }
+        if let Some((name, body)) = scene.bodies.iter().next() {
+            self.conflict(
+                &body.material.span(),
+                format!("body `{name}` in a scene with a medium"),
+                "a scene has bodies or a medium",
+                (&medium.kind.span(), "the medium"),
+            );
+        }
+        if scene.faults.is_empty() {
+            self.error(medium.kind.span(), "a medium without a fault", "add `[faults.NAME]`");
+        }
+        if !matches!(
+            scene.kinematics.get_ref(),
+            Kinematics::Antiplane | Kinematics::PlaneStrain | Kinematics::ThreeD
+        ) {
+            self.error(
+                scene.kinematics.span(),
+                format!("there is no medium in {}", self.idealisation()),
+                "\"antiplane\", \"plane-strain\" or \"3d\"",
+            );
+        }
+        for condition in scene.stages.iter().flat_map(|s| &s.conditions) {
+            self.error(
+                condition.span(),
+                "a medium has no sides on which conditions act",
+                "remove it; `creep` of a fault loads it by the creep of its continuation",
+            );
+        }
+        if let Some(bodies) = &scene.output.bodies {
+            self.error(bodies.span(), "`bodies` in a scene with a medium, which has none", "remove it");
+        }
+    }
+
+    fn line(&mut self, line: &FaultLine, medium: &Medium) {
+        let trace = line.trace.get_ref();
+        if trace.len() < 2 {
+            self.error(line.trace.span(), "a line needs two vertices or more", "one for each tip");
+        }
+        let sizes = match line.spacing.get_ref() {
+            SpacingSpec::Constant(size) => vec![size.0],
+            SpacingSpec::Zone(zone) => vec![zone.size.0],
+            SpacingSpec::Graded(table) => table.iter().map(|[_, size]| size.0).collect(),
+        };
+        if !sizes.iter().all(|size| *size > 0.0 && size.is_finite()) {
+            self.error(
+                line.spacing.span(),
+                "the size of cells along the fault must be positive",
+                "such as `spacing = \"100 m\"`",
+            );
+        }
+        let highest = trace.iter().map(|vertex| vertex[1].0).fold(f64::NEG_INFINITY, f64::max);
+        self.below_surface(&line.trace, highest, medium);
+    }
+
+    /// Refuses a fault above the surface of a half-space.
+    fn below_surface<T>(&mut self, place: &Spanned<T>, highest: f64, medium: &Medium) {
+        if *medium.kind.get_ref() == MediumKind::HalfSpace && highest > 0.0 {
+            self.conflict(
+                &place.span(),
+                format!("the fault reaches y = {highest} m, above the surface y = 0 of the half-space"),
+                "y points up: depths are negative",
+                (&medium.kind.span(), "the half-space"),
+            );
+        }
+    }
+
+    fn rectangle(&mut self, rectangle: &FaultRectangle, medium: &Medium) {
+        let (from, to) = (rectangle.from.get_ref(), rectangle.to.get_ref());
+        if from[1].0 != to[1].0 {
+            self.error(
+                rectangle.to.span(),
+                format!(
+                    "the upper edge is not horizontal: its ends lie at y = {} m and {} m",
+                    from[1].0, to[1].0
+                ),
+                "`from` and `to` have the same y, which points up",
+            );
+        }
+        let length = (to[0].0 - from[0].0).hypot(to[2].0 - from[2].0);
+        let (width, size) = (rectangle.width.get_ref().0, rectangle.size.get_ref().0);
+        let positive = |x: f64| x > 0.0 && x.is_finite();
+        for (value, place, what) in [
+            (length, rectangle.to.span(), "the upper edge must have a length"),
+            (width, rectangle.width.span(), "`width` must be positive"),
+            (size, rectangle.size.span(), "`size` must be positive"),
+        ] {
+            if !positive(value) {
+                self.error(place, what, "a length such as \"40 km\"");
+                return;
+            }
+        }
+        if size > length.min(width) {
+            self.error(rectangle.size.span(), "a cell is larger than the fault", "a smaller `size`");
+        }
+        if length * width / size.powi(2) > MOST_CELLS {
+            self.error(
+                rectangle.size.span(),
+                format!("the fault would have {:.0} cells", length * width / size.powi(2)),
+                "a larger `size`",
+            );
+        }
+        if let Some(dip) = &rectangle.dip
+            && !(dip.get_ref().0 > 0.0 && dip.get_ref().0 <= FRAC_PI_2 * (1.0 + ROUNDING))
+        {
+            self.error(
+                dip.span(),
+                "`dip` must lie above 0 and be at most 90 degrees",
+                "such as `dip = \"30 deg\"`; exchange `from` and `to` for a fault that dips to the other side",
+            );
+        }
+        self.below_surface(&rectangle.from, from[1].0, medium);
+    }
+}
