@@ -1,8 +1,8 @@
 //! Evaluation of many points with the regularised form and the ageing law at once.
 //!
-//! While μ/a is large, the form equals its logarithm and V is a single exponential; healing is another. Both are evaluated for
-//! several points together, by a polynomial that the compiler vectorises. Elsewhere the equations of [`crate::slider`] are
-//! used, of which these are a special case.
+//! While μ/a is large, the form equals its logarithm and V is a single exponential; healing is another. Where it is not, V has a
+//! second one, see [`Line`]. They are evaluated for several points together, by a polynomial that the compiler vectorises. Near
+//! rest the equations of [`crate::slider`] are used, of which these are a special case.
 
 use crate::drive::Drive;
 use crate::slider::Line;
@@ -15,6 +15,7 @@ const LANES: usize = 8;
 #[derive(Clone, Copy, Debug)]
 struct Lines {
     from: f64,
+    least: f64,
     offset: [f64; LANES],
     per_a: [f64; LANES],
     a: [f64; LANES],
@@ -42,14 +43,21 @@ impl Group {
         Self { m: load(m), s: load(s) }
     }
 
-    /// |V|.
+    /// |V| and ∂V/∂m.
     #[inline(always)]
-    fn speed(&self, lines: &Lines) -> [f64; LANES] {
-        let mut speed = [0.0; LANES];
-        for (k, speed) in speed.iter_mut().enumerate() {
-            *speed = exp(self.m[k].abs() - lines.offset[k] - lines.b[k] * self.s[k] * lines.per_a[k]);
+    fn speed(&self, lines: &Lines) -> [Each; 2] {
+        let state = each(&each(&lines.b, &self.s, |b, s| b * s), &lines.per_a, |bs, per_a| bs * per_a);
+        let size = each(&self.m, &self.m, |m, _| m.abs());
+        let less = each(&size, &lines.offset, |m, offset| m - offset);
+        let speed = exp(&each(&less, &state, |m, state| m - state));
+        if size.iter().all(|m| *m > lines.from) {
+            return [speed, speed];
         }
-        speed
+        let share = exp(&each(&size, &size, |m, _| -2.0 * m));
+        [
+            each(&speed, &share, |speed, share| speed * (1.0 - share)),
+            each(&speed, &share, |speed, share| speed * (1.0 + share)),
+        ]
     }
 }
 
@@ -61,6 +69,7 @@ impl Sheet {
                 |value: &dyn Fn(&Line) -> f64| std::array::from_fn(|k| value(&lines[k.min(lines.len() - 1)]));
             Lines {
                 from: lines.iter().map(|l| l.from).fold(0.0, f64::max),
+                least: lines.iter().map(|l| l.least).fold(0.0, f64::max),
                 offset: of(&|l| l.offset),
                 per_a: of(&|l| 1.0 / l.a),
                 a: of(&|l| l.a),
@@ -72,13 +81,13 @@ impl Sheet {
         Self { lines: points.chunks(LANES).map(group).collect(), arch: Arch::new() }
     }
 
-    /// Computes slip rates of all points \[m/s\]; `other` gives that of a point outside the range of its line.
+    /// Computes slip rates of all points \[m/s\]; `other` gives that of a point near rest.
     pub fn slip_rates(&self, m: &[f64], s: &[f64], rate: &mut [f64], other: impl Fn(usize) -> f64) {
         self.arch.dispatch(SlipRates { lines: &self.lines, m, s, rate });
         self.elsewhere(m, |k| rate[k] = other(k));
     }
 
-    /// Computes rates of m and of the states \[1/s\]; `other` writes those of a point outside the range of its line.
+    /// Computes rates of m and of the states \[1/s\]; `other` writes those of a point near rest.
     pub fn rates(
         &self,
         drive: &Drive<'_>,
@@ -92,11 +101,11 @@ impl Sheet {
         self.elsewhere(m, |k| other(k, &mut dm[k], &mut ds[k]));
     }
 
-    /// Calls `what` for the points outside the range of their lines, including those whose m is not a number.
+    /// Calls `what` for the points near rest, including those whose m is not a number.
     fn elsewhere(&self, m: &[f64], mut what: impl FnMut(usize)) {
         for (g, (lines, m)) in self.lines.iter().zip(m.chunks(LANES)).enumerate() {
             for (k, m) in m.iter().enumerate() {
-                let holds = m.abs() > lines.from;
+                let holds = m.abs() > lines.least;
                 if !holds {
                     what(g * LANES + k);
                 }
@@ -121,7 +130,7 @@ impl WithSimd for SlipRates<'_> {
     fn with_simd<S: Simd>(self, _: S) {
         let points = self.m.chunks(LANES).zip(self.s.chunks(LANES)).zip(self.rate.chunks_mut(LANES));
         for (lines, ((m, s), rate)) in self.lines.iter().zip(points) {
-            let speed = Group::new(m, s).speed(lines);
+            let [speed, _] = Group::new(m, s).speed(lines);
             for ((rate, speed), m) in rate.iter_mut().zip(speed).zip(m) {
                 *rate = speed.copysign(*m);
             }
@@ -163,7 +172,7 @@ impl WithSimd for Rates<'_> {
 }
 
 impl Group {
-    /// Rates of m and s: the equations of [`crate::slider`] without springs, with P = |V| and Q = -V b/a ds/dt.
+    /// Rates of m and s: the equations of [`crate::slider`] without springs, with P = ∂V/∂m and Q = -V b/a ds/dt.
     #[inline(always)]
     fn rates(
         &self,
@@ -173,13 +182,16 @@ impl Group {
         pull: &[f64; LANES],
         damping: &[f64; LANES],
     ) -> ([f64; LANES], [f64; LANES]) {
-        let speed = self.speed(lines);
+        let [speed, slope] = self.speed(lines);
+        let healing = exp(&each(&self.s, &self.s, |s, _| -s));
         let (mut dm, mut ds) = ([0.0; LANES], [0.0; LANES]);
         for k in 0..LANES {
-            ds[k] = lines.healing[k] * exp(-self.s[k]) - speed[k] * lines.per_length[k];
+            ds[k] = lines.healing[k] * healing[k] - speed[k] * lines.per_length[k];
+        }
+        for k in 0..LANES {
             let drift = -speed[k].copysign(self.m[k]) * lines.per_a[k] * lines.b[k] * ds[k];
             let gained = pull[k] - self.m[k] * (normal_rate[k] * lines.a[k]) - damping[k] * drift;
-            dm[k] = gained / (normal[k] * lines.a[k] + damping[k] * speed[k]);
+            dm[k] = gained / (normal[k] * lines.a[k] + damping[k] * slope[k]);
         }
         (dm, ds)
     }
@@ -221,41 +233,58 @@ const TERMS: [f64; 14] = [
     1.0,
 ];
 
+/// A value for each point of a group.
+type Each = [f64; LANES];
+
+/// Applies an operation to each point. One operation at a time goes over all points, so that the compiler takes vectors of them.
+#[inline(always)]
+fn each(a: &Each, b: &Each, operation: impl Fn(f64, f64) -> f64) -> Each {
+    let mut all = [0.0; LANES];
+    for k in 0..LANES {
+        all[k] = operation(a[k], b[k]);
+    }
+    all
+}
+
 /// e^x to about an ulp, without branches. Below [`LEAST`] and above [`MOST`] it is the value there; NaN for x = NaN.
 #[inline(always)]
-fn exp(x: f64) -> f64 {
+fn exp(x: &Each) -> Each {
     // Comparisons with NaN are false, so that it is kept.
-    let x = if x < LEAST { LEAST } else { x };
-    let x = if x > MOST { MOST } else { x };
-    let shifted = x * std::f64::consts::LOG2_E + ROUND;
-    let n = shifted - ROUND;
-    let r = (x - n * LN_2_HIGH) - n * LN_2_LOW;
-    let mut sum = TERMS[0];
+    let x = each(x, x, |x, _| if x < LEAST { LEAST } else { x });
+    let x = each(&x, &x, |x, _| if x > MOST { MOST } else { x });
+    let shifted = each(&x, &x, |x, _| x * std::f64::consts::LOG2_E + ROUND);
+    let n = each(&shifted, &shifted, |shifted, _| shifted - ROUND);
+    let r = each(&x, &n, |x, n| (x - n * LN_2_HIGH) - n * LN_2_LOW);
+    let mut sum = [TERMS[0]; LANES];
     for term in &TERMS[1..] {
-        sum = sum * r + term;
+        sum = each(&sum, &r, |sum, r| sum * r + term);
     }
-    f64::from_bits(sum.to_bits().wrapping_add(shifted.to_bits() << 52))
+    each(&sum, &shifted, |sum, shifted| f64::from_bits(sum.to_bits().wrapping_add(shifted.to_bits() << 52)))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::exp;
+    use super::{LANES, exp};
+
+    fn one(x: f64) -> f64 {
+        exp(&[x; LANES])[0]
+    }
 
     #[test]
     fn the_exponential_has_an_error_of_two_units_in_the_last_place() {
         let mut worst = 0.0_f64;
         for k in -70_000..=70_000 {
             let x = f64::from(k) * 0.010_1;
-            worst = worst.max((exp(x) / x.exp() - 1.0).abs());
+            worst = worst.max((one(x) / x.exp() - 1.0).abs());
         }
         assert!(worst <= 2.0 * f64::EPSILON, "{worst}");
-        assert_eq!(exp(0.0), 1.0);
+        assert_eq!(one(0.0), 1.0);
     }
 
     #[test]
     fn what_is_no_number_stays_none_and_what_overflows_is_huge() {
-        assert!(exp(f64::NAN).is_nan());
-        assert!(exp(f64::INFINITY) > 1e307 && exp(1e300) > 1e307);
-        assert!(exp(-1e300) < 1e-307 && exp(-1e300) >= 0.0);
+        assert!(one(f64::NAN).is_nan());
+        assert!(one(f64::INFINITY) > 1e307 && one(1e300) > 1e307);
+        assert!(one(-1e300) < 1e-307 && one(-1e300) >= 0.0);
     }
 }

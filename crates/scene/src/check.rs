@@ -10,6 +10,7 @@ mod materials;
 mod medium;
 mod meshes;
 mod output;
+mod patches;
 mod place;
 mod solver;
 mod stress;

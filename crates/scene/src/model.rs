@@ -6,6 +6,7 @@
 mod body;
 mod fault;
 mod medium;
+mod patch;
 mod place;
 mod solver;
 mod stress;
@@ -19,6 +20,7 @@ use crate::warning::Warning;
 pub use body::*;
 pub use fault::*;
 pub use medium::*;
+pub use patch::*;
 pub use place::Place;
 use schemars::JsonSchema;
 use serde::Deserialize;

@@ -5,7 +5,8 @@
 //! zeros to twice their length, so that the convolution does not wrap around and is exact. For r rows of c columns a product takes
 //! `O(c r² + c r ln c)` operations, and the operator c r² numbers, where a full matrix has c² r².
 
-use super::{Operator, dense::dot};
+use super::Operator;
+use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
@@ -49,6 +50,7 @@ pub struct Toeplitz {
     shear: Spectrum,
     normal: Option<Spectrum>,
     stiffness: Vec<f64>,
+    arch: Arch,
     work: Mutex<Work>,
 }
 
@@ -78,7 +80,7 @@ const EVEN: f64 = 1e-11;
 /// Frequencies of a task. Their number is fixed, so that results do not depend on the number of threads.
 const FREQUENCIES: usize = 8;
 /// Number of values of a spectrum above which a product is divided into tasks: starting them takes some microseconds.
-const WORTH_TASKS: usize = 100_000;
+const WORTH_TASKS: usize = 500_000;
 
 impl Toeplitz {
     /// Operator of tables with the entries of [`Lattice::entry`]: shear and, where slip changes them, normal tractions per slip
@@ -97,6 +99,7 @@ impl Toeplitz {
             forward,
             inverse,
             stiffness,
+            arch: Arch::new(),
             work: Mutex::default(),
             lattice,
         }
@@ -119,7 +122,7 @@ impl Toeplitz {
         self.spread(slip, rows);
         self.transform(rows, transformed);
         self.split(transformed, s);
-        spectrum.times(self.lattice.rows, s, t);
+        spectrum.times(self.lattice.rows, self.arch, s, t);
         self.unite(t, transformed);
         self.back(transformed, rows);
         self.gather(rows, tractions);
@@ -147,29 +150,31 @@ impl Toeplitz {
     }
 
     fn transform(&self, rows: &mut [f64], transformed: &mut [C]) {
-        let rows = rows.par_chunks_exact_mut(self.padded());
-        rows.zip(transformed.par_chunks_exact_mut(self.frequencies())).for_each_init(
-            || self.forward.make_scratch_vec(),
-            |scratch, (row, out)| {
-                let done = self.forward.process_with_scratch(row, out, scratch);
+        let (padded, frequencies) = (self.padded(), self.frequencies());
+        in_tasks(rows, transformed, [padded, frequencies], |rows, transformed| {
+            let mut scratch = self.forward.make_scratch_vec();
+            for (row, out) in rows.chunks_exact_mut(padded).zip(transformed.chunks_exact_mut(frequencies)) {
+                let done = self.forward.process_with_scratch(row, out, &mut scratch);
                 debug_assert!(done.is_ok(), "lengths are those of the plan");
-            },
-        );
+            }
+        });
     }
 
     fn back(&self, transformed: &mut [C], rows: &mut [f64]) {
-        let spectra = transformed.par_chunks_exact_mut(self.frequencies());
-        spectra.zip(rows.par_chunks_exact_mut(self.padded())).for_each_init(
-            || self.inverse.make_scratch_vec(),
-            |scratch, (spectrum, row)| {
+        let (padded, frequencies) = (self.padded(), self.frequencies());
+        in_tasks(transformed, rows, [frequencies, padded], |transformed, rows| {
+            let mut scratch = self.inverse.make_scratch_vec();
+            for (spectrum, row) in
+                transformed.chunks_exact_mut(frequencies).zip(rows.chunks_exact_mut(padded))
+            {
                 // Both ends of the spectrum of a real row are real; their imaginary parts here are rounding.
                 let last = spectrum.len() - 1;
                 spectrum[0].im = 0.0;
                 spectrum[last].im = 0.0;
-                let done = self.inverse.process_with_scratch(spectrum, row, scratch);
+                let done = self.inverse.process_with_scratch(spectrum, row, &mut scratch);
                 debug_assert!(done.is_ok(), "lengths are those of the plan");
-            },
-        );
+            }
+        });
     }
 
     /// Parts of transformed rows, frequency by frequency: real parts of all rows, then imaginary parts.
@@ -194,6 +199,23 @@ impl Toeplitz {
             }
         }
     }
+}
+
+/// Calls `work` with the same rows of two arrays of rows of these lengths, in tasks of several rows if that is worth it. Rows are
+/// independent, so that results do not depend on the division.
+fn in_tasks<A: Send, B: Send>(
+    a: &mut [A],
+    b: &mut [B],
+    [length_a, length_b]: [usize; 2],
+    work: impl Fn(&mut [A], &mut [B]) + Sync,
+) {
+    if a.len() < WORTH_TASKS {
+        work(a, b);
+        return;
+    }
+    let rows = (a.len() / length_a).div_ceil(rayon::current_num_threads()).max(1);
+    let tasks = a.par_chunks_mut(rows * length_a).zip(b.par_chunks_mut(rows * length_b));
+    tasks.for_each(|(a, b)| work(a, b));
 }
 
 /// Smallest length from `least` of which fast transforms exist: even, without prime factors above 5.
@@ -271,23 +293,9 @@ impl Spectrum {
     }
 
     /// Product with slip, frequency by frequency.
-    fn times(&self, rows: usize, slip: &[f64], tractions: &mut [f64]) {
-        let size = rows * rows;
-        let of_frequencies = |first: usize, t: &mut [f64]| {
-            for (k, t) in t.chunks_exact_mut(2 * rows).enumerate() {
-                let f = first + k;
-                let (re, im) = slip[2 * f * rows..][..2 * rows].split_at(rows);
-                let (t_re, t_im) = t.split_at_mut(rows);
-                let matrix = &self.real[f * size..][..size];
-                for (i, row) in matrix.chunks_exact(rows).enumerate() {
-                    (t_re[i], t_im[i]) = (dot(row, re), dot(row, im));
-                }
-                let Some(matrix) = self.imaginary.get(f * size..(f + 1) * size) else { continue };
-                for (i, row) in matrix.chunks_exact(rows).enumerate() {
-                    t_re[i] -= dot(row, im);
-                    t_im[i] += dot(row, re);
-                }
-            }
+    fn times(&self, rows: usize, arch: Arch, slip: &[f64], tractions: &mut [f64]) {
+        let of_frequencies = |first: usize, tractions: &mut [f64]| {
+            arch.dispatch(Frequencies { spectrum: self, rows, first, slip, tractions });
         };
         if self.real.len() < WORTH_TASKS {
             of_frequencies(0, tractions);
@@ -300,6 +308,61 @@ impl Spectrum {
     fn bytes(&self) -> usize {
         (self.real.len() + self.imaginary.len()) * size_of::<f64>()
     }
+}
+
+/// Products of some frequencies with the vector units of the processor.
+struct Frequencies<'a> {
+    spectrum: &'a Spectrum,
+    rows: usize,
+    /// First frequency.
+    first: usize,
+    slip: &'a [f64],
+    tractions: &'a mut [f64],
+}
+
+impl WithSimd for Frequencies<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { spectrum, rows, first, slip, tractions } = self;
+        let size = rows * rows;
+        for (k, t) in tractions.chunks_exact_mut(2 * rows).enumerate() {
+            let f = first + k;
+            let (re, im) = slip[2 * f * rows..][..2 * rows].split_at(rows);
+            let (t_re, t_im) = t.split_at_mut(rows);
+            for (i, row) in spectrum.real[f * size..][..size].chunks_exact(rows).enumerate() {
+                [t_re[i], t_im[i]] = both(row, re, im);
+            }
+            let Some(matrix) = spectrum.imaginary.get(f * size..(f + 1) * size) else { continue };
+            for (i, row) in matrix.chunks_exact(rows).enumerate() {
+                let [by_re, by_im] = both(row, re, im);
+                t_re[i] -= by_im;
+                t_im[i] += by_re;
+            }
+        }
+    }
+}
+
+/// Number of partial sums of a scalar product. It is fixed, so that sums are the same on every machine.
+const LANES: usize = 8;
+
+/// Scalar products of a row with two others.
+#[inline(always)]
+fn both(row: &[f64], first: &[f64], second: &[f64]) -> [f64; 2] {
+    let ((row, row_rest), (a, a_rest), (b, b_rest)) =
+        (row.as_chunks::<LANES>(), first.as_chunks::<LANES>(), second.as_chunks::<LANES>());
+    let mut sums = [[0.0; LANES]; 2];
+    for ((row, a), b) in row.iter().zip(a).zip(b) {
+        for k in 0..LANES {
+            sums[0][k] += row[k] * a[k];
+        }
+        for k in 0..LANES {
+            sums[1][k] += row[k] * b[k];
+        }
+    }
+    let rest = |other: &[f64]| row_rest.iter().zip(other).map(|(x, y)| x * y).sum::<f64>();
+    [sums[0].iter().sum::<f64>() + rest(a_rest), sums[1].iter().sum::<f64>() + rest(b_rest)]
 }
 
 impl fmt::Debug for Toeplitz {

@@ -23,7 +23,7 @@ use crate::component::Component;
 use crate::evolution::{Evolution, Speed};
 use crate::law::{Drives, Rated};
 use crate::rate::RateLaw;
-use crate::strength::{Form, SlipRate};
+use crate::strength::{Form, Sine, SlipRate};
 
 /// Forcing of a slider at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -437,8 +437,8 @@ impl<F: Form, E: Evolution> Sliding for RateLaw<F, E> {
         if part.normal_memory != 0.0 || part.shear_memory != 0.0 {
             return None;
         }
-        let ((offset, from), (b, healing)) = (self.form().exponential()?, part.evolution.ageing()?);
+        let (Sine { offset, from, least }, (b, healing)) = (self.form().sine()?, part.evolution.ageing()?);
         let length = part.evolution.length()?;
-        Some(Line { from, offset, a: self.form().scale(), b, healing, length })
+        Some(Line { from, least, offset, a: self.form().scale(), b, healing, length })
     }
 }

@@ -1,10 +1,12 @@
-//! Laws whose friction is linear in ln V.
+//! Laws whose friction is linear in ln V where it is large.
 
-/// While |m| is above `from`, `ln V = |m| - offset - b s/a`; `ds/dt = healing exp(-s) - V/L`.
+/// `|V| = exp(|m| - offset - b s/a) (1 - exp(-2 |m|))` and `ds/dt = healing exp(-s) - |V|/L`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line {
-    /// Smallest |m|.
+    /// |m| above which the second factor is 1 to rounding.
     pub from: f64,
+    /// |m| above which it loses no digits.
+    pub least: f64,
     /// See the struct.
     pub offset: f64,
     /// a \[-\].

@@ -38,6 +38,17 @@ pub struct SlipRate {
     pub d_phi_phi: f64,
 }
 
+/// `|V| = exp(|m| - F - φ/a) (1 - exp(-2 |m|))`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sine {
+    /// F \[-\].
+    pub offset: f64,
+    /// |m| above which the second factor is 1 to rounding.
+    pub from: f64,
+    /// |m| above which the second factor loses no digits.
+    pub least: f64,
+}
+
 /// A strength form.
 pub trait Form: Send + Sync + Clone + std::fmt::Debug {
     /// μ and derivatives at ln V \[ln(m/s)\] and the state contribution φ \[-\].
@@ -61,8 +72,8 @@ pub trait Form: Send + Sync + Clone + std::fmt::Debug {
         None
     }
 
-    /// F and m_0 such that `ln |V| = |m| - F - φ/a` to rounding wherever `|m| > m_0`, for forms that are exponentials there.
-    fn exponential(&self) -> Option<(f64, f64)> {
+    /// For forms that are hyperbolic sines of m; see [`Sine`].
+    fn sine(&self) -> Option<Sine> {
         None
     }
 

@@ -1,7 +1,7 @@
 //! μ = a asinh[V/(2 Vref) exp((μ0 + φ)/a)], the regularised form (Rice & Ben-Zion 1996): odd in V, zero at rest, and equal to
 //! the bare logarithm to e^(-2μ/a) elsewhere.
 
-use super::{Form, Parameters, SlipRate, Strength};
+use super::{Form, Parameters, Sine, SlipRate, Strength};
 use std::f64::consts::LN_2;
 
 /// Above this ln x, asinh x = ln 2x to rounding: the next term, 1/(4x²), is below 1e-17. Above this m, 2 sinh m = e^m.
@@ -47,8 +47,8 @@ impl Form for Regularised {
         Some((self.log_factor(phi) + LN_2, LARGE + LN_2))
     }
 
-    fn exponential(&self) -> Option<(f64, f64)> {
-        Some((self.log_factor(0.0) + LN_2, LARGE))
+    fn sine(&self) -> Option<Sine> {
+        Some(Sine { offset: self.log_factor(0.0) + LN_2, from: LARGE, least: SMALL })
     }
 
     fn log_rate(&self, mu: f64, phi: f64) -> f64 {

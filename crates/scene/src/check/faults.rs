@@ -3,8 +3,8 @@
 use super::Checker;
 use crate::law;
 use crate::model::{
-    Along, Creep, DampingSpec, Fault, Kinematics, Motion, Path, Profile, Profiled, SlipSpec, Spanned,
-    Station, Stepper,
+    Along, Creep, DampingSpec, Fault, Kinematics, Motion, Outside, Path, Profile, Profiled, SlipSpec,
+    Spanned, Station, Stepper,
 };
 use crate::near::suggest;
 
@@ -35,9 +35,10 @@ impl Checker<'_> {
             for profile in fault.profiles.shear.iter().flat_map(|Profiled(list)| list) {
                 self.profile("shear", profile, fault.rate.get_ref().0.signum());
             }
+            self.patches(fault);
             self.rake(fault);
             if let Some(creep) = &fault.creep {
-                self.creep(fault, creep);
+                self.creep(creep);
             }
         }
         self.stress_beside_faults();
@@ -250,7 +251,7 @@ impl Checker<'_> {
         }
     }
 
-    fn in_space(&self) -> bool {
+    pub(super) fn in_space(&self) -> bool {
         *self.scene.kinematics.get_ref() == Kinematics::ThreeD
     }
 
@@ -314,7 +315,7 @@ impl Checker<'_> {
         }
     }
 
-    fn creep(&mut self, fault: &Fault, creep: &Creep) {
+    fn creep(&mut self, creep: &Creep) {
         if !creep.rate.get_ref().0.is_finite() {
             self.error(
                 creep.rate.span(),
@@ -342,37 +343,33 @@ impl Checker<'_> {
                 "use `outside = { y = { from = \"-40 km\" }, z = { from = \"-50 km\", to = \"50 km\" } }`",
             ),
             (Some(_), None) => {}
-            (None, Some(outside)) => {
-                let ranges = outside.get_ref().ranges();
-                if ranges.iter().all(Option::is_none) {
-                    self.error(
-                        outside.span(),
-                        "`outside` has no range",
-                        "such as `outside = { y = { from = \"-40 km\" } }`",
-                    );
-                }
-                if !self.in_space() && ranges[2].is_some() {
-                    self.error(
-                        outside.span(),
-                        "there is no coordinate z in the plane",
-                        "give ranges of x and y",
-                    );
-                }
-                for (axis, range) in ["x", "y", "z"].into_iter().zip(ranges) {
-                    let Some(range) = range else { continue };
-                    let (from, to) = (range.from.map(|l| l.0), range.to.map(|l| l.0));
-                    let ordered = from.zip(to).is_none_or(|(a, b)| a < b);
-                    if !ordered || (from.is_none() && to.is_none()) {
-                        self.conflict(
-                            &outside.span(),
-                            format!("the range of {axis} is empty or has no end"),
-                            format!(
-                                "such as `outside = {{ {axis} = {{ from = \"-40 km\", to = \"40 km\" }} }}`"
-                            ),
-                            (&fault.span(), "the fault"),
-                        );
-                    }
-                }
+            (None, Some(outside)) => self.ranges("outside", outside),
+        }
+    }
+
+    /// Checks ranges of coordinates, the value of this key.
+    pub(super) fn ranges(&mut self, key: &str, given: &Spanned<Outside>) {
+        let ranges = given.get_ref().ranges();
+        if ranges.iter().all(Option::is_none) {
+            self.error(
+                given.span(),
+                format!("`{key}` has no range"),
+                format!("such as `{key} = {{ y = {{ from = \"-40 km\" }} }}`"),
+            );
+        }
+        if !self.in_space() && ranges[2].is_some() {
+            self.error(given.span(), "there is no coordinate z in the plane", "give ranges of x and y");
+        }
+        for (axis, range) in ["x", "y", "z"].into_iter().zip(ranges) {
+            let Some(range) = range else { continue };
+            let (from, to) = (range.from.map(|l| l.0), range.to.map(|l| l.0));
+            let ordered = from.zip(to).is_none_or(|(a, b)| a < b);
+            if !ordered || (from.is_none() && to.is_none()) {
+                self.error(
+                    given.span(),
+                    format!("the range of {axis} is empty or has no end"),
+                    format!("such as `{key} = {{ {axis} = {{ from = \"-40 km\", to = \"40 km\" }} }}`"),
+                );
             }
         }
     }

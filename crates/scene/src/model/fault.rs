@@ -1,6 +1,6 @@
 //! Faults as declared in a scene, for simulations of earthquake cycles.
 
-use super::{FaultLine, FaultRectangle, LawSpec};
+use super::{FaultLine, FaultRectangle, LawSpec, Patch};
 use crate::here::here;
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
@@ -31,6 +31,9 @@ pub struct Fault {
     /// Values of `a`, `b`, `l`, `normal` or `shear` along the fault.
     #[serde(default)]
     pub profiles: Profiles,
+    /// Parts of the fault with parameters of their own, in the order in which they apply, after `profiles`.
+    #[serde(default)]
+    pub patches: Vec<Patch>,
     /// Initial normal traction, compression positive; absent: given by the initial stress of the bodies \[Pa\].
     pub normal: Option<Spanned<Pressure>>,
     /// Initial slip rate of all points; its sign is the sense of slip \[m/s\].
@@ -187,7 +190,7 @@ pub struct Creep {
     pub rake: Option<Spanned<[f64; 3]>>,
 }
 
-/// Ranges of coordinates. A fault slides freely within all of them.
+/// Ranges of coordinates; a position is within if it is within all of them.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Outside {

@@ -13,7 +13,7 @@ fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
 }
 
 /// Extent of some positions as text: distance along a plane fault, coordinates in 3D.
-fn extent<'a, const D: usize>(places: impl Iterator<Item = &'a Place<D>> + Clone) -> String {
+pub(super) fn extent<'a, const D: usize>(places: impl Iterator<Item = &'a Place<D>> + Clone) -> String {
     if D == 2 {
         let [low, high] = range(places.map(|p| p.along));
         return format!("from {low} m to {high} m along it");

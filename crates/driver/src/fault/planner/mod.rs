@@ -9,6 +9,7 @@ mod held;
 mod medium;
 mod meet;
 mod meshed;
+mod patches;
 mod place;
 mod placed;
 mod plates;
@@ -35,7 +36,7 @@ use crate::loading::{self, Stage};
 use crate::model::{self, Model, meshes};
 use crate::scene::law::LawChoice;
 use crate::scene::model::{
-    Creep, DampingSpec, Fault as Spec, Kinematics, Profiled, Scene, SlipSpec, Station as Asking,
+    Creep, DampingSpec, Fault as Spec, Kinematics, Scene, SlipSpec, Station as Asking,
 };
 use crate::warning::Warning;
 use asperity_cycles::medium::{
@@ -53,7 +54,7 @@ use asperity_ode::{Clock, Method};
 use held::Asked;
 use medium::{Media, Medium};
 use meshed::Meshed;
-use placed::{Placed, at, components, in_space, slides};
+use placed::{Placed, components, in_space, slides};
 use prestress::{Prestress, Resolved};
 use std::ops::Range;
 
@@ -245,7 +246,7 @@ fn plan_of<const D: usize>(
         floor: Floor::new(placed.iter().map(|p| p.floor)),
         opening,
     };
-    let start = start(scene, &placed, &fault).map_err(at_law)?;
+    let start = start(&placed, &fault).map_err(at_law)?;
     let mut warnings = around.warnings;
     warnings.extend(start_doubts::check(scene, &placed, &fault));
     let (faults, points) = views(scene, cells, &placed, turns)?;
@@ -391,15 +392,18 @@ fn points_of<const D: usize>(
     }
     asked::creep((name, spec), &placed)?;
     asked::profiles((name, spec), &placed, warnings);
+    patches::covered((name, spec), &placed)?;
     Ok(placed)
 }
 
 /// Law of a fault, whose parameters may vary along it.
 fn base_law(spec: &Spec) -> Result<LawChoice, Diagnostic> {
-    laws::choose(&spec.law).map_err(|errors| {
+    let law = laws::choose(&spec.law).map_err(|errors| {
         let first = errors.into_iter().next();
         first.unwrap_or_else(|| asked::incomplete(&spec.law))
-    })
+    })?;
+    patches::fit(spec, &law)?;
+    Ok(law)
 }
 
 /// Surroundings of a point.
@@ -422,21 +426,20 @@ fn placed_at<const D: usize>(
     place: Place<D>,
     given: Given,
 ) -> Result<Placed<D>, Diagnostic> {
-    let value = |profile: &Option<Profiled>| profile.as_ref().map(|p| largest(p, &place));
     let choice = floor::choice(spec);
-    let shear = value(&spec.profiles.shear).or(spec.shear.as_ref().map(|s| s.get_ref().0));
-    // The scene check ensures that one of them is given; where the fault creeps, neither is needed.
-    let normal = value(&spec.profiles.normal).or(spec.normal.as_ref().map(|n| n.get_ref().0));
+    let values = patches::values(spec, &place, base);
     Ok(Placed {
         fault,
         medium: given.medium,
         damping: damping(spec, &given.medium)?,
-        normal: given.stress.and_then(|g| g.normal).or(normal).unwrap_or_default(),
-        shear: given.stress.map(|g| g.shear).or(shear),
+        // The scene check ensures that one of them is given; where the fault creeps, neither is needed.
+        normal: given.stress.and_then(|g| g.normal).or(values.normal).unwrap_or_default(),
+        shear: given.stress.map(|g| g.shear).or(values.shear),
+        rate: values.rate,
         prestress: given.stress.unwrap_or_default(),
         spacing: given.spacing,
         floor: choice.floor,
-        law: varied(base, value(&spec.profiles.a), value(&spec.profiles.b), value(&spec.profiles.l)),
+        law: values.law(base),
         creep: given.creep,
         components: given.components,
         point: Point {
@@ -462,28 +465,6 @@ fn creeps<const D: usize>(creep: &Creep, place: &Place<D>, close: f64) -> bool {
         let (from, to) = range.map_or((None, None), |r| (r.from, r.to));
         from.is_some_and(|l| *x <= l.0 + close) || to.is_some_and(|l| *x >= l.0 - close)
     })
-}
-
-/// Largest value of some profiles at a point.
-fn largest<const D: usize>(profiles: &Profiled, place: &Place<D>) -> f64 {
-    profiles.0.iter().map(|p| at(p, place)).fold(f64::NEG_INFINITY, f64::max)
-}
-
-/// Law with some parameters replaced.
-fn varied(base: &LawChoice, a: Option<f64>, b: Option<f64>, l: Option<f64>) -> LawChoice {
-    let mut law = base.clone();
-    match &mut law {
-        LawChoice::Rate { strength, .. } => strength.a = a.unwrap_or(strength.a),
-        LawChoice::RateAndState { strength, states, .. } => {
-            strength.a = a.unwrap_or(strength.a);
-            for state in states {
-                state.b = b.unwrap_or(state.b);
-                state.l = l.unwrap_or(state.l);
-            }
-        }
-        _ => {}
-    }
-    law
 }
 
 /// Radiation damping η at a point \[Pa s/m\].
@@ -532,20 +513,18 @@ fn pressure<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Result<Optio
     Ok(pressure)
 }
 
-/// Initial unknowns: every point slides at the initial rate of its fault.
-fn start<const D: usize>(scene: &Scene, placed: &[Placed<D>], fault: &Fault) -> Result<Vec<f64>, Failure> {
+/// Initial unknowns: every point slides at its initial rate.
+fn start<const D: usize>(placed: &[Placed<D>], fault: &Fault) -> Result<Vec<f64>, Failure> {
     let layout = Layout::of(fault);
     let n = fault.law.states();
     let mut y = vec![0.0; layout.size()];
-    let specs: Vec<&Spec> = scene.faults.values().collect();
     if !layout.normal().is_empty() {
         let normal = layout.normal();
         y[normal].iter_mut().zip(placed).for_each(|(f, point)| *f = point.normal);
     }
     let pressed = fault.pressed(Clock::new(0.0, 0.0), &y, &mut Crack::default());
     for (p, point) in placed.iter().enumerate() {
-        let spec = specs[point.fault];
-        let rate = spec.rate.get_ref().0;
+        let rate = point.rate;
         let states = layout.states().start + p * n..layout.states().start + (p + 1) * n;
         let initial = match &point.law {
             LawChoice::RateAndState { v_initial, .. } => *v_initial,

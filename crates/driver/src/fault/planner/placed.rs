@@ -20,6 +20,8 @@ pub(super) struct Placed<const D: usize> {
     pub floor: Option<f64>,
     /// Initial shear traction, if given \[Pa\].
     pub shear: Option<f64>,
+    /// Initial slip rate \[m/s\].
+    pub rate: f64,
     /// Initial tractions from the stress in the bodies.
     pub prestress: Resolved,
     pub law: LawChoice,

@@ -34,10 +34,9 @@ pub(super) fn check<const D: usize>(scene: &Scene, placed: &[Placed<D>], fault: 
     let law: &dyn FaultLaw = fault.law.as_ref();
     let mut states = vec![0.0; law.states()];
     let mut worst: Vec<Option<(f64, f64, f64, String)>> = vec![None; scene.faults.len()];
-    let specs: Vec<&Spec> = scene.faults.values().collect();
     for (p, point) in placed.iter().enumerate() {
         let Some(shear) = point.shear else { continue };
-        let rate = specs[point.fault].rate.get_ref().0.abs();
+        let rate = point.rate.abs();
         law.steady(p, rate.ln(), &mut states);
         let Ok(m) = law.at_rate(p, rate, &states) else { continue };
         let steady = law.scale(p) * m;

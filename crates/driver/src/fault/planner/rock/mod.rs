@@ -7,8 +7,8 @@ mod rectangles;
 use super::medium::Medium;
 use super::placed::{Placed, components};
 use super::{
-    Around, Cells, Given, Surrounded, asked, base_law, geometry, placed_at, plan_of, resolution, resolved,
-    sense, turns,
+    Around, Cells, Given, Surrounded, asked, base_law, geometry, patches, placed_at, plan_of, resolution,
+    resolved, sense, turns,
 };
 use crate::amounts;
 use crate::diagnostic::Diagnostic;
@@ -124,6 +124,7 @@ fn placed<const D: usize>(
         };
         let placed: Vec<Placed<D>> = cells.map(of).collect::<Result<_, _>>()?;
         asked::profiles((name, spec), &placed, warnings);
+        patches::covered((name, spec), &placed)?;
         all.extend(placed);
     }
     Ok(all)

@@ -1,0 +1,160 @@
+//! Parameters that vary along a fault: profiles, and then patches in the order of the scene.
+
+use super::asked::extent;
+use super::placed::{Placed, at};
+use crate::diagnostic::Diagnostic;
+use crate::scene::law::LawChoice;
+use crate::scene::model::{Combine, Disc, Fault as Spec, Outside, Patch, Profiled};
+use asperity_cycles::medium::Place;
+
+/// Parameters of a point in SI units; a parameter that is not given is `None`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Values {
+    a: Option<f64>,
+    b: Option<f64>,
+    l: Option<f64>,
+    pub normal: Option<f64>,
+    pub shear: Option<f64>,
+    pub rate: f64,
+}
+
+impl Values {
+    /// The law of a fault with the parameters of the point.
+    pub fn law(&self, base: &LawChoice) -> LawChoice {
+        let mut law = base.clone();
+        match &mut law {
+            LawChoice::Rate { strength, .. } => strength.a = self.a.unwrap_or(strength.a),
+            LawChoice::RateAndState { strength, states, .. } => {
+                strength.a = self.a.unwrap_or(strength.a);
+                for state in states {
+                    state.b = self.b.unwrap_or(state.b);
+                    state.l = self.l.unwrap_or(state.l);
+                }
+            }
+            LawChoice::Yielding { .. } => {}
+        }
+        law
+    }
+}
+
+/// Parameters at a point of a fault.
+pub(super) fn values<const D: usize>(spec: &Spec, place: &Place<D>, base: &LawChoice) -> Values {
+    let all = &spec.profiles;
+    let of = |profile: &Option<Profiled>| profile.as_ref().map(|p| largest(p, place));
+    let [a, b, l] = constants(base);
+    let mut values = [
+        of(&all.a).or(a),
+        of(&all.b).or(b),
+        of(&all.l).or(l),
+        of(&all.normal).or(spec.normal.as_ref().map(|n| n.get_ref().0)),
+        of(&all.shear).or(spec.shear.as_ref().map(|s| s.get_ref().0)),
+        Some(spec.rate.get_ref().0),
+    ];
+    for patch in &spec.patches {
+        let weight = weight(patch, place);
+        if weight == 0.0 {
+            continue;
+        }
+        for (value, own) in values.iter_mut().zip(patch.values()) {
+            let (Some(before), Some((own, _))) = (*value, own) else { continue };
+            let inside = match patch.combine.as_ref().map(|c| *c.get_ref()) {
+                None | Some(Combine::Replace) => own,
+                Some(Combine::Largest) => own.max(before),
+                Some(Combine::Smallest) => own.min(before),
+            };
+            // Inside, the value is that of the patch to the last digit.
+            *value = Some(if weight == 1.0 { inside } else { before + weight * (inside - before) });
+        }
+    }
+    let [a, b, l, normal, shear, rate] = values;
+    Values { a, b, l, normal, shear, rate: rate.unwrap_or(spec.rate.get_ref().0) }
+}
+
+/// Constants a, b and L of a law, as far as it has them once.
+fn constants(law: &LawChoice) -> [Option<f64>; 3] {
+    match law {
+        LawChoice::Rate { strength, .. } => [Some(strength.a), None, None],
+        LawChoice::RateAndState { strength, states, .. } => {
+            let [state] = states.as_slice() else { return [Some(strength.a), None, None] };
+            [Some(strength.a), Some(state.b), Some(state.l)]
+        }
+        LawChoice::Yielding { .. } => [None; 3],
+    }
+}
+
+/// Refuses parameters that vary but that the law does not have, or has several times.
+///
+/// # Errors
+/// [`Diagnostic`] at the profile or at the value of the patch.
+pub(super) fn fit(spec: &Spec, law: &LawChoice) -> Result<(), Diagnostic> {
+    let has = constants(law);
+    let profiles = [&spec.profiles.a, &spec.profiles.b, &spec.profiles.l];
+    for (k, (key, has)) in ["a", "b", "l"].into_iter().zip(has).enumerate() {
+        let profiled = profiles[k].as_ref().and_then(|p| p.0.first()).map(|p| p.points.span());
+        let patched = spec.patches.iter().find_map(|p| p.values()[k].as_ref().map(|v| v.1.clone()));
+        if let Some(place) = profiled.or(patched).filter(|_| has.is_none()) {
+            return Err(Diagnostic::at(
+                place,
+                format!("`{key}` varies along the fault, and its law does not have exactly one `{key}`"),
+                "`b` and `l` vary in laws of kind \"rate-and-state\" with one state variable",
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a patch without a point of its fault.
+///
+/// # Errors
+/// [`Diagnostic`] at the patch.
+pub(super) fn covered<const D: usize>(
+    (name, spec): (&str, &Spec),
+    placed: &[Placed<D>],
+) -> Result<(), Diagnostic> {
+    let empty = |patch: &&Patch| placed.iter().all(|p| weight(patch, &p.point.place) == 0.0);
+    let Some(patch) = spec.patches.iter().find(empty) else { return Ok(()) };
+    Err(Diagnostic::at(
+        patch.span().unwrap_or_default(),
+        format!(
+            "the patch covers no point of fault `{name}`, whose points lie {}",
+            extent(placed.iter().map(|p| &p.point.place))
+        ),
+        "check the signs and the unit of its extent: y points up",
+    ))
+}
+
+/// Largest value of some profiles at a point.
+fn largest<const D: usize>(profiles: &Profiled, place: &Place<D>) -> f64 {
+    profiles.0.iter().map(|p| at(p, place)).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// Weight of a patch at a point: 1 inside and 0 beyond its edge, linear in between.
+fn weight<const D: usize>(patch: &Patch, place: &Place<D>) -> f64 {
+    let within = patch.within.as_ref().map(|w| beyond_box(w.get_ref(), &place.at));
+    let distance = within.or(patch.disc.as_ref().map(|d| beyond_disc(d, &place.at))).unwrap_or_default();
+    let edge = patch.edge.as_ref().map_or(0.0, |e| e.get_ref().0);
+    if distance <= 0.0 {
+        1.0
+    } else if distance < edge {
+        1.0 - distance / edge
+    } else {
+        0.0
+    }
+}
+
+/// Distance outside a box: the largest one along an axis; negative inside \[m\].
+fn beyond_box<const D: usize>(ranges: &Outside, at: &[f64; D]) -> f64 {
+    let along = at.iter().zip(ranges.ranges()).filter_map(|(x, range)| {
+        let range = range?;
+        let below = range.from.map_or(f64::NEG_INFINITY, |from| from.0 - x);
+        let above = range.to.map_or(f64::NEG_INFINITY, |to| x - to.0);
+        Some(below.max(above))
+    });
+    along.fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// Distance outside a disc; negative inside \[m\].
+fn beyond_disc<const D: usize>(disc: &Disc, at: &[f64; D]) -> f64 {
+    let squares = at.iter().zip(disc.centre.get_ref()).map(|(x, c)| (x - c.0).powi(2));
+    squares.sum::<f64>().sqrt() - disc.radius.get_ref().0
+}

@@ -1,0 +1,87 @@
+//! Checks of patches of faults.
+
+use super::Checker;
+use crate::model::{Fault, PATCHED, Patch, Spanned};
+
+impl Checker<'_> {
+    pub(super) fn patches(&mut self, fault: &Fault) {
+        for patch in &fault.patches {
+            self.extent_of(patch, fault);
+            self.values_of(patch, fault);
+        }
+    }
+
+    fn extent_of(&mut self, patch: &Patch, fault: &Fault) {
+        let place = patch.span().unwrap_or_else(|| fault.law.span());
+        if patch.within.is_some() == patch.disc.is_some() {
+            self.error(
+                place,
+                "a patch needs either `box` or `disc`",
+                "such as `{ box = { y = { from = \"-16 km\", to = \"-4 km\" } }, a = 0.01 }`",
+            );
+        }
+        if let Some(within) = &patch.within {
+            self.ranges("box", within);
+        }
+        if let Some(disc) = &patch.disc {
+            let (wanted, centre) = (if self.in_space() { 3 } else { 2 }, disc.centre.get_ref());
+            if centre.len() != wanted || !centre.iter().all(|x| x.0.is_finite()) {
+                self.error(
+                    disc.centre.span(),
+                    format!(
+                        "the centre of a disc has {wanted} finite coordinates here, found {}",
+                        centre.len()
+                    ),
+                    "such as `centre = [\"0 km\", \"-10 km\"]`, in three dimensions with z",
+                );
+            }
+            let radius = disc.radius.get_ref().0;
+            if !(radius > 0.0 && radius.is_finite()) {
+                self.error(disc.radius.span(), "`radius` must be positive", "such as `radius = \"200 m\"`");
+            }
+        }
+        if let Some(edge) =
+            patch.edge.as_ref().filter(|e| !(e.get_ref().0 >= 0.0 && e.get_ref().0.is_finite()))
+        {
+            self.error(edge.span(), "`edge` must not be negative", "such as `edge = \"2 km\"`");
+        }
+    }
+
+    fn values_of(&mut self, patch: &Patch, fault: &Fault) {
+        let values = patch.values();
+        if values.iter().all(Option::is_none) {
+            self.error(
+                patch.span().unwrap_or_else(|| fault.law.span()),
+                "a patch without a value",
+                format!("give one of {}", PATCHED.map(|key| format!("`{key}`")).join(", ")),
+            );
+        }
+        let sense = fault.rate.get_ref().0.signum();
+        for (key, value) in PATCHED.into_iter().zip(values) {
+            let Some((value, place)) = value else { continue };
+            let turned = ["shear", "rate"].contains(&key);
+            let positive = if turned { value * sense } else { value };
+            if !(positive > 0.0 && value.is_finite()) {
+                let what = if turned { "have the sign of `rate` of the fault" } else { "be positive" };
+                self.error(
+                    place,
+                    format!("`{key}` of a patch must {what}, found {value:?}"),
+                    "check its sign and its unit",
+                );
+            }
+        }
+        let given = |key: &Option<Spanned<_>>, profile: bool| key.is_some() || profile;
+        for (key, patched, base) in [
+            ("normal", &patch.normal, given(&fault.normal, fault.profiles.normal.is_some())),
+            ("shear", &patch.shear, given(&fault.shear, fault.profiles.shear.is_some())),
+        ] {
+            if let Some(value) = patched.as_ref().filter(|_| !base) {
+                self.error(
+                    value.span(),
+                    format!("`{key}` of a patch, but the fault has no `{key}` outside it"),
+                    format!("add `{key}` or `profiles.{key}` to the fault"),
+                );
+            }
+        }
+    }
+}
