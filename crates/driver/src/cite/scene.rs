@@ -6,14 +6,14 @@ use crate::diagnostic::Diagnostics;
 use crate::laws::{choose, choose_sliding};
 use crate::plan::rule;
 use crate::scene::model::{
-    Body, EnforcementKind, Fault, Formulation, Interface, Material, Measure, MeshSource, Method, Rule, Scene,
-    Sliding, Spanned, Stepper, Strain,
+    Body, EnforcementKind, Fault, Formulation, Interface, Kinematics, Material, Measure, MeshSource, Method,
+    Rule, Scene, Sliding, Spanned, Stepper, Strain,
 };
 use crate::scene::slider::SliderScene;
 
 /// Keys of this file, for the test of the table.
 #[cfg(test)]
-pub(super) const KEYS: [&str; 20] = [
+pub(super) const KEYS: [&str; 24] = [
     "puso2004",
     "puso2004b",
     "wohlmuth2000",
@@ -34,6 +34,10 @@ pub(super) const KEYS: [&str; 20] = [
     "simo1998",
     "vanek1996",
     "hestenes1952",
+    "segall2010",
+    "muskhelishvili1953",
+    "okada1992",
+    "savage1983",
 ];
 
 /// Citations of a scene of bodies or faults.
@@ -48,6 +52,9 @@ pub fn of_scene(scene: &Scene) -> Result<Citations, Diagnostics> {
     }
     for (name, fault) in &scene.faults {
         add_fault(&mut citations, &format!("fault `{name}`"), fault)?;
+    }
+    if scene.medium.is_some() {
+        add_medium(&mut citations, scene);
     }
     for (name, body) in &scene.bodies {
         add_body(&mut citations, &format!("body `{name}`"), body);
@@ -139,6 +146,18 @@ fn add_fault(citations: &mut Citations, of: &str, fault: &Fault) -> Result<(), D
         citations.add("rice1993", format!("{of}: radiation damping"));
     }
     Ok(())
+}
+
+fn add_medium(citations: &mut Citations, scene: &Scene) {
+    let key = match scene.kinematics.get_ref() {
+        Kinematics::Antiplane => "segall2010",
+        Kinematics::ThreeD => "okada1992",
+        _ => "muskhelishvili1953",
+    };
+    citations.add(key, "dislocations in homogeneous rock");
+    if scene.faults.values().any(|fault| fault.creep.is_some()) {
+        citations.add("savage1983", "loading by slip deficit");
+    }
 }
 
 fn add_body(citations: &mut Citations, of: &str, body: &Body) {

@@ -5,7 +5,7 @@
 use super::Citations;
 
 /// Titles of scenes, and the sources of their problems.
-const TITLES: [(&str, &[&str]); 12] = [
+const TITLES: [(&str, &[&str]); 14] = [
     ("sandwich/v1", &["asperity-sandwich-v1", "xing2002b"]),
     ("sandwich-state/v1", &["asperity-sandwich-state-v1"]),
     ("Hertz line contact with partial slip", &["asperity-hertz-v1", "asperity-partial-slip-v1"]),
@@ -14,6 +14,8 @@ const TITLES: [(&str, &[&str]); 12] = [
     ("bp1-qd slip law", &["erickson2020"]),
     ("bp2-qd", &["erickson2020"]),
     ("bp3-qd dip 60 thrust", &["erickson2023"]),
+    ("bp1-qd in a half-space", &["erickson2020"]),
+    ("bp5-qd", &["jiang2022"]),
     ("bp6-qd-A", &["lambert2025"]),
     ("bp6-qd-S", &["lambert2025"]),
     ("cook/v1", &["cook1974"]),
