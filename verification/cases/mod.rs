@@ -65,6 +65,7 @@ mod fault_bodies;
 mod fault_compression;
 mod fault_free_surface;
 mod fault_gravity;
+mod fault_medium;
 mod fault_opening;
 mod fault_operator;
 mod fault_space;
@@ -118,6 +119,8 @@ mod seas_bp2;
 mod seas_bp3;
 mod seas_bp3_25m;
 mod seas_bp3_full;
+mod seas_bp5;
+mod seas_bp5_limit;
 mod seas_bp6;
 pub mod slider;
 mod slider_balance;
@@ -171,6 +174,7 @@ pub const ALL: &[Case] = &[
     fault_bend::CASE,
     fault_free_surface::CASE,
     fault_gravity::CASE,
+    fault_medium::CASE,
     fault_opening::CASE,
     fault_operator::CASE,
     fault_space::CASE,
@@ -212,6 +216,8 @@ pub const ALL: &[Case] = &[
     seas_bp3::CASE,
     seas_bp3_25m::CASE,
     seas_bp3_full::CASE,
+    seas_bp5::CASE,
+    seas_bp5_limit::CASE,
     seas_bp6::CASE,
     slider_balance::CASE,
     slider_cycles::CASE,

@@ -98,6 +98,8 @@ capabilities! {
     Slider => "spring-slider",
     /// Faults through earthquake cycles.
     FaultCycles => "faults through earthquake cycles",
+    /// Faults in homogeneous rock without bodies.
+    Medium => "faults in homogeneous rock without bodies",
     /// Sliders coupled by springs.
     CoupledSliders => "coupled sliders",
     /// Detection of events and extremes.

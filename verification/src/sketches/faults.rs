@@ -14,6 +14,8 @@ pub(super) fn of(name: &str) -> Option<Sketch> {
         "seas_bp3" | "seas_bp3_full" => dipping(60.0, "dip 90, 60, 30°; 40 km along the dip"),
         "seas_bp3_25m" => dipping(90.0, "dip 90°; 40 km along the dip"),
         "fault_operator" => dipping(60.0, "dip 90, 60, 30°; buried, and from the surface"),
+        "fault_medium" => dipping(60.0, "cells of uniform slip, without bodies"),
+        "seas_bp5" | "seas_bp5_limit" => plane(),
         "fault_gravity" => gravity(),
         "fault_opening" => opening(),
         "fault_bend" => bend(),
@@ -43,6 +45,20 @@ fn strike_slip(length: &str, weak: &str, depth: &str) -> Sketch {
         .note((54.0, 13.0), "V_p = 1e−9 m/s")
         .dimension((34.0, 22.0), (34.0, 64.0), depth);
     if weak.is_empty() { sketch } else { sketch.dimension((45.0, 47.0), (45.0, 64.0), weak) }
+}
+
+/// The plane of the fault of BP5.
+fn plane() -> Sketch {
+    Sketch::new(70.0)
+        .block((5.0, 12.0), (95.0, 54.0), "a > b")
+        .block((20.0, 37.0), (80.0, 50.0), "a < b")
+        .guide(&[(36.0, 37.0), (36.0, 50.0)])
+        .text((50.0, 59.0), "free surface")
+        .text((50.0, 24.0), "V_p = 1e−9 m/s beyond the sides and below")
+        .dimension((5.0, 7.0), (95.0, 7.0), "100 km")
+        .dimension((20.0, 33.0), (80.0, 33.0), "60 km")
+        .dimension((90.0, 12.0), (90.0, 54.0), "40")
+        .note((22.0, 43.0), "seed")
 }
 
 fn dipping(dip: f64, text: &str) -> Sketch {

@@ -1,7 +1,7 @@
 //! Literature of the cases of the verification suite. A test of the suite compares it with their pages.
 
 /// Cases and the keys of their literature.
-const CASES: [(&str, &[&str]); 95] = [
+const CASES: [(&str, &[&str]); 98] = [
     ("absence", &["weidendorfer2004"]),
     ("antiplane", &["nehari1952", "strang1973", "timoshenko1970"]),
     ("block_dragged", &["codeaster"]),
@@ -31,6 +31,7 @@ const CASES: [(&str, &[&str]); 95] = [
     ("fault_compression", &["bebendorf2000", "hackbusch2015"]),
     ("fault_free_surface", &["okada1985"]),
     ("fault_gravity", &["jaeger2007"]),
+    ("fault_medium", &["eshelby1957", "muskhelishvili1953", "okada1992", "savage1983", "segall2010"]),
     ("fault_opening", &["sneddon1946", "barenblatt1962", "cottle1992"]),
     ("fault_operator", &["starr1928", "muskhelishvili1953", "segall2010"]),
     ("fault_space", &["eshelby1957", "segall2010"]),
@@ -78,6 +79,8 @@ const CASES: [(&str, &[&str]); 95] = [
     ("seas_bp3", &["erickson2023"]),
     ("seas_bp3_25m", &["erickson2023"]),
     ("seas_bp3_full", &["erickson2023"]),
+    ("seas_bp5", &["jiang2022", "okada1992", "savage1983"]),
+    ("seas_bp5_limit", &["jiang2022"]),
     ("seas_bp6", &["lambert2025", "carslaw1959"]),
     ("slider_balance", &["rice1986"]),
     ("slider_cycles", &["luo2017", "rice1986"]),

@@ -1,0 +1,77 @@
+//! The SEAS benchmark BP5-QD in the half-space: intervals between events against other boundary elements of the same cells.
+
+use crate::cases::seas::{self, Found};
+use crate::{Axis, Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
+use asperity_driver::fault::Plan;
+use asperity_vary::SceneText;
+
+/// See the README.
+pub const CASE: Case = Case {
+    name: "seas_bp5",
+    readme: include_str!("README.md"),
+    covers: &[Capability::Medium, Capability::FaultCycles, Capability::Solid3d],
+    quick: true,
+    run,
+};
+
+/// Events of a run: the one in the seed, and three that nucleate by themselves.
+const EVENTS: usize = 4;
+/// Interval between events with cells of 1 km \[yr\], published for the code interact with dense operators.
+pub const INTERACT_1KM: f64 = 235.362;
+/// Source of that interval.
+pub const INTERACT: &str =
+    "interact, dense boundary elements of one slip component (Okada 1992), constant over 12 events";
+
+/// The scene with cells of this size \[km\], with slip along the rake alone.
+///
+/// # Errors
+/// If the scene has changed its keys, or cannot be planned.
+pub fn along_rake(size: &str) -> Result<Plan, CaseError> {
+    seas::plan(
+        &SceneText::new(include_str!("../../../scenes/bp5.toml"))
+            .with_or_same("faults.main.rectangle.size", size)
+            .without("faults.main.slip")
+            .text()?,
+    )
+}
+
+/// Runs a plan to its fourth event; returns times \[yr\] with the largest slip rates \[m/s\] besides.
+///
+/// # Errors
+/// If the run fails.
+pub fn events(plan: &Plan) -> Result<(Found, Vec<(f64, f64)>), CaseError> {
+    let mut settings = plan.problem.settings;
+    settings.most_events = Some(EVENTS);
+    let mut rates = Vec::new();
+    let found = seas::found(plan, &settings, |now| rates.push((now.at.seconds() / seas::YEAR, now.largest)))?;
+    Ok((found, rates))
+}
+
+/// Interval between the last two events \[yr\].
+#[must_use]
+pub fn interval(found: &Found) -> f64 {
+    found.onsets[EVENTS - 1] - found.onsets[EVENTS - 2]
+}
+
+fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let plan = along_rake("1 km")?;
+    let (found, rates) = events(&plan)?;
+    ledger
+        .claim("interval between events, cells of 1 km")
+        .unit("yr")
+        .value(interval(&found))
+        .equals(INTERACT_1KM)
+        .absolute(0.03)
+        .uncertainty(0.001)
+        .evidence(Evidence::OtherCode, INTERACT)
+        .because("the same cells and kernels: what differs are errors of steps, 1e-4 of an interval")
+        .why_not_tighter("the tolerance of the other code is not published")
+        .cost(&found.cost)
+        .record();
+    ledger.plot(
+        Plot::xy("Largest slip rate", "time [yr]", "V_max [m/s]")
+            .axes(Axis::Linear, Axis::Log)
+            .series(Series::line("cells of 1 km", &rates)),
+    );
+    Ok(())
+}
