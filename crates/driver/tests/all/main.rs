@@ -25,6 +25,7 @@ mod law_tables;
 mod laws;
 mod loads;
 mod located;
+mod medium;
 mod memory;
 mod mesh_files;
 mod meshes;

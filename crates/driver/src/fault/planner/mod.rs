@@ -392,7 +392,7 @@ fn points_of<const D: usize>(
     }
     asked::creep((name, spec), &placed)?;
     asked::profiles((name, spec), &placed, warnings);
-    patches::covered((name, spec), &placed)?;
+    warnings.extend(patches::covered((name, spec), &placed)?);
     Ok(placed)
 }
 

@@ -5,6 +5,7 @@ use super::placed::{Placed, at};
 use crate::diagnostic::Diagnostic;
 use crate::scene::law::LawChoice;
 use crate::scene::model::{Combine, Disc, Fault as Spec, Outside, Patch, Profiled};
+use crate::warning::Warning;
 use asperity_cycles::medium::Place;
 
 /// Parameters of a point in SI units; a parameter that is not given is `None`.
@@ -103,24 +104,37 @@ pub(super) fn fit(spec: &Spec, law: &LawChoice) -> Result<(), Diagnostic> {
     Ok(())
 }
 
-/// Refuses a patch without a point of its fault.
+/// Refuses a patch without a point of its fault, and warns of patches whose values no point has in full.
 ///
 /// # Errors
 /// [`Diagnostic`] at the patch.
 pub(super) fn covered<const D: usize>(
     (name, spec): (&str, &Spec),
     placed: &[Placed<D>],
-) -> Result<(), Diagnostic> {
-    let empty = |patch: &&Patch| placed.iter().all(|p| weight(patch, &p.point.place) == 0.0);
-    let Some(patch) = spec.patches.iter().find(empty) else { return Ok(()) };
-    Err(Diagnostic::at(
-        patch.span().unwrap_or_default(),
-        format!(
-            "the patch covers no point of fault `{name}`, whose points lie {}",
-            extent(placed.iter().map(|p| &p.point.place))
-        ),
-        "check the signs and the unit of its extent: y points up",
-    ))
+) -> Result<Vec<Warning>, Diagnostic> {
+    let mut warnings = Vec::new();
+    for patch in &spec.patches {
+        let place = patch.span().unwrap_or_default();
+        let most = placed.iter().map(|p| weight(patch, &p.point.place)).fold(0.0, f64::max);
+        if most == 0.0 {
+            return Err(Diagnostic::at(
+                place,
+                format!(
+                    "the patch covers no point of fault `{name}`, whose points lie {}",
+                    extent(placed.iter().map(|p| &p.point.place))
+                ),
+                "check the signs and the unit of its extent: y points up",
+            ));
+        }
+        if most < 1.0 {
+            warnings.push(Warning::at(
+                place,
+                format!("no point of fault `{name}` lies in the patch itself, only in its edge"),
+                "check the unit of its extent; or take smaller cells",
+            ));
+        }
+    }
+    Ok(warnings)
 }
 
 /// Largest value of some profiles at a point.

@@ -181,8 +181,9 @@ pub(super) fn check(found: &Resolution, spec: &Spec, in_space: bool) -> Result<O
         zone.place(in_space),
         length(zone.spacing)
     );
+    let cells = if spec.has_sides() { ", with elements of second order cells of twice that" } else { "" };
     let enough = format!(
-        "{} give three, with elements of second order cells of twice that; a larger `l` or a smaller `normal` makes the zone longer",
+        "{} give three{cells}; a larger `l` or a smaller `normal` makes the zone longer",
         length(zone.length / ENOUGH)
     );
     let place = spec.law.span();

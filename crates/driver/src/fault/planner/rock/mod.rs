@@ -16,6 +16,7 @@ use crate::forecast;
 use crate::idealisation;
 use crate::model::materials;
 use crate::scene::model::{Fault as Spec, Medium as Rock, MediumKind, Scene, Spanned};
+use crate::warning::Warning;
 use asperity_cycles::kernel::Space;
 use asperity_cycles::medium::Place;
 use asperity_cycles::medium::patches::{Patches, Slip, deficit};
@@ -64,6 +65,7 @@ pub(super) fn plan<const D: usize>(
     let operator = tiling.patches.operator(&elastic, slip, (&geometry, form));
     let loading = deficit(operator.as_ref(), &plates(scene, &placed, slip.tangents), end);
     warnings.extend(sense::check(scene, (&placed, &[]), &loading, end));
+    warnings.extend(unloaded(scene));
     let around = Around {
         medium: match rock.kind.get_ref() {
             MediumKind::HalfSpace => "homogeneous half-space without bodies",
@@ -79,6 +81,21 @@ pub(super) fn plan<const D: usize>(
     };
     let surrounded = Surrounded { placed, operator, opening: None, loading, end };
     plan_of(scene, surrounded, around, &tiling)
+}
+
+/// Warning if nothing changes the tractions of the faults but their own slip.
+fn unloaded(scene: &Scene) -> Option<Warning> {
+    let loads = |spec: &Spec| {
+        spec.creep.as_ref().is_some_and(|c| c.rate.get_ref().0 != 0.0) || spec.injection.is_some()
+    };
+    let first = scene.faults.values().next()?;
+    (!scene.faults.values().any(loads)).then(|| {
+        Warning::at(
+            first.span(),
+            "nothing loads the faults: they only relax from their initial state".to_string(),
+            "`creep = { rate = \"1e-9 m/s\" }` loads a fault by the creep of its continuation",
+        )
+    })
 }
 
 /// Elastic constants of the rock.
@@ -103,7 +120,7 @@ fn placed<const D: usize>(
     rock: &Rock,
     elastic: &Elastic,
     tiling: &Tiling<D>,
-    warnings: &mut Vec<crate::warning::Warning>,
+    warnings: &mut Vec<Warning>,
 ) -> Result<Vec<Placed<D>>, Diagnostic> {
     let idealisation = idealisation::of(*scene.kinematics.get_ref());
     let density = scene.materials.get(rock.material.get_ref()).and_then(|m| m.density.as_ref());
@@ -124,7 +141,7 @@ fn placed<const D: usize>(
         };
         let placed: Vec<Placed<D>> = cells.map(of).collect::<Result<_, _>>()?;
         asked::profiles((name, spec), &placed, warnings);
-        patches::covered((name, spec), &placed)?;
+        warnings.extend(patches::covered((name, spec), &placed)?);
         all.extend(placed);
     }
     Ok(all)
