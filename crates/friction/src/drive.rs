@@ -1,6 +1,7 @@
 //! Forcing of the points of a fault.
 
 use crate::slider::Forcing;
+use std::ops::Range;
 
 /// Forcing of a slice of points at an instant.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +17,16 @@ pub struct Drive<'a> {
 }
 
 impl Drive<'_> {
+    /// Forcing of some of the points, of slip in one direction.
+    pub(crate) fn of(&self, points: Range<usize>) -> Drive<'_> {
+        Drive {
+            normal: &self.normal[points.clone()],
+            normal_rate: self.normal_rate.map(|rate| &rate[points.clone()]),
+            shear_rate: &self.shear_rate[points.clone()],
+            damping: &self.damping[points],
+        }
+    }
+
     /// Forcing of one point.
     pub(crate) fn forcing(&self, point: usize) -> Forcing {
         Forcing {

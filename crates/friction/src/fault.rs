@@ -194,6 +194,32 @@ mod tests {
     }
 
     #[test]
+    fn rates_do_not_depend_on_the_number_of_threads() {
+        let n = 9001;
+        let law = Points::new(laws(n));
+        let m: Vec<f64> = (0..n).map(|k| 12.0 + 0.003 * k as f64).collect();
+        let states = vec![7.0; n];
+        let (normal, pull, damping) = (vec![5e7; n], vec![1e-2; n], vec![4.6e6; n]);
+        let drive = Drive { normal: &normal, normal_rate: None, shear_rate: &pull, damping: &damping };
+        let of = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let (mut v, mut dm, mut ds) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+            pool.install(|| {
+                law.slip_rates(0, &m, &states, &mut v);
+                law.rates(0, drive, &m, &states, &mut dm, &mut ds);
+            });
+            [v, dm, ds]
+        };
+        assert_eq!(of(1), of(2));
+        let each = Points::one_by_one(laws(n));
+        let mut v = vec![0.0; n];
+        each.slip_rates(0, &m, &states, &mut v);
+        for (a, b) in of(3)[0].iter().zip(&v) {
+            assert!((a / b - 1.0).abs() < 1e-12, "{a} {b}");
+        }
+    }
+
+    #[test]
     fn many_points_at_once_have_the_rates_of_each_by_itself() {
         // A number of points that leaves a partial group, coefficients of both signs down to zero, and states around the steady
         // one.

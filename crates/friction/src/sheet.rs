@@ -7,9 +7,15 @@
 use crate::drive::Drive;
 use crate::slider::Line;
 use pulp::{Arch, Simd, WithSimd};
+use rayon::prelude::*;
 
 /// Points evaluated together.
 const LANES: usize = 8;
+
+/// Groups of a task. Groups are independent, so that results do not depend on the number of threads.
+const TASK: usize = 128;
+/// Number of points from which they are divided into tasks: starting them takes some microseconds.
+const WORTH_TASKS: usize = 8192;
 
 /// Lines of [`LANES`] points.
 #[derive(Clone, Copy, Debug)]
@@ -83,7 +89,16 @@ impl Sheet {
 
     /// Computes slip rates of all points \[m/s\]; `other` gives that of a point near rest.
     pub fn slip_rates(&self, m: &[f64], s: &[f64], rate: &mut [f64], other: impl Fn(usize) -> f64) {
-        self.arch.dispatch(SlipRates { lines: &self.lines, m, s, rate });
+        let of_task = |task: usize, rate: &mut [f64]| {
+            let points = task * TASK * LANES..task * TASK * LANES + rate.len();
+            let (m, s) = (&m[points.clone()], &s[points]);
+            self.arch.dispatch(SlipRates { lines: &self.lines[task * TASK..], m, s, rate });
+        };
+        if self.worth_tasks() {
+            rate.par_chunks_mut(TASK * LANES).enumerate().for_each(|(task, rate)| of_task(task, rate));
+        } else {
+            rate.chunks_mut(TASK * LANES).enumerate().for_each(|(task, rate)| of_task(task, rate));
+        }
         self.elsewhere(m, |k| rate[k] = other(k));
     }
 
@@ -97,8 +112,24 @@ impl Sheet {
         ds: &mut [f64],
         mut other: impl FnMut(usize, &mut f64, &mut f64),
     ) {
-        self.arch.dispatch(Rates { lines: &self.lines, drive, m, s, dm, ds });
+        let of_task = |task: usize, dm: &mut [f64], ds: &mut [f64]| {
+            let points = task * TASK * LANES..task * TASK * LANES + dm.len();
+            let (m, s, drive) = (&m[points.clone()], &s[points.clone()], drive.of(points));
+            self.arch.dispatch(Rates { lines: &self.lines[task * TASK..], drive: &drive, m, s, dm, ds });
+        };
+        let size = TASK * LANES;
+        if self.worth_tasks() {
+            let tasks = dm.par_chunks_mut(size).zip(ds.par_chunks_mut(size)).enumerate();
+            tasks.for_each(|(task, (dm, ds))| of_task(task, dm, ds));
+        } else {
+            let tasks = dm.chunks_mut(size).zip(ds.chunks_mut(size)).enumerate();
+            tasks.for_each(|(task, (dm, ds))| of_task(task, dm, ds));
+        }
         self.elsewhere(m, |k| other(k, &mut dm[k], &mut ds[k]));
+    }
+
+    fn worth_tasks(&self) -> bool {
+        self.lines.len() * LANES >= WORTH_TASKS
     }
 
     /// Calls `what` for the points near rest, including those whose m is not a number.

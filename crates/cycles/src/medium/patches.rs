@@ -210,12 +210,17 @@ fn on_tile(point: &Tile, patch: &Tile, rock: &Elastic, component: usize) -> Pull
 }
 
 /// Different tractions within a grid, in the order of [`Lattice::entry`]. Tiles of a grid are equal along strike, so that
-/// tractions depend on the distance along it: c columns and r rows have (2 c - 1) r² different ones instead of c² r².
+/// tractions depend on the distance along it: c columns and r rows have (2 c - 1) r² different ones instead of c² r². Where
+/// slip is along strike or down dip, those on both sides of a patch are the same, or opposite.
 fn table(tiles: &[Tile], grid: &Lattice, rock: &Elastic, component: usize) -> Vec<Pull> {
     let (columns, rows) = (grid.columns, grid.rows);
     let tile = |row: usize, column: usize| &tiles[grid.points[row * columns + column]];
     let mut table = vec![Pull::default(); grid.distances() * rows * rows];
-    table.par_chunks_exact_mut(rows * rows).enumerate().for_each(|(distance, block)| {
+    let signs = grid.points.first().and_then(|&first| mirrored(&tiles[first], component));
+    let size = rows * rows;
+    // Distances from zero, to patches that lie behind the point; and those to patches ahead of it.
+    let ahead = if signs.is_some() { columns - 1 } else { 0 };
+    table.par_chunks_exact_mut(size).enumerate().skip(ahead).for_each(|(distance, block)| {
         // The pair of columns at this distance that lies at an end of the grid.
         let (point, patch) =
             if distance < columns { (0, columns - 1 - distance) } else { (distance + 1 - columns, 0) };
@@ -223,8 +228,28 @@ fn table(tiles: &[Tile], grid: &Lattice, rock: &Elastic, component: usize) -> Ve
             *pull = on_tile(tile(k / rows, point), tile(k % rows, patch), rock, component);
         }
     });
+    let Some(signs) = signs else { return table };
+    let (mirror, rest) = table.split_at_mut(ahead * size);
+    for (block, same) in mirror.chunks_exact_mut(size).rev().zip(rest.chunks_exact(size).skip(1)) {
+        for (pull, same) in block.iter_mut().zip(same) {
+            *pull = std::array::from_fn(|part| signs[part] * same[part]);
+        }
+    }
     table
 }
+
+/// Ratios of the tractions on both sides of a patch along strike, where it slips along strike or down dip. The plane normal to
+/// strike through its middle mirrors it into itself: slip down dip is kept, and slip along strike turns round.
+fn mirrored(tile: &Tile, component: usize) -> Option<Pull> {
+    let strike: Vector3<f64> = tile.rectangle.frame().column(0).into();
+    let along = [&tile.rake, &tile.across].map(|slip| to_kernel(slip).dot(&strike).abs());
+    let turned = |k: usize| if along[k] > 0.5 { -1.0 } else { 1.0 };
+    let level = along.iter().all(|share| *share <= LEVEL || 1.0 - share <= LEVEL);
+    level.then(|| [turned(0), turned(1), 1.0].map(|sign| sign * turned(component)))
+}
+
+/// Share of slip along strike that is rounding.
+const LEVEL: f64 = 8.0 * f64::EPSILON;
 
 /// Operator of a single grid.
 fn of_grid(tiles: &[Tile], lattice: &Lattice, rock: &Elastic, slip: Slip<'_>) -> Box<dyn Operator> {

@@ -74,9 +74,9 @@ pub struct Disc {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Combine {
-    /// That of the patch.
+    /// Value of the patch.
     Replace,
-    /// The larger one of that of the patch and that before.
+    /// The larger one of the value of the patch and that before.
     Largest,
     /// The smaller one.
     Smallest,

@@ -1,6 +1,6 @@
 //! Faces of faults between bodies.
 
-use super::Cells;
+use super::cells::Cells;
 use super::placed::Placed;
 use crate::diagnostic::Diagnostic;
 use crate::model::{self, Model};

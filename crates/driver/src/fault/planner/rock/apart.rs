@@ -16,6 +16,9 @@ const CLOSEST: f64 = 0.9;
 /// [`Diagnostic`] at the second of two faults.
 pub(super) fn check<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Result<(), Diagnostic> {
     let faults: Vec<(&String, &Spec)> = scene.faults.iter().collect();
+    if faults.len() < 2 {
+        return Ok(());
+    }
     let mut sorted: Vec<&Placed<D>> = placed.iter().collect();
     sorted.sort_by(|a, b| a.point.place.at[0].total_cmp(&b.point.place.at[0]));
     let widest = placed.iter().map(|p| p.spacing).fold(0.0, f64::max);

@@ -2,7 +2,7 @@
 
 use super::super::bends;
 use super::super::place::directions;
-use super::{Tiling, in_dimension};
+use super::tiling::{Tiling, in_dimension};
 use crate::diagnostic::Diagnostic;
 use crate::idealisation;
 use crate::model::meshes;

@@ -3,13 +3,15 @@
 mod apart;
 mod lines;
 mod rectangles;
+mod tiling;
 
+use super::super::plan::Plan;
+use super::assemble::{Around, Surrounded, geometry, plan_of, turns};
 use super::medium::Medium;
 use super::placed::{Placed, components};
-use super::{
-    Around, Cells, Given, Surrounded, asked, base_law, geometry, patches, placed_at, plan_of, resolution,
-    resolved, sense, turns,
-};
+use super::point::{Given, base_law, placed_at};
+use super::resolved::resolved;
+use super::{asked, patches, resolution, sense};
 use crate::amounts;
 use crate::diagnostic::Diagnostic;
 use crate::forecast;
@@ -22,31 +24,16 @@ use asperity_cycles::medium::Place;
 use asperity_cycles::medium::patches::{Patches, Slip, deficit};
 use asperity_cycles::operator::{Form, Geometry};
 use asperity_fem::material::elastic::Elastic;
+use tiling::Tiling;
 
 /// Bytes of the program with its libraries, tables and plots.
 const PROGRAM: usize = 38_000_000;
-
-/// Cells of the faults of a scene, in the order of their points.
-struct Tiling<const D: usize> {
-    patches: Patches,
-    /// Points at the centres, fault by fault.
-    places: Vec<Vec<Place<D>>>,
-    /// Largest extent of each cell \[m\], fault by fault.
-    sizes: Vec<Vec<f64>>,
-    /// Faces between centres of neighbouring cells, by the numbers of their points within the fault.
-    faces: Vec<Vec<Vec<usize>>>,
-    notes: Vec<String>,
-}
 
 /// Plans faults in homogeneous rock.
 ///
 /// # Errors
 /// [`Diagnostic`] with the place in the scene.
-pub(super) fn plan<const D: usize>(
-    scene: &Scene,
-    rock: &Rock,
-    form: Form,
-) -> Result<super::Plan, Diagnostic> {
+pub(super) fn plan<const D: usize>(scene: &Scene, rock: &Rock, form: Form) -> Result<Plan, Diagnostic> {
     let [stage] = scene.stages.as_slice() else { return Err(asked::stages(scene)) };
     let end = stage.duration.get_ref().0;
     let elastic = elastic(scene, rock)?;
@@ -178,19 +165,4 @@ fn plates<const D: usize>(scene: &Scene, placed: &[Placed<D>], tangents: usize) 
     });
     let rates: Vec<[f64; 2]> = rates.collect();
     (0..tangents).flat_map(|c| rates.iter().map(move |r| r[c])).collect()
-}
-
-/// A dimension that the caller has established.
-fn in_dimension<const A: usize, const B: usize>(v: &[f64; A]) -> [f64; B] {
-    std::array::from_fn(|c| v.get(c).copied().unwrap_or(0.0))
-}
-
-impl<const D: usize> Cells<D> for Tiling<D> {
-    fn size(&self, _: &Spec, point: &Placed<D>) -> Result<f64, Diagnostic> {
-        Ok(point.spacing)
-    }
-
-    fn faces(&self, (fault, _): (usize, &Spec), _: &[Placed<D>]) -> Result<Vec<Vec<usize>>, Diagnostic> {
-        Ok(self.faces[fault].clone())
-    }
 }

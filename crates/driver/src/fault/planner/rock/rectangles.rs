@@ -2,7 +2,7 @@
 
 use super::super::place::directions;
 use super::super::placed::in_space;
-use super::{Tiling, in_dimension};
+use super::tiling::{Tiling, in_dimension};
 use crate::diagnostic::Diagnostic;
 use crate::scene::model::{Fault as Spec, FaultRectangle, Scene};
 use asperity_cycles::kernel::{Placement, Rectangle, Space};

@@ -1,0 +1,81 @@
+//! A point of a fault with its law, its damping and its initial tractions.
+
+use super::medium::Medium;
+use super::placed::{Placed, components};
+use super::prestress::Resolved;
+use super::{asked, floor, patches};
+use crate::diagnostic::Diagnostic;
+use crate::laws;
+use crate::scene::law::LawChoice;
+use crate::scene::model::{DampingSpec, Fault as Spec};
+use asperity_cycles::medium::{Place, Point};
+
+/// Surroundings of a point.
+pub(super) struct Given {
+    pub medium: Medium,
+    /// Distance to the farthest neighbour \[m\].
+    pub spacing: f64,
+    /// Tractions of the initial stress of bodies.
+    pub stress: Option<Resolved>,
+    /// Creep rate \[m/s\].
+    pub creep: Option<f64>,
+    /// Number of components of displacement.
+    pub components: usize,
+}
+
+/// A point of a fault with its law and initial tractions.
+pub(super) fn placed_at<const D: usize>(
+    spec: &Spec,
+    (fault, base): (usize, &LawChoice),
+    place: Place<D>,
+    given: Given,
+) -> Result<Placed<D>, Diagnostic> {
+    let choice = floor::choice(spec);
+    let values = patches::values(spec, &place, base);
+    Ok(Placed {
+        fault,
+        medium: given.medium,
+        damping: damping(spec, &given.medium)?,
+        // The scene check ensures that one of them is given; where the fault creeps, neither is needed.
+        normal: given.stress.and_then(|g| g.normal).or(values.normal).unwrap_or_default(),
+        shear: given.stress.map(|g| g.shear).or(values.shear),
+        rate: values.rate,
+        prestress: given.stress.unwrap_or_default(),
+        spacing: given.spacing,
+        floor: choice.floor,
+        law: values.law(base),
+        creep: given.creep,
+        components: given.components,
+        point: Point {
+            creep: given.creep.map(|rate| components(&place, rate)),
+            normal_changes: choice.changes,
+            opens: choice.opens,
+            place,
+        },
+    })
+}
+
+/// Law of a fault, whose parameters may vary along it.
+pub(super) fn base_law(spec: &Spec) -> Result<LawChoice, Diagnostic> {
+    let law = laws::choose(&spec.law).map_err(|errors| {
+        let first = errors.into_iter().next();
+        first.unwrap_or_else(|| asked::incomplete(&spec.law))
+    })?;
+    patches::fit(spec, &law)?;
+    Ok(law)
+}
+
+/// Radiation damping η at a point \[Pa s/m\].
+fn damping(spec: &Spec, medium: &Medium) -> Result<f64, Diagnostic> {
+    let Some(given) = &spec.damping else { return Ok(0.0) };
+    match given.get_ref() {
+        DampingSpec::Value(value) => Ok(*value),
+        DampingSpec::Radiation => medium.radiation.ok_or_else(|| {
+            Diagnostic::at(
+                given.span(),
+                "radiation damping needs the density of the materials at the fault",
+                "add `density = \"2670 kg/m^3\"` to them, or give the damping in Pa s/m",
+            )
+        }),
+    }
+}
