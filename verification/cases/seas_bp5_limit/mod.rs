@@ -1,7 +1,7 @@
 //! The SEAS benchmark BP5-QD in the half-space with finer cells, and the limit of its interval.
 
 use crate::cases::seas_bp5::{INTERACT, INTERACT_1KM, along_rake, events, interval};
-use crate::{Capability, Case, CaseError, Evidence, Ledger};
+use crate::{Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -36,6 +36,14 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
             .cost(&found.cost)
             .record();
     }
+    let curve = |values: &mut dyn Iterator<Item = f64>| -> Vec<(f64, f64)> {
+        GRIDS.iter().map(|grid| grid.0).zip(values).collect()
+    };
+    ledger.plot(
+        Plot::xy("Interval between events", "size of cells [km]", "interval [yr]")
+            .series(Series::line("here", &curve(&mut intervals.iter().copied())))
+            .series(Series::points("interact", &curve(&mut GRIDS.iter().map(|grid| grid.1)))),
+    );
     let (first, second) = (intervals[1] - intervals[0], intervals[2] - intervals[1]);
     let limit = intervals[2] + second / (first / second - 1.0);
     ledger
