@@ -1,13 +1,13 @@
-//! Geometry of the points of a fault, which are pairs of nodes, one on each side.
+//! Geometry of the points of a fault: pairs of nodes, one on each side, or centres of cells in homogeneous rock.
 
 use asperity_fem::surface;
 
 /// A point of a fault.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place<const D: usize> {
-    /// Node on the minus side.
+    /// Node on the minus side; without bodies, the number of the cell.
     pub minus: usize,
-    /// Node on the plus side.
+    /// Node on the plus side; without bodies, the number of the cell.
     pub plus: usize,
     /// Position \[m\].
     pub at: [f64; D],
