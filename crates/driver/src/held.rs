@@ -9,6 +9,12 @@ const PROGRAM: usize = 38_000_000;
 /// Bytes per thread of the buffers in which dense kernels pack their operands.
 const PACKED: usize = 10_000_000;
 
+/// Total of a run of faults without bodies whose operator takes `operator` bytes while it is made.
+#[must_use]
+pub fn without_bodies(operator: usize) -> usize {
+    PROGRAM + operator
+}
+
 /// Memory of a model during a run \[bytes\].
 #[derive(Clone, Copy, Debug)]
 pub struct Held {

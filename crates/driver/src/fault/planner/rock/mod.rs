@@ -15,6 +15,7 @@ use super::{asked, patches, resolution, sense};
 use crate::amounts;
 use crate::diagnostic::Diagnostic;
 use crate::forecast;
+use crate::held;
 use crate::idealisation;
 use crate::model::materials;
 use crate::scene::model::{Fault as Spec, Medium as Rock, MediumKind, Scene, Spanned};
@@ -25,9 +26,6 @@ use asperity_cycles::medium::patches::{Patches, Slip, deficit};
 use asperity_cycles::operator::{Form, Geometry};
 use asperity_fem::material::elastic::Elastic;
 use tiling::Tiling;
-
-/// Bytes of the program with its libraries, tables and plots.
-const PROGRAM: usize = 38_000_000;
 
 /// Plans faults in homogeneous rock.
 ///
@@ -60,7 +58,7 @@ pub(super) fn plan<const D: usize>(scene: &Scene, rock: &Rock, form: Form) -> Re
         },
         dofs: 0,
         creeping: 0,
-        memory_bytes: PROGRAM + memory,
+        memory_bytes: held::without_bodies(memory),
         bodies: None,
         resolution,
         warnings,
