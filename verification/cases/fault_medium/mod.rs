@@ -309,7 +309,7 @@ fn disc(ledger: &mut Ledger) -> Result<(), CaseError> {
         .claim("fall of that error from 12 to 36 cells across")
         .value(levels[0].1 / levels[levels.len() - 1].1)
         .at_least(2.0)
-        .evidence(Evidence::Exact, "the same")
+        .evidence(Evidence::Exact, "8 (1 - nu)/(pi (2 - nu)) dtau/G sqrt(a^2 - r^2), for a radius of equal area")
         .because("the error is of first order, a factor of 3, but for the outline, which differs from one division to the next")
         .why_not_tighter("the outline of cells")
         .covers(&[Capability::Medium, Capability::Solid3d])

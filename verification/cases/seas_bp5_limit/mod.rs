@@ -1,6 +1,6 @@
 //! The SEAS benchmark BP5-QD in the half-space with finer cells, and the limit of its interval.
 
-use crate::cases::seas_bp5::{INTERACT, INTERACT_1KM, along_rake, events, interval};
+use crate::cases::seas_bp5::{INTERACT_1KM, along_rake, claim, events, interval};
 use crate::{Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
 
 /// See the README.
@@ -21,20 +21,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut intervals = Vec::new();
     for (size, wanted) in GRIDS {
         let (found, _) = events(&along_rake(&format!("{size} km"))?)?;
-        let own = interval(&found);
-        intervals.push(own);
-        ledger
-            .claim(format!("interval between events, cells of {size} km"))
-            .unit("yr")
-            .value(own)
-            .equals(wanted)
-            .absolute(0.03)
-            .uncertainty(0.001)
-            .evidence(Evidence::OtherCode, INTERACT)
-            .because("the same cells and kernels: what differs are errors of steps, 1e-4 of an interval")
-            .why_not_tighter("the tolerance of the other code is not published")
-            .cost(&found.cost)
-            .record();
+        claim(ledger, &format!("{size} km"), &found, wanted);
+        intervals.push(interval(&found));
     }
     let curve = |values: &mut dyn Iterator<Item = f64>| -> Vec<(f64, f64)> {
         GRIDS.iter().map(|grid| grid.0).zip(values).collect()

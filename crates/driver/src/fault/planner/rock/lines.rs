@@ -2,7 +2,7 @@
 
 use super::super::bends;
 use super::super::place::directions;
-use super::tiling::{Tiling, in_dimension};
+use super::tiling::{Tiling, buried, in_dimension};
 use crate::diagnostic::Diagnostic;
 use crate::idealisation;
 use crate::model::meshes;
@@ -19,13 +19,7 @@ use asperity_fem::mesh::fault::{Departure, Divided, divided};
 pub(super) fn tiling<const D: usize>(scene: &Scene, space: Space) -> Result<Tiling<D>, Diagnostic> {
     let antiplane = idealisation::of(*scene.kinematics.get_ref()).components() == 1;
     let mut all = Vec::new();
-    let mut tiling = Tiling {
-        patches: Patches::Antiplane(Vec::new()),
-        places: Vec::new(),
-        sizes: Vec::new(),
-        faces: Vec::new(),
-        notes: Vec::new(),
-    };
+    let mut tiling = Tiling::new();
     for (name, spec) in &scene.faults {
         let Some(line) = &spec.line else { continue };
         let (cells, departure) = cells(name, line)?;
@@ -35,6 +29,7 @@ pub(super) fn tiling<const D: usize>(scene: &Scene, space: Space) -> Result<Tili
         for cell in &cells {
             let segment = Segment::new(space, cell.ends)
                 .map_err(|e| Diagnostic::at(line.trace.span(), format!("fault `{name}`: {e}"), INSIDE))?;
+            buried(space, name, [segment.middle()[1], cell.length()], line.trace.span())?;
             segments.push(segment);
         }
         let places = cells.iter().zip(&segments).enumerate();

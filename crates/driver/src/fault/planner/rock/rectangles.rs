@@ -2,7 +2,7 @@
 
 use super::super::place::directions;
 use super::super::placed::in_space;
-use super::tiling::{Tiling, in_dimension};
+use super::tiling::{Tiling, buried, in_dimension};
 use crate::diagnostic::Diagnostic;
 use crate::scene::model::{Fault as Spec, FaultRectangle, Scene};
 use asperity_cycles::kernel::{Placement, Rectangle, Space};
@@ -17,13 +17,7 @@ use std::f64::consts::FRAC_PI_2;
 /// [`Diagnostic`] at the rectangle that leaves the rock.
 pub(super) fn tiling<const D: usize>(scene: &Scene, space: Space) -> Result<Tiling<D>, Diagnostic> {
     let (mut tiles, mut grids): (Vec<Tile>, Vec<Lattice>) = (Vec::new(), Vec::new());
-    let mut tiling = Tiling {
-        patches: Patches::Antiplane(Vec::new()),
-        places: Vec::new(),
-        sizes: Vec::new(),
-        faces: Vec::new(),
-        notes: Vec::new(),
-    };
+    let mut tiling = Tiling::new();
     for (name, spec) in &scene.faults {
         let Some(rectangle) = &spec.rectangle else { continue };
         let grid = Grid::of(rectangle);
@@ -38,6 +32,7 @@ pub(super) fn tiling<const D: usize>(scene: &Scene, space: Space) -> Result<Tili
                     "y points up: depths are negative",
                 )
             })?;
+            buried(space, name, [grid.centre(cell)[1], grid.cell[1]], rectangle.from.span())?;
             let place = place::<D>((name, spec), first + k, &grid, (cell, &patch))?;
             tiles.push(tile(&place, patch, (grids.len(), cell)));
             places.push(place);

@@ -4,8 +4,10 @@ use super::super::cells::Cells;
 use super::super::placed::Placed;
 use crate::diagnostic::Diagnostic;
 use crate::scene::model::Fault as Spec;
+use asperity_cycles::kernel::Space;
 use asperity_cycles::medium::Place;
 use asperity_cycles::medium::patches::Patches;
+use std::ops::Range;
 
 /// Cells of the faults of a scene, in the order of their points.
 pub(super) struct Tiling<const D: usize> {
@@ -24,6 +26,14 @@ pub(super) fn in_dimension<const A: usize, const B: usize>(v: &[f64; A]) -> [f64
     std::array::from_fn(|c| v.get(c).copied().unwrap_or(0.0))
 }
 
+impl<const D: usize> Tiling<D> {
+    /// No cells yet.
+    pub fn new() -> Self {
+        let patches = Patches::Antiplane(Vec::new());
+        Self { patches, places: Vec::new(), sizes: Vec::new(), faces: Vec::new(), notes: Vec::new() }
+    }
+}
+
 impl<const D: usize> Cells<D> for Tiling<D> {
     fn size(&self, _: &Spec, point: &Placed<D>) -> Result<f64, Diagnostic> {
         Ok(point.spacing)
@@ -32,4 +42,28 @@ impl<const D: usize> Cells<D> for Tiling<D> {
     fn faces(&self, (fault, _): (usize, &Spec), _: &[Placed<D>]) -> Result<Vec<Vec<usize>>, Diagnostic> {
         Ok(self.faces[fault].clone())
     }
+}
+
+/// Depth of the centre of a cell over its size below which it lies in the free surface, to rounding of coordinates. Slip there
+/// meets no resistance.
+const IN_SURFACE: f64 = 1e-6;
+
+/// Refuses a cell of this size \[m\] with its centre at this height \[m\] in the free surface of a half-space.
+///
+/// # Errors
+/// [`Diagnostic`] at `place`.
+pub(super) fn buried(
+    space: Space,
+    name: &str,
+    [height, size]: [f64; 2],
+    place: Range<usize>,
+) -> Result<(), Diagnostic> {
+    if space == Space::Whole || -height > IN_SURFACE * size {
+        return Ok(());
+    }
+    Err(Diagnostic::at(
+        place,
+        format!("fault `{name}` lies in the free surface y = 0, where slip meets no resistance"),
+        "a fault reaches the surface with its upper end or edge only",
+    ))
 }
