@@ -48,8 +48,8 @@ pub struct FaultRectangle {
     /// First end of the upper edge, `[x, y, z]`, y up \[m\].
     #[serde(deserialize_with = "exact::list")]
     pub from: Spanned<[Length; 3]>,
-    /// Second end of the upper edge, at the same height \[m\]. Seen from above, the fault dips to the right of the way from `from`
-    /// to `to`.
+    /// Second end of the upper edge, at the same height. Seen from above, the fault dips to the right of the way from `from` to
+    /// `to` \[m\].
     #[serde(deserialize_with = "exact::list")]
     pub to: Spanned<[Length; 3]>,
     /// Dip, above 0 and at most 90 degrees; default: 90 degrees \[rad\].

@@ -22,9 +22,9 @@ pub struct Patch {
     pub combine: Option<Spanned<Combine>>,
     /// Direct effect a \[-\].
     pub a: Option<Spanned<f64>>,
-    /// Evolution effect b \[-\]; laws with one state variable.
+    /// Evolution effect b, in laws with one state variable \[-\].
     pub b: Option<Spanned<f64>>,
-    /// Characteristic slip L \[m\]; laws with one state variable.
+    /// Characteristic slip L, in laws with one state variable \[m\].
     pub l: Option<Spanned<Length>>,
     /// Initial normal traction \[Pa\].
     pub normal: Option<Spanned<Pressure>>,
