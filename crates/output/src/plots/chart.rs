@@ -21,6 +21,14 @@ pub enum Measure {
     Stress,
     /// Dimensionless number \[-\].
     Number,
+    /// Energy \[J\].
+    Energy,
+    /// Energy per length out of the plane \[J/m\].
+    EnergyPerLength,
+    /// Moment rate \[N m/s\].
+    MomentRate,
+    /// Moment rate per length out of the plane \[N/s\].
+    MomentRatePerLength,
 }
 
 impl Measure {
@@ -31,6 +39,10 @@ impl Measure {
             Self::Velocity => units::VELOCITY,
             Self::Stress => units::STRESS,
             Self::Number => units::NUMBER,
+            Self::Energy => units::ENERGY,
+            Self::EnergyPerLength => units::ENERGY_PER_LENGTH,
+            Self::MomentRate => units::MOMENT_RATE,
+            Self::MomentRatePerLength => units::MOMENT_RATE_PER_LENGTH,
         }
     }
 }
