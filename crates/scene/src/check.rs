@@ -3,6 +3,7 @@
 mod bodies;
 mod conditions;
 pub mod course;
+mod explicit;
 mod fault_physics;
 mod faults;
 mod interfaces;

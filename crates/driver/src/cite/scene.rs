@@ -186,10 +186,22 @@ fn add_steps(citations: &mut Citations, scene: &Scene) {
                 citations.add(key, "static-explicit steps by the R-minimum rule");
             }
         }
+        Stepper::Explicit => add_waves(citations, scene),
         Stepper::Implicit => {}
     }
     if !scene.interfaces.is_empty() && rule(scene) == Rule::Bdf2 {
         citations.add("hairer1993", "rule \"bdf2\" with variable steps");
+    }
+}
+
+/// Sources of steps with inertia.
+fn add_waves(citations: &mut Citations, scene: &Scene) {
+    let conditions = || scene.stages.iter().flat_map(|s| &s.conditions).map(Spanned::get_ref);
+    if conditions().any(|c| c.absorbing.as_ref().is_some_and(|a| *a.get_ref())) {
+        citations.add("lysmer1969", "absorbing sides");
+    }
+    if !scene.faults.is_empty() {
+        citations.add("day2005", "friction at split nodes");
     }
 }
 

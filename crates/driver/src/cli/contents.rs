@@ -12,7 +12,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Files that runs write to their directory.
-const FILES: [&str; 18] = [
+const FILES: [&str; 21] = [
     REPORT,
     LOCK,
     ".writable",
@@ -29,13 +29,16 @@ const FILES: [&str; 18] = [
     "slip_profiles.csv",
     "rate_profiles.csv",
     "snapshots.csv",
+    "energy.csv",
+    "moment_rate.csv",
+    "rupture_times.csv",
     // Files left by file managers.
     ".DS_Store",
     "Thumbs.db",
 ];
 
 /// Folders that runs make, with the extensions of the files in them.
-const FOLDERS: [(&str, &[&str]); 8] = [
+const FOLDERS: [(&str, &[&str]); 9] = [
     ("fields", &["vtu"]),
     ("profiles", &["csv"]),
     ("probes", &["csv"]),
@@ -44,6 +47,7 @@ const FOLDERS: [(&str, &[&str]); 8] = [
     ("history", &["csv"]),
     ("plots", &["svg", "png"]),
     ("stations", &[""]),
+    ("seismograms", &["csv", "mseed", "sac"]),
 ];
 
 /// First entry of a directory that no run writes; `None` if there is none or the directory does not exist.
