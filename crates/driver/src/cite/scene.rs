@@ -13,7 +13,7 @@ use crate::scene::slider::SliderScene;
 
 /// Keys of this file, for the test of the table.
 #[cfg(test)]
-pub(super) const KEYS: [&str; 24] = [
+pub(super) const KEYS: [&str; 28] = [
     "puso2004",
     "puso2004b",
     "wohlmuth2000",
@@ -38,6 +38,10 @@ pub(super) const KEYS: [&str; 24] = [
     "muskhelishvili1953",
     "okada1992",
     "savage1983",
+    "day2005",
+    "kaneko2008",
+    "lysmer1969",
+    "prakash1993",
 ];
 
 /// Citations of a scene of bodies or faults.
@@ -202,6 +206,12 @@ fn add_waves(citations: &mut Citations, scene: &Scene) {
     }
     if !scene.faults.is_empty() {
         citations.add("day2005", "friction at split nodes");
+    }
+    if scene.faults.values().any(Fault::slides) {
+        citations.add("kaneko2008", "friction that depends on the slip rate at split nodes");
+    }
+    if scene.faults.values().any(|f| f.normal_delay.is_some()) {
+        citations.add("prakash1993", "friction that follows the normal traction with a delay");
     }
 }
 

@@ -73,8 +73,9 @@ pub fn draw_velocities(
     mesh: &MeshView,
     frames: &[(f64, Vec<f64>)],
 ) -> Result<Vec<PathBuf>, OutputError> {
+    let last = frames.last().map_or(1.0, |frame| frame.0);
     let one = |(k, (time, values)): (usize, &(f64, Vec<f64>))| {
-        let when = format!("t = {} s", crate::decimals::shortest(*time));
+        let when = format!("t = {}", rupture::moment(*time, last));
         Some((format!("velocity_{k}"), field::velocity(scene, &when, mesh, values, field::LARGE)?))
     };
     let mut figures: Vec<(String, Figure)> = frames.iter().enumerate().filter_map(one).collect();

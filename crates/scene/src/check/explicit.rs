@@ -24,6 +24,7 @@ impl Checker<'_> {
         for fault in scene.faults.values() {
             self.without_cycles(fault);
             self.direction_with_mass(fault);
+            self.start_with_mass(fault);
             self.delay(fault);
         }
         self.same_for_all();
@@ -232,6 +233,27 @@ impl Checker<'_> {
                 opening.span(),
                 "no fault opens in antiplane motion, where bodies move out of the plane only",
                 "remove `opening`; faults open in `kinematics = \"plane-strain\"` and in \"3d\"",
+            );
+        }
+    }
+
+    /// Checks that the shear traction at the start is given, and that no weight presses the fault.
+    fn start_with_mass(&mut self, fault: &Fault) {
+        let scene = self.scene;
+        let bodies = [&fault.minus, &fault.plus].map(|side| scene.body_of(side));
+        let stressed = bodies.iter().flatten().any(|b| b.initial_stress.is_some());
+        if fault.shear.is_none() && fault.profiles.shear.is_none() && !stressed {
+            self.error(
+                fault.span(),
+                "the fault has no `shear`, and bodies with mass start from given tractions",
+                "such as `shear = \"70 MPa\"`, `profiles.shear`, or an `initial_stress` of its bodies",
+            );
+        }
+        if let Some(gravity) = scene.bodies.values().find_map(|b| b.gravity.as_ref()) {
+            self.error(
+                gravity.span(),
+                "`gravity` of bodies with mass and faults: the weight is part of the state at the start",
+                "leave it out, and give `normal` and `shear` of the fault, or an `initial_stress`",
             );
         }
     }

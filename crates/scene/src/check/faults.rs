@@ -104,7 +104,13 @@ impl Checker<'_> {
             let c = condition.get_ref();
             for motion in [&c.x, &c.y, &c.z].into_iter().flatten() {
                 let Motion::Spring { stiffness, rate } = *motion.get_ref() else { continue };
-                if scene.faults.is_empty() || self.has_waves() {
+                if self.has_waves() {
+                    self.error(
+                        motion.span(),
+                        "a spring draws sides of bodies without mass",
+                        "prescribe the motion itself, such as `{ rate = \"1 um/s\" }`",
+                    );
+                } else if scene.faults.is_empty() {
                     self.error(
                         motion.span(),
                         "a spring draws sides in scenes with faults only",
@@ -185,7 +191,7 @@ impl Checker<'_> {
     /// True if friction of the fault depends on the slip rate.
     fn needs_rate(fault: &Fault) -> bool {
         let kind = fault.law.get_ref().kind.as_ref();
-        !kind.is_some_and(|k| WITHOUT_RATE.contains(&k.get_ref().as_str()))
+        !kind.is_some_and(|k| WITHOUT_RATE.contains(&k.get_ref().as_str()) || k.get_ref() == "tied")
     }
 
     fn start_of(&mut self, fault: &Fault) {

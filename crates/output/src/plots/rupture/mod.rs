@@ -17,7 +17,7 @@ use super::figure::{Figure, Point};
 use super::units::LENGTH;
 use crate::stems;
 use std::ops::Range;
-pub(super) use successive::velocities;
+pub(super) use successive::{moment, velocities};
 
 /// Points of a fault as a figure shows them.
 #[derive(Clone, Debug)]

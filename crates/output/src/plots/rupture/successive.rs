@@ -14,6 +14,10 @@ const PANELS: usize = 8;
 const CURVE: Point = (560.0, 62.0);
 /// Largest size of a panel of a surface.
 const MAP: Point = (420.0, 120.0);
+/// Largest size of a panel of a body that is higher than wide, and number of such panels.
+const TALL: Point = (420.0, 230.0);
+/// See [`TALL`].
+const FEW: usize = 4;
 /// Width of a time in characters, so that times stand below each other.
 const DIGITS: usize = 2;
 
@@ -54,7 +58,8 @@ fn chosen(count: usize, panels: usize) -> Vec<usize> {
     (1..=panels).map(|k| k * (count - 1) / panels).collect()
 }
 
-fn moment(time: f64, last: f64) -> String {
+/// A time as text, in the unit of the last one.
+pub(in crate::plots) fn moment(time: f64, last: f64) -> String {
     let unit = TIME.of(last);
     format!("{:.DIGITS$} {}", time / unit.factor, unit.name)
 }
@@ -97,14 +102,15 @@ pub(in crate::plots) fn velocities(
     let last = frames.last()?.0;
     let all: Vec<f64> = frames.iter().flat_map(|frame| frame.1.iter().copied()).collect();
     let (hi, most) = covered(&all)?;
-    let frame = shown.frame(MAP);
+    let wide = shown.frame(MAP);
+    let (frame, panels) = if wide.size.0 < wide.size.1 { (shown.frame(TALL), FEW) } else { (wide, PANELS) };
     let unit = VELOCITY.of(most);
     let panel = |k: usize| {
         let (time, values) = &frames[k];
         (moment(*time, last), Content::Map(shown.image(&frame, values, hi)))
     };
     let panels =
-        chosen(frames.len().max(2), PANELS).into_iter().map(|k| panel(k.min(frames.len() - 1))).collect();
+        chosen(frames.len().max(2), panels).into_iter().map(|k| panel(k.min(frames.len() - 1))).collect();
     let above = (most > hi).then(|| format!("max {:.1}", most / unit.factor));
     let bar = Some(Bar { range: (0.0, hi / unit.factor), above, label: format!("Velocity [{}]", unit.name) });
     let title = (scene, "particle velocity");
