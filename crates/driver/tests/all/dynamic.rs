@@ -221,6 +221,7 @@ stepper = "explicit"
 [output]
 fields = 2
 stations.main = [[0, 0, 0]]
+seismograms.PLUS = { body = "B", at = [0, 0, 0] }
 "#;
 
 #[test]
@@ -249,6 +250,10 @@ fn a_rupture_in_space_slips_along_its_traction_and_is_symmetric() {
     let station = fs::read_to_string(out.join("stations/main_000")).unwrap();
     let last: Vec<f64> = station.lines().last().unwrap().split(' ').map(|v| v.parse().unwrap()).collect();
     assert!(last[1] > 0.2 && last[2].abs() < 1e-9 * last[1], "{last:?}");
+    // The plus side moves along the rake by half the slip.
+    let plus = fs::read_to_string(out.join("seismograms/PLUS.csv")).unwrap();
+    let moved: Vec<f64> = plus.lines().last().unwrap().split(',').map(|v| v.parse().unwrap()).collect();
+    assert!((moved[6] / last[1] - 0.5).abs() < 1e-6 && moved[5].abs() < 1e-9, "{moved:?} {last:?}");
     for file in ["plots/main_rupture_times.png", "plots/main_film.png", "fields/main_00002.vtu"] {
         assert!(out.join(file).exists(), "{file}");
     }
