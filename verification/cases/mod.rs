@@ -56,6 +56,7 @@ mod cook_membrane;
 mod coulomb_strip;
 mod dislocation;
 pub mod drawn;
+mod dynamic_rupture;
 mod elastic_plastic_cylinder;
 mod elastic_waves;
 mod event_files;
@@ -235,6 +236,7 @@ pub const ALL: &[Case] = &[
     two_rings::CASE,
     // Nonlinear bodies.
     cantilever_rotation::CASE,
+    dynamic_rupture::CASE,
     elastic_plastic_cylinder::CASE,
     elastic_waves::CASE,
     first_slip::CASE,
