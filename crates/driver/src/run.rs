@@ -268,6 +268,7 @@ impl<const D: usize> Running<'_, D> {
             warnings.extend(run_doubts::never_closed(&results));
         }
         let energy = system.energy().map(|energy| work.energy.closure(energy));
+        warnings.extend(energy.and_then(|energy| energy.doubt()));
         let mut report =
             RunReport { outcome, warnings, results, points, forces, balance, energy, ..RunReport::new(plan) };
         let counts = views::counts(work.steps.len(), work.rejected, &work.counts);

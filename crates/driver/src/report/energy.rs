@@ -1,10 +1,14 @@
 //! Energy budget of bodies with inertia in the report.
 
 use crate::views;
+use crate::warning::Warning;
 use asperity_mechanics::Energy;
 use asperity_output::view::EnergyParts;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+/// Imbalance above which a run warns: forces and speeds then err by some per cent.
+const DOUBTFUL: f64 = 0.05;
 
 /// Energy budget at the end of a run, with its imbalance.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -14,6 +18,20 @@ pub struct Budget {
     pub parts: EnergyParts,
     /// Largest amount by which the budget missed its closure in any step, over the largest of its parts in the run \[-\].
     pub imbalance: f64,
+}
+
+impl Budget {
+    /// Warning about a budget that does not close.
+    pub(crate) fn doubt(&self) -> Option<Warning> {
+        (self.imbalance > DOUBTFUL).then(|| {
+            let message = format!(
+                "the energy budget misses {:.2} of its largest part: points of contact may open and close in every other step",
+                self.imbalance
+            );
+            let help = "take shorter steps, a `spectral_radius` of 0.5 or less, or a softer penalty";
+            Warning::at(0..0, message, help)
+        })
+    }
 }
 
 /// Closure of an energy budget during a run.

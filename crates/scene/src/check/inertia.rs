@@ -28,7 +28,7 @@ impl Checker<'_> {
             self.error(
                 radius.span(),
                 format!("`spectral_radius` must lie between 0 and 1, found {:?}", radius.get_ref()),
-                "1 dissipates nothing, 0 removes what the steps do not resolve in one step; the default is 0.8",
+                "1 dissipates nothing, 0 removes what the steps do not resolve in one step; the default is 0.5",
             );
         }
         if let Some(tolerance) = settings.tolerance.as_ref().filter(|t| !TOLERANCES.contains(t.get_ref())) {
@@ -80,6 +80,10 @@ impl Checker<'_> {
             let message =
                 "the iterative method solves for states of equilibrium, not for bodies with inertia";
             self.conflict(&method.span(), message, "use `method = \"direct\"`, or leave it out", here);
+        }
+        if let Some(limit) = &scene.time.slip_rate_limit {
+            let message = "`slip_rate_limit` ends a run at an instability, and bodies with inertia follow it";
+            self.conflict(&limit.span(), message, "remove `slip_rate_limit`", here);
         }
         for (name, interface) in &scene.interfaces {
             let kind = &interface.enforcement.kind;

@@ -11,7 +11,7 @@ use std::fmt;
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct InertiaSpec {
-    /// Spectral radius ρ∞ at frequencies that the steps do not resolve, 0 to 1; 1 dissipates nothing; default 0.8 \[-\].
+    /// Spectral radius ρ∞ at frequencies that the steps do not resolve, 0 to 1; 1 dissipates nothing; default 0.5 \[-\].
     pub spectral_radius: Option<Spanned<f64>>,
     /// Largest error of displacement in a step over the largest displacement of a step; default 1e-3 \[-\].
     pub tolerance: Option<Spanned<f64>>,
