@@ -15,6 +15,7 @@ pub mod kinematics;
 pub mod loads;
 pub mod mass;
 pub mod material;
+pub mod matrix_free;
 pub mod mesh;
 pub mod multifrontal;
 pub mod nonlinear;
