@@ -87,6 +87,8 @@ pub mod hertz;
 mod hertz_ball;
 mod hertz_line;
 mod hertz_sphere;
+mod impact_bars;
+mod implicit_dynamics;
 mod interface_instability;
 mod interface_laws;
 mod interface_prestress;
@@ -193,6 +195,8 @@ pub const ALL: &[Case] = &[
     hertz_line::CASE,
     hertz_sphere::CASE,
     hertz_ball::CASE,
+    impact_bars::CASE,
+    implicit_dynamics::CASE,
     interface_instability::CASE,
     interface_laws::CASE,
     interface_prestress::CASE,

@@ -1,6 +1,7 @@
 //! Report of a run of bodies, `report.json`: its results and its work. The part common to all reports is in [`common`].
 
 pub mod common;
+mod energy;
 pub mod schema;
 
 use crate::balance::InterfaceBalance;
@@ -16,6 +17,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use common::{EnergyBalance, Kind, Outcome, Phases, Results, Status, Stop};
+pub use energy::{Budget, Closure};
 
 /// Values of an interface at the end of a stage.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -84,6 +86,9 @@ pub struct RunReport {
     pub forces: Vec<ForceResult>,
     /// Balance of contact forces at the end.
     pub balance: Vec<InterfaceBalance>,
+    /// Energy budget at the end, if the bodies have inertia.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy: Option<Budget>,
     /// Work.
     pub counts: Counts,
     /// All steps.

@@ -133,6 +133,7 @@ impl<const D: usize> Running<'_, D> {
             let clock = Clock::now();
             let before = system.slip_rates();
             system.set_bound(here.length.bound(dt));
+            system.set_inertia_bound(here.length.inertia_bound(dt));
             let trial = system.step((dt, here.length.smallest()), &mut self.work.counts);
             self.phases.steps += clock.elapsed().as_secs_f64();
             let ended = match trial {
@@ -195,12 +196,14 @@ impl<const D: usize> Running<'_, D> {
             slip: system.slip_error(before, accepted.dt),
             friction: accepted.error,
             fill: system.slip_fill(),
+            inertia: system.inertia_error(),
             // Each multiplier update solves again from the previous solution. The difficulty of a step is that of one
             // solution.
             iterations: accepted.iterations.div_ceil(accepted.augmentations + 1),
         };
         here.length.accepted((accepted.dt, accepted.cut), figures);
         self.record(here, system, accepted);
+        self.work.energy.note(system.energy());
         (here.rejected, here.free) = (0, None);
     }
 
@@ -260,9 +263,14 @@ impl<const D: usize> Running<'_, D> {
         let balance = planned.map(|(p, i)| balance(&p.name, i, plan.problem.model.scale)).collect();
         let Found { results, points, forces, warnings } = found;
         let mut warnings: Vec<Warning> = warnings.into_iter().map(Warning::from).collect();
-        warnings.extend(run_doubts::never_closed(&results));
+        // With inertia bodies may meet and part within a stage.
+        if plan.problem.mass.is_none() {
+            warnings.extend(run_doubts::never_closed(&results));
+        }
+        let energy = system.energy().map(|energy| work.energy.closure(energy));
+        warnings.extend(energy.and_then(|energy| energy.doubt()));
         let mut report =
-            RunReport { outcome, warnings, results, points, forces, balance, ..RunReport::new(plan) };
+            RunReport { outcome, warnings, results, points, forces, balance, energy, ..RunReport::new(plan) };
         let counts = views::counts(work.steps.len(), work.rejected, &work.counts);
         report.complete(counts, phases, work.steps);
         report
@@ -337,6 +345,7 @@ impl<const D: usize> Running<'_, D> {
             end_time,
             interfaces: &interfaces,
             samples: &samples,
+            energy: system.energy().map(|energy| views::energy(&energy)),
             fields: &|| views::body_fields(self.plan, system.blocks(), &system.displacement()),
         };
         if stopped {

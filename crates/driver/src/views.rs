@@ -7,8 +7,8 @@ use asperity_fem::kinematics::Idealisation;
 use asperity_mechanics as mechanics;
 use asperity_mechanics::{CellBlock, ForceSet, PlannedInterface, Point};
 use asperity_output::view::{
-    BodyFields, Counts, ForceMark, InterfaceFields, InterfaceMesh, MeshView, PointMark, PointValues, Samples,
-    Setup,
+    BodyFields, Counts, EnergyParts, ForceMark, InterfaceFields, InterfaceMesh, MeshView, PointMark,
+    PointValues, Samples, Setup,
 };
 use std::collections::BTreeMap;
 
@@ -52,6 +52,33 @@ pub fn setup<const D: usize>(plan: &Plan<D>, areas: &[Vec<f64>]) -> Setup {
         points: plan.problem.samples.points.iter().map(point_mark).collect(),
         forces: plan.problem.samples.forces.iter().map(force_mark).collect(),
         force_unit: force_unit(plan),
+        energy_unit: plan.problem.mass.as_ref().map(|_| energy_unit(plan)),
+    }
+}
+
+/// An energy budget in the form passed to observers.
+#[must_use]
+pub fn energy(energy: &mechanics::Energy) -> EnergyParts {
+    EnergyParts {
+        kinetic: energy.kinetic,
+        strain: energy.strain,
+        contact: energy.contact,
+        plastic: energy.plastic,
+        viscous: energy.viscous,
+        friction: energy.friction,
+        numerical: energy.numerical,
+        start: energy.start,
+        loads: energy.loads,
+        motions: energy.motions,
+        missing: energy.missing(),
+    }
+}
+
+/// Unit of energies.
+fn energy_unit<const D: usize>(plan: &Plan<D>) -> &'static str {
+    match force_unit(plan) {
+        "N/m" => "J/m",
+        _ => "J",
     }
 }
 

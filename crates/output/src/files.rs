@@ -29,6 +29,7 @@ pub struct Files {
     interfaces: Vec<Part>,
     points: Vec<Growing>,
     forces: Vec<Growing>,
+    energy: Option<Growing>,
     collection: Vec<PvdEntry>,
     field_number: usize,
     /// Times of the last profiles and the last fields written \[s\].
@@ -68,7 +69,7 @@ pub struct FilesState {
     /// Times of the last profiles and the last fields written \[s\].
     written: [Option<f64>; 2],
     collection: Vec<PvdEntry>,
-    /// Bytes of the tables: first those of probes, then of points, then of forces.
+    /// Bytes of the tables: first those of probes, then of points, of forces and of the energy budget.
     bytes: Vec<u64>,
 }
 
@@ -88,6 +89,7 @@ impl Files {
             interfaces: Vec::new(),
             points: Vec::new(),
             forces: Vec::new(),
+            energy: None,
             collection: Vec::new(),
             field_number: 0,
             written: [None; 2],
@@ -126,7 +128,7 @@ impl Files {
     /// All tables.
     fn tables(&self) -> impl Iterator<Item = &Growing> {
         let probes = self.interfaces.iter().filter_map(|part| part.probes.as_ref());
-        probes.chain(&self.points).chain(&self.forces)
+        probes.chain(&self.points).chain(&self.forces).chain(&self.energy)
     }
 
     /// Output directory.
@@ -199,6 +201,9 @@ impl Files {
         for (file, force) in self.forces.iter_mut().zip(&view.samples.forces) {
             file.push(&row(force))?;
         }
+        if let (Some(file), Some(energy)) = (&mut self.energy, &view.energy) {
+            file.push(&row(&energy.named().map(|(_, value)| value)))?;
+        }
         Ok(())
     }
 
@@ -232,6 +237,10 @@ impl Files {
         let points = begin("points", points, &table::point_header())?;
         let forces = begin("forces", forces, &table::force_header(setup.force_unit))?;
         (self.points, self.forces) = (points, forces);
+        self.energy = match setup.energy_unit {
+            Some(unit) => Some(table(self.out.join("energy.csv"), &table::energy_header(unit))?),
+            None => None,
+        };
         Ok(())
     }
 

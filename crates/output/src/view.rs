@@ -171,6 +171,54 @@ pub struct Samples {
     pub forces: Vec<[f64; 3]>,
 }
 
+/// Energy budget of bodies with inertia since the start \[J, or J/m of thickness\]:
+/// `kinetic + strain + contact + plastic + viscous + friction + numerical + missing = start + loads + motions`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct EnergyParts {
+    /// Kinetic energy.
+    pub kinetic: f64,
+    /// Elastic energy of the bodies.
+    pub strain: f64,
+    /// Elastic energy of the penalties of the interfaces.
+    pub contact: f64,
+    /// Energy dissipated by plastic flow.
+    pub plastic: f64,
+    /// Energy dissipated by viscous flow.
+    pub viscous: f64,
+    /// Energy dissipated by friction.
+    pub friction: f64,
+    /// Energy dissipated by the time integration.
+    pub numerical: f64,
+    /// Energy at the start.
+    pub start: f64,
+    /// Work of loads.
+    pub loads: f64,
+    /// Work of prescribed motions.
+    pub motions: f64,
+    /// Energy by which the budget does not close.
+    pub missing: f64,
+}
+
+impl EnergyParts {
+    /// Names and values of the parts, in the order of the columns of files.
+    #[must_use]
+    pub fn named(&self) -> [(&'static str, f64); 11] {
+        [
+            ("kinetic", self.kinetic),
+            ("strain", self.strain),
+            ("contact", self.contact),
+            ("plastic", self.plastic),
+            ("viscous", self.viscous),
+            ("friction", self.friction),
+            ("numerical", self.numerical),
+            ("start", self.start),
+            ("loads", self.loads),
+            ("motions", self.motions),
+            ("missing", self.missing),
+        ]
+    }
+}
+
 /// Record of one step in the report.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StepRecord {
@@ -249,6 +297,8 @@ pub struct StepView<'a> {
     pub interfaces: &'a [InterfaceFields],
     /// Points and forces, in the order of [`Setup::points`] and [`Setup::forces`].
     pub samples: &'a Samples,
+    /// Energy budget, if the bodies have inertia.
+    pub energy: Option<EnergyParts>,
     /// Recovers the fields of the bodies; on the condensed path this costs a solve.
     pub fields: &'a dyn Fn() -> BodyFields,
 }
@@ -270,6 +320,8 @@ pub struct Setup {
     pub forces: Vec<ForceMark>,
     /// Unit of forces: N, or N/m if they are per metre of thickness.
     pub force_unit: &'static str,
+    /// Unit of energies, if the bodies have inertia: J, or J/m if they are per metre of thickness.
+    pub energy_unit: Option<&'static str>,
 }
 
 /// Receives the views of a run of bodies, to write, draw, keep or show them.

@@ -5,6 +5,7 @@ mod conditions;
 pub mod course;
 mod fault_physics;
 mod faults;
+mod inertia;
 mod interfaces;
 mod materials;
 mod medium;
@@ -37,6 +38,7 @@ pub fn check(scene: &Scene, laws: &Laws) -> (Vec<Diagnostic>, Vec<Warning>) {
     checker.place();
     checker.stages();
     checker.time();
+    checker.inertia();
     checker.solver();
     checker.output();
     checker.unused();

@@ -5,6 +5,7 @@
 
 mod body;
 mod fault;
+mod inertia;
 mod medium;
 mod patch;
 mod place;
@@ -19,6 +20,7 @@ pub use crate::spanned::Spanned;
 use crate::warning::Warning;
 pub use body::*;
 pub use fault::*;
+pub use inertia::*;
 pub use medium::*;
 pub use patch::*;
 pub use place::Place;
@@ -77,6 +79,12 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Settings of inertia; `None` if the bodies move through states of equilibrium.
+    #[must_use]
+    pub fn inertia(&self) -> Option<InertiaSpec> {
+        self.time.inertia.as_ref().and_then(|inertia| inertia.get_ref().settings())
+    }
+
     /// The body to which a set `body.side` belongs.
     #[must_use]
     pub fn body_of(&self, set: &Spanned<String>) -> Option<&Body> {
@@ -371,6 +379,8 @@ pub struct TimeControl {
     pub tolerance: Option<Spanned<Length>>,
     /// Implicit: largest estimated error of friction coefficients per step, 1e-9 to 1e-2 \[-\].
     pub friction_tolerance: Option<Spanned<f64>>,
+    /// Implicit: `true`, or `{ spectral_radius = .., tolerance = .. }`: the bodies have mass; default `false`.
+    pub inertia: Option<Spanned<Inertia>>,
     /// Both: first step; default 1/1000 of the stage \[s\].
     pub first_step: Option<Spanned<Time>>,
     /// Both: largest step; default 1/20 of the stage \[s\].

@@ -188,6 +188,12 @@ fn add_steps(citations: &mut Citations, scene: &Scene) {
         }
         Stepper::Implicit => {}
     }
+    if scene.inertia().is_some() {
+        citations.add("chung1993", "inertia by the generalised-alpha method");
+        if scene.stages.iter().any(|stage| stage.steps.is_none()) {
+            citations.add("zienkiewicz1991", "error control of bodies with inertia");
+        }
+    }
     if !scene.interfaces.is_empty() && rule(scene) == Rule::Bdf2 {
         citations.add("hairer1993", "rule \"bdf2\" with variable steps");
     }

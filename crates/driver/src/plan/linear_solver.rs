@@ -165,7 +165,8 @@ impl<const D: usize> Choice<'_, D> {
                 format!("symmetric factorisation (Cholesky), unsymmetric (LU) in {}", names.join(", "))
             }
         };
-        let once = self.interfaces.is_empty() && self.model.is_linear();
+        let still = self.scene.inertia().is_none();
+        let once = self.interfaces.is_empty() && self.model.is_linear() && still;
         let often = if once { ", once for each set of supports" } else { "" };
         Solver {
             method: Method::Sparse,

@@ -4,6 +4,7 @@ mod coarse;
 mod cohesive;
 mod doubts;
 mod enforcement;
+mod inertia;
 mod interfaces;
 mod linear_solver;
 mod path;

@@ -22,6 +22,7 @@ pub fn choose<const D: usize>(
     match (scene.time.path, not_linear(model)) {
         _ if scene.solver.method() == Method::Iterative => Ok(Path::Full),
         (PathChoice::Full, _) => Ok(Path::Full),
+        _ if scene.inertia().is_some() => Ok(Path::Full),
         (PathChoice::Condensed, _) if interfaces.is_empty() => {
             refuse("the condensed path needs an interface".into())
         }
@@ -62,6 +63,7 @@ pub fn full_because<const D: usize>(
 ) -> String {
     let why = match (scene.time.path, not_linear(model)) {
         (PathChoice::Full, _) => "the scene asks for it".to_string(),
+        _ if scene.inertia().is_some() => "mass acts on all degrees of freedom".into(),
         (_, Some(why)) => why,
         _ if interfaces.is_empty() => "there is no interface to condense onto".into(),
         _ if scene.solver.method() == Method::Iterative => "the iterative method does not condense".into(),

@@ -2,7 +2,7 @@
 
 use super::start_gap::StartGap;
 use crate::warning::Warning;
-use asperity_mechanics::Problem;
+use asperity_mechanics::{Mass, Problem};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -83,6 +83,15 @@ pub struct Summary {
     pub state_bytes: Option<usize>,
     /// Estimated memory \[bytes\].
     pub memory_bytes: usize,
+}
+
+impl Summary {
+    /// Adds the inertia of the bodies.
+    pub(super) fn add_inertia(&mut self, mass: &Mass) {
+        let radius = mass.radius;
+        self.physics
+            .push(format!("inertia of all bodies, generalised-alpha method with spectral radius {radius:?}"));
+    }
 }
 
 impl std::fmt::Display for Summary {

@@ -29,6 +29,9 @@ pub fn of<const D: usize>(
     (slave, master): (&[Side], &[Side]),
     loading: f64,
 ) -> Result<Watch, Diagnostic> {
+    if scene.inertia().is_some() {
+        return Ok(Watch { rate: None, course: with_inertia(course(law)), coarse_beyond: None });
+    }
     let rate = match (direct_effect(law), &scene.time.slip_rate_limit) {
         (None, _) => None,
         (Some(_), Some(stated)) => Some(RateLimit::Stated(stated.get_ref().0)),
@@ -39,6 +42,14 @@ pub fn of<const D: usize>(
         }
     };
     Ok(Watch { rate, course: course(law), coarse_beyond: None })
+}
+
+/// Course that the steps of bodies with inertia follow: these pass through instabilities, and a drop of friction is one.
+fn with_inertia(course: Course) -> Course {
+    match course {
+        Course::Drop => Course::Steady,
+        other => other,
+    }
 }
 
 /// Direct effect a of a law that depends on the slip rate.

@@ -1,6 +1,6 @@
 //! State of a run of bodies between two trials of steps.
 
-use crate::report::{ForceResult, InterfaceResult, PointResult};
+use crate::report::{Closure, ForceResult, InterfaceResult, PointResult};
 use crate::warning::Warning;
 use asperity_mechanics::timing::StepLengthState;
 use asperity_mechanics::{Counts, SystemState};
@@ -29,6 +29,9 @@ pub(super) struct Work {
     /// Rejected trials.
     pub rejected: usize,
     pub steps: Vec<StepRecord>,
+    /// Closure of the energy budget, if the bodies have inertia.
+    #[serde(default)]
+    pub energy: Closure,
 }
 
 /// Results of the completed stages.

@@ -52,6 +52,12 @@ impl StaticExplicit {
         self.newton.system()
     }
 
+    /// Residual of the state evaluated last \[N\].
+    #[must_use]
+    pub fn residual(&self) -> &[f64] {
+        self.newton.residual()
+    }
+
     /// Sets the largest error of friction coefficients with which a step is accepted \[-\].
     pub fn set_bound(&mut self, bound: f64) {
         self.newton.set_bound(bound);

@@ -3,6 +3,7 @@
 mod bodies;
 mod condensed;
 mod full;
+mod moving;
 mod numbering;
 mod saved;
 mod words;
@@ -18,6 +19,7 @@ use super::step::implicit::Implicit;
 use super::step::static_explicit::StaticExplicit;
 use super::step::{Accepted, Failure, State, Stepper};
 use super::{CellBlock, Path, PlannedInterface, Problem, Resolved, Stage, declared};
+use crate::inertia::Moving;
 use crate::{Counts, Samples};
 use asperity_contact::{Interface, TimeRule};
 use asperity_fem::assembly::{Iterative, NearNull, Storage, System};
@@ -29,6 +31,8 @@ pub struct Assembled<'a, const D: usize> {
     problem: &'a Problem<D>,
     bodies: Box<dyn Bodies<D> + 'a>,
     interfaces: Vec<Interface<D>>,
+    /// Inertia, if the bodies have mass.
+    moving: Option<Moving<D>>,
     numbering: Numbering,
     /// Constraints of the present stage, in system numbering.
     constraints: Constraints,
@@ -69,6 +73,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
             bodies,
             areas: interfaces.iter().map(|i| i.points().area.clone()).collect(),
             interfaces,
+            moving: problem.mass.as_ref().map(|mass| Moving::new(model, mass)),
             numbering,
             constraints: Constraints::default(),
             fixed: None,
@@ -97,6 +102,9 @@ impl<'a, const D: usize> Assembled<'a, D> {
         let renewed = self.fixed.as_ref() != Some(&stage.fixed);
         self.bodies.load(&constraints, renewed)?;
         self.constraints = self.numbering.constraints(&constraints);
+        if let Some(moving) = &mut self.moving {
+            moving.begin_stage(&constraints);
+        }
         if renewed {
             self.stepper = Some(self.new_stepper()?);
             self.fixed = Some(stage.fixed.clone());
@@ -119,7 +127,11 @@ impl<'a, const D: usize> Assembled<'a, D> {
         let problem = self.problem;
         // In finite sliding and large deformation forces are computed from positions, which are of the size of the scene.
         let position = if problem.moves() { problem.model.scale } else { 0.0 };
-        let travel = problem.stages.iter().map(Stage::travel).sum();
+        // Nothing bounds the flight of bodies with mass.
+        let travel = match problem.mass {
+            None => problem.stages.iter().map(Stage::travel).sum(),
+            Some(_) => f64::INFINITY,
+        };
         let newton = Implicit::new(self.linear_system()?, position, problem.model.scale, travel);
         Ok(match problem.stepping.drift {
             None => Box::new(newton),
@@ -154,12 +166,15 @@ impl<'a, const D: usize> Assembled<'a, D> {
     /// # Errors
     /// [`Failure`], in which case nothing was committed.
     pub fn step(&mut self, (dt, smallest): (f64, f64), counts: &mut Counts) -> Result<Accepted, Failure> {
+        self.start_moving(dt, counts)?;
         let Some(stepper) = &mut self.stepper else {
             return Err(Failure::Refused("no stage has begun".into()));
         };
-        let mut terms = self.bodies.terms();
-        terms.extend(self.interfaces.iter_mut().map(|i| i as &mut dyn Limited));
-        stepper.step(&mut terms, &self.constraints, &mut self.state, (dt, smallest), counts)
+        let mut terms = terms(self.bodies.as_mut(), &mut self.interfaces, self.moving.as_mut());
+        let accepted =
+            stepper.step(&mut terms, &self.constraints, &mut self.state, (dt, smallest), counts)?;
+        self.settle(accepted.dt);
+        Ok(accepted)
     }
 
     /// Sets the largest error of friction coefficients with which a step is accepted \[-\].
@@ -250,7 +265,14 @@ impl<'a, const D: usize> Assembled<'a, D> {
         }
         let now = (self.displacement(), self.state.time);
         let bodies = (self.blocks(), problem.initial_stress.as_slice());
-        wanted.values(&problem.model, bodies, (&now.0, now.1), &self.beside)
+        let mut samples = wanted.values(&problem.model, bodies, (&now.0, now.1), &self.beside);
+        if let Some(moving) = self.moving.as_ref().filter(|_| !wanted.forces.is_empty()) {
+            let inertial = moving.forces();
+            for (force, set) in samples.forces.iter_mut().zip(&wanted.forces) {
+                force.iter_mut().zip(set.sum(&problem.model, &inertial)).for_each(|(f, i)| *f += i);
+            }
+        }
+        samples
     }
 
     /// Adds operations performed outside the steps.
@@ -262,6 +284,18 @@ impl<'a, const D: usize> Assembled<'a, D> {
             counts.projections += work.projections as usize;
         }
     }
+}
+
+/// All terms of a system.
+fn terms<'t, const D: usize>(
+    bodies: &'t mut (dyn Bodies<D> + '_),
+    interfaces: &'t mut [Interface<D>],
+    moving: Option<&'t mut Moving<D>>,
+) -> Vec<&'t mut dyn Limited> {
+    let mut terms = bodies.terms();
+    terms.extend(interfaces.iter_mut().map(|i| i as &mut dyn Limited));
+    terms.extend(moving.map(Moving::term));
+    terms
 }
 
 /// Interface as a term of the system. Multipliers that are unknowns are numbered from `unknowns`.

@@ -1,12 +1,13 @@
 //! State of a system between two steps, as serialisable values. A run resumed from it takes the same steps, bit for bit, as if
 //! it had never been interrupted.
 
-use super::Assembled;
 use super::bodies::BodiesState;
+use super::{Assembled, terms};
 use crate::Stage;
+use crate::inertia::{MassState, Moving};
 use crate::step::StepperState;
 use asperity_contact::InterfaceState;
-use asperity_fem::term::{Limited, Linearized, Saved as _};
+use asperity_fem::term::{Linearized, Saved as _};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -23,6 +24,9 @@ pub struct SystemState {
     /// Interfaces, in the order of the problem.
     interfaces: Vec<InterfaceState>,
     stepper: StepperState,
+    /// Inertia, if the bodies have mass.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    mass: Option<MassState>,
 }
 
 impl SystemState {
@@ -86,8 +90,7 @@ impl<const D: usize> Assembled<'_, D> {
         let interfaces = self.interfaces.iter().map(asperity_fem::term::Saved::save).collect();
         let stepper = match &self.stepper {
             Some(stepper) => {
-                let mut terms = self.bodies.terms();
-                terms.extend(self.interfaces.iter_mut().map(|i| i as &mut dyn Limited));
+                let terms = terms(self.bodies.as_mut(), &mut self.interfaces, self.moving.as_mut());
                 let terms: Vec<&mut dyn Linearized> = terms.into_iter().map(|t| t as _).collect();
                 stepper.save(&terms)
             }
@@ -100,6 +103,7 @@ impl<const D: usize> Assembled<'_, D> {
             bodies: self.bodies.save(),
             interfaces,
             stepper,
+            mass: self.moving.as_ref().map(Moving::save),
         }
     }
 
@@ -131,9 +135,16 @@ impl<const D: usize> Assembled<'_, D> {
         if !self.bodies.restore(&saved.bodies) {
             return Err(Mismatch::Bodies);
         }
+        let fits = match (&mut self.moving, &saved.mass) {
+            (Some(moving), Some(mass)) => moving.restore(mass, &self.state.u),
+            (None, None) => true,
+            _ => false,
+        };
+        if !fits {
+            return Err(Mismatch::Bodies);
+        }
         let Some(stepper) = &mut self.stepper else { return Err(Mismatch::Stepper) };
-        let mut terms = self.bodies.terms();
-        terms.extend(self.interfaces.iter_mut().map(|i| i as &mut dyn Limited));
+        let terms = terms(self.bodies.as_mut(), &mut self.interfaces, self.moving.as_mut());
         let mut terms: Vec<&mut dyn Linearized> = terms.into_iter().map(|t| t as _).collect();
         if stepper.restore(&saved.stepper, &mut terms) { Ok(()) } else { Err(Mismatch::Stepper) }
     }

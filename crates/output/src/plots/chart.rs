@@ -19,6 +19,8 @@ pub enum Measure {
     Velocity,
     /// Stress \[Pa\].
     Stress,
+    /// Energy \[J\].
+    Energy,
     /// Dimensionless number \[-\].
     Number,
 }
@@ -30,6 +32,7 @@ impl Measure {
             Self::Length => units::LENGTH,
             Self::Velocity => units::VELOCITY,
             Self::Stress => units::STRESS,
+            Self::Energy => units::ENERGY,
             Self::Number => units::NUMBER,
         }
     }

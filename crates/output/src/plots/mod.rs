@@ -10,6 +10,7 @@ mod curves;
 mod cycles;
 mod diagram;
 mod drawn;
+mod energy;
 mod faces;
 mod field;
 mod figure;
@@ -114,5 +115,6 @@ fn figures(recorder: &Recorder) -> Vec<(String, Figure)> {
             figures.push((format!("{stem}_tractions"), figure));
         }
     }
+    figures.extend(energy::budget(recorder));
     figures
 }

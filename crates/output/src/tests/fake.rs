@@ -164,6 +164,7 @@ pub(crate) fn play(
                 end_time: 59.66,
                 interfaces: &interfaces,
                 samples: &samples_at(setup, time),
+                energy: None,
                 fields: &|| body_fields(&setup.mesh, time, spoil),
             })?;
         }
