@@ -5,6 +5,7 @@ mod conditions;
 pub mod course;
 mod fault_physics;
 mod faults;
+mod heat;
 mod interfaces;
 mod materials;
 mod medium;

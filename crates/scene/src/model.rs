@@ -5,6 +5,7 @@
 
 mod body;
 mod fault;
+mod heat;
 mod medium;
 mod patch;
 mod place;
@@ -19,6 +20,7 @@ pub use crate::spanned::Spanned;
 use crate::warning::Warning;
 pub use body::*;
 pub use fault::*;
+pub use heat::*;
 pub use medium::*;
 pub use patch::*;
 pub use place::Place;
