@@ -83,6 +83,7 @@ mod friction_steady_state;
 mod friction_velocity_steps;
 mod frictional_bar;
 mod frictional_crack;
+mod frictional_heat;
 pub mod hertz;
 mod hertz_ball;
 mod hertz_line;
@@ -192,6 +193,8 @@ pub const ALL: &[Case] = &[
     friction_velocity_steps::CASE,
     frictional_bar::CASE,
     frictional_crack::CASE,
+    frictional_heat::CASE,
+    frictional_heat::CASE,
     hertz_line::CASE,
     hertz_sphere::CASE,
     hertz_ball::CASE,

@@ -21,6 +21,9 @@ pub struct Rupture {
     /// Change of the opening of all points over the event \[m\], where points may open; empty while it lasts.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub opening: Vec<f64>,
+    /// Largest temperature at the ends of the steps during the event \[K\], where friction heats points.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hottest: Option<f64>,
 }
 
 /// Values of all points at an instant.

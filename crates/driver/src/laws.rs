@@ -169,7 +169,7 @@ fn parts(choice: &LawChoice) -> Parts<'_> {
 trait Finish {
     type Made;
 
-    fn finish<L: Sliding + 'static>(self, first: L, rest: Vec<L>) -> Self::Made;
+    fn finish<L: Sliding + Clone + 'static>(self, first: L, rest: Vec<L>) -> Self::Made;
 }
 
 /// Builds the single law of an interface or slider.
@@ -178,7 +178,7 @@ struct Single;
 impl Finish for Single {
     type Made = Arc<dyn Sliding>;
 
-    fn finish<L: Sliding + 'static>(self, first: L, _: Vec<L>) -> Self::Made {
+    fn finish<L: Sliding + Clone + 'static>(self, first: L, _: Vec<L>) -> Self::Made {
         Arc::new(first)
     }
 }
@@ -189,7 +189,7 @@ struct EachPoint;
 impl Finish for EachPoint {
     type Made = Box<dyn FaultLaw>;
 
-    fn finish<L: Sliding + 'static>(self, first: L, rest: Vec<L>) -> Self::Made {
+    fn finish<L: Sliding + Clone + 'static>(self, first: L, rest: Vec<L>) -> Self::Made {
         Box::new(Points::new(std::iter::once(first).chain(rest).collect()))
     }
 }

@@ -84,6 +84,14 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         &self.parts
     }
 
+    pub(crate) fn form_mut(&mut self) -> &mut F {
+        &mut self.form
+    }
+
+    pub(crate) fn parts_mut(&mut self) -> &mut [Component<E>] {
+        &mut self.parts
+    }
+
     /// f_ref of the memory of normal traction \[Pa\].
     #[must_use]
     pub fn reference(&self) -> f64 {

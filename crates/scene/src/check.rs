@@ -6,6 +6,7 @@ pub mod course;
 mod fault_physics;
 mod faults;
 mod inertia;
+mod heat;
 mod interfaces;
 mod materials;
 mod medium;

@@ -6,6 +6,7 @@
 mod body;
 mod fault;
 mod inertia;
+mod heat;
 mod medium;
 mod patch;
 mod place;
@@ -21,6 +22,7 @@ use crate::warning::Warning;
 pub use body::*;
 pub use fault::*;
 pub use inertia::*;
+pub use heat::*;
 pub use medium::*;
 pub use patch::*;
 pub use place::Place;

@@ -46,6 +46,7 @@ const CASES: [(&str, &[&str]); 100] = [
     ("friction_velocity_steps", &["dieterich1979", "ruina1983", "perrin1995", "marone1998"]),
     ("frictional_bar", &["goodman1956"]),
     ("frictional_crack", &["phan2003", "sneddon1946"]),
+    ("frictional_heat", &["rice2006", "noda2010", "carslaw1959"]),
     ("hertz_ball", &["johnson1985", "mindlin1949", "munisamy1994"]),
     ("hertz_line", &["hertz1882", "johnson1985"]),
     ("hertz_sphere", &["hertz1882", "johnson1985"]),

@@ -13,7 +13,7 @@ use crate::scene::slider::SliderScene;
 
 /// Keys of this file, for the test of the table.
 #[cfg(test)]
-pub(super) const KEYS: [&str; 24] = [
+pub(super) const KEYS: [&str; 26] = [
     "puso2004",
     "puso2004b",
     "wohlmuth2000",
@@ -29,6 +29,8 @@ pub(super) const KEYS: [&str; 24] = [
     "tsitouras2011",
     "sommeijer1998",
     "rice1993",
+    "rice2006",
+    "noda2010",
     "hughes1980",
     "hugheswinget1980",
     "simo1998",
@@ -144,6 +146,11 @@ fn add_fault(citations: &mut Citations, of: &str, fault: &Fault) -> Result<(), D
     laws::add(citations, of, &choose(&fault.law).map_err(Diagnostics)?);
     if fault.damping.is_some() {
         citations.add("rice1993", format!("{of}: radiation damping"));
+    }
+    if fault.heat.is_some() {
+        for key in ["rice2006", "noda2010"] {
+            citations.add(key, format!("{of}: heat of friction"));
+        }
     }
     Ok(())
 }

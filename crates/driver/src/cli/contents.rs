@@ -12,7 +12,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Files that runs write to their directory.
-const FILES: [&str; 18] = [
+const FILES: [&str; 20] = [
     REPORT,
     LOCK,
     ".writable",
@@ -26,6 +26,8 @@ const FILES: [&str; 18] = [
     "CMTSOLUTION",
     "largest_rate.csv",
     "opening_profiles.csv",
+    "temperature_profiles.csv",
+    "pressure_profiles.csv",
     "slip_profiles.csv",
     "rate_profiles.csv",
     "snapshots.csv",

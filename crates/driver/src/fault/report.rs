@@ -1,6 +1,7 @@
 //! Report of a run of faults, `report.json`, and its events as CSV.
 
 use super::floors::{FloorUse, uses};
+use super::heats::{HeatedFault, heats};
 use super::located::locate;
 use super::openings::{OpenedFault, openings};
 use super::plan::{FaultView, Plan};
@@ -47,6 +48,9 @@ pub struct Entry {
     pub moment: f64,
     /// Mean drop of shear traction over these points, weighted by slip \[Pa\].
     pub stress_drop: f64,
+    /// Largest temperature, if friction heats the fault \[K\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub largest_temperature: Option<f64>,
     /// Unit vector of ∫ G slip dA, for vector slip.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub direction: Option<[f64; 3]>,
@@ -94,6 +98,7 @@ impl Entry {
             area,
             moment,
             stress_drop: over(&work) / potency,
+            largest_temperature: event.details.hottest,
             direction: turning.as_ref().map(|t| t.direction),
             turned: turning.as_ref().map(|t| t.angle),
             // The reader of the scene ensures that the calendar covers the run.
@@ -215,6 +220,9 @@ pub struct Report {
     /// Openings of the faults that may open.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub openings: Vec<OpenedFault>,
+    /// Heat of the faults that friction heats.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub heat: Vec<HeatedFault>,
     /// Method of integration.
     pub method: String,
     /// Error tolerance of ln V in a step.
@@ -269,6 +277,12 @@ fn why(plan: &Plan, run: &FaultRun, reason: &str) -> String {
                 "{reason}: which points of fault `{fault}` are open does not settle at x = {x:e} m, y = {y:e} m, {place}; are the bodies held?"
             );
         }
+        if plan.heat_at(point).is_some_and(|heat| heat.layer.pressurisation.is_some()) {
+            return format!(
+                "{reason}: the effective normal traction of fault `{fault}` falls to zero at x = {x:e} m, y = {y:e} m, {place}, as its fluid warms and the bodies unload it: lower \
+                 the `coefficient` of its `pressurisation`, give it a `normal_floor` that friction uses where there is less, or raise `normal` there"
+            );
+        }
         return format!(
             "{reason}: the normal traction of fault `{fault}` falls to zero at x = {x:e} m, y = {y:e} m, {place}, and it does not open: give the fault a `normal_floor` that \
              friction uses where there is less, with `opening = true` where its sides may part, or `normal_changes = false`, or raise `normal` there"
@@ -307,12 +321,14 @@ impl Report {
             events: entries(plan, run.catalogue.ended(source), &fault.points),
             under_way: run.catalogue.under_way(source).map(|e| e.onset.seconds()),
         };
+        let (heat, molten) = heats(plan, balance.warmed());
         Self {
             outcome,
-            warnings: plan.warnings.clone(),
+            warnings: plan.warnings.iter().cloned().chain(molten).collect(),
             resolution: plan.resolution.clone(),
             floors: uses(plan, balance.floors()),
             openings: openings(plan, balance.opened(), &opening),
+            heat,
             method: plan.problem.settings.method.name().to_string(),
             tolerance: plan.problem.settings.tolerance,
             end: run.at.seconds(),
@@ -348,6 +364,8 @@ impl Report {
         let mut text = String::from(
             "onset [s],duration [s],peak_rate [m/s],fault,hypocentre_along [m],x [m],y [m],z [m],largest_slip [m],mean_slip [m],area [m2 or m],moment [N m or N],stress_drop [Pa],duration_above [s]",
         );
+        let heats = events.iter().any(|e| e.largest_temperature.is_some());
+        text.push_str(if heats { ",largest_temperature [K]" } else { "" });
         text.push_str(if turning { ",direction_x,direction_y,direction_z,turned [deg]\n" } else { "\n" });
         for e in events {
             let _ = write!(
@@ -368,7 +386,7 @@ impl Report {
                 shortest(e.stress_drop),
                 e.duration_above
             );
-            for value in e.direction.iter().flatten().chain(&e.turned) {
+            for value in e.largest_temperature.iter().chain(e.direction.iter().flatten()).chain(&e.turned) {
                 text.push(',');
                 text.push_str(&shortest(*value));
             }
@@ -439,6 +457,9 @@ impl Report {
         }
         for opened in &self.openings {
             let _ = writeln!(text, "  {}", opened.words());
+        }
+        for heat in &self.heat {
+            let _ = writeln!(text, "  {}", heat.words());
         }
         let _ = writeln!(text, "  end at {}", time(self.end));
         let c = &self.counts;

@@ -15,6 +15,7 @@ mod doubtful_scenes;
 mod enforcement;
 mod fault;
 mod fault_geometry;
+mod fault_heat;
 mod fault_normal;
 mod fault_opening;
 mod fault_outputs;

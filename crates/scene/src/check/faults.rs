@@ -22,6 +22,7 @@ impl Checker<'_> {
             self.start_of(fault);
             self.physics_of(fault);
             self.injection(fault);
+            self.heat_of(fault);
             for (name, profile) in [
                 ("a", &fault.profiles.a),
                 ("b", &fault.profiles.b),

@@ -6,12 +6,13 @@ use super::super::plan::{FaultView, Plan, PointView, Station};
 use super::super::resolution::Resolution;
 use super::cells::Cells;
 use super::placed::{Placed, in_space, slides};
-use super::{asked, floor, frame, start_doubts};
+use super::{asked, floor, frame, heated, start_doubts};
 use crate::diagnostic::Diagnostic;
 use crate::laws;
 use crate::scene::law::LawChoice;
 use crate::scene::model::{Fault as Spec, Scene, SlipSpec, Station as Asking};
 use crate::warning::Warning;
+use asperity_cycles::heat::Heat;
 use asperity_cycles::medium::across;
 use asperity_cycles::operator::Operator;
 use asperity_cycles::{
@@ -80,13 +81,16 @@ pub(super) fn plan_of<const D: usize>(
     let at_law = |e: Failure| crate::refused::refused(&named[placed[0].fault].1.law, &e);
     let turns = turns(scene);
     let law = friction(&named, &placed, at_law)?;
-    let law = if turns { Box::new(Turning::new(law)) } else { law };
+    let mut law = if turns { Box::new(Turning::new(law)) } else { law };
+    let heat = heated::heat(scene, &placed, law.as_mut(), end);
+    let modes = heat.as_ref().map_or(0, Heat::bytes);
     let fault = Fault {
         operator,
         law,
         damping: placed.iter().map(|p| p.damping).collect(),
         normal: placed.iter().map(|p| p.normal).collect(),
         pressure: pressure(scene, &placed)?,
+        heat,
         floor: Floor::new(placed.iter().map(|p| p.floor)),
         opening,
     };
@@ -104,7 +108,7 @@ pub(super) fn plan_of<const D: usize>(
         medium: around.medium,
         dofs: around.dofs,
         creeping: around.creeping,
-        memory_bytes: around.memory_bytes,
+        memory_bytes: around.memory_bytes + modes,
         bodies: around.bodies,
         frame: frame::of(scene, D == 3)?,
         in_space: D == 3,
@@ -222,6 +226,7 @@ fn settings(scene: &Scene, end: f64) -> Result<Settings, Diagnostic> {
             }
         },
     };
+    let method = heated::method(scene, method)?;
     let events = scene.events.as_ref();
     let on = events.map_or(EVENT, |e| e.above.get_ref().0);
     let off = events.and_then(|e| e.below.as_ref()).map_or(EVENT_ENDS * on, |b| b.get_ref().0);
@@ -311,6 +316,7 @@ fn views<const D: usize>(
             name: name.clone(),
             points: first..last,
             normal: floor::choice(spec),
+            heat: heated::view(spec, &placed[first..last]),
             stations,
             faces: cells.faces((k, spec), &placed[first..last])?,
         });
