@@ -39,4 +39,4 @@ pub use opening::{Crack, Opening};
 pub use pressure::{Injection, Pressure};
 pub use problem::Problem;
 pub use run::{NextStep, Run};
-pub use rupture::Rupture;
+pub use rupture::{Crossing, Detector, Rupture, Values};

@@ -13,6 +13,7 @@ pub mod fault;
 mod forecast;
 mod held;
 mod idealisation;
+mod impedance;
 pub mod initial_stress;
 pub mod laws;
 pub mod loading;
@@ -27,6 +28,7 @@ mod sha256;
 pub mod slider;
 pub mod slider_planner;
 mod stop;
+mod thresholds;
 mod views;
 
 pub use asperity_scene::{lengths, warning};

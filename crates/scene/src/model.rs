@@ -111,6 +111,8 @@ pub struct Interface {
     pub enforcement: Enforcement,
     /// A [friction law](laws.md) or a bond; absent: frictionless.
     pub law: Option<Spanned<LawSpec>>,
+    /// Radiation damping η of a law of the slip rate: `"radiation"`, or a value; absent: none \[Pa s/m\].
+    pub damping: Option<Spanned<DampingSpec>>,
     /// Treatment of points too far apart to resolve friction that weakens: `"refuse"` (default) or `"allow"`.
     pub under_resolved: Option<Spanned<UnderResolved>>,
     /// `true`: the interface starts with the tractions of the [initial stress](bodies.md) of its bodies; default `false`.

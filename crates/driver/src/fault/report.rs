@@ -3,7 +3,7 @@
 use super::floors::{FloorUse, uses};
 use super::located::locate;
 use super::openings::{OpenedFault, openings};
-use super::plan::{FaultView, Plan};
+use super::plan::{FaultView, Plan, PointView};
 use super::resolution::Resolution;
 use super::words::{length, time};
 use crate::report::{EnergyBalance, Kind, Outcome, Phases, Results, Stop};
@@ -31,9 +31,9 @@ pub struct Entry {
     pub duration_above: f64,
     /// Largest slip rate \[m/s\].
     pub peak_rate: f64,
-    /// Fault that contains the hypocentre.
+    /// Fault or interface that contains the hypocentre.
     pub fault: String,
-    /// Distance of the hypocentre along the fault \[m\]; not defined in 3D.
+    /// Distance of the hypocentre along the fault \[m\]; not defined in 3D and on interfaces.
     pub hypocentre_along: Option<f64>,
     /// Coordinates of the hypocentre \[m\].
     pub hypocentre: [f64; 3],
@@ -61,45 +61,94 @@ pub struct Entry {
 /// Share of the largest slip above which a point counts as slipped.
 const SLIPPED: f64 = 0.01;
 
+/// A point at which events slip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Site {
+    /// Position \[m\].
+    pub at: [f64; 3],
+    /// Distance along a fault in the plane \[m\].
+    pub along: Option<f64>,
+    /// Area \[m²; m per metre of thickness\].
+    pub area: f64,
+    /// Shear modulus for moments \[Pa\].
+    pub shear_modulus: f64,
+}
+
+/// The points of faults or interfaces.
+pub trait Scattered {
+    /// A point.
+    fn site(&self, point: usize) -> Site;
+
+    /// Name of the fault or interface of a point.
+    fn source(&self, point: usize) -> String;
+}
+
+impl Scattered for Plan {
+    fn site(&self, point: usize) -> Site {
+        let PointView { at, along, area, shear_modulus, .. } = self.points[point];
+        Site { at, along: (!self.in_space).then_some(along), area, shear_modulus }
+    }
+
+    fn source(&self, point: usize) -> String {
+        let fault = self.faults.iter().find(|f| f.points.contains(&point));
+        fault.map(|f| f.name.clone()).unwrap_or_default()
+    }
+}
+
 impl Entry {
     /// Entry of an event, restricted to these points of all faults or of one.
     fn new(plan: &Plan, event: &Event<Rupture>, points: &Range<usize>) -> Self {
+        let entry = Self::of(plan, event, points);
+        let turned = (plan.problem.fault.law.components() > 1)
+            .then(|| Turned::new(plan, &event.details.slip, &slipped(event, points)));
+        Self {
+            moment: turned.as_ref().map_or(entry.moment, |t| t.moment),
+            direction: turned.as_ref().map(|t| t.direction),
+            turned: turned.as_ref().map(|t| t.angle),
+            // The reader of the scene ensures that the calendar covers the run.
+            located: plan.frame.as_ref().and_then(|frame| locate(plan, frame, event, points).ok()),
+            ..entry
+        }
+    }
+
+    /// Entry of an event on some ground, restricted to these points.
+    pub fn of(ground: &dyn Scattered, event: &Event<Rupture>, points: &Range<usize>) -> Self {
         let slip = |p: usize| event.details.slip.size(p);
-        let largest_slip = points.clone().map(slip).fold(0.0, f64::max);
-        let slipped: Vec<usize> = points.clone().filter(|&p| slip(p) > SLIPPED * largest_slip).collect();
+        let slipped = slipped(event, points);
         let over = |value: &dyn Fn(usize) -> f64| {
-            slipped.iter().map(|&p| value(p) * plan.points[p].area).sum::<f64>()
+            slipped.iter().map(|&p| value(p) * ground.site(p).area).sum::<f64>()
         };
         let (area, potency) = (over(&|_| 1.0), over(&slip));
-        let turning = (plan.problem.fault.law.components() > 1)
-            .then(|| Turned::new(plan, &event.details.slip, &slipped));
-        let moment =
-            turning.as_ref().map_or_else(|| over(&|p| plan.points[p].shear_modulus * slip(p)), |t| t.moment);
         // A drop is positive if a traction that drives slip decreases.
         let work =
             |p: usize| event.details.slip.at(p).zip(event.details.drop.at(p)).map(|(s, t)| s * t).sum();
-        let place = &plan.points[event.details.hypocentre];
-        let fault = plan.faults.iter().find(|f| f.points.contains(&event.details.hypocentre));
+        let place = ground.site(event.details.hypocentre);
         Self {
             onset: event.onset.seconds(),
             interval: event.interval,
             duration: event.duration().unwrap_or(f64::NAN),
             duration_above: event.details.above,
             peak_rate: event.peak,
-            fault: fault.map(|f| f.name.clone()).unwrap_or_default(),
-            hypocentre_along: (!plan.in_space).then_some(place.along),
+            fault: ground.source(event.details.hypocentre),
+            hypocentre_along: place.along,
             hypocentre: place.at,
-            largest_slip,
+            largest_slip: points.clone().map(slip).fold(0.0, f64::max),
             mean_slip: potency / area,
             area,
-            moment,
+            moment: over(&|p| ground.site(p).shear_modulus * slip(p)),
             stress_drop: over(&work) / potency,
-            direction: turning.as_ref().map(|t| t.direction),
-            turned: turning.as_ref().map(|t| t.angle),
-            // The reader of the scene ensures that the calendar covers the run.
-            located: plan.frame.as_ref().and_then(|frame| locate(plan, frame, event, points).ok()),
+            direction: None,
+            turned: None,
+            located: None,
         }
     }
+}
+
+/// Points that slipped in an event, among these.
+fn slipped(event: &Event<Rupture>, points: &Range<usize>) -> Vec<usize> {
+    let slip = |p: usize| event.details.slip.size(p);
+    let largest = points.clone().map(slip).fold(0.0, f64::max);
+    points.clone().filter(|&p| slip(p) > SLIPPED * largest).collect()
 }
 
 /// Entries of a catalogue, restricted to these points.
