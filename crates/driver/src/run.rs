@@ -14,7 +14,7 @@ use crate::run_doubts;
 use crate::stop;
 use crate::views;
 use crate::warning::Warning;
-use asperity_contact::{Course, Watch};
+use asperity_contact::{Course, PointFields, Watch};
 use asperity_mechanics::step::{Accepted, Cut, Failure};
 use asperity_mechanics::timing::{Figures, StepLength};
 use asperity_mechanics::{Assembled, LOADING, Mismatch, Stage};
@@ -276,7 +276,9 @@ impl<const D: usize> Running<'_, D> {
 
     /// Present values at the points, sets and springs of the scene.
     fn samples(&self, stage: &Stage, system: &Assembled<'_, D>) -> Samples {
-        let springs = views::springs(&self.plan.problem.stages, stage, &system.springs());
+        let of = |f: &PointFields<D>| f.normal_traction.iter().zip(&f.area).map(|(f, a)| f * a).sum::<f64>();
+        let normal = system.interfaces().iter().map(|i| of(i.points())).sum();
+        let springs = views::springs(&self.plan.problem.stages, stage, &system.springs(), normal);
         views::samples(system.samples(), springs)
     }
 

@@ -88,14 +88,15 @@ pub fn spring_marks(stages: &[Stage]) -> Vec<SpringMark> {
     marks
 }
 
-/// Springs of a stage in the order of [`spring_marks`].
+/// Springs of a stage in the order of [`spring_marks`]; `normal` is the sum of the normal forces on all interfaces \[N; N/m\].
 #[must_use]
-pub fn springs(stages: &[Stage], stage: &Stage, now: &[SpringNow]) -> Vec<Option<SpringValues>> {
+pub fn springs(stages: &[Stage], stage: &Stage, now: &[SpringNow], normal: f64) -> Vec<Option<SpringValues>> {
     let here: Vec<SpringMark> = stage.springs.iter().map(spring_mark).collect();
     let values = |s: &SpringNow| SpringValues {
         load_point: s.load_point,
         displacement: s.displacement,
         force: s.force,
+        friction: if normal > 0.0 { s.force.abs() / normal } else { 0.0 },
     };
     let of = |mark: SpringMark| here.iter().position(|m| *m == mark).and_then(|k| now.get(k)).map(values);
     spring_marks(stages).into_iter().map(of).collect()

@@ -8,7 +8,7 @@
 use super::record::{check_interfaces, check_probes, check_samples};
 use super::schedule::{Due, FieldSchedule};
 use super::view::{
-    BodyFields, InterfaceFields, InterfaceMesh, MeshView, Setup, SpringMark, StepView, Writer,
+    BodyFields, InterfaceFields, InterfaceMesh, MeshView, Setup, SpringMark, SpringValues, StepView, Writer,
 };
 use super::vtu::{Array, Grid, PvdEntry, Values, pvd};
 use crate::error::{OutputError, expect_length};
@@ -205,7 +205,8 @@ impl Files {
         }
         for (file, spring) in self.springs.iter_mut().zip(&view.samples.springs) {
             if let Some(spring) = spring {
-                file.push(&row(&[spring.load_point, spring.displacement, spring.force]))?;
+                let SpringValues { load_point, displacement, force, friction } = *spring;
+                file.push(&row(&[load_point, displacement, force, friction]))?;
             }
         }
         Ok(())

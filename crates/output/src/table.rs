@@ -138,8 +138,8 @@ pub(super) fn force_header(unit: &str) -> Vec<u8> {
 /// Header of a history of a spring, with forces in this unit.
 pub(super) fn spring_header(unit: &str) -> Vec<u8> {
     let mut rows = Rows::default();
-    let columns = ["load_point [m]".to_string(), "displacement [m]".to_string(), format!("force [{unit}]")];
-    rows.push(WHEN.iter().map(ToString::to_string).chain(columns));
+    let columns = ["load_point [m]", "displacement [m]", &format!("force [{unit}]"), "friction [-]"];
+    rows.push(WHEN.iter().chain(&columns).map(ToString::to_string));
     rows.bytes()
 }
 

@@ -176,6 +176,8 @@ pub struct SpringValues {
     pub displacement: f64,
     /// Force of the spring on the set, as a load cell reads it \[N, or N/m of thickness in the plane\].
     pub force: f64,
+    /// Macroscopic friction: size of the force over the sum of the normal forces on all interfaces \[-\]; 0 without normal forces.
+    pub friction: f64,
 }
 
 /// Values at a point of a body.

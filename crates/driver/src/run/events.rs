@@ -37,15 +37,17 @@ impl Moment {
         for component in 0..if D == 2 { 1 } else { D } {
             for (i, damping) in &own {
                 let p = i.points();
-                if D == 2 {
-                    slip.extend_from_slice(&p.slip_measure);
-                    shear.extend(p.shear_measure.iter().zip(&p.slip_rate).map(|(t, v)| t - damping * v));
-                    continue;
-                }
-                slip.extend(p.slip.iter().map(|s| s[component]));
-                let each = p.shear.iter().zip(&p.shear_measure).zip(&p.slip_rate);
-                shear.extend(each.map(|((t, size), v)| {
-                    if *size > 0.0 { t[component] * (1.0 - damping * v / size) } else { 0.0 }
+                // Along the tangent in two dimensions, where slip rates are signed.
+                let along = |v: &[f64; D], e: &[f64; D]| match D {
+                    2 => v.iter().zip(e).map(|(v, e)| v * e).sum(),
+                    _ => v[component],
+                };
+                slip.extend(p.slip.iter().zip(&p.tangent).map(|(s, e)| along(s, e)));
+                let each = p.mean_shear.iter().zip(&p.tangent).zip(p.shear_measure.iter().zip(&p.slip_rate));
+                shear.extend(each.map(|((t, e), (size, v))| {
+                    // Radiation is along the traction, and part of it.
+                    let radiated = if *size == 0.0 { 0.0 } else { damping * v / size };
+                    along(t, e) * (1.0 - radiated)
                 }));
             }
         }

@@ -141,3 +141,68 @@ impl Limited for Springs {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two springs that have been drawn for a stage before.
+    fn springs() -> Springs {
+        let spring = |dofs: Vec<usize>, stiffness, rate| Spring {
+            set: "B.top".into(),
+            axis: 0,
+            dofs,
+            stiffness,
+            rate,
+        };
+        let stage = Stage {
+            name: "draw".into(),
+            start: 2.0,
+            end: 3.0,
+            steps: None,
+            frictionless: Vec::new(),
+            motions: Vec::new(),
+            turning: Vec::new(),
+            loads: Vec::new(),
+            fixed: Vec::new(),
+            springs: vec![spring(vec![3, 4], 7.0, 0.5), spring(vec![1], 11.0, -0.25)],
+            weight: Vec::new(),
+        };
+        let numbering = Numbering { number: (0..6).collect(), nodes: (0..6).collect(), dofs: 6 };
+        let starts = starts(&stage, &[], |dof| dof as f64, &[0.0, 0.3, 0.0, 0.1, 0.1, 0.0]);
+        Springs::new(&stage, &numbering, &starts).unwrap()
+    }
+
+    fn residual(springs: &mut Springs, u: &[f64], time: f64) -> Vec<f64> {
+        let mut r = vec![0.0; u.len()];
+        springs.residual(u, Instant { time, dt: 0.5 }, &mut r).unwrap();
+        r
+    }
+
+    #[test]
+    fn a_new_spring_carries_what_held_its_set() {
+        let mut springs = springs();
+        let r = residual(&mut springs, &[0.0, 0.3, 0.0, 0.1, 0.1, 0.0], 2.0);
+        assert_eq!(r, [0.0, -1.0, 0.0, -7.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn tangent_and_rate_are_the_derivatives_of_the_residual() {
+        let mut springs = springs();
+        let u = [0.2, 0.35, -0.1, 0.15, 0.15, 0.0];
+        let mut k = [0.0; 2];
+        springs.tangent(&mut k);
+        assert_eq!(springs.constant_tangent(), Some(&k[..]));
+        let moved = [0.2, 0.355, -0.1, 0.152, 0.152, 0.0];
+        let (r, then) = (residual(&mut springs, &u, 2.5), residual(&mut springs, &moved, 2.5));
+        assert!(
+            (then[1] - r[1] - k[1] * 0.005).abs() < 1e-14 && (then[3] - r[3] - k[0] * 0.002).abs() < 1e-14
+        );
+        let mut constant = vec![0.0; 6];
+        springs.rate(Instant { time: 2.5, dt: 0.5 }, &mut k, &mut constant).unwrap();
+        let before = residual(&mut springs, &u, 2.0);
+        for ((now, before), constant) in r.iter().zip(&before).zip(&constant) {
+            assert!((now - before - constant).abs() < 1e-14);
+        }
+    }
+}

@@ -17,6 +17,7 @@ pub(crate) mod labels;
 mod png;
 mod profile;
 mod sketch;
+mod springs;
 mod style;
 mod svg;
 mod title;
@@ -114,5 +115,6 @@ fn figures(recorder: &Recorder) -> Vec<(String, Figure)> {
             figures.push((format!("{stem}_tractions"), figure));
         }
     }
+    figures.extend(springs::friction(recorder).map(|figure| ("springs_friction".to_string(), figure)));
     figures
 }
