@@ -25,6 +25,14 @@ pub enum FemError {
         /// Determinant \[m^D\].
         determinant: f64,
     },
+    /// An element whose lumped masses are not all positive.
+    #[error(
+        "{element} has no positive lumped masses: the integrals of its shape functions at the corners are zero or negative"
+    )]
+    LumpedMass {
+        /// Element.
+        element: &'static str,
+    },
     /// Threads that the system does not provide.
     #[error("threads for the elimination cannot be had: {0}")]
     Threads(String),

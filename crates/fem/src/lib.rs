@@ -14,6 +14,7 @@ pub mod jump;
 pub mod kinematics;
 pub mod loads;
 pub mod material;
+pub mod matrix_free;
 pub mod mesh;
 pub mod multifrontal;
 pub mod nonlinear;

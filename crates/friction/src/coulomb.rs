@@ -26,7 +26,7 @@ impl Coulomb {
     }
 
     /// Strength F̄ and ∂F̄/∂f_n.
-    fn strength(&self, normal: f64) -> (f64, f64) {
+    pub(crate) fn strength(&self, normal: f64) -> (f64, f64) {
         strength(self.mu, normal, self.limit)
     }
 }

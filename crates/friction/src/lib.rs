@@ -8,6 +8,7 @@ pub mod coulomb;
 mod drive;
 pub mod evolution;
 pub mod fault;
+pub mod inertial;
 pub mod kind;
 pub mod law;
 mod line;

@@ -146,6 +146,16 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         })
     }
 
+    /// Traction \[Pa\], slip rate \[m/s\] and friction coefficient of the only point of a step; its new states stay in the solver.
+    pub(crate) fn balanced(
+        &self,
+        trials: &Trials<'_>,
+        old: &[f64],
+        solver: &mut Solver<'_, F, E>,
+    ) -> Result<(f64, f64, f64), Failure> {
+        self.return_point(0, trials, old, solver).map(|a| (a.traction, a.rate, a.mu))
+    }
+
     /// Answer without normal traction or without drive. Without normal traction damping alone resists slip, and the kept value of
     /// a memory of normal traction is left unchanged. Without drive a point keeps the slip of its past differences.
     fn unloaded(

@@ -95,6 +95,11 @@ impl SlipWeakening {
         }
     }
 
+    /// Strength at slip λ \[Pa\].
+    pub(crate) fn strength_at(&self, slip: f64, normal: f64) -> f64 {
+        self.strength(slip, normal).value
+    }
+
     /// The first root of `E_t Δλ + F̄(λ_0 + Δλ) = |t^e|` for a trial above F̄(λ_0): along the cap, the weakening branch and
     /// the residual strength, each a straight line.
     fn slide(&self, normal: f64, trial: f64, stiffness: f64, old: f64) -> Result<Slide, Failure> {

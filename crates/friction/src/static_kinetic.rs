@@ -45,6 +45,16 @@ impl StaticKinetic {
         if state == RESTING { self.mu_s } else { self.mu_k }
     }
 
+    /// Strength in a state, and of a point that slips \[Pa\].
+    pub(crate) fn strengths(&self, state: f64, normal: f64) -> (f64, f64) {
+        (self.strength(self.mu(state), normal).0, self.strength(self.mu_k, normal).0)
+    }
+
+    /// State of a point that slips, or rests.
+    pub(crate) fn state_at(slips: bool) -> f64 {
+        if slips { SLIPPING } else { RESTING }
+    }
+
     /// Strength F̄ and ∂F̄/∂f_n at a friction coefficient.
     fn strength(&self, mu: f64, normal: f64) -> (f64, f64) {
         strength(mu, normal, self.limit)

@@ -6,6 +6,7 @@ mod choices;
 pub mod coordinates;
 mod counts;
 pub mod declared;
+pub mod dynamics;
 mod enforced;
 mod free;
 mod interface;

@@ -208,7 +208,7 @@ pub(super) fn place<const D: usize>(
 }
 
 /// Determinant of a 2x2 or 3x3 matrix.
-pub(super) fn determinant<const D: usize>(j: &SMatrix<f64, D, D>) -> f64 {
+pub(crate) fn determinant<const D: usize>(j: &SMatrix<f64, D, D>) -> f64 {
     if D == 2 {
         return j[(0, 0)] * j[(1, 1)] - j[(0, 1)] * j[(1, 0)];
     }

@@ -2,6 +2,7 @@
 
 mod geometry;
 mod loads;
+pub mod lumped;
 mod norm;
 mod projection;
 mod stiffness;
@@ -13,6 +14,7 @@ use crate::kinematics::{Dilatation, Formulation, Idealisation};
 use crate::material::elastic::Elastic;
 use crate::mesh::{Cells, Mesh};
 use crate::term::{Blocks, Instant, Limited, Linearized, Pattern, Refusal, Term};
+pub(crate) use geometry::determinant;
 use geometry::{CHUNK, Geometry, Places};
 pub use norm::FieldValue;
 use projection::Projection;
@@ -146,6 +148,27 @@ impl<const D: usize> LinearBlock<D> {
             stiffness::projected(moduli.projected, c, k_e);
         }
         stiffness::mirror(self.cells.kind.nodes() * self.idealisation.components(), k_e);
+    }
+
+    /// Stiffness of some of the cells, one after another, as in [`LinearBlock::stiffness`]; nothing is kept.
+    #[must_use]
+    pub fn stiffness_of(&self, cells: &[usize]) -> Vec<f64> {
+        let connectivity = cells.iter().flat_map(|&cell| self.cells.cell(cell).iter().copied()).collect();
+        let part = Self {
+            cells: Arc::new(Cells { kind: self.cells.kind, connectivity }),
+            pattern: Arc::default(),
+            geometry: Arc::default(),
+            stiffness: Arc::default(),
+            ..self.clone()
+        };
+        part.assemble()
+    }
+
+    /// G and the modulus of the dilatation, λ or its form of plane stress \[Pa\], of the standard formulation.
+    #[must_use]
+    pub fn moduli_of_strain(&self) -> (f64, f64) {
+        let moduli = self.moduli();
+        (moduli.shear, moduli.dilatation)
     }
 
     /// Kind of the cells.

@@ -1,0 +1,613 @@
+//! Steps of explicit dynamics.
+
+use super::budget::{Budget, Work};
+use super::fault::{Between, FaultState, Unbalanced};
+use super::loads::Loads;
+use super::nodes::Special;
+use super::{Problem, Stable, stable};
+use crate::CellBlock;
+use asperity_fem::block::lumped;
+use asperity_fem::dof::Constraints;
+use asperity_fem::matrix_free::MatrixFree;
+use asperity_fem::nonlinear;
+use asperity_fem::term::{Instant, Saved as _, Term as _};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// Nodes moved by one task: fixed, so that sums do not depend on the number of threads.
+const CHUNK: usize = 4096;
+
+/// Largest energy of the bodies over all that was put in. In a stable scheme at nine tenths of the stable step it is below 1/(1 - 0.9²) = 5.3:
+/// displacement alone may hold so much more than the balance counts.
+const GROWTH: f64 = 10.0;
+
+/// Reason why a run cannot go on. The state is that of the last good step.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Halt {
+    /// Friction has no answer.
+    #[error("friction at {time} s: {reason}")]
+    Friction {
+        /// Time \[s\].
+        time: f64,
+        /// Reason.
+        reason: String,
+    },
+    /// The sides of a fault that may not open are pulled apart.
+    #[error(
+        "the sides of the fault part at point {point} at {time} s: the traction that holds them is {traction:e} Pa"
+    )]
+    Tension {
+        /// Time \[s\].
+        time: f64,
+        /// Point.
+        point: usize,
+        /// Normal traction, negative in tension \[Pa\].
+        traction: f64,
+    },
+    /// Energy appears from nowhere: the step is too long.
+    #[error("at {time} s the bodies hold {held:e} J, and {given:e} J were put in: the steps are unstable")]
+    Growth {
+        /// Time \[s\].
+        time: f64,
+        /// Energy of the bodies \[J\].
+        held: f64,
+        /// Energy put in \[J\].
+        given: f64,
+    },
+    /// A term could not be evaluated.
+    #[error("at {time} s: {reason}")]
+    Refused {
+        /// Time \[s\].
+        time: f64,
+        /// Reason.
+        reason: String,
+    },
+}
+
+/// Committed state as values.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ExplicitState {
+    time: f64,
+    steps: usize,
+    u: Vec<f64>,
+    velocity: Vec<f64>,
+    fault: FaultState,
+    histories: Vec<Vec<f64>>,
+    works: Works,
+    budget: Budget,
+    given: f64,
+}
+
+/// Works of all kinds of forces.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Works {
+    internal: Work,
+    friction: Work,
+    absorbed: Work,
+    loads: Work,
+    released: Work,
+}
+
+/// Bodies and faults in steps of equal length.
+pub struct Explicit<'a, const D: usize> {
+    problem: &'a Problem<D>,
+    stable: Stable,
+    product: MatrixFree,
+    nonlinear: Vec<nonlinear::Block<D>>,
+    components: usize,
+    /// Lumped mass of each node \[kg\].
+    mass: Vec<f64>,
+    /// 1/mass; 0 at special nodes \[1/kg\].
+    inverse: Vec<f64>,
+    special: Vec<Special>,
+    /// Special nodes of each point of the faults.
+    pairs: Vec<[usize; 2]>,
+    constraints: Constraints,
+    loads: Loads,
+    dt: f64,
+    time: f64,
+    steps: usize,
+    /// uⁿ \[m\].
+    u: Vec<f64>,
+    /// vⁿ⁻¹ᐟ² \[m/s\]; at the start v⁰.
+    velocity: Vec<f64>,
+    /// u + β Δt v, where damping acts \[m\].
+    damped: Vec<f64>,
+    /// Forces of cells with a history \[N\]; empty without.
+    history_forces: Vec<f64>,
+    /// Displacements that conditions prescribe at the next step \[m\].
+    imposed: Vec<f64>,
+    fault: FaultState,
+    works: Works,
+    budget: Budget,
+    /// Sum of all energy put in \[J\].
+    given: f64,
+}
+
+/// Sums over free nodes.
+#[derive(Clone, Copy, Default)]
+struct Sums {
+    /// f·v before and after.
+    internal: [f64; 2],
+    /// v·M v of both half steps.
+    kinetic: f64,
+    /// u·f.
+    elastic: f64,
+    /// v·M v of the half step after.
+    moving: f64,
+}
+
+impl Sums {
+    fn plus(self, other: Self) -> Self {
+        Self {
+            internal: [self.internal[0] + other.internal[0], self.internal[1] + other.internal[1]],
+            kinetic: self.kinetic + other.kinetic,
+            elastic: self.elastic + other.elastic,
+            moving: self.moving + other.moving,
+        }
+    }
+}
+
+impl<'a, const D: usize> Explicit<'a, D> {
+    /// Prepares masses and forces. A stage must begin before the first step.
+    ///
+    /// # Errors
+    /// A description if an element has no positive lumped masses or friction has no initial state.
+    pub fn new(problem: &'a Problem<D>) -> Result<Self, String> {
+        let model = &problem.model;
+        let stable = stable(model, &problem.density, problem.viscosity).map_err(|e| e.to_string())?;
+        let linear: Vec<_> = model.blocks.iter().map(CellBlock::linear).collect();
+        let components = model.idealisation.components();
+        let product = MatrixFree::new(&model.mesh, components, &linear);
+        let mass =
+            lumped::of_mesh(&model.mesh, model.idealisation, &problem.density).map_err(|e| e.to_string())?;
+        let nonlinear = model.blocks.iter().filter_map(|b| match b {
+            CellBlock::Linear(_) => None,
+            CellBlock::Nonlinear(block) => Some(block.as_ref().clone()),
+        });
+        let nonlinear: Vec<_> = nonlinear.collect();
+        let dofs = model.dofs();
+        let velocity = if problem.velocity.is_empty() { vec![0.0; dofs] } else { problem.velocity.clone() };
+        Ok(Self {
+            problem,
+            stable,
+            product,
+            history_forces: if nonlinear.is_empty() { Vec::new() } else { vec![0.0; dofs] },
+            nonlinear,
+            components,
+            inverse: mass.iter().map(|m| 1.0 / m).collect(),
+            mass,
+            special: Vec::new(),
+            pairs: Vec::new(),
+            constraints: Constraints::default(),
+            loads: Loads::default(),
+            dt: 0.0,
+            time: 0.0,
+            steps: 0,
+            u: vec![0.0; dofs],
+            damped: if problem.viscosity > 0.0 { vec![0.0; dofs] } else { Vec::new() },
+            velocity,
+            imposed: Vec::new(),
+            fault: FaultState::default(),
+            works: Works::default(),
+            budget: Budget::default(),
+            given: 0.0,
+        })
+    }
+
+    /// Begins a stage: its conditions, loads and length of steps.
+    ///
+    /// # Errors
+    /// A description where friction has no initial state.
+    pub fn begin_stage(&mut self, stage: usize) -> Result<(), String> {
+        let problem = self.problem;
+        self.dt = problem.step_of(stage, &self.stable);
+        self.constraints = problem.stages[stage].constraints(&self.u);
+        self.appoint();
+        if self.steps == 0 {
+            if let Some(fault) = &problem.fault {
+                self.fault = fault.start(self.dt).map_err(|e| e.to_string())?;
+            }
+            self.damp();
+        }
+        Ok(())
+    }
+
+    /// Finds the special nodes of the stage and prepares them.
+    fn appoint(&mut self) {
+        let (problem, components) = (self.problem, self.components);
+        let of_fault = problem.fault.iter().flat_map(|f| f.points.iter().flat_map(|p| [p.minus, p.plus]));
+        let loaded =
+            self.constraints.channels.iter().flat_map(|c| c.forces.iter().map(|(d, _)| d / components));
+        let held = self.constraints.fixed.iter().map(|d| d / components);
+        let mut nodes: Vec<usize> =
+            of_fault.chain(problem.absorbing.iter().map(|d| d.node)).chain(loaded).chain(held).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let dashpot = |node: usize| {
+            let found = problem.absorbing.binary_search_by_key(&node, |d| d.node);
+            found.ok().map(|k| &problem.absorbing[k])
+        };
+        self.inverse = self.mass.iter().map(|m| 1.0 / m).collect();
+        self.special = nodes.iter().map(|&n| Special::new(n, self.mass[n], dashpot(n))).collect();
+        // Every degree of freedom asked for belongs to one of the nodes.
+        let find = |node: usize| nodes.partition_point(|n| *n < node);
+        for &dof in &self.constraints.fixed {
+            self.special[find(dof / components)].prescribed[dof % components] = true;
+        }
+        for special in &mut self.special {
+            special.prepare(components, self.dt);
+            self.inverse[special.node] = 0.0;
+        }
+        self.loads = Loads::new(&self.constraints, |dof| (find(dof / components), dof % components));
+        self.pairs =
+            problem.fault.iter().flat_map(|f| &f.points).map(|p| [find(p.minus), find(p.plus)]).collect();
+        self.imposed = if self.constraints.fixed.is_empty() { Vec::new() } else { self.u.clone() };
+    }
+
+    /// Displacements plus damping.
+    fn damp(&mut self) {
+        let factor = self.problem.viscosity * self.dt;
+        for ((damped, u), v) in self.damped.iter_mut().zip(&self.u).zip(&self.velocity) {
+            *damped = u + factor * v;
+        }
+    }
+
+    /// Takes a step.
+    ///
+    /// # Errors
+    /// [`Halt`]; displacements and velocities are then those of the step before.
+    pub fn step(&mut self) -> Result<(), Halt> {
+        self.forces()?;
+        let (mut acceleration, external, before, displacement) = self.free_accelerations();
+        let fault = self.faults(&mut acceleration, &before, &displacement)?;
+        let kick = self.kick();
+        let sums = self.move_all(kick);
+        self.finish((&acceleration, &external), (&before, &displacement), (kick, sums), fault)
+    }
+
+    /// Time over which velocities change: the first step starts from the velocity at the start, half a step later than those after it.
+    fn kick(&self) -> f64 {
+        if self.steps == 0 { 0.5 * self.dt } else { self.dt }
+    }
+
+    /// Internal forces at uⁿ.
+    fn forces(&mut self) -> Result<(), Halt> {
+        let moved = if self.damped.is_empty() { &self.u } else { &self.damped };
+        self.product.evaluate(moved);
+        self.history_forces.fill(0.0);
+        let at = Instant { time: self.time, dt: self.dt };
+        for block in &mut self.nonlinear {
+            let refused =
+                |r: asperity_fem::term::Refusal| Halt::Refused { time: at.time, reason: r.to_string() };
+            block.residual(&self.u, at, &mut self.history_forces).map_err(refused)?;
+        }
+        Ok(())
+    }
+
+    /// Internal force on a component of a node \[N\].
+    fn internal(&self, node: usize, component: usize) -> f64 {
+        let linear = self.product.force(node, component);
+        self.history_forces.get(node * self.components + component).map_or(linear, |f| linear + f)
+    }
+
+    /// Vector of a node from values of all degrees of freedom.
+    fn vector(&self, values: &[f64], node: usize) -> [f64; 3] {
+        let at = node * self.components;
+        std::array::from_fn(|c| if c < self.components { values[at + c] } else { 0.0 })
+    }
+
+    /// Accelerations of the special nodes without the changes of tractions on faults, loads, and velocities and displacements there.
+    #[expect(clippy::type_complexity, reason = "four slices of vectors")]
+    fn free_accelerations(&mut self) -> (Vec<[f64; 3]>, Vec<[f64; 3]>, Vec<[f64; 3]>, Vec<[f64; 3]>) {
+        let mut external = vec![[0.0; 3]; self.special.len()];
+        self.loads.add(self.time, &mut external);
+        let next = self.time + self.dt;
+        if !self.imposed.is_empty() {
+            self.constraints.impose(next, &mut self.imposed);
+        }
+        let at = |values: &[f64]| self.special.iter().map(|s| self.vector(values, s.node)).collect();
+        let (before, displacement): (Vec<[f64; 3]>, Vec<[f64; 3]>) = (at(&self.velocity), at(&self.u));
+        let of = |(s, (external, before)): (&Special, (&[f64; 3], &[f64; 3]))| {
+            let drag = s.drag(before);
+            let force: [f64; 3] = std::array::from_fn(|c| {
+                let internal = if c < self.components { self.internal(s.node, c) } else { 0.0 };
+                external[c] + drag[c] - internal
+            });
+            let mut acceleration = s.accelerated(&force);
+            for c in (0..self.components).filter(|&c| s.prescribed[c]) {
+                let dof = s.node * self.components + c;
+                acceleration[c] =
+                    ((self.imposed[dof] - self.u[dof]) / self.dt - self.velocity[dof]) / self.dt;
+            }
+            acceleration
+        };
+        let acceleration = self.special.iter().zip(external.iter().zip(&before)).map(of).collect();
+        (acceleration, external, before, displacement)
+    }
+
+    /// Balances the faults. The new state replaces the present one once the step is taken.
+    fn faults(
+        &self,
+        acceleration: &mut [[f64; 3]],
+        velocity: &[[f64; 3]],
+        displacement: &[[f64; 3]],
+    ) -> Result<Option<FaultState>, Halt> {
+        let Some(fault) = self.problem.fault.as_ref() else { return Ok(None) };
+        let mut state = self.fault.clone();
+        let (time, dt) = (self.time, self.dt);
+        let (nodes, pairs) = (self.special.as_slice(), self.pairs.as_slice());
+        let (kick, first) = (self.kick(), self.steps == 0);
+        let mut between =
+            Between { nodes, acceleration, velocity, displacement, pairs, time, dt, kick, first };
+        match fault.balance(&mut between, &mut state) {
+            Ok(()) => Ok(Some(state)),
+            Err(Unbalanced::Friction(f)) => Err(Halt::Friction { time, reason: f.to_string() }),
+            Err(Unbalanced::Tension(t)) => Err(Halt::Tension { time, point: t.point, traction: t.traction }),
+        }
+    }
+
+    /// Moves the free nodes; special nodes move at their old velocity, to be corrected.
+    fn move_all(&mut self, kick: f64) -> Sums {
+        let (components, dt, factor) = (self.components, self.dt, self.problem.viscosity * self.dt);
+        let Self { product, history_forces, mass, inverse, u, velocity, damped, .. } = self;
+        let (product, history, width) = (&*product, &*history_forces, CHUNK * components);
+        // Half a step before the start the velocity would have been 2 v⁰ - v¹ᐟ².
+        let back = if kick < dt { 1.0 } else { 0.0 };
+        let mut none = vec![0.0; if damped.is_empty() { u.len() } else { 0 }];
+        let damped = if damped.is_empty() { &mut none } else { damped };
+        let chunk = |(k, ((u, v), w)): (usize, ((&mut [f64], &mut [f64]), &mut [f64]))| {
+            let mut sums = Sums::default();
+            for i in 0..u.len() {
+                let (node, component) = (k * CHUNK + i / components, i % components);
+                let mut force = product.force(node, component);
+                if let Some(f) = history.get(node * components + component) {
+                    force += f;
+                }
+                let (before, m) = (v[i], inverse[node]);
+                let after = before - kick * force * m;
+                let counted = if m > 0.0 { mass[node] } else { 0.0 };
+                sums.internal[0] += force * before * counted * m;
+                sums.internal[1] += force * after * counted * m;
+                sums.kinetic += counted * (before + back * (before - after)) * after;
+                sums.moving += counted * after * after;
+                sums.elastic += u[i] * force;
+                v[i] = after;
+                u[i] += dt * after;
+                w[i] = u[i] + factor * after;
+            }
+            sums
+        };
+        let chunks =
+            u.par_chunks_mut(width).zip(velocity.par_chunks_mut(width)).zip(damped.par_chunks_mut(width));
+        let parts: Vec<Sums> = chunks.enumerate().map(chunk).collect();
+        parts.into_iter().fold(Sums::default(), Sums::plus)
+    }
+
+    /// Moves the special nodes, and closes the step.
+    fn finish(
+        &mut self,
+        (acceleration, external): (&[[f64; 3]], &[[f64; 3]]),
+        (before, displacement): (&[[f64; 3]], &[[f64; 3]]),
+        (kick, mut sums): (f64, Sums),
+        fault: Option<FaultState>,
+    ) -> Result<(), Halt> {
+        let (components, dt) = (self.components, self.dt);
+        let (mut loads, mut absorbed) = ([0.0; 2], [0.0; 2]);
+        let mut after = before.to_vec();
+        for (k, s) in self.special.iter().enumerate() {
+            for c in 0..components {
+                after[k][c] = before[k][c] + kick * acceleration[k][c];
+                if s.prescribed[c] {
+                    after[k][c] = before[k][c] + dt * acceleration[k][c];
+                }
+            }
+            let middle: [f64; 3] = std::array::from_fn(|c| 0.5 * (before[k][c] + after[k][c]));
+            let drag = s.drag(&middle);
+            for c in 0..components {
+                let (dof, b, a) = (s.node * components + c, before[k][c], after[k][c]);
+                let internal = self.internal(s.node, c);
+                // What a prescribed motion exerts follows from the balance of the node; faults do not act along it.
+                let reaction = if s.prescribed[c] {
+                    s.mass * acceleration[k][c] + internal - drag[c]
+                } else {
+                    external[k][c]
+                };
+                sums.internal[0] += internal * b;
+                sums.internal[1] += internal * a;
+                let prior = if self.steps == 0 && !s.prescribed[c] { 2.0 * b - a } else { b };
+                sums.kinetic += s.mass * prior * a;
+                sums.moving += s.mass * a * a;
+                for (side, v) in [b, a].into_iter().enumerate() {
+                    loads[side] += 0.5 * dt * reaction * v;
+                    absorbed[side] -= 0.5 * dt * drag[c] * v;
+                }
+                self.velocity[dof] = a;
+                self.u[dof] = if s.prescribed[c] { self.imposed[dof] } else { self.u[dof] + dt * (a - b) };
+                if !self.damped.is_empty() {
+                    self.damped[dof] = self.u[dof] + self.problem.viscosity * dt * a;
+                }
+            }
+        }
+        self.account((before, &after), displacement, sums, (loads, absorbed), fault);
+        self.nonlinear.iter_mut().for_each(asperity_fem::term::Term::accept);
+        self.time += dt;
+        self.steps += 1;
+        self.grown(sums.moving)
+    }
+
+    /// Adds the works of the step, and writes the energy at tⁿ.
+    fn account(
+        &mut self,
+        (before, after): (&[[f64; 3]], &[[f64; 3]]),
+        displacement: &[[f64; 3]],
+        sums: Sums,
+        (loads, absorbed): ([f64; 2], [f64; 2]),
+        fault: Option<FaultState>,
+    ) {
+        let (half, first) = (0.5 * self.dt, self.steps == 0);
+        let kinetic = 0.5 * sums.kinetic;
+        let works = &mut self.works;
+        // There is no step before the first.
+        let add = |work: &mut Work, [before, after]: [f64; 2]| {
+            work.add(if first { 0.0 } else { before }, after);
+        };
+        add(&mut works.internal, sums.internal.map(|w| half * w));
+        add(&mut works.loads, loads);
+        add(&mut works.absorbed, absorbed);
+        if let (Some(state), Some(fault)) = (fault, &self.problem.fault) {
+            self.fault = state;
+            let jump = |values: &[[f64; 3]], [minus, plus]: [usize; 2]| -> [f64; 3] {
+                std::array::from_fn(|c| values[plus][c] - values[minus][c])
+            };
+            let jumps: Vec<_> = self.pairs.iter().map(|&p| [jump(before, p), jump(after, p)]).collect();
+            let apart: Vec<_> = self.pairs.iter().map(|&p| jump(displacement, p)).collect();
+            let [friction, released] = fault.record((self.time, self.dt), &jumps, &apart, &mut self.fault);
+            add(&mut works.friction, friction);
+            add(&mut works.released, released);
+        }
+        let initial = if first { kinetic } else { self.budget.initial };
+        let stored = self.damped.is_empty() && self.nonlinear.is_empty();
+        let elastic = if stored { 0.5 * sums.elastic } else { self.works.internal.done };
+        let put_in = self.works.loads.done + self.works.released.done;
+        let had = self.budget.loads + self.budget.released;
+        self.given += (put_in - had).max(0.0) + if first { initial } else { 0.0 };
+        self.budget = Budget {
+            time: self.time,
+            kinetic,
+            elastic,
+            viscous: 0.0,
+            friction: self.works.friction.done,
+            absorbed: self.works.absorbed.done,
+            loads: self.works.loads.done,
+            released: self.works.released.done,
+            initial,
+        };
+    }
+
+    /// Checks that the energy of motion does not exceed what was put in, and is a number.
+    fn grown(&self, moving: f64) -> Result<(), Halt> {
+        let held = 0.5 * moving;
+        if held <= GROWTH * self.given.max(self.largest_change()) {
+            return Ok(());
+        }
+        Err(Halt::Growth { time: self.time, held, given: self.given })
+    }
+
+    /// Work over the half step that begins now, which no balance counts yet \[J\].
+    fn largest_change(&self) -> f64 {
+        self.works.loads.pending().abs() + self.works.released.pending().abs() + f64::MIN_POSITIVE
+    }
+
+    /// Time tⁿ of the displacements \[s\].
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Sets the time to the end of a stage, from which rounding may have left it \[s\].
+    pub fn set_time(&mut self, time: f64) {
+        self.time = time;
+    }
+
+    /// Length of the steps \[s\].
+    #[must_use]
+    pub fn dt(&self) -> f64 {
+        self.dt
+    }
+
+    /// Steps taken.
+    #[must_use]
+    pub fn steps(&self) -> usize {
+        self.steps
+    }
+
+    /// Largest stable step, and the cell that sets it.
+    #[must_use]
+    pub fn stable(&self) -> &Stable {
+        &self.stable
+    }
+
+    /// Number of cells whose forces need no matrix of their own, and of the matrices kept.
+    #[must_use]
+    pub fn product(&self) -> &MatrixFree {
+        &self.product
+    }
+
+    /// Displacements at [`Explicit::time`] \[m\].
+    #[must_use]
+    pub fn displacement(&self) -> &[f64] {
+        &self.u
+    }
+
+    /// Velocities half a step before [`Explicit::time`] \[m/s\].
+    #[must_use]
+    pub fn velocity(&self) -> &[f64] {
+        &self.velocity
+    }
+
+    /// State of the faults a step before [`Explicit::time`].
+    #[must_use]
+    pub fn fault(&self) -> &FaultState {
+        &self.fault
+    }
+
+    /// Energy a step before [`Explicit::time`]. With damping it costs a product: what bodies dissipate is the work of their forces without
+    /// the elastic energy.
+    pub fn budget(&mut self) -> Budget {
+        let mut budget = self.budget;
+        if !self.damped.is_empty() && self.nonlinear.is_empty() {
+            let before: Vec<f64> = self.u.iter().zip(&self.velocity).map(|(u, v)| u - self.dt * v).collect();
+            let mut forces = vec![0.0; before.len()];
+            self.product.apply(&before, &mut forces);
+            let elastic = 0.5 * before.iter().zip(&forces).map(|(u, f)| u * f).sum::<f64>();
+            budget.viscous = budget.elastic - elastic;
+            budget.elastic = elastic;
+        }
+        budget
+    }
+
+    /// Blocks with a history, in their present state.
+    #[must_use]
+    pub fn nonlinear(&self) -> &[nonlinear::Block<D>] {
+        &self.nonlinear
+    }
+
+    /// Committed state.
+    #[must_use]
+    pub fn save(&self) -> ExplicitState {
+        ExplicitState {
+            time: self.time,
+            steps: self.steps,
+            u: self.u.clone(),
+            velocity: self.velocity.clone(),
+            fault: self.fault.clone(),
+            histories: self.nonlinear.iter().map(|b| b.save()).collect(),
+            works: self.works,
+            budget: self.budget,
+            given: self.given,
+        }
+    }
+
+    /// Restores a state within a stage that has begun. Returns false, changing nothing, if it belongs to another problem.
+    pub fn restore(&mut self, saved: &ExplicitState) -> bool {
+        let points = self.problem.fault.as_ref().map_or(0, |f| f.points.len());
+        let fits = saved.u.len() == self.u.len()
+            && saved.velocity.len() == self.velocity.len()
+            && saved.fault.normal.len() == points
+            && saved.histories.len() == self.nonlinear.len();
+        if !fits || !self.nonlinear.iter_mut().zip(&saved.histories).all(|(b, h)| b.restore(h)) {
+            return false;
+        }
+        (self.time, self.steps, self.given) = (saved.time, saved.steps, saved.given);
+        self.u.clone_from(&saved.u);
+        self.velocity.clone_from(&saved.velocity);
+        self.fault = saved.fault.clone();
+        (self.works, self.budget) = (saved.works, saved.budget);
+        if !self.imposed.is_empty() {
+            self.imposed.clone_from(&saved.u);
+        }
+        self.damp();
+        true
+    }
+}

@@ -1,0 +1,332 @@
+//! Faults at split nodes: tractions from the momentum of both sides.
+//!
+//! At each point the traction that closes the gap and the one that stops slip follow from the forces and masses of the two nodes.
+//! The normal traction is the closing one where it presses, otherwise none. Friction bounds the shear traction
+//! ([`asperity_friction::inertial`]). Tractions act in addition to the initial state, which is in balance: bodies feel the difference.
+
+use super::Pulse;
+use super::nodes::{Special, dot};
+use asperity_friction::Failure;
+use asperity_friction::inertial::{InertialFault, Push, Pushed};
+use serde::{Deserialize, Serialize};
+
+/// A pair of nodes at one place. Vectors have the components of displacements, then zeros: in antiplane motion slip is the first, and the normal
+/// is zero.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SplitPoint {
+    /// Node of the minus side.
+    pub minus: usize,
+    /// Node of the plus side.
+    pub plus: usize,
+    /// Tributary area \[m², m in the plane\].
+    pub area: f64,
+    /// Unit normal from minus to plus.
+    pub normal: [f64; 3],
+    /// Unit vectors along which the plus side slides, one or two.
+    pub along: Vec<[f64; 3]>,
+    /// Gap at the start \[m\].
+    pub gap: f64,
+}
+
+/// Relaxation of the normal traction that friction feels, `dσ̂/dt = -(|V| + V*)/L (σ̂ - σ)`. Between unlike rocks slip at a friction that
+/// follows the normal traction at once is ill-posed (Cochard & Rice 2000; Prakash & Clifton 1993 observed the delay).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Regularisation {
+    /// L \[m\].
+    pub length: f64,
+    /// V* \[m/s\].
+    pub rate: f64,
+}
+
+/// All points of all faults. Slices of several components hold the first component of all points, then the second.
+#[derive(Debug)]
+pub struct Fault {
+    /// Points.
+    pub points: Vec<SplitPoint>,
+    /// Laws of the points.
+    pub law: Box<dyn InertialFault>,
+    /// Normal traction at the start \[Pa\].
+    pub normal: Vec<f64>,
+    /// Shear traction at the start, by components \[Pa\].
+    pub shear: Vec<f64>,
+    /// Slip rate at the start, by components \[m/s\]; it sets the states of laws that have them.
+    pub rate: Vec<f64>,
+    /// True if sides may part; otherwise a run stops where they would.
+    pub opens: bool,
+    /// Relaxation of the normal traction, if it is declared.
+    pub regularisation: Option<Regularisation>,
+    /// Imposed tractions.
+    pub pulses: Vec<Pulse>,
+}
+
+/// State of the faults at a step tⁿ.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct FaultState {
+    /// Slip, by components \[m\].
+    pub slip: Vec<f64>,
+    /// Slip rate, by components \[m/s\]: the mean of the half steps before and after.
+    pub rate: Vec<f64>,
+    /// Shear traction, by components \[Pa\].
+    pub shear: Vec<f64>,
+    /// Normal traction \[Pa\].
+    pub normal: Vec<f64>,
+    /// Gap \[m\]; 0 where the sides touch.
+    pub gap: Vec<f64>,
+    /// State variables half a step later, point-major.
+    pub states: Vec<f64>,
+    /// Normal traction that friction feels \[Pa\], if it is delayed.
+    pub felt: Vec<f64>,
+}
+
+/// A point where the sides would part and may not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Tension {
+    pub point: usize,
+    pub traction: f64,
+}
+
+/// Reason why a fault could not be balanced.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Unbalanced {
+    Friction(Failure),
+    Tension(Tension),
+}
+
+/// What the points of a fault are between: the special nodes of each, and the step.
+pub(super) struct Between<'a> {
+    pub nodes: &'a [Special],
+    /// Accelerations without the change of tractions; the tractions add theirs \[m/s²\].
+    pub acceleration: &'a mut [[f64; 3]],
+    /// Velocities at the half step before \[m/s\].
+    pub velocity: &'a [[f64; 3]],
+    /// Displacements \[m\].
+    pub displacement: &'a [[f64; 3]],
+    /// Special nodes of each point: minus, plus.
+    pub pairs: &'a [[usize; 2]],
+    pub time: f64,
+    pub dt: f64,
+    /// Time over which velocities change: Δt, but half of it in the first step.
+    pub kick: f64,
+    /// True in the first step, where rate laws keep their initial traction.
+    pub first: bool,
+}
+
+impl Between<'_> {
+    /// Difference plus - minus of values at the nodes of a point, along a unit vector.
+    fn jump(&self, values: &[[f64; 3]], point: usize, e: &[f64; 3]) -> f64 {
+        let [minus, plus] = self.pairs[point];
+        dot(&values[plus], e) - dot(&values[minus], e)
+    }
+
+    /// Adds the accelerations by a force on the plus node, and its reaction \[N\].
+    fn push(&mut self, point: usize, force: &[f64; 3]) {
+        for (&node, sign) in self.pairs[point].iter().zip([-1.0, 1.0]) {
+            let caused = self.nodes[node].accelerated(&force.map(|f| sign * f));
+            self.acceleration[node].iter_mut().zip(caused).for_each(|(a, c)| *a += c);
+        }
+    }
+
+    /// Inverse mass of a point for motion apart, times its area \[m²/kg\].
+    fn mobility(&self, point: usize, area: f64, e: &[f64; 3]) -> f64 {
+        let [minus, plus] = self.pairs[point];
+        area * (self.nodes[minus].along(e) + self.nodes[plus].along(e))
+    }
+}
+
+impl Fault {
+    /// State at the start, with laws in their states half a step later.
+    ///
+    /// # Errors
+    /// [`Failure`] where no state gives the initial traction.
+    pub(super) fn start(&self, dt: f64) -> Result<FaultState, Failure> {
+        let (n, states) = (self.points.len(), self.law.states());
+        let mut start = FaultState {
+            slip: vec![0.0; self.shear.len()],
+            rate: self.rate.clone(),
+            shear: self.shear.clone(),
+            normal: self.normal.clone(),
+            gap: self.points.iter().map(|p| p.gap).collect(),
+            states: vec![0.0; n * states],
+            felt: if self.regularisation.is_some() { self.normal.clone() } else { Vec::new() },
+        };
+        for point in 0..n {
+            let (rate, shear) = (self.size(&self.rate, point), self.size(&self.shear, point));
+            let at = (rate > 0.0 && self.normal[point] > 0.0).then(|| (rate, shear / self.normal[point]));
+            self.law.start(point, at, &mut start.states[point * states..(point + 1) * states])?;
+        }
+        if !self.law.has_elastic_domain() {
+            self.first_half(dt, &mut start)?;
+        }
+        Ok(start)
+    }
+
+    /// Passes the first half step at the slip rates of the start.
+    fn first_half(&self, dt: f64, start: &mut FaultState) -> Result<(), Failure> {
+        // A dashpot so strong that it imposes the slip rate.
+        let pushes: Vec<Push> = (0..self.points.len())
+            .map(|point| {
+                let rate = self.size(&self.rate, point);
+                let impedance = self.normal[point].max(1.0) * STIFF / rate.max(f64::MIN_POSITIVE);
+                let impedance = if rate > 0.0 { impedance } else { 1.0 };
+                let trial = if rate > 0.0 { impedance * rate } else { 0.0 };
+                Push { normal: start.normal[point], trial, impedance, near: rate, dt: 0.5 * dt }
+            })
+            .collect();
+        let mut answers = vec![Pushed { traction: 0.0, rate: 0.0 }; pushes.len()];
+        self.law.push(&pushes, &mut start.states, &mut answers)
+    }
+
+    /// Magnitude of a vector given by components.
+    fn size(&self, values: &[f64], point: usize) -> f64 {
+        let n = self.points.len();
+        values[point..].iter().step_by(n).map(|v| v * v).sum::<f64>().sqrt()
+    }
+
+    /// Shear traction that loads a component of a point: initial and imposed \[Pa\].
+    fn loading(&self, entry: usize, growth: &[f64]) -> f64 {
+        let imposed = self.pulses.iter().zip(growth).map(|(p, g)| g * p.amplitude[entry]);
+        self.shear[entry] + imposed.sum::<f64>()
+    }
+
+    /// Balances all points at tⁿ: adds the accelerations by the tractions and writes these into the state.
+    pub(super) fn balance(
+        &self,
+        between: &mut Between<'_>,
+        state: &mut FaultState,
+    ) -> Result<(), Unbalanced> {
+        let growth: Vec<f64> = self.pulses.iter().map(|p| p.growth(between.time)).collect();
+        for point in 0..self.points.len() {
+            state.normal[point] = self.closing(between, point, state)?;
+        }
+        let n = self.points.len();
+        if between.first && !self.law.has_elastic_domain() {
+            for point in 0..n {
+                self.press(between, point, state);
+            }
+            return Ok(());
+        }
+        self.relax(between.dt, state);
+        let (pushes, trials) = self.pushes(between, state, &growth);
+        let mut answers = vec![Pushed { traction: 0.0, rate: 0.0 }; pushes.len()];
+        self.law.push(&pushes, &mut state.states, &mut answers).map_err(Unbalanced::Friction)?;
+        for (point, (push, answer)) in pushes.iter().zip(&answers).enumerate() {
+            let p = &self.points[point];
+            let share = if push.trial > 0.0 { answer.traction / push.trial } else { 0.0 };
+            self.press(between, point, state);
+            let mut force = [0.0; 3];
+            for (c, e) in p.along.iter().enumerate() {
+                let entry = c * n + point;
+                state.shear[entry] = share * trials[entry];
+                let change = p.area * (state.shear[entry] - self.loading(entry, &growth));
+                force.iter_mut().zip(e).for_each(|(f, e)| *f -= change * e);
+            }
+            between.push(point, &force);
+        }
+        Ok(())
+    }
+
+    /// Adds the accelerations by the change of the normal traction of a point.
+    fn press(&self, between: &mut Between<'_>, point: usize, state: &FaultState) {
+        let pressed = self.points[point].area * (state.normal[point] - self.normal[point]);
+        between.push(point, &self.points[point].normal.map(|n| pressed * n));
+    }
+
+    /// Normal traction that closes the gap by the end of the step, if it presses \[Pa\].
+    fn closing(
+        &self,
+        between: &Between<'_>,
+        point: usize,
+        state: &mut FaultState,
+    ) -> Result<f64, Unbalanced> {
+        let p = &self.points[point];
+        let mobility = between.mobility(point, p.area, &p.normal);
+        let gap = p.gap + between.jump(between.displacement, point, &p.normal);
+        state.gap[point] = gap;
+        if mobility == 0.0 {
+            // In antiplane motion nothing moves along the normal.
+            return Ok(self.normal[point]);
+        }
+        let velocity = between.jump(between.velocity, point, &p.normal);
+        let acceleration = between.jump(between.acceleration, point, &p.normal);
+        let (dt, kick) = (between.dt, between.kick);
+        let traction = self.normal[point] - (velocity + gap / dt + kick * acceleration) / (kick * mobility);
+        if traction >= 0.0 {
+            return Ok(traction);
+        }
+        if self.opens { Ok(0.0) } else { Err(Unbalanced::Tension(Tension { point, traction })) }
+    }
+
+    /// Relaxes the normal traction that friction feels over a step at the last slip rates.
+    fn relax(&self, dt: f64, state: &mut FaultState) {
+        let Some(Regularisation { length, rate }) = self.regularisation else { return };
+        for point in 0..self.points.len() {
+            let passed = (self.size(&state.rate, point) + rate) * dt / length;
+            let normal = state.normal[point];
+            state.felt[point] = normal + (state.felt[point] - normal) * (-passed).exp();
+        }
+    }
+
+    /// What drives the points, and their trial tractions by components \[Pa\].
+    fn pushes(&self, between: &Between<'_>, state: &FaultState, growth: &[f64]) -> (Vec<Push>, Vec<f64>) {
+        let n = self.points.len();
+        let reach = if self.law.has_elastic_domain() { between.kick } else { 0.5 * between.dt };
+        let mut trials = vec![0.0; self.shear.len()];
+        let pushes = (0..n).map(|point| {
+            let p = &self.points[point];
+            let mut impedance = 0.0;
+            for (c, e) in p.along.iter().enumerate() {
+                let entry = c * n + point;
+                impedance = 1.0 / (reach * between.mobility(point, p.area, e));
+                let rate = between.jump(between.velocity, point, e)
+                    + reach * between.jump(between.acceleration, point, e);
+                trials[entry] = self.loading(entry, growth) + impedance * rate;
+            }
+            let felt = if self.regularisation.is_some() { state.felt[point] } else { state.normal[point] };
+            Push {
+                // Where the sides have parted there is no friction, whatever it remembers.
+                normal: if state.normal[point] > 0.0 { felt } else { 0.0 },
+                trial: self.size(&trials, point),
+                impedance,
+                near: self.size(&state.rate, point),
+                dt: between.dt,
+            }
+        });
+        (pushes.collect(), trials)
+    }
+
+    /// Writes slip and slip rates at tⁿ. Returns the works of the tractions over both half steps: dissipated, and released from the initial
+    /// and imposed tractions. `jumps` holds for each point the velocities of the plus side
+    /// relative to the minus side before and after \[m/s\], `displacement` the relative displacement at tⁿ \[m\].
+    pub(super) fn record(
+        &self,
+        (time, dt): (f64, f64),
+        jumps: &[[[f64; 3]; 2]],
+        displacement: &[[f64; 3]],
+        state: &mut FaultState,
+    ) -> [[f64; 2]; 2] {
+        let n = self.points.len();
+        let growth: Vec<f64> = self.pulses.iter().map(|p| p.growth(time)).collect();
+        let (mut dissipated, mut freed) = ([0.0; 2], [0.0; 2]);
+        for (point, p) in self.points.iter().enumerate() {
+            for (side, jump) in jumps[point].iter().enumerate() {
+                let opening = dot(jump, &p.normal);
+                dissipated[side] -= 0.5 * dt * p.area * state.normal[point] * opening;
+                freed[side] -= 0.5 * dt * p.area * self.normal[point] * opening;
+            }
+            for (c, e) in p.along.iter().enumerate() {
+                let entry = c * n + point;
+                let rates = [dot(&jumps[point][0], e), dot(&jumps[point][1], e)];
+                state.slip[entry] = dot(&displacement[point], e);
+                state.rate[entry] = 0.5 * (rates[0] + rates[1]);
+                for (side, rate) in rates.iter().enumerate() {
+                    dissipated[side] += 0.5 * dt * p.area * state.shear[entry] * rate;
+                    freed[side] += 0.5 * dt * p.area * self.loading(entry, &growth) * rate;
+                }
+            }
+        }
+        [dissipated, freed]
+    }
+}
+
+/// Drag of the first half step over the strength: friction then changes the imposed slip rate by rounding alone.
+const STIFF: f64 = 1e16;

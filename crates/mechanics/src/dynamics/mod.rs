@@ -1,0 +1,36 @@
+//! Explicit dynamics: bodies with lumped masses, absorbing sides, and faults at split nodes.
+//!
+//! Central differences. With M the lumped mass, f the internal forces and F all others, a step from tⁿ to tⁿ⁺¹ is
+//!
+//! ```text
+//! aⁿ = M⁻¹ (F(tⁿ, vⁿ) - f(uⁿ + β Δt vⁿ⁻¹ᐟ²)),   vⁿ⁺¹ᐟ² = vⁿ⁻¹ᐟ² + Δt aⁿ,   uⁿ⁺¹ = uⁿ + Δt vⁿ⁺¹ᐟ²,
+//! ```
+//!
+//! with vⁿ the mean of the two half steps, and β the viscosity of Kelvin-Voigt damping over the step. The scheme is of second order
+//! and stable for Δt < 2/(ω √(1 + 2β)), ω the highest frequency ([`asperity_fem::matrix_free::highest_frequency`]).
+//!
+//! - [`Problem`] is what is computed, [`Explicit`] steps it.
+//! - Tractions of faults follow from the momentum of both sides, without a penalty ([`Fault`]).
+//! - Absorbing sides are dashpots ρ c_p and ρ c_s per area (Lysmer & Kuhlemeyer 1969).
+//! - [`Budget`] is the energy, whose parts close to rounding.
+
+mod absorbing;
+mod budget;
+mod explicit;
+mod fault;
+mod loads;
+mod nodes;
+mod problem;
+mod pulse;
+mod stable;
+
+pub use absorbing::{Dashpot, dashpots};
+pub use budget::Budget;
+pub use explicit::{Explicit, ExplicitState, Halt};
+pub use fault::{Fault, FaultState, Regularisation, SplitPoint};
+pub use problem::Problem;
+pub use pulse::Pulse;
+pub use stable::{Stable, stable};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,66 @@
+//! Special nodes: those of faults, absorbing sides, loads and prescribed motions. All other nodes are free.
+
+use super::absorbing::Dashpot;
+use nalgebra::SMatrix;
+
+/// A node at which more than internal forces act.
+#[derive(Clone, Debug)]
+pub(super) struct Special {
+    /// Node of the mesh.
+    pub node: usize,
+    /// Lumped mass \[kg, or kg/m\].
+    pub mass: f64,
+    /// Dashpot, if its side is absorbing.
+    pub damping: Option<[[f64; 3]; 3]>,
+    /// Components with a prescribed motion.
+    pub prescribed: [bool; 3],
+    /// (M + Δt/2 C)⁻¹, without prescribed components \[1/kg\].
+    pub inverse: [[f64; 3]; 3],
+}
+
+impl Special {
+    /// A node with its mass; nothing is prescribed yet.
+    pub fn new(node: usize, mass: f64, dashpot: Option<&Dashpot>) -> Self {
+        let damping = dashpot.map(|d| d.damping);
+        Self { node, mass, damping, prescribed: [false; 3], inverse: [[0.0; 3]; 3] }
+    }
+
+    /// Computes the inverse mass for steps of length `dt`.
+    pub fn prepare(&mut self, components: usize, dt: f64) {
+        let damping = self.damping.unwrap_or_default();
+        let free = |c: usize| c < components && !self.prescribed[c];
+        let matrix = SMatrix::<f64, 3, 3>::from_fn(|i, j| {
+            let mass = if i == j { self.mass } else { 0.0 };
+            if free(i) && free(j) { mass + 0.5 * dt * damping[i][j] } else { f64::from(u8::from(i == j)) }
+        });
+        // Symmetric and positive: masses are, and dashpots take energy.
+        let inverse = matrix.try_inverse().unwrap_or_else(|| matrix.map(|_| f64::NAN));
+        for i in 0..3 {
+            for j in 0..3 {
+                self.inverse[i][j] = if free(i) && free(j) { inverse[(i, j)] } else { 0.0 };
+            }
+        }
+    }
+
+    /// Acceleration that a force causes \[m/s²\].
+    pub fn accelerated(&self, force: &[f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|i| self.inverse[i].iter().zip(force).map(|(m, f)| m * f).sum())
+    }
+
+    /// Force of the dashpot at a velocity \[N\].
+    pub fn drag(&self, velocity: &[f64; 3]) -> [f64; 3] {
+        let Some(damping) = &self.damping else { return [0.0; 3] };
+        std::array::from_fn(|i| -damping[i].iter().zip(velocity).map(|(c, v)| c * v).sum::<f64>())
+    }
+
+    /// Inverse mass along a unit vector \[1/kg\].
+    pub fn along(&self, e: &[f64; 3]) -> f64 {
+        let image = self.accelerated(e);
+        dot(e, &image)
+    }
+}
+
+/// Scalar product.
+pub(super) fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}

@@ -1,0 +1,271 @@
+use super::{Explicit, Fault, Problem, SplitPoint, dashpots};
+use crate::{Body, CellBlock, Model, Stage};
+use asperity_fem::block::LinearBlock;
+use asperity_fem::dof::Channel;
+use asperity_fem::element::ElementKind;
+use asperity_fem::kinematics::{Formulation, Idealisation};
+use asperity_fem::material::elastic::Elastic;
+use asperity_fem::mesh::Mesh;
+use asperity_fem::mesh::generate::Grid;
+use asperity_fem::table::Table;
+use asperity_friction::coulomb::Coulomb;
+use asperity_friction::inertial::EachPoint;
+
+const DENSITY: f64 = 2700.0;
+
+/// Bars along x between pairs of ends, `height` high, of square cells of size `h`, without lateral strain (ν = 0).
+fn bars(ends: &[[f64; 2]], height: usize, h: f64, space: Idealisation) -> Model<2> {
+    let mut mesh = Mesh::<2>::default();
+    for (k, [from, to]) in ends.iter().enumerate() {
+        let n = ((to - from) / h).round() as usize;
+        let x = (0..=n).map(|i| from + (to - from) * i as f64 / n as f64).collect();
+        let y = (0..=height).map(|j| j as f64 * h).collect();
+        mesh.append(Grid { lines: [x, y], kind: ElementKind::Quad4 }.mesh().unwrap(), &format!("b{k}"));
+    }
+    model(mesh, Elastic::new(75e9, 0.0).unwrap(), space)
+}
+
+fn model<const D: usize>(mesh: Mesh<D>, rock: Elastic, idealisation: Idealisation) -> Model<D> {
+    let block = |k| LinearBlock::new(&mesh, k, &rock, idealisation, Formulation::Standard).unwrap();
+    let blocks: Vec<_> = (0..mesh.blocks.len()).map(|k| CellBlock::Linear(Box::new(block(k)))).collect();
+    let bodies = (0..mesh.blocks.len()).map(|k| Body {
+        name: format!("b{k}"),
+        nodes: 0..mesh.nodes.len(),
+        blocks: k..k + 1,
+        elastic: vec![rock],
+        size: None,
+        parts: Vec::new(),
+        nonlinear: None,
+        dofs: 0..mesh.nodes.len() * idealisation.components(),
+    });
+    Model { bodies: bodies.collect(), mesh, blocks, idealisation, scale: 1.0 }
+}
+
+fn stage(end: f64) -> Stage {
+    Stage {
+        name: "go".into(),
+        start: 0.0,
+        end,
+        steps: None,
+        frictionless: Vec::new(),
+        motions: Vec::new(),
+        turning: Vec::new(),
+        loads: Vec::new(),
+        fixed: Vec::new(),
+        springs: Vec::new(),
+        weight: Vec::new(),
+    }
+}
+
+fn problem(model: Model<2>, stage: Stage) -> Problem<2> {
+    let density = vec![DENSITY; model.blocks.len()];
+    Problem {
+        model,
+        density,
+        courant: 0.9,
+        viscosity: 0.0,
+        fault: None,
+        absorbing: Vec::new(),
+        stages: vec![stage],
+        velocity: Vec::new(),
+    }
+}
+
+fn speed() -> f64 {
+    (75e9_f64 / DENSITY).sqrt()
+}
+
+/// Runs to the end of the only stage.
+fn run<'a>(problem: &'a Problem<2>, mut watch: impl FnMut(&mut Explicit<'a, 2>)) -> Explicit<'a, 2> {
+    let mut run = Explicit::new(problem).unwrap();
+    run.begin_stage(0).unwrap();
+    let steps = (problem.stages[0].end / run.dt()).round() as usize;
+    for _ in 0..steps {
+        run.step().unwrap();
+        watch(&mut run);
+    }
+    run
+}
+
+/// Error of a standing wave in a free bar after a period and a quarter.
+fn standing_wave(h: f64) -> (f64, f64) {
+    let bar = bars(&[[0.0, 1.0]], 1, h, Idealisation::PlaneStress);
+    let omega = std::f64::consts::PI * speed();
+    let mut problem = problem(bar, stage(2.5 * std::f64::consts::PI / omega));
+    let shape: Vec<f64> =
+        problem.model.mesh.nodes.iter().map(|x| (std::f64::consts::PI * x[0]).cos()).collect();
+    problem.velocity = shape.iter().flat_map(|s| [*s, 0.0]).collect();
+    let mut worst: f64 = 0.0;
+    let run = run(&problem, |run| {
+        let budget = run.budget();
+        worst = worst.max(budget.missing().abs() / budget.largest());
+    });
+    let exact = |s: &f64| s * (omega * run.time()).sin() / omega;
+    let error = shape.iter().enumerate().map(|(n, s)| (run.displacement()[2 * n] - exact(s)).abs());
+    (error.fold(0.0, f64::max) * omega, worst)
+}
+
+#[test]
+fn standing_waves_converge_with_order_two_and_keep_their_energy_to_rounding() {
+    let results: Vec<(f64, f64)> = [10.0, 20.0, 40.0].map(|n| standing_wave(1.0 / n)).to_vec();
+    for w in results.windows(2) {
+        let order = (w[0].0 / w[1].0).log2();
+        assert!((order - 2.0).abs() < 0.1, "{results:?}");
+    }
+    assert!(results.iter().all(|r| r.1 < 1e-12), "{results:?}");
+}
+
+#[test]
+fn absorbing_ends_let_waves_of_normal_incidence_out() {
+    let bar = bars(&[[0.0, 1.0]], 2, 0.01, Idealisation::PlaneStress);
+    let mut problem = problem(bar, stage(2.0 / speed()));
+    let pulse = |x: f64| (-((x - 0.5) / 0.08).powi(2)).exp();
+    problem.velocity = problem.model.mesh.nodes.iter().flat_map(|x| [pulse(x[0]), 0.0]).collect();
+    let sides = [&problem.model.mesh.side_sets["b0.left"][..], &problem.model.mesh.side_sets["b0.right"][..]]
+        .concat();
+    problem.absorbing = dashpots(&problem.model, &problem.density, &sides);
+    let mut run = run(&problem, |_| ());
+    let budget = run.budget();
+    // The rest is dispersion: waves of short length travel slower.
+    assert!(budget.kinetic + budget.elastic < 1e-5 * budget.initial, "{budget:?}");
+    assert!((budget.absorbed / budget.initial - 1.0).abs() < 1e-5, "{budget:?}");
+    assert!(budget.missing().abs() < 1e-12 * budget.largest(), "{budget:?}");
+}
+
+/// Two bars that meet at x = 1, the left one flying to the right at 1 m/s.
+fn impact(h: f64, gap: f64) -> Problem<2> {
+    let model = bars(&[[0.0, 1.0], [1.0 + gap, 2.0 + gap]], 1, h, Idealisation::PlaneStress);
+    let n = ((1.0 / h).round() as usize) + 1;
+    let half = model.mesh.nodes.len() / 2;
+    let point = |j: usize| SplitPoint {
+        minus: j * n + n - 1,
+        plus: half + j * n,
+        area: 0.5 * h,
+        normal: [1.0, 0.0, 0.0],
+        along: vec![[0.0, 1.0, 0.0]],
+        gap,
+    };
+    let fault = Fault {
+        points: vec![point(0), point(1)],
+        law: Box::new(EachPoint(vec![Coulomb::new(0.0, None).unwrap(); 2])),
+        normal: vec![0.0; 2],
+        shear: vec![0.0; 2],
+        rate: vec![0.0; 2],
+        opens: true,
+        regularisation: None,
+        pulses: Vec::new(),
+    };
+    let velocity =
+        (0..model.mesh.nodes.len()).flat_map(|n| [if n < half { 1.0 } else { 0.0 }, 0.0]).collect();
+    Problem { fault: Some(fault), velocity, ..problem(model, stage(4.0 / speed() + gap)) }
+}
+
+#[test]
+fn equal_bars_that_meet_exchange_their_velocities_after_the_wave_has_run_twice() {
+    let problem = impact(0.005, 0.0);
+    let (mut impulse, mut last, mut middle) = (0.0, 0.0, 0.0);
+    let mut run = run(&problem, |run| {
+        let pressed = run.fault().normal[0];
+        impulse += pressed * run.dt();
+        if pressed > 0.0 {
+            last = run.time();
+        }
+        if (run.time() - 1.0 / speed()).abs() < run.dt() {
+            middle = pressed;
+        }
+    });
+    let half = run.velocity().len() / 2;
+    let mean = |v: &[f64]| v.iter().step_by(2).sum::<f64>() / (v.len() / 2) as f64;
+    let (left, right) = (mean(&run.velocity()[..half]), mean(&run.velocity()[half..]));
+    // Contact: 2 l/c, pressure ρ c v/2; the front is spread over a few cells.
+    let pressure = DENSITY * speed() * 0.5;
+    assert!((last * speed() / 2.0 - 1.0).abs() < 0.02, "{last}");
+    assert!((middle / pressure - 1.0).abs() < 0.02, "{middle} {pressure}");
+    assert!((impulse / DENSITY - 1.0).abs() < 0.01, "{impulse}");
+    assert!(left.abs() < 0.01 && (right - 1.0).abs() < 0.01, "{left} {right}");
+    let budget = run.budget();
+    // Displacements are a thousand times those of the elastic waves, so that forces lose three digits.
+    assert!(budget.missing().abs() < 1e-10 * budget.largest(), "{budget:?}");
+    assert!(budget.friction.abs() < 0.02 * budget.initial, "{budget:?}");
+}
+
+#[test]
+fn bars_with_a_gap_between_them_meet_once_it_is_closed() {
+    let gap = 1e-5;
+    let problem = impact(0.02, gap);
+    let mut first = None;
+    run(&problem, |run| {
+        if run.fault().normal[0] > 0.0 && first.is_none() {
+            first = Some(run.time());
+        }
+    });
+    assert!(
+        (first.unwrap() - gap).abs()
+            < 3.0 * problem.step_of(0, &super::stable(&problem.model, &problem.density, 0.0).unwrap())
+    );
+}
+
+#[test]
+fn restored_runs_continue_bit_for_bit_and_on_any_number_of_threads() {
+    let problem = Problem { viscosity: 0.1, ..impact(0.02, 0.0) };
+    let through = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| run(&problem, |_| ()).save())
+    };
+    let whole = through(1);
+    assert_eq!(whole, through(2));
+    let mut first = Explicit::new(&problem).unwrap();
+    first.begin_stage(0).unwrap();
+    for _ in 0..40 {
+        first.step().unwrap();
+    }
+    let mut second = Explicit::new(&problem).unwrap();
+    second.begin_stage(0).unwrap();
+    assert!(second.restore(&first.save()));
+    let steps = (problem.stages[0].end / second.dt()).round() as usize;
+    for _ in 40..steps {
+        second.step().unwrap();
+    }
+    assert_eq!(second.save(), whole);
+}
+
+#[test]
+fn works_of_loads_prescribed_motions_and_damping_close_the_balance() {
+    let bar = bars(&[[0.0, 1.0]], 2, 0.05, Idealisation::PlaneStrain);
+    let mut stage = stage(1.5 / speed());
+    let left: Vec<usize> = (0..3).map(|j| 21 * j * 2).collect();
+    stage.fixed.clone_from(&left);
+    stage.motions.push((left, crate::Motion::To(1e-4)));
+    let forces = (0..3).map(|j| ((21 * j + 20) * 2 + 1, 1e5)).collect();
+    stage.loads.push((None, Channel { prescribed: Vec::new(), forces, amplitude: Table::constant(1.0) }));
+    let problem = Problem { viscosity: 0.2, ..problem(bar, stage) };
+    let mut run = run(&problem, |_| ());
+    let budget = run.budget();
+    assert!(budget.loads > 0.0 && budget.viscous > 0.0, "{budget:?}");
+    assert!(budget.missing().abs() < 1e-12 * budget.largest(), "{budget:?}");
+    assert!((run.displacement()[0] - 1e-4).abs() < 1e-17);
+}
+
+#[test]
+fn steps_beyond_the_stable_one_stop_the_run() {
+    let mut problem = impact(0.02, 0.0);
+    problem.courant = 1.05;
+    problem.stages[0].end *= 20.0;
+    let mut run = Explicit::new(&problem).unwrap();
+    run.begin_stage(0).unwrap();
+    let halt = (0..20_000).find_map(|_| run.step().err());
+    assert!(matches!(halt, Some(super::Halt::Growth { .. })), "{halt:?}");
+}
+
+#[test]
+fn absorbing_dashpots_are_the_impedances_times_the_area() {
+    let model = bars(&[[0.0, 1.0]], 1, 0.5, Idealisation::PlaneStrain);
+    let all = dashpots(&model, &[DENSITY], &model.mesh.side_sets["b0.right"]);
+    let shear = (37.5e9_f64 * DENSITY).sqrt();
+    assert_eq!(all.len(), 2);
+    for dashpot in all {
+        assert!((dashpot.damping[0][0] / (0.25 * DENSITY * speed()) - 1.0).abs() < 1e-12);
+        assert!((dashpot.damping[1][1] / (0.25 * shear) - 1.0).abs() < 1e-12);
+        assert_eq!(dashpot.damping[0][1], 0.0);
+    }
+}
