@@ -108,6 +108,7 @@ const CASES: [(&str, &[&str]); 98] = [
     ("stage_paths", &["timoshenko1970"]),
     ("static_explicit_jumps", &["timoshenko1970"]),
     ("steel_strip", &["belendez2003"]),
+    ("stick_slip", &["dieterich1978"]),
     ("two_rings", &["michell1899", "timoshenko1970"]),
     ("uniaxial_hardening", &["simo1998"]),
     ("volumetric_path", &["prager1961", "belytschko2000"]),
