@@ -4,6 +4,7 @@
 mod amounts;
 pub mod balance;
 pub mod benchmark;
+pub mod catalogue;
 pub mod checkpoint;
 pub mod cite;
 pub mod cli;

@@ -4,8 +4,8 @@ pub mod common;
 pub mod schema;
 
 use crate::balance::InterfaceBalance;
+use crate::catalogue::{Entry, FaultEvents};
 use crate::cohesive;
-use crate::fault::{Entry, FaultEvents};
 use crate::plan::{EventPlan, Plan, Sites, Summary};
 use crate::views;
 use crate::warning::Warning;

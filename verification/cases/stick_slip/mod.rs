@@ -7,7 +7,7 @@ use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Evidence, Floor, Ledger, Plot, Series};
 use asperity_cycles::slider::{self as cycles, Now, Problem, Rows};
 use asperity_cycles::{Event, Rupture};
-use asperity_driver::fault::Entry;
+use asperity_driver::catalogue::Entry;
 use asperity_driver::slider::Entry as SliderEntry;
 use asperity_friction::evolution::ageing::Ageing;
 use asperity_friction::rate::RateLaw;
@@ -58,7 +58,8 @@ const TIGHT: f64 = 1e-10;
 /// Source of the references of the column.
 const SLIDER: &str = "one slider on a spring with damping, Radau IIA of order 5 at 1e-10";
 /// Source of the references of the block.
-const CONDENSED: &str = "the same block as fault of condensed bodies, which has no penalty (case sandwich_state)";
+const CONDENSED: &str =
+    "the same block as fault of condensed bodies, which has no penalty (case sandwich_state)";
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     in_time(ledger)?;
@@ -158,7 +159,8 @@ fn events(done: &Done) -> Result<&[Entry], CaseError> {
 
 /// Stick-slip of the column beside that of the slider.
 fn column_events(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let scene = (2..6).rev().fold(column(SPRINGS[1]), |scene, stage| scene.without(format!("stages[{stage}]")));
+    let scene =
+        (2..6).rev().fold(column(SPRINGS[1]), |scene, stage| scene.without(format!("stages[{stage}]")));
     let scene = scene
         .with("stages[1].duration", "6000 s")
         .add("events", r#"{ above = "1 mm/s", below = "0.1 mm/s", stop_after = 4 }"#);
@@ -188,7 +190,14 @@ fn column_events(ledger: &mut Ledger) -> Result<(), CaseError> {
     claim("onset", "s", since, of(|e| Some(e.onset)), 2e-3, small);
     claim("slip", "m", each(|e| e.mean_slip), of(|e| e.slip), 2e-3, small);
     claim("stress drop", "Pa", each(|e| e.stress_drop), of(|e| e.stress_drop), 2e-3, small);
-    claim("peak slip rate", "m/s", each(|e| e.peak_rate), of(|e| Some(e.peak_rate)), 5e-3, "the peak is that of a step's end");
+    claim(
+        "peak slip rate",
+        "m/s",
+        each(|e| e.peak_rate),
+        of(|e| Some(e.peak_rate)),
+        5e-3,
+        "the peak is that of a step's end",
+    );
     Ok(())
 }
 
@@ -218,7 +227,8 @@ fn as_fault(length: &str, spring: &str, number: usize) -> Result<(f64, f64), Cas
     let last = |e: &[Event<Rupture>]| e[e.len() - 1].onset.since(&e[e.len() - 2].onset);
     let drop = |e: &Event<Rupture>| {
         let (slip, drop) = (e.details.slip.component(0), e.details.drop.component(0));
-        let over = |f: &dyn Fn(usize) -> f64| (0..slip.len()).map(|p| f(p) * plan.points[p].area).sum::<f64>();
+        let over =
+            |f: &dyn Fn(usize) -> f64| (0..slip.len()).map(|p| f(p) * plan.points[p].area).sum::<f64>();
         over(&|p| slip[p] * drop[p]) / over(&|p| slip[p].abs())
     };
     Ok((last(&found.events), drop(&found.events[number - 1])))
@@ -254,7 +264,11 @@ fn block(ledger: &mut Ledger) -> Result<(), CaseError> {
         .covers(&[Capability::InterfaceStates])
         .cost(&exact.cost)
         .record();
-    ledger.picture("Mises stress after pressing", drawn::recorded(&exact.record, "")?, "The block of the case.");
+    ledger.picture(
+        "Mises stress after pressing",
+        drawn::recorded(&exact.record, "")?,
+        "The block of the case.",
+    );
     Ok(())
 }
 
@@ -305,8 +319,7 @@ fn direct(ledger: &mut Ledger) -> Result<(), CaseError> {
     let done = texts::simulate(DIRECT)?;
     let all = events(&done)?;
     let intervals: Vec<f64> = all.iter().skip(2).filter_map(|e| e.interval).collect();
-    let (least, most) =
-        intervals.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), &t| (l.min(t), m.max(t)));
+    let (least, most) = intervals.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), &t| (l.min(t), m.max(t)));
     ledger
         .claim("double direct shear: number of events, and the longest over the shortest interval after the first")
         .values(&[all.len() as f64, most / least])
@@ -317,12 +330,19 @@ fn direct(ledger: &mut Ledger) -> Result<(), CaseError> {
         .covers(&[Capability::InterfaceStates, Capability::Events])
         .cost(&done.cost)
         .record();
-    let springs: Vec<_> = done.record.samples().iter().map(|s| s.springs.first().copied().flatten()).collect();
+    let springs: Vec<_> =
+        done.record.samples().iter().map(|s| s.springs.first().copied().flatten()).collect();
     let histories = done.record.histories();
     let friction = |k: usize| {
-        histories.iter().map(|h| h.points.iter().map(|p| p.area[k] * p.shear_traction[k]).sum::<f64>().abs()).sum::<f64>()
+        histories
+            .iter()
+            .map(|h| h.points.iter().map(|p| p.area[k] * p.shear_traction[k]).sum::<f64>().abs())
+            .sum::<f64>()
     };
-    let off = springs.iter().enumerate().filter_map(|(k, s)| Some((s.as_ref()?.force.abs() / friction(k) - 1.0).abs()));
+    let off = springs
+        .iter()
+        .enumerate()
+        .filter_map(|(k, s)| Some((s.as_ref()?.force.abs() / friction(k) - 1.0).abs()));
     ledger
         .claim("double direct shear: largest difference of the load cell from the friction of both faces, relative")
         .value(off.fold(0.0, f64::max))

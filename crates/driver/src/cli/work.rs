@@ -5,6 +5,7 @@ use super::end::End;
 use super::pausing::Pausing;
 use super::read::Ready;
 use super::{json, print, signals};
+use crate::catalogue::{self, Entry, FaultEvents};
 use crate::checkpoint::{self, Contents as _, Pauses};
 use crate::fault;
 use crate::forecast;
@@ -276,12 +277,8 @@ fn write_faults(
 }
 
 /// Writes the catalogue of all faults or interfaces as a table, and one table of each if there are several.
-fn write_catalogues(
-    path: &Path,
-    all: &[fault::Entry],
-    apart: &[fault::FaultEvents],
-) -> Result<(), OutputError> {
-    let write = |name: &str, events| atomic::write(&path.join(name), fault::Report::csv(events).as_bytes());
+fn write_catalogues(path: &Path, all: &[Entry], apart: &[FaultEvents]) -> Result<(), OutputError> {
+    let write = |name: &str, events| atomic::write(&path.join(name), catalogue::csv(events).as_bytes());
     write("events.csv", all)?;
     let names = stems(apart.iter().map(|f| f.fault.as_str()));
     let mut each = names.iter().zip(apart);

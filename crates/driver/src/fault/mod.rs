@@ -39,5 +39,5 @@ pub use openings::OpenedFault;
 pub use plan::{FaultView, Plan, PointView, Station};
 pub use planner::{Ground, modulus, places, plan, plan_with, spacings};
 pub use position::Position;
-pub use report::{Entry, FaultEvents, Report, Scattered, Site};
+pub use report::Report;
 pub use resolution::{Coarsest, ENOUGH, FEW, Resolution, TOO_FEW};

@@ -1,7 +1,7 @@
 //! Events of the interfaces whose laws depend on the slip rate.
 
+use crate::catalogue::{Scattered, Site};
 use crate::diagnostic::Diagnostic;
-use crate::fault::{Scattered, Site};
 use crate::impedance::radiated;
 use crate::model::{self, Model};
 use crate::scene::model::Scene;

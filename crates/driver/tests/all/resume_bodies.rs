@@ -135,11 +135,11 @@ const STICK_SLIP: [Change<'_>; 13] = [
     Add("interfaces.contact.under_resolved", "allow"),
     With("interfaces.contact.sliding", "small"),
     Without("stages[0].frictionless"),
-    With("stages[0].conditions[1].x", r#"{ spring = 4e8, rate = "20 mm/s" }"#),
-    With("stages[1].conditions[0].x", r#"{ spring = 4e8, rate = "60 mm/s" }"#),
+    With("stages[0].conditions[1].x", r#"{ spring = 4e8, rate = "40 mm/s" }"#),
+    With("stages[1].conditions[0].x", r#"{ spring = 4e8, rate = "1 mm/s" }"#),
     With("time.tolerance", "1 mm"),
     With("time.friction_tolerance", "9e-3"),
-    Add("events", r#"{ above = "10 mm/s" }"#),
+    Add("events", r#"{ above = "10 mm/s", below = "5 mm/s" }"#),
     Without("output.probes"),
 ];
 const WEAKENING: Change<'_> =
