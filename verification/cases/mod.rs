@@ -57,6 +57,7 @@ mod coulomb_strip;
 mod dislocation;
 pub mod drawn;
 mod elastic_plastic_cylinder;
+mod elastic_waves;
 mod event_files;
 mod event_numbers;
 mod fault_balance;
@@ -143,6 +144,7 @@ pub mod texts;
 mod two_rings;
 mod uniaxial_hardening;
 mod volumetric_path;
+pub mod waves;
 mod wavy_sliding;
 pub mod written;
 
@@ -235,6 +237,7 @@ pub const ALL: &[Case] = &[
     // Nonlinear bodies.
     cantilever_rotation::CASE,
     elastic_plastic_cylinder::CASE,
+    elastic_waves::CASE,
     first_slip::CASE,
     forward_drift::CASE,
     static_explicit_jumps::CASE,

@@ -58,6 +58,10 @@ capabilities! {
     Stages => "prescribed displacements and stages",
     /// Traction, pressure, body force, initial stress.
     Loads => "traction, pressure, body force, initial stress",
+    /// Explicit dynamics of bodies: waves, absorbing sides, impact.
+    Waves => "waves: explicit dynamics of bodies",
+    /// Ruptures of faults at split nodes, with waves.
+    DynamicRupture => "dynamic rupture",
     /// Node-to-point penalty contact in the plane.
     PenaltyContact2d => "penalty contact, 2D",
     /// Node-to-point penalty contact in three dimensions.

@@ -1,0 +1,123 @@
+//! Waves that meet an absorbing side at an angle.
+//!
+//! A strip guides a wave of one crest across it. It meets the ends of the strip at the angle whose tangent is k_y/k_x. Two packets
+//! run to both ends, and the energy left afterwards is that of the reflected waves.
+
+use super::super::waves::{Rock, line, mesh, problem, run};
+use crate::{Capability, CaseError, Cost, Evidence, Ledger, Plot, Series};
+use asperity_fem::element::ElementKind;
+use asperity_fem::kinematics::Idealisation;
+use asperity_mechanics::dynamics::dashpots;
+use serde_json::Value;
+use std::f64::consts::PI;
+
+/// Speeds in the proportion of λ = G.
+const ROCK: Rock = Rock { density: 1.0, pressure: 1.732_050_807_568_877_2, shear: 1.0 };
+
+/// Angles of incidence \[degrees\].
+const ANGLES: [f64; 3] = [30.0, 45.0, 60.0];
+
+/// Wavenumber along the strip times the width of the packet \[-\].
+const WIDTH: f64 = 16.0;
+
+/// Cells across the strip.
+const ACROSS: usize = 16;
+
+#[derive(Clone, Copy, PartialEq)]
+enum Wave {
+    Shear,
+    Pressure,
+}
+
+pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let table: Value = serde_json::from_str(include_str!("../../independent/waves.json"))?;
+    let rows = &table["dashpots"]["lambda = mu"];
+    for (wave, name) in [(Wave::Shear, "SH"), (Wave::Pressure, "P")] {
+        let energy = &rows[name]["energy"];
+        let mut found = Vec::new();
+        for degrees in ANGLES {
+            let ((left, reference), cost) = {
+                let (result, cost) = Cost::of(|| reflected(wave, degrees, energy));
+                (result?, cost)
+            };
+            found.push((degrees, left));
+            ledger
+                .claim(format!("energy that {name} waves leave behind at {degrees} degrees, over theirs"))
+                .value(left)
+                .equals(reference)
+                .relative(0.03)
+                .evidence(Evidence::Exact, "tractions of incoming and reflected plane waves equal those of the dashpots")
+                .because("the angle of the waves on the mesh is off by the dispersion, some (k h)²/12, with which the reflected energy varies several times as fast")
+                .covers(&[Capability::Waves])
+                .cost(&cost)
+                .record();
+        }
+        let curve: Vec<(f64, f64)> =
+            (0..80_u32).filter_map(|d| Some((f64::from(d), energy[d as usize].as_f64()?))).collect();
+        ledger.plot(
+            Plot::xy(
+                format!("Energy reflected by dashpots, {name} waves"),
+                "angle of incidence [degrees]",
+                "reflected over incoming energy",
+            )
+            .series(Series::line("plane waves", &curve))
+            .series(Series::points("packets on the mesh", &found)),
+        );
+    }
+    Ok(())
+}
+
+/// Energy left by a packet over its own, and the mean of the reflection over its wavenumbers.
+fn reflected(wave: Wave, degrees: f64, energy: &Value) -> Result<(f64, f64), CaseError> {
+    let k_y = PI;
+    let k_x = k_y / degrees.to_radians().tan();
+    let (width, speed) = (WIDTH / k_x, if wave == Wave::Shear { ROCK.shear } else { ROCK.pressure });
+    let half = 4.0 * width;
+    let n = (2.0 * half * ACROSS as f64).round() as usize;
+    let strip = mesh(&[[line(-half, half, n), line(0.0, 1.0, ACROSS)]], ElementKind::Quad9)?;
+    let group = speed * degrees.to_radians().cos();
+    let space = if wave == Wave::Shear { Idealisation::Antiplane } else { Idealisation::PlaneStrain };
+    let mut problem = problem(strip, ROCK, space, 1.6 * half / group)?;
+    let envelope = |x: f64| (-0.5 * (x / width).powi(2)).exp();
+    let nodes = &problem.model.mesh.nodes;
+    problem.velocity = match wave {
+        Wave::Shear => nodes.iter().map(|[x, y]| envelope(*x) * (k_x * x).cos() * (k_y * y).cos()).collect(),
+        // The gradient of a potential: no shear wave in it.
+        Wave::Pressure => {
+            let along =
+                |x: f64| envelope(x) * (-k_x * (k_x * x).sin() - x / (width * width) * (k_x * x).cos());
+            let across = |x: f64| envelope(x) * (k_x * x).cos() * -k_y;
+            nodes
+                .iter()
+                .flat_map(|[x, y]| [along(*x) * (k_y * y).cos(), across(*x) * (k_y * y).sin()])
+                .collect()
+        }
+    };
+    if wave == Wave::Pressure {
+        // The walls are frictionless and rigid: the potential has no slope there.
+        let wall = nodes.iter().enumerate().filter(|(_, x)| x[1] == 0.0 || x[1] == 1.0);
+        problem.stages[0].fixed = wall.map(|(n, _)| 2 * n + 1).collect();
+    }
+    let ends = ["b0.left", "b0.right"].map(|s| problem.model.mesh.side_sets[s].clone()).concat();
+    problem.absorbing = dashpots(&problem.model, &problem.density, &ends);
+    let budget = run(&problem, |_| ())?.budget();
+    Ok(((budget.kinetic + budget.elastic) / budget.initial, mean(energy, [k_x, k_y], width)))
+}
+
+/// Mean of the reflected energy over the wavenumbers of a packet; those of its envelope are as wide as 1/width.
+fn mean(energy: &Value, [k_x, k_y]: [f64; 2], width: f64) -> f64 {
+    let at = |k: f64| {
+        let degrees = k_y.atan2(k).to_degrees();
+        let (low, part) = (degrees.floor() as usize, degrees.fract());
+        let value = |d: usize| energy[d].as_f64().unwrap_or(f64::NAN);
+        value(low) * (1.0 - part) + value(low + 1) * part
+    };
+    let weights = (-40..=40).map(|i| f64::from(i) * 0.1);
+    let (mut sum, mut total) = (0.0, 0.0);
+    for z in weights {
+        let weight = (-z * z).exp();
+        sum += weight * at(k_x + z / width);
+        total += weight;
+    }
+    sum / total
+}
