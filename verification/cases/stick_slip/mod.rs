@@ -1,7 +1,7 @@
 //! Stick-slip of interfaces that springs draw, with radiation damping.
 
 use super::seas;
-use super::slider::{self, Kind};
+use super::slider;
 use super::texts::{self, Done};
 use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Evidence, Floor, Ledger, Plot, Series};
@@ -78,7 +78,7 @@ fn column(spring: f64) -> SceneText {
         .add("interfaces.fault.law.evolution", "ageing")
         .add("interfaces.fault.damping", "5 MPa s/m");
     for (stage, rate) in ["1 um/s", "10 um/s", "1 um/s", "0 m/s", "1 um/s"].iter().enumerate() {
-        scene = scene.with(format!("stages[{}].conditions[0].x", stage + 1), drawn(rate));
+        scene = scene.with(&format!("stages[{}].conditions[0].x", stage + 1), drawn(rate));
     }
     scene
 }
@@ -160,7 +160,7 @@ fn events(done: &Done) -> Result<&[Entry], CaseError> {
 /// Stick-slip of the column beside that of the slider.
 fn column_events(ledger: &mut Ledger) -> Result<(), CaseError> {
     let scene =
-        (2..6).rev().fold(column(SPRINGS[1]), |scene, stage| scene.without(format!("stages[{stage}]")));
+        (2..6).rev().fold(column(SPRINGS[1]), |scene, stage| scene.without(&format!("stages[{stage}]")));
     let scene = scene
         .with("stages[1].duration", "6000 s")
         .add("events", r#"{ above = "1 mm/s", below = "0.1 mm/s", stop_after = 4 }"#);
@@ -185,17 +185,20 @@ fn column_events(ledger: &mut Ledger) -> Result<(), CaseError> {
     };
     let each = |of: fn(&Entry) -> f64| found.iter().map(of).collect::<Vec<f64>>();
     let of = |of: fn(&SliderEntry) -> Option<f64>| wanted.iter().filter_map(of).collect::<Vec<f64>>();
-    let small = "errors of friction of 1e-4 change the strength at onset by that, of a drop of 7e-2";
+    let small =
+        "the default bounds the error of friction of a step by 2e-6, and a few add up in a drop of 7e-2";
     let since: Vec<f64> = each(|e| e.onset).iter().map(|t| t - PRESSED).collect();
-    claim("onset", "s", since, of(|e| Some(e.onset)), 2e-3, small);
-    claim("slip", "m", each(|e| e.mean_slip), of(|e| e.slip), 2e-3, small);
-    claim("stress drop", "Pa", each(|e| e.stress_drop), of(|e| e.stress_drop), 2e-3, small);
+    // The drop of friction: the catalogue of surfaces leaves out what is radiated at onset and end, that of sliders does not.
+    let fall = of(|e| e.at_end.as_ref().map(|end| NORMAL * (e.at_onset.friction - end.friction)));
+    claim("onset", "s", since, of(|e| Some(e.onset)), 1e-4, small);
+    claim("slip", "m", each(|e| e.mean_slip), of(|e| e.slip), 2e-4, small);
+    claim("stress drop", "Pa", each(|e| e.stress_drop), fall, 2e-4, small);
     claim(
         "peak slip rate",
         "m/s",
         each(|e| e.peak_rate),
         of(|e| Some(e.peak_rate)),
-        5e-3,
+        5e-4,
         "the peak is that of a step's end",
     );
     Ok(())
@@ -245,7 +248,7 @@ fn block(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (interval, drop) = as_fault("10 um", "2e9", 3)?;
     let exact = texts::simulate(&block_scene(MULTIPLIERS).text()?)?;
     let (found, fell) = cycle(&exact)?;
-    against(ledger, "the whole face slips together", (&[found, fell], &[interval, drop], 1e-3), &exact);
+    against(ledger, "the whole face slips together", (&[found, fell], &[interval, drop], 2e-4), &exact);
     let mut levels = Vec::new();
     for times in [4, 20, 100] {
         let done = texts::simulate(&block_scene(&penalty(times)).text()?)?;
@@ -296,7 +299,7 @@ fn ruptures(ledger: &mut Ledger) -> Result<(), CaseError> {
         .add("time.friction_tolerance", "1e-5");
     let done = texts::simulate(&scene.text()?)?;
     let (found, fell) = cycle(&done)?;
-    against(ledger, "ruptures cross it", (&[found, fell], &[interval, drop], 2e-3), &done);
+    against(ledger, "ruptures cross it", (&[found, fell], &[interval, drop], 1e-3), &done);
     Ok(())
 }
 
@@ -324,9 +327,10 @@ fn direct(ledger: &mut Ledger) -> Result<(), CaseError> {
         .claim("double direct shear: number of events, and the longest over the shortest interval after the first")
         .values(&[all.len() as f64, most / least])
         .equals_each(&[10.0, 1.0])
-        .absolute(1e-3)
+        .absolute(1e-5)
         .evidence(Evidence::ConvergedSelf, "a limit cycle: the same blocks under the same load")
-        .because("errors of friction of 1e-4 of a step, of a drop of 0.3")
+        .because("steps of one cycle and the next are all but the same, and so are their errors")
+        .why_not_tighter("where steps fall depends on the rounding of times")
         .covers(&[Capability::InterfaceStates, Capability::Events])
         .cost(&done.cost)
         .record();
@@ -346,7 +350,7 @@ fn direct(ledger: &mut Ledger) -> Result<(), CaseError> {
     ledger
         .claim("double direct shear: largest difference of the load cell from the friction of both faces, relative")
         .value(off.fold(0.0, f64::max))
-        .at_most(1e-7)
+        .at_most(1e-8)
         .evidence(Evidence::Exact, "balance of the middle block, which nothing else holds along y")
         .because("Newton's method ends at 1e-11 of the largest force of a term, some 1e3 times that of the spring")
         .why_not_tighter("tractions fall to a few per cent of the pressed ones after an event")
