@@ -122,7 +122,7 @@ fn note_peak(catalogue: &mut Catalogue<Rupture>, source: usize, largest: f64) {
 /// whose length is bounded by their change.
 struct Share {
     time: f64,
-    /// That of the slip.
+    /// Share of the slip.
     slip: f64,
 }
 
