@@ -143,6 +143,7 @@ mod slider_work_precision;
 mod stage_paths;
 mod static_explicit_jumps;
 mod steel_strip;
+mod stick_slip;
 pub mod texts;
 mod two_rings;
 mod uniaxial_hardening;
@@ -252,6 +253,7 @@ pub const ALL: &[Case] = &[
     mesh_files::CASE,
     stage_paths::CASE,
     steel_strip::CASE,
+    stick_slip::CASE,
     jaumann_shear::CASE,
     large_rotation::CASE,
     maxwell_relaxation::CASE,

@@ -4,6 +4,7 @@
 mod amounts;
 pub mod balance;
 pub mod benchmark;
+pub mod catalogue;
 pub mod checkpoint;
 pub mod cite;
 pub mod cli;
@@ -13,6 +14,7 @@ pub mod fault;
 mod forecast;
 mod held;
 mod idealisation;
+mod impedance;
 pub mod initial_stress;
 pub mod laws;
 pub mod loading;
@@ -27,6 +29,7 @@ mod sha256;
 pub mod slider;
 pub mod slider_planner;
 mod stop;
+mod thresholds;
 mod views;
 
 pub use asperity_scene::{lengths, warning};

@@ -58,7 +58,7 @@ pub struct Scene {
     /// Faults by name, for the stepper "fault-ode".
     #[serde(default)]
     pub faults: BTreeMap<String, Fault>,
-    /// Events of faults.
+    /// Events of faults, or of interfaces whose laws depend on the slip rate.
     pub events: Option<EventSpec>,
     /// Geographical position of the origin and time zero, for catalogues.
     pub place: Option<Place>,
@@ -121,6 +121,8 @@ pub struct Interface {
     pub enforcement: Enforcement,
     /// A [friction law](laws.md) or a bond; absent: frictionless.
     pub law: Option<Spanned<LawSpec>>,
+    /// Radiation damping η of a law of the slip rate: `"radiation"`, or a value; absent: none \[Pa s/m\].
+    pub damping: Option<Spanned<DampingSpec>>,
     /// Treatment of points too far apart to resolve friction that weakens: `"refuse"` (default) or `"allow"`.
     pub under_resolved: Option<Spanned<UnderResolved>>,
     /// `true`: the interface starts with the tractions of the [initial stress](bodies.md) of its bodies; default `false`.
@@ -387,7 +389,7 @@ pub struct TimeControl {
     pub first_step: Option<Spanned<Time>>,
     /// Both: largest step; default 1/20 of the stage \[s\].
     pub max_step: Option<Spanned<Time>>,
-    /// Both: smallest step, below which a run stops; default 1e-9 of the stage \[s\].
+    /// Both: smallest step, below which a run stops; default 1e-9 of the stage, 1e-13 with damping \[s\].
     pub min_step: Option<Spanned<Time>>,
     /// Both: slip rate at which a run stops with an [instability](#instabilities) \[m/s\].
     pub slip_rate_limit: Option<Spanned<Velocity>>,

@@ -37,12 +37,13 @@ const FILES: [&str; 20] = [
 ];
 
 /// Folders that runs make, with the extensions of the files in them.
-const FOLDERS: [(&str, &[&str]); 8] = [
+const FOLDERS: [(&str, &[&str]); 9] = [
     ("fields", &["vtu"]),
     ("profiles", &["csv"]),
     ("probes", &["csv"]),
     ("points", &["csv"]),
     ("forces", &["csv"]),
+    ("springs", &["csv"]),
     ("history", &["csv"]),
     ("plots", &["svg", "png"]),
     ("stations", &[""]),

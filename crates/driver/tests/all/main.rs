@@ -44,3 +44,4 @@ mod slider;
 mod slider_outputs;
 mod snapshot;
 mod solvers;
+mod springs;

@@ -18,6 +18,7 @@ pub(crate) mod labels;
 mod png;
 mod profile;
 mod sketch;
+mod springs;
 mod style;
 mod svg;
 mod title;
@@ -116,5 +117,6 @@ fn figures(recorder: &Recorder) -> Vec<(String, Figure)> {
         }
     }
     figures.extend(energy::budget(recorder));
+    figures.extend(springs::friction(recorder).map(|figure| ("springs_friction".to_string(), figure)));
     figures
 }
