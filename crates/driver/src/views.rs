@@ -5,7 +5,7 @@ use asperity_contact::{Interface, PointFields, Status};
 use asperity_fem::block::von_mises;
 use asperity_fem::kinematics::Idealisation;
 use asperity_mechanics as mechanics;
-use asperity_mechanics::{CellBlock, ForceSet, PlannedInterface, Point, Spring, SpringNow, Stage};
+use asperity_mechanics::{CellBlock, ForceSet, Model, PlannedInterface, Point, Spring, SpringNow, Stage};
 use asperity_output::view::{
     BodyFields, Counts, EnergyParts, ForceMark, InterfaceFields, InterfaceMesh, MeshView, PointMark,
     PointValues, Samples, Setup, SpringMark, SpringValues,
@@ -17,13 +17,13 @@ fn padded<const D: usize>(v: &[f64; D]) -> [f64; 3] {
     std::array::from_fn(|c| if c < D { v[c] } else { 0.0 })
 }
 
-/// Part of the model that does not change during a run.
+/// The mesh of a model; `moves` as in [`MeshView::moves`].
 #[must_use]
-pub fn setup<const D: usize>(plan: &Plan<D>, areas: &[Vec<f64>]) -> Setup {
-    let mesh = &plan.problem.model.mesh;
+pub fn mesh_view<const D: usize>(model: &Model<D>, moves: bool) -> MeshView {
+    let mesh = &model.mesh;
     let mut cells = Vec::new();
     let mut cell_body = Vec::new();
-    for (index, body) in plan.problem.model.bodies.iter().enumerate() {
+    for (index, body) in model.bodies.iter().enumerate() {
         for block in &mesh.blocks[body.blocks.clone()] {
             for cell in block.connectivity.chunks_exact(block.kind.nodes()) {
                 cells.push((block.kind.vtk_type(), cell.to_vec()));
@@ -31,16 +31,22 @@ pub fn setup<const D: usize>(plan: &Plan<D>, areas: &[Vec<f64>]) -> Setup {
             }
         }
     }
+    MeshView {
+        nodes: mesh.nodes.iter().map(padded).collect(),
+        cells,
+        cell_body,
+        bodies: model.bodies.iter().map(|b| b.name.clone()).collect(),
+        dimension: D,
+        moves,
+    }
+}
+
+/// Part of the model that does not change during a run.
+#[must_use]
+pub fn setup<const D: usize>(plan: &Plan<D>, areas: &[Vec<f64>]) -> Setup {
     Setup {
         title: plan.title.clone(),
-        mesh: MeshView {
-            nodes: mesh.nodes.iter().map(padded).collect(),
-            cells,
-            cell_body,
-            bodies: plan.problem.model.bodies.iter().map(|b| b.name.clone()).collect(),
-            dimension: D,
-            moves: plan.problem.moves(),
-        },
+        mesh: mesh_view(&plan.problem.model, plan.problem.moves()),
         interfaces: plan
             .problem
             .interfaces
@@ -132,9 +138,15 @@ pub fn springs(stages: &[Stage], stage: &Stage, now: &[SpringNow], normal: f64) 
 /// Unit of forces; bodies in plane strain and antiplane motion have forces per metre of thickness.
 #[must_use]
 pub fn force_unit<const D: usize>(plan: &Plan<D>) -> &'static str {
-    match plan.problem.model.idealisation {
-        Idealisation::PlaneStrain | Idealisation::Antiplane => "N/m",
-        Idealisation::PlaneStress | Idealisation::Axisymmetric | Idealisation::ThreeD => "N",
+    if per_length(plan.problem.model.idealisation) { "N/m" } else { "N" }
+}
+
+/// True if forces and energies are per length out of the plane.
+#[must_use]
+pub fn per_length(idealisation: Idealisation) -> bool {
+    match idealisation {
+        Idealisation::PlaneStrain | Idealisation::Antiplane => true,
+        Idealisation::PlaneStress | Idealisation::Axisymmetric | Idealisation::ThreeD => false,
     }
 }
 

@@ -3,10 +3,11 @@
 mod bodies;
 mod conditions;
 pub mod course;
+mod explicit;
 mod fault_physics;
 mod faults;
-mod inertia;
 mod heat;
+mod inertia;
 mod interfaces;
 mod materials;
 mod medium;

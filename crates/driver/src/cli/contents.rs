@@ -31,6 +31,9 @@ const FILES: [&str; 20] = [
     "slip_profiles.csv",
     "rate_profiles.csv",
     "snapshots.csv",
+    "energy.csv",
+    "moment_rate.csv",
+    "rupture_times.csv",
     // Files left by file managers.
     ".DS_Store",
     "Thumbs.db",
@@ -47,6 +50,7 @@ const FOLDERS: [(&str, &[&str]); 9] = [
     ("history", &["csv"]),
     ("plots", &["svg", "png"]),
     ("stations", &[""]),
+    ("seismograms", &["csv", "mseed", "sac"]),
 ];
 
 /// First entry of a directory that no run writes; `None` if there is none or the directory does not exist.

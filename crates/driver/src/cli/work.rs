@@ -56,7 +56,7 @@ pub(super) fn run_bodies(
 }
 
 /// Outcome with its message to the user; `step` is the number of steps taken.
-fn end(outcome: Outcome, step: Option<usize>) -> End {
+pub(super) fn end(outcome: Outcome, step: Option<usize>) -> End {
     let place = |stage: Option<String>, time: f64| {
         let stage = stage.map_or(String::new(), |stage| format!("stage `{stage}` "));
         format!("{stage}at {time:.6e} s")
@@ -78,7 +78,7 @@ fn end(outcome: Outcome, step: Option<usize>) -> End {
 const RESUMES: &str = "the same command with --resume resumes it there";
 
 /// Reasons to interrupt the run, in force from now on.
-fn pauses(pausing: &Pausing) -> miette::Result<Pauses> {
+pub(super) fn pauses(pausing: &Pausing) -> miette::Result<Pauses> {
     let stop = signals::watched().into_diagnostic()?;
     Ok(Pauses { every: pausing.checkpoint_every, wall: pausing.wall_time, stop, begun: Instant::now() })
 }
@@ -109,7 +109,7 @@ fn kept(
 }
 
 /// Removes the plots of the previous part. They are redrawn at the end if requested and if the run was begun with plots.
-fn draws_again(path: &Path, asked: bool, begun_with: bool) -> miette::Result<()> {
+pub(super) fn draws_again(path: &Path, asked: bool, begun_with: bool) -> miette::Result<()> {
     if asked && !begun_with {
         out(format_args!("no plots: the run was begun with --no-plots\n"));
     }
@@ -122,12 +122,12 @@ fn draws_again(path: &Path, asked: bool, begun_with: bool) -> miette::Result<()>
     }
 }
 
-fn nothing_to_resume(path: &Path) {
+pub(super) fn nothing_to_resume(path: &Path) {
     out(format_args!("nothing to resume in {}: begins at the start\n", path.display()));
 }
 
 /// Prints the peak memory and the output directory.
-fn written(directory: &Directory) {
+pub(super) fn written(directory: &Directory) {
     if let Some(bytes) = forecast::most_so_far() {
         out(format_args!("  memory: {:.0} MB at most\n", bytes as f64 / 1e6));
     }

@@ -5,12 +5,13 @@ use super::{AnyPlan, Plan, doubts, events, inertia, interfaces, linear_solver, p
 use super::{start_balance, stepping, stress_level, summary};
 use crate::cohesive;
 use crate::diagnostic::Diagnostic;
+use crate::dynamic;
 use crate::fault;
 use crate::forecast;
 use crate::initial_stress;
 use crate::loading::{self, Stage};
 use crate::model::{self, sizes};
-use crate::scene::model::Scene;
+use crate::scene::model::{Scene, Stepper};
 use asperity_mechanics::Problem;
 
 /// Plan of a scene with bodies, by kind.
@@ -20,14 +21,18 @@ pub enum ScenePlan {
     Bodies(Box<AnyPlan>),
     /// Faults over earthquake cycles.
     Faults(Box<fault::Plan>),
+    /// Bodies with mass, whose faults radiate waves.
+    Dynamic(Box<dynamic::AnyPlan>),
 }
 
-/// Plans a scene of either kind.
+/// Plans a scene of any of these kinds.
 ///
 /// # Errors
 /// [`Diagnostic`] with the position in the scene.
 pub fn plan_scene(scene: &Scene) -> Result<ScenePlan, Diagnostic> {
-    Ok(if scene.faults.is_empty() {
+    Ok(if *scene.time.stepper.get_ref() == Stepper::Explicit {
+        ScenePlan::Dynamic(Box::new(dynamic::plan(scene)?))
+    } else if scene.faults.is_empty() {
         ScenePlan::Bodies(Box::new(plan(scene)?))
     } else {
         ScenePlan::Faults(Box::new(fault::plan(scene)?))

@@ -12,6 +12,7 @@ mod compare;
 mod directories;
 mod documents;
 mod doubtful_scenes;
+mod dynamic;
 mod enforcement;
 mod fault;
 mod fault_geometry;

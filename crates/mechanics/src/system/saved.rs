@@ -103,7 +103,12 @@ impl<const D: usize> Assembled<'_, D> {
         let interfaces = self.interfaces.iter().map(asperity_fem::term::Saved::save).collect();
         let stepper = match &self.stepper {
             Some(stepper) => {
-                let terms = terms(self.bodies.as_mut(), &mut self.springs, &mut self.interfaces, self.moving.as_mut());
+                let terms = terms(
+                    self.bodies.as_mut(),
+                    &mut self.springs,
+                    &mut self.interfaces,
+                    self.moving.as_mut(),
+                );
                 let terms: Vec<&mut dyn Linearized> = terms.into_iter().map(|t| t as _).collect();
                 stepper.save(&terms)
             }
@@ -162,7 +167,8 @@ impl<const D: usize> Assembled<'_, D> {
             return Err(Mismatch::Bodies);
         }
         let Some(stepper) = &mut self.stepper else { return Err(Mismatch::Stepper) };
-        let terms = terms(self.bodies.as_mut(), &mut self.springs, &mut self.interfaces, self.moving.as_mut());
+        let terms =
+            terms(self.bodies.as_mut(), &mut self.springs, &mut self.interfaces, self.moving.as_mut());
         let mut terms: Vec<&mut dyn Linearized> = terms.into_iter().map(|t| t as _).collect();
         if stepper.restore(&saved.stepper, &mut terms) { Ok(()) } else { Err(Mismatch::Stepper) }
     }

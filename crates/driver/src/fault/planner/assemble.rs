@@ -258,7 +258,7 @@ fn theta(law: &LawChoice) -> Option<(f64, f64)> {
 }
 
 /// Faults and points, as needed by the output.
-fn views<const D: usize>(
+pub(crate) fn views<const D: usize>(
     scene: &Scene,
     cells: &dyn Cells<D>,
     placed: &[Placed<D>],
