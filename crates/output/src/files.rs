@@ -246,14 +246,14 @@ impl Files {
         let forces = setup.forces.iter().map(|f| f.name.as_str()).collect();
         let points = begin("points", points, &table::point_header())?;
         let forces = begin("forces", forces, &table::force_header(setup.force_unit))?;
-        self.energy = match setup.energy_unit {
-            Some(unit) => Some(table(self.out.join("energy.csv"), &table::energy_header(unit))?),
-            None => None,
-        };
         let springs: Vec<String> = setup.springs.iter().map(SpringMark::name).collect();
         let springs = springs.iter().map(String::as_str).collect();
         let springs = begin("springs", springs, &table::spring_header(setup.force_unit))?;
         (self.points, self.forces, self.springs) = (points, forces, springs);
+        self.energy = match setup.energy_unit {
+            Some(unit) => Some(table(self.out.join("energy.csv"), &table::energy_header(unit))?),
+            None => None,
+        };
         Ok(())
     }
 

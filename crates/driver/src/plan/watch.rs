@@ -30,7 +30,7 @@ pub fn of<const D: usize>(
     loading: f64,
 ) -> Result<Watch, Diagnostic> {
     if scene.inertia().is_some() {
-        return Ok(Watch { rate: None, course: with_inertia(course(law)), coarse_beyond: None });
+        return Ok(Watch { rate: None, course: with_inertia(course(law, damping)), coarse_beyond: None });
     }
     let rate = match (direct_effect(law), &scene.time.slip_rate_limit) {
         (None, _) => None,

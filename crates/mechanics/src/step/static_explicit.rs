@@ -63,11 +63,6 @@ impl StaticExplicit {
         self.newton.set_bound(bound);
     }
 
-    /// Residual of the state evaluated last \[N\].
-    pub(super) fn residual(&self) -> &[f64] {
-        self.newton.residual()
-    }
-
     /// Begins another stage.
     pub fn begin_stage(&mut self, symmetry: Symmetry) {
         self.newton.begin_stage(symmetry, false);

@@ -23,8 +23,6 @@ pub enum Measure {
     Energy,
     /// Dimensionless number \[-\].
     Number,
-    /// Energy \[J\].
-    Energy,
     /// Energy per length out of the plane \[J/m\].
     EnergyPerLength,
     /// Moment rate \[N m/s\].
@@ -42,7 +40,6 @@ impl Measure {
             Self::Stress => units::STRESS,
             Self::Energy => units::ENERGY,
             Self::Number => units::NUMBER,
-            Self::Energy => units::ENERGY,
             Self::EnergyPerLength => units::ENERGY_PER_LENGTH,
             Self::MomentRate => units::MOMENT_RATE,
             Self::MomentRatePerLength => units::MOMENT_RATE_PER_LENGTH,

@@ -45,16 +45,6 @@ pub(super) const LENGTH: Units =
 pub(super) const VELOCITY: Units =
     Units(&[unit("nm/s", NANO), unit("µm/s", MICRO), unit("mm/s", MILLI), unit("m/s", 1.0)]);
 
-/// Energies.
-pub(super) const ENERGY: Units = Units(&[
-    unit("µJ", MICRO),
-    unit("mJ", MILLI),
-    unit("J", 1.0),
-    unit("kJ", 1e3),
-    unit("MJ", 1e6),
-    unit("GJ", 1e9),
-]);
-
 /// Stresses and tractions.
 pub(super) const STRESS: Units =
     Units(&[unit("Pa", 1.0), unit("kPa", 1e3), unit("MPa", 1e6), later("GPa", 1e9, 1e10)]);
