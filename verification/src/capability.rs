@@ -102,6 +102,8 @@ capabilities! {
     Slider => "spring-slider",
     /// Faults through earthquake cycles.
     FaultCycles => "faults through earthquake cycles",
+    /// Temperature and pore pressure of faults that friction heats.
+    FrictionalHeat => "frictional heat of faults",
     /// Faults in homogeneous rock without bodies.
     Medium => "faults in homogeneous rock without bodies",
     /// Sliders coupled by springs.
@@ -112,6 +114,8 @@ capabilities! {
     Integrators => "integrators in time",
     /// The implicit stepper.
     Implicit => "implicit stepper",
+    /// Inertia of bodies in implicit steps.
+    Inertia => "inertia of bodies",
     /// The static-explicit stepper.
     StaticExplicit => "static-explicit stepper",
     /// Condensation onto the interface.

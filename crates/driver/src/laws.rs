@@ -208,7 +208,7 @@ fn parts(choice: &LawChoice) -> Parts<'_> {
 trait Finish {
     type Made;
 
-    fn finish<L: Sliding + Inertial + 'static>(self, first: L, rest: Vec<L>) -> Self::Made;
+    fn finish<L: Sliding + Inertial + Clone + 'static>(self, first: L, rest: Vec<L>) -> Self::Made;
 }
 
 /// Builds the single law of an interface or slider.
@@ -217,7 +217,7 @@ struct Single;
 impl Finish for Single {
     type Made = Arc<dyn Sliding>;
 
-    fn finish<L: Sliding + Inertial + 'static>(self, first: L, _: Vec<L>) -> Self::Made {
+    fn finish<L: Sliding + Inertial + Clone + 'static>(self, first: L, _: Vec<L>) -> Self::Made {
         Arc::new(first)
     }
 }
@@ -228,7 +228,7 @@ struct EachPoint;
 impl Finish for EachPoint {
     type Made = Box<dyn FaultLaw>;
 
-    fn finish<L: Sliding + Inertial + 'static>(self, first: L, rest: Vec<L>) -> Self::Made {
+    fn finish<L: Sliding + Inertial + Clone + 'static>(self, first: L, rest: Vec<L>) -> Self::Made {
         Box::new(Points::new(std::iter::once(first).chain(rest).collect()))
     }
 }

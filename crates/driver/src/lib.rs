@@ -4,6 +4,7 @@
 mod amounts;
 pub mod balance;
 pub mod benchmark;
+pub mod catalogue;
 pub mod checkpoint;
 pub mod cite;
 pub mod cli;
@@ -14,6 +15,7 @@ pub mod fault;
 mod forecast;
 mod held;
 mod idealisation;
+mod impedance;
 pub mod initial_stress;
 pub mod laws;
 pub mod loading;
@@ -28,6 +30,7 @@ mod sha256;
 pub mod slider;
 pub mod slider_planner;
 mod stop;
+mod thresholds;
 mod views;
 
 pub use asperity_scene::{lengths, warning};

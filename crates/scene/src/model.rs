@@ -5,6 +5,8 @@
 
 mod body;
 mod fault;
+mod heat;
+mod inertia;
 mod medium;
 mod patch;
 mod place;
@@ -20,6 +22,8 @@ pub use crate::spanned::Spanned;
 use crate::warning::Warning;
 pub use body::*;
 pub use fault::*;
+pub use heat::*;
+pub use inertia::*;
 pub use medium::*;
 pub use patch::*;
 pub use place::Place;
@@ -56,7 +60,7 @@ pub struct Scene {
     /// Faults by name, for the stepper "fault-ode".
     #[serde(default)]
     pub faults: BTreeMap<String, Fault>,
-    /// Events of faults.
+    /// Events of faults, or of interfaces whose laws depend on the slip rate.
     pub events: Option<EventSpec>,
     /// Geographical position of the origin and time zero, for catalogues.
     pub place: Option<Place>,
@@ -79,6 +83,12 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Settings of inertia; `None` if the bodies move through states of equilibrium.
+    #[must_use]
+    pub fn inertia(&self) -> Option<InertiaSpec> {
+        self.time.inertia.as_ref().and_then(|inertia| inertia.get_ref().settings())
+    }
+
     /// The body to which a set `body.side` belongs.
     #[must_use]
     pub fn body_of(&self, set: &Spanned<String>) -> Option<&Body> {
@@ -113,6 +123,8 @@ pub struct Interface {
     pub enforcement: Enforcement,
     /// A [friction law](laws.md) or a bond; absent: frictionless.
     pub law: Option<Spanned<LawSpec>>,
+    /// Radiation damping η of a law of the slip rate: `"radiation"`, or a value; absent: none \[Pa s/m\].
+    pub damping: Option<Spanned<DampingSpec>>,
     /// Treatment of points too far apart to resolve friction that weakens: `"refuse"` (default) or `"allow"`.
     pub under_resolved: Option<Spanned<UnderResolved>>,
     /// `true`: the interface starts with the tractions of the [initial stress](bodies.md) of its bodies; default `false`.
@@ -375,11 +387,13 @@ pub struct TimeControl {
     pub tolerance: Option<Spanned<Length>>,
     /// Implicit: largest estimated error of friction coefficients per step, 1e-9 to 1e-2 \[-\].
     pub friction_tolerance: Option<Spanned<f64>>,
+    /// Implicit: `true`, or `{ spectral_radius = .., tolerance = .. }`: the bodies have mass; default `false`.
+    pub inertia: Option<Spanned<Inertia>>,
     /// Both: first step; default 1/1000 of the stage \[s\].
     pub first_step: Option<Spanned<Time>>,
     /// Both: largest step; default 1/20 of the stage \[s\].
     pub max_step: Option<Spanned<Time>>,
-    /// Both: smallest step, below which a run stops; default 1e-9 of the stage \[s\].
+    /// Both: smallest step, below which a run stops; default 1e-9 of the stage, 1e-13 with damping \[s\].
     pub min_step: Option<Spanned<Time>>,
     /// Both: slip rate at which a run stops with an [instability](#instabilities) \[m/s\].
     pub slip_rate_limit: Option<Spanned<Velocity>>,

@@ -34,6 +34,7 @@ const ROWS: [Row; 1] = [Row {
         "amounts.rs",
         "forecast.rs",
         "idealisation.rs",
+        "impedance.rs",
         "initial_stress.rs",
         "laws.rs",
         "lengths.rs",
@@ -42,6 +43,7 @@ const ROWS: [Row; 1] = [Row {
         "refused.rs",
         "scene.rs",
         "slider_planner.rs",
+        "thresholds.rs",
     ],
     reason: "plans are made from the scene, and what lies below them works on values",
 }];

@@ -13,7 +13,7 @@ use crate::scene::slider::SliderScene;
 
 /// Keys of this file, for the test of the table.
 #[cfg(test)]
-pub(super) const KEYS: [&str; 28] = [
+pub(super) const KEYS: [&str; 30] = [
     "puso2004",
     "puso2004b",
     "wohlmuth2000",
@@ -29,6 +29,8 @@ pub(super) const KEYS: [&str; 28] = [
     "tsitouras2011",
     "sommeijer1998",
     "rice1993",
+    "rice2006",
+    "noda2010",
     "hughes1980",
     "hugheswinget1980",
     "simo1998",
@@ -149,6 +151,11 @@ fn add_fault(citations: &mut Citations, of: &str, fault: &Fault) -> Result<(), D
     if fault.damping.is_some() {
         citations.add("rice1993", format!("{of}: radiation damping"));
     }
+    if fault.heat.is_some() {
+        for key in ["rice2006", "noda2010"] {
+            citations.add(key, format!("{of}: heat of friction"));
+        }
+    }
     Ok(())
 }
 
@@ -192,6 +199,12 @@ fn add_steps(citations: &mut Citations, scene: &Scene) {
         }
         Stepper::Explicit => add_waves(citations, scene),
         Stepper::Implicit => {}
+    }
+    if scene.inertia().is_some() {
+        citations.add("chung1993", "inertia by the generalised-alpha method");
+        if scene.stages.iter().any(|stage| stage.steps.is_none()) {
+            citations.add("zienkiewicz1991", "error control of bodies with inertia");
+        }
     }
     if !scene.interfaces.is_empty() && rule(scene) == Rule::Bdf2 {
         citations.add("hairer1993", "rule \"bdf2\" with variable steps");

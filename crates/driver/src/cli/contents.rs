@@ -12,7 +12,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Files that runs write to their directory.
-const FILES: [&str; 21] = [
+const FILES: [&str; 23] = [
     REPORT,
     LOCK,
     ".writable",
@@ -26,6 +26,8 @@ const FILES: [&str; 21] = [
     "CMTSOLUTION",
     "largest_rate.csv",
     "opening_profiles.csv",
+    "temperature_profiles.csv",
+    "pressure_profiles.csv",
     "slip_profiles.csv",
     "rate_profiles.csv",
     "snapshots.csv",
@@ -38,12 +40,13 @@ const FILES: [&str; 21] = [
 ];
 
 /// Folders that runs make, with the extensions of the files in them.
-const FOLDERS: [(&str, &[&str]); 9] = [
+const FOLDERS: [(&str, &[&str]); 10] = [
     ("fields", &["vtu"]),
     ("profiles", &["csv"]),
     ("probes", &["csv"]),
     ("points", &["csv"]),
     ("forces", &["csv"]),
+    ("springs", &["csv"]),
     ("history", &["csv"]),
     ("plots", &["svg", "png"]),
     ("stations", &[""]),

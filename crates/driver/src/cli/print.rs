@@ -50,6 +50,9 @@ pub(super) fn results(report: &RunReport) {
             f.unit
         ));
     }
+    if let Some(energy) = &report.energy {
+        out(format_args!("  energy budget closes to {:.1e} of its largest part\n", energy.imbalance));
+    }
     let c = &report.counts;
     out(format_args!(
         "  {} steps ({} rejected), {} iterations{}, {} factorisations, {} body solves\n",

@@ -5,6 +5,7 @@ use super::end::End;
 use super::pausing::Pausing;
 use super::read::Ready;
 use super::{json, print, signals};
+use crate::catalogue::{self, Entry, FaultEvents};
 use crate::checkpoint::{self, Contents as _, Pauses};
 use crate::fault;
 use crate::forecast;
@@ -41,6 +42,9 @@ pub(super) fn run_bodies(
     report.seconds.plan = ready.seconds;
     // The report is written last, even if the plots cannot be written.
     let drawn = draw(directory.path(), recorder.as_ref());
+    if let Some(events) = &report.events {
+        write_catalogues(directory.path(), &events.all, &events.interfaces).into_diagnostic()?;
+    }
     directory.write(&report, &ready.meshes)?;
     drawn?;
     print::results(&report);
@@ -261,7 +265,7 @@ fn write_faults(
     hash: &str,
     drawn: bool,
 ) -> miette::Result<()> {
-    write_catalogues(path, report).into_diagnostic()?;
+    write_catalogues(path, &report.events, &report.faults).into_diagnostic()?;
     let events = json::pretty(&report.events).into_diagnostic()?;
     atomic::write(&path.join("events.json"), events.as_bytes()).into_diagnostic()?;
     write_located(path, plan, report, hash)?;
@@ -272,12 +276,12 @@ fn write_faults(
     fault::write_bodies(path, plan, run).into_diagnostic()
 }
 
-/// Writes the catalogue of all faults as a table, and one table per fault if there are several.
-fn write_catalogues(path: &Path, report: &fault::Report) -> Result<(), OutputError> {
-    let write = |name: &str, events| atomic::write(&path.join(name), fault::Report::csv(events).as_bytes());
-    write("events.csv", &report.events)?;
-    let names = stems(report.faults.iter().map(|f| f.fault.as_str()));
-    let mut each = names.iter().zip(&report.faults);
+/// Writes the catalogue of all faults or interfaces as a table, and one table of each if there are several.
+fn write_catalogues(path: &Path, all: &[Entry], apart: &[FaultEvents]) -> Result<(), OutputError> {
+    let write = |name: &str, events| atomic::write(&path.join(name), catalogue::csv(events).as_bytes());
+    write("events.csv", all)?;
+    let names = stems(apart.iter().map(|f| f.fault.as_str()));
+    let mut each = names.iter().zip(apart);
     each.try_for_each(|(name, fault)| write(&format!("events_{name}.csv"), &fault.events))
 }
 

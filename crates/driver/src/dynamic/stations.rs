@@ -43,6 +43,8 @@ fn head<const D: usize>(plan: &Plan<D>, fault: &str, asked: &Station, point: usi
         location: &location,
         directions: view.across.map(|across| [view.slides, across]),
         opens: opens(plan),
+        heats: false,
+        pressurises: false,
     };
     head.text()
 }
@@ -63,6 +65,8 @@ pub(super) fn row<const D: usize>(plan: &Plan<D>, now: &Moment<'_>, point: usize
         log_state: theta,
         normal: now.fault.normal[point],
         opening: opens(plan).then(|| now.fault.gap[point]),
+        temperature: None,
+        pressure: None,
     };
     row.text()
 }

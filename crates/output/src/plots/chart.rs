@@ -19,10 +19,10 @@ pub enum Measure {
     Velocity,
     /// Stress \[Pa\].
     Stress,
-    /// Dimensionless number \[-\].
-    Number,
     /// Energy \[J\].
     Energy,
+    /// Dimensionless number \[-\].
+    Number,
     /// Energy per length out of the plane \[J/m\].
     EnergyPerLength,
     /// Moment rate \[N m/s\].
@@ -38,8 +38,8 @@ impl Measure {
             Self::Length => units::LENGTH,
             Self::Velocity => units::VELOCITY,
             Self::Stress => units::STRESS,
-            Self::Number => units::NUMBER,
             Self::Energy => units::ENERGY,
+            Self::Number => units::NUMBER,
             Self::EnergyPerLength => units::ENERGY_PER_LENGTH,
             Self::MomentRate => units::MOMENT_RATE,
             Self::MomentRatePerLength => units::MOMENT_RATE_PER_LENGTH,

@@ -10,6 +10,7 @@ mod curves;
 mod cycles;
 mod diagram;
 mod drawn;
+mod energy;
 mod faces;
 mod field;
 mod figure;
@@ -18,6 +19,7 @@ mod png;
 mod profile;
 mod rupture;
 mod sketch;
+mod springs;
 mod style;
 mod svg;
 mod title;
@@ -146,5 +148,7 @@ fn figures(recorder: &Recorder) -> Vec<(String, Figure)> {
             figures.push((format!("{stem}_tractions"), figure));
         }
     }
+    figures.extend(energy::budget(recorder));
+    figures.extend(springs::friction(recorder).map(|figure| ("springs_friction".to_string(), figure)));
     figures
 }

@@ -17,7 +17,7 @@ impl Checker<'_> {
     /// Checks a scene with the stepper "explicit".
     pub(super) fn explicit(&mut self) {
         self.parts();
-        self.masses();
+        self.masses_of_waves();
         self.stability();
         self.foreign_outputs();
         let scene = self.scene;
@@ -108,7 +108,7 @@ impl Checker<'_> {
     }
 
     /// Checks that all bodies have mass.
-    fn masses(&mut self) {
+    fn masses_of_waves(&mut self) {
         let scene = self.scene;
         let used = |body: &Body| -> Vec<(String, Range<usize>)> {
             body.materials().map(|(_, name, place)| (name.to_string(), place)).collect()

@@ -1,10 +1,11 @@
 //! Faults in earthquake cycles.
 
 use super::Checker;
+use super::interfaces::RATED;
 use crate::law;
 use crate::model::{
-    Along, Creep, DampingSpec, Fault, Kinematics, Motion, Outside, Path, Profile, Profiled, SlipSpec,
-    Spanned, Station, Stepper,
+    Along, Creep, DampingSpec, Fault, Interface, Kinematics, Motion, Outside, Path, Profile, Profiled,
+    SlipSpec, Spanned, Station, Stepper,
 };
 use crate::near::suggest;
 
@@ -22,6 +23,7 @@ impl Checker<'_> {
             self.start_of(fault);
             self.physics_of(fault);
             self.injection(fault);
+            self.heat_of(fault);
             for (name, profile) in [
                 ("a", &fault.profiles.a),
                 ("b", &fault.profiles.b),
@@ -97,23 +99,17 @@ impl Checker<'_> {
         }
     }
 
-    /// Checks springs, which pull sides only in scenes with faults.
+    /// Checks springs that pull sets.
     fn springs(&mut self) {
         let scene = self.scene;
         for condition in scene.stages.iter().flat_map(|s| &s.conditions) {
             let c = condition.get_ref();
             for motion in [&c.x, &c.y, &c.z].into_iter().flatten() {
                 let Motion::Spring { stiffness, rate } = *motion.get_ref() else { continue };
-                if self.has_waves() {
+                if self.has_waves() || scene.time.inertia.is_some() {
                     self.error(
                         motion.span(),
                         "a spring draws sides of bodies without mass",
-                        "prescribe the motion itself, such as `{ rate = \"1 um/s\" }`",
-                    );
-                } else if scene.faults.is_empty() {
-                    self.error(
-                        motion.span(),
-                        "a spring draws sides in scenes with faults only",
                         "prescribe the motion itself, such as `{ rate = \"1 um/s\" }`",
                     );
                 }
@@ -167,13 +163,23 @@ impl Checker<'_> {
             }
             None => {}
         }
-        if let Some(events) = scene.events.as_ref().filter(|_| scene.faults.is_empty()) {
-            self.error(
-                events.above.span(),
-                "events are those of faults, and the scene has none",
-                "remove `[events]`",
-            );
-        }
+        self.events_without_source();
+    }
+
+    /// Refuses events where nothing has them: they are those of faults, and of interfaces whose laws depend on the slip rate.
+    fn events_without_source(&mut self) {
+        let scene = self.scene;
+        let of_rate = |i: &Interface| {
+            let kind = i.law.as_ref().and_then(|l| l.get_ref().kind.as_ref());
+            kind.is_some_and(|k| RATED.contains(&k.get_ref().as_str()))
+        };
+        let source = !scene.faults.is_empty() || scene.interfaces.values().any(of_rate);
+        let Some(events) = scene.events.as_ref().filter(|_| !source) else { return };
+        self.error(
+            events.above.span(),
+            "events are those of faults and of interfaces whose laws depend on the slip rate, and the scene has neither",
+            "remove `[events]`, or give an interface a law of kind \"rate-and-state\" or \"rate\"",
+        );
     }
 
     fn friction(&mut self, fault: &Fault) {

@@ -145,6 +145,7 @@ impl Checker<'_> {
                 "friction_tolerance",
                 &[Implicit, StaticExplicit],
             ),
+            place(time.inertia.as_ref().map(Spanned::span), "inertia", &[Implicit]),
             place(time.first_step.as_ref().map(Spanned::span), "first_step", &[Implicit, StaticExplicit]),
             place(time.max_step.as_ref().map(Spanned::span), "max_step", &[Implicit, StaticExplicit]),
             place(time.min_step.as_ref().map(Spanned::span), "min_step", &[Implicit, StaticExplicit]),

@@ -1,6 +1,6 @@
 //! Faults as declared in a scene, for simulations of earthquake cycles.
 
-use super::{FaultLine, FaultRectangle, LawSpec, Patch, Pulse};
+use super::{FaultLine, FaultRectangle, Heat, LawSpec, Patch, Pulse};
 use crate::here::here;
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
@@ -55,6 +55,8 @@ pub struct Fault {
     pub slip: Option<Spanned<SlipSpec>>,
     /// Fluid injected at one position that diffuses along the fault.
     pub injection: Option<Injection>,
+    /// Heat of friction, which may change friction and the pressure of pore fluid.
+    pub heat: Option<Heat>,
     /// Treatment of less than one point per cohesive zone: `"refuse"` (default) or `"allow"`.
     pub under_resolved: Option<Spanned<UnderResolved>>,
     /// `false`: slip and loads do not change normal tractions; default `true`.

@@ -7,6 +7,7 @@ mod cells;
 mod cover;
 mod floor;
 mod frame;
+mod heated;
 mod held;
 mod medium;
 mod meet;
