@@ -19,7 +19,7 @@ pub struct Moment<'a> {
     pub fields: Option<[Vec<f64>; 2]>,
 }
 
-/// What is kept of the state before a step.
+/// Part of the state before a step that outputs need.
 pub(super) struct Before {
     step: usize,
     time: f64,

@@ -1,4 +1,4 @@
-//! What is computed and written, and its description before the run.
+//! The problem and its outputs, and their description before the run.
 
 use crate::fault::words::{length, time};
 use crate::fault::{FaultView, PointView, Resolution};
@@ -30,12 +30,12 @@ pub struct Cadence {
     pub fields: usize,
 }
 
-/// What is computed and written.
+/// The problem and its outputs.
 #[derive(Debug)]
 pub struct Plan<const D: usize> {
     /// Title.
     pub title: String,
-    /// What is computed.
+    /// Problem to compute.
     pub problem: Problem<D>,
     /// Largest stable step and the cell that sets it.
     pub stable: Stable,

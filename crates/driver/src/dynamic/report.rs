@@ -55,7 +55,7 @@ pub struct WaveEnergy {
     pub loads: f64,
     /// Work that the initial and imposed tractions of faults release.
     pub released: f64,
-    /// What is missing in the balance over the largest part \[-\].
+    /// Amount missing in the balance, over the largest part \[-\].
     pub imbalance: f64,
 }
 

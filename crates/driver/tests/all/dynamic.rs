@@ -166,3 +166,95 @@ fn a_fault_that_may_not_open_stops_the_run_where_its_sides_part() {
     let gap: f64 = station.lines().last().unwrap().split(' ').next_back().unwrap().parse().unwrap();
     assert!(gap > 0.0, "{gap}");
 }
+
+#[test]
+fn velocities_of_seismograms_are_the_rates_of_their_displacements_at_the_same_time() {
+    // With one step a sample, v at a step is exactly (u after - u before)/(2 dt).
+    let folder = folder(&varied(SCENE, &[Add("time.courant", "0.9")]));
+    let done = run(folder.path(), "out", &["--no-plots"]);
+    assert!(done.status.success(), "{}", told(&done));
+    let table = fs::read_to_string(folder.path().join("out/seismograms/S1.csv")).unwrap();
+    let number = |v: &str| v.parse::<f64>().unwrap();
+    let rows: Vec<Vec<f64>> = table.lines().skip(1).map(|row| row.split(',').map(number).collect()).collect();
+    assert_eq!(rows.len(), 101);
+    let largest = rows.iter().map(|r| r[2].abs()).fold(0.0, f64::max);
+    assert!(largest > 0.1, "{largest}");
+    for w in rows.windows(3) {
+        for c in [1, 2] {
+            let rate = (w[2][c + 2] - w[0][c + 2]) / (w[2][0] - w[0][0]);
+            assert!((w[1][c] - rate).abs() < 1e-10 * largest, "{} s: {} {rate}", w[1][0], w[1][c]);
+        }
+    }
+}
+
+/// A rupture on the plane between two blocks in space.
+const IN_SPACE: &str = r#"
+schema = 1
+title = "a rupture in space"
+kinematics = "3d"
+[materials.rock]
+young = "80 GPa"
+poisson = 0.25
+density = 2670
+[bodies.A]
+mesh.block = { min = ["-1.5 km", "-2 km", "-2 km"], max = [0, "2 km", "2 km"], size = "250 m", element = "hex8" }
+material = "rock"
+[bodies.B]
+mesh.block = { min = [0, "-2 km", "-2 km"], max = ["1.5 km", "2 km", "2 km"], size = "250 m", element = "hex8" }
+material = "rock"
+[faults.main]
+minus = "A.right"
+plus = "B.left"
+rake = [0, 0, 1]
+slip = "free"
+law = { kind = "slip-weakening", mu_s = 0.677, mu_k = 0.525, d_c = "20 cm" }
+normal = "120 MPa"
+shear = "68 MPa"
+patches = [{ disc = { centre = [0, 0, 0], radius = "1.3 km" }, shear = "82 MPa" }]
+under_resolved = "allow"
+[[stages]]
+name = "rupture"
+duration = "0.8 s"
+conditions = [{ set = "A.left", absorbing = true }, { set = "B.right", absorbing = true }]
+[time]
+stepper = "explicit"
+[output]
+fields = 2
+stations.main = [[0, 0, 0]]
+seismograms.PLUS = { body = "B", at = [0, 0, 0] }
+"#;
+
+#[test]
+fn a_rupture_in_space_slips_along_its_traction_and_is_symmetric() {
+    let folder = folder(IN_SPACE);
+    let done = run(folder.path(), "out", &[]);
+    assert!(done.status.success(), "{}", told(&done));
+    let out = folder.path().join("out");
+    let report: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(out.join("report.json")).unwrap()).unwrap();
+    assert!(report["energy"]["imbalance"].as_f64().unwrap() < 1e-10);
+    let table = fs::read_to_string(out.join("rupture_times.csv")).unwrap();
+    let rows: Vec<Vec<f64>> =
+        table.lines().skip(1).map(|r| r.split(',').skip(1).map(|v| v.parse().unwrap()).collect()).collect();
+    assert_eq!(rows.len(), 17 * 17);
+    // Points mirrored about the centre rupture at the same time, and some do not rupture.
+    assert!(rows.iter().any(|r| r[3].is_nan()) && rows.iter().any(|r| r[3] > 0.0));
+    for r in &rows {
+        let mirror = rows.iter().find(|m| (m[1] + r[1]).abs() < 1.0 && (m[2] + r[2]).abs() < 1.0).unwrap();
+        assert!(
+            r[3].is_nan() == mirror[3].is_nan() && !((r[3] - mirror[3]).abs() > 1e-9),
+            "{r:?} {mirror:?}"
+        );
+    }
+    // Slip at the centre is along the rake, the first of its two components.
+    let station = fs::read_to_string(out.join("stations/main_000")).unwrap();
+    let last: Vec<f64> = station.lines().last().unwrap().split(' ').map(|v| v.parse().unwrap()).collect();
+    assert!(last[1] > 0.2 && last[2].abs() < 1e-9 * last[1], "{last:?}");
+    // The plus side moves along the rake by half the slip.
+    let plus = fs::read_to_string(out.join("seismograms/PLUS.csv")).unwrap();
+    let moved: Vec<f64> = plus.lines().last().unwrap().split(',').map(|v| v.parse().unwrap()).collect();
+    assert!((moved[6] / last[1] - 0.5).abs() < 1e-6 && moved[5].abs() < 1e-9, "{moved:?} {last:?}");
+    for file in ["plots/main_rupture_times.png", "plots/main_film.png", "fields/main_00002.vtu"] {
+        assert!(out.join(file).exists(), "{file}");
+    }
+}

@@ -17,7 +17,7 @@ const COLD: &str = r#"{ kind = "rate-and-state", evolution = "ageing", mu0 = 0.6
 fn plan(text: &str) -> Plan {
     match plan_scene(&scene::read(text).unwrap()).unwrap() {
         ScenePlan::Faults(plan) => *plan,
-        ScenePlan::Bodies(_) => panic!("the scene has faults"),
+        ScenePlan::Bodies(_) | ScenePlan::Dynamic(_) => panic!("the scene has faults"),
     }
 }
 

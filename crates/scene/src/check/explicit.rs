@@ -203,6 +203,11 @@ impl Checker<'_> {
                 fault.normal_changes.as_ref().map(Spanned::span),
                 "normal tractions follow from the momentum of both sides",
             ),
+            (
+                "heat",
+                fault.heat.as_ref().map(|h| h.thickness.span()),
+                "frictional heat is followed through cycles only",
+            ),
             ("f_limit", fault.law.get_ref().f_limit.as_ref().map(Spanned::span), "interfaces have limits"),
         ];
         for (key, place, why) in keys.into_iter().filter_map(|(key, place, why)| Some((key, place?, why))) {

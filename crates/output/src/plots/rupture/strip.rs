@@ -6,7 +6,7 @@ use crate::plots::field::Bar;
 use crate::plots::figure::{Anchor, Figure, Image, Point};
 use crate::plots::title::title;
 
-/// What a panel shows.
+/// Content of a panel.
 pub(super) enum Content {
     /// A curve in the units of the axes.
     Curve(Vec<Point>),
