@@ -56,6 +56,7 @@ mod cook_membrane;
 mod coulomb_strip;
 mod dislocation;
 pub mod drawn;
+mod dynamic_rupture;
 mod elastic_plastic_cylinder;
 mod elastic_waves;
 mod event_files;
@@ -82,6 +83,7 @@ mod friction_steady_state;
 mod friction_velocity_steps;
 mod frictional_bar;
 mod frictional_crack;
+mod frictional_heat;
 pub mod hertz;
 mod hertz_ball;
 mod hertz_line;
@@ -141,6 +143,7 @@ mod slider_work_precision;
 mod stage_paths;
 mod static_explicit_jumps;
 mod steel_strip;
+mod stick_slip;
 pub mod texts;
 mod two_rings;
 mod uniaxial_hardening;
@@ -191,6 +194,8 @@ pub const ALL: &[Case] = &[
     friction_velocity_steps::CASE,
     frictional_bar::CASE,
     frictional_crack::CASE,
+    frictional_heat::CASE,
+    frictional_heat::CASE,
     hertz_line::CASE,
     hertz_sphere::CASE,
     hertz_ball::CASE,
@@ -239,6 +244,7 @@ pub const ALL: &[Case] = &[
     two_rings::CASE,
     // Nonlinear bodies.
     cantilever_rotation::CASE,
+    dynamic_rupture::CASE,
     elastic_plastic_cylinder::CASE,
     elastic_waves::CASE,
     first_slip::CASE,
@@ -247,6 +253,7 @@ pub const ALL: &[Case] = &[
     mesh_files::CASE,
     stage_paths::CASE,
     steel_strip::CASE,
+    stick_slip::CASE,
     jaumann_shear::CASE,
     large_rotation::CASE,
     maxwell_relaxation::CASE,

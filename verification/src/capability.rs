@@ -102,6 +102,8 @@ capabilities! {
     Slider => "spring-slider",
     /// Faults through earthquake cycles.
     FaultCycles => "faults through earthquake cycles",
+    /// Temperature and pore pressure of faults that friction heats.
+    FrictionalHeat => "frictional heat of faults",
     /// Faults in homogeneous rock without bodies.
     Medium => "faults in homogeneous rock without bodies",
     /// Sliders coupled by springs.

@@ -81,7 +81,8 @@ pub fn resume(
         }
         let within = 0.5 * (run.at.seconds() + end);
         let (shear, normal) = loading.rates(within, fault.law.points(), fault.operator.couples_normal());
-        let equations = Equations::new(fault, shear, normal).until(end);
+        let mut equations = Equations::new(fault, shear, normal).until(end);
+        equations.remember(run.progress.heat.take(), run.at, &run.unknowns);
         leg(&equations, fault, end, settings, observer, &mut run)?;
     }
     Ok(run)
@@ -162,7 +163,7 @@ fn piece(
         crack: Crack::default(),
         pressed: Pressed::default(),
     };
-    follow.pressed = fault.pressed(run.at, &run.unknowns, &mut follow.crack);
+    follow.pressed = equations.pressed(run.at, &run.unknowns, &mut follow.crack);
     if run.counts.steps == 0 && follow.begin(run.at, &run.unknowns) == Control::Stop {
         run.outcome = Outcome::Stopped;
         return follow.failure.map_or(Ok(false), Err);
@@ -185,6 +186,7 @@ fn piece(
     run.next_step = follow.next_step;
     (run.outcome, run.at, run.unknowns) = (outcome, at, state);
     run.counts += counts;
+    run.progress.heat = equations.memory();
     match &mut run.outcome {
         // Exactly the end, so that no remainder needs another step.
         Outcome::Completed => (run.at, run.next_step) = (Clock::new(end, 0.0), None),
@@ -192,7 +194,7 @@ fn piece(
             if let Failure::TooManySteps { most } = reason {
                 *most = settings.most_steps;
             }
-            run.progress.opens = equations.opened().or_else(|| nearly_open(fault, run));
+            run.progress.opens = equations.opened().or_else(|| nearly_open(equations, fault, run));
         }
         Outcome::Stopped => return Ok(paused && !enough(run, settings)),
     }
@@ -204,8 +206,8 @@ fn piece(
 const NEARLY_OPEN: f64 = 1e-3;
 
 /// The point that is about to open, if any.
-fn nearly_open(fault: &Fault, run: &FaultRun) -> Option<usize> {
-    let pressed = fault.pressed(run.at, &run.unknowns, &mut Crack::default());
+fn nearly_open(equations: &Equations<'_>, fault: &Fault, run: &FaultRun) -> Option<usize> {
+    let pressed = equations.pressed(run.at, &run.unknowns, &mut Crack::default());
     let share = |p: usize| pressed.normal[p] / fault.normal[p];
     let opens = |p: &usize| fault.floor.as_ref().is_none_or(|f| f.at(*p).is_infinite());
     let least = (0..fault.normal.len()).filter(opens).min_by(|&a, &b| share(a).total_cmp(&share(b)))?;
@@ -244,7 +246,7 @@ const MOST_HALVINGS: usize = 60;
 
 impl Follow<'_> {
     fn begin(&mut self, at: Clock, y: &[f64]) -> Control {
-        self.equations.slip_rates(y, &mut self.rate);
+        self.equations.slip_rates(at, y, &mut self.rate);
         self.largest = self.fastest(&self.rate, self.all()).1;
         self.report(at, 0.0, y, None)
     }
@@ -293,7 +295,8 @@ impl Follow<'_> {
                 break;
             }
             step.at(middle, &mut self.between);
-            self.equations.slip_rates(&self.between, &mut self.rate);
+            let at = step.start.later(middle * step.length());
+            self.equations.slip_rates(at, &self.between, &mut self.rate);
             if (self.fastest(&self.rate, among.clone()).1 >= threshold) == upwards {
                 after = middle;
             } else {
@@ -301,10 +304,10 @@ impl Follow<'_> {
             }
         }
         step.at(after, &mut self.between);
-        self.equations.slip_rates(&self.between, &mut self.rate);
         let at = step.start.later(after * step.length());
+        self.equations.slip_rates(at, &self.between, &mut self.rate);
         let layout = self.equations.layout();
-        let pressed = self.fault.pressed(at, &self.between, &mut self.crack);
+        let pressed = self.equations.pressed(at, &self.between, &mut self.crack);
         for (i, shear) in self.shear.iter_mut().enumerate() {
             let p = i % layout.points();
             *shear = pressed.normal[p] * self.fault.law.scale(p) * self.between[i];
@@ -331,6 +334,18 @@ impl Follow<'_> {
         }
     }
 
+    /// Records the largest temperatures of the unfinished events.
+    fn note_heat(&mut self) {
+        for (source, detector) in self.detectors.iter().enumerate() {
+            let Some(event) = self.catalogue.open(source) else { continue };
+            let temperatures = self.pressed.surface.temperature.get(detector.points()).into_iter().flatten();
+            // Points that are not heated have no temperature, which is not a number.
+            let hottest = temperatures.copied().filter(|t| t.is_finite()).reduce(f64::max);
+            let before = event.details.hottest;
+            event.details.hottest = before.into_iter().chain(hottest).reduce(f64::max);
+        }
+    }
+
     fn note_peak(&mut self, source: usize, largest: f64) {
         if let Some(event) = self.catalogue.open(source) {
             event.peak = event.peak.max(largest);
@@ -345,7 +360,7 @@ impl Sink for Follow<'_> {
         let layout = self.equations.layout();
         let rates = step.rates.map(|dy| &dy[layout.slip()]);
         if rates.is_none() {
-            self.equations.slip_rates(step.state, &mut self.rate);
+            self.equations.slip_rates(step.end, step.state, &mut self.rate);
         }
         let ends = rates.unwrap_or(&self.rate);
         let largest: Vec<f64> = self.detectors.iter().map(|d| self.fastest(ends, d.points()).1).collect();
@@ -353,11 +368,13 @@ impl Sink for Follow<'_> {
         self.detect(step, &largest);
         match rates {
             Some(rates) => self.rate.copy_from_slice(rates),
-            None => self.equations.slip_rates(step.state, &mut self.rate),
+            None => self.equations.slip_rates(step.end, step.state, &mut self.rate),
         }
         self.largest = largest[ALL];
-        let pressed = self.fault.pressed(step.end, step.state, &mut self.crack);
+        let pressed = self.equations.pressed(step.end, step.state, &mut self.crack);
+        self.equations.commit(step.end, step.state);
         let start_pressed = std::mem::replace(&mut self.pressed, pressed);
+        self.note_heat();
         let ends = step.start_rates().zip(step.rates);
         let ends = ends.map(|(start_rates, end_rates)| {
             let (start, start_pressed) = (step.start_state(), &start_pressed);

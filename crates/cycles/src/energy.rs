@@ -25,6 +25,7 @@ use super::opened::Opened;
 use super::opening::Crack;
 use super::operator::Operator;
 use super::problem::Problem;
+use super::warmed::Warmed;
 use asperity_ode::Clock;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -119,6 +120,9 @@ pub struct Sums {
     /// Openings.
     #[serde(default)]
     opened: Opened,
+    /// Largest temperatures.
+    #[serde(default)]
+    warmed: Warmed,
     /// Sum of the initial normal tractions and those of the loads, at the last change of the loads, where points may
     /// open \[Pa\].
     #[serde(default)]
@@ -206,6 +210,12 @@ impl<'a> Balance<'a> {
         &self.sums.opened
     }
 
+    /// Largest temperatures and pore pressures so far.
+    #[must_use]
+    pub fn warmed(&self) -> &Warmed {
+        &self.sums.warmed
+    }
+
     /// State of the run at the end of each event.
     #[must_use]
     pub fn marks(&self) -> &[Mark] {
@@ -235,6 +245,7 @@ impl<'a> Balance<'a> {
         let ended = moment.events().len() > self.sums.marks.len();
         self.sums.floors.step(self.problem, moment, ended);
         self.sums.opened.step(self.problem, moment);
+        self.sums.warmed.step(moment);
         if ended {
             let energy = self.energy(moment.slip().all(), &moment.pressed.opening);
             let potency =
@@ -282,6 +293,10 @@ impl<'a> Balance<'a> {
                 };
                 let (pressure, rise) =
                     fault.pressure.as_ref().map_or((0.0, 0.0), |f| f.felt(p, time, end - ROUNDING * h));
+                let surface = [&step.start_pressed.surface, &moment.pressed.surface][last];
+                let of = |values: &[f64]| values.get(p).copied().unwrap_or(0.0);
+                let pressure = pressure + of(&surface.pressure);
+                let rise = rise + of(&surface.pressure_rate);
                 let floor = fault.floor.as_ref().map_or(f64::NEG_INFINITY, |f| f.at(p));
                 let (normal, change) =
                     if total - pressure < floor { (floor, 0.0) } else { (total - pressure, growth - rise) };

@@ -6,10 +6,12 @@
 //! μ/a of all points, their states (point-major), their slip, and f_n where slip changes it. Shear tractions follow from
 //! m, so that no traction is a small difference of large numbers. Pore pressure is a given function of time: it is
 //! subtracted from f_n, and its rate from df_n/dt, at the time of each stage. Openings are functions of f_n and add to
-//! both rates, see [`super::opening`].
+//! both rates, see [`super::opening`]. Frictional heat adds one unknown per heated point, see [`super::heat`]: temperature
+//! affects the law, and the pressure of the heated fluid is subtracted as that of an injection.
 
 use super::components::{Components, PerPoint};
 use super::floor::Floor;
+use super::heat::{Heat, Heated, Memory, Now, Surface};
 use super::opening::{Crack, Opening};
 use super::operator::Operator;
 use super::pressure::Pressure;
@@ -31,6 +33,8 @@ pub struct Fault {
     pub normal: Vec<f64>,
     /// Pressure of injected fluid, where there is any.
     pub pressure: Option<Pressure>,
+    /// Frictional heat, where it matters; not together with openings.
+    pub heat: Option<Heat>,
     /// Smallest normal traction that friction uses, where any point has such a floor.
     pub floor: Option<Floor>,
     /// Tractions that openings cause, where points may open.
@@ -46,20 +50,27 @@ pub struct Pressed {
     pub normal: Vec<f64>,
     /// Opening \[m\]; no values where no point may open.
     pub opening: Vec<f64>,
+    /// Temperature and pressure of heated points; no values where there are none.
+    pub surface: Surface,
 }
 
 impl Fault {
-    /// Computes the normal tractions of the points at a moment. The result does not depend on the previous `crack`.
+    /// Computes the normal tractions of the points at a moment of a fault that is not heated, or at its start. The result does not depend on the previous `crack`.
     /// Where the set of open points does not converge, which makes the integration fail, the result is that of the last
     /// iterate.
     #[must_use]
     pub fn pressed(&self, at: Clock, unknowns: &[f64], crack: &mut Crack) -> Pressed {
+        self.pressed_by(at, unknowns, crack, Surface::default())
+    }
+
+    fn pressed_by(&self, at: Clock, unknowns: &[f64], crack: &mut Crack, surface: Surface) -> Pressed {
         let layout = Layout::of(self);
         let total = if layout.couples_normal { &unknowns[layout.normal()] } else { &self.normal };
         let mut bodies = total.to_vec();
         if let Some(pressure) = &self.pressure {
             bodies.iter_mut().enumerate().for_each(|(p, f)| *f -= pressure.at(p, at.seconds()));
         }
+        bodies.iter_mut().zip(&surface.pressure).for_each(|(f, p)| *f -= p);
         let mut opening = Vec::new();
         if let Some(of) = &self.opening {
             let _ = of.solve(crack, &mut bodies);
@@ -68,7 +79,7 @@ impl Fault {
         }
         let least = |p: usize| self.floor.as_ref().map_or(f64::NEG_INFINITY, |floor| floor.at(p));
         let normal = bodies.iter().enumerate().map(|(p, f)| f.max(least(p))).collect();
-        Pressed { bodies, normal, opening }
+        Pressed { bodies, normal, opening, surface }
     }
 
     /// Rates of f_n as friction uses it \[Pa/s\] and of the openings \[m/s\], given those of the unknowns, in an
@@ -116,6 +127,8 @@ pub struct Layout {
     components: usize,
     states: usize,
     couples_normal: bool,
+    /// Number of heated points.
+    heated: usize,
 }
 
 impl Layout {
@@ -127,13 +140,14 @@ impl Layout {
             components: fault.law.components(),
             states: fault.law.states(),
             couples_normal: fault.operator.couples_normal(),
+            heated: fault.heat.as_ref().map_or(0, Heat::points),
         }
     }
 
     /// Number of unknowns.
     #[must_use]
     pub fn size(&self) -> usize {
-        self.normal().end
+        self.heat().end
     }
 
     /// Number of points.
@@ -173,6 +187,13 @@ impl Layout {
     pub fn normal(&self) -> Range<usize> {
         let first = self.slip().end;
         first..first + if self.couples_normal { self.points } else { 0 }
+    }
+
+    /// Heat H per area of all heated points \[J/m²\]; empty without heat.
+    #[must_use]
+    pub fn heat(&self) -> Range<usize> {
+        let first = self.normal().end;
+        first..first + self.heated
     }
 
     /// m of these unknowns.
@@ -218,6 +239,8 @@ pub struct Equations<'a> {
     /// Time of the next change of loading or pressure \[s\].
     until: f64,
     scratch: RefCell<Scratch>,
+    /// Heat, where the fault is heated.
+    heated: Option<RefCell<Heated>>,
     /// A point whose normal traction was not positive in a stage since the last call of [`Equations::opened`].
     opened: Cell<Option<usize>>,
     /// A point whose opening did not converge. A shorter step would not help: all further rates are NaN, and the
@@ -231,7 +254,8 @@ impl<'a> Equations<'a> {
     pub fn new(fault: &'a Fault, shear_load: Vec<f64>, normal_load: Vec<f64>) -> Self {
         let layout = Layout::of(fault);
         let (n, vectors) = (layout.points, layout.m().end);
-        let own = fault.pressure.is_some() || fault.floor.is_some() || fault.opening.is_some();
+        let pressurised = fault.heat.as_ref().is_some_and(Heat::pressurises);
+        let own = pressurised || fault.pressure.is_some() || fault.floor.is_some() || fault.opening.is_some();
         let changes = own || layout.couples_normal;
         let zeros = |needed: bool| vec![0.0; if needed { n } else { 0 }];
         let scratch = Scratch {
@@ -248,6 +272,7 @@ impl<'a> Equations<'a> {
             normal_load,
             until: f64::INFINITY,
             scratch: RefCell::new(scratch),
+            heated: None,
             opened: Cell::new(None),
             unsettled: Cell::new(None),
         }
@@ -257,6 +282,33 @@ impl<'a> Equations<'a> {
     #[must_use]
     pub fn until(self, end: f64) -> Self {
         Self { until: end, ..self }
+    }
+
+    /// Begins from a memory of heat; without one, from the unknowns of a fault at its ambient temperature.
+    pub(crate) fn remember(&mut self, memory: Option<Memory>, at: Clock, y: &[f64]) {
+        if let Some(heat) = &self.fault.heat {
+            let memory = memory.unwrap_or_else(|| Memory::new(heat, at, &y[self.layout.heat()]));
+            self.heated = Some(RefCell::new(Heated::new(self.fault, memory, heat.points())));
+        }
+    }
+
+    /// The memory of heat, if the fault is heated.
+    pub(crate) fn memory(&self) -> Option<Memory> {
+        self.heated.as_ref().map(|heated| heated.borrow().memory().clone())
+    }
+
+    /// Commits the heat of a step that ends at `at` in the state `y`.
+    pub(crate) fn commit(&self, at: Clock, y: &[f64]) {
+        if let Some(heated) = &self.heated {
+            heated.borrow_mut().commit(self.fault, at, &self.now(y));
+        }
+    }
+
+    /// State of the fault, for its heat.
+    fn now<'b>(&'b self, y: &'b [f64]) -> Now<'b> {
+        let l = self.layout;
+        let normal = if l.couples_normal { &y[l.normal()] } else { &self.fault.normal };
+        Now { m: &y[l.m()], states: &y[l.states()], normal, received: &y[l.heat()] }
     }
 
     /// Layout of the unknowns.
@@ -272,13 +324,32 @@ impl<'a> Equations<'a> {
         self.unsettled.get().or(opened)
     }
 
-    /// Slip rates of all points \[m/s\].
-    pub fn slip_rates(&self, y: &[f64], rate: &mut [f64]) {
-        self.fault.law.slip_rates(0, &y[self.layout.m()], &y[self.layout.states()], rate);
+    /// Slip rates of all points at a moment \[m/s\].
+    pub fn slip_rates(&self, at: Clock, y: &[f64], rate: &mut [f64]) {
+        let mut heated = self.heated.as_ref().map(RefCell::borrow_mut);
+        if let Some(heated) = &mut heated {
+            heated.feel(self.fault, at, &self.now(y));
+        }
+        law_of(self.fault, heated.as_deref()).slip_rates(
+            0,
+            &y[self.layout.m()],
+            &y[self.layout.states()],
+            rate,
+        );
+    }
+
+    /// Computes the normal tractions of the points at a moment, as [`Fault::pressed`] does, with temperatures and pressures
+    /// of heated points and their rates.
+    pub fn pressed(&self, at: Clock, y: &[f64], crack: &mut Crack) -> Pressed {
+        let Some(heated) = &self.heated else { return self.fault.pressed(at, y, crack) };
+        let mut heated = heated.borrow_mut();
+        heated.feel(self.fault, at, &self.now(y));
+        self.fault.pressed_by(at, y, crack, heated.surface().clone())
     }
 
     /// Tolerances of the unknowns for an error `tolerance` of ln V: the changes of m and of the states that move ln V
-    /// by it, that share of L for slip, and that share of a f_n for normal traction.
+    /// by it, that share of L for slip, that share of a f_n for normal traction, and the heat that has the effect of
+    /// either.
     #[must_use]
     pub fn tolerances(&self, tolerance: f64) -> Vec<f64> {
         let (l, law) = (self.layout, &self.fault.law);
@@ -292,6 +363,9 @@ impl<'a> Equations<'a> {
             if l.couples_normal {
                 all[l.normal().start + p] = tolerance * law.scale(p) * self.fault.normal[p];
             }
+        }
+        for (k, heat) in self.fault.heat.iter().flat_map(|heat| heat.scales(self.fault)).enumerate() {
+            all[l.heat().start + k] = tolerance * heat;
         }
         all
     }
@@ -369,8 +443,13 @@ impl Equations<'_> {
         }
         let (l, fault) = (self.layout, self.fault);
         let scratch = &mut *self.scratch.borrow_mut();
+        let mut heated = self.heated.as_ref().map(RefCell::borrow_mut);
         let (m, states) = (&y[l.m()], &y[l.states()]);
-        fault.law.slip_rates(0, m, states, &mut scratch.rate);
+        if let Some(heated) = &mut heated {
+            heated.feel(fault, at, &self.now(y));
+            heated.receive(fault, at, &self.now(y), &mut dy[l.heat()]);
+        }
+        law_of(fault, heated.as_deref()).slip_rates(0, m, states, &mut scratch.rate);
         fault.operator.shear(&scratch.rate, &mut scratch.shear_rate);
         add(&mut scratch.shear_rate, &self.shear_load);
         dy[l.slip()].copy_from_slice(&scratch.rate);
@@ -382,24 +461,22 @@ impl Equations<'_> {
         let mut normal = if l.couples_normal { &y[l.normal()] } else { &fault.normal };
         if !scratch.normal.is_empty() {
             scratch.normal.copy_from_slice(normal);
-            if !l.couples_normal {
-                scratch.normal_rate.fill(0.0);
+            let surface = heated.as_deref().map(Heated::surface);
+            if let Err(point) = self.press(at, surface, scratch, pressurised) {
+                self.unsettled.set(Some(point));
+                dy.fill(f64::NAN);
+                return;
             }
-            if let Some(pressure) = fault.pressure.as_ref().filter(|_| pressurised) {
-                let (time, until) = (at.seconds(), self.until);
-                pressure.take_off(time, until, &mut scratch.normal, &mut scratch.normal_rate);
-            }
-            if let Some(opening) = &fault.opening {
-                if let Err(point) = opening.solve(&mut scratch.crack, &mut scratch.normal) {
-                    self.unsettled.set(Some(point));
-                    dy.fill(f64::NAN);
-                    return;
-                }
-                opening.rates(&mut scratch.crack, &mut scratch.normal_rate, &mut scratch.shear_rate);
-            }
-            if let Some(floor) = &fault.floor {
-                floor.hold(&mut scratch.normal, &mut scratch.normal_rate);
-            }
+        }
+        if let Some(heated) = &mut heated {
+            heated.soften(fault, &scratch.rate, &mut scratch.shear_rate);
+            let rises = &heated.surface().pressure_rate;
+            scratch.normal_rate.iter_mut().zip(rises).for_each(|(rate, rise)| *rate -= rise);
+        }
+        if let Some(floor) = &fault.floor {
+            floor.hold(&mut scratch.normal, &mut scratch.normal_rate);
+        }
+        if !scratch.normal.is_empty() {
             normal = &scratch.normal;
         }
         if let Some(point) = normal.iter().position(|&f| f <= 0.0) {
@@ -415,8 +492,43 @@ impl Equations<'_> {
             damping: &fault.damping,
         };
         let (dm, rest) = dy.split_at_mut(l.m().end);
-        fault.law.rates(0, drive, m, states, dm, &mut rest[..l.points * l.states]);
+        let law = law_of(fault, heated.as_deref());
+        law.rates(0, drive, m, states, dm, &mut rest[..l.points * l.states]);
     }
+
+    /// Subtracts the pressures of fluids from normal tractions, and opens points that are then not pressed. Rates are those
+    /// without heat.
+    ///
+    /// # Errors
+    /// A point whose opening did not converge.
+    fn press(
+        &self,
+        at: Clock,
+        surface: Option<&Surface>,
+        scratch: &mut Scratch,
+        pressurised: bool,
+    ) -> Result<(), usize> {
+        let fault = self.fault;
+        if !self.layout.couples_normal {
+            scratch.normal_rate.fill(0.0);
+        }
+        if let Some(pressure) = fault.pressure.as_ref().filter(|_| pressurised) {
+            pressure.take_off(at.seconds(), self.until, &mut scratch.normal, &mut scratch.normal_rate);
+        }
+        if let Some(surface) = surface {
+            scratch.normal.iter_mut().zip(&surface.pressure).for_each(|(f, p)| *f -= p);
+        }
+        if let Some(opening) = &fault.opening {
+            opening.solve(&mut scratch.crack, &mut scratch.normal)?;
+            opening.rates(&mut scratch.crack, &mut scratch.normal_rate, &mut scratch.shear_rate);
+        }
+        Ok(())
+    }
+}
+
+/// The law at the present temperatures.
+fn law_of<'a>(fault: &'a Fault, heated: Option<&'a Heated>) -> &'a dyn FaultLaw {
+    heated.and_then(Heated::law).unwrap_or(fault.law.as_ref())
 }
 
 impl Problem for Equations<'_> {
@@ -434,8 +546,8 @@ impl Problem for Equations<'_> {
     fn spectral_radius(&self, at: Clock, y: &[f64]) -> Option<f64> {
         let (l, fault) = (self.layout, self.fault);
         let Scratch { rate, crack, .. } = &mut *self.scratch.borrow_mut();
-        fault.law.slip_rates(0, &y[l.m()], &y[l.states()], rate);
-        let pressed = fault.pressed(at, y, crack);
+        self.slip_rates(at, y, rate);
+        let pressed = self.pressed(at, y, crack);
         // Norm of the compliance of friction: one matrix per point, with eigenvalues along and across slip.
         let norm = (l.components as f64).sqrt();
         let rate = Components::new(rate, l.points);
@@ -447,6 +559,10 @@ impl Problem for Equations<'_> {
             v * (norm * k / (strength + fault.damping[p] * v) + states)
         };
         Some(fault.operator.stiffness().iter().enumerate().map(of).fold(0.0, f64::max))
+    }
+
+    fn remembers(&self) -> bool {
+        self.heated.is_some()
     }
 
     /// Not used: faults are integrated with explicit methods.

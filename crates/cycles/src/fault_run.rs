@@ -1,6 +1,9 @@
 //! A run of faults and the sources of its events.
 
 use super::catalogue::{Event, Thresholds};
+use super::equations::{Equations, Fault, Pressed};
+use super::heat::Memory;
+use super::opening::Crack;
 use super::run::Run;
 use super::rupture::{Detector, Rupture};
 use serde::{Deserialize, Serialize};
@@ -11,6 +14,9 @@ use std::ops::Range;
 pub struct Progress {
     /// Event detector of each source.
     pub(crate) detectors: Vec<Detector>,
+    /// Heat received so far, where a fault is heated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) heat: Option<Memory>,
     /// The point at which the integration failed, if its normal traction fell to zero or its opening did not converge.
     #[serde(skip)]
     pub opens: Option<usize>,
@@ -30,7 +36,17 @@ impl FaultRun {
         let apart = if faults.len() > 1 { faults } else { &[] };
         let sources = std::iter::once(&all).chain(apart);
         let detectors: Vec<_> = sources.map(|points| Detector::new(points.clone(), thresholds)).collect();
-        Self::begin(unknowns, detectors.len(), Progress { detectors, opens: None })
+        Self::begin(unknowns, detectors.len(), Progress { detectors, heat: None, opens: None })
+    }
+
+    /// Slip rates \[m/s\] and normal tractions at the time that the run has reached.
+    #[must_use]
+    pub fn present(&self, fault: &Fault) -> (Vec<f64>, Pressed) {
+        let mut equations = Equations::new(fault, Vec::new(), Vec::new());
+        equations.remember(self.progress.heat.clone(), self.at, &self.unknowns);
+        let mut rate = vec![0.0; equations.layout().m().end];
+        equations.slip_rates(self.at, &self.unknowns, &mut rate);
+        (rate, equations.pressed(self.at, &self.unknowns, &mut Crack::default()))
     }
 
     /// Finished events of all faults together.

@@ -62,6 +62,22 @@ pub trait FaultLaw: Send + Sync + std::fmt::Debug {
     /// # Errors
     /// [`Failure::BareLogAtRest`] where the form has no value at this rate.
     fn at_rate(&self, point: usize, rate: f64, states: &[f64]) -> Result<f64, Failure>;
+
+    /// Makes the contacts of a point weaken at a temperature \[K\], with parameters that are those at `ambient` \[K\].
+    /// `false` if its law has no such contacts.
+    fn heat(&mut self, point: usize, weakening: f64, ambient: f64) -> bool;
+
+    /// True if friction depends on temperature.
+    fn warms(&self) -> bool;
+
+    /// A copy, whose temperatures may be changed apart from those of the original.
+    fn copy(&self) -> Box<dyn FaultLaw>;
+
+    /// Sets the temperature of a point \[K\].
+    fn warm(&mut self, point: usize, temperature: f64);
+
+    /// ∂ln V/∂T of a point \[1/K\] at constant m and states.
+    fn log_rate_by_temperature(&self, point: usize) -> f64;
 }
 
 /// One law for each point, all of one kind.
@@ -97,7 +113,7 @@ impl<L: Sliding> Points<L> {
 /// Largest number of unknowns of a point, m included: that of a slider.
 const MOST: usize = 16;
 
-impl<L: Sliding> FaultLaw for Points<L> {
+impl<L: Sliding + Clone + 'static> FaultLaw for Points<L> {
     fn points(&self) -> usize {
         self.laws.len()
     }
@@ -170,6 +186,27 @@ impl<L: Sliding> FaultLaw for Points<L> {
 
     fn at_rate(&self, point: usize, rate: f64, states: &[f64]) -> Result<f64, Failure> {
         self.laws[point].at_rate(rate, states).map_err(|f| f.at(point))
+    }
+
+    fn heat(&mut self, point: usize, weakening: f64, ambient: f64) -> bool {
+        self.laws[point].heat(weakening, ambient)
+    }
+
+    fn warms(&self) -> bool {
+        self.laws.iter().any(Sliding::warms)
+    }
+
+    fn copy(&self) -> Box<dyn FaultLaw> {
+        Box::new(self.clone())
+    }
+
+    // The laws of a sheet do not depend on temperature.
+    fn warm(&mut self, point: usize, temperature: f64) {
+        self.laws[point].warm(temperature);
+    }
+
+    fn log_rate_by_temperature(&self, point: usize) -> f64 {
+        self.laws[point].log_rate_by_temperature()
     }
 }
 

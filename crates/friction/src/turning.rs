@@ -153,6 +153,26 @@ impl FaultLaw for Turning {
     fn at_rate(&self, point: usize, rate: f64, states: &[f64]) -> Result<f64, Failure> {
         self.law.at_rate(point, rate, states)
     }
+
+    fn heat(&mut self, point: usize, weakening: f64, ambient: f64) -> bool {
+        self.law.heat(point, weakening, ambient)
+    }
+
+    fn warms(&self) -> bool {
+        self.law.warms()
+    }
+
+    fn copy(&self) -> Box<dyn FaultLaw> {
+        Box::new(Self::new(self.law.copy()))
+    }
+
+    fn warm(&mut self, point: usize, temperature: f64) {
+        self.law.warm(point, temperature);
+    }
+
+    fn log_rate_by_temperature(&self, point: usize) -> f64 {
+        self.law.log_rate_by_temperature(point)
+    }
 }
 
 #[cfg(test)]

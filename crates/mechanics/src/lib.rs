@@ -39,5 +39,5 @@ pub use samples::{ForceSet, Point, PointValues, Samples, Wanted};
 pub use stage::{LOADING, Motion, Spring, Stage};
 pub use step::Failure;
 pub use stress::StressField;
-pub use system::{Assembled, Mismatch, SystemState};
+pub use system::{Assembled, Mismatch, SpringNow, SpringStart, SystemState};
 pub use turning::{Rotation, Turning};

@@ -92,12 +92,15 @@ impl<F: Formula> OneStep<F> {
     }
 
     /// Continues from the end of the last step.
-    fn proceed(&mut self) {
+    fn proceed(&mut self, system: &System<'_>) {
         if self.taken {
             std::mem::swap(&mut self.span.y0, &mut self.span.y1);
             std::mem::swap(&mut self.span.f0, &mut self.span.f1);
             self.span.t = self.end;
             self.taken = false;
+            if system.problem.remembers() {
+                system.rates(self.span.t, &self.span.y0, &mut self.span.f0);
+            }
         }
     }
 }
@@ -133,7 +136,7 @@ impl<F: Formula> Stepper for OneStep<F> {
     }
 
     fn advance(&mut self, system: &System<'_>, limit: f64) -> Result<(), Failure> {
-        self.proceed();
+        self.proceed(system);
         let mut before = false;
         for _ in 0..MOST_REJECTIONS {
             let room = limit - self.span.t;

@@ -29,6 +29,12 @@ pub trait Problem {
         None
     }
 
+    /// True if the rates depend on the course of the solution up to the start of the step, which a [`Sink`](crate::Sink) records
+    /// as it accepts a step. The rates at the start of a step are then evaluated after that.
+    fn remembers(&self) -> bool {
+        false
+    }
+
     /// Number of event functions.
     fn events(&self) -> usize {
         0

@@ -246,7 +246,8 @@ pub(super) fn check_probes(setup: &Setup) -> Result<(), OutputError> {
 /// Refuses samples that do not fit the announced points and sets.
 pub(super) fn check_samples(setup: &Setup, samples: &Samples) -> Result<(), OutputError> {
     expect_length("points of the step", setup.points.len(), samples.points.len())?;
-    expect_length("forces of the step", setup.forces.len(), samples.forces.len())
+    expect_length("forces of the step", setup.forces.len(), samples.forces.len())?;
+    expect_length("springs of the step", setup.springs.len(), samples.springs.len())
 }
 
 /// Refuses interface fields that do not fit the announced slave nodes, so that no observer indexes out of range.

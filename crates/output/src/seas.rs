@@ -19,6 +19,10 @@ pub struct Head<'a> {
     pub directions: Option<[[f64; 3]; 2]>,
     /// True if the fault opens.
     pub opens: bool,
+    /// True if friction heats the fault.
+    pub heats: bool,
+    /// True if heat changes the pressure of its fluid.
+    pub pressurises: bool,
 }
 
 /// Names of the columns with units and names of the fields, for slip in a fixed direction.
@@ -54,12 +58,21 @@ impl Head<'_> {
             head.push_str(&format!("# directions: 2 is along {two:?}, 3 along {three:?}\n"));
         }
         let (columns, names) = if self.directions.is_some() { IN_A_PLANE } else { ALONG_A_LINE };
-        let last = self.opens.then_some(&"Opening (m)");
+        let further = [
+            (self.opens, "Opening (m)", "opening"),
+            (self.heats, "Temperature (K)", "temperature"),
+            (self.pressurises, "Pore pressure (MPa)", "pore_pressure"),
+        ];
+        let further: Vec<(&str, &str)> = further.iter().filter(|c| c.0).map(|c| (c.1, c.2)).collect();
+        let last = further.iter().map(|(column, _)| column);
         for (k, column) in std::iter::once(&"Time (s)").chain(columns).chain(last).enumerate() {
             head.push_str(&format!("# Column #{} = {column}\n", k + 1));
         }
         head.push_str(names);
-        head.push_str(if self.opens { " opening" } else { "" });
+        for (_, name) in further {
+            head.push(' ');
+            head.push_str(name);
+        }
         head.push('\n');
         head
     }
@@ -82,6 +95,10 @@ pub struct Row {
     pub normal: f64,
     /// Opening \[m\], if the fault opens.
     pub opening: Option<f64>,
+    /// Temperature \[K\], if friction heats the fault.
+    pub temperature: Option<f64>,
+    /// Pore pressure in excess of that at the start \[Pa\], if heat changes it.
+    pub pressure: Option<f64>,
 }
 
 /// Pascals per megapascal.
@@ -104,6 +121,8 @@ impl Row {
         if let Some(opening) = self.opening {
             push(scientific(opening, 9));
         }
+        self.temperature.iter().for_each(|kelvin| push(scientific(*kelvin, 9)));
+        self.pressure.iter().for_each(|pressure| push(scientific(pressure / MPA, 9)));
         row.push('\n');
         row
     }
@@ -123,6 +142,8 @@ mod tests {
             location: "here",
             directions: None,
             opens: true,
+            heats: false,
+            pressurises: false,
         };
         let mut row = Row {
             time: 1.0,
@@ -132,6 +153,8 @@ mod tests {
             log_state: f64::NAN,
             normal: 5e7,
             opening: Some(-0.0),
+            temperature: None,
+            pressure: None,
         };
         assert_eq!(
             row.text(),
@@ -139,6 +162,9 @@ mod tests {
         );
         let columns = |text: &str| text.split_whitespace().count();
         let names = |head: &Head<'_>| columns(head.text().lines().last().unwrap());
+        assert_eq!(names(&head), columns(&row.text()));
+        (head.heats, head.pressurises) = (true, true);
+        (row.temperature, row.pressure) = (Some(500.0), Some(1e6));
         assert_eq!(names(&head), columns(&row.text()));
         head.directions = Some([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]);
         for two in [&mut row.slip, &mut row.rate, &mut row.shear] {

@@ -143,6 +143,14 @@ pub(super) fn energy_header(unit: &str) -> Vec<u8> {
     rows.bytes()
 }
 
+/// Header of a history of a spring, with forces in this unit.
+pub(super) fn spring_header(unit: &str) -> Vec<u8> {
+    let mut rows = Rows::default();
+    let columns = ["load_point [m]", "displacement [m]", &format!("force [{unit}]"), "friction [-]"];
+    rows.push(WHEN.iter().chain(&columns).map(ToString::to_string));
+    rows.bytes()
+}
+
 /// One row of a history: time, stage, step, values.
 pub(super) fn history_row(time: f64, stage: usize, step: usize, values: &[f64]) -> Vec<u8> {
     let mut rows = Rows::default();

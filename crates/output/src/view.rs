@@ -150,6 +150,36 @@ pub struct ForceMark {
     pub set: String,
 }
 
+/// A set that a spring pulls in some stage.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SpringMark {
+    /// The set, `body.set`.
+    pub set: String,
+    /// Axis along which it pulls: x, y or z.
+    pub axis: String,
+}
+
+impl SpringMark {
+    /// Name of the spring, by its set and axis.
+    #[must_use]
+    pub fn name(&self) -> String {
+        format!("{}.{}", self.set, self.axis)
+    }
+}
+
+/// State of a spring.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SpringValues {
+    /// Displacement of the load point since the spring was attached \[m\].
+    pub load_point: f64,
+    /// Displacement of the set \[m\].
+    pub displacement: f64,
+    /// Force of the spring on the set, as a load cell reads it \[N, or N/m of thickness in the plane\].
+    pub force: f64,
+    /// Macroscopic friction: size of the force over the sum of the normal forces on all interfaces \[-\]; 0 without normal forces.
+    pub friction: f64,
+}
+
 /// Values at a point of a body.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PointValues {
@@ -161,7 +191,7 @@ pub struct PointValues {
     pub mises: f64,
 }
 
-/// Values at the points and sets of [`Setup::points`] and [`Setup::forces`] after a step.
+/// Values at the points, sets and springs of [`Setup`] after a step.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Samples {
     /// One entry per point.
@@ -169,6 +199,9 @@ pub struct Samples {
     /// Force on the body through the nodes of each set \[N, or N/m of thickness in the plane\]. It includes constraint forces,
     /// contact forces, and loads on the set.
     pub forces: Vec<[f64; 3]>,
+    /// State of each spring of [`Setup::springs`]; `None` in stages in which it does not pull.
+    #[serde(default)]
+    pub springs: Vec<Option<SpringValues>>,
 }
 
 /// Energy budget of bodies with inertia since the start \[J, or J/m of thickness\]:
@@ -318,6 +351,8 @@ pub struct Setup {
     pub points: Vec<PointMark>,
     /// Sets whose forces are recorded in every step.
     pub forces: Vec<ForceMark>,
+    /// Sets that springs pull, recorded in every step.
+    pub springs: Vec<SpringMark>,
     /// Unit of forces: N, or N/m if they are per metre of thickness.
     pub force_unit: &'static str,
     /// Unit of energies, if the bodies have inertia: J, or J/m if they are per metre of thickness.

@@ -3,8 +3,10 @@
 mod bodies;
 mod conditions;
 pub mod course;
+mod explicit;
 mod fault_physics;
 mod faults;
+mod heat;
 mod inertia;
 mod interfaces;
 mod materials;

@@ -37,6 +37,14 @@ pub enum Dimension {
     Memory,
     /// \[rad\].
     Angle,
+    /// Absolute temperature \[K\].
+    Temperature,
+    /// \[m²/s\].
+    Diffusivity,
+    /// Heat capacity per volume \[J/(m³ K)\].
+    HeatCapacity,
+    /// Pressure per temperature \[Pa/K\].
+    PerKelvin,
 }
 
 impl Dimension {
@@ -57,6 +65,10 @@ impl Dimension {
             Self::Viscosity => "a viscosity",
             Self::Memory => "an amount of memory",
             Self::Angle => "an angle",
+            Self::Temperature => "a temperature",
+            Self::Diffusivity => "a diffusivity",
+            Self::HeatCapacity => "a heat capacity per volume",
+            Self::PerKelvin => "a pressure per temperature",
         }
     }
 
@@ -74,6 +86,12 @@ impl Dimension {
             Self::Mass => "a mass per area such as \"3000 kg/m^2\" or a number in kg/m^2",
             Self::Viscosity => "a viscosity such as \"1e19 Pa s\" or a number in Pa s",
             Self::Angle => "an angle such as \"30 deg\" or a number in rad",
+            Self::Temperature => "an absolute temperature such as \"500 K\" or a number in K",
+            Self::Diffusivity => "a diffusivity such as \"1 mm^2/s\" or a number in m^2/s",
+            Self::HeatCapacity => {
+                "a heat capacity per volume such as \"2.7 MJ/(m^3 K)\" or a number in J/(m^3 K)"
+            }
+            Self::PerKelvin => "a pressure per temperature such as \"0.5 MPa/K\" or a number in Pa/K",
             Self::Memory => "an amount of memory such as \"8 GiB\" or a number of bytes",
         }
     }
@@ -92,6 +110,10 @@ impl Dimension {
             Self::Mass => "kg/m2",
             Self::Viscosity => "Pa s",
             Self::Angle => "rad",
+            Self::Temperature => "K",
+            Self::Diffusivity => "m2/s",
+            Self::HeatCapacity => "J/(m3 K)",
+            Self::PerKelvin => "Pa/K",
             Self::Memory => "bytes",
         }
     }
@@ -109,6 +131,10 @@ impl Dimension {
             Self::Mass => "kg/m^2",
             Self::Viscosity => "Pa s, GPa yr and other pressures times times",
             Self::Angle => "rad, deg",
+            Self::Temperature => "K",
+            Self::Diffusivity => "m^2/s, mm^2/s, cm^2/s",
+            Self::HeatCapacity => "J/(m^3 K), kJ/(m^3 K), MJ/(m^3 K)",
+            Self::PerKelvin => "Pa/K, kPa/K, MPa/K",
             Self::Memory => "B, kB, MB, GB, KiB, MiB, GiB",
         }
     }
@@ -132,7 +158,7 @@ const DAY: f64 = 86400.0;
 const YEAR: f64 = 365.25 * DAY;
 
 fn simple(name: &str) -> Option<Unit> {
-    use Dimension::{Angle, Length, Memory, Pressure, Time};
+    use Dimension::{Angle, Length, Memory, Pressure, Temperature, Time};
     let (dimension, power, factor) = match name {
         "nm" => (Length, -9, 1.0),
         "um" | "µm" | "μm" => (Length, -6, 1.0),
@@ -153,6 +179,7 @@ fn simple(name: &str) -> Option<Unit> {
         "GPa" => (Pressure, 9, 1.0),
         "rad" => (Angle, 0, 1.0),
         "deg" => (Angle, 0, DEGREE),
+        "K" => (Temperature, 0, 1.0),
         "B" => (Memory, 0, 1.0),
         "kB" => (Memory, 3, 1.0),
         "MB" => (Memory, 6, 1.0),
@@ -178,6 +205,9 @@ fn unit(name: &str) -> Option<Unit> {
         }
         _ => {}
     }
+    if let Some((dimension, power)) = thermal(name) {
+        return Some(Unit { dimension, power, factor: 1.0 });
+    }
     if let Some(pressure) = name.strip_suffix("s/m").and_then(|p| simple(p.trim()))
         && pressure.dimension == Dimension::Pressure
     {
@@ -201,6 +231,22 @@ fn unit(name: &str) -> Option<Unit> {
         _ => return None,
     };
     Some(Unit { dimension, power: over.power - under.power, factor: over.factor / under.factor })
+}
+
+/// Dimension and decimal power of the units of heat and diffusion.
+fn thermal(name: &str) -> Option<(Dimension, i32)> {
+    Some(match name {
+        "m^2/s" | "m²/s" | "m2/s" => (Dimension::Diffusivity, 0),
+        "cm^2/s" | "cm²/s" | "cm2/s" => (Dimension::Diffusivity, -4),
+        "mm^2/s" | "mm²/s" | "mm2/s" => (Dimension::Diffusivity, -6),
+        "J/(m^3 K)" | "J/(m³ K)" | "J/(m3 K)" => (Dimension::HeatCapacity, 0),
+        "kJ/(m^3 K)" | "kJ/(m³ K)" | "kJ/(m3 K)" => (Dimension::HeatCapacity, 3),
+        "MJ/(m^3 K)" | "MJ/(m³ K)" | "MJ/(m3 K)" => (Dimension::HeatCapacity, 6),
+        "Pa/K" => (Dimension::PerKelvin, 0),
+        "kPa/K" => (Dimension::PerKelvin, 3),
+        "MPa/K" => (Dimension::PerKelvin, 6),
+        _ => return None,
+    })
 }
 
 /// Splits a text such as `"1e-3 mm/s"` into number and unit.
@@ -360,6 +406,14 @@ quantity! {
     Memory: Memory,
     /// An angle \[rad\].
     Angle: Angle,
+    /// An absolute temperature \[K\].
+    Temperature: Temperature,
+    /// A diffusivity \[m²/s\].
+    Diffusivity: Diffusivity,
+    /// A heat capacity per volume \[J/(m³ K)\].
+    HeatCapacity: HeatCapacity,
+    /// A pressure per temperature \[Pa/K\].
+    PerKelvin: PerKelvin,
 }
 
 /// A contact penalty.

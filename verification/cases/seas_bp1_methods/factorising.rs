@@ -61,7 +61,7 @@ impl Sink for Follow<'_> {
     fn accepted(&mut self, step: &Step<'_>) -> Control {
         let (now, wall) = (step.end.seconds() / YEAR, self.clock.elapsed().as_secs_f64());
         self.trace.push((now, wall));
-        self.equations.slip_rates(step.state, &mut self.rate);
+        self.equations.slip_rates(step.end, step.state, &mut self.rate);
         let largest = self.rate.iter().fold(0.0_f64, |l, v| l.max(v.abs()));
         if !self.within && largest >= ABOVE {
             self.onsets.push(now);

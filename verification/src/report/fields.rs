@@ -46,7 +46,7 @@ const FIELDS: [(&str, &str, &str); 33] = [
 ];
 
 /// Case, scene in the repository, plot of its run, and title, for faults and spring-sliders.
-const PLOTS: [(&str, &str, &str, &str); 19] = [
+const PLOTS: [(&str, &str, &str, &str); 20] = [
     ("event_files", "verification/cases/event_files/scene.toml", "largest_rate", "Largest slip rate"),
     ("event_numbers", "verification/cases/event_numbers/rupture.toml", "main_rate", MAP),
     ("fault_balance", "verification/cases/fault_balance/scene.toml", "main_rate", MAP),
@@ -54,6 +54,7 @@ const PLOTS: [(&str, &str, &str, &str); 19] = [
     ("fault_medium", "scenes/bp1-half-space.toml", "main_rate", MAP),
     ("fault_opening", "verification/cases/fault_opening/thrust.toml", "main_rate", MAP),
     ("fault_turning", "verification/cases/fault_turning/scene.toml", "largest_rate", "Largest slip rate"),
+    ("frictional_heat", "scenes/thermal-pressurisation.toml", "largest_rate", "Largest slip rate"),
     ("sandwich_state", "scenes/sandwich-state.toml", "largest_rate", "Largest slip rate"),
     ("seas_bp1", "scenes/bp1.toml", "main_rate", MAP),
     ("seas_bp1_25m", "scenes/bp1.toml", "main_rate", MAP),

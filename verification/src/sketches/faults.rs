@@ -26,6 +26,7 @@ pub(super) fn of(name: &str) -> Option<Sketch> {
         "fault_bodies" => bodies(),
         "event_numbers" => unlike(),
         "seas_bp6" => injection(),
+        "frictional_heat" => zone(),
         _ => return None,
     };
     Some(sketch)
@@ -45,6 +46,18 @@ fn strike_slip(length: &str, weak: &str, depth: &str) -> Sketch {
         .note((54.0, 13.0), "V_p = 1e−9 m/s")
         .dimension((34.0, 22.0), (34.0, 64.0), depth);
     if weak.is_empty() { sketch } else { sketch.dimension((45.0, 47.0), (45.0, 64.0), weak) }
+}
+
+/// The zone that friction heats.
+fn zone() -> Sketch {
+    Sketch::new(64.0)
+        .block((8.0, 8.0), (92.0, 28.0), "")
+        .block((8.0, 36.0), (92.0, 56.0), "")
+        .guide(&[(8.0, 32.0), (92.0, 32.0)])
+        .text((50.0, 32.0), "q = τ V heats rock and fluid")
+        .text((50.0, 46.0), "heat and fluid escape across the fault")
+        .text((50.0, 18.0), "T − T_0 and p at the centre change friction")
+        .dimension((86.0, 28.0), (86.0, 36.0), "h")
 }
 
 /// The plane of the fault of BP5.

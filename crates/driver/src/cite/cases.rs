@@ -1,7 +1,7 @@
 //! Literature of the cases of the verification suite. A test of the suite compares it with their pages.
 
 /// Cases and the keys of their literature.
-const CASES: [(&str, &[&str]); 100] = [
+const CASES: [(&str, &[&str]); 103] = [
     ("absence", &["weidendorfer2004"]),
     ("antiplane", &["nehari1952", "strang1973", "timoshenko1970"]),
     ("block_dragged", &["codeaster"]),
@@ -22,7 +22,9 @@ const CASES: [(&str, &[&str]); 100] = [
     ("contact_sliding", &["nafems2001", "puso2004b"]),
     ("cook_membrane", &["cook1974", "williams1952"]),
     ("coulomb_strip", &["curnier1984"]),
+    ("dynamic_rupture", &["day2005", "kaneko2008"]),
     ("elastic_plastic_cylinder", &["hill1950", "desouzaneto2008"]),
+    ("elastic_waves", &["lysmer1969"]),
     ("event_files", &["aki2002", "iaspei2013", "moritz2000", "snyder1987"]),
     ("event_numbers", &["iaspei2013", "aki2002", "starr1928", "rice1993"]),
     ("fault_balance", &["rice1993"]),
@@ -46,6 +48,7 @@ const CASES: [(&str, &[&str]); 100] = [
     ("friction_velocity_steps", &["dieterich1979", "ruina1983", "perrin1995", "marone1998"]),
     ("frictional_bar", &["goodman1956"]),
     ("frictional_crack", &["phan2003", "sneddon1946"]),
+    ("frictional_heat", &["rice2006", "noda2010", "carslaw1959"]),
     ("hertz_ball", &["johnson1985", "mindlin1949", "munisamy1994"]),
     ("hertz_line", &["hertz1882", "johnson1985"]),
     ("hertz_sphere", &["hertz1882", "johnson1985"]),
@@ -88,19 +91,6 @@ const CASES: [(&str, &[&str]); 100] = [
     ("slider_cycles", &["luo2017", "rice1986"]),
     ("slider_inertia", &["hairer1996", "rice1986"]),
     ("slider_inertia_all", &["hairer1996", "rice1986"]),
-    (
-        "slider_laws",
-        &[
-            "dieterich1979",
-            "ruina1983",
-            "okubo1989",
-            "chester1994",
-            "perrin1995",
-            "rice2006",
-            "dunham2011",
-            "nagata2012",
-        ],
-    ),
     ("slider_normal", &["linker1992"]),
     ("slider_orbit", &["gu1984"]),
     ("slider_outputs", &["ruina1983", "gu1984", "nagata2012"]),
@@ -110,6 +100,7 @@ const CASES: [(&str, &[&str]); 100] = [
     ("stage_paths", &["timoshenko1970"]),
     ("static_explicit_jumps", &["timoshenko1970"]),
     ("steel_strip", &["belendez2003"]),
+    ("stick_slip", &["dieterich1978"]),
     ("two_rings", &["michell1899", "timoshenko1970"]),
     ("uniaxial_hardening", &["simo1998"]),
     ("volumetric_path", &["prager1961", "belytschko2000"]),

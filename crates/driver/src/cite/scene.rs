@@ -13,7 +13,7 @@ use crate::scene::slider::SliderScene;
 
 /// Keys of this file, for the test of the table.
 #[cfg(test)]
-pub(super) const KEYS: [&str; 24] = [
+pub(super) const KEYS: [&str; 30] = [
     "puso2004",
     "puso2004b",
     "wohlmuth2000",
@@ -29,6 +29,8 @@ pub(super) const KEYS: [&str; 24] = [
     "tsitouras2011",
     "sommeijer1998",
     "rice1993",
+    "rice2006",
+    "noda2010",
     "hughes1980",
     "hugheswinget1980",
     "simo1998",
@@ -38,6 +40,10 @@ pub(super) const KEYS: [&str; 24] = [
     "muskhelishvili1953",
     "okada1992",
     "savage1983",
+    "day2005",
+    "kaneko2008",
+    "lysmer1969",
+    "prakash1993",
 ];
 
 /// Citations of a scene of bodies or faults.
@@ -145,6 +151,11 @@ fn add_fault(citations: &mut Citations, of: &str, fault: &Fault) -> Result<(), D
     if fault.damping.is_some() {
         citations.add("rice1993", format!("{of}: radiation damping"));
     }
+    if fault.heat.is_some() {
+        for key in ["rice2006", "noda2010"] {
+            citations.add(key, format!("{of}: heat of friction"));
+        }
+    }
     Ok(())
 }
 
@@ -186,6 +197,7 @@ fn add_steps(citations: &mut Citations, scene: &Scene) {
                 citations.add(key, "static-explicit steps by the R-minimum rule");
             }
         }
+        Stepper::Explicit => add_waves(citations, scene),
         Stepper::Implicit => {}
     }
     if scene.inertia().is_some() {
@@ -196,6 +208,23 @@ fn add_steps(citations: &mut Citations, scene: &Scene) {
     }
     if !scene.interfaces.is_empty() && rule(scene) == Rule::Bdf2 {
         citations.add("hairer1993", "rule \"bdf2\" with variable steps");
+    }
+}
+
+/// Sources of steps with inertia.
+fn add_waves(citations: &mut Citations, scene: &Scene) {
+    let conditions = || scene.stages.iter().flat_map(|s| &s.conditions).map(Spanned::get_ref);
+    if conditions().any(|c| c.absorbing.as_ref().is_some_and(|a| *a.get_ref())) {
+        citations.add("lysmer1969", "absorbing sides");
+    }
+    if !scene.faults.is_empty() {
+        citations.add("day2005", "friction at split nodes");
+    }
+    if scene.faults.values().any(Fault::slides) {
+        citations.add("kaneko2008", "friction that depends on the slip rate at split nodes");
+    }
+    if scene.faults.values().any(|f| f.normal_delay.is_some()) {
+        citations.add("prakash1993", "friction that follows the normal traction with a delay");
     }
 }
 

@@ -11,6 +11,7 @@ pub(super) fn plan(plan: &Planned) {
         Planned::Bodies(plan) => out(format_args!("{}", plan.summary())),
         Planned::Sliders(plan) => out(format_args!("{}", plan.summary())),
         Planned::Faults(plan) => out(format_args!("{}", plan.summary())),
+        Planned::Dynamic(plan) => out(format_args!("{}", plan.summary())),
     }
 }
 

@@ -18,6 +18,7 @@ pub fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), OutputError>
     if !plan.in_space {
         return Ok(());
     }
+    let (rate, pressed) = run.present(&plan.problem.fault);
     let (mut taken, mut states, mut events) = (Vec::new(), Vec::new(), Vec::new());
     each(&out.join(snapshots::LIST), &mut |row| taken.push(row[1]))?;
     for (part, fault) in plan.faults.iter().enumerate() {
@@ -45,7 +46,7 @@ pub fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), OutputError>
             events.push(entry(&file, onset));
         }
         let (file, time) = (format!("{}_end.vtu", fault.name), run.at.seconds());
-        put(&folder.join(&file), &grid, time, &state(plan, fault, run.at, &run.unknowns))?;
+        put(&folder.join(&file), &grid, time, &state(plan, fault, &run.unknowns, (&rate, &pressed)))?;
         states.push(entry(&file, time));
     }
     atomic::write(&out.join("events.pvd"), &pvd(&events))?;

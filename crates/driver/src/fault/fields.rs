@@ -1,8 +1,7 @@
 //! Fields on faults in 3D as VTU files: states during a run and at its end, and slip and traction drop of each event.
 
 use super::plan::{FaultView, Plan};
-use asperity_cycles::{Components, Crack, Layout};
-use asperity_ode::Clock;
+use asperity_cycles::{Components, Layout, Pressed};
 use asperity_output::vtu::{Array, Grid, Values};
 use asperity_output::{OutputError, atomic};
 use std::path::Path;
@@ -50,13 +49,12 @@ pub(super) fn along(
     [Field::Scalar(name.into(), scalars), Field::Vector(format!("{name}_vector"), vectors)]
 }
 
-/// Slip \[m\], log10 of the slip rate \[m/s\], friction and normal traction \[Pa\], and the state variables of the law.
-pub(super) fn state(plan: &Plan, fault: &FaultView, at: Clock, y: &[f64]) -> Vec<Field> {
+/// Slip \[m\], log10 of the slip rate \[m/s\], friction and normal traction \[Pa\], temperature and
+/// pore pressure where friction heats the fault, and the state variables of the law. `now` holds slip rates and normal tractions.
+pub(super) fn state(plan: &Plan, fault: &FaultView, y: &[f64], now: (&[f64], &Pressed)) -> Vec<Field> {
     let layout = Layout::of(&plan.problem.fault);
     let (law, n) = (&plan.problem.fault.law, plan.points.len());
-    let mut rate = vec![0.0; layout.m().end];
-    law.slip_rates(0, &y[layout.m()], &y[layout.states()], &mut rate);
-    let pressed = plan.problem.fault.pressed(at, y, &mut Crack::default());
+    let (rate, pressed) = now;
     let normal = |p: usize| pressed.normal[p];
     let shear: Vec<f64> = layout.m().map(|i| normal(i % n) * law.scale(i % n) * y[i]).collect();
     let (rate, shear) = (Components::new(rate, n), Components::new(shear, n));
@@ -69,6 +67,13 @@ pub(super) fn state(plan: &Plan, fault: &FaultView, at: Clock, y: &[f64]) -> Vec
     fields.push(Field::Scalar("normal_traction".into(), fault.points.clone().map(normal).collect()));
     if fault.normal.opens {
         fields.push(Field::Scalar("opening".into(), pressed.opening[fault.points.clone()].to_vec()));
+    }
+    if let Some(heat) = &fault.heat {
+        let of = |values: &[f64]| values[fault.points.clone()].to_vec();
+        fields.push(Field::Scalar("temperature".into(), of(&pressed.surface.temperature)));
+        if heat.layer.pressurisation.is_some() {
+            fields.push(Field::Scalar("pore_pressure".into(), of(&pressed.surface.pressure)));
+        }
     }
     let states = layout.states_of(y);
     for k in 0..law.states() {

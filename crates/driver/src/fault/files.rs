@@ -10,7 +10,7 @@ use super::snapshots::{self, Snapshots};
 use super::stations;
 use crate::checkpoint::{self, ResumeError};
 use crate::warning::Warning;
-use asperity_cycles::{Faults, Moment};
+use asperity_cycles::{Faults, Moment, Pressed};
 use asperity_ode::{Clock, Control, ObserveError, Observer};
 use asperity_output::decimals::{fixed, scientific};
 use asperity_output::{Growing, OutputError, atomic};
@@ -44,8 +44,8 @@ impl Rows {
     }
 }
 
-/// Writes `stations/` and `largest_rate.csv`. In 2D it also writes `slip_profiles.csv`, `rate_profiles.csv` (log10 of m/s) and, if points may open,
-/// `opening_profiles.csv`; in 3D, snapshots.
+/// Writes `stations/` and `largest_rate.csv`. In 2D it also writes `slip_profiles.csv`, `rate_profiles.csv` (log10 of m/s) and, where points may open
+/// or are heated, profiles of that; in 3D, snapshots.
 #[derive(Debug)]
 pub struct Files<'a> {
     plan: &'a Plan,
@@ -132,9 +132,8 @@ impl<'a> Files<'a> {
             let head = format!("time [s]{along}\n");
             heads.push((out.join("slip_profiles.csv"), head.clone()));
             heads.push((out.join("rate_profiles.csv"), head.clone()));
-            if plan.problem.fault.opening.is_some() {
-                heads.push((out.join("opening_profiles.csv"), head));
-            }
+            let further = further(plan).map(|(name, _)| (out.join(name), head.clone()));
+            heads.extend(further);
         }
         let folder = out.join("stations");
         heads.extend(stations::heads(plan).into_iter().map(|(name, head)| (folder.join(name), head)));
@@ -175,14 +174,30 @@ impl<'a> Files<'a> {
             let row = profile(time, now.rate.component(0), |rate| fixed(rate.abs().log10(), 3));
             self.rows[2].push(&row, cadence, time)?;
         }
-        if self.plan.problem.fault.opening.is_some()
-            && self.rows[3].gauge.profile(reading, interval, f64::INFINITY)
-        {
-            let row = profile(time, &now.pressed.opening, |opening| scientific(opening, 6));
-            self.rows[3].push(&row, cadence, time)?;
+        for (rows, (_, values)) in self.rows[3..].iter_mut().zip(further(self.plan)) {
+            if rows.gauge.profile(reading, interval, f64::INFINITY) {
+                let row = profile(time, values(now.pressed), |value| scientific(value, 6));
+                rows.push(&row, cadence, time)?;
+            }
         }
         Ok(())
     }
+}
+
+/// Values of all points of a profile.
+type Values = fn(&Pressed) -> &[f64];
+
+/// Further profiles in 2D, beyond those of slip and slip rate: names of their files and values.
+fn further(plan: &Plan) -> impl Iterator<Item = (&'static str, Values)> {
+    let fault = &plan.problem.fault;
+    let all: [(bool, &'static str, Values); 3] = [
+        (fault.opening.is_some(), "opening_profiles.csv", |now| &now.opening),
+        (fault.heat.is_some(), "temperature_profiles.csv", |now| &now.surface.temperature),
+        (fault.heat.as_ref().is_some_and(|heat| heat.pressurises()), "pressure_profiles.csv", |now| {
+            &now.surface.pressure
+        }),
+    ];
+    all.into_iter().filter(|f| f.0).map(|(_, name, values)| (name, values))
 }
 
 /// Writes the rows of a file that follows a slip rate, if due: one for this step, and one for its start if the rate had an extremum there.

@@ -1,28 +1,29 @@
 //! Faults over many earthquake cycles: planning from a scene, and the output of a run. The computation is in [`asperity_cycles`].
 
 mod bodies;
-mod cadence;
+pub(crate) mod cadence;
 mod checkpoint;
 mod collections;
 mod displacements;
 mod fields;
-mod figures;
+pub(crate) mod figures;
 mod files;
 mod floors;
 mod frame;
+mod heats;
 mod identity;
 mod keeper;
 pub mod located;
 mod normal;
 mod openings;
 mod plan;
-mod planner;
+pub(crate) mod planner;
 mod position;
 mod report;
 mod resolution;
 mod snapshots;
 mod stations;
-mod words;
+pub(crate) mod words;
 
 pub use bodies::BodiesView;
 pub use cadence::Cadence;
@@ -32,11 +33,12 @@ pub use displacements::write as write_bodies;
 pub use figures::draw;
 pub use files::Files;
 pub use floors::FloorUse;
+pub use heats::HeatedFault;
 pub use identity::physics;
 pub use keeper::Keeper;
 pub use normal::NormalChoice;
 pub use openings::OpenedFault;
-pub use plan::{FaultView, Plan, PointView, Station};
+pub use plan::{FaultView, HeatView, Plan, PointView, Station};
 pub use planner::{Ground, modulus, places, plan, plan_with, spacings};
 pub use position::Position;
 pub use report::Report;

@@ -6,6 +6,7 @@ use super::frame::Frame;
 use super::normal::NormalChoice;
 use super::resolution::Resolution;
 use crate::warning::Warning;
+use asperity_cycles::heat::Layer;
 use asperity_cycles::{Components, Layout, Problem};
 use std::fmt::Write as _;
 
@@ -39,6 +40,17 @@ pub enum Station {
     At(Vec<f64>),
 }
 
+/// Heat of friction on a fault, as needed by the output.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeatView {
+    /// The zone that is heated.
+    pub layer: Layer,
+    /// Temperature of melting \[K\], if given.
+    pub melting: Option<f64>,
+    /// Temperature at which contacts weaken \[K\], if they do.
+    pub weakening: Option<f64>,
+}
+
 /// A fault, as needed by the output.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FaultView {
@@ -48,6 +60,8 @@ pub struct FaultView {
     pub points: std::ops::Range<usize>,
     /// Behaviour of normal tractions on it.
     pub normal: NormalChoice,
+    /// Heat of friction on it.
+    pub heat: Option<HeatView>,
     /// Stations: requested position and nearest point.
     pub stations: Vec<(Station, usize)>,
     /// Faces whose nodes all slide freely, by their points within the fault.
@@ -102,6 +116,12 @@ impl Plan {
         std::array::from_fn(|c| first[c] + second * across[c])
     }
 
+    /// Heat of friction on the fault of a point.
+    #[must_use]
+    pub fn heat_at(&self, point: usize) -> Option<&HeatView> {
+        self.faults.iter().find(|f| f.points.contains(&point))?.heat.as_ref()
+    }
+
     /// Summary to be read before the run.
     #[must_use]
     pub fn summary(&self) -> String {
@@ -141,6 +161,9 @@ impl Plan {
             );
         }
         for fault in &self.faults {
+            if let Some(heat) = &fault.heat {
+                line("physics", heat.words(&fault.name));
+            }
             if let Some(damping) = range(&self.problem.fault.damping[fault.points.clone()]) {
                 line("physics", format!("fault `{}`: radiation damping {damping} Pa s/m", fault.name));
             }

@@ -79,7 +79,7 @@ impl Snapshots {
         }
         let number = self.taken.count;
         for (fault, grid) in plan.faults.iter().zip(&self.grids) {
-            let state = fields::state(plan, fault, now.at, now.unknowns);
+            let state = fields::state(plan, fault, now.unknowns, (now.rate.all(), now.pressed));
             let bytes = fields::put(&self.folder.join(name(&fault.name, number)), grid, time, &state)?;
             self.taken.gauge.spend(bytes, FILES * plan.cadence.largest_file, time);
         }

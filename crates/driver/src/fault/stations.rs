@@ -49,6 +49,8 @@ fn head(plan: &Plan, fault: &str, asked: &Station, point: usize) -> String {
         location: &location,
         directions: view.across.map(|across| [view.slides, across]),
         opens: opens(plan, point),
+        heats: plan.heat_at(point).is_some(),
+        pressurises: pressurises(plan, point),
     };
     head.text()
 }
@@ -58,6 +60,11 @@ fn opens(plan: &Plan, point: usize) -> bool {
     plan.faults.iter().any(|f| f.normal.opens && f.points.contains(&point))
 }
 
+/// True if heat changes the pressure of fluid at a point.
+fn pressurises(plan: &Plan, point: usize) -> bool {
+    plan.heat_at(point).is_some_and(|heat| heat.layer.pressurisation.is_some())
+}
+
 /// Row of a station.
 pub(super) fn row(plan: &Plan, now: &Moment<'_>, point: usize) -> String {
     let states = plan.problem.fault.law.states();
@@ -65,6 +72,8 @@ pub(super) fn row(plan: &Plan, now: &Moment<'_>, point: usize) -> String {
     let theta = plan.points[point].theta.filter(|_| states == 1).map_or(f64::NAN, |(time, per)| {
         (time.ln() + now.states().at(point)[0] * per) / std::f64::consts::LN_10
     });
+    let surface = &now.pressed.surface;
+    let at = |values: &[f64]| values.get(point).copied();
     let rate = |v: f64| if now.rate.components() > 1 { v.abs().max(NO_RATE) } else { v.abs() };
     let row = Row {
         time: now.at.seconds(),
@@ -75,6 +84,8 @@ pub(super) fn row(plan: &Plan, now: &Moment<'_>, point: usize) -> String {
         log_state: theta,
         normal,
         opening: now.opening(point).filter(|_| opens(plan, point)),
+        temperature: at(&surface.temperature).filter(|_| plan.heat_at(point).is_some()),
+        pressure: at(&surface.pressure).filter(|_| pressurises(plan, point)),
     };
     row.text()
 }

@@ -4,7 +4,7 @@ use super::{Path, PlannedInterface};
 use crate::diagnostic::Diagnostic;
 use crate::scene::model::{Method, Path as PathChoice, Scene};
 use asperity_contact::Sliding;
-use asperity_mechanics::{Model, solver};
+use asperity_mechanics::{Model, Stage, solver};
 
 /// Chooses the condensed or the full system for a scene.
 ///
@@ -13,7 +13,7 @@ use asperity_mechanics::{Model, solver};
 pub fn choose<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
-    interfaces: &[PlannedInterface],
+    (interfaces, stages): (&[PlannedInterface], &[Stage]),
 ) -> Result<Path, Diagnostic> {
     let refuse = |message: String| {
         let help = "use `path = \"auto\"` or `path = \"full\"`";
@@ -30,14 +30,16 @@ pub fn choose<const D: usize>(
             refuse(format!("the condensed path needs linear bodies, but {why}"))
         }
         (PathChoice::Auto, Some(_)) => Ok(Path::Full),
-        (PathChoice::Auto, None) if interfaces.is_empty() || too_wide(model, interfaces) => Ok(Path::Full),
+        (PathChoice::Auto, None) if interfaces.is_empty() || too_wide(model, interfaces, stages) => {
+            Ok(Path::Full)
+        }
         (_, None) => Ok(Path::Condensed),
     }
 }
 
 /// True if the full system is better under finite sliding, where a master may be much larger than the contact.
-fn too_wide<const D: usize>(model: &Model<D>, interfaces: &[PlannedInterface]) -> bool {
-    let kept: usize = solver::retained(model, interfaces).iter().map(Vec::len).sum();
+fn too_wide<const D: usize>(model: &Model<D>, interfaces: &[PlannedInterface], stages: &[Stage]) -> bool {
+    let kept: usize = solver::retained(model, interfaces, stages).iter().map(Vec::len).sum();
     finite(interfaces) && kept > WIDEST
 }
 

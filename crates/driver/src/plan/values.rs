@@ -1,5 +1,6 @@
 //! A plan as data, and its summary for printing.
 
+use super::events::EventPlan;
 use super::start_gap::StartGap;
 use crate::warning::Warning;
 use asperity_mechanics::{Mass, Problem};
@@ -17,6 +18,8 @@ pub struct Plan<const D: usize> {
     pub field_outputs: usize,
     /// Profile outputs per stage.
     pub profile_outputs: usize,
+    /// Events of interfaces, if the scene asks for them.
+    pub events: Option<EventPlan>,
     /// Summary for printing.
     pub summary: Summary,
 }

@@ -120,7 +120,7 @@ fn slipped(text: &str, components: &[f64]) -> Located {
     use asperity_ode::Clock;
     let plan = match plan_scene(&asperity_driver::scene::read(text).unwrap()).unwrap() {
         ScenePlan::Faults(plan) => *plan,
-        ScenePlan::Bodies(_) => panic!("the scene has faults"),
+        ScenePlan::Bodies(_) | ScenePlan::Dynamic(_) => panic!("the scene has faults"),
     };
     let n = plan.points.len();
     let event = Event {
@@ -134,6 +134,7 @@ fn slipped(text: &str, components: &[f64]) -> Located {
             slip: Components::new(components.iter().flat_map(|&slip| vec![slip; n]).collect(), n),
             drop: Components::new(vec![0.0; n * components.len()], n),
             opening: Vec::new(),
+            hottest: None,
         },
     };
     let located = locate(&plan, plan.frame.as_ref().unwrap(), &event, &(0..plan.points.len())).unwrap();

@@ -169,6 +169,12 @@ fn a_fault_that_opens_and_closes_is_gone_on_with_as_well() {
 }
 
 #[test]
+fn a_fault_that_heats_up_is_gone_on_with_as_well() {
+    let breaks = broken_off_at_every_restart(include_str!("../../../../scenes/thermal-pressurisation.toml"));
+    assert!(breaks > 3, "{breaks}");
+}
+
+#[test]
 fn a_signal_ends_a_run_with_a_checkpoint_and_its_own_exit_code() {
     let folder = folder(&SCENE);
     let folder = folder.path();

@@ -35,7 +35,20 @@ pub struct Flash {
     p: Weakening,
     length: f64,
     log_v_ref: f64,
+    /// ln V_w at the present temperature.
     log_v_w: f64,
+    /// Dependence of V_w on temperature, where there is one.
+    contacts: Option<Contacts>,
+}
+
+/// Contacts that weaken at T_w: `V_w = V_w(T_f) [(T_w - T)/(T_w - T_f)]²` (Rice 2006), whose factor `(π α/D)
+/// (ρ c/τ_c)²` is in V_w(T_f)).
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Contacts {
+    /// Weakening temperature T_w \[K\].
+    weakening: f64,
+    /// Temperature T_f of the surface at which V_w is that of the parameters \[K\].
+    ambient: f64,
 }
 
 impl Defined for Flash {
@@ -91,6 +104,7 @@ impl Flash {
             length: crate::positive("l", length)?,
             log_v_ref: crate::positive("v_ref", p.v_ref)?.ln(),
             log_v_w: crate::positive("v_w", p.v_w)?.ln(),
+            contacts: None,
         })
     }
 
@@ -173,7 +187,59 @@ impl Evolution for Flash {
         ((state - self.steady(log_rate)).max(0.0) + p.a.max(p.b) + steep) / self.length
     }
 
+    fn heat(&mut self, weakening: f64, ambient: f64) -> bool {
+        self.contacts = Some(Contacts { weakening, ambient });
+        true
+    }
+
+    fn warms(&self) -> bool {
+        self.contacts.is_some()
+    }
+
+    fn warm(&mut self, temperature: f64) {
+        if let Some(Contacts { weakening, ambient }) = self.contacts {
+            // A surface at T_w has no strong contacts: V_w = 0.
+            let share = ((weakening - temperature) / (weakening - ambient)).max(0.0);
+            self.log_v_w = self.p.v_w.ln() + 2.0 * share.ln();
+        }
+    }
+
     fn length(&self) -> Option<f64> {
         Some(self.length)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::{Evolution, Flash, Weakening};
+
+    fn flash(v_w: f64) -> Flash {
+        Flash::new(Weakening { mu0: 0.6, a: 0.01, b: 0.015, v_ref: 1e-6, mu_w: 0.2, v_w }, 1e-2).unwrap()
+    }
+
+    #[test]
+    fn contacts_of_a_warmer_surface_weaken_at_a_rate_that_falls_with_the_square_of_what_they_lack() {
+        let mut law = flash(0.1);
+        assert!(law.heat(1200.0, 400.0));
+        for (temperature, share) in [(400.0, 1.0), (800.0, 0.25), (1000.0, 0.0625)] {
+            law.warm(temperature);
+            let wanted = flash(0.1 * share);
+            for log_rate in [-20.0, -3.0, -1.0, 1.0] {
+                let (found, wanted) = (law.steady_coefficient(log_rate), wanted.steady_coefficient(log_rate));
+                assert!((found - wanted).abs() < 1e-13, "{temperature}: {found} {wanted}");
+            }
+        }
+        for temperature in [1200.0, 2000.0] {
+            law.warm(temperature);
+            assert!((law.steady_coefficient(-18.0) - 0.2).abs() < 1e-13);
+        }
+    }
+
+    #[test]
+    fn without_contacts_temperature_changes_nothing() {
+        let mut law = flash(0.1);
+        law.warm(1000.0);
+        assert!(law == flash(0.1) && !law.warms());
     }
 }

@@ -92,6 +92,20 @@ pub trait Evolution: Send + Sync + Clone + std::fmt::Debug {
     /// Characteristic slip L \[m\], where there is one.
     fn length(&self) -> Option<f64>;
 
+    /// Makes the evolution depend on temperature, with contacts that weaken at `weakening` \[K\] and parameters that are
+    /// those at `ambient` \[K\]. `false` if it has no such contacts.
+    fn heat(&mut self, _weakening: f64, _ambient: f64) -> bool {
+        false
+    }
+
+    /// True if the evolution depends on temperature.
+    fn warms(&self) -> bool {
+        false
+    }
+
+    /// Sets the temperature \[K\].
+    fn warm(&mut self, _temperature: f64) {}
+
     /// b and Vref/L \[1/s\] of laws with `φ = b s` and `ds/dt = Vref/L exp(-s) - V/L`.
     fn ageing(&self) -> Option<(f64, f64)> {
         None

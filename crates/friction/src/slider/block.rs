@@ -141,6 +141,19 @@ pub trait Sliding: Rated {
     /// Shortest characteristic slip L \[m\], if there is one.
     fn length(&self) -> Option<f64>;
 
+    /// Makes the contacts of the evolution weaken at a temperature \[K\], with parameters that are those at `ambient`
+    /// \[K\]. `false` if it has none.
+    fn heat(&mut self, weakening: f64, ambient: f64) -> bool;
+
+    /// True if friction depends on temperature.
+    fn warms(&self) -> bool;
+
+    /// Sets the temperature \[K\].
+    fn warm(&mut self, temperature: f64);
+
+    /// ∂ln V/∂T \[1/K\] at constant m and states.
+    fn log_rate_by_temperature(&self) -> f64;
+
     /// Parameters for evaluating many such sliders at once, if the form is an exponential and the law the ageing law without
     /// memories.
     fn line(&self) -> Option<Line>;
@@ -430,6 +443,25 @@ impl<F: Form, E: Evolution> Sliding for RateLaw<F, E> {
 
     fn length(&self) -> Option<f64> {
         self.parts().iter().filter_map(|p| p.evolution.length()).reduce(f64::min)
+    }
+
+    fn heat(&mut self, weakening: f64, ambient: f64) -> bool {
+        let parts = self.parts_mut();
+        // All parts are heated: none is skipped.
+        parts.iter_mut().filter_map(|part| part.evolution.heat(weakening, ambient).then_some(())).count() > 0
+    }
+
+    fn warms(&self) -> bool {
+        self.form().warms() || self.parts().iter().any(|part| part.evolution.warms())
+    }
+
+    fn warm(&mut self, temperature: f64) {
+        self.form_mut().warm(temperature);
+        self.parts_mut().iter_mut().for_each(|part| part.evolution.warm(temperature));
+    }
+
+    fn log_rate_by_temperature(&self) -> f64 {
+        self.form().log_rate_by_temperature()
     }
 
     fn line(&self) -> Option<Line> {

@@ -12,6 +12,7 @@ pub struct Arrhenius<F> {
     form: F,
     /// Q/R \[K\].
     activation: f64,
+    reference: f64,
     temperature: f64,
     /// (Q/R)(1/T - 1/T_ref).
     shift: f64,
@@ -30,9 +31,9 @@ impl<F: Form> Arrhenius<F> {
         let reference = crate::positive("t_ref", reference)?;
         let temperature = crate::positive("temperature", temperature)?;
         let activation = activation / GAS_CONSTANT;
-        // 1/T - 1/T_ref without subtracting nearly equal numbers.
-        let shift = activation * (reference - temperature) / (reference * temperature);
-        Ok(Self { form, activation, temperature, shift })
+        let mut law = Self { form, activation, reference, temperature, shift: 0.0 };
+        law.warm(temperature);
+        Ok(law)
     }
 }
 
@@ -47,6 +48,20 @@ impl<F: Form> Form for Arrhenius<F> {
 
     fn d_temperature(&self, log_rate: f64, phi: f64) -> f64 {
         -self.activation / (self.temperature * self.temperature) * self.at(log_rate, phi).d_log_rate
+    }
+
+    fn warms(&self) -> bool {
+        self.activation > 0.0
+    }
+
+    fn warm(&mut self, temperature: f64) {
+        self.temperature = temperature;
+        // 1/T - 1/T_ref without subtracting nearly equal numbers.
+        self.shift = self.activation * (self.reference - temperature) / (self.reference * temperature);
+    }
+
+    fn log_rate_by_temperature(&self) -> f64 {
+        self.activation / (self.temperature * self.temperature)
     }
 
     fn log_rate(&self, mu: f64, phi: f64) -> f64 {
@@ -76,5 +91,34 @@ impl<F: Form> Form for Arrhenius<F> {
 
     fn rest_slope(&self, phi: f64) -> Option<f64> {
         Some(self.form.rest_slope(phi)? * self.shift.exp())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::{Arrhenius, Form};
+    use crate::strength::Parameters;
+    use crate::strength::regularised::Regularised;
+
+    fn law(temperature: f64) -> Arrhenius<Regularised> {
+        let form = Regularised(Parameters::new(0.6, 0.01, 1e-6).unwrap());
+        Arrhenius::new(form, 1e5, 400.0, temperature).unwrap()
+    }
+
+    #[test]
+    fn a_law_that_is_warmed_is_the_law_at_that_temperature() {
+        let mut warmed = law(300.0);
+        warmed.warm(700.0);
+        assert_eq!(warmed, law(700.0));
+    }
+
+    #[test]
+    fn the_change_with_temperature_is_that_of_the_slip_rate_at_constant_friction() {
+        let at = |temperature: f64| law(temperature).slip_rate(55.0, 0.02).log;
+        let (temperature, step) = (600.0, 1e-3);
+        let slope = (at(temperature + step) - at(temperature - step)) / (2.0 * step);
+        let found = law(temperature).log_rate_by_temperature();
+        assert!((slope / found - 1.0).abs() < 1e-8, "{slope} {found}");
     }
 }

@@ -64,6 +64,19 @@ pub trait Form: Send + Sync + Clone + std::fmt::Debug {
         0.0
     }
 
+    /// True if the strength depends on temperature.
+    fn warms(&self) -> bool {
+        false
+    }
+
+    /// Sets the temperature \[K\].
+    fn warm(&mut self, _temperature: f64) {}
+
+    /// ∂ln V/∂T \[1/K\] at fixed friction coefficient and state.
+    fn log_rate_by_temperature(&self) -> f64 {
+        0.0
+    }
+
     /// ln V at which the coefficient is `mu` > 0.
     fn log_rate(&self, mu: f64, phi: f64) -> f64;
 

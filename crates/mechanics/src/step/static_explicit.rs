@@ -197,7 +197,8 @@ impl StaticExplicit {
             add_product(t.pattern(), values, &du, &mut load);
             Ok::<_, Failure>(())
         })?;
-        let mut rhs: Vec<f64> = system.equations().free.iter().map(|&d| -load[d]).collect();
+        let mut rhs = system.equations().gather(&load);
+        rhs.iter_mut().for_each(|r| *r = -*r);
         let solved = factored.and_then(|anew| {
             counts.tangents += usize::from(anew);
             counts.factorisations += usize::from(anew);
@@ -207,9 +208,7 @@ impl StaticExplicit {
         counts.solves += 1;
         before.count(system, counts);
         solved.map_err(|e| Failure::unsolved(e, terms))?;
-        for (&dof, &value) in system.equations().free.iter().zip(&rhs) {
-            du[dof] = value;
-        }
+        system.equations().spread(&rhs, &mut du);
         Ok(du)
     }
 }

@@ -32,7 +32,7 @@ pub trait Stepper {
     /// Linear system, for its counts.
     fn system(&self) -> &System;
 
-    /// Residual of the accepted state \[N\].
+    /// Residual of the state evaluated last; after an accepted step, at its end \[N\].
     fn residual(&self) -> &[f64];
 
     /// Values kept between steps for these terms.

@@ -6,6 +6,7 @@ mod full;
 mod moving;
 mod numbering;
 mod saved;
+mod springs;
 mod words;
 
 use self::bodies::Bodies;
@@ -13,6 +14,8 @@ use self::condensed::CondensedBodies;
 use self::full::Full;
 use self::numbering::Numbering;
 pub use self::saved::{Mismatch, SystemState};
+use self::springs::Springs;
+pub use self::springs::{SpringNow, SpringStart};
 use super::samples::Beside;
 use super::solver::{self, Method, Prepared};
 use super::step::implicit::Implicit;
@@ -38,6 +41,12 @@ pub struct Assembled<'a, const D: usize> {
     constraints: Constraints,
     /// Fixed degrees of freedom of the present stage, in mesh numbering.
     fixed: Option<Vec<usize>>,
+    /// Degrees of freedom of the system that move as one in the present stage.
+    groups: Vec<Vec<usize>>,
+    /// Springs of the present stage.
+    springs: Option<Springs>,
+    /// Degrees of freedom of the mesh that each of them pulls.
+    pulled: Vec<Vec<usize>>,
     stepper: Option<Box<dyn Stepper>>,
     state: State,
     /// Displacements of the mesh at the start of the present stage \[m\].
@@ -57,7 +66,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
         let model = &problem.model;
         let (bodies, numbering): (Box<dyn Bodies<D> + 'a>, _) = match problem.path {
             Path::Condensed => {
-                let retained = solver::retained(model, &problem.interfaces);
+                let retained = solver::retained(model, &problem.interfaces, &problem.stages);
                 let numbering = Numbering::condensed(model, &retained);
                 (Box::new(CondensedBodies::new(problem, retained)), numbering)
             }
@@ -77,6 +86,9 @@ impl<'a, const D: usize> Assembled<'a, D> {
             numbering,
             constraints: Constraints::default(),
             fixed: None,
+            groups: Vec::new(),
+            springs: None,
+            pulled: Vec::new(),
             stepper: None,
             state: State { u: vec![0.0; unknowns], time: 0.0 },
             begin: Vec::new(),
@@ -91,21 +103,27 @@ impl<'a, const D: usize> Assembled<'a, D> {
     pub fn begin_stage(&mut self, stage: &Stage) -> Result<(), String> {
         let start = self.fixed.is_none();
         let u0 = if start { vec![0.0; self.problem.model.dofs()] } else { self.displacement() };
-        self.begin_from(stage, u0)
+        let springs = springs::starts(stage, &self.pulled_by(), self.reactions(), &u0);
+        self.begin_from(stage, u0, &springs)
     }
 
-    /// Applies the conditions of a stage from the displacements `u0` of the mesh.
-    fn begin_from(&mut self, stage: &Stage, u0: Vec<f64>) -> Result<(), String> {
+    /// Applies the conditions of a stage from the displacements `u0` of the mesh and these states of its springs.
+    fn begin_from(&mut self, stage: &Stage, u0: Vec<f64>, springs: &[SpringStart]) -> Result<(), String> {
         let problem = self.problem;
         let constraints = stage.constraints(&u0);
         self.begin = u0;
-        let renewed = self.fixed.as_ref() != Some(&stage.fixed);
-        self.bodies.load(&constraints, renewed)?;
+        let held_anew = self.fixed.as_ref() != Some(&stage.fixed);
+        self.bodies.load(&constraints, held_anew)?;
         self.constraints = self.numbering.constraints(&constraints);
         if let Some(moving) = &mut self.moving {
             moving.begin_stage(&constraints);
         }
-        if renewed {
+        self.springs = Springs::new(stage, &self.numbering, springs);
+        self.pulled = stage.springs.iter().map(|s| s.dofs.clone()).collect();
+        let number = |dofs: &Vec<usize>| dofs.iter().map(|&d| self.numbering.number[d]).collect();
+        let groups: Vec<Vec<usize>> = self.pulled.iter().map(number).collect();
+        if held_anew || groups != self.groups {
+            self.groups = groups;
             self.stepper = Some(self.new_stepper()?);
             self.fixed = Some(stage.fixed.clone());
         }
@@ -121,6 +139,31 @@ impl<'a, const D: usize> Assembled<'a, D> {
             }
         }
         Ok(())
+    }
+
+    /// Degrees of freedom of the mesh that each spring pulls, with its present state.
+    fn pulled_by(&self) -> Vec<(Vec<usize>, SpringNow)> {
+        self.pulled.iter().cloned().zip(self.springs()).collect()
+    }
+
+    /// Force that holds a degree of freedom of the mesh, or with which a spring pulls it, after the last accepted step; zero
+    /// before the first. It is known on those that the system retains.
+    fn reactions(&self) -> impl Fn(usize) -> f64 {
+        let mut r = self.stepper.as_ref().map_or_else(Vec::new, |s| s.residual().to_vec());
+        for (dofs, now) in self.pulled_by() {
+            if let Some(r) = r.get_mut(self.numbering.number[dofs[0]]) {
+                *r += now.force;
+            }
+        }
+        let number = &self.numbering.number;
+        move |dof| r.get(number[dof]).copied().unwrap_or(0.0)
+    }
+
+    /// States of the springs of the present stage, in its order.
+    #[must_use]
+    pub fn springs(&self) -> Vec<SpringNow> {
+        let now = |springs: &Springs| springs.now(&self.state.u, self.state.time).collect();
+        self.springs.as_ref().map_or_else(Vec::new, now)
     }
 
     fn new_stepper(&self) -> Result<Box<dyn Stepper>, String> {
@@ -142,6 +185,10 @@ impl<'a, const D: usize> Assembled<'a, D> {
     /// Empty system for the solution method of the problem.
     fn linear_system(&self) -> Result<System, String> {
         let equations = self.constraints.equations(self.state.u.len());
+        let equations = match self.groups.is_empty() {
+            true => equations,
+            false => equations.with_groups(self.groups.iter().map(Vec::as_slice)),
+        };
         let (model, solver) = (&self.problem.model, &self.problem.solver);
         Ok(match solver.method {
             Method::Iterative { tolerance, most_iterations } => {
@@ -170,7 +217,8 @@ impl<'a, const D: usize> Assembled<'a, D> {
         let Some(stepper) = &mut self.stepper else {
             return Err(Failure::Refused("no stage has begun".into()));
         };
-        let mut terms = terms(self.bodies.as_mut(), &mut self.interfaces, self.moving.as_mut());
+        let mut terms =
+            terms(self.bodies.as_mut(), &mut self.springs, &mut self.interfaces, self.moving.as_mut());
         let accepted =
             stepper.step(&mut terms, &self.constraints, &mut self.state, (dt, smallest), counts)?;
         self.settle(accepted.dt);
@@ -289,10 +337,12 @@ impl<'a, const D: usize> Assembled<'a, D> {
 /// All terms of a system.
 fn terms<'t, const D: usize>(
     bodies: &'t mut (dyn Bodies<D> + '_),
+    springs: &'t mut Option<Springs>,
     interfaces: &'t mut [Interface<D>],
     moving: Option<&'t mut Moving<D>>,
 ) -> Vec<&'t mut dyn Limited> {
     let mut terms = bodies.terms();
+    terms.extend(springs.iter_mut().map(|s| s as &mut dyn Limited));
     terms.extend(interfaces.iter_mut().map(|i| i as &mut dyn Limited));
     terms.extend(moving.map(Moving::term));
     terms
@@ -309,6 +359,9 @@ fn interface<const D: usize>(
     let spec = declared::spec(&problem.model, &problem.stepping, planned, number, largest_rate, unknowns);
     let mut interface = Interface::new(spec).map_err(|e| e.to_string())?;
     interface.set_watch(planned.watch);
+    if let Some(damping) = planned.damping {
+        interface.set_damping(damping);
+    }
     if let Some(pressed) = &planned.pressed {
         interface.press(&pressed.starts(), pressed.reach);
     }

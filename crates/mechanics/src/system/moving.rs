@@ -20,7 +20,7 @@ impl<const D: usize> Assembled<'_, D> {
             return Ok(());
         }
         let (u, time) = (&self.state.u, self.state.time);
-        let mut others = terms(self.bodies.as_mut(), &mut self.interfaces, None);
+        let mut others = terms(self.bodies.as_mut(), &mut self.springs, &mut self.interfaces, None);
         let mut balance = Balance::default();
         let evaluated = balance.evaluate(&mut others, u, Instant { time, dt: INSTANT * dt }, counts);
         others.iter_mut().for_each(|term| term.reject());

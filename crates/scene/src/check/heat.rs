@@ -1,0 +1,136 @@
+//! Checks of frictional heat on faults.
+
+use super::Checker;
+use crate::model::{Fault, Heat, Spanned};
+use std::ops::Range;
+
+/// Largest thickness of a zone that slips \[m\]; thicker ones are slips of units.
+const THICKEST: f64 = 100.0;
+/// Usual thicknesses of zones that slip \[m\].
+const THICKNESS: [f64; 2] = [1e-6, 1.0];
+/// Usual thermal diffusivities \[m²/s\]: rocks have about 1e-6.
+const THERMAL: [f64; 2] = [1e-8, 1e-4];
+/// Usual heat capacities per volume \[J/(m³ K)\]: rocks have about 2.7e6.
+const CAPACITY: [f64; 2] = [1e5, 1e8];
+/// Usual hydraulic diffusivities \[m²/s\].
+const HYDRAULIC: [f64; 2] = [1e-10, 1e-1];
+/// Usual pressures per temperature \[Pa/K\]: water in rock has 0.1 to 1 MPa/K.
+const PER_KELVIN: [f64; 2] = [1e3, 1e7];
+/// Usual temperatures of rock at the start \[K\].
+const AMBIENT: [f64; 2] = [200.0, 1500.0];
+
+/// A value of a key: its name, value, position and unit.
+type Value = (&'static str, f64, Range<usize>, &'static str);
+
+impl Checker<'_> {
+    pub(super) fn heat_of(&mut self, fault: &Fault) {
+        let Some(heat) = &fault.heat else { return };
+        let thickness = heat.thickness.get_ref().0;
+        if thickness > THICKEST {
+            self.error(
+                heat.thickness.span(),
+                format!("a zone of {thickness:?} m across the fault is no zone that slips"),
+                "`thickness` is that of the layer that friction heats, such as `thickness = \"10 mm\"`",
+            );
+        }
+        self.usual(("thickness", thickness, heat.thickness.span(), "m"), THICKNESS, "10 mm");
+        let (value, place) = (heat.diffusivity.get_ref().0, heat.diffusivity.span());
+        self.usual(("diffusivity", value, place, "m²/s"), THERMAL, "1 mm^2/s");
+        let (value, place) = (heat.capacity.get_ref().0, heat.capacity.span());
+        self.usual(("capacity", value, place, "J/(m³ K)"), CAPACITY, "2.7 MJ/(m^3 K)");
+        if let Some(fluid) = heat.pressurisation.as_ref().map(Spanned::get_ref) {
+            let (value, place) = (fluid.coefficient.get_ref().0, fluid.coefficient.span());
+            self.usual(("coefficient", value, place, "Pa/K"), PER_KELVIN, "0.5 MPa/K");
+            let (value, place) = (fluid.diffusivity.get_ref().0, fluid.diffusivity.span());
+            self.usual(("diffusivity", value, place, "m²/s"), HYDRAULIC, "1 mm^2/s");
+        }
+        self.temperatures(fault, heat);
+        self.beside_heat(fault, heat);
+    }
+
+    /// Refuses a value that is not positive, and warns of one outside the usual range.
+    fn usual(&mut self, (key, value, place, unit): Value, [low, high]: [f64; 2], example: &str) {
+        if !(value > 0.0 && value.is_finite()) {
+            self.error(
+                place,
+                format!("`{key}` of the heat must be positive"),
+                format!("such as `{key} = \"{example}\"`"),
+            );
+        } else if !(low..=high).contains(&value) {
+            self.warn(
+                place,
+                format!("`{key}` of the heat is {value:?} {unit}, outside the usual {low:?} to {high:?}"),
+                format!("a usual value is `{key} = \"{example}\"`"),
+            );
+        }
+    }
+
+    /// Checks that the initial temperature is given once, and that the others exceed it.
+    fn temperatures(&mut self, fault: &Fault, heat: &Heat) {
+        let law = fault.law.get_ref().temperature.as_ref();
+        match (&heat.temperature, law) {
+            (None, None) => self.error(
+                heat.thickness.span(),
+                "the heat of the fault has no `temperature` at the start",
+                "such as `temperature = \"500 K\"`",
+            ),
+            (Some(own), Some(law)) => self.conflict(
+                &own.span(),
+                "the initial temperature is given twice",
+                "remove it here: it is that of the law",
+                (&law.span(), "`temperature` of the law"),
+            ),
+            _ => {}
+        }
+        if let Some(own) = &heat.temperature {
+            self.usual(("temperature", own.get_ref().0, own.span(), "K"), AMBIENT, "500 K");
+        }
+        let Some(start) = heat.temperature.as_ref().map(|t| t.get_ref().0).or(law.map(|t| *t.get_ref()))
+        else {
+            return;
+        };
+        let above = [("melting", &heat.melting), ("weakening_temperature", &heat.weakening_temperature)];
+        for (key, given) in above {
+            let Some(given) =
+                given.as_ref().filter(|t| !(t.get_ref().0 > start && t.get_ref().0.is_finite()))
+            else {
+                continue;
+            };
+            self.error(
+                given.span(),
+                format!("`{key}` must exceed the temperature at the start, {start:?} K"),
+                format!("such as `{key} = \"1200 K\"`"),
+            );
+        }
+    }
+
+    /// Checks the other keys of the fault that heat needs or does not go with.
+    fn beside_heat(&mut self, fault: &Fault, heat: &Heat) {
+        let evolution = fault.law.get_ref().evolution.as_ref();
+        let flash = evolution.is_some_and(|e| e.get_ref() == "flash");
+        if let Some(weakening) = heat.weakening_temperature.as_ref().filter(|_| !flash) {
+            self.conflict(
+                &weakening.span(),
+                "`weakening_temperature` is that of contacts that weaken by flash heating, and the law has none",
+                "use `evolution = \"flash\"`, or remove it",
+                (&fault.law.span(), "the law"),
+            );
+        }
+        if let Some(injection) = &fault.injection {
+            self.conflict(
+                &heat.thickness.span(),
+                "heat of friction is not computed where fluid is injected",
+                "remove `heat` or `injection`",
+                (&injection.at.span(), "the injection"),
+            );
+        }
+        if let Some(opening) = fault.opening.as_ref().filter(|o| *o.get_ref()) {
+            self.conflict(
+                &heat.thickness.span(),
+                "heat of friction is not computed on faults that open",
+                "remove `heat` or `opening`",
+                (&opening.span(), "`opening`"),
+            );
+        }
+    }
+}
