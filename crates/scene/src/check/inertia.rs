@@ -91,7 +91,7 @@ impl Checker<'_> {
                 continue;
             }
             let message = format!(
-                "interface `{name}` enforces contact by multipliers, whose impulses at each closing inertia would make oscillate"
+                "interface `{name}` enforces contact by multipliers, which oscillate between bodies with inertia"
             );
             self.conflict(
                 &kind.span(),
