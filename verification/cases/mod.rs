@@ -56,6 +56,7 @@ mod cook_membrane;
 mod coulomb_strip;
 mod dislocation;
 pub mod drawn;
+mod dynamic_rupture;
 mod elastic_plastic_cylinder;
 mod elastic_waves;
 mod event_files;
@@ -87,6 +88,8 @@ pub mod hertz;
 mod hertz_ball;
 mod hertz_line;
 mod hertz_sphere;
+mod impact_bars;
+mod implicit_dynamics;
 mod interface_instability;
 mod interface_laws;
 mod interface_prestress;
@@ -140,6 +143,7 @@ mod slider_work_precision;
 mod stage_paths;
 mod static_explicit_jumps;
 mod steel_strip;
+mod stick_slip;
 pub mod texts;
 mod two_rings;
 mod uniaxial_hardening;
@@ -194,6 +198,8 @@ pub const ALL: &[Case] = &[
     hertz_line::CASE,
     hertz_sphere::CASE,
     hertz_ball::CASE,
+    impact_bars::CASE,
+    implicit_dynamics::CASE,
     interface_instability::CASE,
     interface_laws::CASE,
     interface_prestress::CASE,
@@ -237,6 +243,7 @@ pub const ALL: &[Case] = &[
     two_rings::CASE,
     // Nonlinear bodies.
     cantilever_rotation::CASE,
+    dynamic_rupture::CASE,
     elastic_plastic_cylinder::CASE,
     elastic_waves::CASE,
     first_slip::CASE,
@@ -245,6 +252,7 @@ pub const ALL: &[Case] = &[
     mesh_files::CASE,
     stage_paths::CASE,
     steel_strip::CASE,
+    stick_slip::CASE,
     jaumann_shear::CASE,
     large_rotation::CASE,
     maxwell_relaxation::CASE,

@@ -56,7 +56,7 @@ pub fn plan(text: &str) -> Result<Plan, CaseError> {
     let scene = scene::read(text).map_err(|e| e.to_string())?;
     match plan_scene(&scene).map_err(|e| e.to_string())? {
         ScenePlan::Faults(plan) => Ok(*plan),
-        ScenePlan::Bodies(_) => Err("the scene has no fault".into()),
+        ScenePlan::Bodies(_) | ScenePlan::Dynamic(_) => Err("the scene has no fault".into()),
     }
 }
 

@@ -5,7 +5,7 @@ use crate::{CaseError, Cost};
 use asperity_cycles::{Balance, FaultRun, Faults, Moment};
 use asperity_driver::fault::{self, Files, Plan, Report};
 use asperity_driver::report::Outcome as Ended;
-use asperity_driver::{plan, run, scene};
+use asperity_driver::{catalogue, plan, run, scene};
 use asperity_ode::{Control, ObserveError, Observer, Outcome};
 use asperity_output::FieldSchedule;
 use asperity_output::located::{cmtsolution, quakeml};
@@ -187,9 +187,9 @@ fn followed(plan: &Plan, out: &Path) -> Result<(FaultRun, Report), CaseError> {
 
 /// Writes the catalogue as a table, and as QuakeML and CMTSOLUTION if the scene has a position on Earth.
 fn catalogues(out: &Path, plan: &Plan, report: &Report) -> Result<(), CaseError> {
-    std::fs::write(out.join("events.csv"), Report::csv(&report.events))?;
+    std::fs::write(out.join("events.csv"), catalogue::csv(&report.events))?;
     for fault in &report.faults {
-        std::fs::write(out.join(format!("events_{}.csv", fault.fault)), Report::csv(&fault.events))?;
+        std::fs::write(out.join(format!("events_{}.csv", fault.fault)), catalogue::csv(&fault.events))?;
     }
     std::fs::write(out.join("events.json"), serde_json::to_string(&report.events)?)?;
     if plan.frame.is_some() {

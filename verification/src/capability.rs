@@ -114,6 +114,8 @@ capabilities! {
     Integrators => "integrators in time",
     /// The implicit stepper.
     Implicit => "implicit stepper",
+    /// Inertia of bodies in implicit steps.
+    Inertia => "inertia of bodies",
     /// The static-explicit stepper.
     StaticExplicit => "static-explicit stepper",
     /// Condensation onto the interface.

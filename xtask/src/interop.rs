@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 const MESHES: &str = "crates/fem/tests/meshes";
 
 /// Makes the environment, installs the pinned requirements and runs the checks on the sandwich's output, on catalogues of
-/// events and on the sample meshes.
+/// events, on seismograms and on the sample meshes.
 pub fn run(root: &Path) -> Result<(), Failure> {
     let python = ["python3", "python"].into_iter().find(|program| stage::exists(program));
     let Some(python) = python else {
@@ -38,6 +38,11 @@ pub fn run(root: &Path) -> Result<(), Failure> {
         let check = ["interop/check_catalogue.py", out.as_str()];
         Stage::new("interop of catalogues", &inside).args(check).run(root)?;
     }
+    let binary = ["run", "--release", "--quiet", "-p", "asperity-driver", "--", "run"];
+    let scene = ["interop/rupture.toml", "--out", "out/rupture"];
+    Stage::new("waves", "cargo").args(binary).args(scene).run(root)?;
+    let check = ["interop/check_seismograms.py", "out/rupture/seismograms"];
+    Stage::new("interop of seismograms", &inside).args(check).run(root)?;
     let summary = "target/meshes.json";
     let example = ["run", "--release", "--quiet", "-p", "asperity-driver", "--example", "mesh_summary", "--"];
     let files = meshes(root)?;

@@ -84,6 +84,8 @@ pub struct Interface<const D: usize> {
     pub(crate) rate_bounds: RateBounds,
     pub(crate) label_rate: Option<f64>,
     rule: TimeRule,
+    /// Radiation damping η \[Pa s/m\]; 0 without.
+    damping: f64,
     /// Length of the last step committed under the present law \[s\], for two-step differences.
     pub(crate) previous_dt: Option<f64>,
     pub(crate) trial_dt: f64,
@@ -129,6 +131,7 @@ impl<const D: usize> Interface<D> {
             rate_bounds: spec.rate_bounds,
             label_rate: spec.label_rate,
             rule: TimeRule::default(),
+            damping: 0.0,
             previous_dt: None,
             trial_dt: 0.0,
             measure,
@@ -194,11 +197,21 @@ impl<const D: usize> Interface<D> {
         self.rule = rule;
     }
 
+    /// Sets the radiation damping η, with which a law that depends on slip rate carries `f_n μ + η V` in implicit steps \[Pa s/m\].
+    /// Must be called before the first step.
+    pub fn set_damping(&mut self, damping: f64) {
+        self.damping = damping;
+        if let Some(shear) = &mut self.shear {
+            shear.damping = damping;
+        }
+    }
+
     /// Changes or removes the law. Tangential traction, slip and states restart, and slip is counted from this moment. Must be
     /// called between steps.
     pub fn set_law(&mut self, law: Option<Arc<dyn Law>>) {
         let n = self.slave.len();
         self.shear = law.map(|law| Shear::new(law, self.tangential_penalty, self.touch, n));
+        self.set_damping(self.damping);
         self.motion = Kept::new(Motion::new(n));
         self.previous_dt = None;
         self.tie();

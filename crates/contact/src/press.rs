@@ -100,6 +100,7 @@ impl Shear {
                 trial: &[norm(&self.committed.traction[p])],
                 stiffness: self.stiffness,
                 dt: INSTANT,
+                damping: self.damping,
                 lag: None,
                 near: None,
             };

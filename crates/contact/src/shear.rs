@@ -158,6 +158,8 @@ pub(crate) struct Shear {
     pub law: Arc<dyn Law>,
     /// Tangential penalty E_t \[Pa/m\].
     pub stiffness: f64,
+    /// Radiation damping η \[Pa s/m\]; 0 without.
+    pub damping: f64,
     /// Normal traction and trial traction up to which both count as rounding of positions \[Pa\]. A point that barely touches
     /// has no strength and would slip in whichever direction rounding points. It sticks instead, so its tangent holds it.
     pub touch: [f64; 2],
@@ -175,6 +177,7 @@ impl Shear {
         let committed = History::new(points, law.as_ref());
         Self {
             stiffness,
+            damping: 0.0,
             touch,
             trial: committed.clone(),
             committed,
@@ -208,8 +211,15 @@ impl Shear {
             let lag = past.map(|_| Lag { weight: &s.weight, offset: &s.offset });
             // The solver's own initial guess is better than the rate of the previous step as soon as the rate changes by more
             // than a few percent.
-            let trials =
-                Trials { normal: &s.normal, trial: &s.trial, stiffness: self.stiffness, dt, lag, near: None };
+            let trials = Trials {
+                normal: &s.normal,
+                trial: &s.trial,
+                stiffness: self.stiffness,
+                dt,
+                damping: self.damping,
+                lag,
+                near: None,
+            };
             let out = Responses {
                 traction: &mut s.traction,
                 slip: &mut s.slip,

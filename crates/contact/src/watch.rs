@@ -39,8 +39,11 @@ pub enum Course {
     Steady,
     /// Loss with slip, through the states of the law.
     State {
-        /// Largest slip per step \[m\].
+        /// Largest slip per step, where nothing is radiated \[m\].
         most: f64,
+        /// Radiation damping over the direct effect, η/a \[Pa s/m\]; 0 without damping. It adds to the direct effect, `a +
+        /// η V/f_n`, and the slip per step may be longer in proportion.
+        damped: f64,
     },
     /// Loss with slip, up to a given length.
     Branch {
@@ -51,6 +54,15 @@ pub enum Course {
     },
     /// Loss at once, when a point leaves rest.
     Drop,
+}
+
+/// Slip that a step may take where the states of the law lose strength: `most` (1 + η V/(a f_n)), with the smaller of the rates
+/// before and after the step \[m\].
+pub(crate) fn spanned((most, damped): (f64, f64), rates: [f64; 2], normal: f64) -> f64 {
+    if damped == 0.0 || normal <= 0.0 {
+        return most;
+    }
+    most * (1.0 + damped * rates[0].abs().min(rates[1].abs()) / normal)
 }
 
 /// Limits on the steps of an interface.

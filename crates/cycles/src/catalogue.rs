@@ -85,7 +85,7 @@ impl<D> Catalogue<D> {
     }
 
     /// The unfinished event of a source, mutable.
-    pub(crate) fn open(&mut self, source: usize) -> Option<&mut Event<D>> {
+    pub fn open(&mut self, source: usize) -> Option<&mut Event<D>> {
         self.sources[source].last_mut().filter(|event| event.end.is_none())
     }
 

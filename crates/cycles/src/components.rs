@@ -52,7 +52,7 @@ impl<V: AsRef<[f64]>> Components<V> {
     pub fn size(&self, point: usize) -> f64 {
         let mut components = self.at(point);
         match (components.next(), components.next()) {
-            (Some(x), Some(y)) => (x * x + y * y).sqrt(),
+            (Some(x), Some(y)) => components.fold(x * x + y * y, |sum, z| sum + z * z).sqrt(),
             (Some(x), None) => x.abs(),
             _ => 0.0,
         }
@@ -100,6 +100,11 @@ mod tests {
     #[test]
     fn the_size_of_one_component_is_its_absolute_value() {
         assert_eq!(Components::new(&VALUES, 6).size(2), 2.0);
+    }
+
+    #[test]
+    fn the_size_in_space_is_that_of_all_components() {
+        assert_eq!(Components::new(&[2.0, 3.0, 6.0], 1).size(0), 7.0);
     }
 
     #[test]

@@ -41,5 +41,5 @@ pub use opening::{Crack, Opening};
 pub use pressure::{Injection, Pressure};
 pub use problem::Problem;
 pub use run::{NextStep, Run};
-pub use rupture::Rupture;
+pub use rupture::{Crossing, Detector, Rupture, Values};
 pub use warmed::{Warmed, Warmest};

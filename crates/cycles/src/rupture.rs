@@ -28,7 +28,7 @@ pub struct Rupture {
 
 /// Values of all points at an instant.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Values<'a> {
+pub struct Values<'a> {
     /// Slip \[m\].
     pub slip: Components<&'a [f64]>,
     /// Shear traction \[Pa\].
@@ -50,7 +50,7 @@ struct Onset {
 
 /// Finds the events of one source by the slip rate of its fastest point.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Detector {
+pub struct Detector {
     thresholds: Thresholds,
     /// Points of the source.
     points: Range<usize>,
@@ -59,17 +59,20 @@ pub(crate) struct Detector {
 
 impl Detector {
     /// A detector for these points.
-    pub(crate) fn new(points: Range<usize>, thresholds: Thresholds) -> Self {
+    #[must_use]
+    pub fn new(points: Range<usize>, thresholds: Thresholds) -> Self {
         Self { thresholds, points, under_way: None }
     }
 
     /// Points of the source.
-    pub(crate) fn points(&self) -> Range<usize> {
+    #[must_use]
+    pub fn points(&self) -> Range<usize> {
         self.points.clone()
     }
 
     /// Next threshold passed within a step, given the largest slip rate at its end \[m/s\].
-    pub(crate) fn crossing(&self, largest: f64) -> Option<Crossing> {
+    #[must_use]
+    pub fn crossing(&self, largest: f64) -> Option<Crossing> {
         let Thresholds { on, off } = self.thresholds;
         match self.under_way.as_ref().map(|o| o.since) {
             None => (largest >= on).then_some(Crossing::Begins),
@@ -80,7 +83,8 @@ impl Detector {
     }
 
     /// The slip rate that is passed \[m/s\], and true if it is passed upwards.
-    pub(crate) fn passed(&self, crossing: Crossing) -> (f64, bool) {
+    #[must_use]
+    pub fn passed(&self, crossing: Crossing) -> (f64, bool) {
         let Thresholds { on, off } = self.thresholds;
         match crossing {
             Crossing::Begins | Crossing::Rises => (on, true),
@@ -90,7 +94,7 @@ impl Detector {
     }
 
     /// Records a crossing at `at` in the events of this source; `fastest` is the fastest point at that time.
-    pub(crate) fn pass(
+    pub fn pass(
         &mut self,
         (catalogue, source): (&mut Catalogue<Rupture>, usize),
         crossing: Crossing,
@@ -132,7 +136,7 @@ fn end(event: &mut Event<Rupture>, at: Clock, onset: &Onset, values: Values<'_>)
 
 /// Crossing of one of the thresholds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Crossing {
+pub enum Crossing {
     /// `on` upwards, with no event under way.
     Begins,
     /// `on` downwards.

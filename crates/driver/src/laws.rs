@@ -8,14 +8,18 @@ use crate::scene::law::{
 use crate::scene::model::{LawSpec, Spanned};
 use asperity_friction::Failure;
 use asperity_friction::component::Component;
+use asperity_friction::coulomb::Coulomb;
 use asperity_friction::evolution::{
     self, Common, Defined, Definition, Variable, Visit, stateless::Stateless,
 };
 use asperity_friction::fault::{FaultLaw, Points};
-use asperity_friction::kind::{self, Kind, Order};
+use asperity_friction::inertial::{self, Inertial, InertialFault};
+use asperity_friction::kind::{self, Kind, Order, Tabled};
 use asperity_friction::law::Law;
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::Sliding;
+use asperity_friction::slip_weakening::SlipWeakening;
+use asperity_friction::static_kinetic::StaticKinetic;
 use asperity_friction::strength::{
     self, Parameters, arrhenius::Arrhenius, bare::Bare, cut_off::CutOff, regularised::Regularised,
 };
@@ -117,6 +121,41 @@ pub fn build_fault(first: &LawChoice, rest: &[LawChoice]) -> Result<Option<Box<d
     with_form(&List { first, rest: rest.iter().filter_map(sliding).collect() }, EachPoint).map(Some)
 }
 
+/// Builds the laws of the points of a fault between bodies with mass, which are of one kind; `None` if it is a bond.
+///
+/// # Errors
+/// [`Failure::Parameter`] with the admissible range.
+pub fn build_inertial(
+    first: &LawChoice,
+    rest: &[LawChoice],
+) -> Result<Option<Box<dyn InertialFault>>, Failure> {
+    if let LawChoice::Yielding { kind, .. } = first {
+        let all: Vec<&LawChoice> = std::iter::once(first).chain(rest).collect();
+        return match *kind {
+            "coulomb" => yielding::<Coulomb>(&all).map(Some),
+            "static-kinetic" => yielding::<StaticKinetic>(&all).map(Some),
+            "slip-weakening" => yielding::<SlipWeakening>(&all).map(Some),
+            _ => Ok(None),
+        };
+    }
+    let sliding = |choice| match parts(choice) {
+        Parts::Elastic(_) => None,
+        Parts::Sliding(strength, history) => Some((strength, history)),
+    };
+    let Some(first) = sliding(first) else { return Ok(None) };
+    with_form(&List { first, rest: rest.iter().filter_map(sliding).collect() }, WithMass).map(Some)
+}
+
+/// Laws of points that are all of one kind with an elastic domain.
+fn yielding<L: Tabled + Inertial>(all: &[&LawChoice]) -> Result<Box<dyn InertialFault>, Failure> {
+    let own = |choice: &&LawChoice| match choice {
+        LawChoice::Yielding { own, f_limit, .. } => Some(<L as Tabled>::build(own, *f_limit)),
+        LawChoice::Rate { .. } | LawChoice::RateAndState { .. } => None,
+    };
+    let laws: Vec<L> = all.iter().filter_map(own).collect::<Result<_, _>>()?;
+    Ok(Box::new(inertial::EachPoint(laws)))
+}
+
 /// Components of a law.
 enum Parts<'a> {
     /// A law with an elastic domain.
@@ -169,7 +208,7 @@ fn parts(choice: &LawChoice) -> Parts<'_> {
 trait Finish {
     type Made;
 
-    fn finish<L: Sliding + Clone + 'static>(self, first: L, rest: Vec<L>) -> Self::Made;
+    fn finish<L: Sliding + Inertial + Clone + 'static>(self, first: L, rest: Vec<L>) -> Self::Made;
 }
 
 /// Builds the single law of an interface or slider.
@@ -178,7 +217,7 @@ struct Single;
 impl Finish for Single {
     type Made = Arc<dyn Sliding>;
 
-    fn finish<L: Sliding + Clone + 'static>(self, first: L, _: Vec<L>) -> Self::Made {
+    fn finish<L: Sliding + Inertial + Clone + 'static>(self, first: L, _: Vec<L>) -> Self::Made {
         Arc::new(first)
     }
 }
@@ -189,8 +228,19 @@ struct EachPoint;
 impl Finish for EachPoint {
     type Made = Box<dyn FaultLaw>;
 
-    fn finish<L: Sliding + Clone + 'static>(self, first: L, rest: Vec<L>) -> Self::Made {
+    fn finish<L: Sliding + Inertial + Clone + 'static>(self, first: L, rest: Vec<L>) -> Self::Made {
         Box::new(Points::new(std::iter::once(first).chain(rest).collect()))
+    }
+}
+
+/// Builds the laws of the points of a fault between bodies with mass.
+struct WithMass;
+
+impl Finish for WithMass {
+    type Made = Box<dyn InertialFault>;
+
+    fn finish<L: Sliding + Inertial + 'static>(self, first: L, rest: Vec<L>) -> Self::Made {
+        Box::new(inertial::EachPoint(std::iter::once(first).chain(rest).collect()))
     }
 }
 

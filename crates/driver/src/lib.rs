@@ -4,15 +4,18 @@
 mod amounts;
 pub mod balance;
 pub mod benchmark;
+pub mod catalogue;
 pub mod checkpoint;
 pub mod cite;
 pub mod cli;
 pub mod cohesive;
 pub mod diagnostic;
+pub mod dynamic;
 pub mod fault;
 mod forecast;
 mod held;
 mod idealisation;
+mod impedance;
 pub mod initial_stress;
 pub mod laws;
 pub mod loading;
@@ -27,6 +30,7 @@ mod sha256;
 pub mod slider;
 pub mod slider_planner;
 mod stop;
+mod thresholds;
 mod views;
 
 pub use asperity_scene::{lengths, warning};

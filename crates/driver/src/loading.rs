@@ -48,13 +48,7 @@ pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Sta
         }
         jumps::of_stage(scene, spec, (&before, &present), &loads)?;
         shared.stage(model, spec, &held)?;
-        let (springs, motions): (Vec<_>, Vec<_>) = motions::<D>(model, &held)?
-            .into_iter()
-            .partition(|(_, motion)| matches!(motion, Motion::Spring { .. }));
-        let springs = springs.into_iter().filter_map(|(dofs, motion)| match motion {
-            Motion::Spring { stiffness, rate } => Some(Spring { dofs, stiffness, rate }),
-            _ => None,
-        });
+        let (springs, motions) = apart(motions::<D>(model, &held));
         let mut fixed: Vec<usize> = motions.iter().flat_map(|(dofs, _)| dofs.iter().copied()).collect();
         fixed.sort_unstable();
         let mut channels: Vec<_> = body_loads.iter().map(|channel| (None, channel.clone())).collect();
@@ -73,7 +67,7 @@ pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Sta
             motions: motions.into_iter().filter_map(|(dofs, motion)| Some((dofs, moved(motion)?))).collect(),
             loads: channels,
             fixed,
-            springs: springs.collect(),
+            springs,
             weight: weight.clone(),
         });
         start = end;
@@ -184,25 +178,43 @@ fn normal_axis<const D: usize>(model: &Model<D>, set: &Spanned<String>) -> Resul
 
 /// Degrees of freedom of each prescribed component. One that belongs to two sets is assigned to the first; earlier checks ensure that both prescribe
 /// the same motion.
-fn motions<const D: usize>(
+fn motions<'a, const D: usize>(
     model: &Model<D>,
-    held: &BTreeMap<(String, usize), Motion>,
-) -> Result<Vec<(Vec<usize>, Motion)>, Diagnostic> {
+    held: &'a BTreeMap<(String, usize), Motion>,
+) -> Vec<(&'a (String, usize), Vec<usize>, Motion)> {
     let mut taken = vec![false; model.dofs()];
     let mut result = Vec::new();
-    for ((set, axis), motion) in held.iter().filter(|(_, m)| **m != Motion::Free) {
-        let sides = &model.mesh.side_sets[set];
+    for (key, motion) in held.iter().filter(|(_, m)| **m != Motion::Free) {
+        let sides = &model.mesh.side_sets[&key.0];
         let mut dofs = Vec::new();
         for node in nodes_of_sides(&model.mesh, sides) {
-            let dof = model.dof(node, *axis);
+            let dof = model.dof(node, key.1);
             if !taken[dof] {
                 taken[dof] = true;
                 dofs.push(dof);
             }
         }
-        result.push((dofs, motion.clone()));
+        result.push((key, dofs, motion.clone()));
     }
-    Ok(result)
+    result
+}
+
+/// Degrees of freedom that have a motion.
+type Moved = (Vec<usize>, Motion);
+
+/// Springs, and motions without springs. A spring of which another set has all nodes pulls nothing.
+fn apart(all: Vec<(&(String, usize), Vec<usize>, Motion)>) -> (Vec<Spring>, Vec<Moved>) {
+    let (mut springs, mut motions) = (Vec::new(), Vec::new());
+    for ((set, axis), dofs, motion) in all {
+        match motion {
+            Motion::Spring { stiffness, rate } if !dofs.is_empty() => {
+                springs.push(Spring { set: set.clone(), axis: *axis, dofs, stiffness, rate });
+            }
+            Motion::Spring { .. } => {}
+            motion => motions.push((dofs, motion)),
+        }
+    }
+    (springs, motions)
 }
 
 /// Motion within a stage; `None` for components that are free or loaded by springs.

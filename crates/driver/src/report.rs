@@ -1,21 +1,26 @@
 //! Report of a run of bodies, `report.json`: its results and its work. The part common to all reports is in [`common`].
 
 pub mod common;
+mod energy;
 pub mod schema;
 
 use crate::balance::InterfaceBalance;
+use crate::catalogue::{Entry, FaultEvents};
 use crate::cohesive;
-use crate::plan::{Plan, Summary};
+use crate::plan::{EventPlan, Plan, Sites, Summary};
 use crate::views;
 use crate::warning::Warning;
+use asperity_cycles::{ALL, Catalogue, Rupture};
 use asperity_mechanics::{PlannedInterface, Stage};
 use asperity_output::view::{
-    Counts, ForceMark, InterfaceFields, PointMark, PointValues, Samples, StepRecord,
+    Counts, ForceMark, InterfaceFields, PointMark, PointValues, Samples, SpringMark, SpringValues, StepRecord,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
 pub use common::{EnergyBalance, Kind, Outcome, Phases, Results, Status, Stop};
+pub use energy::{Budget, Closure};
 
 /// Values of an interface at the end of a stage.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -67,6 +72,62 @@ pub struct ForceResult {
     pub unit: String,
 }
 
+/// State of a spring at the end of a stage.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SpringResult {
+    /// Spring.
+    #[serde(flatten)]
+    pub spring: SpringMark,
+    /// Stage.
+    pub stage: String,
+    /// Values.
+    #[serde(flatten)]
+    pub values: SpringValues,
+    /// Unit of the force: N, or N/m of thickness.
+    pub unit: String,
+}
+
+/// Events of interfaces.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
+pub struct Events {
+    /// Slip rate above which an event begins \[m/s\].
+    pub above: f64,
+    /// Slip rate below which it ends \[m/s\].
+    pub below: f64,
+    /// Events of all interfaces together, detected by the fastest point of all.
+    pub all: Vec<Entry>,
+    /// Onset of an event in progress at the end \[s\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub under_way: Option<f64>,
+    /// Catalogue of each interface, if there are several.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub interfaces: Vec<FaultEvents>,
+}
+
+impl Events {
+    /// Events of a run; `areas` are those of the points of all interfaces.
+    pub(crate) fn new(plan: &EventPlan, catalogue: &Catalogue<Rupture>, areas: &[Vec<f64>]) -> Self {
+        let areas = plan.interfaces.iter().flat_map(|&i| areas[i].iter().copied()).collect();
+        let sites = Sites { plan, areas };
+        let entries = |source: usize, points: &Range<usize>| {
+            catalogue.ended(source).iter().map(|event| Entry::of(&sites, event, points)).collect()
+        };
+        let under_way = |source: usize| catalogue.under_way(source).map(|e| e.onset.seconds());
+        let of_interface = |(points, source): (&Range<usize>, usize)| FaultEvents {
+            fault: plan.ground[points.start].0.clone(),
+            events: entries(source, points),
+            under_way: under_way(source),
+        };
+        Self {
+            above: plan.thresholds.on,
+            below: plan.thresholds.off,
+            all: entries(ALL, &(0..plan.ground.len())),
+            under_way: under_way(ALL),
+            interfaces: plan.points.iter().zip(1..catalogue.sources()).map(of_interface).collect(),
+        }
+    }
+}
+
 /// Report of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct RunReport {
@@ -82,8 +143,17 @@ pub struct RunReport {
     pub points: Vec<PointResult>,
     /// Forces on sets per stage.
     pub forces: Vec<ForceResult>,
+    /// Springs per stage.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub springs: Vec<SpringResult>,
+    /// Events of interfaces, if the scene asks for them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub events: Option<Events>,
     /// Balance of contact forces at the end.
     pub balance: Vec<InterfaceBalance>,
+    /// Energy budget at the end, if the bodies have inertia.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy: Option<Budget>,
     /// Work.
     pub counts: Counts,
     /// All steps.
@@ -175,6 +245,19 @@ pub(crate) fn forces<const D: usize>(plan: &Plan<D>, stage: &Stage, samples: &Sa
         unit: views::force_unit(plan).to_string(),
     })
     .collect()
+}
+
+/// Springs at the end of a stage.
+pub(crate) fn springs<const D: usize>(plan: &Plan<D>, stage: &Stage, samples: &Samples) -> Vec<SpringResult> {
+    let all = views::spring_marks(&plan.problem.stages).into_iter().zip(&samples.springs);
+    let pulling = all.filter_map(|(spring, values)| Some((spring, (*values)?)));
+    let of = |(spring, values)| SpringResult {
+        spring,
+        stage: stage.name.clone(),
+        values,
+        unit: views::force_unit(plan).to_string(),
+    };
+    pulling.map(of).collect()
 }
 
 /// Area-weighted mean; 0 if the area is zero.

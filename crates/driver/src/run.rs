@@ -1,5 +1,6 @@
 //! Runs a plan: stages in sequence, steps within a stage, observers after each step.
 
+mod events;
 mod keeper;
 mod stand;
 
@@ -13,13 +14,14 @@ use crate::run_doubts;
 use crate::stop;
 use crate::views;
 use crate::warning::Warning;
-use asperity_contact::{Course, Watch};
+use asperity_contact::{Course, PointFields, Watch};
 use asperity_mechanics::step::{Accepted, Cut, Failure};
 use asperity_mechanics::timing::{Figures, StepLength};
 use asperity_mechanics::{Assembled, LOADING, Mismatch, Stage};
 use asperity_ode::{ObserveError, Observer};
 use asperity_output::Writer;
-use asperity_output::view::{InterfaceFields, StepRecord, StepView};
+use asperity_output::view::{InterfaceFields, Samples, StepRecord, StepView};
+use events::{Events, Moment};
 use keeper::Unkept;
 use stand::{Found, Said, Work};
 use std::time::Instant as Clock;
@@ -77,7 +79,8 @@ fn run_in<const D: usize>(
         .map_err(|reason| RunError::SetUp { stage: plan.problem.stages[0].name.clone(), reason })?;
     let phases = Phases { set_up: clock.elapsed().as_secs_f64(), ..Phases::default() };
     let (work, found) = (Work::default(), Found::default());
-    let mut run = Running { plan, work, found, phases };
+    let events = plan.events.as_ref().map(Events::new);
+    let mut run = Running { plan, work, found, events, phases };
     observer.begin(&views::setup(plan, system.areas()))?;
     let first = from.as_ref().map_or(0, |stand| stand.stage);
     let (mut from, mut outcome) = (from, Outcome::Completed);
@@ -98,6 +101,8 @@ struct Running<'a, const D: usize> {
     plan: &'a Plan<D>,
     work: Work,
     found: Found,
+    /// Events of interfaces, if the scene asks for them.
+    events: Option<Events>,
     phases: Phases,
 }
 
@@ -132,14 +137,16 @@ impl<const D: usize> Running<'_, D> {
             }
             let clock = Clock::now();
             let before = system.slip_rates();
+            let moment = self.moment(system);
             system.set_bound(here.length.bound(dt));
+            system.set_inertia_bound(here.length.inertia_bound(dt));
             let trial = system.step((dt, here.length.smallest()), &mut self.work.counts);
             self.phases.steps += clock.elapsed().as_secs_f64();
             let ended = match trial {
                 Ok(accepted) => {
                     self.accepted(&mut here, system, &before, &accepted);
                     self.show(index, stage, system, observer, false)?;
-                    self.outruns(&here, system, &before, accepted.cut)
+                    self.events(moment, system).or_else(|| self.outruns(&here, system, &before, accepted.cut))
                 }
                 Err(failure) => self.rejected(&mut here, system, &failure, dt),
             };
@@ -164,7 +171,7 @@ impl<const D: usize> Running<'_, D> {
             return Ok(InStage { index, length, rejected: 0, free: None });
         };
         system.restore(stage, &from.system)?;
-        (self.work, self.found) = (from.work, from.found);
+        (self.work, self.found, self.events) = (from.work, from.found, from.events);
         let length = length.restored(&from.length);
         Ok(InStage { index, length, rejected: from.rejected, free: from.free })
     }
@@ -179,7 +186,22 @@ impl<const D: usize> Running<'_, D> {
             free: here.free.clone(),
             work: self.work.clone(),
             found: self.found.clone(),
+            events: self.events.clone(),
         }
+    }
+
+    /// Values that events need, if the scene asks for events.
+    fn moment(&self, system: &Assembled<'_, D>) -> Option<Moment> {
+        self.plan.events.as_ref().map(|events| Moment::of(self.plan, events, system))
+    }
+
+    /// Finds the events of a step that began at `before`. The run is complete after the number of events requested.
+    fn events(&mut self, before: Option<Moment>, system: &Assembled<'_, D>) -> Option<Outcome> {
+        let (before, after) = (before?, self.moment(system)?);
+        let events = self.events.as_mut()?;
+        events.step(&before, &after);
+        let most = self.plan.events.as_ref()?.stop_after?;
+        (events.ended() >= most).then_some(Outcome::Completed)
     }
 
     /// Records an accepted step; `before` holds the slip rates before it.
@@ -195,12 +217,14 @@ impl<const D: usize> Running<'_, D> {
             slip: system.slip_error(before, accepted.dt),
             friction: accepted.error,
             fill: system.slip_fill(),
+            inertia: system.inertia_error(),
             // Each multiplier update solves again from the previous solution. The difficulty of a step is that of one
             // solution.
             iterations: accepted.iterations.div_ceil(accepted.augmentations + 1),
         };
         here.length.accepted((accepted.dt, accepted.cut), figures);
         self.record(here, system, accepted);
+        self.work.energy.note(system.energy());
         (here.rejected, here.free) = (0, None);
     }
 
@@ -245,24 +269,50 @@ impl<const D: usize> Running<'_, D> {
         let (plan, fields) = (self.plan, interface_fields(system));
         self.found.results.extend(report::results(stage, &fields, interface_names(plan)));
         let resolution = report::resolution(plan, stage, &fields);
-        let samples = views::samples(system.samples());
+        let samples = self.samples(stage, system);
         self.found.points.extend(report::points(plan, stage, &samples));
         self.found.forces.extend(report::forces(plan, stage, &samples));
+        self.found.springs.extend(report::springs(plan, stage, &samples));
         let doubts = run_doubts::after_stage(plan, &stage.name, &system.displacement(), &fields);
         self.found.warnings.extend(resolution.into_iter().chain(doubts).map(Said::from));
     }
 
+    /// Present values at the points, sets and springs of the scene.
+    fn samples(&self, stage: &Stage, system: &Assembled<'_, D>) -> Samples {
+        let of = |f: &PointFields<D>| f.normal_traction.iter().zip(&f.area).map(|(f, a)| f * a).sum::<f64>();
+        let normal = system.interfaces().iter().map(|i| of(i.points())).sum();
+        let springs = views::springs(&self.plan.problem.stages, stage, &system.springs(), normal);
+        views::samples(system.samples(), springs)
+    }
+
     /// Report of the run.
     fn report(self, system: &Assembled<'_, D>, outcome: Outcome) -> RunReport {
-        let Self { plan, mut work, found, phases, .. } = self;
+        let Self { plan, mut work, found, events, phases } = self;
         system.add_counts(&mut work.counts);
         let planned = plan.problem.interfaces.iter().zip(system.interfaces());
         let balance = planned.map(|(p, i)| balance(&p.name, i, plan.problem.model.scale)).collect();
-        let Found { results, points, forces, warnings } = found;
+        let Found { results, points, forces, springs, warnings } = found;
         let mut warnings: Vec<Warning> = warnings.into_iter().map(Warning::from).collect();
-        warnings.extend(run_doubts::never_closed(&results));
-        let mut report =
-            RunReport { outcome, warnings, results, points, forces, balance, ..RunReport::new(plan) };
+        // With inertia bodies may meet and part within a stage.
+        if plan.problem.mass.is_none() {
+            warnings.extend(run_doubts::never_closed(&results));
+        }
+        let energy = system.energy().map(|energy| work.energy.closure(energy));
+        warnings.extend(energy.and_then(|energy| energy.doubt()));
+        let events = plan.events.as_ref().zip(events);
+        let events = events.map(|(plan, e)| report::Events::new(plan, &e.catalogue, system.areas()));
+        let mut report = RunReport {
+            outcome,
+            warnings,
+            results,
+            points,
+            forces,
+            springs,
+            events,
+            balance,
+            energy,
+            ..RunReport::new(plan)
+        };
         let counts = views::counts(work.steps.len(), work.rejected, &work.counts);
         report.complete(counts, phases, work.steps);
         report
@@ -283,10 +333,11 @@ impl<const D: usize> Running<'_, D> {
         largest(rates) > LOADING * loading
     }
 
-    /// True if the law of an interface depends on slip rate or weakens.
+    /// True if the law of an interface depends on slip rate or weakens, and nothing is radiated: steps then end at an
+    /// instability.
     fn watches(&self) -> bool {
         let watched = |w: &Watch| w.rate.is_some() || w.course != Course::Steady;
-        self.plan.problem.interfaces.iter().any(|i| watched(&i.watch))
+        self.plan.problem.interfaces.iter().any(|i| watched(&i.watch) && i.damping.is_none())
     }
 
     /// True if an interface has a law that depends on slip rate. With other laws the rate is slip over step length, and the slip may stay finite for
@@ -329,7 +380,7 @@ impl<const D: usize> Running<'_, D> {
             return Ok(());
         };
         let end_time = self.plan.problem.stages.last().map_or(stage.end, |s| s.end);
-        let (interfaces, samples) = (interface_fields(system), views::samples(system.samples()));
+        let (interfaces, samples) = (interface_fields(system), self.samples(stage, system));
         let view = StepView {
             record,
             stage: &stage.name,
@@ -337,6 +388,7 @@ impl<const D: usize> Running<'_, D> {
             end_time,
             interfaces: &interfaces,
             samples: &samples,
+            energy: system.energy().map(|energy| views::energy(&energy)),
             fields: &|| views::body_fields(self.plan, system.blocks(), &system.displacement()),
         };
         if stopped {

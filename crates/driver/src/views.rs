@@ -5,10 +5,10 @@ use asperity_contact::{Interface, PointFields, Status};
 use asperity_fem::block::von_mises;
 use asperity_fem::kinematics::Idealisation;
 use asperity_mechanics as mechanics;
-use asperity_mechanics::{CellBlock, ForceSet, PlannedInterface, Point};
+use asperity_mechanics::{CellBlock, ForceSet, Model, PlannedInterface, Point, Spring, SpringNow, Stage};
 use asperity_output::view::{
-    BodyFields, Counts, ForceMark, InterfaceFields, InterfaceMesh, MeshView, PointMark, PointValues, Samples,
-    Setup,
+    BodyFields, Counts, EnergyParts, ForceMark, InterfaceFields, InterfaceMesh, MeshView, PointMark,
+    PointValues, Samples, Setup, SpringMark, SpringValues,
 };
 use std::collections::BTreeMap;
 
@@ -17,13 +17,13 @@ fn padded<const D: usize>(v: &[f64; D]) -> [f64; 3] {
     std::array::from_fn(|c| if c < D { v[c] } else { 0.0 })
 }
 
-/// Part of the model that does not change during a run.
+/// The mesh of a model; `moves` as in [`MeshView::moves`].
 #[must_use]
-pub fn setup<const D: usize>(plan: &Plan<D>, areas: &[Vec<f64>]) -> Setup {
-    let mesh = &plan.problem.model.mesh;
+pub fn mesh_view<const D: usize>(model: &Model<D>, moves: bool) -> MeshView {
+    let mesh = &model.mesh;
     let mut cells = Vec::new();
     let mut cell_body = Vec::new();
-    for (index, body) in plan.problem.model.bodies.iter().enumerate() {
+    for (index, body) in model.bodies.iter().enumerate() {
         for block in &mesh.blocks[body.blocks.clone()] {
             for cell in block.connectivity.chunks_exact(block.kind.nodes()) {
                 cells.push((block.kind.vtk_type(), cell.to_vec()));
@@ -31,16 +31,22 @@ pub fn setup<const D: usize>(plan: &Plan<D>, areas: &[Vec<f64>]) -> Setup {
             }
         }
     }
+    MeshView {
+        nodes: mesh.nodes.iter().map(padded).collect(),
+        cells,
+        cell_body,
+        bodies: model.bodies.iter().map(|b| b.name.clone()).collect(),
+        dimension: D,
+        moves,
+    }
+}
+
+/// Part of the model that does not change during a run.
+#[must_use]
+pub fn setup<const D: usize>(plan: &Plan<D>, areas: &[Vec<f64>]) -> Setup {
     Setup {
         title: plan.title.clone(),
-        mesh: MeshView {
-            nodes: mesh.nodes.iter().map(padded).collect(),
-            cells,
-            cell_body,
-            bodies: plan.problem.model.bodies.iter().map(|b| b.name.clone()).collect(),
-            dimension: D,
-            moves: plan.problem.moves(),
-        },
+        mesh: mesh_view(&plan.problem.model, plan.problem.moves()),
         interfaces: plan
             .problem
             .interfaces
@@ -51,7 +57,35 @@ pub fn setup<const D: usize>(plan: &Plan<D>, areas: &[Vec<f64>]) -> Setup {
         stages: plan.problem.stages.iter().map(|s| (s.name.clone(), s.end)).collect(),
         points: plan.problem.samples.points.iter().map(point_mark).collect(),
         forces: plan.problem.samples.forces.iter().map(force_mark).collect(),
+        springs: spring_marks(&plan.problem.stages),
         force_unit: force_unit(plan),
+        energy_unit: plan.problem.mass.as_ref().map(|_| energy_unit(plan)),
+    }
+}
+
+/// An energy budget in the form passed to observers.
+#[must_use]
+pub fn energy(energy: &mechanics::Energy) -> EnergyParts {
+    EnergyParts {
+        kinetic: energy.kinetic,
+        strain: energy.strain,
+        contact: energy.contact,
+        plastic: energy.plastic,
+        viscous: energy.viscous,
+        friction: energy.friction,
+        numerical: energy.numerical,
+        start: energy.start,
+        loads: energy.loads,
+        motions: energy.motions,
+        missing: energy.missing(),
+    }
+}
+
+/// Unit of energies.
+fn energy_unit<const D: usize>(plan: &Plan<D>) -> &'static str {
+    match force_unit(plan) {
+        "N/m" => "J/m",
+        _ => "J",
     }
 }
 
@@ -69,12 +103,50 @@ pub fn force_mark(force: &ForceSet) -> ForceMark {
     ForceMark { name: force.name.clone(), set: force.set.clone() }
 }
 
+/// A spring in the form passed to observers.
+#[must_use]
+pub fn spring_mark(spring: &Spring) -> SpringMark {
+    SpringMark { set: spring.set.clone(), axis: ["x", "y", "z"][spring.axis].to_string() }
+}
+
+/// Springs of all stages, each set and axis once.
+#[must_use]
+pub fn spring_marks(stages: &[Stage]) -> Vec<SpringMark> {
+    let mut marks = Vec::new();
+    for mark in stages.iter().flat_map(|s| &s.springs).map(spring_mark) {
+        if !marks.contains(&mark) {
+            marks.push(mark);
+        }
+    }
+    marks
+}
+
+/// Springs of a stage in the order of [`spring_marks`]; `normal` is the sum of the normal forces on all interfaces \[N; N/m\].
+#[must_use]
+pub fn springs(stages: &[Stage], stage: &Stage, now: &[SpringNow], normal: f64) -> Vec<Option<SpringValues>> {
+    let here: Vec<SpringMark> = stage.springs.iter().map(spring_mark).collect();
+    let values = |s: &SpringNow| SpringValues {
+        load_point: s.load_point,
+        displacement: s.displacement,
+        force: s.force,
+        friction: if normal > 0.0 { s.force.abs() / normal } else { 0.0 },
+    };
+    let of = |mark: SpringMark| here.iter().position(|m| *m == mark).and_then(|k| now.get(k)).map(values);
+    spring_marks(stages).into_iter().map(of).collect()
+}
+
 /// Unit of forces; bodies in plane strain and antiplane motion have forces per metre of thickness.
 #[must_use]
 pub fn force_unit<const D: usize>(plan: &Plan<D>) -> &'static str {
-    match plan.problem.model.idealisation {
-        Idealisation::PlaneStrain | Idealisation::Antiplane => "N/m",
-        Idealisation::PlaneStress | Idealisation::Axisymmetric | Idealisation::ThreeD => "N",
+    if per_length(plan.problem.model.idealisation) { "N/m" } else { "N" }
+}
+
+/// True if forces and energies are per length out of the plane.
+#[must_use]
+pub fn per_length(idealisation: Idealisation) -> bool {
+    match idealisation {
+        Idealisation::PlaneStrain | Idealisation::Antiplane => true,
+        Idealisation::PlaneStress | Idealisation::Axisymmetric | Idealisation::ThreeD => false,
     }
 }
 
@@ -249,15 +321,15 @@ fn nodal_stress<const D: usize>(
     sums.into_iter().map(|(node, (sum, count))| (node, sum.map(|s| s / count))).collect()
 }
 
-/// Values at points and forces on sets.
+/// Values at points, forces on sets and springs.
 #[must_use]
-pub fn samples(samples: mechanics::Samples) -> Samples {
+pub fn samples(samples: mechanics::Samples, springs: Vec<Option<SpringValues>>) -> Samples {
     let point = |p: mechanics::PointValues| PointValues {
         displacement: p.displacement,
         stress: p.stress,
         mises: p.mises,
     };
-    Samples { points: samples.points.into_iter().map(point).collect(), forces: samples.forces }
+    Samples { points: samples.points.into_iter().map(point).collect(), forces: samples.forces, springs }
 }
 
 /// Accepted steps, rejected trials and their work.

@@ -13,6 +13,7 @@ pub mod iterative;
 pub mod jump;
 pub mod kinematics;
 pub mod loads;
+pub mod mass;
 pub mod material;
 pub mod matrix_free;
 pub mod mesh;

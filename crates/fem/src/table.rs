@@ -29,6 +29,14 @@ impl Function {
             Self::CosineLessOne => -x.sin(),
         }
     }
+
+    fn curvature(self, x: f64) -> f64 {
+        match self {
+            Self::Linear => 0.0,
+            Self::Sine => -x.sin(),
+            Self::CosineLessOne => -x.cos(),
+        }
+    }
 }
 
 /// A piecewise linear table, constant before its first and after its last time, or a function of one.
@@ -76,6 +84,19 @@ impl Table {
         slope * self.function.slope(self.linear(time))
     }
 
+    /// First and second derivative at `time`, on the piece of the table that contains `during` \[1/s, 1/s²\]. `during` tells the
+    /// two sides of an entry apart.
+    #[must_use]
+    pub fn derivatives(&self, time: f64, during: f64) -> [f64; 2] {
+        let k = self.times.partition_point(|&t| t <= during);
+        if k == 0 || k == self.times.len() {
+            return [0.0; 2];
+        }
+        let rate = (self.values[k] - self.values[k - 1]) / (self.times[k] - self.times[k - 1]);
+        let x = self.linear(time);
+        [self.function.slope(x) * rate, self.function.curvature(x) * rate * rate]
+    }
+
     /// Value at `time`. Between two entries the form `(1-s) a + s b` is exact at both ends.
     #[must_use]
     pub fn value(&self, time: f64) -> f64 {
@@ -118,5 +139,22 @@ mod tests {
         approx::assert_relative_eq!(sine.slope(1.0), 0.5 * 0.5_f64.cos(), max_relative = 1e-15);
         approx::assert_relative_eq!(cosine.value(2e-8), -5e-17, max_relative = 1e-15);
         approx::assert_relative_eq!(cosine.slope(1.0), -0.5 * 0.5_f64.sin(), max_relative = 1e-15);
+    }
+
+    #[test]
+    fn derivatives_are_those_of_the_piece_that_is_named() {
+        let angle = Table::new(vec![0.0, 1.0, 2.0], vec![0.0, 3.0, 4.0]);
+        assert_eq!(angle.derivatives(1.0, 0.5), [3.0, 0.0]);
+        assert_eq!(angle.derivatives(1.0, 1.0), [1.0, 0.0]);
+        assert_eq!(angle.derivatives(2.0, 2.0), [0.0, 0.0]);
+        for function in [Function::Sine, Function::CosineLessOne] {
+            let table = angle.clone().through(function);
+            let (t, h) = (0.3, 1e-4);
+            let [rate, curvature] = table.derivatives(t, t);
+            let (less, more) = (table.value(t - h), table.value(t + h));
+            approx::assert_relative_eq!(rate, (more - less) / (2.0 * h), max_relative = 1e-6);
+            let second = (more - 2.0 * table.value(t) + less) / (h * h);
+            approx::assert_relative_eq!(curvature, second, max_relative = 1e-6);
+        }
     }
 }

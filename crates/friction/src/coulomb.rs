@@ -187,6 +187,7 @@ mod tests {
                 trial: &[trial],
                 stiffness: 4.0,
                 dt: 0.5,
+                damping: 0.0,
                 lag: lag.map(|_| crate::law::Lag { weight: &[1.5], offset: &offset }),
                 near: None,
             },

@@ -122,6 +122,7 @@ impl<F: Form, E: Evolution> Inertial for RateLaw<F, E> {
             trial: &[push.trial],
             stiffness: push.impedance / half,
             dt: half,
+            damping: 0.0,
             lag: None,
             near: Some(&[push.near]),
         };

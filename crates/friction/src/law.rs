@@ -30,6 +30,8 @@ pub struct Trials<'a> {
     pub stiffness: f64,
     /// Length of the step Δt \[s\]; the slip rate of the step is `V = Δλ/Δt`, unless `lag` says otherwise.
     pub dt: f64,
+    /// Radiation damping η ≥ 0 \[Pa s/m\]: the traction is `f_n μ + η V`. Laws with an elastic domain have none.
+    pub damping: f64,
     /// Second-order backward differences in slip: `V = weight Δλ/Δt - offset_p`. Absent for backward Euler.
     pub lag: Option<Lag<'a>>,
     /// Slip rates near the answers, such as those of the step before \[m/s\], `n` values; 0 where none is known. They shorten
@@ -220,8 +222,8 @@ pub trait Law: Send + Sync + std::fmt::Debug {
         mu: &mut [f64],
     ) -> Result<(), Failure>;
 
-    /// The implicit point return: for each point it finds Δλ ≥ 0 with `τ = |t^e| - E_t Δλ = min(μ(V, φ) f_n, F_limit)`. With a
-    /// lag, V = 0 does not imply Δλ = 0, and where the spring pulls back, V, τ and Δλ may all be negative.
+    /// The implicit point return: for each point it finds Δλ ≥ 0 with `τ = |t^e| - E_t Δλ = min(μ(V, φ) f_n, F_limit) + η V`.
+    /// With a lag, V = 0 does not imply Δλ = 0, and where the spring pulls back, V, τ and Δλ may all be negative.
     ///
     /// # Errors
     /// [`Failure`] names the point and its inputs; the step controller handles a trial that has no answer.

@@ -1,7 +1,7 @@
 //! The point return: it finds the slip rate at which a point behind a penalty spring balances its strength.
 //!
 //! With the spring's trial traction t^e and `c = E_t Δt/w`, the balance is `G(z) = c e^z + f_n μ(e^z, φ(e^z, Δt)) - T = 0`, z =
-//! ln V, T = t^e - c offset. A point with radiation damping η and a fixed state has the same balance with c = η. Without
+//! ln V, T = t^e - c offset. Radiation damping η adds to c. A point of a fault, with a fixed state, has the balance with c = η. Without
 //! weakening G is increasing. With a state G may decrease over some range: see [`Solver::solve`].
 
 use crate::Failure;
@@ -38,7 +38,7 @@ pub struct Point {
     pub normal: f64,
     /// T > 0 \[Pa\].
     pub drive: f64,
-    /// c = E_t Δt/w, or η \[Pa s/m\], positive.
+    /// c = E_t Δt/w, η, or their sum \[Pa s/m\], positive.
     pub spring: f64,
     /// Δt \[s\] over which the states evolve.
     pub dt: f64,

@@ -131,20 +131,21 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
             return Err(Failure::BareLogAtRest { point: k, rate: -drive.size / drive.spring });
         }
         let guess = t.near.map(|rates| rates[k].abs()).filter(|&v| v > 0.0).map(f64::ln);
-        let p = Point { normal, drive: drive.size, spring: drive.spring, dt: t.dt, guess };
+        let p = Point { normal, drive: drive.size, spring: drive.resistance(), dt: t.dt, guess };
         if let Some(answer) = self.at_limit(&p, &drive, old, solver) {
             return Ok(answer);
         }
         let s = solver.solve(&p, old).map_err(|f| f.at(k))?;
-        let (traction, elastic) = p.shares(&s);
-        let friction = normal * s.slope;
+        let (strength, behind) = p.shares(&s);
+        let (elastic, radiated) = (drive.elastic(behind), drive.radiated(behind));
+        let friction = normal * s.slope + radiated;
         if elastic + friction <= 0.0 {
             let weakening = -friction / (s.log_rate.exp() * t.dt);
             return Err(Failure::Unstable { point: k, stiffness: t.stiffness, weakening });
         }
-        let rate = elastic / drive.spring;
+        let rate = behind / p.spring;
         Ok(Answer {
-            traction: drive.sign * traction,
+            traction: drive.sign * (strength + radiated),
             slip: drive.slip(rate),
             rate: drive.sign * rate,
             d_trial: friction / (elastic + friction),
@@ -163,8 +164,8 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         self.return_point(0, trials, old, solver).map(|a| (a.traction, a.rate, a.mu))
     }
 
-    /// Answer without normal traction or without drive. Without normal traction a point slips freely, and the kept value of a
-    /// memory of normal traction is left unchanged. Without drive a point keeps the slip of its past differences.
+    /// Answer without normal traction or without drive. Without normal traction damping alone resists slip, and the kept value of
+    /// a memory of normal traction is left unchanged. Without drive a point keeps the slip of its past differences.
     fn unloaded(
         &self,
         k: usize,
@@ -174,25 +175,25 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         old: &[f64],
         solver: &mut Solver<'_, F, E>,
     ) -> Result<Answer, Failure> {
-        let rate = if normal == 0.0 { drive.size / drive.spring } else { 0.0 };
+        let rate = if normal == 0.0 { drive.size / drive.resistance() } else { 0.0 };
         if normal > 0.0 && !self.form.regular_at_rest() {
             return Err(Failure::BareLogAtRest { point: k, rate });
         }
         let log_rate = if rate > 0.0 { rate.ln() } else { AT_REST };
         let present = solver.after(old, normal, dt, log_rate);
-        let mu = if rate > 0.0 { present.mu } else { 0.0 };
+        let (mu, radiates) = (if rate > 0.0 { present.mu } else { 0.0 }, rate > 0.0 && drive.damping > 0.0);
         let d_trial = if normal > 0.0 {
-            // H/(E_t + H) with H = f_n ∂μ/∂V w/Δt at V = 0, which may exceed the range of numbers.
+            // H/(E_t + H) with H = (f_n ∂μ/∂V + η) w/Δt at V = 0, which may exceed the range of numbers.
             let slope = self.form.rest_slope(present.phi);
-            slope.map_or(1.0, |slope| 1.0 / (1.0 + drive.spring / (normal * slope)))
+            slope.map_or(1.0, |slope| 1.0 / (1.0 + drive.spring / (normal * slope + drive.damping)))
         } else if drive.size > 0.0 {
-            0.0
+            drive.radiated(1.0)
         } else {
             // At the apex of the cone, without drive, every slope between 0 and 1 is valid: that of rest is the better guess.
             1.0
         };
         Ok(Answer {
-            traction: 0.0,
+            traction: if radiates { drive.sign * drive.damping * rate } else { 0.0 },
             slip: drive.slip(rate),
             rate: drive.sign * rate,
             d_trial,
@@ -215,10 +216,10 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         let rate = (p.drive - self.limit) / p.spring;
         let mu = solver.after(old, p.normal, p.dt, rate.ln()).mu;
         (p.normal * mu >= self.limit).then(|| Answer {
-            traction: drive.sign * self.limit,
+            traction: drive.sign * (self.limit + drive.damping * rate),
             slip: drive.slip(rate),
             rate: drive.sign * rate,
-            d_trial: 0.0,
+            d_trial: drive.radiated(1.0),
             d_normal: 0.0,
             mu,
         })
@@ -236,11 +237,14 @@ impl RateLaw<Regularised, Stateless> {
     }
 }
 
-/// Drive of a point: `T = t^e - c offset` with its sign, and `c = E_t Δt/w`.
+/// Drive of a point: `T = t^e - c offset` with its sign, `c = E_t Δt/w`, and the damping η beside the spring: `T = f_n μ + (c +
+/// η) V`.
 struct Drive {
     size: f64,
     sign: f64,
     spring: f64,
+    /// η \[Pa s/m\].
+    damping: f64,
     offset: f64,
     weight: f64,
     /// Δt/w \[s\].
@@ -253,7 +257,23 @@ impl Drive {
         let time = t.dt / weight;
         let spring = t.stiffness * time;
         let signed = t.trial[k] - spring * offset;
-        Self { size: signed.abs(), sign: if signed < 0.0 { -1.0 } else { 1.0 }, spring, offset, weight, time }
+        let sign = if signed < 0.0 { -1.0 } else { 1.0 };
+        Self { size: signed.abs(), sign, spring, damping: t.damping, offset, weight, time }
+    }
+
+    /// c + η \[Pa s/m\].
+    fn resistance(&self) -> f64 {
+        self.spring + self.damping
+    }
+
+    /// Part of (c + η) V that the spring takes up.
+    fn elastic(&self, behind: f64) -> f64 {
+        if self.damping == 0.0 { behind } else { behind * (self.spring / self.resistance()) }
+    }
+
+    /// Part of (c + η) V that is radiated.
+    fn radiated(&self, behind: f64) -> f64 {
+        if self.damping == 0.0 { 0.0 } else { behind * (self.damping / self.resistance()) }
     }
 
     /// The two-step difference along V.

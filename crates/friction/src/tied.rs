@@ -94,8 +94,15 @@ mod tests {
     #[test]
     fn the_whole_trial_is_carried_under_tension_too() {
         let (normal, trial) = ([-5.0, 0.0, 7.0], [3.0, 4.0, 1e9]);
-        let trials =
-            Trials { normal: &normal, trial: &trial, stiffness: 10.0, dt: 0.1, lag: None, near: None };
+        let trials = Trials {
+            normal: &normal,
+            trial: &trial,
+            stiffness: 10.0,
+            dt: 0.1,
+            damping: 0.0,
+            lag: None,
+            near: None,
+        };
         let mut numbers = [[f64::NAN; 3]; 5];
         let [traction, slip, rate, d_trial, d_normal] = &mut numbers;
         let mut regime = [Regime::Slip; 3];
@@ -110,8 +117,15 @@ mod tests {
     fn a_trial_that_is_no_number_is_refused() {
         let mut numbers = [[0.0; 1]; 5];
         let [traction, slip, rate, d_trial, d_normal] = &mut numbers;
-        let trials =
-            Trials { normal: &[f64::NAN], trial: &[1.0], stiffness: 1.0, dt: 0.1, lag: None, near: None };
+        let trials = Trials {
+            normal: &[f64::NAN],
+            trial: &[1.0],
+            stiffness: 1.0,
+            dt: 0.1,
+            damping: 0.0,
+            lag: None,
+            near: None,
+        };
         let regime = &mut [Regime::Slip];
         let out = Responses { traction, slip, rate, regime, d_trial, d_normal, states: &mut [] };
         assert!(Tied.respond(trials, &[], out).is_err());

@@ -45,6 +45,8 @@ pub struct PlannedInterface {
     pub unknowns: usize,
     /// Friction or bond; `None` if the scene declares none.
     pub law: Option<Arc<dyn Law>>,
+    /// Radiation damping η of its friction \[Pa s/m\]; `None` without.
+    pub damping: Option<f64>,
     /// Description of its penalty, if it is so large that it slows the iterations.
     pub blamed: Option<String>,
     /// Tractions of the initial stress, if its bodies have one.

@@ -1,7 +1,7 @@
 //! The problem to be solved: bodies, interfaces and stages, with the methods chosen for them.
 
 use super::solver::Solver;
-use super::{CellBlock, Control, Model, Path, PlannedInterface, Stage, Stepping, StressField, Wanted};
+use super::{CellBlock, Control, Mass, Model, Path, PlannedInterface, Stage, Stepping, StressField, Wanted};
 use asperity_contact::Sliding;
 use asperity_fem::nonlinear::Kinematics;
 
@@ -24,6 +24,8 @@ pub struct Problem<const D: usize> {
     pub stepping: Stepping,
     /// Step control.
     pub control: Control,
+    /// Inertia; `None` if the bodies move through states of equilibrium.
+    pub mass: Option<Mass>,
     /// Points and sets of bodies evaluated in every step.
     pub samples: Wanted,
 }

@@ -94,7 +94,8 @@ fn centred<const D: usize>(model: &Model<D>, nodes: &[usize]) -> impl Fn(usize) 
 fn condition_rows<const D: usize>(model: &Model<D>, nodes: &[usize], stage: &Stage) -> Vec<Row> {
     let position = centred(model, nodes);
     let components = model.idealisation.components();
-    let held = stage.fixed.iter().filter(|&&d| nodes.binary_search(&(d / components)).is_ok());
+    let pulled = stage.springs.iter().flat_map(|s| &s.dofs);
+    let held = stage.fixed.iter().chain(pulled).filter(|&&d| nodes.binary_search(&(d / components)).is_ok());
     if model.idealisation == Idealisation::Antiplane {
         return held.map(|_| vec![1.0]).collect();
     }

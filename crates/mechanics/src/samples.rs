@@ -192,6 +192,16 @@ impl ForceSet {
         Self { name: name.to_string(), set: set.to_string(), nodes, cells }
     }
 
+    /// Sum of nodal forces, given for all degrees of freedom, over the nodes of the set.
+    pub(crate) fn sum<const D: usize>(&self, model: &Model<D>, forces: &[f64]) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for &node in &self.nodes {
+            let force = model.displacement(node, forces);
+            sum.iter_mut().zip(force).for_each(|(s, f)| *s += f);
+        }
+        sum
+    }
+
     /// Sum of the internal forces of the bodies at the nodes of the set.
     fn internal<const D: usize>(&self, model: &Model<D>, blocks: &[CellBlock<D>], u: &[f64]) -> [f64; 3] {
         let components = model.idealisation.components();

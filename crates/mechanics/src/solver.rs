@@ -85,13 +85,18 @@ pub fn moving_mortar(i: &PlannedInterface) -> bool {
     i.measure == Measure::Mortar && i.sliding == Sliding::Finite
 }
 
-/// Interface degrees of freedom that each body retains in condensation, in mesh numbering.
+/// Degrees of freedom of interfaces and of sets on springs that each body retains in condensation, in mesh numbering.
 #[must_use]
-pub fn retained<const D: usize>(model: &Model<D>, interfaces: &[PlannedInterface]) -> Vec<Vec<usize>> {
-    let mut nodes: Vec<usize> = interfaces.iter().flat_map(interface_nodes).collect();
+pub fn retained<const D: usize>(
+    model: &Model<D>,
+    interfaces: &[PlannedInterface],
+    stages: &[Stage],
+) -> Vec<Vec<usize>> {
+    let components = model.idealisation.components();
+    let pulled = stages.iter().flat_map(|s| &s.springs).flat_map(|s| &s.dofs).map(|d| d / components);
+    let mut nodes: Vec<usize> = interfaces.iter().flat_map(interface_nodes).chain(pulled).collect();
     nodes.sort_unstable();
     nodes.dedup();
-    let components = model.idealisation.components();
     let of_body = |own: &std::ops::Range<usize>| {
         let kept = nodes.iter().filter(|n| own.contains(n));
         kept.flat_map(|&n| (0..components).map(move |c| n * components + c)).collect()

@@ -54,6 +54,10 @@ pub struct Stage {
 /// Degrees of freedom that move as one and are pulled by a spring.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spring {
+    /// The set, `body.set`.
+    pub set: String,
+    /// Axis along which it pulls.
+    pub axis: usize,
     /// Degrees of freedom that move as one.
     pub dofs: Vec<usize>,
     /// Stiffness \[N/m; N/m per metre of thickness in the plane\].
@@ -80,13 +84,14 @@ impl Stage {
         self.loads.iter().filter(move |(on, _)| on.as_deref() != Some(set)).map(|(_, channel)| channel)
     }
 
-    /// Largest prescribed rate of displacement in the stage \[m/s\].
+    /// Largest prescribed rate of displacement in the stage, also of load points \[m/s\].
     #[must_use]
     pub fn largest_rate(&self) -> f64 {
         let duration = self.end - self.start;
         let turning = self.turning.iter().map(|t| t.radius() * t.rotation.angle.abs() / duration);
         let turning = turning.fold(0.0, f64::max);
-        self.motions.iter().fold(turning, |largest, (_, motion)| {
+        let drawn = self.springs.iter().fold(turning, |largest, spring| largest.max(spring.rate.abs()));
+        self.motions.iter().fold(drawn, |largest, (_, motion)| {
             largest.max(match motion {
                 Motion::Rate(rate) => rate.abs(),
                 Motion::To(value) => value.abs() / duration,

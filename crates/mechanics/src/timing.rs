@@ -25,7 +25,7 @@ const LARGEST: f64 = 0.05;
 const EASY: usize = 8;
 /// Newton iterations above which the next step is halved, half the number at which it would fail.
 const HARD: usize = 15;
-/// Error of friction coefficients, relative to the bound, up to which a step is accepted.
+/// Error of friction coefficients and of bodies with mass, relative to the bound, up to which a step is accepted.
 const STANDS: f64 = 2.0;
 /// Share of the step below which a remainder is not taken as a separate step.
 const REMAINDER: f64 = 1e-9;
@@ -39,6 +39,8 @@ pub struct Figures {
     pub friction: f64,
     /// Slip over the largest slip per step that the laws allow \[-\].
     pub fill: f64,
+    /// Estimated error of bodies with mass over its bound \[-\].
+    pub inertia: f64,
     /// Newton iterations.
     pub iterations: usize,
 }
@@ -134,10 +136,17 @@ impl StepLength {
         self.friction.filter(|_| 0.5 * dt >= self.smallest).map_or(f64::INFINITY, |wanted| STANDS * wanted)
     }
 
+    /// Largest error of bodies with mass, over its bound, with which a step of length `dt` is accepted. Imposed steps and the
+    /// shortest are accepted whatever their error.
+    #[must_use]
+    pub fn inertia_bound(&self, dt: f64) -> f64 {
+        if self.tolerance.is_some() && 0.5 * dt >= self.smallest { STANDS } else { f64::INFINITY }
+    }
+
     /// Records an accepted step: its length, the reason if the stepper shortened it, and its figures. No step becomes shorter
     /// than the smallest.
     pub fn accepted(&mut self, (taken, cut): (f64, Cut), figures: Figures) {
-        let Figures { slip, friction, fill, iterations } = figures;
+        let Figures { slip, friction, fill, inertia, iterations } = figures;
         // Both the error of slip in a backward-Euler step and that of V in a two-step difference fall with the square of the
         // step length.
         let by = |tolerance: Option<f64>, error: f64| match tolerance {
@@ -145,7 +154,9 @@ impl StepLength {
             _ => GROWTH,
         };
         let (by_travel, by_friction) = (by(self.tolerance, slip), by(self.friction, friction));
-        let by_error = by_travel.min(by_friction);
+        // The error of displacement of bodies with mass falls with the cube of the step length, and that of a step with the square.
+        let by_inertia = by(self.tolerance.map(|_| 1.0), inertia);
+        let by_error = by_travel.min(by_friction).min(by_inertia);
         let by_slip = if fill > 0.0 { (SAFETY / fill).clamp(SHRINK, GROWTH) } else { GROWTH };
         let by_iterations = if std::mem::take(&mut self.failed) {
             1.0
@@ -164,7 +175,13 @@ impl StepLength {
         } else if basis * factor >= self.largest {
             "largest step"
         } else if by_error < by_iterations.min(by_slip) {
-            if by_friction < by_travel { "error of friction" } else { "error of slip" }
+            if by_error == by_inertia {
+                "error of inertia"
+            } else if by_friction < by_travel {
+                "error of friction"
+            } else {
+                "error of slip"
+            }
         } else if by_slip < by_iterations {
             "length of weakening"
         } else if factor < GROWTH {

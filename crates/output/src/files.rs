@@ -2,12 +2,14 @@
 //!
 //! ```text
 //! fields.pvd  fields/bodies_00001.vtu  fields/fault_00001.vtu  profiles/fault_001.csv  probes/fault.csv  points/tip.csv
-//! forces/left.csv
+//! forces/left.csv  springs/block.top.y.csv
 //! ```
 
 use super::record::{check_interfaces, check_probes, check_samples};
 use super::schedule::{Due, FieldSchedule};
-use super::view::{BodyFields, InterfaceFields, InterfaceMesh, MeshView, Setup, StepView, Writer};
+use super::view::{
+    BodyFields, InterfaceFields, InterfaceMesh, MeshView, Setup, SpringMark, SpringValues, StepView, Writer,
+};
 use super::vtu::{Array, Grid, PvdEntry, Values, pvd};
 use crate::error::{OutputError, expect_length};
 use crate::growing::Growing;
@@ -29,6 +31,8 @@ pub struct Files {
     interfaces: Vec<Part>,
     points: Vec<Growing>,
     forces: Vec<Growing>,
+    energy: Option<Growing>,
+    springs: Vec<Growing>,
     collection: Vec<PvdEntry>,
     field_number: usize,
     /// Times of the last profiles and the last fields written \[s\].
@@ -68,7 +72,7 @@ pub struct FilesState {
     /// Times of the last profiles and the last fields written \[s\].
     written: [Option<f64>; 2],
     collection: Vec<PvdEntry>,
-    /// Bytes of the tables: first those of probes, then of points, then of forces.
+    /// Bytes of the tables: first those of probes, then of points, of forces, of springs and of the energy budget.
     bytes: Vec<u64>,
 }
 
@@ -88,6 +92,8 @@ impl Files {
             interfaces: Vec::new(),
             points: Vec::new(),
             forces: Vec::new(),
+            energy: None,
+            springs: Vec::new(),
             collection: Vec::new(),
             field_number: 0,
             written: [None; 2],
@@ -126,7 +132,7 @@ impl Files {
     /// All tables.
     fn tables(&self) -> impl Iterator<Item = &Growing> {
         let probes = self.interfaces.iter().filter_map(|part| part.probes.as_ref());
-        probes.chain(&self.points).chain(&self.forces)
+        probes.chain(&self.points).chain(&self.forces).chain(&self.springs).chain(&self.energy)
     }
 
     /// Output directory.
@@ -199,6 +205,15 @@ impl Files {
         for (file, force) in self.forces.iter_mut().zip(&view.samples.forces) {
             file.push(&row(force))?;
         }
+        if let (Some(file), Some(energy)) = (&mut self.energy, &view.energy) {
+            file.push(&row(&energy.named().map(|(_, value)| value)))?;
+        }
+        for (file, spring) in self.springs.iter_mut().zip(&view.samples.springs) {
+            if let Some(spring) = spring {
+                let SpringValues { load_point, displacement, force, friction } = *spring;
+                file.push(&row(&[load_point, displacement, force, friction]))?;
+            }
+        }
         Ok(())
     }
 
@@ -231,7 +246,14 @@ impl Files {
         let forces = setup.forces.iter().map(|f| f.name.as_str()).collect();
         let points = begin("points", points, &table::point_header())?;
         let forces = begin("forces", forces, &table::force_header(setup.force_unit))?;
-        (self.points, self.forces) = (points, forces);
+        let springs: Vec<String> = setup.springs.iter().map(SpringMark::name).collect();
+        let springs = springs.iter().map(String::as_str).collect();
+        let springs = begin("springs", springs, &table::spring_header(setup.force_unit))?;
+        (self.points, self.forces, self.springs) = (points, forces, springs);
+        self.energy = match setup.energy_unit {
+            Some(unit) => Some(table(self.out.join("energy.csv"), &table::energy_header(unit))?),
+            None => None,
+        };
         Ok(())
     }
 

@@ -17,6 +17,7 @@ mod pulse;
 mod record;
 mod schedule;
 pub mod seas;
+pub mod seismogram;
 mod table;
 #[cfg(test)]
 mod tests;

@@ -53,6 +53,7 @@ fn sharing<'a>(view: &StepView<'a>, fields: &'a dyn Fn() -> BodyFields) -> StepV
         end_time: view.end_time,
         interfaces: view.interfaces,
         samples: view.samples,
+        energy: view.energy,
         fields,
     }
 }

@@ -1,6 +1,6 @@
 //! A run kept in memory: records of all steps, histories at points of the interfaces, and states at the ends of stages.
 
-use super::view::{BodyFields, InterfaceFields, Samples, Setup, StepRecord, StepView, Writer};
+use super::view::{BodyFields, EnergyParts, InterfaceFields, Samples, Setup, StepRecord, StepView, Writer};
 use crate::error::{OutputError, expect_length};
 use crate::numbers;
 use serde::{Deserialize, Serialize};
@@ -70,6 +70,8 @@ pub struct Recorder {
     records: Vec<StepRecord>,
     times: Vec<f64>,
     samples: Vec<Samples>,
+    #[serde(default)]
+    energies: Vec<EnergyParts>,
     histories: Vec<InterfaceHistory>,
     stage_ends: Vec<StageEnd>,
 }
@@ -128,6 +130,12 @@ impl Recorder {
     #[must_use]
     pub fn samples(&self) -> &[Samples] {
         &self.samples
+    }
+
+    /// Energy budgets after each accepted step of bodies with inertia; otherwise empty.
+    #[must_use]
+    pub fn energies(&self) -> &[EnergyParts] {
+        &self.energies
     }
 
     /// Histories, one entry per interface in the order of [`Setup::interfaces`].
@@ -190,6 +198,7 @@ impl Writer for Recorder {
         self.times.push(view.record.time);
         self.records.push(view.record.clone());
         self.samples.push(view.samples.clone());
+        self.energies.extend(view.energy);
         for (history, fields) in self.histories.iter_mut().zip(view.interfaces) {
             for point in &mut history.points {
                 point.push(fields);
@@ -237,7 +246,8 @@ pub(super) fn check_probes(setup: &Setup) -> Result<(), OutputError> {
 /// Refuses samples that do not fit the announced points and sets.
 pub(super) fn check_samples(setup: &Setup, samples: &Samples) -> Result<(), OutputError> {
     expect_length("points of the step", setup.points.len(), samples.points.len())?;
-    expect_length("forces of the step", setup.forces.len(), samples.forces.len())
+    expect_length("forces of the step", setup.forces.len(), samples.forces.len())?;
+    expect_length("springs of the step", setup.springs.len(), samples.springs.len())
 }
 
 /// Refuses interface fields that do not fit the announced slave nodes, so that no observer indexes out of range.

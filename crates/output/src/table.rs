@@ -1,7 +1,7 @@
 //! CSV tables: profiles along an interface at one time, and histories at its probes.
 
 use super::decimals::{shortest, shortest_scientific};
-use super::view::{InterfaceFields, InterfaceMesh, PointValues};
+use super::view::{EnergyParts, InterfaceFields, InterfaceMesh, PointValues};
 
 /// A column of an interface table: its name with unit, and the function that reads it.
 type Column = (&'static str, fn(&InterfaceFields, usize) -> f64);
@@ -132,6 +132,22 @@ pub(super) fn force_header(unit: &str) -> Vec<u8> {
     let mut rows = Rows::default();
     let columns = ["x", "y", "z"].iter().map(|axis| format!("force_{axis} [{unit}]"));
     rows.push(WHEN.iter().map(ToString::to_string).chain(columns));
+    rows.bytes()
+}
+
+/// Header of an energy budget in this unit.
+pub(super) fn energy_header(unit: &str) -> Vec<u8> {
+    let mut rows = Rows::default();
+    let columns = EnergyParts::default().named().map(|(name, _)| format!("{name} [{unit}]"));
+    rows.push(WHEN.iter().map(ToString::to_string).chain(columns));
+    rows.bytes()
+}
+
+/// Header of a history of a spring, with forces in this unit.
+pub(super) fn spring_header(unit: &str) -> Vec<u8> {
+    let mut rows = Rows::default();
+    let columns = ["load_point [m]", "displacement [m]", &format!("force [{unit}]"), "friction [-]"];
+    rows.push(WHEN.iter().chain(&columns).map(ToString::to_string));
     rows.bytes()
 }
 

@@ -150,6 +150,36 @@ pub struct ForceMark {
     pub set: String,
 }
 
+/// A set that a spring pulls in some stage.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SpringMark {
+    /// The set, `body.set`.
+    pub set: String,
+    /// Axis along which it pulls: x, y or z.
+    pub axis: String,
+}
+
+impl SpringMark {
+    /// Name of the spring, by its set and axis.
+    #[must_use]
+    pub fn name(&self) -> String {
+        format!("{}.{}", self.set, self.axis)
+    }
+}
+
+/// State of a spring.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SpringValues {
+    /// Displacement of the load point since the spring was attached \[m\].
+    pub load_point: f64,
+    /// Displacement of the set \[m\].
+    pub displacement: f64,
+    /// Force of the spring on the set, as a load cell reads it \[N, or N/m of thickness in the plane\].
+    pub force: f64,
+    /// Macroscopic friction: size of the force over the sum of the normal forces on all interfaces \[-\]; 0 without normal forces.
+    pub friction: f64,
+}
+
 /// Values at a point of a body.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PointValues {
@@ -161,7 +191,7 @@ pub struct PointValues {
     pub mises: f64,
 }
 
-/// Values at the points and sets of [`Setup::points`] and [`Setup::forces`] after a step.
+/// Values at the points, sets and springs of [`Setup`] after a step.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Samples {
     /// One entry per point.
@@ -169,6 +199,57 @@ pub struct Samples {
     /// Force on the body through the nodes of each set \[N, or N/m of thickness in the plane\]. It includes constraint forces,
     /// contact forces, and loads on the set.
     pub forces: Vec<[f64; 3]>,
+    /// State of each spring of [`Setup::springs`]; `None` in stages in which it does not pull.
+    #[serde(default)]
+    pub springs: Vec<Option<SpringValues>>,
+}
+
+/// Energy budget of bodies with inertia since the start \[J, or J/m of thickness\]:
+/// `kinetic + strain + contact + plastic + viscous + friction + numerical + missing = start + loads + motions`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct EnergyParts {
+    /// Kinetic energy.
+    pub kinetic: f64,
+    /// Elastic energy of the bodies.
+    pub strain: f64,
+    /// Elastic energy of the penalties of the interfaces.
+    pub contact: f64,
+    /// Energy dissipated by plastic flow.
+    pub plastic: f64,
+    /// Energy dissipated by viscous flow.
+    pub viscous: f64,
+    /// Energy dissipated by friction.
+    pub friction: f64,
+    /// Energy dissipated by the time integration.
+    pub numerical: f64,
+    /// Energy at the start.
+    pub start: f64,
+    /// Work of loads.
+    pub loads: f64,
+    /// Work of prescribed motions.
+    pub motions: f64,
+    /// Energy by which the budget does not close.
+    pub missing: f64,
+}
+
+impl EnergyParts {
+    /// Names and values of the parts, in the order of the columns of files.
+    #[must_use]
+    pub fn named(&self) -> [(&'static str, f64); 11] {
+        [
+            ("kinetic", self.kinetic),
+            ("strain", self.strain),
+            ("contact", self.contact),
+            ("plastic", self.plastic),
+            ("viscous", self.viscous),
+            ("friction", self.friction),
+            ("numerical", self.numerical),
+            ("start", self.start),
+            ("loads", self.loads),
+            ("motions", self.motions),
+            ("missing", self.missing),
+        ]
+    }
 }
 
 /// Record of one step in the report.
@@ -249,6 +330,8 @@ pub struct StepView<'a> {
     pub interfaces: &'a [InterfaceFields],
     /// Points and forces, in the order of [`Setup::points`] and [`Setup::forces`].
     pub samples: &'a Samples,
+    /// Energy budget, if the bodies have inertia.
+    pub energy: Option<EnergyParts>,
     /// Recovers the fields of the bodies; on the condensed path this costs a solve.
     pub fields: &'a dyn Fn() -> BodyFields,
 }
@@ -268,8 +351,12 @@ pub struct Setup {
     pub points: Vec<PointMark>,
     /// Sets whose forces are recorded in every step.
     pub forces: Vec<ForceMark>,
+    /// Sets that springs pull, recorded in every step.
+    pub springs: Vec<SpringMark>,
     /// Unit of forces: N, or N/m if they are per metre of thickness.
     pub force_unit: &'static str,
+    /// Unit of energies, if the bodies have inertia: J, or J/m if they are per metre of thickness.
+    pub energy_unit: Option<&'static str>,
 }
 
 /// Receives the views of a run of bodies, to write, draw, keep or show them.

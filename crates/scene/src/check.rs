@@ -3,9 +3,11 @@
 mod bodies;
 mod conditions;
 pub mod course;
+mod explicit;
 mod fault_physics;
 mod faults;
 mod heat;
+mod inertia;
 mod interfaces;
 mod materials;
 mod medium;
@@ -38,6 +40,7 @@ pub fn check(scene: &Scene, laws: &Laws) -> (Vec<Diagnostic>, Vec<Warning>) {
     checker.place();
     checker.stages();
     checker.time();
+    checker.inertia();
     checker.solver();
     checker.output();
     checker.unused();

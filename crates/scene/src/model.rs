@@ -6,9 +6,11 @@
 mod body;
 mod fault;
 mod heat;
+mod inertia;
 mod medium;
 mod patch;
 mod place;
+mod pulse;
 mod solver;
 mod stress;
 
@@ -21,9 +23,11 @@ use crate::warning::Warning;
 pub use body::*;
 pub use fault::*;
 pub use heat::*;
+pub use inertia::*;
 pub use medium::*;
 pub use patch::*;
 pub use place::Place;
+pub use pulse::Pulse;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -56,7 +60,7 @@ pub struct Scene {
     /// Faults by name, for the stepper "fault-ode".
     #[serde(default)]
     pub faults: BTreeMap<String, Fault>,
-    /// Events of faults.
+    /// Events of faults, or of interfaces whose laws depend on the slip rate.
     pub events: Option<EventSpec>,
     /// Geographical position of the origin and time zero, for catalogues.
     pub place: Option<Place>,
@@ -79,6 +83,12 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Settings of inertia; `None` if the bodies move through states of equilibrium.
+    #[must_use]
+    pub fn inertia(&self) -> Option<InertiaSpec> {
+        self.time.inertia.as_ref().and_then(|inertia| inertia.get_ref().settings())
+    }
+
     /// The body to which a set `body.side` belongs.
     #[must_use]
     pub fn body_of(&self, set: &Spanned<String>) -> Option<&Body> {
@@ -113,6 +123,8 @@ pub struct Interface {
     pub enforcement: Enforcement,
     /// A [friction law](laws.md) or a bond; absent: frictionless.
     pub law: Option<Spanned<LawSpec>>,
+    /// Radiation damping η of a law of the slip rate: `"radiation"`, or a value; absent: none \[Pa s/m\].
+    pub damping: Option<Spanned<DampingSpec>>,
     /// Treatment of points too far apart to resolve friction that weakens: `"refuse"` (default) or `"allow"`.
     pub under_resolved: Option<Spanned<UnderResolved>>,
     /// `true`: the interface starts with the tractions of the [initial stress](bodies.md) of its bodies; default `false`.
@@ -279,6 +291,8 @@ pub struct Condition {
     pub traction: Option<Spanned<Vec<Loading>>>,
     /// Pressure, positive into the body.
     pub pressure: Option<Spanned<Loading>>,
+    /// Explicit: `true`: the side absorbs waves that leave the body.
+    pub absorbing: Option<Spanned<bool>>,
 }
 
 /// Motion of a displacement component during a stage.
@@ -361,7 +375,7 @@ pub enum Loading {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "snake_case")]
 pub struct TimeControl {
-    /// Stepper: `"implicit"`, `"static-explicit"`, or for faults `"fault-ode"`.
+    /// Stepper: `"implicit"`, `"static-explicit"`, for faults `"fault-ode"`, and with inertia `"explicit"`.
     pub stepper: Spanned<Stepper>,
     /// Both: rule for the slip rate, `"bdf2"` or `"backward-euler"`.
     #[serde(default)]
@@ -373,11 +387,13 @@ pub struct TimeControl {
     pub tolerance: Option<Spanned<Length>>,
     /// Implicit: largest estimated error of friction coefficients per step, 1e-9 to 1e-2 \[-\].
     pub friction_tolerance: Option<Spanned<f64>>,
+    /// Implicit: `true`, or `{ spectral_radius = .., tolerance = .. }`: the bodies have mass; default `false`.
+    pub inertia: Option<Spanned<Inertia>>,
     /// Both: first step; default 1/1000 of the stage \[s\].
     pub first_step: Option<Spanned<Time>>,
     /// Both: largest step; default 1/20 of the stage \[s\].
     pub max_step: Option<Spanned<Time>>,
-    /// Both: smallest step, below which a run stops; default 1e-9 of the stage \[s\].
+    /// Both: smallest step, below which a run stops; default 1e-9 of the stage, 1e-13 with damping \[s\].
     pub min_step: Option<Spanned<Time>>,
     /// Both: slip rate at which a run stops with an [instability](#instabilities) \[m/s\].
     pub slip_rate_limit: Option<Spanned<Velocity>>,
@@ -385,6 +401,10 @@ pub struct TimeControl {
     pub method: Option<Spanned<String>>,
     /// Fault-ode: admissible error of ln V per step; default 1e-5 \[-\].
     pub log_rate_tolerance: Option<Spanned<f64>>,
+    /// Explicit: step over the stable step; default 0.5 \[-\].
+    pub courant: Option<Spanned<f64>>,
+    /// Explicit: time of Kelvin-Voigt viscosity over the step; default 0.1 \[-\].
+    pub viscosity: Option<Spanned<f64>>,
     /// Static-explicit: largest admissible residual of a step over the largest force, at most 1e-2; default 1e-4 \[-\].
     pub drift: Option<Spanned<f64>>,
     /// Static-explicit: bound on the change of ln V per step; default 0.5 \[-\].
@@ -406,6 +426,8 @@ pub enum Stepper {
     StaticExplicit,
     /// Integration of faults through earthquake cycles, with their bodies condensed onto them.
     FaultOde,
+    /// Central differences of bodies with mass, whose faults radiate waves.
+    Explicit,
 }
 
 /// Rules of the implicit stepper for the slip rate.
@@ -445,15 +467,22 @@ pub struct Output {
     /// `{ set = "A.left" }`: total force on a set, at every step.
     #[serde(default)]
     pub forces: BTreeMap<String, Spanned<ForceSpec>>,
-    /// Field files per stage, at equal intervals; default 1.
+    /// Field files per stage, at equal intervals; default 1, explicit 10.
     pub fields: Option<Spanned<usize>>,
-    /// Profiles per stage, at equal intervals; default 10.
+    /// Profiles per stage, at equal intervals; default 10, explicit 200.
     pub profiles: Option<Spanned<usize>>,
     /// `true`: displacements of the bodies over each event and at the end, as VTU.
     pub bodies: Option<Spanned<bool>>,
     /// Positions on a fault: distances along it, or coordinates `[x, y]`, in space `[x, y, z]`.
     #[serde(default)]
     pub stations: BTreeMap<String, Spanned<Vec<Spanned<Station>>>>,
+    /// Explicit: `{ body = "A", at = ["1 km", "2 km"] }`: velocity and displacement at a position, at equal intervals.
+    #[serde(default)]
+    pub seismograms: BTreeMap<String, Spanned<PointSpec>>,
+    /// Explicit: time between rows of seismograms, stations, energies and moment rate; default 1/1000 of the run \[s\].
+    pub sampling: Option<Spanned<Time>>,
+    /// Explicit: slip rate at which a point has ruptured; default `"1 mm/s"` \[m/s\].
+    pub rupture_rate: Option<Spanned<Velocity>>,
     /// Changes after which rows of stations and of the largest slip rate are written.
     pub cadence: Option<Spanned<CadenceSpec>>,
     /// Intervals between profiles of slip: between events, and during them \[s\].

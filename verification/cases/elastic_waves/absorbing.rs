@@ -77,7 +77,7 @@ fn reflected(wave: Wave, degrees: f64, energy: &Value) -> Result<(f64, f64), Cas
     let strip = mesh(&[[line(-half, half, n), line(0.0, 1.0, ACROSS)]], ElementKind::Quad9)?;
     let group = speed * degrees.to_radians().cos();
     let space = if wave == Wave::Shear { Idealisation::Antiplane } else { Idealisation::PlaneStrain };
-    let mut problem = problem(strip, ROCK, space, 1.6 * half / group)?;
+    let mut problem = problem(strip, ROCK, space, 2.0 * half / group)?;
     let envelope = |x: f64| (-0.5 * (x / width).powi(2)).exp();
     let nodes = &problem.model.mesh.nodes;
     problem.velocity = match wave {

@@ -100,7 +100,7 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     ledger.plot(
         Plot::xy("Contact traction of two colliding bars", "time over l/c", "traction over rho c v/2")
             .series(Series::line("cells of l/200", &history))
-            .series(Series::line("exact", &vec![(0.0, 1.0), (2.0, 1.0), (2.0, 0.0), (3.0, 0.0)])),
+            .series(Series::line("exact", &[(0.0, 1.0), (2.0, 1.0), (2.0, 0.0), (3.0, 0.0)])),
     );
     Ok(())
 }

@@ -29,6 +29,11 @@ const FORWARD: [Change<'_>; 3] =
 const PLASTIC: Change<'_> =
     Add("materials.soft.plasticity", r#"{ hardening = "linear", yield = "20 MPa", modulus = "1 GPa" }"#);
 const MAXWELL: Change<'_> = Add("materials.soft.viscosity", "20 GPa s");
+const MASS: [Change<'_>; 3] = [
+    Add("materials.soft.density", "2000"),
+    Add("materials.hard.density", "2000"),
+    Add("time.inertia", "{ tolerance = 0.1 }"),
+];
 const FINITE: [Change<'_>; 2] = [Add("bodies.slab.strain", "finite"), Add("bodies.die.strain", "finite")];
 
 /// The scenes.
@@ -49,6 +54,7 @@ pub fn all() -> Result<Vec<Interrupted>, CaseError> {
         named("mortar contact by Uzawa's method", die(&[&[MORTAR, UZAWA]]))?,
         named("a plastic slab at finite strain", die(&[&[PLASTIC], &FINITE]))?,
         named("a viscous slab", die(&[&[MAXWELL]]))?,
+        named("a plastic slab with inertia", die(&[&[PLASTIC], &FINITE, &MASS]))?,
         named("static-explicit steps", die(&[&FORWARD]))?,
         named("static-explicit steps, a plastic slab", die(&[&FORWARD, &[PLASTIC]]))?,
         named("a fault through events", block)?,

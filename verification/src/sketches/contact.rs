@@ -20,6 +20,7 @@ pub(super) fn of(name: &str) -> Option<Sketch> {
         "flat_punch" => punch(),
         "frictional_bar" => bar(),
         "frictional_crack" => crack(),
+        "impact_bars" => impact(),
         "hertz_line" => hertz("R = 100 mm", "δ = 18.6 µm", "40 × 20 mm, steel", ""),
         "partial_slip" => hertz("R = 100 mm", "δ = 18.6 µm", "40 × 20 mm, steel, μ = 0.3", "4 µm, and back"),
         "hertz_sphere" => hertz("R = 8 mm", "δ = 18 µm", "rigid flat, about the axis", ""),
@@ -199,6 +200,16 @@ fn bar() -> Sketch {
         .note((3.0, 27.0), "0.25 m")
         .dimension((18.0, 9.0), (88.0, 9.0), "150 m")
         .note((70.0, 13.0), "μ = 0.5")
+}
+
+fn impact() -> Sketch {
+    Sketch::new(36.0)
+        .block((8.0, 14.0), (48.0, 20.0), "")
+        .block((52.0, 14.0), (92.0, 20.0), "")
+        .arrow((20.0, 25.0), (34.0, 25.0), "2 m/s")
+        .note((62.0, 26.0), "at rest")
+        .dimension((8.0, 7.0), (48.0, 7.0), "100 mm")
+        .note((56.0, 8.0), "c = 5000 m/s, ρ = 8000 kg/m³")
 }
 
 fn crack() -> Sketch {

@@ -18,8 +18,15 @@ pub fn of(name: &str) -> Option<String> {
 #[cfg(test)]
 mod tests {
     /// Cases of many problems, or of files.
-    const WITHOUT: [&str; 6] =
-        ["absence", "event_files", "newton_convergence", "output_files", "restarts", "scene_units"];
+    const WITHOUT: [&str; 7] = [
+        "absence",
+        "event_files",
+        "implicit_dynamics",
+        "newton_convergence",
+        "output_files",
+        "restarts",
+        "scene_units",
+    ];
 
     #[test]
     fn every_case_of_one_problem_has_a_sketch_with_finite_places() {

@@ -25,6 +25,7 @@ const ROWS: [Row; 1] = [Row {
         "cite/",
         "cli/",
         "diagnostic/",
+        "dynamic/planner/",
         "fault/planner/",
         "loading/",
         "model/",
@@ -33,6 +34,7 @@ const ROWS: [Row; 1] = [Row {
         "amounts.rs",
         "forecast.rs",
         "idealisation.rs",
+        "impedance.rs",
         "initial_stress.rs",
         "laws.rs",
         "lengths.rs",
@@ -41,6 +43,7 @@ const ROWS: [Row; 1] = [Row {
         "refused.rs",
         "scene.rs",
         "slider_planner.rs",
+        "thresholds.rs",
     ],
     reason: "plans are made from the scene, and what lies below them works on values",
 }];

@@ -4,7 +4,7 @@ use super::Interface;
 use crate::shear::Shear;
 use crate::status::{Status, label};
 use crate::vector::norm;
-use crate::watch::{Course, RateLimit, Watch};
+use crate::watch::{Course, RateLimit, Watch, spanned};
 use asperity_fem::term::Objection;
 use asperity_friction::Failure;
 use asperity_friction::law::Regime;
@@ -33,14 +33,18 @@ impl<const D: usize> Interface<D> {
     #[must_use]
     pub fn fill(&self) -> f64 {
         let Some(shear) = &self.shear else { return 0.0 };
-        let slips = self.motion.committed.step.iter().enumerate();
-        let slip = |most: f64, counts: &dyn Fn(usize) -> bool| {
-            slips.filter(|(p, _)| counts(*p)).map(|(_, s)| norm(s) / most).fold(0.0, f64::max)
-        };
+        let slips = self.motion.committed.step.iter().map(norm).enumerate();
         match self.watch.course {
             Course::Steady | Course::Drop => 0.0,
-            Course::State { most } => slip(most, &|_| true),
-            Course::Branch { most, length } => slip(most, &|p| shear.committed.states[p] < length),
+            Course::State { most, damped } => {
+                let (rate, contact) = (&shear.committed.rate, &self.contact.committed);
+                let spans = |p: usize| spanned((most, damped), [rate[p]; 2], contact[p].traction);
+                slips.map(|(p, slip)| slip / spans(p)).fold(0.0, f64::max)
+            }
+            Course::Branch { most, length } => slips
+                .filter(|(p, _)| shear.committed.states[*p] < length)
+                .map(|(_, slip)| slip / most)
+                .fold(0.0, f64::max),
         }
     }
 
@@ -132,10 +136,13 @@ impl<const D: usize> Interface<D> {
         };
         match self.watch.course {
             Course::Steady => None,
-            Course::State { most } => {
+            Course::State { most, damped } => {
                 let soft =
                     |p: usize| shear.trial.regime[p] == Regime::Slip && softens(shear.points[p].d_trial);
-                let p = farthest(&|p| slip(p) > most || soft(p))?;
+                let rates = |p: usize| [shear.committed.rate[p], shear.trial.rate[p]];
+                let normal = |p: usize| self.contact.trial[p].traction;
+                let most = |p: usize| spanned((most, damped), rates(p), normal(p));
+                let p = farthest(&|p| slip(p) > most(p) || soft(p))?;
                 let reason =
                     format!("slips by {:.3e} m within a step, and the law weakens over less", slip(p));
                 Some(self.objection_at(shear, p, &reason, true))

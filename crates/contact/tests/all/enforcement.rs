@@ -6,6 +6,8 @@ use asperity_contact::{
 };
 use asperity_fem::term::{Augmented, Limited, Linearized, Saved, Term};
 use asperity_friction::law::Law;
+use asperity_friction::rate::RateLaw;
+use asperity_friction::strength::Parameters;
 use asperity_friction::tied::Tied;
 use std::sync::Arc;
 
@@ -67,9 +69,22 @@ fn case<const D: usize>(
     angle: f64,
     moves: [&[[f64; D]]; 2],
 ) -> (Interface<D>, Vec<f64>) {
+    damped_case(spec, angle, moves, 0.0)
+}
+
+/// The same with this radiation damping \[Pa s/m\].
+fn damped_case<const D: usize>(
+    spec: InterfaceSpec<D>,
+    angle: f64,
+    moves: [&[[f64; D]]; 2],
+    damping: f64,
+) -> (Interface<D>, Vec<f64>) {
     let first = with_unknowns(&spec, moved(&spec, angle, moves[0], 1e-3, 1), 0.05, 0.001);
     let second = with_unknowns(&spec, moved(&spec, angle, moves[1], 1e-3, 2), 0.06, 0.003);
     let mut interface = Interface::new(spec).unwrap();
+    if damping > 0.0 {
+        interface.set_damping(damping);
+    }
     interface.prepare(&first).unwrap();
     residual(&mut interface, &first);
     interface.accept();
@@ -110,6 +125,47 @@ fn the_tangent_with_multipliers_as_unknowns_is_the_derivative_of_the_residual() 
                     spec.enforcement = unknown(&spec);
                     let (mut interface, u) = plate_case(spec, angle);
                     assert_taylor(&mut interface, &u, 12);
+                }
+            }
+        }
+    }
+}
+
+/// Damping that carries about as much as friction in the second motion \[Pa s/m\].
+const DAMPING: f64 = 10.0;
+
+/// Friction that depends on the slip rate, and radiates.
+fn rated() -> LawOption {
+    let strength = Parameters::new(0.4, 0.05, 1.0).unwrap();
+    Some(Arc::new(RateLaw::velocity(strength, None).unwrap()))
+}
+
+#[test]
+fn tangents_with_damping_are_derivatives_in_every_measure_and_enforcement() {
+    for sliding in [Sliding::Small, Sliding::Finite] {
+        for angle in [0.0, 0.7] {
+            for enforce in [false, true] {
+                for mut spec in lines(&rated(), sliding, angle) {
+                    if enforce {
+                        spec.enforcement = unknown(&spec);
+                    }
+                    let (mut plain, u) = line_case(spec.clone(), angle);
+                    let (mut interface, _) = damped_case(spec, angle, [&LINE[0], &LINE[1]], DAMPING);
+                    assert_taylor(&mut interface, &u, 21);
+                    // Damping changes the forces by a good part of them.
+                    let (with, without) = (residual(&mut interface, &u), residual(&mut plain, &u));
+                    let size = |r: &[f64]| r.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+                    let change: Vec<f64> = with.iter().zip(&without).map(|(a, b)| a - b).collect();
+                    assert!(size(&change) > 0.05 * size(&without), "{} of {}", size(&change), size(&without));
+                }
+                for mut spec in plates(&rated(), sliding, angle) {
+                    if enforce {
+                        spec.enforcement = unknown(&spec);
+                    }
+                    let n = spec.slave.len();
+                    let moves = [&PLATE[0][..n], &PLATE[1][..n]];
+                    let (mut interface, u) = damped_case(spec, angle, moves, DAMPING);
+                    assert_taylor(&mut interface, &u, 22);
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! Literature of the cases of the verification suite. A test of the suite compares it with their pages.
 
 /// Cases and the keys of their literature.
-const CASES: [(&str, &[&str]); 99] = [
+const CASES: [(&str, &[&str]); 103] = [
     ("absence", &["weidendorfer2004"]),
     ("antiplane", &["nehari1952", "strang1973", "timoshenko1970"]),
     ("block_dragged", &["codeaster"]),
@@ -22,7 +22,9 @@ const CASES: [(&str, &[&str]); 99] = [
     ("contact_sliding", &["nafems2001", "puso2004b"]),
     ("cook_membrane", &["cook1974", "williams1952"]),
     ("coulomb_strip", &["curnier1984"]),
+    ("dynamic_rupture", &["day2005", "kaneko2008"]),
     ("elastic_plastic_cylinder", &["hill1950", "desouzaneto2008"]),
+    ("elastic_waves", &["lysmer1969"]),
     ("event_files", &["aki2002", "iaspei2013", "moritz2000", "snyder1987"]),
     ("event_numbers", &["iaspei2013", "aki2002", "starr1928", "rice1993"]),
     ("fault_balance", &["rice1993"]),
@@ -50,6 +52,8 @@ const CASES: [(&str, &[&str]); 99] = [
     ("hertz_ball", &["johnson1985", "mindlin1949", "munisamy1994"]),
     ("hertz_line", &["hertz1882", "johnson1985"]),
     ("hertz_sphere", &["hertz1882", "johnson1985"]),
+    ("impact_bars", &["johnson1985", "chung1993"]),
+    ("implicit_dynamics", &["chung1993", "wood1952", "zienkiewicz1991"]),
     ("interface_instability", &["riceruina1983", "ranjith1999"]),
     ("interface_laws", &["ida1972", "andrews1976", "perrin1995"]),
     ("interface_prestress", &["jaeger2007"]),
@@ -87,19 +91,6 @@ const CASES: [(&str, &[&str]); 99] = [
     ("slider_cycles", &["luo2017", "rice1986"]),
     ("slider_inertia", &["hairer1996", "rice1986"]),
     ("slider_inertia_all", &["hairer1996", "rice1986"]),
-    (
-        "slider_laws",
-        &[
-            "dieterich1979",
-            "ruina1983",
-            "okubo1989",
-            "chester1994",
-            "perrin1995",
-            "rice2006",
-            "dunham2011",
-            "nagata2012",
-        ],
-    ),
     ("slider_normal", &["linker1992"]),
     ("slider_orbit", &["gu1984"]),
     ("slider_outputs", &["ruina1983", "gu1984", "nagata2012"]),
@@ -109,6 +100,7 @@ const CASES: [(&str, &[&str]); 99] = [
     ("stage_paths", &["timoshenko1970"]),
     ("static_explicit_jumps", &["timoshenko1970"]),
     ("steel_strip", &["belendez2003"]),
+    ("stick_slip", &["dieterich1978"]),
     ("two_rings", &["michell1899", "timoshenko1970"]),
     ("uniaxial_hardening", &["simo1998"]),
     ("volumetric_path", &["prager1961", "belytschko2000"]),

@@ -13,7 +13,7 @@ use crate::scene::slider::SliderScene;
 
 /// Keys of this file, for the test of the table.
 #[cfg(test)]
-pub(super) const KEYS: [&str; 26] = [
+pub(super) const KEYS: [&str; 30] = [
     "puso2004",
     "puso2004b",
     "wohlmuth2000",
@@ -40,6 +40,10 @@ pub(super) const KEYS: [&str; 26] = [
     "muskhelishvili1953",
     "okada1992",
     "savage1983",
+    "day2005",
+    "kaneko2008",
+    "lysmer1969",
+    "prakash1993",
 ];
 
 /// Citations of a scene of bodies or faults.
@@ -193,10 +197,34 @@ fn add_steps(citations: &mut Citations, scene: &Scene) {
                 citations.add(key, "static-explicit steps by the R-minimum rule");
             }
         }
+        Stepper::Explicit => add_waves(citations, scene),
         Stepper::Implicit => {}
+    }
+    if scene.inertia().is_some() {
+        citations.add("chung1993", "inertia by the generalised-alpha method");
+        if scene.stages.iter().any(|stage| stage.steps.is_none()) {
+            citations.add("zienkiewicz1991", "error control of bodies with inertia");
+        }
     }
     if !scene.interfaces.is_empty() && rule(scene) == Rule::Bdf2 {
         citations.add("hairer1993", "rule \"bdf2\" with variable steps");
+    }
+}
+
+/// Sources of steps with inertia.
+fn add_waves(citations: &mut Citations, scene: &Scene) {
+    let conditions = || scene.stages.iter().flat_map(|s| &s.conditions).map(Spanned::get_ref);
+    if conditions().any(|c| c.absorbing.as_ref().is_some_and(|a| *a.get_ref())) {
+        citations.add("lysmer1969", "absorbing sides");
+    }
+    if !scene.faults.is_empty() {
+        citations.add("day2005", "friction at split nodes");
+    }
+    if scene.faults.values().any(Fault::slides) {
+        citations.add("kaneko2008", "friction that depends on the slip rate at split nodes");
+    }
+    if scene.faults.values().any(|f| f.normal_delay.is_some()) {
+        citations.add("prakash1993", "friction that follows the normal traction with a delay");
     }
 }
 

@@ -12,7 +12,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Files that runs write to their directory.
-const FILES: [&str; 20] = [
+const FILES: [&str; 23] = [
     REPORT,
     LOCK,
     ".writable",
@@ -31,21 +31,26 @@ const FILES: [&str; 20] = [
     "slip_profiles.csv",
     "rate_profiles.csv",
     "snapshots.csv",
+    "energy.csv",
+    "moment_rate.csv",
+    "rupture_times.csv",
     // Files left by file managers.
     ".DS_Store",
     "Thumbs.db",
 ];
 
 /// Folders that runs make, with the extensions of the files in them.
-const FOLDERS: [(&str, &[&str]); 8] = [
+const FOLDERS: [(&str, &[&str]); 10] = [
     ("fields", &["vtu"]),
     ("profiles", &["csv"]),
     ("probes", &["csv"]),
     ("points", &["csv"]),
     ("forces", &["csv"]),
+    ("springs", &["csv"]),
     ("history", &["csv"]),
     ("plots", &["svg", "png"]),
     ("stations", &[""]),
+    ("seismograms", &["csv", "mseed", "sac"]),
 ];
 
 /// First entry of a directory that no run writes; `None` if there is none or the directory does not exist.

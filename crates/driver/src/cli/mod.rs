@@ -11,6 +11,7 @@ mod pausing;
 mod print;
 mod read;
 mod signals;
+mod waves;
 mod work;
 
 use crate::report;
@@ -25,6 +26,7 @@ use miette::IntoDiagnostic;
 pub use pausing::Pausing;
 use read::{Planned, Source};
 use std::path::{Path, PathBuf};
+use waves::run_waves;
 use work::{run_bodies, run_faults, run_sliders};
 
 /// Faults and rock friction by finite elements.
@@ -138,6 +140,7 @@ fn run(source: Source, directory: &mut Directory, drawn: bool, pauses: &Pausing)
         Planned::Bodies(plan) => run_bodies(plan, &ready, directory, drawn, pauses),
         Planned::Sliders(plan) => run_sliders(plan, &ready, directory, drawn, pauses),
         Planned::Faults(plan) => run_faults(plan, &ready, directory, drawn, pauses),
+        Planned::Dynamic(plan) => run_waves(plan, &ready, directory, drawn, pauses),
     }
 }
 

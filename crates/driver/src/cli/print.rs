@@ -11,6 +11,7 @@ pub(super) fn plan(plan: &Planned) {
         Planned::Bodies(plan) => out(format_args!("{}", plan.summary())),
         Planned::Sliders(plan) => out(format_args!("{}", plan.summary())),
         Planned::Faults(plan) => out(format_args!("{}", plan.summary())),
+        Planned::Dynamic(plan) => out(format_args!("{}", plan.summary())),
     }
 }
 
@@ -48,6 +49,9 @@ pub(super) fn results(report: &RunReport) {
             triple(&f.value),
             f.unit
         ));
+    }
+    if let Some(energy) = &report.energy {
+        out(format_args!("  energy budget closes to {:.1e} of its largest part\n", energy.imbalance));
     }
     let c = &report.counts;
     out(format_args!(

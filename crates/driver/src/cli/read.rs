@@ -4,6 +4,7 @@ use super::begin::Begin;
 use crate::checkpoint;
 use crate::cite::{self, Citations};
 use crate::diagnostic::{Diagnostics, report};
+use crate::dynamic;
 use crate::fault;
 use crate::plan::{self, AnyPlan, ScenePlan};
 use crate::report::Kind;
@@ -25,6 +26,8 @@ pub(super) enum Planned {
     Sliders(Box<slider::Plan>),
     /// Faults over earthquake cycles.
     Faults(Box<fault::Plan>),
+    /// Bodies with mass.
+    Dynamic(Box<dynamic::AnyPlan>),
 }
 
 impl Planned {
@@ -33,6 +36,7 @@ impl Planned {
             Self::Bodies(plan) => plan.warnings_mut(),
             Self::Sliders(plan) => &mut plan.warnings,
             Self::Faults(plan) => &mut plan.warnings,
+            Self::Dynamic(plan) => plan.warnings_mut(),
         }
     }
 }
@@ -86,12 +90,12 @@ impl Source {
         Ok(Self { name, text, parsed, clock })
     }
 
-    /// SHA-256 of the mesh files of a scene without faults. Only such a run ends at a time that no change of the scene can extend. `None` if the
-    /// scene has faults or a file cannot be read.
+    /// SHA-256 of the mesh files of a scene without faults through cycles. Only such a run ends at a time that no change of the scene can extend. `None` if the
+    /// scene has such faults or a file cannot be read.
     pub fn meshes_of_whole(&self) -> Option<BTreeMap<String, String>> {
         match &self.parsed {
             Parsed::Sliders(_) => Some(BTreeMap::new()),
-            Parsed::Bodies(scene) if scene.faults.is_empty() => mesh_hashes(scene).ok(),
+            Parsed::Bodies(scene) if scene.faults.is_empty() || has_mass(scene) => mesh_hashes(scene).ok(),
             Parsed::Bodies(_) => None,
         }
     }
@@ -100,6 +104,7 @@ impl Source {
     pub fn begin(&self, path: &Path) -> Begin {
         let (kind, title) = match &self.parsed {
             Parsed::Sliders(plan) => (Kind::Sliders, &plan.problem.title),
+            Parsed::Bodies(scene) if has_mass(scene) => (Kind::Dynamics, &scene.title),
             Parsed::Bodies(scene) if scene.faults.is_empty() => (Kind::Bodies, &scene.title),
             Parsed::Bodies(scene) => (Kind::Faults, &scene.title),
         };
@@ -126,6 +131,7 @@ impl Source {
                 let plan = match plan::plan_scene(&scene) {
                     Ok(ScenePlan::Bodies(plan)) => Planned::Bodies(plan),
                     Ok(ScenePlan::Faults(plan)) => Planned::Faults(plan),
+                    Ok(ScenePlan::Dynamic(plan)) => Planned::Dynamic(plan),
                     Err(error) => {
                         return Err(report(&name, &text, &Diagnostics::from(error)));
                     }
@@ -140,11 +146,18 @@ impl Source {
         let hashes = meshes.values().map(String::as_str);
         let physics = match &plan {
             Planned::Faults(_) => fault::physics(&text, hashes),
-            Planned::Bodies(_) | Planned::Sliders(_) => checkpoint::scene::of_bodies(&text, hashes),
+            Planned::Bodies(_) | Planned::Sliders(_) | Planned::Dynamic(_) => {
+                checkpoint::scene::of_bodies(&text, hashes)
+            }
         };
         let hash = sha256([&text]);
         Ok(Ready { plan, hash, physics, meshes, seconds: clock.elapsed().as_secs_f64() })
     }
+}
+
+/// True if the bodies of a scene have mass.
+fn has_mass(scene: &scene::model::Scene) -> bool {
+    *scene.time.stepper.get_ref() == scene::model::Stepper::Explicit
 }
 
 /// SHA-256 of the mesh files of a scene, by their names in the scene.

@@ -5,6 +5,7 @@ use super::end::End;
 use super::pausing::Pausing;
 use super::read::Ready;
 use super::{json, print, signals};
+use crate::catalogue::{self, Entry, FaultEvents};
 use crate::checkpoint::{self, Contents as _, Pauses};
 use crate::fault;
 use crate::forecast;
@@ -41,6 +42,9 @@ pub(super) fn run_bodies(
     report.seconds.plan = ready.seconds;
     // The report is written last, even if the plots cannot be written.
     let drawn = draw(directory.path(), recorder.as_ref());
+    if let Some(events) = &report.events {
+        write_catalogues(directory.path(), &events.all, &events.interfaces).into_diagnostic()?;
+    }
     directory.write(&report, &ready.meshes)?;
     drawn?;
     print::results(&report);
@@ -52,7 +56,7 @@ pub(super) fn run_bodies(
 }
 
 /// Outcome with its message to the user; `step` is the number of steps taken.
-fn end(outcome: Outcome, step: Option<usize>) -> End {
+pub(super) fn end(outcome: Outcome, step: Option<usize>) -> End {
     let place = |stage: Option<String>, time: f64| {
         let stage = stage.map_or(String::new(), |stage| format!("stage `{stage}` "));
         format!("{stage}at {time:.6e} s")
@@ -74,7 +78,7 @@ fn end(outcome: Outcome, step: Option<usize>) -> End {
 const RESUMES: &str = "the same command with --resume resumes it there";
 
 /// Reasons to interrupt the run, in force from now on.
-fn pauses(pausing: &Pausing) -> miette::Result<Pauses> {
+pub(super) fn pauses(pausing: &Pausing) -> miette::Result<Pauses> {
     let stop = signals::watched().into_diagnostic()?;
     Ok(Pauses { every: pausing.checkpoint_every, wall: pausing.wall_time, stop, begun: Instant::now() })
 }
@@ -105,7 +109,7 @@ fn kept(
 }
 
 /// Removes the plots of the previous part. They are redrawn at the end if requested and if the run was begun with plots.
-fn draws_again(path: &Path, asked: bool, begun_with: bool) -> miette::Result<()> {
+pub(super) fn draws_again(path: &Path, asked: bool, begun_with: bool) -> miette::Result<()> {
     if asked && !begun_with {
         out(format_args!("no plots: the run was begun with --no-plots\n"));
     }
@@ -118,12 +122,12 @@ fn draws_again(path: &Path, asked: bool, begun_with: bool) -> miette::Result<()>
     }
 }
 
-fn nothing_to_resume(path: &Path) {
+pub(super) fn nothing_to_resume(path: &Path) {
     out(format_args!("nothing to resume in {}: begins at the start\n", path.display()));
 }
 
 /// Prints the peak memory and the output directory.
-fn written(directory: &Directory) {
+pub(super) fn written(directory: &Directory) {
     if let Some(bytes) = forecast::most_so_far() {
         out(format_args!("  memory: {:.0} MB at most\n", bytes as f64 / 1e6));
     }
@@ -261,7 +265,7 @@ fn write_faults(
     hash: &str,
     drawn: bool,
 ) -> miette::Result<()> {
-    write_catalogues(path, report).into_diagnostic()?;
+    write_catalogues(path, &report.events, &report.faults).into_diagnostic()?;
     let events = json::pretty(&report.events).into_diagnostic()?;
     atomic::write(&path.join("events.json"), events.as_bytes()).into_diagnostic()?;
     write_located(path, plan, report, hash)?;
@@ -272,12 +276,12 @@ fn write_faults(
     fault::write_bodies(path, plan, run).into_diagnostic()
 }
 
-/// Writes the catalogue of all faults as a table, and one table per fault if there are several.
-fn write_catalogues(path: &Path, report: &fault::Report) -> Result<(), OutputError> {
-    let write = |name: &str, events| atomic::write(&path.join(name), fault::Report::csv(events).as_bytes());
-    write("events.csv", &report.events)?;
-    let names = stems(report.faults.iter().map(|f| f.fault.as_str()));
-    let mut each = names.iter().zip(&report.faults);
+/// Writes the catalogue of all faults or interfaces as a table, and one table of each if there are several.
+fn write_catalogues(path: &Path, all: &[Entry], apart: &[FaultEvents]) -> Result<(), OutputError> {
+    let write = |name: &str, events| atomic::write(&path.join(name), catalogue::csv(events).as_bytes());
+    write("events.csv", all)?;
+    let names = stems(apart.iter().map(|f| f.fault.as_str()));
+    let mut each = names.iter().zip(apart);
     each.try_for_each(|(name, fault)| write(&format!("events_{name}.csv"), &fault.events))
 }
 

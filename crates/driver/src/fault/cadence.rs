@@ -34,7 +34,7 @@ const LARGEST_FILE: f64 = 100e6;
 /// cent.
 const EXTREMUM: f64 = 2e-3;
 /// Least slip rate that is distinguished \[m/s\]; the benchmarks in 3D treat it as zero.
-pub(super) const NO_RATE: f64 = 1e-20;
+pub(crate) const NO_RATE: f64 = 1e-20;
 /// Largest number of doublings, after which a file counts as full; no file has so many rows.
 const MOST_DOUBLINGS: u32 = 60;
 

@@ -52,7 +52,7 @@ impl Rows for Written<'_> {
 }
 
 /// Passes the rows of a table of numbers to `look` one by one; incomplete rows are skipped.
-pub(super) fn each(path: &Path, look: &mut dyn FnMut(&[f64])) -> Result<(), OutputError> {
+pub(crate) fn each(path: &Path, look: &mut dyn FnMut(&[f64])) -> Result<(), OutputError> {
     let failed = |e: csv::Error| OutputError::Draw { path: path.to_path_buf(), reason: e.to_string() };
     let mut reader = csv::ReaderBuilder::new().flexible(true).from_path(path).map_err(failed)?;
     let width = reader.headers().map_err(failed)?.len();

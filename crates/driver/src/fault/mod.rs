@@ -1,12 +1,12 @@
 //! Faults over many earthquake cycles: planning from a scene, and the output of a run. The computation is in [`asperity_cycles`].
 
 mod bodies;
-mod cadence;
+pub(crate) mod cadence;
 mod checkpoint;
 mod collections;
 mod displacements;
 mod fields;
-mod figures;
+pub(crate) mod figures;
 mod files;
 mod floors;
 mod frame;
@@ -17,13 +17,13 @@ pub mod located;
 mod normal;
 mod openings;
 mod plan;
-mod planner;
+pub(crate) mod planner;
 mod position;
 mod report;
 mod resolution;
 mod snapshots;
 mod stations;
-mod words;
+pub(crate) mod words;
 
 pub use bodies::BodiesView;
 pub use cadence::Cadence;

@@ -4,14 +4,15 @@ use super::floors::{FloorUse, uses};
 use super::heats::{HeatedFault, heats};
 use super::located::locate;
 use super::openings::{OpenedFault, openings};
-use super::plan::{FaultView, Plan};
+use super::plan::{FaultView, Plan, PointView};
 use super::resolution::Resolution;
 use super::words::{length, time};
+use crate::catalogue::{Entry, FaultEvents, Scattered, Site, slipped};
 use crate::report::{EnergyBalance, Kind, Outcome, Phases, Results, Stop};
 use crate::warning::Warning;
 use asperity_cycles::{Balance, Components, Crack, Event, FaultRun, Layout, Mark, Rupture, steady};
 use asperity_ode::Outcome as Finish;
-use asperity_output::decimals::{fixed, shortest};
+use asperity_output::decimals::fixed;
 use asperity_output::located::Located;
 use nalgebra::{Matrix3, Vector3};
 use schemars::JsonSchema;
@@ -19,108 +20,36 @@ use serde::Serialize;
 use std::fmt::Write as _;
 use std::ops::Range;
 
-/// An event in the catalogue.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct Entry {
-    /// Onset \[s\].
-    pub onset: f64,
-    /// Time since the onset of the previous event \[s\].
-    pub interval: Option<f64>,
-    /// Duration: time until all points are slower than the rate that ends events \[s\].
-    pub duration: f64,
-    /// Part of the duration in which the fastest point was faster than the rate that begins events \[s\], as defined by the SEAS community.
-    pub duration_above: f64,
-    /// Largest slip rate \[m/s\].
-    pub peak_rate: f64,
-    /// Fault that contains the hypocentre.
-    pub fault: String,
-    /// Distance of the hypocentre along the fault \[m\]; not defined in 3D.
-    pub hypocentre_along: Option<f64>,
-    /// Coordinates of the hypocentre \[m\].
-    pub hypocentre: [f64; 3],
-    /// Largest slip \[m\].
-    pub largest_slip: f64,
-    /// Mean slip over the points that slipped more than a hundredth of the largest slip \[m\].
-    pub mean_slip: f64,
-    /// Area of these points \[m²; m per metre of thickness\].
-    pub area: f64,
-    /// Moment ∫ G slip dA \[N m; N per metre of thickness\]; for vector slip, that of the sum of its moment tensors.
-    pub moment: f64,
-    /// Mean drop of shear traction over these points, weighted by slip \[Pa\].
-    pub stress_drop: f64,
-    /// Largest temperature, if friction heats the fault \[K\].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub largest_temperature: Option<f64>,
-    /// Unit vector of ∫ G slip dA, for vector slip.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub direction: Option<[f64; 3]>,
-    /// Angle from `rake` to mean slip, for vector slip, positive towards normal x `rake` \[degrees\].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub turned: Option<f64>,
-    /// Seismological parameters, if the scene has a geographic frame.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub located: Option<Located>,
+impl Scattered for Plan {
+    fn site(&self, point: usize) -> Site {
+        let PointView { at, along, area, shear_modulus, .. } = self.points[point];
+        Site { at, along: (!self.in_space).then_some(along), area, shear_modulus }
+    }
+
+    fn source(&self, point: usize) -> String {
+        let fault = self.faults.iter().find(|f| f.points.contains(&point));
+        fault.map(|f| f.name.clone()).unwrap_or_default()
+    }
 }
 
-/// Share of the largest slip above which a point counts as slipped.
-const SLIPPED: f64 = 0.01;
-
-impl Entry {
-    /// Entry of an event, restricted to these points of all faults or of one.
-    fn new(plan: &Plan, event: &Event<Rupture>, points: &Range<usize>) -> Self {
-        let slip = |p: usize| event.details.slip.size(p);
-        let largest_slip = points.clone().map(slip).fold(0.0, f64::max);
-        let slipped: Vec<usize> = points.clone().filter(|&p| slip(p) > SLIPPED * largest_slip).collect();
-        let over = |value: &dyn Fn(usize) -> f64| {
-            slipped.iter().map(|&p| value(p) * plan.points[p].area).sum::<f64>()
-        };
-        let (area, potency) = (over(&|_| 1.0), over(&slip));
-        let turning = (plan.problem.fault.law.components() > 1)
-            .then(|| Turned::new(plan, &event.details.slip, &slipped));
-        let moment =
-            turning.as_ref().map_or_else(|| over(&|p| plan.points[p].shear_modulus * slip(p)), |t| t.moment);
-        // A drop is positive if a traction that drives slip decreases.
-        let work =
-            |p: usize| event.details.slip.at(p).zip(event.details.drop.at(p)).map(|(s, t)| s * t).sum();
-        let place = &plan.points[event.details.hypocentre];
-        let fault = plan.faults.iter().find(|f| f.points.contains(&event.details.hypocentre));
-        Self {
-            onset: event.onset.seconds(),
-            interval: event.interval,
-            duration: event.duration().unwrap_or(f64::NAN),
-            duration_above: event.details.above,
-            peak_rate: event.peak,
-            fault: fault.map(|f| f.name.clone()).unwrap_or_default(),
-            hypocentre_along: (!plan.in_space).then_some(place.along),
-            hypocentre: place.at,
-            largest_slip,
-            mean_slip: potency / area,
-            area,
-            moment,
-            stress_drop: over(&work) / potency,
-            largest_temperature: event.details.hottest,
-            direction: turning.as_ref().map(|t| t.direction),
-            turned: turning.as_ref().map(|t| t.angle),
-            // The reader of the scene ensures that the calendar covers the run.
-            located: plan.frame.as_ref().and_then(|frame| locate(plan, frame, event, points).ok()),
-        }
+/// Entry of an event, restricted to these points of all faults or of one.
+fn entry(plan: &Plan, event: &Event<Rupture>, points: &Range<usize>) -> Entry {
+    let entry = Entry::of(plan, event, points);
+    let turned = (plan.problem.fault.law.components() > 1)
+        .then(|| Turned::new(plan, &event.details.slip, &slipped(event, points)));
+    Entry {
+        moment: turned.as_ref().map_or(entry.moment, |t| t.moment),
+        direction: turned.as_ref().map(|t| t.direction),
+        turned: turned.as_ref().map(|t| t.angle),
+        // The reader of the scene ensures that the calendar covers the run.
+        located: plan.frame.as_ref().and_then(|frame| locate(plan, frame, event, points).ok()),
+        ..entry
     }
 }
 
 /// Entries of a catalogue, restricted to these points.
 fn entries(plan: &Plan, events: &[Event<Rupture>], points: &Range<usize>) -> Vec<Entry> {
-    events.iter().map(|event| Entry::new(plan, event, points)).collect()
-}
-
-/// Catalogue of one of several faults, with events detected by its own fastest point and with its own slip.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct FaultEvents {
-    /// Fault.
-    pub fault: String,
-    /// Events of the fault.
-    pub events: Vec<Entry>,
-    /// Onset of an event in progress at the end \[s\].
-    pub under_way: Option<f64>,
+    events.iter().map(|event| entry(plan, event, points)).collect()
 }
 
 /// Moment and direction of vector slip.
@@ -355,44 +284,6 @@ impl Report {
         let mut all = if self.faults.is_empty() { self.events.iter().collect() } else { apart };
         all.sort_by(|a, b| a.onset.total_cmp(&b.onset));
         all.into_iter().filter_map(|e| e.located.clone()).collect()
-    }
-
-    /// Catalogue as CSV.
-    #[must_use]
-    pub fn csv(events: &[Entry]) -> String {
-        let turning = events.iter().any(|e| e.turned.is_some());
-        let mut text = String::from(
-            "onset [s],duration [s],peak_rate [m/s],fault,hypocentre_along [m],x [m],y [m],z [m],largest_slip [m],mean_slip [m],area [m2 or m],moment [N m or N],stress_drop [Pa],duration_above [s]",
-        );
-        let heats = events.iter().any(|e| e.largest_temperature.is_some());
-        text.push_str(if heats { ",largest_temperature [K]" } else { "" });
-        text.push_str(if turning { ",direction_x,direction_y,direction_z,turned [deg]\n" } else { "\n" });
-        for e in events {
-            let _ = write!(
-                text,
-                "{:.14e},{},{},{},{},{},{},{},{},{},{},{:e},{},{}",
-                e.onset,
-                e.duration,
-                e.peak_rate,
-                e.fault,
-                e.hypocentre_along.map(shortest).unwrap_or_default(),
-                shortest(e.hypocentre[0]),
-                shortest(e.hypocentre[1]),
-                shortest(e.hypocentre[2]),
-                e.largest_slip,
-                e.mean_slip,
-                e.area,
-                e.moment,
-                shortest(e.stress_drop),
-                e.duration_above
-            );
-            for value in e.largest_temperature.iter().chain(e.direction.iter().flatten()).chain(&e.turned) {
-                text.push(',');
-                text.push_str(&shortest(*value));
-            }
-            text.push('\n');
-        }
-        text
     }
 
     /// Summary to be read at the end of the run.

@@ -6,7 +6,7 @@ use asperity_output::decimals::fixed;
 pub(super) const YEAR: f64 = 365.25 * 86_400.0;
 
 /// Length as text, in a unit that leaves digits before the decimal point.
-pub(super) fn length(metres: f64) -> String {
+pub(crate) fn length(metres: f64) -> String {
     let (scale, unit) = match metres.abs() {
         m if m >= 1e3 => (1e-3, "km"),
         m if m >= 1.0 || m == 0.0 => (1.0, "m"),
@@ -17,7 +17,7 @@ pub(super) fn length(metres: f64) -> String {
 }
 
 /// Time as text.
-pub(super) fn time(seconds: f64) -> String {
+pub(crate) fn time(seconds: f64) -> String {
     if seconds.abs() >= 0.1 * YEAR {
         format!("{:.5} yr", seconds / YEAR)
     } else {

@@ -35,7 +35,7 @@ pub fn of<const D: usize>(
             let facing = model.body_of(spec.master.get_ref()).map_or(body, |b| &model.bodies[b]);
             let softer = Softer::of(model, (body, sides), (facing, model::sides(model, &spec.master)?));
             doubts.extend(penalty::doubts(&planned.name, &spec.enforcement, &softer));
-            doubts.extend(start_gaps::doubts(&start, (spec, bonded), stages, h));
+            doubts.extend(start_gaps::doubts(&start, (spec, bonded), (stages, scene.inertia().is_some()), h));
         }
         doubts.extend(coarse::doubts(&model.mesh.nodes, planned, spec));
         doubts.extend(first_order(&planned.name, spec));

@@ -2,7 +2,7 @@
 
 use super::enforcement::{enforced, in_pascal_per_metre};
 use super::penalty::{self, Softer};
-use super::{PlannedInterface, cohesive, pressed, watch};
+use super::{PlannedInterface, cohesive, damping, pressed, watch};
 use crate::diagnostic::Diagnostic;
 use crate::model::{self, Model};
 use crate::refused::refused;
@@ -51,11 +51,12 @@ pub fn plan<const D: usize>(
             "an interface lies between two sides that can separate; `split` in a mesh makes them",
         ));
     }
+    let damping = damping::of(scene, model, (name, spec), (slave_sides, master_sides))?;
     let (law, watch) = match &spec.law {
         Some(law) => {
             let choice = choose_law(law)?;
             let sides = (slave_sides, master_sides);
-            let watch = watch::of(scene, model, &choice, sides, loading)?;
+            let watch = watch::of(scene, model, &choice, (sides, damping), loading)?;
             (Some(build_law(law, &choice)?), watch)
         }
         None => (None, Watch::default()),
@@ -86,6 +87,7 @@ pub fn plan<const D: usize>(
         tangential_penalty: (spec.enforcement.tangential.as_ref())
             .map_or(0.0, |t| in_pascal_per_metre(t, young_per_size)),
         law,
+        damping,
         blamed: penalty::blamed(name, &spec.enforcement, &softer),
         pressed: pressed::of(scene, model, (name, spec), slave_sides)?,
         watch: Watch { coarse_beyond: resolved.as_ref().and_then(|r| r.refused_beyond), ..watch },

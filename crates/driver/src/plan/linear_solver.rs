@@ -10,7 +10,7 @@ use asperity_fem::condense;
 use asperity_fem::dof::{Constraints, Equations};
 use asperity_fem::term::Pattern;
 use asperity_mechanics::solver::{Method, Prepared, Solver, local, moving_mortar, retained, symmetry};
-use asperity_mechanics::{CellBlock, Model, Path, PlannedInterface, Stage, Stepping};
+use asperity_mechanics::{CellBlock, Model, Path, PlannedInterface, Spring, Stage, Stepping};
 
 /// Default of `tolerance`. Newton's method converges to 1e-11 of the largest force; with linear solutions to 1e-10, linear steps take one or two
 /// iterations.
@@ -89,7 +89,7 @@ impl<const D: usize> Choice<'_, D> {
     }
 
     fn condensed(&self) -> Result<Solver, Diagnostic> {
-        let retained = retained(self.model, self.interfaces);
+        let retained = retained(self.model, self.interfaces, self.stages);
         let (prepared, bodies) = self.condensations(&retained)?;
         let mut kept = retained.iter().map(Vec::len).sum::<usize>();
         kept += self.interfaces.iter().map(|i| i.unknowns).sum::<usize>();
@@ -143,7 +143,7 @@ impl<const D: usize> Choice<'_, D> {
 
     /// True if the iterative method is a remedy when factors do not fit into memory.
     fn linear_in_space(&self) -> bool {
-        D == 3 && self.interfaces.is_empty() && self.model.is_linear()
+        D == 3 && self.interfaces.is_empty() && self.model.is_linear() && self.pulled().is_none()
     }
 
     /// Equation numbering of the first stage.
@@ -165,7 +165,8 @@ impl<const D: usize> Choice<'_, D> {
                 format!("symmetric factorisation (Cholesky), unsymmetric (LU) in {}", names.join(", "))
             }
         };
-        let once = self.interfaces.is_empty() && self.model.is_linear();
+        let still = self.scene.inertia().is_none();
+        let once = self.interfaces.is_empty() && self.model.is_linear() && still;
         let often = if once { ", once for each set of supports" } else { "" };
         Solver {
             method: Method::Sparse,
@@ -176,8 +177,23 @@ impl<const D: usize> Choice<'_, D> {
         }
     }
 
+    /// First spring of the scene.
+    fn pulled(&self) -> Option<&Spring> {
+        self.stages.iter().flat_map(|s| &s.springs).next()
+    }
+
     fn iterative(&self, why: String) -> Result<Solver, Diagnostic> {
         let solver = &self.scene.solver;
+        if let Some(spring) = self.pulled() {
+            return Err(Diagnostic::at(
+                solver.method.as_ref().map_or(0..0, Spanned::span),
+                format!(
+                    "the iterative method numbers every node on its own, but a spring moves `{}` as one",
+                    spring.set
+                ),
+                "use `method = \"direct\"`, or leave it out",
+            ));
+        }
         if let Some(stage) = self.unsymmetric() {
             let reason = if self.interfaces.iter().any(|i| i.unknowns > 0) {
                 "multipliers that are unknowns (\"augmented-lagrangian\") make it indefinite".into()

@@ -2,8 +2,11 @@
 
 mod coarse;
 mod cohesive;
+mod damping;
 mod doubts;
 mod enforcement;
+mod events;
+mod inertia;
 mod interfaces;
 mod linear_solver;
 mod path;
@@ -22,6 +25,7 @@ mod values;
 mod watch;
 
 pub use asperity_mechanics::{Path, PlannedInterface, Stepping, interface_nodes};
+pub use events::{EventPlan, Sites};
 pub use planner::{ScenePlan, plan, plan_scene};
 pub use start_gap::{SHARE, StartGap};
 pub(crate) use stepping::rule;

@@ -4,7 +4,7 @@ use super::{Path, PlannedInterface};
 use crate::diagnostic::Diagnostic;
 use crate::scene::model::{Method, Path as PathChoice, Scene};
 use asperity_contact::Sliding;
-use asperity_mechanics::{Model, solver};
+use asperity_mechanics::{Model, Stage, solver};
 
 /// Chooses the condensed or the full system for a scene.
 ///
@@ -13,7 +13,7 @@ use asperity_mechanics::{Model, solver};
 pub fn choose<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
-    interfaces: &[PlannedInterface],
+    (interfaces, stages): (&[PlannedInterface], &[Stage]),
 ) -> Result<Path, Diagnostic> {
     let refuse = |message: String| {
         let help = "use `path = \"auto\"` or `path = \"full\"`";
@@ -22,6 +22,7 @@ pub fn choose<const D: usize>(
     match (scene.time.path, not_linear(model)) {
         _ if scene.solver.method() == Method::Iterative => Ok(Path::Full),
         (PathChoice::Full, _) => Ok(Path::Full),
+        _ if scene.inertia().is_some() => Ok(Path::Full),
         (PathChoice::Condensed, _) if interfaces.is_empty() => {
             refuse("the condensed path needs an interface".into())
         }
@@ -29,14 +30,16 @@ pub fn choose<const D: usize>(
             refuse(format!("the condensed path needs linear bodies, but {why}"))
         }
         (PathChoice::Auto, Some(_)) => Ok(Path::Full),
-        (PathChoice::Auto, None) if interfaces.is_empty() || too_wide(model, interfaces) => Ok(Path::Full),
+        (PathChoice::Auto, None) if interfaces.is_empty() || too_wide(model, interfaces, stages) => {
+            Ok(Path::Full)
+        }
         (_, None) => Ok(Path::Condensed),
     }
 }
 
 /// True if the full system is better under finite sliding, where a master may be much larger than the contact.
-fn too_wide<const D: usize>(model: &Model<D>, interfaces: &[PlannedInterface]) -> bool {
-    let kept: usize = solver::retained(model, interfaces).iter().map(Vec::len).sum();
+fn too_wide<const D: usize>(model: &Model<D>, interfaces: &[PlannedInterface], stages: &[Stage]) -> bool {
+    let kept: usize = solver::retained(model, interfaces, stages).iter().map(Vec::len).sum();
     finite(interfaces) && kept > WIDEST
 }
 
@@ -62,6 +65,7 @@ pub fn full_because<const D: usize>(
 ) -> String {
     let why = match (scene.time.path, not_linear(model)) {
         (PathChoice::Full, _) => "the scene asks for it".to_string(),
+        _ if scene.inertia().is_some() => "mass acts on all degrees of freedom".into(),
         (_, Some(why)) => why,
         _ if interfaces.is_empty() => "there is no interface to condense onto".into(),
         _ if scene.solver.method() == Method::Iterative => "the iterative method does not condense".into(),

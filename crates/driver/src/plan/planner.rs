@@ -1,16 +1,17 @@
 //! Turns a scene into a plan. All decisions about the model and the method are made here; later code does not refer to
 //! the scene.
 
-use super::{AnyPlan, Plan, doubts, interfaces, linear_solver, path, restraint, samples};
+use super::{AnyPlan, Plan, doubts, events, inertia, interfaces, linear_solver, path, restraint, samples};
 use super::{start_balance, stepping, stress_level, summary};
 use crate::cohesive;
 use crate::diagnostic::Diagnostic;
+use crate::dynamic;
 use crate::fault;
 use crate::forecast;
 use crate::initial_stress;
 use crate::loading::{self, Stage};
 use crate::model::{self, sizes};
-use crate::scene::model::Scene;
+use crate::scene::model::{Scene, Stepper};
 use asperity_mechanics::Problem;
 
 /// Plan of a scene with bodies, by kind.
@@ -20,14 +21,18 @@ pub enum ScenePlan {
     Bodies(Box<AnyPlan>),
     /// Faults over earthquake cycles.
     Faults(Box<fault::Plan>),
+    /// Bodies with mass, whose faults radiate waves.
+    Dynamic(Box<dynamic::AnyPlan>),
 }
 
-/// Plans a scene of either kind.
+/// Plans a scene of any of these kinds.
 ///
 /// # Errors
 /// [`Diagnostic`] with the position in the scene.
 pub fn plan_scene(scene: &Scene) -> Result<ScenePlan, Diagnostic> {
-    Ok(if scene.faults.is_empty() {
+    Ok(if *scene.time.stepper.get_ref() == Stepper::Explicit {
+        ScenePlan::Dynamic(Box::new(dynamic::plan(scene)?))
+    } else if scene.faults.is_empty() {
         ScenePlan::Bodies(Box::new(plan(scene)?))
     } else {
         ScenePlan::Faults(Box::new(fault::plan(scene)?))
@@ -56,21 +61,30 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         .iter()
         .map(|(name, spec)| interfaces::plan(scene, &model, (name, spec), loading))
         .collect::<Result<Vec<_>, _>>()?;
-    let path = path::choose(scene, &model, &interfaces)?;
+    let path = path::choose(scene, &model, (&interfaces, &stages))?;
     let control = stepping::control(scene, &stages);
-    let mut remarks = restraint::check(scene, &model, &stages, &interfaces)?;
+    let mass = inertia::of(scene, &model)?;
+    let mut remarks = match mass {
+        None => restraint::check(scene, &model, &stages, &interfaces)?,
+        // Mass alone resists the motion of bodies that nothing holds.
+        Some(_) => Vec::new(),
+    };
     remarks.extend(sizes::of_files(scene, &model));
     let (start_gaps, doubts) = doubts::of(scene, &model, (&interfaces, &stages), &stepping)?;
     let (balance, unbalanced) = start_balance::of(scene, &model, (&interfaces, &stages), &stepping)?;
     remarks.extend(balance);
     remarks.extend(interfaces.iter().filter_map(|i| Some(cohesive::remark(i.resolved.as_ref()?, &i.name))));
     let solver = linear_solver::choose(scene, &model, &interfaces, &stages, path, &stepping)?;
-    let mut summary = summary::of(scene, &model, &interfaces, path, &stepping, &solver, remarks);
+    let mut summary = summary::of(scene, &model, (&interfaces, &stages), path, &stepping, &solver, remarks);
     forecast::fits(scene, summary.memory_bytes)?;
     summary.start_gaps = start_gaps;
+    if let Some(mass) = &mass {
+        summary.add_inertia(mass);
+    }
     summary.warnings.extend(doubts.into_iter().chain(unbalanced));
     let initial_stress = model.bodies.iter().map(|b| initial_stress::of_body(scene, &b.name)).collect();
     let samples = samples::find(scene, &model)?;
+    let events = events::of(scene, &model, &interfaces)?;
     Ok(Plan {
         title: scene.title.clone(),
         problem: Problem {
@@ -82,10 +96,12 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
             solver,
             stepping,
             control,
+            mass,
             samples,
         },
         field_outputs: scene.output.fields.as_ref().map_or(1, |f| *f.get_ref()),
         profile_outputs: scene.output.profiles.as_ref().map_or(10, |f| *f.get_ref()),
+        events,
         summary,
     })
 }

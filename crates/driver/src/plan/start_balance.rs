@@ -179,7 +179,8 @@ fn slipping(law: &dyn asperity_friction::law::Law, borne: &[(f64, f64)], stiffne
     let mut regime = vec![Regime::Stick; n];
     let answers =
         Responses { traction, slip, rate, regime: &mut regime, d_trial, d_normal, states: &mut states };
-    let trials = Trials { normal: &normal, trial: &trial, stiffness, dt: 1.0, lag: None, near: None };
+    let trials =
+        Trials { normal: &normal, trial: &trial, stiffness, dt: 1.0, damping: 0.0, lag: None, near: None };
     if law.respond(trials, &old, answers).is_err() {
         return 0;
     }

@@ -128,8 +128,14 @@ fn thickness<const D: usize>(model: &Model<D>, body: usize, n: &[f64; D]) -> f64
     (0..D).map(|c| n[c].abs() * (max[c] - min[c])).sum()
 }
 
-/// Warning about the initial gaps of an interface whose slave cells have size `h`; a bonded interface keeps its gaps.
-pub fn doubts(start: &StartGap, (spec, bonded): (&Spec, bool), stages: &[Stage], h: f64) -> Option<Warning> {
+/// Warning about the initial gaps of an interface whose slave cells have size `h`; a bonded interface keeps its gaps. Bodies
+/// that `fly` with inertia may close any gap.
+pub fn doubts(
+    start: &StartGap,
+    (spec, bonded): (&Spec, bool),
+    (stages, fly): (&[Stage], bool),
+    h: f64,
+) -> Option<Warning> {
     let [least, largest] = start.gap;
     let name = &start.interface;
     if bonded {
@@ -152,7 +158,7 @@ pub fn doubts(start: &StartGap, (spec, bonded): (&Spec, bool), stages: &[Stage],
         return Some(Warning::at(spec.slave.span(), message, help));
     }
     let reach = REACH * stages.iter().map(Stage::travel).sum::<f64>();
-    if least > SHARE * h && least > reach && !stages.iter().any(Stage::is_loaded) {
+    if !fly && least > SHARE * h && least > reach && !stages.iter().any(Stage::is_loaded) {
         let message = format!(
             "interface `{name}` starts open by {} or more, and no condition moves a body by more than {}: it cannot close",
             brief(least),

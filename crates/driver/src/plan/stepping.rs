@@ -52,6 +52,11 @@ pub fn choose(scene: &Scene) -> Result<Stepping, Diagnostic> {
             let message = "the stepper \"fault-ode\" integrates faults, and the scene has none";
             return Err(Diagnostic::at(time.stepper.span(), message, help));
         }
+        Stepper::Explicit => {
+            let help = "\"implicit\" or \"static-explicit\"";
+            let message = "the stepper \"explicit\" has no steps without inertia";
+            return Err(Diagnostic::at(time.stepper.span(), message, help));
+        }
     })
 }
 

@@ -7,16 +7,16 @@ use crate::held::Held;
 use crate::scene::model::{Formulation, Kinematics, Scene};
 use asperity_contact::TimeRule;
 use asperity_fem::nonlinear::Material;
-use asperity_mechanics::solver::Solver;
+use asperity_mechanics::solver::{Solver, retained as retained_by};
 use asperity_mechanics::{
-    CellBlock, Enforced, Measure, Model, Path, PlannedInterface, Stepping, interface_nodes,
+    CellBlock, Enforced, Measure, Model, Path, PlannedInterface, Stage, Stepping, interface_nodes,
 };
 
 /// Summary of a plan, except for the findings about its initial state.
 pub fn of<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
-    interfaces: &[PlannedInterface],
+    (interfaces, stages): (&[PlannedInterface], &[Stage]),
     path: Path,
     stepping: &Stepping,
     solver: &Solver,
@@ -28,7 +28,8 @@ pub fn of<const D: usize>(
     for i in interfaces {
         let friction = i.law.as_ref().filter(|l| !l.bonded()).map_or("no friction".to_string(), |l| {
             state_bytes += 2 * l.states() * i.slave.len() * size_of::<f64>();
-            format!("{} friction with {} state variables a point", l.name(), l.states())
+            let damping = i.damping.map_or_else(String::new, |eta| format!(", damped by {eta:.4e} Pa s/m"));
+            format!("{} friction with {} state variables a point{damping}", l.name(), l.states())
         });
         physics.push(format!(
             "interface `{}`: {} {}, {} slave nodes against {} master faces, {friction}",
@@ -44,6 +45,10 @@ pub fn of<const D: usize>(
         retained += interface_nodes(i).len() * D;
         unknowns += i.unknowns;
     }
+    let kept = |stages: &[Stage]| retained_by(model, interfaces, stages).iter().map(Vec::len).sum::<usize>();
+    // Sets on springs are kept beside the interfaces.
+    retained += kept(stages) - kept(&[]);
+    physics.extend(springs_in_words(stages));
     let (path_text, system_dofs) = match (path, scene.time.path) {
         (Path::Condensed, _) => {
             let small = if finite(interfaces) { "" } else { " and sliding is small" };
@@ -74,6 +79,19 @@ pub fn of<const D: usize>(
         state_bytes: (!interfaces.is_empty()).then_some(state_bytes),
         memory_bytes: Held::by(model).with_systems(solver.bytes, path == Path::Condensed),
     }
+}
+
+/// Descriptions of the springs, one line for each set that a spring pulls.
+fn springs_in_words(stages: &[Stage]) -> Vec<String> {
+    let mut lines = Vec::new();
+    for spring in stages.iter().flat_map(|s| &s.springs) {
+        let axis = ["x", "y", "z"][spring.axis];
+        let line = format!("spring of {:e} N/m pulls `{}` along {axis} as one", spring.stiffness, spring.set);
+        if !lines.contains(&line) {
+            lines.push(line);
+        }
+    }
+    lines
 }
 
 /// Descriptions of the materials of the bodies, one line per kind.

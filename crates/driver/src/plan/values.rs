@@ -1,8 +1,9 @@
 //! A plan as data, and its summary for printing.
 
+use super::events::EventPlan;
 use super::start_gap::StartGap;
 use crate::warning::Warning;
-use asperity_mechanics::Problem;
+use asperity_mechanics::{Mass, Problem};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -17,6 +18,8 @@ pub struct Plan<const D: usize> {
     pub field_outputs: usize,
     /// Profile outputs per stage.
     pub profile_outputs: usize,
+    /// Events of interfaces, if the scene asks for them.
+    pub events: Option<EventPlan>,
     /// Summary for printing.
     pub summary: Summary,
 }
@@ -83,6 +86,15 @@ pub struct Summary {
     pub state_bytes: Option<usize>,
     /// Estimated memory \[bytes\].
     pub memory_bytes: usize,
+}
+
+impl Summary {
+    /// Adds the inertia of the bodies.
+    pub(super) fn add_inertia(&mut self, mass: &Mass) {
+        let radius = mass.radius;
+        self.physics
+            .push(format!("inertia of all bodies, generalised-alpha method with spectral radius {radius:?}"));
+    }
 }
 
 impl std::fmt::Display for Summary {

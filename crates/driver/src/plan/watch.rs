@@ -1,7 +1,8 @@
 //! Limits on the steps of an interface, derived from its law, the adjacent bodies and the loads.
 
 use crate::diagnostic::Diagnostic;
-use crate::model::{self, Model};
+use crate::impedance;
+use crate::model::Model;
 use crate::scene::law::{Evolution, LawChoice, State};
 use crate::scene::model::Scene;
 use asperity_contact::{Course, RateLimit, Watch};
@@ -9,7 +10,6 @@ use asperity_fem::mesh::Side;
 use asperity_friction::evolution::{self, Front};
 use asperity_friction::kind::{self, Weakening};
 use asperity_mechanics::LOADING;
-use std::collections::BTreeSet;
 
 /// Density used if a scene declares none \[kg/m³\]; crustal rock has 2500 to 3000.
 const ROCK: f64 = 2700.0;
@@ -26,19 +26,31 @@ pub fn of<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     law: &LawChoice,
-    (slave, master): (&[Side], &[Side]),
+    ((slave, master), damping): ((&[Side], &[Side]), Option<f64>),
     loading: f64,
 ) -> Result<Watch, Diagnostic> {
+    if scene.inertia().is_some() {
+        return Ok(Watch { rate: None, course: with_inertia(course(law, damping)), coarse_beyond: None });
+    }
     let rate = match (direct_effect(law), &scene.time.slip_rate_limit) {
         (None, _) => None,
         (Some(_), Some(stated)) => Some(RateLimit::Stated(stated.get_ref().0)),
+        // Damping lets states exist at every slip rate.
+        (Some(_), None) if damping.is_some() => None,
         (Some(a), None) => {
-            let (one, other) = (impedance(scene, model, slave)?, impedance(scene, model, master)?);
-            let damping = one * other / (one + other);
+            let damping = impedance::radiated(largest(scene, model, slave)?, largest(scene, model, master)?);
             Some(RateLimit::Damped { per_traction: a / damping, least: LOADING * loading })
         }
     };
-    Ok(Watch { rate, course: course(law), coarse_beyond: None })
+    Ok(Watch { rate, course: course(law, damping), coarse_beyond: None })
+}
+
+/// Course that the steps of bodies with inertia follow: these pass through instabilities, and a drop of friction is one.
+fn with_inertia(course: Course) -> Course {
+    match course {
+        Course::Drop => Course::Steady,
+        other => other,
+    }
 }
 
 /// Direct effect a of a law that depends on the slip rate.
@@ -49,8 +61,8 @@ fn direct_effect(law: &LawChoice) -> Option<f64> {
     }
 }
 
-/// Course of weakening of a law.
-fn course(law: &LawChoice) -> Course {
+/// Course of weakening of a law with this radiation damping \[Pa s/m\].
+fn course(law: &LawChoice, damping: Option<f64>) -> Course {
     match law {
         LawChoice::Rate { .. } => Course::Steady,
         LawChoice::Yielding { kind, own, .. } => match kind::weakening(kind, own) {
@@ -59,34 +71,26 @@ fn course(law: &LawChoice) -> Course {
             Weakening::Linear { length, .. } => Course::Branch { most: ZETA * length, length },
         },
         LawChoice::RateAndState { strength, evolution, states, .. } => {
-            by_state(strength.a, evolution, states)
+            by_state(strength.a, evolution, states, damping.unwrap_or(0.0))
         }
     }
 }
 
-fn by_state(a: f64, evolution: &Evolution, states: &[State]) -> Course {
+fn by_state(a: f64, evolution: &Evolution, states: &[State], damping: f64) -> Course {
     let b: f64 = states.iter().map(|s| s.b).sum();
     let length = states.iter().map(|s| s.l).fold(f64::INFINITY, f64::min);
     // Weakening at high rates beyond the steady state, such as by flash heating, is not included in b.
     let front = evolution::definition(evolution.name).map(|row| row.front);
     let weakened = matches!(front, Some(Front::Slip { weakened: Some(_) }));
     if (b > a || weakened) && length.is_finite() {
-        Course::State { most: ZETA.min(UNIQUE * a / b) * length }
+        Course::State { most: ZETA.min(UNIQUE * a / b) * length, damped: damping / a }
     } else {
         Course::Steady
     }
 }
 
 /// Largest impedance √(Gρ) of the cells behind some faces \[Pa s/m\].
-fn impedance<const D: usize>(scene: &Scene, model: &Model<D>, sides: &[Side]) -> Result<f64, Diagnostic> {
-    let blocks: BTreeSet<usize> = sides.iter().map(|s| s.block).collect();
-    let mut largest = 0.0;
-    for block in blocks {
-        let Some(body) = model.bodies.iter().find(|b| b.blocks.contains(&block)) else { continue };
-        let (_, material) =
-            model::material(&model.mesh, scene, (&body.name, &scene.bodies[&body.name]), block)?;
-        let density = material.density.as_ref().map_or(ROCK, |d| d.get_ref().0);
-        largest = f64::max(largest, (body.elastic[block - body.blocks.start].shear() * density).sqrt());
-    }
-    Ok(largest)
+fn largest<const D: usize>(scene: &Scene, model: &Model<D>, sides: &[Side]) -> Result<f64, Diagnostic> {
+    let all = impedance::behind(scene, model, sides, Some(ROCK))?;
+    Ok(all.into_iter().flatten().fold(0.0, f64::max))
 }

@@ -19,6 +19,8 @@ pub enum Kind {
     Faults,
     /// Spring-sliders.
     Sliders,
+    /// Bodies with mass, whose faults radiate waves.
+    Dynamics,
 }
 
 /// End of a run.
@@ -81,6 +83,8 @@ pub enum Stop {
     NotConverged,
     /// The requested accuracy needs steps below the smallest allowed.
     SmallestStep,
+    /// Bodies with mass hold more energy than was put in: the steps are unstable.
+    EnergyGrowth,
     /// The rates cannot be integrated beyond this time, or not within the allowed number of steps.
     Integration,
     /// A point was about to slide where the length over which a slip front loses strength holds less than one point.

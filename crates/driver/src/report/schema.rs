@@ -2,7 +2,7 @@
 
 use super::RunReport;
 use super::common::{Kind, Report, Results, SCHEMA, Sketch};
-use crate::{fault, slider};
+use crate::{dynamic, fault, slider};
 use schemars::generate::{SchemaGenerator, SchemaSettings};
 use schemars::{JsonSchema, Schema};
 use serde_json::{Value, json};
@@ -15,6 +15,7 @@ pub fn schema() -> Value {
         of::<RunReport>(&mut generator, Some(RunReport::KIND)),
         of::<fault::Report>(&mut generator, Some(fault::Report::KIND)),
         of::<slider::Report>(&mut generator, Some(slider::Report::KIND)),
+        of::<dynamic::Report>(&mut generator, Some(dynamic::Report::KIND)),
         of::<Sketch>(&mut generator, None),
     ];
     json!({

@@ -1,6 +1,7 @@
 //! State of a run of bodies between two trials of steps.
 
-use crate::report::{ForceResult, InterfaceResult, PointResult};
+use super::events::Events;
+use crate::report::{Closure, ForceResult, InterfaceResult, PointResult, SpringResult};
 use crate::warning::Warning;
 use asperity_mechanics::timing::StepLengthState;
 use asperity_mechanics::{Counts, SystemState};
@@ -20,6 +21,8 @@ pub struct Stand {
     pub(super) free: Option<String>,
     pub(super) work: Work,
     pub(super) found: Found,
+    /// Events of interfaces, if the scene asks for them.
+    pub(super) events: Option<Events>,
 }
 
 /// Work of a run.
@@ -29,6 +32,9 @@ pub(super) struct Work {
     /// Rejected trials.
     pub rejected: usize,
     pub steps: Vec<StepRecord>,
+    /// Closure of the energy budget, if the bodies have inertia.
+    #[serde(default)]
+    pub energy: Closure,
 }
 
 /// Results of the completed stages.
@@ -37,6 +43,7 @@ pub(super) struct Found {
     pub results: Vec<InterfaceResult>,
     pub points: Vec<PointResult>,
     pub forces: Vec<ForceResult>,
+    pub springs: Vec<SpringResult>,
     pub warnings: Vec<Said>,
 }
 

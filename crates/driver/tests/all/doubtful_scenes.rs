@@ -36,6 +36,7 @@ fn warnings(text: &str) -> Vec<Warning> {
     let mut warnings = match plan::plan_scene(&scene).unwrap() {
         ScenePlan::Bodies(plan) => plan.summary().warnings.clone(),
         ScenePlan::Faults(plan) => plan.warnings.clone(),
+        ScenePlan::Dynamic(mut plan) => plan.warnings_mut().to_vec(),
     };
     warnings.iter_mut().for_each(|w| w.locate(text));
     warnings

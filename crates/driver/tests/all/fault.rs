@@ -19,7 +19,7 @@ fn bp1(size: f64) -> Plan {
     let text = sized(SceneText::new(BP1), size, AT_CREEP).text().unwrap();
     match plan_scene(&scene::read(&text).unwrap()).unwrap() {
         ScenePlan::Faults(plan) => *plan,
-        ScenePlan::Bodies(_) => panic!("the scene has faults"),
+        ScenePlan::Bodies(_) | ScenePlan::Dynamic(_) => panic!("the scene has faults"),
     }
 }
 
@@ -103,7 +103,7 @@ fn injected(flux: f64) -> Plan {
     );
     match plan_scene(&scene::read(&text).unwrap()).unwrap() {
         ScenePlan::Faults(plan) => *plan,
-        ScenePlan::Bodies(_) => panic!("the scene has faults"),
+        ScenePlan::Bodies(_) | ScenePlan::Dynamic(_) => panic!("the scene has faults"),
     }
 }
 

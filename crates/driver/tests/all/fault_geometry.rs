@@ -32,7 +32,7 @@ fn planned(text: &str, folder: &Path) -> Result<Plan, Diagnostic> {
     let scene = scene::read_in(text, folder).unwrap_or_else(|e| panic!("{e}\n{text}"));
     match plan_scene(&scene)? {
         ScenePlan::Faults(plan) => Ok(*plan),
-        ScenePlan::Bodies(_) => panic!("the scene has faults"),
+        ScenePlan::Bodies(_) | ScenePlan::Dynamic(_) => panic!("the scene has faults"),
     }
 }
 

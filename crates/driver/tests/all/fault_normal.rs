@@ -73,7 +73,7 @@ fn planned(text: &str) -> Result<Plan, Diagnostic> {
     let scene = scene::read(text).unwrap();
     plan_scene(&scene).map(|plan| match plan {
         ScenePlan::Faults(plan) => *plan,
-        ScenePlan::Bodies(_) => panic!("the scene has faults"),
+        ScenePlan::Bodies(_) | ScenePlan::Dynamic(_) => panic!("the scene has faults"),
     })
 }
 

@@ -16,7 +16,7 @@ const THRUST: &str = include_str!("../../../../verification/cases/fault_opening/
 fn planned(text: &str) -> Plan {
     match plan_scene(&scene::read(text).unwrap()).unwrap() {
         ScenePlan::Faults(plan) => *plan,
-        ScenePlan::Bodies(_) => panic!("the scene has faults"),
+        ScenePlan::Bodies(_) | ScenePlan::Dynamic(_) => panic!("the scene has faults"),
     }
 }
 

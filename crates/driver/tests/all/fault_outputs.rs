@@ -15,7 +15,7 @@ use std::path::Path;
 fn plan(text: &str) -> Plan {
     match plan_scene(&scene::read(text).unwrap()).unwrap() {
         ScenePlan::Faults(plan) => *plan,
-        ScenePlan::Bodies(_) => panic!("the scene has faults"),
+        ScenePlan::Bodies(_) | ScenePlan::Dynamic(_) => panic!("the scene has faults"),
     }
 }
 

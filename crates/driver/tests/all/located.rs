@@ -120,7 +120,7 @@ fn slipped(text: &str, components: &[f64]) -> Located {
     use asperity_ode::Clock;
     let plan = match plan_scene(&asperity_driver::scene::read(text).unwrap()).unwrap() {
         ScenePlan::Faults(plan) => *plan,
-        ScenePlan::Bodies(_) => panic!("the scene has faults"),
+        ScenePlan::Bodies(_) | ScenePlan::Dynamic(_) => panic!("the scene has faults"),
     };
     let n = plan.points.len();
     let event = Event {

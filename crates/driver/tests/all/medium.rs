@@ -13,7 +13,7 @@ const BP5: &str = include_str!("../../../../scenes/bp5.toml");
 fn plan(scene: SceneText) -> Plan {
     match plan_scene(&scene::read(&scene.text().unwrap()).unwrap()).unwrap() {
         ScenePlan::Faults(plan) => *plan,
-        ScenePlan::Bodies(_) => panic!("the scene has faults"),
+        ScenePlan::Bodies(_) | ScenePlan::Dynamic(_) => panic!("the scene has faults"),
     }
 }
 

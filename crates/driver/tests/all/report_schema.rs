@@ -69,7 +69,7 @@ fn reports_of_all_scenes_keep_to_the_published_schema() {
         assert!(validator.is_valid(&report), "{}", scene.display());
         kinds.push(report["kind"].as_str().unwrap().to_string());
     }
-    for kind in ["bodies", "faults", "sliders"] {
+    for kind in ["bodies", "dynamics", "faults", "sliders"] {
         assert!(kinds.iter().any(|k| k == kind), "no scene of {kind}");
     }
 }

@@ -123,6 +123,24 @@ const SLIP: Change<'_> = With(
     "interfaces.contact.law",
     r#"{ kind = "rate-and-state", evolution = "slip", mu0 = 0.4, a = 0.015, b = 0.01, l = "5 mm", v_ref = "1 mm/s", v_initial = "1 mm/s" }"#,
 );
+/// Stick-slip: the die is drawn by a spring from the first stage on, with another rate in the second.
+const STICK_SLIP: [Change<'_>; 12] = [
+    With(
+        "interfaces.contact.law",
+        r#"{ kind = "rate-and-state", evolution = "ageing", mu0 = 0.4, a = 0.005, b = 0.02, l = "1 mm", v_ref = "1 mm/s", v_initial = "1 mm/s" }"#,
+    ),
+    With("materials.soft", r#"{ young = "10 GPa", poisson = 0.25, density = 2700 }"#),
+    With("materials.hard", r#"{ young = "20 GPa", poisson = 0.25, density = 2700 }"#),
+    Add("interfaces.contact.damping", "radiation"),
+    Add("interfaces.contact.under_resolved", "allow"),
+    With("interfaces.contact.sliding", "small"),
+    Without("stages[0].frictionless"),
+    With("stages[0].conditions[1].x", r#"{ spring = 4e8, rate = "40 mm/s" }"#),
+    With("stages[1].conditions[0].x", r#"{ spring = 4e8, rate = "1 mm/s" }"#),
+    With("time.friction_tolerance", "9e-3"),
+    Add("events", r#"{ above = "10 mm/s", below = "5 mm/s" }"#),
+    Without("output.probes"),
+];
 const WEAKENING: Change<'_> =
     With("interfaces.contact.law", r#"{ kind = "slip-weakening", mu_s = 0.44, mu_k = 0.4, d_c = "10 mm" }"#);
 const SPACE: [Change<'_>; 12] = [
@@ -304,6 +322,7 @@ fn implicit_runs_with_states_of_friction_resume_bit_for_bit() {
         ("slip law, mortar, uzawa", vec![&[SLIP, MORTAR, UZAWA]]),
         ("ageing, multipliers as unknowns", vec![&[AGEING, UNKNOWNS, ROUGH]]),
         ("slip weakening", vec![&[WEAKENING, MORTAR]]),
+        ("stick-slip on a spring", vec![&STICK_SLIP]),
         ("tied", vec![&SMALL, &[TIED, ROUGH]]),
     ]);
 }
@@ -552,7 +571,7 @@ fn a_checkpoint_of_bodies_that_does_not_fit_is_refused() {
     let good = fs::read_to_string(&path).unwrap();
     fs::write(&path, &good[..good.len() / 2]).unwrap();
     refused(&["--resume"], "is damaged");
-    let rest = good.strip_prefix("asperity checkpoint of bodies, version 1\n").unwrap();
+    let rest = good.strip_prefix("asperity checkpoint of bodies, version 2\n").unwrap();
     fs::write(&path, format!("asperity checkpoint of bodies, version 99\n{rest}")).unwrap();
     refused(&["--resume"], "has version 99");
     fs::write(&path, format!("asperity checkpoint of faults, version 1\n{rest}")).unwrap();

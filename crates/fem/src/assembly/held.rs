@@ -16,7 +16,8 @@ impl System {
     /// matrix that could be factored, and gives no answer.
     #[must_use]
     pub fn free_mode<const D: usize>(&self, nodes: &[[f64; D]]) -> Option<FreeMode<D>> {
-        if self.equations.number.len() != nodes.len() * D {
+        // A motion of degrees of freedom that share an equation is not one of single nodes.
+        if self.equations.number.len() != nodes.len() * D || !self.equations.tied.is_empty() {
             return None;
         }
         let lower = self.lower()?;

@@ -197,6 +197,20 @@ impl<const D: usize> LinearBlock<D> {
         (taken(pattern), taken(stiffness))
     }
 
+    /// Elastic energy of the displacements `u`, without initial stress \[J, or J/m of thickness\].
+    #[must_use]
+    pub fn strain_energy(&self, u: &[f64]) -> f64 {
+        let (mut offset, mut sum) = (0, 0.0);
+        for block in self.cell_dofs().blocks() {
+            let n = block.len();
+            for (row, &dof) in self.stiffness()[offset..offset + n * n].chunks_exact(n).zip(block) {
+                sum += 0.5 * u[dof] * row.iter().zip(block).map(|(k, &other)| k * u[other]).sum::<f64>();
+            }
+            offset += n * n;
+        }
+        sum
+    }
+
     /// Cell stiffness matrices one after another, each row by row \[N/m, or N/m² in the plane\]; symmetric to the last bit.
     #[must_use]
     pub fn stiffness(&self) -> &[f64] {

@@ -41,7 +41,7 @@ impl Loaded {
         let active = Constraints { fixed: fixed.clone(), channels: Vec::new() }.equations(body.dofs);
         let columns = coupling(&body, &active.number, &number_in(fixed, body.dofs));
         let loads: Vec<Vec<f64>> = channels.iter().map(|c| load(c, &active, fixed, &columns)).collect();
-        let Equations { number, free } = active;
+        let Equations { number, free, .. } = active;
         let mut last: Vec<usize> = retained.iter().map(|&d| number[d]).collect();
         last.extend(free.len()..free.len() + loads.len());
         let (lower, values) = lower_matrix(&body.pattern, &body.values, &number, free.len(), &loads);

@@ -41,6 +41,19 @@ pub trait Constitutive: Sync {
     /// surface.
     fn forward(&self, dt: f64, stress: &Voigt, history: &[f64]) -> Moduli;
 
+    /// Elastic energy per volume \[J/m³\].
+    fn stored(&self, stress: &Voigt, history: &[f64]) -> f64;
+
+    /// Energy per volume that plastic flow has dissipated \[J/m³\].
+    fn plastic_work(&self, _history: &[f64]) -> f64 {
+        0.0
+    }
+
+    /// Energy per volume and time that viscous flow dissipates \[W/m³\].
+    fn viscous_rate(&self, _stress: &Voigt, _history: &[f64]) -> f64 {
+        0.0
+    }
+
     /// The fraction of an elastic stress path along `strain`, possibly beyond 1, at which an elastic state starts to yield
     /// (r1); `None` if it yields already or cannot yield.
     fn yields(&self, _strain: &Voigt, _stress: &Voigt, _history: &[f64]) -> Option<f64> {
@@ -94,6 +107,13 @@ pub fn elastic_increment(bulk: f64, shear: f64, strain: &Voigt) -> Voigt {
     ]
 }
 
+/// Elastic energy per volume, `p²/2K + s:s/4G` with p the mean stress and s the deviator \[J/m³\].
+#[must_use]
+pub fn elastic_energy(bulk: f64, shear: f64, stress: &Voigt) -> f64 {
+    let s = deviator(stress);
+    0.5 * pressure(stress).powi(2) / bulk + 0.25 * contract(&s, &s) / shear
+}
+
 impl Constitutive for Elastic {
     const RELAXES: bool = false;
 
@@ -116,5 +136,9 @@ impl Constitutive for Elastic {
 
     fn forward(&self, _dt: f64, _stress: &Voigt, _history: &[f64]) -> Moduli {
         isotropic(self.bulk(), self.shear())
+    }
+
+    fn stored(&self, stress: &Voigt, _history: &[f64]) -> f64 {
+        elastic_energy(self.bulk(), self.shear(), stress)
     }
 }

@@ -89,6 +89,25 @@ impl Hardening {
         Ok(Self(Form::Table { strains, stresses }))
     }
 
+    /// Plastic work per volume up to `plastic` >= 0, the integral of Y \[J/m³\].
+    #[must_use]
+    pub fn work(&self, plastic: f64) -> f64 {
+        match &self.0 {
+            Form::Linear { initial, modulus } => (initial + 0.5 * modulus * plastic) * plastic,
+            Form::Swift { initial, strain, exponent } => {
+                // ∫ (1 + e/e_0)^n de = e_0 [(1 + e/e_0)^(n+1) - 1]/(n + 1).
+                let power = exponent + 1.0;
+                initial * strain * (power * (plastic / strain).ln_1p()).exp_m1() / power
+            }
+            Form::Table { strains, stresses } => {
+                let ends = strains[1..].iter().copied().chain([f64::INFINITY]).map(|end| end.min(plastic));
+                let pieces =
+                    strains.iter().zip(stresses).zip(ends).filter(|((start, _), _)| **start < plastic);
+                pieces.map(|((start, y), end)| 0.5 * (y + self.at(end).stress) * (end - start)).sum()
+            }
+        }
+    }
+
     /// Yield stress and slope at `plastic` >= 0.
     #[must_use]
     pub fn at(&self, plastic: f64) -> Yield {
@@ -141,6 +160,20 @@ mod tests {
                 let remainder = |h: f64| (form.at(e + h).stress - at.stress - h * at.slope).abs();
                 let (coarse, fine) = (remainder(h), remainder(0.5 * h));
                 assert!(coarse < 1e-14 || coarse / fine > 3.5, "{form:?} at {e}: {coarse:e} {fine:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn plastic_work_is_the_integral_of_the_yield_stress() {
+        let table = Hardening::table(&[(0.0, 2.0), (0.1, 3.0), (0.3, 3.5)]).unwrap();
+        let forms = [Hardening::linear(2.0, 7.0).unwrap(), Hardening::swift(2.0, 0.01, 0.3).unwrap(), table];
+        for form in &forms {
+            assert_eq!(form.work(0.0), 0.0);
+            for e in [0.02, 0.15, 0.7] {
+                let h = 1e-4 * e;
+                let slope = (form.work(e + h) - form.work(e - h)) / (2.0 * h);
+                approx::assert_relative_eq!(slope, form.at(e).stress, max_relative = 1e-6);
             }
         }
     }

@@ -5,7 +5,7 @@
 //! 3.4). The left side minus the right decreases monotonically, so the root is unique.
 
 use super::constitutive::{
-    Constitutive, Moduli, Voigt, contract, deviator, elastic_increment, isotropic, pressure,
+    Constitutive, Moduli, Voigt, contract, deviator, elastic_energy, elastic_increment, isotropic, pressure,
 };
 use super::elastic::Elastic;
 use super::hardening::Hardening;
@@ -141,6 +141,15 @@ impl Constitutive for J2 {
             subtract_direction(&mut c, 2.0 * g / (1.0 + at.slope / (3.0 * g)), &s);
         }
         c
+    }
+
+    fn stored(&self, stress: &Voigt, _history: &[f64]) -> f64 {
+        elastic_energy(self.elastic.bulk(), self.elastic.shear(), stress)
+    }
+
+    /// The integral of Y over the plastic strain: with isotropic hardening all plastic work counts as dissipated.
+    fn plastic_work(&self, history: &[f64]) -> f64 {
+        self.hardening.work(history[0])
     }
 
     /// r = {g + √[g² + 4 ds² (Y² - s²)]}/(2 ds²), g = s² + ds² - s_new², with s, ds and s_new the equivalent stresses of state,

@@ -3,7 +3,7 @@
 //! Each element obeys `ds/dt + s/τ = 2 G de/dt`, τ = η/G. Over a step at constant strain rate this has the exact solution `s =
 //! exp(-x) s_0 + 2 G φ(x) Δe`, x = dt/τ, φ(x) = (1 - exp(-x))/x, for steps of any length.
 
-use super::constitutive::{Constitutive, Moduli, Voigt, deviator, isotropic, pressure};
+use super::constitutive::{Constitutive, Moduli, Voigt, contract, deviator, isotropic, pressure};
 use super::elastic::Elastic;
 use crate::error::FemError;
 
@@ -92,6 +92,19 @@ fn mean_decay(x: f64) -> f64 {
     if x == 0.0 { 1.0 } else { -(-x).exp_m1() / x }
 }
 
+impl Maxwell {
+    /// s:s of each element \[Pa²\], with the element.
+    fn parts<'a>(&'a self, stress: &Voigt, history: &'a [f64]) -> impl Iterator<Item = (f64, &'a Element)> {
+        let mut first = deviator(stress);
+        for part in history.chunks_exact(6) {
+            first.iter_mut().zip(part).for_each(|(f, h)| *f -= h);
+        }
+        let others = history.chunks_exact(6).map(|part| std::array::from_fn(|i| part[i]));
+        let all = std::iter::once(first).chain(others);
+        all.zip(&self.elements).map(|(s, element): (Voigt, _)| (contract(&s, &s), element))
+    }
+}
+
 impl Constitutive for Maxwell {
     const RELAXES: bool = true;
 
@@ -133,5 +146,16 @@ impl Constitutive for Maxwell {
 
     fn forward(&self, dt: f64, _stress: &Voigt, _history: &[f64]) -> Moduli {
         isotropic(self.bulk, self.effective_shear(dt))
+    }
+
+    /// Energy of the bulk and of the spring of each element.
+    fn stored(&self, stress: &Voigt, history: &[f64]) -> f64 {
+        let parts = self.parts(stress, history);
+        0.5 * pressure(stress).powi(2) / self.bulk + parts.map(|(s2, e)| 0.25 * s2 / e.shear).sum::<f64>()
+    }
+
+    /// s:s/2η of each element, with η = G τ; 0 for a spring.
+    fn viscous_rate(&self, stress: &Voigt, history: &[f64]) -> f64 {
+        self.parts(stress, history).map(|(s2, e)| 0.5 * s2 / (e.shear * e.time)).sum()
     }
 }

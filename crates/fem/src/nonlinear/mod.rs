@@ -10,6 +10,7 @@
 mod block;
 mod body;
 mod cell;
+mod energy;
 mod forward;
 mod history;
 mod model;

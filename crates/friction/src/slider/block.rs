@@ -447,7 +447,8 @@ impl<F: Form, E: Evolution> Sliding for RateLaw<F, E> {
 
     fn heat(&mut self, weakening: f64, ambient: f64) -> bool {
         let parts = self.parts_mut();
-        parts.iter_mut().fold(false, |any, part| part.evolution.heat(weakening, ambient) || any)
+        // All parts are heated: none is skipped.
+        parts.iter_mut().filter_map(|part| part.evolution.heat(weakening, ambient).then_some(())).count() > 0
     }
 
     fn warms(&self) -> bool {

@@ -78,6 +78,7 @@ fn implicit(law: &dyn Law, s: &Start, states: &[f64], slide: f64, df: f64) -> f6
             trial: &[s.traction + STIFFNESS * slide],
             stiffness: STIFFNESS,
             dt: s.dt,
+            damping: 0.0,
             lag: None,
             near: None,
         },

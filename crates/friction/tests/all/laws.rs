@@ -46,6 +46,7 @@ fn respond(
             trial: &[trial],
             stiffness,
             dt,
+            damping: 0.0,
             lag: lag.map(|_| Lag { weight: &weight, offset: &offset }),
             near: None,
         },

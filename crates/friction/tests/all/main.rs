@@ -1,6 +1,7 @@
 //! Tests of friction, in one binary.
 #![allow(clippy::unwrap_used)]
 
+mod damping;
 mod forward;
 mod laws;
 mod point;

@@ -123,6 +123,7 @@ fn respond(
             trial: &[trial],
             stiffness: 1e12,
             dt,
+            damping: 0.0,
             lag: lag.map(|_| Lag { weight: &weight, offset: &offset }),
             near: None,
         },

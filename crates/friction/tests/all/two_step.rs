@@ -54,6 +54,7 @@ fn respond(law: &dyn Law, normal: f64, trial: f64, dt: f64, lag: (f64, f64), old
             trial: &[trial],
             stiffness: STIFFNESS,
             dt,
+            damping: 0.0,
             lag: Some(Lag { weight: &[lag.0], offset: &[lag.1] }),
             near: None,
         },

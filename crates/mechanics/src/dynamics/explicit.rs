@@ -124,6 +124,9 @@ pub struct Explicit<'a, const D: usize> {
     given: f64,
 }
 
+/// Displacements, velocities and damped displacements of the nodes of a task.
+type Parts<'p> = ((&'p mut [f64], &'p mut [f64]), &'p mut [f64]);
+
 /// Sums over free nodes.
 #[derive(Clone, Copy, Default)]
 struct Sums {
@@ -356,7 +359,8 @@ impl<'a, const D: usize> Explicit<'a, D> {
         let back = if kick < dt { 1.0 } else { 0.0 };
         let mut none = vec![0.0; if damped.is_empty() { u.len() } else { 0 }];
         let damped = if damped.is_empty() { &mut none } else { damped };
-        let chunk = |(k, ((u, v), w)): (usize, ((&mut [f64], &mut [f64]), &mut [f64]))| {
+        let chunk = |(k, parts): (usize, Parts<'_>)| {
+            let ((u, v), w) = parts;
             let mut sums = Sums::default();
             for i in 0..u.len() {
                 let (node, component) = (k * CHUNK + i / components, i % components);

@@ -3,10 +3,13 @@
 use asperity_fem::dof::Constraints;
 use asperity_fem::table::Table;
 
+/// Special node, component and force at unit amplitude \[N\].
+type Place = (usize, usize, f64);
+
 /// Forces of the channels of a stage on its special nodes.
 #[derive(Debug, Default)]
 pub(super) struct Loads {
-    channels: Vec<(Table, Vec<(usize, usize, f64)>)>,
+    channels: Vec<(Table, Vec<Place>)>,
 }
 
 impl Loads {

@@ -349,7 +349,7 @@ impl Implicit {
     }
 
     fn norm(&self) -> Result<f64, String> {
-        let norm = self.balance.largest_residual(&self.system.equations().free);
+        let norm = self.balance.largest_residual(self.system.equations());
         if norm.is_finite() { Ok(norm) } else { Err("the residual is not finite".into()) }
     }
 
@@ -418,8 +418,8 @@ impl Implicit {
         counts: &mut Counts,
     ) -> Result<Vec<f64>, FemError> {
         let before = Before::of(&self.system);
-        let free = &self.system.equations().free;
-        let mut rhs: Vec<f64> = free.iter().map(|&d| -self.balance.r[d]).collect();
+        let mut rhs = self.system.equations().gather(&self.balance.r);
+        rhs.iter_mut().for_each(|r| *r = -*r);
         let solved = self.system.factor_tangent(terms).and_then(|anew| {
             counts.tangents += usize::from(anew);
             counts.factorisations += usize::from(anew);
@@ -429,9 +429,7 @@ impl Implicit {
         before.count(&self.system, counts);
         solved?;
         let mut direction = vec![0.0; self.balance.r.len()];
-        for (&dof, &value) in self.system.equations().free.iter().zip(&rhs) {
-            direction[dof] = value;
-        }
+        self.system.equations().spread(&rhs, &mut direction);
         Ok(direction)
     }
 
@@ -534,7 +532,7 @@ impl Implicit {
     ) -> Trial {
         match self.trial.evaluate(terms, u, at, counts) {
             Ok(()) => Trial {
-                norm: self.trial.largest_residual(&self.system.equations().free),
+                norm: self.trial.largest_residual(self.system.equations()),
                 slope: work(&self.trial.r, along),
             },
             Err(_) => Trial { norm: f64::NAN, slope: f64::NAN },

@@ -14,6 +14,7 @@ pub use stepper::Stepper;
 use crate::Counts;
 use asperity_fem::FemError;
 use asperity_fem::assembly::System;
+use asperity_fem::dof::Equations;
 use asperity_fem::term::{Instant, Linearized, Objection, Refusal, Term};
 
 /// Displacements of the system and their time.
@@ -201,9 +202,13 @@ impl Balance {
         Ok(())
     }
 
-    /// Largest residual over `free`; NaN if any entry is.
+    /// Largest residual of an equation; NaN if any entry is.
     #[must_use]
-    pub fn largest_residual(&self, free: &[usize]) -> f64 {
-        free.iter().map(|&d| self.r[d].abs()).fold(0.0, |a, b| if b > a || b.is_nan() { b } else { a })
+    pub fn largest_residual(&self, equations: &Equations) -> f64 {
+        let larger = |a: f64, b: f64| if b > a || b.is_nan() { b } else { a };
+        if equations.tied.is_empty() {
+            return equations.free.iter().map(|&d| self.r[d].abs()).fold(0.0, larger);
+        }
+        equations.gather(&self.r).into_iter().map(f64::abs).fold(0.0, larger)
     }
 }

@@ -52,6 +52,12 @@ impl StaticExplicit {
         self.newton.system()
     }
 
+    /// Residual of the state evaluated last \[N\].
+    #[must_use]
+    pub fn residual(&self) -> &[f64] {
+        self.newton.residual()
+    }
+
     /// Sets the largest error of friction coefficients with which a step is accepted \[-\].
     pub fn set_bound(&mut self, bound: f64) {
         self.newton.set_bound(bound);
@@ -191,7 +197,8 @@ impl StaticExplicit {
             add_product(t.pattern(), values, &du, &mut load);
             Ok::<_, Failure>(())
         })?;
-        let mut rhs: Vec<f64> = system.equations().free.iter().map(|&d| -load[d]).collect();
+        let mut rhs = system.equations().gather(&load);
+        rhs.iter_mut().for_each(|r| *r = -*r);
         let solved = factored.and_then(|anew| {
             counts.tangents += usize::from(anew);
             counts.factorisations += usize::from(anew);
@@ -201,9 +208,7 @@ impl StaticExplicit {
         counts.solves += 1;
         before.count(system, counts);
         solved.map_err(|e| Failure::unsolved(e, terms))?;
-        for (&dof, &value) in system.equations().free.iter().zip(&rhs) {
-            du[dof] = value;
-        }
+        system.equations().spread(&rhs, &mut du);
         Ok(du)
     }
 }

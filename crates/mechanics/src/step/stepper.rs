@@ -32,6 +32,9 @@ pub trait Stepper {
     /// Linear system, for its counts.
     fn system(&self) -> &System;
 
+    /// Residual of the state evaluated last; after an accepted step, at its end \[N\].
+    fn residual(&self) -> &[f64];
+
     /// Values kept between steps for these terms.
     fn save(&self, terms: &[&mut dyn Linearized]) -> StepperState;
 
@@ -67,6 +70,10 @@ impl Stepper for Implicit {
         Implicit::system(self)
     }
 
+    fn residual(&self) -> &[f64] {
+        Implicit::residual(self)
+    }
+
     fn save(&self, terms: &[&mut dyn Linearized]) -> StepperState {
         Implicit::save(self, terms)
     }
@@ -98,6 +105,10 @@ impl Stepper for StaticExplicit {
 
     fn system(&self) -> &System {
         StaticExplicit::system(self)
+    }
+
+    fn residual(&self) -> &[f64] {
+        StaticExplicit::residual(self)
     }
 
     fn save(&self, terms: &[&mut dyn Linearized]) -> StepperState {

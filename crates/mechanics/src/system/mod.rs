@@ -3,8 +3,10 @@
 mod bodies;
 mod condensed;
 mod full;
+mod moving;
 mod numbering;
 mod saved;
+mod springs;
 mod words;
 
 use self::bodies::Bodies;
@@ -12,12 +14,15 @@ use self::condensed::CondensedBodies;
 use self::full::Full;
 use self::numbering::Numbering;
 pub use self::saved::{Mismatch, SystemState};
+use self::springs::Springs;
+pub use self::springs::{SpringNow, SpringStart};
 use super::samples::Beside;
 use super::solver::{self, Method, Prepared};
 use super::step::implicit::Implicit;
 use super::step::static_explicit::StaticExplicit;
 use super::step::{Accepted, Failure, State, Stepper};
 use super::{CellBlock, Path, PlannedInterface, Problem, Resolved, Stage, declared};
+use crate::inertia::Moving;
 use crate::{Counts, Samples};
 use asperity_contact::{Interface, TimeRule};
 use asperity_fem::assembly::{Iterative, NearNull, Storage, System};
@@ -29,11 +34,19 @@ pub struct Assembled<'a, const D: usize> {
     problem: &'a Problem<D>,
     bodies: Box<dyn Bodies<D> + 'a>,
     interfaces: Vec<Interface<D>>,
+    /// Inertia, if the bodies have mass.
+    moving: Option<Moving<D>>,
     numbering: Numbering,
     /// Constraints of the present stage, in system numbering.
     constraints: Constraints,
     /// Fixed degrees of freedom of the present stage, in mesh numbering.
     fixed: Option<Vec<usize>>,
+    /// Degrees of freedom of the system that move as one in the present stage.
+    groups: Vec<Vec<usize>>,
+    /// Springs of the present stage.
+    springs: Option<Springs>,
+    /// Degrees of freedom of the mesh that each of them pulls.
+    pulled: Vec<Vec<usize>>,
     stepper: Option<Box<dyn Stepper>>,
     state: State,
     /// Displacements of the mesh at the start of the present stage \[m\].
@@ -53,7 +66,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
         let model = &problem.model;
         let (bodies, numbering): (Box<dyn Bodies<D> + 'a>, _) = match problem.path {
             Path::Condensed => {
-                let retained = solver::retained(model, &problem.interfaces);
+                let retained = solver::retained(model, &problem.interfaces, &problem.stages);
                 let numbering = Numbering::condensed(model, &retained);
                 (Box::new(CondensedBodies::new(problem, retained)), numbering)
             }
@@ -69,9 +82,13 @@ impl<'a, const D: usize> Assembled<'a, D> {
             bodies,
             areas: interfaces.iter().map(|i| i.points().area.clone()).collect(),
             interfaces,
+            moving: problem.mass.as_ref().map(|mass| Moving::new(model, mass)),
             numbering,
             constraints: Constraints::default(),
             fixed: None,
+            groups: Vec::new(),
+            springs: None,
+            pulled: Vec::new(),
             stepper: None,
             state: State { u: vec![0.0; unknowns], time: 0.0 },
             begin: Vec::new(),
@@ -86,18 +103,27 @@ impl<'a, const D: usize> Assembled<'a, D> {
     pub fn begin_stage(&mut self, stage: &Stage) -> Result<(), String> {
         let start = self.fixed.is_none();
         let u0 = if start { vec![0.0; self.problem.model.dofs()] } else { self.displacement() };
-        self.begin_from(stage, u0)
+        let springs = springs::starts(stage, &self.pulled_by(), self.reactions(), &u0);
+        self.begin_from(stage, u0, &springs)
     }
 
-    /// Applies the conditions of a stage from the displacements `u0` of the mesh.
-    fn begin_from(&mut self, stage: &Stage, u0: Vec<f64>) -> Result<(), String> {
+    /// Applies the conditions of a stage from the displacements `u0` of the mesh and these states of its springs.
+    fn begin_from(&mut self, stage: &Stage, u0: Vec<f64>, springs: &[SpringStart]) -> Result<(), String> {
         let problem = self.problem;
         let constraints = stage.constraints(&u0);
         self.begin = u0;
-        let renewed = self.fixed.as_ref() != Some(&stage.fixed);
-        self.bodies.load(&constraints, renewed)?;
+        let held_anew = self.fixed.as_ref() != Some(&stage.fixed);
+        self.bodies.load(&constraints, held_anew)?;
         self.constraints = self.numbering.constraints(&constraints);
-        if renewed {
+        if let Some(moving) = &mut self.moving {
+            moving.begin_stage(&constraints);
+        }
+        self.springs = Springs::new(stage, &self.numbering, springs);
+        self.pulled = stage.springs.iter().map(|s| s.dofs.clone()).collect();
+        let number = |dofs: &Vec<usize>| dofs.iter().map(|&d| self.numbering.number[d]).collect();
+        let groups: Vec<Vec<usize>> = self.pulled.iter().map(number).collect();
+        if held_anew || groups != self.groups {
+            self.groups = groups;
             self.stepper = Some(self.new_stepper()?);
             self.fixed = Some(stage.fixed.clone());
         }
@@ -115,11 +141,40 @@ impl<'a, const D: usize> Assembled<'a, D> {
         Ok(())
     }
 
+    /// Degrees of freedom of the mesh that each spring pulls, with its present state.
+    fn pulled_by(&self) -> Vec<(Vec<usize>, SpringNow)> {
+        self.pulled.iter().cloned().zip(self.springs()).collect()
+    }
+
+    /// Force that holds a degree of freedom of the mesh, or with which a spring pulls it, after the last accepted step; zero
+    /// before the first. It is known on those that the system retains.
+    fn reactions(&self) -> impl Fn(usize) -> f64 {
+        let mut r = self.stepper.as_ref().map_or_else(Vec::new, |s| s.residual().to_vec());
+        for (dofs, now) in self.pulled_by() {
+            if let Some(r) = r.get_mut(self.numbering.number[dofs[0]]) {
+                *r += now.force;
+            }
+        }
+        let number = &self.numbering.number;
+        move |dof| r.get(number[dof]).copied().unwrap_or(0.0)
+    }
+
+    /// States of the springs of the present stage, in its order.
+    #[must_use]
+    pub fn springs(&self) -> Vec<SpringNow> {
+        let now = |springs: &Springs| springs.now(&self.state.u, self.state.time).collect();
+        self.springs.as_ref().map_or_else(Vec::new, now)
+    }
+
     fn new_stepper(&self) -> Result<Box<dyn Stepper>, String> {
         let problem = self.problem;
         // In finite sliding and large deformation forces are computed from positions, which are of the size of the scene.
         let position = if problem.moves() { problem.model.scale } else { 0.0 };
-        let travel = problem.stages.iter().map(Stage::travel).sum();
+        // Nothing bounds the flight of bodies with mass.
+        let travel = match problem.mass {
+            None => problem.stages.iter().map(Stage::travel).sum(),
+            Some(_) => f64::INFINITY,
+        };
         let newton = Implicit::new(self.linear_system()?, position, problem.model.scale, travel);
         Ok(match problem.stepping.drift {
             None => Box::new(newton),
@@ -130,6 +185,10 @@ impl<'a, const D: usize> Assembled<'a, D> {
     /// Empty system for the solution method of the problem.
     fn linear_system(&self) -> Result<System, String> {
         let equations = self.constraints.equations(self.state.u.len());
+        let equations = match self.groups.is_empty() {
+            true => equations,
+            false => equations.with_groups(self.groups.iter().map(Vec::as_slice)),
+        };
         let (model, solver) = (&self.problem.model, &self.problem.solver);
         Ok(match solver.method {
             Method::Iterative { tolerance, most_iterations } => {
@@ -154,12 +213,16 @@ impl<'a, const D: usize> Assembled<'a, D> {
     /// # Errors
     /// [`Failure`], in which case nothing was committed.
     pub fn step(&mut self, (dt, smallest): (f64, f64), counts: &mut Counts) -> Result<Accepted, Failure> {
+        self.start_moving(dt, counts)?;
         let Some(stepper) = &mut self.stepper else {
             return Err(Failure::Refused("no stage has begun".into()));
         };
-        let mut terms = self.bodies.terms();
-        terms.extend(self.interfaces.iter_mut().map(|i| i as &mut dyn Limited));
-        stepper.step(&mut terms, &self.constraints, &mut self.state, (dt, smallest), counts)
+        let mut terms =
+            terms(self.bodies.as_mut(), &mut self.springs, &mut self.interfaces, self.moving.as_mut());
+        let accepted =
+            stepper.step(&mut terms, &self.constraints, &mut self.state, (dt, smallest), counts)?;
+        self.settle(accepted.dt);
+        Ok(accepted)
     }
 
     /// Sets the largest error of friction coefficients with which a step is accepted \[-\].
@@ -250,7 +313,14 @@ impl<'a, const D: usize> Assembled<'a, D> {
         }
         let now = (self.displacement(), self.state.time);
         let bodies = (self.blocks(), problem.initial_stress.as_slice());
-        wanted.values(&problem.model, bodies, (&now.0, now.1), &self.beside)
+        let mut samples = wanted.values(&problem.model, bodies, (&now.0, now.1), &self.beside);
+        if let Some(moving) = self.moving.as_ref().filter(|_| !wanted.forces.is_empty()) {
+            let inertial = moving.forces();
+            for (force, set) in samples.forces.iter_mut().zip(&wanted.forces) {
+                force.iter_mut().zip(set.sum(&problem.model, &inertial)).for_each(|(f, i)| *f += i);
+            }
+        }
+        samples
     }
 
     /// Adds operations performed outside the steps.
@@ -264,6 +334,20 @@ impl<'a, const D: usize> Assembled<'a, D> {
     }
 }
 
+/// All terms of a system.
+fn terms<'t, const D: usize>(
+    bodies: &'t mut (dyn Bodies<D> + '_),
+    springs: &'t mut Option<Springs>,
+    interfaces: &'t mut [Interface<D>],
+    moving: Option<&'t mut Moving<D>>,
+) -> Vec<&'t mut dyn Limited> {
+    let mut terms = bodies.terms();
+    terms.extend(springs.iter_mut().map(|s| s as &mut dyn Limited));
+    terms.extend(interfaces.iter_mut().map(|i| i as &mut dyn Limited));
+    terms.extend(moving.map(Moving::term));
+    terms
+}
+
 /// Interface as a term of the system. Multipliers that are unknowns are numbered from `unknowns`.
 fn interface<const D: usize>(
     problem: &Problem<D>,
@@ -275,6 +359,9 @@ fn interface<const D: usize>(
     let spec = declared::spec(&problem.model, &problem.stepping, planned, number, largest_rate, unknowns);
     let mut interface = Interface::new(spec).map_err(|e| e.to_string())?;
     interface.set_watch(planned.watch);
+    if let Some(damping) = planned.damping {
+        interface.set_damping(damping);
+    }
     if let Some(pressed) = &planned.pressed {
         interface.press(&pressed.starts(), pressed.reach);
     }

@@ -1,12 +1,14 @@
 //! State of a system between two steps, as serialisable values. A run resumed from it takes the same steps, bit for bit, as if
 //! it had never been interrupted.
 
-use super::Assembled;
 use super::bodies::BodiesState;
+use super::springs::{SpringStart, Springs};
+use super::{Assembled, terms};
 use crate::Stage;
+use crate::inertia::{MassState, Moving};
 use crate::step::StepperState;
 use asperity_contact::InterfaceState;
-use asperity_fem::term::{Limited, Linearized, Saved as _};
+use asperity_fem::term::{Linearized, Saved as _};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -23,6 +25,11 @@ pub struct SystemState {
     /// Interfaces, in the order of the problem.
     interfaces: Vec<InterfaceState>,
     stepper: StepperState,
+    /// Inertia, if the bodies have mass.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    mass: Option<MassState>,
+    /// Springs at the start of the present stage, in its order.
+    springs: Vec<SpringStart>,
 }
 
 impl SystemState {
@@ -52,6 +59,13 @@ pub enum Mismatch {
         /// Number in the system.
         expected: usize,
     },
+    /// The numbers of springs differ.
+    Springs {
+        /// Number in the state.
+        found: usize,
+        /// Number in the stage.
+        expected: usize,
+    },
     /// An interface has different points, another measure or another law.
     Interface(String),
     /// The linear systems differ.
@@ -70,6 +84,9 @@ impl fmt::Display for Mismatch {
             Self::Interfaces { found, expected } => {
                 write!(f, "it has {found} interfaces, and the scene has {expected}")
             }
+            Self::Springs { found, expected } => {
+                write!(f, "it has {found} springs, and the scene has {expected}")
+            }
             Self::Interface(name) => write!(f, "its interface `{name}` is not that of the scene"),
             Self::Stepper => f.write_str("its linear system is not that of the scene"),
             Self::SetUp(reason) => f.write_str(reason),
@@ -86,8 +103,12 @@ impl<const D: usize> Assembled<'_, D> {
         let interfaces = self.interfaces.iter().map(asperity_fem::term::Saved::save).collect();
         let stepper = match &self.stepper {
             Some(stepper) => {
-                let mut terms = self.bodies.terms();
-                terms.extend(self.interfaces.iter_mut().map(|i| i as &mut dyn Limited));
+                let terms = terms(
+                    self.bodies.as_mut(),
+                    &mut self.springs,
+                    &mut self.interfaces,
+                    self.moving.as_mut(),
+                );
                 let terms: Vec<&mut dyn Linearized> = terms.into_iter().map(|t| t as _).collect();
                 stepper.save(&terms)
             }
@@ -100,6 +121,8 @@ impl<const D: usize> Assembled<'_, D> {
             bodies: self.bodies.save(),
             interfaces,
             stepper,
+            mass: self.moving.as_ref().map(Moving::save),
+            springs: self.springs.as_ref().map_or_else(Vec::new, Springs::starts),
         }
     }
 
@@ -119,7 +142,11 @@ impl<const D: usize> Assembled<'_, D> {
         if found != expected {
             return Err(Mismatch::Interfaces { found, expected });
         }
-        self.begin_from(stage, saved.begin.clone()).map_err(Mismatch::SetUp)?;
+        let (found, expected) = (saved.springs.len(), stage.springs.len());
+        if found != expected {
+            return Err(Mismatch::Springs { found, expected });
+        }
+        self.begin_from(stage, saved.begin.clone(), &saved.springs).map_err(Mismatch::SetUp)?;
         for ((interface, saved), planned) in
             self.interfaces.iter_mut().zip(&saved.interfaces).zip(&self.problem.interfaces)
         {
@@ -131,9 +158,17 @@ impl<const D: usize> Assembled<'_, D> {
         if !self.bodies.restore(&saved.bodies) {
             return Err(Mismatch::Bodies);
         }
+        let fits = match (&mut self.moving, &saved.mass) {
+            (Some(moving), Some(mass)) => moving.restore(mass, &self.state.u),
+            (None, None) => true,
+            _ => false,
+        };
+        if !fits {
+            return Err(Mismatch::Bodies);
+        }
         let Some(stepper) = &mut self.stepper else { return Err(Mismatch::Stepper) };
-        let mut terms = self.bodies.terms();
-        terms.extend(self.interfaces.iter_mut().map(|i| i as &mut dyn Limited));
+        let terms =
+            terms(self.bodies.as_mut(), &mut self.springs, &mut self.interfaces, self.moving.as_mut());
         let mut terms: Vec<&mut dyn Linearized> = terms.into_iter().map(|t| t as _).collect();
         if stepper.restore(&saved.stepper, &mut terms) { Ok(()) } else { Err(Mismatch::Stepper) }
     }

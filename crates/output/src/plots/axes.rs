@@ -190,10 +190,16 @@ impl Frame {
 
     /// Draws frame, ticks and labels. Called after the data are drawn.
     pub(super) fn draw(&self, figure: &mut Figure) {
+        self.draw_part(figure, true);
+        self.draw_label(figure);
+    }
+
+    /// Draws frame and ticks of one of several frames above each other, of which only the last has numbers along x.
+    pub(super) fn draw_part(&self, figure: &mut Figure, last: bool) {
         let ((left, top), (width, height)) = (self.at, self.size);
         let (right, bottom) = (left + width, top + height);
         figure.line(vec![(left, top), (right, top), (right, bottom), (left, bottom), (left, top)], 1.0, INK);
-        for (place, text) in self.x.ticks(fitting(width, X_ROOM, X_TICKS)) {
+        for (place, text) in self.x.ticks(fitting(width, X_ROOM, X_TICKS)).into_iter().filter(|_| last) {
             let x = left + place * width;
             figure.line(vec![(x, bottom), (x, bottom + 5.0)], 1.0, INK);
             figure.text((x, bottom + 16.0), text, TICK_TEXT, Anchor::Middle, INK);
@@ -203,8 +209,13 @@ impl Frame {
             figure.line(vec![(left - 5.0, y), (left, y)], 1.0, INK);
             figure.text((left - 9.0, y), text, TICK_TEXT, Anchor::End, INK);
         }
+    }
+
+    /// Draws the labels of the axes.
+    pub(super) fn draw_label(&self, figure: &mut Figure) {
+        let ((left, top), (width, height)) = (self.at, self.size);
         let size = within(&self.x.label, width + 80.0, LABEL_TEXT);
-        figure.text((left + width / 2.0, bottom + 40.0), &self.x.label, size, Anchor::Middle, INK);
+        figure.text((left + width / 2.0, top + height + 40.0), &self.x.label, size, Anchor::Middle, INK);
         let room = self.y.widest_tick(height);
         let size = within(&self.y.label, height + 80.0, LABEL_TEXT);
         figure.vertical_text((left - room - 16.0, top + height / 2.0), &self.y.label, size, INK);

@@ -19,8 +19,16 @@ pub enum Measure {
     Velocity,
     /// Stress \[Pa\].
     Stress,
+    /// Energy \[J\].
+    Energy,
     /// Dimensionless number \[-\].
     Number,
+    /// Energy per length out of the plane \[J/m\].
+    EnergyPerLength,
+    /// Moment rate \[N m/s\].
+    MomentRate,
+    /// Moment rate per length out of the plane \[N/s\].
+    MomentRatePerLength,
 }
 
 impl Measure {
@@ -30,7 +38,11 @@ impl Measure {
             Self::Length => units::LENGTH,
             Self::Velocity => units::VELOCITY,
             Self::Stress => units::STRESS,
+            Self::Energy => units::ENERGY,
             Self::Number => units::NUMBER,
+            Self::EnergyPerLength => units::ENERGY_PER_LENGTH,
+            Self::MomentRate => units::MOMENT_RATE,
+            Self::MomentRatePerLength => units::MOMENT_RATE_PER_LENGTH,
         }
     }
 }
@@ -67,6 +79,10 @@ impl Chart {
         let largest = |pick: fn(&Point) -> f64| {
             points().map(|p| pick(p).abs()).filter(|v| v.is_finite()).fold(0.0, f64::max)
         };
+        // A run that has not passed its start has no time axis.
+        if self.x.1 == Measure::Time && largest(|p| p.0) == 0.0 {
+            return None;
+        }
         let (x_unit, y_unit) = (self.x.1.units().of(largest(|p| p.0)), self.y.1.units().of(largest(|p| p.1)));
         let log = self.y.1 == Measure::Velocity && self.curves.iter().any(|c| spiky(&c.1));
         let up = |v: f64| if log { v.abs() } else { v } / y_unit.factor;
@@ -142,6 +158,12 @@ mod tests {
         });
         assert_eq!(longest.max(), Some(n));
         assert_eq!(chart.entries().len(), NAMED + 1);
-        assert!(Chart { curves: vec![("none".into(), Vec::new())], ..chart }.figure().is_none());
+        let none = |curve| Chart {
+            curves: vec![("none".into(), curve)],
+            x: ("Time", Measure::Time),
+            ..chart.clone()
+        };
+        assert!(none(Vec::new()).figure().is_none());
+        assert!(none(vec![(0.0, 0.6)]).figure().is_none());
     }
 }

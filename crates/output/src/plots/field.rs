@@ -7,7 +7,7 @@ use super::axes::{Axis, Frame};
 use super::colour::{INK, PAPER, Rgb, viridis};
 use super::faces::{Corner, Visible, visible};
 use super::figure::{Anchor, Figure, Image, Point};
-use super::units::{LENGTH, STRESS, Unit, Units};
+use super::units::{LENGTH, NUMBER, STRESS, Unit, Units, VELOCITY};
 
 /// Largest width and height of the map in a plot of a run.
 pub(super) const LARGE: Point = (560.0, 460.0);
@@ -18,7 +18,7 @@ pub(super) const SMALL: Point = (300.0, 270.0);
 const BAR: f64 = 170.0;
 
 /// Pixels of the map per unit of the figure.
-const FINE: f64 = 2.0;
+pub(super) const FINE: f64 = 2.0;
 
 /// Share of the nodes whose values the colours cover if a few singular corners lie far above them.
 const COVERED: f64 = 0.99;
@@ -57,19 +57,65 @@ pub(super) fn displacement(mesh: &MeshView, displacement: &[[f64; 3]], room: Poi
     Field { mesh, places, values: &values, quantity: "displacement", units: LENGTH }.draw(None, room)
 }
 
+/// Draws the magnitude of velocities \[m/s\] at a time; `None` if there is no face to draw or no finite position.
+pub(super) fn velocity(
+    scene: &str,
+    when: &str,
+    mesh: &MeshView,
+    velocity: &[f64],
+    room: Point,
+) -> Option<Figure> {
+    let field =
+        Field { mesh, places: mesh.nodes.clone(), values: velocity, quantity: "Velocity", units: VELOCITY };
+    field.draw(Some((scene, when.to_string())), room)
+}
+
+/// The visible part of a mesh, for several images of it.
+pub(super) struct Shown<'a> {
+    mesh: &'a MeshView,
+    seen: Visible,
+    extent: (Point, Point),
+}
+
+impl<'a> Shown<'a> {
+    /// The visible part of a mesh; `None` if there is no face to draw.
+    pub(super) fn new(mesh: &'a MeshView) -> Option<Self> {
+        let seen = visible(mesh);
+        let extent = extent(&mesh.nodes, &seen)?;
+        Some(Self { mesh, seen, extent })
+    }
+
+    /// A frame around it at one scale in both directions, within `room`.
+    pub(super) fn frame(&self, room: Point) -> Frame {
+        around((0.0, 0.0), self.extent, room).0
+    }
+
+    /// An image of values over a frame, in the colours from zero to `hi`.
+    pub(super) fn image(&self, frame: &Frame, values: &[f64], hi: f64) -> Image {
+        let colours = Colours { unit: NUMBER.of(1.0), lo: 0.0, hi, above: None };
+        map(&self.mesh.nodes, &self.seen, values, &colours, frame, self.extent)
+    }
+}
+
+/// Frame around a map within `room`, and the unit of its axes.
+fn around(at: Point, (lo, hi): (Point, Point), room: Point) -> (Frame, Unit) {
+    let (width, height) = (hi.0 - lo.0, hi.1 - lo.1);
+    let scale = (room.0 / width).min(room.1 / height);
+    let length = LENGTH.of([lo.0, lo.1, hi.0, hi.1].iter().fold(0.0, |most, v| most.max(v.abs())));
+    let frame = Frame {
+        at,
+        size: (width * scale, height * scale),
+        x: Axis::exact((lo.0 / length.factor, hi.0 / length.factor), format!("x [{}]", length.name)),
+        y: Axis::exact((lo.1 / length.factor, hi.1 / length.factor), format!("y [{}]", length.name)),
+    };
+    (frame, length)
+}
+
 impl Field<'_> {
     fn draw(&self, title: Option<(&str, String)>, room: Point) -> Option<Figure> {
         let seen = visible(self.mesh);
         let (lo, hi) = extent(&self.places, &seen)?;
-        let (width, height) = (hi.0 - lo.0, hi.1 - lo.1);
-        let scale = (room.0 / width).min(room.1 / height);
-        let length = LENGTH.of([lo.0, lo.1, hi.0, hi.1].iter().fold(0.0, |most, v| most.max(v.abs())));
-        let frame = Frame {
-            at: (96.0, 40.0),
-            size: (width * scale, height * scale),
-            x: Axis::exact((lo.0 / length.factor, hi.0 / length.factor), format!("x [{}]", length.name)),
-            y: Axis::exact((lo.1 / length.factor, hi.1 / length.factor), format!("y [{}]", length.name)),
-        };
+        let (frame, length) = around((96.0, 40.0), (lo, hi), room);
         let colours = Colours::of(&seen, self.values, self.units);
         let below = (frame.size.1 + 62.0).max(BAR + 20.0);
         let mut figure = Figure::new(frame.at.0 + frame.size.0.max(180.0) + 150.0, frame.at.1 + below);
@@ -106,12 +152,12 @@ fn places(mesh: &MeshView, displacement: &[[f64; 3]]) -> Vec<[f64; 3]> {
 }
 
 /// Range of values covered by the colours.
-struct Colours {
-    unit: Unit,
-    lo: f64,
-    hi: f64,
+pub(super) struct Colours {
+    pub unit: Unit,
+    pub lo: f64,
+    pub hi: f64,
     /// Largest value, if it lies above the range of the colours.
-    above: Option<f64>,
+    pub above: Option<f64>,
 }
 
 impl Colours {
@@ -178,7 +224,7 @@ fn map(
 }
 
 /// Fills one triangle with corners (column, row, value), interpolating linearly.
-fn fill(rgb: &mut [Rgb], columns: usize, [a, b, c]: [(f64, f64, f64); 3], colours: &Colours) {
+pub(super) fn fill(rgb: &mut [Rgb], columns: usize, [a, b, c]: [(f64, f64, f64); 3], colours: &Colours) {
     let twice = (b.0 - a.0) * (c.1 - a.1) - (c.0 - a.0) * (b.1 - a.1);
     if twice == 0.0 || !twice.is_finite() {
         return;

@@ -10,13 +10,16 @@ mod curves;
 mod cycles;
 mod diagram;
 mod drawn;
+mod energy;
 mod faces;
 mod field;
 mod figure;
 pub(crate) mod labels;
 mod png;
 mod profile;
+mod rupture;
 mod sketch;
+mod springs;
 mod style;
 mod svg;
 mod title;
@@ -26,6 +29,7 @@ mod width;
 pub use chart::{Chart, Measure};
 pub use cycles::{Cycles, Line, Rows, Table};
 pub use diagram::{Diagram, Failed, Scale, Series, Slope};
+pub use rupture::{Line as RuptureLine, Profiles, RupturedFault, Ruptures, Shape as RuptureShape, Surface};
 pub use sketch::Sketch;
 pub use style::STYLES;
 
@@ -50,6 +54,36 @@ pub fn draw_all(folder: &Path, recorder: &Recorder) -> Result<Vec<PathBuf>, Outp
 /// See [`draw_all`].
 pub fn draw_cycles(folder: &Path, cycles: &Cycles) -> Result<Vec<PathBuf>, OutputError> {
     write_all(folder, cycles.figures()?)
+}
+
+/// Draws the plots of dynamic rupture into `folder` and returns the files in the order written.
+///
+/// # Errors
+/// See [`draw_all`].
+pub fn draw_ruptures(folder: &Path, ruptures: &Ruptures<'_>) -> Result<Vec<PathBuf>, OutputError> {
+    write_all(folder, ruptures.figures()?)
+}
+
+/// Draws the magnitudes of velocities of the nodes of a mesh, each with its time \[s\] \[m/s\], and a strip of them, into `folder`; returns
+/// the files in the order written.
+///
+/// # Errors
+/// See [`draw_all`].
+pub fn draw_velocities(
+    folder: &Path,
+    scene: &str,
+    mesh: &MeshView,
+    frames: &[(f64, Vec<f64>)],
+) -> Result<Vec<PathBuf>, OutputError> {
+    let last = frames.last().map_or(1.0, |frame| frame.0);
+    let one = |(k, (time, values)): (usize, &(f64, Vec<f64>))| {
+        let when = format!("t = {}", rupture::moment(*time, last));
+        Some((format!("velocity_{k}"), field::velocity(scene, &when, mesh, values, field::LARGE)?))
+    };
+    let mut figures: Vec<(String, Figure)> = frames.iter().enumerate().filter_map(one).collect();
+    let strip = field::Shown::new(mesh).and_then(|shown| rupture::velocities(scene, &shown, frames));
+    figures.extend(strip.map(|figure| ("velocity_film".to_string(), figure)));
+    write_all(folder, figures)
 }
 
 /// Draws curves of two quantities against each other into `folder` and returns the files in the order written.
@@ -114,5 +148,7 @@ fn figures(recorder: &Recorder) -> Vec<(String, Figure)> {
             figures.push((format!("{stem}_tractions"), figure));
         }
     }
+    figures.extend(energy::budget(recorder));
+    figures.extend(springs::friction(recorder).map(|figure| ("springs_friction".to_string(), figure)));
     figures
 }

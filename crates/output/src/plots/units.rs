@@ -59,6 +59,54 @@ pub(super) const TIME: Units = Units(&[
     later("a", 31_557_600.0, 63_115_200.0),
 ]);
 
+/// Energies.
+pub(super) const ENERGY: Units = Units(&[
+    unit("nJ", NANO),
+    unit("µJ", MICRO),
+    unit("mJ", MILLI),
+    unit("J", 1.0),
+    unit("kJ", 1e3),
+    unit("MJ", 1e6),
+    unit("GJ", 1e9),
+    unit("TJ", 1e12),
+    unit("PJ", 1e15),
+    unit("EJ", 1e18),
+]);
+
+/// Energies per length out of the plane.
+pub(super) const ENERGY_PER_LENGTH: Units = Units(&[
+    unit("nJ/m", NANO),
+    unit("µJ/m", MICRO),
+    unit("mJ/m", MILLI),
+    unit("J/m", 1.0),
+    unit("kJ/m", 1e3),
+    unit("MJ/m", 1e6),
+    unit("GJ/m", 1e9),
+    unit("TJ/m", 1e12),
+]);
+
+/// Moment rates.
+pub(super) const MOMENT_RATE: Units = Units(&[
+    unit("N m/s", 1.0),
+    unit("10³ N m/s", 1e3),
+    unit("10⁶ N m/s", 1e6),
+    unit("10⁹ N m/s", 1e9),
+    unit("10¹² N m/s", 1e12),
+    unit("10¹⁵ N m/s", 1e15),
+    unit("10¹⁸ N m/s", 1e18),
+    unit("10²¹ N m/s", 1e21),
+]);
+
+/// Moment rates per length out of the plane.
+pub(super) const MOMENT_RATE_PER_LENGTH: Units = Units(&[
+    unit("N/s", 1.0),
+    unit("10³ N/s", 1e3),
+    unit("10⁶ N/s", 1e6),
+    unit("10⁹ N/s", 1e9),
+    unit("10¹² N/s", 1e12),
+    unit("10¹⁵ N/s", 1e15),
+]);
+
 /// Dimensionless numbers.
 pub(super) const NUMBER: Units = Units(&[(Unit { name: "–", factor: 1.0 }, 0.0)]);
 

@@ -119,6 +119,7 @@ pub(crate) fn samples_at(setup: &Setup, time: f64) -> Samples {
     Samples {
         points: (0..setup.points.len()).map(point).collect(),
         forces: (0..setup.forces.len()).map(|k| [1e3 * time, k as f64, 0.0]).collect(),
+        springs: (0..setup.springs.len()).map(|_| None).collect(),
     }
 }
 
@@ -164,6 +165,7 @@ pub(crate) fn play(
                 end_time: 59.66,
                 interfaces: &interfaces,
                 samples: &samples_at(setup, time),
+                energy: None,
                 fields: &|| body_fields(&setup.mesh, time, spoil),
             })?;
         }

@@ -261,6 +261,7 @@ fn several_observers_share_one_recovery_of_the_bodies() {
         end_time: 1.0,
         interfaces: &[],
         samples: &view::Samples::default(),
+        energy: None,
         fields: &fields,
     };
     Multi::new(vec![&mut a, &mut b]).step(&view).unwrap();

@@ -92,6 +92,7 @@ impl Checker<'_> {
             let duration = stage.duration.get_ref().0;
             self.shared_nodes(stage, &fresh, &mut held, (index == 0, duration));
             self.loads(stage, &held);
+            self.absorbing(stage);
             held.settle(index == 0, duration);
         }
     }
@@ -160,7 +161,7 @@ impl Checker<'_> {
         let symmetric = c.symmetry.as_ref().is_some_and(|s| *s.get_ref());
         let motions = [&c.x, &c.y, &c.z];
         let moved = motions.iter().any(|m| m.is_some()) || symmetric || c.rotate.is_some();
-        if !moved && c.traction.is_none() && c.pressure.is_none() {
+        if !moved && c.traction.is_none() && c.pressure.is_none() && c.absorbing.is_none() {
             self.error(
                 condition.span(),
                 format!("the condition on `{}` prescribes nothing", set.get_ref()),

@@ -72,6 +72,7 @@ impl Course {
             Self::Relative(Motion::Hold) => "the value it has".into(),
             Self::Relative(Motion::To(value)) => format!("the value it has to {}", show(*value)),
             Self::Relative(Motion::Rotate(_)) => "a rotation".into(),
+            Self::Relative(Motion::Spring { .. }) => "a spring".into(),
             Self::Relative(_) => "a rate from the value it has".into(),
         }
     }

@@ -6,7 +6,7 @@ use crate::model::{Fault, Spanned};
 
 impl Checker<'_> {
     pub(super) fn physics_of(&mut self, fault: &Fault) {
-        if let Some(limit) = &fault.law.get_ref().f_limit {
+        if let Some(limit) = fault.law.get_ref().f_limit.as_ref().filter(|_| !self.has_waves()) {
             // At the limit friction does not depend on the slip rate, so the rate cannot be computed from it.
             self.error(
                 limit.span(),
@@ -28,7 +28,9 @@ impl Checker<'_> {
 
     /// Checks the requirements of a fault that opens.
     fn opening_of(&mut self, fault: &Fault) {
-        let Some(opening) = fault.opening.as_ref().filter(|o| *o.get_ref()) else { return };
+        let Some(opening) = fault.opening.as_ref().filter(|o| *o.get_ref() && !self.has_waves()) else {
+            return;
+        };
         if self.is_antiplane() {
             self.error(
                 opening.span(),

@@ -1,10 +1,11 @@
 //! Faults in earthquake cycles.
 
 use super::Checker;
+use super::interfaces::RATED;
 use crate::law;
 use crate::model::{
-    Along, Creep, DampingSpec, Fault, Kinematics, Motion, Outside, Path, Profile, Profiled, SlipSpec,
-    Spanned, Station, Stepper,
+    Along, Creep, DampingSpec, Fault, Interface, Kinematics, Motion, Outside, Path, Profile, Profiled,
+    SlipSpec, Spanned, Station, Stepper,
 };
 use crate::near::suggest;
 
@@ -30,12 +31,14 @@ impl Checker<'_> {
                 ("normal", &fault.profiles.normal),
             ] {
                 for profile in profile.iter().flat_map(|Profiled(list)| list) {
-                    self.profile(name, profile, 1.0);
+                    self.profile(name, profile, Some(1.0));
                 }
             }
             for profile in fault.profiles.shear.iter().flat_map(|Profiled(list)| list) {
-                self.profile("shear", profile, fault.rate.get_ref().0.signum());
+                let sense = fault.slides().then(|| fault.rate.get_ref().0.signum());
+                self.profile("shear", profile, sense);
             }
+            self.pulses(fault);
             self.patches(fault);
             self.rake(fault);
             if let Some(creep) = &fault.creep {
@@ -56,6 +59,9 @@ impl Checker<'_> {
     /// Refuses keys that do not apply to faults and would be ignored silently.
     fn left_out(&mut self) {
         let scene = self.scene;
+        if self.has_waves() {
+            return;
+        }
         let Some(fault) = scene.faults.values().next() else {
             if let Some(bodies) = &scene.output.bodies {
                 self.error(
@@ -93,17 +99,17 @@ impl Checker<'_> {
         }
     }
 
-    /// Checks springs, which pull sides only in scenes with faults.
+    /// Checks springs that pull sets.
     fn springs(&mut self) {
         let scene = self.scene;
         for condition in scene.stages.iter().flat_map(|s| &s.conditions) {
             let c = condition.get_ref();
             for motion in [&c.x, &c.y, &c.z].into_iter().flatten() {
                 let Motion::Spring { stiffness, rate } = *motion.get_ref() else { continue };
-                if scene.faults.is_empty() {
+                if self.has_waves() || scene.time.inertia.is_some() {
                     self.error(
                         motion.span(),
-                        "a spring draws sides in scenes with faults only",
+                        "a spring draws sides of bodies without mass",
                         "prescribe the motion itself, such as `{ rate = \"1 um/s\" }`",
                     );
                 }
@@ -120,6 +126,10 @@ impl Checker<'_> {
 
     /// Checks that faults and the stepper "fault-ode" are used together, without interfaces and in one stage.
     fn stepper_of_faults(&mut self) {
+        if self.has_waves() {
+            return self.explicit();
+        }
+        self.explicit_alone();
         let (scene, stepper) = (self.scene, &self.scene.time.stepper);
         let ode = *stepper.get_ref() == Stepper::FaultOde;
         match scene.faults.values().next() {
@@ -153,25 +163,41 @@ impl Checker<'_> {
             }
             None => {}
         }
-        if let Some(events) = scene.events.as_ref().filter(|_| scene.faults.is_empty()) {
-            self.error(
-                events.above.span(),
-                "events are those of faults, and the scene has none",
-                "remove `[events]`",
-            );
-        }
+        self.events_without_source();
+    }
+
+    /// Refuses events where nothing has them: they are those of faults, and of interfaces whose laws depend on the slip rate.
+    fn events_without_source(&mut self) {
+        let scene = self.scene;
+        let of_rate = |i: &Interface| {
+            let kind = i.law.as_ref().and_then(|l| l.get_ref().kind.as_ref());
+            kind.is_some_and(|k| RATED.contains(&k.get_ref().as_str()))
+        };
+        let source = !scene.faults.is_empty() || scene.interfaces.values().any(of_rate);
+        let Some(events) = scene.events.as_ref().filter(|_| !source) else { return };
+        self.error(
+            events.above.span(),
+            "events are those of faults and of interfaces whose laws depend on the slip rate, and the scene has neither",
+            "remove `[events]`, or give an interface a law of kind \"rate-and-state\" or \"rate\"",
+        );
     }
 
     fn friction(&mut self, fault: &Fault) {
         self.errors.extend(law::choose(&fault.law, self.laws).err().unwrap_or_default());
-        let kind = fault.law.get_ref().kind.as_ref();
+        let kind = fault.law.get_ref().kind.as_ref().filter(|_| !self.has_waves());
         if let Some(kind) = kind.filter(|k| WITHOUT_RATE.contains(&k.get_ref().as_str())) {
             self.error(
                 kind.span(),
                 format!("the slip rate of a fault does not follow from a law of kind \"{}\"", kind.get_ref()),
-                "\"rate-and-state\", or \"rate\"",
+                "\"rate-and-state\", or \"rate\"; bodies with inertia take them, with `stepper = \"explicit\"`",
             );
         }
+    }
+
+    /// True if friction of the fault depends on the slip rate.
+    fn needs_rate(fault: &Fault) -> bool {
+        let kind = fault.law.get_ref().kind.as_ref();
+        !kind.is_some_and(|k| WITHOUT_RATE.contains(&k.get_ref().as_str()) || k.get_ref() == "tied")
     }
 
     fn start_of(&mut self, fault: &Fault) {
@@ -180,15 +206,23 @@ impl Checker<'_> {
             self.error(normal.span(), "`normal` must be positive", "such as `normal = \"50 MPa\"`");
         }
         let rate = fault.rate.get_ref().0;
-        if rate == 0.0 || !rate.is_finite() {
+        let place = if fault.rate.span().is_empty() { fault.span() } else { fault.rate.span() };
+        if (rate == 0.0 && Self::needs_rate(fault)) || !rate.is_finite() {
             self.error(
-                fault.rate.span(),
+                place,
                 "`rate` must not be zero",
                 "such as `rate = \"1e-9 m/s\"`; its sign is the sense of slip",
             );
+        } else if rate != 0.0 && self.has_waves() && !Self::needs_rate(fault) {
+            self.error(
+                place,
+                "`rate` of a fault whose friction does not depend on the slip rate, and which starts at rest",
+                "remove `rate`: slip follows the shear traction",
+            );
         }
         if let Some(shear) = fault.shear.as_ref()
-            && !(shear.get_ref().0 * rate.signum() > 0.0 && shear.get_ref().0.is_finite())
+            && !((shear.get_ref().0 * rate.signum() > 0.0 || !fault.slides())
+                && shear.get_ref().0.is_finite())
         {
             self.conflict(
                 &shear.span(),
@@ -375,7 +409,8 @@ impl Checker<'_> {
         }
     }
 
-    fn profile(&mut self, name: &str, profile: &Profile, sign: f64) {
+    /// Checks a profile of values of a sign, if they must have one.
+    fn profile(&mut self, name: &str, profile: &Profile, sign: Option<f64>) {
         match (*profile.along.get_ref(), self.in_space()) {
             (Along::Distance, true) => self.error(
                 profile.along.span(),
@@ -401,7 +436,9 @@ impl Checker<'_> {
                 format!("the positions of the profile of `{name}` must ascend"),
                 example,
             );
-        } else if let Some(p) = points.iter().find(|p| !(sign * p.1 > 0.0 && p.1.is_finite())) {
+        } else if let Some(p) =
+            points.iter().find(|p| !(sign.is_none_or(|s| s * p.1 > 0.0) && p.1.is_finite()))
+        {
             let what = if name == "shear" { "have the sign of `rate`" } else { "be positive" };
             let message = format!("the profile of `{name}` must {what}, found {:?}", p.1);
             self.error(profile.points.span(), message, "values are numbers in SI");

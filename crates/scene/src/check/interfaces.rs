@@ -2,7 +2,7 @@
 
 use super::Checker;
 use crate::law;
-use crate::model::{Enforcement, EnforcementKind, Interface, LawSpec, Spanned, Stepper};
+use crate::model::{DampingSpec, Enforcement, EnforcementKind, Interface, LawSpec, Spanned, Stepper};
 use crate::names::SIDES;
 use crate::units::{Penalty, Penetration};
 
@@ -13,6 +13,9 @@ pub(super) fn is_tied(law: &Spanned<LawSpec>) -> bool {
 
 /// Largest plausible friction coefficient; rock has up to 1, rubber up to 2 or 3. A larger value is a typing error.
 const MOST_FRICTION: f64 = 4.0;
+
+/// Kinds of law that depend on the slip rate.
+pub(super) const RATED: [&str; 2] = ["rate-and-state", "rate"];
 
 /// Body, axis and end of a side.
 type Side = (String, usize, usize);
@@ -69,6 +72,7 @@ impl Checker<'_> {
                 _ => {}
             }
             self.keys_of_faults(name, interface);
+            self.damping(name, interface);
             if let Some(key) = interface.under_resolved.as_ref().filter(|_| interface.law.is_none()) {
                 self.error(
                     key.span(),
@@ -87,6 +91,45 @@ impl Checker<'_> {
                     self.at_rest(form);
                 }
             }
+        }
+    }
+
+    /// Checks radiation damping, which acts beside friction that depends on the slip rate, in implicit steps.
+    fn damping(&mut self, name: &str, interface: &Interface) {
+        let Some(damping) = &interface.damping else { return };
+        if let DampingSpec::Value(value) = *damping.get_ref()
+            && !(value > 0.0 && value.is_finite())
+        {
+            self.error(
+                damping.span(),
+                format!("the `damping` of interface `{name}` must be positive"),
+                "such as `damping = \"radiation\"` or `damping = \"4.6 MPa s/m\"`; leave it out for none",
+            );
+        }
+        let kind = interface.law.as_ref().and_then(|l| l.get_ref().kind.as_ref());
+        let of_rate = kind.is_some_and(|k| RATED.contains(&k.get_ref().as_str()));
+        match &interface.law {
+            None => self.error(
+                damping.span(),
+                format!("interface `{name}` has `damping`, but no friction"),
+                "remove it, or add a law of the slip rate: \"rate-and-state\" or \"rate\"",
+            ),
+            Some(law) if !of_rate => self.conflict(
+                &damping.span(),
+                format!("interface `{name}` has `damping`, but its law does not depend on the slip rate"),
+                "a law of kind \"rate-and-state\" or \"rate\" has a slip rate that damping can bound; remove `damping` otherwise",
+                (&law.span(), "the law"),
+            ),
+            Some(_) => {}
+        }
+        let stepper = &self.scene.time.stepper;
+        if *stepper.get_ref() == Stepper::StaticExplicit {
+            self.conflict(
+                &damping.span(),
+                format!("interface `{name}` has `damping`, which static-explicit steps do not follow"),
+                "use `stepper = \"implicit\"`, or remove `damping`",
+                (&stepper.span(), "the stepper"),
+            );
         }
     }
 

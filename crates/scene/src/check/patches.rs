@@ -45,6 +45,14 @@ impl Checker<'_> {
         {
             self.error(edge.span(), "`edge` must not be negative", "such as `edge = \"2 km\"`");
         }
+        let wide = patch.edge.as_ref().is_some_and(|e| e.get_ref().0 > 0.0);
+        if let Some(smooth) = patch.smooth.as_ref().filter(|s| *s.get_ref() && !wide) {
+            self.error(
+                smooth.span(),
+                "`smooth` is how values pass over the `edge` of a patch, and this one has none",
+                "such as `edge = \"3 km\"`, or remove `smooth`",
+            );
+        }
     }
 
     fn values_of(&mut self, patch: &Patch, fault: &Fault) {
@@ -59,9 +67,18 @@ impl Checker<'_> {
         let sense = fault.rate.get_ref().0.signum();
         for (key, value) in PATCHED.into_iter().zip(values) {
             let Some((value, place)) = value else { continue };
+            if key == "rate" && !fault.slides() {
+                self.error(
+                    place,
+                    "`rate` of a patch, but the fault has no `rate` outside it",
+                    "add `rate` to the fault",
+                );
+                continue;
+            }
             let turned = ["shear", "rate"].contains(&key);
             let positive = if turned { value * sense } else { value };
-            if !(positive > 0.0 && value.is_finite()) {
+            let signed = !turned || fault.slides();
+            if !((positive > 0.0 || !signed) && value.is_finite()) {
                 let what = if turned { "have the sign of `rate` of the fault" } else { "be positive" };
                 self.error(
                     place,

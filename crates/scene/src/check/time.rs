@@ -82,9 +82,9 @@ impl Checker<'_> {
                 "between 1e-9 and 1e-2; the default is 2e-6",
             );
         }
-        if let Some(rule) =
-            time.rule.as_ref().filter(|r| *r.get_ref() == Rule::Bdf2 && stepper != Stepper::FaultOde)
-        {
+        if let Some(rule) = time.rule.as_ref().filter(|r| {
+            *r.get_ref() == Rule::Bdf2 && !matches!(stepper, Stepper::FaultOde | Stepper::Explicit)
+        }) {
             self.second_order(rule);
         }
     }
@@ -130,7 +130,7 @@ impl Checker<'_> {
 
     /// Reports keys that belong to other steppers.
     fn foreign_keys(&mut self, stepper: Stepper) {
-        use Stepper::{FaultOde, Implicit, StaticExplicit};
+        use Stepper::{Explicit, FaultOde, Implicit, StaticExplicit};
         let time = &self.scene.time;
         let place =
             |p: Option<Range<usize>>, key: &'static str, of: &'static [Stepper]| p.map(|p| (key, p, of));
@@ -145,6 +145,7 @@ impl Checker<'_> {
                 "friction_tolerance",
                 &[Implicit, StaticExplicit],
             ),
+            place(time.inertia.as_ref().map(Spanned::span), "inertia", &[Implicit]),
             place(time.first_step.as_ref().map(Spanned::span), "first_step", &[Implicit, StaticExplicit]),
             place(time.max_step.as_ref().map(Spanned::span), "max_step", &[Implicit, StaticExplicit]),
             place(time.min_step.as_ref().map(Spanned::span), "min_step", &[Implicit, StaticExplicit]),
@@ -153,6 +154,8 @@ impl Checker<'_> {
                 "slip_rate_limit",
                 &[Implicit, StaticExplicit],
             ),
+            place(time.courant.as_ref().map(Spanned::span), "courant", &[Explicit]),
+            place(time.viscosity.as_ref().map(Spanned::span), "viscosity", &[Explicit]),
             place(time.method.as_ref().map(Spanned::span), "method", &[FaultOde]),
             place(time.log_rate_tolerance.as_ref().map(Spanned::span), "log_rate_tolerance", &[FaultOde]),
         ];
@@ -174,5 +177,6 @@ fn stepper_name(stepper: Stepper) -> &'static str {
         Stepper::Implicit => "implicit",
         Stepper::StaticExplicit => "static-explicit",
         Stepper::FaultOde => "fault-ode",
+        Stepper::Explicit => "explicit",
     }
 }

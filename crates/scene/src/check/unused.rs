@@ -35,9 +35,11 @@ impl Checker<'_> {
         for stage in &self.scene.stages {
             self.equal_steps(stage);
         }
-        self.resolution();
+        if !self.has_waves() {
+            self.resolution();
+        }
         self.materials_of_no_body();
-        if *self.scene.time.stepper.get_ref() != Stepper::FaultOde {
+        if !matches!(*self.scene.time.stepper.get_ref(), Stepper::FaultOde | Stepper::Explicit) {
             self.without_adaption();
             self.beside_defaults();
             self.without_interface();

@@ -4,7 +4,7 @@ use super::stress::InitialStress;
 use crate::exact::{self, Exactly};
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
-use crate::units::{Density, Length, Pressure, Viscosity};
+use crate::units::{Density, Length, Pressure, Velocity, Viscosity};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{
@@ -62,7 +62,7 @@ pub struct Material {
     pub young: Spanned<Pressure>,
     /// Poisson's ratio ν, between -1 and 0.5, both excluded \[-\].
     pub poisson: Spanned<f64>,
-    /// Density ρ, required for `gravity` and for radiation damping \[kg/m3\].
+    /// Density ρ, required for `gravity`, for inertia and for radiation damping \[kg/m3\].
     pub density: Option<Spanned<Density>>,
     /// J2 plasticity, a table; absent: none.
     pub plasticity: Option<Spanned<Plasticity>>,
@@ -144,6 +144,8 @@ pub struct Body {
     pub initial_stress: Option<Spanned<InitialStress>>,
     /// Acceleration of gravity: plain numbers, one per axis of motion; needs `density` \[m/s2\].
     pub gravity: Option<Spanned<Vec<f64>>>,
+    /// Velocity at the start, one entry per axis of motion; needs `inertia`; default 0 \[m/s\].
+    pub velocity: Option<Spanned<Vec<Velocity>>>,
 }
 
 impl Body {

@@ -1,6 +1,6 @@
 //! Faults as declared in a scene, for simulations of earthquake cycles.
 
-use super::{FaultLine, FaultRectangle, Heat, LawSpec, Patch};
+use super::{FaultLine, FaultRectangle, Heat, LawSpec, Patch, Pulse};
 use crate::here::here;
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
@@ -26,7 +26,7 @@ pub struct Fault {
     pub line: Option<FaultLine>,
     /// In a medium, in space: the rectangle of the fault.
     pub rectangle: Option<FaultRectangle>,
-    /// A [friction law](laws.md) of kind `"rate-and-state"` or `"rate"`, without `f_limit`.
+    /// A [friction law](laws.md) of kind `"rate-and-state"` or `"rate"`, without `f_limit`; explicit: also one of slip.
     pub law: Spanned<LawSpec>,
     /// Values of `a`, `b`, `l`, `normal` or `shear` along the fault.
     #[serde(default)]
@@ -34,9 +34,13 @@ pub struct Fault {
     /// Parts of the fault with parameters of their own, in the order in which they apply, after `profiles`.
     #[serde(default)]
     pub patches: Vec<Patch>,
+    /// Explicit: shear tractions that grow on parts of the fault, to start rupture.
+    #[serde(default)]
+    pub pulses: Vec<Pulse>,
     /// Initial normal traction, compression positive; absent: given by the initial stress of the bodies \[Pa\].
     pub normal: Option<Spanned<Pressure>>,
-    /// Initial slip rate of all points; its sign is the sense of slip \[m/s\].
+    /// Initial slip rate of all points; its sign is the sense of slip. Absent with laws of slip, whose faults start at rest \[m/s\].
+    #[serde(default = "at_rest")]
     pub rate: Spanned<Velocity>,
     /// Initial shear traction, of the sign of `rate`; absent: that of the law's initial steady state \[Pa\].
     pub shear: Option<Spanned<Pressure>>,
@@ -59,8 +63,20 @@ pub struct Fault {
     pub normal_changes: Option<Spanned<bool>>,
     /// Smallest normal traction used by friction \[Pa\].
     pub normal_floor: Option<Spanned<Pressure>>,
-    /// `true`: the sides separate where there is no compression; needs `normal_floor`; default `false`.
+    /// `true`: the sides separate where there is no compression; needs `normal_floor`, but with mass none; default `false`.
     pub opening: Option<Spanned<bool>>,
+    /// Explicit: friction follows changes of the normal traction with a delay, `{ length = "1 mm", rate = "1 m/s" }`.
+    pub normal_delay: Option<Spanned<NormalDelay>>,
+}
+
+/// Delay with which friction follows the normal traction: over slip, and over time where slip is slow.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NormalDelay {
+    /// Slip over which it follows \[m\].
+    pub length: Length,
+    /// Slip rate at which a point at rest would follow over this length \[m/s\].
+    pub rate: Velocity,
 }
 
 /// The name of a side that is not given.
@@ -68,7 +84,18 @@ fn absent() -> Spanned<String> {
     here(String::new())
 }
 
+/// The slip rate of a fault at rest.
+fn at_rest() -> Spanned<Velocity> {
+    here(Velocity(0.0))
+}
+
 impl Fault {
+    /// True if an initial slip rate is given, whose sign the shear tractions then have.
+    #[must_use]
+    pub fn slides(&self) -> bool {
+        self.rate.get_ref().0 != 0.0
+    }
+
     /// Position of its geometry in the file: its sides, its line or its rectangle.
     #[must_use]
     pub fn span(&self) -> Range<usize> {

@@ -18,6 +18,8 @@ pub struct Patch {
     pub disc: Option<Disc>,
     /// Width around the extent over which values pass linearly to those outside; absent: 0 \[m\].
     pub edge: Option<Spanned<Length>>,
+    /// `true`: values pass over the edge by a smooth step, not linearly; default `false`.
+    pub smooth: Option<Spanned<bool>>,
     /// `"replace"` (default), or `"largest"` or `"smallest"` of the values of the patch and those before.
     pub combine: Option<Spanned<Combine>>,
     /// Direct effect a \[-\].

@@ -9,7 +9,7 @@ use serde::Deserialize;
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EventSpec {
-    /// Slip rate above which an event begins; on faults, that of the fastest point \[m/s\].
+    /// Slip rate above which an event begins; on faults and interfaces, that of the fastest point \[m/s\].
     pub above: Spanned<Velocity>,
     /// Slip rate below which an event ends; default: a tenth of `above` \[m/s\].
     pub below: Option<Spanned<Velocity>>,

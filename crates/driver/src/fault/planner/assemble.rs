@@ -11,12 +11,13 @@ use crate::diagnostic::Diagnostic;
 use crate::laws;
 use crate::scene::law::LawChoice;
 use crate::scene::model::{Fault as Spec, Scene, SlipSpec, Station as Asking};
+use crate::thresholds;
 use crate::warning::Warning;
 use asperity_cycles::heat::Heat;
 use asperity_cycles::medium::across;
 use asperity_cycles::operator::Operator;
 use asperity_cycles::{
-    Crack, Fault, Floor, Injection, Layout, Loading, Opening, Pressure, Problem, Settings, Thresholds,
+    Crack, Fault, Floor, Injection, Layout, Loading, Opening, Pressure, Problem, Settings,
 };
 use asperity_friction::Failure;
 use asperity_friction::evolution;
@@ -35,12 +36,6 @@ const DEFAULT_TOLERANCE: f64 = 1e-5;
 
 /// Number of steps after which a run is stopped: a hundred times those of BP1 at full length.
 const MOST_STEPS: usize = 20_000_000;
-
-/// Default slip rate at which an event begins \[m/s\]. For rock under crustal stress, radiation damping begins to matter there.
-const EVENT: f64 = 1e-3;
-
-/// Default slip rate at which an event ends, over the rate at which it begins.
-const EVENT_ENDS: f64 = 0.1;
 
 /// Points of faults that slide freely, and what acts on them.
 pub(super) struct Surrounded<const D: usize> {
@@ -228,13 +223,11 @@ fn settings(scene: &Scene, end: f64) -> Result<Settings, Diagnostic> {
     };
     let method = heated::method(scene, method)?;
     let events = scene.events.as_ref();
-    let on = events.map_or(EVENT, |e| e.above.get_ref().0);
-    let off = events.and_then(|e| e.below.as_ref()).map_or(EVENT_ENDS * on, |b| b.get_ref().0);
     Ok(Settings {
         method,
         tolerance: time.log_rate_tolerance.as_ref().map_or(DEFAULT_TOLERANCE, |t| *t.get_ref()),
         end,
-        thresholds: Thresholds { on, off },
+        thresholds: thresholds::of(events),
         most_events: events.and_then(|e| e.stop_after.as_ref()).map(|n| *n.get_ref()),
         most_steps: MOST_STEPS,
     })
@@ -243,7 +236,7 @@ fn settings(scene: &Scene, end: f64) -> Result<Settings, Diagnostic> {
 /// Cadence of the output.
 fn cadence(scene: &Scene, fault: &Fault, end: f64) -> Cadence {
     let lengths = (0..fault.law.points()).filter_map(|p| fault.law.length(p));
-    let on = scene.events.as_ref().map_or(EVENT, |e| e.above.get_ref().0);
+    let on = thresholds::of(scene.events.as_ref()).on;
     let output = &scene.output;
     let asked = output.cadence.as_ref().map(|c| c.get_ref());
     let asked = cadence::Asked {
@@ -265,7 +258,7 @@ fn theta(law: &LawChoice) -> Option<(f64, f64)> {
 }
 
 /// Faults and points, as needed by the output.
-fn views<const D: usize>(
+pub(crate) fn views<const D: usize>(
     scene: &Scene,
     cells: &dyn Cells<D>,
     placed: &[Placed<D>],

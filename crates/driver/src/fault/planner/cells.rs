@@ -5,7 +5,7 @@ use crate::diagnostic::Diagnostic;
 use crate::scene::model::Fault as Spec;
 
 /// Cells of faults, whose corners or centres are their points.
-pub(super) trait Cells<const D: usize> {
+pub(crate) trait Cells<const D: usize> {
     /// Largest extent of the cells at a point \[m\].
     fn size(&self, spec: &Spec, point: &Placed<D>) -> Result<f64, Diagnostic>;
 

@@ -7,6 +7,7 @@
 
 use super::resolution;
 use crate::diagnostic::Diagnostic;
+use crate::impedance::{self, radiated};
 use crate::model::{self, Model};
 use crate::scene::model::{Fault as Spec, Scene};
 use asperity_cycles::medium::Place;
@@ -62,7 +63,7 @@ impl Media {
         Medium {
             shear_modulus: 2.0 * parallel(minus.shear / minus.area, plus.shear / plus.area),
             stiffness: 2.0 * parallel(minus.stiffness / minus.area, plus.stiffness / plus.area),
-            radiation: impedance(minus).zip(impedance(plus)).map(|(a, b)| parallel(a, b)),
+            radiation: impedance(minus).zip(impedance(plus)).map(|(a, b)| radiated(a, b)),
         }
     }
 }
@@ -84,7 +85,7 @@ fn shares<const D: usize>(
         let elastic = &body.elastic[block - body.blocks.start];
         let shear = elastic.shear();
         let stiffness = resolution::modulus(model.idealisation, shear, elastic.poisson());
-        let impedance = material.density.as_ref().map(|d| (shear * d.get_ref().0).sqrt());
+        let impedance = material.density.as_ref().map(|d| impedance::of(shear, d.get_ref().0));
         for (node, area) in surface::areas(&model.mesh, &sides, model.idealisation) {
             let none = Share { area: 0.0, shear: 0.0, stiffness: 0.0, impedance: Some(0.0) };
             let sum = all.entry(node).or_insert(none);

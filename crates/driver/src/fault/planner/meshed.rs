@@ -9,7 +9,7 @@ use asperity_fem::mesh::{Side, face_nodes};
 use std::collections::BTreeMap;
 
 /// Faces of the bodies at faults.
-pub(super) struct Meshed<'a, const D: usize> {
+pub(crate) struct Meshed<'a, const D: usize> {
     pub model: &'a Model<D>,
 }
 

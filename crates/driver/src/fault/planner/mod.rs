@@ -25,8 +25,12 @@ mod sense;
 mod start_doubts;
 mod weight;
 
+pub(crate) use assemble::views;
+pub(crate) use meshed::Meshed;
 pub use place::places;
+pub(crate) use placed::{Placed, in_space, slides};
 pub use resolution::{Ground, modulus, spacings};
+pub(crate) use resolved::resolved;
 
 use super::bodies::BodiesView;
 use super::plan::Plan;
@@ -45,11 +49,8 @@ use asperity_cycles::operator::{Form, Geometry, Operator, in_form};
 use assemble::{Around, Surrounded, geometry, plan_of, turns};
 use held::Asked;
 use medium::Media;
-use meshed::Meshed;
-use placed::Placed;
 use point::{Given, base_law, placed_at};
 use prestress::Prestress;
-use resolved::resolved;
 
 /// Plans a scene whose stepper is "fault-ode".
 ///
@@ -185,7 +186,7 @@ fn doubts<const D: usize>(
 }
 
 /// Points of all faults, and notes on them.
-fn all_points<const D: usize>(
+pub(crate) fn all_points<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     warnings: &mut Vec<Warning>,

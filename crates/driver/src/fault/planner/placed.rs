@@ -7,7 +7,7 @@ use crate::scene::model::{Along, Profile};
 use asperity_cycles::medium::{Place, Point, across};
 
 /// A point with its fault and its law.
-pub(super) struct Placed<const D: usize> {
+pub(crate) struct Placed<const D: usize> {
     pub point: Point<D>,
     pub fault: usize,
     /// Normal traction at the start \[Pa\].
@@ -66,7 +66,7 @@ pub(super) fn at<const D: usize>(profile: &Profile, place: &Place<D>) -> f64 {
 
 /// Direction of motion of the plus side for positive slip: out of the plane, along the fault in the plane, or along the
 /// rake.
-pub(super) fn slides<const D: usize>(placed: &Placed<D>) -> [f64; 3] {
+pub(crate) fn slides<const D: usize>(placed: &Placed<D>) -> [f64; 3] {
     let normal = in_space(&placed.point.place.normal);
     match placed.components {
         1 => [0.0, 0.0, 1.0],
@@ -85,6 +85,6 @@ pub(super) fn components<const D: usize>(place: &Place<D>, rate: f64) -> [f64; 2
     axes.map(|axis| rate * axis.iter().zip(&creeps).map(|(a, b)| a * b).sum::<f64>())
 }
 
-pub(super) fn in_space<const D: usize>(at: &[f64; D]) -> [f64; 3] {
+pub(crate) fn in_space<const D: usize>(at: &[f64; D]) -> [f64; 3] {
     std::array::from_fn(|c| if c < D { at[c] } else { 0.0 })
 }

@@ -9,7 +9,7 @@ use crate::warning::Warning;
 use resolution::Ground;
 
 /// Resolution of each fault on which friction weakens.
-pub(super) fn resolved<const D: usize>(
+pub(crate) fn resolved<const D: usize>(
     scene: &Scene,
     placed: &[Placed<D>],
     warnings: &mut Vec<Warning>,

@@ -1,0 +1,170 @@
+//! Catalogue of events of faults and interfaces: its entries, and the table of them.
+
+use asperity_cycles::{Event, Rupture};
+use asperity_output::decimals::shortest;
+use asperity_output::located::Located;
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::fmt::Write as _;
+use std::ops::Range;
+
+/// An event in the catalogue.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Entry {
+    /// Onset \[s\].
+    pub onset: f64,
+    /// Time since the onset of the previous event \[s\].
+    pub interval: Option<f64>,
+    /// Duration: time until all points are slower than the rate that ends events \[s\].
+    pub duration: f64,
+    /// Part of the duration in which the fastest point was faster than the rate that begins events \[s\], as defined by the SEAS community.
+    pub duration_above: f64,
+    /// Largest slip rate \[m/s\].
+    pub peak_rate: f64,
+    /// Fault or interface that contains the hypocentre.
+    pub fault: String,
+    /// Distance of the hypocentre along the fault \[m\]; not defined in 3D and on interfaces.
+    pub hypocentre_along: Option<f64>,
+    /// Coordinates of the hypocentre \[m\].
+    pub hypocentre: [f64; 3],
+    /// Largest slip \[m\].
+    pub largest_slip: f64,
+    /// Mean slip over the points that slipped more than a hundredth of the largest slip \[m\].
+    pub mean_slip: f64,
+    /// Area of these points \[m²; m per metre of thickness\].
+    pub area: f64,
+    /// Moment ∫ G slip dA \[N m; N per metre of thickness\]; for vector slip, that of the sum of its moment tensors.
+    pub moment: f64,
+    /// Mean drop of shear traction over these points, weighted by slip \[Pa\].
+    pub stress_drop: f64,
+    /// Largest temperature, if friction heats the fault \[K\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub largest_temperature: Option<f64>,
+    /// Unit vector of ∫ G slip dA, for vector slip.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub direction: Option<[f64; 3]>,
+    /// Angle from `rake` to mean slip, for vector slip, positive towards normal x `rake` \[degrees\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub turned: Option<f64>,
+    /// Seismological parameters, if the scene has a geographic frame.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub located: Option<Located>,
+}
+
+/// Share of the largest slip above which a point counts as slipped.
+const SLIPPED: f64 = 0.01;
+
+/// A point at which events slip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Site {
+    /// Position \[m\].
+    pub at: [f64; 3],
+    /// Distance along a fault in the plane \[m\].
+    pub along: Option<f64>,
+    /// Area \[m²; m per metre of thickness\].
+    pub area: f64,
+    /// Shear modulus for moments \[Pa\].
+    pub shear_modulus: f64,
+}
+
+/// The points of faults or interfaces.
+pub trait Scattered {
+    /// A point.
+    fn site(&self, point: usize) -> Site;
+
+    /// Name of the fault or interface of a point.
+    fn source(&self, point: usize) -> String;
+}
+
+impl Entry {
+    /// Entry of an event on some ground, restricted to these points.
+    #[must_use]
+    pub fn of(ground: &dyn Scattered, event: &Event<Rupture>, points: &Range<usize>) -> Self {
+        let slip = |p: usize| event.details.slip.size(p);
+        let slipped = slipped(event, points);
+        let over = |value: &dyn Fn(usize) -> f64| {
+            slipped.iter().map(|&p| value(p) * ground.site(p).area).sum::<f64>()
+        };
+        let (area, potency) = (over(&|_| 1.0), over(&slip));
+        // A drop is positive if a traction that drives slip decreases.
+        let work =
+            |p: usize| event.details.slip.at(p).zip(event.details.drop.at(p)).map(|(s, t)| s * t).sum();
+        let place = ground.site(event.details.hypocentre);
+        Self {
+            onset: event.onset.seconds(),
+            interval: event.interval,
+            duration: event.duration().unwrap_or(f64::NAN),
+            duration_above: event.details.above,
+            peak_rate: event.peak,
+            fault: ground.source(event.details.hypocentre),
+            hypocentre_along: place.along,
+            hypocentre: place.at,
+            largest_slip: points.clone().map(slip).fold(0.0, f64::max),
+            mean_slip: potency / area,
+            area,
+            moment: over(&|p| ground.site(p).shear_modulus * slip(p)),
+            stress_drop: over(&work) / potency,
+            largest_temperature: event.details.hottest,
+            direction: None,
+            turned: None,
+            located: None,
+        }
+    }
+}
+
+/// Points that slipped in an event, among these.
+#[must_use]
+pub fn slipped(event: &Event<Rupture>, points: &Range<usize>) -> Vec<usize> {
+    let slip = |p: usize| event.details.slip.size(p);
+    let largest = points.clone().map(slip).fold(0.0, f64::max);
+    points.clone().filter(|&p| slip(p) > SLIPPED * largest).collect()
+}
+
+/// Catalogue of one of several faults or interfaces, with events detected by its own fastest point and with its own slip.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct FaultEvents {
+    /// Fault or interface.
+    pub fault: String,
+    /// Its events.
+    pub events: Vec<Entry>,
+    /// Onset of an event in progress at the end \[s\].
+    pub under_way: Option<f64>,
+}
+
+/// Catalogue as CSV.
+#[must_use]
+pub fn csv(events: &[Entry]) -> String {
+    let turning = events.iter().any(|e| e.turned.is_some());
+    let mut text = String::from(
+        "onset [s],duration [s],peak_rate [m/s],fault,hypocentre_along [m],x [m],y [m],z [m],largest_slip [m],mean_slip [m],area [m2 or m],moment [N m or N],stress_drop [Pa],duration_above [s]",
+    );
+    let heats = events.iter().any(|e| e.largest_temperature.is_some());
+    text.push_str(if heats { ",largest_temperature [K]" } else { "" });
+    text.push_str(if turning { ",direction_x,direction_y,direction_z,turned [deg]\n" } else { "\n" });
+    for e in events {
+        let _ = write!(
+            text,
+            "{:.14e},{},{},{},{},{},{},{},{},{},{},{:e},{},{}",
+            e.onset,
+            e.duration,
+            e.peak_rate,
+            e.fault,
+            e.hypocentre_along.map(shortest).unwrap_or_default(),
+            shortest(e.hypocentre[0]),
+            shortest(e.hypocentre[1]),
+            shortest(e.hypocentre[2]),
+            e.largest_slip,
+            e.mean_slip,
+            e.area,
+            e.moment,
+            shortest(e.stress_drop),
+            e.duration_above
+        );
+        for value in e.largest_temperature.iter().chain(e.direction.iter().flatten()).chain(&e.turned) {
+            text.push(',');
+            text.push_str(&shortest(*value));
+        }
+        text.push('\n');
+    }
+    text
+}

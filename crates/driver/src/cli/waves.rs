@@ -1,0 +1,71 @@
+//! Runs of bodies with mass.
+
+use super::directory::Directory;
+use super::end::End;
+use super::pausing::Pausing;
+use super::read::Ready;
+use super::work::{draws_again, end, nothing_to_resume, pauses, written};
+use crate::checkpoint;
+use crate::dynamic::{self, AnyPlan, Keeper, Plan};
+use crate::report::Status;
+use asperity_output::printing::out;
+use miette::IntoDiagnostic;
+use std::time::Instant;
+
+/// Runs bodies with mass.
+pub(super) fn run_waves(
+    plan: &AnyPlan,
+    ready: &Ready,
+    directory: &mut Directory,
+    drawn: bool,
+    pausing: &Pausing,
+) -> miette::Result<End> {
+    match plan {
+        AnyPlan::Two(plan) => run_in(plan, ready, directory, drawn, pausing),
+        AnyPlan::Three(plan) => run_in(plan, ready, directory, drawn, pausing),
+    }
+}
+
+fn run_in<const D: usize>(
+    plan: &Plan<D>,
+    ready: &Ready,
+    directory: &mut Directory,
+    drawn: bool,
+    pausing: &Pausing,
+) -> miette::Result<End> {
+    let (path, physics, pauses) = (directory.path().to_path_buf(), &ready.physics, pauses(pausing)?);
+    let resumed = match pausing.resume {
+        true => Keeper::resume(&path, plan, physics, drawn, pauses.clone()).into_diagnostic()?,
+        false => None,
+    };
+    let (mut keeper, from) = match resumed {
+        Some((keeper, state)) => {
+            draws_again(&path, drawn, keeper.draws())?;
+            out(format_args!("resumed from the checkpoint\n"));
+            (keeper, Some(state))
+        }
+        None => {
+            if pausing.resume {
+                nothing_to_resume(&path);
+            }
+            (Keeper::begin(&path, plan, physics, drawn, pauses).into_diagnostic()?, None)
+        }
+    };
+    directory.computes()?;
+    let clock = Instant::now();
+    let ended = match dynamic::run(plan, &mut keeper, from.as_ref()) {
+        Err(dynamic::RunError::Foreign) => {
+            Err(checkpoint::foreign(&path, "its unknowns differ from those of this scene")).into_diagnostic()
+        }
+        other => other.into_diagnostic(),
+    }?;
+    let mut report = dynamic::Report::new(plan, &ended, keeper.arrivals());
+    (report.seconds.plan, report.seconds.steps) = (ready.seconds, clock.elapsed().as_secs_f64());
+    // The report is written last, even if the plots cannot be written.
+    let rest = keeper.finish(report.outcome.status() == Status::Completed).into_diagnostic();
+    directory.write(&report, &ready.meshes)?;
+    rest?;
+    out(format_args!("{}", report.text()));
+    written(directory);
+    Ok(end(report.outcome, Some(report.steps)))
+}

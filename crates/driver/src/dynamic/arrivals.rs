@@ -1,0 +1,60 @@
+//! Rupture times: when the slip rate of each point first reaches a threshold.
+
+use super::moment::size;
+use serde::{Deserialize, Serialize};
+
+/// Rupture times so far.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Arrivals {
+    /// Time of each point \[s\]; `None` where it has not ruptured.
+    pub times: Vec<Option<f64>>,
+    /// Largest slip rate of each point \[m/s\].
+    pub fastest: Vec<f64>,
+    /// Time and slip rates of the step before.
+    before: (f64, Vec<f64>),
+}
+
+impl Arrivals {
+    /// None so far, at this many points.
+    pub fn new(points: usize) -> Self {
+        Self { times: vec![None; points], fastest: vec![0.0; points], before: (0.0, vec![0.0; points]) }
+    }
+
+    /// Sees the slip rates at a time, by components. Between two steps the rate is taken as linear.
+    pub fn see(&mut self, time: f64, rates: &[f64], threshold: f64) {
+        let points = self.times.len();
+        let (earlier, old) = (self.before.0, &mut self.before.1);
+        for (point, arrival) in self.times.iter_mut().enumerate() {
+            let (rate, was) = (size(rates, points, point), old[point]);
+            if arrival.is_none() && rate >= threshold {
+                let share = if rate > was { ((threshold - was) / (rate - was)).max(0.0) } else { 1.0 };
+                *arrival = Some(earlier + share * (time - earlier));
+            }
+            self.fastest[point] = self.fastest[point].max(rate);
+            old[point] = rate;
+        }
+        self.before.0 = time;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_lies_where_the_rate_crosses_the_threshold() {
+        let mut arrivals = Arrivals::new(2);
+        for (time, rates) in [(0.0, [0.0, 2.0]), (1.0, [0.5, 0.0]), (2.0, [2.5, 0.0]), (3.0, [0.0, 9.0])] {
+            arrivals.see(time, &rates, 1.0);
+        }
+        assert_eq!(arrivals.times, [Some(1.25), Some(0.0)]);
+        assert_eq!(arrivals.fastest, [2.5, 9.0]);
+    }
+
+    #[test]
+    fn the_rate_of_a_vector_is_its_magnitude() {
+        let mut arrivals = Arrivals::new(1);
+        arrivals.see(1.0, &[3.0, 4.0], 5.1);
+        assert_eq!((arrivals.times[0], arrivals.fastest[0]), (None, 5.0));
+    }
+}

@@ -1,0 +1,220 @@
+//! Output of a run in progress: its files, progress display and checkpoints.
+
+use super::arrivals::Arrivals;
+use super::fields::{Fields, Taken};
+use super::moment::Moment;
+use super::plan::Plan;
+use super::tables::Tables;
+use super::{figures, seismograms};
+use crate::checkpoint::{self, Contents, Pauses, ResumeError};
+use crate::fault::words::time;
+use asperity_mechanics::dynamics::ExplicitState;
+use asperity_output::decimals::shortest;
+use asperity_output::{OutputError, Progress, atomic};
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Everything needed to resume a run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Checkpoint {
+    /// Hash of the scene and of the mesh files it names.
+    physics: String,
+    /// State of bodies and faults.
+    pub state: ExplicitState,
+    sizes: Vec<u64>,
+    arrivals: Arrivals,
+    taken: Taken,
+    drawn: bool,
+}
+
+impl Contents for Checkpoint {
+    const OF: &'static str = "bodies with mass";
+    const VERSION: &'static str = "1";
+    const ALLOWED: &'static str = "its title and its layout";
+
+    fn physics(&self) -> &str {
+        &self.physics
+    }
+}
+
+/// See the module.
+pub struct Keeper<'a, const D: usize> {
+    out: PathBuf,
+    physics: String,
+    plan: &'a Plan<D>,
+    tables: Tables,
+    fields: Fields,
+    arrivals: Arrivals,
+    progress: Progress,
+    pauses: Pauses,
+    drawn: bool,
+    /// True if a step has been taken since the run began or was resumed.
+    moved: bool,
+    /// Instant of the last checkpoint, and the time that writing it took.
+    written: (Instant, Duration),
+}
+
+impl<'a, const D: usize> Keeper<'a, D> {
+    /// Begins a run in `out` of a scene with this hash of its physics.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn begin(
+        out: &Path,
+        plan: &'a Plan<D>,
+        physics: &str,
+        drawn: bool,
+        pauses: Pauses,
+    ) -> Result<Self, OutputError> {
+        checkpoint::remove(out)?;
+        atomic::writable_dir(out)?;
+        for (folder, used) in [
+            ("stations", plan.faults.iter().any(|f| !f.stations.is_empty())),
+            ("seismograms", !plan.receivers.is_empty()),
+        ] {
+            if used {
+                atomic::create_dir(&out.join(folder))?;
+            }
+        }
+        let tables = Tables::open(out, plan, None)?;
+        let fields = Fields::new(out, plan, Taken::default(), drawn)?;
+        let arrivals = Arrivals::new(plan.points.len());
+        Ok(Self::new(out, (plan, physics), (tables, fields, arrivals), drawn, pauses))
+    }
+
+    /// Resumes from the checkpoint in `out`; `None` if there is none.
+    ///
+    /// # Errors
+    /// If the checkpoint is damaged or of another scene, or a file cannot be read or written.
+    pub fn resume(
+        out: &Path,
+        plan: &'a Plan<D>,
+        physics: &str,
+        drawn: bool,
+        pauses: Pauses,
+    ) -> Result<Option<(Self, ExplicitState)>, ResumeError> {
+        let Some(read) = Checkpoint::read(out, physics)? else { return Ok(None) };
+        let tables = Tables::open(out, plan, Some(&read.sizes))?;
+        if tables.sizes().len() != read.sizes.len() || read.arrivals.times.len() != plan.points.len() {
+            return Err(checkpoint::foreign(out, "it has not the output files of this scene"));
+        }
+        let drawn = drawn && read.drawn;
+        let fields = Fields::new(out, plan, read.taken, drawn)?;
+        let keeper = Self::new(out, (plan, physics), (tables, fields, read.arrivals), drawn, pauses);
+        Ok(Some((keeper, read.state)))
+    }
+
+    fn new(
+        out: &Path,
+        (plan, physics): (&'a Plan<D>, &str),
+        (tables, fields, arrivals): (Tables, Fields, Arrivals),
+        drawn: bool,
+        pauses: Pauses,
+    ) -> Self {
+        Self {
+            out: out.to_path_buf(),
+            physics: physics.to_string(),
+            plan,
+            tables,
+            fields,
+            arrivals,
+            progress: Progress::new(),
+            pauses,
+            drawn,
+            moved: false,
+            written: (Instant::now(), Duration::ZERO),
+        }
+    }
+
+    /// True if plots are drawn at the end.
+    #[must_use]
+    pub fn draws(&self) -> bool {
+        self.drawn
+    }
+
+    /// Rupture times and largest slip rates so far.
+    #[must_use]
+    pub fn arrivals(&self) -> &Arrivals {
+        &self.arrivals
+    }
+
+    /// Receives a step.
+    ///
+    /// # Errors
+    /// If an output cannot be written.
+    pub fn step(&mut self, now: &Moment<'_>) -> Result<(), OutputError> {
+        let plan = self.plan;
+        if !plan.points.is_empty() {
+            self.arrivals.see(now.time, &now.fault.rate, plan.rupture_rate);
+        }
+        self.moved = true;
+        self.progress.show(now.time / plan.end(), || {
+            format!("t = {}, step {} of {}", time(now.time), now.step, plan.steps)
+        });
+        self.tables.step(plan, now)?;
+        self.fields.step(plan, now)
+    }
+
+    /// Called before a step: writes a checkpoint if one is due, and returns the reason to interrupt the run, if any.
+    ///
+    /// # Errors
+    /// If the checkpoint cannot be written.
+    pub fn pause(
+        &mut self,
+        state: impl FnOnce() -> ExplicitState,
+    ) -> Result<Option<&'static str>, OutputError> {
+        let reason = self.pauses.reason(self.moved);
+        if reason.is_some() || self.moved && self.pauses.are_due(self.written) {
+            self.save(state())?;
+        }
+        Ok(reason)
+    }
+
+    fn save(&mut self, state: ExplicitState) -> Result<(), OutputError> {
+        let begun = Instant::now();
+        self.tables.settle()?;
+        let checkpoint = Checkpoint {
+            physics: self.physics.clone(),
+            state,
+            sizes: self.tables.sizes(),
+            arrivals: self.arrivals.clone(),
+            taken: self.fields.taken.clone(),
+            drawn: self.drawn,
+        };
+        checkpoint.write(&self.out)?;
+        self.written = (Instant::now(), begun.elapsed());
+        Ok(())
+    }
+
+    /// Writes the files at the end of a run, and removes the checkpoint of a completed one.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn finish(self, completed: bool) -> Result<(), OutputError> {
+        self.progress.finish();
+        let (out, plan) = (&self.out, self.plan);
+        self.fields.collect(out, plan)?;
+        seismograms::write(out, plan)?;
+        if !plan.points.is_empty() {
+            atomic::write(&out.join("rupture_times.csv"), ruptures(plan, &self.arrivals).as_bytes())?;
+        }
+        if completed {
+            checkpoint::remove(out)?;
+        }
+        if self.drawn { figures::draw(out, plan, &self.arrivals, &self.fields.taken) } else { Ok(()) }
+    }
+}
+
+/// Table of rupture times; NaN for points that did not rupture.
+fn ruptures<const D: usize>(plan: &Plan<D>, arrivals: &Arrivals) -> String {
+    let mut text = String::from("fault,x [m],y [m],z [m],time [s],largest slip_rate [m/s]\n");
+    for fault in &plan.faults {
+        for p in fault.points.clone() {
+            let place = plan.points[p].at.map(shortest).join(",");
+            let time = arrivals.times[p].map_or("NaN".into(), shortest);
+            text.push_str(&format!("{},{place},{time},{}\n", fault.name, shortest(arrivals.fastest[p])));
+        }
+    }
+    text
+}

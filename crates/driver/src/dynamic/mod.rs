@@ -1,0 +1,21 @@
+//! Bodies with mass, whose faults radiate waves: planning from a scene, and the output of a run. The computation is in
+//! [`asperity_mechanics::dynamics`].
+
+mod arrivals;
+mod fields;
+mod figures;
+mod keeper;
+mod moment;
+mod plan;
+mod planner;
+mod report;
+mod run;
+mod seismograms;
+mod stations;
+mod tables;
+
+pub use keeper::{Checkpoint, Keeper};
+pub use plan::{AnyPlan, Cadence, Plan, Receiver};
+pub use planner::plan;
+pub use report::Report;
+pub use run::{Ended, RunError, run};

@@ -1,0 +1,123 @@
+//! Faults between bodies with mass: their points, laws, initial tractions and pulses.
+
+use crate::diagnostic::Diagnostic;
+use crate::fault::planner::{Placed, in_space, slides};
+use crate::laws;
+use crate::refused::refused;
+use crate::scene::law::LawChoice;
+use crate::scene::model::{Fault as Spec, Pulse as Asked, Scene};
+use asperity_cycles::medium::across;
+use asperity_mechanics::dynamics::{Fault, Pulse, Regularisation, SplitPoint};
+
+/// The faults of a scene; `None` without.
+///
+/// # Errors
+/// [`Diagnostic`] where the law cannot be built, or a pulse acts nowhere.
+pub(super) fn of<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Result<Option<Fault>, Diagnostic> {
+    let named: Vec<(&String, &Spec)> = scene.faults.iter().collect();
+    let (Some(first), Some((_, any))) = (placed.first(), named.first()) else { return Ok(None) };
+    let spec = |p: &Placed<D>| named[p.fault].1;
+    if let Some(other) = placed.iter().find(|p| !same_kind(&first.law, &p.law)) {
+        return Err(Diagnostic::at(
+            spec(other).law.span(),
+            "the faults have laws of different kinds",
+            "one kind, one form and one evolution for all faults of a scene; parameters may differ",
+        ));
+    }
+    let choices: Vec<LawChoice> = placed[1..].iter().map(|p| p.law.clone()).collect();
+    let law = laws::build_inertial(&first.law, &choices).map_err(|e| refused(&spec(first).law, &e))?;
+    let law = law.ok_or_else(|| {
+        Diagnostic::at(
+            spec(first).law.span(),
+            "a bond does not slip",
+            "leave the fault out, and do not split the mesh there; or use another law",
+        )
+    })?;
+    let components = if D == 3 { 2 } else { 1 };
+    Ok(Some(Fault {
+        points: placed.iter().map(point).collect(),
+        law,
+        normal: placed.iter().map(|p| p.normal).collect(),
+        shear: first_of(components, placed, |p| p.shear.unwrap_or_default()),
+        rate: first_of(components, placed, |p| p.rate),
+        opens: any.opening.as_ref().is_some_and(|o| *o.get_ref()),
+        regularisation: any
+            .normal_delay
+            .as_ref()
+            .map(|delay| Regularisation { length: delay.get_ref().length.0, rate: delay.get_ref().rate.0 }),
+        pulses: pulses(&named, placed, components)?,
+    }))
+}
+
+/// True if laws differ in parameters alone.
+fn same_kind(a: &LawChoice, b: &LawChoice) -> bool {
+    match (a, b) {
+        (LawChoice::Yielding { kind: a, .. }, LawChoice::Yielding { kind: b, .. }) => a == b,
+        _ => a.same_kind(b),
+    }
+}
+
+/// Values of the first component of all points; other components are zero.
+fn first_of<const D: usize>(
+    components: usize,
+    placed: &[Placed<D>],
+    value: impl Fn(&Placed<D>) -> f64,
+) -> Vec<f64> {
+    let mut all = vec![0.0; components * placed.len()];
+    all.iter_mut().zip(placed).for_each(|(all, p)| *all = value(p));
+    all
+}
+
+/// A pair of nodes with its directions. In antiplane motion the one component of vectors stands first, and nothing moves along the
+/// normal.
+fn point<const D: usize>(placed: &Placed<D>) -> SplitPoint {
+    let place = &placed.point.place;
+    let (normal, along) = match placed.components {
+        1 => ([0.0, 0.0, 1.0], vec![[1.0, 0.0, 0.0]]),
+        2 => (in_space(&place.normal), vec![slides(placed)]),
+        _ => {
+            let (normal, first) = (in_space(&place.normal), slides(placed));
+            (normal, vec![first, across(&normal, &first)])
+        }
+    };
+    SplitPoint { minus: place.minus, plus: place.plus, area: place.area, normal, along, gap: 0.0 }
+}
+
+fn pulses<const D: usize>(
+    named: &[(&String, &Spec)],
+    placed: &[Placed<D>],
+    components: usize,
+) -> Result<Vec<Pulse>, Diagnostic> {
+    let mut all = Vec::new();
+    for (fault, (name, spec)) in named.iter().enumerate() {
+        for asked in &spec.pulses {
+            let traction = asked.traction.get_ref().0;
+            let at = |p: &Placed<D>| {
+                if p.fault == fault { traction * sense(p) * shape(asked, &p.point.place.at) } else { 0.0 }
+            };
+            let amplitude = first_of(components, placed, at);
+            if amplitude.iter().all(|a| *a == 0.0) {
+                return Err(Diagnostic::at(
+                    asked.centre.span(),
+                    format!("the pulse acts on no point of fault `{name}`"),
+                    "check the signs and the unit of its centre, and its radius",
+                ));
+            }
+            all.push(Pulse { amplitude, rise: asked.duration.get_ref().0 });
+        }
+    }
+    Ok(all)
+}
+
+/// Sense of slip of a point: that of its slip rate, or of its shear traction where it starts at rest.
+fn sense<const D: usize>(placed: &Placed<D>) -> f64 {
+    let of = if placed.rate == 0.0 { placed.shear.unwrap_or_default() } else { placed.rate };
+    of.signum()
+}
+
+/// Share of the traction of a pulse at a distance r from its centre, exp(r²/(r² - R²)) within R.
+fn shape<const D: usize>(asked: &Asked, at: &[f64; D]) -> f64 {
+    let square: f64 = at.iter().zip(asked.centre.get_ref()).map(|(x, c)| (x - c.0).powi(2)).sum();
+    let limit = asked.radius.get_ref().0.powi(2);
+    if square < limit { (square / (square - limit)).exp() } else { 0.0 }
+}

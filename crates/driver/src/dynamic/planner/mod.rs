@@ -1,0 +1,107 @@
+//! Plans a scene with the stepper "explicit".
+
+mod faults;
+mod masses;
+mod outputs;
+mod steps;
+
+use super::plan::{AnyPlan, Plan};
+use crate::diagnostic::Diagnostic;
+use crate::fault::planner::{self as of_faults, Meshed, Placed};
+use crate::forecast;
+use crate::held::Held;
+use crate::loading;
+use crate::model::{self, meshes};
+use crate::scene::model::{Kinematics, Scene};
+use crate::views;
+use asperity_mechanics::dynamics::Problem;
+
+/// Default slip rate at which a point has ruptured \[m/s\]: that of the community's benchmarks.
+const RUPTURED: f64 = 1e-3;
+/// Vectors of all degrees of freedom that steps hold.
+const VECTORS: usize = 6;
+/// Bytes of a number.
+const NUMBER: usize = 8;
+
+/// Plans a scene whose stepper is "explicit".
+///
+/// # Errors
+/// [`Diagnostic`] with the place in the scene.
+pub fn plan(scene: &Scene) -> Result<AnyPlan, Diagnostic> {
+    Ok(match scene.kinematics.get_ref().dimension() {
+        2 => AnyPlan::Two(Box::new(plan_in::<2>(scene)?)),
+        _ => AnyPlan::Three(Box::new(plan_in::<3>(scene)?)),
+    })
+}
+
+/// Refuses faults in kinematics whose jumps they do not describe.
+fn admit(scene: &Scene) -> Result<(), Diagnostic> {
+    let kinematics = scene.kinematics.get_ref();
+    let known = matches!(kinematics, Kinematics::Antiplane | Kinematics::PlaneStrain | Kinematics::ThreeD);
+    if scene.faults.is_empty() || known {
+        return Ok(());
+    }
+    Err(Diagnostic::at(
+        scene.kinematics.span(),
+        format!("faults in {} are not stepped", kinematics.words()),
+        "\"antiplane\", \"plane-strain\" and \"3d\" are",
+    ))
+}
+
+fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
+    admit(scene)?;
+    let model = model::build::<D>(scene)?;
+    let stages = loading::stages(scene, &model)?;
+    let mut warnings = scene.warnings.clone();
+    let mut notes = meshes::notes(scene)?;
+    let density = masses::densities(scene, &model)?;
+    let viscosity = steps::viscosity(scene);
+    let stable = masses::stable(scene, &model, &density, viscosity)?;
+    let counted = steps::choose(scene, &stages[0], &stable)?;
+    let placed: Vec<Placed<D>> = if scene.faults.is_empty() {
+        Vec::new()
+    } else {
+        notes.clear();
+        let (placed, more) = of_faults::all_points(scene, &model, &mut warnings)?;
+        notes.extend(more);
+        placed
+    };
+    let resolution = of_faults::resolved(scene, &placed, &mut warnings)?;
+    let (faults, points) = of_faults::views(scene, &Meshed { model: &model }, &placed, D == 3)?;
+    let receivers = outputs::receivers(scene, &model)?;
+    notes.extend(outputs::notes(scene, counted.cadence.rows as f64 * counted.dt));
+    let memory_bytes = Held::by(&model).with_systems(VECTORS * NUMBER * model.dofs(), false);
+    forecast::fits(scene, memory_bytes)?;
+    let idealisation = model.idealisation;
+    Ok(Plan {
+        title: scene.title.clone(),
+        stiffest: masses::middle(&model, &stable),
+        steps: counted.steps,
+        dt: counted.dt,
+        cadence: counted.cadence,
+        faults,
+        points,
+        resolution,
+        rupture_rate: scene.output.rupture_rate.as_ref().map_or(RUPTURED, |v| v.get_ref().0),
+        receivers,
+        epoch: outputs::epoch(scene)?,
+        mesh: views::mesh_view(&model, false),
+        axes: (0..idealisation.components()).map(|c| idealisation.axis(c)).collect(),
+        per_length: views::per_length(idealisation),
+        kinematics: scene.kinematics.get_ref().words(),
+        memory_bytes,
+        warnings,
+        notes,
+        problem: Problem {
+            courant: counted.courant,
+            viscosity,
+            fault: faults::of(scene, &placed)?,
+            absorbing: masses::absorbing(scene, &model, &density)?,
+            velocity: Vec::new(),
+            stages,
+            density,
+            model,
+        },
+        stable,
+    })
+}

@@ -1,0 +1,241 @@
+//! Report of a run of bodies with mass, `report.json`.
+
+use super::arrivals::Arrivals;
+use super::moment::size;
+use super::plan::Plan;
+use super::run::Ended;
+use super::tables::moments_of;
+use crate::fault::{FaultView, Resolution};
+use crate::report::{Kind, Outcome, Phases, Results, Stop};
+use crate::warning::Warning;
+use asperity_mechanics::coordinates;
+use asperity_mechanics::dynamics::{Budget, Halt};
+use asperity_output::decimals::fixed;
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::fmt::Write as _;
+
+/// Rupture of a fault.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct FaultRupture {
+    /// Fault.
+    pub fault: String,
+    /// Points, and points that ruptured.
+    pub points: [usize; 2],
+    /// First and last rupture time \[s\]; absent if no point ruptured.
+    pub times: Option<[f64; 2]>,
+    /// Position of the point that ruptured first \[m\].
+    pub first: Option<[f64; 3]>,
+    /// Largest slip rate \[m/s\].
+    pub peak_rate: f64,
+    /// Largest slip \[m\].
+    pub largest_slip: f64,
+    /// Mean slip over the area of the points that ruptured \[m\].
+    pub mean_slip: f64,
+    /// Area of these points \[m²; m per metre of thickness\].
+    pub area: f64,
+    /// Moment ∫ G slip dA \[N m; N per metre of thickness\].
+    pub moment: f64,
+}
+
+/// Energy budget at the end.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct WaveEnergy {
+    /// Kinetic energy.
+    pub kinetic: f64,
+    /// Elastic energy of the displacements.
+    pub elastic: f64,
+    /// Dissipated by viscosity.
+    pub viscous: f64,
+    /// Dissipated by friction.
+    pub friction: f64,
+    /// Carried away through absorbing sides.
+    pub absorbed: f64,
+    /// Work of loads and prescribed motions.
+    pub loads: f64,
+    /// Work that the initial and imposed tractions of faults release.
+    pub released: f64,
+    /// What is missing in the balance over the largest part \[-\].
+    pub imbalance: f64,
+}
+
+impl From<&Budget> for WaveEnergy {
+    fn from(b: &Budget) -> Self {
+        let largest = b.largest();
+        Self {
+            kinetic: b.kinetic,
+            elastic: b.elastic,
+            viscous: b.viscous,
+            friction: b.friction,
+            absorbed: b.absorbed,
+            loads: b.loads,
+            released: b.released,
+            imbalance: if largest > 0.0 { b.missing().abs() / largest } else { 0.0 },
+        }
+    }
+}
+
+/// Report of a run.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Report {
+    /// Outcome.
+    pub outcome: Outcome,
+    /// Warnings of the plan.
+    pub warnings: Vec<Warning>,
+    /// Resolution of faults on which friction weakens.
+    pub resolution: Vec<Resolution>,
+    /// Time at the end \[s\].
+    pub end: f64,
+    /// Steps taken.
+    pub steps: usize,
+    /// Length of a step \[s\].
+    pub step: f64,
+    /// Largest stable step \[s\].
+    pub stable_step: f64,
+    /// Middle of the cell that sets it \[m\].
+    pub stable_at: Vec<f64>,
+    /// Degrees of freedom.
+    pub dofs: usize,
+    /// Ruptures of the faults.
+    pub ruptures: Vec<FaultRupture>,
+    /// Unit of energies.
+    pub unit: &'static str,
+    /// Energy budget at the end.
+    pub energy: WaveEnergy,
+    /// Wall time.
+    #[serde(skip)]
+    pub seconds: Phases,
+}
+
+impl Results for Report {
+    const KIND: Kind = Kind::Dynamics;
+
+    fn outcome(&self) -> &Outcome {
+        &self.outcome
+    }
+
+    fn seconds(&self) -> Phases {
+        self.seconds
+    }
+}
+
+impl Report {
+    /// Report of a run of a plan.
+    #[must_use]
+    pub fn new<const D: usize>(plan: &Plan<D>, ended: &Ended, arrivals: &Arrivals) -> Self {
+        Self {
+            outcome: outcome(plan, ended),
+            warnings: plan.warnings.clone(),
+            resolution: plan.resolution.clone(),
+            end: ended.time,
+            steps: ended.steps,
+            step: plan.dt,
+            stable_step: plan.stable.step,
+            stable_at: plan.stiffest.to_vec(),
+            dofs: plan.problem.model.dofs(),
+            ruptures: plan
+                .faults
+                .iter()
+                .enumerate()
+                .map(|(k, f)| rupture(plan, (k, f), ended, arrivals))
+                .collect(),
+            unit: if plan.per_length { "J/m" } else { "J" },
+            energy: (&ended.budget).into(),
+            seconds: Phases::default(),
+        }
+    }
+
+    /// The results as text.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let mut text = String::from("results\n");
+        for r in &self.ruptures {
+            let when = r.times.map_or("none ruptured".into(), |[first, last]| {
+                format!("{} ruptured from {} to {} s", r.points[1], fixed(first, 4), fixed(last, 4))
+            });
+            let _ = writeln!(
+                text,
+                "  fault {}: of {} points {when}; largest slip {} m, largest slip rate {} m/s, moment {:.4e}",
+                r.fault,
+                r.points[0],
+                fixed(r.largest_slip, 4),
+                fixed(r.peak_rate, 4),
+                r.moment
+            );
+        }
+        let e = &self.energy;
+        let _ = writeln!(
+            text,
+            "  energy [{}]: kinetic {:.4e}, elastic {:.4e}, viscous {:.4e}, friction {:.4e}, absorbed {:.4e}, loads {:.4e}, released {:.4e}; imbalance {:.1e}",
+            self.unit,
+            e.kinetic,
+            e.elastic,
+            e.viscous,
+            e.friction,
+            e.absorbed,
+            e.loads,
+            e.released,
+            e.imbalance
+        );
+        let s = &self.seconds;
+        let _ = writeln!(
+            text,
+            "  {} steps; seconds: plan {:.2}, steps with output {:.2}",
+            self.steps, s.plan, s.steps
+        );
+        text
+    }
+}
+
+fn outcome<const D: usize>(plan: &Plan<D>, ended: &Ended) -> Outcome {
+    let time = ended.time;
+    if let Some(halt) = &ended.halt {
+        let kind = if matches!(halt, Halt::Growth { .. }) { Stop::EnergyGrowth } else { Stop::Integration };
+        return Outcome::Stopped { stage: None, time, reason: why(plan, halt), kind };
+    }
+    match ended.interrupted {
+        Some(reason) => Outcome::Interrupted { stage: None, time, reason: reason.into() },
+        None => Outcome::Completed,
+    }
+}
+
+/// Reason for a halt, in the words of the scene.
+fn why<const D: usize>(plan: &Plan<D>, halt: &Halt) -> String {
+    match halt {
+        Halt::Tension { point, traction, .. } => {
+            let fault = plan.faults.iter().find(|f| f.points.contains(point)).map_or("", |f| f.name.as_str());
+            let place = coordinates::in_words(&plan.points[*point].at);
+            format!(
+                "the sides of fault `{fault}` part at {place}, held by a normal traction of {traction:.3e} Pa, and it does not open: add `opening = true` to the fault"
+            )
+        }
+        Halt::Growth { .. } => format!("{halt}; take a smaller `courant`, or more `viscosity`"),
+        Halt::Friction { .. } | Halt::Refused { .. } => halt.to_string(),
+    }
+}
+
+fn rupture<const D: usize>(
+    plan: &Plan<D>,
+    (number, fault): (usize, &FaultView),
+    ended: &Ended,
+    arrivals: &Arrivals,
+) -> FaultRupture {
+    let points = fault.points.clone();
+    let slip = |p: usize| size(&ended.fault.slip, plan.points.len(), p);
+    let ruptured: Vec<(usize, f64)> = points.clone().filter_map(|p| Some((p, arrivals.times[p]?))).collect();
+    let first = ruptured.iter().min_by(|a, b| a.1.total_cmp(&b.1));
+    let last = ruptured.iter().map(|r| r.1).reduce(f64::max);
+    let area: f64 = ruptured.iter().map(|r| plan.points[r.0].area).sum();
+    let potency: f64 = ruptured.iter().map(|r| plan.points[r.0].area * slip(r.0)).sum();
+    FaultRupture {
+        fault: fault.name.clone(),
+        points: [points.len(), ruptured.len()],
+        times: first.zip(last).map(|(first, last)| [first.1, last]),
+        first: first.map(|f| plan.points[f.0].at),
+        peak_rate: points.clone().map(|p| arrivals.fastest[p]).fold(0.0, f64::max),
+        largest_slip: points.map(slip).fold(0.0, f64::max),
+        mean_slip: if area > 0.0 { potency / area } else { 0.0 },
+        area,
+        moment: moments_of(plan, &ended.fault.slip)[number],
+    }
+}

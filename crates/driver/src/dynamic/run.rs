@@ -1,0 +1,70 @@
+//! The loop over the steps of a run.
+
+use super::keeper::Keeper;
+use super::moment::Before;
+use super::plan::Plan;
+use asperity_mechanics::dynamics::{Budget, Explicit, ExplicitState, FaultState, Halt};
+use asperity_output::OutputError;
+
+/// Reason why a run could not be carried out.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// Masses or forces could not be set up, so that nothing was computed.
+    #[error("setting up the bodies: {0}")]
+    SetUp(String),
+    /// The checkpoint does not belong to this plan.
+    #[error("the run that is to be resumed is another")]
+    Foreign,
+    /// An output could not be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+}
+
+/// State at the end of a run.
+#[derive(Clone, Debug)]
+pub struct Ended {
+    /// Steps taken.
+    pub steps: usize,
+    /// Time of the last state \[s\].
+    pub time: f64,
+    /// Energies then.
+    pub budget: Budget,
+    /// Faults then.
+    pub fault: FaultState,
+    /// Reason why the run could not go on, if it could not.
+    pub halt: Option<Halt>,
+    /// Reason why the run was interrupted, if it was.
+    pub interrupted: Option<&'static str>,
+}
+
+/// Runs a plan from its start, or from a saved state. Everything at the time of a step is known after the next, so that there is one more
+/// than the plan has.
+///
+/// # Errors
+/// [`RunError`].
+pub fn run<const D: usize>(
+    plan: &Plan<D>,
+    keeper: &mut Keeper<'_, D>,
+    from: Option<&ExplicitState>,
+) -> Result<Ended, RunError> {
+    let mut explicit = Explicit::new(&plan.problem).map_err(RunError::SetUp)?;
+    explicit.begin_stage(0).map_err(RunError::SetUp)?;
+    if from.is_some_and(|state| !explicit.restore(state)) {
+        return Err(RunError::Foreign);
+    }
+    let (mut halt, mut interrupted) = (None, None);
+    while explicit.steps() <= plan.steps {
+        interrupted = keeper.pause(|| explicit.save())?;
+        if interrupted.is_some() {
+            break;
+        }
+        let before = Before::new(plan, &explicit);
+        halt = explicit.step().err();
+        if halt.is_some() {
+            break;
+        }
+        keeper.step(&before.after(plan, &mut explicit))?;
+    }
+    let (budget, fault) = (explicit.budget(), explicit.fault().clone());
+    Ok(Ended { steps: explicit.steps(), time: budget.time, budget, fault, halt, interrupted })
+}

@@ -1,0 +1,72 @@
+//! Files of stations on faults, in the format of the SEAS community.
+
+use super::moment::Moment;
+use super::plan::Plan;
+use crate::fault::Station;
+use crate::fault::cadence::NO_RATE;
+use asperity_output::seas::{Head, Row};
+
+/// A station: its file name, header and point.
+pub(super) struct Stationed {
+    pub name: String,
+    pub head: String,
+    pub point: usize,
+}
+
+/// Stations of all faults.
+pub(super) fn all<const D: usize>(plan: &Plan<D>) -> Vec<Stationed> {
+    let mut all = Vec::new();
+    for fault in &plan.faults {
+        for (k, (asked, point)) in fault.stations.iter().enumerate() {
+            let (name, head) = (format!("{}_{k:03}", fault.name), head(plan, &fault.name, asked, *point));
+            all.push(Stationed { name, head, point: *point });
+        }
+    }
+    all
+}
+
+fn opens<const D: usize>(plan: &Plan<D>) -> bool {
+    plan.problem.fault.as_ref().is_some_and(|f| f.opens)
+}
+
+fn head<const D: usize>(plan: &Plan<D>, fault: &str, asked: &Station, point: usize) -> String {
+    let view = &plan.points[point];
+    let location = match asked {
+        Station::Along(s) => format!("{s} m along fault {fault}, point at {:.6} m", view.along),
+        Station::At(at) => format!("{at:?} m on fault {fault}, point at {:?} m", view.at),
+    };
+    let head = Head {
+        title: &plan.title,
+        version: env!("CARGO_PKG_VERSION"),
+        area: view.area,
+        in_space: D == 3,
+        location: &location,
+        directions: view.across.map(|across| [view.slides, across]),
+        opens: opens(plan),
+        heats: false,
+        pressurises: false,
+    };
+    head.text()
+}
+
+/// Row of a station. A point at rest has the smallest slip rate that files show.
+pub(super) fn row<const D: usize>(plan: &Plan<D>, now: &Moment<'_>, point: usize) -> String {
+    let points = plan.points.len();
+    let of = |values: &[f64]| -> Vec<f64> { values.iter().skip(point).step_by(points).copied().collect() };
+    let states = now.fault.states.len() / points;
+    let theta = plan.points[point].theta.filter(|_| states == 1).map_or(f64::NAN, |(time, per)| {
+        (time.ln() + now.fault.states[point] * per) / std::f64::consts::LN_10
+    });
+    let row = Row {
+        time: now.time,
+        slip: of(&now.fault.slip),
+        rate: of(&now.fault.rate).into_iter().map(|v| v.abs().max(NO_RATE)).collect(),
+        shear: of(&now.fault.shear),
+        log_state: theta,
+        normal: now.fault.normal[point],
+        opening: opens(plan).then(|| now.fault.gap[point]),
+        temperature: None,
+        pressure: None,
+    };
+    row.text()
+}

@@ -1,0 +1,44 @@
+//! Impedance of bodies for shear waves, and what slip radiates into them.
+
+use crate::diagnostic::Diagnostic;
+use crate::model::{self, Model};
+use crate::scene::model::Scene;
+use asperity_fem::mesh::Side;
+use std::collections::BTreeSet;
+
+/// Impedance Z = √(G ρ) from the shear modulus \[Pa\] and the density \[kg/m³\]; in Pa s/m.
+#[must_use]
+pub fn of(shear: f64, density: f64) -> f64 {
+    (shear * density).sqrt()
+}
+
+/// Radiation damping η of slip between half-spaces of impedances `a` and `b` \[Pa s/m\]: with side velocities `v± = ∓Δτ/Z±`, the
+/// slip rate is `V = -Δτ (1/Z⁺ + 1/Z⁻)`.
+#[must_use]
+pub fn radiated(a: f64, b: f64) -> f64 {
+    a * b / (a + b)
+}
+
+/// Impedances of the blocks of cells behind some faces, with `usual` for the density of materials that have none \[kg/m³\];
+/// `None` for such materials without it.
+///
+/// # Errors
+/// [`Diagnostic`] if a body has no material.
+pub fn behind<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    sides: &[Side],
+    usual: Option<f64>,
+) -> Result<Vec<Option<f64>>, Diagnostic> {
+    let blocks: BTreeSet<usize> = sides.iter().map(|s| s.block).collect();
+    let mut all = Vec::new();
+    for block in blocks {
+        let Some(body) = model.bodies.iter().find(|b| b.blocks.contains(&block)) else { continue };
+        let (_, material) =
+            model::material(&model.mesh, scene, (&body.name, &scene.bodies[&body.name]), block)?;
+        let density = material.density.as_ref().map(|d| d.get_ref().0).or(usual);
+        let shear = body.elastic[block - body.blocks.start].shear();
+        all.push(density.map(|density| of(shear, density)));
+    }
+    Ok(all)
+}

@@ -1,0 +1,168 @@
+//! Bodies with mass: plans, files, and runs that are interrupted.
+#![allow(clippy::disallowed_methods)]
+
+use crate::common::{told, varied};
+use crate::resume::{assert_same, folder, run, text};
+use asperity_driver::dynamic::{self, AnyPlan, Plan};
+use asperity_driver::scene;
+use asperity_vary::Change::{self, Add, With, Without};
+use std::fs;
+
+/// A rupture in plane strain with absorbing sides, stations and seismograms.
+const SCENE: &str = r#"
+schema = 1
+title = "a rupture"
+kinematics = "plane-strain"
+[materials.rock]
+young = "80 GPa"
+poisson = 0.25
+density = 2670
+[bodies.A]
+mesh.fault = { trace = [[0, "2 km"], [0, "-2 km"]], spacing = "200 m", min = ["-2 km", "-4 km"], max = ["2 km", "4 km"], growth = 1.0, element = "quad4" }
+material = "rock"
+[faults.main]
+minus = "A.fault.minus"
+plus = "A.fault.plus"
+law = { kind = "slip-weakening", mu_s = 0.677, mu_k = 0.525, d_c = "40 cm" }
+normal = "120 MPa"
+shear = "70 MPa"
+patches = [{ box = { y = { from = "-1 km", to = "1 km" } }, shear = "81.6 MPa" }]
+pulses = [{ traction = "2 MPa", centre = [0, 0], radius = "1 km", duration = "0.5 s" }]
+[[stages]]
+name = "rupture"
+duration = "2 s"
+conditions = [{ set = "A.left", absorbing = true }, { set = "A.right", absorbing = true }]
+[time]
+stepper = "explicit"
+[output]
+sampling = "20 ms"
+fields = 2
+stations.main = [[0, "1 km"]]
+seismograms.S1 = { body = "A", at = ["1 km", "500 m"] }
+"#;
+
+fn plan(changes: &[Change<'_>]) -> Plan<2> {
+    let text = varied(SCENE, changes);
+    let read = scene::read(&text).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    match dynamic::plan(&read).unwrap_or_else(|e| panic!("{e} {:?}", e.help)) {
+        AnyPlan::Two(plan) => *plan,
+        AnyPlan::Three(_) => panic!("the scene is plane"),
+    }
+}
+
+#[test]
+fn steps_divide_the_samples_and_stay_below_the_stable_one() {
+    let found = plan(&[]);
+    assert!(found.dt <= 0.5 * found.stable.step);
+    assert_eq!(found.cadence.rows as f64 * found.dt, found.interval());
+    assert!((found.interval() - 0.02).abs() < 1e-15 && (found.end() - 2.0).abs() < 1e-12);
+    assert_eq!(found.problem.step_of(0, &found.stable), found.dt);
+    // One step per sample would be too long for half the stable step, but not for nine tenths of it.
+    assert_eq!([found.cadence.rows, plan(&[Add("time.courant", "0.9")]).cadence.rows], [2, 1]);
+    let given = plan(&[Without("output.sampling"), Add("stages[0].steps", "150")]);
+    assert_eq!((given.steps, given.cadence.rows), (150, 1));
+    assert!(given.problem.step_of(0, &given.stable) == given.dt);
+}
+
+#[test]
+fn viscosity_shortens_the_stable_step_as_its_theory_says() {
+    let [without, with] = ["0.0", "0.1"].map(|beta| plan(&[Add("time.viscosity", beta)]).stable.step);
+    assert!((without / with - 1.2_f64.sqrt()).abs() < 1e-14);
+}
+
+#[test]
+fn tractions_at_the_start_are_those_of_fault_patch_and_pulse() {
+    let found = plan(&[]);
+    let fault = found.problem.fault.as_ref().unwrap();
+    let pulse = &fault.pulses[0];
+    for (p, view) in found.points.iter().enumerate() {
+        let y = view.at[1];
+        let patched = if y.abs() <= 1e3 { 81.6e6 } else { 70e6 };
+        assert_eq!((fault.normal[p], fault.shear[p]), (120e6, patched));
+        let r = (y / 1e3).powi(2);
+        let shape = if r < 1.0 { (r / (r - 1.0)).exp() } else { 0.0 };
+        assert!((pulse.amplitude[p] - 2e6 * shape).abs() < 1e-6, "{y}");
+        assert_eq!(fault.points[p].along, [[0.0, 1.0, 0.0]]);
+    }
+    // Slip that turns about is driven the other way.
+    let turned =
+        plan(&[With("faults.main.shear", "-70 MPa"), With("faults.main.patches[0].shear", "-81.6 MPa")]);
+    let turned = &turned.problem.fault.as_ref().unwrap().pulses[0].amplitude;
+    assert!(turned.iter().zip(&pulse.amplitude).all(|(a, b)| *a == -b));
+}
+
+#[test]
+fn absorbing_sides_have_the_impedances_of_the_rock() {
+    let found = plan(&[]);
+    // A node in the middle of a side of cells of 200 m; the normal is x.
+    let middle = |d: &&asperity_mechanics::dynamics::Dashpot| {
+        let at = found.problem.model.mesh.nodes[d.node];
+        at[0] < 0.0 && at[1].abs() < 1.0
+    };
+    let dashpot = found.problem.absorbing.iter().find(middle).unwrap();
+    let (young, nu, density) = (80e9, 0.25, 2670.0_f64);
+    let shear: f64 = young / (2.0 * (1.0 + nu));
+    let pressure = young * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
+    let impedance = |modulus: f64| (modulus * density).sqrt() * 200.0;
+    assert!((dashpot.damping[0][0] / impedance(pressure) - 1.0).abs() < 1e-12);
+    assert!((dashpot.damping[1][1] / impedance(shear) - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn an_antiplane_fault_ruptures_out_of_the_plane() {
+    let folder = folder(&varied(SCENE, &[With("kinematics", "antiplane")]));
+    let done = run(folder.path(), "out", &["--no-plots"]);
+    assert!(done.status.success(), "{}", told(&done));
+    let table = fs::read_to_string(folder.path().join("out/seismograms/S1.csv")).unwrap();
+    assert!(table.starts_with("time [s],velocity_z [m/s],displacement_z [m]\n0e0,0e0,0e0\n"), "{table}");
+    let report = fs::read_to_string(folder.path().join("out/report.json")).unwrap();
+    let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+    assert_eq!(report["ruptures"][0]["points"], serde_json::json!([19, 19]));
+    // Slip follows the traction of the patch, and the balance of energy closes.
+    assert!(report["ruptures"][0]["largest_slip"].as_f64().unwrap() > 0.4);
+    assert!(report["energy"]["imbalance"].as_f64().unwrap() < 1e-10);
+}
+
+#[test]
+fn a_run_that_is_interrupted_and_resumed_leaves_the_files_of_one_left_alone() {
+    let folder = folder(SCENE);
+    let folder = folder.path();
+    let whole = run(folder, "whole", &[]);
+    assert!(whole.status.success(), "{}", told(&whole));
+    let arguments = ["--resume", "--wall-time", "0 s", "--checkpoint-every", "0 s"];
+    // Each part takes one step; what the first parts leave is resumed to the end.
+    for part in 0..4 {
+        let ended = run(folder, "parts", &arguments);
+        assert_eq!(ended.status.code(), Some(3), "part {part}: {}", told(&ended));
+    }
+    assert!(folder.join("parts/checkpoint").exists() || folder.join("parts").read_dir().unwrap().count() > 3);
+    let last = run(folder, "parts", &["--resume"]);
+    assert!(last.status.success(), "{}", told(&last));
+    assert!(text(&last.stdout).contains("resumed from the checkpoint"), "{}", text(&last.stdout));
+    assert_same(folder, "parts");
+}
+
+#[test]
+fn a_fault_that_may_not_open_stops_the_run_where_its_sides_part() {
+    // A load draws the right side away.
+    let pulled = [
+        Without("faults.main.pulses"),
+        With("faults.main.normal", "1 MPa"),
+        With("faults.main.shear", "0.1 MPa"),
+        Without("faults.main.patches"),
+        Add("faults.main.under_resolved", "allow"),
+        With("stages[0].conditions", r#"[{ set = "A.right", traction = ["20 MPa", 0] }]"#),
+    ];
+    let folder = folder(&varied(SCENE, &pulled));
+    let stopped = run(folder.path(), "out", &["--no-plots"]);
+    assert_eq!(stopped.status.code(), Some(2), "{}", told(&stopped));
+    assert!(told(&stopped).contains("add `opening = true` to the fault"), "{}", told(&stopped));
+    let mut opens = pulled.to_vec();
+    opens.push(Add("faults.main.opening", "true"));
+    fs::write(folder.path().join("s.toml"), varied(SCENE, &opens)).unwrap();
+    let done = run(folder.path(), "open", &["--no-plots"]);
+    assert!(done.status.success(), "{}", told(&done));
+    let station = fs::read_to_string(folder.path().join("open/stations/main_000")).unwrap();
+    let gap: f64 = station.lines().last().unwrap().split(' ').next_back().unwrap().parse().unwrap();
+    assert!(gap > 0.0, "{gap}");
+}

@@ -1,0 +1,125 @@
+//! Energy budget of bodies with mass.
+
+use crate::{CellBlock, PlannedInterface};
+use asperity_contact::{Interface, PointFields};
+use asperity_fem::dof::Channel;
+use serde::{Deserialize, Serialize};
+
+/// Energy budget since the start \[J, or J/m of thickness in plane strain and antiplane motion\]:
+///
+/// ```text
+/// kinetic + strain + contact + plastic + viscous + friction + numerical = start + loads + motions
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Energy {
+    /// Kinetic energy.
+    pub kinetic: f64,
+    /// Elastic energy of the bodies.
+    pub strain: f64,
+    /// Elastic energy of the penalties of the interfaces.
+    pub contact: f64,
+    /// Energy dissipated by plastic flow.
+    pub plastic: f64,
+    /// Energy dissipated by viscous flow.
+    pub viscous: f64,
+    /// Energy dissipated by friction.
+    pub friction: f64,
+    /// Energy dissipated by the time integration.
+    pub numerical: f64,
+    /// Kinetic and elastic energy at the start.
+    pub start: f64,
+    /// Work of loads, weight and the initial stress of linear bodies.
+    pub loads: f64,
+    /// Work of prescribed motions.
+    pub motions: f64,
+}
+
+impl Energy {
+    /// Energy that is missing: right side minus left side.
+    #[must_use]
+    pub fn missing(&self) -> f64 {
+        let stored = self.kinetic + self.strain + self.contact;
+        let lost = self.plastic + self.viscous + self.friction + self.numerical;
+        self.start + self.loads + self.motions - stored - lost
+    }
+
+    /// Largest part.
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        let stored = [self.kinetic, self.strain, self.contact, self.start, self.loads, self.motions];
+        let lost = [self.plastic, self.viscous, self.friction, self.numerical];
+        stored.into_iter().chain(lost).fold(0.0, |most, part| most.max(part.abs()))
+    }
+}
+
+/// Elastic energy of the bodies, and what plastic flow has dissipated \[J\].
+#[must_use]
+pub fn of_bodies<const D: usize>(blocks: &[CellBlock<D>], u: &[f64]) -> [f64; 2] {
+    let mut sum = [0.0; 2];
+    for block in blocks {
+        let [stored, lost] = match block {
+            CellBlock::Linear(block) => [block.strain_energy(u), 0.0],
+            CellBlock::Nonlinear(block) => [block.strain_energy(), block.plastic_work()],
+        };
+        sum = [sum[0] + stored, sum[1] + lost];
+    }
+    sum
+}
+
+/// Rate at which viscous flow dissipates energy \[W\].
+#[must_use]
+pub fn viscous_rate<const D: usize>(blocks: &[CellBlock<D>]) -> f64 {
+    let of = |block: &CellBlock<D>| match block {
+        CellBlock::Linear(_) => 0.0,
+        CellBlock::Nonlinear(block) => block.viscous_rate(),
+    };
+    blocks.iter().map(of).sum()
+}
+
+/// Elastic energy of the penalties, `A (f_n²/2E_n + t²/2E_t)` at each point \[J\].
+#[must_use]
+pub fn of_contact<const D: usize>(planned: &[PlannedInterface], interfaces: &[Interface<D>]) -> f64 {
+    let half = |traction2: f64, penalty: f64| if penalty > 0.0 { 0.5 * traction2 / penalty } else { 0.0 };
+    let of = |(planned, interface): (&PlannedInterface, &Interface<D>)| -> f64 {
+        let f = interface.points();
+        let point = |p: usize| {
+            let shear: f64 = f.shear[p].iter().map(|t| t * t).sum();
+            let normal = half(f.normal_traction[p].powi(2), planned.normal_penalty);
+            f.area[p] * (normal + half(shear, planned.tangential_penalty))
+        };
+        (0..f.area.len()).map(point).sum()
+    };
+    planned.iter().zip(interfaces).map(of).sum()
+}
+
+/// Shear tractions of all interfaces \[Pa\].
+pub type Shears<const D: usize> = Vec<Vec<[f64; D]>>;
+
+/// Present shear tractions of all interfaces.
+#[must_use]
+pub fn shears<const D: usize>(interfaces: &[Interface<D>]) -> Shears<D> {
+    interfaces.iter().map(|i| i.points().shear.clone()).collect()
+}
+
+/// Energy that friction dissipated in the last step: the mean of the shear tractions before and after times slip \[J\].
+#[must_use]
+pub fn by_friction<const D: usize>(before: &Shears<D>, interfaces: &[Interface<D>]) -> f64 {
+    let of = |(before, f): (&Vec<[f64; D]>, &PointFields<D>)| -> f64 {
+        let point = |p: usize| -> f64 {
+            let mean = before[p].iter().zip(&f.shear[p]).map(|(a, b)| 0.5 * (a + b));
+            f.area[p] * mean.zip(&f.slip_increment[p]).map(|(t, s)| t * s).sum::<f64>()
+        };
+        (0..f.area.len()).map(point).sum()
+    };
+    before.iter().zip(interfaces.iter().map(Interface::points)).map(of).sum()
+}
+
+/// Work of loads over a step from `time - dt` to `time` by the trapezoidal rule, with the displacement `moved` \[J\].
+#[must_use]
+pub fn by_loads(channels: &[Channel], (time, dt): (f64, f64), moved: &[f64]) -> f64 {
+    let of = |channel: &Channel| {
+        let mean = 0.5 * (channel.amplitude.value(time - dt) + channel.amplitude.value(time));
+        mean * channel.forces.iter().map(|&(dof, force)| force * moved[dof]).sum::<f64>()
+    };
+    channels.iter().map(of).sum()
+}

@@ -1,0 +1,206 @@
+//! Bodies with mass: inertia as a term, and the energy budget. A problem without inertia has neither.
+
+mod energy;
+mod given;
+mod scheme;
+mod term;
+
+pub use energy::Energy;
+
+use crate::{CellBlock, Model, PlannedInterface};
+use asperity_contact::Interface;
+use asperity_fem::FemError;
+use asperity_fem::dof::{Channel, Constraints};
+use asperity_fem::mass;
+use asperity_fem::term::Limited;
+use energy::Shears;
+use serde::{Deserialize, Serialize};
+use term::Inertia;
+
+/// Inertia of a problem.
+#[derive(Clone, Debug)]
+pub struct Mass {
+    /// Density of each block of the mesh \[kg/m³\].
+    pub density: Vec<f64>,
+    /// Initial velocity of each degree of freedom \[m/s\].
+    pub velocity: Vec<f64>,
+    /// Spectral radius at high frequencies, 0 to 1 \[-\].
+    pub radius: f64,
+    /// Bound on the estimated error of displacement in a step, over the displacement of a step at the largest kinetic energy
+    /// \[-\].
+    pub tolerance: f64,
+}
+
+/// State of inertia between two steps.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MassState {
+    /// Velocities, accelerations and forces, one after another.
+    motion: Vec<f64>,
+    fastest: f64,
+    energy: Energy,
+    viscous_rate: f64,
+    phase: Phase,
+}
+
+/// Progress of a run into its present stage.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+enum Phase {
+    /// The first stage has not begun.
+    First,
+    /// A later stage has not begun.
+    Between,
+    /// The stage has begun.
+    Within,
+}
+
+/// Parts of a system on which the budget depends.
+pub struct View<'a, const D: usize> {
+    /// Blocks in their present state.
+    pub blocks: &'a [CellBlock<D>],
+    /// Interfaces as planned.
+    pub planned: &'a [PlannedInterface],
+    /// Interfaces in their present state.
+    pub interfaces: &'a [Interface<D>],
+    /// Displacement \[m\].
+    pub u: &'a [f64],
+    /// Time \[s\].
+    pub time: f64,
+}
+
+/// Inertia of a system and its energy budget.
+#[derive(Debug)]
+pub struct Moving<const D: usize> {
+    term: Inertia,
+    energy: Energy,
+    /// Loads of the present stage.
+    loads: Vec<Channel>,
+    /// Shear tractions before the step.
+    shears: Shears<D>,
+    /// Rate of viscous dissipation at the last accepted state \[W\].
+    viscous_rate: f64,
+    phase: Phase,
+}
+
+impl<const D: usize> Moving<D> {
+    /// Inertia of the bodies of a model.
+    #[must_use]
+    pub fn new(model: &Model<D>, given: &Mass) -> Self {
+        let mass = mass::consistent(&model.mesh, &given.density, model.idealisation);
+        Self {
+            term: Inertia::new(mass, given.radius, given.velocity.clone()),
+            energy: Energy::default(),
+            loads: Vec::new(),
+            shears: Vec::new(),
+            viscous_rate: 0.0,
+            phase: Phase::First,
+        }
+    }
+
+    /// Inertia as a term of the system.
+    pub fn term(&mut self) -> &mut dyn Limited {
+        &mut self.term
+    }
+
+    /// Applies the conditions of a stage. It begins with its first step.
+    pub fn begin_stage(&mut self, constraints: &Constraints) {
+        self.loads = constraints.channels.iter().filter(|c| !c.forces.is_empty()).cloned().collect();
+        self.term.set_constraints(constraints.clone());
+        if self.phase == Phase::Within {
+            self.phase = Phase::Between;
+        }
+    }
+
+    /// True if the accelerations at the start of the stage are known.
+    #[must_use]
+    pub fn has_begun(&self) -> bool {
+        self.phase == Phase::Within
+    }
+
+    /// Begins a stage with the forces of all other terms. What prescribed velocities change at once is work of the motions, and
+    /// tractions that a change of laws removes count as friction.
+    ///
+    /// # Errors
+    /// If the mass matrix cannot be factored.
+    pub fn start(&mut self, r: Vec<f64>, at: &View<'_, D>) -> Result<(), FemError> {
+        let change = self.term.start(r, at.u, at.time)?;
+        let contact = energy::of_contact(at.planned, at.interfaces);
+        self.viscous_rate = energy::viscous_rate(at.blocks);
+        if self.phase == Phase::First {
+            let [strain, plastic] = energy::of_bodies(at.blocks, at.u);
+            let kinetic = self.term.kinetic();
+            let start = kinetic + strain + contact;
+            self.energy = Energy { kinetic, strain, contact, plastic, start, ..Energy::default() };
+        } else {
+            self.energy.motions += change;
+            self.energy.kinetic += change;
+            self.energy.friction += self.energy.contact - contact;
+            self.energy.contact = contact;
+        }
+        self.phase = Phase::Within;
+        Ok(())
+    }
+
+    /// Keeps what the budget needs of the state before a step.
+    pub fn note(&mut self, interfaces: &[Interface<D>]) {
+        self.shears = energy::shears(interfaces);
+    }
+
+    /// Adds an accepted step of length `dt` to the budget; `total` is the residual of the whole system.
+    pub fn settle(&mut self, total: &[f64], dt: f64, at: &View<'_, D>) {
+        let works = self.term.settle(total);
+        let viscous_rate = energy::viscous_rate(at.blocks);
+        let energy = &mut self.energy;
+        [energy.strain, energy.plastic] = energy::of_bodies(at.blocks, at.u);
+        energy.kinetic = self.term.kinetic();
+        energy.contact = energy::of_contact(at.planned, at.interfaces);
+        energy.viscous += 0.5 * dt * (self.viscous_rate + viscous_rate);
+        energy.friction += energy::by_friction(&self.shears, at.interfaces);
+        energy.numerical += works.numerical;
+        energy.motions += works.motions;
+        energy.loads += energy::by_loads(&self.loads, (at.time, dt), self.term.moved());
+        self.viscous_rate = viscous_rate;
+    }
+
+    /// Energy budget at the last accepted state.
+    #[must_use]
+    pub fn energy(&self) -> Energy {
+        self.energy
+    }
+
+    /// Velocities at the last accepted state \[m/s\].
+    #[must_use]
+    pub fn velocity(&self) -> &[f64] {
+        self.term.velocity()
+    }
+
+    /// Forces of inertia M a at the last accepted state \[N, or N/m of thickness\].
+    #[must_use]
+    pub fn forces(&self) -> Vec<f64> {
+        self.term.forces()
+    }
+
+    /// Estimated error of displacement in the last step, over the displacement of a step at the largest kinetic energy \[-\].
+    #[must_use]
+    pub fn error(&self) -> f64 {
+        self.term.share()
+    }
+
+    /// Sets the largest error with which a step is accepted \[-\].
+    pub fn set_bound(&mut self, bound: f64) {
+        self.term.set_bound(bound);
+    }
+
+    /// State between two steps.
+    #[must_use]
+    pub fn save(&self) -> MassState {
+        let (motion, fastest) = self.term.save();
+        let Self { energy, viscous_rate, phase, .. } = *self;
+        MassState { motion, fastest, energy, viscous_rate, phase }
+    }
+
+    /// Restores a saved state with the displacements `u`. Returns false if it does not fit.
+    pub fn restore(&mut self, saved: &MassState, u: &[f64]) -> bool {
+        (self.energy, self.viscous_rate, self.phase) = (saved.energy, saved.viscous_rate, saved.phase);
+        self.term.restore((&saved.motion, saved.fastest), u)
+    }
+}

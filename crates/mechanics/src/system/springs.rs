@@ -1,0 +1,208 @@
+//! Springs between sets that move as one and load points that move at constant rates: one term of the system.
+//!
+//! The degrees of freedom of a set share one equation, so a spring acts on the first of them with the force `F = F_0 + k (V (t
+//! - t_0) - (q - q_0))`. F_0 is the force that held the set at the start of the stage, and q its displacement.
+
+use super::numbering::Numbering;
+use crate::{Spring, Stage};
+use asperity_fem::term::{Instant, Limited, Linearized, Pattern, Refusal, Term};
+use serde::{Deserialize, Serialize};
+
+/// State of a spring at the start of a stage.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SpringStart {
+    /// Force on the set \[N; N/m of thickness in the plane\].
+    pub force: f64,
+    /// Displacement of the load point since the spring was attached \[m\].
+    pub load_point: f64,
+    /// Displacement of the set \[m\].
+    pub displacement: f64,
+}
+
+/// State of a spring.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SpringNow {
+    /// Force on the set, as a load cell reads it \[N; N/m of thickness in the plane\].
+    pub force: f64,
+    /// Displacement of the load point since the spring was attached \[m\].
+    pub load_point: f64,
+    /// Displacement of the set \[m\].
+    pub displacement: f64,
+}
+
+/// A spring with the degree of freedom of the system on which it acts.
+#[derive(Clone, Debug)]
+struct Attached {
+    dof: usize,
+    stiffness: f64,
+    rate: f64,
+    start: SpringStart,
+}
+
+/// The springs of a stage.
+#[derive(Debug)]
+pub(super) struct Springs {
+    list: Vec<Attached>,
+    /// Start of the stage \[s\].
+    begin: f64,
+    pattern: Pattern,
+    stiffness: Vec<f64>,
+}
+
+impl Springs {
+    /// Attaches the springs of a stage; `None` without springs.
+    pub fn new(stage: &Stage, numbering: &Numbering, starts: &[SpringStart]) -> Option<Self> {
+        let attached = |(spring, start): (&Spring, &SpringStart)| Attached {
+            dof: numbering.number[spring.dofs[0]],
+            stiffness: spring.stiffness,
+            rate: spring.rate,
+            start: *start,
+        };
+        let list: Vec<Attached> = stage.springs.iter().zip(starts).map(attached).collect();
+        let dofs: Vec<usize> = list.iter().map(|s| s.dof).collect();
+        let stiffness = list.iter().map(|s| s.stiffness).collect();
+        let pattern = Pattern::of_blocks(dofs.chunks(1));
+        (!list.is_empty()).then_some(Self { list, begin: stage.start, pattern, stiffness })
+    }
+
+    /// States of the springs at displacements `u` of the system and time \[s\].
+    pub fn now(&self, u: &[f64], time: f64) -> impl Iterator<Item = SpringNow> {
+        self.list.iter().map(move |s| {
+            let (drawn, displacement) = (s.rate * (time - self.begin), u[s.dof]);
+            SpringNow {
+                force: s.start.force + s.stiffness * (drawn - (displacement - s.start.displacement)),
+                load_point: s.start.load_point + drawn,
+                displacement,
+            }
+        })
+    }
+
+    /// States at the start of the stage.
+    pub fn starts(&self) -> Vec<SpringStart> {
+        self.list.iter().map(|s| s.start).collect()
+    }
+}
+
+/// States of the springs of a stage at its start: those that were attached before carry on. A new spring carries the force that
+/// held its set, the sum of the `reactions` there.
+pub(super) fn starts(
+    stage: &Stage,
+    before: &[(Vec<usize>, SpringNow)],
+    reaction: impl Fn(usize) -> f64,
+    u0: &[f64],
+) -> Vec<SpringStart> {
+    let start = |spring: &Spring| {
+        let old = before.iter().find(|(dofs, _)| *dofs == spring.dofs).map(|(_, now)| now);
+        let new =
+            || SpringNow { force: spring.dofs.iter().map(|&d| reaction(d)).sum(), ..SpringNow::default() };
+        let SpringNow { force, load_point, .. } = old.copied().unwrap_or_else(new);
+        SpringStart { force, load_point, displacement: u0[spring.dofs[0]] }
+    };
+    stage.springs.iter().map(start).collect()
+}
+
+impl Term for Springs {
+    fn name(&self) -> &'static str {
+        "springs of load points"
+    }
+
+    fn residual(&mut self, u: &[f64], at: Instant, r: &mut [f64]) -> Result<(), Refusal> {
+        for (spring, now) in self.list.iter().zip(self.now(u, at.time)) {
+            r[spring.dof] -= now.force;
+        }
+        Ok(())
+    }
+
+    fn accept(&mut self) {}
+
+    fn reject(&mut self) {}
+}
+
+impl Linearized for Springs {
+    fn pattern(&self) -> &Pattern {
+        &self.pattern
+    }
+
+    fn tangent(&mut self, values: &mut [f64]) {
+        values.copy_from_slice(&self.stiffness);
+    }
+
+    fn constant_tangent(&self) -> Option<&[f64]> {
+        Some(&self.stiffness)
+    }
+}
+
+impl Limited for Springs {
+    fn rate(&mut self, at: Instant, values: &mut [f64], constant: &mut [f64]) -> Result<(), Refusal> {
+        self.tangent(values);
+        for spring in &self.list {
+            constant[spring.dof] -= spring.stiffness * spring.rate * at.dt;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two springs that have been drawn for a stage before.
+    fn springs() -> Springs {
+        let spring = |dofs: Vec<usize>, stiffness, rate| Spring {
+            set: "B.top".into(),
+            axis: 0,
+            dofs,
+            stiffness,
+            rate,
+        };
+        let stage = Stage {
+            name: "draw".into(),
+            start: 2.0,
+            end: 3.0,
+            steps: None,
+            frictionless: Vec::new(),
+            motions: Vec::new(),
+            turning: Vec::new(),
+            loads: Vec::new(),
+            fixed: Vec::new(),
+            springs: vec![spring(vec![3, 4], 7.0, 0.5), spring(vec![1], 11.0, -0.25)],
+            weight: Vec::new(),
+        };
+        let numbering = Numbering { number: (0..6).collect(), nodes: (0..6).collect(), dofs: 6 };
+        let starts = starts(&stage, &[], |dof| dof as f64, &[0.0, 0.3, 0.0, 0.1, 0.1, 0.0]);
+        Springs::new(&stage, &numbering, &starts).unwrap()
+    }
+
+    fn residual(springs: &mut Springs, u: &[f64], time: f64) -> Vec<f64> {
+        let mut r = vec![0.0; u.len()];
+        springs.residual(u, Instant { time, dt: 0.5 }, &mut r).unwrap();
+        r
+    }
+
+    #[test]
+    fn a_new_spring_carries_what_held_its_set() {
+        let mut springs = springs();
+        let r = residual(&mut springs, &[0.0, 0.3, 0.0, 0.1, 0.1, 0.0], 2.0);
+        assert_eq!(r, [0.0, -1.0, 0.0, -7.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn tangent_and_rate_are_the_derivatives_of_the_residual() {
+        let mut springs = springs();
+        let u = [0.2, 0.35, -0.1, 0.15, 0.15, 0.0];
+        let mut k = [0.0; 2];
+        springs.tangent(&mut k);
+        assert_eq!(springs.constant_tangent(), Some(&k[..]));
+        let moved = [0.2, 0.355, -0.1, 0.152, 0.152, 0.0];
+        let (r, then) = (residual(&mut springs, &u, 2.5), residual(&mut springs, &moved, 2.5));
+        assert!(
+            (then[1] - r[1] - k[1] * 0.005).abs() < 1e-14 && (then[3] - r[3] - k[0] * 0.002).abs() < 1e-14
+        );
+        let mut constant = vec![0.0; 6];
+        springs.rate(Instant { time: 2.5, dt: 0.5 }, &mut k, &mut constant).unwrap();
+        let before = residual(&mut springs, &u, 2.0);
+        for ((now, before), constant) in r.iter().zip(&before).zip(&constant) {
+            assert!((now - before - constant).abs() < 1e-14);
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! Rupture times: over the distance along a line, or as contours on a surface.
+
+use super::isolines::isolines;
+use super::{AT, Line, ROOM, RupturedFault, Ruptures, SIZE, Shape, Surface};
+use crate::plots::axes::{Axis, Frame};
+use crate::plots::colour::{INK, PAPER, viridis};
+use crate::plots::field::Bar;
+use crate::plots::figure::{Anchor, Figure, Point};
+use crate::plots::title::title;
+use crate::plots::units::TIME;
+
+/// About as many contours.
+const CONTOURS: usize = 10;
+
+impl Ruptures<'_> {
+    pub(super) fn arrivals(&self, fault: &RupturedFault) -> Option<Figure> {
+        let last = fault.arrivals.iter().copied().filter(|t| t.is_finite()).reduce(f64::max)?;
+        let part = format!("rupture times of {}", fault.name);
+        match &fault.shape {
+            Shape::Line(line) => front(&self.title, &part, line, &fault.arrivals, last),
+            Shape::Surface(surface) => contours(&self.title, &part, surface, &fault.arrivals, last),
+        }
+    }
+}
+
+/// Curve of rupture times, interrupted where the line did not rupture.
+fn front(scene: &str, part: &str, line: &Line, arrivals: &[f64], last: f64) -> Option<Figure> {
+    let (x, scale) = line.axis(false)?;
+    let unit = TIME.of(last);
+    let y =
+        Axis::linear([0.0, last / unit.factor].into_iter(), 0.05, format!("Rupture time [{}]", unit.name));
+    let frame = Frame { at: AT, size: SIZE, x, y };
+    let mut figure = Figure::new(AT.0 + SIZE.0 + 40.0, AT.1 + SIZE.1 + 60.0);
+    title(&mut figure, &frame, scene, part);
+    frame.grid(&mut figure);
+    let order = line.order();
+    for piece in order.split(|&p| !arrivals[p].is_finite()).filter(|piece| !piece.is_empty()) {
+        let at = |&p: &usize| frame.point(line.along[p] / scale, arrivals[p] / unit.factor);
+        figure.line(piece.iter().map(at).collect(), 1.6, viridis(0.3));
+    }
+    frame.draw(&mut figure);
+    Some(figure)
+}
+
+/// Map of rupture times with lines of equal time.
+fn contours(scene: &str, part: &str, surface: &Surface, arrivals: &[f64], last: f64) -> Option<Figure> {
+    let frame = surface.frame(AT, SIZE)?;
+    let unit = TIME.of(last);
+    let mut figure =
+        Figure::new(AT.0 + frame.size.0.max(200.0) + ROOM, AT.1 + frame.size.1.max(190.0) + 84.0);
+    title(&mut figure, &frame, scene, part);
+    figure.image(surface.image(&frame, arrivals, (0.0, last)));
+    let bar = Axis::exact((0.0, last / unit.factor), String::new());
+    // The ticks of the colour bar are the times of the contours.
+    let levels: Vec<(f64, String)> = bar.ticks(CONTOURS).into_iter().filter(|t| t.0 > 0.0).collect();
+    for (share, _) in &levels {
+        for [a, b] in isolines(surface, arrivals, share * last) {
+            let at = |p: Point| surface.place(&frame, p);
+            figure.line(vec![at(a), at(b)], 1.0, PAPER);
+        }
+    }
+    frame.draw(&mut figure);
+    Bar { range: bar.range, above: None, label: format!("Rupture time [{}]", unit.name) }
+        .draw(&mut figure, &frame);
+    if let [first, ..] = levels.as_slice() {
+        let words = format!("contours every {} {}", first.1, unit.name);
+        let at = (AT.0, AT.1 + frame.size.1 + 62.0);
+        figure.text(at, words, 12.5, Anchor::Start, INK);
+    }
+    Some(figure)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{line, pulse};
+    use super::*;
+    use crate::plots::figure::Shape as Drawn;
+
+    #[test]
+    fn a_front_is_interrupted_where_nothing_ruptured() {
+        let mut fault = line();
+        fault.arrivals[5] = f64::NAN;
+        let kept = pulse();
+        let ruptures = Ruptures { title: "t".into(), faults: vec![fault], rates: &kept };
+        let figure = ruptures.arrivals(&ruptures.faults[0]).unwrap();
+        let curves = figure.shapes.iter().filter_map(|s| match s {
+            Drawn::Line { points, width, .. } if *width == 1.6 => Some(points.len()),
+            _ => None,
+        });
+        assert_eq!(curves.collect::<Vec<_>>(), [5, 35]);
+    }
+}

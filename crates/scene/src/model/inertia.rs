@@ -1,0 +1,63 @@
+//! Inertia of bodies as declared in a scene.
+
+use crate::shape::{Either, shaped};
+use crate::spanned::Spanned;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde::de::{self, Deserializer, MapAccess, Visitor, value::MapAccessDeserializer};
+use std::fmt;
+
+/// Settings of the time integration of bodies with mass.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct InertiaSpec {
+    /// Spectral radius ρ∞ at frequencies that the steps do not resolve, 0 to 1; 1 dissipates nothing; default 0.5 \[-\].
+    pub spectral_radius: Option<Spanned<f64>>,
+    /// Largest error of displacement in a step over the largest displacement of a step; default 1e-3 \[-\].
+    pub tolerance: Option<Spanned<f64>>,
+}
+
+/// Whether bodies have inertia.
+#[derive(Clone, Debug)]
+pub enum Inertia {
+    /// `true` or `false`.
+    Stated(bool),
+    /// With settings.
+    Given(InertiaSpec),
+}
+
+impl Inertia {
+    /// Settings; `None` if bodies have no inertia.
+    #[must_use]
+    pub fn settings(&self) -> Option<InertiaSpec> {
+        match self {
+            Self::Stated(false) => None,
+            Self::Stated(true) => Some(InertiaSpec::default()),
+            Self::Given(spec) => Some(spec.clone()),
+        }
+    }
+}
+
+shaped!(Inertia as Either<bool, InertiaSpec>);
+
+impl<'de> Deserialize<'de> for Inertia {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct InertiaVisitor;
+        impl<'de> Visitor<'de> for InertiaVisitor {
+            type Value = Inertia;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("`true`, or a table such as `{ spectral_radius = 0.8 }`")
+            }
+
+            fn visit_bool<E: de::Error>(self, stated: bool) -> Result<Inertia, E> {
+                Ok(Inertia::Stated(stated))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Inertia, A::Error> {
+                InertiaSpec::deserialize(MapAccessDeserializer::new(map)).map(Inertia::Given)
+            }
+        }
+        deserializer.deserialize_any(InertiaVisitor)
+    }
+}

@@ -1,0 +1,368 @@
+//! Stick-slip of interfaces that springs draw, with radiation damping.
+
+use super::seas;
+use super::slider;
+use super::texts::{self, Done};
+use crate::cases::drawn;
+use crate::{Capability, Case, CaseError, Evidence, Floor, Ledger, Plot, Series};
+use asperity_cycles::slider::{self as cycles, Now, Problem, Rows};
+use asperity_cycles::{Event, Rupture};
+use asperity_driver::catalogue::Entry;
+use asperity_driver::slider::Entry as SliderEntry;
+use asperity_friction::evolution::ageing::Ageing;
+use asperity_friction::rate::RateLaw;
+use asperity_friction::slider::{History, Slider};
+use asperity_friction::strength::{Parameters, regularised::Regularised};
+use asperity_ode::Method;
+use asperity_vary::SceneText;
+use std::sync::Arc;
+
+/// See the README.
+pub const CASE: Case = Case {
+    name: "stick_slip",
+    readme: include_str!("README.md"),
+    covers: &[Capability::InterfaceStates, Capability::Events],
+    quick: true,
+    run,
+};
+
+const COLUMN: &str = include_str!("../interface_rate_state/scene.toml");
+const BLOCK: &str = include_str!("block.toml");
+const FAULT: &str = include_str!("../../../scenes/sandwich-state.toml");
+const DIRECT: &str = include_str!("../../../scenes/stick-slip.toml");
+
+/// Parameters of the law of the column; L in \[m\].
+const A: f64 = 0.010;
+const B: f64 = 0.015;
+const LENGTH: f64 = 10e-6;
+/// Rate of the load point, also that of the initial steady state \[m/s\].
+const LOAD: f64 = 1e-6;
+/// Normal traction of the column \[Pa\].
+const NORMAL: f64 = 1e7;
+/// Radiation damping of the column \[Pa s/m\].
+const DAMPING: f64 = 5e6;
+/// Compliance of the column and of its penalty \[m/Pa\]: 0.2 m of 4 GPa, and 1000 GPa/m.
+const COMPLIANCE: f64 = 0.2 / 4e9 + 1e-12;
+/// Width of the column \[m\].
+const WIDTH: f64 = 0.1;
+/// Duration of its pressing stage \[s\].
+const PRESSED: f64 = 1.0;
+/// End times of the later stages, counted from the end of pressing \[s\], and the rate of the load point in each \[m/s\].
+const STAGES: [(f64, f64); 5] =
+    [(600.0, LOAD), (620.0, 10.0 * LOAD), (720.0, LOAD), (1720.0, 0.0), (1870.0, LOAD)];
+/// Springs with which the column creeps, and with which it sticks and slips: 2.4 and 0.52 of the critical stiffness in series
+/// with the column \[N/m\].
+const SPRINGS: [f64; 2] = [3e9, 3e8];
+/// Tolerance of the references.
+const TIGHT: f64 = 1e-10;
+/// Source of the references of the column.
+const SLIDER: &str = "one slider on a spring with damping, Radau IIA of order 5 at 1e-10";
+/// Source of the references of the block.
+const CONDENSED: &str =
+    "the same block as fault of condensed bodies, which has no penalty (case sandwich_state)";
+
+fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
+    in_time(ledger)?;
+    column_events(ledger)?;
+    block(ledger)?;
+    ruptures(ledger)?;
+    direct(ledger)
+}
+
+/// The column with its head on a spring \[N/m\].
+fn column(spring: f64) -> SceneText {
+    let drawn = |rate: &str| format!(r#"{{ spring = {spring:e}, rate = "{rate}" }}"#);
+    let mut scene = SceneText::new(COLUMN)
+        .add("interfaces.fault.measure", "node-to-point")
+        .add("interfaces.fault.sliding", "small")
+        .add("interfaces.fault.law.evolution", "ageing")
+        .add("interfaces.fault.damping", "5 MPa s/m");
+    for (stage, rate) in ["1 um/s", "10 um/s", "1 um/s", "0 m/s", "1 um/s"].iter().enumerate() {
+        scene = scene.with(&format!("stages[{}].conditions[0].x", stage + 1), drawn(rate));
+    }
+    scene
+}
+
+/// The slider of the column.
+fn one(spring: f64, load: History, end: f64) -> Result<Problem, CaseError> {
+    let form = Regularised(Parameters::new(slider::MU0, A, slider::V_REF)?);
+    let law = Arc::new(RateLaw::new(form, Ageing::new(B, LENGTH, slider::V_REF)?, LOAD, None)?);
+    let stiffness = 1.0 / (COMPLIANCE + WIDTH / spring);
+    let normal = History::Constant(NORMAL);
+    let mut plan =
+        slider::plan(Slider { law, stiffness, damping: DAMPING, mass: None, normal }, load, LOAD, 1.0, end)?;
+    // The unknown mu/a is zero: the spring is slack.
+    plan.start[0] = 0.0;
+    plan.method = Method::Radau5;
+    plan.tolerance = TIGHT;
+    Ok(plan)
+}
+
+/// Velocity steps and slide-hold-slide behind a spring, in every measure.
+fn in_time(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let (mut found, mut cost) = (Vec::new(), None);
+    for measure in ["node-to-point", "mortar"] {
+        for sliding in ["small", "finite"] {
+            let scene = column(SPRINGS[0])
+                .with_or_same("interfaces.fault.measure", measure)
+                .with_or_same("interfaces.fault.sliding", sliding);
+            let done = texts::simulate(&scene.text()?)?;
+            found.push(error(&done, &reference(&done)?));
+            cost.get_or_insert(done.cost);
+        }
+    }
+    ledger
+        .claim("friction of every point at every step, less that of the slider, node-to-point and mortar, small and finite sliding")
+        .values(&found)
+        .equals_each(&[0.0; 4])
+        .absolute(1e-4)
+        .evidence(Evidence::SemiAnalytic, SLIDER)
+        .because("the default bounds the error of a step by 2e-6, and what steps leave adds up over those in which traction relaxes, some tens")
+        .covers(&[Capability::InterfaceStates])
+        .cost(&cost.ok_or("nothing was run")?)
+        .record();
+    Ok(())
+}
+
+/// Friction of the slider at the times of a run since the law began to act.
+fn reference(done: &Done) -> Result<Vec<f64>, CaseError> {
+    let times: Vec<f64> = done.record.times().iter().map(|t| t - PRESSED).filter(|&t| t > 0.0).collect();
+    let (mut table, mut from) = (Vec::new(), 0.0);
+    for (end, rate) in STAGES {
+        table.extend([(from, rate), (end, rate)]);
+        from = end;
+    }
+    let mut plan = one(SPRINGS[0], History::table(table)?, from)?;
+    plan.output = Rows { change: None, times, interval: None, histories: None };
+    let mut friction = Vec::new();
+    let mut look = |now: &Now<'_>| {
+        if now.asked {
+            friction.push(now.conditions[0].friction);
+        }
+    };
+    cycles::run(&plan, &mut look)?;
+    Ok(friction)
+}
+
+/// Largest difference of friction from that of the slider over all points and steps under the law.
+fn error(done: &Done, reference: &[f64]) -> f64 {
+    let before = done.record.times().len() - reference.len();
+    let points = &done.record.histories()[0].points;
+    let each = points.iter().flat_map(|p| p.friction[before..].iter().zip(reference));
+    each.map(|(found, wanted)| (found - wanted).abs()).fold(0.0, f64::max)
+}
+
+/// Events of all interfaces of a run.
+fn events(done: &Done) -> Result<&[Entry], CaseError> {
+    Ok(&done.report.events.as_ref().ok_or("the scene has no events")?.all)
+}
+
+/// Stick-slip of the column beside that of the slider.
+fn column_events(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let scene =
+        (2..6).rev().fold(column(SPRINGS[1]), |scene, stage| scene.without(&format!("stages[{stage}]")));
+    let scene = scene
+        .with("stages[1].duration", "6000 s")
+        .add("events", r#"{ above = "1 mm/s", below = "0.1 mm/s", stop_after = 4 }"#);
+    let done = texts::simulate(&scene.text()?)?;
+    let mut plan = one(SPRINGS[1], History::Constant(LOAD), 6e3)?;
+    slider::events(&mut plan, 4);
+    let run = cycles::run(&plan, &mut ())?;
+    let wanted = SliderEntry::all(&run);
+    let found = events(&done)?;
+    let mut claim = |what: &str, unit: &str, values: Vec<f64>, reference: Vec<f64>, bound: f64, why: &str| {
+        ledger
+            .claim(format!("{what} of the column's events"))
+            .unit(unit)
+            .values(&values)
+            .equals_each(&reference)
+            .relative(bound)
+            .evidence(Evidence::SemiAnalytic, SLIDER)
+            .because(why)
+            .covers(&[Capability::InterfaceStates, Capability::Events])
+            .cost(&done.cost)
+            .record();
+    };
+    let each = |of: fn(&Entry) -> f64| found.iter().map(of).collect::<Vec<f64>>();
+    let of = |of: fn(&SliderEntry) -> Option<f64>| wanted.iter().filter_map(of).collect::<Vec<f64>>();
+    let small =
+        "the default bounds the error of friction of a step by 2e-6, and a few add up in a drop of 7e-2";
+    let since: Vec<f64> = each(|e| e.onset).iter().map(|t| t - PRESSED).collect();
+    // The drop of friction: the catalogue of surfaces leaves out what is radiated at onset and end, that of sliders does not.
+    let fall = of(|e| e.at_end.as_ref().map(|end| NORMAL * (e.at_onset.friction - end.friction)));
+    claim("onset", "s", since, of(|e| Some(e.onset)), 1e-4, small);
+    claim("slip", "m", each(|e| e.mean_slip), of(|e| e.slip), 2e-4, small);
+    claim("stress drop", "Pa", each(|e| e.stress_drop), fall, 2e-4, small);
+    claim(
+        "peak slip rate",
+        "m/s",
+        each(|e| e.peak_rate),
+        of(|e| Some(e.peak_rate)),
+        5e-4,
+        "the peak is that of a step's end",
+    );
+    Ok(())
+}
+
+/// The block, with these lines of its enforcement.
+fn block_scene(enforcement: &str) -> SceneText {
+    SceneText::new(BLOCK).with_or_same("interfaces.face.enforcement", enforcement)
+}
+
+/// Enforcement by a penalty of so many E/h.
+fn penalty(times: u32) -> String {
+    format!(r#"{{ kind = "penalty", normal = "{times} E/h", tangential = "{times} E/h" }}"#)
+}
+
+/// Enforcement without compliance.
+const MULTIPLIERS: &str = r#"{ kind = "augmented-lagrangian", normal = "1 E/h", tangential = "1 E/h" }"#;
+
+/// Events of the block as a fault that is pressed and not yet sheared.
+fn as_fault(length: &str, spring: &str, number: usize) -> Result<(f64, f64), CaseError> {
+    let scene = SceneText::new(FAULT)
+        .with_or_same("faults.face.law.l", length)
+        .with_or_same("stages[0].conditions[3].y.spring", spring)
+        .with("stages[0].duration", "4000 s")
+        .add("faults.face.shear", "-1e3 Pa");
+    let mut plan = seas::plan(&scene.text()?)?;
+    plan.problem.settings.most_events = Some(number);
+    let found = seas::found(&plan, &plan.problem.settings, |_| {})?;
+    let last = |e: &[Event<Rupture>]| e[e.len() - 1].onset.since(&e[e.len() - 2].onset);
+    let drop = |e: &Event<Rupture>| {
+        let (slip, drop) = (e.details.slip.component(0), e.details.drop.component(0));
+        let over =
+            |f: &dyn Fn(usize) -> f64| (0..slip.len()).map(|p| f(p) * plan.points[p].area).sum::<f64>();
+        over(&|p| slip[p] * drop[p]) / over(&|p| slip[p].abs())
+    };
+    Ok((last(&found.events), drop(&found.events[number - 1])))
+}
+
+/// The last interval \[s\] and stress drop \[Pa\] of a run.
+fn cycle(done: &Done) -> Result<(f64, f64), CaseError> {
+    let last = events(done)?.last().ok_or("there was no event")?;
+    Ok((last.interval.ok_or("there was one event")?, last.stress_drop))
+}
+
+/// The whole face slips together: the interface against the fault, and the limit of its penalty.
+fn block(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let (interval, drop) = as_fault("10 um", "2e9", 3)?;
+    let exact = texts::simulate(&block_scene(MULTIPLIERS).text()?)?;
+    let (found, fell) = cycle(&exact)?;
+    against(ledger, "the whole face slips together", (&[found, fell], &[interval, drop], 2e-4), &exact);
+    let mut levels = Vec::new();
+    for times in [4, 20, 100] {
+        let done = texts::simulate(&block_scene(&penalty(times)).text()?)?;
+        levels.push((1.0 / f64::from(times), (cycle(&done)?.0 / interval - 1.0).abs()));
+    }
+    ledger
+        .order("interval with a penalty against that of the fault, by the compliance of the penalty")
+        .levels(&levels)
+        .expected(1.0)
+        .within(0.2)
+        .floor(Floor::Rounding, 1e-9)
+        .finest(1e-3, "a penalty of 100 E/h adds a hundredth of a cell's compliance on both sides of the face, of forty cells")
+        .evidence(Evidence::ConvergedSelf, CONDENSED)
+        .because("normal traction and stiffness change in proportion to the compliance of springs in series")
+        .why_not_tighter("errors of steps of 1e-5 of the interval")
+        .covers(&[Capability::InterfaceStates])
+        .cost(&exact.cost)
+        .record();
+    ledger.picture(
+        "Mises stress after pressing",
+        drawn::recorded(&exact.record, "")?,
+        "The block of the case.",
+    );
+    Ok(())
+}
+
+/// Claims that intervals and stress drops are those of the fault.
+fn against(ledger: &mut Ledger, what: &str, (found, wanted, bound): (&[f64], &[f64], f64), done: &Done) {
+    ledger
+        .claim(format!("interval over that of the fault and stress drop likewise, multipliers, {what}"))
+        .values(&found.iter().zip(wanted).map(|(a, b)| a / b).collect::<Vec<f64>>())
+        .equals_each(&[1.0; 2])
+        .relative(bound)
+        .evidence(Evidence::ConvergedSelf, CONDENSED)
+        .because("the same elements without a penalty; the default bounds the error of friction of a step by 2e-6, of a drop of 0.3")
+        .why_not_tighter("steps of a rupture add up their errors where it begins and where it ends")
+        .covers(&[Capability::InterfaceStates, Capability::Events])
+        .cost(&done.cost)
+        .record();
+}
+
+/// Ruptures cross the face at 10 m/s of slip rate.
+fn ruptures(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let (interval, drop) = as_fault("0.5 um", "1.4e10", 3)?;
+    let scene = block_scene(MULTIPLIERS)
+        .with("interfaces.face.law.l", "0.5 um")
+        .with("stages[1].conditions[1].y.spring", "1.4e10")
+        .add("time.friction_tolerance", "1e-5");
+    let done = texts::simulate(&scene.text()?)?;
+    let (found, fell) = cycle(&done)?;
+    against(ledger, "ruptures cross it", (&[found, fell], &[interval, drop], 1e-3), &done);
+    Ok(())
+}
+
+/// Change of friction from one point of a curve to the next.
+const SEEN: f64 = 2e-3;
+
+/// Points of a curve of friction between which it changes enough to be seen.
+fn thinned(curve: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
+    let mut kept: Vec<(f64, f64)> = Vec::new();
+    for point in curve {
+        if kept.last().is_none_or(|last| (last.1 - point.1).abs() > SEEN) {
+            kept.push(point);
+        }
+    }
+    kept
+}
+
+/// The scene of the double direct shear test.
+fn direct(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let done = texts::simulate(DIRECT)?;
+    let all = events(&done)?;
+    let intervals: Vec<f64> = all.iter().skip(2).filter_map(|e| e.interval).collect();
+    let (least, most) = intervals.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), &t| (l.min(t), m.max(t)));
+    ledger
+        .claim("double direct shear: number of events, and the longest over the shortest interval after the first")
+        .values(&[all.len() as f64, most / least])
+        .equals_each(&[10.0, 1.0])
+        .absolute(1e-5)
+        .evidence(Evidence::ConvergedSelf, "a limit cycle: the same blocks under the same load")
+        .because("steps of one cycle and the next are all but the same, and so are their errors")
+        .why_not_tighter("where steps fall depends on the rounding of times")
+        .covers(&[Capability::InterfaceStates, Capability::Events])
+        .cost(&done.cost)
+        .record();
+    let springs: Vec<_> =
+        done.record.samples().iter().map(|s| s.springs.first().copied().flatten()).collect();
+    let histories = done.record.histories();
+    let friction = |k: usize| {
+        histories
+            .iter()
+            .map(|h| h.points.iter().map(|p| p.area[k] * p.shear_traction[k]).sum::<f64>().abs())
+            .sum::<f64>()
+    };
+    let off = springs
+        .iter()
+        .enumerate()
+        .filter_map(|(k, s)| Some((s.as_ref()?.force.abs() / friction(k) - 1.0).abs()));
+    ledger
+        .claim("double direct shear: largest difference of the load cell from the friction of both faces, relative")
+        .value(off.fold(0.0, f64::max))
+        .at_most(1e-8)
+        .evidence(Evidence::Exact, "balance of the middle block, which nothing else holds along y")
+        .because("Newton's method ends at 1e-11 of the largest force of a term, some 1e3 times that of the spring")
+        .why_not_tighter("tractions fall to a few per cent of the pressed ones after an event")
+        .covers(&[Capability::InterfaceStates])
+        .cost(&done.cost)
+        .record();
+    let curve = springs.iter().flatten().map(|s| (1e3 * s.load_point.abs(), s.friction));
+    let curve = thinned(curve);
+    ledger.plot(
+        Plot::xy("double direct shear", "displacement of the load point [mm]", "macroscopic friction [-]")
+            .series(Series::line("load cell over normal forces", &curve))
+            .caption("scenes/stick-slip.toml, ten events."),
+    );
+    Ok(())
+}
