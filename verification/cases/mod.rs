@@ -195,7 +195,6 @@ pub const ALL: &[Case] = &[
     frictional_bar::CASE,
     frictional_crack::CASE,
     frictional_heat::CASE,
-    frictional_heat::CASE,
     hertz_line::CASE,
     hertz_sphere::CASE,
     hertz_ball::CASE,

@@ -76,6 +76,8 @@ pub enum Steps {
 
 /// Largest number of steps.
 const MOST: usize = 1_000_000;
+/// Relative tolerance, of rounding.
+const ROUNDING: f64 = 1e-15;
 /// A tolerance that accepts every step.
 const ANY: f64 = 1e30;
 
@@ -98,7 +100,7 @@ pub fn heated(
     };
     let options = Options {
         method: Method::Tsit5,
-        rtol: 0.0,
+        rtol: ROUNDING,
         atol: vec![error],
         first_step: length,
         begin_stiff: false,
