@@ -151,7 +151,7 @@ mod tests {
             thresholds,
             stop_after: None,
             interfaces: vec![0],
-            points: vec![0..1],
+            points: std::iter::once(0..1).collect(),
             ground: Vec::new(),
         };
         let rate = |t: f64| 1e-6 * (if t <= 20.0 { t } else { 40.0 - t }).exp();
