@@ -2,10 +2,13 @@
 
 use super::usual::usual;
 use asperity_friction::each_evolution;
-use asperity_friction::evolution::{Common, Defined, Evolution, stateless::Stateless};
+use asperity_friction::evolution::{Common, Evolution, stateless::Stateless};
 use asperity_friction::law::{Drives, Lag, Law, Rated, Regime, Responses, Trials};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::strength::{Parameters, regularised::Regularised};
+
+/// A function of an increment, its derivative, and the increment.
+type Check<'f> = (&'f dyn Fn(f64) -> f64, f64, f64);
 
 const V_REF: f64 = 1e-6;
 const A: f64 = 0.01;
@@ -109,7 +112,7 @@ fn derivatives_with_damping_are_consistent() {
             let ([_, _, _, d_trial, d_normal], _) = respond(law.as_ref(), t);
             let by_trial = |h: f64| respond(law.as_ref(), Trial { trial: t.trial + h, ..t }).0[0];
             let by_normal = |h: f64| respond(law.as_ref(), Trial { normal: t.normal + h, ..t }).0[0];
-            let checks: [(&dyn Fn(f64) -> f64, f64, f64); 2] =
+            let checks: [Check<'_>; 2] =
                 [(&by_trial, d_trial, 0.005 * t.trial), (&by_normal, d_normal, 0.005 * t.normal)];
             for (f, derivative, h) in checks {
                 let remainder = |h: f64| (f(h) - f(-h) - 2.0 * h * derivative).abs();
