@@ -17,7 +17,7 @@ use crate::slip_weakening::SlipWeakening;
 use crate::static_kinetic::StaticKinetic;
 use crate::strength::Form;
 
-/// What drives a point over a step.
+/// Drive of a point over a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Push {
     /// f_n ≥ 0 \[Pa\].

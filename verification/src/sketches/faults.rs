@@ -27,6 +27,7 @@ pub(super) fn of(name: &str) -> Option<Sketch> {
         "event_numbers" => unlike(),
         "seas_bp6" => injection(),
         "frictional_heat" => zone(),
+        "dynamic_rupture" => rupture(),
         _ => return None,
     };
     Some(sketch)
@@ -46,6 +47,18 @@ fn strike_slip(length: &str, weak: &str, depth: &str) -> Sketch {
         .note((54.0, 13.0), "V_p = 1e−9 m/s")
         .dimension((34.0, 22.0), (34.0, 64.0), depth);
     if weak.is_empty() { sketch } else { sketch.dimension((45.0, 47.0), (45.0, 64.0), weak) }
+}
+
+/// A fault in the middle of rock with absorbing sides.
+fn rupture() -> Sketch {
+    Sketch::new(64.0)
+        .block((8.0, 6.0), (92.0, 58.0), "")
+        .fault(&[(20.0, 32.0), (80.0, 32.0)])
+        .guide(&[(8.0, 32.0), (92.0, 32.0)])
+        .text((50.0, 38.0), "hypocentre")
+        .text((50.0, 52.0), "absorbing sides")
+        .note((58.0, 24.0), "split nodes, 100 m apart")
+        .dimension((20.0, 14.0), (80.0, 14.0), "30 km, or W + w")
 }
 
 /// The zone that friction heats.

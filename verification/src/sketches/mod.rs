@@ -18,8 +18,9 @@ pub fn of(name: &str) -> Option<String> {
 #[cfg(test)]
 mod tests {
     /// Cases of many problems, or of files.
-    const WITHOUT: [&str; 7] = [
+    const WITHOUT: [&str; 8] = [
         "absence",
+        "elastic_waves",
         "event_files",
         "implicit_dynamics",
         "newton_convergence",

@@ -1,7 +1,7 @@
 //! Literature of the cases of the verification suite. A test of the suite compares it with their pages.
 
 /// Cases and the keys of their literature.
-const CASES: [(&str, &[&str]); 103] = [
+const CASES: [(&str, &[&str]); 104] = [
     ("absence", &["weidendorfer2004"]),
     ("antiplane", &["nehari1952", "strang1973", "timoshenko1970"]),
     ("block_dragged", &["codeaster"]),
@@ -91,6 +91,19 @@ const CASES: [(&str, &[&str]); 103] = [
     ("slider_cycles", &["luo2017", "rice1986"]),
     ("slider_inertia", &["hairer1996", "rice1986"]),
     ("slider_inertia_all", &["hairer1996", "rice1986"]),
+    (
+        "slider_laws",
+        &[
+            "dieterich1979",
+            "ruina1983",
+            "okubo1989",
+            "chester1994",
+            "perrin1995",
+            "rice2006",
+            "dunham2011",
+            "nagata2012",
+        ],
+    ),
     ("slider_normal", &["linker1992"]),
     ("slider_orbit", &["gu1984"]),
     ("slider_outputs", &["ruina1983", "gu1984", "nagata2012"]),

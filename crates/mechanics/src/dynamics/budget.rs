@@ -29,7 +29,7 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// What is missing in the balance \[J, or J/m of thickness\].
+    /// Energy missing in the balance \[J, or J/m of thickness\].
     #[must_use]
     pub fn missing(&self) -> f64 {
         let kept = self.kinetic + self.elastic + self.viscous;

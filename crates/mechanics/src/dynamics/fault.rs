@@ -92,7 +92,7 @@ pub(super) enum Unbalanced {
     Tension(Tension),
 }
 
-/// What the points of a fault are between: the special nodes of each, and the step.
+/// Surroundings of the points of a fault: the special nodes of each, and the step.
 pub(super) struct Between<'a> {
     pub nodes: &'a [Special],
     /// Accelerations without the change of tractions; the tractions add theirs \[m/s²\].
@@ -266,7 +266,7 @@ impl Fault {
         }
     }
 
-    /// What drives the points, and their trial tractions by components \[Pa\].
+    /// Drives of the points, and their trial tractions by components \[Pa\].
     fn pushes(&self, between: &Between<'_>, state: &FaultState, growth: &[f64]) -> (Vec<Push>, Vec<f64>) {
         let n = self.points.len();
         let reach = if self.law.has_elastic_domain() { between.kick } else { 0.5 * between.dt };

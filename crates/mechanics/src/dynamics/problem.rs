@@ -1,4 +1,4 @@
-//! What explicit dynamics computes.
+//! The problem that explicit dynamics computes.
 
 use super::{Dashpot, Fault};
 use crate::{Model, Stage};
