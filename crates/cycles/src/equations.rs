@@ -11,7 +11,7 @@
 
 use super::components::{Components, PerPoint};
 use super::floor::Floor;
-use super::heat::{Heat, Heated, Memory, Now, Surface};
+use super::heat::{Around, Heat, Heated, Memory, Now, Surface};
 use super::opening::{Crack, Opening};
 use super::operator::Operator;
 use super::pressure::Pressure;
@@ -55,6 +55,16 @@ pub struct Pressed {
 }
 
 impl Fault {
+    /// Parts that the heat of its points depends on.
+    fn around(&self) -> Around<'_> {
+        Around {
+            heat: self.heat.as_ref(),
+            law: self.law.as_ref(),
+            floor: self.floor.as_ref(),
+            damping: &self.damping,
+        }
+    }
+
     /// Computes the normal tractions of the points at a moment of a fault that is not heated, or at its start. The result does not depend on the previous `crack`.
     /// Where the set of open points does not converge, which makes the integration fail, the result is that of the last
     /// iterate.
@@ -288,7 +298,7 @@ impl<'a> Equations<'a> {
     pub(crate) fn remember(&mut self, memory: Option<Memory>, at: Clock, y: &[f64]) {
         if let Some(heat) = &self.fault.heat {
             let memory = memory.unwrap_or_else(|| Memory::new(heat, at, &y[self.layout.heat()]));
-            self.heated = Some(RefCell::new(Heated::new(self.fault, memory, heat.points())));
+            self.heated = Some(RefCell::new(Heated::new(self.fault.around(), memory, heat.points())));
         }
     }
 
@@ -300,7 +310,7 @@ impl<'a> Equations<'a> {
     /// Commits the heat of a step that ends at `at` in the state `y`.
     pub(crate) fn commit(&self, at: Clock, y: &[f64]) {
         if let Some(heated) = &self.heated {
-            heated.borrow_mut().commit(self.fault, at, &self.now(y));
+            heated.borrow_mut().commit(self.fault.around(), at, &self.now(y));
         }
     }
 
@@ -328,7 +338,7 @@ impl<'a> Equations<'a> {
     pub fn slip_rates(&self, at: Clock, y: &[f64], rate: &mut [f64]) {
         let mut heated = self.heated.as_ref().map(RefCell::borrow_mut);
         if let Some(heated) = &mut heated {
-            heated.feel(self.fault, at, &self.now(y));
+            heated.feel(self.fault.around(), at, &self.now(y));
         }
         law_of(self.fault, heated.as_deref()).slip_rates(
             0,
@@ -343,7 +353,7 @@ impl<'a> Equations<'a> {
     pub fn pressed(&self, at: Clock, y: &[f64], crack: &mut Crack) -> Pressed {
         let Some(heated) = &self.heated else { return self.fault.pressed(at, y, crack) };
         let mut heated = heated.borrow_mut();
-        heated.feel(self.fault, at, &self.now(y));
+        heated.feel(self.fault.around(), at, &self.now(y));
         self.fault.pressed_by(at, y, crack, heated.surface().clone())
     }
 
@@ -364,7 +374,13 @@ impl<'a> Equations<'a> {
                 all[l.normal().start + p] = tolerance * law.scale(p) * self.fault.normal[p];
             }
         }
-        for (k, heat) in self.fault.heat.iter().flat_map(|heat| heat.scales(self.fault)).enumerate() {
+        for (k, heat) in self
+            .fault
+            .heat
+            .iter()
+            .flat_map(|heat| heat.scales(self.fault.law.as_ref(), &self.fault.normal))
+            .enumerate()
+        {
             all[l.heat().start + k] = tolerance * heat;
         }
         all
@@ -446,8 +462,8 @@ impl Equations<'_> {
         let mut heated = self.heated.as_ref().map(RefCell::borrow_mut);
         let (m, states) = (&y[l.m()], &y[l.states()]);
         if let Some(heated) = &mut heated {
-            heated.feel(fault, at, &self.now(y));
-            heated.receive(fault, at, &self.now(y), &mut dy[l.heat()]);
+            heated.feel(fault.around(), at, &self.now(y));
+            heated.receive(fault.around(), at, &self.now(y), &mut dy[l.heat()]);
         }
         law_of(fault, heated.as_deref()).slip_rates(0, m, states, &mut scratch.rate);
         fault.operator.shear(&scratch.rate, &mut scratch.shear_rate);
@@ -469,7 +485,7 @@ impl Equations<'_> {
             }
         }
         if let Some(heated) = &mut heated {
-            heated.soften(fault, &scratch.rate, &mut scratch.shear_rate);
+            heated.soften(fault.around(), &scratch.rate, &mut scratch.shear_rate);
             let rises = &heated.surface().pressure_rate;
             scratch.normal_rate.iter_mut().zip(rises).for_each(|(rate, rise)| *rate -= rise);
         }

@@ -1,8 +1,8 @@
 //! Heated faults during an integration: what friction feels of the heat, and what it adds to it.
 
-use super::Heat;
+use super::around::Around;
 use super::memory::{Memory, Surface, Windows};
-use crate::equations::Fault;
+use super::zones::Heat;
 use asperity_friction::fault::FaultLaw;
 use asperity_ode::Clock;
 
@@ -22,7 +22,7 @@ pub(crate) struct Heated {
 
 impl Heated {
     /// Heat of a fault with this memory.
-    pub fn new(fault: &Fault, memory: Memory, heated: usize) -> Self {
+    pub fn new(fault: Around<'_>, memory: Memory, heated: usize) -> Self {
         Self {
             memory,
             windows: Windows::default(),
@@ -50,8 +50,8 @@ impl Heated {
 
     /// Computes temperatures and pressures and their rates at a time, and sets the law to these temperatures. `normal` is f_n
     /// without the pressure of heated fluid \[Pa\].
-    pub fn feel(&mut self, fault: &Fault, at: Clock, now: &Now<'_>) {
-        let Some(heat) = &fault.heat else { return };
+    pub fn feel(&mut self, fault: Around<'_>, at: Clock, now: &Now<'_>) {
+        let Some(heat) = fault.heat else { return };
         self.memory.open(heat, at, &mut self.windows);
         self.memory.values(heat, (now.received, None), &self.windows, &mut self.surface);
         self.warm(heat);
@@ -69,28 +69,28 @@ impl Heated {
     }
 
     /// Computes the heating `q = f_n a m·V`.
-    fn slip(&mut self, fault: &Fault, heat: &Heat, now: &Now<'_>) {
-        let law = self.law.as_deref().unwrap_or(fault.law.as_ref());
+    fn slip(&mut self, fault: Around<'_>, heat: &Heat, now: &Now<'_>) {
+        let law = self.law.as_deref().unwrap_or(fault.law);
         law.slip_rates(0, now.m, now.states, &mut self.rate);
         let n = law.points();
         for (q, p) in self.flux.iter_mut().zip(heat.heated()) {
             let work: f64 = (p..now.m.len()).step_by(n).map(|i| now.m[i] * self.rate[i]).sum();
-            let least = fault.floor.as_ref().map_or(f64::NEG_INFINITY, |floor| floor.at(p));
+            let least = fault.floor.map_or(f64::NEG_INFINITY, |floor| floor.at(p));
             *q = (now.normal[p] - self.surface.pressure[p]).max(least) * law.scale(p) * work;
         }
     }
 
     /// Writes the heating of the heated points, at the temperatures and pressures of [`Heated::feel`].
-    pub fn receive(&mut self, fault: &Fault, at: Clock, now: &Now<'_>, rates: &mut [f64]) {
-        let Some(heat) = &fault.heat else { return };
+    pub fn receive(&mut self, fault: Around<'_>, at: Clock, now: &Now<'_>, rates: &mut [f64]) {
+        let Some(heat) = fault.heat else { return };
         self.slip(fault, heat, now);
         self.memory.begin(at, &self.flux);
         rates.copy_from_slice(&self.flux);
     }
 
     /// Subtracts what damping takes of the driving traction as points become faster by heat, `η V (∂ln V/∂T) dT/dt`.
-    pub fn soften(&self, fault: &Fault, rate: &[f64], shear_rate: &mut [f64]) {
-        let (Some(heat), Some(law)) = (&fault.heat, &self.law) else { return };
+    pub fn soften(&self, fault: Around<'_>, rate: &[f64], shear_rate: &mut [f64]) {
+        let (Some(heat), Some(law)) = (fault.heat, &self.law) else { return };
         let n = fault.law.points();
         for p in heat.heated() {
             let faster = law.log_rate_by_temperature(p) * self.surface.temperature_rate[p];
@@ -101,9 +101,9 @@ impl Heated {
     }
 
     /// Commits a step that ends at `at`.
-    pub fn commit(&mut self, fault: &Fault, at: Clock, now: &Now<'_>) {
+    pub fn commit(&mut self, fault: Around<'_>, at: Clock, now: &Now<'_>) {
         self.feel(fault, at, now);
-        if let Some(heat) = &fault.heat {
+        if let Some(heat) = fault.heat {
             self.memory.commit(heat, at, now.received, &self.flux);
         }
     }

@@ -13,7 +13,7 @@
 //! of steps that are shorter than the time w²/α of diffusion over the zone, and of order 3 1/2 beyond.
 
 use super::modes::{Course, Window};
-use super::{Heat, Zone};
+use super::zones::{Heat, Zone};
 use asperity_ode::Clock;
 use serde::{Deserialize, Serialize};
 

@@ -17,7 +17,7 @@ pub struct InertiaSpec {
     pub tolerance: Option<Spanned<f64>>,
 }
 
-/// Whether bodies have inertia.
+/// Inertia of bodies, stated or with settings.
 #[derive(Clone, Debug)]
 pub enum Inertia {
     /// `true` or `false`.
