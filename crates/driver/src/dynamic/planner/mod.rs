@@ -1,5 +1,6 @@
 //! Plans a scene with the stepper "explicit".
 
+mod doubts;
 mod faults;
 mod masses;
 mod outputs;
@@ -66,6 +67,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         notes.extend(more);
         placed
     };
+    warnings.extend(doubts::check(scene, &placed, &stages[0], (counted.steps, counted.dt)));
     let resolution = of_faults::resolved(scene, &placed, &mut warnings)?;
     let (faults, points) = of_faults::views(scene, &Meshed { model: &model }, &placed, D == 3)?;
     let receivers = outputs::receivers(scene, &model)?;

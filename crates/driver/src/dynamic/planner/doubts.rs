@@ -1,0 +1,67 @@
+//! Settings of runs with waves that are probably not intended.
+
+use crate::fault::planner::Placed;
+use crate::scene::law::LawChoice;
+use crate::scene::model::{Fault as Spec, Scene};
+use crate::warning::Warning;
+use asperity_mechanics::Stage;
+
+/// Steps from which a run is taken for a slip of unit: a day at a thousand steps per second.
+const MANY: usize = 100_000_000;
+
+/// Share of the points of a fault that may start above their strength: a patch that nucleates is small.
+const MOST: f64 = 0.5;
+
+/// Warns of very many steps, of faults that slip as a whole at once, and of faults that nothing moves.
+pub(super) fn check<const D: usize>(
+    scene: &Scene,
+    placed: &[Placed<D>],
+    stage: &Stage,
+    (steps, dt): (usize, f64),
+) -> Vec<Warning> {
+    let mut all = Vec::new();
+    if steps > MANY {
+        all.push(Warning::at(
+            scene.stages[0].duration.span(),
+            format!("the stage takes {steps} steps of {dt:.3e} s"),
+            "steps follow waves: give a duration of seconds, or use the stepper \"fault-ode\"",
+        ));
+    }
+    let mut pushed = stage.is_loaded() || !stage.motions.is_empty() || stage.has_loads();
+    for (k, (name, spec)) in scene.faults.iter().enumerate() {
+        let own: Vec<&Placed<D>> = placed.iter().filter(|p| p.fault == k).collect();
+        let Some(above) = own.iter().map(|p| above(p)).sum::<Option<usize>>() else {
+            pushed = true;
+            continue;
+        };
+        pushed |= above > 0 || !spec.pulses.is_empty();
+        if above as f64 > MOST * own.len() as f64 {
+            all.push(at_once((name, spec), above, own.len()));
+        }
+    }
+    if let (false, Some((_, first))) = (pushed, scene.faults.first_key_value()) {
+        all.push(Warning::at(
+            first.law.span(),
+            "nothing moves the faults: no point starts above its strength, and nothing is imposed",
+            "`pulses`, or a patch of `shear` above `mu_s` times `normal`",
+        ));
+    }
+    all
+}
+
+fn at_once((name, spec): (&String, &Spec), above: usize, points: usize) -> Warning {
+    let place = spec.shear.as_ref().map_or_else(|| spec.law.span(), |s| s.span());
+    Warning::at(
+        place,
+        format!("{above} of {points} points of fault `{name}` start above their strength and slip at once"),
+        "a rupture spreads where `shear` is below `mu_s` times `normal` but in a patch",
+    )
+}
+
+/// One if a point starts above its strength; `None` for laws that slip at every traction. The first parameter of laws with an elastic
+/// domain is the coefficient at rest.
+fn above<const D: usize>(p: &Placed<D>) -> Option<usize> {
+    let LawChoice::Yielding { own, .. } = &p.law else { return None };
+    let strength = own.first()? * p.normal;
+    Some(usize::from(p.shear.unwrap_or_default().abs() > strength))
+}
