@@ -21,6 +21,8 @@ struct Collision {
     /// Mean velocities of both bars at the end \[m/s\].
     after: [f64; 2],
     missing: f64,
+    /// Largest overlap of the bars at the end of a step over the velocity times l/c \[-\].
+    overlap: f64,
 }
 
 fn collide() -> Result<Collision, CaseError> {
@@ -51,18 +53,20 @@ fn collide() -> Result<Collision, CaseError> {
     problem.velocity = (0..2 * half).flat_map(|n| [if n < half { VELOCITY } else { 0.0 }, 0.0]).collect();
     let full = 0.5 * BAR.density * BAR.pressure * VELOCITY;
     let mut history = Vec::new();
+    let mut overlap: f64 = 0.0;
     let mut last = run(&problem, |run| {
         history.push(((run.time() - run.dt()) / time, run.fault().normal[0] / full));
+        overlap = overlap.max(-run.fault().gap[0] / (VELOCITY * time));
     })?;
     let budget = last.budget();
     let mean = |v: &[f64]| v.iter().step_by(2).sum::<f64>() / half as f64;
     let after = [mean(&last.velocity()[..2 * half]), mean(&last.velocity()[2 * half..])];
-    Ok(Collision { history, after, missing: budget.missing().abs() / budget.largest() })
+    Ok(Collision { history, after, missing: budget.missing().abs() / budget.largest(), overlap })
 }
 
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (collision, cost) = Cost::of(collide);
-    let Collision { history, after, missing } = collision?;
+    let Collision { history, after, missing, overlap } = collision?;
     let step = history[1].0 - history[0].0;
     let impulse: f64 = history.iter().map(|(_, f)| f * step).sum();
     let last = history.iter().rev().find(|(_, f)| *f > 0.5).map_or(f64::NAN, |(t, _)| *t);
@@ -90,6 +94,13 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     claim("impact of two bars: impulse over rho l v", impulse / 2.0, 1.0, 0.01, FRONT);
     claim("impact of two bars: velocity of the first bar afterwards [m/s]", after[0], 0.0, 0.01, FRONT);
     claim("impact of two bars: velocity of the second bar afterwards [m/s]", after[1], 1.0, 0.01, FRONT);
+    claim(
+        "impact of two bars: largest overlap at the end of a step over v l/c",
+        overlap,
+        0.0,
+        1e-12,
+        "the traction closes the gap by the end of the step, but for rounding of displacements of v l/c",
+    );
     claim(
         "impact of two bars: missing energy over its largest part",
         missing,
