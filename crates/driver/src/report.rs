@@ -2,6 +2,7 @@
 
 pub mod common;
 mod energy;
+mod passages;
 pub mod schema;
 
 use crate::balance::InterfaceBalance;
@@ -21,6 +22,8 @@ use std::ops::Range;
 
 pub use common::{EnergyBalance, Kind, Outcome, Phases, Results, Status, Stop};
 pub use energy::{Budget, Closure};
+pub use passages::Passage;
+pub(crate) use passages::of as passages;
 
 /// Values of an interface at the end of a stage.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -154,6 +157,9 @@ pub struct RunReport {
     /// Energy budget at the end, if the bodies have inertia.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy: Option<Budget>,
+    /// Passages from equilibrium to inertia and back, if the stepper is "auto".
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub passages: Vec<Passage>,
     /// Work.
     pub counts: Counts,
     /// All steps.

@@ -311,6 +311,7 @@ impl<const D: usize> Running<'_, D> {
             events,
             balance,
             energy,
+            passages: report::passages(system.episodes()),
             ..RunReport::new(plan)
         };
         let counts = views::counts(work.steps.len(), work.rejected, &work.counts);
@@ -333,11 +334,12 @@ impl<const D: usize> Running<'_, D> {
         largest(rates) > LOADING * loading
     }
 
-    /// True if the law of an interface depends on slip rate or weakens, and nothing is radiated: steps then end at an
-    /// instability.
+    /// True if the law of an interface depends on slip rate or weakens, and neither radiation nor inertia bounds its rate: steps
+    /// then end at an instability.
     fn watches(&self) -> bool {
         let watched = |w: &Watch| w.rate.is_some() || w.course != Course::Steady;
-        self.plan.problem.interfaces.iter().any(|i| watched(&i.watch) && i.damping.is_none())
+        let problem = &self.plan.problem;
+        problem.mass.is_none() && problem.interfaces.iter().any(|i| watched(&i.watch) && i.damping.is_none())
     }
 
     /// True if an interface has a law that depends on slip rate. With other laws the rate is slip over step length, and the slip may stay finite for

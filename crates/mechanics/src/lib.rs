@@ -29,7 +29,7 @@ pub use cell_size::cell_size;
 pub use choices::{Control, Path, Stepping};
 pub use counts::Counts;
 pub use enforced::Enforced;
-pub use inertia::{Energy, Mass};
+pub use inertia::{Energy, Episode, Handover, Mass};
 pub use interface::{Measure, PlannedInterface, interface_nodes};
 pub use model::{Body, CellBlock, Model, bounds};
 pub use pressed::Pressed;

@@ -205,7 +205,7 @@ pub struct Samples {
 }
 
 /// Energy budget of bodies with inertia since the start \[J, or J/m of thickness\]:
-/// `kinetic + strain + contact + plastic + viscous + friction + numerical + missing = start + loads + motions`.
+/// `kinetic + strain + contact + springs + plastic + viscous + friction + numerical + handover + missing = start + loads + motions`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct EnergyParts {
     /// Kinetic energy.
@@ -214,6 +214,8 @@ pub struct EnergyParts {
     pub strain: f64,
     /// Elastic energy of the penalties of the interfaces.
     pub contact: f64,
+    /// Elastic energy of the springs of load points.
+    pub springs: f64,
     /// Energy dissipated by plastic flow.
     pub plastic: f64,
     /// Energy dissipated by viscous flow.
@@ -222,11 +224,13 @@ pub struct EnergyParts {
     pub friction: f64,
     /// Energy dissipated by the time integration.
     pub numerical: f64,
+    /// Energy lost where bodies gain and lose their inertia.
+    pub handover: f64,
     /// Energy at the start.
     pub start: f64,
     /// Work of loads.
     pub loads: f64,
-    /// Work of prescribed motions.
+    /// Work of prescribed motions and of load points.
     pub motions: f64,
     /// Energy by which the budget does not close.
     pub missing: f64,
@@ -235,15 +239,17 @@ pub struct EnergyParts {
 impl EnergyParts {
     /// Names and values of the parts, in the order of the columns of files.
     #[must_use]
-    pub fn named(&self) -> [(&'static str, f64); 11] {
+    pub fn named(&self) -> [(&'static str, f64); 13] {
         [
             ("kinetic", self.kinetic),
             ("strain", self.strain),
             ("contact", self.contact),
+            ("springs", self.springs),
             ("plastic", self.plastic),
             ("viscous", self.viscous),
             ("friction", self.friction),
             ("numerical", self.numerical),
+            ("handover", self.handover),
             ("start", self.start),
             ("loads", self.loads),
             ("motions", self.motions),

@@ -83,10 +83,15 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Settings of inertia; `None` if the bodies move through states of equilibrium.
+    /// Settings of inertia; `None` if the bodies move through states of equilibrium alone.
     #[must_use]
     pub fn inertia(&self) -> Option<InertiaSpec> {
-        self.time.inertia.as_ref().and_then(|inertia| inertia.get_ref().settings())
+        let given = self.time.inertia.as_ref().and_then(|inertia| inertia.get_ref().settings());
+        if *self.time.stepper.get_ref() == Stepper::Auto {
+            given.or_else(|| Some(InertiaSpec::default()))
+        } else {
+            given
+        }
     }
 
     /// The body to which a set `body.side` belongs.
@@ -375,7 +380,8 @@ pub enum Loading {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "snake_case")]
 pub struct TimeControl {
-    /// Stepper: `"implicit"`, `"static-explicit"`, for faults `"fault-ode"`, and with inertia `"explicit"`.
+    /// Stepper: `"implicit"`, `"static-explicit"`, for faults `"fault-ode"`, with inertia `"explicit"`, and `"auto"`: with
+    /// inertia while surfaces slip fast.
     pub stepper: Spanned<Stepper>,
     /// Both: rule for the slip rate, `"bdf2"` or `"backward-euler"`.
     #[serde(default)]
@@ -389,6 +395,8 @@ pub struct TimeControl {
     pub friction_tolerance: Option<Spanned<f64>>,
     /// Implicit: `true`, or `{ spectral_radius = .., tolerance = .. }`: the bodies have mass; default `false`.
     pub inertia: Option<Spanned<Inertia>>,
+    /// Auto: slip rates between which bodies pass from equilibrium to inertia and back.
+    pub handover: Option<Spanned<HandoverSpec>>,
     /// Both: first step; default 1/1000 of the stage \[s\].
     pub first_step: Option<Spanned<Time>>,
     /// Both: largest step; default 1/20 of the stage \[s\].
@@ -428,6 +436,8 @@ pub enum Stepper {
     FaultOde,
     /// Central differences of bodies with mass, whose faults radiate waves.
     Explicit,
+    /// Through states of equilibrium while surfaces slip slowly, with inertia while they slip fast.
+    Auto,
 }
 
 /// Rules of the implicit stepper for the slip rate.

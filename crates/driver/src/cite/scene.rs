@@ -198,7 +198,7 @@ fn add_steps(citations: &mut Citations, scene: &Scene) {
             }
         }
         Stepper::Explicit => add_waves(citations, scene),
-        Stepper::Implicit => {}
+        Stepper::Implicit | Stepper::Auto => {}
     }
     if scene.inertia().is_some() {
         citations.add("chung1993", "inertia by the generalised-alpha method");

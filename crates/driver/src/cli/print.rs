@@ -1,7 +1,7 @@
 //! Output of the commands on standard output.
 
 use super::read::Planned;
-use crate::report::RunReport;
+use crate::report::{Passage, RunReport};
 use asperity_output::decimals::fixed;
 use asperity_output::printing::out;
 
@@ -52,6 +52,17 @@ pub(super) fn results(report: &RunReport) {
     }
     if let Some(energy) = &report.energy {
         out(format_args!("  energy budget closes to {:.1e} of its largest part\n", energy.imbalance));
+    }
+    if !report.passages.is_empty() {
+        let most = |of: fn(&Passage) -> f64| report.passages.iter().map(of).fold(0.0, f64::max);
+        out(format_args!(
+            "  inertia acted {} times in {} steps; equilibrium left out up to {:.1e} of the largest force before, and {:.1e} of the largest \
+             kinetic energy was lost after\n",
+            report.passages.len(),
+            report.passages.iter().map(|p| p.steps).sum::<usize>(),
+            most(|p| p.left_out),
+            most(|p| p.lost.abs()),
+        ));
     }
     let c = &report.counts;
     out(format_args!(

@@ -12,7 +12,7 @@ use crate::initial_stress;
 use crate::loading::{self, Stage};
 use crate::model::{self, sizes};
 use crate::scene::model::{Scene, Stepper};
-use asperity_mechanics::Problem;
+use asperity_mechanics::{Mass, Problem};
 
 /// Plan of a scene with bodies, by kind.
 #[derive(Debug)]
@@ -63,9 +63,11 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         .collect::<Result<Vec<_>, _>>()?;
     let path = path::choose(scene, &model, (&interfaces, &stages))?;
     let control = stepping::control(scene, &stages);
-    let mass = inertia::of(scene, &model)?;
+    let mass = inertia::of(scene, &model, loading)?;
     let mut remarks = match mass {
         None => restraint::check(scene, &model, &stages, &interfaces)?,
+        // Without inertia for the time being, bodies must be held.
+        Some(Mass { handover: Some(_), .. }) => restraint::check(scene, &model, &stages, &interfaces)?,
         // Mass alone resists the motion of bodies that nothing holds.
         Some(_) => Vec::new(),
     };

@@ -34,7 +34,7 @@ pub fn choose(scene: &Scene) -> Result<Stepping, Diagnostic> {
         Rule::Bdf2 => TimeRule::Bdf2,
     };
     Ok(match time.stepper.get_ref() {
-        Stepper::Implicit => {
+        Stepper::Implicit | Stepper::Auto => {
             let bounds = RateBounds { zeta: f64::INFINITY, log_rate: f64::INFINITY };
             Stepping { rule, bounds, drift: None }
         }
@@ -78,7 +78,7 @@ pub fn control(scene: &Scene, stages: &[Stage]) -> Control {
     let time = &scene.time;
     let travel = stages.iter().map(|s| s.largest_rate() * (s.end - s.start)).fold(0.0, f64::max);
     // Without motion there is no displacement to compare slip with; static-explicit steps use the R-minimum rule.
-    let adapts = travel > 0.0 && *time.stepper.get_ref() == Stepper::Implicit;
+    let adapts = travel > 0.0 && matches!(time.stepper.get_ref(), Stepper::Implicit | Stepper::Auto);
     let usual = if adapts { SLIP_TOLERANCE * travel } else { f64::INFINITY };
     // Without a state variable errors of friction do not persist, so the error as points begin to slip one by one need not be small.
     let accuracy = if evolves(scene) { FRICTION_TOLERANCE } else { f64::INFINITY };

@@ -94,6 +94,18 @@ impl Summary {
         let radius = mass.radius;
         self.physics
             .push(format!("inertia of all bodies, generalised-alpha method with spectral radius {radius:?}"));
+        if let Some(h) = &mass.handover {
+            let kinetic = if h.kinetic < 1.0 {
+                format!(", and the kinetic energy has fallen to {:e} of its largest", h.kinetic)
+            } else {
+                String::new()
+            };
+            self.physics.push(format!(
+                "inertia acts from a slip rate of {:e} m/s on, until rates have stayed below {:e} m/s for {:.2e} s, while a shear wave \
+                 crosses the bodies and returns{kinetic}",
+                h.above, h.below, h.wait
+            ));
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Energy budget of bodies with mass.
 
-use crate::{CellBlock, PlannedInterface};
+use crate::{CellBlock, PlannedInterface, SpringNow};
 use asperity_contact::{Interface, PointFields};
 use asperity_fem::dof::Channel;
 use serde::{Deserialize, Serialize};
@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// Energy budget since the start \[J, or J/m of thickness in plane strain and antiplane motion\]:
 ///
 /// ```text
-/// kinetic + strain + contact + plastic + viscous + friction + numerical = start + loads + motions
+/// kinetic + strain + contact + springs + plastic + viscous + friction + numerical + handover = start + loads + motions
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energy {
@@ -18,6 +18,8 @@ pub struct Energy {
     pub strain: f64,
     /// Elastic energy of the penalties of the interfaces.
     pub contact: f64,
+    /// Elastic energy of the springs of load points.
+    pub springs: f64,
     /// Energy dissipated by plastic flow.
     pub plastic: f64,
     /// Energy dissipated by viscous flow.
@@ -26,11 +28,13 @@ pub struct Energy {
     pub friction: f64,
     /// Energy dissipated by the time integration.
     pub numerical: f64,
+    /// Energy lost where bodies gain and lose their inertia.
+    pub handover: f64,
     /// Kinetic and elastic energy at the start.
     pub start: f64,
     /// Work of loads, weight and the initial stress of linear bodies.
     pub loads: f64,
-    /// Work of prescribed motions.
+    /// Work of prescribed motions and of load points.
     pub motions: f64,
 }
 
@@ -38,17 +42,18 @@ impl Energy {
     /// Energy that is missing: right side minus left side.
     #[must_use]
     pub fn missing(&self) -> f64 {
-        let stored = self.kinetic + self.strain + self.contact;
-        let lost = self.plastic + self.viscous + self.friction + self.numerical;
+        let stored = self.kinetic + self.strain + self.contact + self.springs;
+        let lost = self.plastic + self.viscous + self.friction + self.numerical + self.handover;
         self.start + self.loads + self.motions - stored - lost
     }
 
     /// Largest part.
     #[must_use]
     pub fn largest(&self) -> f64 {
-        let stored = [self.kinetic, self.strain, self.contact, self.start, self.loads, self.motions];
-        let lost = [self.plastic, self.viscous, self.friction, self.numerical];
-        stored.into_iter().chain(lost).fold(0.0, |most, part| most.max(part.abs()))
+        let stored = [self.kinetic, self.strain, self.contact, self.springs];
+        let lost = [self.plastic, self.viscous, self.friction, self.numerical, self.handover];
+        let given = [self.start, self.loads, self.motions];
+        stored.into_iter().chain(lost).chain(given).fold(0.0, |most, part| most.max(part.abs()))
     }
 }
 
@@ -112,6 +117,19 @@ pub fn by_friction<const D: usize>(before: &Shears<D>, interfaces: &[Interface<D
         (0..f.area.len()).map(point).sum()
     };
     before.iter().zip(interfaces.iter().map(Interface::points)).map(of).sum()
+}
+
+/// Elastic energy of springs \[J\].
+#[must_use]
+pub fn of_springs(springs: &[SpringNow]) -> f64 {
+    springs.iter().map(|s| s.energy).sum()
+}
+
+/// Work of load points over a step: the mean of the forces before and after times their displacement \[J\].
+#[must_use]
+pub fn by_load_points(before: &[SpringNow], after: &[SpringNow]) -> f64 {
+    let work = |(a, b): (&SpringNow, &SpringNow)| 0.5 * (a.force + b.force) * (b.load_point - a.load_point);
+    before.iter().zip(after).map(work).sum()
 }
 
 /// Work of loads over a step from `time - dt` to `time` by the trapezoidal rule, with the displacement `moved` \[J\].

@@ -1,21 +1,24 @@
 //! Bodies with mass: inertia as a term, and the energy budget. A problem without inertia has neither.
 
 mod energy;
+mod episode;
 mod given;
 mod scheme;
 mod term;
 
 pub use energy::Energy;
+pub use episode::{Episode, Handover};
 
-use crate::{CellBlock, Model, PlannedInterface};
+use crate::{CellBlock, Model, PlannedInterface, SpringNow};
 use asperity_contact::Interface;
 use asperity_fem::FemError;
 use asperity_fem::dof::{Channel, Constraints};
 use asperity_fem::mass;
 use asperity_fem::term::Limited;
 use energy::Shears;
+use episode::Course;
 use serde::{Deserialize, Serialize};
-use term::Inertia;
+use term::{Inertia, TermState};
 
 /// Inertia of a problem.
 #[derive(Clone, Debug)]
@@ -29,14 +32,16 @@ pub struct Mass {
     /// Bound on the estimated error of displacement in a step, over the displacement of a step at the largest kinetic energy
     /// \[-\].
     pub tolerance: f64,
+    /// Slip rates between which bodies gain and lose their inertia; `None` if they always have it.
+    pub handover: Option<Handover>,
 }
 
 /// State of inertia between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MassState {
-    /// Velocities, accelerations and forces, one after another.
-    motion: Vec<f64>,
-    fastest: f64,
+    term: TermState,
+    course: Course,
+    episodes: Vec<Episode>,
     energy: Energy,
     viscous_rate: f64,
     phase: Phase,
@@ -61,6 +66,8 @@ pub struct View<'a, const D: usize> {
     pub planned: &'a [PlannedInterface],
     /// Interfaces in their present state.
     pub interfaces: &'a [Interface<D>],
+    /// Springs of load points.
+    pub springs: &'a [SpringNow],
     /// Displacement \[m\].
     pub u: &'a [f64],
     /// Time \[s\].
@@ -76,6 +83,12 @@ pub struct Moving<const D: usize> {
     loads: Vec<Channel>,
     /// Shear tractions before the step.
     shears: Shears<D>,
+    /// Springs before the step.
+    springs: Vec<SpringNow>,
+    handover: Option<Handover>,
+    course: Course,
+    /// Passages with inertia so far, the present one last.
+    episodes: Vec<Episode>,
     /// Rate of viscous dissipation at the last accepted state \[W\].
     viscous_rate: f64,
     phase: Phase,
@@ -86,8 +99,16 @@ impl<const D: usize> Moving<D> {
     #[must_use]
     pub fn new(model: &Model<D>, given: &Mass) -> Self {
         let mass = mass::consistent(&model.mesh, &given.density, model.idealisation);
+        let mut term = Inertia::new(mass, given.radius, given.velocity.clone());
+        if given.handover.is_some() {
+            term.rest();
+        }
         Self {
-            term: Inertia::new(mass, given.radius, given.velocity.clone()),
+            term,
+            springs: Vec::new(),
+            handover: given.handover,
+            course: Course::first(given.handover.as_ref()),
+            episodes: Vec::new(),
             energy: Energy::default(),
             loads: Vec::new(),
             shears: Vec::new(),
@@ -101,10 +122,10 @@ impl<const D: usize> Moving<D> {
         &mut self.term
     }
 
-    /// Applies the conditions of a stage. It begins with its first step.
-    pub fn begin_stage(&mut self, constraints: &Constraints) {
+    /// Applies the conditions of a stage, with the sets of degrees of freedom that move as one. It begins with its first step.
+    pub fn begin_stage(&mut self, constraints: &Constraints, groups: Vec<Vec<usize>>) {
         self.loads = constraints.channels.iter().filter(|c| !c.forces.is_empty()).cloned().collect();
-        self.term.set_constraints(constraints.clone());
+        self.term.set_constraints(constraints.clone(), groups);
         if self.phase == Phase::Within {
             self.phase = Phase::Between;
         }
@@ -128,21 +149,26 @@ impl<const D: usize> Moving<D> {
         if self.phase == Phase::First {
             let [strain, plastic] = energy::of_bodies(at.blocks, at.u);
             let kinetic = self.term.kinetic();
-            let start = kinetic + strain + contact;
-            self.energy = Energy { kinetic, strain, contact, plastic, start, ..Energy::default() };
+            let springs = energy::of_springs(at.springs);
+            let start = kinetic + strain + contact + springs;
+            self.energy = Energy { kinetic, strain, contact, springs, plastic, start, ..Energy::default() };
         } else {
             self.energy.motions += change;
             self.energy.kinetic += change;
             self.energy.friction += self.energy.contact - contact;
             self.energy.contact = contact;
+            // New springs are stretched by what held their sets.
+            let springs = energy::of_springs(at.springs);
+            self.energy.motions += springs - self.energy.springs;
+            self.energy.springs = springs;
         }
         self.phase = Phase::Within;
         Ok(())
     }
 
     /// Keeps what the budget needs of the state before a step.
-    pub fn note(&mut self, interfaces: &[Interface<D>]) {
-        self.shears = energy::shears(interfaces);
+    pub fn note(&mut self, interfaces: &[Interface<D>], springs: Vec<SpringNow>) {
+        (self.shears, self.springs) = (energy::shears(interfaces), springs);
     }
 
     /// Adds an accepted step of length `dt` to the budget; `total` is the residual of the whole system.
@@ -156,9 +182,61 @@ impl<const D: usize> Moving<D> {
         energy.viscous += 0.5 * dt * (self.viscous_rate + viscous_rate);
         energy.friction += energy::by_friction(&self.shears, at.interfaces);
         energy.numerical += works.numerical;
-        energy.motions += works.motions;
+        energy.handover -= works.unbalanced;
+        energy.motions += works.motions + energy::by_load_points(&self.springs, at.springs);
+        energy.springs = energy::of_springs(at.springs);
         energy.loads += energy::by_loads(&self.loads, (at.time, dt), self.term.moved());
         self.viscous_rate = viscous_rate;
+        match (self.episodes.last_mut(), self.course) {
+            // Forces are out of balance where the first step to a state of equilibrium begins.
+            (Some(episode), Course::Equilibrium) => episode.lost -= works.unbalanced,
+            (Some(episode), Course::Inertia { .. }) => {
+                episode.steps += 1;
+                episode.largest = self.term.fastest();
+            }
+            _ => {}
+        }
+    }
+
+    /// Gives bodies inertia, or takes it from them, after a step that ended at `time` with this largest slip rate \[m/s\]. Returns
+    /// true if it did.
+    pub fn hand_over(&mut self, time: f64, rate: f64) -> bool {
+        let Some(rule) = &self.handover else { return false };
+        let share = self.term.kinetic() / self.term.fastest();
+        let next = self.course.next(rule, time, rate, share);
+        let before = std::mem::replace(&mut self.course, next);
+        match (before, next) {
+            (Course::Equilibrium, Course::Inertia { .. }) => {
+                let left_out = self.term.wake(time) / self.term.largest_held();
+                let kinetic = self.term.kinetic();
+                self.energy.kinetic = kinetic;
+                self.energy.handover -= kinetic;
+                self.episodes.push(Episode { begin: time, left_out, ..Episode::default() });
+                true
+            }
+            (Course::Inertia { .. }, Course::Equilibrium) => {
+                let lost = self.term.rest();
+                self.energy.kinetic = 0.0;
+                self.energy.handover += lost;
+                if let Some(episode) = self.episodes.last_mut() {
+                    (episode.end, episode.lost) = (Some(time), lost);
+                }
+                true
+            }
+            _ => false,
+        }
+    }
+
+    /// Passages with inertia so far.
+    #[must_use]
+    pub fn episodes(&self) -> &[Episode] {
+        &self.episodes
+    }
+
+    /// Force that holds each degree of freedom at the last accepted state \[N, or N/m of thickness\].
+    #[must_use]
+    pub fn reactions(&self) -> Vec<f64> {
+        self.term.reactions()
     }
 
     /// Energy budget at the last accepted state.
@@ -193,14 +271,15 @@ impl<const D: usize> Moving<D> {
     /// State between two steps.
     #[must_use]
     pub fn save(&self) -> MassState {
-        let (motion, fastest) = self.term.save();
-        let Self { energy, viscous_rate, phase, .. } = *self;
-        MassState { motion, fastest, energy, viscous_rate, phase }
+        let Self { energy, viscous_rate, phase, course, .. } = *self;
+        let (term, episodes) = (self.term.save(), self.episodes.clone());
+        MassState { term, course, episodes, energy, viscous_rate, phase }
     }
 
     /// Restores a saved state with the displacements `u`. Returns false if it does not fit.
     pub fn restore(&mut self, saved: &MassState, u: &[f64]) -> bool {
         (self.energy, self.viscous_rate, self.phase) = (saved.energy, saved.viscous_rate, saved.phase);
-        self.term.restore((&saved.motion, saved.fastest), u)
+        (self.course, self.episodes) = (saved.course, saved.episodes.clone());
+        self.term.restore(&saved.term, u)
     }
 }

@@ -22,6 +22,7 @@ use asperity_fem::assembly::{Storage, Symmetry, System};
 use asperity_fem::dof::Constraints;
 use asperity_fem::mass::Mass;
 use asperity_fem::term::{Instant, Limited, Linearized, Objection, Pattern, Refusal, Term};
+use serde::{Deserialize, Serialize};
 
 /// Displacement \[m\], velocity \[m/s\] and acceleration \[m/s²\] of all degrees of freedom.
 #[derive(Clone, Debug, Default)]
@@ -31,6 +32,16 @@ pub struct Motion {
     pub a: Vec<f64>,
 }
 
+/// State of inertia between two steps.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TermState {
+    /// Velocities, accelerations and forces of the other terms, one after another.
+    motion: Vec<f64>,
+    fastest: f64,
+    resting: bool,
+    pace: Option<(Vec<f64>, f64)>,
+}
+
 /// Works of a step that the term knows \[J\].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Works {
@@ -38,6 +49,8 @@ pub struct Works {
     pub numerical: f64,
     /// Work of prescribed motions.
     pub motions: f64,
+    /// Work that forces out of balance do in a step between states of equilibrium, at its start.
+    pub unbalanced: f64,
 }
 
 /// Inertia of all bodies.
@@ -47,6 +60,12 @@ pub struct Inertia {
     scheme: Scheme,
     /// Conditions of the present stage.
     constraints: Constraints,
+    /// Sets of degrees of freedom that move as one in the present stage.
+    groups: Vec<Vec<usize>>,
+    /// True while bodies pass through states of equilibrium.
+    resting: bool,
+    /// Mean velocities \[m/s\] and length \[s\] of the last step between states of equilibrium.
+    pace: Option<(Vec<f64>, f64)>,
     now: Motion,
     next: Motion,
     /// r_n: forces of all other terms at the last accepted state \[N\].
@@ -79,6 +98,9 @@ impl Inertia {
             mass,
             scheme: Scheme::of_radius(radius),
             constraints: Constraints::default(),
+            groups: Vec::new(),
+            resting: false,
+            pace: None,
             next: now.clone(),
             now,
             held: zero.clone(),
@@ -93,9 +115,48 @@ impl Inertia {
         }
     }
 
-    /// Sets the conditions of a stage.
-    pub fn set_constraints(&mut self, constraints: Constraints) {
-        self.constraints = constraints;
+    /// Sets the conditions of a stage, with the sets of degrees of freedom that move as one.
+    pub fn set_constraints(&mut self, constraints: Constraints, groups: Vec<Vec<usize>>) {
+        (self.constraints, self.groups) = (constraints, groups);
+    }
+
+    /// Takes inertia from the bodies: from now on they pass through states of equilibrium. Returns the kinetic energy that is
+    /// lost \[J\].
+    pub fn rest(&mut self) -> f64 {
+        let lost = self.kinetic();
+        (self.resting, self.pace) = (true, None);
+        lost
+    }
+
+    /// Gives bodies inertia at `time`. They begin with the velocities at which they passed through states of equilibrium,
+    /// extrapolated from the last two steps, and without acceleration, since the forces are in balance. Returns the largest
+    /// force of inertia that these states leave out \[N\].
+    pub fn wake(&mut self, time: f64) -> f64 {
+        let left_out = self.mass.times(&self.now.a).into_iter().fold(0.0, |most: f64, f| most.max(f.abs()));
+        self.resting = false;
+        self.now.a.fill(0.0);
+        given::rates(&self.constraints, (time, time), &mut self.now.v, &mut self.now.a);
+        self.fastest = self.kinetic();
+        self.reject();
+        left_out
+    }
+
+    /// Largest of the forces of all other terms at the accepted state \[N\].
+    #[must_use]
+    pub fn largest_held(&self) -> f64 {
+        self.held.iter().fold(0.0, |most, f| most.max(f.abs()))
+    }
+
+    /// Force that holds each degree of freedom at the accepted state \[N\].
+    #[must_use]
+    pub fn reactions(&self) -> Vec<f64> {
+        self.held.iter().zip(self.forces()).map(|(r, i)| r + i).collect()
+    }
+
+    /// Largest kinetic energy since bodies have inertia \[J\].
+    #[must_use]
+    pub fn fastest(&self) -> f64 {
+        self.fastest
     }
 
     /// Sets the largest error with which a step is accepted \[-\].
@@ -110,9 +171,14 @@ impl Inertia {
     /// # Errors
     /// If the mass matrix cannot be factored.
     pub fn start(&mut self, r: Vec<f64>, u: &[f64], time: f64) -> Result<f64, FemError> {
+        if self.resting {
+            (self.held, self.pace) = (r, None);
+            return Ok(0.0);
+        }
         let before = self.kinetic();
         self.now.u.copy_from_slice(u);
         given::rates(&self.constraints, (time, time), &mut self.now.v, &mut self.now.a);
+        self.join();
         self.balance(&r)?;
         self.held = r;
         self.fastest = self.fastest.max(self.kinetic());
@@ -120,24 +186,43 @@ impl Inertia {
         Ok(self.kinetic() - before)
     }
 
+    /// Gives each set that moves as one the velocity of its momentum.
+    fn join(&mut self) {
+        let momentum = self.mass.times(&self.now.v);
+        for group in &self.groups {
+            let mut together = vec![0.0; self.now.v.len()];
+            group.iter().for_each(|&dof| together[dof] = 1.0);
+            let mass = self.mass.product(&together, &together);
+            let others: Vec<f64> = self.now.v.iter().zip(&together).map(|(v, one)| v * (1.0 - one)).collect();
+            let own =
+                group.iter().map(|&dof| momentum[dof]).sum::<f64>() - self.mass.product(&together, &others);
+            group.iter().for_each(|&dof| self.now.v[dof] = own / mass);
+        }
+    }
+
     /// Solves `M a = -r` for the accelerations of the free degrees of freedom.
     fn balance(&mut self, r: &[f64]) -> Result<(), FemError> {
-        let equations = self.constraints.equations(r.len());
-        let free = equations.free.clone();
+        let equations =
+            self.constraints.equations(r.len()).with_groups(self.groups.iter().map(Vec::as_slice));
         let mut system = System::new(equations, Storage::Sparse).with_symmetry(Symmetry::Positive);
         let mut matrix = Matrix(&self.mass);
         system.factor_tangent(&mut [&mut matrix])?;
-        free.iter().for_each(|&dof| self.now.a[dof] = 0.0);
+        let zero = vec![0.0; system.equations().free.len()];
+        system.equations().spread(&zero, &mut self.now.a);
         let coupled = self.mass.times(&self.now.a);
-        let mut rhs: Vec<f64> = free.iter().map(|&dof| -r[dof] - coupled[dof]).collect();
+        let forces: Vec<f64> = r.iter().zip(coupled).map(|(r, m)| -r - m).collect();
+        let mut rhs = system.equations().gather(&forces);
         system.solve(&mut rhs)?;
-        free.iter().zip(rhs).for_each(|(&dof, a)| self.now.a[dof] = a);
+        system.equations().spread(&rhs, &mut self.now.a);
         Ok(())
     }
 
     /// Kinetic energy of the accepted state \[J, or J/m of thickness\].
     #[must_use]
     pub fn kinetic(&self) -> f64 {
+        if self.resting {
+            return 0.0;
+        }
         0.5 * self.mass.product(&self.now.v, &self.now.v)
     }
 
@@ -153,16 +238,19 @@ impl Inertia {
         &self.now.v
     }
 
-    /// M a at the accepted state \[N\].
+    /// M a at the accepted state, zero in equilibrium \[N\].
     #[must_use]
     pub fn forces(&self) -> Vec<f64> {
-        self.mass.times(&self.now.a)
+        if self.resting { vec![0.0; self.held.len()] } else { self.mass.times(&self.now.a) }
     }
 
     /// Estimated error of displacement in the step evaluated last, over the displacement of a step at the largest kinetic energy
     /// so far, both in the norm of the mass \[-\].
     #[must_use]
     pub fn share(&self) -> f64 {
+        if self.resting {
+            return 0.0;
+        }
         self.error_between(&self.now, &self.next)
     }
 
@@ -186,6 +274,9 @@ impl Inertia {
     /// The second part is the work of the other terms by the trapezoidal rule. What the first and the last exceed the change of
     /// kinetic energy by is the dissipation of the method.
     pub fn settle(&mut self, total: &[f64]) -> Works {
+        if self.resting {
+            return self.settle_at_rest(total);
+        }
         let force = self.scheme.force;
         let (mut numerical, mut motions) = (self.works.numerical, self.works.motions);
         for (k, du) in self.moved.iter().enumerate() {
@@ -197,7 +288,30 @@ impl Inertia {
         for ((held, total), own) in self.held.iter_mut().zip(total).zip(&self.own) {
             *held = total - own;
         }
-        Works { numerical, motions }
+        Works { numerical, motions, unbalanced: 0.0 }
+    }
+
+    /// Takes the residual of the whole system in a new state of equilibrium, and returns the works of the step to it.
+    fn settle_at_rest(&mut self, total: &[f64]) -> Works {
+        let mut works = Works::default();
+        let mean = |k: usize| 0.5 * self.moved[k] * (self.held[k] + total[k]);
+        works.unbalanced = (0..total.len()).map(mean).sum();
+        works.motions = self.constraints.fixed.iter().map(|&dof| mean(dof)).sum();
+        works.unbalanced -= works.motions;
+        self.held.copy_from_slice(total);
+        works
+    }
+
+    /// Takes the mean velocity of a step between states of equilibrium, and estimates velocities and accelerations at its end.
+    fn take_pace(&mut self) {
+        let dt = self.dt;
+        let mean: Vec<f64> = self.moved.iter().map(|du| du / dt).collect();
+        for (k, now) in mean.iter().enumerate() {
+            self.now.a[k] =
+                self.pace.as_ref().map_or(0.0, |(before, last)| 2.0 * (now - before[k]) / (dt + last));
+            self.now.v[k] = now + 0.5 * dt * self.now.a[k];
+        }
+        self.pace = Some((mean, dt));
     }
 
     /// Motion at the end of a step to `u`: Newmark's formulas at free, the prescribed motion at other degrees of freedom.
@@ -240,27 +354,29 @@ impl Inertia {
         }
         let jump = |&dof: &usize| (next.v[dof] - now.v[dof] - self.dt * self.given[dof]) * momentum[dof];
         let impulse: f64 = self.constraints.fixed.iter().map(jump).sum();
-        Works { numerical: work - kinetic + impulse, motions: impulse }
+        Works { numerical: work - kinetic + impulse, motions: impulse, unbalanced: 0.0 }
     }
 
-    /// State between two steps: velocities, accelerations and forces of the other terms, one after another, and the largest
-    /// kinetic energy.
-    pub(super) fn save(&self) -> (Vec<f64>, f64) {
-        (
-            [&self.now.v, &self.now.a, &self.held].iter().flat_map(|v| v.iter().copied()).collect(),
-            self.fastest,
-        )
+    /// State between two steps.
+    pub(super) fn save(&self) -> TermState {
+        let of = |v: &[f64]| v.to_vec();
+        TermState {
+            motion: [of(&self.now.v), of(&self.now.a), of(&self.held)].concat(),
+            fastest: self.fastest,
+            resting: self.resting,
+            pace: self.pace.clone(),
+        }
     }
 
     /// Restores a saved state with the displacements `u`. Returns false if it does not fit.
-    pub(super) fn restore(&mut self, (saved, fastest): (&[f64], f64), u: &[f64]) -> bool {
-        let n = self.now.u.len();
-        if saved.len() != 3 * n || u.len() != n {
+    pub(super) fn restore(&mut self, saved: &TermState, u: &[f64]) -> bool {
+        let (n, motion) = (self.now.u.len(), &saved.motion);
+        if motion.len() != 3 * n || u.len() != n || saved.pace.as_ref().is_some_and(|(v, _)| v.len() != n) {
             return false;
         }
-        self.now = Motion { u: u.to_vec(), v: saved[..n].to_vec(), a: saved[n..2 * n].to_vec() };
-        self.held = saved[2 * n..].to_vec();
-        self.fastest = fastest;
+        self.now = Motion { u: u.to_vec(), v: motion[..n].to_vec(), a: motion[n..2 * n].to_vec() };
+        self.held = motion[2 * n..].to_vec();
+        (self.fastest, self.resting, self.pace) = (saved.fastest, saved.resting, saved.pace.clone());
         self.reject();
         true
     }
@@ -273,6 +389,11 @@ impl Term for Inertia {
 
     fn residual(&mut self, u: &[f64], at: Instant, r: &mut [f64]) -> Result<(), Refusal> {
         self.dt = at.dt;
+        if self.resting {
+            self.next.u.copy_from_slice(u);
+            self.own.fill(0.0);
+            return Ok(());
+        }
         self.advance(u, at);
         self.inertial = self.mass.times(&self.between());
         let force = self.scheme.force;
@@ -302,9 +423,16 @@ impl Term for Inertia {
     }
 
     fn accept(&mut self) {
-        self.works = self.works();
+        if !self.resting {
+            self.works = self.works();
+        }
         for ((moved, next), now) in self.moved.iter_mut().zip(&self.next.u).zip(&self.now.u) {
             *moved = next - now;
+        }
+        if self.resting {
+            self.now.u.copy_from_slice(&self.next.u);
+            self.take_pace();
+            return;
         }
         std::mem::swap(&mut self.now, &mut self.next);
         self.fastest = self.fastest.max(self.kinetic());
@@ -321,6 +449,10 @@ impl Linearized for Inertia {
     }
 
     fn tangent(&mut self, values: &mut [f64]) {
+        if self.resting {
+            values.fill(0.0);
+            return;
+        }
         let Scheme { mass, force, beta, .. } = self.scheme;
         let factor = (1.0 - mass) / ((1.0 - force) * beta * self.dt * self.dt);
         values.iter_mut().zip(self.mass.values()).for_each(|(k, m)| *k = factor * m);

@@ -123,6 +123,11 @@ impl Implicit {
         }
     }
 
+    /// Forgets the rate of the last step.
+    pub fn forget(&mut self) {
+        self.last = None;
+    }
+
     /// Values kept between steps.
     pub(super) fn save(&self, terms: &[&mut dyn Linearized]) -> StepperState {
         StepperState { last: self.last.clone(), left: Vec::new(), system: self.system.memory(terms) }

@@ -13,6 +13,9 @@ pub trait Stepper {
     /// Begins another stage with this symmetry of its tangents. `linear` is true if all bodies are linear.
     fn begin_stage(&mut self, symmetry: Symmetry, linear: bool);
 
+    /// Forgets the rate of the last step, which no longer holds.
+    fn forget(&mut self);
+
     /// Tries a step of length `dt.0`. A forward step may be shorter, but for accuracy no shorter than `dt.1`.
     ///
     /// # Errors
@@ -47,6 +50,10 @@ impl Stepper for Implicit {
         // Bodies with a history do not continue at the previous rate when their loads reverse. A prediction at the rate of the
         // previous stage would start far from the solution.
         Implicit::begin_stage(self, symmetry, linear);
+    }
+
+    fn forget(&mut self) {
+        Implicit::forget(self);
     }
 
     fn step(
@@ -87,6 +94,9 @@ impl Stepper for StaticExplicit {
     fn begin_stage(&mut self, symmetry: Symmetry, _linear: bool) {
         StaticExplicit::begin_stage(self, symmetry);
     }
+
+    // Bodies with mass take no forward steps.
+    fn forget(&mut self) {}
 
     fn step(
         &mut self,

@@ -115,11 +115,11 @@ impl<'a, const D: usize> Assembled<'a, D> {
         let held_anew = self.fixed.as_ref() != Some(&stage.fixed);
         self.bodies.load(&constraints, held_anew)?;
         self.constraints = self.numbering.constraints(&constraints);
-        if let Some(moving) = &mut self.moving {
-            moving.begin_stage(&constraints);
-        }
         self.springs = Springs::new(stage, &self.numbering, springs);
         self.pulled = stage.springs.iter().map(|s| s.dofs.clone()).collect();
+        if let Some(moving) = &mut self.moving {
+            moving.begin_stage(&constraints, self.pulled.clone());
+        }
         let number = |dofs: &Vec<usize>| dofs.iter().map(|&d| self.numbering.number[d]).collect();
         let groups: Vec<Vec<usize>> = self.pulled.iter().map(number).collect();
         if held_anew || groups != self.groups {
@@ -149,7 +149,10 @@ impl<'a, const D: usize> Assembled<'a, D> {
     /// Force that holds a degree of freedom of the mesh, or with which a spring pulls it, after the last accepted step; zero
     /// before the first. It is known on those that the system retains.
     fn reactions(&self) -> impl Fn(usize) -> f64 {
-        let mut r = self.stepper.as_ref().map_or_else(Vec::new, |s| s.residual().to_vec());
+        let mut r = match &self.moving {
+            Some(moving) => moving.reactions(),
+            None => self.stepper.as_ref().map_or_else(Vec::new, |s| s.residual().to_vec()),
+        };
         for (dofs, now) in self.pulled_by() {
             if let Some(r) = r.get_mut(self.numbering.number[dofs[0]]) {
                 *r += now.force;
@@ -222,6 +225,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
         let accepted =
             stepper.step(&mut terms, &self.constraints, &mut self.state, (dt, smallest), counts)?;
         self.settle(accepted.dt);
+        self.hand_over();
         Ok(accepted)
     }
 

@@ -2,7 +2,7 @@
 
 use super::{Assembled, terms};
 use crate::Counts;
-use crate::inertia::{Energy, View};
+use crate::inertia::{Energy, Episode, Moving, View};
 use crate::step::{Balance, Failure};
 use asperity_fem::term::Instant;
 
@@ -14,8 +14,9 @@ impl<const D: usize> Assembled<'_, D> {
     /// Prepares bodies with mass for a step of length `dt`. Before the first step of a stage this finds their accelerations from
     /// the forces under the conditions of the stage.
     pub(super) fn start_moving(&mut self, dt: f64, counts: &mut Counts) -> Result<(), Failure> {
+        let pulled = self.springs();
         let Some(moving) = &mut self.moving else { return Ok(()) };
-        moving.note(&self.interfaces);
+        moving.note(&self.interfaces, pulled.clone());
         if moving.has_begun() {
             return Ok(());
         }
@@ -26,17 +27,33 @@ impl<const D: usize> Assembled<'_, D> {
         others.iter_mut().for_each(|term| term.reject());
         evaluated?;
         let (planned, interfaces) = (self.problem.interfaces.as_slice(), self.interfaces.as_slice());
-        let at = View { blocks: self.bodies.blocks(), planned, interfaces, u, time };
+        let at = View { blocks: self.bodies.blocks(), planned, interfaces, springs: &pulled, u, time };
         moving.start(balance.r, &at).map_err(|error| Failure::Unsolved { error, always: true })
     }
 
     /// Adds an accepted step of length `dt` to the energy budget.
     pub(super) fn settle(&mut self, dt: f64) {
+        let springs = self.springs();
         let (Some(moving), Some(stepper)) = (&mut self.moving, &self.stepper) else { return };
         let (planned, interfaces) = (self.problem.interfaces.as_slice(), self.interfaces.as_slice());
         let (u, time) = (self.state.u.as_slice(), self.state.time);
-        let at = View { blocks: self.bodies.blocks(), planned, interfaces, u, time };
+        let at = View { blocks: self.bodies.blocks(), planned, interfaces, springs: &springs, u, time };
         moving.settle(stepper.residual(), dt, &at);
+    }
+
+    /// Gives bodies inertia where slip has become fast, and takes it from them where it has become slow.
+    pub(super) fn hand_over(&mut self) {
+        let rate = self.slip_rates().into_iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+        let changed = self.moving.as_mut().is_some_and(|moving| moving.hand_over(self.state.time, rate));
+        if let Some(stepper) = self.stepper.as_mut().filter(|_| changed) {
+            stepper.forget();
+        }
+    }
+
+    /// Passages with inertia so far.
+    #[must_use]
+    pub fn episodes(&self) -> &[Episode] {
+        self.moving.as_ref().map_or(&[], Moving::episodes)
     }
 
     /// Energy budget of bodies with mass.

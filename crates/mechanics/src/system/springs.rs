@@ -28,6 +28,8 @@ pub struct SpringNow {
     pub load_point: f64,
     /// Displacement of the set \[m\].
     pub displacement: f64,
+    /// Elastic energy \[J; J/m of thickness in the plane\].
+    pub energy: f64,
 }
 
 /// A spring with the degree of freedom of the system on which it acts.
@@ -69,11 +71,9 @@ impl Springs {
     pub fn now(&self, u: &[f64], time: f64) -> impl Iterator<Item = SpringNow> {
         self.list.iter().map(move |s| {
             let (drawn, displacement) = (s.rate * (time - self.begin), u[s.dof]);
-            SpringNow {
-                force: s.start.force + s.stiffness * (drawn - (displacement - s.start.displacement)),
-                load_point: s.start.load_point + drawn,
-                displacement,
-            }
+            let force = s.start.force + s.stiffness * (drawn - (displacement - s.start.displacement));
+            let energy = 0.5 * force * force / s.stiffness;
+            SpringNow { force, load_point: s.start.load_point + drawn, displacement, energy }
         })
     }
 

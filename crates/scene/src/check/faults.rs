@@ -106,7 +106,7 @@ impl Checker<'_> {
             let c = condition.get_ref();
             for motion in [&c.x, &c.y, &c.z].into_iter().flatten() {
                 let Motion::Spring { stiffness, rate } = *motion.get_ref() else { continue };
-                if self.has_waves() || scene.time.inertia.is_some() {
+                if self.has_waves() {
                     self.error(
                         motion.span(),
                         "a spring draws sides of bodies without mass",

@@ -2,6 +2,7 @@
 
 use super::Checker;
 use crate::model::{EnforcementKind, InertiaSpec, Method, Path, Spanned, Stepper};
+use std::ops::Range;
 
 /// Admissible errors of displacement in a step. Newton's method hides smaller ones, and a tenth resolves no motion.
 const TOLERANCES: std::ops::RangeInclusive<f64> = 1e-8..=0.1;
@@ -14,11 +15,77 @@ impl Checker<'_> {
             // Another stepper is reported with its key.
             Some((key, settings)) if *scene.time.stepper.get_ref() == Stepper::Implicit => {
                 self.settings(&settings);
-                self.masses(key);
-                self.unsupported(key);
+                self.masses(&key.span());
+                self.unsupported(&key.span());
             }
+            _ if *scene.time.stepper.get_ref() == Stepper::Auto => self.auto(),
             Some(_) => {}
             None => self.velocities_at_rest(),
+        }
+    }
+
+    /// Checks a scene with the stepper "auto".
+    fn auto(&mut self) {
+        let scene = self.scene;
+        let place = scene.time.inertia.as_ref().map_or_else(|| scene.time.stepper.span(), Spanned::span);
+        if let Some(off) = scene.time.inertia.as_ref().filter(|i| i.get_ref().settings().is_none()) {
+            self.conflict(
+                &off.span(),
+                "bodies have inertia while surfaces slip fast",
+                "remove `inertia = false`, or use `stepper = \"implicit\"`",
+                (&scene.time.stepper.span(), "the stepper"),
+            );
+        }
+        if let Some(settings) = scene.inertia() {
+            self.settings(&settings);
+        }
+        self.masses(&place);
+        self.unsupported(&place);
+        self.handover();
+        let velocities = scene.bodies.values().filter_map(|b| b.velocity.as_ref());
+        for velocity in velocities {
+            let message =
+                "bodies are in equilibrium until surfaces slip fast, and have no velocity at the start";
+            self.error(
+                velocity.span(),
+                message,
+                "remove `velocity`, or use `stepper = \"implicit\"` with `inertia = true`",
+            );
+        }
+        if scene.faults.is_empty() && scene.interfaces.is_empty() {
+            let message = "the stepper \"auto\" adds inertia while surfaces slip fast, and the scene has no surface that slips";
+            let help = "add `[interfaces.NAME]`, or use `stepper = \"implicit\"`";
+            self.error(scene.time.stepper.span(), message, help);
+        }
+    }
+
+    /// Checks the slip rates of the hand-over.
+    fn handover(&mut self) {
+        let Some(given) = &self.scene.time.handover else { return };
+        let spec = given.get_ref();
+        for (key, rate, example) in [("above", &spec.above, "1 mm/s"), ("below", &spec.below, "0.1 mm/s")] {
+            let Some(rate) = rate.as_ref().filter(|v| !(v.get_ref().0 > 0.0 && v.get_ref().0.is_finite()))
+            else {
+                continue;
+            };
+            let help = format!("such as `{key} = \"{example}\"`");
+            self.error(rate.span(), format!("`{key}` must be positive"), help);
+        }
+        if let (Some(above), Some(below)) = (&spec.above, &spec.below)
+            && below.get_ref().0 >= above.get_ref().0
+        {
+            let message =
+                "bodies would lose their inertia as soon as they have it: `below` is not less than `above`";
+            self.conflict(
+                &below.span(),
+                message,
+                "a tenth of `above`",
+                (&above.span(), "the rate at which they gain it"),
+            );
+        }
+        if let Some(share) = spec.kinetic.as_ref().filter(|k| !(*k.get_ref() > 0.0 && *k.get_ref() <= 1.0)) {
+            let message = "`kinetic` is a share of the largest kinetic energy since inertia began to act";
+            self.error(share.span(), message, "between 0 and 1, such as `kinetic = 1e-3`; the default is 1");
         }
     }
 
@@ -42,7 +109,7 @@ impl Checker<'_> {
     }
 
     /// Checks densities and velocities of the bodies.
-    fn masses(&mut self, key: &Spanned<crate::model::Inertia>) {
+    fn masses(&mut self, key: &Range<usize>) {
         for (name, body) in &self.scene.bodies {
             for (_, material, place) in body.materials() {
                 if self.scene.materials.get(material).is_none_or(|m| m.density.is_some()) {
@@ -52,7 +119,7 @@ impl Checker<'_> {
                     &place,
                     format!("body `{name}` has inertia, and its material `{material}` has no density"),
                     "add `density = \"2700 kg/m^3\"` to the material",
-                    (&key.span(), "the inertia"),
+                    (key, "the inertia"),
                 );
             }
             if let Some(velocity) = &body.velocity {
@@ -66,12 +133,12 @@ impl Checker<'_> {
     }
 
     /// Refuses what does not go together with inertia.
-    fn unsupported(&mut self, key: &Spanned<crate::model::Inertia>) {
+    fn unsupported(&mut self, key: &Range<usize>) {
         let scene = self.scene;
-        let here = (&key.span(), "the inertia");
+        let here = (key, "the inertia");
         if scene.time.path == Path::Condensed {
             self.error(
-                key.span(),
+                key.clone(),
                 "bodies with inertia cannot be condensed onto their interfaces: the condensed stiffness is that of equilibrium",
                 "use `path = \"auto\"` or `path = \"full\"`",
             );

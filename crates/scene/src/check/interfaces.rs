@@ -122,6 +122,15 @@ impl Checker<'_> {
             ),
             Some(_) => {}
         }
+        let waves = self.scene.inertia().is_some() && matches!(damping.get_ref(), DampingSpec::Radiation);
+        if waves {
+            self.conflict(
+                &damping.span(),
+                format!("interface `{name}` is damped by radiation, and bodies with inertia carry the waves themselves"),
+                "remove `damping`; a value in Pa s/m damps beside the waves",
+                (&self.scene.time.stepper.span(), "the stepper"),
+            );
+        }
         let stepper = &self.scene.time.stepper;
         if *stepper.get_ref() == Stepper::StaticExplicit {
             self.conflict(

@@ -130,7 +130,7 @@ impl Checker<'_> {
 
     /// Reports keys that belong to other steppers.
     fn foreign_keys(&mut self, stepper: Stepper) {
-        use Stepper::{Explicit, FaultOde, Implicit, StaticExplicit};
+        use Stepper::{Auto, Explicit, FaultOde, Implicit, StaticExplicit};
         let time = &self.scene.time;
         let place =
             |p: Option<Range<usize>>, key: &'static str, of: &'static [Stepper]| p.map(|p| (key, p, of));
@@ -138,22 +138,27 @@ impl Checker<'_> {
             place(time.drift.as_ref().map(Spanned::span), "drift", &[StaticExplicit]),
             place(time.rate_change.as_ref().map(Spanned::span), "rate_change", &[StaticExplicit]),
             place(time.zeta.as_ref().map(Spanned::span), "zeta", &[StaticExplicit]),
-            place(time.rule.as_ref().map(Spanned::span), "rule", &[Implicit, StaticExplicit]),
-            place(time.tolerance.as_ref().map(Spanned::span), "tolerance", &[Implicit]),
+            place(time.rule.as_ref().map(Spanned::span), "rule", &[Implicit, StaticExplicit, Auto]),
+            place(time.tolerance.as_ref().map(Spanned::span), "tolerance", &[Implicit, Auto]),
             place(
                 time.friction_tolerance.as_ref().map(Spanned::span),
                 "friction_tolerance",
-                &[Implicit, StaticExplicit],
+                &[Implicit, StaticExplicit, Auto],
             ),
-            place(time.inertia.as_ref().map(Spanned::span), "inertia", &[Implicit]),
-            place(time.first_step.as_ref().map(Spanned::span), "first_step", &[Implicit, StaticExplicit]),
-            place(time.max_step.as_ref().map(Spanned::span), "max_step", &[Implicit, StaticExplicit]),
-            place(time.min_step.as_ref().map(Spanned::span), "min_step", &[Implicit, StaticExplicit]),
+            place(time.inertia.as_ref().map(Spanned::span), "inertia", &[Implicit, Auto]),
+            place(
+                time.first_step.as_ref().map(Spanned::span),
+                "first_step",
+                &[Implicit, StaticExplicit, Auto],
+            ),
+            place(time.max_step.as_ref().map(Spanned::span), "max_step", &[Implicit, StaticExplicit, Auto]),
+            place(time.min_step.as_ref().map(Spanned::span), "min_step", &[Implicit, StaticExplicit, Auto]),
             place(
                 time.slip_rate_limit.as_ref().map(Spanned::span),
                 "slip_rate_limit",
                 &[Implicit, StaticExplicit],
             ),
+            place(time.handover.as_ref().map(Spanned::span), "handover", &[Auto]),
             place(time.courant.as_ref().map(Spanned::span), "courant", &[Explicit]),
             place(time.viscosity.as_ref().map(Spanned::span), "viscosity", &[Explicit]),
             place(time.method.as_ref().map(Spanned::span), "method", &[FaultOde]),
@@ -178,5 +183,6 @@ fn stepper_name(stepper: Stepper) -> &'static str {
         Stepper::StaticExplicit => "static-explicit",
         Stepper::FaultOde => "fault-ode",
         Stepper::Explicit => "explicit",
+        Stepper::Auto => "auto",
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
+use crate::units::Velocity;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{self, Deserializer, MapAccess, Visitor, value::MapAccessDeserializer};
@@ -15,6 +16,19 @@ pub struct InertiaSpec {
     pub spectral_radius: Option<Spanned<f64>>,
     /// Largest error of displacement in a step over the largest displacement of a step; default 1e-3 \[-\].
     pub tolerance: Option<Spanned<f64>>,
+}
+
+/// Slip rates between which bodies pass from states of equilibrium to motion with inertia and back.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HandoverSpec {
+    /// Largest slip rate above which bodies have inertia; default 1 mm/s \[m/s\].
+    pub above: Option<Spanned<Velocity>>,
+    /// Largest slip rate below which they return to equilibrium, once it has stayed there while a shear wave crosses the
+    /// bodies and returns; default a tenth of `above` \[m/s\].
+    pub below: Option<Spanned<Velocity>>,
+    /// Largest kinetic energy with which they return, over the largest since they left; default 1, which is none \[-\].
+    pub kinetic: Option<Spanned<f64>>,
 }
 
 /// Inertia of bodies, stated or with settings.
