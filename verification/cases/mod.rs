@@ -144,6 +144,8 @@ mod stage_paths;
 mod static_explicit_jumps;
 mod steel_strip;
 mod stick_slip;
+mod stick_slip_inertia;
+mod stick_slip_inertia_events;
 pub mod texts;
 mod two_rings;
 mod uniaxial_hardening;
@@ -253,6 +255,8 @@ pub const ALL: &[Case] = &[
     stage_paths::CASE,
     steel_strip::CASE,
     stick_slip::CASE,
+    stick_slip_inertia::CASE,
+    stick_slip_inertia_events::CASE,
     jaumann_shear::CASE,
     large_rotation::CASE,
     maxwell_relaxation::CASE,

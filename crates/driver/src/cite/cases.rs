@@ -1,7 +1,7 @@
 //! Literature of the cases of the verification suite. A test of the suite compares it with their pages.
 
 /// Cases and the keys of their literature.
-const CASES: [(&str, &[&str]); 104] = [
+const CASES: [(&str, &[&str]); 106] = [
     ("absence", &["weidendorfer2004"]),
     ("antiplane", &["nehari1952", "strang1973", "timoshenko1970"]),
     ("block_dragged", &["codeaster"]),
@@ -114,6 +114,8 @@ const CASES: [(&str, &[&str]); 104] = [
     ("static_explicit_jumps", &["timoshenko1970"]),
     ("steel_strip", &["belendez2003"]),
     ("stick_slip", &["dieterich1978"]),
+    ("stick_slip_inertia", &["rice1986"]),
+    ("stick_slip_inertia_events", &["rice1986", "dieterich1978"]),
     ("two_rings", &["michell1899", "timoshenko1970"]),
     ("uniaxial_hardening", &["simo1998"]),
     ("volumetric_path", &["prager1961", "belytschko2000"]),
