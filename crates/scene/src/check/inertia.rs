@@ -72,6 +72,7 @@ impl Checker<'_> {
             self.error(rate.span(), format!("`{key}` must be positive"), help);
         }
         if let (Some(above), Some(below)) = (&spec.above, &spec.below)
+            && above.get_ref().0 > 0.0
             && below.get_ref().0 >= above.get_ref().0
         {
             let message =
