@@ -42,6 +42,7 @@ impl Checker<'_> {
         self.masses(&place);
         self.unsupported(&place);
         self.handover();
+        self.steps_of_events();
         let velocities = scene.bodies.values().filter_map(|b| b.velocity.as_ref());
         for velocity in velocities {
             let message =
@@ -56,6 +57,21 @@ impl Checker<'_> {
             let message = "the stepper \"auto\" adds inertia while surfaces slip fast, and the scene has no surface that slips";
             let help = "add `[interfaces.NAME]`, or use `stepper = \"implicit\"`";
             self.error(scene.time.stepper.span(), message, help);
+        }
+    }
+
+    /// Refuses stages of equal steps in which surfaces may slip fast: such steps cannot follow an event.
+    fn steps_of_events(&mut self) {
+        let scene = self.scene;
+        for stage in &scene.stages {
+            let acts = |name: &String| !stage.frictionless.iter().any(|f| f.get_ref() == name);
+            let slips =
+                scene.interfaces.iter().any(|(name, interface)| interface.law.is_some() && acts(name));
+            let Some(steps) = stage.steps.as_ref().filter(|_| slips) else { continue };
+            let message =
+                format!("the equal steps of stage `{}` cannot follow an event with inertia", stage.name);
+            let help = "leave out `steps`: they are adapted; `max_step` in `[time]` bounds them";
+            self.conflict(&steps.span(), message, help, (&scene.time.stepper.span(), "the stepper"));
         }
     }
 
