@@ -154,6 +154,8 @@ fn impact(h: f64, gap: f64) -> Problem<2> {
         opens: true,
         regularisation: None,
         pulses: Vec::new(),
+        onset: None,
+        ties: Vec::new(),
     };
     let velocity =
         (0..model.mesh.nodes.len()).flat_map(|n| [if n < half { 1.0 } else { 0.0 }, 0.0]).collect();
