@@ -49,8 +49,8 @@ fn bodies<const D: usize>(scene: &Scene, cycles: &Cycles) -> Result<(Bodies<D>, 
     let stable = masses::stable(scene, &model, &density, viscosity)?;
     // The plan of the cycles has the warnings.
     let (placed, _) = of_faults::all_points(scene, &model, &mut Vec::new())?;
-    let quiet = 2.0 * extent(&placed) / slowest(&model, &density);
     let (creeping, placed): (Vec<_>, Vec<_>) = placed.into_iter().partition(|p| p.point.creep.is_some());
+    let quiet = 2.0 * extent(&placed) / slowest(&model, &density);
     without_memory(scene, &placed)?;
     let same = placed.len() == cycles.points.len()
         && placed.iter().zip(&cycles.points).all(|(p, view)| in_space(&p.point.place.at) == view.at);
@@ -106,7 +106,7 @@ fn stage(quiet: &Stage, absorbing: &[Dashpot], (duration, components): (f64, usi
     }
 }
 
-/// Largest extent of the faults: the diagonal of the box around their points \[m\].
+/// Extent of what slides: the diagonal of the box around its points \[m\].
 fn extent<const D: usize>(placed: &[Placed<D>]) -> f64 {
     let places: Vec<[f64; D]> = placed.iter().map(|p| p.point.place.at).collect();
     let (least, most) = model::bounds(&places);
