@@ -69,7 +69,7 @@ mod tests {
     #[test]
     fn friction_and_damping_balance_tractions_of_either_sign() {
         let fault = fault(3);
-        let (shear, normal, states) = ([30e6, -26e6, 0.0], [50e6; 3], [1.0, 12.0, 5.0]);
+        let (shear, normal, states) = ([40e6, -26e6, 0.0], [50e6; 3], [1.0, 12.0, 5.0]);
         let m = settled(&fault, &shear, &normal, &states);
         let mut rate = [0.0; 3];
         fault.law.slip_rates(0, &m, &states, &mut rate);

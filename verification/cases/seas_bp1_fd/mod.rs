@@ -28,6 +28,8 @@ const SHEAR_WAVE: f64 = 3464.0;
 const FRONT: f64 = 0.1;
 /// Depths between which the mean speed of the front is taken \[m\].
 const BETWEEN: [f64; 2] = [4e3, 10e3];
+/// Rate of the plates \[m/s\].
+const PLATES: f64 = 1e-9;
 /// Depth above which slip is averaged \[m\].
 const LOCKED: f64 = 15e3;
 
@@ -160,12 +162,14 @@ fn nucleation(ledger: &mut Ledger, inertia: &Cycles, damped: &Cycles) {
         .between(&inertia.episodes.len(), &damped.episodes.len())
         .cost(&inertia.found.cost)
         .record();
+    let closes = |c: &Cycles| c.found.events[1].details.slip.all()[0] / (PLATES * c.interval());
     ledger
-        .claim("interval between the events with inertia over that with damping, less one")
-        .value((inertia.interval() / damped.interval() - 1.0).abs())
-        .at_most(0.05)
-        .evidence(Evidence::ConvergedSelf, "the same scene with radiation damping")
-        .because("a rupture that overshoots takes more stress from the fault, by some per cent of the drop")
+        .claim("slip of the second event at the surface over the motion of the plates since the first, with inertia and with damping")
+        .values(&[closes(inertia), closes(damped)])
+        .equals_each(&[1.0, 1.0])
+        .absolute(0.1)
+        .evidence(Evidence::Exact, "a locked fault slips in an event what the plates moved since the one before")
+        .because("the first two events differ, as the start is not part of a cycle; a tenth of the slip is carried over")
         .cost(&inertia.found.cost)
         .record();
 }
@@ -188,6 +192,14 @@ fn rupture(ledger: &mut Ledger, inertia: &Cycles, damped: &Cycles) {
         .cost(&damped.found.cost)
         .record();
     ledger
+        .claim("mean slip of the first event above 15 km with inertia over that with damping")
+        .value(inertia.slip[0] / damped.slip[0])
+        .at_least(SLIPS)
+        .evidence(Evidence::ConvergedSelf, "the same scene with radiation damping")
+        .because("a rupture with inertia overshoots the traction at which it slides; damping does not")
+        .cost(&damped.found.cost)
+        .record();
+    ledger
         .claim("peak slip rate of the first event with inertia over that with damping")
         .value(inertia.found.events[0].peak / damped.found.events[0].peak)
         .at_least(PEAKS)
@@ -198,9 +210,11 @@ fn rupture(ledger: &mut Ledger, inertia: &Cycles, damped: &Cycles) {
 }
 
 /// Least ratio of the speeds of the fronts.
-const SPEEDS: f64 = 1.1;
+const SPEEDS: f64 = 1.2;
+/// Least ratio of the slips.
+const SLIPS: f64 = 1.1;
 /// Least ratio of the peak slip rates.
-const PEAKS: f64 = 1.1;
+const PEAKS: f64 = 1.5;
 
 fn passages(ledger: &mut Ledger, inertia: &Cycles) {
     let most = |of: fn(&Episode) -> f64| inertia.episodes.iter().map(of).fold(0.0, f64::max);
@@ -215,12 +229,14 @@ fn passages(ledger: &mut Ledger, inertia: &Cycles) {
     ledger
         .claim("imbalance of energy at the end over its largest part, with inertia")
         .value(inertia.imbalance)
-        .at_most(1e-4)
+        .at_most(5e-5)
         .evidence(
             Evidence::Exact,
             "work of the loads = stored energy + work of friction + energy of damping and waves",
         )
-        .because("points pass the cohesive zone in some tens of steps, within which tractions are taken as linear")
+        .because(
+            "points pass the cohesive zone in some tens of steps, within which tractions are taken as linear",
+        )
         .cost(&inertia.found.cost)
         .record();
 }
