@@ -148,6 +148,11 @@ fn leg(
             Next::Restart => run.outcome = Outcome::Completed,
             Next::Rupture => {
                 run.outcome = Outcome::Completed;
+                // A run that is interrupted within the rupture resumes here.
+                if observer.pause(&mut || run.clone())?.is_some() {
+                    run.outcome = Outcome::Stopped;
+                    return Ok(());
+                }
                 if let Some(dynamics) = dynamics.as_deref_mut() {
                     let areas = dynamics.areas;
                     let around = Around { equations, fault, loading, areas, end: settings.end };

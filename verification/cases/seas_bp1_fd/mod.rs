@@ -159,6 +159,7 @@ fn nucleation(ledger: &mut Ledger, inertia: &Cycles, damped: &Cycles) {
         .relative(1e-9)
         .evidence(Evidence::Exact, "the same equations up to the hand-over")
         .because("the onset lies within the last step before the first hand-over")
+        .why_not_tighter("the two runs do the same up to there, so that there is no difference at all")
         .between(&inertia.episodes.len(), &damped.episodes.len())
         .cost(&inertia.found.cost)
         .record();
