@@ -68,6 +68,7 @@ mod fault_bodies;
 mod fault_compression;
 mod fault_free_surface;
 mod fault_gravity;
+mod fault_handover;
 mod fault_medium;
 mod fault_opening;
 mod fault_operator;
@@ -121,6 +122,7 @@ mod seas_bp1;
 mod seas_bp1_16mm;
 mod seas_bp1_16mm_limit;
 mod seas_bp1_25m;
+mod seas_bp1_fd;
 mod seas_bp1_full;
 mod seas_bp1_methods;
 mod seas_bp2;
@@ -187,6 +189,7 @@ pub const ALL: &[Case] = &[
     fault_bend::CASE,
     fault_free_surface::CASE,
     fault_gravity::CASE,
+    fault_handover::CASE,
     fault_medium::CASE,
     fault_opening::CASE,
     fault_operator::CASE,
@@ -223,6 +226,7 @@ pub const ALL: &[Case] = &[
     sandwich_steppers::CASE,
     scene_units::CASE,
     seas_bp1::CASE,
+    seas_bp1_fd::CASE,
     seas_bp1_full::CASE,
     seas_bp1_methods::CASE,
     seas_bp1_16mm::CASE,

@@ -1,7 +1,7 @@
 //! Parts shared by the cases of earthquake cycles: plans of scenes, and events of runs with their cost.
 
 use crate::{CaseError, Cost};
-use asperity_cycles::{Event, Moment, Rupture, Settings};
+use asperity_cycles::{Episode, Event, FaultRun, Moment, Rupture, Settings};
 use asperity_driver::fault::Plan;
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
@@ -88,7 +88,36 @@ pub fn found(
         Control::Go
     };
     let (out, cost) = Cost::of(|| plan.problem.run(settings, &mut watch));
+    results(plan, settings, &out?, cost)
+}
+
+/// As [`found`], where bodies with mass compute the ruptures. Returns these as well.
+///
+/// # Errors
+/// As there, or if the plan has no such bodies.
+pub fn found_with_mass(
+    plan: &mut Plan,
+    mut look: impl FnMut(&Moment<'_>),
+) -> Result<(Found, Vec<Episode>), CaseError> {
+    let mut ruptures = plan.ruptures.take().ok_or("the scene has no ruptures with mass")?;
+    let (problem, settings) = (&plan.problem, &plan.problem.settings);
+    let mut watch = |now: &Moment<'_>| {
+        look(now);
+        Control::Go
+    };
+    let all = 0..plan.points.len();
+    let start = FaultRun::new(problem.start.clone(), std::slice::from_ref(&all), settings.thresholds);
+    let mut dynamics = ruptures.dynamics(&problem.areas);
+    let faults = (&problem.fault, &problem.loading);
+    let (out, cost) =
+        Cost::of(|| asperity_cycles::resume_with(faults, start, settings, Some(&mut dynamics), &mut watch));
     let out = out?;
+    let episodes = out.progress.episodes.clone();
+    let cost = cost.count("steps with mass", episodes.iter().map(|e| e.steps).sum::<usize>() as f64);
+    Ok((results(plan, settings, &out, cost)?, episodes))
+}
+
+fn results(plan: &Plan, settings: &Settings, out: &FaultRun, cost: Cost) -> Result<Found, CaseError> {
     let events = out.events().to_vec();
     if let Outcome::Failed { reason } = &out.outcome {
         return Err(reason.to_string().into());

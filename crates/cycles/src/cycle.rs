@@ -2,22 +2,25 @@
 //!
 //! The integration restarts after each event and after every [`RESTART`] accepted steps, with or without a checkpoint.
 //! A run resumed at a restart therefore takes the same steps, bit for bit, as an uninterrupted one.
+//!
+//! With [`Dynamics`] the integration ends where the fault slips fast, and restarts from the end of the rupture, which bodies
+//! with mass compute ([`super::episode`]).
 
-use super::catalogue::{Catalogue, Thresholds};
-use super::components::Components;
-use super::equations::{Equations, Fault, Pressed};
+use super::catalogue::Thresholds;
+use super::episode::{Around, episode};
+use super::equations::{Equations, Fault};
 use super::error::RunError;
-use super::fault_run::{ALL, FaultRun};
+use super::fault_run::FaultRun;
+use super::follow::{End, Follow};
 use super::loading::Loading;
-use super::moment::{Ends, Faults, Moment};
+use super::moment::Faults;
 use super::opening::Crack;
 use super::run::NextStep;
-use super::rupture::{Detector, Rupture, Values};
+use super::waves::Dynamics;
 use asperity_ode::{
     Clock, Control, Failure, Finished, Method, ObserveError, Observer, Occurrence, Options, Outcome, Sink,
     Step,
 };
-use std::ops::Range;
 
 /// Settings of the integration.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,8 +68,22 @@ pub fn run(
 pub fn resume(
     fault: &Fault,
     loading: &Loading,
+    run: FaultRun,
+    settings: &Settings,
+    observer: &mut dyn Observer<Faults>,
+) -> Result<FaultRun, RunError> {
+    resume_with((fault, loading), run, settings, None, observer)
+}
+
+/// Resumes a run in which bodies with mass compute the ruptures, if `dynamics` are given.
+///
+/// # Errors
+/// If the observer fails.
+pub fn resume_with(
+    (fault, loading): (&Fault, &Loading),
     mut run: FaultRun,
     settings: &Settings,
+    mut dynamics: Option<&mut Dynamics<'_>>,
     observer: &mut dyn Observer<Faults>,
 ) -> Result<FaultRun, RunError> {
     observer.begin(&())?;
@@ -83,7 +100,7 @@ pub fn resume(
         let (shear, normal) = loading.rates(within, fault.law.points(), fault.operator.couples_normal());
         let mut equations = Equations::new(fault, shear, normal).until(end);
         equations.remember(run.progress.heat.take(), run.at, &run.unknowns);
-        leg(&equations, fault, end, settings, observer, &mut run)?;
+        leg((&equations, (fault, loading)), end, settings, dynamics.as_deref_mut(), observer, &mut run)?;
     }
     Ok(run)
 }
@@ -105,10 +122,10 @@ fn breaks(fault: &Fault, loading: &Loading, end: f64) -> Vec<f64> {
 
 /// Integrates between two changes of the loading, from restart to restart.
 fn leg(
-    equations: &Equations<'_>,
-    fault: &Fault,
+    (equations, (fault, loading)): (&Equations<'_>, (&Fault, &Loading)),
     end: f64,
     settings: &Settings,
+    mut dynamics: Option<&mut Dynamics<'_>>,
     observer: &mut dyn Observer<Faults>,
     run: &mut FaultRun,
 ) -> Result<(), ObserveError> {
@@ -121,14 +138,34 @@ fn leg(
         largest_step: None,
         most_steps: settings.most_steps,
     };
+    let above = dynamics.as_ref().map(|d| d.handover.above);
     loop {
         let taken = usize::try_from(run.counts.steps).unwrap_or(usize::MAX);
         options.first_step = run.next_step.and_then(|next| next.length);
         options.most_steps = settings.most_steps.saturating_sub(taken);
-        if !piece(equations, fault, end, (settings, &options), observer, run)? {
-            return Ok(());
+        match piece(equations, fault, end, (settings, &options, above), observer, run)? {
+            Next::End => return Ok(()),
+            Next::Restart => run.outcome = Outcome::Completed,
+            Next::Rupture => {
+                run.outcome = Outcome::Completed;
+                // A run that is interrupted within the rupture resumes here.
+                if observer.pause(&mut || run.clone())?.is_some() {
+                    run.outcome = Outcome::Stopped;
+                    return Ok(());
+                }
+                if let Some(dynamics) = dynamics.as_deref_mut() {
+                    let areas = dynamics.areas;
+                    let around = Around { equations, fault, loading, areas, end: settings.end };
+                    episode(around, dynamics, observer, run)?;
+                }
+                if run.outcome == Outcome::Completed && enough(run, settings) {
+                    run.outcome = Outcome::Stopped;
+                }
+                if run.outcome != Outcome::Completed || Clock::new(end, 0.0).since(&run.at) <= 0.0 {
+                    return Ok(());
+                }
+            }
         }
-        run.outcome = Outcome::Completed;
         if observer.pause(&mut || run.clone())?.is_some() {
             run.outcome = Outcome::Stopped;
             return Ok(());
@@ -136,37 +173,36 @@ fn leg(
     }
 }
 
-/// Integrates until the next restart or the end. Returns true if the run continues.
+/// What follows a piece of an integration.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Next {
+    /// Nothing: the leg or the run is over.
+    End,
+    /// The integration restarts.
+    Restart,
+    /// Bodies with mass compute a rupture.
+    Rupture,
+}
+
+/// Integrates until the next restart, the next rupture with a slip rate of `above`, or the end.
 fn piece(
     equations: &Equations<'_>,
     fault: &Fault,
     end: f64,
-    (settings, options): (&Settings, &Options),
+    (settings, options, above): (&Settings, &Options, Option<f64>),
     observer: &mut dyn Observer<Faults>,
     run: &mut FaultRun,
-) -> Result<bool, ObserveError> {
-    let vectors = equations.layout().m().end;
-    let mut follow = Follow {
-        equations,
-        fault,
-        observer,
-        failure: None,
-        catalogue: &mut run.catalogue,
-        detectors: &mut run.progress.detectors,
-        steps: 0,
-        next_step: None,
-        paused: false,
-        rate: vec![0.0; vectors],
-        shear: vec![0.0; vectors],
-        between: run.unknowns.clone(),
-        largest: 0.0,
-        crack: Crack::default(),
-        pressed: Pressed::default(),
-    };
-    follow.pressed = equations.pressed(run.at, &run.unknowns, &mut follow.crack);
-    if run.counts.steps == 0 && follow.begin(run.at, &run.unknowns) == Control::Stop {
+) -> Result<Next, ObserveError> {
+    let first = run.counts.steps == 0 && run.progress.episodes.is_empty();
+    let (catalogue, detectors) = (&mut run.catalogue, &mut run.progress.detectors);
+    let follow = Follow::new((equations, fault), observer, (run.at, &run.unknowns), (catalogue, detectors));
+    let mut pieces = Pieces { follow, above, steps: 0, next_step: None, next: Next::End };
+    if first && pieces.follow.begin(run.at, &run.unknowns) == Control::Stop {
         run.outcome = Outcome::Stopped;
-        return follow.failure.map_or(Ok(false), Err);
+        return pieces.follow.failure.map_or(Ok(Next::End), Err);
+    }
+    if pieces.ruptures() {
+        return Ok(Next::Rupture);
     }
     let duration = Clock::new(end, 0.0).since(&run.at);
     let mut options = options.clone();
@@ -178,15 +214,16 @@ fn piece(
     }
     let duration = Clock::new(end, 0.0).since(&run.at);
     let Finished { outcome, at, state, counts } =
-        asperity_ode::integrate(equations, run.at, &run.unknowns, duration, &options, &mut follow);
+        asperity_ode::integrate(equations, run.at, &run.unknowns, duration, &options, &mut pieces);
+    let Pieces { follow, next_step, next, .. } = pieces;
     if let Some(failure) = follow.failure {
         return Err(failure);
     }
-    let paused = follow.paused;
-    run.next_step = follow.next_step;
+    run.next_step = next_step;
     (run.outcome, run.at, run.unknowns) = (outcome, at, state);
     run.counts += counts;
     run.progress.heat = equations.memory();
+    let over = enough(run, settings);
     match &mut run.outcome {
         // Exactly the end, so that no remainder needs another step.
         Outcome::Completed => (run.at, run.next_step) = (Clock::new(end, 0.0), None),
@@ -196,9 +233,10 @@ fn piece(
             }
             run.progress.opens = equations.opened().or_else(|| nearly_open(equations, fault, run));
         }
-        Outcome::Stopped => return Ok(paused && !enough(run, settings)),
+        Outcome::Stopped if !over => return Ok(next),
+        Outcome::Stopped => {}
     }
-    Ok(false)
+    Ok(Next::End)
 }
 
 /// Share of the initial f_n below which a point is about to open. The rate of friction grows as 1/f_n there, and steps
@@ -214,178 +252,54 @@ fn nearly_open(equations: &Equations<'_>, fault: &Fault, run: &FaultRun) -> Opti
     (share(least) < NEARLY_OPEN).then_some(least)
 }
 
-/// Sink of the integrator: detects events by the largest slip rate, and reports each step to the observer.
-struct Follow<'a> {
-    equations: &'a Equations<'a>,
-    fault: &'a Fault,
-    observer: &'a mut dyn Observer<Faults>,
-    /// Failure of the observer.
-    failure: Option<ObserveError>,
-    catalogue: &'a mut Catalogue<Rupture>,
-    detectors: &'a mut [Detector],
+/// Sink of the integrator: follows its steps, and ends it for a restart or a rupture.
+struct Pieces<'a> {
+    follow: Follow<'a>,
+    /// Slip rate from which bodies with mass compute the rupture \[m/s\].
+    above: Option<f64>,
     /// Accepted steps since the last restart.
     steps: u64,
     /// The step to try next.
     next_step: Option<NextStep>,
-    /// True if the integration ended for a restart.
-    paused: bool,
-    rate: Vec<f64>,
-    shear: Vec<f64>,
-    /// Unknowns within a step.
-    between: Vec<f64>,
-    /// Largest slip rate at the end of the last step \[m/s\].
-    largest: f64,
-    /// Points that are open.
-    crack: Crack,
-    /// Normal tractions and openings at the end of the last step.
-    pressed: Pressed,
+    /// What follows, if this sink ended the integration.
+    next: Next,
 }
 
-/// Number of halvings of a step in the search for the time at which a slip rate is passed; they reach the rounding of times.
-const MOST_HALVINGS: usize = 60;
-
-impl Follow<'_> {
-    fn begin(&mut self, at: Clock, y: &[f64]) -> Control {
-        self.equations.slip_rates(at, y, &mut self.rate);
-        self.largest = self.fastest(&self.rate, self.all()).1;
-        self.report(at, 0.0, y, None)
-    }
-
-    fn all(&self) -> Range<usize> {
-        0..self.equations.layout().points()
-    }
-
-    /// The fastest of these points and its \|V\| \[m/s\].
-    fn fastest(&self, rate: &[f64], among: Range<usize>) -> (usize, f64) {
-        let rate = Components::new(rate, self.equations.layout().points());
-        let mut best = (among.start, 0.0);
-        for p in among {
-            let speed = rate.size(p);
-            if speed > best.1 {
-                best = (p, speed);
-            }
-        }
-        best
-    }
-
-    fn report(&mut self, at: Clock, dt: f64, unknowns: &[f64], step: Option<Ends<'_>>) -> Control {
-        let layout = self.equations.layout();
-        let rate = Components::new(self.rate.as_slice(), layout.points());
-        let (largest, catalogue, pressed) = (self.largest, &*self.catalogue, &self.pressed);
-        let moment = Moment { at, dt, unknowns, layout, rate, largest, pressed, catalogue, step };
-        self.observer.step(&moment).unwrap_or_else(|failure| {
-            self.failure = Some(failure);
-            Control::Stop
-        })
-    }
-
-    /// Finds the time within the step at which the fastest of these points passes a threshold, and that point. Uses
-    /// bisection, since the fastest point may change. Leaves the unknowns and tractions at that time in `self`, and
-    /// returns the openings as well.
-    fn locate(
-        &mut self,
-        step: &Step<'_>,
-        (threshold, upwards): (f64, bool),
-        among: Range<usize>,
-    ) -> (Clock, usize, Vec<f64>) {
-        let (mut before, mut after) = (0.0, 1.0);
-        for _ in 0..MOST_HALVINGS {
-            let middle = 0.5 * (before + after);
-            if middle <= before || middle >= after {
-                break;
-            }
-            step.at(middle, &mut self.between);
-            let at = step.start.later(middle * step.length());
-            self.equations.slip_rates(at, &self.between, &mut self.rate);
-            if (self.fastest(&self.rate, among.clone()).1 >= threshold) == upwards {
-                after = middle;
-            } else {
-                before = middle;
-            }
-        }
-        step.at(after, &mut self.between);
-        let at = step.start.later(after * step.length());
-        self.equations.slip_rates(at, &self.between, &mut self.rate);
-        let layout = self.equations.layout();
-        let pressed = self.equations.pressed(at, &self.between, &mut self.crack);
-        for (i, shear) in self.shear.iter_mut().enumerate() {
-            let p = i % layout.points();
-            *shear = pressed.normal[p] * self.fault.law.scale(p) * self.between[i];
-        }
-        (at, self.fastest(&self.rate, among).0, pressed.opening)
-    }
-
-    /// Detects onsets and ends of events within a step; `largest` holds the largest slip rate of each source at its end
-    /// \[m/s\].
-    fn detect(&mut self, step: &Step<'_>, largest: &[f64]) {
-        for (source, &largest) in largest.iter().enumerate() {
-            self.note_peak(source, largest);
-            while let Some(crossing) = self.detectors[source].crossing(largest) {
-                let (passed, points) =
-                    (self.detectors[source].passed(crossing), self.detectors[source].points());
-                let (at, fastest, opening) = self.locate(step, passed, points);
-                let layout = self.equations.layout();
-                let slip = layout.slip_of(&self.between);
-                let shear = Components::new(self.shear.as_slice(), layout.points());
-                let values = Values { slip, shear, opening: &opening };
-                self.detectors[source].pass((self.catalogue, source), crossing, (at, fastest), values);
-                self.note_peak(source, largest);
-            }
-        }
-    }
-
-    /// Records the largest temperatures of the unfinished events.
-    fn note_heat(&mut self) {
-        for (source, detector) in self.detectors.iter().enumerate() {
-            let Some(event) = self.catalogue.open(source) else { continue };
-            let temperatures = self.pressed.surface.temperature.get(detector.points()).into_iter().flatten();
-            // Points that are not heated have no temperature, which is not a number.
-            let hottest = temperatures.copied().filter(|t| t.is_finite()).reduce(f64::max);
-            let before = event.details.hottest;
-            event.details.hottest = before.into_iter().chain(hottest).reduce(f64::max);
-        }
-    }
-
-    fn note_peak(&mut self, source: usize, largest: f64) {
-        if let Some(event) = self.catalogue.open(source) {
-            event.peak = event.peak.max(largest);
-        }
+impl Pieces<'_> {
+    /// True if the fault slips so fast that bodies with mass go on.
+    fn ruptures(&self) -> bool {
+        self.above.is_some_and(|above| self.follow.largest >= above)
     }
 }
 
-impl Sink for Follow<'_> {
+impl Sink for Pieces<'_> {
     fn accepted(&mut self, step: &Step<'_>) -> Control {
+        let equations = self.follow.equations();
         // Clears the record of open points: a stage rejected before this step only shows that the step was too long.
-        self.equations.opened();
-        let layout = self.equations.layout();
-        let rates = step.rates.map(|dy| &dy[layout.slip()]);
-        if rates.is_none() {
-            self.equations.slip_rates(step.end, step.state, &mut self.rate);
-        }
-        let ends = rates.unwrap_or(&self.rate);
-        let largest: Vec<f64> = self.detectors.iter().map(|d| self.fastest(ends, d.points()).1).collect();
-        let events = self.catalogue.ended(ALL).len();
-        self.detect(step, &largest);
-        match rates {
-            Some(rates) => self.rate.copy_from_slice(rates),
-            None => self.equations.slip_rates(step.end, step.state, &mut self.rate),
-        }
-        self.largest = largest[ALL];
-        let pressed = self.equations.pressed(step.end, step.state, &mut self.crack);
-        self.equations.commit(step.end, step.state);
-        let start_pressed = std::mem::replace(&mut self.pressed, pressed);
-        self.note_heat();
-        let ends = step.start_rates().zip(step.rates);
-        let ends = ends.map(|(start_rates, end_rates)| {
-            let (start, start_pressed) = (step.start_state(), &start_pressed);
-            Ends { start, start_pressed, start_rates, end_rates }
-        });
-        if self.report(step.end, step.length(), step.state, ends) == Control::Stop {
+        equations.opened();
+        let layout = equations.layout();
+        let mut found = Vec::new();
+        let rate = match step.rates {
+            Some(dy) => &dy[layout.slip()],
+            None => {
+                found.resize(layout.m().end, 0.0);
+                equations.slip_rates(step.end, step.state, &mut found);
+                &found
+            }
+        };
+        let rates = step.start_rates().zip(step.rates).map(|(start, end)| [start, end]);
+        let events = self.follow.events();
+        let end = End { at: step.end, unknowns: step.state, rate, rates };
+        if self.follow.pass(step, end, None) == Control::Stop {
             return Control::Stop;
         }
         self.steps += 1;
-        if self.catalogue.ended(ALL).len() > events || self.steps == RESTART {
-            self.paused = true;
+        if self.ruptures() {
+            self.next = Next::Rupture;
+            return Control::Stop;
+        }
+        if self.follow.events() > events || self.steps == RESTART {
+            self.next = Next::Restart;
             self.next_step = Some(NextStep { length: step.next_length(), stiff: false });
             return Control::Stop;
         }

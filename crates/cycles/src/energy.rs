@@ -42,7 +42,7 @@ pub struct Energy {
     pub elastic: f64,
     /// Work done against friction.
     pub friction: f64,
-    /// Work done against radiation damping.
+    /// Work done against radiation damping, and energy of waves where bodies have mass.
     pub radiated: f64,
     /// Kinetic energy in excess of its initial value.
     #[serde(default, skip_serializing_if = "nothing")]
@@ -314,8 +314,11 @@ impl<'a> Balance<'a> {
             let load = |t: f64| [traction + t * rate, h * rate];
             works.friction += area * way.work(first, last);
             works.loads += area * way.work(load(after - h), load(after));
-            works.radiated += area * fault.damping[p] * way.square() / h;
+            if step.waves.is_none() {
+                works.radiated += area * fault.damping[p] * way.square() / h;
+            }
         }
+        works.radiated += step.waves.unwrap_or(0.0);
         self.sums.works = works;
     }
 

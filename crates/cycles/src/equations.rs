@@ -294,6 +294,11 @@ impl<'a> Equations<'a> {
         Self { until: end, ..self }
     }
 
+    /// Rates of the shear tractions of the loads \[Pa/s\].
+    pub(crate) fn loading(&self) -> &[f64] {
+        &self.shear_load
+    }
+
     /// Begins from a memory of heat; without one, from the unknowns of a fault at its ambient temperature.
     pub(crate) fn remember(&mut self, memory: Option<Memory>, at: Clock, y: &[f64]) {
         if let Some(heat) = &self.fault.heat {

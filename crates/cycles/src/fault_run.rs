@@ -1,6 +1,7 @@
 //! A run of faults and the sources of its events.
 
 use super::catalogue::{Event, Thresholds};
+use super::episode::Episode;
 use super::equations::{Equations, Fault, Pressed};
 use super::heat::Memory;
 use super::opening::Crack;
@@ -17,6 +18,9 @@ pub struct Progress {
     /// Heat received so far, where a fault is heated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) heat: Option<Memory>,
+    /// Ruptures that bodies with mass computed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub episodes: Vec<Episode>,
     /// The point at which the integration failed, if its normal traction fell to zero or its opening did not converge.
     #[serde(skip)]
     pub opens: Option<usize>,
@@ -36,7 +40,11 @@ impl FaultRun {
         let apart = if faults.len() > 1 { faults } else { &[] };
         let sources = std::iter::once(&all).chain(apart);
         let detectors: Vec<_> = sources.map(|points| Detector::new(points.clone(), thresholds)).collect();
-        Self::begin(unknowns, detectors.len(), Progress { detectors, heat: None, opens: None })
+        Self::begin(
+            unknowns,
+            detectors.len(),
+            Progress { detectors, heat: None, episodes: Vec::new(), opens: None },
+        )
     }
 
     /// Slip rates \[m/s\] and normal tractions at the time that the run has reached.

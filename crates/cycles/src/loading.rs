@@ -58,6 +58,20 @@ impl Loading {
         (shear, normal)
     }
 
+    /// Changes of shear and normal tractions from one time to another \[s\]. The second is empty where normal tractions do
+    /// not change.
+    #[must_use]
+    pub fn change(&self, [from, to]: [f64; 2], points: usize, couples_normal: bool) -> (Vec<f64>, Vec<f64>) {
+        let mut shear = vec![0.0; points * self.components];
+        let mut normal = vec![0.0; if couples_normal { points } else { 0 }];
+        for part in &self.parts {
+            let by = part.amplitude.value(to) - part.amplitude.value(from);
+            shear.iter_mut().zip(&part.shear).for_each(|(sum, t)| *sum += by * t);
+            normal.iter_mut().zip(&part.normal).for_each(|(sum, t)| *sum += by * t);
+        }
+        (shear, normal)
+    }
+
     /// Mean rates of shear tractions until `end` \[Pa/s\], component by component.
     #[must_use]
     pub fn mean(&self, end: f64, points: usize) -> Vec<f64> {

@@ -41,6 +41,9 @@ pub struct Ends<'a> {
     pub start_rates: &'a [f64],
     /// Rates of the unknowns at its end.
     pub end_rates: &'a [f64],
+    /// Energy that waves took over the step, if bodies had mass in it \[J; J per metre of thickness in the plane\]. It
+    /// may be that of several steps, given with the last of them.
+    pub waves: Option<f64>,
 }
 
 impl<'a> Moment<'a> {

@@ -25,6 +25,7 @@ mod refused;
 pub mod report;
 pub mod run;
 mod run_doubts;
+pub mod ruptures;
 pub mod scene;
 mod sha256;
 pub mod slider;

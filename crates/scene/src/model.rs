@@ -296,7 +296,7 @@ pub struct Condition {
     pub traction: Option<Spanned<Vec<Loading>>>,
     /// Pressure, positive into the body.
     pub pressure: Option<Spanned<Loading>>,
-    /// Explicit: `true`: the side absorbs waves that leave the body.
+    /// Explicit, and ruptures of "auto": `true`: the side absorbs waves that leave the body.
     pub absorbing: Option<Spanned<bool>>,
 }
 
@@ -405,13 +405,13 @@ pub struct TimeControl {
     pub min_step: Option<Spanned<Time>>,
     /// Both: slip rate at which a run stops with an [instability](#instabilities) \[m/s\].
     pub slip_rate_limit: Option<Spanned<Velocity>>,
-    /// Fault-ode: `"tsit5"` (default), `"dop853"`, `"rkc2"`, `"stabilised"` or `"tsit45"`.
+    /// Fault-ode, and "auto" with faults: `"tsit5"` (default), `"dop853"`, `"rkc2"`, `"stabilised"` or `"tsit45"`.
     pub method: Option<Spanned<String>>,
-    /// Fault-ode: admissible error of ln V per step; default 1e-5 \[-\].
+    /// Fault-ode, and "auto" with faults: admissible error of ln V per step; default 1e-5 \[-\].
     pub log_rate_tolerance: Option<Spanned<f64>>,
-    /// Explicit: step over the stable step; default 0.5 \[-\].
+    /// Explicit, and "auto" with faults: step over the stable step; default 0.5 \[-\].
     pub courant: Option<Spanned<f64>>,
-    /// Explicit: time of Kelvin-Voigt viscosity over the step; default 0.1 \[-\].
+    /// Explicit, and "auto" with faults: time of Kelvin-Voigt viscosity over the step; default 0.1 \[-\].
     pub viscosity: Option<Spanned<f64>>,
     /// Static-explicit: largest admissible residual of a step over the largest force, at most 1e-2; default 1e-4 \[-\].
     pub drift: Option<Spanned<f64>>,

@@ -57,6 +57,8 @@ pub(super) fn between(model: &Model<2>, p: &Parameters, spacing: f64) -> Result<
         opens: false,
         regularisation: None,
         pulses,
+        onset: None,
+        ties: Vec::new(),
     })
 }
 

@@ -49,6 +49,8 @@ fn collide() -> Result<Collision, CaseError> {
         opens: true,
         regularisation: None,
         pulses: Vec::new(),
+        onset: None,
+        ties: Vec::new(),
     });
     problem.velocity = (0..2 * half).flat_map(|n| [if n < half { VELOCITY } else { 0.0 }, 0.0]).collect();
     let full = 0.5 * BAR.density * BAR.pressure * VELOCITY;

@@ -97,6 +97,8 @@ fn fault(problem: &Problem<2>, mode: Mode, spacing: f64) -> Result<Fault, CaseEr
         opens: false,
         regularisation: None,
         pulses: Vec::new(),
+        onset: None,
+        ties: Vec::new(),
     })
 }
 

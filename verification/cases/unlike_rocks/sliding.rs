@@ -100,6 +100,8 @@ fn fault(problem: &Problem<2>, delay: Option<Regularisation>) -> Result<Fault, C
         opens: true,
         regularisation: delay,
         pulses: vec![Pulse { amplitude: minus.iter().map(shape).collect(), rise }],
+        onset: None,
+        ties: Vec::new(),
     })
 }
 

@@ -4,7 +4,7 @@ use asperity_output::plots::Sketch;
 
 pub(super) fn of(name: &str) -> Option<Sketch> {
     let sketch = match name {
-        "seas_bp1" | "seas_bp1_full" | "seas_bp1_25m" | "seas_bp1_methods" => {
+        "seas_bp1" | "seas_bp1_fd" | "seas_bp1_full" | "seas_bp1_25m" | "seas_bp1_methods" => {
             strike_slip("8 mm", "16", "40 km")
         }
         "seas_bp1_16mm" | "seas_bp1_16mm_limit" => strike_slip("16 mm", "16", "40 km"),
@@ -23,6 +23,7 @@ pub(super) fn of(name: &str) -> Option<Sketch> {
         "fault_stability" => layers("δV ~ cos(k x) e^(s t), k = n π/W", "", "W"),
         "fault_space" => layers("slip along a declared direction, in space", "", ""),
         "fault_turning" => layers("slip turns in the plane of the fault, k = G/W", "W", ""),
+        "fault_handover" => slabs(),
         "fault_bodies" => bodies(),
         "event_numbers" => unlike(),
         "seas_bp6" => injection(),
@@ -49,6 +50,21 @@ fn strike_slip(length: &str, weak: &str, depth: &str) -> Sketch {
         .note((54.0, 13.0), "V_p = 1e−9 m/s")
         .dimension((34.0, 22.0), (34.0, 64.0), depth);
     if weak.is_empty() { sketch } else { sketch.dimension((45.0, 47.0), (45.0, 64.0), weak) }
+}
+
+/// Two slabs between springs and dashpots.
+fn slabs() -> Sketch {
+    Sketch::new(64.0)
+        .block((30.0, 12.0), (70.0, 52.0), "")
+        .fault(&[(50.0, 12.0), (50.0, 52.0)])
+        .text((40.0, 36.0), "⊙")
+        .text((60.0, 36.0), "⊗")
+        .text((16.0, 36.0), "spring κ")
+        .text((16.0, 28.0), "absorbing")
+        .text((84.0, 36.0), "spring κ")
+        .text((84.0, 28.0), "absorbing")
+        .note((54.0, 20.0), "uniform slip")
+        .dimension((30.0, 6.0), (50.0, 6.0), "W")
 }
 
 /// A fault in the middle of rock with absorbing sides.

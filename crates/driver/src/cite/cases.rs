@@ -1,7 +1,7 @@
 //! Literature of the cases of the verification suite. A test of the suite compares it with their pages.
 
 /// Cases and the keys of their literature.
-const CASES: [(&str, &[&str]); 109] = [
+const CASES: [(&str, &[&str]); 111] = [
     ("absence", &["weidendorfer2004"]),
     ("antiplane", &["nehari1952", "strang1973", "timoshenko1970"]),
     ("block_dragged", &["codeaster"]),
@@ -34,6 +34,7 @@ const CASES: [(&str, &[&str]); 109] = [
     ("fault_compression", &["bebendorf2000", "hackbusch2015"]),
     ("fault_free_surface", &["okada1985"]),
     ("fault_gravity", &["jaeger2007"]),
+    ("fault_handover", &["rice1993"]),
     ("fault_medium", &["eshelby1957", "muskhelishvili1953", "okada1992", "savage1983", "segall2010"]),
     ("fault_opening", &["sneddon1946", "barenblatt1962", "cottle1992"]),
     ("fault_operator", &["starr1928", "muskhelishvili1953", "segall2010"]),
@@ -80,6 +81,7 @@ const CASES: [(&str, &[&str]); 109] = [
     ("seas_bp1_16mm", &["erickson2020"]),
     ("seas_bp1_16mm_limit", &["erickson2020"]),
     ("seas_bp1_25m", &["erickson2020"]),
+    ("seas_bp1_fd", &["erickson2023", "lapusta2000"]),
     ("seas_bp1_full", &["erickson2020", "luo2017", "ozawa2023"]),
     ("seas_bp1_methods", &["sommeijer1998", "lapusta2000", "tsitouras2011"]),
     ("seas_bp2", &["erickson2020", "jiang2016"]),

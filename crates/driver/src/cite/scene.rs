@@ -198,9 +198,13 @@ fn add_steps(citations: &mut Citations, scene: &Scene) {
             }
         }
         Stepper::Explicit => add_waves(citations, scene),
+        Stepper::Auto if !scene.faults.is_empty() => {
+            add_method(citations, scene.time.method.as_ref(), "tsit5");
+            add_waves(citations, scene);
+        }
         Stepper::Implicit | Stepper::Auto => {}
     }
-    if scene.inertia().is_some() {
+    if scene.inertia().is_some() && scene.faults.is_empty() {
         citations.add("chung1993", "inertia by the generalised-alpha method");
         if scene.stages.iter().any(|stage| stage.steps.is_none()) {
             citations.add("zienkiewicz1991", "error control of bodies with inertia");

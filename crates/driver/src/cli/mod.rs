@@ -131,15 +131,19 @@ pub fn execute(arguments: &Arguments) -> miette::Result<End> {
 
 /// Plans and runs a scene in its output directory.
 fn run(source: Source, directory: &mut Directory, drawn: bool, pauses: &Pausing) -> miette::Result<End> {
-    let ready = {
+    let mut ready = {
         let _waiting = Pulse::new("planning");
         source.plan()?
     };
     print::plan(&ready.plan);
+    let mut ruptures = match &mut ready.plan {
+        Planned::Faults(plan) => plan.ruptures.take(),
+        Planned::Bodies(_) | Planned::Sliders(_) | Planned::Dynamic(_) => None,
+    };
     match &ready.plan {
         Planned::Bodies(plan) => run_bodies(plan, &ready, directory, drawn, pauses),
         Planned::Sliders(plan) => run_sliders(plan, &ready, directory, drawn, pauses),
-        Planned::Faults(plan) => run_faults(plan, &ready, directory, drawn, pauses),
+        Planned::Faults(plan) => run_faults((plan, ruptures.as_mut()), &ready, directory, drawn, pauses),
         Planned::Dynamic(plan) => run_waves(plan, &ready, directory, drawn, pauses),
     }
 }

@@ -12,6 +12,7 @@ use crate::forecast;
 use crate::plan::AnyPlan;
 use crate::report::{Outcome, Status};
 use crate::run::{self, RunError};
+use crate::ruptures::Ruptures;
 use crate::slider;
 use asperity_output::printing::{err, out};
 use asperity_output::{FieldSchedule, Files, OutputError, Recorder, atomic, plots, stems};
@@ -199,9 +200,9 @@ fn slider_keeper(
     slider::Keeper::begin(path, problem, physics, drawn, pauses).into_diagnostic()
 }
 
-/// Runs faults.
+/// Runs faults, with bodies that have mass in ruptures if there are any.
 pub(super) fn run_faults(
-    plan: &fault::Plan,
+    (plan, ruptures): (&fault::Plan, Option<&mut Ruptures>),
     ready: &Ready,
     directory: &mut Directory,
     drawn: bool,
@@ -212,9 +213,10 @@ pub(super) fn run_faults(
     directory.computes()?;
     let clock = Instant::now();
     let problem = &plan.problem;
-    let run =
-        asperity_cycles::resume(&problem.fault, &problem.loading, start, &problem.settings, &mut keeper)
-            .into_diagnostic()?;
+    let mut dynamics = ruptures.map(|r| r.dynamics(&problem.areas));
+    let faults = (&problem.fault, &problem.loading);
+    let run = asperity_cycles::resume_with(faults, start, &problem.settings, dynamics.as_mut(), &mut keeper)
+        .into_diagnostic()?;
     let coarse = keeper.warning();
     let (mut balance, interrupted) = keeper.finish(&run).into_diagnostic()?;
     let mut report = fault::Report::new(plan, &run, &mut balance);

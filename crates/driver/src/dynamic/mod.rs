@@ -16,6 +16,6 @@ mod tables;
 
 pub use keeper::{Checkpoint, Keeper};
 pub use plan::{AnyPlan, Cadence, Plan, Receiver};
-pub use planner::plan;
+pub use planner::{plan, ruptures};
 pub use report::Report;
 pub use run::{Ended, RunError, run};

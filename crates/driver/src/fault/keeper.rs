@@ -155,10 +155,31 @@ impl<'a> Keeper<'a> {
     }
 }
 
+/// Steps of a rupture between two looks for a reason to interrupt it.
+const BETWEEN_LOOKS: u64 = 64;
+
+impl Keeper<'_> {
+    /// True if the run is to be interrupted at a step of a rupture. It then resumes at the start of the rupture.
+    fn within_rupture(&mut self) -> Result<bool, OutputError> {
+        if !self.steps.is_multiple_of(BETWEEN_LOOKS) {
+            return Ok(false);
+        }
+        self.interrupted = self.pauses.reason(true);
+        let Some(before) = self.before.clone().filter(|_| self.interrupted.is_some()) else {
+            return Ok(false);
+        };
+        self.save(Stand::clone(&before), None)?;
+        Ok(true)
+    }
+}
+
 impl Observer<Faults> for Keeper<'_> {
     fn step(&mut self, moment: &Moment<'_>) -> Result<Control, ObserveError> {
         self.steps += u64::from(moment.dt > 0.0);
         self.balance.step(moment);
+        if moment.step.as_ref().is_some_and(|step| step.waves.is_some()) && self.within_rupture()? {
+            return Ok(Control::Stop);
+        }
         let (part, steps) = (moment.at.seconds() / self.plan.problem.settings.end, self.steps);
         self.progress.show(part, || {
             format!(

@@ -5,6 +5,7 @@ use super::cadence::Cadence;
 use super::frame::Frame;
 use super::normal::NormalChoice;
 use super::resolution::Resolution;
+use crate::ruptures::Ruptures;
 use crate::warning::Warning;
 use asperity_cycles::heat::Layer;
 use asperity_cycles::{Components, Layout, Problem};
@@ -79,6 +80,8 @@ pub struct Plan {
     pub points: Vec<PointView>,
     /// The problem to integrate.
     pub problem: Problem,
+    /// Bodies with mass that compute the ruptures, if the scene has them.
+    pub ruptures: Option<Ruptures>,
     /// Cadence of the output.
     pub cadence: Cadence,
     /// Description of the rock around the faults.
@@ -170,6 +173,9 @@ impl Plan {
         }
         let s = &self.problem.settings;
         line("stepper", format!("fault-ode: {} with tolerance {:e} in ln V", s.method.name(), s.tolerance));
+        for words in self.ruptures.iter().flat_map(Ruptures::words) {
+            line("stepper", words);
+        }
         let bodies =
             if self.dofs > 0 { format!("{} degrees of freedom, ", self.dofs) } else { String::new() };
         line(

@@ -10,7 +10,7 @@ use super::words::{length, time};
 use crate::catalogue::{Entry, FaultEvents, Scattered, Site, slipped};
 use crate::report::{EnergyBalance, Kind, Outcome, Phases, Results, Stop};
 use crate::warning::Warning;
-use asperity_cycles::{Balance, Components, Crack, Event, FaultRun, Layout, Mark, Rupture, steady};
+use asperity_cycles::{Balance, Components, Crack, Episode, Event, FaultRun, Layout, Mark, Rupture, steady};
 use asperity_ode::Outcome as Finish;
 use asperity_output::decimals::fixed;
 use asperity_output::located::Located;
@@ -169,6 +169,9 @@ pub struct Report {
     pub unit: &'static str,
     /// Energies up to the end.
     pub energy: EnergyBalance,
+    /// Ruptures in which bodies had mass, and the errors of the hand-overs.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub ruptures: Vec<Episode>,
     /// Cycles, from the end of each event to the end of the next.
     pub cycles: Vec<Cycle>,
     /// Work.
@@ -225,6 +228,17 @@ fn why(plan: &Plan, run: &FaultRun, reason: &str) -> String {
     reason.to_string()
 }
 
+/// A rupture with mass and the errors of its hand-overs, in words.
+fn passage(rupture: &Episode) -> String {
+    let Episode { begin, end, steps, radiation, unbalanced, unbalanced_drop, kinetic, .. } = rupture;
+    format!(
+        "bodies had mass for {} from {} on, in {steps} steps; tractions over a f_n differed by up to {radiation:.1e} before, and by {unbalanced:.1e} after, \
+         which is {unbalanced_drop:.1e} of the stress drop; {kinetic:.1e} of the largest kinetic energy was left",
+        time(end - begin),
+        time(*begin)
+    )
+}
+
 impl Report {
     /// Report of a run of a plan.
     #[must_use]
@@ -266,6 +280,7 @@ impl Report {
             faults: plan.faults.iter().zip(1..run.catalogue.sources()).map(of_fault).collect(),
             unit: if plan.in_space { "J" } else { "J/m" },
             energy,
+            ruptures: run.progress.episodes.clone(),
             cycles,
             counts: Work {
                 steps: run.counts.steps,
@@ -323,6 +338,9 @@ impl Report {
                 format!(", every {} in the mean", time(mean))
             };
             let _ = writeln!(text, "  fault `{fault}` by itself: {} events{every}", events.len());
+        }
+        for rupture in &self.ruptures {
+            let _ = writeln!(text, "  {}", passage(rupture));
         }
         for (k, cycle) in self.cycles.iter().enumerate() {
             let Some(closure) = cycle.closure() else { continue };

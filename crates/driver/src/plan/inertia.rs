@@ -13,9 +13,9 @@ const RADIUS: f64 = 0.5;
 const TOLERANCE: f64 = 1e-3;
 
 /// Default slip rate above which bodies have inertia \[m/s\], that of events. Radiation changes tractions there by some kPa.
-const ABOVE: f64 = 1e-3;
+pub(crate) const ABOVE: f64 = 1e-3;
 /// Default of the slip rate below which they return to equilibrium, over that above which they leave it \[-\].
-const BELOW: f64 = 0.1;
+pub(crate) const BELOW: f64 = 0.1;
 /// Smallest ratio of the slip rate at which bodies gain inertia to the largest rate of the loads \[-\].
 const APART: f64 = 10.0;
 

@@ -35,7 +35,11 @@ pub fn plan_scene(scene: &Scene) -> Result<ScenePlan, Diagnostic> {
     } else if scene.faults.is_empty() {
         ScenePlan::Bodies(Box::new(plan(scene)?))
     } else {
-        ScenePlan::Faults(Box::new(fault::plan(scene)?))
+        let mut plan = fault::plan(scene)?;
+        if *scene.time.stepper.get_ref() == Stepper::Auto {
+            plan.ruptures = Some(dynamic::ruptures(scene, &plan)?);
+        }
+        ScenePlan::Faults(Box::new(plan))
     })
 }
 

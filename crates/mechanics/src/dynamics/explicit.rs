@@ -1,10 +1,11 @@
 //! Steps of explicit dynamics.
 
 use super::budget::{Budget, Work};
-use super::fault::{Between, FaultState, Unbalanced};
+use super::fault::{Between, Fault, FaultState, Unbalanced};
 use super::loads::Loads;
 use super::motion::{Motion, Sums};
 use super::nodes::Special;
+use super::springs::Springs;
 use super::{Problem, Stable, stable};
 use crate::CellBlock;
 use asperity_fem::block::lumped;
@@ -99,8 +100,11 @@ pub struct Explicit<'a, const D: usize> {
     special: Vec<Special>,
     /// Special nodes of each point of the faults.
     pairs: Vec<[usize; 2]>,
+    /// Special nodes of each tie of the faults.
+    tied: Vec<[usize; 2]>,
     constraints: Constraints,
     loads: Loads,
+    springs: Springs,
     dt: f64,
     time: f64,
     steps: usize,
@@ -152,8 +156,10 @@ impl<'a, const D: usize> Explicit<'a, D> {
             mass,
             special: Vec::new(),
             pairs: Vec::new(),
+            tied: Vec::new(),
             constraints: Constraints::default(),
             loads: Loads::default(),
+            springs: Springs::default(),
             dt: 0.0,
             time: 0.0,
             steps: 0,
@@ -176,25 +182,54 @@ impl<'a, const D: usize> Explicit<'a, D> {
         let problem = self.problem;
         self.dt = problem.step_of(stage, &self.stable);
         self.constraints = problem.stages[stage].constraints(&self.u);
-        self.appoint();
+        self.appoint(stage);
         if self.steps == 0 {
             if let Some(fault) = &problem.fault {
                 self.fault = fault.start(self.dt).map_err(|e| e.to_string())?;
+                if fault.onset.is_some() {
+                    self.slide(fault);
+                }
             }
             self.damp();
         }
         Ok(())
     }
 
+    /// Lets the nodes of the faults move at the slip rates of the start, without momentum in sum.
+    fn slide(&mut self, fault: &Fault) {
+        let n = fault.points.len();
+        for (point, (p, pair)) in fault.points.iter().zip(&self.pairs).enumerate() {
+            for (c, e) in p.along.iter().enumerate() {
+                let inverse = pair.map(|k| self.special[k].along(e));
+                let both = inverse[0] + inverse[1];
+                let rate = if both > 0.0 { fault.rate[c * n + point] / both } else { 0.0 };
+                for ((&k, inverse), sign) in pair.iter().zip(inverse).zip([-1.0, 1.0]) {
+                    let first = self.special[k].node * self.components;
+                    let own = &mut self.velocity[first..first + self.components];
+                    own.iter_mut().zip(e).for_each(|(v, e)| *v += sign * inverse * rate * e);
+                }
+            }
+        }
+    }
+
     /// Finds the special nodes of the stage and prepares them.
-    fn appoint(&mut self) {
+    fn appoint(&mut self, stage: usize) {
         let (problem, components) = (self.problem, self.components);
-        let of_fault = problem.fault.iter().flat_map(|f| f.points.iter().flat_map(|p| [p.minus, p.plus]));
+        let springs = &problem.stages[stage].springs;
+        let of_fault = problem.fault.iter().flat_map(|f| {
+            let tied = f.ties.iter().flat_map(|t| [t.minus, t.plus]);
+            f.points.iter().flat_map(|p| [p.minus, p.plus]).chain(tied)
+        });
+        let drawn = springs.iter().flat_map(|s| s.dofs.iter().map(|d| d / components));
         let loaded =
             self.constraints.channels.iter().flat_map(|c| c.forces.iter().map(|(d, _)| d / components));
         let held = self.constraints.fixed.iter().map(|d| d / components);
-        let mut nodes: Vec<usize> =
-            of_fault.chain(problem.absorbing.iter().map(|d| d.node)).chain(loaded).chain(held).collect();
+        let mut nodes: Vec<usize> = of_fault
+            .chain(problem.absorbing.iter().map(|d| d.node))
+            .chain(loaded)
+            .chain(held)
+            .chain(drawn)
+            .collect();
         nodes.sort_unstable();
         nodes.dedup();
         let dashpot = |node: usize| {
@@ -213,8 +248,13 @@ impl<'a, const D: usize> Explicit<'a, D> {
             self.inverse[special.node] = 0.0;
         }
         self.loads = Loads::new(&self.constraints, |dof| (find(dof / components), dof % components));
+        self.springs = Springs::new(springs, |dof| {
+            (find(dof / components), dof % components, self.mass[dof / components])
+        });
         self.pairs =
             problem.fault.iter().flat_map(|f| &f.points).map(|p| [find(p.minus), find(p.plus)]).collect();
+        self.tied =
+            problem.fault.iter().flat_map(|f| &f.ties).map(|t| [find(t.minus), find(t.plus)]).collect();
         self.imposed = if self.constraints.fixed.is_empty() { Vec::new() } else { self.u.clone() };
     }
 
@@ -281,6 +321,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
         }
         let at = |values: &[f64]| self.special.iter().map(|s| self.vector(values, s.node)).collect();
         let (before, displacement): (Vec<[f64; 3]>, Vec<[f64; 3]>) = (at(&self.velocity), at(&self.u));
+        self.springs.add(self.time, &displacement, &mut external);
         let of = |(s, (external, before)): (&Special, (&[f64; 3], &[f64; 3]))| {
             let drag = s.drag(before);
             let force: [f64; 3] = std::array::from_fn(|c| {
@@ -309,10 +350,19 @@ impl<'a, const D: usize> Explicit<'a, D> {
         let Some(fault) = self.problem.fault.as_ref() else { return Ok(None) };
         let mut state = self.fault.clone();
         let (time, dt) = (self.time, self.dt);
-        let (nodes, pairs) = (self.special.as_slice(), self.pairs.as_slice());
-        let (kick, first) = (self.kick(), self.steps == 0);
-        let mut between =
-            Between { nodes, acceleration, velocity, displacement, pairs, time, dt, kick, first };
+        let mut between = Between {
+            nodes: &self.special,
+            acceleration,
+            velocity,
+            displacement,
+            pairs: &self.pairs,
+            tied: &self.tied,
+            components: self.components,
+            time,
+            dt,
+            kick: self.kick(),
+            first: self.steps == 0,
+        };
         match fault.balance(&mut between, &mut state) {
             Ok(()) => Ok(Some(state)),
             Err(Unbalanced::Friction(f)) => Err(Halt::Friction { time, reason: f.to_string() }),
@@ -494,6 +544,12 @@ impl<'a, const D: usize> Explicit<'a, D> {
     #[must_use]
     pub fn fault(&self) -> &FaultState {
         &self.fault
+    }
+
+    /// Kinetic energy a step before [`Explicit::time`] \[J\].
+    #[must_use]
+    pub fn kinetic(&self) -> f64 {
+        self.budget.kinetic
     }
 
     /// Energy a step before [`Explicit::time`]. With damping it costs a product: what bodies dissipate is the work of their forces without

@@ -4,8 +4,9 @@
 //! The normal traction is the closing one where it presses, otherwise none. Friction bounds the shear traction
 //! ([`asperity_friction::inertial`]). Tractions act in addition to the initial state, which is in balance: bodies feel the difference.
 
-use super::Pulse;
 use super::nodes::{Special, dot};
+use super::ties::{self, Tie};
+use super::{Onset, Pulse};
 use asperity_friction::Failure;
 use asperity_friction::inertial::{InertialFault, Push, Pushed};
 use serde::{Deserialize, Serialize};
@@ -57,6 +58,17 @@ pub struct Fault {
     pub regularisation: Option<Regularisation>,
     /// Imposed tractions.
     pub pulses: Vec<Pulse>,
+    /// Friction and states at the start of faults that slip already; otherwise friction is the traction at the start.
+    pub onset: Option<Onset>,
+    /// Pairs of nodes that stay together.
+    pub ties: Vec<Tie>,
+}
+
+/// Imposed tractions at a time.
+struct Loads {
+    time: f64,
+    /// Growth of each pulse \[-\].
+    growth: Vec<f64>,
 }
 
 /// State of the faults at a step tⁿ.
@@ -103,6 +115,10 @@ pub(super) struct Between<'a> {
     pub displacement: &'a [[f64; 3]],
     /// Special nodes of each point: minus, plus.
     pub pairs: &'a [[usize; 2]],
+    /// Special nodes of each tie.
+    pub tied: &'a [[usize; 2]],
+    /// Number of components of displacements.
+    pub components: usize,
     pub time: f64,
     pub dt: f64,
     /// Time over which velocities change: Δt, but half of it in the first step.
@@ -118,9 +134,9 @@ impl Between<'_> {
         dot(&values[plus], e) - dot(&values[minus], e)
     }
 
-    /// Adds the accelerations by a force on the plus node, and its reaction \[N\].
-    fn push(&mut self, point: usize, force: &[f64; 3]) {
-        for (&node, sign) in self.pairs[point].iter().zip([-1.0, 1.0]) {
+    /// Adds the accelerations by a force on the plus node of a pair, and its reaction \[N\].
+    pub fn push(&mut self, pair: [usize; 2], force: &[f64; 3]) {
+        for (&node, sign) in pair.iter().zip([-1.0, 1.0]) {
             let caused = self.nodes[node].accelerated(&force.map(|f| sign * f));
             self.acceleration[node].iter_mut().zip(caused).for_each(|(a, c)| *a += c);
         }
@@ -134,21 +150,26 @@ impl Between<'_> {
 }
 
 impl Fault {
-    /// State at the start, with laws in their states half a step later.
+    /// State at the start, with laws in their states half a step later; with an onset, at the start.
     ///
     /// # Errors
     /// [`Failure`] where no state gives the initial traction.
     pub(super) fn start(&self, dt: f64) -> Result<FaultState, Failure> {
         let (n, states) = (self.points.len(), self.law.states());
+        let friction = self.onset.as_ref().map_or(&self.shear, |onset| &onset.friction);
         let mut start = FaultState {
             slip: vec![0.0; self.shear.len()],
             rate: self.rate.clone(),
-            shear: self.shear.clone(),
+            shear: friction.clone(),
             normal: self.normal.clone(),
             gap: self.points.iter().map(|p| p.gap).collect(),
             states: vec![0.0; n * states],
             felt: if self.regularisation.is_some() { self.normal.clone() } else { Vec::new() },
         };
+        if let Some(onset) = &self.onset {
+            start.states.clone_from(&onset.states);
+            return Ok(start);
+        }
         for point in 0..n {
             let (rate, shear) = (self.size(&self.rate, point), self.size(&self.shear, point));
             let at = (rate > 0.0 && self.normal[point] > 0.0).then(|| (rate, shear / self.normal[point]));
@@ -182,10 +203,16 @@ impl Fault {
         values[point..].iter().step_by(n).map(|v| v * v).sum::<f64>().sqrt()
     }
 
+    /// What loads the points at a time \[s\].
+    fn loads(&self, time: f64) -> Loads {
+        Loads { time, growth: self.pulses.iter().map(|p| p.growth(time)).collect() }
+    }
+
     /// Shear traction that loads a component of a point: initial and imposed \[Pa\].
-    fn loading(&self, entry: usize, growth: &[f64]) -> f64 {
-        let imposed = self.pulses.iter().zip(growth).map(|(p, g)| g * p.amplitude[entry]);
-        self.shear[entry] + imposed.sum::<f64>()
+    fn loading(&self, entry: usize, loads: &Loads) -> f64 {
+        let imposed = self.pulses.iter().zip(&loads.growth).map(|(p, g)| g * p.amplitude[entry]);
+        let rate = self.onset.as_ref().map_or(0.0, |onset| onset.loading_rate[entry]);
+        self.shear[entry] + imposed.sum::<f64>() + rate * loads.time
     }
 
     /// Balances all points at tⁿ: adds the accelerations by the tractions and writes these into the state.
@@ -194,19 +221,20 @@ impl Fault {
         between: &mut Between<'_>,
         state: &mut FaultState,
     ) -> Result<(), Unbalanced> {
-        let growth: Vec<f64> = self.pulses.iter().map(|p| p.growth(between.time)).collect();
+        let loads = self.loads(between.time);
+        ties::hold(between, between.tied, between.components);
         for point in 0..self.points.len() {
             state.normal[point] = self.closing(between, point, state)?;
         }
         let n = self.points.len();
-        if between.first && !self.law.has_elastic_domain() {
+        if between.first && !self.law.has_elastic_domain() && self.onset.is_none() {
             for point in 0..n {
                 self.press(between, point, state);
             }
             return Ok(());
         }
         self.relax(between.dt, state);
-        let (pushes, trials) = self.pushes(between, state, &growth);
+        let (pushes, trials) = self.pushes(between, state, &loads);
         let mut answers = vec![Pushed { traction: 0.0, rate: 0.0 }; pushes.len()];
         self.law.push(&pushes, &mut state.states, &mut answers).map_err(Unbalanced::Friction)?;
         for (point, (push, answer)) in pushes.iter().zip(&answers).enumerate() {
@@ -217,10 +245,10 @@ impl Fault {
             for (c, e) in p.along.iter().enumerate() {
                 let entry = c * n + point;
                 state.shear[entry] = share * trials[entry];
-                let change = p.area * (state.shear[entry] - self.loading(entry, &growth));
+                let change = p.area * (state.shear[entry] - self.loading(entry, &loads));
                 force.iter_mut().zip(e).for_each(|(f, e)| *f -= change * e);
             }
-            between.push(point, &force);
+            between.push(between.pairs[point], &force);
         }
         Ok(())
     }
@@ -228,7 +256,7 @@ impl Fault {
     /// Adds the accelerations by the change of the normal traction of a point.
     fn press(&self, between: &mut Between<'_>, point: usize, state: &FaultState) {
         let pressed = self.points[point].area * (state.normal[point] - self.normal[point]);
-        between.push(point, &self.points[point].normal.map(|n| pressed * n));
+        between.push(between.pairs[point], &self.points[point].normal.map(|n| pressed * n));
     }
 
     /// Normal traction that closes the gap by the end of the step, if it presses \[Pa\].
@@ -267,9 +295,11 @@ impl Fault {
     }
 
     /// Drives of the points, and their trial tractions by components \[Pa\].
-    fn pushes(&self, between: &Between<'_>, state: &FaultState, growth: &[f64]) -> (Vec<Push>, Vec<f64>) {
+    fn pushes(&self, between: &Between<'_>, state: &FaultState, loads: &Loads) -> (Vec<Push>, Vec<f64>) {
         let n = self.points.len();
-        let reach = if self.law.has_elastic_domain() { between.kick } else { 0.5 * between.dt };
+        // The first step of a rate law reaches the first half step alone: velocities and states pass half a step.
+        let first = between.first && !self.law.has_elastic_domain();
+        let reach = if self.law.has_elastic_domain() || first { between.kick } else { 0.5 * between.dt };
         let mut trials = vec![0.0; self.shear.len()];
         let pushes = (0..n).map(|point| {
             let p = &self.points[point];
@@ -279,7 +309,7 @@ impl Fault {
                 impedance = 1.0 / (reach * between.mobility(point, p.area, e));
                 let rate = between.jump(between.velocity, point, e)
                     + reach * between.jump(between.acceleration, point, e);
-                trials[entry] = self.loading(entry, growth) + impedance * rate;
+                trials[entry] = self.loading(entry, loads) + impedance * rate;
             }
             let felt = if self.regularisation.is_some() { state.felt[point] } else { state.normal[point] };
             Push {
@@ -288,7 +318,7 @@ impl Fault {
                 trial: self.size(&trials, point),
                 impedance,
                 near: self.size(&state.rate, point),
-                dt: between.dt,
+                dt: if first { between.kick } else { between.dt },
             }
         });
         (pushes.collect(), trials)
@@ -305,7 +335,7 @@ impl Fault {
         state: &mut FaultState,
     ) -> [[f64; 2]; 2] {
         let n = self.points.len();
-        let growth: Vec<f64> = self.pulses.iter().map(|p| p.growth(time)).collect();
+        let loads = self.loads(time);
         let (mut dissipated, mut freed) = ([0.0; 2], [0.0; 2]);
         for (point, p) in self.points.iter().enumerate() {
             for (side, jump) in jumps[point].iter().enumerate() {
@@ -320,7 +350,7 @@ impl Fault {
                 state.rate[entry] = 0.5 * (rates[0] + rates[1]);
                 for (side, rate) in rates.iter().enumerate() {
                     dissipated[side] += 0.5 * dt * p.area * state.shear[entry] * rate;
-                    freed[side] += 0.5 * dt * p.area * self.loading(entry, &growth) * rate;
+                    freed[side] += 0.5 * dt * p.area * self.loading(entry, &loads) * rate;
                 }
             }
         }

@@ -21,17 +21,22 @@ mod fault;
 mod loads;
 mod motion;
 mod nodes;
+mod onset;
 mod problem;
 mod pulse;
+mod springs;
 mod stable;
+mod ties;
 
 pub use absorbing::{Dashpot, dashpots};
 pub use budget::Budget;
 pub use explicit::{Explicit, ExplicitState, Halt};
 pub use fault::{Fault, FaultState, Regularisation, SplitPoint};
+pub use onset::Onset;
 pub use problem::Problem;
 pub use pulse::Pulse;
 pub use stable::{Stable, stable};
+pub use ties::Tie;
 
 #[cfg(test)]
 mod tests;

@@ -18,7 +18,7 @@ pub struct Problem<const D: usize> {
     pub fault: Option<Fault>,
     /// Dashpots of absorbing sides, by ascending nodes.
     pub absorbing: Vec<Dashpot>,
-    /// Stages; their springs are not used.
+    /// Stages.
     pub stages: Vec<Stage>,
     /// Velocity of each degree of freedom at the start \[m/s\]; empty for bodies at rest.
     pub velocity: Vec<f64>,

@@ -1,4 +1,4 @@
-use super::{Explicit, Fault, Problem, SplitPoint, dashpots};
+use super::{Explicit, Fault, Problem, SplitPoint, Tie, dashpots};
 use crate::{Body, CellBlock, Model, Stage};
 use asperity_fem::block::LinearBlock;
 use asperity_fem::dof::Channel;
@@ -154,6 +154,8 @@ fn impact(h: f64, gap: f64) -> Problem<2> {
         opens: true,
         regularisation: None,
         pulses: Vec::new(),
+        onset: None,
+        ties: Vec::new(),
     };
     let velocity =
         (0..model.mesh.nodes.len()).flat_map(|n| [if n < half { 1.0 } else { 0.0 }, 0.0]).collect();
@@ -283,4 +285,60 @@ fn absorbing_dashpots_are_the_impedances_times_the_area() {
         assert!((dashpot.damping[1][1] / (0.25 * shear) - 1.0).abs() < 1e-12);
         assert_eq!(dashpot.damping[0][1], 0.0);
     }
+}
+
+#[test]
+fn tied_bars_move_as_one() {
+    let pulse = |x: f64| (-((x - 0.6) / 0.1).powi(2)).exp();
+    let moving =
+        |model: &Model<2>| -> Vec<f64> { model.mesh.nodes.iter().flat_map(|x| [pulse(x[0]), 0.0]).collect() };
+    let whole = bars(&[[0.0, 2.0]], 1, 0.05, Idealisation::PlaneStress);
+    let parts = bars(&[[0.0, 1.0], [1.0, 2.0]], 1, 0.05, Idealisation::PlaneStress);
+    let (n, half) = (21, parts.mesh.nodes.len() / 2);
+    let tie = |j: usize| Tie { minus: j * n + n - 1, plus: half + j * n };
+    let fault = Fault {
+        points: Vec::new(),
+        law: Box::new(EachPoint(Vec::<Coulomb>::new())),
+        normal: Vec::new(),
+        shear: Vec::new(),
+        rate: Vec::new(),
+        opens: false,
+        regularisation: None,
+        pulses: Vec::new(),
+        onset: None,
+        ties: vec![tie(0), tie(1)],
+    };
+    let end = stage(1.0 / speed());
+    let velocity = moving(&whole);
+    let one = Problem { velocity, ..problem(whole, end.clone()) };
+    let velocity = moving(&parts);
+    let two = Problem { velocity, fault: Some(fault), ..problem(parts, end) };
+    let [one, two] = [&one, &two].map(|p| run(p, |_| ()).displacement().to_vec());
+    let at = |x: usize| if x < n { two[2 * x] } else { two[2 * (half + x + 1 - n)] };
+    for x in 0..2 * n - 1 {
+        assert!((one[2 * x] - at(x)).abs() < 1e-12 / speed(), "{x}: {} {}", one[2 * x], at(x));
+    }
+}
+
+#[test]
+fn bodies_on_soft_springs_swing_with_their_mass_and_keep_their_energy() {
+    let bar = bars(&[[0.0, 1.0]], 1, 0.25, Idealisation::PlaneStress);
+    // Mass over stiffness gives a quarter period of a hundred travel times of waves.
+    let mass = 0.25 * DENSITY;
+    let omega = 0.5 * std::f64::consts::PI * speed() / 100.0;
+    let mut stage = stage(100.0 / speed());
+    stage.springs.push(crate::Spring {
+        set: "b0.right".into(),
+        axis: 0,
+        dofs: vec![2 * 4, 2 * 9],
+        stiffness: mass * omega * omega,
+        rate: 0.0,
+    });
+    let velocity = bar.mesh.nodes.iter().flat_map(|_| [1.0, 0.0]).collect();
+    let problem = Problem { velocity, ..problem(bar, stage) };
+    let mut run = run(&problem, |_| ());
+    assert!((run.displacement()[0] * omega - 1.0).abs() < 1e-3, "{}", run.displacement()[0] * omega);
+    let budget = run.budget();
+    assert!(budget.missing().abs() < 1e-12 * budget.largest(), "{budget:?}");
+    assert!((budget.loads / budget.initial + 1.0).abs() < 1e-3, "{budget:?}");
 }

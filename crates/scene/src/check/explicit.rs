@@ -60,7 +60,9 @@ impl Checker<'_> {
             scene.faults.values().flat_map(|f| &f.pulses).map(|p| ("pulses", Some(p.traction.span()))),
         );
         let conditions = scene.stages.iter().flat_map(|s| &s.conditions);
-        keys.extend(conditions.map(|c| ("absorbing", c.get_ref().absorbing.as_ref().map(Spanned::span))));
+        if !self.has_ruptures() {
+            keys.extend(conditions.map(|c| ("absorbing", c.get_ref().absorbing.as_ref().map(Spanned::span))));
+        }
         for (key, place) in keys.into_iter().filter_map(|(key, place)| Some((key, place?))) {
             self.conflict(
                 &place,
@@ -130,7 +132,7 @@ impl Checker<'_> {
     }
 
     /// Checks the length of steps and the viscosity.
-    fn stability(&mut self) {
+    pub(super) fn stability(&mut self) {
         let time = &self.scene.time;
         if let Some(courant) = time.courant.as_ref().filter(|c| !(*c.get_ref() > 0.0 && *c.get_ref() <= MOST))
         {
@@ -221,7 +223,7 @@ impl Checker<'_> {
     }
 
     /// Checks that slip in space may turn: nothing holds it along the rake.
-    fn direction_with_mass(&mut self, fault: &Fault) {
+    pub(super) fn direction_with_mass(&mut self, fault: &Fault) {
         let free = fault.slip.as_ref().is_some_and(|s| *s.get_ref() == SlipSpec::Free);
         if self.in_space() && !free {
             let place = fault.slip.as_ref().map_or_else(|| fault.span(), Spanned::span);
@@ -346,8 +348,11 @@ impl Checker<'_> {
         self.count(at, "at", &(0..self.dimension()).collect::<Vec<_>>());
     }
 
-    /// Reports sides that absorb waves and are prescribed or loaded as well.
+    /// Reports sides that absorb waves and are prescribed or loaded as well. Between ruptures an absorbing side may be.
     pub(super) fn absorbing(&mut self, stage: &Stage) {
+        if self.has_ruptures() {
+            return;
+        }
         let absorbs = |c: &&Spanned<Condition>| c.get_ref().absorbing.as_ref().is_some_and(|a| *a.get_ref());
         for condition in stage.conditions.iter().filter(absorbs) {
             let Condition { set: Some(set), absorbing: Some(absorbing), .. } = condition.get_ref() else {

@@ -130,10 +130,14 @@ impl Checker<'_> {
             return self.explicit();
         }
         self.explicit_alone();
+        if self.has_ruptures() {
+            self.ruptures();
+        }
         let (scene, stepper) = (self.scene, &self.scene.time.stepper);
-        let ode = *stepper.get_ref() == Stepper::FaultOde;
+        let alone = *stepper.get_ref() == Stepper::FaultOde;
+        let ode = alone || *stepper.get_ref() == Stepper::Auto;
         match scene.faults.values().next() {
-            None if ode => self.error(
+            None if alone => self.error(
                 stepper.span(),
                 "the stepper \"fault-ode\" integrates faults, and the scene has none",
                 "add `[faults.NAME]`, or use \"implicit\" or \"static-explicit\"",

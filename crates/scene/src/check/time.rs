@@ -165,7 +165,13 @@ impl Checker<'_> {
             place(time.log_rate_tolerance.as_ref().map(Spanned::span), "log_rate_tolerance", &[FaultOde]),
         ];
         let own = stepper_name(stepper);
-        for (key, place, of) in keys.into_iter().flatten().filter(|(_, _, of)| !of.contains(&stepper)) {
+        // Faults through cycles with ruptures take the keys of the two steppers that they pass between.
+        let ruptures = self.has_ruptures();
+        let known = |of: &[Stepper]| match ruptures {
+            true => *of == [Auto] || of.contains(&FaultOde) || of.contains(&Explicit),
+            false => of.contains(&stepper),
+        };
+        for (key, place, of) in keys.into_iter().flatten().filter(|(_, _, of)| !known(of)) {
             let other = stepper_name(of[0]);
             self.conflict(
                 &place,

@@ -39,7 +39,8 @@ impl Checker<'_> {
             self.resolution();
         }
         self.materials_of_no_body();
-        if !matches!(*self.scene.time.stepper.get_ref(), Stepper::FaultOde | Stepper::Explicit) {
+        let of_faults = matches!(*self.scene.time.stepper.get_ref(), Stepper::FaultOde | Stepper::Explicit);
+        if !of_faults && !self.has_ruptures() {
             self.without_adaption();
             self.beside_defaults();
             self.without_interface();

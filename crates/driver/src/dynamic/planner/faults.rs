@@ -46,6 +46,8 @@ pub(super) fn of<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Result<
             .as_ref()
             .map(|delay| Regularisation { length: delay.get_ref().length.0, rate: delay.get_ref().rate.0 }),
         pulses: pulses(&named, placed, components)?,
+        onset: None,
+        ties: Vec::new(),
     }))
 }
 

@@ -4,7 +4,10 @@ mod doubts;
 mod faults;
 mod masses;
 mod outputs;
+mod rupture;
 mod steps;
+
+pub use rupture::ruptures;
 
 use super::plan::{AnyPlan, Plan};
 use crate::diagnostic::Diagnostic;

@@ -30,13 +30,18 @@ pub(super) fn viscosity(scene: &Scene) -> f64 {
     scene.time.viscosity.as_ref().map_or(VISCOSITY, |v| *v.get_ref())
 }
 
+/// Step over the stable one.
+pub(super) fn courant(scene: &Scene) -> f64 {
+    scene.time.courant.as_ref().map_or(COURANT, |c| *c.get_ref())
+}
+
 /// Chooses the steps of the only stage.
 ///
 /// # Errors
 /// [`Diagnostic`] where the scene asks for steps beyond the stable one, or for samples that do not fit the duration.
 pub(super) fn choose(scene: &Scene, stage: &Stage, stable: &Stable) -> Result<Counted, Diagnostic> {
     let duration = stage.end - stage.start;
-    let longest = scene.time.courant.as_ref().map_or(COURANT, |c| *c.get_ref()) * stable.step;
+    let longest = courant(scene) * stable.step;
     let samples = samples(scene, duration)?;
     let steps = match scene.stages[0].steps.as_ref() {
         Some(given) => {

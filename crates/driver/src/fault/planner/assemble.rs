@@ -100,6 +100,7 @@ pub(super) fn plan_of<const D: usize>(
         points,
         cadence: cadence(scene, &fault, end),
         problem: Problem { fault, areas, loading, start, settings: settings(scene, end)? },
+        ruptures: None,
         medium: around.medium,
         dofs: around.dofs,
         creeping: around.creeping,

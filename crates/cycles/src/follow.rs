@@ -1,0 +1,257 @@
+//! Follows a run step by step: detects events by the largest slip rate, and reports each step to the observer.
+
+use super::catalogue::Catalogue;
+use super::components::Components;
+use super::equations::{Equations, Fault, Pressed};
+use super::fault_run::ALL;
+use super::moment::{Ends, Faults, Moment};
+use super::opening::Crack;
+use super::rupture::{Detector, Rupture, Values};
+use asperity_ode::{Clock, Control, ObserveError, Observer, Step};
+use std::ops::Range;
+
+/// The course of the unknowns over a step.
+pub(crate) trait Course {
+    /// Time at its start.
+    fn start(&self) -> Clock;
+
+    /// Its length \[s\].
+    fn length(&self) -> f64;
+
+    /// Unknowns at its start.
+    fn first(&self) -> &[f64];
+
+    /// Writes unknowns and slip rates \[m/s\] at `fraction` of the step, from 0 to 1.
+    fn at(&self, fraction: f64, equations: &Equations<'_>, unknowns: &mut [f64], rate: &mut [f64]);
+}
+
+impl Course for Step<'_> {
+    fn start(&self) -> Clock {
+        self.start
+    }
+
+    fn length(&self) -> f64 {
+        Step::length(self)
+    }
+
+    fn first(&self) -> &[f64] {
+        self.start_state()
+    }
+
+    fn at(&self, fraction: f64, equations: &Equations<'_>, unknowns: &mut [f64], rate: &mut [f64]) {
+        Step::at(self, fraction, unknowns);
+        let at = self.start.later(fraction * Step::length(self));
+        equations.slip_rates(at, unknowns, rate);
+    }
+}
+
+/// The end of a step.
+#[derive(Clone, Copy)]
+pub(crate) struct End<'a> {
+    /// Time.
+    pub at: Clock,
+    /// Unknowns.
+    pub unknowns: &'a [f64],
+    /// Slip rates \[m/s\].
+    pub rate: &'a [f64],
+    /// Rates of the unknowns at the start and at the end of the step, where they are known.
+    pub rates: Option<[&'a [f64]; 2]>,
+}
+
+/// See the module.
+pub(crate) struct Follow<'a> {
+    equations: &'a Equations<'a>,
+    fault: &'a Fault,
+    observer: &'a mut dyn Observer<Faults>,
+    /// Failure of the observer.
+    pub failure: Option<ObserveError>,
+    catalogue: &'a mut Catalogue<Rupture>,
+    detectors: &'a mut [Detector],
+    rate: Vec<f64>,
+    shear: Vec<f64>,
+    /// Unknowns within a step.
+    between: Vec<f64>,
+    /// Largest slip rate at the end of the last step \[m/s\].
+    pub largest: f64,
+    /// Points that are open.
+    crack: Crack,
+    /// Normal tractions and openings at the end of the last step.
+    pressed: Pressed,
+}
+
+/// Number of halvings of a step in the search for the time at which a slip rate is passed; they reach the rounding of times.
+const MOST_HALVINGS: usize = 60;
+
+impl<'a> Follow<'a> {
+    /// Follows a run from the state that it has reached, with its catalogue and its detectors.
+    pub fn new(
+        (equations, fault): (&'a Equations<'a>, &'a Fault),
+        observer: &'a mut dyn Observer<Faults>,
+        (at, unknowns): (Clock, &[f64]),
+        (catalogue, detectors): (&'a mut Catalogue<Rupture>, &'a mut [Detector]),
+    ) -> Self {
+        let vectors = equations.layout().m().end;
+        let mut crack = Crack::default();
+        let pressed = equations.pressed(at, unknowns, &mut crack);
+        let mut rate = vec![0.0; vectors];
+        equations.slip_rates(at, unknowns, &mut rate);
+        let mut follow = Self {
+            equations,
+            fault,
+            observer,
+            failure: None,
+            catalogue,
+            detectors,
+            rate,
+            shear: vec![0.0; vectors],
+            between: unknowns.to_vec(),
+            largest: 0.0,
+            crack,
+            pressed,
+        };
+        follow.largest = follow.fastest(&follow.rate, follow.all()).1;
+        follow
+    }
+
+    /// The equations.
+    pub fn equations(&self) -> &'a Equations<'a> {
+        self.equations
+    }
+
+    /// Reports the start of a run.
+    pub fn begin(&mut self, at: Clock, y: &[f64]) -> Control {
+        self.report(at, 0.0, y, None)
+    }
+
+    /// Number of finished events of all faults together.
+    pub fn events(&self) -> usize {
+        self.catalogue.ended(ALL).len()
+    }
+
+    fn all(&self) -> Range<usize> {
+        0..self.equations.layout().points()
+    }
+
+    /// The fastest of these points and its \|V\| \[m/s\].
+    fn fastest(&self, rate: &[f64], among: Range<usize>) -> (usize, f64) {
+        let rate = Components::new(rate, self.equations.layout().points());
+        let mut best = (among.start, 0.0);
+        for p in among {
+            let speed = rate.size(p);
+            if speed > best.1 {
+                best = (p, speed);
+            }
+        }
+        best
+    }
+
+    fn report(&mut self, at: Clock, dt: f64, unknowns: &[f64], step: Option<Ends<'_>>) -> Control {
+        let layout = self.equations.layout();
+        let rate = Components::new(self.rate.as_slice(), layout.points());
+        let (largest, catalogue, pressed) = (self.largest, &*self.catalogue, &self.pressed);
+        let moment = Moment { at, dt, unknowns, layout, rate, largest, pressed, catalogue, step };
+        self.observer.step(&moment).unwrap_or_else(|failure| {
+            self.failure = Some(failure);
+            Control::Stop
+        })
+    }
+
+    /// Finds the time within the step at which the fastest of these points passes a threshold, and that point. Uses
+    /// bisection, since the fastest point may change. Leaves the unknowns and tractions at that time in `self`, and
+    /// returns the openings as well.
+    fn locate(
+        &mut self,
+        course: &dyn Course,
+        (threshold, upwards): (f64, bool),
+        among: Range<usize>,
+    ) -> (Clock, usize, Vec<f64>) {
+        let (mut before, mut after) = (0.0, 1.0);
+        for _ in 0..MOST_HALVINGS {
+            let middle = 0.5 * (before + after);
+            if middle <= before || middle >= after {
+                break;
+            }
+            course.at(middle, self.equations, &mut self.between, &mut self.rate);
+            if (self.fastest(&self.rate, among.clone()).1 >= threshold) == upwards {
+                after = middle;
+            } else {
+                before = middle;
+            }
+        }
+        course.at(after, self.equations, &mut self.between, &mut self.rate);
+        let at = course.start().later(after * course.length());
+        let layout = self.equations.layout();
+        let pressed = self.equations.pressed(at, &self.between, &mut self.crack);
+        for (i, shear) in self.shear.iter_mut().enumerate() {
+            let p = i % layout.points();
+            *shear = pressed.normal[p] * self.fault.law.scale(p) * self.between[i];
+        }
+        (at, self.fastest(&self.rate, among).0, pressed.opening)
+    }
+
+    /// Detects onsets and ends of events within a step; `largest` holds the largest slip rate of each source at its end
+    /// \[m/s\].
+    fn detect(&mut self, course: &dyn Course, largest: &[f64]) {
+        for (source, &largest) in largest.iter().enumerate() {
+            self.note_peak(source, largest);
+            while let Some(crossing) = self.detectors[source].crossing(largest) {
+                let (passed, points) =
+                    (self.detectors[source].passed(crossing), self.detectors[source].points());
+                let (at, fastest, opening) = self.locate(course, passed, points);
+                let layout = self.equations.layout();
+                let slip = layout.slip_of(&self.between);
+                let shear = Components::new(self.shear.as_slice(), layout.points());
+                let values = Values { slip, shear, opening: &opening };
+                self.detectors[source].pass((self.catalogue, source), crossing, (at, fastest), values);
+                self.note_peak(source, largest);
+            }
+        }
+    }
+
+    /// Records the largest temperatures of the unfinished events.
+    fn note_heat(&mut self) {
+        for (source, detector) in self.detectors.iter().enumerate() {
+            let Some(event) = self.catalogue.open(source) else { continue };
+            let temperatures = self.pressed.surface.temperature.get(detector.points()).into_iter().flatten();
+            // Points that are not heated have no temperature, which is not a number.
+            let hottest = temperatures.copied().filter(|t| t.is_finite()).reduce(f64::max);
+            let before = event.details.hottest;
+            event.details.hottest = before.into_iter().chain(hottest).reduce(f64::max);
+        }
+    }
+
+    fn note_peak(&mut self, source: usize, largest: f64) {
+        if let Some(event) = self.catalogue.open(source) {
+            event.peak = event.peak.max(largest);
+        }
+    }
+
+    /// Passes a step: its events, its heat, and its end for the observer. `waves` gives the energy that waves took over
+    /// the step \[J\], if the step is one of bodies with mass; it is asked whether an event has ended.
+    pub fn pass(
+        &mut self,
+        course: &dyn Course,
+        end: End<'_>,
+        waves: Option<&mut dyn FnMut(bool) -> f64>,
+    ) -> Control {
+        let largest: Vec<f64> = self.detectors.iter().map(|d| self.fastest(end.rate, d.points()).1).collect();
+        let events = self.events();
+        self.detect(course, &largest);
+        self.rate.copy_from_slice(end.rate);
+        self.largest = largest[ALL];
+        let pressed = self.equations.pressed(end.at, end.unknowns, &mut self.crack);
+        self.equations.commit(end.at, end.unknowns);
+        let start_pressed = std::mem::replace(&mut self.pressed, pressed);
+        self.note_heat();
+        let ended = self.events() > events;
+        let waves = waves.map(|taken| taken(ended));
+        let ends = end.rates.map(|[start_rates, end_rates]| Ends {
+            start: course.first(),
+            start_pressed: &start_pressed,
+            start_rates,
+            end_rates,
+            waves,
+        });
+        self.report(end.at, course.length(), end.unknowns, ends)
+    }
+}

@@ -1,0 +1,76 @@
+//! The seam to bodies with mass, which compute the ruptures of a run.
+//!
+//! A rupture is a perturbation of the state at which it is handed over: bodies begin at rest and undeformed, and the
+//! tractions that load the fault are those of equilibrium, from which waves then take their part.
+
+use asperity_ode::Control;
+
+/// Slip rates between which faults pass to bodies with mass and back.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Handover {
+    /// Largest slip rate from which bodies have mass \[m/s\].
+    pub above: f64,
+    /// Largest slip rate below which they may lose it again \[m/s\].
+    pub below: f64,
+    /// Time for which it must have stayed below \[s\].
+    pub quiet: f64,
+    /// Largest kinetic energy with which they lose it, over the largest of the rupture \[-\].
+    pub kinetic: f64,
+}
+
+/// Bodies with mass, and when they are used.
+pub struct Dynamics<'a> {
+    /// Slip rates of the hand-overs.
+    pub handover: Handover,
+    /// Tributary areas of the points \[m²; m per metre of thickness\].
+    pub areas: &'a [f64],
+    /// The bodies.
+    pub waves: &'a mut dyn Waves,
+}
+
+/// State of the faults at which a rupture begins. Slices of several components hold the first component of all points, then
+/// the second.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Start {
+    /// Shear tractions in equilibrium, without radiation damping \[Pa\].
+    pub loading: Vec<f64>,
+    /// Their rates under the loads alone \[Pa/s\].
+    pub loading_rate: Vec<f64>,
+    /// Friction \[Pa\].
+    pub friction: Vec<f64>,
+    /// Normal tractions \[Pa\].
+    pub normal: Vec<f64>,
+    /// Slip rates \[m/s\].
+    pub rate: Vec<f64>,
+    /// State variables, point-major.
+    pub states: Vec<f64>,
+}
+
+/// State of the faults at a step of a rupture.
+pub struct Shaken<'a> {
+    /// Time since its start \[s\].
+    pub time: f64,
+    /// Slip since its start, by components \[m\].
+    pub slip: &'a [f64],
+    /// Slip rates, by components \[m/s\].
+    pub rate: &'a [f64],
+    /// Shear tractions, by components \[Pa\].
+    pub shear: &'a [f64],
+    /// Normal tractions \[Pa\].
+    pub normal: &'a [f64],
+    /// State variables, point-major.
+    pub states: &'a [f64],
+    /// Kinetic energy \[J; J per metre of thickness in the plane\].
+    pub kinetic: f64,
+    /// Energy that has left the fault since the start: that of the bodies, what they dissipated, and what was absorbed.
+    pub energy: &'a mut dyn FnMut() -> f64,
+}
+
+/// Bodies with mass around the faults.
+pub trait Waves {
+    /// Computes a rupture from its start. Each step is shown to `see`, which ends the rupture.
+    ///
+    /// # Errors
+    /// The reason why the steps cannot go on.
+    fn rupture(&mut self, start: &Start, see: &mut dyn FnMut(Shaken<'_>) -> Control) -> Result<(), String>;
+}
