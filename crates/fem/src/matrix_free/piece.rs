@@ -26,12 +26,21 @@ pub(super) struct Piece {
     corners: usize,
 }
 
-/// Room for the displacements and forces of the nodes of a piece.
+/// Room for the displacements and forces of the nodes of a piece, and for those of a batch of its cells.
 #[derive(Debug, Default)]
 pub(super) struct Room {
     u: Vec<f64>,
     /// Forces of the last piece, node by node.
     pub forces: Vec<f64>,
+    lanes: Lanes,
+}
+
+/// Displacements and forces of a batch of cells, degree of freedom by degree of freedom. It is kept from group to group: clearing it
+/// would cost more than small groups of cells.
+#[derive(Debug, Default)]
+struct Lanes {
+    x: Vec<[f64; WIDE]>,
+    y: Vec<[f64; WIDE]>,
 }
 
 /// Cells that are treated alike.
@@ -126,7 +135,8 @@ impl Piece {
         for (own, &node) in room.u.as_chunks_mut::<C>().0.iter_mut().zip(&self.nodes) {
             *own = u[node as usize];
         }
-        Arch::new().dispatch(Evaluation::<C> { piece: self, u: &room.u, forces: &mut room.forces });
+        let Room { u, forces, lanes } = room;
+        Arch::new().dispatch(Evaluation::<C> { piece: self, u, forces, lanes });
     }
 }
 
@@ -165,6 +175,7 @@ struct Evaluation<'a, const C: usize> {
     piece: &'a Piece,
     u: &'a [f64],
     forces: &'a mut [f64],
+    lanes: &'a mut Lanes,
 }
 
 impl<const C: usize> WithSimd for Evaluation<'_, C> {
@@ -180,7 +191,7 @@ impl<const C: usize> WithSimd for Evaluation<'_, C> {
             let cells = (corners, group.connectivity.as_slice());
             match &group.kind {
                 Kind::Simplex { moduli, gradients } => simplices(cells, (*moduli, gradients), u, forces),
-                Kind::Shared(matrix) => shared(simd, cells, matrix, u, forces),
+                Kind::Shared(matrix) => shared(simd, cells, matrix, (u, forces), self.lanes),
                 Kind::Own(matrices) => own(cells, matrices, u, forces),
             }
         }
@@ -220,19 +231,20 @@ fn shared<S: Simd, const C: usize>(
     simd: S,
     (corners, cells): (usize, &[u16]),
     k: &[f64],
-    u: &[[f64; C]],
-    forces: &mut [[f64; C]],
+    (u, forces): (&[[f64; C]], &mut [[f64; C]]),
+    Lanes { x, y }: &mut Lanes,
 ) {
-    let (mut x, mut y) = ([[[0.0; WIDE]; MOST]; BATCH], [[[0.0; WIDE]; MOST]; BATCH]);
-    let wide = WIDE * corners;
+    let (n, wide) = (corners * C, WIDE * corners);
+    x.resize(BATCH * n, [0.0; WIDE]);
+    y.resize(BATCH * n, [0.0; WIDE]);
     for cells in cells.chunks(BATCH * wide) {
-        for (cells, x) in cells.chunks(wide).zip(&mut x) {
+        for (cells, x) in cells.chunks(wide).zip(x.chunks_exact_mut(n)) {
             gather((corners, cells), u, x);
         }
-        for (x, y) in x.iter().zip(&mut y).take(cells.len().div_ceil(wide)) {
-            product::shared(simd, k, corners * C, x.as_flattened(), y.as_flattened_mut());
+        for (x, y) in x.chunks_exact(n).zip(y.chunks_exact_mut(n)).take(cells.len().div_ceil(wide)) {
+            product::shared(simd, k, n, x.as_flattened(), y.as_flattened_mut());
         }
-        for (cells, y) in cells.chunks(wide).zip(&y) {
+        for (cells, y) in cells.chunks(wide).zip(y.chunks_exact(n)) {
             scatter((corners, cells), y, forces);
         }
     }
