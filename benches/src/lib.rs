@@ -1,6 +1,7 @@
 //! Problems shared by the benches.
 
 pub mod direct;
+pub mod explicit;
 
 use asperity_contact::{
     Enforcement, Interface, InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, Sliding, Smoothing,

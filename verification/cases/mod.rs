@@ -61,6 +61,7 @@ mod elastic_plastic_cylinder;
 mod elastic_waves;
 mod event_files;
 mod event_numbers;
+mod explicit_materials;
 mod fault_balance;
 pub(crate) mod fault_bend;
 mod fault_bodies;
@@ -96,6 +97,7 @@ mod interface_laws;
 mod interface_prestress;
 mod interface_rate_state;
 mod jaumann_shear;
+mod kostrov_crack;
 mod lame_cylinder;
 mod large_rotation;
 mod maxwell_relaxation;
@@ -105,6 +107,7 @@ mod newton_convergence;
 mod okada;
 mod output_files;
 mod partial_slip;
+mod plastic_wave;
 pub mod programs;
 mod restarts;
 pub mod sandwich;
@@ -146,9 +149,12 @@ mod stage_paths;
 mod static_explicit_jumps;
 mod steel_strip;
 mod stick_slip;
+mod stick_slip_inertia;
+mod stick_slip_inertia_events;
 pub mod texts;
 mod two_rings;
 mod uniaxial_hardening;
+mod unlike_rocks;
 mod volumetric_path;
 pub mod waves;
 mod wavy_sliding;
@@ -250,6 +256,7 @@ pub const ALL: &[Case] = &[
     dynamic_rupture::CASE,
     elastic_plastic_cylinder::CASE,
     elastic_waves::CASE,
+    explicit_materials::CASE,
     first_slip::CASE,
     forward_drift::CASE,
     static_explicit_jumps::CASE,
@@ -257,10 +264,14 @@ pub const ALL: &[Case] = &[
     stage_paths::CASE,
     steel_strip::CASE,
     stick_slip::CASE,
+    stick_slip_inertia::CASE,
+    stick_slip_inertia_events::CASE,
     jaumann_shear::CASE,
     large_rotation::CASE,
+    kostrov_crack::CASE,
     maxwell_relaxation::CASE,
     uniaxial_hardening::CASE,
+    unlike_rocks::CASE,
     volumetric_path::CASE,
     wavy_sliding::CASE,
 ];

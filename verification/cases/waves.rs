@@ -55,23 +55,37 @@ pub fn problem(
     idealisation: Idealisation,
     end: f64,
 ) -> Result<Problem<2>, CaseError> {
-    let elastic = rock.elastic()?;
-    let block = |k| LinearBlock::new(&mesh, k, &elastic, idealisation, Formulation::Standard);
+    let rocks = vec![rock; mesh.blocks.len()];
+    problem_of(mesh, &rocks, idealisation, end)
+}
+
+/// The same with a rock for each block of the mesh.
+///
+/// # Errors
+/// If a material is not admissible.
+pub fn problem_of(
+    mesh: Mesh<2>,
+    rocks: &[Rock],
+    idealisation: Idealisation,
+    end: f64,
+) -> Result<Problem<2>, CaseError> {
+    let elastic = rocks.iter().map(|r| r.elastic()).collect::<Result<Vec<_>, _>>()?;
+    let block = |k: usize| LinearBlock::new(&mesh, k, &elastic[k], idealisation, Formulation::Standard);
     let blocks = (0..mesh.blocks.len())
         .map(|k| Ok(CellBlock::Linear(Box::new(block(k)?))))
         .collect::<Result<Vec<_>, CaseError>>()?;
-    let body = |k| Body {
+    let body = |k: usize| Body {
         name: format!("b{k}"),
         nodes: 0..mesh.nodes.len(),
         blocks: k..k + 1,
-        elastic: vec![elastic],
+        elastic: vec![elastic[k]],
         size: None,
         parts: Vec::new(),
         nonlinear: None,
         dofs: 0..mesh.nodes.len() * idealisation.components(),
     };
     let bodies = (0..mesh.blocks.len()).map(body).collect();
-    let density = vec![rock.density; mesh.blocks.len()];
+    let density = rocks.iter().map(|r| r.density).collect();
     let stage = Stage {
         name: "waves".into(),
         start: 0.0,

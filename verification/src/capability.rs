@@ -116,6 +116,8 @@ capabilities! {
     Implicit => "implicit stepper",
     /// Inertia of bodies in implicit steps.
     Inertia => "inertia of bodies",
+    /// Passage from equilibrium to inertia and back.
+    Handover => "from equilibrium to inertia and back",
     /// The static-explicit stepper.
     StaticExplicit => "static-explicit stepper",
     /// Condensation onto the interface.

@@ -23,7 +23,7 @@ use std::ops::Range;
 pub use common::{EnergyBalance, Kind, Outcome, Phases, Results, Status, Stop};
 pub use energy::{Budget, Closure};
 pub use passages::Passage;
-pub(crate) use passages::of as passages;
+pub(crate) use passages::{doubts as passage_doubts, of as passages};
 
 /// Values of an interface at the end of a stage.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]

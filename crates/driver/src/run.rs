@@ -299,6 +299,8 @@ impl<const D: usize> Running<'_, D> {
         }
         let energy = system.energy().map(|energy| work.energy.closure(energy));
         warnings.extend(energy.and_then(|energy| energy.doubt()));
+        let passages = report::passages(system.episodes());
+        warnings.extend(report::passage_doubts(&passages));
         let events = plan.events.as_ref().zip(events);
         let events = events.map(|(plan, e)| report::Events::new(plan, &e.catalogue, system.areas()));
         let mut report = RunReport {
@@ -311,7 +313,7 @@ impl<const D: usize> Running<'_, D> {
             events,
             balance,
             energy,
-            passages: report::passages(system.episodes()),
+            passages,
             ..RunReport::new(plan)
         };
         let counts = views::counts(work.steps.len(), work.rejected, &work.counts);

@@ -127,6 +127,6 @@ impl Reference {
         let Some(station) = stations.iter().find(|s| s["x_m"].as_f64() == Some(x)) else { return Vec::new() };
         let rates = station["rate_m_s"].as_array().map_or(&[][..], Vec::as_slice);
         let row = |(k, v): (usize, &Value)| Some((0.05 * k as f64, v.as_f64()?));
-        rates.iter().enumerate().filter_map(row).take_while(|(t, _)| *t <= super::END).collect()
+        rates.iter().enumerate().filter_map(row).take_while(|(t, _)| *t <= super::WHOLE.end).collect()
     }
 }

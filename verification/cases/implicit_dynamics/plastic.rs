@@ -1,15 +1,11 @@
 //! Elastic precursor and plastic front in uniaxial strain.
 
+use super::super::plastic_wave::Wave;
 use super::super::texts::{Done, simulate};
 use super::imbalance;
 use crate::{Capability, CaseError, Evidence, Ledger, Plot, Series};
 
 const SCENE: &str = include_str!("plastic.toml");
-const DENSITY: f64 = 8000.0;
-const BULK: f64 = 200e9 / (3.0 * (1.0 - 2.0 * 0.25));
-const SHEAR: f64 = 200e9 / (2.0 * (1.0 + 0.25));
-const HARDENING: f64 = 20e9;
-const YIELD: f64 = 200e6;
 /// Speed of the end [m/s].
 const SPEED: f64 = 20.0;
 /// Positions of the two points [m].
@@ -17,36 +13,6 @@ const PLACES: [f64; 2] = [0.02, 0.05];
 const DURATION: f64 = 16e-6;
 const HEIGHT: f64 = 0.5e-3;
 const COVERS: [Capability; 3] = [Capability::Inertia, Capability::Plasticity, Capability::PlaneStrain];
-
-/// Closed form (Wood 1952): moduli of uniaxial strain below and above yield, and the states behind both fronts.
-struct Wave {
-    elastic: f64,
-    plastic: f64,
-    /// Stress and velocity behind the precursor.
-    limit: (f64, f64),
-    /// Stress behind the plastic front.
-    stress: f64,
-    /// Plastic strain there.
-    strain: f64,
-}
-
-impl Wave {
-    fn new() -> Wave {
-        let speed = |modulus: f64| (modulus / DENSITY).sqrt();
-        let elastic = speed(BULK + 4.0 / 3.0 * SHEAR);
-        let plastic = speed(BULK + 4.0 * SHEAR * HARDENING / (3.0 * (3.0 * SHEAR + HARDENING)));
-        let yielding = YIELD / (2.0 * SHEAR);
-        let limit = (DENSITY * elastic * elastic * yielding, elastic * yielding);
-        let beyond = (SPEED - limit.1) / plastic;
-        Wave {
-            elastic,
-            plastic,
-            limit,
-            stress: limit.0 + DENSITY * plastic * (SPEED - limit.1),
-            strain: 2.0 * SHEAR * beyond / (3.0 * SHEAR + HARDENING),
-        }
-    }
-}
 
 /// Compression at a point over time [Pa].
 fn compression(done: &Done, point: usize) -> Vec<(f64, f64)> {
@@ -68,7 +34,7 @@ fn mean(curve: &[(f64, f64)], from: f64, to: f64) -> f64 {
 }
 
 pub fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let (done, wave) = (simulate(SCENE)?, Wave::new());
+    let (done, wave) = (simulate(SCENE)?, Wave::new(SPEED));
     let curves = [compression(&done, 0), compression(&done, 1)];
     fronts(ledger, &done, &wave, &curves)?;
     stresses(ledger, &done, &wave, &curves);
@@ -143,13 +109,12 @@ fn stresses(ledger: &mut Ledger, done: &Done, wave: &Wave, curves: &[Vec<(f64, f
             .cost(&done.cost)
             .record();
     }
-    let work = (YIELD + 0.5 * HARDENING * wave.strain) * wave.strain;
     let volume = wave.plastic * DURATION * HEIGHT;
     ledger
         .claim("energy that plastic flow dissipates")
         .unit("J/m")
         .value(done.report.energy.map_or(f64::NAN, |e| e.parts.plastic))
-        .equals(work * volume)
+        .equals(wave.work() * volume)
         .relative(0.01)
         .evidence(Evidence::Exact, "(Y + H e/2) e of the volume behind the front")
         .because("the front ends within a cell of 0.25 mm of 67 mm, and half a cell is disturbed at the end that moves")

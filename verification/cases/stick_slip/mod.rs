@@ -1,7 +1,7 @@
 //! Stick-slip of interfaces that springs draw, with radiation damping.
 
 use super::seas;
-use super::slider;
+use super::slider as sliders;
 use super::texts::{self, Done};
 use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Evidence, Floor, Ledger, Plot, Series};
@@ -36,17 +36,17 @@ const A: f64 = 0.010;
 const B: f64 = 0.015;
 const LENGTH: f64 = 10e-6;
 /// Rate of the load point, also that of the initial steady state \[m/s\].
-const LOAD: f64 = 1e-6;
+pub(super) const LOAD: f64 = 1e-6;
 /// Normal traction of the column \[Pa\].
-const NORMAL: f64 = 1e7;
+pub(super) const NORMAL: f64 = 1e7;
 /// Radiation damping of the column \[Pa s/m\].
 const DAMPING: f64 = 5e6;
 /// Compliance of the column and of its penalty \[m/Pa\]: 0.2 m of 4 GPa, and 1000 GPa/m.
 const COMPLIANCE: f64 = 0.2 / 4e9 + 1e-12;
 /// Width of the column \[m\].
-const WIDTH: f64 = 0.1;
+pub(super) const WIDTH: f64 = 0.1;
 /// Duration of its pressing stage \[s\].
-const PRESSED: f64 = 1.0;
+pub(super) const PRESSED: f64 = 1.0;
 /// End times of the later stages, counted from the end of pressing \[s\], and the rate of the load point in each \[m/s\].
 const STAGES: [(f64, f64); 5] =
     [(600.0, LOAD), (620.0, 10.0 * LOAD), (720.0, LOAD), (1720.0, 0.0), (1870.0, LOAD)];
@@ -70,7 +70,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// The column with its head on a spring \[N/m\].
-fn column(spring: f64) -> SceneText {
+pub(super) fn column(spring: f64) -> SceneText {
     let drawn = |rate: &str| format!(r#"{{ spring = {spring:e}, rate = "{rate}" }}"#);
     let mut scene = SceneText::new(COLUMN)
         .add("interfaces.fault.measure", "node-to-point")
@@ -85,12 +85,25 @@ fn column(spring: f64) -> SceneText {
 
 /// The slider of the column.
 fn one(spring: f64, load: History, end: f64) -> Result<Problem, CaseError> {
-    let form = Regularised(Parameters::new(slider::MU0, A, slider::V_REF)?);
-    let law = Arc::new(RateLaw::new(form, Ageing::new(B, LENGTH, slider::V_REF)?, LOAD, None)?);
-    let stiffness = 1.0 / (COMPLIANCE + WIDTH / spring);
+    slider(COMPLIANCE + WIDTH / spring, (DAMPING, None), load, end)
+}
+
+/// A slider with the law and the normal traction of the column on springs of this compliance \[m/Pa\], with this damping \[Pa s/m\]
+/// and mass \[kg/m²\].
+///
+/// # Errors
+/// Parameters out of range.
+pub(super) fn slider(
+    compliance: f64,
+    (damping, mass): (f64, Option<f64>),
+    load: History,
+    end: f64,
+) -> Result<Problem, CaseError> {
+    let form = Regularised(Parameters::new(sliders::MU0, A, sliders::V_REF)?);
+    let law = Arc::new(RateLaw::new(form, Ageing::new(B, LENGTH, sliders::V_REF)?, LOAD, None)?);
     let normal = History::Constant(NORMAL);
-    let mut plan =
-        slider::plan(Slider { law, stiffness, damping: DAMPING, mass: None, normal }, load, LOAD, 1.0, end)?;
+    let column = Slider { law, stiffness: 1.0 / compliance, damping, mass, normal };
+    let mut plan = sliders::plan(column, load, LOAD, 1.0, end)?;
     // The unknown mu/a is zero: the spring is slack.
     plan.start[0] = 0.0;
     plan.method = Method::Radau5;
@@ -153,7 +166,7 @@ fn error(done: &Done, reference: &[f64]) -> f64 {
 }
 
 /// Events of all interfaces of a run.
-fn events(done: &Done) -> Result<&[Entry], CaseError> {
+pub(super) fn events(done: &Done) -> Result<&[Entry], CaseError> {
     Ok(&done.report.events.as_ref().ok_or("the scene has no events")?.all)
 }
 
@@ -166,7 +179,7 @@ fn column_events(ledger: &mut Ledger) -> Result<(), CaseError> {
         .add("events", r#"{ above = "1 mm/s", below = "0.1 mm/s", stop_after = 4 }"#);
     let done = texts::simulate(&scene.text()?)?;
     let mut plan = one(SPRINGS[1], History::Constant(LOAD), 6e3)?;
-    slider::events(&mut plan, 4);
+    sliders::events(&mut plan, 4);
     let run = cycles::run(&plan, &mut ())?;
     let wanted = SliderEntry::all(&run);
     let found = events(&done)?;
@@ -307,7 +320,7 @@ fn ruptures(ledger: &mut Ledger) -> Result<(), CaseError> {
 const SEEN: f64 = 2e-3;
 
 /// Points of a curve of friction between which it changes enough to be seen.
-fn thinned(curve: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
+pub(super) fn thinned(curve: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
     let mut kept: Vec<(f64, f64)> = Vec::new();
     for point in curve {
         if kept.last().is_none_or(|last| (last.1 - point.1).abs() > SEEN) {

@@ -29,6 +29,8 @@ pub(super) fn of(name: &str) -> Option<Sketch> {
         "seas_bp6" => injection(),
         "frictional_heat" => zone(),
         "dynamic_rupture" => rupture(),
+        "kostrov_crack" => growing(),
+        "unlike_rocks" => contrast(),
         _ => return None,
     };
     Some(sketch)
@@ -75,6 +77,29 @@ fn rupture() -> Sketch {
         .text((50.0, 52.0), "absorbing sides")
         .note((58.0, 24.0), "split nodes, 100 m apart")
         .dimension((20.0, 14.0), (80.0, 14.0), "30 km, or W + w")
+}
+
+/// A crack whose ends run apart.
+fn growing() -> Sketch {
+    Sketch::new(64.0)
+        .block((8.0, 6.0), (92.0, 58.0), "")
+        .fault(&[(30.0, 32.0), (70.0, 32.0)])
+        .guide(&[(8.0, 32.0), (92.0, 32.0)])
+        .arrow((70.0, 36.0), (80.0, 36.0), "v")
+        .arrow((30.0, 36.0), (20.0, 36.0), "v")
+        .text((50.0, 50.0), "absorbing sides, out of reach")
+        .note((58.0, 24.0), "Δτ = 1 MPa")
+        .dimension((30.0, 14.0), (70.0, 14.0), "2 v t")
+}
+
+/// A fault between rocks of unlike speeds.
+fn contrast() -> Sketch {
+    Sketch::new(64.0)
+        .block((8.0, 6.0), (92.0, 32.0), "c_s/1.2, ρ/1.2")
+        .block((8.0, 32.0), (92.0, 58.0), "c_s, ρ")
+        .fault(&[(8.0, 32.0), (92.0, 32.0)])
+        .note((50.0, 36.0), "imposed traction within R")
+        .dimension((44.0, 26.0), (56.0, 26.0), "2 R")
 }
 
 /// The zone that friction heats.

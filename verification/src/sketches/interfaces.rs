@@ -9,6 +9,8 @@ pub(super) fn of(name: &str) -> Option<Sketch> {
         "sandwich_3d" => sandwich("0.00966 mm", "1 µm/s", "a layer of hex8, held in z"),
         "sandwich_state" => sandwich("0.0966 mm", "spring, 1 µm/s", "ageing law"),
         "stick_slip" => sandwich("0.0966 mm", "spring, 1 µm/s", "ageing law, radiation damping"),
+        "stick_slip_inertia" => column("spring, 1 µm/s", "rigid, 540 kg/m²"),
+        "stick_slip_inertia_events" => sandwich("0.066 mm", "spring, 1 µm/s", "ageing law, inertia"),
         "interface_rate_state" => column("1, 10, 1, 0, 1 µm/s", "a = 0.010, b = 0.015, L = 10 µm"),
         "interface_laws" => column("u(t)", "Coulomb, slip weakening, μ(V), μ(V, θ), static-kinetic"),
         "interface_instability" => bonded(),

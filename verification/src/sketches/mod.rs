@@ -18,10 +18,11 @@ pub fn of(name: &str) -> Option<String> {
 #[cfg(test)]
 mod tests {
     /// Cases of many problems, or of files.
-    const WITHOUT: [&str; 8] = [
+    const WITHOUT: [&str; 9] = [
         "absence",
         "elastic_waves",
         "event_files",
+        "explicit_materials",
         "implicit_dynamics",
         "newton_convergence",
         "output_files",

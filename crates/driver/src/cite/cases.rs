@@ -1,7 +1,7 @@
 //! Literature of the cases of the verification suite. A test of the suite compares it with their pages.
 
 /// Cases and the keys of their literature.
-const CASES: [(&str, &[&str]); 106] = [
+const CASES: [(&str, &[&str]); 111] = [
     ("absence", &["weidendorfer2004"]),
     ("antiplane", &["nehari1952", "strang1973", "timoshenko1970"]),
     ("block_dragged", &["codeaster"]),
@@ -27,6 +27,7 @@ const CASES: [(&str, &[&str]); 106] = [
     ("elastic_waves", &["lysmer1969"]),
     ("event_files", &["aki2002", "iaspei2013", "moritz2000", "snyder1987"]),
     ("event_numbers", &["iaspei2013", "aki2002", "starr1928", "rice1993"]),
+    ("explicit_materials", &["aki2002", "wood1952"]),
     ("fault_balance", &["rice1993"]),
     ("fault_bend", &["segall2010", "hirth1982", "xing2006"]),
     ("fault_bodies", &["starr1928", "segall2010", "muskhelishvili1953"]),
@@ -60,6 +61,7 @@ const CASES: [(&str, &[&str]); 106] = [
     ("interface_prestress", &["jaeger2007"]),
     ("interface_rate_state", &["dieterich1979", "ruina1983", "hairer1993"]),
     ("jaumann_shear", &["dienes1979", "hugheswinget1980", "nagtegaal1982", "simo1998"]),
+    ("kostrov_crack", &["kostrov1964"]),
     ("lame_cylinder", &["timoshenko1970", "ciarlet1978"]),
     ("large_rotation", &["hugheswinget1980", "rubinstein1983"]),
     ("maxwell_relaxation", &["simo1998", "lee1955"]),
@@ -116,8 +118,11 @@ const CASES: [(&str, &[&str]); 106] = [
     ("static_explicit_jumps", &["timoshenko1970"]),
     ("steel_strip", &["belendez2003"]),
     ("stick_slip", &["dieterich1978"]),
+    ("stick_slip_inertia", &["rice1986"]),
+    ("stick_slip_inertia_events", &["rice1986", "dieterich1978"]),
     ("two_rings", &["michell1899", "timoshenko1970"]),
     ("uniaxial_hardening", &["simo1998"]),
+    ("unlike_rocks", &["andrews1997", "cochard2000", "prakash1993"]),
     ("volumetric_path", &["prager1961", "belytschko2000"]),
     ("wavy_sliding", &["yamada1968"]),
 ];

@@ -30,7 +30,10 @@ pub fn of<const D: usize>(
     loading: f64,
 ) -> Result<Watch, Diagnostic> {
     if scene.inertia().is_some() {
-        return Ok(Watch { rate: None, course: with_inertia(course(law, damping)), coarse_beyond: None });
+        // While a wave crosses the cells at the surface, their mass resists slip at least by their impedance.
+        let waves = impedance::radiated(least(scene, model, slave)?, least(scene, model, master)?);
+        let course = with_inertia(course(law, Some(damping.unwrap_or(0.0) + waves)));
+        return Ok(Watch { rate: None, course, coarse_beyond: None });
     }
     let rate = match (direct_effect(law), &scene.time.slip_rate_limit) {
         (None, _) => None,
@@ -87,6 +90,12 @@ fn by_state(a: f64, evolution: &Evolution, states: &[State], damping: f64) -> Co
     } else {
         Course::Steady
     }
+}
+
+/// Smallest impedance √(Gρ) of the cells behind some faces \[Pa s/m\].
+fn least<const D: usize>(scene: &Scene, model: &Model<D>, sides: &[Side]) -> Result<f64, Diagnostic> {
+    let all = impedance::behind(scene, model, sides, Some(ROCK))?;
+    Ok(all.into_iter().flatten().fold(f64::INFINITY, f64::min))
 }
 
 /// Largest impedance √(Gρ) of the cells behind some faces \[Pa s/m\].

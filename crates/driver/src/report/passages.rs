@@ -1,5 +1,6 @@
 //! Passages of bodies from equilibrium to inertia and back, in the report.
 
+use crate::warning::Warning;
 use asperity_mechanics::Episode;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -33,4 +34,31 @@ pub(crate) fn of(episodes: &[Episode]) -> Vec<Passage> {
         lost: if e.lost == 0.0 { 0.0 } else { e.lost / e.largest },
     };
     episodes.iter().map(of).collect()
+}
+
+/// Forces that equilibrium may leave out before inertia acts, over its largest force: tractions then err by some per cent.
+const LEFT_OUT: f64 = 0.05;
+/// Kinetic energy that may be lost in the return: slip then errs by some per cent.
+const LOST: f64 = 0.1;
+
+/// Warnings about hand-overs whose errors show in the results.
+pub(crate) fn doubts(passages: &[Passage]) -> Vec<Warning> {
+    let most = |of: fn(&Passage) -> f64| passages.iter().map(of).fold(0.0, f64::max);
+    let (left_out, lost) = (most(|p| p.left_out), most(|p| p.lost.abs()));
+    let late = (left_out > LEFT_OUT).then(|| {
+        let message = format!(
+            "bodies gained inertia too late: the last state of equilibrium left out {left_out:.2} of its largest force"
+        );
+        Warning::at(0..0, message, "take a smaller `above` in `handover` of `[time]`")
+    });
+    let early = (lost > LOST).then(|| {
+        let message =
+            format!("bodies lost {lost:.2} of their largest kinetic energy as they returned to equilibrium");
+        Warning::at(
+            0..0,
+            message,
+            "add `kinetic = 0.01` to `handover` of `[time]`, which waits for vibrations to decay",
+        )
+    });
+    late.into_iter().chain(early).collect()
 }

@@ -7,6 +7,7 @@
 //! - cells of equal shape by one stiffness matrix, several cells at once ([`product`]);
 //! - other cells by a matrix each.
 
+mod partial;
 mod partition;
 mod piece;
 mod product;
@@ -18,7 +19,8 @@ pub use stable::{Highest, highest_frequency};
 
 use crate::block::LinearBlock;
 use crate::mesh::Mesh;
-use piece::Piece;
+use partial::Partial;
+use piece::{Piece, Room};
 use rayon::prelude::*;
 use shapes::Shapes;
 
@@ -27,12 +29,10 @@ use shapes::Shapes;
 pub struct MatrixFree {
     components: usize,
     pieces: Vec<Piece>,
-    /// Forces of the nodes of all pieces, piece by piece.
-    partial: Vec<f64>,
-    /// Start of the entries of each node in `entries`; one more than there are nodes.
+    /// Forces of the pieces on each node, in the order of the pieces.
+    partial: Partial,
+    /// Start of the entries of each node in `partial`; one more than there are nodes.
     starts: Vec<u32>,
-    /// Positions in `partial` of the first component of each node, in the order of the pieces.
-    entries: Vec<u32>,
     cells: usize,
     matrices: usize,
 }
@@ -54,13 +54,13 @@ impl MatrixFree {
             cells += mesh.blocks[k].len();
             matrices += shapes.matrices();
             let parts = partition::pieces(mesh, k);
-            let piece = |part: &Vec<usize>| Piece::new(mesh, (k, components), &shapes, part);
+            let piece = |part: &Vec<usize>| Piece::new(mesh, k, &shapes, part);
             let made: Vec<Piece> = parts.par_iter().map(piece).collect();
             pieces.extend(made);
         }
-        let (starts, entries) = entries(mesh.nodes.len(), components, &pieces);
-        let length = pieces.iter().map(|p| p.nodes().len() * components).sum();
-        Self { components, pieces, partial: vec![0.0; length], starts, entries, cells, matrices }
+        let starts = place(mesh.nodes.len(), &mut pieces);
+        let length: usize = pieces.iter().map(|p| p.nodes().len() * components).sum();
+        Self { components, pieces, partial: Partial::new(length), starts, cells, matrices }
     }
 
     /// Number of cells.
@@ -77,23 +77,36 @@ impl MatrixFree {
 
     /// Computes the forces at displacements `u` \[m\]; [`MatrixFree::force`] reads them.
     pub fn evaluate(&mut self, u: &[f64]) {
-        let components = self.components;
-        let mut rest = self.partial.as_mut_slice();
-        let mut work = Vec::with_capacity(self.pieces.len());
-        for piece in &self.pieces {
-            let (own, after) = std::mem::take(&mut rest).split_at_mut(piece.nodes().len() * components);
-            work.push((piece, own));
-            rest = after;
+        match self.components {
+            1 => self.evaluate_of::<1>(u),
+            2 => self.evaluate_of::<2>(u),
+            _ => self.evaluate_of::<3>(u),
         }
-        work.into_par_iter().for_each(|(piece, forces)| piece.forces(u, forces));
+    }
+
+    fn evaluate_of<const C: usize>(&self, u: &[f64]) {
+        self.pieces.par_iter().for_each_init(Room::default, |room, piece| {
+            piece.forces::<C>(u, room);
+            self.partial.write::<C>(piece.slots(), &room.forces);
+        });
     }
 
     /// Force on a component of a node at the last evaluation \[N, or N/m of thickness\].
     #[inline]
     #[must_use]
     pub fn force(&self, node: usize, component: usize) -> f64 {
-        let entries = &self.entries[self.starts[node] as usize..self.starts[node + 1] as usize];
-        entries.iter().map(|&e| self.partial[e as usize + component]).sum()
+        match self.components {
+            1 => self.force_of::<1>(node)[component],
+            2 => self.force_of::<2>(node)[component],
+            _ => self.force_of::<3>(node)[component],
+        }
+    }
+
+    /// Forces on a node of C components at the last evaluation.
+    #[inline]
+    #[must_use]
+    pub fn force_of<const C: usize>(&self, node: usize) -> [f64; C] {
+        self.partial.sum(self.starts[node], self.starts[node + 1])
     }
 
     /// Writes K u.
@@ -110,27 +123,27 @@ impl MatrixFree {
     #[must_use]
     pub fn bytes(&self) -> usize {
         let own: usize = self.pieces.iter().map(Piece::bytes).sum();
-        own + self.partial.len() * size_of::<f64>()
-            + (self.starts.len() + self.entries.len()) * size_of::<u32>()
+        own + self.partial.len() * size_of::<f64>() + self.starts.len() * size_of::<u32>()
     }
 }
 
-/// Positions of the forces of each node among those of all pieces.
-fn entries(nodes: usize, components: usize, pieces: &[Piece]) -> (Vec<u32>, Vec<u32>) {
+/// Gives each node of each piece its entry, node by node and in the order of the pieces; returns the first entry of each node.
+fn place(nodes: usize, pieces: &mut [Piece]) -> Vec<u32> {
     let mut starts = vec![0_u32; nodes + 1];
-    let all = || pieces.iter().flat_map(Piece::nodes);
-    all().for_each(|&node| starts[node as usize + 1] += 1);
+    let all = pieces.iter().flat_map(Piece::nodes);
+    all.for_each(|&node| starts[node as usize + 1] += 1);
     for k in 0..nodes {
         starts[k + 1] += starts[k];
     }
     let mut next = starts.clone();
-    let mut entries = vec![0_u32; starts[nodes] as usize];
-    for (k, &node) in all().enumerate() {
-        let at = &mut next[node as usize];
-        entries[*at as usize] = (k * components) as u32;
-        *at += 1;
+    for piece in pieces {
+        piece.place(|&node| {
+            let entry = next[node as usize];
+            next[node as usize] += 1;
+            entry
+        });
     }
-    (starts, entries)
+    starts
 }
 
 #[cfg(test)]

@@ -8,6 +8,9 @@ use crate::mesh::Mesh;
 use nalgebra::SMatrix;
 use pulp::{Arch, Simd, WithSimd};
 
+/// Groups of cells gathered before the first of them is computed: numbers written one by one cannot be read as vectors at once.
+const BATCH: usize = 4;
+
 /// Most degrees of freedom of a cell.
 const MOST: usize = 3 * MOST_NODES;
 
@@ -16,10 +19,19 @@ const MOST: usize = 3 * MOST_NODES;
 pub(super) struct Piece {
     /// Nodes, ascending.
     nodes: Vec<u32>,
+    /// Entry of each node among the forces of all pieces.
+    slots: Vec<u32>,
     groups: Vec<Group>,
     /// Nodes of a cell.
     corners: usize,
-    components: usize,
+}
+
+/// Room for the displacements and forces of the nodes of a piece.
+#[derive(Debug, Default)]
+pub(super) struct Room {
+    u: Vec<f64>,
+    /// Forces of the last piece, node by node.
+    pub forces: Vec<f64>,
 }
 
 /// Cells that are treated alike.
@@ -41,13 +53,8 @@ enum Kind {
 }
 
 impl Piece {
-    /// Piece of the given cells of block `k`, with so many components of displacement.
-    pub fn new<const D: usize>(
-        mesh: &Mesh<D>,
-        (k, components): (usize, usize),
-        shapes: &Shapes,
-        cells: &[usize],
-    ) -> Self {
+    /// Piece of the given cells of block `k`.
+    pub fn new<const D: usize>(mesh: &Mesh<D>, k: usize, shapes: &Shapes, cells: &[usize]) -> Self {
         let block = &mesh.blocks[k];
         let mut nodes: Vec<u32> =
             cells.iter().flat_map(|&cell| block.cell(cell).iter().map(|&n| n as u32)).collect();
@@ -80,7 +87,7 @@ impl Piece {
                 vec![Group { connectivity: connectivity(cells), kind }]
             }
         };
-        Self { nodes, groups, corners, components }
+        Self { nodes, slots: Vec::new(), groups, corners }
     }
 
     /// Nodes, ascending.
@@ -97,12 +104,29 @@ impl Piece {
             };
             2 * g.connectivity.len() + 8 * numbers
         };
-        4 * self.nodes.len() + self.groups.iter().map(of_group).sum::<usize>()
+        8 * self.nodes.len() + self.groups.iter().map(of_group).sum::<usize>()
     }
 
-    /// Writes the forces of the cells on the nodes of the piece at displacements `u` of all nodes.
-    pub fn forces(&self, u: &[f64], forces: &mut [f64]) {
-        Arch::new().dispatch(Evaluation { piece: self, u, forces });
+    /// Entries of the nodes among the forces of all pieces.
+    pub fn slots(&self) -> &[u32] {
+        &self.slots
+    }
+
+    /// Gives each node its entry.
+    pub fn place(&mut self, entry: impl FnMut(&u32) -> u32) {
+        self.slots = self.nodes.iter().map(entry).collect();
+    }
+
+    /// Computes the forces of the cells on the nodes of the piece at displacements `u` of all nodes, C components each. Cells find
+    /// both in `room` by numbers of two bytes.
+    pub fn forces<const C: usize>(&self, u: &[f64], room: &mut Room) {
+        let (u, _) = u.as_chunks::<C>();
+        room.u.resize(self.nodes.len() * C, 0.0);
+        room.forces.resize(self.nodes.len() * C, 0.0);
+        for (own, &node) in room.u.as_chunks_mut::<C>().0.iter_mut().zip(&self.nodes) {
+            *own = u[node as usize];
+        }
+        Arch::new().dispatch(Evaluation::<C> { piece: self, u: &room.u, forces: &mut room.forces });
     }
 }
 
@@ -136,26 +160,28 @@ fn gradients<const D: usize>(mesh: &Mesh<D>, k: usize, cells: &[usize]) -> Vec<[
     result
 }
 
-struct Evaluation<'a> {
+/// Forces on the nodes of a piece at their displacements, C components a node.
+struct Evaluation<'a, const C: usize> {
     piece: &'a Piece,
     u: &'a [f64],
     forces: &'a mut [f64],
 }
 
-impl WithSimd for Evaluation<'_> {
+impl<const C: usize> WithSimd for Evaluation<'_, C> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self { piece, u, forces } = self;
-        forces.fill(0.0);
-        for group in &piece.groups {
+        let corners = self.piece.corners;
+        let (u, _) = self.u.as_chunks::<C>();
+        let (forces, _) = self.forces.as_chunks_mut::<C>();
+        forces.fill([0.0; C]);
+        for group in &self.piece.groups {
+            let cells = (corners, group.connectivity.as_slice());
             match &group.kind {
-                Kind::Simplex { moduli, gradients } => {
-                    simplices(piece, group, (*moduli, gradients), u, forces)
-                }
-                Kind::Shared(matrix) => shared(simd, piece, group, matrix, u, forces),
-                Kind::Own(matrices) => own(piece, group, matrices, u, forces),
+                Kind::Simplex { moduli, gradients } => simplices(cells, (*moduli, gradients), u, forces),
+                Kind::Shared(matrix) => shared(simd, cells, matrix, u, forces),
+                Kind::Own(matrices) => own(cells, matrices, u, forces),
             }
         }
     }
@@ -163,13 +189,13 @@ impl WithSimd for Evaluation<'_> {
 
 /// Gathers the displacements of up to [`WIDE`] cells, degree of freedom by degree of freedom.
 #[inline(always)]
-fn gather(piece: &Piece, cells: &[u16], u: &[f64], x: &mut [[f64; WIDE]]) {
-    let components = piece.components;
-    for (l, cell) in cells.chunks_exact(piece.corners).enumerate() {
-        for (a, &node) in cell.iter().enumerate() {
-            let at = piece.nodes[node as usize] as usize * components;
-            for (c, value) in u[at..at + components].iter().enumerate() {
-                x[a * components + c][l] = *value;
+fn gather<const C: usize>((corners, cells): (usize, &[u16]), u: &[[f64; C]], x: &mut [[f64; WIDE]]) {
+    let (x, _) = x.as_chunks_mut::<C>();
+    for (l, cell) in cells.chunks_exact(corners).take(WIDE).enumerate() {
+        for (x, &node) in x.iter_mut().zip(cell) {
+            let from = &u[node as usize];
+            for c in 0..C {
+                x[c][l] = from[c];
             }
         }
     }
@@ -177,65 +203,85 @@ fn gather(piece: &Piece, cells: &[u16], u: &[f64], x: &mut [[f64; WIDE]]) {
 
 /// Adds the forces of up to [`WIDE`] cells.
 #[inline(always)]
-fn scatter(piece: &Piece, cells: &[u16], y: &[[f64; WIDE]], forces: &mut [f64]) {
-    let components = piece.components;
-    for (l, cell) in cells.chunks_exact(piece.corners).enumerate() {
-        for (a, &node) in cell.iter().enumerate() {
-            let at = node as usize * components;
-            for (c, force) in forces[at..at + components].iter_mut().enumerate() {
-                *force += y[a * components + c][l];
+fn scatter<const C: usize>((corners, cells): (usize, &[u16]), y: &[[f64; WIDE]], forces: &mut [[f64; C]]) {
+    let (y, _) = y.as_chunks::<C>();
+    for (l, cell) in cells.chunks_exact(corners).take(WIDE).enumerate() {
+        for (y, &node) in y.iter().zip(cell) {
+            let force = &mut forces[node as usize];
+            for c in 0..C {
+                force[c] += y[c][l];
             }
         }
     }
 }
 
 #[inline(always)]
-fn shared<S: Simd>(simd: S, piece: &Piece, group: &Group, k: &[f64], u: &[f64], forces: &mut [f64]) {
-    let n = piece.corners * piece.components;
-    let (mut x, mut y) = ([[0.0; WIDE]; MOST], [[0.0; WIDE]; MOST]);
-    for cells in group.connectivity.chunks(WIDE * piece.corners) {
-        gather(piece, cells, u, &mut x);
-        product::shared(simd, k, n, x.as_flattened(), y.as_flattened_mut());
-        scatter(piece, cells, &y, forces);
+fn shared<S: Simd, const C: usize>(
+    simd: S,
+    (corners, cells): (usize, &[u16]),
+    k: &[f64],
+    u: &[[f64; C]],
+    forces: &mut [[f64; C]],
+) {
+    let (mut x, mut y) = ([[[0.0; WIDE]; MOST]; BATCH], [[[0.0; WIDE]; MOST]; BATCH]);
+    let wide = WIDE * corners;
+    for cells in cells.chunks(BATCH * wide) {
+        for (cells, x) in cells.chunks(wide).zip(&mut x) {
+            gather((corners, cells), u, x);
+        }
+        for (x, y) in x.iter().zip(&mut y).take(cells.len().div_ceil(wide)) {
+            product::shared(simd, k, corners * C, x.as_flattened(), y.as_flattened_mut());
+        }
+        for (cells, y) in cells.chunks(wide).zip(&y) {
+            scatter((corners, cells), y, forces);
+        }
     }
 }
 
 #[inline(always)]
-fn own(piece: &Piece, group: &Group, matrices: &[f64], u: &[f64], forces: &mut [f64]) {
-    let components = piece.components;
-    let n = piece.corners * components;
+fn own<const C: usize>(
+    (corners, cells): (usize, &[u16]),
+    matrices: &[f64],
+    u: &[[f64; C]],
+    forces: &mut [[f64; C]],
+) {
+    let n = corners * C;
     let (mut x, mut y) = ([0.0; MOST], [0.0; MOST]);
-    for (cell, k) in group.connectivity.chunks_exact(piece.corners).zip(matrices.chunks_exact(n * n)) {
-        for (x, &node) in x.chunks_exact_mut(components).zip(cell) {
-            x.copy_from_slice(&u[piece.nodes[node as usize] as usize * components..][..components]);
+    for (cell, k) in cells.chunks_exact(corners).zip(matrices.chunks_exact(n * n)) {
+        for (x, &node) in x.as_chunks_mut::<C>().0.iter_mut().zip(cell) {
+            *x = u[node as usize];
         }
         product::own(k, &x[..n], &mut y[..n]);
-        for (y, &node) in y.chunks_exact(components).zip(cell) {
-            let force = &mut forces[node as usize * components..][..components];
-            force.iter_mut().zip(y).for_each(|(f, y)| *f += y);
+        for (y, &node) in y.as_chunks::<C>().0.iter().zip(cell) {
+            forces[node as usize].iter_mut().zip(y).for_each(|(f, y)| *f += y);
         }
     }
 }
 
 #[inline(always)]
-fn simplices(
-    piece: &Piece,
-    group: &Group,
+fn simplices<const C: usize>(
+    (corners, cells): (usize, &[u16]),
     (moduli, gradients): ((f64, f64), &[[f64; WIDE]]),
-    u: &[f64],
-    forces: &mut [f64],
+    u: &[[f64; C]],
+    forces: &mut [[f64; C]],
 ) {
-    let dimension = piece.corners - 1;
+    let dimension = corners - 1;
     let stride = dimension * dimension + 1;
-    let (mut x, mut y) = ([[0.0; WIDE]; 12], [[0.0; WIDE]; 12]);
-    let groups = group.connectivity.chunks(WIDE * piece.corners).zip(gradients.chunks_exact(stride));
-    for (cells, gradients) in groups {
-        gather(piece, cells, u, &mut x);
-        match (dimension, piece.components) {
-            (2, 1) => simplex::antiplane::<2>(moduli.0, gradients, &x, &mut y),
-            (2, _) => simplex::forces::<2>(moduli, gradients, &x, &mut y),
-            _ => simplex::forces::<3>(moduli, gradients, &x, &mut y),
+    let (mut x, mut y) = ([[[0.0; WIDE]; 12]; BATCH], [[[0.0; WIDE]; 12]; BATCH]);
+    let wide = WIDE * corners;
+    for (cells, gradients) in cells.chunks(BATCH * wide).zip(gradients.chunks(BATCH * stride)) {
+        for (cells, x) in cells.chunks(wide).zip(&mut x) {
+            gather((corners, cells), u, x);
         }
-        scatter(piece, cells, &y, forces);
+        for (gradients, (x, y)) in gradients.chunks_exact(stride).zip(x.iter().zip(&mut y)) {
+            match (dimension, C) {
+                (2, 1) => simplex::antiplane::<2>(moduli.0, gradients, x, y),
+                (2, _) => simplex::forces::<2>(moduli, gradients, x, y),
+                _ => simplex::forces::<3>(moduli, gradients, x, y),
+            }
+        }
+        for (cells, y) in cells.chunks(wide).zip(&y) {
+            scatter((corners, cells), y, forces);
+        }
     }
 }

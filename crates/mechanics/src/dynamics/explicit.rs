@@ -3,6 +3,7 @@
 use super::budget::{Budget, Work};
 use super::fault::{Between, Fault, FaultState, Unbalanced};
 use super::loads::Loads;
+use super::motion::{Motion, Sums};
 use super::nodes::Special;
 use super::springs::Springs;
 use super::{Problem, Stable, stable};
@@ -12,11 +13,7 @@ use asperity_fem::dof::Constraints;
 use asperity_fem::matrix_free::MatrixFree;
 use asperity_fem::nonlinear;
 use asperity_fem::term::{Instant, Saved as _, Term as _};
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-
-/// Nodes moved by one task: fixed, so that sums do not depend on the number of threads.
-const CHUNK: usize = 4096;
 
 /// Largest energy of the bodies over all that was put in. In a stable scheme at nine tenths of the stable step it is below 1/(1 - 0.9²) = 5.3:
 /// displacement alone may hold so much more than the balance counts.
@@ -126,33 +123,6 @@ pub struct Explicit<'a, const D: usize> {
     budget: Budget,
     /// Sum of all energy put in \[J\].
     given: f64,
-}
-
-/// Displacements, velocities and damped displacements of the nodes of a task.
-type Parts<'p> = ((&'p mut [f64], &'p mut [f64]), &'p mut [f64]);
-
-/// Sums over free nodes.
-#[derive(Clone, Copy, Default)]
-struct Sums {
-    /// f·v before and after.
-    internal: [f64; 2],
-    /// v·M v of both half steps.
-    kinetic: f64,
-    /// u·f.
-    elastic: f64,
-    /// v·M v of the half step after.
-    moving: f64,
-}
-
-impl Sums {
-    fn plus(self, other: Self) -> Self {
-        Self {
-            internal: [self.internal[0] + other.internal[0], self.internal[1] + other.internal[1]],
-            kinetic: self.kinetic + other.kinetic,
-            elastic: self.elastic + other.elastic,
-            moving: self.moving + other.moving,
-        }
-    }
 }
 
 impl<'a, const D: usize> Explicit<'a, D> {
@@ -402,40 +372,10 @@ impl<'a, const D: usize> Explicit<'a, D> {
 
     /// Moves the free nodes; special nodes move at their old velocity, to be corrected.
     fn move_all(&mut self, kick: f64) -> Sums {
-        let (components, dt, factor) = (self.components, self.dt, self.problem.viscosity * self.dt);
-        let Self { product, history_forces, mass, inverse, u, velocity, damped, .. } = self;
-        let (product, history, width) = (&*product, &*history_forces, CHUNK * components);
-        // Half a step before the start the velocity would have been 2 v⁰ - v¹ᐟ².
-        let back = if kick < dt { 1.0 } else { 0.0 };
-        let mut none = vec![0.0; if damped.is_empty() { u.len() } else { 0 }];
-        let damped = if damped.is_empty() { &mut none } else { damped };
-        let chunk = |(k, parts): (usize, Parts<'_>)| {
-            let ((u, v), w) = parts;
-            let mut sums = Sums::default();
-            for i in 0..u.len() {
-                let (node, component) = (k * CHUNK + i / components, i % components);
-                let mut force = product.force(node, component);
-                if let Some(f) = history.get(node * components + component) {
-                    force += f;
-                }
-                let (before, m) = (v[i], inverse[node]);
-                let after = before - kick * force * m;
-                let counted = if m > 0.0 { mass[node] } else { 0.0 };
-                sums.internal[0] += force * before * counted * m;
-                sums.internal[1] += force * after * counted * m;
-                sums.kinetic += counted * (before + back * (before - after)) * after;
-                sums.moving += counted * after * after;
-                sums.elastic += u[i] * force;
-                v[i] = after;
-                u[i] += dt * after;
-                w[i] = u[i] + factor * after;
-            }
-            sums
-        };
-        let chunks =
-            u.par_chunks_mut(width).zip(velocity.par_chunks_mut(width)).zip(damped.par_chunks_mut(width));
-        let parts: Vec<Sums> = chunks.enumerate().map(chunk).collect();
-        parts.into_iter().fold(Sums::default(), Sums::plus)
+        let Self { product, history_forces: history, mass, inverse, u, velocity, damped, dt, .. } = self;
+        let (dt, damping) = (*dt, self.problem.viscosity * *dt);
+        let motion = Motion { product, history, mass, inverse, kick, dt, damping };
+        motion.all(self.components, u, velocity, damped)
     }
 
     /// Moves the special nodes, and closes the step.

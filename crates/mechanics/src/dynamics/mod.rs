@@ -19,6 +19,7 @@ mod budget;
 mod explicit;
 mod fault;
 mod loads;
+mod motion;
 mod nodes;
 mod onset;
 mod problem;

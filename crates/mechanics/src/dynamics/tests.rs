@@ -232,6 +232,21 @@ fn restored_runs_continue_bit_for_bit_and_on_any_number_of_threads() {
 }
 
 #[test]
+fn runs_of_many_pieces_have_the_same_bits_on_any_number_of_threads() {
+    // Some ten thousand nodes: several tasks of each kind.
+    let bar = bars(&[[0.0, 1.0]], 50, 0.005, Idealisation::PlaneStrain);
+    let mut problem = Problem { viscosity: 0.1, ..problem(bar, stage(0.1 / speed())) };
+    let wave = |x: &[f64; 2]| [(9.0 * x[0]).sin(), (7.0 * x[0] * x[1]).cos()];
+    problem.velocity = problem.model.mesh.nodes.iter().flat_map(wave).collect();
+    problem.absorbing = dashpots(&problem.model, &problem.density, &problem.model.mesh.side_sets["b0.right"]);
+    let through = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| run(&problem, |_| ()).save())
+    };
+    assert_eq!(through(1), through(2));
+}
+
+#[test]
 fn works_of_loads_prescribed_motions_and_damping_close_the_balance() {
     let bar = bars(&[[0.0, 1.0]], 2, 0.05, Idealisation::PlaneStrain);
     let mut stage = stage(1.5 / speed());

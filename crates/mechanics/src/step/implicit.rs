@@ -32,6 +32,10 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// slides away without resistance moves by its whole displacement in each iteration, and rounding of its forces would pass for
 /// equilibrium. A solution moves by rounding times the condition number, which contact seldom raises above 1e10.
 const SETTLED: f64 = 1e-3;
+/// Residual over the largest force that counts as balanced if the last iteration moved nothing by more than the spacing of
+/// floating-point displacements, and the residual no longer falls. In short steps of bodies with mass, rounding of displacements
+/// times M/dt² exceeds [`CONVERGED`]: sets that move as one add it up over their nodes.
+const STILL: f64 = 1e-6;
 /// Most iterations of a step. A step that needs more is better halved.
 const MOST_ITERATIONS: usize = 30;
 /// Displacements beyond this multiple of the model size plus all prescribed motion count as leaving the model.
@@ -313,10 +317,13 @@ impl Implicit {
     /// True if `u` is in balance. `moved` is true once an iteration has responded to the loads of the step. A residual that no
     /// longer falls counts as balanced if it is rounding of the forces of which it is the sum.
     fn has_converged(&self, norm: f64, u: &[f64], progress: &Progress, moved: bool) -> bool {
-        let settled = progress.moved <= SETTLED * largest(u).max(self.position);
+        let size = largest(u).max(self.position);
+        let settled = progress.moved <= SETTLED * size;
+        let stands = norm >= 0.5 * progress.best;
         norm == 0.0
             || norm <= self.converged() * self.scale() && moved
-            || norm <= self.rounding(u) && norm >= 0.5 * progress.best && settled
+            || norm <= self.rounding(u) && stands && settled
+            || norm <= STILL * self.scale() && stands && progress.moved <= f64::EPSILON * size
     }
 
     fn converged(&self) -> f64 {

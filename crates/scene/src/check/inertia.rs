@@ -42,6 +42,7 @@ impl Checker<'_> {
         self.masses(&place);
         self.unsupported(&place);
         self.handover();
+        self.steps_of_events();
         let velocities = scene.bodies.values().filter_map(|b| b.velocity.as_ref());
         for velocity in velocities {
             let message =
@@ -59,6 +60,21 @@ impl Checker<'_> {
         }
     }
 
+    /// Refuses stages of equal steps in which surfaces may slip fast: such steps cannot follow an event.
+    fn steps_of_events(&mut self) {
+        let scene = self.scene;
+        for stage in &scene.stages {
+            let acts = |name: &String| !stage.frictionless.iter().any(|f| f.get_ref() == name);
+            let slips =
+                scene.interfaces.iter().any(|(name, interface)| interface.law.is_some() && acts(name));
+            let Some(steps) = stage.steps.as_ref().filter(|_| slips) else { continue };
+            let message =
+                format!("the equal steps of stage `{}` cannot follow an event with inertia", stage.name);
+            let help = "leave out `steps`: they are adapted; `max_step` in `[time]` bounds them";
+            self.conflict(&steps.span(), message, help, (&scene.time.stepper.span(), "the stepper"));
+        }
+    }
+
     /// Checks the slip rates of the hand-over.
     fn handover(&mut self) {
         let Some(given) = &self.scene.time.handover else { return };
@@ -72,6 +88,7 @@ impl Checker<'_> {
             self.error(rate.span(), format!("`{key}` must be positive"), help);
         }
         if let (Some(above), Some(below)) = (&spec.above, &spec.below)
+            && above.get_ref().0 > 0.0
             && below.get_ref().0 >= above.get_ref().0
         {
             let message =

@@ -1,0 +1,125 @@
+//! Both rocks with their fault, and its slip rates.
+
+use super::super::waves::{Rock, line, mesh, problem_of, run as steps};
+use crate::{CaseError, Cost};
+use asperity_fem::element::ElementKind;
+use asperity_fem::kinematics::Idealisation;
+use asperity_fem::mesh::nodes_of_sides;
+use asperity_friction::coulomb::Coulomb;
+use asperity_friction::inertial::EachPoint;
+use asperity_mechanics::dynamics::{Fault, Problem, Pulse, Regularisation, SplitPoint};
+
+/// The stiffer rock lies above. The units of length, time and density are the radius of the imposed traction, the time in which its shear
+/// waves pass it, and its density, so that the modulus is 1.
+const STIFF: Rock = Rock { density: 1.0, pressure: 1.732_050_807_568_877_2, shear: 1.0 };
+
+/// Contrast of densities and of wave speeds (Andrews & Ben-Zion 1997).
+const CONTRAST: f64 = 1.2;
+
+/// Half length and half width of the rock: what its sides reflect does not reach the middle half of the fault before the end.
+const EXTENT: [f64; 2] = [6.0, 5.0];
+
+/// End of the runs.
+const END: f64 = 4.0;
+
+/// Coefficient of friction, and normal and shear traction: the fault slides steadily.
+const MU: f64 = 0.75;
+const NORMAL: f64 = 1e-3;
+const SHEAR: f64 = MU * NORMAL;
+
+/// Slip rate at the start.
+const RATE: f64 = 1e-3;
+
+/// Imposed traction at the centre, its radius and its rise: so little that nothing sticks or opens where growth is slow.
+const PULSE: (f64, f64, f64) = (1e-8, 1.0, 1.0);
+
+/// Delay: at the slip rate of the start friction follows within a tenth of the unit of time.
+pub(super) const DELAY: Regularisation = Regularisation { length: 2e-4, rate: 1e-3 };
+
+/// Result of a run.
+pub(super) struct Slipped {
+    /// Spacing of nodes.
+    pub spacing: f64,
+    /// Position, and change of the slip rate over the imposed traction over ρ c_s.
+    pub changes: Vec<(f64, f64)>,
+    pub cost: Cost,
+}
+
+/// Both rocks with the fault between them.
+fn rocks(spacing: f64, delay: Option<Regularisation>) -> Result<Problem<2>, CaseError> {
+    let [nx, ny] = EXTENT.map(|l| (l / spacing).round() as usize);
+    let x = line(-EXTENT[0], EXTENT[0], 2 * nx);
+    let parts = [[x.clone(), line(-EXTENT[1], 0.0, ny)], [x, line(0.0, EXTENT[1], ny)]];
+    let soft = Rock {
+        density: STIFF.density / CONTRAST,
+        pressure: STIFF.pressure / CONTRAST,
+        shear: STIFF.shear / CONTRAST,
+    };
+    let mesh = mesh(&parts, ElementKind::Quad4)?;
+    let mut problem = problem_of(mesh, &[soft, STIFF], Idealisation::PlaneStrain, END)?;
+    let below = problem.model.mesh.blocks[0].connectivity.iter().copied().max().unwrap_or(0);
+    let v = |n: usize| if n <= below { -0.5 * RATE } else { 0.5 * RATE };
+    problem.velocity = (0..problem.model.mesh.nodes.len()).flat_map(|n| [v(n), 0.0]).collect();
+    problem.courant = 0.5;
+    problem.fault = Some(fault(&problem, delay)?);
+    Ok(problem)
+}
+
+/// Nodes of a side with their x, ascending.
+fn nodes_on(problem: &Problem<2>, side: &str) -> Vec<(usize, f64)> {
+    let mesh = &problem.model.mesh;
+    let mut nodes: Vec<(usize, f64)> =
+        nodes_of_sides(mesh, &mesh.side_sets[side]).into_iter().map(|n| (n, mesh.nodes[n][0])).collect();
+    nodes.sort_by(|a, b| a.1.total_cmp(&b.1));
+    nodes
+}
+
+fn fault(problem: &Problem<2>, delay: Option<Regularisation>) -> Result<Fault, CaseError> {
+    let (minus, plus) = (nodes_on(problem, "b0.top"), nodes_on(problem, "b1.bottom"));
+    let areas = problem.model.tributary_areas(&problem.model.mesh.side_sets["b0.top"])?;
+    let point = |((minus, _), (plus, _)): (&(usize, f64), &(usize, f64))| SplitPoint {
+        minus: *minus,
+        plus: *plus,
+        area: areas[minus],
+        normal: [0.0, 1.0, 0.0],
+        along: vec![[1.0, 0.0, 0.0]],
+        gap: 0.0,
+    };
+    let n = minus.len();
+    let (traction, radius, rise) = PULSE;
+    let shape = |(_, x): &(usize, f64)| {
+        let (x2, r2) = (x * x, radius * radius);
+        if x2 < r2 { traction * (x2 / (x2 - r2)).exp() } else { 0.0 }
+    };
+    Ok(Fault {
+        points: minus.iter().zip(&plus).map(point).collect(),
+        law: Box::new(EachPoint(vec![Coulomb::new(MU, None)?; n])),
+        normal: vec![NORMAL; n],
+        shear: vec![SHEAR; n],
+        rate: vec![RATE; n],
+        opens: true,
+        regularisation: delay,
+        pulses: vec![Pulse { amplitude: minus.iter().map(shape).collect(), rise }],
+        onset: None,
+        ties: Vec::new(),
+    })
+}
+
+/// Runs both rocks to the end.
+pub(super) fn slip(spacing: f64, delay: Option<Regularisation>) -> Result<Slipped, CaseError> {
+    let problem = rocks(spacing, delay)?;
+    let (result, cost) = Cost::of(|| steps(&problem, |_| ()));
+    let last = result?;
+    let cost = cost.count("cells", last.product().cells() as f64).count("steps", last.steps() as f64);
+    let at = nodes_on(&problem, "b0.top");
+    let change = |v: &f64| (v - RATE) * STIFF.density * STIFF.shear / PULSE.0;
+    let changes = at.iter().zip(&last.fault().rate).map(|((_, x), v)| (*x, change(v))).collect();
+    Ok(Slipped { spacing, changes, cost })
+}
+
+impl Slipped {
+    /// Largest change of the slip rate.
+    pub fn largest(&self) -> f64 {
+        self.changes.iter().map(|(_, v)| v.abs()).fold(0.0, f64::max)
+    }
+}
