@@ -10,6 +10,11 @@ use std::hint::black_box;
 use std::process::ExitCode;
 use std::time::Instant;
 
+/// Bytes in a gigabyte.
+const GIGA: f64 = 1e9;
+/// Cells in a million.
+const MEGA: f64 = 1e6;
+
 fn main() -> ExitCode {
     let arguments: Vec<usize> = std::env::args().skip(1).filter_map(|a| a.parse().ok()).collect();
     let threads = arguments.first().copied().unwrap_or(1);
@@ -39,7 +44,7 @@ fn least(repeats: usize, mut work: impl FnMut()) -> f64 {
 
 fn table(threads: usize, repeats: usize) -> Result<(), String> {
     let bandwidth = bandwidth(repeats);
-    println!("{threads} threads; triad {:.1} GB/s", bandwidth * 1e-9);
+    println!("{threads} threads; triad {:.1} GB/s", bandwidth / GIGA);
     println!(
         "{:8} {:>9} {:>9} {:>12} {:>10} {:>10} {:>9}",
         "", "cells", "bytes", "Mcells/s", "ns a cell", "bound [ns]", "of bound"
@@ -78,7 +83,7 @@ fn row<const D: usize>(kind: ElementKind, n: usize, repeats: usize, bandwidth: f
     println!(
         "{:8} {cells:>9} {bytes:>9.0} {:>12.1} {:>10.1} {:>10.1} {:>9.2}",
         kind.name(),
-        1e-6 / each,
+        1.0 / (MEGA * each),
         1e9 * each,
         1e9 * bound,
         bound / each

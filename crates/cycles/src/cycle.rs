@@ -173,7 +173,7 @@ fn leg(
     }
 }
 
-/// What follows a piece of an integration.
+/// Continuation after a piece of an integration.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Next {
     /// Nothing: the leg or the run is over.
@@ -261,7 +261,7 @@ struct Pieces<'a> {
     steps: u64,
     /// The step to try next.
     next_step: Option<NextStep>,
-    /// What follows, if this sink ended the integration.
+    /// Continuation, if this sink ended the integration.
     next: Next,
 }
 

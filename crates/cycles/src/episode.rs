@@ -16,39 +16,8 @@ use super::loading::Loading;
 use super::moment::Faults;
 use super::opening::Crack;
 use super::settle::settled;
-use super::waves::{Dynamics, Handover, Shaken, Start};
+use super::waves::{Dynamics, Episode, Handover, Shaken, Start};
 use asperity_ode::{Clock, Control, Failure, ObserveError, Observer, Outcome};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-/// A rupture computed by bodies with mass, and the errors of the hand-overs at its ends.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Episode {
-    /// Time at which it began \[s\].
-    pub begin: f64,
-    /// Time at which it ended \[s\].
-    pub end: f64,
-    /// Steps.
-    pub steps: usize,
-    /// Largest slip rate at its start \[m/s\].
-    pub rate: f64,
-    /// Largest η V at its start over a f_n \[-\]: the change of ln V by what equilibrium leaves out.
-    pub radiation: f64,
-    /// Largest change of shear traction in the first step over a f_n \[-\].
-    pub first: f64,
-    /// Largest difference at its end between the shear tractions with waves and in equilibrium over a f_n \[-\].
-    pub unbalanced: f64,
-    /// The same over the largest drop of shear traction \[-\].
-    pub unbalanced_drop: f64,
-    /// Largest drop of shear traction over the rupture \[Pa\].
-    pub drop: f64,
-    /// Largest slip \[m\].
-    pub slip: f64,
-    /// Energy that waves took \[J; J per metre of thickness in the plane\].
-    pub radiated: f64,
-    /// Kinetic energy at its end, which equilibrium does not have, over the largest one \[-\].
-    pub kinetic: f64,
-}
 
 /// A fault and its loading.
 #[derive(Clone, Copy)]

@@ -1,12 +1,12 @@
 //! A run of faults and the sources of its events.
 
 use super::catalogue::{Event, Thresholds};
-use super::episode::Episode;
 use super::equations::{Equations, Fault, Pressed};
 use super::heat::Memory;
 use super::opening::Crack;
 use super::run::Run;
 use super::rupture::{Detector, Rupture};
+use super::waves::Episode;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 

@@ -138,7 +138,7 @@ fn overshoot(ledger: &mut Ledger, done: &Done, wanted: &[SliderEntry]) -> Result
     Ok(())
 }
 
-/// What the hand-over leaves out, and how little it matters.
+/// Errors of the hand-over, and how little they matter.
 fn handover(ledger: &mut Ledger, done: &Done) -> Result<(), CaseError> {
     let mut last = Vec::new();
     for (above, below) in [("10 mm/s", "1 mm/s"), ("0.1 mm/s", "10 um/s")] {

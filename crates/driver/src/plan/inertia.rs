@@ -56,7 +56,7 @@ pub fn of<const D: usize>(scene: &Scene, model: &Model<D>, loading: f64) -> Resu
     }))
 }
 
-/// When bodies gain and lose their inertia; `None` if they always have it.
+/// Slip rates at which bodies gain and lose their inertia; `None` if they always have it.
 fn handover<const D: usize>(
     scene: &Scene,
     model: &Model<D>,

@@ -1,7 +1,8 @@
 //! Steps of explicit dynamics.
 
+use super::between::Between;
 use super::budget::{Budget, Work};
-use super::fault::{Between, Fault, FaultState, Unbalanced};
+use super::fault::{Fault, FaultState, Unbalanced};
 use super::loads::Loads;
 use super::motion::{Motion, Sums};
 use super::nodes::Special;

@@ -1,6 +1,6 @@
 //! Pairs of nodes that stay together: points of a fault that do not slip in a rupture.
 
-use super::fault::Between;
+use super::between::Between;
 use super::nodes::dot;
 
 /// A pair of nodes that stays together.

@@ -32,7 +32,7 @@ pub struct Episode {
     pub lost: f64,
 }
 
-/// How bodies with mass move at present.
+/// Present motion of bodies with mass.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Course {
     /// With inertia, since the problem knows no other motion.
