@@ -84,7 +84,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         return Err("too few events".into());
     }
     alike(ledger, &done, &with);
-    compared(ledger, &done, &with, &without)?;
+    compared(ledger, (&done, &quiet), &with, &without)?;
     energy(ledger, &done);
     drawn(ledger, &done, &quiet);
     Ok(())
@@ -115,9 +115,29 @@ fn alike(ledger: &mut Ledger, done: &Done, events: &[&Entry]) {
         .record();
 }
 
-fn compared(ledger: &mut Ledger, done: &Done, with: &[&Entry], without: &[&Entry]) -> Result<(), CaseError> {
+/// Width of both faces together \[m\].
+const FACES: f64 = 0.1;
+
+/// Mean normal traction of the faces in an event after `time`, between its values at the largest and the least force of the spring
+/// \[Pa\].
+fn normal(done: &Done, time: f64) -> f64 {
+    let springs = done.record.samples().iter().map(|s| s.springs.first().copied().flatten());
+    let later = done.record.times().iter().zip(springs).filter(|(t, _)| **t > time);
+    let all: Vec<(f64, f64)> =
+        later.filter_map(|(_, s)| s.map(|s| (s.force.abs(), s.force.abs() / (s.friction * FACES)))).collect();
+    let most = all.iter().max_by(|a, b| a.0.total_cmp(&b.0)).map_or(f64::NAN, |v| v.1);
+    let least = all.iter().min_by(|a, b| a.0.total_cmp(&b.0)).map_or(f64::NAN, |v| v.1);
+    0.5 * (most + least)
+}
+
+fn compared(
+    ledger: &mut Ledger,
+    (done, quiet): (&Done, &Done),
+    with: &[&Entry],
+    without: &[&Entry],
+) -> Result<(), CaseError> {
     let stiffness = settled(without, |e| e.stress_drop / e.mean_slip);
-    let normal = done.report.results.last().map_or(f64::NAN, |r| r.mean_normal_traction);
+    let normal = normal(quiet, without[1].onset);
     let damped = sliding(stiffness, normal, DAMPING, None)?;
     let heavy = sliding(stiffness, normal, 0.0, Some(MASS))?;
     let slow = [settled(without, |e| e.mean_slip) / damped.0, interval(without) / damped.1];
