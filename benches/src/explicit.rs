@@ -53,25 +53,9 @@ pub fn rock<const D: usize>(kind: ElementKind, n: usize) -> Result<Problem<D>, F
         viscosity: 0.0,
         fault: None,
         absorbing: Vec::new(),
-        stages: vec![stage()],
+        stages: vec![Stage::free("move", LONG)],
         velocity: (0..dofs).map(|k| (0.37 * k as f64).sin()).collect(),
     })
-}
-
-fn stage() -> Stage {
-    Stage {
-        name: "move".into(),
-        start: 0.0,
-        end: LONG,
-        steps: None,
-        frictionless: Vec::new(),
-        motions: Vec::new(),
-        turning: Vec::new(),
-        loads: Vec::new(),
-        fixed: Vec::new(),
-        springs: Vec::new(),
-        weight: Vec::new(),
-    }
 }
 
 /// Bytes that a step reads and writes if each value moves once in each of its two passes. The forces read displacements, numbers of

@@ -5,8 +5,9 @@ use asperity_fem::block::LinearBlock;
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::material::elastic::Elastic;
+use asperity_fem::mesh::nodes_of_sides;
 use asperity_fem::mesh::{Mesh, generate::Grid};
-use asperity_mechanics::dynamics::{Explicit, Problem};
+use asperity_mechanics::dynamics::{Explicit, Problem, SplitPoint};
 use asperity_mechanics::{Body, CellBlock, Model, Stage};
 
 /// An elastic material by its density \[kg/m³\] and wave speeds \[m/s\].
@@ -86,19 +87,7 @@ pub fn problem_of(
     };
     let bodies = (0..mesh.blocks.len()).map(body).collect();
     let density = rocks.iter().map(|r| r.density).collect();
-    let stage = Stage {
-        name: "waves".into(),
-        start: 0.0,
-        end,
-        steps: None,
-        frictionless: Vec::new(),
-        motions: Vec::new(),
-        turning: Vec::new(),
-        loads: Vec::new(),
-        fixed: Vec::new(),
-        springs: Vec::new(),
-        weight: Vec::new(),
-    };
+    let stage = Stage::free("waves", end);
     Ok(Problem {
         model: Model { scale: 1.0, mesh, blocks, bodies, idealisation },
         density,
@@ -109,6 +98,48 @@ pub fn problem_of(
         stages: vec![stage],
         velocity: Vec::new(),
     })
+}
+
+/// Nodes of a side with their x, ascending \[m\].
+pub fn nodes_on(model: &Model<2>, side: &str) -> Vec<(usize, f64)> {
+    let nodes = nodes_of_sides(&model.mesh, &model.mesh.side_sets[side]);
+    let mut nodes: Vec<(usize, f64)> = nodes.into_iter().map(|n| (n, model.mesh.nodes[n][0])).collect();
+    nodes.sort_by(|a, b| a.1.total_cmp(&b.1));
+    nodes
+}
+
+/// A cut between the top of block 0 and the bottom of block 1.
+pub struct Cut {
+    /// x of the points, ascending \[m\].
+    pub at: Vec<f64>,
+    /// The points, which slip along x.
+    pub points: Vec<SplitPoint>,
+}
+
+/// The cut of a model in antiplane motion or in the plane.
+///
+/// # Errors
+/// If the areas of the points cannot be computed.
+pub fn cut(model: &Model<2>) -> Result<Cut, CaseError> {
+    let (minus, plus) = (nodes_on(model, "b0.top"), nodes_on(model, "b1.bottom"));
+    let areas = model.tributary_areas(&model.mesh.side_sets["b0.top"])?;
+    let normal = if model.idealisation == Idealisation::Antiplane { [0.0; 3] } else { [0.0, 1.0, 0.0] };
+    let point = |((minus, _), (plus, _)): (&(usize, f64), &(usize, f64))| SplitPoint {
+        minus: *minus,
+        plus: *plus,
+        area: areas[minus],
+        normal,
+        along: vec![[1.0, 0.0, 0.0]],
+        gap: 0.0,
+    };
+    let points = minus.iter().zip(&plus).map(point).collect();
+    Ok(Cut { at: minus.into_iter().map(|m| m.1).collect(), points })
+}
+
+/// The smooth bump exp(x²/(x² - R²)) within the radius R, 0 outside.
+pub fn bump(x: f64, radius: f64) -> f64 {
+    let (x2, r2) = (x * x, radius * radius);
+    if x2 < r2 { (x2 / (x2 - r2)).exp() } else { 0.0 }
 }
 
 /// Runs the only stage to its end, and shows each step.

@@ -4,6 +4,7 @@ use crate::diagnostic::Diagnostic;
 use crate::model::{self, Model};
 use crate::scene::model::Scene;
 use asperity_fem::mesh::Side;
+use asperity_mechanics::Body;
 use std::collections::BTreeSet;
 
 /// Impedance Z = √(G ρ) from the shear modulus \[Pa\] and the density \[kg/m³\]; in Pa s/m.
@@ -41,4 +42,14 @@ pub fn behind<const D: usize>(
         all.push(density.map(|density| of(shear, density)));
     }
     Ok(all)
+}
+
+/// Smallest speed of shear waves in the bodies of a model with these densities of its blocks \[kg/m³\]; in m/s.
+#[must_use]
+pub fn slowest<const D: usize>(model: &Model<D>, density: &[f64]) -> f64 {
+    let of = |body: &Body<D>| {
+        let blocks = body.blocks.clone().zip(&body.elastic);
+        blocks.map(|(block, elastic)| (elastic.shear() / density[block]).sqrt()).fold(f64::INFINITY, f64::min)
+    };
+    model.bodies.iter().map(of).fold(f64::INFINITY, f64::min)
 }

@@ -13,6 +13,7 @@ pub mod diagnostic;
 pub mod dynamic;
 pub mod fault;
 mod forecast;
+mod handover;
 mod held;
 mod idealisation;
 mod impedance;

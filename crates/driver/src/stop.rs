@@ -7,8 +7,8 @@ use asperity_mechanics::{Assembled, Failure, coordinates};
 
 /// Remedies for an instability.
 const REMEDY: &str = "the last state before it is kept. Stiffer bodies or supports, or a larger length of weakening (`l`, `d_c`), \
-    are stable; events are followed where waves or inertia carry them: `damping = \"radiation\"` at the interface, `[faults.NAME]`, or \
-    `kinematics = \"spring-slider\"` with `damping` or `mass`";
+    are stable. Events are followed with `damping = \"radiation\"` at the interface, or with inertia: `stepper = \"auto\"`, or `inertia = true` \
+    in `[time]`";
 
 /// Number of failed trials after which a run with a penalty far above the stiffness of its bodies ends. A contact set that changes as a whole takes a
 /// few, and halving down to the smallest step takes 44.

@@ -67,6 +67,24 @@ pub struct Spring {
 }
 
 impl Stage {
+    /// A stage from 0 to `end` \[s\] without any condition.
+    #[must_use]
+    pub fn free(name: &str, end: f64) -> Self {
+        Self {
+            name: name.into(),
+            start: 0.0,
+            end,
+            steps: None,
+            frictionless: Vec::new(),
+            motions: Vec::new(),
+            turning: Vec::new(),
+            loads: Vec::new(),
+            fixed: Vec::new(),
+            springs: Vec::new(),
+            weight: Vec::new(),
+        }
+    }
+
     /// Constraints of the stage, from the displacement `u0` at its start \[m\].
     #[must_use]
     pub fn constraints(&self, u0: &[f64]) -> Constraints {

@@ -1,8 +1,8 @@
 //! Split nodes along y = 0, with the friction of a problem.
 
+use super::super::waves::{Cut, bump, cut};
 use super::reference::{Flash, Friction, Parameters};
 use crate::CaseError;
-use asperity_fem::mesh::nodes_of_sides;
 use asperity_friction::evolution::ageing::Ageing;
 use asperity_friction::evolution::flash::{self, Weakening};
 use asperity_friction::inertial::{EachPoint, InertialFault};
@@ -10,46 +10,27 @@ use asperity_friction::rate::RateLaw;
 use asperity_friction::slip_weakening::SlipWeakening;
 use asperity_friction::strength::{self, regularised::Regularised};
 use asperity_mechanics::Model;
-use asperity_mechanics::dynamics::{Fault, Pulse, SplitPoint};
+use asperity_mechanics::dynamics::{Fault, Pulse};
 
 /// Static coefficient of the barrier beyond the ends of the fault.
 const BARRIER: f64 = 1e4;
 
-/// Nodes of a side with their x, ascending \[m\].
-pub(super) fn nodes_on(model: &Model<2>, side: &str) -> Vec<(usize, f64)> {
-    let nodes = nodes_of_sides(&model.mesh, &model.mesh.side_sets[side]);
-    let mut nodes: Vec<(usize, f64)> = nodes.into_iter().map(|n| (n, model.mesh.nodes[n][0])).collect();
-    nodes.sort_by(|a, b| a.1.total_cmp(&b.1));
-    nodes
-}
-
 /// The fault of a problem on nodes this far apart.
 pub(super) fn between(model: &Model<2>, p: &Parameters, spacing: f64) -> Result<Fault, CaseError> {
-    let (minus, plus) = (nodes_on(model, "b0.top"), nodes_on(model, "b1.bottom"));
-    let areas = model.tributary_areas(&model.mesh.side_sets["b0.top"])?;
-    let normal = if p.antiplane { [0.0; 3] } else { [0.0, 1.0, 0.0] };
-    let point = |((minus, _), (plus, _)): (&(usize, f64), &(usize, f64))| SplitPoint {
-        minus: *minus,
-        plus: *plus,
-        area: areas[minus],
-        normal,
-        along: vec![[1.0, 0.0, 0.0]],
-        gap: 0.0,
-    };
-    let at: Vec<f64> = minus.iter().map(|m| m.1).collect();
+    let Cut { at, points } = cut(model)?;
     let n = at.len();
     let (rate, pulses) = match &p.friction {
         Friction::SlipWeakening { .. } => (0.0, Vec::new()),
-        Friction::RateAndState { rate, pulse, .. } => {
-            let shape = |x: &f64| {
-                let (x2, r2) = (x * x, pulse.radius * pulse.radius);
-                if x2 < r2 { pulse.traction * (x2 / (x2 - r2)).exp() } else { 0.0 }
-            };
-            (*rate, vec![Pulse { amplitude: at.iter().map(shape).collect(), rise: pulse.rise }])
-        }
+        Friction::RateAndState { rate, pulse, .. } => (
+            *rate,
+            vec![Pulse {
+                amplitude: at.iter().map(|x| pulse.traction * bump(*x, pulse.radius)).collect(),
+                rise: pulse.rise,
+            }],
+        ),
     };
     Ok(Fault {
-        points: minus.iter().zip(&plus).map(point).collect(),
+        points,
         law: law(p, &at)?,
         normal: vec![p.normal; n],
         shear: at.iter().map(|x| shear(p, *x, spacing)).collect(),

@@ -5,12 +5,11 @@ mod precision;
 mod reference;
 mod transition;
 
-use super::waves::{Rock, line, mesh, problem, run as steps};
+use super::waves::{Rock, line, mesh, nodes_on, problem, run as steps};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
 use asperity_mechanics::dynamics::{Budget, Explicit, dashpots};
-use fault::nodes_on;
 use reference::{Parameters, Reference};
 
 /// See the README.

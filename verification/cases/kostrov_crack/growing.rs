@@ -1,12 +1,11 @@
 //! Rock around a crack that grows, and its slip.
 
-use super::super::waves::{Rock, line, mesh, problem, run as steps};
+use super::super::waves::{Cut, Rock, cut, line, mesh, nodes_on, problem, run as steps};
 use super::front::Front;
 use crate::{CaseError, Cost};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
-use asperity_fem::mesh::nodes_of_sides;
-use asperity_mechanics::dynamics::{Explicit, Fault, Problem, SplitPoint, dashpots};
+use asperity_mechanics::dynamics::{Explicit, Fault, Problem, dashpots};
 
 pub(super) const ROCK: Rock = Rock { density: 2670.0, pressure: 6000.0, shear: 3464.0 };
 
@@ -65,32 +64,13 @@ fn rock(mode: Mode, spacing: f64) -> Result<Problem<2>, CaseError> {
     Ok(problem)
 }
 
-/// Nodes of a side with their x, ascending \[m\].
-fn nodes_on(problem: &Problem<2>, side: &str) -> Vec<(usize, f64)> {
-    let mesh = &problem.model.mesh;
-    let mut nodes: Vec<(usize, f64)> =
-        nodes_of_sides(mesh, &mesh.side_sets[side]).into_iter().map(|n| (n, mesh.nodes[n][0])).collect();
-    nodes.sort_by(|a, b| a.1.total_cmp(&b.1));
-    nodes
-}
-
 /// The crack between both halves of the rock.
-fn fault(problem: &Problem<2>, mode: Mode, spacing: f64) -> Result<Fault, CaseError> {
-    let (minus, plus) = (nodes_on(problem, "b0.top"), nodes_on(problem, "b1.bottom"));
-    let areas = problem.model.tributary_areas(&problem.model.mesh.side_sets["b0.top"])?;
-    let normal = if mode == Mode::Antiplane { [0.0; 3] } else { [0.0, 1.0, 0.0] };
-    let point = |((minus, _), (plus, _)): (&(usize, f64), &(usize, f64))| SplitPoint {
-        minus: *minus,
-        plus: *plus,
-        area: areas[minus],
-        normal,
-        along: vec![[1.0, 0.0, 0.0]],
-        gap: 0.0,
-    };
-    let n = minus.len();
+fn fault(problem: &Problem<2>, spacing: f64) -> Result<Fault, CaseError> {
+    let Cut { at, points } = cut(&problem.model)?;
+    let n = at.len();
     Ok(Fault {
-        points: minus.iter().zip(&plus).map(point).collect(),
-        law: Box::new(Front { at: minus.iter().map(|m| m.1).collect(), speed: SPEED, spacing }),
+        points,
+        law: Box::new(Front { at, speed: SPEED, spacing }),
         normal: vec![NORMAL; n],
         shear: vec![DROP; n],
         rate: vec![0.0; n],
@@ -104,8 +84,8 @@ fn fault(problem: &Problem<2>, mode: Mode, spacing: f64) -> Result<Fault, CaseEr
 
 pub(super) fn grow(mode: Mode, spacing: f64) -> Result<Crack, CaseError> {
     let mut problem = rock(mode, spacing)?;
-    problem.fault = Some(fault(&problem, mode, spacing)?);
-    let at = nodes_on(&problem, "b0.top").iter().map(|n| n.1).collect();
+    problem.fault = Some(fault(&problem, spacing)?);
+    let at = nodes_on(&problem.model, "b0.top").iter().map(|n| n.1).collect();
     let mut slips = Vec::new();
     let watch = |run: &mut Explicit<'_, 2>| {
         let (time, wanted) = (run.time() - run.dt(), [EARLIER, 1.0].map(|share| share * HALF / SPEED));

@@ -4,6 +4,7 @@ use super::seas;
 use super::slider as sliders;
 use super::texts::{self, Done};
 use crate::cases::drawn;
+use crate::ledger::Draft;
 use crate::{Capability, Case, CaseError, Evidence, Floor, Ledger, Plot, Series};
 use asperity_cycles::slider::{self as cycles, Now, Problem, Rows};
 use asperity_cycles::{Event, Rupture};
@@ -182,38 +183,52 @@ fn column_events(ledger: &mut Ledger) -> Result<(), CaseError> {
     sliders::events(&mut plan, 4);
     let run = cycles::run(&plan, &mut ())?;
     let wanted = SliderEntry::all(&run);
-    let found = events(&done)?;
-    let mut claim = |what: &str, unit: &str, values: Vec<f64>, reference: Vec<f64>, bound: f64, why: &str| {
-        ledger
-            .claim(format!("{what} of the column's events"))
-            .unit(unit)
-            .values(&values)
-            .equals_each(&reference)
-            .relative(bound)
+    let bounds = Bounds { onset: 1e-4, slip: 2e-4, drop: 2e-4, peak: 5e-4 };
+    let because =
+        "the default bounds the error of friction of a step by 2e-6, and a few add up in a drop of 7e-2";
+    against_slider(ledger, "the column's events", (&done, &wanted, bounds), |claim| {
+        claim
             .evidence(Evidence::SemiAnalytic, SLIDER)
-            .because(why)
+            .because(because)
             .covers(&[Capability::InterfaceStates, Capability::Events])
-            .cost(&done.cost)
-            .record();
+    })
+}
+
+/// Bounds of the relative errors of events.
+#[derive(Clone, Copy)]
+pub(super) struct Bounds {
+    pub onset: f64,
+    pub slip: f64,
+    pub drop: f64,
+    pub peak: f64,
+}
+
+/// Claims that the column's events are those of a slider; `finish` adds evidence and reasons. A peak slip rate is that of a step's
+/// end.
+///
+/// # Errors
+/// If the scene has no events.
+pub(super) fn against_slider(
+    ledger: &mut Ledger,
+    of_what: &str,
+    (done, wanted, bounds): (&Done, &[SliderEntry], Bounds),
+    finish: impl for<'a> Fn(Draft<'a>) -> Draft<'a>,
+) -> Result<(), CaseError> {
+    let found = events(done)?;
+    let mut claim = |what: &str, unit: &str, values: Vec<f64>, reference: Vec<f64>, bound: f64| {
+        let claim = ledger.claim(format!("{what} of {of_what}")).unit(unit);
+        let claim = claim.values(&values).equals_each(&reference).relative(bound);
+        finish(claim).cost(&done.cost).record();
     };
     let each = |of: fn(&Entry) -> f64| found.iter().map(of).collect::<Vec<f64>>();
     let of = |of: fn(&SliderEntry) -> Option<f64>| wanted.iter().filter_map(of).collect::<Vec<f64>>();
-    let small =
-        "the default bounds the error of friction of a step by 2e-6, and a few add up in a drop of 7e-2";
     let since: Vec<f64> = each(|e| e.onset).iter().map(|t| t - PRESSED).collect();
     // The drop of friction: the catalogue of surfaces leaves out what is radiated at onset and end, that of sliders does not.
-    let fall = of(|e| e.at_end.as_ref().map(|end| NORMAL * (e.at_onset.friction - end.friction)));
-    claim("onset", "s", since, of(|e| Some(e.onset)), 1e-4, small);
-    claim("slip", "m", each(|e| e.mean_slip), of(|e| e.slip), 2e-4, small);
-    claim("stress drop", "Pa", each(|e| e.stress_drop), fall, 2e-4, small);
-    claim(
-        "peak slip rate",
-        "m/s",
-        each(|e| e.peak_rate),
-        of(|e| Some(e.peak_rate)),
-        5e-4,
-        "the peak is that of a step's end",
-    );
+    let fall = of(|e| Some(NORMAL * (e.at_onset.friction - e.at_end.as_ref()?.friction)));
+    claim("onset", "s", since, of(|e| Some(e.onset)), bounds.onset);
+    claim("slip", "m", each(|e| e.mean_slip), of(|e| e.slip), bounds.slip);
+    claim("stress drop", "Pa", each(|e| e.stress_drop), fall, bounds.drop);
+    claim("peak slip rate", "m/s", each(|e| e.peak_rate), of(|e| Some(e.peak_rate)), bounds.peak);
     Ok(())
 }
 

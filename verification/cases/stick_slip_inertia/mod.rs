@@ -5,7 +5,6 @@ use super::stick_slip::{self, WIDTH};
 use super::texts::{self, Done};
 use crate::{Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
 use asperity_cycles::slider as cycles;
-use asperity_driver::catalogue::Entry;
 use asperity_driver::slider::Entry as SliderEntry;
 use asperity_friction::slider::History;
 use asperity_vary::SceneText;
@@ -83,41 +82,14 @@ fn friction(done: &Done) -> Vec<(f64, f64)> {
 }
 
 fn events(ledger: &mut Ledger, done: &Done, wanted: &[SliderEntry]) -> Result<(), CaseError> {
-    let found = stick_slip::events(done)?;
-    let mut claim = |what: &str, unit: &str, values: Vec<f64>, reference: Vec<f64>, bound: f64, why: &str| {
-        ledger
-            .claim(format!("{what} of the column's events with inertia"))
-            .unit(unit)
-            .values(&values)
-            .equals_each(&reference)
-            .relative(bound)
+    let bounds = stick_slip::Bounds { onset: 2e-4, slip: 5e-4, drop: 1e-4, peak: 3e-4 };
+    stick_slip::against_slider(ledger, "the column's events with inertia", (done, wanted, bounds), |claim| {
+        claim
             .evidence(Evidence::SemiAnalytic, SLIDER)
-            .because(why)
-            .why_not_tighter(
-                "the steps of the slider and of the column fall differently, and so do their errors",
-            )
+            .because("the default bounds the error of friction of a step by 2e-6, and a few add up in a drop of 0.15")
+            .why_not_tighter("the steps of the slider and of the column fall differently, and so do their errors")
             .covers(&[Capability::Handover, Capability::Inertia, Capability::Events])
-            .cost(&done.cost)
-            .record();
-    };
-    let each = |of: fn(&Entry) -> f64| found.iter().map(of).collect::<Vec<f64>>();
-    let of = |of: fn(&SliderEntry) -> Option<f64>| wanted.iter().filter_map(of).collect::<Vec<f64>>();
-    let since: Vec<f64> = each(|e| e.onset).iter().map(|t| t - stick_slip::PRESSED).collect();
-    let fall = of(|e| Some(stick_slip::NORMAL * (e.at_onset.friction - e.at_end.as_ref()?.friction)));
-    let small =
-        "the default bounds the error of friction of a step by 2e-6, and a few add up in a drop of 0.15";
-    claim("onset", "s", since, of(|e| Some(e.onset)), 2e-4, small);
-    claim("slip", "m", each(|e| e.mean_slip), of(|e| e.slip), 5e-4, small);
-    claim("stress drop", "Pa", each(|e| e.stress_drop), fall, 1e-4, small);
-    claim(
-        "peak slip rate",
-        "m/s",
-        each(|e| e.peak_rate),
-        of(|e| Some(e.peak_rate)),
-        3e-4,
-        "the peak is that of a step's end",
-    );
-    Ok(())
+    })
 }
 
 /// Slip with inertia over that with damping, in the limit cycle.
@@ -157,8 +129,6 @@ fn handover(ledger: &mut Ledger, done: &Done) -> Result<(), CaseError> {
         .cost(&done.cost)
         .record();
     let passages = &done.report.passages;
-    let largest =
-        |of: fn(&asperity_driver::report::Passage) -> f64| passages.iter().map(of).fold(0.0, f64::max);
     ledger
         .claim("number of passages with inertia")
         .value(passages.len() as f64)
@@ -169,26 +139,43 @@ fn handover(ledger: &mut Ledger, done: &Done) -> Result<(), CaseError> {
         .covers(&[Capability::Handover])
         .cost(&done.cost)
         .record();
+    energies(
+        ledger,
+        done,
+        [1e-7, 2e-7],
+        [
+            "a column that returns below 0.1 mm/s after 0.5 m/s has 4e-8 of the energy",
+            "friction lets the column creep in the return, which takes some energy from the spring",
+            "the trapezoidal rule is exact for a linear column; rounding of displacements moves the forces of a column that is a million times as stiff as its spring",
+        ],
+    );
+    Ok(())
+}
+
+/// Claims on the energy that is lost in returns, and on the budget: their bounds, the source of the first, and the reasons of both.
+pub(super) fn energies(
+    ledger: &mut Ledger,
+    done: &Done,
+    bounds: [f64; 2],
+    [source, lost, missing]: [&str; 3],
+) {
+    let most = done.report.passages.iter().map(|p| p.lost.abs()).fold(0.0, f64::max);
     ledger
         .claim("largest share of the kinetic energy lost in the return")
-        .value(largest(|p| p.lost.abs()))
-        .at_most(1e-7)
-        .evidence(
-            Evidence::Exact,
-            "a column that returns below 0.1 mm/s after 0.5 m/s has 4e-8 of the energy",
-        )
-        .because("friction lets the column creep in the return, which takes some energy from the spring")
+        .value(most)
+        .at_most(bounds[0])
+        .evidence(Evidence::Exact, source)
+        .because(lost)
         .covers(&[Capability::Handover])
         .cost(&done.cost)
         .record();
     ledger
         .claim("largest part of the energy budget that is missing, over its largest part")
         .value(done.report.energy.map_or(f64::NAN, |e| e.imbalance))
-        .at_most(2e-7)
+        .at_most(bounds[1])
         .evidence(Evidence::Exact, "conservation of energy")
-        .because("the trapezoidal rule is exact for a linear column; rounding of displacements moves the forces of a column that is a million times as stiff as its spring")
+        .because(missing)
         .covers(&[Capability::Handover, Capability::Inertia])
         .cost(&done.cost)
         .record();
-    Ok(())
 }

@@ -2,6 +2,7 @@
 
 use super::slider;
 use super::stick_slip;
+use super::stick_slip_inertia::energies;
 use super::texts::{self, Done};
 use crate::{Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
 use asperity_cycles::slider as cycles;
@@ -85,7 +86,16 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     }
     alike(ledger, &done, &with);
     compared(ledger, (&done, &quiet), &with, &without)?;
-    energy(ledger, &done);
+    energies(
+        ledger,
+        &done,
+        [0.05, 1e-9],
+        [
+            "blocks that still ring when no point slips any more: a tenth of their largest kinetic energy",
+            "friction takes most of the vibrations before they are lost",
+            "the trapezoidal rule is exact for linear bodies whose points stay closed",
+        ],
+    );
     drawn(ledger, &done, &quiet);
     Ok(())
 }
@@ -167,28 +177,6 @@ fn compared(
         .cost(&done.cost)
         .record();
     Ok(())
-}
-
-fn energy(ledger: &mut Ledger, done: &Done) {
-    let lost = done.report.passages.iter().map(|p| p.lost.abs()).fold(0.0, f64::max);
-    ledger
-        .claim("largest share of the kinetic energy lost in the return")
-        .value(lost)
-        .at_most(0.05)
-        .evidence(Evidence::ConvergedSelf, "blocks that still ring when no point slips any more")
-        .because("a tenth of the largest kinetic energy rings at first, and friction takes most of it")
-        .covers(&[Capability::Handover])
-        .cost(&done.cost)
-        .record();
-    ledger
-        .claim("largest part of the energy budget that is missing, over its largest part")
-        .value(done.report.energy.map_or(f64::NAN, |e| e.imbalance))
-        .at_most(1e-9)
-        .evidence(Evidence::Exact, "conservation of energy")
-        .because("the trapezoidal rule is exact for linear bodies whose points stay closed")
-        .covers(&[Capability::Handover, Capability::Inertia])
-        .cost(&done.cost)
-        .record();
 }
 
 /// Macroscopic friction against displacement of the load point, with and without inertia.

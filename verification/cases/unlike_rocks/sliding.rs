@@ -1,13 +1,12 @@
 //! Both rocks with their fault, and its slip rates.
 
-use super::super::waves::{Rock, line, mesh, problem_of, run as steps};
+use super::super::waves::{Cut, Rock, bump, cut, line, mesh, nodes_on, problem_of, run as steps};
 use crate::{CaseError, Cost};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
-use asperity_fem::mesh::nodes_of_sides;
 use asperity_friction::coulomb::Coulomb;
 use asperity_friction::inertial::EachPoint;
-use asperity_mechanics::dynamics::{Fault, Problem, Pulse, Regularisation, SplitPoint};
+use asperity_mechanics::dynamics::{Fault, Problem, Pulse, Regularisation};
 
 /// The stiffer rock lies above. The units of length, time and density are the radius of the imposed traction, the time in which its shear
 /// waves pass it, and its density, so that the modulus is 1.
@@ -65,41 +64,19 @@ fn rocks(spacing: f64, delay: Option<Regularisation>) -> Result<Problem<2>, Case
     Ok(problem)
 }
 
-/// Nodes of a side with their x, ascending.
-fn nodes_on(problem: &Problem<2>, side: &str) -> Vec<(usize, f64)> {
-    let mesh = &problem.model.mesh;
-    let mut nodes: Vec<(usize, f64)> =
-        nodes_of_sides(mesh, &mesh.side_sets[side]).into_iter().map(|n| (n, mesh.nodes[n][0])).collect();
-    nodes.sort_by(|a, b| a.1.total_cmp(&b.1));
-    nodes
-}
-
 fn fault(problem: &Problem<2>, delay: Option<Regularisation>) -> Result<Fault, CaseError> {
-    let (minus, plus) = (nodes_on(problem, "b0.top"), nodes_on(problem, "b1.bottom"));
-    let areas = problem.model.tributary_areas(&problem.model.mesh.side_sets["b0.top"])?;
-    let point = |((minus, _), (plus, _)): (&(usize, f64), &(usize, f64))| SplitPoint {
-        minus: *minus,
-        plus: *plus,
-        area: areas[minus],
-        normal: [0.0, 1.0, 0.0],
-        along: vec![[1.0, 0.0, 0.0]],
-        gap: 0.0,
-    };
-    let n = minus.len();
+    let Cut { at, points } = cut(&problem.model)?;
+    let n = at.len();
     let (traction, radius, rise) = PULSE;
-    let shape = |(_, x): &(usize, f64)| {
-        let (x2, r2) = (x * x, radius * radius);
-        if x2 < r2 { traction * (x2 / (x2 - r2)).exp() } else { 0.0 }
-    };
     Ok(Fault {
-        points: minus.iter().zip(&plus).map(point).collect(),
+        points,
         law: Box::new(EachPoint(vec![Coulomb::new(MU, None)?; n])),
         normal: vec![NORMAL; n],
         shear: vec![SHEAR; n],
         rate: vec![RATE; n],
         opens: true,
         regularisation: delay,
-        pulses: vec![Pulse { amplitude: minus.iter().map(shape).collect(), rise }],
+        pulses: vec![Pulse { amplitude: at.iter().map(|x| traction * bump(*x, radius)).collect(), rise }],
         onset: None,
         ties: Vec::new(),
     })
@@ -111,7 +88,7 @@ pub(super) fn slip(spacing: f64, delay: Option<Regularisation>) -> Result<Slippe
     let (result, cost) = Cost::of(|| steps(&problem, |_| ()));
     let last = result?;
     let cost = cost.count("cells", last.product().cells() as f64).count("steps", last.steps() as f64);
-    let at = nodes_on(&problem, "b0.top");
+    let at = nodes_on(&problem.model, "b0.top");
     let change = |v: &f64| (v - RATE) * STIFF.density * STIFF.shear / PULSE.0;
     let changes = at.iter().zip(&last.fault().rate).map(|((_, x), v)| (*x, change(v))).collect();
     Ok(Slipped { spacing, changes, cost })

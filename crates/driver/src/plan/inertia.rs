@@ -1,8 +1,10 @@
 //! Inertia of the bodies of a scene.
 
 use crate::diagnostic::Diagnostic;
+use crate::handover;
+use crate::impedance;
 use crate::model::{self, Model};
-use crate::scene::model::{HandoverSpec, Scene, Stepper};
+use crate::scene::model::{Scene, Stepper};
 use asperity_mechanics::{Handover, Mass};
 
 /// Default spectral radius. Above some 0.6 a point that meets with a stiff penalty opens and closes in every other step, and the
@@ -11,13 +13,6 @@ const RADIUS: f64 = 0.5;
 /// Default bound on the error of displacement in a step. It is about the error of the period of a steady vibration, which then
 /// takes some sixty steps.
 const TOLERANCE: f64 = 1e-3;
-
-/// Default slip rate above which bodies have inertia \[m/s\], that of events. Radiation changes tractions there by some kPa.
-pub(crate) const ABOVE: f64 = 1e-3;
-/// Default of the slip rate below which they return to equilibrium, over that above which they leave it \[-\].
-pub(crate) const BELOW: f64 = 0.1;
-/// Smallest ratio of the slip rate at which bodies gain inertia to the largest rate of the loads \[-\].
-const APART: f64 = 10.0;
 
 /// Inertia of the bodies; `None` if the scene declares none. `loading` is the largest rate of the loads \[m/s\].
 ///
@@ -47,54 +42,19 @@ pub fn of<const D: usize>(scene: &Scene, model: &Model<D>, loading: f64) -> Resu
         let dofs = velocity[body.dofs.clone()].chunks_exact_mut(model.idealisation.components());
         dofs.filter(|_| !given.is_empty()).for_each(|node| node.copy_from_slice(&given));
     }
+    let handover = match *scene.time.stepper.get_ref() {
+        Stepper::Auto => {
+            let handover::Bounds { above, below, kinetic } = handover::of(scene, loading)?;
+            let wait = 2.0 * model.scale / impedance::slowest(model, &density);
+            Some(Handover { above, below, kinetic, wait })
+        }
+        _ => None,
+    };
     Ok(Some(Mass {
         density,
         velocity,
         radius: settings.spectral_radius.map_or(RADIUS, |r| *r.get_ref()),
         tolerance: settings.tolerance.map_or(TOLERANCE, |t| *t.get_ref()),
-        handover: handover(scene, model, loading)?,
+        handover,
     }))
-}
-
-/// Slip rates at which bodies gain and lose their inertia; `None` if they always have it.
-fn handover<const D: usize>(
-    scene: &Scene,
-    model: &Model<D>,
-    loading: f64,
-) -> Result<Option<Handover>, Diagnostic> {
-    if *scene.time.stepper.get_ref() != Stepper::Auto {
-        return Ok(None);
-    }
-    let (place, spec) = match &scene.time.handover {
-        Some(given) => (given.span(), given.get_ref().clone()),
-        None => (scene.time.stepper.span(), HandoverSpec::default()),
-    };
-    let above = spec.above.map_or(ABOVE, |v| v.get_ref().0);
-    if above < APART * loading {
-        let message = format!(
-            "bodies have inertia above a slip rate of {above:e} m/s, and the loads move at {loading:e} m/s: bodies would keep it"
-        );
-        let help = format!(
-            "`handover = {{ above = \"{:e} m/s\" }}` or more, or `stepper = \"implicit\"` with `inertia = true`",
-            APART * loading
-        );
-        return Err(Diagnostic::at(place, message, help));
-    }
-    let below = spec.below.map_or(BELOW * above, |v| v.get_ref().0);
-    let kinetic = spec.kinetic.map_or(1.0, |k| *k.get_ref());
-    Ok(Some(Handover { above, below, kinetic, wait: 2.0 * model.scale / slowest(scene, model)? }))
-}
-
-/// Smallest speed of shear waves of the bodies \[m/s\].
-fn slowest<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<f64, Diagnostic> {
-    let mut least = f64::INFINITY;
-    for body in &model.bodies {
-        for block in body.blocks.clone() {
-            let (_, material) =
-                model::material(&model.mesh, scene, (&body.name, &scene.bodies[&body.name]), block)?;
-            let density = material.density.as_ref().map_or(f64::NAN, |d| d.get_ref().0);
-            least = least.min((body.elastic[block - body.blocks.start].shear() / density).sqrt());
-        }
-    }
-    Ok(least)
 }

@@ -26,7 +26,6 @@ mod watch;
 
 pub use asperity_mechanics::{Path, PlannedInterface, Stepping, interface_nodes};
 pub use events::{EventPlan, Sites};
-pub(crate) use inertia::{ABOVE, BELOW};
 pub use planner::{ScenePlan, plan, plan_scene};
 pub use start_gap::{SHARE, StartGap};
 pub(crate) use stepping::rule;

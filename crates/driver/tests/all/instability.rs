@@ -76,7 +76,7 @@ impl Sandwich {
         };
         assert_eq!((stage.as_deref().unwrap(), interface.as_str()), ("shear", "fault"));
         assert!(
-            reason.starts_with("instability at (0.025, ") && reason.contains("spring-slider"),
+            reason.starts_with("instability at (0.025, ") && reason.contains("`inertia = true`"),
             "{reason}"
         );
         assert!(slip_rate.is_finite());

@@ -141,6 +141,18 @@ const STICK_SLIP: [Change<'_>; 12] = [
     Add("events", r#"{ above = "10 mm/s", below = "5 mm/s" }"#),
     Without("output.probes"),
 ];
+/// The same with inertia instead of damping while the die slips fast, through one event.
+const EVENT: [Change<'_>; 9] = [
+    Without("interfaces.contact.damping"),
+    With("time.stepper", "auto"),
+    Add("time.handover", r#"{ above = "50 mm/s", below = "10 mm/s" }"#),
+    Add("time.inertia", "{ spectral_radius = 0.0, tolerance = 0.1 }"),
+    With("time.max_step", "5 s"),
+    With("stages[0].duration", "20 s"),
+    With("stages[1].duration", "30 s"),
+    With("stages[0].conditions[1].x", r#"{ spring = 4e7, rate = "4 mm/s" }"#),
+    With("stages[1].conditions[0].x", r#"{ spring = 4e7, rate = "4 mm/s" }"#),
+];
 const WEAKENING: Change<'_> =
     With("interfaces.contact.law", r#"{ kind = "slip-weakening", mu_s = 0.44, mu_k = 0.4, d_c = "10 mm" }"#);
 const SPACE: [Change<'_>; 12] = [
@@ -323,6 +335,7 @@ fn implicit_runs_with_states_of_friction_resume_bit_for_bit() {
         ("ageing, multipliers as unknowns", vec![&[AGEING, UNKNOWNS, ROUGH]]),
         ("slip weakening", vec![&[WEAKENING, MORTAR]]),
         ("stick-slip on a spring", vec![&STICK_SLIP]),
+        ("stick-slip from equilibrium to inertia and back", vec![&STICK_SLIP, &EVENT]),
         ("tied", vec![&SMALL, &[TIED, ROUGH]]),
     ]);
 }
@@ -432,7 +445,7 @@ fn left(plan: &AnyPlan, out: &Path) -> Option<(String, BTreeMap<PathBuf, Vec<u8>
 type Case<'a> = (&'a str, Vec<&'a [Change<'a>]>, usize, &'a [&'a str]);
 
 /// Scenes in which each of these fields affects the rest of the run.
-fn decisive() -> [Case<'static>; 8] {
+fn decisive() -> [Case<'static>; 9] {
     const STATES: &[&str] = &[
         "contact/shear/states",
         "contact/shear/rate",
@@ -478,6 +491,12 @@ fn decisive() -> [Case<'static>; 8] {
         ("plastic", vec![&[PLASTIC]], 6, &["system/bodies/histories", "system/stepper/last"]),
         ("forward", vec![&FORWARD, &[PLASTIC, ROUGH]], 6, FORWARDS),
         ("tied", vec![&SMALL, &[TIED, SLANTED, ROUGH]], 6, &["contact/tied", "contact/measure"]),
+        (
+            "event",
+            vec![&STICK_SLIP, &EVENT],
+            5,
+            &["system/mass/term/motion", "system/mass/energy", "system/mass/episodes"],
+        ),
     ]
 }
 

@@ -41,22 +41,6 @@ fn model<const D: usize>(mesh: Mesh<D>, rock: Elastic, idealisation: Idealisatio
     Model { bodies: bodies.collect(), mesh, blocks, idealisation, scale: 1.0 }
 }
 
-fn stage(end: f64) -> Stage {
-    Stage {
-        name: "go".into(),
-        start: 0.0,
-        end,
-        steps: None,
-        frictionless: Vec::new(),
-        motions: Vec::new(),
-        turning: Vec::new(),
-        loads: Vec::new(),
-        fixed: Vec::new(),
-        springs: Vec::new(),
-        weight: Vec::new(),
-    }
-}
-
 fn problem(model: Model<2>, stage: Stage) -> Problem<2> {
     let density = vec![DENSITY; model.blocks.len()];
     Problem {
@@ -91,7 +75,7 @@ fn run<'a>(problem: &'a Problem<2>, mut watch: impl FnMut(&mut Explicit<'a, 2>))
 fn standing_wave(h: f64) -> (f64, f64) {
     let bar = bars(&[[0.0, 1.0]], 1, h, Idealisation::PlaneStress);
     let omega = std::f64::consts::PI * speed();
-    let mut problem = problem(bar, stage(2.5 * std::f64::consts::PI / omega));
+    let mut problem = problem(bar, Stage::free("go", 2.5 * std::f64::consts::PI / omega));
     let shape: Vec<f64> =
         problem.model.mesh.nodes.iter().map(|x| (std::f64::consts::PI * x[0]).cos()).collect();
     problem.velocity = shape.iter().flat_map(|s| [*s, 0.0]).collect();
@@ -118,7 +102,7 @@ fn standing_waves_converge_with_order_two_and_keep_their_energy_to_rounding() {
 #[test]
 fn absorbing_ends_let_waves_of_normal_incidence_out() {
     let bar = bars(&[[0.0, 1.0]], 2, 0.01, Idealisation::PlaneStress);
-    let mut problem = problem(bar, stage(2.0 / speed()));
+    let mut problem = problem(bar, Stage::free("go", 2.0 / speed()));
     let pulse = |x: f64| (-((x - 0.5) / 0.08).powi(2)).exp();
     problem.velocity = problem.model.mesh.nodes.iter().flat_map(|x| [pulse(x[0]), 0.0]).collect();
     let sides = [&problem.model.mesh.side_sets["b0.left"][..], &problem.model.mesh.side_sets["b0.right"][..]]
@@ -159,7 +143,7 @@ fn impact(h: f64, gap: f64) -> Problem<2> {
     };
     let velocity =
         (0..model.mesh.nodes.len()).flat_map(|n| [if n < half { 1.0 } else { 0.0 }, 0.0]).collect();
-    Problem { fault: Some(fault), velocity, ..problem(model, stage(4.0 / speed() + gap)) }
+    Problem { fault: Some(fault), velocity, ..problem(model, Stage::free("go", 4.0 / speed() + gap)) }
 }
 
 #[test]
@@ -235,7 +219,7 @@ fn restored_runs_continue_bit_for_bit_and_on_any_number_of_threads() {
 fn runs_of_many_pieces_have_the_same_bits_on_any_number_of_threads() {
     // Some ten thousand nodes: several tasks of each kind.
     let bar = bars(&[[0.0, 1.0]], 50, 0.005, Idealisation::PlaneStrain);
-    let mut problem = Problem { viscosity: 0.1, ..problem(bar, stage(0.1 / speed())) };
+    let mut problem = Problem { viscosity: 0.1, ..problem(bar, Stage::free("go", 0.1 / speed())) };
     let wave = |x: &[f64; 2]| [(9.0 * x[0]).sin(), (7.0 * x[0] * x[1]).cos()];
     problem.velocity = problem.model.mesh.nodes.iter().flat_map(wave).collect();
     problem.absorbing = dashpots(&problem.model, &problem.density, &problem.model.mesh.side_sets["b0.right"]);
@@ -249,7 +233,7 @@ fn runs_of_many_pieces_have_the_same_bits_on_any_number_of_threads() {
 #[test]
 fn works_of_loads_prescribed_motions_and_damping_close_the_balance() {
     let bar = bars(&[[0.0, 1.0]], 2, 0.05, Idealisation::PlaneStrain);
-    let mut stage = stage(1.5 / speed());
+    let mut stage = Stage::free("go", 1.5 / speed());
     let left: Vec<usize> = (0..3).map(|j| 21 * j * 2).collect();
     stage.fixed.clone_from(&left);
     stage.motions.push((left, crate::Motion::To(1e-4)));
@@ -308,7 +292,7 @@ fn tied_bars_move_as_one() {
         onset: None,
         ties: vec![tie(0), tie(1)],
     };
-    let end = stage(1.0 / speed());
+    let end = Stage::free("go", 1.0 / speed());
     let velocity = moving(&whole);
     let one = Problem { velocity, ..problem(whole, end.clone()) };
     let velocity = moving(&parts);
@@ -326,7 +310,7 @@ fn bodies_on_soft_springs_swing_with_their_mass_and_keep_their_energy() {
     // Mass over stiffness gives a quarter period of a hundred travel times of waves.
     let mass = 0.25 * DENSITY;
     let omega = 0.5 * std::f64::consts::PI * speed() / 100.0;
-    let mut stage = stage(100.0 / speed());
+    let mut stage = Stage::free("go", 100.0 / speed());
     stage.springs.push(crate::Spring {
         set: "b0.right".into(),
         axis: 0,

@@ -34,7 +34,7 @@ pub struct Episode {
 
 /// Present motion of bodies with mass.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub enum Course {
+pub enum Regime {
     /// With inertia, since the problem knows no other motion.
     Always,
     /// Through states of equilibrium.
@@ -46,14 +46,14 @@ pub enum Course {
     },
 }
 
-impl Course {
-    /// Course at the start of a run.
+impl Regime {
+    /// Regime at the start of a run.
     #[must_use]
     pub fn first(handover: Option<&Handover>) -> Self {
         if handover.is_some() { Self::Equilibrium } else { Self::Always }
     }
 
-    /// Course after a step that ended at `time` with this largest slip rate and this share of the largest kinetic energy.
+    /// Regime after a step that ended at `time` with this largest slip rate and this share of the largest kinetic energy.
     #[must_use]
     pub fn next(self, rule: &Handover, time: f64, rate: f64, kinetic: f64) -> Self {
         match self {
@@ -76,16 +76,16 @@ mod tests {
     #[test]
     fn inertia_ceases_when_slip_has_been_slow_for_the_whole_wait() {
         let rule = Handover { above: 1e-3, below: 1e-4, kinetic: 0.1, wait: 2.0 };
-        let slow = |since| Course::Inertia { slow: Some(since) };
-        let fast = Course::Inertia { slow: None };
-        let start = Course::first(Some(&rule));
-        assert_eq!(start.next(&rule, 1.0, 9e-4, 0.0), Course::Equilibrium);
+        let slow = |since| Regime::Inertia { slow: Some(since) };
+        let fast = Regime::Inertia { slow: None };
+        let start = Regime::first(Some(&rule));
+        assert_eq!(start.next(&rule, 1.0, 9e-4, 0.0), Regime::Equilibrium);
         assert_eq!(start.next(&rule, 1.0, 2e-3, 0.0), fast);
         assert_eq!(fast.next(&rule, 2.0, 5e-5, 0.5), slow(2.0));
         assert_eq!(slow(2.0).next(&rule, 3.0, 2e-4, 0.0), fast);
         assert_eq!(slow(2.0).next(&rule, 3.9, 5e-5, 0.0), slow(2.0));
         assert_eq!(slow(2.0).next(&rule, 4.1, 5e-5, 0.2), slow(2.0));
-        assert_eq!(slow(2.0).next(&rule, 4.1, 5e-5, 0.05), Course::Equilibrium);
-        assert_eq!(Course::first(None).next(&rule, 1.0, 1.0, 0.0), Course::Always);
+        assert_eq!(slow(2.0).next(&rule, 4.1, 5e-5, 0.05), Regime::Equilibrium);
+        assert_eq!(Regime::first(None).next(&rule, 1.0, 1.0, 0.0), Regime::Always);
     }
 }

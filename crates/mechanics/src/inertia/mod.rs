@@ -16,7 +16,7 @@ use asperity_fem::dof::{Channel, Constraints};
 use asperity_fem::mass;
 use asperity_fem::term::Limited;
 use energy::Shears;
-use episode::Course;
+use episode::Regime;
 use serde::{Deserialize, Serialize};
 use term::{Inertia, TermState};
 
@@ -40,7 +40,7 @@ pub struct Mass {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MassState {
     term: TermState,
-    course: Course,
+    regime: Regime,
     episodes: Vec<Episode>,
     energy: Energy,
     viscous_rate: f64,
@@ -86,7 +86,7 @@ pub struct Moving<const D: usize> {
     /// Springs before the step.
     springs: Vec<SpringNow>,
     handover: Option<Handover>,
-    course: Course,
+    regime: Regime,
     /// Passages with inertia so far, the present one last.
     episodes: Vec<Episode>,
     /// Rate of viscous dissipation at the last accepted state \[W\].
@@ -99,15 +99,11 @@ impl<const D: usize> Moving<D> {
     #[must_use]
     pub fn new(model: &Model<D>, given: &Mass) -> Self {
         let mass = mass::consistent(&model.mesh, &given.density, model.idealisation);
-        let mut term = Inertia::new(mass, given.radius, given.velocity.clone());
-        if given.handover.is_some() {
-            term.rest();
-        }
         Self {
-            term,
+            term: Inertia::new(mass, given.radius, given.velocity.clone()),
             springs: Vec::new(),
             handover: given.handover,
-            course: Course::first(given.handover.as_ref()),
+            regime: Regime::first(given.handover.as_ref()),
             episodes: Vec::new(),
             energy: Energy::default(),
             loads: Vec::new(),
@@ -117,9 +113,19 @@ impl<const D: usize> Moving<D> {
         }
     }
 
-    /// Inertia as a term of the system.
-    pub fn term(&mut self) -> &mut dyn Limited {
-        &mut self.term
+    /// Inertia as a term of the system; `None` while bodies pass through states of equilibrium.
+    pub fn term(&mut self) -> Option<&mut dyn Limited> {
+        (!self.rests()).then_some(&mut self.term as _)
+    }
+
+    /// True while bodies pass through states of equilibrium.
+    fn rests(&self) -> bool {
+        self.regime == Regime::Equilibrium
+    }
+
+    /// Kinetic energy \[J\].
+    fn kinetic(&self) -> f64 {
+        if self.rests() { 0.0 } else { self.term.kinetic() }
     }
 
     /// Applies the conditions of a stage, with the sets of degrees of freedom that move as one. It begins with its first step.
@@ -143,12 +149,17 @@ impl<const D: usize> Moving<D> {
     /// # Errors
     /// If the mass matrix cannot be factored.
     pub fn start(&mut self, r: Vec<f64>, at: &View<'_, D>) -> Result<(), FemError> {
-        let change = self.term.start(r, at.u, at.time)?;
+        let change = if self.rests() {
+            self.term.hold(r, at.u);
+            0.0
+        } else {
+            self.term.start(r, at.u, at.time)?
+        };
         let contact = energy::of_contact(at.planned, at.interfaces);
         self.viscous_rate = energy::viscous_rate(at.blocks);
         if self.phase == Phase::First {
             let [strain, plastic] = energy::of_bodies(at.blocks, at.u);
-            let kinetic = self.term.kinetic();
+            let kinetic = self.kinetic();
             let springs = energy::of_springs(at.springs);
             let start = kinetic + strain + contact + springs;
             self.energy = Energy { kinetic, strain, contact, springs, plastic, start, ..Energy::default() };
@@ -173,11 +184,12 @@ impl<const D: usize> Moving<D> {
 
     /// Adds an accepted step of length `dt` to the budget; `total` is the residual of the whole system.
     pub fn settle(&mut self, total: &[f64], dt: f64, at: &View<'_, D>) {
-        let works = self.term.settle(total);
-        let viscous_rate = energy::viscous_rate(at.blocks);
+        let works =
+            if self.rests() { self.term.settle_at_rest(total, at.u, dt) } else { self.term.settle(total) };
+        let (viscous_rate, kinetic) = (energy::viscous_rate(at.blocks), self.kinetic());
         let energy = &mut self.energy;
         [energy.strain, energy.plastic] = energy::of_bodies(at.blocks, at.u);
-        energy.kinetic = self.term.kinetic();
+        energy.kinetic = kinetic;
         energy.contact = energy::of_contact(at.planned, at.interfaces);
         energy.viscous += 0.5 * dt * (self.viscous_rate + viscous_rate);
         energy.friction += energy::by_friction(&self.shears, at.interfaces);
@@ -187,10 +199,10 @@ impl<const D: usize> Moving<D> {
         energy.springs = energy::of_springs(at.springs);
         energy.loads += energy::by_loads(&self.loads, (at.time, dt), self.term.moved());
         self.viscous_rate = viscous_rate;
-        match (self.episodes.last_mut(), self.course) {
+        match (self.episodes.last_mut(), self.regime) {
             // Forces are out of balance where the first step to a state of equilibrium begins.
-            (Some(episode), Course::Equilibrium) => episode.lost -= works.unbalanced,
-            (Some(episode), Course::Inertia { .. }) => {
+            (Some(episode), Regime::Equilibrium) => episode.lost -= works.unbalanced,
+            (Some(episode), Regime::Inertia { .. }) => {
                 episode.steps += 1;
                 episode.largest = self.term.fastest();
             }
@@ -203,10 +215,10 @@ impl<const D: usize> Moving<D> {
     pub fn hand_over(&mut self, time: f64, rate: f64) -> bool {
         let Some(rule) = &self.handover else { return false };
         let share = self.term.kinetic() / self.term.fastest();
-        let next = self.course.next(rule, time, rate, share);
-        let before = std::mem::replace(&mut self.course, next);
+        let next = self.regime.next(rule, time, rate, share);
+        let before = std::mem::replace(&mut self.regime, next);
         match (before, next) {
-            (Course::Equilibrium, Course::Inertia { .. }) => {
+            (Regime::Equilibrium, Regime::Inertia { .. }) => {
                 let left_out = self.term.wake(time) / self.term.largest_held();
                 let kinetic = self.term.kinetic();
                 self.energy.kinetic = kinetic;
@@ -214,8 +226,9 @@ impl<const D: usize> Moving<D> {
                 self.episodes.push(Episode { begin: time, left_out, ..Episode::default() });
                 true
             }
-            (Course::Inertia { .. }, Course::Equilibrium) => {
-                let lost = self.term.rest();
+            (Regime::Inertia { .. }, Regime::Equilibrium) => {
+                let lost = self.term.kinetic();
+                self.term.rest();
                 self.energy.kinetic = 0.0;
                 self.energy.handover += lost;
                 if let Some(episode) = self.episodes.last_mut() {
@@ -236,7 +249,7 @@ impl<const D: usize> Moving<D> {
     /// Force that holds each degree of freedom at the last accepted state \[N, or N/m of thickness\].
     #[must_use]
     pub fn reactions(&self) -> Vec<f64> {
-        self.term.reactions()
+        self.term.held().iter().zip(self.forces()).map(|(r, i)| r + i).collect()
     }
 
     /// Energy budget at the last accepted state.
@@ -251,16 +264,16 @@ impl<const D: usize> Moving<D> {
         self.term.velocity()
     }
 
-    /// Forces of inertia M a at the last accepted state \[N, or N/m of thickness\].
+    /// Forces of inertia M a at the last accepted state, zero in equilibrium \[N, or N/m of thickness\].
     #[must_use]
     pub fn forces(&self) -> Vec<f64> {
-        self.term.forces()
+        if self.rests() { vec![0.0; self.term.held().len()] } else { self.term.forces() }
     }
 
     /// Estimated error of displacement in the last step, over the displacement of a step at the largest kinetic energy \[-\].
     #[must_use]
     pub fn error(&self) -> f64 {
-        self.term.share()
+        if self.rests() { 0.0 } else { self.term.share() }
     }
 
     /// Sets the largest error with which a step is accepted \[-\].
@@ -271,15 +284,15 @@ impl<const D: usize> Moving<D> {
     /// State between two steps.
     #[must_use]
     pub fn save(&self) -> MassState {
-        let Self { energy, viscous_rate, phase, course, .. } = *self;
+        let Self { energy, viscous_rate, phase, regime, .. } = *self;
         let (term, episodes) = (self.term.save(), self.episodes.clone());
-        MassState { term, course, episodes, energy, viscous_rate, phase }
+        MassState { term, regime, episodes, energy, viscous_rate, phase }
     }
 
     /// Restores a saved state with the displacements `u`. Returns false if it does not fit.
     pub fn restore(&mut self, saved: &MassState, u: &[f64]) -> bool {
         (self.energy, self.viscous_rate, self.phase) = (saved.energy, saved.viscous_rate, saved.phase);
-        (self.course, self.episodes) = (saved.course, saved.episodes.clone());
+        (self.regime, self.episodes) = (saved.regime, saved.episodes.clone());
         self.term.restore(&saved.term, u)
     }
 }

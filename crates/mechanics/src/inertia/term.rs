@@ -38,7 +38,6 @@ pub struct TermState {
     /// Velocities, accelerations and forces of the other terms, one after another.
     motion: Vec<f64>,
     fastest: f64,
-    resting: bool,
     pace: Option<(Vec<f64>, f64)>,
 }
 
@@ -62,8 +61,6 @@ pub struct Inertia {
     constraints: Constraints,
     /// Sets of degrees of freedom that move as one in the present stage.
     groups: Vec<Vec<usize>>,
-    /// True while bodies pass through states of equilibrium.
-    resting: bool,
     /// Mean velocities \[m/s\] and length \[s\] of the last step between states of equilibrium.
     pace: Option<(Vec<f64>, f64)>,
     now: Motion,
@@ -99,7 +96,6 @@ impl Inertia {
             scheme: Scheme::of_radius(radius),
             constraints: Constraints::default(),
             groups: Vec::new(),
-            resting: false,
             pace: None,
             next: now.clone(),
             now,
@@ -120,12 +116,15 @@ impl Inertia {
         (self.constraints, self.groups) = (constraints, groups);
     }
 
-    /// Takes inertia from the bodies: from now on they pass through states of equilibrium. Returns the kinetic energy that is
-    /// lost \[J\].
-    pub fn rest(&mut self) -> f64 {
-        let lost = self.kinetic();
-        (self.resting, self.pace) = (true, None);
-        lost
+    /// Forgets how bodies passed through states of equilibrium before.
+    pub fn rest(&mut self) {
+        self.pace = None;
+    }
+
+    /// Begins a stage in equilibrium, with the forces `r` of all other terms at the displacements `u`.
+    pub fn hold(&mut self, r: Vec<f64>, u: &[f64]) {
+        self.now.u.copy_from_slice(u);
+        (self.held, self.pace) = (r, None);
     }
 
     /// Gives bodies inertia at `time`. They begin with the velocities at which they passed through states of equilibrium,
@@ -133,7 +132,6 @@ impl Inertia {
     /// force of inertia that these states leave out \[N\].
     pub fn wake(&mut self, time: f64) -> f64 {
         let left_out = self.mass.times(&self.now.a).into_iter().fold(0.0, |most: f64, f| most.max(f.abs()));
-        self.resting = false;
         self.now.a.fill(0.0);
         given::rates(&self.constraints, (time, time), &mut self.now.v, &mut self.now.a);
         self.fastest = self.kinetic();
@@ -147,10 +145,10 @@ impl Inertia {
         self.held.iter().fold(0.0, |most, f| most.max(f.abs()))
     }
 
-    /// Force that holds each degree of freedom at the accepted state \[N\].
+    /// Forces of all other terms at the accepted state \[N\].
     #[must_use]
-    pub fn reactions(&self) -> Vec<f64> {
-        self.held.iter().zip(self.forces()).map(|(r, i)| r + i).collect()
+    pub fn held(&self) -> &[f64] {
+        &self.held
     }
 
     /// Largest kinetic energy since bodies have inertia \[J\].
@@ -171,10 +169,6 @@ impl Inertia {
     /// # Errors
     /// If the mass matrix cannot be factored.
     pub fn start(&mut self, r: Vec<f64>, u: &[f64], time: f64) -> Result<f64, FemError> {
-        if self.resting {
-            (self.held, self.pace) = (r, None);
-            return Ok(0.0);
-        }
         let before = self.kinetic();
         self.now.u.copy_from_slice(u);
         given::rates(&self.constraints, (time, time), &mut self.now.v, &mut self.now.a);
@@ -220,9 +214,6 @@ impl Inertia {
     /// Kinetic energy of the accepted state \[J, or J/m of thickness\].
     #[must_use]
     pub fn kinetic(&self) -> f64 {
-        if self.resting {
-            return 0.0;
-        }
         0.5 * self.mass.product(&self.now.v, &self.now.v)
     }
 
@@ -238,19 +229,16 @@ impl Inertia {
         &self.now.v
     }
 
-    /// M a at the accepted state, zero in equilibrium \[N\].
+    /// M a at the accepted state \[N\].
     #[must_use]
     pub fn forces(&self) -> Vec<f64> {
-        if self.resting { vec![0.0; self.held.len()] } else { self.mass.times(&self.now.a) }
+        self.mass.times(&self.now.a)
     }
 
     /// Estimated error of displacement in the step evaluated last, over the displacement of a step at the largest kinetic energy
     /// so far, both in the norm of the mass \[-\].
     #[must_use]
     pub fn share(&self) -> f64 {
-        if self.resting {
-            return 0.0;
-        }
         self.error_between(&self.now, &self.next)
     }
 
@@ -274,9 +262,6 @@ impl Inertia {
     /// The second part is the work of the other terms by the trapezoidal rule. What the first and the last exceed the change of
     /// kinetic energy by is the dissipation of the method.
     pub fn settle(&mut self, total: &[f64]) -> Works {
-        if self.resting {
-            return self.settle_at_rest(total);
-        }
         let force = self.scheme.force;
         let (mut numerical, mut motions) = (self.works.numerical, self.works.motions);
         for (k, du) in self.moved.iter().enumerate() {
@@ -291,20 +276,23 @@ impl Inertia {
         Works { numerical, motions, unbalanced: 0.0 }
     }
 
-    /// Takes the residual of the whole system in a new state of equilibrium, and returns the works of the step to it.
-    fn settle_at_rest(&mut self, total: &[f64]) -> Works {
-        let mut works = Works::default();
+    /// Takes a new state of equilibrium with displacements `u`, reached in a step of length `dt`, and the residual of the whole
+    /// system there. Returns the works of the step.
+    pub fn settle_at_rest(&mut self, total: &[f64], u: &[f64], dt: f64) -> Works {
+        for ((moved, u), now) in self.moved.iter_mut().zip(u).zip(&self.now.u) {
+            *moved = u - now;
+        }
+        self.now.u.copy_from_slice(u);
+        self.take_pace(dt);
         let mean = |k: usize| 0.5 * self.moved[k] * (self.held[k] + total[k]);
-        works.unbalanced = (0..total.len()).map(mean).sum();
-        works.motions = self.constraints.fixed.iter().map(|&dof| mean(dof)).sum();
-        works.unbalanced -= works.motions;
+        let motions: f64 = self.constraints.fixed.iter().map(|&dof| mean(dof)).sum();
+        let all: f64 = (0..total.len()).map(mean).sum();
         self.held.copy_from_slice(total);
-        works
+        Works { motions, unbalanced: all - motions, ..Works::default() }
     }
 
     /// Takes the mean velocity of a step between states of equilibrium, and estimates velocities and accelerations at its end.
-    fn take_pace(&mut self) {
-        let dt = self.dt;
+    fn take_pace(&mut self, dt: f64) {
         let mean: Vec<f64> = self.moved.iter().map(|du| du / dt).collect();
         for (k, now) in mean.iter().enumerate() {
             self.now.a[k] =
@@ -359,13 +347,8 @@ impl Inertia {
 
     /// State between two steps.
     pub(super) fn save(&self) -> TermState {
-        let of = |v: &[f64]| v.to_vec();
-        TermState {
-            motion: [of(&self.now.v), of(&self.now.a), of(&self.held)].concat(),
-            fastest: self.fastest,
-            resting: self.resting,
-            pace: self.pace.clone(),
-        }
+        let motion = [self.now.v.as_slice(), &self.now.a, &self.held].concat();
+        TermState { motion, fastest: self.fastest, pace: self.pace.clone() }
     }
 
     /// Restores a saved state with the displacements `u`. Returns false if it does not fit.
@@ -376,7 +359,7 @@ impl Inertia {
         }
         self.now = Motion { u: u.to_vec(), v: motion[..n].to_vec(), a: motion[n..2 * n].to_vec() };
         self.held = motion[2 * n..].to_vec();
-        (self.fastest, self.resting, self.pace) = (saved.fastest, saved.resting, saved.pace.clone());
+        (self.fastest, self.pace) = (saved.fastest, saved.pace.clone());
         self.reject();
         true
     }
@@ -389,11 +372,6 @@ impl Term for Inertia {
 
     fn residual(&mut self, u: &[f64], at: Instant, r: &mut [f64]) -> Result<(), Refusal> {
         self.dt = at.dt;
-        if self.resting {
-            self.next.u.copy_from_slice(u);
-            self.own.fill(0.0);
-            return Ok(());
-        }
         self.advance(u, at);
         self.inertial = self.mass.times(&self.between());
         let force = self.scheme.force;
@@ -423,16 +401,9 @@ impl Term for Inertia {
     }
 
     fn accept(&mut self) {
-        if !self.resting {
-            self.works = self.works();
-        }
+        self.works = self.works();
         for ((moved, next), now) in self.moved.iter_mut().zip(&self.next.u).zip(&self.now.u) {
             *moved = next - now;
-        }
-        if self.resting {
-            self.now.u.copy_from_slice(&self.next.u);
-            self.take_pace();
-            return;
         }
         std::mem::swap(&mut self.now, &mut self.next);
         self.fastest = self.fastest.max(self.kinetic());
@@ -449,10 +420,6 @@ impl Linearized for Inertia {
     }
 
     fn tangent(&mut self, values: &mut [f64]) {
-        if self.resting {
-            values.fill(0.0);
-            return;
-        }
         let Scheme { mass, force, beta, .. } = self.scheme;
         let factor = (1.0 - mass) / ((1.0 - force) * beta * self.dt * self.dt);
         values.iter_mut().zip(self.mass.values()).for_each(|(k, m)| *k = factor * m);

@@ -165,8 +165,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
     /// States of the springs of the present stage, in its order.
     #[must_use]
     pub fn springs(&self) -> Vec<SpringNow> {
-        let now = |springs: &Springs| springs.now(&self.state.u, self.state.time).collect();
-        self.springs.as_ref().map_or_else(Vec::new, now)
+        springs::now(self.springs.as_ref(), &self.state)
     }
 
     fn new_stepper(&self) -> Result<Box<dyn Stepper>, String> {
@@ -348,7 +347,7 @@ fn terms<'t, const D: usize>(
     let mut terms = bodies.terms();
     terms.extend(springs.iter_mut().map(|s| s as &mut dyn Limited));
     terms.extend(interfaces.iter_mut().map(|i| i as &mut dyn Limited));
-    terms.extend(moving.map(Moving::term));
+    terms.extend(moving.and_then(Moving::term));
     terms
 }
 

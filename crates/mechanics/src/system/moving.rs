@@ -1,6 +1,6 @@
 //! Inertia of a system between its steps.
 
-use super::{Assembled, terms};
+use super::{Assembled, springs, terms};
 use crate::Counts;
 use crate::inertia::{Energy, Episode, Moving, View};
 use crate::step::{Balance, Failure};
@@ -14,8 +14,8 @@ impl<const D: usize> Assembled<'_, D> {
     /// Prepares bodies with mass for a step of length `dt`. Before the first step of a stage this finds their accelerations from
     /// the forces under the conditions of the stage.
     pub(super) fn start_moving(&mut self, dt: f64, counts: &mut Counts) -> Result<(), Failure> {
-        let pulled = self.springs();
         let Some(moving) = &mut self.moving else { return Ok(()) };
+        let pulled = springs::now(self.springs.as_ref(), &self.state);
         moving.note(&self.interfaces, pulled.clone());
         if moving.has_begun() {
             return Ok(());
@@ -33,8 +33,8 @@ impl<const D: usize> Assembled<'_, D> {
 
     /// Adds an accepted step of length `dt` to the energy budget.
     pub(super) fn settle(&mut self, dt: f64) {
-        let springs = self.springs();
         let (Some(moving), Some(stepper)) = (&mut self.moving, &self.stepper) else { return };
+        let springs = springs::now(self.springs.as_ref(), &self.state);
         let (planned, interfaces) = (self.problem.interfaces.as_slice(), self.interfaces.as_slice());
         let (u, time) = (self.state.u.as_slice(), self.state.time);
         let at = View { blocks: self.bodies.blocks(), planned, interfaces, springs: &springs, u, time };
@@ -43,6 +43,9 @@ impl<const D: usize> Assembled<'_, D> {
 
     /// Gives bodies inertia where slip has become fast, and takes it from them where it has become slow.
     pub(super) fn hand_over(&mut self) {
+        if self.problem.mass.as_ref().is_none_or(|mass| mass.handover.is_none()) {
+            return;
+        }
         let rate = self.slip_rates().into_iter().fold(0.0, |most: f64, v| most.max(v.abs()));
         let changed = self.moving.as_mut().is_some_and(|moving| moving.hand_over(self.state.time, rate));
         if let Some(stepper) = self.stepper.as_mut().filter(|_| changed) {

@@ -4,6 +4,7 @@
 //! - t_0) - (q - q_0))`. F_0 is the force that held the set at the start of the stage, and q its displacement.
 
 use super::numbering::Numbering;
+use crate::step::State;
 use crate::{Spring, Stage};
 use asperity_fem::term::{Instant, Limited, Linearized, Pattern, Refusal, Term};
 use serde::{Deserialize, Serialize};
@@ -83,6 +84,11 @@ impl Springs {
     }
 }
 
+/// Present states of the springs of a stage, if it has any, in its order.
+pub(super) fn now(springs: Option<&Springs>, state: &State) -> Vec<SpringNow> {
+    springs.map_or_else(Vec::new, |springs| springs.now(&state.u, state.time).collect())
+}
+
 /// States of the springs of a stage at its start: those that were attached before carry on. A new spring carries the force that
 /// held its set, the sum of the `reactions` there.
 pub(super) fn starts(
@@ -156,17 +162,9 @@ mod tests {
             rate,
         };
         let stage = Stage {
-            name: "draw".into(),
             start: 2.0,
-            end: 3.0,
-            steps: None,
-            frictionless: Vec::new(),
-            motions: Vec::new(),
-            turning: Vec::new(),
-            loads: Vec::new(),
-            fixed: Vec::new(),
             springs: vec![spring(vec![3, 4], 7.0, 0.5), spring(vec![1], 11.0, -0.25)],
-            weight: Vec::new(),
+            ..Stage::free("draw", 3.0)
         };
         let numbering = Numbering { number: (0..6).collect(), nodes: (0..6).collect(), dofs: 6 };
         let starts = starts(&stage, &[], |dof| dof as f64, &[0.0, 0.3, 0.0, 0.1, 0.1, 0.0]);

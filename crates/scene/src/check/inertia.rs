@@ -1,6 +1,7 @@
 //! Inertia of bodies.
 
 use super::Checker;
+use super::time::OF_SLIP;
 use crate::model::{EnforcementKind, InertiaSpec, Method, Path, Spanned, Stepper};
 use std::ops::Range;
 
@@ -43,6 +44,7 @@ impl Checker<'_> {
         self.unsupported(&place);
         self.handover();
         self.steps_of_events();
+        self.laws_of_events();
         let velocities = scene.bodies.values().filter_map(|b| b.velocity.as_ref());
         for velocity in velocities {
             let message =
@@ -75,6 +77,20 @@ impl Checker<'_> {
         }
     }
 
+    /// Refuses laws that lose strength with slip or at once: an event under them is no slip rate that grows.
+    fn laws_of_events(&mut self) {
+        for (name, interface) in &self.scene.interfaces {
+            let kind = interface.law.as_ref().and_then(|law| law.get_ref().kind.as_ref());
+            let Some(kind) = kind.filter(|k| OF_SLIP.contains(&k.get_ref().as_str())) else { continue };
+            let message = format!(
+                "interface `{name}` has the law \"{}\", under which no slip rate announces an event",
+                kind.get_ref()
+            );
+            let help = "\"rate-and-state\" or \"rate\"; or `stepper = \"implicit\"` with `inertia = true`, which has inertia at all times";
+            self.conflict(&kind.span(), message, help, (&self.scene.time.stepper.span(), "the stepper"));
+        }
+    }
+
     /// Checks the slip rates of the hand-over.
     fn handover(&mut self) {
         let Some(given) = &self.scene.time.handover else { return };
@@ -86,19 +102,6 @@ impl Checker<'_> {
             };
             let help = format!("such as `{key} = \"{example}\"`");
             self.error(rate.span(), format!("`{key}` must be positive"), help);
-        }
-        if let (Some(above), Some(below)) = (&spec.above, &spec.below)
-            && above.get_ref().0 > 0.0
-            && below.get_ref().0 >= above.get_ref().0
-        {
-            let message =
-                "bodies would lose their inertia as soon as they have it: `below` is not less than `above`";
-            self.conflict(
-                &below.span(),
-                message,
-                "a tenth of `above`",
-                (&above.span(), "the rate at which they gain it"),
-            );
         }
         if let Some(share) = spec.kinetic.as_ref().filter(|k| !(*k.get_ref() > 0.0 && *k.get_ref() <= 1.0)) {
             let message = "`kinetic` is a share of the largest kinetic energy since inertia began to act";

@@ -14,7 +14,7 @@ const FRICTION_TOLERANCES: Range<f64> = 1e-9..1e-2;
 
 /// Kinds of law whose strength depends on slip rather than slip rate, for which second-order backward differentiation is not
 /// suited.
-const OF_SLIP: [&str; 2] = ["static-kinetic", "slip-weakening"];
+pub(super) const OF_SLIP: [&str; 2] = ["static-kinetic", "slip-weakening"];
 
 impl Checker<'_> {
     pub(super) fn time(&mut self) {

@@ -4,12 +4,13 @@ use super::{faults, masses, steps};
 use crate::diagnostic::Diagnostic;
 use crate::fault::Plan as Cycles;
 use crate::fault::planner::{self as of_faults, Placed, in_space};
+use crate::handover;
+use crate::impedance;
 use crate::loading;
 use crate::model::{self, Model};
-use crate::plan::{ABOVE, BELOW};
 use crate::ruptures::{AnyBodies, Bodies, Ruptures};
 use crate::scene::law::LawChoice;
-use crate::scene::model::{HandoverSpec, Scene};
+use crate::scene::model::Scene;
 use asperity_cycles::Handover;
 use asperity_mechanics::dynamics::{Dashpot, Problem, Tie};
 use asperity_mechanics::{Spring, Stage};
@@ -22,27 +23,22 @@ const STEPS: f64 = 1e6;
 /// # Errors
 /// [`Diagnostic`] with the place in the scene.
 pub fn ruptures(scene: &Scene, cycles: &Cycles) -> Result<Ruptures, Diagnostic> {
-    Ok(match scene.kinematics.get_ref().dimension() {
+    let (bodies, quiet, loading) = match scene.kinematics.get_ref().dimension() {
         2 => {
-            let (bodies, quiet) = bodies::<2>(scene, cycles)?;
-            Ruptures { handover: handover(scene, quiet), bodies: AnyBodies::Two(Box::new(bodies)) }
+            let (bodies, quiet, loading) = bodies::<2>(scene, cycles)?;
+            (AnyBodies::Two(Box::new(bodies)), quiet, loading)
         }
         _ => {
-            let (bodies, quiet) = bodies::<3>(scene, cycles)?;
-            Ruptures { handover: handover(scene, quiet), bodies: AnyBodies::Three(Box::new(bodies)) }
+            let (bodies, quiet, loading) = bodies::<3>(scene, cycles)?;
+            (AnyBodies::Three(Box::new(bodies)), quiet, loading)
         }
-    })
+    };
+    let handover::Bounds { above, below, kinetic } = handover::of(scene, loading)?;
+    Ok(Ruptures { handover: Handover { above, below, quiet, kinetic }, bodies })
 }
 
-fn handover(scene: &Scene, quiet: f64) -> Handover {
-    let spec = scene.time.handover.as_ref().map_or_else(HandoverSpec::default, |h| h.get_ref().clone());
-    let above = spec.above.map_or(ABOVE, |v| v.get_ref().0);
-    let below = spec.below.map_or(BELOW * above, |v| v.get_ref().0);
-    Handover { above, below, quiet, kinetic: spec.kinetic.map_or(1.0, |k| *k.get_ref()) }
-}
-
-/// The bodies, and the time in which a shear wave crosses the faults and returns \[s\].
-fn bodies<const D: usize>(scene: &Scene, cycles: &Cycles) -> Result<(Bodies<D>, f64), Diagnostic> {
+/// The bodies, the time in which a shear wave crosses the faults and returns \[s\], and the largest rate of the loads \[m/s\].
+fn bodies<const D: usize>(scene: &Scene, cycles: &Cycles) -> Result<(Bodies<D>, f64, f64), Diagnostic> {
     let model = model::build::<D>(scene)?;
     let density = masses::densities(scene, &model)?;
     let viscosity = steps::viscosity(scene);
@@ -50,7 +46,7 @@ fn bodies<const D: usize>(scene: &Scene, cycles: &Cycles) -> Result<(Bodies<D>, 
     // The plan of the cycles has the warnings.
     let (placed, _) = of_faults::all_points(scene, &model, &mut Vec::new())?;
     let (creeping, placed): (Vec<_>, Vec<_>) = placed.into_iter().partition(|p| p.point.creep.is_some());
-    let quiet = 2.0 * extent(&placed) / slowest(&model, &density);
+    let quiet = 2.0 * extent(&placed) / impedance::slowest(&model, &density);
     without_memory(scene, &placed)?;
     let same = placed.len() == cycles.points.len()
         && placed.iter().zip(&cycles.points).all(|(p, view)| in_space(&p.point.place.at) == view.at);
@@ -69,7 +65,9 @@ fn bodies<const D: usize>(scene: &Scene, cycles: &Cycles) -> Result<(Bodies<D>, 
     let absorbing = masses::absorbing(scene, &model, &density)?;
     let courant = steps::courant(scene);
     let duration = STEPS * courant * stable.step;
-    let stage = stage(&loading::stages(scene, &model)?[0], &absorbing, (duration, components(&model)));
+    let quasi_static = &loading::stages(scene, &model)?[0];
+    let loading = quasi_static.largest_rate();
+    let stage = stage(quasi_static, &absorbing, (duration, components(&model)));
     let problem = Problem {
         model,
         density,
@@ -80,7 +78,7 @@ fn bodies<const D: usize>(scene: &Scene, cycles: &Cycles) -> Result<(Bodies<D>, 
         stages: vec![stage],
         velocity: Vec::new(),
     };
-    Ok((Bodies { problem, stable }, quiet))
+    Ok((Bodies { problem, stable }, quiet, loading))
 }
 
 fn components<const D: usize>(model: &Model<D>) -> usize {
@@ -92,17 +90,9 @@ fn components<const D: usize>(model: &Model<D>) -> usize {
 fn stage(quiet: &Stage, absorbing: &[Dashpot], (duration, components): (f64, usize)) -> Stage {
     let absorbs = |dof: &usize| absorbing.binary_search_by_key(&(dof / components), |d| d.node).is_ok();
     Stage {
-        name: quiet.name.clone(),
-        start: 0.0,
-        end: duration,
-        steps: None,
-        frictionless: Vec::new(),
-        motions: Vec::new(),
-        turning: Vec::new(),
-        loads: Vec::new(),
         fixed: quiet.fixed.iter().copied().filter(|dof| !absorbs(dof)).collect(),
         springs: quiet.springs.iter().map(|s| Spring { rate: 0.0, ..s.clone() }).collect(),
-        weight: Vec::new(),
+        ..Stage::free(&quiet.name, duration)
     }
 }
 
@@ -111,15 +101,6 @@ fn extent<const D: usize>(placed: &[Placed<D>]) -> f64 {
     let places: Vec<[f64; D]> = placed.iter().map(|p| p.point.place.at).collect();
     let (least, most) = model::bounds(&places);
     least.iter().zip(&most).map(|(a, b)| (b - a).powi(2)).sum::<f64>().sqrt()
-}
-
-/// Smallest speed of shear waves \[m/s\].
-fn slowest<const D: usize>(model: &Model<D>, density: &[f64]) -> f64 {
-    let of = |body: &asperity_mechanics::Body<D>| {
-        let blocks = body.blocks.clone().zip(&body.elastic);
-        blocks.map(|(block, elastic)| (elastic.shear() / density[block]).sqrt()).fold(f64::INFINITY, f64::min)
-    };
-    model.bodies.iter().map(of).fold(f64::INFINITY, f64::min)
 }
 
 /// Refuses laws whose states remember tractions: steps with mass keep them in another form.
