@@ -33,6 +33,7 @@ const ROWS: [Row; 1] = [Row {
         "slider_planner/",
         "amounts.rs",
         "forecast.rs",
+        "handover.rs",
         "idealisation.rs",
         "impedance.rs",
         "initial_stress.rs",
