@@ -72,6 +72,7 @@ mod fault_handover;
 mod fault_medium;
 mod fault_opening;
 mod fault_operator;
+mod fault_pressing;
 mod fault_space;
 mod fault_stability;
 mod fault_turning;
@@ -193,6 +194,7 @@ pub const ALL: &[Case] = &[
     fault_medium::CASE,
     fault_opening::CASE,
     fault_operator::CASE,
+    fault_pressing::CASE,
     fault_space::CASE,
     fault_stability::CASE,
     fault_turning::CASE,

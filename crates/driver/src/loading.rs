@@ -6,6 +6,7 @@ mod shared;
 use crate::diagnostic::Diagnostic;
 use crate::initial_stress;
 use crate::model::{self, Model, bounds};
+use crate::scene::check::pressing;
 use crate::scene::model::{Condition, Loading, Material, Motion, Scene, Spanned};
 use asperity_fem::block::LinearBlock;
 use asperity_fem::dof::Channel;
@@ -35,7 +36,9 @@ pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Sta
     let mut shared = Shared::default();
     let mut start = 0.0;
     let mut stages = Vec::new();
+    let pressing = pressing::stage(scene).map(|stage| &stage.name);
     for spec in &scene.stages {
+        let presses = pressing == Some(&spec.name);
         let end = start + spec.duration.get_ref().0;
         settle(&mut held, &mut loads);
         let mut present: BTreeMap<(String, usize), f64> = BTreeMap::new();
@@ -46,7 +49,9 @@ pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Sta
         for condition in &spec.conditions {
             take_up(model, condition, (&mut held, &mut shared), &mut loads)?;
         }
-        jumps::of_stage(scene, spec, (&before, &present), &loads)?;
+        if !presses {
+            jumps::of_stage(scene, spec, (&before, &present), &loads)?;
+        }
         shared.stage(model, spec, &held)?;
         let (springs, motions) = apart(motions::<D>(model, &held));
         let mut fixed: Vec<usize> = motions.iter().flat_map(|(dofs, _)| dofs.iter().copied()).collect();
@@ -70,7 +75,8 @@ pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Sta
             springs,
             weight: weight.clone(),
         });
-        start = end;
+        // The time of faults counts from the start of the stage in which they slide.
+        start = if presses { 0.0 } else { end };
     }
     Ok(stages)
 }

@@ -30,6 +30,23 @@ pub struct Stiffness {
     pub dofs: usize,
 }
 
+impl Stiffness {
+    /// Internal forces `K u` of displacements u.
+    #[must_use]
+    pub fn forces(&self, u: &[f64]) -> Vec<f64> {
+        let mut forces = vec![0.0; self.dofs];
+        let mut offset = 0;
+        for block in self.pattern.blocks() {
+            let rows = self.values[offset..][..block.len() * block.len()].chunks_exact(block.len());
+            for (&dof, row) in block.iter().zip(rows) {
+                forces[dof] += row.iter().zip(block).map(|(k, &d)| k * u[d]).sum::<f64>();
+            }
+            offset += block.len() * block.len();
+        }
+        forces
+    }
+}
+
 /// A condensation whose costs are known before any number is computed. It holds the assembled stiffness.
 #[derive(Debug)]
 pub struct Condensation<'a> {

@@ -67,6 +67,26 @@ impl Table {
         Self::new(vec![0.0], vec![value])
     }
 
+    /// This table less its value at `time`; a function of a table must be zero there already.
+    #[must_use]
+    pub fn since(mut self, time: f64) -> Self {
+        debug_assert!(
+            self.function == Function::Linear || self.value(time) == 0.0,
+            "only tables are shifted"
+        );
+        let then = self.value(time);
+        if self.function == Function::Linear {
+            self.values.iter_mut().for_each(|value| *value -= then);
+        }
+        self
+    }
+
+    /// True if the value is zero at all times.
+    #[must_use]
+    pub fn is_zero(&self) -> bool {
+        self.values.iter().all(|&value| self.function.value(value) == 0.0)
+    }
+
     /// Times of the entries, ascending.
     #[must_use]
     pub fn times(&self) -> &[f64] {

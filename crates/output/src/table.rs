@@ -47,7 +47,7 @@ fn columns(table: &'static [Column], mesh: &InterfaceMesh) -> impl Iterator<Item
 }
 
 /// The shortest decimal that reads back as the same number, with an exponent if that is easier to read.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     // Outside this range positional notation is mostly zeros.
     if value == 0.0 {
         return "0".into();
@@ -107,7 +107,7 @@ pub(super) fn probe_row(
 }
 
 /// Columns of a history at a point of a body.
-const POINT: [&str; 10] = [
+pub(super) const POINT: [&str; 10] = [
     "displacement_x [m]",
     "displacement_y [m]",
     "displacement_z [m]",
@@ -127,11 +127,20 @@ pub(super) fn point_header() -> Vec<u8> {
     rows.bytes()
 }
 
+/// Columns of a force in this unit.
+pub(super) fn force_columns(unit: &str) -> impl Iterator<Item = String> {
+    ["x", "y", "z"].into_iter().map(move |axis| format!("force_{axis} [{unit}]"))
+}
+
+/// Columns of a spring, with forces in this unit.
+pub(super) fn spring_columns(unit: &str) -> [String; 4] {
+    ["load_point [m]".into(), "displacement [m]".into(), format!("force [{unit}]"), "friction [-]".into()]
+}
+
 /// Header of a history of a force in this unit.
 pub(super) fn force_header(unit: &str) -> Vec<u8> {
     let mut rows = Rows::default();
-    let columns = ["x", "y", "z"].iter().map(|axis| format!("force_{axis} [{unit}]"));
-    rows.push(WHEN.iter().map(ToString::to_string).chain(columns));
+    rows.push(WHEN.iter().map(ToString::to_string).chain(force_columns(unit)));
     rows.bytes()
 }
 
@@ -146,8 +155,7 @@ pub(super) fn energy_header(unit: &str) -> Vec<u8> {
 /// Header of a history of a spring, with forces in this unit.
 pub(super) fn spring_header(unit: &str) -> Vec<u8> {
     let mut rows = Rows::default();
-    let columns = ["load_point [m]", "displacement [m]", &format!("force [{unit}]"), "friction [-]"];
-    rows.push(WHEN.iter().chain(&columns).map(ToString::to_string));
+    rows.push(WHEN.iter().map(ToString::to_string).chain(spring_columns(unit)));
     rows.bytes()
 }
 

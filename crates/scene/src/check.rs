@@ -15,6 +15,7 @@ mod meshes;
 mod output;
 mod patches;
 mod place;
+pub mod pressing;
 mod ruptures;
 mod solver;
 mod stress;

@@ -266,7 +266,7 @@ pub struct Stage {
     pub name: String,
     /// Duration \[s\].
     pub duration: Spanned<Time>,
-    /// Interfaces that are frictionless in this stage.
+    /// Interfaces that are frictionless in this stage; faults in one that presses.
     #[serde(default)]
     pub frictionless: Vec<Spanned<String>>,
     /// Conditions that begin with this stage; earlier ones continue unless they are replaced.

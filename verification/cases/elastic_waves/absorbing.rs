@@ -25,14 +25,17 @@ const ACROSS: usize = 16;
 
 #[derive(Clone, Copy, PartialEq)]
 enum Wave {
+    /// Out of the plane.
     Shear,
+    /// In the plane.
+    InPlane,
     Pressure,
 }
 
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     let table: Value = serde_json::from_str(include_str!("../../independent/waves.json"))?;
     let rows = &table["dashpots"]["lambda = mu"];
-    for (wave, name) in [(Wave::Shear, "SH"), (Wave::Pressure, "P")] {
+    for (wave, name) in [(Wave::Shear, "SH"), (Wave::InPlane, "SV"), (Wave::Pressure, "P")] {
         let energy = &rows[name]["energy"];
         let mut found = Vec::new();
         for degrees in ANGLES {
@@ -82,7 +85,7 @@ fn bound(degrees: f64, energy: f64) -> f64 {
 fn reflected(wave: Wave, degrees: f64, energy: &Value) -> Result<(f64, f64), CaseError> {
     let k_y = PI;
     let k_x = k_y / degrees.to_radians().tan();
-    let (width, speed) = (WIDTH / k_x, if wave == Wave::Shear { ROCK.shear } else { ROCK.pressure });
+    let (width, speed) = (WIDTH / k_x, if wave == Wave::Pressure { ROCK.pressure } else { ROCK.shear });
     let half = 4.0 * width;
     let n = (2.0 * half * ACROSS as f64).round() as usize;
     let strip = mesh(&[[line(-half, half, n), line(0.0, 1.0, ACROSS)]], ElementKind::Quad9)?;
@@ -90,24 +93,33 @@ fn reflected(wave: Wave, degrees: f64, energy: &Value) -> Result<(f64, f64), Cas
     let space = if wave == Wave::Shear { Idealisation::Antiplane } else { Idealisation::PlaneStrain };
     let mut problem = problem(strip, ROCK, space, 2.0 * half / group)?;
     let envelope = |x: f64| (-0.5 * (x / width).powi(2)).exp();
+    // Derivatives of a potential, envelope(x) cos(k_x x) cos(k_y y), without their factors in y.
+    let along = |x: f64| envelope(x) * (-k_x * (k_x * x).sin() - x / (width * width) * (k_x * x).cos());
+    let across = |x: f64| envelope(x) * (k_x * x).cos() * -k_y;
     let nodes = &problem.model.mesh.nodes;
     problem.velocity = match wave {
         Wave::Shear => nodes.iter().map(|[x, y]| envelope(*x) * (k_x * x).cos() * (k_y * y).cos()).collect(),
         // The gradient of a potential: no shear wave in it.
-        Wave::Pressure => {
-            let along =
-                |x: f64| envelope(x) * (-k_x * (k_x * x).sin() - x / (width * width) * (k_x * x).cos());
-            let across = |x: f64| envelope(x) * (k_x * x).cos() * -k_y;
-            nodes
-                .iter()
-                .flat_map(|[x, y]| [along(*x) * (k_y * y).cos(), across(*x) * (k_y * y).sin()])
-                .collect()
-        }
+        Wave::Pressure => nodes
+            .iter()
+            .flat_map(|[x, y]| [along(*x) * (k_y * y).cos(), across(*x) * (k_y * y).sin()])
+            .collect(),
+        // The curl of a potential: no pressure wave in it.
+        Wave::InPlane => nodes
+            .iter()
+            .flat_map(|[x, y]| [across(*x) * (k_y * y).sin(), -along(*x) * (k_y * y).cos()])
+            .collect(),
     };
-    if wave == Wave::Pressure {
-        // The walls are frictionless and rigid: the potential has no slope there.
+    // Walls that no wave leaves through, and that reflect it into itself: for P waves frictionless and rigid, as the potential has no
+    // slope there; for SV waves free across and held along, as neither that displacement nor that traction is in the wave.
+    let held = match wave {
+        Wave::Shear => None,
+        Wave::InPlane => Some(0),
+        Wave::Pressure => Some(1),
+    };
+    if let Some(component) = held {
         let wall = nodes.iter().enumerate().filter(|(_, x)| x[1] == 0.0 || x[1] == 1.0);
-        problem.stages[0].fixed = wall.map(|(n, _)| 2 * n + 1).collect();
+        problem.stages[0].fixed = wall.map(|(n, _)| 2 * n + component).collect();
     }
     let ends = ["b0.left", "b0.right"].map(|s| problem.model.mesh.side_sets[s].clone()).concat();
     problem.absorbing = dashpots(&problem.model, &problem.density, &ends);
@@ -127,8 +139,8 @@ fn mean(energy: &Value, wave: Wave, [k_x, k_y]: [f64; 2], width: f64) -> f64 {
     let (mut sum, mut total) = (0.0, 0.0);
     for z in weights {
         let k = k_x + z / width;
-        // Velocities of the gradient of a potential grow with the wavenumber.
-        let gradient = if wave == Wave::Pressure { k * k + k_y * k_y } else { 1.0 };
+        // Velocities that are derivatives of a potential grow with the wavenumber.
+        let gradient = if wave == Wave::Shear { 1.0 } else { k * k + k_y * k_y };
         let weight = gradient * (-z * z).exp();
         sum += weight * at(k);
         total += weight;

@@ -39,6 +39,8 @@ struct Dipping {
     size: f64,
     /// Further keys of the body.
     body: &'static str,
+    /// A stage before the one in which the fault slides, if any.
+    before: &'static str,
 }
 
 impl Dipping {
@@ -64,6 +66,7 @@ plus = "crust.fault.plus"
 law = {{ kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, a = 0.02, b = 0.015, l = "8 mm", v_ref = "1 um/s", v_initial = "1e-9 m/s" }}
 normal_floor = "1 kPa"
 rate = "-1e-9 m/s"
+{}
 [[stages]]
 name = "stretched"
 duration = "1 yr"
@@ -77,7 +80,8 @@ stepper = "fault-ode"
             self.size,
             -DEPTH,
             self.element,
-            self.body
+            self.body,
+            self.before
         );
         seas::plan(&text)
     }
@@ -139,7 +143,7 @@ fn overlay(ledger: &mut Ledger, plan: &Plan, case: &Dipping) {
 
 fn planes(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (dip, poisson) in [(60.0, 0.25), (30.0, 0.35), (45.0, 0.2), (75.0, 0.3)] {
-        let case = Dipping { dip, poisson, element: "quad9", size: 1000.0, body: WEIGHS };
+        let case = Dipping { dip, poisson, element: "quad9", size: 1000.0, body: WEIGHS, before: "" };
         let (plan, cost) = Cost::of(|| case.plan());
         let plan = plan?;
         if dip == 60.0 {
@@ -148,6 +152,14 @@ fn planes(ledger: &mut Ledger) -> Result<(), CaseError> {
         let found = errors(&plan, |z| case.exact(z));
         exact(ledger, &format!("dip {dip}, nu {poisson}"), &found, &cost);
     }
+    let before = r#"[[stages]]
+name = "press"
+duration = "1 s"
+conditions = [{ set = "crust.left", x = 0 }, { set = "crust.right", x = 0 }, { set = "crust.bottom", y = 0 }]"#;
+    let case = Dipping { dip: 60.0, poisson: 0.25, element: "quad9", size: 1000.0, body: WEIGHS, before };
+    let (plan, cost) = Cost::of(|| case.plan());
+    let found = errors(&plan?, |z| case.exact(z));
+    exact(ledger, "dip 60, nu 0.25, which acts in a stage of its own", &found, &cost);
     Ok(())
 }
 
@@ -175,7 +187,7 @@ fn first_order(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut levels = Vec::new();
     let mut total = None;
     for size in [2000.0, 1000.0, 500.0, 250.0] {
-        let case = Dipping { dip: 60.0, poisson: 0.25, element: "quad4", size, body: WEIGHS };
+        let case = Dipping { dip: 60.0, poisson: 0.25, element: "quad4", size, body: WEIGHS, before: "" };
         let (plan, cost) = Cost::of(|| case.plan());
         let [normal, _] = errors(&plan?, |z| case.exact(z));
         levels.push((size, normal));
@@ -202,7 +214,7 @@ fn first_order(ledger: &mut Ledger) -> Result<(), CaseError> {
 /// Gravity added to a uniform initial stress, and its absence from the loading during the run.
 fn with_stress(ledger: &mut Ledger) -> Result<(), CaseError> {
     let body = "gravity = [0, -9.81]\ninitial_stress = [\"-10 MPa\", \"-30 MPa\", \"0 MPa\"]";
-    let case = Dipping { dip: 60.0, poisson: 0.25, element: "quad9", size: 1000.0, body };
+    let case = Dipping { dip: 60.0, poisson: 0.25, element: "quad9", size: 1000.0, body, before: "" };
     let (plan, cost) = Cost::of(|| case.plan());
     let plan = plan?;
     // On a plane of dip 60 degrees: f_n = 30/4 + 3/4 10, and τ is half the difference times sin 120.

@@ -1,8 +1,8 @@
 //! Stick-slip of interfaces that springs draw, with radiation damping.
 
-use super::seas;
 use super::slider as sliders;
 use super::texts::{self, Done};
+use super::{fault_pressing, seas};
 use crate::cases::drawn;
 use crate::ledger::Draft;
 use crate::{Capability, Case, CaseError, Evidence, Floor, Ledger, Plot, Series};
@@ -29,7 +29,6 @@ pub const CASE: Case = Case {
 
 const COLUMN: &str = include_str!("../interface_rate_state/scene.toml");
 const BLOCK: &str = include_str!("block.toml");
-const FAULT: &str = include_str!("../../../scenes/sandwich-state.toml");
 const DIRECT: &str = include_str!("../../../scenes/stick-slip.toml");
 
 /// Parameters of the law of the column; L in \[m\].
@@ -64,7 +63,8 @@ const CONDENSED: &str =
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     in_time(ledger)?;
-    column_events(ledger)?;
+    column_events(ledger, "the column's events", column(SPRINGS[1]))?;
+    column_events(ledger, "the column's events in space", in_space(column(SPRINGS[1] * DEPTH)))?;
     block(ledger)?;
     ruptures(ledger)?;
     direct(ledger)
@@ -82,6 +82,24 @@ pub(super) fn column(spring: f64) -> SceneText {
         scene = scene.with(&format!("stages[{}].conditions[0].x", stage + 1), drawn(rate));
     }
     scene
+}
+
+/// Depth of the column in space \[m\]; its springs are not per metre of thickness.
+const DEPTH: f64 = 0.1;
+
+/// The column in space, whose sides along its depth are held.
+fn in_space(scene: SceneText) -> SceneText {
+    let block = |min: &str, max: &str, divisions: &str| {
+        format!(r#"{{ min = {min}, max = {max}, divisions = {divisions}, element = "hex8" }}"#)
+    };
+    let scene = scene
+        .with("kinematics", "3d")
+        .with("bodies.column.mesh.block", block("[0, 0, 0]", "[0.1, 0.2, 0.1]", "[2, 2, 1]"))
+        .with("bodies.base.mesh.block", block("[-0.05, -0.05, -0.05]", "[0.15, 0, 0.15]", "[5, 1, 5]"));
+    let scene = (0..8).fold(scene, |scene, k| scene.add(&format!("stages[0].conditions[{k}].z"), "0"));
+    ["column.front", "column.back", "base.front", "base.back"].iter().fold(scene, |scene, set| {
+        scene.push("stages[0].conditions", format!(r#"{{ set = "{set}", z = 0 }}"#))
+    })
 }
 
 /// The slider of the column.
@@ -115,20 +133,23 @@ pub(super) fn slider(
 /// Velocity steps and slide-hold-slide behind a spring, in every measure.
 fn in_time(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (mut found, mut cost) = (Vec::new(), None);
-    for measure in ["node-to-point", "mortar"] {
-        for sliding in ["small", "finite"] {
-            let scene = column(SPRINGS[0])
-                .with_or_same("interfaces.fault.measure", measure)
-                .with_or_same("interfaces.fault.sliding", sliding);
-            let done = texts::simulate(&scene.text()?)?;
-            found.push(error(&done, &reference(&done)?));
-            cost.get_or_insert(done.cost);
+    for column in [column(SPRINGS[0]), in_space(column(SPRINGS[0] * DEPTH))] {
+        for measure in ["node-to-point", "mortar"] {
+            for sliding in ["small", "finite"] {
+                let scene = column
+                    .clone()
+                    .with_or_same("interfaces.fault.measure", measure)
+                    .with_or_same("interfaces.fault.sliding", sliding);
+                let done = texts::simulate(&scene.text()?)?;
+                found.push(error(&done, &reference(&done)?));
+                cost.get_or_insert(done.cost);
+            }
         }
     }
     ledger
-        .claim("friction of every point at every step, less that of the slider, node-to-point and mortar, small and finite sliding")
+        .claim("friction of every point at every step, less that of the slider, node-to-point and mortar, small and finite sliding, in the plane and in space")
         .values(&found)
-        .equals_each(&[0.0; 4])
+        .equals_each(&[0.0; 8])
         .absolute(1e-4)
         .evidence(Evidence::SemiAnalytic, SLIDER)
         .because("the default bounds the error of a step by 2e-6, and what steps leave adds up over those in which traction relaxes, some tens")
@@ -172,9 +193,8 @@ pub(super) fn events(done: &Done) -> Result<&[Entry], CaseError> {
 }
 
 /// Stick-slip of the column beside that of the slider.
-fn column_events(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let scene =
-        (2..6).rev().fold(column(SPRINGS[1]), |scene, stage| scene.without(&format!("stages[{stage}]")));
+fn column_events(ledger: &mut Ledger, name: &str, column: SceneText) -> Result<(), CaseError> {
+    let scene = (2..6).rev().fold(column, |scene, stage| scene.without(&format!("stages[{stage}]")));
     let scene = scene
         .with("stages[1].duration", "6000 s")
         .add("events", r#"{ above = "1 mm/s", below = "0.1 mm/s", stop_after = 4 }"#);
@@ -186,7 +206,7 @@ fn column_events(ledger: &mut Ledger) -> Result<(), CaseError> {
     let bounds = Bounds { onset: 1e-4, slip: 2e-4, drop: 2e-4, peak: 5e-4 };
     let because =
         "the default bounds the error of friction of a step by 2e-6, and a few add up in a drop of 7e-2";
-    against_slider(ledger, "the column's events", (&done, &wanted, bounds), |claim| {
+    against_slider(ledger, name, (&done, &wanted, bounds), |claim| {
         claim
             .evidence(Evidence::SemiAnalytic, SLIDER)
             .because(because)
@@ -245,13 +265,14 @@ fn penalty(times: u32) -> String {
 /// Enforcement without compliance.
 const MULTIPLIERS: &str = r#"{ kind = "augmented-lagrangian", normal = "1 E/h", tangential = "1 E/h" }"#;
 
-/// Events of the block as a fault that is pressed and not yet sheared.
-fn as_fault(length: &str, spring: &str, number: usize) -> Result<(f64, f64), CaseError> {
-    let scene = SceneText::new(FAULT)
+/// Duration of the stage that presses the block \[s\].
+const BLOCK_PRESSED: f64 = 10.0;
+
+/// First onset \[s\], last interval \[s\] and stress drop \[Pa\] of the block as a fault that a stage has pressed.
+fn as_fault(length: &str, spring: &str, number: usize) -> Result<[f64; 3], CaseError> {
+    let scene = fault_pressing::block::pressed("4000 s")
         .with_or_same("faults.face.law.l", length)
-        .with_or_same("stages[0].conditions[3].y.spring", spring)
-        .with("stages[0].duration", "4000 s")
-        .add("faults.face.shear", "-1e3 Pa");
+        .with_or_same("stages[1].conditions[0].y.spring", spring);
     let mut plan = seas::plan(&scene.text()?)?;
     plan.problem.settings.most_events = Some(number);
     let found = seas::found(&plan, &plan.problem.settings, |_| {})?;
@@ -262,25 +283,26 @@ fn as_fault(length: &str, spring: &str, number: usize) -> Result<(f64, f64), Cas
             |f: &dyn Fn(usize) -> f64| (0..slip.len()).map(|p| f(p) * plan.points[p].area).sum::<f64>();
         over(&|p| slip[p] * drop[p]) / over(&|p| slip[p].abs())
     };
-    Ok((last(&found.events), drop(&found.events[number - 1])))
+    Ok([found.events[0].onset.seconds(), last(&found.events), drop(&found.events[number - 1])])
 }
 
-/// The last interval \[s\] and stress drop \[Pa\] of a run.
-fn cycle(done: &Done) -> Result<(f64, f64), CaseError> {
-    let last = events(done)?.last().ok_or("there was no event")?;
-    Ok((last.interval.ok_or("there was one event")?, last.stress_drop))
+/// First onset since the end of pressing \[s\], last interval \[s\] and stress drop \[Pa\] of a run.
+fn cycle(done: &Done) -> Result<[f64; 3], CaseError> {
+    let all = events(done)?;
+    let (first, last) = all.first().zip(all.last()).ok_or("there was no event")?;
+    Ok([first.onset - BLOCK_PRESSED, last.interval.ok_or("there was one event")?, last.stress_drop])
 }
 
 /// The whole face slips together: the interface against the fault, and the limit of its penalty.
 fn block(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let (interval, drop) = as_fault("10 um", "2e9", 3)?;
+    let wanted = as_fault("10 um", "2e9", 3)?;
     let exact = texts::simulate(&block_scene(MULTIPLIERS).text()?)?;
-    let (found, fell) = cycle(&exact)?;
-    against(ledger, "the whole face slips together", (&[found, fell], &[interval, drop], 2e-4), &exact);
+    against(ledger, "the whole face slips together", (cycle(&exact)?, wanted, 2e-4), &exact);
+    let [_, interval, _] = wanted;
     let mut levels = Vec::new();
     for times in [4, 20, 100] {
         let done = texts::simulate(&block_scene(&penalty(times)).text()?)?;
-        levels.push((1.0 / f64::from(times), (cycle(&done)?.0 / interval - 1.0).abs()));
+        levels.push((1.0 / f64::from(times), (cycle(&done)?[1] / interval - 1.0).abs()));
     }
     ledger
         .order("interval with a penalty against that of the fault, by the compliance of the penalty")
@@ -304,11 +326,11 @@ fn block(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Claims that intervals and stress drops are those of the fault.
-fn against(ledger: &mut Ledger, what: &str, (found, wanted, bound): (&[f64], &[f64], f64), done: &Done) {
+fn against(ledger: &mut Ledger, what: &str, (found, wanted, bound): ([f64; 3], [f64; 3], f64), done: &Done) {
     ledger
-        .claim(format!("interval over that of the fault and stress drop likewise, multipliers, {what}"))
+        .claim(format!("first onset over that of the fault, last interval and stress drop likewise, multipliers, {what}"))
         .values(&found.iter().zip(wanted).map(|(a, b)| a / b).collect::<Vec<f64>>())
-        .equals_each(&[1.0; 2])
+        .equals_each(&[1.0; 3])
         .relative(bound)
         .evidence(Evidence::ConvergedSelf, CONDENSED)
         .because("the same elements without a penalty; the default bounds the error of friction of a step by 2e-6, of a drop of 0.3")
@@ -320,14 +342,13 @@ fn against(ledger: &mut Ledger, what: &str, (found, wanted, bound): (&[f64], &[f
 
 /// Ruptures cross the face at 10 m/s of slip rate.
 fn ruptures(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let (interval, drop) = as_fault("0.5 um", "1.4e10", 3)?;
+    let wanted = as_fault("0.5 um", "1.4e10", 3)?;
     let scene = block_scene(MULTIPLIERS)
         .with("interfaces.face.law.l", "0.5 um")
         .with("stages[1].conditions[1].y.spring", "1.4e10")
         .add("time.friction_tolerance", "1e-5");
     let done = texts::simulate(&scene.text()?)?;
-    let (found, fell) = cycle(&done)?;
-    against(ledger, "ruptures cross it", (&[found, fell], &[interval, drop], 1e-3), &done);
+    against(ledger, "ruptures cross it", (cycle(&done)?, wanted, 1e-3), &done);
     Ok(())
 }
 

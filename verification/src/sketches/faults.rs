@@ -18,6 +18,7 @@ pub(super) fn of(name: &str) -> Option<Sketch> {
         "seas_bp5" | "seas_bp5_limit" => plane(),
         "fault_gravity" => gravity(),
         "fault_opening" => opening(),
+        "fault_pressing" => pressed(),
         "fault_bend" => bend(),
         "fault_free_surface" => surface(),
         "fault_stability" => layers("δV ~ cos(k x) e^(s t), k = n π/W", "", "W"),
@@ -50,6 +51,20 @@ fn strike_slip(length: &str, weak: &str, depth: &str) -> Sketch {
         .note((54.0, 13.0), "V_p = 1e−9 m/s")
         .dimension((34.0, 22.0), (34.0, 64.0), depth);
     if weak.is_empty() { sketch } else { sketch.dimension((45.0, 47.0), (45.0, 64.0), weak) }
+}
+
+/// Two blocks, one of which is pushed against the other, which a spring then draws down.
+fn pressed() -> Sketch {
+    Sketch::new(72.0)
+        .block((20.0, 10.0), (50.0, 60.0), "")
+        .block((50.0, 10.0), (80.0, 60.0), "")
+        .fault(&[(50.0, 10.0), (50.0, 60.0)])
+        .text((35.0, 36.0), "A")
+        .text((65.0, 36.0), "B")
+        .text((10.0, 36.0), "u →")
+        .text((65.0, 66.0), "spring ↓ V")
+        .note((52.0, 14.0), "τ = 0 while pressed")
+        .dimension((20.0, 5.0), (80.0, 5.0), "w")
 }
 
 /// Two slabs between springs and dashpots.

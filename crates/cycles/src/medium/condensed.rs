@@ -5,6 +5,7 @@ use super::held;
 use super::machine::{Machine, Spring};
 use super::place::{Place, across};
 use super::point::Point;
+use super::pressed::Held;
 use super::refusal::Refusal;
 use crate::loading::Loading;
 use crate::opening::Opening;
@@ -31,15 +32,6 @@ pub enum Tractions {
     },
 }
 
-/// Initial tractions that the weight of the bodies causes, before any point slips.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Weight {
-    /// Shear tractions, component by component \[Pa\].
-    pub shear: Vec<f64>,
-    /// Normal tractions, compression positive \[Pa\].
-    pub normal: Vec<f64>,
-}
-
 /// Condensed bodies.
 #[derive(Debug)]
 pub struct Surroundings {
@@ -52,7 +44,7 @@ pub struct Surroundings {
     /// The part of them caused by creep: rates of shear tractions, component by component \[Pa/s\].
     pub creep: Option<Vec<f64>>,
     /// Tractions caused by their weight, if they have any.
-    pub weight: Option<Weight>,
+    pub weight: Option<Held>,
     /// Peak memory of the condensation \[bytes\].
     pub bytes: usize,
     /// The bodies, if they are kept.
@@ -103,20 +95,22 @@ pub fn condense<const D: usize>(
 ) -> Result<Surroundings, Refusal> {
     match conditions.components {
         1 => with_components::<D, 1>(bodies, loads, points, conditions, |_| [[1.0]]),
-        2 => with_components::<D, 2>(bodies, loads, points, conditions, |p| {
-            let n = &p.normal;
-            [[-n[1], n[0]], [n[0], n[1]]]
-        }),
-        _ => with_components::<D, 3>(bodies, loads, points, conditions, |p| {
-            let (s, n) = (in_space(&p.rake), in_space(&p.normal));
-            [s, across(&n, &s), n]
-        }),
+        2 => with_components::<D, 2>(bodies, loads, points, conditions, in_plane),
+        _ => with_components::<D, 3>(bodies, loads, points, conditions, in_space),
     }
 }
 
-/// Components x, y, z.
-fn in_space<const D: usize>(v: &[f64; D]) -> [f64; 3] {
-    std::array::from_fn(|c| v.get(c).copied().unwrap_or(0.0))
+/// Axes of a jump in the plane: along slip, and from minus to plus.
+pub(super) fn in_plane<const D: usize>(place: &Place<D>) -> [[f64; 2]; 2] {
+    let n = &place.normal;
+    [[-n[1], n[0]], [n[0], n[1]]]
+}
+
+/// Axes of a jump in space: along the rake, across it, and from minus to plus.
+pub(super) fn in_space<const D: usize>(place: &Place<D>) -> [[f64; 3]; 3] {
+    let vector = |v: &[f64; D]| std::array::from_fn(|c| v.get(c).copied().unwrap_or(0.0));
+    let (s, n) = (vector(&place.rake), vector(&place.normal));
+    [s, across(&n, &s), n]
 }
 
 /// Components of a jump that are retained, relative to the first: slip along the tangents, and the opening, which is
@@ -316,7 +310,7 @@ impl Bearing {
 }
 
 /// Refusal for an error of the condensation.
-fn refused<const C: usize>(jumps: &Jumps<C>, error: &FemError) -> Refusal {
+pub(super) fn refused<const C: usize>(jumps: &Jumps<C>, error: &FemError) -> Refusal {
     if let FemError::Direct(DirectError::Memory { needed, allowed, .. }) = *error {
         return Refusal::Memory { needed, allowed, points: jumps.list().len() };
     }
@@ -367,7 +361,7 @@ fn tractions<const C: usize>(
     let shear_of = |forces: &[f64]| (0..tangents).flat_map(|c| over_area(forces, c)).collect::<Vec<f64>>();
     // Loads may change normal tractions where slip does not.
     let mut channels = left.channels();
-    let weight = channels.pop_if(|_| weighs).map(|(_, forces)| Weight {
+    let weight = channels.pop_if(|_| weighs).map(|(_, forces)| Held {
         shear: shear_of(forces),
         normal: rows.iter().zip(bearings).map(|(&r, b)| forces[r + tangents] / b.area).collect(),
     });

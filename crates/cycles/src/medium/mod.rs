@@ -8,13 +8,15 @@ mod machine;
 pub mod patches;
 mod place;
 mod point;
+mod pressed;
 mod refusal;
 mod springs;
 
 pub use bodies::Bodies;
-pub use condensed::{Conditions, Loads, Surroundings, Tractions, Weight, condense, least_bytes};
+pub use condensed::{Conditions, Loads, Surroundings, Tractions, condense, least_bytes};
 pub use machine::Spring;
 pub use place::{Place, across, unit};
 pub use point::Point;
+pub use pressed::{Held, Pressed, Pressing, press};
 pub use refusal::Refusal;
 pub(crate) use springs::{Slips, Travelled};

@@ -1,7 +1,7 @@
 //! Literature of the cases of the verification suite. A test of the suite compares it with their pages.
 
 /// Cases and the keys of their literature.
-const CASES: [(&str, &[&str]); 111] = [
+const CASES: [(&str, &[&str]); 112] = [
     ("absence", &["weidendorfer2004"]),
     ("antiplane", &["nehari1952", "strang1973", "timoshenko1970"]),
     ("block_dragged", &["codeaster"]),
@@ -38,6 +38,7 @@ const CASES: [(&str, &[&str]); 111] = [
     ("fault_medium", &["eshelby1957", "muskhelishvili1953", "okada1992", "savage1983", "segall2010"]),
     ("fault_opening", &["sneddon1946", "barenblatt1962", "cottle1992"]),
     ("fault_operator", &["starr1928", "muskhelishvili1953", "segall2010"]),
+    ("fault_pressing", &["jaeger2007"]),
     ("fault_space", &["eshelby1957", "segall2010"]),
     ("fault_stability", &["riceruina1983", "rice2001"]),
     ("fault_turning", &["rice1983", "jiang2022"]),

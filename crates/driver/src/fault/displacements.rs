@@ -12,7 +12,7 @@ use std::path::Path;
 /// # Errors
 /// If a file cannot be written.
 pub fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), OutputError> {
-    let Some(view) = &plan.bodies else { return Ok(()) };
+    let Some(view) = plan.bodies.as_ref().filter(|view| view.shown) else { return Ok(()) };
     let folder = out.join("fields");
     atomic::create_dir(&folder)?;
     let grid = Grid::new(&view.nodes, &view.cells);

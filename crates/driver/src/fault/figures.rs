@@ -5,7 +5,7 @@ use super::cadence::time;
 use super::plan::{FaultView, Plan};
 use asperity_cycles::FaultRun;
 use asperity_output::OutputError;
-use asperity_output::plots::{self, Cycles, Line, Rows, Table};
+use asperity_output::plots::{self, Chart, Cycles, Line, Rows, Table};
 use std::path::{Path, PathBuf};
 
 /// Draws the plots of the run in `out` into its folder `plots`.
@@ -28,7 +28,29 @@ pub fn draw(out: &Path, plan: &Plan, run: &FaultRun) -> Result<Vec<PathBuf>, Out
         events: events.chain(under_way).collect(),
         intervals: plan.cadence.contours.map(time),
     };
-    plots::draw_cycles(&out.join("plots"), &cycles)
+    let folder = out.join("plots");
+    let mut drawn = plots::draw_cycles(&folder, &cycles)?;
+    if let Some(chart) = springs(out, plan)? {
+        drawn.extend(plots::draw_charts(&folder, &[chart])?);
+    }
+    Ok(drawn)
+}
+
+/// Macroscopic friction against the way of each load point, from the tables of springs.
+fn springs(out: &Path, plan: &Plan) -> Result<Option<Chart>, OutputError> {
+    let Some(sampling) = plan.sampling.as_ref().filter(|s| !s.sampled.springs.is_empty()) else {
+        return Ok(None);
+    };
+    let heads = sampling.sampled.heads();
+    let first = heads.len() - sampling.sampled.springs.len();
+    let mut curves = Vec::new();
+    for (spring, (path, _)) in sampling.sampled.springs.iter().zip(&heads[first..]) {
+        let mut curve = Vec::new();
+        // Time, load point, displacement, force and friction.
+        each(&out.join(path), &mut |row| curve.push((row[1].abs(), row[4])))?;
+        curves.push((spring.name(), curve));
+    }
+    Ok(Some(plots::springs_chart(&plan.title, curves)))
 }
 
 /// Tables of a run.

@@ -14,6 +14,7 @@ use asperity_cycles::{Faults, Moment, Pressed};
 use asperity_ode::{Clock, Control, ObserveError, Observer};
 use asperity_output::decimals::{fixed, scientific};
 use asperity_output::{Growing, OutputError, atomic};
+use std::cell::LazyCell;
 use std::path::{Path, PathBuf};
 
 /// Columns of the largest slip rate. Means are weighted by area; for vector slip they are of the components along the
@@ -44,13 +45,16 @@ impl Rows {
     }
 }
 
-/// Writes `stations/` and `largest_rate.csv`. In 2D it also writes `slip_profiles.csv`, `rate_profiles.csv` (log10 of m/s) and, where points may open
+/// Writes `stations/`, `largest_rate.csv` and, if the scene requests them, `points/`, `forces/` and `springs/`. In 2D it also writes `slip_profiles.csv`, `rate_profiles.csv` (log10 of m/s) and, where points may open
 /// or are heated, profiles of that; in 3D, snapshots.
 #[derive(Debug)]
 pub struct Files<'a> {
     plan: &'a Plan,
-    /// The largest slip rate, then profiles of slip and slip rate or the list of snapshots, then stations.
+    /// The largest slip rate, then profiles of slip and slip rate or the list of snapshots, then points, forces and springs of
+    /// bodies, then stations.
     rows: Vec<Rows>,
+    /// Number of the first two kinds.
+    general: usize,
     /// Points of the stations.
     stations: Vec<usize>,
     /// End of the last step.
@@ -66,12 +70,16 @@ impl<'a> Files<'a> {
     pub fn create(out: &Path, plan: &'a Plan) -> Result<Self, OutputError> {
         atomic::writable_dir(out)?;
         atomic::create_dir(&out.join("stations"))?;
+        for (path, _) in sampled(plan) {
+            out.join(path).parent().map_or(Ok(()), atomic::create_dir)?;
+        }
         let mut rows = Vec::new();
         for (path, head) in Self::heads(out, plan) {
             rows.push(Rows::create(path, &head)?);
         }
         Ok(Self {
             plan,
+            general: general(plan, &rows),
             rows,
             stations: stations::points(plan),
             before: None,
@@ -93,7 +101,14 @@ impl<'a> Files<'a> {
         }
         let Position { before, snapshots, .. } = *from;
         let snapshots = Snapshots::begin(out, plan)?.map(|s| s.from(snapshots.unwrap_or_default()));
-        Ok(Self { plan, rows, stations: stations::points(plan), before, snapshots })
+        Ok(Self {
+            plan,
+            general: general(plan, &rows),
+            rows,
+            stations: stations::points(plan),
+            before,
+            snapshots,
+        })
     }
 
     /// Current positions in the files.
@@ -135,6 +150,7 @@ impl<'a> Files<'a> {
             let further = further(plan).map(|(name, _)| (out.join(name), head.clone()));
             heads.extend(further);
         }
+        heads.extend(sampled(plan).into_iter().map(|(path, head)| (out.join(path), head)));
         let folder = out.join("stations");
         heads.extend(stations::heads(plan).into_iter().map(|(name, head)| (folder.join(name), head)));
         heads
@@ -144,14 +160,15 @@ impl<'a> Files<'a> {
         let (plan, time) = (self.plan, now.at.seconds());
         let earlier = self.before.replace(now.at);
         let then = now.step.as_ref().zip(earlier).map(|(step, at)| now.start_of(step, at));
-        let general = self.rows.len() - self.stations.len();
-        let (tables, stations) = self.rows.split_at_mut(general);
+        let (tables, rest) = self.rows.split_at_mut(self.general);
+        let (samples, stations) = rest.split_at_mut(rest.len() - self.stations.len());
         let whole = |now: &Moment<'_>| largest_row(plan, now);
         follow(&mut tables[0], plan, now.largest, (now, then.as_ref()), &whole)?;
         for (&point, rows) in self.stations.iter().zip(stations) {
             let row = |now: &Moment<'_>| stations::row(plan, now, point);
             follow(rows, plan, now.speed(point), (now, then.as_ref()), &row)?;
         }
+        follow_samples(samples, plan, (now, then.as_ref()))?;
         match &mut self.snapshots {
             Some(snapshots) => match snapshots.take(plan, now)? {
                 Some(row) => tables[1].push(&row, &plan.cadence, time),
@@ -182,6 +199,35 @@ impl<'a> Files<'a> {
         }
         Ok(())
     }
+}
+
+/// Files of values of the bodies, with their headers.
+fn sampled(plan: &Plan) -> Vec<(String, String)> {
+    plan.sampling.as_ref().map_or_else(Vec::new, |sampling| sampling.sampled.heads())
+}
+
+/// Number of files that are neither of bodies nor of stations.
+fn general(plan: &Plan, rows: &[Rows]) -> usize {
+    rows.len() - stations::points(plan).len() - sampled(plan).len()
+}
+
+/// Writes the rows of the values of bodies that are due; all follow the largest slip rate. The bodies are solved for once a moment.
+fn follow_samples(
+    files: &mut [Rows],
+    plan: &Plan,
+    (now, then): (&Moment<'_>, Option<&Moment<'_>>),
+) -> Result<(), OutputError> {
+    let (Some(sampling), Some(view)) = (&plan.sampling, &plan.bodies) else { return Ok(()) };
+    let at = |moment: &Moment<'_>| sampling.sampled.rows(moment.at.seconds(), &sampling.at(view, moment));
+    let at_end = LazyCell::new(|| at(now));
+    let at_start = LazyCell::new(|| then.map_or_else(Vec::new, at));
+    for (k, rows) in files.iter_mut().enumerate() {
+        let row = |moment: &Moment<'_>| {
+            if std::ptr::eq(moment, now) { at_end[k].clone() } else { at_start[k].clone() }
+        };
+        follow(rows, plan, now.largest, (now, then), &row)?;
+    }
+    Ok(())
 }
 
 /// Values of all points of a profile.

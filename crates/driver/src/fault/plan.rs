@@ -5,6 +5,7 @@ use super::cadence::Cadence;
 use super::frame::Frame;
 use super::normal::NormalChoice;
 use super::resolution::Resolution;
+use super::sampling::Sampling;
 use crate::ruptures::Ruptures;
 use crate::warning::Warning;
 use asperity_cycles::heat::Layer;
@@ -92,8 +93,10 @@ pub struct Plan {
     pub creeping: usize,
     /// Estimated memory of the whole run \[bytes\].
     pub memory_bytes: usize,
-    /// The bodies, if their displacements are requested.
+    /// The bodies, if their displacements are requested or values of them sampled.
     pub bodies: Option<BodiesView>,
+    /// Values of the bodies that are sampled.
+    pub sampling: Option<Sampling>,
     /// Geographic position and epoch of the origin.
     pub frame: Option<Frame>,
     /// True if faults are surfaces in 3D, which have no distance along them.

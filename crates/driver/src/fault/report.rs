@@ -6,9 +6,12 @@ use super::located::locate;
 use super::openings::{OpenedFault, openings};
 use super::plan::{FaultView, Plan, PointView};
 use super::resolution::Resolution;
+use super::sampling::End;
 use super::words::{length, time};
 use crate::catalogue::{Entry, FaultEvents, Scattered, Site, slipped};
-use crate::report::{EnergyBalance, Kind, Outcome, Phases, Results, Stop};
+use crate::report::{
+    EnergyBalance, ForceResult, Kind, Outcome, Phases, PointResult, Results, SpringResult, Stop,
+};
 use crate::warning::Warning;
 use asperity_cycles::{Balance, Components, Crack, Episode, Event, FaultRun, Layout, Mark, Rupture, steady};
 use asperity_ode::Outcome as Finish;
@@ -174,6 +177,15 @@ pub struct Report {
     pub ruptures: Vec<Episode>,
     /// Cycles, from the end of each event to the end of the next.
     pub cycles: Vec<Cycle>,
+    /// Values at points of the bodies at the end.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub points: Vec<PointResult>,
+    /// Forces on sets at the end.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub forces: Vec<ForceResult>,
+    /// Springs at the end.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub springs: Vec<SpringResult>,
     /// Work.
     pub counts: Work,
     /// Wall time.
@@ -252,7 +264,9 @@ impl Report {
         };
         let events = run.events();
         let slip = &run.unknowns[Layout::of(&plan.problem.fault).slip()];
-        let opening = plan.problem.fault.pressed(run.at, &run.unknowns, &mut Crack::default()).opening;
+        let pressed = plan.problem.fault.pressed(run.at, &run.unknowns, &mut Crack::default());
+        let End { points, forces, springs } = End::of(plan, run, &pressed);
+        let opening = pressed.opening;
         let energy = balance.energy(slip, &opening).into();
         let marks = balance.marks();
         let driven = if marks.len() > 1 { steady(&plan.problem) } else { None };
@@ -282,6 +296,9 @@ impl Report {
             energy,
             ruptures: run.progress.episodes.clone(),
             cycles,
+            points,
+            forces,
+            springs,
             counts: Work {
                 steps: run.counts.steps,
                 rejected: run.counts.rejected,
@@ -369,6 +386,16 @@ impl Report {
         }
         for heat in &self.heat {
             let _ = writeln!(text, "  {}", heat.words());
+        }
+        for SpringResult { spring, values, unit, .. } in &self.springs {
+            let _ = writeln!(
+                text,
+                "  spring `{}`: load point at {}, force {:.6e} {unit}, macroscopic friction {:.4}",
+                spring.name(),
+                length(values.load_point),
+                values.force,
+                values.friction
+            );
         }
         let _ = writeln!(text, "  end at {}", time(self.end));
         let c = &self.counts;

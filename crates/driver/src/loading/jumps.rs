@@ -1,6 +1,8 @@
 //! Checks that forces and displacements on faults do not jump. Initial tractions of faults are given, and evolve by rates from there.
 
+use super::AXES;
 use crate::diagnostic::Diagnostic;
+use crate::scene::check::pressing;
 use crate::scene::model::{Condition, Loading, Motion, Scene, Spanned, Stage, Stepper};
 use std::collections::BTreeMap;
 
@@ -18,7 +20,7 @@ pub(super) fn of_stage(
     (held, present): (&Of<Motion>, &Of<f64>),
     loads: &Of<Loading>,
 ) -> Result<(), Diagnostic> {
-    if *scene.time.stepper.get_ref() != Stepper::FaultOde {
+    if scene.faults.is_empty() || *scene.time.stepper.get_ref() == Stepper::Explicit {
         return Ok(());
     }
     let place = |set: &str| {
@@ -62,6 +64,22 @@ pub(super) fn of_stage(
         for (axis, motion) in [&c.x, &c.y, &c.z].into_iter().enumerate() {
             let Some(set) = &c.set else { continue };
             let was_held = held.get(&(set.get_ref().clone(), axis)).is_some_and(|m| *m != Motion::Free);
+            let pressing = pressing::stage(scene);
+            let placed = |m: &&Spanned<Motion>| {
+                matches!(m.get_ref(), Motion::Fixed(_) | Motion::To(_) | Motion::Table(_))
+            };
+            if let (Some(motion), Some(pressing)) =
+                (motion.as_ref().filter(|m| placed(m) && !was_held), pressing)
+            {
+                return Err(Diagnostic::at(
+                    motion.span(),
+                    format!(
+                        "`{set}` is free along {} in stage `{}`, which moves it away from zero",
+                        AXES[axis], pressing.name
+                    ),
+                    "hold it in that stage as well, or hold it where it then is: `\"hold\"`",
+                ));
+            }
             if let Some(motion) = motion.as_ref().filter(|m| *m.get_ref() == Motion::Free && was_held) {
                 return Err(Diagnostic::at(
                     motion.span(),

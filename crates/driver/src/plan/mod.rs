@@ -14,7 +14,7 @@ mod penalty;
 mod planner;
 mod pressed;
 mod restraint;
-mod samples;
+pub(crate) mod samples;
 mod start_balance;
 mod start_gap;
 mod start_gaps;

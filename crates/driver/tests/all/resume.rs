@@ -169,6 +169,27 @@ fn a_fault_that_opens_and_closes_is_gone_on_with_as_well() {
 }
 
 #[test]
+fn a_block_that_is_pressed_and_whose_values_are_sampled_is_gone_on_with_as_well() {
+    let stages = r#"[
+        { name = "press", duration = "10 s", conditions = [{ set = "A.left", x = { to = "0.05 mm" } }, { set = "A.bottom", y = 0 }, { set = "B.right", x = 0 }, { set = "B.top", y = 0 }] },
+        { name = "slide", duration = "4000 s", conditions = [{ set = "B.top", y = { spring = 2e9, rate = "-1 um/s" } }] },
+    ]"#;
+    let scene = varied(
+        include_str!("../../../../scenes/sandwich-state.toml"),
+        &[
+            Without("faults.face.normal"),
+            With("faults.face.law.l", "10 um"),
+            With("stages", stages),
+            With("events.stop_after", "2"),
+            Add("output.points", r#"{ inside = { body = "A", at = ["10 mm", "30 mm"] } }"#),
+            Add("output.forces", r#"{ pressing = { set = "A.left" } }"#),
+        ],
+    );
+    let breaks = broken_off_at_every_restart(&scene);
+    assert!(breaks > 3, "{breaks}");
+}
+
+#[test]
 fn a_fault_that_heats_up_is_gone_on_with_as_well() {
     let scene = varied(
         include_str!("../../../../scenes/thermal-pressurisation.toml"),

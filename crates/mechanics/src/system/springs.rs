@@ -33,6 +33,17 @@ pub struct SpringNow {
     pub energy: f64,
 }
 
+impl SpringNow {
+    /// State of a spring of this stiffness \[N/m\] whose load point has moved by `drawn` since `start`, with its set displaced by
+    /// `displacement` \[m\].
+    #[must_use]
+    pub fn of(start: &SpringStart, stiffness: f64, drawn: f64, displacement: f64) -> Self {
+        let force = start.force + stiffness * (drawn - (displacement - start.displacement));
+        let energy = 0.5 * force * force / stiffness;
+        Self { force, load_point: start.load_point + drawn, displacement, energy }
+    }
+}
+
 /// A spring with the degree of freedom of the system on which it acts.
 #[derive(Clone, Debug)]
 struct Attached {
@@ -70,12 +81,9 @@ impl Springs {
 
     /// States of the springs at displacements `u` of the system and time \[s\].
     pub fn now(&self, u: &[f64], time: f64) -> impl Iterator<Item = SpringNow> {
-        self.list.iter().map(move |s| {
-            let (drawn, displacement) = (s.rate * (time - self.begin), u[s.dof]);
-            let force = s.start.force + s.stiffness * (drawn - (displacement - s.start.displacement));
-            let energy = 0.5 * force * force / s.stiffness;
-            SpringNow { force, load_point: s.start.load_point + drawn, displacement, energy }
-        })
+        self.list
+            .iter()
+            .map(move |s| SpringNow::of(&s.start, s.stiffness, s.rate * (time - self.begin), u[s.dof]))
     }
 
     /// States at the start of the stage.

@@ -31,6 +31,7 @@ pub use cycles::{Cycles, Line, Rows, Table};
 pub use diagram::{Diagram, Failed, Scale, Series, Slope};
 pub use rupture::{Line as RuptureLine, Profiles, RupturedFault, Ruptures, Shape as RuptureShape, Surface};
 pub use sketch::Sketch;
+pub use springs::chart as springs_chart;
 pub use style::STYLES;
 
 use super::view::MeshView;

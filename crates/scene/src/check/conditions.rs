@@ -126,7 +126,8 @@ impl Checker<'_> {
         if let Some(steps) = stage.steps.as_ref().filter(|s| *s.get_ref() > MOST_STEPS) {
             self.too_many(steps, "steps", MOST_STEPS);
         }
-        for interface in &stage.frictionless {
+        // Those of a stage that presses faults are faults.
+        for interface in stage.frictionless.iter().filter(|_| self.scene.faults.is_empty()) {
             if !self.scene.interfaces.contains_key(interface.get_ref()) {
                 let known = self.scene.interfaces.keys().map(String::as_str);
                 self.error(

@@ -65,11 +65,13 @@ impl Checker<'_> {
         let pressed = stress.is_some_and(|s| s.get_ref().presses());
         let in_plane = !self.is_antiplane();
         let weight = self.scene.bodies.values().find_map(|b| b.gravity.as_ref()).filter(|_| in_plane);
-        if normal.is_none() && !pressed && weight.is_none() {
+        let pressing = super::pressing::stage(self.scene).is_some();
+        self.tractions_beside_pressing(normal.clone(), fault);
+        if normal.is_none() && !pressed && weight.is_none() && !pressing {
             self.error(
                 fault.span(),
                 "nothing presses the fault: it has no `normal`",
-                "such as `normal = \"50 MPa\"`, `profiles.normal`, `gravity`, or an `initial_stress` of its bodies with components in the plane",
+                "such as `normal = \"50 MPa\"`, `profiles.normal`, `gravity`, a stage before the one in which it slides, or an `initial_stress` of its bodies with components in the plane",
             );
         }
         if let (Some(weight), Some(normal)) = (weight, &normal) {
@@ -80,7 +82,7 @@ impl Checker<'_> {
                 (&weight.span(), "the gravity"),
             );
         }
-        let Some(stress) = stress else { return };
+        let Some(stress) = stress.filter(|_| !pressing) else { return };
         for (key, place) in [("normal", normal.filter(|_| pressed)), ("shear", shear)] {
             let Some(place) = place else { continue };
             self.conflict(

@@ -83,16 +83,20 @@ impl Checker<'_> {
             ("most_iterations", solver.most_iterations.as_ref().map(Spanned::span)),
         ];
         keys.extend(output.probes.values().map(|p| ("probes", Some(p.span()))));
-        keys.extend(output.points.values().map(|p| ("points", Some(p.span()))));
-        keys.extend(output.forces.values().map(|p| ("forces", Some(p.span()))));
-        for stage in &scene.stages {
-            keys.push(("steps", stage.steps.as_ref().map(Spanned::span)));
-            keys.extend(stage.frictionless.iter().map(|f| ("frictionless", Some(f.span()))));
+        if scene.medium.is_some() || self.has_ruptures() {
+            keys.extend(output.points.values().map(|p| ("points", Some(p.span()))));
+            keys.extend(output.forces.values().map(|p| ("forces", Some(p.span()))));
         }
+        keys.extend(scene.stages.iter().map(|stage| ("steps", stage.steps.as_ref().map(Spanned::span))));
+        let what = match (&scene.medium, self.has_ruptures()) {
+            (Some(_), _) => "a medium",
+            (None, true) => "faults whose ruptures have mass",
+            (None, false) => "faults",
+        };
         for (key, place) in keys.into_iter().filter_map(|(key, place)| Some((key, place?))) {
             self.conflict(
                 &place,
-                format!("`{key}` has no meaning in a scene with faults"),
+                format!("`{key}` has no meaning in a scene with {what}"),
                 "remove it; outputs of faults are `stations` in `[output]`, the catalogue and profiles of slip",
                 (&fault.span(), "a fault"),
             );
@@ -157,13 +161,7 @@ impl Checker<'_> {
                         (&fault.span(), "a fault"),
                     );
                 }
-                if let Some(second) = scene.stages.get(1) {
-                    self.error(
-                        second.duration.span(),
-                        format!("a scene with faults has one stage, found {}", scene.stages.len()),
-                        "motions that change with time are tables",
-                    );
-                }
+                self.stages_of_faults(fault);
             }
             None => {}
         }

@@ -73,8 +73,12 @@ impl Checker<'_> {
         }
     }
 
-    /// Refuses stages whose steps are lost in the rounding of their start time, as times count from the start of the run.
+    /// Refuses stages whose steps are lost in the rounding of their start time, as times count from the start of the run. Those
+    /// of faults count from the start of their own stage.
     fn resolution(&mut self) {
+        if !self.scene.faults.is_empty() {
+            return;
+        }
         let mut start = 0.0;
         let first_step = self.scene.time.first_step.as_ref().map(|f| f.get_ref().0);
         for (index, stage) in self.scene.stages.iter().enumerate() {

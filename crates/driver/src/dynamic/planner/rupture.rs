@@ -65,7 +65,9 @@ fn bodies<const D: usize>(scene: &Scene, cycles: &Cycles) -> Result<(Bodies<D>, 
     let absorbing = masses::absorbing(scene, &model, &density)?;
     let courant = steps::courant(scene);
     let duration = STEPS * courant * stable.step;
-    let quasi_static = &loading::stages(scene, &model)?[0];
+    let stages = loading::stages(scene, &model)?;
+    // A stage before the last presses the bodies.
+    let quasi_static = &stages[stages.len() - 1];
     let loading = quasi_static.largest_rate();
     let stage = stage(quasi_static, &absorbing, (duration, components(&model)));
     let problem = Problem {

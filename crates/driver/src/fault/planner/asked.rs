@@ -209,11 +209,11 @@ pub(super) fn not_linear(scene: &Scene, body: &str) -> Diagnostic {
     Diagnostic::at(place, format!("body `{body}` is not linear: faults need linear bodies"), help)
 }
 
-/// Error for a number of stages other than one.
+/// Error for a number of stages other than one, or one beside one that presses.
 pub(super) fn stages(scene: &Scene) -> Diagnostic {
-    let place = scene.stages.get(1).map_or_else(|| scene.time.stepper.span(), |s| s.duration.span());
-    let found = format!("a scene with faults has one stage, found {}", scene.stages.len());
-    Diagnostic::at(place, found, "loads that change in time are tables of one stage")
+    let place = scene.stages.get(2).map_or_else(|| scene.time.stepper.span(), |s| s.duration.span());
+    let found = format!("a scene with faults has one stage or two, found {}", scene.stages.len());
+    Diagnostic::at(place, found, "the first of two presses the bodies; loads that change in time are tables")
 }
 
 /// Error for a law with incomplete parameters, if there is no more specific message.

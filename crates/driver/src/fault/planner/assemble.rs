@@ -4,9 +4,10 @@ use super::super::bodies::BodiesView;
 use super::super::cadence::{self, Cadence};
 use super::super::plan::{FaultView, Plan, PointView, Station};
 use super::super::resolution::Resolution;
+use super::super::sampling::Sampling;
 use super::cells::Cells;
 use super::placed::{Placed, in_space, slides};
-use super::{asked, floor, frame, heated, start_doubts};
+use super::{asked, floor, frame, heated, pressing, start_doubts};
 use crate::diagnostic::Diagnostic;
 use crate::laws;
 use crate::scene::law::LawChoice;
@@ -53,6 +54,7 @@ pub(super) struct Around {
     pub creeping: usize,
     pub memory_bytes: usize,
     pub bodies: Option<BodiesView>,
+    pub sampling: Option<Sampling>,
     pub resolution: Vec<Resolution>,
     pub warnings: Vec<Warning>,
     pub notes: Vec<String>,
@@ -90,6 +92,8 @@ pub(super) fn plan_of<const D: usize>(
         opening,
     };
     let start = start(&placed, &fault).map_err(at_law)?;
+    let settings = settings(scene, end)?;
+    pressing::rests(scene, (&placed, &fault), (&start, settings.thresholds.on))?;
     let mut warnings = around.warnings;
     warnings.extend(start_doubts::check(scene, &placed, &fault));
     let (faults, points) = views(scene, cells, &placed, turns)?;
@@ -99,13 +103,14 @@ pub(super) fn plan_of<const D: usize>(
         faults,
         points,
         cadence: cadence(scene, &fault, end),
-        problem: Problem { fault, areas, loading, start, settings: settings(scene, end)? },
+        problem: Problem { fault, areas, loading, start, settings },
         ruptures: None,
         medium: around.medium,
         dofs: around.dofs,
         creeping: around.creeping,
         memory_bytes: around.memory_bytes + modes,
         bodies: around.bodies,
+        sampling: around.sampling,
         frame: frame::of(scene, D == 3)?,
         in_space: D == 3,
         kinematics: scene.kinematics.get_ref().words(),
@@ -194,7 +199,13 @@ fn start<const D: usize>(placed: &[Placed<D>], fault: &Fault) -> Result<Vec<f64>
         };
         let law: &dyn FaultLaw = fault.law.as_ref();
         law.steady(p, initial.ln(), &mut y[states.clone()]);
-        if let Some(shear) = point.shear {
+        if let Some(shear) = point.pressed_shear {
+            // The traction of damping at the slip rate that follows is left out: it is small, or the start is refused.
+            let scale = law.scale(p) * pressed.normal[p];
+            for (component, shear) in shear.into_iter().take(layout.components()).enumerate() {
+                y[component * layout.points() + p] = shear / scale;
+            }
+        } else if let Some(shear) = point.shear {
             // Friction is odd in the slip rate, so its magnitude is found for a positive rate.
             let mu = (shear - fault.damping[p] * rate) * rate.signum() / pressed.normal[p];
             law.states_for(p, rate.abs(), mu, &mut y[states.clone()])?;

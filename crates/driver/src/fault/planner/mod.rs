@@ -17,10 +17,12 @@ mod place;
 mod placed;
 mod plates;
 mod point;
+mod pressing;
 mod prestress;
 mod resolution;
 mod resolved;
 mod rock;
+mod sampled;
 mod sense;
 mod start_doubts;
 mod weight;
@@ -89,22 +91,27 @@ fn admit<const D: usize>(asked: Asked<'_, D>, conditions: Conditions) -> Result<
     Ok(())
 }
 
-/// Loads on the bodies during a stage.
-fn loads<const D: usize>(model: &Model<D>, stage: &Stage) -> Loads {
+/// Loads on the bodies during a stage that starts from displacements `u0` \[m\]: changes since its start.
+fn loads(stage: &Stage, u0: &[f64], weight: Vec<(usize, f64)>) -> Loads {
     let spring = |s: &loading::Spring| Spring { dofs: s.dofs.clone(), stiffness: s.stiffness, rate: s.rate };
-    Loads {
-        constraints: stage.constraints(&vec![0.0; model.dofs()]),
-        springs: stage.springs.iter().map(spring).collect(),
-        weight: stage.weight.clone(),
-        end: stage.end,
+    let mut constraints = stage.constraints(u0);
+    for channel in &mut constraints.channels {
+        channel.amplitude = channel.amplitude.clone().since(stage.start);
     }
+    constraints.channels.retain(|channel| !channel.amplitude.is_zero());
+    Loads { constraints, springs: stage.springs.iter().map(spring).collect(), weight, end: stage.end }
 }
 
 /// Settings for the condensation of the bodies of a scene.
-fn conditions(scene: &Scene, components: usize) -> Conditions {
-    let keep = scene.output.bodies.as_ref().is_some_and(|b| *b.get_ref());
+fn conditions(scene: &Scene, stage: &Stage, components: usize) -> Conditions {
+    let keep = shown(scene) || sampled::asked(scene, stage);
     let tangents = if turns(scene) { 2 } else { 1 };
     Conditions { components, tangents, memory: amounts::memory(scene), keep }
+}
+
+/// True if displacements of the bodies are written.
+fn shown(scene: &Scene) -> bool {
+    scene.output.bodies.as_ref().is_some_and(|b| *b.get_ref())
 }
 
 fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Diagnostic> {
@@ -121,8 +128,10 @@ fn between_bodies<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Dia
         return Err(asked::not_linear(scene, &body.name));
     }
     let stages = loading::stages(scene, &model)?;
-    let [stage] = stages.as_slice() else {
-        return Err(asked::stages(scene));
+    let (pressing, stage) = match stages.as_slice() {
+        [stage] => (None, stage),
+        [pressing, stage] => (Some(pressing), stage),
+        _ => return Err(asked::stages(scene)),
     };
     let mut warnings = scene.warnings.clone();
     let (placed, mut notes) = all_points(scene, &model, &mut warnings)?;
@@ -131,30 +140,54 @@ fn between_bodies<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Dia
     if points.iter().all(|p| p.creep.is_some()) {
         return Err(asked::nothing_slides(&named, &placed));
     }
-    // If weight acts, normal tractions are known only once the bodies are condensed.
-    let early = if stage.weight.is_empty() { Some(resolved(scene, &placed, &mut warnings)?) } else { None };
+    // If weight or a stage before presses the bodies, normal tractions are known only once their equations are solved.
+    let early = if stage.weight.is_empty() && pressing.is_none() {
+        Some(resolved(scene, &placed, &mut warnings)?)
+    } else {
+        None
+    };
     let held = Held::by(&model);
-    let conditions = conditions(scene, model.idealisation.components());
-    let loads = loads(&model, stage);
+    let conditions = conditions(scene, stage, model.idealisation.components());
+    let at_rest = vec![0.0; model.dofs()];
+    // Weight acts while the bodies are pressed, or else before the start.
+    let weight = if pressing.is_none() { stage.weight.clone() } else { Vec::new() };
+    let mut loads = loads(stage, &at_rest, weight);
     admit(Asked { scene, model: &model, loads: &loads, points: &points }, conditions)?;
     let bodies = model.take_stiffness();
+    let pressed = match pressing {
+        Some(pressing) => {
+            let asked = Asked { scene, model: &model, loads: &loads, points: &points };
+            let faults: Vec<usize> = placed.iter().map(|p| p.fault).collect();
+            Some(pressing::solve(asked, pressing, &faults, (&bodies, conditions))?)
+        }
+        None => None,
+    };
+    if let Some(pressed) = &pressed {
+        loads = self::loads(stage, &pressed.displacement, Vec::new());
+    }
+    let free: Vec<usize> = (0..points.len()).filter(|&k| points[k].creep.is_none()).collect();
     let asked = Asked { scene, model: &model, loads: &loads, points: &points };
     let surroundings = condense(bodies, &loads, &points, conditions).map_err(|e| asked.error(&e))?;
     let (creeping, mut placed): (Vec<_>, Vec<_>) = placed.into_iter().partition(|p| p.point.creep.is_some());
     warnings.extend(doubts(scene, (&model, stage), (&placed, &creeping), &surroundings));
     notes.extend(weight::press(scene, (&model, stage), surroundings.weight.as_ref(), &mut placed)?);
+    if let Some(pressed) = &pressed {
+        notes.extend(pressing::start(scene, pressed, &free, &mut placed)?);
+    }
     let resolution = early.map_or_else(|| resolved(scene, &placed, &mut warnings), Ok)?;
     if placed.is_empty() {
         return Err(asked::nothing_slides(&named, &creeping));
     }
     asked::opens(&named, &placed, surroundings.opening.as_ref().map_or(&[], |o| o.points()))?;
     let sides = placed.iter().map(|p| [p.point.place.minus, p.point.place.plus]).collect();
+    let areas = placed.iter().map(|p| p.point.place.area).collect();
     let around = Around {
         medium: "condensed onto the faults",
         dofs: model.dofs(),
         creeping: creeping.len(),
         memory_bytes: held.with_faults(surroundings.bytes),
-        bodies: surroundings.bodies.map(|bodies| BodiesView::new(bodies, &model, sides)),
+        bodies: surroundings.bodies.map(|bodies| BodiesView::new(bodies, &model, sides, shown(scene))),
+        sampling: sampled::of::<D>(scene, stage, pressed.as_ref(), areas)?,
         resolution,
         warnings,
         notes,

@@ -20,6 +20,9 @@ pub(crate) struct Placed<const D: usize> {
     pub floor: Option<f64>,
     /// Initial shear traction, if given \[Pa\].
     pub shear: Option<f64>,
+    /// Initial shear traction, along slip and across it, of a point whose bodies have been pressed: its slip rate follows from
+    /// friction \[Pa\].
+    pub pressed_shear: Option<[f64; 2]>,
     /// Initial slip rate \[m/s\].
     pub rate: f64,
     /// Initial tractions from the stress in the bodies.

@@ -39,6 +39,7 @@ pub(super) fn placed_at<const D: usize>(
         // The scene check ensures that one of them is given; where the fault creeps, neither is needed.
         normal: given.stress.and_then(|g| g.normal).or(values.normal).unwrap_or_default(),
         shear: given.stress.map(|g| g.shear).or(values.shear),
+        pressed_shear: None,
         rate: values.rate,
         prestress: given.stress.unwrap_or_default(),
         spacing: given.spacing,

@@ -60,6 +60,7 @@ pub(super) fn plan<const D: usize>(scene: &Scene, rock: &Rock, form: Form) -> Re
         creeping: 0,
         memory_bytes: held::without_bodies(memory),
         bodies: None,
+        sampling: None,
         resolution,
         warnings,
         notes: tiling.notes.clone(),

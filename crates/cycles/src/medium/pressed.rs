@@ -1,0 +1,122 @@
+//! Bodies that are pressed before their faults slide: tractions and displacements in equilibrium, with the sides of every point
+//! joined, or free to slide past each other without friction.
+
+use super::condensed::{Conditions, in_plane, in_space, refused};
+use super::held;
+use super::place::Place;
+use super::point::Point;
+use super::refusal::Refusal;
+use asperity_fem::FemError;
+use asperity_fem::condense::{Condensation, Condensed, Stiffness};
+use asperity_fem::dof::Channel;
+use asperity_fem::jump::{Jump, Jumps, ObliqueConstraint};
+use asperity_fem::table::Table;
+
+/// Tractions on points before any of them slips by friction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Held {
+    /// Shear tractions, component by component \[Pa\].
+    pub shear: Vec<f64>,
+    /// Normal tractions, compression positive \[Pa\]; 0 where supports hold both sides of a point across the fault.
+    pub normal: Vec<f64>,
+}
+
+/// What presses the bodies.
+#[derive(Clone, Debug)]
+pub struct Pressing {
+    /// Prescribed degrees of freedom, sorted.
+    pub fixed: Vec<usize>,
+    /// Prescribed displacements and nodal forces; its amplitude is not used.
+    pub load: Channel,
+    /// True for each point whose sides slide past each other without friction.
+    pub slides: Vec<bool>,
+}
+
+/// State of bodies that are pressed.
+#[derive(Clone, Debug)]
+pub struct Pressed {
+    /// Tractions on the points.
+    pub tractions: Held,
+    /// Displacements \[m\], node by node.
+    pub displacement: Vec<f64>,
+    /// Forces of supports on each degree of freedom \[N; N/m\]; both nodes of a point have those of both, as what its sides exert
+    /// on each other cancels.
+    pub supports: Vec<f64>,
+}
+
+/// Solves for the equilibrium of bodies of this stiffness that are pressed. Tractions are nodal forces divided by tributary areas.
+///
+/// # Errors
+/// A [`Refusal`] if the bodies need more memory than is allowed, if nothing holds them, or if a support is not compatible with the
+/// fault.
+pub fn press<const D: usize>(
+    bodies: &Stiffness,
+    pressing: &Pressing,
+    points: &[Point<D>],
+    conditions: Conditions,
+) -> Result<Pressed, Refusal> {
+    match conditions.components {
+        1 => with_components::<D, 1>(bodies, pressing, points, conditions, |_| [[1.0]]),
+        2 => with_components::<D, 2>(bodies, pressing, points, conditions, in_plane),
+        _ => with_components::<D, 3>(bodies, pressing, points, conditions, in_space),
+    }
+}
+
+fn with_components<const D: usize, const C: usize>(
+    bodies: &Stiffness,
+    pressing: &Pressing,
+    points: &[Point<D>],
+    Conditions { tangents, memory, .. }: Conditions,
+    frame: impl Fn(&Place<D>) -> [[f64; C]; C],
+) -> Result<Pressed, Refusal> {
+    let jump = |p: &Point<D>| held::jump(p, frame(&p.place), &pressing.fixed, |_| false);
+    let list: Vec<Jump<C>> = points.iter().map(jump).collect();
+    let first: Vec<usize> = list.iter().map(|j| j.plus).collect();
+    let jumps = Jumps::new(list);
+    let body = jumps.stiffness(bodies);
+    let oblique = |e: ObliqueConstraint| Refusal::Oblique { dof: e.plus };
+    let supports = jumps.fixed(&pressing.fixed).map_err(oblique)?;
+    let load = jumps.channel(&pressing.load, &pressing.fixed).map_err(oblique)?;
+    // The opening is the last component.
+    let joined = first.iter().zip(&pressing.slides).flat_map(|(&dof, &slides)| {
+        let from = if slides { C - 1 } else { 0 };
+        dof + from..dof + C
+    });
+    let mut fixed: Vec<usize> = supports.iter().copied().chain(joined).collect();
+    fixed.sort_unstable();
+    fixed.dedup();
+    let solve = || -> Result<Vec<f64>, FemError> {
+        let reduction = Condensation::analyse(&body, &[], &fixed)?.factor(memory)?;
+        let mut condensed = Condensed::new("bodies".into(), reduction, &[]);
+        condensed.set_channels(vec![Channel { amplitude: Table::constant(1.0), ..load.clone() }]);
+        Ok(condensed.recover(&[], 0.0))
+    };
+    let mut unknowns = solve().map_err(|e| refused(&jumps, &e))?;
+    let on_jumps = unbalanced(&body, &unknowns, &load);
+    // The bodies drive slip with the opposite of the force that holds it; one that holds the sides apart is a compression.
+    let pairs = || points.iter().map(|p| p.place.area).zip(&first);
+    let along = |c: usize| pairs().map(move |(area, dof)| (dof + c, -area));
+    let shear = (0..tangents).flat_map(along).map(|(dof, area)| on_jumps[dof] / area).collect();
+    let across = |(area, dof): (f64, &usize)| {
+        let opening = dof + C - 1;
+        let keeps = C == 1 || supports.binary_search(&opening).is_ok();
+        if keeps { 0.0 } else { on_jumps[opening] / area }
+    };
+    let tractions = Held { shear, normal: pairs().map(across).collect() };
+    jumps.displacement(&mut unknowns);
+    let mut on_nodes = unbalanced(bodies, &unknowns, &pressing.load);
+    for Place { minus, plus, .. } in points.iter().map(|p| &p.place) {
+        for c in 0..C {
+            let both = on_nodes[C * minus + c] + on_nodes[C * plus + c];
+            [minus, plus].into_iter().for_each(|node| on_nodes[C * node + c] = both);
+        }
+    }
+    Ok(Pressed { tractions, displacement: unknowns, supports: on_nodes })
+}
+
+/// Internal forces less loads.
+fn unbalanced(body: &Stiffness, u: &[f64], load: &Channel) -> Vec<f64> {
+    let mut forces = body.forces(u);
+    load.forces.iter().for_each(|&(dof, force)| forces[dof] -= force);
+    forces
+}

@@ -1,0 +1,127 @@
+//! Values of the bodies around faults through time: at points, on sets, and of the springs that draw sides.
+
+use super::bodies::BodiesView;
+use super::plan::Plan;
+use crate::report::{ForceResult, PointResult, SpringResult};
+use crate::views;
+use asperity_cycles::{FaultRun, Layout, Moment, Pressed};
+use asperity_mechanics::{Model, SpringNow, SpringStart, Stage, StressField, Wanted};
+use asperity_output::Sampled;
+use asperity_output::view::{ForceMark, PointMark, PointValues, Samples, SpringMark, SpringValues};
+
+/// What is sampled, and the bodies that have the values.
+#[derive(Debug)]
+pub struct Sampling {
+    /// Points, sets and springs.
+    pub sampled: Sampled,
+    /// Name of the stage in which faults slide.
+    pub stage: String,
+    bodies: Box<dyn Sample>,
+    /// Tributary areas of the points of the faults \[m²; m\].
+    areas: Vec<f64>,
+}
+
+/// Bodies that are sampled.
+trait Sample: Send + Sync + std::fmt::Debug {
+    /// Values for a change of all displacements since the start \[m\], at a time \[s\], with the normal forces on all faults \[N; N/m\].
+    fn at(&self, change: Vec<f64>, time: f64, normal: f64) -> Samples;
+}
+
+/// The bodies of a scene, as sampled.
+#[derive(Debug)]
+pub(super) struct SampledBodies<const D: usize> {
+    /// The mesh with its blocks of cells.
+    pub model: Model<D>,
+    /// Initial stress of each body.
+    pub initial_stress: Vec<Option<StressField>>,
+    /// Points and sets.
+    pub wanted: Wanted,
+    /// The stage in which faults slide, with all loads.
+    pub stage: Stage,
+    /// Displacements at its start \[m\].
+    pub start: Vec<f64>,
+    /// Springs at its start.
+    pub springs: Vec<SpringStart>,
+}
+
+impl Sampling {
+    pub(super) fn new<const D: usize>(bodies: SampledBodies<D>, areas: Vec<f64>, unit: &'static str) -> Self {
+        let sampled = Sampled {
+            points: bodies.wanted.points.iter().map(views::point_mark).collect(),
+            forces: bodies.wanted.forces.iter().map(views::force_mark).collect(),
+            springs: views::spring_marks(std::slice::from_ref(&bodies.stage)),
+            unit,
+        };
+        Self { sampled, stage: bodies.stage.name.clone(), bodies: Box::new(bodies), areas }
+    }
+
+    /// Values at a moment.
+    pub(super) fn at(&self, view: &BodiesView, now: &Moment<'_>) -> Samples {
+        self.values(view, [now.slip().all(), &now.pressed.opening], now.at.seconds(), &now.pressed.normal)
+    }
+
+    /// Values under this slip and opening of the points \[m\] at a time \[s\], with these normal tractions \[Pa\].
+    fn values(&self, view: &BodiesView, jumps: [&[f64]; 2], time: f64, normal: &[f64]) -> Samples {
+        let force = self.areas.iter().zip(normal).map(|(area, normal)| area * normal).sum();
+        self.bodies.at(view.bodies.displacement(&jumps.concat(), time), time, force)
+    }
+}
+
+/// Values at the end of a run.
+#[derive(Debug, Default)]
+pub(super) struct End {
+    pub points: Vec<PointResult>,
+    pub forces: Vec<ForceResult>,
+    pub springs: Vec<SpringResult>,
+}
+
+impl End {
+    /// Values of a run of a plan; none where the plan samples none.
+    pub fn of(plan: &Plan, run: &FaultRun, pressed: &Pressed) -> Self {
+        let (Some(sampling), Some(view)) = (&plan.sampling, &plan.bodies) else { return Self::default() };
+        let slip = &run.unknowns[Layout::of(&plan.problem.fault).slip()];
+        let values = sampling.values(view, [slip, &pressed.opening], run.at.seconds(), &pressed.normal);
+        let Sampling { sampled, stage, .. } = sampling;
+        let (stage, unit) = (stage.clone(), sampled.unit.to_string());
+        let point = |(point, values): (&PointMark, PointValues)| PointResult {
+            point: point.clone(),
+            stage: stage.clone(),
+            values,
+        };
+        let force = |(force, value): (&ForceMark, [f64; 3])| ForceResult {
+            force: force.clone(),
+            stage: stage.clone(),
+            value,
+            unit: unit.clone(),
+        };
+        let spring = |(spring, values): (&SpringMark, Option<SpringValues>)| {
+            Some(SpringResult {
+                spring: spring.clone(),
+                stage: stage.clone(),
+                values: values?,
+                unit: unit.clone(),
+            })
+        };
+        Self {
+            points: sampled.points.iter().zip(values.points).map(point).collect(),
+            forces: sampled.forces.iter().zip(values.forces).map(force).collect(),
+            springs: sampled.springs.iter().zip(values.springs).filter_map(spring).collect(),
+        }
+    }
+}
+
+impl<const D: usize> Sample for SampledBodies<D> {
+    fn at(&self, change: Vec<f64>, time: f64, normal: f64) -> Samples {
+        let u: Vec<f64> = change.iter().zip(&self.start).map(|(change, start)| start + change).collect();
+        let beside = self.wanted.beside(&self.model, &self.stage);
+        let (model, stage) = (&self.model, &self.stage);
+        let values = self.wanted.values(model, (&model.blocks, &self.initial_stress), (&u, time), &beside);
+        let spring = |(spring, start): (&asperity_mechanics::Spring, &SpringStart)| {
+            let drawn = spring.rate * (time - stage.start);
+            SpringNow::of(start, spring.stiffness, drawn, u[spring.dofs[0]])
+        };
+        let springs: Vec<SpringNow> = stage.springs.iter().zip(&self.springs).map(spring).collect();
+        let springs = views::springs(std::slice::from_ref(stage), stage, &springs, normal);
+        views::samples(values, springs)
+    }
+}

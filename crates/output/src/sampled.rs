@@ -1,0 +1,64 @@
+//! Histories of points of bodies, of forces on sets and of springs in runs whose rows have a time alone, as CSV.
+
+use super::names::stems;
+use super::table::{POINT, force_columns, number, point_values, spring_columns};
+use super::view::{ForceMark, PointMark, Samples, SpringMark};
+use std::iter::once;
+
+/// What is sampled.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sampled {
+    /// Points.
+    pub points: Vec<PointMark>,
+    /// Sets whose forces are sampled.
+    pub forces: Vec<ForceMark>,
+    /// Springs.
+    pub springs: Vec<SpringMark>,
+    /// Unit of forces.
+    pub unit: &'static str,
+}
+
+impl Sampled {
+    /// Paths of the files below the folder of a run, with their headers: points, then forces, then springs.
+    #[must_use]
+    pub fn heads(&self) -> Vec<(String, String)> {
+        let springs: Vec<String> = self.springs.iter().map(SpringMark::name).collect();
+        let point: Vec<String> = POINT.iter().map(ToString::to_string).collect();
+        let force: Vec<String> = force_columns(self.unit).collect();
+        let all = [
+            ("points", self.points.iter().map(|p| p.name.as_str()).collect(), point),
+            ("forces", self.forces.iter().map(|f| f.name.as_str()).collect(), force),
+            (
+                "springs",
+                springs.iter().map(String::as_str).collect::<Vec<_>>(),
+                spring_columns(self.unit).into(),
+            ),
+        ];
+        let of = |(folder, names, columns): (&str, Vec<&str>, Vec<String>)| {
+            let head = line(once("time [s]".to_string()).chain(columns));
+            let file = |stem: String| (format!("{folder}/{stem}.csv"), head.clone());
+            stems(names.into_iter()).into_iter().map(file).collect::<Vec<_>>()
+        };
+        all.into_iter().flat_map(of).collect()
+    }
+
+    /// Row of each file at a time \[s\].
+    #[must_use]
+    pub fn rows(&self, time: f64, samples: &Samples) -> Vec<String> {
+        let row =
+            |values: &[f64]| line(once(format!("{time:.14e}")).chain(values.iter().map(|&v| number(v))));
+        let points = samples.points.iter().map(|p| row(&point_values(p)));
+        let forces = samples.forces.iter().map(|f| row(f));
+        let springs = samples.springs.iter().map(|s| {
+            let s = s.unwrap_or_default();
+            row(&[s.load_point, s.displacement, s.force, s.friction])
+        });
+        points.chain(forces).chain(springs).collect()
+    }
+}
+
+fn line(cells: impl Iterator<Item = String>) -> String {
+    let mut line = cells.collect::<Vec<String>>().join(",");
+    line.push('\n');
+    line
+}

@@ -1,0 +1,175 @@
+//! The block of `sandwich_state`, pressed by a stage.
+
+use super::ROUNDING;
+use crate::cases::seas;
+use crate::{Capability, CaseError, Cost, Evidence, Ledger};
+use asperity_cycles::{Balance, Event, Moment, Rupture};
+use asperity_driver::fault::{Plan, Report};
+use asperity_ode::Control;
+use asperity_vary::SceneText;
+
+const SCENE: &str = include_str!("../../../scenes/sandwich-state.toml");
+
+/// The stage that presses.
+const PRESS: &str = r#"{ name = "press", duration = "10 s", frictionless = ["face"], conditions = [
+    { set = "A.left", x = { to = "0.0966 mm" } },
+    { set = "A.bottom", y = 0 },
+    { set = "B.right", x = 0 },
+    { set = "B.top", y = 0 },
+] }"#;
+
+/// The stage in which it is drawn for so long.
+fn slide(duration: &str) -> String {
+    format!(
+        r#"{{ name = "slide", duration = "{duration}", conditions = [{{ set = "B.top", y = {{ spring = 2e9, rate = "-1 um/s" }} }}] }}"#
+    )
+}
+
+/// Young's modulus \[Pa\] and Poisson's ratio.
+const ELASTIC: [f64; 2] = [44.8e9, 0.12];
+/// Displacement that presses, width and height of both blocks \[m\].
+const PUSH: f64 = 0.0966e-3;
+const WIDTH: f64 = 50e-3;
+const HEIGHT: f64 = 50e-3;
+/// Place of the sampled point \[m\].
+const POINT: [f64; 2] = [10e-3, 30e-3];
+
+/// The block, with L and spring with which the whole face slips together.
+pub(in crate::cases) fn pressed(duration: &str) -> SceneText {
+    SceneText::new(SCENE)
+        .without("faults.face.normal")
+        .with("faults.face.law.l", "10 um")
+        .with("stages", format!("[{PRESS}, {}]", slide(duration)))
+        .add("output.points", r#"{ inside = { body = "A", at = ["10 mm", "30 mm"] } }"#)
+        .add("output.forces", r#"{ pressing = { set = "A.left" }, under = { set = "A.bottom" } }"#)
+}
+
+/// A run, and its last state: sums of f_n, of tau, and of tau without the lower end of the face \[N/m\].
+struct Done {
+    plan: Plan,
+    report: Report,
+    forces: [f64; 3],
+    events: Vec<Event<Rupture>>,
+    cost: Cost,
+}
+
+fn done(scene: SceneText, number: usize) -> Result<Done, CaseError> {
+    let mut plan = seas::plan(&scene.text()?)?;
+    plan.problem.settings.most_events = Some(number);
+    let mut balance = Balance::new(&plan.problem);
+    let areas: Vec<f64> = plan.points.iter().map(|p| p.area).collect();
+    let mut forces = [0.0; 3];
+    let mut watch = |now: &Moment<'_>| {
+        balance.step(now);
+        let m = now.m();
+        let over = |f: &dyn Fn(usize) -> f64| (0..areas.len()).map(|p| areas[p] * f(p)).sum::<f64>();
+        // Traction of the bodies, which damping and friction resist.
+        let drive = |p: usize| {
+            let fault = &plan.problem.fault;
+            now.normal(p) * fault.law.scale(p) * m.component(0)[p]
+                + fault.damping[p] * now.rate.component(0)[p]
+        };
+        let above = |p: usize| if plan.points[p].at[1] > 0.0 { drive(p) } else { 0.0 };
+        forces = [over(&|p| now.normal(p)), over(&drive), over(&above)];
+        Control::Go
+    };
+    let (run, cost) = Cost::of(|| plan.problem.run(&plan.problem.settings, &mut watch));
+    let run = run?;
+    let report = Report::new(&plan, &run, &mut balance);
+    let events = run.events().to_vec();
+    Ok(Done { plan, report, forces, events, cost })
+}
+
+pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
+    at_start(ledger)?;
+    balance(ledger)?;
+    events(ledger)
+}
+
+/// Tractions, displacement and force before anything slips.
+fn at_start(ledger: &mut Ledger) -> Result<(), CaseError> {
+    // The load point moves by 1e-15 m.
+    let Done { plan, report, cost, .. } = done(pressed("1e-9 s"), 1)?;
+    let [young, poisson] = ELASTIC;
+    let normal = young * PUSH / ((1.0 - poisson * poisson) * WIDTH);
+    let off = plan.problem.fault.normal.iter().map(|f| (f / normal - 1.0).abs()).fold(0.0, f64::max);
+    let shear = super::shear(&plan).iter().fold(0.0_f64, |m, t| m.max(t.abs())) / normal;
+    // Uniaxial stress in plane strain: the block widens by nu/(1 - nu) of what it is shortened by.
+    let point = &report.points[0].values;
+    let wanted = [PUSH * (1.0 - POINT[0] / WIDTH), poisson / (1.0 - poisson) * PUSH / WIDTH * POINT[1]];
+    let moved = (0..2).map(|c| (point.displacement[c] - wanted[c]).abs()).fold(0.0, f64::max) / PUSH;
+    let stress = (point.stress[0] / -normal - 1.0).abs();
+    let force = (report.forces[0].value[0] / (normal * HEIGHT) - 1.0).abs();
+    ledger
+        .claim("the block at the start: errors of f_n, tau, displacement and stress at a point, and of the force that presses, relative")
+        .values(&[off, shear, moved, stress, force])
+        .equals_each(&[0.0; 5])
+        .absolute(ROUNDING)
+        .evidence(Evidence::Exact, "uniaxial stress in plane strain")
+        .because("elements contain uniform strain; the load point has moved by 1e-15 m")
+        .why_not_tighter(super::PROCESSORS)
+        .covers(&[Capability::FaultCycles, Capability::PlaneStrain, Capability::Loads])
+        .cost(&cost)
+        .record();
+    Ok(())
+}
+
+/// Forces on the sides of the blocks after an event against the tractions of the fault.
+fn balance(ledger: &mut Ledger) -> Result<(), CaseError> {
+    for frictionless in [true, false] {
+        let scene = pressed("4000 s");
+        let scene = if frictionless { scene } else { scene.without("stages[0].frictionless") };
+        let Done { report, forces: [normal, shear, above], cost, .. } = done(scene, 1)?;
+        let spring = report.springs[0].values;
+        let errors = [
+            report.forces[0].value[0] / normal - 1.0,
+            // The face drives A along y, and its lower side holds it; what acts on the node that they share counts there.
+            report.forces[1].value[1] / above + 1.0,
+            // B hangs on the spring and on the face.
+            spring.force / shear - 1.0,
+            spring.friction * normal / spring.force.abs() - 1.0,
+        ];
+        let how = if frictionless { "without friction" } else { "with joined sides" };
+        ledger
+            .claim(format!("the block pressed {how}, after an event: forces on its left and lower side and of the spring against f_n and tau of the face, and macroscopic friction, relative"))
+            .values(&errors)
+            .equals_each(&[0.0; 4])
+            .absolute(1e-6)
+            .evidence(Evidence::Exact, "balance of forces on both blocks")
+            .because("an error of 1e-5 of ln V in a step, the default, is 1e-5 a or 1.2e-7 of the friction that is left, and those of an event add up")
+            .covers(&[Capability::FaultCycles, Capability::PlaneStrain])
+            .cost(&cost)
+            .record();
+    }
+    Ok(())
+}
+
+/// Three events against those under given tractions.
+fn events(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let Done { events, cost, .. } = done(pressed("4000 s"), 3)?;
+    let given = SceneText::new(SCENE)
+        .with("faults.face.law.l", "10 um")
+        .with("stages[0].conditions[3].y.spring", "2e9")
+        .with("stages[0].duration", "4000 s")
+        .add("faults.face.shear", "-10 Pa");
+    let mut plan = seas::plan(&given.text()?)?;
+    plan.problem.settings.most_events = Some(3);
+    let wanted = seas::found(&plan, &plan.problem.settings, |_| {})?.events;
+    let numbers = |e: &[Event<Rupture>]| {
+        let slip =
+            |e: &Event<Rupture>| e.details.slip.component(0).iter().fold(0.0_f64, |m, s| m.max(s.abs()));
+        [e[2].onset.since(&e[1].onset), slip(&e[2])]
+    };
+    ledger
+        .claim("interval before the third event and its slip, over those under given tractions")
+        .values(&numbers(&events).iter().zip(numbers(&wanted)).map(|(a, b)| a / b).collect::<Vec<f64>>())
+        .equals_each(&[1.0; 2])
+        .relative(1e-4)
+        .evidence(Evidence::ConvergedSelf, "the same block with `normal` given, and a shear traction of -10 Pa, which V needs for its damping (case sandwich_state)")
+        .because("a limit cycle of the same equations, begun in another state")
+        .why_not_tighter("the default tolerance gives errors of about 1e-5 of an interval")
+        .covers(&[Capability::FaultCycles, Capability::Events])
+        .cost(&cost)
+        .record();
+    Ok(())
+}
