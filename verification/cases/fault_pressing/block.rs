@@ -8,22 +8,9 @@ use asperity_driver::fault::{Plan, Report};
 use asperity_ode::Control;
 use asperity_vary::SceneText;
 
+const BLOCK: &str = include_str!("block.toml");
+/// The same block under given tractions.
 const SCENE: &str = include_str!("../../../scenes/sandwich-state.toml");
-
-/// The stage that presses.
-const PRESS: &str = r#"{ name = "press", duration = "10 s", frictionless = ["face"], conditions = [
-    { set = "A.left", x = { to = "0.0966 mm" } },
-    { set = "A.bottom", y = 0 },
-    { set = "B.right", x = 0 },
-    { set = "B.top", y = 0 },
-] }"#;
-
-/// The stage in which it is drawn for so long.
-fn slide(duration: &str) -> String {
-    format!(
-        r#"{{ name = "slide", duration = "{duration}", conditions = [{{ set = "B.top", y = {{ spring = 2e9, rate = "-1 um/s" }} }}] }}"#
-    )
-}
 
 /// Young's modulus \[Pa\] and Poisson's ratio.
 const ELASTIC: [f64; 2] = [44.8e9, 0.12];
@@ -34,14 +21,9 @@ const HEIGHT: f64 = 50e-3;
 /// Place of the sampled point \[m\].
 const POINT: [f64; 2] = [10e-3, 30e-3];
 
-/// The block, with L and spring with which the whole face slips together.
+/// The block, drawn for so long after it has been pressed.
 pub(in crate::cases) fn pressed(duration: &str) -> SceneText {
-    SceneText::new(SCENE)
-        .without("faults.face.normal")
-        .with("faults.face.law.l", "10 um")
-        .with("stages", format!("[{PRESS}, {}]", slide(duration)))
-        .add("output.points", r#"{ inside = { body = "A", at = ["10 mm", "30 mm"] } }"#)
-        .add("output.forces", r#"{ pressing = { set = "A.left" }, under = { set = "A.bottom" } }"#)
+    SceneText::new(BLOCK).with_or_same("stages[1].duration", duration)
 }
 
 /// A run, and its last state: sums of f_n, of tau, and of tau without the lower end of the face \[N/m\].

@@ -46,13 +46,19 @@ const FIELDS: [(&str, &str, &str); 33] = [
 ];
 
 /// Case, scene in the repository, plot of its run, and title, for faults and spring-sliders.
-const PLOTS: [(&str, &str, &str, &str); 20] = [
+const PLOTS: [(&str, &str, &str, &str); 21] = [
     ("event_files", "verification/cases/event_files/scene.toml", "largest_rate", "Largest slip rate"),
     ("event_numbers", "verification/cases/event_numbers/rupture.toml", "main_rate", MAP),
     ("fault_balance", "verification/cases/fault_balance/scene.toml", "main_rate", MAP),
     ("fault_bend", "scenes/fault-bend.toml", "main_rate", MAP),
     ("fault_medium", "scenes/bp1-half-space.toml", "main_rate", MAP),
     ("fault_opening", "verification/cases/fault_opening/thrust.toml", "main_rate", MAP),
+    (
+        "fault_pressing",
+        "verification/cases/fault_pressing/block.toml",
+        "springs_friction",
+        "Macroscopic friction",
+    ),
     ("fault_turning", "verification/cases/fault_turning/scene.toml", "largest_rate", "Largest slip rate"),
     ("frictional_heat", "scenes/thermal-pressurisation.toml", "largest_rate", "Largest slip rate"),
     ("sandwich_state", "scenes/sandwich-state.toml", "largest_rate", "Largest slip rate"),
