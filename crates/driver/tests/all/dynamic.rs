@@ -92,6 +92,16 @@ fn tractions_at_the_start_are_those_of_fault_patch_and_pulse() {
 }
 
 #[test]
+fn points_on_and_beyond_the_border_of_creep_at_no_rate_are_locked() {
+    let found = plan(&[Add("faults.main.creep", "{ beyond = \"3 km\", rate = 0 }")]);
+    let fault = found.problem.fault.as_ref().unwrap();
+    // Of 19 points at every 200 m, those at 3.0 to 3.8 km along the fault are locked.
+    assert_eq!((fault.points.len(), fault.ties.len(), found.points.len()), (14, 5, 14));
+    assert!(found.points.iter().all(|p| p.along < 3e3 - 1.0));
+    assert!(found.summary().contains("5 points of the faults are locked"), "{}", found.summary());
+}
+
+#[test]
 fn absorbing_sides_have_the_impedances_of_the_rock() {
     let found = plan(&[]);
     // A node in the middle of a side of cells of 200 m; the normal is x.
