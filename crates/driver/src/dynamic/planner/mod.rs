@@ -11,7 +11,7 @@ pub use rupture::ruptures;
 
 use super::plan::{AnyPlan, Plan};
 use crate::diagnostic::Diagnostic;
-use crate::fault::planner::{self as of_faults, Meshed, Placed};
+use crate::fault::planner::{self as of_faults, Meshed};
 use crate::forecast;
 use crate::held::Held;
 use crate::loading;
