@@ -1,6 +1,6 @@
 """Dynamic rupture of a planar fault in a whole space in three dimensions by a spectral boundary integral, independent of the Rust code.
 
-    python rupture_in_space.py                          # the checks, then TPV3 on cells of 150, 75 and 37.5 m: some two hours and 4 GiB
+    python rupture_in_space.py                          # the checks, then TPV3 on cells of 150, 75 and 37.5 m: 15 minutes and 4 GiB
     python rupture_in_space.py checks | tpv3[:CELL,CELL,CELL] ...
 
 Results replace those of the same name in rupture_in_space.json.

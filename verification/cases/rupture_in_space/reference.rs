@@ -77,6 +77,11 @@ impl Reference {
         all
     }
 
+    /// Largest slip along z over that along x at the end, where the latter exceeds a tenth of its largest value.
+    pub fn turning(&self) -> f64 {
+        self.0["tpv3"]["turning"].as_f64().unwrap_or(f64::NAN)
+    }
+
     pub fn stations(&self) -> Vec<Station> {
         let of = |s: &Value| {
             let at = numbers(&s["at_m"]);

@@ -10,7 +10,21 @@ fn relative(found: &[f64], expected: &[f64]) -> f64 {
     (square / pairs().map(|(_, b)| b * b).sum::<f64>()).sqrt()
 }
 
+/// Largest slip across over that along, where the latter exceeds a tenth of its largest value.
+fn turning(found: &Rupture) -> f64 {
+    let most = found.slip.iter().map(|s| s[0]).fold(0.0, f64::max);
+    found.slip.iter().filter(|s| s[0] > 0.1 * most).map(|s| (s[1] / s[0]).abs()).fold(0.0, f64::max)
+}
+
 pub(super) fn claims(ledger: &mut Ledger, reference: &Reference, found: &Rupture) {
+    ledger
+        .claim("largest slip across over slip along at the end, hex27 with nodes 94 m apart")
+        .value(turning(found))
+        .equals(reference.turning())
+        .relative(0.15)
+        .evidence(Evidence::OtherCode, SOURCE)
+        .because("it lies beside the corners of the fault, where slip falls to nothing over some cells")
+        .record();
     let stations = reference.stations();
     let slip = |k: usize, s: &Station| relative(&sampled(found, k, 0, s.slip.len() - 1), &s.slip);
     let errors: Vec<f64> = stations.iter().enumerate().map(|(k, s)| slip(k, s)).collect();

@@ -22,10 +22,6 @@ use asperity_mechanics::dynamics::Problem;
 
 /// Default slip rate at which a point has ruptured \[m/s\]: that of the community's benchmarks.
 const RUPTURED: f64 = 1e-3;
-/// Vectors of all degrees of freedom that steps hold.
-const VECTORS: usize = 6;
-/// Bytes of a number.
-const NUMBER: usize = 8;
 
 /// Plans a scene whose stepper is "explicit".
 ///
@@ -78,7 +74,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     let (faults, points) = of_faults::views(scene, &Meshed { model: &model }, &placed, D == 3)?;
     let receivers = outputs::receivers(scene, &model)?;
     notes.extend(outputs::notes(scene, counted.cadence.rows as f64 * counted.dt));
-    let memory_bytes = Held::by(&model).with_systems(VECTORS * NUMBER * model.dofs(), false);
+    let memory_bytes = Held::by(&model).in_steps(stable.highest.kept, model.dofs());
     forecast::fits(scene, memory_bytes)?;
     let idealisation = model.idealisation;
     let mut fault = faults::of(scene, &placed)?;
