@@ -32,7 +32,7 @@ const FIRST: Span = Span {
     spacing: SPACINGS[0],
     extent: [8.1e3, 4.5e3, 7.2e3],
     end: 2.3,
-    viscosity: 0.1,
+    viscosity: 0.0,
     whole: false,
 };
 
@@ -81,7 +81,9 @@ fn at_second_order(ledger: &mut Ledger, reference: &Reference, found: &Rupture) 
         .at_most(0.02)
         .uncertainty(3e-4)
         .evidence(Evidence::OtherCode, SOURCE)
-        .because("the phase error of cells of second order is a third of that of linear cells with as many nodes")
+        .because(
+            "the phase error of cells of second order is a third of that of linear cells with as many nodes",
+        )
         .cost(&found.cost)
         .record();
 }
@@ -91,7 +93,8 @@ fn symmetry(ledger: &mut Ledger, quarter: &Rupture, whole: &Rupture) {
     let mirrored: Vec<[f64; 2]> = whole.at.iter().map(|at| at.map(f64::abs)).collect();
     let times = times_at(quarter, 0, &mirrored);
     let rest = |(a, b): (&f64, &f64)| if a.is_nan() && b.is_nan() { 0.0 } else { (a - b).abs() / b };
-    let rests = whole.times[0].iter().zip(&times).map(rest).map(|d| if d.is_nan() { f64::INFINITY } else { d });
+    let rests =
+        whole.times[0].iter().zip(&times).map(rest).map(|d| if d.is_nan() { f64::INFINITY } else { d });
     ledger
         .claim("rupture times of the whole rock, and of a quarter with the conditions of symmetry on nodes 300 m apart")
         .norm("largest relative difference over all points")

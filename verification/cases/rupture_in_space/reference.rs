@@ -49,8 +49,9 @@ impl Reference {
 
     pub fn parameters(&self) -> Result<Parameters, CaseError> {
         let p = &self.0["tpv3"]["parameters"];
-        let get =
-            |key: &str| p[key].as_f64().ok_or_else(|| CaseError::from(format!("there is no parameter {key}")));
+        let get = |key: &str| {
+            p[key].as_f64().ok_or_else(|| CaseError::from(format!("there is no parameter {key}")))
+        };
         Ok(Parameters {
             density: get("rho_kg_m3")?,
             cp: get("cp_m_s")?,

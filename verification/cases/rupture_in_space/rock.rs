@@ -95,7 +95,14 @@ fn fault(model: &Model<3>, p: &Parameters, span: &Span) -> Result<(Fault, Vec<[f
         }
         let mirror = !span.whole && (x == 0.0 || z == 0.0);
         let along = if mirror { vec![[1.0, 0.0, 0.0]] } else { vec![[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]] };
-        points.push(SplitPoint { minus, plus, area: areas[&minus], normal: [0.0, 1.0, 0.0], along, gap: 0.0 });
+        points.push(SplitPoint {
+            minus,
+            plus,
+            area: areas[&minus],
+            normal: [0.0, 1.0, 0.0],
+            along,
+            gap: 0.0,
+        });
         at.push([x, z]);
     }
     let n = points.len();

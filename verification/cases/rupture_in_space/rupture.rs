@@ -145,12 +145,13 @@ pub(crate) fn mean(rows: &[([f64; 2], f64)]) -> f64 {
     (rows.iter().map(|r| r.1 * r.1).sum::<f64>() / rows.len() as f64).sqrt()
 }
 
-/// Slip (0) or slip rate (1) of a station at the times of the reference, up to the end of the run.
+/// Slip (0) or slip rate (1) of a station at the first times of the reference; NaN beyond the end of the run.
 pub(crate) fn sampled(found: &Rupture, station: usize, which: usize, samples: usize) -> Vec<f64> {
     let value = |k: usize| found.histories[k].1[station][which];
     let at = |time: f64| {
-        let after = found.histories.partition_point(|h| h.0 < time);
-        let Some((end, _)) = found.histories.get(after).filter(|_| after > 0) else { return f64::NAN };
+        // The first row is that of time zero.
+        let after = found.histories.partition_point(|h| h.0 < time).max(1);
+        let Some((end, _)) = found.histories.get(after) else { return f64::NAN };
         let start = found.histories[after - 1].0;
         let share = (time - start) / (end - start);
         value(after - 1) + share * (value(after) - value(after - 1))

@@ -24,7 +24,7 @@ const WHOLE: Span = Span {
     spacing: 100.0,
     extent: [18e3, 9e3, 10.5e3],
     end: 6.5,
-    viscosity: 0.1,
+    viscosity: 0.0,
     whole: false,
 };
 

@@ -190,7 +190,12 @@ impl Checker<'_> {
         let keys = [
             (
                 "creep",
-                fault.creep.as_ref().map(|c| &c.rate).filter(|rate| rate.get_ref().0 != 0.0).map(Spanned::span),
+                fault
+                    .creep
+                    .as_ref()
+                    .map(|c| &c.rate)
+                    .filter(|rate| rate.get_ref().0 != 0.0)
+                    .map(Spanned::span),
                 "at `rate = 0` a part of the fault is locked",
             ),
             ("injection", fault.injection.as_ref().map(|i| i.at.span()), "pressure acts through `normal`"),
