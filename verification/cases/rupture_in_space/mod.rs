@@ -4,7 +4,7 @@ mod reference;
 mod rock;
 mod rupture;
 
-use crate::{Capability, Case, CaseError, Evidence, Ledger};
+use crate::{Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
 use asperity_fem::element::ElementKind;
 pub(crate) use reference::{Parameters, Reference, SAMPLE, Station};
 pub(crate) use rock::Span;
@@ -50,7 +50,25 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     at_second_order(ledger, &reference, &second);
     symmetry(ledger, &runs[0], &of(&Span { whole: true, ..FIRST })?);
     energy(ledger, "hex8", &runs[2]);
+    draw(ledger, &reference, &second);
     Ok(())
+}
+
+/// Rupture times along the slip and across it.
+fn draw(ledger: &mut Ledger, reference: &Reference, found: &Rupture) {
+    let expected = reference.times(0);
+    let mut plot = Plot::xy("Rupture times", "distance from the middle [km]", "time [s]");
+    for (axis, name) in [(0, "along the slip"), (1, "across the slip")] {
+        let near = |row: &&([f64; 2], f64)| row.0[1 - axis] == 0.0 && row.1 <= UNTIL;
+        let (places, times): (Vec<[f64; 2]>, Vec<f64>) = expected.iter().filter(near).copied().unzip();
+        let at = |times: Vec<f64>| -> Vec<(f64, f64)> {
+            places.iter().map(|place| 1e-3 * place[axis]).zip(times).collect()
+        };
+        plot = plot
+            .series(Series::line(format!("hex27, {name}"), &at(times_at(found, 0, &places))))
+            .series(Series::points(format!("boundary integral, {name}"), &at(times)));
+    }
+    ledger.plot(plot);
 }
 
 fn order(ledger: &mut Ledger, reference: &Reference, runs: &[Rupture]) {

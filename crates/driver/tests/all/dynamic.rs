@@ -315,7 +315,8 @@ fn a_point_that_conditions_hold_along_the_rake_does_not_slip() {
 
 #[test]
 fn the_estimate_of_memory_counts_one_matrix_for_cells_of_one_shape() {
-    let text = IN_SPACE.replace("250 m", "125 m");
+    let sizes = ["A", "B"].map(|b| format!("bodies.{b}.mesh.block.size"));
+    let text = varied(IN_SPACE, &[With(&sizes[0], "125 m"), With(&sizes[1], "125 m")]);
     let AnyPlan::Three(plan) = dynamic::plan(&scene::read(&text).unwrap()).unwrap() else { panic!() };
     // 24 576 cells of one shape in each of two bodies; matrices of their own would take 113 MB.
     assert_eq!(plan.stable.highest.kept, 2 * 24 * 24);
