@@ -43,7 +43,7 @@ fn buried() -> SceneText {
     let text = text.with("stages[0].duration", "\"3.6 s\"").without("faults.main.patches[2]");
     let text = text.without("faults.main.patches[1]").without("output.seismograms");
     let top = |text: SceneText, body: &str| {
-        text.push("stages[0].conditions", &format!("{{ set = \"{body}.top\", absorbing = true }}"))
+        text.push("stages[0].conditions", format!("{{ set = \"{body}.top\", absorbing = true }}"))
     };
     let text = text.with("faults.main.creep.outside.y", "{ from = \"-15 km\", to = \"0 km\" }");
     top(top(text, "west"), "east")
