@@ -111,6 +111,8 @@ mod partial_slip;
 mod plastic_wave;
 pub mod programs;
 mod restarts;
+pub(crate) mod rupture_in_space;
+mod rupture_in_space_full;
 pub mod sandwich;
 mod sandwich_3d;
 mod sandwich_pressed;
@@ -259,6 +261,8 @@ pub const ALL: &[Case] = &[
     elastic_plastic_cylinder::CASE,
     elastic_waves::CASE,
     explicit_materials::CASE,
+    rupture_in_space::CASE,
+    rupture_in_space_full::CASE,
     first_slip::CASE,
     forward_drift::CASE,
     static_explicit_jumps::CASE,

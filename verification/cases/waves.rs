@@ -34,12 +34,12 @@ pub fn line(from: f64, to: f64, n: usize) -> Vec<f64> {
     (0..=n).map(|k| from + (to - from) * k as f64 / n as f64).collect()
 }
 
-/// A mesh of rectangles, one block for each pair of lines.
+/// A mesh of rectangles or boxes, one block for each set of lines.
 ///
 /// # Errors
 /// If the lines are not ascending.
-pub fn mesh(parts: &[[Vec<f64>; 2]], kind: ElementKind) -> Result<Mesh<2>, CaseError> {
-    let mut mesh = Mesh::<2>::default();
+pub fn mesh<const D: usize>(parts: &[[Vec<f64>; D]], kind: ElementKind) -> Result<Mesh<D>, CaseError> {
+    let mut mesh = Mesh::<D>::default();
     for (k, lines) in parts.iter().enumerate() {
         mesh.append(Grid { lines: lines.clone(), kind }.mesh()?, &format!("b{k}"));
     }
@@ -50,12 +50,12 @@ pub fn mesh(parts: &[[Vec<f64>; 2]], kind: ElementKind) -> Result<Mesh<2>, CaseE
 ///
 /// # Errors
 /// If the material is not admissible.
-pub fn problem(
-    mesh: Mesh<2>,
+pub fn problem<const D: usize>(
+    mesh: Mesh<D>,
     rock: Rock,
     idealisation: Idealisation,
     end: f64,
-) -> Result<Problem<2>, CaseError> {
+) -> Result<Problem<D>, CaseError> {
     let rocks = vec![rock; mesh.blocks.len()];
     problem_of(mesh, &rocks, idealisation, end)
 }
@@ -64,12 +64,12 @@ pub fn problem(
 ///
 /// # Errors
 /// If a material is not admissible.
-pub fn problem_of(
-    mesh: Mesh<2>,
+pub fn problem_of<const D: usize>(
+    mesh: Mesh<D>,
     rocks: &[Rock],
     idealisation: Idealisation,
     end: f64,
-) -> Result<Problem<2>, CaseError> {
+) -> Result<Problem<D>, CaseError> {
     let elastic = rocks.iter().map(|r| r.elastic()).collect::<Result<Vec<_>, _>>()?;
     let block = |k: usize| LinearBlock::new(&mesh, k, &elastic[k], idealisation, Formulation::Standard);
     let blocks = (0..mesh.blocks.len())
@@ -146,10 +146,10 @@ pub fn bump(x: f64, radius: f64) -> f64 {
 ///
 /// # Errors
 /// If a step cannot be taken.
-pub fn run<'a>(
-    problem: &'a Problem<2>,
-    mut watch: impl FnMut(&mut Explicit<'a, 2>),
-) -> Result<Explicit<'a, 2>, CaseError> {
+pub fn run<'a, const D: usize>(
+    problem: &'a Problem<D>,
+    mut watch: impl FnMut(&mut Explicit<'a, D>),
+) -> Result<Explicit<'a, D>, CaseError> {
     let mut run = Explicit::new(problem)?;
     run.begin_stage(0)?;
     let steps = (problem.stages[0].end / run.dt()).round() as usize;

@@ -15,6 +15,12 @@ pub fn without_bodies(operator: usize) -> usize {
     PROGRAM + operator
 }
 
+/// Bytes of a number.
+const NUMBER: usize = 8;
+/// Vectors of all degrees of freedom in explicit steps: displacements, velocities, damping, masses and forces of the cells; two copies of the
+/// first two in a checkpoint, as values and encoded; velocities and displacements of a field, as vectors and encoded.
+const VECTORS: usize = 14;
+
 /// Memory of a model during a run \[bytes\].
 #[derive(Clone, Copy, Debug)]
 pub struct Held {
@@ -54,6 +60,12 @@ impl Held {
     pub fn with_systems(&self, solver: usize, condensed: bool) -> usize {
         let copies = if condensed { 2 } else { 1 };
         PROGRAM + self.mesh + copies * self.stiffness + self.geometry + self.nonlinear + solver
+    }
+
+    /// Total of a run in explicit steps, which keep `numbers` of the cells. The mesh is held three times: for the steps, for figures and for files.
+    #[must_use]
+    pub fn in_steps(&self, numbers: usize, dofs: usize) -> usize {
+        PROGRAM + 3 * self.mesh + NUMBER * (numbers + VECTORS * dofs) + self.nonlinear
     }
 
     /// Total of a run with faults, onto which bodies are condensed in `condensation` bytes. Displacement jumps are introduced on a copy of the

@@ -5,7 +5,7 @@ use super::table::{POINT, force_columns, number, point_values, spring_columns};
 use super::view::{ForceMark, PointMark, Samples, SpringMark};
 use std::iter::once;
 
-/// What is sampled.
+/// Points, sets and springs that are sampled.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sampled {
     /// Points.

@@ -20,7 +20,7 @@ pub const CASE: Case = Case {
 /// number of about 1e4, the square of the number of cells across a body.
 const ROUNDING: f64 = 1e-10;
 
-/// Why the bound is not tighter.
+/// Reason for the bound not to be tighter.
 const PROCESSORS: &str =
     "rounding grows with the number of cells across a body, and differs between processors";
 

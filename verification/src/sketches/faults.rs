@@ -30,6 +30,7 @@ pub(super) fn of(name: &str) -> Option<Sketch> {
         "seas_bp6" => injection(),
         "frictional_heat" => zone(),
         "dynamic_rupture" => rupture(),
+        "rupture_in_space" | "rupture_in_space_full" => plane_rupture(),
         "kostrov_crack" => growing(),
         "unlike_rocks" => contrast(),
         _ => return None,
@@ -92,6 +93,20 @@ fn rupture() -> Sketch {
         .text((50.0, 52.0), "absorbing sides")
         .note((58.0, 24.0), "split nodes, 100 m apart")
         .dimension((20.0, 14.0), (80.0, 14.0), "30 km, or W + w")
+}
+
+/// The plane of a rectangular fault with its square of higher traction.
+fn plane_rupture() -> Sketch {
+    let corners = |from: (f64, f64), to: (f64, f64)| [from, (to.0, from.1), to, (from.0, to.1), from];
+    Sketch::new(64.0)
+        .block((8.0, 6.0), (92.0, 58.0), "")
+        .fault(&corners((20.0, 16.0), (80.0, 46.0)))
+        .guide(&corners((47.0, 28.0), (53.0, 34.0)))
+        .arrow((55.0, 31.0), (68.0, 31.0), "slip")
+        .text((50.0, 52.0), "beyond the fault the rock holds together")
+        .note((26.0, 38.0), "70 MPa, in the square 81.6 MPa")
+        .dimension((20.0, 11.0), (80.0, 11.0), "30 km")
+        .dimension((15.0, 16.0), (15.0, 46.0), "15 km")
 }
 
 /// A crack whose ends run apart.

@@ -14,3 +14,12 @@ pub struct Point<const D: usize> {
     /// True if it may open where its normal traction falls to zero.
     pub opens: bool,
 }
+
+/// Tractions on points before any of them slips by friction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Held {
+    /// Shear tractions, component by component \[Pa\].
+    pub shear: Vec<f64>,
+    /// Normal tractions, compression positive \[Pa\]; 0 where supports hold both sides of a point across the fault.
+    pub normal: Vec<f64>,
+}

@@ -4,7 +4,7 @@
 use super::condensed::{Conditions, in_plane, in_space, refused};
 use super::held;
 use super::place::Place;
-use super::point::Point;
+use super::point::{Held, Point};
 use super::refusal::Refusal;
 use asperity_fem::FemError;
 use asperity_fem::condense::{Condensation, Condensed, Stiffness};
@@ -12,16 +12,7 @@ use asperity_fem::dof::Channel;
 use asperity_fem::jump::{Jump, Jumps, ObliqueConstraint};
 use asperity_fem::table::Table;
 
-/// Tractions on points before any of them slips by friction.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Held {
-    /// Shear tractions, component by component \[Pa\].
-    pub shear: Vec<f64>,
-    /// Normal tractions, compression positive \[Pa\]; 0 where supports hold both sides of a point across the fault.
-    pub normal: Vec<f64>,
-}
-
-/// What presses the bodies.
+/// Loads and supports that press the bodies.
 #[derive(Clone, Debug)]
 pub struct Pressing {
     /// Prescribed degrees of freedom, sorted.

@@ -1,7 +1,7 @@
 //! Literature of the cases of the verification suite. A test of the suite compares it with their pages.
 
 /// Cases and the keys of their literature.
-const CASES: [(&str, &[&str]); 112] = [
+const CASES: [(&str, &[&str]); 114] = [
     ("absence", &["weidendorfer2004"]),
     ("antiplane", &["nehari1952", "strang1973", "timoshenko1970"]),
     ("block_dragged", &["codeaster"]),
@@ -72,6 +72,8 @@ const CASES: [(&str, &[&str]); 112] = [
     ("output_files", &["erickson2020"]),
     ("partial_slip", &["cattaneo1938", "mindlin1949", "mindlin1953"]),
     ("restarts", &[]),
+    ("rupture_in_space", &["day2005", "eshelby1957", "geubelle1995", "kostrov1964"]),
+    ("rupture_in_space_full", &["day2005", "harris2009", "kaneko2010"]),
     ("sandwich_3d", &["timoshenko1970"]),
     ("sandwich_pressed", &["xing2002b"]),
     ("sandwich_sheared", &["xing2002b"]),

@@ -66,14 +66,14 @@ fn shape<const D: usize>(fault: &FaultView, points: &[PointView]) -> RuptureShap
     RuptureShape::Line(RuptureLine { label: line.0.into(), along: line.1, down: line.2 })
 }
 
-/// A surface seen along an axis to which it is perpendicular, or along the normal of its first point.
+/// A surface seen along an axis to which it is perpendicular, or along the normal of its first point. y points up where it lies in the surface.
 fn surface(fault: &FaultView, points: &[PointView]) -> Surface {
     let (names, unit) =
         (["x", "y", "z"], |axis: usize| std::array::from_fn(|c| f64::from(u8::from(c == axis))));
     let across = (0..3).find(|&c| points.iter().all(|p| p.normal[c].abs() > 1.0 - STRAIGHT));
     let (axes, labels): ([[f64; 3]; 2], [String; 2]) = match (across, points.first()) {
         (Some(axis), _) => {
-            let [a, b] = [[1, 2], [0, 2], [0, 1]][axis];
+            let [a, b] = [[2, 1], [0, 2], [0, 1]][axis];
             ([unit(a), unit(b)], [names[a].into(), names[b].into()])
         }
         (None, Some(first)) => (

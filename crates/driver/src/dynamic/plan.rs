@@ -109,6 +109,10 @@ impl<const D: usize> Plan<D> {
                 format!("fault `{}`: {} split points that slide {parts}", fault.name, fault.points.len()),
             );
         }
+        let locked = self.problem.fault.as_ref().map_or(0, |f| f.ties.len());
+        if locked > 0 {
+            line("physics", format!("{locked} points of the faults are locked"));
+        }
         if !self.problem.absorbing.is_empty() {
             line("physics", format!("{} nodes of sides that absorb waves", self.problem.absorbing.len()));
         }

@@ -21,6 +21,7 @@ pub(crate) mod planner;
 mod position;
 mod report;
 mod resolution;
+mod sampled_end;
 mod sampling;
 mod snapshots;
 mod stations;

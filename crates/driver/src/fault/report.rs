@@ -6,7 +6,7 @@ use super::located::locate;
 use super::openings::{OpenedFault, openings};
 use super::plan::{FaultView, Plan, PointView};
 use super::resolution::Resolution;
-use super::sampling::End;
+use super::sampled_end::End;
 use super::words::{length, time};
 use crate::catalogue::{Entry, FaultEvents, Scattered, Site, slipped};
 use crate::report::{

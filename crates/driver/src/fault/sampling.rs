@@ -1,15 +1,13 @@
 //! Values of the bodies around faults through time: at points, on sets, and of the springs that draw sides.
 
 use super::bodies::BodiesView;
-use super::plan::Plan;
-use crate::report::{ForceResult, PointResult, SpringResult};
 use crate::views;
-use asperity_cycles::{FaultRun, Layout, Moment, Pressed};
+use asperity_cycles::Moment;
 use asperity_mechanics::{Model, SpringNow, SpringStart, Stage, StressField, Wanted};
 use asperity_output::Sampled;
-use asperity_output::view::{ForceMark, PointMark, PointValues, Samples, SpringMark, SpringValues};
+use asperity_output::view::Samples;
 
-/// What is sampled, and the bodies that have the values.
+/// Points, sets and springs that are sampled, and the bodies that have their values.
 #[derive(Debug)]
 pub struct Sampling {
     /// Points, sets and springs.
@@ -61,52 +59,9 @@ impl Sampling {
     }
 
     /// Values under this slip and opening of the points \[m\] at a time \[s\], with these normal tractions \[Pa\].
-    fn values(&self, view: &BodiesView, jumps: [&[f64]; 2], time: f64, normal: &[f64]) -> Samples {
+    pub(super) fn values(&self, view: &BodiesView, jumps: [&[f64]; 2], time: f64, normal: &[f64]) -> Samples {
         let force = self.areas.iter().zip(normal).map(|(area, normal)| area * normal).sum();
         self.bodies.at(view.bodies.displacement(&jumps.concat(), time), time, force)
-    }
-}
-
-/// Values at the end of a run.
-#[derive(Debug, Default)]
-pub(super) struct End {
-    pub points: Vec<PointResult>,
-    pub forces: Vec<ForceResult>,
-    pub springs: Vec<SpringResult>,
-}
-
-impl End {
-    /// Values of a run of a plan; none where the plan samples none.
-    pub fn of(plan: &Plan, run: &FaultRun, pressed: &Pressed) -> Self {
-        let (Some(sampling), Some(view)) = (&plan.sampling, &plan.bodies) else { return Self::default() };
-        let slip = &run.unknowns[Layout::of(&plan.problem.fault).slip()];
-        let values = sampling.values(view, [slip, &pressed.opening], run.at.seconds(), &pressed.normal);
-        let Sampling { sampled, stage, .. } = sampling;
-        let (stage, unit) = (stage.clone(), sampled.unit.to_string());
-        let point = |(point, values): (&PointMark, PointValues)| PointResult {
-            point: point.clone(),
-            stage: stage.clone(),
-            values,
-        };
-        let force = |(force, value): (&ForceMark, [f64; 3])| ForceResult {
-            force: force.clone(),
-            stage: stage.clone(),
-            value,
-            unit: unit.clone(),
-        };
-        let spring = |(spring, values): (&SpringMark, Option<SpringValues>)| {
-            Some(SpringResult {
-                spring: spring.clone(),
-                stage: stage.clone(),
-                values: values?,
-                unit: unit.clone(),
-            })
-        };
-        Self {
-            points: sampled.points.iter().zip(values.points).map(point).collect(),
-            forces: sampled.forces.iter().zip(values.forces).map(force).collect(),
-            springs: sampled.springs.iter().zip(values.springs).filter_map(spring).collect(),
-        }
     }
 }
 

@@ -1,6 +1,5 @@
 //! Checks that forces and displacements on faults do not jump. Initial tractions of faults are given, and evolve by rates from there.
 
-use super::AXES;
 use crate::diagnostic::Diagnostic;
 use crate::scene::check::pressing;
 use crate::scene::model::{Condition, Loading, Motion, Scene, Spanned, Stage, Stepper};
@@ -75,7 +74,8 @@ pub(super) fn of_stage(
                     motion.span(),
                     format!(
                         "`{set}` is free along {} in stage `{}`, which moves it away from zero",
-                        AXES[axis], pressing.name
+                        ["x", "y", "z"][axis],
+                        pressing.name
                     ),
                     "hold it in that stage as well, or hold it where it then is: `\"hold\"`",
                 ));

@@ -5,7 +5,7 @@ use crate::common::{told, varied};
 use crate::resume::{assert_same, folder, run, text};
 use asperity_driver::dynamic::{self, AnyPlan, Plan};
 use asperity_driver::scene;
-use asperity_vary::Change::{self, Add, With, Without};
+use asperity_vary::Change::{self, Add, Push, With, Without};
 use std::fs;
 
 /// A rupture in plane strain with absorbing sides, stations and seismograms.
@@ -89,6 +89,16 @@ fn tractions_at_the_start_are_those_of_fault_patch_and_pulse() {
         plan(&[With("faults.main.shear", "-70 MPa"), With("faults.main.patches[0].shear", "-81.6 MPa")]);
     let turned = &turned.problem.fault.as_ref().unwrap().pulses[0].amplitude;
     assert!(turned.iter().zip(&pulse.amplitude).all(|(a, b)| *a == -b));
+}
+
+#[test]
+fn points_on_and_beyond_the_border_of_creep_at_no_rate_are_locked() {
+    let found = plan(&[Add("faults.main.creep", "{ beyond = \"3 km\", rate = 0 }")]);
+    let fault = found.problem.fault.as_ref().unwrap();
+    // Of 19 points at every 200 m, those at 3.0 to 3.8 km along the fault are locked.
+    assert_eq!((fault.points.len(), fault.ties.len(), found.points.len()), (14, 5, 14));
+    assert!(found.points.iter().all(|p| p.along < 3e3 - 1.0));
+    assert!(found.summary().contains("5 points of the faults are locked"), "{}", found.summary());
 }
 
 #[test]
@@ -257,4 +267,58 @@ fn a_rupture_in_space_slips_along_its_traction_and_is_symmetric() {
     for file in ["plots/main_rupture_times.png", "plots/main_film.png", "fields/main_00002.vtu"] {
         assert!(out.join(file).exists(), "{file}");
     }
+}
+
+/// Rupture times by position of a run of the rupture in space with some changes.
+fn times_in_space(changes: &[Change<'_>]) -> Vec<([f64; 2], f64)> {
+    let folder = folder(&varied(IN_SPACE, changes));
+    let done = run(folder.path(), "out", &["--no-plots"]);
+    assert!(done.status.success(), "{}", told(&done));
+    let table = fs::read_to_string(folder.path().join("out/rupture_times.csv")).unwrap();
+    let row = |row: &str| {
+        let v: Vec<f64> = row.split(',').skip(1).map(|v| v.parse().unwrap()).collect();
+        ([v[1], v[2]], v[3])
+    };
+    table.lines().skip(1).map(row).collect()
+}
+
+#[test]
+fn a_fault_that_meets_planes_of_symmetry_ruptures_as_the_whole_one() {
+    let whole = times_in_space(&[]);
+    // The upper half, y > 0: symmetric. Of it the half z > 0: antisymmetric, as slip is along z.
+    let quarter = times_in_space(&[
+        With("bodies.A.mesh.block.min", "[\"-1.5 km\", 0, 0]"),
+        With("bodies.B.mesh.block.min", "[0, 0, 0]"),
+        Push("stages[0].conditions", "{ set = \"A.bottom\", y = 0 }"),
+        Push("stages[0].conditions", "{ set = \"B.bottom\", y = 0 }"),
+        Push("stages[0].conditions", "{ set = \"A.back\", x = 0, y = 0 }"),
+        Push("stages[0].conditions", "{ set = \"B.back\", x = 0, y = 0 }"),
+    ]);
+    assert_eq!(quarter.len(), 9 * 9);
+    for (at, time) in quarter {
+        let same = whole.iter().find(|w| (w.0[0] - at[0]).hypot(w.0[1] - at[1]) < 1.0).unwrap().1;
+        assert!((time.is_nan() && same.is_nan()) || (time - same).abs() < 1e-9, "{at:?}: {time} {same}");
+    }
+}
+
+#[test]
+fn a_point_that_conditions_hold_along_the_rake_does_not_slip() {
+    let held = times_in_space(&[
+        Push("stages[0].conditions", "{ set = \"A.front\", x = 0, y = 0, z = 0 }"),
+        Push("stages[0].conditions", "{ set = \"B.front\", x = 0, y = 0, z = 0 }"),
+        With("faults.main.patches[0].disc.radius", "3 km"),
+    ]);
+    for (at, time) in held {
+        assert_eq!(time.is_nan(), at[1] > 1999.0, "{at:?}: {time}");
+    }
+}
+
+#[test]
+fn the_estimate_of_memory_counts_one_matrix_for_cells_of_one_shape() {
+    let sizes = ["A", "B"].map(|b| format!("bodies.{b}.mesh.block.size"));
+    let text = varied(IN_SPACE, &[With(&sizes[0], "125 m"), With(&sizes[1], "125 m")]);
+    let AnyPlan::Three(plan) = dynamic::plan(&scene::read(&text).unwrap()).unwrap() else { panic!() };
+    // 24 576 cells of one shape in each of two bodies; matrices of their own would take 113 MB.
+    assert_eq!(plan.stable.highest.kept, 2 * 24 * 24);
+    assert!(plan.memory_bytes < 80_000_000, "{}", plan.memory_bytes);
 }

@@ -13,6 +13,25 @@ const SAME: f64 = 1e-9;
 /// Cells per shape from which matrices are shared. With fewer, groups of equal cells are too small to be treated together.
 const SHARED: usize = 16;
 
+/// Number of matrices kept for this many shapes of this many cells.
+fn kept(shapes: usize, cells: usize) -> usize {
+    if shapes * SHARED <= cells { shapes } else { cells }
+}
+
+/// True for cells whose gradients serve instead of matrices.
+fn by_gradients(kind: ElementKind, idealisation: Idealisation) -> bool {
+    matches!(kind, ElementKind::Tri3 | ElementKind::Tet4) && idealisation != Idealisation::Axisymmetric
+}
+
+/// Numbers kept for the cells of a block: gradients and a volume, or matrices.
+pub(super) fn numbers<const D: usize>(block: &LinearBlock<D>, shapes: usize, cells: usize) -> usize {
+    let (nodes, components) = (block.kind().nodes(), block.idealisation().components());
+    if by_gradients(block.kind(), block.idealisation()) {
+        return cells * (nodes * D + 1);
+    }
+    kept(shapes, cells) * (nodes * components).pow(2)
+}
+
 /// Stiffness of the cells of a block.
 #[derive(Debug)]
 pub(super) enum Shapes {
@@ -44,14 +63,13 @@ pub(super) enum Shapes {
 impl Shapes {
     /// Stiffness of the cells of block `k`.
     pub fn of<const D: usize>(mesh: &Mesh<D>, k: usize, block: &LinearBlock<D>) -> Self {
-        let simplex = matches!(block.kind(), ElementKind::Tri3 | ElementKind::Tet4);
-        if simplex && block.idealisation() != Idealisation::Axisymmetric {
+        if by_gradients(block.kind(), block.idealisation()) {
             let (shear, dilatation) = block.moduli_of_strain();
             return Self::Simplex { shear, dilatation };
         }
         let size = block.kind().nodes() * block.idealisation().components();
         let (shape, first) = classes(mesh, k, block.idealisation());
-        if first.len() * SHARED <= shape.len() {
+        if kept(first.len(), shape.len()) < shape.len() {
             return Self::Shared { matrices: block.stiffness_of(&first), shape, size };
         }
         let all: Vec<usize> = (0..shape.len()).collect();

@@ -3,7 +3,7 @@
 //! The highest eigenvalue of M⁻¹K of the assembled mesh is at most the highest of any of its cells (Irons & Treharne 1971; Hughes,
 //! The Finite Element Method, 1987, section 9.1). Central differences are stable for Δt < 2/ω.
 
-use super::shapes::classes;
+use super::shapes::{classes, numbers};
 use crate::FemError;
 use crate::block::{LinearBlock, lumped};
 use crate::mesh::Mesh;
@@ -21,6 +21,8 @@ pub struct Highest {
     pub block: usize,
     /// Cell in the block.
     pub cell: usize,
+    /// Numbers that forces without an assembled matrix keep for the cells of all blocks.
+    pub kept: usize,
 }
 
 /// Returns the highest frequency of any cell; `density` holds that of each block of cells \[kg/m³\].
@@ -32,18 +34,19 @@ pub fn highest_frequency<const D: usize>(
     blocks: &[&LinearBlock<D>],
     density: &[f64],
 ) -> Result<Highest, FemError> {
-    let mut highest = Highest { frequency: 0.0, block: 0, cell: 0 };
+    let mut highest = Highest { frequency: 0.0, block: 0, cell: 0, kept: 0 };
     for (k, (block, density)) in blocks.iter().zip(density).enumerate() {
         lumped::admit(block.kind())?;
         let size = block.kind().nodes() * block.idealisation().components();
-        let (_, first) = classes(mesh, k, block.idealisation());
+        let (shape, first) = classes(mesh, k, block.idealisation());
+        highest.kept += numbers(block, first.len(), shape.len());
         for cells in first.chunks(CHUNK) {
             let matrices = block.stiffness_of(cells);
             for (matrix, &cell) in matrices.chunks_exact(size * size).zip(cells) {
                 let mass = lumped::of_cell(mesh, (k, cell), block.idealisation(), *density);
                 let above = highest.frequency * highest.frequency;
                 if let Some(square) = exceeds(matrix, &mass, above) {
-                    highest = Highest { frequency: square.sqrt(), block: k, cell };
+                    highest = Highest { frequency: square.sqrt(), block: k, cell, ..highest };
                 }
             }
         }

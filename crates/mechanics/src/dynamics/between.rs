@@ -2,6 +2,9 @@
 
 use super::nodes::{Special, dot};
 
+/// Mobility over that of free nodes below which a point is held: the square of the rounding of unit vectors is far below, absorbing sides far above.
+const HELD: f64 = 1e-12;
+
 /// Surroundings of the points of a fault: the special nodes of each, and the step.
 pub(super) struct Between<'a> {
     pub nodes: &'a [Special],
@@ -38,6 +41,13 @@ impl Between<'_> {
             let caused = self.nodes[node].accelerated(&force.map(|f| sign * f));
             self.acceleration[node].iter_mut().zip(caused).for_each(|(a, c)| *a += c);
         }
+    }
+
+    /// The mobility along a direction of slip; `None` if conditions hold both nodes along it, as on a plane of symmetry.
+    pub fn slides(&self, point: usize, area: f64, e: &[f64; 3]) -> Option<f64> {
+        let mobility = self.mobility(point, area, e);
+        let free: f64 = self.pairs[point].iter().map(|&k| area / self.nodes[k].mass).sum();
+        (mobility > HELD * free).then_some(mobility)
     }
 
     /// Inverse mass of a point for motion apart, times its area \[m²/kg\].

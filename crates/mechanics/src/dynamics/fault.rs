@@ -200,6 +200,11 @@ impl Fault {
             let mut force = [0.0; 3];
             for (c, e) in p.along.iter().enumerate() {
                 let entry = c * n + point;
+                if between.slides(point, p.area, e).is_none() {
+                    // Conditions carry the traction: friction neither bounds it nor does it cause motion.
+                    state.shear[entry] = self.loading(entry, &loads);
+                    continue;
+                }
                 state.shear[entry] = share * trials[entry];
                 let change = p.area * (state.shear[entry] - self.loading(entry, &loads));
                 force.iter_mut().zip(e).for_each(|(f, e)| *f -= change * e);
@@ -259,10 +264,12 @@ impl Fault {
         let mut trials = vec![0.0; self.shear.len()];
         let pushes = (0..n).map(|point| {
             let p = &self.points[point];
-            let mut impedance = 0.0;
+            // A point that conditions hold in all directions of slip is not pushed, whatever its impedance.
+            let mut impedance = 1.0;
             for (c, e) in p.along.iter().enumerate() {
+                let Some(mobility) = between.slides(point, p.area, e) else { continue };
                 let entry = c * n + point;
-                impedance = 1.0 / (reach * between.mobility(point, p.area, e));
+                impedance = 1.0 / (reach * mobility);
                 let rate = between.jump(between.velocity, point, e)
                     + reach * between.jump(between.acceleration, point, e);
                 trials[entry] = self.loading(entry, loads) + impedance * rate;

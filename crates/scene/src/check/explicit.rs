@@ -188,7 +188,16 @@ impl Checker<'_> {
     /// Refuses keys of faults through cycles.
     fn without_cycles(&mut self, fault: &Fault) {
         let keys = [
-            ("creep", fault.creep.as_ref().map(|c| c.rate.span()), "a fault ends where it is held"),
+            (
+                "creep",
+                fault
+                    .creep
+                    .as_ref()
+                    .map(|c| &c.rate)
+                    .filter(|rate| rate.get_ref().0 != 0.0)
+                    .map(Spanned::span),
+                "at `rate = 0` a part of the fault is locked",
+            ),
             ("injection", fault.injection.as_ref().map(|i| i.at.span()), "pressure acts through `normal`"),
             (
                 "damping",

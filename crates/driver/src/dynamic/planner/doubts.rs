@@ -12,6 +12,9 @@ const MANY: usize = 100_000_000;
 /// Share of the points of a fault that may start above their strength: a patch that nucleates is small.
 const MOST: f64 = 0.5;
 
+/// Shear over normal traction that no fault has which should rupture: friction is a hundred times as large even where it is lowest.
+const TINY: f64 = 1e-4;
+
 /// Warns of very many steps, of faults that slip as a whole at once, and of faults that nothing moves.
 pub(super) fn check<const D: usize>(
     scene: &Scene,
@@ -38,6 +41,7 @@ pub(super) fn check<const D: usize>(
         if above as f64 > MOST * own.len() as f64 {
             all.push(at_once((name, spec), above, own.len()));
         }
+        all.extend(tiny((name, spec), &own));
     }
     if let (false, Some((_, first))) = (pushed, scene.faults.first_key_value()) {
         all.push(Warning::at(
@@ -56,6 +60,20 @@ fn at_once((name, spec): (&String, &Spec), above: usize, points: usize) -> Warni
         format!("{above} of {points} points of fault `{name}` start above their strength and slip at once"),
         "a rupture spreads where `shear` is below `mu_s` times `normal` but in a patch",
     )
+}
+
+/// Warning about a shear traction that hardly loads a fault: a unit that was left out.
+fn tiny<const D: usize>((name, spec): (&String, &Spec), own: &[&Placed<D>]) -> Option<Warning> {
+    let given = spec.shear.as_ref()?;
+    let traction = given.get_ref().0.abs();
+    let least = own.iter().map(|p| p.normal).reduce(f64::min)?;
+    (traction > 0.0 && traction < TINY * least).then(|| {
+        Warning::at(
+            given.span(),
+            format!("the shear traction of fault `{name}` is {traction:e} Pa where the normal traction is {least:e} Pa or more: it hardly loads the fault"),
+            "give it with a unit, such as \"70 MPa\"; without one it is in Pa",
+        )
+    })
 }
 
 /// One if a point starts above its strength; `None` for laws that slip at every traction. The first parameter of laws with an elastic

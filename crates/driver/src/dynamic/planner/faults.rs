@@ -7,9 +7,9 @@ use crate::refused::refused;
 use crate::scene::law::LawChoice;
 use crate::scene::model::{Fault as Spec, Pulse as Asked, Scene};
 use asperity_cycles::medium::across;
-use asperity_mechanics::dynamics::{Fault, Pulse, Regularisation, SplitPoint};
+use asperity_mechanics::dynamics::{Fault, Pulse, Regularisation, SplitPoint, Tie};
 
-/// The faults of a scene; `None` without.
+/// The faults of a scene, from the points that slide; `None` without.
 ///
 /// # Errors
 /// [`Diagnostic`] where the law cannot be built, or a pulse acts nowhere.
@@ -49,6 +49,16 @@ pub(super) fn of<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Result<
         onset: None,
         ties: Vec::new(),
     }))
+}
+
+/// Points that creep or are locked, and those that slide.
+pub(super) fn apart<const D: usize>(placed: Vec<Placed<D>>) -> (Vec<Placed<D>>, Vec<Placed<D>>) {
+    placed.into_iter().partition(|p| p.point.creep.is_some())
+}
+
+/// The nodes of a point that does not slide, as a pair that stays together.
+pub(super) fn tie<const D: usize>(placed: &Placed<D>) -> Tie {
+    Tie { minus: placed.point.place.minus, plus: placed.point.place.plus }
 }
 
 /// True if laws differ in parameters alone.

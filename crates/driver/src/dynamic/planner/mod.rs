@@ -11,7 +11,7 @@ pub use rupture::ruptures;
 
 use super::plan::{AnyPlan, Plan};
 use crate::diagnostic::Diagnostic;
-use crate::fault::planner::{self as of_faults, Meshed, Placed};
+use crate::fault::planner::{self as of_faults, Meshed};
 use crate::forecast;
 use crate::held::Held;
 use crate::loading;
@@ -22,10 +22,6 @@ use asperity_mechanics::dynamics::Problem;
 
 /// Default slip rate at which a point has ruptured \[m/s\]: that of the community's benchmarks.
 const RUPTURED: f64 = 1e-3;
-/// Vectors of all degrees of freedom that steps hold.
-const VECTORS: usize = 6;
-/// Bytes of a number.
-const NUMBER: usize = 8;
 
 /// Plans a scene whose stepper is "explicit".
 ///
@@ -62,22 +58,29 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     let viscosity = steps::viscosity(scene);
     let stable = masses::stable(scene, &model, &density, viscosity)?;
     let counted = steps::choose(scene, &stages[0], &stable)?;
-    let placed: Vec<Placed<D>> = if scene.faults.is_empty() {
-        Vec::new()
+    let (locked, placed) = if scene.faults.is_empty() {
+        (Vec::new(), Vec::new())
     } else {
-        notes.clear();
-        let (placed, more) = of_faults::all_points(scene, &model, &mut warnings)?;
-        notes.extend(more);
-        placed
+        let (all, more) = of_faults::all_points(scene, &model, &mut warnings)?;
+        notes = more;
+        faults::apart(all)
     };
+    if placed.is_empty() && !locked.is_empty() {
+        let named: Vec<_> = scene.faults.iter().collect();
+        return Err(of_faults::nothing_slides(&named, &locked));
+    }
     warnings.extend(doubts::check(scene, &placed, &stages[0], (counted.steps, counted.dt)));
     let resolution = of_faults::resolved(scene, &placed, &mut warnings)?;
     let (faults, points) = of_faults::views(scene, &Meshed { model: &model }, &placed, D == 3)?;
     let receivers = outputs::receivers(scene, &model)?;
     notes.extend(outputs::notes(scene, counted.cadence.rows as f64 * counted.dt));
-    let memory_bytes = Held::by(&model).with_systems(VECTORS * NUMBER * model.dofs(), false);
+    let memory_bytes = Held::by(&model).in_steps(stable.highest.kept, model.dofs());
     forecast::fits(scene, memory_bytes)?;
     let idealisation = model.idealisation;
+    let mut fault = faults::of(scene, &placed)?;
+    if let Some(fault) = &mut fault {
+        fault.ties = locked.iter().map(faults::tie).collect();
+    }
     Ok(Plan {
         title: scene.title.clone(),
         stiffest: masses::middle(&model, &stable),
@@ -100,7 +103,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         problem: Problem {
             courant: counted.courant,
             viscosity,
-            fault: faults::of(scene, &placed)?,
+            fault,
             absorbing: masses::absorbing(scene, &model, &density)?,
             velocity: Vec::new(),
             stages,

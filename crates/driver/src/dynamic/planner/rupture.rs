@@ -1,5 +1,6 @@
 //! Plans the bodies with mass that compute the ruptures of faults through cycles.
 
+use super::faults::{apart, tie};
 use super::{faults, masses, steps};
 use crate::diagnostic::Diagnostic;
 use crate::fault::Plan as Cycles;
@@ -12,7 +13,7 @@ use crate::ruptures::{AnyBodies, Bodies, Ruptures};
 use crate::scene::law::LawChoice;
 use crate::scene::model::Scene;
 use asperity_cycles::Handover;
-use asperity_mechanics::dynamics::{Dashpot, Problem, Tie};
+use asperity_mechanics::dynamics::{Dashpot, Problem};
 use asperity_mechanics::{Spring, Stage};
 
 /// Steps of the stage in which ruptures run; they end by themselves.
@@ -45,7 +46,7 @@ fn bodies<const D: usize>(scene: &Scene, cycles: &Cycles) -> Result<(Bodies<D>, 
     let stable = masses::stable(scene, &model, &density, viscosity)?;
     // The plan of the cycles has the warnings.
     let (placed, _) = of_faults::all_points(scene, &model, &mut Vec::new())?;
-    let (creeping, placed): (Vec<_>, Vec<_>) = placed.into_iter().partition(|p| p.point.creep.is_some());
+    let (creeping, placed) = apart(placed);
     let quiet = 2.0 * extent(&placed) / impedance::slowest(&model, &density);
     without_memory(scene, &placed)?;
     let same = placed.len() == cycles.points.len()
@@ -59,7 +60,6 @@ fn bodies<const D: usize>(scene: &Scene, cycles: &Cycles) -> Result<(Bodies<D>, 
     }
     let mut fault = faults::of(scene, &placed)?;
     if let Some(fault) = &mut fault {
-        let tie = |p: &Placed<D>| Tie { minus: p.point.place.minus, plus: p.point.place.plus };
         fault.ties = creeping.iter().map(tie).collect();
     }
     let absorbing = masses::absorbing(scene, &model, &density)?;

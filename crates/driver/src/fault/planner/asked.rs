@@ -70,7 +70,7 @@ pub(super) fn opens<const D: usize>(
 }
 
 /// Error for faults without any point that is free to slide.
-pub(super) fn nothing_slides<const D: usize>(
+pub(crate) fn nothing_slides<const D: usize>(
     faults: &[(&String, &Spec)],
     placed: &[Placed<D>],
 ) -> Diagnostic {

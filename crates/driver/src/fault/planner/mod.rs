@@ -27,6 +27,7 @@ mod sense;
 mod start_doubts;
 mod weight;
 
+pub(crate) use asked::nothing_slides;
 pub(crate) use assemble::views;
 pub(crate) use meshed::Meshed;
 pub use place::places;

@@ -21,7 +21,7 @@ pub(super) fn asked(scene: &Scene, stage: &Stage) -> bool {
     any && *scene.time.stepper.get_ref() == Stepper::FaultOde
 }
 
-/// What is sampled of the bodies of a scene; `areas` are those of the points of the faults \[m²; m\].
+/// Points, sets and springs of the bodies of a scene that are sampled; `areas` are those of the points of the faults \[m²; m\].
 ///
 /// # Errors
 /// [`Diagnostic`] for a point outside its body or a set that does not exist.

@@ -9,8 +9,8 @@ use crate::plots::figure::{Anchor, Figure, Point};
 use crate::plots::title::title;
 use crate::plots::units::TIME;
 
-/// About as many contours.
-const CONTOURS: usize = 10;
+/// As many contours at most: every half second up to 12 s, as the community draws them.
+const CONTOURS: usize = 24;
 
 impl Ruptures<'_> {
     pub(super) fn arrivals(&self, fault: &RupturedFault) -> Option<Figure> {
@@ -51,7 +51,7 @@ fn contours(scene: &str, part: &str, surface: &Surface, arrivals: &[f64], last: 
     title(&mut figure, &frame, scene, part);
     figure.image(surface.image(&frame, arrivals, (0.0, last)));
     let bar = Axis::exact((0.0, last / unit.factor), String::new());
-    // The ticks of the colour bar are the times of the contours.
+    // Contours lie at round times.
     let levels: Vec<(f64, String)> = bar.ticks(CONTOURS).into_iter().filter(|t| t.0 > 0.0).collect();
     for (share, _) in &levels {
         for [a, b] in isolines(surface, arrivals, share * last) {
