@@ -6,7 +6,7 @@ use super::located::locate;
 use super::openings::{OpenedFault, openings};
 use super::plan::{FaultView, Plan, PointView};
 use super::resolution::Resolution;
-use super::sampled_end::End;
+use super::sampled_end::{End, in_words};
 use super::words::{length, time};
 use crate::catalogue::{Entry, FaultEvents, Scattered, Site, slipped};
 use crate::report::{
@@ -387,15 +387,8 @@ impl Report {
         for heat in &self.heat {
             let _ = writeln!(text, "  {}", heat.words());
         }
-        for SpringResult { spring, values, unit, .. } in &self.springs {
-            let _ = writeln!(
-                text,
-                "  spring `{}`: load point at {}, force {:.6e} {unit}, macroscopic friction {:.4}",
-                spring.name(),
-                length(values.load_point),
-                values.force,
-                values.friction
-            );
+        for spring in &self.springs {
+            let _ = writeln!(text, "  {}", in_words(spring));
         }
         let _ = writeln!(text, "  end at {}", time(self.end));
         let c = &self.counts;

@@ -2,6 +2,7 @@
 
 use super::plan::Plan;
 use super::sampling::Sampling;
+use super::words::length;
 use crate::report::{ForceResult, PointResult, SpringResult};
 use asperity_cycles::{FaultRun, Layout, Pressed};
 use asperity_output::view::{ForceMark, PointMark, PointValues, SpringMark, SpringValues};
@@ -47,4 +48,15 @@ impl End {
             springs: sampled.springs.iter().zip(values.springs).filter_map(spring).collect(),
         }
     }
+}
+
+/// State of a spring in words.
+pub(super) fn in_words(SpringResult { spring, values, unit, .. }: &SpringResult) -> String {
+    format!(
+        "spring `{}`: load point at {}, force {:.6e} {unit}, macroscopic friction {:.4}",
+        spring.name(),
+        length(values.load_point),
+        values.force,
+        values.friction
+    )
 }
