@@ -40,7 +40,7 @@ fn buried() -> SceneText {
     let body =
         |text: SceneText, name: &str| text.with(&format!("bodies.{name}.mesh.block.max[1]"), "\"3 km\"");
     let text = body(body(SceneText::new(SCENE), "west"), "east");
-    let text = text.with("stages[0].duration", "\"3.6 s\"").without("faults.main.patches[2]");
+    let text = text.with("stages[0].duration", "\"4.2 s\"").without("faults.main.patches[2]");
     let text = text.without("faults.main.patches[1]").without("output.seismograms");
     let top = |text: SceneText, body: &str| {
         text.push("stages[0].conditions", format!("{{ set = \"{body}.top\", absorbing = true }}"))
@@ -98,8 +98,11 @@ fn early(ledger: &mut Ledger, reference: &Reference, found: &Rupture) {
 
 fn same(ledger: &mut Ledger, reference: &Reference, found: &Rupture, buried: &Rupture) {
     let places: Vec<[f64; 2]> = unaware(reference).into_iter().map(|row| row.0).collect();
-    let rests = times_at(found, 0, &places).into_iter().zip(times_at(buried, 0, &places));
-    let rests = rests.map(|(a, b)| (a / b - 1.0).abs()).map(|d| if d.is_nan() { f64::INFINITY } else { d });
+    let pairs = times_at(found, 0, &places).into_iter().zip(times_at(buried, 0, &places));
+    // On these cells the front is late, at some places later than waves from the surface.
+    let before = pairs.zip(&places).filter(|((time, _), at)| *time < reflected(**at));
+    let rests = before.map(|((a, b), _)| (a / b - 1.0).abs());
+    let rests = rests.map(|d| if d.is_nan() { f64::INFINITY } else { d });
     ledger
         .claim("TPV5: rupture times before waves from the surface arrive, with and without the surface")
         .norm("largest relative difference")
@@ -107,6 +110,7 @@ fn same(ledger: &mut Ledger, reference: &Reference, found: &Rupture, buried: &Ru
         .at_most(1e-3)
         .evidence(Evidence::Exact, "no wave is faster than a P wave")
         .because("waves of the mesh run ahead by a cell per step, with little of the amplitude")
+        .why_not_tighter("how little is not known beforehand")
         .cost(&buried.cost)
         .record();
 }
