@@ -152,6 +152,13 @@ mod tests {
     }
 
     #[test]
+    fn a_table_since_a_time_is_zero_there_and_keeps_its_slopes() {
+        let table = Table::new(vec![1.0, 3.0], vec![0.5, 2.5]).since(2.0);
+        assert_eq!([1.0, 2.0, 9.0].map(|t| table.value(t)), [-1.0, 0.0, 1.0]);
+        assert!(!table.is_zero() && Table::constant(7.0).since(4.0).is_zero());
+    }
+
+    #[test]
     fn functions_of_a_table_keep_their_digits_and_have_their_slopes() {
         let angle = Table::new(vec![0.0, 2.0], vec![0.0, 1.0]);
         let (sine, cosine) = (angle.clone().through(Function::Sine), angle.through(Function::CosineLessOne));

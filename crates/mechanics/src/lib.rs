@@ -35,7 +35,7 @@ pub use model::{Body, CellBlock, Model, bounds};
 pub use pressed::Pressed;
 pub use problem::Problem;
 pub use resolved::Resolved;
-pub use samples::{ForceSet, Point, PointValues, Samples, Wanted};
+pub use samples::{Beside, ForceSet, Point, PointValues, Samples, Wanted};
 pub use stage::{LOADING, Motion, Spring, Stage};
 pub use step::Failure;
 pub use stress::StressField;

@@ -4,7 +4,7 @@ use super::bodies::Bodies;
 use super::held;
 use super::machine::{Machine, Spring};
 use super::place::{Place, across};
-use super::point::{Held, Point};
+use super::point::{Initial, Point};
 use super::refusal::Refusal;
 use crate::loading::Loading;
 use crate::opening::Opening;
@@ -43,7 +43,7 @@ pub struct Surroundings {
     /// The part of them caused by creep: rates of shear tractions, component by component \[Pa/s\].
     pub creep: Option<Vec<f64>>,
     /// Tractions caused by their weight, if they have any.
-    pub weight: Option<Held>,
+    pub weight: Option<Initial>,
     /// Peak memory of the condensation \[bytes\].
     pub bytes: usize,
     /// The bodies, if they are kept.
@@ -360,7 +360,7 @@ fn tractions<const C: usize>(
     let shear_of = |forces: &[f64]| (0..tangents).flat_map(|c| over_area(forces, c)).collect::<Vec<f64>>();
     // Loads may change normal tractions where slip does not.
     let mut channels = left.channels();
-    let weight = channels.pop_if(|_| weighs).map(|(_, forces)| Held {
+    let weight = channels.pop_if(|_| weighs).map(|(_, forces)| Initial {
         shear: shear_of(forces),
         normal: rows.iter().zip(bearings).map(|(&r, b)| forces[r + tangents] / b.area).collect(),
     });

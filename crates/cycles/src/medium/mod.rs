@@ -16,7 +16,7 @@ pub use bodies::Bodies;
 pub use condensed::{Conditions, Loads, Surroundings, Tractions, condense, least_bytes};
 pub use machine::Spring;
 pub use place::{Place, across, unit};
-pub use point::{Held, Point};
+pub use point::{Initial, Point};
 pub use pressed::{Pressed, Pressing, press};
 pub use refusal::Refusal;
 pub(crate) use springs::{Slips, Travelled};

@@ -17,7 +17,7 @@ pub struct Point<const D: usize> {
 
 /// Tractions on points before any of them slips by friction.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Held {
+pub struct Initial {
     /// Shear tractions, component by component \[Pa\].
     pub shear: Vec<f64>,
     /// Normal tractions, compression positive \[Pa\]; 0 where supports hold both sides of a point across the fault.

@@ -4,7 +4,7 @@
 use super::condensed::{Conditions, in_plane, in_space, refused};
 use super::held;
 use super::place::Place;
-use super::point::{Held, Point};
+use super::point::{Initial, Point};
 use super::refusal::Refusal;
 use asperity_fem::FemError;
 use asperity_fem::condense::{Condensation, Condensed, Stiffness};
@@ -27,7 +27,7 @@ pub struct Pressing {
 #[derive(Clone, Debug)]
 pub struct Pressed {
     /// Tractions on the points.
-    pub tractions: Held,
+    pub tractions: Initial,
     /// Displacements \[m\], node by node.
     pub displacement: Vec<f64>,
     /// Forces of supports on each degree of freedom \[N; N/m\]; both nodes of a point have those of both, as what its sides exert
@@ -93,7 +93,7 @@ fn with_components<const D: usize, const C: usize>(
         let keeps = C == 1 || supports.binary_search(&opening).is_ok();
         if keeps { 0.0 } else { on_jumps[opening] / area }
     };
-    let tractions = Held { shear, normal: pairs().map(across).collect() };
+    let tractions = Initial { shear, normal: pairs().map(across).collect() };
     jumps.displacement(&mut unknowns);
     let mut on_nodes = unbalanced(bodies, &unknowns, &pressing.load);
     for Place { minus, plus, .. } in points.iter().map(|p| &p.place) {

@@ -45,8 +45,9 @@ impl Rows {
     }
 }
 
-/// Writes `stations/`, `largest_rate.csv` and, if the scene requests them, `points/`, `forces/` and `springs/`. In 2D it also writes `slip_profiles.csv`, `rate_profiles.csv` (log10 of m/s) and, where points may open
-/// or are heated, profiles of that; in 3D, snapshots.
+/// Writes `stations/`, `largest_rate.csv` and, if the scene requests them, `points/`, `forces/` and `springs/`. In 2D it also
+/// writes `slip_profiles.csv`, `rate_profiles.csv` (log10 of m/s) and, where points may open or are heated, profiles of that;
+/// in 3D, snapshots.
 #[derive(Debug)]
 pub struct Files<'a> {
     plan: &'a Plan,

@@ -240,6 +240,28 @@ fn why(plan: &Plan, run: &FaultRun, reason: &str) -> String {
     reason.to_string()
 }
 
+/// An event by its number, in a line.
+fn in_a_line(number: usize, e: &Entry) -> String {
+    let begin = match e.hypocentre_along {
+        Some(along) => format!("{} along", length(along)),
+        None => {
+            let [x, y, z] = e.hypocentre.map(length);
+            format!("at ({x}, {y}, {z}) on")
+        }
+    };
+    let interval = e.interval.map_or(String::new(), |i| format!(", {} after the one before", time(i)));
+    format!(
+        "event {number} at {}{interval}: duration {}, {} of it above the threshold, peak {:.4} m/s, slip up to {}, stress drop {} MPa, nucleates {begin} `{}`",
+        time(e.onset),
+        time(e.duration),
+        time(e.duration_above),
+        e.peak_rate,
+        length(e.largest_slip),
+        fixed(e.stress_drop / 1e6, 3),
+        e.fault
+    )
+}
+
 /// A rupture with mass and the errors of its hand-overs, in words.
 fn passage(rupture: &Episode) -> String {
     let Episode { begin, end, steps, radiation, unbalanced, unbalanced_drop, kinetic, .. } = rupture;
@@ -322,29 +344,8 @@ impl Report {
     #[must_use]
     pub fn text(&self) -> String {
         let mut text = String::from("results\n");
-        for (k, e) in self.events.iter().enumerate() {
-            let begin = match e.hypocentre_along {
-                Some(along) => format!("{} along", length(along)),
-                None => {
-                    let [x, y, z] = e.hypocentre.map(length);
-                    format!("at ({x}, {y}, {z}) on")
-                }
-            };
-            let interval =
-                e.interval.map_or(String::new(), |i| format!(", {} after the one before", time(i)));
-            let _ = writeln!(
-                text,
-                "  event {} at {}{interval}: duration {}, {} of it above the threshold, peak {:.4} m/s, slip up to {}, stress drop {} MPa, nucleates {} `{}`",
-                k + 1,
-                time(e.onset),
-                time(e.duration),
-                time(e.duration_above),
-                e.peak_rate,
-                length(e.largest_slip),
-                fixed(e.stress_drop / 1e6, 3),
-                begin,
-                e.fault
-            );
+        for (k, event) in self.events.iter().enumerate() {
+            let _ = writeln!(text, "  {}", in_a_line(k + 1, event));
         }
         for FaultEvents { fault, events, .. } in &self.faults {
             let intervals: Vec<f64> = events.iter().filter_map(|e| e.interval).collect();

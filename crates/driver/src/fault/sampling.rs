@@ -3,7 +3,7 @@
 use super::bodies::BodiesView;
 use crate::views;
 use asperity_cycles::Moment;
-use asperity_mechanics::{Model, SpringNow, SpringStart, Stage, StressField, Wanted};
+use asperity_mechanics::{Beside, Model, SpringNow, SpringStart, Stage, StressField, Wanted};
 use asperity_output::Sampled;
 use asperity_output::view::Samples;
 
@@ -34,8 +34,10 @@ pub(super) struct SampledBodies<const D: usize> {
     pub initial_stress: Vec<Option<StressField>>,
     /// Points and sets.
     pub wanted: Wanted,
-    /// The stage in which faults slide, with all loads.
+    /// The stage in which faults slide.
     pub stage: Stage,
+    /// Loads on the nodes of each set that do not belong to it.
+    pub beside: Vec<Beside>,
     /// Displacements at its start \[m\].
     pub start: Vec<f64>,
     /// Springs at its start.
@@ -68,9 +70,9 @@ impl Sampling {
 impl<const D: usize> Sample for SampledBodies<D> {
     fn at(&self, change: Vec<f64>, time: f64, normal: f64) -> Samples {
         let u: Vec<f64> = change.iter().zip(&self.start).map(|(change, start)| start + change).collect();
-        let beside = self.wanted.beside(&self.model, &self.stage);
         let (model, stage) = (&self.model, &self.stage);
-        let values = self.wanted.values(model, (&model.blocks, &self.initial_stress), (&u, time), &beside);
+        let values =
+            self.wanted.values(model, (&model.blocks, &self.initial_stress), (&u, time), &self.beside);
         let spring = |(spring, start): (&asperity_mechanics::Spring, &SpringStart)| {
             let drawn = spring.rate * (time - stage.start);
             SpringNow::of(start, spring.stiffness, drawn, u[spring.dofs[0]])

@@ -62,22 +62,19 @@ pub(super) fn of_stage(
         }
         for (axis, motion) in [&c.x, &c.y, &c.z].into_iter().enumerate() {
             let Some(set) = &c.set else { continue };
-            let was_held = held.get(&(set.get_ref().clone(), axis)).is_some_and(|m| *m != Motion::Free);
-            let pressing = pressing::stage(scene);
-            let placed = |m: &&Spanned<Motion>| {
-                matches!(m.get_ref(), Motion::Fixed(_) | Motion::To(_) | Motion::Table(_))
-            };
-            if let (Some(motion), Some(pressing)) =
-                (motion.as_ref().filter(|m| placed(m) && !was_held), pressing)
+            let before = held.get(&(set.get_ref().clone(), axis));
+            let was_held = before.is_some_and(|m| *m != Motion::Free);
+            if let (Some(pressing), Some(motion)) =
+                (pressing::stage(scene), motion.as_ref().filter(|m| begins_at_zero(m.get_ref(), before)))
             {
                 return Err(Diagnostic::at(
                     motion.span(),
                     format!(
-                        "`{set}` is free along {} in stage `{}`, which moves it away from zero",
+                        "`{set}` is not held at zero along {} in stage `{}`, and would have to return there at once",
                         ["x", "y", "z"][axis],
                         pressing.name
                     ),
-                    "hold it in that stage as well, or hold it where it then is: `\"hold\"`",
+                    "`\"hold\"` keeps it where it is; `{ to = .. }` and `{ rate = .. }` move it from there",
                 ));
             }
             if let Some(motion) = motion.as_ref().filter(|m| *m.get_ref() == Motion::Free && was_held) {
@@ -92,4 +89,9 @@ pub(super) fn of_stage(
         }
     }
     Ok(())
+}
+
+/// True for a motion that begins at zero, of a set that the stage before has not held there.
+fn begins_at_zero(motion: &Motion, before: Option<&Motion>) -> bool {
+    matches!(motion, Motion::Fixed(_) | Motion::Table(_)) && before != Some(&Motion::Fixed(0.0))
 }

@@ -8,6 +8,7 @@ use super::held::Asked;
 use super::placed::Placed;
 use crate::diagnostic::Diagnostic;
 use crate::loading::Stage;
+use crate::scene::check;
 use crate::scene::model::{Fault as Spec, Scene, Stage as StageSpec};
 use asperity_cycles::Fault;
 use asperity_cycles::medium::{Conditions, Pressed, Pressing, press};
@@ -72,7 +73,7 @@ pub(super) fn start<const D: usize>(
     free: &[usize],
     placed: &mut [Placed<D>],
 ) -> Result<Vec<String>, Diagnostic> {
-    let Some(stage) = scene.stages.first() else { return Ok(Vec::new()) };
+    let Some(stage) = check::pressing::stage(scene) else { return Ok(Vec::new()) };
     let (tractions, count) = (&pressed.tractions, pressed.tractions.normal.len());
     let small = NOTHING * tractions.normal.iter().fold(0.0, |l: f64, f| l.max(f.abs()));
     for (&k, point) in free.iter().zip(placed.iter_mut()) {
@@ -116,7 +117,7 @@ fn crushed<const D: usize>(scene: &Scene, stage: &StageSpec, point: &Placed<D>) 
     Diagnostic::at(
         stage.duration.span(),
         format!(
-            "stage `{}` presses fault `{name}` with {normal:.3e} Pa, {share:.2} of the stiffness of its rock, and strains are taken as small",
+            "stage `{}` presses fault `{name}` with {normal:.3e} Pa, {share:.2} times the stiffness of its rock: strains are taken as small, and would not be",
             stage.name
         ),
         "check the units of what presses",
@@ -149,7 +150,7 @@ fn words<'a, const D: usize>(
     text
 }
 
-/// Slip rate that begins an event at once, in a fault that has been joined until its start.
+/// Refuses a fault that has been joined and that friction would let slip as fast as in an event from the start.
 ///
 /// # Errors
 /// [`Diagnostic`] at the stage that presses, if a point slips at `above` \[m/s\] or faster at the start.
@@ -159,10 +160,8 @@ pub(super) fn rests<const D: usize>(
     (unknowns, above): (&[f64], f64),
 ) -> Result<(), Diagnostic> {
     let layout = asperity_cycles::Layout::of(fault);
-    let Some(stage) = scene.stages.first().filter(|_| placed.iter().any(|p| p.pressed_shear.is_some()))
-    else {
-        return Ok(());
-    };
+    let pressed = placed.iter().any(|p| p.pressed_shear.is_some());
+    let Some(stage) = check::pressing::stage(scene).filter(|_| pressed) else { return Ok(()) };
     let mut rate = vec![0.0; layout.m().len()];
     fault.law.slip_rates(0, &unknowns[layout.m()], &unknowns[layout.states()], &mut rate);
     let n = placed.len();

@@ -45,12 +45,16 @@ pub(super) fn of<const D: usize>(
         SpringStart { force, load_point: 0.0, displacement: start[spring.dofs[0]] }
     };
     let springs = stage.springs.iter().map(spring).collect();
-    let mut stage = stage.clone();
+    let mut loaded = stage.clone();
     if pressed.is_some() {
         // Weight is part of the forces then; without, it acts before displacements are counted.
         let forces = stage.weight.clone();
-        stage.loads.push((None, Channel { prescribed: Vec::new(), forces, amplitude: Table::constant(1.0) }));
+        loaded
+            .loads
+            .push((None, Channel { prescribed: Vec::new(), forces, amplitude: Table::constant(1.0) }));
     }
-    let bodies = SampledBodies { model, initial_stress, wanted, stage, start, springs };
+    let beside = wanted.beside(&model, &loaded);
+    let bodies =
+        SampledBodies { model, initial_stress, wanted, stage: stage.clone(), beside, start, springs };
     Ok(Some(Sampling::new(bodies, areas, unit)))
 }

@@ -14,7 +14,7 @@ use crate::loading::Stage;
 use crate::model::Model;
 use crate::scene::model::{Fault as Spec, Scene, Spanned};
 use crate::warning::Warning;
-use asperity_cycles::medium::Held;
+use asperity_cycles::medium::Initial;
 use asperity_mechanics::coordinates;
 
 /// Fraction of the largest traction below which a traction is rounding of the condensation.
@@ -37,7 +37,7 @@ fn gravity(scene: &Scene) -> Option<&Spanned<Vec<f64>>> {
 pub(super) fn press<const D: usize>(
     scene: &Scene,
     (model, stage): (&Model<D>, &Stage),
-    weight: Option<&Held>,
+    weight: Option<&Initial>,
     placed: &mut [Placed<D>],
 ) -> Result<Vec<String>, Diagnostic> {
     let Some(weight) = weight else { return Ok(Vec::new()) };
@@ -54,7 +54,7 @@ pub(super) fn press<const D: usize>(
 /// Adds the tractions due to weight to the initial tractions of the points, and returns a description.
 fn add<const D: usize>(
     scene: &Scene,
-    weight: &Held,
+    weight: &Initial,
     placed: &mut [Placed<D>],
 ) -> Result<Vec<String>, Diagnostic> {
     let faults: Vec<(&String, &Spec)> = scene.faults.iter().collect();
