@@ -132,9 +132,11 @@ mod seas_bp2;
 mod seas_bp3;
 mod seas_bp3_25m;
 mod seas_bp3_full;
+mod seas_bp4;
 mod seas_bp5;
 mod seas_bp5_limit;
 mod seas_bp6;
+mod seas_bp7;
 pub mod slider;
 mod slider_balance;
 mod slider_cycles;
@@ -240,9 +242,11 @@ pub const ALL: &[Case] = &[
     seas_bp3::CASE,
     seas_bp3_25m::CASE,
     seas_bp3_full::CASE,
+    seas_bp4::CASE,
     seas_bp5::CASE,
     seas_bp5_limit::CASE,
     seas_bp6::CASE,
+    seas_bp7::CASE,
     slider_balance::CASE,
     slider_cycles::CASE,
     slider_inertia::CASE,

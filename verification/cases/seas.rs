@@ -16,6 +16,39 @@ pub const CONVERGED: &str = "boundary elements of 19.5 to 25 m, two codes that a
 /// Source of results of the second implementation of BP1 and BP3, in `verification/independent`.
 pub const INDEPENDENT: &str = "cycles.py: boundary elements of constant slip, ln V and ln theta integrated";
 
+/// Source of results of the second implementation of BP4 and BP7.
+pub const IN_SPACE: &str =
+    "cycles_in_space.py: shear tractions and ln theta integrated, both directions by Fourier transforms";
+
+/// An event of the second implementation in space.
+pub struct SpaceEvent {
+    /// Onset \[s\].
+    pub onset: f64,
+    /// Largest slip rate \[m/s\].
+    pub largest: f64,
+    /// Slip along the rake at the stations at its end \[m\].
+    pub slip: Vec<f64>,
+}
+
+/// Events that the second implementation found for a problem in space with cells of `size` \[m\].
+///
+/// # Errors
+/// If there is no such run.
+pub fn independent_in_space(problem: &str, size: f64) -> Result<Vec<SpaceEvent>, CaseError> {
+    let all: serde_json::Value = serde_json::from_str(include_str!("../independent/cycles_in_space.json"))?;
+    let same = |run: &&serde_json::Value| run["problem"] == problem && run["cell [m]"] == size;
+    let run =
+        all.as_array().and_then(|a| a.iter().find(same)).ok_or("no such run in cycles_in_space.json")?;
+    let number =
+        |value: &serde_json::Value| value.as_f64().ok_or("a number is missing in cycles_in_space.json");
+    let event = |event: &serde_json::Value| -> Result<_, CaseError> {
+        let slip = event["slip"].as_array().into_iter().flatten().map(|both| number(&both[1]));
+        let slip = slip.collect::<Result<Vec<f64>, _>>()?;
+        Ok(SpaceEvent { onset: number(&event["onset"])?, largest: number(&event["largest"])?, slip })
+    };
+    run["events [s, m/s, m]"].as_array().into_iter().flatten().map(event).collect()
+}
+
 /// Onsets \[yr\] that the second implementation found for a problem with cells of `size` \[m\].
 ///
 /// # Errors

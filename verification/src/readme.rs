@@ -53,26 +53,3 @@ fn sections(text: &str) -> Vec<(&str, Vec<&str>)> {
     }
     sections
 }
-
-#[cfg(test)]
-mod tests {
-    use super::{HEADINGS, problems, title};
-
-    fn good() -> String {
-        let body: Vec<String> = HEADINGS.iter().map(|h| format!("## {h}\nText.\n")).collect();
-        format!("# A title\n\n{}", body.join("\n"))
-    }
-
-    #[test]
-    fn the_fixed_headings_pass() {
-        assert_eq!(problems(&good()), Vec::<String>::new());
-        assert_eq!(title(&good()), "A title");
-    }
-
-    #[test]
-    fn a_missing_reordered_or_empty_section_is_named() {
-        assert!(problems(&good().replace("## Literature\n", "## Papers\n"))[0].contains("Papers"));
-        assert_eq!(problems(&good().replace("## Problem\nText.", "## Problem\n")).len(), 1);
-        assert_eq!(problems(&good().replace("# A title", "A title")).len(), 1);
-    }
-}

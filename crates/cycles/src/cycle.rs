@@ -110,10 +110,11 @@ fn enough(run: &FaultRun, settings: &Settings) -> bool {
     settings.most_events.is_some_and(|most| run.events().len() >= most)
 }
 
-/// Times at which the rate of a load or of the pressure jumps, and the end of the run \[s\].
+/// Times at which the rate of a load or of the pressure jumps or a pulse ends, and the end of the run \[s\].
 fn breaks(fault: &Fault, loading: &Loading, end: f64) -> Vec<f64> {
     let mut times = loading.breaks(0.0, end);
     times.extend(fault.pressure.iter().flat_map(|p| p.breaks()).filter(|&t| t > 0.0 && t < end));
+    times.extend(fault.pulses.iter().map(|pulse| pulse.rise).filter(|&t| t < end));
     times.push(end);
     times.sort_by(f64::total_cmp);
     times.dedup();

@@ -25,6 +25,7 @@ use super::opened::Opened;
 use super::opening::Crack;
 use super::operator::Operator;
 use super::problem::Problem;
+use super::pulse::imposed;
 use super::warmed::Warmed;
 use asperity_ode::Clock;
 use schemars::JsonSchema;
@@ -311,7 +312,10 @@ impl<'a> Balance<'a> {
                 friction(moment.unknowns, step.end_rates, end, 1),
             );
             let (traction, rate) = (self.sums.traction[i], self.rate[i]);
-            let load = |t: f64| [traction + t * rate, h * rate];
+            let load = |t: f64| {
+                let [pulses, growth] = imposed(&fault.pulses, i, self.sums.since + t);
+                [traction + t * rate + pulses, h * (rate + growth)]
+            };
             works.friction += area * way.work(first, last);
             works.loads += area * way.work(load(after - h), load(after));
             if step.waves.is_none() {

@@ -15,6 +15,7 @@ use super::heat::{Around, Heat, Heated, Memory, Now, Surface};
 use super::opening::{Crack, Opening};
 use super::operator::Operator;
 use super::pressure::Pressure;
+use super::pulse::Pulse;
 use asperity_friction::fault::{Drive, FaultLaw};
 use asperity_ode::{Clock, Problem};
 use std::cell::{Cell, RefCell};
@@ -31,6 +32,8 @@ pub struct Fault {
     pub damping: Vec<f64>,
     /// f_n of each point at the start \[Pa\].
     pub normal: Vec<f64>,
+    /// Shear tractions that are imposed.
+    pub pulses: Vec<Pulse>,
     /// Pressure of injected fluid, where there is any.
     pub pressure: Option<Pressure>,
     /// Frictional heat, where it matters; not together with openings.
@@ -473,6 +476,7 @@ impl Equations<'_> {
         law_of(fault, heated.as_deref()).slip_rates(0, m, states, &mut scratch.rate);
         fault.operator.shear(&scratch.rate, &mut scratch.shear_rate);
         add(&mut scratch.shear_rate, &self.shear_load);
+        fault.pulses.iter().for_each(|pulse| pulse.load(at.seconds(), &mut scratch.shear_rate));
         dy[l.slip()].copy_from_slice(&scratch.rate);
         if l.couples_normal {
             fault.operator.normal(&scratch.rate, &mut scratch.normal_rate);

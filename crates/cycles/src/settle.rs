@@ -59,6 +59,7 @@ mod tests {
             law: Box::new(Points::new((0..points).map(|_| law()).collect())),
             damping: vec![4.6e6; points],
             normal: vec![50e6; points],
+            pulses: Vec::new(),
             pressure: None,
             heat: None,
             floor: None,

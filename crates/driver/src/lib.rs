@@ -18,7 +18,6 @@ mod held;
 mod idealisation;
 mod impedance;
 pub mod initial_stress;
-pub mod laws;
 pub mod loading;
 pub mod model;
 pub mod plan;
@@ -35,4 +34,5 @@ mod stop;
 mod thresholds;
 mod views;
 
+pub use asperity_laws as laws;
 pub use asperity_scene::{lengths, warning};

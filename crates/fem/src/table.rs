@@ -136,6 +136,25 @@ impl Table {
     }
 }
 
+/// Returns the smooth step `G = exp((t - T)²/(t (t - 2T)))` for 0 < t < T, 0 before and 1 after it, and dG/dt \[1/s\]; T is `rise` \[s\]. It is that of the
+/// community's benchmarks of nucleation (Harris et al. 2009; Jiang et al. 2022).
+#[must_use]
+pub fn smooth_step(time: f64, rise: f64) -> (f64, f64) {
+    if time <= 0.0 {
+        return (0.0, 0.0);
+    }
+    if time >= rise {
+        return (1.0, 0.0);
+    }
+    // With x = t/T: the exponent is -(1 - x)²/(x (2 - x)), and its derivative 2 (1 - x)/(x (2 - x))².
+    let x = time / rise;
+    let (rest, both) = (1.0 - x, x * (2.0 - x));
+    let value = (-rest * rest / both).exp();
+    // Far from the end of the step the value vanishes faster than any power of x grows.
+    let slope = if value > 0.0 { 2.0 * value * rest / (both * both * rise) } else { 0.0 };
+    (value, slope)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -153,8 +153,8 @@ fn sheet(run: &Measured) -> Sheet {
     }
 }
 
-const CRATES: [&str; 9] =
-    ["friction", "fem", "ode", "contact", "mechanics", "cycles", "scene", "output", "driver"];
+const CRATES: [&str; 10] =
+    ["friction", "fem", "ode", "contact", "mechanics", "cycles", "laws", "scene", "output", "driver"];
 
 /// Instructions in the files of a crate.
 fn of_crate(run: &Measured, name: &str) -> u64 {

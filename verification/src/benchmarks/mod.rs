@@ -9,7 +9,7 @@ mod bp1;
 mod contact;
 mod entry;
 mod independent;
-mod limit;
+pub mod limit;
 pub mod pages;
 mod parts;
 mod rounded;

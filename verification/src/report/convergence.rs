@@ -30,7 +30,7 @@ pub fn diagram(claim: &Claim, order: &OrderTest) -> Diagram {
 }
 
 /// The triangle below the fitted levels; none if they have no logarithms.
-fn slope(order: &OrderTest) -> Option<Slope> {
+pub fn slope(order: &OrderTest) -> Option<Slope> {
     let fitted = order.fitted();
     let (coarse, fine) = (fitted.first()?, fitted.last()?);
     let usable = |l: &&crate::order::Level| l.size > 0.0 && l.error > 0.0 && l.error.is_finite();
@@ -55,28 +55,4 @@ fn caption(order: &OrderTest) -> String {
         number(order.expected),
         number(order.tolerance)
     )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::slope;
-    use crate::order::{Level, OrderTest};
-
-    #[test]
-    fn the_triangle_lies_below_the_errors_it_is_fitted_to() {
-        let levels = [(0.8, 0.5), (0.4, 0.16), (0.2, 0.05), (0.1, 0.01)];
-        let levels: Vec<Level> = levels.into_iter().map(Level::from).collect();
-        let order =
-            OrderTest { levels: levels.clone(), expected: 2.0, tolerance: 0.1, ..OrderTest::default() };
-        let slope = slope(&order).unwrap();
-        assert!(slope.x.0 > 0.1 && slope.x.1 < 0.4);
-        for level in &levels[1..] {
-            assert!(slope.y * (level.size / slope.x.0).powi(2) < level.error);
-        }
-    }
-
-    #[test]
-    fn a_study_without_errors_has_no_triangle() {
-        assert!(slope(&OrderTest::default()).is_none());
-    }
 }

@@ -9,7 +9,7 @@ use asperity_driver::scene;
 use std::path::Path;
 
 /// Case, scene in the repository, and stage.
-const FIELDS: [(&str, &str, &str); 33] = [
+pub const FIELDS: [(&str, &str, &str); 33] = [
     ("antiplane", "verification/cases/antiplane/crack.toml", ""),
     ("antiplane", "verification/cases/antiplane/prism.toml", ""),
     ("block_dragged", "verification/cases/block_dragged/scene.toml", "press"),
@@ -46,7 +46,7 @@ const FIELDS: [(&str, &str, &str); 33] = [
 ];
 
 /// Case, scene in the repository, plot of its run, and title, for faults and spring-sliders.
-const PLOTS: [(&str, &str, &str, &str); 21] = [
+pub const PLOTS: [(&str, &str, &str, &str); 21] = [
     ("event_files", "verification/cases/event_files/scene.toml", "largest_rate", "Largest slip rate"),
     ("event_numbers", "verification/cases/event_numbers/rupture.toml", "main_rate", MAP),
     ("fault_balance", "verification/cases/fault_balance/scene.toml", "main_rate", MAP),
@@ -87,7 +87,7 @@ const PLOTS: [(&str, &str, &str, &str); 21] = [
 const MAP: &str = "Slip rate through time";
 
 /// Cases whose subject is not a field, and why.
-const WITHOUT: [(&str, &str); 3] = [
+pub const WITHOUT: [(&str, &str); 3] = [
     (
         "absence",
         "instructions and bytes of runs are counted here; the fields of these scenes stand on the pages of their cases",
@@ -131,7 +131,11 @@ fn root() -> &'static Path {
     package.parent().unwrap_or(package)
 }
 
-fn draw(path: &str, stage: &str) -> Result<Picture, String> {
+/// Draws a stage of the scene at `path`.
+///
+/// # Errors
+/// A description if the scene cannot be read or drawn.
+pub fn draw(path: &str, stage: &str) -> Result<Picture, String> {
     let file = root().join(path);
     let text = std::fs::read_to_string(&file).map_err(|error| error.to_string())?;
     let folder = file.parent().unwrap_or(root());
@@ -140,55 +144,4 @@ fn draw(path: &str, stage: &str) -> Result<Picture, String> {
     let when = if stage.is_empty() { "the first stage".to_owned() } else { format!("stage “{stage}”") };
     let title = format!("Mises stress at the end of {when}");
     Ok(Picture { title, svg, caption: format!("Scene {path}.") })
-}
-
-#[cfg(test)]
-mod unit {
-    use super::{FIELDS, PLOTS, WITHOUT, draw};
-
-    #[test]
-    fn fields_of_small_scenes_are_drawn() {
-        for name in ["contact_enforcement", "frictional_bar", "antiplane", "contact_sliding", "restarts"] {
-            for (_, scene, stage) in FIELDS.iter().filter(|(case, ..)| *case == name) {
-                let drawn = draw(scene, stage);
-                assert!(
-                    drawn.as_ref().is_ok_and(|picture| picture.svg.contains("<image")),
-                    "{scene}: {drawn:?}"
-                );
-            }
-        }
-    }
-
-    /// True if the sources of a case draw a picture or a diagram.
-    fn draws(case: &str) -> bool {
-        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(case);
-        let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-        let sources = files.filter(|path| path.extension().is_some_and(|e| e == "rs"));
-        let calls = ["drawn::", "drawn(", "ledger.plot(", "ledger.picture(", "ledger\n        .plot("];
-        sources.into_iter().any(|path| {
-            let text = std::fs::read_to_string(path).unwrap();
-            calls.iter().any(|call| text.contains(call))
-        })
-    }
-
-    #[test]
-    fn every_case_has_a_picture_or_a_reason_why_not() {
-        for case in crate::cases::ALL {
-            let name = case.name;
-            let of_scene = FIELDS.iter().any(|f| f.0 == name) || PLOTS.iter().any(|p| p.0 == name);
-            let reason = WITHOUT.iter().any(|w| w.0 == name);
-            // The two tables of combinations share one function.
-            let shared = name.starts_with("contact_combinations");
-            assert!(of_scene || draws(name) || reason || shared, "{name} has no picture");
-        }
-    }
-
-    #[test]
-    fn fields_are_of_cases() {
-        let names = FIELDS.iter().map(|(name, ..)| name).chain(PLOTS.iter().map(|(name, ..)| name));
-        let names = names.chain(WITHOUT.iter().map(|(name, _)| name));
-        for name in names {
-            assert!(crate::cases::ALL.iter().any(|case| case.name == *name), "{name}");
-        }
-    }
 }

@@ -115,7 +115,7 @@ pub fn folder() -> PathBuf {
 }
 
 /// Numbers of a version such as `v0.10.2`, used to sort releases.
-fn version(tag: &str) -> Vec<u64> {
+pub fn version(tag: &str) -> Vec<u64> {
     tag.split(|c: char| !c.is_ascii_digit()).filter_map(|part| part.parse().ok()).collect()
 }
 
@@ -210,7 +210,8 @@ pub fn changes(release: &Release, outcomes: &[Outcome]) -> Changes {
 }
 
 impl Changes {
-    fn add(&mut self, case: &str, before: &KeptCase, now: &KeptCase) {
+    /// Adds what has changed in a case.
+    pub fn add(&mut self, case: &str, before: &KeptCase, now: &KeptCase) {
         let change = |id: &str, before, now| Change { case: case.to_owned(), id: id.to_owned(), before, now };
         if before.wall.max(now.wall) > SHORTEST && apart(before.wall, now.wall) {
             self.costs.push(change("", before.wall, now.wall));
@@ -319,41 +320,4 @@ fn table(releases: &[Release]) -> String {
         "<h2 id=\"releases\">Releases</h2>\n<table>\n<tr><th>tag</th><th>date</th><th class=\"number\">cases</th>\
          <th class=\"number\">claims</th><th class=\"number\">wall time</th></tr>\n{rows}</table>\n"
     )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn release(tag: &str, wall: f64, pairs: &[(&str, f64, f64)]) -> Release {
-        let claims = pairs.iter().map(|(id, e, b)| ((*id).to_owned(), (Some(*e), Some(*b)))).collect();
-        let cases = BTreeMap::from([("c".to_owned(), KeptCase { wall, claims })]);
-        Release { schema: SCHEMA, tag: tag.to_owned(), cases, ..Release::default() }
-    }
-
-    #[test]
-    fn a_release_is_read_as_it_was_written() {
-        let kept = release("v0.1.0", 3.0, &[("a", 1e-9, 1e-8), ("b", 0.5, 1.0)]);
-        let text = kept.text().unwrap();
-        assert_eq!(serde_json::from_str::<Release>(&text).unwrap(), kept);
-        assert!(text.lines().any(|line| line.trim() == "\"a\": [1e-9,1e-8],"), "{text}");
-    }
-
-    #[test]
-    fn releases_are_sorted_by_number() {
-        assert!(version("v0.9.1") < version("v0.10.0"));
-    }
-
-    #[test]
-    fn changed_bounds_grown_errors_and_lost_claims_are_listed() {
-        let before = release("v1", 3.0, &[("a", 0.5, 1.0), ("b", 1e-9, 1.0), ("gone", 0.5, 1.0)]);
-        let now = release("now", 9.0, &[("a", 0.55, 2.0), ("b", 1e-8, 1.0), ("new", 0.5, 1.0)]);
-        let mut changes = Changes::default();
-        changes.add("c", &before.cases["c"], &now.cases["c"]);
-        assert_eq!(changes.bounds.len(), 1);
-        assert_eq!((changes.bounds[0].before, changes.bounds[0].now), (1.0, 2.0));
-        assert!(changes.errors.is_empty(), "errors far below their bounds are noise");
-        assert_eq!((changes.costs.len(), changes.new), (1, 1));
-        assert_eq!(changes.gone, [("c".to_owned(), "gone".to_owned())]);
-    }
 }

@@ -2,26 +2,26 @@
 
 mod case_page;
 mod claims;
-mod convergence;
+pub mod convergence;
 pub mod coverage;
-mod fields;
+pub mod fields;
 mod figures;
 pub mod history;
 pub mod ids;
 pub mod index;
 pub mod json;
 pub mod junit;
-mod mathml;
+pub mod mathml;
 pub mod page;
 pub mod planted;
 pub mod precision;
 pub mod provenance;
 mod sheets;
-mod sources;
-mod subjects;
+pub mod sources;
+pub mod subjects;
 mod tables;
-mod tested;
-mod words;
+pub mod tested;
+pub mod words;
 
 use crate::case::Outcome;
 use case_page::Context;

@@ -83,7 +83,7 @@ fn texts(folder: &Path, end: &str) -> Vec<(String, String)> {
 
 impl Result {
     /// Number of claims and largest margin of each case.
-    fn by_case(&self) -> Margins<'_> {
+    pub fn by_case(&self) -> Margins<'_> {
         let mut cases = BTreeMap::new();
         for noticed in &self.noticed {
             let entry = cases.entry(noticed.case.as_str()).or_insert((0, 0.0_f64));
@@ -214,34 +214,4 @@ fn decades(margin: f64) -> String {
 /// Shade of a cell, 0 to 3: margins up to ten, above ten, above a thousand, infinite.
 fn shade(margin: f64) -> u8 {
     u8::from(margin > 10.0) + u8::from(margin > 1e3) + u8::from(margin.is_infinite())
-}
-
-#[cfg(test)]
-mod unit {
-    use super::{Defects, Definition, Result, whole};
-    use crate::report::provenance::Provenance;
-    use serde_json::json;
-
-    #[test]
-    fn results_of_the_repository_are_read() {
-        let defects = Defects::read();
-        assert!(!defects.results.is_empty());
-        assert!(defects.results.keys().all(|name| defects.definitions.contains_key(name)));
-        let found = serde_json::from_value::<Result>(
-            json!({ "status": "ran", "noticed": [{ "case": "hertz_line", "claim": "p", "margin": 6.0 }] }),
-        );
-        assert_eq!(found.unwrap().by_case()["hertz_line"], (1, 6.0));
-    }
-
-    #[test]
-    fn the_page_tells_what_was_noticed_and_what_was_not() {
-        let mut defects = Defects::default();
-        let words = Definition { wrong: "the sign is lost".into(), ..Definition::default() };
-        defects.definitions.insert("sign".into(), words);
-        assert!(whole(&defects, &Provenance::default()).contains("no result yet"));
-        let missed = Result { status: "ran".into(), noticed: Vec::new() };
-        defects.results.insert("sign".into(), missed);
-        let page = whole(&defects, &Provenance::default());
-        assert!(page.contains("not noticed") && page.contains("The sign is lost."));
-    }
 }

@@ -46,7 +46,7 @@ fn add(files: &mut Files, root: &Path, path: &Path) {
 }
 
 /// Paths of scenes that a program includes.
-fn includes(program: &str) -> Vec<String> {
+pub fn includes(program: &str) -> Vec<String> {
     let parts = program.split("include_str!(\"").skip(1);
     let paths = parts.filter_map(|part| part.split_once('"')).map(|(path, _)| path.to_owned());
     paths.filter(|path| path.ends_with(".toml")).collect()
@@ -89,21 +89,4 @@ pub fn whole(case: &Case, files: &Files, run: &Provenance) -> String {
         );
     }
     page(&format!("Sources of {name}"), Depth::Below, run, &body)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{files, includes};
-
-    #[test]
-    fn scenes_that_a_program_includes_are_found() {
-        assert_eq!(includes("x = include_str!(\"../a.toml\"); include_str!(\"README.md\")"), ["../a.toml"]);
-    }
-
-    #[test]
-    fn sources_of_every_case_are_at_hand() {
-        for case in crate::cases::ALL {
-            assert!(files(case).keys().any(|path| path.ends_with("mod.rs")), "{}", case.name);
-        }
-    }
 }

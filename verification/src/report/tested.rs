@@ -100,7 +100,7 @@ fn group(capability: Capability, starts: &[&str], paths: &[(String, PathBuf)]) -
 }
 
 /// Names of the tests of a Rust file, in words.
-fn tests(text: &str) -> Vec<String> {
+pub fn tests(text: &str) -> Vec<String> {
     let name = |part: &str| {
         let (_, rest) = part.split_once("fn ")?;
         Some(words(rest.split('(').next()?))
@@ -109,7 +109,7 @@ fn tests(text: &str) -> Vec<String> {
 }
 
 /// Names of the checks of a Python file, in words.
-fn checks(text: &str) -> Vec<String> {
+pub fn checks(text: &str) -> Vec<String> {
     let names = text.lines().filter_map(|line| line.strip_prefix("def check_"));
     names.filter_map(|rest| rest.split('(').next()).map(|name| format!("check of {}", words(name))).collect()
 }
@@ -150,23 +150,4 @@ pub fn whole(groups: &[Group], run: &Provenance) -> String {
         }
     }
     page("Tests", Depth::Top, run, &body)
-}
-
-#[cfg(test)]
-mod unit {
-    use super::{checks, groups, tests};
-
-    #[test]
-    fn names_of_tests_are_read_as_sentences() {
-        let text = "    #[test]\n    fn a_scene_is_refused() {\n    #[test]\n#[cfg(x)]\nfn b() {";
-        assert_eq!(tests(text), ["a scene is refused", "b"]);
-        assert_eq!(checks("def check_field(path):\ndef other():\n"), ["check of field"]);
-    }
-
-    #[test]
-    fn every_group_has_tests() {
-        for group in groups() {
-            assert!(group.count() > 3, "{:?} has {} tests", group.capability, group.count());
-        }
-    }
 }

@@ -14,29 +14,3 @@ pub fn of(name: &str) -> Option<String> {
         [bodies::of, contact::of, interfaces::of, sliders::of, faults::of];
     subjects.iter().find_map(|subject| subject(name)).map(|sketch| sketch.svg())
 }
-
-#[cfg(test)]
-mod tests {
-    /// Cases of many problems, or of files.
-    const WITHOUT: [&str; 9] = [
-        "absence",
-        "elastic_waves",
-        "event_files",
-        "explicit_materials",
-        "implicit_dynamics",
-        "newton_convergence",
-        "output_files",
-        "restarts",
-        "scene_units",
-    ];
-
-    #[test]
-    fn every_case_of_one_problem_has_a_sketch_with_finite_places() {
-        for case in crate::cases::ALL {
-            match super::of(case.name) {
-                Some(svg) => assert!(!svg.contains("NaN") && !svg.contains("inf\""), "{}", case.name),
-                None => assert!(WITHOUT.contains(&case.name), "{} has no sketch", case.name),
-            }
-        }
-    }
-}

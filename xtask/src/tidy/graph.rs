@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 /// Workspace packages on which each package may depend, including tests and build scripts.
-const ALLOWED: [(&str, &[&str]); 13] = [
+const ALLOWED: [(&str, &[&str]); 14] = [
     ("asperity-friction", &[]),
     ("asperity-fem", &[]),
     ("asperity-ode", &[]),
@@ -17,6 +17,7 @@ const ALLOWED: [(&str, &[&str]); 13] = [
     ("asperity-contact", &["asperity-fem", "asperity-friction"]),
     ("asperity-mechanics", &["asperity-fem", "asperity-friction", "asperity-contact"]),
     ("asperity-cycles", &["asperity-fem", "asperity-friction", "asperity-ode"]),
+    ("asperity-laws", &["asperity-friction", "asperity-scene"]),
     (
         "asperity-driver",
         &[
@@ -28,6 +29,7 @@ const ALLOWED: [(&str, &[&str]); 13] = [
             "asperity-contact",
             "asperity-mechanics",
             "asperity-cycles",
+            "asperity-laws",
             "asperity-vary",
         ],
     ),
@@ -46,12 +48,13 @@ const PROGRAMS: &[&str] = &[
     "asperity-contact",
     "asperity-mechanics",
     "asperity-cycles",
+    "asperity-laws",
     "asperity-driver",
     "asperity-vary",
 ];
 
 /// Libraries that work only on values.
-pub const LIBRARIES: [&str; 8] = [
+pub const LIBRARIES: [&str; 9] = [
     "asperity-friction",
     "asperity-fem",
     "asperity-ode",
@@ -59,6 +62,7 @@ pub const LIBRARIES: [&str; 8] = [
     "asperity-contact",
     "asperity-mechanics",
     "asperity-cycles",
+    "asperity-laws",
     "asperity-vary",
 ];
 

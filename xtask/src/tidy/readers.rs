@@ -37,7 +37,6 @@ const ROWS: [Row; 1] = [Row {
         "idealisation.rs",
         "impedance.rs",
         "initial_stress.rs",
-        "laws.rs",
         "lengths.rs",
         "lib.rs",
         "loading.rs",

@@ -1,7 +1,7 @@
 //! Literature of the cases of the verification suite. A test of the suite compares it with their pages.
 
 /// Cases and the keys of their literature.
-const CASES: [(&str, &[&str]); 114] = [
+const CASES: [(&str, &[&str]); 116] = [
     ("absence", &["weidendorfer2004"]),
     ("antiplane", &["nehari1952", "strang1973", "timoshenko1970"]),
     ("block_dragged", &["codeaster"]),
@@ -91,9 +91,11 @@ const CASES: [(&str, &[&str]); 114] = [
     ("seas_bp3", &["erickson2023"]),
     ("seas_bp3_25m", &["erickson2023"]),
     ("seas_bp3_full", &["erickson2023"]),
+    ("seas_bp4", &["jiang2022", "okada1992"]),
     ("seas_bp5", &["jiang2022", "okada1992", "savage1983"]),
     ("seas_bp5_limit", &["jiang2022"]),
     ("seas_bp6", &["lambert2025", "carslaw1959"]),
+    ("seas_bp7", &["jiang2022", "okada1992"]),
     ("slider_balance", &["rice1986"]),
     ("slider_cycles", &["luo2017", "rice1986"]),
     ("slider_inertia", &["hairer1996", "rice1986"]),

@@ -166,6 +166,18 @@ impl Plan {
                 "fluid is injected and diffuses along the fault; its pressure is known at all times".into(),
             );
         }
+        for pulse in &self.problem.fault.pulses {
+            let points = pulse.amplitude.iter().filter(|a| **a != 0.0).count();
+            let most = pulse.amplitude.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
+            line(
+                "physics",
+                format!(
+                    "a pulse of up to {:.4} MPa in shear grows on {points} points until {} s",
+                    most / 1e6,
+                    pulse.rise
+                ),
+            );
+        }
         for fault in &self.faults {
             if let Some(heat) = &fault.heat {
                 line("physics", heat.words(&fault.name));

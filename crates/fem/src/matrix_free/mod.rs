@@ -2,7 +2,8 @@
 //!
 //! Cells are divided into pieces of fixed size that lie close together, so that a piece finds its displacements in the cache. A piece
 //! writes the forces of its own nodes, and a second pass adds the pieces that share a node, in order: the result does not depend on
-//! the number of threads. Within a piece cells are treated in groups:
+//! the number of threads. Nodes of regular grids are computed row by row instead ([`stencil`]), and cells whose nodes are all of these
+//! belong to no piece. Within a piece cells are treated in groups:
 //! - constant-strain simplices by their gradients ([`simplex`]);
 //! - cells of equal shape by one stiffness matrix, several cells at once ([`product`]);
 //! - other cells by a matrix each.
@@ -11,9 +12,11 @@ mod partial;
 mod partition;
 mod piece;
 mod product;
+mod runs;
 mod shapes;
 mod simplex;
 mod stable;
+mod stencil;
 
 pub use stable::{Highest, highest_frequency};
 
@@ -23,11 +26,13 @@ use partial::Partial;
 use piece::{Piece, Room};
 use rayon::prelude::*;
 use shapes::Shapes;
+use stencil::Stencils;
 
 /// Forces K u of the linear blocks of a mesh. Degree of freedom = node * components + component.
 #[derive(Clone, Debug)]
 pub struct MatrixFree {
     components: usize,
+    stencils: Stencils,
     pieces: Vec<Piece>,
     /// Forces of the pieces on each node, in the order of the pieces.
     partial: Partial,
@@ -46,21 +51,25 @@ impl MatrixFree {
         components: usize,
         blocks: &[Option<&LinearBlock<D>>],
     ) -> Self {
+        let classes = runs::classes_of(mesh, blocks);
+        let runs = runs::find(mesh, components, blocks, &classes);
+        let stencils = Stencils::new(mesh.nodes.len(), components, &runs);
+        let regular = runs.nodes(mesh.nodes.len());
         let mut pieces = Vec::new();
         let (mut cells, mut matrices) = (0, 0);
-        for (k, block) in blocks.iter().enumerate() {
-            let Some(block) = block else { continue };
-            let shapes = Shapes::of(mesh, k, block);
+        for (k, (block, classes)) in blocks.iter().zip(classes).enumerate() {
+            let (Some(block), Some(classes)) = (block, classes) else { continue };
+            let shapes = Shapes::of(block, classes);
             cells += mesh.blocks[k].len();
             matrices += shapes.matrices();
-            let parts = partition::pieces(mesh, k);
-            let piece = |part: &Vec<usize>| Piece::new(mesh, k, &shapes, part);
+            let parts = partition::pieces(mesh, k, &regular);
+            let piece = |part: &Vec<usize>| Piece::new(mesh, k, (&shapes, &regular), part);
             let made: Vec<Piece> = parts.par_iter().map(piece).collect();
             pieces.extend(made);
         }
         let starts = place(mesh.nodes.len(), &mut pieces);
         let length: usize = pieces.iter().map(|p| p.nodes().len() * components).sum();
-        Self { components, pieces, partial: Partial::new(length), starts, cells, matrices }
+        Self { components, stencils, pieces, partial: Partial::new(length), starts, cells, matrices }
     }
 
     /// Number of cells.
@@ -84,7 +93,8 @@ impl MatrixFree {
         }
     }
 
-    fn evaluate_of<const C: usize>(&self, u: &[f64]) {
+    fn evaluate_of<const C: usize>(&mut self, u: &[f64]) {
+        self.stencils.evaluate::<C>(u);
         self.pieces.par_iter().for_each_init(Room::default, |room, piece| {
             piece.forces::<C>(u, room);
             self.partial.write::<C>(piece.slots(), &room.forces);
@@ -106,7 +116,24 @@ impl MatrixFree {
     #[inline]
     #[must_use]
     pub fn force_of<const C: usize>(&self, node: usize) -> [f64; C] {
-        self.partial.sum(self.starts[node], self.starts[node + 1])
+        let mut force = self.stencils.force_of::<C>(node);
+        let others = self.partial.sum::<C>(self.starts[node], self.starts[node + 1]);
+        force.iter_mut().zip(others).for_each(|(force, other)| *force += other);
+        force
+    }
+
+    /// Reads the forces on as many nodes from `first` on at the last evaluation \[N, or N/m of thickness\].
+    #[inline(always)]
+    pub fn read<const C: usize>(&self, first: usize, forces: &mut [[f64; C]]) {
+        self.stencils.read(first, forces);
+        let starts = &self.starts[first..first + forces.len() + 1];
+        if starts[0] == starts[forces.len()] {
+            return;
+        }
+        for (force, bounds) in forces.iter_mut().zip(starts.windows(2)) {
+            let others = self.partial.sum::<C>(bounds[0], bounds[1]);
+            force.iter_mut().zip(others).for_each(|(force, other)| *force += other);
+        }
     }
 
     /// Writes K u.
@@ -122,8 +149,18 @@ impl MatrixFree {
     /// Memory \[bytes\].
     #[must_use]
     pub fn bytes(&self) -> usize {
-        let own: usize = self.pieces.iter().map(Piece::bytes).sum();
-        own + self.partial.len() * size_of::<f64>() + self.starts.len() * size_of::<u32>()
+        self.of_pieces() + self.stencils.bytes() + self.partial.len() * size_of::<f64>()
+    }
+
+    /// Bytes that an evaluation reads and writes besides displacements if each value moves once, forces once in and once out \[bytes\].
+    #[must_use]
+    pub fn moved(&self) -> usize {
+        self.of_pieces() + 2 * size_of::<f64>() * (self.partial.len() + self.stencils.forces())
+    }
+
+    /// Memory of the pieces without forces \[bytes\].
+    fn of_pieces(&self) -> usize {
+        self.pieces.iter().map(Piece::bytes).sum::<usize>() + self.starts.len() * size_of::<u32>()
     }
 }
 

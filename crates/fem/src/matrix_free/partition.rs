@@ -5,15 +5,16 @@ use crate::mesh::Mesh;
 /// Most cells of a piece. Displacements and forces of about as many nodes then fit into the first cache.
 const CELLS: usize = 1024;
 
-/// Pieces of a block of cells, each a list of its cells.
-pub(super) fn pieces<const D: usize>(mesh: &Mesh<D>, block: usize) -> Vec<Vec<usize>> {
+/// Pieces of the cells of a block that have a node which is not `regular`, each a list of its cells.
+pub(super) fn pieces<const D: usize>(mesh: &Mesh<D>, block: usize, regular: &[bool]) -> Vec<Vec<usize>> {
     let cells = &mesh.blocks[block];
     let centre = |cell: usize| -> [f64; D] {
         let nodes = cells.cell(cell);
         std::array::from_fn(|c| nodes.iter().map(|&n| mesh.nodes[n][c]).sum::<f64>() / nodes.len() as f64)
     };
     let centres: Vec<[f64; D]> = (0..cells.len()).map(centre).collect();
-    let mut order: Vec<usize> = (0..cells.len()).collect();
+    let mut order: Vec<usize> =
+        (0..cells.len()).filter(|&cell| !cells.cell(cell).iter().all(|&n| regular[n])).collect();
     let mut result = Vec::new();
     divide(&centres, &mut order, &mut result);
     result

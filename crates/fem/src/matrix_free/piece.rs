@@ -17,9 +17,11 @@ const MOST: usize = 3 * MOST_NODES;
 /// Cells that lie close together.
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
-    /// Nodes, ascending.
+    /// Nodes: first those whose forces are wanted, ascending, then the others, ascending.
     nodes: Vec<u32>,
-    /// Entry of each node among the forces of all pieces.
+    /// Number of nodes whose forces are wanted.
+    own: usize,
+    /// Entry of each of these among the forces of all pieces.
     slots: Vec<u32>,
     groups: Vec<Group>,
     /// Nodes of a cell.
@@ -62,15 +64,23 @@ enum Kind {
 }
 
 impl Piece {
-    /// Piece of the given cells of block `k`.
-    pub fn new<const D: usize>(mesh: &Mesh<D>, k: usize, shapes: &Shapes, cells: &[usize]) -> Self {
+    /// Piece of the given cells of block `k`. Forces on `regular` nodes are not wanted.
+    pub fn new<const D: usize>(
+        mesh: &Mesh<D>,
+        k: usize,
+        (shapes, regular): (&Shapes, &[bool]),
+        cells: &[usize],
+    ) -> Self {
         let block = &mesh.blocks[k];
         let mut nodes: Vec<u32> =
             cells.iter().flat_map(|&cell| block.cell(cell).iter().map(|&n| n as u32)).collect();
-        nodes.sort_unstable();
+        let order = |n: u32| (regular[n as usize], n);
+        nodes.sort_unstable_by_key(|&n| order(n));
         nodes.dedup();
+        let own = nodes.partition_point(|&n| !regular[n as usize]);
         let local = |cell: usize| {
-            let numbered = block.cell(cell).iter().map(|&n| nodes.binary_search(&(n as u32)));
+            let find = |&n: &usize| nodes.binary_search_by_key(&order(n as u32), |&n| order(n));
+            let numbered = block.cell(cell).iter().map(find);
             numbered.map(|n| n.map_or(0, |n| n as u16)).collect::<Vec<u16>>()
         };
         let connectivity = |cells: &[usize]| cells.iter().flat_map(|&cell| local(cell)).collect();
@@ -96,12 +106,12 @@ impl Piece {
                 vec![Group { connectivity: connectivity(cells), kind }]
             }
         };
-        Self { nodes, slots: Vec::new(), groups, corners }
+        Self { nodes, own, slots: Vec::new(), groups, corners }
     }
 
-    /// Nodes, ascending.
+    /// Nodes whose forces are wanted, ascending.
     pub fn nodes(&self) -> &[u32] {
-        &self.nodes
+        &self.nodes[..self.own]
     }
 
     /// Memory \[bytes\].
@@ -113,7 +123,7 @@ impl Piece {
             };
             2 * g.connectivity.len() + 8 * numbers
         };
-        8 * self.nodes.len() + self.groups.iter().map(of_group).sum::<usize>()
+        4 * (self.nodes.len() + self.own) + self.groups.iter().map(of_group).sum::<usize>()
     }
 
     /// Entries of the nodes among the forces of all pieces.
@@ -123,7 +133,7 @@ impl Piece {
 
     /// Gives each node its entry.
     pub fn place(&mut self, entry: impl FnMut(&u32) -> u32) {
-        self.slots = self.nodes.iter().map(entry).collect();
+        self.slots = self.nodes().iter().map(entry).collect();
     }
 
     /// Computes the forces of the cells on the nodes of the piece at displacements `u` of all nodes, C components each. Cells find

@@ -61,14 +61,13 @@ pub(super) enum Shapes {
 }
 
 impl Shapes {
-    /// Stiffness of the cells of block `k`.
-    pub fn of<const D: usize>(mesh: &Mesh<D>, k: usize, block: &LinearBlock<D>) -> Self {
+    /// Stiffness of the cells of a block with these shapes and first cells of each shape.
+    pub fn of<const D: usize>(block: &LinearBlock<D>, (shape, first): (Vec<u32>, Vec<usize>)) -> Self {
         if by_gradients(block.kind(), block.idealisation()) {
             let (shear, dilatation) = block.moduli_of_strain();
             return Self::Simplex { shear, dilatation };
         }
         let size = block.kind().nodes() * block.idealisation().components();
-        let (shape, first) = classes(mesh, k, block.idealisation());
         if kept(first.len(), shape.len()) < shape.len() {
             return Self::Shared { matrices: block.stiffness_of(&first), shape, size };
         }

@@ -3,8 +3,8 @@ use crate::block::{LinearBlock, lumped};
 use crate::element::ElementKind;
 use crate::kinematics::{Formulation, Idealisation};
 use crate::material::elastic::Elastic;
-use crate::mesh::Mesh;
 use crate::mesh::generate::Grid;
+use crate::mesh::{Cells, Mesh};
 use crate::term::{Instant, Term as _};
 
 const WITH_MASS: [(ElementKind, Idealisation); 9] = [
@@ -65,6 +65,47 @@ fn products_without_a_matrix_are_those_of_the_cell_matrices() {
             assert!(off < bound, "{} {} {shaken}: {off:e}", kind.name(), space.name());
         }
     }
+}
+
+#[test]
+fn two_rocks_in_one_grid_give_the_products_of_their_cell_matrices() {
+    for kind in [ElementKind::Tri3, ElementKind::Quad4, ElementKind::Quad9] {
+        let mut mesh = mesh::<2>(kind, 40, false);
+        let cells = mesh.blocks.remove(0);
+        let half = cells.connectivity.len() / kind.nodes() / 2 * kind.nodes();
+        let (below, above) = cells.connectivity.split_at(half);
+        mesh.blocks = [below, above].map(|part| Cells { kind, connectivity: part.to_vec() }).to_vec();
+        let soft = Elastic::new(10e9, 0.3).unwrap();
+        let space = Idealisation::PlaneStrain;
+        let block =
+            |k, rock: &Elastic| LinearBlock::new(&mesh, k, rock, space, Formulation::Standard).unwrap();
+        let mut blocks = [block(0, &rock()), block(1, &soft)];
+        let n = 2 * mesh.nodes.len();
+        let u: Vec<f64> = (0..n).map(|k| (k as f64 * 0.7).sin()).collect();
+        let (mut free, mut assembled) = (vec![0.0; n], vec![0.0; n]);
+        MatrixFree::new(&mesh, 2, &blocks.each_ref().map(Some)).apply(&u, &mut free);
+        for block in &mut blocks {
+            block.residual(&u, Instant { time: 0.0, dt: 1.0 }, &mut assembled).unwrap();
+        }
+        let largest = assembled.iter().fold(0.0, |m: f64, f| m.max(f.abs()));
+        let off = free.iter().zip(&assembled).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / largest;
+        assert!(off < 1e-13, "{}: {off:e}", kind.name());
+    }
+}
+
+#[test]
+fn inner_nodes_of_grids_are_computed_row_by_row_and_cells_among_them_belong_to_no_piece() {
+    let entries = |shaken| {
+        let mesh = mesh::<2>(ElementKind::Quad4, 40, shaken);
+        let block =
+            LinearBlock::new(&mesh, 0, &rock(), Idealisation::PlaneStrain, Formulation::Standard).unwrap();
+        let product = MatrixFree::new(&mesh, 2, &[Some(&block)]);
+        (product.starts[mesh.nodes.len()], mesh.nodes.len() as u32)
+    };
+    // Of 41 by 42 nodes the columns at the left and the right are those of cells.
+    assert_eq!(entries(false), (2 * 42, 41 * 42));
+    let (of_pieces, nodes) = entries(true);
+    assert!(of_pieces >= nodes);
 }
 
 #[test]

@@ -323,6 +323,7 @@ fn bodies_on_soft_springs_swing_with_their_mass_and_keep_their_energy() {
     let mut run = run(&problem, |_| ());
     assert!((run.displacement()[0] * omega - 1.0).abs() < 1e-3, "{}", run.displacement()[0] * omega);
     let budget = run.budget();
-    assert!(budget.missing().abs() < 1e-12 * budget.largest(), "{budget:?}");
+    // The bar moves 1/ω, and forces err by an ulp of E times that: their work is up to ε E/(2 ω²), 4e-12 of the energy m/2 put in.
+    assert!(budget.missing().abs() < 1e-11 * budget.largest(), "{budget:?}");
     assert!((budget.loads / budget.initial + 1.0).abs() < 1e-3, "{budget:?}");
 }

@@ -56,9 +56,6 @@ impl Checker<'_> {
             scene.faults.values().map(|f| ("normal_delay", f.normal_delay.as_ref().map(Spanned::span))),
         );
         keys.extend(output.seismograms.values().map(|s| ("seismograms", Some(s.span()))));
-        keys.extend(
-            scene.faults.values().flat_map(|f| &f.pulses).map(|p| ("pulses", Some(p.traction.span()))),
-        );
         let conditions = scene.stages.iter().flat_map(|s| &s.conditions);
         if !self.has_ruptures() {
             keys.extend(conditions.map(|c| ("absorbing", c.get_ref().absorbing.as_ref().map(Spanned::span))));

@@ -36,6 +36,7 @@ impl Checker<'_> {
             ("normal_changes", fault.normal_changes.as_ref().map(Spanned::span)),
             ("heat", fault.heat.as_ref().map(|h| h.thickness.span())),
             ("opening", opens.map(Spanned::span)),
+            ("pulses", fault.pulses.first().map(|p| p.traction.span())),
         ];
         for (key, place) in keys.into_iter().filter_map(|(key, place)| Some((key, place?))) {
             self.conflict(

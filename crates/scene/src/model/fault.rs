@@ -34,7 +34,7 @@ pub struct Fault {
     /// Parts of the fault with parameters of their own, in the order in which they apply, after `profiles`.
     #[serde(default)]
     pub patches: Vec<Patch>,
-    /// Explicit: shear tractions that grow on parts of the fault, to start rupture.
+    /// Shear tractions that grow on parts of the fault, to start an event.
     #[serde(default)]
     pub pulses: Vec<Pulse>,
     /// Initial normal traction, compression positive; absent: given by the initial stress of the bodies \[Pa\].

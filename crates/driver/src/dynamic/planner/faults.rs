@@ -1,11 +1,11 @@
 //! Faults between bodies with mass: their points, laws, initial tractions and pulses.
 
 use crate::diagnostic::Diagnostic;
-use crate::fault::planner::{Placed, in_space, slides};
+use crate::fault::planner::{Placed, in_space, pulses, slides};
 use crate::laws;
 use crate::refused::refused;
 use crate::scene::law::LawChoice;
-use crate::scene::model::{Fault as Spec, Pulse as Asked, Scene};
+use crate::scene::model::{Fault as Spec, Scene};
 use asperity_cycles::medium::across;
 use asperity_mechanics::dynamics::{Fault, Pulse, Regularisation, SplitPoint, Tie};
 
@@ -45,7 +45,10 @@ pub(super) fn of<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Result<
             .normal_delay
             .as_ref()
             .map(|delay| Regularisation { length: delay.get_ref().length.0, rate: delay.get_ref().rate.0 }),
-        pulses: pulses(&named, placed, components)?,
+        pulses: pulses(&named, placed, components)?
+            .into_iter()
+            .map(|(amplitude, rise)| Pulse { amplitude, rise })
+            .collect(),
         onset: None,
         ties: Vec::new(),
     }))
@@ -93,43 +96,4 @@ fn point<const D: usize>(placed: &Placed<D>) -> SplitPoint {
         }
     };
     SplitPoint { minus: place.minus, plus: place.plus, area: place.area, normal, along, gap: 0.0 }
-}
-
-fn pulses<const D: usize>(
-    named: &[(&String, &Spec)],
-    placed: &[Placed<D>],
-    components: usize,
-) -> Result<Vec<Pulse>, Diagnostic> {
-    let mut all = Vec::new();
-    for (fault, (name, spec)) in named.iter().enumerate() {
-        for asked in &spec.pulses {
-            let traction = asked.traction.get_ref().0;
-            let at = |p: &Placed<D>| {
-                if p.fault == fault { traction * sense(p) * shape(asked, &p.point.place.at) } else { 0.0 }
-            };
-            let amplitude = first_of(components, placed, at);
-            if amplitude.iter().all(|a| *a == 0.0) {
-                return Err(Diagnostic::at(
-                    asked.centre.span(),
-                    format!("the pulse acts on no point of fault `{name}`"),
-                    "check the signs and the unit of its centre, and its radius",
-                ));
-            }
-            all.push(Pulse { amplitude, rise: asked.duration.get_ref().0 });
-        }
-    }
-    Ok(all)
-}
-
-/// Sense of slip of a point: that of its slip rate, or of its shear traction where it starts at rest.
-fn sense<const D: usize>(placed: &Placed<D>) -> f64 {
-    let of = if placed.rate == 0.0 { placed.shear.unwrap_or_default() } else { placed.rate };
-    of.signum()
-}
-
-/// Share of the traction of a pulse at a distance r from its centre, exp(r²/(r² - R²)) within R.
-fn shape<const D: usize>(asked: &Asked, at: &[f64; D]) -> f64 {
-    let square: f64 = at.iter().zip(asked.centre.get_ref()).map(|(x, c)| (x - c.0).powi(2)).sum();
-    let limit = asked.radius.get_ref().0.powi(2);
-    if square < limit { (square / (square - limit)).exp() } else { 0.0 }
 }

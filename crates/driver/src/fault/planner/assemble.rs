@@ -7,6 +7,7 @@ use super::super::resolution::Resolution;
 use super::super::sampling::Sampling;
 use super::cells::Cells;
 use super::placed::{Placed, in_space, slides};
+use super::pulses::{pulses, weak};
 use super::{asked, floor, frame, heated, pressing, start_doubts};
 use crate::diagnostic::Diagnostic;
 use crate::laws;
@@ -18,7 +19,7 @@ use asperity_cycles::heat::Heat;
 use asperity_cycles::medium::across;
 use asperity_cycles::operator::Operator;
 use asperity_cycles::{
-    Crack, Fault, Floor, Injection, Layout, Loading, Opening, Pressure, Problem, Settings,
+    Crack, Fault, Floor, Injection, Layout, Loading, Opening, Pressure, Problem, Pulse, Settings,
 };
 use asperity_friction::Failure;
 use asperity_friction::evolution;
@@ -86,6 +87,10 @@ pub(super) fn plan_of<const D: usize>(
         law,
         damping: placed.iter().map(|p| p.damping).collect(),
         normal: placed.iter().map(|p| p.normal).collect(),
+        pulses: pulses(&named, &placed, if turns { 2 } else { 1 })?
+            .into_iter()
+            .map(|(amplitude, rise)| Pulse { amplitude, rise })
+            .collect(),
         pressure: pressure(scene, &placed)?,
         heat,
         floor: Floor::new(placed.iter().map(|p| p.floor)),
@@ -96,6 +101,7 @@ pub(super) fn plan_of<const D: usize>(
     pressing::rests(scene, (&placed, &fault), (&start, settings.thresholds.on))?;
     let mut warnings = around.warnings;
     warnings.extend(start_doubts::check(scene, &placed, &fault));
+    warnings.extend(weak(&named, &fault));
     let (faults, points) = views(scene, cells, &placed, turns)?;
     let areas = placed.iter().map(|p| p.point.place.area).collect();
     Ok(Plan {

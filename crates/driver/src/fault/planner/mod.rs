@@ -19,6 +19,7 @@ mod plates;
 mod point;
 mod pressing;
 mod prestress;
+mod pulses;
 mod resolution;
 mod resolved;
 mod rock;
@@ -32,6 +33,7 @@ pub(crate) use assemble::views;
 pub(crate) use meshed::Meshed;
 pub use place::places;
 pub(crate) use placed::{Placed, in_space, slides};
+pub(crate) use pulses::pulses;
 pub use resolution::{Ground, modulus, spacings};
 pub(crate) use resolved::resolved;
 

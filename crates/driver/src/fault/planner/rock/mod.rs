@@ -72,7 +72,9 @@ pub(super) fn plan<const D: usize>(scene: &Scene, rock: &Rock, form: Form) -> Re
 /// Warning if nothing changes the tractions of the faults but their own slip.
 fn unloaded(scene: &Scene) -> Option<Warning> {
     let loads = |spec: &Spec| {
-        spec.creep.as_ref().is_some_and(|c| c.rate.get_ref().0 != 0.0) || spec.injection.is_some()
+        spec.creep.as_ref().is_some_and(|c| c.rate.get_ref().0 != 0.0)
+            || spec.injection.is_some()
+            || !spec.pulses.is_empty()
     };
     let first = scene.faults.values().next()?;
     (!scene.faults.values().any(loads)).then(|| {

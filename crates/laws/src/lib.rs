@@ -1,11 +1,5 @@
-//! Builds friction laws from their parameters.
+#![doc = include_str!("../README.md")]
 
-use crate::diagnostic::Diagnostic;
-use crate::scene::law::{
-    self, Bound, Evolution, EvolutionRow, Form, KindRow, LawChoice, Laws, OrderRow, ParameterRow, State,
-    Strength,
-};
-use crate::scene::model::{LawSpec, Spanned};
 use asperity_friction::Failure;
 use asperity_friction::component::Component;
 use asperity_friction::coulomb::Coulomb;
@@ -23,6 +17,12 @@ use asperity_friction::static_kinetic::StaticKinetic;
 use asperity_friction::strength::{
     self, Parameters, arrhenius::Arrhenius, bare::Bare, cut_off::CutOff, regularised::Regularised,
 };
+use asperity_scene::diagnostic::Diagnostic;
+use asperity_scene::law::{
+    self, Bound, Evolution, EvolutionRow, Form, KindRow, LawChoice, Laws, OrderRow, ParameterRow, State,
+    Strength,
+};
+use asperity_scene::model::{LawSpec, Spanned};
 use std::sync::{Arc, LazyLock};
 
 /// Friction laws that scenes may name.
