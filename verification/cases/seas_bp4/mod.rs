@@ -51,7 +51,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         .relative(5e-3)
         .uncertainty(1e-3)
         .evidence(Evidence::OtherCode, IN_SPACE)
-        .because("both are the largest of their steps, which miss a peak by up to a few thousandths")
+        .because("both are the largest of their steps, which miss a peak by up to a few thousandths on cells that hardly resolve fronts")
         .record();
     ledger.plot(
         Plot::xy("Largest slip rate", "time [yr]", "V_max [m/s]")

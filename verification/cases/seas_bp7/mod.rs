@@ -154,7 +154,7 @@ fn start(ledger: &mut Ledger, plan: &Plan, run: &Run) {
     ledger
         .claim("imbalance of the energy over its largest part, three events")
         .value(run.imbalance)
-        .at_most(1e-5)
+        .at_most(2e-6)
         .evidence(
             Evidence::Exact,
             "work of the loads and of the imposed traction = elastic + friction + radiated",

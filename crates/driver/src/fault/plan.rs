@@ -9,7 +9,7 @@ use super::sampling::Sampling;
 use crate::ruptures::Ruptures;
 use crate::warning::Warning;
 use asperity_cycles::heat::Layer;
-use asperity_cycles::{Components, Layout, Problem};
+use asperity_cycles::{Components, Layout, Problem, Pulse};
 use std::fmt::Write as _;
 
 /// A point of a fault, as needed by the output.
@@ -111,6 +111,14 @@ pub struct Plan {
     pub notes: Vec<String>,
 }
 
+/// Description of a pulse.
+fn of_pulse(pulse: &Pulse) -> String {
+    let points = pulse.amplitude.iter().filter(|a| **a != 0.0).count();
+    let most = pulse.amplitude.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
+    let (mega, rise) = (most / 1e6, pulse.rise);
+    format!("a pulse of up to {mega:.4} MPa in shear grows on {points} points until {rise} s")
+}
+
 impl Plan {
     /// Vector in space \[m; m/s; Pa\] from its components at a point.
     #[must_use]
@@ -166,18 +174,7 @@ impl Plan {
                 "fluid is injected and diffuses along the fault; its pressure is known at all times".into(),
             );
         }
-        for pulse in &self.problem.fault.pulses {
-            let points = pulse.amplitude.iter().filter(|a| **a != 0.0).count();
-            let most = pulse.amplitude.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
-            line(
-                "physics",
-                format!(
-                    "a pulse of up to {:.4} MPa in shear grows on {points} points until {} s",
-                    most / 1e6,
-                    pulse.rise
-                ),
-            );
-        }
+        self.problem.fault.pulses.iter().for_each(|pulse| line("physics", of_pulse(pulse)));
         for fault in &self.faults {
             if let Some(heat) = &fault.heat {
                 line("physics", heat.words(&fault.name));

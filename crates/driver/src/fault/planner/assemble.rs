@@ -7,7 +7,7 @@ use super::super::resolution::Resolution;
 use super::super::sampling::Sampling;
 use super::cells::Cells;
 use super::placed::{Placed, in_space, slides};
-use super::pulses::{pulses, weak};
+use super::pulses::{doubts, pulses};
 use super::{asked, floor, frame, heated, pressing, start_doubts};
 use crate::diagnostic::Diagnostic;
 use crate::laws;
@@ -101,7 +101,7 @@ pub(super) fn plan_of<const D: usize>(
     pressing::rests(scene, (&placed, &fault), (&start, settings.thresholds.on))?;
     let mut warnings = around.warnings;
     warnings.extend(start_doubts::check(scene, &placed, &fault));
-    warnings.extend(weak(&named, &fault));
+    warnings.extend(doubts(&named, &fault));
     let (faults, points) = views(scene, cells, &placed, turns)?;
     let areas = placed.iter().map(|p| p.point.place.area).collect();
     Ok(Plan {

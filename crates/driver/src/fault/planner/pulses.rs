@@ -39,30 +39,44 @@ pub(crate) fn pulses<const D: usize>(
 
 /// Effect of a pulse on ln V below which it is doubtful.
 const WEAK: f64 = 0.01;
+/// Points that a pulse acts on, below which its shape is not resolved.
+const FEW: usize = 3;
 
-/// A warning for each pulse that hardly changes slip rates: ln V changes by the traction over a f_n at most.
-pub(super) fn weak(named: &[(&String, &Spec)], fault: &Fault) -> Vec<Warning> {
+/// A warning for each pulse that hardly changes slip rates, that no friction holds, or that acts on hardly any point.
+pub(super) fn doubts(named: &[(&String, &Spec)], fault: &Fault) -> Vec<Warning> {
     let asked = named.iter().flat_map(|(_, spec)| &spec.pulses);
+    asked.zip(&fault.pulses).filter_map(|(asked, pulse)| doubt(asked, pulse, fault)).collect()
+}
+
+fn doubt(asked: &Asked, pulse: &Pulse, fault: &Fault) -> Option<Warning> {
     let points = fault.normal.len();
-    let effect = |i: usize, amplitude: &f64| {
-        let p = i % points;
-        amplitude.abs() / (fault.law.scale(p) * fault.normal[p])
+    let over = |scale: &dyn Fn(usize) -> f64| {
+        let all = pulse.amplitude.iter().enumerate();
+        all.map(|(i, amplitude)| amplitude.abs() / scale(i % points)).fold(0.0, f64::max)
     };
-    let most =
-        |pulse: &Pulse| pulse.amplitude.iter().enumerate().map(|(i, a)| effect(i, a)).fold(0.0, f64::max);
-    let weak = asked.zip(&fault.pulses).filter(|(_, pulse)| most(pulse) < WEAK);
-    weak.map(|(asked, pulse)| {
-        Warning::at(
-            asked.traction.span(),
-            format!(
-                "the pulse of {:e} Pa hardly changes slip rates: by a factor of 1 + {:.1e} where its effect is largest",
-                asked.traction.get_ref().0,
-                most(pulse)
-            ),
-            "check its unit, such as `traction = \"1.75 MPa\"`",
-        )
-    })
-    .collect()
+    // ln V changes by the traction over a f_n at most.
+    let effect = over(&|p| fault.law.scale(p) * fault.normal[p]);
+    let friction = over(&|p| fault.normal[p]);
+    let acts = pulse.amplitude.iter().filter(|a| **a != 0.0).count();
+    let traction = asked.traction.get_ref().0;
+    let unit = "check its unit, such as `traction = \"1.75 MPa\"`, and that of `normal`";
+    let (place, words, help) = if effect < WEAK {
+        let words = format!(
+            "the pulse of {traction:e} Pa hardly changes slip rates: by a factor of 1 + {effect:.1e} where its effect is largest"
+        );
+        (asked.traction.span(), words, unit)
+    } else if friction > 1.0 {
+        let words = format!(
+            "the pulse of {traction:e} Pa is up to {friction:.2} times the normal traction: no friction holds it"
+        );
+        (asked.traction.span(), words, unit)
+    } else if acts < FEW {
+        let words = format!("the pulse acts on {acts} of the points, too few for its shape");
+        (asked.radius.span(), words, "check the unit of its `radius`; or take smaller cells")
+    } else {
+        return None;
+    };
+    Some(Warning::at(place, words, help))
 }
 
 /// Sense of slip of a point: that of its slip rate, or of its shear traction where it starts at rest.
