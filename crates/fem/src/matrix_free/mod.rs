@@ -2,7 +2,7 @@
 //!
 //! Cells are divided into pieces of fixed size that lie close together, so that a piece finds its displacements in the cache. A piece
 //! writes the forces of its own nodes, and a second pass adds the pieces that share a node, in order: the result does not depend on
-//! the number of threads. Nodes of regular grids are computed row by row instead ([`stencil`]), and cells whose nodes are all of these
+//! the number of threads. Nodes of grids are computed row by row instead ([`stencil`]), and cells whose nodes are all of these
 //! belong to no piece. Within a piece cells are treated in groups:
 //! - constant-strain simplices by their gradients ([`simplex`]);
 //! - cells of equal shape by one stiffness matrix, several cells at once ([`product`]);

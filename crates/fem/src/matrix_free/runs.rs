@@ -4,13 +4,13 @@
 //! from their own by the same amounts. In grids numbered line by line, neighbours are equal in cells of first order, and every second
 //! node in cells of second order.
 
-use super::shapes::classes;
+use super::shapes::{classes, few};
 use crate::block::LinearBlock;
 use crate::kinematics::Idealisation;
 use crate::mesh::Mesh;
 use std::collections::BTreeMap;
 
-/// Nodes of the shortest run: in shorter ones most of a vector is wasted.
+/// Nodes of the shortest run where hardly two cells have one shape. Each run has a row of its own there, which a longer one is worth.
 const SHORTEST: usize = 8;
 
 /// Nodes `first`, `first + period`, .. whose rows are equal.
@@ -82,13 +82,16 @@ pub(super) fn find<const D: usize>(
     }
     let period = linear().map(|b| b.kind().order()).max().unwrap_or(1);
     let meetings = Meetings::new(mesh, classes);
+    // A row costs less than the cells at its node, even for a single node.
+    let few = |(shape, first): &Classes| few(first.len(), shape.len());
+    let shortest = if classes.iter().flatten().all(few) { 1 } else { SHORTEST };
     let mut known: BTreeMap<Key, usize> = BTreeMap::new();
     let (mut runs, mut rows) = (Vec::new(), Vec::new());
     for residue in 0..period {
         let mut first = residue;
         while first < mesh.nodes.len() {
             let length = meetings.equal_from(first, period);
-            if length >= SHORTEST && !meetings.of(first).is_empty() {
+            if length >= shortest && !meetings.of(first).is_empty() {
                 let row = *known.entry(meetings.key(first)).or_insert_with(|| {
                     rows.push(meetings.row(first, components, blocks));
                     rows.len() - 1

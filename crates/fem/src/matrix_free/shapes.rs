@@ -13,9 +13,14 @@ const SAME: f64 = 1e-9;
 /// Cells per shape from which matrices are shared. With fewer, groups of equal cells are too small to be treated together.
 const SHARED: usize = 16;
 
+/// True if many cells have one shape.
+pub(super) fn few(shapes: usize, cells: usize) -> bool {
+    shapes * SHARED <= cells
+}
+
 /// Number of matrices kept for this many shapes of this many cells.
 fn kept(shapes: usize, cells: usize) -> usize {
-    if shapes * SHARED <= cells { shapes } else { cells }
+    if few(shapes, cells) { shapes } else { cells }
 }
 
 /// True for cells whose gradients serve instead of matrices.
