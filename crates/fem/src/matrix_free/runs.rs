@@ -1,4 +1,4 @@
-//! Runs of nodes whose rows of K are equal: nodes of regular grids away from their sides.
+//! Runs of nodes whose rows of K are equal: those of grids.
 //!
 //! Two nodes have equal rows if the same kinds of cells meet there in the same order, and the numbers of the nodes of these cells differ
 //! from their own by the same amounts. In grids numbered line by line, neighbours are equal in cells of first order, and every second
@@ -10,8 +10,9 @@ use crate::kinematics::Idealisation;
 use crate::mesh::Mesh;
 use std::collections::BTreeMap;
 
-/// Nodes of the shortest run where hardly two cells have one shape. Each run has a row of its own there, which a longer one is worth.
-const SHORTEST: usize = 8;
+/// Nodes that share a row for which it is kept. Where fewer do, as in meshes whose numbers follow no grid, rows would take more memory
+/// than the cells, and more time to read.
+const SHARED: usize = 16;
 
 /// Nodes `first`, `first + period`, .. whose rows are equal.
 #[derive(Clone, Copy, Debug)]
@@ -36,8 +37,11 @@ pub(super) struct Neighbour {
 /// Runs, and the rows that occur, each by ascending neighbours.
 #[derive(Debug, Default)]
 pub(super) struct Runs {
+    /// Distance of the nodes of a run: the order of the cells.
     pub period: usize,
+    /// Runs, by residue of their nodes and then by their first node.
     pub runs: Vec<Run>,
+    /// Rows; those that too few nodes share are empty.
     pub rows: Vec<Vec<Neighbour>>,
 }
 
@@ -82,26 +86,33 @@ pub(super) fn find<const D: usize>(
     }
     let period = linear().map(|b| b.kind().order()).max().unwrap_or(1);
     let meetings = Meetings::new(mesh, classes);
-    // A row costs less than the cells at its node, even for a single node.
+    // Where hardly two cells have one shape, only long runs can share a row.
     let few = |(shape, first): &Classes| few(first.len(), shape.len());
-    let shortest = if classes.iter().flatten().all(few) { 1 } else { SHORTEST };
+    let shortest = if classes.iter().flatten().all(few) { 1 } else { SHARED };
     let mut known: BTreeMap<Key, usize> = BTreeMap::new();
-    let (mut runs, mut rows) = (Vec::new(), Vec::new());
+    // First node of each row, and number of nodes that have it.
+    let mut shared: Vec<(usize, usize)> = Vec::new();
+    let mut runs = Vec::new();
     for residue in 0..period {
         let mut first = residue;
         while first < mesh.nodes.len() {
             let length = meetings.equal_from(first, period);
             if length >= shortest && !meetings.of(first).is_empty() {
-                let row = *known.entry(meetings.key(first)).or_insert_with(|| {
-                    rows.push(meetings.row(first, components, blocks));
-                    rows.len() - 1
-                });
+                let row = *known.entry(meetings.key(first)).or_insert(shared.len());
+                if row == shared.len() {
+                    shared.push((first, 0));
+                }
+                shared[row].1 += length;
                 runs.push(Run { first, length, row });
             }
             first += length * period;
         }
     }
-    Runs { period, runs, rows }
+    runs.retain(|run| shared[run.row].1 >= SHARED);
+    let row = |&(first, nodes): &(usize, usize)| {
+        if nodes < SHARED { Vec::new() } else { meetings.row(first, components, blocks) }
+    };
+    Runs { period, runs, rows: shared.iter().map(row).collect() }
 }
 
 /// Shapes of the cells of the linear blocks.
