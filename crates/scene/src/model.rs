@@ -102,11 +102,13 @@ impl Scene {
 
     /// Names of the mesh files of the scene.
     pub fn mesh_files(&self) -> impl Iterator<Item = &str> {
-        self.bodies.values().filter_map(|body| match &body.mesh {
-            MeshSource::Gmsh(mesh) => Some(mesh.file.get_ref().as_str()),
-            MeshSource::Abaqus(mesh) => Some(mesh.file.get_ref().as_str()),
+        let bodies = self.bodies.values().filter_map(|body| match &body.mesh {
+            MeshSource::Gmsh(mesh) => Some(&mesh.file),
+            MeshSource::Abaqus(mesh) => Some(&mesh.file),
             MeshSource::Block(_) | MeshSource::Quadrilateral(_) | MeshSource::Fault(_) => None,
-        })
+        });
+        let faults = self.faults.values().filter_map(|fault| Some(fault.triangles.as_ref()?.file()));
+        bodies.chain(faults).map(|file| file.get_ref().as_str())
     }
 }
 

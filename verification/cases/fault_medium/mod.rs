@@ -1,5 +1,7 @@
 //! Faults in homogeneous rock without bodies: tractions of dipping faults, cracks, long rectangles, and the cycles of BP1.
 
+mod triangles;
+
 use crate::cases::fault_operator::matrix;
 use crate::cases::{dislocation, drawn, seas};
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
@@ -32,6 +34,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     cracks(ledger)?;
     disc(ledger)?;
     grid(ledger)?;
+    triangles::run(ledger)?;
     cycles(ledger)
 }
 

@@ -5,12 +5,12 @@
 //! (x, z) of a kernel is (x, y) here, in space (x, y, z) of a kernel is (z, x, y) here, which keeps the handedness.
 
 use super::condensed::Tractions;
-use crate::kernel::{Rectangle, Segment};
+use crate::kernel::{Field, Rectangle, Segment, Triangle};
 use crate::loading::Loading;
 use crate::operator::{Both, Dense, Form, Geometry, Lattice, Operator, Toeplitz, in_form};
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::table::Table;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
 /// Patches of uniform slip.
@@ -20,20 +20,48 @@ pub enum Patches {
     Antiplane(Vec<Segment>),
     /// Segments of the plane that slip along themselves.
     Plane(Vec<Segment>),
-    /// Rectangles in space, in grids of equal ones.
+    /// Rectangles and triangles in space.
     Space {
-        /// Rectangles.
+        /// Rectangles and triangles.
         tiles: Vec<Tile>,
-        /// Grids; every tile belongs to one.
+        /// Grids of equal rectangles.
         grids: Vec<Lattice>,
     },
 }
 
-/// A rectangle with its directions of slip.
+/// The dislocation of a tile, in the axes of kernels.
+#[derive(Clone, Copy, Debug)]
+pub enum Shape {
+    /// A rectangle.
+    Rectangle(Rectangle),
+    /// A triangle.
+    Triangle(Triangle),
+}
+
+impl Shape {
+    /// Unit vectors along strike, up dip and along the normal, as columns.
+    #[must_use]
+    pub fn frame(&self) -> Matrix3<f64> {
+        match self {
+            Self::Rectangle(rectangle) => rectangle.frame(),
+            Self::Triangle(triangle) => triangle.frame(),
+        }
+    }
+
+    /// Field at a point, caused by slip.
+    fn field(&self, at: &Vector3<f64>, slip: &Vector3<f64>, poisson: f64) -> Field {
+        match self {
+            Self::Rectangle(rectangle) => rectangle.field(at, slip, poisson),
+            Self::Triangle(triangle) => triangle.field(at, slip, poisson),
+        }
+    }
+}
+
+/// A rectangle or triangle with its directions of slip.
 #[derive(Clone, Copy, Debug)]
 pub struct Tile {
-    /// The rectangle, in the axes of kernels.
-    pub rectangle: Rectangle,
+    /// The dislocation.
+    pub shape: Shape,
     /// Unit direction of the first component of slip.
     pub rake: [f64; 3],
     /// Unit direction of the second component.
@@ -42,10 +70,8 @@ pub struct Tile {
     pub normal: [f64; 3],
     /// Centre \[m\].
     pub at: [f64; 3],
-    /// Number of its grid.
-    pub grid: usize,
-    /// Column and row in its grid.
-    pub cell: [usize; 2],
+    /// Number of its grid, and its column and row in it; none of a triangle.
+    pub cell: Option<(usize, [usize; 2])>,
 }
 
 /// Position or vector in the axes of kernels.
@@ -91,7 +117,9 @@ impl Patches {
     /// The grid to which all patches belong.
     fn grid(&self) -> Option<(&[Tile], &Lattice)> {
         match self {
-            Self::Space { tiles, grids } if grids.len() == 1 => Some((tiles, &grids[0])),
+            Self::Space { tiles, grids } if grids.len() == 1 && grids[0].points.len() == tiles.len() => {
+                Some((tiles, &grids[0]))
+            }
             _ => None,
         }
     }
@@ -161,10 +189,11 @@ impl Patches {
                 let tables: Vec<Vec<Pull>> = grids.iter().map(|g| table(tiles, g, rock, component)).collect();
                 filled(tiles.len(), |k, j| {
                     let (point, patch) = (&tiles[k], &tiles[j]);
-                    if point.grid == patch.grid {
-                        tables[point.grid][grids[point.grid].entry(point.cell, patch.cell)][part]
-                    } else {
-                        on_tile(point, patch, rock, component)[part]
+                    match (point.cell, patch.cell) {
+                        (Some((grid, at)), Some((other, from))) if grid == other => {
+                            tables[grid][grids[grid].entry(at, from)][part]
+                        }
+                        _ => on_tile(point, patch, rock, component)[part],
                     }
                 })
             }
@@ -202,7 +231,7 @@ fn largest(values: &[f64]) -> f64 {
 /// Tractions in the middle of a tile per slip of another in a component.
 fn on_tile(point: &Tile, patch: &Tile, rock: &Elastic, component: usize) -> Pull {
     let slip = to_kernel([&patch.rake, &patch.across][component]);
-    let field = patch.rectangle.field(&to_kernel(&point.at), &slip, rock.poisson());
+    let field = patch.shape.field(&to_kernel(&point.at), &slip, rock.poisson());
     let normal = to_kernel(&point.normal);
     let traction = field.traction(rock, &normal);
     let along = |v: &[f64; 3]| traction.dot(&to_kernel(v));
@@ -241,7 +270,7 @@ fn table(tiles: &[Tile], grid: &Lattice, rock: &Elastic, component: usize) -> Ve
 /// Ratios of the tractions on both sides of a patch along strike, where it slips along strike or down dip. The plane normal to
 /// strike through its middle mirrors it into itself: slip down dip is kept, and slip along strike turns round.
 fn mirrored(tile: &Tile, component: usize) -> Option<Pull> {
-    let strike: Vector3<f64> = tile.rectangle.frame().column(0).into();
+    let strike: Vector3<f64> = tile.shape.frame().column(0).into();
     let along = [&tile.rake, &tile.across].map(|slip| to_kernel(slip).dot(&strike).abs());
     let turned = |k: usize| if along[k] > 0.5 { -1.0 } else { 1.0 };
     let level = along.iter().all(|share| *share <= LEVEL || 1.0 - share <= LEVEL);

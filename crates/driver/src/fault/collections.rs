@@ -1,6 +1,6 @@
 //! Files of a 3D run at its end: fields of events and of the last state, and the collections of all fields.
 
-use super::fields::{Field, along, grid, put, state};
+use super::fields::{Field, Surface, along, state};
 use super::figures::each;
 use super::plan::Plan;
 use super::snapshots;
@@ -22,7 +22,7 @@ pub fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), OutputError>
     let (mut taken, mut states, mut events) = (Vec::new(), Vec::new(), Vec::new());
     each(&out.join(snapshots::LIST), &mut |row| taken.push(row[1]))?;
     for (part, fault) in plan.faults.iter().enumerate() {
-        let grid = grid(plan, fault);
+        let surface = Surface::of(plan, fault);
         let folder = out.join("fields");
         let entry = |file: &str, time: f64| PvdEntry {
             time,
@@ -42,11 +42,11 @@ pub fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), OutputError>
                 ));
             }
             let (file, onset) = (format!("{}_event_{k:03}.vtu", fault.name), event.onset.seconds());
-            put(&folder.join(&file), &grid, onset, &fields)?;
+            surface.put(&folder.join(&file), onset, &fields)?;
             events.push(entry(&file, onset));
         }
         let (file, time) = (format!("{}_end.vtu", fault.name), run.at.seconds());
-        put(&folder.join(&file), &grid, time, &state(plan, fault, &run.unknowns, (&rate, &pressed)))?;
+        surface.put(&folder.join(&file), time, &state(plan, fault, &run.unknowns, (&rate, &pressed)))?;
         states.push(entry(&file, time));
     }
     atomic::write(&out.join("events.pvd"), &pvd(&events))?;

@@ -1,20 +1,44 @@
 //! Fields on faults in 3D as VTU files: states during a run and at its end, and slip and traction drop of each event.
 
-use super::plan::{FaultView, Plan};
+use super::plan::{FaultView, Outline, Plan};
 use asperity_cycles::{Components, Layout, Pressed};
 use asperity_output::vtu::{Array, Grid, Values};
 use asperity_output::{OutputError, atomic};
 use std::path::Path;
 
-/// Writes fields on a fault. Returns the size of the file \[bytes\].
-///
-/// # Errors
-/// If the file cannot be written.
-pub(super) fn put(path: &Path, grid: &Grid, time: f64, fields: &[Field]) -> Result<u64, OutputError> {
-    let arrays: Vec<Array<'_>> = fields.iter().map(Field::array).collect();
-    let bytes = grid.file(time, &arrays, &[]);
-    atomic::write(path, &bytes)?;
-    Ok(bytes.len() as u64)
+/// Points and cells of a fault in a file.
+#[derive(Debug)]
+pub(super) struct Surface {
+    grid: Grid,
+    /// True if each cell has a value, and not each point.
+    by_cell: bool,
+}
+
+impl Surface {
+    /// Surface of a fault: its triangles, or else faces between its points.
+    pub fn of(plan: &Plan, fault: &FaultView) -> Self {
+        let points = &plan.points[fault.points.clone()];
+        if let Some(Outline { nodes, corners }) = &fault.outline {
+            let cells: Vec<(u8, Vec<usize>)> = corners.iter().map(|c| (face_type(3), c.to_vec())).collect();
+            return Self { grid: Grid::new(nodes, &cells), by_cell: true };
+        }
+        let places: Vec<[f64; 3]> = points.iter().map(|p| p.at).collect();
+        let cells: Vec<(u8, Vec<usize>)> =
+            fault.faces.iter().map(|f| (face_type(f.len()), f.clone())).collect();
+        Self { grid: Grid::new(&places, &cells), by_cell: false }
+    }
+
+    /// Writes fields. Returns the size of the file \[bytes\].
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn put(&self, path: &Path, time: f64, fields: &[Field]) -> Result<u64, OutputError> {
+        let arrays: Vec<Array<'_>> = fields.iter().map(Field::array).collect();
+        let (points, cells) = if self.by_cell { (&[][..], &arrays[..]) } else { (&arrays[..], &[][..]) };
+        let bytes = self.grid.file(time, points, cells);
+        atomic::write(path, &bytes)?;
+        Ok(bytes.len() as u64)
+    }
 }
 
 /// A field on a fault.
@@ -90,11 +114,4 @@ fn face_type(nodes: usize) -> u8 {
         4 => 9,
         _ => 28,
     }
-}
-
-/// Faces of a fault.
-pub(super) fn grid(plan: &Plan, fault: &FaultView) -> Grid {
-    let places: Vec<[f64; 3]> = plan.points[fault.points.clone()].iter().map(|p| p.at).collect();
-    let cells: Vec<(u8, Vec<usize>)> = fault.faces.iter().map(|f| (face_type(f.len()), f.clone())).collect();
-    Grid::new(&places, &cells)
 }

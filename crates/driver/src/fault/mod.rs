@@ -40,7 +40,7 @@ pub use identity::physics;
 pub use keeper::Keeper;
 pub use normal::NormalChoice;
 pub use openings::OpenedFault;
-pub use plan::{FaultView, HeatView, Plan, PointView, Station};
+pub use plan::{FaultView, HeatView, Outline, Plan, PointView, Station};
 pub use planner::{Ground, modulus, places, plan, plan_with, spacings};
 pub use position::Position;
 pub use report::Report;

@@ -68,6 +68,17 @@ pub struct FaultView {
     pub stations: Vec<(Station, usize)>,
     /// Faces whose nodes all slide freely, by their points within the fault.
     pub faces: Vec<Vec<usize>>,
+    /// Outlines of the cells of the points, if fields are drawn in them.
+    pub outline: Option<Outline>,
+}
+
+/// Triangles of which each has a point of a fault at its centre.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outline {
+    /// Positions of corners \[m\].
+    pub nodes: Vec<[f64; 3]>,
+    /// Corners of the triangles, in the order of the points of the fault.
+    pub corners: Vec<[usize; 3]>,
 }
 
 /// The problem to integrate, and its description for the output.

@@ -1,11 +1,10 @@
 //! Snapshots of the state of faults in 3D during a run, as VTU files.
 
 use super::cadence::{Gauge, RATE_CHANGE, Reading};
-use super::fields;
+use super::fields::{self, Surface};
 use super::plan::Plan;
 use asperity_cycles::Moment;
 use asperity_output::decimals::fixed;
-use asperity_output::vtu::Grid;
 use asperity_output::{OutputError, atomic};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -30,8 +29,8 @@ pub(super) struct Taken {
 #[derive(Debug)]
 pub(super) struct Snapshots {
     folder: PathBuf,
-    /// Grid of each fault.
-    grids: Vec<Grid>,
+    /// Surface of each fault.
+    surfaces: Vec<Surface>,
     taken: Taken,
 }
 
@@ -51,8 +50,8 @@ impl Snapshots {
         }
         let folder = out.join("fields");
         atomic::create_dir(&folder)?;
-        let grids = plan.faults.iter().map(|fault| fields::grid(plan, fault)).collect();
-        Ok(Some(Self { folder, grids, taken: Taken::default() }))
+        let surfaces = plan.faults.iter().map(|fault| Surface::of(plan, fault)).collect();
+        Ok(Some(Self { folder, surfaces, taken: Taken::default() }))
     }
 
     /// Resumes after the snapshots already taken.
@@ -78,9 +77,9 @@ impl Snapshots {
             return Ok(None);
         }
         let number = self.taken.count;
-        for (fault, grid) in plan.faults.iter().zip(&self.grids) {
+        for (fault, surface) in plan.faults.iter().zip(&self.surfaces) {
             let state = fields::state(plan, fault, now.unknowns, (now.rate.all(), now.pressed));
-            let bytes = fields::put(&self.folder.join(name(&fault.name, number)), grid, time, &state)?;
+            let bytes = surface.put(&self.folder.join(name(&fault.name, number)), time, &state)?;
             self.taken.gauge.spend(bytes, FILES * plan.cadence.largest_file, time);
         }
         self.taken.count = number + 1;

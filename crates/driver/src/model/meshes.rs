@@ -307,7 +307,7 @@ pub fn spacing(spec: &scene::SpacingSpec) -> Spacing {
 }
 
 /// Length unit of a file in metres.
-fn unit(name: Option<&Spanned<String>>) -> Result<f64, Diagnostic> {
+pub(super) fn unit(name: Option<&Spanned<String>>) -> Result<f64, Diagnostic> {
     let Some(name) = name else { return Ok(1.0) };
     units::parse(&format!("1 {}", name.get_ref()), Dimension::Length).map_err(|_| {
         Diagnostic::at(
@@ -332,10 +332,7 @@ fn read<const D: usize>(
 ) -> Result<Mesh<D>, Diagnostic> {
     let name = file.get_ref();
     let at = |message: String, help: &str| Diagnostic::at(file.span(), message, help.to_string());
-    let path = scene.folder.join(name);
-    let bytes = std::fs::read(&path)
-        .map_err(|e| at(format!("the mesh file `{name}` cannot be read: {e}"), &looked_for(&path)))?;
-    let mesh = parse(&bytes)
+    let mesh = parse(&bytes(scene, file)?)
         .and_then(|raw| raw.into_mesh::<D>(options))
         .map_err(|e| at(format!("mesh file `{name}`: {e}"), "the error is in the file, not in the scene"))?;
     let mut mesh = match groups {
@@ -364,6 +361,15 @@ fn read<const D: usize>(
     Ok(mesh)
 }
 
+/// Content of a mesh file.
+pub(super) fn bytes(scene: &scene::Scene, file: &Spanned<String>) -> Result<Vec<u8>, Diagnostic> {
+    let (name, path) = (file.get_ref(), scene.folder.join(file.get_ref()));
+    std::fs::read(&path).map_err(|e| {
+        let message = format!("the mesh file `{name}` cannot be read: {e}");
+        Diagnostic::at(file.span(), message, looked_for(&path))
+    })
+}
+
 /// Path of a missing mesh file, and the files found there instead.
 fn looked_for(path: &Path) -> String {
     let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
@@ -386,7 +392,7 @@ fn looked_for(path: &Path) -> String {
 }
 
 /// Extensions of mesh files.
-const MESHES: [&str; 2] = ["msh", "inp"];
+const MESHES: [&str; 3] = ["msh", "inp", "stl"];
 
 fn cut<const D: usize>(mesh: &mut Mesh<D>, file: &str, name: &Spanned<String>) -> Result<(), Diagnostic> {
     let known = || suggest(name.get_ref(), "sets", mesh.side_sets.keys().map(String::as_str));

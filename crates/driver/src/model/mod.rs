@@ -3,6 +3,7 @@
 pub mod materials;
 pub mod meshes;
 pub mod sizes;
+pub mod surfaces;
 
 use crate::diagnostic::Diagnostic;
 use crate::forecast::{self, Counts};

@@ -12,6 +12,8 @@ mod locate;
 mod raw;
 pub mod spacing;
 pub mod split;
+pub mod stl;
+pub mod triangles;
 
 pub use error::{GroupName, Holder, MeshError, Part, Place};
 pub use locate::{Location, locate};

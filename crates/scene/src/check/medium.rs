@@ -1,7 +1,9 @@
 //! Homogeneous rock without bodies, and the geometry of faults in it.
 
 use super::Checker;
-use crate::model::{Fault, FaultLine, FaultRectangle, Kinematics, Medium, MediumKind, SpacingSpec, Spanned};
+use crate::model::{
+    Fault, FaultLine, FaultRectangle, FaultTriangles, Kinematics, Medium, MediumKind, SpacingSpec, Spanned,
+};
 use crate::near::suggest;
 use std::f64::consts::FRAC_PI_2;
 
@@ -11,7 +13,7 @@ const MOST_CELLS: f64 = 1e6;
 const ROUNDING: f64 = 1e-12;
 
 impl Checker<'_> {
-    /// Checks the geometry of a fault: sides of bodies, or a line or a rectangle in a medium.
+    /// Checks the geometry of a fault: sides of bodies, or a line, a rectangle or triangles in a medium.
     pub(super) fn geometry(&mut self, name: &str, fault: &Fault) {
         let Some(medium) = &self.scene.medium else {
             self.sides_of(name, fault);
@@ -21,28 +23,29 @@ impl Checker<'_> {
             self.conflict(
                 &fault.minus.span(),
                 format!("fault `{name}` has sides, and a medium has no bodies"),
-                "describe it by `line` in the plane or by `rectangle` in space",
+                "describe it by `line` in the plane, or by `rectangle` or `triangles` in space",
                 (&medium.kind.span(), "the medium"),
             );
         }
         let in_space = *self.scene.kinematics.get_ref() == Kinematics::ThreeD;
         let (wanted, example) = if in_space {
             (
-                "rectangle",
+                "`rectangle` or `triangles`",
                 "such as `rectangle = { from = [\"0 km\", \"0 km\", \"-50 km\"], to = [\"0 km\", \"0 km\", \"50 km\"], width = \"40 km\", size = \"1 km\" }`",
             )
         } else {
             (
-                "line",
+                "`line`",
                 "such as `line = { trace = [[\"0 km\", \"0 km\"], [\"0 km\", \"-40 km\"]], spacing = \"100 m\" }`",
             )
         };
-        match (&fault.line, &fault.rectangle) {
-            (Some(line), None) if !in_space => self.line(line, medium),
-            (None, Some(rectangle)) if in_space => self.rectangle(rectangle, medium),
+        match (&fault.line, &fault.rectangle, &fault.triangles) {
+            (Some(line), None, None) if !in_space => self.line(line, medium),
+            (None, Some(rectangle), None) if in_space => self.rectangle(rectangle, medium),
+            (None, None, Some(triangles)) if in_space => self.triangles(triangles),
             _ => self.error(
                 fault.span(),
-                format!("fault `{name}` needs `{wanted}` alone in {}", self.idealisation()),
+                format!("fault `{name}` needs {wanted} alone in {}", self.idealisation()),
                 example,
             ),
         }
@@ -52,7 +55,8 @@ impl Checker<'_> {
     fn sides_of(&mut self, name: &str, fault: &Fault) {
         let line = fault.line.as_ref().map(|l| ("line", l.trace.span()));
         let rectangle = fault.rectangle.as_ref().map(|r| ("rectangle", r.from.span()));
-        if let Some((key, place)) = line.or(rectangle) {
+        let triangles = fault.triangles.as_ref().map(|t| ("triangles", t.file().span()));
+        if let Some((key, place)) = line.or(rectangle).or(triangles) {
             self.error(
                 place,
                 format!("fault `{name}` has `{key}`, which is for faults in a medium"),
@@ -89,7 +93,7 @@ impl Checker<'_> {
             self.error(
                 place,
                 "creep in a medium has no border: it is that of the continuation of the fault",
-                "remove it, and let the line or the rectangle end where the creep begins",
+                "remove it, and let the fault end where the creep begins",
             );
         }
     }
@@ -177,6 +181,18 @@ impl Checker<'_> {
                 format!("the fault reaches y = {highest} m, above the surface y = 0 of the half-space"),
                 "y points up: depths are negative",
                 (&medium.kind.span(), "the half-space"),
+            );
+        }
+    }
+
+    /// Checks what a scene says of a file of triangles; the planner reads the file.
+    fn triangles(&mut self, triangles: &FaultTriangles) {
+        self.unit_of_file(triangles.unit());
+        if let Some(groups) = triangles.groups().filter(|g| g.get_ref().is_empty()) {
+            self.error(
+                groups.span(),
+                "a fault of no triangles",
+                "name groups of triangles, or leave the key out for all",
             );
         }
     }

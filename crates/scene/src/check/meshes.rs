@@ -147,15 +147,7 @@ impl Checker<'_> {
         groups: Option<&Spanned<Vec<Spanned<String>>>>,
         surfaces: &[Spanned<String>],
     ) {
-        if let Some(unit) = unit
-            && units::parse(&format!("1 {}", unit.get_ref()), Dimension::Length).is_err()
-        {
-            self.error(
-                unit.span(),
-                format!("there is no unit of length `{}`", unit.get_ref()),
-                "units of length are nm, um, mm, cm, m, km",
-            );
-        }
+        self.unit_of_file(unit);
         if let Some(groups) = groups.filter(|g| g.get_ref().is_empty()) {
             self.error(
                 groups.span(),
@@ -168,6 +160,19 @@ impl Checker<'_> {
                 let message = format!("`{}` is split twice", surface.get_ref());
                 self.conflict(&surface.span(), message, "remove one of the two", (&first.span(), "and here"));
             }
+        }
+    }
+
+    /// Checks the unit of a mesh file.
+    pub(super) fn unit_of_file(&mut self, unit: Option<&Spanned<String>>) {
+        if let Some(unit) = unit
+            && units::parse(&format!("1 {}", unit.get_ref()), Dimension::Length).is_err()
+        {
+            self.error(
+                unit.span(),
+                format!("there is no unit of length `{}`", unit.get_ref()),
+                "units of length are nm, um, mm, cm, m, km",
+            );
         }
     }
 

@@ -1,6 +1,6 @@
 //! Faults as declared in a scene, for simulations of earthquake cycles.
 
-use super::{FaultLine, FaultRectangle, Heat, LawSpec, Patch, Pulse};
+use super::{FaultLine, FaultRectangle, FaultTriangles, Heat, LawSpec, Patch, Pulse};
 use crate::here::here;
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
@@ -26,6 +26,8 @@ pub struct Fault {
     pub line: Option<FaultLine>,
     /// In a medium, in space: the rectangle of the fault.
     pub rectangle: Option<FaultRectangle>,
+    /// In a medium, in space: a file with the triangles of the fault.
+    pub triangles: Option<FaultTriangles>,
     /// A [friction law](laws.md) of kind `"rate-and-state"` or `"rate"`, without `f_limit`; explicit: also one of slip.
     pub law: Spanned<LawSpec>,
     /// Values of `a`, `b`, `l`, `normal` or `shear` along the fault.
@@ -96,12 +98,13 @@ impl Fault {
         self.rate.get_ref().0 != 0.0
     }
 
-    /// Position of its geometry in the file: its sides, its line or its rectangle.
+    /// Position of its geometry in the file: its sides, its line, its rectangle or its triangles.
     #[must_use]
     pub fn span(&self) -> Range<usize> {
         let line = self.line.as_ref().map(|line| line.trace.span());
         let rectangle = self.rectangle.as_ref().map(|rectangle| rectangle.from.span());
-        match line.or(rectangle) {
+        let triangles = self.triangles.as_ref().map(|triangles| triangles.file().span());
+        match line.or(rectangle).or(triangles) {
             Some(span) if !self.has_sides() => span,
             _ if self.minus.get_ref().is_empty() => self.law.span(),
             _ => self.minus.span(),

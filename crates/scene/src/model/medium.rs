@@ -59,3 +59,83 @@ pub struct FaultRectangle {
     /// Size of the square cells; along each axis, the nearest size that divides the fault \[m\].
     pub size: Spanned<Length>,
 }
+
+/// A fault in space as a surface of triangles, in a medium without bodies.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub enum FaultTriangles {
+    /// A Gmsh file, MSH 2.2 or 4.1.
+    Gmsh(GmshTriangles),
+    /// An Abaqus input file.
+    Abaqus(AbaqusTriangles),
+    /// An STL file, text or binary.
+    Stl(StlTriangles),
+}
+
+/// Triangles of a Gmsh file.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GmshTriangles {
+    /// Path, relative to the folder of the scene.
+    pub file: Spanned<String>,
+    /// Physical groups of triangles that form the fault; absent: all triangles, in a file without cells in space.
+    pub groups: Option<Spanned<Vec<Spanned<String>>>>,
+    /// Unit of length of the file, default `"m"`.
+    pub unit: Option<Spanned<String>>,
+}
+
+/// Triangles of an Abaqus input file.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AbaqusTriangles {
+    /// Path, relative to the folder of the scene.
+    pub file: Spanned<String>,
+    /// Element sets of triangles that form the fault; absent: all triangles, in a file without cells in space.
+    pub elsets: Option<Spanned<Vec<Spanned<String>>>>,
+    /// Unit of length of the file, default `"m"`.
+    pub unit: Option<Spanned<String>>,
+}
+
+/// Triangles of an STL file.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StlTriangles {
+    /// Path, relative to the folder of the scene.
+    pub file: Spanned<String>,
+    /// Names of the solids of a text that form the fault; absent: all triangles.
+    pub solids: Option<Spanned<Vec<Spanned<String>>>>,
+    /// Unit of length of the file, default `"m"`.
+    pub unit: Option<Spanned<String>>,
+}
+
+impl FaultTriangles {
+    /// Path of the file, relative to the folder of the scene.
+    #[must_use]
+    pub fn file(&self) -> &Spanned<String> {
+        match self {
+            Self::Gmsh(mesh) => &mesh.file,
+            Self::Abaqus(mesh) => &mesh.file,
+            Self::Stl(mesh) => &mesh.file,
+        }
+    }
+
+    /// Names of the groups that form the fault.
+    #[must_use]
+    pub fn groups(&self) -> Option<&Spanned<Vec<Spanned<String>>>> {
+        match self {
+            Self::Gmsh(mesh) => mesh.groups.as_ref(),
+            Self::Abaqus(mesh) => mesh.elsets.as_ref(),
+            Self::Stl(mesh) => mesh.solids.as_ref(),
+        }
+    }
+
+    /// Unit of length of the file.
+    #[must_use]
+    pub fn unit(&self) -> Option<&Spanned<String>> {
+        match self {
+            Self::Gmsh(mesh) => mesh.unit.as_ref(),
+            Self::Abaqus(mesh) => mesh.unit.as_ref(),
+            Self::Stl(mesh) => mesh.unit.as_ref(),
+        }
+    }
+}

@@ -330,6 +330,7 @@ pub(crate) fn views<const D: usize>(
             heat: heated::view(spec, &placed[first..last]),
             stations,
             faces: cells.faces((k, spec), &placed[first..last])?,
+            outline: cells.outline(k),
         });
     }
     Ok((faults, points))

@@ -1,5 +1,6 @@
 //! Cells of faults, as needed by the output.
 
+use super::super::plan::Outline;
 use super::placed::Placed;
 use crate::diagnostic::Diagnostic;
 use crate::scene::model::Fault as Spec;
@@ -11,4 +12,9 @@ pub(crate) trait Cells<const D: usize> {
 
     /// Faces between points that slide freely, by their numbers within the fault.
     fn faces(&self, fault: (usize, &Spec), placed: &[Placed<D>]) -> Result<Vec<Vec<usize>>, Diagnostic>;
+
+    /// Outlines of the cells of a fault, if fields are drawn in them.
+    fn outline(&self, _fault: usize) -> Option<Outline> {
+        None
+    }
 }

@@ -22,7 +22,7 @@ impl RawMesh {
     ///
     /// # Errors
     /// [`MeshError::MissingTag`] if a number in the options belongs to no group with elements.
-    pub(super) fn group_names(&self, options: &Options) -> Result<Vec<Vec<String>>, MeshError> {
+    pub(in crate::mesh) fn group_names(&self, options: &Options) -> Result<Vec<Vec<String>>, MeshError> {
         let used = self.used_groups();
         let mut names: Vec<Vec<String>> = self.groups.iter().map(|g| vec![g.own_name()]).collect();
         for (name, wanted) in &options.tags {

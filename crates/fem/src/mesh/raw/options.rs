@@ -46,7 +46,7 @@ impl Options {
         self
     }
 
-    pub(super) fn check(&self) -> Result<(), MeshError> {
+    pub(in crate::mesh) fn check(&self) -> Result<(), MeshError> {
         if self.length_unit.is_finite() && self.length_unit > 0.0 {
             Ok(())
         } else {

@@ -2,7 +2,7 @@
 
 use super::super::bends;
 use super::super::place::directions;
-use super::tiling::{Tiling, buried, in_dimension};
+use super::tiling::{Cut, Tiling, buried, in_dimension};
 use crate::diagnostic::Diagnostic;
 use crate::idealisation;
 use crate::model::meshes;
@@ -18,13 +18,12 @@ use asperity_fem::mesh::fault::{Departure, Divided, divided};
 /// [`Diagnostic`] at the line that cannot be divided, or that leaves the rock.
 pub(super) fn tiling<const D: usize>(scene: &Scene, space: Space) -> Result<Tiling<D>, Diagnostic> {
     let antiplane = idealisation::of(*scene.kinematics.get_ref()).components() == 1;
-    let mut all = Vec::new();
-    let mut tiling = Tiling::new();
+    let (mut all, mut faults, mut notes) = (Vec::new(), Vec::new(), Vec::new());
     for (name, spec) in &scene.faults {
         let Some(line) = &spec.line else { continue };
         let (cells, departure) = cells(name, line)?;
         let vertices = line.trace.get_ref().len();
-        tiling.notes.extend(departure.map(|d| meshes::smooth(&format!("fault `{name}`"), vertices, d)));
+        notes.extend(departure.map(|d| meshes::smooth(&format!("fault `{name}`"), vertices, d)));
         let mut segments = Vec::with_capacity(cells.len());
         for cell in &cells {
             let segment = Segment::new(space, cell.ends)
@@ -34,19 +33,24 @@ pub(super) fn tiling<const D: usize>(scene: &Scene, space: Space) -> Result<Tili
         }
         let places = cells.iter().zip(&segments).enumerate();
         let places = places.map(|(k, (cell, segment))| place((name, spec), all.len() + k, cell, segment));
-        tiling.places.push(places.collect::<Result<_, _>>()?);
-        tiling.sizes.push(cells.iter().map(Cell::length).collect());
-        tiling.faces.push((1..cells.len()).map(|k| vec![k - 1, k]).collect());
+        let sizes: Vec<f64> = cells.iter().map(Cell::length).collect();
+        faults.push(Cut {
+            places: places.collect::<Result<_, _>>()?,
+            widths: sizes.clone(),
+            sizes,
+            faces: (1..cells.len()).map(|k| vec![k - 1, k]).collect(),
+            outline: None,
+        });
         if !antiplane {
             let turns = segments.windows(2).zip(&cells);
             let turns =
                 turns.map(|(w, cell)| ([&w[0], &w[1]].map(|s| in_dimension(&s.normal())), cell.ends[0]));
-            tiling.notes.extend(bends::sharpest(name, turns));
+            notes.extend(bends::sharpest(name, turns));
         }
         all.extend(segments);
     }
-    tiling.patches = if antiplane { Patches::Antiplane(all) } else { Patches::Plane(all) };
-    Ok(tiling)
+    let patches = if antiplane { Patches::Antiplane(all) } else { Patches::Plane(all) };
+    Ok(Tiling { patches, faults, notes })
 }
 
 /// Advice if a cell has no extent or leaves the rock.

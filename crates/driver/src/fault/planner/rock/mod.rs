@@ -3,7 +3,9 @@
 mod apart;
 mod lines;
 mod rectangles;
+mod surfaces;
 mod tiling;
+mod triangles;
 
 use super::super::plan::Plan;
 use super::assemble::{Around, Surrounded, geometry, plan_of, turns};
@@ -38,8 +40,9 @@ pub(super) fn plan<const D: usize>(scene: &Scene, rock: &Rock, form: Form) -> Re
     let tiling = tiling::<D>(scene, rock)?;
     let mut warnings = scene.warnings.clone();
     let placed = placed(scene, rock, &elastic, &tiling, &mut warnings)?;
-    apart::check(scene, &placed)?;
+    apart::check(scene, &placed, &tiling.widths())?;
     let resolution = resolved(scene, &placed, &mut warnings)?;
+    warnings.extend(triangles::tiny(scene, &tiling, &resolution));
     let slip = Slip {
         tangents: if turns(scene) { 2 } else { 1 },
         changes: &placed.iter().map(|p| p.point.normal_changes).collect::<Vec<bool>>(),
@@ -99,7 +102,7 @@ fn space(rock: &Rock) -> Space {
 }
 
 fn tiling<const D: usize>(scene: &Scene, rock: &Rock) -> Result<Tiling<D>, Diagnostic> {
-    if D == 2 { lines::tiling(scene, space(rock)) } else { rectangles::tiling(scene, space(rock)) }
+    if D == 2 { lines::tiling(scene, space(rock)) } else { surfaces::tiling(scene, space(rock)) }
 }
 
 /// Points of all faults.
@@ -121,7 +124,8 @@ fn placed<const D: usize>(
     let mut all = Vec::new();
     for (fault, (name, spec)) in scene.faults.iter().enumerate() {
         let base = base_law(spec)?;
-        let cells = tiling.places[fault].iter().zip(&tiling.sizes[fault]);
+        let cut = &tiling.faults[fault];
+        let cells = cut.places.iter().zip(&cut.sizes);
         let of = |(place, &spacing): (&Place<D>, &f64)| {
             let components = idealisation.components();
             let given = Given { medium, spacing, stress: None, creep: None, components };

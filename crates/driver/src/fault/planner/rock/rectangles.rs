@@ -2,53 +2,55 @@
 
 use super::super::place::directions;
 use super::super::placed::in_space;
-use super::tiling::{Tiling, buried, in_dimension};
+use super::tiling::{Cut, buried, in_dimension};
 use crate::diagnostic::Diagnostic;
-use crate::scene::model::{Fault as Spec, FaultRectangle, Scene};
+use crate::scene::model::{Fault as Spec, FaultRectangle};
 use asperity_cycles::kernel::{Placement, Rectangle, Space};
-use asperity_cycles::medium::patches::{Patches, Tile, from_kernel, to_kernel};
+use asperity_cycles::medium::patches::{Shape, Tile, from_kernel, to_kernel};
 use asperity_cycles::medium::{Place, across, unit};
 use asperity_cycles::operator::Lattice;
 use std::f64::consts::FRAC_PI_2;
 
-/// Cells of all faults.
+/// Cells of a fault, with their grid, which has this number. `first` is the number of the first cell.
 ///
 /// # Errors
-/// [`Diagnostic`] at the rectangle that leaves the rock.
-pub(super) fn tiling<const D: usize>(scene: &Scene, space: Space) -> Result<Tiling<D>, Diagnostic> {
-    let (mut tiles, mut grids): (Vec<Tile>, Vec<Lattice>) = (Vec::new(), Vec::new());
-    let mut tiling = Tiling::new();
-    for (name, spec) in &scene.faults {
-        let Some(rectangle) = &spec.rectangle else { continue };
-        let grid = Grid::of(rectangle);
-        let first = tiles.len();
-        let mut places = Vec::with_capacity(grid.count());
-        for k in 0..grid.count() {
-            let cell = [k % grid.columns, k / grid.columns];
-            let patch = Rectangle::new(space, &grid.placement(cell)).map_err(|e| {
-                Diagnostic::at(
-                    rectangle.from.span(),
-                    format!("fault `{name}`: {e}"),
-                    "y points up: depths are negative",
-                )
-            })?;
-            buried(space, name, [grid.centre(cell)[1], grid.cell[1]], rectangle.from.span())?;
-            let place = place::<D>((name, spec), first + k, &grid, (cell, &patch))?;
-            tiles.push(tile(&place, patch, (grids.len(), cell)));
-            places.push(place);
-        }
-        tiling.places.push(places);
-        tiling.sizes.push(vec![grid.cell[0].max(grid.cell[1]); grid.count()]);
-        tiling.faces.push(grid.faces());
-        tiling.notes.push(grid.words(name));
-        grids.push(Lattice {
-            columns: grid.columns,
-            rows: grid.rows,
-            points: (first..tiles.len()).collect(),
-        });
+/// [`Diagnostic`] at a rectangle that leaves the rock.
+pub(super) fn cells<const D: usize>(
+    (name, spec): (&str, &Spec),
+    rectangle: &FaultRectangle,
+    space: Space,
+    (first, number): (usize, usize),
+) -> Result<Divided<D>, Diagnostic> {
+    let grid = Grid::of(rectangle);
+    let mut tiles = Vec::with_capacity(grid.count());
+    let mut places = Vec::with_capacity(grid.count());
+    for k in 0..grid.count() {
+        let cell = [k % grid.columns, k / grid.columns];
+        let patch = Rectangle::new(space, &grid.placement(cell)).map_err(|e| {
+            let help = "y points up: depths are negative";
+            Diagnostic::at(rectangle.from.span(), format!("fault `{name}`: {e}"), help)
+        })?;
+        buried(space, name, [grid.centre(cell)[1], grid.cell[1]], rectangle.from.span())?;
+        let place = place::<D>((name, spec), first + k, &grid, (cell, &patch))?;
+        tiles.push(tile(&place, patch, (number, cell)));
+        places.push(place);
     }
-    tiling.patches = Patches::Space { tiles, grids };
-    Ok(tiling)
+    let sizes = vec![grid.cell[0].max(grid.cell[1]); grid.count()];
+    let points = (first..first + tiles.len()).collect();
+    Ok(Divided {
+        tiles,
+        grid: Lattice { columns: grid.columns, rows: grid.rows, points },
+        cut: Cut { places, widths: sizes.clone(), sizes, faces: grid.faces(), outline: None },
+        note: grid.words(name),
+    })
+}
+
+/// A rectangle divided into cells.
+pub(super) struct Divided<const D: usize> {
+    pub tiles: Vec<Tile>,
+    pub grid: Lattice,
+    pub cut: Cut<D>,
+    pub note: String,
 }
 
 /// Grid of cells of a rectangle.
@@ -145,7 +147,8 @@ fn place<const D: usize>(
     Ok(Place { minus: number, plus: number, at, area, normal, rake, creeps, along: 0.0 })
 }
 
-fn tile<const D: usize>(place: &Place<D>, rectangle: Rectangle, (grid, cell): (usize, [usize; 2])) -> Tile {
+fn tile<const D: usize>(place: &Place<D>, rectangle: Rectangle, cell: (usize, [usize; 2])) -> Tile {
     let (normal, rake, at) = (in_space(&place.normal), in_space(&place.rake), in_space(&place.at));
-    Tile { rectangle, rake, across: across(&normal, &rake), normal, at, grid, cell }
+    let shape = Shape::Rectangle(rectangle);
+    Tile { shape, rake, across: across(&normal, &rake), normal, at, cell: Some(cell) }
 }

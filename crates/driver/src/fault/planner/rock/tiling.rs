@@ -1,5 +1,6 @@
 //! Cells of faults in homogeneous rock.
 
+use super::super::super::plan::Outline;
 use super::super::cells::Cells;
 use super::super::placed::Placed;
 use crate::diagnostic::Diagnostic;
@@ -12,13 +13,22 @@ use std::ops::Range;
 /// Cells of the faults of a scene, in the order of their points.
 pub(super) struct Tiling<const D: usize> {
     pub patches: Patches,
-    /// Points at the centres, fault by fault.
-    pub places: Vec<Vec<Place<D>>>,
-    /// Largest extent of each cell \[m\], fault by fault.
-    pub sizes: Vec<Vec<f64>>,
-    /// Faces between centres of neighbouring cells, by the numbers of their points within the fault.
-    pub faces: Vec<Vec<Vec<usize>>>,
+    pub faults: Vec<Cut<D>>,
     pub notes: Vec<String>,
+}
+
+/// Cells of one fault.
+pub(super) struct Cut<const D: usize> {
+    /// Points at the centres.
+    pub places: Vec<Place<D>>,
+    /// Largest extent of each cell \[m\].
+    pub sizes: Vec<f64>,
+    /// Distance between the centres of two equal cells side by side \[m\].
+    pub widths: Vec<f64>,
+    /// Faces between centres of neighbouring cells, by the numbers of their points within the fault.
+    pub faces: Vec<Vec<usize>>,
+    /// Outlines of cells in which fields are drawn.
+    pub outline: Option<Outline>,
 }
 
 /// A dimension that the caller has established.
@@ -27,10 +37,9 @@ pub(super) fn in_dimension<const A: usize, const B: usize>(v: &[f64; A]) -> [f64
 }
 
 impl<const D: usize> Tiling<D> {
-    /// No cells yet.
-    pub fn new() -> Self {
-        let patches = Patches::Antiplane(Vec::new());
-        Self { patches, places: Vec::new(), sizes: Vec::new(), faces: Vec::new(), notes: Vec::new() }
+    /// Smallest distance between the centres of equal cells side by side, of all cells \[m\].
+    pub fn widths(&self) -> Vec<f64> {
+        self.faults.iter().flat_map(|cut| cut.widths.iter().copied()).collect()
     }
 }
 
@@ -40,7 +49,11 @@ impl<const D: usize> Cells<D> for Tiling<D> {
     }
 
     fn faces(&self, (fault, _): (usize, &Spec), _: &[Placed<D>]) -> Result<Vec<Vec<usize>>, Diagnostic> {
-        Ok(self.faces[fault].clone())
+        Ok(self.faults[fault].faces.clone())
+    }
+
+    fn outline(&self, fault: usize) -> Option<Outline> {
+        self.faults[fault].outline.clone()
     }
 }
 
