@@ -48,7 +48,7 @@ fn content(message: &str) -> Option<Words> {
         });
     }
     if message.contains("expected newtype variant") {
-        return Some(("a kind alone says too little".into(), Some("such as `mesh.block = { .. }`".into())));
+        return Some(("a kind alone says too little".into(), Some("such as `mesh.block = { .. }`, or `triangles.stl = { .. }` of a fault".into())));
     }
     if let Some((kind, rest)) = message.split_once(", expected ")
         && let Some(found) = ["invalid type: ", "invalid value: "].iter().find_map(|p| kind.strip_prefix(p))
@@ -66,7 +66,7 @@ fn content(message: &str) -> Option<Words> {
         "wanted string or table" => Some(("expected a text in quotes or a table".into(), None)),
         _ if message.starts_with("wanted exactly 1 element") => Some((
             "one kind is expected here, and only one".into(),
-            Some("such as `mesh.block = { .. }`".into()),
+            Some("such as `mesh.block = { .. }`, or `triangles.stl = { .. }` of a fault".into()),
         )),
         _ => None,
     }

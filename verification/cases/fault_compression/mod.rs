@@ -1,5 +1,7 @@
 //! The compressed operator against the dense one.
 
+mod space;
+
 use crate::cases::drawn;
 use crate::cases::{fault_operator, seas};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
@@ -12,7 +14,13 @@ use asperity_vary::bp1::{BP1, bp1};
 pub const CASE: Case = Case {
     name: "fault_compression",
     readme: include_str!("README.md"),
-    covers: &[Capability::FaultCycles, Capability::Antiplane, Capability::PlaneStrain],
+    covers: &[
+        Capability::FaultCycles,
+        Capability::Antiplane,
+        Capability::PlaneStrain,
+        Capability::Medium,
+        Capability::Solid3d,
+    ],
     quick: true,
     run,
 };
@@ -47,6 +55,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         }
     }
     all_entries(ledger, "dip 30, 250 m", &dipping)?;
+    space::run(ledger)?;
     ledger.table("operators", &["fault", "points", "dense [bytes]", "compressed"], rows);
     Ok(())
 }

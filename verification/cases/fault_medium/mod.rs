@@ -1,6 +1,6 @@
 //! Faults in homogeneous rock without bodies: tractions of dipping faults, cracks, long rectangles, and the cycles of BP1.
 
-mod triangles;
+pub mod triangles;
 
 use crate::cases::fault_operator::matrix;
 use crate::cases::{dislocation, drawn, seas};

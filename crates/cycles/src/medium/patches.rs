@@ -7,7 +7,9 @@
 use super::condensed::Tractions;
 use crate::kernel::{Field, Rectangle, Segment, Triangle};
 use crate::loading::Loading;
-use crate::operator::{Both, Dense, Form, Geometry, Lattice, Operator, Toeplitz, in_form};
+use crate::operator::{
+    Accuracy, Both, Checked, Dense, Division, Entry, Form, Geometry, Lattice, Operator, Toeplitz, in_form,
+};
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::table::Table;
 use nalgebra::{Matrix3, Vector3};
@@ -91,7 +93,9 @@ pub fn from_kernel(v: &Vector3<f64>) -> [f64; 3] {
 const UNCOUPLED: f64 = 1e-11;
 
 /// Tractions at a point per slip of a patch: along both tangents, and the normal traction, compression positive \[Pa/m\].
-type Pull = [f64; 3];
+type Pull = [f64; PARTS];
+/// Number of parts of a [`Pull`].
+const PARTS: usize = 3;
 /// Number of the normal traction in a [`Pull`].
 const NORMAL: usize = 2;
 
@@ -124,7 +128,8 @@ impl Patches {
         }
     }
 
-    /// Operator of these patches. Of a single grid it is a [`Toeplitz`] unless another form is asked for.
+    /// Operator of these patches, and the reason for its form. In [`Form::Fitting`], that of a single grid is a [`Toeplitz`],
+    /// and that of many points is compressed from its entries, without the whole matrix.
     #[must_use]
     pub fn operator(
         &self,
@@ -132,81 +137,224 @@ impl Patches {
         slip: Slip<'_>,
         (geometry, form): (&Geometry<'_>, Form),
     ) -> Box<dyn Operator> {
-        match self.grid().filter(|_| form == Form::Fitting) {
-            Some((tiles, lattice)) => of_grid(tiles, lattice, rock, slip),
-            None => in_form(self.tractions(rock, slip), geometry, form),
+        match (self.storage(), form) {
+            (Storage::Grid(tiles, lattice), Form::Fitting) => of_grid(tiles, lattice, rock, slip),
+            (Storage::Compressed, Form::Fitting) => self.compressed(rock, slip, geometry, TOLERANCE),
+            (_, Form::Compressed { tolerance }) => self.compressed(rock, slip, geometry, tolerance),
+            (_, Form::Dense | Form::Fitting) => in_form(self.tractions(rock, slip), geometry, Form::Dense),
         }
     }
 
-    /// Largest memory that making the operator in [`Form::Fitting`] takes \[bytes\].
+    /// Storage that fits these patches.
+    fn storage(&self) -> Storage<'_> {
+        match self.grid() {
+            Some((tiles, lattice)) => Storage::Grid(tiles, lattice),
+            None if self.count() < self.compressed_from() => Storage::Dense,
+            None => Storage::Compressed,
+        }
+    }
+
+    /// Number of patches from which the operator is compressed. With fewer, a product with the dense one takes as long.
+    fn compressed_from(&self) -> usize {
+        match self {
+            Self::Antiplane(_) | Self::Plane(_) => 128,
+            Self::Space { .. } => 512,
+        }
+    }
+
+    /// Reason for the storage of the operator.
     #[must_use]
-    pub fn bytes(&self, tangents: usize) -> usize {
+    pub fn reason(&self) -> String {
+        let (count, from) = (self.count(), self.compressed_from());
+        match self.storage() {
+            Storage::Grid(_, grid) => format!(
+                "the operator is a convolution along strike, as all {} cells belong to one grid",
+                grid.points.len()
+            ),
+            Storage::Dense => {
+                format!("the operator is dense, as {count} cells are fewer than {from}")
+            }
+            Storage::Compressed => format!(
+                "the operator is compressed from its entries, as {count} cells are {from} or more and form no single grid"
+            ),
+        }
+    }
+
+    /// Largest memory that making the operator in [`Form::Fitting`] takes \[bytes\]; of a compressed one it is an estimate.
+    #[must_use]
+    pub fn bytes(&self, tangents: usize, geometry: &Geometry<'_>) -> usize {
         let matrices = match self {
             Self::Antiplane(_) => 1,
             Self::Plane(_) => 2,
             Self::Space { .. } => tangents * (tangents + 1),
         };
-        let entries = match self.grid() {
+        match self.storage() {
             // A table of pulls, and real and imaginary parts of spectra of twice the number of columns.
-            Some((_, grid)) => grid.distances() * grid.rows.pow(2) * (Pull::default().len() + matrices * 2),
-            None => matrices * self.count().pow(2),
-        };
-        entries * size_of::<f64>()
+            Storage::Grid(_, grid) => {
+                grid.distances() * grid.rows.pow(2) * (PARTS + matrices * 2) * size_of::<f64>()
+            }
+            Storage::Dense => matrices * self.count().pow(2) * size_of::<f64>(),
+            // Blocks are joined when all of a matrix are known.
+            Storage::Compressed => (matrices + 1) * Division::new(geometry).bytes(),
+        }
     }
 
     /// Tractions in the centres of all patches caused by slip of each.
     fn tractions(&self, rock: &Elastic, slip: Slip<'_>) -> Tractions {
         let n = self.count();
-        let along = |component: usize| {
-            let shear = self.matrix(rock, component, component);
+        let changes = slip.changes.contains(&true);
+        let of = |component: usize| {
+            let across = (slip.tangents > 1).then_some(1 - component);
+            let parts = [Some(component), changes.then_some(NORMAL), across];
+            let parts: Vec<usize> = parts.into_iter().flatten().collect();
+            let pulls = Pulls::new(self, rock, component);
+            let mut all = filled(n, &parts, |k, j| pulls.at(k, j)).into_iter();
+            let shear = all.next().unwrap_or_default();
             let least = UNCOUPLED * largest(&shear);
-            let normal = slip.changes.contains(&true).then(|| {
-                let mut normal = self.matrix(rock, component, NORMAL);
+            let normal = changes.then(|| all.next()).flatten().map(|mut normal| {
                 let rows = normal.chunks_exact_mut(n).zip(slip.changes);
                 rows.filter(|(_, changes)| !**changes).for_each(|(row, _)| row.fill(0.0));
                 normal
             });
-            (Dense::new(n, shear, normal.filter(|m| largest(m) > least)), least)
+            let coupled = |m: &Vec<f64>| largest(m) > least;
+            let across = all.next().map(|m| (coupled(&m), m));
+            (Dense::new(n, shear, normal.filter(coupled)), across)
         };
-        let (first, least) = along(0);
+        let (first, by_first) = of(0);
         if slip.tangents == 1 {
             return Tractions::One(first);
         }
-        let across = [(1, 0), (0, 1)].map(|(component, part)| self.matrix(rock, component, part));
-        let across = across
-            .iter()
-            .any(|m| largest(m) > least)
-            .then(|| Box::new(across.map(|m| Dense::new(n, m, None))));
-        Tractions::Two { along: Box::new([first, along(1).0]), across }
+        let (second, by_second) = of(1);
+        let across = by_second.zip(by_first).filter(|(a, b)| a.0 || b.0);
+        let across = across.map(|(a, b)| Box::new([a.1, b.1].map(|m| Dense::new(n, m, None))));
+        Tractions::Two { along: Box::new([first, second]), across }
     }
 
-    /// Matrix of a part of the tractions per slip of a component, row by row.
-    fn matrix(&self, rock: &Elastic, component: usize, part: usize) -> Vec<f64> {
-        match self {
-            Self::Antiplane(all) => filled(all.len(), |k, j| out_of_plane(&all[k], &all[j], rock)[part]),
-            Self::Plane(all) => filled(all.len(), |k, j| in_plane(&all[k], &all[j], rock)[part]),
-            Self::Space { tiles, grids } => {
-                let tables: Vec<Vec<Pull>> = grids.iter().map(|g| table(tiles, g, rock, component)).collect();
-                filled(tiles.len(), |k, j| {
-                    let (point, patch) = (&tiles[k], &tiles[j]);
-                    match (point.cell, patch.cell) {
-                        (Some((grid, at)), Some((other, from))) if grid == other => {
-                            tables[grid][grids[grid].entry(at, from)][part]
-                        }
-                        _ => on_tile(point, patch, rock, component)[part],
-                    }
-                })
-            }
-        }
+    /// Operator compressed from entries, with its errors.
+    fn compressed(
+        &self,
+        rock: &Elastic,
+        slip: Slip<'_>,
+        geometry: &Geometry<'_>,
+        tolerance: f64,
+    ) -> Box<dyn Operator> {
+        let n = self.count();
+        let division = Division::new(geometry);
+        let pulls: Vec<Pulls<'_>> = (0..slip.tangents).map(|c| Pulls::new(self, rock, c)).collect();
+        let largest = (0..n).map(|k| pulls[0].at(k, k)[0].abs()).fold(0.0, f64::max);
+        let accuracy = Accuracy { tolerance, rounding: ROUNDING * largest };
+        let coupled = |c: usize, part: usize| pulls[c].reach(part) > UNCOUPLED * largest;
+        let changes = slip.changes.contains(&true);
+        let along = |c: usize| -> Box<dyn Operator> {
+            let shear = |k: usize, j: usize| pulls[c].at(k, j)[c];
+            let normal = |k: usize, j: usize| if slip.changes[k] { pulls[c].at(k, j)[NORMAL] } else { 0.0 };
+            let normal: Option<Entry<'_>> = if changes && coupled(c, NORMAL) { Some(&normal) } else { None };
+            Box::new(division.operator(&shear, normal, accuracy))
+        };
+        let across = |c: usize| -> Box<dyn Operator> {
+            Box::new(division.operator(&|k, j| pulls[c].at(k, j)[1 - c], None, accuracy))
+        };
+        let operator = if slip.tangents == 1 {
+            along(0)
+        } else {
+            let across = (coupled(0, 1) || coupled(1, 0)).then(|| [across(1), across(0)]);
+            Box::new(Both::new([along(0), along(1)], across))
+        };
+        let row = |k: usize| {
+            let part = |part: usize| {
+                let of = |pulls: &Pulls<'_>| (0..n).map(|j| pulls.at(k, j)[part]).collect::<Vec<f64>>();
+                if part == NORMAL && !slip.changes[k] {
+                    vec![0.0; slip.tangents * n]
+                } else {
+                    pulls.iter().flat_map(of).collect()
+                }
+            };
+            [part(0), part(1), part(NORMAL)]
+        };
+        Box::new(Checked::new(operator, &row))
     }
 }
 
-/// A square matrix of these entries, row by row.
-fn filled(n: usize, entry: impl Fn(usize, usize) -> f64 + Sync) -> Vec<f64> {
-    let mut matrix = vec![0.0; n * n];
-    let rows = matrix.par_chunks_exact_mut(n).enumerate();
-    rows.for_each(|(k, row)| row.iter_mut().enumerate().for_each(|(j, value)| *value = entry(k, j)));
-    matrix
+/// Storage of an operator.
+enum Storage<'a> {
+    /// A convolution.
+    Grid(&'a [Tile], &'a Lattice),
+    /// All entries.
+    Dense,
+    /// Blocks of low rank.
+    Compressed,
+}
+
+/// Error of a compressed block over the block.
+const TOLERANCE: f64 = 1e-6;
+/// Size of entries that are rounding, over the largest of a patch on itself: terms of corners lose some units in the last
+/// place.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// Tractions of slip of one component, entry by entry.
+struct Pulls<'a> {
+    patches: &'a Patches,
+    rock: &'a Elastic,
+    component: usize,
+    /// Different tractions within each grid.
+    tables: Vec<Vec<Pull>>,
+}
+
+impl<'a> Pulls<'a> {
+    fn new(patches: &'a Patches, rock: &'a Elastic, component: usize) -> Self {
+        let tables = match patches {
+            Patches::Space { tiles, grids } => {
+                grids.iter().map(|grid| table(tiles, grid, rock, component)).collect()
+            }
+            Patches::Antiplane(_) | Patches::Plane(_) => Vec::new(),
+        };
+        Self { patches, rock, component, tables }
+    }
+
+    /// Tractions at a point per slip of a patch.
+    fn at(&self, k: usize, j: usize) -> Pull {
+        match self.patches {
+            Patches::Antiplane(all) => out_of_plane(&all[k], &all[j], self.rock),
+            Patches::Plane(all) => in_plane(&all[k], &all[j], self.rock),
+            Patches::Space { tiles, grids } => {
+                let (point, patch) = (&tiles[k], &tiles[j]);
+                match (point.cell, patch.cell) {
+                    (Some((grid, at)), Some((other, from))) if grid == other => {
+                        self.tables[grid][grids[grid].entry(at, from)]
+                    }
+                    _ => on_tile(point, patch, self.rock, self.component),
+                }
+            }
+        }
+    }
+
+    /// Largest part of the tractions at some points, spread over the faults. Slip of every patch counts.
+    fn reach(&self, part: usize) -> f64 {
+        let n = self.patches.count();
+        let of = |k: usize| (0..n).map(|j| self.at(k, j)[part].abs()).fold(0.0, f64::max);
+        let step = n.div_ceil(REACHED);
+        (0..n).into_par_iter().step_by(step).map(of).reduce(|| 0.0, f64::max)
+    }
+}
+
+/// Number of points at which it is examined whether slip changes a part of the tractions.
+const REACHED: usize = 16;
+
+/// Square matrices of these parts of the entries, row by row.
+fn filled(n: usize, parts: &[usize], pull: impl Fn(usize, usize) -> Pull + Sync) -> Vec<Vec<f64>> {
+    let mut matrices = vec![vec![0.0; n * n]; parts.len()];
+    let mut rows: Vec<Vec<&mut [f64]>> = (0..n).map(|_| Vec::with_capacity(parts.len())).collect();
+    for matrix in &mut matrices {
+        rows.iter_mut().zip(matrix.chunks_exact_mut(n)).for_each(|(rows, row)| rows.push(row));
+    }
+    rows.par_iter_mut().enumerate().for_each(|(k, rows)| {
+        for j in 0..n {
+            let pull = pull(k, j);
+            rows.iter_mut().zip(parts).for_each(|(row, &part)| row[j] = pull[part]);
+        }
+    });
+    drop(rows);
+    matrices
 }
 
 /// Tractions in the middle of a segment per slip of another out of the plane.

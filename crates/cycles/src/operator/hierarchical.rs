@@ -1,49 +1,17 @@
 //! Compressed tractions of slip: blocks between distant points have low rank.
 //!
-//! The matrix of forces on jumps, symmetric in shear, is compressed; tractions are forces divided by tributary areas.
-//! Blocks are stored in the order in which a product reads them, once. Of a symmetric matrix only the blocks on and
-//! above the diagonal are stored.
+//! Of matrices that are given as a whole, the matrix of forces on jumps is compressed, which is symmetric in shear, with an
+//! error relative to its largest entry; tractions are forces divided by tributary areas. Of entries that are computed one by
+//! one, tractions are compressed, with an error relative to each block.
 
+use super::blocks::{Compressed, Content, Part, Sizes};
 use super::cluster::{Cluster, Tree};
 use super::low_rank::{GROUP, LowRank, low_rank};
 use super::{Operator, columns};
 use nalgebra::DMatrix;
-use pulp::{Arch, Simd, WithSimd};
-use rayon::prelude::*;
+use pulp::Arch;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
-
-/// A block of a compressed matrix.
-#[derive(Clone, Debug)]
-struct Block {
-    rows: Range<usize>,
-    columns: Range<usize>,
-    /// Number of columns of its two factors; none if it is dense.
-    rank: Option<usize>,
-    /// True if its transpose stands for a block below the diagonal.
-    mirrored: bool,
-    values: Range<usize>,
-}
-
-/// Blocks of one task, with memory for its sums.
-#[derive(Debug)]
-struct Task {
-    blocks: Range<usize>,
-    sums: Mutex<Vec<f64>>,
-}
-
-/// A compressed matrix in the order of a tree.
-#[derive(Debug)]
-struct Compressed {
-    size: usize,
-    blocks: Vec<Block>,
-    values: Vec<f64>,
-    tasks: Vec<Task>,
-}
-
-/// Number of values of a task. It is fixed, so that sums do not depend on the number of threads. With more values than
-/// this, starting tasks pays off.
-const TASK: usize = 100_000;
 
 /// Largest rank tried. Blocks between distant points need less than half of it, and the cost of the search grows with
 /// its square.
@@ -53,28 +21,6 @@ const MOST_RANK: usize = 64;
 const MOST_RANK_NEAR: usize = 24;
 /// Relative difference of two entries that are equal by symmetry. It is above the rounding of the condensation.
 const SYMMETRIC: f64 = 1e-9;
-
-/// A block before blocks are put in the order of products.
-struct Part {
-    rows: Range<usize>,
-    columns: Range<usize>,
-    content: Content,
-}
-
-enum Content {
-    /// Row by row.
-    Dense(Vec<f64>),
-    Low(LowRank),
-}
-
-impl Part {
-    fn values(&self) -> usize {
-        match &self.content {
-            Content::Dense(values) => values.len(),
-            Content::Low(low) => low.left.ncols() * (self.rows.len() + self.columns.len()),
-        }
-    }
-}
 
 /// Matrix to be compressed.
 struct Source<'a> {
@@ -140,6 +86,12 @@ impl Source<'_> {
         }
     }
 
+    /// The compressed matrix.
+    fn compressed(&self) -> Compressed {
+        let parts = self.tree.clusters.first().map_or_else(Vec::new, |root| self.within(root));
+        Compressed::new(self.rows.len(), parts, self.symmetric)
+    }
+
     /// The blocks of a cluster with itself.
     fn within(&self, a: &Cluster) -> Vec<Part> {
         let Some([p, q]) = a.parts else { return vec![self.dense(&a.range, &a.range)] };
@@ -159,177 +111,20 @@ impl Source<'_> {
     }
 }
 
-impl Compressed {
-    fn new(source: &Source<'_>) -> Self {
-        let parts = source.tree.clusters.first().map_or_else(Vec::new, |root| source.within(root));
-        let mut all = Self {
-            size: source.rows.len(),
-            blocks: Vec::with_capacity(parts.len()),
-            values: Vec::with_capacity(parts.iter().map(Part::values).sum()),
-            tasks: Vec::new(),
-        };
-        for Part { rows, columns, content } in parts {
-            let first = all.values.len();
-            let rank = match content {
-                Content::Dense(values) => {
-                    all.values.extend(values);
-                    None
-                }
-                Content::Low(low) => {
-                    // Group by group: the columns of the left factor, then those of the right one.
-                    for k in (0..low.left.ncols()).step_by(GROUP) {
-                        for side in [&low.left, &low.right] {
-                            let columns = (k..k + GROUP).flat_map(|c| (0..side.nrows()).map(move |i| (i, c)));
-                            all.values.extend(columns.map(|at| side[at]));
-                        }
-                    }
-                    Some(low.left.ncols())
-                }
-            };
-            let mirrored = source.symmetric && rows != columns;
-            all.blocks.push(Block { rows, columns, rank, mirrored, values: first..all.values.len() });
-        }
-        all.part();
-        all
-    }
-
-    /// Divides the blocks into tasks.
-    fn part(&mut self) {
-        let mut first = 0;
-        for k in 0..self.blocks.len() {
-            let values = self.blocks[k].values.end - self.blocks[first].values.start;
-            if values >= TASK || k + 1 == self.blocks.len() {
-                self.tasks.push(Task { blocks: first..k + 1, sums: Mutex::new(vec![0.0; self.size]) });
-                first = k + 1;
-            }
-        }
-    }
-
-    /// y = A x.
-    fn product(&self, arch: Arch, x: &[f64], y: &mut [f64]) {
-        let work = |task: &Task| {
-            let mut sums = task.sums.lock().unwrap_or_else(PoisonError::into_inner);
-            sums.fill(0.0);
-            arch.dispatch(Product {
-                blocks: &self.blocks[task.blocks.clone()],
-                values: &self.values,
-                x,
-                sums: &mut sums,
-            });
-        };
-        match self.tasks.as_slice() {
-            [one] => work(one),
-            many => many.par_iter().for_each(work),
-        }
-        y.fill(0.0);
-        for task in &self.tasks {
-            let sums = task.sums.lock().unwrap_or_else(PoisonError::into_inner);
-            y.iter_mut().zip(sums.iter()).for_each(|(y, s)| *y += s);
-        }
-    }
-}
-
-/// Products of blocks with a vector. It is not a closure, since pulp calls closures through a function that is compiled
-/// without the requested vector units.
-struct Product<'a> {
-    blocks: &'a [Block],
-    values: &'a [f64],
-    x: &'a [f64],
-    sums: &'a mut [f64],
-}
-
-impl WithSimd for Product<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        for block in self.blocks {
-            block.add(&self.values[block.values.clone()], self.x, self.sums);
-        }
-    }
-}
-
-impl Block {
-    /// Adds its product with `x` to `y`.
-    #[inline(always)]
-    fn add(&self, values: &[f64], x: &[f64], y: &mut [f64]) {
-        let (m, n) = (self.rows.len(), self.columns.len());
-        let Some(_) = self.rank else {
-            for (i, row) in values.chunks_exact(n).enumerate() {
-                let at = self.rows.start + i;
-                y[at] += dot(row, &x[self.columns.clone()]);
-                if self.mirrored {
-                    add(&mut y[self.columns.clone()], x[at], row);
-                }
-            }
-            return;
-        };
-        for group in values.chunks_exact(GROUP * (m + n)) {
-            let (left, right) = group.split_at(GROUP * m);
-            let t = dots(right, &x[self.columns.clone()]);
-            let s = if self.mirrored { dots(left, &x[self.rows.clone()]) } else { [0.0; GROUP] };
-            adds(&mut y[self.rows.clone()], &t, left);
-            if self.mirrored {
-                adds(&mut y[self.columns.clone()], &s, right);
-            }
-        }
-    }
-}
-
-/// Number of partial sums. It is fixed, so that results are the same on every machine.
-const LANES: usize = 8;
-
-#[inline(always)]
-fn dot(a: &[f64], x: &[f64]) -> f64 {
-    let (a_lanes, a_rest) = a.as_chunks::<LANES>();
-    let (x_lanes, x_rest) = x.as_chunks::<LANES>();
-    let mut sums = [0.0; LANES];
-    for (a, x) in a_lanes.iter().zip(x_lanes) {
-        for k in 0..LANES {
-            sums[k] += a[k] * x[k];
-        }
-    }
-    for ((sum, a), x) in sums.iter_mut().zip(a_rest).zip(x_rest) {
-        *sum += a * x;
-    }
-    let [a, b, c, d, e, f, g, h] = sums;
-    ((a + e) + (c + g)) + ((b + f) + (d + h))
-}
-
-/// Scalar products of the columns of a group with `x`. They are written one after the other: compilers interleave the
-/// columns otherwise, which is slower, and compile `array::from_fn` without vector units.
-#[inline(always)]
-fn dots(group: &[f64], x: &[f64]) -> [f64; GROUP] {
-    let n = x.len();
-    let (a, b) = group.split_at(2 * n);
-    let ((a, b), (c, d)) = (a.split_at(n), b.split_at(n));
-    [dot(a, x), dot(b, x), dot(c, x), dot(d, x)]
-}
-
-#[inline(always)]
-fn add(y: &mut [f64], factor: f64, a: &[f64]) {
-    for (y, a) in y.iter_mut().zip(a) {
-        *y += factor * a;
-    }
-}
-
-/// Adds multiples of the columns of a group to `y`.
-#[inline(always)]
-fn adds(y: &mut [f64], factors: &[f64; GROUP], group: &[f64]) {
-    let n = y.len();
-    let (a, b) = group.split_at(2 * n);
-    let ((a, b), (c, d)) = (a.split_at(n), b.split_at(n));
-    let [f, g, h, k] = *factors;
-    for ((((y, a), b), c), d) in y.iter_mut().zip(a).zip(b).zip(c).zip(d) {
-        *y += (f * a + g * b) + (h * c + k * d);
-    }
-}
-
 /// Vectors in the order of the tree.
 #[derive(Debug, Default)]
 struct Ordered {
     slip: Vec<f64>,
     force: Vec<f64>,
+}
+
+/// Error of compressed matrices.
+#[derive(Clone, Copy, Debug)]
+enum Tolerance {
+    /// Relative to the largest force.
+    OfLargest(f64),
+    /// Relative to each block.
+    OfBlock(f64),
 }
 
 /// Operator of compressed matrices.
@@ -341,20 +136,9 @@ pub struct Hierarchical {
     shear: Compressed,
     normal: Option<Compressed>,
     stiffness: Vec<f64>,
-    tolerance: f64,
+    tolerance: Tolerance,
     ordered: Mutex<Ordered>,
     arch: Arch,
-}
-
-/// Sizes of a compressed matrix.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Sizes {
-    /// Values kept.
-    pub values: usize,
-    /// Numbers of blocks of low rank and of dense ones.
-    pub blocks: [usize; 2],
-    /// Largest rank.
-    pub rank: usize,
 }
 
 /// Geometry of the points.
@@ -394,11 +178,11 @@ impl Hierarchical {
         let off = |i: usize, j: usize| (shear[i * n + j] * rows[i] - shear[j * n + i] * rows[j]).abs();
         let symmetric = (0..n).all(|i| (0..i).all(|j| off(i, j) <= SYMMETRIC * largest));
         let source = |matrix, symmetric| Source { tree: &tree, matrix, rows, symmetric, error };
-        let compressed = |matrix, symmetric| Compressed::new(&source(matrix, symmetric));
+        let compressed = |matrix, symmetric| source(matrix, symmetric).compressed();
         let vectors = || vec![0.0; n];
         Self {
             stiffness: columns(n, &std::iter::once(shear).chain(normal).collect::<Vec<_>>()),
-            tolerance,
+            tolerance: Tolerance::OfLargest(tolerance),
             shear: compressed(shear, symmetric),
             normal: normal.map(|matrix| compressed(matrix, false)),
             per_area: tree.order.iter().map(|&p| 1.0 / rows[p]).collect(),
@@ -408,19 +192,32 @@ impl Hierarchical {
         }
     }
 
+    /// Operator of tractions that are compressed with this tolerance relative to each block, in the order of the tree of these
+    /// points.
+    pub(super) fn of_blocks(order: Vec<usize>, shear: Compressed, normal: Option<Compressed>, tolerance: f64) -> Self {
+        let n = order.len();
+        let mut stiffness = vec![0.0; n];
+        for matrix in std::iter::once(&shear).chain(&normal) {
+            for (&p, sum) in order.iter().zip(matrix.columns()) {
+                stiffness[p] += sum;
+            }
+        }
+        Self {
+            stiffness,
+            tolerance: Tolerance::OfBlock(tolerance),
+            shear,
+            normal,
+            per_area: vec![1.0; n],
+            ordered: Mutex::new(Ordered { slip: vec![0.0; n], force: vec![0.0; n] }),
+            arch: Arch::new(),
+            order,
+        }
+    }
+
     /// Sizes of the matrices of shear and of normal forces.
     #[must_use]
     pub fn sizes(&self) -> Vec<Sizes> {
-        let sizes = |c: &Compressed| {
-            let low = c.blocks.iter().filter_map(|b| b.rank);
-            let dense = c.blocks.len() - low.clone().count();
-            Sizes {
-                values: c.values.len(),
-                blocks: [c.blocks.len() - dense, dense],
-                rank: low.max().unwrap_or(0),
-            }
-        };
-        std::iter::once(&self.shear).chain(&self.normal).map(sizes).collect()
+        std::iter::once(&self.shear).chain(&self.normal).map(Compressed::sizes).collect()
     }
 
     fn tractions(&self, matrix: &Compressed, slip: &[f64], tractions: &mut [f64]) {
@@ -466,12 +263,16 @@ impl Operator for Hierarchical {
     fn words(&self) -> String {
         let sizes = self.sizes();
         let sum = |of: fn(&Sizes) -> usize| sizes.iter().map(of).sum::<usize>();
+        let tolerance = match self.tolerance {
+            Tolerance::OfLargest(tolerance) => format!("{tolerance:e} of the largest force"),
+            Tolerance::OfBlock(tolerance) => format!("{tolerance:e} of each block"),
+        };
         let dense = sizes.len() * self.order.len().pow(2) * size_of::<f64>();
         format!(
-            "operator compressed to {:.1} kB of {:.1} at a tolerance of {:e}: {} blocks of rank {} at most, {} dense ones",
+            "operator compressed to {:.1} kB of {:.1} at a tolerance of {}: {} blocks of rank {} at most, {} dense ones",
             self.bytes() as f64 / 1e3,
             dense as f64 / 1e3,
-            self.tolerance,
+            tolerance,
             sum(|s| s.blocks[0]),
             sizes.iter().map(|s| s.rank).max().unwrap_or(0),
             sum(|s| s.blocks[1])
@@ -566,7 +367,7 @@ mod tests {
             let mut y = vec![0.0; 2 * n];
             pool.install(|| {
                 let operator = example.compressed();
-                assert!(operator.normal.as_ref().unwrap().tasks.len() > 1);
+                assert!(operator.normal.as_ref().unwrap().tasks() > 1);
                 operator.shear(&x, &mut y[..n]);
                 operator.normal(&x, &mut y[n..]);
             });

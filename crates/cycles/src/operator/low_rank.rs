@@ -69,7 +69,7 @@ const MOST_ITERATIONS: usize = 10_000;
 
 /// Reduces `left right'` to the fewest columns within `error`; none if its singular values are not found. It runs on
 /// one thread, so that results do not depend on the number of threads.
-fn recompressed(left: DMatrix<f64>, right: DMatrix<f64>, error: f64) -> Option<LowRank> {
+pub(super) fn recompressed(left: DMatrix<f64>, right: DMatrix<f64>, error: f64) -> Option<LowRank> {
     if left.ncols() == 0 {
         return Some(LowRank { left, right });
     }

@@ -1,17 +1,24 @@
 //! Tractions that slip causes.
 
+mod blocks;
 mod both;
+mod checked;
 mod cluster;
+mod crosses;
 mod dense;
 mod form;
 mod hierarchical;
 mod low_rank;
+mod sampled;
 mod toeplitz;
 
+pub use blocks::Sizes;
 pub use both::Both;
+pub use checked::{Checked, Errors};
 pub use dense::Dense;
 pub use form::{Form, in_form};
-pub use hierarchical::{Geometry, Hierarchical, Sizes};
+pub use hierarchical::{Geometry, Hierarchical};
+pub use sampled::{Accuracy, Division, Entry};
 pub use toeplitz::{Lattice, Toeplitz};
 
 /// Linear operator from slip to the tractions of all points of a fault. Slip and shear tractions of several components
@@ -40,6 +47,11 @@ pub trait Operator: Send + Sync + std::fmt::Debug {
 
     /// Memory \[bytes\].
     fn bytes(&self) -> usize;
+
+    /// Errors of a compressed operator, where they have been found.
+    fn errors(&self) -> Option<Errors> {
+        None
+    }
 
     /// Description for the plan.
     fn words(&self) -> String;

@@ -39,6 +39,7 @@ pub(super) const KEYS: [&str; 30] = [
     "segall2010",
     "muskhelishvili1953",
     "okada1992",
+    "nikkhoo2015",
     "savage1983",
     "day2005",
     "kaneko2008",
@@ -160,12 +161,17 @@ fn add_fault(citations: &mut Citations, of: &str, fault: &Fault) -> Result<(), D
 }
 
 fn add_medium(citations: &mut Citations, scene: &Scene) {
+    let of_triangles = |fault: &Fault| fault.triangles.is_some();
+    let triangles = scene.faults.values().any(of_triangles);
     let key = match scene.kinematics.get_ref() {
-        Kinematics::Antiplane => "segall2010",
-        Kinematics::ThreeD => "okada1992",
-        _ => "muskhelishvili1953",
+        Kinematics::Antiplane => Some("segall2010"),
+        // Of rectangles.
+        Kinematics::ThreeD => (!scene.faults.values().all(of_triangles)).then_some("okada1992"),
+        _ => Some("muskhelishvili1953"),
     };
-    citations.add(key, "dislocations in homogeneous rock");
+    for key in key.into_iter().chain(triangles.then_some("nikkhoo2015")) {
+        citations.add(key, "dislocations in homogeneous rock");
+    }
     if scene.faults.values().any(|fault| fault.creep.is_some()) {
         citations.add("savage1983", "loading by slip deficit");
     }

@@ -1,5 +1,6 @@
 //! Report of a run of faults, `report.json`, and its events as CSV.
 
+use super::compression::Compression;
 use super::floors::{FloorUse, uses};
 use super::heats::{HeatedFault, heats};
 use super::located::locate;
@@ -155,6 +156,9 @@ pub struct Report {
     /// Heat of the faults that friction heats.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub heat: Vec<HeatedFault>,
+    /// Errors of the operator, if it is compressed from its entries.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub compression: Option<Compression>,
     /// Method of integration.
     pub method: String,
     /// Error tolerance of ln V in a step.
@@ -308,6 +312,7 @@ impl Report {
             floors: uses(plan, balance.floors()),
             openings: openings(plan, balance.opened(), &opening),
             heat,
+            compression: Compression::of(plan.problem.fault.operator.as_ref()),
             method: plan.problem.settings.method.name().to_string(),
             tolerance: plan.problem.settings.tolerance,
             end: run.at.seconds(),

@@ -6,6 +6,7 @@ use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_vary::SceneText;
 use std::fs;
+use std::path::Path;
 
 const BP1: &str = include_str!("../../../../scenes/bp1-half-space.toml");
 const BP5: &str = include_str!("../../../../scenes/bp5.toml");
@@ -170,4 +171,60 @@ fn a_run_in_a_medium_is_gone_on_with() {
     let resumed = run(place.path(), "parts", &["--resume"]);
     assert!(resumed.status.success(), "{}", text(&resumed.stderr));
     assert_same(place.path(), "parts");
+}
+
+/// A fault of triangles that slips at once.
+fn of_triangles() -> SceneText {
+    let page = include_str!("../../../../docs/src/messages/triangles.md");
+    let base = page.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    SceneText::new(base)
+        .with("faults.main.rate", "1e-3 m/s")
+        .with("stages[0].duration", "20 s")
+        .add("output.stations", "{ main = [[0, \"-1 km\", 0]] }")
+}
+
+#[test]
+fn a_fault_of_triangles_writes_fields_in_its_triangles_and_resumes() {
+    let scene = of_triangles().text().unwrap();
+    let here = folder(&scene);
+    let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/meshes");
+    fs::copy(meshes.join("fault.stl"), here.path().join("fault.stl")).unwrap();
+    let whole = run(here.path(), "whole", &[]);
+    assert!(whole.status.success(), "{}", text(&whole.stderr));
+    let report = fs::read_to_string(here.path().join("whole/report.json")).unwrap();
+    assert!(report.contains("\"fault.stl\""), "{report}");
+    let fields = fs::read(here.path().join("whole/fields/main_end.vtu")).unwrap();
+    assert!(text(&fields).contains("NumberOfPoints=\"6\" NumberOfCells=\"4\""));
+    assert_eq!(run(here.path(), "part", &["--wall-time", "0 s"]).status.code(), Some(3));
+    let rest = run(here.path(), "part", &["--resume"]);
+    assert!(rest.status.success(), "{}", text(&rest.stderr));
+    assert_same(here.path(), "part");
+}
+
+#[test]
+fn the_plus_side_of_triangles_is_the_hanging_wall_however_the_file_orients_them() {
+    let of = |swap: bool| {
+        let here = tempfile::tempdir().unwrap();
+        let corners = [[0, 0, 2000], [1000, -1000, 2000], [1000, -1000, 0], [0, 0, 0]];
+        let mut file = "solid s\n".to_string();
+        for (k, [a, b, c]) in [[0, 1, 2], [0, 2, 3]].into_iter().enumerate() {
+            let order = if swap == (k == 0) { [a, b, c] } else { [b, a, c] };
+            file += "facet\n";
+            for [x, y, z] in order.map(|n: usize| corners[n]) {
+                file += &format!("vertex {x} {y} {z}\n");
+            }
+            file += "endfacet\n";
+        }
+        fs::write(here.path().join("fault.stl"), file + "endsolid s\n").unwrap();
+        let scene = of_triangles().text().unwrap();
+        match plan_scene(&scene::read_in(&scene, here.path()).unwrap()).unwrap() {
+            ScenePlan::Faults(plan) => *plan,
+            ScenePlan::Bodies(_) | ScenePlan::Dynamic(_) => panic!("the scene has faults"),
+        }
+    };
+    for swap in [false, true] {
+        let plan = of(swap);
+        assert!(plan.points.iter().all(|p| p.normal[0] > 0.7 && p.normal[1] > 0.7));
+        assert!(plan.notes.iter().any(|note| note.ends_with("against the others: 1")), "{:?}", plan.notes);
+    }
 }

@@ -47,13 +47,14 @@ pub(super) fn plan<const D: usize>(scene: &Scene, rock: &Rock, form: Form) -> Re
         tangents: if turns(scene) { 2 } else { 1 },
         changes: &placed.iter().map(|p| p.point.normal_changes).collect::<Vec<bool>>(),
     };
-    let memory = admit(scene, &tiling.patches, slip)?;
     let (places, areas, faults) = geometry(&placed);
     let geometry = Geometry { places: &places, faults: &faults, areas: &areas };
+    let memory = admit(scene, &tiling.patches, slip, &geometry)?;
     let operator = tiling.patches.operator(&elastic, slip, (&geometry, form));
     let loading = deficit(operator.as_ref(), &plates(scene, &placed, slip.tangents), end);
     warnings.extend(sense::check(scene, (&placed, &[]), &loading, end));
     warnings.extend(unloaded(scene));
+    let notes = tiling.notes.iter().cloned().chain([tiling.patches.reason()]).collect();
     let around = Around {
         medium: match rock.kind.get_ref() {
             MediumKind::HalfSpace => "homogeneous half-space without bodies",
@@ -66,7 +67,7 @@ pub(super) fn plan<const D: usize>(scene: &Scene, rock: &Rock, form: Form) -> Re
         sampling: None,
         resolution,
         warnings,
-        notes: tiling.notes.clone(),
+        notes,
     };
     let surrounded = Surrounded { placed, operator, opening: None, loading, end };
     plan_of(scene, surrounded, around, &tiling)
@@ -140,8 +141,13 @@ fn placed<const D: usize>(
 }
 
 /// Memory of the operator while it is made \[bytes\]; refuses what exceeds the memory.
-fn admit(scene: &Scene, patches: &Patches, slip: Slip<'_>) -> Result<usize, Diagnostic> {
-    let needed = patches.bytes(slip.tangents);
+fn admit(
+    scene: &Scene,
+    patches: &Patches,
+    slip: Slip<'_>,
+    geometry: &Geometry<'_>,
+) -> Result<usize, Diagnostic> {
+    let needed = patches.bytes(slip.tangents, geometry);
     forecast::fits(scene, needed)?;
     let allowed = amounts::memory(scene);
     if needed <= allowed {

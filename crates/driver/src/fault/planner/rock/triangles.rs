@@ -121,7 +121,9 @@ impl Sides {
             all.push(format!("fault `{name}` surrounds rock: its plus side is the one given by its file"));
         }
         if turned > 0 {
-            all.push(format!("{turned} triangles of fault `{name}` were turned: its file orients them against the others"));
+            all.push(format!(
+                "fault `{name}`: triangles that were turned, because the file orients them against the others: {turned}"
+            ));
         }
         all
     }

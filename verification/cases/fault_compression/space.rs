@@ -1,0 +1,120 @@
+//! Operators in space that are compressed from their entries, against those with all entries.
+
+use crate::cases::fault_medium::triangles::{DISC, FROM_FILE, halved, planned, weakening};
+use crate::cases::seas;
+use crate::{Capability, CaseError, Cost, Evidence, Ledger};
+use asperity_cycles::operator::Form;
+use asperity_driver::fault::Plan;
+
+/// Tolerances of the compression relative to each block.
+const TOLERANCES: [f64; 3] = [1e-3, 1e-5, 1e-7];
+
+/// Runs all claims.
+pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
+    entries(ledger)?;
+    interval(ledger)
+}
+
+/// Plan of an inclined fault of 900 triangles, whose slip may turn and changes normal tractions on another fault.
+fn bent(form: Form) -> Result<Plan, CaseError> {
+    let mut triangles = halved(60.0, [25, 9], (600.0, 0.0));
+    // A second part that dips less.
+    let depth = 9.0 * 600.0;
+    let (s, c) = 60f64.to_radians().sin_cos();
+    let lower = halved(25.0, [25, 9], (600.0, 0.0));
+    let shift = |[x, y, z]: [f64; 3]| [x + depth * c, y - depth * s, z];
+    triangles.extend(lower.into_iter().map(|triangle| triangle.map(shift)));
+    let geometry = format!("{FROM_FILE}\nslip = \"free\"\nunder_resolved = \"allow\"");
+    let disc = "{ centre = [\"3 km\", \"-5 km\", 0], radius = \"4 km\" }";
+    planned(&weakening(&geometry, disc), &triangles, form)
+}
+
+/// Tractions of slip: shear, component by component, and normal.
+fn tractions(plan: &Plan, slip: &[f64]) -> Vec<f64> {
+    let operator = &plan.problem.fault.operator;
+    let n = operator.points();
+    let mut all = vec![0.0; 3 * n];
+    let (shear, normal) = all.split_at_mut(2 * n);
+    operator.shear(slip, shear);
+    operator.normal(slip, normal);
+    all
+}
+
+/// Frobenius' norm of the error of all tractions over that of the tractions.
+fn entries(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let dense = bent(Form::Dense)?;
+    let words = |plan: &Plan| plan.problem.fault.operator.words();
+    let n = 2 * dense.points.len();
+    let mut rows = Vec::new();
+    for tolerance in TOLERANCES {
+        let (compressed, cost) = Cost::of(|| bent(Form::Compressed { tolerance }));
+        let compressed = compressed?;
+        let (mut off, mut all) = (0.0, 0.0);
+        let mut slip = vec![0.0; n];
+        for p in 0..n {
+            slip[p] = 1.0;
+            let (a, b) = (tractions(&dense, &slip), tractions(&compressed, &slip));
+            slip[p] = 0.0;
+            off += a.iter().zip(&b).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
+            all += a.iter().map(|a| a * a).sum::<f64>();
+        }
+        let uniform = [vec![1.0; n / 2], vec![0.0; n / 2]].concat();
+        let (a, b) = (tractions(&dense, &uniform), tractions(&compressed, &uniform));
+        let norm = |v: &mut dyn Iterator<Item = f64>| v.map(|v| v * v).sum::<f64>().sqrt();
+        let exact = norm(&mut a.iter().copied());
+        let error = norm(&mut a.iter().zip(&b).map(|(a, b)| a - b)) / exact;
+        rows.push([
+            format!("{tolerance:e}"),
+            compressed.problem.fault.operator.bytes().to_string(),
+            format!("{error:.1e}"),
+            words(&compressed),
+        ]);
+        ledger
+            .claim(format!("a bent fault of {} triangles whose slip may turn: Frobenius' norm of the error of all tractions over theirs, tolerance {tolerance:e}", n / 2))
+            .value((off / all).sqrt())
+            .at_most(tolerance)
+            .evidence(Evidence::Exact, "the operator with all entries of the same kernels")
+            .between(&words(&dense), &words(&compressed))
+            .because("each block has this error relative to itself, so that the whole has it, too")
+            .why_not_tighter("blocks stored in full have no error, and they have the largest entries")
+            .covers(&[Capability::Medium, Capability::Solid3d])
+            .cost(&cost)
+            .record();
+    }
+    ledger.table("bent fault", &["tolerance", "bytes", "error of uniform slip", "operator"], rows);
+    Ok(())
+}
+
+/// Cells along strike of the fault of the cycle.
+const COLUMNS: usize = 18;
+
+/// The interval of two events with the operator that the plan chooses, and with all entries.
+fn interval(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let size = 1e3;
+    let text = weakening(FROM_FILE, DISC);
+    let triangles = halved(90.0, [COLUMNS, 15], (size, 0.0));
+    let (mut found, mut words, mut spent) = (Vec::new(), Vec::new(), None);
+    for form in [Form::Dense, Form::Fitting] {
+        let plan = planned(&text, &triangles, form)?;
+        let mut settings = plan.problem.settings;
+        settings.most_events = Some(2);
+        settings.end *= 4.0;
+        settings.tolerance = 1e-6;
+        let run = seas::found(&plan, &settings, |_| {})?;
+        found.push(run.onsets[1] - run.onsets[0]);
+        words.push(plan.problem.fault.operator.words());
+        spent = Some(run.cost);
+    }
+    ledger
+        .claim("interval of two events on a fault of 540 triangles, compressed as the plan chooses, relative to that with all entries")
+        .value((found[1] / found[0] - 1.0).abs())
+        .at_most(1e-4)
+        .evidence(Evidence::ConvergedSelf, "the operator with all entries, both with a tolerance of 1e-6 in ln V")
+        .between(&words[0], &words[1])
+        .because("the largest effect that a default may have on recurrence; uniform slip, which sets it, has a larger error than random slip")
+        .why_not_tighter("other roundings make other steps")
+        .covers(&[Capability::Medium, Capability::Solid3d, Capability::FaultCycles])
+        .cost(&spent.ok_or("no run")?)
+        .record();
+    Ok(())
+}
