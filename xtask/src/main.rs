@@ -108,11 +108,12 @@ fn root() -> PathBuf {
 
 fn verify(root: &Path, full: bool, case: Option<&str>) -> Result<(), Failure> {
     tidy(root)?;
-    // Without examples: clippy sees that they compile.
-    let tests = ["test", "--workspace", "--release", "--lib", "--bins", "--tests"];
-    Stage::new("tests", "cargo").args(tests).run(root)?;
+    // Without examples and benches, which have no tests: clippy sees that they compile.
+    let tests =
+        ["test", "--workspace", "--exclude", "asperity-benches", "--release", "--lib", "--bins", "--tests"];
+    Stage::new("tests", "cargo").args(tests).env("RUST_TEST_THREADS", &threads().to_string()).run(root)?;
     Stage::new("documented examples", "cargo")
-        .args(["test", "--workspace", "--release", "--doc"])
+        .args(["test", "--workspace", "--exclude", "asperity-benches", "--release", "--doc"])
         .run(root)?;
     let mut suite = Stage::new("verification", "cargo").args([
         "run",
@@ -129,6 +130,11 @@ fn verify(root: &Path, full: bool, case: Option<&str>) -> Result<(), Failure> {
         suite = suite.args(["--case", case]);
     }
     suite.run(root)
+}
+
+/// Threads for tests: twice the cores, since tests of files wait for the disc.
+fn threads() -> usize {
+    2 * std::thread::available_parallelism().map_or(1, usize::from)
 }
 
 fn tidy(root: &Path) -> Result<(), Failure> {

@@ -101,6 +101,7 @@ pub struct Stage {
     name: String,
     program: PathBuf,
     arguments: Vec<String>,
+    environment: Vec<(String, String)>,
 }
 
 impl Stage {
@@ -108,12 +109,19 @@ impl Stage {
     pub fn new(name: &str, program: impl Into<PathBuf>) -> Stage {
         let program = program.into();
         let own = std::env::var_os("CARGO").filter(|_| program == Path::new("cargo"));
-        Stage { name: name.to_owned(), program: own.map_or(program, PathBuf::from), arguments: Vec::new() }
+        let program = own.map_or(program, PathBuf::from);
+        Stage { name: name.to_owned(), program, arguments: Vec::new(), environment: Vec::new() }
     }
 
     /// Adds arguments.
     pub fn args<'a>(mut self, arguments: impl IntoIterator<Item = &'a str>) -> Stage {
         self.arguments.extend(arguments.into_iter().map(str::to_owned));
+        self
+    }
+
+    /// Sets a variable of the command's environment.
+    pub fn env(mut self, name: &str, value: &str) -> Stage {
+        self.environment.push((name.to_owned(), value.to_owned()));
         self
     }
 
@@ -123,6 +131,7 @@ impl Stage {
         let program = self.program.display().to_string();
         let status = Command::new(&self.program)
             .args(&self.arguments)
+            .envs(self.environment)
             .current_dir(folder)
             .status()
             .map_err(|source| Failure::Start { program, source })?;

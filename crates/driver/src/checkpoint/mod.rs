@@ -65,6 +65,15 @@ pub trait Contents: Serialize + DeserializeOwned {
             Err(e) if e.kind() == ErrorKind::NotFound => return Ok(None),
             Err(source) => return Err(ResumeError::Read { path, source }),
         };
+        Self::parse(bytes, &path, physics).map(Some)
+    }
+
+    /// Contents of a checkpoint whose file has these bytes; `path` names it in errors.
+    ///
+    /// # Errors
+    /// See [`Contents::read`].
+    fn parse(bytes: Vec<u8>, path: &Path, physics: &str) -> Result<Self, ResumeError> {
+        let path = path.to_path_buf();
         let damaged = |reason: &str| ResumeError::Damaged { path: path.clone(), reason: reason.into() };
         let text = String::from_utf8(bytes).map_err(|_| damaged("it is no text"))?;
         let mut lines = text.splitn(3, '\n');
@@ -87,7 +96,7 @@ pub trait Contents: Serialize + DeserializeOwned {
         if read.physics() != physics {
             return Err(ResumeError::Scene { path, allowed: Self::ALLOWED });
         }
-        Ok(Some(read))
+        Ok(read)
     }
 }
 

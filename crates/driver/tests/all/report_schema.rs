@@ -46,7 +46,7 @@ fn the_book_publishes_the_schema_of_this_program() {
     assert!(fs::read_to_string(&path).unwrap() == text, "UPDATE_SCHEMA=1 rewrites {}", path.display());
 }
 
-/// The report of a run that is interrupted after a second, where it can be.
+/// The report of a run.
 fn report(scene: &Path, arguments: &[&str]) -> Value {
     let out = tempfile::tempdir().unwrap();
     let mut run = Command::new(env!("CARGO_BIN_EXE_asperity"));
@@ -64,7 +64,7 @@ fn reports_of_all_scenes_keep_to_the_published_schema() {
         let scene = entry.unwrap().path();
         let text = fs::read_to_string(&scene).unwrap();
         let sliders = asperity_driver::scene::slider::is_slider(&text);
-        let report = report(&scene, if sliders { &[] } else { &["--wall-time", "1 s"] });
+        let report = report(&scene, if sliders { &[] } else { &["--wall-time", "0.4 s"] });
         assert_eq!(faults(&report), Vec::<String>::new(), "{}", scene.display());
         assert!(validator.is_valid(&report), "{}", scene.display());
         kinds.push(report["kind"].as_str().unwrap().to_string());
