@@ -48,7 +48,10 @@ fn content(message: &str) -> Option<Words> {
         });
     }
     if message.contains("expected newtype variant") {
-        return Some(("a kind alone says too little".into(), Some("such as `mesh.block = { .. }`, or `triangles.stl = { .. }` of a fault".into())));
+        return Some((
+            "a kind alone says too little".into(),
+            Some("such as `mesh.block = { .. }`, or `triangles.stl = { .. }` of a fault".into()),
+        ));
     }
     if let Some((kind, rest)) = message.split_once(", expected ")
         && let Some(found) = ["invalid type: ", "invalid value: "].iter().find_map(|p| kind.strip_prefix(p))

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+mod azimuth;
 pub mod check;
 pub mod diagnostic;
 mod entry;
@@ -35,6 +36,7 @@ use std::path::Path;
 pub fn read(text: &str, folder: &Path, laws: &Laws) -> Result<Scene, Diagnostics> {
     let mut scene: Scene = toml::from_str(text).map_err(|e| Diagnostics(vec![explain::explain(&e, text)]))?;
     scene.folder = folder.to_path_buf();
+    azimuth::rakes(&mut scene);
     let (errors, warnings) = check::check(&scene, laws);
     scene.warnings = warnings;
     if errors.is_empty() { Ok(scene) } else { Err(Diagnostics(errors)) }

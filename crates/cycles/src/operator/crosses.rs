@@ -176,7 +176,8 @@ mod tests {
         for scale in [1.0, 1e-9] {
             let entry = |i: usize, j: usize| scale / (20.0 + i as f64 + j as f64).powi(3);
             for tolerance in [1e-3, 1e-6, 1e-9] {
-                let found = crosses(&entry, Wanted { rounding: 1e-30, ..wanted([80, 60], tolerance) }).unwrap();
+                let found =
+                    crosses(&entry, Wanted { rounding: 1e-30, ..wanted([80, 60], tolerance) }).unwrap();
                 let block = DMatrix::from_fn(80, 60, entry);
                 let off = (&found.left * found.right.transpose() - &block).norm() / block.norm();
                 assert!(off <= tolerance, "{off:e} above {tolerance:e}");

@@ -194,7 +194,12 @@ impl Hierarchical {
 
     /// Operator of tractions that are compressed with this tolerance relative to each block, in the order of the tree of these
     /// points.
-    pub(super) fn of_blocks(order: Vec<usize>, shear: Compressed, normal: Option<Compressed>, tolerance: f64) -> Self {
+    pub(super) fn of_blocks(
+        order: Vec<usize>,
+        shear: Compressed,
+        normal: Option<Compressed>,
+        tolerance: f64,
+    ) -> Self {
         let n = order.len();
         let mut stiffness = vec![0.0; n];
         for matrix in std::iter::once(&shear).chain(&normal) {

@@ -1,12 +1,9 @@
 //! Geographic position and epoch of the origin of a scene.
 
+use super::map::Map;
 use asperity_output::located::Spot;
 use jiff::{SignedDuration, Timestamp};
 use nalgebra::{Matrix3, Vector3};
-
-/// Mean radius of the Earth \[m\] (IUGG). Positions are mapped to a sphere, which is accurate enough over the extent of
-/// a fault.
-const EARTH: f64 = 6_371_008.8;
 
 /// Geographic position and epoch, as given in the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,13 +69,17 @@ impl Frame {
     /// Geographic position of a point of the scene.
     pub(super) fn spot(&self, at: &[f64; 3]) -> Spot {
         let offset = self.axes * Vector3::from(*at);
-        let latitude = self.latitude + (offset.y / EARTH).to_degrees();
-        let shrink = self.latitude.to_radians().cos().max(f64::EPSILON);
-        let longitude = self.longitude + (offset.x / (EARTH * shrink)).to_degrees();
-        Spot {
-            latitude,
-            longitude: (longitude + 180.0).rem_euclid(360.0) - 180.0,
-            depth: self.depth - offset.z,
-        }
+        let (longitude, latitude) = self.map().degrees([offset.x, offset.y]);
+        Spot { latitude, longitude, depth: self.depth - offset.z }
+    }
+
+    /// Position in the scene of a depth \[m\] below a position east and north of the origin \[m\].
+    pub(super) fn position(&self, [east, north]: [f64; 2], depth: f64) -> [f64; 3] {
+        (self.axes.transpose() * Vector3::new(east, north, self.depth - depth)).into()
+    }
+
+    /// Projection around the origin.
+    pub(super) fn map(&self) -> Map {
+        Map::new(self.longitude, self.latitude)
     }
 }

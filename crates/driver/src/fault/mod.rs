@@ -15,6 +15,7 @@ mod heats;
 mod identity;
 mod keeper;
 pub mod located;
+mod map;
 mod normal;
 mod openings;
 mod plan;

@@ -307,7 +307,7 @@ pub fn spacing(spec: &scene::SpacingSpec) -> Spacing {
 }
 
 /// Length unit of a file in metres.
-pub(super) fn unit(name: Option<&Spanned<String>>) -> Result<f64, Diagnostic> {
+pub(crate) fn unit(name: Option<&Spanned<String>>) -> Result<f64, Diagnostic> {
     let Some(name) = name else { return Ok(1.0) };
     units::parse(&format!("1 {}", name.get_ref()), Dimension::Length).map_err(|_| {
         Diagnostic::at(

@@ -1,19 +1,25 @@
 //! Surfaces of triangles, read from files.
 
-use super::meshes::{bytes, unit};
+use super::meshes::bytes;
+pub(crate) use super::meshes::unit;
 use crate::diagnostic::Diagnostic;
-use crate::scene::model::{FaultTriangles, Scene, Spanned};
+use crate::scene::model::{DepthTriangles, FaultTriangles, Scene, Spanned};
 use crate::scene::near::suggest;
 use asperity_fem::mesh::triangles::{TriangleError, Triangles};
 use asperity_fem::mesh::{Options, abaqus, gmsh, stl};
 
-/// Triangles of a fault.
+/// Triangles of a fault. `of_depths` makes those of a surface given by depths, which needs the geographic frame.
 ///
 /// # Errors
 /// [`Diagnostic`] at the file or at the name of a group.
-pub fn triangles(scene: &Scene, spec: &FaultTriangles) -> Result<Triangles, Diagnostic> {
+pub fn triangles(
+    scene: &Scene,
+    spec: &FaultTriangles,
+    of_depths: impl FnOnce(&DepthTriangles, &[u8]) -> Result<Triangles, Diagnostic>,
+) -> Result<Triangles, Diagnostic> {
     let file = spec.file();
     let parse = match spec {
+        FaultTriangles::Depths(spec) => return of_depths(spec, &bytes(scene, file)?),
         FaultTriangles::Gmsh(_) => gmsh::parse,
         FaultTriangles::Abaqus(_) => abaqus::parse,
         FaultTriangles::Stl(_) => stl::parse,
@@ -33,7 +39,7 @@ fn refused(spec: &FaultTriangles, error: &TriangleError) -> Diagnostic {
     let (kind, key) = match spec {
         FaultTriangles::Gmsh(_) => ("physical groups", "groups"),
         FaultTriangles::Abaqus(_) => ("element sets", "elsets"),
-        FaultTriangles::Stl(_) => ("solids", "solids"),
+        FaultTriangles::Stl(_) | FaultTriangles::Depths(_) => ("solids", "solids"),
     };
     let in_file = "the error is in the file, not in the scene";
     let help = match error {
@@ -43,12 +49,16 @@ fn refused(spec: &FaultTriangles, error: &TriangleError) -> Diagnostic {
             let help = suggest(name, kind, present.iter().map(String::as_str));
             return Diagnostic::at(place, message, help);
         }
-        TriangleError::Solid { .. } => &format!("name the {kind} of the fault, such as `{key} = [\"fault\"]`"),
-        TriangleError::Shape { .. } => "mesh the fault with triangles of first order",
-        TriangleError::Branch { .. } => {
-            &format!("give each branch as a fault of its own, by {kind}; it ends one cell away from the others")
+        TriangleError::Solid { .. } => {
+            &format!("name the {kind} of the fault, such as `{key} = [\"fault\"]`")
         }
-        TriangleError::OneSided { .. } => "leave out the triangles along a cut, or give the parts as faults of their own",
+        TriangleError::Shape { .. } => "mesh the fault with triangles of first order",
+        TriangleError::Branch { .. } => &format!(
+            "give each branch as a fault of its own, by {kind}; it ends one cell away from the others"
+        ),
+        TriangleError::OneSided { .. } => {
+            "leave out the triangles along a cut, or give the parts as faults of their own"
+        }
         _ => in_file,
     };
     Diagnostic::at(file.span(), message, help.to_string())

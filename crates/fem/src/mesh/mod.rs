@@ -10,6 +10,7 @@ pub mod generate;
 pub mod gmsh;
 mod locate;
 mod raw;
+pub mod sheet;
 pub mod spacing;
 pub mod split;
 pub mod stl;

@@ -167,8 +167,10 @@ mod tests {
         let mut bytes = vec![0; HEADER - 4];
         bytes[..5].copy_from_slice(b"solid");
         bytes.extend(2u32.to_le_bytes());
-        for corners in [[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [[1.0, 0.0, -0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]]
-        {
+        for corners in [
+            [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+            [[1.0, 0.0, -0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
+        ] {
             let normal = [0.0f32, 0.0, 1.0];
             bytes.extend(normal.iter().chain(corners.as_flattened()).flat_map(|c: &f32| c.to_le_bytes()));
             bytes.extend([0, 0]);
@@ -188,7 +190,8 @@ mod tests {
 
     #[test]
     fn damaged_files_are_refused() {
-        let text = |from: &str, to: &str| parse(TEXT.replacen(from, to, 1).as_bytes()).unwrap_err().to_string();
+        let text =
+            |from: &str, to: &str| parse(TEXT.replacen(from, to, 1).as_bytes()).unwrap_err().to_string();
         assert!(text("vertex 1 0 0", "vertex 1 0").contains("line 5"));
         assert!(text("   vertex 0 1 0\n", "").contains("three vertices"));
         assert!(text("endsolid ramp\n", "").contains("endsolid"));

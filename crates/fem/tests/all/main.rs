@@ -17,6 +17,7 @@ mod maxwell;
 mod mesh_bytes;
 mod plasticity;
 mod reading;
+mod sheet;
 mod split;
 mod symmetry;
 mod tangents;

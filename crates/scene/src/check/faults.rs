@@ -8,6 +8,7 @@ use crate::model::{
     SlipSpec, Spanned, Station, Stepper,
 };
 use crate::near::suggest;
+use crate::units::Angle;
 
 /// Kinds of law from which the slip rate cannot be computed.
 const WITHOUT_RATE: [&str; 3] = ["coulomb", "static-kinetic", "slip-weakening"];
@@ -295,6 +296,12 @@ impl Checker<'_> {
     /// Checks the direction of slip. It must be given in space, and is unique in the plane.
     fn rake(&mut self, fault: &Fault) {
         let free = fault.slip.as_ref().is_some_and(|s| *s.get_ref() == SlipSpec::Free);
+        if let Some(azimuth) = &fault.azimuth {
+            self.azimuth(fault, azimuth);
+            if fault.rake.is_none() {
+                return;
+            }
+        }
         match (&fault.rake, self.in_space()) {
             (None, true) => self.error(
                 fault.span(),
@@ -326,6 +333,32 @@ impl Checker<'_> {
                     (&fault.span(), "the fault"),
                 );
             }
+        }
+    }
+
+    /// Checks a direction of slip on the map, from which the rake follows.
+    fn azimuth(&mut self, fault: &Fault, azimuth: &Spanned<Angle>) {
+        let degrees = azimuth.get_ref().0.to_degrees();
+        if self.scene.place.is_none() || !self.in_space() {
+            self.error(
+                azimuth.span(),
+                "`azimuth` is a direction on a map, which needs three dimensions and a `[place]`",
+                "`rake = [x, y, z]`, or add a `[place]`",
+            );
+        } else if !(-360.0..=360.0).contains(&degrees) {
+            self.error(
+                azimuth.span(),
+                format!("`azimuth` must lie between -360 and 360 degrees, found {degrees:.6}"),
+                "such as `azimuth = \"125 deg\"`, clockwise from north",
+            );
+        }
+        if let Some(rake) = fault.rake.as_ref().filter(|rake| rake.span() != azimuth.span()) {
+            self.conflict(
+                &azimuth.span(),
+                "the direction of slip is given twice",
+                "remove `rake` or `azimuth`",
+                (&rake.span(), "and here"),
+            );
         }
     }
 

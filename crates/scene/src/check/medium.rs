@@ -2,7 +2,8 @@
 
 use super::Checker;
 use crate::model::{
-    Fault, FaultLine, FaultRectangle, FaultTriangles, Kinematics, Medium, MediumKind, SpacingSpec, Spanned,
+    DepthTriangles, Fault, FaultLine, FaultRectangle, FaultTriangles, Kinematics, Medium, MediumKind,
+    SpacingSpec, Spanned,
 };
 use crate::near::suggest;
 use std::f64::consts::FRAC_PI_2;
@@ -188,11 +189,47 @@ impl Checker<'_> {
     /// Checks what a scene says of a file of triangles; the planner reads the file.
     fn triangles(&mut self, triangles: &FaultTriangles) {
         self.unit_of_file(triangles.unit());
+        if let FaultTriangles::Depths(depths) = triangles {
+            self.depths(depths);
+        }
         if let Some(groups) = triangles.groups().filter(|g| g.get_ref().is_empty()) {
             self.error(
                 groups.span(),
                 "a fault of no triangles",
                 "name groups of triangles, or leave the key out for all",
+            );
+        }
+    }
+
+    /// Checks a surface that is given by depths on a map.
+    fn depths(&mut self, depths: &DepthTriangles) {
+        let [top, bottom, size] = [&depths.top, &depths.bottom, &depths.size].map(|l| l.get_ref().0);
+        if !(top < bottom && top >= 0.0 && bottom.is_finite()) {
+            self.conflict(
+                &depths.bottom.span(),
+                format!("`bottom`, {bottom} m, is not below `top`, {top} m"),
+                "depths increase downwards, such as `top = \"10 km\", bottom = \"40 km\"`",
+                (&depths.top.span(), "the upper edge"),
+            );
+        }
+        if !(size > 0.0 && size.is_finite()) {
+            self.error(depths.size.span(), "`size` must be positive", "such as `size = \"5 km\"`");
+        }
+        let Some(place) = &self.scene.place else {
+            self.error(
+                depths.file.span(),
+                "depths on a map need a `[place]`",
+                "the origin and the axes of the map: `[place]` with `latitude`, `longitude`, `strike = \"0 deg\"`, `up = [0, 1, 0]` and `along = [0, 0, -1]`, for x to the east and z to the south",
+            );
+            return;
+        };
+        let (up, _) = place.axes();
+        if !(up[0] == 0.0 && up[1] > 0.0 && up[2] == 0.0) {
+            let span = place.up.as_ref().map_or(place.strike.span(), |up| up.span());
+            self.error(
+                span,
+                "in a medium y points up",
+                "`up = [0, 1, 0]`; with `along = [0, 0, -1]` and `strike = \"0 deg\"`, x points to the east and z to the south",
             );
         }
     }

@@ -4,7 +4,7 @@ use super::{FaultLine, FaultRectangle, FaultTriangles, Heat, LawSpec, Patch, Pul
 use crate::here::here;
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
-use crate::units::{Damping, Length, Pressure, Time, Velocity};
+use crate::units::{Angle, Damping, Length, Pressure, Time, Velocity};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
@@ -53,6 +53,8 @@ pub struct Fault {
     /// In space: direction of slip `[x, y, z]`, of any length; only its component along the fault counts.
     #[serde(default, deserialize_with = "crate::exact::optional")]
     pub rake: Option<Spanned<[f64; 3]>>,
+    /// In space with `[place]`, instead of `rake`: azimuth of the motion of the plus side past the minus side \[rad\].
+    pub azimuth: Option<Spanned<Angle>>,
     /// In space: `"along-rake"` (default), or `"free"` for slip whose direction may turn.
     pub slip: Option<Spanned<SlipSpec>>,
     /// Fluid injected at one position that diffuses along the fault.

@@ -70,6 +70,24 @@ pub enum FaultTriangles {
     Abaqus(AbaqusTriangles),
     /// An STL file, text or binary.
     Stl(StlTriangles),
+    /// A text with longitudes, latitudes and depths, such as contours or a grid of the interface of two plates.
+    Depths(DepthTriangles),
+}
+
+/// Triangles of a surface that is given by depths.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DepthTriangles {
+    /// Path, relative to the folder of the scene. A line has longitude and latitude in degrees and a depth.
+    pub file: Spanned<String>,
+    /// Unit of the depths of the file, such as `"km"`. Depths increase downwards.
+    pub unit: Spanned<String>,
+    /// Depth of the upper edge of the fault, below the shallowest of the file \[m\].
+    pub top: Spanned<Length>,
+    /// Depth of the lower edge, above the deepest of the file \[m\].
+    pub bottom: Spanned<Length>,
+    /// Length of the sides of the triangles, about \[m\].
+    pub size: Spanned<Length>,
 }
 
 /// Triangles of a Gmsh file.
@@ -116,6 +134,7 @@ impl FaultTriangles {
             Self::Gmsh(mesh) => &mesh.file,
             Self::Abaqus(mesh) => &mesh.file,
             Self::Stl(mesh) => &mesh.file,
+            Self::Depths(mesh) => &mesh.file,
         }
     }
 
@@ -126,6 +145,7 @@ impl FaultTriangles {
             Self::Gmsh(mesh) => mesh.groups.as_ref(),
             Self::Abaqus(mesh) => mesh.elsets.as_ref(),
             Self::Stl(mesh) => mesh.solids.as_ref(),
+            Self::Depths(_) => None,
         }
     }
 
@@ -136,6 +156,7 @@ impl FaultTriangles {
             Self::Gmsh(mesh) => mesh.unit.as_ref(),
             Self::Abaqus(mesh) => mesh.unit.as_ref(),
             Self::Stl(mesh) => mesh.unit.as_ref(),
+            Self::Depths(mesh) => Some(&mesh.unit),
         }
     }
 }

@@ -17,7 +17,9 @@ pub enum TriangleError {
         present: Vec<String>,
     },
     /// A file with elements that fill space, without a choice of surfaces.
-    #[error("the file has elements that fill space, such as element {element}, and no group of surface elements is named")]
+    #[error(
+        "the file has elements that fill space, such as element {element}, and no group of surface elements is named"
+    )]
     Solid {
         /// The first of them.
         element: u64,
@@ -56,7 +58,9 @@ pub enum TriangleError {
         elements: [u64; 3],
     },
     /// A surface with one side only.
-    #[error("the surface around element {element} has one side only, as a Moebius strip: its triangles have no common orientation")]
+    #[error(
+        "the surface around element {element} has one side only, as a Moebius strip: its triangles have no common orientation"
+    )]
     OneSided {
         /// An element at which the orientations contradict each other.
         element: u64,

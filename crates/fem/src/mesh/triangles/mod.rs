@@ -148,7 +148,8 @@ fn chosen<'a>(
             None => Ok(surfaces),
         };
     };
-    let is_in = |block: &RawBlock, name: &str| block.groups.iter().any(|&g| names[g].iter().any(|n| n == name));
+    let is_in =
+        |block: &RawBlock, name: &str| block.groups.iter().any(|&g| names[g].iter().any(|n| n == name));
     for name in groups {
         if !surfaces.iter().any(|block| is_in(block, name)) {
             let mut present: Vec<String> =
@@ -234,10 +235,7 @@ mod tests {
         assert!(matches!(surface(&[[A, middle, B]]), Err(TriangleError::Flat { element: 1, .. })));
         assert!(matches!(surface(&[[A, B, B]]), Err(TriangleError::Flat { element: 1, .. })));
         let unknown = Triangles::new(&raw(&[[A, B, C]]), &Options::default(), Some(&["t"]));
-        assert_eq!(
-            unknown,
-            Err(TriangleError::MissingGroup { name: "t".into(), present: vec!["s".into()] })
-        );
+        assert_eq!(unknown, Err(TriangleError::MissingGroup { name: "t".into(), present: vec!["s".into()] }));
         assert_eq!(surface(&[]), Err(TriangleError::Empty));
     }
 

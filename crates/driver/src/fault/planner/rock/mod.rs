@@ -1,6 +1,7 @@
 //! Plans faults in homogeneous rock without bodies: cells with a point at the centre of each.
 
 mod apart;
+mod depths;
 mod lines;
 mod rectangles;
 mod surfaces;

@@ -4,6 +4,7 @@ use super::super::super::plan::Outline;
 use super::super::super::resolution::Resolution;
 use super::super::place::directions;
 use super::super::placed::in_space;
+use super::depths;
 use super::tiling::{Cut, Tiling, buried, in_dimension};
 use crate::diagnostic::Diagnostic;
 use crate::model::surfaces;
@@ -33,8 +34,12 @@ pub(super) fn cells<const D: usize>(
     space: Space,
     first: usize,
 ) -> Result<Meshed<D>, Diagnostic> {
-    let mut mesh = surfaces::triangles(scene, surface)?;
     let mut notes = Vec::new();
+    let mut mesh = surfaces::triangles(scene, surface, |spec, bytes| {
+        let (mesh, note) = depths::triangles(scene, (name, spec), bytes)?;
+        notes.push(note);
+        Ok(mesh)
+    })?;
     let sides = face_up(&mut mesh);
     let count = mesh.corners.len();
     let (mut tiles, mut places) = (Vec::with_capacity(count), Vec::with_capacity(count));
@@ -73,7 +78,12 @@ fn extents(corners: &[[f64; 3]; 3], area: f64) -> (f64, f64) {
     (longest, 2.0 / 3.0 * (2.0 * area / longest))
 }
 
-fn refused(surface: &FaultTriangles, element: u64, corners: &[[f64; 3]; 3], error: KernelError) -> Diagnostic {
+fn refused(
+    surface: &FaultTriangles,
+    element: u64,
+    corners: &[[f64; 3]; 3],
+    error: KernelError,
+) -> Diagnostic {
     let file = surface.file();
     let highest = corners.iter().map(|x| x[1]).fold(f64::NEG_INFINITY, f64::max);
     let reason = match error {
@@ -176,7 +186,11 @@ fn words(name: &str, mesh: &Triangles, sizes: &[f64]) -> String {
 
 /// Warnings about faults from files without a unit that are smaller than the cohesive zone of their friction: slip of such
 /// a fault hardly varies over it, and the file may use another unit.
-pub(super) fn tiny<const D: usize>(scene: &Scene, tiling: &Tiling<D>, resolution: &[Resolution]) -> Vec<Warning> {
+pub(super) fn tiny<const D: usize>(
+    scene: &Scene,
+    tiling: &Tiling<D>,
+    resolution: &[Resolution],
+) -> Vec<Warning> {
     let mut all = Vec::new();
     for ((name, spec), cut) in scene.faults.iter().zip(&tiling.faults) {
         let (Some(surface), Some(outline)) = (&spec.triangles, &cut.outline) else { continue };
