@@ -10,7 +10,7 @@ pub enum Form {
     Fitting,
     /// All entries.
     Dense,
-    /// Blocks of low rank, with a bound of the error of forces relative to their largest entry.
+    /// Blocks of low rank. The error is relative to the largest force, and in a medium without bodies relative to each block.
     Compressed {
         /// The error.
         tolerance: f64,

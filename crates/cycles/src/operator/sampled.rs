@@ -136,3 +136,78 @@ impl Filling<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Accuracy, Division};
+    use crate::operator::{Geometry, Operator};
+
+    /// Points of a surface that is not flat.
+    fn places(columns: usize, rows: usize) -> Vec<[f64; 3]> {
+        let at = |k: usize| {
+            let (x, y) = ((k % columns) as f64, (k / columns) as f64);
+            [x, y, 0.05 * x * y]
+        };
+        (0..columns * rows).map(at).collect()
+    }
+
+    /// Tractions that fall with the third power of the distance; normal ones have both signs.
+    fn pull(a: &[f64; 3], b: &[f64; 3]) -> [f64; 2] {
+        let d: [f64; 3] = std::array::from_fn(|c| a[c] - b[c]);
+        let r = (0.2 + d.iter().map(|v| v * v).sum::<f64>()).sqrt();
+        [(1.0 + b[0] / 40.0) / r.powi(3), d[2] / r.powi(4)]
+    }
+
+    fn product(threads: usize, tolerance: f64) -> (Vec<f64>, usize) {
+        let places = places(40, 25);
+        let areas = vec![1.0; places.len()];
+        let n = places.len();
+        let all = 0..n;
+        let faults = std::slice::from_ref(&all);
+        let geometry = Geometry { places: &places, faults, areas: &areas };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let slip: Vec<f64> = (0..n).map(|k| ((k * 7919) % 1000) as f64 / 1000.0 - 0.3).collect();
+        pool.install(|| {
+            let accuracy = Accuracy { tolerance, rounding: 1e-15 };
+            let shear = |k: usize, j: usize| pull(&places[k], &places[j])[0];
+            let normal = |k: usize, j: usize| pull(&places[k], &places[j])[1];
+            let operator = Division::new(&geometry).operator(&shear, Some(&normal), accuracy);
+            let mut y = vec![0.0; 2 * n];
+            let (first, second) = y.split_at_mut(n);
+            operator.shear(&slip, first);
+            operator.normal(&slip, second);
+            // Column sums of magnitudes are those of all entries, to the tolerance.
+            for (j, found) in operator.stiffness().iter().enumerate().step_by(97) {
+                let sum: f64 = (0..n).flat_map(|k| pull(&places[k], &places[j])).map(f64::abs).sum();
+                assert!((found / sum - 1.0).abs() < 100.0 * tolerance, "{found} {sum}");
+            }
+            (y, operator.bytes())
+        })
+    }
+
+    #[test]
+    fn products_have_the_error_asked_for_and_fewer_values_with_a_larger_one() {
+        let places = places(40, 25);
+        let n = places.len();
+        let slip: Vec<f64> = (0..n).map(|k| ((k * 7919) % 1000) as f64 / 1000.0 - 0.3).collect();
+        let exact: Vec<f64> = [0, 1]
+            .iter()
+            .flat_map(|&part| places.iter().map(move |a| (part, *a)))
+            .map(|(part, a)| places.iter().zip(&slip).map(|(b, s)| pull(&a, b)[part] * s).sum())
+            .collect();
+        let norm = |v: &[f64]| v.iter().map(|v| v * v).sum::<f64>().sqrt();
+        let mut bytes = 2 * n * n * size_of::<f64>();
+        for tolerance in [1e-8, 1e-5, 1e-2] {
+            let (found, used) = product(2, tolerance);
+            let off: Vec<f64> = found.iter().zip(&exact).map(|(a, b)| a - b).collect();
+            assert!(norm(&off) < tolerance * norm(&exact), "{tolerance:e}: {:e}", norm(&off) / norm(&exact));
+            assert!(used < bytes, "{used} of {bytes}");
+            bytes = used;
+        }
+    }
+
+    #[test]
+    fn products_are_the_same_bits_on_one_thread_and_on_two() {
+        assert!(product(1, 1e-6) == product(2, 1e-6));
+    }
+}

@@ -13,7 +13,7 @@ use crate::scene::slider::SliderScene;
 
 /// Keys of this file, for the test of the table.
 #[cfg(test)]
-pub(super) const KEYS: [&str; 30] = [
+pub(super) const KEYS: [&str; 31] = [
     "puso2004",
     "puso2004b",
     "wohlmuth2000",

@@ -69,7 +69,7 @@ fn refusal(text: &str) -> Option<String> {
     if scene::slider::is_slider(text) {
         return asperity_driver::slider_planner::read(text).err().map(|e| e.to_string());
     }
-    match scene::read(text) {
+    match scene::read_in(text, &root().join("crates/driver/tests/meshes")) {
         Err(errors) => Some(errors.to_string()),
         Ok(scene) => plan::plan_scene(&scene).err().map(|e| e.to_string()),
     }

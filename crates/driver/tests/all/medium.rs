@@ -180,7 +180,7 @@ fn of_triangles() -> SceneText {
     SceneText::new(base)
         .with("faults.main.rate", "1e-3 m/s")
         .with("stages[0].duration", "20 s")
-        .add("output.stations", "{ main = [[0, \"-1 km\", 0]] }")
+        .add("output", "{ stations = { main = [[0, \"-1 km\", 0]] } }")
 }
 
 #[test]
