@@ -128,8 +128,8 @@ impl Patches {
         }
     }
 
-    /// Operator of these patches, and the reason for its form. In [`Form::Fitting`], that of a single grid is a [`Toeplitz`],
-    /// and that of many points is compressed from its entries, without the whole matrix.
+    /// Operator of these patches. In [`Form::Fitting`], that of a single grid is a [`Toeplitz`], and that of many points is
+    /// compressed from its entries, without the whole matrix.
     #[must_use]
     pub fn operator(
         &self,
