@@ -175,8 +175,7 @@ fn followed(plan: &Plan, out: &Path) -> Result<(FaultRun, Report), CaseError> {
     let problem = &plan.problem;
     let mut both = Both(Files::create(out, plan)?, Balance::new(problem));
     // As the command does, keeps a catalogue of all faults and one for each.
-    let each: Vec<_> = plan.faults.iter().map(|f| f.points.clone()).collect();
-    let start = FaultRun::new(problem.start.clone(), &each, problem.settings.thresholds);
+    let start = plan.begin();
     let run = asperity_cycles::resume(&problem.fault, &problem.loading, start, &problem.settings, &mut both)?;
     if let Outcome::Failed { reason } = &run.outcome {
         return Err(reason.to_string().into());
@@ -190,6 +189,9 @@ fn catalogues(out: &Path, plan: &Plan, report: &Report) -> Result<(), CaseError>
     std::fs::write(out.join("events.csv"), catalogue::csv(&report.events))?;
     for fault in &report.faults {
         std::fs::write(out.join(format!("events_{}.csv", fault.fault)), catalogue::csv(&fault.events))?;
+    }
+    if let Some(slow) = &report.slow_events {
+        std::fs::write(out.join("slow_events.csv"), catalogue::csv(slow))?;
     }
     std::fs::write(out.join("events.json"), serde_json::to_string(&report.events)?)?;
     if plan.frame.is_some() {

@@ -49,6 +49,11 @@ impl<D> Catalogue<D> {
         Self { sources: (0..sources).map(|_| Vec::new()).collect() }
     }
 
+    /// Adds sources without events.
+    pub fn add(&mut self, sources: usize) {
+        self.sources.extend((0..sources).map(|_| Vec::new()));
+    }
+
     /// Number of sources.
     #[must_use]
     pub fn sources(&self) -> usize {

@@ -33,6 +33,8 @@ pub struct Settings {
     pub end: f64,
     /// Slip rates at which events begin and end.
     pub thresholds: Thresholds,
+    /// Slip rate at which a point has ruptured \[m/s\].
+    pub rupture_rate: f64,
     /// Number of events after which the run ends.
     pub most_events: Option<usize>,
     /// Number of accepted steps after which the run gives up.
@@ -156,7 +158,8 @@ fn leg(
                 }
                 if let Some(dynamics) = dynamics.as_deref_mut() {
                     let areas = dynamics.areas;
-                    let around = Around { equations, fault, loading, areas, end: settings.end };
+                    let (end, rupture_rate) = (settings.end, settings.rupture_rate);
+                    let around = Around { equations, fault, loading, areas, end, rupture_rate };
                     episode(around, dynamics, observer, run)?;
                 }
                 if run.outcome == Outcome::Completed && enough(run, settings) {
@@ -196,7 +199,13 @@ fn piece(
 ) -> Result<Next, ObserveError> {
     let first = run.counts.steps == 0 && run.progress.episodes.is_empty();
     let (catalogue, detectors) = (&mut run.catalogue, &mut run.progress.detectors);
-    let follow = Follow::new((equations, fault), observer, (run.at, &run.unknowns), (catalogue, detectors));
+    let follow = Follow::new(
+        (equations, fault),
+        observer,
+        (run.at, &run.unknowns),
+        (catalogue, detectors),
+        settings.rupture_rate,
+    );
     let mut pieces = Pieces { follow, above, steps: 0, next_step: None, next: Next::End };
     if first && pieces.follow.begin(run.at, &run.unknowns) == Control::Stop {
         run.outcome = Outcome::Stopped;

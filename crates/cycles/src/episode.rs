@@ -29,6 +29,8 @@ pub(crate) struct Around<'a> {
     pub areas: &'a [f64],
     /// End of the run \[s\].
     pub end: f64,
+    /// Slip rate at which a point has ruptured \[m/s\].
+    pub rupture_rate: f64,
 }
 
 /// Computes a rupture from the state that the run has reached, and brings the run to its end. A failure is the outcome of
@@ -49,6 +51,7 @@ pub(crate) fn episode(
         observer,
         (run.at, &run.unknowns),
         (catalogue, detectors),
+        around.rupture_rate,
     );
     let mut watch = Watch::new(&before, follow, dynamics.handover, around);
     let done = dynamics.waves.rupture(&before.start, &mut |shaken| watch.see(shaken));

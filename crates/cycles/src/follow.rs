@@ -4,6 +4,7 @@ use super::catalogue::Catalogue;
 use super::components::Components;
 use super::equations::{Equations, Fault, Pressed};
 use super::fault_run::ALL;
+use super::front;
 use super::moment::{Ends, Faults, Moment};
 use super::opening::Crack;
 use super::rupture::{Detector, Rupture, Values};
@@ -68,6 +69,10 @@ pub(crate) struct Follow<'a> {
     catalogue: &'a mut Catalogue<Rupture>,
     detectors: &'a mut [Detector],
     rate: Vec<f64>,
+    /// Slip rates at the end of the last step \[m/s\].
+    before: Vec<f64>,
+    /// Slip rate at which a point has ruptured \[m/s\].
+    rupture_rate: f64,
     shear: Vec<f64>,
     /// Unknowns within a step.
     between: Vec<f64>,
@@ -89,6 +94,7 @@ impl<'a> Follow<'a> {
         observer: &'a mut dyn Observer<Faults>,
         (at, unknowns): (Clock, &[f64]),
         (catalogue, detectors): (&'a mut Catalogue<Rupture>, &'a mut [Detector]),
+        rupture_rate: f64,
     ) -> Self {
         let vectors = equations.layout().m().end;
         let mut crack = Crack::default();
@@ -102,7 +108,9 @@ impl<'a> Follow<'a> {
             failure: None,
             catalogue,
             detectors,
+            before: rate.clone(),
             rate,
+            rupture_rate,
             shear: vec![0.0; vectors],
             between: unknowns.to_vec(),
             largest: 0.0,
@@ -220,6 +228,15 @@ impl<'a> Follow<'a> {
         }
     }
 
+    /// Records rupture times and largest slip rates of the points in the unfinished event of all faults, if there is one.
+    fn note_front(&mut self, course: &dyn Course, end: &[f64]) {
+        let points = self.equations.layout().points();
+        let Some(event) = self.catalogue.open(ALL) else { return };
+        let rates = [self.before.as_slice(), end].map(|rate| Components::new(rate, points));
+        let (start, length) = (course.start().since(&event.onset), course.length());
+        event.details.front.see(front::Stride { start, length, rates }, self.rupture_rate);
+    }
+
     fn note_peak(&mut self, source: usize, largest: f64) {
         if let Some(event) = self.catalogue.open(source) {
             event.peak = event.peak.max(largest);
@@ -237,7 +254,9 @@ impl<'a> Follow<'a> {
         let largest: Vec<f64> = self.detectors.iter().map(|d| self.fastest(end.rate, d.points()).1).collect();
         let events = self.events();
         self.detect(course, &largest);
+        self.note_front(course, end.rate);
         self.rate.copy_from_slice(end.rate);
+        self.before.copy_from_slice(end.rate);
         self.largest = largest[ALL];
         let pressed = self.equations.pressed(end.at, end.unknowns, &mut self.crack);
         self.equations.commit(end.at, end.unknowns);

@@ -3,6 +3,7 @@
 
 use super::catalogue::{Catalogue, Event, Thresholds};
 use super::components::Components;
+use super::front::Front;
 use asperity_ode::Clock;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -24,6 +25,9 @@ pub struct Rupture {
     /// Largest temperature at the ends of the steps during the event \[K\], where friction heats points.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hottest: Option<f64>,
+    /// Rupture times and largest slip rates of its points, for events of all faults together.
+    #[serde(default, skip_serializing_if = "Front::is_empty")]
+    pub front: Front,
 }
 
 /// Values of all points at an instant.
@@ -62,6 +66,12 @@ impl Detector {
     #[must_use]
     pub fn new(points: Range<usize>, thresholds: Thresholds) -> Self {
         Self { thresholds, points, under_way: None }
+    }
+
+    /// Slip rates that begin and end its events.
+    #[must_use]
+    pub fn thresholds(&self) -> Thresholds {
+        self.thresholds
     }
 
     /// Points of the source.

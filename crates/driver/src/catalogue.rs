@@ -35,6 +35,11 @@ pub struct Entry {
     pub area: f64,
     /// Moment ∫ G slip dA \[N m; N per metre of thickness\]; for vector slip, that of the sum of its moment tensors.
     pub moment: f64,
+    /// Moment magnitude; absent in the plane if the length out of it is unknown.
+    pub magnitude: Option<f64>,
+    /// Distance between the outermost of these points along strike, in the plane along the fault \[m\]; absent where it is not
+    /// defined.
+    pub rupture_length: Option<f64>,
     /// Mean drop of shear traction over these points, weighted by slip \[Pa\].
     pub stress_drop: f64,
     /// Largest temperature, if friction heats the fault \[K\].
@@ -103,6 +108,8 @@ impl Entry {
             mean_slip: potency / area,
             area,
             moment: over(&|p| ground.site(p).shear_modulus * slip(p)),
+            magnitude: None,
+            rupture_length: None,
             stress_drop: over(&work) / potency,
             largest_temperature: event.details.hottest,
             direction: None,
@@ -131,20 +138,27 @@ pub struct FaultEvents {
     pub under_way: Option<f64>,
 }
 
+/// Value as text; empty where there is none.
+fn optional(value: Option<f64>) -> String {
+    value.map(shortest).unwrap_or_default()
+}
+
 /// Catalogue as CSV.
 #[must_use]
 pub fn csv(events: &[Entry]) -> String {
     let turning = events.iter().any(|e| e.turned.is_some());
     let mut text = String::from(
-        "onset [s],duration [s],peak_rate [m/s],fault,hypocentre_along [m],x [m],y [m],z [m],largest_slip [m],mean_slip [m],area [m2 or m],moment [N m or N],stress_drop [Pa],duration_above [s]",
+        "onset [s],duration [s],peak_rate [m/s],fault,hypocentre_along [m],x [m],y [m],z [m],largest_slip [m],mean_slip [m],area [m2 or m],moment [N m or N],stress_drop [Pa],duration_above [s],interval [s],magnitude,rupture_length [m]",
     );
     let heats = events.iter().any(|e| e.largest_temperature.is_some());
     text.push_str(if heats { ",largest_temperature [K]" } else { "" });
+    let placed = events.iter().any(|e| e.located.is_some());
+    text.push_str(if placed { ",latitude [deg],longitude [deg],depth [m]" } else { "" });
     text.push_str(if turning { ",direction_x,direction_y,direction_z,turned [deg]\n" } else { "\n" });
     for e in events {
         let _ = write!(
             text,
-            "{:.14e},{},{},{},{},{},{},{},{},{},{},{:e},{},{}",
+            "{:.14e},{},{},{},{},{},{},{},{},{},{},{:e},{},{},{},{},{}",
             e.onset,
             e.duration,
             e.peak_rate,
@@ -158,9 +172,15 @@ pub fn csv(events: &[Entry]) -> String {
             e.area,
             e.moment,
             shortest(e.stress_drop),
-            e.duration_above
+            e.duration_above,
+            optional(e.interval),
+            optional(e.magnitude),
+            optional(e.rupture_length)
         );
-        for value in e.largest_temperature.iter().chain(e.direction.iter().flatten()).chain(&e.turned) {
+        let spot = e.located.as_ref().map(|l| &l.hypocentre);
+        let place = spot.map(|s| [s.latitude, s.longitude, s.depth]);
+        let further = e.largest_temperature.iter().chain(place.iter().flatten());
+        for value in further.chain(e.direction.iter().flatten()).chain(&e.turned) {
             text.push(',');
             text.push_str(&shortest(*value));
         }

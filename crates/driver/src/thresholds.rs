@@ -9,6 +9,19 @@ const BEGINS: f64 = 1e-3;
 /// Default slip rate at which an event ends, over the rate at which it begins.
 const ENDS: f64 = 0.1;
 
+/// Default slip rate at which a slow event ends, over the rate at which it begins. Slow events are hardly faster than the
+/// plates, which slide on after them.
+const SLOW_ENDS: f64 = 0.5;
+
+/// Slip rates that begin and end slow events, if a scene asks for them.
+#[must_use]
+pub fn slow(events: Option<&EventSpec>) -> Option<Thresholds> {
+    let events = events?;
+    let on = events.slow_above.as_ref()?.get_ref().0;
+    let off = events.slow_below.as_ref().map_or(SLOW_ENDS * on, |b| b.get_ref().0);
+    Some(Thresholds { on, off })
+}
+
 /// Slip rates that begin and end events.
 #[must_use]
 pub fn of(events: Option<&EventSpec>) -> Thresholds {

@@ -16,6 +16,7 @@ mod output;
 mod patches;
 mod place;
 pub mod pressing;
+mod receivers;
 mod ruptures;
 mod solver;
 mod stress;

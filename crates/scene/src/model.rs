@@ -488,13 +488,18 @@ pub struct Output {
     /// Positions on a fault: distances along it, or coordinates `[x, y]`, in space `[x, y, z]`.
     #[serde(default)]
     pub stations: BTreeMap<String, Spanned<Vec<Spanned<Station>>>>,
+    /// In a medium: `[x, y]`, in space `[x, y, z]`: displacement and velocity of a position in the rock, y up.
+    #[serde(default)]
+    pub receivers: BTreeMap<String, Spanned<Vec<Length>>>,
     /// Explicit: `{ body = "A", at = ["1 km", "2 km"] }`: velocity and displacement at a position, at equal intervals.
     #[serde(default)]
     pub seismograms: BTreeMap<String, Spanned<PointSpec>>,
     /// Explicit: time between rows of seismograms, stations, energies and moment rate; default 1/1000 of the run \[s\].
     pub sampling: Option<Spanned<Time>>,
-    /// Explicit: slip rate at which a point has ruptured; default `"1 mm/s"` \[m/s\].
+    /// Slip rate at which a point has ruptured; default `"0.1 m/s"`, explicit `"1 mm/s"` \[m/s\].
     pub rupture_rate: Option<Spanned<Velocity>>,
+    /// Largest number of events with files of their own in `events`; 0 for none, default 20.
+    pub event_files: Option<Spanned<usize>>,
     /// Changes after which rows of stations and of the largest slip rate are written.
     pub cadence: Option<Spanned<CadenceSpec>>,
     /// Intervals between profiles of slip: between events, and during them \[s\].

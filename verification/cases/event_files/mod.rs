@@ -111,6 +111,9 @@ struct Worst {
     /// Angles between the locations and those on a sphere, over the error of the plane projection.
     places: f64,
     depth: f64,
+    /// Differences of coordinates in the table from those in QuakeML, and of the rupture length from the edge of the fault \[m\].
+    table: f64,
+    length: f64,
 }
 
 impl Worst {
@@ -131,6 +134,11 @@ impl Worst {
         let magnitude = (moment.log10() - 9.1) / 1.5;
         self.magnitude = self.magnitude.max((number(&xml, "<mag>")? - magnitude).abs());
         let at = [events.only("x")?, events.only("y")?, events.only("z")?];
+        for (column, name) in [("latitude", "<latitude>"), ("longitude", "<longitude>"), ("depth", "<depth>")]
+        {
+            self.table = self.table.max((events.only(column)? - number(&xml, name)?).abs());
+        }
+        self.length = self.length.max((events.only("rupture_length")? - AREA.sqrt()).abs());
         self.place(mechanism.offset(at), &xml)
     }
 
@@ -188,6 +196,22 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
             1e-12,
             "Mw = (log10 M0 - 9.1)/1.5 with M0 in N m, standard of IASPEI (2013)",
             "rounding",
+        ),
+        (
+            "coordinates of the hypocentre in the table of events against those in QuakeML, largest difference",
+            "deg or m",
+            worst.table,
+            1e-9,
+            "the same position in another file",
+            "rounding: all digits are written",
+        ),
+        (
+            "rupture length over four mechanisms, largest error",
+            "m",
+            worst.length,
+            1e-6,
+            "the horizontal edge of the fault, 1 km, at whose ends the points lie",
+            "rounding of positions of kilometres",
         ),
         (
             "arc between hypocentre in QuakeML and end of a great circle, over d^2 tan(latitude), d the arc from the origin",

@@ -41,6 +41,18 @@ impl Histories {
         self.0[station].slip_at(to) - self.0[station].slip_at(from)
     }
 
+    /// First time between two times at which the slip rate of a station reaches `rate` \[m/s\].
+    pub fn first(&self, station: usize, rate: f64, from: f64, to: f64) -> Option<f64> {
+        self.0[station].first(rate, from, to)
+    }
+
+    /// Largest slip rate of a station in the rows between two times \[m/s\].
+    pub fn largest(&self, station: usize, from: f64, to: f64) -> f64 {
+        let History { time, rate, .. } = &self.0[station];
+        let within = time.iter().zip(rate).filter(|(t, _)| (from..=to).contains(*t));
+        within.map(|(_, rate)| *rate).fold(0.0, f64::max)
+    }
+
     /// Slip rate of a station at a time \[m/s\].
     pub fn rate(&self, station: usize, time: f64) -> f64 {
         self.0[station].rate_at(time)
@@ -53,6 +65,14 @@ impl Histories {
 }
 
 impl History {
+    /// First time between two times at which the slip rate, whose logarithm is linear between rows, reaches `rate`.
+    fn first(&self, rate: f64, from: f64, to: f64) -> Option<f64> {
+        let k =
+            (1..self.time.len()).find(|&k| self.rate[k] >= rate && (from..=to).contains(&self.time[k]))?;
+        let share = (rate / self.rate[k - 1]).ln() / (self.rate[k] / self.rate[k - 1]).ln();
+        Some(self.time[k - 1] + share * (self.time[k] - self.time[k - 1]))
+    }
+
     /// Row at the start of the interval that contains a time.
     fn before(&self, time: f64) -> usize {
         self.time.partition_point(|t| *t <= time).clamp(1, self.time.len() - 1) - 1

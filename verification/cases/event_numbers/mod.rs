@@ -94,6 +94,27 @@ fn pairs(ledger: &mut Ledger) -> Result<(), CaseError> {
         .why_not_tighter("the tolerance is of one step; how many of them add up depends on the path")
         .cost(&done.cost)
         .record();
+    ledger
+        .claim("moment magnitude of the same event in the table of events")
+        .value(of("magnitude")?)
+        .equals((modulus() * area * slip * 60e3).log10() / 1.5 - 9.1 / 1.5)
+        .absolute(1e-12)
+        .evidence(Evidence::Exact, "Mw = (log10 M0 - 9.1)/1.5 with M0 in N m, standard of IASPEI (2013)")
+        .because("rounding")
+        .why_not_tighter("rounding depends on the machine; the constants that are in use differ by 1e-3")
+        .cost(&done.cost)
+        .record();
+    ledger
+        .claim("rupture length of the same event")
+        .unit("m")
+        .value(of("rupture_length")?)
+        .equals(area)
+        .relative(1e-12)
+        .evidence(Evidence::Exact, "height of the blocks that slip, whose nodes are their ends")
+        .because("rounding of a difference of positions")
+        .why_not_tighter("rounding depends on the mesh; a node more or less is of the order of one")
+        .cost(&done.cost)
+        .record();
     // The catalogue of its own fault excludes the creep of the other.
     let own = done.report.faults.iter().find(|f| f.fault == "rupture").and_then(|f| f.events.first());
     let magnitude = own.and_then(|e| e.located.as_ref()?.magnitude).ok_or("no magnitude")?;
@@ -169,10 +190,20 @@ const POINTS: usize = 25;
 /// Fraction of the largest slip above which a point counts as slipped, see NOTATION.
 const SLIPPED: f64 = 0.01;
 
+/// Length of the fault that belongs to a point \[m\].
+fn share(point: usize) -> f64 {
+    if point == 0 || point + 1 == POINTS { 0.5 * APART } else { APART }
+}
+
+/// Error of the trapezoidal rule over the rows of an event, relative.
+const ROWS: f64 = 1e-4;
+
 /// Sums over the points of an event, from the files of its stations.
 struct Sums {
     area: f64,
     potency: f64,
+    /// Slip over the area of all points, also of those that hardly slip.
+    all: f64,
     work: f64,
     largest: f64,
     fastest: usize,
@@ -183,15 +214,16 @@ impl Sums {
         let slips: Vec<f64> = (0..POINTS).map(|k| histories.slipped(k, from, to)).collect();
         let largest = slips.iter().copied().fold(0.0, f64::max);
         let (mut area, mut potency, mut work) = (0.0, 0.0, 0.0);
+        let all = slips.iter().enumerate().map(|(k, slip)| share(k) * slip.abs()).sum();
         for (k, &slip) in slips.iter().enumerate().filter(|(_, s)| **s > SLIPPED * largest) {
-            let share = if k == 0 || k + 1 == POINTS { 0.5 * APART } else { APART };
+            let share = share(k);
             area += share;
             potency += share * slip;
             work += share * slip * histories.fell(k, from, to);
         }
         let rates: Vec<f64> = (0..POINTS).map(|k| histories.rate(k, from)).collect();
         let fastest = (0..POINTS).max_by(|&a, &b| rates[a].total_cmp(&rates[b])).unwrap_or(POINTS);
-        Self { area, potency, work, largest, fastest }
+        Self { area, potency, all, work, largest, fastest }
     }
 }
 
@@ -235,5 +267,113 @@ fn rupture(ledger: &mut Ledger) -> Result<(), CaseError> {
         .why_not_tighter("a neighbouring point is hundreds of metres away")
         .cost(&done.cost)
         .record();
+    moment_rates(ledger, &done, &sums, to)?;
+    rupture_times(ledger, &done, (from, to))
+}
+
+/// Integral by the trapezoidal rule of rows of times and values.
+fn integral<'a>(rows: impl Iterator<Item = &'a [f64; 2]>) -> f64 {
+    let (mut sum, mut before) = (0.0, None::<&[f64; 2]>);
+    for row in rows {
+        if let Some(before) = before.replace(row) {
+            sum += 0.5 * (row[0] - before[0]) * (row[1] + before[1]);
+        }
+    }
+    sum
+}
+
+/// Claims moment rates: of the event, and through the run.
+fn moment_rates(ledger: &mut Ledger, done: &Written, sums: &Sums, end: f64) -> Result<(), CaseError> {
+    let rows = done.files.table("events/moment_rate_000.csv")?.numbers();
+    let rows: Vec<[f64; 2]> = rows.iter().map(|row| [row[0], row[1]]).collect();
+    let (whole, half) = (integral(rows.iter()), integral(rows.iter().step_by(2)));
+    ledger
+        .claim("integral of the moment rate of an event by its file, over G times the area times its slip at all points")
+        .value(whole / (modulus() * sums.all))
+        .equals(1.0)
+        .absolute(ROWS)
+        .evidence(Evidence::Exact, "slip in the files of stations at all points between onset and end")
+        .because("the trapezoidal rule: that of every second row differs by three times its error")
+        .cost(&done.cost)
+        .record();
+    ledger
+        .claim("the same integral by every second row of the file")
+        .value(half / (modulus() * sums.all))
+        .equals(1.0)
+        .absolute(4.0 * ROWS)
+        .evidence(Evidence::Exact, "slip in the files of stations at all points between onset and end")
+        .because("the trapezoidal rule with steps twice as long, of second order")
+        .cost(&done.cost)
+        .record();
+    let table = done.files.table("moment_rate.csv")?;
+    let (times, moments) = (table.column("time")?, table.column("moment of main")?);
+    let last = times.partition_point(|t| *t <= end).saturating_sub(1);
+    let histories = Histories::read(&done.files, &done.files.names("stations")?)?;
+    let slips = (0..POINTS).map(|k| share(k) * histories.slipped(k, times[0], times[last]));
+    ledger
+        .claim("moment of the fault from the start to the last row in the event")
+        .unit("N")
+        .value(moments[last] - moments[0])
+        .equals(modulus() * slips.sum::<f64>())
+        .relative(1e-8)
+        .evidence(Evidence::Exact, "G times area times slip in the files of stations at all points")
+        .because("the slip of rows has ten digits")
+        .why_not_tighter("their last digit may be off by half")
+        .cost(&done.cost)
+        .record();
     Ok(())
 }
+
+/// Slip rate at which a point has ruptured \[m/s\]: the default.
+const RUPTURED: f64 = 0.1;
+
+/// Claims the rupture times and the largest slip rates of the points.
+fn rupture_times(ledger: &mut Ledger, done: &Written, (from, to): (f64, f64)) -> Result<(), CaseError> {
+    let table = done.files.table("events/rupture_times_000.csv")?;
+    let names = done.files.names("stations")?;
+    let histories = Histories::read(&done.files, &names)?;
+    let (mut late, mut peak, mut missed) = (0.0_f64, 0.0_f64, 0);
+    for (k, row) in table.numbers().iter().enumerate() {
+        let [time, largest] = [row[4], row[5]];
+        let expected = histories.first(k, RUPTURED, from, to);
+        missed += u64::from(time.is_nan() != expected.is_none());
+        if let Some(expected) = expected {
+            late = late.max((time - (expected - from)).abs());
+        }
+        peak = peak.max((largest / histories.largest(k, from, to) - 1.0).abs());
+    }
+    let stations =
+        "files of stations at all points, with ln V linear between rows a hundredth of a decade apart";
+    ledger
+        .claim("points of an event that have a rupture time and should have none, or the reverse")
+        .count(missed, 0)
+        .evidence(Evidence::Exact, stations)
+        .because("a count")
+        .cost(&done.cost)
+        .record();
+    ledger
+        .claim("rupture times of the points of an event, largest error")
+        .unit("s")
+        .value(late)
+        .equals(0.0)
+        .absolute(LATE)
+        .evidence(Evidence::Exact, stations)
+        .because(
+            "the catalogue has 15 digits of the onset, 1e-5 s; rows and steps interpolate the same curve",
+        )
+        .cost(&done.cost)
+        .record();
+    ledger
+        .claim("largest slip rates of the points of an event, largest relative error")
+        .value(peak)
+        .equals(0.0)
+        .absolute(5e-3)
+        .evidence(Evidence::Exact, stations)
+        .because("an extremum has a row where it differs by half a per cent from the row before")
+        .cost(&done.cost)
+        .record();
+    Ok(())
+}
+
+/// Error of rupture times \[s\].
+const LATE: f64 = 1e-3;

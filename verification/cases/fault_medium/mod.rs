@@ -1,5 +1,6 @@
 //! Faults in homogeneous rock without bodies: tractions of dipping faults, cracks, long rectangles, and the cycles of BP1.
 
+mod receivers;
 pub mod triangles;
 
 use crate::cases::fault_operator::matrix;
@@ -35,7 +36,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     disc(ledger)?;
     grid(ledger)?;
     triangles::run(ledger)?;
-    cycles(ledger)
+    cycles(ledger)?;
+    receivers::run(ledger)
 }
 
 /// A scene without loads; `fault` holds its geometry.

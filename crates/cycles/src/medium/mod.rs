@@ -3,6 +3,7 @@
 
 mod bodies;
 mod condensed;
+mod displaced;
 mod held;
 mod machine;
 pub mod patches;

@@ -51,7 +51,7 @@ impl Shape {
     }
 
     /// Field at a point, caused by slip.
-    fn field(&self, at: &Vector3<f64>, slip: &Vector3<f64>, poisson: f64) -> Field {
+    pub(super) fn field(&self, at: &Vector3<f64>, slip: &Vector3<f64>, poisson: f64) -> Field {
         match self {
             Self::Rectangle(rectangle) => rectangle.field(at, slip, poisson),
             Self::Triangle(triangle) => triangle.field(at, slip, poisson),

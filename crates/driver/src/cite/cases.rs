@@ -37,7 +37,16 @@ const CASES: [(&str, &[&str]); 116] = [
     ("fault_handover", &["rice1993"]),
     (
         "fault_medium",
-        &["eshelby1957", "muskhelishvili1953", "nikkhoo2015", "okada1992", "savage1983", "segall2010"],
+        &[
+            "eshelby1957",
+            "muskhelishvili1953",
+            "nikkhoo2015",
+            "okada1985",
+            "okada1992",
+            "savage1973",
+            "savage1983",
+            "segall2010",
+        ],
     ),
     ("fault_opening", &["sneddon1946", "barenblatt1962", "cottle1992"]),
     ("fault_operator", &["starr1928", "muskhelishvili1953", "segall2010"]),

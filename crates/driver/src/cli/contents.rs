@@ -12,7 +12,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Files that runs write to their directory.
-const FILES: [&str; 23] = [
+const FILES: [&str; 24] = [
     REPORT,
     LOCK,
     ".writable",
@@ -22,6 +22,7 @@ const FILES: [&str; 23] = [
     "events.pvd",
     "events.csv",
     "events.json",
+    "slow_events.csv",
     "events.quakeml",
     "CMTSOLUTION",
     "largest_rate.csv",
@@ -40,7 +41,8 @@ const FILES: [&str; 23] = [
 ];
 
 /// Folders that runs make, with the extensions of the files in them.
-const FOLDERS: [(&str, &[&str]); 10] = [
+const FOLDERS: [(&str, &[&str]); 12] = [
+    ("events", &["csv"]),
     ("fields", &["vtu"]),
     ("profiles", &["csv"]),
     ("probes", &["csv"]),
@@ -48,6 +50,7 @@ const FOLDERS: [(&str, &[&str]); 10] = [
     ("forces", &["csv"]),
     ("springs", &["csv"]),
     ("history", &["csv"]),
+    ("receivers", &["csv"]),
     ("plots", &["svg", "png"]),
     ("stations", &[""]),
     ("seismograms", &["csv", "mseed", "sac"]),

@@ -268,6 +268,10 @@ fn write_faults(
     drawn: bool,
 ) -> miette::Result<()> {
     write_catalogues(path, &report.events, &report.faults).into_diagnostic()?;
+    if let Some(slow) = &report.slow_events {
+        let text = catalogue::csv(slow);
+        atomic::write(&path.join("slow_events.csv"), text.as_bytes()).into_diagnostic()?;
+    }
     let events = json::pretty(&report.events).into_diagnostic()?;
     atomic::write(&path.join("events.json"), events.as_bytes()).into_diagnostic()?;
     write_located(path, plan, report, hash)?;

@@ -1,20 +1,24 @@
 //! Files of a 3D run at its end: fields of events and of the last state, and the collections of all fields.
 
+use super::event_tables::{self, reached, turned};
 use super::fields::{Field, Surface, along, state};
 use super::figures::each;
-use super::plan::Plan;
+use super::plan::{FaultView, Plan};
+use super::receiver_tables;
 use super::snapshots;
-use asperity_cycles::FaultRun;
+use asperity_cycles::{Event, FaultRun, Rupture};
 use asperity_output::vtu::{PvdEntry, pvd};
 use asperity_output::{OutputError, atomic};
 use std::path::Path;
 
-/// Writes `fields/FAULT_event_000.vtu` for each event, `fields/FAULT_end.vtu`, and the collections `fields.pvd` of the states during the run and
+/// Writes the tables of events and, in 3D, `fields/FAULT_event_000.vtu` for each event, `fields/FAULT_end.vtu`, and the collections `fields.pvd` of the states during the run and
 /// `events.pvd` of the events at their onset times. Faults in 2D have profiles instead.
 ///
 /// # Errors
 /// If a file cannot be read or written.
 pub fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), OutputError> {
+    event_tables::write(out, plan, run)?;
+    receiver_tables::write(out, plan, run)?;
     if !plan.in_space {
         return Ok(());
     }
@@ -35,6 +39,7 @@ pub fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), OutputError>
         for (k, event) in run.events().iter().enumerate() {
             let mut fields = Vec::from(along(plan, fault, "slip", &event.details.slip));
             fields.extend(along(plan, fault, "stress_drop", &event.details.drop));
+            fields.extend(ruptured(fault, event));
             if fault.normal.opens {
                 fields.push(Field::Scalar(
                     "opening".into(),
@@ -51,4 +56,19 @@ pub fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), OutputError>
     }
     atomic::write(&out.join("events.pvd"), &pvd(&events))?;
     atomic::write(&out.join("fields.pvd"), &pvd(&states))
+}
+
+/// Rupture times \[s\], largest slip rates \[m/s\] and, if slip may turn, its angles from the rake \[degrees\].
+fn ruptured(fault: &FaultView, event: &Event<Rupture>) -> Vec<Field> {
+    let points = || fault.points.clone();
+    let times = points().map(|p| reached(event, p)).collect();
+    let mut fields = vec![Field::Scalar("rupture_time".into(), times)];
+    if let Some(peaks) = event.details.front.peaks.get(points()) {
+        fields.push(Field::Scalar("largest_slip_rate".into(), peaks.to_vec()));
+    }
+    let angles: Vec<f64> = points().filter_map(|p| turned(event, p)).collect();
+    if !angles.is_empty() {
+        fields.push(Field::Scalar("turned".into(), angles));
+    }
+    fields
 }

@@ -2,10 +2,14 @@
 //! often as a plot needs them, and are never held in memory as a whole.
 
 use super::cadence::time;
+use super::event_tables::reached;
 use super::plan::{FaultView, Plan};
+use super::shape::shape;
+use super::source_time;
+use crate::catalogue::slipped;
 use asperity_cycles::FaultRun;
-use asperity_output::OutputError;
-use asperity_output::plots::{self, Chart, Cycles, Line, Rows, Table};
+use asperity_output::plots::{self, Chart, Cycles, EventOnFault, Line, Measure, Rows, RupturedFault, Table};
+use asperity_output::{OutputError, stems};
 use std::path::{Path, PathBuf};
 
 /// Draws the plots of the run in `out` into its folder `plots`.
@@ -30,10 +34,56 @@ pub fn draw(out: &Path, plan: &Plan, run: &FaultRun) -> Result<Vec<PathBuf>, Out
     };
     let folder = out.join("plots");
     let mut drawn = plots::draw_cycles(&folder, &cycles)?;
-    if let Some(chart) = springs(out, plan)? {
-        drawn.extend(plots::draw_charts(&folder, &[chart])?);
-    }
+    let mut charts = moment_rates(out, plan, run)?;
+    charts.extend(springs(out, plan)?);
+    drawn.extend(plots::draw_charts(&folder, &charts)?);
+    drawn.extend(plots::draw_events(&folder, &on_faults(plan, run))?);
     Ok(drawn)
+}
+
+/// Moment rate of each event that has a file.
+fn moment_rates(out: &Path, plan: &Plan, run: &FaultRun) -> Result<Vec<Chart>, OutputError> {
+    let measure = if plan.in_space { Measure::MomentRate } else { Measure::MomentRatePerLength };
+    let one = |number: usize| {
+        let mut curve = Vec::new();
+        let file = out.join(source_time::FOLDER).join(source_time::name(number));
+        each(&file, &mut |row| curve.push((row[0], row[1])))?;
+        Ok(Chart {
+            file: format!("event_{number:03}_moment_rate"),
+            title: format!("{}, event {}", plan.title, number + 1),
+            x: ("Time since onset", Measure::Time),
+            y: ("Moment rate", measure),
+            curves: vec![("all faults".into(), curve)],
+        })
+    };
+    (0..run.events().len().min(plan.event_files)).map(one).collect()
+}
+
+/// Faults in the events that have files.
+fn on_faults(plan: &Plan, run: &FaultRun) -> Vec<EventOnFault> {
+    let names = stems(plan.faults.iter().map(|f| f.name.as_str()));
+    let mut all = Vec::new();
+    for (number, event) in run.events().iter().enumerate().take(plan.event_files) {
+        let largest = slipped(event, &(0..plan.points.len()));
+        for (name, fault) in names.iter().zip(&plan.faults) {
+            // A fault that takes no part in the event has no figures.
+            if !largest.iter().any(|p| fault.points.contains(p)) {
+                continue;
+            }
+            all.push(EventOnFault {
+                stem: format!("{name}_event_{number:03}"),
+                title: format!("{}, event {}", plan.title, number + 1),
+                fault: RupturedFault {
+                    name: fault.name.clone(),
+                    points: fault.points.clone(),
+                    shape: shape(plan.in_space, fault, &plan.points[fault.points.clone()]),
+                    arrivals: fault.points.clone().map(|p| reached(event, p)).collect(),
+                },
+                slip: fault.points.clone().map(|p| event.details.slip.size(p)).collect(),
+            });
+        }
+    }
+    all
 }
 
 /// Macroscopic friction against the way of each load point, from the tables of springs.

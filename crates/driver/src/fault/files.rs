@@ -4,9 +4,12 @@
 //! depends on events.
 
 use super::cadence::{Cadence, Gauge, RATE_CHANGE, Reading, warning};
+use super::moments;
 use super::plan::Plan;
 use super::position::Position;
+use super::receivers;
 use super::snapshots::{self, Snapshots};
+use super::source_time::SourceTimes;
 use super::stations;
 use crate::checkpoint::{self, ResumeError};
 use crate::warning::Warning;
@@ -45,22 +48,23 @@ impl Rows {
     }
 }
 
-/// Writes `stations/`, `largest_rate.csv` and, if the scene requests them, `points/`, `forces/` and `springs/`. In 2D it also
-/// writes `slip_profiles.csv`, `rate_profiles.csv` (log10 of m/s) and, where points may open or are heated, profiles of that;
+/// Writes `stations/`, `largest_rate.csv`, `moment_rate.csv`, the moment rates of events in `events/` and, if the scene requests
+/// them, `points/`, `forces/` and `springs/`. In 2D it also writes `slip_profiles.csv`, `rate_profiles.csv` (log10 of m/s) and, where points may open or are heated, profiles of that;
 /// in 3D, snapshots.
 #[derive(Debug)]
 pub struct Files<'a> {
     plan: &'a Plan,
-    /// The largest slip rate, then profiles of slip and slip rate or the list of snapshots, then points, forces and springs of
-    /// bodies, then stations.
+    /// The largest slip rate and the moment rates, then profiles of slip and slip rate or the list of snapshots, then points,
+    /// forces and springs of bodies, then stations.
     rows: Vec<Rows>,
-    /// Number of the first two kinds.
+    /// Number of files that are neither of bodies nor of stations.
     general: usize,
     /// Points of the stations.
     stations: Vec<usize>,
     /// End of the last step.
     before: Option<Clock>,
     snapshots: Option<Snapshots>,
+    events: SourceTimes,
 }
 
 impl<'a> Files<'a> {
@@ -71,7 +75,7 @@ impl<'a> Files<'a> {
     pub fn create(out: &Path, plan: &'a Plan) -> Result<Self, OutputError> {
         atomic::writable_dir(out)?;
         atomic::create_dir(&out.join("stations"))?;
-        for (path, _) in sampled(plan) {
+        for (path, _) in sampled(plan).into_iter().chain(receivers::heads(&plan.receivers)) {
             out.join(path).parent().map_or(Ok(()), atomic::create_dir)?;
         }
         let mut rows = Vec::new();
@@ -85,6 +89,7 @@ impl<'a> Files<'a> {
             stations: stations::points(plan),
             before: None,
             snapshots: Snapshots::begin(out, plan)?,
+            events: SourceTimes::create(out, plan)?,
         })
     }
 
@@ -100,7 +105,7 @@ impl<'a> Files<'a> {
         for ((path, _), &gauge) in heads.into_iter().zip(&from.gauges) {
             rows.push(Rows::reopen(path, gauge)?);
         }
-        let Position { before, snapshots, .. } = *from;
+        let Position { before, snapshots, events, .. } = *from;
         let snapshots = Snapshots::begin(out, plan)?.map(|s| s.from(snapshots.unwrap_or_default()));
         Ok(Self {
             plan,
@@ -109,6 +114,7 @@ impl<'a> Files<'a> {
             stations: stations::points(plan),
             before,
             snapshots,
+            events: SourceTimes::resume(out, plan, events)?,
         })
     }
 
@@ -117,7 +123,7 @@ impl<'a> Files<'a> {
     pub fn position(&self) -> Position {
         let gauges = self.rows.iter().map(|r| r.gauge).collect();
         let snapshots = self.snapshots.as_ref().map(Snapshots::taken);
-        Position { gauges, before: self.before, snapshots }
+        Position { gauges, before: self.before, snapshots, events: self.events.written() }
     }
 
     /// Waits until all files are on the disc.
@@ -125,6 +131,7 @@ impl<'a> Files<'a> {
     /// # Errors
     /// If something could not be written.
     pub fn settle(&self) -> Result<(), OutputError> {
+        self.events.settle()?;
         self.rows.iter().try_for_each(|rows| rows.file.settle())
     }
 
@@ -135,12 +142,16 @@ impl<'a> Files<'a> {
             |r: &Rows| r.file.path().file_name().map_or(String::new(), |n| n.to_string_lossy().into_owned());
         let mut files: Vec<(String, Gauge)> = self.rows.iter().map(|r| (name(r), r.gauge)).collect();
         files.extend(self.snapshots.as_ref().map(|s| ("fields".to_string(), s.taken().gauge)));
+        files.extend(self.events.coarse());
         warning(&files, self.plan.cadence.largest_file)
     }
 
     /// Paths of all files, with their headers.
     fn heads(out: &Path, plan: &Plan) -> Vec<(PathBuf, String)> {
-        let mut heads = vec![(out.join("largest_rate.csv"), LARGEST_HEAD.to_string())];
+        let mut heads = vec![
+            (out.join("largest_rate.csv"), LARGEST_HEAD.to_string()),
+            (out.join(moments::FILE), moments::head(plan)),
+        ];
         if plan.in_space {
             heads.push((out.join(snapshots::LIST), snapshots::HEAD.to_string()));
         } else {
@@ -151,6 +162,8 @@ impl<'a> Files<'a> {
             let further = further(plan).map(|(name, _)| (out.join(name), head.clone()));
             heads.extend(further);
         }
+        heads
+            .extend(receivers::heads(&plan.receivers).into_iter().map(|(path, head)| (out.join(path), head)));
         heads.extend(sampled(plan).into_iter().map(|(path, head)| (out.join(path), head)));
         let folder = out.join("stations");
         heads.extend(stations::heads(plan).into_iter().map(|(name, head)| (folder.join(name), head)));
@@ -165,6 +178,14 @@ impl<'a> Files<'a> {
         let (samples, stations) = rest.split_at_mut(rest.len() - self.stations.len());
         let whole = |now: &Moment<'_>| largest_row(plan, now);
         follow(&mut tables[0], plan, now.largest, (now, then.as_ref()), &whole)?;
+        let moments = |now: &Moment<'_>| moments::row(plan, now);
+        follow(&mut tables[1], plan, now.largest, (now, then.as_ref()), &moments)?;
+        self.events.step(plan, now)?;
+        let first = tables.len() - plan.receivers.all.len();
+        for (number, rows) in tables[first..].iter_mut().enumerate() {
+            let row = |now: &Moment<'_>| receivers::row(&plan.receivers, number, now);
+            follow(rows, plan, now.largest, (now, then.as_ref()), &row)?;
+        }
         for (&point, rows) in self.stations.iter().zip(stations) {
             let row = |now: &Moment<'_>| stations::row(plan, now, point);
             follow(rows, plan, now.speed(point), (now, then.as_ref()), &row)?;
@@ -172,7 +193,7 @@ impl<'a> Files<'a> {
         follow_samples(samples, plan, (now, then.as_ref()))?;
         match &mut self.snapshots {
             Some(snapshots) => match snapshots.take(plan, now)? {
-                Some(row) => tables[1].push(&row, &plan.cadence, time),
+                Some(row) => tables[2].push(&row, &plan.cadence, time),
                 None => Ok(()),
             },
             None => self.profiles(now),
@@ -184,15 +205,15 @@ impl<'a> Files<'a> {
         let (time, cadence) = (now.at.seconds(), &self.plan.cadence);
         let fast = usize::from(now.largest >= self.plan.problem.settings.thresholds.on);
         let (reading, interval) = (Reading { time, rate: now.largest }, cadence.contours[fast]);
-        if self.rows[1].gauge.profile(reading, interval, f64::INFINITY) {
+        if self.rows[2].gauge.profile(reading, interval, f64::INFINITY) {
             let row = profile(time, now.slip().component(0), |slip| scientific(slip, 6));
-            self.rows[1].push(&row, cadence, time)?;
-        }
-        if self.rows[2].gauge.profile(reading, interval, RATE_CHANGE) {
-            let row = profile(time, now.rate.component(0), |rate| fixed(rate.abs().log10(), 3));
             self.rows[2].push(&row, cadence, time)?;
         }
-        for (rows, (_, values)) in self.rows[3..].iter_mut().zip(further(self.plan)) {
+        if self.rows[3].gauge.profile(reading, interval, RATE_CHANGE) {
+            let row = profile(time, now.rate.component(0), |rate| fixed(rate.abs().log10(), 3));
+            self.rows[3].push(&row, cadence, time)?;
+        }
+        for (rows, (_, values)) in self.rows[4..].iter_mut().zip(further(self.plan)) {
             if rows.gauge.profile(reading, interval, f64::INFINITY) {
                 let row = profile(time, values(now.pressed), |value| scientific(value, 6));
                 rows.push(&row, cadence, time)?;

@@ -46,10 +46,8 @@ impl<'a> Keeper<'a> {
     ) -> Result<(Self, FaultRun), ResumeError> {
         checkpoint::remove(out)?;
         let files = Files::create(out, plan)?;
-        let faults: Vec<_> = plan.faults.iter().map(|f| f.points.clone()).collect();
-        let thresholds = plan.problem.settings.thresholds;
-        let run = FaultRun::new(plan.problem.start.clone(), &faults, thresholds);
-        Ok((Self::new(out, plan, physics, (files, Balance::new(&plan.problem)), pauses, 0), run))
+        let balance = Balance::new(&plan.problem);
+        Ok((Self::new(out, plan, physics, (files, balance), pauses, 0), plan.begin()))
     }
 
     /// Resumes from the checkpoint in `out`, even if the end time or the number of events is now larger. `None` if there is no checkpoint, or if the

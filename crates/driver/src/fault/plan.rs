@@ -4,12 +4,13 @@ use super::bodies::BodiesView;
 use super::cadence::Cadence;
 use super::frame::Frame;
 use super::normal::NormalChoice;
+use super::receivers::Receivers;
 use super::resolution::Resolution;
 use super::sampling::Sampling;
 use crate::ruptures::Ruptures;
 use crate::warning::Warning;
 use asperity_cycles::heat::Layer;
-use asperity_cycles::{Components, Layout, Problem, Pulse};
+use asperity_cycles::{Components, FaultRun, Layout, Problem, Pulse, Thresholds};
 use std::fmt::Write as _;
 
 /// A point of a fault, as needed by the output.
@@ -94,8 +95,14 @@ pub struct Plan {
     pub problem: Problem,
     /// Bodies with mass that compute the ruptures, if the scene has them.
     pub ruptures: Option<Ruptures>,
+    /// Slip rates at which slow events begin and end, if they are asked for.
+    pub slow: Option<Thresholds>,
+    /// Direction up, where it is known.
+    pub up: Option<[f64; 3]>,
     /// Cadence of the output.
     pub cadence: Cadence,
+    /// Largest number of events with files of their own.
+    pub event_files: usize,
     /// Description of the rock around the faults.
     pub medium: &'static str,
     /// Degrees of freedom of the bodies; 0 without bodies.
@@ -108,6 +115,8 @@ pub struct Plan {
     pub bodies: Option<BodiesView>,
     /// Values of the bodies that are sampled.
     pub sampling: Option<Sampling>,
+    /// Positions in the rock whose motion is written.
+    pub receivers: Receivers,
     /// Geographic position and epoch of the origin.
     pub frame: Option<Frame>,
     /// True if faults are surfaces in 3D, which have no distance along them.
@@ -122,6 +131,15 @@ pub struct Plan {
     pub notes: Vec<String>,
 }
 
+/// Description of the files of events.
+fn of_events(most: usize) -> String {
+    match most {
+        0 => "no files of single events".into(),
+        1 => "files of the first event in `events`".into(),
+        most => format!("files of the first {most} events in `events`"),
+    }
+}
+
 /// Description of a pulse.
 fn of_pulse(pulse: &Pulse) -> String {
     let points = pulse.amplitude.iter().filter(|a| **a != 0.0).count();
@@ -131,6 +149,17 @@ fn of_pulse(pulse: &Pulse) -> String {
 }
 
 impl Plan {
+    /// A run at its start, with the sources of its events.
+    #[must_use]
+    pub fn begin(&self) -> FaultRun {
+        let faults: Vec<_> = self.faults.iter().map(|f| f.points.clone()).collect();
+        let run = FaultRun::new(self.problem.start.clone(), &faults, self.problem.settings.thresholds);
+        match self.slow {
+            Some(slow) => run.and_slow(slow),
+            None => run,
+        }
+    }
+
     /// Vector in space \[m; m/s; Pa\] from its components at a point.
     #[must_use]
     pub fn vector<V: AsRef<[f64]>>(&self, values: &Components<V>, point: usize) -> [f64; 3] {
@@ -214,6 +243,11 @@ impl Plan {
             line("operator", opening.words());
         }
         line("output", self.cadence.words());
+        line("output", of_events(self.event_files));
+        if !self.receivers.all.is_empty() {
+            let count = self.receivers.all.len();
+            line("output", format!("{count} receivers in the rock, which move with the plates"));
+        }
         for resolution in &self.resolution {
             line("points", resolution.words(self.in_space));
         }

@@ -2,6 +2,7 @@
 
 use super::cadence::Gauge;
 use super::snapshots::Taken;
+use super::source_time::Written;
 use asperity_ode::Clock;
 use serde::{Deserialize, Serialize};
 
@@ -15,4 +16,6 @@ pub struct Position {
     /// Snapshots, in 3D.
     #[serde(default)]
     pub(super) snapshots: Option<Taken>,
+    /// Files of the moment rates of events.
+    pub(super) events: Written,
 }

@@ -7,6 +7,7 @@ use super::located::locate;
 use super::openings::{OpenedFault, openings};
 use super::plan::{FaultView, Plan, PointView};
 use super::resolution::Resolution;
+use super::rupture_length::rupture_length;
 use super::sampled_end::{End, in_words};
 use super::words::{length, time};
 use crate::catalogue::{Entry, FaultEvents, Scattered, Site, slipped};
@@ -17,7 +18,7 @@ use crate::warning::Warning;
 use asperity_cycles::{Balance, Components, Crack, Episode, Event, FaultRun, Layout, Mark, Rupture, steady};
 use asperity_ode::Outcome as Finish;
 use asperity_output::decimals::fixed;
-use asperity_output::located::Located;
+use asperity_output::located::{Located, magnitude};
 use nalgebra::{Matrix3, Vector3};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -39,10 +40,16 @@ impl Scattered for Plan {
 /// Entry of an event, restricted to these points of all faults or of one.
 fn entry(plan: &Plan, event: &Event<Rupture>, points: &Range<usize>) -> Entry {
     let entry = Entry::of(plan, event, points);
-    let turned = (plan.problem.fault.law.components() > 1)
-        .then(|| Turned::new(plan, &event.details.slip, &slipped(event, points)));
+    let own = slipped(event, points);
+    let turned =
+        (plan.problem.fault.law.components() > 1).then(|| Turned::new(plan, &event.details.slip, &own));
+    let moment = turned.as_ref().map_or(entry.moment, |t| t.moment);
+    // In the plane moments are per length, which only a place may give.
+    let width = if plan.in_space { Some(1.0) } else { plan.frame.as_ref().and_then(|f| f.length) };
     Entry {
-        moment: turned.as_ref().map_or(entry.moment, |t| t.moment),
+        moment,
+        magnitude: width.map(|width| magnitude(moment * width)),
+        rupture_length: rupture_length(plan, &own),
         direction: turned.as_ref().map(|t| t.direction),
         turned: turned.as_ref().map(|t| t.angle),
         // The reader of the scene ensures that the calendar covers the run.
@@ -54,6 +61,21 @@ fn entry(plan: &Plan, event: &Event<Rupture>, points: &Range<usize>) -> Entry {
 /// Entries of a catalogue, restricted to these points.
 fn entries(plan: &Plan, events: &[Event<Rupture>], points: &Range<usize>) -> Vec<Entry> {
     events.iter().map(|event| entry(plan, event, points)).collect()
+}
+
+/// Entries of the slow events of all faults in the order of onset, if there are sources of them.
+fn slow_events(plan: &Plan, run: &FaultRun) -> Option<Vec<Entry>> {
+    let mut all = Vec::new();
+    for (fault, events) in plan.faults.iter().zip(run.slow()?) {
+        let mut before: Option<&Event<Rupture>> = None;
+        for event in events {
+            // Those that became fast lie between slow ones.
+            let interval = before.replace(event).map(|before| event.onset.since(&before.onset));
+            all.push(Entry { interval, ..entry(plan, event, &fault.points) });
+        }
+    }
+    all.sort_by(|a, b| a.onset.total_cmp(&b.onset));
+    Some(all)
 }
 
 /// Moment and direction of vector slip.
@@ -172,6 +194,9 @@ pub struct Report {
     /// Catalogue of each fault, if there are several.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub faults: Vec<FaultEvents>,
+    /// Slow events of all faults, if the scene asks for them: none of them is part of an event of `events`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slow_events: Option<Vec<Entry>>,
     /// Unit of energies.
     pub unit: &'static str,
     /// Energies up to the end.
@@ -318,7 +343,8 @@ impl Report {
             end: run.at.seconds(),
             events: entries(plan, events, &(0..plan.points.len())),
             under_way: run.under_way().map(|e| e.onset.seconds()),
-            faults: plan.faults.iter().zip(1..run.catalogue.sources()).map(of_fault).collect(),
+            faults: plan.faults.iter().zip(1..run.sources()).map(of_fault).collect(),
+            slow_events: slow_events(plan, run),
             unit: if plan.in_space { "J" } else { "J/m" },
             energy,
             ruptures: run.progress.episodes.clone(),
@@ -361,6 +387,9 @@ impl Report {
                 format!(", every {} in the mean", time(mean))
             };
             let _ = writeln!(text, "  fault `{fault}` by itself: {} events{every}", events.len());
+        }
+        if let Some(slow) = &self.slow_events {
+            let _ = writeln!(text, "  {} slow events", slow.len());
         }
         for rupture in &self.ruptures {
             let _ = writeln!(text, "  {}", passage(rupture));

@@ -47,8 +47,12 @@ fn tables(root: &Path, folder: &Path, found: &mut BTreeMap<String, Vec<String>>)
             tables(root, &path, found);
         } else if path.extension().is_some_and(|e| e == "csv") || folder.ends_with("stations") {
             let extension = path.extension().map_or(String::new(), |e| format!(".{}", e.to_string_lossy()));
-            let name =
-                name.split_once('/').map_or(name.clone(), |(folder, _)| format!("{folder}/*{extension}"));
+            // Files of events are of several kinds, which their names say before the number of the event.
+            let kind =
+                name.strip_prefix("events/").map_or("", |file| file.split(char::is_numeric).next().unwrap());
+            let name = name
+                .split_once('/')
+                .map_or(name.clone(), |(folder, _)| format!("{folder}/{kind}*{extension}"));
             let columns = columns(&fs::read_to_string(&path).unwrap());
             let earlier = found.insert(name.clone(), columns.clone());
             assert!(earlier.is_none_or(|earlier| earlier == columns), "{name} has several sets of columns");

@@ -190,6 +190,27 @@ fn a_block_that_is_pressed_and_whose_values_are_sampled_is_gone_on_with_as_well(
 }
 
 #[test]
+fn a_medium_with_receivers_and_slow_events_is_gone_on_with_as_well() {
+    let scene = varied(
+        &events(2),
+        &[
+            Without("bodies"),
+            Without("faults.main.minus"),
+            Without("faults.main.plus"),
+            Without("stages[0].conditions"),
+            Add("medium", r#"{ kind = "half-space", material = "rock" }"#),
+            Add("faults.main.line", r#"{ trace = [[0, 0], [0, "-24 km"]], spacing = "750 m" }"#),
+            With("faults.main.creep", r#"{ rate = "1e-9 m/s" }"#),
+            Add("output.receivers", r#"{ near = ["1 km", 0], far = ["-50 km", "-2 km"] }"#),
+            Add("output.rupture_rate", r#""5 cm/s""#),
+            Add("events.slow_above", r#""3e-9 m/s""#),
+        ],
+    );
+    let breaks = broken_off_at_every_restart(&scene);
+    assert!(breaks > 3, "{breaks}");
+}
+
+#[test]
 fn a_fault_that_heats_up_is_gone_on_with_as_well() {
     let scene = varied(
         include_str!("../../../../scenes/thermal-pressurisation.toml"),

@@ -29,7 +29,9 @@ mod width;
 pub use chart::{Chart, Measure};
 pub use cycles::{Cycles, Line, Rows, Table};
 pub use diagram::{Diagram, Failed, Scale, Series, Slope};
-pub use rupture::{Line as RuptureLine, Profiles, RupturedFault, Ruptures, Shape as RuptureShape, Surface};
+pub use rupture::{
+    EventOnFault, Line as RuptureLine, Profiles, RupturedFault, Ruptures, Shape as RuptureShape, Surface,
+};
 pub use sketch::Sketch;
 pub use springs::chart as springs_chart;
 pub use style::STYLES;
@@ -63,6 +65,14 @@ pub fn draw_cycles(folder: &Path, cycles: &Cycles) -> Result<Vec<PathBuf>, Outpu
 /// See [`draw_all`].
 pub fn draw_ruptures(folder: &Path, ruptures: &Ruptures<'_>) -> Result<Vec<PathBuf>, OutputError> {
     write_all(folder, ruptures.figures()?)
+}
+
+/// Draws rupture times and slip of events into `folder` and returns the files in the order written.
+///
+/// # Errors
+/// See [`draw_all`].
+pub fn draw_events(folder: &Path, events: &[EventOnFault]) -> Result<Vec<PathBuf>, OutputError> {
+    write_all(folder, events.iter().flat_map(EventOnFault::figures).collect())
 }
 
 /// Draws the magnitudes of velocities of the nodes of a mesh, each with its time \[s\] \[m/s\], and a strip of them, into `folder`; returns

@@ -48,10 +48,10 @@ impl Checker<'_> {
     pub(super) fn explicit_alone(&mut self) {
         let scene = self.scene;
         let output = &scene.output;
-        let mut keys = vec![
-            ("sampling", output.sampling.as_ref().map(Spanned::span)),
-            ("rupture_rate", output.rupture_rate.as_ref().map(Spanned::span)),
-        ];
+        let mut keys = vec![("sampling", output.sampling.as_ref().map(Spanned::span))];
+        if scene.faults.is_empty() {
+            keys.push(("rupture_rate", output.rupture_rate.as_ref().map(Spanned::span)));
+        }
         keys.extend(
             scene.faults.values().map(|f| ("normal_delay", f.normal_delay.as_ref().map(Spanned::span))),
         );
@@ -161,6 +161,7 @@ impl Checker<'_> {
             ("bodies", output.bodies.as_ref().map(Spanned::span)),
             ("cadence", output.cadence.as_ref().map(Spanned::span)),
             ("contours", output.contours.as_ref().map(Spanned::span)),
+            ("event_files", output.event_files.as_ref().map(Spanned::span)),
             ("largest_file", output.largest_file.as_ref().map(Spanned::span)),
             ("method", solver.method.as_ref().map(Spanned::span)),
             ("tolerance", solver.tolerance.as_ref().map(Spanned::span)),

@@ -8,6 +8,7 @@ use crate::model::{
     SlipSpec, Spanned, Station, Stepper,
 };
 use crate::near::suggest;
+use crate::slider::EventSpec;
 use crate::units::Angle;
 
 /// Kinds of law from which the slip rate cannot be computed.
@@ -533,8 +534,42 @@ impl Checker<'_> {
                 (&events.above.span(), "`above`"),
             );
         }
+        self.slow_events(events);
         if let Some(n) = events.stop_after.as_ref().filter(|n| *n.get_ref() == 0) {
             self.error(n.span(), "`stop_after` must be at least 1", "or leave the line out");
+        }
+    }
+
+    /// Checks the slip rates of slow events, which lie below those of the others.
+    fn slow_events(&mut self, events: &EventSpec) {
+        let Some(slow) = &events.slow_above else {
+            if let Some(below) = &events.slow_below {
+                self.error(
+                    below.span(),
+                    "`slow_below` ends slow events, and there are none without `slow_above`",
+                    "add `slow_above`, such as `slow_above = \"1e-8 m/s\"`, or remove `slow_below`",
+                );
+            }
+            return;
+        };
+        let (rate, above) = (slow.get_ref().0, events.above.get_ref().0);
+        if !(rate > 0.0 && rate < above) {
+            self.conflict(
+                &slow.span(),
+                "`slow_above` must be positive and less than `above`",
+                "a slow event never becomes as fast as one that `above` begins",
+                (&events.above.span(), "`above`"),
+            );
+        }
+        if let Some(below) =
+            events.slow_below.as_ref().filter(|b| !(b.get_ref().0 > 0.0 && b.get_ref().0 < rate))
+        {
+            self.conflict(
+                &below.span(),
+                "`slow_below` must be positive and less than `slow_above`",
+                "a slow event ends at a lower rate than it begins",
+                (&slow.span(), "`slow_above`"),
+            );
         }
     }
 }

@@ -13,6 +13,7 @@ const LEAST_FILE: f64 = 1e4;
 impl Checker<'_> {
     pub(super) fn output(&mut self) {
         self.samples();
+        self.receivers();
         for (name, probes) in &self.scene.output.probes {
             if !self.scene.interfaces.contains_key(name) {
                 let known = self.scene.interfaces.keys().map(String::as_str);
@@ -77,6 +78,7 @@ impl Checker<'_> {
         let keys = [
             ("cadence", output.cadence.as_ref().map(Spanned::span)),
             ("contours", output.contours.as_ref().map(Spanned::span)),
+            ("event_files", output.event_files.as_ref().map(Spanned::span)),
             ("largest_file", output.largest_file.as_ref().map(Spanned::span)),
         ];
         for (key, place) in keys.into_iter().filter_map(|(key, place)| Some((key, place?))) {
@@ -92,6 +94,9 @@ impl Checker<'_> {
     pub(super) fn cadence(&mut self) {
         let output = &self.scene.output;
         let mut amounts = Vec::new();
+        // Explicit steps check their own.
+        let rate = output.rupture_rate.as_ref().filter(|_| !self.has_waves());
+        amounts.extend(rate.map(|v| ("rupture_rate", v.span(), v.get_ref().0)));
         if let Some(cadence) = output.cadence.as_ref().map(Spanned::get_ref) {
             amounts.extend(cadence.decades.as_ref().map(|d| ("decades", d.span(), *d.get_ref())));
             amounts.extend(cadence.slip.as_ref().map(|s| ("slip", s.span(), s.get_ref().0)));
@@ -109,6 +114,9 @@ impl Checker<'_> {
                     "leave it out for the default; every step makes a row where `decades` is tiny",
                 );
             }
+        }
+        if let Some(count) = output.event_files.as_ref().filter(|c| *c.get_ref() > MOST_OUTPUTS) {
+            self.too_many(count, "event_files", MOST_OUTPUTS);
         }
         if let Some(contours) = &output.contours {
             let [between, within] = contours.get_ref().map(|t| t.0);

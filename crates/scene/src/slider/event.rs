@@ -13,6 +13,10 @@ pub struct EventSpec {
     pub above: Spanned<Velocity>,
     /// Slip rate below which an event ends; default: a tenth of `above` \[m/s\].
     pub below: Option<Spanned<Velocity>>,
+    /// Faults through cycles: slip rate above which a slow event begins, which stays slower than `above` \[m/s\].
+    pub slow_above: Option<Spanned<Velocity>>,
+    /// Slip rate below which a slow event ends; default: half of `slow_above` \[m/s\].
+    pub slow_below: Option<Spanned<Velocity>>,
     /// Number of events after which the run ends; with several sliders, events of the first by name.
     pub stop_after: Option<Spanned<usize>>,
     /// Sliders: `true` locates the extremes of the slip rate; default `true`.

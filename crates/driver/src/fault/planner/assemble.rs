@@ -3,6 +3,7 @@
 use super::super::bodies::BodiesView;
 use super::super::cadence::{self, Cadence};
 use super::super::plan::{FaultView, Plan, PointView, Station};
+use super::super::receivers::Receivers;
 use super::super::resolution::Resolution;
 use super::super::sampling::Sampling;
 use super::cells::Cells;
@@ -35,6 +36,12 @@ const DEFAULT_METHOD: Method = Method::Tsit5;
 /// larger saves a tenth to a sixth of the work, but steps then lie at the edge of the stability region, where errors of the fastest modes do not
 /// average out: on cells of 25 m the slip of a cycle differed by 0.24 % from the imposed slip, and its duration by 0.1 %.
 const DEFAULT_TOLERANCE: f64 = 1e-5;
+
+/// Default slip rate at which a point has ruptured \[m/s\], that of the benchmarks in space.
+const RUPTURED: f64 = 0.1;
+
+/// Default largest number of events with files of their own: the first events of a run, without thousands of files in a long one.
+const EVENT_FILES: usize = 20;
 
 /// Number of steps after which a run is stopped: a hundred times those of BP1 at full length.
 const MOST_STEPS: usize = 20_000_000;
@@ -109,8 +116,12 @@ pub(super) fn plan_of<const D: usize>(
         faults,
         points,
         cadence: cadence(scene, &fault, end),
+        event_files: scene.output.event_files.as_ref().map_or(EVENT_FILES, |n| *n.get_ref()),
         problem: Problem { fault, areas, loading, start, settings },
         ruptures: None,
+        receivers: Receivers::default(),
+        slow: thresholds::slow(scene.events.as_ref()),
+        up: frame::up(scene),
         medium: around.medium,
         dofs: around.dofs,
         creeping: around.creeping,
@@ -241,14 +252,30 @@ fn settings(scene: &Scene, end: f64) -> Result<Settings, Diagnostic> {
     };
     let method = heated::method(scene, method)?;
     let events = scene.events.as_ref();
+    let thresholds = thresholds::of(events);
     Ok(Settings {
         method,
         tolerance: time.log_rate_tolerance.as_ref().map_or(DEFAULT_TOLERANCE, |t| *t.get_ref()),
         end,
-        thresholds: thresholds::of(events),
+        thresholds,
+        rupture_rate: rupture_rate(scene, thresholds.on)?,
         most_events: events.and_then(|e| e.stop_after.as_ref()).map(|n| *n.get_ref()),
         most_steps: MOST_STEPS,
     })
+}
+
+/// Slip rate at which a point has ruptured \[m/s\]; events begin at the slip rate `on`.
+fn rupture_rate(scene: &Scene, on: f64) -> Result<f64, Diagnostic> {
+    let Some(given) = &scene.output.rupture_rate else { return Ok(RUPTURED.max(on)) };
+    let rate = given.get_ref().0;
+    if rate < on {
+        return Err(Diagnostic::at(
+            given.span(),
+            format!("points would rupture at {rate} m/s, before their event begins at {on} m/s"),
+            "`rupture_rate` at least as large as `above` of `[events]`",
+        ));
+    }
+    Ok(rate)
 }
 
 /// Cadence of the output.

@@ -2,7 +2,7 @@
 
 use super::super::frame::{Frame, Origin};
 use crate::diagnostic::Diagnostic;
-use crate::scene::model::Scene;
+use crate::scene::model::{MediumKind, Scene};
 use jiff::Timestamp;
 
 /// Frame of a scene, if it has a `[place]`.
@@ -23,4 +23,11 @@ pub(super) fn of(scene: &Scene, in_space: bool) -> Result<Option<Frame>, Diagnos
     };
     let vertical = in_space.then(|| <[_; 2]>::from(place.axes()));
     Ok(Some(Frame::new(&origin, place.strike.get_ref().0, vertical)))
+}
+
+/// Direction up, where the scene has one: that of its `[place]`, or out of the surface of a half-space.
+pub(super) fn up(scene: &Scene) -> Option<[f64; 3]> {
+    let declared = scene.place.as_ref().map(|place| <[_; 2]>::from(place.axes())[0]);
+    let half = || scene.medium.as_ref().filter(|m| *m.kind.get_ref() == MediumKind::HalfSpace);
+    declared.or_else(|| half().map(|_| [0.0, 1.0, 0.0]))
 }

@@ -1,7 +1,7 @@
 //! Rupture times: over the distance along a line, or as contours on a surface.
 
 use super::isolines::isolines;
-use super::{AT, Line, ROOM, RupturedFault, Ruptures, SIZE, Shape, Surface};
+use super::{AT, Line, ROOM, RupturedFault, SIZE, Shape, Surface};
 use crate::plots::axes::{Axis, Frame};
 use crate::plots::colour::{INK, PAPER, viridis};
 use crate::plots::field::Bar;
@@ -12,14 +12,18 @@ use crate::plots::units::TIME;
 /// As many contours at most: every half second up to 12 s, as the community draws them.
 const CONTOURS: usize = 24;
 
-impl Ruptures<'_> {
-    pub(super) fn arrivals(&self, fault: &RupturedFault) -> Option<Figure> {
-        let last = fault.arrivals.iter().copied().filter(|t| t.is_finite()).reduce(f64::max)?;
-        let part = format!("rupture times of {}", fault.name);
-        match &fault.shape {
-            Shape::Line(line) => front(&self.title, &part, line, &fault.arrivals, last),
-            Shape::Surface(surface) => contours(&self.title, &part, surface, &fault.arrivals, last),
-        }
+/// Last rupture time; `None` where nothing ruptured.
+pub(super) fn last(arrivals: &[f64]) -> Option<f64> {
+    arrivals.iter().copied().filter(|t| t.is_finite()).reduce(f64::max)
+}
+
+/// Rupture times of a fault; `None` where nothing ruptured.
+pub(super) fn arrivals(scene: &str, fault: &RupturedFault) -> Option<Figure> {
+    let last = last(&fault.arrivals)?;
+    let part = format!("rupture times of {}", fault.name);
+    match &fault.shape {
+        Shape::Line(line) => front(scene, &part, line, &fault.arrivals, last),
+        Shape::Surface(surface) => contours(scene, &part, surface, &fault.arrivals, last),
     }
 }
 
@@ -50,29 +54,40 @@ fn contours(scene: &str, part: &str, surface: &Surface, arrivals: &[f64], last: 
         Figure::new(AT.0 + frame.size.0.max(200.0) + ROOM, AT.1 + frame.size.1.max(190.0) + 84.0);
     title(&mut figure, &frame, scene, part);
     figure.image(surface.image(&frame, arrivals, (0.0, last)));
-    let bar = Axis::exact((0.0, last / unit.factor), String::new());
-    // Contours lie at round times.
-    let levels: Vec<(f64, String)> = bar.ticks(CONTOURS).into_iter().filter(|t| t.0 > 0.0).collect();
-    for (share, _) in &levels {
-        for [a, b] in isolines(surface, arrivals, share * last) {
-            let at = |p: Point| surface.place(&frame, p);
-            figure.line(vec![at(a), at(b)], 1.0, PAPER);
-        }
-    }
+    let apart = fronts(&mut figure, &frame, surface, arrivals, last);
     frame.draw(&mut figure);
-    Bar { range: bar.range, above: None, label: format!("Rupture time [{}]", unit.name) }
-        .draw(&mut figure, &frame);
-    if let [first, ..] = levels.as_slice() {
-        let words = format!("contours every {} {}", first.1, unit.name);
+    let range = (0.0, last / unit.factor);
+    Bar { range, above: None, label: format!("Rupture time [{}]", unit.name) }.draw(&mut figure, &frame);
+    if let Some(apart) = apart {
         let at = (AT.0, AT.1 + frame.size.1 + 62.0);
-        figure.text(at, words, 12.5, Anchor::Start, INK);
+        figure.text(at, format!("contours every {apart}"), 12.5, Anchor::Start, INK);
     }
     Some(figure)
 }
 
+/// Draws lines of equal rupture time at round times, and returns the time between them.
+pub(super) fn fronts(
+    figure: &mut Figure,
+    frame: &Frame,
+    surface: &Surface,
+    arrivals: &[f64],
+    last: f64,
+) -> Option<String> {
+    let unit = TIME.of(last);
+    let times = Axis::exact((0.0, last / unit.factor), String::new());
+    let levels: Vec<(f64, String)> = times.ticks(CONTOURS).into_iter().filter(|t| t.0 > 0.0).collect();
+    for (share, _) in &levels {
+        for [a, b] in isolines(surface, arrivals, share * last) {
+            let at = |p: Point| surface.place(frame, p);
+            figure.line(vec![at(a), at(b)], 1.0, PAPER);
+        }
+    }
+    levels.first().map(|first| format!("{} {}", first.1, unit.name))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::tests::{line, pulse};
+    use super::super::tests::line;
     use super::*;
     use crate::plots::figure::Shape as Drawn;
 
@@ -80,9 +95,7 @@ mod tests {
     fn a_front_is_interrupted_where_nothing_ruptured() {
         let mut fault = line();
         fault.arrivals[5] = f64::NAN;
-        let kept = pulse();
-        let ruptures = Ruptures { title: "t".into(), faults: vec![fault], rates: &kept };
-        let figure = ruptures.arrivals(&ruptures.faults[0]).unwrap();
+        let figure = arrivals("t", &fault).unwrap();
         let curves = figure.shapes.iter().filter_map(|s| match s {
             Drawn::Line { points, width, .. } if *width == 1.6 => Some(points.len()),
             _ => None,

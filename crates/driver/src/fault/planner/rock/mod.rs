@@ -3,6 +3,7 @@
 mod apart;
 mod depths;
 mod lines;
+mod receivers;
 mod rectangles;
 mod surfaces;
 mod tiling;
@@ -52,7 +53,9 @@ pub(super) fn plan<const D: usize>(scene: &Scene, rock: &Rock, form: Form) -> Re
     let geometry = Geometry { places: &places, faults: &faults, areas: &areas };
     let memory = admit(scene, &tiling.patches, slip, &geometry)?;
     let operator = tiling.patches.operator(&elastic, slip, (&geometry, form));
-    let loading = deficit(operator.as_ref(), &plates(scene, &placed, slip.tangents), end);
+    let plates = plates(scene, &placed, slip.tangents);
+    let loading = deficit(operator.as_ref(), &plates, end);
+    let receivers = receivers::of(scene, (&tiling.patches, &elastic), &placed, (plates, slip.tangents))?;
     warnings.extend(sense::check(scene, (&placed, &[]), &loading, end));
     warnings.extend(unloaded(scene));
     let notes = tiling.notes.iter().cloned().chain([tiling.patches.reason()]).collect();
@@ -71,7 +74,7 @@ pub(super) fn plan<const D: usize>(scene: &Scene, rock: &Rock, form: Form) -> Re
         notes,
     };
     let surrounded = Surrounded { placed, operator, opening: None, loading, end };
-    plan_of(scene, surrounded, around, &tiling)
+    Ok(Plan { receivers, ..plan_of(scene, surrounded, around, &tiling)? })
 }
 
 /// Warning if nothing changes the tractions of the faults but their own slip.

@@ -1,0 +1,93 @@
+//! Positions in homogeneous rock whose motion is written.
+
+use super::super::super::receivers::{Receiver, Receivers};
+use super::super::placed::{Placed, in_space, slides};
+use crate::diagnostic::Diagnostic;
+use crate::idealisation;
+use crate::scene::model::{Fault as Spec, Scene, Spanned};
+use crate::scene::units::Length;
+use asperity_cycles::medium::patches::Patches;
+use asperity_fem::material::elastic::Elastic;
+
+/// Difference of unit normals beyond which a fault is not plane: rounding of the directions of its cells.
+const PLANE: f64 = 1e-9;
+
+/// Distance from the plane of a fault, relative to the distance from its first point, below which a position lies on it:
+/// rounding.
+const ON_PLANE: f64 = 1e-9;
+
+/// Receivers of a scene, with the rates of the plates at all points, component by component.
+///
+/// # Errors
+/// [`Diagnostic`] at a receiver that has no motion, or at a fault whose plates cannot be followed.
+pub(super) fn of<const D: usize>(
+    scene: &Scene,
+    (patches, rock): (&Patches, &Elastic),
+    placed: &[Placed<D>],
+    (rates, tangents): (Vec<f64>, usize),
+) -> Result<Receivers, Diagnostic> {
+    let axes = match idealisation::of(*scene.kinematics.get_ref()).components() {
+        1 => vec![2],
+        components => (0..components).collect(),
+    };
+    let mut receivers = Receivers { all: Vec::new(), rates, axes };
+    for (name, spec) in &scene.output.receivers {
+        let at = std::array::from_fn(|c| spec.get_ref().get(c).map_or(0.0, |x: &Length| x.0));
+        let per_slip: Vec<[f64; 3]> =
+            (0..tangents).flat_map(|component| patches.displacements(&at, component, rock)).collect();
+        if !per_slip.iter().flatten().all(|u| u.is_finite()) {
+            return Err(Diagnostic::at(
+                spec.span(),
+                format!(
+                    "receiver `{name}` lies on the edge of a cell of a fault, where displacements are not defined"
+                ),
+                "a position beside the fault",
+            ));
+        }
+        let mut plates = [0.0; 3];
+        for (fault, entry) in scene.faults.iter().enumerate() {
+            let own: Vec<&Placed<D>> = placed.iter().filter(|p| p.fault == fault).collect();
+            let moved = beside((name, spec, &at), entry, &own)?;
+            plates.iter_mut().zip(moved).for_each(|(sum, v)| *sum += v);
+        }
+        receivers.all.push(Receiver { name: name.clone(), at, per_slip, plates });
+    }
+    Ok(receivers)
+}
+
+/// Velocity of a receiver beside a fault that creeps everywhere: half of the rate, on either side of its plane. Refuses a
+/// receiver on a fault, and faults that are not plane.
+fn beside<const D: usize>(
+    (name, receiver, at): (&str, &Spanned<Vec<Length>>, &[f64; 3]),
+    (fault, spec): (&String, &Spec),
+    own: &[&Placed<D>],
+) -> Result<[f64; 3], Diagnostic> {
+    let Some(creep) = spec.creep.as_ref() else { return Ok([0.0; 3]) };
+    let Some(first) = own.first() else { return Ok([0.0; 3]) };
+    let normal: [f64; 3] = in_space(&first.point.place.normal);
+    let dot = |a: &[f64; 3], b: &[f64; 3]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let turned = |p: &&&Placed<D>| 1.0 - dot(&in_space(&p.point.place.normal), &normal) > PLANE;
+    if own.iter().any(|p| turned(&p)) {
+        return Err(Diagnostic::at(
+            creep.rate.span(),
+            format!(
+                "receiver `{name}` moves with the plates, and fault `{fault}`, which creeps beyond its ends, is not plane"
+            ),
+            "receivers need plane faults, or faults without `creep`",
+        ));
+    }
+    let from: [f64; 3] = in_space(&first.point.place.at);
+    let apart: [f64; 3] = std::array::from_fn(|c| at[c] - from[c]);
+    let distance = dot(&apart, &normal);
+    if distance.abs() <= ON_PLANE * dot(&apart, &apart).sqrt() {
+        return Err(Diagnostic::at(
+            receiver.span(),
+            format!("receiver `{name}` lies on the plane of fault `{fault}`, whose sides move apart"),
+            "a position on one of its sides",
+        ));
+    }
+    // Creep in space has a direction of its own.
+    let along = if D == 3 { in_space(&first.point.place.creeps) } else { slides(first) };
+    let half = 0.5 * distance.signum() * creep.rate.get_ref().0;
+    Ok(along.map(|e| half * e))
+}

@@ -1,0 +1,47 @@
+//! Positions in a medium whose motion is written.
+
+use super::{AXES, Checker};
+use crate::model::{MediumKind, Spanned};
+
+impl Checker<'_> {
+    /// Checks the receivers of a scene.
+    pub(super) fn receivers(&mut self) {
+        let scene = self.scene;
+        let axes: Vec<usize> = (0..self.dimension()).collect();
+        for (name, at) in &scene.output.receivers {
+            self.name("a receiver", name, at.span());
+            let Some(medium) = &scene.medium else {
+                self.error(
+                    at.span(),
+                    "receivers lie in rock without bodies, and the scene has no `[medium]`",
+                    format!(
+                        "in a body, `points.{name} = {{ body = \"..\", at = [..] }}` has the displacement"
+                    ),
+                );
+                continue;
+            };
+            if !self.count(at, "receivers", &axes) {
+                continue;
+            }
+            self.place_of(name, at, *medium.kind.get_ref());
+        }
+    }
+
+    /// Checks the coordinates of a receiver.
+    fn place_of(&mut self, name: &str, at: &Spanned<Vec<crate::units::Length>>, kind: MediumKind) {
+        let values: Vec<f64> = at.get_ref().iter().map(|x| x.0).collect();
+        if let Some(axis) = values.iter().position(|x| !x.is_finite()) {
+            self.error(
+                at.span(),
+                format!("{} of receiver `{name}` must be finite", AXES[axis]),
+                "a position, such as [\"8 km\", \"0 km\"]",
+            );
+        } else if kind == MediumKind::HalfSpace && values.get(1).is_some_and(|y| *y > 0.0) {
+            self.error(
+                at.span(),
+                format!("receiver `{name}` lies {} m above the free surface y = 0", values[1]),
+                "y points up: depths are negative",
+            );
+        }
+    }
+}
