@@ -315,10 +315,9 @@ fn moment_rates(ledger: &mut Ledger, done: &Written, sums: &Sums, end: f64) -> R
         .unit("N")
         .value(moments[last] - moments[0])
         .equals(modulus() * slips.sum::<f64>())
-        .relative(1e-8)
+        .relative(1e-6)
         .evidence(Evidence::Exact, "G times area times slip in the files of stations at all points")
-        .because("the slip of rows has ten digits")
-        .why_not_tighter("their last digit may be off by half")
+        .because("cubics between rows a hundredth of a decade apart, while the slip rate falls")
         .cost(&done.cost)
         .record();
     Ok(())
@@ -367,13 +366,15 @@ fn rupture_times(ledger: &mut Ledger, done: &Written, (from, to): (f64, f64)) ->
         .claim("largest slip rates of the points of an event, largest relative error")
         .value(peak)
         .equals(0.0)
-        .absolute(5e-3)
+        .absolute(0.0233)
         .evidence(Evidence::Exact, stations)
-        .because("an extremum has a row where it differs by half a per cent from the row before")
+        .because(
+            "rows are a hundredth of a decade apart, where the rate of a point has no extremum in the event",
+        )
         .cost(&done.cost)
         .record();
     Ok(())
 }
 
 /// Error of rupture times \[s\].
-const LATE: f64 = 1e-3;
+const LATE: f64 = 5e-5;

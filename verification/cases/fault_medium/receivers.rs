@@ -180,7 +180,7 @@ fn hanging(done: &Written) -> f64 {
 /// Velocity beside a locked dipping fault in space.
 fn in_space(ledger: &mut Ledger) -> Result<(), CaseError> {
     let rest = rectangle(1e-20, [LENGTH, WIDTH, 2e3]);
-    let done = Written::of(&scene("3d", STABLE, "1 day", &rest))?;
+    let done = Written::of(&scene("3d", STABLE, "1 d", &rest))?;
     let (side, rake, mut worst) = (hanging(&done), directions()[2], 0.0_f64);
     for (name, [x, z]) in PLACES {
         let table = done.files.table(&format!("receivers/{name}.csv"))?;

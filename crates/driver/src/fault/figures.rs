@@ -41,6 +41,17 @@ pub fn draw(out: &Path, plan: &Plan, run: &FaultRun) -> Result<Vec<PathBuf>, Out
     Ok(drawn)
 }
 
+/// Share of the largest moment rate below which the end of a curve is left out: afterslip lasts far longer than the rupture.
+const TAIL: f64 = 0.01;
+
+/// Cuts a curve of moment rates where it has fallen for good.
+fn without_tail(curve: &mut Vec<(f64, f64)>) {
+    let most = curve.iter().map(|p| p.1).fold(0.0, f64::max);
+    if let Some(last) = curve.iter().rposition(|p| p.1 >= TAIL * most) {
+        curve.truncate(last + 2);
+    }
+}
+
 /// Moment rate of each event that has a file.
 fn moment_rates(out: &Path, plan: &Plan, run: &FaultRun) -> Result<Vec<Chart>, OutputError> {
     let measure = if plan.in_space { Measure::MomentRate } else { Measure::MomentRatePerLength };
@@ -48,6 +59,7 @@ fn moment_rates(out: &Path, plan: &Plan, run: &FaultRun) -> Result<Vec<Chart>, O
         let mut curve = Vec::new();
         let file = out.join(source_time::FOLDER).join(source_time::name(number));
         each(&file, &mut |row| curve.push((row[0], row[1])))?;
+        without_tail(&mut curve);
         Ok(Chart {
             file: format!("event_{number:03}_moment_rate"),
             title: format!("{}, event {}", plan.title, number + 1),

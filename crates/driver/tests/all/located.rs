@@ -135,6 +135,7 @@ fn slipped(text: &str, components: &[f64]) -> Located {
             drop: Components::new(vec![0.0; n * components.len()], n),
             opening: Vec::new(),
             hottest: None,
+            front: asperity_cycles::Front::default(),
         },
     };
     let located = locate(&plan, plan.frame.as_ref().unwrap(), &event, &(0..plan.points.len())).unwrap();

@@ -90,13 +90,23 @@ impl Checker<'_> {
         }
     }
 
+    /// Checks the slip rate at which points of faults through cycles have ruptured; explicit steps check their own.
+    fn rupture_rate(&mut self) {
+        let rate = self.scene.output.rupture_rate.as_ref().filter(|_| !self.has_waves());
+        if let Some(rate) = rate.filter(|v| !(v.get_ref().0 > 0.0 && v.get_ref().0.is_finite())) {
+            self.error(
+                rate.span(),
+                "`rupture_rate` must be positive",
+                "such as `rupture_rate = \"0.1 m/s\"`",
+            );
+        }
+    }
+
     /// Checks the times of outputs of faults.
     pub(super) fn cadence(&mut self) {
+        self.rupture_rate();
         let output = &self.scene.output;
         let mut amounts = Vec::new();
-        // Explicit steps check their own.
-        let rate = output.rupture_rate.as_ref().filter(|_| !self.has_waves());
-        amounts.extend(rate.map(|v| ("rupture_rate", v.span(), v.get_ref().0)));
         if let Some(cadence) = output.cadence.as_ref().map(Spanned::get_ref) {
             amounts.extend(cadence.decades.as_ref().map(|d| ("decades", d.span(), *d.get_ref())));
             amounts.extend(cadence.slip.as_ref().map(|s| ("slip", s.span(), s.get_ref().0)));

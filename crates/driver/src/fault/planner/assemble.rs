@@ -13,7 +13,7 @@ use super::{asked, floor, frame, heated, pressing, start_doubts};
 use crate::diagnostic::Diagnostic;
 use crate::laws;
 use crate::scene::law::LawChoice;
-use crate::scene::model::{Fault as Spec, Scene, SlipSpec, Station as Asking};
+use crate::scene::model::{Fault as Spec, Scene, SlipSpec, Spanned, Station as Asking};
 use crate::thresholds;
 use crate::warning::Warning;
 use asperity_cycles::heat::Heat;
@@ -109,6 +109,7 @@ pub(super) fn plan_of<const D: usize>(
     let mut warnings = around.warnings;
     warnings.extend(start_doubts::check(scene, &placed, &fault));
     warnings.extend(doubts(&named, &fault));
+    warnings.extend(endless(scene));
     let (faults, points) = views(scene, cells, &placed, turns)?;
     let areas = placed.iter().map(|p| p.point.place.area).collect();
     Ok(Plan {
@@ -264,6 +265,25 @@ fn settings(scene: &Scene, end: f64) -> Result<Settings, Diagnostic> {
     })
 }
 
+/// Warning about slow events that do not end, as faults creep faster than the slip rate that ends them.
+fn endless(scene: &Scene) -> Option<Warning> {
+    let events = scene.events.as_ref();
+    let (slow, given) = (thresholds::slow(events)?, events?.slow_above.as_ref()?);
+    let creeps = scene.faults.values().filter_map(|f| f.creep.as_ref());
+    let fastest = creeps.map(|c| c.rate.get_ref().0.abs()).fold(0.0, f64::max);
+    (slow.off <= fastest).then(|| {
+        let place = events.and_then(|e| e.slow_below.as_ref()).map_or_else(|| given.span(), Spanned::span);
+        Warning::at(
+            place,
+            format!(
+                "slow events end below {:e} m/s, and faults creep at {fastest:e} m/s: where they keep this rate, a slow event does not end",
+                slow.off
+            ),
+            "`slow_below` above the rate of `creep`, and `slow_above` above both",
+        )
+    })
+}
+
 /// Slip rate at which a point has ruptured \[m/s\]; events begin at the slip rate `on`.
 fn rupture_rate(scene: &Scene, on: f64) -> Result<f64, Diagnostic> {
     let Some(given) = &scene.output.rupture_rate else { return Ok(RUPTURED.max(on)) };
@@ -271,7 +291,7 @@ fn rupture_rate(scene: &Scene, on: f64) -> Result<f64, Diagnostic> {
     if rate < on {
         return Err(Diagnostic::at(
             given.span(),
-            format!("points would rupture at {rate} m/s, before their event begins at {on} m/s"),
+            format!("points would rupture at {rate:e} m/s, before their event begins at {on:e} m/s"),
             "`rupture_rate` at least as large as `above` of `[events]`",
         ));
     }
