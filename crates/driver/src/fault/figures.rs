@@ -4,7 +4,7 @@
 use super::cadence::time;
 use super::event_tables::reached;
 use super::plan::{FaultView, Plan};
-use super::shape::shape;
+use super::shape::{at_corners, corners, shape};
 use super::source_time;
 use crate::catalogue::slipped;
 use asperity_cycles::FaultRun;
@@ -82,16 +82,21 @@ fn on_faults(plan: &Plan, run: &FaultRun) -> Vec<EventOnFault> {
             if !largest.iter().any(|p| fault.points.contains(p)) {
                 continue;
             }
+            let points = || fault.points.clone();
+            let times: Vec<f64> = points().map(|p| reached(event, p)).collect();
+            let slips: Vec<f64> = points().map(|p| event.details.slip.size(p)).collect();
+            let views = &plan.points[points()];
+            let (shape, arrivals, slip) = match &fault.outline {
+                Some(outline) => {
+                    (corners(outline, views), at_corners(outline, &times), at_corners(outline, &slips))
+                }
+                None => (shape(plan.in_space, fault, views), times, slips),
+            };
             all.push(EventOnFault {
                 stem: format!("{name}_event_{number:03}"),
                 title: format!("{}, event {}", plan.title, number + 1),
-                fault: RupturedFault {
-                    name: fault.name.clone(),
-                    points: fault.points.clone(),
-                    shape: shape(plan.in_space, fault, &plan.points[fault.points.clone()]),
-                    arrivals: fault.points.clone().map(|p| reached(event, p)).collect(),
-                },
-                slip: fault.points.clone().map(|p| event.details.slip.size(p)).collect(),
+                fault: RupturedFault { name: fault.name.clone(), points: points(), shape, arrivals },
+                slip,
             });
         }
     }
