@@ -3,7 +3,7 @@
 use super::components::Components;
 use serde::{Deserialize, Serialize};
 
-/// What an event has recorded of its points; empty before its first step.
+/// Rupture times and largest slip rates of the points of an event; empty before its first step.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Front {
     /// Time since the onset at which each point first reached the rate of rupture \[s\]; none where it did not.

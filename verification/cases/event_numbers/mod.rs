@@ -273,13 +273,8 @@ fn rupture(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 /// Integral by the trapezoidal rule of rows of times and values.
 fn integral<'a>(rows: impl Iterator<Item = &'a [f64; 2]>) -> f64 {
-    let (mut sum, mut before) = (0.0, None::<&[f64; 2]>);
-    for row in rows {
-        if let Some(before) = before.replace(row) {
-            sum += 0.5 * (row[0] - before[0]) * (row[1] + before[1]);
-        }
-    }
-    sum
+    let rows: Vec<&[f64; 2]> = rows.collect();
+    rows.windows(2).map(|w| 0.5 * (w[1][0] - w[0][0]) * (w[0][1] + w[1][1])).sum()
 }
 
 /// Claims moment rates: of the event, and through the run.

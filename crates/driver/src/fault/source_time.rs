@@ -22,7 +22,7 @@ pub(super) fn name(number: usize) -> String {
     format!("moment_rate_{number:03}.csv")
 }
 
-/// What has been written so far.
+/// Files written so far, and the state of the last one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Written {
     /// Number of events seen.
@@ -71,7 +71,7 @@ impl SourceTimes {
         Ok(Self { written, ..files })
     }
 
-    /// What has been written.
+    /// Files written so far.
     pub fn written(&self) -> Written {
         self.written
     }

@@ -1,7 +1,7 @@
 //! Rupture times: over the distance along a line, or as contours on a surface.
 
 use super::isolines::isolines;
-use super::{AT, Line, ROOM, RupturedFault, SIZE, Shape, Surface};
+use super::{AT, Line, ROOM, RupturedFault, Ruptures, SIZE, Shape, Surface};
 use crate::plots::axes::{Axis, Frame};
 use crate::plots::colour::{INK, PAPER, viridis};
 use crate::plots::field::Bar;
@@ -11,6 +11,12 @@ use crate::plots::units::TIME;
 
 /// As many contours at most: every half second up to 12 s, as the community draws them.
 const CONTOURS: usize = 24;
+
+impl Ruptures<'_> {
+    pub(super) fn arrivals(&self, fault: &RupturedFault) -> Option<Figure> {
+        arrivals(&self.title, fault)
+    }
+}
 
 /// Last rupture time; `None` where nothing ruptured.
 pub(super) fn last(arrivals: &[f64]) -> Option<f64> {

@@ -88,7 +88,7 @@ impl Ruptures<'_> {
         let mut figures = Vec::new();
         let mut add = |name: String, figure: Option<Figure>| figures.extend(figure.map(|f| (name, f)));
         for (stem, fault) in stems(self.faults.iter().map(|f| f.name.as_str())).iter().zip(&self.faults) {
-            add(format!("{stem}_rupture_times"), arrivals::arrivals(&self.title, fault));
+            add(format!("{stem}_rupture_times"), self.arrivals(fault));
             add(format!("{stem}_slip_rate"), self.space_time(fault)?);
             add(format!("{stem}_film"), self.successive(fault)?);
         }
