@@ -177,12 +177,15 @@ pub fn csv(events: &[Entry]) -> String {
             optional(e.magnitude),
             optional(e.rupture_length)
         );
-        let spot = e.located.as_ref().map(|l| &l.hypocentre);
-        let place = spot.map(|s| [s.latitude, s.longitude, s.depth]);
-        let further = e.largest_temperature.iter().chain(place.iter().flatten());
-        for value in further.chain(e.direction.iter().flatten()).chain(&e.turned) {
+        let mut further: Vec<Option<f64>> = e.largest_temperature.iter().copied().map(Some).collect();
+        if placed {
+            let spot = e.located.as_ref().map(|l| &l.hypocentre);
+            further.extend([spot.map(|s| s.latitude), spot.map(|s| s.longitude), spot.map(|s| s.depth)]);
+        }
+        further.extend(e.direction.iter().flatten().chain(&e.turned).copied().map(Some));
+        for value in further {
             text.push(',');
-            text.push_str(&shortest(*value));
+            text.push_str(&optional(value));
         }
         text.push('\n');
     }
