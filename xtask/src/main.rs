@@ -8,6 +8,7 @@
 mod benchmarks;
 mod defects;
 mod interop;
+mod notices;
 mod report;
 mod stage;
 mod tidy;
@@ -69,6 +70,8 @@ enum Chore {
     Bench,
     /// Prints the path and summary of the last verification report.
     Report,
+    /// Prints names, versions and licences of the libraries that the program is built on.
+    Notices,
     /// Builds the book.
     Docs,
     /// Checks the outputs of a run with common readers, in a separate Python environment.
@@ -88,6 +91,7 @@ fn main() -> ExitCode {
         }
         Chore::Bench => Stage::new("bench", "cargo").args(["bench", "-p", "asperity-benches"]).run(&root),
         Chore::Report => report::print(&root),
+        Chore::Notices => notices::print(&root),
         Chore::Docs => docs(&root),
         Chore::Interop => interop::run(&root),
     };

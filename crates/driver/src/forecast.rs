@@ -99,9 +99,7 @@ pub fn matrix_bytes(counts: &[Counts], components: usize) -> usize {
 /// Peak memory of this process so far \[bytes\]; `None` if the system does not report it.
 #[must_use]
 pub fn most_so_far() -> Option<usize> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    Some(line.split_whitespace().next()?.parse::<usize>().ok()? * 1024)
+    asperity_output::memory::most()
 }
 
 /// A generated block.

@@ -10,6 +10,7 @@ pub mod cite;
 pub mod cli;
 pub mod cohesive;
 pub mod diagnostic;
+pub mod difference;
 pub mod dynamic;
 pub mod fault;
 mod forecast;

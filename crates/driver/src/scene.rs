@@ -1,6 +1,6 @@
 //! The scene language with the friction laws of this program.
 
-pub use asperity_scene::{Entry, check, law, model, names, near, slider, units};
+pub use asperity_scene::{Entry, check, keys, law, model, names, near, settings, slider, units};
 
 use crate::diagnostic::Diagnostics;
 use crate::laws;

@@ -1,9 +1,10 @@
 //! Standard output and standard error, which may be closed (`| head -1`) or full. Text that cannot be printed is dropped, and the
 //! run continues. This is the only module that prints.
 
+use serde::Serialize;
 use std::fmt::Arguments;
 use std::io::{ErrorKind, Write};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 
 /// A stream, with a flag that is set once output has been lost.
 struct Stream {
@@ -25,8 +26,44 @@ impl Stream {
     }
 }
 
-/// Prints on standard output. A failure other than a closed pipe is reported once on standard error.
+/// Form in which a command prints what it does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Form {
+    /// Text for people.
+    #[default]
+    Plain,
+    /// Only warnings and errors.
+    Quiet,
+    /// One JSON object per line.
+    Json,
+}
+
+static FORM: AtomicU8 = AtomicU8::new(Form::Plain as u8);
+
+/// Sets the form.
+pub fn set_form(form: Form) {
+    FORM.store(form as u8, Ordering::Relaxed);
+}
+
+/// The form.
+#[must_use]
+pub fn form() -> Form {
+    match FORM.load(Ordering::Relaxed) {
+        form if form == Form::Quiet as u8 => Form::Quiet,
+        form if form == Form::Json as u8 => Form::Json,
+        _ => Form::Plain,
+    }
+}
+
+/// Prints text on standard output, in the plain form. A failure other than a closed pipe is reported once on standard error.
 pub fn out(text: Arguments<'_>) {
+    if form() == Form::Plain {
+        printed(text);
+    }
+}
+
+fn printed(text: Arguments<'_>) {
     let error = OUT.print(&mut std::io::stdout().lock(), text);
     if let Some(error) = error.filter(|e| e.kind() != ErrorKind::BrokenPipe) {
         err(format_args!("standard output cannot be written: {error}; the rest is left out\n"));
@@ -36,6 +73,34 @@ pub fn out(text: Arguments<'_>) {
 /// Prints on standard error.
 pub fn err(text: Arguments<'_>) {
     ERR.print(&mut std::io::stderr().lock(), text);
+}
+
+/// Prints progress on standard error, in the plain form.
+pub fn progress(text: Arguments<'_>) {
+    if form() == Form::Plain {
+        err(text);
+    }
+}
+
+/// Prints a warning: on standard error, or as a line of JSON.
+pub fn warning(message: &str) {
+    match form() {
+        Form::Json => line("warning", &serde_json::json!({ "message": message })),
+        Form::Plain | Form::Quiet => err(format_args!("warning: {message}\n")),
+    }
+}
+
+/// Prints a JSON object of a kind in a line of standard output, in the form of JSON.
+pub fn line(kind: &str, fields: &impl Serialize) {
+    if form() != Form::Json {
+        return;
+    }
+    // Numbers that JSON cannot hold become null.
+    let Ok(serde_json::Value::Object(fields)) = serde_json::to_value(fields) else { return };
+    let mut object = serde_json::Map::new();
+    object.insert("line".into(), kind.into());
+    object.extend(fields);
+    printed(format_args!("{}\n", serde_json::Value::Object(object)));
 }
 
 #[cfg(test)]

@@ -30,7 +30,7 @@ impl Pulse {
     #[must_use]
     pub fn new(words: &str) -> Self {
         Self::every(SILENCE, words, |words, wall| {
-            printing::err(format_args!("{words}  [{:.1} s]\n", wall.as_secs_f64()));
+            printing::progress(format_args!("{words}  [{:.1} s]\n", wall.as_secs_f64()));
         })
     }
 

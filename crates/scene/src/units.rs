@@ -29,7 +29,7 @@ pub enum Dimension {
     Gradient,
     /// \[Pa s/m\].
     Damping,
-    /// \[kg/m²\].
+    /// \[kg/m2\].
     Mass,
     /// \[Pa s\].
     Viscosity,
@@ -398,7 +398,7 @@ quantity! {
     Gradient: Gradient,
     /// Radiation damping \[Pa s/m\].
     Damping: Damping,
-    /// A mass per area \[kg/m²\].
+    /// A mass per area \[kg/m2\].
     Mass: Mass,
     /// A viscosity \[Pa s\].
     Viscosity: Viscosity,

@@ -48,7 +48,7 @@ pub enum ResumeError {
     },
     /// The scene differs from the one that was run.
     #[error(
-        "the checkpoint {path} is of another scene: the scene file or a mesh file has changed since in more than {allowed}; restore it, or run without --resume to begin again"
+        "the checkpoint {path} is of another scene: the scene file, a value of --set or a mesh file has changed since in more than {allowed}; restore it, or run without --resume to begin again"
     )]
     Scene {
         /// The file.

@@ -1,12 +1,17 @@
 //! Input of a run, and names of the report and the lock file.
 
 use crate::report::common::{Kind, Origin};
+use crate::sha256::sha256;
 use jiff::Timestamp;
 use std::fs;
 use std::path::Path;
 
 /// Name of the report file.
 pub(super) const REPORT: &str = "report.json";
+/// Name of the file with the scene as it was run.
+pub(super) const SCENE: &str = "scene.toml";
+/// Name of the file that says what each file of a run is.
+pub(super) const README: &str = "README.md";
 /// Name of the lock file; the lock is held while a run writes to the directory.
 pub(super) const LOCK: &str = ".lock";
 
@@ -15,7 +20,9 @@ pub(super) const LOCK: &str = ".lock";
 pub(super) struct Begin {
     pub kind: Kind,
     pub title: String,
-    /// SHA-256 of the scene file.
+    /// Text of the scene, with the values that `--set` gives.
+    pub text: String,
+    /// SHA-256 of the text.
     pub hash: String,
     pub origin: Origin,
     /// True if the run resumes from the checkpoint in the directory.
@@ -25,10 +32,11 @@ pub(super) struct Begin {
 }
 
 impl Begin {
-    /// Input of a run of a scene file that was just read.
-    pub fn now(kind: Kind, scene: &Path, title: &str, hash: &str) -> Self {
+    /// Input of a run of a scene file that was just read, with settings.
+    pub fn now(kind: Kind, scene: &Path, title: &str, text: &str, set: Vec<String>) -> Self {
         let path = fs::canonicalize(scene).unwrap_or_else(|_| scene.to_path_buf());
-        let origin = Origin { scene: path.display().to_string(), started: Timestamp::now().to_string() };
-        Self { kind, title: title.into(), hash: hash.into(), origin, resume: false, force: false }
+        let origin = Origin { scene: path.display().to_string(), started: Timestamp::now().to_string(), set };
+        let (title, text, hash) = (title.into(), text.into(), sha256([text]));
+        Self { kind, title, text, hash, origin, resume: false, force: false }
     }
 }

@@ -13,7 +13,7 @@ use std::path::Path;
 pub(super) fn print(of: Option<&str>) -> miette::Result<End> {
     let citations = match of {
         None => Citations::default(),
-        Some(name) if Path::new(name).is_file() => Source::read(Path::new(name))?.citations()?,
+        Some(name) if Path::new(name).is_file() => Source::read(Path::new(name), &[])?.citations()?,
         Some(name) => {
             let known = Citations::of_case(name).or_else(|| Citations::of_benchmark(name));
             known.ok_or_else(|| unknown(name))?

@@ -1,5 +1,6 @@
-//! The command `compare`.
+//! The command `compare`: a result with a benchmark, or two output directories.
 
+use super::difference;
 use super::end::End;
 use crate::benchmark::{self, Judgement, Reference, Submission, overlay};
 use crate::scene::near::suggest;
@@ -11,11 +12,17 @@ use std::path::{Path, PathBuf};
 /// Result and benchmark.
 #[derive(Clone, Debug, Args)]
 pub struct Comparison {
-    /// Table of results (CSV).
+    /// Table of results (CSV) for a benchmark, or an output directory.
     #[arg(required_unless_present_any = ["list", "template"])]
     result: Option<PathBuf>,
+    /// Output directory to compare with the first.
+    #[arg(conflicts_with_all = ["benchmark", "template", "list"])]
+    other: Option<PathBuf>,
+    /// Relative difference up to which two directories agree, over the largest value of a column; 1e-6 by default.
+    #[arg(long, requires = "other", value_parser = tolerance)]
+    tolerance: Option<f64>,
     /// Name of the benchmark, such as `sandwich/v1`.
-    #[arg(long, value_name = "NAME", required_unless_present = "list")]
+    #[arg(long, value_name = "NAME", required_unless_present_any = ["list", "other"])]
     benchmark: Option<String>,
     /// Folder of the plots; `out/compare/<benchmark>` by default.
     #[arg(long, value_name = "DIR")]
@@ -37,6 +44,9 @@ pub(super) fn execute(asked: &Comparison) -> miette::Result<End> {
         list();
         return Ok(End::Done);
     }
+    if let (Some(a), Some(b)) = (&asked.result, &asked.other) {
+        return Ok(difference::directories(a, b, asked.tolerance.unwrap_or(difference::TOLERANCE)));
+    }
     let name = asked.benchmark.as_deref().unwrap_or_default();
     let Some(reference) = benchmark::find(name) else {
         let known = benchmark::all().iter().map(|r| r.benchmark.as_str());
@@ -50,6 +60,12 @@ pub(super) fn execute(asked: &Comparison) -> miette::Result<End> {
         }
         Some(path) => judge(asked, reference, path),
     }
+}
+
+/// Parses a tolerance.
+fn tolerance(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "it is a number such as 1e-6".to_string())?;
+    if value >= 0.0 && value.is_finite() { Ok(value) } else { Err("it is a number from 0 on".into()) }
 }
 
 /// Names and titles of the benchmarks.

@@ -1,8 +1,9 @@
 //! Contents of an output directory, and the check that a run may begin there.
 
-use super::begin::{Begin, LOCK, REPORT};
+use super::begin::{Begin, LOCK, README, REPORT, SCENE};
 use crate::checkpoint;
 use crate::report::Status;
+use asperity_output::progress;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -12,8 +13,11 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Files that runs write to their directory.
-const FILES: [&str; 24] = [
+const FILES: [&str; 27] = [
     REPORT,
+    SCENE,
+    README,
+    progress::FILE,
     LOCK,
     ".writable",
     checkpoint::FILE,
@@ -55,6 +59,12 @@ const FOLDERS: [(&str, &[&str]); 12] = [
     ("stations", &[""]),
     ("seismograms", &["csv", "mseed", "sac"]),
 ];
+
+/// Names of the files and folders.
+#[cfg(test)]
+pub(super) fn names() -> impl Iterator<Item = &'static str> {
+    FILES.into_iter().chain(FOLDERS.iter().map(|(name, _)| *name))
+}
 
 /// First entry of a directory that no run writes; `None` if there is none or the directory does not exist.
 pub(super) fn foreign(path: &Path) -> std::io::Result<Option<PathBuf>> {

@@ -1,8 +1,9 @@
 //! Output directory of a run. It belongs to one run at a time, holds a report from the start, and nothing of any other run.
 
-use super::begin::{Begin, LOCK, REPORT};
+use super::begin::{Begin, LOCK, REPORT, SCENE};
 use super::contents::{self, Contents};
 use super::json;
+use super::readme;
 use crate::checkpoint;
 use crate::forecast;
 use crate::report::common::{Phases, Provenance, Report, Results, SCHEMA, Sketch, Status, commit};
@@ -77,9 +78,16 @@ impl Directory {
         &self.path
     }
 
-    /// Marks the start of the computation: results exist from now on, and the directory set aside by moving the last
+    /// Input of the run.
+    pub fn begin(&self) -> &Begin {
+        &self.begin
+    }
+
+    /// Marks the start of the computation: the scene and results exist from now on, and the directory set aside by moving the last
     /// result is removed.
     pub fn computes(&mut self) -> miette::Result<()> {
+        atomic::write(&self.path.join(SCENE), self.begin.text.as_bytes()).into_diagnostic()?;
+        readme::write(&self.path, &self.begin.title).into_diagnostic()?;
         match std::mem::replace(&mut self.room, Room::Used) {
             Room::Moved(_, Some(older)) => fs::remove_dir_all(&older)
                 .into_diagnostic()
@@ -90,7 +98,9 @@ impl Directory {
 
     /// Writes the final report, with the hashes of the mesh files.
     pub fn write<P: Results>(&self, results: &P, meshes: &BTreeMap<String, String>) -> miette::Result<()> {
-        self.report(results.outcome().status(), Some(results.seconds()), Some(meshes), results)
+        let status = results.outcome().status();
+        self.report(status, Some(results.seconds()), Some(meshes), results)?;
+        readme::write(&self.path, &self.begin.title).into_diagnostic()
     }
 
     fn report(

@@ -1,91 +1,42 @@
-//! The commands of the binary: `run`, `check`, `compare`, `cite` and `schema`.
+//! The commands of the binary.
 
+mod arguments;
 mod begin;
 mod cite;
 mod compare;
 mod contents;
+mod difference;
 mod directory;
 mod end;
+mod explain;
 mod json;
+mod lines;
+mod manual;
+mod new;
 mod pausing;
 mod print;
 mod read;
+mod readme;
 mod signals;
+mod status;
 mod waves;
 mod work;
 
 use crate::report;
+pub use arguments::{Arguments, Command, Running, Schema, Set};
 use asperity_output::{Pulse, printing};
 use begin::Begin;
-use clap::{Parser, Subcommand, ValueEnum};
 pub use compare::Comparison;
 use contents::Contents;
 use directory::Directory;
 pub use end::End;
 use miette::IntoDiagnostic;
+pub use new::Template;
 pub use pausing::Pausing;
 use read::{Planned, Source};
 use std::path::{Path, PathBuf};
 use waves::run_waves;
 use work::{run_bodies, run_faults, run_sliders};
-
-/// Faults and rock friction by finite elements.
-#[derive(Debug, Parser)]
-#[command(name = "asperity", version)]
-pub struct Arguments {
-    /// Action.
-    #[command(subcommand)]
-    pub command: Command,
-}
-
-/// Commands.
-#[derive(Debug, Subcommand)]
-pub enum Command {
-    /// Run a scene.
-    Run {
-        /// Scene file (TOML).
-        scene: PathBuf,
-        /// Output directory; `out/<scene name>` by default.
-        #[arg(long)]
-        out: Option<PathBuf>,
-        /// Draw no plots.
-        #[arg(long)]
-        no_plots: bool,
-        /// Move an unfinished run, or the result of another scene, from the output directory to `<directory>.previous`.
-        #[arg(long, conflicts_with = "resume")]
-        force: bool,
-        /// Reasons to interrupt the run, and how to resume it.
-        #[command(flatten)]
-        pauses: Pausing,
-    },
-    /// Print the plan of a scene without running it.
-    Check {
-        /// Scene file (TOML).
-        scene: PathBuf,
-    },
-    /// Compare a result with a benchmark: exit code 0 if it agrees, 1 if not, 2 if it cannot be read.
-    Compare(Comparison),
-    /// Print what to cite, as BibTeX: the program, the problem, and the laws and methods that a scene declares.
-    Cite {
-        /// Scene file (TOML), or name of a verification case or benchmark; without it, the program alone.
-        #[arg(value_name = "SCENE|CASE")]
-        of: Option<String>,
-    },
-    /// Print the JSON Schema of a file.
-    Schema {
-        /// The file.
-        of: Schema,
-    },
-}
-
-/// Files that have a schema.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum Schema {
-    /// A scene.
-    Scene,
-    /// `report.json`.
-    Report,
-}
 
 /// Executes a command.
 ///
@@ -93,8 +44,10 @@ pub enum Schema {
 /// Diagnostics that point into the scene, or name the file that could not be read or written.
 pub fn execute(arguments: &Arguments) -> miette::Result<End> {
     match &arguments.command {
-        Command::Check { scene } => {
-            print::plan(&Source::read(scene)?.plan()?.plan);
+        Command::New { template, file } => new::write(*template, file.as_deref()),
+        Command::Status { directory, json } => status::print(directory, *json),
+        Command::Check { scene, set } => {
+            print::plan(&Source::read(scene, &set.values)?.plan()?.plan);
             Ok(End::Done)
         }
         Command::Compare(asked) => compare::execute(asked),
@@ -108,25 +61,38 @@ pub fn execute(arguments: &Arguments) -> miette::Result<End> {
             printing::out(format_args!("{schema}\n"));
             Ok(End::Done)
         }
-        Command::Run { scene, out, no_plots, force, pauses } => {
-            let out = out.clone().unwrap_or_else(|| default_output(scene));
-            let source = Source::read(scene)?;
-            let begin = Begin { resume: pauses.resume, force: *force, ..source.begin(scene) };
-            if begin.resume
-                && let Some(meshes) = source.meshes_of_whole()
-                && Contents::of(&out)?.is_complete(&begin.hash, &meshes)
-            {
-                printing::out(format_args!("the run in {} is complete: nothing to resume\n", out.display()));
-                return Ok(End::Done);
-            }
-            let mut directory = Directory::claim(&out, begin)?;
-            let ended = run(source, &mut directory, !no_plots, pauses);
-            if let Err(error) = &ended {
-                directory.fails(error);
-            }
+        Command::Explain { key } => explain::print(key.as_deref()),
+        Command::Completions { shell } => Ok(manual::completions(*shell)),
+        Command::Man => manual::man(),
+        Command::Run(running) => {
+            lines::prepare(running)?;
+            let ended = begin_run(running);
+            lines::end(&ended);
             ended
         }
     }
+}
+
+/// Claims the output directory of a scene and runs it there.
+fn begin_run(running: &Running) -> miette::Result<End> {
+    let Running { scene, out, set, no_plots, force, pauses, .. } = running;
+    let out = out.clone().unwrap_or_else(|| default_output(scene));
+    let source = Source::read(scene, &set.values)?;
+    let begin = Begin { resume: pauses.resume, force: *force, ..source.begin(scene) };
+    if begin.resume
+        && let Some(meshes) = source.meshes_of_whole()
+        && Contents::of(&out)?.is_complete(&begin.hash, &meshes)
+    {
+        printing::out(format_args!("the run in {} is complete: nothing to resume\n", out.display()));
+        return Ok(End::Done);
+    }
+    let mut directory = Directory::claim(&out, begin)?;
+    lines::begin(&directory);
+    let ended = run(source, &mut directory, !no_plots, pauses);
+    if let Err(error) = &ended {
+        directory.fails(error);
+    }
+    ended
 }
 
 /// Plans and runs a scene in its output directory.
@@ -136,6 +102,7 @@ fn run(source: Source, directory: &mut Directory, drawn: bool, pauses: &Pausing)
         source.plan()?
     };
     print::plan(&ready.plan);
+    lines::planned(&mut ready);
     let mut ruptures = match &mut ready.plan {
         Planned::Faults(plan) => plan.ruptures.take(),
         Planned::Bodies(_) | Planned::Sliders(_) | Planned::Dynamic(_) => None,

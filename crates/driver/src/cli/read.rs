@@ -3,17 +3,18 @@
 use super::begin::Begin;
 use crate::checkpoint;
 use crate::cite::{self, Citations};
-use crate::diagnostic::{Diagnostics, report};
+use crate::diagnostic::{Diagnostics, report_set};
 use crate::dynamic;
 use crate::fault;
 use crate::plan::{self, AnyPlan, ScenePlan};
 use crate::report::Kind;
 use crate::scene;
+use crate::scene::settings::{self, Origin, Resolved, Setting};
 use crate::sha256::sha256;
 use crate::slider;
 use crate::slider_planner;
 use crate::warning::Warning;
-use miette::{IntoDiagnostic, WrapErr};
+use miette::{IntoDiagnostic, WrapErr, miette};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Instant;
@@ -31,7 +32,8 @@ pub(super) enum Planned {
 }
 
 impl Planned {
-    fn warnings_mut(&mut self) -> &mut [Warning] {
+    /// Warnings of the plan.
+    pub fn warnings_mut(&mut self) -> &mut [Warning] {
         match self {
             Self::Bodies(plan) => plan.warnings_mut(),
             Self::Sliders(plan) => &mut plan.warnings,
@@ -56,11 +58,40 @@ pub(super) struct Ready {
 
 /// A scene that has been read and checked but not planned. Planning may take long.
 pub(super) struct Source {
-    /// Name of the file.
-    name: String,
-    text: String,
+    text: Text,
     parsed: Parsed,
     clock: Instant,
+}
+
+/// Text of a scene.
+struct Text {
+    /// Name of the file.
+    name: String,
+    /// Text of the file.
+    file: String,
+    /// Text with the settings.
+    resolved: Resolved,
+    settings: Vec<Setting>,
+}
+
+impl Text {
+    /// Errors as they are printed.
+    fn report(&self, errors: &Diagnostics) -> miette::Report {
+        report_set(&self.name, &self.file, (&self.resolved, &self.settings), errors)
+    }
+
+    /// Gives a warning its line and column in the file, or names the setting that it is about.
+    fn locate(&self, warning: &mut Warning) {
+        match self.resolved.origin(warning.span.start) {
+            Origin::Setting(number) if !warning.span.is_empty() => {
+                warning.message = format!("--set {}: {}", self.settings[number], warning.message);
+            }
+            _ => {
+                warning.span = self.resolved.range(&warning.span).unwrap_or_default();
+                warning.locate(&self.file);
+            }
+        }
+    }
 }
 
 /// Content of a scene file.
@@ -72,22 +103,25 @@ enum Parsed {
 }
 
 impl Source {
-    /// Reads and checks a scene file.
-    pub fn read(path: &Path) -> miette::Result<Self> {
-        let text = std::fs::read_to_string(path)
+    /// Reads and checks a scene file with settings.
+    pub fn read(path: &Path, settings: &[Setting]) -> miette::Result<Self> {
+        let file = std::fs::read_to_string(path)
             .into_diagnostic()
             .wrap_err_with(|| format!("cannot read the scene {}", path.display()))?;
         let clock = Instant::now();
         let name = path.display().to_string();
-        let told = |errors: &Diagnostics| report(&name, &text, errors);
-        let parsed = if scene::slider::is_slider(&text) {
-            Parsed::Sliders(Box::new(slider_planner::read(&text).map_err(|errors| told(&errors))?))
+        let resolved = settings::apply(&file, settings).map_err(|why| miette!("{name}: {why}"))?;
+        let text = Text { name, file, resolved, settings: settings.to_vec() };
+        let told = |errors: &Diagnostics| text.report(errors);
+        let read = text.resolved.text();
+        let parsed = if scene::slider::is_slider(read) {
+            Parsed::Sliders(Box::new(slider_planner::read(read).map_err(|errors| told(&errors))?))
         } else {
             let folder = path.parent().unwrap_or(Path::new(""));
-            let parsed = scene::read_in(&text, folder).map_err(|errors| told(&errors))?;
+            let parsed = scene::read_in(read, folder).map_err(|errors| told(&errors))?;
             Parsed::Bodies(Box::new(parsed))
         };
-        Ok(Self { name, text, parsed, clock })
+        Ok(Self { text, parsed, clock })
     }
 
     /// SHA-256 of the mesh files of a scene without faults through cycles. Only such a run ends at a time that no change of the scene can extend. `None` if the
@@ -108,21 +142,24 @@ impl Source {
             Parsed::Bodies(scene) if scene.faults.is_empty() => (Kind::Bodies, &scene.title),
             Parsed::Bodies(scene) => (Kind::Faults, &scene.title),
         };
-        Begin::now(kind, path, title, &sha256([&self.text]))
+        let set = self.text.settings.iter().map(ToString::to_string).collect();
+        Begin::now(kind, path, title, self.text.resolved.text(), set)
     }
 
     /// Citations of the scene.
     pub fn citations(&self) -> miette::Result<Citations> {
         let citations = match &self.parsed {
-            Parsed::Sliders(_) => scene::slider::read(&self.text).and_then(|scene| cite::of_sliders(&scene)),
+            Parsed::Sliders(_) => {
+                scene::slider::read(self.text.resolved.text()).and_then(|scene| cite::of_sliders(&scene))
+            }
             Parsed::Bodies(scene) => cite::of_scene(scene),
         };
-        citations.map_err(|errors| report(&self.name, &self.text, &errors))
+        citations.map_err(|errors| self.text.report(&errors))
     }
 
     /// Plans the scene.
     pub fn plan(self) -> miette::Result<Ready> {
-        let Self { name, text, parsed, clock } = self;
+        let Self { text, parsed, clock } = self;
         let mut meshes = BTreeMap::new();
         let mut plan = match parsed {
             Parsed::Sliders(plan) => Planned::Sliders(plan),
@@ -133,7 +170,7 @@ impl Source {
                     Ok(ScenePlan::Faults(plan)) => Planned::Faults(plan),
                     Ok(ScenePlan::Dynamic(plan)) => Planned::Dynamic(plan),
                     Err(error) => {
-                        return Err(report(&name, &text, &Diagnostics::from(error)));
+                        return Err(text.report(&Diagnostics::from(error)));
                     }
                 };
                 meshes = mesh_hashes(&scene)?;
@@ -141,16 +178,17 @@ impl Source {
             }
         };
         for warning in plan.warnings_mut() {
-            warning.locate(&text);
+            text.locate(warning);
         }
+        let text = text.resolved.text();
         let hashes = meshes.values().map(String::as_str);
         let physics = match &plan {
-            Planned::Faults(_) => fault::physics(&text, hashes),
+            Planned::Faults(_) => fault::physics(text, hashes),
             Planned::Bodies(_) | Planned::Sliders(_) | Planned::Dynamic(_) => {
-                checkpoint::scene::of_bodies(&text, hashes)
+                checkpoint::scene::of_bodies(text, hashes)
             }
         };
-        let hash = sha256([&text]);
+        let hash = sha256([text]);
         Ok(Ready { plan, hash, physics, meshes, seconds: clock.elapsed().as_secs_f64() })
     }
 }

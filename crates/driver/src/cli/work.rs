@@ -4,7 +4,7 @@ use super::directory::Directory;
 use super::end::End;
 use super::pausing::Pausing;
 use super::read::Ready;
-use super::{json, print, signals};
+use super::{json, lines, print, signals};
 use crate::catalogue::{self, Entry, FaultEvents};
 use crate::checkpoint::{self, Contents as _, Pauses};
 use crate::fault;
@@ -14,7 +14,8 @@ use crate::report::{Outcome, Status};
 use crate::run::{self, RunError};
 use crate::ruptures::Ruptures;
 use crate::slider;
-use asperity_output::printing::{err, out};
+use crate::warning::Warning;
+use asperity_output::printing::{self, Form, out};
 use asperity_output::{FieldSchedule, Files, OutputError, Recorder, atomic, plots, stems};
 use miette::{IntoDiagnostic, miette};
 use std::path::Path;
@@ -44,14 +45,17 @@ pub(super) fn run_bodies(
     // The report is written last, even if the plots cannot be written.
     let drawn = draw(directory.path(), recorder.as_ref());
     if let Some(events) = &report.events {
+        lines::events(&events.all);
         write_catalogues(directory.path(), &events.all, &events.interfaces).into_diagnostic()?;
     }
     directory.write(&report, &ready.meshes)?;
     drawn?;
     print::results(&report);
     written(directory);
-    for warning in &report.warnings {
-        err(format_args!("warning: {warning}\n"));
+    let shown =
+        |warning: &Warning| printing::form() != Form::Plain && plan.summary().warnings.contains(warning);
+    for warning in report.warnings.iter().filter(|warning| !shown(warning)) {
+        printing::warning(&warning.to_string());
     }
     Ok(end(report.outcome, Some(report.counts.steps)))
 }
@@ -167,6 +171,7 @@ pub(super) fn run_sliders(
     (report.seconds.plan, report.seconds.steps) = (ready.seconds, clock.elapsed().as_secs_f64());
     let drawn = if drawn { histories.draw(directory.path(), problem).map(|_| ()) } else { Ok(()) };
     if problem.events.is_some() {
+        lines::events(&report.events);
         let events = slider::csv(&report.events, &problem.names);
         atomic::write(&directory.path().join("events.csv"), events.as_bytes()).into_diagnostic()?;
     }
@@ -225,12 +230,16 @@ pub(super) fn run_faults(
     if let Some(why) = interrupted {
         report.outcome = Outcome::Interrupted { stage: None, time: report.end, reason: why.into() };
     }
+    lines::events(&report.events);
     let rest = write_faults(directory.path(), (plan, &run, &report), &ready.hash, drawn);
     directory.write(&report, &ready.meshes)?;
     rest?;
     out(format_args!("{}", report.text()));
     if let Some(warning) = coarse {
         out(format_args!("  warning: {warning}\n"));
+        if printing::form() != Form::Plain {
+            printing::warning(&warning.to_string());
+        }
     }
     written(directory);
     let step = usize::try_from(report.counts.steps).ok();

@@ -3,4 +3,4 @@
 mod render;
 
 pub use asperity_scene::diagnostic::{Diagnostic, Diagnostics, line_column};
-pub use render::report;
+pub use render::{report, report_set};

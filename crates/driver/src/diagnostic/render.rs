@@ -1,6 +1,7 @@
 //! Errors of a scene as shown to the user: the position in the file, a caret, and a suggested correction.
 
 use super::{Diagnostic, Diagnostics, line_column};
+use crate::scene::settings::{Origin, Resolved, Setting};
 use miette::{
     LabeledSpan, MietteError, MietteSpanContents, NamedSource, Report, SourceCode, SourceSpan, SpanContents,
 };
@@ -162,9 +163,24 @@ impl miette::Diagnostic for Many {
 /// The errors of the scene `text`, read from `file`, ready to be printed.
 #[must_use]
 pub fn report(file: &str, text: &str, errors: &Diagnostics) -> Report {
+    report_set(file, text, (&Resolved::unchanged(text), &[]), errors)
+}
+
+/// The errors of a scene with settings, ready to be printed: each is shown in the file with this text, or in the setting that
+/// caused it.
+#[must_use]
+pub fn report_set(
+    file: &str,
+    text: &str,
+    (resolved, settings): (&Resolved, &[Setting]),
+    errors: &Diagnostics,
+) -> Report {
     let source = Arc::new(Excerpts(NamedSource::new(file, text.to_string())));
-    let mut placed: Vec<Placed> =
-        errors.0.iter().map(|error| Placed { error: error.clone(), source: Arc::clone(&source) }).collect();
+    let place = |error: &Diagnostic| match resolved.origin(error.span.start) {
+        Origin::Setting(number) if !error.span.is_empty() => in_setting(&settings[number], error),
+        _ => Placed { error: in_file((resolved, settings), error), source: Arc::clone(&source) },
+    };
+    let mut placed: Vec<Placed> = errors.0.iter().map(place).collect();
     match (placed.len(), placed.pop()) {
         (1, Some(only)) => Report::new(only),
         (_, last) => {
@@ -172,6 +188,28 @@ pub fn report(file: &str, text: &str, errors: &Diagnostics) -> Report {
             Report::new(Many { file: file.to_string(), errors: placed })
         }
     }
+}
+
+/// An error in the value of a setting.
+fn in_setting(setting: &Setting, error: &Diagnostic) -> Placed {
+    let source = Arc::new(Excerpts(NamedSource::new("--set", setting.to_string())));
+    Placed { error: Diagnostic { span: setting.given(), also: Vec::new(), ..error.clone() }, source }
+}
+
+/// An error in the file. Other positions that lie in settings are named in words.
+fn in_file((resolved, settings): (&Resolved, &[Setting]), error: &Diagnostic) -> Diagnostic {
+    let mut placed = Diagnostic { also: Vec::new(), ..error.clone() };
+    placed.span = resolved.range(&error.span).unwrap_or_default();
+    for (span, words) in &error.also {
+        match resolved.origin(span.start) {
+            Origin::File(_) => placed.also.push((resolved.range(span).unwrap_or_default(), words.clone())),
+            Origin::Setting(number) => {
+                let said = placed.help.take().map_or(String::new(), |help| format!("{help}; "));
+                placed.help = Some(format!("{said}{words}: --set {}", settings[number]));
+            }
+        }
+    }
+    placed
 }
 
 #[cfg(test)]

@@ -7,10 +7,10 @@ use super::plan::Plan;
 use super::tables::Tables;
 use super::{figures, seismograms};
 use crate::checkpoint::{self, Contents, Pauses, ResumeError};
-use crate::fault::words::time;
 use asperity_mechanics::dynamics::ExplicitState;
 use asperity_output::decimals::shortest;
-use asperity_output::{OutputError, Progress, atomic};
+use asperity_output::progress::{Now, Progress};
+use asperity_output::{OutputError, atomic};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -119,7 +119,7 @@ impl<'a, const D: usize> Keeper<'a, D> {
             tables,
             fields,
             arrivals,
-            progress: Progress::new(),
+            progress: Progress::new(out),
             pauses,
             drawn,
             moved: false,
@@ -149,8 +149,15 @@ impl<'a, const D: usize> Keeper<'a, D> {
             self.arrivals.see(now.time, &now.fault.rate, plan.rupture_rate);
         }
         self.moved = true;
-        self.progress.show(now.time / plan.end(), || {
-            format!("t = {}, step {} of {}", time(now.time), now.step, plan.steps)
+        self.progress.show(now.time / plan.end(), || Now {
+            stage: None,
+            time: now.time,
+            end: plan.end(),
+            step: now.step as u64,
+            step_length: plan.end() / plan.steps as f64,
+            largest_rate: now.fault.rate.iter().map(|rate| rate.abs()).reduce(f64::max),
+            iterations: None,
+            events: None,
         });
         self.tables.step(plan, now)?;
         self.fields.step(plan, now)
@@ -192,7 +199,7 @@ impl<'a, const D: usize> Keeper<'a, D> {
     /// # Errors
     /// If a file cannot be written.
     pub fn finish(self, completed: bool) -> Result<(), OutputError> {
-        self.progress.finish();
+        self.progress.finish(completed);
         let (out, plan) = (&self.out, self.plan);
         self.fields.collect(out, plan)?;
         seismograms::write(out, plan)?;

@@ -4,12 +4,12 @@ use super::checkpoint::{Checkpoint, Stand};
 use super::files::Files;
 use super::identity;
 use super::plan::Plan;
-use super::words::time;
 use crate::checkpoint::{self, Contents as _, FILE, Pauses, ResumeError};
 use crate::warning::Warning;
 use asperity_cycles::{Balance, FaultRun, Faults, Moment};
 use asperity_ode::{Control, ObserveError, Observer};
-use asperity_output::{OutputError, Progress};
+use asperity_output::OutputError;
+use asperity_output::progress::{Now, Progress};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -108,7 +108,7 @@ impl<'a> Keeper<'a> {
             plan,
             files,
             balance,
-            progress: Progress::new(),
+            progress: Progress::new(out),
             pauses,
             written: Instant::now(),
             steps,
@@ -142,8 +142,8 @@ impl<'a> Keeper<'a> {
     /// # Errors
     /// The first write that failed.
     pub fn finish(mut self, run: &FaultRun) -> Result<(Balance<'a>, Option<&'static str>), OutputError> {
-        self.progress.finish();
         let failed = matches!(run.outcome, asperity_ode::Outcome::Failed { .. });
+        self.progress.finish(!failed && self.interrupted.is_none());
         if !failed && self.interrupted.is_none() {
             let over = run.outcome == asperity_ode::Outcome::Completed;
             let before = self.before.take().filter(|_| over);
@@ -178,15 +178,16 @@ impl Observer<Faults> for Keeper<'_> {
         if moment.step.as_ref().is_some_and(|step| step.waves.is_some()) && self.within_rupture()? {
             return Ok(Control::Stop);
         }
-        let (part, steps) = (moment.at.seconds() / self.plan.problem.settings.end, self.steps);
-        self.progress.show(part, || {
-            format!(
-                "t = {}, max V = {:.3e} m/s, step {steps} of {:.3e} s, {} events",
-                time(moment.at.seconds()),
-                moment.largest,
-                moment.dt,
-                moment.events().len()
-            )
+        let (time, end, step) = (moment.at.seconds(), self.plan.problem.settings.end, self.steps);
+        self.progress.show(time / end, || Now {
+            stage: None,
+            time,
+            end,
+            step,
+            step_length: moment.dt,
+            largest_rate: Some(moment.largest),
+            iterations: None,
+            events: Some(moment.events().len() as u64),
         });
         self.files.step(moment)
     }

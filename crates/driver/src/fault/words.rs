@@ -2,8 +2,10 @@
 
 use asperity_output::decimals::fixed;
 
+pub(crate) use asperity_output::words::time;
+
 /// A year as defined by the benchmarks \[s\].
-pub(super) const YEAR: f64 = 365.25 * 86_400.0;
+pub(super) const YEAR: f64 = asperity_output::words::YEAR;
 
 /// Length as text, in a unit that leaves digits before the decimal point.
 pub(crate) fn length(metres: f64) -> String {
@@ -14,13 +16,4 @@ pub(crate) fn length(metres: f64) -> String {
         _ => (1e6, "um"),
     };
     format!("{} {unit}", fixed(metres * scale, 4))
-}
-
-/// Time as text.
-pub(crate) fn time(seconds: f64) -> String {
-    if seconds.abs() >= 0.1 * YEAR {
-        format!("{:.5} yr", seconds / YEAR)
-    } else {
-        format!("{} s", fixed(seconds, 5))
-    }
 }

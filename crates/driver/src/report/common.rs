@@ -126,6 +126,9 @@ pub struct Origin {
     pub scene: String,
     /// Time at which the run was begun or resumed.
     pub started: String,
+    /// Values given by `--set`, in their order.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub set: Vec<String>,
 }
 
 /// Wall time per phase \[s\]. Phases that a kind of run does not separate are included in its steps.
@@ -172,7 +175,7 @@ pub struct Report<'a, P> {
     pub title: &'a str,
     /// Version of the program.
     pub version: &'static str,
-    /// SHA-256 of the scene file.
+    /// SHA-256 of the scene as it was run, in `scene.toml`: that of the scene file, unless `--set` changed values.
     pub scene_sha256: &'a str,
     /// SHA-256 of the mesh files, by their names in the scene; absent until they are read.
     #[serde(skip_serializing_if = "Option::is_none")]

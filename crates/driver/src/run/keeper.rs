@@ -122,7 +122,7 @@ impl Kept {
     /// Adds a progress display.
     #[must_use]
     pub fn shown(self) -> Self {
-        Self { progress: Some(Progress::new()), ..self }
+        Self { progress: Some(Progress::new(&self.out)), ..self }
     }
 
     fn save(&mut self, stand: Stand) -> Result<(), OutputError> {
@@ -142,7 +142,7 @@ impl Kept {
     /// If the checkpoint cannot be removed.
     pub fn finish(self, completed: bool) -> Result<Option<Recorder>, OutputError> {
         if let Some(progress) = self.progress {
-            progress.finish();
+            progress.finish(completed);
         }
         if completed {
             checkpoint::remove(&self.out)?;

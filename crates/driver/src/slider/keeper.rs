@@ -2,9 +2,10 @@
 
 use super::files::{Histories, Positions};
 use crate::checkpoint::{self, Contents, Pauses, ResumeError};
-use asperity_cycles::slider::{Now, Problem, SliderRun, Sliders};
+use asperity_cycles::slider::{Now as Step, Problem, SliderRun, Sliders};
 use asperity_ode::{Control, ObserveError, Observer};
-use asperity_output::{OutputError, Progress};
+use asperity_output::OutputError;
+use asperity_output::progress::{Now, Progress};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -93,7 +94,7 @@ impl Keeper {
     /// Adds a progress display.
     #[must_use]
     pub fn shown(self) -> Self {
-        Self { progress: Some(Progress::new()), ..self }
+        Self { progress: Some(Progress::new(&self.out)), ..self }
     }
 
     /// True if the run draws plots at its end.
@@ -114,7 +115,7 @@ impl Keeper {
     /// If a file cannot be written or removed.
     pub fn finish(mut self, completed: bool) -> Result<Histories, OutputError> {
         if let Some(progress) = self.progress {
-            progress.finish();
+            progress.finish(completed);
         }
         // Rows after the checkpoint are cut off if the run is resumed.
         self.histories.finish()?;
@@ -135,7 +136,7 @@ impl Keeper {
 }
 
 impl Observer<Sliders> for Keeper {
-    fn step(&mut self, now: &Now<'_>) -> Result<Control, ObserveError> {
+    fn step(&mut self, now: &Step<'_>) -> Result<Control, ObserveError> {
         self.histories.step(now)?;
         if let Some(progress) = &mut self.progress {
             progress.show(now.at.seconds() / now.problem.end, || status(now));
@@ -156,9 +157,16 @@ impl Observer<Sliders> for Keeper {
     }
 }
 
-/// Text of the progress display.
-fn status(now: &Now<'_>) -> String {
-    let largest = now.conditions.iter().fold(0.0_f64, |most, c| most.max(c.rate.abs()));
-    let (time, step, dt) = (now.at.seconds(), now.step, now.dt);
-    format!("t = {time:.6e} s, max V = {largest:.3e} m/s, step {step} of {dt:.3e} s")
+/// State for the progress display.
+fn status(now: &Step<'_>) -> Now {
+    Now {
+        stage: None,
+        time: now.at.seconds(),
+        end: now.problem.end,
+        step: now.step as u64,
+        step_length: now.dt,
+        largest_rate: now.conditions.iter().map(|c| c.rate.abs()).reduce(f64::max),
+        iterations: None,
+        events: None,
+    }
 }

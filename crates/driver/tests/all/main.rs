@@ -7,6 +7,8 @@ mod bodies;
 mod cite;
 mod column_tables;
 mod command;
+mod command_tables;
+mod commands;
 mod common;
 mod compare;
 mod directories;

@@ -58,7 +58,7 @@ pub struct SliderSpec {
     pub stiffness: Option<Spanned<Spring>>,
     /// Radiation damping η \[Pa s/m\].
     pub damping: Option<Spanned<Damping>>,
-    /// Mass per area M \[kg/m²\].
+    /// Mass per area M \[kg/m2\].
     pub mass: Option<Spanned<Mass>>,
     /// Slip rate at time 0; absent: that of the law's initial steady state \[m/s\].
     pub start: Option<Spanned<Velocity>>,

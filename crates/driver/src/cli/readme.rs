@@ -1,0 +1,92 @@
+//! `README.md` of an output directory: what each file there is.
+
+use super::begin::{LOCK, README, REPORT, SCENE};
+use crate::checkpoint;
+use asperity_output::{OutputError, atomic, progress};
+use std::fs;
+use std::path::Path;
+
+/// Files and folders of runs, with what they are.
+const MEANINGS: [(&str, &str); 35] = [
+    (REPORT, "status, results, counts, times, provenance: begin here"),
+    (SCENE, "the scene as it was run, with the values of `--set`; mesh files are relative to the scene file"),
+    (progress::FILE, "progress of the run; removed when it is complete"),
+    (checkpoint::FILE, "state from which `--resume` continues the run, or extends a run of faults"),
+    (LOCK, "held while a run writes to this directory"),
+    ("fields.pvd", "list of the files in `fields/` over time, for ParaView"),
+    ("bodies.pvd", "list of the displacements of bodies over time, for ParaView"),
+    ("events.pvd", "list of the displacements of bodies over each event, for ParaView"),
+    ("events.csv", "catalogue of events"),
+    ("events_*.csv", "catalogue of the events of one fault or interface"),
+    ("events.json", "catalogue of events, with more of each"),
+    ("events.quakeml", "catalogue of events for seismological programs"),
+    ("CMTSOLUTION", "centroid moment tensors of the events"),
+    ("largest_rate.csv", "largest slip rate over time"),
+    ("slip_profiles.csv", "slip along a fault at intervals"),
+    ("rate_profiles.csv", "slip rate along a fault at intervals"),
+    ("opening_profiles.csv", "opening along a fault at intervals"),
+    ("temperature_profiles.csv", "temperature along a fault at intervals"),
+    ("pressure_profiles.csv", "pore pressure along a fault at intervals"),
+    ("snapshots.csv", "state of a fault at chosen times"),
+    ("energy.csv", "energy budget over time"),
+    ("moment_rate.csv", "moment rate over time"),
+    ("rupture_times.csv", "rupture time and largest slip rate of each point"),
+    ("fields", "bodies and surfaces at output times (VTU)"),
+    ("profiles", "whole surfaces at output times (CSV)"),
+    ("probes", "positions on surfaces, at every step (CSV)"),
+    ("points", "positions in bodies, at every step (CSV)"),
+    ("forces", "forces on sets, at every step (CSV)"),
+    ("springs", "springs, at every step (CSV)"),
+    ("history", "sliders over time (CSV)"),
+    ("plots", "figures (SVG, PNG)"),
+    ("stations", "stations on faults over time, in the format of the SEAS community"),
+    ("seismograms", "velocity and displacement at positions (CSV, miniSEED, SAC)"),
+    (README, "this text"),
+    (".writable", "trial of writing, left by a run that was killed"),
+];
+
+/// Writes the text about the files that exist.
+pub(super) fn write(folder: &Path, title: &str) -> Result<(), OutputError> {
+    let mut names: Vec<String> = fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .filter_map(|entry| Some(entry.ok()?.file_name().to_str()?.to_string()))
+        .chain([README.to_string(), REPORT.to_string()])
+        .collect();
+    names.sort();
+    names.dedup();
+    let row = |name: &String| {
+        let meaning = meaning(name)?;
+        let slash = if folder.join(name).is_dir() { "/" } else { "" };
+        Some(format!("- `{name}{slash}`: {meaning}\n"))
+    };
+    let rows: String = names.iter().filter(|name| !name.starts_with('.')).filter_map(row).collect();
+    let text = format!(
+        "# {title}\n\nResults of a run of asperity {}. The chapter \"Files and columns\" of its book has all columns.\n\n{rows}",
+        env!("CARGO_PKG_VERSION")
+    );
+    atomic::write(&folder.join(README), text.as_bytes())
+}
+
+/// What the file or folder of this name is.
+fn meaning(name: &str) -> Option<&'static str> {
+    let fits = |pattern: &str| match pattern.split_once('*') {
+        Some((begin, end)) => name.starts_with(begin) && name.ends_with(end),
+        None => name == pattern,
+    };
+    MEANINGS.iter().find(|(pattern, _)| fits(pattern)).map(|(_, meaning)| *meaning)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::contents;
+    use super::*;
+
+    #[test]
+    fn every_file_that_runs_write_has_a_meaning() {
+        for name in contents::names().filter(|name| !["Thumbs.db", ".DS_Store"].contains(name)) {
+            assert!(meaning(name).is_some(), "{name}");
+        }
+        assert_eq!(meaning("events_main.csv"), meaning("events_*.csv"));
+    }
+}

@@ -1,0 +1,53 @@
+//! A setting: a path of keys and a value.
+
+use crate::keys::Path;
+use std::fmt;
+use toml_edit::Value;
+
+/// A setting such as `faults.main.normal=25MPa`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setting {
+    text: String,
+    /// Path of the key.
+    pub path: Path,
+    /// Value, as it is written in TOML.
+    pub value: String,
+}
+
+impl Setting {
+    /// Reads a setting. A value that is not TOML is a text, so that `25 MPa` needs no quotes.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn read(text: &str) -> Result<Self, String> {
+        let (path, value) =
+            text.split_once('=').ok_or("write a key and its value, such as `time.end=2 s`")?;
+        let path = Path::read(path).ok_or_else(|| {
+            format!("`{}` is no path of keys: write it like `faults.main.law.a`", path.trim())
+        })?;
+        let value = value.trim();
+        if value.is_empty() {
+            return Err(format!("`{path}` has no value; an empty text is `\"\"`"));
+        }
+        let value = match value.parse::<Value>() {
+            Ok(_) => value.to_string(),
+            Err(error) if value.starts_with(['[', '{', '"', '\'']) => {
+                return Err(format!("the value of `{path}` cannot be read: {}", error.message()));
+            }
+            Err(_) => Value::from(value).to_string(),
+        };
+        Ok(Self { text: text.to_string(), path, value })
+    }
+
+    /// The value as it was given, and its position in the setting.
+    #[must_use]
+    pub fn given(&self) -> std::ops::Range<usize> {
+        self.text.find('=').map_or(0, |at| at + 1)..self.text.len()
+    }
+}
+
+impl fmt::Display for Setting {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
