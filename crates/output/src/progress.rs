@@ -228,12 +228,12 @@ fn of(view: &StepView<'_>) -> Now {
 pub fn status(now: &Now, left: Option<f64>) -> String {
     let stage = now.stage.as_ref().map_or(String::new(), |stage| format!("{stage}: "));
     let rate = now.largest_rate.map_or(String::new(), |rate| format!(", largest rate {rate:.3e} m/s"));
-    let iterations = now.iterations.map_or(String::new(), |n| format!(", {n} iterations"));
-    let events = match now.events {
-        Some(1) => ", 1 event".to_string(),
-        Some(n) => format!(", {n} events"),
+    let counted = |number: Option<u64>, what: &str| match number {
+        Some(1) => format!(", 1 {what}"),
+        Some(n) => format!(", {n} {what}s"),
         None => String::new(),
     };
+    let (iterations, events) = (counted(now.iterations, "iteration"), counted(now.events, "event"));
     let left = left.map_or(String::new(), |left| format!(", about {} left", about(left)));
     let (time, end) = (time(now.time), time(now.end));
     format!(

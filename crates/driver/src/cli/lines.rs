@@ -1,6 +1,6 @@
 //! What a run prints for programs: lines of JSON, and warnings alone.
 
-use super::arguments::Running;
+use super::arguments::{Running, Set};
 use super::directory::Directory;
 use super::end::End;
 use super::read::Ready;
@@ -19,6 +19,13 @@ pub(super) fn prepare(running: &Running) -> miette::Result<()> {
     let Some(threads) = running.threads else { return Ok(()) };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
     pool.into_diagnostic().wrap_err_with(|| format!("cannot begin {threads} threads"))
+}
+
+/// Prints the values set beside the scene, which the plan contains.
+pub(super) fn settings(set: &Set) {
+    for setting in &set.values {
+        printing::out(format_args!("--set {setting}\n"));
+    }
 }
 
 /// The line at the beginning.

@@ -47,6 +47,7 @@ pub fn execute(arguments: &Arguments) -> miette::Result<End> {
         Command::New { template, file } => new::write(*template, file.as_deref()),
         Command::Status { directory, json } => status::print(directory, *json),
         Command::Check { scene, set } => {
+            lines::settings(set);
             print::plan(&Source::read(scene, &set.values)?.plan()?.plan);
             Ok(End::Done)
         }
@@ -88,6 +89,7 @@ fn begin_run(running: &Running) -> miette::Result<End> {
     }
     let mut directory = Directory::claim(&out, begin)?;
     lines::begin(&directory);
+    lines::settings(set);
     let ended = run(source, &mut directory, !no_plots, pauses);
     if let Err(error) = &ended {
         directory.fails(error);

@@ -36,7 +36,8 @@ fn the_book_publishes_the_schema_of_scenes() {
 fn all_scenes_keep_to_the_schema() {
     let validator = validator();
     let mut seen = 0;
-    for entry in fs::read_dir(root().join("scenes")).unwrap() {
+    let folders = [root().join("scenes"), root().join("crates/driver/templates")];
+    for entry in folders.iter().flat_map(|folder| fs::read_dir(folder).unwrap()) {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|e| e == "toml") {
             let scene = json(&fs::read_to_string(&path).unwrap());
@@ -45,7 +46,7 @@ fn all_scenes_keep_to_the_schema() {
             seen += 1;
         }
     }
-    assert!(seen > 10, "{seen} scenes");
+    assert!(seen > 30, "{seen} scenes");
 }
 
 #[test]
