@@ -46,7 +46,7 @@ impl Table {
     /// Reads a table in CSV.
     ///
     /// # Errors
-    /// Where it is not a table.
+    /// The first line that is not a row of the table.
     pub fn read(bytes: &[u8]) -> Result<Self, String> {
         let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(bytes);
         let names: Vec<String> =

@@ -83,11 +83,11 @@ impl Directory {
         &self.begin
     }
 
-    /// Marks the start of the computation: the scene and results exist from now on, and the directory set aside by moving the last
-    /// result is removed.
+    /// Marks the start of the computation: the scene and results exist from now on, and the directory set aside by moving the
+    /// last result is removed.
     pub fn computes(&mut self) -> miette::Result<()> {
         atomic::write(&self.path.join(SCENE), self.begin.text.as_bytes()).into_diagnostic()?;
-        readme::write(&self.path, &self.begin.title).into_diagnostic()?;
+        self.describe();
         match std::mem::replace(&mut self.room, Room::Used) {
             Room::Moved(_, Some(older)) => fs::remove_dir_all(&older)
                 .into_diagnostic()
@@ -100,7 +100,13 @@ impl Directory {
     pub fn write<P: Results>(&self, results: &P, meshes: &BTreeMap<String, String>) -> miette::Result<()> {
         let status = results.outcome().status();
         self.report(status, Some(results.seconds()), Some(meshes), results)?;
-        readme::write(&self.path, &self.begin.title).into_diagnostic()
+        self.describe();
+        Ok(())
+    }
+
+    /// Writes what each file is. It is no result: a run continues where it cannot be written.
+    fn describe(&self) {
+        let _ = readme::write(&self.path, &self.begin.title);
     }
 
     fn report(

@@ -1,4 +1,4 @@
-//! What a run prints for programs: lines of JSON, and warnings alone.
+//! Output of a run for programs: lines of JSON, and warnings alone.
 
 use super::arguments::{Running, Set};
 use super::directory::Directory;

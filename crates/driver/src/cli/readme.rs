@@ -68,7 +68,7 @@ pub(super) fn write(folder: &Path, title: &str) -> Result<(), OutputError> {
     atomic::write(&folder.join(README), text.as_bytes())
 }
 
-/// What the file or folder of this name is.
+/// Meaning of the file or folder of this name.
 fn meaning(name: &str) -> Option<&'static str> {
     let fits = |pattern: &str| match pattern.split_once('*') {
         Some((begin, end)) => name.starts_with(begin) && name.ends_with(end),

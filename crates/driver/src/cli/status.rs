@@ -43,7 +43,7 @@ enum State {
     Completed,
 }
 
-/// What is known about the run in a directory.
+/// Facts about the run in a directory.
 #[derive(Serialize)]
 struct Known {
     state: State,

@@ -3,7 +3,7 @@
 use super::tree::Tree;
 use serde_json::Value;
 
-/// What may stand in the position of a schema.
+/// Values that may stand in the position of a schema.
 pub(super) fn words(tree: &Tree, schema: &Value) -> String {
     let mut parts: Vec<String> = Vec::new();
     for form in tree.forms(schema) {

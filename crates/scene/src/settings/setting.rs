@@ -18,7 +18,7 @@ impl Setting {
     /// Reads a setting. A value that is not TOML is a text, so that `25 MPa` needs no quotes.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// The reason why it cannot be read.
     pub fn read(text: &str) -> Result<Self, String> {
         let (path, value) =
             text.split_once('=').ok_or("write a key and its value, such as `time.end=2 s`")?;
