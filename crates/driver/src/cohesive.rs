@@ -1,24 +1,13 @@
 //! Point spacing of an interface between bodies, compared with the cohesive zone of its friction.
 //!
-//! The length of the zone is inversely proportional to f_n ([`crate::fault::Ground`]), and f_n is known only once the bodies are pressed. The plan
-//! therefore states the f_n up to which the points resolve the zone. If loads alone press a flat interface, the mean f_n is known in advance and is
+//! The length of the zone is inversely proportional to f_n ([`crate::fault::Ground`]), and f_n is known only once the bodies are pressed. The
+//! checks of the plan therefore state the f_n under which one point is left. If loads alone press a flat interface, the mean f_n is known in advance and is
 //! checked in the plan. Otherwise a run stops if a point slides under an f_n so large that the zone holds less than one point. The end of each stage
 //! warns if the zone holds fewer than three.
 
 use crate::fault::{ENOUGH, FEW};
 use crate::warning::Warning;
 use asperity_mechanics::Resolved;
-
-/// Remark of the plan.
-#[must_use]
-pub fn remark(resolved: &Resolved, interface: &str) -> String {
-    format!(
-        "interface `{interface}`: points at most {:.4e} m apart are three to the cohesive zone under {:.4} MPa of normal traction, and one under {:.4} MPa",
-        resolved.spacing,
-        resolved.one / ENOUGH / 1e6,
-        resolved.one / 1e6
-    )
-}
 
 /// Warning if the largest normal traction \[Pa\] at the end of a stage leaves too few points.
 #[must_use]

@@ -6,6 +6,7 @@ pub mod balance;
 pub mod benchmark;
 pub mod catalogue;
 pub mod checkpoint;
+pub mod checks;
 pub mod cite;
 pub mod cli;
 pub mod cohesive;

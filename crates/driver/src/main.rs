@@ -12,6 +12,10 @@ fn main() -> ExitCode {
         Ok(end) => {
             match &end {
                 cli::End::Done | cli::End::Differs => {}
+                cli::End::Doubtful(n) => {
+                    let warnings = if *n == 1 { "1 warning".into() } else { format!("{n} warnings") };
+                    printing::err(format_args!("{warnings}, and `--strict` accepts none\n"));
+                }
                 cli::End::Unreadable(why) => printing::err(format_args!("error: {why}\n")),
                 cli::End::Stopped(why) => printing::err(format_args!("stopped: {why}\n")),
                 cli::End::Interrupted(why) => printing::err(format_args!("{why}\n")),

@@ -7,6 +7,7 @@ pub mod schema;
 
 use crate::balance::InterfaceBalance;
 use crate::catalogue::{Entry, FaultEvents};
+use crate::checks::Checks;
 use crate::cohesive;
 use crate::plan::{EventPlan, Plan, Sites, Summary};
 use crate::views;
@@ -136,6 +137,8 @@ impl Events {
 pub struct RunReport {
     /// Plan.
     pub plan: Summary,
+    /// Checks of the plan.
+    pub checks: Checks,
     /// Outcome.
     pub outcome: Outcome,
     /// Warnings about results outside the assumptions of the model; those about the scene are in the plan.
@@ -185,7 +188,7 @@ impl RunReport {
     /// Empty report of a plan.
     #[must_use]
     pub fn new<const D: usize>(plan: &Plan<D>) -> Self {
-        Self { plan: plan.summary.clone(), ..Self::default() }
+        Self { plan: plan.summary.clone(), checks: plan.checks.clone(), ..Self::default() }
     }
 
     /// Adds the values known at the end.

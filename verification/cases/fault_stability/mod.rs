@@ -10,6 +10,7 @@ use modes::Mode;
 use nalgebra::{Complex, Matrix2};
 use std::f64::consts::PI;
 
+mod lengths;
 mod modes;
 
 /// See the README.
@@ -202,7 +203,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     orders(ledger)?;
     variants(ledger)?;
     critical(ledger)?;
-    in_time(ledger)
+    in_time(ledger)?;
+    lengths::claims(ledger)
 }
 
 /// Modes compared with theory: in plane strain, those that the outer faces affect by less than 1e-6.

@@ -121,6 +121,28 @@ fn each(problem: &Problem) -> Vec<Option<(f64, Stability)>> {
     .collect()
 }
 
+/// Stiffness of a slider's springs against the critical one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Against {
+    /// Stiffness of all its springs \[Pa/m\].
+    pub stiffness: f64,
+    /// Critical stiffness; 0 if it is stable on any spring \[Pa/m\].
+    pub critical: f64,
+    /// True if steady sliding is unstable.
+    pub unstable: bool,
+}
+
+/// Stiffness of each slider against the critical one at the rate of the load point; none where there is no steady sliding.
+#[must_use]
+pub fn against(problem: &Problem) -> Vec<Option<Against>> {
+    let of = |(stiffness, stability): (f64, Stability)| Against {
+        stiffness,
+        critical: stability.critical(),
+        unstable: stability.unstable(stiffness),
+    };
+    each(problem).into_iter().map(|one| one.map(of)).collect()
+}
+
 /// Description of the stability of each slider.
 #[must_use]
 pub fn words(problem: &Problem) -> Vec<Option<String>> {

@@ -1,5 +1,6 @@
 //! Arguments of the binary.
 
+use super::check::Checking;
 use super::compare::Comparison;
 use super::new::Template;
 use super::pausing::Pausing;
@@ -30,14 +31,8 @@ pub enum Command {
     /// Run a scene.
     #[command(after_help = CODES)]
     Run(Running),
-    /// Print the plan of a scene without running it.
-    Check {
-        /// Scene file (TOML).
-        scene: PathBuf,
-        /// Values set in the scene.
-        #[command(flatten)]
-        set: Set,
-    },
+    /// Print the plan of a scene and its checks without running it.
+    Check(Checking),
     /// Write a commented scene to begin with.
     New {
         /// Scene to begin with.

@@ -9,6 +9,8 @@ pub enum End {
     Stopped(String),
     /// The result does not agree with its benchmark.
     Differs,
+    /// The plan has so many warnings, and none were to be accepted.
+    Doubtful(usize),
     /// Input that cannot be read.
     Unreadable(String),
     /// Interrupted by a signal or by the limit of wall time.
@@ -21,7 +23,7 @@ impl End {
     pub fn code(&self) -> u8 {
         match self {
             Self::Done => 0,
-            Self::Differs => 1,
+            Self::Differs | Self::Doubtful(_) => 1,
             Self::Stopped(_) | Self::Unreadable(_) => 2,
             Self::Interrupted(_) => 3,
         }

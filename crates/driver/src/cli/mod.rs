@@ -2,6 +2,7 @@
 
 mod arguments;
 mod begin;
+mod check;
 mod cite;
 mod compare;
 mod contents;
@@ -26,6 +27,7 @@ use crate::report;
 pub use arguments::{Arguments, Command, Running, Schema, Set};
 use asperity_output::{Pulse, printing};
 use begin::Begin;
+pub use check::Checking;
 pub use compare::Comparison;
 use contents::Contents;
 use directory::Directory;
@@ -46,11 +48,7 @@ pub fn execute(arguments: &Arguments) -> miette::Result<End> {
     match &arguments.command {
         Command::New { template, file } => new::write(*template, file.as_deref()),
         Command::Status { directory, json } => status::print(directory, *json),
-        Command::Check { scene, set } => {
-            lines::settings(set);
-            print::plan(&Source::read(scene, &set.values)?.plan()?.plan);
-            Ok(End::Done)
-        }
+        Command::Check(asked) => check::execute(asked),
         Command::Compare(asked) => compare::execute(asked),
         Command::Cite { of } => cite::print(of.as_deref()),
         Command::Schema { of } => {

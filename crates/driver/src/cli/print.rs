@@ -5,7 +5,7 @@ use crate::report::{Passage, RunReport};
 use asperity_output::decimals::fixed;
 use asperity_output::printing::out;
 
-/// Prints the plan.
+/// Prints the plan and its checks.
 pub(super) fn plan(plan: &Planned) {
     match plan {
         Planned::Bodies(plan) => out(format_args!("{}", plan.summary())),
@@ -13,6 +13,7 @@ pub(super) fn plan(plan: &Planned) {
         Planned::Faults(plan) => out(format_args!("{}", plan.summary())),
         Planned::Dynamic(plan) => out(format_args!("{}", plan.summary())),
     }
+    out(format_args!("{}", plan.checks()));
 }
 
 /// Prints the results of a run of bodies.

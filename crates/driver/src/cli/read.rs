@@ -2,6 +2,7 @@
 
 use super::begin::Begin;
 use crate::checkpoint;
+use crate::checks::Checks;
 use crate::cite::{self, Citations};
 use crate::diagnostic::{Diagnostics, report_set};
 use crate::dynamic;
@@ -14,6 +15,8 @@ use crate::sha256::sha256;
 use crate::slider;
 use crate::slider_planner;
 use crate::warning::Warning;
+use asperity_cycles::slider::stability;
+use asperity_output::plots::MeshPicture;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -32,7 +35,47 @@ pub(super) enum Planned {
 }
 
 impl Planned {
+    /// Checks of the plan.
+    pub fn checks(&self) -> &Checks {
+        match self {
+            Self::Bodies(plan) => plan.checks(),
+            Self::Sliders(plan) => &plan.checks,
+            Self::Faults(plan) => &plan.checks,
+            Self::Dynamic(plan) => plan.checks(),
+        }
+    }
+
     /// Warnings of the plan.
+    pub fn warnings(&self) -> &[Warning] {
+        match self {
+            Self::Bodies(plan) => &plan.summary().warnings,
+            Self::Sliders(plan) => &plan.warnings,
+            Self::Faults(plan) => &plan.warnings,
+            Self::Dynamic(plan) => plan.warnings(),
+        }
+    }
+
+    /// Notes of the plan.
+    pub fn notes(&self) -> Vec<String> {
+        match self {
+            Self::Bodies(plan) => plan.summary().remarks.clone(),
+            Self::Sliders(plan) => stability::remarks(&plan.problem),
+            Self::Faults(plan) => plan.notes.clone(),
+            Self::Dynamic(plan) => plan.notes().to_vec(),
+        }
+    }
+
+    /// Kind of run.
+    pub fn kind(&self) -> Kind {
+        match self {
+            Self::Bodies(_) => Kind::Bodies,
+            Self::Sliders(_) => Kind::Sliders,
+            Self::Faults(_) => Kind::Faults,
+            Self::Dynamic(_) => Kind::Dynamics,
+        }
+    }
+
+    /// Warnings of the plan, to be changed.
     pub fn warnings_mut(&mut self) -> &mut [Warning] {
         match self {
             Self::Bodies(plan) => plan.warnings_mut(),
@@ -155,6 +198,13 @@ impl Source {
             Parsed::Bodies(scene) => cite::of_scene(scene),
         };
         citations.map_err(|errors| self.text.report(&errors))
+    }
+
+    /// Picture of the meshes of the scene; `None` for spring-sliders, which have none.
+    pub fn picture(&self) -> miette::Result<Option<MeshPicture>> {
+        let Parsed::Bodies(scene) = &self.parsed else { return Ok(None) };
+        let picture = plan::picture(scene);
+        picture.map(Some).map_err(|error| self.text.report(&Diagnostics::from(error)))
     }
 
     /// Plans the scene.

@@ -168,6 +168,7 @@ pub(super) fn run_sliders(
     }
     let histories = keeper.finish(report.outcome.status() == Status::Completed).into_diagnostic()?;
     report.warnings.clone_from(&plan.warnings);
+    report.checks.clone_from(&plan.checks);
     (report.seconds.plan, report.seconds.steps) = (ready.seconds, clock.elapsed().as_secs_f64());
     let drawn = if drawn { histories.draw(directory.path(), problem).map(|_| ()) } else { Ok(()) };
     if problem.events.is_some() {

@@ -1,5 +1,6 @@
 //! The problem and its outputs, and their description before the run.
 
+use crate::checks::Checks;
 use crate::fault::words::{length, time};
 use crate::fault::{FaultView, PointView, Resolution};
 use crate::warning::Warning;
@@ -73,6 +74,8 @@ pub struct Plan<const D: usize> {
     pub warnings: Vec<Warning>,
     /// Notes for the user that are not warnings.
     pub notes: Vec<String>,
+    /// Extents, counts of points and lengths of friction.
+    pub checks: Checks,
 }
 
 impl<const D: usize> Plan<D> {
@@ -137,9 +140,6 @@ impl<const D: usize> Plan<D> {
                 each(fields)
             ),
         );
-        for resolution in &self.resolution {
-            line("points", resolution.words(D == 3));
-        }
         for note in &self.notes {
             line("note", note.clone());
         }
@@ -186,6 +186,33 @@ impl AnyPlan {
         match self {
             Self::Two(plan) => plan.summary(),
             Self::Three(plan) => plan.summary(),
+        }
+    }
+
+    /// Extents, counts of points and lengths of friction.
+    #[must_use]
+    pub fn checks(&self) -> &Checks {
+        match self {
+            Self::Two(plan) => &plan.checks,
+            Self::Three(plan) => &plan.checks,
+        }
+    }
+
+    /// Notes for the user that are not warnings.
+    #[must_use]
+    pub fn notes(&self) -> &[String] {
+        match self {
+            Self::Two(plan) => &plan.notes,
+            Self::Three(plan) => &plan.notes,
+        }
+    }
+
+    /// Warnings.
+    #[must_use]
+    pub fn warnings(&self) -> &[Warning] {
+        match self {
+            Self::Two(plan) => &plan.warnings,
+            Self::Three(plan) => &plan.warnings,
         }
     }
 

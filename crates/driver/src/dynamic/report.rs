@@ -5,6 +5,7 @@ use super::moment::size;
 use super::plan::Plan;
 use super::run::Ended;
 use super::tables::moments_of;
+use crate::checks::Checks;
 use crate::fault::{FaultView, Resolution};
 use crate::report::{Kind, Outcome, Phases, Results, Stop};
 use crate::warning::Warning;
@@ -84,6 +85,8 @@ pub struct Report {
     pub warnings: Vec<Warning>,
     /// Resolution of faults on which friction weakens.
     pub resolution: Vec<Resolution>,
+    /// Checks of the plan.
+    pub checks: Checks,
     /// Time at the end \[s\].
     pub end: f64,
     /// Steps taken.
@@ -127,6 +130,7 @@ impl Report {
             outcome: outcome(plan, ended),
             warnings: plan.warnings.clone(),
             resolution: plan.resolution.clone(),
+            checks: plan.checks.clone(),
             end: ended.time,
             steps: ended.steps,
             step: plan.dt,

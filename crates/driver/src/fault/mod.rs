@@ -51,7 +51,7 @@ pub use keeper::Keeper;
 pub use normal::NormalChoice;
 pub use openings::OpenedFault;
 pub use plan::{FaultView, HeatView, Outline, Plan, PointView, Station};
-pub use planner::{Ground, modulus, places, plan, plan_with, spacings};
+pub use planner::{Ground, critical_slope, modulus, places, plan, plan_with, spacings};
 pub use position::Position;
 pub use receivers::{Receiver, Receivers};
 pub use report::Report;

@@ -7,6 +7,7 @@ use super::normal::NormalChoice;
 use super::receivers::Receivers;
 use super::resolution::Resolution;
 use super::sampling::Sampling;
+use crate::checks::Checks;
 use crate::ruptures::Ruptures;
 use crate::warning::Warning;
 use asperity_cycles::heat::Layer;
@@ -129,6 +130,8 @@ pub struct Plan {
     pub warnings: Vec<Warning>,
     /// Notes for the user that are not warnings.
     pub notes: Vec<String>,
+    /// Extents, counts of points and lengths of friction.
+    pub checks: Checks,
 }
 
 /// Description of the files of events.
@@ -247,9 +250,6 @@ impl Plan {
         if !self.receivers.all.is_empty() {
             let count = self.receivers.all.len();
             line("output", format!("{count} receivers in the rock, which move with the plates"));
-        }
-        for resolution in &self.resolution {
-            line("points", resolution.words(self.in_space));
         }
         for note in &self.notes {
             line("note", note.clone());

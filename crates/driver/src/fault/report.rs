@@ -11,6 +11,7 @@ use super::rupture_length::rupture_length;
 use super::sampled_end::{End, in_words};
 use super::words::{length, time};
 use crate::catalogue::{Entry, FaultEvents, Scattered, Site, slipped};
+use crate::checks::Checks;
 use crate::report::{
     EnergyBalance, ForceResult, Kind, Outcome, Phases, PointResult, Results, SpringResult, Stop,
 };
@@ -169,6 +170,8 @@ pub struct Report {
     pub warnings: Vec<Warning>,
     /// Resolution of faults on which friction weakens.
     pub resolution: Vec<Resolution>,
+    /// Checks of the plan.
+    pub checks: Checks,
     /// Use of the floors of normal traction.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub floors: Vec<FloorUse>,
@@ -334,6 +337,7 @@ impl Report {
             outcome,
             warnings: plan.warnings.iter().cloned().chain(molten).collect(),
             resolution: plan.resolution.clone(),
+            checks: plan.checks.of_any_machine(),
             floors: uses(plan, balance.floors()),
             openings: openings(plan, balance.opened(), &opening),
             heat,

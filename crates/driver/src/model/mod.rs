@@ -1,5 +1,6 @@
 //! The discrete model of a scene: one mesh of all bodies, and the type of each block of its cells.
 
+pub(crate) mod checks;
 pub mod materials;
 pub mod meshes;
 pub mod sizes;

@@ -13,10 +13,9 @@ use asperity_fem::mesh::Side;
 use asperity_fem::surface;
 use asperity_mechanics::{Resolved, Stage};
 
-/// Resolution of an interface whose friction weakens with slip.
-pub fn resolved<const D: usize>(model: &Model<D>, spec: &Interface, slave: &[Side]) -> Option<Resolved> {
-    let law = spec.law.as_ref()?;
-    let choice = laws::choose(law).ok()?;
+/// Cohesive zone and nucleation length of an interface, times the normal traction \[Pa m\]; `None` if its friction does not weaken with slip.
+pub fn lengths<const D: usize>(model: &Model<D>, spec: &Interface) -> Option<[f64; 2]> {
+    let law = laws::choose(spec.law.as_ref()?).ok()?;
     let of_side = |set| {
         let body = &model.bodies[model.body_of(set)?];
         let elastic = body.elastic.first()?;
@@ -24,7 +23,13 @@ pub fn resolved<const D: usize>(model: &Model<D>, spec: &Interface, slave: &[Sid
     };
     let (a, b) = (of_side(spec.slave.get_ref())?, of_side(spec.master.get_ref())?);
     let modulus = 2.0 * a * b / (a + b);
-    let [zone, _] = Ground { law: &choice, normal: 1.0, modulus, in_space: D == 3 }.lengths()?;
+    Ground { law: &law, normal: 1.0, modulus, in_space: D == 3 }.lengths()
+}
+
+/// Resolution of an interface whose friction weakens with slip.
+pub fn resolved<const D: usize>(model: &Model<D>, spec: &Interface, slave: &[Side]) -> Option<Resolved> {
+    let law = spec.law.as_ref()?;
+    let [zone, _] = lengths(model, spec)?;
     let spacing = spacings(model, slave).into_values().fold(0.0, f64::max);
     let allowed = spec.under_resolved.as_ref().map(|u| *u.get_ref()) == Some(UnderResolved::Allow);
     let one = zone / spacing;

@@ -1,5 +1,6 @@
 //! Plans of runs, as data, and their construction from scenes.
 
+mod checks;
 mod coarse;
 mod cohesive;
 mod damping;
@@ -11,6 +12,7 @@ mod interfaces;
 mod linear_solver;
 mod path;
 mod penalty;
+mod picture;
 mod planner;
 mod pressed;
 mod restraint;
@@ -26,6 +28,7 @@ mod watch;
 
 pub use asperity_mechanics::{Path, PlannedInterface, Stepping, interface_nodes};
 pub use events::{EventPlan, Sites};
+pub use picture::picture;
 pub use planner::{ScenePlan, plan, plan_scene};
 pub use start_gap::{SHARE, StartGap};
 pub(crate) use stepping::rule;

@@ -1,9 +1,10 @@
 //! Turns a scene into a plan. All decisions about the model and the method are made here; later code does not refer to
 //! the scene.
 
-use super::{AnyPlan, Plan, doubts, events, inertia, interfaces, linear_solver, path, restraint, samples};
+use super::{
+    AnyPlan, Plan, checks, doubts, events, inertia, interfaces, linear_solver, path, restraint, samples,
+};
 use super::{start_balance, stepping, stress_level, summary};
-use crate::cohesive;
 use crate::diagnostic::Diagnostic;
 use crate::dynamic;
 use crate::fault;
@@ -79,7 +80,6 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     let (start_gaps, doubts) = doubts::of(scene, &model, (&interfaces, &stages), &stepping)?;
     let (balance, unbalanced) = start_balance::of(scene, &model, (&interfaces, &stages), &stepping)?;
     remarks.extend(balance);
-    remarks.extend(interfaces.iter().filter_map(|i| Some(cohesive::remark(i.resolved.as_ref()?, &i.name))));
     let solver = linear_solver::choose(scene, &model, &interfaces, &stages, path, &stepping)?;
     let mut summary = summary::of(scene, &model, (&interfaces, &stages), path, &stepping, &solver, remarks);
     forecast::fits(scene, summary.memory_bytes)?;
@@ -90,6 +90,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     summary.warnings.extend(doubts.into_iter().chain(unbalanced));
     let initial_stress = model.bodies.iter().map(|b| initial_stress::of_body(scene, &b.name)).collect();
     let samples = samples::find(scene, &model)?;
+    let checks = checks::of(scene, &model, (&interfaces, &stages), summary.memory_bytes)?;
     let events = events::of(scene, &model, &interfaces)?;
     Ok(Plan {
         title: scene.title.clone(),
@@ -109,5 +110,6 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         profile_outputs: scene.output.profiles.as_ref().map_or(10, |f| *f.get_ref()),
         events,
         summary,
+        checks,
     })
 }

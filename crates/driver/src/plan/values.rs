@@ -2,6 +2,7 @@
 
 use super::events::EventPlan;
 use super::start_gap::StartGap;
+use crate::checks::Checks;
 use crate::warning::Warning;
 use asperity_mechanics::{Mass, Problem};
 use schemars::JsonSchema;
@@ -22,6 +23,8 @@ pub struct Plan<const D: usize> {
     pub events: Option<EventPlan>,
     /// Summary for printing.
     pub summary: Summary,
+    /// Extents, counts of points and lengths of friction.
+    pub checks: Checks,
 }
 
 /// A plan in two or three dimensions.
@@ -40,6 +43,15 @@ impl AnyPlan {
         match self {
             Self::Two(p) => &p.summary,
             Self::Three(p) => &p.summary,
+        }
+    }
+
+    /// Extents, counts of points and lengths of friction.
+    #[must_use]
+    pub fn checks(&self) -> &Checks {
+        match self {
+            Self::Two(p) => &p.checks,
+            Self::Three(p) => &p.checks,
         }
     }
 

@@ -1,7 +1,9 @@
 //! The problem to integrate, with warnings.
 
+use crate::checks::{Checks, SliderCheck};
 use crate::warning::Warning;
 use asperity_cycles::slider::Problem;
+use asperity_cycles::slider::stability::{Against, against};
 
 /// The problem to integrate, with warnings.
 #[derive(Clone, Debug)]
@@ -10,10 +12,17 @@ pub struct Plan {
     pub problem: Problem,
     /// Warnings about settings that are probably not intended.
     pub warnings: Vec<Warning>,
+    /// Stiffness of the springs against the critical one.
+    pub checks: Checks,
 }
 
 impl From<Problem> for Plan {
     fn from(problem: Problem) -> Self {
-        Self { problem, warnings: Vec::new() }
+        let of = |(name, against): (&String, Option<Against>)| {
+            let Against { stiffness, critical, unstable } = against?;
+            Some(SliderCheck { slider: name.clone(), stiffness, critical, unstable })
+        };
+        let sliders = problem.names.iter().zip(against(&problem)).filter_map(of).collect();
+        Self { problem, warnings: Vec::new(), checks: Checks { sliders, ..Checks::default() } }
     }
 }

@@ -1,6 +1,7 @@
 //! Report of a run of spring-sliders, `report.json`.
 
 use super::events::Entry;
+use crate::checks::Checks;
 use crate::report::{EnergyBalance, Kind, Outcome, Phases, Results, Stop};
 use crate::warning::Warning;
 use asperity_cycles::Thresholds;
@@ -65,6 +66,8 @@ pub struct Report {
     pub sliders: Vec<String>,
     /// Warnings of the problem.
     pub warnings: Vec<Warning>,
+    /// Checks of the plan.
+    pub checks: Checks,
     /// Method of integration.
     pub method: String,
     /// Tolerance per step \[-\].
@@ -128,6 +131,7 @@ impl Report {
             dynamics: problem.dynamics().to_string(),
             sliders: problem.names.clone(),
             warnings: Vec::new(),
+            checks: Checks::default(),
             method: problem.method.name().to_string(),
             tolerance: problem.tolerance,
             thresholds: problem.events,

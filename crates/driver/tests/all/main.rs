@@ -4,6 +4,7 @@
 mod antiplane;
 
 mod bodies;
+mod checks;
 mod cite;
 mod column_tables;
 mod command;

@@ -15,6 +15,7 @@ mod faces;
 mod field;
 mod figure;
 pub(crate) mod labels;
+mod mesh;
 mod png;
 mod profile;
 mod rupture;
@@ -29,6 +30,7 @@ mod width;
 pub use chart::{Chart, Measure};
 pub use cycles::{Cycles, Line, Rows, Table};
 pub use diagram::{Diagram, Failed, Scale, Series, Slope};
+pub use mesh::{Mark, MarkedSet, MeshPicture};
 pub use rupture::{
     EventOnFault, Line as RuptureLine, Profiles, RupturedFault, Ruptures, Shape as RuptureShape, Surface,
 };
@@ -119,6 +121,22 @@ pub fn field(recorder: &Recorder, stage: &str) -> Option<String> {
 #[must_use]
 pub fn displacement(mesh: &MeshView, displacement: &[[f64; 3]]) -> Option<String> {
     Some(svg::paint(&field::displacement(mesh, displacement, field::SMALL)?))
+}
+
+/// Draws a mesh into a file, as SVG if its name ends so and otherwise as PNG; false if there is nothing to draw.
+///
+/// # Errors
+/// See [`draw_all`].
+pub fn draw_mesh(file: &Path, picture: &MeshPicture) -> Result<bool, OutputError> {
+    let Some(figure) = picture.figure() else { return Ok(false) };
+    if file.extension().is_some_and(|e| e == "svg") {
+        atomic::write(file, svg::paint(&figure).as_bytes())?;
+    } else {
+        let drawn = png::paint(&figure);
+        let bytes = drawn.map_err(|reason| OutputError::Draw { path: file.to_path_buf(), reason })?;
+        atomic::write(file, &bytes)?;
+    }
+    Ok(true)
 }
 
 fn write_all(folder: &Path, figures: Vec<(String, Figure)>) -> Result<Vec<PathBuf>, OutputError> {

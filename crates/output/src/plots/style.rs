@@ -67,8 +67,13 @@ impl Style {
 
     /// Draws its marker of a radius at a point.
     pub(super) fn mark(&self, figure: &mut Figure, at: Point, radius: f64) {
+        self.marker_in(figure, at, radius, self.colour);
+    }
+
+    /// Draws its marker of a radius at a point in another colour.
+    pub(super) fn marker_in(&self, figure: &mut Figure, at: Point, radius: f64, colour: Rgb) {
         let corners = self.marker.iter().map(|(x, y)| (at.0 + radius * x, at.1 + radius * y));
-        figure.area(corners.collect(), self.colour);
+        figure.area(corners.collect(), colour);
     }
 }
 

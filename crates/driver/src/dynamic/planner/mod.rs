@@ -10,12 +10,14 @@ mod steps;
 pub use rupture::ruptures;
 
 use super::plan::{AnyPlan, Plan};
+use crate::checks::Cost;
 use crate::diagnostic::Diagnostic;
 use crate::fault::planner::{self as of_faults, Meshed};
 use crate::forecast;
 use crate::held::Held;
 use crate::loading;
-use crate::model::{self, meshes};
+use crate::model::checks::field_bytes;
+use crate::model::{self, Model, meshes};
 use crate::scene::model::{Kinematics, Scene};
 use crate::views;
 use asperity_mechanics::dynamics::Problem;
@@ -76,6 +78,10 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     notes.extend(outputs::notes(scene, counted.cadence.rows as f64 * counted.dt));
     let memory_bytes = Held::by(&model).in_steps(stable.highest.kept, model.dofs());
     forecast::fits(scene, memory_bytes)?;
+    let mut checks = model::checks::of(scene, &model)?;
+    let prescribed = of_faults::checks::counted(scene, &locked);
+    checks.faults = of_faults::checks::faults(scene, (&placed, &prescribed), &faults, &resolution);
+    checks.cost = cost(&model, &counted, memory_bytes);
     let idealisation = model.idealisation;
     let mut fault = faults::of(scene, &placed)?;
     if let Some(fault) = &mut fault {
@@ -100,6 +106,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         memory_bytes,
         warnings,
         notes,
+        checks,
         problem: Problem {
             courant: counted.courant,
             viscosity,
@@ -112,4 +119,21 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         },
         stable,
     })
+}
+
+/// Values of a field at a node, velocity and displacement, and in a cell.
+const VALUES: [usize; 2] = [6, 0];
+
+/// Cost of a run with these steps.
+fn cost<const D: usize>(model: &Model<D>, counted: &steps::Counted, memory_bytes: usize) -> Cost {
+    let times = |each: usize| Some(counted.steps / each);
+    Cost {
+        memory_bytes: Some(memory_bytes),
+        steps: Some(counted.steps),
+        fields: times(counted.cadence.fields),
+        field_bytes: Some(field_bytes(model, VALUES)),
+        profiles: times(counted.cadence.profiles),
+        rows: times(counted.cadence.rows),
+        ..Cost::default()
+    }
 }

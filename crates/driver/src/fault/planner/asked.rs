@@ -95,23 +95,28 @@ pub(crate) fn nothing_slides<const D: usize>(
     )
 }
 
-/// Warnings about profiles that are constant over the sliding part of their fault, or nowhere the largest of their list.
+/// Refuses profiles that vary only beyond the sliding part of their fault, and warns of those that are nowhere the largest of their list.
+///
+/// # Errors
+/// [`Diagnostic`] at the profile.
 pub(super) fn profiles<const D: usize>(
     (name, spec): (&str, &Spec),
     placed: &[Placed<D>],
     warnings: &mut Vec<Warning>,
-) {
+) -> Result<(), Diagnostic> {
     let free: Vec<&Place<D>> =
         placed.iter().filter(|p| p.point.creep.is_none()).map(|p| &p.point.place).collect();
     if free.is_empty() {
-        return;
+        return Ok(());
     }
     let all = &spec.profiles;
     for (key, list) in
         [("a", &all.a), ("b", &all.b), ("l", &all.l), ("normal", &all.normal), ("shear", &all.shear)]
     {
         let Some(Profiled(list)) = list else { continue };
-        warnings.extend(list.iter().filter_map(|p| constant((name, key), p, &free)));
+        if let Some(error) = list.iter().find_map(|p| constant((name, key), p, &free)) {
+            return Err(error);
+        }
         for (k, profile) in list.iter().enumerate().filter(|_| list.len() > 1) {
             let others = |place: &Place<D>| {
                 let others = list.iter().enumerate().filter(|(j, _)| *j != k);
@@ -128,14 +133,15 @@ pub(super) fn profiles<const D: usize>(
             }
         }
     }
+    Ok(())
 }
 
-/// Warning about a profile whose positions all lie beyond the fault.
+/// Error for a profile whose positions all lie beyond the fault.
 fn constant<const D: usize>(
     (name, key): (&str, &str),
     profile: &Profile,
     free: &[&Place<D>],
-) -> Option<Warning> {
+) -> Option<Diagnostic> {
     let points = profile.points.get_ref();
     let (first, last) = (points.first()?, points.last()?);
     let along = *profile.along.get_ref();
@@ -156,14 +162,14 @@ fn constant<const D: usize>(
         Along::Z => "z",
         Along::Distance => "distance",
     };
-    Some(Warning::at(
+    Some(Diagnostic::at(
         profile.points.span(),
         format!(
-            "the profile of `{key}` does not vary over fault `{name}`: its places go from {} m to {} m along {axis}, the sliding points from {low} m \
+            "the profile of `{key}` does not vary over fault `{name}`: its positions go from {} m to {} m along {axis}, the sliding points from {low} m \
              to {high} m",
             first.0.0, last.0.0
         ),
-        "check the unit and the sign of its places, or give the one value in the law",
+        "check the unit and the sign of its positions, or give the one value in the law",
     ))
 }
 

@@ -9,7 +9,8 @@ use super::super::sampling::Sampling;
 use super::cells::Cells;
 use super::placed::{Placed, in_space, slides};
 use super::pulses::{doubts, pulses};
-use super::{asked, floor, frame, heated, pressing, start_doubts};
+use super::{asked, checks, floor, frame, heated, pressing, radiation, sense, start_doubts};
+use crate::checks::{Checks, Cost};
 use crate::diagnostic::Diagnostic;
 use crate::laws;
 use crate::scene::law::LawChoice;
@@ -66,6 +67,12 @@ pub(super) struct Around {
     pub resolution: Vec<Resolution>,
     pub warnings: Vec<Warning>,
     pub notes: Vec<String>,
+    /// Checks of the bodies.
+    pub checks: Checks,
+    /// Number of points of each fault that do not slide by their law.
+    pub prescribed: Vec<usize>,
+    /// Stiffness of the springs that drive each fault, if there are any \[Pa/m\].
+    pub machines: Vec<Option<f64>>,
 }
 
 /// True if slip may turn. The scene check ensures that all faults have the same.
@@ -110,13 +117,29 @@ pub(super) fn plan_of<const D: usize>(
     warnings.extend(start_doubts::check(scene, &placed, &fault));
     warnings.extend(doubts(&named, &fault));
     warnings.extend(endless(scene));
+    warnings.extend(radiation::missing(scene, &placed));
     let (faults, points) = views(scene, cells, &placed, turns)?;
     let areas = placed.iter().map(|p| p.point.place.area).collect();
+    let cadence = cadence(scene, &fault, end);
+    let mut checks = around.checks;
+    checks.faults = checks::faults(scene, (&placed, &around.prescribed), &faults, &around.resolution);
+    for (k, (check, spec)) in checks.faults.iter_mut().zip(scene.faults.values()).enumerate() {
+        let sense = spec.rate.get_ref().0.signum();
+        check.loading = sense::first_rate(&placed, k, &loading, end).map(|rate| rate * sense);
+        let springs = around.machines.get(k).copied().flatten();
+        check.machine = springs.map(|stiffness| checks::machine(stiffness, k, &placed));
+    }
+    let memory_bytes = around.memory_bytes + modes;
+    checks.cost = Cost {
+        memory_bytes: Some(memory_bytes),
+        largest_file: Some(cadence.largest_file),
+        ..Cost::default()
+    };
     Ok(Plan {
         title: scene.title.clone(),
         faults,
         points,
-        cadence: cadence(scene, &fault, end),
+        cadence,
         event_files: scene.output.event_files.as_ref().map_or(EVENT_FILES, |n| *n.get_ref()),
         problem: Problem { fault, areas, loading, start, settings },
         ruptures: None,
@@ -126,7 +149,7 @@ pub(super) fn plan_of<const D: usize>(
         medium: around.medium,
         dofs: around.dofs,
         creeping: around.creeping,
-        memory_bytes: around.memory_bytes + modes,
+        memory_bytes,
         bodies: around.bodies,
         sampling: around.sampling,
         frame: frame::of(scene, D == 3)?,
@@ -135,6 +158,7 @@ pub(super) fn plan_of<const D: usize>(
         resolution: around.resolution,
         warnings,
         notes: around.notes,
+        checks,
     })
 }
 

@@ -4,7 +4,9 @@ mod asked;
 mod assemble;
 mod bends;
 mod cells;
+pub(crate) mod checks;
 mod cover;
+mod critical;
 mod floor;
 mod frame;
 mod heated;
@@ -20,6 +22,7 @@ mod point;
 mod pressing;
 mod prestress;
 mod pulses;
+mod radiation;
 mod resolution;
 mod resolved;
 mod rock;
@@ -30,6 +33,7 @@ mod weight;
 
 pub(crate) use asked::nothing_slides;
 pub(crate) use assemble::views;
+pub use critical::critical_slope;
 pub(crate) use meshed::Meshed;
 pub use place::places;
 pub(crate) use placed::{Placed, in_space, slides};
@@ -44,6 +48,7 @@ use crate::diagnostic::Diagnostic;
 use crate::forecast;
 use crate::held::Held;
 use crate::loading::{self, Stage};
+use crate::model::checks::machines;
 use crate::model::{self, Model, meshes};
 use crate::scene::model::{Creep, Fault as Spec, Kinematics, Scene};
 use crate::warning::Warning;
@@ -149,6 +154,7 @@ fn between_bodies<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Dia
     } else {
         None
     };
+    let of_bodies = model::checks::of(scene, &model)?;
     let held = Held::by(&model);
     let conditions = conditions(scene, stage, model.idealisation.components());
     let at_rest = vec![0.0; model.dofs()];
@@ -194,6 +200,9 @@ fn between_bodies<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Dia
         resolution,
         warnings,
         notes,
+        prescribed: checks::counted(scene, &creeping),
+        machines: machines(stage, &checks::surfaces(scene, &placed)),
+        checks: of_bodies,
     };
     let surrounded = Surrounded {
         operator: operator(surroundings.operator, &placed, form),
@@ -273,7 +282,7 @@ fn points_of<const D: usize>(
         placed.push(placed_at(spec, (fault, &base), place, given)?);
     }
     asked::creep((name, spec), &placed)?;
-    asked::profiles((name, spec), &placed, warnings);
+    asked::profiles((name, spec), &placed, warnings)?;
     warnings.extend(patches::covered((name, spec), &placed)?);
     Ok(placed)
 }

@@ -104,7 +104,7 @@ pub(super) fn fit(spec: &Spec, law: &LawChoice) -> Result<(), Diagnostic> {
     Ok(())
 }
 
-/// Refuses a patch without a point of its fault, and warns of patches whose values no point has in full.
+/// Refuses a patch without a sliding point of its fault, and warns of patches whose values no point has in full.
 ///
 /// # Errors
 /// [`Diagnostic`] at the patch.
@@ -113,15 +113,18 @@ pub(super) fn covered<const D: usize>(
     placed: &[Placed<D>],
 ) -> Result<Vec<Warning>, Diagnostic> {
     let mut warnings = Vec::new();
-    for patch in &spec.patches {
+    let free: Vec<&Place<D>> =
+        placed.iter().filter(|p| p.point.creep.is_none()).map(|p| &p.point.place).collect();
+    // A fault without sliding points is refused as such.
+    for patch in spec.patches.iter().filter(|_| !free.is_empty()) {
         let place = patch.span().unwrap_or_default();
-        let most = placed.iter().map(|p| weight(patch, &p.point.place)).fold(0.0, f64::max);
+        let most = free.iter().map(|p| weight(patch, p)).fold(0.0, f64::max);
         if most == 0.0 {
             return Err(Diagnostic::at(
                 place,
                 format!(
-                    "the patch covers no point of fault `{name}`, whose points lie {}",
-                    extent(placed.iter().map(|p| &p.point.place))
+                    "the patch covers no sliding point of fault `{name}`: they lie {}",
+                    extent(free.iter().copied())
                 ),
                 "check the signs and the unit of its extent: y points up",
             ));
@@ -129,7 +132,7 @@ pub(super) fn covered<const D: usize>(
         if most < 1.0 {
             warnings.push(Warning::at(
                 place,
-                format!("no point of fault `{name}` lies in the patch itself, only in its edge"),
+                format!("no sliding point of fault `{name}` lies in the patch itself, only in its edge"),
                 "check the unit of its extent; or take smaller cells",
             ));
         }
@@ -143,7 +146,7 @@ fn largest<const D: usize>(profiles: &Profiled, place: &Place<D>) -> f64 {
 }
 
 /// Weight of a patch at a point: 1 inside and 0 beyond its edge, in between linear or by a smooth step.
-fn weight<const D: usize>(patch: &Patch, place: &Place<D>) -> f64 {
+pub(super) fn weight<const D: usize>(patch: &Patch, place: &Place<D>) -> f64 {
     let within = patch.within.as_ref().map(|w| beyond_box(w.get_ref(), &place.at));
     let distance = within.or(patch.disc.as_ref().map(|d| beyond_disc(d, &place.at))).unwrap_or_default();
     let edge = patch.edge.as_ref().map_or(0.0, |e| e.get_ref().0);

@@ -48,15 +48,20 @@ impl<const D: usize> Placed<D> {
     }
 }
 
-/// Value of a profile at a point: linear between its nodes, constant beyond them.
-pub(super) fn at<const D: usize>(profile: &Profile, place: &Place<D>) -> f64 {
-    let x = match profile.along.get_ref() {
+/// Coordinate of a point along which a profile is given.
+pub(super) fn along<const D: usize>(profile: &Profile, place: &Place<D>) -> f64 {
+    match profile.along.get_ref() {
         Along::X => place.at[0],
         Along::Y => place.at[1],
         // The scene check refuses it in 2D.
         Along::Z => place.at[D - 1],
         Along::Distance => place.along,
-    };
+    }
+}
+
+/// Value of a profile at a point: linear between its nodes, constant beyond them.
+pub(super) fn at<const D: usize>(profile: &Profile, place: &Place<D>) -> f64 {
+    let x = along(profile, place);
     let points = profile.points.get_ref();
     let k = points.partition_point(|p| p.0.0 <= x);
     if k == 0 || k == points.len() {

@@ -32,14 +32,13 @@ pub(super) fn check<const D: usize>(
     warnings
 }
 
-/// Warning about a fault that loads drive against `rate` when they first act on it.
-fn driven<const D: usize>(
-    (name, spec): (&str, &Spec),
+/// Mean rate of shear traction of a fault when loads first act on it before `end` \[s\]; `None` if they do not shear it \[Pa/s\].
+pub(super) fn first_rate<const D: usize>(
     placed: &[Placed<D>],
     fault: usize,
     loading: &Loading,
     end: f64,
-) -> Option<Warning> {
+) -> Option<f64> {
     let mut ends = loading.breaks(0.0, end);
     ends.push(end);
     let mut from = 0.0;
@@ -50,27 +49,37 @@ fn driven<const D: usize>(
         let forces = own.map(|(p, (s, n))| [s, n].map(|rate| p.point.place.area * rate));
         let [force, size] = forces.fold([0.0; 2], |sum, [s, n]| [sum[0] + s, sum[1] + s.abs() + n.abs()]);
         let area: f64 = placed.iter().filter(|p| p.fault == fault).map(|p| p.point.place.area).sum();
-        if force.abs() <= ROUNDING * size || size == 0.0 {
-            continue;
+        if force.abs() > ROUNDING * size {
+            return Some(force / area);
         }
-        let sense = spec.rate.get_ref().0.signum();
-        if force * sense > 0.0 {
-            return None;
-        }
-        let first = placed.iter().find(|p| p.fault == fault)?;
-        let [x, y, z] = slides(first).map(|c| c * sense);
-        return Some(Warning::at(
-            spec.rate.span(),
-            format!(
-                "the loads drive fault `{name}` against `rate`: shear traction changes by {:.3e} Pa/s on average, and `rate` has the plus side{} \
-                 slip along ({x:.3}, {y:.3}, {z:.3})",
-                force / area,
-                plus(spec)
-            ),
-            "turn the sign of the motions that load it, or those of `rate`, `shear` and creep",
-        ));
     }
     None
+}
+
+/// Warning about a fault that loads drive against `rate` when they first act on it.
+fn driven<const D: usize>(
+    (name, spec): (&str, &Spec),
+    placed: &[Placed<D>],
+    fault: usize,
+    loading: &Loading,
+    end: f64,
+) -> Option<Warning> {
+    let rate = first_rate(placed, fault, loading, end)?;
+    let sense = spec.rate.get_ref().0.signum();
+    if rate * sense > 0.0 {
+        return None;
+    }
+    let first = placed.iter().find(|p| p.fault == fault)?;
+    let [x, y, z] = slides(first).map(|c| c * sense);
+    Some(Warning::at(
+        spec.rate.span(),
+        format!(
+            "the loads drive fault `{name}` against `rate`: shear traction changes by {rate:.3e} Pa/s on average, and `rate` has the plus side{} \
+             slip along ({x:.3}, {y:.3}, {z:.3})",
+            plus(spec)
+        ),
+        "turn the sign of the motions that load it, or those of `rate`, `shear` and creep",
+    ))
 }
 
 /// Name of the plus side, in backquotes after a space, if it has one.

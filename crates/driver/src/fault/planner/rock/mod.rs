@@ -17,6 +17,7 @@ use super::point::{Given, base_law, placed_at};
 use super::resolved::resolved;
 use super::{asked, patches, resolution, sense};
 use crate::amounts;
+use crate::checks::Checks;
 use crate::diagnostic::Diagnostic;
 use crate::forecast;
 use crate::held;
@@ -72,6 +73,9 @@ pub(super) fn plan<const D: usize>(scene: &Scene, rock: &Rock, form: Form) -> Re
         resolution,
         warnings,
         notes,
+        prescribed: Vec::new(),
+        machines: Vec::new(),
+        checks: Checks { in_space: D == 3, ..Checks::default() },
     };
     let surrounded = Surrounded { placed, operator, opening: None, loading, end };
     Ok(Plan { receivers, ..plan_of(scene, surrounded, around, &tiling)? })
@@ -137,7 +141,7 @@ fn placed<const D: usize>(
             placed_at(spec, (fault, &base), place.clone(), given)
         };
         let placed: Vec<Placed<D>> = cells.map(of).collect::<Result<_, _>>()?;
-        asked::profiles((name, spec), &placed, warnings);
+        asked::profiles((name, spec), &placed, warnings)?;
         warnings.extend(patches::covered((name, spec), &placed)?);
         all.extend(placed);
     }

@@ -1,0 +1,62 @@
+//! Cost of a run, as far as it is known in advance.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// Estimated cost of a run. What a run decides by itself is absent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
+pub struct Cost {
+    /// Memory \[bytes\].
+    pub memory_bytes: Option<usize>,
+    /// Steps; absent where their lengths follow from errors.
+    pub steps: Option<usize>,
+    /// Times at which fields are written.
+    pub fields: Option<usize>,
+    /// Size of the fields at one time, in memory \[bytes\].
+    pub field_bytes: Option<usize>,
+    /// Times at which profiles are written.
+    pub profiles: Option<usize>,
+    /// Rows of the tables.
+    pub rows: Option<usize>,
+    /// Largest size of a table that grows with events \[bytes\].
+    pub largest_file: Option<u64>,
+    /// Wall time \[s\].
+    pub seconds: Option<f64>,
+}
+
+/// Size in the unit that fits.
+fn bytes(n: f64) -> String {
+    match n {
+        n if n >= 1e9 => format!("{:.1} GB", n / 1e9),
+        n if n >= 1e6 => format!("{:.0} MB", n / 1e6),
+        n => format!("{:.0} kB", n / 1e3),
+    }
+}
+
+impl Cost {
+    /// Description for the plan.
+    pub(super) fn words(&self) -> Vec<String> {
+        let memory = self.memory_bytes.map_or("unknown".into(), |n| format!("about {}", bytes(n as f64)));
+        let steps = self.steps.map_or("unknown, since errors decide them".into(), |n| n.to_string());
+        let time =
+            self.seconds.map_or("unknown until the run shows its progress".into(), |s| format!("{s:.0} s"));
+        vec![format!("memory {memory}; steps {steps}; time {time}"), format!("files: {}", self.files())]
+    }
+
+    fn files(&self) -> String {
+        let mut parts = Vec::new();
+        if let Some(n) = self.fields {
+            let each = self.field_bytes.map_or(String::new(), |size| {
+                format!(" of up to {}, {} in all", bytes(size as f64), bytes((n * size) as f64))
+            });
+            parts.push(format!("fields at {n} times{each}"));
+        }
+        parts.extend(self.profiles.map(|n| format!("profiles at {n} times")));
+        parts.extend(self.rows.map(|n| format!("tables of {n} rows")));
+        parts.extend(
+            self.largest_file
+                .map(|n| format!("each table that grows with events at most {}", bytes(n as f64))),
+        );
+        if parts.is_empty() { "unknown, since steps decide the rows".into() } else { parts.join("; ") }
+    }
+}

@@ -1,0 +1,198 @@
+//! A panel: a frame with the part of the mesh inside.
+
+use super::super::axes::{Axis, Frame};
+use super::super::colour::{INK, MARK, Rgb};
+use super::super::figure::{Anchor, Figure, Point};
+use super::super::style::Style;
+use super::super::units::LENGTH;
+use super::clip;
+use super::view::{View, turned};
+use super::{MarkedSet, MeshPicture};
+
+/// Bodies.
+const BODY: Rgb = [226, 232, 238];
+/// Edges of cells.
+const EDGE: Rgb = [176, 184, 192];
+/// Shortest side of a face on the paper that has its edges drawn; finer meshes would be black.
+const FINEST: f64 = 3.0;
+/// Markers along a set.
+const MARKERS: usize = 7;
+
+/// A panel.
+pub(super) struct Panel {
+    frame: Frame,
+    /// Metres per unit of its axes.
+    unit: f64,
+    /// Corners of what it shows on the projection \[m\].
+    shown: clip::Box,
+    view: View,
+}
+
+impl Panel {
+    /// A panel at a point that shows a rectangle within `room`, at one scale in both directions.
+    pub fn new(at: Point, (lo, hi): clip::Box, room: Point, view: View) -> Self {
+        let scale = (room.0 / (hi.0 - lo.0)).min(room.1 / (hi.1 - lo.1));
+        let length = LENGTH.of([lo.0, lo.1, hi.0, hi.1].iter().fold(0.0, |most, v| most.max(v.abs())));
+        let label = |axis: &str| format!("{axis} [{}]", length.name);
+        let frame = Frame {
+            at,
+            size: ((hi.0 - lo.0) * scale, (hi.1 - lo.1) * scale),
+            x: Axis::exact((lo.0 / length.factor, hi.0 / length.factor), label("x")),
+            y: Axis::exact((lo.1 / length.factor, hi.1 / length.factor), label("y")),
+        };
+        Self { frame, unit: length.factor, shown: (lo, hi), view }
+    }
+
+    /// Right end.
+    pub fn right(&self) -> f64 {
+        self.frame.at.0 + self.frame.size.0
+    }
+
+    /// Lower end.
+    pub fn bottom(&self) -> f64 {
+        self.frame.at.1 + self.frame.size.1
+    }
+
+    /// Position on the figure of a position on the projection.
+    fn point(&self, (x, y): Point) -> Point {
+        self.frame.point(x / self.unit, y / self.unit)
+    }
+
+    /// Draws what lies inside.
+    pub fn draw(&self, figure: &mut Figure, picture: &MeshPicture) {
+        self.faces(figure, &picture.faces);
+        for (k, set) in picture.sets.iter().enumerate() {
+            self.set(figure, set, Style::of(k));
+        }
+        for x in &picture.points {
+            self.dot(figure, x, 1.0, INK);
+        }
+        for (name, x) in &picture.bodies {
+            let at = self.view.project(x);
+            if clip::holds(&self.shown, at) {
+                figure.text(self.point(at), name.as_str(), 13.0, Anchor::Middle, MARK);
+            }
+        }
+        for (k, x) in picture.stations.iter().enumerate() {
+            let at = self.view.project(x);
+            if clip::holds(&self.shown, at) {
+                let (x, y) = self.point(at);
+                Style::of(4).marker_in(figure, (x, y), 4.0, INK);
+                figure.text((x + 7.0, y), (k + 1).to_string(), 10.5, Anchor::Start, INK);
+            }
+        }
+        match self.view {
+            View::Plane => self.frame.draw(figure),
+            View::Oblique => self.triad(figure),
+        }
+    }
+
+    fn dot(&self, figure: &mut Figure, x: &[f64; 3], radius: f64, colour: Rgb) {
+        let at = self.view.project(x);
+        if clip::holds(&self.shown, at) {
+            Style::of(0).marker_in(figure, self.point(at), radius, colour);
+        }
+    }
+
+    /// Faces towards the reader, those behind first.
+    fn faces(&self, figure: &mut Figure, faces: &[Vec<[f64; 3]>]) {
+        let mut seen: Vec<(f64, Vec<Point>)> = Vec::new();
+        for face in faces {
+            let ring: Vec<Point> = face.iter().map(|x| self.view.project(x)).collect();
+            if self.view == View::Oblique && turned(&ring) <= 0.0 {
+                continue;
+            }
+            let height = face.iter().map(|x| self.view.height(x)).sum::<f64>() / face.len() as f64;
+            let part = clip::ring(&self.shown, &ring);
+            if part.len() > 2 {
+                seen.push((height, part.into_iter().map(|p| self.point(p)).collect()));
+            }
+        }
+        seen.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (_, ring) in seen {
+            let next = ring.iter().skip(1).chain(ring.first());
+            let shortest = ring
+                .iter()
+                .zip(next)
+                .map(|(a, b)| (a.0 - b.0).hypot(a.1 - b.1))
+                .fold(f64::INFINITY, f64::min);
+            let mut closed = ring.clone();
+            closed.extend(ring.first());
+            figure.area(ring, BODY);
+            if shortest >= FINEST {
+                figure.line(closed, 0.6, EDGE);
+            }
+        }
+    }
+
+    /// A set: its lines in the plane, its border in space, with markers of its conditions.
+    fn set(&self, figure: &mut Figure, set: &MarkedSet, style: Style) {
+        for [a, b] in border(&set.faces) {
+            let (a, b) = (self.view.project(&a), self.view.project(&b));
+            if let Some(part) = clip::line(&self.shown, a, b) {
+                figure.line(part.map(|p| self.point(p)).to_vec(), 3.0, style.colour);
+            }
+        }
+        let middles: Vec<Point> = set.faces.iter().map(|f| self.view.project(&middle(f))).collect();
+        let inside: Vec<Point> = middles.into_iter().filter(|p| clip::holds(&self.shown, *p)).collect();
+        let every = inside.len().div_ceil(MARKERS).max(1);
+        for (k, at) in inside.iter().skip(every / 2).step_by(every).enumerate() {
+            let markers: Vec<usize> = set.marks.iter().filter_map(|m| m.marker()).collect();
+            if let Some(marker) = markers.get(k % markers.len().max(1)) {
+                Style::of(*marker).marker_in(figure, self.point(*at), 5.0, style.colour);
+            }
+        }
+    }
+
+    /// Directions of the axes, and the extent.
+    fn triad(&self, figure: &mut Figure) {
+        let at = (self.frame.at.0 + 10.0, self.bottom() + 20.0);
+        for (name, axis) in [("x", [1.0, 0.0, 0.0]), ("y", [0.0, 1.0, 0.0]), ("z", [0.0, 0.0, 1.0])] {
+            let (x, y) = self.view.project(&axis);
+            let end = (at.0 + 24.0 * x, at.1 - 24.0 * y);
+            figure.line(vec![at, end], 1.3, INK);
+            figure.text((at.0 + 33.0 * x, at.1 - 33.0 * y), name, 12.0, Anchor::Middle, INK);
+        }
+    }
+}
+
+/// Mean of the corners of a face.
+fn middle(face: &[[f64; 3]]) -> [f64; 3] {
+    let n = face.len().max(1) as f64;
+    std::array::from_fn(|c| face.iter().map(|x| x[c]).sum::<f64>() / n)
+}
+
+/// Lines in the plane, or the edges that belong to one face alone.
+fn border(faces: &[Vec<[f64; 3]>]) -> Vec<[[f64; 3]; 2]> {
+    let mut edges: Vec<[[f64; 3]; 2]> = Vec::new();
+    for face in faces {
+        if let [a, b] = face.as_slice() {
+            edges.push([*a, *b]);
+            continue;
+        }
+        let next = face.iter().skip(1).chain(face.first());
+        edges.extend(face.iter().zip(next).map(|(a, b)| [*a, *b]));
+    }
+    let order = |a: &[f64; 3], b: &[f64; 3]| {
+        let different = a.iter().zip(b).map(|(a, b)| a.total_cmp(b)).find(|o| o.is_ne());
+        different.unwrap_or(std::cmp::Ordering::Equal)
+    };
+    for edge in &mut edges {
+        edge.sort_by(order);
+    }
+    edges.sort_by(|a, b| order(&a[0], &b[0]).then(order(&a[1], &b[1])));
+    let alone = edges.chunk_by(|a, b| a == b).filter(|same| same.len() == 1);
+    alone.map(|same| same[0]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::border;
+
+    #[test]
+    fn the_border_of_two_squares_has_six_edges() {
+        let square = |x: f64| vec![[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x + 1.0, 1.0, 0.0], [x, 1.0, 0.0]];
+        assert_eq!(border(&[square(0.0), square(1.0)]).len(), 6);
+        assert_eq!(border(&[vec![[0.0; 3], [1.0, 0.0, 0.0]]]).len(), 1);
+    }
+}
