@@ -97,7 +97,8 @@ impl MeshPicture {
         let lines = self.sets.len() + 4;
         let mut figure = Figure::new(left + LEGEND, below.max(54.0 + lines as f64 * LINE));
         figure.text((24.0, 20.0), fitting(&self.title, left, 15.0).0, 15.0, Anchor::Start, INK);
-        panels.iter().for_each(|panel| panel.draw(&mut figure, self));
+        let last = panels.len() - 1;
+        panels.iter().enumerate().for_each(|(k, panel)| panel.draw(&mut figure, self, k == last));
         self.legend(&mut figure, (left, 54.0));
         Some(figure)
     }

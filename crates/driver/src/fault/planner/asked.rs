@@ -95,11 +95,13 @@ pub(crate) fn nothing_slides<const D: usize>(
     )
 }
 
-/// Refuses profiles that vary only beyond the sliding part of their fault, and warns of those that are nowhere the largest of their list.
+/// Refuses profiles that vary only beyond the sliding part of their fault, and warns of those that are nowhere the largest of their list. Several
+/// faults may share a profile; where it varies beyond one of them, this is a warning.
 ///
 /// # Errors
 /// [`Diagnostic`] at the profile.
 pub(super) fn profiles<const D: usize>(
+    scene: &Scene,
     (name, spec): (&str, &Spec),
     placed: &[Placed<D>],
     warnings: &mut Vec<Warning>,
@@ -109,13 +111,16 @@ pub(super) fn profiles<const D: usize>(
     if free.is_empty() {
         return Ok(());
     }
-    let all = &spec.profiles;
-    for (key, list) in
-        [("a", &all.a), ("b", &all.b), ("l", &all.l), ("normal", &all.normal), ("shear", &all.shear)]
-    {
+    for (n, (key, list)) in lists(spec).into_iter().enumerate() {
         let Some(Profiled(list)) = list else { continue };
-        if let Some(error) = list.iter().find_map(|p| constant((name, key), p, &free)) {
-            return Err(error);
+        for profile in list {
+            let Some((message, help)) = constant((name, key), profile, &free) else { continue };
+            let others = scene.faults.iter().filter(|(other, _)| *other != name);
+            let mut theirs = others.flat_map(|(_, other)| lists(other)[n].1).flat_map(|p| &p.0);
+            if !theirs.any(|other| same(profile, other)) {
+                return Err(Diagnostic::at(profile.points.span(), message, help));
+            }
+            warnings.push(Warning::at(profile.points.span(), message, help));
         }
         for (k, profile) in list.iter().enumerate().filter(|_| list.len() > 1) {
             let others = |place: &Place<D>| {
@@ -136,12 +141,26 @@ pub(super) fn profiles<const D: usize>(
     Ok(())
 }
 
-/// Error for a profile whose positions all lie beyond the fault.
+/// Profiles of a fault with their keys.
+pub(super) fn lists(spec: &Spec) -> [(&'static str, Option<&Profiled>); 5] {
+    let all = &spec.profiles;
+    [("a", &all.a), ("b", &all.b), ("l", &all.l), ("normal", &all.normal), ("shear", &all.shear)]
+        .map(|(key, list)| (key, list.as_ref()))
+}
+
+/// True if two profiles are the same.
+fn same(a: &Profile, b: &Profile) -> bool {
+    let values =
+        |p: &Profile| -> Vec<(f64, f64)> { p.points.get_ref().iter().map(|p| (p.0.0, p.1)).collect() };
+    a.along.get_ref() == b.along.get_ref() && values(a) == values(b)
+}
+
+/// Message and help about a profile whose positions all lie beyond the fault.
 fn constant<const D: usize>(
     (name, key): (&str, &str),
     profile: &Profile,
     free: &[&Place<D>],
-) -> Option<Diagnostic> {
+) -> Option<(String, &'static str)> {
     let points = profile.points.get_ref();
     let (first, last) = (points.first()?, points.last()?);
     let along = *profile.along.get_ref();
@@ -162,15 +181,12 @@ fn constant<const D: usize>(
         Along::Z => "z",
         Along::Distance => "distance",
     };
-    Some(Diagnostic::at(
-        profile.points.span(),
-        format!(
-            "the profile of `{key}` does not vary over fault `{name}`: its positions go from {} m to {} m along {axis}, the sliding points from {low} m \
-             to {high} m",
-            first.0.0, last.0.0
-        ),
-        "check the unit and the sign of its positions, or give the one value in the law",
-    ))
+    let message = format!(
+        "the profile of `{key}` does not vary over fault `{name}`: its positions go from {} m to {} m along {axis}, the sliding points from {low} m \
+         to {high} m",
+        first.0.0, last.0.0
+    );
+    Some((message, "check the unit and the sign of its positions, or give the one value in the law"))
 }
 
 /// Refuses a station farther than `size` \[m\] from the nearest sliding point, which is number `point` of `placed`.

@@ -1,5 +1,6 @@
 //! Checks of faults: their points, and what profiles, patches and stations reach.
 
+use super::asked::lists;
 use super::critical::critical_slope;
 use super::patches::weight;
 use super::placed::{Placed, along};
@@ -63,16 +64,15 @@ pub(super) fn weakens<const D: usize>(p: &Placed<D>) -> bool {
 
 /// Points of the profiles of a fault.
 fn profiles<const D: usize>(spec: &Spec, own: &[&Placed<D>]) -> Vec<ProfileCheck> {
-    let all = &spec.profiles;
-    let lists = [("a", &all.a), ("b", &all.b), ("l", &all.l), ("normal", &all.normal), ("shear", &all.shear)];
     let of = |key: &str, profile: &Profile| {
         let points = profile.points.get_ref();
         let ends = points.first().map_or(0.0, |p| p.0.0)..=points.last().map_or(0.0, |p| p.0.0);
         let within = own.iter().filter(|p| ends.contains(&along(profile, &p.point.place))).count();
         ProfileCheck { key: key.to_string(), points: within, beyond: own.len() - within }
     };
-    let given =
-        lists.iter().flat_map(|(key, list)| list.iter().flat_map(move |l| l.0.iter().map(move |p| (key, p))));
+    let given = lists(spec)
+        .into_iter()
+        .flat_map(|(key, list)| list.iter().flat_map(|l| &l.0).map(move |p| (key, p)).collect::<Vec<_>>());
     given.map(|(key, profile)| of(key, profile)).collect()
 }
 

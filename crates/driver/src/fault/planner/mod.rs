@@ -282,7 +282,7 @@ fn points_of<const D: usize>(
         placed.push(placed_at(spec, (fault, &base), place, given)?);
     }
     asked::creep((name, spec), &placed)?;
-    asked::profiles((name, spec), &placed, warnings)?;
+    asked::profiles(scene, (name, spec), &placed, warnings)?;
     warnings.extend(patches::covered((name, spec), &placed)?);
     Ok(placed)
 }

@@ -123,7 +123,7 @@ pub(super) fn covered<const D: usize>(
             return Err(Diagnostic::at(
                 place,
                 format!(
-                    "the patch covers no sliding point of fault `{name}`: they lie {}",
+                    "the patch covers none of the sliding points of fault `{name}`, which lie {}",
                     extent(free.iter().copied())
                 ),
                 "check the signs and the unit of its extent: y points up",

@@ -7,7 +7,7 @@ use super::super::style::Style;
 use super::super::units::LENGTH;
 use super::clip;
 use super::view::{View, turned};
-use super::{MarkedSet, MeshPicture};
+use super::{Mark, MarkedSet, MeshPicture};
 
 /// Bodies.
 const BODY: Rgb = [226, 232, 238];
@@ -59,13 +59,18 @@ impl Panel {
     }
 
     /// Draws what lies inside.
-    pub fn draw(&self, figure: &mut Figure, picture: &MeshPicture) {
+    pub fn draw(&self, figure: &mut Figure, picture: &MeshPicture, numbered: bool) {
         self.faces(figure, &picture.faces);
+        // The sides of a surface lie on each other: the first is drawn wider.
+        let mut surfaces = 0;
         for (k, set) in picture.sets.iter().enumerate() {
-            self.set(figure, set, Style::of(k));
+            let surface = set.marks.contains(&Mark::Surface);
+            let width = if surface && surfaces % 2 == 0 { 7.0 } else { 3.0 };
+            surfaces += usize::from(surface);
+            self.set(figure, set, (Style::of(k), width));
         }
         for x in &picture.points {
-            self.dot(figure, x, 1.0, INK);
+            self.dot(figure, x, 1.0, EDGE);
         }
         for (name, x) in &picture.bodies {
             let at = self.view.project(x);
@@ -78,7 +83,9 @@ impl Panel {
             if clip::holds(&self.shown, at) {
                 let (x, y) = self.point(at);
                 Style::of(4).marker_in(figure, (x, y), 4.0, INK);
-                figure.text((x + 7.0, y), (k + 1).to_string(), 10.5, Anchor::Start, INK);
+                if numbered {
+                    figure.text((x + 7.0, y), (k + 1).to_string(), 10.5, Anchor::Start, INK);
+                }
             }
         }
         match self.view {
@@ -109,34 +116,23 @@ impl Panel {
             }
         }
         seen.sort_by(|a, b| a.0.total_cmp(&b.0));
-        for (_, ring) in seen {
-            let next = ring.iter().skip(1).chain(ring.first());
-            let shortest = ring
-                .iter()
-                .zip(next)
-                .map(|(a, b)| (a.0 - b.0).hypot(a.1 - b.1))
-                .fold(f64::INFINITY, f64::min);
-            let mut closed = ring.clone();
-            closed.extend(ring.first());
-            figure.area(ring, BODY);
-            if shortest >= FINEST {
-                figure.line(closed, 0.6, EDGE);
-            }
+        for (_, ring) in &seen {
+            figure.area(ring.clone(), BODY);
+            edges(ring).into_iter().for_each(|edge| figure.line(edge.to_vec(), 0.6, EDGE));
         }
     }
 
     /// A set: its lines in the plane, its border in space, with markers of its conditions.
-    fn set(&self, figure: &mut Figure, set: &MarkedSet, style: Style) {
+    fn set(&self, figure: &mut Figure, set: &MarkedSet, (style, width): (Style, f64)) {
         for [a, b] in border(&set.faces) {
             let (a, b) = (self.view.project(&a), self.view.project(&b));
             if let Some(part) = clip::line(&self.shown, a, b) {
-                figure.line(part.map(|p| self.point(p)).to_vec(), 3.0, style.colour);
+                figure.line(part.map(|p| self.point(p)).to_vec(), width, style.colour);
             }
         }
         let middles: Vec<Point> = set.faces.iter().map(|f| self.view.project(&middle(f))).collect();
         let inside: Vec<Point> = middles.into_iter().filter(|p| clip::holds(&self.shown, *p)).collect();
-        let every = inside.len().div_ceil(MARKERS).max(1);
-        for (k, at) in inside.iter().skip(every / 2).step_by(every).enumerate() {
+        for (k, at) in spread(&inside, MARKERS).iter().enumerate() {
             let markers: Vec<usize> = set.marks.iter().filter_map(|m| m.marker()).collect();
             if let Some(marker) = markers.get(k % markers.len().max(1)) {
                 Style::of(*marker).marker_in(figure, self.point(*at), 5.0, style.colour);
@@ -154,6 +150,39 @@ impl Panel {
             figure.text((at.0 + 33.0 * x, at.1 - 33.0 * y), name, 12.0, Anchor::Middle, INK);
         }
     }
+}
+
+/// Edges of a face that are drawn: those far enough from the edge across, or all of a triangle that is large enough.
+fn edges(ring: &[Point]) -> Vec<[Point; 2]> {
+    let n = ring.len();
+    let edge = |k: usize| [ring[k % n], ring[(k + 1) % n]];
+    let length = |k: usize| {
+        let [a, b] = edge(k);
+        (a.0 - b.0).hypot(a.1 - b.1)
+    };
+    let across = |k: usize| {
+        let sides: Vec<f64> =
+            if n == 4 { vec![length(k + 1), length(k + 3)] } else { (0..n).map(length).collect() };
+        sides.into_iter().fold(f64::INFINITY, f64::min)
+    };
+    (0..n).filter(|&k| across(k) >= FINEST).map(edge).collect()
+}
+
+/// Up to `count` of some points, far from each other: the one nearest to their middle first, and then each time the farthest from all before.
+fn spread(points: &[Point], count: usize) -> Vec<Point> {
+    let n = points.len().max(1) as f64;
+    let middle = points.iter().fold((0.0, 0.0), |m, p| (m.0 + p.0 / n, m.1 + p.1 / n));
+    let apart = |a: &Point, b: &Point| (a.0 - b.0).hypot(a.1 - b.1);
+    let first = points.iter().min_by(|a, b| apart(a, &middle).total_cmp(&apart(b, &middle)));
+    let mut chosen: Vec<Point> = first.copied().into_iter().collect();
+    let mut distance: Vec<f64> = points.iter().map(|p| chosen.first().map_or(0.0, |c| apart(p, c))).collect();
+    while chosen.len() < count.min(points.len()) {
+        let far = (0..points.len()).max_by(|&a, &b| distance[a].total_cmp(&distance[b]).then(b.cmp(&a)));
+        let Some(next) = far.map(|k| points[k]) else { break };
+        distance.iter_mut().zip(points).for_each(|(d, p)| *d = d.min(apart(p, &next)));
+        chosen.push(next);
+    }
+    chosen
 }
 
 /// Mean of the corners of a face.
@@ -187,7 +216,20 @@ fn border(faces: &[Vec<[f64; 3]>]) -> Vec<[[f64; 3]; 2]> {
 
 #[cfg(test)]
 mod tests {
-    use super::border;
+    use super::{border, edges, spread};
+
+    #[test]
+    fn edges_close_to_those_across_are_left_out() {
+        let flat = [(0.0, 0.0), (9.0, 0.0), (9.0, 1.0), (0.0, 1.0)];
+        assert_eq!(edges(&flat), [[(9.0, 0.0), (9.0, 1.0)], [(0.0, 1.0), (0.0, 0.0)]]);
+        assert!(edges(&[(0.0, 0.0), (9.0, 0.0), (0.0, 1.0)]).is_empty());
+    }
+
+    #[test]
+    fn markers_keep_apart_on_a_graded_line() {
+        let points: Vec<(f64, f64)> = [0.0, 0.1, 0.2, 5.0, 10.0].map(|x| (x, 0.0)).into();
+        assert_eq!(spread(&points, 3), [(5.0, 0.0), (10.0, 0.0), (0.0, 0.0)]);
+    }
 
     #[test]
     fn the_border_of_two_squares_has_six_edges() {

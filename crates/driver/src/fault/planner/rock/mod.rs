@@ -141,7 +141,7 @@ fn placed<const D: usize>(
             placed_at(spec, (fault, &base), place.clone(), given)
         };
         let placed: Vec<Placed<D>> = cells.map(of).collect::<Result<_, _>>()?;
-        asked::profiles((name, spec), &placed, warnings)?;
+        asked::profiles(scene, (name, spec), &placed, warnings)?;
         warnings.extend(patches::covered((name, spec), &placed)?);
         all.extend(placed);
     }
