@@ -33,6 +33,11 @@ fn bytes(n: f64) -> String {
     }
 }
 
+/// Number of times at which something is written.
+fn outputs(n: usize) -> String {
+    if n == 1 { "1 output".into() } else { format!("{n} outputs") }
+}
+
 impl Cost {
     /// Description for the plan.
     pub(super) fn words(&self) -> Vec<String> {
@@ -47,11 +52,11 @@ impl Cost {
         let mut parts = Vec::new();
         if let Some(n) = self.fields {
             let each = self.field_bytes.map_or(String::new(), |size| {
-                format!(" of up to {}, {} in all", bytes(size as f64), bytes((n * size) as f64))
+                format!(" up to {} large, {} in all", bytes(size as f64), bytes((n * size) as f64))
             });
-            parts.push(format!("fields at {n} times{each}"));
+            parts.push(format!("{} of fields{each}", outputs(n)));
         }
-        parts.extend(self.profiles.map(|n| format!("profiles at {n} times")));
+        parts.extend(self.profiles.map(|n| format!("{} of profiles", outputs(n))));
         parts.extend(self.rows.map(|n| format!("tables of {n} rows")));
         parts.extend(
             self.largest_file

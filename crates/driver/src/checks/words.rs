@@ -133,6 +133,7 @@ impl FaultCheck {
         let name = &self.fault;
         let prescribed = match self.prescribed {
             0 => String::new(),
+            1 => "; 1 creeps or is locked".to_string(),
             n => format!("; {n} creep or are locked"),
         };
         let weakening = match self.weakening_points {
@@ -143,8 +144,8 @@ impl FaultCheck {
         let mut lines = vec![(
             "fault",
             format!(
-                "`{name}`: {} that slide over {}, {spacing} apart{prescribed}; {weakening}",
-                count(self.points, "point"),
+                "`{name}`: {} over {}, {spacing} apart{prescribed}; {weakening}",
+                count(self.points, "sliding point"),
                 area(self.area, in_space)
             ),
         )];
