@@ -20,8 +20,6 @@ pub struct Cost {
     pub rows: Option<usize>,
     /// Largest size of a table that grows with events \[bytes\].
     pub largest_file: Option<u64>,
-    /// Wall time \[s\].
-    pub seconds: Option<f64>,
 }
 
 /// Size in the unit that fits.
@@ -43,9 +41,8 @@ impl Cost {
     pub(super) fn words(&self) -> Vec<String> {
         let memory = self.memory_bytes.map_or("unknown".into(), |n| format!("about {}", bytes(n as f64)));
         let steps = self.steps.map_or("unknown, since errors decide them".into(), |n| n.to_string());
-        let time =
-            self.seconds.map_or("unknown until the run shows its progress".into(), |s| format!("{s:.0} s"));
-        vec![format!("memory {memory}; steps {steps}; time {time}"), format!("files: {}", self.files())]
+        let time = "time unknown until the run shows its progress";
+        vec![format!("memory {memory}; steps {steps}; {time}"), format!("files: {}", self.files())]
     }
 
     fn files(&self) -> String {

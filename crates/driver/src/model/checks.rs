@@ -139,17 +139,19 @@ pub(crate) struct Driven {
     pub normal: [f64; 3],
     /// Area \[m²; m per metre of thickness\].
     pub area: f64,
+    /// True if friction acts on it.
+    pub rubs: bool,
 }
 
-/// Stiffness of the springs of a stage over the area of the surfaces that they drive, for each surface \[Pa/m\]. A spring drives the surfaces of
-/// its body together, if it pulls along them rather than across. Springs on both sides act one behind the other.
+/// Stiffness of the springs of a stage over the area of the surfaces that they drive, for each surface \[Pa/m\]. A spring drives the surfaces with friction
+/// of its body together, if it pulls along them rather than across. Springs on both sides act one behind the other.
 pub(crate) fn machines(stage: &Stage, surfaces: &[Driven]) -> Vec<Option<f64>> {
     let of_body = |body: &str, normal: &[f64; 3]| {
         let along = |axis: usize| normal[axis].powi(2) < 0.5;
         let own = |set: &str| set.split('.').next() == Some(body);
         let springs = stage.springs.iter().filter(|s| own(&s.set) && along(s.axis));
         let stiffness: f64 = springs.map(|s| s.stiffness).sum();
-        let driven = surfaces.iter().filter(|s| s.bodies.iter().any(|b| b == body));
+        let driven = surfaces.iter().filter(|s| s.rubs && s.bodies.iter().any(|b| b == body));
         let area: f64 = driven.map(|s| s.area).sum();
         (stiffness > 0.0 && area > 0.0).then(|| stiffness / area)
     };
@@ -160,7 +162,7 @@ pub(crate) fn machines(stage: &Stage, surfaces: &[Driven]) -> Vec<Option<f64>> {
             both.filter_map(|body| of_body(body, &surface.normal)).map(f64::recip).collect();
         (!compliances.is_empty()).then(|| compliances.iter().sum::<f64>().recip())
     };
-    surfaces.iter().map(of).collect()
+    surfaces.iter().map(|surface| of(surface).filter(|_| surface.rubs)).collect()
 }
 
 /// Name of the body of a set.

@@ -28,7 +28,7 @@ pub(super) fn of<const D: usize>(
 ) -> Result<Checks, Diagnostic> {
     let mut checks = model::checks::of(scene, model)?;
     let surfaces: Vec<Driven> =
-        interfaces.iter().map(|i| driven(model, &scene.interfaces[&i.name])).collect::<Result<_, _>>()?;
+        interfaces.iter().map(|i| driven(scene, model, i)).collect::<Result<_, _>>()?;
     let machines = stages.last().map_or_else(Vec::new, |stage| machines(stage, &surfaces));
     for (k, planned) in interfaces.iter().enumerate() {
         let spec = &scene.interfaces[&planned.name];
@@ -41,7 +41,7 @@ pub(super) fn of<const D: usize>(
             area: surfaces[k].area,
             damping: planned.damping,
             weakening: weakening(model, (spec, sides), normal),
-            machine: machines[k].map(|stiffness| machine(stiffness, spec, normal)),
+            machine: machines.get(k).copied().flatten().map(|k| machine(k, spec, normal)),
         });
     }
     let fields = scene.output.fields.as_ref().map_or(1, |n| *n.get_ref()) * stages.len();
@@ -57,7 +57,13 @@ pub(super) fn of<const D: usize>(
 }
 
 /// The surface of an interface, as springs see it.
-fn driven<const D: usize>(model: &Model<D>, spec: &Spec) -> Result<Driven, Diagnostic> {
+fn driven<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    planned: &PlannedInterface,
+) -> Result<Driven, Diagnostic> {
+    let spec = &scene.interfaces[&planned.name];
+    let rubs = planned.law.as_ref().is_some_and(|law| !law.bonded());
     let sides = model::sides(model, &spec.slave)?;
     let area: f64 = surface::areas(&model.mesh, sides, model.idealisation).values().sum();
     let mut sum = [0.0; 3];
@@ -70,7 +76,7 @@ fn driven<const D: usize>(model: &Model<D>, spec: &Spec) -> Result<Driven, Diagn
     }
     let size = surface::length(&sum);
     let normal = if size > 0.0 { sum.map(|c| c / size) } else { sum };
-    Ok(Driven { bodies: [body_name(&spec.slave), body_name(&spec.master)], normal, area })
+    Ok(Driven { bodies: [body_name(&spec.slave), body_name(&spec.master)], normal, area, rubs })
 }
 
 /// Lengths of friction that weakens, and the distance of points where it is largest.

@@ -114,6 +114,7 @@ pub(super) fn surfaces<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> V
             bodies: [body_name(&spec.minus), body_name(&spec.plus)],
             normal: if size > 0.0 { sum.map(|c| c / size) } else { sum },
             area: own().map(|p| p.area).sum(),
+            rubs: true,
         }
     };
     scene.faults.values().enumerate().map(of).collect()
