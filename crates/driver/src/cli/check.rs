@@ -14,7 +14,7 @@ use miette::{IntoDiagnostic, miette};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// What `asperity check` is asked for.
+/// Scene and options of `asperity check`.
 #[derive(Args, Clone, Debug)]
 pub struct Checking {
     /// Scene file (TOML).

@@ -59,7 +59,7 @@ fn edges<const D: usize>(model: &Model<D>, body: &Body<D>) -> [f64; 2] {
     squares.map(f64::sqrt)
 }
 
-/// What a condition does to its set.
+/// Words for the effects of a condition on its set.
 fn does(condition: &Condition) -> Vec<&'static str> {
     let motion = |m: &Spanned<Motion>| match m.get_ref() {
         Motion::Fixed(_) | Motion::Hold => "held",

@@ -6,8 +6,8 @@ use super::super::figure::{Anchor, Figure, Point};
 use super::super::style::Style;
 use super::super::units::LENGTH;
 use super::clip;
+use super::picture::{Mark, MarkedSet, MeshPicture};
 use super::view::{View, turned};
-use super::{Mark, MarkedSet, MeshPicture};
 
 /// Bodies.
 const BODY: Rgb = [226, 232, 238];
