@@ -62,10 +62,10 @@ impl Panel {
     pub fn draw(&self, figure: &mut Figure, picture: &MeshPicture, numbered: bool) {
         self.faces(figure, &picture.faces);
         // The sides of a surface lie on each other: the first is drawn wider.
-        let mut surfaces = 0;
+        let mut surfaces = 0_usize;
         for (k, set) in picture.sets.iter().enumerate() {
             let surface = set.marks.contains(&Mark::Surface);
-            let width = if surface && surfaces % 2 == 0 { 7.0 } else { 3.0 };
+            let width = if surface && surfaces.is_multiple_of(2) { 7.0 } else { 3.0 };
             surfaces += usize::from(surface);
             self.set(figure, set, (Style::of(k), width));
         }
