@@ -72,6 +72,7 @@ pub(super) fn end(ended: &miette::Result<End>) {
         }
         Ok(end @ End::Interrupted(why)) => ("interrupted", end.code(), Some(why.clone()), Value::Null),
         Ok(end @ End::Differs) => ("differs", end.code(), None, Value::Null),
+        Ok(end @ End::Doubtful(_)) => ("doubtful", end.code(), None, Value::Null),
         Err(error) => ("failed", 1, Some(error.to_string()), diagnostic(error)),
     };
     printing::line(
