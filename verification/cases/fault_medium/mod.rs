@@ -1,5 +1,6 @@
 //! Faults in homogeneous rock without bodies: tractions of dipping faults, cracks, long rectangles, and the cycles of BP1.
 
+mod depths;
 mod receivers;
 pub mod triangles;
 
@@ -36,6 +37,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     disc(ledger)?;
     grid(ledger)?;
     triangles::run(ledger)?;
+    depths::run(ledger)?;
     cycles(ledger)?;
     receivers::run(ledger)
 }

@@ -1,6 +1,5 @@
 //! Arguments of the binary.
 
-use super::check::Checking;
 use super::compare::Comparison;
 use super::new::Template;
 use super::pausing::Pausing;
@@ -104,6 +103,25 @@ pub struct Running {
     /// Reasons to interrupt the run, and how to resume it.
     #[command(flatten)]
     pub pauses: Pausing,
+}
+
+/// Scene and options of `asperity check`.
+#[derive(Args, Clone, Debug)]
+pub struct Checking {
+    /// Scene file (TOML).
+    pub scene: PathBuf,
+    /// Values set in the scene.
+    #[command(flatten)]
+    pub set: Set,
+    /// Print the checks, notes and warnings as JSON.
+    #[arg(long)]
+    pub json: bool,
+    /// End with exit code 1 if there are warnings.
+    #[arg(long)]
+    pub strict: bool,
+    /// Draw the mesh with its sets, conditions and stations into this file, PNG or SVG.
+    #[arg(long, value_name = "FILE")]
+    pub plot: Option<PathBuf>,
 }
 
 /// Values set in a scene.

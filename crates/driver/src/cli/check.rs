@@ -1,6 +1,6 @@
 //! `asperity check`: the plan of a scene and its checks.
 
-use super::arguments::Set;
+use super::arguments::Checking;
 use super::end::End;
 use super::read::{Planned, Ready, Source};
 use super::{json, lines, print};
@@ -9,29 +9,9 @@ use crate::report::Kind;
 use crate::warning::Warning;
 use asperity_output::plots::{MeshPicture, draw_mesh};
 use asperity_output::printing::{err, out};
-use clap::Args;
 use miette::{IntoDiagnostic, miette};
 use serde::Serialize;
-use std::path::{Path, PathBuf};
-
-/// Scene and options of `asperity check`.
-#[derive(Args, Clone, Debug)]
-pub struct Checking {
-    /// Scene file (TOML).
-    pub scene: PathBuf,
-    /// Values set in the scene.
-    #[command(flatten)]
-    pub set: Set,
-    /// Print the checks, notes and warnings as JSON.
-    #[arg(long)]
-    pub json: bool,
-    /// End with exit code 1 if there are warnings.
-    #[arg(long)]
-    pub strict: bool,
-    /// Draw the mesh with its sets, conditions and stations into this file, PNG or SVG.
-    #[arg(long, value_name = "FILE")]
-    pub plot: Option<PathBuf>,
-}
+use std::path::Path;
 
 /// Checks as printed by `--json`, in SI units.
 #[derive(Serialize)]

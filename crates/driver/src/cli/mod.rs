@@ -24,10 +24,9 @@ mod waves;
 mod work;
 
 use crate::report;
-pub use arguments::{Arguments, Command, Running, Schema, Set};
+pub use arguments::{Arguments, Checking, Command, Running, Schema, Set};
 use asperity_output::{Pulse, printing};
 use begin::Begin;
-pub use check::Checking;
 pub use compare::Comparison;
 use contents::Contents;
 use directory::Directory;

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 
 /// Files and folders of runs, with what they are.
-const MEANINGS: [(&str, &str); 35] = [
+const MEANINGS: [(&str, &str); 38] = [
     (REPORT, "status, results, counts, times, provenance: begin here"),
     (SCENE, "the scene as it was run, with the values of `--set`; mesh files are relative to the scene file"),
     (progress::FILE, "progress of the run; removed when it is complete"),
@@ -18,6 +18,9 @@ const MEANINGS: [(&str, &str); 35] = [
     ("events.pvd", "list of the displacements of bodies over each event, for ParaView"),
     ("events.csv", "catalogue of events"),
     ("events_*.csv", "catalogue of the events of one fault or interface"),
+    ("slow_events.csv", "catalogue of slow events"),
+    ("events", "tables of single events: moment rate, rupture times, displacements"),
+    ("receivers", "motion of positions in the rock over time (CSV)"),
     ("events.json", "catalogue of events, with more of each"),
     ("events.quakeml", "catalogue of events for seismological programs"),
     ("CMTSOLUTION", "centroid moment tensors of the events"),

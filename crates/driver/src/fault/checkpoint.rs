@@ -107,7 +107,7 @@ mod tests {
         sample().write(folder.path()).unwrap();
         assert!(matches!(Checkpoint::read(folder.path(), "t"), Err(ResumeError::Scene { .. })));
         let path = folder.path().join(FILE);
-        let text = fs::read_to_string(&path).unwrap().replacen("version 3", "version 99", 1);
+        let text = fs::read_to_string(&path).unwrap().replacen("version 4", "version 99", 1);
         fs::write(&path, text).unwrap();
         let error = Checkpoint::read(folder.path(), "s").unwrap_err();
         assert!(error.to_string().contains("has version 99"), "{error}");

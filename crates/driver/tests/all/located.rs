@@ -178,12 +178,15 @@ fn mechanisms_are_those_of_the_scene_seen_along_its_strike() {
     assert_plane(&uniform(thrust, -1.0), Plane { strike: 20.0, dip: 30.0, rake: -90.0 });
     // Down the dip of 30 degrees to the right of N20E, which is S70E, beyond the date line; 2 km deeper than the trace says.
     let spot = located.hypocentre;
-    let across = (spot.depth - 2e3) / 30f64.to_radians().tan();
-    let degree = 6_371_008.8 * std::f64::consts::PI / 180.0;
-    let south = (-33.5 - spot.latitude) * degree;
-    let east = (spot.longitude + 180.1) * degree * 33.5f64.to_radians().cos();
-    assert!((south - across * 20f64.to_radians().sin()).abs() < 1e-3, "{spot:?}");
-    assert!((east - across * 20f64.to_radians().cos()).abs() < 1e-3, "{spot:?}");
+    // PROJ 9.5.1, for 20021.6136 m on the transverse Mercator projection of WGS84 around the origin.
+    assert!((spot.depth - (2e3 + 20_021.613_586 * 30f64.to_radians().tan())).abs() < 1e-3, "{spot:?}");
+    assert_spot(&spot, [-33.561_573_905_4, -179.897_385_145_1]);
+}
+
+/// Asserts a latitude and a longitude \[degrees\] within a tenth of a millimetre.
+fn assert_spot(spot: &Spot, [latitude, longitude]: [f64; 2]) {
+    let off = (spot.latitude - latitude).abs().max((spot.longitude - longitude).abs());
+    assert!(off < 1e-9, "{spot:?}");
 }
 
 /// Two blocks with a fault between them, y up and the fault along z.
@@ -232,15 +235,9 @@ fn mechanisms_in_space_follow_the_directions_the_scene_gives() {
     assert_plane(&located, Plane { strike: 317.0, dip: 90.0, rake: 180.0 });
     // The last point is the highest or lowest; all lie on the fault below the origin, 2 km along N43W at most.
     let spot = located.hypocentre;
-    let degree = 6_371_008.8 * std::f64::consts::PI / 180.0;
-    let (north, east) =
-        ((spot.latitude - 35.9) * degree, (spot.longitude + 120.5) * degree * 35.9f64.to_radians().cos());
-    let along = north.hypot(east);
-    assert!((0.0..=2e3 + 1e-3).contains(&along) && (-1e-6..=2e3 + 1e-6).contains(&spot.depth), "{spot:?}");
-    assert!(
-        (north - along * 43f64.to_radians().cos()).abs() < 1e-3
-            && (east + along * 43f64.to_radians().sin()).abs() < 1e-3
-    );
+    // PROJ 9.5.1, for 2 km along N43W on the transverse Mercator projection of WGS84 around the origin.
+    assert_spot(&spot, [35.9131816680096, -120.5151114591227]);
+    assert!((-1e-6..=2e3 + 1e-6).contains(&spot.depth), "{spot:?}");
     // The plus side, on the left, moves up.
     let thrust = uniform(&varied(UPRIGHT, &[With("faults.main.rake", "[0, 1, 0]")]), 1.0);
     assert_plane(&thrust, Plane { strike: 317.0, dip: 90.0, rake: -90.0 });
