@@ -1,23 +1,36 @@
-//! Depth as a smooth function of the position, from scattered samples.
+//! Depth as a function of the position on a map, from scattered samples.
 
 use super::SheetError;
-use spade::handles::UndirectedEdgeHandle;
-use spade::{DelaunayTriangulation, HasPosition, Point2, Triangulation as _};
-use std::collections::BTreeSet;
+use super::border::trimmed;
+use super::slopes::slopes;
+use spade::{DelaunayTriangulation, HasPosition, Point2, PositionInTriangulation, Triangulation as _};
+use std::collections::{BTreeMap, BTreeSet};
 
-/// A sample of a surface.
+/// Position of a sample on the map.
 #[derive(Clone, Copy, Debug)]
-struct Sample {
-    at: [f64; 2],
-    depth: f64,
-}
+struct At([f64; 2]);
 
-impl HasPosition for Sample {
+impl HasPosition for At {
     type Scalar = f64;
 
     fn position(&self) -> Point2<f64> {
-        Point2::new(self.at[0], self.at[1])
+        Point2::new(self.0[0], self.0[1])
     }
+}
+
+/// Depth \[m\] as a function of the position on the map \[m\].
+///
+/// In a Delaunay triangle of samples with depths z_i, slopes g_i and barycentric coordinates λ_i it is the mean of the plane
+/// `Σ λ_i z_i` and of the tangent planes `Σ λ_i (z_i + g_i (x - x_i))`. Their errors on a quadratic surface are
+/// `± Σ λ_i (x - x_i) H (x - x_i)/2`, so that the mean is exact there.
+#[derive(Debug)]
+pub struct Depths {
+    triangulation: DelaunayTriangulation<At>,
+    /// East, north and depth of the samples.
+    samples: Vec<[f64; 3]>,
+    /// Corners of the triangles by their number in the triangulation, without those left out at the border.
+    faces: BTreeMap<usize, [usize; 3]>,
+    slopes: Vec<[f64; 2]>,
 }
 
 /// A contour.
@@ -29,17 +42,15 @@ pub struct Line {
     pub closed: bool,
 }
 
-/// Exponent of the squared distance in the weights of the gradients: that of Sibson (1981), with which the interpolation
-/// has continuous slopes.
-const FLATNESS: f64 = 0.5;
+/// An edge between two samples, the smaller number first.
+pub(super) type Edge = [usize; 2];
 
-/// Depth \[m\] as a function of the position on the map \[m\]: the interpolation of Sibson (1981) between natural
-/// neighbours, which has continuous slopes.
-#[derive(Debug)]
-pub struct Depths {
-    triangulation: DelaunayTriangulation<Sample>,
-    gradients: Vec<[f64; 2]>,
-    range: [f64; 2],
+/// Edges of a triangle.
+pub(super) fn edges(corners: &[usize; 3]) -> [Edge; 3] {
+    [0, 1, 2].map(|k| {
+        let (a, b) = (corners[k], corners[(k + 1) % 3]);
+        [a.min(b), a.max(b)]
+    })
 }
 
 impl Depths {
@@ -48,91 +59,108 @@ impl Depths {
     /// # Errors
     /// [`SheetError`] if the samples span no surface or contradict each other.
     pub fn new(samples: &[[f64; 3]]) -> Result<Self, SheetError> {
-        let mut triangulation: DelaunayTriangulation<Sample> = DelaunayTriangulation::new();
-        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+        let mut triangulation: DelaunayTriangulation<At> = DelaunayTriangulation::new();
+        let mut kept: Vec<[f64; 3]> = Vec::new();
         for &[x, y, depth] in samples {
-            let few = |_| SheetError::Few { positions: 0 };
-            let before = triangulation.num_vertices();
-            let sample = Sample { at: [x, y], depth };
-            if let Some(vertex) = triangulation.locate_vertex(sample.position()) {
-                let other = vertex.data().depth;
+            if let Some(vertex) = triangulation.locate_vertex(Point2::new(x, y)) {
+                let other = kept[vertex.index()][2];
                 if other != depth {
                     return Err(SheetError::Twice { at: [x, y], depths: [other, depth] });
                 }
                 continue;
             }
-            triangulation.insert(sample).map_err(few)?;
-            debug_assert!(triangulation.num_vertices() == before + 1);
-            range = [range[0].min(depth), range[1].max(depth)];
+            let few = |_| SheetError::Few { positions: kept.len() };
+            triangulation.insert(At([x, y])).map_err(few)?;
+            kept.push([x, y, depth]);
         }
-        if triangulation.num_inner_faces() == 0 {
-            return Err(SheetError::Few { positions: triangulation.num_vertices() });
+        let corners = |face: spade::handles::FaceHandle<'_, spade::handles::InnerTag, At, (), (), ()>| {
+            (face.index(), face.vertices().map(|vertex| vertex.index()))
+        };
+        let faces = trimmed(&kept, triangulation.inner_faces().map(corners).collect());
+        if faces.is_empty() {
+            return Err(SheetError::Few { positions: kept.len() });
         }
-        let neighbours = triangulation.natural_neighbor();
-        let gradients =
-            triangulation.vertices().map(|v| neighbours.estimate_gradient(v, |v| v.data().depth)).collect();
-        Ok(Self { triangulation, gradients, range })
+        let slopes = slopes(&kept, faces.values());
+        Ok(Self { triangulation, samples: kept, faces, slopes })
     }
 
     /// Least and largest depth of the samples \[m\].
     #[must_use]
     pub fn range(&self) -> [f64; 2] {
-        self.range
+        let depths = self.samples.iter().map(|sample| sample[2]);
+        depths.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| [low.min(z), high.max(z)])
     }
 
     /// Depth at a position \[m\]; `None` outside the samples.
     #[must_use]
     pub fn at(&self, x: [f64; 2]) -> Option<f64> {
-        let neighbours = self.triangulation.natural_neighbor();
-        let depth = |v: spade::handles::VertexHandle<'_, Sample, _, _, _>| v.data().depth;
-        neighbours
-            .interpolate_gradient(depth, |v| self.gradients[v.index()], FLATNESS, Point2::new(x[0], x[1]))
-            .filter(|depth| depth.is_finite())
+        let corners = self.around(x)?;
+        let [a, b, c] = corners.map(|n| &self.samples[n]);
+        let area = |p: &[f64; 2], q: &[f64; 3], r: &[f64; 3]| {
+            (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
+        };
+        let whole = area(&[a[0], a[1]], b, c);
+        let shares = [area(&x, b, c) / whole, area(&x, c, a) / whole, area(&x, a, b) / whole];
+        let value = |(share, n): (f64, usize)| {
+            let (sample, slope) = (&self.samples[n], &self.slopes[n]);
+            let tangent = slope[0] * (x[0] - sample[0]) + slope[1] * (x[1] - sample[1]);
+            share * (sample[2] + 0.5 * tangent)
+        };
+        Some(shares.into_iter().zip(corners).map(value).sum())
     }
 
-    /// Contours of a depth of the plane triangles between samples, each from border to border or closed, as positions \[m\].
+    /// Corners of a triangle that contains a position.
+    fn around(&self, x: [f64; 2]) -> Option<[usize; 3]> {
+        let of = |face: usize| self.faces.get(&face).copied();
+        match self.triangulation.locate(Point2::new(x[0], x[1])) {
+            PositionInTriangulation::OnFace(face) => of(face.index()),
+            PositionInTriangulation::OnEdge(edge) => {
+                let edge = self.triangulation.directed_edge(edge);
+                let sides = [edge.face(), edge.rev().face()];
+                sides.into_iter().filter_map(|face| face.as_inner()).find_map(|face| of(face.index()))
+            }
+            PositionInTriangulation::OnVertex(vertex) => {
+                let vertex = self.triangulation.vertex(vertex);
+                let mut faces = vertex.out_edges().filter_map(|edge| edge.face().as_inner());
+                faces.find_map(|face| of(face.index()))
+            }
+            _ => None,
+        }
+    }
+
+    /// Contours of a depth of the plane triangles between samples, each from border to border or closed.
     #[must_use]
     pub fn contours(&self, depth: f64) -> Vec<Line> {
-        let crossed = |a: &Sample, b: &Sample| (a.depth < depth) != (b.depth < depth);
-        let edges: Vec<_> = self
-            .triangulation
-            .undirected_edges()
-            .filter(|edge| {
-                let [a, b] = edge.vertices();
-                crossed(a.data(), b.data())
-            })
-            .collect();
-        let (on_border, inside): (Vec<_>, Vec<_>) =
-            edges.into_iter().partition(|edge| edge.is_part_of_convex_hull());
+        // Triangles beside the edges that cross the depth: a crossed triangle has two of them.
+        let crossed = |[a, b]: Edge| (self.samples[a][2] < depth) != (self.samples[b][2] < depth);
+        let mut beside: BTreeMap<Edge, Vec<[Edge; 2]>> = BTreeMap::new();
+        for corners in self.faces.values() {
+            let found: Vec<Edge> = edges(corners).into_iter().filter(|&edge| crossed(edge)).collect();
+            if let [a, b] = found[..] {
+                beside.entry(a).or_default().push([a, b]);
+                beside.entry(b).or_default().push([b, a]);
+            }
+        }
         let (mut seen, mut all) = (BTreeSet::new(), Vec::new());
-        for edge in on_border.iter().chain(&inside) {
-            if !seen.insert(edge.index()) {
-                continue;
+        let (open, inside): (Vec<_>, Vec<_>) = beside.iter().partition(|(_, faces)| faces.len() == 1);
+        for (closed, edge) in open.iter().map(|e| (false, e.0)).chain(inside.iter().map(|e| (true, e.0))) {
+            let mut line = Line { spots: Vec::new(), closed };
+            let mut next = Some(*edge);
+            while let Some(edge) = next.filter(|&edge| seen.insert(edge)) {
+                line.spots.push(self.crossing(edge, depth));
+                next = beside[&edge].iter().map(|[_, other]| *other).find(|other| !seen.contains(other));
             }
-            let mut line =
-                Line { spots: vec![self.crossing(edge, depth)], closed: !edge.is_part_of_convex_hull() };
-            // The way into the rock on one side; an edge of the border has one face only.
-            let directed = edge.as_directed();
-            let mut way = if directed.is_outer_edge() { directed.rev() } else { directed };
-            while let Some(next) =
-                [way.next(), way.prev()].into_iter().find(|e| crossed(e.from().data(), e.to().data()))
-            {
-                let edge = next.as_undirected();
-                line.spots.push(self.crossing(&edge, depth));
-                if !seen.insert(edge.index()) || next.rev().is_outer_edge() {
-                    break;
-                }
-                way = next.rev();
+            if !line.spots.is_empty() {
+                all.push(line);
             }
-            all.push(line);
         }
         all
     }
 
     /// Position at which an edge between two samples crosses a depth \[m\].
-    fn crossing(&self, edge: &UndirectedEdgeHandle<'_, Sample, (), (), ()>, depth: f64) -> [f64; 2] {
-        let [a, b] = edge.vertices().map(|v| *v.data());
-        let share = (depth - a.depth) / (b.depth - a.depth);
-        std::array::from_fn(|c| a.at[c] + share * (b.at[c] - a.at[c]))
+    fn crossing(&self, [a, b]: Edge, depth: f64) -> [f64; 2] {
+        let (a, b) = (&self.samples[a], &self.samples[b]);
+        let share = (depth - a[2]) / (b[2] - a[2]);
+        std::array::from_fn(|c| a[c] + share * (b[c] - a[c]))
     }
 }

@@ -3,9 +3,11 @@
 //! Contours at depths that are a height of a triangle apart down dip are divided evenly, and strips between them are
 //! filled with triangles.
 
+mod border;
 mod contour;
 mod depths;
 mod error;
+mod slopes;
 mod text;
 
 pub use depths::Depths;
