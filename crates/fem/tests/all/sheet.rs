@@ -50,7 +50,6 @@ fn triangles_of_a_cylinder_have_its_area_and_lie_on_it() {
         errors.push([(area(&sheet) / exact - 1.0).abs(), away]);
         assert!(sheet.least_angle() > 35_f64.to_radians(), "{size}: {}", sheet.least_angle().to_degrees());
     }
-    println!("{errors:?}");
     // Chords of length h are h³/(24 R²) shorter than their arcs.
     for (k, [area, away]) in errors.iter().enumerate() {
         let size = 20e3 / 2.0_f64.powi(k as i32);

@@ -1,6 +1,6 @@
 //! Triangles at the border of scattered samples that bridge its bays.
 
-use super::depths::{Edge, edges};
+use super::edges::{Edge, edges};
 use std::collections::BTreeMap;
 
 /// Cosine of the angle from which a triangle at the border is left out: 135 degrees. Borders that are straight on one map are curved on

@@ -2,6 +2,7 @@
 
 use super::SheetError;
 use super::border::trimmed;
+use super::edges::{Edge, edges};
 use super::slopes::slopes;
 use spade::{DelaunayTriangulation, HasPosition, Point2, PositionInTriangulation, Triangulation as _};
 use std::collections::{BTreeMap, BTreeSet};
@@ -40,17 +41,6 @@ pub struct Line {
     pub spots: Vec<[f64; 2]>,
     /// True if it returns to its beginning.
     pub closed: bool,
-}
-
-/// An edge between two samples, the smaller number first.
-pub(super) type Edge = [usize; 2];
-
-/// Edges of a triangle.
-pub(super) fn edges(corners: &[usize; 3]) -> [Edge; 3] {
-    [0, 1, 2].map(|k| {
-        let (a, b) = (corners[k], corners[(k + 1) % 3]);
-        [a.min(b), a.max(b)]
-    })
 }
 
 impl Depths {

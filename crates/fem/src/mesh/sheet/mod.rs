@@ -6,6 +6,7 @@
 mod border;
 mod contour;
 mod depths;
+mod edges;
 mod error;
 mod slopes;
 mod text;
