@@ -39,15 +39,11 @@ impl Entry {
 
 /// Error in a scene, of either kind.
 pub fn refusal(text: &str) -> Option<Diagnostics> {
-    refusal_in(text, &Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/meshes"))
-}
-
-/// Errors of a scene in this folder; `None` if it is accepted.
-pub fn refusal_in(text: &str, folder: &Path) -> Option<Diagnostics> {
     if scene::slider::is_slider(text) {
         return asperity_driver::slider_planner::read(text).err();
     }
-    match scene::read_in(text, folder) {
+    let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/meshes");
+    match scene::read_in(text, &meshes) {
         Err(errors) => Some(errors),
         Ok(scene) => asperity_driver::plan::plan_scene(&scene).err().map(Diagnostics::from),
     }

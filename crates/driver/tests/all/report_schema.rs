@@ -52,13 +52,20 @@ fn report(scene: &Path, arguments: &[&str]) -> Value {
     let mut run = Command::new(env!("CARGO_BIN_EXE_asperity"));
     run.arg("run").arg(scene).args(arguments).arg("--no-plots").arg("--out").arg(out.path().join("out"));
     let output = run.output().unwrap();
+    // Complete, or interrupted by the limit of wall time.
+    assert!(
+        matches!(output.status.code(), Some(0 | 3)),
+        "{}: {}",
+        scene.display(),
+        String::from_utf8_lossy(&output.stderr)
+    );
     let text = fs::read_to_string(out.path().join("out/report.json"));
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     serde_json::from_str(&text.unwrap_or_else(|e| panic!("{}: {e}\n{said}", scene.display()))).unwrap()
 }
 
 #[test]
-fn reports_of_all_scenes_keep_to_the_published_schema() {
+fn all_scenes_run_and_their_reports_keep_to_the_published_schema() {
     let (validator, mut kinds) = (validator(), Vec::new());
     for entry in fs::read_dir(root().join("scenes")).unwrap() {
         let scene = entry.unwrap().path();
@@ -72,6 +79,7 @@ fn reports_of_all_scenes_keep_to_the_published_schema() {
         assert!(validator.is_valid(&report), "{}", scene.display());
         kinds.push(report["kind"].as_str().unwrap().to_string());
     }
+    assert!(kinds.len() > 10);
     for kind in ["bodies", "dynamics", "faults", "sliders"] {
         assert!(kinds.iter().any(|k| k == kind), "no scene of {kind}");
     }

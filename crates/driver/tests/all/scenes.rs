@@ -7,19 +7,6 @@ use asperity_driver::scene::{self, units};
 use asperity_vary::Change::{Add, Push, With, Without};
 use asperity_vary::{Change, SceneText};
 use serde::Deserialize;
-use std::path::PathBuf;
-
-#[test]
-fn every_scene_of_the_repository_is_accepted() {
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
-    let mut files: Vec<PathBuf> = std::fs::read_dir(&folder).unwrap().map(|e| e.unwrap().path()).collect();
-    files.retain(|f| f.extension().is_some_and(|e| e == "toml"));
-    assert!(!files.is_empty());
-    for file in files {
-        let refused = messages::refusal_in(&std::fs::read_to_string(&file).unwrap(), &folder);
-        assert!(refused.is_none(), "{}: {}", file.display(), refused.unwrap());
-    }
-}
 
 /// The scene of two blocks with some changes.
 fn changed(changes: &[Change<'_>]) -> String {

@@ -228,7 +228,7 @@ mod tests {
     #[test]
     fn markers_keep_apart_on_a_graded_line() {
         let points: Vec<(f64, f64)> = [0.0, 0.1, 0.2, 5.0, 10.0].map(|x| (x, 0.0)).into();
-        assert_eq!(spread(&points, 3), [(5.0, 0.0), (10.0, 0.0), (0.0, 0.0)]);
+        assert_eq!(spread(&points, 3), [(5.0, 0.0), (0.0, 0.0), (10.0, 0.0)]);
     }
 
     #[test]

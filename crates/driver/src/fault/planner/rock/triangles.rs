@@ -64,8 +64,23 @@ pub(super) fn cells<const D: usize>(
     }
     notes.push(words(name, &mesh, &sizes));
     notes.extend(sides.words(name, mesh.turned));
+    if matches!(surface, FaultTriangles::Depths(_)) {
+        notes.push(sense(name, &places));
+    }
     let outline = Some(Outline { nodes: mesh.nodes, corners: mesh.corners });
     Ok(Meshed { tiles, cut: Cut { places, sizes, widths, faces: Vec::new(), outline }, notes })
+}
+
+/// Note on the sense of slip of a fault that is given by depths, whose plus side is the upper one.
+fn sense<const D: usize>(name: &str, places: &[Place<D>]) -> String {
+    // y points up.
+    let up: f64 = places.iter().map(|place| place.rake[1] * place.area).sum();
+    let way = if up > 0.0 {
+        "up dip, as above a plate that is subducted"
+    } else {
+        "down dip, as in normal faulting"
+    };
+    format!("along its `rake` the upper side of fault `{name}` moves {way}")
 }
 
 /// Longest side of a triangle, and twice the least distance of its centre from a side: a third of its least height \[m\].
