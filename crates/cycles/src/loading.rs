@@ -28,9 +28,9 @@ impl Loading {
     }
 
     /// Adds a load: shear tractions, component by component, and normal tractions of all points at unit amplitude
-    /// \[Pa\]; `normal` is empty where normal tractions do not change.
+    /// \[Pa\].
     ///
-    /// An empty `normal` leaves normal tractions as they are.
+    /// `normal` is empty where normal tractions do not change.
     pub fn add(&mut self, amplitude: Table, shear: Vec<f64>, normal: Vec<f64>) {
         self.parts.push(Part { amplitude, shear, normal });
     }
