@@ -163,14 +163,10 @@ fn between_bodies<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Dia
     let mut loads = loads(stage, &at_rest, weight);
     admit(Asked { scene, model: &model, loads: &loads, points: &points }, conditions)?;
     let bodies = model.take_stiffness();
-    let pressed = match pressing {
-        Some(pressing) => {
-            let asked = Asked { scene, model: &model, loads: &loads, points: &points };
-            let faults: Vec<usize> = placed.iter().map(|p| p.fault).collect();
-            Some(pressing::solve(asked, pressing, &faults, (&bodies, conditions))?)
-        }
-        None => None,
-    };
+    let faults: Vec<usize> = placed.iter().map(|p| p.fault).collect();
+    let asked = Asked { scene, model: &model, loads: &loads, points: &points };
+    let pressed = pressing.map(|pressing| pressing::solve(asked, pressing, &faults, (&bodies, conditions)));
+    let pressed = pressed.transpose()?;
     if let Some(pressed) = &pressed {
         loads = self::loads(stage, &pressed.displacement, Vec::new());
     }

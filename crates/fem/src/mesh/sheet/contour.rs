@@ -105,7 +105,7 @@ impl<'a> Tracer<'a> {
         None
     }
 
-    /// Contour of a depth, with the deeper side on the right of the way; `turn` reverses it if needed.
+    /// Contour of a depth along the straight lines between samples, with the deeper side on the right of the way.
     ///
     /// # Errors
     /// [`SheetError`] if the contour is closed or in several parts.

@@ -82,6 +82,7 @@ fn divided(tracer: &Tracer<'_>, line: &[Spot], depth: f64, size: f64) -> Result<
         let count = (length / size).round().max(1.0);
         let settled = |k: usize| {
             let near = on(&even, &along, length * k as f64 / count);
+            // At the border the smooth contour may lie outside the samples: the straight one ends there.
             tracer.settle(&near, depth).unwrap_or(near)
         };
         even = (0..=count as usize).map(settled).collect();
