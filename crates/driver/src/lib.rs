@@ -1,5 +1,4 @@
 #![doc = include_str!("../README.md")]
-#![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod amounts;
 pub mod balance;
@@ -14,7 +13,7 @@ pub mod diagnostic;
 pub mod difference;
 pub mod dynamic;
 pub mod fault;
-mod forecast;
+pub mod forecast;
 mod handover;
 mod held;
 mod idealisation;
@@ -23,10 +22,10 @@ pub mod initial_stress;
 pub mod loading;
 pub mod model;
 pub mod plan;
-mod refused;
+pub mod refused;
 pub mod report;
 pub mod run;
-mod run_doubts;
+pub mod run_doubts;
 pub mod ruptures;
 pub mod scene;
 mod sha256;

@@ -1,6 +1,6 @@
 //! Runs a plan: stages in sequence, steps within a stage, observers after each step.
 
-mod events;
+pub mod events;
 mod keeper;
 mod stand;
 

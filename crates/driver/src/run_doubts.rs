@@ -25,9 +25,11 @@ const SMALL_SLIDING: f64 = 1.0;
 
 /// Largest principal strain and rotation of the cells of a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Largest {
-    strain: f64,
-    rotation: f64,
+pub struct Largest {
+    /// Largest principal strain \[-\].
+    pub strain: f64,
+    /// Largest rotation \[rad\].
+    pub rotation: f64,
 }
 
 /// Warnings at the end of a stage, given the displacement of all degrees of freedom.
@@ -80,7 +82,7 @@ fn of_body(body: &str, stage: &str, largest: Largest, young: f64) -> Option<Warn
 
 /// Largest strain and rotation at the centres of the cells of a block; zero if the block accounts for large
 /// deformation.
-fn of_block<const D: usize>(model: &Model<D>, block: usize, u: &[f64]) -> Largest {
+pub fn of_block<const D: usize>(model: &Model<D>, block: usize, u: &[f64]) -> Largest {
     let followed = matches!(&model.blocks.get(block), Some(CellBlock::Nonlinear(b)) if b.model().kinematics == Kinematics::UpdatedLagrangian);
     // Antiplane motion has one component, and its equation is linear for slopes of any size.
     if followed || model.idealisation == Idealisation::Antiplane {
@@ -187,54 +189,4 @@ pub fn never_closed(results: &[InterfaceResult]) -> Vec<Warning> {
         )
     };
     names.into_iter().filter(open).map(told).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::plan::{AnyPlan, plan};
-    use crate::scene;
-
-    const BAR: &str = r#"
-schema = 1
-title = "a bar"
-kinematics = "plane-strain"
-[materials.rock]
-young = "10 GPa"
-poisson = 0.25
-[bodies.A]
-mesh.block = { min = [0, 0], max = [4, 2], divisions = [3, 2], element = "quad8" }
-material = "rock"
-[[stages]]
-name = "turn"
-duration = 1
-conditions = [{ set = "A.left", x = 0, y = 0 }]
-[time]
-stepper = "implicit"
-"#;
-
-    /// Largest strain and rotation, and the warnings, for a displacement field `u`.
-    fn told(u: impl Fn(&[f64; 2]) -> [f64; 2]) -> (Largest, Vec<String>) {
-        let AnyPlan::Two(plan) = plan(&scene::read(BAR).unwrap()).unwrap() else { panic!("a plane scene") };
-        let u: Vec<f64> = plan.problem.model.mesh.nodes.iter().flat_map(u).collect();
-        let told = after_stage(&plan, "turn", &u, &[]).into_iter().map(|w| w.message).collect();
-        (of_block(&plan.problem.model, 0, &u), told)
-    }
-
-    #[test]
-    fn a_rotation_is_no_strain_and_is_told_as_what_it_is_taken_for() {
-        let (largest, warnings) = told(|x| [-0.06 * x[1], 0.06 * x[0]]);
-        assert!((largest.rotation - 0.06).abs() < 1e-12 && largest.strain < 1e-12, "{largest:?}");
-        assert!(warnings.len() == 1 && warnings[0].contains("turns by 0.060 rad"), "{warnings:?}");
-        // 0.06²/2 times 10 GPa.
-        assert!(warnings[0].contains("1.800e7 Pa"), "{warnings:?}");
-    }
-
-    #[test]
-    fn the_principal_strain_of_simple_shear_is_half_the_slope() {
-        let (largest, warnings) = told(|x| [0.12 * x[1], 0.0]);
-        assert!((largest.strain - 0.06).abs() < 1e-12 && (largest.rotation - 0.06).abs() < 1e-12);
-        assert!(warnings.len() == 1 && warnings[0].contains("strained by 0.060"), "{warnings:?}");
-        assert!(told(|x| [0.08 * x[1], 0.0]).1.is_empty());
-    }
 }

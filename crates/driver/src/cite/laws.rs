@@ -4,8 +4,7 @@ use super::Citations;
 use crate::scene::law::{Form, LawChoice, State, Strength};
 
 /// Keys of this file, for the test of the table.
-#[cfg(test)]
-pub(super) const KEYS: [&str; 15] = [
+pub const KEYS: [&str; 15] = [
     "ida1972",
     "andrews1976",
     "dieterich1979",
@@ -43,7 +42,7 @@ pub(super) fn add(citations: &mut Citations, of: &str, law: &LawChoice) {
 }
 
 /// Sources of a law with an elastic domain. Coulomb's law, a bond, and a drop from one coefficient to another need none.
-fn yielding(kind: &str) -> &'static [&'static str] {
+pub fn yielding(kind: &str) -> &'static [&'static str] {
     match kind {
         "slip-weakening" => &["ida1972", "andrews1976"],
         _ => &[],
@@ -51,7 +50,7 @@ fn yielding(kind: &str) -> &'static [&'static str] {
 }
 
 /// Sources of an evolution law.
-fn evolved(name: &str) -> &'static [&'static str] {
+pub fn evolved(name: &str) -> &'static [&'static str] {
     match name {
         "ageing" => &["dieterich1979"],
         "slip" => &["ruina1983"],
@@ -80,26 +79,5 @@ fn add_strength(citations: &mut Citations, of: &str, strength: &Strength) {
     citations.add(key, format!("{of}: form \"{form}\" of the strength"));
     if strength.heat.is_some() {
         citations.add("chester1994", format!("{of}: temperature, `activation`"));
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::laws;
-
-    #[test]
-    fn every_evolution_that_scenes_may_name_has_a_source() {
-        for row in &laws::known().evolutions {
-            assert!(!evolved(row.name).is_empty(), "{}", row.name);
-        }
-    }
-
-    #[test]
-    fn every_kind_without_a_source_is_known_not_to_need_one() {
-        for row in &laws::known().kinds {
-            let free = ["coulomb", "static-kinetic", "tied"].contains(&row.name);
-            assert_eq!(yielding(row.name).is_empty(), free, "{}", row.name);
-        }
     }
 }

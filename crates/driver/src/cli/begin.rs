@@ -7,13 +7,13 @@ use std::fs;
 use std::path::Path;
 
 /// Name of the report file.
-pub(super) const REPORT: &str = "report.json";
+pub const REPORT: &str = "report.json";
 /// Name of the file with the scene as it was run.
 pub(super) const SCENE: &str = "scene.toml";
 /// Name of the file that says what each file of a run is.
 pub(super) const README: &str = "README.md";
 /// Name of the lock file; the lock is held while a run writes to the directory.
-pub(super) const LOCK: &str = ".lock";
+pub const LOCK: &str = ".lock";
 
 /// Input of a run.
 #[derive(Clone, Debug)]

@@ -61,8 +61,7 @@ const FOLDERS: [(&str, &[&str]); 12] = [
 ];
 
 /// Names of the files and folders.
-#[cfg(test)]
-pub(super) fn names() -> impl Iterator<Item = &'static str> {
+pub fn names() -> impl Iterator<Item = &'static str> {
     FILES.into_iter().chain(FOLDERS.iter().map(|(name, _)| *name))
 }
 

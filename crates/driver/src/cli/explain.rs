@@ -6,7 +6,7 @@ use asperity_output::printing::out;
 use miette::miette;
 
 /// Longest line \[characters\].
-const WIDTH: usize = 100;
+pub const WIDTH: usize = 100;
 
 /// Prints the rows of a key, or the keys that a scene begins with.
 pub(super) fn print(key: Option<&str>) -> miette::Result<End> {
@@ -62,7 +62,7 @@ fn table(rows: &[Row]) -> String {
 }
 
 /// Text in lines of limited length, the first of which begins with `head`.
-fn folded(head: &str, text: &str) -> String {
+pub fn folded(head: &str, text: &str) -> String {
     let indent = head.chars().count();
     let (mut lines, mut length) = (head.to_string(), indent);
     for (i, word) in text.split(' ').enumerate() {
@@ -81,7 +81,7 @@ fn folded(head: &str, text: &str) -> String {
 }
 
 /// Markdown as plain text: links without their targets, and no escapes.
-fn plain(text: &str) -> String {
+pub fn plain(text: &str) -> String {
     let mut plain = String::new();
     let mut rest = text;
     while let Some((before, after)) = rest.split_once('[') {
@@ -96,25 +96,4 @@ fn plain(text: &str) -> String {
     }
     plain += rest;
     plain.chars().filter(|c| *c != '\\').collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn markdown_becomes_plain_text() {
-        assert_eq!(plain("A [friction law](laws.md) of `kind`."), "A friction law of `kind`.");
-        assert_eq!(plain("Direction `[x, y, z]`, \\[m\\]."), "Direction `[x, y, z]`, [m].");
-    }
-
-    #[test]
-    fn long_text_is_folded_below_its_beginning() {
-        let text = folded("  key: ", &"word ".repeat(40));
-        assert!(
-            text.lines().count() == 3 && text.lines().all(|line| line.chars().count() <= WIDTH),
-            "{text}"
-        );
-        assert!(text.lines().nth(1).unwrap().starts_with("       word"), "{text}");
-    }
 }

@@ -1,25 +1,25 @@
 //! The commands of the binary.
 
 mod arguments;
-mod begin;
+pub mod begin;
 mod check;
 mod cite;
 mod compare;
-mod contents;
+pub mod contents;
 mod difference;
 mod directory;
 mod end;
-mod explain;
-mod json;
+pub mod explain;
+pub mod json;
 mod lines;
 mod manual;
 mod new;
 mod pausing;
-mod print;
+pub mod print;
 mod read;
-mod readme;
-mod signals;
-mod status;
+pub mod readme;
+pub mod signals;
+pub mod status;
 mod waves;
 mod work;
 

@@ -25,23 +25,8 @@ fn is_ignored(signal: i32) -> bool {
 }
 
 /// True if the bit of `signal` is set in `SigIgn`, whose bits count signals from 1.
-fn ignored_in(status: &str, signal: i32) -> bool {
+pub fn ignored_in(status: &str, signal: i32) -> bool {
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
     let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
     mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_ignored_signal_is_read_from_its_bit() {
-        let status = |mask: &str| format!("Name:\tasperity\nSigIgn:\t{mask}\nSigCgt:\tffffffffffffffff\n");
-        assert!(ignored_in(&status("0000000000000001"), SIGHUP));
-        assert!(ignored_in(&status("0000000000001001"), SIGHUP));
-        assert!(!ignored_in(&status("0000000000001000"), SIGHUP));
-        assert!(ignored_in(&status("0000000000004000"), SIGTERM));
-        assert!(!ignored_in("", SIGHUP));
-    }
 }

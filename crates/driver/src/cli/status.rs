@@ -20,7 +20,7 @@ struct Report {
     title: String,
     kind: String,
     status: Status,
-    reason: Option<String>,
+    pub reason: Option<String>,
     #[serde(default)]
     outcome: serde_json::Value,
     run: Run,
@@ -35,33 +35,41 @@ struct Run {
 /// State of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-enum State {
+pub enum State {
+    /// It holds the lock of its directory.
     Running,
+    /// It ended without a report of its end.
     Killed,
+    /// It ended with an error.
     Stopped,
+    /// It ended early as asked, with a checkpoint.
     Interrupted,
+    /// It reached its end.
     Completed,
 }
 
 /// Facts about the run in a directory.
 #[derive(Serialize)]
-struct Known {
-    state: State,
+pub struct Known {
+    /// State of the run.
+    pub state: State,
     title: String,
     kind: String,
     #[serde(skip_serializing_if = "Option::is_none")]
     scene: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     started: Option<String>,
+    /// Reason of the end of a stopped run.
     #[serde(skip_serializing_if = "Option::is_none")]
-    reason: Option<String>,
+    pub reason: Option<String>,
     /// True if `--resume` continues the run.
-    resumable: bool,
+    pub resumable: bool,
     /// Time since the progress was written \[s\].
     #[serde(skip_serializing_if = "Option::is_none")]
     age: Option<f64>,
+    /// Progress as it was last written.
     #[serde(skip_serializing_if = "Option::is_none")]
-    progress: Option<Record>,
+    pub progress: Option<Record>,
 }
 
 /// Prints the state of the run in a directory.
@@ -96,7 +104,11 @@ fn word(state: State) -> &'static str {
     }
 }
 
-fn known(folder: &Path) -> miette::Result<Known> {
+/// Facts about the run in `folder`.
+///
+/// # Errors
+/// If the directory holds no report that can be read.
+pub fn known(folder: &Path) -> miette::Result<Known> {
     let path = folder.join(REPORT);
     let bytes = std::fs::read(&path)
         .into_diagnostic()
@@ -144,7 +156,9 @@ fn age(written: &str) -> Option<f64> {
     Some(Timestamp::now().duration_since(written).as_secs_f64().max(0.0))
 }
 
-fn text(known: &Known) -> String {
+/// Text for people.
+#[must_use]
+pub fn text(known: &Known) -> String {
     let mut text = format!("  {} ({})\n", known.title, known.kind);
     let origin = [("scene", &known.scene), ("begun", &known.started), ("reason", &known.reason)];
     for (name, value) in origin {
@@ -165,49 +179,4 @@ fn text(known: &Known) -> String {
         text += "  no step so far: planning or setting up\n";
     }
     text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use asperity_output::progress::Now;
-
-    /// Directory of a run with this status, with its progress.
-    fn folder(status: &str) -> tempfile::TempDir {
-        let folder = tempfile::tempdir().unwrap();
-        let report = serde_json::json!({ "title": "t", "kind": "faults", "status": status, "run": {},
-            "outcome": { "stopped": { "reason": "no state" } } });
-        std::fs::write(folder.path().join(REPORT), report.to_string()).unwrap();
-        let record = Record {
-            fraction: 0.25,
-            now: Now { time: 1.0, end: 4.0, ..Now::default() },
-            seconds: 3.0,
-            seconds_left: Some(9.0),
-            bytes: None,
-            written: Timestamp::now().to_string(),
-        };
-        std::fs::write(folder.path().join(progress::FILE), serde_json::to_vec(&record).unwrap()).unwrap();
-        folder
-    }
-
-    #[test]
-    fn a_run_that_holds_its_lock_is_running_and_without_it_was_killed() {
-        let folder = folder("running");
-        assert_eq!(known(folder.path()).unwrap().state, State::Killed);
-        let lock = File::create(folder.path().join(LOCK)).unwrap();
-        lock.try_lock().unwrap();
-        let known = known(folder.path()).unwrap();
-        assert_eq!((known.state, known.resumable), (State::Running, false));
-        let text = text(&known);
-        assert!(text.contains("25.0 %") && text.contains("about 9 s left"), "{text}");
-    }
-
-    #[test]
-    fn the_end_of_a_run_is_that_of_its_report() {
-        let stopped = known(folder("stopped").path()).unwrap();
-        assert_eq!((stopped.state, stopped.reason.as_deref()), (State::Stopped, Some("no state")));
-        assert!(!text(&stopped).contains("left"));
-        assert_eq!(known(folder("completed").path()).unwrap().state, State::Completed);
-        assert!(known(Path::new("nowhere")).is_err());
-    }
 }

@@ -1,6 +1,6 @@
 //! Errors in a scene, as shown on the terminal.
 
-mod render;
+pub mod render;
 
 pub use asperity_scene::diagnostic::{Diagnostic, Diagnostics, line_column};
 pub use render::{report, report_set};

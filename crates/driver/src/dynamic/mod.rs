@@ -1,7 +1,7 @@
 //! Bodies with mass, whose faults radiate waves: planning from a scene, and the output of a run. The computation is in
 //! [`asperity_mechanics::dynamics`].
 
-mod arrivals;
+pub mod arrivals;
 mod fields;
 mod figures;
 mod keeper;

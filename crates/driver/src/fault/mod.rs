@@ -1,8 +1,8 @@
 //! Faults over many earthquake cycles: planning from a scene, and the output of a run. The computation is in [`asperity_cycles`].
 
 mod bodies;
-pub(crate) mod cadence;
-mod checkpoint;
+pub mod cadence;
+pub mod checkpoint;
 mod collections;
 mod compression;
 mod displacements;
@@ -13,7 +13,7 @@ mod files;
 mod floors;
 mod frame;
 mod heats;
-mod identity;
+pub mod identity;
 mod keeper;
 pub mod located;
 mod map;
@@ -21,8 +21,8 @@ mod moments;
 mod normal;
 mod openings;
 mod plan;
-pub(crate) mod planner;
-mod position;
+pub mod planner;
+pub mod position;
 mod receiver_tables;
 mod receivers;
 mod report;
@@ -34,7 +34,7 @@ pub(crate) mod shape;
 mod snapshots;
 mod source_time;
 mod stations;
-pub(crate) mod words;
+pub mod words;
 
 pub use bodies::BodiesView;
 pub use cadence::Cadence;

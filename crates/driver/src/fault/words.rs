@@ -5,7 +5,7 @@ use asperity_output::decimals::fixed;
 pub(crate) use asperity_output::words::time;
 
 /// A year as defined by the benchmarks \[s\].
-pub(super) const YEAR: f64 = asperity_output::words::YEAR;
+pub const YEAR: f64 = asperity_output::words::YEAR;
 
 /// Length as text, in a unit that leaves digits before the decimal point.
 pub(crate) fn length(metres: f64) -> String {

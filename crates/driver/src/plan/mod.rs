@@ -11,7 +11,7 @@ mod inertia;
 mod interfaces;
 mod linear_solver;
 mod path;
-mod penalty;
+pub mod penalty;
 mod picture;
 mod planner;
 mod pressed;

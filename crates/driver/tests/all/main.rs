@@ -36,6 +36,7 @@ mod mesh_files;
 mod meshes;
 mod messages;
 mod names;
+mod parts;
 mod report_schema;
 mod resume;
 mod resume_bodies;

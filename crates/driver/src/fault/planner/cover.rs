@@ -75,7 +75,7 @@ pub(super) fn same_faces<const D: usize>(
 }
 
 /// Part of a face: a line between two corners, or a triangle.
-struct Face<const D: usize> {
+pub struct Face<const D: usize> {
     corners: Vec<[f64; D]>,
     min: [f64; D],
     max: [f64; D],
@@ -102,7 +102,8 @@ impl<const D: usize> Face<D> {
         parts.iter().map(|p| Self::new(p.iter().map(|&k| model.mesh.nodes[nodes[k]]).collect())).collect()
     }
 
-    fn new(corners: Vec<[f64; D]>) -> Self {
+    /// Face with these corners, shape `[number]`.
+    pub fn new(corners: Vec<[f64; D]>) -> Self {
         let extreme = |pick: fn(f64, f64) -> f64| -> [f64; D] {
             std::array::from_fn(|c| corners[1..].iter().map(|x| x[c]).fold(corners[0][c], pick))
         };
@@ -112,7 +113,7 @@ impl<const D: usize> Face<D> {
     }
 
     /// True if a point lies on this part, to within `close` \[m\] along it and a fraction of its size across it.
-    fn holds(&self, x: &[f64; D], close: f64) -> bool {
+    pub fn holds(&self, x: &[f64; D], close: f64) -> bool {
         let reach = RISE * self.size;
         if (0..D).any(|c| x[c] < self.min[c] - reach || x[c] > self.max[c] + reach) {
             return false;
@@ -136,26 +137,5 @@ impl<const D: usize> Face<D> {
             std::array::from_fn(|c| shares.iter().enumerate().map(|(k, s)| s * edge(k + 1)[c]).sum());
         let off = minus(&d, &foot);
         shares.iter().all(|&s| inside(s)) && inside(rest) && dot(&off, &off).sqrt() <= reach
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_place_lies_on_a_face_within_its_corners_and_near_its_plane() {
-        let line = Face::new(vec![[0.0, 0.0], [2.0, 0.0]]);
-        assert!(
-            line.holds(&[1.0, 0.0], 1e-9) && line.holds(&[1.0, 0.1], 1e-9) && line.holds(&[2.0, 0.0], 1e-9)
-        );
-        assert!(
-            !line.holds(&[1.0, 0.3], 1e-9)
-                && !line.holds(&[2.1, 0.0], 1e-9)
-                && !line.holds(&[-0.1, 0.0], 1e-9)
-        );
-        let triangle = Face::new(vec![[0.0; 3], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]]);
-        assert!(triangle.holds(&[1.0, 1.0, 0.0], 1e-9) && triangle.holds(&[0.5, 0.5, 0.1], 1e-9));
-        assert!(!triangle.holds(&[1.1, 1.0, 0.0], 1e-9) && !triangle.holds(&[0.5, 0.5, 0.5], 1e-9));
     }
 }

@@ -161,7 +161,7 @@ pub(super) fn weight<const D: usize>(patch: &Patch, place: &Place<D>) -> f64 {
 }
 
 /// The smooth step of the benchmark TPV101 across an edge: it falls from 1 to 0 with all its derivatives continuous.
-fn smooth_step(distance: f64, edge: f64) -> f64 {
+pub fn smooth_step(distance: f64, edge: f64) -> f64 {
     0.5 * (1.0 + (edge / (distance - edge) + edge / distance).tanh())
 }
 
@@ -180,18 +180,4 @@ fn beyond_box<const D: usize>(ranges: &Outside, at: &[f64; D]) -> f64 {
 fn beyond_disc<const D: usize>(disc: &Disc, at: &[f64; D]) -> f64 {
     let squares = at.iter().zip(disc.centre.get_ref()).map(|(x, c)| (x - c.0).powi(2));
     squares.sum::<f64>().sqrt() - disc.radius.get_ref().0
-}
-
-#[cfg(test)]
-mod tests {
-    use super::smooth_step;
-
-    #[test]
-    fn the_smooth_step_falls_from_one_to_zero_and_is_one_half_between() {
-        let at = |x: f64| smooth_step(x, 3e3);
-        assert_eq!([at(1.0), at(2999.0)], [1.0, 0.0]);
-        assert!((at(1500.0) - 0.5).abs() < 1e-15);
-        // (1 + tanh(w/(x - w) + w/x))/2 at x = w/3: (1 + tanh(-3/2 + 3))/2.
-        assert!((at(1e3) - 0.5 * (1.0 + 1.5_f64.tanh())).abs() < 1e-15);
-    }
 }

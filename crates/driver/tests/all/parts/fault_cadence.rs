@@ -1,0 +1,81 @@
+use asperity_driver::fault::cadence::*;
+use asperity_driver::fault::words::YEAR;
+
+const CADENCE: Cadence = Cadence {
+    decades: 0.125,
+    slip: 4e-3,
+    longest: 1e6,
+    shortest: 0.1,
+    contours: [1e8, 1.0],
+    largest_file: 1_000_000,
+};
+
+/// Rows that are due over the steps of a history, with their rates.
+fn rows(history: &[(f64, f64)], gauge: &mut Gauge, bytes: u64) -> Vec<(f64, f64)> {
+    let (mut rows, mut before) = (Vec::new(), (f64::NAN, f64::NAN));
+    for &(time, rate) in history {
+        let due = gauge.step(&CADENCE, Reading { time, rate });
+        for (due, row) in [(due.before, before), (due.now, (time, rate))] {
+            if due {
+                rows.push(row);
+                gauge.spend(bytes, CADENCE.largest_file, time);
+            }
+        }
+        before = (time, rate);
+    }
+    rows
+}
+
+#[test]
+fn the_peak_of_a_short_event_has_a_row() {
+    // A bump of a tenth of a decade, too small for a row by itself, with a pulse of one step on top.
+    let history: Vec<(f64, f64)> = (0..1000)
+        .map(|k| (f64::from(k) * 1e-4, 1e-9 * (1.0 + 0.2 * (-(f64::from(k - 500) / 50.0).powi(2)).exp())))
+        .collect();
+    let found = rows(&history, &mut Gauge::default(), 1);
+    let peak = history.iter().map(|r| r.1).fold(0.0, f64::max);
+    assert!(found.iter().any(|r| r.1 == peak), "{found:?}");
+    assert!(found.len() < 5, "{found:?}");
+    assert!(found.windows(2).all(|w| w[0].0 < w[1].0));
+}
+
+#[test]
+fn rows_follow_change_and_slip_and_not_steps() {
+    let steps = |n: u32| -> Vec<(f64, f64)> {
+        // 1e8 s at 1e-9 m/s, then 100 s at 0.1 m/s.
+        let slow = (0..n).map(|k| (1e8 * f64::from(k) / f64::from(n), 1e-9));
+        slow.chain((0..n).map(|k| (1e8 + 100.0 * f64::from(k) / f64::from(n), 0.1))).collect()
+    };
+    let counts = [20_000, 40_000].map(|n| rows(&steps(n), &mut Gauge::default(), 1).len());
+    // One row per million seconds, then one per tenth of a second.
+    for count in counts {
+        assert!((950..=1150).contains(&count), "{count}");
+    }
+}
+
+#[test]
+fn a_file_becomes_coarser_and_never_passes_its_size() {
+    let history: Vec<(f64, f64)> =
+        (0..200_000).map(|k| (f64::from(k), if k % 2 == 0 { 1e-9 } else { 1e-3 })).collect();
+    let mut gauge = Gauge::default();
+    let found = rows(&history, &mut gauge, 100);
+    assert!(gauge.bytes <= CADENCE.largest_file && gauge.doublings > 2, "{gauge:?}");
+    assert_eq!(gauge.bytes, 100 * found.len() as u64);
+    let warning = warning(&[("a".into(), gauge)], CADENCE.largest_file).unwrap();
+    assert!(warning.message.contains("`a` first"), "{warning}");
+    assert!(asperity_driver::fault::cadence::warning(&[("a".into(), Gauge::default())], 1).is_none());
+}
+
+#[test]
+fn slow_slip_makes_profiles_as_far_apart_as_its_slip() {
+    let of = |on: f64| Cadence::new(Asked::default(), 3000.0 * YEAR, on, Some(8e-3));
+    assert_eq!(of(1e-3).contours, [5.0 * YEAR, 1.0]);
+    assert!((of(1e-8).contours[1] - 1e5).abs() < 1e-3);
+    assert_eq!(of(1e-3).contours.map(time), ["5 yr", "1 s"]);
+    assert_eq!(
+        [1e5, 0.1, 0.1 * YEAR, 2e-6, 90.0].map(time),
+        ["1.157 d", "0.1 s", "0.1 yr", "2.000e-6 s", "1.5 min"]
+    );
+    assert_eq!(of(1e-3).slip, 4e-3);
+    assert_eq!((of(1e-3).longest, of(1e-3).shortest), (0.1 * YEAR, 0.1));
+}

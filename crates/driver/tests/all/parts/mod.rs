@@ -1,0 +1,30 @@
+//! Tests of single parts of the driver.
+
+mod benchmark;
+mod checkpoint_scene;
+mod cite;
+mod cite_benchmarks;
+mod cite_laws;
+mod cite_references;
+mod cite_scene;
+mod cite_titles;
+mod cli_explain;
+mod cli_json;
+mod cli_print;
+mod cli_readme;
+mod cli_signals;
+mod cli_status;
+mod diagnostic_render;
+mod difference;
+mod dynamic_arrivals;
+mod fault_cadence;
+mod fault_checkpoint;
+mod fault_identity;
+mod fault_planner_cover;
+mod fault_planner_patches;
+mod fault_planner_resolution;
+mod forecast;
+mod plan_penalty;
+mod refused;
+mod run_doubts;
+mod run_events;
