@@ -1,6 +1,7 @@
 //! Pictures that cases draw of their own bodies and runs, by the product's plots.
 
-use super::programs::{self, Folder};
+use super::programs;
+use super::written::Folder;
 use crate::{CaseError, Ledger};
 use asperity_driver::scene::model::Scene;
 use asperity_driver::{plan, run};
@@ -88,7 +89,7 @@ pub fn stage(ledger: &mut Ledger, title: &str, scene: &Scene, stage: &str) -> Re
 /// # Errors
 /// If the run fails or writes no such plot.
 pub fn plot_of(file: &Path, plot: &str) -> Result<String, CaseError> {
-    let folder = Folder::new(&format!("plot-{plot}"))?;
+    let folder = Folder::new()?;
     let mut command = programs::asperity(&[])?;
     command.arg("run").arg(file).arg("--out").arg(folder.path().join("out"));
     programs::finished(&mut command, &[0])?;
@@ -106,7 +107,7 @@ pub fn plot(
     plot: &str,
     caption: &str,
 ) -> Result<(), CaseError> {
-    let folder = Folder::new(&format!("scene-{plot}"))?;
+    let folder = Folder::new()?;
     let file = folder.path().join("scene.toml");
     std::fs::write(&file, text)?;
     ledger.picture(title, plot_of(&file, plot)?, caption);

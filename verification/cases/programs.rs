@@ -34,33 +34,6 @@ pub fn finished(command: &mut Command, codes: &[i32]) -> Result<Output, CaseErro
     }
 }
 
-/// A temporary folder that is removed when dropped.
-pub struct Folder(PathBuf);
-
-impl Folder {
-    /// Creates an empty folder; `name` is part of its name.
-    ///
-    /// # Errors
-    /// If it cannot be created.
-    pub fn new(name: &str) -> Result<Self, CaseError> {
-        let path = std::env::temp_dir().join(format!("asperity-{name}-{}", std::process::id()));
-        std::fs::create_dir_all(&path)?;
-        Ok(Self(path))
-    }
-
-    /// Path of the folder.
-    pub fn path(&self) -> &Path {
-        &self.0
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        // A folder that cannot be removed is left among the temporary files.
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
-
 /// Contents of the files below a folder by relative path. The part `run` of `report.json`, which differs from run to
 /// run, is left out.
 ///

@@ -1,11 +1,11 @@
 //! Scenes of one slider as texts, run as the program runs them, and their output files.
 
 use crate::CaseError;
+use crate::cases::written::Folder;
 use asperity_cycles::slider::{self as cycles, Problem};
 use asperity_driver::slider::{Entry, Histories, Plan, csv};
 use asperity_driver::slider_planner;
 use asperity_ode::Outcome;
-use std::path::PathBuf;
 
 /// Columns of a history.
 pub const TIME: usize = 0;
@@ -41,16 +41,6 @@ pub fn plan(text: &str) -> Result<Problem, CaseError> {
     Ok(planned(text)?.problem)
 }
 
-/// A folder that is removed when dropped.
-struct Folder(PathBuf);
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        // A folder that cannot be removed is left among the temporary files.
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
-
 /// Numbers of a CSV file below its header, from column `first` on; other text is NaN.
 fn table(text: &str, first: usize) -> Vec<Vec<f64>> {
     let numbers = |l: &str| l.split(',').skip(first).map(|v| v.parse().unwrap_or(f64::NAN)).collect();
@@ -61,15 +51,14 @@ fn table(text: &str, first: usize) -> Vec<Vec<f64>> {
 ///
 /// # Errors
 /// If the run fails or a file cannot be written or read.
-pub fn files(name: &str, plan: &Problem) -> Result<[Vec<Vec<f64>>; 2], CaseError> {
-    let folder = Folder(std::env::temp_dir().join(format!("asperity-outputs-{name}-{}", std::process::id())));
-    std::fs::create_dir_all(&folder.0)?;
-    let mut histories = Histories::create(&folder.0, plan)?;
+pub fn files(plan: &Problem) -> Result<[Vec<Vec<f64>>; 2], CaseError> {
+    let folder = Folder::new()?;
+    let mut histories = Histories::create(folder.path(), plan)?;
     let run = cycles::run(plan, &mut histories)?;
     if let Outcome::Failed { reason } = run.outcome {
         return Err(reason.to_string().into());
     }
     histories.finish()?;
-    let history = std::fs::read_to_string(folder.0.join("history/block.csv"))?;
+    let history = folder.text("history/block.csv")?;
     Ok([table(&history, 0), table(&csv(&Entry::all(&run), &plan.names), 1)])
 }

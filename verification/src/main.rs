@@ -4,15 +4,16 @@ use asperity_driver::cli::{self, Arguments};
 use asperity_output::printing;
 use asperity_verification::case::Outcome;
 use asperity_verification::report::{self, history, junit, provenance::Provenance};
-use asperity_verification::suite::{Selection, Summary};
+use asperity_verification::suite::{Selection, Summary, execute};
 use asperity_verification::{Verdict, cases, cases::programs};
 use clap::Parser;
 use std::error::Error;
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
-/// Runs the verification cases one after another, judges their claims and writes a report.
+/// Runs the verification cases, judges their claims and writes a report.
 #[derive(Parser)]
 struct Options {
     /// Also run the long cases.
@@ -21,6 +22,9 @@ struct Options {
     /// Run only cases whose name matches this pattern (`*` any characters, `?` one).
     #[arg(long, value_name = "GLOB")]
     case: Option<String>,
+    /// Cases that run at a time. Wall times are comparable with one only.
+    #[arg(long, value_name = "NUMBER", default_value = "1")]
+    jobs: NonZeroUsize,
     /// Folder of the report.
     #[arg(long, value_name = "DIR", default_value = "target/verify")]
     out: PathBuf,
@@ -71,12 +75,7 @@ fn suite(options: &Options) -> Result<Summary, Box<dyn Error>> {
     }
     let width = chosen.iter().map(|case| case.name.len()).max().unwrap_or(0);
     printing::out(format_args!("{:width$}   hold  disagree  not covered   loose  near     time\n", "case"));
-    let mut outcomes: Vec<Outcome> = Vec::new();
-    for case in chosen {
-        let outcome = case.execute();
-        print_row(&outcome, width);
-        outcomes.push(outcome);
-    }
+    let outcomes = execute(&chosen, options.jobs, |outcome| print_row(outcome, width))?;
     let run = Provenance::gather(options.full, options.tested, start.elapsed().as_secs_f64());
     report::write(&options.out, &outcomes, &run)?;
     if let Some(path) = &options.junit {

@@ -5,7 +5,7 @@ use asperity_verification::case::Outcome;
 use asperity_verification::claim::{CONTROL_BOUNDS, Judged, Mark};
 use asperity_verification::ledger::{Draft, OrderDraft};
 use asperity_verification::report::{self, coverage, json, junit, page, provenance::Provenance};
-use asperity_verification::suite::{Selection, SelectionError, Summary};
+use asperity_verification::suite::{Selection, SelectionError, Summary, execute};
 use asperity_verification::{
     Capability, Case, CaseError, Cost, Evidence, Floor, Ledger, Plot, Series, Verdict,
 };
@@ -529,5 +529,23 @@ fn a_report_replaces_the_pages_of_an_earlier_one() {
     assert!(!written.0.join("cases/old.html").exists());
     for file in PAGES.into_iter().chain(["report.json", "cases/synthetic.json"]) {
         assert!(written.text(file).len() > 100, "{file}");
+    }
+}
+
+#[test]
+fn cases_at_a_time_end_in_the_order_of_the_list() {
+    fn slow(ledger: &mut Ledger) -> Result<(), CaseError> {
+        std::thread::sleep(std::time::Duration::from_millis(30));
+        good(ledger)
+    }
+    let named = |name: &'static str, run| Case { name, ..case(run) };
+    let cases = [named("a", slow), named("b", good), named("c", slow), named("d", good), named("e", good)];
+    let cases: Vec<&Case> = cases.iter().collect();
+    for jobs in [1, 2, 9] {
+        let mut seen = Vec::new();
+        let outcomes =
+            execute(&cases, jobs.try_into().unwrap(), |outcome| seen.push(outcome.case.name)).unwrap();
+        assert_eq!(seen, ["a", "b", "c", "d", "e"]);
+        assert!(outcomes.iter().map(|outcome| outcome.case.name).eq(seen));
     }
 }

@@ -129,6 +129,9 @@ fn verify(root: &Path, full: bool, case: Option<&str>) -> Result<(), Failure> {
     ]);
     if full {
         suite = suite.args(["--full"]);
+    } else {
+        // Many quick cases use one thread. Long cases need the memory, and their wall times are compared with those of releases.
+        suite = suite.args(["--jobs", &cores().to_string()]);
     }
     if let Some(case) = case {
         suite = suite.args(["--case", case]);
@@ -138,7 +141,11 @@ fn verify(root: &Path, full: bool, case: Option<&str>) -> Result<(), Failure> {
 
 /// Threads for tests: twice the cores, since tests of files wait for the disc.
 fn threads() -> usize {
-    2 * std::thread::available_parallelism().map_or(1, usize::from)
+    2 * cores()
+}
+
+fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
 }
 
 fn tidy(root: &Path) -> Result<(), Failure> {

@@ -4,7 +4,7 @@ mod callgrind;
 mod scenes;
 mod terms;
 
-use super::programs::Folder;
+use super::written::Folder;
 use crate::ledger::{Sheet, Table};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use callgrind::Instructions;
@@ -39,7 +39,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         ledger.not_covered("instructions by source file", "callgrind (valgrind) is not installed");
         return Ok(());
     }
-    let folder = Folder::new("absence")?;
+    let folder = Folder::new()?;
     let runs: Vec<Result<Measured, CaseError>> = scenes
         .into_par_iter()
         .enumerate()

@@ -1,7 +1,7 @@
 //! Meshes from files of Gmsh and Abaqus: a bar under tension, its weight, and pressures on numbered faces.
 
-use super::programs::Folder;
 use super::texts;
+use super::written::Folder;
 use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_vary::SceneText;
@@ -226,7 +226,7 @@ impl Cell {
 
 /// Pressure on each face in turn, held by another one: the force on that one is opposite to the pressure.
 fn faces(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let folder = Folder::new("mesh-files")?;
+    let folder = Folder::new()?;
     for cell in &CELLS {
         let (mut found, mut expected, mut cost) = (Vec::new(), Vec::new(), Cost::default());
         for (k, normal) in cell.faces.iter().enumerate() {

@@ -3,7 +3,8 @@
 mod scenes;
 mod sliders;
 
-use super::programs::{self, Folder};
+use super::programs;
+use super::written::Folder;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use rayon::prelude::*;
 use scenes::Interrupted;
@@ -41,7 +42,7 @@ pub struct Parts {
 }
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let folder = Folder::new("restarts")?;
+    let folder = Folder::new()?;
     let runs: Vec<Result<Parts, CaseError>> = scenes::all()?
         .into_par_iter()
         .enumerate()

@@ -1,7 +1,8 @@
 //! Spring-sliders with frequent restarts: the program's own are too far apart for the small runs of a case.
 
 use super::Parts;
-use crate::cases::programs::{self, Folder};
+use crate::cases::programs;
+use crate::cases::written::Folder;
 use crate::{CaseError, Cost};
 use asperity_cycles::slider::{Problem, resume};
 use asperity_driver::checkpoint::Pauses;
@@ -52,7 +53,7 @@ pub fn run() -> Result<Vec<Parts>, CaseError> {
 }
 
 fn in_parts(name: &'static str, problem: &Problem) -> Result<Parts, CaseError> {
-    let folder = Folder::new("restarts-sliders")?;
+    let folder = Folder::new()?;
     let [whole, parts] = ["whole", "parts"].map(|name| folder.path().join(name));
     let (_, cost) = Cost::of(|| part(problem, &whole, None));
     let mut interruptions = 0;

@@ -238,7 +238,7 @@ fn imposed(course: &[(f64, f64)], law: &str) -> Result<Vec<f64>, CaseError> {
     let times: Vec<f64> = instants(course).iter().map(|i| i.0).collect();
     let rest = format!("[time]\nend = {begin:?}\ntolerance = 1e-12\n[output]\ntimes = {times:?}");
     let slider = format!("rate = {{ table = [{}] }}", table.join(", "));
-    let [rows, _] = files("laws", &plan(&text("", &slider, law, &rest))?)?;
+    let [rows, _] = files(&plan(&text("", &slider, law, &rest))?)?;
     let at = |time: &f64| rows.iter().find(|row| row[TIME] == *time).map_or(f64::NAN, |row| row[FRICTION]);
     Ok(times.iter().map(at).collect())
 }
@@ -373,7 +373,7 @@ fn cycles(
     );
     let scene =
         on_spring("[load]\nrate = \"1 um/s\"", (name, own), (stiffness, "start = \"1.5 um/s\""), &rest);
-    let (read, cost) = Cost::of(|| files("law-cycles", &plan(&scene)?));
+    let (read, cost) = Cost::of(|| files(&plan(&scene)?));
     let [_, events] = read?;
     let found: Vec<f64> = events.iter().map(|e| e[1]).collect();
     let recurrence = expected[expected.len() - 1] - expected[expected.len() - 2];
@@ -417,7 +417,7 @@ fn hold(ledger: &mut Ledger, reference: &Independent, law: (&str, &str)) -> Resu
         "[load]\nrate = { table = [[\"0 s\", \"0 m/s\"], [\"100 s\", \"0 m/s\"], [\"100 s\", \"1 um/s\"]] }";
     let rest = format!("[time]\nend = \"200 s\"\ntolerance = 1e-13\n[output]\ntimes = {times:?}");
     let scene = on_spring(load, law, (5.0 * CRITICAL, "start = \"1 um/s\""), &rest);
-    let (read, cost) = Cost::of(|| files("law-holds", &plan(&scene)?));
+    let (read, cost) = Cost::of(|| files(&plan(&scene)?));
     let [rows, _] = read?;
     let at = |time: &f64, column: usize| {
         rows.iter().find(|row| row[TIME] == *time).map_or(f64::NAN, |row| row[column])

@@ -81,7 +81,7 @@ fn velocity_steps(ledger: &mut Ledger) -> Result<(), CaseError> {
         for (evolution, b) in [("ageing", 0.015), ("ageing", -0.005), ("slip", 0.015), ("slip", -0.005)] {
             let law = law(evolution, &b.to_string(), "l = \"10 um\"");
             let rest = "[time]\nend = \"200 s\"\ntolerance = 1e-11\n[output]\ninterval = \"0.3 s\"";
-            let [rows, _] = files("steps", &plan(&text("", course, &law, rest))?)?;
+            let [rows, _] = files(&plan(&text("", course, &law, rest))?)?;
             let asked: Vec<f64> = (0..=666).map(|k| 0.3 * f64::from(k)).collect();
             missed += u64::from(rows.len() != asked.len());
             for (row, &time) in rows.iter().zip(&asked) {
@@ -155,7 +155,7 @@ const SPRING: [f64; 3] = [1.25e9, 5e6, 1e-6];
 fn cycles(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError> {
     let mut plan = plan(SHIPPED)?;
     plan.tolerance = 1e-10;
-    let (read, cost) = Cost::of(|| files("cycles", &plan));
+    let (read, cost) = Cost::of(|| files(&plan));
     let [rows, events] = read?;
     let expected = reference.numbers("mild_ageing", "crossings_s")?;
     let recurrence = reference.number("mild_ageing", "last_interval_s")?;
@@ -232,8 +232,8 @@ fn balance(ledger: &mut Ledger, events: &[Vec<f64>], cost: &Cost) {
 fn backwards(ledger: &mut Ledger) -> Result<(), CaseError> {
     let scene = SceneText::new(SHIPPED).add("time.tolerance", "1e-10");
     let back = scene.clone().with("load.rate", "-1 um/s").with("sliders.block.start", "-1.5 um/s");
-    let forth = files("forth", &plan(&scene.text()?)?)?[1].clone();
-    let (back, cost) = Cost::of(|| files("back", &plan(&back.text()?)?));
+    let forth = files(&plan(&scene.text()?)?)?[1].clone();
+    let (back, cost) = Cost::of(|| files(&plan(&back.text()?)?));
     let back = &back?[1];
     let [stiffness, _, load] = SPRING;
     let lost = |e: &[f64]| stiffness * (e[EVENT_SLIP].abs() - load * e[DURATION]);
@@ -301,8 +301,7 @@ fn healed(evolution: &str, hold: f64) -> Result<f64, CaseError> {
     );
     let rest = format!("[time]\nend = \"{} s\"\n[output]\nchange = 0.01", go + 200.0);
     let slider = "stiffness = \"12.5 GPa/m\"\ndamping = \"5 MPa s/m\"";
-    let [rows, _] =
-        files("holds", &plan(&text(&load, slider, &law(evolution, "0.015", "l = \"10 um\""), &rest))?)?;
+    let [rows, _] = files(&plan(&text(&load, slider, &law(evolution, "0.015", "l = \"10 um\""), &rest))?)?;
     let after = rows.iter().filter(|r| r[TIME] >= go);
     Ok(after.map(|r| r[FRICTION]).fold(0.0, f64::max) - MU0)
 }
@@ -316,7 +315,7 @@ fn strengthening(ledger: &mut Ledger) -> Result<(), CaseError> {
         for evolution in definitions().into_iter().filter(|row| row.is_plain()) {
             let law = law(evolution.name, "-0.005", "l = \"10 um\"");
             let scene = text(load, "stiffness = \"5 GPa/m\"", &law, "[time]\nend = \"600 s\"");
-            let [rows, _] = files("strengthening", &plan(&scene)?)?;
+            let [rows, _] = files(&plan(&scene)?)?;
             last.push(rows.last().ok_or("no row")?[FRICTION]);
         }
         Ok(last)
@@ -409,7 +408,7 @@ fn drawn(ledger: &mut Ledger) -> Result<(), CaseError> {
             names[0],
             names[1],
         );
-        let (rows, cost) = Cost::of(|| files("drawn", &plan(&scene)?));
+        let (rows, cost) = Cost::of(|| files(&plan(&scene)?));
         let [rows, _] = rows?;
         let traction = |row: &[f64]| NORMAL * row[FRICTION] + 4e6 * row[RATE];
         let first = traction(rows.first().ok_or("no rows")?);
@@ -440,9 +439,9 @@ fn between_steps(ledger: &mut Ledger) -> Result<(), CaseError> {
         let rest = "[time]\nend = \"40 s\"\n[output]\ninterval = \"0.1 s\"";
         Ok(Problem { method, tolerance, ..plan(&text(load, slider, &law, rest))? })
     };
-    let [reference, _] = files("reference", &problem(Method::Radau5, 1e-13)?)?;
+    let [reference, _] = files(&problem(Method::Radau5, 1e-13)?)?;
     for method in [Method::Tsit5, Method::Dop853, Method::Radau5, Method::Switching] {
-        let (rows, cost) = Cost::of(|| files("between", &problem(method, LOOSE)?));
+        let (rows, cost) = Cost::of(|| files(&problem(method, LOOSE)?));
         let [rows, _] = rows?;
         let apart = rows.iter().zip(&reference).map(|(row, exact)| (row[RATE] / exact[RATE]).ln().abs());
         ledger
