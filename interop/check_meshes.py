@@ -9,6 +9,7 @@ one of them does not read are listed below, so that a change is noticed.
 """
 
 import contextlib
+import copy
 import io
 import json
 import sys
@@ -128,22 +129,49 @@ def check_meshio(name, path, ours):
     return compared
 
 
-def main():
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
-    summary = json.loads(Path(sys.argv[1]).read_text(encoding="utf-8"))
-    folder = Path(sys.argv[2])
-    expect(summary, "no files")
+def check(summary, folder):
+    """Problems of a summary, the number of files compared with Gmsh, and of cells with meshio."""
+    problems.clear()
     compared = by_reference = 0
     for name, ours in summary.items():
         if name.endswith(".msh"):
             check_gmsh(name, folder / name, ours)
             by_reference += 1
         compared += check_meshio(name, folder / name, ours)
-    for problem in problems:
+    return list(problems), by_reference, compared
+
+
+def damages(summary):
+    """Damaged copies of the summary of one file that both programs read."""
+    name = next(n for n in summary if n.endswith(".msh") and n not in NOT_MESHIO and summary[n]["cell_sets"])
+    one = {name: summary[name]}
+
+    def changed(change):
+        damaged = copy.deepcopy(one)
+        change(damaged[name])
+        return damaged
+
+    kind = next(iter(one[name]["cells"]))
+    group = next(iter(one[name]["cell_sets"]))
+    yield "a node less", changed(lambda s: s.update({"nodes": s["nodes"] - 1}))
+    yield "a cell less", changed(lambda s: s["cells"][kind].pop())
+    yield "nodes of a cell in another order", changed(lambda s: s["cells"][kind][0].reverse())
+    yield "a cell more in a group", changed(lambda s: s["cell_sets"].update({group: s["cell_sets"][group] + 1}))
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    summary = json.loads(Path(sys.argv[1]).read_text(encoding="utf-8"))
+    folder = Path(sys.argv[2])
+    found, by_reference, compared = check(summary, folder)
+    tried = list(damages(summary))
+    found += [f"{what} is not noticed" for what, damaged in tried if not check(damaged, folder)[0]]
+    for problem in found:
         print(problem, file=sys.stderr)
-    print(f"{len(summary)} files, {by_reference} against Gmsh, {compared} cells against meshio, {len(problems)} problems")
-    sys.exit(1 if problems else 0)
+    files = f"{len(summary)} files, {by_reference} against Gmsh, {compared} cells against meshio"
+    print(f"{files}, {len(tried)} damaged summaries tried, {len(found)} problems")
+    sys.exit(1 if found or not summary else 0)
 
 
 if __name__ == "__main__":
