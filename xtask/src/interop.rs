@@ -60,6 +60,8 @@ pub fn run(root: &Path) -> Result<(), Failure> {
     let outputs = ["out/sandwich"].into_iter().chain(RUNS.map(|run| run.1));
     let tables: Vec<&str> = ["interop/check_tables.py"].into_iter().chain(outputs.clone()).collect();
     check("interop of tables", &tables)?;
+    let pages: Vec<&str> = ["interop/check_page.py"].into_iter().chain(outputs.clone()).collect();
+    check("interop of pages", &pages)?;
     let program = root.join("target/release/asperity").display().to_string();
     let json: Vec<&str> = ["interop/check_json.py", &program, "scenes"].into_iter().chain(outputs).collect();
     check("interop of schemas", &json)?;

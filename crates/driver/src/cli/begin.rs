@@ -12,6 +12,8 @@ pub const REPORT: &str = "report.json";
 pub(super) const SCENE: &str = "scene.toml";
 /// Name of the file that says what each file of a run is.
 pub(super) const README: &str = "README.md";
+/// Name of the page of a run for browsers.
+pub const PAGE: &str = "report.html";
 /// Name of the lock file; the lock is held while a run writes to the directory.
 pub const LOCK: &str = ".lock";
 

@@ -1,4 +1,4 @@
-//! The command `compare`: a result with a benchmark, or two output directories.
+//! The command `compare`: a result with a benchmark or with reference values in a file, or two output directories.
 
 use super::difference;
 use super::end::End;
@@ -15,7 +15,7 @@ pub struct Comparison {
     /// Table of results (CSV) for a benchmark, or an output directory.
     #[arg(required_unless_present_any = ["list", "template"])]
     result: Option<PathBuf>,
-    /// Output directory to compare with the first.
+    /// Output directory to compare with the first, or reference values (JSON) in the form of a benchmark.
     #[arg(conflicts_with_all = ["benchmark", "template", "list"])]
     other: Option<PathBuf>,
     /// Relative difference up to which two directories agree, over the largest value of a column; 1e-6 by default.
@@ -45,6 +45,12 @@ pub(super) fn execute(asked: &Comparison) -> miette::Result<End> {
         return Ok(End::Done);
     }
     if let (Some(a), Some(b)) = (&asked.result, &asked.other) {
+        if b.extension().is_some_and(|end| end == "json") {
+            return match read(b) {
+                Ok(reference) => judge(asked, reference, a),
+                Err(why) => Ok(End::Unreadable(why)),
+            };
+        }
         return Ok(difference::directories(a, b, asked.tolerance.unwrap_or(difference::TOLERANCE)));
     }
     let name = asked.benchmark.as_deref().unwrap_or_default();
@@ -73,6 +79,22 @@ fn list() {
     let width = benchmark::all().iter().map(|r| r.benchmark.len()).max().unwrap_or(0);
     for reference in benchmark::all() {
         printing::out(format_args!("{:width$}  {}\n", reference.benchmark, reference.title));
+    }
+}
+
+/// Reads reference values from a file.
+fn read(path: &Path) -> Result<&'static Reference, String> {
+    let name = path.display();
+    let bytes = std::fs::read(path).map_err(|error| format!("cannot read {name}: {error}"))?;
+    let reference: Reference = serde_json::from_slice(&bytes).map_err(|error| {
+        format!("{name}: {error}; reference values have the form of a benchmark's reference.json")
+    })?;
+    let problems = reference.problems();
+    // As those of benchmarks, they are needed to the end of the program, which this command is.
+    if problems.is_empty() {
+        Ok(Box::leak(Box::new(reference)))
+    } else {
+        Err(format!("{name}: {}", problems.join("; ")))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Contents of an output directory, and the check that a run may begin there.
 
-use super::begin::{Begin, LOCK, README, REPORT, SCENE};
+use super::begin::{Begin, LOCK, PAGE, README, REPORT, SCENE};
 use crate::checkpoint;
 use crate::report::Status;
 use asperity_output::progress;
@@ -13,8 +13,9 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Files that runs write to their directory.
-const FILES: [&str; 27] = [
+const FILES: [&str; 28] = [
     REPORT,
+    PAGE,
     SCENE,
     README,
     progress::FILE,

@@ -3,6 +3,7 @@
 use super::begin::{Begin, LOCK, REPORT, SCENE};
 use super::contents::{self, Contents};
 use super::json;
+use super::page::{self, Texts};
 use super::readme;
 use crate::checkpoint;
 use crate::forecast;
@@ -35,6 +36,8 @@ enum Room {
 pub(super) struct Directory {
     path: PathBuf,
     begin: Begin,
+    /// The plan as printed; empty before the scene was planned.
+    plan: String,
     room: Room,
     /// Lock held for the duration of the run.
     _lock: Option<File>,
@@ -68,7 +71,7 @@ impl Directory {
         } else {
             lock
         };
-        let directory = Self { path: path.to_path_buf(), begin, room, _lock: lock };
+        let directory = Self { path: path.to_path_buf(), begin, plan: String::new(), room, _lock: lock };
         directory.sketch(Status::Running, None)?;
         Ok(directory)
     }
@@ -96,10 +99,16 @@ impl Directory {
         }
     }
 
+    /// Takes the plan as printed, for the page of the run.
+    pub fn planned(&mut self, plan: String) {
+        self.plan = plan;
+    }
+
     /// Writes the final report, with the hashes of the mesh files.
     pub fn write<P: Results>(&self, results: &P, meshes: &BTreeMap<String, String>) -> miette::Result<()> {
         let status = results.outcome().status();
-        self.report(status, Some(results.seconds()), Some(meshes), results)?;
+        let text = self.report(status, Some(results.seconds()), Some(meshes), results)?;
+        self.show(&text);
         self.describe();
         Ok(())
     }
@@ -109,13 +118,22 @@ impl Directory {
         let _ = readme::write(&self.path, &self.begin.title);
     }
 
+    /// Writes the page of the run. It holds nothing that is not in other files: a run continues where it cannot be written.
+    fn show(&self, report: &str) {
+        let texts = Texts { plan: &self.plan, scene: &self.begin.text };
+        if let Ok(report) = serde_json::from_str(report) {
+            let _ = page::write(&self.path, &report, &texts);
+        }
+    }
+
+    /// Writes a report, and returns its text.
     fn report(
         &self,
         status: Status,
         seconds: Option<Phases>,
         meshes_sha256: Option<&BTreeMap<String, String>>,
         results: impl Serialize,
-    ) -> miette::Result<()> {
+    ) -> miette::Result<String> {
         let Begin { title, hash: scene_sha256, origin, kind, .. } = &self.begin;
         let (threads, peak_bytes) = (rayon::current_num_threads(), forecast::most_so_far());
         let report = Report {
@@ -131,7 +149,8 @@ impl Directory {
         };
         let text = json::pretty(&report).into_diagnostic()?;
         atomic::write(&self.path.join(REPORT), text.as_bytes())
-            .map_err(|e| miette!("cannot write the report: {e}"))
+            .map_err(|e| miette!("cannot write the report: {e}"))?;
+        Ok(text)
     }
 
     /// Cleans up after an error: undoes all changes if nothing was computed; otherwise the report records the error.
@@ -169,7 +188,7 @@ impl Directory {
     }
 
     fn sketch(&self, status: Status, reason: Option<String>) -> miette::Result<()> {
-        self.report(status, None, None, Sketch { reason })
+        self.report(status, None, None, Sketch { reason }).map(|_| ())
     }
 }
 

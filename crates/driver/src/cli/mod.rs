@@ -14,6 +14,7 @@ pub mod json;
 mod lines;
 mod manual;
 mod new;
+pub mod page;
 mod pausing;
 pub mod print;
 mod read;
@@ -101,6 +102,7 @@ fn run(source: Source, directory: &mut Directory, drawn: bool, pauses: &Pausing)
         source.plan()?
     };
     print::plan(&ready.plan);
+    directory.planned(print::plan_text(&ready.plan));
     lines::planned(&mut ready);
     let mut ruptures = match &mut ready.plan {
         Planned::Faults(plan) => plan.ruptures.take(),

@@ -7,13 +7,17 @@ use asperity_output::printing::out;
 
 /// Prints the plan and its checks.
 pub(super) fn plan(plan: &Planned) {
+    out(format_args!("{}{}", plan_text(plan), plan.checks()));
+}
+
+/// The plan as printed, without its checks.
+pub(super) fn plan_text(plan: &Planned) -> String {
     match plan {
-        Planned::Bodies(plan) => out(format_args!("{}", plan.summary())),
-        Planned::Sliders(plan) => out(format_args!("{}", plan.summary())),
-        Planned::Faults(plan) => out(format_args!("{}", plan.summary())),
-        Planned::Dynamic(plan) => out(format_args!("{}", plan.summary())),
+        Planned::Bodies(plan) => plan.summary().to_string(),
+        Planned::Sliders(plan) => plan.summary().to_string(),
+        Planned::Faults(plan) => plan.summary().to_string(),
+        Planned::Dynamic(plan) => plan.summary().to_string(),
     }
-    out(format_args!("{}", plan.checks()));
 }
 
 /// Prints the results of a run of bodies.

@@ -1,13 +1,14 @@
 //! `README.md` of an output directory: what each file there is.
 
-use super::begin::{LOCK, README, REPORT, SCENE};
+use super::begin::{LOCK, PAGE, README, REPORT, SCENE};
 use crate::checkpoint;
 use asperity_output::{OutputError, atomic, progress};
 use std::fs;
 use std::path::Path;
 
 /// Files and folders of runs, with what they are.
-const MEANINGS: [(&str, &str); 38] = [
+const MEANINGS: [(&str, &str); 39] = [
+    (PAGE, "plan, checks, pictures, costs and warnings in one page for browsers, without other files"),
     (REPORT, "status, results, counts, times, provenance: begin here"),
     (SCENE, "the scene as it was run, with the values of `--set`; mesh files are relative to the scene file"),
     (progress::FILE, "progress of the run; removed when it is complete"),

@@ -15,8 +15,9 @@ use crate::run::{self, RunError};
 use crate::ruptures::Ruptures;
 use crate::slider;
 use crate::warning::Warning;
+use asperity_output::plots::{self, EventPanel, PanelEvent};
 use asperity_output::printing::{self, Form, out};
-use asperity_output::{FieldSchedule, Files, OutputError, Recorder, atomic, plots, stems};
+use asperity_output::{FieldSchedule, Files, OutputError, Recorder, atomic, stems};
 use miette::{IntoDiagnostic, miette};
 use std::path::Path;
 use std::time::Instant;
@@ -287,9 +288,23 @@ fn write_faults(
     write_located(path, plan, report, hash)?;
     if drawn {
         fault::draw(path, plan, run).into_diagnostic()?;
+        plots::draw_panel(&path.join("plots"), &panel(plan, report)).into_diagnostic()?;
     }
     fault::write_fields(path, plan, run).into_diagnostic()?;
     fault::write_bodies(path, plan, run).into_diagnostic()
+}
+
+/// Fast and slow events that have a magnitude.
+fn panel(plan: &fault::Plan, report: &fault::Report) -> EventPanel {
+    let event = |entry: &Entry| {
+        let tensor = entry.located.as_ref().map(|located| located.tensor);
+        Some(PanelEvent { onset: entry.onset, magnitude: entry.magnitude?, tensor })
+    };
+    let group =
+        |name: &str, entries: &[Entry]| (name.to_string(), entries.iter().filter_map(event).collect());
+    let slow = report.slow_events.as_deref().unwrap_or_default();
+    let groups = vec![group("events", &report.events), group("slow events", slow)];
+    EventPanel { title: plan.title.clone(), end: report.end, groups }
 }
 
 /// Writes the catalogue of all faults or interfaces as a table, and one table of each if there are several.

@@ -43,6 +43,30 @@ fn row<'a>(table: &'a str, quantity: &str) -> &'a str {
 }
 
 #[test]
+fn reference_values_in_a_file_judge_as_the_benchmark_they_are_from() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("r.csv"), INDEPENDENT).unwrap();
+    let reference = include_str!("../../../../docs/src/benchmarks/sandwich/v1/reference.json");
+    std::fs::write(folder.path().join("own.json"), reference).unwrap();
+    let judged = |arguments: &[&str]| {
+        let output = asperity(folder.path(), arguments);
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        (output.status.code(), text(output.stdout), text(output.stderr))
+    };
+    let named = judged(&["compare", "r.csv", "--benchmark", "sandwich/v1", "--no-plots"]);
+    assert_eq!(judged(&["compare", "r.csv", "own.json", "--no-plots"]), named);
+    let far = changed("mean_normal_traction", |value| Some(value + 1.0));
+    std::fs::write(folder.path().join("r.csv"), far).unwrap();
+    assert_eq!(judged(&["compare", "r.csv", "own.json", "--no-plots"]).0, Some(1));
+    for (text, why) in [("{}", "missing field"), (&reference[..400], "EOF"), ("[1]", "own.json")] {
+        std::fs::write(folder.path().join("own.json"), text).unwrap();
+        let (code, _, told) = judged(&["compare", "r.csv", "own.json"]);
+        assert!(code == Some(2) && told.contains(why) && told.contains("form of a benchmark"), "{told}");
+    }
+    assert_eq!(judged(&["compare", "r.csv", "absent.json"]).0, Some(2));
+}
+
+#[test]
 fn the_result_of_the_independent_program_agrees_and_is_drawn() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("r.csv"), INDEPENDENT).unwrap();

@@ -18,6 +18,8 @@ pub(super) struct Axis {
     pub log: bool,
     /// Label with unit.
     pub label: String,
+    /// Ticks of an axis along which the labelled values are not spread evenly: relative positions and texts. Empty for usual ticks.
+    pub own: Vec<(f64, String)>,
 }
 
 impl Axis {
@@ -33,12 +35,12 @@ impl Axis {
             // Below a ratio of 0.3 the empty part of the axis is a smaller cost than a missing zero, which misleads.
             (if lo >= 0.0 && lo < 0.3 * hi { 0.0 } else { lo - room }, hi + room)
         };
-        Self { range, log: false, label }
+        Self { range, log: false, label, own: Vec::new() }
     }
 
     /// Linear axis with exactly this range.
     pub(super) fn exact(range: (f64, f64), label: String) -> Self {
-        Self { range, log: false, label }
+        Self { range, log: false, label, own: Vec::new() }
     }
 
     /// Logarithmic axis over whole decades around the positive values, at most `decades` below the top.
@@ -46,7 +48,7 @@ impl Axis {
         let (lo, hi) = bounds(values.filter(|v| *v > 0.0)).unwrap_or((1.0, 10.0));
         let hi = hi.log10().ceil();
         let lo = lo.log10().floor().max(hi - decades).min(hi - 1.0);
-        Self { range: (lo, hi), log: true, label }
+        Self { range: (lo, hi), log: true, label, own: Vec::new() }
     }
 
     /// A logarithmic axis around the positive values, with a margin that is a fraction of their range.
@@ -55,7 +57,7 @@ impl Axis {
         let (lo, hi) = (lo.log10(), hi.log10());
         // A single value still needs a range: a factor of two to either side.
         let room = if hi - lo > FLAT { margin * (hi - lo) } else { 2.0_f64.log10() };
-        Self { range: (lo - room, hi + room), log: true, label }
+        Self { range: (lo - room, hi + room), log: true, label, own: Vec::new() }
     }
 
     /// Relative position of a value along the axis, 0..=1 inside. On a logarithmic axis smaller values are placed at its start.
@@ -67,6 +69,9 @@ impl Axis {
 
     /// Ticks: relative position along the axis, and text.
     pub(super) fn ticks(&self, about: usize) -> Vec<(f64, String)> {
+        if !self.own.is_empty() {
+            return self.own.clone();
+        }
         let (lo, hi) = self.range;
         if hi < lo {
             // A falling axis, for example of depth.
@@ -109,7 +114,7 @@ fn logarithmic_ticks((lo, hi): (f64, f64), about: usize) -> Vec<(f64, String)> {
     if let Some(ticks) = sets.into_iter().map(of).find(|ticks| ticks.len() >= 3) {
         return ticks;
     }
-    let linear = Axis { range: (10.0_f64.powf(lo), 10.0_f64.powf(hi)), log: false, label: String::new() };
+    let linear = Axis::exact((10.0_f64.powf(lo), 10.0_f64.powf(hi)), String::new());
     let (start, end) = linear.range;
     let ticks = linear.ticks(about.min(4)).into_iter();
     ticks.map(|(part, text)| (place((start + part * (end - start)).log10()), text)).collect()

@@ -9,6 +9,7 @@ use super::colour::{Rgb, viridis};
 use super::curves::{DECADES, Entry, Thinner, legend};
 use super::field::Bar;
 use super::figure::{Figure, Image, Point};
+use super::stretched::Stretched;
 use super::title::title;
 use super::units::{LENGTH, STRESS, TIME};
 use crate::stems;
@@ -250,24 +251,22 @@ impl Cycles<'_> {
     }
 
     /// Image of slip rates over distance and output rows. Rows are written by time and by change, so that events take as much
-    /// room as the time between them.
+    /// room as the time between them; the axis has the times of rows.
     fn space_time(&self, line: &Line) -> Drawn {
         let Some((y, _)) = Self::along(line) else { return Ok(None) };
-        let (mut count, mut range) = (0, Bounds::NONE);
-        self.profiles(Table::Rate, line, &mut |_, rates| {
-            count += 1;
+        let (mut times, mut range) = (Vec::new(), Bounds::NONE);
+        self.profiles(Table::Rate, line, &mut |time, rates| {
+            times.push(time);
             rates.iter().for_each(|&r| range.see(r));
         })?;
+        let count = times.len();
         if !range.any() {
             return Ok(None);
         }
         let hi = range.1.ceil();
         let lo = range.0.floor().max(hi - SHOWN).min(hi - 1.0);
-        let x = Axis::exact(
-            (0.0, count as f64),
-            "Rows of rate_profiles.csv, by time and by change of slip rate".into(),
-        );
-        let (mut figure, frame) = Self::frame(x, y);
+        let stretched = Stretched::new(&times, &self.events);
+        let (mut figure, frame) = Self::frame(stretched.axis(), y);
         title(&mut figure, &frame, &self.title, &format!("slip rate of {}", line.name));
         let columns = count.clamp(1, PIXELS.0);
         let nearest = nearest(&line.along);
@@ -283,6 +282,7 @@ impl Cycles<'_> {
         })?;
         let rgb = fastest.into_iter().map(|rate| viridis((rate - lo) / (hi - lo))).collect();
         figure.image(Image { at: frame.at, size: frame.size, columns, rgb });
+        stretched.mark(&mut figure, &frame);
         frame.draw(&mut figure);
         Bar { range: (lo, hi), above: None, label: "log₁₀ of slip rate [m/s]".into() }
             .draw(&mut figure, &frame);

@@ -4,6 +4,7 @@
 //! A plot is first built as a list of shapes (`figure::Figure`). One painter writes it as SVG, another as PNG.
 
 mod axes;
+mod ball;
 mod chart;
 mod colour;
 mod curves;
@@ -16,11 +17,13 @@ mod field;
 mod figure;
 pub(crate) mod labels;
 mod mesh;
+mod panel;
 mod png;
 mod profile;
 mod rupture;
 mod sketch;
 mod springs;
+mod stretched;
 mod style;
 mod svg;
 mod title;
@@ -31,6 +34,7 @@ pub use chart::{Chart, Measure};
 pub use cycles::{Cycles, Line, Rows, Table};
 pub use diagram::{Diagram, Failed, Scale, Series, Slope};
 pub use mesh::{Mark, MarkedSet, MeshPicture};
+pub use panel::{EventPanel, PanelEvent};
 pub use rupture::{
     EventOnFault, Line as RuptureLine, Profiles, RupturedFault, Ruptures, Shape as RuptureShape, Surface,
 };
@@ -75,6 +79,14 @@ pub fn draw_ruptures(folder: &Path, ruptures: &Ruptures<'_>) -> Result<Vec<PathB
 /// See [`draw_all`].
 pub fn draw_events(folder: &Path, events: &[EventOnFault]) -> Result<Vec<PathBuf>, OutputError> {
     write_all(folder, events.iter().flat_map(EventOnFault::figures).collect())
+}
+
+/// Draws the magnitudes of events over time into `folder` and returns the files in the order written.
+///
+/// # Errors
+/// See [`draw_all`].
+pub fn draw_panel(folder: &Path, panel: &EventPanel) -> Result<Vec<PathBuf>, OutputError> {
+    write_all(folder, panel.figure().map(|figure| ("events".to_string(), figure)).into_iter().collect())
 }
 
 /// Draws the magnitudes of velocities of the nodes of a mesh, each with its time \[s\] \[m/s\], and a strip of them, into `folder`; returns

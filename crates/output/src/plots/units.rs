@@ -56,7 +56,7 @@ pub(super) const TIME: Units = Units(&[
     unit("s", 1.0),
     later("h", 3600.0, 36_000.0),
     later("d", 86_400.0, 864_000.0),
-    later("a", 31_557_600.0, 63_115_200.0),
+    later("yr", 31_557_600.0, 63_115_200.0),
 ]);
 
 /// Energies.
@@ -121,7 +121,7 @@ mod tests {
         assert_eq!(VELOCITY.of(0.999e-6).name, "µm/s");
         assert_eq!(STRESS.of(2.3e7).name, "MPa");
         assert_eq!(TIME.of(59.66).name, "s");
-        assert_eq!(TIME.of(6.4e7).name, "a");
+        assert_eq!(TIME.of(6.4e7).name, "yr");
     }
 
     #[test]

@@ -10,6 +10,7 @@ mod cite_scene;
 mod cite_titles;
 mod cli_explain;
 mod cli_json;
+mod cli_page;
 mod cli_print;
 mod cli_readme;
 mod cli_signals;

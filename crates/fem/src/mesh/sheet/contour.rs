@@ -134,10 +134,11 @@ impl<'a> Tracer<'a> {
     /// Way down dip from `x` to a depth.
     ///
     /// # Errors
-    /// [`SheetError::Ends`] if the way leaves the data before.
+    /// [`SheetError::Ends`] if the way leaves the data before, [`SheetError::Left`] if `x` lies outside.
     pub fn down(&self, x: &Spot, to: f64) -> Result<Vec<Stop>, SheetError> {
         let mut at = *x;
-        let mut all = vec![Stop { depth: self.depths.at(at).unwrap_or(f64::NAN), length: 0.0 }];
+        let depth = self.depths.at(at).ok_or(SheetError::Left { at })?;
+        let mut all = vec![Stop { depth, length: 0.0 }];
         loop {
             let last = all[all.len() - 1];
             if last.depth >= to {

@@ -57,6 +57,12 @@ pub enum SheetError {
         /// Last position on the way, and its depth \[m\].
         at: [f64; 3],
     },
+    /// The middle of the upper contour lies outside the positions.
+    #[error("the upper contour leaves the positions of the file {}", spot(.at))]
+    Left {
+        /// Position \[m\].
+        at: [f64; 2],
+    },
     /// A contour that is shorter than a triangle.
     #[error("the contour at a depth of {:.3} km is {:.3} km long, less than the size of a triangle", km(.depth), km(.length))]
     Short {

@@ -74,6 +74,7 @@ fn refused(spec: &DepthTriangles, error: &SheetError) -> Diagnostic {
             (span, "depths increase downwards, and `unit` is that of the depths in the file")
         }
         SheetError::Ends { .. } => (spec.bottom.span(), "a smaller `bottom`, or data that reach farther"),
+        SheetError::Left { .. } => (spec.top.span(), "another `top`, or data without gaps there"),
         SheetError::Parts { depth, .. }
         | SheetError::Closed { depth, .. }
         | SheetError::Short { depth, .. } => {

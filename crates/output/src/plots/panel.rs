@@ -1,0 +1,126 @@
+//! Magnitudes of events over time, with the focal spheres of those that have one.
+
+use super::axes::{Axis, Frame};
+use super::ball::ball;
+use super::curves::{Entry, legend};
+use super::figure::{Figure, Point};
+use super::style::Style;
+use super::title::title;
+use super::units::TIME;
+use crate::located::Tensor;
+
+/// An event.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PanelEvent {
+    /// Onset \[s\].
+    pub onset: f64,
+    /// Moment magnitude.
+    pub magnitude: f64,
+    /// Moment tensor, where it is known.
+    pub tensor: Option<Tensor>,
+}
+
+/// Events of a run.
+#[derive(Clone, Debug)]
+pub struct EventPanel {
+    /// Title of the scene.
+    pub title: String,
+    /// Time from the start to the end of the run \[s\].
+    pub end: f64,
+    /// Names of groups of events, such as fast and slow ones, and their events.
+    pub groups: Vec<(String, Vec<PanelEvent>)>,
+}
+
+/// Position of the frame.
+const AT: Point = (96.0, 40.0);
+/// Size of the frame.
+const SIZE: Point = (560.0, 380.0);
+/// Width right of the frame for the legend.
+const LEGEND: f64 = 170.0;
+/// Radii of the focal spheres at the lower and at the upper end of the magnitudes.
+const RADII: (f64, f64) = (8.0, 16.0);
+/// Largest number of focal spheres; more would cover each other.
+const BALLS: usize = 40;
+/// Radius of markers.
+const MARKER: f64 = 4.0;
+/// Room above and below the magnitudes, as a share of their range.
+const MARGIN: f64 = 0.2;
+/// Least range of magnitudes, so that equal events do not fill the frame.
+const LEAST: f64 = 1.0;
+
+impl EventPanel {
+    /// The figure; `None` without events.
+    pub(super) fn figure(&self) -> Option<Figure> {
+        let all = || self.groups.iter().flat_map(|group| &group.1);
+        let (lo, hi) = all()
+            .map(|event| event.magnitude)
+            .filter(|m| m.is_finite())
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), m| (lo.min(m), hi.max(m)));
+        if lo > hi || self.end <= 0.0 {
+            return None;
+        }
+        let range = (hi - lo).max(LEAST);
+        let lo = 0.5 * (lo + hi - range);
+        let time = TIME.of(self.end);
+        let x = Axis::exact((0.0, self.end / time.factor), format!("Time [{}]", time.name));
+        let y = Axis::exact((lo - MARGIN * range, lo + (1.0 + MARGIN) * range), "Moment magnitude".into());
+        let frame = Frame { at: AT, size: SIZE, x, y };
+        let mut figure = Figure::new(AT.0 + SIZE.0 + LEGEND, AT.1 + SIZE.1 + 60.0);
+        title(&mut figure, &frame, &self.title, "events");
+        frame.grid(&mut figure);
+        let balls = all().count() <= BALLS;
+        for (k, (_, events)) in self.groups.iter().enumerate() {
+            let style = Style::of(k);
+            for event in events.iter().filter(|event| event.magnitude.is_finite()) {
+                let at = frame.point(event.onset / time.factor, event.magnitude);
+                figure.line(vec![(at.0, AT.1 + SIZE.1), at], 1.2, style.colour);
+                let share = (event.magnitude - lo) / range;
+                match &event.tensor {
+                    Some(tensor) if balls => {
+                        let radius = RADII.0 + share * (RADII.1 - RADII.0);
+                        ball(&mut figure, tensor, at, radius, style.colour);
+                    }
+                    _ => style.mark(&mut figure, at, MARKER),
+                }
+            }
+        }
+        frame.draw(&mut figure);
+        let named = self.groups.iter().enumerate().filter(|(_, group)| !group.1.is_empty());
+        let entry = |(k, group): (usize, &(String, _))| Entry {
+            name: group.0.clone(),
+            colour: Style::of(k).colour,
+            dash: &[],
+        };
+        legend(&mut figure, &frame, named.map(entry));
+        Some(figure)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::figure::Shape;
+    use super::*;
+
+    fn panel(events: usize, tensor: Option<Tensor>) -> EventPanel {
+        let one = |k: usize| PanelEvent { onset: k as f64 * 1e9, magnitude: 6.0 + 0.01 * k as f64, tensor };
+        let fast: Vec<PanelEvent> = (0..events).map(one).collect();
+        EventPanel {
+            title: "t".into(),
+            end: 1e11,
+            groups: vec![("fast".into(), fast), ("slow".into(), vec![])],
+        }
+    }
+
+    #[test]
+    fn each_event_has_a_line_and_a_focal_sphere_or_a_mark() {
+        let tensor = Tensor([0.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
+        let areas = |panel: &EventPanel| {
+            let figure = panel.figure().unwrap();
+            figure.shapes.iter().filter(|shape| matches!(shape, Shape::Area { .. })).count()
+        };
+        assert_eq!(areas(&panel(3, None)), 3);
+        assert!(areas(&panel(3, Some(tensor))) > 100);
+        assert_eq!(areas(&panel(BALLS + 1, Some(tensor))), BALLS + 1);
+        assert!(panel(0, None).figure().is_none());
+    }
+}
