@@ -249,6 +249,12 @@ impl Condensed {
         &self.reduction
     }
 
+    /// Separates S, row by row, from what recovers displacements.
+    #[must_use]
+    pub fn into_parts(mut self) -> (Vec<f64>, Interior) {
+        (std::mem::take(&mut self.reduction.schur), Interior(self))
+    }
+
     /// Amplitude and retained part h_c of each channel: the forces on the retained degrees of freedom, in addition to `S u`,
     /// are `Σ_c α_c(t) h_c`.
     pub fn channels(&self) -> impl Iterator<Item = (&Table, &[f64])> {
@@ -277,6 +283,24 @@ impl Condensed {
             body[dof] = *value;
         }
         body
+    }
+}
+
+/// The interior of a condensed body whose stiffness has been moved out: it recovers displacements, and is no term.
+#[derive(Debug)]
+pub struct Interior(Condensed);
+
+impl Interior {
+    /// Number of retained degrees of freedom.
+    #[must_use]
+    pub fn retained(&self) -> usize {
+        self.0.reduction.retained.len()
+    }
+
+    /// Displacements of the whole body at `time` for the system displacement `u`.
+    #[must_use]
+    pub fn recover(&self, u: &[f64], time: f64) -> Vec<f64> {
+        self.0.recover(u, time)
     }
 }
 

@@ -295,7 +295,7 @@ fn condensation_with_loads_holds_what_it_foretells_and_less_than_the_factor() {
         let loaded = loaded(&body);
         let (asked, told) = (loaded.asked(1), loaded.bytes(1));
         let (left, held) = peak_of(|| loaded.eliminate(usize::MAX).unwrap());
-        assert_eq!(left.row(0).len(), 61);
+        assert_eq!(left.order(), 61);
         assert!(held <= asked, "{held} of {asked}");
         // Only half of the contributions is written.
         assert!(told < asked && 2 * told > asked, "{told} of {asked}");

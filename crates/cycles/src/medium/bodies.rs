@@ -1,6 +1,6 @@
 //! Displacements of the bodies around faults under slip and loads, by one solve with the factor of the condensation.
 
-use asperity_fem::condense::Condensed;
+use asperity_fem::condense::Interior;
 use asperity_fem::jump::Jumps;
 
 /// Conversion of unknowns, some of which are jumps, to displacements.
@@ -18,7 +18,7 @@ impl<const C: usize> Jumping for Jumps<C> {
 /// Condensed bodies with their factor.
 #[derive(Debug)]
 pub struct Bodies {
-    condensed: Condensed,
+    interior: Interior,
     /// Ties of spring-loaded boundaries, then the faults, in the order in which they are converted.
     jumps: [Box<dyn Jumping>; 2],
     /// Retained unknown of the first component of slip of each point.
@@ -31,24 +31,24 @@ impl Bodies {
     /// Bodies with the jumps of their faults and the ties of spring-loaded boundaries; `rows` are the retained unknowns
     /// of the first component of slip of each point.
     pub(super) fn new<const C: usize>(
-        condensed: Condensed,
+        interior: Interior,
         jumps: Jumps<C>,
         ties: Jumps<1>,
         rows: Vec<usize>,
     ) -> Self {
-        Self { condensed, jumps: [Box::new(ties), Box::new(jumps)], rows, components: C }
+        Self { interior, jumps: [Box::new(ties), Box::new(jumps)], rows, components: C }
     }
 
     /// Displacements of all nodes \[m\], node by node, under the loads at `time` \[s\]. The argument holds the slip of
     /// all points \[m\], component by component, followed by their openings where points may open.
     #[must_use]
     pub fn displacement(&self, slip: &[f64], time: f64) -> Vec<f64> {
-        let mut retained = vec![0.0; self.condensed.reduction().retained().len()];
+        let mut retained = vec![0.0; self.interior.retained()];
         let n = self.rows.len();
         for (i, s) in slip.iter().enumerate() {
             retained[self.rows[i % n] + i / n] = *s;
         }
-        let mut all = self.condensed.recover(&retained, time);
+        let mut all = self.interior.recover(&retained, time);
         self.jumps.iter().for_each(|jumps| jumps.displace(&mut all));
         all
     }

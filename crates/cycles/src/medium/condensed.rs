@@ -1,6 +1,7 @@
 //! Bodies condensed onto the jumps of their faults: the tractions that slip and loads cause.
 
 use super::bodies::Bodies;
+use super::forces::{Bearing, Forces, Matrix};
 use super::held;
 use super::machine::{Machine, Spring};
 use super::place::{Place, across};
@@ -8,34 +9,18 @@ use super::point::{Initial, Point};
 use super::refusal::Refusal;
 use crate::loading::Loading;
 use crate::opening::Opening;
-use crate::operator::Dense;
 use asperity_fem::FemError;
-use asperity_fem::condense::{Condensation, Condensed, Loaded, Remainder, Stiffness};
+use asperity_fem::condense::{Condensation, Condensed, Interior, Loaded, Remainder, Stiffness};
 use asperity_fem::dof::{Channel, Constraints};
 use asperity_fem::jump::{Jump, Jumps, ObliqueConstraint};
-use asperity_fem::multifrontal::DirectError;
+use asperity_fem::multifrontal::{DirectError, Triangle};
 use asperity_fem::table::Table;
-
-/// Tractions caused by slip, component by component.
-#[derive(Debug)]
-pub enum Tractions {
-    /// Slip along one direction.
-    One(Dense),
-    /// Slip along two directions: the operators of each component on itself, and those between the components where
-    /// slip in one loads the other.
-    Two {
-        /// Operators of each component on itself, with normal tractions.
-        along: Box<[Dense; 2]>,
-        /// Operators of the second component on the first and of the first on the second, without normal tractions.
-        across: Option<Box<[Dense; 2]>>,
-    },
-}
 
 /// Condensed bodies.
 #[derive(Debug)]
 pub struct Surroundings {
-    /// Tractions that slip causes.
-    pub operator: Tractions,
+    /// Forces that slip causes.
+    pub forces: Forces,
     /// Tractions that openings cause, where points may open.
     pub opening: Option<Opening>,
     /// Tractions that loads and creep cause.
@@ -53,6 +38,9 @@ pub struct Surroundings {
 /// Ratio of the change of normal traction, or of shear traction across slip, to that along slip, below which it is
 /// taken as zero. It is above the rounding of the condensation, and far below any effect of geometry.
 const UNCOUPLED: f64 = 1e-9;
+
+/// Copies of the operator while it is made: its blocks one by one, and joined.
+const PARTS: usize = 2;
 
 /// Loads and supports of the bodies.
 #[derive(Clone, Debug)]
@@ -195,12 +183,16 @@ fn with_components<const D: usize, const C: usize>(
     };
     let bearings: Vec<Bearing> = free.iter().zip(&supported).map(bearing).collect();
     let opens = bearings.iter().filter(|b| b.opens).count();
-    let operator = operator_bytes::<C>(tangents, free.len()) + Opening::memory(opens, free.len(), tangents);
+    let operator =
+        Forces::operator_bytes(C, tangents, free.len()) + Opening::memory(opens, free.len(), tangents);
     let (left, bytes) = Left::of(body, (&retained, &fixed), channels, (memory, operator), keep)
         .map_err(|e| refused(&jumps, &e))?;
-    let found = tractions::<C>(&left, tangents, &rows, &bearings, (creep, weighs));
+    let loads = Channels { all: left.channels(), creep, weighs };
+    let (matrix, interior) = left.parted();
     let ties = machine.ties().clone();
-    let bodies = left.kept().map(|condensed| Bodies::new(condensed, jumps, ties, rows));
+    let bodies = interior.map(|interior| Bodies::new(interior, jumps, ties, rows.clone()));
+    let forces = Forces { matrix, rows, bearings, tangents, presses: Vec::new(), across: false };
+    let found = tractions::<C>(forces, loads);
     Ok(Surroundings { bytes, bodies, ..found })
 }
 
@@ -231,12 +223,12 @@ impl Left {
             let rows = retained.len() + channels.len();
             let analysis = Loaded::analyse(body, retained, fixed, channels)?;
             let eliminating = analysis.bytes(analysis.threads(memory)?);
-            let bytes = eliminating.max(rows.pow(2) * size_of::<f64>() + operator);
+            let bytes = eliminating.max(Triangle::bytes(rows) + PARTS * operator);
             admit(bytes, memory, rows)?;
             return Ok((Self::Alone(analysis.eliminate(memory)?), bytes));
         }
         let analysis = Condensation::analyse(&body, retained, fixed)?;
-        let bytes = analysis.bytes() + operator;
+        let bytes = analysis.bytes() + PARTS * operator;
         admit(bytes, memory, retained.len())?;
         let system: Vec<usize> = (0..retained.len()).collect();
         let mut condensed = Condensed::new("bodies".into(), analysis.factor(memory)?, &system);
@@ -244,68 +236,30 @@ impl Left {
         Ok((Self::Kept(Box::new(condensed)), bytes))
     }
 
-    /// Forces on the retained degrees of freedom due to displacement k. By symmetry they are also the forces on k.
-    fn row(&self, k: usize) -> &[f64] {
+    /// Amplitude of each load, and the forces it causes.
+    fn channels(&self) -> Vec<(Table, Vec<f64>)> {
         match self {
-            Self::Alone(remainder) => remainder.row(k),
+            Self::Alone(remainder) => remainder.channels().map(|(a, f)| (a.clone(), f)).collect(),
+            Self::Kept(condensed) => condensed.channels().map(|(a, f)| (a.clone(), f.to_vec())).collect(),
+        }
+    }
+
+    /// The condensed matrix, and the bodies if they are kept.
+    fn parted(self) -> (Matrix, Option<Interior>) {
+        match self {
+            Self::Alone(remainder) => (Matrix::Triangle(remainder), None),
             Self::Kept(condensed) => {
-                let reduction = condensed.reduction();
-                let width = reduction.retained().len();
-                &reduction.schur()[k * width..][..width]
+                let order = condensed.reduction().retained().len();
+                let (whole, interior) = condensed.into_parts();
+                (Matrix::Whole(whole, order), Some(interior))
             }
         }
     }
-
-    /// Amplitude of each load, and the forces it causes.
-    fn channels(&self) -> Vec<(&Table, &[f64])> {
-        match self {
-            Self::Alone(remainder) => remainder.channels().collect(),
-            Self::Kept(condensed) => condensed.channels().collect(),
-        }
-    }
-
-    /// The bodies, if they are kept.
-    fn kept(self) -> Option<Condensed> {
-        match self {
-            Self::Alone(_) => None,
-            Self::Kept(condensed) => Some(*condensed),
-        }
-    }
-}
-
-/// Memory of the dense operator \[bytes\]: for each direction of slip, its tractions along all directions and its
-/// normal tractions.
-fn operator_bytes<const C: usize>(tangents: usize, points: usize) -> usize {
-    let normal = usize::from(C > 1);
-    tangents * (tangents + normal) * points.pow(2) * size_of::<f64>()
 }
 
 /// Refuses a condensation that needs more than `allowed` bytes.
 fn admit(needed: usize, allowed: usize, equations: usize) -> Result<(), FemError> {
     if needed <= allowed { Ok(()) } else { Err(DirectError::Memory { needed, allowed, equations }.into()) }
-}
-
-/// Conversion of the forces on a point to tractions.
-#[derive(Clone, Copy, Debug)]
-struct Bearing {
-    /// Tributary area \[m²; m per metre of thickness\].
-    area: f64,
-    /// True if its normal traction is constant, either because supports on both sides take its change or because the
-    /// scene says so.
-    keeps: bool,
-    /// True if it may open where its normal traction falls to zero.
-    opens: bool,
-}
-
-impl Bearing {
-    /// Traction per force, of slip or of the opening. The bodies drive slip with the opposite of the force that holds it.
-    fn per_force(&self, opening: bool) -> f64 {
-        match (opening, self.keeps) {
-            (false, _) => -1.0 / self.area,
-            (true, true) => 0.0,
-            (true, false) => 1.0 / self.area,
-        }
-    }
 }
 
 /// Refusal for an error of the condensation.
@@ -320,85 +274,59 @@ pub(super) fn refused<const C: usize>(jumps: &Jumps<C>, error: &FemError) -> Ref
 }
 
 /// Lower bound of the memory of a condensation onto this many points, some of which may open, with `components` of
-/// displacement \[bytes\]: the condensed matrix and the operator made from it.
+/// displacement \[bytes\]: the condensed matrix, and what openings cause.
 #[must_use]
 pub fn least_bytes(components: usize, tangents: usize, points: usize, opening: usize) -> usize {
     let rows = points * (tangents + usize::from(components > 1));
-    let operator = match components {
-        1 => operator_bytes::<1>(tangents, points),
-        _ => operator_bytes::<2>(tangents, points),
-    };
-    rows.pow(2) * size_of::<f64>() + operator + Opening::memory(opening, points, tangents)
+    Triangle::bytes(rows) + Opening::memory(opening, points, tangents)
 }
 
-/// Tractions from the condensed forces. `rows` are the rows of slip of each point; with more than one component of
-/// displacement, its opening follows. A force is what must act on a jump to hold it. The bodies therefore drive slip
-/// with the opposite force, and a force that holds the sides apart is a compression. `creep` is the number of the
-/// channel of creep; the weight of the bodies, if any, is the last channel.
-fn tractions<const C: usize>(
-    left: &Left,
-    tangents: usize,
-    rows: &[usize],
-    bearings: &[Bearing],
-    (creep, weighs): (Option<usize>, bool),
-) -> Surroundings {
-    let n = rows.len();
-    // Traction of a component caused by slip of a component; the opening comes after the tangents.
-    let part = |component: usize, slip: usize| -> Vec<f64> {
-        let mut matrix = Vec::with_capacity(n * n);
-        for (&row, bearing) in rows.iter().zip(bearings) {
-            let (per_area, forces) = (bearing.per_force(component == tangents), left.row(row + component));
-            matrix.extend(rows.iter().map(|&c| per_area * forces[c + slip]));
-        }
-        matrix
-    };
+/// Loads of the bodies, of which some are named.
+struct Channels {
+    all: Vec<(Table, Vec<f64>)>,
+    /// Number of the load of creep.
+    creep: Option<usize>,
+    /// True if the last is the weight of the bodies.
+    weighs: bool,
+}
+
+/// Tractions from the condensed forces. A force is what must act on a jump to hold it. The bodies therefore drive slip
+/// with the opposite force, and a force that holds the sides apart is a compression.
+fn tractions<const C: usize>(mut forces: Forces, channels: Channels) -> Surroundings {
+    let Channels { mut all, creep, weighs } = channels;
+    let Forces { rows, bearings, tangents, .. } = &forces;
+    let (n, tangents) = (rows.len(), *tangents);
     let largest = |m: &[f64]| m.iter().fold(0.0, |l: f64, v| l.max(v.abs()));
     let over_area = |forces: &[f64], component: usize| -> Vec<f64> {
         let per_force = |b: &Bearing| b.per_force(component == tangents);
         rows.iter().zip(bearings).map(|(&r, b)| per_force(b) * forces[r + component]).collect()
     };
     let shear_of = |forces: &[f64]| (0..tangents).flat_map(|c| over_area(forces, c)).collect::<Vec<f64>>();
-    // Loads may change normal tractions where slip does not.
-    let mut channels = left.channels();
-    let weight = channels.pop_if(|_| weighs).map(|(_, forces)| Initial {
-        shear: shear_of(forces),
+    let weight = all.pop_if(|_| weighs).map(|(_, forces)| Initial {
+        shear: shear_of(&forces),
         normal: rows.iter().zip(bearings).map(|(&r, b)| forces[r + tangents] / b.area).collect(),
     });
-    let creep = creep.map(|c| shear_of(channels[c].1));
-    let shear_load = channels.iter().map(|(_, f)| largest(&shear_of(f))).fold(0.0, f64::max);
-    let loaded =
-        C > 1 && channels.iter().any(|(_, f)| largest(&over_area(f, tangents)) > UNCOUPLED * shear_load);
-    let along = |c: usize| {
-        let shear = part(c, c);
-        let normal = if C == 1 { None } else { Some(part(tangents, c)) };
-        let normal = normal.filter(|m| loaded || largest(m) > UNCOUPLED * largest(&shear));
-        Dense::new(n, shear, normal)
-    };
-    let operator = if tangents == 1 {
-        Tractions::One(along(0))
-    } else {
-        let along = Box::new([along(0), along(1)]);
-        let least = UNCOUPLED * largest(along[0].matrix());
-        let across = [part(0, 1), part(1, 0)];
-        let loads = across.iter().any(|m| largest(m) > least);
-        Tractions::Two {
-            along,
-            across: loads.then(|| Box::new(across.map(|shear| Dense::new(n, shear, None)))),
-        }
-    };
+    let creep = creep.map(|c| shear_of(&all[c].1));
+    // Loads may change normal tractions where slip does not.
+    let shear_load = all.iter().map(|(_, f)| largest(&shear_of(f))).fold(0.0, f64::max);
+    let loaded = C > 1 && all.iter().any(|(_, f)| largest(&over_area(f, tangents)) > UNCOUPLED * shear_load);
+    let along: Vec<f64> = (0..tangents).map(|c| forces.largest(c, c)).collect();
+    let presses = |c: usize| C > 1 && (loaded || forces.largest(tangents, c) > UNCOUPLED * along[c]);
+    let presses = (0..tangents).map(presses).collect();
+    let least = UNCOUPLED * along[0];
+    let across = tangents > 1 && (forces.largest(0, 1) > least || forces.largest(1, 0) > least);
     let opens: Vec<usize> = (0..n).filter(|&p| C > 1 && bearings[p].opens).collect();
-    let forces = |&p: &usize| left.row(rows[p] + tangents);
-    let columns = [
-        opens.iter().map(|p| over_area(forces(p), tangents)).collect(),
-        opens.iter().map(|p| shear_of(forces(p))).collect(),
-    ];
+    let normal = |&p: &usize| forces.caused(tangents, (tangents, p)).collect();
+    let shear = |&p: &usize| (0..tangents).flat_map(|c| forces.caused(c, (tangents, p))).collect();
+    let columns = [opens.iter().map(normal).collect(), opens.iter().map(shear).collect()];
     let opening = opening(opens, bearings, columns);
     let mut loading = Loading::new(tangents);
-    for (amplitude, forces) in channels {
-        let change = if C == 1 { Vec::new() } else { over_area(forces, tangents) };
-        loading.add(Table::clone(amplitude), shear_of(forces), change);
+    for (amplitude, forces) in all {
+        let change = if C == 1 { Vec::new() } else { over_area(&forces, tangents) };
+        loading.add(amplitude, shear_of(&forces), change);
     }
-    Surroundings { operator, opening, loading, creep, weight, bytes: 0, bodies: None }
+    (forces.presses, forces.across) = (presses, across);
+    Surroundings { forces, opening, loading, creep, weight, bytes: 0, bodies: None }
 }
 
 /// Effect of the openings of these points, if any, from the normal and shear tractions of all points that each opening

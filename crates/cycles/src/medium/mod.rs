@@ -4,6 +4,7 @@
 mod bodies;
 mod condensed;
 mod displaced;
+mod forces;
 mod held;
 mod machine;
 pub mod patches;
@@ -12,12 +13,15 @@ mod point;
 mod pressed;
 mod refusal;
 mod springs;
+mod tractions;
 
 pub use bodies::Bodies;
-pub use condensed::{Conditions, Loads, Surroundings, Tractions, condense, least_bytes};
+pub use condensed::{Conditions, Loads, Surroundings, condense, least_bytes};
+pub use forces::Forces;
 pub use machine::Spring;
 pub use place::{Place, across, unit};
 pub use point::{Initial, Point};
 pub use pressed::{Pressed, Pressing, press};
 pub use refusal::Refusal;
+pub use tractions::Tractions;
 pub(crate) use springs::{Slips, Travelled};

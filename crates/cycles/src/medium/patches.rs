@@ -4,7 +4,7 @@
 //! Positions of faults have y up; the free surface of a half-space is y = 0. The axes of [`crate::kernel`] have z up: in the plane
 //! (x, z) of a kernel is (x, y) here, in space (x, y, z) of a kernel is (z, x, y) here, which keeps the handedness.
 
-use super::condensed::Tractions;
+use super::tractions::Tractions;
 use crate::kernel::{Field, Rectangle, Segment, Triangle};
 use crate::loading::Loading;
 use crate::operator::{

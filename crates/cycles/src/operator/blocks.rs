@@ -7,7 +7,7 @@ use super::low_rank::{GROUP, LowRank};
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{PoisonError, RwLock};
 
 /// A block of a compressed matrix.
 #[derive(Clone, Debug)]
@@ -25,12 +25,15 @@ struct Block {
 #[derive(Debug)]
 struct Task {
     blocks: Range<usize>,
-    sums: Mutex<Vec<f64>>,
+    /// Rows to which the blocks contribute.
+    span: Range<usize>,
+    sums: RwLock<Vec<f64>>,
 }
 
 /// A compressed matrix in the order of a tree.
 #[derive(Debug)]
 pub(super) struct Compressed {
+    /// Number of rows.
     size: usize,
     blocks: Vec<Block>,
     values: Vec<f64>,
@@ -40,6 +43,11 @@ pub(super) struct Compressed {
 /// Number of values of a task. It is fixed, so that sums do not depend on the number of threads. With more values than
 /// this, starting tasks pays off.
 const TASK: usize = 100_000;
+
+/// Number of rows whose sums over all tasks are added at once.
+const ROWS: usize = 1024;
+/// Number of tasks from which their sums are added on all threads: fewer take some microseconds.
+const WORTH_COLLECTING: usize = 16;
 
 /// A block before blocks are put in the order of products.
 pub(super) struct Part {
@@ -55,6 +63,12 @@ pub(super) enum Content {
 }
 
 impl Part {
+    /// The same block with other first row and column.
+    pub fn shifted(self, [rows, columns]: [usize; 2]) -> Self {
+        let by = |range: Range<usize>, shift: usize| range.start + shift..range.end + shift;
+        Self { rows: by(self.rows, rows), columns: by(self.columns, columns), ..self }
+    }
+
     /// Number of values.
     pub fn values(&self) -> usize {
         match &self.content {
@@ -65,7 +79,8 @@ impl Part {
 }
 
 impl Compressed {
-    /// Matrix of `size` rows with these blocks. If it is symmetric, blocks off the diagonal also stand for their transposes.
+    /// Matrix of `size` rows with these blocks. If it is symmetric, blocks off the diagonal also stand for their transposes. If
+    /// not, it may have any number of columns.
     pub fn new(size: usize, parts: Vec<Part>, symmetric: bool) -> Self {
         let mut all = Self {
             size,
@@ -104,7 +119,10 @@ impl Compressed {
         for k in 0..self.blocks.len() {
             let values = self.blocks[k].values.end - self.blocks[first].values.start;
             if values >= TASK || k + 1 == self.blocks.len() {
-                self.tasks.push(Task { blocks: first..k + 1, sums: Mutex::new(vec![0.0; self.size]) });
+                let blocks = first..k + 1;
+                let span = span(&self.blocks[blocks.clone()]);
+                let sums = RwLock::new(vec![0.0; span.len()]);
+                self.tasks.push(Task { blocks, span, sums });
                 first = k + 1;
             }
         }
@@ -141,25 +159,58 @@ impl Compressed {
     /// y = A x.
     pub fn product(&self, arch: Arch, x: &[f64], y: &mut [f64]) {
         let work = |task: &Task| {
-            let mut sums = task.sums.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut sums = task.sums.write().unwrap_or_else(PoisonError::into_inner);
             sums.fill(0.0);
             arch.dispatch(Product {
                 blocks: &self.blocks[task.blocks.clone()],
                 values: &self.values,
                 x,
                 sums: &mut sums,
+                first: task.span.start,
             });
         };
         match self.tasks.as_slice() {
             [one] => work(one),
-            many => many.par_iter().for_each(work),
+            many => many.par_iter().with_max_len(1).for_each(work),
         }
-        y.fill(0.0);
-        for task in &self.tasks {
-            let sums = task.sums.lock().unwrap_or_else(PoisonError::into_inner);
-            y.iter_mut().zip(sums.iter()).for_each(|(y, s)| *y += s);
+        self.collect(y);
+    }
+
+    /// Adds the sums of all tasks, in their order.
+    fn collect(&self, y: &mut [f64]) {
+        let piece = |(k, y): (usize, &mut [f64])| {
+            y.fill(0.0);
+            let rows = k * ROWS..k * ROWS + y.len();
+            self.tasks.iter().for_each(|task| task.add(&rows, y));
+        };
+        if self.tasks.len() < WORTH_COLLECTING {
+            y.chunks_mut(ROWS).enumerate().for_each(piece);
+        } else {
+            y.par_chunks_mut(ROWS).enumerate().for_each(piece);
         }
     }
+}
+
+impl Task {
+    /// Adds its sums to these rows.
+    fn add(&self, rows: &Range<usize>, y: &mut [f64]) {
+        let (from, to) = (rows.start.max(self.span.start), rows.end.min(self.span.end));
+        if from < to {
+            let sums = self.sums.read().unwrap_or_else(PoisonError::into_inner);
+            let sums = &sums[from - self.span.start..to - self.span.start];
+            y[from - rows.start..to - rows.start].iter_mut().zip(sums).for_each(|(y, s)| *y += s);
+        }
+    }
+}
+
+/// Rows to which blocks contribute.
+fn span(blocks: &[Block]) -> Range<usize> {
+    let rows = blocks.iter().map(|b| &b.rows);
+    let mirrored = blocks.iter().filter(|b| b.mirrored).map(|b| &b.columns);
+    let all = rows.chain(mirrored);
+    let join = |a: Range<usize>, b: &Range<usize>| a.start.min(b.start)..a.end.max(b.end);
+    let (first, rest) = (blocks.first().map_or(0..0, |b| b.rows.clone()), all);
+    rest.fold(first, join)
 }
 
 /// Sizes of a compressed matrix.
@@ -179,7 +230,9 @@ struct Product<'a> {
     blocks: &'a [Block],
     values: &'a [f64],
     x: &'a [f64],
+    /// Sums of the rows from `first` on.
     sums: &'a mut [f64],
+    first: usize,
 }
 
 impl WithSimd for Product<'_> {
@@ -188,7 +241,7 @@ impl WithSimd for Product<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         for block in self.blocks {
-            block.add(&self.values[block.values.clone()], self.x, self.sums);
+            block.add(&self.values[block.values.clone()], self.x, self.sums, self.first);
         }
     }
 }
@@ -216,16 +269,17 @@ impl Block {
         sums
     }
 
-    /// Adds its product with `x` to `y`.
+    /// Adds its product with `x` to `y`, which holds the rows from `first` on.
     #[inline(always)]
-    fn add(&self, values: &[f64], x: &[f64], y: &mut [f64]) {
+    fn add(&self, values: &[f64], x: &[f64], y: &mut [f64], first: usize) {
         let (m, n) = (self.rows.len(), self.columns.len());
+        let below = |rows: &Range<usize>| rows.start - first..rows.end - first;
         let Some(_) = self.rank else {
             for (i, row) in values.chunks_exact(n).enumerate() {
                 let at = self.rows.start + i;
-                y[at] += dot(row, &x[self.columns.clone()]);
+                y[at - first] += dot(row, &x[self.columns.clone()]);
                 if self.mirrored {
-                    add(&mut y[self.columns.clone()], x[at], row);
+                    add(&mut y[below(&self.columns)], x[at], row);
                 }
             }
             return;
@@ -234,9 +288,9 @@ impl Block {
             let (left, right) = group.split_at(GROUP * m);
             let t = dots(right, &x[self.columns.clone()]);
             let s = if self.mirrored { dots(left, &x[self.rows.clone()]) } else { [0.0; GROUP] };
-            adds(&mut y[self.rows.clone()], &t, left);
+            adds(&mut y[below(&self.rows)], &t, left);
             if self.mirrored {
-                adds(&mut y[self.columns.clone()], &s, right);
+                adds(&mut y[below(&self.columns)], &s, right);
             }
         }
     }

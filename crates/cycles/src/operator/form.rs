@@ -1,7 +1,7 @@
 //! Storage of an operator: dense or compressed.
 
 use super::{Both, Dense, Geometry, Hierarchical, Operator};
-use crate::medium::Tractions;
+use crate::medium::{Forces, Tractions};
 
 /// Storage of an operator.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,6 +23,22 @@ const COMPRESSED_FROM: usize = 128;
 /// have errors of about 1e-9, far below those of the integration. A bound ten times larger would save a tenth of the
 /// values.
 const COMPRESSION: f64 = 1e-10;
+
+/// The operator of condensed bodies for points of this geometry, stored in this form. Their forces are freed once it is
+/// made.
+#[must_use]
+pub fn of_forces(forces: Forces, geometry: &Geometry<'_>, form: Form) -> Box<dyn Operator> {
+    let tolerance = match form {
+        Form::Fitting if forces.points() >= COMPRESSED_FROM => COMPRESSION,
+        Form::Fitting | Form::Dense => {
+            let dense = forces.dense();
+            drop(forces);
+            return in_form(dense, geometry, Form::Dense);
+        }
+        Form::Compressed { tolerance } => tolerance,
+    };
+    Box::new(Hierarchical::of_forces(&forces, geometry, tolerance))
+}
 
 /// The operator of points of this geometry, stored in this form.
 #[must_use]

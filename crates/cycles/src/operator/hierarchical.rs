@@ -8,6 +8,7 @@ use super::blocks::{Compressed, Content, Part, Sizes};
 use super::cluster::{Cluster, Tree};
 use super::low_rank::{GROUP, LowRank, low_rank};
 use super::{Operator, columns};
+use crate::medium::Forces;
 use nalgebra::DMatrix;
 use pulp::Arch;
 use std::ops::Range;
@@ -23,28 +24,19 @@ const MOST_RANK_NEAR: usize = 24;
 const SYMMETRIC: f64 = 1e-9;
 
 /// Matrix to be compressed.
-struct Source<'a> {
+struct Source<'a, E> {
     tree: &'a Tree,
-    /// Row by row, in the order of the points.
-    matrix: &'a [f64],
-    /// Factor of each row.
-    rows: &'a [f64],
+    /// Entry of two points.
+    entry: E,
     /// True if blocks below the diagonal follow from those above.
     symmetric: bool,
     /// Allowed root mean square error of the entries of a block.
     error: f64,
 }
 
-impl Source<'_> {
+impl<E: Fn(usize, usize) -> f64 + Sync> Source<'_, E> {
     fn entry(&self, i: usize, j: usize) -> f64 {
-        let (p, q) = (self.tree.order[i], self.tree.order[j]);
-        let n = self.rows.len();
-        if self.symmetric {
-            // The two differ by rounding.
-            0.5 * (self.matrix[p * n + q] * self.rows[p] + self.matrix[q * n + p] * self.rows[q])
-        } else {
-            self.matrix[p * n + q] * self.rows[p]
-        }
+        (self.entry)(self.tree.order[i], self.tree.order[j])
     }
 
     fn dense(&self, rows: &Range<usize>, columns: &Range<usize>) -> Part {
@@ -86,10 +78,9 @@ impl Source<'_> {
         }
     }
 
-    /// The compressed matrix.
-    fn compressed(&self) -> Compressed {
-        let parts = self.tree.clusters.first().map_or_else(Vec::new, |root| self.within(root));
-        Compressed::new(self.rows.len(), parts, self.symmetric)
+    /// The blocks of the matrix.
+    fn parts(&self) -> Vec<Part> {
+        self.tree.clusters.first().map_or_else(Vec::new, |root| self.within(root))
     }
 
     /// The blocks of a cluster with itself.
@@ -127,9 +118,12 @@ enum Tolerance {
     OfBlock(f64),
 }
 
-/// Operator of compressed matrices.
+/// Operator of compressed matrices. Of slip in two directions the shear forces are one symmetric matrix: forces along one
+/// direction due to slip along the other are the transpose of the reverse.
 #[derive(Debug)]
 pub struct Hierarchical {
+    components: usize,
+    /// Position in slip of each row, component by component in the order of the tree.
     order: Vec<usize>,
     /// Inverse tributary areas, in the order of the tree.
     per_area: Vec<f64>,
@@ -177,19 +171,67 @@ impl Hierarchical {
         let error = tolerance * largest / n as f64;
         let off = |i: usize, j: usize| (shear[i * n + j] * rows[i] - shear[j * n + i] * rows[j]).abs();
         let symmetric = (0..n).all(|i| (0..i).all(|j| off(i, j) <= SYMMETRIC * largest));
-        let source = |matrix, symmetric| Source { tree: &tree, matrix, rows, symmetric, error };
-        let compressed = |matrix, symmetric| source(matrix, symmetric).compressed();
-        let vectors = || vec![0.0; n];
-        Self {
-            stiffness: columns(n, &std::iter::once(shear).chain(normal).collect::<Vec<_>>()),
-            tolerance: Tolerance::OfLargest(tolerance),
-            shear: compressed(shear, symmetric),
-            normal: normal.map(|matrix| compressed(matrix, false)),
-            per_area: tree.order.iter().map(|&p| 1.0 / rows[p]).collect(),
-            ordered: Mutex::new(Ordered { slip: vectors(), force: vectors() }),
-            arch: Arch::new(),
-            order: tree.order,
+        let compressed = |matrix: &[f64], symmetric: bool| {
+            let force = |p: usize, q: usize| matrix[p * n + q] * rows[p];
+            // Two entries that are equal by symmetry differ by rounding.
+            let mean = |p: usize, q: usize| 0.5 * (force(p, q) + force(q, p));
+            let entry = |p: usize, q: usize| if symmetric { mean(p, q) } else { force(p, q) };
+            Compressed::new(n, Source { tree: &tree, entry, symmetric, error }.parts(), symmetric)
+        };
+        let (shear_forces, normal_forces) = (compressed(shear, symmetric), normal.map(|m| compressed(m, false)));
+        let stiffness = columns(n, &std::iter::once(shear).chain(normal).collect::<Vec<_>>());
+        let per_area = tree.order.iter().map(|&p| 1.0 / rows[p]).collect();
+        let tolerance = Tolerance::OfLargest(tolerance);
+        Self::of(shear_forces, normal_forces, (tree.order, per_area), stiffness, tolerance)
+    }
+
+    /// Compresses the forces of condensed bodies, block by block, with the error of [`Hierarchical::new`].
+    #[must_use]
+    pub fn of_forces(forces: &Forces, geometry: &Geometry<'_>, tolerance: f64) -> Self {
+        let (n, components) = (forces.points(), forces.components());
+        let tree = &Tree::new(geometry.places, geometry.faults);
+        let areas = geometry.areas;
+        let error = tolerance * forces.largest_force() / n as f64;
+        let force = |component: usize, slip: usize| {
+            move |p: usize, q: usize| forces.traction((component, p), (slip, q)) * areas[p]
+        };
+        let parts = |component: usize, slip: usize| {
+            let force = force(component, slip);
+            if component == slip {
+                // Two entries that are equal by symmetry differ by the rounding of areas.
+                let entry = |p: usize, q: usize| 0.5 * (force(p, q) + force(q, p));
+                return Source { tree, entry, symmetric: true, error }.parts();
+            }
+            Source { tree, entry: force, symmetric: false, error }.parts()
+        };
+        let shifted = |parts: Vec<Part>, by: [usize; 2]| parts.into_iter().map(move |p| p.shifted(by));
+        let mut shear: Vec<Part> = (0..components).flat_map(|c| shifted(parts(c, c), [c * n, c * n])).collect();
+        if forces.across() {
+            shear.extend(shifted(parts(0, 1), [0, n]));
         }
+        let shear = Compressed::new(components * n, shear, true);
+        let pressing = (0..components).filter(|&c| forces.presses(c));
+        let normal: Vec<Part> = pressing.flat_map(|c| shifted(parts(components, c), [0, c * n])).collect();
+        let normal = (!normal.is_empty()).then(|| Compressed::new(n, normal, false));
+        let order = (0..components).flat_map(|c| tree.order.iter().map(move |p| c * n + p)).collect();
+        let per_area: Vec<f64> = tree.order.iter().map(|&p| 1.0 / areas[p]).collect();
+        let all = (order, per_area.repeat(components));
+        let operator = Self::of(shear, normal, all, forces.stiffness(), Tolerance::OfLargest(tolerance));
+        Self { components, ..operator }
+    }
+
+    /// The operator of these matrices for slip in one direction, with the position in slip and the inverse area of each row.
+    fn of(
+        shear: Compressed,
+        normal: Option<Compressed>,
+        (order, per_area): (Vec<usize>, Vec<f64>),
+        stiffness: Vec<f64>,
+        tolerance: Tolerance,
+    ) -> Self {
+        let vector = || vec![0.0; order.len()];
+        let ordered = Mutex::new(Ordered { slip: vector(), force: vector() });
+        let arch = Arch::new();
+        Self { components: 1, order, per_area, shear, normal, stiffness, tolerance, ordered, arch }
     }
 
     /// Operator of tractions that are compressed with this tolerance relative to each block, in the order of the tree of these
@@ -207,16 +249,8 @@ impl Hierarchical {
                 stiffness[p] += sum;
             }
         }
-        Self {
-            stiffness,
-            tolerance: Tolerance::OfBlock(tolerance),
-            shear,
-            normal,
-            per_area: vec![1.0; n],
-            ordered: Mutex::new(Ordered { slip: vec![0.0; n], force: vec![0.0; n] }),
-            arch: Arch::new(),
-            order,
-        }
+        let per_area = vec![1.0; n];
+        Self::of(shear, normal, (order, per_area), stiffness, Tolerance::OfBlock(tolerance))
     }
 
     /// Sizes of the matrices of shear and of normal forces.
@@ -228,6 +262,7 @@ impl Hierarchical {
     fn tractions(&self, matrix: &Compressed, slip: &[f64], tractions: &mut [f64]) {
         let mut ordered = self.ordered.lock().unwrap_or_else(PoisonError::into_inner);
         let Ordered { slip: x, force } = &mut *ordered;
+        let force = &mut force[..tractions.len()];
         for (x, &p) in x.iter_mut().zip(&self.order) {
             *x = slip[p];
         }
@@ -240,7 +275,11 @@ impl Hierarchical {
 
 impl Operator for Hierarchical {
     fn points(&self) -> usize {
-        self.order.len()
+        self.order.len() / self.components
+    }
+
+    fn components(&self) -> usize {
+        self.components
     }
 
     fn couples_normal(&self) -> bool {
@@ -272,9 +311,12 @@ impl Operator for Hierarchical {
             Tolerance::OfLargest(tolerance) => format!("{tolerance:e} of the largest force"),
             Tolerance::OfBlock(tolerance) => format!("{tolerance:e} of each block"),
         };
-        let dense = sizes.len() * self.order.len().pow(2) * size_of::<f64>();
+        let n = self.points();
+        let (across, normal) = (self.components.pow(2), sizes.len() - 1);
+        let dense = (across + normal * self.components) * n.pow(2) * size_of::<f64>();
+        let both = if self.components > 1 { "slip in two directions, " } else { "" };
         format!(
-            "operator compressed to {:.1} kB of {:.1} at a tolerance of {}: {} blocks of rank {} at most, {} dense ones",
+            "{both}operator compressed to {:.1} kB of {:.1} at a tolerance of {}: {} blocks of rank {} at most, {} dense ones",
             self.bytes() as f64 / 1e3,
             dense as f64 / 1e3,
             tolerance,

@@ -16,7 +16,7 @@ pub use blocks::Sizes;
 pub use both::Both;
 pub use checked::{Checked, Errors};
 pub use dense::Dense;
-pub use form::{Form, in_form};
+pub use form::{Form, in_form, of_forces};
 pub use hierarchical::{Geometry, Hierarchical};
 pub use sampled::{Accuracy, Division, Entry};
 pub use toeplitz::{Lattice, Toeplitz};

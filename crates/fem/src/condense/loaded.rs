@@ -7,7 +7,7 @@
 use super::{Stiffness, coupling, load, not_retained, number_in};
 use crate::dof::{Channel, Constraints, Equations};
 use crate::error::FemError;
-use crate::multifrontal::{Cholesky, DirectError, Symbolic};
+use crate::multifrontal::{Cholesky, DirectError, Symbolic, Triangle};
 use crate::ordering::Ordering;
 use crate::sparse::lower_matrix;
 use crate::table::Table;
@@ -105,20 +105,28 @@ fn limited<R: Send>(threads: usize, work: impl FnOnce() -> R + Send) -> Result<R
 #[derive(Debug)]
 pub struct Remainder {
     /// `[S H; Hᵀ ·]`, symmetric.
-    matrix: Vec<f64>,
+    matrix: Triangle,
     retained: usize,
     amplitudes: Vec<Table>,
 }
 
 impl Remainder {
-    /// Row k of S.
+    /// Entry of S.
     #[must_use]
-    pub fn row(&self, k: usize) -> &[f64] {
-        &self.matrix[k * (self.retained + self.amplitudes.len())..][..self.retained]
+    #[inline]
+    pub fn at(&self, row: usize, column: usize) -> f64 {
+        self.matrix.at(row, column)
+    }
+
+    /// Number of rows of S.
+    #[must_use]
+    pub fn order(&self) -> usize {
+        self.retained
     }
 
     /// Amplitude and h_c of each channel.
-    pub fn channels(&self) -> impl Iterator<Item = (&Table, &[f64])> {
-        self.amplitudes.iter().enumerate().map(|(c, amplitude)| (amplitude, self.row(self.retained + c)))
+    pub fn channels(&self) -> impl Iterator<Item = (&Table, Vec<f64>)> {
+        let forces = |c: usize| (0..self.retained).map(|k| self.matrix.at(self.retained + c, k)).collect();
+        self.amplitudes.iter().enumerate().map(move |(c, amplitude)| (amplitude, forces(c)))
     }
 }

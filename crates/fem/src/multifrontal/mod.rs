@@ -18,10 +18,12 @@ mod supernodes;
 mod symbolic;
 mod tasks;
 mod tree;
+mod triangle;
 
 pub use mode::{FreeMode, free_mode};
 pub use numeric::Cholesky;
 pub use symbolic::Symbolic;
+pub use triangle::Triangle;
 
 /// A pivot that cannot be used as a divisor.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,6 +7,7 @@ use super::dense;
 use super::extend::{Passed, extend};
 use super::symbolic::{Front, Symbolic};
 use super::tasks::{self, Slot, open, slots};
+use super::triangle::Triangle;
 use super::{DirectError, Pivot};
 use faer::MatMut;
 use pulp::Arch;
@@ -125,21 +126,21 @@ impl Cholesky {
         Ok(factor)
     }
 
-    /// The Schur complement of the retained equations, as given by [`Cholesky::take_schur`], without the factor: the values of
-    /// a front are dropped once it has been eliminated.
+    /// Lower triangle of the Schur complement of the retained equations, without the factor: the values of a front are dropped
+    /// once it has been eliminated.
     ///
     /// # Errors
     /// As [`Cholesky::new`].
-    pub fn schur(symbolic: &Arc<Symbolic>, matrix: &[f64]) -> Result<Vec<f64>, DirectError> {
+    pub fn schur(symbolic: &Arc<Symbolic>, matrix: &[f64]) -> Result<Triangle, DirectError> {
         let values = vec![Vec::new(); symbolic.tasks.len()];
         let run = Run { keep: false, ..Run::new(symbolic, matrix, Arch::new(), values) };
         run.all()?;
         if run.suspect().is_some() {
             // Only the factor shows if a mode is soft or free.
-            return Ok(Self::new(Arc::clone(symbolic), matrix)?.take_schur());
+            return Ok(Self::new(Arc::clone(symbolic), matrix)?.take_triangle());
         }
         let schur = run.values.into_iter().next_back().and_then(|v| v.into_inner().ok());
-        Ok(whole(schur.unwrap_or_default(), symbolic.retained()))
+        Ok(Triangle::new(schur.unwrap_or_default(), symbolic.retained()))
     }
 
     /// Distinguishes a soft mode from a free one. `v = L⁻ᵀ e_j` has `v'Kv = 1`, so its stiffness relative to the diagonal D is
@@ -169,23 +170,19 @@ impl Cholesky {
     /// The Schur complement of the retained equations, column by column and symmetric. It is moved out of the factor.
     #[must_use]
     pub fn take_schur(&mut self) -> Vec<f64> {
-        if self.symbolic.retained() == 0 {
-            return Vec::new();
+        self.take_triangle().whole()
+    }
+
+    /// Its lower triangle, moved out of the factor.
+    fn take_triangle(&mut self) -> Triangle {
+        let order = self.symbolic.retained();
+        if order == 0 {
+            return Triangle::new(Vec::new(), 0);
         }
         let schur = self.values.pop().unwrap_or_default();
         self.values.push(Vec::new());
-        whole(schur, self.symbolic.retained())
+        Triangle::new(schur, order)
     }
-}
-
-/// A symmetric matrix of order `m` from its lower triangle, given column by column.
-fn whole(mut lower: Vec<f64>, m: usize) -> Vec<f64> {
-    for col in 0..m {
-        for row in 0..col {
-            lower[col * m + row] = lower[row * m + col];
-        }
-    }
-    lower
 }
 
 /// Storage of the columns of a task's fronts during elimination.

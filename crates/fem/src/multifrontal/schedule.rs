@@ -37,7 +37,7 @@ enum Passes {
     /// All of it, as allocated.
     All,
     /// Its lower triangle, which is written and thus occupies memory: operating systems provide pages when they are first
-    /// written.
+    /// written. The same holds for the Schur complement.
     Written,
 }
 
@@ -47,6 +47,10 @@ fn values_of_schur(symbolic: &Symbolic, parent: &[usize], threads: usize, passes
         Passes::All => symbolic.passed(t),
         Passes::Written => triangle(symbolic.passed(t)),
     };
+    let beside = |t: usize| match passes {
+        Passes::Written if symbolic.stops_in(t) => triangle(symbolic.beside(t)),
+        _ => symbolic.beside(t),
+    };
     let tasks = &symbolic.tasks;
     let mut left: Vec<usize> = tasks.iter().map(|t| t.children.len()).collect();
     let mut leaves = (0..tasks.len()).filter(|&t| tasks[t].children.is_empty());
@@ -54,7 +58,7 @@ fn values_of_schur(symbolic: &Symbolic, parent: &[usize], threads: usize, passes
     let (mut alive, mut most) = (0, 0);
     // A thread continues with the parent of the last child that ended, otherwise with the next leaf.
     let mut begin = |t: usize, now: u64, running: &mut Running, alive: &mut usize| {
-        *alive += passed(t) + symbolic.beside(t);
+        *alive += passed(t) + beside(t);
         most = most.max(*alive);
         running.insert((now.saturating_add(symbolic.operations_of(t) as u64 + 1), t));
     };
@@ -63,7 +67,7 @@ fn values_of_schur(symbolic: &Symbolic, parent: &[usize], threads: usize, passes
     }
     while let Some((end, t)) = running.pop_first() {
         let taken: usize = tasks[t].children.iter().map(|&c| passed(c)).sum();
-        alive -= symbolic.beside(t) + taken;
+        alive -= beside(t) + taken;
         let up = parent[t];
         let ready = up != NONE && {
             left[up] -= 1;

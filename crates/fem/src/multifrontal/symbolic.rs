@@ -385,6 +385,11 @@ impl Symbolic {
         task.stacks[0] + task.stacks[1] + task.largest
     }
 
+    /// True if a task is the front at which elimination stops.
+    pub(super) fn stops_in(&self, t: usize) -> bool {
+        self.retained > 0 && t + 1 == self.tasks.len()
+    }
+
     /// Operations of a task.
     pub(super) fn operations_of(&self, t: usize) -> f64 {
         self.fronts[self.tasks[t].fronts.clone()].iter().map(Front::operations).sum()

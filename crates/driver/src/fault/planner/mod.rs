@@ -53,9 +53,9 @@ use crate::model::{self, Model, meshes};
 use crate::scene::model::{Creep, Fault as Spec, Kinematics, Scene};
 use crate::warning::Warning;
 use asperity_cycles::medium::{
-    Conditions, Loads, Place, Point, Refusal, Spring, Surroundings, Tractions, condense, least_bytes,
+    Conditions, Forces, Loads, Place, Point, Refusal, Spring, Surroundings, condense, least_bytes,
 };
-use asperity_cycles::operator::{Form, Geometry, Operator, in_form};
+use asperity_cycles::operator::{Form, Geometry, Operator, of_forces};
 use assemble::{Around, Surrounded, geometry, plan_of, turns};
 use held::Asked;
 use medium::Media;
@@ -201,7 +201,7 @@ fn between_bodies<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Dia
         checks: of_bodies,
     };
     let surrounded = Surrounded {
-        operator: operator(surroundings.operator, &placed, form),
+        operator: operator(surroundings.forces, &placed, form),
         placed,
         opening: surroundings.opening,
         loading: surroundings.loading,
@@ -245,9 +245,9 @@ pub(crate) fn all_points<const D: usize>(
 }
 
 /// Operator in the given form.
-fn operator<const D: usize>(tractions: Tractions, placed: &[Placed<D>], form: Form) -> Box<dyn Operator> {
+fn operator<const D: usize>(forces: Forces, placed: &[Placed<D>], form: Form) -> Box<dyn Operator> {
     let (places, areas, faults) = geometry(placed);
-    in_form(tractions, &Geometry { places: &places, faults: &faults, areas: &areas }, form)
+    of_forces(forces, &Geometry { places: &places, faults: &faults, areas: &areas }, form)
 }
 
 fn points_of<const D: usize>(

@@ -10,8 +10,7 @@ use crate::loading::Stage;
 use crate::model::Model;
 use crate::scene::model::{Creep, Fault as Spec, Scene};
 use crate::warning::Warning;
-use asperity_cycles::medium::{Surroundings, Tractions};
-use asperity_cycles::operator::Operator as _;
+use asperity_cycles::medium::{Forces, Surroundings};
 
 /// Relative difference between the motion of the sides and creep that causes no warning: a hundred times the usual precision of given rates.
 const AGREES: f64 = 0.01;
@@ -31,7 +30,7 @@ pub(super) fn check<const D: usize>(
     let total = surroundings.loading.mean(stage.end, placed.len());
     let sides: Vec<f64> = total.iter().zip(creep).map(|(all, creep)| all - creep).collect();
     if !stage.has_loads() && judged(scene, model, placed, creeping) {
-        return of_plates(scene, placed, (&sides, creep), &surroundings.operator);
+        return of_plates(scene, placed, (&sides, creep), &surroundings.forces);
     }
     let faults = scene.faults.iter().enumerate();
     faults.filter_map(|(k, fault)| against(fault, k, placed, (&sides, creep))).next()
@@ -76,15 +75,11 @@ fn of_plates<const D: usize>(
     scene: &Scene,
     placed: &[Placed<D>],
     (sides, creep): (&[f64], &[f64]),
-    operator: &Tractions,
+    forces: &Forces,
 ) -> Option<Warning> {
     let faults: Vec<(&String, &Spec)> = scene.faults.iter().collect();
     let slip: Vec<f64> = placed.iter().map(|p| rate(faults[p.fault].1).unwrap_or_default()).collect();
-    let mut exerted = vec![0.0; slip.len()];
-    match operator {
-        Tractions::One(dense) => dense.shear(&slip, &mut exerted),
-        Tractions::Two { along, .. } => along[0].shear(&slip, &mut exerted),
-    }
+    let exerted = forces.shear_along(&slip);
     let (by_sides, by_slip) = (force(placed, sides), force(placed, &exerted));
     let by_creep = force(placed, creep) + by_slip;
     let most = by_sides.abs().max(by_creep.abs());
