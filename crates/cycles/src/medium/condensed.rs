@@ -4,6 +4,7 @@ use super::bodies::Bodies;
 use super::forces::{Bearing, Forces, Matrix};
 use super::held;
 use super::machine::{Machine, Spring};
+use super::mirror::Mirror;
 use super::place::{Place, across};
 use super::point::{Initial, Point};
 use super::refusal::Refusal;
@@ -31,6 +32,8 @@ pub struct Surroundings {
     pub weight: Option<Initial>,
     /// Peak memory of the condensation \[bytes\].
     pub bytes: usize,
+    /// True if one of two bodies that mirror each other was condensed for both.
+    pub mirrored: bool,
     /// The bodies, if they are kept.
     pub bodies: Option<Bodies>,
 }
@@ -68,8 +71,18 @@ pub struct Conditions {
     pub keep: bool,
 }
 
+/// Unknowns of the points, and the effect of slip.
+#[derive(Clone, Copy, Debug)]
+struct Sides {
+    /// True if both sides of the fault are condensed. Their relative motion across the fault is then held, where it is that of
+    /// one side otherwise, and free.
+    both: bool,
+    /// Slip of the condensed bodies over that of the fault.
+    share: f64,
+}
+
 /// Condenses bodies of this stiffness onto the points that slide freely. Tractions are nodal forces divided by
-/// tributary areas, so the interface mass matrix is lumped.
+/// tributary areas, so the interface mass matrix is lumped. In a mirror whose conditions hold, one body is condensed.
 ///
 /// # Errors
 /// A [`Refusal`] if the bodies need more than `memory` bytes, if nothing holds them, or if a support is not compatible
@@ -79,11 +92,20 @@ pub fn condense<const D: usize>(
     loads: &Loads,
     points: &[Point<D>],
     conditions: Conditions,
+    mirror: Option<&Mirror>,
 ) -> Result<Surroundings, Refusal> {
-    match conditions.components {
-        1 => with_components::<D, 1>(bodies, loads, points, conditions, |_| [[1.0]]),
-        2 => with_components::<D, 2>(bodies, loads, points, conditions, in_plane),
-        _ => with_components::<D, 3>(bodies, loads, points, conditions, in_space),
+    let both = (conditions, Sides { both: true, share: 1.0 });
+    match (conditions.components, mirror) {
+        (1, _) => with_components::<D, 1>(bodies, loads, points, both, |_| [[1.0]]),
+        (2, _) => with_components::<D, 2>(bodies, loads, points, both, in_plane),
+        (_, Some(mirror)) if !conditions.keep && mirror.holds(&bodies, loads, points) => {
+            let (body, loads, points) = mirror.half(bodies, loads, points);
+            let one = (conditions, Sides { both: false, share: 0.5 });
+            // The minus side moves against the slip.
+            let frame = |place: &Place<D>| in_space(place).map(|axis| axis.map(|c| -c));
+            with_components::<D, 3>(body, &loads, &points, one, frame)
+        }
+        _ => with_components::<D, 3>(bodies, loads, points, both, in_space),
     }
 }
 
@@ -100,10 +122,10 @@ pub(super) fn in_space<const D: usize>(place: &Place<D>) -> [[f64; 3]; 3] {
     [s, across(&n, &s), n]
 }
 
-/// Components of a jump that are retained, relative to the first: slip along the tangents, and the opening, which is
-/// the last.
-fn kept<const C: usize>(tangents: usize) -> impl Iterator<Item = usize> {
-    (0..C).filter(move |&c| c < tangents || c == C - 1)
+/// Components of a jump that are retained, relative to the first: slip along the tangents, and between both sides the opening,
+/// which is the last.
+fn kept<const C: usize>(tangents: usize, sides: Sides) -> impl Iterator<Item = usize> {
+    (0..C).filter(move |&c| c < tangents || (sides.both && c == C - 1))
 }
 
 /// Components held at zero: in space, slip across the rake where its direction is fixed.
@@ -115,7 +137,7 @@ fn with_components<const D: usize, const C: usize>(
     bodies: Stiffness,
     loads: &Loads,
     points: &[Point<D>],
-    Conditions { tangents, memory, keep, .. }: Conditions,
+    (Conditions { tangents, memory, keep, .. }, sides): (Conditions, Sides),
     frame: impl Fn(&Place<D>) -> [[f64; C]; C],
 ) -> Result<Surroundings, Refusal> {
     let (constraints, end) = (&loads.constraints, loads.end);
@@ -137,7 +159,7 @@ fn with_components<const D: usize, const C: usize>(
     let free: Vec<usize> = (0..points.len()).filter(|&k| points[k].creep.is_none()).collect();
     let mut retained: Vec<usize> = free
         .iter()
-        .flat_map(|&k| kept::<C>(tangents).map(move |c| (k, c)))
+        .flat_map(|&k| kept::<C>(tangents, sides).map(move |c| (k, c)))
         .map(|(k, c)| slip[k] + c)
         .collect();
     retained.sort_unstable();
@@ -156,7 +178,7 @@ fn with_components<const D: usize, const C: usize>(
     let supported: Vec<bool> = free.iter().map(|&k| C > 1 && is_fixed(slip[k] + C - 1)).collect();
     for (point, &dof) in points.iter().zip(&slip) {
         if point.creep.is_some() {
-            fixed.extend(dof..dof + C);
+            fixed.extend(dof..dof + if sides.both { C } else { C - 1 });
         } else {
             fixed.extend(held::<C>(tangents).map(|c| dof + c));
         }
@@ -183,17 +205,19 @@ fn with_components<const D: usize, const C: usize>(
     };
     let bearings: Vec<Bearing> = free.iter().zip(&supported).map(bearing).collect();
     let opens = bearings.iter().filter(|b| b.opens).count();
+    let across = if sides.both { C } else { 1 };
     let operator =
-        Forces::operator_bytes(C, tangents, free.len()) + Opening::memory(opens, free.len(), tangents);
+        Forces::operator_bytes(across, tangents, free.len()) + Opening::memory(opens, free.len(), tangents);
     let (left, bytes) = Left::of(body, (&retained, &fixed), channels, (memory, operator), keep)
         .map_err(|e| refused(&jumps, &e))?;
     let loads = Channels { all: left.channels(), creep, weighs };
     let (matrix, interior) = left.parted();
     let ties = machine.ties().clone();
     let bodies = interior.map(|interior| Bodies::new(interior, jumps, ties, rows.clone()));
-    let forces = Forces { matrix, rows, bearings, tangents, presses: Vec::new(), across: false };
-    let found = tractions::<C>(forces, loads);
-    Ok(Surroundings { bytes, bodies, ..found })
+    let share = sides.share;
+    let forces = Forces { matrix, share, rows, bearings, tangents, presses: Vec::new(), across: false };
+    let found = if sides.both { tractions::<C>(forces, loads) } else { tractions::<1>(forces, loads) };
+    Ok(Surroundings { bytes, bodies, mirrored: !sides.both, ..found })
 }
 
 /// Load of the weight of the bodies. Its effect is part of the initial state, so its amplitude is zero during the run.
@@ -326,7 +350,7 @@ fn tractions<const C: usize>(mut forces: Forces, channels: Channels) -> Surround
         loading.add(amplitude, shear_of(&forces), change);
     }
     (forces.presses, forces.across) = (presses, across);
-    Surroundings { forces, opening, loading, creep, weight, bytes: 0, bodies: None }
+    Surroundings { forces, opening, loading, creep, weight, bytes: 0, mirrored: false, bodies: None }
 }
 
 /// Effect of the openings of these points, if any, from the normal and shear tractions of all points that each opening

@@ -51,6 +51,8 @@ impl Bearing {
 #[derive(Debug)]
 pub struct Forces {
     pub(super) matrix: Matrix,
+    /// Slip of the condensed bodies over that of the fault.
+    pub(super) share: f64,
     /// Row of the first component of slip of each point; with more than one component of displacement, the opening follows
     /// slip.
     pub(super) rows: Vec<usize>,
@@ -94,7 +96,7 @@ impl Forces {
     #[inline]
     pub fn traction(&self, (component, p): (usize, usize), (slip, q): (usize, usize)) -> f64 {
         let force = self.matrix.at(self.rows[p] + component, self.rows[q] + slip);
-        self.bearings[p].per_force(component == self.tangents) * force
+        self.bearings[p].per_force(component == self.tangents) * (self.share * force)
     }
 
     /// Tractions of all points along a component, caused by slip of a point along a component.
@@ -136,9 +138,8 @@ impl Forces {
         let n = self.points();
         let of = |k: usize| {
             let slip = (k / n, k % n);
-            let sum = |sum: f64, component: usize| {
-                self.caused(component, slip).fold(sum, |sum, v| sum + v.abs())
-            };
+            let sum =
+                |sum: f64, component: usize| self.caused(component, slip).fold(sum, |sum, v| sum + v.abs());
             let along = sum(0.0, slip.0);
             let pressed = if self.presses[slip.0] { sum(along, self.tangents) } else { along };
             if self.across { pressed + sum(0.0, 1 - slip.0) } else { pressed }

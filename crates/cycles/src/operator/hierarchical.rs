@@ -178,7 +178,8 @@ impl Hierarchical {
             let entry = |p: usize, q: usize| if symmetric { mean(p, q) } else { force(p, q) };
             Compressed::new(n, Source { tree: &tree, entry, symmetric, error }.parts(), symmetric)
         };
-        let (shear_forces, normal_forces) = (compressed(shear, symmetric), normal.map(|m| compressed(m, false)));
+        let (shear_forces, normal_forces) =
+            (compressed(shear, symmetric), normal.map(|m| compressed(m, false)));
         let stiffness = columns(n, &std::iter::once(shear).chain(normal).collect::<Vec<_>>());
         let per_area = tree.order.iter().map(|&p| 1.0 / rows[p]).collect();
         let tolerance = Tolerance::OfLargest(tolerance);
@@ -205,7 +206,8 @@ impl Hierarchical {
             Source { tree, entry: force, symmetric: false, error }.parts()
         };
         let shifted = |parts: Vec<Part>, by: [usize; 2]| parts.into_iter().map(move |p| p.shifted(by));
-        let mut shear: Vec<Part> = (0..components).flat_map(|c| shifted(parts(c, c), [c * n, c * n])).collect();
+        let mut shear: Vec<Part> =
+            (0..components).flat_map(|c| shifted(parts(c, c), [c * n, c * n])).collect();
         if forces.across() {
             shear.extend(shifted(parts(0, 1), [0, n]));
         }

@@ -20,6 +20,7 @@ mod enforcement;
 mod fault;
 mod fault_geometry;
 mod fault_heat;
+mod fault_mirror;
 mod fault_normal;
 mod fault_opening;
 mod fault_outputs;

@@ -14,6 +14,7 @@ mod held;
 mod medium;
 mod meet;
 mod meshed;
+mod mirror;
 pub mod patches;
 mod place;
 mod placed;
@@ -86,12 +87,18 @@ pub fn plan_with(scene: &Scene, form: Form) -> Result<Plan, Diagnostic> {
     }
 }
 
-/// Refuses faults with so many points that the condensed operator alone exceeds the memory, before the cell matrices are computed.
-fn admit<const D: usize>(asked: Asked<'_, D>, conditions: Conditions) -> Result<(), Diagnostic> {
+/// Refuses faults with so many points that the condensed matrix alone exceeds the memory, before the cell matrices are computed.
+/// In a mirror, motions across the faults are no unknowns.
+fn admit<const D: usize>(
+    asked: Asked<'_, D>,
+    conditions: Conditions,
+    mirrored: bool,
+) -> Result<(), Diagnostic> {
     let points = asked.points;
     let free = points.iter().filter(|p| p.creep.is_none()).count();
     let opening = points.iter().filter(|p| p.creep.is_none() && p.opens).count();
-    let needed = least_bytes(conditions.components, conditions.tangents, free, opening);
+    let components = if mirrored { 1 } else { conditions.components };
+    let needed = least_bytes(components, conditions.tangents, free, opening);
     forecast::fits(asked.scene, needed)?;
     if needed > conditions.memory {
         return Err(asked.error(&Refusal::Memory { needed, allowed: conditions.memory, points: free }));
@@ -129,6 +136,10 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Diagnostic
     }
 }
 
+/// Note on bodies of which one stands for both.
+const MIRRORED: &str =
+    "the bodies and their loads are antisymmetric about the fault: one side is condensed for both";
+
 /// Plans faults between bodies.
 fn between_bodies<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Diagnostic> {
     let mut model = model::build::<D>(scene)?;
@@ -161,7 +172,9 @@ fn between_bodies<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Dia
     // Weight acts while the bodies are pressed, or else before the start.
     let weight = if pressing.is_none() { stage.weight.clone() } else { Vec::new() };
     let mut loads = loads(stage, &at_rest, weight);
-    admit(Asked { scene, model: &model, loads: &loads, points: &points }, conditions)?;
+    let mirror = if conditions.keep { None } else { mirror::of(&model, &points) };
+    let asked = Asked { scene, model: &model, loads: &loads, points: &points };
+    admit(asked, conditions, mirror.is_some())?;
     let bodies = model.take_stiffness();
     let faults: Vec<usize> = placed.iter().map(|p| p.fault).collect();
     let asked = Asked { scene, model: &model, loads: &loads, points: &points };
@@ -172,7 +185,11 @@ fn between_bodies<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Dia
     }
     let free: Vec<usize> = (0..points.len()).filter(|&k| points[k].creep.is_none()).collect();
     let asked = Asked { scene, model: &model, loads: &loads, points: &points };
-    let surroundings = condense(bodies, &loads, &points, conditions).map_err(|e| asked.error(&e))?;
+    let surroundings = condense(bodies, &loads, &points, conditions, mirror.as_ref());
+    let surroundings = surroundings.map_err(|e| asked.error(&e))?;
+    if surroundings.mirrored {
+        notes.push(MIRRORED.into());
+    }
     let (creeping, mut placed): (Vec<_>, Vec<_>) = placed.into_iter().partition(|p| p.point.creep.is_some());
     warnings.extend(doubts(scene, (&model, stage), (&placed, &creeping), &surroundings));
     notes.extend(weight::press(scene, (&model, stage), surroundings.weight.as_ref(), &mut placed)?);
