@@ -3,7 +3,8 @@
 use super::bodies::Bodies;
 use super::forces::{Bearing, Forces, Matrix};
 use super::held;
-use super::machine::{Machine, Spring};
+use super::loads::Loads;
+use super::machine::Machine;
 use super::mirror::Mirror;
 use super::place::{Place, across};
 use super::point::{Initial, Point};
@@ -12,7 +13,7 @@ use crate::loading::Loading;
 use crate::opening::Opening;
 use asperity_fem::FemError;
 use asperity_fem::condense::{Condensation, Condensed, Interior, Loaded, Remainder, Stiffness};
-use asperity_fem::dof::{Channel, Constraints};
+use asperity_fem::dof::Channel;
 use asperity_fem::jump::{Jump, Jumps, ObliqueConstraint};
 use asperity_fem::multifrontal::{DirectError, Triangle};
 use asperity_fem::table::Table;
@@ -44,19 +45,6 @@ const UNCOUPLED: f64 = 1e-9;
 
 /// Copies of the operator while it is made: its blocks one by one, and joined.
 const PARTS: usize = 2;
-
-/// Loads and supports of the bodies.
-#[derive(Clone, Debug)]
-pub struct Loads {
-    /// Prescribed motions and loads.
-    pub constraints: Constraints,
-    /// Boundaries that a spring moves as one.
-    pub springs: Vec<Spring>,
-    /// Nodal forces of the weight of the bodies, which acts before the start.
-    pub weight: Vec<(usize, f64)>,
-    /// End of the run \[s\].
-    pub end: f64,
-}
 
 /// Options of the condensation.
 #[derive(Clone, Copy, Debug)]

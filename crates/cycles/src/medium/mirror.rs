@@ -5,7 +5,7 @@
 //! opposite directions, and together across it. The latter motion is free, as normal tractions vanish. Both bodies have the same
 //! energy E, so that with the slip s' = s/2 of one side the force on slip is `d(2 E)/ds = dE/ds'`: it follows from one body.
 
-use super::condensed::Loads;
+use super::loads::Loads;
 use super::point::Point;
 use asperity_fem::condense::Stiffness;
 use asperity_fem::dof::{Channel, Constraints};

@@ -6,6 +6,7 @@ mod condensed;
 mod displaced;
 mod forces;
 mod held;
+mod loads;
 mod machine;
 mod mirror;
 pub mod patches;
@@ -17,8 +18,9 @@ mod springs;
 mod tractions;
 
 pub use bodies::Bodies;
-pub use condensed::{Conditions, Loads, Surroundings, condense, least_bytes};
+pub use condensed::{Conditions, Surroundings, condense, least_bytes};
 pub use forces::Forces;
+pub use loads::Loads;
 pub use machine::Spring;
 pub use mirror::Mirror;
 pub use place::{Place, across, unit};

@@ -187,9 +187,7 @@ fn between_bodies<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Dia
     let asked = Asked { scene, model: &model, loads: &loads, points: &points };
     let surroundings = condense(bodies, &loads, &points, conditions, mirror.as_ref());
     let surroundings = surroundings.map_err(|e| asked.error(&e))?;
-    if surroundings.mirrored {
-        notes.push(MIRRORED.into());
-    }
+    notes.extend(surroundings.mirrored.then(|| MIRRORED.to_string()));
     let (creeping, mut placed): (Vec<_>, Vec<_>) = placed.into_iter().partition(|p| p.point.creep.is_some());
     warnings.extend(doubts(scene, (&model, stage), (&placed, &creeping), &surroundings));
     notes.extend(weight::press(scene, (&model, stage), surroundings.weight.as_ref(), &mut placed)?);
