@@ -35,6 +35,11 @@ impl Loading {
         self.parts.push(Part { amplitude, shear, normal });
     }
 
+    /// Adds all loads of another.
+    pub fn append(&mut self, mut other: Self) {
+        self.parts.append(&mut other.parts);
+    }
+
     /// Times in (after, until) at which the rate of a load changes, ascending \[s\].
     #[must_use]
     pub fn breaks(&self, after: f64, until: f64) -> Vec<f64> {

@@ -1,5 +1,7 @@
 //! Several faults, several materials, curved faults.
 
+mod backslip;
+
 use crate::cases::dislocation;
 use crate::cases::drawn;
 use crate::cases::fault_operator::matrix;
@@ -26,7 +28,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     parallel(ledger)?;
     pairs(ledger)?;
     arc(ledger)?;
-    arc_in_space(ledger)
+    arc_in_space(ledger)?;
+    backslip::run(ledger)
 }
 
 /// Friction of faults of which only the operator is used.

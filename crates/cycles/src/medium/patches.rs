@@ -6,12 +6,10 @@
 
 use super::tractions::Tractions;
 use crate::kernel::{Field, Rectangle, Segment, Triangle};
-use crate::loading::Loading;
 use crate::operator::{
     Accuracy, Both, Checked, Dense, Division, Entry, Form, Geometry, Lattice, Operator, Toeplitz, in_form,
 };
 use asperity_fem::material::elastic::Elastic;
-use asperity_fem::table::Table;
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
@@ -451,22 +449,4 @@ fn of_grid(tiles: &[Tile], lattice: &Lattice, rock: &Elastic, slip: Slip<'_>) ->
         |table: Vec<f64>| -> Box<dyn Operator> { Box::new(Toeplitz::new(lattice.clone(), &table, None)) };
     let across = by_second.zip(by_first).map(|(a, b)| [boxed(a), boxed(b)]);
     Box::new(Both::new([Box::new(first), Box::new(second)], across))
-}
-
-/// Loads of slip deficit (J. C. Savage, J. Geophys. Res. 88 (1983) 4984): all patches slip backwards at the rates of the plates,
-/// which are given component by component \[m/s\]. On a plane fault it is the load of its continuation, which creeps at these
-/// rates. Returns the loads until `end` \[s\].
-#[must_use]
-pub fn deficit(operator: &dyn Operator, rates: &[f64], end: f64) -> Loading {
-    let backwards: Vec<f64> = rates.iter().map(|rate| -rate).collect();
-    let mut shear = vec![0.0; rates.len()];
-    operator.shear(&backwards, &mut shear);
-    let mut normal = Vec::new();
-    if operator.couples_normal() {
-        normal.resize(operator.points(), 0.0);
-        operator.normal(&backwards, &mut normal);
-    }
-    let mut loading = Loading::new(operator.components());
-    loading.add(Table::new(vec![0.0, end], vec![0.0, end]), shear, normal);
-    loading
 }

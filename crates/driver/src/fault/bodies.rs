@@ -12,6 +12,8 @@ pub struct BodiesView {
     pub nodes: Vec<[f64; 3]>,
     /// Nodes on the minus and the plus side of each freely sliding point.
     pub sides: Vec<[usize; 2]>,
+    /// Rates of plates behind which the points lag, component by component \[m/s\]: zero without backslip.
+    plates: Vec<f64>,
     /// True if their displacements are written.
     pub shown: bool,
     /// VTK cell type and nodes of each cell.
@@ -20,7 +22,7 @@ pub struct BodiesView {
 
 impl BodiesView {
     pub(super) fn new<const D: usize>(
-        bodies: Bodies,
+        (bodies, plates): (Bodies, Vec<f64>),
         model: &Model<D>,
         sides: Vec<[usize; 2]>,
         shown: bool,
@@ -35,8 +37,16 @@ impl BodiesView {
             bodies,
             nodes: model.mesh.nodes.iter().map(place).collect(),
             sides,
+            plates,
             shown,
             cells: cells.collect(),
         }
+    }
+
+    /// Jumps to which the bodies are displaced at a time \[s\]: slip less the motion of plates behind which it lags, and openings \[m\].
+    #[must_use]
+    pub fn jumps(&self, [slip, opening]: [&[f64]; 2], time: f64) -> Vec<f64> {
+        let lag = slip.iter().zip(&self.plates).map(|(slip, rate)| slip - rate * time);
+        lag.chain(opening.iter().copied()).collect()
     }
 }

@@ -31,6 +31,6 @@ pub fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), OutputError>
     let slip = &run.unknowns[Layout::of(&plan.problem.fault).slip()];
     let opening = plan.problem.fault.pressed(run.at, &run.unknowns, &mut Crack::default()).opening;
     let end = run.at.seconds();
-    put("bodies_end.vtu".into(), end, &view.bodies.vectors(&[slip, &opening].concat(), end))?;
+    put("bodies_end.vtu".into(), end, &view.bodies.vectors(&view.jumps([slip, &opening], end), end))?;
     atomic::write(&out.join("bodies.pvd"), &pvd(&entries))
 }

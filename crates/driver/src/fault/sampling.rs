@@ -63,7 +63,7 @@ impl Sampling {
     /// Values under this slip and opening of the points \[m\] at a time \[s\], with these normal tractions \[Pa\].
     pub(super) fn values(&self, view: &BodiesView, jumps: [&[f64]; 2], time: f64, normal: &[f64]) -> Samples {
         let force = self.areas.iter().zip(normal).map(|(area, normal)| area * normal).sum();
-        self.bodies.at(view.bodies.displacement(&jumps.concat(), time), time, force)
+        self.bodies.at(view.bodies.displacement(&view.jumps(jumps, time), time), time, force)
     }
 }
 

@@ -4,7 +4,7 @@ use super::Checker;
 use super::interfaces::RATED;
 use crate::law;
 use crate::model::{
-    Along, Creep, DampingSpec, Fault, Interface, Kinematics, Motion, Outside, Path, Profile, Profiled,
+    Along, Creep, CreepLoading, DampingSpec, Fault, Interface, Kinematics, Motion, Outside, Path, Profile, Profiled,
     SlipSpec, Spanned, Station, Stepper,
 };
 use crate::near::suggest;
@@ -394,6 +394,9 @@ impl Checker<'_> {
                 "such as `rate = \"1e-9 m/s\"`",
             );
         }
+        if let Some(loading) = creep.loading.as_ref() {
+            self.creep_loading(creep, loading);
+        }
         match (&creep.beyond, &creep.outside) {
             (Some(beyond), Some(outside)) => self.conflict(
                 &outside.span(),
@@ -402,11 +405,14 @@ impl Checker<'_> {
                 (&beyond.span(), "`beyond`"),
             ),
             // In a medium the continuation of the fault creeps.
-            (None, None) if self.scene.medium.is_some() => {}
+            (None, None) if self.scene.medium.is_some() || creep.is_backslip() => {}
             (None, None) => self.error(
                 creep.rate.span(),
                 "the creep of a fault says nowhere",
-                format!("add `beyond = \"40 km\"`{}", ", or `outside = { y = { from = \"-40 km\" } }`"),
+                format!(
+                    "add `beyond = \"40 km\"`{}",
+                    ", or `outside = { y = { from = \"-40 km\" } }`; or `loading = \"backslip\"`, if what creeps is not part of the bodies"
+                ),
             ),
             (Some(beyond), None) if self.in_space() => self.error(
                 beyond.span(),
@@ -415,6 +421,26 @@ impl Checker<'_> {
             ),
             (Some(_), None) => {}
             (None, Some(outside)) => self.ranges("outside", outside),
+        }
+    }
+
+    /// Refuses a load of creep that a medium does not have, and backslip without a rate.
+    fn creep_loading(&mut self, creep: &Creep, loading: &Spanned<CreepLoading>) {
+        let backslip = *loading.get_ref() == CreepLoading::Backslip;
+        if let Some(medium) = self.scene.medium.as_ref().filter(|_| !backslip) {
+            self.conflict(
+                &loading.span(),
+                "in a medium creep loads a fault by backslip",
+                "remove it, or `loading = \"backslip\"`: the part of a fault that creeps has no cells here",
+                (&medium.kind.span(), "the medium"),
+            );
+        }
+        if backslip && creep.rate.get_ref().0 == 0.0 {
+            self.error(
+                creep.rate.span(),
+                "backslip at no rate loads nothing",
+                "the rate of the plates, such as `rate = \"1e-9 m/s\"`",
+            );
         }
     }
 

@@ -219,9 +219,35 @@ pub struct Creep {
     pub outside: Option<Spanned<Outside>>,
     /// Slip rate \[m/s\].
     pub rate: Spanned<Velocity>,
+    /// Load of the creep: `"slip"` of its part of the fault (default between bodies), or `"backslip"` of all the rest (in a medium always).
+    pub loading: Option<Spanned<CreepLoading>>,
     /// Direction of the slip rate if the direction of slip may turn, of any length; absent: that of the fault.
     #[serde(default, deserialize_with = "crate::exact::optional")]
     pub rake: Option<Spanned<[f64; 3]>>,
+}
+
+impl Creep {
+    /// True if a border separates what creeps from what slides.
+    #[must_use]
+    pub fn has_border(&self) -> bool {
+        self.beyond.is_some() || self.outside.is_some()
+    }
+
+    /// True if backslip is asked for.
+    #[must_use]
+    pub fn is_backslip(&self) -> bool {
+        self.loading.as_ref().is_some_and(|l| *l.get_ref() == CreepLoading::Backslip)
+    }
+}
+
+/// Load of creep on the part of a fault that slides by its law.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum CreepLoading {
+    /// The part that creeps slips, and drags the rest along.
+    Slip,
+    /// The rest is loaded by its lag behind the rate of creep, as if it slipped backwards.
+    Backslip,
 }
 
 /// Ranges of coordinates; a position is within if it is within all of them.

@@ -68,7 +68,7 @@ fn bodies<const D: usize>(scene: &Scene, cycles: &Cycles) -> Result<(Bodies<D>, 
     let stages = loading::stages(scene, &model)?;
     // A stage before the last presses the bodies.
     let quasi_static = &stages[stages.len() - 1];
-    let loading = quasi_static.largest_rate();
+    let loading = quasi_static.largest_rate().max(of_faults::fastest_plates(scene));
     let stage = stage(quasi_static, &absorbing, (duration, components(&model)));
     let problem = Problem {
         model,

@@ -33,7 +33,8 @@ pub(super) fn creep<const D: usize>(
     (name, spec): (&str, &Spec),
     placed: &[Placed<D>],
 ) -> Result<(), Diagnostic> {
-    let Some(creep) = spec.creep.as_ref().filter(|_| placed.iter().all(|p| p.point.creep.is_none())) else {
+    let bordered = spec.creep.as_ref().filter(|creep| creep.has_border());
+    let Some(creep) = bordered.filter(|_| placed.iter().all(|p| p.point.creep.is_none())) else {
         return Ok(());
     };
     let border = creep.beyond.as_ref().map(Spanned::span).or(creep.outside.as_ref().map(Spanned::span));

@@ -2,6 +2,7 @@
 
 mod asked;
 mod assemble;
+mod backslip;
 mod bends;
 mod cells;
 pub(crate) mod checks;
@@ -34,6 +35,7 @@ mod weight;
 
 pub(crate) use asked::nothing_slides;
 pub(crate) use assemble::views;
+pub(crate) use backslip::fastest as fastest_plates;
 pub use critical::critical_slope;
 pub(crate) use meshed::Meshed;
 pub use place::places;
@@ -57,6 +59,7 @@ use asperity_cycles::medium::{
     Conditions, Forces, Loads, Place, Point, Refusal, Spring, Surroundings, condense, least_bytes,
 };
 use asperity_cycles::operator::{Form, Geometry, Operator, of_forces};
+use asperity_cycles::{Loading, deficit};
 use assemble::{Around, Surrounded, geometry, plan_of, turns};
 use held::Asked;
 use medium::Media;
@@ -186,27 +189,32 @@ fn between_bodies<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Dia
     let free: Vec<usize> = (0..points.len()).filter(|&k| points[k].creep.is_none()).collect();
     let asked = Asked { scene, model: &model, loads: &loads, points: &points };
     let surroundings = condense(bodies, &loads, &points, conditions, mirror.as_ref());
-    let surroundings = surroundings.map_err(|e| asked.error(&e))?;
+    let mut surroundings = surroundings.map_err(|e| asked.error(&e))?;
     notes.extend(surroundings.mirrored.then(|| MIRRORED.to_string()));
     let (creeping, mut placed): (Vec<_>, Vec<_>) = placed.into_iter().partition(|p| p.point.creep.is_some());
-    warnings.extend(doubts(scene, (&model, stage), (&placed, &creeping), &surroundings));
-    notes.extend(weight::press(scene, (&model, stage), surroundings.weight.as_ref(), &mut placed)?);
+    if placed.is_empty() {
+        return Err(asked::nothing_slides(&named, &creeping));
+    }
+    let plates = backslip::plates(scene, &placed, conditions.tangents);
+    let Surroundings { opening, weight, bytes, bodies: displaced, .. } = &mut surroundings;
+    let (opening, weight, bytes, displaced) = (opening.take(), weight.take(), *bytes, displaced.take());
+    let driven = driven(scene, (&model, stage), (&placed, &creeping), (surroundings, &plates, form));
+    warnings.extend(driven.warnings);
+    notes.extend(backslip::notes(scene));
+    notes.extend(weight::press(scene, (&model, stage), weight.as_ref(), &mut placed)?);
     if let Some(pressed) = &pressed {
         notes.extend(pressing::start(scene, pressed, &free, &mut placed)?);
     }
     let resolution = early.map_or_else(|| resolved(scene, &placed, &mut warnings), Ok)?;
-    if placed.is_empty() {
-        return Err(asked::nothing_slides(&named, &creeping));
-    }
-    asked::opens(&named, &placed, surroundings.opening.as_ref().map_or(&[], |o| o.points()))?;
+    asked::opens(&named, &placed, opening.as_ref().map_or(&[], |o| o.points()))?;
     let sides = placed.iter().map(|p| [p.point.place.minus, p.point.place.plus]).collect();
     let areas = placed.iter().map(|p| p.point.place.area).collect();
     let around = Around {
         medium: "condensed onto the faults",
         dofs: model.dofs(),
         creeping: creeping.len(),
-        memory_bytes: held.with_faults(surroundings.bytes),
-        bodies: surroundings.bodies.map(|bodies| BodiesView::new(bodies, &model, sides, shown(scene))),
+        memory_bytes: held.with_faults(bytes),
+        bodies: displaced.map(|bodies| BodiesView::new((bodies, plates), &model, sides, shown(scene))),
         sampling: sampled::of::<D>(scene, stage, pressed.as_ref(), areas)?,
         resolution,
         warnings,
@@ -215,30 +223,43 @@ fn between_bodies<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Dia
         machines: machines(stage, &checks::surfaces(scene, &placed)),
         checks: of_bodies,
     };
-    let surrounded = Surrounded {
-        operator: operator(surroundings.forces, &placed, form),
-        placed,
-        opening: surroundings.opening,
-        loading: surroundings.loading,
-        end: stage.end,
-    };
+    let Driven { operator, loading, .. } = driven;
+    let surrounded = Surrounded { operator, placed, opening, loading, end: stage.end };
     plan_of(scene, surrounded, around, &Meshed { model: &model })
 }
 
-/// Warnings about the loading of faults by loads and creep; points either slide or creep.
-fn doubts<const D: usize>(
+/// Operator of faults between bodies, and what loads them.
+struct Driven {
+    operator: Box<dyn Operator>,
+    loading: Loading,
+    warnings: Vec<Warning>,
+}
+
+/// Operator and loads of faults in their surroundings, with warnings about loads and creep; points either slide or creep, and
+/// those that slide may lag behind plates with these rates \[m/s\].
+fn driven<const D: usize>(
     scene: &Scene,
     (model, stage): (&Model<D>, &Stage),
     (placed, creeping): (&[Placed<D>], &[Placed<D>]),
-    surroundings: &Surroundings,
-) -> Vec<Warning> {
-    let mut all = sense::check(scene, (placed, creeping), &surroundings.loading, stage.end);
-    if all.is_empty() {
-        // One warning per cause.
-        all.extend(plates::check(scene, (model, stage), (placed, creeping), surroundings));
+    (surroundings, plates, form): (Surroundings, &[f64], Form),
+) -> Driven {
+    let of_sides = plates::check(scene, (model, stage), (placed, creeping), &surroundings);
+    let Surroundings { forces, mut loading, .. } = surroundings;
+    let operator = operator(forces, placed, form);
+    let mut of_backslip = None;
+    if plates.iter().any(|rate| *rate != 0.0) {
+        let deficit = deficit(operator.as_ref(), plates, stage.end);
+        of_backslip =
+            backslip::doubts(scene, placed, operator.as_ref(), ([&loading, &deficit], stage.end));
+        loading.append(deficit);
     }
-    all.extend(weight::hangs(scene, model, stage));
-    all
+    let mut warnings = sense::check(scene, (placed, creeping), &loading, stage.end);
+    if warnings.is_empty() {
+        // One warning per cause.
+        warnings.extend(of_backslip.or(of_sides));
+    }
+    warnings.extend(weight::hangs(scene, model, stage));
+    Driven { operator, loading, warnings }
 }
 
 /// Points of all faults, and notes on them.
@@ -287,7 +308,8 @@ fn points_of<const D: usize>(
             medium: media.at(&place),
             spacing: spacings.get(&place.minus).copied().unwrap_or_default(),
             stress: given.map(|s| s.start(model, &place, weighs)).transpose()?,
-            creep: creep.map(|c| c.rate.get_ref().0),
+            // With backslip, what creeps does so with the plates, behind which it does not lag.
+            creep: creep.map(|c| if c.is_backslip() { 0.0 } else { c.rate.get_ref().0 }),
             components: model.idealisation.components(),
         };
         placed.push(placed_at(spec, (fault, &base), place, given)?);

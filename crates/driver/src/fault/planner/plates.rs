@@ -58,7 +58,8 @@ fn judged<const D: usize>(
     };
     let cut = |p: &Placed<D>| part(p.point.place.minus) != part(p.point.place.plus);
     let one_way = |p: &Placed<D>| p.point.creep.is_none_or(|c| c[0] != 0.0 && c[1] == 0.0);
-    scene.faults.values().all(|f| f.creep.is_some()) && all().all(|p| parallel(p) && one_way(p) && cut(p))
+    let drags = |f: &Spec| f.creep.as_ref().is_some_and(|c| !c.is_backslip());
+    scene.faults.values().all(drags) && all().all(|p| parallel(p) && one_way(p) && cut(p))
 }
 
 /// Integral over the areas of the points of the traction along slip.

@@ -12,10 +12,10 @@ mod triangles;
 use super::super::plan::Plan;
 use super::assemble::{Around, Surrounded, geometry, plan_of, turns};
 use super::medium::Medium;
-use super::placed::{Placed, components};
+use super::placed::Placed;
 use super::point::{Given, base_law, placed_at};
 use super::resolved::resolved;
-use super::{asked, patches, resolution, sense};
+use super::{asked, backslip, patches, resolution, sense};
 use crate::amounts;
 use crate::checks::Checks;
 use crate::diagnostic::Diagnostic;
@@ -27,7 +27,8 @@ use crate::scene::model::{Fault as Spec, Medium as Rock, MediumKind, Scene, Span
 use crate::warning::Warning;
 use asperity_cycles::kernel::Space;
 use asperity_cycles::medium::Place;
-use asperity_cycles::medium::patches::{Patches, Slip, deficit};
+use asperity_cycles::deficit;
+use asperity_cycles::medium::patches::{Patches, Slip};
 use asperity_cycles::operator::{Form, Geometry};
 use asperity_fem::material::elastic::Elastic;
 use tiling::Tiling;
@@ -42,6 +43,7 @@ pub(super) fn plan<const D: usize>(scene: &Scene, rock: &Rock, form: Form) -> Re
     let elastic = elastic(scene, rock)?;
     let tiling = tiling::<D>(scene, rock)?;
     let mut warnings = scene.warnings.clone();
+    let mut notes = backslip::notes(scene);
     let placed = placed(scene, rock, &elastic, &tiling, &mut warnings)?;
     apart::check(scene, &placed, &tiling.widths())?;
     let resolution = resolved(scene, &placed, &mut warnings)?;
@@ -54,12 +56,12 @@ pub(super) fn plan<const D: usize>(scene: &Scene, rock: &Rock, form: Form) -> Re
     let geometry = Geometry { places: &places, faults: &faults, areas: &areas };
     let memory = admit(scene, &tiling.patches, slip, &geometry)?;
     let operator = tiling.patches.operator(&elastic, slip, (&geometry, form));
-    let plates = plates(scene, &placed, slip.tangents);
+    let plates = backslip::plates(scene, &placed, slip.tangents);
     let loading = deficit(operator.as_ref(), &plates, end);
     let receivers = receivers::of(scene, (&tiling.patches, &elastic), &placed, (plates, slip.tangents))?;
     warnings.extend(sense::check(scene, (&placed, &[]), &loading, end));
     warnings.extend(unloaded(scene));
-    let notes = tiling.notes.iter().cloned().chain([tiling.patches.reason()]).collect();
+    notes.extend(tiling.notes.iter().cloned().chain([tiling.patches.reason()]));
     let around = Around {
         medium: match rock.kind.get_ref() {
             MediumKind::HalfSpace => "homogeneous half-space without bodies",
@@ -173,15 +175,4 @@ fn admit(
         ),
         "raise `memory` in `[solver]` where the machine has it, or take larger cells",
     ))
-}
-
-/// Rates of the plates at all points, component by component \[m/s\]: zero on faults without creep.
-fn plates<const D: usize>(scene: &Scene, placed: &[Placed<D>], tangents: usize) -> Vec<f64> {
-    let specs: Vec<&Spec> = scene.faults.values().collect();
-    let rates = placed.iter().map(|p| {
-        let creep = specs[p.fault].creep.as_ref();
-        creep.map_or([0.0; 2], |c| components(&p.point.place, c.rate.get_ref().0))
-    });
-    let rates: Vec<[f64; 2]> = rates.collect();
-    (0..tangents).flat_map(|c| rates.iter().map(move |r| r[c])).collect()
 }
