@@ -9,6 +9,7 @@ pub mod checks;
 pub mod cite;
 pub mod cli;
 pub mod cohesive;
+mod columns;
 pub mod diagnostic;
 pub mod difference;
 pub mod dynamic;

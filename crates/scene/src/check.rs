@@ -6,6 +6,7 @@ pub mod course;
 mod explicit;
 mod fault_physics;
 mod faults;
+mod fields;
 mod heat;
 mod inertia;
 mod interfaces;

@@ -5,6 +5,7 @@
 
 mod body;
 mod fault;
+mod field;
 mod heat;
 mod inertia;
 mod medium;
@@ -22,6 +23,7 @@ pub use crate::spanned::Spanned;
 use crate::warning::Warning;
 pub use body::*;
 pub use fault::*;
+pub use field::*;
 pub use heat::*;
 pub use inertia::*;
 pub use medium::*;
@@ -100,7 +102,7 @@ impl Scene {
         self.bodies.get(set.get_ref().split('.').next()?)
     }
 
-    /// Names of the mesh files of the scene.
+    /// Names of the files of meshes and of parameters of the scene.
     pub fn mesh_files(&self) -> impl Iterator<Item = &str> {
         let bodies = self.bodies.values().filter_map(|body| match &body.mesh {
             MeshSource::Gmsh(mesh) => Some(&mesh.file),
@@ -108,7 +110,9 @@ impl Scene {
             MeshSource::Block(_) | MeshSource::Quadrilateral(_) | MeshSource::Fault(_) => None,
         });
         let faults = self.faults.values().filter_map(|fault| Some(fault.triangles.as_ref()?.file()));
-        bodies.chain(faults).map(|file| file.get_ref().as_str())
+        let fields = self.faults.values().flat_map(|fault| fault.fields.all());
+        let fields = fields.filter_map(|(_, field)| Some(&field?.file));
+        bodies.chain(faults).chain(fields).map(|file| file.get_ref().as_str())
     }
 }
 

@@ -12,7 +12,7 @@ const SCENE: &str = include_str!("../../../scenes/megathrust.toml");
 const SURFACE: &str = include_str!("../../../scenes/surfaces/nankai-style.txt");
 
 /// Depth of the formula \[km\] at a distance across and along the trench \[km\].
-fn depth(across: f64, along: f64) -> f64 {
+pub(super) fn depth(across: f64, along: f64) -> f64 {
     let p = across - 15.0 * (along / 90.0).sin();
     5.0 + 0.08 * p + 0.0012 * p * p
 }
@@ -20,7 +20,7 @@ fn depth(across: f64, along: f64) -> f64 {
 /// Bound on linear interpolation between contours \[km\]: 2.5 km of depth are up to 16 km of distance, over which the
 /// curvature of 0.0024 /km lifts a chord by 77 m; along contours samples are 12.5 km apart, and 0.33 times 15/90² /km lift it by
 /// 12 m.
-const LINEAR: f64 = 0.089;
+pub(super) const LINEAR: f64 = 0.089;
 
 /// Runs the claims on surfaces given by depths.
 pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {

@@ -1,6 +1,7 @@
 //! Faults in homogeneous rock without bodies: tractions of dipping faults, cracks, long rectangles, and the cycles of BP1.
 
 mod depths;
+mod fields;
 mod receivers;
 pub mod triangles;
 
@@ -38,6 +39,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     grid(ledger)?;
     triangles::run(ledger)?;
     depths::run(ledger)?;
+    fields::run(ledger)?;
     cycles(ledger)?;
     receivers::run(ledger)
 }

@@ -32,6 +32,7 @@ const ROWS: [Row; 1] = [Row {
         "plan/",
         "slider_planner/",
         "amounts.rs",
+        "columns.rs",
         "forecast.rs",
         "handover.rs",
         "idealisation.rs",

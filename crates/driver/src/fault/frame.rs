@@ -78,6 +78,11 @@ impl Frame {
         (self.axes.transpose() * Vector3::new(east, north, self.depth - depth)).into()
     }
 
+    /// Directions east and north in the axes of the scene.
+    pub(super) fn level(&self) -> [[f64; 3]; 2] {
+        [0, 1].map(|row| std::array::from_fn(|c| self.axes[(row, c)]))
+    }
+
     /// Projection around the origin.
     pub(super) fn map(&self) -> Map {
         Map::new(self.longitude, self.latitude)

@@ -366,12 +366,21 @@ pub(super) fn bytes(scene: &scene::Scene, file: &Spanned<String>) -> Result<Vec<
     let (name, path) = (file.get_ref(), scene.folder.join(file.get_ref()));
     std::fs::read(&path).map_err(|e| {
         let message = format!("the mesh file `{name}` cannot be read: {e}");
-        Diagnostic::at(file.span(), message, looked_for(&path))
+        Diagnostic::at(file.span(), message, looked_for(&path, ("mesh files", &MESHES)))
     })
 }
 
-/// Path of a missing mesh file, and the files found there instead.
-fn looked_for(path: &Path) -> String {
+/// Content of a file of columns.
+pub(crate) fn data(scene: &scene::Scene, file: &Spanned<String>) -> Result<Vec<u8>, Diagnostic> {
+    let (name, path) = (file.get_ref(), scene.folder.join(file.get_ref()));
+    std::fs::read(&path).map_err(|e| {
+        let message = format!("the file `{name}` cannot be read: {e}");
+        Diagnostic::at(file.span(), message, looked_for(&path, ("files of columns", &TABLES)))
+    })
+}
+
+/// Path of a missing file, and the files of its kind found there instead.
+fn looked_for(path: &Path, (what, extensions): (&str, &[&str])) -> String {
     let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
     let told =
         format!("looked for {}; paths are relative to the folder of the scene. There", whole.display());
@@ -381,18 +390,20 @@ fn looked_for(path: &Path) -> String {
     };
     let mut there: Vec<String> = entries
         .filter_map(|entry| Some(entry.ok()?.path()))
-        .filter(|p| p.is_file() && p.extension().is_some_and(|e| MESHES.iter().any(|m| e == *m)))
+        .filter(|p| p.is_file() && p.extension().is_some_and(|e| extensions.iter().any(|m| e == *m)))
         .filter_map(|p| Some(p.file_name()?.to_string_lossy().into_owned()))
         .collect();
     there.sort();
     if there.is_empty() {
-        return format!("{told} is no mesh file");
+        return format!("{told} are no {what}");
     }
-    format!("{told}: {}", suggest(&name, "mesh files", there.iter().map(String::as_str)))
+    format!("{told}: {}", suggest(&name, what, there.iter().map(String::as_str)))
 }
 
 /// Extensions of mesh files.
 const MESHES: [&str; 3] = ["msh", "inp", "stl"];
+/// Extensions of files of columns.
+const TABLES: [&str; 2] = ["csv", "txt"];
 
 fn cut<const D: usize>(mesh: &mut Mesh<D>, file: &str, name: &Spanned<String>) -> Result<(), Diagnostic> {
     let known = || suggest(name.get_ref(), "sets", mesh.side_sets.keys().map(String::as_str));

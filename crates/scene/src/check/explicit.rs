@@ -256,7 +256,7 @@ impl Checker<'_> {
         let scene = self.scene;
         let bodies = [&fault.minus, &fault.plus].map(|side| scene.body_of(side));
         let stressed = bodies.iter().flatten().any(|b| b.initial_stress.is_some());
-        if fault.shear.is_none() && fault.profiles.shear.is_none() && !stressed {
+        if fault.shear.is_none() && !fault.has_shear_along() && !stressed {
             self.error(
                 fault.span(),
                 "the fault has no `shear`, and bodies with mass start from given tractions",

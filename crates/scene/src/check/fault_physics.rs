@@ -58,8 +58,12 @@ impl Checker<'_> {
         let profile = |p: &Option<crate::model::Profiled>| {
             p.as_ref().and_then(|p| p.0.first()).map(|p| p.points.span())
         };
-        let normal = fault.normal.as_ref().map(Spanned::span).or(profile(&fault.profiles.normal));
-        let shear = fault.shear.as_ref().map(Spanned::span).or(profile(&fault.profiles.shear));
+        let file = |f: &Option<crate::model::Field>| f.as_ref().map(|f| f.file.span());
+        let (profiles, fields) = (&fault.profiles, &fault.fields);
+        let normal = fault.normal.as_ref().map(Spanned::span);
+        let normal = normal.or(profile(&profiles.normal)).or(file(&fields.normal));
+        let shear = fault.shear.as_ref().map(Spanned::span);
+        let shear = shear.or(profile(&profiles.shear)).or(file(&fields.shear));
         let bodies = [&fault.minus, &fault.plus].map(|side| self.scene.body_of(side));
         let stress = bodies.iter().flatten().find_map(|b| b.initial_stress.as_ref());
         let pressed = stress.is_some_and(|s| s.get_ref().presses());

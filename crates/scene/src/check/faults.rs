@@ -36,6 +36,7 @@ impl Checker<'_> {
                     self.profile(name, profile, Some(1.0));
                 }
             }
+            self.fields(fault);
             for profile in fault.profiles.shear.iter().flat_map(|Profiled(list)| list) {
                 let sense = fault.slides().then(|| fault.rate.get_ref().0.signum());
                 self.profile("shear", profile, sense);

@@ -89,8 +89,8 @@ impl Checker<'_> {
         }
         let given = |key: &Option<Spanned<_>>, profile: bool| key.is_some() || profile;
         for (key, patched, base) in [
-            ("normal", &patch.normal, given(&fault.normal, fault.profiles.normal.is_some())),
-            ("shear", &patch.shear, given(&fault.shear, fault.profiles.shear.is_some())),
+            ("normal", &patch.normal, given(&fault.normal, fault.has_normal_along())),
+            ("shear", &patch.shear, given(&fault.shear, fault.has_shear_along())),
         ] {
             if let Some(value) = patched.as_ref().filter(|_| !base) {
                 self.error(

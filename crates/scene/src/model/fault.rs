@@ -1,6 +1,6 @@
 //! Faults as declared in a scene, for simulations of earthquake cycles.
 
-use super::{FaultLine, FaultRectangle, FaultTriangles, Heat, LawSpec, Patch, Pulse};
+use super::{FaultLine, FaultRectangle, FaultTriangles, Fields, Heat, LawSpec, Patch, Pulse};
 use crate::here::here;
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
@@ -33,6 +33,9 @@ pub struct Fault {
     /// Values of `a`, `b`, `l`, `normal` or `shear` along the fault.
     #[serde(default)]
     pub profiles: Profiles,
+    /// Values of `a`, `b`, `l`, `normal` or `shear` at positions in files.
+    #[serde(default)]
+    pub fields: Fields,
     /// Parts of the fault with parameters of their own, in the order in which they apply, after `profiles`.
     #[serde(default)]
     pub patches: Vec<Patch>,
@@ -111,6 +114,18 @@ impl Fault {
             _ if self.minus.get_ref().is_empty() => self.law.span(),
             _ => self.minus.span(),
         }
+    }
+
+    /// True if a profile or a file gives its initial normal traction along it.
+    #[must_use]
+    pub fn has_normal_along(&self) -> bool {
+        self.profiles.normal.is_some() || self.fields.normal.is_some()
+    }
+
+    /// True if a profile or a file gives its initial shear traction along it.
+    #[must_use]
+    pub fn has_shear_along(&self) -> bool {
+        self.profiles.shear.is_some() || self.fields.shear.is_some()
     }
 
     /// True if sides of bodies are named.

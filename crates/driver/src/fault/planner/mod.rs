@@ -8,6 +8,7 @@ mod cells;
 pub(crate) mod checks;
 pub mod cover;
 mod critical;
+mod fields;
 mod floor;
 mod frame;
 mod heated;
@@ -61,6 +62,7 @@ use asperity_cycles::medium::{
 use asperity_cycles::operator::{Form, Geometry, Operator, of_forces};
 use asperity_cycles::{Loading, deficit};
 use assemble::{Around, Surrounded, geometry, plan_of, turns};
+use fields::Fields;
 use held::Asked;
 use medium::Media;
 use point::{Given, base_law, placed_at};
@@ -269,10 +271,10 @@ pub(crate) fn all_points<const D: usize>(
     warnings: &mut Vec<Warning>,
 ) -> Result<(Vec<Placed<D>>, Vec<String>), Diagnostic> {
     let mut placed: Vec<Placed<D>> = Vec::new();
-    for (k, (name, spec)) in scene.faults.iter().enumerate() {
-        placed.extend(points_of(scene, model, (name, spec), k, warnings)?);
-    }
     let mut notes = meshes::notes(scene)?;
+    for (k, (name, spec)) in scene.faults.iter().enumerate() {
+        placed.extend(points_of(scene, model, (name, spec), k, (&mut *warnings, &mut notes))?);
+    }
     for fault in &scene.faults {
         notes.extend(bends::note(model, (fault.0, fault.1))?);
     }
@@ -291,7 +293,7 @@ fn points_of<const D: usize>(
     model: &Model<D>,
     (name, spec): (&str, &Spec),
     fault: usize,
-    warnings: &mut Vec<Warning>,
+    (warnings, notes): (&mut Vec<Warning>, &mut Vec<String>),
 ) -> Result<Vec<Placed<D>>, Diagnostic> {
     let base = base_law(spec)?;
     let mut placed = Vec::new();
@@ -301,6 +303,7 @@ fn points_of<const D: usize>(
     let weighs = scene.bodies.values().any(|b| b.gravity.is_some());
     let (places, doubtful) = place::places(model, name, spec)?;
     warnings.extend(doubtful);
+    let fields = Fields::read(scene, (name, spec), &places)?;
     for place in places {
         let creep = spec.creep.as_ref().filter(|c| creeps(c, &place, CLOSE * model.scale));
         let given = stress.as_ref().filter(|_| creep.is_none());
@@ -312,8 +315,9 @@ fn points_of<const D: usize>(
             creep: creep.map(|c| if c.is_backslip() { 0.0 } else { c.rate.get_ref().0 }),
             components: model.idealisation.components(),
         };
-        placed.push(placed_at(spec, (fault, &base), place, given)?);
+        placed.push(placed_at(spec, (fault, &base, &fields), place, given)?);
     }
+    notes.extend(fields.notes(&placed));
     asked::creep((name, spec), &placed)?;
     asked::profiles(scene, (name, spec), &placed, warnings)?;
     warnings.extend(patches::covered((name, spec), &placed)?);

@@ -1,6 +1,7 @@
 //! Parameters that vary along a fault: profiles, and then patches in the order of the scene.
 
 use super::asked::extent;
+use super::fields::PARAMETERS;
 use super::placed::{Placed, at};
 use crate::diagnostic::Diagnostic;
 use crate::scene::law::LawChoice;
@@ -38,17 +39,22 @@ impl Values {
     }
 }
 
-/// Parameters at a point of a fault.
-pub(super) fn values<const D: usize>(spec: &Spec, place: &Place<D>, base: &LawChoice) -> Values {
+/// Parameters at a point of a fault, some of which files give.
+pub(super) fn values<const D: usize>(
+    spec: &Spec,
+    place: &Place<D>,
+    (base, from_files): (&LawChoice, [Option<f64>; PARAMETERS]),
+) -> Values {
     let all = &spec.profiles;
     let of = |profile: &Option<Profiled>| profile.as_ref().map(|p| largest(p, place));
     let [a, b, l] = constants(base);
+    let [file_a, file_b, file_l, file_normal, file_shear] = from_files;
     let mut values = [
-        of(&all.a).or(a),
-        of(&all.b).or(b),
-        of(&all.l).or(l),
-        of(&all.normal).or(spec.normal.as_ref().map(|n| n.get_ref().0)),
-        of(&all.shear).or(spec.shear.as_ref().map(|s| s.get_ref().0)),
+        file_a.or(of(&all.a)).or(a),
+        file_b.or(of(&all.b)).or(b),
+        file_l.or(of(&all.l)).or(l),
+        file_normal.or(of(&all.normal)).or(spec.normal.as_ref().map(|n| n.get_ref().0)),
+        file_shear.or(of(&all.shear)).or(spec.shear.as_ref().map(|s| s.get_ref().0)),
         Some(spec.rate.get_ref().0),
     ];
     for patch in &spec.patches {
@@ -92,8 +98,9 @@ pub(super) fn fit(spec: &Spec, law: &LawChoice) -> Result<(), Diagnostic> {
     let profiles = [&spec.profiles.a, &spec.profiles.b, &spec.profiles.l];
     for (k, (key, has)) in ["a", "b", "l"].into_iter().zip(has).enumerate() {
         let profiled = profiles[k].as_ref().and_then(|p| p.0.first()).map(|p| p.points.span());
+        let filed = spec.fields.all()[k].1.map(|f| f.file.span());
         let patched = spec.patches.iter().find_map(|p| p.values()[k].as_ref().map(|v| v.1.clone()));
-        if let Some(place) = profiled.or(patched).filter(|_| has.is_none()) {
+        if let Some(place) = profiled.or(filed).or(patched).filter(|_| has.is_none()) {
             return Err(Diagnostic::at(
                 place,
                 format!("`{key}` varies along the fault, and its law does not have exactly one `{key}`"),

@@ -61,14 +61,22 @@ pub(super) fn along<const D: usize>(profile: &Profile, place: &Place<D>) -> f64 
 
 /// Value of a profile at a point: linear between its nodes, constant beyond them.
 pub(super) fn at<const D: usize>(profile: &Profile, place: &Place<D>) -> f64 {
-    let x = along(profile, place);
     let points = profile.points.get_ref();
-    let k = points.partition_point(|p| p.0.0 <= x);
-    if k == 0 || k == points.len() {
-        return points[k.min(points.len() - 1)].1;
+    between(points.len(), |k| (points[k].0.0, points[k].1), along(profile, place))
+}
+
+/// Value at a position between nodes, of which `node` has position and value: linear between them, constant beyond them.
+pub(super) fn between(count: usize, node: impl Fn(usize) -> (f64, f64), x: f64) -> f64 {
+    let (mut low, mut k) = (0, count);
+    while low < k {
+        let middle = low.midpoint(k);
+        if node(middle).0 <= x { low = middle + 1 } else { k = middle }
     }
-    let (a, b) = (&points[k - 1], &points[k]);
-    let s = (x - a.0.0) / (b.0.0 - a.0.0);
+    if k == 0 || k == count {
+        return node(k.min(count - 1)).1;
+    }
+    let (a, b) = (node(k - 1), node(k));
+    let s = (x - a.0) / (b.0 - a.0);
     (1.0 - s) * a.1 + s * b.1
 }
 

@@ -1,5 +1,6 @@
 //! A point of a fault with its law, its damping and its initial tractions.
 
+use super::fields::Fields;
 use super::medium::Medium;
 use super::placed::{Placed, components};
 use super::prestress::Resolved;
@@ -26,12 +27,14 @@ pub(super) struct Given {
 /// A point of a fault with its law and initial tractions.
 pub(super) fn placed_at<const D: usize>(
     spec: &Spec,
-    (fault, base): (usize, &LawChoice),
+    (fault, base, fields): (usize, &LawChoice, &Fields<D>),
     place: Place<D>,
     given: Given,
 ) -> Result<Placed<D>, Diagnostic> {
     let choice = floor::choice(spec);
-    let values = patches::values(spec, &place, base);
+    // Where the fault creeps, parameters are not used.
+    let from_files = if given.creep.is_some() { Default::default() } else { fields.at(&place)? };
+    let values = patches::values(spec, &place, (base, from_files));
     Ok(Placed {
         fault,
         medium: given.medium,

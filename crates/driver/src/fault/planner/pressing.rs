@@ -141,7 +141,7 @@ fn words<'a, const D: usize>(
         "stage `{}`: fault `{name}` {sides}, and is pressed with {normal} MPa at its end, from where the time of the run counts",
         stage.name
     );
-    if spec.shear.is_some() || spec.profiles.shear.is_some() {
+    if spec.shear.is_some() || spec.has_shear_along() {
         text += "; its shear traction is as given";
     } else {
         let shear = range(&mut points.filter_map(|p| Some(p.pressed_shear?[0] / 1e6)));

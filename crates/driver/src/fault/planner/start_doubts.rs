@@ -20,6 +20,9 @@ fn source<'a>(scene: &'a Scene, spec: &'a Spec) -> (&'static str, Range<usize>) 
     if let Some(profile) = spec.profiles.shear.as_ref().and_then(|p| p.0.first()) {
         return ("`profiles.shear`", profile.points.span());
     }
+    if let Some(field) = &spec.fields.shear {
+        return ("`fields.shear`", field.file.span());
+    }
     let of = |side: &Spanned<String>| scene.body_of(side);
     let bodies = [of(&spec.minus), of(&spec.plus)];
     let stress = bodies.iter().flatten().find_map(|b| b.initial_stress.as_ref()).map(Spanned::span);

@@ -79,7 +79,7 @@ fn add<const D: usize>(
 
 /// True if the initial shear traction is given.
 fn given(spec: &Spec) -> bool {
-    spec.shear.is_some() || spec.profiles.shear.is_some()
+    spec.shear.is_some() || spec.has_shear_along()
 }
 
 /// Initial tractions of a point; values below `small` \[Pa\] are rounding.

@@ -1,5 +1,7 @@
 //! Errors of surfaces that are given by depths.
 
+use super::scattered::ScatterError;
+
 /// Reason why a surface given by depths cannot be divided into triangles. Positions are east and north of the origin.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SheetError {
@@ -77,6 +79,15 @@ pub enum SheetError {
         /// Estimated number of triangles.
         triangles: f64,
     },
+}
+
+impl From<ScatterError> for SheetError {
+    fn from(error: ScatterError) -> Self {
+        match error {
+            ScatterError::Few { positions } => Self::Few { positions },
+            ScatterError::Twice { at, values } => Self::Twice { at, depths: values },
+        }
+    }
 }
 
 fn km(metres: &f64) -> f64 {

@@ -11,6 +11,7 @@ mod triangles;
 
 use super::super::plan::Plan;
 use super::assemble::{Around, Surrounded, geometry, plan_of, turns};
+use super::fields::Fields;
 use super::medium::Medium;
 use super::placed::Placed;
 use super::point::{Given, base_law, placed_at};
@@ -44,7 +45,7 @@ pub(super) fn plan<const D: usize>(scene: &Scene, rock: &Rock, form: Form) -> Re
     let tiling = tiling::<D>(scene, rock)?;
     let mut warnings = scene.warnings.clone();
     let mut notes = backslip::notes(scene);
-    let placed = placed(scene, rock, &elastic, &tiling, &mut warnings)?;
+    let placed = placed(scene, rock, &elastic, &tiling, (&mut warnings, &mut notes))?;
     apart::check(scene, &placed, &tiling.widths())?;
     let resolution = resolved(scene, &placed, &mut warnings)?;
     warnings.extend(triangles::tiny(scene, &tiling, &resolution));
@@ -122,7 +123,7 @@ fn placed<const D: usize>(
     rock: &Rock,
     elastic: &Elastic,
     tiling: &Tiling<D>,
-    warnings: &mut Vec<Warning>,
+    (warnings, notes): (&mut Vec<Warning>, &mut Vec<String>),
 ) -> Result<Vec<Placed<D>>, Diagnostic> {
     let idealisation = idealisation::of(*scene.kinematics.get_ref());
     let density = scene.materials.get(rock.material.get_ref()).and_then(|m| m.density.as_ref());
@@ -136,13 +137,15 @@ fn placed<const D: usize>(
     for (fault, (name, spec)) in scene.faults.iter().enumerate() {
         let base = base_law(spec)?;
         let cut = &tiling.faults[fault];
+        let fields = Fields::read(scene, (name, spec), &cut.places)?;
         let cells = cut.places.iter().zip(&cut.sizes);
         let of = |(place, &spacing): (&Place<D>, &f64)| {
             let components = idealisation.components();
             let given = Given { medium, spacing, stress: None, creep: None, components };
-            placed_at(spec, (fault, &base), place.clone(), given)
+            placed_at(spec, (fault, &base, &fields), place.clone(), given)
         };
         let placed: Vec<Placed<D>> = cells.map(of).collect::<Result<_, _>>()?;
+        notes.extend(fields.notes(&placed));
         asked::profiles(scene, (name, spec), &placed, warnings)?;
         warnings.extend(patches::covered((name, spec), &placed)?);
         all.extend(placed);

@@ -1,0 +1,203 @@
+//! Columns of numbers with names and units, from the text of a CSV file.
+
+use crate::scene::near::suggest;
+use crate::scene::units::{self, Dimension};
+
+/// Columns of a table. Its first line has their names, with units in brackets, such as `x [km]`.
+#[derive(Debug)]
+pub struct Columns {
+    heads: Vec<Head>,
+    /// Number of the line and cells of each row.
+    rows: Vec<(u64, Vec<String>)>,
+}
+
+/// Name of a column and its unit.
+#[derive(Debug)]
+struct Head {
+    name: String,
+    unit: Option<String>,
+}
+
+/// Reason why a file has not the numbers that are asked for, and what would be right.
+#[derive(Debug)]
+pub struct Wrong {
+    /// Message.
+    pub message: String,
+    /// Help.
+    pub help: String,
+}
+
+impl Wrong {
+    fn new(message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self { message: message.into(), help: help.into() }
+    }
+}
+
+/// Form of a file, for messages.
+const FORM: &str = "the first line names the columns, with units in brackets, such as `x [km],y [km],a`; numbers follow, separated by commas";
+
+impl Columns {
+    /// Columns of a text.
+    ///
+    /// # Errors
+    /// [`Wrong`] for a text without a line of names or without rows, and for rows of another length.
+    pub fn parse(bytes: &[u8]) -> Result<Self, Wrong> {
+        let text = std::str::from_utf8(bytes).map_err(|_| Wrong::new("it is not a text", FORM))?;
+        let text = text.trim_start_matches('\u{feff}');
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .has_headers(false)
+            .from_reader(text.as_bytes());
+        let mut heads: Option<Vec<Head>> = None;
+        let mut rows = Vec::new();
+        for record in reader.records() {
+            let record = record.map_err(|e| Wrong::new(uneven(&e), FORM))?;
+            let line = record.position().map_or(0, csv::Position::line);
+            match heads {
+                None => heads = Some(record.iter().map(head).collect::<Result<_, _>>()?),
+                Some(_) => rows.push((line, record.iter().map(str::to_string).collect())),
+            }
+        }
+        let heads = heads.ok_or_else(|| Wrong::new("it is empty", FORM))?;
+        for (k, head) in heads.iter().enumerate() {
+            if heads[..k].iter().any(|other| other.name == head.name) {
+                return Err(Wrong::new(format!("it has two columns `{}`", head.name), "one of each name"));
+            }
+        }
+        if rows.is_empty() {
+            return Err(Wrong::new("it has no rows below the names of its columns", FORM));
+        }
+        Ok(Self { heads, rows })
+    }
+
+    /// Names of the columns.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.heads.iter().map(|head| head.name.as_str())
+    }
+
+    /// Line of a row in the file.
+    #[must_use]
+    pub fn line(&self, row: usize) -> u64 {
+        self.rows[row].0
+    }
+
+    /// Numbers of a column in SI units, or without a unit if they have no dimension.
+    ///
+    /// # Errors
+    /// [`Wrong`] if there is no such column, its unit is missing or another one, or a cell is not a finite number.
+    pub fn numbers(&self, name: &str, dimension: Option<Dimension>) -> Result<Vec<f64>, Wrong> {
+        let found = self.heads.iter().position(|head| head.name == name);
+        let column = found.ok_or_else(|| {
+            Wrong::new(format!("it has no column `{name}`"), suggest(name, "columns", self.names()))
+        })?;
+        let unit = unit(&self.heads[column], dimension)?;
+        let cell = |(line, cells): &(u64, Vec<String>)| {
+            let cell = cells[column].as_str();
+            let number = cell.parse::<f64>().ok().filter(|v| v.is_finite());
+            let number = number.ok_or_else(|| {
+                Wrong::new(
+                    format!("line {line}: `{cell}` in column `{name}` is not a finite number"),
+                    "numbers such as 0.015 or 1.5e-2, with a decimal point and without their unit",
+                )
+            })?;
+            match (unit, dimension) {
+                // The text with its unit is read as in a scene, to the last digit.
+                (Some(unit), Some(dimension)) => units::parse(&format!("{cell} {unit}"), dimension)
+                    .map_err(|why| Wrong::new(format!("line {line}: {why}"), FORM)),
+                _ => Ok(number),
+            }
+        };
+        self.rows.iter().map(cell).collect()
+    }
+}
+
+/// Name and unit of a column.
+fn head(cell: &str) -> Result<Head, Wrong> {
+    if cell.is_empty() || cell.parse::<f64>().is_ok() {
+        return Err(Wrong::new(format!("its first line has `{cell}` instead of the name of a column"), FORM));
+    }
+    let (name, unit) = match cell.split_once('[') {
+        None => (cell, None),
+        Some((name, rest)) => {
+            let unit = rest.strip_suffix(']').ok_or_else(|| {
+                Wrong::new(format!("the name of its column `{cell}` has no closing bracket"), FORM)
+            })?;
+            (name.trim(), Some(unit.trim().to_string()))
+        }
+    };
+    Ok(Head { name: name.to_string(), unit })
+}
+
+/// Unit of a column of this dimension.
+fn unit(head: &Head, dimension: Option<Dimension>) -> Result<Option<&str>, Wrong> {
+    let Head { name, unit } = head;
+    match (dimension, unit.as_deref()) {
+        (None, None | Some("-" | "1" | "")) => Ok(None),
+        (None, Some(unit)) => Err(Wrong::new(
+            format!("its column `{name}` has the unit {unit}, and is a number without a unit"),
+            format!("`{name}` or `{name} [-]`"),
+        )),
+        (Some(dimension), None | Some("")) => Err(Wrong::new(
+            format!("its column `{name}` has no unit, and is {}", dimension.name()),
+            format!("the unit in brackets, such as `{name} [{}]`", dimension.si()),
+        )),
+        (Some(dimension), Some(unit)) => match units::parse(&format!("1 {unit}"), dimension) {
+            Ok(_) => Ok(Some(unit)),
+            Err(why) => Err(Wrong::new(
+                format!("the unit of its column `{name}`: {why}"),
+                format!("such as `{name} [{}]`", dimension.si()),
+            )),
+        },
+    }
+}
+
+/// Reason why a row cannot be read.
+fn uneven(error: &csv::Error) -> String {
+    match error.kind() {
+        csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
+            let line = pos.as_ref().map_or(0, csv::Position::line);
+            format!("line {line} has {len} cells, and {expected_len} columns have names")
+        }
+        _ => error.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_with_units_are_those_of_scenes() {
+        let columns = Columns::parse(b"# slip\nx [km], a\n25, 0.01\n 0.1,2e-2\n").unwrap();
+        assert_eq!(columns.numbers("x", Some(Dimension::Length)).unwrap(), [25e3, 100.0]);
+        assert_eq!(columns.numbers("a", None).unwrap(), [0.01, 0.02]);
+        assert_eq!(columns.line(0), 3);
+    }
+
+    #[test]
+    fn what_is_wrong_names_its_line_and_column() {
+        let wrong = |text: &str, name: &str, dimension| match Columns::parse(text.as_bytes()) {
+            Ok(columns) => columns.numbers(name, dimension).unwrap_err().message,
+            Err(wrong) => wrong.message,
+        };
+        let length = Some(Dimension::Length);
+        assert_eq!(
+            wrong("x [km]\n1\nNaN\n", "x", length),
+            "line 3: `NaN` in column `x` is not a finite number"
+        );
+        assert_eq!(wrong("x\n1\n", "x", length), "its column `x` has no unit, and is a length");
+        assert_eq!(
+            wrong("a [MPa]\n1\n", "a", None),
+            "its column `a` has the unit MPa, and is a number without a unit"
+        );
+        assert_eq!(wrong("x [km],a\n1\n", "a", None), "line 2 has 1 cells, and 2 columns have names");
+        assert_eq!(
+            wrong("1,2\n3,4\n", "a", None),
+            "its first line has `1` instead of the name of a column"
+        );
+        assert_eq!(wrong("x [km]\n", "x", length), "it has no rows below the names of its columns");
+        assert_eq!(wrong("", "x", length), "it is empty");
+        assert!(wrong("x [MPa]\n1\n", "x", length).starts_with("the unit of its column `x`: expected a length"));
+    }
+}

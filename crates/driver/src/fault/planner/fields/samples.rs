@@ -1,0 +1,103 @@
+//! Values between the positions of a file.
+
+use super::super::placed::between;
+use asperity_fem::mesh::sheet::{ScatterError, Scattered};
+
+/// Distance beyond the ends of a line within which a position counts as on it, over its length: rounding.
+const ON_END: f64 = 1e-9;
+
+/// Samples on a line or a plane.
+pub(super) enum Samples {
+    /// Positions that ascend, with their values.
+    Line { points: Vec<(f64, f64)>, nearest: bool },
+    /// Positions of a plane.
+    Plane { samples: Scattered, nearest: bool },
+}
+
+impl Samples {
+    /// Samples at positions with one or two coordinates.
+    ///
+    /// # Errors
+    /// [`ScatterError`] for positions without extent, or with two values.
+    pub fn new(positions: &[Vec<f64>], values: &[f64], nearest: bool) -> Result<Self, ScatterError> {
+        let rows = positions.iter().zip(values);
+        if positions.iter().any(|x| x.len() == 2) {
+            let samples: Vec<[f64; 3]> = rows.map(|(x, v)| [x[0], x[1], *v]).collect();
+            return Ok(Self::Plane { samples: Scattered::new(&samples)?, nearest });
+        }
+        let mut points: Vec<(f64, f64)> = rows.map(|(x, v)| (x[0], *v)).collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        points.dedup();
+        if let Some(twice) = points.windows(2).find(|w| w[0].0 == w[1].0) {
+            let values = [twice[0].1, twice[1].1];
+            return Err(ScatterError::Twice { at: [twice[0].0, 0.0], values });
+        }
+        if points.len() < 2 {
+            return Err(ScatterError::Few { positions: points.len() });
+        }
+        Ok(Self::Line { points, nearest })
+    }
+
+    /// Number of distinct positions.
+    pub fn count(&self) -> usize {
+        match self {
+            Self::Line { points, .. } => points.len(),
+            Self::Plane { samples, .. } => samples.samples().len(),
+        }
+    }
+
+    /// Value at a position; `None` outside the samples.
+    pub fn at(&self, x: &[f64]) -> Option<f64> {
+        match self {
+            Self::Line { points, nearest: false } => within(points, x[0]).then(|| linear(points, x[0])),
+            Self::Line { points, nearest: true } => nearest(points, x[0]),
+            Self::Plane { samples, nearest: false } => samples.linear([x[0], x[1]]),
+            Self::Plane { samples, nearest: true } => samples.nearest([x[0], x[1]]),
+        }
+    }
+
+    /// Interpolation in words.
+    pub fn words(&self) -> &'static str {
+        match self {
+            Self::Line { nearest: true, .. } | Self::Plane { nearest: true, .. } => "the nearest",
+            Self::Line { .. } => "linear between them",
+            Self::Plane { .. } => "linear on triangles between them",
+        }
+    }
+}
+
+/// True if a position lies between the first and the last.
+fn within(points: &[(f64, f64)], x: f64) -> bool {
+    let (first, last) = (points[0].0, points[points.len() - 1].0);
+    let close = ON_END * (last - first);
+    first - close <= x && x <= last + close
+}
+
+fn linear(points: &[(f64, f64)], x: f64) -> f64 {
+    between(points.len(), |k| points[k], x)
+}
+
+/// Value of the nearest position; `None` beyond an end, if it is farther away than its neighbour is.
+fn nearest(points: &[(f64, f64)], x: f64) -> Option<f64> {
+    let n = points.len();
+    let k = (0..n).min_by(|&i, &j| (points[i].0 - x).abs().total_cmp(&(points[j].0 - x).abs()))?;
+    let next = if k + 1 < n { k + 1 } else { k - 1 };
+    let near = (points[k].0 - x).abs() <= (points[next].0 - points[k].0).abs();
+    (within(points, x) || near).then_some(points[k].1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_on_a_line_end_with_it() {
+        let positions = [vec![2.0], vec![0.0], vec![1.0]];
+        let line = Samples::new(&positions, &[6.0, 2.0, 3.0], false).unwrap();
+        let at = |x: f64| line.at(&[x]);
+        assert_eq!([at(0.5), at(1.5), at(2.0), at(2.1), at(-0.1)], [Some(2.5), Some(4.5), Some(6.0), None, None]);
+        let line = Samples::new(&positions, &[6.0, 2.0, 3.0], true).unwrap();
+        let at = |x: f64| line.at(&[x]);
+        assert_eq!([at(0.4), at(1.6), at(2.9), at(3.1), at(-2.0)], [Some(2.0), Some(6.0), Some(6.0), None, None]);
+    }
+}
