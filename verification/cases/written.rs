@@ -209,7 +209,15 @@ fn catalogues(out: &Path, plan: &Plan, report: &Report) -> Result<(), CaseError>
 /// # Errors
 /// If the scene is refused, the run stops, or a file cannot be written.
 pub fn bodies(text: &str) -> Result<(Folder, Cost), CaseError> {
-    let scene = scene::read(text).map_err(|e| format!("{e}\nin\n{text}"))?;
+    bodies_beside(text, Path::new(""))
+}
+
+/// As [`bodies`], of a scene whose files are relative to `folder`.
+///
+/// # Errors
+/// As there.
+pub fn bodies_beside(text: &str, folder: &Path) -> Result<(Folder, Cost), CaseError> {
+    let scene = scene::read_in(text, folder).map_err(|e| format!("{e}\nin\n{text}"))?;
     let plan = plan::plan(&scene).map_err(|e| e.to_string())?;
     let (folder, (fields, profiles)) = (Folder::new()?, plan.outputs());
     let mut files = asperity_output::Files::create(folder.path(), FieldSchedule { fields, profiles })?;

@@ -229,7 +229,7 @@ fn moved(motion: Motion) -> Option<mechanics::Motion> {
         Motion::Fixed(value) => mechanics::Motion::Fixed(value),
         Motion::To(value) => mechanics::Motion::To(value),
         Motion::Rate(rate) => mechanics::Motion::Rate(rate),
-        Motion::Table(points) => mechanics::Motion::Table(points),
+        Motion::Table(points) => mechanics::Motion::Table(points.to_vec()),
         // The displacement that a rotation adds to its start is given by [`Turning`].
         Motion::Hold | Motion::Rotate(_) => mechanics::Motion::Hold,
         Motion::Free | Motion::Spring { .. } => return None,

@@ -1,10 +1,11 @@
 //! The scene language with the friction laws of this program.
 
-pub use asperity_scene::{Entry, check, keys, law, model, names, near, settings, slider, units};
+pub use asperity_scene::{Entry, check, files, keys, law, model, names, near, settings, slider, units};
 
+use crate::columns::file::columns_of;
 use crate::diagnostic::Diagnostics;
 use crate::laws;
-use model::Scene;
+use model::{Scene, Spanned};
 use std::path::Path;
 
 /// Reads and checks a scene; paths of mesh files are relative to the current folder.
@@ -20,5 +21,6 @@ pub fn read(text: &str) -> Result<Scene, Diagnostics> {
 /// # Errors
 /// See [`read`].
 pub fn read_in(text: &str, folder: &Path) -> Result<Scene, Diagnostics> {
-    asperity_scene::read(text, folder, laws::known())
+    let mut columns = |file: &Spanned<String>, wanted: &[files::Column<'_>]| columns_of(folder, file, wanted);
+    asperity_scene::read(text, folder, laws::known(), &mut columns)
 }

@@ -100,13 +100,6 @@ pub fn lists<'de, D: Deserializer<'de>, T: Deserialize<'de>, const N: usize, con
     Ok(at(Spanned::<Exactly<Exactly<T, N>, M>>::deserialize(from)?, |v| v.0.map(|x| x.0)))
 }
 
-/// Reads any number of lists of `N` values.
-pub fn many<'de, D: Deserializer<'de>, T: Deserialize<'de>, const N: usize>(
-    from: D,
-) -> Result<Spanned<Vec<[T; N]>>, D::Error> {
-    Ok(at(Spanned::<Vec<Exactly<T, N>>>::deserialize(from)?, |v| v.into_iter().map(|x| x.0).collect()))
-}
-
 /// Pairs with their position in the file.
 type Pairs<A, B> = Spanned<Vec<(A, B)>>;
 

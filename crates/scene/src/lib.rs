@@ -7,6 +7,7 @@ pub mod diagnostic;
 mod entry;
 mod exact;
 mod explain;
+pub mod files;
 mod here;
 pub mod keys;
 pub mod law;
@@ -31,13 +32,20 @@ use law::Laws;
 use model::Scene;
 use std::path::Path;
 
-/// Reads and checks a scene with the friction laws known to the program. Mesh files are named relative to `folder`.
+/// Reads and checks a scene with the friction laws known to the program. Files are named relative to `folder`, and `columns` reads those whose
+/// numbers belong to the scene.
 ///
 /// # Errors
-/// All errors of the checks, or the first error of the reader.
-pub fn read(text: &str, folder: &Path, laws: &Laws) -> Result<Scene, Diagnostics> {
+/// All errors of the checks, or the first error of the text or of a file.
+pub fn read(
+    text: &str,
+    folder: &Path,
+    laws: &Laws,
+    columns: &mut files::Columns<'_>,
+) -> Result<Scene, Diagnostics> {
     let mut scene: Scene = toml::from_str(text).map_err(|e| Diagnostics(vec![explain::explain(&e, text)]))?;
     scene.folder = folder.to_path_buf();
+    files::fill(&mut scene, columns).map_err(|error| Diagnostics(vec![error]))?;
     azimuth::rakes(&mut scene);
     let (errors, warnings) = check::check(&scene, laws);
     scene.warnings = warnings;

@@ -14,11 +14,13 @@ mod place;
 mod pulse;
 mod solver;
 mod stress;
+mod tabled;
+mod trace;
 
 pub use super::here::here;
 use super::law::Several;
 use super::slider::EventSpec;
-use super::units::{Angle, Length, Memory, Penalty, Penetration, Pressure, Time, Velocity};
+use super::units::{Angle, Dimension, Length, Memory, Penalty, Penetration, Pressure, Time, Velocity};
 pub use crate::spanned::Spanned;
 use crate::warning::Warning;
 pub use body::*;
@@ -37,6 +39,8 @@ pub use solver::*;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 pub use stress::*;
+pub use tabled::{TableFile, Tabled};
+pub use trace::{Trace, TraceFile};
 
 /// A whole scene.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -102,7 +106,23 @@ impl Scene {
         self.bodies.get(set.get_ref().split('.').next()?)
     }
 
-    /// Names of the files of meshes and of parameters of the scene.
+    /// Tables of motions and loads, with the dimension of their values, which files may fill.
+    pub(crate) fn tables_mut(&mut self) -> impl Iterator<Item = TableMut<'_>> {
+        let conditions = self.stages.iter_mut().flat_map(|stage| &mut stage.conditions);
+        conditions.flat_map(|condition| condition.get_mut().tables_mut())
+    }
+
+    /// Traces of faults in the plane, which files may fill.
+    pub(crate) fn traces_mut(&mut self) -> impl Iterator<Item = &mut Trace> {
+        let meshes = self.bodies.values_mut().filter_map(|body| match &mut body.mesh {
+            MeshSource::Fault(mesh) => Some(&mut mesh.trace),
+            _ => None,
+        });
+        let lines = self.faults.values_mut().filter_map(|fault| Some(&mut fault.line.as_mut()?.trace));
+        meshes.chain(lines).map(Spanned::get_mut)
+    }
+
+    /// Names of the files of the scene: meshes, parameters of faults, tables and traces.
     pub fn mesh_files(&self) -> impl Iterator<Item = &str> {
         let bodies = self.bodies.values().filter_map(|body| match &body.mesh {
             MeshSource::Gmsh(mesh) => Some(&mesh.file),
@@ -112,7 +132,16 @@ impl Scene {
         let faults = self.faults.values().filter_map(|fault| Some(fault.triangles.as_ref()?.file()));
         let fields = self.faults.values().flat_map(|fault| fault.fields.all());
         let fields = fields.filter_map(|(_, field)| Some(&field?.file));
-        bodies.chain(faults).chain(fields).map(|file| file.get_ref().as_str())
+        let conditions = self.stages.iter().flat_map(|stage| &stage.conditions);
+        let tables =
+            conditions.flat_map(|c| c.get_ref().tables()).filter_map(|table| Some(&table.file()?.file));
+        let meshes = self.bodies.values().filter_map(|body| match &body.mesh {
+            MeshSource::Fault(mesh) => Some(&mesh.trace),
+            _ => None,
+        });
+        let lines = self.faults.values().filter_map(|fault| Some(&fault.line.as_ref()?.trace));
+        let traces = meshes.chain(lines).filter_map(|trace| Some(&trace.get_ref().file()?.file));
+        bodies.chain(faults).chain(fields).chain(tables).chain(traces).map(|file| file.get_ref().as_str())
     }
 }
 
@@ -282,6 +311,43 @@ pub struct Stage {
     pub steps: Option<Spanned<usize>>,
 }
 
+/// A table of motions or loads: its dimension goes with it.
+type TableMut<'a> = (&'a mut Tabled, Dimension);
+
+impl Condition {
+    /// Tables of its motions and loads.
+    fn tables(&self) -> impl Iterator<Item = &Tabled> {
+        let motions = [&self.x, &self.y, &self.z].into_iter().flatten();
+        let motions = motions.filter_map(|motion| match motion.get_ref() {
+            Motion::Table(table) => Some(table),
+            _ => None,
+        });
+        let loads =
+            self.traction.iter().flat_map(|t| t.get_ref()).chain(self.pressure.iter().map(Spanned::get_ref));
+        let loads = loads.filter_map(|load| match load {
+            Loading::Table(table) => Some(table),
+            _ => None,
+        });
+        motions.chain(loads)
+    }
+
+    /// Tables of its motions and loads, which a file may fill.
+    fn tables_mut(&mut self) -> impl Iterator<Item = TableMut<'_>> {
+        let motions = [&mut self.x, &mut self.y, &mut self.z].into_iter().flatten();
+        let motions = motions.filter_map(|motion| match motion.get_mut() {
+            Motion::Table(table) => Some((table, Dimension::Length)),
+            _ => None,
+        });
+        let tractions = self.traction.iter_mut().flat_map(|t| t.get_mut());
+        let loads = tractions.chain(self.pressure.iter_mut().map(Spanned::get_mut));
+        let loads = loads.filter_map(|load| match load {
+            Loading::Table(table) => Some((table, Dimension::Pressure)),
+            _ => None,
+        });
+        motions.chain(loads)
+    }
+}
+
 /// A condition on a set.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -316,7 +382,7 @@ pub enum Motion {
     /// Moved from the present value at this rate \[m/s\].
     Rate(f64),
     /// Piecewise linear: (time since the stage began \[s\], displacement \[m\]).
-    Table(Vec<(f64, f64)>),
+    Table(Tabled),
     /// Pulled as a whole by a spring whose other end moves at a constant rate.
     Spring {
         /// Stiffness \[N/m; N/m per metre of thickness in the plane\].
@@ -379,7 +445,7 @@ pub enum Loading {
     /// Ramped linearly from the present value to this one at the end of the stage \[Pa\].
     To(f64),
     /// Piecewise linear: (time since the stage began \[s\], Pa).
-    Table(Vec<(f64, f64)>),
+    Table(Tabled),
 }
 
 /// Time integration.

@@ -1,12 +1,14 @@
 //! Reading of motions and loadings.
 
 use super::entry::Entry;
-use super::model::{Loading, Motion};
+use super::model::{Loading, Motion, TableFile, Tabled};
 use super::units::{self, Dimension, Length, Pressure, Velocity};
 use crate::shape::{Either, shaped};
 use schemars::JsonSchema;
-use serde::de::{self, Deserialize, Deserializer, MapAccess, Visitor, value::MapAccessDeserializer};
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 use std::fmt;
+use std::marker::PhantomData;
 
 #[derive(serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -14,7 +16,7 @@ struct MotionTable {
     to: Option<Length>,
     rate: Option<Velocity>,
     spring: Option<SideSpring>,
-    table: Option<Vec<Entry<Length>>>,
+    table: Option<TableForm<Length>>,
 }
 
 shaped!(Motion as Either<Length, MotionTable>);
@@ -59,9 +61,7 @@ impl<'de> Deserialize<'de> for Motion {
                     (None, Some(rate), None, Some(stiffness)) => {
                         Ok(Motion::Spring { stiffness: stiffness.0, rate: rate.0 })
                     }
-                    (None, None, Some(points), None) => {
-                        Ok(Motion::Table(points.into_iter().map(|p| (p.time.0, p.value.0)).collect()))
-                    }
+                    (None, None, Some(points), None) => Ok(Motion::Table(points.tabled(|length| length.0))),
                     _ => Err(de::Error::custom(
                         "a motion has exactly one of the keys `to`, `rate`, `table`, or `spring` beside `rate`",
                     )),
@@ -69,6 +69,47 @@ impl<'de> Deserialize<'de> for Motion {
             }
         }
         deserializer.deserialize_any(MotionVisitor)
+    }
+}
+
+/// A table as written: pairs of time and value, or a file that has them.
+enum TableForm<Q> {
+    Pairs(Vec<Entry<Q>>),
+    File(TableFile),
+}
+
+impl<Q> TableForm<Q> {
+    fn tabled(self, value: impl Fn(Q) -> f64) -> Tabled {
+        match self {
+            Self::Pairs(pairs) => {
+                pairs.into_iter().map(|p| (p.time.0, value(p.value))).collect::<Vec<_>>().into()
+            }
+            Self::File(file) => Tabled::in_file(file),
+        }
+    }
+}
+
+shaped!(@ Q; TableForm<Q> as Either<Vec<Entry<Q>>, TableFile>);
+
+impl<'de, Q: Deserialize<'de>> Deserialize<'de> for TableForm<Q> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct TableVisitor<Q>(PhantomData<Q>);
+        impl<'de, Q: Deserialize<'de>> Visitor<'de> for TableVisitor<Q> {
+            type Value = TableForm<Q>;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("pairs [[time, value], ..], or { file = \"FILE.csv\", column = \"NAME\" }")
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<TableForm<Q>, A::Error> {
+                Deserialize::deserialize(SeqAccessDeserializer::new(list)).map(TableForm::Pairs)
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<TableForm<Q>, A::Error> {
+                TableFile::deserialize(MapAccessDeserializer::new(map)).map(TableForm::File)
+            }
+        }
+        deserializer.deserialize_any(TableVisitor(PhantomData))
     }
 }
 
@@ -130,7 +171,7 @@ impl<'de, V: Visitor<'de>> fmt::Display for Expected<'_, V> {
 #[serde(deny_unknown_fields)]
 struct LoadingTable {
     to: Option<Pressure>,
-    table: Option<Vec<Entry<Pressure>>>,
+    table: Option<TableForm<Pressure>>,
 }
 
 shaped!(Loading as Either<Pressure, LoadingTable>);
@@ -166,9 +207,7 @@ impl<'de> Deserialize<'de> for Loading {
                 let t = LoadingTable::deserialize(MapAccessDeserializer::new(map))?;
                 match (t.to, t.table) {
                     (Some(to), None) => Ok(Loading::To(to.0)),
-                    (None, Some(points)) => {
-                        Ok(Loading::Table(points.into_iter().map(|p| (p.time.0, p.value.0)).collect()))
-                    }
+                    (None, Some(points)) => Ok(Loading::Table(points.tabled(|pressure| pressure.0))),
                     _ => Err(de::Error::custom("a load has exactly one of the keys `to`, `table`")),
                 }
             }

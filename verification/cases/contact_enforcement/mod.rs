@@ -110,7 +110,8 @@ fn scene(
         let right = condition.get_ref().set.as_ref().is_some_and(|s| s.get_ref().ends_with(".right"));
         let t = if right { exact.shear } else { -exact.shear };
         let corner = Some((begins, t)).filter(|_| begins < 1.0);
-        let course = [Some((0.0, 0.0)), corner, Some((1.0, t))].into_iter().flatten().collect();
+        let course =
+            [Some((0.0, 0.0)), corner, Some((1.0, t))].into_iter().flatten().collect::<Vec<_>>().into();
         condition.get_mut().traction = Some(here(vec![Loading::Fixed(0.0), Loading::Table(course)]));
     }
     Ok((scene, exact))

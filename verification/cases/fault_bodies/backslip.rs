@@ -28,7 +28,7 @@ fn both(sense: &str) -> Result<[Plan; 2], CaseError> {
         .with_or_same("stages[0].conditions[0].z.rate", sides[0])
         .with_or_same("stages[0].conditions[1].z.rate", sides[1]);
     let held = scene
-        .with("faults.main.creep.loading", "backslip")
+        .add("faults.main.creep.loading", "backslip")
         .with("stages[0].conditions[0].z", "0")
         .with("stages[0].conditions[1].z", "0");
     Ok([seas::plan(&moved.text()?)?, seas::plan(&held.text()?)?])
@@ -74,7 +74,10 @@ fn plane(ledger: &mut Ledger) -> Result<(), CaseError> {
         .claim("imbalance of energy over its largest part, three events by backslip")
         .value(held.report.energy.imbalance)
         .at_most(0.5 * TOLERANCE)
-        .evidence(Evidence::Exact, "work of loads on slip = elastic energy + work of friction + radiated energy")
+        .evidence(
+            Evidence::Exact,
+            "work of loads on slip = elastic energy + work of friction + radiated energy",
+        )
         .because("half a tolerance, as in the case fault_balance")
         .covers(&[Capability::FaultCycles])
         .cost(&held.cost)
@@ -153,7 +156,8 @@ fn curved(ledger: &mut Ledger) -> Result<(), CaseError> {
     lagging.problem.fault.operator.normal(&vec![1e-9; n], &mut normal);
     let loads = lagging.problem.loading.rates(1.0, n, true);
     let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |m: f64, v| m.max(v.abs()));
-    let left = |of_slip: &[f64], of_loads: &[f64]| largest(&mut of_slip.iter().zip(of_loads).map(|(a, b)| a + b));
+    let left =
+        |of_slip: &[f64], of_loads: &[f64]| largest(&mut of_slip.iter().zip(of_loads).map(|(a, b)| a + b));
     ledger
         .claim("curved fault that slips at the rate of its plates: rates of shear and normal tractions over those of its load")
         .value(left(&shear, &loads.0).max(left(&normal, &loads.1)) / largest(&mut loads.0.iter().copied()))

@@ -176,7 +176,8 @@ fn bits(ledger: &mut Ledger) -> Result<(), CaseError> {
         coarse.without("faults.main.profiles.a").add("faults.main.fields", "{ a = { file = \"a.csv\" } }");
     let rows: Vec<String> = nodes.iter().map(|(x, a)| format!("{x:?},{a:?}\n")).collect();
     let file = format!("distance [km],a\n{}", rows.concat());
-    let plans = [seas::plan(&inline.text()?)?, planned(&filed.text()?, &[("a.csv", &file)])?];
+    let (inline, filed) = (inline.text()?, filed.text()?);
+    let plans = [seas::plan(&inline)?, planned(&filed, &[("a.csv", &file)])?];
     let mut unknowns = [Vec::new(), Vec::new()];
     let mut spent = None;
     for (plan, unknowns) in plans.iter().zip(&mut unknowns) {
@@ -190,8 +191,11 @@ fn bits(ledger: &mut Ledger) -> Result<(), CaseError> {
     ledger
         .claim("unknowns that differ after an event of BP1 with a from a file and from a profile")
         .count(differ as u64, 0)
-        .between(&inline.text()?, &filed.text()?)
-        .evidence(Evidence::Exact, "numbers with units are read alike, and both are linear between the same positions")
+        .between(&inline, &filed)
+        .evidence(
+            Evidence::Exact,
+            "numbers with units are read alike, and both are linear between the same positions",
+        )
         .because("the same operations on the same numbers")
         .covers(&[Capability::Medium, Capability::Antiplane])
         .cost(&spent.ok_or("no run")?)

@@ -371,8 +371,8 @@ fn balance(ledger: &mut Ledger, done: &Done) {
 fn inclined(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (sin, cos) = (PI / 9.0).sin_cos();
     let mut scene = closed()?;
-    mesh(&mut scene)?.trace =
-        here([-1.0, -0.5, 0.0, 0.5, 1.0].map(|t| [Length(t * sin), Length(t * cos)]).to_vec());
+    let trace = [-1.0, -0.5, 0.0, 0.5, 1.0].map(|t| [Length(t * sin), Length(t * cos)]).to_vec();
+    mesh(&mut scene)?.trace.get_mut().fill(trace);
     let stress = scene.bodies.get_mut("plane").and_then(|b| b.initial_stress.as_mut());
     let InitialStress::Uniform(values) = stress.ok_or("the scene has no initial stress")?.get_mut() else {
         return Err("the initial stress varies".into());

@@ -1,5 +1,7 @@
 //! Units of scenes: the effect in a run of a number with a unit.
 
+mod files;
+
 use crate::cases::written::{self, Folder, Written};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_vary::SceneText;
@@ -18,7 +20,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     times(ledger)?;
     amounts(ledger)?;
     overburden(ledger)?;
-    notations(ledger)
+    notations(ledger)?;
+    files::run(ledger)
 }
 
 /// Day and Julian year \[s\].

@@ -1,6 +1,7 @@
 //! Meshes of the bodies, generated or read from files.
 
 use crate::diagnostic::Diagnostic;
+use crate::missing::looked_for;
 use crate::scene::model as scene;
 use crate::scene::near::suggest;
 use crate::scene::units::{self, Dimension, Length};
@@ -13,7 +14,6 @@ use asperity_fem::mesh::split::{Surface, split};
 use asperity_fem::mesh::{Cells, GroupTag, Mesh, MeshError, Options, RawMesh, Side, abaqus, gmsh};
 use scene::Spanned;
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 
 /// Mesh of a body; its sets keep their own names.
 ///
@@ -370,40 +370,8 @@ pub(super) fn bytes(scene: &scene::Scene, file: &Spanned<String>) -> Result<Vec<
     })
 }
 
-/// Content of a file of columns.
-pub(crate) fn data(scene: &scene::Scene, file: &Spanned<String>) -> Result<Vec<u8>, Diagnostic> {
-    let (name, path) = (file.get_ref(), scene.folder.join(file.get_ref()));
-    std::fs::read(&path).map_err(|e| {
-        let message = format!("the file `{name}` cannot be read: {e}");
-        Diagnostic::at(file.span(), message, looked_for(&path, ("files of columns", &TABLES)))
-    })
-}
-
-/// Path of a missing file, and the files of its kind found there instead.
-fn looked_for(path: &Path, (what, extensions): (&str, &[&str])) -> String {
-    let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
-    let told =
-        format!("looked for {}; paths are relative to the folder of the scene. There", whole.display());
-    let name = whole.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-    let Some(entries) = whole.parent().and_then(|folder| std::fs::read_dir(folder).ok()) else {
-        return format!("{told} is no folder that can be read");
-    };
-    let mut there: Vec<String> = entries
-        .filter_map(|entry| Some(entry.ok()?.path()))
-        .filter(|p| p.is_file() && p.extension().is_some_and(|e| extensions.iter().any(|m| e == *m)))
-        .filter_map(|p| Some(p.file_name()?.to_string_lossy().into_owned()))
-        .collect();
-    there.sort();
-    if there.is_empty() {
-        return format!("{told} are no {what}");
-    }
-    format!("{told}: {}", suggest(&name, what, there.iter().map(String::as_str)))
-}
-
 /// Extensions of mesh files.
 const MESHES: [&str; 3] = ["msh", "inp", "stl"];
-/// Extensions of files of columns.
-const TABLES: [&str; 2] = ["csv", "txt"];
 
 fn cut<const D: usize>(mesh: &mut Mesh<D>, file: &str, name: &Spanned<String>) -> Result<(), Diagnostic> {
     let known = || suggest(name.get_ref(), "sets", mesh.side_sets.keys().map(String::as_str));

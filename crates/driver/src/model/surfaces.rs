@@ -1,6 +1,5 @@
 //! Surfaces of triangles, read from files.
 
-pub(crate) use super::meshes::data;
 use super::meshes::bytes;
 pub(crate) use super::meshes::unit;
 use crate::diagnostic::Diagnostic;

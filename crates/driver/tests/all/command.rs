@@ -108,6 +108,71 @@ fn a_report_knows_the_mesh_files_by_their_hash() {
 }
 
 #[test]
+fn a_report_knows_the_files_of_columns_by_their_hash() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = crate::messages::base("fields");
+    std::fs::write(folder.path().join("s.toml"), scene).unwrap();
+    let table = include_bytes!("../meshes/friction.csv");
+    let hash = |table: &[u8]| {
+        std::fs::write(folder.path().join("friction.csv"), table).unwrap();
+        let output = asperity(folder.path(), &["run", "s.toml", "--force"]);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        let report = std::fs::read_to_string(folder.path().join("out/s/report.json")).unwrap();
+        let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+        report["meshes_sha256"]["friction.csv"].as_str().unwrap().to_string()
+    };
+    let first = hash(table);
+    assert_eq!(first.len(), 64);
+    assert_ne!(hash(&[&table[..], b"\n"].concat()), first);
+}
+
+/// Two blocks that slip past each other at the rate of their plates, which neither weaken nor strengthen with time.
+const STEADY: &str = r#"schema = 1
+title = "steady slip"
+kinematics = "antiplane"
+[materials.rock]
+young = "80 GPa"
+poisson = 0.25
+density = 2670
+[bodies.A]
+material = "rock"
+mesh.block = { min = ["-4 km", "-4 km"], max = [0, 0], divisions = [4, 4], element = "quad4" }
+[bodies.B]
+material = "rock"
+mesh.block = { min = [0, "-4 km"], max = ["4 km", 0], divisions = [4, 4], element = "quad4" }
+[faults.main]
+minus = "A.right"
+plus = "B.left"
+law = { kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, a = 0.02, b = 0.010, l = "8 mm", v_ref = "1 um/s", v_initial = "1e-9 m/s" }
+normal = "50 MPa"
+rate = 1e-9
+damping = "radiation"
+creep = { rate = 1e-9, loading = "backslip" }
+[[stages]]
+name = "creep"
+duration = "100 yr"
+conditions = [{ set = "A.left", z = 0 }, { set = "B.right", z = 0 }]
+[time]
+stepper = "fault-ode"
+[output]
+points.beside = { body = "B", at = [0, 0] }
+forces.side = { set = "B.right" }
+"#;
+
+#[test]
+fn bodies_beside_a_fault_that_slips_with_its_plates_stay_where_they_are() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("s.toml"), STEADY).unwrap();
+    let output = asperity(folder.path(), &["run", "s.toml"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let report = std::fs::read_to_string(folder.path().join("out/s/report.json")).unwrap();
+    let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+    // In 100 yr the plates move past each other by 3 m.
+    let displacement = report["points"][0]["displacement"][2].as_f64().unwrap();
+    assert!(displacement.abs() < 1e-6, "{displacement}");
+}
+
+#[test]
 fn check_prints_the_plan_and_writes_nothing() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("s.toml"), coarse()).unwrap();

@@ -143,6 +143,18 @@ fn a_run_broken_off_at_every_restart_leaves_the_same_files_and_says_how_to_go_on
 }
 
 #[test]
+fn a_fault_loaded_by_backslip_is_gone_on_with_as_well() {
+    let lagging = [
+        Add("faults.main.creep.loading", "backslip"),
+        With("stages[0].conditions[0].z", "0"),
+        With("stages[0].conditions[1].z", "0"),
+        Add("output.points", r#"{ beside = { body = "crust", at = ["5 km", "0 km"] } }"#),
+    ];
+    let breaks = broken_off_at_every_restart(&varied(&events(2), &lagging));
+    assert!(breaks > 3, "{breaks}");
+}
+
+#[test]
 fn files_that_become_coarse_are_the_same_after_breaks() {
     let amounts =
         [Add("output.largest_file", "20 kB"), Add("output.cadence", r#"{ decades = 0.05, slip = "1 mm" }"#)];

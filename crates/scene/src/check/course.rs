@@ -21,7 +21,7 @@ impl Course {
     pub fn new(motion: &Motion, present: Option<f64>, duration: f64) -> Self {
         match (motion, present) {
             (Motion::Fixed(value), _) => Self::Known(vec![(0.0, *value)]),
-            (Motion::Table(points), _) if !points.is_empty() => Self::Known(points.clone()),
+            (Motion::Table(points), _) if !points.is_empty() => Self::Known(points.to_vec()),
             (Motion::To(value), Some(from)) => Self::Known(vec![(0.0, from), (duration, *value)]),
             (Motion::Rate(rate), Some(from)) => {
                 Self::Known(vec![(0.0, from), (duration, from + rate * duration)])
@@ -90,14 +90,14 @@ mod tests {
     fn a_ramp_a_rate_and_a_table_of_one_course_agree() {
         let ramp = known(&Motion::To(3e-3));
         let rate = known(&Motion::Rate(2e-4));
-        let table = known(&Motion::Table(vec![(0.0, 1e-3), (5.0, 2e-3), (10.0, 3e-3)]));
+        let table = known(&Motion::Table(vec![(0.0, 1e-3), (5.0, 2e-3), (10.0, 3e-3)].into()));
         assert!(ramp.agrees(&rate, 10.0) && rate.agrees(&table, 10.0) && table.agrees(&ramp, 10.0));
     }
 
     #[test]
     fn courses_that_differ_anywhere_in_the_stage_do_not_agree() {
         let ramp = known(&Motion::To(3e-3));
-        let detour = known(&Motion::Table(vec![(0.0, 1e-3), (5.0, 2.1e-3), (10.0, 3e-3)]));
+        let detour = known(&Motion::Table(vec![(0.0, 1e-3), (5.0, 2.1e-3), (10.0, 3e-3)].into()));
         assert!(!ramp.agrees(&detour, 10.0) && !detour.agrees(&ramp, 10.0));
         assert!(!ramp.agrees(&known(&Motion::Fixed(3e-3)), 10.0));
         assert!(!ramp.agrees(&known(&Motion::Hold), 10.0));
@@ -113,7 +113,7 @@ mod tests {
 
     #[test]
     fn a_table_is_constant_beyond_its_ends() {
-        let table = known(&Motion::Table(vec![(2.0, 1.0), (4.0, 3.0)]));
+        let table = known(&Motion::Table(vec![(2.0, 1.0), (4.0, 3.0)].into()));
         let values: Vec<f64> = [0.0, 2.0, 3.0, 4.0, 9.0].iter().filter_map(|&t| table.at(t)).collect();
         assert_eq!(values, [1.0, 1.0, 2.0, 3.0, 3.0]);
     }

@@ -4,8 +4,8 @@ use super::Checker;
 use super::interfaces::RATED;
 use crate::law;
 use crate::model::{
-    Along, Creep, CreepLoading, DampingSpec, Fault, Interface, Kinematics, Motion, Outside, Path, Profile, Profiled,
-    SlipSpec, Spanned, Station, Stepper,
+    Along, Creep, CreepLoading, DampingSpec, Fault, Interface, Kinematics, Motion, Outside, Path, Profile,
+    Profiled, SlipSpec, Spanned, Station, Stepper,
 };
 use crate::near::suggest;
 use crate::slider::EventSpec;

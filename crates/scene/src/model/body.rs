@@ -1,6 +1,7 @@
 //! Materials, bodies and meshes as declared in a scene.
 
 use super::stress::InitialStress;
+use super::trace::Trace;
 use crate::exact::{self, Exactly};
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
@@ -322,8 +323,7 @@ pub struct QuadrilateralMesh {
 #[serde(deny_unknown_fields)]
 pub struct FaultMesh {
     /// Vertices of the fault from tip to tip, `[[x, y], ..]`, y up; monotonic in y \[m\].
-    #[serde(deserialize_with = "exact::many")]
-    pub trace: Spanned<Vec<[Length; 2]>>,
+    pub trace: Spanned<Trace>,
     /// Curve through the vertices: `"spline"` (default), a smooth curve, or `"polyline"`, straight lines with corners.
     #[serde(default)]
     pub interpolation: InterpolationSpec,

@@ -1,6 +1,6 @@
 //! Homogeneous rock without bodies around faults, and the geometry of faults in it.
 
-use super::{InterpolationSpec, SpacingSpec};
+use super::{InterpolationSpec, SpacingSpec, Trace};
 use crate::exact;
 use crate::spanned::Spanned;
 use crate::units::{Angle, Length};
@@ -32,8 +32,7 @@ pub enum MediumKind {
 #[serde(deny_unknown_fields)]
 pub struct FaultLine {
     /// Vertices of the fault from tip to tip, `[[x, y], ..]`, y up \[m\].
-    #[serde(deserialize_with = "exact::many")]
-    pub trace: Spanned<Vec<[Length; 2]>>,
+    pub trace: Spanned<Trace>,
     /// Curve through the vertices: `"spline"` (default), a smooth curve, or `"polyline"`, straight lines with corners.
     #[serde(default)]
     pub interpolation: InterpolationSpec,

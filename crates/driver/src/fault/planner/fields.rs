@@ -1,12 +1,12 @@
 //! Parameters of a fault from files, at its points.
 
 mod axes;
-mod samples;
+pub mod samples;
 
 use super::placed::Placed;
+use crate::columns::file::{read, refused};
 use crate::columns::{Columns, Wrong};
 use crate::diagnostic::Diagnostic;
-use crate::model::surfaces::data;
 use crate::scene::model::{Fault as Spec, Field as Given, FieldInterpolation, Scene};
 use crate::scene::units::Dimension;
 use asperity_cycles::medium::Place;
@@ -39,26 +39,23 @@ impl<const D: usize> Fields<D> {
     ///
     /// # Errors
     /// [`Diagnostic`] at the name of a file that cannot be used.
-    pub fn read(
-        scene: &Scene,
-        (name, spec): (&str, &Spec),
-        places: &[Place<D>],
-    ) -> Result<Self, Diagnostic> {
+    pub fn read(scene: &Scene, (name, spec): (&str, &Spec), places: &[Place<D>]) -> Result<Self, Diagnostic> {
         let mut tables: BTreeMap<&str, Columns> = BTreeMap::new();
         let mut all = [const { None }; PARAMETERS];
         for (slot, (key, given)) in all.iter_mut().zip(spec.fields.all()) {
             let Some(given) = given else { continue };
             let file = given.file.get_ref().as_str();
-            let refuse = |wrong: Wrong| refused(given, wrong);
+            let refuse = |wrong: Wrong| refused(&given.file, given.file.span(), wrong);
             if !tables.contains_key(file) {
-                tables.insert(file, Columns::parse(&data(scene, &given.file)?).map_err(refuse)?);
+                tables.insert(file, read(&scene.folder, &given.file)?);
             }
             let columns = &tables[file];
             let axes = Axes::of(scene, columns, places).map_err(refuse)?;
             let values = values((key, given), columns, spec.rate.get_ref().0).map_err(refuse)?;
-            let nearest = given.interpolation.as_ref().is_some_and(|i| *i.get_ref() == FieldInterpolation::Nearest);
-            let samples = Samples::new(axes.positions(), &values, nearest)
-                .map_err(|why| refuse(axes.explain(&why)))?;
+            let nearest =
+                given.interpolation.as_ref().is_some_and(|i| *i.get_ref() == FieldInterpolation::Nearest);
+            let samples =
+                Samples::new(axes.positions(), &values, nearest).map_err(|why| refuse(axes.explain(&why)))?;
             *slot = Some(Field { key, file: file.to_string(), span: given.file.span(), axes, samples });
         }
         Ok(Self { all, fault: name.to_string() })
@@ -88,7 +85,10 @@ impl<const D: usize> Fields<D> {
                 field.file,
                 field.axes.extent(),
             ),
-            format!("`{}` needs values all over the sliding part of the fault; check signs and units", field.key),
+            format!(
+                "`{}` needs values all over the sliding part of the fault; check signs and units",
+                field.key
+            ),
         )
     }
 
@@ -135,11 +135,7 @@ fn values((key, given): (&str, &Given), columns: &Columns, rate: f64) -> Result<
     if let Some(row) = values.iter().position(|v| sign.is_some_and(|sign| v * sign <= 0.0)) {
         let what = if key == "shear" { "have the sign of `rate`" } else { "be positive" };
         return Err(Wrong {
-            message: format!(
-                "line {}: `{column}` must {what}, found {:?}",
-                columns.line(row),
-                values[row]
-            ),
+            message: format!("line {}: `{column}` must {what}, found {:?}", columns.line(row), values[row]),
             help: "check its sign and its unit".into(),
         });
     }
@@ -150,8 +146,4 @@ fn values((key, given): (&str, &Given), columns: &Columns, rate: f64) -> Result<
         });
     }
     Ok(values)
-}
-
-fn refused(given: &Given, Wrong { message, help }: Wrong) -> Diagnostic {
-    Diagnostic::at(given.file.span(), format!("file `{}`: {message}", given.file.get_ref()), help)
 }

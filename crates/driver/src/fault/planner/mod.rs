@@ -8,7 +8,7 @@ mod cells;
 pub(crate) mod checks;
 pub mod cover;
 mod critical;
-mod fields;
+pub mod fields;
 mod floor;
 mod frame;
 mod heated;
@@ -251,8 +251,7 @@ fn driven<const D: usize>(
     let mut of_backslip = None;
     if plates.iter().any(|rate| *rate != 0.0) {
         let deficit = deficit(operator.as_ref(), plates, stage.end);
-        of_backslip =
-            backslip::doubts(scene, placed, operator.as_ref(), ([&loading, &deficit], stage.end));
+        of_backslip = backslip::doubts(scene, placed, operator.as_ref(), ([&loading, &deficit], stage.end));
         loading.append(deficit);
     }
     let mut warnings = sense::check(scene, (placed, creeping), &loading, stage.end);

@@ -157,3 +157,38 @@ impl Scattered {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Corners and middle of a square of 2, with the value x + 10 y.
+    fn square() -> Scattered {
+        let at = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0], [1.0, 1.0]];
+        Scattered::new(&at.map(|[x, y]| [x, y, x + 10.0 * y])).unwrap()
+    }
+
+    #[test]
+    fn values_are_linear_up_to_the_border_and_none_beyond() {
+        let samples = square();
+        assert!((samples.linear([0.5, 0.25]).unwrap() - 3.0).abs() < 1e-14);
+        assert!((samples.linear([2.0 + 1e-10, 1.0]).unwrap() - 12.0).abs() < 1e-8);
+        assert_eq!(samples.linear([2.01, 1.0]), None);
+    }
+
+    #[test]
+    fn the_nearest_value_reaches_as_far_beyond_the_border_as_neighbours_are() {
+        let samples = square();
+        assert_eq!(samples.nearest([0.3, 0.1]), Some(0.0));
+        assert_eq!(samples.nearest([-1.5, 0.0]), Some(0.0));
+        assert_eq!(samples.nearest([-2.5, 0.0]), None);
+    }
+
+    #[test]
+    fn samples_that_contradict_each_other_or_lie_on_a_line_are_refused() {
+        let twice = Scattered::new(&[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0], [0.0, 0.0, 2.0]]);
+        assert_eq!(twice.unwrap_err(), ScatterError::Twice { at: [0.0; 2], values: [1.0, 2.0] });
+        let line = Scattered::new(&[[0.0, 0.0, 1.0], [1.0, 1.0, 2.0], [2.0, 2.0, 3.0]]);
+        assert_eq!(line.unwrap_err(), ScatterError::Few { positions: 3 });
+    }
+}

@@ -48,7 +48,8 @@ impl<const D: usize> Axes<D> {
             NAMES.into_iter().filter(|name| columns.names().any(|column| column == *name)).collect();
         fit::<D>(&names)?;
         let on_map = names.contains(&"longitude");
-        let (axes, rows) = if on_map { of_map(scene, &names, columns)? } else { of_scene(scene, &names, columns)? };
+        let (axes, rows) =
+            if on_map { of_map(scene, &names, columns)? } else { of_scene(scene, &names, columns)? };
         let ranges = (0..names.len()).map(|c| range(rows.iter().map(|row| row[c]))).collect();
         let mut all = Self { names, axes, plane: None, positions: rows, ranges };
         if all.names.len() == 3 {
@@ -92,7 +93,9 @@ impl<const D: usize> Axes<D> {
             name if on_map => name.to_string(),
             name => format!("along {name}"),
         };
-        let of = |(axis, [low, high]): (&&'static str, &[f64; 2])| format!("from {low} to {high} m {}", name(axis));
+        let of = |(axis, [low, high]): (&&'static str, &[f64; 2])| {
+            format!("from {low} to {high} m {}", name(axis))
+        };
         self.names.iter().zip(&self.ranges).map(of).collect::<Vec<_>>().join(", ")
     }
 
@@ -171,7 +174,10 @@ fn down<const D: usize>(scene: &Scene) -> Result<Axis<D>, Wrong> {
 
 /// Longitude and latitude as distances east and north of the origin, and depth.
 fn of_map<const D: usize>(scene: &Scene, names: &[&str], columns: &Columns) -> Result<Found<D>, Wrong> {
-    let none = |why: String| Wrong { message: why, help: "`[place]` with the longitude and latitude of the origin".into() };
+    let none = |why: String| Wrong {
+        message: why,
+        help: "`[place]` with the longitude and latitude of the origin".into(),
+    };
     let frame = frame::of(scene, D == 3).map_err(|e| none(e.to_string()))?;
     let frame = frame.ok_or_else(|| none("its longitudes need a `[place]`".into()))?;
     let degrees = |name: &str| columns.numbers(name, Some(Dimension::Angle));

@@ -7,11 +7,22 @@ use asperity_fem::mesh::sheet::{ScatterError, Scattered};
 const ON_END: f64 = 1e-9;
 
 /// Samples on a line or a plane.
-pub(super) enum Samples {
+#[derive(Debug)]
+pub enum Samples {
     /// Positions that ascend, with their values.
-    Line { points: Vec<(f64, f64)>, nearest: bool },
+    Line {
+        /// The positions and values.
+        points: Vec<(f64, f64)>,
+        /// True for values of the nearest position.
+        nearest: bool,
+    },
     /// Positions of a plane.
-    Plane { samples: Scattered, nearest: bool },
+    Plane {
+        /// The positions and values.
+        samples: Scattered,
+        /// True for values of the nearest position.
+        nearest: bool,
+    },
 }
 
 impl Samples {
@@ -39,6 +50,7 @@ impl Samples {
     }
 
     /// Number of distinct positions.
+    #[must_use]
     pub fn count(&self) -> usize {
         match self {
             Self::Line { points, .. } => points.len(),
@@ -47,6 +59,7 @@ impl Samples {
     }
 
     /// Value at a position; `None` outside the samples.
+    #[must_use]
     pub fn at(&self, x: &[f64]) -> Option<f64> {
         match self {
             Self::Line { points, nearest: false } => within(points, x[0]).then(|| linear(points, x[0])),
@@ -57,6 +70,7 @@ impl Samples {
     }
 
     /// Interpolation in words.
+    #[must_use]
     pub fn words(&self) -> &'static str {
         match self {
             Self::Line { nearest: true, .. } | Self::Plane { nearest: true, .. } => "the nearest",
@@ -84,20 +98,4 @@ fn nearest(points: &[(f64, f64)], x: f64) -> Option<f64> {
     let next = if k + 1 < n { k + 1 } else { k - 1 };
     let near = (points[k].0 - x).abs() <= (points[next].0 - points[k].0).abs();
     (within(points, x) || near).then_some(points[k].1)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn values_on_a_line_end_with_it() {
-        let positions = [vec![2.0], vec![0.0], vec![1.0]];
-        let line = Samples::new(&positions, &[6.0, 2.0, 3.0], false).unwrap();
-        let at = |x: f64| line.at(&[x]);
-        assert_eq!([at(0.5), at(1.5), at(2.0), at(2.1), at(-0.1)], [Some(2.5), Some(4.5), Some(6.0), None, None]);
-        let line = Samples::new(&positions, &[6.0, 2.0, 3.0], true).unwrap();
-        let at = |x: f64| line.at(&[x]);
-        assert_eq!([at(0.4), at(1.6), at(2.9), at(3.1), at(-2.0)], [Some(2.0), Some(6.0), Some(6.0), None, None]);
-    }
 }

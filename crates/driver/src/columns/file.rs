@@ -1,0 +1,50 @@
+//! Files of columns that a scene names.
+
+use super::{Columns, Wrong};
+use crate::diagnostic::Diagnostic;
+use crate::missing::looked_for;
+use asperity_scene::files::Column;
+use asperity_scene::model::Spanned;
+use std::path::Path;
+
+/// Extensions of files of columns.
+const TABLES: [&str; 2] = ["csv", "txt"];
+
+/// Columns of a file in a folder.
+///
+/// # Errors
+/// [`Diagnostic`] at the name of the file.
+pub(crate) fn read(folder: &Path, file: &Spanned<String>) -> Result<Columns, Diagnostic> {
+    let (name, path) = (file.get_ref(), folder.join(file.get_ref()));
+    let bytes = std::fs::read(&path).map_err(|e| {
+        let message = format!("the file `{name}` cannot be read: {e}");
+        Diagnostic::at(file.span(), message, looked_for(&path, ("files of columns", &TABLES)))
+    })?;
+    Columns::parse(&bytes).map_err(|wrong| refused(file, file.span(), wrong))
+}
+
+/// Numbers of columns of a file in a folder, in SI units.
+///
+/// # Errors
+/// [`Diagnostic`] at the name of the file or of a column.
+pub(crate) fn columns_of(
+    folder: &Path,
+    file: &Spanned<String>,
+    wanted: &[Column<'_>],
+) -> Result<Vec<Vec<f64>>, Diagnostic> {
+    let columns = read(folder, file)?;
+    let numbers = |column: &Column<'_>| {
+        let found = columns.numbers(column.name, Some(column.dimension));
+        found.map_err(|wrong| refused(file, column.place.clone(), wrong))
+    };
+    wanted.iter().map(numbers).collect()
+}
+
+/// Error of a file at a place of the scene.
+pub(crate) fn refused(
+    file: &Spanned<String>,
+    place: std::ops::Range<usize>,
+    Wrong { message, help }: Wrong,
+) -> Diagnostic {
+    Diagnostic::at(place, format!("file `{}`: {message}", file.get_ref()), help)
+}
