@@ -17,6 +17,14 @@ pub(super) fn depth(across: f64, along: f64) -> f64 {
     5.0 + 0.08 * p + 0.0012 * p * p
 }
 
+/// The formula on a grid, as SciPy wrote it in netCDF and as text: `independent/megathrust_grid.py`.
+const GRID: &[u8] = include_bytes!("grid/interface.grd");
+const TEXT: &[u8] = include_bytes!("grid/interface.txt");
+
+/// Bound on linear interpolation in triangles between the positions of the grid \[km\]: half the largest curvature, 0.0025 /km, times
+/// the square of the radius of the circle around a triangle, half the diagonal of 18.6 km x 22.2 km.
+const COARSE: f64 = 0.262;
+
 /// Bound on linear interpolation between contours \[km\]: 2.5 km of depth are up to 16 km of distance, over which the
 /// curvature of 0.0024 /km lifts a chord by 77 m; along contours samples are 12.5 km apart, and 0.33 times 15/90² /km lift it by
 /// 12 m.
@@ -53,7 +61,64 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         .covers(&[Capability::Medium, Capability::Solid3d])
         .cost(&cost)
         .record();
+    grid(ledger)
+}
+
+/// A surface given by a netCDF grid, and by the same numbers as text.
+fn grid(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let (plans, cost) =
+        Cost::of(|| Ok::<_, CaseError>([on_grid("interface.grd")?, on_grid("interface.txt")?]));
+    let [grid, text] = plans?;
+    let outlines =
+        [&grid, &text].map(|plan| plan.faults[0].outline.as_ref().ok_or("the fault has no triangles"));
+    let [grid, text] = outlines;
+    let (grid, text) = (grid?, text?);
+    let bits = |x: &[f64; 3]| x.map(f64::to_bits);
+    let apart = grid.nodes.iter().zip(&text.nodes).filter(|(a, b)| bits(a) != bits(b)).count();
+    let same = grid.corners == text.corners && grid.nodes.len() == text.nodes.len();
+    ledger
+        .claim("nodes of a plate interface from a netCDF grid that differ from those from the same numbers as text")
+        .value(if same { apart as f64 } else { f64::NAN })
+        .at_most(0.5)
+        .evidence(Evidence::OtherCode, "the grid by SciPy 1.17.1, verification/independent/megathrust_grid.py")
+        .because("the same numbers are divided in the same way: a count of none, and one is too many")
+        .why_not_tighter("a count has no smaller bound that tells none from one")
+        .covers(&[Capability::Medium, Capability::Solid3d])
+        .cost(&cost)
+        .record();
+    let off = |x: &[f64; 3]| (-1e-3 * x[1] - depth(1e-3 * x[0], 1e-3 * x[2])).abs();
+    ledger
+        .claim("depth of the nodes of a plate interface from a grid against its formula: largest difference")
+        .unit("km")
+        .value(grid.nodes.iter().map(off).fold(0.0, f64::max))
+        .at_most(COARSE)
+        .evidence(
+            Evidence::OtherCode,
+            "positions by PROJ 9.5.1, grid by SciPy 1.17.1, verification/independent/megathrust_grid.py",
+        )
+        .because(
+            "error of linear interpolation between the positions, which the smooth one should not exceed",
+        )
+        .covers(&[Capability::Medium, Capability::Solid3d])
+        .cost(&cost)
+        .record();
     Ok(())
+}
+
+/// Plan of the scene with a surface of the grid.
+fn on_grid(file: &str) -> Result<Plan, CaseError> {
+    let scene = SceneText::new(SCENE)
+        .with("faults.interface.triangles.depths.file", file)
+        .with("faults.interface.triangles.depths.bottom", "45 km")
+        .with("faults.interface.triangles.depths.size", "14 km")
+        .add("faults.interface.under_resolved", "allow")
+        .text()
+        .map_err(|e| e.to_string())?;
+    let folder = Folder::new()?;
+    std::fs::write(folder.path().join("interface.grd"), GRID)?;
+    std::fs::write(folder.path().join("interface.txt"), TEXT)?;
+    let scene = scene::read_in(&scene, folder.path()).map_err(|e| e.to_string())?;
+    Ok(plan_with(&scene, Form::Dense).map_err(|e| e.to_string())?)
 }
 
 fn planned() -> Result<Plan, CaseError> {

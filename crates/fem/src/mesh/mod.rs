@@ -9,6 +9,7 @@ pub mod fault;
 pub mod generate;
 pub mod gmsh;
 mod locate;
+pub mod netcdf;
 mod raw;
 pub mod sheet;
 pub mod spacing;

@@ -77,7 +77,7 @@ pub enum FaultTriangles {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DepthTriangles {
-    /// Path, relative to the folder of the scene. A line has longitude and latitude in degrees and a depth.
+    /// Path, relative to the folder of the scene. Lines of longitude and latitude in degrees and a depth, or a netCDF grid.
     pub file: Spanned<String>,
     /// Unit of the depths of the file, such as `"km"`. Depths increase downwards.
     pub unit: Spanned<String>,

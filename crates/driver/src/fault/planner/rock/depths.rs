@@ -4,6 +4,7 @@ use super::super::frame;
 use crate::diagnostic::Diagnostic;
 use crate::model::surfaces;
 use crate::scene::model::{DepthTriangles, Scene};
+use asperity_fem::mesh::netcdf;
 use asperity_fem::mesh::sheet::{self, Depths, Sheet, SheetError};
 use asperity_fem::mesh::triangles::Triangles;
 
@@ -23,9 +24,9 @@ pub(super) fn triangles(
         return Err(Diagnostic::at(spec.file.span(), "depths on a map need a `[place]`", PLACE));
     };
     let refuse = |error: SheetError| refused(spec, &error);
-    let (unit, text) = (surfaces::unit(Some(&spec.unit))?, String::from_utf8_lossy(bytes));
+    let unit = surfaces::unit(Some(&spec.unit))?;
     let (map, mut samples) = (frame.map(), Vec::new());
-    for [longitude, latitude, depth] in sheet::rows(&text).map_err(refuse)? {
+    for [longitude, latitude, depth] in rows(spec, bytes)? {
         let near = |x: &[f64; 2]| x[0].hypot(x[1]) < FARTHEST;
         let at = map.metres(longitude, latitude).filter(near);
         let [x, y] = at.ok_or_else(|| far(spec, [longitude, latitude]))?;
@@ -45,6 +46,22 @@ pub(super) fn triangles(
     let elements = (1..=count as u64).collect();
     Ok((Triangles { nodes, corners, elements, pieces: vec![(0..count).collect()], turned: 0 }, note))
 }
+
+/// Longitudes, latitudes and depths of a file: a grid in netCDF, or text. Positions without a depth are left out.
+fn rows(spec: &DepthTriangles, bytes: &[u8]) -> Result<Vec<[f64; 3]>, Diagnostic> {
+    if !netcdf::is_netcdf(bytes) {
+        return sheet::rows(&String::from_utf8_lossy(bytes)).map_err(|error| refused(spec, &error));
+    }
+    let mut rows = netcdf::rows(bytes).map_err(|error| {
+        let message = format!("file `{}`: {error}", spec.file.get_ref());
+        Diagnostic::at(spec.file.span(), message, GRID)
+    })?;
+    rows.retain(|row| row[2].is_finite());
+    Ok(rows)
+}
+
+/// Help for a grid that is not read.
+const GRID: &str = "a grid has one variable of depths over longitude and latitude, such as `z(lat, lon)`; `gmt grdconvert a.nc b.grd --IO_NC4_CHUNK_SIZE=classic` and `nccopy -k classic a.nc b.nc` write the classic format";
 
 const PLACE: &str = "the origin and the axes of the map: such as `[place]` with `latitude`, `longitude`, `strike = \"0 deg\"`, `up = [0, 1, 0]` and `along = [0, 0, -1]`, for x to the east and z to the south";
 
