@@ -13,15 +13,16 @@ const READERS: (&str, &str) = ("interop-venv", "interop/requirements.txt");
 const CITATION: (&str, &str) = ("interop-citation-venv", "interop/requirements-citation.txt");
 
 /// Small runs whose outputs are read: faults through cycles, a dynamic rupture and a spring-slider.
-const RUNS: [(&str, &str); 4] = [
+const RUNS: [(&str, &str); 5] = [
     ("interop/strike_slip.toml", "out/strike_slip"),
     ("interop/thrust.toml", "out/thrust"),
+    ("interop/dipping.toml", "out/dipping"),
     ("interop/rupture.toml", "out/rupture"),
     ("scenes/spring-slider.toml", "out/spring-slider"),
 ];
 
 /// Modules of the readers, which must be importable.
-const MODULES: &str = "import gmsh, jsonschema, meshio, numpy, obspy, pandas, PIL, pyvista, vtk";
+const MODULES: &str = "import gmsh, jsonschema, meshio, numpy, obspy, pandas, PIL, pyvista, scipy, vtk";
 
 /// As [`run`], but without readers prints so and succeeds: a machine may have no Python or no network.
 pub fn run_if_possible(root: &Path) -> Result<(), Failure> {
@@ -56,6 +57,7 @@ pub fn run(root: &Path) -> Result<(), Failure> {
     for out in ["out/strike_slip", "out/thrust"] {
         check("interop of catalogues", &["interop/check_catalogue.py", out])?;
     }
+    check("interop of grids", &["interop/check_grids.py", "out/dipping"])?;
     check("interop of seismograms", &["interop/check_seismograms.py", "out/rupture/seismograms"])?;
     let outputs = ["out/sandwich"].into_iter().chain(RUNS.map(|run| run.1));
     let tables: Vec<&str> = ["interop/check_tables.py"].into_iter().chain(outputs.clone()).collect();

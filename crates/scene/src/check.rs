@@ -16,11 +16,13 @@ mod meshes;
 mod output;
 mod patches;
 mod place;
+mod platform;
 pub mod pressing;
 mod receivers;
 mod ruptures;
 mod solver;
 mod stress;
+mod surface;
 mod time;
 mod unused;
 

@@ -11,9 +11,11 @@ mod inertia;
 mod medium;
 mod patch;
 mod place;
+mod platform;
 mod pulse;
 mod solver;
 mod stress;
+mod surface;
 mod tabled;
 mod trace;
 
@@ -31,6 +33,7 @@ pub use inertia::*;
 pub use medium::*;
 pub use patch::*;
 pub use place::Place;
+pub use platform::PlatformSpec;
 pub use pulse::Pulse;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -39,6 +42,7 @@ pub use solver::*;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 pub use stress::*;
+pub use surface::*;
 pub use tabled::{TableFile, Tabled};
 pub use trace::{Trace, TraceFile};
 
@@ -561,6 +565,10 @@ pub struct Output {
     /// In a medium: `[x, y]`, in space `[x, y, z]`: displacement and velocity of a position in the rock, y up.
     #[serde(default)]
     pub receivers: BTreeMap<String, Spanned<Vec<Length>>>,
+    /// In a half-space: `{ spacing = "2 km" }`: map of the displacement of the free surface over each event.
+    pub surface: Option<Spanned<SurfaceSpec>>,
+    /// In a medium: `{ problem = "SEAS Benchmark BP5-QD", modeler = "A. Author" }`: files for the platform of a benchmark in space.
+    pub platform: Option<Spanned<PlatformSpec>>,
     /// Explicit: `{ body = "A", at = ["1 km", "2 km"] }`: velocity and displacement at a position, at equal intervals.
     #[serde(default)]
     pub seismograms: BTreeMap<String, Spanned<PointSpec>>,

@@ -3,6 +3,7 @@
 mod depths;
 mod fields;
 mod receivers;
+mod surface;
 pub mod triangles;
 
 use crate::cases::fault_operator::matrix;
@@ -41,7 +42,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     depths::run(ledger)?;
     fields::run(ledger)?;
     cycles(ledger)?;
-    receivers::run(ledger)
+    receivers::run(ledger)?;
+    surface::run(ledger)
 }
 
 /// A scene without loads; `fault` holds its geometry.

@@ -11,14 +11,14 @@ const PLATES: f64 = 1e-9;
 const WIDTH: f64 = 10e3;
 const LENGTH: f64 = 24e3;
 /// G/(λ + G) of rock with a Poisson's ratio of a quarter.
-const RATIO: f64 = 0.5;
+pub(super) const RATIO: f64 = 0.5;
 /// Dip \[degrees\], rake from strike and azimuth of the strike.
-const DIP: f64 = 40.0;
-const RAKE: f64 = 30.0;
-const STRIKE: f64 = 25.0;
+pub(super) const DIP: f64 = 40.0;
+pub(super) const RAKE: f64 = 30.0;
+pub(super) const STRIKE: f64 = 25.0;
 
 /// A fault below a free surface; `rest` holds its geometry, rates and receivers.
-fn scene(kinematics: &str, law: &str, duration: &str, rest: &str) -> String {
+pub(super) fn scene(kinematics: &str, law: &str, duration: &str, rest: &str) -> String {
     format!(
         r#"
 schema = 1
@@ -158,7 +158,7 @@ fn rectangle(rate: f64, [length, width, size]: [f64; 3]) -> String {
 }
 
 /// Displacement of the surface in the axes of the scene by slip of the hanging wall along the rake of a rectangle \[m\].
-fn okada(slip: f64, [length, width]: [f64; 2], [x, z]: [f64; 2]) -> [f64; 3] {
+pub(super) fn okada(slip: f64, [length, width]: [f64; 2], [x, z]: [f64; 2]) -> [f64; 3] {
     let (up, along) = RAKE.to_radians().sin_cos();
     let (sine, cosine) = DIP.to_radians().sin_cos();
     let source = Rectangle {
@@ -173,7 +173,7 @@ fn okada(slip: f64, [length, width]: [f64; 2], [x, z]: [f64; 2]) -> [f64; 3] {
 }
 
 /// 1 if the hanging wall is the plus side, -1 if it is the minus side.
-fn hanging(done: &Written) -> f64 {
+pub(super) fn hanging(done: &Written) -> f64 {
     done.plan.points[0].normal[1].signum()
 }
 
@@ -204,16 +204,25 @@ fn in_space(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Displacement over an event of one cell.
-fn event(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let size = [2e3, 2e3];
+/// Size of a fault of one cell in space \[m\].
+pub(super) const SIZE: [f64; 2] = [2e3, 2e3];
+
+/// An event of one cell in space, and its slip \[m\].
+pub(super) fn of_one_cell() -> Result<(Written, f64), CaseError> {
+    let size = SIZE;
     let rest = rectangle(1.1e-9, [size[0], size[1], 2e3]);
     let more = format!(
-        "[events]\nabove = \"1e-3 m/s\"\nstop_after = 1\n[place]\nepoch = \"2000-01-01T00:00:00Z\"\nlatitude = \"10 deg\"\nlongitude = \"20 deg\"\nstrike = \"{STRIKE} deg\"\nup = [0, 1, 0]\nalong = [0, 0, -1]\n"
+        "surface = {{ spacing = 1e3, x = {{ from = -6300.0, to = 8100.0 }}, z = {{ from = -7e3, to = 5500.0 }} }}\n[events]\nabove = \"1e-3 m/s\"\nstop_after = 1\n[place]\nepoch = \"2000-01-01T00:00:00Z\"\nlatitude = \"10 deg\"\nlongitude = \"20 deg\"\nstrike = \"{STRIKE} deg\"\nup = [0, 1, 0]\nalong = [0, 0, -1]\n"
     );
     let weakening = "a = 0.010, b = 0.015, l = \"4 mm\"";
     let done = Written::of(&scene("3d", weakening, "1000 yr", &(rest + &more)))?;
     let slip = done.files.table("events/rupture_times_000.csv")?.only("slip")?;
+    Ok((done, slip))
+}
+
+/// Displacement over an event of one cell.
+fn event(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let ((done, slip), size) = (of_one_cell()?, SIZE);
     let table = done.files.table("events/displacements_000.csv")?;
     let [right, along] = [(STRIKE + 90.0).to_radians(), STRIKE.to_radians()];
     let columns = ["east", "north", "up"].map(|name| table.column(name));

@@ -2,6 +2,7 @@
 
 use super::patches::{Patches, from_kernel, to_kernel};
 use asperity_fem::material::elastic::Elastic;
+use rayon::prelude::*;
 
 impl Patches {
     /// Displacement at a position, with y up, per unit slip of each patch in a component \[-\]. It is not a number at a position
@@ -25,5 +26,23 @@ impl Patches {
                 tiles.iter().map(|tile| of([&tile.rake, &tile.across][component], tile)).collect()
             }
         }
+    }
+
+    /// Displacements at positions by slips of all patches, component by component: for each position, one per slip \[m\]. See
+    /// [`Self::displacements`].
+    #[must_use]
+    pub fn caused(&self, positions: &[[f64; 3]], slips: &[&[f64]], rock: &Elastic) -> Vec<Vec<[f64; 3]>> {
+        let tangents = slips.iter().map(|slip| slip.len() / self.count().max(1)).max().unwrap_or(0);
+        let of = |at: &[f64; 3]| {
+            let per_slip: Vec<[f64; 3]> =
+                (0..tangents).flat_map(|component| self.displacements(at, component, rock)).collect();
+            let sum = |slip: &&[f64]| {
+                slip.iter().zip(&per_slip).fold([0.0; 3], |sum: [f64; 3], (slip, per)| {
+                    std::array::from_fn(|c| sum[c] + slip * per[c])
+                })
+            };
+            slips.iter().map(sum).collect()
+        };
+        positions.par_iter().map(of).collect()
     }
 }

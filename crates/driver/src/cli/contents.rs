@@ -46,8 +46,8 @@ const FILES: [&str; 28] = [
 ];
 
 /// Folders that runs make, with the extensions of the files in them.
-const FOLDERS: [(&str, &[&str]); 12] = [
-    ("events", &["csv"]),
+const FOLDERS: [(&str, &[&str]); 13] = [
+    ("events", &["csv", "grd", "fsp"]),
     ("fields", &["vtu"]),
     ("profiles", &["csv"]),
     ("probes", &["csv"]),
@@ -58,6 +58,7 @@ const FOLDERS: [(&str, &[&str]); 12] = [
     ("receivers", &["csv"]),
     ("plots", &["svg", "png"]),
     ("stations", &[""]),
+    ("platform", &["txt", "dat"]),
     ("seismograms", &["csv", "mseed", "sac"]),
 ];
 

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 
 /// Files and folders of runs, with what they are.
-const MEANINGS: [(&str, &str); 39] = [
+const MEANINGS: [(&str, &str); 40] = [
     (PAGE, "plan, checks, pictures, costs and warnings in one page for browsers, without other files"),
     (REPORT, "status, results, counts, times, provenance: begin here"),
     (SCENE, "the scene as it was run, with the values of `--set`; mesh files are relative to the scene file"),
@@ -20,7 +20,10 @@ const MEANINGS: [(&str, &str); 39] = [
     ("events.csv", "catalogue of events"),
     ("events_*.csv", "catalogue of the events of one fault or interface"),
     ("slow_events.csv", "catalogue of slow events"),
-    ("events", "tables of single events: moment rate, rupture times, displacements"),
+    (
+        "events",
+        "single events: moment rate, rupture times, displacements (CSV), grids for GMT (netCDF), finite-fault models (FSP)",
+    ),
     ("receivers", "motion of positions in the rock over time (CSV)"),
     ("events.json", "catalogue of events, with more of each"),
     ("events.quakeml", "catalogue of events for seismological programs"),
@@ -44,6 +47,7 @@ const MEANINGS: [(&str, &str); 39] = [
     ("history", "sliders over time (CSV)"),
     ("plots", "figures (SVG, PNG)"),
     ("stations", "stations on faults over time, in the format of the SEAS community"),
+    ("platform", "results in the files of the platform of a community benchmark"),
     ("seismograms", "velocity and displacement at positions (CSV, miniSEED, SAC)"),
     (README, "this text"),
     (".writable", "trial of writing, left by a run that was killed"),

@@ -286,11 +286,13 @@ fn write_faults(
     let events = json::pretty(&report.events).into_diagnostic()?;
     atomic::write(&path.join("events.json"), events.as_bytes()).into_diagnostic()?;
     write_located(path, plan, report, hash)?;
+    fault::write_fields(path, plan, run).into_diagnostic()?;
+    fault::write_finite_faults(path, plan, run, &report.events).into_diagnostic()?;
     if drawn {
         fault::draw(path, plan, run).into_diagnostic()?;
         plots::draw_panel(&path.join("plots"), &panel(plan, report)).into_diagnostic()?;
+        fault::draw_surface(path, plan, run).into_diagnostic()?;
     }
-    fault::write_fields(path, plan, run).into_diagnostic()?;
     fault::write_bodies(path, plan, run).into_diagnostic()
 }
 

@@ -4,8 +4,10 @@ use super::event_tables::{self, reached, turned};
 use super::fields::{Field, Surface, along, state};
 use super::figures::each;
 use super::plan::{FaultView, Plan};
+use super::platform_files;
 use super::receiver_tables;
 use super::snapshots;
+use super::surface_tables;
 use asperity_cycles::{Event, FaultRun, Rupture};
 use asperity_output::vtu::{PvdEntry, pvd};
 use asperity_output::{OutputError, atomic};
@@ -19,6 +21,8 @@ use std::path::Path;
 pub fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), OutputError> {
     event_tables::write(out, plan, run)?;
     receiver_tables::write(out, plan, run)?;
+    surface_tables::write(out, plan, run)?;
+    platform_files::write(out, plan, run)?;
     if !plan.in_space {
         return Ok(());
     }

@@ -79,8 +79,13 @@ impl Frame {
     }
 
     /// Directions east and north in the axes of the scene.
-    pub(super) fn level(&self) -> [[f64; 3]; 2] {
+    pub(super) fn horizontal(&self) -> [[f64; 3]; 2] {
         [0, 1].map(|row| std::array::from_fn(|c| self.axes[(row, c)]))
+    }
+
+    /// Position in the scene at the height of the origin, at these distances east and north of it \[m\].
+    pub(super) fn level(&self, at: [f64; 2]) -> [f64; 3] {
+        self.position(at, self.depth)
     }
 
     /// Projection around the origin.

@@ -3,7 +3,9 @@
 use super::bodies::BodiesView;
 use super::cadence::Cadence;
 use super::frame::Frame;
+use super::free_surface::FreeSurface;
 use super::normal::NormalChoice;
+use super::platform::Platform;
 use super::receivers::Receivers;
 use super::resolution::Resolution;
 use super::sampling::Sampling;
@@ -72,6 +74,32 @@ pub struct FaultView {
     pub faces: Vec<Vec<usize>>,
     /// Outlines of the cells of the points, if fields are drawn in them.
     pub outline: Option<Outline>,
+    /// Grid of its cells, if they are equal rectangles.
+    pub grid: Option<CellGrid>,
+}
+
+/// Equal rectangles of which each has a point of a fault at its centre, row by row from the upper edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CellGrid {
+    /// Number along strike.
+    pub columns: usize,
+    /// Number down dip.
+    pub rows: usize,
+    /// Size of a cell along strike and down dip \[m\].
+    pub cell: [f64; 2],
+    /// First end of the upper edge \[m\].
+    pub from: [f64; 3],
+    /// Unit vector along strike, to whose right the fault dips.
+    pub along: [f64; 3],
+    /// Unit vector down dip.
+    pub down: [f64; 3],
+}
+
+impl CellGrid {
+    /// Middle of the upper edge of the cell with this centre \[m\].
+    pub(super) fn top_of(&self, centre: &[f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|c| centre[c] - 0.5 * self.cell[1] * self.down[c])
+    }
 }
 
 /// Triangles of which each has a point of a fault at its centre.
@@ -118,6 +146,10 @@ pub struct Plan {
     pub sampling: Option<Sampling>,
     /// Positions in the rock whose motion is written.
     pub receivers: Receivers,
+    /// Positions on the free surface whose displacement over each event is written.
+    pub free_surface: Option<FreeSurface>,
+    /// Files for the platform of a community benchmark.
+    pub platform: Option<Platform>,
     /// Geographic position and epoch of the origin.
     pub frame: Option<Frame>,
     /// True if faults are surfaces in 3D, which have no distance along them.
@@ -250,6 +282,10 @@ impl Plan {
         if !self.receivers.all.is_empty() {
             let count = self.receivers.all.len();
             line("output", format!("{count} receivers in the rock, which move with the plates"));
+        }
+        if let Some(surface) = &self.free_surface {
+            let count = surface.positions.len();
+            line("output", format!("displacement of {count} positions of the free surface over each event"));
         }
         for note in &self.notes {
             line("note", note.clone());

@@ -1,5 +1,6 @@
 //! Tables of the displacements of receivers over each event.
 
+use super::frame::Frame;
 use super::plan::Plan;
 use super::source_time::FOLDER;
 use asperity_cycles::{Event, FaultRun, Rupture};
@@ -8,8 +9,8 @@ use asperity_output::{OutputError, atomic};
 use nalgebra::Vector3;
 use std::path::Path;
 
-/// Header of the displacements over an event.
-const HEAD: &str = "name,x [m],y [m],z [m],displacement_x [m],displacement_y [m],displacement_z [m]";
+/// Columns of a position and its displacement.
+const COLUMNS: &str = "x [m],y [m],z [m],displacement_x [m],displacement_y [m],displacement_z [m]";
 /// Further columns where the scene has a place on Earth.
 const PLACED: &str = ",longitude [deg],latitude [deg],depth [m],east [m],north [m],up [m]";
 
@@ -29,21 +30,31 @@ pub(super) fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), Outpu
     Ok(())
 }
 
+/// Columns of a position and its displacement, in a scene with or without a place on Earth.
+pub(super) fn columns(frame: Option<&Frame>) -> String {
+    format!("{COLUMNS}{}", if frame.is_some() { PLACED } else { "" })
+}
+
+/// Values of the columns of a position and its displacement.
+pub(super) fn values(frame: Option<&Frame>, at: &[f64; 3], moved: [f64; 3]) -> Vec<String> {
+    let mut row: Vec<String> = at.map(shortest).into();
+    row.extend(moved.map(|u| scientific(u, 9)));
+    if let Some(frame) = frame {
+        let spot = frame.spot(at);
+        row.extend([spot.longitude, spot.latitude, spot.depth].map(shortest));
+        let east_north_up: [f64; 3] = (frame.axes * Vector3::from(moved)).into();
+        row.extend(east_north_up.map(|u| scientific(u, 9)));
+    }
+    row
+}
+
 fn table(plan: &Plan, event: &Event<Rupture>) -> String {
-    let mut text = format!("{HEAD}{}\n", if plan.frame.is_some() { PLACED } else { "" });
+    let frame = plan.frame.as_ref();
+    let mut text = format!("name,{}\n", columns(frame));
     for receiver in &plan.receivers.all {
         let moved = receiver.caused(event.details.slip.all().iter().copied());
-        let mut row = vec![receiver.name.clone()];
-        row.extend(receiver.at.map(shortest));
-        row.extend(moved.map(|u| scientific(u, 9)));
-        if let Some(frame) = &plan.frame {
-            let spot = frame.spot(&receiver.at);
-            row.extend([spot.longitude, spot.latitude, spot.depth].map(shortest));
-            let east_north_up: [f64; 3] = (frame.axes * Vector3::from(moved)).into();
-            row.extend(east_north_up.map(|u| scientific(u, 9)));
-        }
-        text.push_str(&row.join(","));
-        text.push('\n');
+        let row = values(frame, &receiver.at, moved).join(",");
+        text.push_str(&format!("{},{row}\n", receiver.name));
     }
     text
 }

@@ -60,7 +60,10 @@ fn difference(a: &Plan, b: &Plan) -> f64 {
 
 #[test]
 fn a_rectangle_in_two_parts_that_meet_is_the_whole_one() {
-    let dipping = || coarse().with("faults.main.patches", "[]").add("faults.main.rectangle.dip", "40 deg");
+    let dipping = || {
+        let scene = coarse().without("output.platform").with("faults.main.patches", "[]");
+        scene.add("faults.main.rectangle.dip", "40 deg")
+    };
     let half = |name: &str, scene: SceneText, from: &str, to: &str| {
         let path = |key: &str| format!("faults.{name}.rectangle.{key}");
         scene
@@ -171,6 +174,46 @@ fn a_run_in_a_medium_is_gone_on_with() {
     let resumed = run(place.path(), "parts", &["--resume"]);
     assert!(resumed.status.success(), "{}", text(&resumed.stderr));
     assert_same(place.path(), "parts");
+}
+
+/// Numbers of the last row of a file of the platform.
+fn last_row(place: &Path, name: &str) -> Vec<f64> {
+    let text = fs::read_to_string(place.join("out/platform").join(name)).unwrap();
+    let row = text.lines().last().unwrap();
+    row.split(' ').map(|word| word.parse().unwrap()).collect()
+}
+
+#[test]
+fn files_of_the_platform_do_not_change_when_the_scene_turns() {
+    let scene = coarse()
+        .with("events.stop_after", "1")
+        .with("output.stations", "{ main = [[0, \"-10 km\", \"-24 km\"]] }")
+        .with("output.receivers", "{ a = [\"8 km\", 0, \"-16 km\"] }");
+    // About the vertical by 180 degrees.
+    let turned = scene
+        .clone()
+        .with("faults.main.rectangle.from", "[0, 0, \"-50 km\"]")
+        .with("faults.main.rectangle.to", "[0, 0, \"50 km\"]")
+        .with("faults.main.rake", "[0, 0, -1]")
+        .with("faults.main.patches[1].box.z", "{ from = \"18 km\", to = \"30 km\" }")
+        .with("output.stations", "{ main = [[0, \"-10 km\", \"24 km\"]] }")
+        .with("output.receivers", "{ a = [\"-8 km\", 0, \"16 km\"] }");
+    let places = [scene, turned].map(|scene| {
+        let place = folder(&scene.text().unwrap());
+        let done = run(place.path(), "out", &["--no-plots"]);
+        assert!(done.status.success(), "{}", text(&done.stderr));
+        place
+    });
+    let names = ["fltst_strk-24dp+10.txt", "blkst_strk-16fn+08dp+00.txt", "global.dat", "rupture.dat"];
+    for name in names {
+        let [a, b] = places.each_ref().map(|place| last_row(place.path(), name));
+        let near = a.iter().zip(&b).all(|(a, b)| (a - b).abs() <= 1e-4 * a.abs().max(1e-3));
+        assert!(a.len() == b.len() && near, "{name}: {a:?} {b:?}");
+    }
+    // Both sides move along strike, the plus side forwards.
+    let [on, beside] = [names[0], names[1]].map(|name| last_row(places[0].path(), name));
+    assert!(on[1] > 1.0 && beside[2] > 0.1 * on[1], "{on:?} {beside:?}");
+    assert_eq!([on.len(), beside.len()], [8, 7]);
 }
 
 /// A fault of triangles that slips at once.

@@ -2,10 +2,12 @@
 
 mod cmtsolution;
 mod event;
+mod fsp;
 mod quakeml;
 mod tensor;
 
 pub use cmtsolution::cmtsolution;
 pub use event::{Located, Spot, magnitude};
+pub use fsp::{Row, Segment, SourceModel};
 pub use quakeml::quakeml;
 pub use tensor::{Plane, Tensor};

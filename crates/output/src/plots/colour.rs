@@ -45,6 +45,23 @@ pub(super) fn viridis(value: f64) -> Rgb {
     colours[(value.clamp(0.0, 1.0) * 255.0 + 0.5) as usize]
 }
 
+/// Colours of the ends and the middle of a map for values of either sign.
+const DIVERGING: [Rgb; 3] = [[32, 84, 160], [247, 247, 247], [170, 36, 44]];
+
+/// A colour for `value` in 0..=1 whose middle is nearly white, from blue to red. See [`viridis`].
+pub(super) fn diverging(value: f64) -> Rgb {
+    if value.is_nan() {
+        return [200, 200, 200];
+    }
+    let place = 2.0 * value.clamp(0.0, 1.0);
+    let below = usize::from(place >= 1.0);
+    let part = place - below as f64;
+    std::array::from_fn(|c| {
+        let (a, b) = (f64::from(DIVERGING[below][c]), f64::from(DIVERGING[below + 1][c]));
+        (a + part * (b - a)).round() as u8
+    })
+}
+
 /// Colour interpolated between the given ones.
 fn between(value: f64) -> Rgb {
     let place = value * (VIRIDIS.len() - 1) as f64;

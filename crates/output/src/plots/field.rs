@@ -283,18 +283,23 @@ pub(super) struct Bar {
 
 impl Bar {
     pub(super) fn draw(&self, figure: &mut Figure, frame: &Frame) {
+        self.draw_in(figure, frame, viridis);
+    }
+
+    /// Draws the bar in other colours of values in 0..=1.
+    pub(super) fn draw_in(&self, figure: &mut Figure, frame: &Frame, colours: fn(f64) -> Rgb) {
         let (left, top) = (frame.at.0 + frame.size.0 + 28.0, frame.at.1);
         let (width, height) = (18.0, frame.size.1.max(BAR));
         let axis = Axis::exact(self.range, String::new());
         let head = if self.above.is_some() { 16.0 } else { 0.0 };
         let body = height - head;
-        let rgb = (0..256).rev().map(|i| viridis(f64::from(i) / 255.0)).collect();
+        let rgb = (0..256).rev().map(|i| colours(f64::from(i) / 255.0)).collect();
         figure.image(Image { at: (left, top + head), size: (width, body), columns: 1, rgb });
         let (bottom, right) = (top + height, left + width);
         let mut ring = vec![(left, top + head), (left, bottom), (right, bottom), (right, top + head)];
         if let Some(text) = &self.above {
             let tip = (left + width / 2.0, top);
-            figure.area(vec![(left, top + head), tip, (right, top + head)], viridis(1.0));
+            figure.area(vec![(left, top + head), tip, (right, top + head)], colours(1.0));
             ring.push(tip);
             figure.text((right + 9.0, top + 3.0), text, 12.0, Anchor::Start, INK);
         }

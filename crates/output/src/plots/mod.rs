@@ -15,6 +15,7 @@ mod energy;
 mod faces;
 mod field;
 mod figure;
+mod ground;
 pub(crate) mod labels;
 mod mesh;
 mod panel;
@@ -33,6 +34,7 @@ mod width;
 pub use chart::{Chart, Measure};
 pub use cycles::{Cycles, Line, Rows, Table};
 pub use diagram::{Diagram, Failed, Scale, Series, Slope};
+pub use ground::{Coordinates, GroundMap};
 pub use mesh::{Mark, MarkedSet, MeshPicture};
 pub use panel::{EventPanel, PanelEvent};
 pub use rupture::{
@@ -71,6 +73,14 @@ pub fn draw_cycles(folder: &Path, cycles: &Cycles) -> Result<Vec<PathBuf>, Outpu
 /// See [`draw_all`].
 pub fn draw_ruptures(folder: &Path, ruptures: &Ruptures<'_>) -> Result<Vec<PathBuf>, OutputError> {
     write_all(folder, ruptures.figures()?)
+}
+
+/// Draws maps of the displacement of the ground into `folder` and returns the files in the order written.
+///
+/// # Errors
+/// See [`draw_all`].
+pub fn draw_ground(folder: &Path, maps: &[GroundMap]) -> Result<Vec<PathBuf>, OutputError> {
+    write_all(folder, maps.iter().filter_map(|map| Some((map.file.clone(), map.figure()?))).collect())
 }
 
 /// Draws rupture times and slip of events into `folder` and returns the files in the order written.

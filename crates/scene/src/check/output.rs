@@ -14,6 +14,8 @@ impl Checker<'_> {
     pub(super) fn output(&mut self) {
         self.samples();
         self.receivers();
+        self.surface();
+        self.platform();
         for (name, probes) in &self.scene.output.probes {
             if !self.scene.interfaces.contains_key(name) {
                 let known = self.scene.interfaces.keys().map(String::as_str);

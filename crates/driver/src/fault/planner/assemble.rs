@@ -144,6 +144,8 @@ pub(super) fn plan_of<const D: usize>(
         problem: Problem { fault, areas, loading, start, settings },
         ruptures: None,
         receivers: Receivers::default(),
+        free_surface: None,
+        platform: None,
         slow: thresholds::slow(scene.events.as_ref()),
         up: frame::up(scene),
         medium: around.medium,
@@ -402,6 +404,7 @@ pub(crate) fn views<const D: usize>(
             stations,
             faces: cells.faces((k, spec), &placed[first..last])?,
             outline: cells.outline(k),
+            grid: cells.grid(k),
         });
     }
     Ok((faults, points))

@@ -1,6 +1,6 @@
 //! Cells of faults, as needed by the output.
 
-use super::super::plan::Outline;
+use super::super::plan::{CellGrid, Outline};
 use super::placed::Placed;
 use crate::diagnostic::Diagnostic;
 use crate::scene::model::Fault as Spec;
@@ -15,6 +15,11 @@ pub(crate) trait Cells<const D: usize> {
 
     /// Outlines of the cells of a fault, if fields are drawn in them.
     fn outline(&self, _fault: usize) -> Option<Outline> {
+        None
+    }
+
+    /// Grid of the cells of a fault, if they are equal rectangles.
+    fn grid(&self, _fault: usize) -> Option<CellGrid> {
         None
     }
 }

@@ -189,7 +189,7 @@ fn of_map<const D: usize>(scene: &Scene, names: &[&str], columns: &Columns) -> R
     };
     let mut rows: Vec<Vec<f64>> =
         longitudes.iter().zip(&latitudes).enumerate().map(position).collect::<Result<_, _>>()?;
-    let ways = frame.level();
+    let ways = frame.horizontal();
     let mut axes: Vec<Axis<D>> =
         ways.iter().map(|way| Axis::Linear(std::array::from_fn(|c| way[c]), 0.0)).collect();
     if names.contains(&"depth") {

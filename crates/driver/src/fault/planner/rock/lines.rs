@@ -40,6 +40,7 @@ pub(super) fn tiling<const D: usize>(scene: &Scene, space: Space) -> Result<Tili
             sizes,
             faces: (1..cells.len()).map(|k| vec![k - 1, k]).collect(),
             outline: None,
+            grid: None,
         });
         if !antiplane {
             let turns = segments.windows(2).zip(&cells);

@@ -2,7 +2,9 @@
 
 mod apart;
 mod depths;
+mod free_surface;
 mod lines;
+mod platform;
 mod receivers;
 mod rectangles;
 mod surfaces;
@@ -60,6 +62,8 @@ pub(super) fn plan<const D: usize>(scene: &Scene, rock: &Rock, form: Form) -> Re
     let plates = backslip::plates(scene, &placed, slip.tangents);
     let loading = deficit(operator.as_ref(), &plates, end);
     let receivers = receivers::of(scene, (&tiling.patches, &elastic), &placed, (plates, slip.tangents))?;
+    let free_surface = free_surface::of(scene, (&tiling.patches, &elastic), &placed)?;
+    let platform = platform::of(scene, &placed)?;
     warnings.extend(sense::check(scene, (&placed, &[]), &loading, end));
     warnings.extend(unloaded(scene));
     notes.extend(tiling.notes.iter().cloned().chain([tiling.patches.reason()]));
@@ -81,7 +85,7 @@ pub(super) fn plan<const D: usize>(scene: &Scene, rock: &Rock, form: Form) -> Re
         checks: Checks { in_space: D == 3, ..Checks::default() },
     };
     let surrounded = Surrounded { placed, operator, opening: None, loading, end };
-    Ok(Plan { receivers, ..plan_of(scene, surrounded, around, &tiling)? })
+    Ok(Plan { receivers, free_surface, platform, ..plan_of(scene, surrounded, around, &tiling)? })
 }
 
 /// Warning if nothing changes the tractions of the faults but their own slip.

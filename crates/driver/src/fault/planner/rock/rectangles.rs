@@ -1,5 +1,6 @@
 //! Plane rectangular faults in space, divided into equal cells.
 
+use super::super::super::plan::CellGrid;
 use super::super::place::directions;
 use super::super::placed::in_space;
 use super::tiling::{Cut, buried, in_dimension};
@@ -40,7 +41,14 @@ pub(super) fn cells<const D: usize>(
     Ok(Divided {
         tiles,
         grid: Lattice { columns: grid.columns, rows: grid.rows, points },
-        cut: Cut { places, widths: sizes.clone(), sizes, faces: grid.faces(), outline: None },
+        cut: Cut {
+            places,
+            widths: sizes.clone(),
+            sizes,
+            faces: grid.faces(),
+            outline: None,
+            grid: Some(grid.view()),
+        },
         note: grid.words(name),
     })
 }
@@ -121,6 +129,11 @@ impl Grid {
             vec![k, k + 1, k + columns + 1, k + columns]
         };
         (0..rows - 1).flat_map(|row| (0..columns - 1).map(move |column| corners(row, column))).collect()
+    }
+
+    fn view(&self) -> CellGrid {
+        let Self { columns, rows, cell, from, axes: [along, down], .. } = *self;
+        CellGrid { columns, rows, cell, from, along, down }
     }
 
     fn words(&self, name: &str) -> String {

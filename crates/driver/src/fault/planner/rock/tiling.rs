@@ -1,6 +1,6 @@
 //! Cells of faults in homogeneous rock.
 
-use super::super::super::plan::Outline;
+use super::super::super::plan::{CellGrid, Outline};
 use super::super::cells::Cells;
 use super::super::placed::Placed;
 use crate::diagnostic::Diagnostic;
@@ -29,6 +29,8 @@ pub(super) struct Cut<const D: usize> {
     pub faces: Vec<Vec<usize>>,
     /// Outlines of cells in which fields are drawn.
     pub outline: Option<Outline>,
+    /// Grid of the cells, if they are equal rectangles.
+    pub grid: Option<CellGrid>,
 }
 
 /// A dimension that the caller has established.
@@ -54,6 +56,10 @@ impl<const D: usize> Cells<D> for Tiling<D> {
 
     fn outline(&self, fault: usize) -> Option<Outline> {
         self.faults[fault].outline.clone()
+    }
+
+    fn grid(&self, fault: usize) -> Option<CellGrid> {
+        self.faults[fault].grid
     }
 }
 

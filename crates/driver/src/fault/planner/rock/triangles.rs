@@ -68,7 +68,7 @@ pub(super) fn cells<const D: usize>(
         notes.push(sense(name, &places));
     }
     let outline = Some(Outline { nodes: mesh.nodes, corners: mesh.corners });
-    Ok(Meshed { tiles, cut: Cut { places, sizes, widths, faces: Vec::new(), outline }, notes })
+    Ok(Meshed { tiles, cut: Cut { places, sizes, widths, faces: Vec::new(), outline, grid: None }, notes })
 }
 
 /// Note on the sense of slip of a fault that is given by depths, whose plus side is the upper one.

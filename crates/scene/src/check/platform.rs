@@ -1,0 +1,42 @@
+//! Files of the platform of a community benchmark.
+
+use super::Checker;
+use crate::model::Stepper;
+
+impl Checker<'_> {
+    /// Checks what the heads of the files say, and that the scene has such files.
+    pub(super) fn platform(&mut self) {
+        let Some(asked) = &self.scene.output.platform else { return };
+        if self.scene.medium.is_none() || *self.scene.time.stepper.get_ref() != Stepper::FaultOde {
+            self.error(
+                asked.span(),
+                "`platform` is for faults in a `[medium]` through earthquake cycles",
+                "remove it; `stations` have the format of benchmarks in the plane",
+            );
+        }
+        let spec = asked.get_ref();
+        let texts = [
+            ("problem", Some(&spec.problem)),
+            ("modeler", Some(&spec.modeler)),
+            ("date", spec.date.as_ref()),
+        ];
+        for (key, text) in texts.into_iter().filter_map(|(key, text)| Some((key, text?))) {
+            let value = text.get_ref();
+            if value.trim().is_empty() || value.chars().any(char::is_control) {
+                self.error(
+                    text.span(),
+                    format!("`{key}` must be one line of printable characters"),
+                    format!("such as `{key} = \"{}\"`", example(key)),
+                );
+            }
+        }
+    }
+}
+
+fn example(key: &str) -> &'static str {
+    match key {
+        "problem" => "SEAS Benchmark BP5-QD",
+        "modeler" => "A. Author",
+        _ => "2026/11/26",
+    }
+}

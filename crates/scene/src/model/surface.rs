@@ -1,0 +1,33 @@
+//! A map of the free surface.
+
+use super::Extent;
+use crate::spanned::Spanned;
+use crate::units::{Angle, Length};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// Positions on the free surface of a half-space, at equal distances.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SurfaceSpec {
+    /// Distance of neighbouring positions, rounded so that it divides the extents \[m\].
+    pub spacing: Spanned<Length>,
+    /// `{ from, to }` along x; default: the faults, and their greatest depth beyond them on either side.
+    pub x: Option<Spanned<Extent>>,
+    /// In space: the same along z.
+    pub z: Option<Spanned<Extent>>,
+    /// In space, instead of `x` and `z`: range of longitude, such as `{ from = "134 deg", to = "136 deg" }`.
+    pub longitude: Option<Spanned<AngleExtent>>,
+    /// Range of latitude.
+    pub latitude: Option<Spanned<AngleExtent>>,
+}
+
+/// A range of an angle.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AngleExtent {
+    /// Lower end \[rad\].
+    pub from: Angle,
+    /// Upper end \[rad\].
+    pub to: Angle,
+}
