@@ -14,6 +14,9 @@ use std::path::Path;
 /// Bytes of pictures in the page; pictures beyond are linked. Browsers and mail programs become slow above some tens of megabytes.
 const PICTURES: u64 = 20_000_000;
 
+/// Beginning of lines that differ from run to run, as the part `run` of the report does.
+pub const RUN: &str = "<!-- run -->";
+
 /// Texts of a run beside its report.
 pub struct Texts<'a> {
     /// The plan as printed.
@@ -41,7 +44,7 @@ pub fn page(folder: &Path, report: &Value, texts: &Texts<'_>) -> String {
         section("Pictures", &pictures(folder)),
         section("Events", &events(folder)),
         section("Energy", &of_keys(report, &["energy", "balance"])),
-        section("Costs", &of_keys(report, &["counts", "run"])),
+        section("Costs", &costs(report)),
         section("Plan", &plan),
         section("Checks", &of_keys(report, &["checks", "resolution"])),
         section("Scene", &folded(SCENE, texts.scene)),
@@ -65,7 +68,7 @@ fn text<'a>(value: &'a Value, key: &str) -> &'a str {
 fn facts(report: &Value) -> String {
     let run = &report["run"];
     let mut html = format!(
-        "<p><strong>{}</strong>: a run of {} by asperity {} ({}), begun {}</p>",
+        "{RUN}<p><strong>{}</strong>: a run of {} by asperity {} ({}), begun {}</p>",
         escape(text(report, "status")),
         escape(text(report, "kind")),
         escape(text(report, "version")),
@@ -73,7 +76,7 @@ fn facts(report: &Value) -> String {
         escape(text(run, "started")),
     );
     if let Some(outcome) = report["outcome"].as_object() {
-        let _ = write!(html, "<p class=\"warning\">{}</p>", value(&Value::Object(outcome.clone())));
+        let _ = write!(html, "\n<p class=\"warning\">{}</p>", value(&Value::Object(outcome.clone())));
     }
     html
 }
@@ -127,6 +130,11 @@ fn events(folder: &Path) -> String {
 /// A field of a table: numbers with few digits.
 fn cell(field: &str) -> String {
     field.parse().map_or_else(|_| field.to_owned(), elements::number)
+}
+
+/// Counts, which do not differ from run to run, and times and memory, which do.
+fn costs(report: &Value) -> String {
+    format!("{}\n{RUN}{}", of_keys(report, &["counts"]), of_keys(report, &["run"]))
 }
 
 /// Values of some keys of a report, each below its name.
