@@ -159,7 +159,9 @@ fn files(folder: &Path) -> String {
         Some(format!("<li><a href=\"{name}\">{name}</a>: {}</li>", escape(meaning)))
     };
     let names = names(folder);
-    let rows: String = names.iter().filter(|name| !name.starts_with('.')).filter_map(row).collect();
+    // The page itself is there only if the run was interrupted before.
+    let shown = |name: &&String| !name.starts_with('.') && *name != PAGE;
+    let rows: String = names.iter().filter(shown).filter_map(row).collect();
     format!("<ul>{rows}</ul>")
 }
 
