@@ -4,7 +4,7 @@ pub mod elements;
 
 use super::begin::{PAGE, SCENE};
 use super::readme;
-use asperity_output::{OutputError, atomic};
+use asperity_output::{OutputError, atomic, progress};
 use elements::{escape, folded, section, table, value};
 use serde_json::Value;
 use std::fmt::Write as _;
@@ -159,8 +159,8 @@ fn files(folder: &Path) -> String {
         Some(format!("<li><a href=\"{name}\">{name}</a>: {}</li>", escape(meaning)))
     };
     let names = names(folder);
-    // The page itself is there only if the run was interrupted before.
-    let shown = |name: &&String| !name.starts_with('.') && *name != PAGE;
+    // The page itself is there only if the run was interrupted before, and the progress only while it is written.
+    let shown = |name: &&String| !name.starts_with('.') && *name != PAGE && *name != progress::FILE;
     let rows: String = names.iter().filter(shown).filter_map(row).collect();
     format!("<ul>{rows}</ul>")
 }
