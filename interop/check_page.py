@@ -49,7 +49,7 @@ def check(text, out):
     drawn = len(list((out / "plots").glob("*.svg")))
     if page.pictures != drawn:
         problems.append(f"{page.pictures} pictures, plots/ has {drawn}")
-    for heading in ["Costs", "Plan", "Checks", "Scene", "Files"]:
+    for heading in ["Costs", "Plan and checks", "Scene", "Files"]:
         if heading not in page.headings:
             problems.append(f"no section {heading}")
     problems += [f"a link to {link}, which is not there" for link in page.links if not (out / link).exists()]
@@ -60,7 +60,7 @@ def damages(text):
     yield "an element not closed", text.replace("</table>", "", 1)
     yield "a script", text.replace("</body>", "<script></script></body>")
     yield "a picture less", text[: text.index("<figure>")] + text[text.index("</figure>") + 9 :]
-    yield "a section less", text.replace("<h2>Plan</h2>", "", 1)
+    yield "a section less", text.replace("<h2>Plan and checks</h2>", "", 1)
     yield "a broken link", text.replace('href="report.json"', 'href="report.jsonl"', 1)
 
 

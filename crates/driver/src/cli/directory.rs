@@ -1,6 +1,6 @@
 //! Output directory of a run. It belongs to one run at a time, holds a report from the start, and nothing of any other run.
 
-use super::begin::{Begin, LOCK, REPORT, SCENE};
+use super::begin::{Begin, LOCK, PAGE, REPORT, SCENE};
 use super::contents::{self, Contents};
 use super::json;
 use super::page::{self, Texts};
@@ -90,6 +90,7 @@ impl Directory {
     /// last result is removed.
     pub fn computes(&mut self) -> miette::Result<()> {
         atomic::write(&self.path.join(SCENE), self.begin.text.as_bytes()).into_diagnostic()?;
+        self.hide();
         self.describe();
         match std::mem::replace(&mut self.room, Room::Used) {
             Room::Moved(_, Some(older)) => fs::remove_dir_all(&older)
@@ -116,6 +117,12 @@ impl Directory {
     /// Writes what each file is. It is no result: a run continues where it cannot be written.
     fn describe(&self) {
         let _ = readme::write(&self.path, &self.begin.title);
+    }
+
+    /// Removes the page of the part before, which would show the run as it was then.
+    fn hide(&self) {
+        // Usually there is none.
+        let _ = fs::remove_file(self.path.join(PAGE));
     }
 
     /// Writes the page of the run. It holds nothing that is not in other files: a run continues where it cannot be written.

@@ -7,16 +7,17 @@ use asperity_output::printing::out;
 
 /// Prints the plan and its checks.
 pub(super) fn plan(plan: &Planned) {
-    out(format_args!("{}{}", plan_text(plan), plan.checks()));
+    out(format_args!("{}", plan_text(plan)));
 }
 
-/// The plan as printed, without its checks.
+/// The plan and its checks as printed.
 pub(super) fn plan_text(plan: &Planned) -> String {
+    let checks = plan.checks();
     match plan {
-        Planned::Bodies(plan) => plan.summary().to_string(),
-        Planned::Sliders(plan) => plan.summary().to_string(),
-        Planned::Faults(plan) => plan.summary().to_string(),
-        Planned::Dynamic(plan) => plan.summary().to_string(),
+        Planned::Bodies(plan) => format!("{}{checks}", plan.summary()),
+        Planned::Sliders(plan) => format!("{}{checks}", plan.summary()),
+        Planned::Faults(plan) => format!("{}{checks}", plan.summary()),
+        Planned::Dynamic(plan) => format!("{}{checks}", plan.summary()),
     }
 }
 

@@ -277,16 +277,7 @@ impl Plan {
         if let Some(opening) = &self.problem.fault.opening {
             line("operator", opening.words());
         }
-        line("output", self.cadence.words());
-        line("output", of_events(self.event_files));
-        if !self.receivers.all.is_empty() {
-            let count = self.receivers.all.len();
-            line("output", format!("{count} receivers in the rock, which move with the plates"));
-        }
-        if let Some(surface) = &self.free_surface {
-            let count = surface.positions.len();
-            line("output", format!("displacement of {count} positions of the free surface over each event"));
-        }
+        self.outputs().into_iter().for_each(|words| line("output", words));
         for note in &self.notes {
             line("note", note.clone());
         }
@@ -294,6 +285,22 @@ impl Plan {
             line("warning", warning.to_string());
         }
         text
+    }
+
+    /// Outputs of the run, in words.
+    fn outputs(&self) -> Vec<String> {
+        let mut all = vec![self.cadence.words(), of_events(self.event_files)];
+        if !self.receivers.all.is_empty() {
+            all.push(format!(
+                "{} receivers in the rock, which move with the plates",
+                self.receivers.all.len()
+            ));
+        }
+        if let Some(surface) = &self.free_surface {
+            let count = surface.positions.len();
+            all.push(format!("displacement of {count} positions of the free surface over each event"));
+        }
+        all
     }
 }
 

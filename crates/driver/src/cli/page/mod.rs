@@ -6,7 +6,7 @@ use super::begin::{PAGE, SCENE};
 use super::readme;
 use asperity_output::{OutputError, atomic, progress};
 use elements::{escape, folded, section, table, value};
-use serde_json::Value;
+use serde_json::{Map, Value};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
@@ -19,7 +19,7 @@ pub const RUN: &str = "<!-- run -->";
 
 /// Texts of a run beside its report.
 pub struct Texts<'a> {
-    /// The plan as printed.
+    /// The plan and its checks as printed.
     pub plan: &'a str,
     /// The scene as it was run.
     pub scene: &'a str,
@@ -43,10 +43,9 @@ pub fn page(folder: &Path, report: &Value, texts: &Texts<'_>) -> String {
         section("Warnings", &warnings(report)),
         section("Pictures", &pictures(folder)),
         section("Events", &events(folder)),
-        section("Energy", &of_keys(report, &["energy", "balance"])),
+        section("Energy", &energy(report)),
         section("Costs", &costs(report)),
-        section("Plan", &plan),
-        section("Checks", &of_keys(report, &["checks", "resolution"])),
+        section("Plan and checks", &plan),
         section("Scene", &folded(SCENE, texts.scene)),
         section("Files", &files(folder)),
     ];
@@ -132,23 +131,23 @@ fn cell(field: &str) -> String {
     field.parse().map_or_else(|_| field.to_owned(), elements::number)
 }
 
-/// Counts, which do not differ from run to run, and times and memory, which do.
-fn costs(report: &Value) -> String {
-    format!("{}\n{RUN}{}", of_keys(report, &["counts"]), of_keys(report, &["run"]))
+/// Energy budget, in the unit of the report.
+fn energy(report: &Value) -> String {
+    let budget: String = ["energy", "balance"].into_iter().map(|key| of_key(report, key)).collect();
+    let unit = text(report, "unit");
+    if budget.is_empty() || unit.is_empty() { budget } else { format!("<p>in {}</p>{budget}", escape(unit)) }
 }
 
-/// Values of some keys of a report, each below its name.
-fn of_keys(report: &Value, keys: &[&str]) -> String {
-    let mut html = String::new();
-    for &key in keys {
-        let found = &report[key];
-        let empty =
-            found.as_array().is_some_and(Vec::is_empty) || found.as_object().is_some_and(|o| o.is_empty());
-        if !found.is_null() && !empty {
-            let _ = write!(html, "<h3>{}</h3>{}", escape(key), value(found));
-        }
-    }
-    html
+/// Counts, which do not differ from run to run, and times and memory, which do.
+fn costs(report: &Value) -> String {
+    format!("{}\n{RUN}{}", of_key(report, "counts"), of_key(report, "run"))
+}
+
+/// Value of a key of a report; nothing where it is absent or empty.
+fn of_key(report: &Value, key: &str) -> String {
+    let found = &report[key];
+    let empty = found.as_array().is_some_and(Vec::is_empty) || found.as_object().is_some_and(Map::is_empty);
+    if found.is_null() || empty { String::new() } else { value(found) }
 }
 
 /// Files and folders of the directory with what they are.
@@ -159,8 +158,8 @@ fn files(folder: &Path) -> String {
         Some(format!("<li><a href=\"{name}\">{name}</a>: {}</li>", escape(meaning)))
     };
     let names = names(folder);
-    // The page itself is there only if the run was interrupted before, and the progress only while it is written.
-    let shown = |name: &&String| !name.starts_with('.') && *name != PAGE && *name != progress::FILE;
+    // The progress is there only while the run is under way.
+    let shown = |name: &&String| !name.starts_with('.') && *name != progress::FILE;
     let rows: String = names.iter().filter(shown).filter_map(row).collect();
     format!("<ul>{rows}</ul>")
 }

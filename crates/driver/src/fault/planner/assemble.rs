@@ -10,7 +10,7 @@ use super::cells::Cells;
 use super::placed::{Placed, in_space, slides};
 use super::pulses::{doubts, pulses};
 use super::{asked, checks, floor, frame, heated, pressing, radiation, sense, start_doubts};
-use crate::checks::{Checks, Cost};
+use crate::checks::{Checks, Cost, FaultCheck};
 use crate::diagnostic::Diagnostic;
 use crate::laws;
 use crate::scene::law::LawChoice;
@@ -123,12 +123,7 @@ pub(super) fn plan_of<const D: usize>(
     let cadence = cadence(scene, &fault, end);
     let mut checks = around.checks;
     checks.faults = checks::faults(scene, (&placed, &around.prescribed), &faults, &around.resolution);
-    for (k, (check, spec)) in checks.faults.iter_mut().zip(scene.faults.values()).enumerate() {
-        let sense = spec.rate.get_ref().0.signum();
-        check.loading = sense::first_rate(&placed, k, &loading, end).map(|rate| rate * sense);
-        let springs = around.machines.get(k).copied().flatten();
-        check.machine = springs.map(|stiffness| checks::machine(stiffness, k, &placed));
-    }
+    add_loads(&mut checks.faults, scene, &placed, (&loading, end, &around.machines));
     let memory_bytes = around.memory_bytes + modes;
     checks.cost = Cost {
         memory_bytes: Some(memory_bytes),
@@ -162,6 +157,21 @@ pub(super) fn plan_of<const D: usize>(
         notes: around.notes,
         checks,
     })
+}
+
+/// Adds the rate of loading and the machine of each fault to its checks; `machines` has the stiffness of springs at each fault.
+fn add_loads<const D: usize>(
+    checks: &mut [FaultCheck],
+    scene: &Scene,
+    placed: &[Placed<D>],
+    (loading, end, machines): (&Loading, f64, &[Option<f64>]),
+) {
+    for (k, (check, spec)) in checks.iter_mut().zip(scene.faults.values()).enumerate() {
+        let sense = spec.rate.get_ref().0.signum();
+        check.loading = sense::first_rate(placed, k, loading, end).map(|rate| rate * sense);
+        let springs = machines.get(k).copied().flatten();
+        check.machine = springs.map(|stiffness| checks::machine(stiffness, k, placed));
+    }
 }
 
 /// Laws of all points, which are of one kind.

@@ -145,6 +145,15 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Diagnostic
 const MIRRORED: &str =
     "the bodies and their loads are antisymmetric about the fault: one side is condensed for both";
 
+/// The stage before that presses the bodies, if there is one, and the stage of the run; `None` for another number of stages.
+fn parted(stages: &[Stage]) -> Option<(Option<&Stage>, &Stage)> {
+    match stages {
+        [stage] => Some((None, stage)),
+        [pressing, stage] => Some((Some(pressing), stage)),
+        _ => None,
+    }
+}
+
 /// Plans faults between bodies.
 fn between_bodies<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Diagnostic> {
     let mut model = model::build::<D>(scene)?;
@@ -152,11 +161,7 @@ fn between_bodies<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Dia
         return Err(asked::not_linear(scene, &body.name));
     }
     let stages = loading::stages(scene, &model)?;
-    let (pressing, stage) = match stages.as_slice() {
-        [stage] => (None, stage),
-        [pressing, stage] => (Some(pressing), stage),
-        _ => return Err(asked::stages(scene)),
-    };
+    let (pressing, stage) = parted(&stages).ok_or_else(|| asked::stages(scene))?;
     let mut warnings = scene.warnings.clone();
     let (placed, mut notes) = all_points(scene, &model, &mut warnings)?;
     let points: Vec<Point<D>> = placed.iter().map(|p| p.point.clone()).collect();
@@ -194,9 +199,6 @@ fn between_bodies<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Dia
     let mut surroundings = surroundings.map_err(|e| asked.error(&e))?;
     notes.extend(surroundings.mirrored.then(|| MIRRORED.to_string()));
     let (creeping, mut placed): (Vec<_>, Vec<_>) = placed.into_iter().partition(|p| p.point.creep.is_some());
-    if placed.is_empty() {
-        return Err(asked::nothing_slides(&named, &creeping));
-    }
     let plates = backslip::plates(scene, &placed, conditions.tangents);
     let Surroundings { opening, weight, bytes, bodies: displaced, .. } = &mut surroundings;
     let (opening, weight, bytes, displaced) = (opening.take(), weight.take(), *bytes, displaced.take());
