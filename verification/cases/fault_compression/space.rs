@@ -1,10 +1,11 @@
-//! Operators in space that are compressed from their entries, against those with all entries.
+//! Compressed operators in space, against those with all entries.
 
 use crate::cases::fault_medium::triangles::{DISC, FROM_FILE, halved, planned, weakening};
 use crate::cases::seas;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity_cycles::operator::Form;
 use asperity_driver::fault::Plan;
+use asperity_vary::SceneText;
 
 /// Tolerances of the compression relative to each block.
 const TOLERANCES: [f64; 3] = [1e-3, 1e-5, 1e-7];
@@ -12,6 +13,7 @@ const TOLERANCES: [f64; 3] = [1e-3, 1e-5, 1e-7];
 /// Runs all claims.
 pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     entries(ledger)?;
+    bodies(ledger)?;
     interval(ledger)
 }
 
@@ -92,6 +94,56 @@ fn entries(ledger: &mut Ledger) -> Result<(), CaseError> {
             .record();
     }
     ledger.table("bent fault", &["tolerance", "bytes", "error of uniform slip", "operator"], rows);
+    Ok(())
+}
+
+/// Sides of the cells of the fault between bodies.
+const SIDE: &str = "2.5 km";
+
+/// Plan of a fault between bodies, whose slip may turn and changes normal tractions, as the rock of its sides differs.
+fn between_bodies(form: Form) -> Result<Plan, CaseError> {
+    let text = SceneText::new(include_str!("../../../scenes/fault-3d.toml"))
+        .add("materials.stiff", "{ young = \"120 GPa\", poisson = 0.25, density = \"2670 kg/m^3\" }")
+        .with("bodies.east.material", "stiff")
+        .with("bodies.west.mesh.block.spacing[1].size", SIDE)
+        .with("bodies.west.mesh.block.spacing[2].size", SIDE)
+        .with("bodies.east.mesh.block.spacing[1].size", SIDE)
+        .with("bodies.east.mesh.block.spacing[2].size", SIDE)
+        .add("faults.main.under_resolved", "allow")
+        .text()?;
+    super::plan(&text, form)
+}
+
+/// The same of the forces of condensed bodies, whose blocks are of low rank where clusters are distant.
+fn bodies(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let words = |plan: &Plan| plan.problem.fault.operator.words();
+    let dense = between_bodies(Form::Dense)?;
+    let (wanted, uniform) = all(&dense);
+    let wanted = wanted.concat();
+    let mut rows = Vec::new();
+    for tolerance in TOLERANCES {
+        let (compressed, cost) = Cost::of(|| between_bodies(Form::Compressed { tolerance }));
+        let compressed = compressed?;
+        let (found, of_uniform) = all(&compressed);
+        rows.push([
+            format!("{tolerance:e}"),
+            compressed.problem.fault.operator.bytes().to_string(),
+            format!("{:.1e}", off(&of_uniform, &uniform)),
+            words(&compressed),
+        ]);
+        ledger
+            .claim(format!("a fault of {} points between unlike bodies whose slip may turn: Frobenius' norm of the error of all tractions over theirs, tolerance {tolerance:e}", dense.points.len()))
+            .value(off(&found.concat(), &wanted))
+            .at_most(tolerance)
+            .evidence(Evidence::Exact, "the dense operator from the same condensation")
+            .between(&words(&dense), &words(&compressed))
+            .because("each block of distant clusters has this error relative to itself, and the others have none")
+            .why_not_tighter("blocks stored in full have no error, and they have the largest entries")
+            .covers(&[Capability::FaultCycles, Capability::Solid3d])
+            .cost(&cost)
+            .record();
+    }
+    ledger.table("fault between bodies", &["tolerance", "bytes", "error of uniform slip", "operator"], rows);
     Ok(())
 }
 

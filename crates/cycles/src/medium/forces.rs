@@ -147,6 +147,26 @@ impl Forces {
         (0..self.tangents * n).into_par_iter().map(of).collect()
     }
 
+    /// Tractions at a point, component by component, and then its normal traction, caused by slip of each component of each
+    /// point.
+    #[must_use]
+    pub fn row(&self, p: usize) -> [Vec<f64>; 3] {
+        let (n, tangents) = (self.points(), self.tangents);
+        let loads = |component: usize, slip: usize| match (component == tangents, component == slip) {
+            (true, _) => self.presses[slip],
+            (false, same) => same || self.across,
+        };
+        let of = |component: usize| {
+            let entry = |k: usize| match (component, k / n) {
+                (component, slip) if loads(component, slip) => self.traction((component, p), (slip, k % n)),
+                _ => 0.0,
+            };
+            (0..tangents * n).map(entry).collect::<Vec<f64>>()
+        };
+        let second = if tangents > 1 { of(1) } else { Vec::new() };
+        [of(0), second, of(tangents)]
+    }
+
     /// The matrices of tractions with all entries.
     #[must_use]
     pub fn dense(&self) -> Tractions {
@@ -170,5 +190,28 @@ impl Forces {
     pub(super) fn operator_bytes(components: usize, tangents: usize, points: usize) -> usize {
         let normal = if components > 1 { tangents } else { 0 };
         (tangents * (tangents + 1) / 2 + normal) * points.pow(2) * size_of::<f64>()
+    }
+
+    /// Forces of these tractions of slip in one direction, row by row.
+    #[cfg(test)]
+    pub(crate) fn of_tractions(shear: &[f64], normal: &[f64], areas: &[f64]) -> Self {
+        let n = areas.len();
+        let mut values = vec![0.0; 4 * n * n];
+        for (p, area) in areas.iter().enumerate() {
+            for q in 0..n {
+                values[2 * p * 2 * n + 2 * q] = -area * shear[p * n + q];
+                values[(2 * p + 1) * 2 * n + 2 * q] = area * normal[p * n + q];
+            }
+        }
+        let bearing = |&area: &f64| Bearing { area, keeps: false, opens: false };
+        Self {
+            matrix: Matrix::Whole(values, 2 * n),
+            share: 1.0,
+            rows: (0..n).map(|p| 2 * p).collect(),
+            bearings: areas.iter().map(bearing).collect(),
+            tangents: 1,
+            presses: vec![true],
+            across: false,
+        }
     }
 }

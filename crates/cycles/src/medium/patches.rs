@@ -7,7 +7,7 @@
 use super::tractions::Tractions;
 use crate::kernel::{Field, Rectangle, Segment, Triangle};
 use crate::operator::{
-    Accuracy, Both, Checked, Dense, Division, Entry, Form, Geometry, Lattice, Operator, Toeplitz, in_form,
+    Accuracy, Both, Checked, Dense, Division, Entry, Form, Geometry, Lattice, Operator, Toeplitz, dense,
 };
 use asperity_fem::material::elastic::Elastic;
 use nalgebra::{Matrix3, Vector3};
@@ -139,7 +139,7 @@ impl Patches {
             (Storage::Grid(tiles, lattice), Form::Fitting) => of_grid(tiles, lattice, rock, slip),
             (Storage::Compressed, Form::Fitting) => self.compressed(rock, slip, geometry, TOLERANCE),
             (_, Form::Compressed { tolerance }) => self.compressed(rock, slip, geometry, tolerance),
-            (_, Form::Dense | Form::Fitting) => in_form(self.tractions(rock, slip), geometry, Form::Dense),
+            (_, Form::Dense | Form::Fitting) => dense(self.tractions(rock, slip)),
         }
     }
 

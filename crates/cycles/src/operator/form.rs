@@ -1,6 +1,6 @@
 //! Storage of an operator: dense or compressed.
 
-use super::{Both, Dense, Geometry, Hierarchical, Operator};
+use super::{Both, Checked, Dense, Geometry, Hierarchical, Operator, Tolerance};
 use crate::medium::{Forces, Tractions};
 
 /// Storage of an operator.
@@ -10,7 +10,8 @@ pub enum Form {
     Fitting,
     /// All entries.
     Dense,
-    /// Blocks of low rank. The error is relative to the largest force, and in a medium without bodies relative to each block.
+    /// Blocks of low rank. The error is relative to each block on surfaces and in a medium without bodies, and on lines between
+    /// bodies relative to the largest force.
     Compressed {
         /// The error.
         tolerance: f64,
@@ -19,58 +20,42 @@ pub enum Form {
 
 /// Number of points from which the operator is compressed. Below, a product with the dense one takes as long (2 us).
 const COMPRESSED_FROM: usize = 128;
-/// Error of the forces of the compressed operator, relative to its largest entry. Tractions of slip over 10 km then
-/// have errors of about 1e-9, far below those of the integration. A bound ten times larger would save a tenth of the
-/// values.
-const COMPRESSION: f64 = 1e-10;
+/// Error of the forces between points on lines, relative to the largest. Tractions of slip over 10 km then have errors of about
+/// 1e-9, far below those of the integration. A bound ten times larger would save a tenth of the values.
+const ON_LINES: f64 = 1e-10;
+/// Error of the forces between points on surfaces, relative to each block. It changes intervals between events by less than
+/// 1e-5 (docs/src/decisions/compressed-operator.md).
+const ON_SURFACES: f64 = 1e-3;
 
 /// The operator of condensed bodies for points of this geometry, stored in this form. Their forces are freed once it is
 /// made.
 #[must_use]
 pub fn of_forces(forces: Forces, geometry: &Geometry<'_>, form: Form) -> Box<dyn Operator> {
+    let usual = if geometry.surfaces { ON_SURFACES } else { ON_LINES };
     let tolerance = match form {
-        Form::Fitting if forces.points() >= COMPRESSED_FROM => COMPRESSION,
+        Form::Fitting if forces.points() >= COMPRESSED_FROM => usual,
         Form::Fitting | Form::Dense => {
-            let dense = forces.dense();
+            let tractions = forces.dense();
             drop(forces);
-            return in_form(dense, geometry, Form::Dense);
+            return dense(tractions);
         }
         Form::Compressed { tolerance } => tolerance,
     };
-    Box::new(Hierarchical::of_forces(&forces, geometry, tolerance))
+    if geometry.surfaces {
+        let operator = Hierarchical::of_forces(&forces, geometry, Tolerance::OfBlock(tolerance));
+        return Box::new(Checked::new(Box::new(operator), &|p| forces.row(p)));
+    }
+    Box::new(Hierarchical::of_forces(&forces, geometry, Tolerance::OfLargest(tolerance)))
 }
 
-/// The operator of points of this geometry, stored in this form.
+/// The operator with all entries.
 #[must_use]
-pub fn in_form(tractions: Tractions, geometry: &Geometry<'_>, form: Form) -> Box<dyn Operator> {
+pub fn dense(tractions: Tractions) -> Box<dyn Operator> {
+    let boxed = |dense: Dense| -> Box<dyn Operator> { Box::new(dense) };
     match tractions {
-        Tractions::One(dense) => {
-            let scale = largest_force(&dense, geometry);
-            one(dense, geometry, form, scale)
-        }
+        Tractions::One(one) => Box::new(one),
         Tractions::Two { along, across } => {
-            let scale = largest_force(&along[0], geometry);
-            let in_form = |dense| one(dense, geometry, form, scale);
-            Box::new(Both::new((*along).map(in_form), across.map(|pair| (*pair).map(in_form))))
+            Box::new(Both::new((*along).map(boxed), across.map(|pair| (*pair).map(boxed))))
         }
     }
-}
-
-/// Largest force caused by slip of a point \[N/m; N/m²\].
-fn largest_force(dense: &Dense, geometry: &Geometry<'_>) -> f64 {
-    let rows = dense.matrix().chunks_exact(geometry.areas.len()).zip(geometry.areas);
-    let forces = rows.flat_map(|(row, area)| row.iter().map(move |v| (v * area).abs()));
-    forces.fold(0.0, f64::max)
-}
-
-/// The operator of one component, stored in this form; `scale` is the force to which errors are relative.
-fn one(dense: Dense, geometry: &Geometry<'_>, form: Form, scale: f64) -> Box<dyn Operator> {
-    let tolerance = match form {
-        Form::Dense => return Box::new(dense),
-        Form::Fitting if dense.points() < COMPRESSED_FROM => return Box::new(dense),
-        Form::Fitting => COMPRESSION,
-        Form::Compressed { tolerance } => tolerance,
-    };
-    let (shear, normal) = (dense.matrix(), dense.normal_matrix());
-    Box::new(Hierarchical::of_scale(shear, normal, geometry, tolerance, scale))
 }

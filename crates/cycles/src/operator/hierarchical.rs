@@ -1,13 +1,12 @@
 //! Compressed tractions of slip: blocks between distant points have low rank.
 //!
-//! Of matrices that are given as a whole, the matrix of forces on jumps is compressed, which is symmetric in shear, with an
-//! error relative to its largest entry; tractions are forces divided by tributary areas. Of entries that are computed one by
-//! one, tractions are compressed, with an error relative to each block.
+//! Of condensed bodies the matrix of forces on jumps is compressed, which is symmetric in shear; tractions are forces divided
+//! by tributary areas. Of entries that are computed one by one, tractions are compressed.
 
+use super::Operator;
 use super::blocks::{Compressed, Content, Part, Sizes};
 use super::cluster::{Cluster, Tree};
 use super::low_rank::{GROUP, LowRank, low_rank};
-use super::{Operator, columns};
 use crate::medium::Forces;
 use nalgebra::DMatrix;
 use pulp::Arch;
@@ -20,8 +19,6 @@ const MOST_RANK: usize = 64;
 /// Largest rank tried for adjacent clusters. Along a line 20 suffice; on a surface they would need hundreds, and
 /// splitting them is better.
 const MOST_RANK_NEAR: usize = 24;
-/// Relative difference of two entries that are equal by symmetry. It is above the rounding of the condensation.
-const SYMMETRIC: f64 = 1e-9;
 
 /// Matrix to be compressed.
 struct Source<'a, E> {
@@ -30,8 +27,24 @@ struct Source<'a, E> {
     entry: E,
     /// True if blocks below the diagonal follow from those above.
     symmetric: bool,
-    /// Allowed root mean square error of the entries of a block.
-    error: f64,
+    error: Error,
+}
+
+/// Allowed error of a block: the larger of two.
+#[derive(Clone, Copy)]
+struct Error {
+    /// Root mean square of the errors of entries \[N/m; N/m²\].
+    entry: f64,
+    /// Error over the block, in Frobenius' norm, if errors are relative to blocks.
+    relative: Option<f64>,
+}
+
+impl Error {
+    /// In Frobenius' norm.
+    fn of(self, block: &DMatrix<f64>) -> f64 {
+        let entries = (block.len() as f64).sqrt() * self.entry;
+        self.relative.map_or(entries, |relative| entries.max(relative * block.norm()))
+    }
 }
 
 impl<E: Fn(usize, usize) -> f64 + Sync> Source<'_, E> {
@@ -45,14 +58,26 @@ impl<E: Fn(usize, usize) -> f64 + Sync> Source<'_, E> {
         Part { rows: rows.clone(), columns: columns.clone(), content }
     }
 
+    /// The block of two clusters in few columns. Adjacent clusters have none if errors are relative to blocks: the largest
+    /// entries of their block would hide the others.
+    fn low(&self, a: &Cluster, b: &Cluster) -> Option<LowRank> {
+        let far = a.far_from(b);
+        if !far && self.error.relative.is_some() {
+            return None;
+        }
+        let (m, n) = (a.range.len(), b.range.len());
+        let block = DMatrix::from_fn(m, n, |i, j| self.entry(a.range.start + i, b.range.start + j));
+        let tried = if far { MOST_RANK } else { MOST_RANK_NEAR };
+        let most = (m * n / (m + n)).min(tried) / GROUP * GROUP;
+        let error = self.error.of(&block);
+        low_rank(block, error, most)
+    }
+
     /// The blocks of two clusters: one of low rank, or those of their parts, whichever takes fewer values.
     fn between(&self, a: &Cluster, b: &Cluster) -> Vec<Part> {
         let (rows, columns) = (&a.range, &b.range);
         let (m, n) = (rows.len(), columns.len());
-        let block = DMatrix::from_fn(m, n, |i, j| self.entry(rows.start + i, columns.start + j));
-        let tried = if a.far_from(b) { MOST_RANK } else { MOST_RANK_NEAR };
-        let most = (m * n / (m + n)).min(tried) / GROUP * GROUP;
-        let low = low_rank(block, self.error * ((m * n) as f64).sqrt(), most);
+        let low = self.low(a, b);
         let whole = |low: LowRank| {
             vec![Part { rows: rows.clone(), columns: columns.clone(), content: Content::Low(low) }]
         };
@@ -109,14 +134,17 @@ struct Ordered {
     force: Vec<f64>,
 }
 
-/// Error of compressed matrices.
-#[derive(Clone, Copy, Debug)]
-enum Tolerance {
-    /// Relative to the largest force.
+/// Error of compressed matrices, in Frobenius' norm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Tolerance {
+    /// Relative to the largest force, for all blocks together.
     OfLargest(f64),
     /// Relative to each block.
     OfBlock(f64),
 }
+
+/// Error of blocks that consist of rounding, relative to the largest force: it is above the rounding of the condensation.
+const ROUNDING: f64 = 1e-12;
 
 /// Operator of compressed matrices. Of slip in two directions the shear forces are one symmetric matrix: forces along one
 /// direction due to slip along the other are the transpose of the reverse.
@@ -144,55 +172,23 @@ pub struct Geometry<'a> {
     pub faults: &'a [Range<usize>],
     /// Tributary areas \[m², or m per metre of thickness\].
     pub areas: &'a [f64],
+    /// True if points lie on surfaces, and false if they lie on lines.
+    pub surfaces: bool,
 }
 
 impl Hierarchical {
-    /// Compresses matrices of tractions per slip \[Pa/m\], row by row. The error of the forces, in Frobenius' norm, is
-    /// at most `tolerance` times the largest entry of the matrix of shear forces, which is below its spectral norm.
+    /// Compresses the forces of condensed bodies, block by block. The largest force is that of shear along the first direction
+    /// of slip. It is below the spectral norm of the matrix.
     #[must_use]
-    pub fn new(shear: &[f64], normal: Option<&[f64]>, geometry: &Geometry<'_>, tolerance: f64) -> Self {
-        let rows = shear.chunks_exact(geometry.places.len()).zip(geometry.areas);
-        let forces = rows.flat_map(|(row, a)| row.iter().map(move |v| (v * a).abs()));
-        Self::of_scale(shear, normal, geometry, tolerance, forces.fold(0.0, f64::max))
-    }
-
-    /// Compresses them with an error of at most `tolerance` times the force `largest`.
-    #[must_use]
-    pub fn of_scale(
-        shear: &[f64],
-        normal: Option<&[f64]>,
-        geometry: &Geometry<'_>,
-        tolerance: f64,
-        largest: f64,
-    ) -> Self {
-        let n = geometry.places.len();
-        let tree = Tree::new(geometry.places, geometry.faults);
-        let rows = geometry.areas;
-        let error = tolerance * largest / n as f64;
-        let off = |i: usize, j: usize| (shear[i * n + j] * rows[i] - shear[j * n + i] * rows[j]).abs();
-        let symmetric = (0..n).all(|i| (0..i).all(|j| off(i, j) <= SYMMETRIC * largest));
-        let compressed = |matrix: &[f64], symmetric: bool| {
-            let force = |p: usize, q: usize| matrix[p * n + q] * rows[p];
-            // Two entries that are equal by symmetry differ by rounding.
-            let mean = |p: usize, q: usize| 0.5 * (force(p, q) + force(q, p));
-            let entry = |p: usize, q: usize| if symmetric { mean(p, q) } else { force(p, q) };
-            Compressed::new(n, Source { tree: &tree, entry, symmetric, error }.parts(), symmetric)
-        };
-        let (shear_forces, normal_forces) =
-            (compressed(shear, symmetric), normal.map(|m| compressed(m, false)));
-        let stiffness = columns(n, &std::iter::once(shear).chain(normal).collect::<Vec<_>>());
-        let per_area = tree.order.iter().map(|&p| 1.0 / rows[p]).collect();
-        let tolerance = Tolerance::OfLargest(tolerance);
-        Self::of(shear_forces, normal_forces, (tree.order, per_area), stiffness, tolerance)
-    }
-
-    /// Compresses the forces of condensed bodies, block by block, with the error of [`Hierarchical::new`].
-    #[must_use]
-    pub fn of_forces(forces: &Forces, geometry: &Geometry<'_>, tolerance: f64) -> Self {
+    pub fn of_forces(forces: &Forces, geometry: &Geometry<'_>, tolerance: Tolerance) -> Self {
         let (n, components) = (forces.points(), forces.components());
         let tree = &Tree::new(geometry.places, geometry.faults);
         let areas = geometry.areas;
-        let error = tolerance * forces.largest_force() / n as f64;
+        let (of_largest, relative) = match tolerance {
+            Tolerance::OfLargest(tolerance) => (tolerance, None),
+            Tolerance::OfBlock(tolerance) => (ROUNDING, Some(tolerance)),
+        };
+        let error = Error { entry: of_largest * forces.largest_force() / n as f64, relative };
         let force = |component: usize, slip: usize| {
             move |p: usize, q: usize| forces.traction((component, p), (slip, q)) * areas[p]
         };
@@ -218,7 +214,7 @@ impl Hierarchical {
         let order = (0..components).flat_map(|c| tree.order.iter().map(move |p| c * n + p)).collect();
         let per_area: Vec<f64> = tree.order.iter().map(|&p| 1.0 / areas[p]).collect();
         let all = (order, per_area.repeat(components));
-        let operator = Self::of(shear, normal, all, forces.stiffness(), Tolerance::OfLargest(tolerance));
+        let operator = Self::of(shear, normal, all, forces.stiffness(), tolerance);
         Self { components, ..operator }
     }
 
@@ -332,7 +328,8 @@ impl Operator for Hierarchical {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use super::{Geometry, Hierarchical};
+    use super::{Geometry, Hierarchical, Tolerance};
+    use crate::medium::Forces;
     use crate::operator::{Dense, Operator};
 
     const TOLERANCE: f64 = 1e-9;
@@ -367,12 +364,13 @@ mod tests {
             Self { places, areas, shear, normal }
         }
 
-        fn compressed(&self) -> Hierarchical {
-            let n = self.places.len();
+        fn compressed(&self, tolerance: Tolerance) -> Hierarchical {
             let first = self.places.partition_point(|p| p[1] > 0.0);
-            let faults = [0..first, first..n];
-            let geometry = Geometry { places: &self.places, faults: &faults, areas: &self.areas };
-            Hierarchical::new(&self.shear, Some(&self.normal), &geometry, TOLERANCE)
+            let faults = [0..first, first..self.places.len()];
+            let (places, areas) = (&self.places, &self.areas);
+            let geometry = Geometry { places, faults: &faults, areas, surfaces: false };
+            let forces = Forces::of_tractions(&self.shear, &self.normal, &self.areas);
+            Hierarchical::of_forces(&forces, &geometry, tolerance)
         }
     }
 
@@ -384,7 +382,7 @@ mod tests {
     fn forces_have_the_error_asked_for() {
         let n = 700;
         let example = Example::new(n);
-        let compressed = example.compressed();
+        let compressed = example.compressed(Tolerance::OfLargest(TOLERANCE));
         let dense = Dense::new(n, example.shear.clone(), Some(example.normal.clone()));
         assert!(compressed.bytes() < dense.bytes() / 3, "{}", compressed.words());
         let x = slip(n);
@@ -407,6 +405,32 @@ mod tests {
     }
 
     #[test]
+    fn errors_relative_to_blocks_are_relative_to_all_entries() {
+        let n = 700;
+        let example = Example::new(n);
+        let dense = Dense::new(n, example.shear.clone(), Some(example.normal.clone()));
+        let mut bytes = dense.bytes();
+        for tolerance in [1e-8, 1e-5, 1e-2] {
+            let compressed = example.compressed(Tolerance::OfBlock(tolerance));
+            let (mut off, mut all) = (0.0, 0.0);
+            for q in 0..n {
+                let slip: Vec<f64> = (0..n).map(|p| f64::from(u8::from(p == q))).collect();
+                let (mut a, mut b) = (vec![0.0; n], vec![0.0; n]);
+                dense.normal(&slip, &mut a);
+                compressed.normal(&slip, &mut b);
+                for ((a, b), area) in a.iter().zip(&b).zip(&example.areas) {
+                    off += ((a - b) * area).powi(2);
+                    all += (a * area).powi(2);
+                }
+            }
+            let error = (off / all).sqrt();
+            assert!(0.0 < error && error <= tolerance, "{error} above {tolerance}");
+            assert!(compressed.bytes() < bytes, "{}", compressed.words());
+            bytes = compressed.bytes();
+        }
+    }
+
+    #[test]
     fn products_are_the_same_bits_on_one_thread_and_on_two() {
         let n = 1500;
         let example = Example::new(n);
@@ -415,7 +439,7 @@ mod tests {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let mut y = vec![0.0; 2 * n];
             pool.install(|| {
-                let operator = example.compressed();
+                let operator = example.compressed(Tolerance::OfLargest(TOLERANCE));
                 assert!(operator.normal.as_ref().unwrap().tasks() > 1);
                 operator.shear(&x, &mut y[..n]);
                 operator.normal(&x, &mut y[n..]);

@@ -16,8 +16,8 @@ pub use blocks::Sizes;
 pub use both::Both;
 pub use checked::{Checked, Errors};
 pub use dense::Dense;
-pub use form::{Form, in_form, of_forces};
-pub use hierarchical::{Geometry, Hierarchical};
+pub use form::{Form, dense, of_forces};
+pub use hierarchical::{Geometry, Hierarchical, Tolerance};
 pub use sampled::{Accuracy, Division, Entry};
 pub use toeplitz::{Lattice, Toeplitz};
 

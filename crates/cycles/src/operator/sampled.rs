@@ -164,7 +164,7 @@ mod tests {
         let n = places.len();
         let all = 0..n;
         let faults = std::slice::from_ref(&all);
-        let geometry = Geometry { places: &places, faults, areas: &areas };
+        let geometry = Geometry { places: &places, faults, areas: &areas, surfaces: true };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let slip: Vec<f64> = (0..n).map(|k| ((k * 7919) % 1000) as f64 / 1000.0 - 0.3).collect();
         pool.install(|| {

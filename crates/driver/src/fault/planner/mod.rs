@@ -286,7 +286,8 @@ pub(crate) fn all_points<const D: usize>(
 /// Operator in the given form.
 fn operator<const D: usize>(forces: Forces, placed: &[Placed<D>], form: Form) -> Box<dyn Operator> {
     let (places, areas, faults) = geometry(placed);
-    of_forces(forces, &Geometry { places: &places, faults: &faults, areas: &areas }, form)
+    let geometry = Geometry { places: &places, faults: &faults, areas: &areas, surfaces: D == 3 };
+    of_forces(forces, &geometry, form)
 }
 
 fn points_of<const D: usize>(

@@ -56,7 +56,7 @@ pub(super) fn plan<const D: usize>(scene: &Scene, rock: &Rock, form: Form) -> Re
         changes: &placed.iter().map(|p| p.point.normal_changes).collect::<Vec<bool>>(),
     };
     let (places, areas, faults) = geometry(&placed);
-    let geometry = Geometry { places: &places, faults: &faults, areas: &areas };
+    let geometry = Geometry { places: &places, faults: &faults, areas: &areas, surfaces: D == 3 };
     let memory = admit(scene, &tiling.patches, slip, &geometry)?;
     let operator = tiling.patches.operator(&elastic, slip, (&geometry, form));
     let plates = backslip::plates(scene, &placed, slip.tangents);
