@@ -1,6 +1,8 @@
 //! Several faults, several materials, curved faults.
 
 mod backslip;
+mod section;
+mod unlike;
 
 use crate::cases::dislocation;
 use crate::cases::drawn;
@@ -29,7 +31,9 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     pairs(ledger)?;
     arc(ledger)?;
     arc_in_space(ledger)?;
-    backslip::run(ledger)
+    unlike::run(ledger)?;
+    backslip::run(ledger)?;
+    section::run(ledger)
 }
 
 /// Friction of faults of which only the operator is used.
