@@ -18,6 +18,7 @@ pub mod printing;
 pub mod progress;
 mod pulse;
 mod record;
+pub mod rows;
 mod sampled;
 mod schedule;
 pub mod seas;

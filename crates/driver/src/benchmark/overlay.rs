@@ -38,8 +38,8 @@ fn chart(reference: &'static Reference, quantity: &'static Quantity, result: &Su
     Some(Chart {
         file: quantity.name.clone(),
         title: reference.benchmark.clone(),
-        x: (&along.meaning, x),
-        y: (&quantity.meaning, y),
+        x: (along.meaning.clone(), x),
+        y: (quantity.meaning.clone(), y),
         curves: vec![("reference".into(), line(&|_, value| Some(value))), ("result".into(), given)],
     })
 }

@@ -3,6 +3,7 @@
 use super::compare::Comparison;
 use super::new::Template;
 use super::pausing::Pausing;
+use super::plot::Redrawing;
 use crate::scene::settings::Setting;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
@@ -49,6 +50,8 @@ pub enum Command {
     },
     /// Compare a result with a benchmark, or two output directories: exit code 0 if they agree, 1 if not, 2 if one cannot be read.
     Compare(Comparison),
+    /// Draw the figures of a run again from its output directory, without running it: some of them, in another size or format, or of a part of the run.
+    Plot(Redrawing),
     /// Print what to cite, as BibTeX: the program, the problem, and the laws and methods that a scene declares.
     Cite {
         /// Scene file (TOML), or name of a verification case or benchmark; without it, the program alone.

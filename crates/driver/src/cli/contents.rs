@@ -3,6 +3,7 @@
 use super::begin::{Begin, LOCK, PAGE, README, REPORT, SCENE};
 use crate::checkpoint;
 use crate::report::Status;
+use asperity_output::plots::Sheet;
 use asperity_output::progress;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use serde::Deserialize;
@@ -13,11 +14,12 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Files that runs write to their directory.
-const FILES: [&str; 28] = [
+const FILES: [&str; 29] = [
     REPORT,
     PAGE,
     SCENE,
     README,
+    Sheet::FILE,
     progress::FILE,
     LOCK,
     ".writable",
@@ -56,7 +58,7 @@ const FOLDERS: [(&str, &[&str]); 13] = [
     ("springs", &["csv"]),
     ("history", &["csv"]),
     ("receivers", &["csv"]),
-    ("plots", &["svg", "png"]),
+    ("plots", &["svg", "png", "pdf"]),
     ("stations", &[""]),
     ("platform", &["txt", "dat"]),
     ("seismograms", &["csv", "mseed", "sac"]),

@@ -9,6 +9,7 @@ use crate::checkpoint;
 use crate::forecast;
 use crate::report::common::{Phases, Provenance, Report, Results, SCHEMA, Sketch, Status, commit};
 use asperity_output::atomic;
+use asperity_output::plots::Sheet;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -119,10 +120,12 @@ impl Directory {
         let _ = readme::write(&self.path, &self.begin.title);
     }
 
-    /// Removes the page of the part before, which would show the run as it was then.
+    /// Removes the page of the part before and what its figures need, which would show the run as it was then.
     fn hide(&self) {
         // Usually there is none.
-        let _ = fs::remove_file(self.path.join(PAGE));
+        for file in [PAGE, Sheet::FILE] {
+            let _ = fs::remove_file(self.path.join(file));
+        }
     }
 
     /// Writes the page of the run. It holds nothing that is not in other files: a run continues where it cannot be written.

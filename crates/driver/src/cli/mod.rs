@@ -16,6 +16,7 @@ mod manual;
 mod new;
 pub mod page;
 mod pausing;
+mod plot;
 pub mod print;
 mod read;
 pub mod readme;
@@ -35,6 +36,7 @@ pub use end::End;
 use miette::IntoDiagnostic;
 pub use new::Template;
 pub use pausing::Pausing;
+pub use plot::Redrawing;
 use read::{Planned, Source};
 use std::path::{Path, PathBuf};
 use waves::run_waves;
@@ -50,6 +52,7 @@ pub fn execute(arguments: &Arguments) -> miette::Result<End> {
         Command::Status { directory, json } => status::print(directory, *json),
         Command::Check(asked) => check::execute(asked),
         Command::Compare(asked) => compare::execute(asked),
+        Command::Plot(asked) => plot::execute(asked),
         Command::Cite { of } => cite::print(of.as_deref()),
         Command::Schema { of } => {
             let schema = match of {

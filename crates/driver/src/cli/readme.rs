@@ -2,12 +2,13 @@
 
 use super::begin::{LOCK, PAGE, README, REPORT, SCENE};
 use crate::checkpoint;
+use asperity_output::plots::Sheet;
 use asperity_output::{OutputError, atomic, progress};
 use std::fs;
 use std::path::Path;
 
 /// Files and folders of runs, with what they are.
-const MEANINGS: [(&str, &str); 40] = [
+const MEANINGS: [(&str, &str); 41] = [
     (PAGE, "plan, checks, pictures, costs and warnings in one page for browsers, without other files"),
     (REPORT, "status, results, counts, times, provenance: begin here"),
     (SCENE, "the scene as it was run, with the values of `--set`; mesh files are relative to the scene file"),
@@ -45,7 +46,8 @@ const MEANINGS: [(&str, &str); 40] = [
     ("forces", "forces on sets, at every step (CSV)"),
     ("springs", "springs, at every step (CSV)"),
     ("history", "sliders over time (CSV)"),
-    ("plots", "figures (SVG, PNG)"),
+    ("plots", "figures (SVG, PNG, PDF)"),
+    (Sheet::FILE, "what `asperity plot` needs beside the tables to draw the figures again"),
     ("stations", "stations on faults over time, in the format of the SEAS community"),
     ("platform", "results in the files of the platform of a community benchmark"),
     ("seismograms", "velocity and displacement at positions (CSV, miniSEED, SAC)"),

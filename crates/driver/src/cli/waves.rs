@@ -62,7 +62,7 @@ fn run_in<const D: usize>(
     let mut report = dynamic::Report::new(plan, &ended, keeper.arrivals());
     (report.seconds.plan, report.seconds.steps) = (ready.seconds, clock.elapsed().as_secs_f64());
     // The report is written last, even if the plots cannot be written.
-    let rest = keeper.finish(report.outcome.status() == Status::Completed).into_diagnostic();
+    let rest = keeper.finish(report.outcome.status() == Status::Completed, ended.time).into_diagnostic();
     directory.write(&report, &ready.meshes)?;
     rest?;
     out(format_args!("{}", report.text()));

@@ -15,7 +15,7 @@ use crate::run::{self, RunError};
 use crate::ruptures::Ruptures;
 use crate::slider;
 use crate::warning::Warning;
-use asperity_output::plots::{self, EventPanel, PanelEvent};
+use asperity_output::plots::{self, Asked, EventPanel, PanelEvent, Sheet};
 use asperity_output::printing::{self, Form, out};
 use asperity_output::{FieldSchedule, Files, OutputError, Recorder, atomic, stems};
 use miette::{IntoDiagnostic, miette};
@@ -141,8 +141,17 @@ pub(super) fn written(directory: &Directory) {
 }
 
 fn draw(out: &Path, recorder: Option<&Recorder>) -> miette::Result<()> {
-    if let Some(recorder) = recorder {
-        plots::draw_all(&out.join("plots"), recorder).into_diagnostic()?;
+    match recorder {
+        Some(recorder) => draw_sheet(out, &plots::sheet(recorder), true).into_diagnostic(),
+        None => Ok(()),
+    }
+}
+
+/// Keeps what the figures of a run need, and draws them if asked.
+fn draw_sheet(out: &Path, sheet: &Sheet, drawn: bool) -> Result<(), OutputError> {
+    sheet.write(out)?;
+    if drawn {
+        sheet.draw(out, &out.join("plots"), &Asked::default())?;
     }
     Ok(())
 }
@@ -171,7 +180,7 @@ pub(super) fn run_sliders(
     report.warnings.clone_from(&plan.warnings);
     report.checks.clone_from(&plan.checks);
     (report.seconds.plan, report.seconds.steps) = (ready.seconds, clock.elapsed().as_secs_f64());
-    let drawn = if drawn { histories.draw(directory.path(), problem).map(|_| ()) } else { Ok(()) };
+    let drawn = draw_sheet(directory.path(), &histories.sheet(problem, report.end), drawn);
     if problem.events.is_some() {
         lines::events(&report.events);
         let events = slider::csv(&report.events, &problem.names);
@@ -288,11 +297,7 @@ fn write_faults(
     write_located(path, plan, report, hash)?;
     fault::write_fields(path, plan, run).into_diagnostic()?;
     fault::write_finite_faults(path, plan, run, &report.events).into_diagnostic()?;
-    if drawn {
-        fault::draw(path, plan, run).into_diagnostic()?;
-        plots::draw_panel(&path.join("plots"), &panel(plan, report)).into_diagnostic()?;
-        fault::draw_surface(path, plan, run).into_diagnostic()?;
-    }
+    draw_sheet(path, &fault::sheet(plan, run, panel(plan, report)), drawn).into_diagnostic()?;
     fault::write_bodies(path, plan, run).into_diagnostic()
 }
 
@@ -306,7 +311,7 @@ fn panel(plan: &fault::Plan, report: &fault::Report) -> EventPanel {
         |name: &str, entries: &[Entry]| (name.to_string(), entries.iter().filter_map(event).collect());
     let slow = report.slow_events.as_deref().unwrap_or_default();
     let groups = vec![group("events", &report.events), group("slow events", slow)];
-    EventPanel { title: plan.title.clone(), end: report.end, groups }
+    EventPanel { title: plan.title.clone(), start: 0.0, end: report.end, groups }
 }
 
 /// Writes the catalogue of all faults or interfaces as a table, and one table of each if there are several.

@@ -9,6 +9,7 @@ use super::{figures, seismograms};
 use crate::checkpoint::{self, Contents, Pauses, ResumeError};
 use asperity_mechanics::dynamics::ExplicitState;
 use asperity_output::decimals::shortest;
+use asperity_output::plots::Asked;
 use asperity_output::progress::{Now, Progress};
 use asperity_output::{OutputError, atomic};
 use serde::{Deserialize, Serialize};
@@ -194,11 +195,11 @@ impl<'a, const D: usize> Keeper<'a, D> {
         Ok(())
     }
 
-    /// Writes the files at the end of a run, and removes the checkpoint of a completed one.
+    /// Writes the files at the end of a run at a time \[s\], and removes the checkpoint of a completed one.
     ///
     /// # Errors
     /// If a file cannot be written.
-    pub fn finish(self, completed: bool) -> Result<(), OutputError> {
+    pub fn finish(self, completed: bool, end: f64) -> Result<(), OutputError> {
         self.progress.finish(completed);
         let (out, plan) = (&self.out, self.plan);
         self.fields.collect(out, plan)?;
@@ -209,7 +210,12 @@ impl<'a, const D: usize> Keeper<'a, D> {
         if completed {
             checkpoint::remove(out)?;
         }
-        if self.drawn { figures::draw(out, plan, &self.arrivals, &self.fields.taken) } else { Ok(()) }
+        let sheet = figures::sheet(plan, end, &self.arrivals, &self.fields.taken);
+        sheet.write(out)?;
+        if self.drawn {
+            sheet.draw(out, &out.join("plots"), &Asked::default())?;
+        }
+        Ok(())
     }
 }
 

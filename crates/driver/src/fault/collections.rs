@@ -2,7 +2,6 @@
 
 use super::event_tables::{self, reached, turned};
 use super::fields::{Field, Surface, along, state};
-use super::figures::each;
 use super::plan::{FaultView, Plan};
 use super::platform_files;
 use super::receiver_tables;
@@ -10,7 +9,7 @@ use super::snapshots;
 use super::surface_tables;
 use asperity_cycles::{Event, FaultRun, Rupture};
 use asperity_output::vtu::{PvdEntry, pvd};
-use asperity_output::{OutputError, atomic};
+use asperity_output::{OutputError, atomic, rows};
 use std::path::Path;
 
 /// Writes the tables of events and, in 3D, `fields/FAULT_event_000.vtu` for each event, `fields/FAULT_end.vtu`, and the collections `fields.pvd` of the states during the run and
@@ -28,7 +27,7 @@ pub fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), OutputError>
     }
     let (rate, pressed) = run.present(&plan.problem.fault);
     let (mut taken, mut states, mut events) = (Vec::new(), Vec::new(), Vec::new());
-    each(&out.join(snapshots::LIST), &mut |row| taken.push(row[1]))?;
+    rows::each(&out.join(snapshots::LIST), &mut |row| taken.push(row[1]))?;
     for (part, fault) in plan.faults.iter().enumerate() {
         let surface = Surface::of(plan, fault);
         let folder = out.join("fields");

@@ -1,8 +1,7 @@
 //! Plots of sliders over time and over displacement.
 
 use super::thin::Row;
-use asperity_cycles::slider::Problem;
-use asperity_output::plots::{Chart, Measure};
+use asperity_output::plots::{Curves, Measure, Points};
 use serde::{Deserialize, Serialize};
 
 /// Data of a slider for plots.
@@ -47,22 +46,39 @@ fn measure(column: usize) -> Measure {
     }
 }
 
-/// Charts of a run, without those over a displacement that does not change.
-pub(super) fn charts(problem: &Problem, traces: &[&Trace]) -> Vec<Chart> {
-    let moves = |column: usize| traces.iter().any(|t| t.rows.iter().any(|r| r[column] != t.rows[0][column]));
-    let drawn = DRAWINGS.iter().filter(|d| moves(d.1));
-    drawn
-        .map(|&(file, along, x, up, y)| Chart {
-            file: format!("sliders_{file}"),
-            title: problem.title.clone(),
-            x: (x, measure(along)),
-            y: (y, measure(up)),
-            curves: problem
-                .names
-                .iter()
-                .zip(traces)
-                .map(|(name, t)| (name.clone(), t.rows.iter().map(|r| (r[along], r[up])).collect()))
-                .collect(),
-        })
-        .collect()
+/// Column of the table of a slider that holds a quantity.
+fn in_table(column: usize) -> usize {
+    match column {
+        TIME => 0,
+        SLIP => 2,
+        RATE => 3,
+        FRICTION => 4,
+        TRACTION => 5,
+        _ => 7,
+    }
+}
+
+/// A slider: its name, and the path of its table or what was kept of it.
+pub(super) type Source<'a> = (&'a str, Result<String, &'a Trace>);
+
+/// Curves of a run.
+pub(super) fn curves(title: &str, sliders: &[Source<'_>]) -> Vec<Curves> {
+    let points = |source: &Result<String, &Trace>, along: usize, up: usize| match source {
+        Ok(table) => Points::Table { table: table.clone(), x: in_table(along), y: in_table(up), size: false },
+        Err(trace) => {
+            let column = |k: usize| trace.rows.iter().map(|row| row[k]).collect();
+            Points::Kept { times: column(TIME), x: column(along), y: column(up) }
+        }
+    };
+    let one = |&(file, along, x, up, y): &Drawing| Curves {
+        file: format!("sliders_{file}"),
+        title: title.into(),
+        x: (x.into(), measure(along)),
+        y: (y.into(), measure(up)),
+        curves: sliders.iter().map(|(name, source)| ((*name).into(), points(source, along, up))).collect(),
+        event: None,
+        without_zero: false,
+        until: None,
+    };
+    DRAWINGS.iter().map(one).collect()
 }

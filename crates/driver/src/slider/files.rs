@@ -1,11 +1,12 @@
 //! Histories of sliders as CSV, with a row after each change or at requested times, and the data for plots.
 
-use super::figures::Trace;
+use super::figures::{self, Source, Trace};
 use super::thin::{Row, Thin};
 use asperity_cycles::slider::{Now, Problem, Sliders};
 use asperity_ode::{Control, ObserveError, Observer};
 use asperity_output::decimals::{shortest, shortest_scientific};
-use asperity_output::{Growing, OutputError, atomic, plots};
+use asperity_output::plots::{Plot, Sheet};
+use asperity_output::{Growing, OutputError, atomic};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -132,13 +133,20 @@ impl Histories {
         })
     }
 
-    /// Draws the collected rows into `plots/` and returns the paths of the files.
-    ///
-    /// # Errors
-    /// If a file cannot be written or a drawing fails.
-    pub fn draw(&self, out: &Path, problem: &Problem) -> Result<Vec<PathBuf>, OutputError> {
-        let traces: Vec<&Trace> = self.sliders.iter().map(|k| &k.trace).collect();
-        plots::draw_charts(&out.join("plots"), &super::figures::charts(problem, &traces))
+    /// Figures of a run up to a time \[s\]: of all sliders if plots were asked for from its start, otherwise of those with tables.
+    #[must_use]
+    pub fn sheet(&self, problem: &Problem, end: f64) -> Sheet {
+        let stems = asperity_output::stems(problem.names.iter().map(String::as_str));
+        let mut sources: Vec<Source<'_>> = Vec::new();
+        for ((kept, name), stem) in self.sliders.iter().zip(&problem.names).zip(&stems) {
+            let table = kept.file.as_ref().map(|_| format!("history/{stem}.csv"));
+            if self.traced || table.is_some() {
+                sources.push((name, table.ok_or(&kept.trace)));
+            }
+        }
+        let mut sheet = Sheet::new(&problem.title, (0.0, end), false);
+        sheet.plots = figures::curves(&problem.title, &sources).into_iter().map(Plot::Curves).collect();
+        sheet
     }
 }
 

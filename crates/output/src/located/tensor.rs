@@ -6,10 +6,10 @@
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A symmetric tensor in the axes up, south, east: Mrr, Mtt, Mpp, Mrt, Mrp, Mtp \[N m\].
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Tensor(pub [f64; 6]);
 
 /// A nodal plane \[degrees\].

@@ -4,12 +4,14 @@ use super::axes::{Axis, Frame};
 use super::colour::MARK;
 use super::curves::{DECADES, Entry, is_spiky, legend, thin};
 use super::figure::{Figure, Point};
+use super::paper::Paper;
 use super::style::Style;
 use super::title::title;
 use super::units::{self, Units};
+use serde::{Deserialize, Serialize};
 
 /// Quantity of an axis in SI units.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Measure {
     /// Time \[s\].
     Time,
@@ -55,9 +57,9 @@ pub struct Chart {
     /// Title of the scene.
     pub title: String,
     /// Name and quantity of the horizontal axis.
-    pub x: (&'static str, Measure),
+    pub x: (String, Measure),
     /// Name and quantity of the vertical axis.
-    pub y: (&'static str, Measure),
+    pub y: (String, Measure),
     /// Names and points of the curves.
     pub curves: Vec<(String, Vec<(f64, f64)>)>,
 }
@@ -68,19 +70,21 @@ const AT: Point = (96.0, 40.0);
 const SIZE: Point = (560.0, 380.0);
 /// Width right of the frame for the legend.
 const LEGEND: f64 = 170.0;
+/// Height below the frame for numbers and a label.
+const BELOW: f64 = 60.0;
 /// Largest number of curves named in the legend.
 const NAMED: usize = 16;
 
 impl Chart {
-    /// The figure; `None` without points.
-    pub(super) fn figure(&self) -> Option<Figure> {
+    /// The figure, with an axis of time from `start` \[s\]; `None` without points, and where nothing changes along the horizontal axis.
+    pub(super) fn figure(&self, paper: Paper, start: f64) -> Option<Figure> {
         let points = || self.curves.iter().flat_map(|c| c.1.iter());
-        points().next()?;
+        let first = points().next()?;
         let largest = |pick: fn(&Point) -> f64| {
             points().map(|p| pick(p).abs()).filter(|v| v.is_finite()).fold(0.0, f64::max)
         };
-        // A run that has not passed its start has no time axis.
-        if self.x.1 == Measure::Time && largest(|p| p.0) == 0.0 {
+        // A run that has not passed its start has no time axis, and loads that do not move no axis of displacement.
+        if !points().any(|p| p.0 != first.0) {
             return None;
         }
         let (x_unit, y_unit) = (self.x.1.units().of(largest(|p| p.0)), self.y.1.units().of(largest(|p| p.1)));
@@ -92,11 +96,12 @@ impl Chart {
             if log { Axis::logarithmic(values, DECADES, label) } else { Axis::linear(values, 0.08, label) };
         let label = format!("{} [{}]", self.x.0, x_unit.name);
         let x = match self.x.1 {
-            Measure::Time => Axis::exact((0.0, largest(|p| p.0) / x_unit.factor), label),
+            Measure::Time => Axis::exact((start / x_unit.factor, largest(|p| p.0) / x_unit.factor), label),
             _ => Axis::linear(points().map(|p| p.0 / x_unit.factor), 0.0, label),
         };
-        let frame = Frame { at: AT, size: SIZE, x, y };
-        let mut figure = Figure::new(AT.0 + SIZE.0 + LEGEND, AT.1 + SIZE.1 + 60.0);
+        let size = paper.frame(SIZE, (AT.0 + LEGEND, AT.1 + BELOW));
+        let frame = Frame { at: AT, size, x, y };
+        let mut figure = Figure::new(AT.0 + size.0 + LEGEND, AT.1 + size.1 + BELOW);
         title(&mut figure, &frame, &self.title, &self.y.0.to_lowercase());
         frame.grid(&mut figure);
         for (i, (_, curve)) in self.curves.iter().enumerate() {
@@ -147,11 +152,11 @@ mod tests {
         let chart = Chart {
             file: "c".into(),
             title: "t".into(),
-            x: ("Slip", Measure::Length),
-            y: ("Friction coefficient", Measure::Number),
+            x: ("Slip".into(), Measure::Length),
+            y: ("Friction coefficient".into(), Measure::Number),
             curves: vec![("one".into(), points); 20],
         };
-        let figure = chart.figure().unwrap();
+        let figure = chart.figure(Paper::default(), 0.0).unwrap();
         let longest = figure.shapes.iter().filter_map(|s| match s {
             super::super::figure::Shape::Line { points, .. } => Some(points.len()),
             _ => None,
@@ -160,10 +165,10 @@ mod tests {
         assert_eq!(chart.entries().len(), NAMED + 1);
         let none = |curve| Chart {
             curves: vec![("none".into(), curve)],
-            x: ("Time", Measure::Time),
+            x: ("Time".into(), Measure::Time),
             ..chart.clone()
         };
-        assert!(none(Vec::new()).figure().is_none());
-        assert!(none(vec![(0.0, 0.6)]).figure().is_none());
+        assert!(none(Vec::new()).figure(Paper::default(), 0.0).is_none());
+        assert!(none(vec![(0.0, 0.6)]).figure(Paper::default(), 0.0).is_none());
     }
 }

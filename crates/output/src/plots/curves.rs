@@ -1,31 +1,106 @@
 //! Histories at the probes of an interface: relative displacement, friction coefficient and relative velocity over time.
 
 use super::super::Recorder;
-use super::super::record::PointHistory;
 use super::axes::{Axis, Frame};
 use super::colour::{INK, MARK, Rgb, of_curve};
 use super::figure::{Anchor, Dash, Figure, Point};
 use super::labels::position_labels;
+use super::paper::Paper;
 use super::title::title;
 use super::units::TIME;
 use super::units::{self, Unit, Units};
-use super::width::within;
+use super::width::{fitting, within};
+use crate::numbers;
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+
+/// Histories at the probes of an interface.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Histories {
+    /// Beginning of the file names.
+    pub(super) stem: String,
+    /// Title of the scene.
+    title: String,
+    /// Name of the interface.
+    name: String,
+    /// Names and ends of the stages \[s\].
+    stages: Vec<(String, f64)>,
+    /// Times \[s\].
+    times: Vec<f64>,
+    /// Probes.
+    points: Vec<Probe>,
+}
+
+/// History at a probe.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Probe {
+    label: String,
+    #[serde(deserialize_with = "numbers::or_nan")]
+    relative_displacement: Vec<f64>,
+    #[serde(deserialize_with = "numbers::or_nan")]
+    friction: Vec<f64>,
+    #[serde(deserialize_with = "numbers::or_nan")]
+    slip_rate: Vec<f64>,
+}
+
+impl Histories {
+    /// Histories of an interface of this number; `None` without probes or steps.
+    pub(super) fn of(recorder: &Recorder, stem: &str, interface: usize) -> Option<Self> {
+        let points = &recorder.histories().get(interface)?.points;
+        if points.is_empty() || recorder.times().is_empty() {
+            return None;
+        }
+        let setup = recorder.setup();
+        let mesh = &setup.interfaces[interface];
+        let labels = if mesh.labels.is_empty() {
+            position_labels(points.iter().map(|p| p.position))
+        } else {
+            points.iter().map(|p| mesh.labels[p.node].clone()).collect()
+        };
+        let probe = |(label, p): (String, &crate::record::PointHistory)| Probe {
+            label,
+            relative_displacement: p.relative_displacement.clone(),
+            friction: p.friction.clone(),
+            slip_rate: p.slip_rate.clone(),
+        };
+        Some(Self {
+            stem: stem.into(),
+            title: setup.title.clone(),
+            name: mesh.name.clone(),
+            stages: setup.stages.clone(),
+            times: recorder.times().to_vec(),
+            points: labels.into_iter().zip(points).map(probe).collect(),
+        })
+    }
+
+    /// Figures with their names, of the steps from the first time to the last.
+    pub(super) fn figures(&self, paper: Paper, window: Option<(f64, f64)>) -> Vec<(String, Figure)> {
+        let (from, to) = window.unwrap_or((0.0, f64::INFINITY));
+        let first = self.times.partition_point(|t| *t < from);
+        let last = self.times.partition_point(|t| *t <= to).max(first);
+        let one = |quantity: &Quantity| {
+            let figure = self.figure(quantity, (from, first..last), paper)?;
+            Some((format!("{}_{}", self.stem, quantity.file), figure))
+        };
+        QUANTITIES.iter().filter_map(one).collect()
+    }
+}
 
 /// A quantity plotted over time.
 #[derive(Clone, Copy)]
-pub(super) struct Quantity {
+struct Quantity {
     /// Last part of its file name.
-    pub file: &'static str,
+    file: &'static str,
     /// Name on the axis.
     name: &'static str,
     units: Units,
     /// True if a logarithmic axis is considered.
     rate: bool,
-    read: fn(&PointHistory) -> &[f64],
+    read: fn(&Probe) -> &[f64],
 }
 
 /// Quantities plotted for each interface.
-pub(super) const QUANTITIES: [Quantity; 3] = [
+const QUANTITIES: [Quantity; 3] = [
     Quantity {
         file: "relative_displacement",
         name: "Relative displacement",
@@ -60,50 +135,56 @@ const COLUMNS: usize = 2000;
 
 /// Width right of the frame for the legend.
 const LEGEND: f64 = 170.0;
+/// Position of the frame.
+const AT: Point = (96.0, 40.0);
+/// Size of the frame.
+const SIZE: Point = (560.0, 380.0);
+/// Height below the frame for numbers and a label.
+const BELOW: f64 = 60.0;
 
-/// Draws one quantity of one interface; `None` without probes or steps.
-pub(super) fn history(recorder: &Recorder, interface: usize, quantity: &Quantity) -> Option<Figure> {
-    let points = &recorder.histories().get(interface)?.points;
-    let times = recorder.times();
-    let (Some(&end), false) = (times.last(), points.is_empty()) else { return None };
-    let series: Vec<&[f64]> = points.iter().map(quantity.read).collect();
-    let (time, unit) = (TIME.of(end), quantity.units.of(largest(&series)));
-    let log = quantity.rate && is_spiky(times, &series);
-    let values = series.iter().flat_map(|s| s.iter()).map(|v| if log { v.abs() } else { *v } / unit.factor);
-    let label = format!("{} [{}]", quantity.name, unit.name);
-    let y = if log { Axis::logarithmic(values, DECADES, label) } else { Axis::linear(values, 0.08, label) };
-    let frame = Frame {
-        at: (96.0, 40.0),
-        size: (560.0, 380.0),
-        x: Axis::exact((0.0, end / time.factor), format!("Time [{}]", time.name)),
-        y,
-    };
-    let mut figure = Figure::new(96.0 + 560.0 + LEGEND, 480.0);
-    let mesh = &recorder.setup().interfaces[interface];
-    title(&mut figure, &frame, &recorder.setup().title, &mesh.name);
-    frame.grid(&mut figure);
-    stage_marks(&mut figure, &frame, recorder, time);
-    for (i, values) in series.iter().enumerate() {
-        let colour = of_curve(i, series.len());
-        for piece in pieces(times, values) {
-            let line = piece.iter().map(|&(t, v)| {
-                let v = if log { v.abs() } else { v };
-                frame.point(t / time.factor, v / unit.factor)
-            });
-            figure.line(thin(line.collect()), 1.8, colour);
+impl Histories {
+    /// A quantity of the steps in a range; the axis begins at a time \[s\]. `None` without steps.
+    fn figure(
+        &self,
+        quantity: &Quantity,
+        (from, steps): (f64, Range<usize>),
+        paper: Paper,
+    ) -> Option<Figure> {
+        let times = &self.times[steps.clone()];
+        let &end = times.last().filter(|end| **end > from)?;
+        let series: Vec<&[f64]> = self.points.iter().map(|p| &(quantity.read)(p)[steps.clone()]).collect();
+        let (time, unit) = (TIME.of(end), quantity.units.of(largest(&series)));
+        let log = quantity.rate && is_spiky(times, &series);
+        let values =
+            series.iter().flat_map(|s| s.iter()).map(|v| if log { v.abs() } else { *v } / unit.factor);
+        let label = format!("{} [{}]", quantity.name, unit.name);
+        let y =
+            if log { Axis::logarithmic(values, DECADES, label) } else { Axis::linear(values, 0.08, label) };
+        let x = Axis::exact((from / time.factor, end / time.factor), format!("Time [{}]", time.name));
+        let frame = Frame { at: AT, size: paper.frame(SIZE, (AT.0 + LEGEND, AT.1 + BELOW)), x, y };
+        let mut figure = Figure::new(AT.0 + frame.size.0 + LEGEND, AT.1 + frame.size.1 + BELOW);
+        title(&mut figure, &frame, &self.title, &self.name);
+        frame.grid(&mut figure);
+        stage_marks(&mut figure, &frame, &self.stages, time);
+        for (i, values) in series.iter().enumerate() {
+            let colour = of_curve(i, series.len());
+            for piece in pieces(times, values) {
+                let line = piece.iter().map(|&(t, v)| {
+                    let v = if log { v.abs() } else { v };
+                    frame.point(t / time.factor, v / unit.factor)
+                });
+                figure.line(thin(line.collect()), 1.8, colour);
+            }
         }
+        frame.draw(&mut figure);
+        let entry = |(i, p): (usize, &Probe)| Entry {
+            name: p.label.clone(),
+            colour: of_curve(i, series.len()),
+            dash: &[],
+        };
+        legend(&mut figure, &frame, self.points.iter().enumerate().map(entry));
+        Some(figure)
     }
-    frame.draw(&mut figure);
-    let names = &recorder.setup().interfaces[interface].labels;
-    let labels = if names.is_empty() {
-        position_labels(points.iter().map(|p| p.position))
-    } else {
-        points.iter().map(|p| names[p.node].clone()).collect()
-    };
-    let entries = labels.into_iter().enumerate();
-    let entries = entries.map(|(i, name)| Entry { name, colour: of_curve(i, series.len()), dash: &[] });
-    legend(&mut figure, &frame, entries);
-    Some(figure)
 }
 
 /// A curve in a legend.
@@ -114,28 +195,45 @@ pub(super) struct Entry {
     pub dash: Dash,
 }
 
-/// Draws the names of the curves with their colours, right of the frame.
+/// Distance between the lines of a legend, and the least one.
+const LINES: [f64; 2] = [22.0, 11.0];
+
+/// Draws the names of the curves with their colours, right of the frame: closer together where there is little room, and only
+/// the first where there is too little for all.
 pub(super) fn legend(figure: &mut Figure, frame: &Frame, entries: impl Iterator<Item = Entry>) {
     let left = frame.at.0 + frame.size.0 + 16.0;
-    let entries: Vec<Entry> = entries.collect();
+    let mut entries: Vec<Entry> = entries.collect();
+    let height = figure.height - frame.at.1 - LINES[0];
+    let most = (height / LINES[1]).max(1.0) as usize;
+    if entries.len() > most {
+        let name = format!("and {} more", entries.len() - (most - 1));
+        entries.truncate(most - 1);
+        entries.push(Entry { name, colour: MARK, dash: &[1.0, 4.0] });
+    }
+    let apart = (height / entries.len().max(1) as f64).clamp(LINES[1], LINES[0]);
     let room = figure.width - left - 40.0;
-    let size = entries.iter().map(|e| within(&e.name, room, 12.5)).fold(12.5, f64::min);
+    let most = (12.5_f64).min(0.75 * apart);
+    let size = entries.iter().map(|e| within(&e.name, room, most)).fold(most, f64::min);
     for (i, Entry { name, colour, dash }) in entries.into_iter().enumerate() {
-        let y = frame.at.1 + 12.0 + 22.0 * i as f64;
+        let y = frame.at.1 + 12.0 + apart * i as f64;
         figure.dashed(vec![(left, y), (left + 26.0, y)], dash, 2.2, colour);
-        figure.text((left + 34.0, y), name, size, Anchor::Start, INK);
+        figure.text((left + 34.0, y), fitting(&name, room, size).0, size, Anchor::Start, INK);
     }
 }
 
 /// Draws a dashed line at the end of each stage but the last, and the names of the stages along the top.
-fn stage_marks(figure: &mut Figure, frame: &Frame, recorder: &Recorder, time: Unit) {
+fn stage_marks(figure: &mut Figure, frame: &Frame, stages: &[(String, f64)], time: Unit) {
     let (left, top) = frame.at;
-    let (mut from, shown) = (0.0, frame.x.range.1);
-    for (name, end) in &recorder.setup().stages {
+    let (mut from, shown) = frame.x.range;
+    let span = shown - from;
+    for (name, end) in stages {
         let to = (end / time.factor).min(shown);
+        if to < from {
+            continue;
+        }
         let middle = frame.x.place((from + to) / 2.0);
         // Names that do not fit their stage, at 7.5 units per character, are omitted.
-        if (to - from) / shown * frame.size.0 > 7.5 * name.chars().count() as f64 {
+        if (to - from) / span * frame.size.0 > 7.5 * name.chars().count() as f64 {
             figure.text((left + middle * frame.size.0, top + 11.0), name, 11.5, Anchor::Middle, MARK);
         }
         if to >= shown {

@@ -9,14 +9,16 @@ use super::colour::{Rgb, viridis};
 use super::curves::{DECADES, Entry, Thinner, legend};
 use super::field::Bar;
 use super::figure::{Figure, Image, Point};
+use super::paper::Paper;
 use super::stretched::Stretched;
 use super::title::title;
 use super::units::{LENGTH, STRESS, TIME};
 use crate::stems;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// A fault along a line.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Line {
     /// Name.
     pub name: String,
@@ -47,7 +49,7 @@ pub trait Rows {
 }
 
 /// Plots of a run.
-pub struct Cycles<'a> {
+pub(super) struct Cycles<'a> {
     /// Title of the scene.
     pub title: String,
     /// Faults along lines.
@@ -58,6 +60,8 @@ pub struct Cycles<'a> {
     pub events: Vec<(f64, f64)>,
     /// Time between slip contours, between events and during events, as text.
     pub intervals: [String; 2],
+    /// Size of the figures.
+    pub(super) paper: Paper,
 }
 
 /// Smallest and largest of the finite values seen.
@@ -97,8 +101,10 @@ const ASEISMIC: Rgb = [52, 84, 160];
 const AT: Point = (96.0, 40.0);
 /// Size of the frame.
 const SIZE: Point = (560.0, 380.0);
-/// Width right of the frame.
-const ROOM: f64 = 230.0;
+/// Width right of the frame for a legend, for a colour bar, and for half a number.
+const ROOMS: [f64; 3] = [230.0, 150.0, 40.0];
+/// Height below the frame for numbers and a label.
+const BELOW: f64 = 60.0;
 /// Largest number of columns and rows of pixels of an image.
 const PIXELS: (usize, usize) = (1120, 760);
 /// Distance to the preceding contour, as a share of the axis, below which a contour is omitted: a pixel of a screen.
@@ -122,8 +128,9 @@ impl Cycles<'_> {
         Ok(figures)
     }
 
-    fn frame(x: Axis, y: Axis) -> (Figure, Frame) {
-        (Figure::new(AT.0 + SIZE.0 + ROOM, AT.1 + SIZE.1 + 60.0), Frame { at: AT, size: SIZE, x, y })
+    fn frame(&self, x: Axis, y: Axis, room: f64) -> (Figure, Frame) {
+        let size = self.paper.frame(SIZE, (AT.0 + room, AT.1 + BELOW));
+        (Figure::new(AT.0 + size.0 + room, AT.1 + size.1 + BELOW), Frame { at: AT, size, x, y })
     }
 
     /// Ranges of time, largest slip rate and mean shear traction.
@@ -146,10 +153,10 @@ impl Cycles<'_> {
         let label = format!("Time [{}]", time.name);
         let x = Axis::exact((times.0 / time.factor, times.1 / time.factor), label);
         let y = Axis::logarithmic(rates.over(1.0), DECADES, "Largest slip rate [m/s]".into());
-        let (mut figure, frame) = Self::frame(x, y);
+        let (mut figure, frame) = self.frame(x, y, ROOMS[2]);
         title(&mut figure, &frame, &self.title, "largest slip rate");
         frame.grid(&mut figure);
-        let mut curve = Thinner::new(AT.0, AT.0 + SIZE.0);
+        let mut curve = Thinner::new(AT.0, AT.0 + frame.size.0);
         self.rows.each(Table::Largest, &mut |row| {
             let point = frame.point(row[0] / time.factor, 10.0_f64.powf(row[1]));
             if point.0.is_finite() && point.1.is_finite() {
@@ -169,7 +176,7 @@ impl Cycles<'_> {
         let unit = STRESS.of(shear.0.abs().max(shear.1.abs()));
         let x = Axis::logarithmic(rates.over(1.0), DECADES, "Largest slip rate [m/s]".into());
         let y = Axis::linear(shear.over(unit.factor), 0.05, format!("Mean shear traction [{}]", unit.name));
-        let (mut figure, frame) = Self::frame(x, y);
+        let (mut figure, frame) = self.frame(x, y, ROOMS[2]);
         title(&mut figure, &frame, &self.title, "phase portrait");
         frame.grid(&mut figure);
         let mut curve: Vec<Point> = Vec::new();
@@ -222,7 +229,7 @@ impl Cycles<'_> {
         }
         let unit = LENGTH.of(range.0.abs().max(range.1.abs()));
         let x = Axis::linear(range.over(unit.factor), 0.02, format!("Slip [{}]", unit.name));
-        let (mut figure, frame) = Self::frame(x, y);
+        let (mut figure, frame) = self.frame(x, y, ROOMS[0]);
         title(&mut figure, &frame, &self.title, &format!("slip of {}", line.name));
         frame.grid(&mut figure);
         let least = TOGETHER * unit.factor * (frame.x.range.1 - frame.x.range.0);
@@ -266,7 +273,7 @@ impl Cycles<'_> {
         let hi = range.1.ceil();
         let lo = range.0.floor().max(hi - SHOWN).min(hi - 1.0);
         let stretched = Stretched::new(&times, &self.events);
-        let (mut figure, frame) = Self::frame(stretched.axis(), y);
+        let (mut figure, frame) = self.frame(stretched.axis(), y, ROOMS[1]);
         title(&mut figure, &frame, &self.title, &format!("slip rate of {}", line.name));
         let columns = count.clamp(1, PIXELS.0);
         let nearest = nearest(&line.along);
@@ -344,6 +351,7 @@ mod tests {
             rows,
             events: vec![(0.9e9, 1.1e9)],
             intervals: ["2.5 d".into(), "3 min".into()],
+            paper: Paper::default(),
         }
     }
 

@@ -1,13 +1,13 @@
 //! Fields over the bodies, interpolated from the nodes: the Mises stress at the end of a stage, displacements. With finite
 //! sliding or finite strain they are drawn on the current configuration of the bodies, otherwise on the reference configuration.
 
-use super::super::record::StageEnd;
-use super::super::view::{BodyFields, MeshView};
+use super::super::view::MeshView;
 use super::axes::{Axis, Frame};
 use super::colour::{INK, PAPER, Rgb, viridis};
 use super::faces::{Corner, Visible, visible};
 use super::figure::{Anchor, Figure, Image, Point};
 use super::units::{LENGTH, NUMBER, STRESS, Unit, Units, VELOCITY};
+use serde::{Deserialize, Serialize};
 
 /// Largest width and height of the map in a plot of a run.
 pub(super) const LARGE: Point = (560.0, 460.0);
@@ -28,74 +28,97 @@ const FAR_ABOVE: f64 = 1.15;
 
 /// Values at the nodes of a mesh, to be drawn in colours.
 struct Field<'a> {
-    mesh: &'a MeshView,
-    /// Positions of the nodes \[m\].
-    places: Vec<[f64; 3]>,
+    seen: &'a Seen,
     values: &'a [f64],
     quantity: &'a str,
     units: Units,
 }
 
-/// Draws the Mises field at the end of a stage; `None` if there is no face to draw or no finite position.
-pub(super) fn mises(
-    scene: &str,
-    mesh: &MeshView,
-    end: &StageEnd,
-    fields: &BodyFields,
-    room: Point,
-) -> Option<Figure> {
-    let places = places(mesh, &fields.displacement);
-    let field = Field { mesh, places, values: &fields.node_mises, quantity: "Mises stress", units: STRESS };
-    let title = (!scene.is_empty()).then(|| (scene, format!("end of stage “{}”", end.name)));
-    field.draw(title, room)
+/// The visible part of a mesh.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Seen {
+    /// Positions of the nodes on the page \[m\].
+    places: Vec<Point>,
+    triangles: Vec<[Corner; 3]>,
+    /// Lines of nodes along the boundary of a body.
+    outline: Vec<Vec<usize>>,
 }
 
-/// Draws the magnitude of displacements \[m\]; `None` if there is no face to draw or no finite position.
-pub(super) fn displacement(mesh: &MeshView, displacement: &[[f64; 3]], room: Point) -> Option<Figure> {
-    let values: Vec<f64> = displacement.iter().map(|[x, y, z]| x.hypot(*y).hypot(*z)).collect();
-    let places = places(mesh, displacement);
-    Field { mesh, places, values: &values, quantity: "displacement", units: LENGTH }.draw(None, room)
-}
+impl Seen {
+    /// The visible part of a mesh whose nodes have moved, with the nodes of the mesh that it has; `None` if there is no face to
+    /// draw or no finite position. With finite sliding or finite strain bodies are where they have moved.
+    #[must_use]
+    pub fn of(mesh: &MeshView, displacement: &[[f64; 3]]) -> Option<(Self, Vec<usize>)> {
+        let Visible { triangles, outline } = visible(mesh);
+        let places = places(mesh, displacement);
+        let mut nodes: Vec<usize> =
+            triangles.iter().flatten().flatten().chain(outline.iter().flatten()).copied().collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let number = |node: &usize| nodes.binary_search(node).unwrap_or_default();
+        let corner = |corner: &Corner| corner.iter().map(number).collect::<Corner>();
+        let seen = Self {
+            places: nodes.iter().map(|&n| (places[n][0], places[n][1])).collect(),
+            triangles: triangles.iter().map(|t| t.each_ref().map(corner)).collect(),
+            outline: outline.iter().map(|line| line.iter().map(number).collect()).collect(),
+        };
+        seen.extent()?;
+        Some((seen, nodes))
+    }
 
-/// Draws the magnitude of velocities \[m/s\] at a time; `None` if there is no face to draw or no finite position.
-pub(super) fn velocity(
-    scene: &str,
-    when: &str,
-    mesh: &MeshView,
-    velocity: &[f64],
-    room: Point,
-) -> Option<Figure> {
-    let field =
-        Field { mesh, places: mesh.nodes.clone(), values: velocity, quantity: "Velocity", units: VELOCITY };
-    field.draw(Some((scene, when.to_string())), room)
-}
-
-/// The visible part of a mesh, for several images of it.
-pub(super) struct Shown<'a> {
-    mesh: &'a MeshView,
-    seen: Visible,
-    extent: (Point, Point),
-}
-
-impl<'a> Shown<'a> {
-    /// The visible part of a mesh; `None` if there is no face to draw.
-    pub(super) fn new(mesh: &'a MeshView) -> Option<Self> {
-        let seen = visible(mesh);
-        let extent = extent(&mesh.nodes, &seen)?;
-        Some(Self { mesh, seen, extent })
+    /// Number of its nodes.
+    pub(super) fn nodes(&self) -> usize {
+        self.places.len()
     }
 
     /// A frame around it at one scale in both directions, within `room`.
-    pub(super) fn frame(&self, room: Point) -> Frame {
-        around((0.0, 0.0), self.extent, room).0
+    pub(super) fn frame(&self, room: Point) -> Option<Frame> {
+        Some(around((0.0, 0.0), self.extent()?, room).0)
     }
 
     /// An image of values over a frame, in the colours from zero to `hi`.
     pub(super) fn image(&self, frame: &Frame, values: &[f64], hi: f64) -> Image {
-        let colours = Colours { unit: NUMBER.of(1.0), lo: 0.0, hi, above: None };
-        map(&self.mesh.nodes, &self.seen, values, &colours, frame, self.extent)
+        map(self, values, &Colours { unit: NUMBER.of(1.0), lo: 0.0, hi, above: None }, frame)
+    }
+
+    /// Lower left and upper right corner.
+    fn extent(&self) -> Option<(Point, Point)> {
+        let start = ((f64::INFINITY, f64::INFINITY), (f64::NEG_INFINITY, f64::NEG_INFINITY));
+        let nodes = self.triangles.iter().flatten().flatten();
+        let (lo, hi) = nodes.fold(start, |(lo, hi), &n| {
+            let (x, y) = self.places[n];
+            ((lo.0.min(x), lo.1.min(y)), (hi.0.max(x), hi.1.max(y)))
+        });
+        let fine = |a: f64, b: f64| a.is_finite() && b.is_finite() && b > a;
+        (fine(lo.0, hi.0) && fine(lo.1, hi.1)).then_some((lo, hi))
     }
 }
+
+/// Draws the Mises stress at the nodes of a mesh \[Pa\]; a title is a scene and a part of it.
+pub(super) fn mises(title: Option<(&str, &str)>, seen: &Seen, values: &[f64], room: Point) -> Option<Figure> {
+    Field { seen, values, quantity: "Mises stress", units: STRESS }.draw(title, room)
+}
+
+/// Draws the magnitude of displacements \[m\]; `None` if there is no face to draw or no finite position.
+pub(super) fn displacement(mesh: &MeshView, displacement: &[[f64; 3]], room: Point) -> Option<Figure> {
+    let (seen, nodes) = Seen::of(mesh, displacement)?;
+    let size = |&node: &usize| {
+        let [x, y, z] = displacement[node];
+        x.hypot(y).hypot(z)
+    };
+    let values: Vec<f64> = nodes.iter().map(size).collect();
+    Field { seen: &seen, values: &values, quantity: "displacement", units: LENGTH }.draw(None, room)
+}
+
+/// Draws the magnitude of velocities at the nodes of a mesh \[m/s\] at a time.
+pub(super) fn velocity(title: (&str, &str), seen: &Seen, velocity: &[f64], room: Point) -> Option<Figure> {
+    Field { seen, values: velocity, quantity: "Velocity", units: VELOCITY }.draw(Some(title), room)
+}
+
+/// Room around a map of a body: left and right of it, and above and below.
+pub(super) const MARGINS: Point = (AT.0 + 150.0, AT.1 + 62.0);
+/// Position of the frame.
+const AT: Point = (96.0, 40.0);
 
 /// Frame around a map within `room`, and the unit of its axes.
 fn around(at: Point, (lo, hi): (Point, Point), room: Point) -> (Frame, Unit) {
@@ -112,20 +135,19 @@ fn around(at: Point, (lo, hi): (Point, Point), room: Point) -> (Frame, Unit) {
 }
 
 impl Field<'_> {
-    fn draw(&self, title: Option<(&str, String)>, room: Point) -> Option<Figure> {
-        let seen = visible(self.mesh);
-        let (lo, hi) = extent(&self.places, &seen)?;
-        let (frame, length) = around((96.0, 40.0), (lo, hi), room);
-        let colours = Colours::of(&seen, self.values, self.units);
+    fn draw(&self, title: Option<(&str, &str)>, room: Point) -> Option<Figure> {
+        let seen = self.seen;
+        let (frame, length) = around(AT, seen.extent()?, room);
+        let colours = Colours::of(seen, self.values, self.units);
         let below = (frame.size.1 + 62.0).max(BAR + 20.0);
         let mut figure = Figure::new(frame.at.0 + frame.size.0.max(180.0) + 150.0, frame.at.1 + below);
         if let Some((scene, when)) = title {
-            super::title::title(&mut figure, &frame, scene, &when);
+            super::title::title(&mut figure, &frame, scene, when);
         }
-        figure.image(map(&self.places, &seen, self.values, &colours, &frame, (lo, hi)));
+        figure.image(map(seen, self.values, &colours, &frame));
         for line in &seen.outline {
             let at = |&node: &usize| {
-                let [x, y, _] = self.places[node];
+                let (x, y) = seen.places[node];
                 frame.point(x / length.factor, y / length.factor)
             };
             figure.line(line.iter().map(at).collect(), 1.0, INK);
@@ -161,7 +183,7 @@ pub(super) struct Colours {
 }
 
 impl Colours {
-    fn of(seen: &Visible, values: &[f64], units: Units) -> Self {
+    fn of(seen: &Seen, values: &[f64], units: Units) -> Self {
         let mut nodes: Vec<usize> = seen.triangles.iter().flatten().flatten().copied().collect();
         nodes.sort_unstable();
         nodes.dedup();
@@ -186,35 +208,17 @@ impl Colours {
 /// Relative spread below which a field counts as uniform: solver errors in a constant field.
 const FLAT: f64 = 1e-6;
 
-/// Lower left and upper right corner of the visible part.
-fn extent(places: &[[f64; 3]], seen: &Visible) -> Option<(Point, Point)> {
-    let start = ((f64::INFINITY, f64::INFINITY), (f64::NEG_INFINITY, f64::NEG_INFINITY));
-    let nodes = seen.triangles.iter().flatten().flatten();
-    let (lo, hi) = nodes.fold(start, |(lo, hi), &n| {
-        let [x, y, _] = places[n];
-        ((lo.0.min(x), lo.1.min(y)), (hi.0.max(x), hi.1.max(y)))
-    });
-    let fine = |a: f64, b: f64| a.is_finite() && b.is_finite() && b > a;
-    (fine(lo.0, hi.0) && fine(lo.1, hi.1)).then_some((lo, hi))
-}
-
 /// Renders the triangles into an image that covers the frame.
-fn map(
-    places: &[[f64; 3]],
-    seen: &Visible,
-    values: &[f64],
-    colours: &Colours,
-    frame: &Frame,
-    (lo, hi): (Point, Point),
-) -> Image {
+fn map(seen: &Seen, values: &[f64], colours: &Colours, frame: &Frame) -> Image {
+    let (lo, hi) = seen.extent().unwrap_or(((0.0, 0.0), (1.0, 1.0)));
     let columns = (frame.size.0 * FINE).round().max(1.0) as usize;
     let rows = (frame.size.1 * FINE).round().max(1.0) as usize;
     let mut rgb = vec![PAPER; columns * rows];
     let corner = |nodes: &Corner| {
         let mean =
             |read: &dyn Fn(usize) -> f64| nodes.iter().map(|&n| read(n)).sum::<f64>() / nodes.len() as f64;
-        let x = (mean(&|n| places[n][0]) - lo.0) / (hi.0 - lo.0) * columns as f64;
-        let y = (hi.1 - mean(&|n| places[n][1])) / (hi.1 - lo.1) * rows as f64;
+        let x = (mean(&|n| seen.places[n].0) - lo.0) / (hi.0 - lo.0) * columns as f64;
+        let y = (hi.1 - mean(&|n| seen.places[n].1)) / (hi.1 - lo.1) * rows as f64;
         (x, y, mean(&|n| values[n]))
     };
     for triangle in &seen.triangles {

@@ -4,11 +4,13 @@ use super::axes::{Axis, Frame};
 use super::colour::{INK, MARK, PAPER, diverging};
 use super::field::{Bar, FINE};
 use super::figure::{Anchor, Figure, Image, Point};
+use super::paper::Paper;
 use super::title::title;
 use super::units::{LENGTH, NUMBER, Unit};
+use serde::{Deserialize, Serialize};
 
 /// Unit of the coordinates of a map.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Coordinates {
     /// Metres.
     Metres,
@@ -18,9 +20,7 @@ pub enum Coordinates {
 
 /// A map of displacements.
 #[derive(Clone, Debug)]
-pub struct GroundMap {
-    /// Stem of the file names.
-    pub file: String,
+pub(super) struct GroundMap {
     /// Title of the scene.
     pub title: String,
     /// Unit of the coordinates.
@@ -41,6 +41,8 @@ const AT: Point = (96.0, 40.0);
 const SIZE: Point = (560.0, 460.0);
 /// Room right of the frame for the colour bar.
 const ROOM: f64 = 150.0;
+/// Height below the frame for numbers, a label and the scale of arrows.
+const BELOW: f64 = 92.0;
 /// Largest number of arrows along an axis.
 const ARROWS: usize = 22;
 /// Length of the longest arrow over the distance between arrows.
@@ -52,14 +54,14 @@ const SHORTEST: f64 = 0.02;
 
 impl GroundMap {
     /// The figure; `None` without an extent or a displacement.
-    pub(super) fn figure(&self) -> Option<Figure> {
-        let frame = self.frame()?;
+    pub(super) fn figure(&self, paper: Paper) -> Option<Figure> {
+        let frame = self.frame(paper)?;
         let most = largest(self.vertical.iter().copied());
         let longest = largest(self.horizontal.iter().map(|[x, y]| x.hypot(*y)));
         let most = if most > 0.0 { most } else { Some(longest).filter(|most| *most > 0.0)? };
         let unit = LENGTH.of(most);
         let height = frame.size.1.max(190.0);
-        let mut figure = Figure::new(AT.0 + frame.size.0.max(260.0) + ROOM, AT.1 + height + 92.0);
+        let mut figure = Figure::new(AT.0 + frame.size.0.max(260.0) + ROOM, AT.1 + height + BELOW);
         title(&mut figure, &frame, &self.title, "displacement of the surface");
         figure.image(self.image(&frame, most));
         for ends in &self.edges {
@@ -89,14 +91,15 @@ impl GroundMap {
         }
     }
 
-    fn frame(&self) -> Option<Frame> {
+    fn frame(&self, paper: Paper) -> Option<Frame> {
+        let room = paper.frame(SIZE, (AT.0 + ROOM, AT.1 + BELOW));
         let ((left, right), (low, high)) = (self.extent(0)?, self.extent(1)?);
         // Degrees of longitude are shorter than those of latitude.
         let narrow = match self.coordinates {
             Coordinates::Metres => 1.0,
             Coordinates::Degrees => (0.5 * (low + high)).to_radians().cos(),
         };
-        let scale = (SIZE.0 / ((right - left) * narrow)).min(SIZE.1 / (high - low));
+        let scale = (room.0 / ((right - left) * narrow)).min(room.1 / (high - low));
         let unit = self.unit();
         let axis = |(from, to): (f64, f64), k: usize| {
             let label = format!("{} [{}]", self.axes[k].0, unit.name);
@@ -201,7 +204,6 @@ mod tests {
 
     fn map(vertical: Vec<f64>, horizontal: [f64; 2]) -> GroundMap {
         GroundMap {
-            file: "m".into(),
             title: "t".into(),
             coordinates: Coordinates::Metres,
             axes: [("x".into(), vec![0.0, 1e3, 2e3]), ("y".into(), vec![0.0, 1e3])],
@@ -213,7 +215,8 @@ mod tests {
 
     #[test]
     fn up_is_up_and_rising_ground_is_red() {
-        let figure = map(vec![-1.0, -1.0, -1.0, 1.0, 1.0, f64::NAN], [0.0, 0.3]).figure().unwrap();
+        let figure =
+            map(vec![-1.0, -1.0, -1.0, 1.0, 1.0, f64::NAN], [0.0, 0.3]).figure(Paper::default()).unwrap();
         let image = figure.shapes.iter().find_map(|shape| match shape {
             super::super::figure::Shape::Image(image) => Some(image),
             _ => None,
@@ -225,15 +228,15 @@ mod tests {
 
     #[test]
     fn ground_that_stays_or_has_no_extent_has_no_map() {
-        assert!(map(vec![0.0; 6], [0.0; 2]).figure().is_none());
-        assert!(map(vec![f64::NAN; 6], [f64::NAN; 2]).figure().is_none());
+        assert!(map(vec![0.0; 6], [0.0; 2]).figure(Paper::default()).is_none());
+        assert!(map(vec![f64::NAN; 6], [f64::NAN; 2]).figure(Paper::default()).is_none());
         let line = GroundMap {
             axes: [("x".into(), vec![0.0]), ("y".into(), vec![0.0, 1.0])],
             ..map(vec![1.0; 2], [0.0; 2])
         };
-        assert!(line.figure().is_none());
+        assert!(line.figure(Paper::default()).is_none());
         // Antisymmetric shear of a strike-slip fault may raise nothing.
-        assert!(map(vec![0.0; 6], [1.0, 0.0]).figure().is_some());
+        assert!(map(vec![0.0; 6], [1.0, 0.0]).figure(Paper::default()).is_some());
     }
 
     #[test]

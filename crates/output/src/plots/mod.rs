@@ -19,9 +19,12 @@ mod ground;
 pub(crate) mod labels;
 mod mesh;
 mod panel;
+mod paper;
+mod pdf;
 mod png;
 mod profile;
 mod rupture;
+mod sheet;
 mod sketch;
 mod springs;
 mod stretched;
@@ -32,93 +35,37 @@ mod units;
 mod width;
 
 pub use chart::{Chart, Measure};
-pub use cycles::{Cycles, Line, Rows, Table};
+pub use curves::Histories;
+pub use cycles::Line;
 pub use diagram::{Diagram, Failed, Scale, Series, Slope};
-pub use ground::{Coordinates, GroundMap};
+pub use field::Seen;
+pub use ground::Coordinates;
 pub use mesh::{Mark, MarkedSet, MeshPicture};
 pub use panel::{EventPanel, PanelEvent};
-pub use rupture::{
-    EventOnFault, Line as RuptureLine, Profiles, RupturedFault, Ruptures, Shape as RuptureShape, Surface,
+pub use profile::Tractions;
+pub use rupture::{Line as RuptureLine, Shape as RuptureShape, Surface};
+pub use sheet::{
+    Asked, Curves, Fault, Format, Ground, InEvent, Mises, OfEvent, Plot, Points, Sheet, Through, Velocities,
+    short,
 };
 pub use sketch::Sketch;
-pub use springs::chart as springs_chart;
+pub use springs::curves as springs_curves;
 pub use style::STYLES;
 
 use super::view::MeshView;
 use super::{OutputError, Recorder, atomic};
 use crate::names::stems;
 use figure::Figure;
+use paper::Paper;
 use std::path::{Path, PathBuf};
 
-/// Draws all plots of a run into `folder` and returns the files in the order written. Mises fields are drawn only if the recorder
-/// has kept the bodies ([`Recorder::with_bodies`]). Stages that a stopped run did not reach are omitted.
+/// Draws all plots of a run of bodies into `folder` and returns the files in the order written. Mises fields are drawn only if the
+/// recorder has kept the bodies ([`Recorder::with_bodies`]). Stages that a stopped run did not reach are omitted.
 ///
 /// # Errors
 /// If a file cannot be written or a drawing fails.
 pub fn draw_all(folder: &Path, recorder: &Recorder) -> Result<Vec<PathBuf>, OutputError> {
-    write_all(folder, figures(recorder))
-}
-
-/// Draws the plots of faults in earthquake cycles into `folder` and returns the files in the order written.
-///
-/// # Errors
-/// See [`draw_all`].
-pub fn draw_cycles(folder: &Path, cycles: &Cycles) -> Result<Vec<PathBuf>, OutputError> {
-    write_all(folder, cycles.figures()?)
-}
-
-/// Draws the plots of dynamic rupture into `folder` and returns the files in the order written.
-///
-/// # Errors
-/// See [`draw_all`].
-pub fn draw_ruptures(folder: &Path, ruptures: &Ruptures<'_>) -> Result<Vec<PathBuf>, OutputError> {
-    write_all(folder, ruptures.figures()?)
-}
-
-/// Draws maps of the displacement of the ground into `folder` and returns the files in the order written.
-///
-/// # Errors
-/// See [`draw_all`].
-pub fn draw_ground(folder: &Path, maps: &[GroundMap]) -> Result<Vec<PathBuf>, OutputError> {
-    write_all(folder, maps.iter().filter_map(|map| Some((map.file.clone(), map.figure()?))).collect())
-}
-
-/// Draws rupture times and slip of events into `folder` and returns the files in the order written.
-///
-/// # Errors
-/// See [`draw_all`].
-pub fn draw_events(folder: &Path, events: &[EventOnFault]) -> Result<Vec<PathBuf>, OutputError> {
-    write_all(folder, events.iter().flat_map(EventOnFault::figures).collect())
-}
-
-/// Draws the magnitudes of events over time into `folder` and returns the files in the order written.
-///
-/// # Errors
-/// See [`draw_all`].
-pub fn draw_panel(folder: &Path, panel: &EventPanel) -> Result<Vec<PathBuf>, OutputError> {
-    write_all(folder, panel.figure().map(|figure| ("events".to_string(), figure)).into_iter().collect())
-}
-
-/// Draws the magnitudes of velocities of the nodes of a mesh, each with its time \[s\] \[m/s\], and a strip of them, into `folder`; returns
-/// the files in the order written.
-///
-/// # Errors
-/// See [`draw_all`].
-pub fn draw_velocities(
-    folder: &Path,
-    scene: &str,
-    mesh: &MeshView,
-    frames: &[(f64, Vec<f64>)],
-) -> Result<Vec<PathBuf>, OutputError> {
-    let last = frames.last().map_or(1.0, |frame| frame.0);
-    let one = |(k, (time, values)): (usize, &(f64, Vec<f64>))| {
-        let when = format!("t = {}", rupture::moment(*time, last));
-        Some((format!("velocity_{k}"), field::velocity(scene, &when, mesh, values, field::LARGE)?))
-    };
-    let mut figures: Vec<(String, Figure)> = frames.iter().enumerate().filter_map(one).collect();
-    let strip = field::Shown::new(mesh).and_then(|shown| rupture::velocities(scene, &shown, frames));
-    figures.extend(strip.map(|figure| ("velocity_film".to_string(), figure)));
-    write_all(folder, figures)
+    sheet(recorder).draw(folder, folder, &Asked::default())
 }
 
 /// Draws curves of two quantities against each other into `folder` and returns the files in the order written.
@@ -126,7 +73,10 @@ pub fn draw_velocities(
 /// # Errors
 /// See [`draw_all`].
 pub fn draw_charts(folder: &Path, charts: &[Chart]) -> Result<Vec<PathBuf>, OutputError> {
-    write_all(folder, charts.iter().filter_map(|c| Some((c.file.clone(), c.figure()?))).collect())
+    write_all(
+        folder,
+        charts.iter().filter_map(|c| Some((c.file.clone(), c.figure(Paper::default(), 0.0)?))).collect(),
+    )
 }
 
 /// The Mises field at the end of a stage as SVG, smaller than the plots of a run: for a page beside other figures. None where
@@ -135,8 +85,10 @@ pub fn draw_charts(folder: &Path, charts: &[Chart]) -> Result<Vec<PathBuf>, Outp
 pub fn field(recorder: &Recorder, stage: &str) -> Option<String> {
     let setup = recorder.setup();
     let end = recorder.stage_ends().iter().find(|end| end.name == stage)?;
-    let figure = field::mises("", &setup.mesh, end, end.bodies.as_ref()?, field::SMALL)?;
-    Some(svg::paint(&figure))
+    let bodies = end.bodies.as_ref()?;
+    let (seen, nodes) = Seen::of(&setup.mesh, &bodies.displacement)?;
+    let values: Vec<f64> = nodes.iter().map(|&node| bodies.node_mises[node]).collect();
+    Some(svg::paint(&field::mises(None, &seen, &values, field::SMALL)?))
 }
 
 /// The magnitude of displacements \[m\] over a mesh as SVG, of the size of [`field`]. None where there is no face to draw.
@@ -154,7 +106,7 @@ pub fn draw_mesh(file: &Path, picture: &MeshPicture) -> Result<bool, OutputError
     if file.extension().is_some_and(|e| e == "svg") {
         atomic::write(file, svg::paint(&figure).as_bytes())?;
     } else {
-        let drawn = png::paint(&figure);
+        let drawn = png::paint(&figure, PIXELS);
         let bytes = drawn.map_err(|reason| OutputError::Draw { path: file.to_path_buf(), reason })?;
         atomic::write(file, &bytes)?;
     }
@@ -167,39 +119,44 @@ fn write_all(folder: &Path, figures: Vec<(String, Figure)>) -> Result<Vec<PathBu
     for (name, figure) in figures {
         let (svg, png) = (folder.join(format!("{name}.svg")), folder.join(format!("{name}.png")));
         atomic::write(&svg, svg::paint(&figure).as_bytes())?;
-        let bytes = png::paint(&figure).map_err(|reason| OutputError::Draw { path: png.clone(), reason })?;
+        let bytes =
+            png::paint(&figure, PIXELS).map_err(|reason| OutputError::Draw { path: png.clone(), reason })?;
         atomic::write(&png, &bytes)?;
         written.extend([svg, png]);
     }
     Ok(written)
 }
 
-/// All figures of a run with their file names.
-fn figures(recorder: &Recorder) -> Vec<(String, Figure)> {
+/// Pixels per unit of figures that no resolution was asked for.
+const PIXELS: f64 = 2.0;
+
+/// What the figures of a run of bodies need.
+#[must_use]
+pub fn sheet(recorder: &Recorder) -> Sheet {
     let setup = recorder.setup();
-    let mut figures = Vec::new();
+    let span = (0.0, recorder.times().last().copied().unwrap_or(0.0));
+    let mut sheet = Sheet::new(&setup.title, span, false);
     let stage_names = stems(setup.stages.iter().map(|(name, _)| name.as_str()));
     for end in recorder.stage_ends() {
-        let figure = end
-            .bodies
-            .as_ref()
-            .and_then(|fields| field::mises(&setup.title, &setup.mesh, end, fields, field::LARGE));
-        if let (Some(figure), Some(stage)) = (figure, stage_names.get(end.stage)) {
-            figures.push((format!("mises_{}_{stage}", end.stage + 1), figure));
+        let seen = end.bodies.as_ref().and_then(|b| Some((b, Seen::of(&setup.mesh, &b.displacement)?)));
+        if let (Some((bodies, (seen, nodes))), Some(stage)) = (seen, stage_names.get(end.stage)) {
+            let mesh = sheet.mesh(seen);
+            sheet.plots.push(Plot::Mises(Mises {
+                file: format!("mises_{}_{stage}", end.stage + 1),
+                stage: end.name.clone(),
+                time: end.time,
+                mesh,
+                values: nodes.iter().map(|&node| short(bodies.node_mises[node])).collect(),
+            }));
         }
     }
     let names = stems(setup.interfaces.iter().map(|mesh| mesh.name.as_str()));
     for (i, (stem, mesh)) in names.iter().zip(&setup.interfaces).enumerate() {
-        for quantity in curves::QUANTITIES {
-            if let Some(figure) = curves::history(recorder, i, &quantity) {
-                figures.push((format!("{stem}_{}", quantity.file), figure));
-            }
-        }
-        if let Some(figure) = profile::tractions(&setup.title, mesh, i, recorder.stage_ends()) {
-            figures.push((format!("{stem}_tractions"), figure));
-        }
+        sheet.plots.extend(Histories::of(recorder, stem, i).map(Plot::Histories));
+        let tractions = Tractions::of(&setup.title, stem, mesh, i, recorder.stage_ends());
+        sheet.plots.extend(tractions.map(Plot::Tractions));
     }
-    figures.extend(energy::budget(recorder));
-    figures.extend(springs::friction(recorder).map(|figure| ("springs_friction".to_string(), figure)));
-    figures
+    sheet.plots.extend(energy::budget(recorder).map(Plot::Curves));
+    sheet.plots.push(Plot::Curves(springs::friction(recorder)));
+    sheet
 }

@@ -4,13 +4,15 @@ use super::axes::{Axis, Frame};
 use super::ball::ball;
 use super::curves::{Entry, legend};
 use super::figure::{Figure, Point};
+use super::paper::Paper;
 use super::style::Style;
 use super::title::title;
 use super::units::TIME;
 use crate::located::Tensor;
+use serde::{Deserialize, Serialize};
 
 /// An event.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PanelEvent {
     /// Onset \[s\].
     pub onset: f64,
@@ -21,11 +23,13 @@ pub struct PanelEvent {
 }
 
 /// Events of a run.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct EventPanel {
     /// Title of the scene.
     pub title: String,
-    /// Time from the start to the end of the run \[s\].
+    /// First time shown \[s\].
+    pub start: f64,
+    /// Last time shown \[s\].
     pub end: f64,
     /// Names of groups of events, such as fast and slow ones, and their events.
     pub groups: Vec<(String, Vec<PanelEvent>)>,
@@ -37,6 +41,8 @@ const AT: Point = (96.0, 40.0);
 const SIZE: Point = (560.0, 380.0);
 /// Width right of the frame for the legend.
 const LEGEND: f64 = 170.0;
+/// Height below the frame for numbers and a label.
+const BELOW: f64 = 60.0;
 /// Radii of the focal spheres at the lower and at the upper end of the magnitudes.
 const RADII: (f64, f64) = (8.0, 16.0);
 /// Largest number of focal spheres; more would cover each other.
@@ -50,22 +56,24 @@ const LEAST: f64 = 1.0;
 
 impl EventPanel {
     /// The figure; `None` without events.
-    pub(super) fn figure(&self) -> Option<Figure> {
+    pub(super) fn figure(&self, paper: Paper) -> Option<Figure> {
         let all = || self.groups.iter().flat_map(|group| &group.1);
         let (lo, hi) = all()
             .map(|event| event.magnitude)
             .filter(|m| m.is_finite())
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), m| (lo.min(m), hi.max(m)));
-        if lo > hi || self.end <= 0.0 {
+        if lo > hi || self.end <= self.start {
             return None;
         }
         let range = (hi - lo).max(LEAST);
         let lo = 0.5 * (lo + hi - range);
-        let time = TIME.of(self.end);
-        let x = Axis::exact((0.0, self.end / time.factor), format!("Time [{}]", time.name));
+        let time = TIME.of(self.end.abs());
+        let x =
+            Axis::exact((self.start / time.factor, self.end / time.factor), format!("Time [{}]", time.name));
         let y = Axis::exact((lo - MARGIN * range, lo + (1.0 + MARGIN) * range), "Moment magnitude".into());
-        let frame = Frame { at: AT, size: SIZE, x, y };
-        let mut figure = Figure::new(AT.0 + SIZE.0 + LEGEND, AT.1 + SIZE.1 + 60.0);
+        let size = paper.frame(SIZE, (AT.0 + LEGEND, AT.1 + BELOW));
+        let frame = Frame { at: AT, size, x, y };
+        let mut figure = Figure::new(AT.0 + size.0 + LEGEND, AT.1 + size.1 + BELOW);
         title(&mut figure, &frame, &self.title, "events");
         frame.grid(&mut figure);
         let balls = all().count() <= BALLS;
@@ -73,7 +81,7 @@ impl EventPanel {
             let style = Style::of(k);
             for event in events.iter().filter(|event| event.magnitude.is_finite()) {
                 let at = frame.point(event.onset / time.factor, event.magnitude);
-                figure.line(vec![(at.0, AT.1 + SIZE.1), at], 1.2, style.colour);
+                figure.line(vec![(at.0, AT.1 + size.1), at], 1.2, style.colour);
                 let share = (event.magnitude - lo) / range;
                 match &event.tensor {
                     Some(tensor) if balls => {
@@ -106,6 +114,7 @@ mod tests {
         let fast: Vec<PanelEvent> = (0..events).map(one).collect();
         EventPanel {
             title: "t".into(),
+            start: 0.0,
             end: 1e11,
             groups: vec![("fast".into(), fast), ("slow".into(), vec![])],
         }
@@ -115,12 +124,12 @@ mod tests {
     fn each_event_has_a_line_and_a_focal_sphere_or_a_mark() {
         let tensor = Tensor([0.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
         let areas = |panel: &EventPanel| {
-            let figure = panel.figure().unwrap();
+            let figure = panel.figure(Paper::default()).unwrap();
             figure.shapes.iter().filter(|shape| matches!(shape, Shape::Area { .. })).count()
         };
         assert_eq!(areas(&panel(3, None)), 3);
         assert!(areas(&panel(3, Some(tensor))) > 100);
         assert_eq!(areas(&panel(BALLS + 1, Some(tensor))), BALLS + 1);
-        assert!(panel(0, None).figure().is_none());
+        assert!(panel(0, None).figure(Paper::default()).is_none());
     }
 }

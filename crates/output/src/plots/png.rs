@@ -10,11 +10,8 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontFamily, FontStyle, IntoFont, register_font};
 use std::sync::OnceLock;
 
-/// Pixels per unit of the figure.
-const SCALE: f64 = 2.0;
-
 /// DejaVu Sans 2.37; its licence is in the same folder.
-static FONT: &[u8] = include_bytes!("../../assets/DejaVuSans.ttf");
+pub(super) static FONT: &[u8] = include_bytes!("../../assets/DejaVuSans.ttf");
 
 /// Line height of DejaVu over its em; plotters sizes fonts by line height.
 const LINE_OVER_EM: f64 = 1.164;
@@ -22,15 +19,15 @@ const LINE_OVER_EM: f64 = 1.164;
 /// Share of an em by which plotters places the middle of capitals too high (measured with this font).
 const HANGS: f64 = 0.21;
 
-/// Contents of a PNG file.
+/// Contents of a PNG file with `scale` pixels per unit of the figure.
 ///
 /// # Errors
 /// Message of the plotting library.
-pub(super) fn paint(figure: &Figure) -> Result<Vec<u8>, String> {
+pub(super) fn paint(figure: &Figure, scale: f64) -> Result<Vec<u8>, String> {
     font_ready()?;
-    let (columns, rows) = ((figure.width * SCALE).ceil() as usize, (figure.height * SCALE).ceil() as usize);
+    let (columns, rows) = ((figure.width * scale).ceil() as usize, (figure.height * scale).ceil() as usize);
     let mut pixels: Vec<Rgb> = vec![PAPER; columns * rows];
-    let mut pen = Pen::new(columns, columns * rows);
+    let mut pen = Pen::new(columns, columns * rows, scale);
     for shape in &figure.shapes {
         match shape {
             Shape::Line { points, width, colour, dash } => {
@@ -38,10 +35,10 @@ pub(super) fn paint(figure: &Figure) -> Result<Vec<u8>, String> {
                     pen.stroke(&mut pixels, &piece, *width, *colour);
                 }
             }
-            Shape::Image(image) => blit(&mut pixels, columns, image),
+            Shape::Image(image) => blit(&mut pixels, columns, image, scale),
             Shape::Area { .. } | Shape::Text(_) => {
                 let bytes = pixels.as_flattened_mut();
-                plotted(BitMapBackend::with_buffer(bytes, (columns as u32, rows as u32)), shape)
+                plotted(BitMapBackend::with_buffer(bytes, (columns as u32, rows as u32)), shape, scale)
                     .map_err(|error| error.to_string())?;
             }
         }
@@ -57,53 +54,54 @@ fn font_ready() -> Result<(), String> {
 }
 
 /// Draws an area or a text with plotters.
-fn plotted<B: DrawingBackend>(backend: B, shape: &Shape) -> Result<(), Box<dyn std::error::Error>>
+fn plotted<B: DrawingBackend>(backend: B, shape: &Shape, scale: f64) -> Result<(), Box<dyn std::error::Error>>
 where
     B::ErrorType: 'static,
 {
     let area = backend.into_drawing_area();
     match shape {
         Shape::Area { points, colour } => {
-            let points: Vec<(i32, i32)> = points.iter().map(|&point| pixel(point)).collect();
+            let points: Vec<(i32, i32)> = points.iter().map(|&point| pixel(point, scale)).collect();
             area.draw(&Polygon::new(points, rgb(*colour).filled()))?;
         }
-        Shape::Text(text) => area.draw_text(&text.text, &style(text), middle(text))?,
+        Shape::Text(text) => area.draw_text(&text.text, &style(text, scale), middle(text, scale))?,
         Shape::Line { .. } | Shape::Image(_) => {}
     }
     area.present()?;
     Ok(())
 }
 
-fn style(text: &Text) -> TextStyle<'static> {
+fn style(text: &Text, scale: f64) -> TextStyle<'static> {
     let horizontal = match text.anchor {
         Anchor::Start => HPos::Left,
         Anchor::Middle => HPos::Center,
         Anchor::End => HPos::Right,
     };
-    let size = text.size * SCALE * LINE_OVER_EM;
+    let size = text.size * scale * LINE_OVER_EM;
     let font = (FontFamily::SansSerif, size).into_font();
     let font = if text.vertical { font.transform(FontTransform::Rotate270) } else { font };
     TextStyle { font, color: rgb(text.colour).to_backend_color(), pos: Pos::new(horizontal, VPos::Center) }
 }
 
 /// Point at which plotters must centre a text so that the middle of its capitals lies at the requested point.
-fn middle(text: &Text) -> (i32, i32) {
+fn middle(text: &Text, scale: f64) -> (i32, i32) {
     let drop = HANGS * text.size;
     let (x, y) = text.at;
-    pixel(if text.vertical { (x + drop, y) } else { (x, y + drop) })
+    pixel(if text.vertical { (x + drop, y) } else { (x, y + drop) }, scale)
 }
 
 fn rgb([r, g, b]: Rgb) -> RGBColor {
     RGBColor(r, g, b)
 }
 
-fn pixel((x, y): Point) -> (i32, i32) {
-    ((x * SCALE).round() as i32, (y * SCALE).round() as i32)
+fn pixel((x, y): Point, scale: f64) -> (i32, i32) {
+    ((x * scale).round() as i32, (y * scale).round() as i32)
 }
 
 /// Draws polylines. The coverage of a pixel follows from the distance of its centre to the nearest segment and the half width.
 struct Pen {
     columns: usize,
+    scale: f64,
     /// Coverage of each pixel by the line; zero between lines.
     cover: Vec<f64>,
     /// Pixels with non-zero coverage.
@@ -111,14 +109,15 @@ struct Pen {
 }
 
 impl Pen {
-    fn new(columns: usize, pixels: usize) -> Self {
-        Self { columns, cover: vec![0.0; pixels], inked: Vec::new() }
+    fn new(columns: usize, pixels: usize, scale: f64) -> Self {
+        Self { columns, scale, cover: vec![0.0; pixels], inked: Vec::new() }
     }
 
     fn stroke(&mut self, pixels: &mut [Rgb], points: &[Point], width: f64, colour: Rgb) {
-        let scaled = |&(x, y): &Point| (x * SCALE, y * SCALE);
+        let scale = self.scale;
+        let scaled = |&(x, y): &Point| (x * scale, y * scale);
         for pair in points.windows(2) {
-            self.segment(scaled(&pair[0]), scaled(&pair[1]), width * SCALE / 2.0);
+            self.segment(scaled(&pair[0]), scaled(&pair[1]), width * scale / 2.0);
         }
         for i in self.inked.drain(..) {
             let alpha = std::mem::take(&mut self.cover[i]);
@@ -180,11 +179,11 @@ fn distance(p: Point, a: Point, b: Point) -> f64 {
 }
 
 /// Copies an image with nearest-pixel scaling.
-fn blit(pixels: &mut [Rgb], columns: usize, image: &Image) {
+fn blit(pixels: &mut [Rgb], columns: usize, image: &Image, scale: f64) {
     let rows = pixels.len() / columns;
     let image_rows = image.rgb.len() / image.columns.max(1);
     let ((left, top), (right, bottom)) =
-        (pixel(image.at), pixel((image.at.0 + image.size.0, image.at.1 + image.size.1)));
+        (pixel(image.at, scale), pixel((image.at.0 + image.size.0, image.at.1 + image.size.1), scale));
     let source = |i: i32, from: i32, to: i32, n: usize| {
         ((f64::from(i - from) + 0.5) / f64::from(to - from) * n as f64).clamp(0.0, n as f64 - 1.0) as usize
     };
@@ -301,7 +300,7 @@ mod tests {
     #[test]
     fn a_stroke_covers_its_width_and_nothing_else() {
         let mut pixels = vec![PAPER; 20 * 20];
-        Pen::new(20, 400).stroke(&mut pixels, &[(2.0, 5.0), (8.0, 5.0)], 1.0, [0, 0, 0]);
+        Pen::new(20, 400, 2.0).stroke(&mut pixels, &[(2.0, 5.0), (8.0, 5.0)], 1.0, [0, 0, 0]);
         // At two pixels per unit the line covers rows 9 and 10 of columns 4 to 15.
         assert_eq!(pixels[9 * 20 + 10], [0, 0, 0]);
         assert_eq!(pixels[10 * 20 + 10], [0, 0, 0]);
@@ -314,10 +313,10 @@ mod tests {
         let ends = [(2.0, 3.0), (37.0, 5.0), (30.0, 38.0), (12.0, 9.5), (12.0, 45.0), (-4.0, 20.0)];
         let (columns, rows, width) = (80, 80, 1.5);
         let mut pixels = vec![PAPER; columns * rows];
-        Pen::new(columns, columns * rows).stroke(&mut pixels, &ends, width, [0, 0, 0]);
+        Pen::new(columns, columns * rows, 2.0).stroke(&mut pixels, &ends, width, [0, 0, 0]);
         for (i, found) in pixels.iter().enumerate() {
             let centre = ((i % columns) as f64 + 0.5, (i / columns) as f64 + 0.5);
-            let scaled = |p: Point| (SCALE * p.0, SCALE * p.1);
+            let scaled = |p: Point| (2.0 * p.0, 2.0 * p.1);
             let near = ends.windows(2).map(|e| distance(centre, scaled(e[0]), scaled(e[1])));
             let inside = width + 0.5 - near.fold(f64::INFINITY, f64::min);
             let expected = (255.0 * (1.0 - inside.clamp(0.0, 1.0)) + 0.5) as u8;

@@ -6,77 +6,145 @@ use super::axes::{Axis, Frame};
 use super::colour::viridis;
 use super::curves::{Entry, legend};
 use super::figure::{Dash, Figure, Point};
+use super::paper::Paper;
 use super::title::title;
 use super::units::{LENGTH, STRESS};
+use crate::numbers;
+use serde::{Deserialize, Serialize};
 
 /// Nodes closer than this fraction of the extent of the interface count as one position: they lie on the same line across it.
 const SAME_LINE: f64 = 1e-6;
 
 /// Width right of the frame for the legend, whose entries name stages.
 const LEGEND: f64 = 240.0;
+/// Position of the frame.
+const AT: Point = (96.0, 40.0);
+/// Size of the frame.
+const SIZE: Point = (560.0, 380.0);
+/// Height below the frame for numbers and a label.
+const BELOW: f64 = 60.0;
+
+/// Tractions along an interface.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Tractions {
+    /// Stem of the file names.
+    pub(super) file: String,
+    /// Title of the scene.
+    title: String,
+    /// Name of the interface.
+    name: String,
+    /// Name of the coordinate along it.
+    axis: String,
+    /// First and last coordinate \[m\].
+    ends: (f64, f64),
+    stages: Vec<AtEnd>,
+}
+
+/// Tractions at the end of a stage.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct AtEnd {
+    /// Name of the stage.
+    name: String,
+    /// Its end \[s\].
+    time: f64,
+    /// Coordinates \[m\].
+    #[serde(deserialize_with = "numbers::or_nan")]
+    along: Vec<f64>,
+    /// Normal traction \[Pa\].
+    #[serde(deserialize_with = "numbers::or_nan")]
+    normal: Vec<f64>,
+    /// Shear traction \[Pa\].
+    #[serde(deserialize_with = "numbers::or_nan")]
+    shear: Vec<f64>,
+}
+
+impl Tractions {
+    /// Tractions along the longest extent of an interface of this number, averaged across it by area. `None` if it is a point or no
+    /// stage has ended.
+    pub(super) fn of(
+        scene: &str,
+        stem: &str,
+        mesh: &InterfaceMesh,
+        interface: usize,
+        ends: &[StageEnd],
+    ) -> Option<Self> {
+        let axis = longest(mesh)?;
+        let places: Vec<f64> = mesh.positions.iter().map(|p| p[axis]).collect();
+        let one = |end: &StageEnd| {
+            let fields = end.interfaces.get(interface)?;
+            let average = |values| averaged(&places, &mesh.areas, values).into_iter().unzip();
+            let (along, normal) = average(&fields.mean_normal_traction);
+            let (_, shear): (Vec<f64>, _) = average(&fields.mean_shear_traction);
+            Some(AtEnd { name: end.name.clone(), time: end.time, along, normal, shear })
+        };
+        let stages: Vec<AtEnd> = ends.iter().filter_map(one).collect();
+        (!stages.is_empty()).then(|| Self {
+            file: format!("{stem}_tractions"),
+            title: scene.into(),
+            name: mesh.name.clone(),
+            axis: ["x", "y", "z"][axis].into(),
+            ends: bounds(&places),
+            stages,
+        })
+    }
+
+    /// Normal (solid) and shear traction (dashed) at the ends of stages within a window of time; `None` if there are none.
+    pub(super) fn figure(&self, paper: Paper, window: Option<(f64, f64)>) -> Option<Figure> {
+        let curves: Vec<Curve> = self
+            .curves()
+            .into_iter()
+            .filter(|(time, _)| window.is_none_or(|(a, b)| a <= *time && *time <= b))
+            .map(|c| c.1)
+            .collect();
+        if curves.is_empty() {
+            return None;
+        }
+        let values = || curves.iter().flat_map(|curve| curve.points.iter()).map(|p| p.1);
+        let largest = values().map(f64::abs).filter(|v| v.is_finite()).fold(0.0, f64::max);
+        let (lo, hi) = self.ends;
+        let (stress, length) = (STRESS.of(largest), LENGTH.of(lo.abs().max(hi.abs())));
+        let label = format!("{} [{}]", self.axis, length.name);
+        let frame = Frame {
+            at: AT,
+            size: paper.frame(SIZE, (AT.0 + LEGEND, AT.1 + BELOW)),
+            x: Axis::exact((lo / length.factor, hi / length.factor), label),
+            y: Axis::linear(values().map(|v| v / stress.factor), 0.05, format!("Traction [{}]", stress.name)),
+        };
+        let mut figure = Figure::new(AT.0 + frame.size.0 + LEGEND, AT.1 + frame.size.1 + BELOW);
+        title(&mut figure, &frame, &self.title, &self.name);
+        frame.grid(&mut figure);
+        for Curve { entry, points } in &curves {
+            let finite = points.iter().filter(|(_, v)| v.is_finite());
+            let line: Vec<Point> =
+                finite.map(|(x, v)| frame.point(x / length.factor, v / stress.factor)).collect();
+            figure.dashed(line, entry.dash, 1.8, entry.colour);
+        }
+        frame.draw(&mut figure);
+        legend(&mut figure, &frame, curves.into_iter().map(|curve| curve.entry));
+        Some(figure)
+    }
+
+    /// Two curves for the end of each stage, with its time.
+    fn curves(&self) -> Vec<(f64, Curve)> {
+        let mut curves = Vec::with_capacity(2 * self.stages.len());
+        for (i, end) in self.stages.iter().enumerate() {
+            let colour = viridis(0.25 + 0.5 * i as f64 / (self.stages.len().max(2) - 1) as f64);
+            for (name, values, dashed) in [("normal", &end.normal, false), ("shear", &end.shear, true)] {
+                let dash: Dash = if dashed { &[6.0, 4.0] } else { &[] };
+                let entry = Entry { name: format!("{name}, end of “{}”", end.name), colour, dash };
+                let points = end.along.iter().copied().zip(values.iter().copied()).collect();
+                curves.push((end.time, Curve { entry, points }));
+            }
+        }
+        curves
+    }
+}
 
 /// Curve of a traction along the interface.
 struct Curve {
     entry: Entry,
     /// Position \[m\] and traction \[Pa\].
     points: Vec<Point>,
-}
-
-/// Normal (solid) and shear traction (dashed) along the longest extent of the interface, averaged across it by area. `None` if
-/// there is nothing to draw.
-pub(super) fn tractions(
-    scene: &str,
-    mesh: &InterfaceMesh,
-    interface: usize,
-    ends: &[StageEnd],
-) -> Option<Figure> {
-    let axis = longest(mesh)?;
-    let places: Vec<f64> = mesh.positions.iter().map(|p| p[axis]).collect();
-    let curves = curves(mesh, &places, interface, ends);
-    if curves.is_empty() {
-        return None;
-    }
-    let values = || curves.iter().flat_map(|curve| curve.points.iter()).map(|p| p.1);
-    let largest = values().map(f64::abs).filter(|v| v.is_finite()).fold(0.0, f64::max);
-    let (stress, length) =
-        (STRESS.of(largest), LENGTH.of(places.iter().fold(0.0, |most, v| most.max(v.abs()))));
-    let (lo, hi) = bounds(&places);
-    let label = format!("{} [{}]", ["x", "y", "z"][axis], length.name);
-    let frame = Frame {
-        at: (96.0, 40.0),
-        size: (560.0, 380.0),
-        x: Axis::exact((lo / length.factor, hi / length.factor), label),
-        y: Axis::linear(values().map(|v| v / stress.factor), 0.05, format!("Traction [{}]", stress.name)),
-    };
-    let mut figure = Figure::new(96.0 + 560.0 + LEGEND, 480.0);
-    title(&mut figure, &frame, scene, &mesh.name);
-    frame.grid(&mut figure);
-    for Curve { entry, points } in &curves {
-        let finite = points.iter().filter(|(_, v)| v.is_finite());
-        let line: Vec<Point> =
-            finite.map(|(x, v)| frame.point(x / length.factor, v / stress.factor)).collect();
-        figure.dashed(line, entry.dash, 1.8, entry.colour);
-    }
-    frame.draw(&mut figure);
-    legend(&mut figure, &frame, curves.into_iter().map(|curve| curve.entry));
-    Some(figure)
-}
-
-/// Two curves for the end of each stage.
-fn curves(mesh: &InterfaceMesh, places: &[f64], interface: usize, ends: &[StageEnd]) -> Vec<Curve> {
-    let mut curves = Vec::with_capacity(2 * ends.len());
-    for (i, end) in ends.iter().enumerate() {
-        let Some(fields) = end.interfaces.get(interface) else { continue };
-        let colour = viridis(0.25 + 0.5 * i as f64 / (ends.len().max(2) - 1) as f64);
-        for (name, values, dashed) in
-            [("normal", &fields.mean_normal_traction, false), ("shear", &fields.mean_shear_traction, true)]
-        {
-            let dash: Dash = if dashed { &[6.0, 4.0] } else { &[] };
-            let entry = Entry { name: format!("{name}, end of “{}”", end.name), colour, dash };
-            curves.push(Curve { entry, points: averaged(places, &mesh.areas, values) });
-        }
-    }
-    curves
 }
 
 /// Axis along which the interface is longest; `None` if it is a point.

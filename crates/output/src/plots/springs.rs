@@ -1,28 +1,32 @@
 //! Macroscopic friction against the displacement of load points.
 
-use super::chart::{Chart, Measure};
-use super::figure::Figure;
+use super::chart::Measure;
+use super::sheet::{Curves, Points};
 use crate::Recorder;
 
 /// Macroscopic friction of each spring against the way of its load point \[m\].
 #[must_use]
-pub fn chart(title: &str, curves: Vec<(String, Vec<(f64, f64)>)>) -> Chart {
-    Chart {
+pub fn curves(title: &str, curves: Vec<(String, Points)>) -> Curves {
+    Curves {
         file: "springs_friction".into(),
         title: title.into(),
-        x: ("Displacement of the load point", Measure::Length),
-        y: ("Macroscopic friction", Measure::Number),
+        x: ("Displacement of the load point".into(), Measure::Length),
+        y: ("Macroscopic friction".into(), Measure::Number),
         curves,
+        event: None,
+        without_zero: false,
+        until: None,
     }
 }
 
-/// Force of each spring over the normal forces on all interfaces, against the way of its load point; `None` without springs.
-pub(super) fn friction(recorder: &Recorder) -> Option<Figure> {
+/// Force of each spring over the normal forces on all interfaces, against the way of its load point.
+pub(super) fn friction(recorder: &Recorder) -> Curves {
     let setup = recorder.setup();
-    let curve = |k: usize| {
-        let all = recorder.samples().iter().filter_map(|s| *s.springs.get(k)?);
-        all.map(|s| (s.load_point.abs(), s.friction)).collect()
+    let of = |k: usize| {
+        let all = recorder.times().iter().zip(recorder.samples());
+        let all = all.filter_map(|(time, s)| Some((*time, (*s.springs.get(k)?)?)));
+        let (times, (x, y)) = all.map(|(time, s)| (time, (s.load_point.abs(), s.friction))).unzip();
+        Points::Kept { times, x, y }
     };
-    let curves = setup.springs.iter().enumerate().map(|(k, mark)| (mark.name(), curve(k))).collect();
-    chart(&setup.title, curves).figure()
+    curves(&setup.title, setup.springs.iter().enumerate().map(|(k, mark)| (mark.name(), of(k))).collect())
 }

@@ -1,20 +1,23 @@
 //! Rupture times: over the distance along a line, or as contours on a surface.
 
 use super::isolines::isolines;
-use super::{AT, Line, ROOM, RupturedFault, Ruptures, SIZE, Shape, Surface};
+use super::{AT, BELOW, Line, ROOM, RupturedFault, Ruptures, SIZE, Shape, Surface, room};
 use crate::plots::axes::{Axis, Frame};
 use crate::plots::colour::{INK, PAPER, viridis};
 use crate::plots::field::Bar;
 use crate::plots::figure::{Anchor, Figure, Point};
+use crate::plots::paper::Paper;
 use crate::plots::title::title;
 use crate::plots::units::TIME;
 
 /// As many contours at most: every half second up to 12 s, as the community draws them.
 const CONTOURS: usize = 24;
+/// Width right of a frame without a colour bar, for half of a number.
+const RIGHT: f64 = 40.0;
 
 impl Ruptures<'_> {
     pub(super) fn arrivals(&self, fault: &RupturedFault) -> Option<Figure> {
-        arrivals(&self.title, fault)
+        arrivals(&self.title, fault, self.paper)
     }
 }
 
@@ -24,23 +27,29 @@ pub(super) fn last(arrivals: &[f64]) -> Option<f64> {
 }
 
 /// Rupture times of a fault; `None` where nothing ruptured.
-pub(super) fn arrivals(scene: &str, fault: &RupturedFault) -> Option<Figure> {
+pub(super) fn arrivals(scene: &str, fault: &RupturedFault, paper: Paper) -> Option<Figure> {
     let last = last(&fault.arrivals)?;
     let part = format!("rupture times of {}", fault.name);
     match &fault.shape {
-        Shape::Line(line) => front(scene, &part, line, &fault.arrivals, last),
-        Shape::Surface(surface) => contours(scene, &part, surface, &fault.arrivals, last),
+        Shape::Line(line) => front((scene, &part), line, (&fault.arrivals, last), paper),
+        Shape::Surface(surface) => contours((scene, &part), surface, (&fault.arrivals, last), paper),
     }
 }
 
 /// Curve of rupture times, interrupted where the line did not rupture.
-fn front(scene: &str, part: &str, line: &Line, arrivals: &[f64], last: f64) -> Option<Figure> {
+fn front(
+    (scene, part): (&str, &str),
+    line: &Line,
+    (arrivals, last): (&[f64], f64),
+    paper: Paper,
+) -> Option<Figure> {
     let (x, scale) = line.axis(false)?;
     let unit = TIME.of(last);
     let y =
         Axis::linear([0.0, last / unit.factor].into_iter(), 0.05, format!("Rupture time [{}]", unit.name));
-    let frame = Frame { at: AT, size: SIZE, x, y };
-    let mut figure = Figure::new(AT.0 + SIZE.0 + 40.0, AT.1 + SIZE.1 + 60.0);
+    let size = paper.frame(SIZE, (AT.0 + RIGHT, AT.1 + BELOW[0]));
+    let frame = Frame { at: AT, size, x, y };
+    let mut figure = Figure::new(AT.0 + size.0 + RIGHT, AT.1 + size.1 + BELOW[0]);
     title(&mut figure, &frame, scene, part);
     frame.grid(&mut figure);
     let order = line.order();
@@ -53,11 +62,16 @@ fn front(scene: &str, part: &str, line: &Line, arrivals: &[f64], last: f64) -> O
 }
 
 /// Map of rupture times with lines of equal time.
-fn contours(scene: &str, part: &str, surface: &Surface, arrivals: &[f64], last: f64) -> Option<Figure> {
-    let frame = surface.frame(AT, SIZE)?;
+fn contours(
+    (scene, part): (&str, &str),
+    surface: &Surface,
+    (arrivals, last): (&[f64], f64),
+    paper: Paper,
+) -> Option<Figure> {
+    let frame = surface.frame(AT, room(paper))?;
     let unit = TIME.of(last);
     let mut figure =
-        Figure::new(AT.0 + frame.size.0.max(200.0) + ROOM, AT.1 + frame.size.1.max(190.0) + 84.0);
+        Figure::new(AT.0 + frame.size.0.max(200.0) + ROOM, AT.1 + frame.size.1.max(190.0) + BELOW[1]);
     title(&mut figure, &frame, scene, part);
     figure.image(surface.image(&frame, arrivals, (0.0, last)));
     let apart = fronts(&mut figure, &frame, surface, arrivals, last);
@@ -101,7 +115,7 @@ mod tests {
     fn a_front_is_interrupted_where_nothing_ruptured() {
         let mut fault = line();
         fault.arrivals[5] = f64::NAN;
-        let figure = arrivals("t", &fault).unwrap();
+        let figure = arrivals("t", &fault, Paper::default()).unwrap();
         let curves = figure.shapes.iter().filter_map(|s| match s {
             Drawn::Line { points, width, .. } if *width == 1.6 => Some(points.len()),
             _ => None,

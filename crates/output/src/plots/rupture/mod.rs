@@ -10,19 +10,21 @@ mod strip;
 mod successive;
 mod surface;
 
-pub use slip::EventOnFault;
 pub use surface::Surface;
 
 use super::super::OutputError;
 use super::axes::Axis;
 use super::figure::{Figure, Point};
+use super::paper::Paper;
 use super::units::LENGTH;
 use crate::stems;
+use serde::{Deserialize, Serialize};
+pub(super) use slip::EventOnFault;
 use std::ops::Range;
 pub(super) use successive::{moment, velocities};
 
 /// Points of a fault as a figure shows them.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Shape {
     /// Along a line.
     Line(Line),
@@ -31,7 +33,7 @@ pub enum Shape {
 }
 
 /// Points along a line.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Line {
     /// Name of the coordinate.
     pub label: String,
@@ -43,7 +45,7 @@ pub struct Line {
 
 /// A fault and the times at which it ruptured.
 #[derive(Clone, Debug)]
-pub struct RupturedFault {
+pub(super) struct RupturedFault {
     /// Name.
     pub name: String,
     /// Range of its points in the profiles.
@@ -55,7 +57,7 @@ pub struct RupturedFault {
 }
 
 /// Access to the profiles of a run.
-pub trait Profiles {
+pub(super) trait Profiles {
     /// Passes the times \[s\] and the slip rates of all points \[m/s\] to `look`, from the first to the last.
     ///
     /// # Errors
@@ -64,13 +66,15 @@ pub trait Profiles {
 }
 
 /// Plots of a run.
-pub struct Ruptures<'a> {
+pub(super) struct Ruptures<'a> {
     /// Title of the scene.
     pub title: String,
     /// Faults.
     pub faults: Vec<RupturedFault>,
     /// Profiles of slip rate.
     pub rates: &'a dyn Profiles,
+    /// Size of the figures.
+    pub paper: Paper,
 }
 
 /// Position of the frame.
@@ -79,6 +83,13 @@ const AT: Point = (96.0, 40.0);
 const SIZE: Point = (560.0, 380.0);
 /// Width right of the frame for a colour bar.
 const ROOM: f64 = 150.0;
+/// Height below the frame for numbers and a label, and for a note below them.
+const BELOW: [f64; 2] = [60.0, 84.0];
+
+/// Largest size of a map with a colour bar.
+fn room(paper: Paper) -> Point {
+    paper.frame(SIZE, (AT.0 + ROOM, AT.1 + BELOW[1]))
+}
 
 type Drawn = Result<Option<Figure>, OutputError>;
 
@@ -158,7 +169,8 @@ mod tests {
     #[test]
     fn every_fault_has_its_figures() {
         let kept = pulse();
-        let ruptures = Ruptures { title: "t".into(), faults: vec![line()], rates: &kept };
+        let ruptures =
+            Ruptures { title: "t".into(), faults: vec![line()], rates: &kept, paper: Paper::default() };
         let names: Vec<String> = ruptures.figures().unwrap().into_iter().map(|f| f.0).collect();
         assert_eq!(names, ["main_rupture_times", "main_slip_rate", "main_film"]);
     }
@@ -167,7 +179,8 @@ mod tests {
     fn a_run_without_profiles_and_without_rupture_has_no_figures() {
         let kept = Kept(Vec::new());
         let fault = RupturedFault { arrivals: vec![f64::NAN; 41], ..line() };
-        let ruptures = Ruptures { title: "t".into(), faults: vec![fault], rates: &kept };
+        let ruptures =
+            Ruptures { title: "t".into(), faults: vec![fault], rates: &kept, paper: Paper::default() };
         assert!(ruptures.figures().unwrap().is_empty());
     }
 

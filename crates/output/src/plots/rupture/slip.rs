@@ -1,16 +1,17 @@
 //! Slip of an event on a surface, with lines of equal rupture time.
 
 use super::arrivals::{arrivals, fronts, last};
-use super::{AT, ROOM, RupturedFault, SIZE, Shape, Surface};
+use super::{AT, BELOW, ROOM, RupturedFault, Shape, Surface, room};
 use crate::plots::colour::INK;
 use crate::plots::field::Bar;
 use crate::plots::figure::{Anchor, Figure};
+use crate::plots::paper::Paper;
 use crate::plots::title::title;
 use crate::plots::units::LENGTH;
 
 /// A fault in an event.
 #[derive(Clone, Debug)]
-pub struct EventOnFault {
+pub(in crate::plots) struct EventOnFault {
     /// Stem of the file names.
     pub stem: String,
     /// Title: the scene and the event.
@@ -23,10 +24,10 @@ pub struct EventOnFault {
 
 impl EventOnFault {
     /// Rupture times, and on a surface the slip, with their file names; without those of which there is nothing to draw.
-    pub(in crate::plots) fn figures(&self) -> Vec<(String, Figure)> {
-        let times = arrivals(&self.title, &self.fault);
+    pub(in crate::plots) fn figures(&self, paper: Paper) -> Vec<(String, Figure)> {
+        let times = arrivals(&self.title, &self.fault, paper);
         let slip = match &self.fault.shape {
-            Shape::Surface(surface) => self.slip_on(surface),
+            Shape::Surface(surface) => self.slip_on(surface, paper),
             Shape::Line(_) => None,
         };
         let named = [("rupture_times", times), ("slip", slip)].into_iter();
@@ -34,13 +35,13 @@ impl EventOnFault {
     }
 
     /// Map of the slip.
-    fn slip_on(&self, surface: &Surface) -> Option<Figure> {
+    fn slip_on(&self, surface: &Surface, paper: Paper) -> Option<Figure> {
         let sizes: Vec<f64> = self.slip.iter().map(|s| s.abs()).collect();
         let most = sizes.iter().copied().reduce(f64::max).filter(|most| *most > 0.0)?;
-        let frame = surface.frame(AT, SIZE)?;
+        let frame = surface.frame(AT, room(paper))?;
         let unit = LENGTH.of(most);
         let mut figure =
-            Figure::new(AT.0 + frame.size.0.max(200.0) + ROOM, AT.1 + frame.size.1.max(190.0) + 84.0);
+            Figure::new(AT.0 + frame.size.0.max(200.0) + ROOM, AT.1 + frame.size.1.max(190.0) + BELOW[1]);
         title(&mut figure, &frame, &self.title, &format!("slip of {}", self.fault.name));
         figure.image(surface.image(&frame, &sizes, (0.0, most)));
         let ruptured = &self.fault.arrivals;
@@ -69,7 +70,7 @@ mod tests {
         let slip = vec![-1.0; 41];
         let of = |fault| EventOnFault { stem: "s".into(), title: "t".into(), fault, slip: slip.clone() };
         let names = |event: EventOnFault| -> Vec<String> {
-            event.figures().into_iter().map(|figure| figure.0).collect()
+            event.figures(Paper::default()).into_iter().map(|figure| figure.0).collect()
         };
         assert_eq!(names(of(line())), ["s_rupture_times"]);
         let fault = RupturedFault { shape: Shape::Surface(surface), ..line() };

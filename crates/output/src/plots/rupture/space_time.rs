@@ -1,6 +1,6 @@
 //! Slip rate of a line over time.
 
-use super::{AT, Drawn, Line, ROOM, RupturedFault, Ruptures, SIZE, Shape};
+use super::{AT, BELOW, Drawn, Line, ROOM, RupturedFault, Ruptures, SIZE, Shape};
 use crate::plots::axes::{Axis, Frame};
 use crate::plots::colour::viridis;
 use crate::plots::field::Bar;
@@ -32,8 +32,9 @@ impl Ruptures<'_> {
         let Some((hi, most)) = covered(&fastest) else { return Ok(None) };
         let (time, unit) = (TIME.of(last), VELOCITY.of(most));
         let x = Axis::exact((first / time.factor, last / time.factor), format!("Time [{}]", time.name));
-        let frame = Frame { at: AT, size: SIZE, x, y };
-        let mut figure = Figure::new(AT.0 + SIZE.0 + ROOM, AT.1 + SIZE.1 + 60.0);
+        let size = self.paper.frame(SIZE, (AT.0 + ROOM, AT.1 + BELOW[0]));
+        let frame = Frame { at: AT, size, x, y };
+        let mut figure = Figure::new(AT.0 + size.0 + ROOM, AT.1 + size.1 + BELOW[0]);
         title(&mut figure, &frame, &self.title, &format!("slip rate of {}", fault.name));
         let rgb = fastest.iter().map(|rate| viridis(rate / hi)).collect();
         figure.image(Image { at: frame.at, size: frame.size, columns, rgb });
@@ -84,7 +85,12 @@ mod tests {
             // Shifted, so that up and down differ.
             line.along.iter_mut().for_each(|x| *x += 500.0);
         }
-        let ruptures = Ruptures { title: "t".into(), faults: vec![fault], rates: &kept };
+        let ruptures = Ruptures {
+            title: "t".into(),
+            faults: vec![fault],
+            rates: &kept,
+            paper: crate::plots::paper::Paper::default(),
+        };
         let figure = ruptures.space_time(&ruptures.faults[0]).unwrap().unwrap();
         let image = figure.shapes.iter().find_map(|s| match s {
             Form::Image(image) if image.columns > 1 => Some(image),

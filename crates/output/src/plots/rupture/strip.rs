@@ -4,6 +4,7 @@ use crate::plots::axes::{Axis, Frame};
 use crate::plots::colour::{INK, viridis};
 use crate::plots::field::Bar;
 use crate::plots::figure::{Anchor, Figure, Image, Point};
+use crate::plots::paper::Paper;
 use crate::plots::title::title;
 
 /// Content of a panel.
@@ -34,6 +35,23 @@ const AT: Point = (96.0, 40.0);
 const GAP: f64 = 15.0;
 /// Width right of the panels without and with a colour bar; the times stand there.
 const ROOMS: [f64; 2] = [96.0, 230.0];
+/// Height below the panels for numbers and a label.
+const BELOW: f64 = 60.0;
+/// Least height of a panel on paper of a given size.
+const LEAST: f64 = 30.0;
+
+/// Largest number of panels that fit on the paper.
+pub(super) fn most(paper: Paper, usual: usize) -> usize {
+    let room = paper.frame((0.0, f64::INFINITY), (0.0, AT.1 + BELOW)).1;
+    usual.min(((room + GAP) / (LEAST + GAP)).max(1.0) as usize)
+}
+
+/// Largest size of each of this many panels, with or without a colour bar.
+pub(super) fn panel(paper: Paper, count: usize, usual: Point, bar: bool) -> Point {
+    let between = GAP * count.saturating_sub(1) as f64;
+    let room = paper.frame(usual, (AT.0 + ROOMS[usize::from(bar)], AT.1 + BELOW + between));
+    if paper.is_asked() { (room.0, room.1 / count.max(1) as f64) } else { usual }
+}
 
 impl Strip<'_> {
     /// The figure.
@@ -41,14 +59,14 @@ impl Strip<'_> {
         let Self { title: (scene, part), axes: (x, y), size, panels, bar } = self;
         let height = panels.len() as f64 * (size.1 + GAP) - GAP;
         let room = ROOMS[usize::from(bar.is_some())];
-        let mut figure = Figure::new(AT.0 + size.0 + room, AT.1 + height.max(190.0) + 60.0);
+        let mut figure = Figure::new(AT.0 + size.0 + room, AT.1 + height.max(190.0) + BELOW);
         let whole = Frame { at: AT, size: (size.0, height), x: x.clone(), y: y.clone() };
         title(&mut figure, &whole, scene, part);
         let last = panels.len().saturating_sub(1);
         for (k, (time, content)) in panels.into_iter().enumerate() {
             let at = (AT.0, AT.1 + k as f64 * (size.1 + GAP));
             let frame = Frame { at, size, x: x.clone(), y: y.clone() };
-            panel(&mut figure, &frame, content);
+            draw(&mut figure, &frame, content);
             frame.draw_part(&mut figure, k == last);
             figure.text((AT.0 + size.0 + 10.0, at.1 + size.1 / 2.0), time, 12.5, Anchor::Start, INK);
         }
@@ -61,7 +79,7 @@ impl Strip<'_> {
     }
 }
 
-fn panel(figure: &mut Figure, frame: &Frame, content: Content) {
+fn draw(figure: &mut Figure, frame: &Frame, content: Content) {
     match content {
         Content::Curve(points) => {
             frame.grid(figure);

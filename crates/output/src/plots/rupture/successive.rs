@@ -1,11 +1,12 @@
 //! Film strips: slip rate, or the velocity of bodies, at successive times.
 
 use super::space_time::covered;
-use super::strip::{Content, Strip};
+use super::strip::{self, Content, Strip};
 use super::{Drawn, Line, RupturedFault, Ruptures, Shape, Surface};
 use crate::plots::axes::Axis;
-use crate::plots::field::{Bar, Shown};
+use crate::plots::field::{Bar, Seen};
 use crate::plots::figure::{Figure, Point};
+use crate::plots::paper::Paper;
 use crate::plots::units::{TIME, VELOCITY};
 
 /// Number of panels.
@@ -31,7 +32,7 @@ impl Ruptures<'_> {
     /// Slip rates at successive times; `None` where nothing slips.
     pub(super) fn successive(&self, fault: &RupturedFault) -> Drawn {
         let Some((count, _, last)) = self.span()? else { return Ok(None) };
-        let wanted = chosen(count, PANELS);
+        let wanted = chosen(count, strip::most(self.paper, PANELS));
         let (mut row, mut rows, mut most) = (0, Vec::new(), 0.0_f64);
         self.rates.each(&mut |time, rates| {
             if wanted.contains(&row) {
@@ -46,8 +47,8 @@ impl Ruptures<'_> {
         }
         let (part, shown) = (format!("slip rate of {}", fault.name), Chosen { rows, most });
         Ok(match &fault.shape {
-            Shape::Line(line) => curves((&self.title, &part), line, shown, last),
-            Shape::Surface(surface) => maps((&self.title, &part), surface, shown, last),
+            Shape::Line(line) => curves((&self.title, &part), line, (shown, last), self.paper),
+            Shape::Surface(surface) => maps((&self.title, &part), surface, (shown, last), self.paper),
         })
     }
 }
@@ -64,7 +65,7 @@ pub(in crate::plots) fn moment(time: f64, last: f64) -> String {
     format!("{:.DIGITS$} {}", time / unit.factor, unit.name)
 }
 
-fn curves(title: (&str, &str), line: &Line, shown: Chosen, last: f64) -> Option<Figure> {
+fn curves(title: (&str, &str), line: &Line, (shown, last): (Chosen, f64), paper: Paper) -> Option<Figure> {
     let (x, scale) = line.axis(false)?;
     let unit = VELOCITY.of(shown.most);
     let y =
@@ -74,12 +75,18 @@ fn curves(title: (&str, &str), line: &Line, shown: Chosen, last: f64) -> Option<
         let points = order.iter().map(|&p| (line.along[p] / scale, rates[p] / unit.factor)).collect();
         (moment(time, last), Content::Curve(points))
     };
+    let size = strip::panel(paper, shown.rows.len(), CURVE, false);
     let panels = shown.rows.into_iter().map(panel).collect();
-    Some(Strip { title, axes: (x, y), size: CURVE, panels, bar: None }.draw())
+    Some(Strip { title, axes: (x, y), size, panels, bar: None }.draw())
 }
 
-fn maps(title: (&str, &str), surface: &Surface, shown: Chosen, last: f64) -> Option<Figure> {
-    let frame = surface.frame((0.0, 0.0), MAP)?;
+fn maps(
+    title: (&str, &str),
+    surface: &Surface,
+    (shown, last): (Chosen, f64),
+    paper: Paper,
+) -> Option<Figure> {
+    let frame = surface.frame((0.0, 0.0), strip::panel(paper, shown.rows.len(), MAP, true))?;
     let all: Vec<f64> = shown.rows.iter().flat_map(|row| row.1.iter().copied()).collect();
     let (hi, most) = covered(&all)?;
     let unit = VELOCITY.of(most);
@@ -96,21 +103,24 @@ fn maps(title: (&str, &str), surface: &Surface, shown: Chosen, last: f64) -> Opt
 /// Velocities of bodies at successive times, in common colours; `None` where nothing moves or can be drawn.
 pub(in crate::plots) fn velocities(
     scene: &str,
-    shown: &Shown<'_>,
+    shown: &Seen,
     frames: &[(f64, Vec<f64>)],
+    paper: Paper,
 ) -> Option<Figure> {
     let last = frames.last()?.0;
     let all: Vec<f64> = frames.iter().flat_map(|frame| frame.1.iter().copied()).collect();
     let (hi, most) = covered(&all)?;
-    let wide = shown.frame(MAP);
-    let (frame, panels) = if wide.size.0 < wide.size.1 { (shown.frame(TALL), FEW) } else { (wide, PANELS) };
+    let upright = shown.frame(MAP).is_some_and(|frame| frame.size.0 < frame.size.1);
+    let (room, panels) = if upright { (TALL, FEW) } else { (MAP, PANELS) };
+    let panels = strip::most(paper, panels);
+    let chosen: Vec<usize> = chosen(frames.len().max(2), panels);
+    let frame = shown.frame(strip::panel(paper, chosen.len(), room, true))?;
     let unit = VELOCITY.of(most);
     let panel = |k: usize| {
         let (time, values) = &frames[k];
         (moment(*time, last), Content::Map(shown.image(&frame, values, hi)))
     };
-    let panels =
-        chosen(frames.len().max(2), panels).into_iter().map(|k| panel(k.min(frames.len() - 1))).collect();
+    let panels = chosen.into_iter().map(|k| panel(k.min(frames.len() - 1))).collect();
     let above = (most > hi).then(|| format!("max {:.1}", most / unit.factor));
     let bar = Some(Bar { range: (0.0, hi / unit.factor), above, label: format!("Velocity [{}]", unit.name) });
     let title = (scene, "particle velocity");
@@ -135,7 +145,8 @@ mod tests {
         let places = (0..41).map(|k| (f64::from(k) * 100.0, f64::from(k % 2) * 1e3)).collect();
         let faces = (0..38).map(|k| vec![k, k + 1, k + 2]).collect();
         fault.shape = Shape::Surface(Surface { places, faces, labels: ["x".into(), "z".into()] });
-        let ruptures = Ruptures { title: "t".into(), faults: vec![fault], rates: &kept };
+        let ruptures =
+            Ruptures { title: "t".into(), faults: vec![fault], rates: &kept, paper: Paper::default() };
         let figure = ruptures.successive(&ruptures.faults[0]).unwrap().unwrap();
         let images = figure.shapes.iter().filter(|s| matches!(s, crate::plots::figure::Shape::Image(_)));
         // Eight panels and the colour bar.

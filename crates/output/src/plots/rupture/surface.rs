@@ -5,9 +5,10 @@ use crate::plots::colour::PAPER;
 use crate::plots::field::{Colours, FINE, fill};
 use crate::plots::figure::{Image, Point};
 use crate::plots::units::{LENGTH, NUMBER};
+use serde::{Deserialize, Serialize};
 
 /// Points on a surface.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Surface {
     /// Coordinates of the points in the surface, to the right and up \[m\].
     pub places: Vec<(f64, f64)>,

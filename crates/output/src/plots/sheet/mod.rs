@@ -1,0 +1,423 @@
+//! The figures of a run: what they need beside the tables of the run, kept in its output directory, and the drawing of them. A
+//! run draws its figures from what it has written, so that they can be drawn again without it.
+
+mod asked;
+mod curves;
+mod tables;
+
+pub use asked::{Asked, Format};
+pub use curves::{Curves, Points};
+
+use super::curves::Histories;
+use super::cycles::{Cycles, Line};
+use super::field::{self, Seen};
+use super::figure::Figure;
+use super::ground::{Coordinates, GroundMap};
+use super::panel::EventPanel;
+use super::paper::Paper;
+use super::profile::Tractions;
+use super::rupture::{self, EventOnFault, RupturedFault, Ruptures, Shape};
+use crate::{OutputError, atomic, numbers};
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use tables::Tables;
+
+/// Version of what is kept.
+const VERSION: u32 = 1;
+
+/// What the figures of a run need beside its tables.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Sheet {
+    version: u32,
+    /// Title of the scene.
+    pub title: String,
+    /// Times of the start and the end of the run \[s\].
+    pub span: (f64, f64),
+    /// True if faults are surfaces.
+    pub in_space: bool,
+    /// Faults as figures show them, to which plots refer by number.
+    pub shapes: Vec<Shape>,
+    /// Visible parts of meshes, to which plots refer by number.
+    pub meshes: Vec<Seen>,
+    /// Plots.
+    pub plots: Vec<Plot>,
+}
+
+/// An event with figures of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OfEvent {
+    /// Number, from 0.
+    pub number: usize,
+    /// Onset \[s\].
+    pub onset: f64,
+}
+
+/// A plot, of one figure or several.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub enum Plot {
+    /// Curves.
+    Curves(Curves),
+    /// Faults through earthquake cycles.
+    Cycles(Through),
+    /// A fault in an event.
+    Event(InEvent),
+    /// Displacement of the ground over an event.
+    Ground(Ground),
+    /// Magnitudes of events.
+    Panel(EventPanel),
+    /// Dynamic rupture of faults.
+    Ruptures(Vec<Fault>),
+    /// Velocity of bodies.
+    Velocities(Velocities),
+    /// Stress of bodies at the end of a stage.
+    Mises(Mises),
+    /// Histories at the probes of an interface.
+    Histories(Histories),
+    /// Tractions along an interface.
+    Tractions(Tractions),
+}
+
+/// Faults through earthquake cycles, from the tables of the run.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Through {
+    /// Faults along lines.
+    pub lines: Vec<Line>,
+    /// Times of onset and end of the events \[s\].
+    pub events: Vec<(f64, f64)>,
+    /// Time between slip contours, between events and during events, as text.
+    pub intervals: [String; 2],
+}
+
+/// A fault with its rupture times.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Fault {
+    /// Name.
+    pub name: String,
+    /// Range of its points in profiles.
+    pub points: Range<usize>,
+    /// Number of its shape.
+    pub shape: usize,
+    /// Rupture times of its points \[s\]; NaN where it did not rupture.
+    #[serde(deserialize_with = "numbers::or_nan")]
+    pub arrivals: Vec<f64>,
+}
+
+/// A fault in an event.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct InEvent {
+    /// Stem of the file names.
+    pub stem: String,
+    /// The event.
+    pub event: OfEvent,
+    /// The fault with its rupture times since the onset.
+    pub fault: Fault,
+    /// Slip of its points \[m\].
+    #[serde(deserialize_with = "numbers::or_nan")]
+    pub slip: Vec<f64>,
+}
+
+/// Displacement of the ground over an event, from a table.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Ground {
+    /// Stem of the file names.
+    pub file: String,
+    /// The event.
+    pub event: OfEvent,
+    /// Unit of the coordinates.
+    pub coordinates: Coordinates,
+    /// Names and values of the coordinates, to the right and up.
+    pub axes: [(String, Vec<f64>); 2],
+    /// Path of the table.
+    pub table: String,
+    /// Columns of the displacements to the right, up the page and out of it.
+    pub columns: [usize; 3],
+    /// Edges of the faults.
+    pub edges: Vec<[(f64, f64); 2]>,
+}
+
+/// Magnitudes of the velocity at the nodes of a mesh at some times.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Velocities {
+    /// Number of the mesh.
+    pub mesh: usize,
+    /// Times \[s\] and velocities \[m/s\].
+    pub frames: Vec<(f64, Vec<f64>)>,
+}
+
+/// Mises stress at the end of a stage.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Mises {
+    /// Stem of the file names.
+    pub file: String,
+    /// Name of the stage.
+    pub stage: String,
+    /// Its end \[s\].
+    pub time: f64,
+    /// Number of the mesh.
+    pub mesh: usize,
+    /// Stress at its nodes \[Pa\].
+    #[serde(deserialize_with = "numbers::or_nan")]
+    pub values: Vec<f64>,
+}
+
+/// A value with six digits, more than colours show.
+#[must_use]
+pub fn short(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}
+
+type Named = Vec<(String, Figure)>;
+
+impl Sheet {
+    /// Name of the file in the output directory.
+    pub const FILE: &'static str = "plots.json";
+
+    /// A sheet without plots of a run over a span of time \[s\].
+    #[must_use]
+    pub fn new(title: &str, span: (f64, f64), in_space: bool) -> Self {
+        let (shapes, meshes, plots) = (Vec::new(), Vec::new(), Vec::new());
+        Self { version: VERSION, title: title.into(), span, in_space, shapes, meshes, plots }
+    }
+
+    /// Writes the sheet into an output directory.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn write(&self, folder: &Path) -> Result<(), OutputError> {
+        let path = folder.join(Self::FILE);
+        let text = serde_json::to_string(self).map_err(|e| OutputError::write(&path, e.into()))?;
+        atomic::write(&path, text.as_bytes())
+    }
+
+    /// Reads a sheet.
+    ///
+    /// # Errors
+    /// The reason why the text is no sheet that this version reads.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        #[derive(Deserialize)]
+        struct Head {
+            version: u32,
+        }
+        let head: Head = serde_json::from_str(text).map_err(|e| e.to_string())?;
+        if head.version != VERSION {
+            return Err(format!("it has version {}, and this program reads version {VERSION}", head.version));
+        }
+        let sheet: Self = serde_json::from_str(text).map_err(|e| e.to_string())?;
+        if sheet.is_whole() { Ok(sheet) } else { Err("it refers to parts that it does not have".into()) }
+    }
+
+    /// True if all parts that plots refer to are there.
+    fn is_whole(&self) -> bool {
+        let fault = |f: &Fault| match self.shapes.get(f.shape) {
+            Some(Shape::Line(line)) => f.arrivals.len() == line.along.len(),
+            Some(Shape::Surface(surface)) => f.arrivals.len() == surface.places.len(),
+            None => false,
+        };
+        self.plots.iter().all(|plot| match plot {
+            Plot::Event(event) => fault(&event.fault) && event.slip.len() == event.fault.arrivals.len(),
+            Plot::Ruptures(faults) => faults.iter().all(fault),
+            Plot::Velocities(shown) => self
+                .meshes
+                .get(shown.mesh)
+                .is_some_and(|mesh| shown.frames.iter().all(|frame| frame.1.len() == mesh.nodes())),
+            Plot::Mises(shown) => {
+                self.meshes.get(shown.mesh).is_some_and(|m| m.nodes() == shown.values.len())
+            }
+            _ => true,
+        })
+    }
+
+    /// Number of a shape, which is added unless it is there.
+    pub fn shape(&mut self, shape: Shape) -> usize {
+        let found = self.shapes.iter().position(|other| *other == shape);
+        found.unwrap_or_else(|| {
+            self.shapes.push(shape);
+            self.shapes.len() - 1
+        })
+    }
+
+    /// Number of a visible part of a mesh, which is added unless it is there.
+    pub fn mesh(&mut self, mesh: Seen) -> usize {
+        let found = self.meshes.iter().position(|other| *other == mesh);
+        found.unwrap_or_else(|| {
+            self.meshes.push(mesh);
+            self.meshes.len() - 1
+        })
+    }
+
+    /// Numbers of the events with figures of their own, from 1.
+    #[must_use]
+    pub fn events(&self) -> Vec<usize> {
+        let mut numbers: Vec<usize> = self.plots.iter().filter_map(|p| Some(p.event()?.number + 1)).collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        numbers
+    }
+
+    /// Names of all figures whose tables can be read.
+    #[must_use]
+    pub fn names(&self, tables: &Path) -> Vec<String> {
+        let asked = Asked::default();
+        let readable = self.plots.iter().filter_map(|plot| self.figures(plot, tables, &asked).ok());
+        readable.flatten().map(|figure| figure.0).collect()
+    }
+
+    /// Draws the figures that are asked for from the tables in one folder into another; returns the files in the order written.
+    ///
+    /// # Errors
+    /// If a table cannot be read or a figure cannot be drawn or written.
+    pub fn draw(&self, tables: &Path, folder: &Path, asked: &Asked) -> Result<Vec<PathBuf>, OutputError> {
+        let (written, failed) = self.draw_what_can_be(tables, folder, asked)?;
+        failed.into_iter().next().map_or(Ok(written), Err)
+    }
+
+    /// Draws the figures that are asked for, except those whose tables cannot be read; returns the files in the order written, and
+    /// why the others are missing.
+    ///
+    /// # Errors
+    /// If a figure cannot be drawn or written.
+    pub fn draw_what_can_be(
+        &self,
+        tables: &Path,
+        folder: &Path,
+        asked: &Asked,
+    ) -> Result<(Vec<PathBuf>, Vec<OutputError>), OutputError> {
+        atomic::create_dir(folder)?;
+        let (mut written, mut failed, paper) = (Vec::new(), Vec::new(), asked.paper());
+        for plot in &self.plots {
+            let figures = match self.figures(plot, tables, asked) {
+                Ok(figures) => figures,
+                Err(why) => {
+                    failed.push(why);
+                    continue;
+                }
+            };
+            let wanted = figures.into_iter().filter(|(name, _)| asked.wants(name));
+            for (name, figure) in wanted {
+                let figure = paper.filled(figure);
+                for format in &asked.formats {
+                    let path = folder.join(format!("{name}.{}", format.ending()));
+                    let bytes = format.paint(&figure, asked.dpi);
+                    let bytes = bytes.map_err(|reason| OutputError::Draw { path: path.clone(), reason })?;
+                    atomic::write(&path, &bytes)?;
+                    written.push(path);
+                }
+            }
+        }
+        Ok((written, failed))
+    }
+
+    fn figures(&self, plot: &Plot, folder: &Path, asked: &Asked) -> Result<Named, OutputError> {
+        if plot.event().is_some_and(|event| !asked.takes(event)) {
+            return Ok(Vec::new());
+        }
+        let tables = Tables { folder, asked, in_space: self.in_space };
+        let paper = asked.paper();
+        let one =
+            |name: &str, figure: Option<Figure>| figure.map(|f| (name.to_string(), f)).into_iter().collect();
+        Ok(match plot {
+            Plot::Curves(curves) => {
+                let chart = curves.chart(&tables)?;
+                one(&curves.file, chart.figure(paper, curves.start(asked)))
+            }
+            Plot::Cycles(through) => self.cycles(through, &tables, paper)?,
+            Plot::Event(event) => self.in_event(event).figures(paper),
+            Plot::Ground(ground) => one(&ground.file, self.ground(ground, &tables)?.figure(paper)),
+            Plot::Panel(panel) => one("events", windowed(panel, asked).figure(paper)),
+            Plot::Ruptures(faults) => {
+                let faults = faults.iter().map(|f| self.fault(f)).collect();
+                Ruptures { title: self.title.clone(), faults, rates: &tables, paper }.figures()?
+            }
+            Plot::Velocities(shown) => self.velocities(shown, asked, paper),
+            Plot::Mises(shown) => one(&shown.file, self.mises(shown, asked, paper)),
+            Plot::Histories(histories) => histories.figures(paper, asked.window),
+            Plot::Tractions(tractions) => one(&tractions.file, tractions.figure(paper, asked.window)),
+        })
+    }
+
+    fn cycles(&self, through: &Through, tables: &Tables<'_>, paper: Paper) -> Result<Named, OutputError> {
+        let Through { lines, events, intervals } = through.clone();
+        let asked = tables.asked;
+        let events = match asked.window {
+            Some((from, to)) => events.into_iter().filter(|e| e.1 >= from && e.0 <= to).collect(),
+            None => events,
+        };
+        Cycles { title: self.title.clone(), lines, rows: tables, events, intervals, paper }.figures()
+    }
+
+    fn fault(&self, fault: &Fault) -> RupturedFault {
+        let Fault { name, points, shape, arrivals } = fault.clone();
+        RupturedFault { name, points, shape: self.shapes[shape].clone(), arrivals }
+    }
+
+    fn in_event(&self, event: &InEvent) -> EventOnFault {
+        let (stem, title) = (event.stem.clone(), self.of_event(&event.event));
+        EventOnFault { stem, title, fault: self.fault(&event.fault), slip: event.slip.clone() }
+    }
+
+    fn of_event(&self, event: &OfEvent) -> String {
+        format!("{}, event {}", self.title, event.number + 1)
+    }
+
+    fn ground(&self, ground: &Ground, tables: &Tables<'_>) -> Result<GroundMap, OutputError> {
+        let (mut horizontal, mut vertical) = (Vec::new(), Vec::new());
+        let [right, up, out] = ground.columns;
+        tables.each(&ground.table, &mut |row| {
+            let at = |column: usize| row.get(column).copied().unwrap_or(f64::NAN);
+            horizontal.push([at(right), at(up)]);
+            vertical.push(at(out));
+        })?;
+        let Ground { coordinates, axes, edges, .. } = ground.clone();
+        let expected = axes[0].1.len() * axes[1].1.len();
+        if vertical.len() != expected {
+            let reason = format!("it has {} rows, and the map {expected} positions", vertical.len());
+            return Err(OutputError::Draw { path: tables.folder.join(&ground.table), reason });
+        }
+        Ok(GroundMap { title: self.of_event(&ground.event), coordinates, axes, horizontal, vertical, edges })
+    }
+
+    fn velocities(&self, shown: &Velocities, asked: &Asked, paper: Paper) -> Named {
+        let Some(mesh) = self.meshes.get(shown.mesh) else { return Vec::new() };
+        let last = shown.frames.last().map_or(1.0, |frame| frame.0);
+        let room = paper.frame(field::LARGE, field::MARGINS);
+        let within = || shown.frames.iter().enumerate().filter(|(_, frame)| asked.shows(frame.0));
+        let one = |(k, (time, values)): (usize, &(f64, Vec<f64>))| {
+            let when = format!("t = {}", rupture::moment(*time, last));
+            Some((format!("velocity_{k}"), field::velocity((&self.title, &when), mesh, values, room)?))
+        };
+        let mut figures: Named = within().filter_map(one).collect();
+        let frames: Vec<(f64, Vec<f64>)> = within().map(|(_, frame)| frame.clone()).collect();
+        let strip = rupture::velocities(&self.title, mesh, &frames, paper);
+        figures.extend(strip.map(|figure| ("velocity_film".to_string(), figure)));
+        figures
+    }
+
+    fn mises(&self, shown: &Mises, asked: &Asked, paper: Paper) -> Option<Figure> {
+        let mesh = self.meshes.get(shown.mesh).filter(|_| asked.shows(shown.time))?;
+        let when = format!("end of stage “{}”", shown.stage);
+        let room = paper.frame(field::LARGE, field::MARGINS);
+        field::mises(Some((&self.title, &when)), mesh, &shown.values, room)
+    }
+}
+
+/// The events of a panel within the window.
+fn windowed(panel: &EventPanel, asked: &Asked) -> EventPanel {
+    let Some((start, end)) = asked.window else { return panel.clone() };
+    let within = |(name, events): &(String, Vec<super::PanelEvent>)| {
+        (name.clone(), events.iter().filter(|e| asked.shows(e.onset)).copied().collect())
+    };
+    EventPanel { start, end, title: panel.title.clone(), groups: panel.groups.iter().map(within).collect() }
+}
+
+impl Plot {
+    /// The event of a plot of a single event.
+    fn event(&self) -> Option<&OfEvent> {
+        match self {
+            Self::Curves(curves) => curves.event.as_ref(),
+            Self::Event(event) => Some(&event.event),
+            Self::Ground(ground) => Some(&ground.event),
+            _ => None,
+        }
+    }
+}

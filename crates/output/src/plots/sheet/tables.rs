@@ -1,0 +1,51 @@
+//! Tables of a run, read row by row as often as a figure needs them; none is held in memory as a whole.
+
+use super::Asked;
+use crate::plots::cycles::{Rows, Table};
+use crate::plots::rupture::Profiles;
+use crate::{OutputError, rows};
+use std::path::Path;
+
+/// Tables in the output directory of a run, within the window asked for.
+pub(super) struct Tables<'a> {
+    pub folder: &'a Path,
+    pub asked: &'a Asked,
+    /// True if faults are surfaces, which have no profiles.
+    pub in_space: bool,
+}
+
+impl Tables<'_> {
+    /// Passes the rows of a table within the window to `look`; its first column is time.
+    pub(super) fn shown(&self, table: &str, look: &mut dyn FnMut(&[f64])) -> Result<(), OutputError> {
+        self.each(table, &mut |row| {
+            if self.asked.shows(row[0]) {
+                look(row);
+            }
+        })
+    }
+
+    /// Passes all rows of a table to `look`.
+    pub(super) fn each(&self, table: &str, look: &mut dyn FnMut(&[f64])) -> Result<(), OutputError> {
+        rows::each(&self.folder.join(table), look)
+    }
+}
+
+impl Rows for Tables<'_> {
+    fn each(&self, table: Table, look: &mut dyn FnMut(&[f64])) -> Result<(), OutputError> {
+        let name = match table {
+            Table::Largest => "largest_rate.csv",
+            Table::Slip => "slip_profiles.csv",
+            Table::Rate => "rate_profiles.csv",
+        };
+        if self.in_space && table != Table::Largest {
+            return Ok(());
+        }
+        self.shown(name, look)
+    }
+}
+
+impl Profiles for Tables<'_> {
+    fn each(&self, look: &mut dyn FnMut(f64, &[f64])) -> Result<(), OutputError> {
+        self.shown("rate_profiles.csv", &mut |row| look(row[0], &row[1..]))
+    }
+}
