@@ -16,6 +16,8 @@ pub(super) const README: &str = "README.md";
 pub const PAGE: &str = "report.html";
 /// Name of the lock file; the lock is held while a run writes to the directory.
 pub const LOCK: &str = ".lock";
+/// Name of the file that keeps room for the report of the end.
+pub(super) const RESERVE: &str = ".reserve";
 
 /// Input of a run.
 #[derive(Clone, Debug)]

@@ -1,6 +1,6 @@
 //! Contents of an output directory, and the check that a run may begin there.
 
-use super::begin::{Begin, LOCK, PAGE, README, REPORT, SCENE};
+use super::begin::{Begin, LOCK, PAGE, README, REPORT, RESERVE, SCENE};
 use crate::checkpoint;
 use crate::report::Status;
 use asperity_output::plots::Sheet;
@@ -14,7 +14,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Files that runs write to their directory.
-const FILES: [&str; 29] = [
+const FILES: [&str; 30] = [
     REPORT,
     PAGE,
     SCENE,
@@ -23,6 +23,7 @@ const FILES: [&str; 29] = [
     progress::FILE,
     LOCK,
     ".writable",
+    RESERVE,
     checkpoint::FILE,
     "fields.pvd",
     "bodies.pvd",

@@ -1,6 +1,6 @@
 //! Output directory of a run. It belongs to one run at a time, holds a report from the start, and nothing of any other run.
 
-use super::begin::{Begin, LOCK, PAGE, REPORT, SCENE};
+use super::begin::{Begin, LOCK, PAGE, REPORT, RESERVE, SCENE};
 use super::contents::{self, Contents};
 use super::json;
 use super::page::{self, Texts};
@@ -31,6 +31,9 @@ enum Room {
     /// The run has begun to compute.
     Used,
 }
+
+/// Room that a run takes at its start and frees at its end \[bytes\]: the report of an end for want of room needs some.
+const RESERVED: usize = 16_384;
 
 /// Directory of a run in progress.
 #[derive(Debug)]
@@ -91,6 +94,7 @@ impl Directory {
     /// last result is removed.
     pub fn computes(&mut self) -> miette::Result<()> {
         atomic::write(&self.path.join(SCENE), self.begin.text.as_bytes()).into_diagnostic()?;
+        atomic::write(&self.path.join(RESERVE), &[0; RESERVED]).into_diagnostic()?;
         self.hide();
         self.describe();
         match std::mem::replace(&mut self.room, Room::Used) {
@@ -108,11 +112,18 @@ impl Directory {
 
     /// Writes the final report, with the hashes of the mesh files.
     pub fn write<P: Results>(&self, results: &P, meshes: &BTreeMap<String, String>) -> miette::Result<()> {
+        self.release();
         let status = results.outcome().status();
         let text = self.report(status, Some(results.seconds()), Some(meshes), results)?;
         self.show(&text);
         self.describe();
         Ok(())
+    }
+
+    /// Frees the room kept for the report of the end.
+    fn release(&self) {
+        // There is none before the run computes.
+        let _ = fs::remove_file(self.path.join(RESERVE));
     }
 
     /// Writes what each file is. It is no result: a run continues where it cannot be written.
@@ -168,6 +179,7 @@ impl Directory {
         // A failure to clean up adds nothing to the error that is reported.
         let _ = match &self.room {
             Room::Used => {
+                self.release();
                 let resumable = self.path.join(checkpoint::FILE).exists();
                 let status = if resumable { Status::Interrupted } else { Status::Stopped };
                 self.sketch(status, Some(error.to_string()))

@@ -133,7 +133,7 @@ pub(super) fn execute(asked: &Redrawing) -> miette::Result<End> {
     Ok(End::Done)
 }
 
-/// What the figures of the run in a directory need.
+/// Data that the figures of the run in a directory need beside its tables.
 fn sheet(folder: &Path) -> miette::Result<Sheet> {
     let known = status::known(folder)?;
     let path = folder.join(Sheet::FILE);

@@ -1,6 +1,6 @@
 //! `README.md` of an output directory: what each file there is.
 
-use super::begin::{LOCK, PAGE, README, REPORT, SCENE};
+use super::begin::{LOCK, PAGE, README, REPORT, RESERVE, SCENE};
 use crate::checkpoint;
 use asperity_output::plots::Sheet;
 use asperity_output::{OutputError, atomic, progress};
@@ -8,7 +8,7 @@ use std::fs;
 use std::path::Path;
 
 /// Files and folders of runs, with what they are.
-const MEANINGS: [(&str, &str); 41] = [
+const MEANINGS: [(&str, &str); 42] = [
     (PAGE, "plan, checks, pictures, costs and warnings in one page for browsers, without other files"),
     (REPORT, "status, results, counts, times, provenance: begin here"),
     (SCENE, "the scene as it was run, with the values of `--set`; mesh files are relative to the scene file"),
@@ -53,6 +53,7 @@ const MEANINGS: [(&str, &str); 41] = [
     ("seismograms", "velocity and displacement at positions (CSV, miniSEED, SAC)"),
     (README, "this text"),
     (".writable", "trial of writing, left by a run that was killed"),
+    (RESERVE, "room kept for the report of a run whose disc is full, left by a run that was killed"),
 ];
 
 /// Writes the text about the files that exist.

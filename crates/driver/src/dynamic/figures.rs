@@ -12,7 +12,8 @@ pub(super) fn sheet<const D: usize>(plan: &Plan<D>, end: f64, arrivals: &Arrival
     let mut sheet = Sheet::new(&plan.title, (0.0, end), D == 3);
     sheet.plots.extend(curves(plan).into_iter().map(Plot::Curves));
     if let Some((mesh, nodes)) = Seen::of(&plan.mesh, &[]) {
-        let seen = |speeds: &Vec<f64>| nodes.iter().map(|&node| short(speeds[node])).collect();
+        let most = taken.speeds.iter().flatten().copied().filter(|v| v.is_finite()).fold(0.0, f64::max);
+        let seen = |speeds: &Vec<f64>| nodes.iter().map(|&node| seen(speeds[node], most)).collect();
         let frames = taken.times.iter().copied().zip(taken.speeds.iter().map(seen)).collect();
         let mesh = sheet.mesh(mesh);
         sheet.plots.push(Plot::Velocities(Velocities { mesh, frames }));
@@ -28,6 +29,18 @@ pub(super) fn sheet<const D: usize>(plan: &Plan<D>, end: f64, arrivals: &Arrival
         sheet.plots.push(Plot::Ruptures(faults));
     }
     sheet
+}
+
+/// Decimals of velocities below the first digit of the largest: colours show fewer.
+const DECIMALS: i32 = 4;
+
+/// A velocity with as many decimals as colours show beside the largest one.
+fn seen(velocity: f64, most: f64) -> f64 {
+    if most <= 0.0 {
+        return velocity;
+    }
+    let decimals = (DECIMALS - most.log10().floor() as i32).max(0) as usize;
+    format!("{velocity:.decimals$}").parse().unwrap_or(velocity)
 }
 
 /// Energies and moment rates, from their tables.

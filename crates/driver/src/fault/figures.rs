@@ -5,12 +5,11 @@ use super::event_tables::reached;
 use super::plan::{FaultView, Plan};
 use super::shape::{at_corners, corners, shape};
 use super::source_time;
-use super::surface_figures;
+use super::surface_figures::{self, of_event};
 use crate::catalogue::slipped;
 use asperity_cycles::{Event, FaultRun, Rupture};
 use asperity_output::plots::{
-    Curves, EventPanel, Fault, InEvent, Line, Measure, OfEvent, Plot, Points, Sheet, Through, short,
-    springs_curves,
+    Curves, EventPanel, Fault, InEvent, Line, Measure, Plot, Points, Sheet, Through, short, springs_curves,
 };
 use asperity_output::stems;
 
@@ -41,11 +40,6 @@ fn through(plan: &Plan, run: &FaultRun) -> Through {
         events: events.chain(under_way).collect(),
         intervals: plan.cadence.contours.map(time),
     }
-}
-
-/// An event as figures name it.
-pub(super) fn of_event(number: usize, event: &Event<Rupture>) -> OfEvent {
-    OfEvent { number, onset: event.onset.seconds() }
 }
 
 /// Share of the largest moment rate below which the end of a curve is left out: afterslip lasts far longer than the rupture.

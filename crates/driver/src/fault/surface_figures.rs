@@ -1,11 +1,10 @@
 //! Figures of the displacement of the free surface over events, from the tables of a run.
 
-use super::figures::of_event;
 use super::free_surface::{FreeSurface, SurfaceAxes};
 use super::plan::{FaultView, Plan};
 use super::source_time::FOLDER;
 use super::surface_tables::name;
-use asperity_cycles::FaultRun;
+use asperity_cycles::{Event, FaultRun, Rupture};
 use asperity_output::plots::{Coordinates, Curves, Ground, Measure, OfEvent, Plot, Points};
 use std::collections::BTreeMap;
 
@@ -36,6 +35,11 @@ pub(super) fn plots(plan: &Plan, run: &FaultRun) -> Vec<Plot> {
         }
     };
     events.map(|(number, event)| one(of_event(number, event))).collect()
+}
+
+/// An event as figures name it.
+pub(super) fn of_event(number: usize, event: &Event<Rupture>) -> OfEvent {
+    OfEvent { number, onset: event.onset.seconds() }
 }
 
 fn stem(number: usize) -> String {

@@ -4,10 +4,11 @@
 use crate::common::cycles::SCENE;
 use crate::common::varied;
 use asperity_cycles::{Event, FaultRun, Faults, Moment, Rupture, resume};
-use asperity_driver::fault::{Files, Plan, Position, Report, draw};
+use asperity_driver::fault::{Files, Plan, Position, Report, sheet};
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_ode::{Control, ObserveError, Observer};
+use asperity_output::plots::{Asked, EventPanel};
 use asperity_vary::Change::{Add, With, WithOrSame};
 use std::fs;
 use std::path::Path;
@@ -134,7 +135,10 @@ fn files_stay_below_their_largest_size_and_the_run_says_so() {
     let rows = rates(&folder.path().join("largest_rate.csv"), 1);
     assert!(rows[rows.len() - 1][0] > 0.5 * run.at.seconds());
     // Plots are drawn from files of any length.
-    assert_eq!(draw(folder.path(), &plan, &run).unwrap().len(), 20);
+    let panel = EventPanel { title: String::new(), start: 0.0, end: 0.0, groups: Vec::new() };
+    let drawn =
+        sheet(&plan, &run, panel).draw(folder.path(), &folder.path().join("plots"), &Asked::default());
+    assert_eq!(drawn.unwrap().len(), 20);
 }
 
 #[test]

@@ -38,6 +38,7 @@ mod meshes;
 mod messages;
 mod names;
 mod parts;
+mod plot;
 mod report_schema;
 mod resume;
 mod resume_bodies;

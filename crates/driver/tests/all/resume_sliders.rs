@@ -9,6 +9,7 @@ use asperity_cycles::slider::{Problem, SliderRun, resume};
 use asperity_driver::checkpoint::Pauses;
 use asperity_driver::slider::Keeper;
 use asperity_ode::{Method, Outcome};
+use asperity_output::plots::Asked;
 use asperity_vary::Change::{self, Add, With, WithOrSame};
 use asperity_vary::SceneText;
 use serde_json::Value;
@@ -64,7 +65,8 @@ fn part(problem: &Problem, out: &Path, wall: Option<Duration>) -> Result<(Slider
     };
     let ended = resume(problem, from, &mut keeper).map_err(|e| e.to_string())?;
     let interrupted = keeper.interrupted().is_some();
-    keeper.finish(!interrupted).unwrap().draw(out, problem).unwrap();
+    let sheet = keeper.finish(!interrupted).unwrap().sheet(problem, ended.at.seconds());
+    sheet.draw(out, &out.join("plots"), &Asked::default()).unwrap();
     Ok((ended, interrupted))
 }
 

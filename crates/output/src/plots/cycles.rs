@@ -60,6 +60,8 @@ pub(super) struct Cycles<'a> {
     pub events: Vec<(f64, f64)>,
     /// Time between slip contours, between events and during events, as text.
     pub intervals: [String; 2],
+    /// First and last time shown \[s\]; all if there is none.
+    pub window: Option<(f64, f64)>,
     /// Size of the figures.
     pub(super) paper: Paper,
 }
@@ -149,9 +151,10 @@ impl Cycles<'_> {
         if times.0 >= times.1 {
             return Ok(None);
         }
-        let time = TIME.of(times.1);
+        let (first, last) = self.window.unwrap_or((times.0, times.1));
+        let time = TIME.of(last);
         let label = format!("Time [{}]", time.name);
-        let x = Axis::exact((times.0 / time.factor, times.1 / time.factor), label);
+        let x = Axis::exact((first / time.factor, last / time.factor), label);
         let y = Axis::logarithmic(rates.over(1.0), DECADES, "Largest slip rate [m/s]".into());
         let (mut figure, frame) = self.frame(x, y, ROOMS[2]);
         title(&mut figure, &frame, &self.title, "largest slip rate");
@@ -351,6 +354,7 @@ mod tests {
             rows,
             events: vec![(0.9e9, 1.1e9)],
             intervals: ["2.5 d".into(), "3 min".into()],
+            window: None,
             paper: Paper::default(),
         }
     }

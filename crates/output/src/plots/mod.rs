@@ -130,7 +130,7 @@ fn write_all(folder: &Path, figures: Vec<(String, Figure)>) -> Result<Vec<PathBu
 /// Pixels per unit of figures that no resolution was asked for.
 const PIXELS: f64 = 2.0;
 
-/// What the figures of a run of bodies need.
+/// Data that the figures of a run of bodies need.
 #[must_use]
 pub fn sheet(recorder: &Recorder) -> Sheet {
     let setup = recorder.setup();

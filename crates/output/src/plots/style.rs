@@ -6,7 +6,7 @@ use super::figure::{Dash, Figure, Point};
 /// Number of styles before colours come again.
 pub const STYLES: usize = 10;
 
-/// Colours: the seven of Okabe and Ito (2008) without yellow, and three that stay apart from them.
+/// Colours: the seven of Okabe and Ito (2008) without yellow, and three chosen to stay apart from them for any sight.
 const COLOURS: [Rgb; STYLES] = [
     [0, 114, 178],
     [213, 94, 0],
@@ -15,9 +15,9 @@ const COLOURS: [Rgb; STYLES] = [
     [204, 121, 167],
     [230, 159, 0],
     [86, 180, 233],
-    [110, 60, 160],
-    [140, 86, 75],
-    [120, 130, 30],
+    [136, 0, 238],
+    [102, 68, 34],
+    [153, 204, 119],
 ];
 
 /// Dashes: neighbours in the list of colours never share one.
@@ -79,7 +79,54 @@ impl Style {
 
 #[cfg(test)]
 mod tests {
-    use super::{STYLES, Style};
+    use super::{COLOURS, STYLES, Style};
+    use crate::plots::colour::Rgb;
+
+    /// Linear light as readers see it of whom no, the long, the middle or the short cones are missing (Machado, Oliveira and
+    /// Fernandes 2009, severity 1).
+    const SIGHTS: [[[f64; 3]; 3]; 4] = [
+        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
+        [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]],
+        [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]],
+    ];
+
+    /// Linear light of a value of sRGB.
+    fn linear(value: u8) -> f64 {
+        let share = f64::from(value) / 255.0;
+        if share <= 0.04045 { share / 12.92 } else { ((share + 0.055) / 1.055).powf(2.4) }
+    }
+
+    /// Coordinates in the space CIELAB, in which equal distances look alike.
+    fn lab(colour: Rgb, sight: &[[f64; 3]; 3]) -> [f64; 3] {
+        let light = colour.map(linear);
+        let [r, g, b] =
+            sight.map(|row| row.iter().zip(light).map(|(m, v)| m * v).sum::<f64>().clamp(0.0, 1.0));
+        let over = [
+            (0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.95047,
+            0.2126 * r + 0.7152 * g + 0.0722 * b,
+            (0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.08883,
+        ];
+        let [x, y, z] = over.map(|t| if t > 0.008856 { t.cbrt() } else { 7.787 * t + 16.0 / 116.0 });
+        [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
+    }
+
+    /// Least distance in CIELAB at which colours of lines are told apart without holding them side by side: several just
+    /// noticeable differences, each of about 2.3.
+    const APART: f64 = 15.0;
+
+    #[test]
+    fn readers_with_any_sight_tell_all_colours_apart() {
+        for sight in &SIGHTS {
+            for (i, one) in COLOURS.iter().enumerate() {
+                for other in &COLOURS[..i] {
+                    let (a, b) = (lab(*one, sight), lab(*other, sight));
+                    let apart = a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+                    assert!(apart >= APART, "{one:?} and {other:?}: {apart}");
+                }
+            }
+        }
+    }
 
     #[test]
     fn the_first_fifty_curves_have_different_styles_and_neighbours_different_dashes() {

@@ -2,7 +2,7 @@
 
 use super::super::paper::Paper;
 use super::super::{pdf, png, svg};
-use super::OfEvent;
+use super::event::OfEvent;
 use crate::plots::figure::Figure;
 
 /// Format of a figure.

@@ -1,7 +1,8 @@
 //! Curves, from tables of a run or kept.
 
+use super::asked::Asked;
+use super::event::OfEvent;
 use super::tables::Tables;
-use super::{Asked, OfEvent};
 use crate::OutputError;
 use crate::numbers;
 use crate::plots::chart::{Chart, Measure};

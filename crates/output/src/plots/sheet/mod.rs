@@ -3,10 +3,12 @@
 
 mod asked;
 mod curves;
+mod event;
 mod tables;
 
 pub use asked::{Asked, Format};
 pub use curves::{Curves, Points};
+pub use event::OfEvent;
 
 use super::curves::Histories;
 use super::cycles::{Cycles, Line};
@@ -26,7 +28,7 @@ use tables::Tables;
 /// Version of what is kept.
 const VERSION: u32 = 1;
 
-/// What the figures of a run need beside its tables.
+/// Data that the figures of a run need beside its tables.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Sheet {
     version: u32,
@@ -42,15 +44,6 @@ pub struct Sheet {
     pub meshes: Vec<Seen>,
     /// Plots.
     pub plots: Vec<Plot>,
-}
-
-/// An event with figures of its own.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct OfEvent {
-    /// Number, from 0.
-    pub number: usize,
-    /// Onset \[s\].
-    pub onset: f64,
 }
 
 /// A plot, of one figure or several.
@@ -343,7 +336,16 @@ impl Sheet {
             Some((from, to)) => events.into_iter().filter(|e| e.1 >= from && e.0 <= to).collect(),
             None => events,
         };
-        Cycles { title: self.title.clone(), lines, rows: tables, events, intervals, paper }.figures()
+        Cycles {
+            title: self.title.clone(),
+            lines,
+            rows: tables,
+            events,
+            intervals,
+            window: asked.window,
+            paper,
+        }
+        .figures()
     }
 
     fn fault(&self, fault: &Fault) -> RupturedFault {
@@ -419,5 +421,72 @@ impl Plot {
             Self::Ground(ground) => Some(&ground.event),
             _ => None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::rupture::{Line as Along, Shape};
+    use super::*;
+
+    fn sheet() -> Sheet {
+        let mut sheet = Sheet::new("t", (0.0, 9.0), false);
+        let along = Along { label: "x".into(), along: vec![0.0, 1.0], down: false };
+        let shape = sheet.shape(Shape::Line(along.clone()));
+        assert_eq!(shape, sheet.shape(Shape::Line(along)));
+        let fault = Fault { name: "f".into(), points: 0..2, shape, arrivals: vec![f64::NAN, 0.1 + 0.2] };
+        let event = |number, onset| {
+            Plot::Event(InEvent {
+                stem: format!("f_event_{number:03}"),
+                event: OfEvent { number, onset },
+                fault: fault.clone(),
+                slip: vec![1.0, f64::NAN],
+            })
+        };
+        sheet.plots = vec![event(0, 2.0), event(2, 8.0)];
+        sheet
+    }
+
+    fn read(folder: &Path) -> Result<Sheet, String> {
+        Sheet::parse(&std::fs::read_to_string(folder.join(Sheet::FILE)).unwrap())
+    }
+
+    #[test]
+    fn a_sheet_is_read_back_to_the_last_digit() {
+        let folder = tempfile::tempdir().unwrap();
+        sheet().write(folder.path()).unwrap();
+        let back = read(folder.path()).unwrap();
+        assert_eq!(format!("{back:?}"), format!("{:?}", sheet()));
+        assert_eq!(back.events(), [1, 3]);
+    }
+
+    #[test]
+    fn a_sheet_that_refers_to_what_it_has_not_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut broken = sheet();
+        broken.shapes.clear();
+        broken.write(folder.path()).unwrap();
+        assert!(read(folder.path()).unwrap_err().contains("does not have"));
+        let mut broken = sheet();
+        if let Plot::Event(event) = &mut broken.plots[0] {
+            event.slip.pop();
+        }
+        broken.write(folder.path()).unwrap();
+        assert!(read(folder.path()).is_err());
+    }
+
+    #[test]
+    fn figures_of_events_are_chosen_by_number_and_by_onset() {
+        let folder = tempfile::tempdir().unwrap();
+        let drawn = |asked: Asked| {
+            let files = sheet().draw(folder.path(), folder.path(), &asked).unwrap();
+            files.iter().map(|f| f.file_name().unwrap().to_str().unwrap().to_string()).collect::<Vec<_>>()
+        };
+        let svg = Asked { formats: vec![Format::Svg], ..Asked::default() };
+        assert_eq!(drawn(svg.clone()), ["f_event_000_rupture_times.svg", "f_event_002_rupture_times.svg"]);
+        let third = ["f_event_002_rupture_times.svg"];
+        assert_eq!(drawn(Asked { events: vec![3], ..svg.clone() }), third);
+        assert_eq!(drawn(Asked { window: Some((3.0, 9.0)), ..svg.clone() }), third);
+        assert_eq!(drawn(Asked { window: Some((3.0, 7.0)), ..svg }), Vec::<String>::new());
     }
 }

@@ -1,6 +1,6 @@
 //! Tables of a run, read row by row as often as a figure needs them; none is held in memory as a whole.
 
-use super::Asked;
+use super::asked::Asked;
 use crate::plots::cycles::{Rows, Table};
 use crate::plots::rupture::Profiles;
 use crate::{OutputError, rows};
