@@ -160,7 +160,8 @@ fn header(states: usize) -> String {
 
 impl Kept {
     fn add(&mut self, row: &Row, traced: bool) -> Result<(), OutputError> {
-        if traced {
+        // Figures read the table where there is one.
+        if traced && self.file.is_none() {
             self.trace.push(row);
         }
         let Some(file) = &mut self.file else { return Ok(()) };

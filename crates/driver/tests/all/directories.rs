@@ -115,8 +115,8 @@ fn what_no_run_has_written_is_never_touched() {
     fs::remove_file(folder.join("out/s/notes.txt")).unwrap();
     succeeds(folder, &["s.toml"]);
     succeeds(folder, &["s.toml"]);
-    fs::write(folder.join("out/s.previous/plots/mine.pdf"), "mine").unwrap();
-    refused(folder, &["s.toml"], &["mine.pdf is not of a run", "move it away"]);
+    fs::write(folder.join("out/s.previous/plots/mine.docx"), "mine").unwrap();
+    refused(folder, &["s.toml"], &["mine.docx is not of a run", "move it away"]);
     // A report of something else.
     fs::create_dir(folder.join("other")).unwrap();
     fs::write(folder.join("other/report.json"), "{\"status\": \"fine\"}").unwrap();
