@@ -7,16 +7,28 @@ use std::path::Path;
 use std::process::Command;
 
 /// Sources of the program, relative to this package.
-const SOURCES: [&str; 11] = [
+const SOURCES: [&str; 23] = [
     "src",
     "build.rs",
     "Cargo.toml",
     "../contact/src",
     "../contact/Cargo.toml",
+    "../cycles/src",
+    "../cycles/Cargo.toml",
     "../fem/src",
     "../fem/Cargo.toml",
     "../friction/src",
     "../friction/Cargo.toml",
+    "../laws/src",
+    "../laws/Cargo.toml",
+    "../mechanics/src",
+    "../mechanics/Cargo.toml",
+    "../ode/src",
+    "../ode/Cargo.toml",
+    "../output/src",
+    "../output/Cargo.toml",
+    "../scene/src",
+    "../scene/Cargo.toml",
     "../../Cargo.toml",
     "../../Cargo.lock",
 ];

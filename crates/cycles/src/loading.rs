@@ -1,9 +1,10 @@
 //! Tractions caused by boundaries, creeping parts of the fault and other loads.
 
 use asperity_fem::table::Table;
+use serde::{Deserialize, Serialize};
 
 /// One load: an amplitude over time and the tractions at unit amplitude.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Part {
     amplitude: Table,
     /// Shear tractions, component by component \[Pa\].
@@ -13,7 +14,7 @@ struct Part {
 }
 
 /// Loads of a fault; piecewise linear in time.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Loading {
     /// Number of components of slip.
     components: usize,

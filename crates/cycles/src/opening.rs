@@ -20,6 +20,7 @@
 //! rounding of both states, the search is repeated from the points with N < 0.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use serde::{Deserialize, Serialize};
 
 /// Violation of a condition that is tolerated, relative to the largest \|N\| of the points that may open: the rounding
 /// of sums over some thousand points.
@@ -35,7 +36,7 @@ const PATIENCE: usize = 10;
 const MOST_EXCHANGES: usize = 100;
 
 /// Effect of openings on the tractions of all points.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Opening {
     /// Points that may open, ascending.
     points: Vec<usize>,

@@ -30,6 +30,7 @@ pub mod run;
 pub mod run_doubts;
 pub mod ruptures;
 pub mod scene;
+pub mod setup;
 mod sha256;
 pub mod slider;
 pub mod slider_planner;

@@ -1,7 +1,9 @@
 //! Piecewise linear functions of time, and functions of them.
 
+use serde::{Deserialize, Serialize};
+
 /// A function of a piecewise linear table.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Function {
     /// The table itself.
     #[default]
@@ -40,7 +42,7 @@ impl Function {
 }
 
 /// A piecewise linear table, constant before its first and after its last time, or a function of one.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Table {
     times: Vec<f64>,
     values: Vec<f64>,

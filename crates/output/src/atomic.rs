@@ -32,9 +32,20 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
 /// # Errors
 /// See [`write`].
 pub fn write_durably(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+    stream(path, |file| file.write_all(bytes))
+}
+
+/// Like [`write_durably`], with contents that `contents` writes piece by piece.
+///
+/// # Errors
+/// See [`write`].
+pub fn stream(
+    path: &Path,
+    contents: impl FnOnce(&mut fs::File) -> std::io::Result<()>,
+) -> Result<(), OutputError> {
     let temporary = temporary_name(path);
     let written = fs::File::create(&temporary).and_then(|mut file| {
-        file.write_all(bytes)?;
+        contents(&mut file)?;
         file.sync_all()
     });
     written.and_then(|()| fs::rename(&temporary, path)).map_err(|source| {
@@ -42,6 +53,12 @@ pub fn write_durably(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
         let _ = fs::remove_file(&temporary);
         OutputError::write(path, source)
     })
+}
+
+/// Removes what writing `path` has left if it was killed. Nobody else may be writing it.
+pub fn tidy(path: &Path) {
+    // Usually there is nothing, and what cannot be removed does no harm.
+    let _ = fs::remove_file(temporary_name(path));
 }
 
 /// Creates an output directory and checks that files can be written into it, before anything is computed.

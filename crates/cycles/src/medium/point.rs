@@ -1,6 +1,7 @@
 //! A point of a fault and its conditions.
 
 use super::place::Place;
+use serde::{Deserialize, Serialize};
 
 /// A point of a fault and its conditions.
 #[derive(Clone, Debug)]
@@ -16,7 +17,7 @@ pub struct Point<const D: usize> {
 }
 
 /// Tractions on points before any of them slips by friction.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Initial {
     /// Shear tractions, component by component \[Pa\].
     pub shear: Vec<f64>,

@@ -11,6 +11,7 @@ use asperity_fem::condense::{Condensation, Condensed, Stiffness};
 use asperity_fem::dof::Channel;
 use asperity_fem::jump::{Jump, Jumps, ObliqueConstraint};
 use asperity_fem::table::Table;
+use serde::{Deserialize, Serialize};
 
 /// Loads and supports that press the bodies.
 #[derive(Clone, Debug)]
@@ -24,7 +25,7 @@ pub struct Pressing {
 }
 
 /// State of bodies that are pressed.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Pressed {
     /// Tractions on the points.
     pub tractions: Initial,

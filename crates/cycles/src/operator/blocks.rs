@@ -6,11 +6,12 @@
 use super::low_rank::{GROUP, LowRank};
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::sync::{PoisonError, RwLock};
 
 /// A block of a compressed matrix.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Block {
     rows: Range<usize>,
     columns: Range<usize>,
@@ -31,12 +32,13 @@ struct Task {
 }
 
 /// A compressed matrix in the order of a tree.
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Compressed {
     /// Number of rows.
     size: usize,
     blocks: Vec<Block>,
     values: Vec<f64>,
+    #[serde(skip)]
     tasks: Vec<Task>,
 }
 
@@ -111,6 +113,12 @@ impl Compressed {
         }
         all.part();
         all
+    }
+
+    /// The same matrix with its tasks, which are not written.
+    pub fn restored(mut self) -> Self {
+        self.part();
+        self
     }
 
     /// Divides the blocks into tasks.

@@ -1,19 +1,36 @@
 //! The operator of slip in two directions, composed of operators of one direction.
 
 use super::Operator;
+use serde::{Deserialize, Serialize};
 use std::sync::{Mutex, PoisonError};
 
 /// Tractions caused by two components of slip. One operator holds the effect of a component on itself and on normal
 /// tractions. Another holds its effect on the other component, if there is any.
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(from = "Parts")]
 pub struct Both {
     /// Operators of the first and of the second component on themselves.
     along: [Box<dyn Operator>; 2],
     /// Tractions along the first component caused by slip of the second, and the reverse.
     across: Option<[Box<dyn Operator>; 2]>,
+    #[serde(skip)]
     stiffness: Vec<f64>,
     /// Working memory for one part of the tractions.
+    #[serde(skip)]
     part: Mutex<Vec<f64>>,
+}
+
+/// Parts of such an operator as they are written.
+#[derive(Deserialize)]
+struct Parts {
+    along: [Box<dyn Operator>; 2],
+    across: Option<[Box<dyn Operator>; 2]>,
+}
+
+impl From<Parts> for Both {
+    fn from(Parts { along, across }: Parts) -> Self {
+        Self::new(along, across)
+    }
 }
 
 impl Both {

@@ -2,9 +2,10 @@
 
 use super::Operator;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// Errors of tractions, relative to the tractions of the same slip, in the root mean square over some points.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Errors {
     /// Number of points.
     pub points: usize,
@@ -15,7 +16,7 @@ pub struct Errors {
 }
 
 /// An operator and its errors.
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 pub struct Checked {
     operator: Box<dyn Operator>,
     errors: Errors,

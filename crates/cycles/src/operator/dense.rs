@@ -2,9 +2,10 @@
 
 use super::{Operator, columns};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// Dense matrices, row by row.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Dense {
     points: usize,
     shear: Vec<f64>,

@@ -10,6 +10,7 @@ use super::low_rank::{GROUP, LowRank, low_rank};
 use crate::medium::Forces;
 use nalgebra::DMatrix;
 use pulp::Arch;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
@@ -135,7 +136,7 @@ struct Ordered {
 }
 
 /// Error of compressed matrices, in Frobenius' norm.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Tolerance {
     /// Relative to the largest force, for all blocks together.
     OfLargest(f64),
@@ -148,7 +149,7 @@ const ROUNDING: f64 = 1e-12;
 
 /// Operator of compressed matrices. Of slip in two directions the shear forces are one symmetric matrix: forces along one
 /// direction due to slip along the other are the transpose of the reverse.
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 pub struct Hierarchical {
     components: usize,
     /// Position in slip of each row, component by component in the order of the tree.
@@ -159,7 +160,9 @@ pub struct Hierarchical {
     normal: Option<Compressed>,
     stiffness: Vec<f64>,
     tolerance: Tolerance,
+    #[serde(skip)]
     ordered: Mutex<Ordered>,
+    #[serde(skip)]
     arch: Arch,
 }
 
@@ -249,6 +252,13 @@ impl Hierarchical {
         }
         let per_area = vec![1.0; n];
         Self::of(shear, normal, (order, per_area), stiffness, Tolerance::OfBlock(tolerance))
+    }
+
+    /// The same operator with its tasks and working memory, which are not written.
+    pub(super) fn restored(self) -> Self {
+        let (shear, normal) = (self.shear.restored(), self.normal.map(Compressed::restored));
+        let all = (self.order, self.per_area);
+        Self { components: self.components, ..Self::of(shear, normal, all, self.stiffness, self.tolerance) }
     }
 
     /// Sizes of the matrices of shear and of normal forces.

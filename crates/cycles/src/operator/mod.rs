@@ -10,6 +10,7 @@ mod form;
 mod hierarchical;
 mod low_rank;
 mod sampled;
+mod stored;
 mod toeplitz;
 
 pub use blocks::Sizes;
@@ -21,9 +22,11 @@ pub use hierarchical::{Geometry, Hierarchical, Tolerance};
 pub use sampled::{Accuracy, Division, Entry};
 pub use toeplitz::{Lattice, Toeplitz};
 
+use std::any::Any;
+
 /// Linear operator from slip to the tractions of all points of a fault. Slip and shear tractions of several components
-/// are stored component by component.
-pub trait Operator: Send + Sync + std::fmt::Debug {
+/// are stored component by component. Operators are written and read as boxes; see `stored`.
+pub trait Operator: Any + Send + Sync + std::fmt::Debug {
     /// Number of points.
     fn points(&self) -> usize;
 

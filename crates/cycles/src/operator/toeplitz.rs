@@ -10,13 +10,14 @@ use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
 type C = Complex<f64>;
 
 /// Arrangement of the points of an operator in a grid.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Lattice {
     /// Number of cells along strike.
     pub columns: usize,
@@ -43,19 +44,42 @@ impl Lattice {
 }
 
 /// Operator of a grid of equal cells.
+#[derive(Serialize, Deserialize)]
+#[serde(from = "Parts")]
 pub struct Toeplitz {
     lattice: Lattice,
+    #[serde(skip)]
     forward: Arc<dyn RealToComplex<f64>>,
+    #[serde(skip)]
     inverse: Arc<dyn ComplexToReal<f64>>,
     shear: Spectrum,
     normal: Option<Spectrum>,
     stiffness: Vec<f64>,
+    #[serde(skip)]
     arch: Arch,
+    #[serde(skip)]
     work: Mutex<Work>,
 }
 
+/// Parts of the operator as they are written.
+#[derive(Deserialize)]
+struct Parts {
+    lattice: Lattice,
+    shear: Spectrum,
+    normal: Option<Spectrum>,
+    stiffness: Vec<f64>,
+}
+
+impl From<Parts> for Toeplitz {
+    fn from(Parts { lattice, shear, normal, stiffness }: Parts) -> Self {
+        let (forward, inverse) = transforms(&lattice);
+        let (arch, work) = (Arch::new(), Mutex::default());
+        Self { lattice, forward, inverse, shear, normal, stiffness, arch, work }
+    }
+}
+
 /// Fourier transform of a table of tractions along strike: for each frequency a matrix of rows of points by rows of patches.
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 struct Spectrum {
     real: Vec<f64>,
     /// Imaginary part; empty where tractions are the same on both sides of a patch.
@@ -87,22 +111,11 @@ impl Toeplitz {
     /// \[Pa/m\].
     #[must_use]
     pub fn new(lattice: Lattice, shear: &[f64], normal: Option<&[f64]>) -> Self {
-        let padded = fitting(2 * lattice.columns);
-        let mut planner = RealFftPlanner::new();
-        let (forward, inverse) = (planner.plan_fft_forward(padded), planner.plan_fft_inverse(padded));
+        let (forward, _) = transforms(&lattice);
         let spectrum = |table: &[f64]| Spectrum::new(&lattice, table, forward.as_ref());
         let (shear_spectrum, normal_spectrum) = (spectrum(shear), normal.map(spectrum));
         let stiffness = stiffness(&lattice, &[Some(shear), normal].map(|t| t.unwrap_or_default()));
-        Self {
-            shear: shear_spectrum,
-            normal: normal_spectrum,
-            forward,
-            inverse,
-            stiffness,
-            arch: Arch::new(),
-            work: Mutex::default(),
-            lattice,
-        }
+        Parts { lattice, shear: shear_spectrum, normal: normal_spectrum, stiffness }.into()
     }
 
     /// Length of the padded rows.
@@ -216,6 +229,13 @@ fn in_tasks<A: Send, B: Send>(
     let rows = (a.len() / length_a).div_ceil(rayon::current_num_threads()).max(1);
     let tasks = a.par_chunks_mut(rows * length_a).zip(b.par_chunks_mut(rows * length_b));
     tasks.for_each(|(a, b)| work(a, b));
+}
+
+/// Transforms of padded rows, forward and back.
+fn transforms(lattice: &Lattice) -> (Arc<dyn RealToComplex<f64>>, Arc<dyn ComplexToReal<f64>>) {
+    let padded = fitting(2 * lattice.columns);
+    let mut planner = RealFftPlanner::new();
+    (planner.plan_fft_forward(padded), planner.plan_fft_inverse(padded))
 }
 
 /// Smallest length from `least` of which fast transforms exist: even, without prime factors above 5.

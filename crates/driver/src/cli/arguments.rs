@@ -5,6 +5,7 @@ use super::new::Template;
 use super::pausing::Pausing;
 use super::plot::Redrawing;
 use crate::scene::settings::Setting;
+use crate::setup::When;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use std::path::PathBuf;
@@ -103,6 +104,9 @@ pub struct Running {
     /// Move an unfinished run, or the result of another scene, from the output directory to `<directory>.previous`.
     #[arg(long, conflicts_with = "resume")]
     pub force: bool,
+    /// Set-up of faults to keep in the output directory, where the next run reads it: one that took a minute or longer, any, or none.
+    #[arg(long, value_name = "WHEN", value_enum, default_value_t)]
+    pub cache: When,
     /// Reasons to interrupt the run, and how to resume it.
     #[command(flatten)]
     pub pauses: Pausing,

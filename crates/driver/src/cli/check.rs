@@ -6,6 +6,7 @@ use super::read::{Planned, Ready, Source};
 use super::{json, lines, print};
 use crate::checks::Checks;
 use crate::report::Kind;
+use crate::setup::Setups;
 use crate::warning::Warning;
 use asperity_output::plots::{MeshPicture, draw_mesh};
 use asperity_output::printing::{err, out};
@@ -40,7 +41,7 @@ pub(super) fn execute(asked: &Checking) -> miette::Result<End> {
     }
     let source = Source::read(&asked.scene, &asked.set.values)?;
     let picture = if asked.plot.is_some() { source.picture()? } else { None };
-    let ready = source.plan()?;
+    let ready = source.plan(&Setups::none())?;
     if asked.json {
         // Text would not be JSON.
         print_json(&ready)?

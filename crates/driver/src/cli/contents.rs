@@ -3,6 +3,7 @@
 use super::begin::{Begin, LOCK, PAGE, README, REPORT, RESERVE, SCENE};
 use crate::checkpoint;
 use crate::report::Status;
+use crate::setup;
 use asperity_output::plots::Sheet;
 use asperity_output::progress;
 use miette::{IntoDiagnostic, WrapErr, miette};
@@ -49,7 +50,7 @@ const FILES: [&str; 30] = [
 ];
 
 /// Folders that runs make, with the extensions of the files in them.
-const FOLDERS: [(&str, &[&str]); 13] = [
+const FOLDERS: [(&str, &[&str]); 14] = [
     ("events", &["csv", "grd", "fsp"]),
     ("fields", &["vtu"]),
     ("profiles", &["csv"]),
@@ -60,6 +61,7 @@ const FOLDERS: [(&str, &[&str]); 13] = [
     ("history", &["csv"]),
     ("receivers", &["csv"]),
     ("plots", &["svg", "png", "pdf"]),
+    (setup::FOLDER, &["bin"]),
     ("stations", &[""]),
     ("platform", &["txt", "dat"]),
     ("seismograms", &["csv", "mseed", "sac"]),
@@ -149,7 +151,7 @@ pub(super) struct Contents {
     report: Option<Report>,
     /// True if there is a checkpoint to resume from.
     checkpoint: bool,
-    /// True if there is nothing but a report and a lock file.
+    /// True if there is nothing but a report, a lock file and a set-up.
     nothing: bool,
 }
 
@@ -166,7 +168,8 @@ impl Contents {
         if bytes.is_some() && report.is_none() {
             foreign = foreign.or_else(|| Some(path.join(REPORT)));
         }
-        let plain = |name: &OsStr| name == REPORT || name == LOCK;
+        // A set-up is no result.
+        let plain = |name: &OsStr| name == REPORT || name == LOCK || name == setup::FOLDER;
         let other = foreign_in(path, |name, entry| Ok((!plain(name)).then(|| entry.to_path_buf())));
         let nothing = other.into_diagnostic().wrap_err_with(told)?.is_none()
             && report.as_ref().is_none_or(|r| r.status != Status::Completed);

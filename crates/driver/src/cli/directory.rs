@@ -8,6 +8,7 @@ use super::readme;
 use crate::checkpoint;
 use crate::forecast;
 use crate::report::common::{Phases, Provenance, Report, Results, SCHEMA, Sketch, Status, commit};
+use crate::setup::{self, Kept};
 use asperity_output::atomic;
 use asperity_output::plots::Sheet;
 use miette::{IntoDiagnostic, WrapErr, miette};
@@ -42,6 +43,8 @@ pub(super) struct Directory {
     begin: Begin,
     /// The plan as printed; empty before the scene was planned.
     plan: String,
+    /// Parts of the set-up that were read or kept.
+    setup: Vec<Kept>,
     room: Room,
     /// Lock held for the duration of the run.
     _lock: Option<File>,
@@ -69,13 +72,17 @@ impl Directory {
             (contents, None) if contents.holds_nothing() => Room::Found,
             _ => move_away(path)?,
         };
-        let lock = if matches!(room, Room::Moved(..)) {
+        let lock = if let Room::Moved(previous, _) = &room {
             atomic::create_dir(path).into_diagnostic()?;
-            self::lock(path)?
+            let lock = self::lock(path)?;
+            // It is read again if it fits the scene as it is now.
+            move_setup(previous, path).into_diagnostic()?;
+            lock
         } else {
             lock
         };
-        let directory = Self { path: path.to_path_buf(), begin, plan: String::new(), room, _lock: lock };
+        let (path, plan, setup) = (path.to_path_buf(), String::new(), Vec::new());
+        let directory = Self { path, begin, plan, setup, room, _lock: lock };
         directory.sketch(Status::Running, None)?;
         Ok(directory)
     }
@@ -103,6 +110,11 @@ impl Directory {
                 .wrap_err_with(|| format!("cannot remove {}", older.display())),
             _ => Ok(()),
         }
+    }
+
+    /// Takes the parts of the set-up that were read or kept, for the report.
+    pub fn keeps(&mut self, setup: Vec<Kept>) {
+        self.setup = setup;
     }
 
     /// Takes the plan as printed, for the page of the run.
@@ -165,7 +177,7 @@ impl Directory {
             version: env!("CARGO_PKG_VERSION"),
             scene_sha256,
             meshes_sha256,
-            run: Provenance { seconds, threads, commit: commit(), peak_bytes, origin },
+            run: Provenance { seconds, threads, commit: commit(), peak_bytes, setup: &self.setup, origin },
             results,
         };
         let text = json::pretty(&report).into_diagnostic()?;
@@ -198,6 +210,12 @@ impl Directory {
         if contents::foreign(&self.path)?.is_some() {
             return Ok(());
         }
+        if let Room::Moved(previous, _) = room {
+            move_setup(&self.path, previous)?;
+        } else if self.path.join(setup::FOLDER).exists() {
+            // Computing it took long.
+            return remove_files(&self.path);
+        }
         fs::remove_dir_all(&self.path)?;
         match room {
             Room::Made(topmost) => remove_empty(&self.path, topmost),
@@ -224,6 +242,23 @@ fn topmost_missing(path: &Path) -> Option<PathBuf> {
 fn remove_empty(path: &Path, topmost: &Path) -> std::io::Result<()> {
     let mut made = path.ancestors().skip(1).take_while(|p| p.starts_with(topmost));
     made.try_for_each(fs::remove_dir)
+}
+
+/// Moves the set-up in a directory, if there is one, to another directory that has none.
+fn move_setup(from: &Path, to: &Path) -> std::io::Result<()> {
+    let [from, to] = [from, to].map(|folder| folder.join(setup::FOLDER));
+    if from.exists() && !to.exists() { fs::rename(from, to) } else { Ok(()) }
+}
+
+/// Removes the files in a directory, but not its folders.
+fn remove_files(path: &Path) -> std::io::Result<()> {
+    for entry in fs::read_dir(path)? {
+        let file = entry?.path();
+        if !file.is_dir() {
+            fs::remove_file(file)?;
+        }
+    }
+    Ok(())
 }
 
 /// Locks a directory for this process; `None` if the system has no locks.

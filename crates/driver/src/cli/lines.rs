@@ -4,6 +4,7 @@ use super::arguments::{Running, Set};
 use super::directory::Directory;
 use super::end::End;
 use super::read::Ready;
+use crate::setup::Setups;
 use asperity_output::printing::{self, Form};
 use miette::{IntoDiagnostic, JSONReportHandler, WrapErr};
 use serde::Serialize;
@@ -54,6 +55,17 @@ pub(super) fn planned(ready: &mut Ready) {
             printing::warning(&warning.to_string());
         }
     }
+}
+
+/// The parts of the set-up that were read or written, which the report has from now on, and warnings about their files.
+pub(super) fn kept(directory: &mut Directory, setups: Setups) {
+    let (kept, warnings) = setups.finish();
+    for part in &kept {
+        printing::out(format_args!("  set-up    {part}\n"));
+        printing::line("setup", part);
+    }
+    warnings.iter().for_each(|warning| printing::warning(warning));
+    directory.keeps(kept);
 }
 
 /// The lines of a catalogue.

@@ -26,6 +26,7 @@ mod waves;
 mod work;
 
 use crate::report;
+use crate::setup::{Setups, When};
 pub use arguments::{Arguments, Checking, Command, Running, Schema, Set};
 use asperity_output::{Pulse, printing};
 use begin::Begin;
@@ -77,7 +78,7 @@ pub fn execute(arguments: &Arguments) -> miette::Result<End> {
 
 /// Claims the output directory of a scene and runs it there.
 fn begin_run(running: &Running) -> miette::Result<End> {
-    let Running { scene, out, set, no_plots, force, pauses, .. } = running;
+    let Running { scene, out, set, no_plots, force, cache, pauses, .. } = running;
     let out = out.clone().unwrap_or_else(|| default_output(scene));
     let source = Source::read(scene, &set.values)?;
     let begin = Begin { resume: pauses.resume, force: *force, ..source.begin(scene) };
@@ -91,7 +92,7 @@ fn begin_run(running: &Running) -> miette::Result<End> {
     let mut directory = Directory::claim(&out, begin)?;
     lines::begin(&directory);
     lines::settings(set);
-    let ended = run(source, &mut directory, !no_plots, pauses);
+    let ended = run(source, &mut directory, (!no_plots, *cache), pauses);
     if let Err(error) = &ended {
         directory.fails(error);
     }
@@ -99,12 +100,19 @@ fn begin_run(running: &Running) -> miette::Result<End> {
 }
 
 /// Plans and runs a scene in its output directory.
-fn run(source: Source, directory: &mut Directory, drawn: bool, pauses: &Pausing) -> miette::Result<End> {
+fn run(
+    source: Source,
+    directory: &mut Directory,
+    (drawn, cache): (bool, When),
+    pauses: &Pausing,
+) -> miette::Result<End> {
+    let setups = Setups::beside(directory.path(), cache);
     let mut ready = {
         let _waiting = Pulse::new("planning");
-        source.plan()?
+        source.plan(&setups)?
     };
     print::plan(&ready.plan);
+    lines::kept(directory, setups);
     directory.planned(print::plan_text(&ready.plan));
     lines::planned(&mut ready);
     let mut ruptures = match &mut ready.plan {

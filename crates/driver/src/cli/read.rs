@@ -11,6 +11,7 @@ use crate::plan::{self, AnyPlan, ScenePlan};
 use crate::report::Kind;
 use crate::scene;
 use crate::scene::settings::{self, Origin, Resolved, Setting};
+use crate::setup::Setups;
 use crate::sha256::sha256;
 use crate::slider;
 use crate::slider_planner;
@@ -207,15 +208,15 @@ impl Source {
         picture.map(Some).map_err(|error| self.text.report(&Diagnostics::from(error)))
     }
 
-    /// Plans the scene.
-    pub fn plan(self) -> miette::Result<Ready> {
+    /// Plans the scene, with set-ups that are kept.
+    pub fn plan(self, setups: &Setups) -> miette::Result<Ready> {
         let Self { text, parsed, clock } = self;
         let mut meshes = BTreeMap::new();
         let mut plan = match parsed {
             Parsed::Sliders(plan) => Planned::Sliders(plan),
             Parsed::Bodies(scene) => {
                 // A mesh file that cannot be read is reported by the plan, which knows the position in the scene.
-                let plan = match plan::plan_scene(&scene) {
+                let plan = match plan::plan_beside(&scene, setups) {
                     Ok(ScenePlan::Bodies(plan)) => Planned::Bodies(plan),
                     Ok(ScenePlan::Faults(plan)) => Planned::Faults(plan),
                     Ok(ScenePlan::Dynamic(plan)) => Planned::Dynamic(plan),

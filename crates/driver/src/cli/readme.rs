@@ -2,13 +2,14 @@
 
 use super::begin::{LOCK, PAGE, README, REPORT, RESERVE, SCENE};
 use crate::checkpoint;
+use crate::setup;
 use asperity_output::plots::Sheet;
 use asperity_output::{OutputError, atomic, progress};
 use std::fs;
 use std::path::Path;
 
 /// Files and folders of runs, with what they are.
-const MEANINGS: [(&str, &str); 42] = [
+const MEANINGS: [(&str, &str); 43] = [
     (PAGE, "plan, checks, pictures, costs and warnings in one page for browsers, without other files"),
     (REPORT, "status, results, counts, times, provenance: begin here"),
     (SCENE, "the scene as it was run, with the values of `--set`; mesh files are relative to the scene file"),
@@ -48,6 +49,10 @@ const MEANINGS: [(&str, &str); 42] = [
     ("history", "sliders over time (CSV)"),
     ("plots", "figures (SVG, PNG, PDF)"),
     (Sheet::FILE, "what `asperity plot` needs beside the tables to draw the figures again"),
+    (
+        setup::FOLDER,
+        "set-up of faults that took long, which the next run of the same scene here reads; may be removed",
+    ),
     ("stations", "stations on faults over time, in the format of the SEAS community"),
     ("platform", "results in the files of the platform of a community benchmark"),
     ("seismograms", "velocity and displacement at positions (CSV, miniSEED, SAC)"),

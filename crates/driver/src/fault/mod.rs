@@ -59,7 +59,7 @@ pub use keeper::Keeper;
 pub use normal::NormalChoice;
 pub use openings::OpenedFault;
 pub use plan::{CellGrid, FaultView, HeatView, Outline, Plan, PointView, Station};
-pub use planner::{Ground, critical_slope, modulus, places, plan, plan_with, spacings};
+pub use planner::{Ground, critical_slope, modulus, places, plan, plan_beside, plan_with, spacings};
 pub use platform::Platform;
 pub use position::Position;
 pub use receivers::{Receiver, Receivers};

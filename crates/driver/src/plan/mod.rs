@@ -29,7 +29,7 @@ mod watch;
 pub use asperity_mechanics::{Path, PlannedInterface, Stepping, interface_nodes};
 pub use events::{EventPlan, Sites};
 pub use picture::picture;
-pub use planner::{ScenePlan, plan, plan_scene};
+pub use planner::{ScenePlan, plan, plan_beside, plan_scene};
 pub use start_gap::{SHARE, StartGap};
 pub(crate) use stepping::rule;
 pub use values::{AnyPlan, Plan, Summary};

@@ -13,6 +13,7 @@ use crate::initial_stress;
 use crate::loading::{self, Stage};
 use crate::model::{self, sizes};
 use crate::scene::model::{Scene, Stepper};
+use crate::setup::Setups;
 use asperity_mechanics::{Mass, Problem};
 
 /// Plan of a scene with bodies, by kind.
@@ -31,12 +32,20 @@ pub enum ScenePlan {
 /// # Errors
 /// [`Diagnostic`] with the position in the scene.
 pub fn plan_scene(scene: &Scene) -> Result<ScenePlan, Diagnostic> {
+    plan_beside(scene, &Setups::none())
+}
+
+/// Plans a scene of any of these kinds. Set-ups of faults that take long are kept, and read where they were kept before.
+///
+/// # Errors
+/// [`Diagnostic`] with the position in the scene.
+pub fn plan_beside(scene: &Scene, setups: &Setups) -> Result<ScenePlan, Diagnostic> {
     Ok(if *scene.time.stepper.get_ref() == Stepper::Explicit {
         ScenePlan::Dynamic(Box::new(dynamic::plan(scene)?))
     } else if scene.faults.is_empty() {
         ScenePlan::Bodies(Box::new(plan(scene)?))
     } else {
-        let mut plan = fault::plan(scene)?;
+        let mut plan = fault::plan_beside(scene, setups)?;
         if *scene.time.stepper.get_ref() == Stepper::Auto {
             plan.ruptures = Some(dynamic::ruptures(scene, &plan)?);
         }

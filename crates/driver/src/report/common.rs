@@ -1,5 +1,6 @@
 //! Part common to every `report.json`: version, outcome and provenance.
 
+use crate::setup::Kept;
 use asperity_cycles::Energy;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -157,6 +158,9 @@ pub struct Provenance<'a> {
     /// Peak memory of the process \[bytes\]; absent if the system does not report it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub peak_bytes: Option<usize>,
+    /// Parts of the set-up that were read from the output directory, or kept there; absent if there are none.
+    #[serde(skip_serializing_if = "<[Kept]>::is_empty")]
+    pub setup: &'a [Kept],
     /// Input of the run.
     #[serde(flatten)]
     pub origin: &'a Origin,

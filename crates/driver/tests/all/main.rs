@@ -46,6 +46,7 @@ mod resume_sliders;
 mod samples;
 mod scene_schema;
 mod scenes;
+mod setup;
 mod signs;
 mod slider;
 mod slider_outputs;

@@ -140,7 +140,9 @@ fn energy(report: &Value) -> String {
 
 /// Counts, which do not differ from run to run, and times and memory, which do.
 fn costs(report: &Value) -> String {
-    format!("{}\n{RUN}{}", of_key(report, "counts"), of_key(report, "run"))
+    // What differs from run to run is one line.
+    let run: String = of_key(report, "run").lines().collect();
+    format!("{}\n{RUN}{run}", of_key(report, "counts"))
 }
 
 /// Value of a key of a report; nothing where it is absent or empty.

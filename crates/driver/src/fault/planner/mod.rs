@@ -6,6 +6,7 @@ mod backslip;
 mod bends;
 mod cells;
 pub(crate) mod checks;
+mod condensed;
 pub mod cover;
 mod critical;
 pub mod fields;
@@ -55,13 +56,13 @@ use crate::loading::{self, Stage};
 use crate::model::checks::machines;
 use crate::model::{self, Model, meshes};
 use crate::scene::model::{Creep, Fault as Spec, Kinematics, Scene};
+use crate::setup::Setups;
 use crate::warning::Warning;
-use asperity_cycles::medium::{
-    Conditions, Forces, Loads, Place, Point, Refusal, Spring, Surroundings, condense, least_bytes,
-};
-use asperity_cycles::operator::{Form, Geometry, Operator, of_forces};
+use asperity_cycles::medium::{Conditions, Loads, Place, Point, Refusal, Spring, least_bytes};
+use asperity_cycles::operator::{Form, Operator};
 use asperity_cycles::{Loading, deficit};
-use assemble::{Around, Surrounded, geometry, plan_of, turns};
+use assemble::{Around, Surrounded, plan_of, turns};
+use condensed::Condensed;
 use fields::Fields;
 use held::Asked;
 use medium::Media;
@@ -76,11 +77,23 @@ pub fn plan(scene: &Scene) -> Result<Plan, Diagnostic> {
     plan_with(scene, Form::Fitting)
 }
 
+/// Plans such a scene with set-ups that are kept.
+///
+/// # Errors
+/// [`Diagnostic`] with the place in the scene.
+pub fn plan_beside(scene: &Scene, setups: &Setups) -> Result<Plan, Diagnostic> {
+    plan_of_kind(scene, (Form::Fitting, setups))
+}
+
 /// Plans such a scene with the operator in the given form.
 ///
 /// # Errors
 /// [`Diagnostic`] with the place in the scene.
 pub fn plan_with(scene: &Scene, form: Form) -> Result<Plan, Diagnostic> {
+    plan_of_kind(scene, (form, &Setups::none()))
+}
+
+fn plan_of_kind(scene: &Scene, form: (Form, &Setups)) -> Result<Plan, Diagnostic> {
     match scene.kinematics.get_ref() {
         Kinematics::Antiplane | Kinematics::PlaneStrain => plan_in::<2>(scene, form),
         Kinematics::ThreeD => plan_in::<3>(scene, form),
@@ -134,7 +147,7 @@ fn shown(scene: &Scene) -> bool {
     scene.output.bodies.as_ref().is_some_and(|b| *b.get_ref())
 }
 
-fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Diagnostic> {
+fn plan_in<const D: usize>(scene: &Scene, form: (Form, &Setups)) -> Result<Plan, Diagnostic> {
     match &scene.medium {
         Some(medium) => rock::plan::<D>(scene, medium, form),
         None => between_bodies::<D>(scene, form),
@@ -155,7 +168,10 @@ fn parted(stages: &[Stage]) -> Option<(Option<&Stage>, &Stage)> {
 }
 
 /// Plans faults between bodies.
-fn between_bodies<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Diagnostic> {
+fn between_bodies<const D: usize>(
+    scene: &Scene,
+    (form, setups): (Form, &Setups),
+) -> Result<Plan, Diagnostic> {
     let mut model = model::build::<D>(scene)?;
     if let Some(body) = model.bodies.iter().find(|b| b.nonlinear.is_some()) {
         return Err(asked::not_linear(scene, &body.name));
@@ -188,21 +204,23 @@ fn between_bodies<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Dia
     let bodies = model.take_stiffness();
     let faults: Vec<usize> = placed.iter().map(|p| p.fault).collect();
     let asked = Asked { scene, model: &model, loads: &loads, points: &points };
-    let pressed = pressing.map(|pressing| pressing::solve(asked, pressing, &faults, (&bodies, conditions)));
-    let pressed = pressed.transpose()?;
+    let inputs = setups.hash(|key| condensed::of_stiffness(key, &bodies));
+    let pressed = pressing
+        .map(|stage| pressing::solve(asked, stage, &faults, (&bodies, conditions), (setups, &inputs)))
+        .transpose()?;
     if let Some(pressed) = &pressed {
         loads = self::loads(stage, &pressed.displacement, Vec::new());
     }
     let free: Vec<usize> = (0..points.len()).filter(|&k| points[k].creep.is_none()).collect();
     let asked = Asked { scene, model: &model, loads: &loads, points: &points };
-    let surroundings = condense(bodies, &loads, &points, conditions, mirror.as_ref());
-    let mut surroundings = surroundings.map_err(|e| asked.error(&e))?;
-    notes.extend(surroundings.mirrored.then(|| MIRRORED.to_string()));
     let (creeping, mut placed): (Vec<_>, Vec<_>) = placed.into_iter().partition(|p| p.point.creep.is_some());
+    let how = (conditions, mirror.as_ref(), form);
+    let mut condensed = condensed::of((asked, &placed), bodies, how, (setups, inputs))?;
+    notes.extend(condensed.mirrored.then(|| MIRRORED.to_string()));
     let plates = backslip::plates(scene, &placed, conditions.tangents);
-    let Surroundings { opening, weight, bytes, bodies: displaced, .. } = &mut surroundings;
-    let (opening, weight, bytes, displaced) = (opening.take(), weight.take(), *bytes, displaced.take());
-    let driven = driven(scene, (&model, stage), (&placed, &creeping), (surroundings, &plates, form));
+    let (opening, weight) = (condensed.opening.take(), condensed.weight.take());
+    let (bytes, displaced) = (condensed.bytes, condensed.bodies.take());
+    let driven = driven(scene, (&model, stage), (&placed, &creeping), (condensed, &plates));
     warnings.extend(driven.warnings);
     notes.extend(backslip::notes(scene));
     notes.extend(weight::press(scene, (&model, stage), weight.as_ref(), &mut placed)?);
@@ -245,11 +263,10 @@ fn driven<const D: usize>(
     scene: &Scene,
     (model, stage): (&Model<D>, &Stage),
     (placed, creeping): (&[Placed<D>], &[Placed<D>]),
-    (surroundings, plates, form): (Surroundings, &[f64], Form),
+    (condensed, plates): (Condensed, &[f64]),
 ) -> Driven {
-    let of_sides = plates::check(scene, (model, stage), (placed, creeping), &surroundings);
-    let Surroundings { forces, mut loading, .. } = surroundings;
-    let operator = operator(forces, placed, form);
+    let of_sides = plates::check(scene, (model, stage), (placed, creeping), &condensed);
+    let Condensed { operator, mut loading, .. } = condensed;
     let mut of_backslip = None;
     if plates.iter().any(|rate| *rate != 0.0) {
         let deficit = deficit(operator.as_ref(), plates, stage.end);
@@ -281,13 +298,6 @@ pub(crate) fn all_points<const D: usize>(
     }
     notes.extend(meet::join(scene, model, &mut placed)?);
     Ok((placed, notes))
-}
-
-/// Operator in the given form.
-fn operator<const D: usize>(forces: Forces, placed: &[Placed<D>], form: Form) -> Box<dyn Operator> {
-    let (places, areas, faults) = geometry(placed);
-    let geometry = Geometry { places: &places, faults: &faults, areas: &areas, surfaces: D == 3 };
-    of_forces(forces, &geometry, form)
 }
 
 fn points_of<const D: usize>(

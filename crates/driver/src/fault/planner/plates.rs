@@ -5,12 +5,12 @@
 //! of all other points at the creep rate would cause. Consistent plates have `F_w + F_c + F_s = 0`. Otherwise the sides move past each other at
 //! `-F_w/(F_c + F_s)` times the creep rate.
 
+use super::condensed::Condensed;
 use super::placed::{Placed, slides};
 use crate::loading::Stage;
 use crate::model::Model;
 use crate::scene::model::{Creep, Fault as Spec, Scene};
 use crate::warning::Warning;
-use asperity_cycles::medium::{Forces, Surroundings};
 
 /// Relative difference between the motion of the sides and creep that causes no warning: a hundred times the usual precision of given rates.
 const AGREES: f64 = 0.01;
@@ -24,13 +24,13 @@ pub(super) fn check<const D: usize>(
     scene: &Scene,
     (model, stage): (&Model<D>, &Stage),
     (placed, creeping): (&[Placed<D>], &[Placed<D>]),
-    surroundings: &Surroundings,
+    condensed: &Condensed,
 ) -> Option<Warning> {
-    let creep = surroundings.creep.as_ref()?;
-    let total = surroundings.loading.mean(stage.end, placed.len());
+    let creep = condensed.creep.as_ref()?;
+    let total = condensed.loading.mean(stage.end, placed.len());
     let sides: Vec<f64> = total.iter().zip(creep).map(|(all, creep)| all - creep).collect();
     if !stage.has_loads() && judged(scene, model, placed, creeping) {
-        return of_plates(scene, placed, (&sides, creep), &surroundings.forces);
+        return of_plates(scene, placed, (&sides, creep), &condensed.with_plates);
     }
     let faults = scene.faults.iter().enumerate();
     faults.filter_map(|(k, fault)| against(fault, k, placed, (&sides, creep))).next()
@@ -67,21 +67,15 @@ fn force<const D: usize>(placed: &[Placed<D>], tractions: &[f64]) -> f64 {
     placed.iter().zip(tractions).map(|(p, t)| p.point.place.area * t).sum()
 }
 
-fn rate(spec: &Spec) -> Option<f64> {
-    spec.creep.as_ref().map(|c| c.rate.get_ref().0)
-}
-
 /// Warning about sides that do not move at the creep rate of the faults between them.
 fn of_plates<const D: usize>(
     scene: &Scene,
     placed: &[Placed<D>],
     (sides, creep): (&[f64], &[f64]),
-    forces: &Forces,
+    exerted: &[f64],
 ) -> Option<Warning> {
     let faults: Vec<(&String, &Spec)> = scene.faults.iter().collect();
-    let slip: Vec<f64> = placed.iter().map(|p| rate(faults[p.fault].1).unwrap_or_default()).collect();
-    let exerted = forces.shear_along(&slip);
-    let (by_sides, by_slip) = (force(placed, sides), force(placed, &exerted));
+    let (by_sides, by_slip) = (force(placed, sides), force(placed, exerted));
     let by_creep = force(placed, creep) + by_slip;
     let most = by_sides.abs().max(by_creep.abs());
     if most <= NOTHING * by_slip.abs() || (by_sides + by_creep).abs() <= AGREES * most {

@@ -10,6 +10,7 @@ use crate::diagnostic::Diagnostic;
 use crate::loading::Stage;
 use crate::scene::check;
 use crate::scene::model::{Fault as Spec, Scene, Stage as StageSpec};
+use crate::setup::{Part, Setups};
 use asperity_cycles::Fault;
 use asperity_cycles::medium::{Conditions, Pressed, Pressing, press};
 use asperity_fem::condense::Stiffness;
@@ -24,7 +25,7 @@ const NOTHING: f64 = 1e-9;
 /// Largest f_n over the stiffness of the rock: beyond it strains are not small.
 const MOST: f64 = 0.1;
 
-/// The bodies at the end of the stage that presses them.
+/// The bodies at the end of the stage that presses them; `stiffness` is the hash of theirs.
 ///
 /// # Errors
 /// [`Diagnostic`] if nothing holds the bodies, or if supports do not agree with the faults.
@@ -33,6 +34,7 @@ pub(super) fn solve<const D: usize>(
     stage: &Stage,
     faults: &[usize],
     (bodies, conditions): (&Stiffness, Conditions),
+    (setups, stiffness): (&Setups, &Option<String>),
 ) -> Result<Pressed, Diagnostic> {
     let names: Vec<&String> = asked.scene.faults.keys().collect();
     let slides = |fault: &usize| stage.frictionless.contains(names[*fault]);
@@ -41,7 +43,12 @@ pub(super) fn solve<const D: usize>(
         load: load(stage, asked.model.dofs()),
         slides: faults.iter().map(slides).collect(),
     };
-    press(bodies, &pressing, asked.points, conditions).map_err(|e| asked.error(&e))
+    let inputs = stiffness.as_ref().and_then(|stiffness| {
+        let shape = (conditions.components, conditions.tangents);
+        setups.hash(|key| key.value(stiffness).value(&pressing).value(&asked.points).value(&shape))
+    });
+    let press = || press(bodies, &pressing, asked.points, conditions).map_err(|e| asked.error(&e));
+    setups.part(Part::Pressing, inputs, press)
 }
 
 /// Displacements and forces at the end of a stage that starts without any, weight included.

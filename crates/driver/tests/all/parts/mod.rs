@@ -31,3 +31,4 @@ mod plan_penalty;
 mod refused;
 mod run_doubts;
 mod run_events;
+mod setup;

@@ -27,6 +27,7 @@ use crate::held;
 use crate::idealisation;
 use crate::model::materials;
 use crate::scene::model::{Fault as Spec, Medium as Rock, MediumKind, Scene, Spanned};
+use crate::setup::{Part, Setups};
 use crate::warning::Warning;
 use asperity_cycles::deficit;
 use asperity_cycles::kernel::Space;
@@ -40,7 +41,11 @@ use tiling::Tiling;
 ///
 /// # Errors
 /// [`Diagnostic`] with the place in the scene.
-pub(super) fn plan<const D: usize>(scene: &Scene, rock: &Rock, form: Form) -> Result<Plan, Diagnostic> {
+pub(super) fn plan<const D: usize>(
+    scene: &Scene,
+    rock: &Rock,
+    (form, setups): (Form, &Setups),
+) -> Result<Plan, Diagnostic> {
     let [stage] = scene.stages.as_slice() else { return Err(asked::stages(scene)) };
     let end = stage.duration.get_ref().0;
     let elastic = elastic(scene, rock)?;
@@ -58,7 +63,10 @@ pub(super) fn plan<const D: usize>(scene: &Scene, rock: &Rock, form: Form) -> Re
     let (places, areas, faults) = geometry(&placed);
     let geometry = Geometry { places: &places, faults: &faults, areas: &areas, surfaces: D == 3 };
     let memory = admit(scene, &tiling.patches, slip, &geometry)?;
-    let operator = tiling.patches.operator(&elastic, slip, (&geometry, form));
+    let inputs = setups
+        .hash(|key| key.value(&tiling.patches).value(&elastic).value(&slip).value(&geometry).value(&form));
+    let operator = || Ok(tiling.patches.operator(&elastic, slip, (&geometry, form)));
+    let operator = setups.part::<_, Diagnostic>(Part::Operator, inputs, operator)?;
     let plates = backslip::plates(scene, &placed, slip.tangents);
     let loading = deficit(operator.as_ref(), &plates, end);
     let receivers = receivers::of(scene, (&tiling.patches, &elastic), &placed, (plates, slip.tangents))?;

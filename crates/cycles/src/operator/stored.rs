@@ -1,0 +1,131 @@
+//! Operators as they are written and read: their kind, then their contents.
+
+use super::{Both, Checked, Dense, Hierarchical, Operator, Toeplitz};
+use serde::de::Deserializer;
+use serde::ser::{Error as _, Serializer};
+use serde::{Deserialize, Serialize};
+use std::any::Any;
+
+/// An operator that is written.
+#[derive(Serialize)]
+enum Written<'a> {
+    Dense(&'a Dense),
+    Hierarchical(&'a Hierarchical),
+    Toeplitz(&'a Toeplitz),
+    Both(&'a Both),
+    Checked(&'a Checked),
+}
+
+/// An operator that was read. Its kinds have the order of [`Written`].
+#[derive(Deserialize)]
+enum Read {
+    Dense(Dense),
+    Hierarchical(Hierarchical),
+    Toeplitz(Toeplitz),
+    Both(Both),
+    Checked(Checked),
+}
+
+impl<'a> Written<'a> {
+    fn of(operator: &'a dyn Operator) -> Option<Self> {
+        let any: &dyn Any = operator;
+        None.or_else(|| any.downcast_ref().map(Self::Dense))
+            .or_else(|| any.downcast_ref().map(Self::Hierarchical))
+            .or_else(|| any.downcast_ref().map(Self::Toeplitz))
+            .or_else(|| any.downcast_ref().map(Self::Both))
+            .or_else(|| any.downcast_ref().map(Self::Checked))
+    }
+}
+
+impl Serialize for dyn Operator {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let written = Written::of(self).ok_or_else(|| S::Error::custom("an operator of another kind"))?;
+        written.serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Box<dyn Operator> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Ok(match Read::deserialize(deserializer)? {
+            Read::Dense(operator) => Box::new(operator),
+            Read::Hierarchical(operator) => Box::new(operator.restored()),
+            Read::Toeplitz(operator) => Box::new(operator),
+            Read::Both(operator) => Box::new(operator),
+            Read::Checked(operator) => Box::new(operator),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::medium::Forces;
+    use crate::operator::{
+        Both, Checked, Dense, Geometry, Hierarchical, Lattice, Operator, Toeplitz, Tolerance,
+    };
+
+    const POINTS: usize = 300;
+
+    /// Tractions of a row of points; normal ones have both signs.
+    fn dense(sign: f64) -> Dense {
+        let of = |k: usize| ((k / POINTS) as f64, (k % POINTS) as f64);
+        let shear = |(i, j): (f64, f64)| sign / (0.3 + (i - j).powi(2));
+        let normal = |(i, j): (f64, f64)| (i - j) / (1.0 + (i - j).powi(2)).powi(2);
+        let all = || (0..POINTS * POINTS).map(of);
+        Dense::new(POINTS, all().map(shear).collect(), Some(all().map(normal).collect()))
+    }
+
+    fn compressed() -> Hierarchical {
+        let places: Vec<[f64; 3]> = (0..POINTS).map(|k| [k as f64, 0.0, 0.0]).collect();
+        let (all, areas) = (0..POINTS, vec![1.5; POINTS]);
+        let faults = std::slice::from_ref(&all);
+        let geometry = Geometry { places: &places, faults, areas: &areas, surfaces: false };
+        let dense = dense(1.0);
+        let forces = Forces::of_tractions(dense.matrix(), dense.normal_matrix().unwrap(), &areas);
+        Hierarchical::of_forces(&forces, &geometry, Tolerance::OfLargest(1e-9))
+    }
+
+    fn grid() -> Toeplitz {
+        let lattice = Lattice { columns: POINTS / 3, rows: 3, points: (0..POINTS).collect() };
+        let count = lattice.distances() * 9;
+        let table: Vec<f64> =
+            (0..count).map(|k| 1.0 / (1.0 + (k as f64 - 0.4 * count as f64).abs())).collect();
+        Toeplitz::new(lattice, &table, Some(&table.iter().map(|v| v * v).collect::<Vec<f64>>()))
+    }
+
+    fn both() -> Both {
+        let dense = |sign: f64| -> Box<dyn Operator> { Box::new(dense(sign)) };
+        Both::new([Box::new(compressed()), Box::new(grid())], Some([dense(-1.0), dense(0.5)]))
+    }
+
+    fn checked() -> Checked {
+        Checked::new(Box::new(compressed()), &|_| [vec![1.0; POINTS], Vec::new(), vec![0.5; POINTS]])
+    }
+
+    /// Everything that an operator says of itself.
+    fn said(operator: &dyn Operator) -> (Vec<f64>, String) {
+        let count = operator.points() * operator.components();
+        let slip: Vec<f64> = (0..count).map(|k| ((k * 7919) % 1000) as f64 / 1000.0 - 0.3).collect();
+        let (mut shear, mut normal) = (vec![0.0; count], vec![0.0; operator.points()]);
+        operator.shear(&slip, &mut shear);
+        operator.normal(&slip, &mut normal);
+        let all = [shear, normal, operator.stiffness().to_vec()].concat();
+        let words = operator.words();
+        (all, format!("{words} {:?} {} {}", operator.errors(), operator.bytes(), operator.couples_normal()))
+    }
+
+    #[test]
+    fn an_operator_that_is_read_has_the_bits_of_the_one_that_was_written() {
+        let all: [Box<dyn Operator>; 5] = [
+            Box::new(dense(1.0)),
+            Box::new(compressed()),
+            Box::new(grid()),
+            Box::new(both()),
+            Box::new(checked()),
+        ];
+        for operator in all {
+            let bytes = postcard::to_stdvec(&operator).unwrap();
+            let read: Box<dyn Operator> = postcard::from_bytes(&bytes).unwrap();
+            assert!(said(read.as_ref()) == said(operator.as_ref()), "{}", operator.words());
+        }
+    }
+}
