@@ -2,6 +2,7 @@
 
 pub mod direct;
 pub mod explicit;
+pub mod growth;
 
 use asperity_contact::{
     Enforcement, Interface, InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, Sliding, Smoothing,
