@@ -264,11 +264,15 @@ impl Condensed {
     /// Displacements of the whole body at `time` for the system displacement `u`.
     #[must_use]
     pub fn recover(&self, u: &[f64], time: f64) -> Vec<f64> {
+        self.recovered(u, self.loads.iter().map(|load| load.amplitude.value(time)))
+    }
+
+    /// The same with given amplitudes of the channels.
+    fn recovered(&self, u: &[f64], amplitudes: impl Iterator<Item = f64>) -> Vec<f64> {
         let r = &self.reduction;
         let mut x = vec![0.0; r.active.free.len()];
         let mut body = vec![0.0; r.active.number.len()];
-        for load in &self.loads {
-            let amplitude = load.amplitude.value(time);
+        for (load, amplitude) in self.loads.iter().zip(amplitudes) {
             x.iter_mut().zip(&load.reduced).for_each(|(x, part)| *x += amplitude * part);
             for (&dof, value) in r.fixed.iter().zip(&load.fixed) {
                 body[dof] += amplitude * value;
@@ -301,6 +305,35 @@ impl Interior {
     #[must_use]
     pub fn recover(&self, u: &[f64], time: f64) -> Vec<f64> {
         self.0.recover(u, time)
+    }
+
+    /// Weights w of the retained displacements in a weighted sum of displacements of the body without loads: `Σ w_i u_i`. By
+    /// reciprocity they are the condensed forces of a load with the weights of the sum, `f_i - K_ib K_bb⁻¹ f_b`, which takes half
+    /// a solve.
+    #[must_use]
+    pub fn influence(&self, weights: &[(usize, f64)]) -> Vec<f64> {
+        let r = &self.0.reduction;
+        let n = r.active.free.len();
+        let mut load = vec![0.0; n];
+        for &(dof, weight) in weights {
+            let row = r.active.number[dof];
+            if row != Equations::FIXED {
+                load[row] += weight;
+            }
+        }
+        r.factor.reduce(MatMut::from_column_major_slice_mut(&mut load, n, 1));
+        r.retained.iter().map(|&dof| load[r.active.number[dof]]).collect()
+    }
+
+    /// Amplitude of each channel, and the displacements of the whole body at its unit amplitude, with retained displacements at
+    /// zero.
+    pub fn loaded(&self) -> impl Iterator<Item = (&Table, Vec<f64>)> {
+        let zero = vec![0.0; self.0.pattern.dofs().len()];
+        let count = self.0.loads.len();
+        self.0.loads.iter().enumerate().map(move |(k, load)| {
+            let unit = (0..count).map(|other| if other == k { 1.0 } else { 0.0 });
+            (&load.amplitude, self.0.recovered(&zero, unit))
+        })
     }
 }
 

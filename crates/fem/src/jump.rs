@@ -136,12 +136,6 @@ impl<const C: usize> Jumps<C> {
     /// [`ObliqueConstraint`] where a plus node is held in some components only and its frame is oblique to them, or where its
     /// minus node is not held alike.
     pub fn channel(&self, channel: &Channel, fixed: &[usize]) -> Result<Channel, ObliqueConstraint> {
-        let mut forces: BTreeMap<usize, f64> = BTreeMap::new();
-        for &(dof, force) in &channel.forces {
-            for (d, v) in self.row(dof) {
-                *forces.entry(d).or_default() += v * force;
-            }
-        }
         let mut prescribed: BTreeMap<usize, f64> = BTreeMap::new();
         for &(dof, value) in &channel.prescribed {
             match self.of(dof) {
@@ -164,9 +158,21 @@ impl<const C: usize> Jumps<C> {
         }
         Ok(Channel {
             prescribed: prescribed.into_iter().collect(),
-            forces: forces.into_iter().filter(|(_, f)| *f != 0.0).collect(),
+            forces: self.gather(&channel.forces),
             amplitude: channel.amplitude.clone(),
         })
+    }
+
+    /// `Tᵀ f` of forces on degrees of freedom, or of the weights of displacements in a sum.
+    #[must_use]
+    pub fn gather(&self, forces: &[(usize, f64)]) -> Vec<(usize, f64)> {
+        let mut all: BTreeMap<usize, f64> = BTreeMap::new();
+        for &(dof, force) in forces {
+            for (d, v) in self.row(dof) {
+                *all.entry(d).or_default() += v * force;
+            }
+        }
+        all.into_iter().filter(|(_, f)| *f != 0.0).collect()
     }
 
     /// Prescribed degrees of freedom in the transformed unknowns, sorted.

@@ -2,6 +2,7 @@
 
 mod bodies;
 mod conditions;
+mod coulomb;
 pub mod course;
 mod explicit;
 mod fault_physics;

@@ -4,6 +4,7 @@
 //! span (see [`here`]); their errors name the key instead.
 
 mod body;
+mod coulomb;
 mod fault;
 mod field;
 mod heat;
@@ -26,6 +27,7 @@ use super::units::{Angle, Dimension, Length, Memory, Penalty, Penetration, Press
 pub use crate::spanned::Spanned;
 use crate::warning::Warning;
 pub use body::*;
+pub use coulomb::*;
 pub use fault::*;
 pub use field::*;
 pub use heat::*;
@@ -562,11 +564,13 @@ pub struct Output {
     /// Positions on a fault: distances along it, or coordinates `[x, y]`, in space `[x, y, z]`.
     #[serde(default)]
     pub stations: BTreeMap<String, Spanned<Vec<Spanned<Station>>>>,
-    /// In a medium: `[x, y]`, in space `[x, y, z]`: displacement and velocity of a position in the rock, y up.
+    /// `[x, y]`, in space `[x, y, z]`: displacement and velocity of a position in a medium, y up, or in bodies.
     #[serde(default)]
     pub receivers: BTreeMap<String, Spanned<Vec<Length>>>,
     /// In a half-space: `{ spacing = "2 km" }`: map of the displacement of the free surface over each event.
     pub surface: Option<Spanned<SurfaceSpec>>,
+    /// `{ friction = 0.4, strike = "30 deg", dip = "90 deg", rake = "0 deg" }`: changes of Coulomb stress on such planes over each event.
+    pub coulomb: Option<Spanned<CoulombSpec>>,
     /// In a medium: `{ problem = "SEAS Benchmark BP5-QD", modeler = "A. Author" }`: files for the platform of a benchmark in space.
     pub platform: Option<Spanned<PlatformSpec>>,
     /// Explicit: `{ body = "A", at = ["1 km", "2 km"] }`: velocity and displacement at a position, at equal intervals.

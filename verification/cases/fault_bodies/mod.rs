@@ -1,6 +1,7 @@
 //! Several faults, several materials, curved faults.
 
 mod backslip;
+mod positions;
 mod section;
 mod unlike;
 
@@ -33,7 +34,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     arc_in_space(ledger)?;
     unlike::run(ledger)?;
     backslip::run(ledger)?;
-    section::run(ledger)
+    section::run(ledger)?;
+    positions::run(ledger)
 }
 
 /// Friction of faults of which only the operator is used.

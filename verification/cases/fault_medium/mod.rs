@@ -1,5 +1,6 @@
 //! Faults in homogeneous rock without bodies: tractions of dipping faults, cracks, long rectangles, and the cycles of BP1.
 
+mod coulomb;
 mod depths;
 mod fields;
 mod receivers;
@@ -43,7 +44,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     fields::run(ledger)?;
     cycles(ledger)?;
     receivers::run(ledger)?;
-    surface::run(ledger)
+    surface::run(ledger)?;
+    coulomb::run(ledger)
 }
 
 /// A scene without loads; `fault` holds its geometry.

@@ -209,15 +209,27 @@ pub(super) const SIZE: [f64; 2] = [2e3, 2e3];
 
 /// An event of one cell in space, and its slip \[m\].
 pub(super) fn of_one_cell() -> Result<(Written, f64), CaseError> {
+    of_one_cell_with(
+        "surface = { spacing = 1e3, x = { from = -6300.0, to = 8100.0 }, z = { from = -7e3, to = 5500.0 } }\n",
+    )
+}
+
+/// Such an event with further outputs, and its slip \[m\].
+pub(super) fn of_one_cell_with(output: &str) -> Result<(Written, f64), CaseError> {
+    let done = Written::of(&one_cell(output))?;
+    let slip = done.files.table("events/rupture_times_000.csv")?.only("slip")?;
+    Ok((done, slip))
+}
+
+/// A fault of one cell in space with further outputs.
+pub(super) fn one_cell(output: &str) -> String {
     let size = SIZE;
     let rest = rectangle(1.1e-9, [size[0], size[1], 2e3]);
     let more = format!(
-        "surface = {{ spacing = 1e3, x = {{ from = -6300.0, to = 8100.0 }}, z = {{ from = -7e3, to = 5500.0 }} }}\n[events]\nabove = \"1e-3 m/s\"\nstop_after = 1\n[place]\nepoch = \"2000-01-01T00:00:00Z\"\nlatitude = \"10 deg\"\nlongitude = \"20 deg\"\nstrike = \"{STRIKE} deg\"\nup = [0, 1, 0]\nalong = [0, 0, -1]\n"
+        "{output}[events]\nabove = \"1e-3 m/s\"\nstop_after = 1\n[place]\nepoch = \"2000-01-01T00:00:00Z\"\nlatitude = \"10 deg\"\nlongitude = \"20 deg\"\nstrike = \"{STRIKE} deg\"\nup = [0, 1, 0]\nalong = [0, 0, -1]\n"
     );
     let weakening = "a = 0.010, b = 0.015, l = \"4 mm\"";
-    let done = Written::of(&scene("3d", weakening, "1000 yr", &(rest + &more)))?;
-    let slip = done.files.table("events/rupture_times_000.csv")?.only("slip")?;
-    Ok((done, slip))
+    scene("3d", weakening, "1000 yr", &(rest + &more))
 }
 
 /// Displacement over an event of one cell.

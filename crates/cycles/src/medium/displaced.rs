@@ -32,17 +32,26 @@ impl Patches {
     /// [`Self::displacements`].
     #[must_use]
     pub fn caused(&self, positions: &[[f64; 3]], slips: &[&[f64]], rock: &Elastic) -> Vec<Vec<[f64; 3]>> {
-        let tangents = slips.iter().map(|slip| slip.len() / self.count().max(1)).max().unwrap_or(0);
-        let of = |at: &[f64; 3]| {
-            let per_slip: Vec<[f64; 3]> =
-                (0..tangents).flat_map(|component| self.displacements(at, component, rock)).collect();
-            let sum = |slip: &&[f64]| {
-                slip.iter().zip(&per_slip).fold([0.0; 3], |sum: [f64; 3], (slip, per)| {
-                    std::array::from_fn(|c| sum[c] + slip * per[c])
-                })
-            };
-            slips.iter().map(sum).collect()
-        };
-        positions.par_iter().map(of).collect()
+        summed(positions, (slips, self.count()), |at, component| self.displacements(at, component, rock))
     }
+}
+
+/// Sums of what slips of `count` patches cause, component by component: for each position, one per slip. `per_slip` has that of
+/// unit slip of each patch in a component.
+pub(super) fn summed<const N: usize>(
+    positions: &[[f64; 3]],
+    (slips, count): (&[&[f64]], usize),
+    per_slip: impl Fn(&[f64; 3], usize) -> Vec<[f64; N]> + Sync,
+) -> Vec<Vec<[f64; N]>> {
+    let tangents = slips.iter().map(|slip| slip.len() / count.max(1)).max().unwrap_or(0);
+    let of = |at: &[f64; 3]| {
+        let per_slip: Vec<[f64; N]> = (0..tangents).flat_map(|component| per_slip(at, component)).collect();
+        let sum = |slip: &&[f64]| {
+            slip.iter()
+                .zip(&per_slip)
+                .fold([0.0; N], |sum: [f64; N], (slip, per)| std::array::from_fn(|c| sum[c] + slip * per[c]))
+        };
+        slips.iter().map(sum).collect()
+    };
+    positions.par_iter().map(of).collect()
 }

@@ -15,9 +15,10 @@ mod point;
 mod pressed;
 mod refusal;
 mod springs;
+mod stressed;
 mod tractions;
 
-pub use bodies::Bodies;
+pub use bodies::{Bodies, Followed};
 pub use condensed::{Conditions, Surroundings, condense, least_bytes};
 pub use forces::Forces;
 pub use loads::Loads;

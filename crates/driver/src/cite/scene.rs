@@ -12,7 +12,7 @@ use crate::scene::model::{
 use crate::scene::slider::SliderScene;
 
 /// Keys of this file, for the test of the table.
-pub const KEYS: [&str; 31] = [
+pub const KEYS: [&str; 32] = [
     "puso2004",
     "puso2004b",
     "wohlmuth2000",
@@ -40,6 +40,7 @@ pub const KEYS: [&str; 31] = [
     "okada1992",
     "nikkhoo2015",
     "savage1983",
+    "king1994",
     "day2005",
     "kaneko2008",
     "lysmer1969",
@@ -61,6 +62,9 @@ pub fn of_scene(scene: &Scene) -> Result<Citations, Diagnostics> {
     }
     if scene.medium.is_some() {
         add_medium(&mut citations, scene);
+    }
+    if scene.output.coulomb.is_some() {
+        citations.add("king1994", "output: changes of Coulomb stress");
     }
     for (name, body) in &scene.bodies {
         add_body(&mut citations, &format!("body `{name}`"), body);

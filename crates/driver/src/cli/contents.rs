@@ -51,7 +51,7 @@ const FILES: [&str; 30] = [
 
 /// Folders that runs make, with the extensions of the files in them.
 const FOLDERS: [(&str, &[&str]); 14] = [
-    ("events", &["csv", "grd", "fsp"]),
+    ("events", &["csv", "grd", "fsp", "vtu"]),
     ("fields", &["vtu"]),
     ("profiles", &["csv"]),
     ("probes", &["csv"]),

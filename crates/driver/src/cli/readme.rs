@@ -24,9 +24,9 @@ const MEANINGS: [(&str, &str); 43] = [
     ("slow_events.csv", "catalogue of slow events"),
     (
         "events",
-        "single events: moment rate, rupture times, displacements (CSV), grids for GMT (netCDF), finite-fault models (FSP)",
+        "single events: moment rate, rupture times, displacements, Coulomb stress (CSV), stresses of bodies (VTU), grids for GMT (netCDF), finite-fault models (FSP)",
     ),
-    ("receivers", "motion of positions in the rock over time (CSV)"),
+    ("receivers", "motion of positions in rock or bodies over time (CSV)"),
     ("events.json", "catalogue of events, with more of each"),
     ("events.quakeml", "catalogue of events for seismological programs"),
     ("CMTSOLUTION", "centroid moment tensors of the events"),

@@ -298,6 +298,7 @@ fn write_faults(
     fault::write_fields(path, plan, run).into_diagnostic()?;
     fault::write_finite_faults(path, plan, run, &report.events).into_diagnostic()?;
     draw_sheet(path, &fault::sheet(plan, run, panel(plan, report)), drawn).into_diagnostic()?;
+    fault::write_stresses(path, plan, run).into_diagnostic()?;
     fault::write_bodies(path, plan, run).into_diagnostic()
 }
 

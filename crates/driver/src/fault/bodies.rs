@@ -43,6 +43,16 @@ impl BodiesView {
         }
     }
 
+    /// Mean position of the nodes of each cell, in the order of the cells of the bodies \[m\].
+    #[must_use]
+    pub fn middles(&self) -> Vec<[f64; 3]> {
+        let middle = |(_, nodes): &(u8, Vec<usize>)| {
+            let sum = |c: usize| nodes.iter().map(|&n| self.nodes[n][c]).sum::<f64>();
+            std::array::from_fn(|c| sum(c) / nodes.len() as f64)
+        };
+        self.cells.iter().map(middle).collect()
+    }
+
     /// Jumps to which the bodies are displaced at a time \[s\]: slip less the motion of plates behind which it lags, and openings \[m\].
     #[must_use]
     pub fn jumps(&self, [slip, opening]: [&[f64]; 2], time: f64) -> Vec<f64> {

@@ -1,5 +1,6 @@
 //! Files of a 3D run at its end: fields of events and of the last state, and the collections of all fields.
 
+use super::coulomb_tables;
 use super::event_tables::{self, reached, turned};
 use super::fields::{Field, Surface, along, state};
 use super::plan::{FaultView, Plan};
@@ -21,6 +22,7 @@ pub fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), OutputError>
     event_tables::write(out, plan, run)?;
     receiver_tables::write(out, plan, run)?;
     surface_tables::write(out, plan, run)?;
+    coulomb_tables::write(out, plan, run)?;
     platform_files::write(out, plan, run)?;
     if !plan.in_space {
         return Ok(());

@@ -1,6 +1,7 @@
 //! Figures of a run: what they need beside its tables.
 
 use super::cadence::time;
+use super::coulomb_figures;
 use super::event_tables::reached;
 use super::plan::{FaultView, Plan};
 use super::shape::{at_corners, corners, shape};
@@ -24,6 +25,7 @@ pub fn sheet(plan: &Plan, run: &FaultRun, panel: EventPanel) -> Sheet {
     sheet.plots.extend(on_faults(plan, run, &shapes).into_iter().map(Plot::Event));
     sheet.plots.push(Plot::Panel(panel));
     sheet.plots.extend(surface_figures::plots(plan, run));
+    sheet.plots.extend(coulomb_figures::plots(plan, run));
     sheet
 }
 

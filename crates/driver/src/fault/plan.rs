@@ -2,6 +2,7 @@
 
 use super::bodies::BodiesView;
 use super::cadence::Cadence;
+use super::coulomb::Coulomb;
 use super::frame::Frame;
 use super::free_surface::FreeSurface;
 use super::normal::NormalChoice;
@@ -9,6 +10,7 @@ use super::platform::Platform;
 use super::receivers::Receivers;
 use super::resolution::Resolution;
 use super::sampling::Sampling;
+use super::stresses::BodyStresses;
 use crate::checks::Checks;
 use crate::ruptures::Ruptures;
 use crate::warning::Warning;
@@ -144,10 +146,14 @@ pub struct Plan {
     pub bodies: Option<BodiesView>,
     /// Values of the bodies that are sampled.
     pub sampling: Option<Sampling>,
-    /// Positions in the rock whose motion is written.
+    /// Positions in the rock or the bodies whose motion is written.
     pub receivers: Receivers,
     /// Positions on the free surface whose displacement over each event is written.
     pub free_surface: Option<FreeSurface>,
+    /// Positions in the rock at which the change of Coulomb stress over each event is written.
+    pub coulomb: Option<Coulomb>,
+    /// Planes on which stresses of bodies over each event are resolved.
+    pub stresses: Option<BodyStresses>,
     /// Files for the platform of a community benchmark.
     pub platform: Option<Platform>,
     /// Geographic position and epoch of the origin.
@@ -291,14 +297,16 @@ impl Plan {
     fn outputs(&self) -> Vec<String> {
         let mut all = vec![self.cadence.words(), of_events(self.event_files)];
         if !self.receivers.all.is_empty() {
-            all.push(format!(
-                "{} receivers in the rock, which move with the plates",
-                self.receivers.all.len()
-            ));
+            let place = if self.dofs > 0 { "bodies" } else { "rock, which move with the plates" };
+            all.push(format!("{} receivers in the {place}", self.receivers.all.len()));
         }
         if let Some(surface) = &self.free_surface {
             let count = surface.positions.len();
             all.push(format!("displacement of {count} positions of the free surface over each event"));
+        }
+        all.extend(self.coulomb.as_ref().map(Coulomb::words));
+        if self.stresses.is_some() {
+            all.push("stresses of the bodies and their Coulomb change over each event".into());
         }
         all
     }

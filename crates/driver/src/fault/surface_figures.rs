@@ -1,11 +1,11 @@
 //! Figures of the displacement of the free surface over events, from the tables of a run.
 
-use super::free_surface::{FreeSurface, SurfaceAxes};
+use super::free_surface::SurfaceAxes;
 use super::plan::{FaultView, Plan};
 use super::source_time::FOLDER;
 use super::surface_tables::name;
 use asperity_cycles::{Event, FaultRun, Rupture};
-use asperity_output::plots::{Coordinates, Curves, Ground, Measure, OfEvent, Plot, Points};
+use asperity_output::plots::{Coordinates, Curves, Ground, Measure, OfEvent, Plot, Points, Shown};
 use std::collections::BTreeMap;
 
 /// Columns of the tables: x, the first component in the axes of the scene, and that to the east.
@@ -17,10 +17,21 @@ const ON_EARTH: usize = 9;
 pub(super) fn plots(plan: &Plan, run: &FaultRun) -> Vec<Plot> {
     let Some(surface) = &plan.free_surface else { return Vec::new() };
     let events = run.events().iter().enumerate().take(plan.event_files);
-    let edges = || plan.faults.iter().flat_map(|fault| edges(plan, surface, fault)).collect();
-    let map = |event: OfEvent, coordinates, axes, columns| {
+    let edges = || plan.faults.iter().flat_map(|fault| edges(plan, &surface.axes, fault)).collect();
+    let map = |event: OfEvent, coordinates, axes, [right, up, out]: [usize; 3]| {
         let (file, table) = (stem(event.number), table(event.number));
-        Plot::Ground(Ground { file, event, coordinates, axes, table, columns, edges: edges() })
+        let (shown, arrows) = (Shown::Displacement, Some([right, up]));
+        Plot::Ground(Ground {
+            file,
+            event,
+            coordinates,
+            axes,
+            shown,
+            table,
+            colours: out,
+            arrows,
+            edges: edges(),
+        })
     };
     let one = |event: OfEvent| match &surface.axes {
         SurfaceAxes::Line(_) => Plot::Curves(profile(plan, event)),
@@ -69,7 +80,7 @@ fn profile(plan: &Plan, event: OfEvent) -> Curves {
 }
 
 /// Edges of a fault on the map: sides of its faces that belong to a single one.
-fn edges(plan: &Plan, surface: &FreeSurface, fault: &FaultView) -> Vec<[(f64, f64); 2]> {
+pub(super) fn edges(plan: &Plan, axes: &SurfaceAxes, fault: &FaultView) -> Vec<[(f64, f64); 2]> {
     let points = &plan.points[fault.points.clone()];
     let faces: Vec<&[usize]> = match &fault.outline {
         Some(outline) => outline.corners.iter().map(|corners| corners.as_slice()).collect(),
@@ -86,7 +97,7 @@ fn edges(plan: &Plan, surface: &FreeSurface, fault: &FaultView) -> Vec<[(f64, f6
     }
     let seen = |node: usize| {
         let at = fault.outline.as_ref().map_or_else(|| points[node].at, |outline| outline.nodes[node]);
-        match (&surface.axes, &plan.frame) {
+        match (axes, &plan.frame) {
             (SurfaceAxes::Earth(_), Some(frame)) => {
                 let spot = frame.spot(&at);
                 (spot.longitude, spot.latitude)

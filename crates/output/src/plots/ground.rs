@@ -6,7 +6,7 @@ use super::field::{Bar, FINE};
 use super::figure::{Anchor, Figure, Image, Point};
 use super::paper::Paper;
 use super::title::title;
-use super::units::{LENGTH, NUMBER, Unit};
+use super::units::{LENGTH, NUMBER, STRESS, Unit, Units};
 use serde::{Deserialize, Serialize};
 
 /// Unit of the coordinates of a map.
@@ -18,7 +18,57 @@ pub enum Coordinates {
     Degrees,
 }
 
-/// A map of displacements.
+/// Quantity that a map shows in colours.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Shown {
+    /// Displacement of the surface out of the page, with arrows.
+    Displacement,
+    /// Change of Coulomb stress at a depth, given as text, without arrows.
+    CoulombStress {
+        /// The depth with its unit.
+        depth: String,
+    },
+}
+
+/// Share of the positions whose changes of stress the colours cover: beside a fault stress is singular, and the few values there
+/// would hide all others.
+const COVERED: f64 = 0.95;
+
+impl Shown {
+    fn title(&self) -> String {
+        match self {
+            Self::Displacement => "displacement of the surface".into(),
+            Self::CoulombStress { depth } => format!("change of Coulomb stress at a depth of {depth}"),
+        }
+    }
+
+    fn units(&self) -> Units {
+        match self {
+            Self::Displacement => LENGTH,
+            Self::CoulombStress { .. } => STRESS,
+        }
+    }
+
+    fn label(&self) -> &'static str {
+        match self {
+            Self::Displacement => "Upward",
+            Self::CoulombStress { .. } => "Coulomb stress",
+        }
+    }
+
+    /// Largest value that the colours show.
+    fn most(&self, values: &[f64]) -> f64 {
+        if *self == Self::Displacement {
+            return largest(values.iter().copied());
+        }
+        let mut sizes: Vec<f64> = values.iter().map(|v| v.abs()).filter(|v| v.is_finite()).collect();
+        sizes.sort_by(f64::total_cmp);
+        let last = sizes.len().saturating_sub(1);
+        sizes.get((last as f64 * COVERED) as usize).copied().unwrap_or(0.0)
+    }
+}
+
+/// A map of displacements or of a change of stress.
 #[derive(Clone, Debug)]
 pub(super) struct GroundMap {
     /// Title of the scene.
@@ -27,9 +77,11 @@ pub(super) struct GroundMap {
     pub coordinates: Coordinates,
     /// Names and values of the coordinates, to the right and up.
     pub axes: [(String, Vec<f64>); 2],
+    /// Quantity in colours.
+    pub shown: Shown,
     /// Displacements to the right and up the page, row by row \[m\].
     pub horizontal: Vec<[f64; 2]>,
-    /// Displacements out of the page \[m\].
+    /// Values in colours: displacements out of the page \[m\], or changes of stress \[Pa\].
     pub vertical: Vec<f64>,
     /// Edges of the faults.
     pub edges: Vec<[(f64, f64); 2]>,
@@ -56,13 +108,13 @@ impl GroundMap {
     /// The figure; `None` without an extent or a displacement.
     pub(super) fn figure(&self, paper: Paper) -> Option<Figure> {
         let frame = self.frame(paper)?;
-        let most = largest(self.vertical.iter().copied());
+        let most = self.shown.most(&self.vertical);
         let longest = largest(self.horizontal.iter().map(|[x, y]| x.hypot(*y)));
         let most = if most > 0.0 { most } else { Some(longest).filter(|most| *most > 0.0)? };
-        let unit = LENGTH.of(most);
+        let unit = self.shown.units().of(most);
         let height = frame.size.1.max(190.0);
         let mut figure = Figure::new(AT.0 + frame.size.0.max(260.0) + ROOM, AT.1 + height + BELOW);
-        title(&mut figure, &frame, &self.title, "displacement of the surface");
+        title(&mut figure, &frame, &self.title, &self.shown.title());
         figure.image(self.image(&frame, most));
         for ends in &self.edges {
             figure.line(ends.iter().map(|at| self.place(&frame, *at)).collect(), 1.2, MARK);
@@ -72,7 +124,9 @@ impl GroundMap {
         }
         frame.draw(&mut figure);
         let range = (-most / unit.factor, most / unit.factor);
-        let bar = Bar { range, above: None, label: format!("Upward [{}]", unit.name) };
+        let highest = largest(self.vertical.iter().copied());
+        let above = (highest > most).then(|| format!("up to {:.3}", highest / unit.factor));
+        let bar = Bar { range, above, label: format!("{} [{}]", self.shown.label(), unit.name) };
         bar.draw_in(&mut figure, &frame, diverging);
         Some(figure)
     }
@@ -206,6 +260,7 @@ mod tests {
         GroundMap {
             title: "t".into(),
             coordinates: Coordinates::Metres,
+            shown: Shown::Displacement,
             axes: [("x".into(), vec![0.0, 1e3, 2e3]), ("y".into(), vec![0.0, 1e3])],
             horizontal: vec![horizontal; 6],
             vertical,

@@ -39,7 +39,7 @@ pub use curves::Histories;
 pub use cycles::Line;
 pub use diagram::{Diagram, Failed, Scale, Series, Slope};
 pub use field::Seen;
-pub use ground::Coordinates;
+pub use ground::{Coordinates, Shown};
 pub use mesh::{Mark, MarkedSet, MeshPicture};
 pub use panel::{EventPanel, PanelEvent};
 pub use profile::Tractions;

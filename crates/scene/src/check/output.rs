@@ -15,6 +15,7 @@ impl Checker<'_> {
         self.samples();
         self.receivers();
         self.surface();
+        self.coulomb();
         self.platform();
         for (name, probes) in &self.scene.output.probes {
             if !self.scene.interfaces.contains_key(name) {

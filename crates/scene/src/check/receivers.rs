@@ -1,7 +1,7 @@
-//! Positions in a medium whose motion is written.
+//! Positions in a medium or in bodies whose motion is written.
 
 use super::{AXES, Checker};
-use crate::model::{MediumKind, Spanned};
+use crate::model::{MediumKind, Spanned, Stepper};
 
 impl Checker<'_> {
     /// Checks the receivers of a scene.
@@ -10,25 +10,27 @@ impl Checker<'_> {
         let axes: Vec<usize> = (0..self.dimension()).collect();
         for (name, at) in &scene.output.receivers {
             self.name("a receiver", name, at.span());
-            let Some(medium) = &scene.medium else {
+            let between = scene.medium.is_none();
+            if between && (scene.faults.is_empty() || *scene.time.stepper.get_ref() != Stepper::FaultOde) {
                 self.error(
                     at.span(),
-                    "receivers lie in rock without bodies, and the scene has no `[medium]`",
+                    "receivers are for faults through cycles with the stepper \"fault-ode\"",
                     format!(
-                        "in a body, `points.{name} = {{ body = \"..\", at = [..] }}` has the displacement"
+                        "in a body, `points.{name} = {{ body = \"..\", at = [..] }}` has the displacement; with mass, `seismograms.{name}` the velocity"
                     ),
                 );
                 continue;
-            };
+            }
             if !self.count(at, "receivers", &axes) {
                 continue;
             }
-            self.place_of(name, at, *medium.kind.get_ref());
+            let kind = scene.medium.as_ref().map(|medium| *medium.kind.get_ref());
+            self.place_of(name, at, kind);
         }
     }
 
     /// Checks the coordinates of a receiver.
-    fn place_of(&mut self, name: &str, at: &Spanned<Vec<crate::units::Length>>, kind: MediumKind) {
+    fn place_of(&mut self, name: &str, at: &Spanned<Vec<crate::units::Length>>, kind: Option<MediumKind>) {
         let values: Vec<f64> = at.get_ref().iter().map(|x| x.0).collect();
         if let Some(axis) = values.iter().position(|x| !x.is_finite()) {
             self.error(
@@ -36,7 +38,7 @@ impl Checker<'_> {
                 format!("{} of receiver `{name}` must be finite", AXES[axis]),
                 "a position, such as [\"8 km\", \"0 km\"]",
             );
-        } else if kind == MediumKind::HalfSpace && values.get(1).is_some_and(|y| *y > 0.0) {
+        } else if kind == Some(MediumKind::HalfSpace) && values.get(1).is_some_and(|y| *y > 0.0) {
             self.error(
                 at.span(),
                 format!("receiver `{name}` lies {} m above the free surface y = 0", values[1]),

@@ -16,7 +16,18 @@ impl Checker<'_> {
                 "`[medium]` with `kind = \"half-space\"`; in a whole-space, `receivers.NAME = [..]`; in bodies, `points.NAME = { body = \"..\", at = [..] }`",
             );
         }
-        let spec = map.get_ref();
+        self.map(map.get_ref());
+        if self.scene.output.event_files.as_ref().is_some_and(|count| *count.get_ref() == 0) {
+            self.warn(
+                map.span(),
+                "`surface` is written for events that have files, and `event_files` is 0",
+                "a larger `event_files`, or no `surface`",
+            );
+        }
+    }
+
+    /// Checks spacing, extents and axes of a map.
+    pub(super) fn map(&mut self, spec: &SurfaceSpec) {
         let spacing = spec.spacing.get_ref().0;
         if !(spacing > 0.0 && spacing.is_finite()) {
             self.error(spec.spacing.span(), "`spacing` must be positive", "such as `spacing = \"2 km\"`");
@@ -29,13 +40,6 @@ impl Checker<'_> {
             extent.iter().for_each(|extent| self.on_earth(name, extent, most));
         }
         self.axes_of(spec);
-        if self.scene.output.event_files.as_ref().is_some_and(|count| *count.get_ref() == 0) {
-            self.warn(
-                map.span(),
-                "`surface` is written for events that have files, and `event_files` is 0",
-                "a larger `event_files`, or no `surface`",
-            );
-        }
     }
 
     /// Refuses axes that the scene does not have.
@@ -46,7 +50,7 @@ impl Checker<'_> {
             further.into_iter().for_each(|place| {
                 self.error(
                     place,
-                    "in the plane the free surface is a line along x",
+                    "in the plane a map is a line along x",
                     "`x = { from = \"-50 km\", to = \"50 km\" }`",
                 );
             });

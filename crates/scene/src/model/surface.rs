@@ -6,7 +6,7 @@ use crate::units::{Angle, Length};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// Positions on the free surface of a half-space, at equal distances.
+/// Positions of a horizontal map, such as the free surface of a half-space, at equal distances.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceSpec {

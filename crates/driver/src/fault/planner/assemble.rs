@@ -6,6 +6,7 @@ use super::super::plan::{FaultView, Plan, PointView, Station};
 use super::super::receivers::Receivers;
 use super::super::resolution::Resolution;
 use super::super::sampling::Sampling;
+use super::super::stresses::BodyStresses;
 use super::cells::Cells;
 use super::placed::{Placed, in_space, slides};
 use super::pulses::{doubts, pulses};
@@ -64,6 +65,7 @@ pub(super) struct Around {
     pub memory_bytes: usize,
     pub bodies: Option<BodiesView>,
     pub sampling: Option<Sampling>,
+    pub stresses: Option<BodyStresses>,
     pub resolution: Vec<Resolution>,
     pub warnings: Vec<Warning>,
     pub notes: Vec<String>,
@@ -140,6 +142,7 @@ pub(super) fn plan_of<const D: usize>(
         ruptures: None,
         receivers: Receivers::default(),
         free_surface: None,
+        coulomb: None,
         platform: None,
         slow: thresholds::slow(scene.events.as_ref()),
         up: frame::up(scene),
@@ -149,6 +152,7 @@ pub(super) fn plan_of<const D: usize>(
         memory_bytes,
         bodies: around.bodies,
         sampling: around.sampling,
+        stresses: around.stresses,
         frame: frame::of(scene, D == 3)?,
         in_space: D == 3,
         kinematics: scene.kinematics.get_ref().words(),

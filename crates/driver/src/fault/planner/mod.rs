@@ -7,6 +7,7 @@ mod bends;
 mod cells;
 pub(crate) mod checks;
 mod condensed;
+mod coulomb;
 pub mod cover;
 mod critical;
 pub mod fields;
@@ -27,6 +28,7 @@ mod pressing;
 mod prestress;
 mod pulses;
 mod radiation;
+mod receivers;
 pub mod resolution;
 mod resolved;
 mod rock;
@@ -48,6 +50,8 @@ pub(crate) use resolved::resolved;
 
 use super::bodies::BodiesView;
 use super::plan::Plan;
+use super::receivers::Receivers;
+use super::stresses::BodyStresses;
 use crate::amounts;
 use crate::diagnostic::Diagnostic;
 use crate::forecast;
@@ -58,7 +62,7 @@ use crate::model::{self, Model, meshes};
 use crate::scene::model::{Creep, Fault as Spec, Kinematics, Scene};
 use crate::setup::Setups;
 use crate::warning::Warning;
-use asperity_cycles::medium::{Conditions, Loads, Place, Point, Refusal, Spring, least_bytes};
+use asperity_cycles::medium::{Bodies, Conditions, Loads, Place, Point, Refusal, Spring, least_bytes};
 use asperity_cycles::operator::{Form, Operator};
 use asperity_cycles::{Loading, deficit};
 use assemble::{Around, Surrounded, plan_of, turns};
@@ -137,9 +141,14 @@ fn loads(stage: &Stage, u0: &[f64], weight: Vec<(usize, f64)>) -> Loads {
 
 /// Settings for the condensation of the bodies of a scene.
 fn conditions(scene: &Scene, stage: &Stage, components: usize) -> Conditions {
-    let keep = shown(scene) || sampled::asked(scene, stage);
+    let keep = displaced(scene, stage) || !scene.output.receivers.is_empty();
     let tangents = if turns(scene) { 2 } else { 1 };
     Conditions { components, tangents, memory: amounts::memory(scene), keep }
+}
+
+/// True if displacements of whole bodies are needed during the run or at its end.
+fn displaced(scene: &Scene, stage: &Stage) -> bool {
+    shown(scene) || scene.output.coulomb.is_some() || sampled::asked(scene, stage)
 }
 
 /// True if displacements of the bodies are written.
@@ -219,7 +228,9 @@ fn between_bodies<const D: usize>(
     notes.extend(condensed.mirrored.then(|| MIRRORED.to_string()));
     let plates = backslip::plates(scene, &placed, conditions.tangents);
     let (opening, weight) = (condensed.opening.take(), condensed.weight.take());
-    let (bytes, displaced) = (condensed.bytes, condensed.bodies.take());
+    let (bytes, bodies) = (condensed.bytes, condensed.bodies.take());
+    let receivers = receivers(scene, (&model, &points), bodies.as_ref(), (&plates, conditions.tangents))?;
+    let bodies = bodies.filter(|_| displaced(scene, stage));
     let driven = driven(scene, (&model, stage), (&placed, &creeping), (condensed, &plates));
     warnings.extend(driven.warnings);
     notes.extend(backslip::notes(scene));
@@ -236,8 +247,9 @@ fn between_bodies<const D: usize>(
         dofs: model.dofs(),
         creeping: creeping.len(),
         memory_bytes: held.with_faults(bytes),
-        bodies: displaced.map(|bodies| BodiesView::new((bodies, plates), &model, sides, shown(scene))),
+        bodies: bodies.map(|bodies| BodiesView::new((bodies, plates), &model, sides, shown(scene))),
         sampling: sampled::of::<D>(scene, stage, pressed.as_ref(), areas)?,
+        stresses: stresses::<D>(scene)?,
         resolution,
         warnings,
         notes,
@@ -247,7 +259,28 @@ fn between_bodies<const D: usize>(
     };
     let Driven { operator, loading, .. } = driven;
     let surrounded = Surrounded { operator, placed, opening, loading, end: stage.end };
-    plan_of(scene, surrounded, around, &Meshed { model: &model })
+    Ok(Plan { receivers, ..plan_of(scene, surrounded, around, &Meshed { model: &model })? })
+}
+
+/// Positions in the bodies whose motion is written.
+fn receivers<const D: usize>(
+    scene: &Scene,
+    around: (&Model<D>, &[Point<D>]),
+    bodies: Option<&Bodies>,
+    lag: (&[f64], usize),
+) -> Result<Receivers, Diagnostic> {
+    match bodies.filter(|_| !scene.output.receivers.is_empty()) {
+        Some(bodies) => receivers::of(scene, around, bodies, lag),
+        None => Ok(Receivers::default()),
+    }
+}
+
+/// Planes on which stresses of the bodies are resolved, if the scene asks for changes of Coulomb stress.
+fn stresses<const D: usize>(scene: &Scene) -> Result<Option<BodyStresses>, Diagnostic> {
+    let Some(spec) = &scene.output.coulomb else { return Ok(None) };
+    // The blocks of the model of the plan have become its stiffness.
+    let plane = coulomb::plane::<D>(scene, spec.get_ref())?;
+    Ok(Some(BodyStresses::new(plane, model::build::<D>(scene)?)))
 }
 
 /// Operator of faults between bodies, and what loads them.

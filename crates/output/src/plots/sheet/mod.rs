@@ -14,7 +14,7 @@ use super::curves::Histories;
 use super::cycles::{Cycles, Line};
 use super::field::{self, Seen};
 use super::figure::Figure;
-use super::ground::{Coordinates, GroundMap};
+use super::ground::{Coordinates, GroundMap, Shown};
 use super::panel::EventPanel;
 use super::paper::Paper;
 use super::profile::Tractions;
@@ -123,8 +123,12 @@ pub struct Ground {
     pub axes: [(String, Vec<f64>); 2],
     /// Path of the table.
     pub table: String,
-    /// Columns of the displacements to the right, up the page and out of it.
-    pub columns: [usize; 3],
+    /// Quantity in colours.
+    pub shown: Shown,
+    /// Column of the quantity in colours; of displacements, that out of the page.
+    pub colours: usize,
+    /// Columns of the displacements to the right and up the page, which are arrows.
+    pub arrows: Option<[usize; 2]>,
     /// Edges of the faults.
     pub edges: Vec<[(f64, f64); 2]>,
 }
@@ -364,19 +368,19 @@ impl Sheet {
 
     fn ground(&self, ground: &Ground, tables: &Tables<'_>) -> Result<GroundMap, OutputError> {
         let (mut horizontal, mut vertical) = (Vec::new(), Vec::new());
-        let [right, up, out] = ground.columns;
         tables.each(&ground.table, &mut |row| {
             let at = |column: usize| row.get(column).copied().unwrap_or(f64::NAN);
-            horizontal.push([at(right), at(up)]);
-            vertical.push(at(out));
+            horizontal.push(ground.arrows.map_or([0.0; 2], |columns| columns.map(at)));
+            vertical.push(at(ground.colours));
         })?;
-        let Ground { coordinates, axes, edges, .. } = ground.clone();
+        let Ground { coordinates, axes, shown, edges, .. } = ground.clone();
         let expected = axes[0].1.len() * axes[1].1.len();
         if vertical.len() != expected {
             let reason = format!("it has {} rows, and the map {expected} positions", vertical.len());
             return Err(OutputError::Draw { path: tables.folder.join(&ground.table), reason });
         }
-        Ok(GroundMap { title: self.of_event(&ground.event), coordinates, axes, horizontal, vertical, edges })
+        let title = self.of_event(&ground.event);
+        Ok(GroundMap { title, coordinates, axes, shown, horizontal, vertical, edges })
     }
 
     fn velocities(&self, shown: &Velocities, asked: &Asked, paper: Paper) -> Named {

@@ -1,4 +1,4 @@
-//! Positions on the free surface of a half-space whose displacement over each event is written.
+//! Positions of horizontal maps, and those on the free surface of a half-space whose displacement over each event is written.
 
 use super::super::super::frame::Frame;
 use super::super::super::free_surface::{FreeSurface, SurfaceAxes};
@@ -31,13 +31,26 @@ pub(super) fn of<const D: usize>(
     placed: &[Placed<D>],
 ) -> Result<Option<FreeSurface>, Diagnostic> {
     let Some(map) = &scene.output.surface else { return Ok(None) };
+    let (axes, positions) = positions(scene, map, placed)?;
+    Ok(Some(FreeSurface { positions, axes, patches: patches.clone(), rock: *rock }))
+}
+
+/// Coordinates and positions of a map at y = 0.
+///
+/// # Errors
+/// [`Diagnostic`] at a map with too many positions, or that the axes of the place do not admit.
+pub(super) fn positions<const D: usize>(
+    scene: &Scene,
+    map: &Spanned<SurfaceSpec>,
+    placed: &[Placed<D>],
+) -> Result<(SurfaceAxes, Vec<[f64; 3]>), Diagnostic> {
     let spec = map.get_ref();
     let frame = frame::of(scene, D == 3)?;
     let around = [0, 2].map(|axis| around(placed, axis, spec.spacing.get_ref().0));
     let given = |extent: &Option<Spanned<Extent>>| extent.as_ref().and_then(|e| ends(e.get_ref()));
     let [x, z] = [(&spec.x, 0), (&spec.z, 1)].map(|(extent, k)| given(extent).unwrap_or(around[k]));
     let on_earth = spec.x.is_none() && spec.z.is_none();
-    let (axes, positions) = match frame.as_ref().filter(|_| D == 3 && on_earth) {
+    Ok(match frame.as_ref().filter(|_| D == 3 && on_earth) {
         _ if D == 2 => {
             let x = divided(map, x, spec.spacing.get_ref().0)?;
             let positions = x.iter().map(|x| [*x, 0.0, 0.0]).collect();
@@ -52,8 +65,7 @@ pub(super) fn of<const D: usize>(
             let positions = axes[1].iter().flat_map(|x| row(*x)).collect();
             (SurfaceAxes::Scene(axes), positions)
         }
-    };
-    Ok(Some(FreeSurface { positions, axes, patches: patches.clone(), rock: *rock }))
+    })
 }
 
 fn ends(extent: &Extent) -> Option<[f64; 2]> {
@@ -83,7 +95,7 @@ fn admit(map: &Spanned<SurfaceSpec>, count: usize) -> Result<(), Diagnostic> {
     }
     Err(Diagnostic::at(
         map.get_ref().spacing.span(),
-        format!("the map of the surface has {count} positions or more, and at most {MOST} are computed"),
+        format!("the map has {count} positions or more, and at most {MOST} are computed"),
         "a larger `spacing`, or smaller extents",
     ))
 }
@@ -138,7 +150,7 @@ fn level(map: &Spanned<SurfaceSpec>, frame: &Frame, at: [f64; 2]) -> Result<[f64
     if y.abs() > LEVEL * at[0].hypot(at[1]) {
         return Err(Diagnostic::at(
             map.span(),
-            "longitudes and latitudes are those of the plane normal to `up`, and the free surface is y = 0",
+            "longitudes and latitudes are those of the plane normal to `up`, and a map is a plane of constant y",
             "`up = [0, 1, 0]` in `[place]`, or `x` and `z` for a map in the axes of the scene",
         ));
     }

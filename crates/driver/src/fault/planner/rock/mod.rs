@@ -1,6 +1,7 @@
 //! Plans faults in homogeneous rock without bodies: cells with a point at the centre of each.
 
 mod apart;
+mod coulomb;
 mod depths;
 mod free_surface;
 mod lines;
@@ -71,6 +72,7 @@ pub(super) fn plan<const D: usize>(
     let loading = deficit(operator.as_ref(), &plates, end);
     let receivers = receivers::of(scene, (&tiling.patches, &elastic), &placed, (plates, slip.tangents))?;
     let free_surface = free_surface::of(scene, (&tiling.patches, &elastic), &placed)?;
+    let coulomb = coulomb::of(scene, (&tiling.patches, &elastic), &placed)?;
     let platform = platform::of(scene, &placed)?;
     warnings.extend(sense::check(scene, (&placed, &[]), &loading, end));
     warnings.extend(unloaded(scene));
@@ -85,6 +87,7 @@ pub(super) fn plan<const D: usize>(
         memory_bytes: held::without_bodies(memory),
         bodies: None,
         sampling: None,
+        stresses: None,
         resolution,
         warnings,
         notes,
@@ -93,7 +96,7 @@ pub(super) fn plan<const D: usize>(
         checks: Checks { in_space: D == 3, ..Checks::default() },
     };
     let surrounded = Surrounded { placed, operator, opening: None, loading, end };
-    Ok(Plan { receivers, free_surface, platform, ..plan_of(scene, surrounded, around, &tiling)? })
+    Ok(Plan { receivers, free_surface, coulomb, platform, ..plan_of(scene, surrounded, around, &tiling)? })
 }
 
 /// Warning if nothing changes the tractions of the faults but their own slip.

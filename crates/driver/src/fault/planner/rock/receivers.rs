@@ -50,7 +50,7 @@ pub(super) fn of<const D: usize>(
             let moved = beside((name, spec, &at), entry, &own)?;
             plates.iter_mut().zip(moved).for_each(|(sum, v)| *sum += v);
         }
-        receivers.all.push(Receiver { name: name.clone(), at, per_slip, plates });
+        receivers.all.push(Receiver { name: name.clone(), at, per_slip, plates, loads: Vec::new() });
     }
     Ok(receivers)
 }

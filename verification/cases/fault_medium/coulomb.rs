@@ -1,0 +1,195 @@
+//! Changes of Coulomb stress over an event: at positions in space, and on a line and on another fault in the plane.
+
+use super::SHEAR_MODULUS;
+use super::receivers::{DIP, hanging, of_one_cell_with, one_cell, scene};
+use crate::cases::dislocation::{self, Stress};
+use crate::cases::seas;
+use crate::cases::written::Written;
+use crate::{CaseError, Evidence, Ledger};
+use asperity_driver::fault::PointView;
+use nalgebra::Complex;
+use serde::Deserialize;
+use std::f64::consts::FRAC_PI_3;
+
+/// Results of `independent/coulomb.py`, per metre of slip of the hanging wall.
+#[derive(Deserialize)]
+struct Reference {
+    friction: f64,
+    /// Strike, dip and rake \[degrees\].
+    planes: Vec<[f64; 3]>,
+    positions: Vec<Position>,
+}
+
+#[derive(Deserialize)]
+struct Position {
+    at: [f64; 3],
+    /// Shear, normal traction and Coulomb stress on each plane \[Pa\].
+    changes: Vec<[f64; 3]>,
+}
+
+/// See the module.
+pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let wanted: Reference = serde_json::from_str(include_str!("../../independent/coulomb.json"))?;
+    in_space(ledger, &wanted)?;
+    in_the_plane(ledger)
+}
+
+/// `coulomb` of a plane with all positions of the reference.
+fn asked(wanted: &Reference, [strike, dip, rake]: [f64; 3]) -> String {
+    let points: String =
+        wanted.positions.iter().enumerate().map(|(k, p)| format!("points.p{k} = {:?}, ", p.at)).collect();
+    format!(
+        "coulomb = {{ friction = {:?}, strike = \"{strike:?} deg\", dip = \"{dip:?} deg\", rake = \"{rake:?} deg\", {points} }}\n",
+        wanted.friction
+    )
+}
+
+/// Changes at positions in space over an event of one cell.
+fn in_space(ledger: &mut Ledger, wanted: &Reference) -> Result<(), CaseError> {
+    let (done, slip) = of_one_cell_with(&asked(wanted, wanted.planes[0]))?;
+    let slip = hanging(&done) * slip;
+    let table = done.files.table("events/coulomb_points_000.csv")?;
+    let names = ["shear_change", "normal_change", "coulomb_change"].map(|name| table.column(name));
+    let [shear, normal, coulomb] = names;
+    let (shear, normal, coulomb, mut worst) = (shear?, normal?, coulomb?, 0.0_f64);
+    if shear.len() != wanted.positions.len() {
+        worst = f64::NAN;
+    }
+    let largest = |changes: &[f64; 3]| changes.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    for (k, position) in wanted.positions.iter().enumerate() {
+        let change = position.changes[0];
+        for (found, wanted) in [shear[k], normal[k], coulomb[k]].into_iter().zip(change) {
+            worst = worst.max((found / slip - wanted).abs() / largest(&change));
+        }
+    }
+    ledger
+        .claim("changes of shear, normal traction and Coulomb stress over an event, in the table of its positions: largest error over the largest of a position")
+        .value(worst)
+        .at_most(1e-8)
+        .evidence(Evidence::OtherCode, "dislocs (Okada), which agrees with two triangles of cutde to 3e-14")
+        .because("slip and changes have ten digits")
+        .why_not_tighter("the last digit may be off by any part of a half")
+        .cost(&done.cost)
+        .record();
+    let mut worst = 0.0_f64;
+    for (number, plane) in wanted.planes.iter().enumerate() {
+        let text = one_cell(&asked(wanted, *plane));
+        let plan = seas::plan(&text)?;
+        let coulomb = plan.coulomb.as_ref().ok_or("the plan has no planes")?;
+        let positions: Vec<[f64; 3]> = wanted.positions.iter().map(|p| p.at).collect();
+        let found = coulomb.at(&positions, &[&[hanging(&done)]]);
+        for (position, found) in wanted.positions.iter().zip(&found) {
+            let (change, found) = (position.changes[number], found[0].1);
+            for (found, wanted) in [found.shear, found.normal, found.coulomb].into_iter().zip(change) {
+                worst = worst.max((found - wanted).abs() / largest(&change));
+            }
+        }
+    }
+    ledger
+        .claim("changes on planes of three strikes, dips and rakes by slip of one metre: largest error over the largest of a position")
+        .value(worst)
+        .at_most(1e-12)
+        .evidence(Evidence::OtherCode, "dislocs (Okada), which agrees with two triangles of cutde to 3e-14")
+        .because("rounding of both programs, thirty times their difference")
+        .why_not_tighter("changes on a plane are smaller than the stress, whose digits they have")
+        .cost(&done.cost)
+        .record();
+    Ok(())
+}
+
+/// A cell of a line: its upper and lower end \[m\].
+type Cell = [[f64; 2]; 2];
+
+/// Width down dip of the fault that ruptures \[m\].
+const WIDTH: f64 = 2e3;
+/// Trace of the other fault, of four cells \[m\].
+const OTHER: [[f64; 2]; 2] = [[6e3, 0.0], [4e3, -4e3]];
+const CELLS: usize = 4;
+/// Depth of the map \[m\].
+const DEPTH: f64 = 3e3;
+/// Effective friction coefficient.
+const FRICTION: f64 = 0.3;
+
+/// Stress at a position by slip of cells of a half-space in plane strain \[Pa\].
+fn stress(at: [f64; 2], cells: &[Cell], points: &[PointView], slips: &[f64]) -> Stress {
+    let complex = |[x, y]: [f64; 2]| Complex::new(x, y);
+    let mut sum = Stress::default();
+    for ((&[upper, lower], point), slip) in cells.iter().zip(points).zip(slips) {
+        let down = [lower[0] - upper[0], lower[1] - upper[1]];
+        // An anticlockwise circuit of the upper end crosses the cell along this direction; from minus to plus, the
+        // displacement falls by the slip where it does.
+        let across = point.normal[1] * down[0] - point.normal[0] * down[1];
+        let b = complex([point.slides[0], point.slides[1]]) * (-slip * across.signum());
+        for (end, b) in [(upper, b), (lower, -b)] {
+            if end[1] < 0.0 {
+                dislocation::add(&mut sum, complex(at), complex(end), b, SHEAR_MODULUS, super::POISSON);
+            }
+        }
+    }
+    sum
+}
+
+/// Cells of both faults.
+fn cells() -> Vec<Cell> {
+    let (sine, cosine) = DIP.to_radians().sin_cos();
+    let at = |k: usize| -> [f64; 2] {
+        let part = k as f64 / CELLS as f64;
+        std::array::from_fn(|c| OTHER[0][c] + part * (OTHER[1][c] - OTHER[0][c]))
+    };
+    let first = [[0.0, 0.0], [WIDTH * cosine, -WIDTH * sine]];
+    std::iter::once(first).chain((0..CELLS).map(|k| [at(k), at(k + 1)])).collect()
+}
+
+/// A run with an event of one dipping cell beside another fault.
+fn beside_another() -> Result<Written, CaseError> {
+    let [_, lower] = cells()[0];
+    let spacing = ((OTHER[1][0] - OTHER[0][0]).hypot(OTHER[1][1])) / CELLS as f64;
+    let rest = format!(
+        "line = {{ trace = [[0.0, 0.0], {lower:?}], spacing = {WIDTH:?} }}\nrate = 1.1e-9\n\
+         [faults.other]\nline = {{ trace = {OTHER:?}, spacing = {spacing:?} }}\nnormal = \"50 MPa\"\nunder_resolved = \"allow\"\nrate = 1e-12\ndamping = \"radiation\"\n\
+         law = {{ kind = \"rate-and-state\", evolution = \"ageing\", mu0 = 0.6, v_ref = \"1 um/s\", v_initial = \"1e-9 m/s\", a = 0.02, b = 0.015, l = \"8 mm\" }}\n\
+         [output]\ncoulomb = {{ friction = {FRICTION:?}, dip = \"120 deg\", rake = \"90 deg\", depth = {DEPTH:?}, map = {{ spacing = 1e3, x = {{ from = -5200.0, to = 8800.0 }} }} }}\n\
+         [events]\nabove = \"1e-3 m/s\"\nstop_after = 1\n"
+    );
+    Written::of(&scene("plane-strain", "a = 0.010, b = 0.015, l = \"4 mm\"", "1000 yr", &rest))
+}
+
+/// Changes along a line, and on both faults.
+fn in_the_plane(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let done = beside_another()?;
+    let slips = done.files.table("events/rupture_times_000.csv")?.column("slip")?;
+    let (cells, points) = (cells(), &done.plan.points);
+    let columns = ["shear_change", "normal_change", "coulomb_change"];
+    let changes = |[shear, normal]: [f64; 2]| [shear, normal, shear - FRICTION * normal];
+    let (sine, cosine) = FRAC_PI_3.sin_cos();
+    // A plane that falls to the left by 60 degrees, whose upper side moves up.
+    let (normal, up) = ([-sine, cosine], [cosine, sine]);
+    for (name, rows) in [("coulomb_000.csv", 15), ("coulomb_faults_000.csv", 1 + CELLS)] {
+        let table = done.files.table(&format!("events/{name}"))?;
+        let (xs, ys) = (table.column("x")?, table.column("y")?);
+        let (mut worst, mut largest) = (if xs.len() == rows { 0.0_f64 } else { f64::NAN }, 0.0_f64);
+        let on_faults = rows == 1 + CELLS;
+        for (c, column) in columns.into_iter().enumerate() {
+            for (k, found) in table.column(column)?.into_iter().enumerate() {
+                let stress = stress([xs[k], ys[k]], &cells, points, &slips);
+                let of = |v: [f64; 3]| [v[0], v[1]];
+                let (t, n) =
+                    if on_faults { (of(points[k].slides), of(points[k].normal)) } else { (up, normal) };
+                let wanted = changes(stress.on(t, n).into())[c];
+                worst = worst.max((found - wanted).abs());
+                largest = largest.max(wanted.abs());
+            }
+        }
+        let place = if on_faults { "on both faults" } else { "along a line at a depth" };
+        ledger
+            .claim(format!("changes of shear, normal traction and Coulomb stress {place} over an event in plane strain: largest error over the largest"))
+            .value(worst / largest)
+            .at_most(1e-8)
+            .evidence(Evidence::Exact, "edge dislocations at the ends of cells, with reflected potentials")
+            .because("slip and changes have ten digits")
+            .why_not_tighter("the last digit may be off by any part of a half")
+            .cost(&done.cost)
+            .record();
+    }
+    Ok(())
+}
