@@ -7,6 +7,7 @@ mod error;
 pub mod files;
 pub mod grd;
 mod growing;
+mod json;
 pub mod located;
 pub mod memory;
 mod multi;

@@ -19,7 +19,7 @@ use super::panel::EventPanel;
 use super::paper::Paper;
 use super::profile::Tractions;
 use super::rupture::{self, EventOnFault, RupturedFault, Ruptures, Shape};
-use crate::{OutputError, atomic, numbers};
+use crate::{OutputError, atomic, json, numbers};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -183,7 +183,7 @@ impl Sheet {
     /// If the file cannot be written.
     pub fn write(&self, folder: &Path) -> Result<(), OutputError> {
         let path = folder.join(Self::FILE);
-        let text = serde_json::to_string(self).map_err(|e| OutputError::write(&path, e.into()))?;
+        let text = json::compact(self).map_err(|e| OutputError::write(&path, e.into()))?;
         atomic::write(&path, text.as_bytes())
     }
 
