@@ -30,7 +30,10 @@ const CASES: [(&str, &[&str]); 116] = [
     ("explicit_materials", &["aki2002", "wood1952"]),
     ("fault_balance", &["rice1993"]),
     ("fault_bend", &["segall2010", "hirth1982", "xing2006"]),
-    ("fault_bodies", &["starr1928", "segall2010", "muskhelishvili1953", "savage1983"]),
+    (
+        "fault_bodies",
+        &["starr1928", "segall2010", "muskhelishvili1953", "comninou1977", "weertman1980", "savage1983"],
+    ),
     ("fault_compression", &["bebendorf2000", "bebendorf2003", "hackbusch2015"]),
     ("fault_free_surface", &["okada1985"]),
     ("fault_gravity", &["jaeger2007"]),
