@@ -55,26 +55,52 @@ pub fn narrows_vectors() -> bool {
     return false;
 }
 
+/// Costs of a function by source file of the workspace, all of its costs, and the number of its calls.
+#[derive(Default)]
+struct Function<'a> {
+    of_files: BTreeMap<&'a str, u64>,
+    all: u64,
+    calls: u64,
+}
+
 /// Sums the costs in callgrind output by source file. Inlined code counts for the file in which it is written.
 ///
-/// Cost lines are `line cost`, after a line `fl=`, `fi=` or `fe=` that names their file. A line after `calls=` holds the cost of
-/// a call, which is counted in the called function. Instructions of line 0 belong to no line of the source.
+/// Cost lines are `line cost`, after a line `fl=`, `fi=` or `fe=` that names their file, and a line `fn=` that names their
+/// function. A line after `calls=` holds the cost of a call, which is counted in the function of the line `cfn=`. Instructions of
+/// line 0 belong to no line of the source.
+///
+/// A function of one instruction is empty. Empty functions of several files may be one in the program, which has the name of any
+/// of them, so that they count for no file.
 fn read(text: &str) -> Instructions {
-    let mut sums = Instructions::new();
-    let (mut file, mut is_call) = (None, false);
+    let mut functions: BTreeMap<&str, Function<'_>> = BTreeMap::new();
+    let (mut file, mut function, mut called, mut is_call) = (None, "", "", false);
     for line in text.lines() {
         if let Some(path) = ["fl=", "fi=", "fe="].iter().find_map(|key| line.strip_prefix(key)) {
             file = of_workspace(path);
-        } else if line.starts_with("calls=") {
+        } else if let Some(name) = line.strip_prefix("fn=") {
+            function = name;
+        } else if let Some(name) = line.strip_prefix("cfn=") {
+            called = name;
+        } else if let Some(count) = line.strip_prefix("calls=") {
             is_call = true;
+            let count = count.split(' ').next().and_then(|count| count.parse().ok());
+            functions.entry(called).or_default().calls += count.unwrap_or(0);
         } else if line.starts_with(|c: char| c.is_ascii_digit()) {
             let mut numbers = line.split(' ').map(|word| word.parse::<u64>().unwrap_or(0));
             let (place, cost) = (numbers.next().unwrap_or(0), numbers.next().unwrap_or(0));
-            if let Some(name) = file.filter(|_| !is_call && place > 0) {
-                *sums.entry(name.to_owned()).or_default() += cost;
+            if !is_call {
+                let of = functions.entry(function).or_default();
+                of.all += cost;
+                if let Some(name) = file.filter(|_| place > 0) {
+                    *of.of_files.entry(name).or_default() += cost;
+                }
             }
             is_call = false;
         }
+    }
+    let mut sums = Instructions::new();
+    for (name, cost) in functions.values().filter(|f| f.all != f.calls).flat_map(|f| &f.of_files) {
+        *sums.entry((*name).to_owned()).or_default() += cost;
     }
     sums
 }
