@@ -73,7 +73,18 @@ fn joined(left: f64, right: f64) -> Result<Plan, CaseError> {
         A / 10.0,
         WIDE / 4.0
     );
-    let mut parts = material("soft", left) + &material("stiff", right);
+    seas::plan(&halves([left, right], (&across, &up), ("antiplane", "z = 0"), ""))
+}
+
+/// Scene of slip over twice A between a left and a right medium of these shear moduli \[Pa\], whose far sides are held. Cells have
+/// these sizes across and along the interface; `rest` are further keys of the fault.
+fn halves(
+    moduli: [f64; 2],
+    (across, up): (&str, &str),
+    (kinematics, held): (&str, &str),
+    rest: &str,
+) -> String {
+    let mut parts = material("soft", moduli[0]) + &material("stiff", moduli[1]);
     for (name, material, from, to) in [("L", "soft", -WIDE, 0.0), ("R", "stiff", 0.0, WIDE)] {
         let _ = write!(
             parts,
@@ -83,10 +94,11 @@ fn joined(left: f64, right: f64) -> Result<Plan, CaseError> {
     }
     let _ = write!(
         parts,
-        "[faults.main]\nminus = \"L.right\"\nplus = \"R.left\"\n{LAW}\ndamping = \"radiation\"\ncreep = {{ outside = {{ y = {{ from = {}, to = {A} }} }}, rate = 0.0 }}\n",
+        "[faults.main]\nminus = \"L.right\"\nplus = \"R.left\"\n{LAW}\n{rest}damping = \"radiation\"\ncreep = {{ outside = {{ y = {{ from = {}, to = {A} }} }}, rate = 0.0 }}\n",
         -A
     );
-    seas::plan(&scene("antiplane", &parts, r#"{ set = "L.left", z = 0 }, { set = "R.right", z = 0 }"#))
+    let sides = format!("{{ set = \"L.left\", {held} }}, {{ set = \"R.right\", {held} }}");
+    scene(kinematics, &parts, &sides)
 }
 
 /// Shear moduli of the two media \[Pa\]; their harmonic mean is 16 GPa.

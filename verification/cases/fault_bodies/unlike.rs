@@ -1,11 +1,10 @@
 //! Slip between unlike half-spaces in plane strain, which changes normal tractions.
 
-use super::{A, LAW, WIDE, material, scene};
+use super::{A, WIDE, halves};
 use crate::cases::seas;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_driver::fault::Plan;
 use std::f64::consts::LN_2;
-use std::fmt::Write as _;
 
 /// Shear moduli of the sides of smaller and larger x \[Pa\]: the softer one is the minus side.
 const MODULI: [f64; 2] = [20e9, 60e9];
@@ -21,21 +20,8 @@ fn plan(cells: f64) -> Result<Plan, CaseError> {
     let h = A / cells;
     let across = format!("[[{}, {}], [0, {h}], [{WIDE}, {}]]", -WIDE, WIDE / 4.0, WIDE / 4.0);
     let up = format!("[[{}, {}], [{}, {h}], [{A}, {h}], [{WIDE}, {}]]", -WIDE, WIDE / 4.0, -A, WIDE / 4.0);
-    let mut parts = material("soft", MODULI[0]) + &material("stiff", MODULI[1]);
-    for (name, material, from, to) in [("L", "soft", -WIDE, 0.0), ("R", "stiff", 0.0, WIDE)] {
-        let _ = write!(
-            parts,
-            "[bodies.{name}]\nmaterial = \"{material}\"\nmesh.block = {{ min = [{from}, {}], max = [{to}, {WIDE}], spacing = [{across}, {up}], element = \"quad9\" }}\n",
-            -WIDE
-        );
-    }
-    let _ = write!(
-        parts,
-        "[faults.main]\nminus = \"L.right\"\nplus = \"R.left\"\n{LAW}\nunder_resolved = \"allow\"\ndamping = \"radiation\"\ncreep = {{ outside = {{ y = {{ from = {}, to = {A} }} }}, rate = 0.0 }}\n",
-        -A
-    );
-    let held = r#"{ set = "L.left", x = 0, y = 0 }, { set = "R.right", x = 0, y = 0 }"#;
-    seas::plan(&scene("plane-strain", &parts, held))
+    let held = ("plane-strain", "x = 0, y = 0");
+    seas::plan(&halves(MODULI, (&across, &up), held, "under_resolved = \"allow\"\n"))
 }
 
 /// C and |beta| of an interface dislocation (Comninou 1977): its shear stress is C b/(pi x), and its normal stress

@@ -12,8 +12,9 @@ const TOLERANCES: [f64; 3] = [1e-3, 1e-5, 1e-7];
 
 /// Runs all claims.
 pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
-    entries(ledger)?;
-    bodies(ledger)?;
+    for example in &EXAMPLES {
+        entries(ledger, example)?;
+    }
     interval(ledger)
 }
 
@@ -85,15 +86,46 @@ fn off_at_distance(plan: &Plan, found: &[Vec<f64>], wanted: &[Vec<f64>]) -> f64 
     off(&distant(found), &distant(wanted))
 }
 
-/// Frobenius' norm of the error of all tractions over that of the tractions.
-fn entries(ledger: &mut Ledger) -> Result<(), CaseError> {
+/// A fault whose operator is compared with all entries.
+struct Example {
+    /// Name for the claims.
+    name: &'static str,
+    /// The operator with all entries.
+    source: &'static str,
+    /// Reason for the bound.
+    because: &'static str,
+    covers: [Capability; 2],
+    plan: fn(Form) -> Result<Plan, CaseError>,
+}
+
+/// Operators from single entries, and from the forces of condensed bodies.
+const EXAMPLES: [Example; 2] = [
+    Example {
+        name: "a bent fault of triangles",
+        source: "the operator with all entries of the same kernels",
+        because: "each block has this error relative to itself, so that the whole has it, too",
+        covers: [Capability::Medium, Capability::Solid3d],
+        plan: bent,
+    },
+    Example {
+        name: "a fault between unlike bodies",
+        source: "the dense operator from the same condensation",
+        because: "each block of distant clusters has this error relative to itself, and the others have none",
+        covers: [Capability::FaultCycles, Capability::Solid3d],
+        plan: between_bodies,
+    },
+];
+
+/// Frobenius' norm of the error of tractions over that of the tractions, of all and of those at distant points.
+fn entries(ledger: &mut Ledger, example: &Example) -> Result<(), CaseError> {
     let words = |plan: &Plan| plan.problem.fault.operator.words();
-    let dense = bent(Form::Dense)?;
+    let Example { name, source, because, covers, plan } = example;
+    let dense = plan(Form::Dense)?;
     let (units, uniform) = all(&dense);
     let wanted = units.concat();
     let mut rows = Vec::new();
     for tolerance in TOLERANCES {
-        let (compressed, cost) = Cost::of(|| bent(Form::Compressed { tolerance }));
+        let (compressed, cost) = Cost::of(|| plan(Form::Compressed { tolerance }));
         let compressed = compressed?;
         let (found, of_uniform) = all(&compressed);
         rows.push([
@@ -102,30 +134,38 @@ fn entries(ledger: &mut Ledger) -> Result<(), CaseError> {
             format!("{:.1e}", off(&of_uniform, &uniform)),
             words(&compressed),
         ]);
-        ledger
-            .claim(format!("a bent fault of {} triangles whose slip may turn: Frobenius' norm of the error of all tractions over theirs, tolerance {tolerance:e}", dense.points.len()))
-            .value(off(&found.concat(), &wanted))
-            .at_most(tolerance)
-            .evidence(Evidence::Exact, "the operator with all entries of the same kernels")
-            .between(&words(&dense), &words(&compressed))
-            .because("each block has this error relative to itself, so that the whole has it, too")
-            .why_not_tighter("blocks stored in full have no error, and they have the largest entries")
-            .covers(&[Capability::Medium, Capability::Solid3d])
-            .cost(&cost)
-            .record();
-        ledger
-            .claim(format!("a bent fault: Frobenius' norm of the error of tractions at distant points over theirs, tolerance {tolerance:e}"))
-            .value(off_at_distance(&dense, &found, &units))
-            .at_most(2.0 * tolerance)
-            .evidence(Evidence::Exact, "the operator with all entries of the same kernels")
-            .between(&words(&dense), &words(&compressed))
-            .because("all of these lie in blocks of low rank, whose errors are relative to all of their entries, also to those of points less distant")
-            .why_not_tighter("which blocks hold them depends on the division")
-            .covers(&[Capability::Medium, Capability::Solid3d])
-            .cost(&cost)
-            .record();
+        let distant = "all of these lie in blocks of low rank, whose errors are relative to all of their entries, also to those of points less distant";
+        let claims = [
+            (
+                "all tractions",
+                off(&found.concat(), &wanted),
+                tolerance,
+                *because,
+                "blocks stored in full have no error, and they have the largest entries",
+            ),
+            (
+                "tractions at distant points",
+                off_at_distance(&dense, &found, &units),
+                2.0 * tolerance,
+                distant,
+                "which blocks hold them depends on the division",
+            ),
+        ];
+        for (which, error, bound, because, why_not_tighter) in claims {
+            ledger
+                .claim(format!("{name}, {} points, slip may turn: Frobenius' norm of the error of {which} over theirs, tolerance {tolerance:e}", dense.points.len()))
+                .value(error)
+                .at_most(bound)
+                .evidence(Evidence::Exact, *source)
+                .between(&words(&dense), &words(&compressed))
+                .because(because)
+                .why_not_tighter(why_not_tighter)
+                .covers(covers)
+                .cost(&cost)
+                .record();
+        }
     }
-    ledger.table("bent fault", &["tolerance", "bytes", "error of uniform slip", "operator"], rows);
+    ledger.table(*name, &["tolerance", "bytes", "error of uniform slip", "operator"], rows);
     Ok(())
 }
 
@@ -144,50 +184,6 @@ fn between_bodies(form: Form) -> Result<Plan, CaseError> {
         .add("faults.main.under_resolved", "allow")
         .text()?;
     super::plan(&text, form)
-}
-
-/// The same of the forces of condensed bodies, whose blocks are of low rank where clusters are distant.
-fn bodies(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let words = |plan: &Plan| plan.problem.fault.operator.words();
-    let dense = between_bodies(Form::Dense)?;
-    let (units, uniform) = all(&dense);
-    let wanted = units.concat();
-    let mut rows = Vec::new();
-    for tolerance in TOLERANCES {
-        let (compressed, cost) = Cost::of(|| between_bodies(Form::Compressed { tolerance }));
-        let compressed = compressed?;
-        let (found, of_uniform) = all(&compressed);
-        rows.push([
-            format!("{tolerance:e}"),
-            compressed.problem.fault.operator.bytes().to_string(),
-            format!("{:.1e}", off(&of_uniform, &uniform)),
-            words(&compressed),
-        ]);
-        ledger
-            .claim(format!("a fault of {} points between unlike bodies whose slip may turn: Frobenius' norm of the error of all tractions over theirs, tolerance {tolerance:e}", dense.points.len()))
-            .value(off(&found.concat(), &wanted))
-            .at_most(tolerance)
-            .evidence(Evidence::Exact, "the dense operator from the same condensation")
-            .between(&words(&dense), &words(&compressed))
-            .because("each block of distant clusters has this error relative to itself, and the others have none")
-            .why_not_tighter("blocks stored in full have no error, and they have the largest entries")
-            .covers(&[Capability::FaultCycles, Capability::Solid3d])
-            .cost(&cost)
-            .record();
-        ledger
-            .claim(format!("a fault between unlike bodies: Frobenius' norm of the error of tractions at distant points over theirs, tolerance {tolerance:e}"))
-            .value(off_at_distance(&dense, &found, &units))
-            .at_most(2.0 * tolerance)
-            .evidence(Evidence::Exact, "the dense operator from the same condensation")
-            .between(&words(&dense), &words(&compressed))
-            .because("all of these lie in blocks of low rank, whose errors are relative to all of their entries, also to those of points less distant")
-            .why_not_tighter("which blocks hold them depends on the division")
-            .covers(&[Capability::FaultCycles, Capability::Solid3d])
-            .cost(&cost)
-            .record();
-    }
-    ledger.table("fault between bodies", &["tolerance", "bytes", "error of uniform slip", "operator"], rows);
-    Ok(())
 }
 
 /// Cells along strike of the fault of the cycle.

@@ -176,15 +176,21 @@ fn parted(stages: &[Stage]) -> Option<(Option<&Stage>, &Stage)> {
     }
 }
 
+/// The bodies, which must be linear.
+fn linear<const D: usize>(scene: &Scene) -> Result<Model<D>, Diagnostic> {
+    let model = model::build::<D>(scene)?;
+    match model.bodies.iter().find(|b| b.nonlinear.is_some()) {
+        Some(body) => Err(asked::not_linear(scene, &body.name)),
+        None => Ok(model),
+    }
+}
+
 /// Plans faults between bodies.
 fn between_bodies<const D: usize>(
     scene: &Scene,
     (form, setups): (Form, &Setups),
 ) -> Result<Plan, Diagnostic> {
-    let mut model = model::build::<D>(scene)?;
-    if let Some(body) = model.bodies.iter().find(|b| b.nonlinear.is_some()) {
-        return Err(asked::not_linear(scene, &body.name));
-    }
+    let mut model = linear::<D>(scene)?;
     let stages = loading::stages(scene, &model)?;
     let (pressing, stage) = parted(&stages).ok_or_else(|| asked::stages(scene))?;
     let mut warnings = scene.warnings.clone();
@@ -195,11 +201,8 @@ fn between_bodies<const D: usize>(
         return Err(asked::nothing_slides(&named, &placed));
     }
     // If weight or a stage before presses the bodies, normal tractions are known only once their equations are solved.
-    let early = if stage.weight.is_empty() && pressing.is_none() {
-        Some(resolved(scene, &placed, &mut warnings)?)
-    } else {
-        None
-    };
+    let known = stage.weight.is_empty() && pressing.is_none();
+    let early = known.then(|| resolved(scene, &placed, &mut warnings)).transpose()?;
     let of_bodies = model::checks::of(scene, &model)?;
     let held = Held::by(&model);
     let conditions = conditions(scene, stage, model.idealisation.components());
