@@ -21,8 +21,8 @@ NODES = list(itertools.product((0, 1), repeat=3))
 GAUSS = (0.5 - 0.5 / np.sqrt(3.0), 0.5 + 0.5 / np.sqrt(3.0))
 
 
-def cube(poisson):
-    """Stiffness of a cube with edges and shear modulus of one, by 2x2x2 points."""
+def cube(poisson, mean):
+    """Stiffness of a cube with edges and shear modulus of one, by 2x2x2 points; with `mean` (B-bar) its dilatation is uniform."""
     moduli = np.diag([2.0, 2.0, 2.0, 1.0, 1.0, 1.0])
     moduli[:3, :3] += 2.0 * poisson / (1.0 - 2.0 * poisson)
     stiffness = np.zeros((24, 24))
@@ -39,13 +39,16 @@ def cube(poisson):
             strain[3, x], strain[3, y] = dy, dx
             strain[4, y], strain[4, z] = dz, dy
             strain[5, x], strain[5, z] = dz, dx
+        if mean:
+            dilatation = np.array([0.25 if n else -0.25 for node in NODES for n in node])
+            strain[:3] += (dilatation - strain[:3].sum(axis=0)) / 3.0
         stiffness += strain.T @ moduli @ strain / 8.0
     return stiffness
 
 
-def half_space(tx, ty, poisson):
+def half_space(tx, ty, poisson, mean):
     """Forces of the nodes on the plane for their displacements of phases tx and ty from node to node, 3x3."""
-    element = cube(poisson)
+    element = cube(poisson, mean)
     slab = np.zeros((6, 6), complex)
     for (a, m), (b, n) in itertools.product(enumerate(NODES), repeat=2):
         phase = np.exp(1j * (tx * (n[0] - m[0]) + ty * (n[1] - m[1])))
@@ -59,21 +62,22 @@ def half_space(tx, ty, poisson):
     return near
 
 
-def coefficients(theta, angle, poisson):
+def coefficients(theta, angle, poisson, mean):
     """Coefficients of modes II and III for a wave vector at `angle` from an edge of the cubes."""
     direction = np.array([np.cos(angle), np.sin(angle)])
     normal = np.array([-direction[1], direction[0]])
-    forces = half_space(*(theta * direction), poisson)
+    forces = half_space(*(theta * direction), poisson, mean)
     free = forces[:2, :2] - np.outer(forces[:2, 2], forces[2, :2]) / forces[2, 2]
     along, across = (direction @ free @ direction).real, (normal @ free @ normal).real
     return [(along * (1.0 - poisson) / theta - 1.0) / theta**2, (across / theta - 1.0) / theta**2]
 
 
 rows = [
-    {"poisson": p, "angle": a, "theta": t, "mode II": two, "mode III": three}
+    {"element": e, "poisson": p, "angle": a, "theta": t, "mode II": two, "mode III": three}
+    for e in ("standard", "B-bar")
     for p in (0.0, 0.25, 0.4)
     for a in (0.0, 22.5, 45.0)
-    for t in (0.1, 1.0, 2.0)
-    for two, three in [coefficients(t, np.radians(a), p)]
+    for t in (0.1, 1.0)
+    for two, three in [coefficients(t, np.radians(a), p, e == "B-bar")]
 ]
 print(json.dumps(rows, indent=1))

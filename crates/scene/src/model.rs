@@ -483,9 +483,9 @@ pub struct TimeControl {
     pub min_step: Option<Spanned<Time>>,
     /// Both: slip rate at which a run stops with an [instability](#instabilities) \[m/s\].
     pub slip_rate_limit: Option<Spanned<Velocity>>,
-    /// Fault-ode, and "auto" with faults: `"tsit5"` (default), `"dop853"`, `"rkc2"`, `"stabilised"` or `"tsit45"`.
+    /// Fault-ode, and "auto" with faults: `"tsit5"` (default in the plane), `"stabilised"` (in space), `"dop853"`, `"rkc2"` or `"tsit45"`.
     pub method: Option<Spanned<String>>,
-    /// Fault-ode, and "auto" with faults: admissible error of ln V per step; default 1e-5 \[-\].
+    /// Fault-ode, and "auto" with faults: admissible error of ln V per step; default 1e-5, and 1e-4 with the default method in space \[-\].
     pub log_rate_tolerance: Option<Spanned<f64>>,
     /// Explicit, and "auto" with faults: step over the stable step; default 0.5 \[-\].
     pub courant: Option<Spanned<f64>>,

@@ -70,9 +70,14 @@ pub(super) fn view<const D: usize>(spec: &Spec, placed: &[Placed<D>]) -> Option<
     })
 }
 
+/// True if a fault of the scene heats.
+pub(super) fn any(scene: &Scene) -> bool {
+    scene.faults.values().any(|f| f.heat.is_some())
+}
+
 /// Refuses methods that do not integrate heated faults.
 pub(super) fn method(scene: &Scene, method: Method) -> Result<Method, Diagnostic> {
-    let heats = scene.faults.values().any(|f| f.heat.is_some());
+    let heats = any(scene);
     match &scene.time.method {
         Some(name) if heats && !METHODS.contains(&method) => {
             let those = METHODS.map(|m| format!("\"{}\"", m.name())).join(" or ");
