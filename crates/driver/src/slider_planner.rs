@@ -7,6 +7,7 @@ mod settings;
 mod start;
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::laws::{self, Theta};
 use crate::scene::model::Spanned;
 use crate::scene::slider::{self, SliderScene};
 use crate::slider::Plan;
@@ -98,6 +99,8 @@ impl Planner {
             problem.most_events = spec.stop_after.as_ref().map(|n| *n.get_ref());
         }
         let mut plan = Plan::from(problem);
+        let theta = |law| laws::choose_sliding(law).ok().and_then(|law| Theta::of(&law));
+        plan.thetas = scene.sliders.values().map(|spec| theta(&spec.get_ref().law)).collect();
         self.runaways(scene, &mut plan);
         Some(plan)
     }

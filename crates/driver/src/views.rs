@@ -7,8 +7,8 @@ use asperity_fem::kinematics::Idealisation;
 use asperity_mechanics as mechanics;
 use asperity_mechanics::{CellBlock, ForceSet, Model, PlannedInterface, Point, Spring, SpringNow, Stage};
 use asperity_output::view::{
-    BodyFields, Counts, EnergyParts, ForceMark, InterfaceFields, InterfaceMesh, MeshView, PointMark,
-    PointValues, Samples, Setup, SpringMark, SpringValues,
+    BodyFields, Counts, EnergyParts, ForceMark, InterfaceFields, InterfaceMesh, LogTheta, MeshView,
+    PointMark, PointValues, Samples, Setup, SpringMark, SpringValues,
 };
 use std::collections::BTreeMap;
 
@@ -60,6 +60,7 @@ pub fn setup<const D: usize>(plan: &Plan<D>, areas: &[Vec<f64>]) -> Setup {
         springs: spring_marks(&plan.problem.stages),
         force_unit: force_unit(plan),
         energy_unit: plan.problem.mass.as_ref().map(|_| energy_unit(plan)),
+        eventful: plan.events.as_ref().map_or_else(Vec::new, |events| events.interfaces.clone()),
     }
 }
 
@@ -174,6 +175,10 @@ fn interface_mesh<const D: usize>(
             .collect(),
         probes: probes(&positions, planned.probes),
         states: planned.law.as_ref().map_or(0, |law| law.states()),
+        theta: plan.thetas.get(&planned.name).map(|theta| {
+            let (at_zero, per_state) = theta.linear();
+            LogTheta { at_zero, per_state, steady: theta.steady() }
+        }),
         in_space: D == 3,
         positions,
     }

@@ -1,5 +1,9 @@
 #![doc = include_str!("../README.md")]
 
+mod theta;
+
+pub use theta::Theta;
+
 use asperity_friction::Failure;
 use asperity_friction::component::Component;
 use asperity_friction::coulomb::Coulomb;

@@ -33,6 +33,8 @@ pub struct Files {
     forces: Vec<Growing>,
     energy: Option<Growing>,
     springs: Vec<Growing>,
+    /// Largest slip rates of the interfaces that are searched for events.
+    rates: Option<Growing>,
     collection: Vec<PvdEntry>,
     field_number: usize,
     /// Times of the last profiles and the last fields written \[s\].
@@ -72,7 +74,8 @@ pub struct FilesState {
     /// Times of the last profiles and the last fields written \[s\].
     written: [Option<f64>; 2],
     collection: Vec<PvdEntry>,
-    /// Bytes of the tables: first those of probes, then of points, of forces, of springs and of the energy budget.
+    /// Bytes of the tables: first those of probes, then of points, of forces, of springs, of the energy budget and of the largest
+    /// slip rates.
     bytes: Vec<u64>,
 }
 
@@ -94,6 +97,7 @@ impl Files {
             forces: Vec::new(),
             energy: None,
             springs: Vec::new(),
+            rates: None,
             collection: Vec::new(),
             field_number: 0,
             written: [None; 2],
@@ -132,7 +136,12 @@ impl Files {
     /// All tables.
     fn tables(&self) -> impl Iterator<Item = &Growing> {
         let probes = self.interfaces.iter().filter_map(|part| part.probes.as_ref());
-        probes.chain(&self.points).chain(&self.forces).chain(&self.springs).chain(&self.energy)
+        probes
+            .chain(&self.points)
+            .chain(&self.forces)
+            .chain(&self.springs)
+            .chain(&self.energy)
+            .chain(&self.rates)
     }
 
     /// Output directory.
@@ -208,6 +217,14 @@ impl Files {
         if let (Some(file), Some(energy)) = (&mut self.energy, &view.energy) {
             file.push(&row(&energy.named().map(|(_, value)| value)))?;
         }
+        if let Some(file) = &mut self.rates {
+            let largest = |fields: &InterfaceFields| {
+                let sizes = fields.slip_rate.iter().map(|v| v.abs()).filter(|v| v.is_finite());
+                sizes.fold(0.0, f64::max)
+            };
+            let own = self.setup.eventful.iter().filter_map(|&i| view.interfaces.get(i));
+            file.push(&row(&own.map(largest).collect::<Vec<_>>()))?;
+        }
         for (file, spring) in self.springs.iter_mut().zip(&view.samples.springs) {
             if let Some(spring) = spring {
                 let SpringValues { load_point, displacement, force, friction } = *spring;
@@ -253,6 +270,13 @@ impl Files {
         self.energy = match setup.energy_unit {
             Some(unit) => Some(table(self.out.join("energy.csv"), &table::energy_header(unit))?),
             None => None,
+        };
+        let eventful = || setup.eventful.iter().filter_map(|&i| setup.interfaces.get(i));
+        self.rates = if setup.eventful.is_empty() {
+            None
+        } else {
+            let header = table::rates_header(eventful().map(|mesh| mesh.name.as_str()));
+            Some(table(self.out.join("largest_rates.csv"), &header)?)
         };
         Ok(())
     }

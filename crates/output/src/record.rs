@@ -33,6 +33,9 @@ pub struct PointHistory {
     /// Tributary area of the node \[m², m\].
     #[serde(deserialize_with = "numbers::or_nan")]
     pub area: Vec<f64>,
+    /// First state variable; empty without one.
+    #[serde(deserialize_with = "numbers::or_nan")]
+    pub state: Vec<f64>,
 }
 
 /// Histories at the recorded points of one interface.
@@ -227,6 +230,7 @@ impl PointHistory {
         self.normal_traction.push(fields.normal_traction[node]);
         self.shear_traction.push(fields.shear_traction[node]);
         self.area.push(fields.area[node]);
+        self.state.extend(fields.states.first().map(|state| state[node]));
     }
 }
 

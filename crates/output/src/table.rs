@@ -152,6 +152,14 @@ pub(super) fn energy_header(unit: &str) -> Vec<u8> {
     rows.bytes()
 }
 
+/// Header of the largest slip rates of interfaces.
+pub(super) fn rates_header<'a>(names: impl Iterator<Item = &'a str>) -> Vec<u8> {
+    let mut rows = Rows::default();
+    let columns = names.map(|name| format!("largest slip_rate of {name} [m/s]"));
+    rows.push(WHEN.iter().map(ToString::to_string).chain(columns));
+    rows.bytes()
+}
+
 /// Header of a history of a spring, with forces in this unit.
 pub(super) fn spring_header(unit: &str) -> Vec<u8> {
     let mut rows = Rows::default();

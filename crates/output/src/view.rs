@@ -23,6 +23,17 @@ pub struct MeshView {
     pub moves: bool,
 }
 
+/// log10 of the state θ \[s\] of a law with one state variable.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LogTheta {
+    /// Value where the state variable is 0.
+    pub at_zero: f64,
+    /// Value per state variable.
+    pub per_state: f64,
+    /// Value in steady state at 1 m/s.
+    pub steady: f64,
+}
+
 /// Constant data of an interface. Written once.
 #[derive(Clone, Debug, Default)]
 pub struct InterfaceMesh {
@@ -40,6 +51,8 @@ pub struct InterfaceMesh {
     pub probes: Vec<usize>,
     /// Number of state variables of its law.
     pub states: usize,
+    /// The state θ of its law, if it has one.
+    pub theta: Option<LogTheta>,
     /// True if the interface lies in space, so that slip and shear traction are vectors.
     pub in_space: bool,
 }
@@ -363,6 +376,8 @@ pub struct Setup {
     pub force_unit: &'static str,
     /// Unit of energies, if the bodies have inertia: J, or J/m if they are per metre of thickness.
     pub energy_unit: Option<&'static str>,
+    /// Numbers of the interfaces that are searched for events.
+    pub eventful: Vec<usize>,
 }
 
 /// Receives the views of a run of bodies, to write, draw, keep or show them.

@@ -3,6 +3,7 @@
 mod coulomb;
 mod depths;
 mod fields;
+mod locking;
 mod receivers;
 mod surface;
 pub mod triangles;
@@ -44,6 +45,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     fields::run(ledger)?;
     cycles(ledger)?;
     receivers::run(ledger)?;
+    locking::run(ledger)?;
     surface::run(ledger)?;
     coulomb::run(ledger)
 }

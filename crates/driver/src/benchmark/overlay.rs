@@ -41,6 +41,7 @@ fn chart(reference: &'static Reference, quantity: &'static Quantity, result: &Su
         x: (along.meaning.clone(), x),
         y: (quantity.meaning.clone(), y),
         curves: vec![("reference".into(), line(&|_, value| Some(value))), ("result".into(), given)],
+        pairs: false,
     })
 }
 

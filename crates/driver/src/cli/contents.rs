@@ -15,7 +15,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Files that runs write to their directory.
-const FILES: [&str; 30] = [
+const FILES: [&str; 34] = [
     REPORT,
     PAGE,
     SCENE,
@@ -35,11 +35,15 @@ const FILES: [&str; 30] = [
     "events.quakeml",
     "CMTSOLUTION",
     "largest_rate.csv",
+    "largest_rates.csv",
     "opening_profiles.csv",
     "temperature_profiles.csv",
     "pressure_profiles.csv",
     "slip_profiles.csv",
     "rate_profiles.csv",
+    "state_profiles.csv",
+    "coupling_profiles.csv",
+    "locking.csv",
     "snapshots.csv",
     "energy.csv",
     "moment_rate.csv",

@@ -90,7 +90,7 @@ fn size(text: &str) -> Result<Size, String> {
     let [least, low] = Asked::SMALLEST;
     if !(size[0] >= least && size[1] >= low) {
         return Err(format!(
-            "figures are at least {least} mm wide and {low} mm high, because numbers, labels and legends keep their size; larger ones can be reduced in print"
+            "figures are at least {least} mm wide and {low} mm high: their texts are then as small as can be read"
         ));
     }
     if !size.iter().all(|length| *length <= LARGEST) {

@@ -9,7 +9,7 @@ use std::fs;
 use std::path::Path;
 
 /// Files and folders of runs, with what they are.
-const MEANINGS: [(&str, &str); 43] = [
+const MEANINGS: [(&str, &str); 47] = [
     (PAGE, "plan, checks, pictures, costs and warnings in one page for browsers, without other files"),
     (REPORT, "status, results, counts, times, provenance: begin here"),
     (SCENE, "the scene as it was run, with the values of `--set`; mesh files are relative to the scene file"),
@@ -31,8 +31,21 @@ const MEANINGS: [(&str, &str); 43] = [
     ("events.quakeml", "catalogue of events for seismological programs"),
     ("CMTSOLUTION", "centroid moment tensors of the events"),
     ("largest_rate.csv", "largest slip rate over time"),
+    ("largest_rates.csv", "largest slip rate of each interface with events, at every step"),
     ("slip_profiles.csv", "slip along a fault at intervals"),
     ("rate_profiles.csv", "slip rate along a fault at intervals"),
+    (
+        "state_profiles.csv",
+        "state of friction along a fault at intervals: log10 of its time in seconds, where the law has one",
+    ),
+    (
+        "coupling_profiles.csv",
+        "coupling along a fault to the plates that load it, at intervals between events",
+    ),
+    (
+        "locking.csv",
+        "mean coupling of faults to the plates that load them, and moment deficit rate, over time",
+    ),
     ("opening_profiles.csv", "opening along a fault at intervals"),
     ("temperature_profiles.csv", "temperature along a fault at intervals"),
     ("pressure_profiles.csv", "pore pressure along a fault at intervals"),

@@ -180,7 +180,7 @@ pub(super) fn run_sliders(
     report.warnings.clone_from(&plan.warnings);
     report.checks.clone_from(&plan.checks);
     (report.seconds.plan, report.seconds.steps) = (ready.seconds, clock.elapsed().as_secs_f64());
-    let drawn = draw_sheet(directory.path(), &histories.sheet(problem, report.end), drawn);
+    let drawn = draw_sheet(directory.path(), &histories.sheet(problem, &plan.thetas, report.end), drawn);
     if problem.events.is_some() {
         lines::events(&report.events);
         let events = slider::csv(&report.events, &problem.names);

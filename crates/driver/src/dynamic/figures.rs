@@ -61,6 +61,7 @@ fn curves<const D: usize>(plan: &Plan<D>) -> Vec<Curves> {
             event: None,
             without_zero,
             until: None,
+            pairs: false,
         }
     };
     let parts = ["kinetic", "elastic", "viscous", "friction", "absorbed", "loads", "released"];

@@ -54,15 +54,14 @@ pub(super) fn row<const D: usize>(plan: &Plan<D>, now: &Moment<'_>, point: usize
     let points = plan.points.len();
     let of = |values: &[f64]| -> Vec<f64> { values.iter().skip(point).step_by(points).copied().collect() };
     let states = now.fault.states.len() / points;
-    let theta = plan.points[point].theta.filter(|_| states == 1).map_or(f64::NAN, |(time, per)| {
-        (time.ln() + now.fault.states[point] * per) / std::f64::consts::LN_10
-    });
+    let theta = plan.points[point].theta.filter(|_| states == 1);
+    let log_state = theta.map_or(f64::NAN, |theta| theta.log10(now.fault.states[point]));
     let row = Row {
         time: now.time,
         slip: of(&now.fault.slip),
         rate: of(&now.fault.rate).into_iter().map(|v| v.abs().max(NO_RATE)).collect(),
         shear: of(&now.fault.shear),
-        log_state: theta,
+        log_state,
         normal: now.fault.normal[point],
         opening: opens(plan).then(|| now.fault.gap[point]),
         temperature: None,

@@ -1,6 +1,7 @@
 //! Times of the rows of an output file. A row is due after a change of slip rate, after some slip, and after a longest time, so that the size of a
 //! file depends on events and not on the number of steps. A row is also written at each extremum of the slip rate, so that no peak falls between two
-//! rows.
+//! rows. In an event each maximum above all rows of the event so far has a row, however small the rise, so that the largest slip rate of its rows is
+//! that of the catalogue.
 //!
 //! Once a file reaches half of its largest size, these limits double; at three quarters they double again, and so on. The file therefore never
 //! exceeds its largest size and still covers a long time.
@@ -51,6 +52,8 @@ pub struct Cadence {
     pub shortest: f64,
     /// Times between profiles of slip, between and during events \[s\].
     pub contours: [f64; 2],
+    /// Slip rate at which an event begins \[m/s\].
+    pub fast: f64,
     /// Largest size of a file \[bytes\].
     pub largest_file: u64,
 }
@@ -82,6 +85,7 @@ impl Cadence {
             longest: asked.longest.unwrap_or(LONGEST.min(end / LEAST_ROWS)),
             shortest: asked.shortest.unwrap_or(SHORTEST.min(end / LEAST_ROWS)),
             contours: asked.contours.unwrap_or([between, (PROFILE_SLIP / on).min(between)]),
+            fast: on,
             largest_file: asked.largest_file.unwrap_or(LARGEST_FILE) as u64,
         }
     }
@@ -158,6 +162,8 @@ pub struct Gauge {
     rising: Option<bool>,
     /// Slip since the last row \[m\].
     slipped: f64,
+    /// Largest slip rate of a row since the rate was last too low for an event \[m/s\].
+    highest: f64,
 }
 
 impl Gauge {
@@ -174,18 +180,21 @@ impl Gauge {
     /// Rows that are due after a step.
     pub fn step(&mut self, cadence: &Cadence, now: Reading) -> Due {
         let Some((mut last, before)) = self.last.zip(self.before.replace(now)) else {
-            (self.last, self.before) = (Some(now), Some(now));
+            (self.last, self.before, self.highest) = (Some(now), Some(now), now.rate);
             return Due { before: false, now: !self.full };
         };
         let factor = self.factor();
         let rising = if now.rate == before.rate { self.rising } else { Some(now.rate > before.rate) };
         let turned = self.rising.is_some() && rising != self.rising;
+        let record = self.rising == Some(true) && before.rate >= cadence.fast && before.rate > self.highest;
         self.rising = rising;
         let slip = 0.5 * (before.rate + now.rate) * (now.time - before.time);
         self.slipped += slip;
-        let extremum = turned && before.time > last.time && before.decades(&last) >= EXTREMUM * factor;
+        let apart = record || before.decades(&last) >= EXTREMUM * factor;
+        let extremum = turned && before.time > last.time && apart;
         if extremum {
             (last, self.slipped) = (before, slip);
+            self.highest = self.highest.max(before.rate);
         }
         let waited = now.time - last.time;
         let due = now.decades(&last) >= factor * cadence.decades
@@ -193,6 +202,10 @@ impl Gauge {
             || (self.slipped >= factor * cadence.slip && waited >= factor * cadence.shortest);
         if due {
             (last, self.slipped) = (now, 0.0);
+            self.highest = self.highest.max(now.rate);
+        }
+        if now.rate < cadence.fast {
+            self.highest = 0.0;
         }
         self.last = Some(last);
         Due { before: extremum && !self.full, now: due && !self.full }

@@ -34,7 +34,7 @@ pub struct Checkpoint {
 
 impl Contents for Checkpoint {
     const OF: &'static str = "faults";
-    const VERSION: &'static str = "4";
+    const VERSION: &'static str = "5";
     const ALLOWED: &'static str = "the duration of the last stage, `stop_after` or `[place]`";
 
     fn physics(&self) -> &str {

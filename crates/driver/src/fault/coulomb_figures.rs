@@ -50,6 +50,7 @@ fn profile(plan: &Plan, event: OfEvent) -> Curves {
         event: Some(event),
         without_zero: false,
         until: None,
+        pairs: false,
     }
 }
 

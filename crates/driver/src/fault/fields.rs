@@ -1,6 +1,8 @@
 //! Fields on faults in 3D as VTU files: states during a run and at its end, and slip and traction drop of each event.
 
+use super::locking;
 use super::plan::{FaultView, Outline, Plan};
+use super::states::has_theta;
 use asperity_cycles::{Components, Layout, Pressed};
 use asperity_output::vtu::{Array, Grid, Values};
 use asperity_output::{OutputError, atomic};
@@ -74,7 +76,8 @@ pub(super) fn along(
 }
 
 /// Slip \[m\], log10 of the slip rate \[m/s\], friction and normal traction \[Pa\], temperature and
-/// pore pressure where friction heats the fault, and the state variables of the law. `now` holds slip rates and normal tractions.
+/// pore pressure where friction heats the fault, coupling where plates load it, and the state variables of the law, with log10 of
+/// θ \[s\] where it has one. `now` holds slip rates and normal tractions.
 pub(super) fn state(plan: &Plan, fault: &FaultView, y: &[f64], now: (&[f64], &Pressed)) -> Vec<Field> {
     let layout = Layout::of(&plan.problem.fault);
     let (law, n) = (&plan.problem.fault.law, plan.points.len());
@@ -99,7 +102,15 @@ pub(super) fn state(plan: &Plan, fault: &FaultView, y: &[f64], now: (&[f64], &Pr
             fields.push(Field::Scalar("pore_pressure".into(), of(&pressed.surface.pressure)));
         }
     }
+    if locking::loaded(plan, fault) {
+        let values = fault.points.clone().map(|p| locking::coupling(plan, &rate, p)).collect();
+        fields.push(Field::Scalar("coupling".into(), values));
+    }
     let states = layout.states_of(y);
+    if has_theta(plan, fault) {
+        let log = |p: usize| plan.points[p].theta.map_or(f64::NAN, |theta| theta.log10(states.at(p)[0]));
+        fields.push(Field::Scalar("log10_theta".into(), fault.points.clone().map(log).collect()));
+    }
     for k in 0..law.states() {
         let values = fault.points.clone().map(|p| states.at(p)[k]).collect();
         fields.push(Field::Scalar(format!("state_{}", k + 1), values));

@@ -3,14 +3,21 @@
 use super::cadence::time;
 use super::coulomb_figures;
 use super::event_tables::reached;
+use super::instants::instants;
+use super::locking;
 use super::plan::{FaultView, Plan};
+use super::receiver_figures;
 use super::shape::{at_corners, corners, shape};
 use super::source_time;
+use super::states;
+use super::station_figures;
+use super::still_figures;
 use super::surface_figures::{self, of_event};
 use crate::catalogue::slipped;
 use asperity_cycles::{Event, FaultRun, Rupture};
 use asperity_output::plots::{
-    Curves, EventPanel, Fault, InEvent, Line, Measure, Plot, Points, Sheet, Through, short, springs_curves,
+    Curves, EventPanel, Fault, InEvent, Line, Mapped, Measure, Plot, Points, Sheet, Through, short,
+    springs_curves,
 };
 use asperity_output::stems;
 
@@ -21,8 +28,12 @@ pub fn sheet(plan: &Plan, run: &FaultRun, panel: EventPanel) -> Sheet {
     sheet.plots.push(Plot::Cycles(through(plan, run)));
     sheet.plots.extend(moment_rates(plan, run).into_iter().map(Plot::Curves));
     sheet.plots.extend(springs(plan).map(Plot::Curves));
+    sheet.plots.extend(station_figures::states(plan).map(Plot::Curves));
+    sheet.plots.extend(receiver_figures::displacements(plan).into_iter().map(Plot::Curves));
     let shapes: Vec<usize> = plan.faults.iter().map(|fault| sheet.shape(drawn(plan, fault))).collect();
-    sheet.plots.extend(on_faults(plan, run, &shapes).into_iter().map(Plot::Event));
+    let names = stems(plan.faults.iter().map(|f| f.name.as_str()));
+    sheet.plots.extend(on_faults(plan, run, (&names, &shapes)).into_iter().map(Plot::Event));
+    sheet.plots.extend(still_figures::plots(plan, run, &names, &shapes));
     sheet.plots.push(Plot::Panel(panel));
     sheet.plots.extend(surface_figures::plots(plan, run));
     sheet.plots.extend(coulomb_figures::plots(plan, run));
@@ -33,7 +44,8 @@ fn through(plan: &Plan, run: &FaultRun) -> Through {
     let line = |fault: &FaultView| {
         let along: Vec<f64> = plan.points[fault.points.clone()].iter().map(|p| p.along).collect();
         let ascends = along.windows(2).all(|w| w[0] < w[1]) && along.len() > 1;
-        ascends.then(|| Line { name: fault.name.clone(), columns: fault.points.clone(), along })
+        let (name, columns) = (fault.name.clone(), fault.points.clone());
+        ascends.then(|| Line { name, columns, along, mapped: mapped(plan, fault) })
     };
     let events = run.events().iter().filter_map(|e| Some((e.onset.seconds(), e.end?.seconds())));
     let under_way = run.under_way().map(|e| (e.onset.seconds(), run.at.seconds()));
@@ -41,7 +53,20 @@ fn through(plan: &Plan, run: &FaultRun) -> Through {
         lines: plan.faults.iter().filter_map(line).collect(),
         events: events.chain(under_way).collect(),
         intervals: plan.cadence.contours.map(time),
+        spacing: Some(plan.cadence.contours),
+        chosen: instants(plan, run, CYCLES).into_iter().map(|at| (at.words, at.time)).collect(),
+        stations: station_figures::portraits(plan, run),
     }
+}
+
+/// Largest number of events in the figure of coupling, of which each has two curves.
+const CYCLES: usize = 4;
+
+/// Quantities with profiles along a fault.
+fn mapped(plan: &Plan, fault: &FaultView) -> Vec<Mapped> {
+    let state =
+        states::any(plan).then(|| if states::has_theta(plan, fault) { Mapped::Theta } else { Mapped::State });
+    state.into_iter().chain(locking::loaded(plan, fault).then_some(Mapped::Coupling)).collect()
 }
 
 /// Share of the largest moment rate below which the end of a curve is left out: afterslip lasts far longer than the rupture.
@@ -61,6 +86,7 @@ fn moment_rates(plan: &Plan, run: &FaultRun) -> Vec<Curves> {
             event: Some(of_event(number, event)),
             without_zero: false,
             until: Some(TAIL),
+            pairs: false,
         }
     };
     run.events().iter().enumerate().take(plan.event_files).map(one).collect()
@@ -76,8 +102,7 @@ fn drawn(plan: &Plan, fault: &FaultView) -> asperity_output::plots::RuptureShape
 }
 
 /// Faults in the events that have files.
-fn on_faults(plan: &Plan, run: &FaultRun, shapes: &[usize]) -> Vec<InEvent> {
-    let names = stems(plan.faults.iter().map(|f| f.name.as_str()));
+fn on_faults(plan: &Plan, run: &FaultRun, (names, shapes): (&[String], &[usize])) -> Vec<InEvent> {
     let mut all = Vec::new();
     for (number, event) in run.events().iter().enumerate().take(plan.event_files) {
         let largest = slipped(event, &(0..plan.points.len()));

@@ -4,16 +4,18 @@
 //! depends on events.
 
 use super::cadence::{Cadence, Gauge, RATE_CHANGE, Reading, warning};
+use super::locking;
 use super::moments;
 use super::plan::Plan;
 use super::position::Position;
 use super::receivers;
 use super::snapshots::{self, Snapshots};
 use super::source_time::SourceTimes;
+use super::states;
 use super::stations;
 use crate::checkpoint::{self, ResumeError};
 use crate::warning::Warning;
-use asperity_cycles::{Faults, Moment, Pressed};
+use asperity_cycles::{Faults, Moment};
 use asperity_ode::{Clock, Control, ObserveError, Observer};
 use asperity_output::decimals::{fixed, scientific};
 use asperity_output::{Growing, OutputError, atomic};
@@ -48,14 +50,14 @@ impl Rows {
     }
 }
 
-/// Writes `stations/`, `largest_rate.csv`, `moment_rate.csv`, the moment rates of events in `events/` and, if the scene requests
-/// them, `points/`, `forces/` and `springs/`. In 2D it also writes `slip_profiles.csv`, `rate_profiles.csv` (log10 of m/s) and, where points may open or are heated, profiles of that;
+/// Writes `stations/`, `largest_rate.csv`, `moment_rate.csv`, `locking.csv` of faults that plates load, the moment rates of events in `events/` and, if the scene requests
+/// them, `points/`, `forces/` and `springs/`. In 2D it also writes `slip_profiles.csv`, `rate_profiles.csv` (log10 of m/s) and profiles of coupling, states, opening and heat, where there are any;
 /// in 3D, snapshots.
 #[derive(Debug)]
 pub struct Files<'a> {
     plan: &'a Plan,
-    /// The largest slip rate and the moment rates, then profiles of slip and slip rate or the list of snapshots, then points,
-    /// forces and springs of bodies, then stations.
+    /// The largest slip rate and the moment rates, then profiles of slip and slip rate and others or the list of snapshots, then
+    /// the locking, then receivers, points, forces and springs of bodies, then stations.
     rows: Vec<Rows>,
     /// Number of files that are neither of bodies nor of stations.
     general: usize,
@@ -159,8 +161,11 @@ impl<'a> Files<'a> {
             let head = format!("time [s]{along}\n");
             heads.push((out.join("slip_profiles.csv"), head.clone()));
             heads.push((out.join("rate_profiles.csv"), head.clone()));
-            let further = further(plan).map(|(name, _)| (out.join(name), head.clone()));
+            let further = further(plan).map(|further| (out.join(further.file), head.clone()));
             heads.extend(further);
+        }
+        if locking::any(plan) {
+            heads.push((out.join(locking::FILE), locking::head(plan)));
         }
         heads
             .extend(receivers::heads(&plan.receivers).into_iter().map(|(path, head)| (out.join(path), head)));
@@ -182,6 +187,10 @@ impl<'a> Files<'a> {
         follow(&mut tables[1], plan, now.largest, (now, then.as_ref()), &moments)?;
         self.events.step(plan, now)?;
         let first = tables.len() - plan.receivers.all.len();
+        if locking::any(plan) {
+            let row = |now: &Moment<'_>| locking::row(plan, now);
+            follow(&mut tables[first - 1], plan, now.largest, (now, then.as_ref()), &row)?;
+        }
         for (number, rows) in tables[first..].iter_mut().enumerate() {
             let row = |now: &Moment<'_>| receivers::row(&plan.receivers, number, now);
             follow(rows, plan, now.largest, (now, then.as_ref()), &row)?;
@@ -213,9 +222,12 @@ impl<'a> Files<'a> {
             let row = profile(time, now.rate.component(0), |rate| fixed(rate.abs().log10(), 3));
             self.rows[3].push(&row, cadence, time)?;
         }
-        for (rows, (_, values)) in self.rows[4..].iter_mut().zip(further(self.plan)) {
-            if rows.gauge.profile(reading, interval, f64::INFINITY) {
-                let row = profile(time, values(now.pressed), |value| scientific(value, 6));
+        for (rows, further) in self.rows[4..].iter_mut().zip(further(self.plan)) {
+            if fast == 1 && further.between_events {
+                continue;
+            }
+            if rows.gauge.profile(reading, interval, further.change) {
+                let row = profile(time, &(further.values)(self.plan, now), |value| scientific(value, 6));
                 rows.push(&row, cadence, time)?;
             }
         }
@@ -252,20 +264,32 @@ fn follow_samples(
     Ok(())
 }
 
-/// Values of all points of a profile.
-type Values = fn(&Pressed) -> &[f64];
+/// Profiles in 2D beyond those of slip and slip rate.
+struct Further {
+    file: &'static str,
+    /// Change of log10 of the largest slip rate after which one is due before its time.
+    change: f64,
+    /// True if there is none in events.
+    between_events: bool,
+    /// Values of all points.
+    values: fn(&Plan, &Moment<'_>) -> Vec<f64>,
+}
 
-/// Further profiles in 2D, beyond those of slip and slip rate: names of their files and values.
-fn further(plan: &Plan) -> impl Iterator<Item = (&'static str, Values)> {
+/// Further profiles of a plan.
+fn further(plan: &Plan) -> impl Iterator<Item = Further> {
     let fault = &plan.problem.fault;
-    let all: [(bool, &'static str, Values); 3] = [
-        (fault.opening.is_some(), "opening_profiles.csv", |now| &now.opening),
-        (fault.heat.is_some(), "temperature_profiles.csv", |now| &now.surface.temperature),
-        (fault.heat.as_ref().is_some_and(|heat| heat.pressurises()), "pressure_profiles.csv", |now| {
-            &now.surface.pressure
-        }),
+    let often = |file, values| Further { file, change: RATE_CHANGE, between_events: false, values };
+    let seldom = |file, values| Further { file, change: f64::INFINITY, between_events: false, values };
+    let heats = fault.heat.is_some();
+    let pressurises = fault.heat.as_ref().is_some_and(|heat| heat.pressurises());
+    let all: [(bool, Further); 5] = [
+        (fault.opening.is_some(), seldom("opening_profiles.csv", |_, now| now.pressed.opening.clone())),
+        (heats, seldom("temperature_profiles.csv", |_, now| now.pressed.surface.temperature.clone())),
+        (pressurises, seldom("pressure_profiles.csv", |_, now| now.pressed.surface.pressure.clone())),
+        (states::any(plan), often(states::PROFILES, states::profile)),
+        (locking::any(plan), Further { between_events: true, ..often(locking::PROFILES, locking::profile) }),
     ];
-    all.into_iter().filter(|f| f.0).map(|(_, name, values)| (name, values))
+    all.into_iter().filter(|f| f.0).map(|f| f.1)
 }
 
 /// Writes the rows of a file that follows a slip rate, if due: one for this step, and one for its start if the rate had an extremum there.

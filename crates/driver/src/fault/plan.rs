@@ -12,6 +12,7 @@ use super::resolution::Resolution;
 use super::sampling::Sampling;
 use super::stresses::BodyStresses;
 use crate::checks::Checks;
+use crate::laws::Theta;
 use crate::ruptures::Ruptures;
 use crate::warning::Warning;
 use asperity_cycles::heat::Layer;
@@ -35,8 +36,10 @@ pub struct PointView {
     pub area: f64,
     /// Shear modulus G for moments: harmonic mean of the two sides \[Pa\].
     pub shear_modulus: f64,
-    /// Relation of the state variable to the state time θ, for a law with one such variable: θ = time exp(per s), in s.
-    pub theta: Option<(f64, f64)>,
+    /// The state θ of its law, if it has one.
+    pub theta: Option<Theta>,
+    /// Rate at which plates move past each other there, component by component, if the fault has a creep \[m/s\].
+    pub plate: Option<[f64; 2]>,
 }
 
 /// Position of a station.

@@ -69,9 +69,8 @@ fn pressurises(plan: &Plan, point: usize) -> bool {
 pub(super) fn row(plan: &Plan, now: &Moment<'_>, point: usize) -> String {
     let states = plan.problem.fault.law.states();
     let normal = now.normal(point);
-    let theta = plan.points[point].theta.filter(|_| states == 1).map_or(f64::NAN, |(time, per)| {
-        (time.ln() + now.states().at(point)[0] * per) / std::f64::consts::LN_10
-    });
+    let theta = plan.points[point].theta.filter(|_| states == 1);
+    let log_state = theta.map_or(f64::NAN, |theta| theta.log10(now.states().at(point)[0]));
     let surface = &now.pressed.surface;
     let at = |values: &[f64]| values.get(point).copied();
     let rate = |v: f64| if now.rate.components() > 1 { v.abs().max(NO_RATE) } else { v.abs() };
@@ -81,7 +80,7 @@ pub(super) fn row(plan: &Plan, now: &Moment<'_>, point: usize) -> String {
         rate: now.rate.at(point).map(rate).collect(),
         // Traction that friction resists: the driving traction minus damping.
         shear: now.m().at(point).map(|m| normal * plan.problem.fault.law.scale(point) * m).collect(),
-        log_state: theta,
+        log_state,
         normal,
         opening: now.opening(point).filter(|_| opens(plan, point)),
         temperature: at(&surface.temperature).filter(|_| plan.heat_at(point).is_some()),

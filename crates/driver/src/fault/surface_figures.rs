@@ -76,6 +76,7 @@ fn profile(plan: &Plan, event: OfEvent) -> Curves {
         event: Some(event),
         without_zero: true,
         until: None,
+        pairs: false,
     }
 }
 

@@ -4,6 +4,7 @@ use super::enforcement::{enforced, in_pascal_per_metre};
 use super::penalty::{self, Softer};
 use super::{PlannedInterface, cohesive, damping, pressed, watch};
 use crate::diagnostic::Diagnostic;
+use crate::laws::Theta;
 use crate::model::{self, Model};
 use crate::refused::refused;
 use crate::scene::law::LawChoice;
@@ -12,6 +13,7 @@ use asperity_contact::{self as contact, Watch};
 use asperity_fem::mesh::{MeshFace, Side, face_kind, nodes_of_sides};
 use asperity_friction::law::Law;
 use asperity_mechanics::{self as mechanics, coordinates};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Fraction of the largest tributary area of an interface below which an area is zero to within rounding.
@@ -180,6 +182,12 @@ fn check_faces<const D: usize>(
         ));
     }
     Ok(())
+}
+
+/// The state θ of the laws of interfaces that have one, by the names of the interfaces.
+pub(super) fn thetas(scene: &Scene) -> BTreeMap<String, Theta> {
+    let theta = |spec: &InterfaceSpec| Theta::of(&choose_law(spec.law.as_ref()?).ok()?);
+    scene.interfaces.iter().filter_map(|(name, spec)| Some((name.clone(), theta(spec)?))).collect()
 }
 
 fn choose_law(spec: &Spanned<LawSpec>) -> Result<LawChoice, Diagnostic> {

@@ -101,6 +101,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     let samples = samples::find(scene, &model)?;
     let checks = checks::of(scene, &model, (&interfaces, &stages), summary.memory_bytes)?;
     let events = events::of(scene, &model, &interfaces)?;
+    let thetas = interfaces::thetas(scene);
     Ok(Plan {
         title: scene.title.clone(),
         problem: Problem {
@@ -118,6 +119,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         field_outputs: scene.output.fields.as_ref().map_or(1, |f| *f.get_ref()),
         profile_outputs: scene.output.profiles.as_ref().map_or(10, |f| *f.get_ref()),
         events,
+        thetas,
         summary,
         checks,
     })

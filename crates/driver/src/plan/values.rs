@@ -3,10 +3,12 @@
 use super::events::EventPlan;
 use super::start_gap::StartGap;
 use crate::checks::Checks;
+use crate::laws::Theta;
 use crate::warning::Warning;
 use asperity_mechanics::{Mass, Problem};
 use schemars::JsonSchema;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// Plan of the run.
 #[derive(Debug)]
@@ -21,6 +23,8 @@ pub struct Plan<const D: usize> {
     pub profile_outputs: usize,
     /// Events of interfaces, if the scene asks for them.
     pub events: Option<EventPlan>,
+    /// The state θ of the laws of interfaces that have one, by their names.
+    pub thetas: BTreeMap<String, Theta>,
     /// Summary for printing.
     pub summary: Summary,
     /// Extents, counts of points and lengths of friction.

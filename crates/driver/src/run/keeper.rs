@@ -60,7 +60,7 @@ impl Checkpoint {
 
 impl Contents for Checkpoint {
     const OF: &'static str = "bodies";
-    const VERSION: &'static str = "2";
+    const VERSION: &'static str = "3";
     const ALLOWED: &'static str = "its title and its layout";
 
     fn physics(&self) -> &str {

@@ -2,6 +2,7 @@
 
 use super::figures::{self, Source, Trace};
 use super::thin::{Row, Thin};
+use crate::laws::Theta;
 use asperity_cycles::slider::{Now, Problem, Sliders};
 use asperity_ode::{Control, ObserveError, Observer};
 use asperity_output::decimals::{shortest, shortest_scientific};
@@ -135,13 +136,15 @@ impl Histories {
 
     /// Figures of a run up to a time \[s\]: of all sliders if plots were asked for from its start, otherwise of those with tables.
     #[must_use]
-    pub fn sheet(&self, problem: &Problem, end: f64) -> Sheet {
+    pub fn sheet(&self, problem: &Problem, thetas: &[Option<Theta>], end: f64) -> Sheet {
         let stems = asperity_output::stems(problem.names.iter().map(String::as_str));
-        let mut sources: Vec<Source<'_>> = Vec::new();
-        for ((kept, name), stem) in self.sliders.iter().zip(&problem.names).zip(&stems) {
+        let mut sources = Vec::new();
+        for (i, (kept, stem)) in self.sliders.iter().zip(&stems).enumerate() {
             let table = kept.file.as_ref().map(|_| format!("history/{stem}.csv"));
             if self.traced || table.is_some() {
-                sources.push((name, table.ok_or(&kept.trace)));
+                let (name, states) = (problem.names[i].as_str(), problem.system.sliders()[i].law.states());
+                let theta = thetas.get(i).copied().flatten();
+                sources.push(Source { name, rows: table.ok_or(&kept.trace), states, theta });
             }
         }
         let mut sheet = Sheet::new(&problem.title, (0.0, end), false);
@@ -196,7 +199,8 @@ impl Observer<Sliders> for Histories {
                 load: now.load,
                 states: problem.system.of(i, now.unknowns)[1..=states].to_vec(),
             };
-            for row in kept.thin.next(row, now.asked, problem.output.change, problem.end).iter().flatten() {
+            let until = (problem.end, problem.events.map(|thresholds| thresholds.on));
+            for row in kept.thin.next(row, now.asked, problem.output.change, until).iter().flatten() {
                 kept.add(row, self.traced)?;
             }
         }

@@ -21,7 +21,7 @@ pub struct Checkpoint {
 
 impl Contents for Checkpoint {
     const OF: &'static str = "spring-sliders";
-    const VERSION: &'static str = "2";
+    const VERSION: &'static str = "3";
     const ALLOWED: &'static str = "its title and its layout";
 
     fn physics(&self) -> &str {

@@ -1,6 +1,7 @@
 //! The problem to integrate, with warnings.
 
 use crate::checks::{Checks, SliderCheck};
+use crate::laws::Theta;
 use crate::warning::Warning;
 use asperity_cycles::slider::Problem;
 use asperity_cycles::slider::stability::{Against, against};
@@ -14,6 +15,8 @@ pub struct Plan {
     pub warnings: Vec<Warning>,
     /// Stiffness of the springs against the critical one.
     pub checks: Checks,
+    /// The state θ of the law of each slider, if it has one.
+    pub thetas: Vec<Option<Theta>>,
 }
 
 impl From<Problem> for Plan {
@@ -23,6 +26,7 @@ impl From<Problem> for Plan {
             Some(SliderCheck { slider: name.clone(), stiffness, critical, unstable })
         };
         let sliders = problem.names.iter().zip(against(&problem)).filter_map(of).collect();
-        Self { problem, warnings: Vec::new(), checks: Checks { sliders, ..Checks::default() } }
+        let thetas = vec![None; problem.names.len()];
+        Self { problem, warnings: Vec::new(), checks: Checks { sliders, ..Checks::default() }, thetas }
     }
 }

@@ -60,19 +60,59 @@ pub(super) struct Thin {
     last: Option<Last>,
     /// The most recent row, if it was not kept.
     pending: Option<Row>,
+    /// Course of |V| up to the most recent row.
+    course: Course,
+}
+
+/// Course of \|V\|.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+struct Course {
+    /// \|V\| of the most recent row \[m/s\].
+    rate: f64,
+    /// True if it grew to it.
+    grew: bool,
+    /// Largest \|V\| of a kept row since it was last too low for an event \[m/s\].
+    highest: f64,
+}
+
+impl Course {
+    /// Notes a new \|V\|, of which an event begins at `fast`; true if the one before was the largest of the event so far, and a
+    /// maximum.
+    fn peaked(&mut self, rate: f64, fast: f64) -> bool {
+        let peaked = self.grew && rate < self.rate && self.rate >= fast && self.rate > self.highest;
+        if peaked {
+            self.highest = self.rate;
+        }
+        if rate < fast {
+            self.highest = 0.0;
+        }
+        self.grew = rate > self.rate || self.grew && rate == self.rate;
+        self.rate = rate;
+        peaked
+    }
 }
 
 impl Thin {
-    /// Rows to keep after a new one: the new row, and the previous one if it shows the start of a jump. `change` is the change of ln V from row to
-    /// row, `end` the end of the run \[s\].
-    pub fn next(&mut self, row: Row, asked: bool, change: Option<f64>, end: f64) -> [Option<Row>; 2] {
+    /// Rows to keep after a new one: the new row, and the previous one if it shows the start of a jump or the peak of an event. `change` is
+    /// the change of ln V from row to row, `end` the end of the run \[s\], and `fast` the slip rate at which events begin \[m/s\].
+    pub fn next(
+        &mut self,
+        row: Row,
+        asked: bool,
+        change: Option<f64>,
+        (end, fast): (f64, Option<f64>),
+    ) -> [Option<Row>; 2] {
         let Some(change) = change else { return [None, asked.then_some(row)] };
+        let peaked = fast.is_some_and(|fast| self.course.peaked(row.condition.rate.abs(), fast));
         let by = |share: f64| self.last.is_some_and(|last| differs(&row, last, share * change));
         let late = self.last.is_none_or(|last| row.time - last.time >= SHARE * end);
         // A jump is drawn from its start.
         let jumped = row.dt == 0.0 || by(2.0);
         let keep = asked || late || jumped || by(1.0);
-        let before = if jumped { self.pending.take() } else { None };
+        let before = if jumped || peaked { self.pending.take() } else { None };
+        if let Some(row) = before.as_ref().filter(|_| peaked) {
+            self.keep(row);
+        }
         if keep {
             self.keep(&row);
             [before, Some(row)]
@@ -91,7 +131,8 @@ impl Thin {
 
     fn keep(&mut self, row: &Row) {
         self.pending = None;
-        let Condition { log_rate, friction, .. } = row.condition;
+        let Condition { log_rate, friction, rate, .. } = row.condition;
+        self.course.highest = self.course.highest.max(rate.abs());
         self.last = Some(Last { time: row.time, log_rate, friction });
     }
 }

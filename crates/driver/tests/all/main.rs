@@ -24,6 +24,7 @@ mod fault_mirror;
 mod fault_normal;
 mod fault_opening;
 mod fault_outputs;
+mod figures;
 mod instability;
 mod interface_signs;
 mod key_tables;

@@ -1,9 +1,11 @@
 //! Curves of any two quantities against each other.
 
-use super::axes::{Axis, Frame};
-use super::colour::MARK;
-use super::curves::{DECADES, Entry, is_spiky, legend, thin};
-use super::figure::{Figure, Point};
+use super::axes::Axis;
+use super::colour::{MARK, Rgb};
+use super::curves::{DECADES, REACH, is_spiky, thin};
+use super::figure::{Dash, Figure, Point};
+use super::framed::Framed;
+use super::legend::Entry;
 use super::paper::Paper;
 use super::style::Style;
 use super::title::title;
@@ -31,6 +33,8 @@ pub enum Measure {
     MomentRate,
     /// Moment rate per length out of the plane \[N/s\].
     MomentRatePerLength,
+    /// Decadic logarithm of a time in seconds.
+    LogSeconds,
 }
 
 impl Measure {
@@ -45,6 +49,7 @@ impl Measure {
             Self::EnergyPerLength => units::ENERGY_PER_LENGTH,
             Self::MomentRate => units::MOMENT_RATE,
             Self::MomentRatePerLength => units::MOMENT_RATE_PER_LENGTH,
+            Self::LogSeconds => units::SECONDS,
         }
     }
 }
@@ -62,22 +67,20 @@ pub struct Chart {
     pub y: (String, Measure),
     /// Names and points of the curves.
     pub curves: Vec<(String, Vec<(f64, f64)>)>,
+    /// True if curves come in pairs of one colour, the second dashed.
+    pub pairs: bool,
 }
 
-/// Position of the frame.
-const AT: Point = (96.0, 40.0);
-/// Size of the frame.
-const SIZE: Point = (560.0, 380.0);
-/// Width right of the frame for the legend.
-const LEGEND: f64 = 170.0;
-/// Height below the frame for numbers and a label.
-const BELOW: f64 = 60.0;
 /// Largest number of curves named in the legend.
 const NAMED: usize = 16;
 
 impl Chart {
     /// The figure, with an axis of time from `start` \[s\]; `None` without points, and where nothing changes along the horizontal axis.
     pub(super) fn figure(&self, paper: Paper, start: f64) -> Option<Figure> {
+        if self.pairs { self.near().drawn(paper, start) } else { self.drawn(paper, start) }
+    }
+
+    fn drawn(&self, paper: Paper, start: f64) -> Option<Figure> {
         let points = || self.curves.iter().flat_map(|c| c.1.iter());
         let first = points().next()?;
         let largest = |pick: fn(&Point) -> f64| {
@@ -99,24 +102,50 @@ impl Chart {
             Measure::Time => Axis::exact((start / x_unit.factor, largest(|p| p.0) / x_unit.factor), label),
             _ => Axis::linear(points().map(|p| p.0 / x_unit.factor), 0.0, label),
         };
-        let size = paper.frame(SIZE, (AT.0 + LEGEND, AT.1 + BELOW));
-        let frame = Frame { at: AT, size, x, y };
-        let mut figure = Figure::new(AT.0 + size.0 + LEGEND, AT.1 + size.1 + BELOW);
-        title(&mut figure, &frame, &self.title, &self.y.0.to_lowercase());
-        frame.grid(&mut figure);
+        // A single curve is named in the title.
+        let (entries, part) = match self.curves.as_slice() {
+            [(name, _)] if !name.is_empty() => (Vec::new(), format!("{}, {name}", self.y.0.to_lowercase())),
+            _ => (self.entries(), self.y.0.to_lowercase()),
+        };
+        let mut page = Framed::new(paper, (x, y), &entries);
+        let Framed { figure, frame, .. } = &mut page;
+        title(figure, frame, &self.title, &part);
+        frame.grid(figure);
         for (i, (_, curve)) in self.curves.iter().enumerate() {
             for piece in curve.split(|p| !(p.0.is_finite() && p.1.is_finite())).filter(|p| !p.is_empty()) {
                 let line: Vec<Point> =
                     piece.iter().map(|p| frame.point(p.0 / x_unit.factor, up(p.1))).collect();
                 // Thinning by columns is valid only for curves with monotonic x.
                 let line = if self.x.1 == Measure::Time { thin(line) } else { line };
-                let style = Style::of(i);
-                figure.dashed(line, style.dash, 1.8, style.colour);
+                let (colour, dash, width) = self.style(i);
+                figure.dashed(line, dash, width, colour);
             }
         }
-        frame.draw(&mut figure);
-        legend(&mut figure, &frame, self.entries().into_iter());
-        Some(figure)
+        Some(page.finish())
+    }
+
+    /// The curves, with references only near the values that they are of.
+    fn near(&self) -> Self {
+        let own = self.curves.iter().step_by(2).flat_map(|c| &c.1).map(|p| p.1).filter(|v| v.is_finite());
+        let (lo, hi) = own.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)));
+        let mut near = Self { pairs: true, ..self.clone() };
+        for (_, reference) in near.curves.iter_mut().skip(1).step_by(2) {
+            for point in reference.iter_mut().filter(|p| !(lo - REACH..=hi + REACH).contains(&p.1)) {
+                point.1 = f64::NAN;
+            }
+        }
+        near
+    }
+
+    /// Colour, dash and width of a curve.
+    fn style(&self, curve: usize) -> (Rgb, Dash, f64) {
+        if !self.pairs {
+            let style = Style::of(curve);
+            return (style.colour, style.dash, 1.8);
+        }
+        let reference = curve % 2 == 1;
+        let dash: Dash = if reference { &[5.0, 3.0] } else { &[] };
+        (Style::of(curve / 2).colour, dash, if reference { 1.1 } else { 1.8 })
     }
 
     /// Legend entries of the first curves, with a note if there are more.
@@ -124,8 +153,8 @@ impl Chart {
         let n = self.curves.len();
         let entry = |(i, curve): (usize, &(String, Vec<Point>))| Entry {
             name: curve.0.clone(),
-            colour: Style::of(i).colour,
-            dash: Style::of(i).dash,
+            colour: self.style(i).0,
+            dash: self.style(i).1,
         };
         let mut entries: Vec<Entry> = self.curves.iter().enumerate().take(NAMED).map(entry).collect();
         if n > NAMED {
@@ -145,6 +174,26 @@ mod tests {
     use super::*;
 
     #[test]
+    fn references_are_drawn_near_the_values_that_they_are_of() {
+        let chart = Chart {
+            file: "c".into(),
+            title: "t".into(),
+            x: ("Time".into(), Measure::Time),
+            y: ("log".into(), Measure::LogSeconds),
+            curves: vec![
+                ("value".into(), vec![(0.0, 1.0), (1.0, 4.0)]),
+                ("steady".into(), vec![(0.0, 60.0), (1.0, 6.5)]),
+            ],
+            pairs: true,
+        };
+        let near = chart.near();
+        assert!(near.curves[1].1[0].1.is_nan() && near.curves[1].1[1].1 == 6.5);
+        assert_eq!(near.curves[0], chart.curves[0]);
+        assert_ne!(chart.style(0).1, chart.style(1).1);
+        assert_eq!(chart.style(0).0, chart.style(1).0);
+    }
+
+    #[test]
     fn a_curve_that_turns_back_keeps_all_of_its_points() {
         let there = (0..30_000).map(|i| f64::from(i) * 1e-9);
         let points: Vec<Point> = there.clone().chain(there.rev()).map(|x| (x, 0.6)).collect();
@@ -155,6 +204,7 @@ mod tests {
             x: ("Slip".into(), Measure::Length),
             y: ("Friction coefficient".into(), Measure::Number),
             curves: vec![("one".into(), points); 20],
+            pairs: false,
         };
         let figure = chart.figure(Paper::default(), 0.0).unwrap();
         let longest = figure.shapes.iter().filter_map(|s| match s {

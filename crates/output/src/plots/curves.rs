@@ -2,14 +2,15 @@
 
 use super::super::Recorder;
 use super::axes::{Axis, Frame};
-use super::colour::{INK, MARK, Rgb, of_curve};
+use super::colour::{MARK, of_curve};
 use super::figure::{Anchor, Dash, Figure, Point};
+use super::framed::Framed;
 use super::labels::position_labels;
+use super::legend::Entry;
 use super::paper::Paper;
 use super::title::title;
 use super::units::TIME;
 use super::units::{self, Unit, Units};
-use super::width::{fitting, within};
 use crate::numbers;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -29,6 +30,9 @@ pub struct Histories {
     times: Vec<f64>,
     /// Probes.
     points: Vec<Probe>,
+    /// True if the state of the probes is log10 of θ \[s\], otherwise a state variable.
+    #[serde(default)]
+    theta: bool,
 }
 
 /// History at a probe.
@@ -41,6 +45,12 @@ struct Probe {
     friction: Vec<f64>,
     #[serde(deserialize_with = "numbers::or_nan")]
     slip_rate: Vec<f64>,
+    /// State; empty without one.
+    #[serde(default, deserialize_with = "numbers::or_nan")]
+    state: Vec<f64>,
+    /// The state in steady state at the slip rate; empty if it is not known.
+    #[serde(default, deserialize_with = "numbers::or_nan")]
+    steady: Vec<f64>,
 }
 
 impl Histories {
@@ -62,6 +72,13 @@ impl Histories {
             relative_displacement: p.relative_displacement.clone(),
             friction: p.friction.clone(),
             slip_rate: p.slip_rate.clone(),
+            state: mesh.theta.map_or_else(
+                || p.state.clone(),
+                |theta| p.state.iter().map(|s| theta.at_zero + theta.per_state * s).collect(),
+            ),
+            steady: mesh.theta.map_or_else(Vec::new, |theta| {
+                p.slip_rate.iter().map(|v| theta.steady - v.abs().log10()).collect()
+            }),
         };
         Some(Self {
             stem: stem.into(),
@@ -70,6 +87,7 @@ impl Histories {
             stages: setup.stages.clone(),
             times: recorder.times().to_vec(),
             points: labels.into_iter().zip(points).map(probe).collect(),
+            theta: mesh.theta.is_some(),
         })
     }
 
@@ -82,9 +100,16 @@ impl Histories {
             let figure = self.figure(quantity, (from, first..last), paper)?;
             Some((format!("{}_{}", self.stem, quantity.file), figure))
         };
-        QUANTITIES.iter().filter_map(one).collect()
+        let state = if self.theta { &THETA } else { &STATE };
+        let has_state = self.points.iter().all(|p| p.state.len() == self.times.len());
+        QUANTITIES.iter().chain(has_state.then_some(state)).filter_map(one).collect()
     }
 }
+
+/// Distance to the values themselves up to which references are drawn: a locked point has a steady state far away.
+pub(super) const REACH: f64 = 3.0;
+/// Dashes of references.
+const DASHED: Dash = &[5.0, 3.0];
 
 /// A quantity plotted over time.
 #[derive(Clone, Copy)]
@@ -97,7 +122,23 @@ struct Quantity {
     /// True if a logarithmic axis is considered.
     rate: bool,
     read: fn(&Probe) -> &[f64],
+    /// Reference drawn with dashes, empty where there is none.
+    reference: fn(&Probe) -> &[f64],
 }
+
+/// θ with that in steady state at the slip rate.
+const THETA: Quantity = Quantity {
+    file: "state",
+    name: "log₁₀ of state θ (dashed: steady at V)",
+    units: units::SECONDS,
+    rate: false,
+    read: |p| &p.state,
+    reference: |p| &p.steady,
+};
+
+/// State variable of a law without θ.
+const STATE: Quantity =
+    Quantity { name: "State variable", units: units::NUMBER, reference: |_| &[], ..THETA };
 
 /// Quantities plotted for each interface.
 const QUANTITIES: [Quantity; 3] = [
@@ -107,6 +148,7 @@ const QUANTITIES: [Quantity; 3] = [
         units: units::LENGTH,
         rate: false,
         read: |p| &p.relative_displacement,
+        reference: |_| &[],
     },
     Quantity {
         file: "friction",
@@ -114,6 +156,7 @@ const QUANTITIES: [Quantity; 3] = [
         units: units::NUMBER,
         rate: false,
         read: |p| &p.friction,
+        reference: |_| &[],
     },
     Quantity {
         file: "relative_velocity",
@@ -121,6 +164,7 @@ const QUANTITIES: [Quantity; 3] = [
         units: units::VELOCITY,
         rate: true,
         read: |p| &p.slip_rate,
+        reference: |_| &[],
     },
 ];
 
@@ -133,15 +177,6 @@ pub(super) const DECADES: f64 = 14.0;
 /// Columns into which a curve is thinned, keeping the extremes of each: twice the resolution of a screen.
 const COLUMNS: usize = 2000;
 
-/// Width right of the frame for the legend.
-const LEGEND: f64 = 170.0;
-/// Position of the frame.
-const AT: Point = (96.0, 40.0);
-/// Size of the frame.
-const SIZE: Point = (560.0, 380.0);
-/// Height below the frame for numbers and a label.
-const BELOW: f64 = 60.0;
-
 impl Histories {
     /// A quantity of the steps in a range; the axis begins at a time \[s\]. `None` without steps.
     fn figure(
@@ -153,71 +188,44 @@ impl Histories {
         let times = &self.times[steps.clone()];
         let &end = times.last().filter(|end| **end > from)?;
         let series: Vec<&[f64]> = self.points.iter().map(|p| &(quantity.read)(p)[steps.clone()]).collect();
+        let own = series.iter().flat_map(|s| s.iter()).copied().filter(|v| v.is_finite());
+        let (lo, hi) = own.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)));
+        let near = |v: &f64| if (lo - REACH..=hi + REACH).contains(v) { *v } else { f64::NAN };
+        let references = self.points.iter().filter_map(|p| (quantity.reference)(p).get(steps.clone()));
+        let references: Vec<Vec<f64>> = references.map(|r| r.iter().map(near).collect()).collect();
+        let references: Vec<&[f64]> = references.iter().map(Vec::as_slice).collect();
         let (time, unit) = (TIME.of(end), quantity.units.of(largest(&series)));
         let log = quantity.rate && is_spiky(times, &series);
-        let values =
-            series.iter().flat_map(|s| s.iter()).map(|v| if log { v.abs() } else { *v } / unit.factor);
+        let values = series
+            .iter()
+            .chain(&references)
+            .flat_map(|s| s.iter())
+            .map(|v| if log { v.abs() } else { *v } / unit.factor);
         let label = format!("{} [{}]", quantity.name, unit.name);
         let y =
             if log { Axis::logarithmic(values, DECADES, label) } else { Axis::linear(values, 0.08, label) };
         let x = Axis::exact((from / time.factor, end / time.factor), format!("Time [{}]", time.name));
-        let frame = Frame { at: AT, size: paper.frame(SIZE, (AT.0 + LEGEND, AT.1 + BELOW)), x, y };
-        let mut figure = Figure::new(AT.0 + frame.size.0 + LEGEND, AT.1 + frame.size.1 + BELOW);
-        title(&mut figure, &frame, &self.title, &self.name);
-        frame.grid(&mut figure);
-        stage_marks(&mut figure, &frame, &self.stages, time);
-        for (i, values) in series.iter().enumerate() {
-            let colour = of_curve(i, series.len());
-            for piece in pieces(times, values) {
-                let line = piece.iter().map(|&(t, v)| {
-                    let v = if log { v.abs() } else { v };
-                    frame.point(t / time.factor, v / unit.factor)
-                });
-                figure.line(thin(line.collect()), 1.8, colour);
-            }
-        }
-        frame.draw(&mut figure);
         let entry = |(i, p): (usize, &Probe)| Entry {
             name: p.label.clone(),
             colour: of_curve(i, series.len()),
             dash: &[],
         };
-        legend(&mut figure, &frame, self.points.iter().enumerate().map(entry));
-        Some(figure)
-    }
-}
-
-/// A curve in a legend.
-#[derive(Clone, Debug)]
-pub(super) struct Entry {
-    pub name: String,
-    pub colour: Rgb,
-    pub dash: Dash,
-}
-
-/// Distance between the lines of a legend, and the least one.
-const LINES: [f64; 2] = [22.0, 11.0];
-
-/// Draws the names of the curves with their colours, right of the frame: closer together where there is little room, and only
-/// the first where there is too little for all.
-pub(super) fn legend(figure: &mut Figure, frame: &Frame, entries: impl Iterator<Item = Entry>) {
-    let left = frame.at.0 + frame.size.0 + 16.0;
-    let mut entries: Vec<Entry> = entries.collect();
-    let height = figure.height - frame.at.1 - LINES[0];
-    let most = (height / LINES[1]).max(1.0) as usize;
-    if entries.len() > most {
-        let name = format!("and {} more", entries.len() - (most - 1));
-        entries.truncate(most - 1);
-        entries.push(Entry { name, colour: MARK, dash: &[1.0, 4.0] });
-    }
-    let apart = (height / entries.len().max(1) as f64).clamp(LINES[1], LINES[0]);
-    let room = figure.width - left - 40.0;
-    let most = (12.5_f64).min(0.75 * apart);
-    let size = entries.iter().map(|e| within(&e.name, room, most)).fold(most, f64::min);
-    for (i, Entry { name, colour, dash }) in entries.into_iter().enumerate() {
-        let y = frame.at.1 + 12.0 + apart * i as f64;
-        figure.dashed(vec![(left, y), (left + 26.0, y)], dash, 2.2, colour);
-        figure.text((left + 34.0, y), fitting(&name, room, size).0, size, Anchor::Start, INK);
+        let entries: Vec<Entry> = self.points.iter().enumerate().map(entry).collect();
+        let mut page = Framed::new(paper, (x, y), &entries);
+        let Framed { figure, frame, .. } = &mut page;
+        title(figure, frame, &self.title, &self.name);
+        frame.grid(figure);
+        stage_marks(figure, frame, &self.stages, time);
+        let up = |v: f64| if log { v.abs() } else { v } / unit.factor;
+        for (all, dash, width) in [(&references, DASHED, 1.1), (&series, &[] as Dash, 1.8)] {
+            for (i, values) in all.iter().enumerate() {
+                for piece in pieces(times, values) {
+                    let line = piece.iter().map(|&(t, v)| frame.point(t / time.factor, up(v)));
+                    figure.dashed(thin(line.collect()), dash, width, of_curve(i, series.len()));
+                }
+            }
+        }
+        Some(page.finish())
     }
 }
 

@@ -1,18 +1,26 @@
-//! Plots of faults in earthquake cycles: largest slip rate, slip contours, slip rate over space and time, phase portrait.
+//! Plots of faults in earthquake cycles: largest slip rate, slip contours, slip rate, state and coupling over space and time,
+//! coupling at chosen times, phase portrait.
 //!
 //! Each plot reads the rows of a table twice: for the ranges of its axes and for drawing. Memory does not grow with the number of
 //! rows.
 
+mod chosen;
+mod maps;
+mod portrait;
+
+pub use maps::Mapped;
+pub use portrait::Portrait;
+
 use super::super::OutputError;
 use super::axes::{Axis, Frame};
 use super::colour::{Rgb, viridis};
-use super::curves::{DECADES, Entry, Thinner, legend};
-use super::field::Bar;
-use super::figure::{Figure, Image, Point};
+use super::curves::{DECADES, Thinner};
+use super::figure::{Figure, Point};
+use super::framed::{AT, BELOW, Framed, SIZE};
+use super::legend::Entry;
 use super::paper::Paper;
-use super::stretched::Stretched;
 use super::title::title;
-use super::units::{LENGTH, STRESS, TIME};
+use super::units::{LENGTH, TIME};
 use crate::stems;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -26,6 +34,9 @@ pub struct Line {
     pub columns: Range<usize>,
     /// Distances of its points from the upper end, ascending \[m\].
     pub along: Vec<f64>,
+    /// Quantities that it has profiles of, beside slip and slip rate.
+    #[serde(default)]
+    pub mapped: Vec<Mapped>,
 }
 
 /// A table of a run.
@@ -37,6 +48,10 @@ pub enum Table {
     Slip,
     /// Time \[s\] and log10 of slip rates of all points \[m/s\].
     Rate,
+    /// Time \[s\] and states of all points: log10 of θ \[s\], or the first state variable of a law without θ.
+    State,
+    /// Time \[s\] and coupling of all points, between events.
+    Coupling,
 }
 
 /// Access to the tables of a run.
@@ -46,6 +61,12 @@ pub trait Rows {
     /// # Errors
     /// If the table cannot be read.
     fn each(&self, table: Table, look: &mut dyn FnMut(&[f64])) -> Result<(), OutputError>;
+
+    /// Passes the rows of the file of a station to `look`, from the first to the last.
+    ///
+    /// # Errors
+    /// If the file cannot be read.
+    fn station(&self, path: &str, look: &mut dyn FnMut(&[f64])) -> Result<(), OutputError>;
 }
 
 /// Plots of a run.
@@ -60,6 +81,12 @@ pub(super) struct Cycles<'a> {
     pub events: Vec<(f64, f64)>,
     /// Time between slip contours, between events and during events, as text.
     pub intervals: [String; 2],
+    /// The same in seconds, where it is known.
+    pub spacing: Option<[f64; 2]>,
+    /// Names and times of the profiles of coupling that are shown \[s\].
+    pub chosen: Vec<(String, f64)>,
+    /// Stations of the phase portrait, all of which slip in events; without any it is of means.
+    pub stations: Vec<Portrait>,
     /// First and last time shown \[s\]; all if there is none.
     pub window: Option<(f64, f64)>,
     /// Size of the figures.
@@ -90,29 +117,18 @@ impl Bounds {
     }
 }
 
-/// Distance below which points of the phase portrait coincide: half a pixel of a screen.
-const NEAR: f64 = 0.5;
-/// Largest number of points of the phase portrait, enough for some hundred cycles; later ones lie on top of these.
-const MOST_POINTS: usize = 200_000;
-
 /// Colour of slip during events.
 const SEISMIC: Rgb = [205, 92, 38];
 /// Colour of slip between events.
 const ASEISMIC: Rgb = [52, 84, 160];
-/// Position of the frame.
-const AT: Point = (96.0, 40.0);
-/// Size of the frame.
-const SIZE: Point = (560.0, 380.0);
-/// Width right of the frame for a legend, for a colour bar, and for half a number.
-const ROOMS: [f64; 3] = [230.0, 150.0, 40.0];
-/// Height below the frame for numbers and a label.
-const BELOW: f64 = 60.0;
-/// Largest number of columns and rows of pixels of an image.
-const PIXELS: (usize, usize) = (1120, 760);
+/// Width right of the frame for a colour bar.
+const ROOM: f64 = 136.0;
+/// Largest number of contours of an event, and between two events; more would make an area.
+const MOST_CONTOURS: f64 = 60.0;
+/// Part of the time between contours that rounding may take.
+const ROUNDING: f64 = 1e-6;
 /// Distance to the preceding contour, as a share of the axis, below which a contour is omitted: a pixel of a screen.
 const TOGETHER: f64 = 2e-3;
-/// Decades below the fastest rate shown by the image of slip rates. Slower points are locked.
-const SHOWN: f64 = 14.0;
 
 type Drawn = Result<Option<Figure>, OutputError>;
 
@@ -125,14 +141,21 @@ impl Cycles<'_> {
         add("phase_portrait".into(), self.portrait()?);
         for (stem, line) in stems(self.lines.iter().map(|l| l.name.as_str())).iter().zip(&self.lines) {
             add(format!("{stem}_slip"), self.contours(line)?);
-            add(format!("{stem}_rate"), self.space_time(line)?);
+            add(format!("{stem}_rate"), self.map(line, Mapped::Rate)?);
+            for &mapped in &line.mapped {
+                add(format!("{stem}_{}", mapped.stem()), self.map(line, mapped)?);
+            }
+            if line.mapped.contains(&Mapped::Coupling) {
+                add(format!("{stem}_coupling_profiles"), self.coupling(line)?);
+            }
         }
         Ok(figures)
     }
 
-    fn frame(&self, x: Axis, y: Axis, room: f64) -> (Figure, Frame) {
-        let size = self.paper.frame(SIZE, (AT.0 + room, AT.1 + BELOW));
-        (Figure::new(AT.0 + size.0 + room, AT.1 + size.1 + BELOW), Frame { at: AT, size, x, y })
+    /// A figure with room for a colour bar.
+    fn image_frame(&self, x: Axis, y: Axis) -> (Figure, Frame) {
+        let size = self.paper.frame(SIZE, (AT.0 + ROOM, AT.1 + BELOW));
+        (Figure::new(AT.0 + size.0 + ROOM, AT.1 + size.1 + BELOW), Frame { at: AT, size, x, y })
     }
 
     /// Ranges of time, largest slip rate and mean shear traction.
@@ -156,10 +179,11 @@ impl Cycles<'_> {
         let label = format!("Time [{}]", time.name);
         let x = Axis::exact((first / time.factor, last / time.factor), label);
         let y = Axis::logarithmic(rates.over(1.0), DECADES, "Largest slip rate [m/s]".into());
-        let (mut figure, frame) = self.frame(x, y, ROOMS[2]);
-        title(&mut figure, &frame, &self.title, "largest slip rate");
-        frame.grid(&mut figure);
-        let mut curve = Thinner::new(AT.0, AT.0 + frame.size.0);
+        let mut page = Framed::new(self.paper, (x, y), &[]);
+        let Framed { figure, frame, .. } = &mut page;
+        title(figure, frame, &self.title, "largest slip rate");
+        frame.grid(figure);
+        let mut curve = Thinner::new(frame.at.0, frame.at.0 + frame.size.0);
         self.rows.each(Table::Largest, &mut |row| {
             let point = frame.point(row[0] / time.factor, 10.0_f64.powf(row[1]));
             if point.0.is_finite() && point.1.is_finite() {
@@ -167,32 +191,7 @@ impl Cycles<'_> {
             }
         })?;
         figure.line(curve.finish(), 1.4, viridis(0.3));
-        frame.draw(&mut figure);
-        Ok(Some(figure))
-    }
-
-    fn portrait(&self) -> Drawn {
-        let [_, rates, shear] = self.ranges()?;
-        if !shear.any() {
-            return Ok(None);
-        }
-        let unit = STRESS.of(shear.0.abs().max(shear.1.abs()));
-        let x = Axis::logarithmic(rates.over(1.0), DECADES, "Largest slip rate [m/s]".into());
-        let y = Axis::linear(shear.over(unit.factor), 0.05, format!("Mean shear traction [{}]", unit.name));
-        let (mut figure, frame) = self.frame(x, y, ROOMS[2]);
-        title(&mut figure, &frame, &self.title, "phase portrait");
-        frame.grid(&mut figure);
-        let mut curve: Vec<Point> = Vec::new();
-        self.rows.each(Table::Largest, &mut |row| {
-            let (x, y) = frame.point(10.0_f64.powf(row[1]), row[3] / unit.factor);
-            let apart = curve.last().is_none_or(|last| (x - last.0).hypot(y - last.1) >= NEAR);
-            if apart && x.is_finite() && y.is_finite() && curve.len() < MOST_POINTS {
-                curve.push((x, y));
-            }
-        })?;
-        figure.line(curve, 1.2, viridis(0.3));
-        frame.draw(&mut figure);
-        Ok(Some(figure))
+        Ok(Some(page.finish()))
     }
 
     fn in_event(&self, time: f64) -> bool {
@@ -232,83 +231,62 @@ impl Cycles<'_> {
         }
         let unit = LENGTH.of(range.0.abs().max(range.1.abs()));
         let x = Axis::linear(range.over(unit.factor), 0.02, format!("Slip [{}]", unit.name));
-        let (mut figure, frame) = self.frame(x, y, ROOMS[0]);
-        title(&mut figure, &frame, &self.title, &format!("slip of {}", line.name));
-        frame.grid(&mut figure);
+        let multiples = self.multiples();
+        let entries = [("between events, every", ASEISMIC, 0), ("in events, every", SEISMIC, 1)];
+        let entries = entries.map(|(words, colour, k)| {
+            let name = format!("{words} {}", self.interval(k, multiples[k]));
+            Entry { name, colour, dash: &[] }
+        });
+        let mut page = Framed::new(self.paper, (x, y), &entries);
+        let Framed { figure, frame, .. } = &mut page;
+        title(figure, frame, &self.title, &format!("slip of {}", line.name));
+        frame.grid(figure);
         let least = TOGETHER * unit.factor * (frame.x.range.1 - frame.x.range.0);
-        let mut kept: [(Vec<Vec<Point>>, Vec<f64>); 2] = Default::default();
+        let mut kept: [(Vec<Vec<Point>>, Vec<f64>, f64); 2] =
+            std::array::from_fn(|_| (Vec::new(), Vec::new(), f64::NEG_INFINITY));
         self.profiles(Table::Slip, line, &mut |time, slip| {
-            let (curves, last) = &mut kept[usize::from(self.in_event(time))];
-            if last.is_empty() || last.iter().zip(slip).any(|(a, b)| (a - b).abs() >= least) {
-                *last = slip.to_vec();
+            let k = usize::from(self.in_event(time));
+            let (curves, last, drawn) = &mut kept[k];
+            let apart = last.is_empty() || last.iter().zip(slip).any(|(a, b)| (a - b).abs() >= least);
+            let spacing = self.spacing.map_or(0.0, |all| all[k] * multiples[k] * (1.0 - ROUNDING));
+            if apart && time - *drawn >= if multiples[k] > 1.0 { spacing } else { 0.0 } {
+                (*last, *drawn) = (slip.to_vec(), time);
                 let points = slip.iter().zip(&line.along);
                 curves.push(points.map(|(s, a)| frame.point(s / unit.factor, a / scale)).collect());
             }
         })?;
         // Slip between events is drawn over slip during events, which would hide it.
-        let [between, within] = kept.map(|(curves, _)| curves);
-        for (curves, colour, width) in [(within, SEISMIC, 0.5), (between, ASEISMIC, 0.9)] {
+        let [between, within] = kept.map(|(curves, ..)| curves);
+        for (curves, colour, width) in [(within, SEISMIC, 0.6), (between, ASEISMIC, 0.9)] {
             curves.into_iter().for_each(|curve| figure.line(curve, width, colour));
         }
-        frame.draw(&mut figure);
-        let entries = [("between events, every", ASEISMIC, 0), ("in events, every", SEISMIC, 1)];
-        let entries = entries.into_iter().map(|(words, colour, k)| {
-            let name = format!("{words} {}", self.intervals[k]);
-            Entry { name, colour, dash: &[] }
-        });
-        legend(&mut figure, &frame, entries);
-        Ok(Some(figure))
+        Ok(Some(page.finish()))
     }
 
-    /// Image of slip rates over distance and output rows. Rows are written by time and by change, so that events take as much
-    /// room as the time between them; the axis has the times of rows.
-    fn space_time(&self, line: &Line) -> Drawn {
-        let Some((y, _)) = Self::along(line) else { return Ok(None) };
-        let (mut times, mut range) = (Vec::new(), Bounds::NONE);
-        self.profiles(Table::Rate, line, &mut |time, rates| {
-            times.push(time);
-            rates.iter().for_each(|&r| range.see(r));
-        })?;
-        let count = times.len();
-        if !range.any() {
-            return Ok(None);
-        }
-        let hi = range.1.ceil();
-        let lo = range.0.floor().max(hi - SHOWN).min(hi - 1.0);
-        let stretched = Stretched::new(&times, &self.events);
-        let (mut figure, frame) = self.frame(stretched.axis(), y, ROOMS[1]);
-        title(&mut figure, &frame, &self.title, &format!("slip rate of {}", line.name));
-        let columns = count.clamp(1, PIXELS.0);
-        let nearest = nearest(&line.along);
-        // Each column shows the fastest of its rows, so that short events are not lost.
-        let (mut fastest, mut row) = (vec![f64::MIN; columns * nearest.len()], 0);
-        self.profiles(Table::Rate, line, &mut |_, rates| {
-            row += 1;
-            let column = (row * columns - 1) / count;
-            for (k, &point) in nearest.iter().enumerate() {
-                let shown = &mut fastest[k * columns + column];
-                *shown = shown.max(rates[point]);
-            }
-        })?;
-        let rgb = fastest.into_iter().map(|rate| viridis((rate - lo) / (hi - lo))).collect();
-        figure.image(Image { at: frame.at, size: frame.size, columns, rgb });
-        stretched.mark(&mut figure, &frame);
-        frame.draw(&mut figure);
-        Bar { range: (lo, hi), above: None, label: "log₁₀ of slip rate [m/s]".into() }
-            .draw(&mut figure, &frame);
-        Ok(Some(figure))
+    /// Multiples of the times between profiles at which contours are drawn, between events and in them: 1, 2, 5, 10 and so on.
+    fn multiples(&self) -> [f64; 2] {
+        let Some(spacing) = self.spacing else { return [1.0; 2] };
+        let longest = |spans: &mut dyn Iterator<Item = f64>| spans.fold(0.0_f64, f64::max);
+        let within = longest(&mut self.events.iter().map(|e| e.1 - e.0));
+        let between = longest(&mut self.events.windows(2).map(|w| w[1].0 - w[0].1));
+        let of = |time: f64, spacing: f64| {
+            let powers = (0..12).map(|k| 10.0_f64.powi(k));
+            let mut all = powers.flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * power));
+            all.find(|m| time <= MOST_CONTOURS * m * spacing).unwrap_or(1.0)
+        };
+        [of(between, spacing[0]), of(within, spacing[1])]
     }
-}
 
-/// Point nearest to each row of pixels.
-fn nearest(along: &[f64]) -> Vec<usize> {
-    let (first, last) = (along[0], along[along.len() - 1]);
-    let nearest = |k: usize| {
-        let at = first + (last - first) * (k as f64 + 0.5) / PIXELS.1 as f64;
-        let k = along.partition_point(|&a| a < at).clamp(1, along.len() - 1);
-        if at - along[k - 1] < along[k] - at { k - 1 } else { k }
-    };
-    (0..PIXELS.1).map(nearest).collect()
+    /// Time between contours as text.
+    fn interval(&self, kind: usize, multiple: f64) -> String {
+        let Some(spacing) = self.spacing.filter(|_| multiple > 1.0) else {
+            return self.intervals[kind].clone();
+        };
+        let time = multiple * spacing[kind];
+        let unit = TIME.of(time);
+        let value = format!("{:.3}", time / unit.factor);
+        format!("{} {}", value.trim_end_matches('0').trim_end_matches('.'), unit.name)
+    }
 }
 
 #[cfg(test)]
@@ -321,6 +299,8 @@ mod tests {
         largest: Vec<Vec<f64>>,
         slip: Vec<Vec<f64>>,
         rate: Vec<Vec<f64>>,
+        coupling: Vec<Vec<f64>>,
+        station: Vec<Vec<f64>>,
     }
 
     impl Rows for Kept {
@@ -329,8 +309,14 @@ mod tests {
                 Table::Largest => &self.largest,
                 Table::Slip => &self.slip,
                 Table::Rate => &self.rate,
+                Table::State | Table::Coupling => &self.coupling,
             };
             rows.iter().for_each(|row| look(row));
+            Ok(())
+        }
+
+        fn station(&self, _: &str, look: &mut dyn FnMut(&[f64])) -> Result<(), OutputError> {
+            self.station.iter().for_each(|row| look(row));
             Ok(())
         }
     }
@@ -344,14 +330,28 @@ mod tests {
             ],
             slip: vec![vec![0.0, 9.0, 0.0, 0.0, 0.0], vec![1e9, 9.0, 1.0, 2.0, 3.0]],
             rate: vec![vec![0.0, 0.0, -9.0, -9.0, -9.0], vec![1e9, 0.0, 0.5, -3.0, -9.0]],
+            coupling: vec![
+                vec![0.0, 9.0, 1.0, 0.5, 0.0],
+                vec![0.5e9, 9.0, 0.9, 0.4, -30.0],
+                vec![1.5e9, 9.0, 0.8, 0.3, f64::NAN],
+            ],
+            station: vec![vec![0.0, 0.0, -9.0, 20.0], vec![1.0, 0.0, 0.0, 25.0], vec![2.0, 0.0, -8.0, 21.0]],
         }
     }
 
     fn sample(rows: &Kept) -> Cycles<'_> {
         Cycles {
             title: "t".into(),
-            lines: vec![Line { name: "main".into(), columns: 1..4, along: vec![0.0, 1e4, 4e4] }],
+            lines: vec![Line {
+                name: "main".into(),
+                columns: 1..4,
+                along: vec![0.0, 1e4, 4e4],
+                mapped: vec![Mapped::Theta, Mapped::Coupling],
+            }],
             rows,
+            spacing: None,
+            chosen: vec![("midway".into(), 0.6e9), ("before".into(), 0.89e9)],
+            stations: Vec::new(),
             events: vec![(0.9e9, 1.1e9)],
             intervals: ["2.5 d".into(), "3 min".into()],
             window: None,
@@ -362,7 +362,18 @@ mod tests {
     #[test]
     fn every_fault_along_a_line_has_its_figures() {
         let names: Vec<String> = sample(&kept()).figures().unwrap().into_iter().map(|f| f.0).collect();
-        assert_eq!(names, ["largest_rate", "phase_portrait", "main_slip", "main_rate"]);
+        assert_eq!(
+            names,
+            [
+                "largest_rate",
+                "phase_portrait",
+                "main_slip",
+                "main_rate",
+                "main_state",
+                "main_coupling",
+                "main_coupling_profiles"
+            ]
+        );
     }
 
     #[test]
@@ -376,7 +387,7 @@ mod tests {
     fn the_image_has_the_colours_of_the_rates_with_the_upper_end_on_top() {
         let kept = kept();
         let cycles = sample(&kept);
-        let figure = cycles.space_time(&cycles.lines[0]).unwrap().unwrap();
+        let figure = cycles.map(&cycles.lines[0], Mapped::Rate).unwrap().unwrap();
         let image = figure.shapes.iter().find_map(|s| match s {
             super::super::figure::Shape::Image(image) => Some(image),
             _ => None,
@@ -394,22 +405,57 @@ mod tests {
         assert!(sample(&empty).figures().unwrap().is_empty());
     }
 
+    fn texts(figure: &Figure) -> Vec<&str> {
+        let text = |shape| match shape {
+            &super::super::figure::Shape::Text(ref text) => Some(text.text.as_str()),
+            _ => None,
+        };
+        figure.shapes.iter().filter_map(text).collect()
+    }
+
+    #[test]
+    fn coupling_has_the_colours_of_zero_to_one_and_its_profiles_their_names() {
+        let kept = kept();
+        let cycles = sample(&kept);
+        let map = cycles.map(&cycles.lines[0], Mapped::Coupling).unwrap().unwrap();
+        assert!(texts(&map).contains(&"Coupling [–], below 0 as 0"), "{:?}", texts(&map));
+        let profiles = cycles.coupling(&cycles.lines[0]).unwrap().unwrap();
+        assert!(["midway", "before"].iter().all(|name| texts(&profiles).contains(name)));
+        let none = Cycles { chosen: Vec::new(), ..sample(&kept) };
+        assert!(none.coupling(&none.lines[0]).unwrap().is_none());
+    }
+
+    #[test]
+    fn the_phase_portrait_is_of_stations_where_there_are_any_and_its_title_has_which() {
+        let kept = kept();
+        let station =
+            Portrait { name: "10 km".into(), path: "s".into(), rate: vec![2], shear: vec![3], unit: 1e6 };
+        let of = |stations| {
+            let cycles = Cycles { stations, ..sample(&kept) };
+            let figure = cycles.portrait().unwrap().unwrap();
+            texts(&figure).iter().map(|t| (*t).to_string()).collect::<Vec<_>>()
+        };
+        let stations = of(vec![station]);
+        assert!(stations.iter().any(|t| t == "t: phase portrait of stations that slip in events"));
+        assert!(
+            stations.iter().any(|t| t == "10 km") && stations.iter().any(|t| t == "Shear traction [MPa]")
+        );
+        assert!(of(Vec::new()).iter().any(|t| t == "t: phase portrait of means over all points"));
+    }
+
     #[test]
     fn legends_of_contours_tell_the_intervals_of_the_run() {
         let kept = kept();
         let cycles = sample(&kept);
         let figure = cycles.contours(&cycles.lines[0]).unwrap().unwrap();
-        let texts: Vec<&str> = figure
-            .shapes
-            .iter()
-            .filter_map(|s| match s {
-                super::super::figure::Shape::Text(text) => Some(text.text.as_str()),
-                _ => None,
-            })
-            .collect();
+        let texts = texts(&figure);
         assert!(
             texts.contains(&"between events, every 2.5 d") && texts.contains(&"in events, every 3 min"),
             "{texts:?}"
         );
+        // An event of 2e8 s with profiles every 1e6 s would have 200 contours.
+        let many = Cycles { spacing: Some([1e9, 1e6]), ..sample(&kept) };
+        assert_eq!(many.multiples(), [1.0, 5.0]);
+        assert_eq!([many.interval(0, 1.0), many.interval(1, 5.0)], ["2.5 d", "57.87 d"]);
     }
 }

@@ -29,5 +29,6 @@ pub(super) fn budget(recorder: &Recorder) -> Option<Curves> {
         event: None,
         without_zero: true,
         until: None,
+        pairs: false,
     })
 }

@@ -10,7 +10,7 @@ use super::units::{LENGTH, NUMBER, STRESS, Unit, Units, VELOCITY};
 use serde::{Deserialize, Serialize};
 
 /// Largest width and height of the map in a plot of a run.
-pub(super) const LARGE: Point = (560.0, 460.0);
+pub(super) const LARGE: Point = (420.0, 360.0);
 /// Largest width and height of the map beside other figures.
 pub(super) const SMALL: Point = (300.0, 270.0);
 
@@ -292,7 +292,7 @@ impl Bar {
 
     /// Draws the bar in other colours of values in 0..=1.
     pub(super) fn draw_in(&self, figure: &mut Figure, frame: &Frame, colours: fn(f64) -> Rgb) {
-        let (left, top) = (frame.at.0 + frame.size.0 + 28.0, frame.at.1);
+        let (left, top) = (frame.at.0 + frame.size.0 + 20.0, frame.at.1);
         let (width, height) = (18.0, frame.size.1.max(BAR));
         let axis = Axis::exact(self.range, String::new());
         let head = if self.above.is_some() { 16.0 } else { 0.0 };

@@ -89,6 +89,29 @@ impl Figure {
         self.shapes.push(Shape::Text(Text { at, text: text.into(), size, anchor, vertical: true, colour }));
     }
 
+    /// The figure with all lengths but those of dashes times a factor.
+    pub(super) fn scaled(mut self, factor: f64) -> Self {
+        let times = |point: &mut Point| *point = (point.0 * factor, point.1 * factor);
+        for shape in &mut self.shapes {
+            match shape {
+                Shape::Line { points, width, .. } => {
+                    points.iter_mut().for_each(times);
+                    *width *= factor;
+                }
+                Shape::Area { points, .. } => points.iter_mut().for_each(times),
+                Shape::Text(text) => {
+                    times(&mut text.at);
+                    text.size *= factor;
+                }
+                Shape::Image(image) => {
+                    times(&mut image.at);
+                    times(&mut image.size);
+                }
+            }
+        }
+        Self { width: self.width * factor, height: self.height * factor, ..self }
+    }
+
     pub(super) fn image(&mut self, image: Image) {
         self.shapes.push(Shape::Image(image));
     }
@@ -132,6 +155,25 @@ pub(super) fn dashes(points: &[Point], dash: Dash) -> Vec<Vec<Point>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_scaled_figure_is_the_same_picture() {
+        let mut figure = Figure::new(100.0, 60.0);
+        figure.line(vec![(1.0, 2.0), (30.0, 40.0)], 2.0, [0; 3]);
+        figure.area(vec![(5.0, 6.0)], [0; 3]);
+        figure.text((10.0, 20.0), "t", 12.0, Anchor::Start, [0; 3]);
+        figure.image(Image { at: (8.0, 4.0), size: (2.0, 6.0), columns: 1, rgb: Vec::new() });
+        let half = figure.scaled(0.5);
+        assert_eq!((half.width, half.height), (50.0, 30.0));
+        assert!(
+            matches!(&half.shapes[0], Shape::Line { points, width, .. } if points[1] == (15.0, 20.0) && *width == 1.0)
+        );
+        assert!(matches!(&half.shapes[1], Shape::Area { points, .. } if points[0] == (2.5, 3.0)));
+        assert!(matches!(&half.shapes[2], Shape::Text(text) if text.at == (5.0, 10.0) && text.size == 6.0));
+        assert!(
+            matches!(&half.shapes[3], Shape::Image(image) if image.at == (4.0, 2.0) && image.size == (1.0, 3.0))
+        );
+    }
 
     #[test]
     fn dashes_run_on_around_corners() {

@@ -88,11 +88,11 @@ pub(super) struct GroundMap {
 }
 
 /// Upper left corner of the frame.
-const AT: Point = (96.0, 40.0);
+const AT: Point = (84.0, 40.0);
 /// Largest size of the frame.
-const SIZE: Point = (560.0, 460.0);
+const SIZE: Point = (420.0, 360.0);
 /// Room right of the frame for the colour bar.
-const ROOM: f64 = 150.0;
+const ROOM: f64 = 136.0;
 /// Height below the frame for numbers, a label and the scale of arrows.
 const BELOW: f64 = 92.0;
 /// Largest number of arrows along an axis.

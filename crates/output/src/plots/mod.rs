@@ -15,8 +15,10 @@ mod energy;
 mod faces;
 mod field;
 mod figure;
+mod framed;
 mod ground;
 pub(crate) mod labels;
+mod legend;
 mod mesh;
 mod panel;
 mod paper;
@@ -36,7 +38,7 @@ mod width;
 
 pub use chart::{Chart, Measure};
 pub use curves::Histories;
-pub use cycles::Line;
+pub use cycles::{Line, Mapped, Portrait};
 pub use diagram::{Diagram, Failed, Scale, Series, Slope};
 pub use field::Seen;
 pub use ground::{Coordinates, Shown};
@@ -45,8 +47,8 @@ pub use panel::{EventPanel, PanelEvent};
 pub use profile::Tractions;
 pub use rupture::{Line as RuptureLine, Shape as RuptureShape, Surface};
 pub use sheet::{
-    Asked, Curves, Fault, Format, Ground, InEvent, Mises, OfEvent, Plot, Points, Sheet, Through, Velocities,
-    short,
+    Asked, Curves, Fault, Format, Ground, InEvent, Mises, OfEvent, Plot, Points, Sheet, Still, Stills,
+    Through, Velocities, short,
 };
 pub use sketch::Sketch;
 pub use springs::curves as springs_curves;

@@ -1,9 +1,10 @@
 //! Magnitudes of events over time, with the focal spheres of those that have one.
 
-use super::axes::{Axis, Frame};
+use super::axes::Axis;
 use super::ball::ball;
-use super::curves::{Entry, legend};
-use super::figure::{Figure, Point};
+use super::figure::Figure;
+use super::framed::Framed;
+use super::legend::Entry;
 use super::paper::Paper;
 use super::style::Style;
 use super::title::title;
@@ -35,14 +36,6 @@ pub struct EventPanel {
     pub groups: Vec<(String, Vec<PanelEvent>)>,
 }
 
-/// Position of the frame.
-const AT: Point = (96.0, 40.0);
-/// Size of the frame.
-const SIZE: Point = (560.0, 380.0);
-/// Width right of the frame for the legend.
-const LEGEND: f64 = 170.0;
-/// Height below the frame for numbers and a label.
-const BELOW: f64 = 60.0;
 /// Radii of the focal spheres at the lower and at the upper end of the magnitudes.
 const RADII: (f64, f64) = (8.0, 16.0);
 /// Largest number of focal spheres; more would cover each other.
@@ -71,36 +64,35 @@ impl EventPanel {
         let x =
             Axis::exact((self.start / time.factor, self.end / time.factor), format!("Time [{}]", time.name));
         let y = Axis::exact((lo - MARGIN * range, lo + (1.0 + MARGIN) * range), "Moment magnitude".into());
-        let size = paper.frame(SIZE, (AT.0 + LEGEND, AT.1 + BELOW));
-        let frame = Frame { at: AT, size, x, y };
-        let mut figure = Figure::new(AT.0 + size.0 + LEGEND, AT.1 + size.1 + BELOW);
-        title(&mut figure, &frame, &self.title, "events");
-        frame.grid(&mut figure);
-        let balls = all().count() <= BALLS;
-        for (k, (_, events)) in self.groups.iter().enumerate() {
-            let style = Style::of(k);
-            for event in events.iter().filter(|event| event.magnitude.is_finite()) {
-                let at = frame.point(event.onset / time.factor, event.magnitude);
-                figure.line(vec![(at.0, AT.1 + size.1), at], 1.2, style.colour);
-                let share = (event.magnitude - lo) / range;
-                match &event.tensor {
-                    Some(tensor) if balls => {
-                        let radius = RADII.0 + share * (RADII.1 - RADII.0);
-                        ball(&mut figure, tensor, at, radius, style.colour);
-                    }
-                    _ => style.mark(&mut figure, at, MARKER),
-                }
-            }
-        }
-        frame.draw(&mut figure);
         let named = self.groups.iter().enumerate().filter(|(_, group)| !group.1.is_empty());
         let entry = |(k, group): (usize, &(String, _))| Entry {
             name: group.0.clone(),
             colour: Style::of(k).colour,
             dash: &[],
         };
-        legend(&mut figure, &frame, named.map(entry));
-        Some(figure)
+        let entries: Vec<Entry> = named.map(entry).collect();
+        let mut page = Framed::new(paper, (x, y), &entries);
+        let Framed { figure, frame, .. } = &mut page;
+        title(figure, frame, &self.title, "events");
+        frame.grid(figure);
+        let bottom = frame.at.1 + frame.size.1;
+        let balls = all().count() <= BALLS;
+        for (k, (_, events)) in self.groups.iter().enumerate() {
+            let style = Style::of(k);
+            for event in events.iter().filter(|event| event.magnitude.is_finite()) {
+                let at = frame.point(event.onset / time.factor, event.magnitude);
+                figure.line(vec![(at.0, bottom), at], 1.2, style.colour);
+                let share = (event.magnitude - lo) / range;
+                match &event.tensor {
+                    Some(tensor) if balls => {
+                        let radius = RADII.0 + share * (RADII.1 - RADII.0);
+                        ball(figure, tensor, at, radius, style.colour);
+                    }
+                    _ => style.mark(figure, at, MARKER),
+                }
+            }
+        }
+        Some(page.finish())
     }
 }
 

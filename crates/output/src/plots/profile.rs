@@ -2,10 +2,11 @@
 
 use super::super::record::StageEnd;
 use super::super::view::InterfaceMesh;
-use super::axes::{Axis, Frame};
+use super::axes::Axis;
 use super::colour::viridis;
-use super::curves::{Entry, legend};
 use super::figure::{Dash, Figure, Point};
+use super::framed::Framed;
+use super::legend::Entry;
 use super::paper::Paper;
 use super::title::title;
 use super::units::{LENGTH, STRESS};
@@ -14,15 +15,6 @@ use serde::{Deserialize, Serialize};
 
 /// Nodes closer than this fraction of the extent of the interface count as one position: they lie on the same line across it.
 const SAME_LINE: f64 = 1e-6;
-
-/// Width right of the frame for the legend, whose entries name stages.
-const LEGEND: f64 = 240.0;
-/// Position of the frame.
-const AT: Point = (96.0, 40.0);
-/// Size of the frame.
-const SIZE: Point = (560.0, 380.0);
-/// Height below the frame for numbers and a label.
-const BELOW: f64 = 60.0;
 
 /// Tractions along an interface.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -104,24 +96,21 @@ impl Tractions {
         let (lo, hi) = self.ends;
         let (stress, length) = (STRESS.of(largest), LENGTH.of(lo.abs().max(hi.abs())));
         let label = format!("{} [{}]", self.axis, length.name);
-        let frame = Frame {
-            at: AT,
-            size: paper.frame(SIZE, (AT.0 + LEGEND, AT.1 + BELOW)),
-            x: Axis::exact((lo / length.factor, hi / length.factor), label),
-            y: Axis::linear(values().map(|v| v / stress.factor), 0.05, format!("Traction [{}]", stress.name)),
-        };
-        let mut figure = Figure::new(AT.0 + frame.size.0 + LEGEND, AT.1 + frame.size.1 + BELOW);
-        title(&mut figure, &frame, &self.title, &self.name);
-        frame.grid(&mut figure);
+        let x = Axis::exact((lo / length.factor, hi / length.factor), label);
+        let y =
+            Axis::linear(values().map(|v| v / stress.factor), 0.05, format!("Traction [{}]", stress.name));
+        let entries: Vec<Entry> = curves.iter().map(|curve| curve.entry.clone()).collect();
+        let mut page = Framed::new(paper, (x, y), &entries);
+        let Framed { figure, frame, .. } = &mut page;
+        title(figure, frame, &self.title, &self.name);
+        frame.grid(figure);
         for Curve { entry, points } in &curves {
             let finite = points.iter().filter(|(_, v)| v.is_finite());
             let line: Vec<Point> =
                 finite.map(|(x, v)| frame.point(x / length.factor, v / stress.factor)).collect();
             figure.dashed(line, entry.dash, 1.8, entry.colour);
         }
-        frame.draw(&mut figure);
-        legend(&mut figure, &frame, curves.into_iter().map(|curve| curve.entry));
-        Some(figure)
+        Some(page.finish())
     }
 
     /// Two curves for the end of each stage, with its time.

@@ -16,6 +16,7 @@ pub fn curves(title: &str, curves: Vec<(String, Points)>) -> Curves {
         event: None,
         without_zero: false,
         until: None,
+        pairs: false,
     }
 }
 

@@ -1,7 +1,7 @@
 //! Axis of time along the rows of a table, which are closest where most happens.
 
 use super::axes::{Axis, Frame};
-use super::colour::Rgb;
+use super::colour::{INK, Rgb};
 use super::figure::{Anchor, Figure};
 use super::units::{TIME, Unit};
 
@@ -11,8 +11,12 @@ const APART: f64 = 0.11;
 const EVEN: usize = 6;
 /// Digits of the latest time.
 const DIGITS: i32 = 4;
-/// Colour of marks over an image.
-const OVER: Rgb = [255, 255, 255];
+/// Digits of a time since another.
+const SINCE: i32 = 3;
+/// Colours of marks over an image, light on dark, so that they are seen on any of its colours.
+const OVER: [Rgb; 2] = [INK, [255, 255, 255]];
+/// Widths of lines of these colours.
+const WIDTHS: [f64; 2] = [2.4, 1.0];
 /// Dashes of marks.
 const DASH: &[f64] = &[3.0, 3.0];
 /// Em size of the numbers of events.
@@ -51,19 +55,51 @@ impl Stretched {
             }
         }
         at.sort_by(f64::total_cmp);
-        let label = format!("Time [{}], stretched where slip rates change", self.unit.name);
-        let ticks = at.into_iter().map(|place| (place, self.text(place))).collect();
+        let ticks = self.texts(&at);
+        let since = if ticks.iter().any(|tick| tick.1.starts_with('+')) { "; + since the last" } else { "" };
+        let label = format!("Time [{}], stretched where slip rates change{since}", self.unit.name);
         Axis { own: ticks, ..Axis::exact((0.0, 1.0), label) }
     }
 
-    /// Time at a position, as text.
-    fn text(&self, place: f64) -> String {
+    /// Ticks at ascending positions with their times. A time that would read as the one before is given as the time since
+    /// that one, as in an event of seconds after years; a time that is the one before has no tick.
+    fn texts(&self, at: &[f64]) -> Vec<(f64, String)> {
+        let mut ticks: Vec<(f64, String)> = Vec::new();
+        let mut full: Option<(f64, String)> = None;
+        let mut last = f64::NEG_INFINITY;
+        for &place in at {
+            let time = self.time(place);
+            if time <= last {
+                continue;
+            }
+            last = time;
+            let text = self.text(time);
+            let text = match &full {
+                Some((from, same)) if *same == text => since(time - from),
+                _ => {
+                    full = Some((time, text.clone()));
+                    text
+                }
+            };
+            if ticks.iter().all(|(_, other)| *other != text) {
+                ticks.push((place, text));
+            }
+        }
+        ticks
+    }
+
+    /// Time of the row at a position \[s\].
+    fn time(&self, place: f64) -> f64 {
         let row = (place * self.times.len() as f64).round() as usize;
-        let time = |row: usize| self.times.get(row).map_or(0.0, |t| t / self.unit.factor);
-        let latest = time(self.times.len().saturating_sub(1)).abs();
+        self.times.get(row).copied().unwrap_or_default()
+    }
+
+    /// A time \[s\] as text, with as many decimals as the latest one needs.
+    fn text(&self, time: f64) -> String {
+        let latest = self.times.last().map_or(0.0, |t| (t / self.unit.factor).abs());
         let before = if latest > 0.0 { 1 + latest.log10().floor() as i32 } else { DIGITS };
         let decimals = (DIGITS - before).clamp(0, DIGITS) as usize;
-        format!("{:.decimals$}", time(row))
+        format!("{:.decimals$}", time / self.unit.factor)
     }
 
     /// Draws lines at the onset and end of each event over the image, and the numbers of events above it.
@@ -73,16 +109,34 @@ impl Stretched {
         for (number, &(onset, end)) in self.events.iter().enumerate() {
             for place in [onset, end] {
                 let x = left + place * width;
-                figure.dashed(vec![(x, top), (x, top + height)], DASH, 1.0, OVER);
+                for (colour, width) in OVER.into_iter().zip(WIDTHS) {
+                    figure.dashed(vec![(x, top), (x, top + height)], DASH, width, colour);
+                }
             }
             let middle = 0.5 * (onset + end);
             if middle - last >= NUMBERS_APART {
-                let at = (left + middle * width, top + NUMBER);
-                figure.text(at, (number + 1).to_string(), NUMBER, Anchor::Middle, OVER);
+                // Inside the frame, on a field of its own.
+                let text = (number + 1).to_string();
+                let half = 0.5 * (0.64 * NUMBER * text.chars().count() as f64 + 4.0);
+                let x = (left + middle * width).clamp(left + half, left + width - half);
+                let (above, below) = (top + 2.0, top + NUMBER + 4.0);
+                figure.area(
+                    vec![(x - half, above), (x + half, above), (x + half, below), (x - half, below)],
+                    OVER[0],
+                );
+                figure.text((x, 0.5 * (above + below)), text, NUMBER, Anchor::Middle, OVER[1]);
                 last = middle;
             }
         }
     }
+}
+
+/// A time since another \[s\], with its unit.
+fn since(time: f64) -> String {
+    let unit = TIME.of(time);
+    let value = time / unit.factor;
+    let decimals = (SINCE - 1 - value.log10().floor() as i32).clamp(0, SINCE) as usize;
+    format!("+{value:.decimals$} {}", unit.name)
 }
 
 #[cfg(test)]
@@ -103,7 +157,34 @@ mod tests {
 
     #[test]
     fn a_run_without_events_or_rows_has_an_axis() {
-        assert_eq!(Stretched::new(&[0.0, 1.0, 2.0, 3.0], &[]).axis().own.len(), EVEN);
-        assert!(Stretched::new(&[], &[]).axis().own.iter().all(|t| t.1 == "0"));
+        // Four rows have four times, however many ticks would fit.
+        assert_eq!(Stretched::new(&[0.0, 1.0, 2.0, 3.0], &[]).axis().own.len(), 4);
+        let texts: Vec<String> = Stretched::new(&[], &[]).axis().own.into_iter().map(|t| t.1).collect();
+        assert_eq!(texts, ["0"]);
+    }
+
+    #[test]
+    fn no_two_ticks_have_the_same_label() {
+        const YEAR: f64 = 31_557_600.0;
+        // Events of some seconds, each with as many rows as the years before it; two rows at the same time.
+        let event = |year: f64| (0..40).map(move |k| year * YEAR + 0.1 * f64::from(k));
+        let years = |from: i32| (from..from + 10).map(|k| f64::from(k) * YEAR);
+        let times: Vec<f64> = years(0)
+            .chain(event(10.0))
+            .chain([11.0 * YEAR; 30])
+            .chain(years(12))
+            .chain(event(23.0))
+            .collect();
+        let events = [(10.0, 1.0), (23.0, 3.9)].map(|(year, long)| (year * YEAR, year * YEAR + long));
+        for events in [&events[..], &events[..1], &[]] {
+            let axis = Stretched::new(&times, events).axis();
+            let texts: Vec<&str> = axis.own.iter().map(|t| t.1.as_str()).collect();
+            let mut once = texts.clone();
+            once.sort_unstable();
+            once.dedup();
+            assert_eq!(once.len(), texts.len(), "{texts:?}");
+            assert!(texts.iter().any(|t| t.starts_with('+') && t.ends_with(" s")), "{texts:?}");
+            assert!(axis.label.ends_with("; + since the last"), "{}", axis.label);
+        }
     }
 }

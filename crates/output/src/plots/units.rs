@@ -107,6 +107,9 @@ pub(super) const MOMENT_RATE_PER_LENGTH: Units = Units(&[
     unit("10¹⁵ N/s", 1e15),
 ]);
 
+/// Seconds alone, of which logarithms are taken.
+pub(super) const SECONDS: Units = Units(&[(Unit { name: "s", factor: 1.0 }, 0.0)]);
+
 /// Dimensionless numbers.
 pub(super) const NUMBER: Units = Units(&[(Unit { name: "–", factor: 1.0 }, 0.0)]);
 

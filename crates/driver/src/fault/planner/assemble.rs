@@ -8,14 +8,14 @@ use super::super::resolution::Resolution;
 use super::super::sampling::Sampling;
 use super::super::stresses::BodyStresses;
 use super::cells::Cells;
-use super::placed::{Placed, in_space, slides};
+use super::placed::{Placed, components, in_space, slides};
 use super::pulses::{doubts, pulses};
 use super::{asked, checks, floor, frame, heated, pressing, radiation, sense, start_doubts};
 use crate::checks::{Checks, Cost, FaultCheck};
 use crate::diagnostic::Diagnostic;
-use crate::laws;
+use crate::laws::{self, Theta};
 use crate::scene::law::LawChoice;
-use crate::scene::model::{Fault as Spec, Scene, SlipSpec, Spanned, Station as Asking};
+use crate::scene::model::{Creep, Fault as Spec, Scene, SlipSpec, Spanned, Station as Asking};
 use crate::thresholds;
 use crate::warning::Warning;
 use asperity_cycles::heat::Heat;
@@ -25,7 +25,6 @@ use asperity_cycles::{
     Crack, Fault, Floor, Injection, Layout, Loading, Opening, Pressure, Problem, Pulse, Settings,
 };
 use asperity_friction::Failure;
-use asperity_friction::evolution;
 use asperity_friction::fault::FaultLaw;
 use asperity_friction::turning::Turning;
 use asperity_ode::{Clock, Method};
@@ -365,13 +364,6 @@ fn cadence(scene: &Scene, fault: &Fault, end: f64) -> Cadence {
     Cadence::new(asked, end, on, lengths.reduce(f64::min))
 }
 
-/// Relation of θ to the state variable of a law with one state.
-fn theta(law: &LawChoice) -> Option<(f64, f64)> {
-    let LawChoice::RateAndState { strength, evolution, states, .. } = law else { return None };
-    let [state] = states.as_slice() else { return None };
-    evolution::definition(evolution.name)?.variable.theta(state.b, state.l, strength.v_ref)
-}
-
 /// Faults and points, as needed by the output.
 pub(crate) fn views<const D: usize>(
     scene: &Scene,
@@ -379,13 +371,15 @@ pub(crate) fn views<const D: usize>(
     placed: &[Placed<D>],
     turns: bool,
 ) -> Result<(Vec<FaultView>, Vec<PointView>), Diagnostic> {
+    let creeps: Vec<Option<&Creep>> = scene.faults.values().map(|spec| spec.creep.as_ref()).collect();
     let points: Vec<PointView> = placed
         .iter()
         .map(|p| {
             let place = &p.point.place;
             let (at, normal): ([f64; 3], [f64; 3]) = (in_space(&place.at), in_space(&place.normal));
             let slides = slides(p);
-            let (along, area, theta) = (place.along, place.area, theta(&p.law));
+            let (along, area, theta) = (place.along, place.area, Theta::of(&p.law));
+            let plate = creeps[p.fault].map(|creep| components(place, creep.rate.get_ref().0));
             let shear_modulus = p.medium.shear_modulus;
             PointView {
                 at,
@@ -396,6 +390,7 @@ pub(crate) fn views<const D: usize>(
                 area,
                 shear_modulus,
                 theta,
+                plate: plate.filter(|rate| rate[0] != 0.0 || turns && rate[1] != 0.0),
             }
         })
         .collect();

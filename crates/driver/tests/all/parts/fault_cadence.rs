@@ -7,6 +7,7 @@ const CADENCE: Cadence = Cadence {
     longest: 1e6,
     shortest: 0.1,
     contours: [1e8, 1.0],
+    fast: 1e-3,
     largest_file: 1_000_000,
 };
 
@@ -37,6 +38,31 @@ fn the_peak_of_a_short_event_has_a_row() {
     assert!(found.iter().any(|r| r.1 == peak), "{found:?}");
     assert!(found.len() < 5, "{found:?}");
     assert!(found.windows(2).all(|w| w[0].0 < w[1].0));
+}
+
+#[test]
+fn the_largest_rate_of_the_rows_of_an_event_is_that_of_its_steps() {
+    // Two events whose rates vary by a tenth of a per cent from step to step, with the largest at one step.
+    let event = |from: f64, top: f64| {
+        (0..4000).map(move |k| {
+            let share = f64::from(k) / 2000.0 - 1.0;
+            let ripple = 1.0 + 1e-3 * (0.7 * f64::from(k)).sin();
+            (from + 1e-4 * f64::from(k), top * (1e-6 + (-20.0 * share * share).exp()) * ripple)
+        })
+    };
+    let history: Vec<(f64, f64)> = event(0.0, 0.5).chain(event(10.0, 0.2)).collect();
+    for bytes in [1, 2000] {
+        let mut gauge = Gauge::default();
+        let found = rows(&history, &mut gauge, bytes);
+        for (from, to) in [(0.0, 1.0), (10.0, 11.0)] {
+            let largest = |all: &[(f64, f64)]| {
+                all.iter().filter(|r| (from..to).contains(&r.0)).map(|r| r.1).fold(0.0, f64::max)
+            };
+            assert_eq!(largest(&found), largest(&history));
+        }
+        assert!(found.len() < history.len() / 10, "{}", found.len());
+        assert_eq!(gauge.doublings > 0, bytes > 1);
+    }
 }
 
 #[test]

@@ -65,7 +65,7 @@ fn another_version_and_another_scene_are_told_apart_from_damage() {
     assert!(matches!(Checkpoint::read(folder.path(), "t"), Err(ResumeError::Scene { .. })));
     let path = folder.path().join(FILE);
     let text = fs::read_to_string(&path).unwrap();
-    let (before, after) = text.split_once("version 4").unwrap();
+    let (before, after) = text.split_once("version 5").unwrap();
     fs::write(&path, format!("{before}version 99{after}")).unwrap();
     let error = Checkpoint::read(folder.path(), "s").unwrap_err();
     assert!(error.to_string().contains("has version 99"), "{error}");

@@ -6,6 +6,7 @@ mod arrivals;
 mod isolines;
 mod slip;
 mod space_time;
+mod still;
 mod strip;
 mod successive;
 mod surface;
@@ -21,6 +22,7 @@ use crate::stems;
 use serde::{Deserialize, Serialize};
 pub(super) use slip::EventOnFault;
 use std::ops::Range;
+pub(super) use still::StillMap;
 pub(super) use successive::{moment, velocities};
 
 /// Points of a fault as a figure shows them.
@@ -78,11 +80,11 @@ pub(super) struct Ruptures<'a> {
 }
 
 /// Position of the frame.
-const AT: Point = (96.0, 40.0);
+const AT: Point = (84.0, 40.0);
 /// Size of the frame.
-const SIZE: Point = (560.0, 380.0);
+const SIZE: Point = (420.0, 300.0);
 /// Width right of the frame for a colour bar.
-const ROOM: f64 = 150.0;
+const ROOM: f64 = 136.0;
 /// Height below the frame for numbers and a label, and for a note below them.
 const BELOW: [f64; 2] = [60.0, 84.0];
 

@@ -75,11 +75,21 @@ impl Default for Asked {
 impl Asked {
     /// Pixels per inch of the figures of a run.
     pub const DPI: f64 = 2.0 * UNITS;
-    /// Smallest width and height \[mm\]: the numbers, labels and legends around a frame need most of it.
-    pub const SMALLEST: [f64; 2] = [135.0, 86.0];
+    /// Smallest width and height \[mm\]: a column of a journal, in which texts are as small as journals allow.
+    pub const SMALLEST: [f64; 2] = [90.0, 57.0];
+    /// Width and height \[mm\] below which texts shrink with a figure: numbers, labels and legends need most of smaller ones.
+    const FULL_TEXT: [f64; 2] = [135.0, 86.0];
 
+    /// Factor on the lengths of a figure that was drawn on [`Self::paper`].
+    pub(super) fn shrinks(&self) -> f64 {
+        let [width, height] = Self::FULL_TEXT;
+        self.size.map_or(1.0, |[w, h]| (w / width).min(h / height).min(1.0))
+    }
+
+    /// Paper on which texts have their size.
     pub(super) fn paper(&self) -> Paper {
-        Paper::of(self.size.map(|[width, height]| (width / INCH * UNITS, height / INCH * UNITS)))
+        let units = UNITS / INCH / self.shrinks();
+        Paper::of(self.size.map(|[width, height]| (width * units, height * units)))
     }
 
     /// True if a figure of this name is wanted.

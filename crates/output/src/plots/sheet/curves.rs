@@ -27,6 +27,9 @@ pub struct Curves {
     pub without_zero: bool,
     /// Share of the largest value at whose last crossing a curve ends, if it ends before its last point.
     pub until: Option<f64>,
+    /// True if curves come in pairs of one colour, the second dashed: a value and its reference.
+    #[serde(default)]
+    pub pairs: bool,
 }
 
 /// Points of a curve.
@@ -42,6 +45,21 @@ pub enum Points {
         y: usize,
         /// True if only the sizes of the horizontal axis are shown.
         size: bool,
+    },
+    /// A linear function of a column of a table over its first one, the time.
+    Linear {
+        /// Path of the table.
+        table: String,
+        /// True for a table whose columns are apart by spaces, as those of stations are.
+        spaced: bool,
+        /// The column, counted from 0.
+        column: usize,
+        /// True if the logarithm of its size counts.
+        logarithm: bool,
+        /// Value where the column is 0.
+        at_zero: f64,
+        /// Value per value of the column.
+        slope: f64,
     },
     /// Points kept beside the tables, which no table has.
     Kept {
@@ -80,6 +98,19 @@ impl Points {
                 };
                 if through_time { tables.shown(table, &mut look)? } else { tables.each(table, &mut look)? }
             }
+            Self::Linear { table, spaced, column, logarithm, at_zero, slope } => {
+                let mut look = |row: &[f64]| {
+                    if let (Some(&time), Some(&value)) = (row.first(), row.get(*column)) {
+                        let value = if *logarithm { value.abs().log10() } else { value };
+                        points.push((time, at_zero + slope * value));
+                    }
+                };
+                if *spaced {
+                    tables.station_shown(table, &mut look)?
+                } else {
+                    tables.shown(table, &mut look)?
+                }
+            }
             Self::Kept { times, x, y } => {
                 let times = if times.is_empty() { x } else { times };
                 let all = times.iter().zip(x.iter().zip(y));
@@ -106,7 +137,8 @@ impl Curves {
             }
         }
         let (file, title) = (self.file.clone(), self.title.clone());
-        Ok(Chart { file, title, x: self.x.clone(), y: self.y.clone(), curves })
+        let pairs = self.pairs;
+        Ok(Chart { file, title, x: self.x.clone(), y: self.y.clone(), curves, pairs })
     }
 
     /// First time shown \[s\].

@@ -4,14 +4,16 @@
 mod asked;
 mod curves;
 mod event;
+mod stills;
 mod tables;
 
 pub use asked::{Asked, Format};
 pub use curves::{Curves, Points};
 pub use event::OfEvent;
+pub use stills::{Still, Stills};
 
 use super::curves::Histories;
-use super::cycles::{Cycles, Line};
+use super::cycles::{Cycles, Line, Portrait};
 use super::field::{self, Seen};
 use super::figure::Figure;
 use super::ground::{Coordinates, GroundMap, Shown};
@@ -55,6 +57,8 @@ pub enum Plot {
     Cycles(Through),
     /// A fault in an event.
     Event(InEvent),
+    /// A fault in space at chosen times.
+    Stills(Stills),
     /// Displacement of the ground over an event.
     Ground(Ground),
     /// Magnitudes of events.
@@ -80,6 +84,15 @@ pub struct Through {
     pub events: Vec<(f64, f64)>,
     /// Time between slip contours, between events and during events, as text.
     pub intervals: [String; 2],
+    /// The same in seconds.
+    #[serde(default)]
+    pub spacing: Option<[f64; 2]>,
+    /// Names and times of the profiles of coupling that are shown \[s\].
+    #[serde(default)]
+    pub chosen: Vec<(String, f64)>,
+    /// Stations of the phase portrait: those that slip in events.
+    #[serde(default)]
+    pub stations: Vec<Portrait>,
 }
 
 /// A fault with its rupture times.
@@ -213,6 +226,7 @@ impl Sheet {
         };
         self.plots.iter().all(|plot| match plot {
             Plot::Event(event) => fault(&event.fault) && event.slip.len() == event.fault.arrivals.len(),
+            Plot::Stills(stills) => matches!(self.shapes.get(stills.shape), Some(Shape::Surface(_))),
             Plot::Ruptures(faults) => faults.iter().all(fault),
             Plot::Velocities(shown) => self
                 .meshes
@@ -292,7 +306,7 @@ impl Sheet {
             };
             let wanted = figures.into_iter().filter(|(name, _)| asked.wants(name));
             for (name, figure) in wanted {
-                let figure = paper.filled(figure);
+                let figure = paper.filled(figure).scaled(asked.shrinks());
                 for format in &asked.formats {
                     let path = folder.join(format!("{name}.{}", format.ending()));
                     let bytes = format.paint(&figure, asked.dpi);
@@ -320,6 +334,7 @@ impl Sheet {
             }
             Plot::Cycles(through) => self.cycles(through, &tables, paper)?,
             Plot::Event(event) => self.in_event(event).figures(paper),
+            Plot::Stills(stills) => self.stills(stills, &tables, paper)?,
             Plot::Ground(ground) => one(&ground.file, self.ground(ground, &tables)?.figure(paper)),
             Plot::Panel(panel) => one("events", windowed(panel, asked).figure(paper)),
             Plot::Ruptures(faults) => {
@@ -334,7 +349,7 @@ impl Sheet {
     }
 
     fn cycles(&self, through: &Through, tables: &Tables<'_>, paper: Paper) -> Result<Named, OutputError> {
-        let Through { lines, events, intervals } = through.clone();
+        let Through { lines, events, intervals, spacing, chosen, stations } = through.clone();
         let asked = tables.asked;
         let events = match asked.window {
             Some((from, to)) => events.into_iter().filter(|e| e.1 >= from && e.0 <= to).collect(),
@@ -346,6 +361,9 @@ impl Sheet {
             rows: tables,
             events,
             intervals,
+            spacing,
+            chosen: chosen.into_iter().filter(|(_, time)| asked.shows(*time)).collect(),
+            stations,
             window: asked.window,
             paper,
         }

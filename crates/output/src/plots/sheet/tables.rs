@@ -24,6 +24,15 @@ impl Tables<'_> {
         })
     }
 
+    /// Passes the rows of the file of a station within the window to `look`.
+    pub(super) fn station_shown(&self, path: &str, look: &mut dyn FnMut(&[f64])) -> Result<(), OutputError> {
+        rows::spaced(&self.folder.join(path), &mut |row| {
+            if self.asked.shows(row[0]) {
+                look(row);
+            }
+        })
+    }
+
     /// Passes all rows of a table to `look`.
     pub(super) fn each(&self, table: &str, look: &mut dyn FnMut(&[f64])) -> Result<(), OutputError> {
         rows::each(&self.folder.join(table), look)
@@ -36,11 +45,17 @@ impl Rows for Tables<'_> {
             Table::Largest => "largest_rate.csv",
             Table::Slip => "slip_profiles.csv",
             Table::Rate => "rate_profiles.csv",
+            Table::State => "state_profiles.csv",
+            Table::Coupling => "coupling_profiles.csv",
         };
         if self.in_space && table != Table::Largest {
             return Ok(());
         }
         self.shown(name, look)
+    }
+
+    fn station(&self, path: &str, look: &mut dyn FnMut(&[f64])) -> Result<(), OutputError> {
+        rows::spaced(&self.folder.join(path), look)
     }
 }
 
