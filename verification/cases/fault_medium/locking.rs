@@ -94,10 +94,10 @@ fn ends(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 /// Coupling of a fault that creeps under constant stress below its locked part.
 fn partly(ledger: &mut Ledger) -> Result<(), CaseError> {
-    // The upper part is locked by friction of 100 MPa per ln V. On the lower part there is so little normal traction that
-    // friction keeps the stress.
+    // The upper part is locked: it slides at 1e-11 of the plates, under a normal traction whose a f_n is more than the plates
+    // add in 300 years. On the lower part there is so little normal traction that friction keeps the stress.
     let parts = format!(
-        "patches = [{{ box = {{ y = {{ from = {0:?}, to = 1.0 }} }}, a = 1.0, normal = \"100 MPa\", rate = 1e-20 }},\
+        "patches = [{{ box = {{ y = {{ from = {0:?}, to = 1.0 }} }}, normal = \"10 GPa\", rate = 1e-20 }},\
          {{ box = {{ y = {{ from = {1:?}, to = {0:?} }} }}, normal = \"1 MPa\" }}]\n",
         -LOCKED,
         -DEEPEST - 1.0
@@ -129,7 +129,7 @@ fn partly(ledger: &mut Ledger) -> Result<(), CaseError> {
                 .within(0.1)
                 .evidence(Evidence::Exact, "pi/2 G Vp W/K(sqrt(1 - D^2/W^2)): screw dislocations that keep the stress")
                 .because("the square roots at both ends of the creeping part, which cells of constant slip miss by O(h)")
-                .finest(0.01, "a cell over the width of the creeping part, by which the ends of cells move the ends of the creeping part")
+                .finest(1e-3, "a tenth of a cell over the width of the creeping part: cells of constant slip move its ends by parts of a cell")
                 .cost(&done.cost)
                 .record();
         }

@@ -138,7 +138,7 @@ fn files_stay_below_their_largest_size_and_the_run_says_so() {
     let panel = EventPanel { title: String::new(), start: 0.0, end: 0.0, groups: Vec::new() };
     let drawn =
         sheet(&plan, &run, panel).draw(folder.path(), &folder.path().join("plots"), &Asked::default());
-    assert_eq!(drawn.unwrap().len(), 20);
+    assert_eq!(drawn.unwrap().len(), 28);
 }
 
 #[test]

@@ -150,7 +150,7 @@ fn runs_of_every_kind_have_figures_of_their_state_with_all_texts_on_the_page() {
                 "stages[0].duration=20 yr",
                 "faults.main.under_resolved=allow",
             ],
-            &["main_middle_rate", "main_middle_coupling", "main_end_state", "main_end_coupling"],
+            &["main_event_000_before_rate", "main_event_000_midway_coupling", "main_event_000_before_state"],
         ),
     ];
     for (scene, settings, figures) in expected {

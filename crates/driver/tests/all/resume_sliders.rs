@@ -65,7 +65,7 @@ fn part(problem: &Problem, out: &Path, wall: Option<Duration>) -> Result<(Slider
     };
     let ended = resume(problem, from, &mut keeper).map_err(|e| e.to_string())?;
     let interrupted = keeper.interrupted().is_some();
-    let sheet = keeper.finish(!interrupted).unwrap().sheet(problem, ended.at.seconds());
+    let sheet = keeper.finish(!interrupted).unwrap().sheet(problem, &[], ended.at.seconds());
     sheet.draw(out, &out.join("plots"), &Asked::default()).unwrap();
     Ok((ended, interrupted))
 }

@@ -152,9 +152,14 @@ impl Cycles<'_> {
         Ok(figures)
     }
 
+    /// Size of the frame of an image.
+    fn image_size(&self) -> Point {
+        self.paper.frame(SIZE, (AT.0 + ROOM, AT.1 + BELOW))
+    }
+
     /// A figure with room for a colour bar.
     fn image_frame(&self, x: Axis, y: Axis) -> (Figure, Frame) {
-        let size = self.paper.frame(SIZE, (AT.0 + ROOM, AT.1 + BELOW));
+        let size = self.image_size();
         (Figure::new(AT.0 + size.0 + ROOM, AT.1 + size.1 + BELOW), Frame { at: AT, size, x, y })
     }
 

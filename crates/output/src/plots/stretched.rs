@@ -7,6 +7,8 @@ use super::units::{TIME, Unit};
 
 /// Distance between ticks, as a share of the axis.
 const APART: f64 = 0.11;
+/// Least distance between ticks, for a time of some digits with its unit.
+const LABEL: f64 = 66.0;
 /// Number of ticks of a run without events.
 const EVEN: usize = 6;
 /// Digits of the latest time.
@@ -45,12 +47,13 @@ impl Stretched {
         Self { times: times.to_vec(), events, unit: TIME.of(latest) }
     }
 
-    /// The axis, with the times of onsets, or of evenly spaced rows where there are few.
-    pub(super) fn axis(&self) -> Axis {
+    /// The axis of a frame of this width, with the times of onsets, or of evenly spaced rows where there are few.
+    pub(super) fn axis(&self, width: f64) -> Axis {
+        let apart = APART.max(LABEL / width);
         let mut at: Vec<f64> = Vec::new();
         let even = (0..EVEN).map(|k| k as f64 / EVEN as f64);
         for place in self.events.iter().map(|e| e.0).chain([0.0]).chain(even) {
-            if place < 1.0 && at.iter().all(|other| (other - place).abs() >= APART) {
+            if place < 1.0 && at.iter().all(|other| (other - place).abs() >= apart) {
                 at.push(place);
             }
         }
@@ -143,12 +146,25 @@ fn since(time: f64) -> String {
 mod tests {
     use super::*;
 
+    /// Width of a frame in which all ticks fit.
+    const WIDTH: f64 = 900.0;
+
+    #[test]
+    fn ticks_of_a_narrow_frame_are_as_far_apart_as_their_labels_are_long() {
+        let times: Vec<f64> = (0..100).map(f64::from).collect();
+        for width in [200.0, 290.0, 420.0, 900.0] {
+            let axis = Stretched::new(&times, &[(30.0, 40.0), (55.0, 60.0)]).axis(width);
+            let apart = |pair: &[(f64, String)]| (pair[1].0 - pair[0].0) * width;
+            assert!(axis.own.windows(2).all(|pair| apart(pair) >= LABEL - 1e-9), "{width}: {:?}", axis.own);
+        }
+    }
+
     #[test]
     fn ticks_have_the_times_of_onsets_and_lie_apart() {
         const YEAR: f64 = 31_557_600.0;
         let times: Vec<f64> = (0..100).map(|k| f64::from(k) * YEAR).collect();
         let onsets = [30.0, 31.0, 60.0].map(|k| (k * YEAR, (k + 2.0) * YEAR));
-        let axis = Stretched::new(&times, &onsets).axis();
+        let axis = Stretched::new(&times, &onsets).axis(WIDTH);
         assert_eq!(axis.label, "Time [yr], stretched where slip rates change");
         let texts: Vec<&str> = axis.own.iter().map(|t| t.1.as_str()).collect();
         assert_eq!(texts, ["0.00", "17.00", "30.00", "60.00", "83.00"]);
@@ -158,8 +174,8 @@ mod tests {
     #[test]
     fn a_run_without_events_or_rows_has_an_axis() {
         // Four rows have four times, however many ticks would fit.
-        assert_eq!(Stretched::new(&[0.0, 1.0, 2.0, 3.0], &[]).axis().own.len(), 4);
-        let texts: Vec<String> = Stretched::new(&[], &[]).axis().own.into_iter().map(|t| t.1).collect();
+        assert_eq!(Stretched::new(&[0.0, 1.0, 2.0, 3.0], &[]).axis(WIDTH).own.len(), 4);
+        let texts: Vec<String> = Stretched::new(&[], &[]).axis(WIDTH).own.into_iter().map(|t| t.1).collect();
         assert_eq!(texts, ["0"]);
     }
 
@@ -177,7 +193,7 @@ mod tests {
             .collect();
         let events = [(10.0, 1.0), (23.0, 3.9)].map(|(year, long)| (year * YEAR, year * YEAR + long));
         for events in [&events[..], &events[..1], &[]] {
-            let axis = Stretched::new(&times, events).axis();
+            let axis = Stretched::new(&times, events).axis(WIDTH);
             let texts: Vec<&str> = axis.own.iter().map(|t| t.1.as_str()).collect();
             let mut once = texts.clone();
             once.sort_unstable();

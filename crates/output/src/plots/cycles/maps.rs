@@ -91,7 +91,7 @@ impl Cycles<'_> {
         }
         let (lo, hi) = mapped.range(seen);
         let stretched = Stretched::new(&times, &self.events);
-        let (mut figure, frame) = self.image_frame(stretched.axis(), y);
+        let (mut figure, frame) = self.image_frame(stretched.axis(self.image_size().0), y);
         let (words, label) = mapped.words();
         title(&mut figure, &frame, &self.title, &format!("{words} of {}", line.name));
         let columns = count.clamp(1, PIXELS.0);
