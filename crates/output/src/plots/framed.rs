@@ -9,7 +9,7 @@ use super::paper::Paper;
 pub(super) const SIZE: Point = (420.0, 290.0);
 /// Least room left of the frame, and the room above it.
 pub(super) const AT: Point = (84.0, 40.0);
-/// Room right of the frame for half a number.
+/// Least room right of the frame, for half a number.
 pub(super) const RIGHT: f64 = 32.0;
 /// Room below the frame for numbers and a label.
 pub(super) const BELOW: f64 = 58.0;
@@ -33,7 +33,8 @@ impl Framed {
         let legend = Legend::of(entries, width);
         let height = paper.frame(SIZE, (0.0, AT.1 + BELOW + legend.height())).1.max(LEAST);
         let left = AT.0.max(y.widest_tick(height) + LABEL);
-        let frame = Frame { at: (left, AT.1), size: (width - left - RIGHT, height), x, y };
+        let right = RIGHT.max(0.5 * x.widest_tick(SIZE.0));
+        let frame = Frame { at: (left, AT.1), size: (width - left - right, height), x, y };
         let figure = Figure::new(width, AT.1 + height + BELOW + legend.height());
         Self { figure, frame, legend }
     }

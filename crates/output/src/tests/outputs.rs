@@ -40,7 +40,7 @@ fn a_run_leaves_fields_tables_and_plots_and_no_temporary_file() {
         let mut recorder = Recorder::new().with_bodies();
         let mut files = Files::create(&out, schedule()).unwrap();
         play(&setup(layers), 200, None, &mut Multi::new(vec![&mut recorder, &mut files])).unwrap();
-        assert_eq!(plots::draw_all(&out.join("plots"), &recorder).unwrap().len(), 12);
+        assert_eq!(plots::draw_all(&out.join("plots"), &recorder).unwrap().len(), 14);
         assert_eq!(names(&out), ["fields", "fields.pvd", "plots", "probes", "profiles"]);
         assert_eq!(names(&out.join("fields")).len(), 2 * 2 * 2);
         assert_eq!(names(&out.join("profiles")).len(), 20);
@@ -54,6 +54,7 @@ fn a_run_leaves_fields_tables_and_plots_and_no_temporary_file() {
                 "fault_friction",
                 "fault_relative_displacement",
                 "fault_relative_velocity",
+                "fault_state",
                 "fault_tractions",
                 "mises_1_press",
                 "mises_2_shear"
@@ -73,7 +74,7 @@ fn values_that_are_not_finite_or_all_the_same_do_not_stop_the_outputs() {
             let mut recorder = Recorder::new().with_bodies();
             let mut files = Files::create(dir.path(), schedule()).unwrap();
             play(&setup(0), steps, Some(spoil), &mut Multi::new(vec![&mut recorder, &mut files])).unwrap();
-            assert_eq!(plots::draw_all(dir.path(), &recorder).unwrap().len(), 12, "{spoil}");
+            assert_eq!(plots::draw_all(dir.path(), &recorder).unwrap().len(), 14, "{spoil}");
         }
     }
 }
