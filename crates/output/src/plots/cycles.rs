@@ -410,11 +410,14 @@ mod tests {
         assert!(sample(&empty).figures().unwrap().is_empty());
     }
 
-    fn texts(figure: &Figure) -> Vec<&str> {
-        let text = |shape| match shape {
-            &super::super::figure::Shape::Text(ref text) => Some(text.text.as_str()),
+    fn text(shape: &super::super::figure::Shape) -> Option<&str> {
+        match shape {
+            super::super::figure::Shape::Text(text) => Some(text.text.as_str()),
             _ => None,
-        };
+        }
+    }
+
+    fn texts(figure: &Figure) -> Vec<&str> {
         figure.shapes.iter().filter_map(text).collect()
     }
 
