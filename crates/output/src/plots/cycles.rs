@@ -5,10 +5,11 @@
 //! rows.
 
 mod chosen;
+mod mapped;
 mod maps;
 mod portrait;
 
-pub use maps::Mapped;
+pub use mapped::Mapped;
 pub use portrait::Portrait;
 
 use super::super::OutputError;

@@ -1,25 +1,12 @@
 //! Images of profiles along a line over the rows of their table.
 
+use super::mapped::Mapped;
 use super::{Bounds, Cycles, Drawn, Line, Table};
 use crate::plots::colour::viridis;
 use crate::plots::field::Bar;
 use crate::plots::figure::Image;
 use crate::plots::stretched::Stretched;
 use crate::plots::title::title;
-use serde::{Deserialize, Serialize};
-
-/// Quantity along a line through time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Mapped {
-    /// log10 of the slip rate \[m/s\].
-    Rate,
-    /// log10 of the state θ \[s\].
-    Theta,
-    /// First state variable of a law without θ.
-    State,
-    /// Coupling to the motion of plates, between events.
-    Coupling,
-}
 
 /// Largest number of columns and rows of pixels of an image.
 const PIXELS: (usize, usize) = (1120, 760);
@@ -29,30 +16,11 @@ const SHOWN: f64 = 14.0;
 const APART: f64 = 1e-3;
 
 impl Mapped {
-    /// Last part of the file name.
-    pub(super) fn stem(self) -> &'static str {
-        match self {
-            Self::Rate => "rate",
-            Self::Theta | Self::State => "state",
-            Self::Coupling => "coupling",
-        }
-    }
-
     fn table(self) -> Table {
         match self {
             Self::Rate => Table::Rate,
             Self::Theta | Self::State => Table::State,
             Self::Coupling => Table::Coupling,
-        }
-    }
-
-    /// Words of the title and label of the colours.
-    fn words(self) -> (&'static str, &'static str) {
-        match self {
-            Self::Rate => ("slip rate", "log₁₀ of slip rate [m/s]"),
-            Self::Theta => ("state θ", "log₁₀ of θ [s]"),
-            Self::State => ("state variable", "State variable [–]"),
-            Self::Coupling => ("coupling between events", "Coupling [–], below 0 as 0"),
         }
     }
 
