@@ -285,7 +285,9 @@ fn integrator<const D: usize>(scene: &Scene) -> Result<(Method, f64), Diagnostic
     let (method, default) = match &time.method {
         None => usual,
         Some(name) => match name.get_ref().parse::<Method>() {
-            Ok(method) if Method::EXPLICIT.contains(&method) => (method, if method == usual.0 { usual.1 } else { IN_THE_PLANE.1 }),
+            Ok(method) if Method::EXPLICIT.contains(&method) => {
+                (method, if method == usual.0 { usual.1 } else { IN_THE_PLANE.1 })
+            }
             _ => {
                 let those = Method::EXPLICIT.map(|m| format!("\"{}\"", m.name())).join(", ");
                 return Err(Diagnostic::at(
