@@ -17,6 +17,8 @@ pub struct Solver {
     pub prepared: Prepared,
     /// Predicted memory of the method \[bytes\].
     pub bytes: usize,
+    /// Operations of a factorisation of the system in each iteration; `None` if they are not known in advance, or one factorisation serves many steps.
+    pub operations: Option<f64>,
     /// Reason for the choice of this method.
     pub why: String,
 }

@@ -129,7 +129,7 @@ impl Scene {
     }
 
     /// Names of the files of the scene: meshes, parameters of faults, tables and traces.
-    pub fn mesh_files(&self) -> impl Iterator<Item = &str> {
+    pub fn files(&self) -> impl Iterator<Item = &Spanned<String>> {
         let bodies = self.bodies.values().filter_map(|body| match &body.mesh {
             MeshSource::Gmsh(mesh) => Some(&mesh.file),
             MeshSource::Abaqus(mesh) => Some(&mesh.file),
@@ -147,7 +147,7 @@ impl Scene {
         });
         let lines = self.faults.values().filter_map(|fault| Some(&fault.line.as_ref()?.trace));
         let traces = meshes.chain(lines).filter_map(|trace| Some(&trace.get_ref().file()?.file));
-        bodies.chain(faults).chain(fields).chain(tables).chain(traces).map(|file| file.get_ref().as_str())
+        bodies.chain(faults).chain(fields).chain(tables).chain(traces)
     }
 }
 

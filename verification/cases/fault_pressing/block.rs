@@ -2,6 +2,7 @@
 
 use super::ROUNDING;
 use crate::cases::seas;
+use crate::cases::written::Written;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity_cycles::{Balance, Event, Moment, Rupture};
 use asperity_driver::fault::{Plan, Report};
@@ -65,6 +66,7 @@ fn done(scene: SceneText, number: usize) -> Result<Done, CaseError> {
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     at_start(ledger)?;
     balance(ledger)?;
+    through(ledger)?;
     events(ledger)
 }
 
@@ -123,6 +125,35 @@ fn balance(ledger: &mut Ledger) -> Result<(), CaseError> {
             .cost(&cost)
             .record();
     }
+    Ok(())
+}
+
+/// Forces of the fault in its table against those on the side that presses and of the spring, in every row.
+fn through(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let done = Written::of(&pressed("4000 s").with("events.stop_after", "1").text()?)?;
+    let column = |table: &str, name: &str| done.files.table(table)?.column(name);
+    let fault = |name: &str| column("fault_forces.csv", name);
+    let side = "forces/pressing.csv";
+    if fault("time")? != column(side, "time")? {
+        return Err("the tables have not the same times".into());
+    }
+    let spring = column("springs/B_top_y.csv", "force")?;
+    let pairs =
+        [(fault("normal_force of face")?, column(side, "force_x")?), (fault("shear_force of face")?, spring)];
+    let off = pairs.map(|(found, wanted)| {
+        let largest = wanted.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
+        found.iter().zip(&wanted).map(|(f, w)| (f - w).abs() / largest).fold(0.0, f64::max)
+    });
+    ledger
+        .claim("normal and shear force of the face through an event against the forces on the side that presses and of the spring, largest difference over the largest force")
+        .values(&off)
+        .equals_each(&[0.0; 2])
+        .absolute(1e-6)
+        .evidence(Evidence::Exact, "balance of forces on both blocks at each time")
+        .because("as at the end of the event: errors of the integration of ln V add up to less than 1e-6 of the traction")
+        .covers(&[Capability::FaultCycles, Capability::PlaneStrain])
+        .cost(&done.cost)
+        .record();
     Ok(())
 }
 

@@ -5,7 +5,7 @@ use crate::cases::programs;
 use crate::cases::written::Folder;
 use crate::{CaseError, Cost};
 use asperity_cycles::slider::{Problem, resume};
-use asperity_driver::checkpoint::Pauses;
+use asperity_driver::checkpoint::{self, Pauses};
 use asperity_driver::slider::Keeper;
 use asperity_driver::slider_planner;
 use asperity_vary::Change::{self, Add, With};
@@ -81,6 +81,7 @@ fn part(problem: &Problem, out: &Path, wall: Option<Duration>) -> Result<bool, C
     let interrupted = keeper.interrupted().is_some();
     keeper.finish(!interrupted)?;
     if !interrupted {
+        checkpoint::remove(out)?;
         // All of the run: events, energies and counts, in every digit and whether a checkpoint holds them or not.
         std::fs::write(out.join("run.txt"), format!("{run:#?}"))?;
     }

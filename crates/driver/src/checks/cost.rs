@@ -1,5 +1,6 @@
 //! Cost of a run, as far as it is known in advance.
 
+use super::rates::words;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -10,6 +11,8 @@ pub struct Cost {
     pub memory_bytes: Option<usize>,
     /// Steps; absent where their lengths follow from errors.
     pub steps: Option<usize>,
+    /// Time of a step on one core of a server of 2023; absent where it is not known in advance \[s\].
+    pub step_seconds: Option<f64>,
     /// Times at which fields are written.
     pub fields: Option<usize>,
     /// Size of the fields at one time, in memory \[bytes\].
@@ -41,8 +44,20 @@ impl Cost {
     pub(super) fn words(&self) -> Vec<String> {
         let memory = self.memory_bytes.map_or("unknown".into(), |n| format!("about {}", bytes(n as f64)));
         let steps = self.steps.map_or("unknown, since errors decide them".into(), |n| n.to_string());
-        let time = "time unknown until the run shows its progress";
-        vec![format!("memory {memory}; steps {steps}; {time}"), format!("files: {}", self.files())]
+        vec![format!("memory {memory}; steps {steps}; {}", self.time()), format!("files: {}", self.files())]
+    }
+
+    /// Time of a step and of all, or of a thousand where their number is unknown.
+    fn time(&self) -> String {
+        match (self.step_seconds, self.steps) {
+            (None, _) => "time unknown until the run shows its progress".into(),
+            (Some(each), None) => {
+                format!("time about {} a step, {} per 1000 steps", words(each), words(1000.0 * each))
+            }
+            (Some(each), Some(steps)) => {
+                format!("time about {} a step, {} in all", words(each), words(steps as f64 * each))
+            }
+        }
     }
 
     fn files(&self) -> String {

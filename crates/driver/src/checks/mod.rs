@@ -2,6 +2,7 @@
 
 mod cost;
 mod fault;
+pub mod rates;
 mod words;
 
 use crate::fault::Coarsest;

@@ -1,5 +1,6 @@
 //! Input of a run, and names of the report and the lock file.
 
+use super::inputs::Inputs;
 use crate::report::common::{Kind, Origin};
 use crate::sha256::sha256;
 use jiff::Timestamp;
@@ -14,6 +15,8 @@ pub(super) const SCENE: &str = "scene.toml";
 pub(super) const README: &str = "README.md";
 /// Name of the page of a run for browsers.
 pub const PAGE: &str = "report.html";
+/// Name of the folder of figures.
+pub const PLOTS: &str = "plots";
 /// Name of the lock file; the lock is held while a run writes to the directory.
 pub const LOCK: &str = ".lock";
 /// Name of the file that keeps room for the report of the end.
@@ -24,8 +27,8 @@ pub(super) const RESERVE: &str = ".reserve";
 pub(super) struct Begin {
     pub kind: Kind,
     pub title: String,
-    /// Text of the scene, with the values that `--set` gives.
-    pub text: String,
+    /// The scene, with the values that `--set` gives, and its files.
+    pub inputs: Inputs,
     /// SHA-256 of the text.
     pub hash: String,
     pub origin: Origin,
@@ -36,11 +39,16 @@ pub(super) struct Begin {
 }
 
 impl Begin {
+    /// Path of the scene file.
+    pub fn scene(&self) -> &Path {
+        Path::new(&self.origin.scene)
+    }
+
     /// Input of a run of a scene file that was just read, with settings.
-    pub fn now(kind: Kind, scene: &Path, title: &str, text: &str, set: Vec<String>) -> Self {
+    pub fn now(kind: Kind, scene: &Path, title: &str, inputs: Inputs, set: Vec<String>) -> Self {
         let path = fs::canonicalize(scene).unwrap_or_else(|_| scene.to_path_buf());
         let origin = Origin { scene: path.display().to_string(), started: Timestamp::now().to_string(), set };
-        let (title, text, hash) = (title.into(), text.into(), sha256([text]));
-        Self { kind, title, text, hash, origin, resume: false, force: false }
+        let (title, hash) = (title.into(), sha256([&inputs.text]));
+        Self { kind, title, inputs, hash, origin, resume: false, force: false }
     }
 }

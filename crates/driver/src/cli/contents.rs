@@ -1,6 +1,8 @@
 //! Contents of an output directory, and the check that a run may begin there.
 
-use super::begin::{Begin, LOCK, PAGE, README, REPORT, RESERVE, SCENE};
+use super::begin::{Begin, LOCK, PAGE, PLOTS, README, REPORT, RESERVE, SCENE};
+use super::full;
+use super::inputs;
 use crate::checkpoint;
 use crate::report::Status;
 use crate::setup;
@@ -47,6 +49,10 @@ const FILES: [&str; 34] = [
     "snapshots.csv",
     "energy.csv",
     "moment_rate.csv",
+    "fault_forces.csv",
+    "surface_profiles_x.csv",
+    "surface_profiles_y.csv",
+    "surface_profiles_z.csv",
     "rupture_times.csv",
     // Files left by file managers.
     ".DS_Store",
@@ -54,7 +60,7 @@ const FILES: [&str; 34] = [
 ];
 
 /// Folders that runs make, with the extensions of the files in them.
-const FOLDERS: [(&str, &[&str]); 14] = [
+const FOLDERS: [(&str, &[&str]); 15] = [
     ("events", &["csv", "grd", "fsp", "vtu"]),
     ("fields", &["vtu"]),
     ("profiles", &["csv"]),
@@ -64,12 +70,41 @@ const FOLDERS: [(&str, &[&str]); 14] = [
     ("springs", &["csv"]),
     ("history", &["csv"]),
     ("receivers", &["csv"]),
-    ("plots", &["svg", "png", "pdf"]),
+    (PLOTS, &["svg", "png", "pdf"]),
     (setup::FOLDER, &["bin"]),
+    // Those that the scene names.
+    (inputs::FOLDER, &[]),
     ("stations", &[""]),
     ("platform", &["txt", "dat"]),
     ("seismograms", &["csv", "mseed", "sac"]),
 ];
+
+/// Files and folders that each end of a run writes again as a whole.
+const OF_AN_END: [&str; 8] = [
+    PAGE,
+    Sheet::FILE,
+    PLOTS,
+    "events.csv",
+    "events.json",
+    "slow_events.csv",
+    "events.quakeml",
+    "CMTSOLUTION",
+];
+
+/// Files and folders in a directory that the end of a run has written about its state then.
+pub(super) fn of_an_end(path: &Path) -> std::io::Result<Vec<PathBuf>> {
+    let of_an_end = |name: &OsStr| OF_AN_END.iter().any(|end| name == *end) || is_catalogue(name);
+    let entries = fs::read_dir(path)?.map(|entry| Ok(entry?.path()));
+    let entries = entries.filter(|entry: &std::io::Result<PathBuf>| {
+        entry.as_ref().map_or(true, |path| path.file_name().is_some_and(of_an_end))
+    });
+    entries.collect()
+}
+
+/// True for the catalogue of one fault or interface: with several, each may have its own.
+fn is_catalogue(name: &OsStr) -> bool {
+    name.to_str().is_some_and(|n| n.starts_with("events_") && n.ends_with(".csv"))
+}
 
 /// Names of the files and folders.
 pub fn names() -> impl Iterator<Item = &'static str> {
@@ -78,7 +113,15 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 
 /// First entry of a directory that no run writes; `None` if there is none or the directory does not exist.
 pub(super) fn foreign(path: &Path) -> std::io::Result<Option<PathBuf>> {
+    let scene = || fs::read_to_string(path.join(SCENE)).unwrap_or_default();
     foreign_in(path, |name, entry| {
+        if name == inputs::FOLDER && entry.is_dir() {
+            let named = scene();
+            return foreign_in(entry, |name, file| {
+                let ours = file.is_file() && inputs::names(&named, name);
+                Ok((!ours && !temporary(name)).then(|| file.to_path_buf()))
+            });
+        }
         if entry.is_dir() {
             let folder = FOLDERS.iter().find(|(folder, _)| name == *folder);
             return folder.map_or(Ok(Some(entry.to_path_buf())), |(_, endings)| {
@@ -89,9 +132,7 @@ pub(super) fn foreign(path: &Path) -> std::io::Result<Option<PathBuf>> {
                 })
             });
         }
-        // With several faults, each may have its own catalogue.
-        let events = name.to_str().is_some_and(|n| n.starts_with("events_") && n.ends_with(".csv"));
-        let ours = FILES.iter().any(|file| name == *file) || events || temporary(name);
+        let ours = FILES.iter().any(|file| name == *file) || is_catalogue(name) || temporary(name);
         Ok((!ours).then(|| entry.to_path_buf()))
     })
 }
@@ -134,6 +175,8 @@ struct Report {
     /// Absent in reports of earlier versions, which were written only at the end.
     #[serde(default = "completed")]
     status: Status,
+    /// Reason of an end by an error.
+    reason: Option<String>,
     run: Run,
 }
 
@@ -190,6 +233,13 @@ impl Contents {
         self.nothing
     }
 
+    /// True if the directory holds a run that found no room to write before its first checkpoint: it is no result, and cannot be resumed.
+    pub fn lacked_room(&self) -> bool {
+        let lacked = |reason: &String| reason.starts_with(full::REASON);
+        let stopped = |r: &Report| r.status == Status::Stopped && r.reason.as_ref().is_some_and(lacked);
+        !self.checkpoint && self.report.as_ref().is_some_and(stopped)
+    }
+
     /// True if the directory holds a completed run of the scene and mesh files with these hashes.
     pub fn is_complete(&self, scene: &str, meshes: &BTreeMap<String, String>) -> bool {
         let same = |r: &Report| r.scene_sha256 == scene && r.meshes_sha256 == *meshes;
@@ -198,14 +248,20 @@ impl Contents {
 
     /// Refuses a run that would destroy results that may still be wanted.
     pub fn refuse(&self, path: &Path, begin: &Begin) -> miette::Result<()> {
-        let path = path.display();
+        let (folder, path) = (path, path.display());
         if let Some(foreign) = &self.foreign {
             return Err(miette!(
                 "{} is not of a run: a run is alone in its output directory; move it away, or choose another directory with --out",
                 foreign.display()
             ));
         }
-        if self.nothing || begin.force || begin.resume && self.checkpoint {
+        let resumes = begin.resume && self.checkpoint;
+        if !resumes && fs::canonicalize(folder).is_ok_and(|folder| begin.scene().starts_with(folder)) {
+            return Err(miette!(
+                "the scene lies in the output directory {path}, which a new run moves away: choose another directory with --out"
+            ));
+        }
+        if self.nothing || begin.force || resumes {
             return Ok(());
         }
         let Some(report) = &self.report else {

@@ -1,21 +1,23 @@
 //! Output directory of a run. It belongs to one run at a time, holds a report from the start, and nothing of any other run.
 
-use super::begin::{Begin, LOCK, PAGE, REPORT, RESERVE, SCENE};
+use super::begin::{Begin, LOCK, PLOTS, REPORT, RESERVE, SCENE};
 use super::contents::{self, Contents};
+use super::end::End;
+use super::full;
 use super::json;
+use super::lock::Lock;
 use super::page::{self, Texts};
 use super::readme;
 use crate::checkpoint;
 use crate::forecast;
-use crate::report::common::{Phases, Provenance, Report, Results, SCHEMA, Sketch, Status, commit};
+use crate::report::common::{Kind, Phases, Provenance, Report, Results, SCHEMA, Sketch, Status, commit};
 use crate::setup::{self, Kept};
 use asperity_output::atomic;
-use asperity_output::plots::Sheet;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::fs::{self, File, TryLockError};
-use std::io::ErrorKind;
+use std::ffi::OsStr;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Changes made to free the directory. They can be undone until the run begins to compute.
@@ -33,8 +35,11 @@ enum Room {
     Used,
 }
 
-/// Room that a run takes at its start and frees at its end \[bytes\]: the report of an end for want of room needs some.
-const RESERVED: usize = 16_384;
+/// Room that a run takes at its start and frees at its end \[bytes\], beside that for the page with its texts: the report of an end for want of room
+/// needs some.
+const RESERVED: usize = 65_536;
+/// Room for each byte of the texts on the page: marks of HTML in them take several bytes.
+const PER_BYTE: usize = 2;
 
 /// Directory of a run in progress.
 #[derive(Debug)]
@@ -43,11 +48,13 @@ pub(super) struct Directory {
     begin: Begin,
     /// The plan as printed; empty before the scene was planned.
     plan: String,
+    /// SHA-256 of the files of the scene, by the names of their copies.
+    meshes: BTreeMap<String, String>,
     /// Parts of the set-up that were read or kept.
     setup: Vec<Kept>,
     room: Room,
     /// Lock held for the duration of the run.
-    _lock: Option<File>,
+    _lock: Option<Lock>,
 }
 
 impl Directory {
@@ -60,7 +67,7 @@ impl Directory {
         Contents::of(path)?.refuse(path, &begin)?;
         let made = topmost_missing(path);
         atomic::create_dir(path).into_diagnostic()?;
-        let lock = lock(path)?;
+        let lock = Lock::of(path)?;
         // Repeat the check, now that no other run can change the directory.
         let contents = Contents::of(path)?;
         contents.refuse(path, &begin)?;
@@ -70,21 +77,32 @@ impl Directory {
                 Room::Kept(fs::read(path.join(REPORT)).ok())
             }
             (contents, None) if contents.holds_nothing() => Room::Found,
+            (contents, None) if contents.lacked_room() => {
+                clear(path).into_diagnostic()?;
+                Room::Found
+            }
             _ => move_away(path)?,
         };
-        let lock = if let Room::Moved(previous, _) = &room {
-            atomic::create_dir(path).into_diagnostic()?;
-            let lock = self::lock(path)?;
-            // It is read again if it fits the scene as it is now.
-            move_setup(previous, path).into_diagnostic()?;
-            lock
-        } else {
-            lock
-        };
-        let (path, plan, setup) = (path.to_path_buf(), String::new(), Vec::new());
-        let directory = Self { path, begin, plan, setup, room, _lock: lock };
-        directory.sketch(Status::Running, None)?;
+        let path = path.to_path_buf();
+        let (plan, meshes, setup) = Default::default();
+        let mut directory = Self { path, begin, plan, meshes, setup, room, _lock: lock };
+        if let Err(error) = directory.open() {
+            // A failure to clean up adds nothing to the error that is reported.
+            let _ = directory.undo(&directory.room);
+            return Err(error);
+        }
         Ok(directory)
+    }
+
+    /// Makes an empty directory in place of one that was moved, and writes the report of a run in progress.
+    fn open(&mut self) -> miette::Result<()> {
+        if let Room::Moved(previous, _) = &self.room {
+            atomic::create_dir(&self.path).into_diagnostic()?;
+            self._lock = Lock::of(&self.path)?;
+            // It is read again if it fits the scene as it is now.
+            move_setup(previous, &self.path).into_diagnostic()?;
+        }
+        self.sketch(Status::Running, None).map(|_| ())
     }
 
     /// The directory.
@@ -100,9 +118,11 @@ impl Directory {
     /// Marks the start of the computation: the scene and results exist from now on, and the directory set aside by moving the
     /// last result is removed.
     pub fn computes(&mut self) -> miette::Result<()> {
-        atomic::write(&self.path.join(SCENE), self.begin.text.as_bytes()).into_diagnostic()?;
-        atomic::write(&self.path.join(RESERVE), &[0; RESERVED]).into_diagnostic()?;
-        self.hide();
+        atomic::write(&self.path.join(SCENE), self.begin.inputs.text.as_bytes()).into_diagnostic()?;
+        self.begin.inputs.copy(&self.path, &self.meshes)?;
+        let reserved = RESERVED + PER_BYTE * (self.plan.len() + self.begin.inputs.text.len());
+        atomic::write(&self.path.join(RESERVE), &vec![0; reserved]).into_diagnostic()?;
+        self.hide()?;
         self.describe();
         match std::mem::replace(&mut self.room, Room::Used) {
             Room::Moved(_, Some(older)) => fs::remove_dir_all(&older)
@@ -117,16 +137,19 @@ impl Directory {
         self.setup = setup;
     }
 
-    /// Takes the plan as printed, for the page of the run.
-    pub fn planned(&mut self, plan: String) {
-        self.plan = plan;
+    /// Takes the plan as printed, for the page of the run, and the hashes of the files from which it was made.
+    pub fn planned(&mut self, plan: String, meshes: BTreeMap<String, String>) {
+        (self.plan, self.meshes) = (plan, meshes);
     }
 
-    /// Writes the final report, with the hashes of the mesh files.
-    pub fn write<P: Results>(&self, results: &P, meshes: &BTreeMap<String, String>) -> miette::Result<()> {
+    /// Writes the final report. A completed run then needs its checkpoint no longer, except one of faults, which can be extended.
+    pub fn write<P: Results>(&self, results: &P) -> miette::Result<()> {
         self.release();
         let status = results.outcome().status();
-        let text = self.report(status, Some(results.seconds()), Some(meshes), results)?;
+        let text = self.report(status, Some(results.seconds()), Some(&self.meshes), results)?;
+        if status == Status::Completed && self.begin.kind != Kind::Faults {
+            checkpoint::remove(&self.path).into_diagnostic()?;
+        }
         self.show(&text);
         self.describe();
         Ok(())
@@ -143,17 +166,19 @@ impl Directory {
         let _ = readme::write(&self.path, &self.begin.title);
     }
 
-    /// Removes the page of the part before and what its figures need, which would show the run as it was then.
-    fn hide(&self) {
-        // Usually there is none.
-        for file in [PAGE, Sheet::FILE] {
-            let _ = fs::remove_file(self.path.join(file));
-        }
+    /// Removes what the end of the part before has written about the run as it was then: its page, figures and catalogues. All of it is written again
+    /// at the end.
+    fn hide(&self) -> miette::Result<()> {
+        let ends = contents::of_an_end(&self.path).into_diagnostic()?;
+        ends.iter().try_for_each(|path| {
+            let removed = if path.is_dir() { fs::remove_dir_all(path) } else { fs::remove_file(path) };
+            removed.into_diagnostic().wrap_err_with(|| format!("cannot remove {}", path.display()))
+        })
     }
 
     /// Writes the page of the run. It holds nothing that is not in other files: a run continues where it cannot be written.
     fn show(&self, report: &str) {
-        let texts = Texts { plan: &self.plan, scene: &self.begin.text };
+        let texts = Texts { plan: &self.plan, scene: &self.begin.inputs.text };
         if let Ok(report) = serde_json::from_str(report) {
             let _ = page::write(&self.path, &report, &texts);
         }
@@ -182,27 +207,47 @@ impl Directory {
         };
         let text = json::pretty(&report).into_diagnostic()?;
         atomic::write(&self.path.join(REPORT), text.as_bytes())
-            .map_err(|e| miette!("cannot write the report: {e}"))?;
+            .into_diagnostic()
+            .wrap_err("cannot write the report")?;
         Ok(text)
     }
 
-    /// Cleans up after an error: undoes all changes if nothing was computed; otherwise the report records the error.
-    pub fn fails(self, error: &miette::Report) {
-        // A failure to clean up adds nothing to the error that is reported.
-        let _ = match &self.room {
-            Room::Used => {
-                self.release();
-                let resumable = self.path.join(checkpoint::FILE).exists();
-                let status = if resumable { Status::Interrupted } else { Status::Stopped };
-                self.sketch(status, Some(error.to_string()))
-            }
-            room => self.undo(room).into_diagnostic(),
+    /// Cleans up after an error: undoes all changes if nothing was computed; otherwise the report records the error. A run that found no room to write
+    /// has an end of its own.
+    ///
+    /// # Errors
+    /// The error, except for want of room.
+    pub fn fails(self, error: miette::Report) -> miette::Result<End> {
+        if !matches!(self.room, Room::Used) {
+            // A failure to clean up adds nothing to the error that is reported.
+            let _ = self.undo(&self.room);
+            return Err(error);
+        }
+        self.release();
+        let resumable = self.path.join(checkpoint::FILE).exists();
+        let (ended, status, reason) = if full::is_full(&error) {
+            // Figures are drawn again; without them there is room for the page.
+            let _ = fs::remove_dir_all(self.path.join(PLOTS));
+            let (end, status, reason) = full::end(&error, resumable);
+            (Ok(end), status, reason)
+        } else {
+            let status = if resumable { Status::Interrupted } else { Status::Stopped };
+            let reason = error.to_string();
+            (Err(error), status, reason)
         };
+        if let Ok(text) = self.sketch(status, Some(reason)) {
+            self.show(&text);
+            self.describe();
+        }
+        ended
     }
 
     fn undo(&self, room: &Room) -> std::io::Result<()> {
         match room {
-            Room::Kept(Some(report)) => return fs::write(self.path.join(REPORT), report),
+            // Where there is no room for it, the report that stands there stays.
+            Room::Kept(Some(report)) => {
+                return atomic::write(&self.path.join(REPORT), report).map_err(std::io::Error::other);
+            }
             Room::Kept(None) => return fs::remove_file(self.path.join(REPORT)),
             Room::Used => return Ok(()),
             Room::Made(_) | Room::Found | Room::Moved(..) => {}
@@ -216,7 +261,9 @@ impl Directory {
             // Computing it took long.
             return remove_files(&self.path);
         }
-        fs::remove_dir_all(&self.path)?;
+        if self.path.exists() {
+            fs::remove_dir_all(&self.path)?;
+        }
         match room {
             Room::Made(topmost) => remove_empty(&self.path, topmost),
             Room::Moved(previous, older) => {
@@ -227,8 +274,8 @@ impl Directory {
         }
     }
 
-    fn sketch(&self, status: Status, reason: Option<String>) -> miette::Result<()> {
-        self.report(status, None, None, Sketch { reason }).map(|_| ())
+    fn sketch(&self, status: Status, reason: Option<String>) -> miette::Result<String> {
+        self.report(status, None, None, Sketch { reason })
     }
 }
 
@@ -250,6 +297,19 @@ fn move_setup(from: &Path, to: &Path) -> std::io::Result<()> {
     if from.exists() && !to.exists() { fs::rename(from, to) } else { Ok(()) }
 }
 
+/// Removes all that a run has left in a directory, except its set-up.
+fn clear(path: &Path) -> std::io::Result<()> {
+    for entry in fs::read_dir(path)? {
+        let entry = entry?.path();
+        match entry.file_name().and_then(OsStr::to_str) {
+            Some(setup::FOLDER | LOCK) => {}
+            _ if entry.is_dir() => fs::remove_dir_all(entry)?,
+            _ => fs::remove_file(entry)?,
+        }
+    }
+    Ok(())
+}
+
 /// Removes the files in a directory, but not its folders.
 fn remove_files(path: &Path) -> std::io::Result<()> {
     for entry in fs::read_dir(path)? {
@@ -259,24 +319,6 @@ fn remove_files(path: &Path) -> std::io::Result<()> {
         }
     }
     Ok(())
-}
-
-/// Locks a directory for this process; `None` if the system has no locks.
-fn lock(path: &Path) -> miette::Result<Option<File>> {
-    let name = path.join(LOCK);
-    let file = File::options().create(true).append(true).open(&name);
-    let file = file.into_diagnostic().wrap_err_with(|| format!("cannot write {}", name.display()))?;
-    match file.try_lock() {
-        Ok(()) => Ok(Some(file)),
-        Err(TryLockError::WouldBlock) => Err(miette!(
-            "another run writes into {}: wait for its end, or choose another directory with --out",
-            path.display()
-        )),
-        Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => Ok(None),
-        Err(TryLockError::Error(error)) => {
-            Err(error).into_diagnostic().wrap_err_with(|| format!("cannot lock {}", name.display()))
-        }
-    }
 }
 
 /// Moves a directory to `<name>.previous`. A directory of that name is kept as `<name>.previous.older` as long as the move may be undone.

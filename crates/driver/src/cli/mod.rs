@@ -10,8 +10,11 @@ mod difference;
 mod directory;
 mod end;
 pub mod explain;
+pub mod full;
+pub mod inputs;
 pub mod json;
 mod lines;
+mod lock;
 mod manual;
 mod new;
 pub mod page;
@@ -78,6 +81,7 @@ pub fn execute(arguments: &Arguments) -> miette::Result<End> {
 
 /// Claims the output directory of a scene and runs it there.
 fn begin_run(running: &Running) -> miette::Result<End> {
+    signals::outlive_limits().into_diagnostic()?;
     let Running { scene, out, set, no_plots, force, cache, pauses, .. } = running;
     let out = out.clone().unwrap_or_else(|| default_output(scene));
     let source = Source::read(scene, &set.values)?;
@@ -92,11 +96,7 @@ fn begin_run(running: &Running) -> miette::Result<End> {
     let mut directory = Directory::claim(&out, begin)?;
     lines::begin(&directory);
     lines::settings(set);
-    let ended = run(source, &mut directory, (!no_plots, *cache), pauses);
-    if let Err(error) = &ended {
-        directory.fails(error);
-    }
-    ended
+    run(source, &mut directory, (!no_plots, *cache), pauses).or_else(|error| directory.fails(error))
 }
 
 /// Plans and runs a scene in its output directory.
@@ -113,7 +113,10 @@ fn run(
     };
     print::plan(&ready.plan);
     lines::kept(directory, setups);
-    directory.planned(print::plan_text(&ready.plan));
+    if let Some(words) = directory.begin().inputs.words() {
+        printing::out(format_args!("  inputs    {words}\n"));
+    }
+    directory.planned(print::plan_text(&ready.plan), std::mem::take(&mut ready.meshes));
     lines::planned(&mut ready);
     let mut ruptures = match &mut ready.plan {
         Planned::Faults(plan) => plan.ruptures.take(),

@@ -1,6 +1,7 @@
 //! Reads a scene file and plans it.
 
 use super::begin::Begin;
+use super::inputs::Inputs;
 use crate::checkpoint;
 use crate::checks::Checks;
 use crate::cite::{self, Citations};
@@ -90,7 +91,7 @@ impl Planned {
 /// A plan with the identity of its input.
 pub(super) struct Ready {
     pub plan: Planned,
-    /// SHA-256 of the scene file.
+    /// SHA-256 of the scene as it is kept.
     pub hash: String,
     /// Hash that a checkpoint must have to be resumed.
     pub physics: String,
@@ -104,6 +105,7 @@ pub(super) struct Ready {
 pub(super) struct Source {
     text: Text,
     parsed: Parsed,
+    inputs: Inputs,
     clock: Instant,
 }
 
@@ -158,14 +160,17 @@ impl Source {
         let text = Text { name, file, resolved, settings: settings.to_vec() };
         let told = |errors: &Diagnostics| text.report(errors);
         let read = text.resolved.text();
-        let parsed = if scene::slider::is_slider(read) {
-            Parsed::Sliders(Box::new(slider_planner::read(read).map_err(|errors| told(&errors))?))
+        let (parsed, inputs) = if scene::slider::is_slider(read) {
+            let plan = slider_planner::read(read).map_err(|errors| told(&errors))?;
+            (Parsed::Sliders(Box::new(plan)), Inputs::of(read, Path::new(""), &[])?)
         } else {
             let folder = path.parent().unwrap_or(Path::new(""));
             let parsed = scene::read_in(read, folder).map_err(|errors| told(&errors))?;
-            Parsed::Bodies(Box::new(parsed))
+            let named: Vec<_> = parsed.files().map(|file| (file.span(), file.get_ref().as_str())).collect();
+            let inputs = Inputs::of(read, folder, &named)?;
+            (Parsed::Bodies(Box::new(parsed)), inputs)
         };
-        Ok(Self { text, parsed, clock })
+        Ok(Self { text, parsed, inputs, clock })
     }
 
     /// SHA-256 of the mesh files of a scene without faults through cycles. Only such a run ends at a time that no change of the scene can extend. `None` if the
@@ -173,7 +178,7 @@ impl Source {
     pub fn meshes_of_whole(&self) -> Option<BTreeMap<String, String>> {
         match &self.parsed {
             Parsed::Sliders(_) => Some(BTreeMap::new()),
-            Parsed::Bodies(scene) if scene.faults.is_empty() || has_mass(scene) => mesh_hashes(scene).ok(),
+            Parsed::Bodies(scene) if scene.faults.is_empty() || has_mass(scene) => self.inputs.hashes().ok(),
             Parsed::Bodies(_) => None,
         }
     }
@@ -187,7 +192,7 @@ impl Source {
             Parsed::Bodies(scene) => (Kind::Faults, &scene.title),
         };
         let set = self.text.settings.iter().map(ToString::to_string).collect();
-        Begin::now(kind, path, title, self.text.resolved.text(), set)
+        Begin::now(kind, path, title, self.inputs.clone(), set)
     }
 
     /// Citations of the scene.
@@ -210,28 +215,25 @@ impl Source {
 
     /// Plans the scene, with set-ups that are kept.
     pub fn plan(self, setups: &Setups) -> miette::Result<Ready> {
-        let Self { text, parsed, clock } = self;
-        let mut meshes = BTreeMap::new();
+        let Self { text, parsed, inputs, clock } = self;
         let mut plan = match parsed {
             Parsed::Sliders(plan) => Planned::Sliders(plan),
             Parsed::Bodies(scene) => {
                 // A mesh file that cannot be read is reported by the plan, which knows the position in the scene.
-                let plan = match plan::plan_beside(&scene, setups) {
+                match plan::plan_beside(&scene, setups) {
                     Ok(ScenePlan::Bodies(plan)) => Planned::Bodies(plan),
                     Ok(ScenePlan::Faults(plan)) => Planned::Faults(plan),
                     Ok(ScenePlan::Dynamic(plan)) => Planned::Dynamic(plan),
                     Err(error) => {
                         return Err(text.report(&Diagnostics::from(error)));
                     }
-                };
-                meshes = mesh_hashes(&scene)?;
-                plan
+                }
             }
         };
         for warning in plan.warnings_mut() {
             text.locate(warning);
         }
-        let text = text.resolved.text();
+        let (text, meshes) = (&inputs.text, inputs.hashes()?);
         let hashes = meshes.values().map(String::as_str);
         let physics = match &plan {
             Planned::Faults(_) => fault::physics(text, hashes),
@@ -247,14 +249,4 @@ impl Source {
 /// True if the bodies of a scene have mass.
 fn has_mass(scene: &scene::model::Scene) -> bool {
     *scene.time.stepper.get_ref() == scene::model::Stepper::Explicit
-}
-
-/// SHA-256 of the mesh files of a scene, by their names in the scene.
-fn mesh_hashes(scene: &scene::model::Scene) -> miette::Result<BTreeMap<String, String>> {
-    let hash = |file: &str| {
-        let bytes = std::fs::read(scene.folder.join(file)).into_diagnostic();
-        let bytes = bytes.wrap_err_with(|| format!("cannot read the mesh file {file}"))?;
-        Ok((file.to_string(), sha256([&bytes])))
-    };
-    scene.mesh_files().map(hash).collect()
 }

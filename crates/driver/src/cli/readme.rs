@@ -1,6 +1,7 @@
 //! `README.md` of an output directory: what each file there is.
 
 use super::begin::{LOCK, PAGE, README, REPORT, RESERVE, SCENE};
+use super::inputs;
 use crate::checkpoint;
 use crate::setup;
 use asperity_output::plots::Sheet;
@@ -9,10 +10,11 @@ use std::fs;
 use std::path::Path;
 
 /// Files and folders of runs, with what they are.
-const MEANINGS: [(&str, &str); 47] = [
+const MEANINGS: [(&str, &str); 49] = [
     (PAGE, "plan, checks, pictures, costs and warnings in one page for browsers, without other files"),
     (REPORT, "status, results, counts, times, provenance: begin here"),
-    (SCENE, "the scene as it was run, with the values of `--set`; mesh files are relative to the scene file"),
+    (SCENE, "the scene as it was run, with the values of `--set`; it can be run from here"),
+    (inputs::FOLDER, "copies of the files that the scene names: meshes, tables, traces"),
     (progress::FILE, "progress of the run; removed when it is complete"),
     (checkpoint::FILE, "state from which `--resume` continues the run, or extends a run of faults"),
     (LOCK, "held while a run writes to this directory"),
@@ -49,9 +51,11 @@ const MEANINGS: [(&str, &str); 47] = [
     ("opening_profiles.csv", "opening along a fault at intervals"),
     ("temperature_profiles.csv", "temperature along a fault at intervals"),
     ("pressure_profiles.csv", "pore pressure along a fault at intervals"),
+    ("surface_profiles_*.csv", "displacement of the free surface along a line at intervals"),
     ("snapshots.csv", "state of a fault at chosen times"),
     ("energy.csv", "energy budget over time"),
     ("moment_rate.csv", "moment rate over time"),
+    ("fault_forces.csv", "shear and normal force of each fault over time"),
     ("rupture_times.csv", "rupture time and largest slip rate of each point"),
     ("fields", "bodies and surfaces at output times (VTU)"),
     ("profiles", "whole surfaces at output times (CSV)"),

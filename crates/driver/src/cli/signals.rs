@@ -1,6 +1,6 @@
 //! Signals that interrupt a run in an orderly way.
 
-use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
 use signal_hook::flag;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -17,6 +17,11 @@ pub(super) fn watched() -> std::io::Result<Arc<AtomicBool>> {
         flag::register(signal, Arc::clone(&set))?;
     }
     Ok(set)
+}
+
+/// Keeps the process alive where it writes beyond the largest size of a file (`ulimit -f`): the write then fails as on a full disk.
+pub(super) fn outlive_limits() -> std::io::Result<()> {
+    flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false))).map(|_| ())
 }
 
 /// True if this process ignores a signal. Read from `/proc`; false where that does not exist.

@@ -40,7 +40,7 @@ fn run_in<const D: usize>(
     };
     let (mut keeper, from) = match resumed {
         Some((keeper, state)) => {
-            draws_again(&path, drawn, keeper.draws())?;
+            draws_again(drawn, keeper.draws());
             out(format_args!("resumed from the checkpoint\n"));
             (keeper, Some(state))
         }
@@ -61,10 +61,8 @@ fn run_in<const D: usize>(
     }?;
     let mut report = dynamic::Report::new(plan, &ended, keeper.arrivals());
     (report.seconds.plan, report.seconds.steps) = (ready.seconds, clock.elapsed().as_secs_f64());
-    // The report is written last, even if the plots cannot be written.
-    let rest = keeper.finish(report.outcome.status() == Status::Completed, ended.time).into_diagnostic();
-    directory.write(&report, &ready.meshes)?;
-    rest?;
+    keeper.finish(report.outcome.status() == Status::Completed, ended.time).into_diagnostic()?;
+    directory.write(&report)?;
     out(format_args!("{}", report.text()));
     written(directory);
     Ok(end(report.outcome, Some(report.steps)))

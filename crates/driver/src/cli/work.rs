@@ -18,7 +18,7 @@ use crate::warning::Warning;
 use asperity_output::plots::{self, Asked, EventPanel, PanelEvent, Sheet};
 use asperity_output::printing::{self, Form, out};
 use asperity_output::{FieldSchedule, Files, OutputError, Recorder, atomic, stems};
-use miette::{IntoDiagnostic, miette};
+use miette::IntoDiagnostic;
 use std::path::Path;
 use std::time::Instant;
 
@@ -41,16 +41,14 @@ pub(super) fn run_bodies(
         }
         other => other.into_diagnostic(),
     }?;
-    let recorder = kept.finish(report.outcome.status() == Status::Completed).into_diagnostic()?;
+    let recorder = kept.finish(report.outcome.status() == Status::Completed);
     report.seconds.plan = ready.seconds;
-    // The report is written last, even if the plots cannot be written.
-    let drawn = draw(directory.path(), recorder.as_ref());
+    draw(directory.path(), recorder.as_ref())?;
     if let Some(events) = &report.events {
         lines::events(&events.all);
         write_catalogues(directory.path(), &events.all, &events.interfaces).into_diagnostic()?;
     }
-    directory.write(&report, &ready.meshes)?;
-    drawn?;
+    directory.write(&report)?;
     print::results(&report);
     written(directory);
     let shown =
@@ -108,23 +106,16 @@ fn kept(
         let kept = run::Kept::begin(path, &ready.physics, files, recorder, pauses).into_diagnostic()?;
         return Ok((kept, None));
     };
-    draws_again(path, drawn, read.draws())?;
+    draws_again(drawn, read.draws());
     let (kept, stand) = run::Kept::resume(path, read, files, drawn, pauses);
     out(format_args!("resumed at {:.6e} s, step {}\n", stand.time(), stand.steps()));
     Ok((kept, Some(stand)))
 }
 
-/// Removes the plots of the previous part. They are redrawn at the end if requested and if the run was begun with plots.
-pub(super) fn draws_again(path: &Path, asked: bool, begun_with: bool) -> miette::Result<()> {
+/// Says so if plots are asked for and the run was begun without them.
+pub(super) fn draws_again(asked: bool, begun_with: bool) {
     if asked && !begun_with {
         out(format_args!("no plots: the run was begun with --no-plots\n"));
-    }
-    let folder = &path.join("plots");
-    match std::fs::remove_dir_all(folder) {
-        Err(e) if e.kind() != std::io::ErrorKind::NotFound => {
-            Err(miette!("cannot remove {}: {e}", folder.display()))
-        }
-        _ => Ok(()),
     }
 }
 
@@ -180,14 +171,14 @@ pub(super) fn run_sliders(
     report.warnings.clone_from(&plan.warnings);
     report.checks.clone_from(&plan.checks);
     (report.seconds.plan, report.seconds.steps) = (ready.seconds, clock.elapsed().as_secs_f64());
-    let drawn = draw_sheet(directory.path(), &histories.sheet(problem, &plan.thetas, report.end), drawn);
+    draw_sheet(directory.path(), &histories.sheet(problem, &plan.thetas, report.end), drawn)
+        .into_diagnostic()?;
     if problem.events.is_some() {
         lines::events(&report.events);
         let events = slider::csv(&report.events, &problem.names);
         atomic::write(&directory.path().join("events.csv"), events.as_bytes()).into_diagnostic()?;
     }
-    directory.write(&report, &ready.meshes)?;
-    drawn.into_diagnostic()?;
+    directory.write(&report)?;
     out(format_args!("{}", report.text()));
     written(directory);
     let step = usize::try_from(report.counts.steps).ok();
@@ -206,7 +197,7 @@ fn slider_keeper(
     if resume {
         match slider::Keeper::resume(path, problem, physics, pauses.clone()).into_diagnostic()? {
             Some((keeper, run)) => {
-                draws_again(path, drawn, keeper.draws())?;
+                draws_again(drawn, keeper.draws());
                 out(format_args!("resumed at {:.6e} s, step {}\n", run.at.seconds(), run.counts.steps));
                 return Ok((keeper, run));
             }
@@ -242,9 +233,8 @@ pub(super) fn run_faults(
         report.outcome = Outcome::Interrupted { stage: None, time: report.end, reason: why.into() };
     }
     lines::events(&report.events);
-    let rest = write_faults(directory.path(), (plan, &run, &report), &ready.hash, drawn);
-    directory.write(&report, &ready.meshes)?;
-    rest?;
+    write_faults(directory.path(), (plan, &run, &report), &ready.hash, drawn)?;
+    directory.write(&report)?;
     out(format_args!("{}", report.text()));
     if let Some(warning) = coarse {
         out(format_args!("  warning: {warning}\n"));

@@ -195,7 +195,7 @@ impl<'a, const D: usize> Keeper<'a, D> {
         Ok(())
     }
 
-    /// Writes the files at the end of a run at a time \[s\], and removes the checkpoint of a completed one.
+    /// Writes the files at the end of a run at a time \[s\].
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -206,9 +206,6 @@ impl<'a, const D: usize> Keeper<'a, D> {
         seismograms::write(out, plan)?;
         if !plan.points.is_empty() {
             atomic::write(&out.join("rupture_times.csv"), ruptures(plan, &self.arrivals).as_bytes())?;
-        }
-        if completed {
-            checkpoint::remove(out)?;
         }
         let sheet = figures::sheet(plan, end, &self.arrivals, &self.fields.taken);
         sheet.write(out)?;

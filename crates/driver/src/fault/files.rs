@@ -4,6 +4,7 @@
 //! depends on events.
 
 use super::cadence::{Cadence, Gauge, RATE_CHANGE, Reading, warning};
+use super::forces;
 use super::locking;
 use super::moments;
 use super::plan::Plan;
@@ -13,6 +14,7 @@ use super::snapshots::{self, Snapshots};
 use super::source_time::SourceTimes;
 use super::states;
 use super::stations;
+use super::surface_profiles;
 use crate::checkpoint::{self, ResumeError};
 use crate::warning::Warning;
 use asperity_cycles::{Faults, Moment};
@@ -56,8 +58,8 @@ impl Rows {
 #[derive(Debug)]
 pub struct Files<'a> {
     plan: &'a Plan,
-    /// The largest slip rate and the moment rates, then profiles of slip and slip rate and others or the list of snapshots, then
-    /// the locking, then receivers, points, forces and springs of bodies, then stations.
+    /// The largest slip rate and the moment rates, then profiles of slip and slip rate and others or the list of snapshots, profiles of the
+    /// surface, the locking, forces of faults, receivers, points, forces and springs of bodies, then stations.
     rows: Vec<Rows>,
     /// Number of files that are neither of bodies nor of stations.
     general: usize,
@@ -164,9 +166,11 @@ impl<'a> Files<'a> {
             let further = further(plan).map(|further| (out.join(further.file), head.clone()));
             heads.extend(further);
         }
+        heads.extend(surface_profiles::heads(plan).into_iter().map(|(name, head)| (out.join(name), head)));
         if locking::any(plan) {
             heads.push((out.join(locking::FILE), locking::head(plan)));
         }
+        heads.push((out.join(forces::FILE), forces::head(plan)));
         heads
             .extend(receivers::heads(&plan.receivers).into_iter().map(|(path, head)| (out.join(path), head)));
         heads.extend(sampled(plan).into_iter().map(|(path, head)| (out.join(path), head)));
@@ -187,9 +191,11 @@ impl<'a> Files<'a> {
         follow(&mut tables[1], plan, now.largest, (now, then.as_ref()), &moments)?;
         self.events.step(plan, now)?;
         let first = tables.len() - plan.receivers.all.len();
+        let all = |now: &Moment<'_>| forces::row(plan, now);
+        follow(&mut tables[first - 1], plan, now.largest, (now, then.as_ref()), &all)?;
         if locking::any(plan) {
             let row = |now: &Moment<'_>| locking::row(plan, now);
-            follow(&mut tables[first - 1], plan, now.largest, (now, then.as_ref()), &row)?;
+            follow(&mut tables[first - 2], plan, now.largest, (now, then.as_ref()), &row)?;
         }
         for (number, rows) in tables[first..].iter_mut().enumerate() {
             let row = |now: &Moment<'_>| receivers::row(&plan.receivers, number, now);
@@ -222,12 +228,20 @@ impl<'a> Files<'a> {
             let row = profile(time, now.rate.component(0), |rate| fixed(rate.abs().log10(), 3));
             self.rows[3].push(&row, cadence, time)?;
         }
+        let known = further(self.plan).count();
         for (rows, further) in self.rows[4..].iter_mut().zip(further(self.plan)) {
             if fast == 1 && further.between_events {
                 continue;
             }
             if rows.gauge.profile(reading, interval, further.change) {
                 let row = profile(time, &(further.values)(self.plan, now), |value| scientific(value, 6));
+                rows.push(&row, cadence, time)?;
+            }
+        }
+        let Some(line) = surface_profiles::followed(self.plan) else { return Ok(()) };
+        for (rows, &axis) in self.rows[4 + known..].iter_mut().zip(&line.axes) {
+            if rows.gauge.profile(reading, interval, f64::INFINITY) {
+                let row = profile(time, &surface_profiles::values(line, axis, now), |u| scientific(u, 9));
                 rows.push(&row, cadence, time)?;
             }
         }

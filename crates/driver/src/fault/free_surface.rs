@@ -1,5 +1,6 @@
 //! Positions on the free surface whose displacement over each event is written.
 
+use super::receivers::Receivers;
 use asperity_cycles::medium::patches::Patches;
 use asperity_fem::material::elastic::Elastic;
 use asperity_output::grd::Axis;
@@ -15,6 +16,8 @@ pub struct FreeSurface {
     pub patches: Patches,
     /// The rock.
     pub rock: Elastic,
+    /// The positions with what moves them through time; none in space, or where the motion of the plates is not defined.
+    pub through: Option<Receivers>,
 }
 
 /// Coordinates of the positions on the free surface.

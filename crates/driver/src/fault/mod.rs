@@ -15,6 +15,7 @@ pub(crate) mod figures;
 mod files;
 mod finite_faults;
 mod floors;
+mod forces;
 mod frame;
 mod free_surface;
 mod heats;
@@ -50,6 +51,7 @@ mod still_figures;
 mod stress_files;
 mod stresses;
 mod surface_figures;
+mod surface_profiles;
 mod surface_tables;
 pub mod words;
 

@@ -2,7 +2,7 @@
 
 use super::PlannedInterface;
 use super::cohesive::{self, pressed};
-use crate::checks::{Checks, Cost, InterfaceCheck, MachineCheck, WeakeningCheck};
+use crate::checks::{Checks, Cost, InterfaceCheck, MachineCheck, WeakeningCheck, rates};
 use crate::diagnostic::Diagnostic;
 use crate::fault::{Coarsest, critical_slope, spacings};
 use crate::laws;
@@ -12,6 +12,7 @@ use crate::model::{self, Model};
 use crate::scene::model::{Interface as Spec, Scene};
 use asperity_fem::mesh::Side;
 use asperity_fem::surface;
+use asperity_mechanics::solver::Solver;
 
 /// Values of the fields of bodies at a node (displacement and Mises stress) and in a cell (stress, Mises stress and the body).
 const VALUES: [usize; 2] = [3 + 1, 6 + 2];
@@ -24,7 +25,7 @@ pub(super) fn of<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     (interfaces, stages): (&[PlannedInterface], &[Stage]),
-    memory_bytes: usize,
+    (memory_bytes, solver): (usize, &Solver),
 ) -> Result<Checks, Diagnostic> {
     let mut checks = model::checks::of(scene, model)?;
     let surfaces: Vec<Driven> =
@@ -48,6 +49,7 @@ pub(super) fn of<const D: usize>(
     checks.cost = Cost {
         memory_bytes: Some(memory_bytes),
         steps: stages.iter().map(|s| s.steps).sum(),
+        step_seconds: solver.operations.map(rates::of_bodies),
         fields: Some(fields),
         field_bytes: Some(field_bytes(model, VALUES)),
         profiles: Some(scene.output.profiles.as_ref().map_or(10, |n| *n.get_ref()) * stages.len()),

@@ -109,6 +109,7 @@ impl<const D: usize> Choice<'_, D> {
             memory: self.memory(),
             prepared,
             bytes,
+            operations: Some((kept as f64).powi(3) / if self.unsymmetric().is_some() { 1.5 } else { 3.0 }),
             why: format!("direct: {why}"),
         })
     }
@@ -168,11 +169,19 @@ impl<const D: usize> Choice<'_, D> {
         let still = self.scene.inertia().is_none();
         let once = self.interfaces.is_empty() && self.model.is_linear() && still;
         let often = if once { ", once for each set of supports" } else { "" };
+        let operations = match &prepared {
+            Prepared::System(analysis) if !once => {
+                let cholesky = analysis.symbolic().operations();
+                Some(if count > 0 { UNSYMMETRIC as f64 * cholesky } else { cholesky })
+            }
+            _ => None,
+        };
         Solver {
             method: Method::Sparse,
             memory: self.memory(),
             prepared,
             bytes,
+            operations,
             why: format!("direct: {factors}{often}"),
         }
     }
@@ -223,6 +232,7 @@ impl<const D: usize> Choice<'_, D> {
             memory: self.memory(),
             prepared: Prepared::Nothing,
             bytes,
+            operations: None,
             why: format!(
                 "iterative: {why}; conjugate gradients with smoothed aggregation to a residual of {tolerance:e}"
             ),

@@ -99,7 +99,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     summary.warnings.extend(doubts.into_iter().chain(unbalanced));
     let initial_stress = model.bodies.iter().map(|b| initial_stress::of_body(scene, &b.name)).collect();
     let samples = samples::find(scene, &model)?;
-    let checks = checks::of(scene, &model, (&interfaces, &stages), summary.memory_bytes)?;
+    let checks = checks::of(scene, &model, (&interfaces, &stages), (summary.memory_bytes, &solver))?;
     let events = events::of(scene, &model, &interfaces)?;
     let thetas = interfaces::thetas(scene);
     Ok(Plan {

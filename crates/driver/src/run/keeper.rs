@@ -136,18 +136,13 @@ impl Kept {
         written
     }
 
-    /// Ends the progress display and removes the checkpoint of a completed run. Returns the data for the plots.
-    ///
-    /// # Errors
-    /// If the checkpoint cannot be removed.
-    pub fn finish(self, completed: bool) -> Result<Option<Recorder>, OutputError> {
+    /// Ends the progress display. Returns the data for the plots.
+    #[must_use]
+    pub fn finish(self, completed: bool) -> Option<Recorder> {
         if let Some(progress) = self.progress {
             progress.finish(completed);
         }
-        if completed {
-            checkpoint::remove(&self.out)?;
-        }
-        Ok(self.recorder)
+        self.recorder
     }
 
     fn all(&mut self) -> Multi<'_> {

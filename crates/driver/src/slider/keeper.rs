@@ -109,19 +109,16 @@ impl Keeper {
         self.interrupted
     }
 
-    /// Completes the histories and removes the checkpoint of a completed run.
+    /// Completes the histories.
     ///
     /// # Errors
-    /// If a file cannot be written or removed.
+    /// If a file cannot be written.
     pub fn finish(mut self, completed: bool) -> Result<Histories, OutputError> {
         if let Some(progress) = self.progress {
             progress.finish(completed);
         }
         // Rows after the checkpoint are cut off if the run is resumed.
         self.histories.finish()?;
-        if completed {
-            checkpoint::remove(&self.out)?;
-        }
         Ok(self.histories)
     }
 

@@ -1,6 +1,6 @@
 //! The problem to integrate, with warnings.
 
-use crate::checks::{Checks, SliderCheck};
+use crate::checks::{Checks, Cost, SliderCheck, rates};
 use crate::laws::Theta;
 use crate::warning::Warning;
 use asperity_cycles::slider::Problem;
@@ -27,6 +27,8 @@ impl From<Problem> for Plan {
         };
         let sliders = problem.names.iter().zip(against(&problem)).filter_map(of).collect();
         let thetas = vec![None; problem.names.len()];
-        Self { problem, warnings: Vec::new(), checks: Checks { sliders, ..Checks::default() }, thetas }
+        let step_seconds = Some(rates::of_sliders(problem.method, problem.names.len()));
+        let cost = Cost { step_seconds, ..Cost::default() };
+        Self { problem, warnings: Vec::new(), checks: Checks { sliders, cost, ..Checks::default() }, thetas }
     }
 }

@@ -126,3 +126,36 @@ fn a_slider_has_the_critical_stiffness_of_its_law() {
     close(slider.critical, 2.5e9, 3e-4);
     assert!(slider.unstable);
 }
+
+#[test]
+fn the_time_of_a_step_follows_from_counts_and_the_steps_are_those_of_the_run() {
+    let waves = crate::dynamic::SCENE;
+    let cost = checks(waves).cost;
+    // 800 cells of eight degrees of freedom, and at most 21 points of the fault.
+    let cells = 30e-6 + 6400.0 * 2.5e-9;
+    let seconds = cost.step_seconds.unwrap();
+    assert!((cells..cells + 21.0 * 300e-9).contains(&seconds), "{seconds}");
+    let folder = crate::resume::folder(waves);
+    let output = crate::resume::run(folder.path(), "out", &["--no-plots"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let report = std::fs::read(folder.path().join("out/report.json")).unwrap();
+    let report: Value = serde_json::from_slice(&report).unwrap();
+    // What happens at the end of the last step is known after one more.
+    assert_eq!(report["steps"].as_u64().unwrap() as usize, cost.steps.unwrap() + 1);
+    for (scene, part) in [
+        (SLIDER, "steps unknown, since errors decide them; time about 31 us a step, 31 ms per 1000 steps"),
+        (waves, " a step, "),
+        (include_str!("../../../../scenes/cook.toml"), "time unknown until the run shows its progress"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let output = check(folder.path(), scene, &[]);
+        assert!(text(&output.stdout).contains(part), "{part}: {}", text(&output.stdout));
+    }
+    let faults = |size: &str| {
+        let scene = SceneText::new(crate::common::cycles::SCENE);
+        let scene = scene.with("bodies.crust.mesh.fault.spacing[0][1]", size);
+        checks(&scene.text().unwrap()).cost.step_seconds.unwrap()
+    };
+    let [coarse, fine] = ["800 m", "400 m"].map(faults);
+    assert!(fine > coarse && fine < 4.0 * coarse, "{coarse} {fine}");
+}

@@ -99,7 +99,7 @@ fn a_report_knows_the_mesh_files_by_their_hash() {
         assert!(output.status.success(), "{}", text(&output.stderr));
         let report = std::fs::read_to_string(folder.path().join("out/s/report.json")).unwrap();
         let report: serde_json::Value = serde_json::from_str(&report).unwrap();
-        report["meshes_sha256"]["m.msh"].as_str().unwrap().to_string()
+        report["meshes_sha256"]["inputs/m.msh"].as_str().unwrap().to_string()
     };
     let first = hash(mesh, "1e6");
     assert_eq!(first.len(), 64);
@@ -119,7 +119,7 @@ fn a_report_knows_the_files_of_columns_by_their_hash() {
         assert!(output.status.success(), "{}", text(&output.stderr));
         let report = std::fs::read_to_string(folder.path().join("out/s/report.json")).unwrap();
         let report: serde_json::Value = serde_json::from_str(&report).unwrap();
-        report["meshes_sha256"]["friction.csv"].as_str().unwrap().to_string()
+        report["meshes_sha256"]["inputs/friction.csv"].as_str().unwrap().to_string()
     };
     let first = hash(table);
     assert_eq!(first.len(), 64);

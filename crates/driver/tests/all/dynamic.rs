@@ -9,7 +9,7 @@ use asperity_vary::Change::{self, Add, Push, With, Without};
 use std::fs;
 
 /// A rupture in plane strain with absorbing sides, stations and seismograms.
-const SCENE: &str = r#"
+pub const SCENE: &str = r#"
 schema = 1
 title = "a rupture"
 kinematics = "plane-strain"

@@ -235,7 +235,7 @@ fn a_fault_of_triangles_writes_fields_in_its_triangles_and_resumes() {
     let whole = run(here.path(), "whole", &[]);
     assert!(whole.status.success(), "{}", text(&whole.stderr));
     let report = fs::read_to_string(here.path().join("whole/report.json")).unwrap();
-    assert!(report.contains("\"fault.stl\""), "{report}");
+    assert!(report.contains("\"inputs/fault.stl\""), "{report}");
     let fields = fs::read(here.path().join("whole/fields/main_end.vtu")).unwrap();
     assert!(text(&fields).contains("NumberOfPoints=\"6\" NumberOfCells=\"4\""));
     assert_eq!(run(here.path(), "part", &["--wall-time", "0 s"]).status.code(), Some(3));

@@ -5,7 +5,7 @@
 use crate::common::planned;
 use crate::common::told;
 use crate::resume::{assert_same, files, folder, run, text};
-use asperity_driver::checkpoint::{Contents as _, Pauses};
+use asperity_driver::checkpoint::{self, Contents as _, Pauses};
 use asperity_driver::plan::AnyPlan;
 use asperity_driver::report::{Outcome, RunReport};
 use asperity_driver::run::{Bodies, Checkpoint, Kept, RunError, Stand, run_kept};
@@ -221,7 +221,10 @@ fn resumed(plan: &AnyPlan, out: &Path, trials: usize) -> Result<(RunReport, Reco
     let mut keeper = Interrupted { kept, stop, left: trials };
     let report = run_kept(plan, &mut keeper, from)?;
     let completed = report.outcome == Outcome::Completed;
-    Ok((report, keeper.kept.finish(completed).unwrap().unwrap()))
+    if completed {
+        checkpoint::remove(out).unwrap();
+    }
+    Ok((report, keeper.kept.finish(completed).unwrap()))
 }
 
 /// Report of a run without the parts that depend on the machine.

@@ -6,7 +6,7 @@ use crate::common::sliders::{CYCLE, plan};
 use crate::common::told;
 use crate::resume::{assert_same, files, folder, run, text};
 use asperity_cycles::slider::{Problem, SliderRun, resume};
-use asperity_driver::checkpoint::Pauses;
+use asperity_driver::checkpoint::{self, Pauses};
 use asperity_driver::slider::Keeper;
 use asperity_ode::{Method, Outcome};
 use asperity_output::plots::Asked;
@@ -67,6 +67,9 @@ fn part(problem: &Problem, out: &Path, wall: Option<Duration>) -> Result<(Slider
     let interrupted = keeper.interrupted().is_some();
     let sheet = keeper.finish(!interrupted).unwrap().sheet(problem, &[], ended.at.seconds());
     sheet.draw(out, &out.join("plots"), &Asked::default()).unwrap();
+    if !interrupted {
+        checkpoint::remove(out).unwrap();
+    }
     Ok((ended, interrupted))
 }
 

@@ -77,6 +77,9 @@ fn facts(report: &Value) -> String {
     if let Some(outcome) = report["outcome"].as_object() {
         let _ = write!(html, "\n<p class=\"warning\">{}</p>", value(&Value::Object(outcome.clone())));
     }
+    if let Some(reason) = report["reason"].as_str() {
+        let _ = write!(html, "\n<p class=\"warning\">{}</p>", escape(reason));
+    }
     html
 }
 

@@ -10,14 +10,14 @@ mod steps;
 pub use rupture::ruptures;
 
 use super::plan::{AnyPlan, Plan};
-use crate::checks::Cost;
+use crate::checks::{Cost, rates};
 use crate::diagnostic::Diagnostic;
 use crate::fault::planner::{self as of_faults, Meshed};
 use crate::forecast;
 use crate::held::Held;
 use crate::loading;
 use crate::model::checks::field_bytes;
-use crate::model::{self, Model, meshes};
+use crate::model::{self, Model, counts, meshes};
 use crate::scene::model::{Kinematics, Scene};
 use crate::views;
 use asperity_mechanics::dynamics::Problem;
@@ -81,7 +81,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     let mut checks = model::checks::of(scene, &model)?;
     let prescribed = of_faults::checks::counted(scene, &locked);
     checks.faults = of_faults::checks::faults(scene, (&placed, &prescribed), &faults, &resolution);
-    checks.cost = cost(&model, &counted, memory_bytes);
+    checks.cost = cost(&model, &counted, points.len(), memory_bytes);
     let idealisation = model.idealisation;
     let mut fault = faults::of(scene, &placed)?;
     if let Some(fault) = &mut fault {
@@ -125,11 +125,20 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
 const VALUES: [usize; 2] = [6, 0];
 
 /// Cost of a run with these steps.
-fn cost<const D: usize>(model: &Model<D>, counted: &steps::Counted, memory_bytes: usize) -> Cost {
+fn cost<const D: usize>(
+    model: &Model<D>,
+    counted: &steps::Counted,
+    points: usize,
+    memory_bytes: usize,
+) -> Cost {
+    let components = model.idealisation.components();
+    let dofs = counts(&model.mesh).iter().map(|c| c.cells as usize * c.kind.nodes() * components).sum();
+
     let times = |each: usize| Some(counted.steps / each);
     Cost {
         memory_bytes: Some(memory_bytes),
         steps: Some(counted.steps),
+        step_seconds: Some(rates::of_waves(dofs, points)),
         fields: times(counted.cadence.fields),
         field_bytes: Some(field_bytes(model, VALUES)),
         profiles: times(counted.cadence.profiles),

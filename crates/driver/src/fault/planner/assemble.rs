@@ -11,7 +11,7 @@ use super::cells::Cells;
 use super::placed::{Placed, components, in_space, slides};
 use super::pulses::{doubts, pulses};
 use super::{asked, checks, floor, frame, heated, pressing, radiation, sense, start_doubts};
-use crate::checks::{Checks, Cost, FaultCheck};
+use crate::checks::{Checks, Cost, FaultCheck, rates};
 use crate::diagnostic::Diagnostic;
 use crate::laws::{self, Theta};
 use crate::scene::law::LawChoice;
@@ -130,6 +130,7 @@ pub(super) fn plan_of<const D: usize>(
     let memory_bytes = around.memory_bytes + modes;
     checks.cost = Cost {
         memory_bytes: Some(memory_bytes),
+        step_seconds: Some(rates::of_faults(settings.method, placed.len(), fault.operator.bytes() + modes)),
         largest_file: Some(cadence.largest_file),
         ..Cost::default()
     };

@@ -2,8 +2,10 @@
 
 use super::super::super::frame::Frame;
 use super::super::super::free_surface::{FreeSurface, SurfaceAxes};
+use super::super::super::receivers::{Receiver, Receivers};
 use super::super::frame;
 use super::super::placed::{Placed, in_space};
+use super::receivers::{self, Unmoved};
 use crate::diagnostic::Diagnostic;
 use crate::scene::model::{AngleExtent, Extent, Scene, Spanned, SurfaceSpec};
 use asperity_cycles::medium::patches::Patches;
@@ -11,6 +13,9 @@ use asperity_fem::material::elastic::Elastic;
 
 /// Largest number of positions: more than a figure shows, and each needs the closed form of every cell.
 const MOST: usize = 100_000;
+
+/// Largest number of displacements per slip that are kept for profiles through time: half a gigabyte.
+const MOST_WEIGHTS: usize = 20_000_000;
 
 /// Length of a degree on a sphere with the mean radius of the Earth \[m\]. Spacings in degrees are rounded anyway.
 const DEGREE: f64 = 6.371e6 * std::f64::consts::PI / 180.0;
@@ -29,10 +34,48 @@ pub(super) fn of<const D: usize>(
     scene: &Scene,
     (patches, rock): (&Patches, &Elastic),
     placed: &[Placed<D>],
+    (lag, notes): ((&[f64], usize), &mut Vec<String>),
 ) -> Result<Option<FreeSurface>, Diagnostic> {
     let Some(map) = &scene.output.surface else { return Ok(None) };
     let (axes, positions) = positions(scene, map, placed)?;
-    Ok(Some(FreeSurface { positions, axes, patches: patches.clone(), rock: *rock }))
+    let through = if D == 3 {
+        None
+    } else {
+        through(scene, (patches, rock), placed, (&positions, lag)).map_err(|why| notes.push(why)).ok()
+    };
+    Ok(Some(FreeSurface { positions, axes, patches: patches.clone(), rock: *rock, through }))
+}
+
+/// Positions of a line with what moves them through time.
+///
+/// # Errors
+/// The reason why they are not followed.
+fn through<const D: usize>(
+    scene: &Scene,
+    (patches, rock): (&Patches, &Elastic),
+    placed: &[Placed<D>],
+    (positions, (rates, tangents)): (&[[f64; 3]], (&[f64], usize)),
+) -> Result<Receivers, String> {
+    let left_out = |why: String| format!("no profiles of the surface through time: {why}");
+    if positions.len() * rates.len() > MOST_WEIGHTS {
+        return Err(left_out(format!("{} positions are too many; a larger `spacing`", positions.len())));
+    }
+    let one = |at: &[f64; 3]| {
+        let plates = match receivers::plates(scene, placed, at) {
+            Ok(plates) => plates,
+            // As on the edge of a cell, displacements are not defined there.
+            Err(Unmoved::Between(_)) => [f64::NAN; 3],
+            Err(Unmoved::Bent(fault, _)) => {
+                let why = format!("fault `{fault}`, which creeps beyond its ends, is not plane");
+                return Err(left_out(why));
+            }
+        };
+        let per_slip =
+            (0..tangents).flat_map(|component| patches.displacements(at, component, rock)).collect();
+        Ok(Receiver { name: String::new(), at: *at, per_slip, plates, loads: Vec::new() })
+    };
+    let all = positions.iter().map(one).collect::<Result<_, _>>()?;
+    Ok(Receivers { all, rates: rates.to_vec(), axes: receivers::axes(scene) })
 }
 
 /// Coordinates and positions of a map at y = 0.

@@ -70,8 +70,9 @@ pub(super) fn plan<const D: usize>(
     let operator = setups.part::<_, Diagnostic>(Part::Operator, inputs, operator)?;
     let plates = backslip::plates(scene, &placed, slip.tangents);
     let loading = deficit(operator.as_ref(), &plates, end);
+    let lag = ((&plates[..], slip.tangents), &mut notes);
+    let free_surface = free_surface::of(scene, (&tiling.patches, &elastic), &placed, lag)?;
     let receivers = receivers::of(scene, (&tiling.patches, &elastic), &placed, (plates, slip.tangents))?;
-    let free_surface = free_surface::of(scene, (&tiling.patches, &elastic), &placed)?;
     let coulomb = coulomb::of(scene, (&tiling.patches, &elastic), &placed)?;
     let platform = platform::of(scene, &placed)?;
     warnings.extend(sense::check(scene, (&placed, &[]), &loading, end));
