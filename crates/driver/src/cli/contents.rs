@@ -17,7 +17,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Files that runs write to their directory.
-const FILES: [&str; 34] = [
+const FILES: [&str; 38] = [
     REPORT,
     PAGE,
     SCENE,

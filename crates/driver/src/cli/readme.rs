@@ -10,7 +10,7 @@ use std::fs;
 use std::path::Path;
 
 /// Files and folders of runs, with what they are.
-const MEANINGS: [(&str, &str); 49] = [
+const MEANINGS: [(&str, &str); 50] = [
     (PAGE, "plan, checks, pictures, costs and warnings in one page for browsers, without other files"),
     (REPORT, "status, results, counts, times, provenance: begin here"),
     (SCENE, "the scene as it was run, with the values of `--set`; it can be run from here"),
