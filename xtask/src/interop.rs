@@ -67,6 +67,7 @@ pub fn run(root: &Path) -> Result<(), Failure> {
     let program = root.join("target/release/asperity").display().to_string();
     let json: Vec<&str> = ["interop/check_json.py", &program, "scenes"].into_iter().chain(outputs).collect();
     check("interop of schemas", &json)?;
+    check("interop of values", &["interop/check_fields.py", &program, "interop/fields.toml"])?;
     let summary = "target/meshes.json";
     let example = ["run", "--release", "--quiet", "-p", "asperity-driver", "--example", "mesh_summary", "--"];
     let files = meshes(root)?;

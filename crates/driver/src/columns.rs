@@ -1,6 +1,10 @@
 //! Columns of numbers with names and units, from the text of a CSV file.
 
 pub mod file;
+pub(crate) mod unit;
+mod wrong;
+
+pub use wrong::Wrong;
 
 use asperity_scene::near::suggest;
 use asperity_scene::units::{self, Dimension};
@@ -18,21 +22,6 @@ pub struct Columns {
 struct Head {
     name: String,
     unit: Option<String>,
-}
-
-/// Reason why a file has not the numbers that are asked for, and what would be right.
-#[derive(Debug)]
-pub struct Wrong {
-    /// Message.
-    pub message: String,
-    /// Help.
-    pub help: String,
-}
-
-impl Wrong {
-    fn new(message: impl Into<String>, help: impl Into<String>) -> Self {
-        Self { message: message.into(), help: help.into() }
-    }
 }
 
 /// Form of a file, for messages.
@@ -89,11 +78,25 @@ impl Columns {
     /// # Errors
     /// [`Wrong`] if there is no such column, its unit is missing or another one, or a cell is not a finite number.
     pub fn numbers(&self, name: &str, dimension: Option<Dimension>) -> Result<Vec<f64>, Wrong> {
+        self.numbers_in(name, dimension, None)
+    }
+
+    /// Numbers as [`Self::numbers`], in a stated unit where the column has none.
+    ///
+    /// # Errors
+    /// As [`Self::numbers`], and for a stated unit other than that of the column.
+    pub fn numbers_in(
+        &self,
+        name: &str,
+        dimension: Option<Dimension>,
+        stated: Option<&str>,
+    ) -> Result<Vec<f64>, Wrong> {
         let found = self.heads.iter().position(|head| head.name == name);
         let column = found.ok_or_else(|| {
             Wrong::new(format!("it has no column `{name}`"), suggest(name, "columns", self.names()))
         })?;
-        let unit = unit(&self.heads[column], dimension)?;
+        let own = self.heads[column].unit.as_deref();
+        let unit = unit::chosen(("column", name), own, stated, dimension)?;
         let cell = |(line, cells): &(u64, Vec<String>)| {
             let cell = cells[column].as_str();
             let number = cell.parse::<f64>().ok().filter(|v| v.is_finite());
@@ -129,29 +132,6 @@ fn head(cell: &str) -> Result<Head, Wrong> {
         }
     };
     Ok(Head { name: name.to_string(), unit })
-}
-
-/// Unit of a column of this dimension.
-fn unit(head: &Head, dimension: Option<Dimension>) -> Result<Option<&str>, Wrong> {
-    let Head { name, unit } = head;
-    match (dimension, unit.as_deref()) {
-        (None, None | Some("-" | "1" | "")) => Ok(None),
-        (None, Some(unit)) => Err(Wrong::new(
-            format!("its column `{name}` has the unit {unit}, and is a number without a unit"),
-            format!("`{name}` or `{name} [-]`"),
-        )),
-        (Some(dimension), None | Some("")) => Err(Wrong::new(
-            format!("its column `{name}` has no unit, and is {}", dimension.name()),
-            format!("the unit in brackets, such as `{name} [{}]`", dimension.si()),
-        )),
-        (Some(dimension), Some(unit)) => match units::parse(&format!("1 {unit}"), dimension) {
-            Ok(_) => Ok(Some(unit)),
-            Err(why) => Err(Wrong::new(
-                format!("the unit of its column `{name}`: {why}"),
-                format!("such as `{name} [{}]`", dimension.si()),
-            )),
-        },
-    }
 }
 
 /// Reason why a row cannot be read.

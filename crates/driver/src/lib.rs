@@ -14,6 +14,7 @@ pub mod diagnostic;
 pub mod difference;
 pub mod dynamic;
 pub mod fault;
+pub mod field;
 pub mod forecast;
 mod handover;
 mod held;

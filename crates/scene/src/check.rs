@@ -2,6 +2,7 @@
 
 mod bodies;
 mod conditions;
+mod corners;
 mod coulomb;
 pub mod course;
 mod explicit;

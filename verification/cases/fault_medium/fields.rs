@@ -11,9 +11,9 @@ use asperity_vary::SceneText;
 use std::fmt::Write as _;
 
 const BP1: &str = include_str!("../../../scenes/bp1-half-space.toml");
-const MEGATHRUST: &str = include_str!("../../../scenes/megathrust.toml");
+pub(super) const MEGATHRUST: &str = include_str!("../../../scenes/megathrust.toml");
 /// Contours of a formula, as PROJ turned them into longitudes and latitudes: `independent/megathrust_surface.py`.
-const SURFACE: &str = include_str!("../../../scenes/surfaces/nankai-style.txt");
+pub(super) const SURFACE: &str = include_str!("../../../scenes/surfaces/nankai-style.txt");
 
 /// Runs the claims on parameters from files.
 pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -34,7 +34,7 @@ fn planned(text: &str, files: &[(&str, &str)]) -> Result<Plan, CaseError> {
 }
 
 /// A rectangle that dips towards x by 30 degrees, whose normal tractions stand in `normal.csv`.
-fn dipping() -> String {
+pub(super) fn dipping() -> String {
     let fault = format!(
         "rake = [0, 0, 1]\nfields.normal = {{ file = \"normal.csv\" }}\nrectangle = {{ from = [0.0, 0.0, {WIDTH:?}], to = [0.0, 0.0, 0.0], dip = \"30 deg\", width = {WIDTH:?}, size = 1000.0 }}"
     );
@@ -58,7 +58,7 @@ fn normal(shares: &[[f64; 2]], value: impl Fn(&[f64; 3]) -> f64) -> Result<Strin
 }
 
 /// Largest difference of the normal tractions of a plan from a function of the position \[km\], over the largest value \[MPa\].
-fn off(plan: &Plan, value: impl Fn(&[f64; 3]) -> f64) -> f64 {
+pub(super) fn off(plan: &Plan, value: impl Fn(&[f64; 3]) -> f64) -> f64 {
     let values = plan.points.iter().zip(&plan.problem.fault.normal);
     let [worst, most] = values.fold([0.0_f64; 2], |[worst, most], (point, found)| {
         let wanted = value(&point.at.map(|x| 1e-3 * x));

@@ -3,6 +3,7 @@
 mod coulomb;
 mod depths;
 mod fields;
+mod files;
 mod locking;
 mod receivers;
 mod surface;
@@ -43,6 +44,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     triangles::run(ledger)?;
     depths::run(ledger)?;
     fields::run(ledger)?;
+    files::run(ledger)?;
     cycles(ledger)?;
     receivers::run(ledger)?;
     locking::run(ledger)?;
@@ -115,7 +117,7 @@ fn dislocations(dip: f64, cells: usize) -> [DMatrix<f64>; 2] {
 /// Compares the operator of dipping lines with dislocations of the suite.
 fn dipping(ledger: &mut Ledger) -> Result<(), CaseError> {
     let cells = 40;
-    for dip in [90.0, 60.0, 10.0] {
+    for dip in [90.0, 60.0, 10.0, 5.0, 2.0] {
         let (plan, cost) = Cost::of(|| seas::plan(&line("plane-strain", dip, f64::from(cells))));
         let plan = plan?;
         let wanted = dislocations(dip, cells as usize);
@@ -152,7 +154,7 @@ fn column(dip: f64, length: f64, rake: [f64; 3], cells: usize) -> String {
 fn long_rectangles(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (rows, columns) = (5, 401);
     let length = WIDTH / rows as f64 * columns as f64;
-    for dip in [90.0, 30.0] {
+    for dip in [90.0, 30.0, 5.0] {
         let (s, c) = f64::to_radians(dip).sin_cos();
         let mut worst = [0.0_f64; 2];
         let mut spent = None;

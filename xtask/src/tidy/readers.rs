@@ -27,6 +27,7 @@ const ROWS: [Row; 1] = [Row {
         "diagnostic/",
         "dynamic/planner/",
         "fault/planner/",
+        "field/",
         "loading/",
         "model/",
         "plan/",

@@ -15,12 +15,24 @@ const TABLES: [&str; 2] = ["csv", "txt"];
 /// # Errors
 /// [`Diagnostic`] at the name of the file.
 pub(crate) fn read(folder: &Path, file: &Spanned<String>) -> Result<Columns, Diagnostic> {
-    let (name, path) = (file.get_ref(), folder.join(file.get_ref()));
-    let bytes = std::fs::read(&path).map_err(|e| {
-        let message = format!("the file `{name}` cannot be read: {e}");
-        Diagnostic::at(file.span(), message, looked_for(&path, ("files of columns", &TABLES)))
-    })?;
+    let bytes = bytes(folder, file, ("files of columns", &TABLES))?;
     Columns::parse(&bytes).map_err(|wrong| refused(file, file.span(), wrong))
+}
+
+/// Bytes of a file in a folder, beside which others of its kind may lie.
+///
+/// # Errors
+/// [`Diagnostic`] at the name of the file.
+pub(crate) fn bytes(
+    folder: &Path,
+    file: &Spanned<String>,
+    kind: (&str, &[&str]),
+) -> Result<Vec<u8>, Diagnostic> {
+    let (name, path) = (file.get_ref(), folder.join(file.get_ref()));
+    std::fs::read(&path).map_err(|e| {
+        let message = format!("the file `{name}` cannot be read: {e}");
+        Diagnostic::at(file.span(), message, looked_for(&path, kind))
+    })
 }
 
 /// Numbers of columns of a file in a folder, in SI units.

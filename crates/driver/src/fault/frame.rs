@@ -79,7 +79,7 @@ impl Frame {
     }
 
     /// Directions east and north in the axes of the scene.
-    pub(super) fn horizontal(&self) -> [[f64; 3]; 2] {
+    pub(crate) fn horizontal(&self) -> [[f64; 3]; 2] {
         [0, 1].map(|row| std::array::from_fn(|c| self.axes[(row, c)]))
     }
 
@@ -89,7 +89,7 @@ impl Frame {
     }
 
     /// Projection around the origin.
-    pub(super) fn map(&self) -> Map {
+    pub(crate) fn map(&self) -> Map {
         Map::new(self.longitude, self.latitude)
     }
 }

@@ -6,7 +6,7 @@ use proj4rs::transform::transform;
 /// Transverse Mercator projection of the ellipsoid WGS84, with scale 1 on the meridian of the origin. Lengths are too large by
 /// `(x/R)\u{b2}/2` at a distance x from that meridian: 1e-3 at 285 km.
 #[derive(Debug)]
-pub(super) struct Map {
+pub(crate) struct Map {
     globe: Proj,
     plane: Proj,
 }

@@ -8,7 +8,7 @@ use crate::scene::units::{self, Dimension, Length};
 use asperity_fem::element::ElementKind;
 use asperity_fem::mesh::curve::{Curve, Profile, bend};
 use asperity_fem::mesh::extrude::extrude;
-use asperity_fem::mesh::fault::{Departure, FaultMesh, Interpolation, Spacing};
+use asperity_fem::mesh::fault::{Departure, FaultMesh, FaultMeshError, Interpolation, Spacing};
 use asperity_fem::mesh::generate::{Block, Grading, Grid, SIDES, divisions_for};
 use asperity_fem::mesh::split::{Surface, split};
 use asperity_fem::mesh::{Cells, GroupTag, Mesh, MeshError, Options, RawMesh, Side, abaqus, gmsh};
@@ -244,7 +244,20 @@ fn quadrilateral(name: &str, spec: &scene::QuadrilateralMesh) -> Result<Mesh<2>,
 /// A box around a fault.
 fn fault(name: &str, spec: &scene::FaultMesh) -> Result<Mesh<2>, Diagnostic> {
     let generated = faulted(spec)?.mesh();
-    Ok(generated.map_err(|e| Diagnostic::body(name, spec.trace.span(), e.to_string()))?.mesh)
+    Ok(generated.map_err(|e| unmeshed(name, spec, &e))?.mesh)
+}
+
+/// Error of a trace that cannot be meshed.
+fn unmeshed(name: &str, spec: &scene::FaultMesh, error: &FaultMeshError) -> Diagnostic {
+    let place = spec.trace.span();
+    match error {
+        FaultMeshError::Dip { .. } => Diagnostic::at(
+            place,
+            format!("body `{name}`: {error}"),
+            "a flatter fault lies in a `[medium]`, which takes any dip, or in a mesh by Gmsh or Abaqus with `split`",
+        ),
+        _ => Diagnostic::body(name, place, error.to_string()),
+    }
 }
 
 /// Facts about generated meshes that no file contains: the course of smooth curves between the vertices of traces.
@@ -256,7 +269,7 @@ pub fn notes(scene: &scene::Scene) -> Result<Vec<String>, Diagnostic> {
     for (name, body) in &scene.bodies {
         let scene::MeshSource::Fault(spec) = &body.mesh else { continue };
         let departure = faulted(spec)?.departure();
-        let departure = departure.map_err(|e| Diagnostic::body(name, spec.trace.span(), e.to_string()))?;
+        let departure = departure.map_err(|e| unmeshed(name, spec, &e))?;
         let vertices = spec.trace.get_ref().len();
         notes.extend(departure.map(|d| smooth(&format!("the fault of body `{name}`"), vertices, d)));
     }

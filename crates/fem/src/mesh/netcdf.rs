@@ -3,6 +3,8 @@
 //! The layout is that of the specification of the classic format: a header with lists of dimensions, attributes and variables, then
 //! the values of each variable at its offset, with the most significant byte first.
 
+pub mod gridded;
+
 use thiserror::Error;
 
 /// Problem of a netCDF file.
@@ -32,6 +34,22 @@ pub enum NetcdfError {
         byte: usize,
         /// Part of the header.
         part: String,
+    },
+    /// No variable of a name.
+    #[error("it has no variable `{name}`")]
+    NoVariable {
+        /// The name.
+        name: String,
+        /// Names of all variables.
+        names: Vec<String>,
+    },
+    /// A variable over no coordinates, or over three or more.
+    #[error("variable `{variable}` is over {count} dimensions, and one or two are read")]
+    Dimensions {
+        /// The variable.
+        variable: String,
+        /// Number of its dimensions longer than one.
+        count: usize,
     },
     /// No variable on a grid.
     #[error("it has no variable over two dimensions; its variables are {names}")]
@@ -391,7 +409,7 @@ mod tests {
     }
 
     /// A grid of two latitudes and three longitudes, whose depths are scaled 16-bit integers.
-    fn file() -> Vec<u8> {
+    pub(super) fn file() -> Vec<u8> {
         let mut bytes = b"CDF\x01".to_vec();
         let none = [Ok(0), Ok(0)];
         bytes.extend(words(&[Ok(0), Ok(10), Ok(2), Err("lat"), Ok(2), Err("lon"), Ok(3)]));

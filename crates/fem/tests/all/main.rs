@@ -21,3 +21,4 @@ mod sheet;
 mod split;
 mod symmetry;
 mod tangents;
+mod vtu_forms;

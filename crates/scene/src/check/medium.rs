@@ -172,6 +172,7 @@ impl Checker<'_> {
         }
         let highest = trace.iter().map(|vertex| vertex[1].0).fold(f64::NEG_INFINITY, f64::max);
         self.below_surface(&line.trace, highest, medium);
+        self.corners(&line.trace, line.interpolation);
     }
 
     /// Refuses a fault above the surface of a half-space.

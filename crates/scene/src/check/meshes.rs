@@ -31,6 +31,7 @@ impl Checker<'_> {
             MeshSource::Fault(fault) => {
                 self.flat(name, body, &fault.element);
                 self.fault(fault);
+                self.corners(&fault.trace, fault.interpolation);
             }
             MeshSource::Gmsh(file) => self.file(file.unit.as_ref(), file.groups.as_ref(), &file.split),
             MeshSource::Abaqus(file) => self.file(file.unit.as_ref(), file.elsets.as_ref(), &file.split),

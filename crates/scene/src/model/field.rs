@@ -29,16 +29,59 @@ impl Fields {
     }
 }
 
-/// Values of a parameter in a file of columns.
+/// Values of a parameter in a file.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Field {
-    /// Path of a CSV file, relative to the folder of the scene.
+    /// Path of a CSV file, a classic netCDF grid or a VTU file, relative to the folder of the scene.
     pub file: Spanned<String>,
-    /// Column of the values; absent: the one with the name of the parameter.
+    /// Column, variable or array of the values; absent: the one with the name of the parameter.
     pub column: Option<Spanned<String>>,
-    /// Values between positions: `"linear"` (default), on the triangles between them, or `"nearest"`.
+    /// Values between positions: `"linear"` or `"nearest"`; absent: `"linear"`, but for points of a VTU file without cells, and its arrays in cells.
     pub interpolation: Option<Spanned<FieldInterpolation>>,
+    /// Unit of the values, such as `"MPa"`, where the file has none.
+    pub unit: Option<Spanned<String>>,
+    /// Unit of the coordinates that are lengths, such as `"km"`, where the file has none.
+    pub coordinate_unit: Option<Spanned<String>>,
+    /// Names of the coordinates in the file, such as `{ distance = "x" }`; absent: those of the same names.
+    #[serde(default)]
+    pub coordinates: FieldCoordinates,
+}
+
+/// Names that the coordinates of a field have in its file. With one of them, the others count only if they are named.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FieldCoordinates {
+    /// Distance along the line.
+    pub distance: Option<Spanned<String>>,
+    /// Degrees east.
+    pub longitude: Option<Spanned<String>>,
+    /// Degrees north.
+    pub latitude: Option<Spanned<String>>,
+    /// Coordinate x.
+    pub x: Option<Spanned<String>>,
+    /// Coordinate y.
+    pub y: Option<Spanned<String>>,
+    /// Coordinate z.
+    pub z: Option<Spanned<String>>,
+    /// Depth, counted downwards.
+    pub depth: Option<Spanned<String>>,
+}
+
+impl FieldCoordinates {
+    /// Coordinates that are named, with their names in the file.
+    pub fn named(&self) -> impl Iterator<Item = (&'static str, &Spanned<String>)> {
+        let all = [
+            ("distance", &self.distance),
+            ("longitude", &self.longitude),
+            ("latitude", &self.latitude),
+            ("x", &self.x),
+            ("y", &self.y),
+            ("z", &self.z),
+            ("depth", &self.depth),
+        ];
+        all.into_iter().filter_map(|(key, name)| Some((key, name.as_ref()?)))
+    }
 }
 
 /// Values between the positions of a field.

@@ -9,7 +9,7 @@ use jiff::Timestamp;
 ///
 /// # Errors
 /// [`Diagnostic`] at the epoch.
-pub(super) fn of(scene: &Scene, in_space: bool) -> Result<Option<Frame>, Diagnostic> {
+pub(crate) fn of(scene: &Scene, in_space: bool) -> Result<Option<Frame>, Diagnostic> {
     let Some(place) = &scene.place else { return Ok(None) };
     let wrong = |e: jiff::Error| {
         Diagnostic::at(place.epoch.span(), e.to_string(), "such as \"2000-01-01T00:00:00Z\"")
@@ -26,7 +26,7 @@ pub(super) fn of(scene: &Scene, in_space: bool) -> Result<Option<Frame>, Diagnos
 }
 
 /// Direction up, where the scene has one: that of its `[place]`, or out of the surface of a half-space.
-pub(super) fn up(scene: &Scene) -> Option<[f64; 3]> {
+pub(crate) fn up(scene: &Scene) -> Option<[f64; 3]> {
     let declared = scene.place.as_ref().map(|place| <[_; 2]>::from(place.axes())[0]);
     let half = || scene.medium.as_ref().filter(|m| *m.kind.get_ref() == MediumKind::HalfSpace);
     declared.or_else(|| half().map(|_| [0.0, 1.0, 0.0]))

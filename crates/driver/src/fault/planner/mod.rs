@@ -12,7 +12,7 @@ pub mod cover;
 mod critical;
 pub mod fields;
 mod floor;
-mod frame;
+pub(crate) mod frame;
 mod heated;
 mod held;
 mod medium;
@@ -365,7 +365,7 @@ fn points_of<const D: usize>(
         };
         placed.push(placed_at(spec, (fault, &base, &fields), place, given)?);
     }
-    notes.extend(fields.notes(&placed));
+    fields.describe(&placed, (warnings, notes));
     asked::creep((name, spec), &placed)?;
     asked::profiles(scene, (name, spec), &placed, warnings)?;
     warnings.extend(patches::covered((name, spec), &placed)?);

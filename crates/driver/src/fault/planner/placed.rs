@@ -2,6 +2,7 @@
 
 use super::medium::Medium;
 use super::prestress::Resolved;
+use crate::field::samples::between;
 use crate::scene::law::LawChoice;
 use crate::scene::model::{Along, Profile};
 use asperity_cycles::medium::{Place, Point, across};
@@ -63,21 +64,6 @@ pub(super) fn along<const D: usize>(profile: &Profile, place: &Place<D>) -> f64 
 pub(super) fn at<const D: usize>(profile: &Profile, place: &Place<D>) -> f64 {
     let points = profile.points.get_ref();
     between(points.len(), |k| (points[k].0.0, points[k].1), along(profile, place))
-}
-
-/// Value at a position between nodes, of which `node` has position and value: linear between them, constant beyond them.
-pub(super) fn between(count: usize, node: impl Fn(usize) -> (f64, f64), x: f64) -> f64 {
-    let (mut low, mut k) = (0, count);
-    while low < k {
-        let middle = low.midpoint(k);
-        if node(middle).0 <= x { low = middle + 1 } else { k = middle }
-    }
-    if k == 0 || k == count {
-        return node(k.min(count - 1)).1;
-    }
-    let (a, b) = (node(k - 1), node(k));
-    let s = (x - a.0) / (b.0 - a.0);
-    (1.0 - s) * a.1 + s * b.1
 }
 
 /// Direction of motion of the plus side for positive slip: out of the plane, along the fault in the plane, or along the

@@ -1,4 +1,4 @@
-use asperity_driver::fault::planner::fields::samples::Samples;
+use asperity_driver::field::samples::Samples;
 
 #[test]
 fn values_on_a_line_end_with_it() {

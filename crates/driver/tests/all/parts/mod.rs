@@ -26,6 +26,8 @@ mod fault_planner_cover;
 mod fault_planner_patches;
 mod fault_planner_resolution;
 mod fault_planner_samples;
+mod field_cells;
+mod field_lattice;
 mod forecast;
 mod plan_penalty;
 mod refused;

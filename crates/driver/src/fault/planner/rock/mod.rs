@@ -161,7 +161,7 @@ fn placed<const D: usize>(
             placed_at(spec, (fault, &base, &fields), place.clone(), given)
         };
         let placed: Vec<Placed<D>> = cells.map(of).collect::<Result<_, _>>()?;
-        notes.extend(fields.notes(&placed));
+        fields.describe(&placed, (warnings, notes));
         asked::profiles(scene, (name, spec), &placed, warnings)?;
         warnings.extend(patches::covered((name, spec), &placed)?);
         all.extend(placed);

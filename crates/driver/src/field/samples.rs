@@ -1,6 +1,5 @@
 //! Values between the positions of a file.
 
-use super::super::placed::between;
 use asperity_fem::mesh::sheet::{ScatterError, Scattered};
 
 /// Distance beyond the ends of a line within which a position counts as on it, over its length: rounding.
@@ -80,8 +79,23 @@ impl Samples {
     }
 }
 
+/// Value at a position between nodes, of which `node` has position and value: linear between them, constant beyond them.
+pub(crate) fn between(count: usize, node: impl Fn(usize) -> (f64, f64), x: f64) -> f64 {
+    let (mut low, mut k) = (0, count);
+    while low < k {
+        let middle = low.midpoint(k);
+        if node(middle).0 <= x { low = middle + 1 } else { k = middle }
+    }
+    if k == 0 || k == count {
+        return node(k.min(count - 1)).1;
+    }
+    let (a, b) = (node(k - 1), node(k));
+    let s = (x - a.0) / (b.0 - a.0);
+    (1.0 - s) * a.1 + s * b.1
+}
+
 /// True if a position lies between the first and the last.
-fn within(points: &[(f64, f64)], x: f64) -> bool {
+pub(super) fn within<T>(points: &[(f64, T)], x: f64) -> bool {
     let (first, last) = (points[0].0, points[points.len() - 1].0);
     let close = ON_END * (last - first);
     first - close <= x && x <= last + close
@@ -92,7 +106,7 @@ fn linear(points: &[(f64, f64)], x: f64) -> f64 {
 }
 
 /// Value of the nearest position; `None` beyond an end, if it is farther away than its neighbour is.
-fn nearest(points: &[(f64, f64)], x: f64) -> Option<f64> {
+pub(super) fn nearest<T: Copy>(points: &[(f64, T)], x: f64) -> Option<T> {
     let n = points.len();
     let k = (0..n).min_by(|&i, &j| (points[i].0 - x).abs().total_cmp(&(points[j].0 - x).abs()))?;
     let next = if k + 1 < n { k + 1 } else { k - 1 };

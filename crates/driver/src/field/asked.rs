@@ -1,0 +1,87 @@
+//! Requests of a scene for the file of a field, and checks of what the file gives.
+
+use super::axes::NAMES;
+use super::cells::Cells;
+use super::lattice::Lattice;
+use super::samples::Samples;
+use crate::columns::Wrong;
+use crate::scene::model::{Field as Given, FieldInterpolation};
+use crate::scene::units::Dimension;
+
+/// Bound of the values of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Bound {
+    Positive,
+    /// Of this sign, which is that of `rate`.
+    Signed(f64),
+    /// Of any sign.
+    Free,
+}
+
+/// A parameter that a file gives.
+pub(crate) struct Parameter {
+    pub key: &'static str,
+    /// Dimension; none of a number.
+    pub dimension: Option<Dimension>,
+    pub bound: Bound,
+}
+
+/// Values at positions.
+pub(super) enum Source {
+    Samples(Samples),
+    Lattice(Lattice),
+    Cells(Cells),
+}
+
+/// Name and units that a scene gives for a field.
+pub(super) struct Asked<'a> {
+    /// Name of the column, variable or array.
+    pub name: &'a str,
+    pub parameter: &'a Parameter,
+    pub unit: Option<&'a str>,
+    pub coordinate_unit: Option<&'a str>,
+    pub interpolation: Option<FieldInterpolation>,
+    pub given: &'a Given,
+}
+
+/// Refuses values out of bounds, and values that are all one. `row` names the place of a value, `what` its list.
+pub(super) fn checked(
+    values: &[f64],
+    asked: &Asked<'_>,
+    (what, row): (&str, &dyn Fn(usize) -> String),
+) -> Result<(), Wrong> {
+    let (name, parameter) = (asked.name, asked.parameter);
+    let (bad, must): (&dyn Fn(f64) -> bool, &str) = match parameter.bound {
+        Bound::Positive => (&|v| v <= 0.0, "be positive"),
+        Bound::Signed(sign) => (&move |v| v * sign <= 0.0, "have the sign of `rate`"),
+        Bound::Free => (&|_| false, ""),
+    };
+    if let Some(k) = values.iter().position(|v| v.is_infinite() || bad(*v)) {
+        let must = if values[k].is_infinite() { "be finite" } else { must };
+        return Err(Wrong::new(
+            format!("{}: `{name}` must {must}, found {:?}", row(k), values[k]),
+            "check its sign and its unit",
+        ));
+    }
+    let mut there = values.iter().filter(|v| !v.is_nan());
+    let Some(first) = there.next() else {
+        return Err(Wrong::new(format!("all values of its {what} `{name}` are NaN"), "another file"));
+    };
+    if there.all(|v| v == first) {
+        return Err(Wrong::new(
+            format!("all values of its {what} `{name}` are {first:?}"),
+            format!("give the one value instead of a file, or name another `column` for `{}`", parameter.key),
+        ));
+    }
+    Ok(())
+}
+
+/// Coordinates by their names in the scene and in the file: those that the scene names, or all that the file has.
+pub(super) fn coordinates_of<'a>(asked: &'a Asked<'_>, names: &[&'a str]) -> Vec<(&'static str, &'a str)> {
+    let mut named: Vec<(&'static str, &str)> =
+        asked.given.coordinates.named().map(|(key, name)| (key, name.get_ref().as_str())).collect();
+    if named.is_empty() {
+        named = NAMES.into_iter().filter(|name| names.contains(name)).map(|n| (n, n)).collect();
+    }
+    named
+}

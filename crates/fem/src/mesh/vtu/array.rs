@@ -1,0 +1,116 @@
+//! Numbers of a `DataArray`.
+
+use super::binary::{Source, Storage};
+use super::error::VtuError;
+use super::xml::{Document, Element};
+
+/// Reader of the arrays of a file.
+pub(super) struct Arrays<'a> {
+    pub document: &'a Document<'a>,
+    storage: Storage,
+}
+
+impl<'a> Arrays<'a> {
+    pub fn of(document: &'a Document<'a>) -> Result<Self, VtuError> {
+        let root = &document.root;
+        let given = |name: &str, default: &'static str| root.attribute(name).unwrap_or(default).to_string();
+        let refuse = |attribute, found, read| Err(VtuError::Storage { attribute, found, read });
+        let (order, header) = (given("byte_order", "LittleEndian"), given("header_type", "UInt32"));
+        let compressor = given("compressor", "");
+        let little = match order.as_str() {
+            "LittleEndian" => true,
+            "BigEndian" => false,
+            _ => return refuse("byte_order", order, "`LittleEndian` or `BigEndian`"),
+        };
+        let header = match header.as_str() {
+            "UInt32" => 4,
+            "UInt64" => 8,
+            _ => return refuse("header_type", header, "`UInt32` or `UInt64`"),
+        };
+        if !matches!(compressor.as_str(), "" | "vtkZLibDataCompressor") {
+            return refuse("compressor", compressor, "`vtkZLibDataCompressor`");
+        }
+        Ok(Self { document, storage: Storage { little, header, compressed: !compressor.is_empty() } })
+    }
+
+    /// Numbers of an array.
+    pub fn numbers(&self, element: &Element, count: usize) -> Result<Vec<f64>, VtuError> {
+        let name = element.attribute("Name").unwrap_or_default().to_string();
+        let values = self.values(element, count);
+        let values = values.map_err(|why| VtuError::Array { name: name.clone(), why })?;
+        if values.len() == count {
+            return Ok(values);
+        }
+        let why = format!("it has {} values, and {count} are needed", values.len());
+        Err(VtuError::Array { name, why })
+    }
+
+    fn values(&self, element: &Element, count: usize) -> Result<Vec<f64>, String> {
+        let kind = element.attribute("type").unwrap_or_default();
+        let (size, number) = number(kind).ok_or_else(|| format!("its type `{kind}` is no number of VTK"))?;
+        let wanted = count.checked_mul(size).ok_or("it is too long")?;
+        let source = match element.attribute("format").unwrap_or("ascii") {
+            "ascii" => return ascii(&element.text),
+            "binary" => {
+                return self
+                    .unpacked(Source::Base64(&squeezed(&element.text), Vec::new()), (size, number, wanted));
+            }
+            "appended" => self.appended(element)?,
+            other => return Err(format!("its format `{other}` is not `ascii`, `binary` or `appended`")),
+        };
+        self.unpacked(source, (size, number, wanted))
+    }
+
+    fn appended(&self, element: &Element) -> Result<Source<'_>, String> {
+        let offset = element.attribute("offset").unwrap_or_default();
+        let rest = offset.trim().parse().ok().and_then(|at: usize| self.document.appended.get(at..));
+        let rest = rest.ok_or_else(|| format!("its offset `{offset}` lies beyond the appended data"))?;
+        Ok(if self.document.in_base64 { Source::Base64(rest, Vec::new()) } else { Source::Raw(rest) })
+    }
+
+    fn unpacked(&self, source: Source<'_>, (size, number, wanted): Layout) -> Result<Vec<f64>, String> {
+        let bytes = self.storage.bytes(source, wanted)?;
+        let little = |chunk: &[u8]| {
+            let mut padded = [0; 8];
+            padded[..chunk.len()].copy_from_slice(chunk);
+            if !self.storage.little {
+                padded[..chunk.len()].reverse();
+            }
+            number(padded)
+        };
+        Ok(bytes.chunks(size).map(little).collect())
+    }
+}
+
+/// Size of a number, its value from its bytes, the least significant first, and the bytes of all numbers.
+type Layout = (usize, Number, usize);
+
+/// Value of a number from its bytes, the least significant first, filled up with zeros.
+type Number = fn([u8; 8]) -> f64;
+
+/// Size of a number of a type, and its value from its bytes, the least significant first.
+fn number(kind: &str) -> Option<(usize, Number)> {
+    Some(match kind {
+        "Int8" => (1, |b| f64::from(b[0] as i8)),
+        "UInt8" => (1, |b| f64::from(b[0])),
+        "Int16" => (2, |b| f64::from(i16::from_le_bytes([b[0], b[1]]))),
+        "UInt16" => (2, |b| f64::from(u16::from_le_bytes([b[0], b[1]]))),
+        "Int32" => (4, |b| f64::from(i32::from_le_bytes([b[0], b[1], b[2], b[3]]))),
+        "UInt32" => (4, |b| f64::from(u32::from_le_bytes([b[0], b[1], b[2], b[3]]))),
+        "Float32" => (4, |b| f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]))),
+        "Int64" => (8, |b| i64::from_le_bytes(b) as f64),
+        "UInt64" => (8, |b| u64::from_le_bytes(b) as f64),
+        "Float64" => (8, f64::from_le_bytes),
+        _ => return None,
+    })
+}
+
+fn ascii(text: &str) -> Result<Vec<f64>, String> {
+    let number = |word: &str| word.parse::<f64>().map_err(|_| format!("`{word}` is not a number"));
+    text.split_ascii_whitespace().map(number).collect()
+}
+
+/// Text without white space.
+fn squeezed(text: &str) -> Vec<u8> {
+    text.bytes().filter(|byte| !byte.is_ascii_whitespace()).collect()
+}

@@ -1,0 +1,34 @@
+//! Unstructured grid of VTK.
+
+/// Values of one name at points or in cells.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Named {
+    /// Name.
+    pub name: String,
+    /// Number of components.
+    pub components: usize,
+    /// Values, one point or cell after the other.
+    pub values: Vec<f64>,
+}
+
+/// Cell with its type of VTK and its points.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Cell {
+    /// Type of VTK.
+    pub kind: u8,
+    /// Points in VTK's order.
+    pub points: Vec<usize>,
+}
+
+/// Unstructured grid with its arrays. Those of one name in all pieces are joined.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Grid {
+    /// Positions in the unit of the file.
+    pub points: Vec<[f64; 3]>,
+    /// Cells.
+    pub cells: Vec<Cell>,
+    /// Arrays at points.
+    pub at_points: Vec<Named>,
+    /// Arrays in cells.
+    pub in_cells: Vec<Named>,
+}

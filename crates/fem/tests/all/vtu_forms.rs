@@ -1,0 +1,87 @@
+//! Files of VTK as VTK and meshio write them: `verification/independent/field_files.py`.
+#![allow(clippy::disallowed_methods)]
+
+use asperity_fem::mesh::vtu::{self, Grid};
+
+const FORMS: [&str; 8] = [
+    "vtk_ascii",
+    "vtk_inline",
+    "vtk_inline_plain_big",
+    "vtk_end",
+    "vtk_end_plain_wide",
+    "vtk_end_base64_big",
+    "meshio_zlib",
+    "meshio_plain",
+];
+
+fn bytes(form: &str) -> Vec<u8> {
+    std::fs::read(format!("{}/tests/all/vtu/{form}.vtu", env!("CARGO_MANIFEST_DIR"))).unwrap()
+}
+
+/// Grid with the values at points, and those in cells.
+fn both(form: &str) -> [Grid; 2] {
+    ["a", "c"].map(|name| vtu::read(&bytes(form), name).unwrap())
+}
+
+#[test]
+fn every_form_gives_the_numbers_that_were_written() {
+    for form in FORMS {
+        let [at_points, in_cells] = both(form);
+        let third = |k: u32| f64::from(k) / 3.0;
+        let corners = [[0, 0], [1, 0], [1, 1], [0, 1]].map(|[x, y]| [third(x), third(y)]);
+        for (found, corner) in at_points.points.iter().zip(corners) {
+            assert_eq!([found[0], found[1]], corner, "{form}");
+        }
+        assert_eq!(at_points.at_points[0].values, [1.0, 2.0, 4.0, 8.0].map(|v| v / 7.0), "{form}");
+        assert_eq!(in_cells.in_cells[0].values, [1.0, 2.0].map(|v| v / 9.0), "{form}");
+        let cells: Vec<(u8, &[usize])> = at_points.cells.iter().map(|c| (c.kind, &c.points[..])).collect();
+        assert_eq!(cells, [(5, &[0, 1, 2][..]), (5, &[0, 2, 3])], "{form}");
+    }
+}
+
+#[test]
+fn a_form_that_is_not_read_is_named() {
+    let error = vtu::read(&bytes("meshio_lzma"), "a").unwrap_err();
+    let message =
+        "its attribute `compressor` is `vtkLZMADataCompressor`, and `vtkZLibDataCompressor` is read";
+    assert_eq!(error.to_string(), message);
+    let error = vtu::read(&bytes("vtk_end"), "b").unwrap_err();
+    assert_eq!(error.to_string(), "it has no array `b` at points or in cells");
+    let text = "<VTKFile type=\"PolyData\"><PolyData/></VTKFile>";
+    let error = vtu::read(text.as_bytes(), "a").unwrap_err();
+    assert_eq!(error.to_string(), "it is a `PolyData` of VTK, and `UnstructuredGrid` is read");
+    assert_eq!(
+        vtu::read(b"<html></html>", "a").unwrap_err().to_string(),
+        "it is no file of VTK: its first element is `html`"
+    );
+}
+
+#[test]
+fn a_file_that_ends_early_or_has_a_changed_byte_never_panics() {
+    for form in FORMS {
+        let whole = bytes(form);
+        for length in 0..whole.len() {
+            let _ = vtu::read(&whole[..length], "a");
+        }
+        assert!(vtu::read(&whole[..whole.len() / 2], "a").is_err(), "{form}");
+        for at in 0..whole.len() {
+            for value in [b'0', b'9', b'<', 0, 255] {
+                let mut bytes = whole.clone();
+                bytes[at] = value;
+                let _ = vtu::read(&bytes, "a");
+            }
+        }
+    }
+}
+
+#[test]
+fn counts_that_lie_do_not_exhaust_the_memory() {
+    let head = |count: &str| {
+        format!(
+            "<VTKFile type=\"UnstructuredGrid\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\"><UnstructuredGrid><Piece NumberOfPoints=\"{count}\" NumberOfCells=\"0\"><PointData><DataArray type=\"Float64\" Name=\"a\" format=\"binary\">//////////8=</DataArray></PointData></Piece></UnstructuredGrid></VTKFile>"
+        )
+    };
+    for count in ["18446744073709551615", "2305843009213693951", "1000000000"] {
+        assert!(vtu::read(head(count).as_bytes(), "a").is_err(), "{count}");
+    }
+}
