@@ -1,7 +1,10 @@
 //! Files that are missing where a scene looks for them.
 
-use asperity_scene::near::suggest;
+use asperity_scene::near::{closest, suggest};
 use std::path::Path;
+
+/// Largest number of files that a message lists: a line of them.
+const MOST: usize = 6;
 
 /// Path of a missing file, and the files of its kind found there instead.
 pub(crate) fn looked_for(path: &Path, (what, extensions): (&str, &[&str])) -> String {
@@ -21,5 +24,9 @@ pub(crate) fn looked_for(path: &Path, (what, extensions): (&str, &[&str])) -> St
     if there.is_empty() {
         return format!("{told} are no {what}");
     }
-    format!("{told}: {}", suggest(&name, what, there.iter().map(String::as_str)))
+    let there: Vec<&str> = there.iter().map(String::as_str).collect();
+    let listed = closest(&name, &there, MOST);
+    let more = there.len() - listed.len();
+    let rest = if more > 0 { format!(", and {more} more") } else { String::new() };
+    format!("{told}: {}{rest}", suggest(&name, what, listed))
 }

@@ -16,6 +16,16 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
         .map(|(_, k)| k)
 }
 
+/// The `most` names of `known` nearest to `name`, in their own order.
+#[must_use]
+pub fn closest<'a>(name: &str, known: &[&'a str], most: usize) -> Vec<&'a str> {
+    let mut order: Vec<usize> = (0..known.len()).collect();
+    order.sort_by_key(|&k| strsim::osa_distance(name, known[k]));
+    order.truncate(most);
+    order.sort_unstable();
+    order.into_iter().map(|k| known[k]).collect()
+}
+
 /// "did you mean `x`? the sets are x, y, z".
 #[must_use]
 pub fn suggest<'a>(name: &str, what: &str, known: impl IntoIterator<Item = &'a str>) -> String {
@@ -34,6 +44,15 @@ pub fn suggest<'a>(name: &str, what: &str, known: impl IntoIterator<Item = &'a s
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_closest_names_keep_their_order() {
+        assert_eq!(
+            closest("b.csv", &["a.csv", "b.csvs", "mesh.txt", "b2.csv"], 3),
+            ["a.csv", "b.csvs", "b2.csv"]
+        );
+        assert_eq!(closest("b", &["z", "y"], 3), ["z", "y"]);
+    }
 
     #[test]
     fn a_name_far_from_all_is_not_corrected() {

@@ -51,8 +51,8 @@ pub enum FaultMeshError {
     },
     /// A segment that is too flat, or that turns back up.
     #[error(
-        "segment {segment} of the trace dips {dip:.1} degrees; grid lines follow the fault from the bottom to the top of \
-         the box, so that all segments must go the same way, up or down, with dips between {least} and {} degrees", 180.0 - .least
+        "segment {segment} of the trace dips {dip:.1} degrees, and {least} to {} are possible. Grid lines follow the fault from the bottom to \
+         the top of the box, so that all segments must go the same way, up or down", 180.0 - .least
     )]
     Dip {
         /// Segment.
