@@ -7,7 +7,7 @@ use asperity_driver::fault::{Plan, Report};
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_ode::{Control, Method, Outcome};
-use asperity_vary::Change::{With, WithOrSame, Without};
+use asperity_vary::Change::{self, Add, With, WithOrSame, Without};
 use asperity_vary::SceneText;
 use asperity_vary::bp1::{AT_CREEP, BP1, sized};
 
@@ -31,6 +31,28 @@ fn events(plan: &Plan, method: Method, tolerance: f64, most: usize) -> (Vec<f64>
     assert_eq!(out.outcome, Outcome::Stopped);
     let events = out.events().to_vec();
     (events.iter().map(|e| e.onset.seconds() / YEAR).collect(), events)
+}
+
+#[test]
+fn faults_in_space_are_integrated_by_the_stabilised_method() {
+    const BP5: &str = include_str!("../../../../scenes/bp5.toml");
+    const COARSE: [Change<'_>; 2] = [With("faults.main.rectangle.size", "4 km"), Without("output")];
+    const HEAT: Change<'_> = Add(
+        "faults.main.heat",
+        r#"{ thickness = "10 mm", capacity = "2.7 MJ/(m^3 K)", diffusivity = "1 mm^2/s", temperature = "400 K" }"#,
+    );
+    let found = |text: &str| {
+        let ScenePlan::Faults(plan) = plan_scene(&scene::read(text).unwrap()).unwrap() else {
+            panic!("the scene has faults")
+        };
+        (plan.problem.settings.method, plan.problem.settings.tolerance)
+    };
+    let space = |changes: &[Change<'_>]| found(&varied(&varied(BP5, &COARSE), changes));
+    assert_eq!(space(&[]), (Method::Stabilised, 1e-4));
+    assert_eq!(space(&[Add("time.log_rate_tolerance", "1e-6")]), (Method::Stabilised, 1e-6));
+    assert_eq!(space(&[Add("time.method", "\"tsit5\"")]), (Method::Tsit5, 1e-5));
+    assert_eq!(space(&[HEAT]), (Method::Tsit5, 1e-5));
+    assert_eq!(found(BP1), (Method::Tsit5, 1e-5));
 }
 
 #[test]

@@ -10,7 +10,7 @@ use super::super::stresses::BodyStresses;
 use super::cells::Cells;
 use super::placed::{Placed, components, in_space, slides};
 use super::pulses::{doubts, pulses};
-use super::{asked, checks, floor, frame, heated, pressing, radiation, sense, start_doubts};
+use super::{asked, checks, floor, frame, heated, pressing, radiation, sense, start_doubts, steady};
 use crate::checks::{Checks, Cost, FaultCheck, rates};
 use crate::diagnostic::Diagnostic;
 use crate::laws::{self, Theta};
@@ -121,6 +121,7 @@ pub(super) fn plan_of<const D: usize>(
     warnings.extend(doubts(&named, &fault));
     warnings.extend(endless(scene));
     warnings.extend(radiation::missing(scene, &placed));
+    warnings.extend(steady::starts(scene, &placed));
     let (faults, points) = views(scene, cells, &placed, turns)?;
     let areas = placed.iter().map(|p| p.point.place.area).collect();
     let cadence = cadence(scene, &fault, end);

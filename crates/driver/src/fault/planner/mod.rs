@@ -35,6 +35,7 @@ mod rock;
 mod sampled;
 mod sense;
 mod start_doubts;
+mod steady;
 mod weight;
 
 pub(crate) use asked::nothing_slides;
