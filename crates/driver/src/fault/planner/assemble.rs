@@ -121,7 +121,7 @@ pub(super) fn plan_of<const D: usize>(
     warnings.extend(doubts(&named, &fault));
     warnings.extend(endless(scene));
     warnings.extend(radiation::missing(scene, &placed));
-    warnings.extend(steady::starts(scene, &placed));
+    warnings.extend(steady::starts(scene, &placed, &fault, (&loading, end)));
     let (faults, points) = views(scene, cells, &placed, turns)?;
     let areas = placed.iter().map(|p| p.point.place.area).collect();
     let cadence = cadence(scene, &fault, end);
@@ -278,8 +278,8 @@ fn start<const D: usize>(placed: &[Placed<D>], fault: &Fault) -> Result<Vec<f64>
     Ok(y)
 }
 
-/// Method and tolerance of ln V that a scene in D dimensions asks for. A method of one's own has the tolerance of the plane by default, in which
-/// all of them are accurate.
+/// Method and tolerance of ln V of a scene in D dimensions. A method other than the default one has the tolerance of the plane, unless the scene
+/// gives one.
 fn integrator<const D: usize>(scene: &Scene) -> Result<(Method, f64), Diagnostic> {
     let time = &scene.time;
     let tolerance = time.log_rate_tolerance.as_ref().map(|t| *t.get_ref());
