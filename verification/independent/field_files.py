@@ -3,7 +3,7 @@
 The first folder takes `normal.grd` and `normal.vtu`, a linear function [MPa] on a rectangle that dips by 30 degrees, and `map.grd`, the
 depth of `megathrust_surface.py` [km, as MPa] over longitude and latitude. The second takes one surface in every form of a VTU file.
 
-    python field_files.py ../cases/fault_medium/files ../../crates/fem/tests/all/vtu
+    python field_files.py ../cases/fault_medium/files ../../crates/output/tests/vtu
 """
 
 import sys

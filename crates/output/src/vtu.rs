@@ -5,6 +5,7 @@
 //! all blocks follow, concatenated and base64-encoded together. Offsets count characters after `_`.
 
 mod read;
+pub mod reading;
 
 pub use read::array;
 

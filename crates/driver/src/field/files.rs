@@ -3,7 +3,8 @@
 use crate::columns::Columns;
 use crate::columns::file::{bytes, refused};
 use crate::diagnostic::Diagnostic;
-use asperity_fem::mesh::{netcdf, vtu};
+use asperity_fem::mesh::netcdf;
+use asperity_output::vtu::reading;
 use asperity_scene::model::Spanned;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -33,7 +34,7 @@ impl Files {
             let bytes = bytes(folder, file, ("files of values", &KINDS))?;
             let content = if netcdf::is_netcdf(&bytes) {
                 Content::Netcdf(bytes)
-            } else if vtu::is_xml(&bytes) {
+            } else if reading::is_xml(&bytes) {
                 Content::Vtk(bytes)
             } else {
                 Content::Columns(Columns::parse(&bytes).map_err(|wrong| refused(file, file.span(), wrong))?)

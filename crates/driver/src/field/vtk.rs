@@ -8,7 +8,7 @@ use super::samples::Samples;
 use crate::columns::{Wrong, unit};
 use crate::scene::model::FieldInterpolation;
 use crate::scene::units::{self, Dimension};
-use asperity_fem::mesh::vtu::{self, Cell, Grid, Named, VtuError};
+use asperity_output::vtu::reading::{self, Cell, Grid, Named, VtuError};
 use asperity_scene::near::suggest;
 
 /// Help for a file that is not read.
@@ -20,7 +20,7 @@ pub(super) fn field<const D: usize>(
     bytes: &[u8],
     asked: &Asked<'_>,
 ) -> Result<(Axes<D>, Source), Wrong> {
-    let grid = vtu::read(bytes, asked.name).map_err(|error| match &error {
+    let grid = reading::read(bytes, asked.name).map_err(|error| match &error {
         VtuError::NoArray { name, names } => {
             Wrong::new(error.to_string(), suggest(name, "arrays", names.iter().map(String::as_str)))
         }

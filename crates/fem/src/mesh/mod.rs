@@ -16,7 +16,6 @@ pub mod spacing;
 pub mod split;
 pub mod stl;
 pub mod triangles;
-pub mod vtu;
 
 pub use error::{GroupName, Holder, MeshError, Part, Place};
 pub use locate::{Location, locate};

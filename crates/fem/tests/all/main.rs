@@ -21,4 +21,3 @@ mod sheet;
 mod split;
 mod symmetry;
 mod tangents;
-mod vtu_forms;

@@ -1,7 +1,7 @@
 //! Files of VTK as VTK and meshio write them: `verification/independent/field_files.py`.
-#![allow(clippy::disallowed_methods)]
+#![allow(clippy::disallowed_methods, clippy::unwrap_used)]
 
-use asperity_fem::mesh::vtu::{self, Grid};
+use asperity_output::vtu::reading::{self, Grid};
 
 const FORMS: [&str; 8] = [
     "vtk_ascii",
@@ -15,12 +15,12 @@ const FORMS: [&str; 8] = [
 ];
 
 fn bytes(form: &str) -> Vec<u8> {
-    std::fs::read(format!("{}/tests/all/vtu/{form}.vtu", env!("CARGO_MANIFEST_DIR"))).unwrap()
+    std::fs::read(format!("{}/tests/vtu/{form}.vtu", env!("CARGO_MANIFEST_DIR"))).unwrap()
 }
 
 /// Grid with the values at points, and those in cells.
 fn both(form: &str) -> [Grid; 2] {
-    ["a", "c"].map(|name| vtu::read(&bytes(form), name).unwrap())
+    ["a", "c"].map(|name| reading::read(&bytes(form), name).unwrap())
 }
 
 #[test]
@@ -41,17 +41,17 @@ fn every_form_gives_the_numbers_that_were_written() {
 
 #[test]
 fn a_form_that_is_not_read_is_named() {
-    let error = vtu::read(&bytes("meshio_lzma"), "a").unwrap_err();
+    let error = reading::read(&bytes("meshio_lzma"), "a").unwrap_err();
     let message =
         "its attribute `compressor` is `vtkLZMADataCompressor`, and `vtkZLibDataCompressor` is read";
     assert_eq!(error.to_string(), message);
-    let error = vtu::read(&bytes("vtk_end"), "b").unwrap_err();
+    let error = reading::read(&bytes("vtk_end"), "b").unwrap_err();
     assert_eq!(error.to_string(), "it has no array `b` at points or in cells");
     let text = "<VTKFile type=\"PolyData\"><PolyData/></VTKFile>";
-    let error = vtu::read(text.as_bytes(), "a").unwrap_err();
+    let error = reading::read(text.as_bytes(), "a").unwrap_err();
     assert_eq!(error.to_string(), "it is a `PolyData` of VTK, and `UnstructuredGrid` is read");
     assert_eq!(
-        vtu::read(b"<html></html>", "a").unwrap_err().to_string(),
+        reading::read(b"<html></html>", "a").unwrap_err().to_string(),
         "it is no file of VTK: its first element is `html`"
     );
 }
@@ -61,14 +61,14 @@ fn a_file_that_ends_early_or_has_a_changed_byte_never_panics() {
     for form in FORMS {
         let whole = bytes(form);
         for length in 0..whole.len() {
-            let _ = vtu::read(&whole[..length], "a");
+            let _ = reading::read(&whole[..length], "a");
         }
-        assert!(vtu::read(&whole[..whole.len() / 2], "a").is_err(), "{form}");
+        assert!(reading::read(&whole[..whole.len() / 2], "a").is_err(), "{form}");
         for at in 0..whole.len() {
             for value in [b'0', b'9', b'<', 0, 255] {
                 let mut bytes = whole.clone();
                 bytes[at] = value;
-                let _ = vtu::read(&bytes, "a");
+                let _ = reading::read(&bytes, "a");
             }
         }
     }
@@ -82,6 +82,6 @@ fn counts_that_lie_do_not_exhaust_the_memory() {
         )
     };
     for count in ["18446744073709551615", "2305843009213693951", "1000000000"] {
-        assert!(vtu::read(head(count).as_bytes(), "a").is_err(), "{count}");
+        assert!(reading::read(head(count).as_bytes(), "a").is_err(), "{count}");
     }
 }
