@@ -28,11 +28,16 @@ use super::problem::Problem;
 use super::pulse::imposed;
 use super::warmed::Warmed;
 use asperity_ode::Clock;
+use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
 /// Share of a step by which its end may lie beyond the end of an injection, owing to rounding of times.
 const ROUNDING: f64 = 1e-9;
+
+/// Components of points in a sum of works. Their number is fixed, so that results do not depend on the number of threads.
+const TASK: usize = 2048;
 
 /// Energy budget \[J; J per metre of thickness in the plane; J/m² of spring-sliders\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -266,18 +271,42 @@ impl<'a> Balance<'a> {
             (self.sums.since, self.sums.leg) = (until, self.sums.leg + 1);
             self.load();
         }
+        let pressing = self.pressing(moment, step);
+        let parted = self.parted(moment, step, &pressing);
+        let of = |from: usize| {
+            let until = (from + TASK).min(moment.layout.m().end);
+            self.worked(moment, step, &pressing, from..until)
+        };
+        let starts: Vec<usize> = moment.layout.m().step_by(TASK).collect();
+        let parts: Vec<[f64; 3]> = starts.into_par_iter().map(of).collect();
+        let works = &mut self.sums.works;
+        works.opening += parted;
+        works.exchanged += parted.abs();
+        for [friction, loads, radiated] in parts {
+            works.friction += friction;
+            works.loads += loads;
+            works.radiated += radiated;
+        }
+        works.radiated += step.waves.unwrap_or(0.0);
+    }
+
+    /// Work done against friction, by the loads and against damping over a step, summed over components of points.
+    fn worked(
+        &self,
+        moment: &Moment<'_>,
+        step: &Ends<'_>,
+        pressing: &[[Vec<f64>; 2]],
+        among: Range<usize>,
+    ) -> [f64; 3] {
+        let (h, end) = (moment.dt, moment.at.seconds());
         let (fault, layout) = (&self.problem.fault, moment.layout);
         let (slips, normals) = (layout.slip().start, layout.normal());
         let after = end - self.sums.since;
-        let mut works = self.sums.works;
-        let pressing = self.pressing(moment, step);
-        let parted = self.parted(moment, step, &pressing);
-        works.opening += parted;
-        works.exchanged += parted.abs();
         let pressed = [&step.start_pressed.normal, &moment.pressed.normal];
-        let points =
-            layout.m().zip(self.problem.areas.iter().cycle()).map(|(i, area)| (i, i % layout.points(), area));
-        for (i, p, area) in points {
+        let mut works = [0.0; 3];
+        for i in among {
+            let p = i % layout.points();
+            let area = self.problem.areas[p];
             // Friction a m f_n, and its rate times the length of the step.
             let friction = |y: &[f64], dy: &[f64], time: f64, last: usize| {
                 if let Some(rates) = pressing.get(last) {
@@ -316,14 +345,13 @@ impl<'a> Balance<'a> {
                 let [pulses, growth] = imposed(&fault.pulses, i, self.sums.since + t);
                 [traction + t * rate + pulses, h * (rate + growth)]
             };
-            works.friction += area * way.work(first, last);
-            works.loads += area * way.work(load(after - h), load(after));
+            works[0] += area * way.work(first, last);
+            works[1] += area * way.work(load(after - h), load(after));
             if step.waves.is_none() {
-                works.radiated += area * fault.damping[p] * way.square() / h;
+                works[2] += area * fault.damping[p] * way.square() / h;
             }
         }
-        works.radiated += step.waves.unwrap_or(0.0);
-        self.sums.works = works;
+        works
     }
 
     /// Rates of f_n as friction uses it and of openings at both ends of a step, where points may open.

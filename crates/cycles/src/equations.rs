@@ -251,6 +251,8 @@ pub struct Equations<'a> {
     normal_load: Vec<f64>,
     /// Time of the next change of loading or pressure \[s\].
     until: f64,
+    /// a of all points, and 1/L \[1/m\]; zero without a characteristic slip.
+    laws: Vec<[f64; 2]>,
     scratch: RefCell<Scratch>,
     /// Heat, where the fault is heated.
     heated: Option<RefCell<Heated>>,
@@ -278,12 +280,14 @@ impl<'a> Equations<'a> {
             normal: zeros(own),
             crack: Crack::default(),
         };
+        let law = |p: usize| [fault.law.scale(p), fault.law.length(p).map_or(0.0, f64::recip)];
         Self {
             fault,
             layout,
             shear_load,
             normal_load,
             until: f64::INFINITY,
+            laws: (0..n).map(law).collect(),
             scratch: RefCell::new(scratch),
             heated: None,
             opened: Cell::new(None),
@@ -579,8 +583,8 @@ impl Problem for Equations<'_> {
         let of = |(i, k): (usize, &f64)| {
             let p = i % l.points;
             let v = rate.size(p);
-            let strength = pressed.normal[p] * fault.law.scale(p);
-            let states = fault.law.length(p).map_or(0.0, f64::recip);
+            let [scale, states] = self.laws[p];
+            let strength = pressed.normal[p] * scale;
             v * (norm * k / (strength + fault.damping[p] * v) + states)
         };
         Some(fault.operator.stiffness().iter().enumerate().map(of).fold(0.0, f64::max))

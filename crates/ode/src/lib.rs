@@ -24,6 +24,7 @@ mod sink;
 mod stabilised;
 mod stepper;
 mod switching;
+mod tasks;
 mod tsit5;
 
 pub use clock::Clock;

@@ -8,6 +8,7 @@
 use super::explicit::Control;
 use super::own::{Formula, Span, Trial};
 use super::problem::System;
+use super::tasks::each;
 
 /// ε: strength of damping along the axis.
 const DAMPING: f64 = 2.0 / 13.0;
@@ -115,9 +116,10 @@ impl Rkc2 {
 
     /// Error of the step over the tolerance: equation (2.9).
     fn error(&mut self, system: &System<'_>, span: &Span) -> f64 {
-        for (i, error) in self.rate.iter_mut().enumerate() {
-            *error = 0.8 * (span.y0[i] - span.y1[i]) + 0.4 * span.h * (span.f0[i] + span.f1[i]);
-        }
+        let ends = [&span.y0[..], &span.y1, &span.f0, &span.f1];
+        each(&mut self.rate, ends, |error, [y0, y1, f0, f1]| {
+            *error = 0.8 * (y0 - y1) + 0.4 * span.h * (f0 + f1);
+        });
         system.norm(&self.rate, &span.y0, &span.y1)
     }
 }
@@ -148,12 +150,11 @@ impl Formula for Rkc2 {
         for s in &self.stages[1..] {
             system.rates(span.t + s.node * h, &self.last, &mut self.rate);
             let (mu_rate, gamma) = (h * s.mu_rate, h * s.gamma);
-            let old = span.y0.iter().zip(&span.f0);
-            let new = self.last.iter().zip(&self.rate);
-            for ((y, (y0, f0)), (last, f)) in self.before.iter_mut().zip(old).zip(new) {
+            let known = [&span.y0[..], &span.f0, &self.last, &self.rate];
+            each(&mut self.before, known, |y, [y0, f0, last, f]| {
                 // Differences from the start retain their digits.
                 *y = y0 + (s.mu * (last - y0) + s.nu * (*y - y0)) + (mu_rate * f + gamma * f0);
-            }
+            });
             std::mem::swap(&mut self.before, &mut self.last);
         }
         span.y1.copy_from_slice(&self.last);

@@ -283,8 +283,8 @@ enum Storage<'a> {
     Compressed,
 }
 
-/// Error of a compressed block over the block.
-const TOLERANCE: f64 = 1e-6;
+/// Error of a compressed block over the block. It moves intervals between events by less than 1e-6.
+const TOLERANCE: f64 = 1e-4;
 /// Size of entries that are rounding, over the largest of a patch on itself: terms of corners lose some units in the last
 /// place.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;

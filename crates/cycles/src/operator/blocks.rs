@@ -1,7 +1,8 @@
 //! Compressed matrices: blocks between clusters of points, dense or of low rank, and their products.
 //!
 //! Blocks are stored in the order in which a product reads them, once. Of a symmetric matrix only the blocks on and above the
-//! diagonal are stored.
+//! diagonal are stored. Products read values faster than they calculate with them, so that values of half the size take half the
+//! time; sums are always in double precision.
 
 use super::low_rank::{GROUP, LowRank};
 use pulp::{Arch, Simd, WithSimd};
@@ -37,9 +38,74 @@ pub(super) struct Compressed {
     /// Number of rows.
     size: usize,
     blocks: Vec<Block>,
-    values: Vec<f64>,
+    values: Values,
     #[serde(skip)]
     tasks: Vec<Task>,
+}
+
+/// Precision of stored values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Precision {
+    /// 53 bits.
+    Double,
+    /// 24 bits: an error of at most 6e-8 of each value.
+    Single,
+}
+
+/// Values of all blocks.
+#[derive(Debug, Serialize, Deserialize)]
+enum Values {
+    Double(Vec<f64>),
+    Single(Vec<f32>),
+}
+
+impl Values {
+    fn new(precision: Precision, count: usize) -> Self {
+        match precision {
+            Precision::Double => Self::Double(Vec::with_capacity(count)),
+            Precision::Single => Self::Single(Vec::with_capacity(count)),
+        }
+    }
+
+    fn len(&self) -> usize {
+        match self {
+            Self::Double(values) => values.len(),
+            Self::Single(values) => values.len(),
+        }
+    }
+
+    fn bytes(&self) -> usize {
+        match self {
+            Self::Double(values) => size_of_val(values.as_slice()),
+            Self::Single(values) => size_of_val(values.as_slice()),
+        }
+    }
+
+    fn extend(&mut self, further: impl Iterator<Item = f64>) {
+        match self {
+            Self::Double(values) => values.extend(further),
+            Self::Single(values) => values.extend(further.map(|v| v as f32)),
+        }
+    }
+}
+
+/// A stored value.
+trait Value: Copy + Sync {
+    fn double(self) -> f64;
+}
+
+impl Value for f64 {
+    #[inline(always)]
+    fn double(self) -> f64 {
+        self
+    }
+}
+
+impl Value for f32 {
+    #[inline(always)]
+    fn double(self) -> f64 {
+        f64::from(self)
+    }
 }
 
 /// Number of values of a task. It is fixed, so that sums do not depend on the number of threads. With more values than
@@ -83,18 +149,18 @@ impl Part {
 impl Compressed {
     /// Matrix of `size` rows with these blocks. If it is symmetric, blocks off the diagonal also stand for their transposes. If
     /// not, it may have any number of columns.
-    pub fn new(size: usize, parts: Vec<Part>, symmetric: bool) -> Self {
+    pub fn new(size: usize, parts: Vec<Part>, symmetric: bool, precision: Precision) -> Self {
         let mut all = Self {
             size,
             blocks: Vec::with_capacity(parts.len()),
-            values: Vec::with_capacity(parts.iter().map(Part::values).sum()),
+            values: Values::new(precision, parts.iter().map(Part::values).sum()),
             tasks: Vec::new(),
         };
         for Part { rows, columns, content } in parts {
             let first = all.values.len();
             let rank = match content {
                 Content::Dense(values) => {
-                    all.values.extend(values);
+                    all.values.extend(values.into_iter());
                     None
                 }
                 Content::Low(low) => {
@@ -141,7 +207,8 @@ impl Compressed {
         let low = self.blocks.iter().filter_map(|b| b.rank);
         let dense = self.blocks.len() - low.clone().count();
         Sizes {
-            values: self.values.len(),
+            bytes: self.values.bytes(),
+            single: matches!(self.values, Values::Single(_)),
             blocks: [self.blocks.len() - dense, dense],
             rank: low.max().unwrap_or(0),
         }
@@ -155,7 +222,10 @@ impl Compressed {
 
     /// Sums of the absolute values in the columns of a matrix that is not symmetric.
     pub fn columns(&self) -> Vec<f64> {
-        let of = |block: &Block| block.magnitudes(&self.values[block.values.clone()]);
+        let of = |block: &Block| match &self.values {
+            Values::Double(values) => block.magnitudes(&values[block.values.clone()]),
+            Values::Single(values) => block.magnitudes(&values[block.values.clone()]),
+        };
         let sums: Vec<Vec<f64>> = self.blocks.par_iter().map(of).collect();
         let mut all = vec![0.0; self.size];
         for (block, sums) in self.blocks.iter().zip(sums) {
@@ -169,13 +239,11 @@ impl Compressed {
         let work = |task: &Task| {
             let mut sums = task.sums.write().unwrap_or_else(PoisonError::into_inner);
             sums.fill(0.0);
-            arch.dispatch(Product {
-                blocks: &self.blocks[task.blocks.clone()],
-                values: &self.values,
-                x,
-                sums: &mut sums,
-                first: task.span.start,
-            });
+            let (blocks, first) = (&self.blocks[task.blocks.clone()], task.span.start);
+            match &self.values {
+                Values::Double(values) => arch.dispatch(Product { blocks, values, x, sums: &mut sums, first }),
+                Values::Single(values) => arch.dispatch(Product { blocks, values, x, sums: &mut sums, first }),
+            }
         };
         match self.tasks.as_slice() {
             [one] => work(one),
@@ -224,8 +292,10 @@ fn span(blocks: &[Block]) -> Range<usize> {
 /// Sizes of a compressed matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sizes {
-    /// Values kept.
-    pub values: usize,
+    /// Size of the values \[bytes\].
+    pub bytes: usize,
+    /// True if they are stored in single precision.
+    pub single: bool,
     /// Numbers of blocks of low rank and of dense ones.
     pub blocks: [usize; 2],
     /// Largest rank.
@@ -234,16 +304,16 @@ pub struct Sizes {
 
 /// Products of blocks with a vector. It is not a closure, since pulp calls closures through a function that is compiled
 /// without the requested vector units.
-struct Product<'a> {
+struct Product<'a, T> {
     blocks: &'a [Block],
-    values: &'a [f64],
+    values: &'a [T],
     x: &'a [f64],
     /// Sums of the rows from `first` on.
     sums: &'a mut [f64],
     first: usize,
 }
 
-impl WithSimd for Product<'_> {
+impl<T: Value> WithSimd for Product<'_, T> {
     type Output = ();
 
     #[inline(always)]
@@ -256,11 +326,12 @@ impl WithSimd for Product<'_> {
 
 impl Block {
     /// Sums of the absolute values in its columns.
-    fn magnitudes(&self, values: &[f64]) -> Vec<f64> {
+    fn magnitudes<T: Value>(&self, values: &[T]) -> Vec<f64> {
         let (m, n) = (self.rows.len(), self.columns.len());
         let mut sums = vec![0.0; n];
         if self.rank.is_none() {
-            values.chunks_exact(n).for_each(|row| sums.iter_mut().zip(row).for_each(|(s, v)| *s += v.abs()));
+            let size = |(sum, v): (&mut f64, &T)| *sum += v.double().abs();
+            values.chunks_exact(n).for_each(|row| sums.iter_mut().zip(row).for_each(size));
             return sums;
         }
         let mut column = vec![0.0; m];
@@ -269,7 +340,7 @@ impl Block {
             for group in values.chunks_exact(GROUP * (m + n)) {
                 let (left, right) = group.split_at(GROUP * m);
                 for (left, right) in left.chunks_exact(m).zip(right.chunks_exact(n)) {
-                    add(&mut column, right[j], left);
+                    add(&mut column, right[j].double(), left);
                 }
             }
             *sum = column.iter().map(|v| v.abs()).sum();
@@ -279,7 +350,7 @@ impl Block {
 
     /// Adds its product with `x` to `y`, which holds the rows from `first` on.
     #[inline(always)]
-    fn add(&self, values: &[f64], x: &[f64], y: &mut [f64], first: usize) {
+    fn add<T: Value>(&self, values: &[T], x: &[f64], y: &mut [f64], first: usize) {
         let (m, n) = (self.rows.len(), self.columns.len());
         let below = |rows: &Range<usize>| rows.start - first..rows.end - first;
         let Some(_) = self.rank else {
@@ -308,17 +379,17 @@ impl Block {
 const LANES: usize = 8;
 
 #[inline(always)]
-fn dot(a: &[f64], x: &[f64]) -> f64 {
+fn dot<T: Value>(a: &[T], x: &[f64]) -> f64 {
     let (a_lanes, a_rest) = a.as_chunks::<LANES>();
     let (x_lanes, x_rest) = x.as_chunks::<LANES>();
     let mut sums = [0.0; LANES];
     for (a, x) in a_lanes.iter().zip(x_lanes) {
         for k in 0..LANES {
-            sums[k] += a[k] * x[k];
+            sums[k] += a[k].double() * x[k];
         }
     }
     for ((sum, a), x) in sums.iter_mut().zip(a_rest).zip(x_rest) {
-        *sum += a * x;
+        *sum += a.double() * x;
     }
     let [a, b, c, d, e, f, g, h] = sums;
     ((a + e) + (c + g)) + ((b + f) + (d + h))
@@ -327,7 +398,7 @@ fn dot(a: &[f64], x: &[f64]) -> f64 {
 /// Scalar products of the columns of a group with `x`. They are written one after the other: compilers interleave the
 /// columns otherwise, which is slower, and compile `array::from_fn` without vector units.
 #[inline(always)]
-fn dots(group: &[f64], x: &[f64]) -> [f64; GROUP] {
+fn dots<T: Value>(group: &[T], x: &[f64]) -> [f64; GROUP] {
     let n = x.len();
     let (a, b) = group.split_at(2 * n);
     let ((a, b), (c, d)) = (a.split_at(n), b.split_at(n));
@@ -335,20 +406,20 @@ fn dots(group: &[f64], x: &[f64]) -> [f64; GROUP] {
 }
 
 #[inline(always)]
-fn add(y: &mut [f64], factor: f64, a: &[f64]) {
+fn add<T: Value>(y: &mut [f64], factor: f64, a: &[T]) {
     for (y, a) in y.iter_mut().zip(a) {
-        *y += factor * a;
+        *y += factor * a.double();
     }
 }
 
 /// Adds multiples of the columns of a group to `y`.
 #[inline(always)]
-fn adds(y: &mut [f64], factors: &[f64; GROUP], group: &[f64]) {
+fn adds<T: Value>(y: &mut [f64], factors: &[f64; GROUP], group: &[T]) {
     let n = y.len();
     let (a, b) = group.split_at(2 * n);
     let ((a, b), (c, d)) = (a.split_at(n), b.split_at(n));
     let [f, g, h, k] = *factors;
     for ((((y, a), b), c), d) in y.iter_mut().zip(a).zip(b).zip(c).zip(d) {
-        *y += (f * a + g * b) + (h * c + k * d);
+        *y += (f * a.double() + g * b.double()) + (h * c.double() + k * d.double());
     }
 }

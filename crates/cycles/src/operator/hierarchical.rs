@@ -4,7 +4,7 @@
 //! by tributary areas. Of entries that are computed one by one, tractions are compressed.
 
 use super::Operator;
-use super::blocks::{Compressed, Content, Part, Sizes};
+use super::blocks::{Compressed, Content, Part, Precision, Sizes};
 use super::cluster::{Cluster, Tree};
 use super::low_rank::{GROUP, LowRank, low_rank};
 use crate::medium::Forces;
@@ -144,6 +144,20 @@ pub enum Tolerance {
     OfBlock(f64),
 }
 
+/// Tolerance from which values are stored in single precision. Their rounding then causes errors of tractions of the size that the
+/// tolerance causes: 3e-7 of uniform slip in BP5.
+const SINGLE_FROM: f64 = 5e-5;
+
+impl Tolerance {
+    /// Precision in which values are stored. Errors of the largest force over all blocks may be far smaller than single values.
+    pub(super) fn precision(self) -> Precision {
+        match self {
+            Self::OfBlock(tolerance) if tolerance >= SINGLE_FROM => Precision::Single,
+            _ => Precision::Double,
+        }
+    }
+}
+
 /// Error of blocks that consist of rounding, relative to the largest force: it is above the rounding of the condensation.
 const ROUNDING: f64 = 1e-12;
 
@@ -210,10 +224,11 @@ impl Hierarchical {
         if forces.across() {
             shear.extend(shifted(parts(0, 1), [0, n]));
         }
-        let shear = Compressed::new(components * n, shear, true);
+        let precision = tolerance.precision();
+        let shear = Compressed::new(components * n, shear, true, precision);
         let pressing = (0..components).filter(|&c| forces.presses(c));
         let normal: Vec<Part> = pressing.flat_map(|c| shifted(parts(components, c), [0, c * n])).collect();
-        let normal = (!normal.is_empty()).then(|| Compressed::new(n, normal, false));
+        let normal = (!normal.is_empty()).then(|| Compressed::new(n, normal, false, precision));
         let order = (0..components).flat_map(|c| tree.order.iter().map(move |p| c * n + p)).collect();
         let per_area: Vec<f64> = tree.order.iter().map(|&p| 1.0 / areas[p]).collect();
         let all = (order, per_area.repeat(components));
@@ -305,7 +320,7 @@ impl Operator for Hierarchical {
     }
 
     fn bytes(&self) -> usize {
-        self.sizes().iter().map(|s| s.values * size_of::<f64>()).sum()
+        self.sizes().iter().map(|s| s.bytes).sum()
     }
 
     fn stiffness(&self) -> &[f64] {
@@ -323,8 +338,9 @@ impl Operator for Hierarchical {
         let (across, normal) = (self.components.pow(2), sizes.len() - 1);
         let dense = (across + normal * self.components) * n.pow(2) * size_of::<f64>();
         let both = if self.components > 1 { "slip in two directions, " } else { "" };
+        let single = if sizes.iter().any(|s| s.single) { ", in single precision" } else { "" };
         format!(
-            "{both}operator compressed to {:.1} kB of {:.1} at a tolerance of {}: {} blocks of rank {} at most, {} dense ones",
+            "{both}operator compressed to {:.1} kB of {:.1} at a tolerance of {}{single}: {} blocks of rank {} at most, {} dense ones",
             self.bytes() as f64 / 1e3,
             dense as f64 / 1e3,
             tolerance,

@@ -4,7 +4,7 @@ use super::blocks::{Compressed, Content, Part};
 use super::cluster::{Cluster, Tree};
 use super::crosses::{Wanted, crosses};
 use super::low_rank::GROUP;
-use super::{Geometry, Hierarchical};
+use super::{Geometry, Hierarchical, Tolerance};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -45,7 +45,7 @@ impl Division {
         Self { tree, pairs }
     }
 
-    /// Estimate of the memory of a matrix \[bytes\].
+    /// Estimate of the memory of a matrix while its blocks are computed, in double precision \[bytes\].
     #[must_use]
     pub fn bytes(&self) -> usize {
         let values = self.pairs.iter().map(|&(a, b, low)| {
@@ -97,7 +97,9 @@ impl Filling<'_> {
             .with_max_len(1)
             .map(|&(a, b, low)| if low { self.low(a, b) } else { vec![self.dense(a, b)] })
             .collect();
-        Compressed::new(self.tree.order.len(), parts.into_iter().flatten().collect(), false)
+        let parts = parts.into_iter().flatten().collect();
+        let precision = Tolerance::OfBlock(self.accuracy.tolerance).precision();
+        Compressed::new(self.tree.order.len(), parts, false, precision)
     }
 
     fn ranges(&self, a: usize, b: usize) -> (Range<usize>, Range<usize>) {

@@ -93,10 +93,8 @@ struct Work {
     rows: Vec<f64>,
     /// Transformed rows.
     transformed: Vec<C>,
-    /// Real and imaginary parts of slip, frequency by frequency.
-    slip: Vec<f64>,
-    /// Tractions likewise.
-    traction: Vec<f64>,
+    /// Real and imaginary parts of the tractions of all rows, frequency by frequency.
+    parts: Vec<f64>,
 }
 
 /// Imaginary part of a spectrum, relative to its largest value, below which it is rounding of the entries of the table.
@@ -105,6 +103,9 @@ const EVEN: f64 = 1e-11;
 const FREQUENCIES: usize = 8;
 /// Number of values of a spectrum above which a product is divided into tasks: starting them takes some microseconds.
 const WORTH_TASKS: usize = if cfg!(test) { 1_000 } else { 500_000 };
+
+/// The same of padded rows: transforms take more operations for each value.
+const WORTH_TRANSFORMS: usize = if cfg!(test) { 1_000 } else { 10_000 };
 
 impl Toeplitz {
     /// Operator of tables with the entries of [`Lattice::entry`]: shear and, where slip changes them, normal tractions per slip
@@ -131,24 +132,47 @@ impl Toeplitz {
     fn product(&self, spectrum: &Spectrum, slip: &[f64], tractions: &mut [f64]) {
         let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
         work.fit(self.lattice.rows, self.padded());
-        let Work { rows, transformed, slip: s, traction: t } = &mut *work;
-        self.spread(slip, rows);
-        self.transform(rows, transformed);
-        self.split(transformed, s);
-        spectrum.times(self.lattice.rows, self.arch, s, t);
-        self.unite(t, transformed);
-        self.back(transformed, rows);
+        let Work { rows, transformed, parts } = &mut *work;
+        self.transform(slip, rows, transformed);
+        spectrum.times(self.lattice.rows, self.arch, transformed, parts);
+        self.back(parts, transformed, rows);
         self.gather(rows, tractions);
     }
 
-    /// Writes the values of points into padded rows.
-    fn spread(&self, values: &[f64], rows: &mut [f64]) {
-        rows.fill(0.0);
-        let columns = self.lattice.columns;
-        let of_rows = rows.chunks_exact_mut(self.padded()).zip(self.lattice.points.chunks_exact(columns));
-        for (row, points) in of_rows {
-            row.iter_mut().zip(points).for_each(|(value, &p)| *value = values[p]);
-        }
+    /// Writes the values of points into padded rows, and transforms them.
+    fn transform(&self, values: &[f64], rows: &mut [f64], transformed: &mut [C]) {
+        let (padded, frequencies, columns) = (self.padded(), self.frequencies(), self.lattice.columns);
+        in_tasks(rows, transformed, [padded, frequencies], |first, rows, transformed| {
+            let mut scratch = self.forward.make_scratch_vec();
+            let points = self.lattice.points[first * columns..].chunks_exact(columns);
+            let rows = rows.chunks_exact_mut(padded).zip(transformed.chunks_exact_mut(frequencies));
+            for ((row, out), points) in rows.zip(points) {
+                let (cells, beyond) = row.split_at_mut(columns);
+                cells.iter_mut().zip(points).for_each(|(value, &p)| *value = values[p]);
+                beyond.fill(0.0);
+                let done = self.forward.process_with_scratch(row, out, &mut scratch);
+                debug_assert!(done.is_ok(), "lengths are those of the plan");
+            }
+        });
+    }
+
+    /// Transforms back: `parts` has real and imaginary parts of all rows, frequency by frequency.
+    fn back(&self, parts: &[f64], transformed: &mut [C], rows: &mut [f64]) {
+        let (padded, frequencies, all) = (self.padded(), self.frequencies(), self.lattice.rows);
+        in_tasks(transformed, rows, [frequencies, padded], |first, transformed, rows| {
+            let mut scratch = self.inverse.make_scratch_vec();
+            let rows = transformed.chunks_exact_mut(frequencies).zip(rows.chunks_exact_mut(padded));
+            for (k, (spectrum, row)) in rows.enumerate() {
+                for (value, parts) in spectrum.iter_mut().zip(parts.chunks_exact(2 * all)) {
+                    *value = C::new(parts[first + k], parts[all + first + k]);
+                }
+                // Both ends of the spectrum of a real row are real; their imaginary parts here are rounding.
+                spectrum[0].im = 0.0;
+                spectrum[frequencies - 1].im = 0.0;
+                let done = self.inverse.process_with_scratch(spectrum, row, &mut scratch);
+                debug_assert!(done.is_ok(), "lengths are those of the plan");
+            }
+        });
     }
 
     /// Reads the values of points from padded rows.
@@ -161,74 +185,23 @@ impl Toeplitz {
             row.iter().zip(points).for_each(|(value, &p)| values[p] = value * scale);
         }
     }
-
-    fn transform(&self, rows: &mut [f64], transformed: &mut [C]) {
-        let (padded, frequencies) = (self.padded(), self.frequencies());
-        in_tasks(rows, transformed, [padded, frequencies], |rows, transformed| {
-            let mut scratch = self.forward.make_scratch_vec();
-            for (row, out) in rows.chunks_exact_mut(padded).zip(transformed.chunks_exact_mut(frequencies)) {
-                let done = self.forward.process_with_scratch(row, out, &mut scratch);
-                debug_assert!(done.is_ok(), "lengths are those of the plan");
-            }
-        });
-    }
-
-    fn back(&self, transformed: &mut [C], rows: &mut [f64]) {
-        let (padded, frequencies) = (self.padded(), self.frequencies());
-        in_tasks(transformed, rows, [frequencies, padded], |transformed, rows| {
-            let mut scratch = self.inverse.make_scratch_vec();
-            for (spectrum, row) in
-                transformed.chunks_exact_mut(frequencies).zip(rows.chunks_exact_mut(padded))
-            {
-                // Both ends of the spectrum of a real row are real; their imaginary parts here are rounding.
-                let last = spectrum.len() - 1;
-                spectrum[0].im = 0.0;
-                spectrum[last].im = 0.0;
-                let done = self.inverse.process_with_scratch(spectrum, row, &mut scratch);
-                debug_assert!(done.is_ok(), "lengths are those of the plan");
-            }
-        });
-    }
-
-    /// Parts of transformed rows, frequency by frequency: real parts of all rows, then imaginary parts.
-    fn split(&self, transformed: &[C], parts: &mut [f64]) {
-        let (rows, frequencies) = (self.lattice.rows, self.frequencies());
-        for (f, parts) in parts.chunks_exact_mut(2 * rows).enumerate() {
-            let (real, imaginary) = parts.split_at_mut(rows);
-            for (row, (re, im)) in real.iter_mut().zip(imaginary).enumerate() {
-                let value = transformed[row * frequencies + f];
-                (*re, *im) = (value.re, value.im);
-            }
-        }
-    }
-
-    /// The reverse of [`Self::split`].
-    fn unite(&self, parts: &[f64], transformed: &mut [C]) {
-        let (rows, frequencies) = (self.lattice.rows, self.frequencies());
-        for (f, parts) in parts.chunks_exact(2 * rows).enumerate() {
-            let (real, imaginary) = parts.split_at(rows);
-            for (row, (re, im)) in real.iter().zip(imaginary).enumerate() {
-                transformed[row * frequencies + f] = C::new(*re, *im);
-            }
-        }
-    }
 }
 
-/// Calls `work` with the same rows of two arrays of rows of these lengths, in tasks of several rows if that is worth it. Rows are
-/// independent, so that results do not depend on the division.
+/// Calls `work` with the number of a row and the same rows from there on of two arrays of rows of these lengths, in tasks of several
+/// rows if that is worth it. Rows are independent, so that results do not depend on the division.
 fn in_tasks<A: Send, B: Send>(
     a: &mut [A],
     b: &mut [B],
     [length_a, length_b]: [usize; 2],
-    work: impl Fn(&mut [A], &mut [B]) + Sync,
+    work: impl Fn(usize, &mut [A], &mut [B]) + Sync,
 ) {
-    if a.len() < WORTH_TASKS {
-        work(a, b);
+    if a.len() < WORTH_TRANSFORMS {
+        work(0, a, b);
         return;
     }
     let rows = (a.len() / length_a).div_ceil(rayon::current_num_threads()).max(1);
-    let tasks = a.par_chunks_mut(rows * length_a).zip(b.par_chunks_mut(rows * length_b));
-    tasks.for_each(|(a, b)| work(a, b));
+    let tasks = a.par_chunks_mut(rows * length_a).zip(b.par_chunks_mut(rows * length_b)).enumerate();
+    tasks.for_each(|(task, (a, b))| work(task * rows, a, b));
 }
 
 /// Transforms of padded rows, forward and back.
@@ -280,8 +253,7 @@ impl Work {
         let frequencies = padded / 2 + 1;
         self.rows.resize(rows * padded, 0.0);
         self.transformed.resize(rows * frequencies, C::default());
-        self.slip.resize(2 * rows * frequencies, 0.0);
-        self.traction.resize(2 * rows * frequencies, 0.0);
+        self.parts.resize(2 * rows * frequencies, 0.0);
     }
 }
 
@@ -312,10 +284,19 @@ impl Spectrum {
         Self { real, imaginary }
     }
 
-    /// Product with slip, frequency by frequency.
-    fn times(&self, rows: usize, arch: Arch, slip: &[f64], tractions: &mut [f64]) {
+    /// Product with transformed rows of slip. Writes real and imaginary parts of the tractions of all rows, frequency by frequency.
+    fn times(&self, rows: usize, arch: Arch, slip: &[C], tractions: &mut [f64]) {
+        let frequencies = slip.len() / rows;
         let of_frequencies = |first: usize, tractions: &mut [f64]| {
-            arch.dispatch(Frequencies { spectrum: self, rows, first, slip, tractions });
+            let mut parts = vec![0.0; tractions.len()];
+            for (k, parts) in parts.chunks_exact_mut(2 * rows).enumerate() {
+                let (real, imaginary) = parts.split_at_mut(rows);
+                for (row, (re, im)) in real.iter_mut().zip(imaginary).enumerate() {
+                    let value = slip[row * frequencies + first + k];
+                    (*re, *im) = (value.re, value.im);
+                }
+            }
+            arch.dispatch(Frequencies { spectrum: self, rows, first, slip: &parts, tractions });
         };
         if self.real.len() < WORTH_TASKS {
             of_frequencies(0, tractions);
@@ -336,7 +317,9 @@ struct Frequencies<'a> {
     rows: usize,
     /// First frequency.
     first: usize,
+    /// Real and imaginary parts of slip of all rows, frequency by frequency.
     slip: &'a [f64],
+    /// Tractions likewise.
     tractions: &'a mut [f64],
 }
 
@@ -347,9 +330,9 @@ impl WithSimd for Frequencies<'_> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self { spectrum, rows, first, slip, tractions } = self;
         let size = rows * rows;
-        for (k, t) in tractions.chunks_exact_mut(2 * rows).enumerate() {
-            let f = first + k;
-            let (re, im) = slip[2 * f * rows..][..2 * rows].split_at(rows);
+        let parts = slip.chunks_exact(2 * rows).zip(tractions.chunks_exact_mut(2 * rows));
+        for (f, (slip, t)) in (first..).zip(parts) {
+            let (re, im) = slip.split_at(rows);
             let (t_re, t_im) = t.split_at_mut(rows);
             for (i, row) in spectrum.real[f * size..][..size].chunks_exact(rows).enumerate() {
                 [t_re[i], t_im[i]] = both(row, re, im);

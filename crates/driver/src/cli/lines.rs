@@ -10,6 +10,9 @@ use miette::{IntoDiagnostic, JSONReportHandler, WrapErr};
 use serde::Serialize;
 use serde_json::{Value, json};
 
+/// Stack of a thread \[bytes\]: that of the main thread on Linux, since runs take place in threads of the pool.
+const STACK: usize = 8 << 20;
+
 /// Sets the form of the output and the number of threads.
 pub(super) fn prepare(running: &Running) -> miette::Result<()> {
     printing::set_form(match (running.quiet, running.json) {
@@ -17,8 +20,9 @@ pub(super) fn prepare(running: &Running) -> miette::Result<()> {
         (_, true) => Form::Json,
         _ => Form::Plain,
     });
-    let Some(threads) = running.threads else { return Ok(()) };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
+    // Zero is as many as there are processors.
+    let threads = running.threads.map_or(0, usize::from);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK).build_global();
     pool.into_diagnostic().wrap_err_with(|| format!("cannot begin {threads} threads"))
 }
 

@@ -61,7 +61,9 @@ fn run_in<const D: usize>(
     }?;
     let mut report = dynamic::Report::new(plan, &ended, keeper.arrivals());
     (report.seconds.plan, report.seconds.steps) = (ready.seconds, clock.elapsed().as_secs_f64());
+    let clock = Instant::now();
     keeper.finish(report.outcome.status() == Status::Completed, ended.time).into_diagnostic()?;
+    report.seconds.output = clock.elapsed().as_secs_f64();
     directory.write(&report)?;
     out(format_args!("{}", report.text()));
     written(directory);

@@ -43,11 +43,13 @@ pub(super) fn run_bodies(
     }?;
     let recorder = kept.finish(report.outcome.status() == Status::Completed);
     report.seconds.plan = ready.seconds;
+    let clock = Instant::now();
     draw(directory.path(), recorder.as_ref())?;
     if let Some(events) = &report.events {
         lines::events(&events.all);
         write_catalogues(directory.path(), &events.all, &events.interfaces).into_diagnostic()?;
     }
+    report.seconds.output += clock.elapsed().as_secs_f64();
     directory.write(&report)?;
     print::results(&report);
     written(directory);
@@ -171,6 +173,7 @@ pub(super) fn run_sliders(
     report.warnings.clone_from(&plan.warnings);
     report.checks.clone_from(&plan.checks);
     (report.seconds.plan, report.seconds.steps) = (ready.seconds, clock.elapsed().as_secs_f64());
+    let clock = Instant::now();
     draw_sheet(directory.path(), &histories.sheet(problem, &plan.thetas, report.end), drawn)
         .into_diagnostic()?;
     if problem.events.is_some() {
@@ -178,6 +181,7 @@ pub(super) fn run_sliders(
         let events = slider::csv(&report.events, &problem.names);
         atomic::write(&directory.path().join("events.csv"), events.as_bytes()).into_diagnostic()?;
     }
+    report.seconds.output = clock.elapsed().as_secs_f64();
     directory.write(&report)?;
     out(format_args!("{}", report.text()));
     written(directory);
@@ -233,7 +237,9 @@ pub(super) fn run_faults(
         report.outcome = Outcome::Interrupted { stage: None, time: report.end, reason: why.into() };
     }
     lines::events(&report.events);
+    let clock = Instant::now();
     write_faults(directory.path(), (plan, &run, &report), &ready.hash, drawn)?;
+    report.seconds.output = clock.elapsed().as_secs_f64();
     directory.write(&report)?;
     out(format_args!("{}", report.text()));
     if let Some(warning) = coarse {

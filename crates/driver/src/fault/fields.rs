@@ -6,6 +6,7 @@ use super::states::has_theta;
 use asperity_cycles::{Components, Layout, Pressed};
 use asperity_output::vtu::{Array, Grid, Values};
 use asperity_output::{OutputError, atomic};
+use rayon::prelude::*;
 use std::path::Path;
 
 /// Points and cells of a fault in a file.
@@ -35,7 +36,7 @@ impl Surface {
     /// # Errors
     /// If the file cannot be written.
     pub fn put(&self, path: &Path, time: f64, fields: &[Field]) -> Result<u64, OutputError> {
-        let arrays: Vec<Array<'_>> = fields.iter().map(Field::array).collect();
+        let arrays: Vec<Array<'_>> = fields.par_iter().map(Field::array).collect();
         let (points, cells) = if self.by_cell { (&[][..], &arrays[..]) } else { (&arrays[..], &[][..]) };
         let bytes = self.grid.file(time, points, cells);
         atomic::write(path, &bytes)?;

@@ -169,15 +169,9 @@ impl Keeper<'_> {
         self.save(Stand::clone(&before), None)?;
         Ok(true)
     }
-}
 
-impl Observer<Faults> for Keeper<'_> {
-    fn step(&mut self, moment: &Moment<'_>) -> Result<Control, ObserveError> {
-        self.steps += u64::from(moment.dt > 0.0);
-        self.balance.step(moment);
-        if moment.step.as_ref().is_some_and(|step| step.waves.is_some()) && self.within_rupture()? {
-            return Ok(Control::Stop);
-        }
+    /// Shows the progress.
+    fn show(&mut self, moment: &Moment<'_>) {
         let (time, end, step) = (moment.at.seconds(), self.plan.problem.settings.end, self.steps);
         self.progress.show(time / end, || Now {
             stage: None,
@@ -189,7 +183,25 @@ impl Observer<Faults> for Keeper<'_> {
             iterations: None,
             events: Some(moment.events().len() as u64),
         });
-        self.files.step(moment)
+    }
+}
+
+impl Observer<Faults> for Keeper<'_> {
+    fn step(&mut self, moment: &Moment<'_>) -> Result<Control, ObserveError> {
+        self.steps += u64::from(moment.dt > 0.0);
+        if moment.step.as_ref().is_some_and(|step| step.waves.is_some()) {
+            self.balance.step(moment);
+            if self.within_rupture()? {
+                return Ok(Control::Stop);
+            }
+            self.show(moment);
+            return self.files.step(moment);
+        }
+        self.show(moment);
+        let (balance, files) = (&mut self.balance, &mut self.files);
+        // Only the balance may multiply by the operator of the fault: a product waits for the end of another one, and a thread that
+        // took up the second within the first would wait for itself.
+        rayon::join(|| balance.step(moment), || files.step(moment)).1
     }
 
     fn pause(&mut self, run: &mut dyn FnMut() -> FaultRun) -> Result<Option<&'static str>, ObserveError> {

@@ -436,8 +436,8 @@ impl Report {
             "  {} steps ({} rejected), {} right-hand sides of {} points",
             c.steps, c.rejected, c.right_hand_sides, c.points
         );
-        let Phases { plan, steps, .. } = self.seconds;
-        let _ = writeln!(text, "  seconds: plan {plan:.2}, steps {steps:.2}");
+        let Phases { plan, steps, output, .. } = self.seconds;
+        let _ = writeln!(text, "  seconds: plan {plan:.2}, steps {steps:.2}, output {output:.2}");
         text
     }
 }

@@ -141,7 +141,7 @@ pub struct Phases {
     pub set_up: f64,
     /// Steps.
     pub steps: f64,
-    /// Observers and recovery of fields.
+    /// Files and figures after the last step; with bodies, also observers and recovery of fields.
     pub output: f64,
 }
 

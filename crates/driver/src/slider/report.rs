@@ -185,7 +185,8 @@ impl Report {
             "  {} steps ({} rejected), {} right-hand sides, {} Jacobians, {} factorisations",
             c.steps, c.rejected, c.right_hand_sides, c.jacobians, c.factorisations
         );
-        let _ = writeln!(text, "  seconds: {:.3}", self.seconds.steps);
+        let Phases { steps, output, .. } = self.seconds;
+        let _ = writeln!(text, "  seconds: steps {steps:.3}, output {output:.3}");
         text
     }
 }

@@ -5,7 +5,7 @@ use super::{AT, BELOW, Line, ROOM, RupturedFault, Ruptures, SIZE, Shape, Surface
 use crate::plots::axes::{Axis, Frame};
 use crate::plots::colour::{INK, PAPER, viridis};
 use crate::plots::field::Bar;
-use crate::plots::figure::{Anchor, Figure, Point};
+use crate::plots::figure::{Anchor, Figure};
 use crate::plots::paper::Paper;
 use crate::plots::title::title;
 use crate::plots::units::TIME;
@@ -96,10 +96,10 @@ pub(super) fn fronts(
     let unit = TIME.of(last);
     let times = Axis::exact((0.0, last / unit.factor), String::new());
     let levels: Vec<(f64, String)> = times.ticks(CONTOURS).into_iter().filter(|t| t.0 > 0.0).collect();
+    let onto = surface.onto(frame);
     for (share, _) in &levels {
         for [a, b] in isolines(surface, arrivals, share * last) {
-            let at = |p: Point| surface.place(frame, p);
-            figure.line(vec![at(a), at(b)], 1.0, PAPER);
+            figure.line(vec![onto(a), onto(b)], 1.0, PAPER);
         }
     }
     levels.first().map(|first| format!("{} {}", first.1, unit.name))

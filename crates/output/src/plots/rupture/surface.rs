@@ -41,11 +41,14 @@ impl Surface {
         Some(Frame { at, size: ((hi.0 - lo.0) * scale, (hi.1 - lo.1) * scale), x, y })
     }
 
-    /// Position of a point of the surface in a figure.
-    pub(super) fn place(&self, frame: &Frame, (x, y): Point) -> Point {
-        let Some((lo, hi)) = self.extent() else { return frame.at };
-        let (right, up) = ((x - lo.0) / (hi.0 - lo.0), (y - lo.1) / (hi.1 - lo.1));
-        (frame.at.0 + right * frame.size.0, frame.at.1 + (1.0 - up) * frame.size.1)
+    /// Map from points of the surface to positions in a figure. The extent is found once, for all points.
+    pub(super) fn onto(&self, frame: &Frame) -> impl Fn(Point) -> Point {
+        let ((left, below), (right, above)) = self.extent().unwrap_or(((0.0, 0.0), (1.0, 1.0)));
+        let (at, size) = (frame.at, frame.size);
+        move |(x, y)| {
+            let (along, up) = ((x - left) / (right - left), (y - below) / (above - below));
+            (at.0 + along * size.0, at.1 + (1.0 - up) * size.1)
+        }
     }
 
     /// Triangles that cover the faces, about their centres, with corners as the mean of some points.
@@ -76,9 +79,10 @@ impl Surface {
         let mut rgb = vec![PAPER; columns * rows];
         let colours = Colours { unit: NUMBER.of(1.0), lo, hi, above: None };
         let (left, top) = frame.at;
+        let onto = self.onto(frame);
         let at = |nodes: &Vec<usize>| {
             let (place, value) = self.corner(nodes, values);
-            let (x, y) = self.place(frame, place);
+            let (x, y) = onto(place);
             ((x - left) / frame.size.0 * columns as f64, (y - top) / frame.size.1 * rows as f64, value)
         };
         for triangle in self.triangles() {
@@ -98,7 +102,7 @@ mod tests {
         let surface = Surface { places, faces: vec![vec![0, 1, 2, 3]], labels: ["x".into(), "y".into()] };
         let frame = surface.frame((10.0, 20.0), (400.0, 400.0)).unwrap();
         assert_eq!(frame.size, (400.0, 100.0));
-        assert_eq!(surface.place(&frame, (0.0, 1e3)), (10.0, 20.0));
+        assert_eq!(surface.onto(&frame)((0.0, 1e3)), (10.0, 20.0));
         // The upper side has the largest value, and the first row of the image is on top.
         let image = surface.image(&frame, &[0.0, 0.0, 1.0, 1.0], (0.0, 1.0));
         let (first, last) = (image.rgb[image.columns / 2], image.rgb[image.rgb.len() - image.columns / 2]);
