@@ -1,5 +1,5 @@
 //! Growth of cost with the number of points of a fault in a half-space, from 1e3 to 1e5: set-up, memory, products and ten steps, with
-//! the powers that fit them and what a million points would take. `fault_growth [LARGEST [THREADS]]` prints Markdown.
+//! the powers that fit them and what a million points would take. `fault_growth [LARGEST [THREADS [SMALLEST]]]` prints Markdown.
 //! Times are CPU times of all threads, so that other load on the machine changes them little.
 // A program for the terminal.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
@@ -9,6 +9,7 @@ use asperity_cycles::Settings;
 use asperity_driver::fault::{Plan, plan};
 use asperity_driver::scene;
 use std::fs;
+use std::ops::RangeInclusive;
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
@@ -46,7 +47,8 @@ fn main() -> ExitCode {
         eprintln!("no pool of {threads} threads");
         return ExitCode::FAILURE;
     };
-    match pool.install(|| tables(largest)) {
+    let smallest = arguments.get(2).copied().unwrap_or(0.0);
+    match pool.install(|| tables(smallest..=largest)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(reason) => {
             eprintln!("{reason}");
@@ -55,16 +57,16 @@ fn main() -> ExitCode {
     }
 }
 
-fn tables(largest: f64) -> Result<(), String> {
+fn tables(asked: RangeInclusive<f64>) -> Result<(), String> {
     let nowhere = Path::new("");
     println!("squares of one grid (convolution along strike)\n");
-    table(SQUARES.iter().filter(|&&c| (c * c * 2 / 5) as f64 <= largest), |&columns| {
+    table(SQUARES.iter().filter(|&&c| asked.contains(&((c * c * 2 / 5) as f64))), |&columns| {
         planned(&squares(columns)?, nowhere)
     })?;
     println!("triangles of a bent surface (compressed)\n");
     let folder = std::env::temp_dir().join(format!("fault_growth.{}", std::process::id()));
     fs::create_dir_all(&folder).map_err(|e| e.to_string())?;
-    let done = table(TRIANGLES.iter().filter(|[c, r]| (2 * c * r) as f64 <= largest), |&cells| {
+    let done = table(TRIANGLES.iter().filter(|[c, r]| asked.contains(&((2 * c * r) as f64))), |&cells| {
         fs::write(folder.join(FILE), bent(cells)).map_err(|e| e.to_string())?;
         planned(&triangles()?, &folder)
     });

@@ -241,8 +241,12 @@ impl Compressed {
             sums.fill(0.0);
             let (blocks, first) = (&self.blocks[task.blocks.clone()], task.span.start);
             match &self.values {
-                Values::Double(values) => arch.dispatch(Product { blocks, values, x, sums: &mut sums, first }),
-                Values::Single(values) => arch.dispatch(Product { blocks, values, x, sums: &mut sums, first }),
+                Values::Double(values) => {
+                    arch.dispatch(Product { blocks, values, x, sums: &mut sums, first })
+                }
+                Values::Single(values) => {
+                    arch.dispatch(Product { blocks, values, x, sums: &mut sums, first })
+                }
             }
         };
         match self.tasks.as_slice() {

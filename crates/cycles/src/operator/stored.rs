@@ -74,14 +74,14 @@ mod tests {
         Dense::new(POINTS, all().map(shear).collect(), Some(all().map(normal).collect()))
     }
 
-    fn compressed() -> Hierarchical {
+    fn compressed(tolerance: Tolerance) -> Hierarchical {
         let places: Vec<[f64; 3]> = (0..POINTS).map(|k| [k as f64, 0.0, 0.0]).collect();
         let (all, areas) = (0..POINTS, vec![1.5; POINTS]);
         let faults = std::slice::from_ref(&all);
         let geometry = Geometry { places: &places, faults, areas: &areas, surfaces: false };
         let dense = dense(1.0);
         let forces = Forces::of_tractions(dense.matrix(), dense.normal_matrix().unwrap(), &areas);
-        Hierarchical::of_forces(&forces, &geometry, Tolerance::OfLargest(1e-9))
+        Hierarchical::of_forces(&forces, &geometry, tolerance)
     }
 
     fn grid() -> Toeplitz {
@@ -94,11 +94,16 @@ mod tests {
 
     fn both() -> Both {
         let dense = |sign: f64| -> Box<dyn Operator> { Box::new(dense(sign)) };
-        Both::new([Box::new(compressed()), Box::new(grid())], Some([dense(-1.0), dense(0.5)]))
+        Both::new(
+            [Box::new(compressed(Tolerance::OfLargest(1e-9))), Box::new(grid())],
+            Some([dense(-1.0), dense(0.5)]),
+        )
     }
 
     fn checked() -> Checked {
-        Checked::new(Box::new(compressed()), &|_| [vec![1.0; POINTS], Vec::new(), vec![0.5; POINTS]])
+        Checked::new(Box::new(compressed(Tolerance::OfLargest(1e-9))), &|_| {
+            [vec![1.0; POINTS], Vec::new(), vec![0.5; POINTS]]
+        })
     }
 
     /// Everything that an operator says of itself.
@@ -115,9 +120,11 @@ mod tests {
 
     #[test]
     fn an_operator_that_is_read_has_the_bits_of_the_one_that_was_written() {
-        let all: [Box<dyn Operator>; 5] = [
+        let all: [Box<dyn Operator>; 6] = [
             Box::new(dense(1.0)),
-            Box::new(compressed()),
+            Box::new(compressed(Tolerance::OfLargest(1e-9))),
+            // In single precision.
+            Box::new(compressed(Tolerance::OfBlock(1e-3))),
             Box::new(grid()),
             Box::new(both()),
             Box::new(checked()),

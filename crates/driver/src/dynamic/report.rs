@@ -184,8 +184,8 @@ impl Report {
         let s = &self.seconds;
         let _ = writeln!(
             text,
-            "  {} steps; seconds: plan {:.2}, steps with output {:.2}",
-            self.steps, s.plan, s.steps
+            "  {} steps; seconds: plan {:.2}, steps {:.2}, output {:.2}",
+            self.steps, s.plan, s.steps, s.output
         );
         text
     }
