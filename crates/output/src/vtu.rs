@@ -4,10 +4,10 @@
 //! block if partial else 0, compressed size of each block]` is little-endian u64, base64-encoded separately. The zlib streams of
 //! all blocks follow, concatenated and base64-encoded together. Offsets count characters after `_`.
 
-mod read;
 pub mod reading;
+mod single;
 
-pub use read::array;
+pub use single::array;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;

@@ -1,6 +1,7 @@
 //! Several faults, several materials, curved faults.
 
 mod backslip;
+mod flat;
 mod positions;
 mod section;
 mod unlike;
@@ -32,6 +33,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     pairs(ledger)?;
     arc(ledger)?;
     arc_in_space(ledger)?;
+    flat::run(ledger)?;
     unlike::run(ledger)?;
     backslip::run(ledger)?;
     section::run(ledger)?;
@@ -522,7 +524,7 @@ fn arc_in_space(ledger: &mut Ledger) -> Result<(), CaseError> {
         let parts = arc_parts(DRAWN, "extrude = [0, 1e3]", &format!("rake = {rake}"));
         let conditions = on(&far, "x = 0, y = 0, z = 0") + &on(&["back", "front"], faces);
         let (solid, cost) = Cost::of(|| bent("3d", &parts, &conditions));
-        drawn(ledger, kinematics, (&plane, &solid?), &cost)?;
+        drawn(ledger, "on an arc drawn", kinematics, (&plane, &solid?), &cost)?;
     }
     Ok(())
 }
@@ -530,6 +532,7 @@ fn arc_in_space(ledger: &mut Ledger) -> Result<(), CaseError> {
 /// Claims tractions of uniform slip across the slab against those of the plane model.
 fn drawn(
     ledger: &mut Ledger,
+    which: &str,
     kinematics: &str,
     (plane, solid): (&Plan, &Plan),
     cost: &Cost,
@@ -548,7 +551,7 @@ fn drawn(
         let error = matrix(solid, normal) * &across - &across * matrix(plane, normal);
         ledger
             .claim(format!(
-                "{} tractions of slip on an arc drawn through a slab that moves in {kinematics}, against the plane, over the largest",
+                "{} tractions of slip {which} through a slab that moves in {kinematics}, against the plane, over the largest",
                 if normal { "normal" } else { "shear" }
             ))
             .value(error.amax() / largest)

@@ -291,8 +291,8 @@ enum Storage<'a> {
     Compressed,
 }
 
-/// Error of a compressed block over the block, on lines. Of a thousand cells and more the tractions of uniform slip cancel to a
-/// thousandth, and 1e-4 delays the first event of BP1 by seconds.
+/// Error of a compressed block over the block, on lines. Tractions of uniform slip of a thousand cells cancel to a thousandth, and
+/// 1e-4 moves the onset of the first event of BP1 by 2e-4.
 const ON_LINES: f64 = 1e-6;
 /// The same on surfaces, where it moves intervals between events by less than 1e-6.
 const ON_SURFACES: f64 = 1e-4;

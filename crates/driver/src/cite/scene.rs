@@ -12,7 +12,7 @@ use crate::scene::model::{
 use crate::scene::slider::SliderScene;
 
 /// Keys of this file, for the test of the table.
-pub const KEYS: [&str; 32] = [
+pub const KEYS: [&str; 33] = [
     "puso2004",
     "puso2004b",
     "wohlmuth2000",
@@ -40,6 +40,7 @@ pub const KEYS: [&str; 32] = [
     "okada1992",
     "nikkhoo2015",
     "savage1983",
+    "wang2004",
     "king1994",
     "day2005",
     "kaneko2008",
@@ -177,6 +178,7 @@ fn add_medium(citations: &mut Citations, scene: &Scene) {
     }
     if scene.faults.values().any(|fault| fault.creep.is_some()) {
         citations.add("savage1983", "loading by slip deficit");
+        citations.add("wang2004", "coupling of faults to plates");
     }
 }
 

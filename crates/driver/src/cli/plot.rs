@@ -123,7 +123,10 @@ pub(super) fn execute(asked: &Redrawing) -> miette::Result<End> {
     let wanted = wanted(asked, &sheet)?;
     let to = asked.out.clone().unwrap_or_else(|| folder.join("plots"));
     let (written, failed) = sheet.draw_what_can_be(folder, &to, &wanted).into_diagnostic()?;
-    for why in &failed {
+    // One table may be missing for several figures.
+    let mut reasons: Vec<String> = failed.iter().map(ToString::to_string).collect();
+    reasons.dedup();
+    for why in &reasons {
         printing::warning(&format!("some figures cannot be drawn: {why}"));
     }
     if written.is_empty() {

@@ -70,6 +70,11 @@ impl<const D: usize> Axes<D> {
         Ok(Self { names: names.to_vec(), axes, plane: None, degrees: None, ranges: Vec::new() })
     }
 
+    /// True if one of the coordinates is a length.
+    pub fn has_lengths(&self) -> bool {
+        self.names.iter().any(|name| !["longitude", "latitude"].contains(name))
+    }
+
     /// Axes of scattered positions for points at these spots, and the positions in one or two coordinates. `lists` has metres, and
     /// radians of longitude and latitude; `row` names a row of them.
     ///

@@ -62,6 +62,15 @@ impl<const D: usize> Field<D> {
         };
         let (axes, source) = read.map_err(|wrong| refused(&given.file, given.file.span(), wrong))?;
         let (key, file) = (parameter.key, given.file.get_ref().clone());
+        if let Some(unit) = given.coordinate_unit.as_ref().filter(|_| !axes.has_lengths()) {
+            return Err(Diagnostic::at(
+                unit.span(),
+                format!(
+                    "the coordinates of `{file}` are longitude and latitude, in degrees: none is a length"
+                ),
+                "remove `coordinate_unit`",
+            ));
+        }
         Ok(Self { key, file, span: given.file.span(), axes, source })
     }
 

@@ -7,13 +7,14 @@ use crate::scene::near::suggest;
 use crate::scene::units::{self, Dimension, Length};
 use asperity_fem::element::ElementKind;
 use asperity_fem::mesh::curve::{Curve, Profile, bend};
-use asperity_fem::mesh::extrude::extrude;
+use asperity_fem::mesh::extrude::{ExtrudeError, extrude};
 use asperity_fem::mesh::fault::{Departure, FaultMesh, FaultMeshError, Interpolation, Spacing};
 use asperity_fem::mesh::generate::{Block, Grading, Grid, SIDES, divisions_for};
 use asperity_fem::mesh::split::{Surface, split};
 use asperity_fem::mesh::{Cells, GroupTag, Mesh, MeshError, Options, RawMesh, Side, abaqus, gmsh};
 use scene::Spanned;
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 /// Mesh of a body; its sets keep their own names.
 ///
@@ -27,7 +28,7 @@ pub fn of_body<const D: usize>(
     let Some(layers) = &body.extrude else { return source::<D>(scene, name, body) };
     let plane = source::<2>(scene, name, body)?;
     let z: Vec<f64> = layers.get_ref().iter().map(|z| z.0).collect();
-    let drawn = extrude(&plane, &z).map_err(|e| Diagnostic::body(name, layers.span(), e.to_string()))?;
+    let drawn = extrude(&plane, &z).map_err(|e| undrawn(name, body, layers.span(), &e))?;
     in_dimension(drawn.mesh, || {
         Diagnostic::at(
             layers.span(),
@@ -37,12 +38,28 @@ pub fn of_body<const D: usize>(
     })
 }
 
+/// Error of layers that do not fit.
+fn undrawn(name: &str, body: &scene::Body, place: Range<usize>, error: &ExtrudeError) -> Diagnostic {
+    match (error, &body.mesh) {
+        (ExtrudeError::Mixed { .. }, scene::MeshSource::Fault(spec)) => Diagnostic::at(
+            spec.element.span(),
+            format!(
+                "body `{name}`: the wedge between a flat fault and the boundary that it reaches begins with triangles, which cannot be \
+                 extruded beside `{}`",
+                spec.element.get_ref()
+            ),
+            "element = \"quad4\"",
+        ),
+        _ => Diagnostic::body(name, place, error.to_string()),
+    }
+}
+
 fn source<const D: usize>(
     scene: &scene::Scene,
     name: &str,
     body: &scene::Body,
 ) -> Result<Mesh<D>, Diagnostic> {
-    let plane = |place: std::ops::Range<usize>| {
+    let plane = |place: Range<usize>| {
         move || {
             Diagnostic::at(
                 place,
@@ -251,10 +268,10 @@ fn fault(name: &str, spec: &scene::FaultMesh) -> Result<Mesh<2>, Diagnostic> {
 fn unmeshed(name: &str, spec: &scene::FaultMesh, error: &FaultMeshError) -> Diagnostic {
     let place = spec.trace.span();
     match error {
-        FaultMeshError::Dip { .. } => Diagnostic::at(
+        FaultMeshError::Flat { .. } | FaultMeshError::Bent { .. } => Diagnostic::at(
             place,
             format!("body `{name}`: {error}"),
-            "a flatter fault lies in a `[medium]`, which takes any dip, or in a mesh by Gmsh or Abaqus with `split`",
+            "such a fault lies in a `[medium]`, which takes any line, or in a mesh by Gmsh or Abaqus with `split`",
         ),
         _ => Diagnostic::body(name, place, error.to_string()),
     }

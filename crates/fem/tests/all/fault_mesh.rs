@@ -7,7 +7,7 @@ use asperity_fem::mesh::fault::{
 use asperity_fem::mesh::split::Pair;
 use asperity_fem::mesh::{Mesh, Side, face_nodes, nodes_of_sides};
 use proptest::prelude::*;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A trace from `start` along segments of (length, dip in degrees).
 fn trace(start: [f64; 2], segments: &[(f64, f64)]) -> Vec<[f64; 2]> {
@@ -41,12 +41,21 @@ fn area(x: &[[f64; 2]]) -> f64 {
     (0..x.len()).map(|k| (x[k], x[(k + 1) % x.len()])).map(|(a, b)| 0.5 * (a[0] * b[1] - a[1] * b[0])).sum()
 }
 
+/// Corners of all cells, of quadrilaterals and triangles.
+fn all_corners(mesh: &Mesh<2>) -> impl Iterator<Item = Vec<[f64; 2]>> {
+    mesh.blocks.iter().flat_map(|cells| {
+        let corners =
+            |cell| cells.cell(cell)[..cells.kind.corners()].iter().map(|&n| mesh.nodes[n]).collect();
+        (0..cells.len()).map(corners)
+    })
+}
+
 /// Faces, and the number of cells of each.
 fn shared(mesh: &Mesh<2>) -> BTreeMap<[usize; 2], usize> {
     let mut count = BTreeMap::new();
-    for cell in 0..mesh.blocks[0].len() {
-        for face in 0..4 {
-            let n = face_nodes(mesh, &Side { block: 0, cell, face });
+    for (block, cells) in mesh.blocks.iter().enumerate() {
+        for (cell, face) in (0..cells.len()).flat_map(|c| (0..cells.kind.corners()).map(move |f| (c, f))) {
+            let n = face_nodes(mesh, &Side { block, cell, face });
             *count.entry([n[0].min(n[1]), n[0].max(n[1])]).or_default() += 1;
         }
     }
@@ -65,7 +74,7 @@ fn length(mesh: &Mesh<2>, sides: &[Side]) -> f64 {
 fn check(input: &FaultMesh, made: &Faulted) {
     let mesh = &made.mesh;
     let box_area = (input.max[0] - input.min[0]) * (input.max[1] - input.min[1]);
-    let total: f64 = (0..mesh.blocks[0].len()).map(|c| area(&corners(mesh, c))).sum();
+    let total: f64 = all_corners(mesh).map(|x| area(&x)).sum();
     assert!((total - box_area).abs() < 1e-9 * box_area);
     assert!(made.quality.min > 0.0);
     assert_eq!(made.quality, quality(mesh));
@@ -165,6 +174,68 @@ fn cells_at_the_fault_are_rectangles_below_the_surface() {
             }
         }
     }
+}
+
+/// A fault of this dip from the depth of its upper tip, 40 m long.
+fn flat(depth: f64, dip: f64) -> FaultMesh {
+    input(trace([0.0, -depth], &[(40.0, dip)]))
+}
+
+#[test]
+fn rows_follow_a_fault_flatter_than_ten_degrees_and_quadrilaterals_are_sheared_by_its_dip() {
+    for dip in [1.0, 2.0, 5.0, 9.0, 171.0, 175.0, 178.0, 179.0_f64] {
+        for kind in [ElementKind::Quad4, ElementKind::Quad8, ElementKind::Quad9] {
+            for depth in [0.0, 10.0] {
+                let input = FaultMesh { kind, ..flat(depth, dip) };
+                let made = input.mesh().unwrap();
+                check(&input, &made);
+                let cosine = dip.to_radians().cos().abs();
+                let quads = all_corners(&made.mesh).filter(|x| x.len() == 4);
+                let worst = quads.map(|x| scaled_jacobian(&x)).fold(f64::INFINITY, f64::min);
+                assert!(worst > 0.99 * cosine, "{dip} {depth}: {worst}");
+                let per = if kind == ElementKind::Quad4 { 1 } else { 2 };
+                assert_eq!(made.fault.pairs.len(), 40 * per + 1);
+                let used: BTreeSet<_> = made.mesh.blocks.iter().flat_map(|b| &b.connectivity).collect();
+                assert_eq!(used.len(), made.mesh.nodes.len(), "no node is loose");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_flat_fault_that_reaches_the_surface_ends_in_one_triangle() {
+    let input = flat(0.0, 5.0);
+    let made = input.mesh().unwrap();
+    let tip = |x: &[[f64; 2]]| x.contains(&[0.0, 0.0]);
+    let above = all_corners(&made.mesh).filter(|x| tip(x) && x.iter().all(|v| v[0] >= 0.0 && v[1] > -0.1));
+    assert_eq!(above.map(|x| x.len()).collect::<Vec<_>>(), [3]);
+    let buried = flat(10.0, 5.0).mesh().unwrap();
+    assert_eq!(buried.mesh.blocks.len(), 1, "no triangles without a wedge");
+}
+
+#[test]
+fn cells_at_a_flat_fault_have_the_thickness_asked_for_where_there_is_room() {
+    let input = FaultMesh { thickness: Some(0.3), ..flat(10.0, 5.0) };
+    let made = input.mesh().unwrap();
+    for set in ["fault.minus", "fault.plus"] {
+        for side in &made.mesh.side_sets[set] {
+            let x = corners(&made.mesh, side.cell);
+            assert!((area(&x) - 0.3).abs() < 1e-9, "a cell of 1 m by 0.3 m: {x:?}");
+        }
+    }
+}
+
+#[test]
+fn a_flat_fault_through_the_whole_box_leaves_two_bodies() {
+    let input = FaultMesh {
+        min: [-20.0, -5.0],
+        max: [120.0, 0.0],
+        spacing: Spacing::Graded(vec![[0.0, 1.0]]),
+        ..input(vec![[0.0, 0.0], [90.0, -5.0]])
+    };
+    let made = input.mesh().unwrap();
+    check(&input, &made);
+    assert!(made.fault.pairs.iter().all(|p| !p.is_tip()));
 }
 
 #[test]
@@ -405,15 +476,21 @@ fn wrong_input_is_refused_with_what_would_be_right() {
     assert_eq!(refused(&crossed), FaultMeshError::SelfIntersection { first: 0, second: 2 });
     let touching = with(vec![[0.0, 0.0], [0.0, -10.0], [5.0, -10.0], [0.0, -5.0]]);
     assert_eq!(refused(&touching), FaultMeshError::SelfIntersection { first: 0, second: 2 });
-    let flat = refused(&with(trace([0.0, 0.0], &[(20.0, 60.0), (20.0, 5.0)])));
+    let flat = refused(&with(trace([0.0, 0.0], &[(20.0, 60.0), (20.0, 0.5)])));
     assert!(
-        matches!(flat, FaultMeshError::Dip { segment: 1, dip, .. } if (dip - 5.0).abs() < 1e-9),
+        matches!(flat, FaultMeshError::Flat { segment: 1, dip, .. } if (dip.0 - 0.5).abs() < 1e-9),
         "{flat}"
     );
+    let left = refused(&with(trace([0.0, 0.0], &[(20.0, 179.5)])));
+    assert!(left.to_string().contains("dips 0.5 degrees to the left"), "{left}");
+    for other in [85.0, 120.0] {
+        let bent = refused(&with(trace([0.0, 0.0], &[(20.0, other), (20.0, 5.0)])));
+        assert!(matches!(bent, FaultMeshError::Bent { flat: 1, steep: 0, .. }), "{bent}");
+    }
     let overturned = refused(&with(vec![[0.0, 0.0], [0.0, -10.0], [3.0, -9.0], [3.0, -20.0]]));
-    assert!(matches!(overturned, FaultMeshError::Dip { segment: 1, .. }), "{overturned}");
+    assert!(matches!(overturned, FaultMeshError::Turned { segment: 1 }), "{overturned}");
     let doubled = refused(&with(vec![[0.0, 0.0], [0.0, -10.0], [0.0, -10.0]]));
-    assert!(matches!(doubled, FaultMeshError::Dip { segment: 1, .. }), "{doubled}");
+    assert!(matches!(doubled, FaultMeshError::Turned { segment: 1 }), "{doubled}");
     let FaultMeshError::Spacing(SpacingError::Size { coarser, finer, .. }) =
         refused(&FaultMesh { spacing: Spacing::Constant(8.0), ..good.clone() })
     else {
@@ -464,6 +541,10 @@ fn values_without_a_mesh_are_refused_by_name() {
         "{}",
         refused(&thick)
     );
+    let thin = FaultMesh { thickness: Some(1e-3), growth: 1.0, ..flat(0.0, 5.0) };
+    assert!(matches!(refused(&thin), FaultMeshError::Spacing(SpacingError::TooMany { .. })));
+    let thick = FaultMesh { thickness: Some(201.0), ..flat(0.0, 5.0) };
+    assert!(matches!(refused(&thick), FaultMeshError::Value { name: "thickness", .. }));
     assert!(matches!(
         refused(&FaultMesh { max: [-200.0, 0.0], ..good.clone() }),
         FaultMeshError::EmptyBox { axis: 0, .. }
@@ -526,6 +607,32 @@ proptest! {
             }
             Err(other) => prop_assert!(false, "{other}"),
         }
+    }
+
+    #[test]
+    fn any_flat_polyline_is_meshed(
+        segments in proptest::collection::vec((5.0..40.0_f64, 1.0..80.0_f64), 1..6),
+        flattest in 1.0..10.0_f64,
+        left in any::<bool>(),
+        depth in prop_oneof![Just(0.0), 1.0..30.0_f64],
+        growth in 1.05..1.5_f64,
+        margin in 5.0..400.0_f64,
+        bottom in any::<bool>(),
+    ) {
+        let turn = |dip: f64| if left { 180.0 - dip } else { dip };
+        let mut segments: Vec<_> = segments.into_iter().map(|(length, dip)| (length, turn(dip))).collect();
+        segments[0].1 = turn(flattest);
+        let t = trace([0.0, -depth], &segments);
+        let x = t.iter().map(|v| v[0]).fold([0.0_f64; 2], |[a, b], x| [a.min(x), b.max(x)]);
+        let below = if bottom { 0.0 } else { margin };
+        let input = FaultMesh {
+            min: [x[0] - margin, t[t.len() - 1][1] - below],
+            max: [x[1] + margin, 0.0],
+            spacing: Spacing::Graded(vec![[0.0, 1.0]]),
+            growth,
+            ..input(t)
+        };
+        check(&input, &input.mesh().unwrap());
     }
 
     #[test]

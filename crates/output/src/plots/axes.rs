@@ -86,6 +86,10 @@ impl Axis {
         let decimals = (-step.log10().floor()).max(0.0) as usize + usize::from(is_quarter(step));
         let first = (lo / step - FLAT).ceil() as i64;
         let last = (hi / step + FLAT).floor() as i64;
+        if last <= first && about < MOST_ASKED {
+            // One number alone says nothing about the scale.
+            return self.ticks(about + 1);
+        }
         (first..=last)
             .map(|k| {
                 // Adding zero turns -0 into 0.
@@ -95,6 +99,9 @@ impl Axis {
             .collect()
     }
 }
+
+/// Number of ticks beyond which no axis is asked for more.
+const MOST_ASKED: usize = 6;
 
 /// Whole powers of ten, at most about this many; on an axis with less than two decades multiples of them, too.
 fn logarithmic_ticks((lo, hi): (f64, f64), about: usize) -> Vec<(f64, String)> {
@@ -269,6 +276,13 @@ mod tests {
         );
         let axis = Axis::logarithmic([1e-3, 2.0, 0.0].into_iter(), 14.0, String::new());
         assert_eq!(texts(&axis), ["10⁻³", "10⁻²", "10⁻¹", "10⁰", "10¹"]);
+    }
+
+    #[test]
+    fn an_axis_with_room_for_few_ticks_has_two() {
+        let texts: Vec<String> =
+            Axis::exact((-9.0, 9.0), String::new()).ticks(1).into_iter().map(|tick| tick.1).collect();
+        assert_eq!(texts, ["−5", "0", "5"]);
     }
 
     #[test]

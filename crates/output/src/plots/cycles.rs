@@ -134,23 +134,26 @@ const TOGETHER: f64 = 2e-3;
 type Drawn = Result<Option<Figure>, OutputError>;
 
 impl Cycles<'_> {
-    /// All figures with their file names.
-    pub(super) fn figures(&self) -> Result<Vec<(String, Figure)>, OutputError> {
-        let mut figures = Vec::new();
-        let mut add = |name: String, figure: Option<Figure>| figures.extend(figure.map(|f| (name, f)));
-        add("largest_rate".into(), self.largest_rate()?);
-        add("phase_portrait".into(), self.portrait()?);
+    /// All figures with their file names, and why others are missing.
+    pub(super) fn figures(&self) -> (Vec<(String, Figure)>, Vec<OutputError>) {
+        let (mut figures, mut failed) = (Vec::new(), Vec::new());
+        let mut add = |name: String, drawn: Drawn| match drawn {
+            Ok(figure) => figures.extend(figure.map(|f| (name, f))),
+            Err(why) => failed.push(why),
+        };
+        add("largest_rate".into(), self.largest_rate());
+        add("phase_portrait".into(), self.portrait());
         for (stem, line) in stems(self.lines.iter().map(|l| l.name.as_str())).iter().zip(&self.lines) {
-            add(format!("{stem}_slip"), self.contours(line)?);
-            add(format!("{stem}_rate"), self.map(line, Mapped::Rate)?);
+            add(format!("{stem}_slip"), self.contours(line));
+            add(format!("{stem}_rate"), self.map(line, Mapped::Rate));
             for &mapped in &line.mapped {
-                add(format!("{stem}_{}", mapped.stem()), self.map(line, mapped)?);
+                add(format!("{stem}_{}", mapped.stem()), self.map(line, mapped));
             }
             if line.mapped.contains(&Mapped::Coupling) {
-                add(format!("{stem}_coupling_profiles"), self.coupling(line)?);
+                add(format!("{stem}_coupling_profiles"), self.coupling(line));
             }
         }
-        Ok(figures)
+        (figures, failed)
     }
 
     /// Size of the frame of an image.
@@ -367,7 +370,7 @@ mod tests {
 
     #[test]
     fn every_fault_along_a_line_has_its_figures() {
-        let names: Vec<String> = sample(&kept()).figures().unwrap().into_iter().map(|f| f.0).collect();
+        let names: Vec<String> = sample(&kept()).figures().0.into_iter().map(|f| f.0).collect();
         assert_eq!(
             names,
             [
@@ -408,7 +411,7 @@ mod tests {
     #[test]
     fn a_run_of_no_length_has_no_curves() {
         let empty = Kept::default();
-        assert!(sample(&empty).figures().unwrap().is_empty());
+        assert!(sample(&empty).figures().0.is_empty());
     }
 
     fn text(shape: &super::super::figure::Shape) -> Option<&str> {

@@ -194,10 +194,11 @@ impl Colours {
         };
         let covered = sorted[((sorted.len() - 1) as f64 * COVERED) as usize];
         let (hi, above) = if most > FAR_ABOVE * covered { (covered, Some(most)) } else { (most, None) };
-        // A uniform field gets a colour bar around its value.
+        // A uniform field gets a colour bar around its value, without negative numbers where there is none.
         let room =
             if hi - lo <= FLAT * hi.abs() { if hi == 0.0 { 1.0 } else { 0.1 * hi.abs() } } else { 0.0 };
-        Self { unit: units.of(most.abs()), lo: lo - room, hi: hi + room, above }
+        let least = if lo < 0.0 { lo - room } else { (lo - room).max(0.0) };
+        Self { unit: units.of(most.abs()), lo: least, hi: hi + room, above }
     }
 
     fn colour(&self, value: f64) -> Rgb {

@@ -42,11 +42,37 @@ pub(super) struct Legend {
 impl Legend {
     /// Legend of entries for a figure of this width.
     pub(super) fn of(entries: &[Entry], width: f64) -> Self {
-        (0..=entries.len())
+        let flowing = (0..=entries.len())
             .rev()
-            .map(|kept| Self::with(entries, kept, width))
-            .find(|legend| legend.lines.len() <= MOST_LINES)
-            .unwrap_or(Self { lines: Vec::new() })
+            .map(|kept| (kept, Self::with(entries, kept, width)))
+            .find(|(_, legend)| legend.lines.len() <= MOST_LINES);
+        let (kept, flowing) = flowing.unwrap_or((0, Self { lines: Vec::new() }));
+        if kept < entries.len() {
+            return flowing;
+        }
+        // Columns are easier to read, unless they take many more lines.
+        let most = MOST_LINES.min(flowing.lines.len() + 1);
+        let columns = (1..=entries.len()).rev().find_map(|columns| Self::aligned(entries, columns, width));
+        columns.filter(|legend| legend.lines.len() <= most).unwrap_or(flowing)
+    }
+
+    /// Legend in this number of columns; `None` if they do not fit the width.
+    fn aligned(entries: &[Entry], columns: usize, width: f64) -> Option<Self> {
+        let long = |entry: &Entry| SAMPLE.1 + CHARACTER * TEXT * entry.name.chars().count() as f64;
+        let widest =
+            |column: usize| entries.iter().skip(column).step_by(columns).map(long).fold(0.0, f64::max);
+        let mut lefts = vec![ENDS];
+        for column in 0..columns {
+            lefts.push(lefts[column] + widest(column) + APART);
+        }
+        if lefts[columns] - APART > width - ENDS {
+            return None;
+        }
+        let placed = |line: &[Entry]| -> Vec<Placed> {
+            let entry = |(entry, &left): (&Entry, &f64)| Placed { left, size: TEXT, entry: entry.clone() };
+            line.iter().zip(&lefts).map(entry).collect()
+        };
+        Some(Self { lines: entries.chunks(columns).map(placed).collect() })
     }
 
     /// Legend of the first entries, and of how many there are more.
@@ -90,6 +116,18 @@ impl Legend {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_of_several_lines_stand_in_columns() {
+        let names =
+            ["a", "a in steady state", "bbbbbb", "bbbbbb in steady state", "cc", "cc in steady state"];
+        let entry = |name: &&str| Entry { name: (*name).into(), colour: INK, dash: &[] };
+        let legend = Legend::of(&names.iter().map(entry).collect::<Vec<_>>(), 540.0);
+        assert_eq!(legend.lines.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2, 2]);
+        let lefts: Vec<Vec<f64>> =
+            legend.lines.iter().map(|line| line.iter().map(|p| p.left).collect()).collect();
+        assert!(lefts.windows(2).all(|two| two[0] == two[1]), "{lefts:?}");
+    }
 
     #[test]
     fn names_stay_within_the_width_and_apart_and_those_left_out_are_counted() {

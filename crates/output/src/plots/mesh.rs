@@ -2,6 +2,7 @@
 //! panel shows what lies around them.
 
 mod clip;
+mod markers;
 mod panel;
 mod picture;
 mod view;
@@ -9,6 +10,7 @@ mod view;
 use super::colour::{INK, MARK};
 use super::figure::{Anchor, Figure, Point};
 use super::style::Style;
+use super::units::LENGTH;
 use super::width::fitting;
 use panel::Panel;
 pub use picture::{Mark, MarkedSet, MeshPicture};
@@ -38,12 +40,19 @@ impl MeshPicture {
         }
         let left = panels.iter().map(Panel::right).fold(0.0, f64::max) + 28.0;
         let below = panels.iter().map(Panel::bottom).fold(0.0, f64::max) + 58.0;
-        let lines = self.sets.len() + 4;
+        let lines = self.sets.len() + 8;
         let mut figure = Figure::new(left + LEGEND, below.max(54.0 + lines as f64 * LINE));
         figure.text((24.0, 20.0), fitting(&self.title, left, 15.0).0, 15.0, Anchor::Start, INK);
         let last = panels.len() - 1;
-        panels.iter().enumerate().for_each(|(k, panel)| panel.draw(&mut figure, self, k == last));
-        self.legend(&mut figure, (left, 54.0));
+        let mut dense = false;
+        for (k, panel) in panels.iter().enumerate() {
+            dense |= panel.draw(&mut figure, self, k == last);
+        }
+        if let [whole, part] = panels.as_slice() {
+            whole.outline(&mut figure, part.shown());
+        }
+        let below = self.legend(&mut figure, (left, 54.0));
+        self.notes(&mut figure, (left, below), dense);
         Some(figure)
     }
 
@@ -64,7 +73,32 @@ impl MeshPicture {
         (largest > 0.0 && view == View::Plane).then_some(((x.0, y.0), (x.1, y.1)))
     }
 
-    fn legend(&self, figure: &mut Figure, (left, top): Point) {
+    /// Cells without edges, and the extent of a mesh in space, whose panel has no axes.
+    fn notes(&self, figure: &mut Figure, (left, top): Point, dense: bool) {
+        let mut y = top;
+        if dense {
+            let swatch = [(6.0, -6.0), (28.0, -6.0), (28.0, 6.0), (6.0, 6.0)];
+            figure.area(swatch.map(|(x, dy)| (left + x, y + dy)).to_vec(), panel::DENSE);
+            figure.text((left + 44.0, y), "cells too narrow to be drawn", TEXT, Anchor::Start, INK);
+            y += LINE;
+        }
+        if !self.in_space {
+            return;
+        }
+        let largest = self.faces.iter().flatten().chain(&self.points).flatten();
+        let unit = LENGTH.of(largest.fold(0.0, |most, v| most.max(v.abs())));
+        for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+            let values = self.faces.iter().flatten().chain(&self.points).map(|x| x[axis]);
+            let (lo, hi) = values.fold((f64::MAX, f64::MIN), |(lo, hi), v| (lo.min(v), hi.max(v)));
+            let [lo, hi] = [lo, hi].map(|v| plain(v / unit.factor));
+            let text = format!("{name} from {lo} to {hi} {}", unit.name);
+            figure.text((left + 6.0, y), text, TEXT, Anchor::Start, MARK);
+            y += LINE;
+        }
+    }
+
+    /// Sets, stations and signs of conditions; returns the height below them.
+    fn legend(&self, figure: &mut Figure, (left, top): Point) -> f64 {
         let room = LEGEND - 60.0;
         let mut y = top;
         for (k, set) in self.sets.iter().enumerate() {
@@ -98,7 +132,15 @@ impl MeshPicture {
             figure.text((x + 10.0, y + 6.0), word, TEXT, Anchor::Start, MARK);
             x += 30.0 + 7.5 * word.len() as f64;
         }
+        y + 6.0 + if x > left + 6.0 { LINE } else { 0.0 }
     }
+}
+
+/// A number with at most four decimals.
+fn plain(value: f64) -> String {
+    let text = format!("{:.4}", value.abs());
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if value < 0.0 && text != "0" { format!("\u{2212}{text}") } else { text.to_string() }
 }
 
 /// Larger side of a rectangle.

@@ -44,6 +44,8 @@ const BALLS: usize = 40;
 const MARKER: f64 = 4.0;
 /// Room above and below the magnitudes, as a share of their range.
 const MARGIN: f64 = 0.2;
+/// Room after the last event, as a share of the time shown.
+const BEYOND: f64 = 0.04;
 /// Least range of magnitudes, so that equal events do not fill the frame.
 const LEAST: f64 = 1.0;
 
@@ -61,10 +63,14 @@ impl EventPanel {
         let range = (hi - lo).max(LEAST);
         let lo = 0.5 * (lo + hi - range);
         let time = TIME.of(self.end.abs());
-        let x =
-            Axis::exact((self.start / time.factor, self.end / time.factor), format!("Time [{}]", time.name));
+        // A run often stops at an event, which needs room for its sign.
+        let last = all().map(|event| event.onset).fold(self.start, f64::max);
+        let end = self.end.max(last + BEYOND * (self.end - self.start));
+        let x = Axis::exact((self.start / time.factor, end / time.factor), format!("Time [{}]", time.name));
         let y = Axis::exact((lo - MARGIN * range, lo + (1.0 + MARGIN) * range), "Moment magnitude".into());
-        let named = self.groups.iter().enumerate().filter(|(_, group)| !group.1.is_empty());
+        // One group needs no name: the title says what it is.
+        let several = self.groups.iter().filter(|group| !group.1.is_empty()).count() > 1;
+        let named = self.groups.iter().enumerate().filter(|(_, group)| several && !group.1.is_empty());
         let entry = |(k, group): (usize, &(String, _))| Entry {
             name: group.0.clone(),
             colour: Style::of(k).colour,

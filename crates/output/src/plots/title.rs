@@ -61,13 +61,21 @@ fn part(text: &str, most: usize) -> (String, String) {
         return (text.to_string(), String::new());
     }
     let end = text.char_indices().nth(most).map_or(text.len(), |(byte, _)| byte);
-    let cut = text[..end].rfind(' ').filter(|&at| at > 0).unwrap_or(end);
+    // An equation is not broken beside its sign.
+    let breaks = |at: &usize| *at > 0 && !text[..*at].ends_with('=') && !text[at + 1..].starts_with('=');
+    let cut = text[..end].rmatch_indices(' ').map(|(at, _)| at).find(breaks).unwrap_or(end);
     (text[..cut].to_string(), text[cut..].trim_start().to_string())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_equation_stays_in_one_line() {
+        assert_eq!(part("slip ahead of event 1, t = 36 yr", 25).0, "slip ahead of event 1,");
+        assert_eq!(part("slip ahead of event 1, t = 36 yr", 27).0, "slip ahead of event 1,");
+    }
 
     #[test]
     fn titles_of_any_length_stay_on_the_canvas() {

@@ -1,5 +1,6 @@
 //! Checks of the input for a fault mesh.
 
+use super::error::Dip;
 use super::{FaultMesh, FaultMeshError};
 use crate::element::ElementKind;
 
@@ -7,8 +8,23 @@ use crate::element::ElementKind;
 /// lying on a vertex: rounding of decimal input.
 pub(super) const ROUNDING: f64 = 1e-9;
 
-/// Smallest dip \[degrees\]: below it cells at the free surface have a scaled Jacobian under sin 10° = 0.17.
-const LEAST_DIP: f64 = 10.0;
+/// Dip from which a fault lies in a column of the grid \[degrees\]: below it cells at the free surface would have a scaled
+/// Jacobian under sin 10° = 0.17.
+const STEEP: f64 = 10.0;
+/// Largest dip of a fault that lies in a row of the grid \[degrees\]: cells then have a scaled Jacobian of cos 80° = 0.17.
+const STEEPEST_FLAT: f64 = 80.0;
+/// Smallest dip \[degrees\]. The minus side is that of smaller x, which rounding of coordinates with six digits must not decide;
+/// claims of the suite reach down to 2 degrees.
+const LEAST_DIP: f64 = 1.0;
+
+/// Course of a fault, which decides how cells follow it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Course {
+    /// The fault lies in a column of the grid.
+    Steep,
+    /// The fault lies in a row.
+    Flat,
+}
 
 /// Checks the input; returns the trace, with tips that reach the boundary placed exactly on it.
 pub(super) fn trace(input: &FaultMesh) -> Result<Vec<[f64; 2]>, FaultMeshError> {
@@ -37,7 +53,7 @@ pub(super) fn trace(input: &FaultMesh) -> Result<Vec<[f64; 2]>, FaultMeshError> 
         }
     }
     crossings(&trace)?;
-    dips(&trace)?;
+    monotonic(&trace)?;
     Ok(trace)
 }
 
@@ -85,24 +101,59 @@ fn crossings(trace: &[[f64; 2]]) -> Result<(), FaultMeshError> {
     Ok(())
 }
 
-/// Refuses segments that are too flat or run opposite to the trace as a whole.
-fn dips(trace: &[[f64; 2]]) -> Result<(), FaultMeshError> {
-    match flat(trace) {
-        Some((segment, dip)) => Err(FaultMeshError::Dip { segment, dip, least: LEAST_DIP }),
+/// Dips of segments \[degrees\], from the x axis downwards in the direction of the trace as a whole: above 90 to the left.
+fn dips(line: &[[f64; 2]]) -> impl Iterator<Item = f64> {
+    let down = (line[0][1] - line[line.len() - 1][1]).signum();
+    line.windows(2).map(move |w| {
+        let (dx, dy) = (down * (w[1][0] - w[0][0]), down * (w[0][1] - w[1][1]));
+        dy.atan2(dx).to_degrees()
+    })
+}
+
+/// The first segment that is too flat or runs the opposite way, with its dip.
+fn refused(line: &[[f64; 2]]) -> Option<(usize, f64)> {
+    // Rounding must not refuse a dip equal to the smallest one.
+    let admissible = LEAST_DIP - ROUNDING..=180.0 - LEAST_DIP + ROUNDING;
+    dips(line).enumerate().find(|(_, dip)| !admissible.contains(dip))
+}
+
+/// Refuses segments that are too flat, and those that run opposite to the trace as a whole.
+fn monotonic(trace: &[[f64; 2]]) -> Result<(), FaultMeshError> {
+    match refused(trace) {
+        Some((segment, dip)) if (0.0..=180.0).contains(&dip) && trace[segment] != trace[segment + 1] => {
+            Err(FaultMeshError::Flat { segment, dip: Dip(dip), least: LEAST_DIP })
+        }
+        Some((segment, _)) => Err(FaultMeshError::Turned { segment }),
         None => Ok(()),
     }
 }
 
-/// The first segment that is too flat or runs the opposite way, with its dip \[degrees\].
-fn flat(trace: &[[f64; 2]]) -> Option<(usize, f64)> {
-    let down = (trace[0][1] - trace[trace.len() - 1][1]).signum();
-    let dips = trace.windows(2).map(|w| {
-        let (dx, dy) = (down * (w[1][0] - w[0][0]), down * (w[0][1] - w[1][1]));
-        dy.atan2(dx).to_degrees()
-    });
-    // Rounding must not refuse a dip equal to the smallest one.
-    let admissible = LEAST_DIP - ROUNDING..=180.0 - LEAST_DIP + ROUNDING;
-    dips.enumerate().find(|(_, dip)| !admissible.contains(dip))
+/// Course of the line through `places`; an error names segments of the trace.
+pub(super) fn course(trace: &[[f64; 2]], places: &[[f64; 2]]) -> Result<Course, FaultMeshError> {
+    let within = |least: f64, most: f64| {
+        let admissible = least - ROUNDING..=most + ROUNDING;
+        dips(places).all(|dip| admissible.contains(&dip))
+    };
+    if within(STEEP, 180.0 - STEEP) {
+        return Ok(Course::Steep);
+    }
+    if within(LEAST_DIP, STEEPEST_FLAT) || within(180.0 - STEEPEST_FLAT, 180.0 - LEAST_DIP) {
+        return Ok(Course::Flat);
+    }
+    let angle = |dip: f64| dip.min(180.0 - dip);
+    let flattest = dips(trace).enumerate().min_by(|a, b| angle(a.1).total_cmp(&angle(b.1)));
+    let (flat, dip) = flattest.unwrap_or((0, 0.0));
+    // The segment whose direction differs most from the flattest one.
+    let other = dips(trace).enumerate().max_by(|a, b| (a.1 - dip).abs().total_cmp(&(b.1 - dip).abs()));
+    let (steep, other) = other.unwrap_or((0, 0.0));
+    Err(FaultMeshError::Bent {
+        flat,
+        dip: Dip(dip),
+        steep,
+        other: Dip(other),
+        limit: STEEP,
+        most: STEEPEST_FLAT,
+    })
 }
 
 /// Refuses a curve through the vertices of a trace that becomes flat or leaves the box between them; `places` lie on it.
@@ -114,7 +165,7 @@ pub(super) fn curved(
     let outside = |x: &[f64; 2]| {
         !(input.min[0] < x[0] && x[0] < input.max[0] && input.min[1] <= x[1] && x[1] <= input.max[1])
     };
-    let Some(k) = flat(places).map(|f| f.0).or_else(|| places.iter().position(outside)) else {
+    let Some(k) = refused(places).map(|f| f.0).or_else(|| places.iter().position(outside)) else {
         return Ok(());
     };
     let at = places[k];

@@ -2,6 +2,18 @@
 
 use crate::mesh::spacing::SpacingError;
 use crate::mesh::split::SplitError;
+use std::fmt;
+
+/// Angle from the x axis downwards \[degrees\]; above 90 the fault dips to the left.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dip(pub f64);
+
+impl fmt::Display for Dip {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (angle, side) = if self.0 > 90.0 { (180.0 - self.0, "left") } else { (self.0, "right") };
+        write!(f, "{angle:.1} degrees to the {side}")
+    }
+}
 
 /// Reasons why a mesh around a fault cannot be made. Vertices and segments are numbered from 0 in the order of the trace.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -49,18 +61,45 @@ pub enum FaultMeshError {
         /// The other.
         second: usize,
     },
-    /// A segment that is too flat, or that turns back up.
+    /// A segment that is too flat.
     #[error(
-        "segment {segment} of the trace dips {dip:.1} degrees, and {least} to {} are possible. Grid lines follow the fault from the bottom to \
-         the top of the box, so that all segments must go the same way, up or down", 180.0 - .least
+        "segment {segment} of the trace dips {dip}; the smallest dip is {least} degree, since minus and plus are the sides to the left and right"
     )]
-    Dip {
+    Flat {
         /// Segment.
         segment: usize,
-        /// Angle from the x axis downwards, in the direction of the trace as a whole \[degrees\].
-        dip: f64,
+        /// Its dip.
+        dip: Dip,
         /// Smallest admissible dip \[degrees\].
         least: f64,
+    },
+    /// A segment without length, or one that runs up where the trace runs down.
+    #[error(
+        "segment {segment} of the trace has no length, or runs against the direction of the whole. Grid lines follow the fault, so that all segments must go the \
+         same way, up or down"
+    )]
+    Turned {
+        /// Segment.
+        segment: usize,
+    },
+    /// A trace with a flat and a steep part.
+    #[error(
+        "segment {flat} of the trace dips {dip} and segment {steep} dips {other}. Where a fault is flatter than {limit} degrees, rows of cells follow it, \
+         and no part may dip more than {most} degrees or to the other side"
+    )]
+    Bent {
+        /// Flattest segment.
+        flat: usize,
+        /// Its dip.
+        dip: Dip,
+        /// A segment that is too steep beside it.
+        steep: usize,
+        /// Its dip.
+        other: Dip,
+        /// Dip below which rows follow the fault \[degrees\].
+        limit: f64,
+        /// Largest dip then \[degrees\].
+        most: f64,
     },
     /// A smooth curve through the vertices that overshoots.
     #[error(

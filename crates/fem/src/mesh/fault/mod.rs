@@ -3,32 +3,40 @@
 //! The grid is structured. One of its columns of edges holds the fault and its continuation to the bottom and the top of the
 //! box; rows extend from the left to the right side. Cells at the fault are rectangles, except close to the free surface, where
 //! rows turn horizontal and cells become parallelograms with the angle of the dip ([`map`] has the formulas).
+//!
+//! Along a flat fault such cells would be needles. A row of edges holds it instead ([`layers`]).
 
 mod check;
 mod curve;
 mod divided;
 mod error;
 mod grid;
+mod layers;
 mod map;
 mod quality;
 mod spec;
 mod spine;
+mod stack;
 
 pub use super::spacing::{MOST_CELLS, Spacing, SpacingError};
 pub use curve::Departure;
 pub use divided::{Divided, divided};
-pub use error::FaultMeshError;
+pub use error::{Dip, FaultMeshError};
 pub use quality::{Quality, quality, scaled_jacobian};
 pub use spec::{FaultMesh, Interpolation};
 
 use super::split::{Fault, Surface, split};
 use super::{Mesh, spacing};
+use check::Course;
 use curve::Curve;
 use map::Map;
 use spine::Spine;
 
 /// Positions along a fault \[m\].
 type Line = Vec<[f64; 2]>;
+
+/// A mesh before it is split, the shape of its cells, and the edges of its fault as nodes.
+type Unsplit = (Mesh<2>, Quality, Vec<Vec<usize>>);
 
 /// A mesh that is split along its fault.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,23 +66,51 @@ impl FaultMesh {
         } else {
             places.reverse();
         }
-        let spine = Spine::new(vertices, [self.min[0], self.max[0]]);
-        let map = Map::new(&spine, [self.min[0], self.max[0]]);
-        let rows = self.rows(&places)?;
-        let columns = self.columns(&map, &along, &spine)?;
-        let grid = grid::Grid::new(self, &map, &spine, &rows, &columns, &places)?;
-        let mut mesh = grid.mesh(self);
-        let quality = grid.check(self, &mesh)?;
-        let mut faces = grid.fault_edges(&places);
+        let course = check::course(&trace, &places)?;
+        let (mut mesh, quality, mut faces) = match course {
+            Course::Steep => self.grid(vertices, &along, &places)?,
+            Course::Flat => self.layers(&vertices, &along, &places)?,
+        };
+        // From minus to plus, also where the fault is nearly horizontal: to the right is upwards if it falls to the right.
+        let up = if places[0][0] > places[places.len() - 1][0] { 1.0 } else { -1.0 };
+        let towards_plus = Some(match course {
+            Course::Steep => [1.0, 0.0],
+            Course::Flat => [0.0, up],
+        });
         if downwards {
             faces.reverse();
         }
-        let surface = Surface { name: "fault".to_string(), faces, towards_plus: Some([1.0, 0.0]) };
+        let surface = Surface { name: "fault".to_string(), faces, towards_plus };
         let fault = split(&mut mesh, &[surface])?.remove(0);
         if fault.pairs.len() > along.len() {
             along = with_middles(&along);
         }
         Ok(Faulted { mesh, fault, along, quality })
+    }
+
+    /// The mesh before splitting, the shape of its cells, and the edges of the fault from its lower tip: the fault in a column.
+    fn grid(&self, vertices: Line, along: &[f64], places: &[[f64; 2]]) -> Result<Unsplit, FaultMeshError> {
+        let spine = Spine::new(vertices, [self.min[0], self.max[0]]);
+        let map = Map::new(&spine, [self.min[0], self.max[0]]);
+        let rows = self.rows(places)?;
+        let columns = self.columns(&map, along, &spine)?;
+        let grid = grid::Grid::new(self, &map, &spine, &rows, &columns, places)?;
+        let mesh = grid.mesh(self);
+        let quality = grid.check(self, &mesh)?;
+        Ok((mesh, quality, grid.fault_edges(places)))
+    }
+
+    /// The same with the fault in a row. No cell folds: its sides are vertical.
+    fn layers(
+        &self,
+        vertices: &[[f64; 2]],
+        along: &[f64],
+        places: &[[f64; 2]],
+    ) -> Result<Unsplit, FaultMeshError> {
+        let layers = layers::Layers::new(self, vertices, places, smallest(along))?;
+        let mesh = stack::mesh(self, &layers);
+        let quality = quality(&mesh);
+        Ok((mesh, quality, stack::fault_edges(&layers, places.len())))
     }
 
     /// Distances along the fault of the corners of cells, their positions, and the vertices of the line that the grid follows.
@@ -126,8 +162,7 @@ impl FaultMesh {
 
     /// ξ of the columns, ascending, including 0.
     fn columns(&self, map: &Map, along: &[f64], spine: &Spine) -> Result<Vec<f64>, FaultMeshError> {
-        let smallest = along.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min);
-        let thickness = self.thickness.unwrap_or(smallest);
+        let thickness = self.thickness.unwrap_or_else(|| smallest(along));
         // A horizontal distance ξ is the thickness ξ sin δ; the steepest segment has exactly the requested thickness.
         let steepest = spine.slopes.iter().map(|p| 1.0 / p.hypot(1.0)).fold(0.0, f64::max);
         let first = thickness / steepest;
@@ -141,6 +176,11 @@ impl FaultMesh {
         let right = side(right, "between the cells at the fault and the right side")?;
         Ok(left.iter().rev().map(|d| -d).chain([0.0]).chain(right).collect())
     }
+}
+
+/// Smallest size of cells along the fault \[m\].
+fn smallest(along: &[f64]) -> f64 {
+    along.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min)
 }
 
 /// Values and the means of neighbours between them.

@@ -5,7 +5,9 @@ use super::super::colour::{INK, MARK, Rgb};
 use super::super::figure::{Anchor, Figure, Point};
 use super::super::style::Style;
 use super::super::units::LENGTH;
+use super::super::width::CHARACTER;
 use super::clip;
+use super::markers::{along, spread};
 use super::picture::{Mark, MarkedSet, MeshPicture};
 use super::view::{View, turned};
 
@@ -15,8 +17,14 @@ const BODY: Rgb = [226, 232, 238];
 const EDGE: Rgb = [176, 184, 192];
 /// Shortest side of a face on the paper that has its edges drawn; finer meshes would be black.
 const FINEST: f64 = 3.0;
+/// Cells with edges that are left out.
+pub(super) const DENSE: Rgb = [203, 210, 217];
 /// Markers along a set.
-const MARKERS: usize = 7;
+const MARKERS: usize = 6;
+/// Distance of markers side by side.
+const BESIDE: f64 = 12.0;
+/// Steps by which the name of a body gives way to lines, and their number to each side.
+const ASIDE: (f64, i32) = (12.0, 8);
 
 /// A panel.
 pub(super) struct Panel {
@@ -48,6 +56,11 @@ impl Panel {
         self.frame.at.0 + self.frame.size.0
     }
 
+    /// Corners of what it shows on the projection \[m\].
+    pub fn shown(&self) -> &clip::Box {
+        &self.shown
+    }
+
     /// Lower end.
     pub fn bottom(&self) -> f64 {
         self.frame.at.1 + self.frame.size.1
@@ -58,9 +71,9 @@ impl Panel {
         self.frame.point(x / self.unit, y / self.unit)
     }
 
-    /// Draws what lies inside.
-    pub fn draw(&self, figure: &mut Figure, picture: &MeshPicture, numbered: bool) {
-        self.faces(figure, &picture.faces);
+    /// Draws what lies inside; true if cells are too small to have their edges drawn.
+    pub fn draw(&self, figure: &mut Figure, picture: &MeshPicture, numbered: bool) -> bool {
+        let dense = self.faces(figure, &picture.faces);
         // The sides of a surface lie on each other: the first is drawn wider.
         let mut surfaces = 0_usize;
         for (k, set) in picture.sets.iter().enumerate() {
@@ -75,7 +88,8 @@ impl Panel {
         for (name, x) in &picture.bodies {
             let at = self.view.project(x);
             if clip::holds(&self.shown, at) {
-                figure.text(self.point(at), name.as_str(), 13.0, Anchor::Middle, MARK);
+                let at = self.aside(picture, name, self.point(at));
+                figure.text(at, name.as_str(), 13.0, Anchor::Middle, INK);
             }
         }
         for (k, x) in picture.stations.iter().enumerate() {
@@ -92,6 +106,45 @@ impl Panel {
             View::Plane => self.frame.draw(figure),
             View::Oblique => self.triad(figure),
         }
+        dense
+    }
+
+    /// Outlines a part that has a panel of its own.
+    pub fn outline(&self, figure: &mut Figure, (lo, hi): &clip::Box) {
+        let corners = [(lo.0, lo.1), (hi.0, lo.1), (hi.0, hi.1), (lo.0, hi.1)];
+        let mut ring = clip::ring(&self.shown, &corners);
+        ring.extend(ring.first().copied());
+        figure.line(ring.into_iter().map(|p| self.point(p)).collect(), 1.0, MARK);
+    }
+
+    /// Place of the name of a body, which gives way to lines of sets and to stations.
+    fn aside(&self, picture: &MeshPicture, name: &str, at: Point) -> Point {
+        let lines = picture.sets.iter().flat_map(|set| border(&set.faces));
+        let lines: Vec<[Point; 2]> = lines.map(|ends| ends.map(|x| self.view.project(&x))).collect();
+        let stations: Vec<Point> = picture.stations.iter().map(|x| self.view.project(x)).collect();
+        let (step, most) = ASIDE;
+        let half = (0.5 * CHARACTER * 13.0 * name.chars().count() as f64 + 6.0, 14.0);
+        let free = |at: &Point| {
+            let corner = |x: f64, y: f64| self.position((at.0 + x * half.0, at.1 + y * half.1));
+            let text = (corner(-1.0, 1.0), corner(1.0, -1.0));
+            let whole = clip::holds(&self.shown, text.0) && clip::holds(&self.shown, text.1);
+            let crossed = lines.iter().any(|[a, b]| clip::line(&text, *a, *b).is_some());
+            whole && !crossed && !stations.iter().any(|s| clip::holds(&text, *s))
+        };
+        let mut places: Vec<(i32, i32)> =
+            (-most..=most).flat_map(|i| (-most..=most).map(move |j| (i, j))).collect();
+        places.sort_by_key(|(i, j)| i * i + j * j);
+        let shifted = places.iter().map(|&(i, j)| (at.0 + step * f64::from(i), at.1 + step * f64::from(j)));
+        shifted.into_iter().find(free).unwrap_or(at)
+    }
+
+    /// Position on the projection of a position on the figure.
+    fn position(&self, (x, y): Point) -> Point {
+        let (lo, hi) = self.shown;
+        let share = |from: f64, size: f64, v: f64| (v - from) / size;
+        let right = share(self.frame.at.0, self.frame.size.0, x);
+        let down = share(self.frame.at.1, self.frame.size.1, y);
+        (lo.0 + right * (hi.0 - lo.0), hi.1 - down * (hi.1 - lo.1))
     }
 
     fn dot(&self, figure: &mut Figure, x: &[f64; 3], radius: f64, colour: Rgb) {
@@ -101,9 +154,9 @@ impl Panel {
         }
     }
 
-    /// Faces towards the reader, those behind first.
-    fn faces(&self, figure: &mut Figure, faces: &[Vec<[f64; 3]>]) {
-        let mut seen: Vec<(f64, Vec<Point>)> = Vec::new();
+    /// Faces towards the reader, those behind first; true if edges of small ones are left out.
+    fn faces(&self, figure: &mut Figure, faces: &[Vec<[f64; 3]>]) -> bool {
+        let mut seen: Vec<(f64, bool, Vec<Point>)> = Vec::new();
         for face in faces {
             let ring: Vec<Point> = face.iter().map(|x| self.view.project(x)).collect();
             if self.view == View::Oblique && turned(&ring) <= 0.0 {
@@ -112,14 +165,19 @@ impl Panel {
             let height = face.iter().map(|x| self.view.height(x)).sum::<f64>() / face.len() as f64;
             let part = clip::ring(&self.shown, &ring);
             if part.len() > 2 {
-                seen.push((height, part.into_iter().map(|p| self.point(p)).collect()));
+                let whole: Vec<Point> = ring.into_iter().map(|p| self.point(p)).collect();
+                let all = edges(&whole).len() == whole.len();
+                seen.push((height, all, part.into_iter().map(|p| self.point(p)).collect()));
             }
         }
         seen.sort_by(|a, b| a.0.total_cmp(&b.0));
-        for (_, ring) in &seen {
-            figure.area(ring.clone(), BODY);
+        let mut dense = false;
+        for (_, all, ring) in &seen {
+            dense |= !all;
+            figure.area(ring.clone(), if *all { BODY } else { DENSE });
             edges(ring).into_iter().for_each(|edge| figure.line(edge.to_vec(), 0.6, EDGE));
         }
+        dense
     }
 
     /// A set: its lines in the plane, its border in space, with markers of its conditions.
@@ -130,12 +188,32 @@ impl Panel {
                 figure.line(part.map(|p| self.point(p)).to_vec(), width, style.colour);
             }
         }
-        let middles: Vec<Point> = set.faces.iter().map(|f| self.view.project(&middle(f))).collect();
-        let inside: Vec<Point> = middles.into_iter().filter(|p| clip::holds(&self.shown, *p)).collect();
-        for (k, at) in spread(&inside, MARKERS).iter().enumerate() {
-            let markers: Vec<usize> = set.marks.iter().filter_map(|m| m.marker()).collect();
-            if let Some(marker) = markers.get(k % markers.len().max(1)) {
-                Style::of(*marker).marker_in(figure, self.point(*at), 5.0, style.colour);
+        let markers: Vec<usize> = set.marks.iter().filter_map(|m| m.marker()).collect();
+        let mut draw = |marker: usize, at: Point| Style::of(marker).marker_in(figure, at, 5.0, style.colour);
+        if markers.is_empty() {
+            return;
+        }
+        match self.view {
+            // One after another along a line.
+            View::Plane => {
+                let ends = |f: &Vec<[f64; 3]>| Some([f.first()?, f.last()?].map(|x| self.view.project(x)));
+                let parts = set.faces.iter().filter_map(ends);
+                let parts: Vec<[Point; 2]> =
+                    parts.filter_map(|[a, b]| clip::line(&self.shown, a, b)).collect();
+                let places = along(&parts, MARKERS / markers.len() * markers.len());
+                places
+                    .iter()
+                    .enumerate()
+                    .for_each(|(k, at)| draw(markers[k % markers.len()], self.point(*at)));
+            }
+            // Side by side on a surface, which has no order.
+            View::Oblique => {
+                let middles: Vec<Point> = set.faces.iter().map(|f| self.view.project(&middle(f))).collect();
+                for at in spread(&middles, MARKERS) {
+                    let (x, y) = self.point(at);
+                    let first = x - 0.5 * BESIDE * (markers.len() - 1) as f64;
+                    markers.iter().enumerate().for_each(|(k, m)| draw(*m, (first + BESIDE * k as f64, y)));
+                }
             }
         }
     }
@@ -166,23 +244,6 @@ fn edges(ring: &[Point]) -> Vec<[Point; 2]> {
         sides.into_iter().fold(f64::INFINITY, f64::min)
     };
     (0..n).filter(|&k| across(k) >= FINEST).map(edge).collect()
-}
-
-/// Up to `count` of some points, far from each other: the one nearest to their middle first, and then each time the farthest from all before.
-fn spread(points: &[Point], count: usize) -> Vec<Point> {
-    let n = points.len().max(1) as f64;
-    let middle = points.iter().fold((0.0, 0.0), |m, p| (m.0 + p.0 / n, m.1 + p.1 / n));
-    let apart = |a: &Point, b: &Point| (a.0 - b.0).hypot(a.1 - b.1);
-    let first = points.iter().min_by(|a, b| apart(a, &middle).total_cmp(&apart(b, &middle)));
-    let mut chosen: Vec<Point> = first.copied().into_iter().collect();
-    let mut distance: Vec<f64> = points.iter().map(|p| chosen.first().map_or(0.0, |c| apart(p, c))).collect();
-    while chosen.len() < count.min(points.len()) {
-        let far = (0..points.len()).max_by(|&a, &b| distance[a].total_cmp(&distance[b]).then(b.cmp(&a)));
-        let Some(next) = far.map(|k| points[k]) else { break };
-        distance.iter_mut().zip(points).for_each(|(d, p)| *d = d.min(apart(p, &next)));
-        chosen.push(next);
-    }
-    chosen
 }
 
 /// Mean of the corners of a face.
@@ -216,19 +277,13 @@ fn border(faces: &[Vec<[f64; 3]>]) -> Vec<[[f64; 3]; 2]> {
 
 #[cfg(test)]
 mod tests {
-    use super::{border, edges, spread};
+    use super::{border, edges};
 
     #[test]
     fn edges_close_to_those_across_are_left_out() {
         let flat = [(0.0, 0.0), (9.0, 0.0), (9.0, 1.0), (0.0, 1.0)];
         assert_eq!(edges(&flat), [[(9.0, 0.0), (9.0, 1.0)], [(0.0, 1.0), (0.0, 0.0)]]);
         assert!(edges(&[(0.0, 0.0), (9.0, 0.0), (0.0, 1.0)]).is_empty());
-    }
-
-    #[test]
-    fn markers_keep_apart_on_a_graded_line() {
-        let points: Vec<(f64, f64)> = [0.0, 0.1, 0.2, 5.0, 10.0].map(|x| (x, 0.0)).into();
-        assert_eq!(spread(&points, 3), [(5.0, 0.0), (0.0, 0.0), (10.0, 0.0)]);
     }
 
     #[test]

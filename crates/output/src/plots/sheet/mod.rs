@@ -270,8 +270,11 @@ impl Sheet {
     #[must_use]
     pub fn names(&self, tables: &Path) -> Vec<String> {
         let asked = Asked::default();
-        let readable = self.plots.iter().filter_map(|plot| self.figures(plot, tables, &asked).ok());
-        readable.flatten().map(|figure| figure.0).collect()
+        self.plots
+            .iter()
+            .flat_map(|plot| self.figures(plot, tables, &asked).0)
+            .map(|figure| figure.0)
+            .collect()
     }
 
     /// Draws the figures that are asked for from the tables in one folder into another; returns the files in the order written.
@@ -297,13 +300,8 @@ impl Sheet {
         atomic::create_dir(folder)?;
         let (mut written, mut failed, paper) = (Vec::new(), Vec::new(), asked.paper());
         for plot in &self.plots {
-            let figures = match self.figures(plot, tables, asked) {
-                Ok(figures) => figures,
-                Err(why) => {
-                    failed.push(why);
-                    continue;
-                }
-            };
+            let (figures, missing) = self.figures(plot, tables, asked);
+            failed.extend(missing);
             let wanted = figures.into_iter().filter(|(name, _)| asked.wants(name));
             for (name, figure) in wanted {
                 let figure = paper.filled(figure).scaled(asked.shrinks());
@@ -319,27 +317,40 @@ impl Sheet {
         Ok((written, failed))
     }
 
-    fn figures(&self, plot: &Plot, folder: &Path, asked: &Asked) -> Result<Named, OutputError> {
+    /// Figures of a plot, and why others are missing.
+    fn figures(&self, plot: &Plot, folder: &Path, asked: &Asked) -> (Named, Vec<OutputError>) {
         if plot.event().is_some_and(|event| !asked.takes(event)) {
-            return Ok(Vec::new());
+            return (Vec::new(), Vec::new());
         }
         let tables = Tables { folder, asked, in_space: self.in_space };
+        if let Plot::Cycles(through) = plot {
+            return self.cycles(through, &tables, asked.paper());
+        }
+        match self.of_one_table(plot, &tables) {
+            Ok(figures) => (figures, Vec::new()),
+            Err(why) => (Vec::new(), vec![why]),
+        }
+    }
+
+    /// Figures of a plot that stands or falls with its tables.
+    fn of_one_table(&self, plot: &Plot, tables: &Tables<'_>) -> Result<Named, OutputError> {
+        let asked = tables.asked;
         let paper = asked.paper();
         let one =
             |name: &str, figure: Option<Figure>| figure.map(|f| (name.to_string(), f)).into_iter().collect();
         Ok(match plot {
             Plot::Curves(curves) => {
-                let chart = curves.chart(&tables)?;
+                let chart = curves.chart(tables)?;
                 one(&curves.file, chart.figure(paper, curves.start(asked)))
             }
-            Plot::Cycles(through) => self.cycles(through, &tables, paper)?,
+            Plot::Cycles(_) => Vec::new(),
             Plot::Event(event) => self.in_event(event).figures(paper),
-            Plot::Stills(stills) => self.stills(stills, &tables, paper)?,
-            Plot::Ground(ground) => one(&ground.file, self.ground(ground, &tables)?.figure(paper)),
+            Plot::Stills(stills) => self.stills(stills, tables, paper)?,
+            Plot::Ground(ground) => one(&ground.file, self.ground(ground, tables)?.figure(paper)),
             Plot::Panel(panel) => one("events", windowed(panel, asked).figure(paper)),
             Plot::Ruptures(faults) => {
                 let faults = faults.iter().map(|f| self.fault(f)).collect();
-                Ruptures { title: self.title.clone(), faults, rates: &tables, paper }.figures()?
+                Ruptures { title: self.title.clone(), faults, rates: tables, paper }.figures()?
             }
             Plot::Velocities(shown) => self.velocities(shown, asked, paper),
             Plot::Mises(shown) => one(&shown.file, self.mises(shown, asked, paper)),
@@ -348,7 +359,7 @@ impl Sheet {
         })
     }
 
-    fn cycles(&self, through: &Through, tables: &Tables<'_>, paper: Paper) -> Result<Named, OutputError> {
+    fn cycles(&self, through: &Through, tables: &Tables<'_>, paper: Paper) -> (Named, Vec<OutputError>) {
         let Through { lines, events, intervals, spacing, chosen, stations } = through.clone();
         let asked = tables.asked;
         let events = match asked.window {
