@@ -248,7 +248,9 @@ fn respond(
     let mut states = old.to_vec();
     let (mut t, mut s, mut v) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
     let (mut dt, mut dn, mut regime) = (vec![0.0; n], vec![0.0; n], vec![Regime::Stick; n]);
-    let trials = Trials { normal, trial, stiffness: STIFFNESS, dt: DT, damping: 0.0, lag: None, near };
+    let points: Vec<usize> = (0..n).collect();
+    let stiffness = STIFFNESS;
+    let trials = Trials { points: &points, normal, trial, stiffness, dt: DT, damping: 0.0, lag: None, near };
     group.bench_function(BenchmarkId::new(name, n), |b| {
         b.iter(|| {
             let out = Responses {

@@ -1,9 +1,10 @@
 """Files of values as other programs write them: grids by SciPy in classic netCDF, unstructured grids by VTK and meshio.
 
 The first folder takes `normal.grd` and `normal.vtu`, a linear function [MPa] on a rectangle that dips by 30 degrees, and `map.grd`, the
-depth of `megathrust_surface.py` [km, as MPa] over longitude and latitude. The second takes one surface in every form of a VTU file.
+depth of `megathrust_surface.py` [km, as MPa] over longitude and latitude. The second takes one surface in every form of a VTU file. The third
+takes `friction.grd`, coefficients that grow along an interface.
 
-    python field_files.py ../cases/fault_medium/files ../../crates/output/tests/vtu
+    python field_files.py ../cases/fault_medium/files ../../crates/output/tests/vtu ../cases/interface_laws/files
 """
 
 import sys
@@ -82,9 +83,11 @@ def write_by_vtk(grid, path, mode, order="little", compressed=True, wide=False, 
 
 
 def main():
-    case, forms = map(Path, sys.argv[1:3])
-    for folder in (case, forms):
+    case, forms, interface = map(Path, sys.argv[1:4])
+    for folder in (case, forms, interface):
         folder.mkdir(exist_ok=True)
+    x = np.array([-2.0, 1.0, 4.5, 11.0])
+    write_grid(interface / "friction.grd", ("x",), ("cm",), (x,), "mu", "1", 0.3 + 0.02 * x)
     x, z = np.linspace(-1.0, 10.0, 8), np.linspace(-1.0, 11.0, 7)
     values = linear(x[None, :], -np.tan(DIP) * x[None, :], z[:, None])
     write_grid(case / "normal.grd", ("z", "x"), ("km", "km"), (z, x), "normal", "MPa", values)

@@ -72,6 +72,7 @@ impl Shear {
         }
         if n > 0 {
             let present = Present {
+                points: &s.index,
                 normal: &s.normal,
                 traction: &s.trial,
                 rate: &s.rate,
@@ -131,6 +132,7 @@ impl Shear {
             let dt = self.traction_increment(i, step);
             let df = -step.normal[p].stiffness * step.gap[p];
             let t = along_path(&self.committed.traction[p], &dt, from);
+            part.index.push(p);
             part.normal.push(step.normal[p].traction + from * df);
             part.trial.push(norm(&t));
             part.rate.push(s.rate[i]);
@@ -240,6 +242,7 @@ impl Slices {
     /// The gathered points in the form that a law takes.
     fn present(&self, stiffness: f64, options: PresentOptions) -> Present<'_> {
         Present {
+            points: &self.index,
             normal: &self.normal,
             traction: &self.trial,
             rate: &self.rate,

@@ -96,6 +96,7 @@ impl Shear {
             let old = &self.committed.states[p * k..(p + 1) * k];
             let mut states = old.to_vec();
             let trials = Trials {
+                points: &[p],
                 normal: &[contact.traction],
                 trial: &[norm(&self.committed.traction[p])],
                 stiffness: self.stiffness,

@@ -212,6 +212,7 @@ impl Shear {
             // The solver's own initial guess is better than the rate of the previous step as soon as the rate changes by more
             // than a few percent.
             let trials = Trials {
+                points: &s.index,
                 normal: &s.normal,
                 trial: &s.trial,
                 stiffness: self.stiffness,
@@ -281,6 +282,7 @@ impl Shear {
         }
         s.error.resize(s.index.len(), 0.0);
         let taken = Taken {
+            points: &s.index,
             normal: &s.normal,
             before: &s.before,
             rate: &s.rate,

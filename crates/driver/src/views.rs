@@ -1,5 +1,6 @@
 //! The model and its state in the form passed to observers.
 
+use crate::laws::Theta;
 use crate::plan::Plan;
 use asperity_contact::{Interface, PointFields, Status};
 use asperity_fem::block::von_mises;
@@ -52,7 +53,8 @@ pub fn setup<const D: usize>(plan: &Plan<D>, areas: &[Vec<f64>]) -> Setup {
             .interfaces
             .iter()
             .zip(areas)
-            .map(|(i, areas)| interface_mesh(plan, i, areas))
+            .zip(&plan.thetas)
+            .map(|((i, areas), thetas)| interface_mesh(plan, i, areas, thetas))
             .collect(),
         stages: plan.problem.stages.iter().map(|s| (s.name.clone(), s.end)).collect(),
         points: plan.problem.samples.points.iter().map(point_mark).collect(),
@@ -157,6 +159,7 @@ fn interface_mesh<const D: usize>(
     plan: &Plan<D>,
     planned: &PlannedInterface,
     areas: &[f64],
+    thetas: &[Theta],
 ) -> InterfaceMesh {
     let nodes: Vec<usize> = planned.slave.iter().map(|s| s.0).collect();
     let local = |n: &usize| nodes.partition_point(|m| m < n);
@@ -175,13 +178,15 @@ fn interface_mesh<const D: usize>(
             .collect(),
         probes: probes(&positions, planned.probes),
         states: planned.law.as_ref().map_or(0, |law| law.states()),
-        theta: plan.thetas.get(&planned.name).map(|theta| {
-            let (at_zero, per_state) = theta.linear();
-            LogTheta { at_zero, per_state, steady: theta.steady() }
-        }),
+        theta: thetas.iter().map(log_theta).collect(),
         in_space: D == 3,
         positions,
     }
+}
+
+fn log_theta(theta: &Theta) -> LogTheta {
+    let (at_zero, per_state) = theta.linear();
+    LogTheta { at_zero, per_state, steady: theta.steady() }
 }
 
 /// Slave nodes nearest to `count` equally spaced positions along the diagonal of the slave side's bounding box.

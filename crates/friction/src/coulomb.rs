@@ -183,6 +183,7 @@ mod tests {
         let offset = [lag.unwrap_or_default()];
         law.respond(
             Trials {
+                points: &[0],
                 normal: &[normal],
                 trial: &[trial],
                 stiffness: 4.0,

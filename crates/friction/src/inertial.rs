@@ -118,6 +118,7 @@ impl<F: Form, E: Evolution> Inertial for RateLaw<F, E> {
     fn push(&self, push: &Push, states: &mut [f64]) -> Result<Pushed, Failure> {
         let half = 0.5 * push.dt;
         let trials = Trials {
+            points: &[0],
             normal: &[push.normal],
             trial: &[push.trial],
             stiffness: push.impedance / half,

@@ -3,6 +3,7 @@
 use crate::Failure;
 use crate::evolution::Parameter;
 use crate::law::Law;
+use crate::pointwise::Pointwise;
 use std::sync::Arc;
 
 /// A row of the table.
@@ -95,6 +96,20 @@ pub fn build(name: &str, own: &[f64], cap: Option<f64>) -> Result<Arc<dyn Law>, 
     each_kind!(Row => {
         if <Row as Tabled>::KIND.name == name {
             return Ok(Arc::new(<Row as Tabled>::build(own, cap)?));
+        }
+    });
+    Err(Failure::Parameter { name: "kind", value: f64::NAN, admissible: "a kind of the table" })
+}
+
+/// Builds a law of this name with values of its own at each point, and a largest shear traction \[Pa\] of each; see [`Tabled::build`].
+///
+/// # Errors
+/// [`Failure::Parameter`], also where the table has no such name, and without points.
+pub fn build_each(name: &str, points: &[(&[f64], Option<f64>)]) -> Result<Arc<dyn Law>, Failure> {
+    each_kind!(Row => {
+        if <Row as Tabled>::KIND.name == name {
+            let laws = points.iter().map(|(own, cap)| <Row as Tabled>::build(own, *cap));
+            return Ok(Arc::new(Pointwise::new(laws.collect::<Result<_, _>>()?)?));
         }
     });
     Err(Failure::Parameter { name: "kind", value: f64::NAN, admissible: "a kind of the table" })

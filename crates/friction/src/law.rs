@@ -22,6 +22,8 @@ pub enum Regime {
 /// Trial state of `n` closed points over one step.
 #[derive(Clone, Copy, Debug)]
 pub struct Trials<'a> {
+    /// Number of each point on its surface, `n` values: a law that varies along the surface picks its parameters by it.
+    pub points: &'a [usize],
     /// Normal traction f_n ≥ 0 \[Pa\], `n` values.
     pub normal: &'a [f64],
     /// Magnitude of the trial shear traction |t^e| \[Pa\], `n` values.
@@ -39,6 +41,20 @@ pub struct Trials<'a> {
     pub near: Option<&'a [f64]>,
 }
 
+impl Trials<'_> {
+    /// The trial state of one of the points.
+    pub(crate) fn one(&self, k: usize) -> Trials<'_> {
+        Trials {
+            points: &self.points[k..=k],
+            normal: &self.normal[k..=k],
+            trial: &self.trial[k..=k],
+            lag: self.lag.map(|l| Lag { weight: &l.weight[k..=k], offset: &l.offset[k..=k] }),
+            near: self.near.map(|near| &near[k..=k]),
+            ..*self
+        }
+    }
+}
+
 /// Coefficients of a two-step backward difference in slip (BDF2 with variable step), `n` values each. States evolve at the mean rate of
 /// the step, Δλ/Δt.
 #[derive(Clone, Copy, Debug)]
@@ -53,6 +69,8 @@ pub struct Lag<'a> {
 /// the end.
 #[derive(Clone, Copy, Debug)]
 pub struct Taken<'a> {
+    /// Number of each point on its surface, `n` values: a law that varies along the surface picks its parameters by it.
+    pub points: &'a [usize],
     /// f_n at the end \[Pa\].
     pub normal: &'a [f64],
     /// V at the start \[m/s\].
@@ -67,6 +85,22 @@ pub struct Taken<'a> {
     pub old: &'a [f64],
     /// States at the end, point-major.
     pub new: &'a [f64],
+}
+
+impl Taken<'_> {
+    /// The result of one of the points, each of which has so many states.
+    pub(crate) fn one(&self, k: usize, states: usize) -> Taken<'_> {
+        Taken {
+            points: &self.points[k..=k],
+            normal: &self.normal[k..=k],
+            before: &self.before[k..=k],
+            rate: &self.rate[k..=k],
+            slip: &self.slip[k..=k],
+            dt: self.dt,
+            old: &self.old[k * states..(k + 1) * states],
+            new: &self.new[k * states..(k + 1) * states],
+        }
+    }
 }
 
 /// Storage for the answer of a law; every slice holds `n` values but `states`, which holds `n * law.states()`.
@@ -88,9 +122,26 @@ pub struct Responses<'a> {
     pub states: &'a mut [f64],
 }
 
+impl Responses<'_> {
+    /// Storage for the answer at one of the points, each of which has so many states.
+    pub(crate) fn one(&mut self, k: usize, states: usize) -> Responses<'_> {
+        Responses {
+            traction: &mut self.traction[k..=k],
+            slip: &mut self.slip[k..=k],
+            rate: &mut self.rate[k..=k],
+            regime: &mut self.regime[k..=k],
+            d_trial: &mut self.d_trial[k..=k],
+            d_normal: &mut self.d_normal[k..=k],
+            states: &mut self.states[k * states..(k + 1) * states],
+        }
+    }
+}
+
 /// State of `n` closed points at the start of a forward (rate-form) step.
 #[derive(Clone, Copy, Debug)]
 pub struct Present<'a> {
+    /// Number of each point on its surface, `n` values: a law that varies along the surface picks its parameters by it.
+    pub points: &'a [usize],
     /// Normal traction f_n \[Pa\].
     pub normal: &'a [f64],
     /// Magnitude of the shear traction \[Pa\].
@@ -109,6 +160,21 @@ pub struct Present<'a> {
     pub rate_floor: f64,
 }
 
+impl Present<'_> {
+    /// The state of one of the points, each of which has so many states.
+    pub(crate) fn one(&self, k: usize, states: usize) -> Present<'_> {
+        Present {
+            points: &self.points[k..=k],
+            normal: &self.normal[k..=k],
+            traction: &self.traction[k..=k],
+            rate: &self.rate[k..=k],
+            regime: &self.regime[k..=k],
+            states: &self.states[k * states..(k + 1) * states],
+            ..*self
+        }
+    }
+}
+
 /// The linearised law over a forward step: `Δτ = along (E_t η·Δu) + coupling Δf_n + constant`.
 #[derive(Debug)]
 pub struct Rates<'a> {
@@ -120,6 +186,17 @@ pub struct Rates<'a> {
     pub constant: &'a mut [f64],
 }
 
+impl Rates<'_> {
+    /// The linearised law of one of the points.
+    pub(crate) fn one(&mut self, k: usize) -> Rates<'_> {
+        Rates {
+            along: &mut self.along[k..=k],
+            coupling: &mut self.coupling[k..=k],
+            constant: &mut self.constant[k..=k],
+        }
+    }
+}
+
 /// Increments computed over a forward step.
 #[derive(Clone, Copy, Debug)]
 pub struct Increments<'a> {
@@ -129,6 +206,13 @@ pub struct Increments<'a> {
     pub traction: &'a [f64],
     /// Slip increment Δλ \[m\].
     pub slip: &'a [f64],
+}
+
+impl Increments<'_> {
+    /// The increments of one of the points.
+    pub(crate) fn one(&self, k: usize) -> Increments<'_> {
+        Increments { normal: &self.normal[k..=k], traction: &self.traction[k..=k], slip: &self.slip[k..=k] }
+    }
 }
 
 /// Limit of the R-minimum rule that determined a step.
@@ -209,10 +293,10 @@ pub trait Law: Send + Sync + std::fmt::Debug {
         false
     }
 
-    /// Writes the initial states of `n` points, point-major (slice of length `n * states()`).
+    /// Writes the initial states of the points 0 to `n - 1` of a surface, point-major (slice of length `n * states()`).
     fn initial(&self, states: &mut [f64]);
 
-    /// Friction coefficient μ(f_n, V, states) \[-\] for output, one value per point. If the law has an elastic domain, the
+    /// Friction coefficient μ(f_n, V, states) \[-\] for output, one value for each of the points 0 to `n - 1` of a surface. If the law has an elastic domain, the
     /// caller computes `traction/normal` instead.
     fn coefficient(
         &self,

@@ -14,6 +14,7 @@ pub mod law;
 mod line;
 mod pace;
 pub mod point;
+pub mod pointwise;
 pub mod rate;
 pub mod sheet;
 pub mod slider;

@@ -95,6 +95,7 @@ mod tests {
     fn the_whole_trial_is_carried_under_tension_too() {
         let (normal, trial) = ([-5.0, 0.0, 7.0], [3.0, 4.0, 1e9]);
         let trials = Trials {
+            points: &[0, 1, 2],
             normal: &normal,
             trial: &trial,
             stiffness: 10.0,
@@ -118,6 +119,7 @@ mod tests {
         let mut numbers = [[0.0; 1]; 5];
         let [traction, slip, rate, d_trial, d_normal] = &mut numbers;
         let trials = Trials {
+            points: &[0],
             normal: &[f64::NAN],
             trial: &[1.0],
             stiffness: 1.0,

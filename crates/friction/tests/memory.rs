@@ -87,7 +87,16 @@ fn implicit(
     let (mut t, mut s, mut v, mut g, mut by_t, mut by_n) =
         ([0.0], [0.0], [0.0], [Regime::Stick], [0.0], [0.0]);
     law.respond(
-        Trials { normal: &[normal], trial: &[trial], stiffness, dt, damping: 0.0, lag: None, near: None },
+        Trials {
+            points: &[0],
+            normal: &[normal],
+            trial: &[trial],
+            stiffness,
+            dt,
+            damping: 0.0,
+            lag: None,
+            near: None,
+        },
         old,
         Responses {
             traction: &mut t,

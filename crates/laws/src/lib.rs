@@ -14,6 +14,7 @@ use asperity_friction::fault::{FaultLaw, Points};
 use asperity_friction::inertial::{self, Inertial, InertialFault};
 use asperity_friction::kind::{self, Kind, Order, Tabled};
 use asperity_friction::law::Law;
+use asperity_friction::pointwise::Pointwise;
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::Sliding;
 use asperity_friction::slip_weakening::SlipWeakening;
@@ -99,6 +100,31 @@ pub fn build(choice: &LawChoice) -> Result<Arc<dyn Law>, Failure> {
         Parts::Elastic(law) => law?,
         Parts::Sliding(strength, history) => single(strength, history)?,
     })
+}
+
+/// Builds a law with parameters of its own at each point of an interface; all are of the kind of the first.
+///
+/// # Errors
+/// [`Failure::Parameter`] with the admissible range, also for laws of different kinds.
+pub fn build_each(first: &LawChoice, rest: &[LawChoice]) -> Result<Arc<dyn Law>, Failure> {
+    let unlike = Failure::Parameter { name: "laws", value: f64::NAN, admissible: "laws of one kind" };
+    if let LawChoice::Yielding { kind, .. } = first {
+        let own = |choice| match choice {
+            &LawChoice::Yielding { kind: of, ref own, f_limit } if of == *kind => {
+                Some((own.as_slice(), f_limit))
+            }
+            _ => None,
+        };
+        let all: Option<Vec<_>> = std::iter::once(first).chain(rest).map(own).collect();
+        return kind::build_each(kind, &all.ok_or(unlike)?);
+    }
+    let sliding = |choice| match parts(choice) {
+        Parts::Sliding(strength, history) if first.same_kind(choice) => Some((strength, history)),
+        _ => None,
+    };
+    let part = sliding(first).ok_or_else(|| unlike.clone())?;
+    let rest: Option<Vec<_>> = rest.iter().map(sliding).collect();
+    with_form(&List { first: part, rest: rest.ok_or(unlike)? }, OfInterface)?
 }
 
 /// Builds the law that a scene chose for sliders; `None` if it has an elastic domain.
@@ -223,6 +249,17 @@ impl Finish for Single {
 
     fn finish<L: Sliding + Inertial + Clone + 'static>(self, first: L, _: Vec<L>) -> Self::Made {
         Arc::new(first)
+    }
+}
+
+/// Builds the law of an interface whose parameters vary from point to point.
+struct OfInterface;
+
+impl Finish for OfInterface {
+    type Made = Result<Arc<dyn Law>, Failure>;
+
+    fn finish<L: Sliding + Inertial + Clone + 'static>(self, first: L, rest: Vec<L>) -> Self::Made {
+        Ok(Arc::new(Pointwise::new(std::iter::once(first).chain(rest).collect())?))
     }
 }
 

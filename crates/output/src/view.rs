@@ -51,10 +51,18 @@ pub struct InterfaceMesh {
     pub probes: Vec<usize>,
     /// Number of state variables of its law.
     pub states: usize,
-    /// The state θ of its law, if it has one.
-    pub theta: Option<LogTheta>,
+    /// The state θ of its law: one for all points, or one of each; empty if the law has none.
+    pub theta: Vec<LogTheta>,
     /// True if the interface lies in space, so that slip and shear traction are vectors.
     pub in_space: bool,
+}
+
+impl InterfaceMesh {
+    /// The state θ of the law at a point, if it has one.
+    #[must_use]
+    pub fn theta_at(&self, point: usize) -> Option<LogTheta> {
+        self.theta.get(point).or(self.theta.first()).copied()
+    }
 }
 
 /// State of an interface after a step, with one value per slave node.

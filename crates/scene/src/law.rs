@@ -5,6 +5,7 @@ mod given;
 mod reader;
 mod several;
 mod table;
+mod vary;
 
 pub use choice::{Evolution, Form, Heat, LawChoice, State, Strength};
 pub use given::given;

@@ -128,7 +128,7 @@ impl Scene {
         meshes.chain(lines).map(Spanned::get_mut)
     }
 
-    /// Names of the files of the scene: meshes, parameters of faults, tables and traces.
+    /// Names of the files of the scene: meshes, parameters of faults and interfaces, tables and traces.
     pub fn files(&self) -> impl Iterator<Item = &Spanned<String>> {
         let bodies = self.bodies.values().filter_map(|body| match &body.mesh {
             MeshSource::Gmsh(mesh) => Some(&mesh.file),
@@ -137,7 +137,8 @@ impl Scene {
         });
         let faults = self.faults.values().filter_map(|fault| Some(fault.triangles.as_ref()?.file()));
         let fields = self.faults.values().flat_map(|fault| fault.fields.all());
-        let fields = fields.filter_map(|(_, field)| Some(&field?.file));
+        let of_laws = self.interfaces.values().flat_map(|interface| interface.fields.all());
+        let fields = fields.chain(of_laws).filter_map(|(_, field)| Some(&field?.file));
         let conditions = self.stages.iter().flat_map(|stage| &stage.conditions);
         let tables =
             conditions.flat_map(|c| c.get_ref().tables()).filter_map(|table| Some(&table.file()?.file));
@@ -169,6 +170,9 @@ pub struct Interface {
     pub enforcement: Enforcement,
     /// A [friction law](laws.md) or a bond; absent: frictionless.
     pub law: Option<Spanned<LawSpec>>,
+    /// Values of parameters of the law at positions in files.
+    #[serde(default)]
+    pub fields: LawFields,
     /// Radiation damping η of a law of the slip rate: `"radiation"`, or a value; absent: none \[Pa s/m\].
     pub damping: Option<Spanned<DampingSpec>>,
     /// Treatment of points too far apart to resolve friction that weakens: `"refuse"` (default) or `"allow"`.

@@ -1,5 +1,7 @@
 //! Friction laws of interfaces on a column whose points are sliders on springs, with known tractions and slip.
 
+mod varying;
+
 use super::texts::{self, Done};
 use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
@@ -39,7 +41,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     static_kinetic(ledger)?;
     capped_rate(ledger)?;
     capped_states(ledger)?;
-    turning(ledger)
+    turning(ledger)?;
+    varying::run(ledger)
 }
 
 /// A vertex of a loading path; load, tractions and slip vary linearly in time between vertices.

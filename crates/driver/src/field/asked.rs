@@ -12,6 +12,7 @@ use crate::scene::units::Dimension;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Bound {
     Positive,
+    NotNegative,
     /// Of this sign, which is that of `rate`.
     Signed(f64),
     /// Of any sign.
@@ -53,6 +54,7 @@ pub(super) fn checked(
     let (name, parameter) = (asked.name, asked.parameter);
     let (bad, must): (&dyn Fn(f64) -> bool, &str) = match parameter.bound {
         Bound::Positive => (&|v| v <= 0.0, "be positive"),
+        Bound::NotNegative => (&|v| v < 0.0, "not be negative"),
         Bound::Signed(sign) => (&move |v| v * sign <= 0.0, "have the sign of `rate`"),
         Bound::Free => (&|_| false, ""),
     };

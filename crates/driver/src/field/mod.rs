@@ -24,6 +24,7 @@ use asperity_mechanics::coordinates;
 use axes::Axes;
 use files::Content;
 use std::ops::Range;
+use std::path::Path;
 
 /// Share of the extent of a file below which its unit is doubtful: metres taken for kilometres leave a thousandth.
 const LEAST_SHARE: f64 = 2e-3;
@@ -32,7 +33,8 @@ const LEAST_SHARE: f64 = 2e-3;
 pub(crate) struct Field<const D: usize> {
     key: &'static str,
     file: String,
-    span: Range<usize>,
+    /// Position of the name of the file in the scene.
+    pub span: Range<usize>,
     axes: Axes<D>,
     source: Source,
 }
@@ -98,7 +100,7 @@ impl<const D: usize> Field<D> {
                     self.file,
                     self.axes.extent(),
                 ),
-                format!("`{}` needs values all over the sliding part; check signs and units", self.key),
+                format!("`{}` needs a value there; check signs and units", self.key),
             )
         })?;
         if value.is_finite() {
@@ -107,7 +109,7 @@ impl<const D: usize> Field<D> {
         Err(Diagnostic::at(
             self.span.clone(),
             format!("a point of {region} at {place} lies where `{}` has no value", self.file),
-            format!("`{}` needs values all over the sliding part, and the file has NaN there", self.key),
+            format!("`{}` needs a value there, and the file has NaN", self.key),
         ))
     }
 
@@ -124,11 +126,19 @@ impl<const D: usize> Field<D> {
         })
     }
 
+    /// Name of the file without its folder, which is another one where the scene is run again beside its results.
+    fn base_name(&self) -> String {
+        Path::new(&self.file)
+            .file_name()
+            .map_or_else(|| self.file.clone(), |n| n.to_string_lossy().into_owned())
+    }
+
     /// Note on what the file gives to these points.
     pub fn note<'a>(&self, region: &str, spots: impl Iterator<Item = &'a Spot<D>>) -> String {
-        let values = spots.filter_map(|spot| self.found(spot));
-        let (least, most) =
-            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+        let values: Vec<f64> = spots.filter_map(|spot| self.found(spot)).collect();
+        let (least, most) = values
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(*v), high.max(*v)));
         let (count, words) = match &self.source {
             Source::Samples(samples) => (samples.count(), samples.words()),
             Source::Lattice(lattice) => (lattice.count(), lattice.words()),
@@ -136,10 +146,11 @@ impl<const D: usize> Field<D> {
         };
         let counted = if matches!(&self.source, Source::Cells(_)) { "values" } else { "positions" };
         format!(
-            "{region}: `{}` from {count} {counted} of `{}`, {words} by {}; from {least:e} to {most:e} at points",
+            "{region}: `{}` from {count} {counted} of `{}`, {words} by {}; from {least:e} to {most:e} at {} points",
             self.key,
-            self.file,
+            self.base_name(),
             self.axes.words(),
+            values.len(),
         )
     }
 }

@@ -1,11 +1,11 @@
 //! Checks of a plan of bodies and interfaces.
 
 use super::PlannedInterface;
-use super::cohesive::{self, pressed};
+use super::cohesive::{self, Shortest, pressed};
+use super::friction::Friction;
 use crate::checks::{Checks, Cost, InterfaceCheck, MachineCheck, WeakeningCheck, rates};
 use crate::diagnostic::Diagnostic;
-use crate::fault::{Coarsest, critical_slope, spacings};
-use crate::laws;
+use crate::fault::{Coarsest, critical_slope};
 use crate::loading::Stage;
 use crate::model::checks::{Driven, body_name, field_bytes, machines};
 use crate::model::{self, Model};
@@ -24,7 +24,8 @@ const VALUES: [usize; 2] = [3 + 1, 6 + 2];
 pub(super) fn of<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
-    (interfaces, stages): (&[PlannedInterface], &[Stage]),
+    (interfaces, frictions): (&[PlannedInterface], &[Option<Friction>]),
+    stages: &[Stage],
     (memory_bytes, solver): (usize, &Solver),
 ) -> Result<Checks, Diagnostic> {
     let mut checks = model::checks::of(scene, model)?;
@@ -33,6 +34,7 @@ pub(super) fn of<const D: usize>(
     let machines = stages.last().map_or_else(Vec::new, |stage| machines(stage, &surfaces));
     for (k, planned) in interfaces.iter().enumerate() {
         let spec = &scene.interfaces[&planned.name];
+        let friction = frictions[k].as_ref();
         let normal = pressed(scene, model, stages, (&planned.name, spec)).filter(|normal| *normal > 0.0);
         let sides = model::sides(model, &spec.slave)?;
         checks.interfaces.push(InterfaceCheck {
@@ -41,8 +43,8 @@ pub(super) fn of<const D: usize>(
             faces: [planned.slave_faces.len(), planned.master_faces.len()],
             area: surfaces[k].area,
             damping: planned.damping,
-            weakening: weakening(model, (spec, sides), normal),
-            machine: machines.get(k).copied().flatten().map(|k| machine(k, spec, normal)),
+            weakening: weakening(model, (spec, friction), (&planned.slave, sides), normal),
+            machine: machines.get(k).copied().flatten().map(|k| machine(k, friction, normal)),
         });
     }
     let fields = scene.output.fields.as_ref().map_or(1, |n| *n.get_ref()) * stages.len();
@@ -81,33 +83,34 @@ fn driven<const D: usize>(
     Ok(Driven { bodies: [body_name(&spec.slave), body_name(&spec.master)], normal, area, rubs })
 }
 
-/// Lengths of friction that weakens, and the distance of points where it is largest.
+/// Lengths of friction that weakens, and the distance of points, where the fewest points stand on the cohesive zone.
 fn weakening<const D: usize>(
     model: &Model<D>,
-    (spec, sides): (&Spec, &[Side]),
+    interface: (&Spec, Option<&Friction>),
+    sides: (&[(usize, f64)], &[Side]),
     normal: Option<f64>,
 ) -> Option<WeakeningCheck> {
-    let [zone, nucleation] = cohesive::lengths(model, spec)?;
-    let (node, spacing) = spacings(model, sides).into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    let at = std::array::from_fn(|c| model.mesh.nodes[node].get(c).copied().unwrap_or(0.0));
-    let under = |one: f64| {
-        let length = one / normal?;
-        Some(Coarsest { length, spacing, points: length / spacing, at, along: 0.0 })
+    let both = cohesive::shortest(model, interface, sides)?;
+    let at = |node: usize| std::array::from_fn(|c| model.mesh.nodes[node].get(c).copied().unwrap_or(0.0));
+    let under = |s: Shortest| {
+        let length = s.length / normal?;
+        Some(Coarsest { length, spacing: s.spacing, points: length / s.spacing, at: at(s.node), along: 0.0 })
     };
+    let [zone, nucleation] = both;
     Some(WeakeningCheck {
-        spacing,
-        at,
-        one_point: [zone / spacing, nucleation / spacing],
+        spacing: zone.spacing,
+        at: at(zone.node),
+        one_point: both.map(|s| s.length / s.spacing),
         normal,
         cohesive_zone: under(zone),
         nucleation: under(nucleation),
     })
 }
 
-/// The springs of an interface and the critical stiffness.
-fn machine(stiffness: f64, spec: &Spec, normal: Option<f64>) -> MachineCheck {
-    let law = spec.law.as_ref().and_then(|law| laws::choose(law).ok());
-    let slope = law.and_then(|law| critical_slope(&law)).filter(|slope| *slope > 0.0);
+/// The springs of an interface and the largest critical stiffness of its points.
+fn machine(stiffness: f64, friction: Option<&Friction>, normal: Option<f64>) -> MachineCheck {
+    let laws = friction.map_or(&[][..], Friction::laws);
+    let slope = laws.iter().filter_map(critical_slope).reduce(f64::max).filter(|slope| *slope > 0.0);
     MachineCheck {
         stiffness,
         critical: normal.zip(slope).map(|(normal, slope)| normal * slope),

@@ -1,10 +1,10 @@
 //! Resolution of the cohesive zone by the points of an interface, with an error or a warning if statics shows that it
 //! is too coarse.
 
+use super::friction::Friction;
 use crate::cohesive::enough;
 use crate::diagnostic::Diagnostic;
 use crate::fault::{FEW, Ground, TOO_FEW, modulus, spacings};
-use crate::laws;
 use crate::model::{Body, Model};
 use crate::scene::model::{Interface, Scene, UnderResolved};
 use crate::warning::Warning;
@@ -13,9 +13,24 @@ use asperity_fem::mesh::Side;
 use asperity_fem::surface;
 use asperity_mechanics::{Resolved, Stage};
 
-/// Cohesive zone and nucleation length of an interface, times the normal traction \[Pa m\]; `None` if its friction does not weaken with slip.
-pub fn lengths<const D: usize>(model: &Model<D>, spec: &Interface) -> Option<[f64; 2]> {
-    let law = laws::choose(spec.law.as_ref()?).ok()?;
+/// Length of friction that weakens where it is shortest against the distance of points.
+#[derive(Clone, Copy)]
+pub(super) struct Shortest {
+    /// The length, times the normal traction \[Pa m\].
+    pub length: f64,
+    /// Distance to the farthest neighbour \[m\].
+    pub spacing: f64,
+    /// Node of the mesh.
+    pub node: usize,
+}
+
+/// Cohesive zone and nucleation length of an interface; `None` if its friction does not weaken with slip.
+pub(super) fn shortest<const D: usize>(
+    model: &Model<D>,
+    (spec, friction): (&Interface, Option<&Friction>),
+    (slave, sides): (&[(usize, f64)], &[Side]),
+) -> Option<[Shortest; 2]> {
+    let friction = friction?;
     let of_side = |set| {
         let body = &model.bodies[model.body_of(set)?];
         let elastic = body.elastic.first()?;
@@ -23,16 +38,39 @@ pub fn lengths<const D: usize>(model: &Model<D>, spec: &Interface) -> Option<[f6
     };
     let (a, b) = (of_side(spec.slave.get_ref())?, of_side(spec.master.get_ref())?);
     let modulus = 2.0 * a * b / (a + b);
-    Ground { law: &law, normal: 1.0, modulus, in_space: D == 3 }.lengths()
+    let of = |law| Ground { law, normal: 1.0, modulus, in_space: D == 3 }.lengths();
+    let mut found: Option<[Shortest; 2]> = None;
+    for (node, spacing) in spacings(model, sides) {
+        // The tip of a split surface is no point of the interface, but a neighbour of points.
+        let point = slave.binary_search_by_key(&node, |s| s.0).ok();
+        let law = if friction.is_uniform() { Some(friction.at(0)) } else { point.map(|p| friction.at(p)) };
+        let Some(lengths) = law.and_then(of) else { continue };
+        let here = lengths.map(|length| Shortest { length, spacing, node });
+        found = Some(found.map_or(here, |before| [0, 1].map(|k| before[k].or(here[k]))));
+    }
+    found
+}
+
+impl Shortest {
+    /// The one with fewer points, and of equal ones that with the larger distance.
+    fn or(self, other: Self) -> Self {
+        let order = |s: &Self| (s.spacing / s.length, s.spacing);
+        let (own, others) = (order(&self), order(&other));
+        if own.0.total_cmp(&others.0).then(own.1.total_cmp(&others.1)).is_gt() { self } else { other }
+    }
 }
 
 /// Resolution of an interface whose friction weakens with slip.
-pub fn resolved<const D: usize>(model: &Model<D>, spec: &Interface, slave: &[Side]) -> Option<Resolved> {
+pub(super) fn resolved<const D: usize>(
+    model: &Model<D>,
+    (spec, friction): (&Interface, Option<&Friction>),
+    sides: (&[(usize, f64)], &[Side]),
+) -> Option<Resolved> {
     let law = spec.law.as_ref()?;
-    let [zone, _] = lengths(model, spec)?;
-    let spacing = spacings(model, slave).into_values().fold(0.0, f64::max);
+    let [zone, _] = shortest(model, (spec, friction), sides)?;
+    let spacing = zone.spacing;
     let allowed = spec.under_resolved.as_ref().map(|u| *u.get_ref()) == Some(UnderResolved::Allow);
-    let one = zone / spacing;
+    let one = zone.length / spacing;
     let refused_beyond = (!allowed).then_some(one / TOO_FEW);
     Some(Resolved { one, spacing, refused_beyond, limit: limit(one, spacing), place: law.span() })
 }

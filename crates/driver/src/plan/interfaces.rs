@@ -1,25 +1,20 @@
 //! Interfaces of a scene, checked and converted to those of a plan.
 
 use super::enforcement::{enforced, in_pascal_per_metre};
+use super::friction::Friction;
 use super::penalty::{self, Softer};
 use super::{PlannedInterface, cohesive, damping, pressed, watch};
 use crate::diagnostic::Diagnostic;
-use crate::laws::Theta;
 use crate::model::{self, Model};
-use crate::refused::refused;
-use crate::scene::law::LawChoice;
-use crate::scene::model::{Interface as InterfaceSpec, LawSpec, Measure, Scene, Sliding, Spanned};
+use crate::scene::model::{Interface as InterfaceSpec, Measure, Scene, Sliding};
 use asperity_contact::{self as contact, Watch};
 use asperity_fem::mesh::{MeshFace, Side, face_kind, nodes_of_sides};
-use asperity_friction::law::Law;
 use asperity_mechanics::{self as mechanics, coordinates};
-use std::collections::BTreeMap;
-use std::sync::Arc;
 
 /// Fraction of the largest tributary area of an interface below which an area is zero to within rounding.
 const NO_AREA: f64 = 1e-12;
 
-/// Plans an interface; `loading` is the largest rate that the stages prescribe \[m/s\].
+/// Plans an interface with its friction; `loading` is the largest rate that the stages prescribe \[m/s\].
 ///
 /// # Errors
 /// [`Diagnostic`] with the position in the scene.
@@ -28,7 +23,7 @@ pub fn plan<const D: usize>(
     model: &Model<D>,
     (name, spec): (&str, &InterfaceSpec),
     loading: f64,
-) -> Result<PlannedInterface, Diagnostic> {
+) -> Result<(PlannedInterface, Option<Friction>), Diagnostic> {
     if model.idealisation.components() != D {
         return Err(Diagnostic::at(
             spec.slave.span(),
@@ -54,22 +49,22 @@ pub fn plan<const D: usize>(
         ));
     }
     let damping = damping::of(scene, model, (name, spec), (slave_sides, master_sides))?;
-    let (law, watch) = match &spec.law {
-        Some(law) => {
-            let choice = choose_law(law)?;
+    let friction = Friction::choose(scene, model, (name, spec), &slave)?;
+    let (law, watch) = match spec.law.as_ref().zip(friction.as_ref()) {
+        Some((law, friction)) => {
             let sides = (slave_sides, master_sides);
-            let watch = watch::of(scene, model, &choice, (sides, damping), loading)?;
-            (Some(build_law(law, &choice)?), watch)
+            let watch = watch::of(scene, model, friction.laws(), (sides, damping), loading)?;
+            (Some(friction.build(law)?), watch)
         }
         None => (None, Watch::default()),
     };
-    let resolved = cohesive::resolved(model, spec, slave_sides);
+    let resolved = cohesive::resolved(model, (spec, friction.as_ref()), (&slave, slave_sides));
     let young_per_size = model.young_per_size(body, slave_sides);
     let enforced = enforced(&spec.enforcement, young_per_size, model.element_size(body, slave_sides));
     let facing = model.body_of(spec.master.get_ref()).map_or(body, |b| &model.bodies[b]);
     let softer = Softer::of(model, (body, slave_sides), (facing, master_sides));
     penalty::check(name, spec, &softer)?;
-    Ok(PlannedInterface {
+    let planned = PlannedInterface {
         name: name.to_string(),
         enforced,
         unknowns: enforced.unknowns(slave.len(), if law.is_some() { D } else { 1 }),
@@ -95,7 +90,8 @@ pub fn plan<const D: usize>(
         watch: Watch { coarse_beyond: resolved.as_ref().and_then(|r| r.refused_beyond), ..watch },
         resolved,
         probes: scene.output.probes.get(name).map_or(0, |p| *p.get_ref()),
-    })
+    };
+    Ok((planned, friction))
 }
 
 /// Slave points of an interface, ascending, with their tributary areas.
@@ -182,23 +178,4 @@ fn check_faces<const D: usize>(
         ));
     }
     Ok(())
-}
-
-/// The state θ of the laws of interfaces that have one, by the names of the interfaces.
-pub(super) fn thetas(scene: &Scene) -> BTreeMap<String, Theta> {
-    let theta = |spec: &InterfaceSpec| Theta::of(&choose_law(spec.law.as_ref()?).ok()?);
-    scene.interfaces.iter().filter_map(|(name, spec)| Some((name.clone(), theta(spec)?))).collect()
-}
-
-fn choose_law(spec: &Spanned<LawSpec>) -> Result<LawChoice, Diagnostic> {
-    crate::laws::choose(spec).map_err(|errors| {
-        let first = errors.into_iter().next();
-        let incomplete =
-            || Diagnostic::at(spec.span(), "the law is not complete", "see the laws of friction");
-        first.unwrap_or_else(incomplete)
-    })
-}
-
-fn build_law(spec: &Spanned<LawSpec>, choice: &LawChoice) -> Result<Arc<dyn Law>, Diagnostic> {
-    crate::laws::build(choice).map_err(|e| refused(spec, &e))
 }

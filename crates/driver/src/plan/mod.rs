@@ -7,6 +7,7 @@ mod damping;
 mod doubts;
 mod enforcement;
 mod events;
+mod friction;
 mod inertia;
 mod interfaces;
 mod linear_solver;

@@ -1,6 +1,7 @@
 //! Turns a scene into a plan. All decisions about the model and the method are made here; later code does not refer to
 //! the scene.
 
+use super::friction::Friction;
 use super::{
     AnyPlan, Plan, checks, doubts, events, inertia, interfaces, linear_solver, path, restraint, samples,
 };
@@ -70,11 +71,9 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     let stages = loading::stages(scene, &model)?;
     let stepping = stepping::choose(scene)?;
     let loading = stages.iter().map(Stage::largest_rate).fold(0.0, f64::max);
-    let interfaces = scene
-        .interfaces
-        .iter()
-        .map(|(name, spec)| interfaces::plan(scene, &model, (name, spec), loading))
-        .collect::<Result<Vec<_>, _>>()?;
+    let planned = scene.interfaces.iter().map(|i| interfaces::plan(scene, &model, (i.0, i.1), loading));
+    let (interfaces, frictions): (Vec<_>, Vec<_>) =
+        planned.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
     let path = path::choose(scene, &model, (&interfaces, &stages))?;
     let control = stepping::control(scene, &stages);
     let mass = inertia::of(scene, &model, loading)?;
@@ -86,6 +85,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         Some(_) => Vec::new(),
     };
     remarks.extend(sizes::of_files(scene, &model));
+    remarks.extend(frictions.iter().flatten().flat_map(|f| f.notes.iter().cloned()));
     let (start_gaps, doubts) = doubts::of(scene, &model, (&interfaces, &stages), &stepping)?;
     let (balance, unbalanced) = start_balance::of(scene, &model, (&interfaces, &stages), &stepping)?;
     remarks.extend(balance);
@@ -96,12 +96,14 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     if let Some(mass) = &mass {
         summary.add_inertia(mass);
     }
-    summary.warnings.extend(doubts.into_iter().chain(unbalanced));
+    let of_files = frictions.iter().flatten().flat_map(|f| f.warnings.iter().cloned());
+    summary.warnings.extend(doubts.into_iter().chain(unbalanced).chain(of_files));
     let initial_stress = model.bodies.iter().map(|b| initial_stress::of_body(scene, &b.name)).collect();
     let samples = samples::find(scene, &model)?;
-    let checks = checks::of(scene, &model, (&interfaces, &stages), (summary.memory_bytes, &solver))?;
+    let checks =
+        checks::of(scene, &model, (&interfaces, &frictions), &stages, (summary.memory_bytes, &solver))?;
     let events = events::of(scene, &model, &interfaces)?;
-    let thetas = interfaces::thetas(scene);
+    let thetas = frictions.iter().map(|f| f.as_ref().map_or_else(Vec::new, Friction::thetas)).collect();
     Ok(Plan {
         title: scene.title.clone(),
         problem: Problem {

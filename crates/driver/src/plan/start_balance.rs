@@ -6,7 +6,7 @@ use crate::initial_stress;
 use crate::scene::model::Scene;
 use crate::warning::Warning;
 use asperity_contact::{Enforcement, Interface};
-use asperity_friction::law::{Regime, Responses, Trials};
+use asperity_friction::law::{Law, Regime, Responses, Trials};
 use asperity_mechanics::coordinates::in_words;
 use asperity_mechanics::{CellBlock, Model, Stage, declared};
 
@@ -142,10 +142,9 @@ fn pressed<const D: usize>(
     built.press(&pressed.starts(), pressed.reach);
     built.exert(r);
     let points = built.points();
-    let borne: Vec<(f64, f64)> = (points.normal_traction.iter().zip(&points.shear))
-        .filter(|(f, _)| **f > 0.0)
-        .map(|(f, t)| (*f, t.iter().map(|t| t * t).sum::<f64>().sqrt()))
-        .collect();
+    let bears: Vec<usize> = (0..points.gap.len()).filter(|&p| points.normal_traction[p] > 0.0).collect();
+    let shear = |p: usize| points.shear[p].iter().map(|t| t * t).sum::<f64>().sqrt();
+    let borne: Vec<(f64, f64)> = bears.iter().map(|&p| (points.normal_traction[p], shear(p))).collect();
     if borne.is_empty() {
         let remark = format!("interface `{name}`: the initial stress does not press it");
         return Ok(Some(Start { remark, slips: false }));
@@ -157,34 +156,43 @@ fn pressed<const D: usize>(
         borne.len(),
         points.gap.len()
     );
-    let slips = law.map_or(0, |law| slipping(law.as_ref(), &borne, planned.tangential_penalty));
+    let slips = law.map_or(0, |law| {
+        let states = initial(law.as_ref(), &bears, points.gap.len());
+        slipping(law.as_ref(), (&bears, &borne, &states), planned.tangential_penalty)
+    });
     if slips > 0 {
         remark += &format!("; friction does not hold {slips} of them, which slip at once");
     }
     Ok(Some(Start { remark, slips: slips > 0 }))
 }
 
+/// Initial states of some of the points of an interface.
+fn initial(law: &dyn Law, points: &[usize], count: usize) -> Vec<f64> {
+    let k = law.states();
+    let mut all = vec![0.0; count * k];
+    law.initial(&mut all);
+    points.iter().flat_map(|p| all[p * k..(p + 1) * k].iter().copied()).collect()
+}
+
 /// Number of points whose shear traction exceeds the yield surface of the law.
-fn slipping(law: &dyn asperity_friction::law::Law, borne: &[(f64, f64)], stiffness: f64) -> usize {
+fn slipping(law: &dyn Law, (points, borne, old): (&[usize], &[(f64, f64)], &[f64]), stiffness: f64) -> usize {
     if !law.has_elastic_domain() || law.bonded() {
         return 0;
     }
     let n = borne.len();
     let (normal, trial): (Vec<f64>, Vec<f64>) = borne.iter().copied().unzip();
-    let mut old = vec![0.0; n * law.states()];
-    law.initial(&mut old);
-    let mut states = old.clone();
+    let mut states = old.to_vec();
     let mut out = vec![vec![0.0; n]; 5];
     let [traction, slip, rate, d_trial, d_normal] = out.as_mut_slice() else { return 0 };
     let mut regime = vec![Regime::Stick; n];
     let answers =
         Responses { traction, slip, rate, regime: &mut regime, d_trial, d_normal, states: &mut states };
-    let trials =
-        Trials { normal: &normal, trial: &trial, stiffness, dt: 1.0, damping: 0.0, lag: None, near: None };
-    if law.respond(trials, &old, answers).is_err() {
+    let (normal, trial) = (&normal[..], &trial[..]);
+    let trials = Trials { points, normal, trial, stiffness, dt: 1.0, damping: 0.0, lag: None, near: None };
+    if law.respond(trials, old, answers).is_err() {
         return 0;
     }
-    out[0].iter().zip(&trial).filter(|(t, e)| **t < **e * (1.0 - HELD)).count()
+    out[0].iter().zip(trial).filter(|(t, e)| **t < **e * (1.0 - HELD)).count()
 }
 
 /// Largest component of the initial stress at any node \[Pa\].

@@ -8,7 +8,6 @@ use crate::warning::Warning;
 use asperity_mechanics::{Mass, Problem};
 use schemars::JsonSchema;
 use serde::Serialize;
-use std::collections::BTreeMap;
 
 /// Plan of the run.
 #[derive(Debug)]
@@ -23,8 +22,8 @@ pub struct Plan<const D: usize> {
     pub profile_outputs: usize,
     /// Events of interfaces, if the scene asks for them.
     pub events: Option<EventPlan>,
-    /// The state θ of the laws of interfaces that have one, by their names.
-    pub thetas: BTreeMap<String, Theta>,
+    /// The state θ of the laws of each interface: one for all points, or one of each; empty where there is no θ.
+    pub thetas: Vec<Vec<Theta>>,
     /// Summary for printing.
     pub summary: Summary,
     /// Extents, counts of points and lengths of friction.

@@ -18,24 +18,24 @@ const ZETA: f64 = 0.1;
 /// Largest slip of a step over L, in units of a/b. Up to about a L/b the equations of a step have a unique solution.
 const UNIQUE: f64 = 0.5;
 
-/// Limits on the steps of an interface between these faces; `loading` is the largest prescribed rate \[m/s\].
+/// Limits on the steps of an interface between these faces, with one law or laws of its points; `loading` is the largest prescribed rate \[m/s\].
 ///
 /// # Errors
 /// [`Diagnostic`] if a body has no material.
 pub fn of<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
-    law: &LawChoice,
+    laws: &[LawChoice],
     ((slave, master), damping): ((&[Side], &[Side]), Option<f64>),
     loading: f64,
 ) -> Result<Watch, Diagnostic> {
     if scene.inertia().is_some() {
         // While a wave crosses the cells at the surface, their mass resists slip at least by their impedance.
         let waves = impedance::radiated(least(scene, model, slave)?, least(scene, model, master)?);
-        let course = with_inertia(course(law, Some(damping.unwrap_or(0.0) + waves)));
+        let course = with_inertia(course_of(laws, Some(damping.unwrap_or(0.0) + waves)));
         return Ok(Watch { rate: None, course, coarse_beyond: None });
     }
-    let rate = match (direct_effect(law), &scene.time.slip_rate_limit) {
+    let rate = match (least_effect(laws), &scene.time.slip_rate_limit) {
         (None, _) => None,
         (Some(_), Some(stated)) => Some(RateLimit::Stated(stated.get_ref().0)),
         // Damping lets states exist at every slip rate.
@@ -45,7 +45,7 @@ pub fn of<const D: usize>(
             Some(RateLimit::Damped { per_traction: a / damping, least: LOADING * loading })
         }
     };
-    Ok(Watch { rate, course: course(law, damping), coarse_beyond: None })
+    Ok(Watch { rate, course: course_of(laws, damping), coarse_beyond: None })
 }
 
 /// Course that the steps of bodies with inertia follow: these pass through instabilities, and a drop of friction is one.
@@ -61,6 +61,32 @@ fn direct_effect(law: &LawChoice) -> Option<f64> {
     match law {
         LawChoice::Rate { strength, .. } | LawChoice::RateAndState { strength, .. } => Some(strength.a),
         LawChoice::Yielding { .. } => None,
+    }
+}
+
+/// Least direct effect a of laws that depend on the slip rate.
+fn least_effect(laws: &[LawChoice]) -> Option<f64> {
+    laws.iter().filter_map(direct_effect).reduce(f64::min)
+}
+
+/// Course that steps of all points may follow.
+fn course_of(laws: &[LawChoice], damping: Option<f64>) -> Course {
+    laws.iter().map(|law| course(law, damping)).reduce(stricter).unwrap_or_default()
+}
+
+/// Course with the shorter steps of two. A point that weakens with slip does so until it has slipped by the longer of both lengths.
+fn stricter(one: Course, other: Course) -> Course {
+    match (one, other) {
+        (Course::Steady, course) | (course, Course::Steady) => course,
+        (Course::State { most: a, damped: b }, Course::State { most: c, damped: d }) => {
+            Course::State { most: a.min(c), damped: b.min(d) }
+        }
+        (Course::Branch { most: a, length: b }, Course::Branch { most: c, length: d }) => {
+            Course::Branch { most: a.min(c), length: b.max(d) }
+        }
+        (Course::Drop, _) | (_, Course::Drop) => Course::Drop,
+        // Laws of one kind have no courses of two kinds.
+        (course, _) => course,
     }
 }
 

@@ -51,12 +51,17 @@ fn scenes() -> Vec<(String, Vec<&'static str>)> {
     );
     let fields = varied(&base("fields"), &[With("faults.main.fields.a.file", r#""data/friction.csv""#)]);
     let trace = varied(&fields, &[With("faults.main.line.trace", r#"{ file = "./data/trace.csv" }"#)]);
+    let of_law = varied(
+        &base("fields-of-interfaces"),
+        &[With("interfaces.base.fields.mu.file", r#""data/coefficient.csv""#)],
+    );
     let triangles =
         varied(&base("triangles"), &[With("faults.main.triangles.stl.file", r#""data/fault.stl""#)]);
     vec![
         (tables, vec!["history-2.csv", "history.csv"]),
         (MESH.into(), vec!["two_layers.msh"]),
         (fields, vec!["friction.csv"]),
+        (of_law, vec!["coefficient.csv"]),
         (trace, vec!["friction.csv", "trace.csv"]),
         (triangles, vec!["fault.stl"]),
     ]
@@ -66,7 +71,7 @@ fn scenes() -> Vec<(String, Vec<&'static str>)> {
 fn put(data: &Path) {
     let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/meshes");
     fs::create_dir_all(data.join("other")).unwrap();
-    for name in ["two_layers.msh", "friction.csv", "fault.stl", "history.csv"] {
+    for name in ["two_layers.msh", "friction.csv", "coefficient.csv", "fault.stl", "history.csv"] {
         fs::copy(meshes.join(name), data.join(name)).unwrap();
     }
     fs::write(data.join("other/history.csv"), "time [s],pressure [MPa]\n0,0\n2,3\n").unwrap();

@@ -58,7 +58,8 @@ fn respond(law: &dyn Law, t: Trial) -> Answer {
     };
     let lag = Some(Lag { weight: &[t.lag.0], offset: &[t.lag.1] });
     let Trial { normal, trial, stiffness, dt, damping, .. } = t;
-    let trials = Trials { normal: &[normal], trial: &[trial], stiffness, dt, damping, lag, near: None };
+    let trials =
+        Trials { points: &[0], normal: &[normal], trial: &[trial], stiffness, dt, damping, lag, near: None };
     law.respond(trials, &old, out).unwrap();
     ([traction[0], slip[0], rate[0], d_trial[0], d_normal[0]], states)
 }

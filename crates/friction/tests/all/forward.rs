@@ -37,6 +37,7 @@ struct Start {
 fn present<'a>(s: &'a Start, regime: &'a [Regime; 1], states: &'a [f64]) -> Present<'a> {
     use std::slice::from_ref;
     Present {
+        points: &[0],
         normal: from_ref(&s.normal),
         traction: from_ref(&s.traction),
         rate: from_ref(&s.rate),
@@ -74,6 +75,7 @@ fn implicit(law: &dyn Law, s: &Start, states: &[f64], slide: f64, df: f64) -> f6
     let (mut t, mut l, mut v, mut g, mut dt, mut dn) = ([0.0], [0.0], [0.0], [Regime::Stick], [0.0], [0.0]);
     law.respond(
         Trials {
+            points: &[0],
             normal: &[s.normal + df],
             trial: &[s.traction + STIFFNESS * slide],
             stiffness: STIFFNESS,

@@ -42,6 +42,7 @@ fn respond(
     let (mut t, mut s, mut v, mut g, mut dt_, mut dn) = ([0.0], [0.0], [0.0], [Regime::Stick], [0.0], [0.0]);
     law.respond(
         Trials {
+            points: &[0],
             normal: &[normal],
             trial: &[trial],
             stiffness,
@@ -316,6 +317,7 @@ fn the_rate_form_is_the_linear_part_of_the_point_return_at_steady_slip() {
     let (mut along, mut coupling, mut constant) = ([0.0], [0.0], [0.0]);
     law.rates(
         Present {
+            points: &[0],
             normal: &[normal],
             traction: &[traction],
             rate: &[v],

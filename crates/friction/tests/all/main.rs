@@ -5,6 +5,7 @@ mod damping;
 mod forward;
 mod laws;
 mod point;
+mod pointwise;
 mod slider;
 mod two_step;
 #[path = "../usual/mod.rs"]

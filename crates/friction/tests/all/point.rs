@@ -119,6 +119,7 @@ fn respond(
         ([0.0], [0.0], [0.0], [Regime::Stick], [0.0], [0.0]);
     law.respond(
         Trials {
+            points: &[0],
             normal: &[normal],
             trial: &[trial],
             stiffness: 1e12,

@@ -50,6 +50,7 @@ fn respond(law: &dyn Law, normal: f64, trial: f64, dt: f64, lag: (f64, f64), old
     let [mut traction, mut slip, mut rate, mut d_trial, mut d_normal] = [[0.0]; 5];
     law.respond(
         Trials {
+            points: &[0],
             normal: &[normal],
             trial: &[trial],
             stiffness: STIFFNESS,
@@ -96,6 +97,7 @@ fn march(law: &dyn Law, steps: usize) -> (Vec<f64>, f64) {
         let one = respond(law, NORMAL, traction + STIFFNESS * load * dt, dt, lag, &states);
         let mut error = [f64::NAN];
         let taken = Taken {
+            points: &[0],
             normal: &[NORMAL],
             before: &[before],
             rate: &[one.rate],
@@ -169,6 +171,7 @@ fn nothing_is_missed_in_steady_sliding() {
             let slip = [V_REF * dt];
             let rates = [V_REF];
             let taken = Taken {
+                points: &[0],
                 normal: &[NORMAL],
                 before: &rates,
                 rate: &rates,

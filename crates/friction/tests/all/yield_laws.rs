@@ -55,6 +55,7 @@ fn respond_with(
     let (weight, offset) = ([lag.map_or(1.0, |l| l.0)], [lag.map_or(0.0, |l| l.1)]);
     law.respond(
         Trials {
+            points: &[0],
             normal: &[normal],
             trial: &[trial],
             stiffness,
@@ -275,6 +276,7 @@ fn the_failing_point_is_named() {
     let failure = law
         .respond(
             Trials {
+                points: &[0, 1, 2],
                 normal: &[NORMAL; 3],
                 trial: &[1e6, 2e6, 9e6],
                 stiffness: 0.5 * WEAKENING,
@@ -399,6 +401,7 @@ const STICKING: Start = Start { normal: NORMAL, traction: 6e6, rate: 0.0, regime
 
 fn present(s: &Start, stiffness: f64) -> Present<'_> {
     Present {
+        points: &[0],
         normal: from_ref(&s.normal),
         traction: from_ref(&s.traction),
         rate: from_ref(&s.rate),

@@ -72,11 +72,11 @@ impl Histories {
             relative_displacement: p.relative_displacement.clone(),
             friction: p.friction.clone(),
             slip_rate: p.slip_rate.clone(),
-            state: mesh.theta.map_or_else(
+            state: mesh.theta_at(p.node).map_or_else(
                 || p.state.clone(),
                 |theta| p.state.iter().map(|s| theta.at_zero + theta.per_state * s).collect(),
             ),
-            steady: mesh.theta.map_or_else(Vec::new, |theta| {
+            steady: mesh.theta_at(p.node).map_or_else(Vec::new, |theta| {
                 p.slip_rate.iter().map(|v| theta.steady - v.abs().log10()).collect()
             }),
         };
@@ -87,7 +87,7 @@ impl Histories {
             stages: setup.stages.clone(),
             times: recorder.times().to_vec(),
             points: labels.into_iter().zip(points).map(probe).collect(),
-            theta: mesh.theta.is_some(),
+            theta: !mesh.theta.is_empty(),
         })
     }
 

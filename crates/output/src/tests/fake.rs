@@ -62,7 +62,7 @@ pub(crate) fn setup(layers: usize) -> Setup {
         faces,
         probes: (0..8).map(|i| (i as f64 * 20.0 / 7.0).round() as usize).collect(),
         states: 1,
-        theta: None,
+        theta: Vec::new(),
     };
     let stages = STAGES.iter().map(|(name, end)| ((*name).to_string(), *end)).collect();
     Setup {

@@ -1,7 +1,8 @@
-//! Checks of parameters of faults that files give.
+//! Checks of parameters of faults and interfaces that files give.
 
 use super::Checker;
-use crate::model::Fault;
+use crate::law;
+use crate::model::{Fault, Interface};
 
 impl Checker<'_> {
     /// Refuses a parameter that a file and a profile give.
@@ -18,6 +19,40 @@ impl Checker<'_> {
                     (&profile.points.span(), "the profile"),
                 );
             }
+        }
+    }
+
+    /// Refuses parameters from files that the law of an interface does not have.
+    pub(super) fn law_fields(&mut self, name: &str, interface: &Interface) {
+        let Some(spec) = &interface.law else {
+            for (key, field) in interface.fields.given() {
+                self.error(
+                    field.file.span(),
+                    format!("interface `{name}` takes `{key}` from a file, but has no friction law"),
+                    "add the law whose parameter it is, or remove `fields`",
+                );
+            }
+            return;
+        };
+        // A law that is not complete is refused as such.
+        let Ok(choice) = law::choose(spec, self.laws) else { return };
+        let varies = |key: &str| choice.varies(key, self.laws).is_some();
+        let all: Vec<&str> =
+            interface.fields.all().into_iter().map(|f| f.0).filter(|key| varies(key)).collect();
+        let strange: Vec<_> = interface.fields.given().filter(|(key, _)| !varies(key)).collect();
+        for (key, field) in strange {
+            let help = match &all[..] {
+                [] => "remove it: a bond has no parameters".to_owned(),
+                all => format!("files may give {} to this law", all.join(", ")),
+            };
+            self.conflict(
+                &field.file.span(),
+                format!(
+                    "`{key}` varies along interface `{name}`, and its law does not have exactly one `{key}`"
+                ),
+                help,
+                (&spec.span(), "the law"),
+            );
         }
     }
 }

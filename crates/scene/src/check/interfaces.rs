@@ -12,7 +12,7 @@ pub(super) fn is_tied(law: &Spanned<LawSpec>) -> bool {
 }
 
 /// Largest plausible friction coefficient; rock has up to 1, rubber up to 2 or 3. A larger value is a typing error.
-const MOST_FRICTION: f64 = 4.0;
+pub const MOST_FRICTION: f64 = 4.0;
 
 /// Kinds of law that depend on the slip rate.
 pub(super) const RATED: [&str; 2] = ["rate-and-state", "rate"];
@@ -32,7 +32,7 @@ impl Checker<'_> {
             (
                 "profiles",
                 &interface.profiles,
-                "parameters are the same all over an interface: make two sets and an interface of each, with its own law",
+                "`fields` take parameters of the law from files; parts with laws of their own are two sets, with an interface of each",
             ),
         ];
         for (key, place, help) in keys {
@@ -73,6 +73,7 @@ impl Checker<'_> {
             }
             self.keys_of_faults(name, interface);
             self.damping(name, interface);
+            self.law_fields(name, interface);
             if let Some(key) = interface.under_resolved.as_ref().filter(|_| interface.law.is_none()) {
                 self.error(
                     key.span(),

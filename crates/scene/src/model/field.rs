@@ -1,6 +1,7 @@
-//! Parameters of a fault at positions in a file.
+//! Parameters of a fault or an interface at positions in a file.
 
 use crate::spanned::Spanned;
+use crate::units::Dimension;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -26,6 +27,68 @@ impl Fields {
     pub fn all(&self) -> [(&'static str, Option<&Field>); 5] {
         [("a", &self.a), ("b", &self.b), ("l", &self.l), ("normal", &self.normal), ("shear", &self.shear)]
             .map(|(key, field)| (key, field.as_ref()))
+    }
+}
+
+/// Parameters of the law of an interface that files give at positions. Their values in the law are then not used.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LawFields {
+    /// Coulomb: friction coefficient \[-\].
+    pub mu: Option<Field>,
+    /// Static-kinetic, slip-weakening: coefficient before slip \[-\].
+    pub mu_s: Option<Field>,
+    /// Static-kinetic, slip-weakening: coefficient during or after slip \[-\].
+    pub mu_k: Option<Field>,
+    /// Slip-weakening: slip over which the coefficient falls \[m\].
+    pub d_c: Option<Field>,
+    /// Reference coefficient μ0 \[-\].
+    pub mu0: Option<Field>,
+    /// Direct effect a \[-\].
+    pub a: Option<Field>,
+    /// Evolution effect b, in laws with one state variable \[-\].
+    pub b: Option<Field>,
+    /// Characteristic slip L, in laws with one state variable \[m\].
+    pub l: Option<Field>,
+    /// Initial state: slip rate at which the point was in steady state \[m/s\].
+    pub v_initial: Option<Field>,
+    /// Largest shear traction \[Pa\].
+    pub f_limit: Option<Field>,
+}
+
+impl LawFields {
+    /// Fields with the names of their parameters.
+    #[must_use]
+    pub fn all(&self) -> [(&'static str, Option<&Field>); 10] {
+        [
+            ("mu", &self.mu),
+            ("mu_s", &self.mu_s),
+            ("mu_k", &self.mu_k),
+            ("d_c", &self.d_c),
+            ("mu0", &self.mu0),
+            ("a", &self.a),
+            ("b", &self.b),
+            ("l", &self.l),
+            ("v_initial", &self.v_initial),
+            ("f_limit", &self.f_limit),
+        ]
+        .map(|(key, field)| (key, field.as_ref()))
+    }
+
+    /// Fields that are given, with the names of their parameters.
+    pub fn given(&self) -> impl Iterator<Item = (&'static str, &Field)> {
+        self.all().into_iter().filter_map(|(key, field)| Some((key, field?)))
+    }
+}
+
+/// Dimension of a parameter that files may give; none of a number.
+#[must_use]
+pub fn field_dimension(key: &str) -> Option<Dimension> {
+    match key {
+        "l" | "d_c" => Some(Dimension::Length),
+        "normal" | "shear" | "f_limit" => Some(Dimension::Pressure),
+        "v_initial" => Some(Dimension::Velocity),
+        _ => None,
     }
 }
 

@@ -3,8 +3,7 @@
 use super::placed::Placed;
 use crate::diagnostic::Diagnostic;
 use crate::field::{Bound, Field, Files, Parameter, Region, Spot};
-use crate::scene::model::{Fault as Spec, Scene};
-use crate::scene::units::Dimension;
+use crate::scene::model::{Fault as Spec, Scene, field_dimension};
 use crate::warning::Warning;
 use asperity_cycles::medium::Place;
 
@@ -32,7 +31,7 @@ impl<const D: usize> Fields<D> {
             let Some(given) = given else { continue };
             let parameter = Parameter {
                 key,
-                dimension: dimension(key),
+                dimension: field_dimension(key),
                 bound: match (key, spec.rate.get_ref().0) {
                     ("shear", 0.0) => Bound::Free,
                     ("shear", rate) => Bound::Signed(rate.signum()),
@@ -70,13 +69,4 @@ impl<const D: usize> Fields<D> {
 /// Position of a point of a fault.
 fn spot<const D: usize>(place: &Place<D>) -> Spot<D> {
     Spot { at: place.at, along: Some(place.along) }
-}
-
-/// Dimension of a parameter; none of a number.
-fn dimension(key: &str) -> Option<Dimension> {
-    match key {
-        "l" => Some(Dimension::Length),
-        "normal" | "shear" => Some(Dimension::Pressure),
-        _ => None,
-    }
 }
