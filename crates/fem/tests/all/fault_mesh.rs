@@ -7,10 +7,10 @@ use asperity_fem::mesh::fault::{
 use asperity_fem::mesh::split::Pair;
 use asperity_fem::mesh::{Mesh, Side, face_nodes, nodes_of_sides};
 use proptest::prelude::*;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// A trace from `start` along segments of (length, dip in degrees).
-fn trace(start: [f64; 2], segments: &[(f64, f64)]) -> Vec<[f64; 2]> {
+pub fn trace(start: [f64; 2], segments: &[(f64, f64)]) -> Vec<[f64; 2]> {
     let mut all = vec![start];
     for (length, dip) in segments {
         let [x, y] = all[all.len() - 1];
@@ -20,7 +20,7 @@ fn trace(start: [f64; 2], segments: &[(f64, f64)]) -> Vec<[f64; 2]> {
     all
 }
 
-fn input(trace: Vec<[f64; 2]>) -> FaultMesh {
+pub fn input(trace: Vec<[f64; 2]>) -> FaultMesh {
     FaultMesh {
         trace,
         interpolation: Interpolation::Polyline,
@@ -33,16 +33,16 @@ fn input(trace: Vec<[f64; 2]>) -> FaultMesh {
     }
 }
 
-fn corners(mesh: &Mesh<2>, cell: usize) -> Vec<[f64; 2]> {
+pub fn corners(mesh: &Mesh<2>, cell: usize) -> Vec<[f64; 2]> {
     mesh.blocks[0].cell(cell)[..4].iter().map(|&n| mesh.nodes[n]).collect()
 }
 
-fn area(x: &[[f64; 2]]) -> f64 {
+pub fn area(x: &[[f64; 2]]) -> f64 {
     (0..x.len()).map(|k| (x[k], x[(k + 1) % x.len()])).map(|(a, b)| 0.5 * (a[0] * b[1] - a[1] * b[0])).sum()
 }
 
 /// Corners of all cells, of quadrilaterals and triangles.
-fn all_corners(mesh: &Mesh<2>) -> impl Iterator<Item = Vec<[f64; 2]>> {
+pub fn all_corners(mesh: &Mesh<2>) -> impl Iterator<Item = Vec<[f64; 2]>> {
     mesh.blocks.iter().flat_map(|cells| {
         let corners =
             |cell| cells.cell(cell)[..cells.kind.corners()].iter().map(|&n| mesh.nodes[n]).collect();
@@ -71,7 +71,7 @@ fn length(mesh: &Mesh<2>, sides: &[Side]) -> f64 {
 }
 
 /// Checks the properties of every fault mesh: it fills the box, conforms, and is open on the fault and nowhere else.
-fn check(input: &FaultMesh, made: &Faulted) {
+pub fn check(input: &FaultMesh, made: &Faulted) {
     let mesh = &made.mesh;
     let box_area = (input.max[0] - input.min[0]) * (input.max[1] - input.min[1]);
     let total: f64 = all_corners(mesh).map(|x| area(&x)).sum();
@@ -174,68 +174,6 @@ fn cells_at_the_fault_are_rectangles_below_the_surface() {
             }
         }
     }
-}
-
-/// A fault of this dip from the depth of its upper tip, 40 m long.
-fn flat(depth: f64, dip: f64) -> FaultMesh {
-    input(trace([0.0, -depth], &[(40.0, dip)]))
-}
-
-#[test]
-fn rows_follow_a_fault_flatter_than_ten_degrees_and_quadrilaterals_are_sheared_by_its_dip() {
-    for dip in [1.0, 2.0, 5.0, 9.0, 171.0, 175.0, 178.0, 179.0_f64] {
-        for kind in [ElementKind::Quad4, ElementKind::Quad8, ElementKind::Quad9] {
-            for depth in [0.0, 10.0] {
-                let input = FaultMesh { kind, ..flat(depth, dip) };
-                let made = input.mesh().unwrap();
-                check(&input, &made);
-                let cosine = dip.to_radians().cos().abs();
-                let quads = all_corners(&made.mesh).filter(|x| x.len() == 4);
-                let worst = quads.map(|x| scaled_jacobian(&x)).fold(f64::INFINITY, f64::min);
-                assert!(worst > 0.99 * cosine, "{dip} {depth}: {worst}");
-                let per = if kind == ElementKind::Quad4 { 1 } else { 2 };
-                assert_eq!(made.fault.pairs.len(), 40 * per + 1);
-                let used: BTreeSet<_> = made.mesh.blocks.iter().flat_map(|b| &b.connectivity).collect();
-                assert_eq!(used.len(), made.mesh.nodes.len(), "no node is loose");
-            }
-        }
-    }
-}
-
-#[test]
-fn a_flat_fault_that_reaches_the_surface_ends_in_one_triangle() {
-    let input = flat(0.0, 5.0);
-    let made = input.mesh().unwrap();
-    let tip = |x: &[[f64; 2]]| x.contains(&[0.0, 0.0]);
-    let above = all_corners(&made.mesh).filter(|x| tip(x) && x.iter().all(|v| v[0] >= 0.0 && v[1] > -0.1));
-    assert_eq!(above.map(|x| x.len()).collect::<Vec<_>>(), [3]);
-    let buried = flat(10.0, 5.0).mesh().unwrap();
-    assert_eq!(buried.mesh.blocks.len(), 1, "no triangles without a wedge");
-}
-
-#[test]
-fn cells_at_a_flat_fault_have_the_thickness_asked_for_where_there_is_room() {
-    let input = FaultMesh { thickness: Some(0.3), ..flat(10.0, 5.0) };
-    let made = input.mesh().unwrap();
-    for set in ["fault.minus", "fault.plus"] {
-        for side in &made.mesh.side_sets[set] {
-            let x = corners(&made.mesh, side.cell);
-            assert!((area(&x) - 0.3).abs() < 1e-9, "a cell of 1 m by 0.3 m: {x:?}");
-        }
-    }
-}
-
-#[test]
-fn a_flat_fault_through_the_whole_box_leaves_two_bodies() {
-    let input = FaultMesh {
-        min: [-20.0, -5.0],
-        max: [120.0, 0.0],
-        spacing: Spacing::Graded(vec![[0.0, 1.0]]),
-        ..input(vec![[0.0, 0.0], [90.0, -5.0]])
-    };
-    let made = input.mesh().unwrap();
-    check(&input, &made);
-    assert!(made.fault.pairs.iter().all(|p| !p.is_tip()));
 }
 
 #[test]
@@ -453,7 +391,7 @@ fn a_tight_box_is_filled_too() {
     }
 }
 
-fn refused(input: &FaultMesh) -> FaultMeshError {
+pub fn refused(input: &FaultMesh) -> FaultMeshError {
     input.mesh().unwrap_err()
 }
 
@@ -541,10 +479,6 @@ fn values_without_a_mesh_are_refused_by_name() {
         "{}",
         refused(&thick)
     );
-    let thin = FaultMesh { thickness: Some(1e-3), growth: 1.0, ..flat(0.0, 5.0) };
-    assert!(matches!(refused(&thin), FaultMeshError::Spacing(SpacingError::TooMany { .. })));
-    let thick = FaultMesh { thickness: Some(201.0), ..flat(0.0, 5.0) };
-    assert!(matches!(refused(&thick), FaultMeshError::Value { name: "thickness", .. }));
     assert!(matches!(
         refused(&FaultMesh { max: [-200.0, 0.0], ..good.clone() }),
         FaultMeshError::EmptyBox { axis: 0, .. }

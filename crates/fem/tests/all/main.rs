@@ -9,6 +9,7 @@ mod direct;
 mod extrude;
 mod fault_mesh;
 mod finite;
+mod flat_fault;
 mod gmsh;
 mod iterative;
 mod jump;
