@@ -86,7 +86,7 @@ def problem_of(program, scene):
     """What is wrong with the plan of a scene whose file is whole."""
     code, text = planned(program, scene)
     flat = " ".join(text.split())
-    found = re.search(r"`a` from \d+ values of `a\.vtu`.*?from ([\d.e+-]+) to ([\d.e+-]+) at points", flat)
+    found = re.search(r"`a` from \d+ values of `a\.vtu`.*?from ([\d.e+-]+) to ([\d.e+-]+) at \d+ points", flat)
     if code != 0 or not found:
         return f"exit code {code}: {text}"
     ends = [float(found[1]), float(found[2])]
