@@ -278,7 +278,11 @@ impl<'a> Balance<'a> {
             self.worked(moment, step, &pressing, from..until)
         };
         let starts: Vec<usize> = moment.layout.m().step_by(TASK).collect();
-        let parts: Vec<[f64; 3]> = starts.into_par_iter().map(of).collect();
+        let parts: Vec<[f64; 3]> = match starts.as_slice() {
+            // Beginning a task takes longer than a few points.
+            [one] => vec![of(*one)],
+            many => many.par_iter().copied().map(of).collect(),
+        };
         let works = &mut self.sums.works;
         works.opening += parted;
         works.exchanged += parted.abs();

@@ -93,8 +93,8 @@ struct Work {
     rows: Vec<f64>,
     /// Transformed rows.
     transformed: Vec<C>,
-    /// Real and imaginary parts of the tractions of all rows, frequency by frequency.
-    parts: Vec<f64>,
+    /// Real and imaginary parts of slip and of tractions of all rows, frequency by frequency.
+    parts: [Vec<f64>; 2],
 }
 
 /// Imaginary part of a spectrum, relative to its largest value, below which it is rounding of the entries of the table.
@@ -132,10 +132,10 @@ impl Toeplitz {
     fn product(&self, spectrum: &Spectrum, slip: &[f64], tractions: &mut [f64]) {
         let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
         work.fit(self.lattice.rows, self.padded());
-        let Work { rows, transformed, parts } = &mut *work;
+        let Work { rows, transformed, parts: [of_slip, of_tractions] } = &mut *work;
         self.transform(slip, rows, transformed);
-        spectrum.times(self.lattice.rows, self.arch, transformed, parts);
-        self.back(parts, transformed, rows);
+        spectrum.times(self.lattice.rows, self.arch, transformed, [of_slip, of_tractions]);
+        self.back(of_tractions, transformed, rows);
         self.gather(rows, tractions);
     }
 
@@ -253,7 +253,7 @@ impl Work {
         let frequencies = padded / 2 + 1;
         self.rows.resize(rows * padded, 0.0);
         self.transformed.resize(rows * frequencies, C::default());
-        self.parts.resize(2 * rows * frequencies, 0.0);
+        self.parts.iter_mut().for_each(|parts| parts.resize(2 * rows * frequencies, 0.0));
     }
 }
 
@@ -284,11 +284,11 @@ impl Spectrum {
         Self { real, imaginary }
     }
 
-    /// Product with transformed rows of slip. Writes real and imaginary parts of the tractions of all rows, frequency by frequency.
-    fn times(&self, rows: usize, arch: Arch, slip: &[C], tractions: &mut [f64]) {
+    /// Product with transformed rows of slip. Writes real and imaginary parts of slip and of tractions of all rows, frequency by
+    /// frequency.
+    fn times(&self, rows: usize, arch: Arch, slip: &[C], [parts, tractions]: [&mut [f64]; 2]) {
         let frequencies = slip.len() / rows;
-        let of_frequencies = |first: usize, tractions: &mut [f64]| {
-            let mut parts = vec![0.0; tractions.len()];
+        let of_frequencies = |first: usize, parts: &mut [f64], tractions: &mut [f64]| {
             for (k, parts) in parts.chunks_exact_mut(2 * rows).enumerate() {
                 let (real, imaginary) = parts.split_at_mut(rows);
                 for (row, (re, im)) in real.iter_mut().zip(imaginary).enumerate() {
@@ -296,13 +296,14 @@ impl Spectrum {
                     (*re, *im) = (value.re, value.im);
                 }
             }
-            arch.dispatch(Frequencies { spectrum: self, rows, first, slip: &parts, tractions });
+            arch.dispatch(Frequencies { spectrum: self, rows, first, slip: parts, tractions });
         };
         if self.real.len() < WORTH_TASKS {
-            of_frequencies(0, tractions);
+            of_frequencies(0, parts, tractions);
         } else {
-            let tasks = tractions.par_chunks_mut(FREQUENCIES * 2 * rows).enumerate();
-            tasks.for_each(|(k, t)| of_frequencies(k * FREQUENCIES, t));
+            let size = FREQUENCIES * 2 * rows;
+            let tasks = parts.par_chunks_mut(size).zip(tractions.par_chunks_mut(size)).enumerate();
+            tasks.for_each(|(k, (parts, tractions))| of_frequencies(k * FREQUENCIES, parts, tractions));
         }
     }
 

@@ -23,6 +23,10 @@ pub(super) fn prepare(running: &Running) -> miette::Result<()> {
     // Zero is as many as there are processors.
     let threads = running.threads.map_or(0, usize::from);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK).build_global();
+    if running.threads.is_none() {
+        // Where a pool exists already, it serves as well.
+        return Ok(());
+    }
     pool.into_diagnostic().wrap_err_with(|| format!("cannot begin {threads} threads"))
 }
 

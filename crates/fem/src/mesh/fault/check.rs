@@ -14,7 +14,7 @@ const STEEP: f64 = 10.0;
 /// Largest dip of a fault that lies in a row of the grid \[degrees\]: cells then have a scaled Jacobian of cos 80° = 0.17.
 const STEEPEST_FLAT: f64 = 80.0;
 /// Smallest dip \[degrees\]. The minus side is that of smaller x, which rounding of coordinates with six digits must not decide;
-/// claims of the suite reach down to 2 degrees.
+/// claims of the suite reach down to it.
 const LEAST_DIP: f64 = 1.0;
 
 /// Course of a fault, which decides how cells follow it.
