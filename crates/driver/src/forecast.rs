@@ -112,10 +112,10 @@ struct Grid {
     place: Range<usize>,
 }
 
-/// Grid of a body; `None` if its mesh is not a block or is extruded, or if its entry will be refused.
+/// Grid of a body; `None` if its mesh is not a block, is extruded or has joined cells, or if its entry will be refused.
 fn grid(name: &str, body: &Body) -> Option<Grid> {
     let MeshSource::Block(spec) = &body.mesh else { return None };
-    if body.extrude.is_some() {
+    if body.extrude.is_some() || spec.coarser.is_some() {
         return None;
     }
     let kind: ElementKind = spec.element.get_ref().parse().ok()?;

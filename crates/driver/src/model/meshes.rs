@@ -6,6 +6,7 @@ use crate::scene::model as scene;
 use crate::scene::near::suggest;
 use crate::scene::units::{self, Dimension, Length};
 use asperity_fem::element::ElementKind;
+use asperity_fem::mesh::coarser::{Coarser, CoarserError};
 use asperity_fem::mesh::curve::{Curve, Profile, bend};
 use asperity_fem::mesh::extrude::{ExtrudeError, extrude};
 use asperity_fem::mesh::fault::{Departure, FaultMesh, FaultMeshError, Interpolation, Spacing};
@@ -120,9 +121,13 @@ fn block<const D: usize>(name: &str, spec: &scene::BlockMesh) -> Result<Mesh<D>,
             .map_err(|c| Diagnostic::at(v.span(), format!("{} coordinates", c.len()), format!("give {D}")))
     };
     let (min, max) = (corner(&spec.min)?, corner(&spec.max)?);
-    let mut mesh = match &spec.spacing {
-        Some(spacing) => spaced(name, kind, (&min, &max), spacing)?,
-        None => divided(name, kind, (&min, &max), spec)?,
+    let (grid, place) = match &spec.spacing {
+        Some(spacing) => (spaced(name, kind, (&min, &max), spacing)?, spacing.span()),
+        None => (divided(name, kind, (&min, &max), spec)?, spec.element.span()),
+    };
+    let mut mesh = match &spec.coarser {
+        Some(coarser) => self::coarser(name, &grid, spec, coarser.get_ref())?,
+        None => grid.mesh().map_err(|e| Diagnostic::body(name, place, e.to_string()))?,
     };
     let mut curves = Vec::new();
     for (side, curve) in &spec.curves {
@@ -141,7 +146,7 @@ fn spaced<const D: usize>(
     kind: ElementKind,
     (min, max): (&[f64; D], &[f64; D]),
     spacing: &Spanned<Vec<Spanned<scene::SpacingSpec>>>,
-) -> Result<Mesh<D>, Diagnostic> {
+) -> Result<Grid<D>, Diagnostic> {
     let mut lines = [const { Vec::new() }; D];
     for (axis, line) in lines.iter_mut().enumerate() {
         let given = spacing.get_ref().get(axis).ok_or_else(|| {
@@ -155,14 +160,38 @@ fn spaced<const D: usize>(
             .line(min[axis], max[axis])
             .map_err(|e| Diagnostic::body(name, given.span(), e.to_string()))?;
     }
-    Grid { lines, kind }.mesh().map_err(|e| Diagnostic::body(name, spacing.span(), e.to_string()))
+    Ok(Grid { lines, kind })
 }
 
-fn curve<const D: usize>(side: &str, spec: &Spanned<scene::CurveSpec>) -> Result<Curve<D>, Diagnostic> {
-    let axis = SIDES.iter().take(D).position(|ends| ends.contains(&side)).ok_or_else(|| {
+/// A block whose cells become larger with the distance from a side.
+fn coarser<const D: usize>(
+    name: &str,
+    grid: &Grid<D>,
+    block: &scene::BlockMesh,
+    spec: &scene::CoarserSpec,
+) -> Result<Mesh<D>, Diagnostic> {
+    let side = side::<D>(spec.from.get_ref(), spec.from.span())?;
+    let beyond = spec.beyond.get_ref().iter().map(|x| x.0).collect();
+    Coarser { side, beyond }.mesh(grid).map_err(|e| {
+        let place = match e {
+            CoarserError::Element(_) => block.element.span(),
+            _ => spec.beyond.span(),
+        };
+        Diagnostic::body(name, place, e.to_string())
+    })
+}
+
+/// Axis and end of a side of a block.
+fn side<const D: usize>(name: &str, place: Range<usize>) -> Result<[usize; 2], Diagnostic> {
+    let axis = SIDES.iter().take(D).position(|ends| ends.contains(&name)).ok_or_else(|| {
         let known = SIDES.iter().take(D).flatten().copied();
-        Diagnostic::at(spec.span(), format!("a block has no side `{side}`"), suggest(side, "sides", known))
+        Diagnostic::at(place, format!("a block has no side `{name}`"), suggest(name, "sides", known))
     })?;
+    Ok([axis, usize::from(SIDES[axis][1] == name)])
+}
+
+fn curve<const D: usize>(name: &str, spec: &Spanned<scene::CurveSpec>) -> Result<Curve<D>, Diagnostic> {
+    let side = side::<D>(name, spec.span())?;
     let curve = spec.get_ref();
     let apex = *curve.apex.get_ref();
     if (D..3).any(|c| apex.along(c).is_some()) {
@@ -173,7 +202,7 @@ fn curve<const D: usize>(side: &str, spec: &Spanned<scene::CurveSpec>) -> Result
         ));
     }
     Ok(Curve {
-        side: [axis, usize::from(SIDES[axis][1] == side)],
+        side,
         profile: match curve.kind.get_ref() {
             scene::CurveKind::Parabola => Profile::Parabola,
             scene::CurveKind::Circle => Profile::Circle,
@@ -189,7 +218,7 @@ fn divided<const D: usize>(
     kind: ElementKind,
     (min, max): (&[f64; D], &[f64; D]),
     spec: &scene::BlockMesh,
-) -> Result<Mesh<D>, Diagnostic> {
+) -> Result<Grid<D>, Diagnostic> {
     let mut divisions = [1; D];
     let mut gradings = [Grading::Uniform; D];
     for axis in 0..D {
@@ -199,7 +228,7 @@ fn divided<const D: usize>(
         }
     }
     Block { min: *min, max: *max, divisions, grading: gradings, kind }
-        .mesh()
+        .grid()
         .map_err(|e| Diagnostic::body(name, spec.element.span(), e.to_string()))
 }
 

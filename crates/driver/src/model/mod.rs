@@ -37,7 +37,8 @@ pub fn build<const D: usize>(scene: &scene::Scene) -> Result<Model<D>, Diagnosti
     let mut parts = Vec::new();
     for (name, body) in &scene.bodies {
         let part = meshes::of_body::<D>(scene, name, body)?;
-        let even = matches!(&body.mesh, scene::MeshSource::Block(b) if b.spacing.is_none());
+        let even =
+            matches!(&body.mesh, scene::MeshSource::Block(b) if b.spacing.is_none() && b.coarser.is_none());
         let size = even.then(|| cell_size(&part, 0, 0));
         let (nodes, blocks) = (mesh.nodes.len(), mesh.blocks.len());
         mesh.append(part, name);

@@ -58,8 +58,16 @@ impl<const D: usize> Block<D> {
     /// # Errors
     /// If the block is empty, a ratio is not positive, or the element has a different dimension.
     pub fn mesh(&self) -> Result<Mesh<D>, FemError> {
+        self.grid()?.mesh()
+    }
+
+    /// The grid of the block.
+    ///
+    /// # Errors
+    /// If the block is empty or a ratio is not positive.
+    pub fn grid(&self) -> Result<Grid<D>, FemError> {
         self.check()?;
-        Grid { lines: std::array::from_fn(|axis| self.line(axis)), kind: self.kind }.mesh()
+        Ok(Grid { lines: std::array::from_fn(|axis| self.line(axis)), kind: self.kind })
     }
 
     fn check(&self) -> Result<(), FemError> {
@@ -108,16 +116,7 @@ impl<const D: usize> Grid<D> {
     /// # Errors
     /// If lines do not ascend or the element has a different dimension.
     pub fn mesh(&self) -> Result<Mesh<D>, FemError> {
-        if self.kind.dimension() != D {
-            return Err(FemError::Dimension { element: self.kind.name(), dimension: D });
-        }
-        for (axis, line) in self.lines.iter().enumerate() {
-            let ascends = |k: usize| line[k].is_finite() && line[k] > line[k - 1];
-            let bad = (1..line.len()).find(|&k| !ascends(k)).or_else(|| (line.len() < 2).then_some(0));
-            if let Some(index) = bad {
-                return Err(FemError::GridLine { axis, index });
-            }
-        }
+        self.check()?;
         let order = self.kind.order();
         let lines: Vec<Vec<f64>> = self.lines.iter().map(|line| with_middles(line, order)).collect();
         let counts: Vec<usize> = lines.iter().map(Vec::len).collect();
@@ -139,8 +138,22 @@ impl<const D: usize> Grid<D> {
         let nodes = used(grid_nodes(&lines, &counts), &mut connectivity);
         let mut mesh = Mesh { nodes, ..Mesh::default() };
         mesh.blocks.push(Cells { kind: self.kind, connectivity });
-        self.name_sides(&mut mesh);
+        name_sides(&self.lines, &mut mesh);
         Ok(mesh)
+    }
+
+    pub(super) fn check(&self) -> Result<(), FemError> {
+        if self.kind.dimension() != D {
+            return Err(FemError::Dimension { element: self.kind.name(), dimension: D });
+        }
+        for (axis, line) in self.lines.iter().enumerate() {
+            let ascends = |k: usize| line[k].is_finite() && line[k] > line[k - 1];
+            let bad = (1..line.len()).find(|&k| !ascends(k)).or_else(|| (line.len() < 2).then_some(0));
+            if let Some(index) = bad {
+                return Err(FemError::GridLine { axis, index });
+            }
+        }
+        Ok(())
     }
 
     /// The cells of one grid position, each as the grid steps of its nodes from the lower corner: one quadrilateral or two
@@ -172,29 +185,30 @@ impl<const D: usize> Grid<D> {
         };
         self.kind.node_coordinates().iter().map(place).collect()
     }
+}
 
-    fn name_sides(&self, mesh: &mut Mesh<D>) {
-        let block = &mesh.blocks[0];
-        let mut sets: Vec<(String, Vec<Side>)> = Vec::new();
-        for (axis, names) in SIDES.iter().enumerate().take(D) {
-            for (end, name) in names.iter().enumerate() {
-                let line = &self.lines[axis];
-                let value = line[if end == 0 { 0 } else { line.len() - 1 }];
-                let mut sides = Vec::new();
-                for cell in 0..block.len() {
-                    let nodes = block.cell(cell);
-                    for (face, local) in block.kind.faces().iter().enumerate() {
-                        // Ends of a line are placed exactly, so that the comparison with `==` is intended.
-                        if local.nodes.iter().all(|&a| mesh.nodes[nodes[a]][axis] == value) {
-                            sides.push(Side { block: 0, cell, face });
-                        }
+/// Names the faces on the sides of a mesh of one block of cells with these outermost grid lines.
+pub(super) fn name_sides<const D: usize>(lines: &[Vec<f64>; D], mesh: &mut Mesh<D>) {
+    let block = &mesh.blocks[0];
+    let mut sets: Vec<(String, Vec<Side>)> = Vec::new();
+    for (axis, names) in SIDES.iter().enumerate().take(D) {
+        for (end, name) in names.iter().enumerate() {
+            let line = &lines[axis];
+            let value = line[if end == 0 { 0 } else { line.len() - 1 }];
+            let mut sides = Vec::new();
+            for cell in 0..block.len() {
+                let nodes = block.cell(cell);
+                for (face, local) in block.kind.faces().iter().enumerate() {
+                    // Ends of a line are placed exactly, so that the comparison with `==` is intended.
+                    if local.nodes.iter().all(|&a| mesh.nodes[nodes[a]][axis] == value) {
+                        sides.push(Side { block: 0, cell, face });
                     }
                 }
-                sets.push(((*name).to_string(), sides));
             }
+            sets.push(((*name).to_string(), sides));
         }
-        mesh.side_sets.extend(sets);
     }
+    mesh.side_sets.extend(sets);
 }
 
 /// Corners of a hexahedron in the order of the element.

@@ -2,6 +2,7 @@
 
 pub mod abaqus;
 mod check;
+pub mod coarser;
 pub mod curve;
 mod error;
 pub mod extrude;

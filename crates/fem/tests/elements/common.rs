@@ -7,9 +7,11 @@ use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::mesh::generate::{Block, Grading};
-use asperity_fem::mesh::{Mesh, nodes_of_sides};
+use asperity_fem::mesh::{Mesh, face_nodes, nodes_of_sides};
 use asperity_fem::sparse::{Part, ScatterMap};
+use asperity_fem::surface;
 use asperity_fem::term::{Instant, Linearized, Term};
+use std::collections::BTreeMap;
 
 pub const AT: Instant = Instant { time: 0.0, dt: 1.0 };
 
@@ -280,4 +282,49 @@ pub fn orders(coarse: [f64; 2], fine: [f64; 2], ratio: f64) -> [f64; 2] {
 /// True for elements whose space contains the complete polynomials of their order only on affine images of the reference.
 pub fn is_serendipity(kind: ElementKind) -> bool {
     matches!(kind, ElementKind::Quad8 | ElementKind::Hex20 | ElementKind::Wedge15)
+}
+
+/// Checks that a mesh of a block from the origin to (1, 2, 3) m conforms, fills it, names its sides, and has no unused nodes.
+pub fn conforms<const D: usize>(mesh: &Mesh<D>) {
+    let cells = &mesh.blocks[0];
+    let kind = cells.kind;
+    let mut used = cells.connectivity.clone();
+    used.sort_unstable();
+    used.dedup();
+    assert_eq!(used, (0..mesh.nodes.len()).collect::<Vec<_>>(), "{}: unused nodes", kind.name());
+    let mut faces: BTreeMap<Vec<usize>, usize> = BTreeMap::new();
+    for cell in 0..cells.len() {
+        for face in kind.faces() {
+            let mut nodes: Vec<usize> = face.nodes.iter().map(|&a| cells.cell(cell)[a]).collect();
+            nodes.sort_unstable();
+            *faces.entry(nodes).or_default() += 1;
+        }
+    }
+    let outer: Vec<Vec<usize>> = mesh
+        .side_sets
+        .values()
+        .flatten()
+        .map(|s| {
+            let mut nodes = face_nodes(mesh, s);
+            nodes.sort_unstable();
+            nodes
+        })
+        .collect();
+    for (face, count) in faces {
+        let expected = if outer.contains(&face) { 1 } else { 2 };
+        assert_eq!(count, expected, "{} {face:?}", kind.name());
+    }
+    // All cells have the right orientation, and together they fill the block.
+    let space = Idealisation::of_dimension(D);
+    let material = material(0.3);
+    let elastic = LinearBlock::new(mesh, 0, &material, space, Formulation::Standard).unwrap();
+    let force = elastic.body_force(mesh, &vec![1.0; D]).unwrap();
+    let volume: f64 = force.iter().filter(|(dof, _)| dof % D == 0).map(|(_, f)| f).sum();
+    let exact: f64 = (1..=D).map(|c| c as f64).product();
+    assert!((volume - exact).abs() < 1e-13 * exact, "{} {volume}", kind.name());
+    for (name, sides) in &mesh.side_sets {
+        let area: f64 = surface::areas(mesh, sides, space).values().sum();
+        let axis = ["left", "right", "bottom", "top", "back", "front"].iter().position(|n| n == name);
+        assert!((area - exact / (1 + axis.unwrap() / 2) as f64).abs() < 1e-13 * exact, "{name}");
+    }
 }

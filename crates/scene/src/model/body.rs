@@ -252,11 +252,23 @@ pub struct BlockMesh {
     pub spacing: Option<Spanned<Vec<Spanned<SpacingSpec>>>>,
     /// With `size` or `divisions`: ratio of the last cell size to the first along each axis; absent: 1 \[-\].
     pub grading: Option<Spanned<Vec<f64>>>,
+    /// Cells that become larger with the distance from a side.
+    pub coarser: Option<Spanned<CoarserSpec>>,
     /// Curved sides by name.
     #[serde(default)]
     pub curves: BTreeMap<String, Spanned<CurveSpec>>,
     /// Name of the element, such as `"quad4"`.
     pub element: Spanned<String>,
+}
+
+/// Cells of a block that become larger with the distance from one side.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CoarserSpec {
+    /// Name of the side, such as `"right"`.
+    pub from: Spanned<String>,
+    /// Distances from the side, ascending: beyond each of them three cells become one along every axis of the side \[m\].
+    pub beyond: Spanned<Vec<Length>>,
 }
 
 /// A curved side of a block.

@@ -22,6 +22,7 @@ use super::paper::Paper;
 use super::profile::Tractions;
 use super::rupture::{self, EventOnFault, RupturedFault, Ruptures, Shape};
 use crate::{OutputError, atomic, json, numbers};
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -298,20 +299,36 @@ impl Sheet {
         asked: &Asked,
     ) -> Result<(Vec<PathBuf>, Vec<OutputError>), OutputError> {
         atomic::create_dir(folder)?;
-        let (mut written, mut failed, paper) = (Vec::new(), Vec::new(), asked.paper());
-        for plot in &self.plots {
-            let (figures, missing) = self.figures(plot, tables, asked);
+        // Each plot has files of its own.
+        let drawn: Vec<_> =
+            self.plots.par_iter().map(|plot| self.write_plot(plot, tables, folder, asked)).collect();
+        let (mut written, mut failed) = (Vec::new(), Vec::new());
+        for drawn in drawn {
+            let (files, missing) = drawn?;
+            written.extend(files);
             failed.extend(missing);
-            let wanted = figures.into_iter().filter(|(name, _)| asked.wants(name));
-            for (name, figure) in wanted {
-                let figure = paper.filled(figure).scaled(asked.shrinks());
-                for format in &asked.formats {
-                    let path = folder.join(format!("{name}.{}", format.ending()));
-                    let bytes = format.paint(&figure, asked.dpi);
-                    let bytes = bytes.map_err(|reason| OutputError::Draw { path: path.clone(), reason })?;
-                    atomic::write(&path, &bytes)?;
-                    written.push(path);
-                }
+        }
+        Ok((written, failed))
+    }
+
+    /// Draws the figures of a plot that are asked for; see [`Self::draw_what_can_be`].
+    fn write_plot(
+        &self,
+        plot: &Plot,
+        tables: &Path,
+        folder: &Path,
+        asked: &Asked,
+    ) -> Result<(Vec<PathBuf>, Vec<OutputError>), OutputError> {
+        let (figures, failed) = self.figures(plot, tables, asked);
+        let (mut written, paper) = (Vec::new(), asked.paper());
+        for (name, figure) in figures.into_iter().filter(|(name, _)| asked.wants(name)) {
+            let figure = paper.filled(figure).scaled(asked.shrinks());
+            for format in &asked.formats {
+                let path = folder.join(format!("{name}.{}", format.ending()));
+                let bytes = format.paint(&figure, asked.dpi);
+                let bytes = bytes.map_err(|reason| OutputError::Draw { path: path.clone(), reason })?;
+                atomic::write(&path, &bytes)?;
+                written.push(path);
             }
         }
         Ok((written, failed))
