@@ -200,8 +200,7 @@ impl Patches {
                 grid.distances() * grid.rows.pow(2) * (PARTS + matrices * 2) * size_of::<f64>()
             }
             Storage::Dense => matrices * self.count().pow(2) * size_of::<f64>(),
-            // Blocks are joined when all of a matrix are known.
-            Storage::Compressed => (matrices + 1) * Division::new(geometry).bytes(),
+            Storage::Compressed => Division::new(geometry).bytes(matrices, self.tolerance()),
         }
     }
 

@@ -52,6 +52,16 @@ pub(super) enum Precision {
     Single,
 }
 
+impl Precision {
+    /// Size of a value \[bytes\].
+    pub(super) fn bytes(self) -> usize {
+        match self {
+            Self::Double => size_of::<f64>(),
+            Self::Single => size_of::<f32>(),
+        }
+    }
+}
+
 /// Values of all blocks.
 #[derive(Debug, Serialize, Deserialize)]
 enum Values {

@@ -10,9 +10,9 @@ use std::ops::Range;
 
 /// Largest rank tried. Blocks of distant clusters of a surface need half of it at a tolerance of 1e-8.
 const MOST_RANK: usize = 64;
-/// Number of columns of a block of low rank by which memory is estimated before the block is made. With the default tolerance
-/// the mean is 8 to 16.
-const LIKELY_RANK: usize = 20;
+/// Number of columns of a block of low rank, for each decade of the tolerance, by which memory is estimated before the block is
+/// made. Means are 8 to 16 at 1e-6.
+const RANK_PER_DECADE: f64 = 3.5;
 
 /// Traction at a point per slip of another.
 pub type Entry<'a> = &'a (dyn Fn(usize, usize) -> f64 + Sync);
@@ -45,14 +45,17 @@ impl Division {
         Self { tree, pairs }
     }
 
-    /// Estimate of the memory of a matrix while its blocks are computed, in double precision \[bytes\].
+    /// Estimate of the largest memory while some matrices are made one after another \[bytes\]: a matrix is kept in double precision
+    /// until all of its blocks are known.
     #[must_use]
-    pub fn bytes(&self) -> usize {
+    pub fn bytes(&self, matrices: usize, tolerance: f64) -> usize {
+        let rank = (RANK_PER_DECADE * -tolerance.log10()).ceil().max(1.0) as usize;
         let values = self.pairs.iter().map(|&(a, b, low)| {
             let [m, n] = [a, b].map(|k| self.tree.clusters[k].range.len());
-            if low { (m * n).min(LIKELY_RANK * (m + n)) } else { m * n }
+            if low { (m * n).min(rank * (m + n)) } else { m * n }
         });
-        values.sum::<usize>() * size_of::<f64>()
+        let kept = Tolerance::OfBlock(tolerance).precision().bytes();
+        values.sum::<usize>() * (size_of::<f64>() + matrices * kept)
     }
 
     /// Operator of one component of slip: tractions along it, and normal ones if slip changes them.

@@ -38,8 +38,11 @@ pub enum CoarserError {
     /// Another element.
     #[error("cells of `{0}` cannot be joined: `quad4` and `hex8` can")]
     Element(&'static str),
+    /// No distance at all.
+    #[error("no distance is given")]
+    None,
     /// A distance that is not above the one before it.
-    #[error("the distance {0} m is not above zero and the one before it")]
+    #[error("the distance {0} m is not above that before it: distances are positive and ascend")]
     Distance(f64),
     /// Too few layers of cells.
     #[error(
@@ -58,14 +61,13 @@ pub enum CoarserError {
     },
     /// No cells are small enough.
     #[error(
-        "no three cells can be joined beyond {beyond} m from the side: they would be longer along axis {axis} than their distance \
-         from it"
+        "no three cells can be joined beyond {beyond} m from the side: along {axis} they would be longer than their distance from it"
     )]
     Long {
         /// Given distance \[m\].
         beyond: f64,
-        /// Axis.
-        axis: usize,
+        /// Name of the axis.
+        axis: &'static str,
     },
     /// The grid itself.
     #[error(transparent)]
@@ -81,6 +83,9 @@ impl Coarser {
     pub fn mesh<const D: usize>(&self, grid: &Grid<D>) -> Result<Mesh<D>, CoarserError> {
         if !matches!(grid.kind, ElementKind::Quad4 | ElementKind::Hex8) {
             return Err(CoarserError::Element(grid.kind.name()));
+        }
+        if self.beyond.is_empty() {
+            return Err(CoarserError::None);
         }
         grid.check()?;
         let mut built = Built::new(grid, self.side);
@@ -118,6 +123,9 @@ impl Coarser {
         Ok(joins)
     }
 }
+
+/// Names of the axes.
+const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Relative difference of distances that counts as rounding of decimal input.
 const ROUNDING: f64 = 1e-9;
@@ -192,7 +200,7 @@ impl<const D: usize> Built<D> {
             Some(join) => {
                 let longest = self.depth(self.layers);
                 columns(&self.lines[along], longest)
-                    .ok_or(CoarserError::Long { beyond: join.beyond, axis: along })?
+                    .ok_or(CoarserError::Long { beyond: join.beyond, axis: AXES[along] })?
             }
         };
         let mut lines = self.lines.clone();

@@ -109,11 +109,12 @@ fn cells_that_cannot_be_joined_are_refused() {
     };
     for (kind, beyond, part) in [
         (ElementKind::Hex20, vec![2.0], "cells of `hex20` cannot be joined"),
+        (ElementKind::Hex8, vec![], "no distance is given"),
         (ElementKind::Hex8, vec![2.0, 2.0], "the distance 2 m is not above"),
         (ElementKind::Hex8, vec![f64::NAN], "the distance NaN m is not above"),
         (ElementKind::Hex8, vec![3.0], "there are 1 layers of cells, and 2 are needed"),
         (ElementKind::Hex8, vec![50.0], "the block ends at 4 m"),
-        (ElementKind::Hex8, vec![1.0], "no three cells can be joined beyond 1 m"),
+        (ElementKind::Hex8, vec![1.0], "no three cells can be joined beyond 1 m from the side: along y"),
     ] {
         let message = refused(kind, &beyond);
         assert!(message.contains(part), "{message}");
