@@ -23,7 +23,7 @@ use crate::error::FemError;
 /// Number of columns that become one.
 const JOINED: usize = 3;
 
-/// Where cells of a block become larger.
+/// Distances from a side of a block beyond which its cells become larger.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coarser {
     /// Axis, and end of the axis, of the side at which the cells are those of the grid.
