@@ -16,9 +16,11 @@
 //! In three dimensions one layer follows another, one for each axis of the side.
 
 use super::generate::{Grid, name_sides};
+use super::spacing::MOST_CELLS;
 use super::{Cells, Mesh};
 use crate::element::ElementKind;
 use crate::error::FemError;
+use std::ops::Range;
 
 /// Number of columns that become one.
 const JOINED: usize = 3;
@@ -40,7 +42,12 @@ pub enum CoarserError {
     Element(&'static str),
     /// No distance at all.
     #[error("no distance is given")]
-    None,
+    Empty,
+    /// More cells than can be intended.
+    #[error(
+        "the block would have more than {MOST_CELLS} cells: a coarser size or a smaller first distance is needed"
+    )]
+    TooMany,
     /// A distance that is not above the one before it.
     #[error("the distance {0} m is not above that before it: distances are positive and ascend")]
     Distance(f64),
@@ -85,11 +92,18 @@ impl Coarser {
             return Err(CoarserError::Element(grid.kind.name()));
         }
         if self.beyond.is_empty() {
-            return Err(CoarserError::None);
+            return Err(CoarserError::Empty);
         }
         grid.check()?;
+        if layer_of(&grid.lines, self.side[0]) > MOST_CELLS as f64 {
+            return Err(CoarserError::TooMany);
+        }
         let mut built = Built::new(grid, self.side);
         for join in self.joins(&built)? {
+            let cells = built.connectivity.len() / grid.kind.nodes();
+            if cells as f64 + layer_of(&built.lines, self.side[0]) > MOST_CELLS as f64 {
+                return Err(CoarserError::TooMany);
+            }
             built.layer(join)?;
         }
         let mut mesh = Mesh { nodes: built.nodes, ..Mesh::default() };
@@ -222,21 +236,7 @@ impl<const D: usize> Built<D> {
             .collect();
         let middle = self.add(&mid);
         let levels = [(&self.lines, &self.level), (&mid, &middle), (&lines, &level)];
-        let mut cells = Vec::new();
-        let mut inner = 0;
-        for (place, column) in columns.iter().enumerate() {
-            let [a, b] = [(0, column.start), (0, column.end)];
-            let [c, d] = [(2, place), (2, place + 1)];
-            if column.len() == 1 {
-                cells.push([a, b, d, c]);
-                continue;
-            }
-            let [p, q] = [(0, column.start + 1), (0, column.start + 2)];
-            let [r, s] = [(1, inner), (1, inner + 1)];
-            cells.extend([[a, p, r, c], [p, q, s, r], [q, b, d, s], [r, s, d, c]]);
-            inner += 2;
-        }
-        self.connectivity.extend(self.across(along, &cells, levels));
+        self.connectivity.extend(self.across(along, &quadrilaterals(&columns), levels));
         (self.lines, self.level) = (lines, level);
         self.layers += 1;
         Ok(())
@@ -285,9 +285,34 @@ impl<const D: usize> Built<D> {
     }
 }
 
+/// Number of cells of a layer across an axis. It may exceed what an integer holds.
+fn layer_of<const D: usize>(lines: &[Vec<f64>; D], across: usize) -> f64 {
+    (0..D).filter(|&axis| axis != across).map(|axis| (lines[axis].len() - 1) as f64).product()
+}
+
+/// Cells of a layer in the plane of its columns and of the distance: one for each column of one cell, and the four of the
+/// template for each of three. A corner is its level (near, mid, far) and its place along the level.
+fn quadrilaterals(columns: &[Range<usize>]) -> Vec<[(usize, usize); 4]> {
+    let mut cells = Vec::new();
+    let mut inner = 0;
+    for (place, column) in columns.iter().enumerate() {
+        let [a, b] = [(0, column.start), (0, column.end)];
+        let [c, d] = [(2, place), (2, place + 1)];
+        if column.len() == 1 {
+            cells.push([a, b, d, c]);
+            continue;
+        }
+        let [p, q] = [(0, column.start + 1), (0, column.start + 2)];
+        let [r, s] = [(1, inner), (1, inner + 1)];
+        cells.extend([[a, p, r, c], [p, q, s, r], [q, b, d, s], [r, s, d, c]]);
+        inner += 2;
+    }
+    cells
+}
+
 /// Columns of three cells where they are at most `longest` long, and of one cell elsewhere; `None` if all are of one. They are
-/// symmetric to the middle of each run of short cells.
-fn columns(line: &[f64], longest: f64) -> Option<Vec<std::ops::Range<usize>>> {
+/// symmetric about the middle of each run of short cells.
+fn columns(line: &[f64], longest: f64) -> Option<Vec<Range<usize>>> {
     let cells = line.len() - 1;
     let short = |k: usize| JOINED as f64 * (line[k + 1] - line[k]) <= longest * (1.0 + ROUNDING);
     let mut columns = Vec::new();
@@ -308,8 +333,8 @@ fn columns(line: &[f64], longest: f64) -> Option<Vec<std::ops::Range<usize>>> {
     columns.iter().any(|c| c.len() > 1).then_some(columns)
 }
 
-/// Lengths of the columns of a run of cells, symmetric to its middle: a cell that is left lies there between equal halves, others
-/// lie at the ends.
+/// Lengths of the columns of a run of cells, symmetric about its middle. One remaining cell lies in the middle if both halves are
+/// equal; otherwise the remaining cells lie at the ends.
 fn divided(run: usize) -> Vec<usize> {
     let (threes, left) = (run / JOINED, run % JOINED);
     let (ends, middle, threes) = match left {

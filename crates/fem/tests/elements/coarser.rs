@@ -47,7 +47,7 @@ fn cells_at_the_side_stay_and_those_beyond_are_fewer() {
 }
 
 #[test]
-fn joined_cells_are_symmetric_to_the_middle() {
+fn joined_cells_are_symmetric_about_the_middle() {
     for cells in 9..=14 {
         let line = |n: usize, size: f64| (0..=n).map(|k| size * k as f64).collect::<Vec<f64>>();
         let grid = Grid { lines: [line(4, 1.0), line(cells, 0.1)], kind: ElementKind::Quad4 };
@@ -129,4 +129,17 @@ fn lines_meant_to_lie_at_a_distance_count_although_they_are_rounded() {
     let mesh = Coarser { side: [0, 1], beyond: vec![0.9 - 0.4] }.mesh(&grid).unwrap();
     let ends: Vec<usize> = mesh.side_sets["left"].iter().flat_map(|s| face_nodes(&mesh, s)).collect();
     assert_eq!(ends.len(), 2 * 3);
+}
+
+#[test]
+fn a_block_of_too_many_cells_is_refused_before_it_is_built() {
+    let line = |n: usize| (0..=n).map(|k| k as f64).collect::<Vec<f64>>();
+    let refused = |counts: [usize; 3], beyond| {
+        let grid = Grid { lines: counts.map(line), kind: ElementKind::Hex8 };
+        Coarser { side: [0, 0], beyond: vec![beyond] }.mesh(&grid).unwrap_err().to_string()
+    };
+    // One layer alone; and layers before the first joined one, of which each is admitted.
+    for message in [refused([5, 4000, 4000], 3.0), refused([200, 400, 400], 190.0)] {
+        assert!(message.contains("more than 10000000 cells"), "{message}");
+    }
 }
