@@ -1,9 +1,9 @@
-//! Tractions due to slip by dense and compressed operators, and the right-hand side of a fault. Prints the memory of
-//! each operator.
+//! Tractions due to slip by dense and compressed operators and by those of grids, and the right-hand side of a fault. Prints the
+//! memory of each operator.
 #![allow(missing_docs)]
 
 use asperity_cycles::Equations;
-use asperity_cycles::operator::Form;
+use asperity_cycles::operator::{Both, Form, Lattice, Operator, Planar, Toeplitz};
 use asperity_driver::fault::{Plan, plan_with};
 use asperity_driver::scene;
 use asperity_ode::{Clock, Problem};
@@ -36,6 +36,44 @@ fn products(c: &mut Criterion) {
     group.finish();
 }
 
+/// Operators of a grid of 256 columns whose slip may turn: with sums over pairs of rows, and with a transform down dip.
+fn grids(rows: usize) -> [(&'static str, Box<dyn Operator>); 2] {
+    let lattice = Lattice { columns: 256, rows, points: (0..256 * rows).collect() };
+    let pull = |[c, r]: [isize; 2]| {
+        let (c, r) = (c as f64, r as f64);
+        let far = (1.0 + c * c + r * r).powf(-1.5);
+        [far, far * c * r / (1.0 + c * c + r * r), far]
+    };
+    let table = |pair: usize| {
+        let mut table = vec![0.0; lattice.distances() * rows * rows];
+        for (k, value) in table.iter_mut().enumerate() {
+            let (distance, point, patch) = (k / (rows * rows), k / rows % rows, k % rows);
+            *value = pull([distance as isize - 255, point as isize - patch as isize])[pair];
+        }
+        table
+    };
+    let of =
+        |pair: usize| -> Box<dyn Operator> { Box::new(Toeplitz::new(lattice.clone(), &table(pair), None)) };
+    let sums = Both::new([of(0), of(2)], Some([of(1), of(1)]));
+    [("sums over rows", Box::new(sums)), ("both transforms", Box::new(Planar::new(lattice.clone(), 2, pull)))]
+}
+
+fn products_of_grids(c: &mut Criterion) {
+    let mut group = c.benchmark_group("fault/grid");
+    for rows in [1, 2, 4, 8, 16, 32, 128] {
+        for (name, operator) in grids(rows) {
+            let n = 2 * operator.points();
+            let slip: Vec<f64> = (0..n).map(|k| (k as f64).sin()).collect();
+            let mut shear = vec![0.0; n];
+            group.throughput(Throughput::Bytes(operator.bytes() as u64));
+            group.bench_function(BenchmarkId::new(name, rows), |b| {
+                b.iter(|| operator.shear(&slip, &mut shear));
+            });
+        }
+    }
+    group.finish();
+}
+
 fn rates(c: &mut Criterion) {
     let mut group = c.benchmark_group("fault/right-hand side");
     for size in SIZES {
@@ -51,5 +89,5 @@ fn rates(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, products, rates);
+criterion_group!(benches, products, products_of_grids, rates);
 criterion_main!(benches);

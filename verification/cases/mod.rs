@@ -133,6 +133,7 @@ mod seas_bp3;
 mod seas_bp3_25m;
 mod seas_bp3_full;
 mod seas_bp4;
+mod seas_bp4_500m;
 mod seas_bp5;
 mod seas_bp5_limit;
 mod seas_bp6;
@@ -243,6 +244,7 @@ pub const ALL: &[Case] = &[
     seas_bp3_25m::CASE,
     seas_bp3_full::CASE,
     seas_bp4::CASE,
+    seas_bp4_500m::CASE,
     seas_bp5::CASE,
     seas_bp5_limit::CASE,
     seas_bp6::CASE,

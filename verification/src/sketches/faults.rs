@@ -15,7 +15,7 @@ pub(super) fn of(name: &str) -> Option<Sketch> {
         "seas_bp3_25m" => dipping(90.0, "dip 90°; 40 km along the dip"),
         "fault_operator" => dipping(60.0, "dip 90, 60, 30°; buried, and from the surface"),
         "fault_medium" => dipping(60.0, "cells of uniform slip, without bodies"),
-        "seas_bp4" | "seas_bp5" | "seas_bp5_limit" | "seas_bp7" => plane(),
+        "seas_bp4" | "seas_bp4_500m" | "seas_bp5" | "seas_bp5_limit" | "seas_bp7" => plane(),
         "fault_gravity" => gravity(),
         "fault_opening" => opening(),
         "fault_pressing" => pressed(),

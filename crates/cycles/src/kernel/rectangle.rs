@@ -77,6 +77,12 @@ impl Rectangle {
         Ok(Self { space, centre: centre.into(), axes, cos, sin, half })
     }
 
+    /// Extent of the rock around the rectangle.
+    #[must_use]
+    pub fn space(&self) -> Space {
+        self.space
+    }
+
     /// Unit vectors along strike, up dip and along the normal, as columns.
     #[must_use]
     pub fn frame(&self) -> Matrix3<f64> {

@@ -5,9 +5,10 @@
 //! (x, z) of a kernel is (x, y) here, in space (x, y, z) of a kernel is (z, x, y) here, which keeps the handedness.
 
 use super::tractions::Tractions;
-use crate::kernel::{Field, Rectangle, Segment, Triangle};
+use crate::kernel::{Field, Rectangle, Segment, Space, Triangle};
 use crate::operator::{
-    Accuracy, Both, Checked, Dense, Division, Entry, Form, Geometry, Lattice, Operator, Toeplitz, dense,
+    Accuracy, Both, Checked, Dense, Division, Entry, Form, Geometry, Lattice, Operator, Planar, Toeplitz,
+    dense,
 };
 use asperity_fem::material::elastic::Elastic;
 use nalgebra::{Matrix3, Vector3};
@@ -126,8 +127,8 @@ impl Patches {
         }
     }
 
-    /// Operator of these patches. In [`Form::Fitting`], that of a single grid is a [`Toeplitz`], and that of many points is
-    /// compressed from its entries, without the whole matrix.
+    /// Operator of these patches. In [`Form::Fitting`], that of a single grid is a [`Planar`] or a [`Toeplitz`], and that of many
+    /// points is compressed from its entries, without the whole matrix.
     #[must_use]
     pub fn operator(
         &self,
@@ -136,6 +137,9 @@ impl Patches {
         (geometry, form): (&Geometry<'_>, Form),
     ) -> Box<dyn Operator> {
         match (self.storage(), form) {
+            (Storage::Plane(tiles, lattice), Form::Fitting) => {
+                Box::new(of_plane(tiles, lattice, rock, slip.tangents))
+            }
             (Storage::Grid(tiles, lattice), Form::Fitting) => of_grid(tiles, lattice, rock, slip),
             (Storage::Compressed, Form::Fitting) => self.compressed(rock, slip, geometry, self.tolerance()),
             (_, Form::Compressed { tolerance }) => self.compressed(rock, slip, geometry, tolerance),
@@ -146,6 +150,7 @@ impl Patches {
     /// Storage that fits these patches.
     fn storage(&self) -> Storage<'_> {
         match self.grid() {
+            Some((tiles, lattice)) if in_whole_space(tiles) => Storage::Plane(tiles, lattice),
             Some((tiles, lattice)) => Storage::Grid(tiles, lattice),
             None if self.count() < self.compressed_from() => Storage::Dense,
             None => Storage::Compressed,
@@ -173,6 +178,10 @@ impl Patches {
     pub fn reason(&self) -> String {
         let (count, from) = (self.count(), self.compressed_from());
         match self.storage() {
+            Storage::Plane(_, grid) => format!(
+                "the operator is a convolution along strike and down dip, as all {} cells belong to one grid in a whole-space",
+                grid.points.len()
+            ),
             Storage::Grid(_, grid) => format!(
                 "the operator is a convolution along strike, as all {} cells belong to one grid",
                 grid.points.len()
@@ -195,6 +204,12 @@ impl Patches {
             Self::Space { .. } => tangents * (tangents + 1),
         };
         match self.storage() {
+            // Pulls at half of the distances, a table of all, spectra of four times the number of cells, of which half are held, and
+            // working memory.
+            Storage::Plane(_, grid) => {
+                let values = 2 * PARTS + 4 * tangents * (1 + tangents) / 2 + 6 * tangents + 12;
+                values * grid.points.len() * size_of::<f64>()
+            }
             // A table of pulls, and real and imaginary parts of spectra of twice the number of columns.
             Storage::Grid(_, grid) => {
                 grid.distances() * grid.rows.pow(2) * (PARTS + matrices * 2) * size_of::<f64>()
@@ -282,7 +297,9 @@ impl Patches {
 
 /// Storage of an operator.
 enum Storage<'a> {
-    /// A convolution.
+    /// A convolution along strike and down dip.
+    Plane(&'a [Tile], &'a Lattice),
+    /// A convolution along strike.
     Grid(&'a [Tile], &'a Lattice),
     /// All entries.
     Dense,
@@ -435,6 +452,24 @@ fn mirrored(tile: &Tile, component: usize) -> Option<Pull> {
 
 /// Share of slip along strike that is rounding.
 const LEVEL: f64 = 8.0 * f64::EPSILON;
+
+/// True if the rock around all tiles has no surface.
+fn in_whole_space(tiles: &[Tile]) -> bool {
+    tiles.iter().all(|tile| matches!(&tile.shape, Shape::Rectangle(r) if r.space() == Space::Whole))
+}
+
+/// Operator of a single grid in a whole-space.
+fn of_plane(tiles: &[Tile], lattice: &Lattice, rock: &Elastic, tangents: usize) -> Planar {
+    let tile = |column: usize, row: usize| &tiles[lattice.points[row * lattice.columns + column]];
+    Planar::new(lattice.clone(), tangents, |distance| {
+        // The pair of cells at this distance that lies at ends of the grid.
+        let [point, patch] = [1, -1].map(|sign| distance.map(|d| (sign * d).max(0).unsigned_abs()));
+        let of =
+            |component: usize| on_tile(tile(point[0], point[1]), tile(patch[0], patch[1]), rock, component);
+        let [along, across, _] = of(0);
+        [along, across, if tangents > 1 { of(1)[1] } else { 0.0 }]
+    })
+}
 
 /// Operator of a single grid.
 fn of_grid(tiles: &[Tile], lattice: &Lattice, rock: &Elastic, slip: Slip<'_>) -> Box<dyn Operator> {

@@ -102,6 +102,10 @@ impl Operator for Both {
         self.parts().map(Operator::bytes).sum()
     }
 
+    fn moved(&self) -> usize {
+        self.parts().map(Operator::moved).sum()
+    }
+
     fn words(&self) -> String {
         let across = if self.across.is_some() { "and across" } else { "not across" };
         format!(

@@ -8,7 +8,10 @@ mod crosses;
 mod dense;
 mod form;
 mod hierarchical;
+mod lattice;
 mod low_rank;
+mod planar;
+mod rows;
 mod sampled;
 mod stored;
 mod toeplitz;
@@ -19,8 +22,10 @@ pub use checked::{Checked, Errors};
 pub use dense::Dense;
 pub use form::{Form, dense, of_forces};
 pub use hierarchical::{Geometry, Hierarchical, Tolerance};
+pub use lattice::Lattice;
+pub use planar::Planar;
 pub use sampled::{Accuracy, Division, Entry};
-pub use toeplitz::{Lattice, Toeplitz};
+pub use toeplitz::Toeplitz;
 
 use std::any::Any;
 
@@ -50,6 +55,11 @@ pub trait Operator: Any + Send + Sync + std::fmt::Debug {
 
     /// Memory \[bytes\].
     fn bytes(&self) -> usize;
+
+    /// Memory that a product reads and writes \[bytes\]: what its time is estimated by.
+    fn moved(&self) -> usize {
+        self.bytes()
+    }
 
     /// Errors of a compressed operator, where they have been found.
     fn errors(&self) -> Option<Errors> {

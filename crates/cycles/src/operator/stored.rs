@@ -1,6 +1,6 @@
 //! Operators as they are written and read: their kind, then their contents.
 
-use super::{Both, Checked, Dense, Hierarchical, Operator, Toeplitz};
+use super::{Both, Checked, Dense, Hierarchical, Operator, Planar, Toeplitz};
 use serde::de::Deserializer;
 use serde::ser::{Error as _, Serializer};
 use serde::{Deserialize, Serialize};
@@ -14,6 +14,7 @@ enum Written<'a> {
     Toeplitz(&'a Toeplitz),
     Both(&'a Both),
     Checked(&'a Checked),
+    Planar(&'a Planar),
 }
 
 /// An operator that was read. Its kinds have the order of [`Written`].
@@ -24,6 +25,7 @@ enum Read {
     Toeplitz(Toeplitz),
     Both(Both),
     Checked(Checked),
+    Planar(Planar),
 }
 
 impl<'a> Written<'a> {
@@ -34,6 +36,7 @@ impl<'a> Written<'a> {
             .or_else(|| any.downcast_ref().map(Self::Toeplitz))
             .or_else(|| any.downcast_ref().map(Self::Both))
             .or_else(|| any.downcast_ref().map(Self::Checked))
+            .or_else(|| any.downcast_ref().map(Self::Planar))
     }
 }
 
@@ -52,6 +55,7 @@ impl<'de> Deserialize<'de> for Box<dyn Operator> {
             Read::Toeplitz(operator) => Box::new(operator),
             Read::Both(operator) => Box::new(operator),
             Read::Checked(operator) => Box::new(operator),
+            Read::Planar(operator) => Box::new(operator),
         })
     }
 }
@@ -60,7 +64,7 @@ impl<'de> Deserialize<'de> for Box<dyn Operator> {
 mod tests {
     use crate::medium::Forces;
     use crate::operator::{
-        Both, Checked, Dense, Geometry, Hierarchical, Lattice, Operator, Toeplitz, Tolerance,
+        Both, Checked, Dense, Geometry, Hierarchical, Lattice, Operator, Planar, Toeplitz, Tolerance,
     };
 
     const POINTS: usize = 300;
@@ -92,6 +96,11 @@ mod tests {
         Toeplitz::new(lattice, &table, Some(&table.iter().map(|v| v * v).collect::<Vec<f64>>()))
     }
 
+    fn planar() -> Planar {
+        let lattice = Lattice { columns: POINTS / 3, rows: 3, points: (0..POINTS).collect() };
+        Planar::new(lattice, 2, |[c, r]| [1.0, 0.3, 0.7].map(|k| k / (1.0 + (c * c + r * r) as f64)))
+    }
+
     fn both() -> Both {
         let dense = |sign: f64| -> Box<dyn Operator> { Box::new(dense(sign)) };
         Both::new(
@@ -120,12 +129,13 @@ mod tests {
 
     #[test]
     fn an_operator_that_is_read_has_the_bits_of_the_one_that_was_written() {
-        let all: [Box<dyn Operator>; 6] = [
+        let all: [Box<dyn Operator>; 7] = [
             Box::new(dense(1.0)),
             Box::new(compressed(Tolerance::OfLargest(1e-9))),
             // In single precision.
             Box::new(compressed(Tolerance::OfBlock(1e-3))),
             Box::new(grid()),
+            Box::new(planar()),
             Box::new(both()),
             Box::new(checked()),
         ];

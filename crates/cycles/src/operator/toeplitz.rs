@@ -5,53 +5,21 @@
 //! zeros to twice their length, so that the convolution does not wrap around and is exact. For r rows of c columns a product takes
 //! `O(c r² + c r ln c)` operations, and the operator c r² numbers, where a full matrix has c² r².
 
-use super::Operator;
+use super::rows::{C, Parts, Rows};
+use super::{Lattice, Operator};
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
-use realfft::num_complex::Complex;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use serde::{Deserialize, Serialize};
 use std::fmt;
-use std::sync::{Arc, Mutex, PoisonError};
-
-type C = Complex<f64>;
-
-/// Arrangement of the points of an operator in a grid.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Lattice {
-    /// Number of cells along strike.
-    pub columns: usize,
-    /// Number of cells down dip.
-    pub rows: usize,
-    /// Point of each cell, row by row.
-    pub points: Vec<usize>,
-}
-
-impl Lattice {
-    /// Number of an entry of a table of tractions: by distance along strike from the patch to the point, then by row of the point,
-    /// then by row of the patch. Cells are given as column and row.
-    #[must_use]
-    pub fn entry(&self, point: [usize; 2], patch: [usize; 2]) -> usize {
-        let distance = point[0] + self.columns - 1 - patch[0];
-        (distance * self.rows + point[1]) * self.rows + patch[1]
-    }
-
-    /// Number of distances along strike, in both directions.
-    #[must_use]
-    pub fn distances(&self) -> usize {
-        (2 * self.columns).saturating_sub(1)
-    }
-}
+use std::sync::{Mutex, PoisonError};
 
 /// Operator of a grid of equal cells.
 #[derive(Serialize, Deserialize)]
-#[serde(from = "Parts")]
+#[serde(from = "Written")]
 pub struct Toeplitz {
     lattice: Lattice,
     #[serde(skip)]
-    forward: Arc<dyn RealToComplex<f64>>,
-    #[serde(skip)]
-    inverse: Arc<dyn ComplexToReal<f64>>,
+    rows: Rows,
     shear: Spectrum,
     normal: Option<Spectrum>,
     stiffness: Vec<f64>,
@@ -63,26 +31,26 @@ pub struct Toeplitz {
 
 /// Parts of the operator as they are written.
 #[derive(Deserialize)]
-struct Parts {
+struct Written {
     lattice: Lattice,
     shear: Spectrum,
     normal: Option<Spectrum>,
     stiffness: Vec<f64>,
 }
 
-impl From<Parts> for Toeplitz {
-    fn from(Parts { lattice, shear, normal, stiffness }: Parts) -> Self {
-        let (forward, inverse) = transforms(&lattice);
-        let (arch, work) = (Arch::new(), Mutex::default());
-        Self { lattice, forward, inverse, shear, normal, stiffness, arch, work }
+impl From<Written> for Toeplitz {
+    fn from(Written { lattice, shear, normal, stiffness }: Written) -> Self {
+        let (rows, arch, work) = (Rows::new(&lattice), Arch::new(), Mutex::default());
+        Self { lattice, rows, shear, normal, stiffness, arch, work }
     }
 }
 
 /// Fourier transform of a table of tractions along strike: for each frequency a matrix of rows of points by rows of patches.
 #[derive(Debug, Serialize, Deserialize)]
 struct Spectrum {
+    /// Real part; empty where tractions on both sides of a patch are opposite.
     real: Vec<f64>,
-    /// Imaginary part; empty where tractions are the same on both sides of a patch.
+    /// Imaginary part; empty where they are the same.
     imaginary: Vec<f64>,
 }
 
@@ -97,132 +65,35 @@ struct Work {
     parts: [Vec<f64>; 2],
 }
 
-/// Imaginary part of a spectrum, relative to its largest value, below which it is rounding of the entries of the table.
-const EVEN: f64 = 1e-11;
+/// Size of one part of a spectrum over that of the other below which it is rounding of the entries of the table.
+const ROUNDING: f64 = 1e-11;
 /// Frequencies of a task. Their number is fixed, so that results do not depend on the number of threads.
 const FREQUENCIES: usize = 8;
 /// Number of values of a spectrum above which a product is divided into tasks: starting them takes some microseconds.
 const WORTH_TASKS: usize = if cfg!(test) { 1_000 } else { 500_000 };
-
-/// The same of padded rows: transforms take more operations for each value.
-const WORTH_TRANSFORMS: usize = if cfg!(test) { 1_000 } else { 10_000 };
 
 impl Toeplitz {
     /// Operator of tables with the entries of [`Lattice::entry`]: shear and, where slip changes them, normal tractions per slip
     /// \[Pa/m\].
     #[must_use]
     pub fn new(lattice: Lattice, shear: &[f64], normal: Option<&[f64]>) -> Self {
-        let (forward, _) = transforms(&lattice);
-        let spectrum = |table: &[f64]| Spectrum::new(&lattice, table, forward.as_ref());
+        let rows = Rows::new(&lattice);
+        let spectrum = |table: &[f64]| Spectrum::new(&lattice, table, &rows);
         let (shear_spectrum, normal_spectrum) = (spectrum(shear), normal.map(spectrum));
         let stiffness = stiffness(&lattice, &[Some(shear), normal].map(|t| t.unwrap_or_default()));
-        Parts { lattice, shear: shear_spectrum, normal: normal_spectrum, stiffness }.into()
-    }
-
-    /// Length of the padded rows.
-    fn padded(&self) -> usize {
-        self.forward.len()
-    }
-
-    /// Number of frequencies.
-    fn frequencies(&self) -> usize {
-        self.padded() / 2 + 1
+        Written { lattice, shear: shear_spectrum, normal: normal_spectrum, stiffness }.into()
     }
 
     fn product(&self, spectrum: &Spectrum, slip: &[f64], tractions: &mut [f64]) {
+        let (lattice, all) = (&self.lattice, self.lattice.rows);
         let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
-        work.fit(self.lattice.rows, self.padded());
+        work.fit(all, self.rows.padded());
         let Work { rows, transformed, parts: [of_slip, of_tractions] } = &mut *work;
-        self.transform(slip, rows, transformed);
-        spectrum.times(self.lattice.rows, self.arch, transformed, [of_slip, of_tractions]);
-        self.back(of_tractions, transformed, rows);
-        self.gather(rows, tractions);
+        self.rows.transform(lattice, slip, rows, transformed);
+        spectrum.times(all, self.arch, transformed, [of_slip, of_tractions]);
+        let parts = Parts { values: of_tractions, of_frequency: 2 * all, first: 0 };
+        self.rows.back(lattice, &parts, (transformed, rows), tractions);
     }
-
-    /// Writes the values of points into padded rows, and transforms them.
-    fn transform(&self, values: &[f64], rows: &mut [f64], transformed: &mut [C]) {
-        let (padded, frequencies, columns) = (self.padded(), self.frequencies(), self.lattice.columns);
-        in_tasks(rows, transformed, [padded, frequencies], |first, rows, transformed| {
-            let mut scratch = self.forward.make_scratch_vec();
-            let points = self.lattice.points[first * columns..].chunks_exact(columns);
-            let rows = rows.chunks_exact_mut(padded).zip(transformed.chunks_exact_mut(frequencies));
-            for ((row, out), points) in rows.zip(points) {
-                let (cells, beyond) = row.split_at_mut(columns);
-                cells.iter_mut().zip(points).for_each(|(value, &p)| *value = values[p]);
-                beyond.fill(0.0);
-                let done = self.forward.process_with_scratch(row, out, &mut scratch);
-                debug_assert!(done.is_ok(), "lengths are those of the plan");
-            }
-        });
-    }
-
-    /// Transforms back: `parts` has real and imaginary parts of all rows, frequency by frequency.
-    fn back(&self, parts: &[f64], transformed: &mut [C], rows: &mut [f64]) {
-        let (padded, frequencies, all) = (self.padded(), self.frequencies(), self.lattice.rows);
-        in_tasks(transformed, rows, [frequencies, padded], |first, transformed, rows| {
-            let mut scratch = self.inverse.make_scratch_vec();
-            let rows = transformed.chunks_exact_mut(frequencies).zip(rows.chunks_exact_mut(padded));
-            for (k, (spectrum, row)) in rows.enumerate() {
-                for (value, parts) in spectrum.iter_mut().zip(parts.chunks_exact(2 * all)) {
-                    *value = C::new(parts[first + k], parts[all + first + k]);
-                }
-                // Both ends of the spectrum of a real row are real; their imaginary parts here are rounding.
-                spectrum[0].im = 0.0;
-                spectrum[frequencies - 1].im = 0.0;
-                let done = self.inverse.process_with_scratch(spectrum, row, &mut scratch);
-                debug_assert!(done.is_ok(), "lengths are those of the plan");
-            }
-        });
-    }
-
-    /// Reads the values of points from padded rows.
-    fn gather(&self, rows: &[f64], values: &mut [f64]) {
-        let columns = self.lattice.columns;
-        let of_rows = rows.chunks_exact(self.padded()).zip(self.lattice.points.chunks_exact(columns));
-        // The inverse transform does not divide by the length.
-        let scale = 1.0 / self.padded() as f64;
-        for (row, points) in of_rows {
-            row.iter().zip(points).for_each(|(value, &p)| values[p] = value * scale);
-        }
-    }
-}
-
-/// Calls `work` with the number of a row and the same rows from there on of two arrays of rows of these lengths, in tasks of several
-/// rows if that is worth it. Rows are independent, so that results do not depend on the division.
-fn in_tasks<A: Send, B: Send>(
-    a: &mut [A],
-    b: &mut [B],
-    [length_a, length_b]: [usize; 2],
-    work: impl Fn(usize, &mut [A], &mut [B]) + Sync,
-) {
-    if a.len() < WORTH_TRANSFORMS {
-        work(0, a, b);
-        return;
-    }
-    let rows = (a.len() / length_a).div_ceil(rayon::current_num_threads()).max(1);
-    let tasks = a.par_chunks_mut(rows * length_a).zip(b.par_chunks_mut(rows * length_b)).enumerate();
-    tasks.for_each(|(task, (a, b))| work(task * rows, a, b));
-}
-
-/// Transforms of padded rows, forward and back.
-fn transforms(lattice: &Lattice) -> (Arc<dyn RealToComplex<f64>>, Arc<dyn ComplexToReal<f64>>) {
-    let padded = fitting(2 * lattice.columns);
-    let mut planner = RealFftPlanner::new();
-    (planner.plan_fft_forward(padded), planner.plan_fft_inverse(padded))
-}
-
-/// Smallest length from `least` of which fast transforms exist: even, without prime factors above 5.
-fn fitting(least: usize) -> usize {
-    let smooth = |n: &usize| {
-        let mut rest = *n;
-        for prime in [2, 3, 5] {
-            while rest.is_multiple_of(prime) {
-                rest /= prime;
-            }
-        }
-        rest == 1
-    };
-    (least.max(2)..).filter(|n| n.is_multiple_of(2)).find(smooth).unwrap_or(least)
 }
 
 /// Sums of the absolute values in the columns of the matrix of each table, by point.
@@ -258,12 +129,12 @@ impl Work {
 }
 
 impl Spectrum {
-    fn new(lattice: &Lattice, table: &[f64], forward: &dyn RealToComplex<f64>) -> Self {
-        let (columns, size, padded) = (lattice.columns, lattice.rows.pow(2), forward.len());
-        let frequencies = padded / 2 + 1;
+    fn new(lattice: &Lattice, table: &[f64], rows: &Rows) -> Self {
+        let (columns, size, padded) = (lattice.columns, lattice.rows.pow(2), rows.padded());
+        let frequencies = rows.frequencies();
         let mut real = vec![0.0; frequencies * size];
         let mut imaginary = vec![0.0; frequencies * size];
-        let (mut row, mut out) = (forward.make_input_vec(), forward.make_output_vec());
+        let (mut row, mut out) = (vec![0.0; padded], vec![C::default(); frequencies]);
         for pair in 0..size {
             row.fill(0.0);
             for distance in 0..lattice.distances() {
@@ -271,15 +142,17 @@ impl Spectrum {
                 let at = (distance + padded + 1 - columns) % padded;
                 row[at] = table[distance * size + pair];
             }
-            let done = forward.process(&mut row, &mut out);
-            debug_assert!(done.is_ok(), "lengths are those of the plan");
+            rows.forward(&mut row, &mut out);
             for (f, value) in out.iter().enumerate() {
                 (real[f * size + pair], imaginary[f * size + pair]) = (value.re, value.im);
             }
         }
         let largest = |values: &[f64]| values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-        if largest(&imaginary) <= EVEN * largest(&real) {
+        let sizes = [&real, &imaginary].map(|part| largest(part));
+        if sizes[1] <= ROUNDING * sizes[0] {
             imaginary = Vec::new();
+        } else if sizes[0] <= ROUNDING * sizes[1] {
+            real = Vec::new();
         }
         Self { real, imaginary }
     }
@@ -298,7 +171,7 @@ impl Spectrum {
             }
             arch.dispatch(Frequencies { spectrum: self, rows, first, slip: parts, tractions });
         };
-        if self.real.len() < WORTH_TASKS {
+        if self.real.len().max(self.imaginary.len()) < WORTH_TASKS {
             of_frequencies(0, parts, tractions);
         } else {
             let size = FREQUENCIES * 2 * rows;
@@ -324,7 +197,7 @@ struct Frequencies<'a> {
     tractions: &'a mut [f64],
 }
 
-impl WithSimd for Frequencies<'_> {
+impl<'a> WithSimd for Frequencies<'a> {
     type Output = ();
 
     #[inline(always)]
@@ -333,13 +206,16 @@ impl WithSimd for Frequencies<'_> {
         let size = rows * rows;
         let parts = slip.chunks_exact(2 * rows).zip(tractions.chunks_exact_mut(2 * rows));
         for (f, (slip, t)) in (first..).zip(parts) {
+            if spectrum.real.is_empty() {
+                t.fill(0.0);
+            }
             let (re, im) = slip.split_at(rows);
             let (t_re, t_im) = t.split_at_mut(rows);
-            for (i, row) in spectrum.real[f * size..][..size].chunks_exact(rows).enumerate() {
+            let of = |part: &'a [f64]| part.get(f * size..(f + 1) * size).unwrap_or_default();
+            for (i, row) in of(&spectrum.real).chunks_exact(rows).enumerate() {
                 [t_re[i], t_im[i]] = both(row, re, im);
             }
-            let Some(matrix) = spectrum.imaginary.get(f * size..(f + 1) * size) else { continue };
-            for (i, row) in matrix.chunks_exact(rows).enumerate() {
+            for (i, row) in of(&spectrum.imaginary).chunks_exact(rows).enumerate() {
                 let [by_re, by_im] = both(row, re, im);
                 t_re[i] -= by_im;
                 t_im[i] += by_re;
@@ -478,10 +354,5 @@ mod tests {
         };
         assert_eq!(of(1), of(2));
         assert_eq!(of(1), of(3));
-    }
-
-    #[test]
-    fn lengths_have_small_factors() {
-        assert_eq!([1, 2, 7, 14, 200, 362].map(fitting), [2, 2, 8, 16, 200, 384]);
     }
 }

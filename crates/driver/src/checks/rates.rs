@@ -30,7 +30,7 @@ fn evaluations(method: Method) -> f64 {
     }
 }
 
-/// Time of a step of faults whose operator and diffusion have so many bytes \[s\].
+/// Time of a step of faults whose operator and diffusion move so many bytes \[s\].
 #[must_use]
 pub fn of_faults(method: Method, points: usize, bytes: usize) -> f64 {
     OBSERVED + evaluations(method) * (bytes as f64 / READ + points as f64 * POINT)

@@ -1,7 +1,7 @@
 //! Literature of the cases of the verification suite. A test of the suite compares it with their pages.
 
 /// Cases and the keys of their literature.
-const CASES: [(&str, &[&str]); 116] = [
+const CASES: [(&str, &[&str]); 117] = [
     ("absence", &["weidendorfer2004"]),
     ("antiplane", &["nehari1952", "strang1973", "timoshenko1970"]),
     ("block_dragged", &["codeaster"]),
@@ -107,6 +107,7 @@ const CASES: [(&str, &[&str]); 116] = [
     ("seas_bp3_25m", &["erickson2023"]),
     ("seas_bp3_full", &["erickson2023"]),
     ("seas_bp4", &["jiang2022", "okada1992"]),
+    ("seas_bp4_500m", &["jiang2022", "okada1992"]),
     ("seas_bp5", &["jiang2022", "okada1992", "savage1983"]),
     ("seas_bp5_limit", &["jiang2022"]),
     ("seas_bp6", &["lambert2025", "carslaw1959"]),

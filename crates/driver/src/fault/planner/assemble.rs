@@ -131,7 +131,7 @@ pub(super) fn plan_of<const D: usize>(
     let memory_bytes = around.memory_bytes + modes;
     checks.cost = Cost {
         memory_bytes: Some(memory_bytes),
-        step_seconds: Some(rates::of_faults(settings.method, placed.len(), fault.operator.bytes() + modes)),
+        step_seconds: Some(rates::of_faults(settings.method, placed.len(), fault.operator.moved() + modes)),
         largest_file: Some(cadence.largest_file),
         ..Cost::default()
     };
