@@ -149,15 +149,15 @@ impl Planar {
     /// Turns transformed slip at a frequency along strike into tractions.
     fn multiply(&self, f: usize, both: &mut [C]) {
         let padded = self.columns.padded();
-        let of = |spectrum: &'_ Vec<f64>| f * padded..(f * padded + padded).min(spectrum.len());
-        if let [along, across, second] = self.spectra.as_slice() {
+        let at = |spectrum: usize| &self.spectra[spectrum][f * padded..][..padded];
+        if self.components() > 1 {
             let (slip, other) = both.split_at_mut(padded);
-            let spectra = along[of(along)].iter().zip(&across[of(across)]).zip(&second[of(second)]);
+            let spectra = at(0).iter().zip(at(1)).zip(at(2));
             for ((a, b), ((along, across), second)) in slip.iter_mut().zip(other).zip(spectra) {
                 (*a, *b) = (*a * along + *b * across, *a * across + *b * second);
             }
-        } else if let [along] = self.spectra.as_slice() {
-            both.iter_mut().zip(&along[of(along)]).for_each(|(value, k)| *value *= k);
+        } else {
+            both.iter_mut().zip(at(0)).for_each(|(value, k)| *value *= k);
         }
     }
 }
