@@ -55,6 +55,13 @@ impl Case {
         }
         Outcome { case: *self, record: ledger.finish(), wall: start.elapsed().as_secs_f64() }
     }
+
+    /// Outcome of a case that could not be run to its end, after a time \[s\]: one claim that disagrees.
+    pub fn lost(&self, why: &str, wall: f64) -> Outcome {
+        let mut ledger = Ledger::new(self.covers);
+        ledger.did_not_run(why);
+        Outcome { case: *self, record: ledger.finish(), wall }
+    }
 }
 
 /// The error with its chain of sources.

@@ -3,7 +3,8 @@
 //! * [`claim`]: claims and their assessment; [`order`] assesses convergence orders.
 //! * [`ledger`]: record of the claims, plots, tables and notes of a case.
 //! * [`case`]: a case and its execution, isolated so that its failure does not stop the suite.
-//! * [`suite`]: selection of cases and outcome of the suite.
+//! * [`suite`]: selection of cases and outcome of the suite; [`pool`] runs them, each with a limit.
+//! * [`supervise`]: the suite in a process of its own, so that a case that ends it has a name.
 //! * [`report`]: `report.json` and the HTML pages.
 //! * [`cases`]: the list of cases.
 //! * [`benchmarks`]: reference values and entries of the benchmarks for other programs.
@@ -16,10 +17,12 @@ pub mod cost;
 pub mod glob;
 pub mod ledger;
 pub mod order;
+pub mod pool;
 pub mod readme;
 pub mod report;
 pub mod sketches;
 pub mod suite;
+pub mod supervise;
 
 #[path = "../cases/mod.rs"]
 pub mod cases;

@@ -2,15 +2,19 @@
 
 use asperity_driver::cli::{self, Arguments};
 use asperity_output::printing;
-use asperity_verification::case::Outcome;
+use asperity_verification::case::{Case, Outcome};
+use asperity_verification::pool::{self, Limits};
 use asperity_verification::report::{self, history, junit, provenance::Provenance};
-use asperity_verification::suite::{Selection, Summary, execute};
+use asperity_verification::suite::{Selection, Summary};
+use asperity_verification::supervise::{self, State};
 use asperity_verification::{Verdict, cases, cases::programs};
 use clap::Parser;
 use std::error::Error;
+use std::io;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
-use std::process::ExitCode;
+use std::os::unix::process::parent_id;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
 use std::time::Instant;
 
 /// Runs the verification cases, judges their claims and writes a report.
@@ -37,6 +41,9 @@ struct Options {
     /// State on the pages that the workspace tests passed immediately before.
     #[arg(long)]
     tested: bool,
+    /// File in which a process of the suite says what it runs; without it, the suite runs in a process of its own.
+    #[arg(long, value_name = "FILE", hide = true)]
+    state: Option<PathBuf>,
 }
 
 fn main() -> ExitCode {
@@ -45,14 +52,44 @@ fn main() -> ExitCode {
     if words.peek().is_some_and(|word| word == programs::NAME) {
         return asperity(&Arguments::parse_from(words));
     }
-    match suite(&Options::parse()) {
-        Ok(summary) if summary.passes() => ExitCode::SUCCESS,
-        Ok(_) => ExitCode::FAILURE,
+    let options = Options::parse();
+    let passes = match &options.state {
+        Some(state) => suite(&options, state).map(|summary| summary.passes()),
+        None => supervised(&options).map_err(Into::into),
+    };
+    match passes {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
         Err(error) => {
             printing::err(format_args!("error: {error}\n"));
             ExitCode::FAILURE
         }
     }
+}
+
+/// Runs the suite in a process of its own. True if it passes.
+fn supervised(options: &Options) -> io::Result<bool> {
+    std::fs::create_dir_all(&options.out)?;
+    let state = options.out.join("state.json");
+    let program = std::env::current_exe()?;
+    let process = || {
+        let mut process = Command::new(&program);
+        process.arg("--state").arg(&state);
+        process
+    };
+    let whole = || {
+        let mut whole = process();
+        whole.args(std::env::args_os().skip(1));
+        whole
+    };
+    let alone = |case: &str| {
+        let mut alone = process();
+        alone.args(["--full", "--case", case, "--out"]).arg(options.out.join("alone"));
+        alone
+    };
+    let status = supervise::supervise(&state, whole, alone)?;
+    std::fs::remove_file(&state)?;
+    Ok(status.success())
 }
 
 /// Executes a command of the `asperity` program.
@@ -66,7 +103,33 @@ fn asperity(arguments: &Arguments) -> ExitCode {
     }
 }
 
-fn suite(options: &Options) -> Result<Summary, Box<dyn Error>> {
+/// Runs the cases, except those that ended an earlier process, which disagree. The file `path` says which ones run.
+fn run(chosen: &[&Case], options: &Options, path: &Path, width: usize) -> io::Result<Vec<Outcome>> {
+    let mut state = State::read(path)?;
+    let how =
+        |case: &Case| state.lost.iter().find(|lost| lost.case == case.name).map(|lost| lost.how.clone());
+    let (lost, sound): (Vec<&Case>, Vec<&Case>) = chosen.iter().partition(|case| how(case).is_some());
+    let mut outcomes: Vec<Outcome> =
+        lost.iter().filter_map(|case| Some(case.lost(&how(case)?, 0.0))).collect();
+    outcomes.iter().for_each(|outcome| print_row(outcome, width));
+    let limits = Limits::from_releases(&history::releases(&history::folder()));
+    let parent = parent_id();
+    let running = |names: &[&str]| {
+        if parent_id() != parent {
+            return Err(io::Error::other("the process that started the suite has ended"));
+        }
+        if state.running == names {
+            return Ok(());
+        }
+        state.running = names.iter().map(|&name| name.to_owned()).collect();
+        state.write(path)
+    };
+    outcomes
+        .extend(pool::execute(&sound, options.jobs, &limits, running, |outcome| print_row(outcome, width))?);
+    Ok(outcomes)
+}
+
+fn suite(options: &Options, state: &Path) -> Result<Summary, Box<dyn Error>> {
     let start = Instant::now();
     let chosen = Selection { full: options.full, glob: options.case.clone() }.of(cases::ALL)?;
     if options.full {
@@ -75,7 +138,7 @@ fn suite(options: &Options) -> Result<Summary, Box<dyn Error>> {
     }
     let width = chosen.iter().map(|case| case.name.len()).max().unwrap_or(0);
     printing::out(format_args!("{:width$}   hold  disagree  not covered   loose  near     time\n", "case"));
-    let outcomes = execute(&chosen, options.jobs, |outcome| print_row(outcome, width))?;
+    let outcomes = run(&chosen, options, state, width)?;
     let run = Provenance::gather(options.full, options.tested, start.elapsed().as_secs_f64());
     report::write(&options.out, &outcomes, &run)?;
     if let Some(path) = &options.junit {
@@ -91,6 +154,7 @@ fn suite(options: &Options) -> Result<Summary, Box<dyn Error>> {
         printing::out(format_args!("{}\n", summary.remarks()));
     }
     printing::out(format_args!("{summary}\n"));
+    State { ended: true, ..State::default() }.write(state)?;
     Ok(summary)
 }
 

@@ -1,4 +1,4 @@
-//! Selection and execution of cases, and the outcome of the suite.
+//! Selection of cases, and the outcome of the suite.
 
 use crate::case::{Case, Outcome};
 use crate::claim::{Judged, Mark, Verdict};
@@ -6,11 +6,6 @@ use crate::glob;
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt;
-use std::io;
-use std::num::NonZeroUsize;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc;
-use std::thread;
 
 /// Selection of cases.
 #[derive(Clone, Debug, Default)]
@@ -65,53 +60,6 @@ impl Selection {
         }
         Ok(chosen)
     }
-}
-
-/// Stack of a thread that runs cases, as large as that of the main thread usually is \[bytes\].
-const STACK: usize = 8 << 20;
-
-/// Runs cases, `jobs` at a time, and returns their outcomes in the order of the list. `done` gets each outcome in this order too,
-/// as soon as all before it have ended.
-///
-/// # Errors
-/// If a thread cannot be started.
-pub fn execute(
-    cases: &[&Case],
-    jobs: NonZeroUsize,
-    mut done: impl FnMut(&Outcome),
-) -> io::Result<Vec<Outcome>> {
-    let next = AtomicUsize::new(0);
-    let (sender, ended) = mpsc::channel();
-    thread::scope(|scope| {
-        for _ in 0..jobs.get().min(cases.len()) {
-            let (next, sender) = (&next, sender.clone());
-            let work = move || {
-                while let Some((k, case)) = take(cases, next) {
-                    if sender.send((k, case.execute())).is_err() {
-                        return;
-                    }
-                }
-            };
-            thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work)?;
-        }
-        drop(sender);
-        let mut waiting: Vec<Option<Outcome>> = cases.iter().map(|_| None).collect();
-        let mut outcomes = Vec::with_capacity(cases.len());
-        for (k, outcome) in ended {
-            waiting[k] = Some(outcome);
-            while let Some(outcome) = waiting.get_mut(outcomes.len()).and_then(Option::take) {
-                done(&outcome);
-                outcomes.push(outcome);
-            }
-        }
-        Ok(outcomes)
-    })
-}
-
-/// The next case that nobody runs, with its number.
-fn take<'a>(cases: &[&'a Case], next: &AtomicUsize) -> Option<(usize, &'a Case)> {
-    let k = next.fetch_add(1, Ordering::Relaxed);
-    cases.get(k).map(|case| (k, *case))
 }
 
 fn names(cases: &[&Case]) -> Vec<String> {

@@ -4,8 +4,10 @@
 use asperity_verification::case::Outcome;
 use asperity_verification::claim::{CONTROL_BOUNDS, Judged, Mark};
 use asperity_verification::ledger::{Draft, OrderDraft};
+use asperity_verification::pool::{self, Limits};
 use asperity_verification::report::{self, coverage, json, junit, page, provenance::Provenance};
-use asperity_verification::suite::{Selection, SelectionError, Summary, execute};
+use asperity_verification::suite::{Selection, SelectionError, Summary};
+use asperity_verification::supervise::{Lost, State, supervise};
 use asperity_verification::{
     Capability, Case, CaseError, Cost, Evidence, Floor, Ledger, Plot, Series, Verdict,
 };
@@ -532,6 +534,10 @@ fn a_report_replaces_the_pages_of_an_earlier_one() {
     }
 }
 
+fn execute(cases: &[&Case], jobs: usize, limits: &Limits, done: impl FnMut(&Outcome)) -> Vec<Outcome> {
+    pool::execute(cases, jobs.try_into().unwrap(), limits, |_| Ok(()), done).unwrap()
+}
+
 #[test]
 fn cases_at_a_time_end_in_the_order_of_the_list() {
     fn slow(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -543,9 +549,75 @@ fn cases_at_a_time_end_in_the_order_of_the_list() {
     let cases: Vec<&Case> = cases.iter().collect();
     for jobs in [1, 2, 9] {
         let mut seen = Vec::new();
-        let outcomes =
-            execute(&cases, jobs.try_into().unwrap(), |outcome| seen.push(outcome.case.name)).unwrap();
+        let outcomes = execute(&cases, jobs, &Limits::default(), |outcome| seen.push(outcome.case.name));
         assert_eq!(seen, ["a", "b", "c", "d", "e"]);
         assert!(outcomes.iter().map(|outcome| outcome.case.name).eq(seen));
     }
+}
+
+#[test]
+fn a_case_that_hangs_disagrees_by_its_name_and_the_others_run() {
+    fn hangs(_: &mut Ledger) -> Result<(), CaseError> {
+        loop {
+            std::thread::sleep(std::time::Duration::from_secs(1));
+        }
+    }
+    let named = |name: &'static str, run| Case { name, ..case(run) };
+    let cases = [named("a", good), named("b", hangs), named("c", good)];
+    let cases: Vec<&Case> = cases.iter().collect();
+    // A hundredth of a second on record makes a limit of a tenth.
+    let limits = Limits { recorded: [("b".to_owned(), 0.01)].into(), shortest: 0.0 };
+    for jobs in [1, 2] {
+        let outcomes = execute(&cases, jobs, &limits, |_| ());
+        let disagree: Vec<usize> =
+            outcomes.iter().map(|outcome| Summary::of(&outcome.record.claims).disagree).collect();
+        assert_eq!(disagree, [0, 1, 0]);
+        let problem = only_claim(&outcomes[1]).problem.as_deref().unwrap();
+        assert!(problem.contains("10 times its recorded time"), "{problem}");
+    }
+}
+
+#[test]
+fn limits_follow_the_pace_of_the_run_and_the_longest_case_where_there_is_no_record() {
+    let limits = Limits { recorded: [("a".to_owned(), 30.0), ("b".to_owned(), 2.0)].into(), shortest: 6.0 };
+    assert_eq!(limits.of("a", 1.0), Some(300.0));
+    assert_eq!(limits.of("b", 1.5), Some(90.0));
+    assert_eq!(limits.of("new", 1.0), Some(300.0));
+    assert_eq!(Limits::default().of("a", 1.0), None);
+    let ended = |wall| Outcome { wall, ..Case { name: "b", ..case(good) }.execute() };
+    assert_eq!(limits.pace([&ended(5.0)]), 2.5);
+    assert_eq!(limits.pace([&ended(1.0)]), 1.0);
+}
+
+/// A process that says it runs `cases` and is then killed, unless `lost` cases are named in its file.
+fn killed(state: &Path, running: &str) -> std::process::Command {
+    let script = r#"if grep -q '"case"' "$1"; then sed -i 's/"ended":false/"ended":true/' "$1"
+        else sed -i "s/\"running\":\[\]/\"running\":$2/" "$1"; kill -KILL $$; fi"#;
+    let mut process = std::process::Command::new("sh");
+    process.arg("-c").arg(script).arg("sh").arg(state).arg(running);
+    process
+}
+
+#[test]
+fn a_case_that_ends_its_process_is_left_out_and_named() {
+    let folder = Written::new("crash");
+    let state = folder.0.join("state.json");
+    let alone = |_: &str| std::process::Command::new("true");
+    let end = supervise(&state, || killed(&state, r#"["a"]"#), alone).unwrap();
+    assert!(end.success());
+    let State { lost, ended, .. } = State::read(&state).unwrap();
+    let how = "the process ended: signal: 9 (SIGKILL)".to_owned();
+    assert_eq!((lost, ended), (vec![Lost { case: "a".into(), how: how.clone() }], true));
+
+    // Of two that ran side by side, the one that also ends a process of its own.
+    let alone = |case: &str| match case {
+        "b" => killed(&state, r#"["b"]"#),
+        _ => {
+            let mut ends = std::process::Command::new("sed");
+            ends.args(["-i", r#"s/"ended":false/"ended":true/"#]).arg(&state);
+            ends
+        }
+    };
+    supervise(&state, || killed(&state, r#"["a","b"]"#), alone).unwrap();
+    assert_eq!(State::read(&state).unwrap().lost, [Lost { case: "b".into(), how }]);
 }

@@ -53,6 +53,9 @@ enum Chore {
         /// Rerun defects that were detected before.
         #[arg(long)]
         again: bool,
+        /// List the defects that are to be run, and why, and run nothing.
+        #[arg(long)]
+        list: bool,
     },
     /// Writes the community benchmarks: reference values, entries and pages, or an archive of them.
     Benchmarks {
@@ -87,8 +90,8 @@ fn main() -> ExitCode {
     let result = match Options::parse().chore {
         Chore::Verify { full, case } => verify(&root, full, case.as_deref()),
         Chore::Tidy => tidy(&root),
-        Chore::Defects { only, expected, tests, again } => {
-            defects::run(&root, &defects::Choice { only, expected, tests, again })
+        Chore::Defects { only, expected, tests, again, list } => {
+            defects::run(&root, &defects::Choice { only, expected, tests, again, list })
         }
         Chore::Benchmarks { only, pages, archive } => {
             benchmarks::run(&root, &benchmarks::Choice { only, pages, archive })

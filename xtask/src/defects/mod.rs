@@ -2,6 +2,7 @@
 
 mod definition;
 mod outcome;
+mod tree;
 
 pub use definition::{Defect, FOLDER};
 pub use outcome::{Outcome, RESULTS, Results};
@@ -32,11 +33,18 @@ pub struct Choice {
     pub tests: bool,
     /// True to rerun defects that were detected before.
     pub again: bool,
+    /// True to list the defects whose results are missing or stale, and to run nothing.
+    pub list: bool,
 }
 
 /// Applies the defects one after the other and prints the claims that detect them. Each result is stored in [`RESULTS`]
 /// at once, so that an interrupted run can resume.
 pub fn run(root: &Path, choice: &Choice) -> Result<(), Failure> {
+    let chosen = |defect: &Defect| choice.only.as_ref().is_none_or(|part| defect.name.contains(part));
+    let defects: Vec<Defect> = Defect::all(root)?.into_iter().filter(chosen).collect();
+    if choice.list {
+        return list(root, &defects);
+    }
     let place = root.join(PLACE);
     let commit = commit(root)?;
     copy(root, &place.join("tree"))?;
@@ -45,15 +53,22 @@ pub fn run(root: &Path, choice: &Choice) -> Result<(), Failure> {
     if !ends_well(build(&place).stderr(Stdio::inherit()))? {
         return Err(Failure::Defect { name: "none".into(), reason: "the tree does not build".into() });
     }
-    let chosen = |defect: &Defect| choice.only.as_ref().is_none_or(|part| defect.name.contains(part));
     let mut found = Vec::new();
-    for defect in Defect::all(root)?.into_iter().filter(chosen) {
-        let known = Results::read(root)?.take(&defect.name).filter(|o| o.is_noticed() && !choice.again);
+    let tree = tree::hash(root)?;
+    for defect in defects {
+        let files = tree::files(root, &defect)?;
+        let known = Results::read(root)?.take(&defect.name);
+        let known = known.filter(|o| o.is_noticed() && o.files == files && !choice.again);
         let outcome = match known {
             Some(outcome) => outcome,
             None => {
                 announce(&format!("defect: {}", defect.name));
-                let outcome = Outcome { commit: commit.clone(), ..plant(&place, &defect, choice)? };
+                let outcome = Outcome {
+                    commit: commit.clone(),
+                    tree: tree.clone(),
+                    files,
+                    ..plant(&place, &defect, choice)?
+                };
                 Results::read(root)?.with(&defect.name, outcome.clone()).write(root)?;
                 outcome
             }
@@ -66,6 +81,25 @@ pub fn run(root: &Path, choice: &Choice) -> Result<(), Failure> {
     for (defect, _) in found.iter().filter(|(_, outcome)| !outcome.is_noticed()) {
         println!("  not noticed: {} ({})", defect.name, defect.wrong);
     }
+    Ok(())
+}
+
+/// Prints the defects that the next run would plant: those without a result that noticed them, and those of which a file has
+/// changed since.
+fn list(root: &Path, defects: &[Defect]) -> Result<(), Failure> {
+    let results = Results::read(root)?;
+    let mut due = 0;
+    for defect in defects {
+        let why = match results.get(&defect.name) {
+            None => "no result",
+            Some(outcome) if !outcome.is_noticed() => "not noticed",
+            Some(outcome) if outcome.files != tree::files(root, defect)? => "stale",
+            Some(_) => continue,
+        };
+        due += 1;
+        println!("{:60} {why}", defect.name);
+    }
+    println!("\ndefects: {due} of {} to be run", defects.len());
     Ok(())
 }
 

@@ -38,6 +38,12 @@ pub struct Noticed {
 pub struct Outcome {
     /// Commit of the sources.
     pub commit: String,
+    /// Hash of the tree of that commit.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub tree: String,
+    /// Hashes of the files that the defect touches, by their paths: the result is stale once one of them has changed.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub files: BTreeMap<String, String>,
     /// Status of the run.
     pub status: Status,
     /// Cases that ran; empty for all quick cases.
