@@ -7,7 +7,7 @@ use crate::diagnostic::Diagnostic;
 use crate::initial_stress;
 use crate::model::{self, Model, bounds};
 use crate::scene::check::pressing;
-use crate::scene::model::{Condition, Loading, Material, Motion, Scene, Spanned};
+use crate::scene::model::{Condition, Loading, Material, Motion, Pace, Scene, Spanned};
 use asperity_fem::block::LinearBlock;
 use asperity_fem::dof::Channel;
 use asperity_fem::kinematics::Formulation;
@@ -84,9 +84,7 @@ pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Sta
 /// Carries the conditions of a stage over to the next one: targets that were reached are held.
 fn settle(held: &mut BTreeMap<(String, usize), Motion>, loads: &mut BTreeMap<(String, usize), Loading>) {
     for motion in held.values_mut() {
-        if matches!(motion, Motion::To(_) | Motion::Table(_) | Motion::Rotate(_)) {
-            *motion = Motion::Hold;
-        }
+        *motion = motion.clone().carried_on();
     }
     for loading in loads.values_mut() {
         *loading = Loading::Fixed(end_value(loading));
@@ -214,6 +212,7 @@ fn apart(all: Vec<(&(String, usize), Vec<usize>, Motion)>) -> (Vec<Spring>, Vec<
     for ((set, axis), dofs, motion) in all {
         match motion {
             Motion::Spring { stiffness, rate } if !dofs.is_empty() => {
+                let rate = paced(&rate);
                 springs.push(Spring { set: set.clone(), axis: *axis, dofs, stiffness, rate });
             }
             Motion::Spring { .. } => {}
@@ -223,12 +222,19 @@ fn apart(all: Vec<(&(String, usize), Vec<usize>, Motion)>) -> (Vec<Spring>, Vec<
     (springs, motions)
 }
 
+fn paced(pace: &Pace) -> mechanics::Pace {
+    match pace {
+        Pace::Steady(rate) => mechanics::Pace::Steady(*rate),
+        Pace::Table(points) => mechanics::Pace::Table(points.to_vec()),
+    }
+}
+
 /// Motion within a stage; `None` for components that are free or loaded by springs.
 fn moved(motion: Motion) -> Option<mechanics::Motion> {
     Some(match motion {
         Motion::Fixed(value) => mechanics::Motion::Fixed(value),
         Motion::To(value) => mechanics::Motion::To(value),
-        Motion::Rate(rate) => mechanics::Motion::Rate(rate),
+        Motion::Rate(rate) => mechanics::Motion::Rate(paced(&rate)),
         Motion::Table(points) => mechanics::Motion::Table(points.to_vec()),
         // The displacement that a rotation adds to its start is given by [`Turning`].
         Motion::Hold | Motion::Rotate(_) => mechanics::Motion::Hold,

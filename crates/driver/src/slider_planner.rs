@@ -6,6 +6,7 @@ mod parts;
 mod settings;
 mod start;
 
+use crate::columns::file::columns_of;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::laws::{self, Theta};
 use crate::scene::model::Spanned;
@@ -14,19 +15,28 @@ use crate::slider::Plan;
 use asperity_cycles::slider::{Problem, Rows};
 use asperity_friction::slider::{History, Slider, System};
 use std::ops::Range;
+use std::path::Path;
 
-/// Reads, checks and plans a scene of spring-sliders.
+/// Reads, checks and plans a scene of spring-sliders, whose files are relative to the current folder.
+///
+/// # Errors
+/// See [`read_in`].
+pub fn read(text: &str) -> Result<Plan, Diagnostics> {
+    read_in(text, Path::new("")).map(|(plan, _)| plan)
+}
+
+/// Reads, checks and plans a scene of spring-sliders whose files are relative to `folder`. The names of its files come with it.
 ///
 /// # Errors
 /// All errors of the scene, or the first one that prevents reading it.
-pub fn read(text: &str) -> Result<Plan, Diagnostics> {
-    let scene = slider::read(text)?;
+pub fn read_in(text: &str, folder: &Path) -> Result<(Plan, Vec<Spanned<String>>), Diagnostics> {
+    let scene = slider::read_with(text, &mut |file, wanted| columns_of(folder, file, wanted))?;
     let mut planner = Planner::default();
     let plan = planner.plan(&scene);
     let mut errors = planner.errors;
     errors.sort_by_key(|e| (e.span.is_empty(), e.span.start));
     match plan {
-        Some(plan) if errors.is_empty() => Ok(plan),
+        Some(plan) if errors.is_empty() => Ok((plan, scene.files().cloned().collect())),
         _ => Err(Diagnostics(errors)),
     }
 }

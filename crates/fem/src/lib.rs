@@ -6,6 +6,7 @@
 pub mod assembly;
 pub mod block;
 pub mod condense;
+pub mod corners;
 pub mod dof;
 pub mod element;
 pub mod error;

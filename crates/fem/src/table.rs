@@ -47,6 +47,9 @@ pub struct Table {
     times: Vec<f64>,
     values: Vec<f64>,
     function: Function,
+    /// Second derivative between two entries each; empty where all pieces are straight. Loads of faults, which are kept in files, are.
+    #[serde(skip)]
+    bends: Vec<f64>,
 }
 
 impl Table {
@@ -54,7 +57,28 @@ impl Table {
     #[must_use]
     pub fn new(times: Vec<f64>, values: Vec<f64>) -> Self {
         debug_assert!(times.len() == values.len() && times.windows(2).all(|w| w[0] < w[1]));
-        Self { times, values, function: Function::Linear }
+        Self { times, values, function: Function::Linear, bends: Vec::new() }
+    }
+
+    /// The integral from the first time on of a rate through `(time, rate)`, linear in between. Times do not decrease; two entries
+    /// at one time are a jump of the rate.
+    #[must_use]
+    pub fn of_rates(rates: &[(f64, f64)]) -> Self {
+        let (mut times, mut values, mut bends) = (Vec::new(), Vec::new(), Vec::new());
+        times.extend(rates.first().map(|first| first.0));
+        values.extend(rates.first().map(|_| 0.0));
+        let mut sum = 0.0;
+        for pair in rates.windows(2).filter(|pair| pair[1].0 > pair[0].0) {
+            let (run, mean) = (pair[1].0 - pair[0].0, 0.5 * (pair[0].1 + pair[1].1));
+            sum += mean * run;
+            times.push(pair[1].0);
+            values.push(sum);
+            bends.push((pair[1].1 - pair[0].1) / run);
+        }
+        if bends.iter().all(|&bend| bend == 0.0) {
+            bends.clear();
+        }
+        Self { bends, ..Self::new(times, values) }
     }
 
     /// `function` of the values of this table.
@@ -95,6 +119,12 @@ impl Table {
         &self.times
     }
 
+    /// Values of the entries.
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
     /// Slope at `time`, which must not be that of an entry; 0 before the first and after the last.
     #[must_use]
     pub fn slope(&self, time: f64) -> f64 {
@@ -103,6 +133,7 @@ impl Table {
             return 0.0;
         }
         let slope = (self.values[k] - self.values[k - 1]) / (self.times[k] - self.times[k - 1]);
+        let slope = self.bends.get(k - 1).map_or(slope, |bend| slope + bend * (time - self.middle(k)));
         slope * self.function.slope(self.linear(time))
     }
 
@@ -115,8 +146,16 @@ impl Table {
             return [0.0; 2];
         }
         let rate = (self.values[k] - self.values[k - 1]) / (self.times[k] - self.times[k - 1]);
+        if let Some(bend) = self.bends.get(k - 1) {
+            return [rate + bend * (time - self.middle(k)), *bend];
+        }
         let x = self.linear(time);
         [self.function.slope(x) * rate, self.function.curvature(x) * rate * rate]
+    }
+
+    /// Middle of the piece that ends with entry `k`.
+    fn middle(&self, k: usize) -> f64 {
+        0.5 * (self.times[k - 1] + self.times[k])
     }
 
     /// Value at `time`. Between two entries the form `(1-s) a + s b` is exact at both ends.
@@ -134,7 +173,10 @@ impl Table {
             return self.values[k - 1];
         }
         let s = (time - self.times[k - 1]) / (self.times[k] - self.times[k - 1]);
-        (1.0 - s) * self.values[k - 1] + s * self.values[k]
+        let chord = (1.0 - s) * self.values[k - 1] + s * self.values[k];
+        // A parabola of this second derivative, zero at both ends.
+        let bent = |bend: &f64| chord + 0.5 * bend * (time - self.times[k - 1]) * (time - self.times[k]);
+        self.bends.get(k - 1).map_or(chord, bent)
     }
 }
 
@@ -187,6 +229,18 @@ mod tests {
         approx::assert_relative_eq!(sine.slope(1.0), 0.5 * 0.5_f64.cos(), max_relative = 1e-15);
         approx::assert_relative_eq!(cosine.value(2e-8), -5e-17, max_relative = 1e-15);
         approx::assert_relative_eq!(cosine.slope(1.0), -0.5 * 0.5_f64.sin(), max_relative = 1e-15);
+    }
+
+    #[test]
+    fn the_integral_of_a_rate_is_exact_within_ramps_and_over_jumps() {
+        let table = Table::of_rates(&[(1.0, 2.0), (3.0, 2.0), (3.0, -1.0), (5.0, 3.0)]);
+        // 2 (t - 1), then 4 - s + s², with s = t - 3.
+        for (time, value, rate) in [(2.0, 2.0, 2.0), (3.5, 3.75, 0.0), (4.0, 4.0, 1.0)] {
+            approx::assert_relative_eq!(table.value(time), value, max_relative = 1e-15);
+            approx::assert_abs_diff_eq!(table.slope(time), rate, epsilon = 1e-15);
+        }
+        assert_eq!((table.value(5.0), table.derivatives(5.0, 4.5)), (6.0, [3.0, 2.0]));
+        assert!(Table::of_rates(&[(0.0, 2.0), (1.0, 2.0), (1.0, 5.0), (2.0, 5.0)]).bends.is_empty());
     }
 
     #[test]

@@ -25,6 +25,8 @@ pub struct Control {
     pub max_step: Option<f64>,
     /// Smallest step \[s\], if given.
     pub min_step: Option<f64>,
+    /// Largest departure of a table from its chord between the ends of two steps, over the range of the table \[-\].
+    pub course: f64,
     /// Imposed step ends \[s\], if given.
     pub imposed: Option<Vec<f64>>,
 }

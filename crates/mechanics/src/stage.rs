@@ -1,6 +1,8 @@
 //! A stage of loading: conditions on degrees of freedom of the common mesh.
 
+use super::pace::{Drawn, Pace};
 use super::turning::Turning;
+use asperity_fem::corners::{corners, range};
 use asperity_fem::dof::{Channel, Constraints};
 use asperity_fem::table::Table;
 use std::ops::Range;
@@ -16,12 +18,50 @@ pub enum Motion {
     Fixed(f64),
     /// Displacement proportional to time, up to this value at the end \[m\].
     To(f64),
-    /// Constant rate \[m/s\].
-    Rate(f64),
+    /// Motion at a rate.
+    Rate(Pace),
     /// Times since the start of the stage \[s\] and displacements at these times \[m\].
     Table(Vec<(f64, f64)>),
     /// Displacement held at its value at the start, apart from rotation.
     Hold,
+}
+
+/// Course that a table prescribes: its entries, and the displacement or load that follows from them.
+#[derive(Clone, Debug)]
+pub struct Course {
+    /// Times of the entries \[s\]; two at one time are a jump.
+    pub times: Vec<f64>,
+    /// Displacements \[m\], loads or, of a rate by a table, rates \[m/s\].
+    pub values: Vec<f64>,
+    /// Displacement \[m\] or load.
+    pub moves: Table,
+}
+
+impl Course {
+    /// Course of a displacement or load.
+    #[must_use]
+    pub fn of(moves: Table) -> Self {
+        Self { times: moves.times().to_vec(), values: moves.values().to_vec(), moves }
+    }
+
+    /// Course of a rate through these points.
+    #[must_use]
+    pub fn of_rates(points: &[(f64, f64)]) -> Self {
+        let (times, values) = points.iter().copied().unzip();
+        Self { times, values, moves: Table::of_rates(points) }
+    }
+
+    /// Indices of its corners, from whose chords entries depart by at most `tolerance` of the range.
+    #[must_use]
+    pub fn corners(&self, tolerance: f64) -> Vec<usize> {
+        corners(&self.times, &self.values, tolerance * range(&self.values))
+    }
+
+    /// Largest slope.
+    fn steepest(&self) -> f64 {
+        let middles = self.moves.times().windows(2).map(|w| 0.5 * (w[0] + w[1]));
+        middles.map(|t| self.moves.slope(t).abs()).fold(0.0, f64::max)
+    }
 }
 
 /// The conditions in force during a stage, on degrees of freedom of the common mesh.
@@ -62,8 +102,8 @@ pub struct Spring {
     pub dofs: Vec<usize>,
     /// Stiffness \[N/m; N/m per metre of thickness in the plane\].
     pub stiffness: f64,
-    /// Rate of the spring's other end \[m/s\].
-    pub rate: f64,
+    /// Rate of the spring's other end.
+    pub rate: Pace,
 }
 
 impl Stage {
@@ -102,22 +142,55 @@ impl Stage {
         self.loads.iter().filter(move |(on, _)| on.as_deref() != Some(set)).map(|(_, channel)| channel)
     }
 
+    /// Courses that tables prescribe, over the time of the run.
+    #[must_use]
+    pub fn courses(&self) -> Vec<Course> {
+        let loads = self.loads.iter().map(|(_, channel)| Course::of(channel.amplitude.clone()));
+        self.moved().chain(loads).collect()
+    }
+
+    /// Courses of the tables of motions and load points.
+    fn moved(&self) -> impl Iterator<Item = Course> {
+        let span = (self.start, self.end);
+        let paced = move |pace: &Pace| pace.points(span).map(|points| Course::of_rates(&points));
+        let motion = move |(_, motion): &(Vec<usize>, Motion)| match motion {
+            Motion::Table(points) => Some(Course::of(self.table(points))),
+            Motion::Rate(pace) => paced(pace),
+            Motion::Fixed(_) | Motion::To(_) | Motion::Hold => None,
+        };
+        self.motions.iter().filter_map(motion).chain(self.springs.iter().filter_map(move |s| paced(&s.rate)))
+    }
+
+    /// Table of times since the start of the stage.
+    fn table(&self, points: &[(f64, f64)]) -> Table {
+        Table::new(points.iter().map(|p| self.start + p.0).collect(), points.iter().map(|p| p.1).collect())
+    }
+
     /// Largest prescribed rate of displacement in the stage, also of load points \[m/s\].
     #[must_use]
     pub fn largest_rate(&self) -> f64 {
+        self.moved().map(|course| course.steepest()).fold(self.steady_rate(), f64::max)
+    }
+
+    /// Largest displacement that the stage prescribes in addition to those before it, apart from those held from its start \[m\].
+    #[must_use]
+    pub fn driven(&self) -> f64 {
+        let way = |course: Course| range(course.moves.values());
+        self.moved().map(way).fold(self.steady_rate() * (self.end - self.start), f64::max)
+    }
+
+    /// Largest rate that conditions other than tables prescribe \[m/s\].
+    fn steady_rate(&self) -> f64 {
         let duration = self.end - self.start;
+        let steady = |pace: &Pace| if let Pace::Steady(rate) = pace { rate.abs() } else { 0.0 };
         let turning = self.turning.iter().map(|t| t.radius() * t.rotation.angle.abs() / duration);
         let turning = turning.fold(0.0, f64::max);
-        let drawn = self.springs.iter().fold(turning, |largest, spring| largest.max(spring.rate.abs()));
+        let drawn = self.springs.iter().fold(turning, |largest, spring| largest.max(steady(&spring.rate)));
         self.motions.iter().fold(drawn, |largest, (_, motion)| {
             largest.max(match motion {
-                Motion::Rate(rate) => rate.abs(),
+                Motion::Rate(pace) => steady(pace),
                 Motion::To(value) => value.abs() / duration,
-                Motion::Table(points) => points
-                    .windows(2)
-                    .map(|w| ((w[1].1 - w[0].1) / (w[1].0 - w[0].0)).abs())
-                    .fold(0.0, f64::max),
-                Motion::Fixed(_) | Motion::Hold => 0.0,
+                Motion::Table(_) | Motion::Fixed(_) | Motion::Hold => 0.0,
             })
         })
     }
@@ -127,7 +200,7 @@ impl Stage {
     pub fn travel(&self) -> f64 {
         let held =
             self.motions.iter().map(|(_, motion)| if let Motion::Fixed(u) = motion { u.abs() } else { 0.0 });
-        held.fold(self.largest_rate() * (self.end - self.start), f64::max)
+        held.fold(self.driven(), f64::max)
     }
 
     /// True if anything other than prescribed motions acts: loads, weight, initial stress or springs.
@@ -180,13 +253,14 @@ impl Stage {
         match motion {
             Motion::Fixed(value) if *value != 0.0 => channels.push(unit(constant(*value))),
             Motion::To(value) => channels.extend([present(ramp(1.0, 0.0)), unit(ramp(0.0, *value))]),
-            Motion::Rate(rate) => {
-                channels.extend([present(constant(1.0)), unit(ramp(0.0, rate * (self.end - self.start)))])
+            Motion::Rate(pace) => {
+                let moved = match pace.drawn((self.start, self.end)) {
+                    Drawn::Steady { rate, .. } => ramp(0.0, rate * (self.end - self.start)),
+                    Drawn::Table(table) => table,
+                };
+                channels.extend([present(constant(1.0)), unit(moved)]);
             }
-            Motion::Table(points) => channels.push(unit(Table::new(
-                points.iter().map(|p| self.start + p.0).collect(),
-                points.iter().map(|p| p.1).collect(),
-            ))),
+            Motion::Table(points) => channels.push(unit(self.table(points))),
             // `turning` gives the displacement that a rotation adds to the positions at the start of the stage.
             Motion::Hold => channels.push(present(constant(1.0))),
             Motion::Fixed(_) => {}

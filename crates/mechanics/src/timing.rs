@@ -1,5 +1,6 @@
 //! Choice of the length of the next step.
 
+use super::pieces::{Piece, Pieces};
 use super::step::Cut;
 use super::{Control, Stage};
 use serde::{Deserialize, Serialize};
@@ -67,6 +68,10 @@ pub struct StepLength {
     friction: Option<f64>,
     /// Remaining ends of imposed steps, last first.
     imposed: Option<Vec<f64>>,
+    /// Pieces of the stage between the corners of its courses; empty if ends are imposed.
+    pieces: Pieces,
+    /// End of the piece in which the next step begins \[s\].
+    goal: f64,
     /// True if the last trial failed. The next step then does not grow, since it would fail again.
     failed: bool,
     /// Length required by the error of slip, if it is below the smallest.
@@ -96,6 +101,8 @@ impl StepLength {
             largest: if imposed.is_some() { f64::INFINITY } else { largest },
             tolerance: imposed.is_none().then_some(control.tolerance),
             friction: imposed.is_none().then_some(control.friction),
+            pieces: if imposed.is_some() { Pieces::default() } else { Pieces::of(stage, control.course) },
+            goal: stage.end,
             imposed,
             failed: false,
             needed: None,
@@ -103,9 +110,9 @@ impl StepLength {
         }
     }
 
-    /// End that the next step may not pass: an imposed one, or that of the stage.
+    /// End that the next step may not pass: an imposed one, or that of the piece of the stage.
     fn target(&self) -> f64 {
-        self.imposed.as_ref().and_then(|ends| ends.last().copied()).unwrap_or(self.end)
+        self.imposed.as_ref().and_then(|ends| ends.last().copied()).unwrap_or(self.goal)
     }
 
     /// Length of the next step from `time`, or `None` at the end of the stage.
@@ -117,6 +124,10 @@ impl StepLength {
             while ends.last().is_some_and(|&t| t <= time) {
                 ends.pop();
             }
+        }
+        if let Some(Piece { end, longest }) = self.pieces.at(time) {
+            // After a steep piece steps grow again from those within it.
+            (self.goal, self.dt) = (end, self.dt.min(longest));
         }
         let left = self.target() - time;
         Some(if self.dt >= left * (1.0 - REMAINDER) { left } else { self.dt })

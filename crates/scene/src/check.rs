@@ -23,6 +23,7 @@ pub mod pressing;
 mod receivers;
 mod ruptures;
 mod solver;
+mod starts;
 mod stress;
 mod surface;
 mod time;

@@ -1,7 +1,7 @@
 //! Numbers of a scene that stand in files of columns.
 
 use crate::diagnostic::Diagnostic;
-use crate::model::{Scene, Spanned};
+use crate::model::{Scene, Spanned, Tabled};
 use crate::units::{Dimension, Length};
 use std::ops::Range;
 
@@ -27,7 +27,23 @@ const TIME: &str = "time";
 /// # Errors
 /// The first error of the reader.
 pub(super) fn fill(scene: &mut Scene, columns: &mut Columns<'_>) -> Result<(), Diagnostic> {
-    for (table, dimension) in scene.tables_mut() {
+    fill_tables(scene.tables_mut(), columns)?;
+    for trace in scene.traces_mut() {
+        let Some(file) = trace.file().map(|given| given.file.clone()) else { continue };
+        let wanted = ["x", "y"].map(|name| Column { name, place: file.span(), dimension: Dimension::Length });
+        let mut found = columns(&file, &wanted)?.into_iter();
+        let (x, y) = (found.next().unwrap_or_default(), found.next().unwrap_or_default());
+        trace.fill(x.into_iter().zip(y).map(|(x, y)| [Length(x), Length(y)]).collect());
+    }
+    Ok(())
+}
+
+/// Fills tables whose numbers stand in files.
+pub(super) fn fill_tables<'a>(
+    tables: impl Iterator<Item = (&'a mut Tabled, Dimension)>,
+    columns: &mut Columns<'_>,
+) -> Result<(), Diagnostic> {
+    for (table, dimension) in tables {
         let Some(given) = table.file().cloned() else { continue };
         let time = given.time.as_ref().map_or((TIME, given.file.span()), |t| (t.get_ref(), t.span()));
         let wanted = [
@@ -37,13 +53,6 @@ pub(super) fn fill(scene: &mut Scene, columns: &mut Columns<'_>) -> Result<(), D
         let mut found = columns(&given.file, &wanted)?.into_iter();
         let (times, values) = (found.next().unwrap_or_default(), found.next().unwrap_or_default());
         table.fill(times.into_iter().zip(values).collect());
-    }
-    for trace in scene.traces_mut() {
-        let Some(file) = trace.file().map(|given| given.file.clone()) else { continue };
-        let wanted = ["x", "y"].map(|name| Column { name, place: file.span(), dimension: Dimension::Length });
-        let mut found = columns(&file, &wanted)?.into_iter();
-        let (x, y) = (found.next().unwrap_or_default(), found.next().unwrap_or_default());
-        trace.fill(x.into_iter().zip(y).map(|(x, y)| [Length(x), Length(y)]).collect());
     }
     Ok(())
 }

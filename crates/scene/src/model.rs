@@ -10,6 +10,7 @@ mod field;
 mod heat;
 mod inertia;
 mod medium;
+mod pace;
 mod patch;
 mod place;
 mod platform;
@@ -33,6 +34,7 @@ pub use field::*;
 pub use heat::*;
 pub use inertia::*;
 pub use medium::*;
+pub use pace::Pace;
 pub use patch::*;
 pub use place::Place;
 pub use platform::PlatformSpec;
@@ -330,6 +332,7 @@ impl Condition {
         let motions = [&self.x, &self.y, &self.z].into_iter().flatten();
         let motions = motions.filter_map(|motion| match motion.get_ref() {
             Motion::Table(table) => Some(table),
+            Motion::Rate(rate) | Motion::Spring { rate, .. } => rate.table(),
             _ => None,
         });
         let loads =
@@ -346,6 +349,9 @@ impl Condition {
         let motions = [&mut self.x, &mut self.y, &mut self.z].into_iter().flatten();
         let motions = motions.filter_map(|motion| match motion.get_mut() {
             Motion::Table(table) => Some((table, Dimension::Length)),
+            Motion::Rate(rate) | Motion::Spring { rate, .. } => {
+                Some((rate.table_mut()?, Dimension::Velocity))
+            }
             _ => None,
         });
         let tractions = self.traction.iter_mut().flat_map(|t| t.get_mut());
@@ -389,16 +395,16 @@ pub enum Motion {
     Fixed(f64),
     /// Ramped linearly from the present value to this one at the end of the stage \[m\].
     To(f64),
-    /// Moved from the present value at this rate \[m/s\].
-    Rate(f64),
+    /// Moved from the present value at this rate.
+    Rate(Pace),
     /// Piecewise linear: (time since the stage began \[s\], displacement \[m\]).
     Table(Tabled),
-    /// Pulled as a whole by a spring whose other end moves at a constant rate.
+    /// Pulled as a whole by a spring whose other end moves at a rate.
     Spring {
         /// Stiffness \[N/m; N/m per metre of thickness in the plane\].
         stiffness: f64,
-        /// Rate of the other end \[m/s\].
-        rate: f64,
+        /// Rate of the other end.
+        rate: Pace,
     },
     /// One component of a rotation over the whole stage.
     Rotate(Rotation),
@@ -406,6 +412,19 @@ pub enum Motion {
     Hold,
     /// Released: free of constraints.
     Free,
+}
+
+impl Motion {
+    /// The motion that follows in the next stage unless it is replaced: a target that was reached is held, and a rate carries on.
+    #[must_use]
+    pub fn carried_on(self) -> Self {
+        match self {
+            Self::To(_) | Self::Table(_) | Self::Rotate(_) => Self::Hold,
+            Self::Rate(pace) => Self::Rate(Pace::Steady(pace.last())),
+            Self::Spring { stiffness, rate } => Self::Spring { stiffness, rate: Pace::Steady(rate.last()) },
+            Self::Fixed(_) | Self::Hold | Self::Free => self,
+        }
+    }
 }
 
 /// A rotation as written in a scene.
@@ -501,6 +520,8 @@ pub struct TimeControl {
     pub rate_change: Option<Spanned<f64>>,
     /// Static-explicit: slip per step over L; default 0.1 \[-\].
     pub zeta: Option<Spanned<f64>>,
+    /// Both: largest departure of a table from its chord within a step, over the range of the table; default 1e-4 \[-\].
+    pub course_tolerance: Option<Spanned<f64>>,
     /// Imposed ends of all steps of the run \[s\]; cannot be read from a file.
     #[serde(skip)]
     pub imposed: Option<Vec<f64>>,

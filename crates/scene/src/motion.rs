@@ -1,7 +1,7 @@
 //! Reading of motions and loadings.
 
 use super::entry::Entry;
-use super::model::{Loading, Motion, TableFile, Tabled};
+use super::model::{Loading, Motion, Pace, TableFile, Tabled};
 use super::units::{self, Dimension, Length, Pressure, Velocity};
 use crate::shape::{Either, shaped};
 use schemars::JsonSchema;
@@ -14,9 +14,9 @@ use std::marker::PhantomData;
 #[serde(deny_unknown_fields)]
 struct MotionTable {
     to: Option<Length>,
-    rate: Option<Velocity>,
+    rate: Option<RateForm>,
     spring: Option<SideSpring>,
-    table: Option<TableForm<Length>>,
+    table: Option<TableForm<Entry<Length>>>,
 }
 
 shaped!(Motion as Either<Length, MotionTable>);
@@ -72,13 +72,58 @@ impl<'de> Deserialize<'de> for Motion {
     }
 }
 
+/// A rate as written: a velocity, or a table of velocities.
+struct RateForm(Pace);
+
+#[derive(serde::Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct RateTable {
+    table: TableForm<Entry<Velocity>>,
+}
+
+shaped!(RateForm as Either<Velocity, RateTable>);
+
+impl<'de> Deserialize<'de> for RateForm {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct RateVisitor;
+        impl<'de> Visitor<'de> for RateVisitor {
+            type Value = RateForm;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a velocity such as \"1e-3 mm/s\" or a number in m/s, or { table = [[time, velocity], ..] }")
+            }
+
+            fn visit_f64<E: de::Error>(self, value: f64) -> Result<RateForm, E> {
+                units::finite(value, Dimension::Velocity).map(|rate| RateForm(Pace::Steady(rate)))
+            }
+
+            fn visit_i64<E: de::Error>(self, value: i64) -> Result<RateForm, E> {
+                Ok(RateForm(Pace::Steady(value as f64)))
+            }
+
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<RateForm, E> {
+                let rate = units::parse(text, Dimension::Velocity).map_err(E::custom)?;
+                Ok(RateForm(Pace::Steady(rate)))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<RateForm, A::Error> {
+                let given = RateTable::deserialize(MapAccessDeserializer::new(map))?;
+                Ok(RateForm(Pace::Table(given.table.tabled(|velocity| velocity.0))))
+            }
+        }
+        deserializer.deserialize_any(RateVisitor)
+    }
+}
+
 /// A table as written: pairs of time and value, or a file that has them.
-enum TableForm<Q> {
-    Pairs(Vec<Entry<Q>>),
+pub(crate) enum TableForm<E> {
+    /// Its entries.
+    Pairs(Vec<E>),
+    /// The file.
     File(TableFile),
 }
 
-impl<Q> TableForm<Q> {
+impl<Q> TableForm<Entry<Q>> {
     fn tabled(self, value: impl Fn(Q) -> f64) -> Tabled {
         match self {
             Self::Pairs(pairs) => {
@@ -89,23 +134,23 @@ impl<Q> TableForm<Q> {
     }
 }
 
-shaped!(@ Q; TableForm<Q> as Either<Vec<Entry<Q>>, TableFile>);
+shaped!(@ E; TableForm<E> as Either<Vec<E>, TableFile>);
 
-impl<'de, Q: Deserialize<'de>> Deserialize<'de> for TableForm<Q> {
+impl<'de, E: Deserialize<'de>> Deserialize<'de> for TableForm<E> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct TableVisitor<Q>(PhantomData<Q>);
-        impl<'de, Q: Deserialize<'de>> Visitor<'de> for TableVisitor<Q> {
-            type Value = TableForm<Q>;
+        struct TableVisitor<E>(PhantomData<E>);
+        impl<'de, E: Deserialize<'de>> Visitor<'de> for TableVisitor<E> {
+            type Value = TableForm<E>;
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 f.write_str("pairs [[time, value], ..], or { file = \"FILE.csv\", column = \"NAME\" }")
             }
 
-            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<TableForm<Q>, A::Error> {
+            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<TableForm<E>, A::Error> {
                 Deserialize::deserialize(SeqAccessDeserializer::new(list)).map(TableForm::Pairs)
             }
 
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<TableForm<Q>, A::Error> {
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<TableForm<E>, A::Error> {
                 TableFile::deserialize(MapAccessDeserializer::new(map)).map(TableForm::File)
             }
         }
@@ -171,7 +216,7 @@ impl<'de, V: Visitor<'de>> fmt::Display for Expected<'_, V> {
 #[serde(deny_unknown_fields)]
 struct LoadingTable {
     to: Option<Pressure>,
-    table: Option<TableForm<Pressure>>,
+    table: Option<TableForm<Entry<Pressure>>>,
 }
 
 shaped!(Loading as Either<Pressure, LoadingTable>);

@@ -8,6 +8,7 @@ pub use course::Course;
 pub use event::EventSpec;
 pub use spec::{Load, OutputSpec, SliderScene, SliderSpec, SliderTime, SpringSpec, Which};
 
+use super::files::{self, Columns};
 use super::model::Spanned;
 use super::{explain, near};
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -62,7 +63,17 @@ pub fn is_slider(text: &str) -> bool {
     toml::from_str::<Head>(text).is_ok_and(|head| !head.bodies())
 }
 
-/// Reads a scene of spring-sliders.
+/// Reads a scene of spring-sliders. `columns` reads the files of its courses.
+///
+/// # Errors
+/// The first error of the reader, or of a file.
+pub fn read_with(text: &str, columns: &mut Columns<'_>) -> Result<SliderScene, Diagnostics> {
+    let mut scene = read(text)?;
+    files::fill_tables(scene.tables_mut(), columns).map_err(|error| Diagnostics(vec![error]))?;
+    Ok(scene)
+}
+
+/// Reads a scene of spring-sliders apart from the files of its courses.
 ///
 /// # Errors
 /// The first error of the reader.

@@ -1,5 +1,6 @@
-//! Bodies with inertia: vibration, a block that slides to rest, a plastic wave, a body that turns.
+//! Bodies with inertia: vibration, a block that slides to rest, a plastic wave, a body that turns, a short blow.
 
+mod blow;
 mod plastic;
 mod sliding;
 mod spinning;
@@ -29,7 +30,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     vibration::run(ledger)?;
     sliding::run(ledger)?;
     plastic::run(ledger)?;
-    spinning::run(ledger)
+    spinning::run(ledger)?;
+    blow::run(ledger)
 }
 
 /// Largest energy that the budget of a run misses, over its largest part.

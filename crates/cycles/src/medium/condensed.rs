@@ -179,7 +179,7 @@ fn with_components<const D: usize, const C: usize>(
         let amplitude = Table::new(vec![0.0, end], vec![0.0, end]);
         channels.push(Channel { prescribed: creeping, forces: Vec::new(), amplitude });
     }
-    channels.extend(machine.pulls(end));
+    channels.extend(machine.pulls());
     let weighs = C > 1 && !loads.weight.is_empty();
     if weighs {
         channels.push(machine.channel(&jumps.channel(&weight(loads), &constraints.fixed).map_err(oblique)?)?);

@@ -18,8 +18,8 @@ pub struct Spring {
     pub dofs: Vec<usize>,
     /// Stiffness \[N/m; N/m per metre of thickness in the plane\].
     pub stiffness: f64,
-    /// Velocity of its far end \[m/s\].
-    pub rate: f64,
+    /// Displacement of its far end since time 0, in straight pieces \[m\].
+    pub drawn: Table,
 }
 
 /// Springs, and the ties that make boundaries move as one.
@@ -75,10 +75,10 @@ impl<'a> Machine<'a> {
         self.ties.channel(channel, &[]).map_err(|e| e.to_string())
     }
 
-    /// Loads by the far ends of the springs, which move at constant rates until `end` \[s\].
-    pub fn pulls(&self, end: f64) -> impl Iterator<Item = Channel> {
-        self.springs.iter().filter_map(move |spring| {
-            let amplitude = Table::new(vec![0.0, end], vec![0.0, spring.rate * end]);
+    /// Loads by the far ends of the springs.
+    pub fn pulls(&self) -> impl Iterator<Item = Channel> {
+        self.springs.iter().filter_map(|spring| {
+            let amplitude = spring.drawn.clone();
             let forces = vec![(*spring.dofs.first()?, spring.stiffness)];
             Some(Channel { prescribed: Vec::new(), forces, amplitude })
         })

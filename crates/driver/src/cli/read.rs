@@ -159,12 +159,12 @@ impl Source {
         let resolved = settings::apply(&file, settings).map_err(|why| miette!("{name}: {why}"))?;
         let text = Text { name, file, resolved, settings: settings.to_vec() };
         let told = |errors: &Diagnostics| text.report(errors);
-        let read = text.resolved.text();
+        let (read, folder) = (text.resolved.text(), path.parent().unwrap_or(Path::new("")));
         let (parsed, inputs) = if scene::slider::is_slider(read) {
-            let plan = slider_planner::read(read).map_err(|errors| told(&errors))?;
-            (Parsed::Sliders(Box::new(plan)), Inputs::of(read, Path::new(""), &[])?)
+            let (plan, files) = slider_planner::read_in(read, folder).map_err(|errors| told(&errors))?;
+            let named: Vec<_> = files.iter().map(|file| (file.span(), file.get_ref().as_str())).collect();
+            (Parsed::Sliders(Box::new(plan)), Inputs::of(read, folder, &named)?)
         } else {
-            let folder = path.parent().unwrap_or(Path::new(""));
             let parsed = scene::read_in(read, folder).map_err(|errors| told(&errors))?;
             let named: Vec<_> = parsed.files().map(|file| (file.span(), file.get_ref().as_str())).collect();
             let inputs = Inputs::of(read, folder, &named)?;
@@ -177,7 +177,7 @@ impl Source {
     /// scene has such faults or a file cannot be read.
     pub fn meshes_of_whole(&self) -> Option<BTreeMap<String, String>> {
         match &self.parsed {
-            Parsed::Sliders(_) => Some(BTreeMap::new()),
+            Parsed::Sliders(_) => self.inputs.hashes().ok(),
             Parsed::Bodies(scene) if scene.faults.is_empty() || has_mass(scene) => self.inputs.hashes().ok(),
             Parsed::Bodies(_) => None,
         }

@@ -74,7 +74,7 @@ impl<const D: usize> Sample for SampledBodies<D> {
         let values =
             self.wanted.values(model, (&model.blocks, &self.initial_stress), (&u, time), &self.beside);
         let spring = |(spring, start): (&asperity_mechanics::Spring, &SpringStart)| {
-            let drawn = spring.rate * (time - stage.start);
+            let drawn = spring.rate.drawn((stage.start, stage.end)).at(time);
             SpringNow::of(start, spring.stiffness, drawn, u[spring.dofs[0]])
         };
         let springs: Vec<SpringNow> = stage.springs.iter().zip(&self.springs).map(spring).collect();

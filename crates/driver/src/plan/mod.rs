@@ -3,6 +3,7 @@
 mod checks;
 mod coarse;
 mod cohesive;
+pub(crate) mod courses;
 mod damping;
 mod doubts;
 mod enforcement;

@@ -3,7 +3,8 @@
 
 use super::friction::Friction;
 use super::{
-    AnyPlan, Plan, checks, doubts, events, inertia, interfaces, linear_solver, path, restraint, samples,
+    AnyPlan, Plan, checks, courses, doubts, events, inertia, interfaces, linear_solver, path, restraint,
+    samples,
 };
 use super::{start_balance, stepping, stress_level, summary};
 use crate::diagnostic::Diagnostic;
@@ -85,6 +86,8 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         Some(_) => Vec::new(),
     };
     remarks.extend(sizes::of_files(scene, &model));
+    let (followed, passed_over) = courses::of(scene);
+    remarks.extend(followed);
     remarks.extend(frictions.iter().flatten().flat_map(|f| f.notes.iter().cloned()));
     let (start_gaps, doubts) = doubts::of(scene, &model, (&interfaces, &stages), &stepping)?;
     let (balance, unbalanced) = start_balance::of(scene, &model, (&interfaces, &stages), &stepping)?;
@@ -97,7 +100,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         summary.add_inertia(mass);
     }
     let of_files = frictions.iter().flatten().flat_map(|f| f.warnings.iter().cloned());
-    summary.warnings.extend(doubts.into_iter().chain(unbalanced).chain(of_files));
+    summary.warnings.extend(doubts.into_iter().chain(unbalanced).chain(of_files).chain(passed_over));
     let initial_stress = model.bodies.iter().map(|b| initial_stress::of_body(scene, &b.name)).collect();
     let samples = samples::find(scene, &model)?;
     let checks =

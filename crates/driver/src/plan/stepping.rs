@@ -1,5 +1,6 @@
 //! Time stepper of a scene and its step control.
 
+use super::courses;
 use crate::diagnostic::Diagnostic;
 use crate::scene::model::{Rule, Scene, Stepper};
 use asperity_contact::TimeRule;
@@ -76,7 +77,7 @@ fn evolves(scene: &Scene) -> bool {
 /// Step control of a scene with these stages.
 pub fn control(scene: &Scene, stages: &[Stage]) -> Control {
     let time = &scene.time;
-    let travel = stages.iter().map(|s| s.largest_rate() * (s.end - s.start)).fold(0.0, f64::max);
+    let travel = stages.iter().map(Stage::driven).fold(0.0, f64::max);
     // Without motion there is no displacement to compare slip with; static-explicit steps use the R-minimum rule.
     let adapts = travel > 0.0 && matches!(time.stepper.get_ref(), Stepper::Implicit | Stepper::Auto);
     let usual = if adapts { SLIP_TOLERANCE * travel } else { f64::INFINITY };
@@ -88,6 +89,7 @@ pub fn control(scene: &Scene, stages: &[Stage]) -> Control {
         first_step: time.first_step.as_ref().map(|t| t.get_ref().0),
         max_step: time.max_step.as_ref().map(|t| t.get_ref().0),
         min_step: time.min_step.as_ref().map(|t| t.get_ref().0),
+        course: courses::tolerance(scene),
         imposed: time.imposed.clone(),
     }
 }

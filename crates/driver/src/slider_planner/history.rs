@@ -3,7 +3,7 @@
 use super::Planner;
 use crate::diagnostic::Diagnostic;
 use crate::scene::Entry;
-use crate::scene::model::Spanned;
+use crate::scene::model::{Spanned, Tabled};
 use crate::scene::slider::Course;
 use crate::scene::units::Pressure;
 use asperity_friction::slider::History;
@@ -22,6 +22,10 @@ impl Planner {
                 self.order(table, course.span(), name)?;
                 let entries = table.iter().map(Spanned::get_ref);
                 History::table(entries.map(|e| (e.time.0, si(&e.value))).collect())
+            }
+            Course::File(table) => {
+                self.order_in_file(table, course.span(), name)?;
+                History::table(table.to_vec())
             }
             Course::Sine { mean, amplitude, period, start } => {
                 let length = self.positive("period", period.get_ref().0, period.span(), "\"20 s\"")?;
@@ -61,6 +65,20 @@ impl Planner {
         Some(())
     }
 
+    /// Checks that the times of a table in a file increase.
+    fn order_in_file(&mut self, table: &Tabled, place: Range<usize>, name: &str) -> Option<()> {
+        if let Some(w) = table.windows(2).find(|w| w[1].0 < w[0].0) {
+            let message =
+                format!("the times of `{name}` do not increase: {:?} s after {:?} s", w[1].0, w[0].0);
+            return self.error(place, message, "the rows of the file in the order of time");
+        }
+        if let Some(w) = table.windows(3).find(|w| w[2].0 == w[0].0) {
+            let message = format!("`{name}` has three rows at {:?} s", w[0].0);
+            return self.error(place, message, "a step has two: the value before and the one after");
+        }
+        Some(())
+    }
+
     /// A normal traction, which must stay positive.
     pub(super) fn normal(&mut self, spec: &Spanned<Course<Pressure>>) -> Option<History> {
         let normal = self.course(spec, |p| p.0, "normal")?;
@@ -70,7 +88,7 @@ impl Planner {
         }
         let place = match spec.get_ref() {
             Course::Table(table) => table.iter().find(|e| e.get_ref().value.0 == least).map(Spanned::span),
-            Course::Constant(_) | Course::Sine { .. } => None,
+            Course::Constant(_) | Course::File(_) | Course::Sine { .. } => None,
         };
         let (message, help) = match spec.get_ref() {
             Course::Constant(_) => {

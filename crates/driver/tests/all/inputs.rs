@@ -57,6 +57,13 @@ fn scenes() -> Vec<(String, Vec<&'static str>)> {
     );
     let triangles =
         varied(&base("triangles"), &[With("faults.main.triangles.stl.file", r#""data/fault.stl""#)]);
+    let sliders = varied(
+        &base("sliders"),
+        &[
+            With("load.rate", r#"{ table = { file = "data/other/rate.csv", column = "rate" } }"#),
+            With("time.end", "\"40 s\""),
+        ],
+    );
     vec![
         (tables, vec!["history-2.csv", "history.csv"]),
         (MESH.into(), vec!["two_layers.msh"]),
@@ -64,6 +71,7 @@ fn scenes() -> Vec<(String, Vec<&'static str>)> {
         (of_law, vec!["coefficient.csv"]),
         (trace, vec!["friction.csv", "trace.csv"]),
         (triangles, vec!["fault.stl"]),
+        (sliders, vec!["rate.csv"]),
     ]
 }
 
@@ -75,6 +83,7 @@ fn put(data: &Path) {
         fs::copy(meshes.join(name), data.join(name)).unwrap();
     }
     fs::write(data.join("other/history.csv"), "time [s],pressure [MPa]\n0,0\n2,3\n").unwrap();
+    fs::write(data.join("other/rate.csv"), "time [s],rate [um/s]\n0,1\n10,1\n10,4\n40,4\n").unwrap();
     fs::write(data.join("trace.csv"), "x [km],y [km]\n0,0\n0,-40\n").unwrap();
 }
 

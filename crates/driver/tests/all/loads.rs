@@ -1,11 +1,12 @@
 //! Loads and stages end to end, against closed forms.
+#![allow(clippy::disallowed_methods)]
 
 use crate::common::{SANDWICH, varied};
 use asperity_driver::plan::{self, AnyPlan};
 use asperity_driver::report::{Outcome, RunReport};
-use asperity_driver::{run, scene};
+use asperity_driver::{run, scene, slider_planner};
 use asperity_output::Recorder;
-use asperity_vary::Change::{Push, With, Without};
+use asperity_vary::Change::{self, Add, Push, With, Without};
 
 /// A 1 x 2 m column of E = 10 GPa, nu = 0.25, rollers at the sides and the bottom, with one more condition.
 fn column(element: &str, extra_body: &str, condition: &str) -> String {
@@ -137,4 +138,216 @@ fn a_plan_models_only_what_its_scene_declares() {
     let AnyPlan::Two(plan) = plan_of(&frictionless) else { panic!("the sandwich is plane") };
     assert!(plan.problem.interfaces[0].law.is_none());
     assert_eq!(plan.problem.interfaces[0].tangential_penalty, 0.0);
+}
+
+/// A block of 8 t that a pressure of 4 ms throws, in a stage of 10 s: 1 MPa on 1 m² at the peak, 2 kN s in all.
+const BLOW: &str = r#"
+schema = 1
+title = "a blow on a free block"
+kinematics = "plane-strain"
+[materials.steel]
+young = "200 GPa"
+poisson = 0.0
+density = 8000
+[bodies.b]
+material = "steel"
+mesh.block = { min = [0, 0], max = ["1 m", "1 m"], divisions = [1, 1], element = "quad4" }
+[[stages]]
+name = "blow"
+duration = "10 s"
+conditions = [
+    { set = "b.bottom", y = 0 },
+    { set = "b.left", pressure = { table = [[0, 0], [1.23, 0], [1.232, 1e6], [1.234, 0], [10, 0]] } },
+]
+[time]
+stepper = "implicit"
+inertia = true
+[output]
+points.p = { body = "b", at = ["0.5 m", "0.5 m"] }
+"#;
+
+/// Displacement along x of the only point at the end.
+fn thrown(record: &Recorder) -> f64 {
+    record.samples().last().unwrap().points[0].displacement[0]
+}
+
+#[test]
+fn the_impulse_of_a_short_blow_throws_a_free_block() {
+    let (report, record) = simulate(BLOW);
+    let exact = 2e3 / 8e3 * (10.0 - 1.232);
+    assert!((thrown(&record) / exact - 1.0).abs() < 1e-3, "{} {exact}", thrown(&record));
+    assert!(report.counts.steps < 400, "{}", report.counts.steps);
+}
+
+#[test]
+fn equal_steps_say_by_how_much_they_pass_over_a_blow() {
+    let warned = |steps: &str| {
+        let scene = scene::read(&varied(BLOW, &[Add("stages[0].steps", steps)])).unwrap();
+        plan::plan(&scene).unwrap().summary().warnings.iter().map(|w| w.message.clone()).collect::<Vec<_>>()
+    };
+    let found = warned("100");
+    assert_eq!(found.len(), 1, "{found:?}");
+    for part in ["100 equal steps", "pressure of `b.left`", "1.232 s", "1.000e6 Pa, 100.00 %"] {
+        assert!(found[0].contains(part), "{part}: {}", found[0]);
+    }
+    assert_eq!(warned("10000"), [String::new(); 0]);
+}
+
+/// A block is pressed on a plane and drawn, in the first stage without friction.
+const STROKE: &str = r#"
+schema = 1
+title = "a short stroke of a block under friction"
+kinematics = "plane-strain"
+[materials.rock]
+young = "50 GPa"
+poisson = 0.25
+[bodies.plane]
+material = "rock"
+mesh.block = { min = [0, "-20 mm"], max = ["100 mm", 0], size = "10 mm", element = "quad4" }
+[bodies.block]
+material = "rock"
+mesh.block = { min = ["30 mm", 0], max = ["70 mm", "20 mm"], divisions = [5, 2], element = "quad4" }
+[interfaces.base]
+slave = "block.bottom"
+master = "plane.top"
+measure = "mortar"
+sliding = "small"
+enforcement = { kind = "penalty", normal = "100 E/h", tangential = "100 E/h" }
+law = { kind = "coulomb", mu = 0.6 }
+[[stages]]
+name = "press"
+duration = "1 s"
+frictionless = ["base"]
+conditions = [{ set = "plane.bottom", x = 0, y = 0 }, { set = "block.top", x = 0, y = { to = "-5 um" } }]
+[[stages]]
+name = "stroke"
+duration = "100 s"
+conditions = [{ set = "block.top", x = { table = [[0, 0], [51.0, 0], [51.2, 5e-5], [51.4, 0], [100, 0]] }, y = "hold" }]
+[time]
+stepper = "implicit"
+[output]
+forces.top = { set = "block.top" }
+"#;
+
+/// Shear over normal force on the drawn side at the end.
+fn friction(record: &Recorder) -> f64 {
+    let force = record.samples().last().unwrap().forces[0];
+    force[0] / force[1]
+}
+
+#[test]
+fn a_stroke_to_and_fro_leaves_the_friction_of_the_way_back() {
+    // The way back is longer than what friction holds, so that all points have slipped against the first motion.
+    let table = [[0.0, 0.0], [51.0, 0.0], [51.2, 5e-5], [51.4, 0.0], [100.0, 0.0]];
+    let rates = r#"{ rate = { table = [[0, 0], [51, 0], [51, "0.25 mm/s"], [51.2, "0.25 mm/s"], [51.2, "-0.25 mm/s"], [51.4, "-0.25 mm/s"], [51.4, 0]] } }"#;
+    let rows: Vec<String> = (0..=1000)
+        .map(|k| {
+            let t = 0.1 * f64::from(k);
+            let after = table.partition_point(|p| p[0] <= t).min(table.len() - 1);
+            let ([t0, u0], [t1, u1]) = (table[after - 1], table[after]);
+            format!("[{t}, {}]", u0 + (u1 - u0) * (t - t0) / (t1 - t0))
+        })
+        .collect();
+    let measured = format!("{{ table = [{}] }}", rows.join(", "));
+    let motion = "stages[1].conditions[0].x";
+    for (name, changes) in [
+        ("corners", vec![]),
+        ("measured", vec![With(motion, &measured)]),
+        ("rates", vec![With(motion, rates)]),
+        ("full", vec![Add("time.path", "full")]),
+        ("static-explicit", vec![With("time.stepper", "static-explicit")]),
+    ] {
+        let (report, record) = simulate(&varied(STROKE, &changes));
+        assert!((friction(&record).abs() - 0.6).abs() < 1e-3, "{name}: {}", friction(&record));
+        assert!(report.counts.steps < 400, "{name}: {}", report.counts.steps);
+    }
+}
+
+#[test]
+fn a_load_point_drawn_at_rates_by_a_table_moves_by_their_integral() {
+    let rate = r#"{ spring = 1e9, rate = { table = [[0, 0], [10, "1 um/s"], [10, "-0.5 um/s"], [30, "-0.5 um/s"]] } }"#;
+    let (report, record) = simulate(&varied(STROKE, &[With("stages[1].conditions[0].x", rate)]));
+    let springs: Vec<f64> =
+        record.samples().iter().flat_map(|s| &s.springs).flatten().map(|s| s.load_point).collect();
+    let exact = 0.5 * 10e-6 - 0.5e-6 * 90.0;
+    assert!((springs.last().unwrap() / exact - 1.0).abs() < 1e-12, "{springs:?}");
+    let most = springs.iter().copied().fold(0.0, f64::max);
+    assert!((most / 5e-6 - 1.0).abs() < 1e-12, "{most}");
+    assert!(report.counts.steps < 400);
+}
+
+#[test]
+fn tables_carry_on_from_where_the_stage_before_has_ended() {
+    let refused = |changes: &[Change<'_>]| scene::read(&varied(STROKE, changes)).err().map(|e| e.to_string());
+    let motion = "stages[1].conditions[0].x";
+    for jump in [
+        r#"{ table = [["0 s", "3 um"], ["10 s", "10 um"]] }"#,
+        r#"{ table = [["5 s", "3 um"], ["10 s", "10 um"]] }"#,
+    ] {
+        let told = refused(&[With(motion, jump)]).unwrap();
+        assert!(told.contains("begins") && told.contains("3 um") && told.contains("would jump"), "{told}");
+    }
+    assert_eq!(refused(&[With(motion, r#"{ table = [["5 s", 0], ["10 s", "10 um"]] }"#)]), None);
+    let y = "stages[1].conditions[0].y";
+    assert_eq!(refused(&[With(y, r#"{ table = [["0 s", "-5 um"], ["10 s", "-6 um"]] }"#)]), None);
+    assert!(refused(&[With(y, r#"{ table = [["0 s", 0], ["10 s", "-6 um"]] }"#)]).is_some());
+    let load = |first: &str| {
+        let pressure =
+            format!("{{ set = \"block.left\", pressure = {{ table = [[0, {first}], [10, 2e6]] }} }}");
+        refused(&[Push("stages[1].conditions", &pressure)])
+    };
+    assert_eq!(load("0"), None);
+    assert!(load("1e6").unwrap().contains("would jump"));
+}
+
+#[test]
+fn bodies_with_mass_take_loads_that_jump_and_no_displacements() {
+    let at = |path: &'static str, value: &'static str| scene::read(&varied(BLOW, &[With(path, value)]));
+    assert!(at("stages[0].conditions[1].pressure", r#"{ table = [[0, 1e6], [0.1, 0]] }"#).is_ok());
+    let told = at("stages[0].conditions[0].y", r#""1 mm""#).err().unwrap().to_string();
+    assert!(told.contains("would depend on the step"), "{told}");
+}
+
+#[test]
+fn courses_of_sliders_from_files_are_those_written_in_the_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let csv = "time [s],rate [um/s],normal [MPa]\n0,1,5\n10,1,5\n10,10,5\n40,10,4\n";
+    std::fs::write(folder.path().join("machine.csv"), csv).unwrap();
+    let base = crate::messages::base("sliders");
+    let plan = |rate: &str, normal: &str| {
+        let text = varied(&base, &[With("load.rate", rate), With("sliders.left.normal", normal)]);
+        let (plan, files) = slider_planner::read_in(&text, folder.path()).unwrap_or_else(|e| panic!("{e}"));
+        (format!("{:?}", plan.problem), files.len())
+    };
+    let (written, none) = plan(
+        r#"{ table = [[0, "1 um/s"], [10, "1 um/s"], [10, "10 um/s"], [40, "10 um/s"]] }"#,
+        r#"{ table = [[0, "5 MPa"], [10, "5 MPa"], [10, "5 MPa"], [40, "4 MPa"]] }"#,
+    );
+    let (read, two) = plan(
+        r#"{ table = { file = "machine.csv", column = "rate" } }"#,
+        r#"{ table = { file = "machine.csv", column = "normal" } }"#,
+    );
+    assert!(written == read && (none, two) == (0, 2));
+}
+
+#[test]
+fn a_record_of_a_hundred_thousand_rows_is_followed_by_its_corners() {
+    // A slow wave with noise of 1e-5 of its range, and a blow of three rows.
+    let noise = |k: u32| f64::from(k * 7919 % 101) / 101.0 - 0.5;
+    let value = |k: u32| match k {
+        50_000 => 5e5,
+        _ => 1e5 * (f64::from(k) * 1e-4).sin() + 10.0 * noise(k),
+    };
+    let rows: Vec<String> =
+        (1..=100_000).map(|k| format!("[{:?}, {:?}]", f64::from(k) * 1e-4, value(k))).collect();
+    let table = format!("{{ table = [[0, 0], {}] }}", rows.join(", "));
+    let scene = scene::read(&varied(BLOW, &[With("stages[0].conditions[1].pressure", &table)])).unwrap();
+    let AnyPlan::Two(plan) = plan::plan(&scene).unwrap() else { panic!("a plane scene") };
+    let courses = plan.problem.stages[0].courses();
+    let corners = courses[0].corners(plan.problem.control.course);
+    let times: Vec<f64> = corners.iter().map(|&k| courses[0].times[k]).collect();
+    assert!(times.len() < 300, "{}", times.len());
+    for blow in [4.9999, 5.0, 5.0001] {
+        assert!(times.iter().any(|t| (t - blow).abs() < 1e-12), "{blow}");
+    }
 }

@@ -39,10 +39,10 @@ impl Entry {
 
 /// Error in a scene, of either kind.
 pub fn refusal(text: &str) -> Option<Diagnostics> {
-    if scene::slider::is_slider(text) {
-        return asperity_driver::slider_planner::read(text).err();
-    }
     let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/meshes");
+    if scene::slider::is_slider(text) {
+        return asperity_driver::slider_planner::read_in(text, &meshes).err();
+    }
     match scene::read_in(text, &meshes) {
         Err(errors) => Some(errors),
         Ok(scene) => asperity_driver::plan::plan_scene(&scene).err().map(Diagnostics::from),

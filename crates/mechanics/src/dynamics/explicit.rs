@@ -216,7 +216,8 @@ impl<'a, const D: usize> Explicit<'a, D> {
     /// Finds the special nodes of the stage and prepares them.
     fn appoint(&mut self, stage: usize) {
         let (problem, components) = (self.problem, self.components);
-        let springs = &problem.stages[stage].springs;
+        let of_stage = &problem.stages[stage];
+        let (springs, span) = (&of_stage.springs, (of_stage.start, of_stage.end));
         let of_fault = problem.fault.iter().flat_map(|f| {
             let tied = f.ties.iter().flat_map(|t| [t.minus, t.plus]);
             f.points.iter().flat_map(|p| [p.minus, p.plus]).chain(tied)
@@ -249,7 +250,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
             self.inverse[special.node] = 0.0;
         }
         self.loads = Loads::new(&self.constraints, |dof| (find(dof / components), dof % components));
-        self.springs = Springs::new(springs, |dof| {
+        self.springs = Springs::new(springs, span, |dof| {
             (find(dof / components), dof % components, self.mass[dof / components])
         });
         self.pairs =

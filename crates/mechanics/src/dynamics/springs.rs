@@ -3,7 +3,7 @@
 //! A spring acts on the mean displacement of its set, weighted with the masses of its nodes, and its force is shared by them
 //! in the same way. Bodies without mass keep such a set straight; with mass only its mean is drawn.
 
-use crate::Spring;
+use crate::{Drawn, Spring};
 
 /// A spring with its degrees of freedom: special node, component and share.
 #[derive(Debug)]
@@ -11,8 +11,8 @@ struct Attached {
     places: Vec<(usize, usize, f64)>,
     /// \[N/m; N/m per metre of thickness in the plane\].
     stiffness: f64,
-    /// Rate of its far end \[m/s\].
-    rate: f64,
+    /// Displacement of its far end.
+    drawn: Drawn,
 }
 
 /// Springs of a stage.
@@ -21,21 +21,21 @@ pub(super) struct Springs(Vec<Attached>);
 
 impl Springs {
     /// Springs of a stage; `place` finds the special node, the component and the mass of a degree of freedom.
-    pub fn new(springs: &[Spring], place: impl Fn(usize) -> (usize, usize, f64)) -> Self {
+    pub fn new(springs: &[Spring], span: (f64, f64), place: impl Fn(usize) -> (usize, usize, f64)) -> Self {
         let attached = |spring: &Spring| {
             let mut places: Vec<_> = spring.dofs.iter().map(|&dof| place(dof)).collect();
             let mass: f64 = places.iter().map(|(_, _, mass)| mass).sum();
             places.iter_mut().for_each(|(_, _, share)| *share /= mass);
-            Attached { places, stiffness: spring.stiffness, rate: spring.rate }
+            Attached { places, stiffness: spring.stiffness, drawn: spring.rate.drawn(span) }
         };
         Self(springs.iter().map(attached).collect())
     }
 
     /// Adds the forces at `time` to those of the special nodes with these displacements \[N\].
     pub fn add(&self, time: f64, displacement: &[[f64; 3]], forces: &mut [[f64; 3]]) {
-        for Attached { places, stiffness, rate } in &self.0 {
+        for Attached { places, stiffness, drawn } in &self.0 {
             let mean: f64 = places.iter().map(|&(node, c, share)| share * displacement[node][c]).sum();
-            let force = stiffness * (rate * time - mean);
+            let force = stiffness * (drawn.at(time) - mean);
             places.iter().for_each(|&(node, c, share)| forces[node][c] += share * force);
         }
     }

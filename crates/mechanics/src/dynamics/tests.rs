@@ -316,7 +316,7 @@ fn bodies_on_soft_springs_swing_with_their_mass_and_keep_their_energy() {
         axis: 0,
         dofs: vec![2 * 4, 2 * 9],
         stiffness: mass * omega * omega,
-        rate: 0.0,
+        rate: crate::Pace::Steady(0.0),
     });
     let velocity = bar.mesh.nodes.iter().flat_map(|_| [1.0, 0.0]).collect();
     let problem = Problem { velocity, ..problem(bar, stage) };

@@ -1,11 +1,12 @@
-//! Springs between sets that move as one and load points that move at constant rates: one term of the system.
+//! Springs between sets that move as one and load points that move at prescribed rates: one term of the system.
 //!
-//! The degrees of freedom of a set share one equation, so a spring acts on the first of them with the force `F = F_0 + k (V (t
-//! - t_0) - (q - q_0))`. F_0 is the force that held the set at the start of the stage, and q its displacement.
+//! The degrees of freedom of a set share one equation, so a spring acts on the first of them with the force `F = F_0 + k (d -
+//! (q - q_0))`. F_0 is the force that held the set at the start of the stage, d the displacement of the load point since then, and q
+//! that of the set.
 
 use super::numbering::Numbering;
 use crate::step::State;
-use crate::{Spring, Stage};
+use crate::{Drawn, Spring, Stage};
 use asperity_fem::term::{Instant, Limited, Linearized, Pattern, Refusal, Term};
 use serde::{Deserialize, Serialize};
 
@@ -49,7 +50,7 @@ impl SpringNow {
 struct Attached {
     dof: usize,
     stiffness: f64,
-    rate: f64,
+    drawn: Drawn,
     start: SpringStart,
 }
 
@@ -57,8 +58,6 @@ struct Attached {
 #[derive(Debug)]
 pub(super) struct Springs {
     list: Vec<Attached>,
-    /// Start of the stage \[s\].
-    begin: f64,
     pattern: Pattern,
     stiffness: Vec<f64>,
 }
@@ -69,21 +68,19 @@ impl Springs {
         let attached = |(spring, start): (&Spring, &SpringStart)| Attached {
             dof: numbering.number[spring.dofs[0]],
             stiffness: spring.stiffness,
-            rate: spring.rate,
+            drawn: spring.rate.drawn((stage.start, stage.end)),
             start: *start,
         };
         let list: Vec<Attached> = stage.springs.iter().zip(starts).map(attached).collect();
         let dofs: Vec<usize> = list.iter().map(|s| s.dof).collect();
         let stiffness = list.iter().map(|s| s.stiffness).collect();
         let pattern = Pattern::of_blocks(dofs.chunks(1));
-        (!list.is_empty()).then_some(Self { list, begin: stage.start, pattern, stiffness })
+        (!list.is_empty()).then_some(Self { list, pattern, stiffness })
     }
 
     /// States of the springs at displacements `u` of the system and time \[s\].
     pub fn now(&self, u: &[f64], time: f64) -> impl Iterator<Item = SpringNow> {
-        self.list
-            .iter()
-            .map(move |s| SpringNow::of(&s.start, s.stiffness, s.rate * (time - self.begin), u[s.dof]))
+        self.list.iter().map(move |s| SpringNow::of(&s.start, s.stiffness, s.drawn.at(time), u[s.dof]))
     }
 
     /// States at the start of the stage.
@@ -150,7 +147,7 @@ impl Limited for Springs {
     fn rate(&mut self, at: Instant, values: &mut [f64], constant: &mut [f64]) -> Result<(), Refusal> {
         self.tangent(values);
         for spring in &self.list {
-            constant[spring.dof] -= spring.stiffness * spring.rate * at.dt;
+            constant[spring.dof] -= spring.drawn.pull(spring.stiffness, at.time, at.dt);
         }
         Ok(())
     }
@@ -159,6 +156,7 @@ impl Limited for Springs {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Pace;
 
     /// Two springs that have been drawn for a stage before.
     fn springs() -> Springs {
@@ -167,7 +165,7 @@ mod tests {
             axis: 0,
             dofs,
             stiffness,
-            rate,
+            rate: Pace::Steady(rate),
         };
         let stage = Stage {
             start: 2.0,

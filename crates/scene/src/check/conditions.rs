@@ -2,9 +2,10 @@
 
 use super::course::Course;
 use super::interfaces::is_tied;
+use super::starts::Present;
 use super::{AXES, Checker};
 use crate::diagnostic::Diagnostic;
-use crate::model::{Condition, Kinematics, Loading, Motion, RotationSpec, Spanned, Stage};
+use crate::model::{Condition, Kinematics, Loading, Motion, Pace, RotationSpec, Spanned, Stage};
 use crate::near::suggest;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -17,6 +18,22 @@ struct Entry {
     motion: Motion,
     place: Range<usize>,
     symmetry: bool,
+}
+
+/// Kind of the entries of a table.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    /// Displacements or loads, which do not jump.
+    Values,
+    /// Rates, which may.
+    Rates,
+}
+
+impl Kind {
+    /// True if an entry may not follow one at the time before it.
+    fn disordered(self, before: f64, time: f64) -> bool {
+        if self == Self::Rates { time < before } else { time <= before }
+    }
 }
 
 /// Prescribed components, carried from stage to stage.
@@ -57,9 +74,7 @@ impl Held {
             .collect();
         self.present.extend(ends);
         for entry in self.entries.values_mut() {
-            if matches!(entry.motion, Motion::To(_) | Motion::Table(_) | Motion::Rotate(_)) {
-                entry.motion = Motion::Hold;
-            }
+            entry.motion = entry.motion.clone().carried_on();
         }
     }
 }
@@ -78,7 +93,7 @@ impl Checker<'_> {
                 "add `[[stages]]` with a `duration`",
             );
         }
-        let mut held = Held::default();
+        let (mut held, mut loaded) = (Held::default(), Present::default());
         for (index, stage) in self.scene.stages.iter().enumerate() {
             self.stage(index, stage);
             let mut fresh = Vec::new();
@@ -87,8 +102,11 @@ impl Checker<'_> {
             }
             self.twice(stage, &fresh);
             for entry in &fresh {
+                let present = held.start(entry, index == 0);
+                self.begins(stage, (&entry.set, entry.axis, &entry.motion), &entry.place, present);
                 held.entries.insert((entry.set.clone(), entry.axis), entry.clone());
             }
+            self.loads_begin(stage, &mut loaded);
             let duration = stage.duration.get_ref().0;
             self.shared_nodes(stage, &fresh, &mut held, (index == 0, duration));
             self.loads(stage, &held);
@@ -175,8 +193,13 @@ impl Checker<'_> {
                 self.no_motion(motion.span(), AXES[axis]);
                 continue;
             }
-            if let Motion::Table(points) = motion.get_ref() {
-                self.table(points, motion.span(), stage);
+            match motion.get_ref() {
+                Motion::Table(points) => self.table(points, motion.span(), stage, Kind::Values),
+                Motion::Rate(Pace::Table(points)) | Motion::Spring { rate: Pace::Table(points), .. } => {
+                    self.table(points, motion.span(), stage, Kind::Rates);
+                    self.ramps(points, motion.span());
+                }
+                _ => {}
             }
             let (motion, place) = (motion.get_ref().clone(), motion.span());
             fresh.push(Entry { set: set.get_ref().clone(), axis, motion, place, symmetry: false });
@@ -279,13 +302,13 @@ impl Checker<'_> {
         let pressures = c.pressure.iter().map(|p| (p.get_ref(), p.span()));
         for (loading, place) in tractions.chain(pressures) {
             if let Loading::Table(points) = loading {
-                self.table(points, place, stage);
+                self.table(points, place, stage, Kind::Values);
             }
         }
     }
 
     /// Checks that a table lies within its stage. Values past the end would be lost silently, or taken as reached.
-    fn table(&mut self, points: &[(f64, f64)], place: Range<usize>, stage: &Stage) {
+    fn table(&mut self, points: &[(f64, f64)], place: Range<usize>, stage: &Stage, kind: Kind) {
         let duration = stage.duration.get_ref().0;
         if points.len() < 2 {
             self.error(
@@ -293,11 +316,17 @@ impl Checker<'_> {
                 format!("a table needs at least 2 points, found {}", points.len()),
                 "such as `table = [[\"0 s\", 0], [\"10 s\", \"1 mm\"]]`",
             );
-        } else if let Some(w) = points.windows(2).find(|w| w[1].0 <= w[0].0) {
+        } else if let Some(w) = points.windows(2).find(|w| kind.disordered(w[0].0, w[1].0)) {
             self.error(
                 place,
                 format!("the times of the table do not increase: {:?} s follows {:?} s", w[1].0, w[0].0),
                 "times count from the start of the stage and increase",
+            );
+        } else if let Some(w) = points.windows(3).find(|w| w[2].0 == w[0].0) {
+            self.error(
+                place,
+                format!("the table has three entries at {:?} s", w[0].0),
+                "a step of a rate has two: the rate before and the one after",
             );
         } else if let Some((time, _)) = points.first().filter(|p| p.0 < 0.0) {
             self.error(
@@ -314,6 +343,18 @@ impl Checker<'_> {
                 "times count from the start of the stage: end the table with it, or lengthen the stage";
             self.errors
                 .push(Diagnostic::at(place, message, help).and(stage.duration.span(), "the stage ends"));
+        }
+    }
+
+    /// Refuses rates that change gradually on faults, whose loads change at constant rates between two entries.
+    fn ramps(&mut self, points: &[(f64, f64)], place: Range<usize>) {
+        let ramp = points.windows(2).find(|w| w[1].0 > w[0].0 && w[1].1 != w[0].1);
+        if let Some(w) = ramp.filter(|_| !self.scene.faults.is_empty() && !self.has_waves()) {
+            self.error(
+                place,
+                format!("the rate changes gradually from {:?} s to {:?} s, and loads of faults change in steps of their rates", w[0].0, w[1].0),
+                "two entries at one time make a step: `[[\"0 s\", \"1 um/s\"], [\"10 s\", \"1 um/s\"], [\"10 s\", \"3 um/s\"]]`",
+            );
         }
     }
 

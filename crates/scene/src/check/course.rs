@@ -24,7 +24,7 @@ impl Course {
             (Motion::Table(points), _) if !points.is_empty() => Self::Known(points.to_vec()),
             (Motion::To(value), Some(from)) => Self::Known(vec![(0.0, from), (duration, *value)]),
             (Motion::Rate(rate), Some(from)) => {
-                Self::Known(vec![(0.0, from), (duration, from + rate * duration)])
+                Self::Known(rate.path(duration).into_iter().map(|(t, moved)| (t, from + moved)).collect())
             }
             (Motion::Hold, Some(from)) => Self::Known(vec![(0.0, from)]),
             _ => Self::Relative(motion.clone()),
@@ -81,6 +81,7 @@ impl Course {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::Pace;
 
     fn known(motion: &Motion) -> Course {
         Course::new(motion, Some(1e-3), 10.0)
@@ -89,7 +90,7 @@ mod tests {
     #[test]
     fn a_ramp_a_rate_and_a_table_of_one_course_agree() {
         let ramp = known(&Motion::To(3e-3));
-        let rate = known(&Motion::Rate(2e-4));
+        let rate = known(&Motion::Rate(Pace::Steady(2e-4)));
         let table = known(&Motion::Table(vec![(0.0, 1e-3), (5.0, 2e-3), (10.0, 3e-3)].into()));
         assert!(ramp.agrees(&rate, 10.0) && rate.agrees(&table, 10.0) && table.agrees(&ramp, 10.0));
     }
@@ -107,7 +108,7 @@ mod tests {
     fn what_depends_on_the_nodes_agrees_only_with_itself() {
         let relative = |m: &Motion| Course::new(m, None, 10.0);
         assert!(relative(&Motion::Hold).agrees(&relative(&Motion::Hold), 10.0));
-        assert!(!relative(&Motion::Hold).agrees(&relative(&Motion::Rate(0.0)), 10.0));
+        assert!(!relative(&Motion::Hold).agrees(&relative(&Motion::Rate(Pace::Steady(0.0))), 10.0));
         assert!(!relative(&Motion::Hold).agrees(&known(&Motion::Hold), 10.0));
     }
 

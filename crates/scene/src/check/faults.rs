@@ -112,7 +112,7 @@ impl Checker<'_> {
         for condition in scene.stages.iter().flat_map(|s| &s.conditions) {
             let c = condition.get_ref();
             for motion in [&c.x, &c.y, &c.z].into_iter().flatten() {
-                let Motion::Spring { stiffness, rate } = *motion.get_ref() else { continue };
+                let Motion::Spring { stiffness, .. } = *motion.get_ref() else { continue };
                 if self.has_waves() {
                     self.error(
                         motion.span(),
@@ -120,7 +120,7 @@ impl Checker<'_> {
                         "prescribe the motion itself, such as `{ rate = \"1 um/s\" }`",
                     );
                 }
-                if !(stiffness > 0.0 && stiffness.is_finite() && rate.is_finite()) {
+                if !(stiffness > 0.0 && stiffness.is_finite()) {
                     self.error(
                         motion.span(),
                         "`spring` must be positive",

@@ -5,6 +5,8 @@ use crate::model::{Rule, Spanned, Stepper};
 use std::ops::Range;
 
 /// Largest admissible residual over the largest force. Tractions of the pressed surface are of the size of the largest force over
+/// Largest departure of a table from its chord within a step, relative to the range of the table.
+const MOST_DEPARTURE: f64 = 0.1;
 /// its area, and then err by a percent.
 const MOST_DRIFT: f64 = 1e-2;
 
@@ -52,6 +54,7 @@ impl Checker<'_> {
             ("rate_change", &time.rate_change, "0.5"),
             ("zeta", &time.zeta, "0.1"),
             ("friction_tolerance", &time.friction_tolerance, "2e-6"),
+            ("course_tolerance", &time.course_tolerance, "1e-4"),
         ];
         for (name, number, usual) in numbers {
             if let Some(number) = number.as_ref().filter(|n| !(*n.get_ref() > 0.0 && n.get_ref().is_finite()))
@@ -80,6 +83,13 @@ impl Checker<'_> {
                 "`friction_tolerance` bounds the error of friction coefficients of a step: less than 1e-9 is hidden by rounding, and 1e-2 and more \
                  bounds nothing",
                 "between 1e-9 and 1e-2; the default is 2e-6",
+            );
+        }
+        if let Some(tolerance) = time.course_tolerance.as_ref().filter(|t| *t.get_ref() > MOST_DEPARTURE) {
+            self.error(
+                tolerance.span(),
+                "`course_tolerance` is the share of the range of a table that steps may pass over, and more than a tenth shows in all results",
+                "at most 0.1; the default is 1e-4",
             );
         }
         if let Some(rule) = time.rule.as_ref().filter(|r| {
@@ -143,6 +153,11 @@ impl Checker<'_> {
             place(
                 time.friction_tolerance.as_ref().map(Spanned::span),
                 "friction_tolerance",
+                &[Implicit, StaticExplicit, Auto],
+            ),
+            place(
+                time.course_tolerance.as_ref().map(Spanned::span),
+                "course_tolerance",
                 &[Implicit, StaticExplicit, Auto],
             ),
             place(time.inertia.as_ref().map(Spanned::span), "inertia", &[Implicit, Auto]),

@@ -127,6 +127,7 @@ impl Checker<'_> {
         let keys = [
             key("tolerance", time.tolerance.as_ref()),
             key("friction_tolerance", time.friction_tolerance.as_ref()),
+            key("course_tolerance", time.course_tolerance.as_ref()),
             key("first_step", time.first_step.as_ref()),
         ];
         for (name, place) in keys.into_iter().flatten() {

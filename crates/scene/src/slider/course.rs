@@ -1,7 +1,8 @@
 //! Reading of the course of a quantity over time: a constant, a table, or a sine.
 
 use crate::entry::Entry;
-use crate::model::Spanned;
+use crate::model::{Spanned, Tabled};
+use crate::motion::TableForm;
 use crate::shape::{Either, shaped};
 use crate::units::Time;
 use schemars::JsonSchema;
@@ -18,6 +19,8 @@ pub enum Course<Q> {
     Constant(Q),
     /// Piecewise linear; two entries at the same time make a jump.
     Table(Vec<Spanned<Entry<Q>>>),
+    /// The same in a file.
+    File(Tabled),
     /// Sine around a mean.
     Sine {
         /// Mean.
@@ -35,7 +38,7 @@ pub enum Course<Q> {
 #[derive(serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct CourseTable<Q> {
-    table: Option<Vec<Spanned<Entry<Q>>>>,
+    table: Option<TableForm<Spanned<Entry<Q>>>>,
     mean: Option<Q>,
     amplitude: Option<Q>,
     period: Option<Spanned<Time>>,
@@ -47,7 +50,8 @@ impl<Q> CourseTable<Q> {
         let sine =
             self.mean.is_some() || self.amplitude.is_some() || self.period.is_some() || self.start.is_some();
         match self.table {
-            Some(table) if !sine => Ok(Course::Table(table)),
+            Some(TableForm::Pairs(table)) if !sine => Ok(Course::Table(table)),
+            Some(TableForm::File(file)) if !sine => Ok(Course::File(Tabled::in_file(file))),
             None if sine => Ok(Course::Sine {
                 mean: self.mean.ok_or_else(|| E::missing_field("mean"))?,
                 amplitude: self.amplitude.ok_or_else(|| E::missing_field("amplitude"))?,
@@ -61,6 +65,18 @@ impl<Q> CourseTable<Q> {
     }
 }
 
+impl<Q> Course<Q> {
+    /// The table that a file has.
+    pub(super) fn in_file(&self) -> Option<&Tabled> {
+        if let Self::File(table) = self { Some(table) } else { None }
+    }
+
+    /// The same, to be filled.
+    pub(super) fn in_file_mut(&mut self) -> Option<&mut Tabled> {
+        if let Self::File(table) = self { Some(table) } else { None }
+    }
+}
+
 shaped!(@ Q; Course<Q> as Either<Q, CourseTable<Q>>);
 
 impl<'de, Q: Deserialize<'de>> Deserialize<'de> for Course<Q> {
@@ -71,7 +87,8 @@ impl<'de, Q: Deserialize<'de>> Deserialize<'de> for Course<Q> {
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 f.write_str(
-                    "a course: a number in SI, a text with a unit, { table = [[time, value], ..] } or \
+                    "a course: a number in SI, a text with a unit, { table = [[time, value], ..] }, \
+                     { table = { file = .., column = .. } } or \
                      { mean = .., amplitude = .., period = .. }",
                 )
             }

@@ -2,9 +2,9 @@
 
 use super::course::Course;
 use super::event::EventSpec;
-use crate::model::{LawSpec, Spanned};
+use crate::model::{LawSpec, Spanned, Tabled};
 use crate::shape::{Either, shaped};
-use crate::units::{Damping, Mass, Pressure, Spring, Time, Velocity};
+use crate::units::{Damping, Dimension, Mass, Pressure, Spring, Time, Velocity};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{self, Deserializer, SeqAccess, Visitor};
@@ -36,6 +36,32 @@ pub struct SliderScene {
     pub events: Option<EventSpec>,
     /// Rows of the histories.
     pub output: Option<OutputSpec>,
+}
+
+impl SliderScene {
+    /// Tables of its courses that files have, with the dimension of their values.
+    pub(super) fn tables_mut(&mut self) -> impl Iterator<Item = (&mut Tabled, Dimension)> {
+        let load = self.load.iter_mut().filter_map(|load| load.rate.get_mut().in_file_mut());
+        let load = load.map(|table| (table, Dimension::Velocity));
+        let sliders = self.sliders.values_mut().flat_map(|slider| {
+            let SliderSpec { normal, rate, .. } = slider.get_mut();
+            let normal = normal.get_mut().in_file_mut().map(|table| (table, Dimension::Pressure));
+            let rate = rate.as_mut().and_then(|rate| rate.get_mut().in_file_mut());
+            normal.into_iter().chain(rate.map(|table| (table, Dimension::Velocity)))
+        });
+        load.chain(sliders)
+    }
+
+    /// Names of the files of the scene.
+    pub fn files(&self) -> impl Iterator<Item = &Spanned<String>> {
+        let load = self.load.iter().filter_map(|load| load.rate.get_ref().in_file());
+        let sliders = self.sliders.values().flat_map(|slider| {
+            let SliderSpec { normal, rate, .. } = slider.get_ref();
+            let rate = rate.as_ref().and_then(|rate| rate.get_ref().in_file());
+            normal.get_ref().in_file().into_iter().chain(rate)
+        });
+        load.chain(sliders).filter_map(|table| Some(&table.file()?.file))
+    }
 }
 
 /// The load point.

@@ -18,6 +18,7 @@ use crate::held::Held;
 use crate::loading;
 use crate::model::checks::field_bytes;
 use crate::model::{self, Model, counts, meshes};
+use crate::plan::courses;
 use crate::scene::model::{Kinematics, Scene};
 use crate::views;
 use asperity_mechanics::dynamics::Problem;
@@ -72,6 +73,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         return Err(of_faults::nothing_slides(&named, &locked));
     }
     warnings.extend(doubts::check(scene, &placed, &stages[0], (counted.steps, counted.dt)));
+    warnings.extend(courses::passed_over(&scene.stages[0], counted.dt, courses::WAVES));
     let resolution = of_faults::resolved(scene, &placed, &mut warnings)?;
     let (faults, points) = of_faults::views(scene, &Meshed { model: &model }, &placed, D == 3)?;
     let receivers = outputs::receivers(scene, &model)?;

@@ -14,7 +14,7 @@ use crate::scene::law::LawChoice;
 use crate::scene::model::Scene;
 use asperity_cycles::Handover;
 use asperity_mechanics::dynamics::{Dashpot, Problem};
-use asperity_mechanics::{Spring, Stage};
+use asperity_mechanics::{Pace, Spring, Stage};
 
 /// Steps of the stage in which ruptures run; they end by themselves.
 const STEPS: f64 = 1e6;
@@ -93,7 +93,7 @@ fn stage(quiet: &Stage, absorbing: &[Dashpot], (duration, components): (f64, usi
     let absorbs = |dof: &usize| absorbing.binary_search_by_key(&(dof / components), |d| d.node).is_ok();
     Stage {
         fixed: quiet.fixed.iter().copied().filter(|dof| !absorbs(dof)).collect(),
-        springs: quiet.springs.iter().map(|s| Spring { rate: 0.0, ..s.clone() }).collect(),
+        springs: quiet.springs.iter().map(|s| Spring { rate: Pace::Steady(0.0), ..s.clone() }).collect(),
         ..Stage::free(&quiet.name, duration)
     }
 }

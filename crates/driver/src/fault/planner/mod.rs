@@ -66,6 +66,8 @@ use crate::warning::Warning;
 use asperity_cycles::medium::{Bodies, Conditions, Loads, Place, Point, Refusal, Spring, least_bytes};
 use asperity_cycles::operator::{Form, Operator};
 use asperity_cycles::{Loading, deficit};
+use asperity_fem::table::Table;
+use asperity_mechanics::Drawn;
 use assemble::{Around, Surrounded, plan_of, turns};
 use condensed::Condensed;
 use fields::Fields;
@@ -131,7 +133,12 @@ fn admit<const D: usize>(
 
 /// Loads on the bodies during a stage that starts from displacements `u0` \[m\]: changes since its start.
 fn loads(stage: &Stage, u0: &[f64], weight: Vec<(usize, f64)>) -> Loads {
-    let spring = |s: &loading::Spring| Spring { dofs: s.dofs.clone(), stiffness: s.stiffness, rate: s.rate };
+    let drawn = |s: &loading::Spring| match s.rate.drawn((stage.start, stage.end)) {
+        Drawn::Steady { rate, .. } => Table::new(vec![0.0, stage.end], vec![0.0, rate * stage.end]),
+        Drawn::Table(table) => table,
+    };
+    let spring =
+        |s: &loading::Spring| Spring { dofs: s.dofs.clone(), stiffness: s.stiffness, drawn: drawn(s) };
     let mut constraints = stage.constraints(u0);
     for channel in &mut constraints.channels {
         channel.amplitude = channel.amplitude.clone().since(stage.start);
