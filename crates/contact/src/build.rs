@@ -6,8 +6,9 @@ use crate::measure::mortar;
 use crate::measure::node_to_point::finite::Finite;
 use crate::measure::node_to_point::small::small;
 use crate::search::surface::Surface;
-use crate::spec::{InterfaceSpec, MeasureKind, Segment, Sliding, Smoothing};
-use crate::vector::norm;
+use crate::spec::{InterfaceSpec, MeasureKind, Segment, Sliding, Smoothing, SurfaceNode};
+use crate::vector::{norm, sub};
+use asperity_fem::origin;
 
 /// Checks that a specification is consistent.
 pub(crate) fn check<const D: usize>(spec: &InterfaceSpec<D>) -> Result<(), ContactError> {
@@ -97,11 +98,22 @@ fn check_numbers<const D: usize>(spec: &InterfaceSpec<D>) -> Result<(), ContactE
     }
 }
 
+/// Nodes of a specification with positions relative to a point nearby. Gaps and slip are differences of positions, which do not
+/// depend on it; their rounding does. A radius is kept, since areas depend on it.
+fn relative<const D: usize>(spec: &InterfaceSpec<D>) -> Vec<SurfaceNode<D>> {
+    let mut origin = origin::near(spec.nodes.iter().map(|n| &n.position));
+    if matches!(spec.measure, MeasureKind::Mortar { axisymmetric: true, .. }) {
+        origin[0] = 0.0;
+    }
+    spec.nodes.iter().map(|n| SurfaceNode { position: sub(&n.position, &origin), ..*n }).collect()
+}
+
 /// Builds the measure of a specification. Also returns the number of projections made to pair it.
 pub(crate) fn build_measure<const D: usize>(
     spec: &InterfaceSpec<D>,
 ) -> Result<(Box<dyn Measure<D>>, u64), ContactError> {
-    let positions: Vec<[f64; D]> = spec.nodes.iter().map(|n| n.position).collect();
+    let nodes = relative(spec);
+    let positions: Vec<[f64; D]> = nodes.iter().map(|n| n.position).collect();
     let surface = match spec.smoothing {
         Some(smoothing) => Surface::smoothed(&spec.name, spec.master.clone(), &positions, smoothing)?,
         None => Surface::new(spec.master.clone(), &positions),
@@ -110,18 +122,18 @@ pub(crate) fn build_measure<const D: usize>(
         (MeasureKind::Mortar { faces, axisymmetric }, Sliding::Small) => {
             let master = spec.master.clone();
             let (measure, examined) =
-                mortar::small(&spec.nodes, &spec.slave, faces, master, *axisymmetric, spec.fixed_normal);
+                mortar::small(&nodes, &spec.slave, faces, master, *axisymmetric, spec.fixed_normal);
             (Box::new(measure), examined)
         }
         (MeasureKind::Mortar { faces, axisymmetric }, Sliding::Finite) => {
-            mortar::finite(&spec.nodes, &spec.slave, faces, spec.master.clone(), *axisymmetric)
+            mortar::finite(&nodes, &spec.slave, faces, spec.master.clone(), *axisymmetric)
         }
         (MeasureKind::NodeToPoint, Sliding::Small) => {
-            let (measure, projections) = small(&spec.nodes, &spec.slave, &surface, spec.fixed_normal);
+            let (measure, projections) = small(&nodes, &spec.slave, &surface, spec.fixed_normal);
             (Box::new(measure), projections)
         }
         (MeasureKind::NodeToPoint, Sliding::Finite) => {
-            let (measure, projections) = Finite::new(&spec.nodes, &spec.slave, surface);
+            let (measure, projections) = Finite::new(&nodes, &spec.slave, surface);
             (Box::new(measure), projections)
         }
     })

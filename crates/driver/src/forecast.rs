@@ -238,10 +238,10 @@ pub fn condensation(scene: &Scene) -> Option<usize> {
 /// # Errors
 /// [`Diagnostic`] at `memory` in `[solver]` if it is given, because it may be the cause.
 pub fn fits(scene: &Scene, needed: usize) -> Result<(), Diagnostic> {
-    match memory_of_machine() {
-        Some(there) if SURE * needed as f64 > there as f64 => Err(Diagnostic::at(
+    match available() {
+        Some((there, what)) if SURE * needed as f64 > there as f64 => Err(Diagnostic::at(
             scene.solver.memory.as_ref().map_or(0..0, Spanned::span),
-            format!("the run needs about {}, and this machine has {}", size(needed), size(there)),
+            format!("the run needs about {}, and {what} {}", size(needed), size(there)),
             "take larger cells, or a machine with more memory; is the unit of the size right?",
         )),
         _ => Ok(()),
@@ -256,11 +256,11 @@ pub fn machine(counts: &[Counts], idealisation: Idealisation) -> Result<(), Diag
     let components = idealisation.components();
     let of = |c: &Counts| c.cells_bytes(idealisation) + c.matrix_bytes(components);
     let needed: f64 = counts.iter().map(of).sum();
-    match memory_of_machine() {
-        Some(there) if needed > there as f64 => Err(Diagnostic::at(
+    match available() {
+        Some((there, what)) if needed > there as f64 => Err(Diagnostic::at(
             0..0,
             format!(
-                "{} need {} for their matrices alone, and this machine has {}",
+                "{} need {} for their matrices alone, and {what} {}",
                 in_words(counts, components),
                 size(needed as usize),
                 size(there)
@@ -316,6 +316,14 @@ fn values(
     };
     known.insert((nodes, open), result);
     result
+}
+
+/// Memory of the machine, or what is left of a smaller limit of address space \[bytes\], with words that say which.
+fn available() -> Option<(usize, &'static str)> {
+    let machine = memory_of_machine().map(|there| (there, "this machine has"));
+    let limit = asperity_output::memory::addresses_left();
+    let limit = limit.map(|left| (left, "the limit of address space of this shell (`ulimit -v`) leaves"));
+    machine.into_iter().chain(limit).min_by_key(|(there, _)| *there)
 }
 
 /// Memory of the machine, or of the control group of this process if smaller \[bytes\]; `None` if the system does not report it.

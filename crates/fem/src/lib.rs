@@ -21,6 +21,7 @@ pub mod mesh;
 pub mod multifrontal;
 pub mod nonlinear;
 pub mod ordering;
+pub mod origin;
 pub mod quadrature;
 pub mod scatter;
 pub mod sparse;

@@ -12,6 +12,15 @@ pub fn most() -> Option<usize> {
     read("VmHWM:")
 }
 
+/// Address space that this process may still take under the limit of its shell (`ulimit -v`) \[bytes\]; `None` without limit.
+#[must_use]
+pub fn addresses_left() -> Option<usize> {
+    let limits = std::fs::read_to_string("/proc/self/limits").ok()?;
+    let line = limits.lines().find_map(|line| line.strip_prefix("Max address space"))?;
+    let limit = line.split_whitespace().next()?.parse::<usize>().ok()?;
+    Some(limit.saturating_sub(read("VmSize:")?))
+}
+
 fn read(key: &str) -> Option<usize> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix(key))?;

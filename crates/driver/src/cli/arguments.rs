@@ -14,7 +14,7 @@ use std::path::PathBuf;
 const CODES: &str = "Exit codes:
   0  done: the run reached its end, results agree
   1  refused: an error in the scene or in a file; results do not agree
-  2  stopped: the run could not continue, or the disk was full before its first checkpoint; input of `compare` that cannot be read; wrong arguments
+  2  stopped: the run could not continue, or the disk was full before its first checkpoint; memory that cannot be had; input of `compare` that cannot be read; wrong arguments
   3  interrupted: by SIGINT, SIGTERM, SIGHUP, --wall-time or a full disk; --resume continues the run";
 
 /// Faults and rock friction by finite elements.

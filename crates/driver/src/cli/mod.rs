@@ -51,6 +51,7 @@ use work::{run_bodies, run_faults, run_sliders};
 /// # Errors
 /// Diagnostics that point into the scene, or name the file that could not be read or written.
 pub fn execute(arguments: &Arguments) -> miette::Result<End> {
+    signals::end_without_memory(End::Stopped(String::new()).code()).into_diagnostic()?;
     match &arguments.command {
         Command::New { template, file } => new::write(*template, file.as_deref()),
         Command::Status { directory, json } => status::print(directory, *json),

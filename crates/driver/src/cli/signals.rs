@@ -1,6 +1,6 @@
 //! Signals that interrupt a run in an orderly way.
 
-use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
+use signal_hook::consts::{SIGABRT, SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
 use signal_hook::flag;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -22,6 +22,13 @@ pub(super) fn watched() -> std::io::Result<Arc<AtomicBool>> {
 /// Keeps the process alive where it writes beyond the largest size of a file (`ulimit -f`): the write then fails as on a full disk.
 pub(super) fn outlive_limits() -> std::io::Result<()> {
     flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false))).map(|_| ())
+}
+
+/// Ends the program with this exit code where memory cannot be had. The standard library then prints how much was asked for, and
+/// aborts: a shell would report a crash.
+pub(super) fn end_without_memory(code: u8) -> std::io::Result<()> {
+    let always = Arc::new(AtomicBool::new(true));
+    flag::register_conditional_shutdown(SIGABRT, i32::from(code), always).map(|_| ())
 }
 
 /// True if this process ignores a signal. Read from `/proc`; false where that does not exist.

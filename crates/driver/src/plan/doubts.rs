@@ -1,11 +1,11 @@
 //! Warnings about a scene whose bodies have been built and whose stages have been resolved.
 
 use super::penalty::{self, Softer};
-use super::{PlannedInterface, StartGap, Stepping, coarse, cohesive, start_gaps};
+use super::{PlannedInterface, StartGap, Stepping, coarse, cohesive, overlaps, start_gaps};
 use crate::diagnostic::Diagnostic;
 use crate::lengths::show;
 use crate::loading::Stage;
-use crate::model::{self, Model, sizes};
+use crate::model::{self, Model, locking, sizes};
 use crate::scene::model::{Interface, Scene};
 use crate::warning::Warning;
 use asperity_friction::evolution;
@@ -24,22 +24,27 @@ pub fn of<const D: usize>(
     stepping: &Stepping,
 ) -> Result<(Vec<StartGap>, Vec<Warning>), Diagnostic> {
     let (mut starts, mut doubts) = (Vec::new(), sizes::doubts(scene, model, stages));
+    doubts.extend(locking::doubts(scene, model)?);
     doubts.extend(tolerance(scene, stages));
     for planned in interfaces {
         let spec = &scene.interfaces[&planned.name];
         let sides = model::sides(model, &spec.slave)?;
-        let start = start_gaps::measure(model, stepping, planned, (spec, sides))?;
+        let mut measured = start_gaps::measure(model, stepping, planned, (spec, sides))?;
         if let Some(body) = model.body_of(spec.slave.get_ref()).map(|b| &model.bodies[b]) {
             let h = model.element_size(body, sides);
             let bonded = planned.law.as_ref().is_some_and(|l| l.bonded());
             let facing = model.body_of(spec.master.get_ref()).map_or(body, |b| &model.bodies[b]);
             let softer = Softer::of(model, (body, sides), (facing, model::sides(model, &spec.master)?));
             doubts.extend(penalty::doubts(&planned.name, &spec.enforcement, &softer));
-            doubts.extend(start_gaps::doubts(&start, (spec, bonded), (stages, scene.inertia().is_some()), h));
+            measured.0.overlap_traction = overlaps::traction(model, &measured, (spec, planned), &softer);
+            let start = &measured.0;
+            doubts.extend(start_gaps::doubts(start, (spec, bonded), (stages, scene.inertia().is_some()), h));
+            let load = cohesive::pressed(scene, model, stages, (&planned.name, spec));
+            doubts.extend(overlaps::doubt((start, spec, planned), (&softer, h), (stages, load)));
         }
         doubts.extend(coarse::doubts(&model.mesh.nodes, planned, spec));
         doubts.extend(first_order(&planned.name, spec));
-        starts.push(start);
+        starts.push(measured.0);
         doubts.extend(resolution(scene, model, stages, planned)?);
     }
     Ok((starts, doubts))

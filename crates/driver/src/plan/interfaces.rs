@@ -110,7 +110,7 @@ fn slave_points<const D: usize>(
         return Ok(nodes.map(|n| (n, 1.0)).collect());
     }
     let areas = model.tributary_areas(slave).map_err(|e| {
-        let help = "use an element with positive nodal areas, or `measure = \"mortar\"`";
+        let help = format!("{} first order or hex27 there", instead(spec, "use elements of"));
         Diagnostic::at(spec.slave.span(), e.to_string(), help)
     })?;
     let slave: Vec<(usize, f64)> = nodes.map(|n| (n, areas[&n])).collect();
@@ -122,10 +122,22 @@ fn slave_points<const D: usize>(
                 "the slave node at {} of interface `{name}` has no tributary area",
                 coordinates::in_words(&model.mesh.nodes[*node])
             ),
-            "elements of second order have none on the axis of revolution: use quad4 or tri3, or `measure = \"mortar\"`",
+            format!(
+                "elements of second order have none on the axis of revolution: {} quad4 or tri3",
+                instead(spec, "use")
+            ),
         ));
     }
     Ok(slave)
+}
+
+/// Mortar in the place of node-to-point where slave nodes need areas, and the beginning of the alternative to it.
+fn instead(spec: &InterfaceSpec, other: &str) -> String {
+    // In finite sliding, mortar has no faces of second order either.
+    let finite = *spec.sliding.get_ref() == Sliding::Finite;
+    let small = if finite { " with `sliding = \"small\"`" } else { "" };
+    let flat = if spec.smoothing.is_some() { " without `smoothing`" } else { "" };
+    format!("use `measure = \"mortar\"`{small}{flat}, or {other}")
 }
 
 /// Checks that the contact measure supports the faces of both sides.
@@ -163,7 +175,11 @@ fn check_faces<const D: usize>(
                 format!(
                     "finite sliding of a mortar interface needs faces of first order, but it has faces of {element}"
                 ),
-                "use elements of first order there, `sliding = \"small\"`, or `measure = \"node-to-point\"`",
+                if model.tributary_areas(slave).is_ok() {
+                    "use elements of first order there, `sliding = \"small\"`, or `measure = \"node-to-point\"`"
+                } else {
+                    "use elements of first order there (hex8 with `formulation = \"b-bar\"` does not lock), or `sliding = \"small\"`"
+                },
             ));
         }
     }

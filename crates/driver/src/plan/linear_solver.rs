@@ -5,6 +5,7 @@ use crate::diagnostic::Diagnostic;
 use crate::forecast;
 use crate::model::counts;
 use crate::scene::model::{Method as Asked, Scene, Spanned};
+use asperity_fem::FemError;
 use asperity_fem::assembly::{Lower, Symmetry};
 use asperity_fem::condense;
 use asperity_fem::dof::{Constraints, Equations};
@@ -82,7 +83,8 @@ impl<const D: usize> Choice<'_, D> {
             let analysis =
                 condense::Analysis::new(&[&pattern], dofs.len(), &local(retained, dofs), &local(fixed, dofs));
             let place = || self.scene.bodies[&body.name].material.span();
-            analyses.push(analysis.map_err(|e| Diagnostic::body(&body.name, place(), e.to_string()))?);
+            let refused = |e: FemError| self.or_full(Diagnostic::body(&body.name, place(), e.to_string()));
+            analyses.push(analysis.map_err(refused)?);
         }
         let bytes = analyses.iter().map(condense::Analysis::bytes).sum();
         Ok((Prepared::Bodies(analyses), bytes))
@@ -98,7 +100,8 @@ impl<const D: usize> Choice<'_, D> {
         let bytes = bodies + dense;
         if bytes > self.memory() {
             let what = format!("condensing the bodies onto {kept} degrees of freedom");
-            return Err(self.too_much(&what, bytes, false));
+            let refused = self.too_much(&what, bytes, false);
+            return Err(self.or_full(refused));
         }
         let why = match self.unsymmetric() {
             None => "bodies by Cholesky factors, the interface by dense Cholesky factors",
@@ -112,6 +115,16 @@ impl<const D: usize> Choice<'_, D> {
             operations: Some((kept as f64).powi(3) / if self.unsymmetric().is_some() { 1.5 } else { 3.0 }),
             why: format!("direct: {why}"),
         })
+    }
+
+    /// A refusal of the condensation that names the full system where that is solved.
+    fn or_full(&self, refused: Diagnostic) -> Diagnostic {
+        if self.full().is_err() {
+            return refused;
+        }
+        let full = "use `path = \"full\"` in `[time]`";
+        let help = refused.help.map_or_else(|| full.to_string(), |help| format!("{full}, or {help}"));
+        Diagnostic { help: Some(help), ..refused }
     }
 
     fn full(&self) -> Result<Solver, Diagnostic> {

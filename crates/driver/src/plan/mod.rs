@@ -12,6 +12,7 @@ mod friction;
 mod inertia;
 mod interfaces;
 mod linear_solver;
+mod overlaps;
 mod path;
 pub mod penalty;
 mod picture;

@@ -18,6 +18,9 @@ const ROUNDING: f64 = 1e-12;
 /// Distance by which two sides can approach, over the prescribed motion. Both sides may move, and a squeezed body bulges by less than it is squeezed.
 const REACH: f64 = 3.0;
 
+/// Initial gaps of an interface, with gap \[m\] and area of each facing point.
+pub type Measured = (StartGap, Vec<(f64, f64)>);
+
 /// Measures the initial gaps of an interface.
 ///
 /// # Errors
@@ -27,7 +30,7 @@ pub fn measure<const D: usize>(
     stepping: &Stepping,
     planned: &PlannedInterface,
     (spec, sides): (&Spec, &[Side]),
-) -> Result<StartGap, Diagnostic> {
+) -> Result<Measured, Diagnostic> {
     let number: Vec<usize> = (0..model.dofs()).collect();
     let mut declared = declared::spec(model, stepping, planned, &number, 0.0, 0);
     // Positions of the sides depend neither on the law nor on the enforcement.
@@ -50,16 +53,18 @@ pub fn measure<const D: usize>(
         area_unit: if model.idealisation.weight(&[0.0; D]) == 1.0 && D == 2 { "m" } else { "m^2" },
         ..StartGap::default()
     };
+    let mut facing = Vec::new();
     for (p, (node, _)) in planned.slave.iter().enumerate() {
         if points.gap[p].is_finite() && looks_at(&normals[node], points, p) {
             start.facing += 1;
+            facing.push((points.gap[p], points.area[p]));
             start.gap = [start.gap[0].min(points.gap[p]), start.gap[1].max(points.gap[p])];
             start.facing_area += points.area[p];
         }
     }
     let rounding = ROUNDING * model.scale;
     start.gap = start.gap.map(|g| if start.facing == 0 || g.abs() <= rounding { 0.0 } else { g });
-    refuse(model, planned, spec, &start, points).map_or(Ok(start), Err)
+    refuse(model, planned, spec, &start, points).map_or(Ok((start, facing)), Err)
 }
 
 /// True if the slave side at a point and the master face each other.
@@ -123,7 +128,7 @@ fn refuse<const D: usize>(
 }
 
 /// Extent of the bounding box of a body along a direction \[m\].
-fn thickness<const D: usize>(model: &Model<D>, body: usize, n: &[f64; D]) -> f64 {
+pub(super) fn thickness<const D: usize>(model: &Model<D>, body: usize, n: &[f64; D]) -> f64 {
     let (min, max) = bounds(&model.mesh.nodes[model.bodies[body].nodes.clone()]);
     (0..D).map(|c| n[c].abs() * (max[c] - min[c])).sum()
 }

@@ -104,7 +104,7 @@ impl<const D: usize> Block<D> {
     pub fn prestress_field(&mut self, stress: impl Fn(&[f64; D]) -> Voigt) -> Result<(), ModelError> {
         let body = &self.body;
         let at = |cell: usize, point: usize| {
-            let mut x = [0.0; D];
+            let mut x = body.origin;
             let shapes = body.frame.n.chunks_exact(body.frame.nodes).nth(point).unwrap_or_default();
             for (&node, n) in body.cells.cell(cell).iter().zip(shapes) {
                 x.iter_mut().zip(&body.reference[node]).for_each(|(x, p)| *x += n * p);

@@ -6,6 +6,7 @@ use super::model::{Kinematics, Material, Model, ModelError};
 use crate::error::FemError;
 use crate::kinematics::Idealisation;
 use crate::mesh::{Cells, Mesh};
+use crate::origin;
 use crate::term::Pattern;
 use rayon::prelude::*;
 
@@ -21,8 +22,10 @@ pub struct Body<const D: usize> {
     pub cells: Cells,
     /// Node of the mesh of each local node, ascending.
     pub nodes: Vec<usize>,
-    /// Reference positions of the local nodes \[m\].
+    /// Reference positions of the local nodes, relative to `origin` \[m\].
     pub reference: Vec<[f64; D]>,
+    /// Point near the nodes \[m\]; its first coordinate is zero if that is a radius.
+    pub origin: [f64; D],
     /// Reference volume of each point \[m^D; m³ over the full circle if axisymmetric\].
     pub volumes: Vec<f64>,
     /// Data common to all cells.
@@ -88,13 +91,19 @@ impl<const D: usize> Body<D> {
                     .collect()
             })
             .collect();
+        let mut origin = origin::near(nodes.iter().map(|&n| &mesh.nodes[n]));
+        if frame.axisymmetric {
+            origin[0] = 0.0;
+        }
+        let relative = |&n: &usize| std::array::from_fn(|c| mesh.nodes[n][c] - origin[c]);
         let mut body = Self {
             block,
             cells: Cells {
                 kind: global.kind,
                 connectivity: global.connectivity.iter().map(|&n| local[n]).collect(),
             },
-            reference: nodes.iter().map(|&n| mesh.nodes[n]).collect(),
+            reference: nodes.iter().map(relative).collect(),
+            origin,
             volumes: Vec::new(),
             pattern: Pattern::of_blocks(dofs.iter().map(Vec::as_slice)),
             nodes,
@@ -138,7 +147,8 @@ impl<const D: usize> Body<D> {
     /// Mean position of the nodes of a cell in the reference configuration \[m\].
     pub fn middle(&self, cell: usize) -> [f64; D] {
         let nodes = self.cells.cell(cell);
-        std::array::from_fn(|c| nodes.iter().map(|&n| self.reference[n][c]).sum::<f64>() / nodes.len() as f64)
+        let mean = |c: usize| nodes.iter().map(|&n| self.reference[n][c]).sum::<f64>() / nodes.len() as f64;
+        std::array::from_fn(|c| self.origin[c] + mean(c))
     }
 
     /// Reference volumes of the points of a cell.

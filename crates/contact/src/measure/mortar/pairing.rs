@@ -25,7 +25,9 @@ impl<const D: usize> Finite<D> {
         *examined += found.iter().map(|f| f.examined).sum::<u64>();
         self.bound.prove(&self.x, found.iter().fold(f64::INFINITY, |least, f| least.min(f.free)));
         let pairs = || found.iter().flat_map(|f| f.pairs.iter().copied());
-        if !pairs().eq(self.cells.iter().map(|c| (c.facet, c.master))) {
+        // Sides that do not face each other have no pairs at first, but blocks all the same.
+        let tabulated = !self.first.is_empty();
+        if !(tabulated && pairs().eq(self.cells.iter().map(|c| (c.facet, c.master)))) {
             self.rebuild(&pairs().collect::<Vec<_>>());
         }
         self.found = found;

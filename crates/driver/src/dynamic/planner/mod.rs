@@ -17,7 +17,7 @@ use crate::forecast;
 use crate::held::Held;
 use crate::loading;
 use crate::model::checks::field_bytes;
-use crate::model::{self, Model, counts, meshes};
+use crate::model::{self, Model, counts, locking, meshes};
 use crate::plan::courses;
 use crate::scene::model::{Kinematics, Scene};
 use crate::views;
@@ -56,6 +56,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     let model = model::build::<D>(scene)?;
     let stages = loading::stages(scene, &model)?;
     let mut warnings = scene.warnings.clone();
+    warnings.extend(locking::doubts(scene, &model)?);
     let mut notes = meshes::notes(scene)?;
     let density = masses::densities(scene, &model)?;
     let viscosity = steps::viscosity(scene);

@@ -59,7 +59,7 @@ use crate::forecast;
 use crate::held::Held;
 use crate::loading::{self, Stage};
 use crate::model::checks::machines;
-use crate::model::{self, Model, meshes};
+use crate::model::{self, Model, locking, meshes};
 use crate::scene::model::{Creep, Fault as Spec, Kinematics, Scene};
 use crate::setup::Setups;
 use crate::warning::Warning;
@@ -202,6 +202,7 @@ fn between_bodies<const D: usize>(
     let stages = loading::stages(scene, &model)?;
     let (pressing, stage) = parted(&stages).ok_or_else(|| asked::stages(scene))?;
     let mut warnings = scene.warnings.clone();
+    warnings.extend(locking::doubts(scene, &model)?);
     let (placed, mut notes) = all_points(scene, &model, &mut warnings)?;
     let points: Vec<Point<D>> = placed.iter().map(|p| p.point.clone()).collect();
     let named: Vec<(&String, &Spec)> = scene.faults.iter().collect();

@@ -3,11 +3,22 @@
 use super::binary::{Source, Storage};
 use super::error::VtuError;
 use super::xml::{Document, Element};
+use std::cell::Cell;
+
+/// Bytes of unpacked numbers over those of their packed form up to which a file is taken at its word. Positions and fields seldom
+/// reach 20; zlib reaches 1032, with which a file of some megabytes announces gigabytes of zeros.
+const RATIO: usize = 100;
+
+/// Bytes of unpacked numbers beyond [`RATIO`] that a file may have in all its arrays: eight million zeros, such as a field that
+/// vanishes on a large mesh.
+const SPARE: usize = 64 << 20;
 
 /// Reader of the arrays of a file.
 pub(super) struct Arrays<'a> {
     pub document: &'a Document<'a>,
     storage: Storage,
+    /// What is left of [`SPARE`].
+    spare: Cell<usize>,
 }
 
 impl<'a> Arrays<'a> {
@@ -30,7 +41,8 @@ impl<'a> Arrays<'a> {
         if !matches!(compressor.as_str(), "" | "vtkZLibDataCompressor") {
             return refuse("compressor", compressor, "`vtkZLibDataCompressor`");
         }
-        Ok(Self { document, storage: Storage { little, header, compressed: !compressor.is_empty() } })
+        let storage = Storage { little, header, compressed: !compressor.is_empty() };
+        Ok(Self { document, storage, spare: Cell::new(SPARE) })
     }
 
     /// Numbers of an array.
@@ -68,8 +80,21 @@ impl<'a> Arrays<'a> {
         Ok(if self.document.in_base64 { Source::Base64(rest, Vec::new()) } else { Source::Raw(rest) })
     }
 
+    /// Refuses numbers that take far more memory than their packed form makes likely, before they take it.
+    fn admit(&self, count: usize, packed: usize) -> Result<(), String> {
+        let needed = count.saturating_mul(size_of::<f64>());
+        let beyond = needed.saturating_sub(packed.saturating_mul(RATIO));
+        let Some(left) = self.spare.get().checked_sub(beyond) else {
+            return Err(format!(
+                "it announces {count} values in {packed} bytes, more than {RATIO} to one, as damaged files do"
+            ));
+        };
+        self.spare.set(left);
+        Ok(())
+    }
+
     fn unpacked(&self, source: Source<'_>, (size, number, wanted): Layout) -> Result<Vec<f64>, String> {
-        let bytes = self.storage.bytes(source, wanted)?;
+        let bytes = self.storage.bytes(source, wanted, |packed| self.admit(wanted / size, packed))?;
         let little = |chunk: &[u8]| {
             let mut padded = [0; 8];
             padded[..chunk.len()].copy_from_slice(chunk);

@@ -24,8 +24,13 @@ impl Storage {
         usize::try_from(u64::from_le_bytes(wide)).map_err(|_| ENDS.to_string())
     }
 
-    /// The `wanted` bytes of an array.
-    pub fn bytes(self, mut source: Source<'_>, wanted: usize) -> Result<Vec<u8>, String> {
+    /// The `wanted` bytes of an array. Those that are compressed are unpacked if `admit` allows it for their packed size.
+    pub fn bytes(
+        self,
+        mut source: Source<'_>,
+        wanted: usize,
+        admit: impl FnOnce(usize) -> Result<(), String>,
+    ) -> Result<Vec<u8>, String> {
         if !self.compressed {
             let all = source.take(self.header.checked_add(wanted).ok_or(ENDS)?)?;
             let stated = self.count(&all[..self.header])?;
@@ -39,8 +44,12 @@ impl Storage {
         let length = blocks.checked_add(3).and_then(|n| n.checked_mul(self.header)).ok_or(ENDS)?;
         let head = source.take(length)?;
         source.turn();
+        let sizes = head[3 * self.header..].chunks(self.header);
+        let add =
+            |all: usize, size: &[u8]| all.checked_add(self.count(size)?).ok_or_else(|| ENDS.to_string());
+        admit(sizes.clone().try_fold(0, add)?)?;
         let mut out = Vec::new();
-        for block in head[3 * self.header..].chunks(self.header) {
+        for block in sizes {
             let packed = source.take(self.count(block)?)?;
             // One byte more than wanted shows that there are too many.
             let room = wanted.saturating_add(1).saturating_sub(out.len()) as u64;
