@@ -31,30 +31,108 @@ pub struct Difference {
     pub relative: f64,
     /// Row of the largest difference, from 1.
     pub row: usize,
+    /// True if the entries are numbers of things or names, which no tolerance applies to.
+    pub exact: bool,
+}
+
+impl Difference {
+    /// True if the difference is within a tolerance.
+    #[must_use]
+    pub fn within(&self, tolerance: f64) -> bool {
+        !self.exact && self.relative <= tolerance
+    }
+}
+
+/// Columns that number things or name a state of them. Between two rows they have no value.
+const NUMBERS: [&str; 7] =
+    ["stage", "step", "node", "point", "snapshot", "status [0 open 1 stick 2 slip]", "paired [0 no 1 yes]"];
+/// The column that counts steps: at other times it says nothing about the result.
+const COUNT: &str = "step";
+
+/// What two tables have in common.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Overlap {
+    /// Rows compared.
+    pub rows: usize,
+    /// Rows of the longer table.
+    pub of: usize,
+    /// Time that both cover over the time that either covers \[-\]; 1 for tables without times.
+    pub share: f64,
+    /// Time that one lacks at its start or end, over the time that either covers \[-\]. Where steps are adaptive the end of a run may
+    /// lie up to an interval between rows after the last row, which is not counted.
+    pub lacking: f64,
+    /// True if the rows of the first were interpolated to the times of the second.
+    pub interpolated: bool,
+}
+
+/// Share of the rows of the longer table that is compared at least: with fewer, most of what it holds has nothing beside it.
+const ROWS: f64 = 0.5;
+
+impl Overlap {
+    /// True if enough was compared to judge the tables: all of the time but a tolerance, and not only a few of many rows.
+    #[must_use]
+    pub fn suffices(&self, tolerance: f64) -> bool {
+        self.of == 0 || (self.rows as f64 >= ROWS * self.of as f64 && self.lacking <= tolerance)
+    }
 }
 
 /// Result of a comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Compared {
-    /// Columns that differ; empty for equal tables. True if the rows of the first were interpolated to the times of the second.
-    Columns(Vec<Difference>, bool),
+    /// Columns that differ, empty for equal tables, and what was compared.
+    Columns(Vec<Difference>, Overlap),
     /// Tables that cannot be compared, with the reason.
     Other(String),
 }
 
 impl Table {
-    /// Reads a table in CSV.
+    /// Reads a table: in CSV, or of columns between blanks, which need no head.
     ///
     /// # Errors
     /// The first line that is not a row of the table.
     pub fn read(bytes: &[u8]) -> Result<Self, String> {
+        let first = bytes.split(|byte| *byte == b'\n').find(|line| !is_remark(line)).unwrap_or_default();
+        if first.contains(&b',') || !first.trim_ascii().contains(&b' ') {
+            Self::csv(bytes)
+        } else {
+            Self::blanks(bytes)
+        }
+    }
+
+    fn csv(bytes: &[u8]) -> Result<Self, String> {
         let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(bytes);
-        let names: Vec<String> =
-            reader.headers().map_err(|error| error.to_string())?.iter().map(str::to_string).collect();
+        let names = reader.headers().map_err(|error| error.to_string())?.iter().map(str::to_string).collect();
+        let records = reader.records().map(|record| {
+            let record = record.map_err(|error| error.to_string())?;
+            Ok(record.iter().map(|entry| entry.trim().to_string()).collect())
+        });
+        Self::of(names, records)
+    }
+
+    fn blanks(bytes: &[u8]) -> Result<Self, String> {
+        let text = std::str::from_utf8(bytes).map_err(|error| error.to_string())?;
+        let cells = |line: &str| line.split_whitespace().map(str::to_string).collect::<Vec<_>>();
+        let mut lines = text.lines().enumerate().filter(|(_, line)| !is_remark(line.as_bytes())).peekable();
+        let first = lines.peek().map(|(_, line)| cells(line)).unwrap_or_default();
+        let headed = first.iter().any(|name| name.parse::<f64>().is_err());
+        let width = first.len();
+        let names = if headed { first } else { (1..=width).map(|k| format!("column {k}")).collect() };
+        let rows = lines.skip(usize::from(headed)).map(|(number, line)| {
+            let row = cells(line);
+            let wrong = || format!("line {} has {} entries, the first row {width}", number + 1, row.len());
+            if row.len() == width { Ok(row) } else { Err(wrong()) }
+        });
+        Self::of(names, rows)
+    }
+
+    fn of(
+        names: Vec<String>,
+        rows: impl Iterator<Item = Result<Vec<String>, String>>,
+    ) -> Result<Self, String> {
         let mut texts = vec![Vec::new(); names.len()];
-        for record in reader.records() {
-            for (column, entry) in texts.iter_mut().zip(&record.map_err(|error| error.to_string())?) {
-                column.push(entry.trim().to_string());
+        for row in rows {
+            for (column, entry) in texts.iter_mut().zip(row?) {
+                column.push(entry);
             }
         }
         let rows = texts.first().map_or(0, Vec::len);
@@ -64,10 +142,21 @@ impl Table {
     /// Times of the rows, if the first column has them in order.
     fn times(&self) -> Option<&[f64]> {
         match (self.names.first()?, self.columns.first()?) {
-            (name, Column::Numbers(times)) if name.starts_with("time") && times.is_sorted() => Some(times),
+            (name, Column::Numbers(times)) if is_time(name) && times.is_sorted() => Some(times),
             _ => None,
         }
     }
+}
+
+/// True for a line that is empty or a comment, in CSV and stations or in models of finite faults.
+fn is_remark(line: &[u8]) -> bool {
+    let line = line.trim_ascii();
+    line.is_empty() || line.starts_with(b"#") || line.starts_with(b"%")
+}
+
+/// True for the name of a column of times; stations have `t`.
+fn is_time(name: &str) -> bool {
+    name == "t" || name.starts_with("time")
 }
 
 impl Column {
@@ -83,52 +172,114 @@ pub fn compare(a: &Table, b: &Table) -> Compared {
     if a.names != b.names {
         return Compared::Other("their columns differ".into());
     }
-    let same_times = a.rows == b.rows && a.times() == b.times();
-    match (same_times, a.times(), b.times()) {
-        (true, _, _) => Compared::Columns(differences(a, b, |column, row| column.get(row).copied()), false),
-        (false, Some(from), Some(to)) => {
-            let at = |column: &[f64], row: usize| interpolated(from, column, to[row]);
-            Compared::Columns(differences(a, b, at), true)
+    let same = a.rows == b.rows && a.times() == b.times();
+    let places: Vec<Option<Place>> = match (same, a.times(), b.times()) {
+        (true, _, _) => (0..a.rows).map(|row| Some(Place::at(row))).collect(),
+        (false, Some(from), Some(to)) => (0..b.rows).map(|row| Place::of(from, to, row)).collect(),
+        _ => return Compared::Other(format!("they have {} and {} rows", a.rows, b.rows)),
+    };
+    let rows = places.iter().flatten().count();
+    let [share, lacking] =
+        if same { [1.0, 0.0] } else { shared(a.times().unwrap_or(&[]), b.times().unwrap_or(&[])) };
+    let overlap = Overlap { rows, of: a.rows.max(b.rows), share, lacking, interpolated: !same };
+    Compared::Columns(differences(a, b, &places, same), overlap)
+}
+
+/// Time that both cover, and time that one lacks, over the time that either covers.
+fn shared(a: &[f64], b: &[f64]) -> [f64; 2] {
+    let (&[a0, .., a1], &[b0, .., b1]) = (a, b) else { return [0.0, 1.0] };
+    let (either, both) = (a1.max(b1) - a0.min(b0), a1.min(b1) - a0.max(b0));
+    if both <= 0.0 {
+        return [0.0, 1.0];
+    }
+    // Rows at the same times lie where they were asked for: then each missing row is missing.
+    let (few, many) = if a.len() < b.len() { (a, b) } else { (b, a) };
+    let same_times = few.iter().all(|time| many.binary_search_by(|t| t.total_cmp(time)).is_ok());
+    let late = |times: &[f64]| if same_times { 0.0 } else { times[1] - times[0] };
+    let early =
+        |times: &[f64]| if same_times { 0.0 } else { times[times.len() - 1] - times[times.len() - 2] };
+    let before = (a0 - b0).abs() - late(if a0 > b0 { a } else { b });
+    let after = (a1 - b1).abs() - early(if a1 < b1 { a } else { b });
+    [both / either, (before.max(0.0) + after.max(0.0)) / either]
+}
+
+/// Rows of the first table that a row of the second is compared with: two rows, and where the time is between them, from 0 to 1.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    rows: [usize; 2],
+    between: f64,
+}
+
+impl Place {
+    fn at(row: usize) -> Self {
+        Self { rows: [row, row], between: 0.0 }
+    }
+
+    /// Place of a row of the second table; `None` outside the times of the first. Where both have several rows at a time, as where
+    /// something jumps, the first belongs to the first, and so on.
+    fn of(from: &[f64], to: &[f64], row: usize) -> Option<Self> {
+        let time = to[row];
+        let after = from.partition_point(|t| *t < time);
+        let equal = from.partition_point(|t| *t <= time) - after;
+        if equal > 0 {
+            let before = row - to.partition_point(|t| *t < time);
+            return Some(Self::at(after + before.min(equal - 1)));
         }
-        _ => Compared::Other(format!("they have {} and {} rows", a.rows, b.rows)),
+        let before = after.checked_sub(1)?;
+        let (start, end) = (from[before], *from.get(after)?);
+        Some(Self { rows: [before, after], between: (time - start) / (end - start) })
+    }
+
+    /// Value by linear interpolation.
+    fn value(&self, values: &[f64]) -> f64 {
+        let [first, second] = self.rows.map(|row| values[row]);
+        if self.between == 0.0 { first } else { first + (second - first) * self.between }
     }
 }
 
-/// Value at a time by linear interpolation; `None` outside the times.
-fn interpolated(times: &[f64], values: &[f64], at: f64) -> Option<f64> {
-    let after = times.partition_point(|time| *time < at);
-    let (time, value) = (*times.get(after)?, values[after]);
-    if time == at || after == 0 {
-        return (time == at).then_some(value);
-    }
-    let (before, first) = (times[after - 1], values[after - 1]);
-    Some(first + (value - first) * (at - before) / (time - before))
-}
-
-/// Columns that differ, with the value of a column of the first table in a row of the second.
-fn differences(a: &Table, b: &Table, value: impl Fn(&[f64], usize) -> Option<f64>) -> Vec<Difference> {
+/// Columns that differ, with the rows of the first table beside those of the second.
+fn differences(a: &Table, b: &Table, places: &[Option<Place>], same: bool) -> Vec<Difference> {
     let columns = a.names.iter().zip(a.columns.iter().zip(&b.columns));
     let difference = |(name, pair): (&String, (&Column, &Column))| match pair {
-        (Column::Numbers(a), Column::Numbers(b)) => {
-            let each = b.iter().enumerate().filter_map(|(row, b)| Some((row, apart(value(a, row)?, *b))));
-            let (row, largest) = each.reduce(|most, next| if next.1 > most.1 { next } else { most })?;
-            let size = a.iter().chain(b).filter(|v| v.is_finite()).fold(0.0_f64, |most, v| most.max(v.abs()));
-            let relative = if largest > 0.0 { largest / size } else { 0.0 };
-            Some(Difference { name: name.clone(), largest, relative, row: row + 1 })
+        (Column::Numbers(a), Column::Numbers(b)) if NUMBERS.contains(&name.as_str()) => {
+            let counted = same || name != COUNT;
+            named(name, places.iter().filter(|_| counted), a, b)
         }
-        (Column::Texts(a), Column::Texts(b)) if a.len() == b.len() => {
-            let row = a.iter().zip(b).position(|(a, b)| a != b)?;
-            Some(Difference {
-                name: name.clone(),
-                largest: f64::INFINITY,
-                relative: f64::INFINITY,
-                row: row + 1,
-            })
-        }
-        (Column::Texts(_), Column::Texts(_)) => None,
-        _ => Some(Difference { name: name.clone(), largest: f64::INFINITY, relative: f64::INFINITY, row: 1 }),
+        (Column::Numbers(a), Column::Numbers(b)) => measured(name, places, a, b),
+        (Column::Texts(a), Column::Texts(b)) => named(name, places.iter(), a, b),
+        _ => Some(other(name, 0)),
     };
-    columns.filter_map(difference).filter(|difference| difference.largest > 0.0).collect()
+    columns.filter_map(difference).collect()
+}
+
+/// Difference of measured values, if there is one.
+fn measured(name: &str, places: &[Option<Place>], a: &[f64], b: &[f64]) -> Option<Difference> {
+    let pairs = places.iter().zip(b).enumerate();
+    let each = pairs.filter_map(|(row, (place, b))| Some((row, apart(place.as_ref()?.value(a), *b))));
+    let (row, largest) = each.reduce(|most, next| if next.1 > most.1 { next } else { most })?;
+    let size = a.iter().chain(b).filter(|v| v.is_finite()).fold(0.0_f64, |most, v| most.max(v.abs()));
+    let difference =
+        || Difference { name: name.into(), largest, relative: largest / size, row: row + 1, exact: false };
+    (largest > 0.0).then(difference)
+}
+
+/// Difference of entries that are equal or not, if there is one. Between two rows the entry is that of either.
+fn named<'a, T: PartialEq>(
+    name: &str,
+    places: impl Iterator<Item = &'a Option<Place>>,
+    a: &[T],
+    b: &[T],
+) -> Option<Difference> {
+    let differs = |(place, b): (&Option<Place>, &T)| {
+        place.as_ref().is_some_and(|place| place.rows.iter().all(|row| a[*row] != *b))
+    };
+    places.zip(b).position(differs).map(|row| other(name, row))
+}
+
+/// Difference of entries that no number measures, in a row from 0.
+fn other(name: &str, row: usize) -> Difference {
+    let beyond = f64::INFINITY;
+    Difference { name: name.into(), largest: beyond, relative: beyond, row: row + 1, exact: true }
 }
 
 /// Distance of two numbers; zero for two that are not numbers.

@@ -2,6 +2,7 @@
 
 mod jumps;
 mod shared;
+mod stiff;
 
 use crate::diagnostic::Diagnostic;
 use crate::initial_stress;
@@ -48,6 +49,7 @@ pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Sta
         let before = held.clone();
         for condition in &spec.conditions {
             take_up(model, condition, (&mut held, &mut shared), &mut loads)?;
+            stiff::refuse(model, condition)?;
         }
         if !presses {
             jumps::of_stage(scene, spec, (&before, &present), &loads)?;

@@ -1,6 +1,8 @@
 //! The scene language with the friction laws of this program.
 
-pub use asperity_scene::{Entry, check, files, keys, law, model, names, near, settings, slider, units};
+pub use asperity_scene::{
+    Entry, check, files, keys, law, model, names, near, settings, slider, units, unprintable,
+};
 
 use crate::columns::file::columns_of;
 use crate::diagnostic::Diagnostics;

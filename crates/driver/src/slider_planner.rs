@@ -14,6 +14,7 @@ use crate::scene::slider::{self, SliderScene};
 use crate::slider::Plan;
 use asperity_cycles::slider::{Problem, Rows};
 use asperity_friction::slider::{History, Slider, System};
+use settings::unresolved;
 use std::ops::Range;
 use std::path::Path;
 
@@ -112,6 +113,7 @@ impl Planner {
         let theta = |law| laws::choose_sliding(law).ok().and_then(|law| Theta::of(&law));
         plan.thetas = scene.sliders.values().map(|spec| theta(&spec.get_ref().law)).collect();
         self.runaways(scene, &mut plan);
+        unresolved(scene, &mut plan);
         Some(plan)
     }
 

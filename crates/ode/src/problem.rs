@@ -120,6 +120,15 @@ impl System<'_> {
         (sum / error.len() as f64).sqrt()
     }
 
+    /// Root mean square of the rounding of two states over the tolerance: where it is near one, the tolerance is not resolved.
+    pub fn rounding(&self, y0: &[f64], y1: &[f64]) -> f64 {
+        let squares = y0.iter().zip(y1).zip(self.atol).map(|((a, b), atol)| {
+            let size = larger(a.abs(), b.abs());
+            (f64::EPSILON * size / (atol + self.rtol * size)).powi(2)
+        });
+        (squares.sum::<f64>() / y0.len() as f64).sqrt()
+    }
+
     /// The first step where nothing is known of the solution, for a method of order `order` from `y` with rates `f`, at most
     /// `most` \[s\]: E. Hairer, S. P. Norsett, G. Wanner, "Solving Ordinary Differential Equations I", 2nd ed. (1993), section
     /// II.4.

@@ -111,6 +111,17 @@ impl Recorder {
         Ok(())
     }
 
+    /// Keeps the last state of a stage.
+    fn end_stage(&mut self, view: &StepView<'_>) {
+        self.stage_ends.push(StageEnd {
+            stage: view.record.stage,
+            name: view.stage.to_string(),
+            time: view.record.time,
+            interfaces: view.interfaces.to_vec(),
+            bodies: self.with_bodies.then(|| (view.fields)()),
+        });
+    }
+
     /// Announcement of the run before its first step.
     #[must_use]
     pub fn setup(&self) -> &Setup {
@@ -208,13 +219,15 @@ impl Writer for Recorder {
             }
         }
         if view.ends_stage {
-            self.stage_ends.push(StageEnd {
-                stage: view.record.stage,
-                name: view.stage.to_string(),
-                time: view.record.time,
-                interfaces: view.interfaces.to_vec(),
-                bodies: self.with_bodies.then(|| (view.fields)()),
-            });
+            self.end_stage(view);
+        }
+        Ok(())
+    }
+
+    /// Keeps the last state of a stage in which the run stops.
+    fn end(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
+        if self.stage_ends.last().is_none_or(|end| end.stage != view.record.stage) {
+            self.end_stage(view);
         }
         Ok(())
     }

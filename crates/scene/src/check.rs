@@ -61,6 +61,9 @@ pub fn check(scene: &Scene, laws: &Laws) -> (Vec<Diagnostic>, Vec<Warning>) {
     (errors, warnings)
 }
 
+/// Longest name \[bytes\]. File systems have room for 255, of which the longest ends take some 40.
+const LONGEST_NAME: usize = 100;
+
 /// Names of the axes.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -132,6 +135,12 @@ impl Checker<'_> {
 
     /// Checks a name. Names become parts of set names and of file names.
     fn name(&mut self, what: &str, name: &str, place: Range<usize>) {
+        if name.len() > LONGEST_NAME {
+            let message = format!("the name of {what} has {} bytes", name.len());
+            let help =
+                format!("at most {LONGEST_NAME}: it is part of names of files, which have at most 255");
+            self.error(place.clone(), message, help);
+        }
         if name.is_empty() || !name.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-') {
             self.error(
                 place,

@@ -23,6 +23,7 @@ pub mod slider;
 mod spanned;
 mod title;
 pub mod units;
+pub mod unprintable;
 pub mod warning;
 
 pub use entry::Entry;
@@ -43,6 +44,9 @@ pub fn read(
     laws: &Laws,
     columns: &mut files::Columns<'_>,
 ) -> Result<Scene, Diagnostics> {
+    if let Some(error) = unprintable::find(text) {
+        return Err(Diagnostics(vec![error]));
+    }
     let mut scene: Scene = toml::from_str(text).map_err(|e| Diagnostics(vec![explain::explain(&e, text)]))?;
     scene.folder = folder.to_path_buf();
     files::fill(&mut scene, columns).map_err(|error| Diagnostics(vec![error]))?;

@@ -10,7 +10,7 @@ pub use spec::{Load, OutputSpec, SliderScene, SliderSpec, SliderTime, SpringSpec
 
 use super::files::{self, Columns};
 use super::model::Spanned;
-use super::{explain, near};
+use super::{explain, near, unprintable};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use serde::Deserialize;
 
@@ -79,6 +79,9 @@ pub fn read_with(text: &str, columns: &mut Columns<'_>) -> Result<SliderScene, D
 /// The first error of the reader.
 pub fn read(text: &str) -> Result<SliderScene, Diagnostics> {
     if let Some(error) = toml::from_str::<Head>(text).ok().and_then(|head| head.error()) {
+        return Err(Diagnostics(vec![error]));
+    }
+    if let Some(error) = unprintable::find(text) {
         return Err(Diagnostics(vec![error]));
     }
     toml::from_str(text).map_err(|e| Diagnostics(vec![explain::explain(&e, text)]))

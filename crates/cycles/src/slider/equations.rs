@@ -2,7 +2,7 @@
 
 use super::problem::Problem;
 use asperity_friction::evolution::Speed;
-use asperity_friction::slider::Segment;
+use asperity_friction::slider::{Condition, Segment};
 use asperity_ode::{self as ode, Clock};
 use std::cell::RefCell;
 
@@ -69,6 +69,11 @@ impl<'a> Piece<'a> {
 }
 
 impl Piece<'_> {
+    /// Conditions of all sliders at a time \[s\].
+    pub fn conditions(&self, time: f64, unknowns: &[f64]) -> Vec<Condition> {
+        (0..self.problem.names.len()).map(|i| self.segment.condition(i, time, unknowns)).collect()
+    }
+
     /// ln(\|V\|/threshold) of a slip rate.
     fn against(&self, kind: EventKind, speed: Speed) -> f64 {
         let (way, threshold) = match (kind, self.problem.events) {
@@ -78,6 +83,31 @@ impl Piece<'_> {
             _ => return AT_REST,
         };
         if way.is_of(speed.rate) { (speed.log - threshold.ln()).max(AT_REST) } else { AT_REST }
+    }
+}
+
+/// The same equations without events.
+pub(super) struct Uneventful<'a>(pub &'a Piece<'a>);
+
+impl ode::Problem for Uneventful<'_> {
+    fn size(&self) -> usize {
+        self.0.size()
+    }
+
+    fn rates(&self, at: Clock, y: &[f64], dy: &mut [f64]) {
+        self.0.rates(at, y, dy);
+    }
+
+    fn jacobian(&self, at: Clock, y: &[f64], jac: &mut [f64]) {
+        self.0.jacobian(at, y, jac);
+    }
+
+    fn places(&self) -> Option<Vec<(usize, usize)>> {
+        self.0.places()
+    }
+
+    fn entries(&self, at: Clock, y: &[f64], values: &mut [f64]) {
+        self.0.entries(at, y, values);
     }
 }
 

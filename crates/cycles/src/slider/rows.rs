@@ -30,6 +30,11 @@ impl Rows {
     pub fn writes(&self, slider: usize) -> bool {
         self.histories.as_ref().is_none_or(|list| list.contains(&slider))
     }
+
+    /// True if a row is requested at a time \[s\].
+    pub(super) fn ask_for(&self, time: f64) -> bool {
+        self.times.contains(&time) || self.interval.is_some_and(|dt| (time / dt).round() * dt == time)
+    }
 }
 
 /// Requested times in sequence.

@@ -4,7 +4,7 @@
 //! A run resumed at a restart therefore takes the same steps, bit for bit, as an uninterrupted one.
 
 use super::budget::Budget;
-use super::equations::{EventKind, Piece, kinds};
+use super::equations::{EventKind, Piece, Uneventful, kinds};
 use super::problem::Problem;
 use super::rows::Due;
 use super::slide::{self, Detectors, Edge, Slide};
@@ -13,7 +13,7 @@ use crate::medium::{Slips, Travelled};
 use crate::run::{NextStep, Run};
 use asperity_friction::slider::{Condition, Slider};
 use asperity_ode::{
-    Clock, Control, Failure, Kind, Method, ObserveError, Observer, Occurrence, Outcome, Sink, Step,
+    Clock, Control, Failure, Kind, Method, ObserveError, Observer, Occurrence, Options, Outcome, Sink, Step,
 };
 use serde::{Deserialize, Serialize};
 
@@ -131,16 +131,19 @@ pub fn resume(
     while state.run.progress.passed + 1 < breaks.len() {
         let k = state.run.progress.passed;
         let present = piece(k);
+        let mut jumped = false;
         if state.run.next_step.is_none() {
             if k > 0 {
                 let before = piece(k - 1);
                 let unknowns = &mut state.run.unknowns;
+                let earlier = before.conditions(breaks[k], unknowns);
                 problem.system.jump(breaks[k], &before.segment, &present.segment, unknowns)?;
+                jumped = differ(&earlier, &present.conditions(breaks[k], unknowns));
             }
             slips.enter(state.run.at);
             state.run.progress.travelled = slips.travelled().clone();
         }
-        if !state.through(&present, &slips, breaks[k + 1]) {
+        if !state.through(&present, &slips, breaks[k + 1], jumped) {
             state.run.progress.hint = why(problem, &present, &state.run);
             break;
         }
@@ -154,6 +157,18 @@ pub fn resume(
         Some(failure) => Err(RunError::Observe(failure)),
         None => Ok(state.run),
     }
+}
+
+/// Relative difference of two values that is no rounding of histories evaluated from both sides of a time.
+const JUMP: f64 = 1e-9;
+
+/// True if slip rates or tractions differ.
+fn differ(before: &[Condition], after: &[Condition]) -> bool {
+    let differ = |a: f64, b: f64| (a - b).abs() > JUMP * a.abs().max(b.abs());
+    before
+        .iter()
+        .zip(after)
+        .any(|(a, b)| differ(a.rate, b.rate) || differ(a.traction, b.traction) || differ(a.normal, b.normal))
 }
 
 /// Possible reason for the failure of a run, in terms of the scene.
@@ -230,8 +245,9 @@ impl<'a> Following<'a> {
         Self { problem, observer, run, failure: None, ended: false, steps: 0, senseless: None }
     }
 
-    /// Integrates a piece from restart to restart. Returns true if it reached its end.
-    fn through(&mut self, piece: &Piece<'_>, slips: &Slips, end: f64) -> bool {
+    /// Integrates a piece from restart to restart; `jumped` is true if what rows show jumps at its start. Returns true if it reached
+    /// its end.
+    fn through(&mut self, piece: &Piece<'_>, slips: &Slips, end: f64, jumped: bool) -> bool {
         let (mut options, earlier) = (self.problem.options(), self.run.counts.steps);
         loop {
             let (at, unknowns) = (self.run.at, self.run.unknowns.clone());
@@ -242,7 +258,7 @@ impl<'a> Following<'a> {
                 Some(NextStep { length, stiff }) => {
                     (options.first_step, options.begin_stiff) = (length, stiff);
                 }
-                None => sink.begin(at, &unknowns),
+                None => sink.begin(at, &unknowns, jumped),
             }
             if sink.state.failure.is_some() {
                 return false;
@@ -305,9 +321,11 @@ struct Running<'a, 'b> {
 }
 
 impl Running<'_, '_> {
-    /// Observes the first state, or the state after a jump.
-    fn begin(&mut self, at: Clock, unknowns: &[f64]) {
-        let asked = self.state.run.progress.due.next(&self.state.problem.output, at.seconds()).is_some();
+    /// Observes the first state, or the state after a jump. A row requested at the time of a jump shows the state before it, and
+    /// another one that after it.
+    fn begin(&mut self, at: Clock, unknowns: &[f64], jumped: bool) {
+        let (rows, time) = (&self.state.problem.output, at.seconds());
+        let asked = self.state.run.progress.due.next(rows, time).is_some() || jumped && rows.ask_for(time);
         self.show(at, 0.0, unknowns, asked);
         self.sees(at, unknowns);
         let Some(thresholds) = self.state.problem.events else { return };
@@ -391,9 +409,26 @@ impl Running<'_, '_> {
             }
             let place = samples.partition_point(|s| s.fraction < fraction);
             let sample = self.sample(step, fraction.max(0.0));
-            samples.insert(place, Sample { asked: Some(at), ..sample });
+            let unknowns = self.stepped(step, at).unwrap_or(sample.unknowns);
+            samples.insert(place, Sample { asked: Some(at), unknowns, ..sample });
         }
         ends_asked
+    }
+
+    /// Unknowns at a requested time within a step, by steps of their own from its start: as accurate as those of the run, where the
+    /// polynomial within a step is of a lower order than the step. `None` if these fail, and for a multistep method, which
+    /// would begin with many short steps and whose polynomial is that of its steps.
+    fn stepped(&self, step: &Step<'_>, at: Clock) -> Option<Vec<f64>> {
+        let (problem, length) = (self.state.problem, at.since(&step.start));
+        if problem.method == Method::Bdf || length <= 0.0 {
+            return None;
+        }
+        let options =
+            Options { first_step: Some(length), begin_stiff: step.next_stiff(), ..problem.options() };
+        let plain = Uneventful(self.piece);
+        let ended =
+            asperity_ode::integrate(&plain, step.start, step.start_state(), length, &options, &mut Unseen);
+        (ended.outcome == Outcome::Completed).then_some(ended.state)
     }
 
     /// Adds samples between two, so that ln V changes little from each to the next.
@@ -410,10 +445,7 @@ impl Running<'_, '_> {
 
     fn look(&self, at: Clock, unknowns: &[f64]) -> (f64, Vec<Condition>) {
         let time = at.seconds();
-        let conditions = (0..self.state.problem.names.len())
-            .map(|i| self.piece.segment.condition(i, time, unknowns))
-            .collect();
-        (self.slips.load_at(self.piece, at), conditions)
+        (self.slips.load_at(self.piece, at), self.piece.conditions(time, unknowns))
     }
 
     fn show(&mut self, at: Clock, dt: f64, unknowns: &[f64], asked: bool) {
@@ -466,6 +498,19 @@ impl Running<'_, '_> {
         for i in 0..self.state.problem.names.len() {
             self.see(i, self.piece.segment.slip(i, at.seconds(), unknowns).0.rate);
         }
+    }
+}
+
+/// Steps that nobody follows.
+struct Unseen;
+
+impl Sink for Unseen {
+    fn accepted(&mut self, _step: &Step<'_>) -> Control {
+        Control::Go
+    }
+
+    fn occurred(&mut self, _occurrence: &Occurrence) -> Control {
+        Control::Go
     }
 }
 

@@ -12,11 +12,12 @@ use crate::checkpoint;
 use crate::forecast;
 use crate::report::common::{Kind, Phases, Provenance, Report, Results, SCHEMA, Sketch, Status, commit};
 use crate::setup::{self, Kept};
+use crate::sha256::sha256;
 use asperity_output::atomic;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::ffi::OsStr;
+use std::ffi::{OsStr, OsString};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -64,6 +65,8 @@ impl Directory {
     /// # Errors
     /// Names the obstacle and a way to proceed.
     pub fn claim(path: &Path, begin: Begin) -> miette::Result<Self> {
+        // A link stays in place: the directory of the run is its target.
+        let path = &target(path).into_diagnostic()?;
         Contents::of(path)?.refuse(path, &begin)?;
         let made = topmost_missing(path);
         atomic::create_dir(path).into_diagnostic()?;
@@ -279,6 +282,42 @@ impl Directory {
     }
 }
 
+/// End of the name of the directory of the result before.
+const PREVIOUS: &str = ".previous";
+/// End of the name of the one before that, while it may still be needed.
+const OLDER: &str = ".older";
+/// Longest name of a file \[bytes\] of the file systems in use.
+const LONGEST_NAME: usize = 255;
+/// Links followed from one to the next before they count as a circle, as on Linux.
+const MOST_LINKS: usize = 40;
+/// Digits of a hash by which shortened names differ.
+const DIGITS: usize = 8;
+
+/// The directory that a path stands for: where it is a symbolic link, also one to nothing yet, that to which it leads.
+fn target(path: &Path) -> std::io::Result<PathBuf> {
+    // The end of `link/` would hide the link.
+    let mut path: PathBuf = path.components().collect();
+    for _ in 0..MOST_LINKS {
+        match fs::read_link(&path) {
+            Ok(to) => path = path.parent().unwrap_or(Path::new("")).join(to).components().collect(),
+            // It is none, or it does not exist.
+            Err(_) => return Ok(path),
+        }
+    }
+    Err(std::io::Error::other(format!("{} is a link to itself", path.display())))
+}
+
+/// A name that has room for an end of some bytes: a long one is cut, and a hash of the whole name tells it from others.
+fn room_for(name: &OsStr, end: usize) -> OsString {
+    if name.len() + end <= LONGEST_NAME {
+        return name.to_os_string();
+    }
+    let whole = name.to_string_lossy();
+    let hash = sha256([name.as_encoded_bytes()]);
+    let most = LONGEST_NAME - end - DIGITS - 1;
+    format!("{}-{}", &whole[..whole.floor_char_boundary(most)], &hash[..DIGITS]).into()
+}
+
 /// Topmost folder that must be created for this one; `None` if it exists.
 fn topmost_missing(path: &Path) -> Option<PathBuf> {
     let missing = path.ancestors().filter(|p| !p.as_os_str().is_empty()).take_while(|p| !p.exists());
@@ -323,17 +362,18 @@ fn remove_files(path: &Path) -> std::io::Result<()> {
 
 /// Moves a directory to `<name>.previous`. A directory of that name is kept as `<name>.previous.older` as long as the move may be undone.
 fn move_away(path: &Path) -> miette::Result<Room> {
-    // A link stays in place; its target is moved.
+    // The name of `.` is that of the directory it stands for.
     let path = fs::canonicalize(path).into_diagnostic()?;
     let Some(name) = path.file_name() else {
         return Err(miette!("{} cannot be moved: choose another directory with --out", path.display()));
     };
-    let beside = |end: &str| {
-        let mut name = name.to_os_string();
-        name.push(end);
+    let name = room_for(name, PREVIOUS.len() + OLDER.len());
+    let beside = |ends: &[&str]| {
+        let mut name = name.clone();
+        ends.iter().for_each(|end| name.push(end));
         path.with_file_name(name)
     };
-    let (previous, older) = (beside(".previous"), beside(".previous.older"));
+    let (previous, older) = (beside(&[PREVIOUS]), beside(&[PREVIOUS, OLDER]));
     for kept in [&previous, &older] {
         if let Some(foreign) = contents::foreign(kept).into_diagnostic()? {
             return Err(miette!(

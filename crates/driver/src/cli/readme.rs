@@ -32,10 +32,10 @@ const MEANINGS: [(&str, &str); 50] = [
     ("events.json", "catalogue of events, with more of each"),
     ("events.quakeml", "catalogue of events for seismological programs"),
     ("CMTSOLUTION", "centroid moment tensors of the events"),
-    ("largest_rate.csv", "largest slip rate over time"),
+    ("largest_rate.csv", "largest slip rate over time; its logarithm is -20 at rest"),
     ("largest_rates.csv", "largest slip rate of each interface with events, at every step"),
     ("slip_profiles.csv", "slip along a fault at intervals"),
-    ("rate_profiles.csv", "slip rate along a fault at intervals"),
+    ("rate_profiles.csv", "slip rate along a fault at intervals; logarithms are -20 at rest"),
     (
         "state_profiles.csv",
         "state of friction along a fault at intervals: log10 of its time in seconds, where the law has one",

@@ -116,7 +116,7 @@ fn name(stem: &str, number: usize) -> String {
 
 /// Slip, slip rate and tractions on a fault in space.
 fn on_fault<const D: usize>(plan: &Plan<D>, fault: &FaultView, grid: &Grid, now: &Moment<'_>) -> Vec<u8> {
-    let FaultState { slip, rate, shear, normal, .. } = now.fault;
+    let FaultState { slip, rate, shear, normal, .. } = &*now.fault;
     let vectors = [slip, rate, shear].map(|values| in_space(plan, fault, values));
     let names = ["slip", "slip_rate", "shear_traction"];
     let mut arrays: Vec<Array<'_>> = names.iter().zip(&vectors).map(|(n, v)| Array::vector(n, v)).collect();

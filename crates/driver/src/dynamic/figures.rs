@@ -4,6 +4,7 @@ use super::arrivals::Arrivals;
 use super::fields::Taken;
 use super::plan::Plan;
 use crate::fault::FaultView;
+use crate::fault::compass::Compass;
 use crate::fault::shape::shape;
 use asperity_output::plots::{Curves, Fault, Measure, Plot, Points, Seen, Sheet, Velocities, short};
 
@@ -22,7 +23,7 @@ pub(super) fn sheet<const D: usize>(plan: &Plan<D>, end: f64, arrivals: &Arrival
         let fault = |f: &FaultView| Fault {
             name: f.name.clone(),
             points: f.points.clone(),
-            shape: sheet.shape(shape(D == 3, f, &plan.points[f.points.clone()])),
+            shape: sheet.shape(shape(D == 3, f, &plan.points[f.points.clone()], &Compass::default())),
             arrivals: arrivals.times[f.points.clone()].iter().map(|t| t.map_or(f64::NAN, short)).collect(),
         };
         let faults = plan.faults.iter().map(fault).collect();

@@ -1,7 +1,8 @@
 //! A step of a run as the outputs see it: everything at the same time.
 
 use super::plan::{Plan, Receiver};
-use asperity_mechanics::dynamics::{Budget, Explicit, FaultState};
+use asperity_mechanics::dynamics::{Budget, Explicit, Fault, FaultState};
+use std::borrow::Cow;
 
 /// A step at its time tⁿ, taken after the step from it, when velocities half a step before and after are known.
 pub struct Moment<'a> {
@@ -12,7 +13,7 @@ pub struct Moment<'a> {
     /// Energies, if rows are due.
     pub budget: Option<Budget>,
     /// State of the faults.
-    pub fault: &'a FaultState,
+    pub fault: Cow<'a, FaultState>,
     /// Velocity \[m/s\] and displacement \[m\] at each station, by components.
     pub received: Vec<[Vec<f64>; 2]>,
     /// Velocity \[m/s\] and displacement \[m\] of all degrees of freedom, if fields are due.
@@ -64,7 +65,18 @@ impl Before {
             }
         }
         let budget = step.is_multiple_of(plan.cadence.rows).then(|| explicit.budget());
-        Moment { step, time, budget, fault: explicit.fault(), received, fields }
+        let fault = shown(plan, step, explicit.fault());
+        Moment { step, time, budget, fault, received, fields }
+    }
+}
+
+/// State of the faults as outputs show it. Before the first step there is no half step: the slip rate at the start is that at which
+/// friction holds the initial traction, where the law follows rates.
+fn shown<'a, const D: usize>(plan: &Plan<D>, step: usize, now: &'a FaultState) -> Cow<'a, FaultState> {
+    let starts = |fault: &&Fault| step == 0 && fault.onset.is_none() && !fault.law.has_elastic_domain();
+    match plan.problem.fault.as_ref().filter(starts) {
+        Some(fault) => Cow::Owned(FaultState { rate: fault.rate.clone(), ..now.clone() }),
+        None => Cow::Borrowed(now),
     }
 }
 

@@ -34,8 +34,8 @@ const LARGEST_FILE: f64 = 100e6;
 /// An extremum gets a row if log10 of its slip rate differs by this much from the row before. The error of a peak in a file is at most half a per
 /// cent.
 const EXTREMUM: f64 = 2e-3;
-/// Least slip rate that is distinguished \[m/s\]; the benchmarks in 3D treat it as zero.
-pub(crate) const NO_RATE: f64 = 1e-20;
+/// Least slip rate that is distinguished \[m/s\].
+pub(crate) const NO_RATE: f64 = asperity_output::seas::LEAST_RATE;
 /// Largest number of doublings, after which a file counts as full; no file has so many rows.
 const MOST_DOUBLINGS: u32 = 60;
 
@@ -101,6 +101,11 @@ impl Cadence {
             time(self.longest)
         )
     }
+}
+
+/// log10 of a slip rate as files give it: of the least rate for a point at rest.
+pub(crate) fn log_rate(rate: f64) -> f64 {
+    rate.abs().max(NO_RATE).log10()
 }
 
 /// Time in a suitable unit, with at most three decimals.

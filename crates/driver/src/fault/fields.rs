@@ -1,5 +1,6 @@
 //! Fields on faults in 3D as VTU files: states during a run and at its end, and slip and traction drop of each event.
 
+use super::cadence::log_rate;
 use super::locking;
 use super::plan::{FaultView, Outline, Plan};
 use super::states::has_theta;
@@ -86,7 +87,7 @@ pub(super) fn state(plan: &Plan, fault: &FaultView, y: &[f64], now: (&[f64], &Pr
     let normal = |p: usize| pressed.normal[p];
     let shear: Vec<f64> = layout.m().map(|i| normal(i % n) * law.scale(i % n) * y[i]).collect();
     let (rate, shear) = (Components::new(rate, n), Components::new(shear, n));
-    let speeds = fault.points.clone().map(|p| rate.size(p).log10()).collect();
+    let speeds = fault.points.clone().map(|p| log_rate(rate.size(p))).collect();
     let vectors = fault.points.clone().map(|p| plan.vector(&rate, p)).collect();
     let mut fields = Vec::from(along(plan, fault, "slip", &layout.slip_of(y)));
     fields.push(Field::Scalar("log10_slip_rate".into(), speeds));

@@ -1,6 +1,7 @@
 //! Figures of a run: what they need beside its tables.
 
 use super::cadence::time;
+use super::compass::{Compass, View};
 use super::coulomb_figures;
 use super::event_tables::reached;
 use super::instants::instants;
@@ -16,8 +17,8 @@ use super::surface_figures::{self, of_event};
 use crate::catalogue::slipped;
 use asperity_cycles::{Event, FaultRun, Rupture};
 use asperity_output::plots::{
-    Curves, EventPanel, Fault, InEvent, Line, Mapped, Measure, Plot, Points, Sheet, Through, short,
-    springs_curves,
+    Curves, EventPanel, Fault, InEvent, Line, Mapped, Measure, Plot, Points, RuptureShape, Sheet, Through,
+    short, springs_curves,
 };
 use asperity_output::stems;
 
@@ -93,12 +94,24 @@ fn moment_rates(plan: &Plan, run: &FaultRun) -> Vec<Curves> {
 }
 
 /// A fault as figures show it.
-fn drawn(plan: &Plan, fault: &FaultView) -> asperity_output::plots::RuptureShape {
+fn drawn(plan: &Plan, fault: &FaultView) -> RuptureShape {
     let views = &plan.points[fault.points.clone()];
     match &fault.outline {
-        Some(outline) => corners(outline, views),
-        None => shape(plan.in_space, fault, views),
+        Some(outline) => RuptureShape::Surface(corners(outline, views, &compass(plan))),
+        None => shape(plan.in_space, fault, views, &compass(plan)),
     }
+}
+
+fn compass(plan: &Plan) -> Compass<'_> {
+    Compass { up: plan.up, frame: plan.frame.as_ref() }
+}
+
+/// Hypocentre of an event in the map of a fault in space that contains it.
+fn hypocentre(plan: &Plan, fault: &FaultView, event: &Event<Rupture>) -> Option<(f64, f64)> {
+    let point = event.details.hypocentre;
+    let views = &plan.points[fault.points.clone()];
+    let view = || View::of(views, &compass(plan), fault.outline.is_some());
+    (plan.in_space && fault.points.contains(&point)).then(|| view().place(&plan.points[point].at))
 }
 
 /// Faults in the events that have files.
@@ -117,12 +130,14 @@ fn on_faults(plan: &Plan, run: &FaultRun, (names, shapes): (&[String], &[usize])
                 values.into_iter().map(short).collect()
             };
             let times = points().map(|p| reached(event, p)).collect();
-            let slips = points().map(|p| event.details.slip.size(p)).collect();
+            let slips: Vec<f64> = points().map(|p| event.details.slip.size(p)).collect();
             all.push(InEvent {
                 stem: format!("{name}_event_{number:03}"),
                 event: of_event(number, event),
                 fault: Fault { name: fault.name.clone(), points: points(), shape, arrivals: shown(times) },
-                slip: shown(slips),
+                // Each triangle has its own, so that a map has the largest one.
+                slip: slips.into_iter().map(short).collect(),
+                hypocentre: hypocentre(plan, fault, event),
             });
         }
     }

@@ -3,7 +3,7 @@
 //! Rows are due after changes and after intervals of simulated time, not after steps, so that the size of a file
 //! depends on events.
 
-use super::cadence::{Cadence, Gauge, RATE_CHANGE, Reading, warning};
+use super::cadence::{Cadence, Gauge, RATE_CHANGE, Reading, log_rate, warning};
 use super::forces;
 use super::locking;
 use super::moments;
@@ -225,7 +225,7 @@ impl<'a> Files<'a> {
             self.rows[2].push(&row, cadence, time)?;
         }
         if self.rows[3].gauge.profile(reading, interval, RATE_CHANGE) {
-            let row = profile(time, now.rate.component(0), |rate| fixed(rate.abs().log10(), 3));
+            let row = profile(time, now.rate.component(0), |rate| fixed(log_rate(rate), 3));
             self.rows[3].push(&row, cadence, time)?;
         }
         let known = further(self.plan).count();
@@ -337,7 +337,7 @@ fn largest_row(plan: &Plan, now: &Moment<'_>) -> String {
         }
     }
     let (time, (shear, slip)) = (now.at.seconds(), means(plan, now));
-    let (rate, shear, slip) = (fixed(largest.log10(), 6), scientific(shear, 6), scientific(slip, 9));
+    let (rate, shear, slip) = (fixed(log_rate(largest), 6), scientific(shear, 6), scientific(slip, 9));
     format!("{time:.14e},{rate},{point},{shear},{slip}\n")
 }
 

@@ -4,6 +4,7 @@ mod bodies;
 pub mod cadence;
 pub mod checkpoint;
 mod collections;
+pub(crate) mod compass;
 mod compression;
 mod coulomb;
 mod coulomb_figures;

@@ -1,6 +1,6 @@
 //! Snapshots of the state of faults in 3D during a run, as VTU files.
 
-use super::cadence::{Gauge, RATE_CHANGE, Reading};
+use super::cadence::{Gauge, RATE_CHANGE, Reading, log_rate};
 use super::fields::{self, Surface};
 use super::plan::Plan;
 use asperity_cycles::Moment;
@@ -83,6 +83,6 @@ impl Snapshots {
             self.taken.gauge.spend(bytes, FILES * plan.cadence.largest_file, time);
         }
         self.taken.count = number + 1;
-        Ok(Some(format!("{number},{time:.14e},{}\n", fixed(now.largest.log10(), 6))))
+        Ok(Some(format!("{number},{time:.14e},{}\n", fixed(log_rate(now.largest), 6))))
     }
 }

@@ -73,11 +73,10 @@ pub(super) fn row(plan: &Plan, now: &Moment<'_>, point: usize) -> String {
     let log_state = theta.map_or(f64::NAN, |theta| theta.log10(now.states().at(point)[0]));
     let surface = &now.pressed.surface;
     let at = |values: &[f64]| values.get(point).copied();
-    let rate = |v: f64| if now.rate.components() > 1 { v.abs().max(NO_RATE) } else { v.abs() };
     let row = Row {
         time: now.at.seconds(),
         slip: now.slip().at(point).collect(),
-        rate: now.rate.at(point).map(rate).collect(),
+        rate: now.rate.at(point).map(|v| v.abs().max(NO_RATE)).collect(),
         // Traction that friction resists: the driving traction minus damping.
         shear: now.m().at(point).map(|m| normal * plan.problem.fault.law.scale(point) * m).collect(),
         log_state,

@@ -5,6 +5,7 @@ use crate::missing::looked_for;
 use crate::scene::model as scene;
 use crate::scene::near::suggest;
 use crate::scene::units::{self, Dimension, Length};
+use crate::scene::unprintable::is_unprintable;
 use asperity_fem::element::ElementKind;
 use asperity_fem::mesh::coarser::{Coarser, CoarserError};
 use asperity_fem::mesh::curve::{Curve, Profile, bend};
@@ -394,6 +395,11 @@ fn read<const D: usize>(
     let mesh = parse(&bytes(scene, file)?)
         .and_then(|raw| raw.into_mesh::<D>(options))
         .map_err(|e| at(format!("mesh file `{name}`: {e}"), "the error is in the file, not in the scene"))?;
+    if let Some(set) = unprintable(&mesh) {
+        let message =
+            format!("mesh file `{name}`: the name of the set `{}` is not printable", set.escape_debug());
+        return Err(at(message, "names of sets have no control characters: rename it in the mesh file"));
+    }
     let mut mesh = match groups {
         None => mesh,
         Some(groups) => {
@@ -418,6 +424,12 @@ fn read<const D: usize>(
         cut(&mut mesh, name, surface)?;
     }
     Ok(mesh)
+}
+
+/// The first set of a mesh whose name would not be printed as it is.
+fn unprintable<const D: usize>(mesh: &Mesh<D>) -> Option<&String> {
+    let sets = mesh.cell_sets.keys().chain(mesh.side_sets.keys()).chain(mesh.node_sets.keys());
+    sets.into_iter().find(|name| name.chars().any(is_unprintable))
 }
 
 /// Content of a mesh file.

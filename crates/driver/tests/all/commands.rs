@@ -210,6 +210,31 @@ fn two_directories_are_compared_column_by_column() {
     let compared = asperity(folder.path(), &["compare", "a", "c"]);
     assert_eq!(compared.status.code(), Some(1));
     assert!(text(&compared.stdout).contains("differs"), "{}", text(&compared.stdout));
+    // What one folder lacks is not agreement.
+    let history = folder.path().join("b/history/block.csv");
+    let whole = std::fs::read_to_string(&history).unwrap();
+    let lines = |keep: usize| whole.split_inclusive('\n').take(keep).collect::<String>();
+    for keep in [1, 10] {
+        std::fs::write(&history, lines(keep)).unwrap();
+        let compared = asperity(folder.path(), &["compare", "a", "b"]);
+        assert_eq!(compared.status.code(), Some(1), "{}", text(&compared.stdout));
+        let said = format!("history/block.csv: {} of ", keep - 1);
+        assert!(text(&compared.stdout).contains(&said), "{}", text(&compared.stdout));
+    }
+    std::fs::write(&history, whole).unwrap();
+    // Stations have no ending.
+    let station = |out: &str, row: &str| {
+        let path = folder.path().join(out).join("stations");
+        std::fs::create_dir_all(&path).unwrap();
+        std::fs::write(path.join("main_dp000"), format!("# location= here\nt slip\n0e0 0e0\n{row}\n"))
+            .unwrap();
+    };
+    station("a", "1e0 1e0");
+    assert_eq!(asperity(folder.path(), &["compare", "a", "b"]).status.code(), Some(1));
+    station("b", "1e0 1.1e0");
+    assert_eq!(asperity(folder.path(), &["compare", "a", "b"]).status.code(), Some(1));
+    station("b", "1e0 1e0");
+    assert!(asperity(folder.path(), &["compare", "a", "b"]).status.success());
     assert_eq!(asperity(folder.path(), &["compare", "a", "nowhere"]).status.code(), Some(2));
     assert_eq!(asperity(folder.path(), &["compare", "a", "b", "--tolerance", "-1"]).status.code(), Some(2));
 }

@@ -89,6 +89,45 @@ fn running_a_scene_again_keeps_the_result_before_it() {
 }
 
 #[test]
+fn a_link_to_a_directory_stays_and_its_target_holds_the_result() {
+    let folder = scene(SLIDER);
+    let folder = folder.path();
+    // Also a link to a link, and one to nothing yet.
+    fs::create_dir(folder.join("target")).unwrap();
+    for (link, to) in [("link", "target"), ("other", "link"), ("early", "later")] {
+        std::os::unix::fs::symlink(to, folder.join(link)).unwrap();
+    }
+    for (out, target) in [("link", "target"), ("other/", "target"), ("link/.", "target"), ("early", "later")]
+    {
+        for _ in 0..2 {
+            succeeds(folder, &["s.toml", "--out", out]);
+            assert_eq!(report(&folder.join(target))["status"], "completed");
+        }
+        assert!(folder.join(format!("{target}.previous/report.json")).is_file());
+        let kept = |link: &str| fs::symlink_metadata(folder.join(link)).unwrap().is_symlink();
+        assert!(["link", "other", "early"].into_iter().all(kept));
+    }
+    std::os::unix::fs::symlink("circle", folder.join("circle")).unwrap();
+    let circle = run(folder, &["s.toml", "--out", "circle"]);
+    assert!(!circle.status.success() && told(&circle).contains("link to itself"), "{}", told(&circle));
+}
+
+#[test]
+fn a_name_as_long_as_names_may_be_is_run_again() {
+    let folder = scene(SLIDER);
+    let folder = folder.path();
+    let name = "s".repeat(250);
+    fs::rename(folder.join("s.toml"), folder.join(format!("{name}.toml"))).unwrap();
+    for _ in 0..3 {
+        succeeds(folder, &[&format!("{name}.toml")]);
+    }
+    let names = fs::read_dir(folder.join("out")).unwrap().map(|entry| entry.unwrap().file_name());
+    let names: Vec<String> = names.map(|name| name.into_string().unwrap()).collect();
+    assert_eq!(names.len(), 2);
+    assert!(names.iter().any(|n| *n == name) && names.iter().any(|n| n.ends_with(".previous")), "{names:?}");
+}
+
+#[test]
 fn the_result_of_another_scene_is_not_replaced_unless_that_is_asked_for() {
     let folder = scene(SLIDER);
     let folder = folder.path();

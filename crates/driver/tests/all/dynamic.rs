@@ -269,6 +269,32 @@ fn a_rupture_in_space_slips_along_its_traction_and_is_symmetric() {
     }
 }
 
+#[test]
+fn the_first_row_has_the_slip_rate_of_the_scene() {
+    let law = r#"{ kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, a = 0.008, b = 0.012, l = "20 mm", v_ref = "1 um/s", v_initial = "1e-12 m/s" }"#;
+    let changes = [
+        With("faults.main.law", law),
+        Add("faults.main.rate", "1e-12 m/s"),
+        With("stages[0].duration", "0.1 s"),
+    ];
+    let folder = folder(&varied(SCENE, &changes));
+    let done = run(folder.path(), "out", &["--no-plots"]);
+    assert!(done.status.success(), "{}", told(&done));
+    let read = |file: &str| fs::read_to_string(folder.path().join("out").join(file)).unwrap();
+    let first = |text: &str, by: char| -> Vec<f64> {
+        let row = text.lines().find(|line| line.starts_with('0')).unwrap();
+        row.split(by).map(|v| v.parse().unwrap()).collect()
+    };
+    assert!((first(&read("stations/main_000"), ' ')[2] + 12.0).abs() < 1e-9);
+    assert!(first(&read("rate_profiles.csv"), ',')[1..].iter().all(|rate| (rate - 1e-12).abs() < 1e-24));
+    // Points at rest have the least rate, which the head states.
+    let still = crate::resume::folder(&varied(SCENE, &[Without("faults.main.patches")]));
+    assert!(run(still.path(), "out", &["--no-plots"]).status.success());
+    let station = fs::read_to_string(still.path().join("out/stations/main_000")).unwrap();
+    assert!(station.contains("# least_slip_rate=1e-20 m/s, which stands for rest\n"), "{station}");
+    assert_eq!(first(&station, ' ')[2], -20.0);
+}
+
 /// Rupture times by position of a run of the rupture in space with some changes.
 fn times_in_space(changes: &[Change<'_>]) -> Vec<([f64; 2], f64)> {
     let folder = folder(&varied(IN_SPACE, changes));

@@ -68,6 +68,54 @@ fn sizes(folder: &Path) -> Vec<u64> {
     files.filter(|e| e.path().is_file()).map(|e| e.metadata().unwrap().len()).collect()
 }
 
+/// A laboratory block that a stage presses and the next one slides.
+const PRESSED: &str = r#"
+schema = 1
+title = "pressed"
+kinematics = "plane-strain"
+[materials.granite]
+young = "44.8 GPa"
+poisson = 0.12
+density = 2700
+[bodies.A]
+material = "granite"
+mesh.block = { min = [0, 0], max = ["25 mm", "50 mm"], size = "5 mm", element = "quad4" }
+[bodies.B]
+material = "granite"
+mesh.block = { min = ["25 mm", 0], max = ["50 mm", "50 mm"], size = "5 mm", element = "quad4" }
+[faults.face]
+minus = "A.right"
+plus = "B.left"
+law = { kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, a = 0.005, b = 0.020, l = "2 um", v_ref = "1 um/s", v_initial = "1.3 um/s" }
+rate = "-1 um/s"
+damping = "radiation"
+[[stages]]
+name = "press"
+duration = "10 s"
+frictionless = ["face"]
+conditions = [{ set = "A.left", x = { to = "0.0966 mm" } }, { set = "A.bottom", y = 0 }, { set = "B.right", x = 0 }, { set = "B.top", y = 0 }]
+[[stages]]
+name = "slide"
+duration = "10 s"
+conditions = [{ set = "B.top", y = { rate = "-1 um/s" } }]
+[time]
+stepper = "fault-ode"
+[output]
+stations.face = ["1 mm", "25 mm"]
+"#;
+
+#[test]
+fn a_fault_at_rest_has_the_least_slip_rate_in_all_tables() {
+    let (plan, folder) = (plan(PRESSED), tempfile::tempdir().unwrap());
+    drop(run(&plan, folder.path()));
+    let tables = ["largest_rate.csv", "rate_profiles.csv", "stations/face_000", "stations/face_001"];
+    for name in tables {
+        let text = fs::read_to_string(folder.path().join(name)).unwrap();
+        assert!(!text.contains("inf"), "{name}: {text}");
+        assert!(text.contains("-20."), "{name}: {text}");
+    }
+}
+
 #[test]
 fn every_peak_stands_in_the_files_and_rows_come_by_change() {
     let (plan, folder) = (plan(SCENE), tempfile::tempdir().unwrap());

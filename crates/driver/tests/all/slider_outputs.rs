@@ -167,6 +167,58 @@ fn rows_stand_at_the_times_asked_for_with_the_digits_of_the_method() {
     }
 }
 
+/// Largest error of ln V in rows of a run \[-\], against a run with a tolerance of 1e-12 that has rows at the same times.
+fn error(problem: &asperity_cycles::slider::Problem, asked: bool) -> f64 {
+    let mut found = Vec::new();
+    let mut look = |now: &Now<'_>| {
+        if now.asked == asked && now.at.seconds() > 0.0 {
+            found.push((now.at.seconds(), now.conditions[0].rate));
+        }
+    };
+    run(problem, &mut look).unwrap();
+    let mut exact = problem.clone();
+    (exact.tolerance, exact.method) = (1e-12, Method::Dop853);
+    exact.output.times = found.iter().map(|row| row.0).collect();
+    exact.output.interval = None;
+    let mut rates = Vec::new();
+    let mut look = |now: &Now<'_>| {
+        if now.asked && now.at.seconds() > 0.0 {
+            rates.push(now.conditions[0].rate);
+        }
+    };
+    run(&exact, &mut look).unwrap();
+    assert_eq!(rates.len(), found.len());
+    found.iter().zip(&rates).map(|((_, rate), exact)| (rate / exact).ln().abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn rows_asked_for_are_as_accurate_as_the_steps_between_which_they_stand() {
+    let load = "[load]\nrate = { mean = \"1 um/s\", amplitude = \"0.5 um/s\", period = \"20 s\" }";
+    let rest = "[time]\nend = \"100 s\"\ntolerance = 1e-6\n[output]\ninterval = \"0.37 s\"";
+    let base = plan(&scene(load, "stiffness = \"5 GPa/m\"", &law("ageing", 0.015), rest));
+    for method in [Method::Switching, Method::Dop853, Method::Tsit5, Method::Radau5] {
+        let problem = asperity_cycles::slider::Problem { method, ..base.clone() };
+        let (rows, steps) = (error(&problem, true), error(&problem, false));
+        assert!(rows < 2.0 * steps, "{}: {rows:e} in rows, {steps:e} at steps", method.name());
+    }
+}
+
+#[test]
+fn a_tolerance_near_rounding_does_not_hide_that_a_slider_is_stiff() {
+    let load =
+        "[load]\nrate = { table = [[\"0 s\", \"1 um/s\"], [\"1 s\", \"1 um/s\"], [\"1 s\", \"10 um/s\"]] }";
+    let steps = |tolerance: &str| {
+        let rest = format!("[time]\nend = \"2 s\"\ntolerance = {tolerance}\nmost_steps = 100000");
+        let planned = planned(&scene(load, "stiffness = 1e16", &law("ageing", 0.015), &rest));
+        (run(&planned.problem, &mut ()).unwrap().counts.steps, planned.warnings)
+    };
+    let ((loose, unwarned), (tight, warned)) = (steps("1e-11"), steps("1e-13"));
+    // The error of the stiff method is of order 5: a hundredth of the tolerance takes 2.5 times the steps, and that of order 3 of its
+    // estimate 4.6 times.
+    assert!(tight < 10 * loose, "{loose} and {tight}");
+    assert!(unwarned.is_empty() && warned[0].to_string().contains("digits"), "{warned:?}");
+}
+
 #[test]
 fn rows_at_intervals_begin_at_zero_and_need_no_events() {
     let changes =
@@ -215,7 +267,9 @@ fn velocity_steps_under_an_imposed_rate_follow_the_closed_form() {
     for b in [0.015, -0.005] {
         for evolution in ["ageing", "slip"] {
             let rows = rows(&scene("", steps, &law(evolution, b), rest));
-            assert_eq!(rows.len(), 801);
+            // Before and after each jump.
+            assert_eq!(rows.len(), 803);
+            let mut before = f64::NEG_INFINITY;
             for row in &rows {
                 let phi = |from: f64, rate: f64, time: f64| match evolution {
                     "ageing" => b * aged(from / b, rate, time),
@@ -223,9 +277,11 @@ fn velocity_steps_under_an_imposed_rate_follow_the_closed_form() {
                 };
                 let stepped = phi(0.0, 1e-5, 10.0);
                 let time = row[0];
-                let (rate, slip, phi) = if time <= 20.0 {
+                let after = time == std::mem::replace(&mut before, time);
+                let until = |end: f64| time < end || time == end && !after;
+                let (rate, slip, phi) = if until(20.0) {
                     (1e-6, 1e-6 * time, 0.0)
-                } else if time <= 30.0 {
+                } else if until(30.0) {
                     (1e-5, 2e-5 + 1e-5 * (time - 20.0), phi(0.0, 1e-5, time - 20.0))
                 } else {
                     (1e-7, 1.2e-4 + 1e-7 * (time - 30.0), phi(stepped, 1e-7, time - 30.0))

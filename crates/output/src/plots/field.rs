@@ -42,6 +42,9 @@ pub struct Seen {
     triangles: Vec<[Corner; 3]>,
     /// Lines of nodes along the boundary of a body.
     outline: Vec<Vec<usize>>,
+    /// True if these are the sides of bodies in space that face +z.
+    #[serde(default)]
+    in_space: bool,
 }
 
 impl Seen {
@@ -61,9 +64,15 @@ impl Seen {
             places: nodes.iter().map(|&n| (places[n][0], places[n][1])).collect(),
             triangles: triangles.iter().map(|t| t.each_ref().map(corner)).collect(),
             outline: outline.iter().map(|line| line.iter().map(number).collect()).collect(),
+            in_space: mesh.dimension == 3,
         };
         seen.extent()?;
         Some((seen, nodes))
+    }
+
+    /// The side of bodies in space that is seen, as the end of a title; empty in the plane.
+    pub(super) fn side(&self) -> &'static str {
+        if self.in_space { ", sides facing +z" } else { "" }
     }
 
     /// Number of its nodes.
@@ -142,7 +151,7 @@ impl Field<'_> {
         let below = (frame.size.1 + 62.0).max(BAR + 20.0);
         let mut figure = Figure::new(frame.at.0 + frame.size.0.max(180.0) + 150.0, frame.at.1 + below);
         if let Some((scene, when)) = title {
-            super::title::title(&mut figure, &frame, scene, when);
+            super::title::title(&mut figure, &frame, scene, &format!("{when}{}", seen.side()));
         }
         figure.image(map(seen, self.values, &colours, &frame));
         for line in &seen.outline {

@@ -1,4 +1,4 @@
-//! A figure with one frame and its legend below. Sizes are such that a figure as wide as a column of a journal, 90 mm, can be read.
+//! A figure with one frame and its legend below. Sizes are such that a figure as wide as a column of a journal, 84 mm, can be read.
 
 use super::axes::{Axis, Frame};
 use super::figure::{Figure, Point};

@@ -147,6 +147,7 @@ pub fn sheet(recorder: &Recorder) -> Sheet {
                 file: format!("mises_{}_{stage}", end.stage + 1),
                 stage: end.name.clone(),
                 time: end.time,
+                stopped: setup.stages.get(end.stage).is_some_and(|stage| end.time < stage.1),
                 mesh,
                 values: nodes.iter().map(|&node| short(bodies.node_mises[node])).collect(),
             }));

@@ -75,7 +75,7 @@ pub(crate) fn setup(layers: usize) -> Setup {
     }
 }
 
-fn fields_at(setup: &Setup, time: f64, spoil: Option<f64>) -> InterfaceFields {
+pub(crate) fn fields_at(setup: &Setup, time: f64, spoil: Option<f64>) -> InterfaceFields {
     let mesh = &setup.interfaces[0];
     let v_load = 1e-6;
     let since = (time - 9.66).max(0.0);

@@ -1,9 +1,9 @@
 //! Files written by the observers.
 
 use super::super::*;
-use super::fake::{body_fields, play, setup};
+use super::fake::{body_fields, fields_at, play, samples_at, setup};
 use crate::error::expect_length;
-use crate::view::{BodyFields, InterfaceMesh, Setup, StepView};
+use crate::view::{BodyFields, InterfaceMesh, Setup, StepRecord, StepView};
 use std::cell::Cell;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -331,4 +331,32 @@ fn an_interface_without_faces_is_written_as_points() {
     let mut files = Files::create(&out, schedule()).unwrap();
     play(&points, 2, None, &mut files).unwrap();
     assert!(fs::read_to_string(out.join("fields/fault_00001.vtu")).unwrap().contains("NumberOfCells=\"21\""));
+}
+
+#[test]
+fn the_last_state_of_a_stage_in_which_a_run_stops_is_kept_and_drawn() {
+    let setup = setup(0);
+    let mut recorder = Recorder::new().with_bodies();
+    recorder.begin(&setup).unwrap();
+    let record =
+        StepRecord { stage: 1, step: 1, time: 20.0, dt: 1.0, iterations: 3, ..StepRecord::default() };
+    let samples = samples_at(&setup, 20.0);
+    let interfaces = [fields_at(&setup, 20.0, None)];
+    let view = StepView {
+        record: &record,
+        stage: "shear",
+        ends_stage: false,
+        end_time: 59.66,
+        interfaces: &interfaces,
+        samples: &samples,
+        energy: None,
+        fields: &|| body_fields(&setup.mesh, 20.0, None),
+    };
+    recorder.step(&view).unwrap();
+    assert!(recorder.stage_ends().is_empty());
+    recorder.end(&view).unwrap();
+    recorder.end(&view).unwrap();
+    assert_eq!(recorder.stage_ends().iter().map(|end| end.time).collect::<Vec<_>>(), [20.0]);
+    let text = serde_json::to_string(&crate::plots::sheet(&recorder)).unwrap();
+    assert!(text.contains("\"stopped\":true"), "{text}");
 }

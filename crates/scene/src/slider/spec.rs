@@ -127,7 +127,7 @@ pub struct OutputSpec {
     /// Change of ln V after which a row is written, or of friction by a twentieth of it; default 0.05 without `times` and
     /// `interval` \[-\].
     pub change: Option<Spanned<f64>>,
-    /// Times of rows, ascending \[s\].
+    /// Times of rows, ascending; where something jumps, one before and one after \[s\].
     pub times: Option<Spanned<Vec<Spanned<Time>>>>,
     /// Interval between rows, from time 0 \[s\].
     pub interval: Option<Spanned<Time>>,

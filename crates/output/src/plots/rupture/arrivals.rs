@@ -5,7 +5,7 @@ use super::{AT, BELOW, Line, ROOM, RupturedFault, Ruptures, SIZE, Shape, Surface
 use crate::plots::axes::{Axis, Frame};
 use crate::plots::colour::{INK, PAPER, viridis};
 use crate::plots::field::Bar;
-use crate::plots::figure::{Anchor, Figure};
+use crate::plots::figure::{Anchor, Figure, Point};
 use crate::plots::paper::Paper;
 use crate::plots::title::title;
 use crate::plots::units::TIME;
@@ -17,22 +17,29 @@ const RIGHT: f64 = 40.0;
 
 impl Ruptures<'_> {
     pub(super) fn arrivals(&self, fault: &RupturedFault) -> Option<Figure> {
-        arrivals(&self.title, fault, self.paper)
+        arrivals(&self.title, fault, None, self.paper)
     }
 }
 
-/// Last rupture time; `None` where nothing ruptured.
+/// Last rupture time; `None` where nothing ruptured, or everything at time zero, without a front.
 pub(super) fn last(arrivals: &[f64]) -> Option<f64> {
-    arrivals.iter().copied().filter(|t| t.is_finite()).reduce(f64::max)
+    arrivals.iter().copied().filter(|t| t.is_finite()).reduce(f64::max).filter(|last| *last > 0.0)
 }
 
 /// Rupture times of a fault; `None` where nothing ruptured.
-pub(super) fn arrivals(scene: &str, fault: &RupturedFault, paper: Paper) -> Option<Figure> {
+pub(super) fn arrivals(
+    scene: &str,
+    fault: &RupturedFault,
+    hypocentre: Option<Point>,
+    paper: Paper,
+) -> Option<Figure> {
     let last = last(&fault.arrivals)?;
     let part = format!("rupture times of {}", fault.name);
     match &fault.shape {
         Shape::Line(line) => front((scene, &part), line, (&fault.arrivals, last), paper),
-        Shape::Surface(surface) => contours((scene, &part), surface, (&fault.arrivals, last), paper),
+        Shape::Surface(surface) => {
+            contours((scene, &part), surface, (&fault.arrivals, last), hypocentre, paper)
+        }
     }
 }
 
@@ -66,6 +73,7 @@ fn contours(
     (scene, part): (&str, &str),
     surface: &Surface,
     (arrivals, last): (&[f64], f64),
+    hypocentre: Option<Point>,
     paper: Paper,
 ) -> Option<Figure> {
     let frame = surface.frame(AT, room(paper))?;
@@ -75,6 +83,7 @@ fn contours(
     title(&mut figure, &frame, scene, part);
     figure.image(surface.image(&frame, arrivals, (0.0, last)));
     let apart = fronts(&mut figure, &frame, surface, arrivals, last);
+    mark(&mut figure, &frame, surface, hypocentre);
     frame.draw(&mut figure);
     let range = (0.0, last / unit.factor);
     Bar { range, above: None, label: format!("Rupture time [{}]", unit.name) }.draw(&mut figure, &frame);
@@ -83,6 +92,22 @@ fn contours(
         figure.text(at, format!("contours every {apart}"), 12.5, Anchor::Start, INK);
     }
     Some(figure)
+}
+
+/// Size of the star of a hypocentre, from its centre to its points and to the corners between them.
+const STAR: [f64; 2] = [9.0, 3.6];
+
+/// Draws a star at the hypocentre.
+pub(super) fn mark(figure: &mut Figure, frame: &Frame, surface: &Surface, hypocentre: Option<Point>) {
+    let Some((x, y)) = hypocentre.map(surface.onto(frame)) else { return };
+    let corner = |k: usize, more: f64| {
+        let (sine, cosine) = (std::f64::consts::PI / 5.0 * k as f64).sin_cos();
+        let radius = STAR[k % 2] + more;
+        (x + radius * sine, y - radius * cosine)
+    };
+    for (more, colour) in [(2.0, PAPER), (0.0, INK)] {
+        figure.area((0..10).map(|k| corner(k, more)).collect(), colour);
+    }
 }
 
 /// Draws lines of equal rupture time at round times, and returns the time between them.
@@ -115,11 +140,17 @@ mod tests {
     fn a_front_is_interrupted_where_nothing_ruptured() {
         let mut fault = line();
         fault.arrivals[5] = f64::NAN;
-        let figure = arrivals("t", &fault, Paper::default()).unwrap();
+        let figure = arrivals("t", &fault, None, Paper::default()).unwrap();
         let curves = figure.shapes.iter().filter_map(|s| match s {
             Drawn::Line { points, width, .. } if *width == 1.6 => Some(points.len()),
             _ => None,
         });
         assert_eq!(curves.collect::<Vec<_>>(), [5, 35]);
+    }
+
+    #[test]
+    fn a_fault_that_ruptures_at_once_has_no_front() {
+        let fault = RupturedFault { arrivals: vec![0.0; 41], ..line() };
+        assert!(arrivals("t", &fault, None, Paper::default()).is_none());
     }
 }

@@ -34,7 +34,12 @@ mod tests {
         // Values x + 2 y on a square cut into triangles about its centre.
         let places = vec![(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
         let values: Vec<f64> = places.iter().map(|(x, y)| x + 2.0 * y).collect();
-        let surface = Surface { places, faces: vec![vec![0, 1, 2, 3]], labels: ["x".into(), "y".into()] };
+        let surface = Surface {
+            places,
+            faces: vec![vec![0, 1, 2, 3]],
+            labels: ["x".into(), "y".into()],
+            geographic: false,
+        };
         let found = isolines(&surface, &values, 0.7);
         assert_eq!(found.len(), 2);
         for (x, y) in found.into_iter().flatten() {

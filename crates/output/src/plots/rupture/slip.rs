@@ -1,10 +1,10 @@
 //! Slip of an event on a surface, with lines of equal rupture time.
 
-use super::arrivals::{arrivals, fronts, last};
+use super::arrivals::{arrivals, fronts, last, mark};
 use super::{AT, BELOW, ROOM, RupturedFault, Shape, Surface, room};
 use crate::plots::colour::INK;
 use crate::plots::field::Bar;
-use crate::plots::figure::{Anchor, Figure};
+use crate::plots::figure::{Anchor, Figure, Point};
 use crate::plots::paper::Paper;
 use crate::plots::title::title;
 use crate::plots::units::LENGTH;
@@ -18,14 +18,16 @@ pub(in crate::plots) struct EventOnFault {
     pub title: String,
     /// The fault with its rupture times since the onset.
     pub fault: RupturedFault,
-    /// Slip of its points \[m\].
+    /// Slip of its points, or of the faces of its surface \[m\].
     pub slip: Vec<f64>,
+    /// Hypocentre on the surface, if it is on this fault.
+    pub hypocentre: Option<Point>,
 }
 
 impl EventOnFault {
     /// Rupture times, and on a surface the slip, with their file names; without those of which there is nothing to draw.
     pub(in crate::plots) fn figures(&self, paper: Paper) -> Vec<(String, Figure)> {
-        let times = arrivals(&self.title, &self.fault, paper);
+        let times = arrivals(&self.title, &self.fault, self.hypocentre, paper);
         let slip = match &self.fault.shape {
             Shape::Surface(surface) => self.slip_on(surface, paper),
             Shape::Line(_) => None,
@@ -46,6 +48,7 @@ impl EventOnFault {
         figure.image(surface.image(&frame, &sizes, (0.0, most)));
         let ruptured = &self.fault.arrivals;
         let apart = last(ruptured).and_then(|last| fronts(&mut figure, &frame, surface, ruptured, last));
+        mark(&mut figure, &frame, surface, self.hypocentre);
         frame.draw(&mut figure);
         let range = (0.0, most / unit.factor);
         Bar { range, above: None, label: format!("Slip [{}]", unit.name) }.draw(&mut figure, &frame);
@@ -66,9 +69,15 @@ mod tests {
     fn a_surface_has_a_map_of_slip_and_a_line_has_none() {
         let places = (0..41).map(|k| (f64::from(k) * 100.0, f64::from(k % 2) * 1e3)).collect();
         let faces = (0..38).map(|k| vec![k, k + 1, k + 2]).collect();
-        let surface = Surface { places, faces, labels: ["x".into(), "z".into()] };
+        let surface = Surface { places, faces, labels: ["x".into(), "z".into()], geographic: false };
         let slip = vec![-1.0; 41];
-        let of = |fault| EventOnFault { stem: "s".into(), title: "t".into(), fault, slip: slip.clone() };
+        let of = |fault| EventOnFault {
+            stem: "s".into(),
+            title: "t".into(),
+            fault,
+            slip: slip.clone(),
+            hypocentre: None,
+        };
         let names = |event: EventOnFault| -> Vec<String> {
             event.figures(Paper::default()).into_iter().map(|figure| figure.0).collect()
         };

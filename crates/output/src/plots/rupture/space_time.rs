@@ -12,6 +12,8 @@ use crate::plots::units::{TIME, VELOCITY};
 const PIXELS: (usize, usize) = (1120, 760);
 /// Share of the pixels that slip whose rates the colours cover: the tip of a rupture is far faster than the rest.
 const COVERED: f64 = 0.99;
+/// Slip rate up to which a fault is at rest in a rupture \[m/s\]: that of plates. The rounding of waves that pass lies below it.
+pub(super) const AT_REST: f64 = 1e-9;
 
 impl Ruptures<'_> {
     /// Image of slip rates over distance and time; `None` for surfaces and where nothing slips.
@@ -29,7 +31,7 @@ impl Ruptures<'_> {
                 *shown = shown.max(rates[fault.points.start + point].abs());
             }
         })?;
-        let Some((hi, most)) = covered(&fastest) else { return Ok(None) };
+        let Some((hi, most)) = covered(&fastest).filter(|(_, most)| *most > AT_REST) else { return Ok(None) };
         let (time, unit) = (TIME.of(last), VELOCITY.of(most));
         let x = Axis::exact((first / time.factor, last / time.factor), format!("Time [{}]", time.name));
         let size = self.paper.frame(SIZE, (AT.0 + ROOM, AT.1 + BELOW[0]));

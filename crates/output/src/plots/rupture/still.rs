@@ -24,11 +24,9 @@ pub(in crate::plots) struct StillMap {
 impl StillMap {
     /// The figure from values of the points or of the faces; `None` without values that fit the surface.
     pub(in crate::plots) fn figure(&self, surface: &Surface, values: &[f64], paper: Paper) -> Option<Figure> {
-        let values = match values.len() {
-            points if points == surface.places.len() => values.to_vec(),
-            faces if faces == surface.faces.len() => at_points(surface, values),
-            _ => return None,
-        };
+        if values.len() != surface.places.len() && !surface.by_face(values) {
+            return None;
+        }
         let finite = || values.iter().copied().filter(|v| v.is_finite());
         let (least, most) = (finite().reduce(f64::min)?, finite().reduce(f64::max)?);
         let (lo, hi) = self.range.unwrap_or_else(|| {
@@ -39,22 +37,11 @@ impl StillMap {
         let mut figure =
             Figure::new(AT.0 + frame.size.0.max(200.0) + ROOM, AT.1 + frame.size.1.max(190.0) + BELOW[0]);
         title(&mut figure, &frame, &self.title, &self.what);
-        figure.image(surface.image(&frame, &values, (lo, hi)));
+        figure.image(surface.image(&frame, values, (lo, hi)));
         frame.draw(&mut figure);
         Bar { range: (lo, hi), above: None, label: self.label.clone() }.draw(&mut figure, &frame);
         Some(figure)
     }
-}
-
-/// Values at the points of a surface: means of the finite values of the faces around them.
-fn at_points(surface: &Surface, values: &[f64]) -> Vec<f64> {
-    let mut sums = vec![(0.0, 0.0); surface.places.len()];
-    for (face, value) in surface.faces.iter().zip(values).filter(|(_, value)| value.is_finite()) {
-        for &point in face {
-            sums[point] = (sums[point].0 + value, sums[point].1 + 1.0);
-        }
-    }
-    sums.into_iter().map(|(sum, count)| sum / count).collect()
 }
 
 #[cfg(test)]
@@ -65,7 +52,7 @@ mod tests {
     fn values_of_points_and_of_faces_have_a_map_and_others_none() {
         let places = vec![(0.0, 0.0), (4e3, 0.0), (4e3, 1e3), (0.0, 1e3)];
         let faces = vec![vec![0, 1, 2], vec![0, 2, 3]];
-        let surface = Surface { places, faces, labels: ["x".into(), "y".into()] };
+        let surface = Surface { places, faces, labels: ["x".into(), "y".into()], geographic: false };
         let map = StillMap {
             title: "t".into(),
             what: "w".into(),
@@ -73,7 +60,6 @@ mod tests {
             range: Some((0.0, 1.0)),
             span: None,
         };
-        assert_eq!(at_points(&surface, &[1.0, 0.0]), [0.5, 1.0, 0.5, 0.0]);
         for values in [&[0.0; 4][..], &[1.0, f64::NAN]] {
             assert!(map.figure(&surface, values, Paper::default()).is_some());
         }

@@ -1,6 +1,6 @@
 //! Film strips: slip rate, or the velocity of bodies, at successive times.
 
-use super::space_time::covered;
+use super::space_time::{AT_REST, covered};
 use super::strip::{self, Content, Strip};
 use super::{Drawn, Line, RupturedFault, Ruptures, Shape, Surface};
 use crate::plots::axes::Axis;
@@ -42,7 +42,7 @@ impl Ruptures<'_> {
             }
             row += 1;
         })?;
-        if most <= 0.0 {
+        if most <= AT_REST {
             return Ok(None);
         }
         let (part, shown) = (format!("slip rate of {}", fault.name), Chosen { rows, most });
@@ -123,7 +123,7 @@ pub(in crate::plots) fn velocities(
     let panels = chosen.into_iter().map(|k| panel(k.min(frames.len() - 1))).collect();
     let above = (most > hi).then(|| format!("max {:.1}", most / unit.factor));
     let bar = Some(Bar { range: (0.0, hi / unit.factor), above, label: format!("Velocity [{}]", unit.name) });
-    let title = (scene, "particle velocity");
+    let title = (scene, &*format!("particle velocity{}", shown.side()));
     Some(Strip { title, axes: (frame.x, frame.y), size: frame.size, panels, bar }.draw())
 }
 
@@ -144,7 +144,8 @@ mod tests {
         let mut fault = line();
         let places = (0..41).map(|k| (f64::from(k) * 100.0, f64::from(k % 2) * 1e3)).collect();
         let faces = (0..38).map(|k| vec![k, k + 1, k + 2]).collect();
-        fault.shape = Shape::Surface(Surface { places, faces, labels: ["x".into(), "z".into()] });
+        fault.shape =
+            Shape::Surface(Surface { places, faces, labels: ["x".into(), "z".into()], geographic: false });
         let ruptures =
             Ruptures { title: "t".into(), faults: vec![fault], rates: &kept, paper: Paper::default() };
         let figure = ruptures.successive(&ruptures.faults[0]).unwrap().unwrap();

@@ -75,8 +75,8 @@ impl Default for Asked {
 impl Asked {
     /// Pixels per inch of the figures of a run.
     pub const DPI: f64 = 2.0 * UNITS;
-    /// Smallest width and height \[mm\]: a column of a journal, in which texts are as small as journals allow.
-    pub const SMALLEST: [f64; 2] = [90.0, 57.0];
+    /// Smallest width and height \[mm\]: the narrowest column of journals, in which texts are as small as journals allow.
+    pub const SMALLEST: [f64; 2] = [80.0, 50.0];
     /// Width and height \[mm\] below which texts shrink with a figure: numbers, labels and legends need most of smaller ones.
     const FULL_TEXT: [f64; 2] = [135.0, 86.0];
 

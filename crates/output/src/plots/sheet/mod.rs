@@ -119,9 +119,12 @@ pub struct InEvent {
     pub event: OfEvent,
     /// The fault with its rupture times since the onset.
     pub fault: Fault,
-    /// Slip of its points \[m\].
+    /// Slip of its points, or of the faces of its surface \[m\].
     #[serde(deserialize_with = "numbers::or_nan")]
     pub slip: Vec<f64>,
+    /// Hypocentre in the coordinates of the surface, if it is on this fault.
+    #[serde(default)]
+    pub hypocentre: Option<(f64, f64)>,
 }
 
 /// Displacement of the ground over an event, from a table.
@@ -163,8 +166,11 @@ pub struct Mises {
     pub file: String,
     /// Name of the stage.
     pub stage: String,
-    /// Its end \[s\].
+    /// Its end, or the time at which the run stopped in it \[s\].
     pub time: f64,
+    /// True if the run stopped in it.
+    #[serde(default)]
+    pub stopped: bool,
     /// Number of the mesh.
     pub mesh: usize,
     /// Stress at its nodes \[Pa\].
@@ -226,7 +232,13 @@ impl Sheet {
             None => false,
         };
         self.plots.iter().all(|plot| match plot {
-            Plot::Event(event) => fault(&event.fault) && event.slip.len() == event.fault.arrivals.len(),
+            Plot::Event(event) => {
+                let by_face = match self.shapes.get(event.fault.shape) {
+                    Some(Shape::Surface(surface)) => surface.faces.len() == event.slip.len(),
+                    _ => false,
+                };
+                fault(&event.fault) && (by_face || event.slip.len() == event.fault.arrivals.len())
+            }
             Plot::Stills(stills) => matches!(self.shapes.get(stills.shape), Some(Shape::Surface(_))),
             Plot::Ruptures(faults) => faults.iter().all(fault),
             Plot::Velocities(shown) => self
@@ -405,7 +417,8 @@ impl Sheet {
 
     fn in_event(&self, event: &InEvent) -> EventOnFault {
         let (stem, title) = (event.stem.clone(), self.of_event(&event.event));
-        EventOnFault { stem, title, fault: self.fault(&event.fault), slip: event.slip.clone() }
+        let (slip, hypocentre) = (event.slip.clone(), event.hypocentre);
+        EventOnFault { stem, title, fault: self.fault(&event.fault), slip, hypocentre }
     }
 
     fn of_event(&self, event: &OfEvent) -> String {
@@ -447,7 +460,8 @@ impl Sheet {
 
     fn mises(&self, shown: &Mises, asked: &Asked, paper: Paper) -> Option<Figure> {
         let mesh = self.meshes.get(shown.mesh).filter(|_| asked.shows(shown.time))?;
-        let when = format!("end of stage “{}”", shown.stage);
+        let place = if shown.stopped { "last step in" } else { "end of" };
+        let when = format!("{place} stage “{}”", shown.stage);
         let room = paper.frame(field::LARGE, field::MARGINS);
         field::mises(Some((&self.title, &when)), mesh, &shown.values, room)
     }
@@ -491,6 +505,7 @@ mod tests {
                 event: OfEvent { number, onset },
                 fault: fault.clone(),
                 slip: vec![1.0, f64::NAN],
+                hypocentre: None,
             })
         };
         sheet.plots = vec![event(0, 2.0), event(2, 8.0)];
