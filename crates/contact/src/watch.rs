@@ -75,4 +75,7 @@ pub struct Watch {
     /// Normal traction above which the spacing of sliding points exceeds the length over which a slip front loses strength
     /// \[Pa\]; `None` if such steps are not refused.
     pub coarse_beyond: Option<f64>,
+    /// Speed of shear waves in the slower side, beyond which no slip rate is meaningful \[m/s\]; `None` where a slip rate is only
+    /// slip over the length of a step.
+    pub waves: Option<f64>,
 }

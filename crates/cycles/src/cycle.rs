@@ -10,7 +10,7 @@ use super::catalogue::Thresholds;
 use super::episode::{Around, episode};
 use super::equations::{Equations, Fault};
 use super::error::RunError;
-use super::fault_run::FaultRun;
+use super::fault_run::{FaultRun, Outrun};
 use super::follow::{End, Follow};
 use super::loading::Loading;
 use super::moment::Faults;
@@ -39,6 +39,8 @@ pub struct Settings {
     pub most_events: Option<usize>,
     /// Number of accepted steps after which the run gives up.
     pub most_steps: usize,
+    /// Slip rate beyond which no state is meaningful and the run ends, that of shear waves in the rock \[m/s\].
+    pub fastest: f64,
 }
 
 /// Number of accepted steps after which the integration restarts. It costs one more evaluation of the rates in about 1500.
@@ -158,8 +160,8 @@ fn leg(
                 }
                 if let Some(dynamics) = dynamics.as_deref_mut() {
                     let areas = dynamics.areas;
-                    let (end, rupture_rate) = (settings.end, settings.rupture_rate);
-                    let around = Around { equations, fault, loading, areas, end, rupture_rate };
+                    let Settings { end, rupture_rate, fastest, .. } = *settings;
+                    let around = Around { equations, fault, loading, areas, end, rupture_rate, fastest };
                     episode(around, dynamics, observer, run)?;
                 }
                 if run.outcome == Outcome::Completed && enough(run, settings) {
@@ -206,7 +208,9 @@ fn piece(
         (catalogue, detectors),
         settings.rupture_rate,
     );
-    let mut pieces = Pieces { follow, above, steps: 0, next_step: None, next: Next::End };
+    let fastest = settings.fastest;
+    let mut pieces =
+        Pieces { follow, above, fastest, steps: 0, next_step: None, next: Next::End, outrun: None };
     if first && pieces.follow.begin(run.at, &run.unknowns) == Control::Stop {
         run.outcome = Outcome::Stopped;
         return pieces.follow.failure.map_or(Ok(Next::End), Err);
@@ -225,7 +229,7 @@ fn piece(
     let duration = Clock::new(end, 0.0).since(&run.at);
     let Finished { outcome, at, state, counts } =
         asperity_ode::integrate(equations, run.at, &run.unknowns, duration, &options, &mut pieces);
-    let Pieces { follow, next_step, next, .. } = pieces;
+    let Pieces { follow, next_step, next, outrun, .. } = pieces;
     if let Some(failure) = follow.failure {
         return Err(failure);
     }
@@ -233,6 +237,11 @@ fn piece(
     (run.outcome, run.at, run.unknowns) = (outcome, at, state);
     run.counts += counts;
     run.progress.heat = equations.memory();
+    if let Some((at, unknowns, outrun)) = outrun {
+        (run.outcome, run.at, run.unknowns) = (Outcome::Failed { reason: Failure::Ends }, at, unknowns);
+        run.progress.outrun = Some(outrun);
+        return Ok(Next::End);
+    }
     let over = enough(run, settings);
     match &mut run.outcome {
         // Exactly the end, so that no remainder needs another step.
@@ -267,12 +276,16 @@ struct Pieces<'a> {
     follow: Follow<'a>,
     /// Slip rate from which bodies with mass compute the rupture \[m/s\].
     above: Option<f64>,
+    /// Slip rate that ends the run \[m/s\].
+    fastest: f64,
     /// Accepted steps since the last restart.
     steps: u64,
     /// The step to try next.
     next_step: Option<NextStep>,
     /// Continuation, if this sink ended the integration.
     next: Next,
+    /// The last state before a point outran shear waves, and that point.
+    outrun: Option<(Clock, Vec<f64>, Outrun)>,
 }
 
 impl Pieces<'_> {
@@ -297,6 +310,10 @@ impl Sink for Pieces<'_> {
                 &found
             }
         };
+        if let Some(outrun) = self.follow.outrun(rate, self.fastest) {
+            self.outrun = Some((step.start, step.start_state().to_vec(), outrun));
+            return Control::Stop;
+        }
         let rates = step.start_rates().zip(step.rates).map(|(start, end)| [start, end]);
         let events = self.follow.events();
         let end = End { at: step.end, unknowns: step.state, rate, rates };

@@ -10,7 +10,7 @@
 
 use super::components::Components;
 use super::equations::{Equations, Fault, Layout, Pressed};
-use super::fault_run::FaultRun;
+use super::fault_run::{FaultRun, Outrun};
 use super::follow::{Course, End, Follow};
 use super::loading::Loading;
 use super::moment::Faults;
@@ -31,6 +31,8 @@ pub(crate) struct Around<'a> {
     pub end: f64,
     /// Slip rate at which a point has ruptured \[m/s\].
     pub rupture_rate: f64,
+    /// Slip rate that ends the run \[m/s\].
+    pub fastest: f64,
 }
 
 /// Computes a rupture from the state that the run has reached, and brings the run to its end. A failure is the outcome of
@@ -55,7 +57,7 @@ pub(crate) fn episode(
     );
     let mut watch = Watch::new(&before, follow, dynamics.handover, around);
     let done = dynamics.waves.rupture(&before.start, &mut |shaken| watch.see(shaken));
-    let Watch { follow, last, mut record, halted, .. } = watch;
+    let Watch { follow, last, mut record, halted, outrun, .. } = watch;
     if let Some(failure) = follow.failure {
         return Err(failure);
     }
@@ -64,7 +66,10 @@ pub(crate) fn episode(
     record.end = run.at.seconds();
     before.back(around, &last, &mut record, &mut run.unknowns);
     run.progress.episodes.push(record);
-    if let Err(reason) = done {
+    if outrun.is_some() {
+        run.outcome = Outcome::Failed { reason: Failure::Ends };
+        run.progress.outrun = outrun;
+    } else if let Err(reason) = done {
         run.outcome = Outcome::Failed { reason: Failure::Solver(reason) };
     } else if halted {
         run.outcome = Outcome::Stopped;
@@ -227,6 +232,8 @@ struct Watch<'a> {
     largest: f64,
     /// True if the observer ended the run.
     halted: bool,
+    /// The point that outran shear waves, which ended the run.
+    outrun: Option<Outrun>,
 }
 
 impl<'a> Watch<'a> {
@@ -243,7 +250,8 @@ impl<'a> Watch<'a> {
         };
         let (unknowns, rate, shear) = (before.unknowns.clone(), start.rate.clone(), start.friction.clone());
         let last = Last { time: 0.0, unknowns, rate, shear };
-        Self { before, around, follow, handover, last, record, since: None, largest: 0.0, halted: false }
+        let (since, largest, halted, outrun) = (None, 0.0, false, None);
+        Self { before, around, follow, handover, last, record, since, largest, halted, outrun }
     }
 
     /// Sees a step of the rupture.
@@ -251,6 +259,10 @@ impl<'a> Watch<'a> {
         if shaken.time <= self.last.time {
             self.first(&shaken);
             return Control::Go;
+        }
+        self.outrun = self.follow.outrun(shaken.rate, self.around.fastest);
+        if self.outrun.is_some() {
+            return Control::Stop;
         }
         let unknowns = self.before.unknowns(self.around.fault, &shaken);
         let over = self.over(&shaken);

@@ -27,6 +27,18 @@ pub struct Progress {
     /// The point at which the integration failed, if its normal traction fell to zero or its opening did not converge.
     #[serde(skip)]
     pub opens: Option<usize>,
+    /// The point that outran shear waves beyond the last state, if that ended the run.
+    #[serde(skip)]
+    pub outrun: Option<Outrun>,
+}
+
+/// A point that slips faster than shear waves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outrun {
+    /// Point.
+    pub point: usize,
+    /// Its slip rate in the state that was not kept \[m/s\].
+    pub rate: f64,
 }
 
 /// A run of faults. Source [`ALL`] of its events is all faults together; where there are several, source 1 + k is fault k.
@@ -46,7 +58,7 @@ impl FaultRun {
         Self::begin(
             unknowns,
             detectors.len(),
-            Progress { detectors, heat: None, episodes: Vec::new(), slow: None, opens: None },
+            Progress { detectors, heat: None, episodes: Vec::new(), slow: None, opens: None, outrun: None },
         )
     }
 

@@ -3,7 +3,7 @@
 use super::catalogue::Catalogue;
 use super::components::Components;
 use super::equations::{Equations, Fault, Pressed};
-use super::fault_run::ALL;
+use super::fault_run::{ALL, Outrun};
 use super::front;
 use super::moment::{Ends, Faults, Moment};
 use super::opening::Crack;
@@ -84,6 +84,13 @@ pub(crate) struct Follow<'a> {
     pressed: Pressed,
 }
 
+/// The fastest point, if its slip rate is beyond `most` \[m/s\] or no number.
+pub(crate) fn outrun<V: AsRef<[f64]>>(rate: Components<V>, most: f64) -> Option<Outrun> {
+    let speeds = (0..rate.points()).map(|point| Outrun { point, rate: rate.size(point) });
+    let beyond = speeds.filter(|o| o.rate > most || o.rate.is_nan());
+    beyond.reduce(|a, b| if b.rate > a.rate { b } else { a })
+}
+
 /// Number of halvings of a step in the search for the time at which a slip rate is passed; they reach the rounding of times.
 const MOST_HALVINGS: usize = 60;
 
@@ -151,6 +158,11 @@ impl<'a> Follow<'a> {
             }
         }
         best
+    }
+
+    /// The fastest point, if its slip rate is beyond `most` \[m/s\] or no number.
+    pub fn outrun(&self, rate: &[f64], most: f64) -> Option<Outrun> {
+        outrun(Components::new(rate, self.equations.layout().points()), most)
     }
 
     fn report(&mut self, at: Clock, dt: f64, unknowns: &[f64], step: Option<Ends<'_>>) -> Control {

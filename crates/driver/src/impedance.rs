@@ -20,6 +20,40 @@ pub fn radiated(a: f64, b: f64) -> f64 {
     a * b / (a + b)
 }
 
+/// Shear modulus \[Pa\] and density \[kg/m³\] of the blocks of cells behind some faces; no density for materials without one.
+///
+/// # Errors
+/// [`Diagnostic`] if a body has no material.
+fn materials<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    sides: &[Side],
+) -> Result<Vec<(f64, Option<f64>)>, Diagnostic> {
+    let blocks: BTreeSet<usize> = sides.iter().map(|s| s.block).collect();
+    let mut all = Vec::new();
+    for block in blocks {
+        let Some(body) = model.bodies.iter().find(|b| b.blocks.contains(&block)) else { continue };
+        let (_, material) =
+            model::material(&model.mesh, scene, (&body.name, &scene.bodies[&body.name]), block)?;
+        let shear = body.elastic[block - body.blocks.start].shear();
+        all.push((shear, material.density.as_ref().map(|d| d.get_ref().0)));
+    }
+    Ok(all)
+}
+
+/// Speeds of shear waves in the blocks of cells behind some faces \[m/s\]; `None` for materials without density.
+///
+/// # Errors
+/// [`Diagnostic`] if a body has no material.
+pub fn speeds<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    sides: &[Side],
+) -> Result<Vec<Option<f64>>, Diagnostic> {
+    let all = materials(scene, model, sides)?;
+    Ok(all.into_iter().map(|(shear, density)| density.map(|d| (shear / d).sqrt())).collect())
+}
+
 /// Impedances of the blocks of cells behind some faces, with `usual` for the density of materials that have none \[kg/m³\];
 /// `None` for such materials without it.
 ///
@@ -31,17 +65,8 @@ pub fn behind<const D: usize>(
     sides: &[Side],
     usual: Option<f64>,
 ) -> Result<Vec<Option<f64>>, Diagnostic> {
-    let blocks: BTreeSet<usize> = sides.iter().map(|s| s.block).collect();
-    let mut all = Vec::new();
-    for block in blocks {
-        let Some(body) = model.bodies.iter().find(|b| b.blocks.contains(&block)) else { continue };
-        let (_, material) =
-            model::material(&model.mesh, scene, (&body.name, &scene.bodies[&body.name]), block)?;
-        let density = material.density.as_ref().map(|d| d.get_ref().0).or(usual);
-        let shear = body.elastic[block - body.blocks.start].shear();
-        all.push(density.map(|density| of(shear, density)));
-    }
-    Ok(all)
+    let all = materials(scene, model, sides)?;
+    Ok(all.into_iter().map(|(shear, density)| density.or(usual).map(|d| of(shear, d))).collect())
 }
 
 /// Smallest speed of shear waves in the bodies of a model with these densities of its blocks \[kg/m³\]; in m/s.

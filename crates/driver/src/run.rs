@@ -225,7 +225,14 @@ impl<const D: usize> Running<'_, D> {
         here.length.accepted((accepted.dt, accepted.cut), figures);
         self.record(here, system, accepted);
         self.work.energy.note(system.energy());
+        self.worst(system, false);
         (here.rejected, here.free) = (0, None);
+    }
+
+    /// Notes the worst of the stage so far; the last state of a stage is always judged.
+    fn worst(&mut self, system: &Assembled<'_, D>, last: bool) {
+        let displacement = || system.displacement();
+        self.found.worst.see((self.plan, system.time()), &interface_fields(system), &displacement, last);
     }
 
     /// Outcome of a run whose slip the steps can no longer follow; `None` if they can.
@@ -273,7 +280,8 @@ impl<const D: usize> Running<'_, D> {
         self.found.points.extend(report::points(plan, stage, &samples));
         self.found.forces.extend(report::forces(plan, stage, &samples));
         self.found.springs.extend(report::springs(plan, stage, &samples));
-        let doubts = run_doubts::after_stage(plan, &stage.name, &system.displacement(), &fields);
+        self.worst(system, true);
+        let doubts = std::mem::take(&mut self.found.worst).warnings(plan, &stage.name);
         self.found.warnings.extend(resolution.into_iter().chain(doubts).map(Said::from));
     }
 
@@ -291,7 +299,7 @@ impl<const D: usize> Running<'_, D> {
         system.add_counts(&mut work.counts);
         let planned = plan.problem.interfaces.iter().zip(system.interfaces());
         let balance = planned.map(|(p, i)| balance(&p.name, i, plan.problem.model.scale)).collect();
-        let Found { results, points, forces, springs, warnings } = found;
+        let Found { results, points, forces, springs, warnings, .. } = found;
         let mut warnings: Vec<Warning> = warnings.into_iter().map(Warning::from).collect();
         // With inertia bodies may meet and part within a stage.
         if plan.problem.mass.is_none() {

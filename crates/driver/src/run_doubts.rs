@@ -5,13 +5,15 @@ use crate::plan::Plan;
 use crate::report::InterfaceResult;
 use crate::warning::Warning;
 use asperity_contact::Sliding;
+use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::Cells;
 use asperity_fem::mesh::MeshFace;
 use asperity_fem::nonlinear::Kinematics;
-use asperity_mechanics::{CellBlock, Model, PlannedInterface};
+use asperity_mechanics::{CellBlock, Model, Path, PlannedInterface};
 use asperity_output::view::InterfaceFields;
 use nalgebra::{DMatrix, SymmetricEigen};
+use serde::{Deserialize, Serialize};
 
 /// Largest principal strain admitted in small-strain theory \[-\]. The error is of the order of the strain itself, so that stress and area have
 /// errors of about five per cent here.
@@ -24,7 +26,7 @@ const SMALL_ROTATION: f64 = 0.05;
 const SMALL_SLIDING: f64 = 1.0;
 
 /// Largest principal strain and rotation of the cells of a body.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Largest {
     /// Largest principal strain \[-\].
     pub strain: f64,
@@ -32,47 +34,93 @@ pub struct Largest {
     pub rotation: f64,
 }
 
-/// Warnings at the end of a stage, given the displacement of all degrees of freedom.
-#[must_use]
-pub fn after_stage<const D: usize>(
-    plan: &Plan<D>,
-    stage: &str,
-    u: &[f64],
-    fields: &[InterfaceFields],
-) -> Vec<Warning> {
-    let mut warnings = Vec::new();
-    for body in &plan.problem.model.bodies {
-        let largest = body.blocks.clone().map(|b| of_block(&plan.problem.model, b, u));
-        let largest = largest.fold(Largest::default(), |a, b| Largest {
-            strain: a.strain.max(b.strain),
-            rotation: a.rotation.max(b.rotation),
-        });
-        warnings.extend(of_body(&body.name, stage, largest, body.elastic[0].young()));
-    }
-    warnings.extend(
-        plan.problem
-            .interfaces
-            .iter()
-            .zip(fields)
-            .filter_map(|(i, f)| dragged(&plan.problem.model, i, stage, f)),
-    );
-    warnings
+/// Growth of displacements or tractions from which on a state is judged again: a strain in between is at most so much larger.
+const GROWN: f64 = 1.05;
+
+/// The worst states of a stage so far.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Worst {
+    /// Largest strain and rotation of each body, with their times \[s\].
+    bodies: Vec<(Largest, [f64; 2])>,
+    /// Largest relative displacement of each interface \[m\].
+    slid: Vec<f64>,
+    /// Sizes of the state that was judged last: displacements \[m\], and tractions of interfaces \[Pa\].
+    judged: [f64; 2],
 }
 
-fn of_body(body: &str, stage: &str, largest: Largest, young: f64) -> Option<Warning> {
+impl Worst {
+    /// Sees the end of a step, with the slip and the tractions of the interfaces. `displacement` gives that of all degrees of freedom,
+    /// which costs a solution where bodies are condensed: then slip and tractions tell whether it is worth it.
+    pub fn see<const D: usize>(
+        &mut self,
+        (plan, time): (&Plan<D>, f64),
+        fields: &[InterfaceFields],
+        displacement: &dyn Fn() -> Vec<f64>,
+        last: bool,
+    ) {
+        let largest = |values: &mut dyn Iterator<Item = f64>| values.map(f64::abs).fold(0.0, f64::max);
+        self.slid.resize(fields.len(), 0.0);
+        for (slid, f) in self.slid.iter_mut().zip(fields) {
+            *slid = slid.max(largest(&mut f.relative_displacement.iter().copied()));
+        }
+        let traction = largest(&mut fields.iter().flat_map(|f| f.normal_traction.iter().copied()));
+        let condensed = plan.problem.path == Path::Condensed;
+        let (size, u) = if condensed {
+            (self.slid.iter().copied().fold(0.0, f64::max), None)
+        } else {
+            let u = displacement();
+            (largest(&mut u.iter().copied()), Some(u))
+        };
+        let grown = |now: f64, before: f64| now > GROWN * before;
+        if !(last || grown(size, self.judged[0]) || grown(traction, self.judged[1])) {
+            return;
+        }
+        self.judged = [self.judged[0].max(size), self.judged[1].max(traction)];
+        self.judge((&plan.problem.model, time), &u.unwrap_or_else(displacement));
+    }
+
+    fn judge<const D: usize>(&mut self, (model, time): (&Model<D>, f64), u: &[f64]) {
+        self.bodies.resize(model.bodies.len(), Default::default());
+        for (body, (worst, at)) in model.bodies.iter().zip(&mut self.bodies) {
+            for block in body.blocks.clone() {
+                let now = of_block(model, block, u);
+                if now.strain > worst.strain {
+                    (worst.strain, at[0]) = (now.strain, time);
+                }
+                if now.rotation > worst.rotation {
+                    (worst.rotation, at[1]) = (now.rotation, time);
+                }
+            }
+        }
+    }
+
+    /// Warnings about the stage.
+    #[must_use]
+    pub fn warnings<const D: usize>(&self, plan: &Plan<D>, stage: &str) -> Vec<Warning> {
+        let model = &plan.problem.model;
+        let bodies = model.bodies.iter().zip(&self.bodies);
+        let of_bodies = bodies
+            .filter_map(|(b, (worst, at))| of_body(&b.name, stage, (*worst, *at), b.elastic[0].young()));
+        let interfaces = plan.problem.interfaces.iter().zip(&self.slid);
+        of_bodies.chain(interfaces.filter_map(|(i, slid)| dragged(model, i, stage, *slid))).collect()
+    }
+}
+
+fn of_body(body: &str, stage: &str, (largest, at): (Largest, [f64; 2]), young: f64) -> Option<Warning> {
     let help = format!("add `strain = \"finite\"` to body `{body}`, or check the loads and the units");
     if largest.strain > SMALL_STRAIN {
         let message = format!(
-            "body `{body}` is strained by {:.3} in stage `{stage}`, and its strain is taken as small (up to {SMALL_STRAIN})",
-            largest.strain
+            "body `{body}` is strained by {:.3} in stage `{stage}`, most at {:e} s, and its strain is taken as small (up to {SMALL_STRAIN})",
+            largest.strain, at[0]
         );
         return Some(Warning::at(0..0, message, help));
     }
     (largest.rotation > SMALL_ROTATION).then(|| {
         let theta = largest.rotation;
         let message = format!(
-            "body `{body}` turns by {theta:.3} rad in stage `{stage}`, which a theory of small strain takes for a strain of {:.1e}, a stress of \
+            "body `{body}` turns by {theta:.3} rad in stage `{stage}`, most at {:e} s, which a theory of small strain takes for a strain of {:.1e}, a stress of \
              about {:.3e} Pa",
+            at[1],
             0.5 * theta * theta,
             0.5 * theta * theta * young
         );
@@ -80,8 +128,8 @@ fn of_body(body: &str, stage: &str, largest: Largest, young: f64) -> Option<Warn
     })
 }
 
-/// Largest strain and rotation at the centres of the cells of a block; zero if the block accounts for large
-/// deformation.
+/// Largest strain and rotation in the cells of a block, at their centres and between these and their corners, about where stresses are
+/// computed; zero if the block accounts for large deformation.
 pub fn of_block<const D: usize>(model: &Model<D>, block: usize, u: &[f64]) -> Largest {
     let followed = matches!(&model.blocks.get(block), Some(CellBlock::Nonlinear(b)) if b.model().kinematics == Kinematics::UpdatedLagrangian);
     // Antiplane motion has one component, and its equation is linear for slopes of any size.
@@ -89,8 +137,10 @@ pub fn of_block<const D: usize>(model: &Model<D>, block: usize, u: &[f64]) -> La
         return Largest::default();
     }
     let cells = &model.mesh.blocks[block];
-    (0..cells.len()).fold(Largest::default(), |largest, cell| {
-        let gradient = gradient(model, cells, cell, u);
+    let places = places(cells.kind);
+    let all = (0..cells.len()).flat_map(|cell| places.iter().map(move |place| (cell, place)));
+    all.fold(Largest::default(), |largest, (cell, place)| {
+        let gradient = gradient(model, cells, (cell, *place), u);
         let strain = 0.5 * (&gradient + gradient.transpose());
         let spin = 0.5 * (&gradient - gradient.transpose());
         let principal = SymmetricEigen::new(strain).eigenvalues.amax().max(hoop(model, cells, cell, u));
@@ -113,13 +163,26 @@ fn hoop<const D: usize>(model: &Model<D>, cells: &Cells, cell: usize, u: &[f64])
     (moved / radius).abs()
 }
 
-/// Displacement gradient at the centre of a cell.
-fn gradient<const D: usize>(model: &Model<D>, cells: &Cells, cell: usize, u: &[f64]) -> DMatrix<f64> {
-    let kind = cells.kind;
+/// Distance of the points towards the corners, over that of the corners: that of the Gauss points of first order, 1/√3.
+const TOWARDS: f64 = 0.577_350_269_189_625_8;
+
+/// Natural coordinates of the centre of a cell and of points towards its corners; simplices of first order have one strain.
+fn places(kind: ElementKind) -> Vec<[f64; 3]> {
     let corners = &kind.node_coordinates()[..kind.corners()];
     let middle: [f64; 3] =
         std::array::from_fn(|c| corners.iter().map(|x| x[c]).sum::<f64>() / corners.len() as f64);
-    let shape = kind.shape(middle);
+    let towards = |x: &[f64; 3]| std::array::from_fn(|c| middle[c] + TOWARDS * (x[c] - middle[c]));
+    std::iter::once(middle).chain(corners.iter().map(towards)).collect()
+}
+
+/// Displacement gradient at natural coordinates of a cell.
+fn gradient<const D: usize>(
+    model: &Model<D>,
+    cells: &Cells,
+    (cell, at): (usize, [f64; 3]),
+    u: &[f64],
+) -> DMatrix<f64> {
+    let shape = cells.kind.shape(at);
     let (mut jacobian, mut natural) = (DMatrix::<f64>::zeros(D, D), DMatrix::<f64>::zeros(D, D));
     for (a, &node) in cells.cell(cell).iter().enumerate() {
         for i in 0..D {
@@ -138,12 +201,11 @@ fn dragged<const D: usize>(
     model: &Model<D>,
     planned: &PlannedInterface,
     stage: &str,
-    fields: &InterfaceFields,
+    slid: f64,
 ) -> Option<Warning> {
     if planned.sliding == Sliding::Finite || planned.law.as_ref().is_some_and(|l| l.bonded()) {
         return None;
     }
-    let slid = fields.relative_displacement.iter().map(|r| r.abs()).fold(0.0, f64::max);
     let size = face_size(model, &planned.master_faces);
     (slid > SMALL_SLIDING * size).then(|| {
         Warning::at(

@@ -8,6 +8,7 @@ mod start;
 
 use crate::columns::file::columns_of;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::doubts;
 use crate::laws::{self, Theta};
 use crate::scene::model::Spanned;
 use crate::scene::slider::{self, SliderScene};
@@ -106,12 +107,18 @@ impl Planner {
         problem.peaks = extremes.is_some_and(|e| *e.get_ref());
         if let (Some(thresholds), Some(spec)) = (events, &scene.events) {
             problem.events = Some(thresholds?);
-            problem.peaks = spec.peaks.unwrap_or(true);
+            problem.peaks = spec.peaks.as_ref().is_none_or(|p| *p.get_ref());
             problem.most_events = spec.stop_after.as_ref().map(|n| *n.get_ref());
         }
         let mut plan = Plan::from(problem);
         let theta = |law| laws::choose_sliding(law).ok().and_then(|law| Theta::of(&law));
         plan.thetas = scene.sliders.values().map(|spec| theta(&spec.get_ref().law)).collect();
+        plan.warnings.clone_from(&scene.warnings);
+        if let (Some(limits), Some(spec)) = (plan.problem.events, &scene.events) {
+            // Of a load whose rate changes, that at the start.
+            let loading = plan.problem.system.segment(0.0).load().at(0.0).0.abs();
+            plan.warnings.extend(doubts::thresholds(spec, limits, loading, false));
+        }
         self.runaways(scene, &mut plan);
         unresolved(scene, &mut plan);
         Some(plan)

@@ -29,8 +29,6 @@ mod surface;
 mod time;
 mod unused;
 
-pub use interfaces::MOST_FRICTION;
-
 use super::model::{Body, Kinematics, MeshSource, Scene, Spanned};
 use super::near::suggest;
 use crate::diagnostic::Diagnostic;

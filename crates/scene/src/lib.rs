@@ -16,6 +16,7 @@ pub mod model;
 mod motion;
 pub mod names;
 pub mod near;
+pub mod plausible;
 pub mod schema;
 pub mod settings;
 mod shape;
@@ -51,7 +52,8 @@ pub fn read(
     scene.folder = folder.to_path_buf();
     files::fill(&mut scene, columns).map_err(|error| Diagnostics(vec![error]))?;
     azimuth::rakes(&mut scene);
-    let (errors, warnings) = check::check(&scene, laws);
+    let (mut errors, mut warnings) = check::check(&scene, laws);
+    plausible::judge(text, plausible::Known::of(&scene), &mut errors, &mut warnings);
     scene.warnings = warnings;
     if errors.is_empty() { Ok(scene) } else { Err(Diagnostics(errors)) }
 }

@@ -10,7 +10,7 @@ pub use spec::{Load, OutputSpec, SliderScene, SliderSpec, SliderTime, SpringSpec
 
 use super::files::{self, Columns};
 use super::model::Spanned;
-use super::{explain, near, unprintable};
+use super::{explain, near, plausible, unprintable};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use serde::Deserialize;
 
@@ -84,5 +84,9 @@ pub fn read(text: &str) -> Result<SliderScene, Diagnostics> {
     if let Some(error) = unprintable::find(text) {
         return Err(Diagnostics(vec![error]));
     }
-    toml::from_str(text).map_err(|e| Diagnostics(vec![explain::explain(&e, text)]))
+    let mut scene: SliderScene =
+        toml::from_str(text).map_err(|e| Diagnostics(vec![explain::explain(&e, text)]))?;
+    let mut errors = Vec::new();
+    plausible::judge(text, plausible::Known::SLIDERS, &mut errors, &mut scene.warnings);
+    if errors.is_empty() { Ok(scene) } else { Err(Diagnostics(errors)) }
 }

@@ -48,6 +48,28 @@ pub enum Dimension {
 }
 
 impl Dimension {
+    /// All dimensions.
+    #[cfg(test)]
+    pub(crate) const ALL: [Self; 17] = [
+        Self::Length,
+        Self::Time,
+        Self::Pressure,
+        Self::Velocity,
+        Self::Density,
+        Self::Stiffness,
+        Self::Spring,
+        Self::Gradient,
+        Self::Damping,
+        Self::Mass,
+        Self::Viscosity,
+        Self::Memory,
+        Self::Angle,
+        Self::Temperature,
+        Self::Diffusivity,
+        Self::HeatCapacity,
+        Self::PerKelvin,
+    ];
+
     /// Name with its article.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -273,6 +295,13 @@ fn shifted(number: &str, power: i32) -> Option<f64> {
     let (mantissa, exponent) = digits.split_once(['e', 'E']).unwrap_or((&digits, "0"));
     let exponent: i32 = exponent.parse().ok()?;
     format!("{mantissa}e{}", exponent.checked_add(power)?).parse().ok()
+}
+
+/// SI value of a number with any unit; `None` for any other text.
+pub(crate) fn si_value(text: &str) -> Option<f64> {
+    let (number, name) = split(text);
+    let unit = unit(name)?;
+    shifted(number, unit.power).map(|v| v * unit.factor).filter(|v| v.is_finite())
 }
 
 /// Parses a text with a unit into its SI value.

@@ -25,6 +25,7 @@ const ROWS: [Row; 1] = [Row {
         "cite/",
         "cli/",
         "diagnostic/",
+        "doubts/",
         "dynamic/planner/",
         "fault/planner/",
         "field/",

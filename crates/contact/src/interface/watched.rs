@@ -111,7 +111,10 @@ impl<const D: usize> Interface<D> {
     /// Reason for which the trial state should not be accepted, if any.
     pub(crate) fn objects(&self) -> Option<Objection> {
         let shear = self.shear.as_ref()?;
-        self.leaps(shear).or_else(|| self.runs_away(shear)).or_else(|| self.stands_too_coarsely(shear))
+        self.outruns(shear)
+            .or_else(|| self.leaps(shear))
+            .or_else(|| self.runs_away(shear))
+            .or_else(|| self.stands_too_coarsely(shear))
     }
 
     /// Objects if a point slides under more normal traction than the spacing of the points resolves.
@@ -201,6 +204,16 @@ impl<const D: usize> Interface<D> {
             &format!("reaches {:.3e} m/s, beyond {most:.3e} m/s, {why}", rate(p)),
             false,
         ))
+    }
+
+    /// Objects if a slip rate in contact exceeds the speed of shear waves or is no number. Shorter steps may end before it does.
+    fn outruns(&self, shear: &Shear) -> Option<Objection> {
+        let most = self.watch.waves?;
+        let rate = |p: usize| shear.trial.rate[p].abs();
+        let beyond = |p: &usize| self.contact.trial[*p].closed && (rate(*p) > most || rate(*p).is_nan());
+        let p = (0..self.slave.len()).filter(beyond).reduce(|a, b| if rate(b) > rate(a) { b } else { a })?;
+        let reason = format!("outruns shear waves: {:.3e} m/s, beyond {most:.4e} m/s", rate(p));
+        Some(self.objection_at(shear, p, &reason, true))
     }
 
     fn objection_at(&self, shear: &Shear, p: usize, reason: &str, shorter: bool) -> Objection {

@@ -12,7 +12,7 @@ pub mod stability;
 
 pub use budget::Budget;
 pub(crate) use equations::Piece;
-pub use problem::{DEFAULT_METHOD, DEFAULT_TOLERANCE, MOST_STEPS, Problem, RESTART};
+pub use problem::{ANY_ROCK, DEFAULT_METHOD, DEFAULT_TOLERANCE, MOST_STEPS, Problem, RESTART};
 pub use rows::{DEFAULT_CHANGE, Rows};
 pub use run::{Now, SliderRun, Sliders, resume, run};
 pub use slide::{Edge, Slide};

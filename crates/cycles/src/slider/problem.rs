@@ -18,6 +18,10 @@ pub const DEFAULT_TOLERANCE: f64 = 1e-8;
 /// absolute changes matter; a relative part of this size admits the rounding of large unknowns.
 const RELATIVE: f64 = 1e-3;
 
+/// Speed of shear waves that no rock of the crust or the upper mantle exceeds \[m/s\]: 4.7 km/s at a depth of 200 km in PREM
+/// (Dziewonski & Anderson 1981). A slider that is faster ends the run: no rock slips so, and sliders have no modulus and no density.
+pub const ANY_ROCK: f64 = 5e3;
+
 /// Default number of steps after which a run gives up: a thousand cycles of the hardest case.
 pub const MOST_STEPS: usize = 20_000_000;
 

@@ -5,10 +5,13 @@
 
 use super::budget::Budget;
 use super::equations::{EventKind, Piece, Uneventful, kinds};
-use super::problem::Problem;
+use super::problem::{ANY_ROCK, Problem};
 use super::rows::Due;
 use super::slide::{self, Detectors, Edge, Slide};
+use crate::components::Components;
 use crate::error::RunError;
+use crate::fault_run::Outrun;
+use crate::follow::outrun;
 use crate::medium::{Slips, Travelled};
 use crate::run::{NextStep, Run};
 use asperity_friction::slider::{Condition, Slider};
@@ -71,6 +74,9 @@ pub struct Progress {
     /// Possible reason for the failure of a run, in terms of the scene.
     #[serde(skip)]
     pub hint: Option<String>,
+    /// The slider that outran shear waves beyond the last state, if that ended the run.
+    #[serde(skip)]
+    pub outrun: Option<Outrun>,
     /// Detection of events.
     detectors: Detectors,
     /// Number of breaks of the prescribed histories passed.
@@ -93,6 +99,7 @@ impl SliderRun {
         let progress = Progress {
             budget: None,
             hint: None,
+            outrun: None,
             detectors: Detectors::new(sliders),
             passed: 0,
             travelled: Travelled::nowhere(sliders),
@@ -174,6 +181,7 @@ fn differ(before: &[Condition], after: &[Condition]) -> bool {
 /// Possible reason for the failure of a run, in terms of the scene.
 fn why(problem: &Problem, piece: &Piece<'_>, run: &SliderRun) -> Option<String> {
     match run.outcome {
+        _ if run.progress.outrun.is_some() => None,
         // Other failures describe their cause.
         Outcome::Failed { reason: Failure::StepTooSmall { .. } | Failure::Ends } => {
             hint(problem, piece, run.at, &run.unknowns)
@@ -238,11 +246,13 @@ struct Following<'a> {
     steps: u64,
     /// Reason to stop: a slider runs away, or its friction is zero.
     senseless: Option<Failure>,
+    /// The last state before a slider outran shear waves.
+    before: Option<(Clock, Vec<f64>)>,
 }
 
 impl<'a> Following<'a> {
     fn new(problem: &'a Problem, observer: &'a mut dyn Observer<Sliders>, run: SliderRun) -> Self {
-        Self { problem, observer, run, failure: None, ended: false, steps: 0, senseless: None }
+        Self { problem, observer, run, failure: None, ended: false, steps: 0, senseless: None, before: None }
     }
 
     /// Integrates a piece from restart to restart; `jumped` is true if what rows show jumps at its start. Returns true if it reached
@@ -275,6 +285,9 @@ impl<'a> Following<'a> {
             self.run.counts += finished.counts;
             if let Some(reason) = self.senseless.take() {
                 self.run.outcome = Outcome::Failed { reason };
+            }
+            if let Some((at, unknowns)) = self.before.take() {
+                (self.run.at, self.run.unknowns) = (at, unknowns);
             }
             if let Outcome::Failed { reason: Failure::TooManySteps { most } } = &mut self.run.outcome {
                 *most = self.problem.most_steps;
@@ -477,6 +490,17 @@ impl Running<'_, '_> {
         self.state.run.progress.unresolved == MOST_UNRESOLVED
     }
 
+    /// The fastest slider, if it moves freely and faster than shear waves in any rock.
+    fn outrun(&self, at: Clock, unknowns: &[f64]) -> Option<Outrun> {
+        let system = &self.piece.problem.system;
+        let rate = |i: usize| match system.imposed(i) {
+            Some(_) => 0.0,
+            None => self.piece.segment.slip(i, at.seconds(), unknowns).0.rate,
+        };
+        let rates: Vec<f64> = (0..system.sliders().len()).map(rate).collect();
+        outrun(Components::new(&rates, rates.len()), ANY_ROCK)
+    }
+
     fn begins(&mut self, slider: usize, at: Clock, rate: f64, edge: Edge) {
         let run = &mut self.state.run;
         run.progress.detectors.begin(&mut run.catalogue, slider, (at, rate), edge);
@@ -536,6 +560,12 @@ impl Sample {
 impl Sink for Running<'_, '_> {
     fn accepted(&mut self, step: &Step<'_>) -> Control {
         self.state.steps += 1;
+        if let Some(outrun) = self.outrun(step.end, step.state) {
+            self.state.run.progress.outrun = Some(outrun);
+            self.state.before = Some((step.start, step.start_state().to_vec()));
+            self.state.senseless = Some(Failure::Ends);
+            return Control::Stop;
+        }
         let asked = self.state.observer.watches() && self.between(step);
         self.show(step.end, step.length(), step.state, asked);
         self.sees(step.end, step.state);

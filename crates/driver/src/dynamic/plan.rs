@@ -54,6 +54,8 @@ pub struct Plan<const D: usize> {
     pub resolution: Vec<Resolution>,
     /// Slip rate at which a point has ruptured \[m/s\].
     pub rupture_rate: f64,
+    /// Slip rate that ends the run, the speed of shear waves at the faults \[m/s\].
+    pub fastest: f64,
     /// Stations on bodies.
     pub receivers: Vec<Receiver>,
     /// Time zero.

@@ -7,6 +7,7 @@ use super::run::Ended;
 use super::tables::moments_of;
 use crate::checks::Checks;
 use crate::fault::{FaultView, Resolution};
+use crate::outrun;
 use crate::report::{Kind, Outcome, Phases, Results, Stop};
 use crate::warning::Warning;
 use asperity_mechanics::coordinates;
@@ -194,8 +195,16 @@ impl Report {
 fn outcome<const D: usize>(plan: &Plan<D>, ended: &Ended) -> Outcome {
     let time = ended.time;
     if let Some(halt) = &ended.halt {
-        let kind = if matches!(halt, Halt::Growth { .. }) { Stop::EnergyGrowth } else { Stop::Integration };
-        return Outcome::Stopped { stage: None, time, reason: why(plan, halt), kind };
+        let kind = match halt {
+            Halt::Growth { .. } => Stop::EnergyGrowth,
+            Halt::Outrun { point, rate } => Stop::Outrun {
+                surface: at_point(plan, *point).0.into(),
+                position: plan.points[*point].at,
+                slip_rate: *rate,
+            },
+            _ => Stop::Integration,
+        };
+        return Outcome::Stopped { stage: None, time, reason: why(plan, halt, time), kind };
     }
     match ended.interrupted {
         Some(reason) => Outcome::Interrupted { stage: None, time, reason: reason.into() },
@@ -203,12 +212,22 @@ fn outcome<const D: usize>(plan: &Plan<D>, ended: &Ended) -> Outcome {
     }
 }
 
-/// Reason for a halt, in the words of the scene.
-fn why<const D: usize>(plan: &Plan<D>, halt: &Halt) -> String {
+/// Name of the fault of a point, and its position in words.
+fn at_point<const D: usize>(plan: &Plan<D>, point: usize) -> (&str, String) {
+    let fault = plan.faults.iter().find(|f| f.points.contains(&point)).map_or("", |f| f.name.as_str());
+    (fault, coordinates::in_words(&plan.points[point].at))
+}
+
+/// Reason for a halt after a time \[s\], in the words of the scene.
+fn why<const D: usize>(plan: &Plan<D>, halt: &Halt, time: f64) -> String {
     match halt {
+        Halt::Outrun { point, rate } => {
+            let (fault, place) = at_point(plan, *point);
+            let place = format!("point {point}, {place}");
+            outrun::reason(&format!("fault `{fault}`"), &place, time, (*rate, plan.fastest), true)
+        }
         Halt::Tension { point, traction, .. } => {
-            let fault = plan.faults.iter().find(|f| f.points.contains(point)).map_or("", |f| f.name.as_str());
-            let place = coordinates::in_words(&plan.points[*point].at);
+            let (fault, place) = at_point(plan, *point);
             format!(
                 "the sides of fault `{fault}` part at {place}, held by a normal traction of {traction:.3e} Pa, and it does not open: add `opening = true` to the fault"
             )

@@ -1,7 +1,7 @@
 //! The loop over the steps of a run.
 
 use super::keeper::Keeper;
-use super::moment::Before;
+use super::moment::{Before, size};
 use super::plan::Plan;
 use asperity_mechanics::dynamics::{Budget, Explicit, ExplicitState, FaultState, Halt};
 use asperity_output::OutputError;
@@ -37,6 +37,15 @@ pub struct Ended {
     pub interrupted: Option<&'static str>,
 }
 
+/// Halt where a fault is faster than shear waves in the bodies, or its rate no number.
+fn outran<const D: usize>(plan: &Plan<D>, explicit: &Explicit<'_, D>) -> Option<Halt> {
+    let (points, rate) = (plan.points.len(), &explicit.fault().rate);
+    let speeds = (0..points).map(|point| (point, size(rate, points, point)));
+    let beyond = speeds.filter(|(_, rate)| *rate > plan.fastest || rate.is_nan());
+    let (point, rate) = beyond.reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+    Some(Halt::Outrun { point, rate })
+}
+
 /// Runs a plan from its start, or from a saved state. Everything at the time of a step is known after the next, so that there is one more
 /// than the plan has.
 ///
@@ -59,9 +68,16 @@ pub fn run<const D: usize>(
             break;
         }
         let before = Before::new(plan, &explicit);
+        let last = explicit.fault().clone();
         halt = explicit.step().err();
         if halt.is_some() {
             break;
+        }
+        if let Some(halt) = outran(plan, &explicit) {
+            // What is known after a step is the state at its start, which does not stand.
+            let (budget, time) = (explicit.budget(), (explicit.time() - 2.0 * plan.dt).max(0.0));
+            let (steps, halt) = (explicit.steps(), Some(halt));
+            return Ok(Ended { steps, time, budget, fault: last, halt, interrupted });
         }
         keeper.step(&before.after(plan, &mut explicit))?;
     }

@@ -12,11 +12,15 @@ use super::sampled_end::{End, in_words};
 use super::words::{length, time};
 use crate::catalogue::{Entry, FaultEvents, Scattered, Site, slipped};
 use crate::checks::Checks;
+use crate::outrun;
 use crate::report::{
     EnergyBalance, ForceResult, Kind, Outcome, Phases, PointResult, Results, SpringResult, Stop,
 };
 use crate::warning::Warning;
-use asperity_cycles::{Balance, Components, Crack, Episode, Event, FaultRun, Layout, Mark, Rupture, steady};
+use asperity_cycles::{
+    Balance, Components, Crack, Episode, Event, FaultRun, Layout, Mark, Outrun, Rupture, steady,
+};
+use asperity_mechanics::coordinates;
 use asperity_ode::Outcome as Finish;
 use asperity_output::decimals::fixed;
 use asperity_output::located::{Located, magnitude};
@@ -239,6 +243,13 @@ impl Results for Report {
 
 /// Reason for the failure of an integration, in terms of the fault if possible.
 fn why(plan: &Plan, run: &FaultRun, reason: &str) -> String {
+    if let Some(Outrun { point, rate }) = run.progress.outrun {
+        let fault = plan.source(point);
+        let place = format!("point {point}, {}", coordinates::in_words(&plan.points[point].at));
+        let rates = (rate, plan.problem.settings.fastest);
+        let radiates = plan.problem.fault.damping[point] > 0.0;
+        return outrun::reason(&format!("fault `{fault}`"), &place, run.at.seconds(), rates, radiates);
+    }
     if let Some(point) = run.progress.opens {
         let view = &plan.points[point];
         let fault = plan.faults.iter().find(|f| f.points.contains(&point)).map_or("", |f| f.name.as_str());
@@ -313,7 +324,12 @@ impl Report {
             Finish::Completed | Finish::Stopped => Outcome::Completed,
             Finish::Failed { reason } => {
                 let (time, reason) = (run.at.seconds(), why(plan, run, &reason.to_string()));
-                Outcome::Stopped { stage: None, time, reason, kind: Stop::Integration }
+                let kind = run.progress.outrun.map_or(Stop::Integration, |o| Stop::Outrun {
+                    surface: plan.source(o.point),
+                    position: plan.points[o.point].at,
+                    slip_rate: o.rate,
+                });
+                Outcome::Stopped { stage: None, time, reason, kind }
             }
         };
         let events = run.events();

@@ -19,6 +19,9 @@ pub(super) const NAMES: [&str; 7] = ["distance", "longitude", "latitude", "x", "
 /// Sets of coordinates that a file may have.
 const SETS: &str = "`distance` on a fault in the plane; one, two or three of `x`, `y` and `z`; `depth`; or `longitude` and `latitude`, with or without `depth`";
 
+/// Share of the widest spread of points below which they lie across an axis rather than along it.
+const FLAT: f64 = 0.01;
+
 /// Coordinate of a file.
 #[derive(Clone, Debug)]
 enum Axis<const D: usize> {
@@ -157,14 +160,23 @@ impl<const D: usize> Axes<D> {
         self.axes.iter().map(of).collect()
     }
 
-    /// Largest share of the extent of the file, along any coordinate, over which some points spread.
-    pub fn share(&self, spots: &[Spot<D>]) -> f64 {
-        let all: Vec<Vec<f64>> = spots.iter().map(|spot| self.placed(spot)).collect();
-        let of = |(c, [low, high]): (usize, &[f64; 2])| {
+    /// Smallest share of the extent of the file over which some points spread, and its coordinate: a unit may be wrong in one of them.
+    /// Coordinates along which the points hardly spread count only if there are no others.
+    pub fn share(&self, spots: &[Spot<D>]) -> (f64, &'static str) {
+        let placed: Vec<Vec<f64>> = spots.iter().map(|spot| self.placed(spot)).collect();
+        // In metres on all axes.
+        let raw: Vec<Vec<f64>> = spots.iter().map(|spot| self.raw(spot)).collect();
+        let spread = |all: &[Vec<f64>], c: usize| {
             let [from, to] = range(&all.iter().map(|x| x[c]).collect::<Vec<_>>());
-            (to - from) / (high - low)
+            to - from
         };
-        self.ranges.iter().enumerate().map(of).filter(|share| share.is_finite()).fold(0.0, f64::max)
+        let widest = (0..self.names.len()).map(|c| spread(&raw, c)).fold(0.0, f64::max);
+        let shares =
+            self.ranges.iter().zip(&self.names).enumerate().filter_map(|(c, ([low, high], name))| {
+                let share = spread(&placed, c) / (high - low);
+                (share.is_finite() && spread(&raw, c) > FLAT * widest).then_some((share, *name))
+            });
+        shares.reduce(|a, b| if b.0 < a.0 { b } else { a }).unwrap_or((0.0, self.names[0]))
     }
 
     /// Names of the coordinates.

@@ -115,10 +115,10 @@ impl<const D: usize> Field<D> {
 
     /// Warning of a file that reaches so much farther than these points that a unit must be wrong.
     pub fn doubt(&self, region: &str, spots: &[Spot<D>]) -> Option<Warning> {
-        let share = self.axes.share(spots);
+        let (share, along) = self.axes.share(spots);
         (spots.len() > 1 && share < LEAST_SHARE).then(|| {
             let message = format!(
-                "the points of {region} spread over {share:.1e} of the extent of `{}`, which goes {}",
+                "the points of {region} spread over {share:.1e} of the extent of `{}` along {along}, which goes {}",
                 self.file,
                 self.axes.extent()
             );

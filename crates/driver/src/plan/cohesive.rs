@@ -1,9 +1,11 @@
 //! Resolution of the cohesive zone by the points of an interface, with an error or a warning if statics shows that it
 //! is too coarse.
 
+use super::PlannedInterface;
 use super::friction::Friction;
 use crate::cohesive::enough;
 use crate::diagnostic::Diagnostic;
+use crate::doubts;
 use crate::fault::{FEW, Ground, TOO_FEW, modulus, spacings};
 use crate::model::{Body, Model};
 use crate::scene::model::{Interface, Scene, UnderResolved};
@@ -108,6 +110,24 @@ pub fn check(resolved: &Resolved, interface: &str, mean: f64) -> Result<Option<W
     }
     let message = format!("{message}: fronts of slip follow the mesh");
     Ok(Some(Warning::at(resolved.place.clone(), message, enough(resolved, mean))))
+}
+
+/// Warning about an interface under a mean normal traction \[Pa\] that is shorter than slip needs to nucleate.
+pub fn nucleation<const D: usize>(
+    model: &Model<D>,
+    (spec, friction): (&Interface, Option<&Friction>),
+    (planned, sides): (&PlannedInterface, &[Side]),
+    mean: f64,
+) -> Option<Warning> {
+    let [_, nucleation] = shortest(model, (spec, friction), (&planned.slave, sides))?;
+    let places: Vec<[f64; D]> = planned.slave.iter().map(|(node, _)| model.mesh.nodes[*node]).collect();
+    let (least, most) = crate::model::bounds(&places);
+    let extent = least.iter().zip(&most).map(|(a, b)| (b - a).powi(2)).sum::<f64>().sqrt();
+    let place = spec.law.as_ref()?.span();
+    if mean <= 0.0 {
+        return None;
+    }
+    doubts::nucleation(&format!("interface `{}`", planned.name), place, nucleation.length / mean, extent)
 }
 
 /// Sine of the angle below which a surface counts as flat and two directions count as equal: rounding of coordinates.

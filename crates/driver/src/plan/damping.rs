@@ -1,9 +1,11 @@
 //! Radiation damping of interfaces.
 
 use crate::diagnostic::Diagnostic;
+use crate::doubts;
 use crate::impedance;
 use crate::model::Model;
 use crate::scene::model::{DampingSpec, Interface, Scene, Spanned};
+use crate::warning::Warning;
 use asperity_fem::mesh::Side;
 
 /// Relative difference of impedances along a side that is rounding.
@@ -42,6 +44,25 @@ pub fn of<const D: usize>(
         })
     };
     Ok(Some(impedance::radiated(of_side(slave, &spec.slave)?, of_side(master, &spec.master)?)))
+}
+
+/// Warning about a damping that is far from what the bodies radiate.
+///
+/// # Errors
+/// [`Diagnostic`] if a body has no material.
+pub fn doubt<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    (name, spec): (&str, &Interface),
+    (slave, master): (&[Side], &[Side]),
+) -> Result<Option<Warning>, Diagnostic> {
+    let Some(given) = &spec.damping else { return Ok(None) };
+    let DampingSpec::Value(value) = *given.get_ref() else { return Ok(None) };
+    let [of_slave, of_master] = [slave, master].map(|side| impedance::behind(scene, model, side, None));
+    let (of_slave, of_master) = (of_slave?, of_master?);
+    let pairs = of_slave.iter().flat_map(|a| of_master.iter().map(move |b| (*a).zip(*b)));
+    let radiated: Vec<Option<f64>> = pairs.map(|pair| pair.map(|(a, b)| impedance::radiated(a, b))).collect();
+    Ok(doubts::damping(&format!("interface `{name}`"), given.span(), value, radiated))
 }
 
 /// Reason why a side has no single impedance.

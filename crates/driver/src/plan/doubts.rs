@@ -1,12 +1,15 @@
 //! Warnings about a scene whose bodies have been built and whose stages have been resolved.
 
+use super::friction::Friction;
 use super::penalty::{self, Softer};
-use super::{PlannedInterface, StartGap, Stepping, coarse, cohesive, overlaps, start_gaps};
+use super::{PlannedInterface, StartGap, Stepping, coarse, cohesive, damping, overlaps, start_gaps};
 use crate::diagnostic::Diagnostic;
+use crate::doubts as shared;
 use crate::lengths::show;
 use crate::loading::Stage;
 use crate::model::{self, Model, locking, sizes};
 use crate::scene::model::{Interface, Scene};
+use crate::thresholds;
 use crate::warning::Warning;
 use asperity_friction::evolution;
 
@@ -20,13 +23,18 @@ const BOUNDS_NOTHING: f64 = 0.1;
 pub fn of<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
-    (interfaces, stages): (&[PlannedInterface], &[Stage]),
+    (interfaces, frictions): (&[PlannedInterface], &[Option<Friction>]),
+    stages: &[Stage],
     stepping: &Stepping,
 ) -> Result<(Vec<StartGap>, Vec<Warning>), Diagnostic> {
     let (mut starts, mut doubts) = (Vec::new(), sizes::doubts(scene, model, stages));
     doubts.extend(locking::doubts(scene, model)?);
     doubts.extend(tolerance(scene, stages));
-    for planned in interfaces {
+    let events = scene.events.as_ref();
+    // Stages before the last press bodies.
+    let loading = stages.last().map_or(0.0, Stage::largest_rate);
+    doubts.extend(events.and_then(|e| shared::thresholds(e, thresholds::of(Some(e)), loading, false)));
+    for (planned, friction) in interfaces.iter().zip(frictions) {
         let spec = &scene.interfaces[&planned.name];
         let sides = model::sides(model, &spec.slave)?;
         let mut measured = start_gaps::measure(model, stepping, planned, (spec, sides))?;
@@ -46,6 +54,11 @@ pub fn of<const D: usize>(
         doubts.extend(first_order(&planned.name, spec));
         starts.push(measured.0);
         doubts.extend(resolution(scene, model, stages, planned)?);
+        let facing = (sides, model::sides(model, &spec.master)?);
+        doubts.extend(damping::doubt(scene, model, (planned.name.as_str(), spec), facing)?);
+        let own = (spec, friction.as_ref());
+        let pressed = cohesive::pressed(scene, model, stages, (planned.name.as_str(), spec));
+        doubts.extend(pressed.and_then(|mean| cohesive::nucleation(model, own, (planned, sides), mean)));
     }
     Ok((starts, doubts))
 }

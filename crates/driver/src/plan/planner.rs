@@ -49,7 +49,9 @@ pub fn plan_beside(scene: &Scene, setups: &Setups) -> Result<ScenePlan, Diagnost
     } else {
         let mut plan = fault::plan_beside(scene, setups)?;
         if *scene.time.stepper.get_ref() == Stepper::Auto {
-            plan.ruptures = Some(dynamic::ruptures(scene, &plan)?);
+            let (ruptures, doubts) = dynamic::ruptures(scene, &plan)?;
+            plan.ruptures = Some(ruptures);
+            plan.warnings.extend(doubts);
         }
         ScenePlan::Faults(Box::new(plan))
     })
@@ -89,7 +91,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     let (followed, passed_over) = courses::of(scene);
     remarks.extend(followed);
     remarks.extend(frictions.iter().flatten().flat_map(|f| f.notes.iter().cloned()));
-    let (start_gaps, doubts) = doubts::of(scene, &model, (&interfaces, &stages), &stepping)?;
+    let (start_gaps, doubts) = doubts::of(scene, &model, (&interfaces, &frictions), &stages, &stepping)?;
     let (balance, unbalanced) = start_balance::of(scene, &model, (&interfaces, &stages), &stepping)?;
     remarks.extend(balance);
     let solver = linear_solver::choose(scene, &model, &interfaces, &stages, path, &stepping)?;
@@ -100,7 +102,8 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         summary.add_inertia(mass);
     }
     let of_files = frictions.iter().flatten().flat_map(|f| f.warnings.iter().cloned());
-    summary.warnings.extend(doubts.into_iter().chain(unbalanced).chain(of_files).chain(passed_over));
+    let doubts = doubts.into_iter().chain(unbalanced).chain(of_files).chain(passed_over);
+    crate::doubts::add(&mut summary.warnings, doubts);
     let initial_stress = model.bodies.iter().map(|b| initial_stress::of_body(scene, &b.name)).collect();
     let samples = samples::find(scene, &model)?;
     let checks =

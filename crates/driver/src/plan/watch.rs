@@ -3,6 +3,7 @@
 use crate::diagnostic::Diagnostic;
 use crate::impedance;
 use crate::model::Model;
+use crate::outrun;
 use crate::scene::law::{Evolution, LawChoice, State};
 use crate::scene::model::Scene;
 use asperity_contact::{Course, RateLimit, Watch};
@@ -29,11 +30,16 @@ pub fn of<const D: usize>(
     ((slave, master), damping): ((&[Side], &[Side]), Option<f64>),
     loading: f64,
 ) -> Result<Watch, Diagnostic> {
+    let speeds = [slave, master].map(|side| impedance::speeds(scene, model, side));
+    let [of_slave, of_master] = speeds;
+    let bound = outrun::bound(of_slave?.into_iter().chain(of_master?));
+    // Under a law of a yield surface a slip rate in equilibrium is slip over the length of a step, however short.
+    let waves: Option<f64> = (least_effect(laws).is_some() || scene.inertia().is_some()).then_some(bound);
     if scene.inertia().is_some() {
         // While a wave crosses the cells at the surface, their mass resists slip at least by their impedance.
-        let waves = impedance::radiated(least(scene, model, slave)?, least(scene, model, master)?);
-        let course = with_inertia(course_of(laws, Some(damping.unwrap_or(0.0) + waves)));
-        return Ok(Watch { rate: None, course, coarse_beyond: None });
+        let carried = impedance::radiated(least(scene, model, slave)?, least(scene, model, master)?);
+        let course = with_inertia(course_of(laws, Some(damping.unwrap_or(0.0) + carried)));
+        return Ok(Watch { rate: None, course, coarse_beyond: None, waves });
     }
     let rate = match (least_effect(laws), &scene.time.slip_rate_limit) {
         (None, _) => None,
@@ -45,7 +51,7 @@ pub fn of<const D: usize>(
             Some(RateLimit::Damped { per_traction: a / damping, least: LOADING * loading })
         }
     };
-    Ok(Watch { rate, course: course_of(laws, damping), coarse_beyond: None })
+    Ok(Watch { rate, course: course_of(laws, damping), coarse_beyond: None, waves })
 }
 
 /// Course that the steps of bodies with inertia follow: these pass through instabilities, and a drop of friction is one.

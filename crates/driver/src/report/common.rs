@@ -88,6 +88,15 @@ pub enum Stop {
     EnergyGrowth,
     /// The rates cannot be integrated beyond this time, or not within the allowed number of steps.
     Integration,
+    /// A point slipped faster than shear waves in the next state, which was not kept.
+    Outrun {
+        /// Fault, interface or slider.
+        surface: String,
+        /// Position of the point \[m\]; zeros for a slider.
+        position: [f64; 3],
+        /// Slip rate there in the state that was not kept \[m/s\].
+        slip_rate: f64,
+    },
     /// A point was about to slide where the length over which a slip front loses strength holds less than one point.
     UnderResolved {
         /// Interface.

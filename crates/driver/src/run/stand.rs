@@ -2,6 +2,7 @@
 
 use super::events::Events;
 use crate::report::{Closure, ForceResult, InterfaceResult, PointResult, SpringResult};
+use crate::run_doubts::Worst;
 use crate::warning::Warning;
 use asperity_mechanics::timing::StepLengthState;
 use asperity_mechanics::{Counts, SystemState};
@@ -45,6 +46,9 @@ pub(super) struct Found {
     pub forces: Vec<ForceResult>,
     pub springs: Vec<SpringResult>,
     pub warnings: Vec<Said>,
+    /// The worst states of the stage that runs.
+    #[serde(default)]
+    pub worst: Worst,
 }
 
 /// A warning about a run as a whole, without position in the scene file.

@@ -2,10 +2,11 @@
 
 use super::events::Entry;
 use crate::checks::Checks;
+use crate::outrun;
 use crate::report::{EnergyBalance, Kind, Outcome, Phases, Results, Stop};
 use crate::warning::Warning;
-use asperity_cycles::Thresholds;
 use asperity_cycles::slider::{Problem, SliderRun};
+use asperity_cycles::{Outrun, Thresholds};
 use asperity_ode::{Counts, Outcome as Finish};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -104,6 +105,15 @@ impl Results for Report {
     }
 }
 
+/// Outcome of a run in which a slider was faster than shear waves beyond a time \[s\].
+fn outran(problem: &Problem, Outrun { point, rate }: Outrun, time: f64) -> Outcome {
+    let (name, slider) = (problem.names[point].clone(), &problem.system.sliders()[point]);
+    let bounded = slider.damping > 0.0 || slider.mass.is_some();
+    let reason = outrun::reason(&format!("`{name}`"), "its point", time, (rate, outrun::ANY_ROCK), bounded);
+    let kind = Stop::Outrun { surface: name, position: [0.0; 3], slip_rate: rate };
+    Outcome::Stopped { stage: None, time, reason, kind }
+}
+
 impl Report {
     /// Report of a run of a problem.
     #[must_use]
@@ -113,7 +123,10 @@ impl Report {
             Finish::Completed | Finish::Stopped => Outcome::Completed,
             Finish::Failed { reason } => {
                 let reason = run.progress.hint.clone().unwrap_or_else(|| reason.to_string());
-                Outcome::Stopped { stage: None, time, reason, kind: Stop::Integration }
+                run.progress.outrun.map_or(
+                    Outcome::Stopped { stage: None, time, reason, kind: Stop::Integration },
+                    |slider| outran(problem, slider, time),
+                )
             }
         };
         let segment = problem.system.segment(run.at.seconds());

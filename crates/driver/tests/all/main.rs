@@ -52,6 +52,7 @@ mod scene_schema;
 mod scenes;
 mod setup;
 mod signs;
+mod sister_checks;
 mod slider;
 mod slider_outputs;
 mod snapshot;

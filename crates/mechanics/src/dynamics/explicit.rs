@@ -43,6 +43,14 @@ pub enum Halt {
         /// Normal traction, negative in tension \[Pa\].
         traction: f64,
     },
+    /// A fault slips faster than shear waves.
+    #[error("point {point} slips at {rate:e} m/s, faster than shear waves")]
+    Outrun {
+        /// Point.
+        point: usize,
+        /// Slip rate \[m/s\].
+        rate: f64,
+    },
     /// Energy appears from nowhere: the step is too long.
     #[error("at {time} s the bodies hold {held:e} J, and {given:e} J were put in: the steps are unstable")]
     Growth {

@@ -8,9 +8,6 @@ use std::ops::Range;
 /// Admissible rounding of angles, which are read in radians \[deg\].
 const ROUNDING: f64 = 1e-9;
 
-/// Effective friction coefficient above which a percentage or a stress was probably meant: rock has 0.85 at most.
-const LARGEST: f64 = 1.0;
-
 impl Checker<'_> {
     /// Checks the planes of Coulomb stress of a scene.
     pub(super) fn coulomb(&mut self) {
@@ -45,12 +42,6 @@ impl Checker<'_> {
         let value = *friction.get_ref();
         if !(value >= 0.0 && value.is_finite()) {
             self.error(friction.span(), "`friction` must not be negative", "such as `friction = 0.4`");
-        } else if value > LARGEST {
-            self.warn(
-                friction.span(),
-                format!("an effective friction coefficient of {value} is more than that of any rock"),
-                "it is a number, such as `friction = 0.4`",
-            );
         }
     }
 

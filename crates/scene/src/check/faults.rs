@@ -562,8 +562,20 @@ impl Checker<'_> {
             );
         }
         self.slow_events(events);
+        self.only_of_sliders(events);
         if let Some(n) = events.stop_after.as_ref().filter(|n| *n.get_ref() == 0) {
             self.error(n.span(), "`stop_after` must be at least 1", "or leave the line out");
+        }
+    }
+
+    /// Refuses what only the events of spring-sliders use.
+    fn only_of_sliders(&mut self, events: &EventSpec) {
+        if let Some(peaks) = &events.peaks {
+            self.error(
+                peaks.span(),
+                "`peaks` locates the extremes of slip rates of spring-sliders; events of faults and interfaces have the largest rate of their steps",
+                "remove `peaks`",
+            );
         }
     }
 
@@ -579,6 +591,14 @@ impl Checker<'_> {
             }
             return;
         };
+        if self.scene.faults.is_empty() {
+            self.error(
+                slow.span(),
+                "`slow_above` begins slow events of faults through cycles, and the scene has no fault",
+                "remove it, and `slow_below`; a second run with a smaller `above` lists the slow events of interfaces",
+            );
+            return;
+        }
         let (rate, above) = (slow.get_ref().0, events.above.get_ref().0);
         if !(rate > 0.0 && rate < above) {
             self.conflict(

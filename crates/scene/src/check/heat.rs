@@ -6,21 +6,9 @@ use std::ops::Range;
 
 /// Largest thickness of a zone that slips \[m\]; thicker ones are slips of units.
 const THICKEST: f64 = 100.0;
-/// Usual thicknesses of zones that slip \[m\].
-const THICKNESS: [f64; 2] = [1e-6, 1.0];
-/// Usual thermal diffusivities \[m²/s\]: rocks have about 1e-6.
-const THERMAL: [f64; 2] = [1e-8, 1e-4];
-/// Usual heat capacities per volume \[J/(m³ K)\]: rocks have about 2.7e6.
-const CAPACITY: [f64; 2] = [1e5, 1e8];
-/// Usual hydraulic diffusivities \[m²/s\].
-const HYDRAULIC: [f64; 2] = [1e-10, 1e-1];
-/// Usual pressures per temperature \[Pa/K\]: water in rock has 0.1 to 1 MPa/K.
-const PER_KELVIN: [f64; 2] = [1e3, 1e7];
-/// Usual temperatures of rock at the start \[K\].
-const AMBIENT: [f64; 2] = [200.0, 1500.0];
 
-/// A value of a key: its name, value, position and unit.
-type Value = (&'static str, f64, Range<usize>, &'static str);
+/// A value of a key: its name, value and position.
+type Value = (&'static str, f64, Range<usize>);
 
 impl Checker<'_> {
     pub(super) fn heat_of(&mut self, fault: &Fault) {
@@ -33,34 +21,28 @@ impl Checker<'_> {
                 "`thickness` is that of the layer that friction heats, such as `thickness = \"10 mm\"`",
             );
         }
-        self.usual(("thickness", thickness, heat.thickness.span(), "m"), THICKNESS, "10 mm");
+        self.positive_heat(("thickness", thickness, heat.thickness.span()), "10 mm");
         let (value, place) = (heat.diffusivity.get_ref().0, heat.diffusivity.span());
-        self.usual(("diffusivity", value, place, "m²/s"), THERMAL, "1 mm^2/s");
+        self.positive_heat(("diffusivity", value, place), "1 mm^2/s");
         let (value, place) = (heat.capacity.get_ref().0, heat.capacity.span());
-        self.usual(("capacity", value, place, "J/(m³ K)"), CAPACITY, "2.7 MJ/(m^3 K)");
+        self.positive_heat(("capacity", value, place), "2.7 MJ/(m^3 K)");
         if let Some(fluid) = heat.pressurisation.as_ref().map(Spanned::get_ref) {
             let (value, place) = (fluid.coefficient.get_ref().0, fluid.coefficient.span());
-            self.usual(("coefficient", value, place, "Pa/K"), PER_KELVIN, "0.5 MPa/K");
+            self.positive_heat(("coefficient", value, place), "0.5 MPa/K");
             let (value, place) = (fluid.diffusivity.get_ref().0, fluid.diffusivity.span());
-            self.usual(("diffusivity", value, place, "m²/s"), HYDRAULIC, "1 mm^2/s");
+            self.positive_heat(("diffusivity", value, place), "1 mm^2/s");
         }
         self.temperatures(fault, heat);
         self.beside_heat(fault, heat);
     }
 
-    /// Refuses a value that is not positive, and warns of one outside the usual range.
-    fn usual(&mut self, (key, value, place, unit): Value, [low, high]: [f64; 2], example: &str) {
+    /// Refuses a value that is not positive.
+    fn positive_heat(&mut self, (key, value, place): Value, example: &str) {
         if !(value > 0.0 && value.is_finite()) {
             self.error(
                 place,
                 format!("`{key}` of the heat must be positive"),
                 format!("such as `{key} = \"{example}\"`"),
-            );
-        } else if !(low..=high).contains(&value) {
-            self.warn(
-                place,
-                format!("`{key}` of the heat is {value:?} {unit}, outside the usual {low:?} to {high:?}"),
-                format!("a usual value is `{key} = \"{example}\"`"),
             );
         }
     }
@@ -83,7 +65,7 @@ impl Checker<'_> {
             _ => {}
         }
         if let Some(own) = &heat.temperature {
-            self.usual(("temperature", own.get_ref().0, own.span(), "K"), AMBIENT, "500 K");
+            self.positive_heat(("temperature", own.get_ref().0, own.span()), "500 K");
         }
         let Some(start) = heat.temperature.as_ref().map(|t| t.get_ref().0).or(law.map(|t| *t.get_ref()))
         else {

@@ -11,9 +11,6 @@ pub(super) fn is_tied(law: &Spanned<LawSpec>) -> bool {
     law.get_ref().kind.as_ref().is_some_and(|k| k.get_ref() == "tied")
 }
 
-/// Largest plausible friction coefficient; rock has up to 1, rubber up to 2 or 3. A larger value is a typing error.
-pub const MOST_FRICTION: f64 = 4.0;
-
 /// Kinds of law that depend on the slip rate.
 pub(super) const RATED: [&str; 2] = ["rate-and-state", "rate"];
 
@@ -84,7 +81,6 @@ impl Checker<'_> {
                 );
             }
             if let Some(spec) = &interface.law {
-                self.coefficients(spec.get_ref());
                 self.errors.extend(law::choose(spec, self.laws).err().unwrap_or_default());
                 let form = &spec.get_ref().form;
                 let rate = spec.get_ref().kind.as_ref().is_some_and(|k| k.get_ref() == "rate");
@@ -140,18 +136,6 @@ impl Checker<'_> {
                 "use `stepper = \"implicit\"`, or remove `damping`",
                 (&stepper.span(), "the stepper"),
             );
-        }
-    }
-
-    /// Warns of friction coefficients that appear to be percentages or tractions.
-    fn coefficients(&mut self, law: &LawSpec) {
-        let keys = [("mu", &law.mu), ("mu0", &law.mu0), ("mu_s", &law.mu_s), ("mu_k", &law.mu_k)];
-        for (key, given) in keys.into_iter().filter_map(|(key, given)| Some((key, given.as_ref()?))) {
-            let value = *given.get_ref();
-            if value > MOST_FRICTION {
-                let message = format!("the friction coefficient `{key}` is {value}: rocks have 0.1 to 1");
-                self.warn(given.span(), message, "it is shear over normal traction, not a percentage");
-            }
         }
     }
 

@@ -2,13 +2,10 @@
 
 use super::Checker;
 use crate::model::{Hardening, Material, Plasticity, Spanned};
-use std::ops::{Range, RangeInclusive};
+use std::ops::Range;
 
 /// A parameter of hardening: its key, its position if given, and the kinds to which it belongs.
 type Key = (&'static str, Option<Range<usize>>, &'static [Hardening]);
-
-/// Densities from rock foam to the heaviest metals, with margins on both sides \[kg/m³\].
-const DENSITIES: RangeInclusive<f64> = 100.0..=30_000.0;
 
 impl Checker<'_> {
     pub(super) fn materials(&mut self) {
@@ -35,19 +32,6 @@ impl Checker<'_> {
                     density.span(),
                     format!("the density of `{name}` must be positive"),
                     "such as `density = \"2700 kg/m^3\"`",
-                );
-            } else if let Some(density) =
-                material.density.as_ref().filter(|d| !DENSITIES.contains(&d.get_ref().0))
-            {
-                let found = density.get_ref().0;
-                let help = match DENSITIES.contains(&(1e3 * found)) {
-                    true => format!("numbers without a unit are in kg/m^3: is it \"{found:?} g/cm^3\"?"),
-                    false => "rocks have 2000 to 3500 kg/m^3: is the unit right?".to_owned(),
-                };
-                self.warn(
-                    density.span(),
-                    format!("the density of `{name}`, {found:?} kg/m^3, is that of no rock or metal"),
-                    help,
                 );
             }
         }

@@ -15,6 +15,14 @@ impl Checker<'_> {
             );
         }
         let spec = asked.get_ref();
+        if let Some(date) = spec.date.as_ref().filter(|d| !is_date(d.get_ref())) {
+            self.error(
+                date.span(),
+                format!("`{}` is no date", date.get_ref().escape_debug()),
+                format!("year, month and day, such as `date = \"{}\"`", example("date")),
+            );
+            return;
+        }
         let texts = [
             ("problem", Some(&spec.problem)),
             ("modeler", Some(&spec.modeler)),
@@ -31,6 +39,17 @@ impl Checker<'_> {
             }
         }
     }
+}
+
+/// True for a year, a month and a day with `/` or `-` between them, in numbers that a calendar may have.
+fn is_date(text: &str) -> bool {
+    let parts: Vec<&str> = text.split(['/', '-']).collect();
+    let [year, month, day] = parts[..] else { return false };
+    let within = |text: &str, digits: usize, range: std::ops::RangeInclusive<u32>| {
+        let plain = text.len() == digits && text.bytes().all(|b| b.is_ascii_digit());
+        plain && text.parse().is_ok_and(|number| range.contains(&number))
+    };
+    within(year, 4, 1900..=2999) && within(month, 2, 1..=12) && within(day, 2, 1..=31)
 }
 
 fn example(key: &str) -> &'static str {

@@ -9,3 +9,4 @@ mod value;
 pub use find::{Found, check, find};
 pub use path::{Path, Step, written};
 pub use row::{Key, Row, roots, row};
+pub(crate) use tree::Tree;

@@ -4,7 +4,7 @@ use crate::schema::schema;
 use serde_json::Value;
 
 /// Schema of scenes, with its definitions.
-pub(super) struct Tree(Value);
+pub(crate) struct Tree(Value);
 
 impl Tree {
     pub fn new() -> Self {

@@ -20,5 +20,5 @@ pub struct EventSpec {
     /// Number of events after which the run ends; with several sliders, events of the first by name.
     pub stop_after: Option<Spanned<usize>>,
     /// Sliders: `true` locates the extremes of the slip rate; default `true`.
-    pub peaks: Option<bool>,
+    pub peaks: Option<Spanned<bool>>,
 }

@@ -5,6 +5,7 @@ use super::event::EventSpec;
 use crate::model::{LawSpec, Spanned, Tabled};
 use crate::shape::{Either, shaped};
 use crate::units::{Damping, Dimension, Mass, Pressure, Spring, Time, Velocity};
+use crate::warning::Warning;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{self, Deserializer, SeqAccess, Visitor};
@@ -36,6 +37,9 @@ pub struct SliderScene {
     pub events: Option<EventSpec>,
     /// Rows of the histories.
     pub output: Option<OutputSpec>,
+    /// What is doubtful in it.
+    #[serde(skip)]
+    pub warnings: Vec<Warning>,
 }
 
 impl SliderScene {

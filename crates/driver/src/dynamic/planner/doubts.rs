@@ -1,10 +1,12 @@
 //! Settings of runs with waves that are probably not intended.
 
-use crate::fault::planner::Placed;
+use crate::doubts::{self as shared, Pushed};
+use crate::fault::planner::{Placed, pulse_doubts};
 use crate::scene::law::LawChoice;
 use crate::scene::model::{Fault as Spec, Scene};
 use crate::warning::Warning;
 use asperity_mechanics::Stage;
+use asperity_mechanics::dynamics::Fault;
 
 /// Steps from which a run is taken for a slip of unit: a day at a thousand steps per second.
 const MANY: usize = 100_000_000;
@@ -51,6 +53,49 @@ pub(super) fn check<const D: usize>(
         ));
     }
     all
+}
+
+/// Warnings about faults between unlike rocks whose friction follows the normal traction at once.
+pub(super) fn unlike<const D: usize>(scene: &Scene, placed: &[Placed<D>], delays: bool) -> Vec<Warning> {
+    let remembers = |p: &Placed<D>| match &p.law {
+        LawChoice::RateAndState { states, .. } => states.iter().any(|s| s.alpha > 0.0),
+        _ => false,
+    };
+    let of = |(k, (name, spec)): (usize, (&String, &Spec))| {
+        // In antiplane motion slip changes no normal traction.
+        let own = placed.iter().filter(|p| p.fault == k && p.components > 1 && !remembers(p));
+        let contrast = own.map(|p| p.medium.contrast).fold(0.0, f64::max);
+        let bare = spec.normal_delay.is_none();
+        if bare { shared::unlike(name, spec.law.span(), contrast, delays) } else { None }
+    };
+    scene.faults.iter().enumerate().filter_map(of).collect()
+}
+
+/// Doubts about the pulses of a run of this duration \[s\].
+pub(super) fn pulses<const D: usize>(
+    scene: &Scene,
+    placed: &[Placed<D>],
+    fault: &Fault,
+    duration: f64,
+) -> Vec<Warning> {
+    let named: Vec<(&String, &Spec)> = scene.faults.iter().collect();
+    let of = |p: &Placed<D>| {
+        let (direct, missing, length) = match &p.law {
+            LawChoice::Rate { strength, .. } => (Some(strength.a * p.normal), None, None),
+            LawChoice::RateAndState { strength, states, .. } => {
+                let length = states.iter().map(|s| s.l).reduce(f64::min);
+                (Some(strength.a * p.normal), None, length)
+            }
+            LawChoice::Yielding { own, .. } => {
+                let strength = own.first().map(|mu| mu * p.normal);
+                (None, strength.map(|s| s - p.shear.unwrap_or_default().abs()), None)
+            }
+        };
+        let begins = length.map(|l| p.rate.abs() * duration / l);
+        Pushed { amplitude: 0.0, normal: p.normal, direct, missing, begins }
+    };
+    let pushed: Vec<Pushed> = placed.iter().map(of).collect();
+    pulse_doubts(&named, fault.pulses.iter().map(|p| p.amplitude.as_slice()), &pushed)
 }
 
 fn at_once((name, spec): (&String, &Spec), above: usize, points: usize) -> Warning {

@@ -18,6 +18,7 @@ use crate::held::Held;
 use crate::loading;
 use crate::model::checks::field_bytes;
 use crate::model::{self, Model, counts, locking, meshes};
+use crate::outrun;
 use crate::plan::courses;
 use crate::scene::model::{Kinematics, Scene};
 use crate::views;
@@ -73,7 +74,8 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         let named: Vec<_> = scene.faults.iter().collect();
         return Err(of_faults::nothing_slides(&named, &locked));
     }
-    warnings.extend(doubts::check(scene, &placed, &stages[0], (counted.steps, counted.dt)));
+    let steps = (counted.steps, counted.dt);
+    crate::doubts::add(&mut warnings, doubts::check(scene, &placed, &stages[0], steps));
     warnings.extend(courses::passed_over(&scene.stages[0], counted.dt, courses::WAVES));
     let resolution = of_faults::resolved(scene, &placed, &mut warnings)?;
     let (faults, points) = of_faults::views(scene, &Meshed { model: &model }, &placed, D == 3)?;
@@ -87,6 +89,11 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     checks.cost = cost(&model, &counted, points.len(), memory_bytes);
     let idealisation = model.idealisation;
     let mut fault = faults::of(scene, &placed)?;
+    warnings.extend(doubts::unlike(scene, &placed, true));
+    if let Some(fault) = &fault {
+        let duration = counted.steps as f64 * counted.dt;
+        crate::doubts::add(&mut warnings, doubts::pulses(scene, &placed, fault, duration));
+    }
     if let Some(fault) = &mut fault {
         fault.ties = locked.iter().map(faults::tie).collect();
     }
@@ -100,6 +107,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         points,
         resolution,
         rupture_rate: scene.output.rupture_rate.as_ref().map_or(RUPTURED, |v| v.get_ref().0),
+        fastest: outrun::bound(placed.iter().map(|p| p.medium.waves)),
         receivers,
         epoch: outputs::epoch(scene)?,
         mesh: views::mesh_view(&model, false),

@@ -1,7 +1,7 @@
 //! Plans the bodies with mass that compute the ruptures of faults through cycles.
 
 use super::faults::{apart, tie};
-use super::{faults, masses, steps};
+use super::{doubts, faults, masses, steps};
 use crate::diagnostic::Diagnostic;
 use crate::fault::Plan as Cycles;
 use crate::fault::planner::{self as of_faults, Placed, in_space};
@@ -12,6 +12,7 @@ use crate::model::{self, Model};
 use crate::ruptures::{AnyBodies, Bodies, Ruptures};
 use crate::scene::law::LawChoice;
 use crate::scene::model::Scene;
+use crate::warning::Warning;
 use asperity_cycles::Handover;
 use asperity_mechanics::dynamics::{Dashpot, Problem};
 use asperity_mechanics::{Pace, Spring, Stage};
@@ -19,27 +20,32 @@ use asperity_mechanics::{Pace, Spring, Stage};
 /// Steps of the stage in which ruptures run; they end by themselves.
 const STEPS: f64 = 1e6;
 
-/// Plans the ruptures of a scene whose cycles are planned.
+/// Plans the ruptures of a scene whose cycles are planned, and says what is doubtful about them.
 ///
 /// # Errors
 /// [`Diagnostic`] with the place in the scene.
-pub fn ruptures(scene: &Scene, cycles: &Cycles) -> Result<Ruptures, Diagnostic> {
-    let (bodies, quiet, loading) = match scene.kinematics.get_ref().dimension() {
+pub fn ruptures(scene: &Scene, cycles: &Cycles) -> Result<(Ruptures, Vec<Warning>), Diagnostic> {
+    let (bodies, quiet, loading, doubts) = match scene.kinematics.get_ref().dimension() {
         2 => {
-            let (bodies, quiet, loading) = bodies::<2>(scene, cycles)?;
-            (AnyBodies::Two(Box::new(bodies)), quiet, loading)
+            let (bodies, quiet, loading, doubts) = bodies::<2>(scene, cycles)?;
+            (AnyBodies::Two(Box::new(bodies)), quiet, loading, doubts)
         }
         _ => {
-            let (bodies, quiet, loading) = bodies::<3>(scene, cycles)?;
-            (AnyBodies::Three(Box::new(bodies)), quiet, loading)
+            let (bodies, quiet, loading, doubts) = bodies::<3>(scene, cycles)?;
+            (AnyBodies::Three(Box::new(bodies)), quiet, loading, doubts)
         }
     };
     let handover::Bounds { above, below, kinetic } = handover::of(scene, loading)?;
-    Ok(Ruptures { handover: Handover { above, below, quiet, kinetic }, bodies })
+    Ok((Ruptures { handover: Handover { above, below, quiet, kinetic }, bodies }, doubts))
 }
 
-/// The bodies, the time in which a shear wave crosses the faults and returns \[s\], and the largest rate of the loads \[m/s\].
-fn bodies<const D: usize>(scene: &Scene, cycles: &Cycles) -> Result<(Bodies<D>, f64, f64), Diagnostic> {
+/// The bodies, the time in which a shear wave crosses the faults and returns \[s\], the largest rate of the loads \[m/s\], and what is
+/// doubtful.
+#[expect(clippy::type_complexity, reason = "four results of one plan")]
+fn bodies<const D: usize>(
+    scene: &Scene,
+    cycles: &Cycles,
+) -> Result<(Bodies<D>, f64, f64, Vec<Warning>), Diagnostic> {
     let model = model::build::<D>(scene)?;
     let density = masses::densities(scene, &model)?;
     let viscosity = steps::viscosity(scene);
@@ -80,7 +86,7 @@ fn bodies<const D: usize>(scene: &Scene, cycles: &Cycles) -> Result<(Bodies<D>, 
         stages: vec![stage],
         velocity: Vec::new(),
     };
-    Ok((Bodies { problem, stable }, quiet, loading))
+    Ok((Bodies { problem, stable }, quiet, loading, doubts::unlike(scene, &placed, false)))
 }
 
 fn components<const D: usize>(model: &Model<D>) -> usize {

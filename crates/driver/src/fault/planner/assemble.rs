@@ -9,11 +9,13 @@ use super::super::sampling::Sampling;
 use super::super::stresses::BodyStresses;
 use super::cells::Cells;
 use super::placed::{Placed, components, in_space, slides};
-use super::pulses::{doubts, pulses};
+use super::pulses::{self, pulses};
 use super::{asked, checks, floor, frame, heated, pressing, radiation, sense, start_doubts, steady};
 use crate::checks::{Checks, Cost, FaultCheck, rates};
 use crate::diagnostic::Diagnostic;
+use crate::doubts::Fluid;
 use crate::laws::{self, Theta};
+use crate::outrun;
 use crate::scene::law::LawChoice;
 use crate::scene::model::{Creep, Fault as Spec, Scene, SlipSpec, Spanned, Station as Asking};
 use crate::thresholds;
@@ -76,6 +78,8 @@ pub(super) struct Around {
     pub prescribed: Vec<usize>,
     /// Stiffness of the springs that drive each fault, if there are any \[Pa/m\].
     pub machines: Vec<Option<f64>>,
+    /// Largest rate at which stages and plates move anything \[m/s\].
+    pub loading: f64,
 }
 
 /// True if slip may turn. The scene check ensures that all faults have the same.
@@ -114,13 +118,16 @@ pub(super) fn plan_of<const D: usize>(
         opening,
     };
     let start = start(&placed, &fault).map_err(at_law)?;
-    let settings = settings::<D>(scene, end)?;
+    let settings = settings(scene, &placed, end)?;
     pressing::rests(scene, (&placed, &fault), (&start, settings.thresholds.on))?;
     let mut warnings = around.warnings;
-    warnings.extend(start_doubts::check(scene, &placed, &fault));
-    warnings.extend(doubts(&named, &fault));
-    warnings.extend(endless(scene));
-    warnings.extend(radiation::missing(scene, &placed));
+    warnings.extend(pressing::unused_rates(scene, &placed));
+    crate::doubts::add(&mut warnings, start_doubts::check(scene, &placed, &fault));
+    let amplitudes = fault.pulses.iter().map(|p| p.amplitude.as_slice());
+    crate::doubts::add(&mut warnings, pulses::doubts(&named, amplitudes, &pulses::at_rest(&fault)));
+    crate::doubts::add(&mut warnings, endless(scene, around.loading));
+    crate::doubts::add(&mut warnings, radiation::doubts(scene, &placed));
+    warnings.extend(spread(scene, &placed, end));
     warnings.extend(steady::starts(scene, &placed, &fault, (&loading, end)));
     let (faults, points) = views(scene, cells, &placed, turns)?;
     let areas = placed.iter().map(|p| p.point.place.area).collect();
@@ -303,7 +310,7 @@ fn integrator<const D: usize>(scene: &Scene) -> Result<(Method, f64), Diagnostic
     Ok((heated::method(scene, method)?, tolerance.unwrap_or(default)))
 }
 
-fn settings<const D: usize>(scene: &Scene, end: f64) -> Result<Settings, Diagnostic> {
+fn settings<const D: usize>(scene: &Scene, placed: &[Placed<D>], end: f64) -> Result<Settings, Diagnostic> {
     let (method, tolerance) = integrator::<D>(scene)?;
     let events = scene.events.as_ref();
     let thresholds = thresholds::of(events);
@@ -315,26 +322,33 @@ fn settings<const D: usize>(scene: &Scene, end: f64) -> Result<Settings, Diagnos
         rupture_rate: rupture_rate(scene, thresholds.on)?,
         most_events: events.and_then(|e| e.stop_after.as_ref()).map(|n| *n.get_ref()),
         most_steps: MOST_STEPS,
+        fastest: outrun::bound(placed.iter().map(|p| p.medium.waves)),
     })
 }
 
-/// Warning about slow events that do not end, as faults creep faster than the slip rate that ends them.
-fn endless(scene: &Scene) -> Option<Warning> {
-    let events = scene.events.as_ref();
-    let (slow, given) = (thresholds::slow(events)?, events?.slow_above.as_ref()?);
+/// Warnings about events that do not end, as `loading` or creep keep up the slip rate that ends them \[m/s\].
+fn endless(scene: &Scene, loading: f64) -> Vec<Warning> {
+    let Some(events) = scene.events.as_ref() else { return Vec::new() };
     let creeps = scene.faults.values().filter_map(|f| f.creep.as_ref());
-    let fastest = creeps.map(|c| c.rate.get_ref().0.abs()).fold(0.0, f64::max);
-    (slow.off <= fastest).then(|| {
-        let place = events.and_then(|e| e.slow_below.as_ref()).map_or_else(|| given.span(), Spanned::span);
-        Warning::at(
-            place,
-            format!(
-                "slow events end below {:e} m/s, and faults creep at {fastest:e} m/s: where they keep this rate, a slow event does not end",
-                slow.off
-            ),
-            "`slow_below` above the rate of `creep`, and `slow_above` above both",
-        )
-    })
+    let fastest = creeps.map(|c| c.rate.get_ref().0.abs()).fold(loading, f64::max);
+    let usual = crate::doubts::thresholds(events, thresholds::of(Some(events)), fastest, false);
+    let slow =
+        thresholds::slow(Some(events)).and_then(|t| crate::doubts::thresholds(events, t, fastest, true));
+    // One warning per cause: the rate of the loads.
+    usual.or(slow).into_iter().collect()
+}
+
+/// Warnings about fluid that has run beyond the ends of its fault before the run ends \[s\].
+fn spread<const D: usize>(scene: &Scene, placed: &[Placed<D>], end: f64) -> Vec<Warning> {
+    let of = |(k, (name, spec)): (usize, (&String, &Spec))| {
+        let injection = spec.injection.as_ref()?;
+        let along = placed.iter().filter(|p| p.fault == k).map(|p| p.point.place.along);
+        let ends = along.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], s| [l.min(s), h.max(s)]);
+        let at = injection.at.get_ref().0;
+        let fluid = Fluid { at, ends, diffusivity: *injection.diffusivity.get_ref(), duration: end };
+        crate::doubts::fluid(name, injection.diffusivity.span(), fluid)
+    };
+    scene.faults.iter().enumerate().filter_map(of).collect()
 }
 
 /// Slip rate at which a point has ruptured \[m/s\]; events begin at the slip rate `on`.

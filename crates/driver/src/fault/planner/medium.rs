@@ -24,6 +24,10 @@ pub struct Medium {
     pub stiffness: f64,
     /// Radiation damping η \[Pa s/m\]; `None` if a density is unknown.
     pub radiation: Option<f64>,
+    /// Difference of the shear moduli of both sides over their sum \[-\].
+    pub contrast: f64,
+    /// Speed of shear waves on the slower side \[m/s\]; `None` if a density is unknown.
+    pub waves: Option<f64>,
 }
 
 /// Materials on both sides of a fault.
@@ -58,12 +62,16 @@ impl Media {
     /// Effective medium at a point of the fault.
     pub fn at<const D: usize>(&self, place: &Place<D>) -> Medium {
         let (minus, plus) = (&self.minus[&place.minus], &self.plus[&place.plus]);
+        let contrast = |a: f64, b: f64| (a - b).abs() / (a + b);
         let parallel = |a: f64, b: f64| a * b / (a + b);
         let impedance = |share: &Share| share.impedance.map(|z| z / share.area);
+        let waves = |share: &Share| share.impedance.map(|z| share.shear / z);
         Medium {
             shear_modulus: 2.0 * parallel(minus.shear / minus.area, plus.shear / plus.area),
             stiffness: 2.0 * parallel(minus.stiffness / minus.area, plus.stiffness / plus.area),
             radiation: impedance(minus).zip(impedance(plus)).map(|(a, b)| radiated(a, b)),
+            contrast: contrast(minus.shear / minus.area, plus.shear / plus.area),
+            waves: waves(minus).zip(waves(plus)).map(|(a, b)| a.min(b)),
         }
     }
 }

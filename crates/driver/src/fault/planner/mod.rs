@@ -45,7 +45,7 @@ pub use critical::critical_slope;
 pub(crate) use meshed::Meshed;
 pub use place::places;
 pub(crate) use placed::{Placed, in_space, slides};
-pub(crate) use pulses::pulses;
+pub(crate) use pulses::{doubts as pulse_doubts, pulses};
 pub use resolution::{Ground, modulus, spacings};
 pub(crate) use resolved::resolved;
 
@@ -267,6 +267,7 @@ fn between_bodies<const D: usize>(
         notes,
         prescribed: checks::counted(scene, &creeping),
         machines: machines(stage, &checks::surfaces(scene, &placed)),
+        loading: stage.largest_rate().max(backslip::fastest(scene)),
         checks: of_bodies,
     };
     let Driven { operator, loading, .. } = driven;

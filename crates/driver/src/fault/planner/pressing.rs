@@ -9,8 +9,10 @@ use super::placed::Placed;
 use crate::diagnostic::Diagnostic;
 use crate::loading::Stage;
 use crate::scene::check;
+use crate::scene::law::LawChoice;
 use crate::scene::model::{Fault as Spec, Scene, Stage as StageSpec};
 use crate::setup::{Part, Setups};
+use crate::warning::Warning;
 use asperity_cycles::Fault;
 use asperity_cycles::medium::{Conditions, Pressed, Pressing, press};
 use asperity_fem::condense::Stiffness;
@@ -190,4 +192,25 @@ pub(super) fn rests<const D: usize>(
             "let it slide without friction while it is pressed, `frictionless = [\"{name}\"]` in the stage, or hold less of the bodies along it"
         ),
     ))
+}
+
+/// Warnings about slip rates at the start of faults that have been pressed: these follow from friction, whose states are those of
+/// `v_initial`, and of `rate` only the sense counts.
+pub(super) fn unused_rates<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Vec<Warning> {
+    let of = |(k, (name, spec)): (usize, (&String, &Spec))| {
+        let pressed = placed.iter().find(|p| p.fault == k && p.pressed_shear.is_some())?;
+        let same = match &pressed.law {
+            LawChoice::RateAndState { v_initial, .. } => *v_initial == spec.rate.get_ref().0.abs(),
+            // Without states, slip at `rate` is what friction is taken from.
+            _ => true,
+        };
+        (!same && !spec.rate.span().is_empty()).then(|| {
+            let message = format!(
+                "`rate` of fault `{name}` is not used but for its sense: it is pressed and sheared before, and slips as friction then lets it"
+            );
+            let help = "`v_initial` of the law sets the states at the start; give `rate` the same size, or `shear` to start from `rate`";
+            Warning::at(spec.rate.span(), message, help)
+        })
+    };
+    scene.faults.iter().enumerate().filter_map(of).collect()
 }

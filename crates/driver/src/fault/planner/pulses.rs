@@ -2,9 +2,10 @@
 
 use super::placed::Placed;
 use crate::diagnostic::Diagnostic;
+use crate::doubts::Pushed;
 use crate::scene::model::{Fault as Spec, Pulse as Asked};
 use crate::warning::Warning;
-use asperity_cycles::{Fault, Pulse};
+use asperity_cycles::Fault;
 
 /// Returns the amplitude of each pulse at all points, component by component of slip \[Pa\], and the duration of its growth \[s\].
 ///
@@ -37,46 +38,31 @@ pub(crate) fn pulses<const D: usize>(
     Ok(all)
 }
 
-/// Effect of a pulse on ln V below which it is doubtful.
-const WEAK: f64 = 0.01;
-/// Points that a pulse acts on, below which its shape is not resolved.
-const FEW: usize = 3;
-
-/// A warning for each pulse that hardly changes slip rates, that no friction holds, or that acts on hardly any point.
-pub(super) fn doubts(named: &[(&String, &Spec)], fault: &Fault) -> Vec<Warning> {
+/// Doubts about each pulse, given all points; `pushed` has what counts of a point beside the amplitude.
+pub(crate) fn doubts<'a>(
+    named: &[(&String, &Spec)],
+    amplitudes: impl Iterator<Item = &'a [f64]>,
+    pushed: &[Pushed],
+) -> Vec<Warning> {
     let asked = named.iter().flat_map(|(_, spec)| &spec.pulses);
-    asked.zip(&fault.pulses).filter_map(|(asked, pulse)| doubt(asked, pulse, fault)).collect()
+    let doubt = |(asked, amplitude): (&Asked, &[f64])| {
+        let points = amplitude.iter().enumerate();
+        crate::doubts::pulse(asked, points.map(|(i, a)| Pushed { amplitude: *a, ..pushed[i % pushed.len()] }))
+    };
+    asked.zip(amplitudes).filter_map(doubt).collect()
 }
 
-fn doubt(asked: &Asked, pulse: &Pulse, fault: &Fault) -> Option<Warning> {
-    let points = fault.normal.len();
-    let over = |scale: &dyn Fn(usize) -> f64| {
-        let all = pulse.amplitude.iter().enumerate();
-        all.map(|(i, amplitude)| amplitude.abs() / scale(i % points)).fold(0.0, f64::max)
+/// What counts of the points of faults in equilibrium.
+pub(super) fn at_rest(fault: &Fault) -> Vec<Pushed> {
+    let of = |p: usize| Pushed {
+        amplitude: 0.0,
+        normal: fault.normal[p],
+        direct: Some(fault.law.scale(p) * fault.normal[p]),
+        missing: None,
+        // Slip has the years of a cycle.
+        begins: None,
     };
-    // ln V changes by the traction over a f_n at most.
-    let effect = over(&|p| fault.law.scale(p) * fault.normal[p]);
-    let friction = over(&|p| fault.normal[p]);
-    let acts = pulse.amplitude.iter().filter(|a| **a != 0.0).count();
-    let traction = asked.traction.get_ref().0;
-    let unit = "check its unit, such as `traction = \"1.75 MPa\"`, and that of `normal`";
-    let (place, words, help) = if effect < WEAK {
-        let words = format!(
-            "the pulse of {traction:e} Pa hardly changes slip rates: by a factor of 1 + {effect:.1e} where its effect is largest"
-        );
-        (asked.traction.span(), words, unit)
-    } else if friction > 1.0 {
-        let words = format!(
-            "the pulse of {traction:e} Pa is up to {friction:.2} times the normal traction: no friction holds it"
-        );
-        (asked.traction.span(), words, unit)
-    } else if acts < FEW {
-        let words = format!("the pulse acts on {acts} of the points, too few for its shape");
-        (asked.radius.span(), words, "check the unit of its `radius`; or take smaller cells")
-    } else {
-        return None;
-    };
-    Some(Warning::at(place, words, help))
+    (0..fault.normal.len()).map(of).collect()
 }
 
 /// Sense of slip of a point: that of its slip rate, or of its shear traction where it starts at rest.

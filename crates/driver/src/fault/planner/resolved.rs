@@ -4,9 +4,21 @@ use super::super::resolution::Resolution;
 use super::placed::Placed;
 use super::{floor, resolution};
 use crate::diagnostic::Diagnostic;
+use crate::doubts;
 use crate::scene::model::Scene;
 use crate::warning::Warning;
 use resolution::Ground;
+
+/// Largest distance along an axis between the ends of some points with their cells \[m\].
+fn extent<'a, const D: usize>(points: impl Iterator<Item = &'a Placed<D>> + Clone) -> f64 {
+    let along = |c: usize| {
+        let x = points.clone().map(|p| p.point.place.at[c]);
+        let [low, high] = x.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], x| [l.min(x), h.max(x)]);
+        high - low
+    };
+    let cell = points.clone().map(|p| p.spacing).fold(0.0, f64::max);
+    (0..D).map(|c| along(c).powi(2)).sum::<f64>().sqrt() + cell
+}
 
 /// Resolution of each fault on which friction weakens.
 pub(crate) fn resolved<const D: usize>(
@@ -25,6 +37,9 @@ pub(crate) fn resolved<const D: usize>(
         });
         if let Some(found) = resolution::of_points(name, with_ground) {
             warnings.extend(resolution::check(&found, spec, D == 3)?);
+            let (length, extent) = (found.nucleation.length, extent(points()));
+            let surface = format!("fault `{name}`");
+            warnings.extend(doubts::nucleation(&surface, spec.law.span(), length, extent));
             all.push(found);
         }
     }

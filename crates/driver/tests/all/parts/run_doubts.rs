@@ -24,7 +24,11 @@ stepper = "implicit"
 fn told(u: impl Fn(&[f64; 2]) -> [f64; 2]) -> (Largest, Vec<String>) {
     let AnyPlan::Two(plan) = plan(&scene::read(BAR).unwrap()).unwrap() else { panic!("a plane scene") };
     let u: Vec<f64> = plan.problem.model.mesh.nodes.iter().flat_map(u).collect();
-    let told = after_stage(&plan, "turn", &u, &[]).into_iter().map(|w| w.message).collect();
+    let mut worst = Worst::default();
+    // The state is at its worst in the middle of the stage, and at rest at its end.
+    worst.see((&plan, 0.5), &[], &|| u.clone(), false);
+    worst.see((&plan, 1.0), &[], &|| vec![0.0; u.len()], true);
+    let told = worst.warnings(&plan, "turn").into_iter().map(|w| w.message).collect();
     (of_block(&plan.problem.model, 0, &u), told)
 }
 

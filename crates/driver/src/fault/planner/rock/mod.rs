@@ -94,6 +94,7 @@ pub(super) fn plan<const D: usize>(
         notes,
         prescribed: Vec::new(),
         machines: Vec::new(),
+        loading: 0.0,
         checks: Checks { in_space: D == 3, ..Checks::default() },
     };
     let surrounded = Surrounded { placed, operator, opening: None, loading, end };
@@ -148,6 +149,8 @@ fn placed<const D: usize>(
         stiffness: resolution::modulus(idealisation, elastic.shear(), elastic.poisson()),
         // Half the impedance of shear waves: both sides are the same rock.
         radiation: density.map(|d| 0.5 * (elastic.shear() * d.get_ref().0).sqrt()),
+        contrast: 0.0,
+        waves: density.map(|d| (elastic.shear() / d.get_ref().0).sqrt()),
     };
     let mut all = Vec::new();
     for (fault, (name, spec)) in scene.faults.iter().enumerate() {
