@@ -73,6 +73,28 @@ impl Columns {
         self.rows[row].0
     }
 
+    /// True if a column has a unit.
+    #[must_use]
+    pub fn has_unit(&self, name: &str) -> bool {
+        self.heads.iter().any(|head| head.name == name && head.unit.is_some())
+    }
+
+    /// Cells of a column as texts.
+    ///
+    /// # Errors
+    /// [`Wrong`] if there is no such column.
+    pub fn texts(&self, name: &str) -> Result<Vec<String>, Wrong> {
+        let column = self.find(name)?;
+        Ok(self.rows.iter().map(|(_, cells)| cells[column].clone()).collect())
+    }
+
+    fn find(&self, name: &str) -> Result<usize, Wrong> {
+        let found = self.heads.iter().position(|head| head.name == name);
+        found.ok_or_else(|| {
+            Wrong::new(format!("it has no column `{name}`"), suggest(name, "columns", self.names()))
+        })
+    }
+
     /// Numbers of a column in SI units, or without a unit if they have no dimension.
     ///
     /// # Errors
@@ -91,10 +113,7 @@ impl Columns {
         dimension: Option<Dimension>,
         stated: Option<&str>,
     ) -> Result<Vec<f64>, Wrong> {
-        let found = self.heads.iter().position(|head| head.name == name);
-        let column = found.ok_or_else(|| {
-            Wrong::new(format!("it has no column `{name}`"), suggest(name, "columns", self.names()))
-        })?;
+        let column = self.find(name)?;
         let own = self.heads[column].unit.as_deref();
         let unit = unit::chosen(("column", name), own, stated, dimension)?;
         let cell = |(line, cells): &(u64, Vec<String>)| {

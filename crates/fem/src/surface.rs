@@ -49,6 +49,18 @@ fn line(kind: FaceKind, x: f64, w: f64) -> RulePoint {
     }
 }
 
+/// Mean outward normal of some sides, over their area: shorter than a unit vector where they are curved, and `None` without
+/// sides.
+#[must_use]
+pub fn mean_normal<const D: usize>(mesh: &Mesh<D>, sides: &[Side]) -> Option<[f64; D]> {
+    let (mut sum, mut area) = ([0.0; D], 0.0);
+    for_each_point(mesh, sides, Idealisation::of_dimension(D), |_, _, weight, point| {
+        sum.iter_mut().zip(point.normal).for_each(|(sum, n)| *sum += weight * n);
+        area += weight * length(&point.normal);
+    });
+    (area > 0.0).then(|| sum.map(|c| c / area))
+}
+
 /// Nodal integrals ∫ N_a g dA. `g` receives a point of the face and writes one value per component, already multiplied by the
 /// length of the given normal. Returns degree of freedom (node * components + component) and value, ascending. About an axis of
 /// revolution the area element includes 2πr.

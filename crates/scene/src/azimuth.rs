@@ -1,32 +1,29 @@
 //! Directions of slip that are given by their azimuth on the map.
 
-use crate::model::{Kinematics, Place, Scene, Spanned};
-use crate::units::Angle;
+use crate::model::{Kinematics, Scene, Spanned};
+use crate::upright::{Axes, cross, size};
 
 /// Sets the rakes of faults whose `azimuth` is given: the horizontal direction with this azimuth in the axes of the scene.
 pub(crate) fn rakes(scene: &mut Scene) {
     let in_space = *scene.kinematics.get_ref() == Kinematics::ThreeD;
+    let axes = scene.axes();
     let Some(place) = scene.place.as_ref().filter(|_| in_space) else { return };
     for fault in scene.faults.values_mut().filter(|fault| fault.rake.is_none()) {
         if let Some(azimuth) = &fault.azimuth {
-            fault.rake = Some(Spanned::new(azimuth.span(), direction(place, azimuth.get_ref())));
+            let angle = azimuth.get_ref().0 - place.strike.get_ref().0;
+            fault.rake = Some(Spanned::new(azimuth.span(), direction(&axes, angle)));
         }
     }
 }
 
-/// Horizontal unit vector with an azimuth. `along` has the azimuth `strike`, and the direction to its right is along times up.
-fn direction(place: &Place, azimuth: &Angle) -> [f64; 3] {
-    let (up, along) = place.axes();
+/// Horizontal unit vector at an angle to the right of `along`.
+fn direction(axes: &Axes, angle: f64) -> [f64; 3] {
     let unit = |v: [f64; 3]| {
-        let size = v.iter().map(|c| c * c).sum::<f64>().sqrt();
+        let size = size(&v);
         v.map(|c| c / size)
     };
-    let (up, along) = (unit(up), unit(along));
-    let right = [
-        along[1] * up[2] - along[2] * up[1],
-        along[2] * up[0] - along[0] * up[2],
-        along[0] * up[1] - along[1] * up[0],
-    ];
-    let (sine, cosine) = (azimuth.0 - place.strike.get_ref().0).sin_cos();
+    let (up, along) = (unit(axes.up), unit(axes.along));
+    let right = cross(&along, &up);
+    let (sine, cosine) = angle.sin_cos();
     std::array::from_fn(|c| cosine * along[c] + sine * right[c])
 }

@@ -25,6 +25,7 @@ mod spanned;
 mod title;
 pub mod units;
 pub mod unprintable;
+pub mod upright;
 pub mod warning;
 
 pub use entry::Entry;

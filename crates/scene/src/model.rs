@@ -15,6 +15,7 @@ mod patch;
 mod place;
 mod platform;
 mod pulse;
+mod site;
 mod solver;
 mod stress;
 mod surface;
@@ -42,6 +43,7 @@ pub use pulse::Pulse;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
+pub use site::Site;
 pub use solver::*;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -130,7 +132,7 @@ impl Scene {
         meshes.chain(lines).map(Spanned::get_mut)
     }
 
-    /// Names of the files of the scene: meshes, parameters of faults and interfaces, tables and traces.
+    /// Names of the files of the scene: meshes, parameters of faults and interfaces, tables, traces and sites.
     pub fn files(&self) -> impl Iterator<Item = &Spanned<String>> {
         let bodies = self.bodies.values().filter_map(|body| match &body.mesh {
             MeshSource::Gmsh(mesh) => Some(&mesh.file),
@@ -150,7 +152,8 @@ impl Scene {
         });
         let lines = self.faults.values().filter_map(|fault| Some(&fault.line.as_ref()?.trace));
         let traces = meshes.chain(lines).filter_map(|trace| Some(&trace.get_ref().file()?.file));
-        bodies.chain(faults).chain(fields).chain(tables).chain(traces)
+        let sites = &self.output.site_file;
+        bodies.chain(faults).chain(fields).chain(tables).chain(traces).chain(sites)
     }
 }
 
@@ -592,6 +595,11 @@ pub struct Output {
     /// `[x, y]`, in space `[x, y, z]`: displacement and velocity of a position in a medium, y up, or in bodies.
     #[serde(default)]
     pub receivers: BTreeMap<String, Spanned<Vec<Length>>>,
+    /// In a half-space in space with `[place]`: `{ longitude = "-123.5 deg", latitude = "48.4 deg" }`: a receiver at the free surface.
+    #[serde(default)]
+    pub sites: BTreeMap<String, Spanned<Site>>,
+    /// CSV file of such sites, with the columns `name`, `longitude` and `latitude` (or `lon` and `lat`) in degrees.
+    pub site_file: Option<Spanned<String>>,
     /// In a half-space: `{ spacing = "2 km" }`: map of the displacement of the free surface over each event.
     pub surface: Option<Spanned<SurfaceSpec>>,
     /// `{ friction = 0.4, strike = "30 deg", dip = "90 deg", rake = "0 deg" }`: changes of Coulomb stress on such planes over each event.

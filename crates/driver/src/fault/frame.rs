@@ -73,6 +73,11 @@ impl Frame {
         Spot { latitude, longitude, depth: self.depth - offset.z }
     }
 
+    /// Height of a point of the scene above sea level \[m\].
+    pub(super) fn height(&self, at: &[f64; 3]) -> f64 {
+        self.axes.row(2).iter().zip(at).map(|(up, x)| up * x).sum::<f64>() - self.depth
+    }
+
     /// Position in the scene of a depth \[m\] below a position east and north of the origin \[m\].
     pub(super) fn position(&self, [east, north]: [f64; 2], depth: f64) -> [f64; 3] {
         (self.axes.transpose() * Vector3::new(east, north, self.depth - depth)).into()

@@ -1,5 +1,6 @@
 //! Meshes of the bodies, generated or read from files.
 
+use super::cuts::{self, Cuts};
 use crate::diagnostic::Diagnostic;
 use crate::missing::looked_for;
 use crate::scene::model as scene;
@@ -12,10 +13,9 @@ use asperity_fem::mesh::curve::{Curve, Profile, bend};
 use asperity_fem::mesh::extrude::{ExtrudeError, extrude};
 use asperity_fem::mesh::fault::{Departure, FaultMesh, FaultMeshError, Interpolation, Spacing};
 use asperity_fem::mesh::generate::{Block, Grading, Grid, SIDES, divisions_for};
-use asperity_fem::mesh::split::{Surface, split};
 use asperity_fem::mesh::{Cells, GroupTag, Mesh, MeshError, Options, RawMesh, Side, abaqus, gmsh};
 use scene::Spanned;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Mesh of a body; its sets keep their own names.
@@ -81,12 +81,12 @@ fn source<const D: usize>(
             let tags = spec.tags.iter().map(|(name, spec)| (name.clone(), tag(spec.get_ref()))).collect();
             let options = Options { length_unit: unit(spec.unit.as_ref())?, tags, ..Options::default() };
             let groups = (spec.groups.as_ref(), "groups of cells");
-            read(scene, &spec.file, gmsh::parse, &options, groups, &spec.split)
+            read(scene, &spec.file, gmsh::parse, &options, groups, (&spec.split, &spec.plus))
         }
         scene::MeshSource::Abaqus(spec) => {
             let options = Options { length_unit: unit(spec.unit.as_ref())?, ..Options::default() };
             let groups = (spec.elsets.as_ref(), "element sets");
-            read(scene, &spec.file, abaqus::parse, &options, groups, &spec.split)
+            read(scene, &spec.file, abaqus::parse, &options, groups, (&spec.split, &spec.plus))
         }
     }
 }
@@ -388,7 +388,7 @@ fn read<const D: usize>(
     parse: Parse,
     options: &Options,
     (groups, what): (Option<&Spanned<Vec<Spanned<String>>>>, &str),
-    surfaces: &[Spanned<String>],
+    (surfaces, plus): Cuts<'_>,
 ) -> Result<Mesh<D>, Diagnostic> {
     let name = file.get_ref();
     let at = |message: String, help: &str| Diagnostic::at(file.span(), message, help.to_string());
@@ -421,7 +421,7 @@ fn read<const D: usize>(
         }
     };
     for surface in surfaces {
-        cut(&mut mesh, name, surface)?;
+        cuts::cut(&mut mesh, name, surface, plus.get(surface.get_ref()))?;
     }
     Ok(mesh)
 }
@@ -443,27 +443,6 @@ pub(super) fn bytes(scene: &scene::Scene, file: &Spanned<String>) -> Result<Vec<
 
 /// Extensions of mesh files.
 const MESHES: [&str; 3] = ["msh", "inp", "stl"];
-
-fn cut<const D: usize>(mesh: &mut Mesh<D>, file: &str, name: &Spanned<String>) -> Result<(), Diagnostic> {
-    let known = || suggest(name.get_ref(), "sets", mesh.side_sets.keys().map(String::as_str));
-    let refuse = |message: String, help: String| Diagnostic::at(name.span(), message, help);
-    let mut surface = Surface::from_side_set(mesh, name.get_ref()).map_err(|_| {
-        refuse(format!("the mesh file `{file}` has no faces in a group `{}` here", name.get_ref()), known())
-    })?;
-    // A group between cells contains both sides of each face.
-    let mut seen = BTreeSet::new();
-    surface.faces.retain(|face| {
-        let mut nodes = face.clone();
-        nodes.sort_unstable();
-        seen.insert(nodes)
-    });
-    split(mesh, &[surface]).map(|_| ()).map_err(|e| {
-        refuse(
-            e.to_string(),
-            "a surface that is split lies inside the body and has cells on both sides".into(),
-        )
-    })
-}
 
 /// Mesh of some blocks, with the nodes they use and the parts of the sets that touch them. A face between a selected block and another one thus keeps
 /// the side of the selected block.

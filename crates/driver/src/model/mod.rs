@@ -1,6 +1,7 @@
 //! The discrete model of a scene: one mesh of all bodies, and the type of each block of its cells.
 
 pub(crate) mod checks;
+pub(crate) mod cuts;
 pub mod locking;
 pub mod materials;
 pub mod meshes;

@@ -248,8 +248,116 @@ fn mechanisms_in_space_follow_the_directions_the_scene_gives() {
         &slipped(&free, &[2.0 * cosine, 2.0 * sine]),
         Plane { strike: 317.0, dip: 90.0, rake: 150.0 },
     );
-    // Without the directions of the place, z is up and y along the strike: slip along z is then up dip, and the plus
-    // side lies to the right.
+    // Without the directions of the place, y is up and x to the right of the strike, as in the plane: slip along z moves the
+    // plus side, on the right, back.
     let usual = varied(UPRIGHT, &[Without("place.up"), Without("place.along")]);
-    assert_plane(&uniform(&usual, 1.0), Plane { strike: 317.0, dip: 90.0, rake: 90.0 });
+    assert_plane(&uniform(&usual, 1.0), Plane { strike: 317.0, dip: 90.0, rake: 180.0 });
+    // Gravity says what is up: slip along z is then down dip.
+    let pulled = varied(
+        UPRIGHT,
+        &[
+            Without("place.up"),
+            Without("place.along"),
+            Add("bodies.A.gravity", "[0, 0, 9.81]"),
+            Add("bodies.B.gravity", "[0, 0, 9.81]"),
+            Add("materials.rock.density", "2670"),
+            Without("faults.main.normal"),
+        ],
+    );
+    let read = asperity_driver::scene::read(&pulled).unwrap_or_else(|e| panic!("{e}"));
+    let axes = read.axes();
+    assert_eq!((axes.up, axes.along), ([0.0, 0.0, -9.81], [0.0, -9.81, 0.0]));
+}
+
+/// A vertical fault in a half-space that reaches the surface, y up, and slips to the right along z through one event.
+const STRIKE_SLIP: &str = r#"
+schema = 1
+title = "a strike-slip fault"
+kinematics = "3d"
+[materials.rock]
+young = "80 GPa"
+poisson = 0.25
+density = "2670 kg/m^3"
+[medium]
+kind = "half-space"
+material = "rock"
+[faults.main]
+rectangle = { from = [0, 0, "6 km"], to = [0, 0, "-6 km"], width = "6 km", size = "2 km" }
+rake = [0, 0, 1]
+law = { kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, v_ref = "1 um/s", v_initial = "1e-9 m/s", a = 0.01, b = 0.015, l = "20 mm" }
+normal = "50 MPa"
+rate = "1.2e-9 m/s"
+under_resolved = "allow"
+damping = "radiation"
+creep = { rate = 1e-9 }
+[[stages]]
+name = "c"
+duration = "1000 yr"
+[time]
+stepper = "fault-ode"
+[events]
+above = "1e-2 m/s"
+stop_after = 1
+[output]
+surface = { spacing = "2 km" }
+[place]
+epoch = "2000-01-01T00:00:00Z"
+latitude = "35 deg"
+longitude = "135 deg"
+strike = "70 deg"
+"#;
+
+#[test]
+fn a_strike_slip_event_in_a_half_space_is_published_as_one_below_the_ground() {
+    let here = crate::resume::folder(STRIKE_SLIP);
+    let ran = crate::resume::run(here.path(), "out", &[]);
+    assert!(ran.status.success(), "{}", crate::resume::text(&ran.stderr));
+    let out = here.path().join("out");
+    let quakeml = std::fs::read_to_string(out.join("events.quakeml")).unwrap();
+    let value = |text: &str, key: &str| -> f64 {
+        let rest = text.split(&format!("<{key}>")).nth(1).unwrap();
+        numbers(&rest.split("</value>").next().unwrap().replacen("<value>", " ", 1))[0]
+    };
+    let plane = |key: &str| {
+        let rest = quakeml.split(&format!("<{key}>")).nth(1).unwrap().to_string();
+        ["strike", "dip", "rake"].map(|angle| value(&rest, angle))
+    };
+    let both = ["nodalPlane1", "nodalPlane2"].map(plane);
+    let is = |found: &[f64; 3], wanted: [f64; 3]| {
+        found.iter().zip(wanted).all(|(a, b)| ((a - b + 540.0) % 360.0 - 180.0).abs() < 0.1)
+    };
+    // The plus side, right of the strike N70E, moves back along it.
+    let wanted = [70.0, 90.0, 180.0];
+    assert!(
+        both.iter().any(|p| is(p, wanted) || is(p, [250.0, 90.0, 180.0]) || is(p, [250.0, 90.0, -180.0])),
+        "{both:?}"
+    );
+    let depth = value(quakeml.split("<origin ").nth(1).unwrap(), "depth");
+    assert!((1e3..=5e3).contains(&depth), "{depth}");
+    let cmt = std::fs::read_to_string(out.join("CMTSOLUTION")).unwrap();
+    let entry = |name: &str| {
+        numbers(cmt.lines().find(|l| l.starts_with(name)).unwrap().split(':').nth(1).unwrap())[0]
+    };
+    assert!((1.0..=5.0).contains(&entry("depth")), "{cmt}");
+    let largest = ["Mtt", "Mpp", "Mtp"].map(&entry).into_iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    assert!(["Mrr", "Mrt", "Mrp"].into_iter().all(|name| entry(name).abs() < 1e-6 * largest), "{cmt}");
+    // The northern and eastern ends move to the east and west by tens of times more than the ground rises anywhere: an upright
+    // fault that slips along strike lifts its quadrants a little.
+    let map = |name: &str| {
+        let bytes = std::fs::read(out.join("events").join(format!("surface_000_{name}.grd"))).unwrap();
+        let rows = asperity_fem::mesh::netcdf::rows(&bytes).unwrap();
+        rows.iter().map(|row| row[2].abs()).fold(0.0, f64::max)
+    };
+    assert!(map("up") < 0.3 * map("east"), "{} {}", map("up"), map("east"));
+    let fsp = std::fs::read_dir(out.join("events")).unwrap().map(|f| f.unwrap().path());
+    let mut fsp = fsp.filter(|f| f.extension().is_some_and(|e| e == "fsp"));
+    let fsp = fsp.next().unwrap();
+    let fsp = std::fs::read_to_string(fsp).unwrap();
+    let mechanism = fsp.lines().find(|l| l.contains("STRK =") || l.contains("STRK=")).unwrap();
+    assert!(mechanism.contains("DIP"), "{mechanism}");
+    let rows: Vec<Vec<f64>> =
+        fsp.lines().filter(|l| !l.starts_with('%') && !l.trim().is_empty()).map(numbers).collect();
+    assert_eq!(rows.len(), 18);
+    // Latitude, longitude, east, north and depth \[km\] of the upper edge of each cell.
+    assert!(rows.iter().all(|row| (-1e-3..=4.01).contains(&row[4])), "{rows:?}");
 }

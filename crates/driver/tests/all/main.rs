@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod antiplane;
-
+mod apart;
 mod bodies;
 mod checks;
 mod cite;
@@ -53,8 +53,10 @@ mod scenes;
 mod setup;
 mod signs;
 mod sister_checks;
+mod sites;
 mod slider;
 mod slider_outputs;
 mod snapshot;
 mod solvers;
+mod split_sides;
 mod springs;

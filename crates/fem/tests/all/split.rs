@@ -175,7 +175,7 @@ fn a_fault_from_side_to_side_leaves_two_bodies() {
 }
 
 #[test]
-fn minus_is_left_of_the_given_edge_and_a_direction_overrides_it() {
+fn plus_is_the_side_of_larger_x_however_faces_are_given_and_a_direction_overrides_it() {
     for up in [true, false] {
         let mesh = square(ElementKind::Quad4, 4);
         let mut on = faces(&mesh, |x| near(x[0], 0.5) && x[1] > 0.1);
@@ -184,7 +184,7 @@ fn minus_is_left_of_the_given_edge_and_a_direction_overrides_it() {
         if !up {
             on[0].reverse();
         }
-        for (hint, left) in [(None, up), (Some([1.0, 0.0]), true), (Some([-1.0, 0.3]), false)] {
+        for (hint, left) in [(None, true), (Some([1.0, 0.0]), true), (Some([-1.0, 0.3]), false)] {
             let mut mesh = mesh.clone();
             let s = Surface { name: "f".into(), faces: on.clone(), towards_plus: hint };
             let faults = split(&mut mesh, &[s]).unwrap();
@@ -200,7 +200,7 @@ fn minus_is_left_of_the_given_edge_and_a_direction_overrides_it() {
 }
 
 #[test]
-fn a_set_of_sides_has_its_own_cells_on_the_minus_side() {
+fn a_set_of_sides_has_the_cells_of_larger_x_on_the_plus_side() {
     let mut mesh = square(ElementKind::Quad4, 4);
     let sides: Vec<Side> = all_sides(&mesh)
         .into_iter()
@@ -214,7 +214,7 @@ fn a_set_of_sides_has_its_own_cells_on_the_minus_side() {
     let s = Surface::from_side_set(&mesh, "inner").unwrap();
     split(&mut mesh, &[s]).unwrap();
     let key = |v: &[Side]| v.iter().copied().collect::<BTreeSet<_>>();
-    assert_eq!(key(&mesh.side_sets["inner.minus"]), key(&sides));
+    assert_eq!(key(&mesh.side_sets["inner.plus"]), key(&sides));
     let error = Surface::from_side_set(&mesh, "outer").unwrap_err();
     assert!(error.to_string().contains("inner.minus"), "{error}");
 }
@@ -276,6 +276,12 @@ fn a_closed_surface_frees_an_inclusion() {
     let faults = split(&mut mesh, std::slice::from_ref(&s)).unwrap();
     check_sides(&mesh, &faults[0]);
     assert_eq!(faults[0].pairs.len(), 16);
+    for side in &mesh.side_sets["ring.plus"] {
+        let cell = mesh.blocks[0].cell(side.cell);
+        let outside =
+            |c: usize| !(lo..hi).contains(&(cell.iter().map(|&n| mesh.nodes[n][c]).sum::<f64>() / 9.0));
+        assert!(outside(0) || outside(1), "the plus side of a closed surface is the outer one");
+    }
     let mut again = square(ElementKind::Quad9, 6);
     let hinted = Surface { towards_plus: Some([1.0, 0.0]), ..s };
     assert!(matches!(split(&mut again, &[hinted]), Err(SplitError::Hint { .. })), "its mean normal vanishes");
@@ -319,6 +325,24 @@ fn in_space_three_crossing_planes_split_their_common_node_into_eight() {
         assert_eq!(mesh.nodes.iter().filter(|x| x.iter().all(|c| near(*c, 0.5))).count(), 8);
         assert_eq!(euler(&mesh), 8);
     }
+}
+
+#[test]
+fn pieces_that_disagree_on_a_plus_side_are_refused_unless_a_direction_is_given() {
+    // Two steps up to the right and two down: mean normals (-1, 1) and (1, 1), of which the first is turned.
+    let mut mesh = square(ElementKind::Quad4, 8);
+    let at =
+        |x: f64, y: f64| mesh.nodes.iter().position(|n| near(n[0], x / 8.0) && near(n[1], y / 8.0)).unwrap();
+    let path = |points: &[[f64; 2]]| -> Vec<Vec<usize>> {
+        points.windows(2).map(|w| vec![at(w[0][0], w[0][1]), at(w[1][0], w[1][1])]).collect()
+    };
+    let mut both = path(&[[1.0, 3.0], [2.0, 3.0], [3.0, 3.0], [3.0, 4.0]]);
+    both.extend(path(&[[5.0, 4.0], [5.0, 3.0], [6.0, 3.0], [7.0, 3.0]]));
+    let s = Surface { name: "f".into(), faces: both, towards_plus: None };
+    let error = split(&mut mesh, std::slice::from_ref(&s)).unwrap_err();
+    assert!(matches!(error, SplitError::Apart { .. }), "{error}");
+    let up = Surface { towards_plus: Some([0.0, 1.0]), ..s };
+    split(&mut mesh, &[up]).unwrap();
 }
 
 #[test]

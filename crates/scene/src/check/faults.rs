@@ -14,6 +14,9 @@ use crate::units::Angle;
 /// Kinds of law from which the slip rate cannot be computed.
 const WITHOUT_RATE: [&str; 3] = ["coulomb", "static-kinetic", "slip-weakening"];
 
+/// Advice on a normal traction that vanishes, as its weight does at the surface.
+const AT_SURFACE: &str = "friction needs a normal traction, also at a free surface: a small value there, in Pa, such as that of the weight at half the depth of a cell";
+
 impl Checker<'_> {
     pub(super) fn faults(&mut self) {
         let scene = self.scene;
@@ -504,7 +507,8 @@ impl Checker<'_> {
         {
             let what = if name == "shear" { "have the sign of `rate`" } else { "be positive" };
             let message = format!("the profile of `{name}` must {what}, found {:?}", p.1);
-            self.error(profile.points.span(), message, "values are numbers in SI");
+            let help = if name == "normal" && p.1 == 0.0 { AT_SURFACE } else { "values are numbers in SI" };
+            self.error(profile.points.span(), message, help);
         }
     }
 

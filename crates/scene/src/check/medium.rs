@@ -216,21 +216,11 @@ impl Checker<'_> {
         if !(size > 0.0 && size.is_finite()) {
             self.error(depths.size.span(), "`size` must be positive", "such as `size = \"5 km\"`");
         }
-        let Some(place) = &self.scene.place else {
+        if self.scene.place.is_none() {
             self.error(
                 depths.file.span(),
                 "depths on a map need a `[place]`",
                 "the origin and the axes of the map: `[place]` with `latitude`, `longitude`, `strike = \"0 deg\"`, `up = [0, 1, 0]` and `along = [0, 0, -1]`, for x to the east and z to the south",
-            );
-            return;
-        };
-        let (up, _) = place.axes();
-        if !(up[0] == 0.0 && up[1] > 0.0 && up[2] == 0.0) {
-            let span = place.up.as_ref().map_or(place.strike.span(), |up| up.span());
-            self.error(
-                span,
-                "in a medium y points up",
-                "`up = [0, 1, 0]`; with `along = [0, 0, -1]` and `strike = \"0 deg\"`, x points to the east and z to the south",
             );
         }
     }

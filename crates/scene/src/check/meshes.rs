@@ -8,6 +8,7 @@ use crate::model::{
 use crate::names::ELEMENTS;
 use crate::near::suggest;
 use crate::units::{self, Dimension, Length};
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Admissible relative distance of edge over size from a whole number. It allows for rounding of decimal input, and is less than
@@ -33,8 +34,14 @@ impl Checker<'_> {
                 self.fault(fault);
                 self.corners(&fault.trace, fault.interpolation);
             }
-            MeshSource::Gmsh(file) => self.file(file.unit.as_ref(), file.groups.as_ref(), &file.split),
-            MeshSource::Abaqus(file) => self.file(file.unit.as_ref(), file.elsets.as_ref(), &file.split),
+            MeshSource::Gmsh(file) => {
+                self.file(file.unit.as_ref(), file.groups.as_ref(), &file.split);
+                self.plus(body, (&file.split, &file.plus));
+            }
+            MeshSource::Abaqus(file) => {
+                self.file(file.unit.as_ref(), file.elsets.as_ref(), &file.split);
+                self.plus(body, (&file.split, &file.plus));
+            }
         }
     }
 
@@ -160,6 +167,33 @@ impl Checker<'_> {
             if let Some(first) = surfaces[..k].iter().find(|s| s.get_ref() == surface.get_ref()) {
                 let message = format!("`{}` is split twice", surface.get_ref());
                 self.conflict(&surface.span(), message, "remove one of the two", (&first.span(), "and here"));
+            }
+        }
+    }
+
+    /// Checks the directions to the plus sides of surfaces.
+    fn plus(
+        &mut self,
+        body: &Body,
+        (surfaces, directions): (&[Spanned<String>], &BTreeMap<String, Spanned<Vec<f64>>>),
+    ) {
+        // The mesh of an extruded body is plane.
+        let axes: &[usize] =
+            if self.dimension() == 2 || body.extrude.is_some() { &[0, 1] } else { &[0, 1, 2] };
+        for (name, direction) in directions {
+            let known = || surfaces.iter().map(|surface| surface.get_ref().as_str());
+            if !known().any(|surface| surface == name) {
+                self.error(
+                    direction.span(),
+                    format!("`plus` has a direction for `{name}`, along which the body is not split"),
+                    suggest(name, "surfaces in `split`", known()),
+                );
+                continue;
+            }
+            let given = direction.get_ref();
+            let points = given.iter().all(|c| c.is_finite()) && given.iter().any(|c| *c != 0.0);
+            if self.count(direction, &format!("plus.{name}"), axes) && !points {
+                self.error(direction.span(), format!("`plus.{name}` has no direction"), "such as `[1, 0]`");
             }
         }
     }

@@ -14,6 +14,7 @@ impl Checker<'_> {
     pub(super) fn output(&mut self) {
         self.samples();
         self.receivers();
+        self.sites();
         self.surface();
         self.coulomb();
         self.platform();

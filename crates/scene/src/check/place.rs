@@ -1,8 +1,9 @@
 //! Geographical position and time of the events of a scene.
 
 use super::Checker;
-use crate::model::{Kinematics, Place, Spanned};
+use crate::model::{FaultTriangles, Kinematics, MediumKind, Place, Spanned};
 use crate::units::Angle;
+use crate::upright::{Axes, cross, size};
 use jiff::{SignedDuration, Timestamp};
 
 impl Checker<'_> {
@@ -53,11 +54,18 @@ impl Checker<'_> {
                 self.error(given.span(), format!("`{name}` has no direction"), "such as `[0, 1, 0]`");
             }
         }
-        let (up, along) = place.axes();
+        if in_space {
+            self.level(place);
+            self.upright(place);
+        }
+    }
+
+    /// Checks that `along` is horizontal.
+    fn level(&mut self, place: &Place) {
+        let Axes { up, along } = self.scene.axes();
         let dot: f64 = up.iter().zip(&along).map(|(a, b)| a * b).sum();
-        let sizes = [up, along].map(|v| v.iter().map(|c| c * c).sum::<f64>().sqrt());
-        let given = place.along.as_ref().or(place.up.as_ref()).filter(|_| in_space);
-        if let Some(given) = given.filter(|_| dot.abs() > LEVEL * sizes[0] * sizes[1]) {
+        let given = place.along.as_ref().or(place.up.as_ref());
+        if let Some(given) = given.filter(|_| dot.abs() > LEVEL * size(&up) * size(&along)) {
             self.error(
                 given.span(),
                 "`along` is not horizontal: it must be normal to `up`",
@@ -66,7 +74,39 @@ impl Checker<'_> {
         }
     }
 
-    fn angle(&mut self, name: &str, angle: &Spanned<Angle>, (least, most): (f64, f64)) {
+    /// Checks that `up` is that of the free surface, of faults whose dip counts from y, and of gravity.
+    fn upright(&mut self, place: &Place) {
+        let Some(given) = &place.up else { return };
+        let up = *given.get_ref();
+        let off = |from: &[f64; 3]| {
+            let dot: f64 = up.iter().zip(from).map(|(a, b)| a * b).sum();
+            size(&cross(&up, from)).atan2(dot).to_degrees()
+        };
+        let scene = self.scene;
+        let half = scene.medium.as_ref().is_some_and(|m| *m.kind.get_ref() == MediumKind::HalfSpace);
+        let from_y = scene
+            .faults
+            .values()
+            .any(|f| f.rectangle.is_some() || matches!(f.triangles, Some(FaultTriangles::Depths(_))));
+        if scene.medium.is_some() && (half || from_y) && off(&[0.0, 1.0, 0.0]) > UPRIGHT {
+            let why = if half { "the free surface of the half-space is y = 0" } else { "dips count from y" };
+            self.error(
+                given.span(),
+                format!("`up` does not point along y, and {why}"),
+                "`up = [0, 1, 0]`, or no `up`; with `along = [0, 0, -1]` and `strike = \"0 deg\"`, x points to the east and z to the south",
+            );
+        }
+        let leaning = scene.lift().map(|lift| (lift, off(&lift)));
+        if let Some((lift, angle)) = leaning.filter(|(_, angle)| *angle > LEANS) {
+            self.error(
+                given.span(),
+                format!("`up` points {angle:.1} degrees away from the direction against `gravity`"),
+                format!("`up = [{}, {}, {}]`, or no `up`", lift[0], lift[1], lift[2]),
+            );
+        }
+    }
+
+    pub(super) fn angle(&mut self, name: &str, angle: &Spanned<Angle>, (least, most): (f64, f64)) {
         let degrees = angle.get_ref().0.to_degrees();
         // The conversion to radians and back is not exact.
         if !(degrees >= least - ROUNDING && degrees <= most + ROUNDING) {
@@ -105,5 +145,9 @@ impl Checker<'_> {
 
 /// Largest admissible sine of the angle between `along` and the horizontal: rounding of components written with seven digits.
 const LEVEL: f64 = 1e-6;
+/// Angle between `up` and y beyond which they differ: rounding of components written with seven digits \[deg\].
+const UPRIGHT: f64 = 1e-4;
+/// Angle between `up` and the direction against gravity beyond which they differ: components may have two digits \[deg\].
+const LEANS: f64 = 1.0;
 /// Admissible rounding of angles \[deg\].
 const ROUNDING: f64 = 1e-9;

@@ -1,7 +1,7 @@
 //! Positions in a medium or in bodies whose motion is written.
 
 use super::{AXES, Checker};
-use crate::model::{MediumKind, Spanned, Stepper};
+use crate::model::{Kinematics, MediumKind, Spanned, Stepper};
 
 impl Checker<'_> {
     /// Checks the receivers of a scene.
@@ -26,6 +26,40 @@ impl Checker<'_> {
             }
             let kind = scene.medium.as_ref().map(|medium| *medium.kind.get_ref());
             self.place_of(name, at, kind);
+        }
+    }
+
+    /// Checks the sites of a scene, which are receivers at the free surface of a half-space.
+    pub(super) fn sites(&mut self) {
+        let scene = self.scene;
+        let file = scene.output.site_file.as_ref().map(Spanned::span);
+        let Some(first) = scene.output.sites.values().map(Spanned::span).next().or(file) else { return };
+        let half = scene.medium.as_ref().is_some_and(|m| *m.kind.get_ref() == MediumKind::HalfSpace);
+        if !half || *scene.kinematics.get_ref() != Kinematics::ThreeD {
+            self.error(
+                first,
+                "sites lie at the free surface of a half-space in space",
+                "`kinematics = \"3d\"` and `[medium]` with `kind = \"half-space\"`; elsewhere, `receivers.NAME` has coordinates",
+            );
+            return;
+        }
+        if scene.place.is_none() {
+            let help = "`[place]` with the longitude and latitude of the origin; or `receivers.NAME`, which has coordinates";
+            self.error(first, "longitudes and latitudes need a `[place]`", help);
+        }
+        for (name, site) in &scene.output.sites {
+            self.name("a site", name, site.span());
+            self.angle("latitude", &site.get_ref().latitude, (-90.0, 90.0));
+            self.angle("longitude", &site.get_ref().longitude, (-180.0, 360.0));
+            if let Some(other) = scene.output.receivers.get(name) {
+                let message = format!("`{name}` is a site and a receiver");
+                self.conflict(
+                    &site.span(),
+                    message,
+                    "another name for one of them",
+                    (&other.span(), "the receiver"),
+                );
+            }
         }
     }
 

@@ -444,6 +444,9 @@ pub struct GmshMesh {
     /// Named surfaces inside the body along which it is split into two sides, `BODY.NAME.minus` and `BODY.NAME.plus`.
     #[serde(default)]
     pub split: Vec<Spanned<String>>,
+    /// Direction from the minus to the plus side of a surface in `split`, such as `{ fault = [1, 0] }`; default: larger x.
+    #[serde(default)]
+    pub plus: BTreeMap<String, Spanned<Vec<f64>>>,
 }
 
 /// Number of a group.
@@ -512,4 +515,7 @@ pub struct AbaqusMesh {
     /// Named surfaces inside the body along which it is split into two sides, `BODY.NAME.minus` and `BODY.NAME.plus`.
     #[serde(default)]
     pub split: Vec<Spanned<String>>,
+    /// Direction from the minus to the plus side of a surface in `split`, such as `{ fault = [1, 0] }`; default: larger x.
+    #[serde(default)]
+    pub plus: BTreeMap<String, Spanned<Vec<f64>>>,
 }

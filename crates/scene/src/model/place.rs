@@ -19,21 +19,12 @@ pub struct Place {
     pub depth: Option<Spanned<Length>>,
     /// Azimuth of the direction into the plane, with x to its right and y up; in space, azimuth of `along`.
     pub strike: Spanned<Angle>,
-    /// In space: direction that points up; default `[0, 0, 1]`.
+    /// In space: direction that points up; default against `gravity` of the bodies, else y, `[0, 1, 0]`.
     #[serde(default, deserialize_with = "crate::exact::optional")]
     pub up: Option<Spanned<[f64; 3]>>,
-    /// In space: horizontal direction with the azimuth `strike`; default `[0, 1, 0]`.
+    /// In space: horizontal direction with the azimuth `strike`; default with x to its right, `[0, 0, -1]` if y is up.
     #[serde(default, deserialize_with = "crate::exact::optional")]
     pub along: Option<Spanned<[f64; 3]>>,
     /// In the plane: length of the fault out of the plane, for moments and magnitudes \[m\].
     pub length: Option<Spanned<Length>>,
-}
-
-impl Place {
-    /// In space: the directions up and along strike, of any length.
-    #[must_use]
-    pub fn axes(&self) -> ([f64; 3], [f64; 3]) {
-        let of = |given: &Option<Spanned<[f64; 3]>>, other| given.as_ref().map_or(other, |v| *v.get_ref());
-        (of(&self.up, [0.0, 0.0, 1.0]), of(&self.along, [0.0, 1.0, 0.0]))
-    }
 }

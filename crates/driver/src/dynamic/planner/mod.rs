@@ -17,7 +17,7 @@ use crate::forecast;
 use crate::held::Held;
 use crate::loading;
 use crate::model::checks::field_bytes;
-use crate::model::{self, Model, counts, locking, meshes};
+use crate::model::{self, Model, counts, cuts, locking, meshes};
 use crate::outrun;
 use crate::plan::courses;
 use crate::scene::model::{Kinematics, Scene};
@@ -59,6 +59,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     let mut warnings = scene.warnings.clone();
     warnings.extend(locking::doubts(scene, &model)?);
     let mut notes = meshes::notes(scene)?;
+    notes.extend(cuts::notes(scene, &model.mesh));
     let density = masses::densities(scene, &model)?;
     let viscosity = steps::viscosity(scene);
     let stable = masses::stable(scene, &model, &density, viscosity)?;

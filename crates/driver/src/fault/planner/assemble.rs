@@ -10,7 +10,7 @@ use super::super::stresses::BodyStresses;
 use super::cells::Cells;
 use super::placed::{Placed, components, in_space, slides};
 use super::pulses::{self, pulses};
-use super::{asked, checks, floor, frame, heated, pressing, radiation, sense, start_doubts, steady};
+use super::{asked, checks, floor, frame, heated, pressing, radiation, sense, start_doubts, steady, upright};
 use crate::checks::{Checks, Cost, FaultCheck, rates};
 use crate::diagnostic::Diagnostic;
 use crate::doubts::Fluid;
@@ -123,6 +123,7 @@ pub(super) fn plan_of<const D: usize>(
     let mut warnings = around.warnings;
     warnings.extend(pressing::unused_rates(scene, &placed));
     crate::doubts::add(&mut warnings, start_doubts::check(scene, &placed, &fault));
+    warnings.extend(upright::above_ground(scene, &placed)?);
     let amplitudes = fault.pulses.iter().map(|p| p.amplitude.as_slice());
     crate::doubts::add(&mut warnings, pulses::doubts(&named, amplitudes, &pulses::at_rest(&fault)));
     crate::doubts::add(&mut warnings, endless(scene, around.loading));

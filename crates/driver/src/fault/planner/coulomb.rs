@@ -3,13 +3,9 @@
 use super::super::coulomb::ReceiverPlane;
 use super::frame;
 use crate::diagnostic::Diagnostic;
-use crate::scene::model::{CoulombSpec, MediumKind, Scene};
+use crate::scene::model::{CoulombSpec, Scene};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::ops::Range;
-
-/// Sine of the angle between `up` of a scene and the normal of a free surface below which both are the same: rounding.
-const UPRIGHT: f64 = 1e-9;
 
 /// Planes of a scene, in its axes. With strike φ, dip δ and rake λ, in the horizontal directions s along strike and r to its
 /// right, and u upwards, the normal is sin δ r + cos δ u, and the hanging wall slips along
@@ -20,7 +16,7 @@ const UPRIGHT: f64 = 1e-9;
 pub(super) fn plane<const D: usize>(scene: &Scene, spec: &CoulombSpec) -> Result<ReceiverPlane, Diagnostic> {
     let (along, right, up) = match &spec.strike {
         Some(strike) if D == 3 => {
-            let axes = directions(scene, strike.span())?;
+            let axes = directions(scene)?;
             let (sine, cosine) = strike.get_ref().0.sin_cos();
             let [east, north, up]: [Vector3<f64>; 3] = [0, 1, 2].map(|c| axes.column(c).into());
             (east * sine + north * cosine, east * cosine - north * sine, up)
@@ -49,19 +45,9 @@ fn exact(angle: f64) -> (f64, f64) {
 
 /// Directions east, north and up in the axes of the scene, as columns. Without a place on Earth x points to the north and z to
 /// the east, as maps show them.
-fn directions(scene: &Scene, strike: Range<usize>) -> Result<Matrix3<f64>, Diagnostic> {
+fn directions(scene: &Scene) -> Result<Matrix3<f64>, Diagnostic> {
     let Some(frame) = frame::of(scene, true)? else {
         return Ok(Matrix3::from_columns(&[Vector3::z(), Vector3::x(), Vector3::y()]));
     };
-    let axes = frame.axes.transpose();
-    let half = scene.medium.as_ref().is_some_and(|m| *m.kind.get_ref() == MediumKind::HalfSpace);
-    let up: Vector3<f64> = axes.column(2).into();
-    if half && up.cross(&Vector3::y()).norm() > UPRIGHT {
-        return Err(Diagnostic::at(
-            strike,
-            "`strike` and `dip` are those of a place whose `up` is not y, and the free surface is y = 0",
-            "`up = [0, 1, 0]` in `[place]`",
-        ));
-    }
-    Ok(axes)
+    Ok(frame.axes.transpose())
 }

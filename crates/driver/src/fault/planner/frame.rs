@@ -3,6 +3,7 @@
 use super::super::frame::{Frame, Origin};
 use crate::diagnostic::Diagnostic;
 use crate::scene::model::{MediumKind, Scene};
+use asperity_scene::upright::Axes;
 use jiff::Timestamp;
 
 /// Frame of a scene, if it has a `[place]`.
@@ -21,13 +22,13 @@ pub(crate) fn of(scene: &Scene, in_space: bool) -> Result<Option<Frame>, Diagnos
         depth: place.depth.as_ref().map_or(0.0, |d| d.get_ref().0),
         length: if in_space { Some(1.0) } else { place.length.as_ref().map(|l| l.get_ref().0) },
     };
-    let vertical = in_space.then(|| <[_; 2]>::from(place.axes()));
+    let Axes { up, along } = scene.axes();
+    let vertical = in_space.then_some([up, along]);
     Ok(Some(Frame::new(&origin, place.strike.get_ref().0, vertical)))
 }
 
 /// Direction up, where the scene has one: that of its `[place]`, or out of the surface of a half-space.
 pub(crate) fn up(scene: &Scene) -> Option<[f64; 3]> {
-    let declared = scene.place.as_ref().map(|place| <[_; 2]>::from(place.axes())[0]);
-    let half = || scene.medium.as_ref().filter(|m| *m.kind.get_ref() == MediumKind::HalfSpace);
-    declared.or_else(|| half().map(|_| [0.0, 1.0, 0.0]))
+    let half = || scene.medium.as_ref().is_some_and(|m| *m.kind.get_ref() == MediumKind::HalfSpace);
+    (scene.place.is_some() || half()).then(|| scene.axes().up)
 }

@@ -1,5 +1,6 @@
 //! Plans a scene with faults: the problem to integrate and the method.
 
+mod apart;
 mod asked;
 mod assemble;
 mod backslip;
@@ -36,6 +37,7 @@ mod sampled;
 mod sense;
 mod start_doubts;
 mod steady;
+mod upright;
 mod weight;
 
 pub(crate) use asked::nothing_slides;
@@ -59,10 +61,11 @@ use crate::forecast;
 use crate::held::Held;
 use crate::loading::{self, Stage};
 use crate::model::checks::machines;
-use crate::model::{self, Model, locking, meshes};
+use crate::model::{self, Model, cuts, locking, meshes};
 use crate::scene::model::{Creep, Fault as Spec, Kinematics, Scene};
 use crate::setup::Setups;
 use crate::warning::Warning;
+use apart::Spaced;
 use asperity_cycles::medium::{Bodies, Conditions, Loads, Place, Point, Refusal, Spring, least_bytes};
 use asperity_cycles::operator::{Form, Operator};
 use asperity_cycles::{Loading, deficit};
@@ -213,6 +216,7 @@ fn between_bodies<const D: usize>(
     let known = stage.weight.is_empty() && pressing.is_none();
     let early = known.then(|| resolved(scene, &placed, &mut warnings)).transpose()?;
     let of_bodies = model::checks::of(scene, &model)?;
+    warnings.extend(upright::held_above(scene, &model));
     let held = Held::by(&model);
     let conditions = conditions(scene, stage, model.idealisation.components());
     let at_rest = vec![0.0; model.dofs()];
@@ -335,7 +339,9 @@ pub(crate) fn all_points<const D: usize>(
     warnings: &mut Vec<Warning>,
 ) -> Result<(Vec<Placed<D>>, Vec<String>), Diagnostic> {
     let mut placed: Vec<Placed<D>> = Vec::new();
+    apart::check(scene, &apart::faces::cells(scene, model)?, Spaced::Apart)?;
     let mut notes = meshes::notes(scene)?;
+    notes.extend(cuts::notes(scene, &model.mesh));
     for (k, (name, spec)) in scene.faults.iter().enumerate() {
         placed.extend(points_of(scene, model, (name, spec), k, (&mut *warnings, &mut notes))?);
     }

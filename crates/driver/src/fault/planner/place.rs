@@ -174,7 +174,7 @@ fn normals<const D: usize>(model: &Model<D>, sides: &[Side]) -> BTreeMap<usize, 
     normals
 }
 
-/// Distance of each node of a plane side from its upper end, along its faces.
+/// Distance of each node of a plane side from its upper end, along its faces; from the left one, if both are at the same height.
 fn distances<const D: usize>(model: &Model<D>, sides: &[Side]) -> BTreeMap<usize, f64> {
     // Reorder from corners first, midside nodes last, to the order along the face.
     let ordered = |side: &Side| {
@@ -189,10 +189,16 @@ fn distances<const D: usize>(model: &Model<D>, sides: &[Side]) -> BTreeMap<usize
             links.entry(w[1]).or_default().push(w[0]);
         }
     }
-    let height = |n: &usize| model.mesh.nodes[*n][D - 1];
+    let at = |n: &usize| model.mesh.nodes[*n];
     let ends = links.iter().filter(|(_, next)| next.len() == 1).map(|(n, _)| *n);
+    // As on lines, the left end if both are at the same height; numbers of nodes do not decide.
+    let above = |a: &usize, b: &usize| {
+        let (a, b) = (at(a), at(b));
+        let rise = a[D - 1] - b[D - 1];
+        if rise.abs() > TOGETHER * model.scale { rise > 0.0 } else { a[0] < b[0] }
+    };
     let mut result = BTreeMap::new();
-    let Some(mut node) = ends.max_by(|a, b| height(a).total_cmp(&height(b))) else { return result };
+    let Some(mut node) = ends.reduce(|a, b| if above(&b, &a) { b } else { a }) else { return result };
     let mut along = 0.0;
     result.insert(node, along);
     while let Some(&next) = links[&node].iter().find(|n| !result.contains_key(*n)) {

@@ -40,6 +40,7 @@ pub(super) fn trace(input: &FaultMesh) -> Result<Vec<[f64; 2]>, FaultMeshError> 
     if trace.len() < 2 || bad > 0 {
         return Err(FaultMeshError::Trace { vertices: trace.len(), bad });
     }
+    distinct(&trace)?;
     let close = ROUNDING * (max[1] - min[1]);
     for (vertex, at) in trace.iter_mut().enumerate() {
         for end in [min[1], max[1]] {
@@ -55,6 +56,14 @@ pub(super) fn trace(input: &FaultMesh) -> Result<Vec<[f64; 2]>, FaultMeshError> 
     crossings(&trace)?;
     monotonic(&trace)?;
     Ok(trace)
+}
+
+/// Refuses neighbouring vertices at one position.
+pub(super) fn distinct(trace: &[[f64; 2]]) -> Result<(), FaultMeshError> {
+    match trace.windows(2).position(|w| w[0] == w[1]) {
+        Some(first) => Err(FaultMeshError::Doubled { first, at: trace[first] }),
+        None => Ok(()),
+    }
 }
 
 fn values(input: &FaultMesh) -> Result<(), FaultMeshError> {

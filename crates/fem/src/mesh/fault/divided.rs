@@ -26,10 +26,10 @@ pub fn divided(
     sizes: &Spacing,
 ) -> Result<Divided, FaultMeshError> {
     let bad = trace.iter().flatten().filter(|x| !x.is_finite()).count();
-    let repeated = trace.windows(2).filter(|w| w[0] == w[1]).count();
-    if trace.len() < 2 || bad + repeated > 0 {
-        return Err(FaultMeshError::Trace { vertices: trace.len(), bad: bad + repeated });
+    if trace.len() < 2 || bad > 0 {
+        return Err(FaultMeshError::Trace { vertices: trace.len(), bad });
     }
+    check::distinct(trace)?;
     sizes.check()?;
     let curve = if interpolation == Interpolation::Polyline { None } else { Curve::through(trace) };
     let Some(curve) = curve else {

@@ -28,6 +28,14 @@ pub enum FaultMeshError {
         /// Number of vertices with a coordinate that is not finite.
         bad: usize,
     },
+    /// Two neighbouring vertices at one position.
+    #[error("vertices {} and {} of the trace are one position, ({}, {}) m", first + 1, first + 2, at[0], at[1])]
+    Doubled {
+        /// First of the two, counted from 0.
+        first: usize,
+        /// Their position \[m\].
+        at: [f64; 2],
+    },
     /// A box without extent.
     #[error("the box is empty along axis {axis}: from {min} m to {max} m")]
     EmptyBox {

@@ -93,6 +93,17 @@ pub enum SplitError {
         /// Cosine between the direction and the sum of normals.
         cosine: f64,
     },
+    /// Connected pieces whose plus sides the rule without a direction puts on opposite sides.
+    #[error(
+        "pieces of the surface `{surface}` do not agree on a plus side: mean normals towards larger x are {} and {}",
+        shown(&normals[0]), shown(&normals[1])
+    )]
+    Apart {
+        /// Surface.
+        surface: String,
+        /// Mean normals of two pieces.
+        normals: [Vec<f64>; 2],
+    },
     /// All nodes are tips.
     #[error(
         "the surface `{surface}` cannot open: all its nodes lie on its tips; it needs at least two faces"
@@ -101,4 +112,10 @@ pub enum SplitError {
         /// Surface.
         surface: String,
     },
+}
+
+/// Components of a normal, with few digits.
+fn shown(normal: &[f64]) -> String {
+    let parts: Vec<String> = normal.iter().map(|c| format!("{c:.3}")).collect();
+    format!("({})", parts.join(", "))
 }

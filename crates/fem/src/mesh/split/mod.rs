@@ -5,10 +5,12 @@
 //! stays single; a node inside a surface, or where it leaves the body, has two; a junction of n branches has n. Nodes of
 //! second-order elements on edges and faces follow the same rule.
 //!
-//! Definition of the sides: a face given by its nodes has the direction it would have as a face of the cell on its `minus` side
-//! ([`ElementKind::faces`]). In the plane, minus lies to the left of the edge from its first to its second node. In space, the
-//! normal by the right-hand rule points from minus to plus. The first face of each connected piece of a surface decides for the
-//! piece; `towards_plus`, if given, reverses whole pieces instead.
+//! Definition of the sides: the mean normal of each connected piece of a surface, from minus to plus, points to larger x; where
+//! the piece is parallel to x, to larger y, then larger z; of a closed piece, outwards. `towards_plus`, if given, decides instead.
+//! Nothing depends on the order or direction in which faces or cells are given.
+//!
+//! Faces are found as those of the cell on their `minus` side ([`ElementKind::faces`]). In the plane, minus lies to the left of
+//! the edge from its first to its second node. In space, the normal by the right-hand rule points from minus to plus.
 //!
 //! [`ElementKind::faces`]: crate::element::ElementKind::faces
 

@@ -9,6 +9,10 @@ use std::collections::BTreeMap;
 /// Cosine below which a direction counts as lying in the surface: three degrees, less than anyone would call "across".
 const CROSSES: f64 = 0.05;
 
+/// Component of the mean normal of a piece below which it does not face along an axis: the sine of six hundredths of a degree,
+/// more than coordinates of six digits err by, and less than any slope that is meant.
+const FACES: f64 = 1e-3;
+
 /// Common part of two faces: a node in the plane, an edge in space.
 type Ridge = [usize; 2];
 
@@ -23,10 +27,20 @@ pub(super) fn orient<const D: usize>(
 ) -> Result<(), SplitError> {
     let ridges = ridges(D, faces);
     let pieces = pieces(D, &ridges, &surface.name, faces)?;
-    if let Some(direction) = &surface.towards_plus {
-        for piece in &pieces {
-            turn_towards(mesh, surface, direction, piece, faces)?;
+    let mut normals = Vec::new();
+    for piece in &pieces {
+        let mean = Mean::of(mesh, piece, faces);
+        let reversed = match &surface.towards_plus {
+            Some(direction) => mean.is_against(surface, direction, faces[piece[0]].index)?,
+            None => mean.is_reversed(mesh, piece, faces),
+        };
+        if reversed {
+            piece.iter().for_each(|&k| faces[k].turn());
         }
+        normals.push(if reversed { mean.normal.map(|c| -c) } else { mean.normal });
+    }
+    if surface.towards_plus.is_none() {
+        agree(surface, &normals)?;
     }
     if D == 2 {
         let mut order = Vec::with_capacity(faces.len());
@@ -132,32 +146,79 @@ fn area_vector<const D: usize>(mesh: &Mesh<D>, face: &InnerFace) -> [f64; D] {
     area
 }
 
-/// Turns the piece so that its mean normal points in `direction`.
-fn turn_towards<const D: usize>(
-    mesh: &Mesh<D>,
-    surface: &Surface<D>,
-    direction: &[f64; D],
-    piece: &[usize],
-    faces: &mut [InnerFace],
-) -> Result<(), SplitError> {
-    let mut sum = [0.0; D];
-    let mut area = 0.0;
-    for &k in piece {
-        let a = area_vector(mesh, &faces[k]);
-        area += length(&a);
-        sum.iter_mut().zip(a).for_each(|(s, a)| *s += a);
+/// Mean normal of a piece.
+struct Mean<const D: usize> {
+    /// Sum of area vectors over the area: shorter than a unit vector where the piece is curved.
+    normal: [f64; D],
+}
+
+impl<const D: usize> Mean<D> {
+    fn of(mesh: &Mesh<D>, piece: &[usize], faces: &[InnerFace]) -> Self {
+        let (mut sum, mut area) = ([0.0; D], 0.0);
+        for &k in piece {
+            let a = area_vector(mesh, &faces[k]);
+            area += length(&a);
+            sum.iter_mut().zip(a).for_each(|(s, a)| *s += a);
+        }
+        Self { normal: sum.map(|s| s / area) }
     }
-    let dot: f64 = sum.iter().zip(direction).map(|(s, d)| s * d).sum();
-    let cosine = dot / (area * length(direction));
-    // In this form a direction without length (NaN) is refused, too.
-    if !matches!(cosine.abs().partial_cmp(&CROSSES), Some(std::cmp::Ordering::Greater)) {
-        let face = faces[piece[0]].index;
-        return Err(SplitError::Hint { surface: surface.name.clone(), face, cosine });
+
+    /// True if the normal points against `direction`.
+    fn is_against(
+        &self,
+        surface: &Surface<D>,
+        direction: &[f64; D],
+        face: usize,
+    ) -> Result<bool, SplitError> {
+        let cosine = dot(&self.normal, direction) / length(direction);
+        // In this form a direction without length (NaN) is refused, too.
+        if !matches!(cosine.abs().partial_cmp(&CROSSES), Some(std::cmp::Ordering::Greater)) {
+            return Err(SplitError::Hint { surface: surface.name.clone(), face, cosine });
+        }
+        Ok(cosine < 0.0)
     }
-    if cosine < 0.0 {
-        piece.iter().for_each(|&k| faces[k].turn());
+
+    /// True if the normal points to smaller x; where the piece is parallel to x, to smaller y, then z; where it is closed,
+    /// inwards.
+    fn is_reversed(&self, mesh: &Mesh<D>, piece: &[usize], faces: &[InnerFace]) -> bool {
+        match self.normal.iter().find(|c| c.abs() > FACES) {
+            Some(c) => *c < 0.0,
+            None => points_inwards(mesh, piece, faces),
+        }
     }
-    Ok(())
+}
+
+/// True if the normals of a closed piece point to its inside: the area or volume around a node, from the distances of faces.
+fn points_inwards<const D: usize>(mesh: &Mesh<D>, piece: &[usize], faces: &[InnerFace]) -> bool {
+    let origin = mesh.nodes[faces[piece[0]].nodes[0][0]];
+    let share = |k: &usize| {
+        let corners = faces[*k].corners(D);
+        let middle: [f64; D] = std::array::from_fn(|c| {
+            corners.iter().map(|&n| mesh.nodes[n][c] - origin[c]).sum::<f64>() / corners.len() as f64
+        });
+        dot(&middle, &area_vector(mesh, &faces[*k]))
+    };
+    piece.iter().map(share).sum::<f64>() < 0.0
+}
+
+/// Refuses pieces whose normals point away from each other, because one rule then calls opposite sides of them plus.
+fn agree<const D: usize>(surface: &Surface<D>, normals: &[[f64; D]]) -> Result<(), SplitError> {
+    let open = |n: &&[f64; D]| n.iter().any(|c| c.abs() > FACES);
+    let all: Vec<&[f64; D]> = normals.iter().filter(open).collect();
+    let pairs = all.iter().enumerate().flat_map(|(k, a)| all[..k].iter().map(move |b| (*a, *b)));
+    // Right angles, as at a junction, have rounding.
+    let mut apart = pairs.filter(|(a, b)| dot(a, b) < -FACES * length(a) * length(b));
+    match apart.next() {
+        None => Ok(()),
+        Some((a, b)) => {
+            let [a, b] = [a, b].map(|n| n.to_vec());
+            Err(SplitError::Apart { surface: surface.name.clone(), normals: [b, a] })
+        }
+    }
+}
+
+fn dot<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Appends the faces of a piece in order along the fault, starting at the end whose face was given first; a closed piece

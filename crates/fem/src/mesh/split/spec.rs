@@ -10,12 +10,13 @@ pub struct Surface<const D: usize> {
     pub name: String,
     /// Nodes of each face, corners first; nodes beyond the corners may be omitted.
     pub faces: Vec<Vec<usize>>,
-    /// A direction that points from the minus to the plus side, on average over each connected piece \[any length\].
+    /// A direction that points from the minus to the plus side, on average over each connected piece \[any length\]; `None`: to
+    /// larger x, for pieces parallel to x to larger y, then z, and out of closed pieces.
     pub towards_plus: Option<[f64; D]>,
 }
 
 impl<const D: usize> Surface<D> {
-    /// The surface formed by a set of sides. The cell of the first side is on the minus side.
+    /// The surface formed by a set of sides.
     ///
     /// # Errors
     /// [`SplitError::UnknownSet`] with the sets that exist.

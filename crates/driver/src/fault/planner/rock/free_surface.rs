@@ -5,7 +5,7 @@ use super::super::super::free_surface::{FreeSurface, SurfaceAxes};
 use super::super::super::receivers::{Receiver, Receivers};
 use super::super::frame;
 use super::super::placed::{Placed, in_space};
-use super::receivers::{self, Unmoved};
+use super::receivers;
 use crate::diagnostic::Diagnostic;
 use crate::scene::model::{AngleExtent, Extent, Scene, Spanned, SurfaceSpec};
 use asperity_cycles::medium::patches::Patches;
@@ -43,6 +43,11 @@ pub(super) fn of<const D: usize>(
     } else {
         through(scene, (patches, rock), placed, (&positions, lag)).map_err(|why| notes.push(why)).ok()
     };
+    if through.is_some()
+        && let Some(why) = receivers::bent(scene, placed)
+    {
+        notes.push(receivers::relative_to_plates("profiles of the surface through time show motion", &why));
+    }
     Ok(Some(FreeSurface { positions, axes, patches: patches.clone(), rock: *rock, through }))
 }
 
@@ -60,21 +65,16 @@ fn through<const D: usize>(
     if positions.len() * rates.len() > MOST_WEIGHTS {
         return Err(left_out(format!("{} positions are too many; a larger `spacing`", positions.len())));
     }
+    let relative = receivers::bent(scene, placed).is_some();
     let one = |at: &[f64; 3]| {
-        let plates = match receivers::plates(scene, placed, at) {
-            Ok(plates) => plates,
-            // As on the edge of a cell, displacements are not defined there.
-            Err(Unmoved::Between(_)) => [f64::NAN; 3],
-            Err(Unmoved::Bent(fault, _)) => {
-                let why = format!("fault `{fault}`, which creeps beyond its ends, is not plane");
-                return Err(left_out(why));
-            }
-        };
+        let plates = if relative { Ok([0.0; 3]) } else { receivers::plates(scene, placed, at) };
         let per_slip =
             (0..tangents).flat_map(|component| patches.displacements(at, component, rock)).collect();
-        Ok(Receiver { name: String::new(), at: *at, per_slip, plates, loads: Vec::new() })
+        // As on the edge of a cell, displacements are not defined between plates.
+        let plates = plates.unwrap_or([f64::NAN; 3]);
+        Receiver { name: String::new(), at: *at, per_slip, plates, loads: Vec::new() }
     };
-    let all = positions.iter().map(one).collect::<Result<_, _>>()?;
+    let all = positions.iter().map(one).collect();
     Ok(Receivers { all, rates: rates.to_vec(), axes: receivers::axes(scene) })
 }
 

@@ -10,7 +10,7 @@ use crate::scene::model::{Fault as Spec, FaultLine, Scene};
 use asperity_cycles::kernel::{Segment, Space};
 use asperity_cycles::medium::patches::Patches;
 use asperity_cycles::medium::{Place, unit};
-use asperity_fem::mesh::fault::{Departure, Divided, divided};
+use asperity_fem::mesh::fault::{Departure, Divided, FaultMeshError, divided};
 
 /// Cells of all faults.
 ///
@@ -41,6 +41,7 @@ pub(super) fn tiling<const D: usize>(scene: &Scene, space: Space) -> Result<Tili
             faces: (1..cells.len()).map(|k| vec![k - 1, k]).collect(),
             outline: None,
             grid: None,
+            ends: cells.iter().map(|cell| cell.ends).collect(),
         });
         if !antiplane {
             let turns = segments.windows(2).zip(&cells);
@@ -78,7 +79,9 @@ fn cells(name: &str, line: &FaultLine) -> Result<(Vec<Cell>, Option<Departure>),
     let found =
         divided(&trace, meshes::interpolation(line.interpolation), &meshes::spacing(line.spacing.get_ref()));
     let Divided { mut places, mut along, departure } = found.map_err(|e| {
-        Diagnostic::at(line.trace.span(), format!("fault `{name}`: {e}"), "see `line` of faults")
+        let doubled = matches!(e, FaultMeshError::Doubled { .. });
+        let help = if doubled { "remove one of the two" } else { "see `line` of faults" };
+        Diagnostic::at(line.trace.span(), format!("fault `{name}`: {e}"), help)
     })?;
     let (first, last) = (places[0], places[places.len() - 1]);
     if last[1] > first[1] || (last[1] == first[1] && last[0] < first[0]) {

@@ -1,18 +1,20 @@
 //! Plans faults in homogeneous rock without bodies: cells with a point at the centre of each.
 
-mod apart;
 mod coulomb;
 mod depths;
 mod free_surface;
 mod lines;
+mod outlines;
 mod platform;
 mod receivers;
 mod rectangles;
+mod sites;
 mod surfaces;
 mod tiling;
 mod triangles;
 
 use super::super::plan::Plan;
+use super::apart::{self, Spaced};
 use super::assemble::{Around, Surrounded, geometry, plan_of, turns};
 use super::fields::Fields;
 use super::medium::Medium;
@@ -53,8 +55,8 @@ pub(super) fn plan<const D: usize>(
     let tiling = tiling::<D>(scene, rock)?;
     let mut warnings = scene.warnings.clone();
     let mut notes = backslip::notes(scene);
+    apart::check(scene, &outlines::cells(&tiling), Spaced::ByCells)?;
     let placed = placed(scene, rock, &elastic, &tiling, (&mut warnings, &mut notes))?;
-    apart::check(scene, &placed, &tiling.widths())?;
     let resolution = resolved(scene, &placed, &mut warnings)?;
     warnings.extend(triangles::tiny(scene, &tiling, &resolution));
     let slip = Slip {
@@ -72,7 +74,8 @@ pub(super) fn plan<const D: usize>(
     let loading = deficit(operator.as_ref(), &plates, end);
     let lag = ((&plates[..], slip.tangents), &mut notes);
     let free_surface = free_surface::of(scene, (&tiling.patches, &elastic), &placed, lag)?;
-    let receivers = receivers::of(scene, (&tiling.patches, &elastic), &placed, (plates, slip.tangents))?;
+    let receivers =
+        receivers::of(scene, (&tiling.patches, &elastic), &placed, ((plates, slip.tangents), &mut notes))?;
     let coulomb = coulomb::of(scene, (&tiling.patches, &elastic), &placed)?;
     let platform = platform::of(scene, &placed)?;
     warnings.extend(sense::check(scene, (&placed, &[]), &loading, end));

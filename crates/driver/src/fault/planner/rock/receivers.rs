@@ -2,9 +2,10 @@
 
 use super::super::super::receivers::{Receiver, Receivers};
 use super::super::placed::{Placed, in_space, slides};
+use super::sites::{self, Given};
 use crate::diagnostic::Diagnostic;
 use crate::idealisation;
-use crate::scene::model::{Creep, Fault as Spec, Scene, Spanned};
+use crate::scene::model::{Fault as Spec, Scene};
 use crate::scene::units::Length;
 use asperity_cycles::medium::patches::Patches;
 use asperity_fem::material::elastic::Elastic;
@@ -19,30 +20,43 @@ const ON_PLANE: f64 = 1e-9;
 /// Receivers of a scene, with the rates of the plates at all points, component by component.
 ///
 /// # Errors
-/// [`Diagnostic`] at a receiver that has no motion, or at a fault whose plates cannot be followed.
+/// [`Diagnostic`] at a receiver that has no motion, or at a site that is not on the map.
 pub(super) fn of<const D: usize>(
     scene: &Scene,
     (patches, rock): (&Patches, &Elastic),
     placed: &[Placed<D>],
-    (rates, tangents): (Vec<f64>, usize),
+    (lag, notes): ((Vec<f64>, usize), &mut Vec<String>),
 ) -> Result<Receivers, Diagnostic> {
-    let axes = axes(scene);
-    let mut receivers = Receivers { all: Vec::new(), rates, axes };
-    for (name, spec) in &scene.output.receivers {
-        let at = std::array::from_fn(|c| spec.get_ref().get(c).map_or(0.0, |x: &Length| x.0));
+    let (rates, tangents) = lag;
+    let given = scene.output.receivers.iter().map(|(name, spec)| {
+        let at: [f64; 3] = std::array::from_fn(|c| spec.get_ref().get(c).map_or(0.0, |x: &Length| x.0));
+        (name.clone(), spec.span(), at)
+    });
+    let all: Vec<Given> = given.chain(sites::of(scene, D == 3)?).collect();
+    let relative = bent(scene, placed);
+    if let Some(why) = relative.as_ref().filter(|_| !all.is_empty()) {
+        notes.push(relative_to_plates("receivers move", why));
+    }
+    let mut receivers = Receivers { all: Vec::new(), rates, axes: axes(scene) };
+    for (name, span, at) in all {
         let per_slip: Vec<[f64; 3]> =
             (0..tangents).flat_map(|component| patches.displacements(&at, component, rock)).collect();
         if !per_slip.iter().flatten().all(|u| u.is_finite()) {
             return Err(Diagnostic::at(
-                spec.span(),
+                span,
                 format!(
                     "receiver `{name}` lies on the edge of a cell of a fault, where displacements are not defined"
                 ),
                 "a position beside the fault",
             ));
         }
-        let plates = plates(scene, placed, &at).map_err(|why| refused((name, spec), &why))?;
-        receivers.all.push(Receiver { name: name.clone(), at, per_slip, plates, loads: Vec::new() });
+        let plates = if relative.is_some() { Ok([0.0; 3]) } else { plates(scene, placed, &at) };
+        let plates = plates.map_err(|Between(fault)| {
+            let message =
+                format!("receiver `{name}` lies on the plane of fault `{fault}`, whose sides move apart");
+            Diagnostic::at(span, message, "a position on one of its sides")
+        })?;
+        receivers.all.push(Receiver { name, at, per_slip, plates, loads: Vec::new() });
     }
     Ok(receivers)
 }
@@ -55,23 +69,51 @@ pub(super) fn axes(scene: &Scene) -> Vec<usize> {
     }
 }
 
-/// Reason why a position cannot be moved with the plates.
-pub(super) enum Unmoved<'a> {
-    /// A fault that creeps beyond its ends is not plane.
-    Bent(&'a str, &'a Creep),
-    /// The position lies on the plane of a fault.
-    Between(&'a str),
+/// A fault on whose plane a position lies.
+pub(super) struct Between<'a>(&'a str);
+
+/// Reason why the plates of a scene do not move as rigid blocks: a fault with creep that is not plane, or two that are not parallel. Slip at the
+/// rate of creep on all of them then deforms the blocks, and motion of receivers is that of slip less the creep.
+pub(super) fn bent<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Option<String> {
+    let mut first: Option<(&String, [f64; 3])> = None;
+    for (fault, (name, _)) in scene.faults.iter().enumerate().filter(|(_, (_, spec))| spec.creep.is_some()) {
+        let normals = placed.iter().filter(|p| p.fault == fault).map(|p| in_space(&p.point.place.normal));
+        let normals: Vec<[f64; 3]> = normals.collect();
+        let Some(own) = normals.first() else { continue };
+        if normals.iter().any(|n| 1.0 - dot(n, own) > PLANE) {
+            return Some(format!("fault `{name}`, which creeps beyond its ends, is not plane"));
+        }
+        match first {
+            Some((other, normal)) if 1.0 - dot(own, &normal).abs() > PLANE => {
+                return Some(format!(
+                    "faults `{other}` and `{name}`, which creep beyond their ends, are not parallel"
+                ));
+            }
+            Some(_) => {}
+            None => first = Some((name, *own)),
+        }
+    }
+    None
 }
 
-/// Velocity of a position if all faults with creep slipped at its rate everywhere \[m/s\].
+/// Note on motion without that of the plates.
+pub(super) fn relative_to_plates(what: &str, why: &str) -> String {
+    format!("{what} relative to the plates below: {why}, so that plates do not move as rigid blocks")
+}
+
+fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// Velocity of a position if all faults with creep, which are parallel planes, slipped at its rate everywhere \[m/s\].
 ///
 /// # Errors
-/// At a position or a fault for which it is not defined.
+/// At a position on the plane of a fault.
 pub(super) fn plates<'a, const D: usize>(
     scene: &'a Scene,
     placed: &[Placed<D>],
     at: &[f64; 3],
-) -> Result<[f64; 3], Unmoved<'a>> {
+) -> Result<[f64; 3], Between<'a>> {
     let mut plates = [0.0; 3];
     for (fault, entry) in scene.faults.iter().enumerate() {
         let own: Vec<&Placed<D>> = placed.iter().filter(|p| p.fault == fault).collect();
@@ -81,43 +123,20 @@ pub(super) fn plates<'a, const D: usize>(
     Ok(plates)
 }
 
-/// Error at a receiver that has no motion with the plates.
-fn refused((name, receiver): (&str, &Spanned<Vec<Length>>), why: &Unmoved<'_>) -> Diagnostic {
-    match why {
-        Unmoved::Bent(fault, creep) => Diagnostic::at(
-            creep.rate.span(),
-            format!(
-                "receiver `{name}` moves with the plates, and fault `{fault}`, which creeps beyond its ends, is not plane"
-            ),
-            "receivers need plane faults, or faults without `creep`",
-        ),
-        Unmoved::Between(fault) => Diagnostic::at(
-            receiver.span(),
-            format!("receiver `{name}` lies on the plane of fault `{fault}`, whose sides move apart"),
-            "a position on one of its sides",
-        ),
-    }
-}
-
 /// Velocity of a position beside a fault that creeps everywhere: half of the rate, on either side of its plane.
 fn beside<'a, const D: usize>(
     at: &[f64; 3],
     (fault, spec): (&'a String, &'a Spec),
     own: &[&Placed<D>],
-) -> Result<[f64; 3], Unmoved<'a>> {
+) -> Result<[f64; 3], Between<'a>> {
     let Some(creep) = spec.creep.as_ref() else { return Ok([0.0; 3]) };
     let Some(first) = own.first() else { return Ok([0.0; 3]) };
     let normal: [f64; 3] = in_space(&first.point.place.normal);
-    let dot = |a: &[f64; 3], b: &[f64; 3]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    let turned = |p: &&&Placed<D>| 1.0 - dot(&in_space(&p.point.place.normal), &normal) > PLANE;
-    if own.iter().any(|p| turned(&p)) {
-        return Err(Unmoved::Bent(fault, creep));
-    }
     let from: [f64; 3] = in_space(&first.point.place.at);
     let apart: [f64; 3] = std::array::from_fn(|c| at[c] - from[c]);
     let distance = dot(&apart, &normal);
     if distance.abs() <= ON_PLANE * dot(&apart, &apart).sqrt() {
-        return Err(Unmoved::Between(fault));
+        return Err(Between(fault));
     }
     // Creep in space has a direction of its own.
     let along = if D == 3 { in_space(&first.point.place.creeps) } else { slides(first) };

@@ -48,6 +48,7 @@ pub(super) fn cells<const D: usize>(
             faces: grid.faces(),
             outline: None,
             grid: Some(grid.view()),
+            ends: Vec::new(),
         },
         note: grid.words(name),
     })

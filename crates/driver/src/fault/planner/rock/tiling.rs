@@ -31,18 +31,13 @@ pub(super) struct Cut<const D: usize> {
     pub outline: Option<Outline>,
     /// Grid of the cells, if they are equal rectangles.
     pub grid: Option<CellGrid>,
+    /// Lower and upper ends of cells of a line \[m\].
+    pub ends: Vec<[[f64; 2]; 2]>,
 }
 
 /// A dimension that the caller has established.
 pub(super) fn in_dimension<const A: usize, const B: usize>(v: &[f64; A]) -> [f64; B] {
     std::array::from_fn(|c| v.get(c).copied().unwrap_or(0.0))
-}
-
-impl<const D: usize> Tiling<D> {
-    /// Smallest distance between the centres of equal cells side by side, of all cells \[m\].
-    pub fn widths(&self) -> Vec<f64> {
-        self.faults.iter().flat_map(|cut| cut.widths.iter().copied()).collect()
-    }
 }
 
 impl<const D: usize> Cells<D> for Tiling<D> {

@@ -68,7 +68,8 @@ pub(super) fn cells<const D: usize>(
         notes.push(sense(name, &places));
     }
     let outline = Some(Outline { nodes: mesh.nodes, corners: mesh.corners });
-    Ok(Meshed { tiles, cut: Cut { places, sizes, widths, faces: Vec::new(), outline, grid: None }, notes })
+    let cut = Cut { places, sizes, widths, faces: Vec::new(), outline, grid: None, ends: Vec::new() };
+    Ok(Meshed { tiles, cut, notes })
 }
 
 /// Note on the sense of slip of a fault that is given by depths, whose plus side is the upper one.
