@@ -8,7 +8,7 @@ use crate::amounts::{self, size};
 use crate::diagnostic::Diagnostic;
 use crate::idealisation;
 use crate::model::meshes;
-use crate::scene::model::{Body, MeshSource, Method, Scene, Spanned};
+use crate::scene::model::{Body, Fault, MeshSource, Method, Scene, Spanned};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::generate::SIDES;
@@ -154,7 +154,7 @@ pub fn admit(scene: &Scene) -> Result<(), Diagnostic> {
     };
     let counts: Vec<Counts> = grids.iter().map(|g| g.counts.clone()).collect();
     let within = |error: Diagnostic| Diagnostic { span: largest.place.clone(), ..error };
-    machine(&counts, idealisation).map_err(within)?;
+    machine(scene, &counts, idealisation).map_err(within)?;
     // Faults keep no factor.
     let direct = scene.faults.is_empty() && scene.solver.method() != Method::Iterative;
     if direct && !may_iterate(scene) {
@@ -236,11 +236,11 @@ pub fn condensation(scene: &Scene) -> Option<usize> {
 /// Refuses a plan whose need exceeds the memory of this machine by more than the error of the estimate.
 ///
 /// # Errors
-/// [`Diagnostic`] at `memory` in `[solver]` if it is given, because it may be the cause.
+/// [`Diagnostic`] at the entry that sets the size.
 pub fn fits(scene: &Scene, needed: usize) -> Result<(), Diagnostic> {
     match available() {
         Some((there, what)) if SURE * needed as f64 > there as f64 => Err(Diagnostic::at(
-            scene.solver.memory.as_ref().map_or(0..0, Spanned::span),
+            place_of_size(scene),
             format!("the run needs about {}, and {what} {}", size(needed), size(there)),
             "take larger cells, or a machine with more memory; is the unit of the size right?",
         )),
@@ -248,17 +248,35 @@ pub fn fits(scene: &Scene, needed: usize) -> Result<(), Diagnostic> {
     }
 }
 
+/// Position of the entry that sets the size of a scene: `memory` in `[solver]` if it is given, because it may be the cause; the
+/// resolution of the block with the most nodes; a mesh; a fault.
+pub fn place_of_size(scene: &Scene) -> Range<usize> {
+    let memory = scene.solver.memory.as_ref().map(Spanned::span);
+    let largest = || grids(scene).max_by(|a, b| a.counts.nodes.total_cmp(&b.counts.nodes)).map(|g| g.place);
+    let mesh = || {
+        scene.bodies.values().find_map(|body| match &body.mesh {
+            MeshSource::Fault(mesh) => Some(mesh.spacing.span()),
+            MeshSource::Gmsh(mesh) => Some(mesh.file.span()),
+            MeshSource::Abaqus(mesh) => Some(mesh.file.span()),
+            MeshSource::Quadrilateral(mesh) => Some(mesh.divisions.span()),
+            MeshSource::Block(mesh) => Some(mesh.element.span()),
+        })
+    };
+    let fault = || scene.faults.values().next().map(Fault::span);
+    memory.or_else(largest).or_else(mesh).or_else(fault).unwrap_or(0..0)
+}
+
 /// Refuses bodies whose meshes, cells and matrix exceed the memory of the machine.
 ///
 /// # Errors
-/// [`Diagnostic`] without a position.
-pub fn machine(counts: &[Counts], idealisation: Idealisation) -> Result<(), Diagnostic> {
+/// [`Diagnostic`] at the entry that sets the size.
+pub fn machine(scene: &Scene, counts: &[Counts], idealisation: Idealisation) -> Result<(), Diagnostic> {
     let components = idealisation.components();
     let of = |c: &Counts| c.cells_bytes(idealisation) + c.matrix_bytes(components);
     let needed: f64 = counts.iter().map(of).sum();
     match available() {
         Some((there, what)) if needed > there as f64 => Err(Diagnostic::at(
-            0..0,
+            place_of_size(scene),
             format!(
                 "{} need {} for their matrices alone, and {what} {}",
                 in_words(counts, components),

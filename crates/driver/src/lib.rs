@@ -37,6 +37,7 @@ pub mod setup;
 mod sha256;
 pub mod slider;
 pub mod slider_planner;
+mod sniff;
 mod stop;
 mod thresholds;
 mod views;

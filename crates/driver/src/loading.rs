@@ -6,13 +6,12 @@ mod stiff;
 
 use crate::diagnostic::Diagnostic;
 use crate::initial_stress;
-use crate::model::{self, Model, bounds};
+use crate::model::{self, Model, bounds, sets};
 use crate::scene::check::pressing;
 use crate::scene::model::{Condition, Loading, Material, Motion, Pace, Scene, Spanned};
 use asperity_fem::block::LinearBlock;
 use asperity_fem::dof::Channel;
 use asperity_fem::kinematics::Formulation;
-use asperity_fem::mesh::nodes_of_sides;
 use asperity_fem::surface;
 use asperity_fem::table::Table;
 use asperity_mechanics::{self as mechanics, Rotation, Turning};
@@ -116,7 +115,11 @@ fn take_up<const D: usize>(
     let set = c.set.as_ref().ok_or_else(|| {
         Diagnostic::at(condition.span(), "the condition names no set", "add `set = \"body.side\"`")
     })?;
-    model::sides(model, set)?;
+    if c.traction.is_some() || c.pressure.is_some() || c.absorbing.as_ref().is_some_and(|a| *a.get_ref()) {
+        model::sides(model, set)?;
+    } else {
+        model::nodes(model, set)?;
+    }
     for (axis, motion) in [&c.x, &c.y, &c.z].into_iter().enumerate() {
         if let Some(motion) = motion {
             held.insert((set.get_ref().clone(), axis), motion.get_ref().clone());
@@ -168,7 +171,7 @@ fn take_up<const D: usize>(
 
 /// Axis along which all nodes of a set have the same coordinate.
 fn normal_axis<const D: usize>(model: &Model<D>, set: &Spanned<String>) -> Result<usize, Diagnostic> {
-    let nodes = nodes_of_sides(&model.mesh, model::sides(model, set)?);
+    let nodes = model::nodes(model, set)?;
     let points: Vec<[f64; D]> = nodes.iter().map(|&n| model.mesh.nodes[n]).collect();
     let (min, max) = bounds(&points);
     /// Tolerance for the coordinates of a generated plane face, relative to the size of the scene: rounding.
@@ -191,9 +194,8 @@ fn motions<'a, const D: usize>(
     let mut taken = vec![false; model.dofs()];
     let mut result = Vec::new();
     for (key, motion) in held.iter().filter(|(_, m)| **m != Motion::Free) {
-        let sides = &model.mesh.side_sets[&key.0];
         let mut dofs = Vec::new();
-        for node in nodes_of_sides(&model.mesh, sides) {
+        for node in sets::of_name(model, &key.0).unwrap_or_default() {
             let dof = model.dof(node, key.1);
             if !taken[dof] {
                 taken[dof] = true;

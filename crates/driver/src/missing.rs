@@ -1,13 +1,31 @@
 //! Files that are missing where a scene looks for them.
 
 use asperity_scene::near::{closest, suggest};
+use std::io;
 use std::path::Path;
 
 /// Largest number of files that a message lists: a line of them.
 const MOST: usize = 6;
 
+/// Reason why a file cannot be read, and help: what lies where it is looked for, or what keeps it from being read.
+pub(crate) fn unread(path: &Path, error: &io::Error, kind: (&str, &[&str])) -> (String, String) {
+    let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+    if path.is_dir() {
+        let help = format!("{} is a folder: name a file in it", whole.display());
+        return ("it is a folder".into(), help);
+    }
+    match error.kind() {
+        io::ErrorKind::NotFound => (error.to_string(), looked_for(path, kind)),
+        io::ErrorKind::PermissionDenied => (
+            error.to_string(),
+            format!("{} is there, and may not be read: see its permissions", whole.display()),
+        ),
+        _ => (error.to_string(), format!("{} is there, and reading it fails", whole.display())),
+    }
+}
+
 /// Path of a missing file, and the files of its kind found there instead.
-pub(crate) fn looked_for(path: &Path, (what, extensions): (&str, &[&str])) -> String {
+fn looked_for(path: &Path, (what, extensions): (&str, &[&str])) -> String {
     let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
     let told =
         format!("looked for {}; paths are relative to the folder of the scene. There", whole.display());

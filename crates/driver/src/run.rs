@@ -8,13 +8,13 @@ pub use keeper::{Bodies, Checkpoint, Kept};
 pub use stand::Stand;
 
 use crate::balance::balance;
-use crate::plan::{AnyPlan, Plan};
+use crate::plan::{AnyPlan, Plan, restraint};
 use crate::report::{self, Outcome, Phases, RunReport};
 use crate::run_doubts;
 use crate::stop;
 use crate::views;
 use crate::warning::Warning;
-use asperity_contact::{Course, PointFields, Watch};
+use asperity_contact::{Course, PointFields, Status, Watch};
 use asperity_mechanics::step::{Accepted, Cut, Failure};
 use asperity_mechanics::timing::{Figures, StepLength};
 use asperity_mechanics::{Assembled, LOADING, Mismatch, Stage};
@@ -267,8 +267,25 @@ impl<const D: usize> Running<'_, D> {
         let tried = (self.work.steps.len(), self.work.rejected);
         stop::stalled(system, name, failure, tried).or_else(|| {
             let over = failure.always() || !here.length.halve(dt);
-            over.then(|| stop::failed(system, name, failure, dt, here.free.take(), self.fast(system)))
+            over.then(|| {
+                let cause = here.free.take().or_else(|| self.contact_lost(here.index, system));
+                stop::failed(system, name, failure, dt, cause, self.fast(system))
+            })
         })
+    }
+
+    /// Description of a body that contact no longer holds, if there is one.
+    fn contact_lost(&self, stage: usize, system: &Assembled<'_, D>) -> Option<String> {
+        let problem = &self.plan.problem;
+        if problem.mass.is_some() {
+            return None;
+        }
+        let status: Vec<_> = system.interfaces().iter().map(|i| &i.points().status).collect();
+        let closed = |interface: usize, point: usize| {
+            let of = status.get(interface).and_then(|points| points.get(point));
+            of.is_some_and(|status| *status != Status::Open)
+        };
+        restraint::lost((&problem.model, &problem.stages[stage]), &problem.interfaces, &closed)
     }
 
     /// Adds the results at the end of a stage.

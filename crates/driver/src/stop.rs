@@ -7,8 +7,9 @@ use asperity_mechanics::{Assembled, Failure, coordinates};
 
 /// Remedies for an instability.
 const REMEDY: &str = "the last state before it is kept. Stiffer bodies or supports, or a larger length of weakening (`l`, `d_c`), \
-    are stable. Events are followed with `damping = \"radiation\"` at the interface, or with inertia: `stepper = \"auto\"`, or `inertia = true` \
-    in `[time]`";
+    are stable";
+/// Remedy at an interface without damping.
+const DAMPING: &str = "`damping = \"radiation\"` at the interface, or with ";
 
 /// Number of failed trials after which a run with a penalty far above the stiffness of its bodies ends. A contact set that changes as a whole takes a
 /// few, and halving down to the smallest step takes 44.
@@ -19,7 +20,7 @@ const SELDOM: usize = 4;
 /// Parts of a metre to which a position is printed: nanometres, so that rounding does not show.
 const SHOWN: f64 = 1e9;
 
-/// Outcome of a step that failed at its shortest length `dt` \[s\]. `free` describes a motion that nothing restrains; `fast` is true if slip is
+/// Outcome of a step that failed at its shortest length `dt` \[s\]. `free` describes a motion that nothing restrains, or why contact restrains it no longer; `fast` is true if slip is
 /// faster than the loads drive it.
 pub fn failed<const D: usize>(
     system: &Assembled<'_, D>,
@@ -124,7 +125,11 @@ fn unstable<const D: usize>(system: &Assembled<'_, D>, stage: String, met: Met, 
         return coarse(system, stage, met, what);
     }
     let time = system.time();
-    let reason = format!("instability {}: {what}; {REMEDY}", met.words::<D>());
+    let damping = if system.is_damped(&met.interface) { "" } else { DAMPING };
+    let reason = format!(
+        "instability {}: {what}; {REMEDY}. Events are followed with {damping}inertia: `stepper = \"auto\"`, or `inertia = true` in `[time]`",
+        met.words::<D>()
+    );
     let Met { interface, position, slip_rate } = met;
     Outcome::Stopped {
         stage: Some(stage),

@@ -97,6 +97,19 @@ pub enum Failure {
 }
 
 impl Failure {
+    /// Point in the slice; `None` for a parameter, which all points have.
+    #[must_use]
+    pub fn point(&self) -> Option<usize> {
+        match self {
+            Self::Parameter { .. } => None,
+            Self::BareLogAtRest { point, .. }
+            | Self::Negative { point, .. }
+            | Self::Unstable { point, .. }
+            | Self::NonFinite { point, .. }
+            | Self::NotConverged { point, .. } => Some(*point),
+        }
+    }
+
     /// The same failure at another point, for callers that treat parts of a slice.
     #[must_use]
     pub fn at(self, index: usize) -> Self {

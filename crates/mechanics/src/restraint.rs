@@ -1,7 +1,7 @@
 //! Restraint of every body, and of every part of a split body: by its conditions, by symmetry, or by contact alone.
 //!
 //! A rigid motion is free if no fixed degree of freedom resists it. It is refused if no interface of the body could hold it in
-//! any stage either.
+//! any stage either. Contact passes motions on: bodies that it joins are held together only if a condition holds one of them.
 
 use super::{Model, PlannedInterface, Stage};
 use asperity_fem::kinematics::Idealisation;
@@ -24,7 +24,12 @@ pub struct Motion {
     pub stage: String,
     /// Description of the motion.
     pub motion: String,
+    /// Bodies that contact joins and that move as one, ascending; empty if the part moves alone.
+    pub together: Vec<usize>,
 }
+
+/// True for the points of an interface that are closed, by the numbers of the interface and of the point.
+type Closed<'a> = &'a dyn Fn(usize, usize) -> bool;
 
 /// Checks all bodies in all stages. Returns the motions that are held by contact alone.
 ///
@@ -36,10 +41,12 @@ pub fn check<const D: usize>(
     interfaces: &[PlannedInterface],
 ) -> Result<Vec<Motion>, Motion> {
     let mut held = Vec::new();
-    let parts = model.bodies.iter().enumerate().flat_map(|(b, body)| body.parts.iter().map(move |p| (b, p)));
-    for (body, nodes) in parts {
+    for (body, nodes) in parts(model) {
         for stage in stages {
-            let found = |motion| Motion { body, node: nodes[0], stage: stage.name.clone(), motion };
+            let found = |motion| {
+                let (stage, together) = (stage.name.clone(), Vec::new());
+                Motion { body, node: nodes[0], stage, motion, together }
+            };
             let mut rows = condition_rows(model, nodes, stage);
             let Some(motion) = free_motion::<D>(&rows, model.idealisation) else { continue };
             rows.extend(contact_rows(model, nodes, stage, interfaces));
@@ -49,7 +56,95 @@ pub fn check<const D: usize>(
             held.push(found(motion));
         }
     }
-    Ok(held)
+    match stages.iter().find_map(|stage| moving_as_one(model, stage, interfaces, &|_, _| true)) {
+        Some(loose) => Err(loose),
+        None => Ok(held),
+    }
+}
+
+/// The first motion that nothing resists while only some points of the interfaces are closed.
+#[must_use]
+pub fn parted<const D: usize>(
+    model: &Model<D>,
+    stage: &Stage,
+    interfaces: &[PlannedInterface],
+    closed: Closed<'_>,
+) -> Option<Motion> {
+    let alone = parts(model).find_map(|(body, nodes)| {
+        let mut rows = condition_rows(model, nodes, stage);
+        rows.extend(closed_rows(model, nodes, stage, interfaces, closed));
+        let motion = free_motion::<D>(&rows, model.idealisation)?;
+        Some(Motion { body, node: nodes[0], stage: stage.name.clone(), motion, together: Vec::new() })
+    });
+    alone.or_else(|| moving_as_one(model, stage, interfaces, closed))
+}
+
+/// Parts of all bodies.
+fn parts<const D: usize>(model: &Model<D>) -> impl Iterator<Item = (usize, &Vec<usize>)> {
+    model.bodies.iter().enumerate().flat_map(|(b, body)| body.parts.iter().map(move |p| (b, p)))
+}
+
+/// The first motion of parts that closed interfaces join which no condition resists.
+fn moving_as_one<const D: usize>(
+    model: &Model<D>,
+    stage: &Stage,
+    interfaces: &[PlannedInterface],
+    closed: Closed<'_>,
+) -> Option<Motion> {
+    let parts: Vec<(usize, &Vec<usize>)> = parts(model).collect();
+    let mut group: Vec<usize> = (0..parts.len()).collect();
+    for (k, interface) in interfaces.iter().enumerate() {
+        if !(0..interface.slave.len()).any(|point| closed(k, point)) {
+            continue;
+        }
+        let joined: Vec<usize> = (0..parts.len()).filter(|&p| touches(parts[p].1, interface)).collect();
+        let groups: Vec<usize> = joined.iter().map(|&p| group[p]).collect();
+        let Some(&first) = groups.iter().min() else { continue };
+        group.iter_mut().filter(|g| groups.contains(g)).for_each(|g| *g = first);
+    }
+    (0..parts.len()).find_map(|first| {
+        let members: Vec<usize> = (0..parts.len()).filter(|&p| group[p] == first).collect();
+        if members.len() < 2 {
+            return None;
+        }
+        let mut nodes: Vec<usize> = members.iter().flat_map(|&p| parts[p].1.iter().copied()).collect();
+        nodes.sort_unstable();
+        let motion = free_motion::<D>(&condition_rows(model, &nodes, stage), model.idealisation)?;
+        let mut together: Vec<usize> = members.iter().map(|&p| parts[p].0).collect();
+        together.dedup();
+        let (body, node) = (parts[first].0, parts[first].1[0]);
+        Some(Motion { body, node, stage: stage.name.clone(), motion, together })
+    })
+}
+
+/// True if a part has faces of an interface.
+fn touches(nodes: &[usize], interface: &PlannedInterface) -> bool {
+    let mut faces = interface.slave_faces.iter().chain(&interface.master_faces);
+    faces.any(|face| nodes.binary_search(&face.nodes[0]).is_ok())
+}
+
+/// Rows held by the closed points of the interfaces of a part.
+fn closed_rows<const D: usize>(
+    model: &Model<D>,
+    nodes: &[usize],
+    stage: &Stage,
+    interfaces: &[PlannedInterface],
+    closed: Closed<'_>,
+) -> Vec<Row> {
+    let position = centred(model, nodes);
+    let mut rows = Vec::new();
+    for (k, interface) in interfaces.iter().enumerate().filter(|(_, i)| touches(nodes, i)) {
+        let friction = interface.law.is_some() && !stage.frictionless.contains(&interface.name);
+        for (_, &(node, _)) in interface.slave.iter().enumerate().filter(|(p, _)| closed(k, *p)) {
+            let components: Vec<Row> = (0..D).map(|axis| row(position(node), axis)).collect();
+            let face = interface.slave_faces.iter().find(|face| face.nodes.contains(&node));
+            match face {
+                Some(face) if !friction => rows.push(project(&components, &model.face_normal(&face.nodes))),
+                _ => rows.extend(components),
+            }
+        }
+    }
+    rows
 }
 
 /// Rigid modes at a point, one entry per mode: translations, followed by rotations about the body's centre.

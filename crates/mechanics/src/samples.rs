@@ -3,7 +3,7 @@
 use super::{CellBlock, Model, Stage, StressField};
 use asperity_fem::block::von_mises;
 use asperity_fem::element::ElementKind;
-use asperity_fem::mesh::{Location, Side, nodes_of_sides};
+use asperity_fem::mesh::Location;
 use asperity_fem::table::Table;
 use nalgebra::{DMatrix, DVector};
 
@@ -184,10 +184,9 @@ impl Point {
 }
 
 impl ForceSet {
-    /// Makes a set of these faces.
+    /// Makes a set of these nodes, which ascend.
     #[must_use]
-    pub fn new<const D: usize>(model: &Model<D>, (name, set): (&str, &str), sides: &[Side]) -> Self {
-        let nodes = nodes_of_sides(&model.mesh, sides);
+    pub fn new<const D: usize>(model: &Model<D>, (name, set): (&str, &str), nodes: Vec<usize>) -> Self {
         let cells = cells_with(model, &nodes);
         Self { name: name.to_string(), set: set.to_string(), nodes, cells }
     }

@@ -70,6 +70,9 @@ pub struct SetCheck {
     pub used: Vec<String>,
     /// Faces.
     pub faces: usize,
+    /// Nodes of a set of nodes, which has no faces.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nodes: Option<usize>,
     /// Area \[m²; m per metre of thickness\].
     pub area: f64,
 }

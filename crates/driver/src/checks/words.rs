@@ -55,7 +55,10 @@ fn area(value: f64, in_space: bool) -> String {
 
 impl SetCheck {
     fn words(&self, in_space: bool) -> String {
-        let Self { set, used, faces, area: size } = self;
+        let Self { set, used, faces, nodes, area: size } = self;
+        if let Some(nodes) = nodes {
+            return format!("`{set}` ({}): {}", used.join(", "), count(*nodes, "node"));
+        }
         format!("`{set}` ({}): {}, {}", used.join(", "), count(*faces, "face"), area(*size, in_space))
     }
 }

@@ -16,6 +16,7 @@ use crate::setup::Setups;
 use crate::sha256::sha256;
 use crate::slider;
 use crate::slider_planner;
+use crate::sniff::{self, Reader};
 use crate::warning::Warning;
 use asperity_cycles::slider::stability;
 use asperity_output::plots::MeshPicture;
@@ -151,9 +152,7 @@ enum Parsed {
 impl Source {
     /// Reads and checks a scene file with settings.
     pub fn read(path: &Path, settings: &[Setting]) -> miette::Result<Self> {
-        let file = std::fs::read_to_string(path)
-            .into_diagnostic()
-            .wrap_err_with(|| format!("cannot read the scene {}", path.display()))?;
+        let file = text(path).wrap_err_with(|| format!("cannot read the scene {}", path.display()))?;
         let clock = Instant::now();
         let name = path.display().to_string();
         let resolved = settings::apply(&file, settings).map_err(|why| miette!("{name}: {why}"))?;
@@ -249,4 +248,14 @@ impl Source {
 /// True if the bodies of a scene have mass.
 fn has_mass(scene: &scene::model::Scene) -> bool {
     *scene.time.stepper.get_ref() == scene::model::Stepper::Explicit
+}
+
+/// Text of a scene file.
+fn text(path: &Path) -> miette::Result<String> {
+    let bytes = std::fs::read(path).into_diagnostic()?;
+    let other = sniff::other(&bytes, Reader::Scene).filter(|_| !bytes.trim_ascii().is_empty());
+    if let Some(wrong) = other {
+        return Err(miette!(help = wrong.help, "{}", wrong.message));
+    }
+    String::from_utf8(sniff::unmarked(bytes)).into_diagnostic()
 }

@@ -2,7 +2,8 @@
 
 use super::{Columns, Wrong};
 use crate::diagnostic::Diagnostic;
-use crate::missing::looked_for;
+use crate::missing::unread;
+use crate::sniff::{self, Reader};
 use asperity_scene::files::Column;
 use asperity_scene::model::Spanned;
 use std::path::Path;
@@ -16,6 +17,9 @@ const TABLES: [&str; 2] = ["csv", "txt"];
 /// [`Diagnostic`] at the name of the file.
 pub(crate) fn read(folder: &Path, file: &Spanned<String>) -> Result<Columns, Diagnostic> {
     let bytes = bytes(folder, file, ("files of columns", &TABLES))?;
+    if let Some(wrong) = sniff::other(&bytes, Reader::Columns) {
+        return Err(refused(file, file.span(), wrong));
+    }
     Columns::parse(&bytes).map_err(|wrong| refused(file, file.span(), wrong))
 }
 
@@ -30,8 +34,8 @@ pub(crate) fn bytes(
 ) -> Result<Vec<u8>, Diagnostic> {
     let (name, path) = (file.get_ref(), folder.join(file.get_ref()));
     std::fs::read(&path).map_err(|e| {
-        let message = format!("the file `{name}` cannot be read: {e}");
-        Diagnostic::at(file.span(), message, looked_for(&path, kind))
+        let (message, help) = unread(&path, &e, kind);
+        Diagnostic::at(file.span(), format!("the file `{name}` cannot be read: {message}"), help)
     })
 }
 

@@ -28,6 +28,7 @@ mod locking;
 pub(crate) mod map;
 mod moments;
 mod normal;
+mod not_finite;
 mod openings;
 mod plan;
 pub mod planner;

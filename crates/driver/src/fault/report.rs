@@ -4,6 +4,7 @@ use super::compression::Compression;
 use super::floors::{FloorUse, uses};
 use super::heats::{HeatedFault, heats};
 use super::located::locate;
+use super::not_finite;
 use super::openings::{OpenedFault, openings};
 use super::plan::{FaultView, Plan, PointView};
 use super::resolution::Resolution;
@@ -21,7 +22,7 @@ use asperity_cycles::{
     Balance, Components, Crack, Episode, Event, FaultRun, Layout, Mark, Outrun, Rupture, steady,
 };
 use asperity_mechanics::coordinates;
-use asperity_ode::Outcome as Finish;
+use asperity_ode::{Failure, Outcome as Finish};
 use asperity_output::decimals::fixed;
 use asperity_output::located::{Located, magnitude};
 use nalgebra::{Matrix3, Vector3};
@@ -242,13 +243,17 @@ impl Results for Report {
 }
 
 /// Reason for the failure of an integration, in terms of the fault if possible.
-fn why(plan: &Plan, run: &FaultRun, reason: &str) -> String {
+fn why(plan: &Plan, run: &FaultRun, failure: &Failure) -> String {
+    let reason = failure.to_string();
     if let Some(Outrun { point, rate }) = run.progress.outrun {
         let fault = plan.source(point);
         let place = format!("point {point}, {}", coordinates::in_words(&plan.points[point].at));
         let rates = (rate, plan.problem.settings.fastest);
         let radiates = plan.problem.fault.damping[point] > 0.0;
         return outrun::reason(&format!("fault `{fault}`"), &place, run.at.seconds(), rates, radiates);
+    }
+    if let Some(place) = not_finite::place(plan, &run.unknowns).filter(|_| *failure == Failure::NotFinite) {
+        return format!("{reason}: {place}");
     }
     if let Some(point) = run.progress.opens {
         let view = &plan.points[point];
@@ -280,7 +285,7 @@ fn why(plan: &Plan, run: &FaultRun, reason: &str) -> String {
             "{reason}: in an instability slip rates grow without bound where nothing is radiated; add `damping = \"radiation\"` to the fault"
         );
     }
-    reason.to_string()
+    reason
 }
 
 /// An event by its number, in a line.
@@ -323,7 +328,7 @@ impl Report {
         let outcome = match &run.outcome {
             Finish::Completed | Finish::Stopped => Outcome::Completed,
             Finish::Failed { reason } => {
-                let (time, reason) = (run.at.seconds(), why(plan, run, &reason.to_string()));
+                let (time, reason) = (run.at.seconds(), why(plan, run, reason));
                 let kind = run.progress.outrun.map_or(Stop::Integration, |o| Stop::Outrun {
                     surface: plan.source(o.point),
                     position: plan.points[o.point].at,

@@ -45,7 +45,7 @@ pub(super) struct Asked<'a> {
     pub given: &'a Given,
 }
 
-/// Refuses values out of bounds, and values that are all one. `row` names the place of a value, `what` its list.
+/// Refuses values out of bounds. `row` names the place of a value, `what` its list.
 pub(super) fn checked(
     values: &[f64],
     asked: &Asked<'_>,
@@ -66,14 +66,8 @@ pub(super) fn checked(
         ));
     }
     let mut there = values.iter().filter(|v| !v.is_nan());
-    let Some(first) = there.next() else {
+    if there.next().is_none() {
         return Err(Wrong::new(format!("all values of its {what} `{name}` are NaN"), "another file"));
-    };
-    if there.all(|v| v == first) {
-        return Err(Wrong::new(
-            format!("all values of its {what} `{name}` are {first:?}"),
-            format!("give the one value instead of a file, or name another `column` for `{}`", parameter.key),
-        ));
     }
     Ok(())
 }

@@ -3,6 +3,7 @@
 use crate::columns::Columns;
 use crate::columns::file::{bytes, refused};
 use crate::diagnostic::Diagnostic;
+use crate::sniff::{self, Reader};
 use asperity_fem::mesh::netcdf;
 use asperity_output::vtu::reading;
 use asperity_scene::model::Spanned;
@@ -32,6 +33,9 @@ impl Files {
         let name = file.get_ref();
         if !self.0.contains_key(name) {
             let bytes = bytes(folder, file, ("files of values", &KINDS))?;
+            if let Some(wrong) = sniff::other(&bytes, Reader::Fields) {
+                return Err(refused(file, file.span(), wrong));
+            }
             let content = if netcdf::is_netcdf(&bytes) {
                 Content::Netcdf(bytes)
             } else if reading::is_xml(&bytes) {

@@ -144,9 +144,10 @@ impl<const D: usize> Field<D> {
             Source::Lattice(lattice) => (lattice.count(), lattice.words()),
             Source::Cells(cells) => (cells.count(), cells.words()),
         };
+        let range = if least == most { format!("{least:e}") } else { format!("from {least:e} to {most:e}") };
         let counted = if matches!(&self.source, Source::Cells(_)) { "values" } else { "positions" };
         format!(
-            "{region}: `{}` from {count} {counted} of `{}`, {words} by {}; from {least:e} to {most:e} at {} points",
+            "{region}: `{}` from {count} {counted} of `{}`, {words} by {}; {range} at {} points",
             self.key,
             self.base_name(),
             self.axes.words(),

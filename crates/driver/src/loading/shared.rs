@@ -2,10 +2,9 @@
 //! shared nodes are known only from the mesh.
 
 use crate::diagnostic::Diagnostic;
-use crate::model::Model;
+use crate::model::{Model, sets};
 use crate::scene::check::course::Course;
 use crate::scene::model::{Motion, Stage};
-use asperity_fem::mesh::nodes_of_sides;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
@@ -78,7 +77,7 @@ fn pairs<'a, const D: usize>(
     let mut owners: Vec<Option<&Key>> = vec![None; model.dofs()];
     let mut pairs = BTreeSet::new();
     for (key, _) in held.iter().filter(|(_, m)| **m != Motion::Free) {
-        for node in nodes_of_sides(&model.mesh, &model.mesh.side_sets[&key.0]) {
+        for node in sets::of_name(model, &key.0).unwrap_or_default() {
             match &mut owners[model.dof(node, key.1)] {
                 Some(owner) => {
                     pairs.insert((*owner, key));

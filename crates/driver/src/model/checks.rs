@@ -1,6 +1,6 @@
 //! Checks of bodies and of the sets that a scene uses.
 
-use super::{Model, bounds, counts, sides};
+use super::{Model, bounds, counts, nodes};
 use crate::checks::{BodyCheck, Checks, SetCheck};
 use crate::diagnostic::Diagnostic;
 use crate::forecast::Counts;
@@ -100,8 +100,9 @@ pub(crate) fn used(scene: &Scene) -> Vec<(&Spanned<String>, String)> {
 fn sets<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<SetCheck>, Diagnostic> {
     let mut found: BTreeMap<&str, SetCheck> = BTreeMap::new();
     for (set, word) in used(scene) {
-        let faces = sides(model, set)?;
-        if faces.is_empty() {
+        let nodes = nodes(model, set)?;
+        let faces = model.mesh.side_sets.get(set.get_ref()).map_or(&[][..], Vec::as_slice);
+        if nodes.is_empty() {
             return Err(Diagnostic::at(
                 set.span(),
                 format!("the set `{}` has no face", set.get_ref()),
@@ -112,6 +113,7 @@ fn sets<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<SetCheck>
             set: set.get_ref().clone(),
             used: Vec::new(),
             faces: faces.len(),
+            nodes: faces.is_empty().then_some(nodes.len()),
             area: surface::areas(&model.mesh, faces, model.idealisation).values().sum(),
         });
         if !entry.used.contains(&word) {

@@ -1,21 +1,24 @@
 //! Meshes of the bodies, generated or read from files.
 
 use super::cuts::{self, Cuts};
+use crate::columns::Wrong;
 use crate::diagnostic::Diagnostic;
-use crate::missing::looked_for;
+use crate::missing::unread;
 use crate::scene::model as scene;
 use crate::scene::near::suggest;
 use crate::scene::units::{self, Dimension, Length};
 use crate::scene::unprintable::is_unprintable;
+use crate::sniff::{self, Reader};
 use asperity_fem::element::ElementKind;
 use asperity_fem::mesh::coarser::{Coarser, CoarserError};
 use asperity_fem::mesh::curve::{Curve, Profile, bend};
 use asperity_fem::mesh::extrude::{ExtrudeError, extrude};
 use asperity_fem::mesh::fault::{Departure, FaultMesh, FaultMeshError, Interpolation, Spacing};
 use asperity_fem::mesh::generate::{Block, Grading, Grid, SIDES, divisions_for};
-use asperity_fem::mesh::{Cells, GroupTag, Mesh, MeshError, Options, RawMesh, Side, abaqus, gmsh};
+use asperity_fem::mesh::{GroupTag, LeftOut, Mesh, MeshError, Options, RawMesh, abaqus, gmsh};
+use asperity_mechanics::Model;
 use scene::Spanned;
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// Mesh of a body; its sets keep their own names.
@@ -81,12 +84,19 @@ fn source<const D: usize>(
             let tags = spec.tags.iter().map(|(name, spec)| (name.clone(), tag(spec.get_ref()))).collect();
             let options = Options { length_unit: unit(spec.unit.as_ref())?, tags, ..Options::default() };
             let groups = (spec.groups.as_ref(), "groups of cells");
-            read(scene, &spec.file, gmsh::parse, &options, groups, (&spec.split, &spec.plus))
+            read(scene, &spec.file, (gmsh::parse, Reader::Gmsh), &options, groups, (&spec.split, &spec.plus))
         }
         scene::MeshSource::Abaqus(spec) => {
             let options = Options { length_unit: unit(spec.unit.as_ref())?, ..Options::default() };
             let groups = (spec.elsets.as_ref(), "element sets");
-            read(scene, &spec.file, abaqus::parse, &options, groups, (&spec.split, &spec.plus))
+            read(
+                scene,
+                &spec.file,
+                (abaqus::parse, Reader::Abaqus),
+                &options,
+                groups,
+                (&spec.split, &spec.plus),
+            )
         }
     }
 }
@@ -99,9 +109,9 @@ fn in_dimension<const A: usize, const B: usize>(
     if A != B {
         return Err(error());
     }
-    let Mesh { nodes, blocks, side_sets, cell_sets, node_sets } = mesh;
+    let Mesh { nodes, blocks, side_sets, cell_sets, node_sets, left_out } = mesh;
     let nodes = nodes.iter().map(|x| std::array::from_fn(|c| x[c])).collect();
-    Ok(Mesh { nodes, blocks, side_sets, cell_sets, node_sets })
+    Ok(Mesh { nodes, blocks, side_sets, cell_sets, node_sets, left_out })
 }
 
 fn element(name: &Spanned<String>) -> Result<ElementKind, Diagnostic> {
@@ -385,15 +395,16 @@ type Parse = fn(&[u8]) -> Result<RawMesh, MeshError>;
 fn read<const D: usize>(
     scene: &scene::Scene,
     file: &Spanned<String>,
-    parse: Parse,
+    (parse, reader): (Parse, Reader),
     options: &Options,
     (groups, what): (Option<&Spanned<Vec<Spanned<String>>>>, &str),
     (surfaces, plus): Cuts<'_>,
 ) -> Result<Mesh<D>, Diagnostic> {
     let name = file.get_ref();
     let at = |message: String, help: &str| Diagnostic::at(file.span(), message, help.to_string());
-    let mesh = parse(&bytes(scene, file)?)
-        .and_then(|raw| raw.into_mesh::<D>(options))
+    let options = Options { only: asked_of(scene, name), leave_out: true, ..options.clone() };
+    let mesh = parse(&bytes(scene, file, reader)?)
+        .and_then(|raw| raw.into_mesh::<D>(&options))
         .map_err(|e| at(format!("mesh file `{name}`: {e}"), "the error is in the file, not in the scene"))?;
     if let Some(set) = unprintable(&mesh) {
         let message =
@@ -407,9 +418,14 @@ fn read<const D: usize>(
             for group in groups.get_ref() {
                 let found = mesh.cell_sets.get(group.get_ref()).ok_or_else(|| {
                     let known = mesh.cell_sets.keys().map(String::as_str);
+                    let left = mesh.left_out.get(group.get_ref());
+                    let instead = left.map_or_else(String::new, |left| format!(", but {}", in_words(left)));
                     Diagnostic::at(
                         group.span(),
-                        format!("the mesh file `{name}` has no cells in a group `{}`", group.get_ref()),
+                        format!(
+                            "the mesh file `{name}` has no cells in a group `{}`{instead}",
+                            group.get_ref()
+                        ),
                         suggest(group.get_ref(), what, known),
                     )
                 })?;
@@ -417,7 +433,7 @@ fn read<const D: usize>(
             }
             blocks.sort_unstable();
             blocks.dedup();
-            part(&mesh, &blocks)
+            mesh.part(&blocks)
         }
     };
     for surface in surfaces {
@@ -432,51 +448,68 @@ fn unprintable<const D: usize>(mesh: &Mesh<D>) -> Option<&String> {
     sets.into_iter().find(|name| name.chars().any(is_unprintable))
 }
 
+/// Groups of cells that the bodies of a scene take from a file; `None` if one takes all cells.
+fn asked_of(scene: &scene::Scene, file: &str) -> Option<Vec<String>> {
+    let mut all = Vec::new();
+    for body in scene.bodies.values() {
+        let (own, groups) = match &body.mesh {
+            scene::MeshSource::Gmsh(spec) => (&spec.file, &spec.groups),
+            scene::MeshSource::Abaqus(spec) => (&spec.file, &spec.elsets),
+            _ => continue,
+        };
+        if own.get_ref() == file {
+            all.extend(groups.as_ref()?.get_ref().iter().map(|group| group.get_ref().clone()));
+        }
+    }
+    Some(all)
+}
+
+/// Elements of a file that no mesh has, in words.
+pub(crate) fn in_words(left: &LeftOut) -> String {
+    let LeftOut { kind, count, element, read } = left;
+    let (elements, are, faces) =
+        if *count == 1 { ("element", "is", "face") } else { ("elements", "are", "faces") };
+    let first = if *count == 1 { "element" } else { "the first is element" };
+    let reason = if *read { format!("{are} no {faces} of its cells") } else { format!("{are} not read") };
+    format!("{count} {elements} of type {kind} ({first} {element}), which {reason}")
+}
+
+/// Notes on elements of files that belong to no body.
+pub fn left_out<const D: usize>(model: &Model<D>) -> Vec<String> {
+    let mut notes = Vec::new();
+    let mut told = BTreeSet::new();
+    for body in &model.bodies {
+        let own = |set: &String| Some(set.strip_prefix(&body.name)?.strip_prefix('.')?.to_string());
+        for (set, left) in &model.mesh.left_out {
+            let Some(set) = own(set).filter(|set| told.insert((set.clone(), left.element))) else { continue };
+            let name = &body.name;
+            notes.push(format!(
+                "the file of body `{name}` has in `{set}` {}: they are left out",
+                in_words(left)
+            ));
+        }
+    }
+    notes
+}
+
 /// Content of a mesh file.
-pub(super) fn bytes(scene: &scene::Scene, file: &Spanned<String>) -> Result<Vec<u8>, Diagnostic> {
+pub(super) fn bytes(
+    scene: &scene::Scene,
+    file: &Spanned<String>,
+    reader: Reader,
+) -> Result<Vec<u8>, Diagnostic> {
     let (name, path) = (file.get_ref(), scene.folder.join(file.get_ref()));
-    std::fs::read(&path).map_err(|e| {
-        let message = format!("the mesh file `{name}` cannot be read: {e}");
-        Diagnostic::at(file.span(), message, looked_for(&path, ("mesh files", &MESHES)))
-    })
+    let bytes = std::fs::read(&path).map_err(|e| {
+        let (message, help) = unread(&path, &e, ("mesh files", &MESHES));
+        Diagnostic::at(file.span(), format!("the mesh file `{name}` cannot be read: {message}"), help)
+    })?;
+    match sniff::other(&bytes, reader) {
+        None => Ok(sniff::unmarked(bytes)),
+        Some(Wrong { message, help }) => {
+            Err(Diagnostic::at(file.span(), format!("mesh file `{name}`: {message}"), help))
+        }
+    }
 }
 
 /// Extensions of mesh files.
 const MESHES: [&str; 3] = ["msh", "inp", "stl"];
-
-/// Mesh of some blocks, with the nodes they use and the parts of the sets that touch them. A face between a selected block and another one thus keeps
-/// the side of the selected block.
-fn part<const D: usize>(mesh: &Mesh<D>, blocks: &[usize]) -> Mesh<D> {
-    let mut used = vec![false; mesh.nodes.len()];
-    blocks.iter().flat_map(|&b| &mesh.blocks[b].connectivity).for_each(|&n| used[n] = true);
-    let mut next = 0..;
-    let number: Vec<Option<usize>> = used.iter().map(|&u| if u { next.next() } else { None }).collect();
-    let new_block = |b: usize| blocks.binary_search(&b).ok();
-    fn kept<T>(sets: impl Iterator<Item = (String, Vec<T>)>) -> BTreeMap<String, Vec<T>> {
-        sets.filter(|(_, set)| !set.is_empty()).collect()
-    }
-    let sides = |set: &Vec<Side>| {
-        set.iter().filter_map(|s| new_block(s.block).map(|block| Side { block, ..*s })).collect()
-    };
-    Mesh {
-        nodes: mesh.nodes.iter().zip(&used).filter(|(_, used)| **used).map(|(x, _)| *x).collect(),
-        blocks: blocks
-            .iter()
-            .map(|&b| {
-                let Cells { kind, connectivity } = &mesh.blocks[b];
-                Cells { kind: *kind, connectivity: connectivity.iter().filter_map(|&n| number[n]).collect() }
-            })
-            .collect(),
-        side_sets: kept(mesh.side_sets.iter().map(|(name, set)| (name.clone(), sides(set)))),
-        cell_sets: kept(
-            mesh.cell_sets
-                .iter()
-                .map(|(name, set)| (name.clone(), set.iter().filter_map(|&b| new_block(b)).collect())),
-        ),
-        node_sets: kept(
-            mesh.node_sets
-                .iter()
-                .map(|(name, set)| (name.clone(), set.iter().filter_map(|&n| number[n]).collect())),
-        ),
-    }
-}

@@ -5,6 +5,7 @@ pub(crate) mod cuts;
 pub mod locking;
 pub mod materials;
 pub mod meshes;
+pub(crate) mod sets;
 pub mod sizes;
 pub mod surfaces;
 
@@ -16,13 +17,14 @@ use crate::scene::model as scene;
 use crate::scene::near::suggest;
 use asperity_fem::block::{LinearBlock, von_mises};
 use asperity_fem::kinematics::{Formulation, Idealisation};
-use asperity_fem::mesh::{Cells, Mesh, Side};
+use asperity_fem::mesh::{Cells, Mesh};
 use asperity_fem::nonlinear::{self, Kinematics, Limits, Material};
 use asperity_mechanics::cell_size;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 pub use asperity_mechanics::{Body, CellBlock, Model, bounds};
+pub use sets::{nodes, sides};
 
 /// Generates or reads the meshes of a scene, and builds the terms of its bodies.
 ///
@@ -46,7 +48,7 @@ pub fn build<const D: usize>(scene: &scene::Scene) -> Result<Model<D>, Diagnosti
         mesh.append(part, name);
         parts.push((name, body, (nodes..mesh.nodes.len(), blocks..mesh.blocks.len()), size));
     }
-    forecast::machine(&counts(&mesh), idealisation)?;
+    forecast::machine(scene, &counts(&mesh), idealisation)?;
     let mut model =
         Model { scale: diagonal(&mesh.nodes), mesh, blocks: Vec::new(), bodies: Vec::new(), idealisation };
     for (name, body, (nodes, blocks), size) in parts {
@@ -119,24 +121,6 @@ pub fn material<'a, const D: usize>(
             body.material.span(),
             format!("cells of body `{name}` {which} have no material"),
             "name one for each group of cells",
-        )
-    })
-}
-
-/// Faces of a set.
-///
-/// # Errors
-/// [`Diagnostic`] if the set does not exist, with the existing sets.
-pub fn sides<'a, const D: usize>(
-    model: &'a Model<D>,
-    set: &scene::Spanned<String>,
-) -> Result<&'a [Side], Diagnostic> {
-    model.mesh.side_sets.get(set.get_ref()).map(Vec::as_slice).ok_or_else(|| {
-        let known = model.mesh.side_sets.keys().map(String::as_str);
-        Diagnostic::at(
-            set.span(),
-            format!("there is no set `{}`", set.get_ref()),
-            suggest(set.get_ref(), "sets", known),
         )
     })
 }

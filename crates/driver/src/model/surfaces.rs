@@ -5,6 +5,7 @@ pub(crate) use super::meshes::unit;
 use crate::diagnostic::Diagnostic;
 use crate::scene::model::{DepthTriangles, FaultTriangles, Scene, Spanned};
 use crate::scene::near::suggest;
+use crate::sniff::Reader;
 use asperity_fem::mesh::triangles::{TriangleError, Triangles};
 use asperity_fem::mesh::{Options, abaqus, gmsh, stl};
 
@@ -18,16 +19,16 @@ pub fn triangles(
     of_depths: impl FnOnce(&DepthTriangles, &[u8]) -> Result<Triangles, Diagnostic>,
 ) -> Result<Triangles, Diagnostic> {
     let file = spec.file();
-    let parse = match spec {
-        FaultTriangles::Depths(spec) => return of_depths(spec, &bytes(scene, file)?),
-        FaultTriangles::Gmsh(_) => gmsh::parse,
-        FaultTriangles::Abaqus(_) => abaqus::parse,
-        FaultTriangles::Stl(_) => stl::parse,
+    let (parse, reader): (fn(&[u8]) -> _, _) = match spec {
+        FaultTriangles::Depths(spec) => return of_depths(spec, &bytes(scene, file, Reader::Depths)?),
+        FaultTriangles::Gmsh(_) => (gmsh::parse, Reader::Gmsh),
+        FaultTriangles::Abaqus(_) => (abaqus::parse, Reader::Abaqus),
+        FaultTriangles::Stl(_) => (stl::parse, Reader::Stl),
     };
     let options = Options { length_unit: unit(spec.unit())?, ..Options::default() };
     let groups: Option<Vec<&str>> =
         spec.groups().map(|g| g.get_ref().iter().map(|name| name.get_ref().as_str()).collect());
-    let found = parse(&bytes(scene, file)?)
+    let found = parse(&bytes(scene, file, reader)?)
         .map_err(TriangleError::from)
         .and_then(|raw| Triangles::new(&raw, &options, groups.as_deref()));
     found.map_err(|error| refused(spec, &error))

@@ -254,17 +254,16 @@ impl<const D: usize> Choice<'_, D> {
 
     /// Error for a system that is too large to be numbered.
     fn at_memory(&self, message: String) -> Diagnostic {
-        let (solver, materials) = (&self.scene.solver, self.scene.bodies.values().map(|b| b.material.span()));
-        let place = solver.memory.as_ref().map(Spanned::span).or(solver.method.as_ref().map(Spanned::span));
-        let place = place.or(materials.into_iter().next()).unwrap_or(0..0);
+        let solver = &self.scene.solver;
+        let given = solver.memory.as_ref().map(Spanned::span).or(solver.method.as_ref().map(Spanned::span));
+        let place = given.unwrap_or_else(|| forecast::place_of_size(self.scene));
         Diagnostic::at(place, message, "take a coarser mesh")
     }
 
     fn too_much(&self, what: &str, bytes: usize, iterative: bool) -> Diagnostic {
-        let memory = &self.scene.solver.memory;
         let iterative = if iterative { ", use `method = \"iterative\"` in `[solver]`" } else { "" };
         Diagnostic::at(
-            memory.as_ref().map_or(0..0, Spanned::span),
+            forecast::place_of_size(self.scene),
             format!("{what} needs about {}, and {} are allowed", size(bytes), size(self.memory())),
             format!(
                 "raise `memory` in `[solver]` where the machine has it{iterative}, or take a coarser mesh"

@@ -18,7 +18,7 @@ pub mod penalty;
 mod picture;
 mod planner;
 mod pressed;
-mod restraint;
+pub(crate) mod restraint;
 pub(crate) mod samples;
 mod start_balance;
 mod start_gap;

@@ -37,7 +37,7 @@ fn of<const D: usize>(scene: &Scene) -> Result<MeshPicture, Diagnostic> {
         in_space,
         bodies: bodies.collect(),
         faces,
-        sets: sets(scene, &model)?,
+        sets: sets(scene, &model),
         ..MeshPicture::default()
     })
 }
@@ -95,11 +95,13 @@ fn mark(word: &str) -> Option<Mark> {
 }
 
 /// The sets that a scene uses, in the order of their names.
-fn sets<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<MarkedSet>, Diagnostic> {
+fn sets<const D: usize>(scene: &Scene, model: &Model<D>) -> Vec<MarkedSet> {
     let mut words: BTreeMap<&str, Vec<String>> = BTreeMap::new();
     let mut found = BTreeMap::new();
     for (set, word) in used(scene) {
-        found.insert(set.get_ref().as_str(), model::sides(model, set)?);
+        // Sets of nodes have no faces that could be drawn.
+        let Some(sides) = model.mesh.side_sets.get(set.get_ref()) else { continue };
+        found.insert(set.get_ref().as_str(), sides.as_slice());
         let own = words.entry(set.get_ref()).or_default();
         if !own.contains(&word) {
             own.push(word);
@@ -115,5 +117,5 @@ fn sets<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<MarkedSet
         let label = format!("{set}: {}", own.join(", "));
         MarkedSet { label, marks, faces: sides.iter().map(ring).collect() }
     };
-    Ok(found.into_iter().map(of).collect())
+    found.into_iter().map(of).collect()
 }

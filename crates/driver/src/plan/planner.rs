@@ -13,7 +13,7 @@ use crate::fault;
 use crate::forecast;
 use crate::initial_stress;
 use crate::loading::{self, Stage};
-use crate::model::{self, cuts, sizes};
+use crate::model::{self, cuts, meshes, sizes};
 use crate::scene::model::{Scene, Stepper};
 use crate::setup::Setups;
 use asperity_mechanics::{Mass, Problem};
@@ -91,6 +91,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     let (followed, passed_over) = courses::of(scene);
     remarks.extend(followed);
     remarks.extend(cuts::notes(scene, &model.mesh));
+    remarks.extend(meshes::left_out(&model));
     remarks.extend(frictions.iter().flatten().flat_map(|f| f.notes.iter().cloned()));
     let (start_gaps, doubts) = doubts::of(scene, &model, (&interfaces, &frictions), &stages, &stepping)?;
     let (balance, unbalanced) = start_balance::of(scene, &model, (&interfaces, &stages), &stepping)?;

@@ -23,7 +23,10 @@ pub fn check<const D: usize>(
     match restraint::check(model, stages, interfaces) {
         Ok(held) => Ok(held.iter().map(remark).collect()),
         Err(loose) => {
-            let Motion { body, stage, motion, .. } = &loose;
+            let Motion { body, stage, motion, together, .. } = &loose;
+            if !together.is_empty() {
+                return Err(as_one(scene, model, &loose));
+            }
             let (what, name) = (part(model, &loose), &model.bodies[*body].name);
             Err(Diagnostic::at(
                 scene.bodies[name].material.span(),
@@ -32,6 +35,71 @@ pub fn check<const D: usize>(
             ))
         }
     }
+}
+
+/// Error for bodies that contact joins, and that move as one.
+fn as_one<const D: usize>(scene: &Scene, model: &Model<D>, loose: &Motion) -> Diagnostic {
+    let Motion { body, stage, motion, .. } = loose;
+    let name = &model.bodies[*body].name;
+    Diagnostic::at(
+        scene.bodies[name].material.span(),
+        format!(
+            "{} are free to move as one in stage `{stage}`: nothing holds their {motion}, which contact only passes on",
+            names(model, loose)
+        ),
+        remedy(model, name, motion),
+    )
+}
+
+/// Names of bodies that move as one.
+fn names<const D: usize>(model: &Model<D>, loose: &Motion) -> String {
+    let names: Vec<String> = loose.together.iter().map(|&b| format!("`{}`", model.bodies[b].name)).collect();
+    match &names[..] {
+        [only] => format!("the parts of body {only}"),
+        [rest @ .., last] => format!("bodies {} and {last}", rest.join(", ")),
+        [] => String::new(),
+    }
+}
+
+/// Likely cause of a step without solution: a body that contact held and holds no longer; `None` if all are held.
+pub fn lost<const D: usize>(
+    (model, stage): (&Model<D>, &Stage),
+    interfaces: &[PlannedInterface],
+    closed: &dyn Fn(usize, usize) -> bool,
+) -> Option<String> {
+    let loose = restraint::parted(model, stage, interfaces, closed)?;
+    let what = if loose.together.is_empty() {
+        format!("{} is", part(model, &loose))
+    } else {
+        format!("{} are", names(model, &loose))
+    };
+    let nodes: Vec<&[usize]> = loose_parts(model, &loose);
+    let open = interfaces.iter().enumerate().filter_map(|(k, interface)| {
+        let mut faces = interface.slave_faces.iter().chain(&interface.master_faces);
+        let own = faces.any(|face| nodes.iter().any(|part| part.binary_search(&face.nodes[0]).is_ok()));
+        let all = interface.slave.len();
+        let open = (0..all).filter(|&point| !closed(k, point)).count();
+        (own && open > 0).then(|| format!("`{}` is open at {open} of {all} points", interface.name))
+    });
+    let open: Vec<String> = open.collect();
+    if open.is_empty() {
+        return None;
+    }
+    Some(format!(
+        "the likely cause: {what} free in {}, since contact is lost: interface {}. Hold it by a condition or a soft spring, or see whether a load or a motion          pulls it off",
+        loose.motion,
+        open.join(", ")
+    ))
+}
+
+/// Nodes of the parts that move.
+fn loose_parts<'a, const D: usize>(model: &'a Model<D>, loose: &Motion) -> Vec<&'a [usize]> {
+    let own = |b: &usize| model.bodies[*b].parts.iter().map(Vec::as_slice).collect::<Vec<_>>();
+    if loose.together.is_empty() {
+        let parts = own(&loose.body);
+        return parts.into_iter().filter(|part| part.binary_search(&loose.node).is_ok()).collect();
+    }
+    loose.together.iter().flat_map(own).collect()
 }
 
 /// Description of the part of a body that can move.

@@ -15,7 +15,7 @@ pub fn find<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Wanted, D
     let points = scene.output.points.iter().map(|(name, spec)| point(model, name, spec));
     let forces = scene.output.forces.iter().map(|(name, spec)| {
         let set = &spec.get_ref().set;
-        Ok::<_, Diagnostic>(ForceSet::new(model, (name, set.get_ref()), model::sides(model, set)?))
+        Ok::<_, Diagnostic>(ForceSet::new(model, (name, set.get_ref()), model::nodes(model, set)?))
     });
     Ok(Wanted { points: points.collect::<Result<_, _>>()?, forces: forces.collect::<Result<_, _>>()? })
 }

@@ -4,6 +4,7 @@
 mod antiplane;
 mod apart;
 mod bodies;
+mod cae_files;
 mod checks;
 mod cite;
 mod column_tables;
@@ -26,6 +27,7 @@ mod fault_normal;
 mod fault_opening;
 mod fault_outputs;
 mod figures;
+mod held_by_contact;
 mod inputs;
 mod instability;
 mod interface_signs;

@@ -82,6 +82,22 @@ pub enum MeshError {
         /// Bytes that follow.
         left: usize,
     },
+    /// A count that only makes sense in the other order of bytes.
+    #[error(
+        "{section}, {place}: {count} {what} announced, or {swapped} with the bytes in the other order: the numbers of the file are not in          the order that the 1 in $MeshFormat tells"
+    )]
+    Swapped {
+        /// Section.
+        section: String,
+        /// Position.
+        place: Place,
+        /// Announced items.
+        what: &'static str,
+        /// Number as read.
+        count: u64,
+        /// Number in the other order.
+        swapped: u64,
+    },
     /// A header that contradicts the data.
     #[error("{section}: the header announces {announced} {what}, the section holds {held}")]
     Count {
@@ -265,6 +281,14 @@ pub enum MeshError {
         /// Numbers of the file.
         present: Vec<i64>,
     },
+    /// An error in a file that counts the nodes and elements of each instance from one.
+    #[error("{error} (counted on from one instance to the next: {})", counted(origins))]
+    Numbered {
+        /// The error.
+        error: Box<MeshError>,
+        /// Where the numbers of each instance but the first begin.
+        origins: Vec<(u64, String)>,
+    },
     /// Elements of a group of faces or nodes that belong to no cell.
     #[error(
         "{count} of the elements of group `{group}` belong to no cell of the mesh, the first is element {element}: a body \
@@ -339,6 +363,15 @@ impl fmt::Display for Holder {
             Self::Set(name) => write!(f, "the set `{name}`"),
         }
     }
+}
+
+/// Instances named in an error.
+const MOST_ORIGINS: usize = 4;
+
+fn counted(origins: &[(u64, String)]) -> String {
+    let named = origins.iter().take(MOST_ORIGINS).map(|(first, name)| format!("`{name}` after {first}"));
+    let more = if origins.len() > MOST_ORIGINS { ", .." } else { "" };
+    format!("{}{more}", named.collect::<Vec<_>>().join(", "))
 }
 
 fn others(count: usize) -> String {

@@ -20,7 +20,7 @@ pub mod triangles;
 
 pub use error::{GroupName, Holder, MeshError, Part, Place};
 pub use locate::{Location, locate};
-pub use raw::{GroupTag, Options, RawBlock, RawGroup, RawMesh, RawNode, RawSide, Shape};
+pub use raw::{GroupTag, Options, RawBlock, RawGroup, RawMesh, RawNode, RawSide, Shape, Unread};
 
 use crate::element::{ElementKind, FaceKind};
 use std::collections::BTreeMap;
@@ -66,6 +66,19 @@ pub struct Side {
     pub face: usize,
 }
 
+/// Elements of a group that do not belong to the mesh.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LeftOut {
+    /// Their type.
+    pub kind: String,
+    /// Number of them.
+    pub count: usize,
+    /// Number in the file of the first.
+    pub element: u64,
+    /// True if elements of this type are read, but these are no faces of cells.
+    pub read: bool,
+}
+
 /// A mesh in `D` dimensions.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh<const D: usize> {
@@ -79,6 +92,8 @@ pub struct Mesh<const D: usize> {
     pub cell_sets: BTreeMap<String, Vec<usize>>,
     /// Named nodes, ascending.
     pub node_sets: BTreeMap<String, Vec<usize>>,
+    /// Elements of a file that are left out, by the names of their groups.
+    pub left_out: BTreeMap<String, LeftOut>,
 }
 
 impl<const D: usize> Mesh<D> {
@@ -99,6 +114,50 @@ impl<const D: usize> Mesh<D> {
         }
         for (name, set) in other.node_sets {
             self.node_sets.insert(format!("{prefix}.{name}"), set.iter().map(|n| n + nodes).collect());
+        }
+        self.left_out
+            .extend(other.left_out.into_iter().map(|(name, left)| (format!("{prefix}.{name}"), left)));
+    }
+
+    /// Mesh of some blocks, with the nodes they use and the parts of the sets that touch them. A face between a selected block and another one thus keeps
+    /// the side of the selected block. `blocks` ascend.
+    #[must_use]
+    pub fn part(&self, blocks: &[usize]) -> Self {
+        let mut used = vec![false; self.nodes.len()];
+        blocks.iter().flat_map(|&b| &self.blocks[b].connectivity).for_each(|&n| used[n] = true);
+        let mut next = 0..;
+        let number: Vec<Option<usize>> = used.iter().map(|&u| if u { next.next() } else { None }).collect();
+        let new_block = |b: usize| blocks.binary_search(&b).ok();
+        fn kept<T>(sets: impl Iterator<Item = (String, Vec<T>)>) -> BTreeMap<String, Vec<T>> {
+            sets.filter(|(_, set)| !set.is_empty()).collect()
+        }
+        let sides = |set: &Vec<Side>| {
+            set.iter().filter_map(|s| new_block(s.block).map(|block| Side { block, ..*s })).collect()
+        };
+        Self {
+            nodes: self.nodes.iter().zip(&used).filter(|(_, used)| **used).map(|(x, _)| *x).collect(),
+            blocks: blocks
+                .iter()
+                .map(|&b| {
+                    let Cells { kind, connectivity } = &self.blocks[b];
+                    Cells {
+                        kind: *kind,
+                        connectivity: connectivity.iter().filter_map(|&n| number[n]).collect(),
+                    }
+                })
+                .collect(),
+            side_sets: kept(self.side_sets.iter().map(|(name, set)| (name.clone(), sides(set)))),
+            cell_sets: kept(
+                self.cell_sets
+                    .iter()
+                    .map(|(name, set)| (name.clone(), set.iter().filter_map(|&b| new_block(b)).collect())),
+            ),
+            node_sets: kept(
+                self.node_sets
+                    .iter()
+                    .map(|(name, set)| (name.clone(), set.iter().filter_map(|&n| number[n]).collect())),
+            ),
+            left_out: self.left_out.clone(),
         }
     }
 }

@@ -21,7 +21,7 @@ const SHOWN: usize = 40;
 /// Syntax errors with the line, and binary files that are truncated.
 pub fn parse(bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let announced = bytes.get(HEADER - 4..HEADER).and_then(|n| n.try_into().ok()).map(u32::from_le_bytes);
-    let text = bytes.trim_ascii_start().starts_with(b"solid");
+    let text = bytes.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
     match announced {
         Some(count) if bytes.len() as u64 == HEADER as u64 + u64::from(count) * FACET as u64 => {
             Ok(binary(&bytes[HEADER..]))
@@ -121,8 +121,9 @@ fn ascii(bytes: &[u8]) -> Result<RawMesh, MeshError> {
             expected,
             found: line.trim().chars().take(SHOWN).collect(),
         };
+        // Some programs write the words in capitals.
         let mut words = line.split_whitespace();
-        match words.next() {
+        match words.next().map(str::to_ascii_lowercase).as_deref() {
             None | Some("outer" | "endloop" | "endsolid") => {}
             Some("solid") => {
                 let name = words.collect::<Vec<_>>().join(" ");
@@ -144,7 +145,8 @@ fn ascii(bytes: &[u8]) -> Result<RawMesh, MeshError> {
             Some(_) => return Err(wrong("`solid`, `facet`, `outer loop`, `vertex` or the end of one")),
         }
     }
-    if text.trim_end().lines().last().is_none_or(|line| !line.trim_start().starts_with("endsolid")) {
+    let ends = |line: &str| line.trim_start().to_ascii_lowercase().starts_with("endsolid");
+    if !text.trim_end().lines().last().is_some_and(ends) {
         return Err(MeshError::Syntax {
             section,
             place: Place::Line(last),
@@ -186,6 +188,15 @@ mod tests {
         assert_eq!(text.blocks[0].nodes, binary.blocks[0].nodes);
         assert_eq!(text.blocks[0].nodes, [1, 2, 3, 2, 4, 3]);
         assert_eq!(text.groups[0].name.as_deref(), Some("ramp"));
+    }
+
+    #[test]
+    fn words_in_capitals_are_the_same_words() {
+        let capitals = TEXT.to_uppercase();
+        let (usual, capitals) = (parse(TEXT.as_bytes()).unwrap(), parse(capitals.as_bytes()).unwrap());
+        assert_eq!(usual.nodes, capitals.nodes);
+        assert_eq!(usual.blocks[0].nodes, capitals.blocks[0].nodes);
+        assert_eq!(capitals.groups[0].name.as_deref(), Some("RAMP"));
     }
 
     #[test]

@@ -155,7 +155,7 @@ const TOO_MANY: &str =
 const INVERTED: &str = "element 20 (quad4) is inverted: its Jacobian determinant, relative to its greatest, falls to -1.000 \
     (it must be positive)";
 const INCLUDE: &str = "*INCLUDE, line 29: other files are not read: put their lines into this one";
-const PARTS: &str = "*PART, line 30: a file with several parts is not read: write one mesh of all parts";
+const PARTS: &str = "*PART, line 30: expected NAME=name, found `*PART`";
 const GENERATED: &str = "*NGEN, line 1: nodes and elements must be written out, in one system of axes";
 
 #[test]

@@ -8,12 +8,13 @@ use super::motion::{Motion, Sums};
 use super::nodes::Special;
 use super::springs::Springs;
 use super::{Problem, Stable, stable};
-use crate::CellBlock;
+use crate::{CellBlock, coordinates};
 use asperity_fem::block::lumped;
 use asperity_fem::dof::Constraints;
 use asperity_fem::matrix_free::MatrixFree;
 use asperity_fem::nonlinear;
 use asperity_fem::term::{Instant, Saved as _, Term as _};
+use asperity_friction::Failure;
 use serde::{Deserialize, Serialize};
 
 /// Largest energy of the bodies over all that was put in. In a stable scheme at nine tenths of the stable step it is below 1/(1 - 0.9²) = 5.3:
@@ -194,7 +195,13 @@ impl<'a, const D: usize> Explicit<'a, D> {
         self.appoint(stage);
         if self.steps == 0 {
             if let Some(fault) = &problem.fault {
-                self.fault = fault.start(self.dt).map_err(|e| e.to_string())?;
+                self.fault = fault.start(self.dt).map_err(|failure| {
+                    format!(
+                        "{}: no state of the law carries the tractions of the start at the slip rate of the start; its parameters, such as `a`, or `shear`, \
+                         `normal` and `rate` are the cause",
+                        self.placed(&failure)
+                    )
+                })?;
                 if fault.onset.is_some() {
                     self.slide(fault);
                 }
@@ -202,6 +209,18 @@ impl<'a, const D: usize> Explicit<'a, D> {
             self.damp();
         }
         Ok(())
+    }
+
+    /// A failure of friction with the position of its point.
+    fn placed(&self, failure: &Failure) -> String {
+        let pair = failure.point().and_then(|point| self.pairs.get(point));
+        pair.map_or_else(
+            || failure.to_string(),
+            |pair| {
+                let node = self.special[pair[0]].node;
+                format!("{failure}, at {}", coordinates::in_words(&self.problem.model.mesh.nodes[node]))
+            },
+        )
     }
 
     /// Lets the nodes of the faults move at the slip rates of the start, without momentum in sum.
@@ -375,7 +394,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
         };
         match fault.balance(&mut between, &mut state) {
             Ok(()) => Ok(Some(state)),
-            Err(Unbalanced::Friction(f)) => Err(Halt::Friction { time, reason: f.to_string() }),
+            Err(Unbalanced::Friction(f)) => Err(Halt::Friction { time, reason: self.placed(&f) }),
             Err(Unbalanced::Tension(t)) => Err(Halt::Tension { time, point: t.point, traction: t.traction }),
         }
     }

@@ -301,6 +301,12 @@ impl<'a, const D: usize> Assembled<'a, D> {
         self.problem.interfaces.iter().find(|i| i.name == interface)?.resolved.as_ref()
     }
 
+    /// True if radiation damping acts at the interface of this name.
+    #[must_use]
+    pub fn is_damped(&self, interface: &str) -> bool {
+        self.problem.interfaces.iter().any(|i| i.name == interface && i.damping.is_some())
+    }
+
     /// Blocks of the mesh in their present state.
     #[must_use]
     pub fn blocks(&self) -> &[CellBlock<D>] {

@@ -6,8 +6,9 @@ use super::trace::Trace;
 use jiff::tz::TimeZone;
 use jiff::{SignedDuration, Zoned};
 
-/// Shortest interval at which the microseconds of a record's start still tell two samples apart \[s\].
-pub const SHORTEST: f64 = 2e-6;
+/// Shortest interval at which the microseconds of a record's start still tell two samples apart \[s\]: a microsecond, to the
+/// rounding of an interval that is a multiple of a step.
+pub const SHORTEST: f64 = 1e-6 * (1.0 - 1e-9);
 
 /// Bytes of a record.
 const RECORD: usize = 4096;

@@ -11,6 +11,7 @@ impl Checker<'_> {
             InitialStress::Uniform(values) => {
                 self.components("initial_stress", &stress.span(), values.len());
                 self.sheet(&stress.span(), values.len(), values.get(2).map(|z| z.0));
+                self.across(name, body, &stress.span(), values.len());
             }
             InitialStress::Varying(varying) => {
                 if !self.scene.faults.is_empty() {
@@ -21,7 +22,7 @@ impl Checker<'_> {
                     );
                 }
                 match varying.kind.get_ref() {
-                    StressKind::Linear => self.linear_stress(varying),
+                    StressKind::Linear => self.linear_stress((name, body), varying),
                     StressKind::Lithostatic => self.lithostatic(name, body, varying),
                 }
             }
@@ -44,6 +45,22 @@ impl Checker<'_> {
         }
     }
 
+    /// Warns of a body that yields and whose stress across the plane is left at zero.
+    fn across(&mut self, name: &str, body: &Body, place: &Range<usize>, given: usize) {
+        let strained =
+            matches!(*self.scene.kinematics.get_ref(), Kinematics::PlaneStrain | Kinematics::Axisymmetric);
+        let names = body.materials();
+        let mut materials =
+            names.into_iter().filter_map(|(_, material, _)| self.scene.materials.get(material));
+        if strained && given == 3 && materials.any(|material| material.plasticity.is_some()) {
+            self.warn(
+                place.clone(),
+                format!("the initial stress of body `{name}` has three components, so that zz is 0, and its yielding depends on zz"),
+                "give all six, [xx, yy, zz, xy, 0, 0], with zz between the other two where rock is confined",
+            );
+        }
+    }
+
     /// Refuses a stress zz in plane stress.
     fn sheet(&mut self, place: &Range<usize>, given: usize, through: Option<f64>) {
         let sheet = *self.scene.kinematics.get_ref() == Kinematics::PlaneStress;
@@ -56,7 +73,7 @@ impl Checker<'_> {
         }
     }
 
-    fn linear_stress(&mut self, stress: &VaryingStress) {
+    fn linear_stress(&mut self, (name, body): (&str, &Body), stress: &VaryingStress) {
         let example = "such as { kind = \"linear\", along = \"y\", level = \"0 m\", stress = [0, 0, 0], gradient = [\"10 kPa/m\", \"26 \
                        kPa/m\", 0] }";
         self.needs(stress, "along", stress.along.is_some(), example);
@@ -68,6 +85,7 @@ impl Checker<'_> {
         if let Some(values) = &stress.stress {
             self.components("stress", &values.span(), values.get_ref().len());
             self.sheet(&values.span(), values.get_ref().len(), values.get_ref().get(2).map(|z| z.0));
+            self.across(name, body, &values.span(), values.get_ref().len());
         }
         if let Some(values) = &stress.gradient {
             self.components("gradient", &values.span(), values.get_ref().len());

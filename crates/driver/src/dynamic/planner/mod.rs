@@ -60,6 +60,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     warnings.extend(locking::doubts(scene, &model)?);
     let mut notes = meshes::notes(scene)?;
     notes.extend(cuts::notes(scene, &model.mesh));
+    notes.extend(meshes::left_out(&model));
     let density = masses::densities(scene, &model)?;
     let viscosity = steps::viscosity(scene);
     let stable = masses::stable(scene, &model, &density, viscosity)?;

@@ -67,6 +67,9 @@ pub(super) fn epoch(scene: &Scene) -> Result<Timestamp, Diagnostic> {
 pub(super) fn notes(scene: &Scene, interval: f64) -> Option<String> {
     let short = interval < SHORTEST && !scene.output.seismograms.is_empty();
     short.then(|| {
-        format!("no miniSEED: its times are whole microseconds, and samples are {interval:.3e} s apart")
+        format!(
+            "no miniSEED, which states times to the microsecond: samples are {interval:.3e} s apart, and several would have one time; \
+             `sampling` of 1 us or more, or the files in CSV and SAC"
+        )
     })
 }

@@ -29,6 +29,7 @@ use asperity_cycles::{
 use asperity_friction::Failure;
 use asperity_friction::fault::FaultLaw;
 use asperity_friction::turning::Turning;
+use asperity_mechanics::coordinates;
 use asperity_ode::{Clock, Method};
 use std::ops::Range;
 
@@ -117,7 +118,14 @@ pub(super) fn plan_of<const D: usize>(
         floor: Floor::new(placed.iter().map(|p| p.floor)),
         opening,
     };
-    let start = start(&placed, &fault).map_err(at_law)?;
+    let start = start(&placed, &fault).map_err(|(p, failure)| {
+        let (name, spec) = named[placed[p].fault];
+        let error = crate::refused::refused(&spec.law, &failure);
+        let at = coordinates::in_words(&placed[p].point.place.at);
+        let place =
+            failure.point().map_or_else(String::new, |_| format!("; it is on fault `{name}` at {at}"));
+        Diagnostic { message: format!("{}{place}", error.message), ..error }
+    })?;
     let settings = settings(scene, &placed, end)?;
     pressing::rests(scene, (&placed, &fault), (&start, settings.thresholds.on))?;
     let mut warnings = around.warnings;
@@ -250,7 +258,7 @@ fn pressure<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Result<Optio
 }
 
 /// Initial unknowns: every point slides at its initial rate.
-fn start<const D: usize>(placed: &[Placed<D>], fault: &Fault) -> Result<Vec<f64>, Failure> {
+fn start<const D: usize>(placed: &[Placed<D>], fault: &Fault) -> Result<Vec<f64>, (usize, Failure)> {
     let layout = Layout::of(fault);
     let n = fault.law.states();
     let mut y = vec![0.0; layout.size()];
@@ -277,10 +285,10 @@ fn start<const D: usize>(placed: &[Placed<D>], fault: &Fault) -> Result<Vec<f64>
         } else if let Some(shear) = point.shear {
             // Friction is odd in the slip rate, so its magnitude is found for a positive rate.
             let mu = (shear - fault.damping[p] * rate) * rate.signum() / pressed.normal[p];
-            law.states_for(p, rate.abs(), mu, &mut y[states.clone()])?;
+            law.states_for(p, rate.abs(), mu, &mut y[states.clone()]).map_err(|e| (p, e))?;
             y[p] = mu * rate.signum() / law.scale(p);
         } else {
-            y[p] = law.at_rate(p, rate, &y[states])?;
+            y[p] = law.at_rate(p, rate, &y[states]).map_err(|e| (p, e))?;
         }
     }
     Ok(y)

@@ -5,7 +5,6 @@ use crate::diagnostic::Diagnostic;
 use crate::model::{self, Model};
 use crate::scene::model::{Fault, Motion, Scene, Spanned};
 use asperity_cycles::medium::{Loads, Place, Point, Refusal};
-use asperity_fem::mesh::nodes_of_sides;
 use asperity_mechanics::coordinates;
 use std::ops::Range;
 
@@ -82,7 +81,7 @@ impl<const D: usize> Asked<'_, D> {
                 .or(c.symmetry.as_ref().map(|s| s.span()))
                 .or(c.rotate.as_ref().map(|r| r.span()))?;
             let set = c.set.as_ref()?;
-            let of = nodes_of_sides(&self.model.mesh, model::sides(self.model, set).ok()?);
+            let of = model::nodes(self.model, set).ok()?;
             nodes.iter().any(|n| of.binary_search(n).is_ok()).then(|| (set.get_ref().clone(), place))
         });
         found.next()

@@ -342,6 +342,7 @@ pub(crate) fn all_points<const D: usize>(
     apart::check(scene, &apart::faces::cells(scene, model)?, Spaced::Apart)?;
     let mut notes = meshes::notes(scene)?;
     notes.extend(cuts::notes(scene, &model.mesh));
+    notes.extend(meshes::left_out(model));
     for (k, (name, spec)) in scene.faults.iter().enumerate() {
         placed.extend(points_of(scene, model, (name, spec), k, (&mut *warnings, &mut notes))?);
     }

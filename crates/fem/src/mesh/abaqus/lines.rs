@@ -5,6 +5,9 @@ use crate::mesh::error::{MeshError, Place};
 /// Number of characters of a wrong value shown in an error.
 const SHOWN: usize = 40;
 
+/// Bits of the number of a node or element. Abaqus allows nine digits.
+pub(super) const BITS: u32 = 48;
+
 /// A keyword line with its continuations.
 #[derive(Clone, Debug)]
 pub(super) struct Keyword {
@@ -59,7 +62,8 @@ impl Keyword {
 
     /// A node or element number.
     pub(super) fn number(&self, text: &str, line: usize) -> Result<u64, MeshError> {
-        text.parse().map_err(|_| self.syntax(line, "a number of a node or element", text))
+        let number = text.parse().ok().filter(|number: &u64| number >> BITS == 0);
+        number.ok_or_else(|| self.syntax(line, "a number of a node or element", text))
     }
 
     /// A real number; exponents may be written with D, as in Fortran.

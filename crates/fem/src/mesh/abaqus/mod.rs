@@ -1,31 +1,39 @@
-//! Abaqus input files: nodes, elements, sets and surfaces of one part (Abaqus keyword reference). Other keywords (materials,
-//! steps, output) are skipped with their data; those that change positions or the origin of nodes and elements are refused.
+//! Abaqus input files: nodes, elements, sets and surfaces, of the file itself or of parts that instances place in an assembly (Abaqus
+//! keyword reference). Other keywords (materials, steps, output) are skipped with their data; those that change positions or
+//! the origin of nodes and elements are refused.
 
+mod finish;
 mod lines;
+mod numbers;
+mod placing;
+mod scope;
 mod sets;
 mod shapes;
 
-use super::error::{MeshError, Place};
-use super::raw::{RawBlock, RawGroup, RawMesh, RawNode, RawSide, Shape};
+use super::error::MeshError;
+use super::raw::{RawMesh, RawNode, Shape};
 use lines::{Keyword, Line, Lines};
-use sets::Sets;
+use numbers::Instances;
+use placing::Placing;
+use scope::{Element, NodesOf, Of, Scope, SurfaceLine, Unread};
+use sets::Name;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// Reads a file. Element sets become groups by the dimension of their elements; surfaces become the faces of their elements.
+/// Reads a file. Element sets become groups by the dimension of their elements; surfaces become the faces of their elements, or
+/// sets of nodes. An instance is an element set, too. Sets and surfaces of a part are named `instance.set`, and also `set`
+/// where only one has this name.
 ///
 /// # Errors
-/// Syntax errors, unsupported keywords and element types, sets and elements that do not exist; with keyword and line.
+/// Syntax errors, unsupported keywords, sets and elements that do not exist; with keyword and line.
 pub fn parse(bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let text = String::from_utf8_lossy(bytes);
     let mut reader = Reader {
-        nodes: Vec::new(),
-        elements: Vec::new(),
-        connectivity: Vec::new(),
-        node_sets: Sets::of_file(bytes.len()),
-        element_sets: Sets::of_file(bytes.len()),
-        surfaces: Vec::new(),
-        parts: 0,
+        bytes: bytes.len(),
+        file: Scope::of_file(bytes.len()),
+        parts: BTreeMap::new(),
+        level: Level::File,
+        instances: Instances::default(),
         data: Data::Skipped,
         pending: Vec::new(),
         keyword: Rc::new(Keyword { name: "*".to_string(), parameters: Vec::new(), line: 1 }),
@@ -37,7 +45,8 @@ pub fn parse(bytes: &[u8]) -> Result<RawMesh, MeshError> {
         }
     }
     reader.complete()?;
-    reader.finish()
+    reader.leave()?;
+    finish::mesh(reader.whole()?, &reader.instances, &reader.keyword)
 }
 
 /// Meaning of the data lines after a keyword.
@@ -46,35 +55,44 @@ enum Data {
     Skipped,
     Nodes(Option<String>),
     Elements(Shape, Option<String>),
+    /// Elements of a type that is not read: only their numbers.
+    Unread(Option<String>),
     NodeSet(String),
+    /// A surface of nodes.
+    NodeSurface(String),
     ElementSet(String),
-    Surface,
+    Surface(String),
+    /// Position of an instance.
     Instance,
 }
 
-/// An element: its nodes begin at `first` in the connectivity.
-struct Element {
-    tag: u64,
-    shape: Shape,
-    first: usize,
+/// Part of the file that is being read.
+enum Level {
+    /// The file itself, or its assembly.
+    File,
+    /// A part, by its name in capitals.
+    Part(String, Scope),
+    /// An instance: its number, name and part, its own nodes and elements, and its position.
+    Instance { number: u64, name: String, part: Option<String>, own: Scope, placing: Placing },
 }
 
-/// A data line of a surface.
-struct SurfaceLine {
-    set: String,
-    face: usize,
-    line: usize,
-    keyword: Rc<Keyword>,
+impl Level {
+    /// Where its nodes, elements and sets go.
+    fn scope<'a>(&'a mut self, file: &'a mut Scope) -> &'a mut Scope {
+        match self {
+            Self::File => file,
+            Self::Part(_, scope) | Self::Instance { own: scope, .. } => scope,
+        }
+    }
 }
 
 struct Reader {
-    nodes: Vec<RawNode>,
-    elements: Vec<Element>,
-    connectivity: Vec<u64>,
-    node_sets: Sets,
-    element_sets: Sets,
-    surfaces: Vec<SurfaceLine>,
-    parts: usize,
+    /// Size of the file.
+    bytes: usize,
+    file: Scope,
+    parts: BTreeMap<String, Scope>,
+    level: Level,
+    instances: Instances,
     data: Data,
     /// Numbers of an element that continues in the next line.
     pending: Vec<u64>,
@@ -82,11 +100,51 @@ struct Reader {
 }
 
 impl Reader {
+    fn scope(&mut self) -> &mut Scope {
+        self.level.scope(&mut self.file)
+    }
+
     /// Handles a keyword: sets the meaning of the following data, or refuses the keyword.
     fn begin(&mut self, keyword: Keyword) -> Result<(), MeshError> {
         self.complete()?;
+        let keyword = Rc::new(keyword);
+        self.keyword = Rc::clone(&keyword);
+        self.data = Data::Skipped;
+        match keyword.name.as_str() {
+            "*PART" => return self.part(),
+            "*INSTANCE" => return self.instance(),
+            "*END PART" | "*END INSTANCE" | "*ASSEMBLY" | "*END ASSEMBLY" | "*STEP" => return self.leave(),
+            _ => {}
+        }
+        self.data = self.meaning(&keyword)?;
+        let internal = keyword.has("INTERNAL");
+        match self.data.clone() {
+            Data::NodeSet(name) => match keyword.value("ELSET") {
+                None => self.scope().node_sets.declare(&name, internal),
+                Some(set) => {
+                    let set = match keyword.value("INSTANCE") {
+                        Some(instance) => format!("{instance}.{set}"),
+                        None => set.to_string(),
+                    };
+                    let name = Name { own: name, instance: None };
+                    self.scope().nodes_of.push(NodesOf { name, set, keyword });
+                }
+            },
+            Data::NodeSurface(name) => self.scope().node_sets.declare(&name, internal),
+            Data::ElementSet(name) => self.scope().element_sets.declare(&name, internal),
+            Data::Unread(_) => {
+                let kind = keyword.need("TYPE", "TYPE=type")?.to_uppercase();
+                self.scope().unread.push(Unread { kind, keyword, tags: Vec::new() });
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Meaning of the data of a keyword that stays at the same level.
+    fn meaning(&self, keyword: &Keyword) -> Result<Data, MeshError> {
         let set = |key| keyword.value(key).map(str::to_string);
-        self.data = match keyword.name.as_str() {
+        Ok(match keyword.name.as_str() {
             "*NODE" | "*ELEMENT" if keyword.has("INPUT") => {
                 return Err(keyword.unsupported("data in another file are not read: put them into this one"));
             }
@@ -94,54 +152,130 @@ impl Reader {
                 return Err(keyword.unsupported("only rectangular coordinates are read"));
             }
             "*NODE" => Data::Nodes(set("NSET")),
-            "*ELEMENT" => Data::Elements(element_shape(&keyword)?, set("ELSET")),
-            "*NSET" if keyword.has("ELSET") => {
-                return Err(keyword.unsupported("a set of the nodes of elements is not read: list the nodes"));
+            "*ELEMENT" => {
+                let kind = keyword.need("TYPE", "TYPE=type")?.to_uppercase();
+                match shapes::shape(&kind) {
+                    Some(shape) => Data::Elements(shape, set("ELSET")),
+                    None => Data::Unread(set("ELSET")),
+                }
             }
             "*NSET" => Data::NodeSet(keyword.need("NSET", "NSET=name")?.to_string()),
             "*ELSET" => Data::ElementSet(keyword.need("ELSET", "ELSET=name")?.to_string()),
             "*SURFACE" if keyword.value("TYPE").is_none_or(|t| t.eq_ignore_ascii_case("ELEMENT")) => {
-                keyword.need("NAME", "NAME=name")?;
-                Data::Surface
+                Data::Surface(keyword.need("NAME", "NAME=name")?.to_string())
+            }
+            "*SURFACE" if keyword.value("TYPE").is_some_and(|t| t.eq_ignore_ascii_case("NODE")) => {
+                Data::NodeSurface(keyword.need("NAME", "NAME=name")?.to_string())
             }
             "*INCLUDE" => {
                 return Err(keyword.unsupported("other files are not read: put their lines into this one"));
             }
-            "*PART" => {
-                self.parts += 1;
-                if self.parts > 1 {
-                    return Err(keyword
-                        .unsupported("a file with several parts is not read: write one mesh of all parts"));
-                }
-                Data::Skipped
-            }
-            "*INSTANCE" => Data::Instance,
-            "*NGEN" | "*NFILL" | "*NCOPY" | "*NMAP" | "*ELGEN" | "*ELCOPY" | "*SYSTEM" | "*TRANSFORM" => {
+            "*NGEN" | "*NFILL" | "*NCOPY" | "*NMAP" | "*ELGEN" | "*ELCOPY" | "*SYSTEM" => {
                 return Err(
                     keyword.unsupported("nodes and elements must be written out, in one system of axes")
                 );
             }
             _ => Data::Skipped,
-        };
-        match &self.data {
-            Data::NodeSet(name) => self.node_sets.declare(name),
-            Data::ElementSet(name) => self.element_sets.declare(name),
-            _ => {}
+        })
+    }
+
+    /// Begins a part.
+    fn part(&mut self) -> Result<(), MeshError> {
+        self.leave()?;
+        let name = self.keyword.need("NAME", "NAME=name")?.to_uppercase();
+        if self.parts.contains_key(&name) {
+            return Err(self.keyword.unsupported("a part of this name stands in the file before"));
         }
-        self.keyword = Rc::new(keyword);
+        self.level = Level::Part(name, Scope::of_file(self.bytes));
         Ok(())
+    }
+
+    /// Begins an instance.
+    fn instance(&mut self) -> Result<(), MeshError> {
+        self.leave()?;
+        let keyword = Rc::clone(&self.keyword);
+        if keyword.has("LIBRARY") {
+            return Err(keyword.unsupported("results of another analysis are not read"));
+        }
+        let name = keyword.need("NAME", "NAME=name")?.to_string();
+        let part = match keyword.value("PART") {
+            None => None,
+            Some(part) => {
+                let part = part.to_uppercase();
+                if !self.parts.contains_key(&part) {
+                    return Err(keyword.syntax(keyword.line, "the name of a part before this line", &part));
+                }
+                Some(part)
+            }
+        };
+        let number = self.instances.add(&name, &keyword)?;
+        let (own, placing) = (Scope::of_file(self.bytes), Placing::default());
+        self.level = Level::Instance { number, name, part, own, placing };
+        self.data = Data::Instance;
+        Ok(())
+    }
+
+    /// Ends a part or an instance, if one is being read.
+    fn leave(&mut self) -> Result<(), MeshError> {
+        match std::mem::replace(&mut self.level, Level::File) {
+            Level::File => {}
+            Level::Part(name, scope) => {
+                self.parts.insert(name, scope);
+            }
+            Level::Instance { number, name, part, own, placing } => {
+                let part = part.and_then(|part| self.parts.get(&part));
+                for scope in part.into_iter().chain([&own]) {
+                    self.file.add(scope, (number, &name), (&placing, &self.keyword), self.bytes)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// What the file is made of. A part that no instance places is the file, if it is the only one.
+    fn whole(&mut self) -> Result<Scope, MeshError> {
+        let mut parts = std::mem::take(&mut self.parts).into_values();
+        if let (true, Some(only)) = (self.instances.names.is_empty(), parts.next()) {
+            if parts.next().is_some() {
+                return Err(MeshError::MissingSection { section: "*INSTANCE of its parts" });
+            }
+            if self.file.nodes.is_empty() {
+                return Ok(only);
+            }
+        }
+        Ok(std::mem::replace(&mut self.file, Scope::of_file(self.bytes)))
     }
 
     /// Handles a data line.
     fn data(&mut self, values: &[&str], line: usize) -> Result<(), MeshError> {
+        let keyword = Rc::clone(&self.keyword);
+        let with = (line, &*keyword);
         match self.data.clone() {
             Data::Skipped => Ok(()),
             Data::Nodes(set) => self.node(values, line, set.as_deref()),
             Data::Elements(shape, set) => self.element(values, line, shape, set.as_deref()),
-            Data::NodeSet(name) => self.node_sets.add_line(&name, values, line, &self.keyword),
-            Data::ElementSet(name) => self.element_sets.add_line(&name, values, line, &self.keyword),
-            Data::Surface => self.surface(values, line),
-            Data::Instance => Err(self.keyword.unsupported("a part that is moved or turned is not read")),
+            Data::Unread(set) => {
+                self.unread(values, line, set.as_deref());
+                Ok(())
+            }
+            Data::NodeSet(name) => {
+                let scope = self.level.scope(&mut self.file);
+                scope.node_sets.add_line(&name, values, with, &self.instances)
+            }
+            // A weight follows.
+            Data::NodeSurface(name) => {
+                let scope = self.level.scope(&mut self.file);
+                scope.node_sets.add_line(&name, &values[..1], with, &self.instances)
+            }
+            Data::ElementSet(name) => {
+                let scope = self.level.scope(&mut self.file);
+                scope.element_sets.add_line(&name, values, with, &self.instances)
+            }
+            Data::Surface(name) => self.surface(name, values, line),
+            Data::Instance => match &mut self.level {
+                Level::Instance { placing, .. } => placing.line(values, line, &keyword),
+                Level::File | Level::Part(..) => Ok(()),
+            },
         }
     }
 
@@ -154,9 +288,10 @@ impl Reader {
                 *c = self.keyword.real(value, line)?;
             }
         }
-        self.nodes.push(RawNode { tag, x });
+        let scope = self.scope();
+        scope.nodes.push(RawNode { tag, x });
         if let Some(set) = set {
-            self.node_sets.add(set, tag);
+            scope.node_sets.add(set, tag);
         }
         Ok(())
     }
@@ -170,8 +305,9 @@ impl Reader {
         set: Option<&str>,
     ) -> Result<(), MeshError> {
         for value in values {
-            let number = self.keyword.number(value, line)?;
-            self.pending.push(number);
+            let number = self.instances.number(value, line, &self.keyword)?;
+            let wrong = || self.keyword.syntax(line, "a number of a node or element", value);
+            self.pending.push(number.ok_or_else(wrong)?);
         }
         let wanted = 1 + shape.nodes();
         if self.pending.len() > wanted {
@@ -180,30 +316,48 @@ impl Reader {
         }
         if self.pending.len() == wanted {
             let tag = self.pending[0];
-            let first = self.connectivity.len();
-            self.connectivity.extend(&self.pending[1..]);
-            shape.reorder(shapes::order(shape), &mut self.connectivity[first..]);
-            self.elements.push(Element { tag, shape, first });
+            let scope = self.level.scope(&mut self.file);
+            let first = scope.connectivity.len();
+            scope.connectivity.extend(&self.pending[1..]);
+            shape.reorder(shapes::order(shape), &mut scope.connectivity[first..]);
+            scope.elements.push(Element { tag, shape, first });
             self.pending.clear();
             if let Some(set) = set {
-                self.element_sets.add(set, tag);
+                scope.element_sets.add(set, tag);
             }
         }
         Ok(())
     }
 
+    /// Reads the number of an element of a type that is not read. Lines that continue an element are taken as elements, too:
+    /// how many nodes it has is not known.
+    fn unread(&mut self, values: &[&str], line: usize, set: Option<&str>) {
+        let Ok(tag) = self.keyword.number(values[0], line) else { return };
+        let scope = self.scope();
+        if let Some(unread) = scope.unread.last_mut() {
+            unread.tags.push(tag);
+        }
+        if let Some(set) = set {
+            scope.element_sets.add(set, tag);
+        }
+    }
+
     /// Reads an element or set of elements, and a face.
-    fn surface(&mut self, values: &[&str], line: usize) -> Result<(), MeshError> {
-        let face = values.get(1).and_then(|v| v.to_uppercase().strip_prefix('S')?.parse::<usize>().ok());
-        let Some(face) = face.filter(|f| *f > 0) else {
-            return Err(self.keyword.syntax(
-                line,
-                "an element or set, and a face S1 to S6",
-                &values.join(", "),
-            ));
+    fn surface(&mut self, name: String, values: &[&str], line: usize) -> Result<(), MeshError> {
+        let keyword = Rc::clone(&self.keyword);
+        let face = values.get(1).map(|v| v.to_uppercase()).unwrap_or_default();
+        let number = face.strip_prefix('S').and_then(|n| n.parse::<usize>().ok()).filter(|f| *f > 0);
+        let of_shell = ["SPOS", "SNEG", "E1", "E2", "E3", "E4", "END1", "END2"].contains(&face.as_str());
+        if number.is_none() && !of_shell {
+            let expected = "an element or set, and a face S1 to S6";
+            return Err(keyword.syntax(line, expected, &values.join(", ")));
+        }
+        let of = match self.instances.number(values[0], line, &keyword)? {
+            Some(element) => Of::Element(element),
+            None => Of::Set(values[0].to_string()),
         };
-        let (set, keyword) = (values[0].to_string(), Rc::clone(&self.keyword));
-        self.surfaces.push(SurfaceLine { set, face, line, keyword });
+        let name = Name { own: name, instance: None };
+        self.scope().surfaces.push(SurfaceLine { name, of, face: number, line, keyword });
         Ok(())
     }
 
@@ -216,124 +370,5 @@ impl Reader {
                 Err(self.keyword.syntax(self.keyword.line, expected, &format!("element {tag}")))
             }
         }
-    }
-
-    fn nodes_of(&self, element: usize) -> &[u64] {
-        let Element { shape, first, .. } = self.elements[element];
-        &self.connectivity[first..first + shape.nodes()]
-    }
-
-    fn finish(mut self) -> Result<RawMesh, MeshError> {
-        if self.nodes.is_empty() {
-            return Err(MeshError::MissingSection { section: "*NODE" });
-        }
-        let mut order: Vec<(u64, usize)> =
-            self.elements.iter().enumerate().map(|(e, x)| (x.tag, e)).collect();
-        order.sort_unstable();
-        if let Some(w) = order.windows(2).find(|w| w[0].0 == w[1].0) {
-            return Err(MeshError::DuplicateElement { element: w[0].0 });
-        }
-        let tags: Vec<u64> = order.iter().map(|o| o.0).collect();
-        let (groups, memberships) = self.resolve_groups(&order, &tags)?;
-        let surfaces = self.resolve_surfaces(&order, &tags)?;
-        let mut known: Vec<u64> = self.nodes.iter().map(|n| n.tag).collect();
-        known.sort_unstable();
-        let mut node_sets = BTreeMap::new();
-        for name in self.node_sets.names() {
-            if let Some(numbers) = self.node_sets.numbers(&name, &known, &self.keyword)? {
-                node_sets.insert(name, numbers);
-            }
-        }
-        let blocks = self.blocks(memberships);
-        Ok(RawMesh { nodes: self.nodes, blocks, groups, surfaces, node_sets, repeats: false })
-    }
-
-    /// Faces of all surfaces.
-    fn resolve_surfaces(
-        &mut self,
-        order: &[(u64, usize)],
-        tags: &[u64],
-    ) -> Result<BTreeMap<String, Vec<RawSide>>, MeshError> {
-        let mut surfaces: BTreeMap<String, Vec<RawSide>> = BTreeMap::new();
-        for SurfaceLine { set, face, line, keyword } in std::mem::take(&mut self.surfaces) {
-            let name = keyword.need("NAME", "NAME=name")?;
-            let elements = match set.parse::<u64>() {
-                Ok(element) => vec![element],
-                Err(_) => self
-                    .element_sets
-                    .numbers(&set, tags, &keyword)?
-                    .ok_or_else(|| self.element_sets.unknown(&set, line, &keyword))?,
-            };
-            let sides = surfaces.entry(name.to_string()).or_default();
-            for element in elements {
-                let at = position(order, element, name)?;
-                let Some(local) = shapes::faces(self.elements[at].shape).get(face - 1) else {
-                    let found = format!("S{face} of element {element}");
-                    return Err(keyword.syntax(line, "a face that the element has", &found));
-                };
-                let nodes = self.nodes_of(at);
-                sides.push(RawSide { element, corners: local.iter().map(|&a| nodes[a]).collect() });
-            }
-        }
-        Ok(surfaces)
-    }
-
-    /// Groups by name and dimension, and the groups of each element.
-    fn resolve_groups(
-        &mut self,
-        order: &[(u64, usize)],
-        tags: &[u64],
-    ) -> Result<(Vec<RawGroup>, Vec<Vec<usize>>), MeshError> {
-        let mut groups: Vec<RawGroup> = Vec::new();
-        let mut memberships = vec![Vec::new(); self.elements.len()];
-        for name in self.element_sets.names() {
-            let numbers = self.element_sets.numbers(&name, tags, &self.keyword)?.unwrap_or_default();
-            let mut of_dimension = [None; 4];
-            for element in numbers {
-                let at = position(order, element, &name)?;
-                let dimension = self.elements[at].shape.dimension();
-                let group = *of_dimension[dimension].get_or_insert_with(|| {
-                    groups.push(RawGroup { dimension, tag: None, name: Some(name.clone()) });
-                    groups.len() - 1
-                });
-                memberships[at].push(group);
-            }
-        }
-        Ok((groups, memberships))
-    }
-
-    /// Elements of the same shape in the same groups.
-    fn blocks(&self, memberships: Vec<Vec<usize>>) -> Vec<RawBlock> {
-        let mut blocks: BTreeMap<(Shape, Vec<usize>), RawBlock> = BTreeMap::new();
-        for (e, groups) in memberships.into_iter().enumerate() {
-            let Element { tag, shape, .. } = self.elements[e];
-            let block = blocks.entry((shape, groups.clone())).or_insert_with(|| RawBlock {
-                shape,
-                groups,
-                entity: None,
-                tags: Vec::new(),
-                nodes: Vec::new(),
-            });
-            block.tags.push(tag);
-            block.nodes.extend(self.nodes_of(e));
-        }
-        blocks.into_values().collect()
-    }
-}
-
-fn element_shape(keyword: &Keyword) -> Result<Shape, MeshError> {
-    let kind = keyword.need("TYPE", "TYPE=type")?.to_uppercase();
-    shapes::shape(&kind).ok_or_else(|| MeshError::UnsupportedKind {
-        section: keyword.name.clone(),
-        place: Place::Line(keyword.line),
-        kind,
-    })
-}
-
-/// Position of an element referred to by a set.
-fn position(order: &[(u64, usize)], element: u64, set: &str) -> Result<usize, MeshError> {
-    match order.binary_search_by_key(&element, |o| o.0) {
-        Ok(at) => Ok(order[at].1),
-        Err(_) => Err(MeshError::DanglingElement { set: set.to_string(), element }),
     }
 }

@@ -1,6 +1,7 @@
 //! Sets of nodes or elements: lists, ranges, and other sets.
 
 use super::lines::Keyword;
+use super::numbers::{self, Instances};
 use crate::mesh::error::{MeshError, Place};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -17,15 +18,48 @@ enum Entry {
     Range(u64, u64, u64),
 }
 
-/// A set under the name it was first given.
+impl Entry {
+    /// The same numbers in an instance.
+    fn within(self, instance: u64) -> Self {
+        match self {
+            Self::One(number) => Self::One(numbers::within(instance, number)),
+            Self::Range(first, last, step) => {
+                Self::Range(numbers::within(instance, first), numbers::within(instance, last), step)
+            }
+        }
+    }
+}
+
+/// Name of a set: as it was first given, and the instance whose part has it.
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Name {
+    /// Name as it was first given.
+    pub own: String,
+    /// Instance of the part that has it.
+    pub instance: Option<String>,
+}
+
+impl Name {
+    /// Name in the assembly: `instance.name` for those of a part.
+    pub(super) fn full(&self) -> String {
+        match &self.instance {
+            Some(instance) => format!("{instance}.{}", self.own),
+            None => self.own.clone(),
+        }
+    }
+}
+
+/// A set.
 #[derive(Clone, Debug, Default)]
 struct Set {
-    name: String,
+    name: Name,
+    /// True for a set that a program made for itself and does not show.
+    internal: bool,
     entries: BTreeSet<Entry>,
 }
 
 /// Sets by their names in capitals: names are not case-sensitive.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Sets {
     sets: BTreeMap<String, Set>,
     entries: usize,
@@ -39,13 +73,13 @@ impl Sets {
     }
 
     fn set(&mut self, name: &str) -> &mut Set {
-        let new = || Set { name: name.to_string(), entries: BTreeSet::new() };
-        self.sets.entry(name.to_uppercase()).or_insert_with(new)
+        let name = Name { own: name.to_string(), instance: None };
+        self.sets.entry(name.own.to_uppercase()).or_insert_with(|| Set { name, ..Set::default() })
     }
 
     /// Declares a set, even if nothing follows.
-    pub(super) fn declare(&mut self, name: &str) {
-        self.set(name);
+    pub(super) fn declare(&mut self, name: &str, internal: bool) {
+        self.set(name).internal |= internal;
     }
 
     /// Adds a number.
@@ -58,8 +92,8 @@ impl Sets {
         &mut self,
         name: &str,
         values: &[&str],
-        line: usize,
-        keyword: &Keyword,
+        (line, keyword): (usize, &Keyword),
+        instances: &Instances,
     ) -> Result<(), MeshError> {
         if keyword.has("GENERATE") {
             let numbers: Vec<u64> =
@@ -69,16 +103,16 @@ impl Sets {
                 [first, last, step] if step > 0 => (first, last, step),
                 _ => return Err(keyword.syntax(line, "first, last, step", &values.join(","))),
             };
-            self.set(name).entries.insert(Entry::Range(first, last, step));
+            let of = instances.of(keyword)?;
+            self.set(name).entries.insert(Entry::Range(first, last, step).within(of));
             return Ok(());
         }
         for value in values {
-            if value.bytes().all(|b| b.is_ascii_digit()) {
-                let number = keyword.number(value, line)?;
+            if let Some(number) = instances.number(value, line, keyword)? {
                 self.add(name, number);
                 continue;
             }
-            let Some(other) = self.sets.get(&value.to_uppercase()) else {
+            let Some(other) = self.find(value, keyword) else {
                 return Err(self.unknown(value, line, keyword));
             };
             let entries = other.entries.clone();
@@ -87,6 +121,36 @@ impl Sets {
             self.set(name).entries.extend(entries);
         }
         Ok(())
+    }
+
+    /// Set of a name: one of the part of the instance that the keyword names, or another.
+    fn find(&self, name: &str, keyword: &Keyword) -> Option<&Set> {
+        let within = keyword.value("INSTANCE").map(|instance| format!("{instance}.{name}").to_uppercase());
+        within.and_then(|name| self.sets.get(&name)).or_else(|| self.sets.get(&name.to_uppercase()))
+    }
+
+    /// Adds the sets of a part for an instance of it.
+    pub(super) fn copy(
+        &mut self,
+        part: &Self,
+        (number, instance): (u64, &str),
+        keyword: &Keyword,
+    ) -> Result<(), MeshError> {
+        for set in part.sets.values() {
+            self.entries += set.entries.len();
+            self.check(keyword)?;
+            let name = Name { own: set.name.own.clone(), instance: Some(instance.to_string()) };
+            let copy = self.sets.entry(name.full().to_uppercase()).or_default();
+            copy.internal = set.internal;
+            copy.name = name;
+            copy.entries.extend(set.entries.iter().map(|entry| entry.within(number)));
+        }
+        Ok(())
+    }
+
+    /// Removes sets that a program made for itself.
+    pub(super) fn hide(&mut self, names: &BTreeSet<String>) {
+        self.sets.retain(|name, set| !(set.internal && names.contains(name)));
     }
 
     fn check(&self, keyword: &Keyword) -> Result<(), MeshError> {
@@ -102,7 +166,7 @@ impl Sets {
             section: keyword.name.clone(),
             place: Place::Line(line),
             set: set.to_string(),
-            present: self.sets.values().map(|s| s.name.clone()).collect(),
+            present: self.sets.values().map(|s| s.name.full()).collect(),
         }
     }
 
@@ -134,8 +198,10 @@ impl Sets {
         Ok(Some(numbers.into_iter().collect()))
     }
 
-    /// Names of all sets.
-    pub(super) fn names(&self) -> Vec<String> {
-        self.sets.values().map(|s| s.name.clone()).collect()
+    /// Names of all sets, in the order of their own names.
+    pub(super) fn names(&self) -> Vec<Name> {
+        let mut names: Vec<Name> = self.sets.values().map(|s| s.name.clone()).collect();
+        names.sort_by_cached_key(|name| (name.own.to_uppercase(), name.full().to_uppercase()));
+        names
     }
 }

@@ -43,3 +43,8 @@ pub(super) fn order(shape: Shape) -> &'static [usize] {
 pub(super) fn faces(shape: Shape) -> &'static [&'static [usize]] {
     shape.element().map_or(&[], |element| element.definition().abaqus_faces)
 }
+
+/// True for a type of continuum elements, which bodies are made of.
+pub(super) fn is_continuum(kind: &str) -> bool {
+    ["C3D", "CPE", "CPS", "CAX", "CGAX", "CCL"].iter().any(|family| kind.starts_with(family))
+}

@@ -296,6 +296,15 @@ impl<'a> Scan<'a> {
         // A word takes a letter and a space; the last of a file takes only the letter.
         let each = if self.coding == Coding::Ascii { 2 * words } else { bytes };
         let room = (self.left() + 1) / each.max(1);
-        usize::try_from(count).ok().filter(|c| *c <= room).ok_or_else(|| self.truncated(what, count))
+        let fits = |count: &u64| *count <= room as u64;
+        if fits(&count) {
+            return Ok(count as usize);
+        }
+        let swapped = count.swap_bytes();
+        if self.coding != Coding::Ascii && fits(&swapped) {
+            let (section, place) = (self.section_name(), self.place());
+            return Err(MeshError::Swapped { section, place, what, count, swapped });
+        }
+        Err(self.truncated(what, count))
     }
 }

@@ -5,7 +5,7 @@ use super::{Options, RawBlock, RawMesh, RawNode};
 use crate::element::ElementKind;
 use crate::mesh::check::{self, Sense};
 use crate::mesh::error::{Holder, MeshError, Part};
-use crate::mesh::{Cells, Mesh, nodes_of_sides};
+use crate::mesh::{Cells, LeftOut, Mesh, nodes_of_sides};
 use std::collections::BTreeMap;
 
 /// Largest distance from the plane z = 0 over the extent of the mesh \[-\] that counts as rounding by the program that wrote
@@ -48,13 +48,21 @@ impl RawMesh {
     /// # Errors
     /// See [`MeshError`], for elements, nodes, groups and parts.
     pub fn into_mesh<const D: usize>(self, options: &Options) -> Result<Mesh<D>, MeshError> {
+        let origins = self.origins.clone();
+        self.build(options).map_err(|error| match &origins[..] {
+            [] => error,
+            _ => MeshError::Numbered { error: Box::new(error), origins },
+        })
+    }
+
+    fn build<const D: usize>(self, options: &Options) -> Result<Mesh<D>, MeshError> {
         options.check()?;
         let index = Index::new(&self.nodes)?;
         self.check_coordinates()?;
         let mut connectivity = self.resolve(&index)?;
         self.check_dimension::<D>()?;
         let names = self.group_names(options)?;
-        self.orient::<D>(&mut connectivity)?;
+        self.orient::<D>(&mut connectivity, &self.asked(options, &names))?;
         let members = self.members::<D>(&connectivity)?;
         let (mut mesh, of_mesh) = self.cells::<D>(&members, &connectivity, options.length_unit);
         for nodes in connectivity.iter_mut().flatten() {
@@ -69,13 +77,32 @@ impl RawMesh {
             }
         }
         mesh.cell_sets.values_mut().for_each(Vec::dedup);
-        mesh.side_sets = self.side_sets(&mesh, &connectivity, number, &tags, &names)?;
-        mesh.node_sets = self.node_sets::<D>(&index, &of_mesh, &connectivity, &names)?;
+        (mesh.side_sets, mesh.left_out) =
+            self.side_sets(&mesh, &connectivity, number, (&tags, &names), options)?;
+        self.node_sets((&index, &of_mesh), &connectivity, &names, (&mut mesh, options))?;
+        for (alias, name) in &self.aliases {
+            copy(&mut mesh.cell_sets, name, alias);
+            copy(&mut mesh.side_sets, name, alias);
+            copy(&mut mesh.node_sets, name, alias);
+        }
         self.check_groups(&mesh, options)?;
+        for unread in &self.unread {
+            unread.leave_out(&mut mesh, options)?;
+        }
         if !options.allow_free_parts {
-            check_parts(&mesh, &tags)?;
+            check_parts(&mesh, &tags, options)?;
         }
         Ok(mesh)
+    }
+
+    /// Whether each block of the file is asked for.
+    fn asked(&self, options: &Options, names: &[Vec<String>]) -> Vec<bool> {
+        let is = |name: &String| {
+            let asked = |asked: &String| asked == name || self.aliases.get(asked) == Some(name);
+            options.only.iter().flatten().any(asked)
+        };
+        let block = |block: &RawBlock| block.groups.iter().any(|&g| names[g].iter().any(is));
+        self.blocks.iter().map(|b| options.only.is_none() || block(b)).collect()
     }
 
     fn check_coordinates(&self) -> Result<(), MeshError> {
@@ -120,11 +147,15 @@ impl RawMesh {
     }
 
     /// Reverses plane entities that are clockwise throughout, and refuses elements that are inverted, folded or flat.
-    fn orient<const D: usize>(&self, connectivity: &mut [Vec<usize>]) -> Result<(), MeshError> {
+    fn orient<const D: usize>(
+        &self,
+        connectivity: &mut [Vec<usize>],
+        asked: &[bool],
+    ) -> Result<(), MeshError> {
         let mut senses: BTreeMap<ElementKind, Sense> = BTreeMap::new();
         let mut wrong: Vec<(usize, usize, f64)> = Vec::new();
         for (b, block) in self.blocks.iter().enumerate().filter(|(_, b)| b.shape.dimension() == D) {
-            let Some(kind) = block.shape.element() else {
+            let Some(kind) = block.shape.element().filter(|_| asked[b]) else {
                 continue;
             };
             let sense = senses.entry(kind).or_insert_with(|| check::sense(kind, block.shape.corners()));
@@ -270,25 +301,31 @@ impl RawMesh {
     /// Sets of nodes, and the nodes of elements more than one dimension lower than the cells.
     fn node_sets<const D: usize>(
         &self,
-        index: &Index,
-        of_mesh: &[usize],
+        (index, of_mesh): (&Index, &[usize]),
         connectivity: &[Vec<usize>],
         names: &[Vec<String>],
-    ) -> Result<BTreeMap<String, Vec<usize>>, MeshError> {
+        (mesh, options): (&mut Mesh<D>, &Options),
+    ) -> Result<(), MeshError> {
         let mut sets: BTreeMap<String, Vec<usize>> = BTreeMap::new();
         for (block, connectivity) in
             self.blocks.iter().zip(connectivity).filter(|(b, _)| b.shape.dimension() + 1 < D)
         {
-            for name in block.groups.iter().flat_map(|&g| &names[g]) {
-                if let Some(at) = connectivity.iter().position(|&n| n == UNUSED) {
-                    let element = block.tags[at / block.shape.nodes()];
-                    let count = connectivity
-                        .chunks_exact(block.shape.nodes())
-                        .filter(|nodes| nodes.contains(&UNUSED))
-                        .count();
-                    return Err(MeshError::Orphan { group: name.clone(), element, count });
+            let elements = || connectivity.chunks_exact(block.shape.nodes());
+            let lost = |nodes: &[usize]| nodes.contains(&UNUSED);
+            let count = elements().filter(|nodes| lost(nodes)).count();
+            let first = elements().zip(&block.tags).filter(|(nodes, _)| lost(nodes)).map(|(_, tag)| *tag);
+            for (name, element) in
+                block.groups.iter().flat_map(|&g| &names[g]).zip(std::iter::repeat(first.min()))
+            {
+                if let Some(element) = element {
+                    if !options.leave_out {
+                        return Err(MeshError::Orphan { group: name.clone(), element, count });
+                    }
+                    let kind = block.shape.name().to_string();
+                    mesh.left_out.insert(name.clone(), LeftOut { kind, count, element, read: true });
                 }
-                sets.entry(name.clone()).or_default().extend(connectivity);
+                let set = sets.entry(name.clone()).or_default();
+                set.extend(elements().filter(|nodes| !lost(nodes)).flatten());
             }
         }
         for (name, tags) in &self.node_sets {
@@ -304,7 +341,8 @@ impl RawMesh {
             set.dedup();
             !set.is_empty()
         });
-        Ok(sets)
+        mesh.node_sets = sets;
+        Ok(())
     }
 
     fn check_groups<const D: usize>(&self, mesh: &Mesh<D>, options: &Options) -> Result<(), MeshError> {
@@ -325,7 +363,33 @@ impl RawMesh {
     }
 }
 
-fn check_parts<const D: usize>(mesh: &Mesh<D>, tags: &[Vec<u64>]) -> Result<(), MeshError> {
+/// Gives a set a further name, unless another has it.
+fn copy<T: Clone>(sets: &mut BTreeMap<String, T>, name: &str, alias: &str) {
+    if let (Some(set), false) = (sets.get(name).cloned(), sets.contains_key(alias)) {
+        sets.insert(alias.to_string(), set);
+    }
+}
+
+/// Refuses parts of the cells that are asked for that hang free.
+fn check_parts<const D: usize>(
+    mesh: &Mesh<D>,
+    tags: &[Vec<u64>],
+    options: &Options,
+) -> Result<(), MeshError> {
+    if let Some(only) = &options.only {
+        let mut blocks: Vec<usize> =
+            only.iter().filter_map(|name| mesh.cell_sets.get(name)).flatten().copied().collect();
+        blocks.sort_unstable();
+        blocks.dedup();
+        if blocks.len() < mesh.blocks.len() {
+            let tags: Vec<Vec<u64>> = blocks.iter().map(|&b| tags[b].clone()).collect();
+            return free_parts(&mesh.part(&blocks), &tags);
+        }
+    }
+    free_parts(mesh, tags)
+}
+
+fn free_parts<const D: usize>(mesh: &Mesh<D>, tags: &[Vec<u64>]) -> Result<(), MeshError> {
     let mut named = vec![false; mesh.nodes.len()];
     for sides in mesh.side_sets.values() {
         nodes_of_sides(mesh, sides).into_iter().for_each(|n| named[n] = true);

@@ -2,10 +2,12 @@
 
 mod build;
 mod groups;
+mod left_out;
 mod options;
 mod shape;
 mod sides;
 
+pub use left_out::Unread;
 pub use options::{GroupTag, Options};
 pub use shape::Shape;
 
@@ -79,6 +81,12 @@ pub struct RawMesh {
     pub node_sets: BTreeMap<String, Vec<u64>>,
     /// True if an element in several groups is written once for each of them, under different numbers.
     pub repeats: bool,
+    /// Elements of types that are not read.
+    pub unread: Vec<Unread>,
+    /// Further names of sets: `instance.set`, and the name of the set.
+    pub aliases: BTreeMap<String, String>,
+    /// Where the numbers of instances but the first begin, for files that count each instance from one.
+    pub origins: Vec<(u64, String)>,
 }
 
 impl RawMesh {

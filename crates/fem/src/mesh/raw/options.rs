@@ -30,11 +30,23 @@ pub struct Options {
     /// True if a part may touch another without being tied to it and without a named face there. Otherwise such a part is an
     /// error ([`MeshError::FreePart`]).
     pub allow_free_parts: bool,
+    /// Groups of cells that are asked for; all cells if `None`. The other cells need not be admissible.
+    pub only: Option<Vec<String>>,
+    /// True if elements of groups that belong to no cell are left out ([`Mesh::left_out`](crate::mesh::Mesh::left_out)).
+    /// Otherwise they are an error ([`MeshError::Orphan`]).
+    pub leave_out: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { length_unit: 1.0, tags: BTreeMap::new(), required: Vec::new(), allow_free_parts: false }
+        Self {
+            length_unit: 1.0,
+            tags: BTreeMap::new(),
+            required: Vec::new(),
+            allow_free_parts: false,
+            only: None,
+            leave_out: false,
+        }
     }
 }
 

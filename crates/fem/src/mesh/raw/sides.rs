@@ -1,8 +1,9 @@
 //! Identification of elements of face groups with faces of cells.
 
+use super::Options;
 use super::RawMesh;
 use crate::mesh::error::MeshError;
-use crate::mesh::{Mesh, Side};
+use crate::mesh::{LeftOut, Mesh, Side};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
@@ -11,6 +12,9 @@ type Key = [usize; 4];
 
 /// A node that belongs to no cell.
 pub(super) const UNUSED: usize = usize::MAX;
+
+/// Named faces, and elements of their groups that are faces of no cell.
+type Faces = (BTreeMap<String, Vec<Side>>, BTreeMap<String, LeftOut>);
 
 /// A requested face.
 struct Wanted<'a> {
@@ -23,6 +27,8 @@ struct Wanted<'a> {
     owner: Option<u64>,
     /// Number of the element that names the face.
     element: u64,
+    /// Type of this element.
+    kind: &'static str,
     /// Sets it belongs to.
     names: Rc<[&'a str]>,
     /// Number of cells that have it.
@@ -60,9 +66,9 @@ impl RawMesh {
         mesh: &Mesh<D>,
         connectivity: &[Vec<usize>],
         index: impl Fn(u64) -> usize,
-        cells: &[Vec<u64>],
-        names: &[Vec<String>],
-    ) -> Result<BTreeMap<String, Vec<Side>>, MeshError> {
+        (cells, names): (&[Vec<u64>], &[Vec<String>]),
+        options: &Options,
+    ) -> Result<Faces, MeshError> {
         let mut wanted = self.grouped_faces::<D>(connectivity, names);
         for (name, sides) in &self.surfaces {
             let names: Rc<[&str]> = Rc::new([name.as_str()]);
@@ -70,7 +76,8 @@ impl RawMesh {
                 let nodes = sorted(side.corners.iter().map(|&n| index(n)).collect());
                 let (key, corners) = (key(nodes.iter().copied()), nodes.len());
                 let (owner, names) = (Some(side.element), Rc::clone(&names));
-                wanted.push(Wanted { key, corners, nodes, owner, element: side.element, names, found: 0 });
+                let (element, kind) = (side.element, "face");
+                wanted.push(Wanted { key, corners, nodes, owner, element, kind, names, found: 0 });
             }
         }
         wanted.sort_by_key(|w| (w.key, w.element));
@@ -85,8 +92,10 @@ impl RawMesh {
                 }
             }
         }
-        no_orphans(&wanted)?;
-        Ok(sets)
+        if !options.leave_out {
+            no_orphans(&wanted)?;
+        }
+        Ok((sets, left_out(&wanted)))
     }
 
     /// Elements of the face groups.
@@ -106,7 +115,8 @@ impl RawMesh {
                 let corners = block.shape.corners();
                 let (key, names) = (key(nodes[..corners].iter().copied()), Rc::clone(&names));
                 let nodes = sorted(nodes.to_vec());
-                wanted.push(Wanted { key, corners, nodes, owner: None, element, names, found: 0 });
+                let kind = block.shape.name();
+                wanted.push(Wanted { key, corners, nodes, owner: None, element, kind, names, found: 0 });
             }
         }
         wanted
@@ -147,6 +157,20 @@ fn collect(
         }
     }
     Ok(())
+}
+
+/// Elements of face groups that are faces of no cell.
+fn left_out(wanted: &[Wanted<'_>]) -> BTreeMap<String, LeftOut> {
+    let mut groups: BTreeMap<String, LeftOut> = BTreeMap::new();
+    for w in wanted.iter().filter(|w| w.found == 0) {
+        for name in w.names.iter() {
+            let new = LeftOut { kind: w.kind.to_string(), count: 0, element: w.element, read: true };
+            let left = groups.entry((*name).to_string()).or_insert(new);
+            left.count += 1;
+            left.element = left.element.min(w.element);
+        }
+    }
+    groups
 }
 
 /// Refuses face groups with elements that are faces of no cell; names the first.
