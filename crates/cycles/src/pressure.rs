@@ -7,25 +7,24 @@
 //! p = q/(β φ √α) G(z, t),   G = √t (exp(-x²)/√π - x erfc x),   x = |z|/√(4 α t),   ∂G/∂t = exp(-x²)/(2 √(π t)),
 //! ```
 //!
-//! H. S. Carslaw, J. C. Jaeger, "Conduction of Heat in Solids", 2nd ed. (1959), section 2.9. After the end of the
-//! injection, the same function of the time since then is subtracted. At z = 0 the rate of pressure is infinite at the
-//! beginning and at the end of the injection: it varies as 1/√t, which is integrable.
+//! H. S. Carslaw, J. C. Jaeger, "Conduction of Heat in Solids", 2nd ed. (1959), section 2.9. The equation is linear: each jump of the
+//! flux adds the same function of the time since then, times the jump, and pressures of several wells add. At z = 0 the rate of
+//! pressure is infinite where the flux jumps: it varies as 1/√t, which is integrable.
 
 use std::f64::consts::PI;
 
-/// Steady injection of fluid during an interval of time.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Injection of fluid at a flux that is constant between jumps.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Injection {
-    /// Volume of fluid q per cross-sectional area of the fault and time \[m/s\].
-    pub flux: f64,
+    /// Times \[s\] from which the volume q of fluid per cross-sectional area of the fault and time has a value \[m/s\], in ascending
+    /// order; before the first nothing flows.
+    pub flux: Vec<(f64, f64)>,
     /// Hydraulic diffusivity α \[m²/s\].
     pub diffusivity: f64,
     /// Porosity φ \[-\].
     pub porosity: f64,
     /// Compressibility β of fluid and pores \[1/Pa\].
     pub compressibility: f64,
-    /// Times at which it begins and ends \[s\].
-    pub during: [f64; 2],
 }
 
 impl Injection {
@@ -39,10 +38,26 @@ impl Injection {
     /// Pressure and its rate up to the time `until`, at which the injection begins or ends: at `until`, the rate is
     /// that before. Times beyond it by rounding do not see the change.
     fn before(&self, distance: f64, time: f64, until: f64) -> (f64, f64) {
-        let scale = self.flux / (self.compressibility * self.porosity * self.diffusivity.sqrt());
-        let change = |at: f64| if at < until { self.response(distance, time - at) } else { (0.0, 0.0) };
-        let ((value, rate), (off, off_rate)) = (change(self.during[0]), change(self.during[1]));
-        (scale * (value - off), scale * (rate - off_rate))
+        let unit = self.unit();
+        let scale = unit / (self.compressibility * self.porosity * self.diffusivity.sqrt());
+        let seen = self.jumps().filter(|jump| jump.0 < until);
+        let (value, rate) = seen.fold((0.0, 0.0), |(sum, sum_rate), (at, jump)| {
+            let (value, rate) = self.response(distance, time - at);
+            (sum + jump / unit * value, sum_rate + jump / unit * rate)
+        });
+        (scale * value, scale * rate)
+    }
+
+    /// The first flux that is not zero, over which jumps are measured \[m/s\]: of an injection that begins and ends they are 1 and -1.
+    fn unit(&self) -> f64 {
+        self.flux.iter().map(|step| step.1).find(|q| *q != 0.0).unwrap_or(1.0)
+    }
+
+    /// Times at which the flux jumps \[s\], and by how much \[m/s\].
+    fn jumps(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        let before = std::iter::once(0.0).chain(self.flux.iter().map(|step| step.1));
+        let jumps = self.flux.iter().zip(before).map(|(&(at, flux), before)| (at, flux - before));
+        jumps.filter(|jump| jump.1 != 0.0)
     }
 
     /// G \[√s\] and its rate \[1/√s\].
@@ -83,7 +98,7 @@ impl Pressure {
 
     /// Times at which the rate of pressure jumps \[s\].
     pub fn breaks(&self) -> impl Iterator<Item = f64> + '_ {
-        self.wells.iter().flat_map(|w| w.injection.during)
+        self.wells.iter().flat_map(|w| w.injection.jumps().map(|jump| jump.0))
     }
 
     /// Pressure at a point \[Pa\].
@@ -121,23 +136,25 @@ impl Pressure {
 mod tests {
     use super::*;
 
-    const BP6: Injection = Injection {
-        flux: 1.25e-6,
-        diffusivity: 0.1,
-        porosity: 0.1,
-        compressibility: 1e-8,
-        during: [0.0, 8.64e6],
-    };
+    const END: f64 = 8.64e6;
+
+    fn injected(flux: &[(f64, f64)]) -> Injection {
+        Injection { flux: flux.to_vec(), diffusivity: 0.1, porosity: 0.1, compressibility: 1e-8 }
+    }
+
+    fn bp6() -> Injection {
+        injected(&[(0.0, 1.25e-6), (END, 0.0)])
+    }
 
     #[test]
     fn rate_is_the_derivative_of_pressure() {
         for (z, t) in [(0.0, 1e5), (500.0, 1e6), (100.0, 9e6), (3000.0, 3e7)] {
             // A share of the time since the injection began or ended; the error of the difference grows with its square.
-            let step = 1e-4 * if t > BP6.during[1] { t - BP6.during[1] } else { t };
-            let difference = (BP6.pressure(z, t + step).0 - BP6.pressure(z, t - step).0) / (2.0 * step);
-            let rate = BP6.pressure(z, t).1;
+            let step = 1e-4 * if t > END { t - END } else { t };
+            let difference = (bp6().pressure(z, t + step).0 - bp6().pressure(z, t - step).0) / (2.0 * step);
+            let rate = bp6().pressure(z, t).1;
             assert!(
-                (difference - rate).abs() <= 1e-6 * BP6.pressure(0.0, t).0 / t,
+                (difference - rate).abs() <= 1e-6 * bp6().pressure(0.0, t).0 / t,
                 "{z} {t}: {difference} {rate}"
             );
         }
@@ -147,7 +164,7 @@ mod tests {
     fn pressure_at_the_place_of_injection_grows_with_the_root_of_time() {
         // q/(β φ) √(t/(π α)).
         let expected = 1.25e-6 / 1e-9 * (1e6 / (PI * 0.1)).sqrt();
-        assert!((BP6.pressure(0.0, 1e6).0 / expected - 1.0).abs() < 1e-14);
+        assert!((bp6().pressure(0.0, 1e6).0 / expected - 1.0).abs() < 1e-14);
     }
 
     #[test]
@@ -156,25 +173,59 @@ mod tests {
             // Diffusion lengths are 586 m and more, and the contributions of beginning and end differ by a tenth: errors
             // are 1e-5.
             let (z, h) = (700.0, 1.0);
-            let p = |z: f64| BP6.pressure(z, t).0;
+            let p = |z: f64| bp6().pressure(z, t).0;
             let laplacian = (p(z + h) - 2.0 * p(z) + p(z - h)) / (h * h);
-            let rate = BP6.pressure(z, t).1;
+            let rate = bp6().pressure(z, t).1;
             assert!((0.1 * laplacian - rate).abs() < 1e-4 * rate.abs(), "{t}: {laplacian} {rate}");
         }
     }
 
     #[test]
     fn the_rate_at_the_end_of_an_injection_is_that_before() {
-        let [_, end] = BP6.during;
-        assert_eq!(BP6.pressure(0.0, end).1, f64::NEG_INFINITY);
-        let steady = Injection { during: [0.0, f64::INFINITY], ..BP6 };
-        assert_eq!(BP6.before(0.0, end, end), steady.pressure(0.0, end));
-        assert_eq!(BP6.before(0.0, end + 1e-9, end), steady.pressure(0.0, end + 1e-9));
+        assert_eq!(bp6().pressure(0.0, END).1, f64::NEG_INFINITY);
+        let steady = injected(&[(0.0, 1.25e-6)]);
+        assert_eq!(bp6().before(0.0, END, END), steady.pressure(0.0, END));
+        assert_eq!(bp6().before(0.0, END + 1e-9, END), steady.pressure(0.0, END + 1e-9));
+    }
+
+    /// A flux that changes at three times, by the quadrature of the point source of diffusion, `p = ∫ q(s) exp(-z²/(4 α (t - s)))/(2 φ β √(π
+    /// α (t - s))) ds`, in u = √(t - s), in which the integrand is smooth.
+    #[test]
+    fn a_flux_that_changes_has_the_pressure_of_a_quadrature() {
+        let steps = [(1e5, 1.25e-6), (2e6, 3e-6), (2.5e6, -0.5e-6), (4e6, 0.0)];
+        let injection = injected(&steps);
+        let at = |s: f64| steps.iter().rev().find(|step| step.0 <= s).map_or(0.0, |step| step.1);
+        for (z, t) in [(0.0, 3e6), (300.0, 2.2e6), (800.0, 5e6)] {
+            // Panels end where the flux jumps, and the midpoint rule has an error of the square of its interval.
+            let ends: Vec<f64> = steps.iter().map(|step| step.0).filter(|s| *s < t).chain([t]).collect();
+            let (mut sum, n) = (0.0, 20_000);
+            for w in ends.windows(2) {
+                let [high, low] = [(t - w[0]).sqrt(), (t - w[1]).sqrt()];
+                for k in 0..n {
+                    let u = low + (high - low) * (f64::from(k) + 0.5) / f64::from(n);
+                    let kernel = (-z * z / (0.4 * u * u)).exp() / (PI * 0.1).sqrt();
+                    sum += at(0.5 * (w[0] + w[1])) * kernel / (0.1 * 1e-8) * (high - low) / f64::from(n);
+                }
+            }
+            let found = injection.pressure(z, t).0;
+            assert!((found / sum - 1.0).abs() < 1e-7, "{z} {t}: {found} {sum}");
+        }
+    }
+
+    #[test]
+    fn pressures_of_wells_add_up() {
+        let (first, second) = (bp6(), injected(&[(1e6, -2e-6)]));
+        let mut both = Pressure::default();
+        both.add(first.clone(), 0, vec![-100.0, 400.0]);
+        both.add(second.clone(), 0, vec![-600.0, -100.0]);
+        let expected = first.pressure(400.0, 3e6).0 + second.pressure(100.0, 3e6).0;
+        assert_eq!(both.at(1, 3e6), expected);
+        assert_eq!(both.breaks().collect::<Vec<_>>(), [0.0, END, 1e6]);
     }
 
     #[test]
     fn nothing_happens_before_the_injection() {
-        let late = Injection { during: [10.0, 20.0], ..BP6 };
+        let late = injected(&[(10.0, 1.25e-6), (20.0, 0.0)]);
         assert_eq!(late.pressure(0.0, 9.0), (0.0, 0.0));
         assert_eq!(late.pressure(1.0, 10.0), (0.0, 0.0));
         assert_eq!(late.pressure(0.0, 10.0), (0.0, f64::INFINITY));

@@ -1,8 +1,9 @@
-//! Coulomb friction with an optional cap: F̄ = min(μ f_n, F_limit), an elastic domain, no rate and no state.
+//! Coulomb friction with optional cohesion and cap: F̄ = min(c + μ f_n, F_limit), an elastic domain, no rate and no state. Only closed
+//! points are asked: cohesion c resists slip, never tension.
 
 use crate::Failure;
 use crate::evolution::{Bound, Parameter, Unit};
-use crate::kind::{Kind, Tabled, values};
+use crate::kind::{COHESION, Kind, Tabled, values};
 use crate::law::{Increments, Law, Limit, Present, RateBounds, Rates, Regime, Responses, Trials};
 use crate::yielding::{all_finite, answer, at_strength, cap, first_exit, strength};
 
@@ -10,6 +11,7 @@ use crate::yielding::{all_finite, answer, at_strength, cap, first_exit, strength
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coulomb {
     mu: f64,
+    cohesion: f64,
     limit: f64,
 }
 
@@ -19,15 +21,23 @@ impl Coulomb {
     /// # Errors
     /// [`Failure::Parameter`].
     pub fn new(mu: f64, limit: Option<f64>) -> Result<Self, Failure> {
+        Self::cohesive(mu, 0.0, limit)
+    }
+
+    /// Law with a cohesion c ≥ 0 \[Pa\] as well.
+    ///
+    /// # Errors
+    /// [`Failure::Parameter`].
+    pub fn cohesive(mu: f64, cohesion: f64, limit: Option<f64>) -> Result<Self, Failure> {
         if !(mu >= 0.0 && mu.is_finite()) {
             return Err(Failure::Parameter { name: "mu", value: mu, admissible: "0 <= mu, finite" });
         }
-        Ok(Self { mu, limit: cap(limit)? })
+        Ok(Self { mu, cohesion: crate::yielding::cohesion(cohesion)?, limit: cap(limit)? })
     }
 
     /// Strength F̄ and ∂F̄/∂f_n.
     pub(crate) fn strength(&self, normal: f64) -> (f64, f64) {
-        strength(self.mu, normal, self.limit)
+        strength((self.mu, self.cohesion), normal, self.limit)
     }
 }
 
@@ -64,21 +74,24 @@ impl Tabled for Coulomb {
     const KIND: Kind = Kind {
         name: "coulomb",
         meaning: "a constant coefficient",
-        parameters: &[Parameter {
-            key: "mu",
-            unit: Unit::None,
-            bound: Bound::NotNegative,
-            optional: false,
-            example: "0.6",
-            meaning: "",
-        }],
+        parameters: &[
+            Parameter {
+                key: "mu",
+                unit: Unit::None,
+                bound: Bound::NotNegative,
+                optional: false,
+                example: "0.6",
+                meaning: "",
+            },
+            COHESION,
+        ],
         capped: true,
         order: None,
     };
 
     fn build(own: &[f64], cap: Option<f64>) -> Result<Self, Failure> {
-        let [mu] = values(own)?;
-        Self::new(mu, cap)
+        let [mu, cohesion] = values(own)?;
+        Self::cohesive(mu, cohesion, cap)
     }
 }
 
@@ -96,6 +109,10 @@ impl Law for Coulomb {
     }
 
     fn initial(&self, _states: &mut [f64]) {}
+
+    fn cohesion(&self, _point: usize) -> f64 {
+        self.cohesion
+    }
 
     fn coefficient(
         &self,
@@ -129,7 +146,7 @@ impl Law for Coulomb {
     }
 
     fn limit(&self, present: Present<'_>, step: Increments<'_>, _bounds: RateBounds) -> Option<Limit> {
-        first_exit(&present, &step, |_| self.mu, self.limit)
+        first_exit(&present, &step, |_| (self.mu, self.cohesion), self.limit)
     }
 
     fn stands(&self, present: Present<'_>, k: usize) -> bool {
@@ -221,6 +238,10 @@ mod tests {
 
     #[test]
     fn parameters_out_of_range_are_refused() {
+        for bad in [-1.0, f64::NAN, f64::INFINITY] {
+            let refused = Coulomb::cohesive(0.5, bad, None);
+            assert!(matches!(refused, Err(Failure::Parameter { name: "cohesion", .. })));
+        }
         for (mu, limit) in
             [(-0.1, None), (f64::NAN, None), (f64::INFINITY, None), (0.5, Some(0.0)), (0.5, Some(f64::NAN))]
         {

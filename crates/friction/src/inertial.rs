@@ -30,6 +30,8 @@ pub struct Push {
     pub near: f64,
     /// Δt \[s\].
     pub dt: f64,
+    /// Share of its slip weakening that is imposed on the point, whatever its slip; 0 where none is \[-\].
+    pub weakened: f64,
 }
 
 /// Answer of a point.
@@ -162,7 +164,7 @@ const MOST: usize = 15;
 impl Inertial for Coulomb {
     fn push(&self, push: &Push, _states: &mut [f64]) -> Result<Pushed, Failure> {
         finite(push)?;
-        Ok(held(push, self.strength(push.normal).0))
+        Ok(held(push, pressed(push, self.strength(push.normal).0)))
     }
 }
 
@@ -177,13 +179,19 @@ impl Inertial for StaticKinetic {
 }
 
 impl Inertial for SlipWeakening {
-    /// The strength is that of the slip reached; the slip of the step weakens the next.
+    /// The strength is that of the slip reached, or of the slip that is imposed; the slip of the step weakens the next.
     fn push(&self, push: &Push, states: &mut [f64]) -> Result<Pushed, Failure> {
         finite(push)?;
-        let answer = held(push, self.strength_at(states[0], push.normal));
+        let imposed = self.imposed(push.weakened);
+        let answer = held(push, pressed(push, self.strength_at(states[0].max(imposed), push.normal)));
         states[0] += answer.rate * push.dt;
         Ok(answer)
     }
+}
+
+/// The strength of a point whose sides press on each other, otherwise none: cohesion does not hold sides that part \[Pa\].
+fn pressed(push: &Push, strength: f64) -> f64 {
+    if push.normal > 0.0 { strength } else { 0.0 }
 }
 
 /// The answer of a point that carries at most `strength` \[Pa\].
@@ -205,6 +213,7 @@ fn finite(push: &Push) -> Result<(), Failure> {
 #[cfg(test)]
 mod tests {
     use super::{EachPoint, Inertial as _, InertialFault as _, Push, Pushed};
+    use crate::coulomb::Coulomb;
     use crate::evolution::ageing::Ageing;
     use crate::law::Law as _;
     use crate::rate::RateLaw;
@@ -224,7 +233,7 @@ mod tests {
         let mut states = [0.0];
         law.start(None, &mut states).unwrap();
         // The states pass the first half step at the rate of the start.
-        let first = Push { normal: 120e6, trial: 0.0, impedance, near: 0.0, dt: 0.5 * dt };
+        let first = Push { normal: 120e6, trial: 0.0, impedance, near: 0.0, dt: 0.5 * dt, weakened: 0.0 };
         let trial = |t: f64| 72.5e6 + 8e6 * t;
         law.push(&Push { trial: trial(0.0), ..first }, &mut states).unwrap();
         let mut answer = Pushed { traction: 0.0, rate: 0.0 };
@@ -250,7 +259,7 @@ mod tests {
         let law = ageing();
         let mut states = [0.0];
         law.start(Some((1e-12, 75.0 / 120.0)), &mut states).unwrap();
-        let push = Push { normal: 120e6, trial: 75e6, impedance: 4e6, near: 0.0, dt: 1e-2 };
+        let push = Push { normal: 120e6, trial: 75e6, impedance: 4e6, near: 0.0, dt: 1e-2, weakened: 0.0 };
         let answer = law.push(&push, &mut states.clone()).unwrap();
         assert!((answer.rate / 1e-12 - 1.0).abs() < 1e-6, "{answer:?}");
         assert!((answer.traction + push.impedance * answer.rate - 75e6).abs() < 1e-6);
@@ -264,7 +273,7 @@ mod tests {
     #[test]
     fn slip_weakens_the_next_step_and_points_below_their_strength_rest() {
         let law = EachPoint(vec![SlipWeakening::new(0.677, 0.525, 0.4, None).unwrap(); 2]);
-        let push = |trial| Push { normal: 120e6, trial, impedance: 4e6, near: 0.0, dt: 0.01 };
+        let push = |trial| Push { normal: 120e6, trial, impedance: 4e6, near: 0.0, dt: 0.01, weakened: 0.0 };
         let mut states = [0.0, 0.2];
         let mut answers = [Pushed { traction: 0.0, rate: 0.0 }; 2];
         law.push(&[push(81e6), push(81e6)], &mut states, &mut answers).unwrap();
@@ -275,9 +284,35 @@ mod tests {
     }
 
     #[test]
+    fn imposed_weakening_lowers_friction_as_slip_would_and_does_not_raise_it() {
+        let law = SlipWeakening::cohesive(0.6, 0.4, 0.5, 1e6, None).unwrap();
+        let push =
+            |weakened| Push { normal: 10e6, trial: 9e6, impedance: 4e6, near: 0.0, dt: 0.01, weakened };
+        for (slip, weakened, mu) in [(0.0, 0.0, 0.6), (0.0, 0.25, 0.55), (0.0, 1.0, 0.4), (0.4, 0.25, 0.44)] {
+            let mut states = [slip];
+            let answer = law.push(&push(weakened), &mut states).unwrap();
+            assert!((answer.traction / (1e6 + mu * 10e6) - 1.0).abs() < 1e-14, "{answer:?}");
+            // Slip is that of the point: what is imposed leaves no trace in it.
+            assert_eq!(states[0], slip + answer.rate * 0.01);
+        }
+    }
+
+    #[test]
+    fn cohesion_resists_slip_of_sides_that_press_alone() {
+        let push = |normal| Push { normal, trial: 5e6, impedance: 4e6, near: 0.0, dt: 0.01, weakened: 0.0 };
+        let coulomb = Coulomb::cohesive(0.5, 2e6, None).unwrap();
+        let weakening = SlipWeakening::cohesive(0.5, 0.3, 1.0, 2e6, None).unwrap();
+        for law in [&coulomb as &dyn super::Inertial, &weakening] {
+            let traction = |normal| law.push(&push(normal), &mut [0.0]).unwrap().traction;
+            assert_eq!(traction(1e6), 2.5e6);
+            assert_eq!(traction(0.0), 0.0);
+        }
+    }
+
+    #[test]
     fn static_kinetic_points_drop_once_they_slip_and_heal_at_rest() {
         let law = StaticKinetic::new(0.6, 0.5, None).unwrap();
-        let push = |trial| Push { normal: 1.0, trial, impedance: 1.0, near: 0.0, dt: 1.0 };
+        let push = |trial| Push { normal: 1.0, trial, impedance: 1.0, near: 0.0, dt: 1.0, weakened: 0.0 };
         let mut states = [0.0];
         assert_eq!(law.push(&push(0.59), &mut states).unwrap().rate, 0.0);
         assert!((law.push(&push(0.61), &mut states).unwrap().traction - 0.5).abs() < 1e-15);

@@ -1,7 +1,7 @@
 //! Table of the laws with an elastic domain: scenes, the book, the factory and the tests of acceptance read it.
 
 use crate::Failure;
-use crate::evolution::Parameter;
+use crate::evolution::{Bound, Parameter, Unit};
 use crate::law::Law;
 use crate::pointwise::Pointwise;
 use std::sync::Arc;
@@ -13,13 +13,23 @@ pub struct Kind {
     pub name: &'static str,
     /// Meaning, in Markdown.
     pub meaning: &'static str,
-    /// Parameters, all of them needed.
+    /// Parameters; optional ones are zero where they are absent.
     pub parameters: &'static [Parameter],
     /// True if a largest shear traction may cap the strength.
     pub capped: bool,
     /// Order of two parameters.
     pub order: Option<Order>,
 }
+
+/// Shear traction that a closed point carries at no normal traction.
+pub(crate) const COHESION: Parameter = Parameter {
+    key: "cohesion",
+    unit: Unit::Pressure,
+    bound: Bound::NotNegative,
+    optional: true,
+    example: "\"1 MPa\"",
+    meaning: "",
+};
 
 /// Order of two parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

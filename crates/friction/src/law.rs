@@ -293,6 +293,11 @@ pub trait Law: Send + Sync + std::fmt::Debug {
         false
     }
 
+    /// Shear traction that a closed point of the surface carries at no normal traction \[Pa\].
+    fn cohesion(&self, _point: usize) -> f64 {
+        0.0
+    }
+
     /// Writes the initial states of the points 0 to `n - 1` of a surface, point-major (slice of length `n * states()`).
     fn initial(&self, states: &mut [f64]);
 

@@ -50,6 +50,10 @@ impl<L: Law> Law for Pointwise<L> {
         self.laws.iter().all(Law::bonded)
     }
 
+    fn cohesion(&self, point: usize) -> f64 {
+        self.laws[point].cohesion(0)
+    }
+
     fn initial(&self, states: &mut [f64]) {
         if self.states > 0 {
             self.laws

@@ -1,5 +1,6 @@
-//! Linear slip weakening with an optional cap: `τ ≤ F̄ = min(μ(λ) f_n, F_limit)` \[Pa\] with `μ(λ) = μ_s - (μ_s - μ_k)
-//! min(λ/d_c, 1)` \[-\], where λ \[m\] is the accumulated slip. It has an elastic domain and no healing.
+//! Linear slip weakening with optional cohesion and cap: `τ ≤ F̄ = min(c + μ(λ) f_n, F_limit)` \[Pa\] with `μ(λ) = μ_s - (μ_s - μ_k)
+//! min(λ/d_c, 1)` \[-\], where λ \[m\] is the accumulated slip. It has an elastic domain and no healing. Cohesion c does not weaken, as in
+//! the benchmarks TPV10, TPV11 and TPV24 (Harris, R. A. et al. (2009), Seismol. Res. Lett. 80, 119-126).
 //!
 //! At constant f_n and without a cap, the energy dissipated in excess of the residual strength is the fracture energy `G_c =
 //! (μ_s - μ_k) f_n d_c/2` \[J/m²\] of a cohesive zone. Sources: Ida, Y. (1972), Cohesive force across the tip of a
@@ -12,7 +13,7 @@
 
 use crate::Failure;
 use crate::evolution::{Bound, Parameter, Unit};
-use crate::kind::{Kind, Order, Tabled, Weakening, values};
+use crate::kind::{COHESION, Kind, Order, Tabled, Weakening, values};
 use crate::law::{
     BAND, Increments, Law, Limit, LimitKind, Present, RateBounds, Rates, Regime, Responses, Trials,
 };
@@ -24,6 +25,7 @@ pub struct SlipWeakening {
     mu_s: f64,
     mu_k: f64,
     length: f64,
+    cohesion: f64,
     limit: f64,
 }
 
@@ -55,6 +57,20 @@ impl SlipWeakening {
     /// # Errors
     /// [`Failure::Parameter`].
     pub fn new(mu_s: f64, mu_k: f64, d_c: f64, limit: Option<f64>) -> Result<Self, Failure> {
+        Self::cohesive(mu_s, mu_k, d_c, 0.0, limit)
+    }
+
+    /// Law with a cohesion c ≥ 0 \[Pa\] as well.
+    ///
+    /// # Errors
+    /// [`Failure::Parameter`].
+    pub fn cohesive(
+        mu_s: f64,
+        mu_k: f64,
+        d_c: f64,
+        cohesion: f64,
+        limit: Option<f64>,
+    ) -> Result<Self, Failure> {
         if !(mu_s >= 0.0 && mu_s.is_finite()) {
             return Err(Failure::Parameter { name: "mu_s", value: mu_s, admissible: "0 <= mu_s, finite" });
         }
@@ -62,7 +78,7 @@ impl SlipWeakening {
             return Err(Failure::Parameter { name: "mu_k", value: mu_k, admissible: "0 <= mu_k <= mu_s" });
         }
         let length = crate::positive("d_c", d_c)?;
-        Ok(Self { mu_s, mu_k, length, limit: cap(limit)? })
+        Ok(Self { mu_s, mu_k, length, cohesion: crate::yielding::cohesion(cohesion)?, limit: cap(limit)? })
     }
 
     /// μ(λ) as a mean of μ_s and μ_k, exact at both ends and without cancellation in between.
@@ -71,6 +87,11 @@ impl SlipWeakening {
         let left = ((self.length - slip) / self.length).max(0.0);
         // A rounded mean of two equal numbers may differ from them.
         (self.mu_s * left + self.mu_k * gone).clamp(self.mu_k, self.mu_s)
+    }
+
+    /// c + μ f_n \[Pa\].
+    fn cone(&self, mu: f64, normal: f64) -> f64 {
+        self.cohesion + mu * normal
     }
 
     /// W of the weakening branch \[Pa/m\].
@@ -86,13 +107,18 @@ impl SlipWeakening {
     /// The strength at λ, with the slopes for further slip.
     fn strength(&self, slip: f64, normal: f64) -> Strength {
         let mu = self.mu(slip);
-        let cone = mu * normal;
+        let cone = self.cone(mu, normal);
         if cone > self.limit {
             Strength { value: self.limit, slope: 0.0, weakening: 0.0 }
         } else {
             let weakening = if self.weakened(slip) { 0.0 } else { self.weakening(normal) };
             Strength { value: cone, slope: mu, weakening }
         }
+    }
+
+    /// Slip at which this share of the weakening is done \[m\].
+    pub(crate) fn imposed(&self, share: f64) -> f64 {
+        share * self.length
     }
 
     /// Strength at slip λ \[Pa\].
@@ -103,10 +129,10 @@ impl SlipWeakening {
     /// The first root of `E_t Δλ + F̄(λ_0 + Δλ) = |t^e|` for a trial above F̄(λ_0): along the cap, the weakening branch and
     /// the residual strength, each a straight line.
     fn slide(&self, normal: f64, trial: f64, stiffness: f64, old: f64) -> Result<Slide, Failure> {
-        let cone = self.mu(old) * normal;
+        let cone = self.cone(self.mu(old), normal);
         if cone > self.limit {
             let slip = (trial - self.limit) / stiffness;
-            if self.mu(old + slip) * normal >= self.limit {
+            if self.cone(self.mu(old + slip), normal) >= self.limit {
                 let strength = Strength { value: self.limit, slope: 0.0, weakening: 0.0 };
                 return Ok(Slide { slip, total: old + slip, strength });
             }
@@ -118,13 +144,13 @@ impl SlipWeakening {
             let total = old + slip;
             if total <= self.length {
                 let slope = self.mu(total);
-                let value = (slope * normal).min(self.limit);
+                let value = self.cone(slope, normal).min(self.limit);
                 return Ok(Slide { slip, total, strength: Strength { value, slope, weakening } });
             }
         } else if !self.weakened(old) {
             return Err(Failure::Unstable { point: 0, stiffness, weakening });
         }
-        let value = self.mu_k * normal;
+        let value = self.cone(self.mu_k, normal);
         let slip = (trial - value) / stiffness;
         // This branch is reached only past d_c, whatever the last digit of the sum.
         let total = (old + slip).max(self.length);
@@ -170,6 +196,7 @@ impl Tabled for SlipWeakening {
                 example: "\"0.4 m\"",
                 meaning: "",
             },
+            COHESION,
         ],
         capped: true,
         order: Some(Order {
@@ -181,13 +208,13 @@ impl Tabled for SlipWeakening {
     };
 
     fn build(own: &[f64], cap: Option<f64>) -> Result<Self, Failure> {
-        let [mu_s, mu_k, d_c] = values(own)?;
-        Self::new(mu_s, mu_k, d_c, cap)
+        let [mu_s, mu_k, d_c, cohesion] = values(own)?;
+        Self::cohesive(mu_s, mu_k, d_c, cohesion, cap)
     }
 
     fn weakening(own: &[f64]) -> Weakening {
         match *own {
-            [mu_s, mu_k, length] if mu_s > mu_k => Weakening::Linear { drop: mu_s - mu_k, length },
+            [mu_s, mu_k, length, _] if mu_s > mu_k => Weakening::Linear { drop: mu_s - mu_k, length },
             _ => Weakening::None,
         }
     }
@@ -204,6 +231,10 @@ impl Law for SlipWeakening {
 
     fn has_elastic_domain(&self) -> bool {
         true
+    }
+
+    fn cohesion(&self, _point: usize) -> f64 {
+        self.cohesion
     }
 
     fn initial(&self, states: &mut [f64]) {
@@ -274,7 +305,9 @@ impl Law for SlipWeakening {
     fn limit(&self, present: Present<'_>, step: Increments<'_>, bounds: RateBounds) -> Option<Limit> {
         (0..present.normal.len())
             .map(|k| match present.regime[k] {
-                Regime::Stick => exit(&present, &step, k, self.mu(present.states[k]), self.limit),
+                Regime::Stick => {
+                    exit(&present, &step, k, (self.mu(present.states[k]), self.cohesion), self.limit)
+                }
                 Regime::Slip => self.slip_limit(present.states[k], step.slip[k], k, bounds.zeta),
             })
             .fold(None, smaller)

@@ -57,7 +57,7 @@ impl StaticKinetic {
 
     /// Strength F̄ and ∂F̄/∂f_n at a friction coefficient.
     fn strength(&self, mu: f64, normal: f64) -> (f64, f64) {
-        strength(mu, normal, self.limit)
+        strength((mu, 0.0), normal, self.limit)
     }
 }
 
@@ -161,7 +161,7 @@ impl Law for StaticKinetic {
     }
 
     fn limit(&self, present: Present<'_>, step: Increments<'_>, _bounds: RateBounds) -> Option<Limit> {
-        first_exit(&present, &step, |k| self.mu(present.states[k]), self.limit)
+        first_exit(&present, &step, |k| (self.mu(present.states[k]), 0.0), self.limit)
     }
 
     fn stands(&self, present: Present<'_>, k: usize) -> bool {

@@ -12,10 +12,21 @@ pub(crate) fn cap(limit: Option<f64>) -> Result<f64, Failure> {
     limit.map_or(Ok(f64::INFINITY), |value| crate::positive("f_limit", value))
 }
 
-/// Strength F̄ = min(μ f_n, F_limit) \[Pa\] and ∂F̄/∂f_n \[-\].
+/// A cohesion \[Pa\].
+///
+/// # Errors
+/// [`Failure::Parameter`] if it is negative or not finite.
+pub(crate) fn cohesion(value: f64) -> Result<f64, Failure> {
+    if value >= 0.0 && value.is_finite() {
+        return Ok(value);
+    }
+    Err(Failure::Parameter { name: "cohesion", value, admissible: "0 <= cohesion, finite" })
+}
+
+/// Strength F̄ = min(c + μ f_n, F_limit) \[Pa\] and ∂F̄/∂f_n \[-\], with μ and c.
 #[inline]
-pub(crate) fn strength(mu: f64, normal: f64, cap: f64) -> (f64, f64) {
-    let cone = mu * normal;
+pub(crate) fn strength((mu, cohesion): (f64, f64), normal: f64, cap: f64) -> (f64, f64) {
+    let cone = cohesion + mu * normal;
     if cone <= cap { (cone, mu) } else { (cap, 0.0) }
 }
 
@@ -57,16 +68,16 @@ pub(crate) fn rate_of(t: &Trials<'_>, k: usize, slip: f64) -> f64 {
     weight * slip / t.dt - offset
 }
 
-/// Limit r6 over all sticking points, with the friction coefficient μ(k) that holds each and the cap \[Pa\].
+/// Limit r6 over all sticking points, with μ and c that hold each and the cap \[Pa\].
 pub(crate) fn first_exit(
     present: &Present<'_>,
     step: &Increments<'_>,
-    mu: impl Fn(usize) -> f64,
+    cone: impl Fn(usize) -> (f64, f64),
     cap: f64,
 ) -> Option<Limit> {
     (0..present.normal.len())
         .filter(|&k| present.regime[k] == Regime::Stick)
-        .map(|k| exit(present, step, k, mu(k), cap))
+        .map(|k| exit(present, step, k, cone(k), cap))
         .fold(None, smaller)
 }
 
@@ -78,18 +89,20 @@ pub(crate) fn smaller(a: Option<Limit>, b: Option<Limit>) -> Option<Limit> {
     }
 }
 
-/// Limit r6 of the sticking point k with friction coefficient μ and cap \[Pa\].
+/// Limit r6 of the sticking point k with friction coefficient μ, cohesion c and cap \[Pa\].
 pub(crate) fn exit(
     present: &Present<'_>,
     step: &Increments<'_>,
     k: usize,
-    mu: f64,
+    (mu, cohesion): (f64, f64),
     cap: f64,
 ) -> Option<Limit> {
     let line = Line { at: present.traction[k], change: step.traction[k] };
-    let cone = Line { at: mu * present.normal[k], change: mu * step.normal[k] };
+    let cone = Line { at: cohesion + mu * present.normal[k], change: mu * step.normal[k] };
     let fraction = line.exit(cone, Some(cap))?;
-    Some(Limit { fraction, point: k, kind: LimitKind::StickToSlip })
+    // Cohesion is left of the strength of a point that opens before it would slip.
+    let closed = present.normal[k] + fraction * step.normal[k] >= 0.0;
+    (closed || cohesion == 0.0).then_some(Limit { fraction, point: k, kind: LimitKind::StickToSlip })
 }
 
 /// True if the traction of point k is its strength \[Pa\].

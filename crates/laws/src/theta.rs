@@ -33,6 +33,12 @@ impl Theta {
         at_zero + slope * state
     }
 
+    /// State variable of a θ \[s\].
+    #[must_use]
+    pub fn variable(&self, theta: f64) -> f64 {
+        (theta / self.time).ln() / self.per
+    }
+
     /// log10 of θ where the state variable is 0, and per state variable.
     #[must_use]
     pub fn linear(&self) -> (f64, f64) {

@@ -9,6 +9,7 @@ mod explicit;
 mod fault_physics;
 mod faults;
 mod fields;
+mod forced;
 mod heat;
 mod inertia;
 mod interfaces;
@@ -28,6 +29,7 @@ mod stress;
 mod surface;
 mod time;
 mod unused;
+mod wells;
 
 use super::model::{Body, Kinematics, MeshSource, Scene, Spanned};
 use super::near::suggest;

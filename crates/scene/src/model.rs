@@ -7,6 +7,8 @@ mod body;
 mod coulomb;
 mod fault;
 mod field;
+mod flux;
+mod forced;
 mod heat;
 mod inertia;
 mod medium;
@@ -32,6 +34,8 @@ pub use body::*;
 pub use coulomb::*;
 pub use fault::*;
 pub use field::*;
+pub use flux::Flux;
+pub use forced::ForcedRupture;
 pub use heat::*;
 pub use inertia::*;
 pub use medium::*;
@@ -116,10 +120,15 @@ impl Scene {
         self.bodies.get(set.get_ref().split('.').next()?)
     }
 
-    /// Tables of motions and loads, with the dimension of their values, which files may fill.
+    /// Tables of motions, loads and fluxes of wells, with the dimension of their values, which files may fill.
     pub(crate) fn tables_mut(&mut self) -> impl Iterator<Item = TableMut<'_>> {
         let conditions = self.stages.iter_mut().flat_map(|stage| &mut stage.conditions);
-        conditions.flat_map(|condition| condition.get_mut().tables_mut())
+        let wells = self.faults.values_mut().filter_map(|fault| fault.injection.as_mut());
+        let fluxes = wells.flat_map(|wells| &mut wells.0).filter_map(|well| match well.flux.get_mut() {
+            Flux::Steps(table) => Some((table, Dimension::Velocity)),
+            Flux::Constant(_) => None,
+        });
+        conditions.flat_map(|condition| condition.get_mut().tables_mut()).chain(fluxes)
     }
 
     /// Traces of faults in the plane, which files may fill.
@@ -146,6 +155,12 @@ impl Scene {
         let conditions = self.stages.iter().flat_map(|stage| &stage.conditions);
         let tables =
             conditions.flat_map(|c| c.get_ref().tables()).filter_map(|table| Some(&table.file()?.file));
+        let wells = self.faults.values().filter_map(|fault| fault.injection.as_ref());
+        let fluxes = wells.flat_map(|wells| &wells.0).filter_map(|well| match well.flux.get_ref() {
+            Flux::Steps(table) => Some(&table.file()?.file),
+            Flux::Constant(_) => None,
+        });
+        let tables = tables.chain(fluxes);
         let meshes = self.bodies.values().filter_map(|body| match &body.mesh {
             MeshSource::Fault(mesh) => Some(&mesh.trace),
             _ => None,
@@ -268,6 +283,8 @@ pub struct LawSpec {
     pub mu_k: Option<Spanned<f64>>,
     /// Slip-weakening: slip over which the coefficient falls \[m\].
     pub d_c: Option<Spanned<Length>>,
+    /// Coulomb, slip-weakening: shear traction that a closed point carries at no normal traction \[Pa\].
+    pub cohesion: Option<Spanned<Pressure>>,
     /// Strength form: regularised (default), bare or cut-off.
     pub form: Option<Spanned<String>>,
     /// State evolution: ageing, slip, prz, nagata or flash.

@@ -1,7 +1,7 @@
-//! Reading of motions and loadings.
+//! Reading of motions, loadings and fluxes.
 
 use super::entry::Entry;
-use super::model::{Loading, Motion, Pace, TableFile, Tabled};
+use super::model::{Flux, Loading, Motion, Pace, TableFile, Tabled};
 use super::units::{self, Dimension, Length, Pressure, Velocity};
 use crate::shape::{Either, shaped};
 use schemars::JsonSchema;
@@ -258,5 +258,44 @@ impl<'de> Deserialize<'de> for Loading {
             }
         }
         deserializer.deserialize_any(LoadingVisitor)
+    }
+}
+
+#[derive(serde::Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Stepped {
+    steps: TableForm<Velocity>,
+}
+
+shaped!(Flux as Either<Velocity, Stepped>);
+
+impl<'de> Deserialize<'de> for Flux {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct FluxVisitor;
+        impl<'de> Visitor<'de> for FluxVisitor {
+            type Value = Flux;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a flux such as \"1.25e-6 m/s\", or { steps = [[time, flux], ..] }")
+            }
+
+            fn visit_f64<E: de::Error>(self, value: f64) -> Result<Flux, E> {
+                units::finite(value, Dimension::Velocity).map(Flux::Constant)
+            }
+
+            fn visit_i64<E: de::Error>(self, value: i64) -> Result<Flux, E> {
+                Ok(Flux::Constant(value as f64))
+            }
+
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<Flux, E> {
+                units::parse(text, Dimension::Velocity).map(Flux::Constant).map_err(E::custom)
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Flux, A::Error> {
+                let given = Stepped::deserialize(MapAccessDeserializer::new(map))?;
+                Ok(Flux::Steps(given.steps.tabled(|flux| flux.0)))
+            }
+        }
+        deserializer.deserialize_any(FluxVisitor)
     }
 }

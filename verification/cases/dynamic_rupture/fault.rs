@@ -38,6 +38,7 @@ pub(super) fn between(model: &Model<2>, p: &Parameters, spacing: f64) -> Result<
         opens: false,
         regularisation: None,
         pulses,
+        forced: Vec::new(),
         onset: None,
         ties: Vec::new(),
     })

@@ -49,6 +49,7 @@ fn collide() -> Result<Collision, CaseError> {
         opens: true,
         regularisation: None,
         pulses: Vec::new(),
+        forced: Vec::new(),
         onset: None,
         ties: Vec::new(),
     });

@@ -77,6 +77,7 @@ fn fault(problem: &Problem<2>, spacing: f64) -> Result<Fault, CaseError> {
         opens: false,
         regularisation: None,
         pulses: Vec::new(),
+        forced: Vec::new(),
         onset: None,
         ties: Vec::new(),
     })

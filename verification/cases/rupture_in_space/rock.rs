@@ -118,6 +118,7 @@ fn fault(model: &Model<3>, p: &Parameters, span: &Span) -> Result<(Fault, Vec<[f
         opens: false,
         regularisation: None,
         pulses: Vec::new(),
+        forced: Vec::new(),
         onset: None,
         ties,
     };

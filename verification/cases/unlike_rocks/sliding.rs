@@ -77,6 +77,7 @@ fn fault(problem: &Problem<2>, delay: Option<Regularisation>) -> Result<Fault, C
         opens: true,
         regularisation: delay,
         pulses: vec![Pulse { amplitude: at.iter().map(|x| traction * bump(*x, radius)).collect(), rise }],
+        forced: Vec::new(),
         onset: None,
         ties: Vec::new(),
     })

@@ -78,7 +78,7 @@ impl<const D: usize> Interface<D> {
         let state = &shear.committed;
         let mut mu = vec![0.0; normal.len()];
         shear.law.coefficient(&normal, &state.rate, &state.states, &mut mu).ok()?;
-        let strength = |p: usize| mu[p] * normal[p];
+        let strength = |p: usize| shear.law.cohesion(p) + mu[p] * normal[p];
         // Under a law that drops at once, a point that slips has no strength left to lose.
         let dropped = |p: usize| self.watch.course == Course::Drop && state.regime[p] == Regime::Slip;
         let stands = |p: usize| norm(&state.traction[p]) >= (1.0 - NEAR) * strength(p);

@@ -45,6 +45,30 @@ pub(super) struct Asked<'a> {
     pub given: &'a Given,
 }
 
+/// Start of the names of lists that hold decimal logarithms of values in SI, such as this program writes.
+const LOGARITHM: &str = "log10_";
+
+impl Asked<'_> {
+    /// True if the values are decimal logarithms.
+    fn logarithmic(&self) -> bool {
+        self.name.starts_with(LOGARITHM)
+    }
+
+    /// Dimension of the values in the file; logarithms are numbers.
+    pub fn dimension(&self) -> Option<Dimension> {
+        self.parameter.dimension.filter(|_| !self.logarithmic())
+    }
+
+    /// Values of which the file has these: logarithms are of magnitudes, which take the sign of the parameter.
+    pub fn plain(&self, mut values: Vec<f64>) -> Vec<f64> {
+        if self.logarithmic() {
+            let sign = if let Bound::Signed(sign) = self.parameter.bound { sign } else { 1.0 };
+            values.iter_mut().for_each(|v| *v = sign * 10_f64.powf(*v));
+        }
+        values
+    }
+}
+
 /// Refuses values out of bounds. `row` names the place of a value, `what` its list.
 pub(super) fn checked(
     values: &[f64],

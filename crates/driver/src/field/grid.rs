@@ -12,7 +12,7 @@ use asperity_fem::mesh::netcdf::gridded::{self, Coordinate, Gridded};
 use asperity_scene::near::suggest;
 
 /// Help for a grid that is not read.
-const FORM: &str = "a grid has a variable over one or two coordinates, such as `a(y, x)`; `gmt grdconvert a.nc b.grd --IO_NC4_CHUNK_SIZE=classic` and `nccopy -k classic a.nc b.nc` write the classic format";
+const FORM: &str = "a grid has a variable over one or two coordinates, such as `a(y, x)`, in the classic format or netCDF-4; `nccopy -k classic a.nc b.nc` writes the classic format";
 
 /// Coordinates and values of a grid.
 pub(super) fn field<const D: usize>(
@@ -26,7 +26,7 @@ pub(super) fn field<const D: usize>(
         }
         _ => Wrong::new(error.to_string(), FORM),
     })?;
-    let factor = size_of("variable", asked.name, &grid.unit, asked.unit, asked.parameter.dimension)?;
+    let factor = size_of("variable", asked.name, &grid.unit, asked.unit, asked.dimension())?;
     let own: Vec<&str> = grid.coordinates.iter().map(|c| c.name.as_str()).collect();
     if let Some((_, name)) =
         asked.given.coordinates.named().find(|(_, name)| !own.contains(&name.get_ref().as_str()))
@@ -39,7 +39,7 @@ pub(super) fn field<const D: usize>(
     for coordinate in &grid.coordinates {
         axes.push((meaning(coordinate, asked)?, scaled(coordinate, asked)?));
     }
-    let mut values: Vec<f64> = grid.values.iter().map(|v| v * factor).collect();
+    let mut values = asked.plain(grid.values.iter().map(|v| v * factor).collect());
     let place = |k: usize| at(&grid, k);
     checked(&values, asked, ("variable", &place))?;
     if axes.len() == 2 && order(axes[0].0) > order(axes[1].0) {

@@ -81,8 +81,8 @@ fn scaled(array: &Named, asked: &Asked<'_>) -> Result<Vec<f64>, Wrong> {
         let message = format!("its array `{}` has {} components", asked.name, array.components);
         return Err(Wrong::new(message, "an array of one component"));
     }
-    let factor = size_of(("array", asked.name, "unit"), asked.unit, asked.parameter.dimension)?;
-    Ok(array.values.iter().map(|v| v * factor).collect())
+    let factor = size_of(("array", asked.name, "unit"), asked.unit, asked.dimension())?;
+    Ok(asked.plain(array.values.iter().map(|v| v * factor).collect()))
 }
 
 /// Size of a unit that the scene states, in SI.

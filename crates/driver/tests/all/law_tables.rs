@@ -23,6 +23,7 @@ fn parameter(p: &Parameter) -> String {
         Unit::None => "",
         Unit::Velocity => " \\[m/s\\]",
         Unit::Length => " \\[m\\]",
+        Unit::Pressure => " \\[Pa\\]",
     };
     let bound = match p.bound {
         Bound::Positive => format!("`{}`{unit}", p.key),
@@ -45,14 +46,23 @@ fn row(d: &Definition) -> String {
 }
 
 fn kind_row(k: &Kind) -> String {
-    let parameters: Vec<String> = k.parameters.iter().map(parameter).collect();
+    let needed = k.parameters.iter().filter(|p| !p.optional);
+    let parameters: Vec<String> = needed.map(parameter).collect();
     let order = k.order.map(|o| {
         let [lower, upper] = [o.lower, o.upper].map(|i| k.parameters[i].key);
         format!("; `{lower}` {} `{upper}`", if o.equal { "≤" } else { "<" })
     });
-    let cap = if k.capped { "`f_limit` \\[Pa\\]" } else { "" };
+    let own = k.parameters.iter().filter(|p| p.optional);
+    let own = own.map(|p| parameter(&Parameter { optional: false, ..*p }));
+    let optional: Vec<String> = own.chain(k.capped.then(|| "`f_limit` \\[Pa\\]".to_owned())).collect();
     let parameters = if parameters.is_empty() { "none".to_string() } else { parameters.join(", ") };
-    format!("| `\"{}\"` | {} | {parameters}{} | {cap} |\n", k.name, k.meaning, order.unwrap_or_default())
+    format!(
+        "| `\"{}\"` | {} | {parameters}{} | {} |\n",
+        k.name,
+        k.meaning,
+        order.unwrap_or_default(),
+        optional.join(", ")
+    )
 }
 
 /// Compares a table of the book with the program, or rewrites it.
@@ -126,7 +136,7 @@ fn every_kind_of_the_table_is_read_and_built() {
         assert_eq!((law.name(), law.has_elastic_domain()), (row.name, true));
         let capped = varied(&text, &[Add("law.f_limit", "1 MPa")]);
         assert_eq!(choose(&capped).1.is_ok(), row.capped, "{capped}");
-        for missing in row.parameters {
+        for missing in row.parameters.iter().filter(|p| !p.optional) {
             let without = varied(&text, &[Without(&format!("law.{}", missing.key))]);
             let errors = choose(&without).1.unwrap_err();
             assert!(errors.iter().any(|e| e.to_string().contains(missing.key)), "{without}: {errors:?}");

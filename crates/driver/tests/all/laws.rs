@@ -161,7 +161,7 @@ fn elastic_laws_have_their_parameters() {
     let law = "kind = \"slip-weakening\", mu_s = 0.6, mu_k = 0.6, d_c = \"40 cm\"";
     assert_eq!(
         choose(law),
-        LawChoice::Yielding { kind: "slip-weakening", own: vec![0.6, 0.6, 0.4], f_limit: None }
+        LawChoice::Yielding { kind: "slip-weakening", own: vec![0.6, 0.6, 0.4, 0.0], f_limit: None }
     );
 }
 

@@ -1,18 +1,25 @@
-//! Reads depths on a grid from netCDF files in the classic format (versions 1 and 2), with the conventions COARDS and CF.
+//! Reads depths on a grid from netCDF files in the classic format (versions 1 and 2) and of version 4, with the conventions COARDS
+//! and CF.
 //!
 //! The layout is that of the specification of the classic format: a header with lists of dimensions, attributes and variables, then
 //! the values of each variable at its offset, with the most significant byte first.
 
 pub mod gridded;
+mod hdf5;
+
+use netcdf_reader::NcFile;
 
 use thiserror::Error;
 
 /// Problem of a netCDF file.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum NetcdfError {
-    /// A file of the version 4, which is HDF5.
-    #[error("it is netCDF-4 (HDF5), and the classic format is read")]
-    Hdf5,
+    /// A file of the version 4, which is HDF5, that cannot be read.
+    #[error("it is netCDF-4 (HDF5), and damaged or of a kind that is not read: {reason}")]
+    Hdf5 {
+        /// Reason of the library.
+        reason: String,
+    },
     /// A version of the classic format that is not read.
     #[error("it has version {version} of the classic netCDF format, and versions 1 and 2 are read")]
     Version {
@@ -258,12 +265,14 @@ struct File<'a> {
     bytes: &'a [u8],
     dimensions: Vec<Dimension>,
     variables: Vec<Variable>,
+    /// The file of version 4 that has the values.
+    hdf5: Option<NcFile>,
 }
 
 impl<'a> File<'a> {
     fn read(bytes: &'a [u8]) -> Result<Self, NetcdfError> {
         if bytes.starts_with(HDF5) {
-            return Err(NetcdfError::Hdf5);
+            return Self::of_version_4(bytes).map_err(|reason| NetcdfError::Hdf5 { reason });
         }
         let mut header = Header { bytes, at: 0, wide: false };
         let magic = header.take(4, "the magic number")?;
@@ -282,7 +291,25 @@ impl<'a> File<'a> {
         for _ in 0..header.list(VARIABLES, "the variables")? {
             variables.push(variable(&mut header, dimensions.len())?);
         }
-        Ok(Self { bytes, dimensions, variables })
+        Ok(Self { bytes, dimensions, variables, hdf5: None })
+    }
+
+    /// The parts of a file of version 4, or the reason why it cannot be read.
+    fn of_version_4(bytes: &'a [u8]) -> Result<Self, String> {
+        let file = hdf5::open(bytes)?;
+        let (dimensions, variables) = hdf5::parts(&file)?;
+        let dimensions = dimensions.into_iter().map(|(name, length)| Dimension { name, length }).collect();
+        let attribute = |(name, text, numbers)| Attribute { name, text, numbers };
+        let variable = |v: hdf5::Variable| Variable {
+            name: v.name,
+            dimensions: v.dimensions,
+            attributes: v.attributes.into_iter().map(attribute).collect(),
+            // Types of numbers are those of the library.
+            kind: if v.text { CHARACTERS } else { 0 },
+            begin: 0,
+        };
+        let variables = variables.into_iter().map(variable).collect();
+        Ok(Self { bytes, dimensions, variables, hdf5: Some(file) })
     }
 
     /// The variable with depths, and the dimensions of its grid. Others of length one may come before them.
@@ -323,17 +350,15 @@ impl<'a> File<'a> {
             }
             count = count.checked_mul(*length).ok_or_else(ends)?;
         }
+        if let Some(file) = &self.hdf5 {
+            let values = hdf5::values(file, &variable.name, count);
+            let values = values.map_err(|reason| NetcdfError::Hdf5 { reason })?;
+            return Ok(meant(variable, values.into_iter()));
+        }
         let size = size_of_type(variable.kind).unwrap_or(1);
         let end = count.checked_mul(size).and_then(|bytes| bytes.checked_add(variable.begin));
         let data = end.and_then(|end| self.bytes.get(variable.begin..end)).ok_or_else(ends)?;
-        let missing = ["_FillValue", "missing_value"].map(|name| variable.number(name));
-        let scale = variable.number("scale_factor").unwrap_or(1.0);
-        let offset = variable.number("add_offset").unwrap_or(0.0);
-        let value = |bytes: &[u8]| {
-            let raw = number(variable.kind, bytes);
-            if missing.contains(&Some(raw)) { f64::NAN } else { raw * scale + offset }
-        };
-        Ok(data.chunks(size).map(value).collect())
+        Ok(meant(variable, data.chunks(size).map(|bytes| number(variable.kind, bytes))))
     }
 
     fn variable_of(&self, dimension: usize) -> Option<&Variable> {
@@ -367,6 +392,14 @@ impl<'a> File<'a> {
             || unit.starts_with("degrees_east")
             || unit.starts_with("degree_east")
     }
+}
+
+/// Values that a file means by its numbers; NaN where it has none.
+fn meant(variable: &Variable, raw: impl Iterator<Item = f64>) -> Vec<f64> {
+    let missing = ["_FillValue", "missing_value"].map(|name| variable.number(name));
+    let scale = variable.number("scale_factor").unwrap_or(1.0);
+    let offset = variable.number("add_offset").unwrap_or(0.0);
+    raw.map(|raw| if missing.contains(&Some(raw)) { f64::NAN } else { raw * scale + offset }).collect()
 }
 
 fn variable(header: &mut Header<'_>, dimensions: usize) -> Result<Variable, NetcdfError> {
@@ -461,7 +494,7 @@ mod tests {
 
     #[test]
     fn files_of_other_versions_are_named() {
-        assert_eq!(rows(b"\x89HDF\r\n\x1a\n"), Err(NetcdfError::Hdf5));
+        assert!(matches!(rows(b"\x89HDF\r\n\x1a\n"), Err(NetcdfError::Hdf5 { .. })));
         assert_eq!(rows(b"CDF\x05\0\0\0\0"), Err(NetcdfError::Version { version: 5 }));
         assert!(is_netcdf(b"CDF\x01") && is_netcdf(b"\x89HDF") && !is_netcdf(b"135.0 33.0 5.0"));
     }

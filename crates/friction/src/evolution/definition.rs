@@ -12,6 +12,8 @@ pub enum Unit {
     Velocity,
     /// m.
     Length,
+    /// Pa.
+    Pressure,
 }
 
 /// Admissible values of a parameter.

@@ -2,6 +2,7 @@
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use asperity_friction::Failure;
+use asperity_friction::coulomb::Coulomb;
 use asperity_friction::law::{
     Increments, Lag, Law, Limit, LimitKind, Present, RateBounds, Rates, Regime, Responses, Trials,
 };
@@ -337,6 +338,50 @@ fn a_pulled_static_kinetic_point_makes_sawteeth() {
         }
     }
     assert_eq!(slips, [69, 99, 129, 159, 189]);
+}
+
+/// Cohesion c adds to the strength alone: a point answers as one without cohesion under a trial that is smaller by c.
+#[test]
+fn cohesion_shifts_the_strength_and_nothing_else() {
+    let (cohesion, cap) = (1.5e6, Some(8e6));
+    let without: [(&dyn Law, f64); 3] = [
+        (&Coulomb::new(MU_S, None).unwrap(), 0.0),
+        (&weakening(), 0.3 * D_C),
+        (&SlipWeakening::new(MU_S, MU_K, D_C, cap.map(|cap| cap - cohesion)).unwrap(), 0.0),
+    ];
+    let with: [&dyn Law; 3] = [
+        &Coulomb::cohesive(MU_S, cohesion, None).unwrap(),
+        &SlipWeakening::cohesive(MU_S, MU_K, D_C, cohesion, None).unwrap(),
+        &SlipWeakening::cohesive(MU_S, MU_K, D_C, cohesion, cap).unwrap(),
+    ];
+    for ((plain, old), cohesive) in without.into_iter().zip(with) {
+        for trial in [3e6, 6.9e6, 8e6, 20e6] {
+            let expected = respond(plain, NORMAL, trial, old);
+            let found = respond(cohesive, NORMAL, trial + cohesion, old);
+            assert_relative_eq!(found.traction, expected.traction + cohesion, max_relative = 1e-14);
+            assert_relative_eq!(found.slip, expected.slip, max_relative = 1e-12);
+            assert_eq!((found.regime, found.d_trial), (expected.regime, expected.d_trial));
+            assert_relative_eq!(found.d_normal, expected.d_normal, max_relative = 1e-12);
+        }
+    }
+}
+
+/// A point that sticks leaves rest where its traction meets c + μ f_n, and not at all where it has opened by then.
+#[test]
+fn sticking_points_slip_at_cohesion_and_friction_unless_they_open_first() {
+    let law = Coulomb::cohesive(0.5, 2e6, None).unwrap();
+    let exit = |change: [f64; 2]| {
+        let start = Start { normal: 4e6, traction: 1e6, state: 0.0, ..STICKING };
+        let [normal, traction] = change;
+        let step = Increments { normal: &[normal], traction: &[traction], slip: &[0.0] };
+        let present = Present { states: &[], ..present(&start, STIFFNESS) };
+        law.limit(present, step, BOUNDS).map(|limit: Limit| limit.fraction)
+    };
+    // 1 + 6 r = 2 + 0.5 · 4, and 1 + 2 r = 2 + 0.5 (4 - 3 r).
+    assert_relative_eq!(exit([0.0, 6e6]).unwrap(), 0.5, max_relative = 1e-14);
+    assert_relative_eq!(exit([-3e6, 2e6]).unwrap(), 3.0 / 3.5, max_relative = 1e-14);
+    // It opens at r = 1/2 with 1.5 MPa, below its cohesion; the line of the strength would be met at r = 3/5.
+    assert_eq!(exit([-8e6, 1e6]), None);
 }
 
 #[test]

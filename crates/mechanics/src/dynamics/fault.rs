@@ -59,10 +59,29 @@ pub struct Fault {
     pub regularisation: Option<Regularisation>,
     /// Imposed tractions.
     pub pulses: Vec<Pulse>,
+    /// Imposed weakening of friction; empty without, otherwise one for each point.
+    pub forced: Vec<Forced>,
     /// Friction and states at the start of faults that slip already; otherwise friction is the traction at the start.
     pub onset: Option<Onset>,
     /// Pairs of nodes that stay together.
     pub ties: Vec<Tie>,
+}
+
+/// Weakening of friction that is imposed on a point, whatever its slip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Forced {
+    /// Time at which it begins \[s\]; infinite where it does not.
+    pub at: f64,
+    /// Time over which friction falls from its first value to its last \[s\].
+    pub duration: f64,
+}
+
+impl Forced {
+    /// Share that is done at a time.
+    #[must_use]
+    pub fn share(&self, time: f64) -> f64 {
+        ((time - self.at) / self.duration).clamp(0.0, 1.0)
+    }
 }
 
 /// Imposed tractions at a time.
@@ -146,7 +165,14 @@ impl Fault {
                 let impedance = self.normal[point].max(1.0) * STIFF / rate.max(f64::MIN_POSITIVE);
                 let impedance = if rate > 0.0 { impedance } else { 1.0 };
                 let trial = if rate > 0.0 { impedance * rate } else { 0.0 };
-                Push { normal: start.normal[point], trial, impedance, near: rate, dt: 0.5 * dt }
+                Push {
+                    normal: start.normal[point],
+                    trial,
+                    impedance,
+                    near: rate,
+                    dt: 0.5 * dt,
+                    weakened: 0.0,
+                }
             })
             .collect();
         let mut answers = vec![Pushed { traction: 0.0, rate: 0.0 }; pushes.len()];
@@ -282,6 +308,7 @@ impl Fault {
                 impedance,
                 near: self.size(&state.rate, point),
                 dt: if first { between.kick } else { between.dt },
+                weakened: self.forced.get(point).map_or(0.0, |forced| forced.share(loads.time)),
             }
         });
         (pushes.collect(), trials)

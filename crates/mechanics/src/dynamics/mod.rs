@@ -32,7 +32,7 @@ mod ties;
 pub use absorbing::{Dashpot, dashpots};
 pub use budget::Budget;
 pub use explicit::{Explicit, ExplicitState, Halt};
-pub use fault::{Fault, FaultState, Regularisation, SplitPoint};
+pub use fault::{Fault, FaultState, Forced, Regularisation, SplitPoint};
 pub use onset::Onset;
 pub use problem::Problem;
 pub use pulse::Pulse;

@@ -138,6 +138,7 @@ fn impact(h: f64, gap: f64) -> Problem<2> {
         opens: true,
         regularisation: None,
         pulses: Vec::new(),
+        forced: Vec::new(),
         onset: None,
         ties: Vec::new(),
     };
@@ -289,6 +290,7 @@ fn tied_bars_move_as_one() {
         opens: false,
         regularisation: None,
         pulses: Vec::new(),
+        forced: Vec::new(),
         onset: None,
         ties: vec![tie(0), tie(1)],
     };

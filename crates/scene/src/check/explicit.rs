@@ -1,7 +1,7 @@
 //! Bodies with mass, whose faults radiate waves: the stepper "explicit".
 
 use super::{AXES, Checker};
-use crate::model::{Body, Condition, Fault, PointSpec, SlipSpec, Spanned, Stage, Stepper};
+use crate::model::{Body, Condition, Fault, Injections, PointSpec, SlipSpec, Spanned, Stage, Stepper};
 use crate::near::suggest;
 use std::ops::Range;
 
@@ -196,7 +196,7 @@ impl Checker<'_> {
                     .map(Spanned::span),
                 "at `rate = 0` a part of the fault is locked",
             ),
-            ("injection", fault.injection.as_ref().map(|i| i.at.span()), "pressure acts through `normal`"),
+            ("injection", fault.injection.as_ref().map(Injections::span), "pressure acts through `normal`"),
             (
                 "damping",
                 fault.damping.as_ref().map(Spanned::span),
@@ -256,7 +256,8 @@ impl Checker<'_> {
         let scene = self.scene;
         let bodies = [&fault.minus, &fault.plus].map(|side| scene.body_of(side));
         let stressed = bodies.iter().flatten().any(|b| b.initial_stress.is_some());
-        if fault.shear.is_none() && !fault.has_shear_along() && !stressed {
+        let follows = fault.fields.state.is_some();
+        if fault.shear.is_none() && !fault.has_shear_along() && !stressed && !follows {
             self.error(
                 fault.span(),
                 "the fault has no `shear`, and bodies with mass start from given tractions",

@@ -27,24 +27,20 @@ impl Checker<'_> {
             self.friction(fault);
             self.start_of(fault);
             self.physics_of(fault);
-            self.injection(fault);
+            self.wells(fault);
             self.heat_of(fault);
-            for (name, profile) in [
-                ("a", &fault.profiles.a),
-                ("b", &fault.profiles.b),
-                ("l", &fault.profiles.l),
-                ("normal", &fault.profiles.normal),
-            ] {
+            for (name, profile) in fault.profiles.all() {
+                let sense = match name {
+                    "shear" => fault.slides().then(|| fault.rate.get_ref().0.signum()),
+                    _ => Some(1.0),
+                };
                 for profile in profile.iter().flat_map(|Profiled(list)| list) {
-                    self.profile(name, profile, Some(1.0));
+                    self.profile(name, profile, sense);
                 }
             }
             self.fields(fault);
-            for profile in fault.profiles.shear.iter().flat_map(|Profiled(list)| list) {
-                let sense = fault.slides().then(|| fault.rate.get_ref().0.signum());
-                self.profile("shear", profile, sense);
-            }
             self.pulses(fault);
+            self.forced(fault);
             self.patches(fault);
             self.rake(fault);
             if let Some(creep) = &fault.creep {
@@ -247,49 +243,6 @@ impl Checker<'_> {
                 damping.span(),
                 "`damping` must not be negative",
                 "such as `damping = \"radiation\"` or `damping = \"4.6 MPa s/m\"`",
-            );
-        }
-    }
-
-    fn injection(&mut self, fault: &Fault) {
-        let Some(injection) = &fault.injection else { return };
-        let positive = |v: f64| v > 0.0 && v.is_finite();
-        if !injection.flux.get_ref().0.is_finite() || injection.flux.get_ref().0 == 0.0 {
-            self.error(
-                injection.flux.span(),
-                "`flux` must not be zero",
-                "such as `flux = \"1.25e-6 m/s\"`; negative for extraction",
-            );
-        }
-        for (name, value, example) in [
-            ("diffusivity", &injection.diffusivity, "in m²/s, such as `diffusivity = 0.1`"),
-            ("compressibility", &injection.compressibility, "in 1/Pa, such as `compressibility = 1e-8`"),
-        ] {
-            if !positive(*value.get_ref()) {
-                self.error(value.span(), format!("`{name}` must be positive"), example);
-            }
-        }
-        let porosity = *injection.porosity.get_ref();
-        if !(positive(porosity) && porosity <= 1.0) {
-            self.error(
-                injection.porosity.span(),
-                "`porosity` must lie between 0 and 1",
-                "such as `porosity = 0.1`",
-            );
-        }
-        if let Some(until) = injection.until.as_ref().filter(|t| !positive(t.get_ref().0)) {
-            self.error(
-                until.span(),
-                "`until` must be positive",
-                "such as `until = \"100 d\"`, or leave it out",
-            );
-        }
-        if *self.scene.kinematics.get_ref() == Kinematics::ThreeD {
-            self.conflict(
-                &injection.at.span(),
-                "fluid is injected into faults in the plane only",
-                "its pressure is that of diffusion along one line",
-                (&self.scene.kinematics.span(), "the kinematics"),
             );
         }
     }
@@ -502,10 +455,15 @@ impl Checker<'_> {
                 format!("the positions of the profile of `{name}` must ascend"),
                 example,
             );
-        } else if let Some(p) =
-            points.iter().find(|p| !(sign.is_none_or(|s| s * p.1 > 0.0) && p.1.is_finite()))
-        {
-            let what = if name == "shear" { "have the sign of `rate`" } else { "be positive" };
+        } else if let Some(p) = points.iter().find(|p| {
+            let none = name == "cohesion" && p.1 == 0.0;
+            !((none || sign.is_none_or(|s| s * p.1 > 0.0)) && p.1.is_finite())
+        }) {
+            let what = match name {
+                "shear" => "have the sign of `rate`",
+                "cohesion" => "not be negative",
+                _ => "be positive",
+            };
             let message = format!("the profile of `{name}` must {what}, found {:?}", p.1);
             let help = if name == "normal" && p.1 == 0.0 { AT_SURFACE } else { "values are numbers in SI" };
             self.error(profile.points.span(), message, help);

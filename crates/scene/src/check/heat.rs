@@ -103,7 +103,7 @@ impl Checker<'_> {
                 &heat.thickness.span(),
                 "heat of friction is not computed where fluid is injected",
                 "remove `heat` or `injection`",
-                (&injection.at.span(), "the injection"),
+                (&injection.span(), "the injection"),
             );
         }
         if let Some(opening) = fault.opening.as_ref().filter(|o| *o.get_ref()) {

@@ -78,8 +78,13 @@ impl Checker<'_> {
             let turned = ["shear", "rate"].contains(&key);
             let positive = if turned { value * sense } else { value };
             let signed = !turned || fault.slides();
-            if !((positive > 0.0 || !signed) && value.is_finite()) {
-                let what = if turned { "have the sign of `rate` of the fault" } else { "be positive" };
+            let none = key == "cohesion" && value == 0.0;
+            if !((positive > 0.0 || !signed || none) && value.is_finite()) {
+                let what = match key {
+                    "cohesion" => "not be negative",
+                    _ if turned => "have the sign of `rate` of the fault",
+                    _ => "be positive",
+                };
                 self.error(
                     place,
                     format!("`{key}` of a patch must {what}, found {value:?}"),

@@ -1,7 +1,7 @@
 //! Faults through cycles whose ruptures have mass: the stepper "auto" in a scene with faults.
 
 use super::Checker;
-use crate::model::{Fault, Spanned, Stepper};
+use crate::model::{Fault, Injections, Spanned, Stepper};
 
 impl Checker<'_> {
     /// True if the scene has faults and the stepper is "auto".
@@ -31,7 +31,7 @@ impl Checker<'_> {
     fn without_company(&mut self, fault: &Fault) {
         let opens = fault.opening.as_ref().filter(|o| *o.get_ref() && !self.is_antiplane());
         let keys = [
-            ("injection", fault.injection.as_ref().map(|i| i.at.span())),
+            ("injection", fault.injection.as_ref().map(Injections::span)),
             ("normal_floor", fault.normal_floor.as_ref().map(Spanned::span)),
             ("normal_changes", fault.normal_changes.as_ref().map(Spanned::span)),
             ("heat", fault.heat.as_ref().map(|h| h.thickness.span())),

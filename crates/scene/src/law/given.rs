@@ -37,7 +37,7 @@ macro_rules! places {
 /// Parameters that are given, with their positions, in the order of the specification.
 #[must_use]
 pub fn given(law: &LawSpec) -> Vec<(&'static str, Range<usize>)> {
-    let places = places!(law: mu mu_s mu_k d_c form evolution mu0 a b l v_ref v_initial v_cut v_cut_state alpha normal_initial
+    let places = places!(law: mu mu_s mu_k d_c cohesion form evolution mu0 a b l v_ref v_initial v_cut v_cut_state alpha normal_initial
                          c mu_w v_w activation t_ref temperature f_limit);
     places.into_iter().filter_map(|(name, place)| place.map(|p| (name, p))).collect()
 }
@@ -52,5 +52,5 @@ pub(super) fn scalar(law: &LawSpec, key: &str) -> Option<(f64, Range<usize>)> {
             }
         };
     }
-    of!(mu mu_s mu_k d_c v_cut_state c mu_w v_w)
+    of!(mu mu_s mu_k d_c cohesion v_cut_state c mu_w v_w)
 }

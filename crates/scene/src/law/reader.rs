@@ -136,9 +136,10 @@ impl<'a> Reader<'a> {
         read.into_iter().collect()
     }
 
-    /// Reads the parameters of a law with an elastic domain.
+    /// Reads the parameters of a law with an elastic domain; optional ones that are absent are zero.
     fn yielding(&mut self, law: &LawSpec, row: &KindRow) -> Option<Vec<f64>> {
-        let read: Vec<Option<f64>> = row.parameters.iter().map(|p| self.own(law, p).flatten()).collect();
+        let read: Vec<Option<f64>> =
+            row.parameters.iter().map(|p| self.own(law, p).map(Option::unwrap_or_default)).collect();
         if let Some(OrderRow { lower, upper, equal, help }) = row.order
             && let (Some(low), Some(high)) = (read[lower], read[upper])
             && !(low < high || equal && low == high)

@@ -43,7 +43,7 @@ pub struct EvolutionRow {
 pub struct KindRow {
     /// Name.
     pub name: &'static str,
-    /// Parameters, all required.
+    /// Parameters; optional ones are zero where they are absent.
     pub parameters: Vec<ParameterRow>,
     /// True if `f_limit` may cap the strength.
     pub capped: bool,

@@ -12,6 +12,12 @@ impl LawChoice {
         self.clone().parameter(key, laws).map(|(_, bound)| bound)
     }
 
+    /// Value of a parameter that may vary from point to point, in SI; `None` if the law does not have exactly one of this name.
+    #[must_use]
+    pub fn value(&self, key: &str, laws: &Laws) -> Option<f64> {
+        self.clone().parameter(key, laws).map(|(value, _)| *value)
+    }
+
     /// Returns the law with another value of a parameter, in SI; `None` if the law does not have exactly one of this name.
     #[must_use]
     pub fn with(mut self, key: &str, value: f64, laws: &Laws) -> Option<Self> {

@@ -1,6 +1,8 @@
 //! Faults as declared in a scene, for simulations of earthquake cycles.
 
-use super::{FaultLine, FaultRectangle, FaultTriangles, Fields, Heat, LawSpec, Patch, Pulse};
+use super::{
+    FaultLine, FaultRectangle, FaultTriangles, Fields, Flux, ForcedRupture, Heat, LawSpec, Patch, Pulse,
+};
 use crate::here::here;
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
@@ -30,10 +32,10 @@ pub struct Fault {
     pub triangles: Option<FaultTriangles>,
     /// A [friction law](laws.md) of kind `"rate-and-state"` or `"rate"`, without `f_limit`; explicit: also one of slip.
     pub law: Spanned<LawSpec>,
-    /// Values of `a`, `b`, `l`, `normal` or `shear` along the fault.
+    /// Values of `a`, `b`, `l`, `normal`, `shear` or `cohesion` along the fault.
     #[serde(default)]
     pub profiles: Profiles,
-    /// Values of `a`, `b`, `l`, `normal` or `shear` at positions in files.
+    /// Values of parameters, tractions, slip rates or states at positions in files.
     #[serde(default)]
     pub fields: Fields,
     /// Parts of the fault with parameters of their own, in the order in which they apply, after `profiles`.
@@ -42,6 +44,8 @@ pub struct Fault {
     /// Shear tractions that grow on parts of the fault, to start an event.
     #[serde(default)]
     pub pulses: Vec<Pulse>,
+    /// Explicit, slip weakening: friction falls at a time that a front reaches each point, to start a rupture.
+    pub forced_rupture: Option<ForcedRupture>,
     /// Initial normal traction, compression positive; absent: given by the initial stress of the bodies \[Pa\].
     pub normal: Option<Spanned<Pressure>>,
     /// Initial slip rate of all points; its sign is the sense of slip. Absent with laws of slip, whose faults start at rest \[m/s\].
@@ -60,8 +64,8 @@ pub struct Fault {
     pub azimuth: Option<Spanned<Angle>>,
     /// In space: `"along-rake"` (default), or `"free"` for slip whose direction may turn.
     pub slip: Option<Spanned<SlipSpec>>,
-    /// Fluid injected at one position that diffuses along the fault.
-    pub injection: Option<Injection>,
+    /// Fluid injected at one position that diffuses along the fault, or a list of such wells.
+    pub injection: Option<Injections>,
     /// Heat of friction, which may change friction and the pressure of pore fluid.
     pub heat: Option<Heat>,
     /// Treatment of less than one point per cohesive zone: `"refuse"` (default) or `"allow"`.
@@ -169,6 +173,24 @@ pub struct Profiles {
     pub normal: Option<Profiled>,
     /// Initial shear traction \[Pa\].
     pub shear: Option<Profiled>,
+    /// Explicit, laws of slip: shear traction that a closed point carries at no normal traction \[Pa\].
+    pub cohesion: Option<Profiled>,
+}
+
+impl Profiles {
+    /// Profiles with the names of their parameters.
+    #[must_use]
+    pub fn all(&self) -> [(&'static str, Option<&Profiled>); 6] {
+        [
+            ("a", &self.a),
+            ("b", &self.b),
+            ("l", &self.l),
+            ("normal", &self.normal),
+            ("shear", &self.shear),
+            ("cohesion", &self.cohesion),
+        ]
+        .map(|(key, profile)| (key, profile.as_ref()))
+    }
 }
 
 /// A parameter as one profile, or as the maximum of several.
@@ -339,21 +361,57 @@ impl<'de> Deserialize<'de> for Station {
     }
 }
 
-/// Fluid injected at one position of a fault at constant flux.
+/// Wells of a fault: one, or a list.
+#[derive(Clone, Debug)]
+pub struct Injections(pub Vec<Injection>);
+
+shaped!(Injections as Either<Injection, Vec<Injection>>);
+
+impl Injections {
+    /// Position of the first well in the file.
+    #[must_use]
+    pub fn span(&self) -> Range<usize> {
+        self.0.first().map(|well| well.at.span()).unwrap_or_default()
+    }
+}
+
+impl<'de> Deserialize<'de> for Injections {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct WellsVisitor;
+        impl<'de> Visitor<'de> for WellsVisitor {
+            type Value = Injections;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("{ at = .., flux = .., .. }, or a list of such wells")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Injections, A::Error> {
+                Injection::deserialize(MapAccessDeserializer::new(map)).map(|well| Injections(vec![well]))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Injections, A::Error> {
+                Deserialize::deserialize(SeqAccessDeserializer::new(list)).map(Injections)
+            }
+        }
+        deserializer.deserialize_any(WellsVisitor)
+    }
+}
+
+/// Fluid injected at one position of a fault.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Injection {
     /// Distance along the fault \[m\].
     pub at: Spanned<Length>,
-    /// Volume per cross-sectional area and time, in both directions together; negative: extraction \[m/s\].
-    pub flux: Spanned<Velocity>,
+    /// Volume per cross-sectional area and time, in both directions together; negative: extraction; or `{ steps = .. }` \[m/s\].
+    pub flux: Spanned<Flux>,
     /// Hydraulic diffusivity \[m²/s\].
     pub diffusivity: Spanned<f64>,
     /// Porosity \[-\].
     pub porosity: Spanned<f64>,
     /// Compressibility of fluid and pores \[1/Pa\].
     pub compressibility: Spanned<f64>,
-    /// End of the injection; absent: no end \[s\].
+    /// End of an injection at a constant flux; absent: no end \[s\].
     pub until: Option<Spanned<Time>>,
 }
 

@@ -19,14 +19,32 @@ pub struct Fields {
     pub normal: Option<Field>,
     /// Initial shear traction, of the sign of `rate` \[Pa\].
     pub shear: Option<Field>,
+    /// Initial slip rate, of the sign of `rate` \[m/s\].
+    pub rate: Option<Field>,
+    /// Explicit, laws of slip: shear traction that a closed point carries at no normal traction \[Pa\].
+    pub cohesion: Option<Field>,
+    /// Initial state θ \[s\], or the state variable of a law without θ; instead of `shear`.
+    pub state: Option<Field>,
+    /// a - b: the evolution effect b is a less this \[-\].
+    pub a_minus_b: Option<Field>,
 }
 
 impl Fields {
     /// Fields with the names of their parameters.
     #[must_use]
-    pub fn all(&self) -> [(&'static str, Option<&Field>); 5] {
-        [("a", &self.a), ("b", &self.b), ("l", &self.l), ("normal", &self.normal), ("shear", &self.shear)]
-            .map(|(key, field)| (key, field.as_ref()))
+    pub fn all(&self) -> [(&'static str, Option<&Field>); 9] {
+        [
+            ("a", &self.a),
+            ("b", &self.b),
+            ("l", &self.l),
+            ("normal", &self.normal),
+            ("shear", &self.shear),
+            ("rate", &self.rate),
+            ("cohesion", &self.cohesion),
+            ("state", &self.state),
+            ("a_minus_b", &self.a_minus_b),
+        ]
+        .map(|(key, field)| (key, field.as_ref()))
     }
 }
 
@@ -42,6 +60,8 @@ pub struct LawFields {
     pub mu_k: Option<Field>,
     /// Slip-weakening: slip over which the coefficient falls \[m\].
     pub d_c: Option<Field>,
+    /// Coulomb, slip-weakening: shear traction that a closed point carries at no normal traction \[Pa\].
+    pub cohesion: Option<Field>,
     /// Reference coefficient μ0 \[-\].
     pub mu0: Option<Field>,
     /// Direct effect a \[-\].
@@ -59,12 +79,13 @@ pub struct LawFields {
 impl LawFields {
     /// Fields with the names of their parameters.
     #[must_use]
-    pub fn all(&self) -> [(&'static str, Option<&Field>); 10] {
+    pub fn all(&self) -> [(&'static str, Option<&Field>); 11] {
         [
             ("mu", &self.mu),
             ("mu_s", &self.mu_s),
             ("mu_k", &self.mu_k),
             ("d_c", &self.d_c),
+            ("cohesion", &self.cohesion),
             ("mu0", &self.mu0),
             ("a", &self.a),
             ("b", &self.b),
@@ -86,8 +107,9 @@ impl LawFields {
 pub fn field_dimension(key: &str) -> Option<Dimension> {
     match key {
         "l" | "d_c" => Some(Dimension::Length),
-        "normal" | "shear" | "f_limit" => Some(Dimension::Pressure),
-        "v_initial" => Some(Dimension::Velocity),
+        "normal" | "shear" | "cohesion" | "f_limit" => Some(Dimension::Pressure),
+        "v_initial" | "rate" => Some(Dimension::Velocity),
+        "state" => Some(Dimension::Time),
         _ => None,
     }
 }
@@ -96,9 +118,9 @@ pub fn field_dimension(key: &str) -> Option<Dimension> {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Field {
-    /// Path of a CSV file, a classic netCDF grid or a VTU file, relative to the folder of the scene.
+    /// Path of a CSV file, a netCDF grid or a VTU file, relative to the folder of the scene.
     pub file: Spanned<String>,
-    /// Column, variable or array of the values; absent: the one with the name of the parameter.
+    /// Column, variable or array of the values; absent: the one with the name of the parameter. Decimal logarithms if it begins with `log10_`.
     pub column: Option<Spanned<String>>,
     /// Values between positions: `"linear"` or `"nearest"`; absent: `"linear"`, but for points of a VTU file without cells, and its arrays in cells.
     pub interpolation: Option<Spanned<FieldInterpolation>>,

@@ -34,15 +34,17 @@ pub struct Patch {
     pub shear: Option<Spanned<Pressure>>,
     /// Initial slip rate, of the sign of that of the fault \[m/s\].
     pub rate: Option<Spanned<Velocity>>,
+    /// Explicit, laws of slip: shear traction that a closed point carries at no normal traction \[Pa\].
+    pub cohesion: Option<Spanned<Pressure>>,
 }
 
 /// Names of the parameters of patches, in the order of [`Patch::values`].
-pub const PATCHED: [&str; 6] = ["a", "b", "l", "normal", "shear", "rate"];
+pub const PATCHED: [&str; 7] = ["a", "b", "l", "normal", "shear", "rate", "cohesion"];
 
 impl Patch {
     /// Values in SI units with their places, in the order of [`PATCHED`].
     #[must_use]
-    pub fn values(&self) -> [Option<(f64, Range<usize>)>; 6] {
+    pub fn values(&self) -> [Option<(f64, Range<usize>)>; 7] {
         [
             self.a.as_ref().map(|v| (*v.get_ref(), v.span())),
             self.b.as_ref().map(|v| (*v.get_ref(), v.span())),
@@ -50,6 +52,7 @@ impl Patch {
             self.normal.as_ref().map(|v| (v.get_ref().0, v.span())),
             self.shear.as_ref().map(|v| (v.get_ref().0, v.span())),
             self.rate.as_ref().map(|v| (v.get_ref().0, v.span())),
+            self.cohesion.as_ref().map(|v| (v.get_ref().0, v.span())),
         ]
     }
 

@@ -2,6 +2,7 @@
 
 use crate::doubts::{self as shared, Pushed};
 use crate::fault::planner::{Placed, pulse_doubts};
+use crate::laws;
 use crate::scene::law::LawChoice;
 use crate::scene::model::{Fault as Spec, Scene};
 use crate::warning::Warning;
@@ -39,7 +40,7 @@ pub(super) fn check<const D: usize>(
             pushed = true;
             continue;
         };
-        pushed |= above > 0 || !spec.pulses.is_empty();
+        pushed |= above > 0 || !spec.pulses.is_empty() || spec.forced_rupture.is_some();
         if above as f64 > MOST * own.len() as f64 {
             all.push(at_once((name, spec), above, own.len()));
         }
@@ -49,7 +50,7 @@ pub(super) fn check<const D: usize>(
         all.push(Warning::at(
             first.law.span(),
             "nothing moves the faults: no point starts above its strength, and nothing is imposed",
-            "`pulses`, or a patch of `shear` above `mu_s` times `normal`",
+            "`pulses`, `forced_rupture`, or a patch of `shear` above `mu_s` times `normal`",
         ));
     }
     all
@@ -125,6 +126,7 @@ fn tiny<const D: usize>((name, spec): (&String, &Spec), own: &[&Placed<D>]) -> O
 /// domain is the coefficient at rest.
 fn above<const D: usize>(p: &Placed<D>) -> Option<usize> {
     let LawChoice::Yielding { own, .. } = &p.law else { return None };
-    let strength = own.first()? * p.normal;
+    let cohesion = p.law.value("cohesion", laws::known()).unwrap_or_default();
+    let strength = own.first()? * p.normal + cohesion;
     Some(usize::from(p.shear.unwrap_or_default().abs() > strength))
 }

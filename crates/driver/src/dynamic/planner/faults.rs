@@ -1,5 +1,6 @@
 //! Faults between bodies with mass: their points, laws, initial tractions and pulses.
 
+use super::forced;
 use crate::diagnostic::Diagnostic;
 use crate::fault::planner::{Placed, in_space, pulses, slides};
 use crate::laws;
@@ -38,7 +39,7 @@ pub(super) fn of<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Result<
         points: placed.iter().map(point).collect(),
         law,
         normal: placed.iter().map(|p| p.normal).collect(),
-        shear: first_of(components, placed, |p| p.shear.unwrap_or_default()),
+        shear: first_of(components, placed, |p| p.shear.or(follows(p)).unwrap_or_default()),
         rate: first_of(components, placed, |p| p.rate),
         opens: any.opening.as_ref().is_some_and(|o| *o.get_ref()),
         regularisation: any
@@ -49,9 +50,18 @@ pub(super) fn of<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Result<
             .into_iter()
             .map(|(amplitude, rise)| Pulse { amplitude, rise })
             .collect(),
+        forced: forced::of(&named, placed)?,
         onset: None,
         ties: Vec::new(),
     }))
+}
+
+/// Shear traction that follows from the slip rate and the state of a point that has both \[Pa\].
+fn follows<const D: usize>(placed: &Placed<D>) -> Option<f64> {
+    let (state, rate) = (placed.state?, placed.rate);
+    let law = laws::build_fault(&placed.law, &[]).ok()??;
+    let m = law.at_rate(0, rate, &[state]).ok()?;
+    Some(placed.normal * law.scale(0) * m)
 }
 
 /// Points that creep or are locked, and those that slide.

@@ -2,6 +2,7 @@
 
 mod doubts;
 mod faults;
+mod forced;
 mod masses;
 mod outputs;
 mod rupture;

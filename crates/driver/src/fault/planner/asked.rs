@@ -143,10 +143,8 @@ pub(super) fn profiles<const D: usize>(
 }
 
 /// Profiles of a fault with their keys.
-pub(super) fn lists(spec: &Spec) -> [(&'static str, Option<&Profiled>); 5] {
-    let all = &spec.profiles;
-    [("a", &all.a), ("b", &all.b), ("l", &all.l), ("normal", &all.normal), ("shear", &all.shear)]
-        .map(|(key, list)| (key, list.as_ref()))
+pub(super) fn lists(spec: &Spec) -> [(&'static str, Option<&Profiled>); 6] {
+    spec.profiles.all()
 }
 
 /// True if two profiles are the same.

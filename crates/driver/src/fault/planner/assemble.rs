@@ -17,7 +17,9 @@ use crate::doubts::Fluid;
 use crate::laws::{self, Theta};
 use crate::outrun;
 use crate::scene::law::LawChoice;
-use crate::scene::model::{Creep, Fault as Spec, Scene, SlipSpec, Spanned, Station as Asking};
+use crate::scene::model::{
+    Creep, Fault as Spec, Flux, Injection as Well, Scene, SlipSpec, Spanned, Station as Asking,
+};
 use crate::thresholds;
 use crate::warning::Warning;
 use asperity_cycles::heat::Heat;
@@ -230,31 +232,42 @@ pub(super) fn geometry<const D: usize>(placed: &[Placed<D>]) -> (Vec<[f64; 3]>, 
 fn pressure<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Result<Option<Pressure>, Diagnostic> {
     let mut pressure: Option<Pressure> = None;
     for (fault, (name, spec)) in scene.faults.iter().enumerate() {
-        let Some(injection) = &spec.injection else { continue };
+        let Some(wells) = &spec.injection else { continue };
         let points = placed.iter().filter(|p| p.fault == fault);
-        let at = injection.at.get_ref().0;
         let along: Vec<f64> = points.map(|p| p.point.place.along).collect();
         let (least, most) = along.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), s| (l.min(*s), m.max(*s)));
-        if !(least <= at && at <= most) {
-            return Err(Diagnostic::at(
-                injection.at.span(),
-                format!("fault `{name}` does not slide at {at} m along it, where fluid is injected"),
-                format!("it slides from {least} to {most} m"),
-            ));
+        for well in &wells.0 {
+            let at = well.at.get_ref().0;
+            if !(least <= at && at <= most) {
+                return Err(Diagnostic::at(
+                    well.at.span(),
+                    format!("fault `{name}` does not slide at {at} m along it, where fluid is injected"),
+                    format!("it slides from {least} to {most} m"),
+                ));
+            }
+            let first = placed.partition_point(|p| p.fault < fault);
+            let distances = along.iter().map(|s| s - at).collect();
+            pressure.get_or_insert_default().add(injected(well), first, distances);
         }
-        let until = injection.until.as_ref().map_or(f64::INFINITY, |t| t.get_ref().0);
-        let injected = Injection {
-            flux: injection.flux.get_ref().0,
-            diffusivity: *injection.diffusivity.get_ref(),
-            porosity: *injection.porosity.get_ref(),
-            compressibility: *injection.compressibility.get_ref(),
-            during: [0.0, until],
-        };
-        let first = placed.partition_point(|p| p.fault < fault);
-        let distances = along.iter().map(|s| s - at).collect();
-        pressure.get_or_insert_default().add(injected, first, distances);
     }
     Ok(pressure)
+}
+
+/// Flow of a well: steps of its flux.
+fn injected(well: &Well) -> Injection {
+    let flux = match well.flux.get_ref() {
+        Flux::Steps(steps) => steps.to_vec(),
+        Flux::Constant(flux) => {
+            let end = well.until.as_ref().map(|t| (t.get_ref().0, 0.0));
+            std::iter::once((0.0, *flux)).chain(end).collect()
+        }
+    };
+    Injection {
+        flux,
+        diffusivity: *well.diffusivity.get_ref(),
+        porosity: *well.porosity.get_ref(),
+        compressibility: *well.compressibility.get_ref(),
+    }
 }
 
 /// Initial unknowns: every point slides at its initial rate.
@@ -276,6 +289,9 @@ fn start<const D: usize>(placed: &[Placed<D>], fault: &Fault) -> Result<Vec<f64>
         };
         let law: &dyn FaultLaw = fault.law.as_ref();
         law.steady(p, initial.ln(), &mut y[states.clone()]);
+        if let Some(state) = point.state {
+            y[states.start] = state;
+        }
         if let Some(shear) = point.pressed_shear {
             // The traction of damping at the slip rate that follows is left out: it is small, or the start is refused.
             let scale = law.scale(p) * pressed.normal[p];

@@ -3,14 +3,16 @@
 use super::placed::Placed;
 use crate::diagnostic::Diagnostic;
 use crate::field::{Bound, Field, Files, Parameter, Region, Spot};
+use crate::laws::Theta;
+use crate::scene::law::LawChoice;
 use crate::scene::model::{Fault as Spec, Scene, field_dimension};
 use crate::warning::Warning;
 use asperity_cycles::medium::Place;
 
 /// Number of parameters that files may give.
-pub(super) const PARAMETERS: usize = 5;
+pub(super) const PARAMETERS: usize = 9;
 
-/// Parameters of a fault from files: a, b, L, normal and shear traction.
+/// Parameters of a fault from files, in the order of the fields of the scene.
 pub(super) struct Fields<const D: usize> {
     all: [Option<Field<D>>; PARAMETERS],
     region: String,
@@ -21,7 +23,12 @@ impl<const D: usize> Fields<D> {
     ///
     /// # Errors
     /// [`Diagnostic`] at the name of a file that cannot be used.
-    pub fn read(scene: &Scene, (name, spec): (&str, &Spec), places: &[Place<D>]) -> Result<Self, Diagnostic> {
+    pub fn read(
+        scene: &Scene,
+        (name, spec, base): (&str, &Spec, &LawChoice),
+        places: &[Place<D>],
+    ) -> Result<Self, Diagnostic> {
+        let theta = Theta::of(base).is_some();
         let name = format!("fault `{name}`");
         let spots: Vec<Spot<D>> = places.iter().map(spot).collect();
         let region = Region { scene, spots: &spots, name: &name };
@@ -31,10 +38,12 @@ impl<const D: usize> Fields<D> {
             let Some(given) = given else { continue };
             let parameter = Parameter {
                 key,
-                dimension: field_dimension(key),
+                dimension: if key == "state" && !theta { None } else { field_dimension(key) },
                 bound: match (key, spec.rate.get_ref().0) {
-                    ("shear", 0.0) => Bound::Free,
-                    ("shear", rate) => Bound::Signed(rate.signum()),
+                    ("shear", 0.0) | ("a_minus_b", _) => Bound::Free,
+                    ("shear" | "rate", rate) => Bound::Signed(rate.signum()),
+                    ("cohesion", _) => Bound::NotNegative,
+                    ("state", _) if !theta => Bound::Free,
                     _ => Bound::Positive,
                 },
             };

@@ -368,7 +368,7 @@ fn points_of<const D: usize>(
     let weighs = scene.bodies.values().any(|b| b.gravity.is_some());
     let (places, doubtful) = place::places(model, name, spec)?;
     warnings.extend(doubtful);
-    let fields = Fields::read(scene, (name, spec), &places)?;
+    let fields = Fields::read(scene, (name, spec, &base), &places)?;
     for place in places {
         let creep = spec.creep.as_ref().filter(|c| creeps(c, &place, CLOSE * model.scale));
         let given = stress.as_ref().filter(|_| creep.is_none());

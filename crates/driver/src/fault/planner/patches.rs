@@ -4,8 +4,9 @@ use super::asked::extent;
 use super::fields::PARAMETERS;
 use super::placed::{Placed, at};
 use crate::diagnostic::Diagnostic;
+use crate::laws::{self, Theta};
 use crate::scene::law::LawChoice;
-use crate::scene::model::{Combine, Disc, Fault as Spec, Outside, Patch, Profiled};
+use crate::scene::model::{Combine, Disc, Fault as Spec, Outside, PATCHED, Patch, Profiled};
 use crate::warning::Warning;
 use asperity_cycles::medium::Place;
 
@@ -15,9 +16,12 @@ pub(super) struct Values {
     a: Option<f64>,
     b: Option<f64>,
     l: Option<f64>,
+    cohesion: Option<f64>,
     pub normal: Option<f64>,
     pub shear: Option<f64>,
     pub rate: f64,
+    /// State θ \[s\], or the state variable of a law without θ.
+    state: Option<f64>,
 }
 
 impl Values {
@@ -33,9 +37,19 @@ impl Values {
                     state.l = self.l.unwrap_or(state.l);
                 }
             }
-            LawChoice::Yielding { .. } => {}
+            LawChoice::Yielding { .. } => {
+                if let Some(cohesion) = self.cohesion {
+                    law = base.clone().with("cohesion", cohesion, laws::known()).unwrap_or(law);
+                }
+            }
         }
         law
+    }
+
+    /// State variable of the point under its law, if a file gives it.
+    pub fn state(&self, law: &LawChoice) -> Option<f64> {
+        let given = self.state?;
+        Some(Theta::of(law).map_or(given, |theta| theta.variable(given)))
     }
 }
 
@@ -48,14 +62,19 @@ pub(super) fn values<const D: usize>(
     let all = &spec.profiles;
     let of = |profile: &Option<Profiled>| profile.as_ref().map(|p| largest(p, place));
     let [a, b, l] = constants(base);
-    let [file_a, file_b, file_l, file_normal, file_shear] = from_files;
+    let cohesion = base.value("cohesion", laws::known());
+    let [file_a, file_b, file_l, file_normal, file_shear, file_rate, file_cohesion, state, a_minus_b] =
+        from_files;
+    let a = file_a.or(of(&all.a)).or(a);
+    let file_b = file_b.or(a_minus_b.and_then(|difference| Some(a? - difference)));
     let mut values = [
-        file_a.or(of(&all.a)).or(a),
+        a,
         file_b.or(of(&all.b)).or(b),
         file_l.or(of(&all.l)).or(l),
         file_normal.or(of(&all.normal)).or(spec.normal.as_ref().map(|n| n.get_ref().0)),
         file_shear.or(of(&all.shear)).or(spec.shear.as_ref().map(|s| s.get_ref().0)),
-        Some(spec.rate.get_ref().0),
+        Some(file_rate.unwrap_or(spec.rate.get_ref().0)),
+        file_cohesion.or(of(&all.cohesion)).or(cohesion),
     ];
     for patch in &spec.patches {
         let weight = weight(patch, place);
@@ -73,8 +92,8 @@ pub(super) fn values<const D: usize>(
             *value = Some(if weight == 1.0 { inside } else { before + weight * (inside - before) });
         }
     }
-    let [a, b, l, normal, shear, rate] = values;
-    Values { a, b, l, normal, shear, rate: rate.unwrap_or(spec.rate.get_ref().0) }
+    let [a, b, l, normal, shear, rate, cohesion] = values;
+    Values { a, b, l, cohesion, normal, shear, rate: rate.unwrap_or(spec.rate.get_ref().0), state }
 }
 
 /// Constants a, b and L of a law, as far as it has them once.
@@ -94,19 +113,35 @@ fn constants(law: &LawChoice) -> [Option<f64>; 3] {
 /// # Errors
 /// [`Diagnostic`] at the profile or at the value of the patch.
 pub(super) fn fit(spec: &Spec, law: &LawChoice) -> Result<(), Diagnostic> {
-    let has = constants(law);
-    let profiles = [&spec.profiles.a, &spec.profiles.b, &spec.profiles.l];
-    for (k, (key, has)) in ["a", "b", "l"].into_iter().zip(has).enumerate() {
-        let profiled = profiles[k].as_ref().and_then(|p| p.0.first()).map(|p| p.points.span());
-        let filed = spec.fields.all()[k].1.map(|f| f.file.span());
-        let patched = spec.patches.iter().find_map(|p| p.values()[k].as_ref().map(|v| v.1.clone()));
-        if let Some(place) = profiled.or(filed).or(patched).filter(|_| has.is_none()) {
+    let [a, b, l] = constants(law);
+    let cohesion = law.value("cohesion", laws::known());
+    // A state, like b, is that of a law with exactly one.
+    let has = [("a", a), ("b", b), ("l", l), ("cohesion", cohesion), ("state", b), ("a_minus_b", b)];
+    for (key, _) in has.into_iter().filter(|(_, has)| has.is_none()) {
+        let profile = spec.profiles.all().into_iter().find(|p| p.0 == key).and_then(|p| p.1);
+        let profiled = profile.and_then(|p| p.0.first()).map(|p| p.points.span());
+        let field = spec.fields.all().into_iter().find(|f| f.0 == key).and_then(|f| f.1);
+        let number = PATCHED.iter().position(|name| *name == key);
+        let patched = number
+            .and_then(|k| spec.patches.iter().find_map(|p| p.values()[k].as_ref().map(|v| v.1.clone())));
+        if let Some(place) = profiled.or(field.map(|f| f.file.span())).or(patched) {
             return Err(Diagnostic::at(
                 place,
                 format!("`{key}` varies along the fault, and its law does not have exactly one `{key}`"),
-                "`b` and `l` vary in laws of kind \"rate-and-state\" with one state variable",
+                if key == "cohesion" {
+                    "laws of kind \"coulomb\" and \"slip-weakening\" have a cohesion"
+                } else {
+                    "`b` and `l` vary in laws of kind \"rate-and-state\" with one state variable"
+                },
             ));
         }
+    }
+    if let (Some(field), LawChoice::Yielding { .. }) = (&spec.fields.rate, law) {
+        return Err(Diagnostic::at(
+            field.file.span(),
+            "`rate` of a fault whose friction does not depend on the slip rate, and which starts at rest",
+            "remove `fields.rate`: slip follows the shear traction",
+        ));
     }
     Ok(())
 }

@@ -26,6 +26,8 @@ pub(crate) struct Placed<const D: usize> {
     pub pressed_shear: Option<[f64; 2]>,
     /// Initial slip rate \[m/s\].
     pub rate: f64,
+    /// Initial state variable, if a file gives it: the shear traction follows from it and the slip rate.
+    pub state: Option<f64>,
     /// Initial tractions from the stress in the bodies.
     pub prestress: Resolved,
     pub law: LawChoice,

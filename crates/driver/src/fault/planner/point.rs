@@ -10,6 +10,7 @@ use crate::laws;
 use crate::scene::law::LawChoice;
 use crate::scene::model::{DampingSpec, Fault as Spec};
 use asperity_cycles::medium::{Place, Point};
+use asperity_mechanics::coordinates;
 
 /// Surroundings of a point.
 pub(super) struct Given {
@@ -35,6 +36,8 @@ pub(super) fn placed_at<const D: usize>(
     // Where the fault creeps, parameters are not used.
     let from_files = if given.creep.is_some() { Default::default() } else { fields.at(&place)? };
     let values = patches::values(spec, &place, (base, from_files));
+    let law = values.law(base);
+    different(spec, &place, &law)?;
     Ok(Placed {
         fault,
         medium: given.medium,
@@ -44,10 +47,11 @@ pub(super) fn placed_at<const D: usize>(
         shear: given.stress.map(|g| g.shear).or(values.shear),
         pressed_shear: None,
         rate: values.rate,
+        state: values.state(&law),
         prestress: given.stress.unwrap_or_default(),
         spacing: given.spacing,
         floor: choice.floor,
-        law: values.law(base),
+        law,
         creep: given.creep,
         components: given.components,
         point: Point {
@@ -57,6 +61,28 @@ pub(super) fn placed_at<const D: usize>(
             place,
         },
     })
+}
+
+/// Refuses a point where a file of a - b leaves a negative b.
+fn different<const D: usize>(spec: &Spec, place: &Place<D>, law: &LawChoice) -> Result<(), Diagnostic> {
+    let (Some(field), LawChoice::RateAndState { strength, states, .. }) = (&spec.fields.a_minus_b, law)
+    else {
+        return Ok(());
+    };
+    let [state] = states.as_slice() else { return Ok(()) };
+    if state.b >= 0.0 {
+        return Ok(());
+    }
+    Err(Diagnostic::at(
+        field.file.span(),
+        format!(
+            "a is {} and a - b is {} at {}, which leaves a negative b",
+            strength.a,
+            strength.a - state.b,
+            coordinates::in_words(&place.at)
+        ),
+        "give `fields.a` as well, or a larger `a` in the law: b = a - (a - b) must not be negative",
+    ))
 }
 
 /// Law of a fault, whose parameters may vary along it.

@@ -14,6 +14,9 @@ const FAR: f64 = 5.0;
 
 /// Source of the initial shear traction of a fault.
 fn source<'a>(scene: &'a Scene, spec: &'a Spec) -> (&'static str, Range<usize>) {
+    if let Some(field) = &spec.fields.state {
+        return ("`fields.state`", field.file.span());
+    }
     if let Some(shear) = &spec.shear {
         return ("`shear`", shear.span());
     }
@@ -32,18 +35,30 @@ fn source<'a>(scene: &'a Scene, spec: &'a Spec) -> (&'static str, Range<usize>) 
     }
 }
 
+/// Friction at the start of a point with a given shear traction or state.
+fn friction<const D: usize>(
+    point: &Placed<D>,
+    law: &dyn FaultLaw,
+    (p, damping): (usize, f64),
+) -> Option<f64> {
+    let rate = point.rate.abs();
+    match (point.state, point.shear) {
+        (Some(state), _) => law.at_rate(p, rate, &[state]).ok().map(|m| law.scale(p) * m),
+        (None, shear) => Some((shear?.abs() - damping * rate) / point.pressed()),
+    }
+}
+
 /// A warning for each fault whose initial friction is far from that of steady slip at `rate`.
 pub(super) fn check<const D: usize>(scene: &Scene, placed: &[Placed<D>], fault: &Fault) -> Vec<Warning> {
     let law: &dyn FaultLaw = fault.law.as_ref();
     let mut states = vec![0.0; law.states()];
     let mut worst: Vec<Option<(f64, f64, f64, String)>> = vec![None; scene.faults.len()];
     for (p, point) in placed.iter().enumerate() {
-        let Some(shear) = point.shear else { continue };
         let rate = point.rate.abs();
+        let Some(found) = friction(point, law, (p, fault.damping[p])) else { continue };
         law.steady(p, rate.ln(), &mut states);
         let Ok(m) = law.at_rate(p, rate, &states) else { continue };
         let steady = law.scale(p) * m;
-        let found = (shear.abs() - fault.damping[p] * rate) / point.pressed();
         let off = (found / steady).max(steady / found);
         if off > FAR && worst[point.fault].as_ref().is_none_or(|w| off > w.0) {
             worst[point.fault] = Some((off, found, steady, coordinates::in_words(&point.point.place.at)));

@@ -16,7 +16,7 @@ fn is_steady<const D: usize>(point: &Placed<D>) -> bool {
         LawChoice::RateAndState { v_initial, .. } => *v_initial == point.rate.abs(),
         _ => true,
     };
-    steady && point.shear.is_none() && point.pressed_shear.is_none()
+    steady && point.state.is_none() && point.shear.is_none() && point.pressed_shear.is_none()
 }
 
 /// True if slip at the initial rates takes up what the loads add, `A V + τ̇_load = 0`.

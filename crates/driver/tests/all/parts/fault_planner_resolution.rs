@@ -43,12 +43,13 @@ fn lengths_are_those_published_with_the_benchmarks() {
 #[test]
 fn the_zone_of_slip_weakening_is_that_of_the_dynamic_rupture_benchmark() {
     // Day et al. (2005), version 3: 620 m in mode III and 827 m in mode II.
-    let law = LawChoice::Yielding { kind: "slip-weakening", own: vec![0.677, 0.525, 0.4], f_limit: None };
+    let law =
+        LawChoice::Yielding { kind: "slip-weakening", own: vec![0.677, 0.525, 0.4, 0.0], f_limit: None };
     for (modulus, zone) in [(32.04e9, 620.0), (32.04e9 / 0.75, 827.0)] {
         let found = Ground { law: &law, normal: 120e6, modulus, in_space: false }.lengths().unwrap();
         assert!((found[0] / zone - 1.0).abs() < 2e-3, "{found:?}");
     }
-    let steady = LawChoice::Yielding { kind: "slip-weakening", own: vec![0.6, 0.6, 0.4], f_limit: None };
+    let steady = LawChoice::Yielding { kind: "slip-weakening", own: vec![0.6, 0.6, 0.4, 0.0], f_limit: None };
     assert!(Ground { law: &steady, normal: 120e6, modulus: 32e9, in_space: false }.lengths().is_none());
 }
 

@@ -26,7 +26,9 @@ pub(super) fn triangles(
     let refuse = |error: SheetError| refused(spec, &error);
     let unit = surfaces::unit(Some(&spec.unit))?;
     let (map, mut samples) = (frame.map(), Vec::new());
-    for [longitude, latitude, depth] in rows(spec, bytes)? {
+    let mut rows = rows(spec, bytes)?;
+    let heights = turn_heights(&mut rows);
+    for [longitude, latitude, depth] in rows {
         let near = |x: &[f64; 2]| x[0].hypot(x[1]) < FARTHEST;
         let at = map.metres(longitude, latitude).filter(near);
         let [x, y] = at.ok_or_else(|| far(spec, [longitude, latitude]))?;
@@ -36,9 +38,14 @@ pub(super) fn triangles(
     let [top, bottom, size] = [&spec.top, &spec.bottom, &spec.size].map(|length| length.get_ref().0);
     let sheet = sheet::triangles(&depths, [top, bottom], size).map_err(refuse)?;
     let note = format!(
-        "fault `{name}` is divided at {} contours between depths of {top} and {bottom} m; angles of its triangles are at least {:.0} degrees",
+        "fault `{name}` is divided at {} contours between depths of {top} and {bottom} m; angles of its triangles are at least {:.0} degrees{}",
         sheet.rows.len(),
         sheet.least_angle().to_degrees(),
+        if heights {
+            "; its file has heights, with no depth above zero, which count as depths below"
+        } else {
+            ""
+        },
     );
     let count = sheet.corners.len();
     let Sheet { nodes, corners, .. } = sheet;
@@ -60,8 +67,17 @@ fn rows(spec: &DepthTriangles, bytes: &[u8]) -> Result<Vec<[f64; 3]>, Diagnostic
     Ok(rows)
 }
 
+/// Turns heights, such as those of Slab2, into depths; true if the file has heights: none above zero, and some below.
+fn turn_heights(rows: &mut [[f64; 3]]) -> bool {
+    let heights = rows.iter().all(|row| row[2] <= 0.0) && rows.iter().any(|row| row[2] < 0.0);
+    if heights {
+        rows.iter_mut().for_each(|row| row[2] = -row[2]);
+    }
+    heights
+}
+
 /// Help for a grid that is not read.
-const GRID: &str = "a grid has one variable of depths over longitude and latitude, such as `z(lat, lon)`; `gmt grdconvert a.nc b.grd --IO_NC4_CHUNK_SIZE=classic` and `nccopy -k classic a.nc b.nc` write the classic format";
+const GRID: &str = "a grid has one variable of depths over longitude and latitude, such as `z(lat, lon)`, in the classic format or netCDF-4; `nccopy -k classic a.nc b.nc` writes the classic format";
 
 const PLACE: &str = "the origin and the axes of the map: such as `[place]` with `latitude`, `longitude`, `strike = \"0 deg\"`, `up = [0, 1, 0]` and `along = [0, 0, -1]`, for x to the east and z to the south";
 

@@ -159,7 +159,7 @@ fn placed<const D: usize>(
     for (fault, (name, spec)) in scene.faults.iter().enumerate() {
         let base = base_law(spec)?;
         let cut = &tiling.faults[fault];
-        let fields = Fields::read(scene, (name, spec), &cut.places)?;
+        let fields = Fields::read(scene, (name, spec, &base), &cut.places)?;
         let cells = cut.places.iter().zip(&cut.sizes);
         let of = |(place, &spacing): (&Place<D>, &f64)| {
             let components = idealisation.components();
