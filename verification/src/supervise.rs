@@ -11,11 +11,11 @@ use std::process::{Command, ExitStatus};
 pub struct Lost {
     /// Name of the case.
     pub case: String,
-    /// How the process ended.
+    /// End of the process, in words.
     pub how: String,
 }
 
-/// What the supervisor tells a process of the suite, and what this says of itself, in a file.
+/// State of a process of the suite, in a file: the supervisor names lost cases, the process those that run.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct State {
     /// Names of the running cases.

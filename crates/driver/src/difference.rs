@@ -49,7 +49,7 @@ const NUMBERS: [&str; 7] =
 /// The column that counts steps: at other times it says nothing about the result.
 const COUNT: &str = "step";
 
-/// What two tables have in common.
+/// Extent that two tables have in common.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Overlap {
     /// Rows compared.

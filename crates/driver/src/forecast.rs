@@ -254,12 +254,12 @@ pub fn place_of_size(scene: &Scene) -> Range<usize> {
     let memory = scene.solver.memory.as_ref().map(Spanned::span);
     let largest = || grids(scene).max_by(|a, b| a.counts.nodes.total_cmp(&b.counts.nodes)).map(|g| g.place);
     let mesh = || {
-        scene.bodies.values().find_map(|body| match &body.mesh {
-            MeshSource::Fault(mesh) => Some(mesh.spacing.span()),
-            MeshSource::Gmsh(mesh) => Some(mesh.file.span()),
-            MeshSource::Abaqus(mesh) => Some(mesh.file.span()),
-            MeshSource::Quadrilateral(mesh) => Some(mesh.divisions.span()),
-            MeshSource::Block(mesh) => Some(mesh.element.span()),
+        scene.bodies.values().next().map(|body| match &body.mesh {
+            MeshSource::Fault(mesh) => mesh.spacing.span(),
+            MeshSource::Gmsh(mesh) => mesh.file.span(),
+            MeshSource::Abaqus(mesh) => mesh.file.span(),
+            MeshSource::Quadrilateral(mesh) => mesh.divisions.span(),
+            MeshSource::Block(mesh) => mesh.element.span(),
         })
     };
     let fault = || scene.faults.values().next().map(Fault::span);

@@ -1,5 +1,6 @@
 //! Plans a scene of spring-sliders.
 
+mod digits;
 mod history;
 mod output;
 mod parts;
@@ -15,7 +16,7 @@ use crate::scene::slider::{self, SliderScene};
 use crate::slider::Plan;
 use asperity_cycles::slider::{Problem, Rows};
 use asperity_friction::slider::{History, Slider, System};
-use settings::unresolved;
+use digits::unresolved;
 use std::ops::Range;
 use std::path::Path;
 

@@ -101,6 +101,12 @@ pub(crate) fn kind(bytes: &[u8]) -> Option<Kind> {
     if has(b"$MeshFormat") {
         return Some(Kind::Gmsh);
     }
+    // Data appended to a VTU file may be raw.
+    if let [b'<', ..] = start.trim_ascii_start()
+        && (has(b"<?xml") || has(b"<VTKFile"))
+    {
+        return Some(Kind::Xml);
+    }
     // A text may be cut within a character.
     match std::str::from_utf8(start) {
         Ok(text) => of_text(text),
@@ -131,12 +137,12 @@ fn of_text(text: &str) -> Option<Kind> {
     let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
     let first = lines.next().unwrap_or_default();
     let upper = first.to_uppercase();
-    if text.contains('\0') {
-        return Some(if half_are_zero(text.as_bytes()) { Kind::Utf16 } else { Kind::Binary });
-    }
     let begins = |words: &[&str]| words.iter().any(|word| upper.starts_with(word));
     if begins(&["<?XML", "<VTKFILE"]) {
         return Some(Kind::Xml);
+    }
+    if text.contains('\0') {
+        return Some(if half_are_zero(text.as_bytes()) { Kind::Utf16 } else { Kind::Binary });
     }
     if first == "ply" {
         return Some(Kind::Ply);
@@ -156,7 +162,7 @@ fn of_text(text: &str) -> Option<Kind> {
     if first.starts_with('*') && holds(&["*node", "*heading", "*part", "*element", "*include"]) {
         return Some(Kind::Abaqus);
     }
-    let any = |is: &dyn Fn(&str) -> bool| text.lines().any(|line| is(line));
+    let any = |is: &dyn Fn(&str) -> bool| text.lines().any(is);
     let grid =
         |line: &str| ["GRID,", "GRID*", "GRID ", "BEGIN BULK"].iter().any(|word| line.starts_with(word));
     if begins(&["SOL ", "CEND", "BEGIN BULK", "GRID", "$"]) && any(&grid) {
@@ -170,7 +176,7 @@ fn of_text(text: &str) -> Option<Kind> {
 }
 
 impl Kind {
-    /// What it is, in words.
+    /// Name of the kind, in words.
     fn words(self) -> &'static str {
         match self {
             Self::Empty => "it is empty",
@@ -262,14 +268,14 @@ impl Reader {
     }
 }
 
-/// What is wrong with a file that is of another kind than those of a reader; `None` if it may be one of those.
+/// Complaint about a file that is of another kind than those of a reader; `None` if it may be one of those.
 pub(crate) fn other(bytes: &[u8], reader: Reader) -> Option<Wrong> {
     let found = kind(bytes).filter(|kind| !reader.takes(*kind))?;
     let mut message = found.words().to_string();
-    if found == Kind::OtherCoding {
-        if let Some(place) = undecoded(bytes) {
-            message += &place;
-        }
+    if found == Kind::OtherCoding
+        && let Some(place) = undecoded(bytes)
+    {
+        message += &place;
     }
     Some(Wrong::new(message, reader.help(found)))
 }

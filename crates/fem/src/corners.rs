@@ -51,7 +51,7 @@ pub fn departure(course: &Table, dt: f64) -> Option<(f64, f64)> {
     let between = |(&time, &entry): (&f64, &f64)| {
         let s = time / dt;
         let (from, share) = (s.floor(), s - s.floor());
-        if share < ON_END || share > 1.0 - ON_END {
+        if !(ON_END..=1.0 - ON_END).contains(&share) {
             return None;
         }
         let (before, after) = (course.value(from * dt), course.value((from + 1.0) * dt));
@@ -117,6 +117,8 @@ mod tests {
         assert_eq!(departure(&table, 1.0), None);
         assert_eq!(departure(&table, 10.0 / 3.0), Some((1.0, 5.0)));
         assert_eq!(departure(&table, 2.0), Some((1.0, 5.0)));
-        assert_eq!(departure(&table, 2.5), Some((0.4, 6.0)));
+        // The chord from 1 at 5 s to 0 at 7.5 s.
+        let (off, time) = departure(&table, 2.5).unwrap();
+        assert!((off - 0.6).abs() < 1e-14 && time == 6.0, "{off} at {time}");
     }
 }

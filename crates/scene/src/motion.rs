@@ -264,7 +264,7 @@ impl<'de> Deserialize<'de> for Loading {
 #[derive(serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Stepped {
-    steps: TableForm<Velocity>,
+    steps: TableForm<Entry<Velocity>>,
 }
 
 shaped!(Flux as Either<Velocity, Stepped>);

@@ -22,7 +22,7 @@ pub fn is_unprintable(c: char) -> bool {
         || matches!(c, '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{feff}' | '\u{fffe}' | '\u{ffff}')
 }
 
-/// What is wrong with a key and in its value.
+/// Finds unprintable characters in a key and in its value.
 fn entry(key: &Spanned<std::borrow::Cow<'_, str>>, value: &Spanned<DeValue<'_>>) -> Option<Diagnostic> {
     text(key.get_ref(), &key.span(), "this name").or_else(|| within(value))
 }

@@ -146,6 +146,8 @@ const HIGH: f64 = 4.0;
 fn runs_away(set: &Set, kick: f64) -> Result<bool, CaseError> {
     let mut plan = plan(set, HIGH, kick, 200.0 * set.length / set.load)?;
     (plan.tolerance, plan.peaks, plan.most_events) = (1e-12, true, Some(1));
+    // The separatrix of the equations lies at rates that no rock has.
+    plan.fastest = f64::INFINITY;
     // Below its initial rate the slider has turned, and what follows does not matter.
     let turning = kick + set.load.ln() - 0.5;
     for level in (2 * PIECE..=AWAY).step_by(PIECE) {

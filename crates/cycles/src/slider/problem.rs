@@ -50,6 +50,8 @@ pub struct Problem {
     pub largest_step: Option<f64>,
     /// Number of steps after which the run gives up.
     pub most_steps: usize,
+    /// Slip rate beyond which the run ends \[m/s\], see [`ANY_ROCK`].
+    pub fastest: f64,
     /// Number of accepted steps after which the integration restarts, and can be interrupted.
     pub restart: u64,
     /// End \[s\].
@@ -78,6 +80,7 @@ impl Problem {
             first_step: None,
             largest_step: None,
             most_steps: MOST_STEPS,
+            fastest: ANY_ROCK,
             restart: RESTART,
             end,
             events: None,

@@ -5,7 +5,7 @@
 
 use super::budget::Budget;
 use super::equations::{EventKind, Piece, Uneventful, kinds};
-use super::problem::{ANY_ROCK, Problem};
+use super::problem::Problem;
 use super::rows::Due;
 use super::slide::{self, Detectors, Edge, Slide};
 use crate::components::Components;
@@ -490,7 +490,7 @@ impl Running<'_, '_> {
         self.state.run.progress.unresolved == MOST_UNRESOLVED
     }
 
-    /// The fastest slider, if it moves freely and faster than shear waves in any rock.
+    /// The fastest slider, if it moves freely and faster than the problem admits.
     fn outrun(&self, at: Clock, unknowns: &[f64]) -> Option<Outrun> {
         let system = &self.piece.problem.system;
         let rate = |i: usize| match system.imposed(i) {
@@ -498,7 +498,7 @@ impl Running<'_, '_> {
             None => self.piece.segment.slip(i, at.seconds(), unknowns).0.rate,
         };
         let rates: Vec<f64> = (0..system.sliders().len()).map(rate).collect();
-        outrun(Components::new(&rates, rates.len()), ANY_ROCK)
+        outrun(Components::new(&rates, rates.len()), self.piece.problem.fastest)
     }
 
     fn begins(&mut self, slider: usize, at: Clock, rate: f64, edge: Edge) {

@@ -1,4 +1,4 @@
-//! How the surface of a fault is seen in figures: with north up, with up up, or along its rake where no direction is known.
+//! View of the surface of a fault in figures: with north up, with up up, or along its rake where no direction is known.
 
 use super::frame::Frame;
 use super::plan::PointView;
@@ -13,7 +13,7 @@ const GENTLE: f64 = 0.5;
 /// Names of the axes.
 const NAMES: [&str; 3] = ["x", "y", "z"];
 
-/// What is known of the directions of a scene.
+/// Known directions of a scene.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Compass<'a> {
     /// Direction up.
@@ -22,7 +22,7 @@ pub(crate) struct Compass<'a> {
     pub frame: Option<&'a Frame>,
 }
 
-/// How a surface is seen.
+/// View of a surface.
 pub(crate) enum View<'a> {
     /// From above, with north up.
     Map(&'a Frame),

@@ -1,4 +1,4 @@
-//! Where the state or the rates of a fault are not finite.
+//! Place where the state or the rates of a fault are not finite.
 
 use super::plan::Plan;
 use asperity_mechanics::coordinates;

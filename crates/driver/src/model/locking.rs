@@ -1,6 +1,6 @@
 //! Elements that are too stiff where deformation keeps volume.
 //!
-//! Where ν approaches 0.5, and where plastic or viscous flow carries the deformation, volume is all but constant. Cells of first
+//! Volume is all but constant where ν approaches 0.5, and where plastic or viscous flow carries the deformation. Cells of first
 //! order have too few displacements to keep it at every integration point and deform as well. A cell of quad4 that bends has
 //! ε_y = 0 where the material would have -ν/(1-ν) ε_x: it takes `(1-ν)²/(1-2ν)` times the moment, 1.2 at ν = 0.3, 13 at 0.49 and
 //! 1250 at 0.4999. With n cells across a bar the excess falls as 1/n². Mean stresses are wrong before displacements are: ten
@@ -81,7 +81,7 @@ fn cause(of: &crate::scene::model::Material, kind: ElementKind) -> Option<(Range
     }
 }
 
-/// What does not lock in the place of an element.
+/// Elements that do not lock, in the place of one that does.
 fn remedy(scene: &Scene, body: &str, kind: ElementKind) -> String {
     let b_bar = "`formulation = \"b-bar\"`";
     let (first, second) = match kind {

@@ -101,7 +101,7 @@ pub fn doubt(
     Some(Warning::at(spec.slave.span(), message, help(spec, planned)))
 }
 
-/// What removes overlaps of facets.
+/// Remedies of overlaps of facets.
 fn help(spec: &Spec, planned: &PlannedInterface) -> String {
     let flat = planned.master_faces.iter().all(|f| f.kind.first_order());
     let smooth = match (flat && spec.smoothing.is_none(), spec.measure.get_ref()) {

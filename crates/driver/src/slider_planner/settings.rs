@@ -5,10 +5,8 @@ use crate::diagnostic::Diagnostic;
 use crate::scene::model::Spanned;
 use crate::scene::near;
 use crate::scene::slider::EventSpec;
-use crate::scene::slider::{SliderScene, SliderTime};
+use crate::scene::slider::SliderTime;
 use crate::scene::units::Time;
-use crate::slider::Plan;
-use crate::warning::Warning;
 use asperity_cycles::Thresholds;
 use asperity_ode::Method;
 use std::str::FromStr;
@@ -27,25 +25,6 @@ pub(super) struct Settings {
 const SMALLEST_TOLERANCE: f64 = 1e-14;
 /// Largest tolerance per step; above it the result is not a solution.
 const LARGEST_TOLERANCE: f64 = 0.1;
-
-/// Rounding of an unknown, in units of its last digit, up to which steps gain from a tighter tolerance.
-const DIGITS: f64 = 8.0;
-
-/// Warns of a tolerance below what the digits of the unknowns resolve.
-pub(super) fn unresolved(scene: &SliderScene, plan: &mut Plan) {
-    let problem = &plan.problem;
-    let sizes = problem.start.iter().zip(problem.system.scales()).map(|(value, scale)| value.abs() / scale);
-    let largest = sizes.fold(0.0, f64::max);
-    let least = DIGITS * f64::EPSILON * largest;
-    let Some(asked) = scene.time.tolerance.as_ref().filter(|asked| *asked.get_ref() < least) else { return };
-    let message = format!(
-        "`tolerance` is {:e}, and an unknown of {largest:.3} has digits to {:.0e}: friction over a and states are not resolved to it",
-        asked.get_ref(),
-        f64::EPSILON * largest
-    );
-    let help = format!("steps below {least:.0e} are shorter and no better");
-    plan.warnings.push(Warning::at(asked.span(), message, help));
-}
 
 impl Planner {
     pub(super) fn settings(&mut self, time: &SliderTime) -> Settings {

@@ -45,7 +45,7 @@ fn rectangle([from, to]: [[f64; 3]; 2], dip: f64, width: f64, size: f64) -> Stri
     )
 }
 
-/// What the plan refuses about a scene.
+/// Refusal of a scene by its plan.
 fn refused(kinematics: &str, faults: &[String], folder: &Path) -> Option<String> {
     let scene = scene::read_in(&text(kinematics, faults), folder).unwrap_or_else(|e| panic!("{e}"));
     plan_scene(&scene).err().map(|e| e.message)
@@ -69,7 +69,7 @@ fn a_line_neither_crosses_itself_nor_folds_back() {
         assert_refused(
             kinematics,
             &one(&[[0.0, 0.0], [0.0, -20.0], [0.0, -10.0], [0.0, -40.0]]),
-            "folds back over itself",
+            "crosses itself or lies on itself",
         );
         // At a vertex of both parts, and within cells.
         for y in [-10.0, -10.2] {

@@ -115,20 +115,6 @@ fn a_sliding_block_carries_cohesion_times_area_and_friction_times_force() {
 }
 
 #[test]
-fn cohesion_does_not_hold_a_block_that_is_pulled_off() {
-    for (stepper, enforcement) in [("implicit", PENALTY), ("implicit", MIXED), ("static-explicit", PENALTY)] {
-        let pushed = Pushed { in_space: false, measure: "mortar", enforcement, stepper, law: COULOMB };
-        // It slides, and then all of it leaves the plate.
-        let lifted = r#"{ to = 0.01 }"#;
-        let text = varied(&pushed.text(), &[With("stages[1].conditions[1].y", lifted)]);
-        let (_, record) = simulate(&text);
-        let end = &record.stage_ends().last().unwrap().interfaces[0];
-        let all = end.normal_traction.iter().chain(&end.shear_traction);
-        assert!(all.into_iter().all(|t| *t == 0.0), "{stepper}: {:?}", end.shear_traction);
-    }
-}
-
-#[test]
 fn a_field_of_cohesion_reaches_the_points_of_an_interface() {
     let pushed = Pushed {
         in_space: false,

@@ -124,7 +124,7 @@ fn a_name_as_long_as_names_may_be_is_run_again() {
     let names = fs::read_dir(folder.join("out")).unwrap().map(|entry| entry.unwrap().file_name());
     let names: Vec<String> = names.map(|name| name.into_string().unwrap()).collect();
     assert_eq!(names.len(), 2);
-    assert!(names.iter().any(|n| *n == name) && names.iter().any(|n| n.ends_with(".previous")), "{names:?}");
+    assert!(names.contains(&name) && names.iter().any(|n| n.ends_with(".previous")), "{names:?}");
 }
 
 #[test]

@@ -234,12 +234,8 @@ fn segments_that_meet_end_to_end_are_one_fault() {
         let lines = [("lower", upright(&grid, 0..20)), ("upper", upright(&grid, 20..48))];
         let parts = of_lines(kinematics, &lines, "").unwrap();
         same(&whole, &parts);
-        assert_eq!(parts.notes.len(), 1, "{:?}", parts.notes);
-        assert!(
-            parts.notes[0].contains("`lower` and `upper` meet: the point at (0, -14000) m"),
-            "{:?}",
-            parts.notes
-        );
+        let met = |note: &&String| note.contains("`lower` and `upper` meet: the point at (0, -14000) m");
+        assert_eq!(parts.notes.iter().filter(met).count(), 1, "{:?}", parts.notes);
         assert_eq!(parts.faults[0].points.len(), 21);
         let (x, y) = (onsets(&whole), onsets(&parts));
         // Only the numbers of the points differ, and with them the order of sums.
@@ -301,7 +297,8 @@ fn a_patch_inside_a_plane_and_the_plane_around_it_are_one_fault() {
     same(&whole, &parts);
     // 4 x 3 nodes of the patch, of which 10 are on its border.
     assert_eq!(parts.faults[0].points.len(), 12);
-    assert!(parts.notes[0].contains("meet: 10 points, the first at"), "{:?}", parts.notes);
+    let met = |note: &String| note.contains("meet: 10 points, the first at");
+    assert!(parts.notes.iter().any(met), "{:?}", parts.notes);
 }
 
 #[test]
@@ -329,7 +326,8 @@ fn faces_of_two_faults_and_branches_are_refused_with_words() {
     let apart =
         of_lines("antiplane", &[("main", upright(&grid, 0..48)), ("splay", branch[1..].to_vec())], "")
             .unwrap();
-    assert_eq!((apart.faults.len(), apart.notes.len()), (2, 0));
+    assert_eq!(apart.faults.len(), 2);
+    assert!(apart.notes.iter().all(|note| !note.contains("meet")), "{:?}", apart.notes);
 }
 
 /// Two adjacent blocks with these divisions; the right one has this depth \[km\].

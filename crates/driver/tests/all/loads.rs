@@ -190,7 +190,7 @@ fn equal_steps_say_by_how_much_they_pass_over_a_blow() {
     for part in ["100 equal steps", "pressure of `b.left`", "1.232 s", "1.000e6 Pa, 100.00 %"] {
         assert!(found[0].contains(part), "{part}: {}", found[0]);
     }
-    assert_eq!(warned("10000"), [String::new(); 0]);
+    assert_eq!(warned("10000"), Vec::<String>::new());
 }
 
 /// A block is pressed on a plane and drawn, in the first stage without friction.

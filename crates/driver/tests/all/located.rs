@@ -316,7 +316,8 @@ fn a_strike_slip_event_in_a_half_space_is_published_as_one_below_the_ground() {
     let quakeml = std::fs::read_to_string(out.join("events.quakeml")).unwrap();
     let value = |text: &str, key: &str| -> f64 {
         let rest = text.split(&format!("<{key}>")).nth(1).unwrap();
-        numbers(&rest.split("</value>").next().unwrap().replacen("<value>", " ", 1))[0]
+        let value = rest.split("</value>").next().unwrap();
+        numbers(value.split("<value>").last().unwrap())[0]
     };
     let plane = |key: &str| {
         let rest = quakeml.split(&format!("<{key}>")).nth(1).unwrap().to_string();

@@ -14,7 +14,8 @@ fn text(geometry: &str, rake: [f64; 3], output: &str) -> String {
          [medium]\nkind = \"half-space\"\nmaterial = \"rock\"\n"
         .to_string();
     let other = "rectangle = { from = [40, -9, 0], to = [40, -9, 4], dip = \"90 deg\", width = 2, size = 2 }";
-    for (name, geometry, creep) in [("main", geometry, 1e-9), ("other", other, 1e-30)] {
+    let parts = [("main", geometry, rake, 1e-9), ("other", other, [0.0, 0.0, 1.0], 1e-30)];
+    for (name, geometry, rake, creep) in parts {
         let _ = writeln!(
             text,
             "[faults.{name}]\n{geometry}\nrake = {rake:?}\n\

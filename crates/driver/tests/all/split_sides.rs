@@ -69,14 +69,14 @@ const KINDS: [[&str; 5]; 3] = [
     ],
     [
         "plane-strain",
-        "[interfaces.main]\nslave = \"B.fall.minus\"\nmaster = \"B.fall.plus\"\nmeasure = \"node-to-point\"\nsliding = \"small\"\nenforcement = { kind = \"penalty\", normal = \"1e13 Pa/m\" }\nlaw = { kind = \"coulomb\", mu = 0.5 }\n",
+        "[interfaces.main]\nslave = \"B.fall.minus\"\nmaster = \"B.fall.plus\"\nmeasure = \"node-to-point\"\nsliding = \"small\"\nenforcement = { kind = \"penalty\", normal = \"1e13 Pa/m\", tangential = \"1e13 Pa/m\" }\nlaw = { kind = \"coulomb\", mu = 0.5 }\n",
         "x = 0, y = 0",
         "x = { to = \"-1 mm\" }, y = 0",
         "implicit",
     ],
 ];
 
-/// What `asperity check` prints and refuses about a scene of one kind with a split mesh.
+/// Lines that `asperity check` prints, and its refusal, of a scene of one kind with a split mesh.
 fn checked([kinematics, surface, left, right, stepper]: [&str; 5], mesh: &str, more: &str) -> [String; 2] {
     let scene = format!(
         "schema = 1\ntitle = \"split\"\nkinematics = \"{kinematics}\"\n[materials.rock]\nyoung = \"80 GPa\"\npoisson = 0.25\ndensity = 2670\n\

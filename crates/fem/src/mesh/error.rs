@@ -286,7 +286,7 @@ pub enum MeshError {
     Numbered {
         /// The error.
         error: Box<MeshError>,
-        /// Where the numbers of each instance but the first begin.
+        /// First numbers of each instance but the first.
         origins: Vec<(u64, String)>,
     },
     /// Elements of a group of faces or nodes that belong to no cell.

@@ -129,7 +129,7 @@ fn small_faults_of_a_file_are_named_with_their_lines() {
         ),
         ("20, 2, 3, 6, 5", "20, 2, 3, 6, 5, 1", TOO_MANY),
         ("20, 2, 3, 6, 5", "20, 5, 6, 3, 2", INVERTED),
-        ("west, 20", "west, 21", "the set `Both` refers to element 21, which does not exist"),
+        ("west, 20", "west, 21", "the set `Top` refers to element 21, which does not exist"),
         (
             "west, 20",
             "wets, 20",

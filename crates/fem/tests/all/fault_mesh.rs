@@ -428,7 +428,7 @@ fn wrong_input_is_refused_with_what_would_be_right() {
     let overturned = refused(&with(vec![[0.0, 0.0], [0.0, -10.0], [3.0, -9.0], [3.0, -20.0]]));
     assert!(matches!(overturned, FaultMeshError::Turned { segment: 1 }), "{overturned}");
     let doubled = refused(&with(vec![[0.0, 0.0], [0.0, -10.0], [0.0, -10.0]]));
-    assert!(matches!(doubled, FaultMeshError::Turned { segment: 1 }), "{doubled}");
+    assert!(matches!(doubled, FaultMeshError::Doubled { first: 1, .. }), "{doubled}");
     let FaultMeshError::Spacing(SpacingError::Size { coarser, finer, .. }) =
         refused(&FaultMesh { spacing: Spacing::Constant(8.0), ..good.clone() })
     else {

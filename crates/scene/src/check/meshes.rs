@@ -36,11 +36,11 @@ impl Checker<'_> {
             }
             MeshSource::Gmsh(file) => {
                 self.file(file.unit.as_ref(), file.groups.as_ref(), &file.split);
-                self.plus(body, (&file.split, &file.plus));
+                self.plus(body, &file.split, &file.plus);
             }
             MeshSource::Abaqus(file) => {
                 self.file(file.unit.as_ref(), file.elsets.as_ref(), &file.split);
-                self.plus(body, (&file.split, &file.plus));
+                self.plus(body, &file.split, &file.plus);
             }
         }
     }
@@ -175,7 +175,8 @@ impl Checker<'_> {
     fn plus(
         &mut self,
         body: &Body,
-        (surfaces, directions): (&[Spanned<String>], &BTreeMap<String, Spanned<Vec<f64>>>),
+        surfaces: &[Spanned<String>],
+        directions: &BTreeMap<String, Spanned<Vec<f64>>>,
     ) {
         // The mesh of an extruded body is plane.
         let axes: &[usize] =

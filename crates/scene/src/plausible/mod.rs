@@ -19,7 +19,7 @@ use toml_edit::{Document, Item, Value};
 /// Speed that shear waves exceed in no rock of the crust or the upper mantle \[m/s\] (PREM; Dziewonski & Anderson 1981).
 const ANY_ROCK: f64 = 5e3;
 
-/// What is known of a scene beside its values.
+/// Facts about a scene beside its values.
 #[derive(Clone, Copy, Debug)]
 pub struct Known {
     /// True for a scene of spring-sliders.
@@ -237,7 +237,7 @@ mod tests {
     use super::*;
     use crate::units::Dimension;
 
-    /// What is said of a scene: whether it is refused, with the line and the message.
+    /// Refusals and warnings of a scene, with line and message.
     fn said(text: &str, known: Known) -> Vec<(bool, usize, String)> {
         let (mut errors, mut warnings) = (Vec::new(), Vec::new());
         judge(text, known, &mut errors, &mut warnings);

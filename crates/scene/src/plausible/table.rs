@@ -114,7 +114,7 @@ pub(super) const QUANTITIES: &[Quantity] = &[
     row(("gradients of stress", "Pa/m"), &["gradient"], [1e2, 1e8], "\"16 MPa/km\""),
     row(("stiffnesses per area", "Pa/m"), &[], [1e2, 1e20], "\"10 GPa/m\""),
     row(("lengths of slip over which friction changes", "m"), &["l", "d_c"], [1e-8, 10.0], "\"10 um\""),
-    row(("sizes of cells", "m"), &["size", "spacing"], [1e-7, 1e6], "\"1 mm\""),
+    row(("sizes of cells", "m"), &["size", "spacing"], [1e-7, 1e7], "\"1 mm\""),
     row(("thicknesses of zones that slip", "m"), &["heat.thickness"], [1e-6, 1.0], "\"10 mm\""),
     row(("lengths and positions", "m"), &["points"], [0.0, EARTH], "\"10 km\""),
     row(("lengths and positions", "m"), &[], [0.0, EARTH], "\"10 km\""),

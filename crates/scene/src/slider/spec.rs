@@ -37,7 +37,7 @@ pub struct SliderScene {
     pub events: Option<EventSpec>,
     /// Rows of the histories.
     pub output: Option<OutputSpec>,
-    /// What is doubtful in it.
+    /// Doubts about it.
     #[serde(skip)]
     pub warnings: Vec<Warning>,
 }

@@ -41,7 +41,6 @@ pub fn ruptures(scene: &Scene, cycles: &Cycles) -> Result<(Ruptures, Vec<Warning
 
 /// The bodies, the time in which a shear wave crosses the faults and returns \[s\], the largest rate of the loads \[m/s\], and what is
 /// doubtful.
-#[expect(clippy::type_complexity, reason = "four results of one plan")]
 fn bodies<const D: usize>(
     scene: &Scene,
     cycles: &Cycles,

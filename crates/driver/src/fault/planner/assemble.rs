@@ -18,7 +18,7 @@ use crate::laws::{self, Theta};
 use crate::outrun;
 use crate::scene::law::LawChoice;
 use crate::scene::model::{
-    Creep, Fault as Spec, Flux, Injection as Well, Scene, SlipSpec, Spanned, Station as Asking,
+    Creep, Fault as Spec, Flux, Injection as Well, Scene, SlipSpec, Station as Asking,
 };
 use crate::thresholds;
 use crate::warning::Warning;
@@ -91,6 +91,15 @@ pub(super) fn turns(scene: &Scene) -> bool {
     scene.faults.values().any(free)
 }
 
+/// Refusal of the law or the start of a point, with its place.
+fn at_point<const D: usize>(named: &[(&String, &Spec)], point: &Placed<D>, failure: &Failure) -> Diagnostic {
+    let (name, spec) = named[point.fault];
+    let error = crate::refused::refused(&spec.law, failure);
+    let at = coordinates::in_words(&point.point.place.at);
+    let place = failure.point().map_or_else(String::new, |_| format!("; it is on fault `{name}` at {at}"));
+    Diagnostic { message: format!("{}{place}", error.message), ..error }
+}
+
 /// Plan of faults from their points and surroundings.
 pub(super) fn plan_of<const D: usize>(
     scene: &Scene,
@@ -120,14 +129,7 @@ pub(super) fn plan_of<const D: usize>(
         floor: Floor::new(placed.iter().map(|p| p.floor)),
         opening,
     };
-    let start = start(&placed, &fault).map_err(|(p, failure)| {
-        let (name, spec) = named[placed[p].fault];
-        let error = crate::refused::refused(&spec.law, &failure);
-        let at = coordinates::in_words(&placed[p].point.place.at);
-        let place =
-            failure.point().map_or_else(String::new, |_| format!("; it is on fault `{name}` at {at}"));
-        Diagnostic { message: format!("{}{place}", error.message), ..error }
-    })?;
+    let start = start(&placed, &fault).map_err(|(p, failure)| at_point(&named, &placed[p], &failure))?;
     let settings = settings(scene, &placed, end)?;
     pressing::rests(scene, (&placed, &fault), (&start, settings.thresholds.on))?;
     let mut warnings = around.warnings;
@@ -366,12 +368,15 @@ fn endless(scene: &Scene, loading: f64) -> Vec<Warning> {
 /// Warnings about fluid that has run beyond the ends of its fault before the run ends \[s\].
 fn spread<const D: usize>(scene: &Scene, placed: &[Placed<D>], end: f64) -> Vec<Warning> {
     let of = |(k, (name, spec)): (usize, (&String, &Spec))| {
-        let injection = spec.injection.as_ref()?;
+        let wells = spec.injection.as_ref()?;
         let along = placed.iter().filter(|p| p.fault == k).map(|p| p.point.place.along);
         let ends = along.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], s| [l.min(s), h.max(s)]);
-        let at = injection.at.get_ref().0;
-        let fluid = Fluid { at, ends, diffusivity: *injection.diffusivity.get_ref(), duration: end };
-        crate::doubts::fluid(name, injection.diffusivity.span(), fluid)
+        // One warning per fault: of the first well whose fluid has run too far.
+        wells.0.iter().find_map(|well| {
+            let at = well.at.get_ref().0;
+            let fluid = Fluid { at, ends, diffusivity: *well.diffusivity.get_ref(), duration: end };
+            crate::doubts::fluid(name, well.diffusivity.span(), fluid)
+        })
     };
     scene.faults.iter().enumerate().filter_map(of).collect()
 }

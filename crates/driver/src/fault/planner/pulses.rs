@@ -52,7 +52,7 @@ pub(crate) fn doubts<'a>(
     asked.zip(amplitudes).filter_map(doubt).collect()
 }
 
-/// What counts of the points of faults in equilibrium.
+/// State of the points of faults in equilibrium, as far as it counts for pulses.
 pub(super) fn at_rest(fault: &Fault) -> Vec<Pushed> {
     let of = |p: usize| Pushed {
         amplitude: 0.0,

@@ -40,7 +40,10 @@ pub(crate) fn resolved<const D: usize>(
             warnings.extend(resolution::check(&found, spec, D == 3)?);
             let (length, extent) = (found.nucleation.length, extent(points()));
             let surface = format!("fault `{name}`");
-            warnings.extend(doubts::nucleation(&surface, spec.law.span(), length, extent));
+            // Of a file without a unit, `triangles::tiny` says what is probably wrong.
+            let unknown = spec.triangles.as_ref().is_some_and(|surface| surface.unit().is_none());
+            let doubt = doubts::nucleation(&surface, spec.law.span(), length, extent);
+            warnings.extend(doubt.filter(|_| !unknown));
             all.push(found);
         }
     }

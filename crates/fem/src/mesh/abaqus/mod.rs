@@ -77,7 +77,7 @@ enum Level {
 }
 
 impl Level {
-    /// Where its nodes, elements and sets go.
+    /// Destination of its nodes, elements and sets.
     fn scope<'a>(&'a mut self, file: &'a mut Scope) -> &'a mut Scope {
         match self {
             Self::File => file,
@@ -232,7 +232,7 @@ impl Reader {
         Ok(())
     }
 
-    /// What the file is made of. A part that no instance places is the file, if it is the only one.
+    /// Parts and instances of the file. A part that no instance places is the file, if it is the only one.
     fn whole(&mut self) -> Result<Scope, MeshError> {
         let mut parts = std::mem::take(&mut self.parts).into_values();
         if let (true, Some(only)) = (self.instances.names.is_empty(), parts.next()) {

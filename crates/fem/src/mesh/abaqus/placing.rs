@@ -3,7 +3,7 @@
 use super::lines::Keyword;
 use crate::mesh::error::MeshError;
 
-/// Where an instance lies.
+/// Placing of an instance.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Placing {
     translation: [f64; 3],

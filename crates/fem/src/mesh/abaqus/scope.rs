@@ -1,4 +1,4 @@
-//! What is read at one level of a file: the file itself with its assembly, a part, or an instance.
+//! Entities of one level of a file: the file itself with its assembly, a part, or an instance.
 
 use super::lines::Keyword;
 use super::numbers;

@@ -34,11 +34,14 @@ fn reason(error: &Error) -> String {
     error.to_string().replace('\n', " ")
 }
 
+/// Dimensions by name with their sizes, and variables of a file.
+type Parts = (Vec<(String, usize)>, Vec<Variable>);
+
 /// Names and lengths of the dimensions, and the variables, of the first group.
 ///
 /// # Errors
 /// Reason of the library.
-pub(super) fn parts(file: &NcFile) -> Result<(Vec<(String, usize)>, Vec<Variable>), String> {
+pub(super) fn parts(file: &NcFile) -> Result<Parts, String> {
     let all = file.dimensions().map_err(|e| reason(&e))?;
     let length = |size: u64| usize::try_from(size).unwrap_or(usize::MAX);
     let dimensions: Vec<(String, usize)> = all.iter().map(|d| (d.name.clone(), length(d.size))).collect();

@@ -95,7 +95,7 @@ impl RawMesh {
         Ok(mesh)
     }
 
-    /// Whether each block of the file is asked for.
+    /// True for each block of the file that is asked for.
     fn asked(&self, options: &Options, names: &[Vec<String>]) -> Vec<bool> {
         let is = |name: &String| {
             let asked = |asked: &String| asked == name || self.aliases.get(asked) == Some(name);

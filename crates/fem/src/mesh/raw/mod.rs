@@ -85,7 +85,7 @@ pub struct RawMesh {
     pub unread: Vec<Unread>,
     /// Further names of sets: `instance.set`, and the name of the set.
     pub aliases: BTreeMap<String, String>,
-    /// Where the numbers of instances but the first begin, for files that count each instance from one.
+    /// First numbers of instances but the first, for files that count each instance from one.
     pub origins: Vec<(u64, String)>,
 }
 

@@ -17,7 +17,7 @@ const SPARE: usize = 64 << 20;
 pub(super) struct Arrays<'a> {
     pub document: &'a Document<'a>,
     storage: Storage,
-    /// What is left of [`SPARE`].
+    /// Remainder of [`SPARE`].
     spare: Cell<usize>,
 }
 

@@ -23,7 +23,7 @@ const FOLDED: f64 = 0.25;
 /// Angle between the parts of such a bend: 2 arcsin(1/4).
 const SHARPEST: f64 = 29.0 / 180.0 * PI;
 
-/// How close cells may be.
+/// Least distances of cells.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Spaced {
     /// Slip is uniform over cells in homogeneous rock.
@@ -32,7 +32,7 @@ pub(super) enum Spaced {
     Apart,
 }
 
-/// What is wrong with two cells.
+/// Faults of the geometry of two cells.
 enum Fault {
     Touches,
     Near(f64),
@@ -115,7 +115,7 @@ fn bounds(cell: &Cell) -> [At; 2] {
     [low - margin, high + margin]
 }
 
-/// What is wrong with two cells of one fault in rock.
+/// Finds faults of the geometry of two cells of one fault in rock.
 fn within(a: &Cell, b: &Cell) -> Option<Fault> {
     let common = a.common(b);
     if common.is_empty() {
@@ -134,7 +134,7 @@ fn within(a: &Cell, b: &Cell) -> Option<Fault> {
     edges.into_iter().any(meets).then_some(Fault::Touches)
 }
 
-/// What is wrong with two cells of one fault that are no neighbours.
+/// Finds faults of the geometry of two cells of one fault that are no neighbours.
 fn far(a: &Cell, b: &Cell) -> Option<Fault> {
     let ([low, high], [from, to]) = (a.bounds(), b.bounds());
     // Boxes are quick to compare.
@@ -156,7 +156,7 @@ fn far(a: &Cell, b: &Cell) -> Option<Fault> {
     (!apart).then_some(if close { Fault::Touches } else { Fault::Near(distance) })
 }
 
-/// How two cells of different faults meet.
+/// Finds out whether and how two cells of different faults meet.
 enum Met {
     Clear,
     /// End to end, or edge to edge, at this position.

@@ -5,7 +5,7 @@ use super::super::frame;
 use crate::columns::file::{read, refused};
 use crate::columns::{Columns, Wrong};
 use crate::diagnostic::Diagnostic;
-use crate::scene::model::{Scene, Spanned};
+use crate::scene::model::Scene;
 use crate::scene::units::Dimension;
 use std::collections::BTreeSet;
 use std::ops::Range;
