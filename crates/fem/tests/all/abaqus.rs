@@ -143,7 +143,7 @@ fn small_faults_of_a_file_are_named_with_their_lines() {
         ),
         ("10, S2", "10", "*SURFACE, line 28: expected an element or set, and a face S1 to S6, found `10`"),
         ("*Material", "*Include, input=other.inp", INCLUDE),
-        ("*Material", "*Part, name=a\n*Part", PARTS),
+        ("*Material, name=granite", "*Part", PARTS),
         ("*Heading", "*NGEN", GENERATED),
     ] {
         assert_eq!(changed(from, to), message);
@@ -155,7 +155,7 @@ const TOO_MANY: &str =
 const INVERTED: &str = "element 20 (quad4) is inverted: its Jacobian determinant, relative to its greatest, falls to -1.000 \
     (it must be positive)";
 const INCLUDE: &str = "*INCLUDE, line 29: other files are not read: put their lines into this one";
-const PARTS: &str = "*PART, line 30: expected NAME=name, found `*PART`";
+const PARTS: &str = "*PART, line 29: expected NAME=name, found `*PART`";
 const GENERATED: &str = "*NGEN, line 1: nodes and elements must be written out, in one system of axes";
 
 #[test]
