@@ -191,5 +191,25 @@ fn in_the_plane(ledger: &mut Ledger) -> Result<(), CaseError> {
             .cost(&done.cost)
             .record();
     }
+    across_the_plane(ledger, &done)
+}
+
+/// Stress across the plane, which has no strain.
+fn across_the_plane(ledger: &mut Ledger, done: &Written) -> Result<(), CaseError> {
+    let table = done.files.table("events/coulomb_000.csv")?;
+    let [xx, yy, zz] = ["stress_xx", "stress_yy", "stress_zz"].map(|name| table.column(name));
+    let (xx, yy, zz) = (xx?, yy?, zz?);
+    let largest = zz.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let wanted = xx.iter().zip(&yy).map(|(xx, yy)| super::POISSON * (xx + yy));
+    let worst = zz.iter().zip(wanted).map(|(zz, wanted)| (zz - wanted).abs()).fold(0.0, f64::max);
+    ledger
+        .claim("stress across the plane along a line at a depth over an event in plane strain: largest error over the largest")
+        .value(worst / largest)
+        .at_most(1e-8)
+        .evidence(Evidence::Exact, "nu (stress_xx + stress_yy): plane strain")
+        .because("all three have ten digits, and the terms of the sum are at most some times as large")
+        .why_not_tighter("the last digit may be off by any part of a half")
+        .cost(&done.cost)
+        .record();
     Ok(())
 }

@@ -1,8 +1,9 @@
 //! Coupling of a fault to the plates that load it: locked above, creeping under constant stress below.
 
-use super::receivers::scene;
+use super::receivers::{PLATES_RAKE, RAKE, STABLE, direction, rectangle, scene};
 use crate::cases::written::Written;
 use crate::{CaseError, Evidence, Ledger, Plot, Series};
+use asperity_vary::SceneText;
 use std::f64::consts::FRAC_PI_2;
 
 /// Depth down to which the fault is locked, and depth below which the rock creeps with the plates \[m\].
@@ -17,6 +18,7 @@ const INTERVALS: usize = 400;
 /// See the module.
 pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     ends(ledger)?;
+    oblique(ledger)?;
     partly(ledger)
 }
 
@@ -86,6 +88,31 @@ fn ends(ledger: &mut Ledger) -> Result<(), CaseError> {
             )
             .because(why)
             .why_not_tighter("the digits of the table, and the tolerance of one step")
+            .cost(&done.cost)
+            .record();
+    }
+    Ok(())
+}
+
+/// Coupling of a fault in space that slides obliquely to its plates, and against them.
+fn oblique(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let rate = 0.4 * PLATES;
+    let text = scene("3d", STABLE, "1 d", &rectangle(rate, [4e3, 4e3, 2e3]));
+    for (rake, what) in [(PLATES_RAKE, "obliquely to"), (RAKE + 180.0, "against")] {
+        let text = SceneText::new(&text)
+            .add("faults.main.slip", "free")
+            .add("faults.main.creep.rake", format!("{:?}", direction(rake)))
+            .text()?;
+        let done = Written::of(&text)?;
+        let found = *done.files.table("locking.csv")?.column("coupling of main")?.first().ok_or("no row")?;
+        ledger
+            .claim(format!("coupling at the start of a fault in space that slides {what} its plates"))
+            .value(found)
+            .equals(1.0 - rate / PLATES * (rake - RAKE).to_radians().cos())
+            .absolute(1e-9)
+            .evidence(Evidence::Exact, "1 - V.Vp/Vp^2")
+            .because("the column has ten digits")
+            .why_not_tighter("the last digit may be off by any part of a half")
             .cost(&done.cost)
             .record();
     }

@@ -27,7 +27,7 @@ fn map(ledger: &mut Ledger, done: &Written, slip: f64) -> Result<(), CaseError> 
     let found = [table.column("east")?, table.column("north")?, table.column("up")?];
     let mut worst = if xs.len() == 15 * 14 { 0.0_f64 } else { f64::NAN };
     for (k, (&x, &z)) in xs.iter().zip(&zs).enumerate() {
-        let [u, v, w] = okada(hanging(done) * slip, SIZE, [x, z]);
+        let [u, v, w] = okada(hanging(done) * slip, RAKE, SIZE, [x, z]);
         // x points to the right of the strike, and -z along it.
         let wanted = [u * right.sin() - w * along.sin(), u * right.cos() - w * along.cos(), v];
         for (found, wanted) in found.iter().zip(wanted) {
