@@ -28,6 +28,11 @@ const SLACK: f64 = 1e-2;
 const SERIES: f64 = 1.0;
 /// Below this μ/a the strength is closer to linear in V than to a logarithm.
 const LINEAR: f64 = 1.0;
+/// Share ε of f_ref below which the memory of normal traction ends where points lift off: with x = f_n/(ε f_ref), ln(f_n/f_ref)
+/// is continued by `ln ε - (1 - x²)/2`, of the same value and slope at x = 1. The memory of Linker and Dieterich (1992) was
+/// measured for changes by some tens of percent. At f_n = 0 its logarithm has no limit: a point that lifts off would strengthen
+/// without bound, and friction beyond about 2 wedges it, as it does under Coulomb's law.
+const LIFT_OFF: f64 = 0.1;
 /// Iterations after which the jump of a memory of shear traction is converged to rounding: convergence is quadratic from below.
 const MOST_JUMP: usize = 60;
 
@@ -121,6 +126,10 @@ pub struct Solver<'a, F, E: Evolution> {
     log_normal: f64,
     /// True if there is no normal traction.
     open: bool,
+    /// f_n ∂/∂f_n of `log_normal`.
+    follows: f64,
+    /// True if the memory of normal traction ends at [`LIFT_OFF`].
+    lifts: bool,
     dt: f64,
 }
 
@@ -140,8 +149,17 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
             after: vec![0.0; n],
             log_normal: 0.0,
             open: false,
+            follows: 1.0,
+            lifts: false,
             dt: 0.0,
         }
+    }
+
+    /// Lets the memory of normal traction end where points lift off, as on surfaces that may part.
+    #[must_use]
+    pub(crate) fn lifting(mut self) -> Self {
+        self.lifts = true;
+        self
     }
 
     /// Sets the two-step difference of the following steps.
@@ -170,10 +188,15 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
         phi
     }
 
-    /// Sets f_n = `normal`. Without normal traction no memory of it acts: see `keep`.
+    /// Sets f_n = `normal`. Without normal traction no memory of it acts, but where it ends: see [`LIFT_OFF`] and `keep`.
     fn under(&mut self, normal: f64) {
-        let remembers = normal > 0.0 && self.parts.iter().any(|p| p.normal_memory != 0.0);
-        self.log_normal = if remembers { (normal / self.reference).ln() } else { 0.0 };
+        let remembers = (normal > 0.0 || self.lifts) && self.parts.iter().any(|p| p.normal_memory != 0.0);
+        let (share, x) = (normal / self.reference, normal / (LIFT_OFF * self.reference));
+        (self.log_normal, self.follows) = match (remembers, self.lifts && x < 1.0) {
+            (false, _) => (0.0, 1.0),
+            (true, false) => (share.ln(), 1.0),
+            (true, true) => (LIFT_OFF.ln() - 0.5 * (1.0 - x * x), x * x),
+        };
         self.open = normal == 0.0;
     }
 
@@ -285,7 +308,7 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
             phi += part.evolution.phi(evolved.state);
             first += slope * evolved.d_log_rate;
             second += slope * evolved.curvature + bend * evolved.d_log_rate * evolved.d_log_rate;
-            by_normal -= slope * d_kept * part.normal_memory;
+            by_normal -= slope * d_kept * part.normal_memory * self.follows;
         }
         let s = self.form.at(z, phi);
         let slope = s.d_log_rate + s.d_phi * first;

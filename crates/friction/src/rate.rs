@@ -329,7 +329,7 @@ impl<F: Form, E: Evolution> Law for RateLaw<F, E> {
         states: &[f64],
         mu: &mut [f64],
     ) -> Result<(), Failure> {
-        let mut solver = self.solver();
+        let mut solver = self.solver().lifting();
         for (k, (mu, &rate)) in mu.iter_mut().zip(rate).enumerate() {
             *mu = if rate == 0.0 && self.form.regular_at_rest() {
                 0.0
@@ -343,7 +343,7 @@ impl<F: Form, E: Evolution> Law for RateLaw<F, E> {
     }
 
     fn respond(&self, trials: Trials<'_>, old: &[f64], out: Responses<'_>) -> Result<(), Failure> {
-        let mut solver = self.solver();
+        let mut solver = self.solver().lifting();
         for k in 0..trials.trial.len() {
             let old = self.state(old, k);
             let answer = self.return_point(k, &trials, old, &mut solver)?;

@@ -83,6 +83,21 @@ fn implicit(
     dt: f64,
     old: &[f64],
 ) -> Result<(f64, f64, Vec<f64>), Failure> {
+    step(law, (normal, trial), stiffness, dt, old).map(|(t, v, states, _)| (t, v, states))
+}
+
+/// ∂T/∂f_n of an implicit step.
+fn slope(law: &dyn Law, point: (f64, f64), stiffness: f64, dt: f64, old: &[f64]) -> f64 {
+    step(law, point, stiffness, dt, old).unwrap().3
+}
+
+fn step(
+    law: &dyn Law,
+    (normal, trial): (f64, f64),
+    stiffness: f64,
+    dt: f64,
+    old: &[f64],
+) -> Result<(f64, f64, Vec<f64>, f64), Failure> {
     let mut states = vec![f64::NAN; old.len()];
     let (mut t, mut s, mut v, mut g, mut by_t, mut by_n) =
         ([0.0], [0.0], [0.0], [Regime::Stick], [0.0], [0.0]);
@@ -108,7 +123,7 @@ fn implicit(
             states: &mut states,
         },
     )?;
-    Ok((t[0], v[0], states))
+    Ok((t[0], v[0], states, by_n[0]))
 }
 
 /// Without a change of f_n in between, μ falls by α ln(f_2/f_1) at once, whatever the evolution.
@@ -127,6 +142,36 @@ fn a_sudden_change_of_normal_traction_lowers_friction_by_its_logarithm() {
         }
     }
     each_evolution!(Law => check(&usual::<Law>(common())));
+}
+
+/// Below ε f_ref, ε = 0.1, μ exceeds that under f_ref by α ((1 - x²)/2 - ln ε), x = f_n/(ε f_ref).
+#[test]
+fn friction_has_a_limit_where_a_point_lifts_off() {
+    let rate = 3e-7;
+    let law = bare(&[(ageing(), ALPHA)], rate);
+    let states = initial(&law);
+    let start = mu(&law, REFERENCE, rate, &states);
+    for ratio in [0.1, 0.0999, 0.05, 1e-6, 1e-300, 0.0] {
+        let rise = mu(&law, ratio * REFERENCE, rate, &states) - start;
+        let expected = ALPHA * (0.5 * (1.0 - (ratio / 0.1).powi(2)) - 0.1_f64.ln());
+        assert!((rise - expected).abs() < 1e-13, "{ratio}: {rise} {expected}");
+    }
+}
+
+/// The derivative by f_n is that of the traction on both sides of ε f_ref and at it.
+#[test]
+fn the_tangent_of_friction_follows_normal_traction_to_lift_off() {
+    let law = with_form(Regularised(parameters()), &[(ageing(), ALPHA)], 1e-7);
+    let states = initial(&law);
+    for share in [0.5, 0.2, 0.1, 0.05, 1e-3] {
+        let (normal, stiffness) = (share * REFERENCE, 1e12);
+        let at = |n: f64| implicit(&law, n, 3.0 * normal, stiffness, 1.0, &states).unwrap().0;
+        let step = 1e-5 * normal;
+        let difference = (at(normal + step) - at(normal - step)) / (2.0 * step);
+        let found = slope(&law, (normal, 3.0 * normal), stiffness, 1.0, &states);
+        // At the joint the second derivative jumps, so that the central difference is of first order there.
+        assert!((difference - found).abs() < 1e-5, "{share}: {difference} {found}");
+    }
 }
 
 /// μ - μ_ss = -α ln(f_2/f_1) e^(-δ/L) with the slip law; θ = L/V + (θ_1 - L/V) e^(-δ/L), θ_1 = (L/V)(f_2/f_1)^(-α/b), with the

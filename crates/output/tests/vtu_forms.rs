@@ -85,3 +85,41 @@ fn counts_that_lie_do_not_exhaust_the_memory() {
         assert!(reading::read(head(count).as_bytes(), "a").is_err(), "{count}");
     }
 }
+
+/// A file of `points` points whose array `a` is zero, as zlib packs it: about a thousand zeros to a byte.
+fn zeros(points: usize) -> Vec<u8> {
+    let packed = {
+        let mut out = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::best());
+        let zeros = vec![0; 1 << 16];
+        (0..points * 8 / zeros.len()).for_each(|_| std::io::Write::write_all(&mut out, &zeros).unwrap());
+        out.finish().unwrap()
+    };
+    let mut head = Vec::new();
+    for number in [1, points * 8, 0, packed.len()] {
+        head.extend_from_slice(&(number as u64).to_le_bytes());
+    }
+    let mut file = format!(
+        "<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
+         compressor=\"vtkZLibDataCompressor\"><UnstructuredGrid><Piece NumberOfPoints=\"{points}\" \
+         NumberOfCells=\"0\"><PointData><DataArray type=\"Float64\" Name=\"a\" format=\"appended\" \
+         offset=\"0\"/></PointData></Piece></UnstructuredGrid><AppendedData encoding=\"raw\">_"
+    )
+    .into_bytes();
+    file.extend(head);
+    file.extend(packed);
+    file.extend(b"</AppendedData></VTKFile>");
+    file
+}
+
+#[test]
+fn an_array_that_unpacks_to_far_more_than_the_file_holds_is_refused_before_it_is_unpacked() {
+    let error = reading::read(&zeros(1 << 24), "a").unwrap_err().to_string();
+    assert!(error.starts_with("array `a`: it announces 16777216 values in "), "{error}");
+    assert!(error.ends_with("more than 100 to one, as damaged files do"), "{error}");
+}
+
+#[test]
+fn a_million_zeros_are_a_field_like_any_other() {
+    // The points are missing: the array itself was read.
+    assert_eq!(reading::read(&zeros(1 << 20), "a").unwrap_err().to_string(), "it has no `Points`");
+}

@@ -6,9 +6,10 @@
 //! 1250 at 0.4999. With n cells across a bar the excess falls as 1/n². Mean stresses are wrong before displacements are: ten
 //! cells at ν = 0.45 bend 3 % too little, and stresses at the free end are tens of times too large.
 
+use super::unlocked::remedy;
 use super::{Model, material};
 use crate::diagnostic::Diagnostic;
-use crate::scene::model::{Formulation, Scene, Sliding, Spanned, Stepper};
+use crate::scene::model::{Formulation, Scene};
 use crate::warning::Warning;
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
@@ -79,29 +80,4 @@ fn cause(of: &crate::scene::model::Material, kind: ElementKind) -> Option<(Range
         (.., Some(branches)) => flow(branches.span(), "viscous"),
         _ => None,
     }
-}
-
-/// Elements that do not lock, in the place of one that does.
-fn remedy(scene: &Scene, body: &str, kind: ElementKind) -> String {
-    let b_bar = "`formulation = \"b-bar\"`";
-    let (first, second) = match kind {
-        ElementKind::Quad4 => (b_bar.to_string(), "quad8"),
-        ElementKind::Hex8 => (b_bar.to_string(), "hex20"),
-        ElementKind::Tri3 => (format!("quad4 with {b_bar}"), "tri6"),
-        ElementKind::Tet4 => (format!("hex8 with {b_bar}"), "tet10"),
-        _ => (format!("hex8 with {b_bar}"), "wedge15"),
-    };
-    if second_order(scene, body) { format!("use {first}, or {second}") } else { format!("use {first}") }
-}
-
-/// True if cells of second order can take the place of those of a body.
-fn second_order(scene: &Scene, body: &str) -> bool {
-    let own = |set: &Spanned<String>| set.get_ref().split('.').next() == Some(body);
-    let slides = scene.interfaces.values().any(|i| {
-        (own(&i.slave) || own(&i.master))
-            && (*i.sliding.get_ref() == Sliding::Finite || i.smoothing.is_some())
-    });
-    // Masses at the nodes of explicit steps, and the areas at the nodes of faults, are those of first order.
-    let explicit = *scene.time.stepper.get_ref() == Stepper::Explicit;
-    !slides && !explicit && scene.faults.is_empty()
 }

@@ -8,6 +8,7 @@ pub mod meshes;
 pub(crate) mod sets;
 pub mod sizes;
 pub mod surfaces;
+mod unlocked;
 
 use crate::diagnostic::Diagnostic;
 use crate::forecast::{self, Counts};
@@ -143,6 +144,10 @@ fn cell_block<const D: usize>(
     idealisation: Idealisation,
 ) -> Result<CellBlock<D>, Diagnostic> {
     let place = body.formulation.as_ref().map_or_else(|| body.material.span(), scene::Spanned::span);
+    let dilates = !matches!(idealisation, Idealisation::PlaneStress | Idealisation::Antiplane);
+    if dilates {
+        unlocked::admit(scene, (name, body), mesh.blocks[block].kind)?;
+    }
     let formulation = match body.formulation.as_ref().map(|f| *f.get_ref()) {
         Some(scene::Formulation::BBar) => Formulation::BBar,
         _ => Formulation::Standard,

@@ -14,7 +14,7 @@ use crate::strength::Form;
 
 impl<F: Form, E: Evolution> RateLaw<F, E> {
     pub(super) fn estimate(&self, taken: &Taken<'_>, out: &mut [f64]) {
-        let mut solver = self.solver();
+        let mut solver = self.solver().lifting();
         for (k, out) in out.iter_mut().enumerate() {
             *out = self.point_error(k, taken, &mut solver);
         }

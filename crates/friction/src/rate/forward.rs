@@ -116,7 +116,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
     }
 
     pub(super) fn forward_rates(&self, present: &Present<'_>, out: Rates<'_>) -> Result<(), Failure> {
-        let mut solver = self.solver();
+        let mut solver = self.solver().lifting();
         for k in 0..present.normal.len() {
             if Self::at_rest(present, k) {
                 (out.along[k], out.coupling[k], out.constant[k]) = (1.0, 0.0, 0.0);
@@ -151,7 +151,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         step: &Increments<'_>,
         bounds: &RateBounds,
     ) -> Option<Limit> {
-        let mut solver = self.solver();
+        let mut solver = self.solver().lifting();
         let mut smallest: Option<Limit> = None;
         for k in 0..present.normal.len() {
             let found = if Self::at_rest(present, k) {
