@@ -29,6 +29,8 @@ pub struct Control {
     pub course: f64,
     /// Imposed step ends \[s\], if given.
     pub imposed: Option<Vec<f64>>,
+    /// Times of outputs at which adaptive steps end, ascending \[s\].
+    pub outputs: Vec<f64>,
 }
 
 /// Stepper and its parameters.

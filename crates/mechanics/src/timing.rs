@@ -72,6 +72,8 @@ pub struct StepLength {
     pieces: Pieces,
     /// End of the piece in which the next step begins \[s\].
     goal: f64,
+    /// Remaining times of outputs at which steps end, last first; none where ends are imposed.
+    outputs: Vec<f64>,
     /// True if the last trial failed. The next step then does not grow, since it would fail again.
     failed: bool,
     /// Length required by the error of slip, if it is below the smallest.
@@ -103,6 +105,7 @@ impl StepLength {
             friction: imposed.is_none().then_some(control.friction),
             pieces: if imposed.is_some() { Pieces::default() } else { Pieces::of(stage, control.course) },
             goal: stage.end,
+            outputs: if imposed.is_some() { Vec::new() } else { within(&control.outputs, stage) },
             imposed,
             failed: false,
             needed: None,
@@ -110,9 +113,12 @@ impl StepLength {
         }
     }
 
-    /// End that the next step may not pass: an imposed one, or that of the piece of the stage.
+    /// End that the next step may not pass: an imposed one, or the first of an output and of the piece of the stage.
     fn target(&self) -> f64 {
-        self.imposed.as_ref().and_then(|ends| ends.last().copied()).unwrap_or(self.goal)
+        match &self.imposed {
+            Some(ends) => ends.last().copied().unwrap_or(self.end),
+            None => self.goal.min(self.outputs.last().copied().unwrap_or(self.end)),
+        }
     }
 
     /// Length of the next step from `time`, or `None` at the end of the stage.
@@ -129,8 +135,15 @@ impl StepLength {
             // After a steep piece steps grow again from those within it.
             (self.goal, self.dt) = (end, self.dt.min(longest));
         }
-        let left = self.target() - time;
-        Some(if self.dt >= left * (1.0 - REMAINDER) { left } else { self.dt })
+        while self.outputs.last().is_some_and(|&t| t <= time) {
+            self.outputs.pop();
+        }
+        let target = self.target();
+        let left = target - time;
+        // Two equal steps up to an output leave none that is far shorter than its neighbours.
+        let output = self.outputs.len() > 1 && self.outputs.last() == Some(&target);
+        let evenly = if output && left < 2.0 * self.dt { 0.5 * left } else { f64::INFINITY };
+        Some(if self.dt >= left * (1.0 - REMAINDER) { left } else { self.dt.min(evenly) })
     }
 
     /// The target if `time` misses it only by rounding of the sum, otherwise `time`.

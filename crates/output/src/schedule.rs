@@ -16,8 +16,8 @@ impl Default for FieldSchedule {
 }
 
 impl FieldSchedule {
-    /// Due times, ascending and without repetition \[s\]. With a stepper that lands on them, outputs have round times; otherwise
-    /// they follow at the first step past each.
+    /// Due times, ascending and without repetition \[s\]. Where steps end at them, outputs have these times; otherwise they follow at
+    /// the first step past each.
     #[must_use]
     pub fn times(&self, stages: &[(String, f64)]) -> Vec<f64> {
         let mut times = Vec::new();

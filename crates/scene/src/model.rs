@@ -600,9 +600,9 @@ pub struct Output {
     /// `{ set = "A.left" }`: total force on a set, at every step.
     #[serde(default)]
     pub forces: BTreeMap<String, Spanned<ForceSpec>>,
-    /// Field files per stage, at equal intervals; default 1, explicit 10.
+    /// Field files per stage, at equal intervals, at which steps then end; default 1, explicit 10.
     pub fields: Option<Spanned<usize>>,
-    /// Profiles per stage, at equal intervals; default 10, explicit 200.
+    /// Profiles per stage, at equal intervals, at which steps then end; default 10 at the next steps, explicit 200.
     pub profiles: Option<Spanned<usize>>,
     /// `true`: displacements of the bodies over each event and at the end, as VTU.
     pub bodies: Option<Spanned<bool>>,

@@ -2,10 +2,11 @@
 
 use super::courses;
 use crate::diagnostic::Diagnostic;
-use crate::scene::model::{Rule, Scene, Stepper};
+use crate::scene::model::{Rule, Scene, Spanned, Stepper};
 use asperity_contact::TimeRule;
 use asperity_friction::law::RateBounds;
 use asperity_mechanics::{Control, Stage, Stepping};
+use asperity_output::FieldSchedule;
 
 /// Default bound on the local error of slip per step, relative to the largest prescribed displacement.
 const SLIP_TOLERANCE: f64 = 2e-5;
@@ -91,5 +92,14 @@ pub fn control(scene: &Scene, stages: &[Stage]) -> Control {
         min_step: time.min_step.as_ref().map(|t| t.get_ref().0),
         course: courses::tolerance(scene),
         imposed: time.imposed.clone(),
+        outputs: outputs(scene, stages),
     }
+}
+
+/// Times of fields and profiles whose number the scene gives. Those that nobody asked for come at the next step.
+fn outputs(scene: &Scene, stages: &[Stage]) -> Vec<f64> {
+    let number = |asked: &Option<Spanned<usize>>| asked.as_ref().map_or(0, |n| *n.get_ref());
+    let (fields, profiles) = (number(&scene.output.fields), number(&scene.output.profiles));
+    let ends: Vec<(String, f64)> = stages.iter().map(|stage| (stage.name.clone(), stage.end)).collect();
+    FieldSchedule { fields, profiles }.times(&ends)
 }
