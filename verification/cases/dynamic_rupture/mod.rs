@@ -102,7 +102,7 @@ fn rupture_of(
             history.push((run.time() - run.dt(), run.fault().rate[watched].abs()));
         })
     });
-    let mut last = result?;
+    let last = result?;
     let cost = cost.count("cells", last.product().cells() as f64).count("steps", last.steps() as f64);
     let budget = last.budget();
     Ok(Rupture { at, times, history, budget, cost })

@@ -57,7 +57,7 @@ fn collide() -> Result<Collision, CaseError> {
     let full = 0.5 * BAR.density * BAR.pressure * VELOCITY;
     let mut history = Vec::new();
     let mut overlap: f64 = 0.0;
-    let mut last = run(&problem, |run| {
+    let last = run(&problem, |run| {
         history.push(((run.time() - run.dt()) / time, run.fault().normal[0] / full));
         overlap = overlap.max(-run.fault().gap[0] / (VELOCITY * time));
     })?;

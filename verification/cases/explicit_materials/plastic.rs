@@ -74,7 +74,7 @@ fn push(wave: &Wave, cells: u32) -> Result<Bar, CaseError> {
         .with("stages[0].conditions[0].x", motion);
     let problem = problem(scene)?;
     let (result, cost) = Cost::of(|| run(&problem, |_| ()));
-    let mut last = result?;
+    let last = result?;
     let cost = cost.count("cells", f64::from(cells)).count("steps", last.steps() as f64);
     let time = last.time() - 0.5 * last.dt();
     let nodes = problem.model.mesh.nodes.iter().enumerate().filter(|(_, x)| x[1] == 0.0);

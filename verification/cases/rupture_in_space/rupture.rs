@@ -46,7 +46,7 @@ pub(crate) fn follow(
             histories.push((run.time() - run.dt(), now));
         })
     });
-    let mut last = result?;
+    let last = result?;
     let cost = cost.count("cells", last.product().cells() as f64).count("steps", last.steps() as f64);
     let slip = (0..n).map(|k| [last.fault().slip[k], last.fault().slip[n + k]]).collect();
     Ok(Rupture { at, times, histories, slip, budget: last.budget(), cost })

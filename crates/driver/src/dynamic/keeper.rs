@@ -31,7 +31,7 @@ pub struct Checkpoint {
 
 impl Contents for Checkpoint {
     const OF: &'static str = "bodies with mass";
-    const VERSION: &'static str = "1";
+    const VERSION: &'static str = "2";
     const ALLOWED: &'static str = "its title and its layout";
 
     fn physics(&self) -> &str {

@@ -17,6 +17,7 @@ mod model;
 mod motion;
 mod output;
 mod tensor;
+mod viscous;
 
 pub use block::Block;
 pub use model::{Kinematics, Limits, Material, Model, ModelError};

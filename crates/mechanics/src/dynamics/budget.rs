@@ -12,7 +12,8 @@ pub struct Budget {
     pub time: f64,
     /// Kinetic energy.
     pub kinetic: f64,
-    /// Elastic energy of the displacements, without the work of the initial stress; in bodies with a history, all work of their stresses.
+    /// Elastic energy of the displacements, without the work of the initial stress; in bodies with a history, all work of their
+    /// stresses beyond those at the start.
     pub elastic: f64,
     /// Dissipated by Kelvin-Voigt damping.
     pub viscous: f64,

@@ -3,8 +3,11 @@
 use super::between::Between;
 use super::budget::{Budget, Work};
 use super::fault::{Fault, FaultState, Unbalanced};
+use super::inelastic::{self, Inelastic};
 use super::loads::Loads;
 use super::motion::{Motion, Sums};
+use super::room::Room;
+use super::stored;
 use super::nodes::Special;
 use super::springs::Springs;
 use super::{Problem, Stable, stable};
@@ -13,9 +16,13 @@ use asperity_fem::block::lumped;
 use asperity_fem::dof::Constraints;
 use asperity_fem::matrix_free::MatrixFree;
 use asperity_fem::nonlinear;
-use asperity_fem::term::{Instant, Saved as _, Term as _};
+use asperity_fem::term::{Instant, Refusal};
 use asperity_friction::Failure;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+
+/// Special nodes of one task: few, so that both threads of a small fault have some, and enough to pay for one.
+const NODES: usize = 256;
 
 /// Largest energy of the bodies over all that was put in. In a stable scheme at nine tenths of the stable step it is below 1/(1 - 0.9²) = 5.3:
 /// displacement alone may hold so much more than the balance counts.
@@ -94,6 +101,9 @@ struct Works {
     absorbed: Work,
     loads: Work,
     released: Work,
+    inelastic: inelastic::Works,
+    /// uⁿ·K uⁿ of linear cells, twice their elastic energy.
+    stored: f64,
 }
 
 /// Bodies and faults in steps of equal length.
@@ -101,7 +111,7 @@ pub struct Explicit<'a, const D: usize> {
     problem: &'a Problem<D>,
     stable: Stable,
     product: MatrixFree,
-    nonlinear: Vec<nonlinear::Block<D>>,
+    inelastic: Inelastic<D>,
     components: usize,
     /// Lumped mass of each node \[kg\].
     mass: Vec<f64>,
@@ -124,8 +134,7 @@ pub struct Explicit<'a, const D: usize> {
     velocity: Vec<f64>,
     /// u + β Δt v, where damping acts \[m\].
     damped: Vec<f64>,
-    /// Forces of cells with a history \[N\]; empty without.
-    history_forces: Vec<f64>,
+    room: Room,
     /// Displacements that conditions prescribe at the next step \[m\].
     imposed: Vec<f64>,
     fault: FaultState,
@@ -148,19 +157,14 @@ impl<'a, const D: usize> Explicit<'a, D> {
         let product = MatrixFree::new(&model.mesh, components, &linear);
         let mass =
             lumped::of_mesh(&model.mesh, model.idealisation, &problem.density).map_err(|e| e.to_string())?;
-        let nonlinear = model.blocks.iter().filter_map(|b| match b {
-            CellBlock::Linear(_) => None,
-            CellBlock::Nonlinear(block) => Some(block.as_ref().clone()),
-        });
-        let nonlinear: Vec<_> = nonlinear.collect();
+        let inelastic = Inelastic::new(model, problem.viscosity > 0.0, problem.fault.is_some())?;
         let dofs = model.dofs();
         let velocity = if problem.velocity.is_empty() { vec![0.0; dofs] } else { problem.velocity.clone() };
         Ok(Self {
             problem,
             stable,
             product,
-            history_forces: if nonlinear.is_empty() { Vec::new() } else { vec![0.0; dofs] },
-            nonlinear,
+            inelastic,
             components,
             inverse: mass.iter().map(|m| 1.0 / m).collect(),
             mass,
@@ -176,6 +180,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
             u: vec![0.0; dofs],
             damped: if problem.viscosity > 0.0 { vec![0.0; dofs] } else { Vec::new() },
             velocity,
+            room: Room::default(),
             imposed: Vec::new(),
             fault: FaultState::default(),
             works: Works::default(),
@@ -301,11 +306,19 @@ impl<'a, const D: usize> Explicit<'a, D> {
     /// [`Halt`]; displacements and velocities are then those of the step before.
     pub fn step(&mut self) -> Result<(), Halt> {
         self.forces()?;
-        let (mut acceleration, external, before, displacement) = self.free_accelerations();
-        let fault = self.faults(&mut acceleration, &before, &displacement)?;
+        let mut room = std::mem::take(&mut self.room);
+        let moved = self.move_with(&mut room);
+        self.room = room;
+        moved
+    }
+
+    /// Moves all nodes under the forces at uⁿ.
+    fn move_with(&mut self, room: &mut Room) -> Result<(), Halt> {
+        self.free_accelerations(room);
+        let fault = self.faults(room)?;
         let kick = self.kick();
         let sums = self.move_all(kick);
-        self.finish((&acceleration, &external), (&before, &displacement), (kick, sums), fault)
+        self.finish(room, (kick, sums), fault)
     }
 
     /// Time over which velocities change: the first step starts from the velocity at the start, half a step later than those after it.
@@ -317,73 +330,55 @@ impl<'a, const D: usize> Explicit<'a, D> {
     fn forces(&mut self) -> Result<(), Halt> {
         let moved = if self.damped.is_empty() { &self.u } else { &self.damped };
         self.product.evaluate(moved);
-        self.history_forces.fill(0.0);
         let at = Instant { time: self.time, dt: self.dt };
-        for block in &mut self.nonlinear {
-            let refused =
-                |r: asperity_fem::term::Refusal| Halt::Refused { time: at.time, reason: r.to_string() };
-            block.residual(&self.u, at, &mut self.history_forces).map_err(refused)?;
-        }
-        Ok(())
+        let refused = |r: Refusal| Halt::Refused { time: at.time, reason: r.to_string() };
+        let relaxation = self.problem.viscosity * self.dt;
+        self.inelastic.evaluate((&self.u, &self.velocity), at, relaxation).map_err(refused)
     }
 
-    /// Internal force on a component of a node \[N\].
-    fn internal(&self, node: usize, component: usize) -> f64 {
-        let linear = self.product.force(node, component);
-        self.history_forces.get(node * self.components + component).map_or(linear, |f| linear + f)
-    }
-
-    /// Vector of a node from values of all degrees of freedom.
-    fn vector(&self, values: &[f64], node: usize) -> [f64; 3] {
-        let at = node * self.components;
-        std::array::from_fn(|c| if c < self.components { values[at + c] } else { 0.0 })
-    }
-
-    /// Accelerations of the special nodes without the changes of tractions on faults, loads, and velocities and displacements there.
-    #[expect(clippy::type_complexity, reason = "four slices of vectors")]
-    fn free_accelerations(&mut self) -> (Vec<[f64; 3]>, Vec<[f64; 3]>, Vec<[f64; 3]>, Vec<[f64; 3]>) {
-        let mut external = vec![[0.0; 3]; self.special.len()];
-        self.loads.add(self.time, &mut external);
+    /// Accelerations of the special nodes without the changes of tractions on faults, with loads, internal forces, velocities and
+    /// displacements there.
+    fn free_accelerations(&mut self, room: &mut Room) {
+        room.clear(self.special.len());
+        self.loads.add(self.time, &mut room.external);
         let next = self.time + self.dt;
         if !self.imposed.is_empty() {
             self.constraints.impose(next, &mut self.imposed);
         }
-        let at = |values: &[f64]| self.special.iter().map(|s| self.vector(values, s.node)).collect();
-        let (before, displacement): (Vec<[f64; 3]>, Vec<[f64; 3]>) = (at(&self.velocity), at(&self.u));
-        self.springs.add(self.time, &displacement, &mut external);
-        let of = |(s, (external, before)): (&Special, (&[f64; 3], &[f64; 3]))| {
+        let of_node = of_nodes(&self.product, self.inelastic.forces(), self.components);
+        let (velocity, u) = (&self.velocity, &self.u);
+        let components = self.components;
+        let all = room.internal.par_iter_mut().zip(&mut room.before).zip(&mut room.displacement);
+        all.zip(&self.special).with_min_len(NODES).for_each(|(((internal, before), displacement), s)| {
+            *internal = of_node(s.node);
+            (*before, *displacement) = (vector(velocity, s.node, components), vector(u, s.node, components));
+        });
+        self.springs.add(self.time, &room.displacement, &mut room.external);
+        let Room { acceleration, internal, external, before, .. } = room;
+        let forces = internal.par_iter().zip(external.par_iter()).zip(before.par_iter());
+        let (imposed, dt) = (&self.imposed, self.dt);
+        let nodes = acceleration.par_iter_mut().zip(&self.special).zip(forces).with_min_len(NODES);
+        nodes.for_each(|((acceleration, s), ((internal, external), before))| {
             let drag = s.drag(before);
-            let force: [f64; 3] = std::array::from_fn(|c| {
-                let internal = if c < self.components { self.internal(s.node, c) } else { 0.0 };
-                external[c] + drag[c] - internal
-            });
-            let mut acceleration = s.accelerated(&force);
-            for c in (0..self.components).filter(|&c| s.prescribed[c]) {
-                let dof = s.node * self.components + c;
-                acceleration[c] =
-                    ((self.imposed[dof] - self.u[dof]) / self.dt - self.velocity[dof]) / self.dt;
+            let force = std::array::from_fn(|c| external[c] + drag[c] - internal[c]);
+            *acceleration = s.accelerated(&force);
+            for c in (0..components).filter(|&c| s.prescribed[c]) {
+                let dof = s.node * components + c;
+                acceleration[c] = ((imposed[dof] - u[dof]) / dt - velocity[dof]) / dt;
             }
-            acceleration
-        };
-        let acceleration = self.special.iter().zip(external.iter().zip(&before)).map(of).collect();
-        (acceleration, external, before, displacement)
+        });
     }
 
     /// Balances the faults. The new state replaces the present one once the step is taken.
-    fn faults(
-        &self,
-        acceleration: &mut [[f64; 3]],
-        velocity: &[[f64; 3]],
-        displacement: &[[f64; 3]],
-    ) -> Result<Option<FaultState>, Halt> {
+    fn faults(&self, room: &mut Room) -> Result<Option<FaultState>, Halt> {
         let Some(fault) = self.problem.fault.as_ref() else { return Ok(None) };
         let mut state = self.fault.clone();
         let (time, dt) = (self.time, self.dt);
         let mut between = Between {
             nodes: &self.special,
-            acceleration,
-            velocity,
-            displacement,
+            acceleration: &mut room.acceleration,
+            velocity: &room.before,
+            displacement: &room.displacement,
             pairs: &self.pairs,
             tied: &self.tied,
             components: self.components,
@@ -401,7 +396,8 @@ impl<'a, const D: usize> Explicit<'a, D> {
 
     /// Moves the free nodes; special nodes move at their old velocity, to be corrected.
     fn move_all(&mut self, kick: f64) -> Sums {
-        let Self { product, history_forces: history, mass, inverse, u, velocity, damped, dt, .. } = self;
+        let Self { product, inelastic, mass, inverse, u, velocity, damped, dt, .. } = self;
+        let history = inelastic.forces();
         let (dt, damping) = (*dt, self.problem.viscosity * *dt);
         let motion = Motion { product, history, mass, inverse, kick, dt, damping };
         motion.all(self.components, u, velocity, damped)
@@ -410,14 +406,14 @@ impl<'a, const D: usize> Explicit<'a, D> {
     /// Moves the special nodes, and closes the step.
     fn finish(
         &mut self,
-        (acceleration, external): (&[[f64; 3]], &[[f64; 3]]),
-        (before, displacement): (&[[f64; 3]], &[[f64; 3]]),
+        room: &mut Room,
         (kick, mut sums): (f64, Sums),
         fault: Option<FaultState>,
     ) -> Result<(), Halt> {
         let (components, dt) = (self.components, self.dt);
         let (mut loads, mut absorbed) = ([0.0; 2], [0.0; 2]);
-        let mut after = before.to_vec();
+        let Room { acceleration, internal, external, before, after, displacement } = room;
+        after.clone_from(before);
         for (k, s) in self.special.iter().enumerate() {
             for c in 0..components {
                 after[k][c] = before[k][c] + kick * acceleration[k][c];
@@ -429,7 +425,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
             let drag = s.drag(&middle);
             for c in 0..components {
                 let (dof, b, a) = (s.node * components + c, before[k][c], after[k][c]);
-                let internal = self.internal(s.node, c);
+                let internal = internal[k][c];
                 // What a prescribed motion exerts follows from the balance of the node; faults do not act along it.
                 let reaction = if s.prescribed[c] {
                     s.mass * acceleration[k][c] + internal - drag[c]
@@ -452,8 +448,8 @@ impl<'a, const D: usize> Explicit<'a, D> {
                 }
             }
         }
-        self.account((before, &after), displacement, sums, (loads, absorbed), fault);
-        self.nonlinear.iter_mut().for_each(asperity_fem::term::Term::accept);
+        self.account((&before[..], &after[..]), displacement, sums, (loads, absorbed), fault);
+        self.inelastic.accept();
         self.time += dt;
         self.steps += 1;
         self.grown(sums.moving)
@@ -478,6 +474,9 @@ impl<'a, const D: usize> Explicit<'a, D> {
         add(&mut works.internal, sums.internal.map(|w| half * w));
         add(&mut works.loads, loads);
         add(&mut works.absorbed, absorbed);
+        let [all, viscous] = self.inelastic.works(&self.velocity, half);
+        add(&mut works.inelastic.all, all);
+        add(&mut works.inelastic.viscous, viscous);
         if let (Some(state), Some(fault)) = (fault, &self.problem.fault) {
             self.fault = state;
             let jump = |values: &[[f64; 3]], [minus, plus]: [usize; 2]| -> [f64; 3] {
@@ -490,22 +489,40 @@ impl<'a, const D: usize> Explicit<'a, D> {
             add(&mut works.released, released);
         }
         let initial = if first { kinetic } else { self.budget.initial };
-        let stored = self.damped.is_empty() && self.nonlinear.is_empty();
-        let elastic = if stored { 0.5 * sums.elastic } else { self.works.internal.done };
+        let (elastic, viscous) = self.bodies(&sums);
         let put_in = self.works.loads.done + self.works.released.done;
         let had = self.budget.loads + self.budget.released;
-        self.given += (put_in - had).max(0.0) + if first { initial } else { 0.0 };
+        let at_start = if first { initial.max(0.0) + self.inelastic.released() } else { 0.0 };
+        self.given += (put_in - had).max(0.0) + at_start;
         self.budget = Budget {
             time: self.time,
             kinetic,
             elastic,
-            viscous: 0.0,
+            viscous,
             friction: self.works.friction.done,
             absorbed: self.works.absorbed.done,
             loads: self.works.loads.done,
             released: self.works.released.done,
             initial,
         };
+    }
+
+    /// Elastic energy of the bodies at tⁿ, and what they have dissipated by damping \[J\].
+    fn bodies(&mut self, sums: &Sums) -> (f64, f64) {
+        let inelastic = self.works.inelastic;
+        let others = inelastic.all.done - inelastic.viscous.done;
+        let linear = stored::Powers {
+            displacement: sums.elastic - self.inelastic.along(),
+            step: self.dt * (sums.internal[0] - self.inelastic.power()),
+        };
+        let start = self.steps == 0;
+        let works = &mut self.works;
+        if self.product.cells() > 0 {
+            works.stored = linear.stored(works.stored, self.problem.viscosity, start);
+        }
+        let elastic = 0.5 * works.stored;
+        let damped = if self.damped.is_empty() { 0.0 } else { works.internal.done - inelastic.all.done - elastic };
+        (elastic + others, damped + inelastic.viscous.done)
     }
 
     /// Checks that the energy of motion does not exceed what was put in, and is a number.
@@ -581,25 +598,16 @@ impl<'a, const D: usize> Explicit<'a, D> {
         self.budget.kinetic
     }
 
-    /// Energy a step before [`Explicit::time`]. With damping it costs a product: what bodies dissipate is the work of their forces without
-    /// the elastic energy.
-    pub fn budget(&mut self) -> Budget {
-        let mut budget = self.budget;
-        if !self.damped.is_empty() && self.nonlinear.is_empty() {
-            let before: Vec<f64> = self.u.iter().zip(&self.velocity).map(|(u, v)| u - self.dt * v).collect();
-            let mut forces = vec![0.0; before.len()];
-            self.product.apply(&before, &mut forces);
-            let elastic = 0.5 * before.iter().zip(&forces).map(|(u, f)| u * f).sum::<f64>();
-            budget.viscous = budget.elastic - elastic;
-            budget.elastic = elastic;
-        }
-        budget
+    /// Energy a step before [`Explicit::time`].
+    #[must_use]
+    pub fn budget(&self) -> Budget {
+        self.budget
     }
 
     /// Blocks with a history, in their present state.
     #[must_use]
     pub fn nonlinear(&self) -> &[nonlinear::Block<D>] {
-        &self.nonlinear
+        self.inelastic.blocks()
     }
 
     /// Committed state.
@@ -611,7 +619,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
             u: self.u.clone(),
             velocity: self.velocity.clone(),
             fault: self.fault.clone(),
-            histories: self.nonlinear.iter().map(|b| b.save()).collect(),
+            histories: self.inelastic.save(),
             works: self.works,
             budget: self.budget,
             given: self.given,
@@ -623,9 +631,8 @@ impl<'a, const D: usize> Explicit<'a, D> {
         let points = self.problem.fault.as_ref().map_or(0, |f| f.points.len());
         let fits = saved.u.len() == self.u.len()
             && saved.velocity.len() == self.velocity.len()
-            && saved.fault.normal.len() == points
-            && saved.histories.len() == self.nonlinear.len();
-        if !fits || !self.nonlinear.iter_mut().zip(&saved.histories).all(|(b, h)| b.restore(h)) {
+            && saved.fault.normal.len() == points;
+        if !fits || !self.inelastic.restore(&saved.histories) {
             return false;
         }
         (self.time, self.steps, self.given) = (saved.time, saved.steps, saved.given);
@@ -638,5 +645,32 @@ impl<'a, const D: usize> Explicit<'a, D> {
         }
         self.damp();
         true
+    }
+}
+
+/// Vector of a node from values of all degrees of freedom.
+fn vector(values: &[f64], node: usize, components: usize) -> [f64; 3] {
+    let at = node * components;
+    std::array::from_fn(|c| if c < components { values[at + c] } else { 0.0 })
+}
+
+/// Internal forces on nodes, of linear cells and of others \[N\].
+fn of_nodes<'a>(
+    product: &'a MatrixFree,
+    others: &'a [f64],
+    components: usize,
+) -> impl Fn(usize) -> [f64; 3] + Sync + 'a {
+    fn in_space<const C: usize>(v: [f64; C]) -> [f64; 3] {
+        std::array::from_fn(|c| v.get(c).copied().unwrap_or(0.0))
+    }
+    move |node| {
+        let mut force = match components {
+            1 => in_space(product.force_of::<1>(node)),
+            2 => in_space(product.force_of::<2>(node)),
+            _ => product.force_of::<3>(node),
+        };
+        let others = others.get(node * components..(node + 1) * components).unwrap_or_default();
+        force.iter_mut().zip(others).for_each(|(f, other)| *f += other);
+        force
     }
 }

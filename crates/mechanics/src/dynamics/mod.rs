@@ -19,14 +19,17 @@ mod between;
 mod budget;
 mod explicit;
 mod fault;
+mod inelastic;
 mod loads;
 mod motion;
 mod nodes;
 mod onset;
 mod problem;
 mod pulse;
+mod room;
 mod springs;
 mod stable;
+mod stored;
 mod ties;
 
 pub use absorbing::{Dashpot, dashpots};

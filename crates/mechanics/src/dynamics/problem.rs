@@ -12,7 +12,7 @@ pub struct Problem<const D: usize> {
     pub density: Vec<f64>,
     /// Step over the largest stable one, below 1 \[-\].
     pub courant: f64,
-    /// β: relaxation time of Kelvin-Voigt damping over the step \[-\]; 0 without damping. It acts in linear bodies.
+    /// β: relaxation time of Kelvin-Voigt damping over the step \[-\]; 0 without damping.
     pub viscosity: f64,
     /// Faults, if there are any.
     pub fault: Option<Fault>,

@@ -108,7 +108,7 @@ fn absorbing_ends_let_waves_of_normal_incidence_out() {
     let sides = [&problem.model.mesh.side_sets["b0.left"][..], &problem.model.mesh.side_sets["b0.right"][..]]
         .concat();
     problem.absorbing = dashpots(&problem.model, &problem.density, &sides);
-    let mut run = run(&problem, |_| ());
+    let run = run(&problem, |_| ());
     let budget = run.budget();
     // The rest is dispersion: waves of short length travel slower.
     assert!(budget.kinetic + budget.elastic < 1e-5 * budget.initial, "{budget:?}");
@@ -151,7 +151,7 @@ fn impact(h: f64, gap: f64) -> Problem<2> {
 fn equal_bars_that_meet_exchange_their_velocities_after_the_wave_has_run_twice() {
     let problem = impact(0.005, 0.0);
     let (mut impulse, mut last, mut middle) = (0.0, 0.0, 0.0);
-    let mut run = run(&problem, |run| {
+    let run = run(&problem, |run| {
         let pressed = run.fault().normal[0];
         impulse += pressed * run.dt();
         if pressed > 0.0 {
@@ -241,7 +241,7 @@ fn works_of_loads_prescribed_motions_and_damping_close_the_balance() {
     let forces = (0..3).map(|j| ((21 * j + 20) * 2 + 1, 1e5)).collect();
     stage.loads.push((None, Channel { prescribed: Vec::new(), forces, amplitude: Table::constant(1.0) }));
     let problem = Problem { viscosity: 0.2, ..problem(bar, stage) };
-    let mut run = run(&problem, |_| ());
+    let run = run(&problem, |_| ());
     let budget = run.budget();
     assert!(budget.loads > 0.0 && budget.viscous > 0.0, "{budget:?}");
     assert!(budget.missing().abs() < 1e-12 * budget.largest(), "{budget:?}");
@@ -322,10 +322,28 @@ fn bodies_on_soft_springs_swing_with_their_mass_and_keep_their_energy() {
     });
     let velocity = bar.mesh.nodes.iter().flat_map(|_| [1.0, 0.0]).collect();
     let problem = Problem { velocity, ..problem(bar, stage) };
-    let mut run = run(&problem, |_| ());
+    let run = run(&problem, |_| ());
     assert!((run.displacement()[0] * omega - 1.0).abs() < 1e-3, "{}", run.displacement()[0] * omega);
     let budget = run.budget();
     // The bar moves 1/ω, and forces err by an ulp of E times that: their work is up to ε E/(2 ω²), 4e-12 of the energy m/2 put in.
     assert!(budget.missing().abs() < 1e-11 * budget.largest(), "{budget:?}");
     assert!((budget.loads / budget.initial + 1.0).abs() < 1e-3, "{budget:?}");
+}
+
+#[test]
+fn elastic_energy_of_damped_bodies_is_that_of_their_displacements() {
+    let bar = bars(&[[0.0, 1.0]], 3, 0.05, Idealisation::PlaneStrain);
+    let velocity = (0..2 * bar.mesh.nodes.len()).map(|k| (0.37 * k as f64).sin()).collect();
+    let long = Problem { viscosity: 0.1, velocity, ..problem(bar, Stage::free("go", 1e-3)) };
+    let mut most: f64 = 0.0;
+    run(&long, |run| {
+        let before = run.displacement().iter().zip(run.velocity()).map(|(u, v)| u - run.dt() * v);
+        let before: Vec<f64> = before.collect();
+        let exact = long.model.blocks[0].linear().unwrap().strain_energy(&before);
+        let found = run.budget();
+        most = most.max(found.elastic);
+        assert!((found.elastic - exact).abs() < 1e-12 * most.max(exact), "{} {exact}", found.elastic);
+        assert!(found.viscous >= 0.0 && found.missing().abs() < 1e-12 * found.largest(), "{found:?}");
+    });
+    assert!(most > 0.0);
 }
