@@ -8,7 +8,7 @@ use crate::amounts::{self, size};
 use crate::diagnostic::Diagnostic;
 use crate::idealisation;
 use crate::model::meshes;
-use crate::scene::model::{Body, Fault, MeshSource, Method, Scene, Spanned};
+use crate::scene::model::{Body, Fault, MeshSource, Method, Scene, Spanned, Stepper};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::generate::SIDES;
@@ -154,9 +154,8 @@ pub fn admit(scene: &Scene) -> Result<(), Diagnostic> {
     };
     let counts: Vec<Counts> = grids.iter().map(|g| g.counts.clone()).collect();
     let within = |error: Diagnostic| Diagnostic { span: largest.place.clone(), ..error };
-    machine(scene, &counts, idealisation).map_err(within)?;
-    // Faults keep no factor.
-    let direct = scene.faults.is_empty() && scene.solver.method() != Method::Iterative;
+    machine(scene, &counts).map_err(within)?;
+    let direct = Built::of(scene) == Built::Systems && scene.solver.method() != Method::Iterative;
     if direct && !may_iterate(scene) {
         let factor: f64 = SURE * grids.iter().map(|g| g.factor_bytes([false; 6], components)).sum::<f64>();
         let allowed = amounts::memory(scene);
@@ -266,21 +265,80 @@ pub fn place_of_size(scene: &Scene) -> Range<usize> {
     memory.or_else(largest).or_else(mesh).or_else(fault).unwrap_or(0..0)
 }
 
-/// Refuses bodies whose meshes, cells and matrix exceed the memory of the machine.
+/// Vectors of all degrees of freedom in explicit steps: displacements, velocities, damping, masses and forces of the cells; two copies of the
+/// first two in a checkpoint, as values and encoded; velocities and displacements of a field, as vectors and encoded.
+const VECTORS: usize = 14;
+
+/// Bytes of a mesh and of vectors of its degrees of freedom in explicit steps. The mesh is held three times: for the steps, for
+/// figures and for files.
+#[must_use]
+pub fn in_steps(mesh: usize, dofs: usize) -> usize {
+    3 * mesh + size_of::<f64>() * VECTORS * dofs
+}
+
+/// What a run builds of its bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Built {
+    /// Vectors, for explicit steps.
+    Vectors,
+    /// Matrices of the cells, condensed onto faults.
+    Cells,
+    /// Systems of equations.
+    Systems,
+}
+
+impl Built {
+    /// What the run of a scene builds.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Self {
+        if *scene.time.stepper.get_ref() == Stepper::Explicit {
+            Self::Vectors
+        } else if scene.faults.is_empty() {
+            Self::Systems
+        } else {
+            Self::Cells
+        }
+    }
+
+    /// Bytes of bodies of so many cells that a run needs whatever else it does.
+    #[must_use]
+    pub fn bytes(self, counts: &[Counts], idealisation: Idealisation) -> usize {
+        let components = idealisation.components();
+        let sum = |of: &dyn Fn(&Counts) -> f64| counts.iter().map(of).sum::<f64>();
+        let mesh = sum(&Counts::mesh_bytes);
+        (match self {
+            Self::Vectors => {
+                let dofs = sum(&|c| c.nodes * components as f64);
+                return in_steps(mesh as usize, dofs as usize);
+            }
+            Self::Cells => mesh + 2.0 * sum(&|c| c.stiffness_bytes(components)),
+            Self::Systems => sum(&|c| c.cells_bytes(idealisation) + c.matrix_bytes(components)),
+        }) as usize
+    }
+
+    fn words(self) -> &'static str {
+        match self {
+            Self::Vectors => "their meshes and vectors",
+            Self::Cells | Self::Systems => "their matrices",
+        }
+    }
+}
+
+/// Refuses bodies whose meshes, and what a run builds of them, exceed the memory of the machine.
 ///
 /// # Errors
 /// [`Diagnostic`] at the entry that sets the size.
-pub fn machine(scene: &Scene, counts: &[Counts], idealisation: Idealisation) -> Result<(), Diagnostic> {
-    let components = idealisation.components();
-    let of = |c: &Counts| c.cells_bytes(idealisation) + c.matrix_bytes(components);
-    let needed: f64 = counts.iter().map(of).sum();
+pub fn machine(scene: &Scene, counts: &[Counts]) -> Result<(), Diagnostic> {
+    let (built, idealisation) = (Built::of(scene), idealisation::of(*scene.kinematics.get_ref()));
+    let needed = built.bytes(counts, idealisation);
     match available() {
-        Some((there, what)) if needed > there as f64 => Err(Diagnostic::at(
+        Some((there, what)) if needed > there => Err(Diagnostic::at(
             place_of_size(scene),
             format!(
-                "{} need {} for their matrices alone, and {what} {}",
-                in_words(counts, components),
-                size(needed as usize),
+                "{} need {} for {} alone, and {what} {}",
+                in_words(counts, idealisation.components()),
+                size(needed),
+                built.words(),
                 size(there)
             ),
             "take larger cells, or a machine with more memory; is the unit of the size right?",

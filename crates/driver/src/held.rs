@@ -1,6 +1,6 @@
 //! Memory of a run.
 
-use crate::forecast::Counts;
+use crate::forecast::{self, Counts};
 use crate::model::counts;
 use asperity_mechanics::{CellBlock, Model};
 
@@ -17,9 +17,6 @@ pub fn without_bodies(operator: usize) -> usize {
 
 /// Bytes of a number.
 const NUMBER: usize = 8;
-/// Vectors of all degrees of freedom in explicit steps: displacements, velocities, damping, masses and forces of the cells; two copies of the
-/// first two in a checkpoint, as values and encoded; velocities and displacements of a field, as vectors and encoded.
-const VECTORS: usize = 14;
 
 /// Memory of a model during a run \[bytes\].
 #[derive(Clone, Copy, Debug)]
@@ -30,8 +27,10 @@ pub struct Held {
     stiffness: usize,
     /// Geometry of its linear cells.
     geometry: usize,
-    /// Nonlinear cells: their histories, of which a run holds a copy, and their matrices.
-    nonlinear: usize,
+    /// Histories of nonlinear cells, of which a run holds a copy.
+    histories: usize,
+    /// Matrices of nonlinear cells.
+    tangents: usize,
 }
 
 impl Held {
@@ -50,7 +49,8 @@ impl Held {
             mesh: counts.iter().map(Counts::mesh_bytes).sum::<f64>() as usize,
             stiffness: of(&stiffness, true),
             geometry: of(&|c| c.geometry_bytes(model.idealisation), true),
-            nonlinear: 2 * histories + of(&stiffness, false),
+            histories: 2 * histories,
+            tangents: of(&stiffness, false),
         }
     }
 
@@ -59,13 +59,13 @@ impl Held {
     #[must_use]
     pub fn with_systems(&self, solver: usize, condensed: bool) -> usize {
         let copies = if condensed { 2 } else { 1 };
-        PROGRAM + self.mesh + copies * self.stiffness + self.geometry + self.nonlinear + solver
+        PROGRAM + self.mesh + copies * self.stiffness + self.geometry + self.histories + self.tangents + solver
     }
 
-    /// Total of a run in explicit steps, which keep `numbers` of the cells. The mesh is held three times: for the steps, for figures and for files.
+    /// Total of a run in explicit steps, which keep `numbers` of the cells and build no matrices of those with a history.
     #[must_use]
     pub fn in_steps(&self, numbers: usize, dofs: usize) -> usize {
-        PROGRAM + 3 * self.mesh + NUMBER * (numbers + VECTORS * dofs) + self.nonlinear
+        PROGRAM + forecast::in_steps(self.mesh, dofs) + NUMBER * numbers + self.histories
     }
 
     /// Total of a run with faults, onto which bodies are condensed in `condensation` bytes. Displacement jumps are introduced on a copy of the

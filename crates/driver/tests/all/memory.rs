@@ -1,9 +1,11 @@
 //! The memory that a plan foresees is that of the run; a model that no machine can hold is refused before it is built.
 #![allow(clippy::disallowed_methods, clippy::print_stdout)]
 
+use crate::common::varied;
 use asperity_driver::plan::{self, AnyPlan};
 use asperity_driver::scene;
 use asperity_mechanics::solver::Prepared;
+use asperity_vary::Change::{Add, With};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -82,6 +84,23 @@ fn a_plan_of_a_million_cells_neither_assembles_nor_analyses() {
     assert!(matches!(plan.problem.solver.prepared, Prepared::Nothing), "{:?}", plan.problem.solver.method);
     // 576 numbers a cell at least.
     assert!(plan.summary.memory_bytes > 576 * 8 * 1_000_000);
+}
+
+#[test]
+fn an_explicit_run_takes_the_memory_that_vectors_need_with_and_without_histories() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("scene.toml");
+    let elastic = [
+        Add("materials.rock.density", "2700"),
+        With("stages[0].duration", "20 us"),
+        With("time.stepper", "explicit"),
+    ];
+    let yielding = Add("materials.rock.plasticity", "{ hardening = \"perfect\", yield = \"9 GPa\" }");
+    let plastic = [elastic.as_slice(), &[yielding]].concat();
+    for changes in [elastic.as_slice(), &plastic] {
+        std::fs::write(&scene, varied(&block(40, ""), changes)).unwrap();
+        foreseen("explicit", &scene, &["--no-plots"]);
+    }
 }
 
 /// A pressed block with this many cells along each axis.
