@@ -257,6 +257,9 @@ impl Checker<'_> {
         let bodies = [&fault.minus, &fault.plus].map(|side| scene.body_of(side));
         let stressed = bodies.iter().flatten().any(|b| b.initial_stress.is_some());
         let follows = fault.fields.state.is_some();
+        let [minus, plus] = bodies;
+        let other = plus.filter(|plus| !minus.is_some_and(|minus| std::ptr::eq(minus, *plus)));
+        minus.into_iter().chain(other).for_each(|body| self.yields_from_its_stress(body, fault));
         if fault.shear.is_none() && !fault.has_shear_along() && !stressed && !follows {
             self.error(
                 fault.span(),
@@ -271,6 +274,25 @@ impl Checker<'_> {
                 "leave it out, and give `normal` and `shear` of the fault, or an `initial_stress`",
             );
         }
+    }
+
+    /// Refuses a body that yields beside a fault and starts without the stress that loads the fault: it would yield too late, and
+    /// then without end.
+    fn yields_from_its_stress(&mut self, body: &Body, fault: &Fault) {
+        if body.initial_stress.is_some() {
+            return;
+        }
+        let plastic = body.materials().find_map(|(_, name, _)| {
+            let spec = self.scene.materials.get(name)?.plasticity.as_ref()?;
+            Some((name.to_string(), spec.span()))
+        });
+        let Some((name, place)) = plastic else { return };
+        self.conflict(
+            &place,
+            format!("`{name}` yields beside a fault, and its body starts without stress"),
+            "give the bodies beside the fault the `initial_stress` that loads it, such as [\"-120 MPa\", \"-120 MPa\", \"70 MPa\"], instead of its `normal` and `shear`, and start the rupture by `pulses`",
+            (&fault.span(), "the fault"),
+        );
     }
 
     /// Checks the delay of the normal traction.

@@ -87,7 +87,12 @@ impl Checker<'_> {
             );
         }
         let Some(stress) = stress.filter(|_| !pressing) else { return };
-        for (key, place) in [("normal", normal.filter(|_| pressed)), ("shear", shear)] {
+        let in_patches = fault.patches.iter().flat_map(|patch| {
+            let normal = patch.normal.as_ref().filter(|_| pressed).map(Spanned::span);
+            [("normal", normal), ("shear", patch.shear.as_ref().map(Spanned::span))]
+        });
+        let everywhere = [("normal", normal.filter(|_| pressed)), ("shear", shear)];
+        for (key, place) in everywhere.into_iter().chain(in_patches) {
             let Some(place) = place else { continue };
             self.conflict(
                 &place,

@@ -37,6 +37,7 @@ mod sampled;
 mod sense;
 mod start_doubts;
 mod steady;
+mod untouched;
 mod upright;
 mod weight;
 
@@ -349,6 +350,7 @@ pub(crate) fn all_points<const D: usize>(
     for fault in &scene.faults {
         notes.extend(bends::note(model, (fault.0, fault.1))?);
     }
+    untouched::check(scene, model, &placed)?;
     notes.extend(meet::join(scene, model, &mut placed)?);
     Ok((placed, notes))
 }
