@@ -60,7 +60,8 @@ fn run_in<const D: usize>(
         other => other.into_diagnostic(),
     }?;
     let mut report = dynamic::Report::new(plan, &ended, keeper.arrivals());
-    (report.seconds.plan, report.seconds.steps) = (ready.seconds, clock.elapsed().as_secs_f64());
+    let all = clock.elapsed().as_secs_f64();
+    (report.seconds.plan, report.seconds.steps) = (ready.seconds, all - report.seconds.set_up);
     let clock = Instant::now();
     keeper.finish(report.outcome.status() == Status::Completed, ended.time).into_diagnostic()?;
     report.seconds.output = clock.elapsed().as_secs_f64();

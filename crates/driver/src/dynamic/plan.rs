@@ -4,6 +4,7 @@ use crate::checks::Checks;
 use crate::fault::words::{length, time};
 use crate::fault::{FaultView, PointView, Resolution};
 use crate::warning::Warning;
+use asperity_fem::mesh::Cells;
 use asperity_mechanics::dynamics::{Problem, Stable};
 use asperity_output::view::MeshView;
 use jiff::Timestamp;
@@ -46,6 +47,8 @@ pub struct Plan<const D: usize> {
     pub steps: usize,
     /// Length of a step \[s\].
     pub dt: f64,
+    /// What sets that length.
+    pub step_reason: String,
     /// Faults.
     pub faults: Vec<FaultView>,
     /// Points of the faults, fault by fault.
@@ -163,12 +166,25 @@ impl<const D: usize> Plan<D> {
         let block = &self.problem.model.mesh.blocks[self.stable.highest.block];
         let at: Vec<String> = self.stiffest.iter().map(|x| length(*x)).collect();
         format!(
-            "the largest stable step is {:.6e} s, set by the {} at ({}); a step is {:.3} of it",
+            "the largest stable step is {:.6e} s, set by the {} at ({}); a step is {:.3} of it: {}",
             self.stable.step,
             block.kind.name(),
             at.join(", "),
-            self.dt / self.stable.step
+            self.share(),
+            self.step_reason
         )
+    }
+
+    /// A step over the largest stable one.
+    #[must_use]
+    pub fn share(&self) -> f64 {
+        self.dt / self.stable.step
+    }
+
+    /// Number of cells.
+    #[must_use]
+    pub fn cells(&self) -> usize {
+        self.problem.model.mesh.blocks.iter().map(Cells::len).sum()
     }
 }
 

@@ -17,6 +17,9 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::Write as _;
 
+/// Nanoseconds in a second.
+const NANO: f64 = 1e9;
+
 /// Rupture of a fault.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct FaultRupture {
@@ -38,6 +41,17 @@ pub struct FaultRupture {
     pub area: f64,
     /// Moment ∫ G slip dA \[N m; N per metre of thickness\].
     pub moment: f64,
+}
+
+/// Cells and steps of a run, which wall time is divided by.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Pace {
+    /// Cells.
+    pub cells: usize,
+    /// Steps taken since the run began or was resumed.
+    pub steps: usize,
+    /// A step over the largest stable one, and what sets it.
+    pub share: (f64, String),
 }
 
 /// Energy budget at the end.
@@ -109,6 +123,9 @@ pub struct Report {
     /// Wall time.
     #[serde(skip)]
     pub seconds: Phases,
+    /// What the text says about steps.
+    #[serde(skip)]
+    pub pace: Pace,
 }
 
 impl Results for Report {
@@ -146,7 +163,12 @@ impl Report {
                 .collect(),
             unit: if plan.per_length { "J/m" } else { "J" },
             energy: (&ended.budget).into(),
-            seconds: Phases::default(),
+            seconds: Phases { set_up: ended.set_up, ..Phases::default() },
+            pace: Pace {
+                cells: plan.cells(),
+                steps: ended.steps - ended.earlier,
+                share: (plan.share(), plan.step_reason.clone()),
+            },
         }
     }
 
@@ -185,8 +207,14 @@ impl Report {
         let s = &self.seconds;
         let _ = writeln!(
             text,
-            "  {} steps; seconds: plan {:.2}, steps {:.2}, output {:.2}",
-            self.steps, s.plan, s.steps, s.output
+            "  {} steps; seconds: plan {:.2}, set-up {:.2}, steps {:.2}, output {:.2}",
+            self.steps, s.plan, s.set_up, s.steps, s.output
+        );
+        let Pace { cells, steps, share: (share, reason) } = &self.pace;
+        let _ = writeln!(
+            text,
+            "  {:.1} ns a cell and step, with output between steps; a step is {share:.3} of the largest stable one: {reason}",
+            s.steps * NANO / (cells * steps).max(1) as f64
         );
         text
     }

@@ -5,6 +5,7 @@ use super::moment::{Before, size};
 use super::plan::Plan;
 use asperity_mechanics::dynamics::{Budget, Explicit, ExplicitState, FaultState, Halt};
 use asperity_output::OutputError;
+use std::time::Instant;
 
 /// Reason why a run could not be carried out.
 #[derive(Debug, thiserror::Error)]
@@ -25,6 +26,10 @@ pub enum RunError {
 pub struct Ended {
     /// Steps taken.
     pub steps: usize,
+    /// Those of them before the run was resumed.
+    pub earlier: usize,
+    /// Wall time until the first step could be taken \[s\].
+    pub set_up: f64,
     /// Time of the last state \[s\].
     pub time: f64,
     /// Energies then.
@@ -56,11 +61,13 @@ pub fn run<const D: usize>(
     keeper: &mut Keeper<'_, D>,
     from: Option<&ExplicitState>,
 ) -> Result<Ended, RunError> {
+    let clock = Instant::now();
     let mut explicit = Explicit::new(&plan.problem).map_err(RunError::SetUp)?;
     explicit.begin_stage(0).map_err(RunError::SetUp)?;
     if from.is_some_and(|state| !explicit.restore(state)) {
         return Err(RunError::Foreign);
     }
+    let (earlier, set_up) = (explicit.steps(), clock.elapsed().as_secs_f64());
     let (mut halt, mut interrupted) = (None, None);
     while explicit.steps() <= plan.steps {
         interrupted = keeper.pause(|| explicit.save())?;
@@ -82,5 +89,6 @@ pub fn run<const D: usize>(
         keeper.step(&before.after(plan, &mut explicit))?;
     }
     let (budget, fault) = (explicit.budget(), explicit.fault().clone());
-    Ok(Ended { steps: explicit.steps(), time: budget.time, budget, fault, halt, interrupted })
+    let steps = explicit.steps();
+    Ok(Ended { steps, earlier, set_up, time: budget.time, budget, fault, halt, interrupted })
 }

@@ -5,6 +5,7 @@ pub(crate) mod cuts;
 pub mod locking;
 pub mod materials;
 pub mod meshes;
+pub mod order;
 pub(crate) mod sets;
 pub mod sizes;
 pub mod surfaces;
@@ -41,7 +42,7 @@ pub fn build<const D: usize>(scene: &scene::Scene) -> Result<Model<D>, Diagnosti
     let mut mesh = Mesh::<D>::default();
     let mut parts = Vec::new();
     for (name, body) in &scene.bodies {
-        let part = meshes::of_body::<D>(scene, name, body)?;
+        let part = numbered(scene, body, meshes::of_body::<D>(scene, name, body)?);
         let even =
             matches!(&body.mesh, scene::MeshSource::Block(b) if b.spacing.is_none() && b.coarser.is_none());
         let size = even.then(|| cell_size(&part, 0, 0));
@@ -49,7 +50,7 @@ pub fn build<const D: usize>(scene: &scene::Scene) -> Result<Model<D>, Diagnosti
         mesh.append(part, name);
         parts.push((name, body, (nodes..mesh.nodes.len(), blocks..mesh.blocks.len()), size));
     }
-    forecast::machine(scene, &counts(&mesh), idealisation)?;
+    forecast::machine(scene, &counts(&mesh))?;
     let mut model =
         Model { scale: diagonal(&mesh.nodes), mesh, blocks: Vec::new(), bodies: Vec::new(), idealisation };
     for (name, body, (nodes, blocks), size) in parts {
@@ -77,6 +78,13 @@ pub fn build<const D: usize>(scene: &scene::Scene) -> Result<Model<D>, Diagnosti
         model.bodies.push(Body { name, nodes, blocks, elastic, size, parts, nonlinear, dofs });
     }
     Ok(model)
+}
+
+/// The mesh of a body: one of a file is ordered for explicit steps.
+fn numbered<const D: usize>(scene: &scene::Scene, body: &scene::Body, mesh: Mesh<D>) -> Mesh<D> {
+    let of_file = matches!(body.mesh, scene::MeshSource::Gmsh(_) | scene::MeshSource::Abaqus(_));
+    let in_steps = *scene.time.stepper.get_ref() == scene::Stepper::Explicit;
+    if of_file && in_steps { order::along_curve(mesh) } else { mesh }
 }
 
 /// The material of a block of a body, with its name.

@@ -348,3 +348,74 @@ fn the_estimate_of_memory_counts_one_matrix_for_cells_of_one_shape() {
     assert_eq!(plan.stable.highest.kept, 2 * 24 * 24);
     assert!(plan.memory_bytes < 80_000_000, "{}", plan.memory_bytes);
 }
+
+/// Slip at the station at the end of a run of the rupture that pulses start, without a patch.
+fn slip_at_the_end(changes: &[Change<'_>]) -> f64 {
+    let changes = [
+        [Without("faults.main.patches"), With("faults.main.pulses[0].traction", "16 MPa")].as_slice(),
+        changes,
+    ]
+    .concat();
+    let folder = folder(&varied(SCENE, &changes));
+    let done = run(folder.path(), "out", &["--no-plots"]);
+    assert!(done.status.success(), "{}", told(&done));
+    let report = fs::read_to_string(folder.path().join("out/report.json")).unwrap();
+    let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+    assert!(report["energy"]["imbalance"].as_f64().unwrap() < 1e-10, "{report}");
+    let station = fs::read_to_string(folder.path().join("out/stations/main_000")).unwrap();
+    station.lines().last().unwrap().split(' ').nth(1).unwrap().parse().unwrap()
+}
+
+#[test]
+fn bodies_that_could_flow_or_turn_and_do_not_rupture_as_elastic_ones_and_are_damped_alike() {
+    let elastic = slip_at_the_end(&[]);
+    assert!(elastic > 0.3, "{elastic}");
+    let stressed = [
+        Without("faults.main.normal"),
+        Without("faults.main.shear"),
+        Add("bodies.A.initial_stress", "[\"-120 MPa\", \"-120 MPa\", 0, \"70 MPa\", 0, 0]"),
+    ];
+    let yielding = Add("materials.rock.plasticity", "{ hardening = \"perfect\", yield = \"5 GPa\" }");
+    let plastic = slip_at_the_end(&[stressed.as_slice(), &[yielding]].concat());
+    let flowing = slip_at_the_end(&[Add("materials.rock.viscosity", "1e22")]);
+    // Flow in 2 s of a relaxation time of 1e22 Pa s/32 GPa.
+    assert!((flowing / elastic - 1.0).abs() < 1e-9, "{flowing} {elastic}");
+    // The forces of the initial stress, which are taken off, err by some ulps.
+    assert!((plastic / elastic - 1.0).abs() < 1e-9, "{plastic} {elastic}");
+    // Strains are 2e-4.
+    let turning = slip_at_the_end(&[Add("bodies.A.strain", "finite")]);
+    assert!((turning / elastic - 1.0).abs() < 2e-3, "{turning} {elastic}");
+    let undamped = slip_at_the_end(&[Add("materials.rock.viscosity", "1e22"), Add("time.viscosity", "0.0")]);
+    assert!((undamped / elastic - 1.0).abs() > 1e-4, "{undamped} {elastic}");
+}
+
+#[test]
+fn a_plastic_body_under_its_initial_stress_rests() {
+    let at_rest = plan(&[
+        Without("faults.main.patches"),
+        Without("faults.main.pulses"),
+        Without("faults.main.normal"),
+        Without("faults.main.shear"),
+        Add("bodies.A.initial_stress", "[\"-120 MPa\", \"-120 MPa\", \"70 MPa\"]"),
+        Add("materials.rock.plasticity", "{ hardening = \"perfect\", yield = \"200 MPa\" }"),
+    ]);
+    let mut explicit = asperity_mechanics::dynamics::Explicit::new(&at_rest.problem).unwrap();
+    explicit.begin_stage(0).unwrap();
+    for _ in 0..50 {
+        explicit.step().unwrap();
+    }
+    // An elastic body would strain by 1e-3 if nothing held this stress, and move by meters.
+    let most = explicit.displacement().iter().fold(0.0_f64, |most, u| most.max(u.abs()));
+    assert!(most < 1e-9, "{most}");
+}
+
+#[test]
+fn the_report_says_what_a_cell_costs_and_what_sets_the_step() {
+    let folder = folder(SCENE);
+    let done = run(folder.path(), "out", &["--no-plots"]);
+    let said = text(&done.stdout);
+    assert!(said.contains(" ns a cell and step"), "{said}");
+    // 20 ms are 0.83 of a step at `courant`: two steps.
+    let reason = "of the largest stable one: `courant` = 0.5 at most, and 2 whole steps between samples";
+    assert!(said.contains(reason), "{said}");
+}

@@ -6,6 +6,7 @@ use crate::scene::model::{Body, MeshSource, Scene, Spanned};
 use asperity_fem::FemError;
 use asperity_fem::mesh::Side;
 use asperity_mechanics::dynamics::{self, Dashpot, Stable};
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// Density of each block of cells \[kg/m³\].
@@ -85,11 +86,9 @@ pub(super) fn absorbing<const D: usize>(
     model: &Model<D>,
     density: &[f64],
 ) -> Result<Vec<Dashpot>, Diagnostic> {
-    let mut sides: Vec<Side> = Vec::new();
+    let (mut sides, mut known): (Vec<Side>, _) = (Vec::new(), BTreeSet::new());
     for set in absorbing_sets(scene) {
-        sides.extend(
-            model::sides(model, set)?.iter().filter(|s| !sides.contains(s)).copied().collect::<Vec<_>>(),
-        );
+        sides.extend(model::sides(model, set)?.iter().filter(|side| known.insert(**side)));
     }
     Ok(dynamics::dashpots(model, density, &sides))
 }

@@ -105,6 +105,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         stiffest: masses::middle(&model, &stable),
         steps: counted.steps,
         dt: counted.dt,
+        step_reason: counted.why,
         cadence: counted.cadence,
         faults,
         points,

@@ -16,13 +16,15 @@ const OUTPUTS: [usize; 3] = [1000, 200, 10];
 const ROUNDING: f64 = 1e-9;
 
 /// Steps of a run.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Counted {
     pub steps: usize,
     pub dt: f64,
     /// Step over the stable one, just so large that the number of steps does not exceed its own.
     pub courant: f64,
     pub cadence: Cadence,
+    /// What sets their length.
+    pub why: String,
 }
 
 /// Time of viscosity over the step.
@@ -43,7 +45,8 @@ pub(super) fn choose(scene: &Scene, stage: &Stage, stable: &Stable) -> Result<Co
     let duration = stage.end - stage.start;
     let longest = courant(scene) * stable.step;
     let samples = samples(scene, duration)?;
-    let steps = match scene.stages[0].steps.as_ref() {
+    let bound = format!("`courant` = {}", courant(scene));
+    let (steps, why) = match scene.stages[0].steps.as_ref() {
         Some(given) => {
             let steps = *given.get_ref();
             within(scene, duration / steps as f64, duration, stable)?;
@@ -57,16 +60,22 @@ pub(super) fn choose(scene: &Scene, stage: &Stage, stable: &Stable) -> Result<Co
                 )
                 .and(given.span(), "the steps"));
             }
-            steps
+            (steps, "`steps` of the stage".to_string())
         }
         None => {
             let samples = samples.unwrap_or(1);
             let between = (duration / samples as f64 / longest * (1.0 - ROUNDING)).ceil().max(1.0);
-            samples * between as usize
+            let steps = samples * between as usize;
+            let why = match scene.output.sampling {
+                Some(_) => format!("{bound} at most, and {between} whole steps between samples"),
+                None => bound,
+            };
+            (steps, why)
         }
     };
     let dt = duration / steps as f64;
     Ok(Counted {
+        why,
         steps,
         dt,
         courant: dt / stable.step * (1.0 + ROUNDING),

@@ -111,13 +111,17 @@ fn pairs<const D: usize>(
     let nodes = |sides: &[Side]| nodes_of_sides(&model.mesh, sides);
     let (on_minus, mut on_plus) = (nodes(minus), nodes(plus));
     let x = |n: &usize| model.mesh.nodes[*n];
-    // Sorted by the first coordinate, so that candidates lie in a narrow band.
-    on_plus.sort_by(|a, b| x(a)[0].total_cmp(&x(b)[0]));
+    let by = |axis: usize| move |a: &usize, b: &usize| x(a)[axis].total_cmp(&x(b)[axis]);
+    // Sorted along the longest side of their box, so that candidates lie in a narrow band: on a plane fault all nodes may share a
+    // coordinate.
+    let (least, most) = model::bounds(&on_plus.iter().map(x).collect::<Vec<_>>());
+    let axis = (0..D).fold(0, |best, c| if most[c] - least[c] > most[best] - least[best] { c } else { best });
+    on_plus.sort_by(by(axis));
     let mut partner: BTreeMap<usize, usize> = BTreeMap::new();
     let mut taken = BTreeSet::new();
     for m in &on_minus {
-        let from = on_plus.partition_point(|p| x(p)[0] < x(m)[0] - close);
-        let candidates = on_plus[from..].iter().take_while(|p| x(p)[0] <= x(m)[0] + close);
+        let from = on_plus.partition_point(|p| x(p)[axis] < x(m)[axis] - close);
+        let candidates = on_plus[from..].iter().take_while(|p| x(p)[axis] <= x(m)[axis] + close);
         let near = candidates.filter(|p| (0..D).all(|c| (x(p)[c] - x(m)[c]).abs() <= close));
         let near: Vec<usize> = near.copied().collect();
         match near.as_slice() {
@@ -135,7 +139,8 @@ fn pairs<const D: usize>(
             _ => return Err(branches(&format!("fault `{name}` branches"), &x(m), spec)),
         };
     }
-    let alone: Vec<usize> = on_plus.into_iter().filter(|p| !taken.contains(p)).collect();
+    let mut alone: Vec<usize> = on_plus.into_iter().filter(|p| !taken.contains(p)).collect();
+    alone.sort_by(|a, b| by(0)(a, b).then(a.cmp(b)));
     cover::partners(model, (name, spec), minus, &alone)?;
     let doubtful = cover::same_faces(model, (name, spec), (minus, plus), |m| partner.get(&m).copied());
     let pairs: Pairs = partner.into_iter().filter(|(m, p)| m != p).collect();
