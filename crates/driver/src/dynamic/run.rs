@@ -84,7 +84,7 @@ pub fn run<const D: usize>(
             // What is known after a step is the state at its start, which does not stand.
             let (budget, time) = (explicit.budget(), (explicit.time() - 2.0 * plan.dt).max(0.0));
             let (steps, halt) = (explicit.steps(), Some(halt));
-            return Ok(Ended { steps, time, budget, fault: last, halt, interrupted });
+            return Ok(Ended { steps, earlier, set_up, time, budget, fault: last, halt, interrupted });
         }
         keeper.step(&before.after(plan, &mut explicit))?;
     }

@@ -46,6 +46,7 @@ pub fn along_curve<const D: usize>(mesh: Mesh<D>) -> Mesh<D> {
         side_sets: mesh.side_sets.into_iter().map(sides).collect(),
         cell_sets: mesh.cell_sets,
         node_sets: mesh.node_sets.into_iter().map(named).collect(),
+        left_out: mesh.left_out,
     }
 }
 
