@@ -1,7 +1,7 @@
 //! Numbers of a scene that stand in files of columns.
 
 use crate::diagnostic::Diagnostic;
-use crate::model::{Scene, Spanned, Tabled};
+use crate::model::{Scene, Spanned, TableFile, TableOver, part};
 use crate::units::{Dimension, Length};
 use std::ops::Range;
 
@@ -40,10 +40,10 @@ pub(super) fn fill(scene: &mut Scene, columns: &mut Columns<'_>) -> Result<(), D
 
 /// Fills tables whose numbers stand in files.
 pub(super) fn fill_tables<'a>(
-    tables: impl Iterator<Item = (&'a mut Tabled, Dimension)>,
+    tables: impl Iterator<Item = TableOver<'a>>,
     columns: &mut Columns<'_>,
 ) -> Result<(), Diagnostic> {
-    for (table, dimension) in tables {
+    for (table, dimension, duration) in tables {
         let Some(given) = table.file().cloned() else { continue };
         let time = given.time.as_ref().map_or((TIME, given.file.span()), |t| (t.get_ref(), t.span()));
         let wanted = [
@@ -52,7 +52,28 @@ pub(super) fn fill_tables<'a>(
         ];
         let mut found = columns(&given.file, &wanted)?.into_iter();
         let (times, values) = (found.next().unwrap_or_default(), found.next().unwrap_or_default());
-        table.fill(times.into_iter().zip(values).collect());
+        table.fill(taken(&given, times.into_iter().zip(values).collect(), duration)?);
     }
     Ok(())
+}
+
+/// What a scene takes of the entries of a file.
+fn taken(
+    file: &TableFile,
+    mut points: Vec<(f64, f64)>,
+    duration: Option<f64>,
+) -> Result<Vec<(f64, f64)>, Diagnostic> {
+    let tare = file.tare.as_ref().is_some_and(|tare| *tare.get_ref());
+    if let Some(&(_, zero)) = points.first().filter(|_| tare) {
+        points.iter_mut().for_each(|p| p.1 -= zero);
+    }
+    let Some(from) = &file.from else { return Ok(points) };
+    part(&points, from.get_ref().0, duration).ok_or_else(|| {
+        let [first, last] = [points.first(), points.last()].map(|p| p.map_or(0.0, |p| p.0));
+        Diagnostic::at(
+            from.span(),
+            format!("the times of `{}` run from {first:?} s to {last:?} s: none lies in what begins at {:?} s", file.file.get_ref(), from.get_ref().0),
+            "`from` is the time in the file at which the stage begins",
+        )
+    })
 }

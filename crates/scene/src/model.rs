@@ -53,7 +53,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 pub use stress::*;
 pub use surface::*;
-pub use tabled::{TableFile, Tabled};
+pub use tabled::{TableFile, Tabled, part};
 pub use trace::{Trace, TraceFile};
 
 /// A whole scene.
@@ -121,14 +121,18 @@ impl Scene {
     }
 
     /// Tables of motions, loads and fluxes of wells, with the dimension of their values, which files may fill.
-    pub(crate) fn tables_mut(&mut self) -> impl Iterator<Item = TableMut<'_>> {
-        let conditions = self.stages.iter_mut().flat_map(|stage| &mut stage.conditions);
+    pub(crate) fn tables_mut(&mut self) -> impl Iterator<Item = TableOver<'_>> {
+        let conditions = self.stages.iter_mut().flat_map(|stage| {
+            let duration = Some(stage.duration.get_ref().0);
+            let tables = stage.conditions.iter_mut().flat_map(|condition| condition.get_mut().tables_mut());
+            tables.map(move |(table, dimension)| (table, dimension, duration))
+        });
         let wells = self.faults.values_mut().filter_map(|fault| fault.injection.as_mut());
         let fluxes = wells.flat_map(|wells| &mut wells.0).filter_map(|well| match well.flux.get_mut() {
-            Flux::Steps(table) => Some((table, Dimension::Velocity)),
+            Flux::Steps(table) => Some((table, Dimension::Velocity, None)),
             Flux::Constant(_) => None,
         });
-        conditions.flat_map(|condition| condition.get_mut().tables_mut()).chain(fluxes)
+        conditions.chain(fluxes)
     }
 
     /// Traces of faults in the plane, which files may fill.
@@ -345,6 +349,9 @@ pub struct Stage {
 
 /// A table of motions or loads: its dimension goes with it.
 type TableMut<'a> = (&'a mut Tabled, Dimension);
+
+/// The same with the duration of its stage, if it belongs to one \[s\].
+pub(crate) type TableOver<'a> = (&'a mut Tabled, Dimension, Option<f64>);
 
 impl Condition {
     /// Tables of its motions and loads.

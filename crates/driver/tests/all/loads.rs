@@ -351,3 +351,38 @@ fn a_record_of_a_hundred_thousand_rows_is_followed_by_its_corners() {
         assert!(times.iter().any(|t| (t - blow).abs() < 1e-12), "{blow}");
     }
 }
+
+#[test]
+fn a_record_is_shared_out_to_its_stages() {
+    let folder = tempfile::tempdir().unwrap();
+    // The instrument reads 0.02 mm at the start; the first stage ends between two rows.
+    let csv = "time [s],stroke [mm]\n0,0.02\n0.5,-0.48\n1.5,-1.48\n3,-0.58\n";
+    std::fs::write(folder.path().join("test.csv"), csv).unwrap();
+    let part = |more: &str| {
+        format!(
+            r#"{{ set = "C.top", y = {{ table = {{ file = "test.csv", column = "stroke"{more} }} }} }}"#
+        )
+    };
+    let two = |first: &str, second: &str| {
+        let after = format!("{{ name = \"after\", duration = 2, conditions = [{}] }}", part(second));
+        let changes = [Without("stages[0].steps"), Push("stages", &after)];
+        scene::read_in(&varied(&column("quad4", "", &part(first)), &changes), folder.path())
+    };
+    let scene = two(", from = 0, tare = true", ", from = 1, tare = true").unwrap();
+    let plan = plan::plan(&scene).unwrap();
+    let mut record = Recorder::new().with_bodies();
+    assert_eq!(run::run(&plan, &mut record).unwrap().outcome, Outcome::Completed);
+    let at = |stage: usize| record.stage_ends()[stage].bodies.as_ref().unwrap().displacement.clone();
+    for (stage, exact) in [(0, -1e-3), (1, -0.6e-3)] {
+        let least = at(stage).iter().map(|u| u[1]).fold(0.0, f64::min);
+        assert!((least - exact).abs() < 1e-15, "{stage}: {least}");
+    }
+    // Without `from` the second stage would begin at the start of the record, and without `tare` beside its set.
+    for (first, second, told) in [
+        (", from = 0", ", from = 1", "begins with 0.02 mm, but `C.top` is at 0"),
+        (", from = 0, tare = true", ", from = 4, tare = true", "run from 0.0 s to 3.0 s: none lies in what begins at 4.0 s"),
+    ] {
+        let error = two(first, second).err().unwrap().to_string();
+        assert!(error.contains(told), "{error}");
+    }
+}

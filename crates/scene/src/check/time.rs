@@ -4,9 +4,9 @@ use super::Checker;
 use crate::model::{Rule, Spanned, Stepper};
 use std::ops::Range;
 
-/// Largest admissible residual over the largest force. Tractions of the pressed surface are of the size of the largest force over
 /// Largest departure of a table from its chord within a step, relative to the range of the table.
 const MOST_DEPARTURE: f64 = 0.1;
+/// Largest admissible residual over the largest force. Tractions of the pressed surface are of the size of the largest force over
 /// its area, and then err by a percent.
 const MOST_DRIFT: f64 = 1e-2;
 

@@ -2,7 +2,7 @@
 
 use super::course::Course;
 use super::event::EventSpec;
-use crate::model::{LawSpec, Spanned, Tabled};
+use crate::model::{LawSpec, Spanned, TableOver, Tabled};
 use crate::shape::{Either, shaped};
 use crate::units::{Damping, Dimension, Mass, Pressure, Spring, Time, Velocity};
 use crate::warning::Warning;
@@ -44,7 +44,7 @@ pub struct SliderScene {
 
 impl SliderScene {
     /// Tables of its courses that files have, with the dimension of their values.
-    pub(super) fn tables_mut(&mut self) -> impl Iterator<Item = (&mut Tabled, Dimension)> {
+    pub(super) fn tables_mut(&mut self) -> impl Iterator<Item = TableOver<'_>> {
         let load = self.load.iter_mut().filter_map(|load| load.rate.get_mut().in_file_mut());
         let load = load.map(|table| (table, Dimension::Velocity));
         let sliders = self.sliders.values_mut().flat_map(|slider| {
@@ -53,7 +53,7 @@ impl SliderScene {
             let rate = rate.as_mut().and_then(|rate| rate.get_mut().in_file_mut());
             normal.into_iter().chain(rate.map(|table| (table, Dimension::Velocity)))
         });
-        load.chain(sliders)
+        load.chain(sliders).map(|(table, dimension)| (table, dimension, None))
     }
 
     /// Names of the files of the scene.
