@@ -26,6 +26,10 @@ use keeper::Unkept;
 use stand::{Found, Said, Work};
 use std::time::Instant as Clock;
 
+/// Rounding of relative positions as a share of the size of the scene: gaps are differences of averages over some tens of
+/// positions.
+const TOUCH: f64 = 1e-14;
+
 /// Reason why a run could not be completed.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
@@ -280,10 +284,15 @@ impl<const D: usize> Running<'_, D> {
         if problem.mass.is_some() {
             return None;
         }
-        let status: Vec<_> = system.interfaces().iter().map(|i| &i.points().status).collect();
+        let fields: Vec<_> = system.interfaces().iter().map(|i| i.points()).collect();
         let closed = |interface: usize, point: usize| {
-            let of = status.get(interface).and_then(|points| points.get(point));
-            of.is_some_and(|status| *status != Status::Open)
+            let (Some(of), Some(planned)) = (fields.get(interface), problem.interfaces.get(interface)) else {
+                return false;
+            };
+            // A point that touches without traction, but for the rounding of its gap, holds nothing.
+            let rounding = TOUCH * problem.model.scale * planned.normal_penalty;
+            let shear: f64 = of.shear[point].iter().map(|t| t * t).sum();
+            of.status[point] != Status::Open && of.normal_traction[point].abs().max(shear.sqrt()) > rounding
         };
         restraint::lost((&problem.model, &problem.stages[stage]), &problem.interfaces, &closed)
     }

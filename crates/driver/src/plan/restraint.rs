@@ -79,14 +79,14 @@ pub fn lost<const D: usize>(
         let own = faces.any(|face| nodes.iter().any(|part| part.binary_search(&face.nodes[0]).is_ok()));
         let all = interface.slave.len();
         let open = (0..all).filter(|&point| !closed(k, point)).count();
-        (own && open > 0).then(|| format!("`{}` is open at {open} of {all} points", interface.name))
+        (own && open > 0).then(|| format!("`{}` presses nothing at {open} of {all} points", interface.name))
     });
     let open: Vec<String> = open.collect();
     if open.is_empty() {
         return None;
     }
     Some(format!(
-        "the likely cause: {what} free in {}, since contact is lost: interface {}. Hold it by a condition or a soft spring, or see whether a load or a motion          pulls it off",
+        "the likely cause: {what} free in {}, since contact is lost: interface {}. Hold it by a condition or a soft spring, or see whether a load or a motion pulls it off",
         loose.motion,
         open.join(", ")
     ))

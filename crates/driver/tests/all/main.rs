@@ -15,6 +15,7 @@ mod commands;
 mod common;
 mod compare;
 mod contact_limits;
+mod contact_lost;
 mod directories;
 mod documents;
 mod doubtful_scenes;
