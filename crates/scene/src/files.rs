@@ -2,7 +2,9 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::model::{Scene, Spanned, TableFile, TableOver, part};
+use crate::plausible;
 use crate::units::{Dimension, Length};
+use crate::warning::Warning;
 use std::ops::Range;
 
 /// A column of a file that a scene names.
@@ -24,10 +26,12 @@ const TIME: &str = "time";
 
 /// Fills the tables and traces of a scene whose numbers stand in files.
 ///
+/// Returns warnings of implausible values.
+///
 /// # Errors
 /// The first error of the reader.
-pub(super) fn fill(scene: &mut Scene, columns: &mut Columns<'_>) -> Result<(), Diagnostic> {
-    fill_tables(scene.tables_mut(), columns)?;
+pub(super) fn fill(scene: &mut Scene, columns: &mut Columns<'_>) -> Result<Vec<Warning>, Diagnostic> {
+    let doubts = fill_tables(scene.tables_mut(), columns)?;
     for trace in scene.traces_mut() {
         let Some(file) = trace.file().map(|given| given.file.clone()) else { continue };
         let wanted = ["x", "y"].map(|name| Column { name, place: file.span(), dimension: Dimension::Length });
@@ -35,14 +39,15 @@ pub(super) fn fill(scene: &mut Scene, columns: &mut Columns<'_>) -> Result<(), D
         let (x, y) = (found.next().unwrap_or_default(), found.next().unwrap_or_default());
         trace.fill(x.into_iter().zip(y).map(|(x, y)| [Length(x), Length(y)]).collect());
     }
-    Ok(())
+    Ok(doubts)
 }
 
-/// Fills tables whose numbers stand in files.
+/// Fills tables whose numbers stand in files. Returns warnings of implausible values.
 pub(super) fn fill_tables<'a>(
     tables: impl Iterator<Item = TableOver<'a>>,
     columns: &mut Columns<'_>,
-) -> Result<(), Diagnostic> {
+) -> Result<Vec<Warning>, Diagnostic> {
+    let mut doubts = Vec::new();
     for (table, dimension, duration) in tables {
         let Some(given) = table.file().cloned() else { continue };
         let time = given.time.as_ref().map_or((TIME, given.file.span()), |t| (t.get_ref(), t.span()));
@@ -53,8 +58,21 @@ pub(super) fn fill_tables<'a>(
         let mut found = columns(&given.file, &wanted)?.into_iter();
         let (times, values) = (found.next().unwrap_or_default(), found.next().unwrap_or_default());
         table.fill(taken(&given, times.into_iter().zip(values).collect(), duration)?);
+        doubts.extend(doubt(&given, dimension, table));
     }
-    Ok(())
+    Ok(doubts)
+}
+
+/// Warning of implausible values of a load or of a rate.
+fn doubt(file: &TableFile, dimension: Dimension, points: &[(f64, f64)]) -> Option<Warning> {
+    let keys: &[&str] = match dimension {
+        Dimension::Pressure => &["pressure"],
+        Dimension::Velocity => &["conditions", "rate"],
+        _ => &[],
+    };
+    let (message, help) = plausible::of_file(keys, dimension.si(), points.iter().map(|p| p.1))?;
+    let (column, name) = (&file.column, file.file.get_ref());
+    Some(Warning::at(column.span(), format!("column `{}` of `{name}`: {message}", column.get_ref()), help))
 }
 
 /// What a scene takes of the entries of a file.

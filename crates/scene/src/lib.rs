@@ -51,10 +51,11 @@ pub fn read(
     }
     let mut scene: Scene = toml::from_str(text).map_err(|e| Diagnostics(vec![explain::explain(&e, text)]))?;
     scene.folder = folder.to_path_buf();
-    files::fill(&mut scene, columns).map_err(|error| Diagnostics(vec![error]))?;
+    let doubts = files::fill(&mut scene, columns).map_err(|error| Diagnostics(vec![error]))?;
     azimuth::rakes(&mut scene);
     let (mut errors, mut warnings) = check::check(&scene, laws);
     plausible::judge(text, plausible::Known::of(&scene), &mut errors, &mut warnings);
+    warnings.extend(doubts);
     scene.warnings = warnings;
     if errors.is_empty() { Ok(scene) } else { Err(Diagnostics(errors)) }
 }

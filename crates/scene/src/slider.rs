@@ -69,7 +69,8 @@ pub fn is_slider(text: &str) -> bool {
 /// The first error of the reader, or of a file.
 pub fn read_with(text: &str, columns: &mut Columns<'_>) -> Result<SliderScene, Diagnostics> {
     let mut scene = read(text)?;
-    files::fill_tables(scene.tables_mut(), columns).map_err(|error| Diagnostics(vec![error]))?;
+    let doubts = files::fill_tables(scene.tables_mut(), columns);
+    scene.warnings.extend(doubts.map_err(|error| Diagnostics(vec![error]))?);
     Ok(scene)
 }
 

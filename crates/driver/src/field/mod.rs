@@ -18,6 +18,8 @@ pub(crate) use region::{Region, Spot};
 use crate::columns::file::refused;
 use crate::diagnostic::Diagnostic;
 use crate::scene::model::Field as Given;
+use crate::scene::plausible;
+use crate::scene::units::Dimension;
 use crate::warning::Warning;
 use asked::{Asked, Source};
 use asperity_mechanics::coordinates;
@@ -35,6 +37,8 @@ pub(crate) struct Field<const D: usize> {
     file: String,
     /// Position of the name of the file in the scene.
     pub span: Range<usize>,
+    /// Dimension of the parameter; none of a number.
+    dimension: Option<Dimension>,
     axes: Axes<D>,
     source: Source,
 }
@@ -73,7 +77,7 @@ impl<const D: usize> Field<D> {
                 "remove `coordinate_unit`",
             ));
         }
-        Ok(Self { key, file, span: given.file.span(), axes, source })
+        Ok(Self { key, file, span: given.file.span(), dimension: parameter.dimension, axes, source })
     }
 
     /// Value at a point; `None` outside, NaN where the file has none.
@@ -113,8 +117,19 @@ impl<const D: usize> Field<D> {
         ))
     }
 
+    /// Warnings of what the file gives to these points: values and positions whose unit must be wrong.
+    pub fn doubts(&self, region: &str, spots: &[Spot<D>]) -> impl Iterator<Item = Warning> {
+        let values = spots.iter().filter_map(|spot| self.found(spot));
+        let unit = self.dimension.map_or("", Dimension::si);
+        let implausible = plausible::of_file(&["faults", "fields", self.key], unit, values).map(|(message, help)| {
+            let message = format!("`{}` of {region} from `{}`: {message}", self.key, self.file);
+            Warning::at(self.span.clone(), message, help)
+        });
+        implausible.into_iter().chain(self.reach(region, spots))
+    }
+
     /// Warning of a file that reaches so much farther than these points that a unit must be wrong.
-    pub fn doubt(&self, region: &str, spots: &[Spot<D>]) -> Option<Warning> {
+    fn reach(&self, region: &str, spots: &[Spot<D>]) -> Option<Warning> {
         let (share, along) = self.axes.share(spots);
         (spots.len() > 1 && share < LEAST_SHARE).then(|| {
             let message = format!(

@@ -7,15 +7,11 @@ use crate::model::Model;
 use crate::refused::refused;
 use crate::scene::law::{self, LawChoice};
 use crate::scene::model::{Interface, LawFields, LawSpec, Scene, Spanned, field_dimension};
-use crate::scene::plausible::MOST_FRICTION;
 use crate::warning::Warning;
 use asperity_friction::Failure;
 use asperity_friction::law::Law;
 use asperity_mechanics::coordinates;
 use std::sync::Arc;
-
-/// Parameters that are ratios of tractions.
-const COEFFICIENTS: [&str; 4] = ["mu", "mu_s", "mu_k", "mu0"];
 
 /// Friction of an interface, as chosen by the scene.
 pub(super) struct Friction {
@@ -51,9 +47,8 @@ impl Friction {
         let laws =
             spots.iter().map(|spot| at(spot, &name, (given, &base), &fields)).collect::<Result<_, _>>()?;
         let mut all = Self { laws, notes: Vec::new(), warnings: Vec::new() };
-        for (key, field) in &fields {
-            all.warnings.extend(field.doubt(&name, &spots));
-            all.warnings.extend(per_cent(field, key, &name, &spots)?);
+        for (_, field) in &fields {
+            all.warnings.extend(field.doubts(&name, &spots));
             all.notes.push(field.note(&name, spots.iter()));
         }
         Ok(Some(all))
@@ -149,25 +144,4 @@ fn at<const D: usize>(
         message,
         "parameters of a point must fit together: check the columns and the law",
     ))
-}
-
-/// Warning of coefficients that appear to be percentages or tractions.
-fn per_cent<const D: usize>(
-    field: &Field<D>,
-    key: &str,
-    name: &str,
-    spots: &[Spot<D>],
-) -> Result<Option<Warning>, Diagnostic> {
-    if !COEFFICIENTS.contains(&key) {
-        return Ok(None);
-    }
-    let mut largest = 0.0_f64;
-    for spot in spots {
-        largest = largest.max(field.at(name, spot)?);
-    }
-    Ok((largest > MOST_FRICTION).then(|| {
-        let message =
-            format!("the friction coefficient `{key}` of {name} is up to {largest}: rocks have 0.1 to 1");
-        Warning::at(field.span.clone(), message, "it is shear over normal traction, not a percentage")
-    }))
 }

@@ -3,7 +3,7 @@
 
 mod table;
 
-pub use table::{MOST_FRICTION, covers};
+pub use table::covers;
 
 use crate::diagnostic::Diagnostic;
 use crate::keys::{Tree, written};
@@ -79,6 +79,21 @@ struct Step<'a> {
     name: bool,
     /// True for the mark of a kind of scene, which is no part of the path.
     root: bool,
+}
+
+/// What is doubtful about the largest magnitude of the values that a key takes from a file, with a usual value as help; `unit` is
+/// the SI unit of the key, empty for a plain number.
+#[must_use]
+pub fn of_file(keys: &[&str], unit: &str, values: impl IntoIterator<Item = f64>) -> Option<(String, String)> {
+    let of = quantity(keys, Some(unit))?;
+    let largest = values.into_iter().map(f64::abs).filter(|v| v.is_finite()).fold(0.0, f64::max);
+    let [low, high] = of.usual;
+    if largest == 0.0 || (low..=high).contains(&largest) {
+        return None;
+    }
+    let unit = if of.unit.is_empty() { String::new() } else { format!(" {}", of.unit) };
+    let message = format!("its largest is {}{unit}, and {}", shown(largest), of.are());
+    Some((message, format!("is the unit of the file right? Such as {}; values that are meant may stay", of.example)))
 }
 
 struct Judge<'a> {
@@ -212,18 +227,26 @@ impl<'a> Judge<'a> {
             self.errors.push(Diagnostic::at(at, format!("{value}: {why}"), help));
             return;
         }
-        let usual = match low > 0.0 {
-            true => format!("are {} to {}{unit}", shown(low), shown(high)),
-            false => format!("are at most {}{unit}", shown(high)),
-        };
         help += "; a value that is meant may stay";
-        self.warnings.push(Warning::at(at, format!("{value}, and {} {usual}", of.name), help));
+        self.warnings.push(Warning::at(at, format!("{value}, and {}", of.are()), help));
     }
 }
 
 /// True for a form whose type is one of several, such as a number or nothing.
 fn lists_number(form: &Schema) -> bool {
     form["type"].as_array().is_some_and(|all| all.iter().any(|t| t == "number"))
+}
+
+impl Quantity {
+    /// What its values usually are.
+    fn are(&self) -> String {
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
+        let (name, [low, high]) = (self.name, self.usual);
+        match low > 0.0 {
+            true => format!("{name} are {} to {}{unit}", shown(low), shown(high)),
+            false => format!("{name} are at most {}{unit}", shown(high)),
+        }
+    }
 }
 
 /// A number with few digits where that is short.
@@ -306,6 +329,17 @@ mod tests {
             assert!(!refused && message.contains(path), "{line}: {message}");
             assert_eq!(*at, line.lines().count(), "{line}");
         }
+    }
+
+    #[test]
+    fn values_of_files_are_judged_by_their_largest() {
+        assert_eq!(of_file(&["pressure"], "Pa", [0.0, 5e6, f64::NAN]), None);
+        assert_eq!(of_file(&["fields", "a"], "", [0.0, 0.015]), None);
+        let (message, help) = of_file(&["pressure"], "Pa", [0.0, -5.0]).unwrap();
+        assert!(message.contains("its largest is 5 Pa, and tractions are 1e3 to 2e10 Pa"), "{message}");
+        assert!(help.contains("\"50 MPa\""), "{help}");
+        assert!(of_file(&["fields", "a"], "", [0.01, 15.0]).is_some());
+        assert!(of_file(&["fields", "l"], "m", [8.0, 40.0]).is_some());
     }
 
     #[test]

@@ -4,7 +4,7 @@
 use crate::units::Dimension;
 
 /// Friction coefficients above this are percentages or tractions \[-\]: rocks have 0.1 to 1, rubber up to 4.
-pub const MOST_FRICTION: f64 = 4.0;
+const MOST_FRICTION: f64 = 4.0;
 
 /// Slip rates of loads, of creep and at the start beyond this are those of a rupture \[m/s\]: a centimetre per second.
 const SLOW: f64 = 1e-2;
@@ -61,6 +61,7 @@ pub(super) const QUANTITIES: &[Quantity] = &[
     row(("yield stresses", "Pa"), &["yield", "plasticity.table"], [1e3, 1e11], "\"300 MPa\""),
     row(("moduli of hardening", "Pa"), &["modulus"], [1e3, 1e12], "\"1 GPa\""),
     row(("limits of friction", "Pa"), &["f_limit"], [1e3, 2e10], "\"100 MPa\""),
+    row(("cohesions", "Pa"), &["cohesion"], [1e3, 1e9], "\"1 MPa\""),
     row(
         ("tractions", "Pa"),
         &["normal", "shear", "normal_floor", "normal_initial", "traction", "pressure", "initial_stress"],

@@ -69,7 +69,7 @@ impl<const D: usize> Fields<D> {
         let sliding = placed.iter().filter(|p| p.point.creep.is_none());
         let spots: Vec<Spot<D>> = sliding.map(|p| spot(&p.point.place)).collect();
         for field in self.all.iter().flatten() {
-            warnings.extend(field.doubt(&self.region, &spots));
+            warnings.extend(field.doubts(&self.region, &spots));
             notes.push(field.note(&self.region, spots.iter()));
         }
     }
