@@ -22,6 +22,10 @@ const SMALL_STRAIN: f64 = 0.05;
 /// Largest rotation admitted in small-strain theory \[rad\]. It takes a rotation θ for a strain θ²/2, here 1.25e-3, which in rock is tens of MPa.
 const SMALL_ROTATION: f64 = 0.05;
 
+/// Share of these below which differences of displacement within a cell over its shortest edge leave no doubt: gradients are at most
+/// some times as large, unless a cell is ten times flatter than its edges.
+const SAFE: f64 = 0.1;
+
 /// Slip over the size of the master faces from which a fixed pairing is wrong, because the node is then on another face.
 const SMALL_SLIDING: f64 = 1.0;
 
@@ -79,7 +83,8 @@ impl Worst {
         self.judge((&plan.problem.model, time), &u.unwrap_or_else(displacement));
     }
 
-    fn judge<const D: usize>(&mut self, (model, time): (&Model<D>, f64), u: &[f64]) {
+    /// Sees displacements of a model \[m\] at a time \[s\].
+    pub fn judge<const D: usize>(&mut self, (model, time): (&Model<D>, f64), u: &[f64]) {
         self.bodies.resize(model.bodies.len(), Default::default());
         for (body, (worst, at)) in model.bodies.iter().zip(&mut self.bodies) {
             for block in body.blocks.clone() {
@@ -98,11 +103,15 @@ impl Worst {
     #[must_use]
     pub fn warnings<const D: usize>(&self, plan: &Plan<D>, stage: &str) -> Vec<Warning> {
         let model = &plan.problem.model;
-        let bodies = model.bodies.iter().zip(&self.bodies);
-        let of_bodies = bodies
-            .filter_map(|(b, (worst, at))| of_body(&b.name, stage, (*worst, *at), b.elastic[0].young()));
         let interfaces = plan.problem.interfaces.iter().zip(&self.slid);
-        of_bodies.chain(interfaces.filter_map(|(i, slid)| dragged(model, i, stage, *slid))).collect()
+        let dragged = interfaces.filter_map(|(i, slid)| dragged(model, i, stage, *slid));
+        self.of_bodies(model, stage).chain(dragged).collect()
+    }
+
+    /// Warnings about the bodies in a stage.
+    pub fn of_bodies<const D: usize>(&self, model: &Model<D>, stage: &str) -> impl Iterator<Item = Warning> {
+        let bodies = model.bodies.iter().zip(&self.bodies);
+        bodies.filter_map(move |(b, (worst, at))| of_body(&b.name, stage, (*worst, *at), b.elastic[0].young()))
     }
 }
 
@@ -129,8 +138,8 @@ fn of_body(body: &str, stage: &str, (largest, at): (Largest, [f64; 2]), young: f
 }
 
 /// Largest strain and rotation in the cells of a block, at their centres and between these and their corners, about where stresses are
-/// computed; zero if the block accounts for large deformation.
-pub fn of_block<const D: usize>(model: &Model<D>, block: usize, u: &[f64]) -> Largest {
+/// computed; zero if the block accounts for large deformation, and in cells that leave no doubt.
+fn of_block<const D: usize>(model: &Model<D>, block: usize, u: &[f64]) -> Largest {
     let followed = matches!(&model.blocks.get(block), Some(CellBlock::Nonlinear(b)) if b.model().kinematics == Kinematics::UpdatedLagrangian);
     // Antiplane motion has one component, and its equation is linear for slopes of any size.
     if followed || model.idealisation == Idealisation::Antiplane {
@@ -138,7 +147,8 @@ pub fn of_block<const D: usize>(model: &Model<D>, block: usize, u: &[f64]) -> La
     }
     let cells = &model.mesh.blocks[block];
     let places = places(cells.kind);
-    let all = (0..cells.len()).flat_map(|cell| places.iter().map(move |place| (cell, place)));
+    let doubtful = |cell: &usize| stretched(model, cells, *cell, u) > SAFE * SMALL_STRAIN.min(SMALL_ROTATION);
+    let all = (0..cells.len()).filter(doubtful).flat_map(|cell| places.iter().map(move |place| (cell, place)));
     all.fold(Largest::default(), |largest, (cell, place)| {
         let gradient = gradient(model, cells, (cell, *place), u);
         let strain = 0.5 * (&gradient + gradient.transpose());
@@ -150,6 +160,26 @@ pub fn of_block<const D: usize>(model: &Model<D>, block: usize, u: &[f64]) -> La
             rotation: largest.rotation.max(spin.norm() / std::f64::consts::SQRT_2),
         }
     })
+}
+
+/// Largest difference of a displacement within a cell over its shortest edge, and the hoop strain in axisymmetry.
+fn stretched<const D: usize>(model: &Model<D>, cells: &Cells, cell: usize, u: &[f64]) -> f64 {
+    let nodes = cells.cell(cell);
+    let corners = &nodes[..cells.kind.corners()];
+    let range = |c: usize| {
+        let values = nodes.iter().map(|&n| u[n * D + c]);
+        let (least, most) =
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+        most - least
+    };
+    let square = |a: usize, b: usize| {
+        let (a, b) = (&model.mesh.nodes[a], &model.mesh.nodes[b]);
+        (0..D).map(|c| (a[c] - b[c]).powi(2)).sum::<f64>()
+    };
+    let pairs = corners.iter().enumerate().flat_map(|(k, &a)| corners[..k].iter().map(move |&b| (a, b)));
+    let shortest = pairs.map(|(a, b)| square(a, b)).fold(f64::INFINITY, f64::min).sqrt();
+    let largest = (0..D).map(range).fold(0.0, f64::max);
+    (largest / shortest).max(hoop(model, cells, cell, u))
 }
 
 /// Magnitude of the hoop strain in axisymmetry.

@@ -4,7 +4,7 @@ use super::directory::Directory;
 use super::end::End;
 use super::pausing::Pausing;
 use super::read::Ready;
-use super::work::{draws_again, end, nothing_to_resume, pauses, written};
+use super::work::{draws_again, end, found, nothing_to_resume, pauses, written};
 use crate::checkpoint;
 use crate::dynamic::{self, AnyPlan, Keeper, Plan};
 use crate::report::Status;
@@ -62,11 +62,14 @@ fn run_in<const D: usize>(
     let mut report = dynamic::Report::new(plan, &ended, keeper.arrivals());
     let all = clock.elapsed().as_secs_f64();
     (report.seconds.plan, report.seconds.steps) = (ready.seconds, all - report.seconds.set_up);
+    let doubts = keeper.doubts();
     let clock = Instant::now();
     keeper.finish(report.outcome.status() == Status::Completed, ended.time).into_diagnostic()?;
     report.seconds.output = clock.elapsed().as_secs_f64();
+    report.warnings.extend_from_slice(&doubts);
     directory.write(&report)?;
     out(format_args!("{}", report.text()));
+    found(&doubts);
     written(directory);
     Ok(end(report.outcome, Some(report.steps)))
 }

@@ -242,15 +242,20 @@ pub(super) fn run_faults(
     report.seconds.output = clock.elapsed().as_secs_f64();
     directory.write(&report)?;
     out(format_args!("{}", report.text()));
-    if let Some(warning) = coarse {
+    found(coarse.as_slice());
+    written(directory);
+    let step = usize::try_from(report.counts.steps).ok();
+    Ok(end(report.outcome, step))
+}
+
+/// Prints warnings that a run has found.
+pub(super) fn found(warnings: &[Warning]) {
+    for warning in warnings {
         out(format_args!("  warning: {warning}\n"));
         if printing::form() != Form::Plain {
             printing::warning(&warning.to_string());
         }
     }
-    written(directory);
-    let step = usize::try_from(report.counts.steps).ok();
-    Ok(end(report.outcome, step))
 }
 
 /// Begins a run of faults, or resumes the one in the directory.

@@ -7,6 +7,8 @@ use super::plan::Plan;
 use super::tables::Tables;
 use super::{figures, seismograms};
 use crate::checkpoint::{self, Contents, Pauses, ResumeError};
+use crate::run_doubts::Worst;
+use crate::warning::Warning;
 use asperity_mechanics::dynamics::ExplicitState;
 use asperity_output::decimals::shortest;
 use asperity_output::plots::Asked;
@@ -15,6 +17,9 @@ use asperity_output::{OutputError, atomic};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
+
+/// Steps between those whose strains are judged: a wave crosses some tens of cells meanwhile, and judging takes as long as a step.
+const JUDGED: usize = 64;
 
 /// Everything needed to resume a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -26,6 +31,7 @@ pub struct Checkpoint {
     sizes: Vec<u64>,
     arrivals: Arrivals,
     taken: Taken,
+    worst: Worst,
     drawn: bool,
 }
 
@@ -47,6 +53,7 @@ pub struct Keeper<'a, const D: usize> {
     tables: Tables,
     fields: Fields,
     arrivals: Arrivals,
+    worst: Worst,
     progress: Progress,
     pauses: Pauses,
     drawn: bool,
@@ -81,7 +88,8 @@ impl<'a, const D: usize> Keeper<'a, D> {
         let tables = Tables::open(out, plan, None)?;
         let fields = Fields::new(out, plan, Taken::default(), drawn)?;
         let arrivals = Arrivals::new(plan.points.len());
-        Ok(Self::new(out, (plan, physics), (tables, fields, arrivals), drawn, pauses))
+        let seen = (arrivals, Worst::default());
+        Ok(Self::new(out, (plan, physics), (tables, fields, seen), drawn, pauses))
     }
 
     /// Resumes from the checkpoint in `out`; `None` if there is none.
@@ -102,14 +110,15 @@ impl<'a, const D: usize> Keeper<'a, D> {
         }
         let drawn = drawn && read.drawn;
         let fields = Fields::new(out, plan, read.taken, drawn)?;
-        let keeper = Self::new(out, (plan, physics), (tables, fields, read.arrivals), drawn, pauses);
+        let seen = (read.arrivals, read.worst);
+        let keeper = Self::new(out, (plan, physics), (tables, fields, seen), drawn, pauses);
         Ok(Some((keeper, read.state)))
     }
 
     fn new(
         out: &Path,
         (plan, physics): (&'a Plan<D>, &str),
-        (tables, fields, arrivals): (Tables, Fields, Arrivals),
+        (tables, fields, (arrivals, worst)): (Tables, Fields, (Arrivals, Worst)),
         drawn: bool,
         pauses: Pauses,
     ) -> Self {
@@ -120,6 +129,7 @@ impl<'a, const D: usize> Keeper<'a, D> {
             tables,
             fields,
             arrivals,
+            worst,
             progress: Progress::new(out),
             pauses,
             drawn,
@@ -138,6 +148,20 @@ impl<'a, const D: usize> Keeper<'a, D> {
     #[must_use]
     pub fn arrivals(&self) -> &Arrivals {
         &self.arrivals
+    }
+
+    /// Receives the displacements of a step \[m\], of which it judges a few, and those at the `end`.
+    pub fn judge(&mut self, (step, time): (usize, f64), displacement: &[f64], end: bool) {
+        if end || step.is_multiple_of(JUDGED) {
+            self.worst.judge((&self.plan.problem.model, time), displacement);
+        }
+    }
+
+    /// Warnings about strains and rotations so far.
+    #[must_use]
+    pub fn doubts(&self) -> Vec<Warning> {
+        let problem = &self.plan.problem;
+        problem.stages.iter().flat_map(|stage| self.worst.of_bodies(&problem.model, &stage.name)).collect()
     }
 
     /// Receives a step.
@@ -188,6 +212,7 @@ impl<'a, const D: usize> Keeper<'a, D> {
             sizes: self.tables.sizes(),
             arrivals: self.arrivals.clone(),
             taken: self.fields.taken.clone(),
+            worst: self.worst.clone(),
             drawn: self.drawn,
         };
         checkpoint.write(&self.out)?;

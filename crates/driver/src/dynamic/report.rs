@@ -96,7 +96,7 @@ impl From<&Budget> for WaveEnergy {
 pub struct Report {
     /// Outcome.
     pub outcome: Outcome,
-    /// Warnings of the plan.
+    /// Warnings of the plan, and of what the run has found.
     pub warnings: Vec<Warning>,
     /// Resolution of faults on which friction weakens.
     pub resolution: Vec<Resolution>,

@@ -87,7 +87,9 @@ pub fn run<const D: usize>(
             return Ok(Ended { steps, earlier, set_up, time, budget, fault: last, halt, interrupted });
         }
         keeper.step(&before.after(plan, &mut explicit))?;
+        keeper.judge((explicit.steps(), explicit.time()), explicit.displacement(), false);
     }
+    keeper.judge((explicit.steps(), explicit.time()), explicit.displacement(), true);
     let (budget, fault) = (explicit.budget(), explicit.fault().clone());
     let steps = explicit.steps();
     Ok(Ended { steps, earlier, set_up, time: budget.time, budget, fault, halt, interrupted })
