@@ -419,3 +419,43 @@ fn the_report_says_what_a_cell_costs_and_what_sets_the_step() {
     let reason = "of the largest stable one: `courant` = 0.5 at most, and 2 whole steps between samples";
     assert!(said.contains(reason), "{said}");
 }
+
+/// A bar of steel, ν = 0, whose end is drawn at a rate: the wave strains it by the rate over c = 5 km/s.
+fn drawn(rate: &str, strain: &str) -> String {
+    format!(
+        r#"
+schema = 1
+title = "a bar that is drawn"
+kinematics = "plane-strain"
+[materials.steel]
+young = "200 GPa"
+poisson = 0
+density = 8000
+[bodies.bar]
+mesh.block = {{ min = [0, 0], max = [2, "20 mm"], divisions = [100, 1], element = "quad4" }}
+material = "steel"
+strain = "{strain}"
+[[stages]]
+name = "drawn"
+duration = "300 us"
+conditions = [{{ set = "bar.right", x = {{ rate = "{rate}" }} }}, {{ set = "bar.bottom", symmetry = true }}]
+[time]
+stepper = "explicit"
+"#
+    )
+}
+
+#[test]
+fn strains_of_waves_that_are_not_small_are_told() {
+    let warnings = |rate: &str, strain: &str| {
+        let folder = folder(&drawn(rate, strain));
+        let done = run(folder.path(), "out", &["--no-plots"]);
+        assert!(done.status.success(), "{}", told(&done));
+        let report = fs::read_to_string(folder.path().join("out/report.json")).unwrap();
+        let said = text(&done.stdout).contains("warning: body `bar` is strained by 0.0");
+        (said, report.contains("body `bar` is strained by 0.0"))
+    };
+    assert_eq!(warnings("400 m/s", "small"), (true, true));
+    assert_eq!(warnings("100 m/s", "small"), (false, false));
+    assert_eq!(warnings("400 m/s", "finite"), (false, false));
+}
