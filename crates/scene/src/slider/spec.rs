@@ -2,7 +2,7 @@
 
 use super::course::Course;
 use super::event::EventSpec;
-use crate::model::{LawSpec, Spanned, TableOver, Tabled};
+use crate::model::{LawSpec, Spanned, TableOver};
 use crate::shape::{Either, shaped};
 use crate::units::{Damping, Dimension, Mass, Pressure, Spring, Time, Velocity};
 use crate::warning::Warning;
