@@ -6,6 +6,7 @@
 //! * [`suite`]: selection of cases and outcome of the suite; [`pool`] runs them, each with a limit.
 //! * [`supervise`]: the suite in a process of its own, so that a case that ends it has a name.
 //! * [`report`]: `report.json` and the HTML pages.
+//! * [`numbers`]: numbers that users read in files, and the claims about them.
 //! * [`cases`]: the list of cases.
 //! * [`benchmarks`]: reference values and entries of the benchmarks for other programs.
 
@@ -16,6 +17,7 @@ pub mod claim;
 pub mod cost;
 pub mod glob;
 pub mod ledger;
+pub mod numbers;
 pub mod order;
 pub mod pool;
 pub mod readme;

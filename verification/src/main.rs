@@ -7,7 +7,7 @@ use asperity_verification::pool::{self, Limits};
 use asperity_verification::report::{self, history, junit, provenance::Provenance};
 use asperity_verification::suite::{Selection, Summary};
 use asperity_verification::supervise::{self, State};
-use asperity_verification::{Verdict, cases, cases::programs};
+use asperity_verification::{Verdict, cases, cases::programs, numbers};
 use clap::Parser;
 use std::error::Error;
 use std::io;
@@ -153,6 +153,13 @@ fn suite(options: &Options, state: &Path) -> Result<Summary, Box<dyn Error>> {
     if !summary.remarks().is_empty() {
         printing::out(format_args!("{}\n", summary.remarks()));
     }
+    let read = numbers::all()?;
+    let unknown: Vec<String> = read.iter().flat_map(|number| number.unknown(&outcomes)).collect();
+    if !unknown.is_empty() {
+        return Err(format!("verification/numbers.toml: no claim is called\n  {}", unknown.join("\n  ")).into());
+    }
+    let without = read.iter().filter(|number| number.held(&outcomes).is_empty()).count();
+    printing::out(format_args!("numbers in files: {} with evidence, {without} without\n", read.len() - without));
     printing::out(format_args!("{summary}\n"));
     State { ended: true, ..State::default() }.write(state)?;
     Ok(summary)

@@ -415,7 +415,7 @@ fn links_between_pages_lead_to_files_and_anchors() {
 #[test]
 fn capabilities_without_a_claim_or_a_test_have_no_evidence() {
     let outcomes = [case(good).execute()];
-    let page = coverage::whole(&outcomes, &[], &Provenance::default());
+    let page = coverage::whole(&outcomes, (&[], &[]), &Provenance::default());
     assert_eq!(
         page.matches(">no evidence<").count(),
         Capability::ALL.len() - 2,

@@ -1,5 +1,6 @@
 //! Output files in formats of other communities: SEAS stations and VTK fields.
 
+mod contact;
 mod fields;
 mod vtu;
 
@@ -17,7 +18,8 @@ pub const CASE: Case = Case {
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     stations(ledger)?;
-    fields::claims(ledger)
+    fields::claims(ledger)?;
+    contact::claims(ledger)
 }
 
 /// Station files, and distance along the fault of the points nearest to the requested stations \[km\].

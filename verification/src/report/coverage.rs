@@ -3,10 +3,12 @@
 use super::ids::slug;
 use super::page::{Depth, escape, page, word};
 use super::provenance::Provenance;
+use super::read;
 use super::tested::Group;
 use crate::capability::Capability;
 use crate::case::Outcome;
 use crate::claim::{Evidence, Verdict};
+use crate::numbers::Number;
 
 /// One cell of the matrix.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -45,7 +47,7 @@ fn cell(outcomes: &[Outcome], capability: Capability, kind: Evidence) -> Cell {
 }
 
 /// The page of the matrix. Tests are evidence where no case can make a claim.
-pub fn whole(outcomes: &[Outcome], groups: &[Group], run: &Provenance) -> String {
+pub fn whole(outcomes: &[Outcome], (groups, numbers): (&[Group], &[Number]), run: &Provenance) -> String {
     let mut body = format!(
         "<h1>Coverage</h1>\n<p>Number of {} that hold, by {} and kind of evidence, and the cases they stand in. \
          Capabilities without a number have no evidence in this run.</p>\n",
@@ -55,6 +57,7 @@ pub fn whole(outcomes: &[Outcome], groups: &[Group], run: &Provenance) -> String
     for &capability in Capability::ALL {
         body += &entry(capability, &row(outcomes, capability), groups);
     }
+    body += &read::section(numbers, outcomes);
     page("Coverage", Depth::Top, run, &body)
 }
 

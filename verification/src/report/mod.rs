@@ -16,6 +16,7 @@ pub mod page;
 pub mod planted;
 pub mod precision;
 pub mod provenance;
+pub mod read;
 mod sheets;
 pub mod sources;
 pub mod subjects;
@@ -24,6 +25,7 @@ pub mod tested;
 pub mod words;
 
 use crate::case::Outcome;
+use crate::numbers;
 use case_page::Context;
 use provenance::Provenance;
 use serde::Serialize;
@@ -41,6 +43,9 @@ pub enum ReportError {
         /// Cause.
         source: std::io::Error,
     },
+    /// The list of numbers could not be read.
+    #[error("verification/numbers.toml: {0}")]
+    Numbers(String),
     /// A result could not be encoded.
     #[error("cannot encode a result: {0}")]
     Encode(#[from] serde_json::Error),
@@ -54,9 +59,10 @@ pub fn write(folder: &Path, outcomes: &[Outcome], run: &Provenance) -> Result<()
     let (pages, sources) = (emptied(folder, "cases")?, emptied(folder, "sources")?);
     let releases = history::releases(&history::folder());
     let groups = tested::groups();
+    let numbers = numbers::all().map_err(ReportError::Numbers)?;
     put(&folder.join("report.json"), &text(&json::report(outcomes, run))?)?;
     put(&folder.join("index.html"), &index::whole(outcomes, &releases, run))?;
-    put(&folder.join("coverage.html"), &coverage::whole(outcomes, &groups, run))?;
+    put(&folder.join("coverage.html"), &coverage::whole(outcomes, (&groups, &numbers), run))?;
     put(&folder.join("precision.html"), &precision::whole(outcomes, run))?;
     put(&folder.join("defects.html"), &planted::whole(&planted::Defects::read(), run))?;
     put(&folder.join("history.html"), &history::whole(&releases, outcomes, run))?;

@@ -8,6 +8,7 @@ mod history;
 mod ids;
 mod limit;
 mod mathml;
+mod numbers;
 mod planted;
 mod precision;
 mod provenance;

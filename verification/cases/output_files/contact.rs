@@ -1,0 +1,223 @@
+//! All numbers in the files of two blocks that slide past each other steadily, in the plane and in space.
+//!
+//! Nothing moves along y, so that an initial stress alone presses the blocks. Slip is uniform, and a spring or a motion draws the
+//! upper block, which is the slave: everything has a closed form once the start is forgotten.
+
+use super::vtu::Fields;
+use crate::cases::written::{self, Folder};
+use crate::{Capability, CaseError, Cost, Evidence, Ledger};
+
+/// Width of the blocks along x, and along z in space \[m\].
+const WIDTHS: [f64; 2] = [0.4, 0.25];
+/// Heights of the upper block, the slave, and of the lower one \[m\].
+const HEIGHTS: [f64; 2] = [0.3, 0.5];
+/// Their shear moduli \[Pa\], with a Poisson's ratio of 0.25.
+const MODULI: [f64; 2] = [8e9, 20e9];
+/// Normal traction \[Pa\].
+const NORMAL: f64 = 5e6;
+/// Tangential penalty \[Pa/m\].
+const PENALTY: f64 = 2e13;
+/// μ0, a, and the slip rate V_0 of the law \[m/s\].
+const LAW: [f64; 3] = [0.6, 0.01, 1e-6];
+/// Stiffness of the spring \[N/m per metre of thickness\].
+const SPRING: f64 = 4e9;
+/// Rates along x, and along z in space \[m/s\].
+const RATES: [f64; 2] = [2e-6, -1.5e-6];
+/// Duration: slip of the spring and the blocks by 8 um forgets the start by a factor of e, and 1.5 mm follow \[s\].
+const DURATION: f64 = 1000.0;
+
+/// Friction under steady slip, `f_n a asinh(V/(2 V_0) exp(μ0/a))` \[Pa\].
+fn strength(rate: f64) -> f64 {
+    let [mu0, a, v0] = LAW;
+    NORMAL * a * (0.5 * rate / v0 * (mu0 / a).exp()).asinh()
+}
+
+fn scene(space: bool) -> String {
+    let [w, d] = WIDTHS;
+    let [upper, lower] = HEIGHTS;
+    let [mu0, a, v0] = LAW;
+    let corner = |x: f64, y: f64, z: f64| if space { format!("[{x:?}, {y:?}, {z:?}]") } else { format!("[{x:?}, {y:?}]") };
+    let body = |name: &str, [from, to]: [f64; 2]| {
+        let (min, max) = (corner(0.0, from, 0.0), corner(w, to, d));
+        let (divisions, element) = if space { ("[1, 1, 1]", "hex8") } else { ("[1, 1]", "quad4") };
+        let stress = if space { "[0, -5e6, 0, 0, 0, 0]" } else { "[0, -5e6, 0]" };
+        format!(
+            "[bodies.{name}]\nmaterial = \"{name}\"\ninitial_stress = {stress}\n\
+             mesh.block = {{ min = {min}, max = {max}, divisions = {divisions}, element = \"{element}\" }}\n\
+             [materials.{name}]\npoisson = 0.25\nyoung = {:?}\n",
+            2.5 * MODULI[usize::from(name == "lower")]
+        )
+    };
+    let held = |set: &str| format!("{{ set = \"{set}\", y = 0 }}, ");
+    let sides = ["upper.left", "upper.right", "upper.top", "lower.left", "lower.right"].map(held).concat();
+    let [x, z] = RATES;
+    let (drawn, below) = if space {
+        (format!("x = {{ rate = {x:e} }}, z = {{ rate = {z:e} }}"), "x = 0, y = 0, z = 0")
+    } else {
+        (format!("x = {{ spring = {SPRING:?}, rate = {x:e} }}"), "x = 0, y = 0")
+    };
+    format!(
+        "schema = 1\ntitle = \"steady sliding\"\nkinematics = \"{}\"\n{}{}\
+         [interfaces.joint]\nslave = \"upper.bottom\"\nmaster = \"lower.top\"\nmeasure = \"node-to-point\"\nsliding = \"small\"\n\
+         enforcement = {{ kind = \"penalty\", normal = {PENALTY:e}, tangential = {PENALTY:e} }}\n\
+         law = {{ kind = \"rate\", form = \"regularised\", mu0 = {mu0:?}, a = {a:?}, v_ref = {v0:e} }}\n\
+         [[stages]]\nname = \"slide\"\nduration = {DURATION:?}\n\
+         conditions = [{sides}{{ set = \"upper.top\", {drawn} }}, {{ set = \"lower.bottom\", {below} }}]\n\
+         [time]\nstepper = \"implicit\"\n\
+         [output]\nprobes.joint = 1\nprofiles = 1\nfields = 1\n\
+         points.middle = {{ body = \"upper\", at = {} }}\nforces.top = {{ set = \"upper.top\" }}\n",
+        if space { "3d" } else { "plane-strain" },
+        body("upper", [lower, lower + upper]),
+        body("lower", [0.0, lower]),
+        corner(0.5 * w, lower + 0.5 * upper, 0.5 * d),
+    )
+}
+
+/// Magnitudes at the end.
+struct Steady {
+    /// Friction \[Pa\].
+    shear: f64,
+    /// Displacement of the top over the path of the drawn end, beyond what the blocks bend \[m\].
+    top: f64,
+    /// Relative displacement of the blocks \[m\].
+    relative: f64,
+    /// Slip \[m\].
+    slip: f64,
+    /// Displacement of the middle of the upper block \[m\].
+    middle: f64,
+}
+
+impl Steady {
+    /// State after a way of the drawn end \[m\] at this rate \[m/s\]; `soft` is the compliance of a spring per traction \[m/Pa\].
+    fn new(way: f64, rate: f64, soft: f64) -> Self {
+        let shear = strength(rate);
+        let bent = [0, 1].map(|k| shear * HEIGHTS[k] / MODULI[k]);
+        let top = way - shear * soft;
+        let relative = top - bent[0] - bent[1];
+        Self { shear, top, relative, slip: relative - shear / PENALTY, middle: top - 0.5 * bent[0] }
+    }
+}
+
+/// A number in a file, and its value in closed form.
+type Wanted<'a> = (&'a str, &'a str, f64);
+
+/// See the module.
+pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
+    plane(ledger)?;
+    space(ledger)
+}
+
+fn plane(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let (files, cost) = written::bodies(&scene(false))?;
+    let ([w, _], [rate, _]) = (WIDTHS, RATES);
+    let way = rate * DURATION;
+    let s = Steady::new(way, rate, w / SPRING);
+    // The normal of the master points up, and the first tangent along -x.
+    let wanted: [Wanted<'_>; 22] = [
+        ("probes/joint.csv", "relative_displacement", -s.relative),
+        ("probes/joint.csv", "slip", -s.slip),
+        ("probes/joint.csv", "slip_rate", -rate),
+        ("probes/joint.csv", "friction", s.shear / NORMAL),
+        ("probes/joint.csv", "normal_traction", NORMAL),
+        ("probes/joint.csv", "shear_traction", -s.shear),
+        ("profiles/joint_*.csv", "x", w),
+        ("profiles/joint_*.csv", "y", HEIGHTS[1]),
+        ("profiles/joint_*.csv", "area", 0.5 * w),
+        ("profiles/joint_*.csv", "normal_traction", NORMAL),
+        ("profiles/joint_*.csv", "shear_traction", -s.shear),
+        ("profiles/joint_*.csv", "mean_normal_traction", NORMAL),
+        ("profiles/joint_*.csv", "mean_shear_traction", -s.shear),
+        ("profiles/joint_*.csv", "relative_displacement", -s.relative),
+        ("profiles/joint_*.csv", "slip", -s.slip),
+        ("profiles/joint_*.csv", "slip_rate", -rate),
+        ("profiles/joint_*.csv", "friction", s.shear / NORMAL),
+        ("profiles/joint_*.csv", "status", 2.0),
+        ("points/middle.csv", "displacement_x", s.middle),
+        ("points/middle.csv", "stress_xy", s.shear),
+        ("points/middle.csv", "stress_yy", -NORMAL),
+        ("forces/top.csv", "force_x", s.shear * w),
+    ];
+    all(ledger, (&files, &cost), "in the plane", &wanted)?;
+    let spring: [Wanted<'_>; 4] = [
+        ("springs/upper_top_x.csv", "load_point", way),
+        ("springs/upper_top_x.csv", "displacement", s.top),
+        ("springs/upper_top_x.csv", "force", s.shear * w),
+        ("springs/upper_top_x.csv", "friction", s.shear / NORMAL),
+    ];
+    all(ledger, (&files, &cost), "in the plane", &spring)?;
+    let fields: [Wanted<'_>; 8] = [
+        ("fields/joint_*.vtu", "slip", -s.slip),
+        ("fields/joint_*.vtu", "relative_displacement", -s.relative),
+        ("fields/joint_*.vtu", "slip_rate", -rate),
+        ("fields/joint_*.vtu", "normal_traction", NORMAL),
+        ("fields/joint_*.vtu", "shear_traction", -s.shear),
+        ("fields/joint_*.vtu", "friction", s.shear / NORMAL),
+        ("fields/joint_*.vtu", "area", 0.5 * w),
+        ("fields/joint_*.vtu", "status", 2.0),
+    ];
+    all(ledger, (&files, &cost), "in the plane", &fields)
+}
+
+fn space(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let (files, cost) = written::bodies(&scene(true))?;
+    let ([w, d], [x, z]) = (WIDTHS, RATES);
+    let rate = x.hypot(z);
+    let along = [x / rate, z / rate];
+    let s = Steady::new(rate * DURATION, rate, 0.0);
+    let wanted: [Wanted<'_>; 17] = [
+        ("probes/joint.csv", "relative_displacement", s.relative),
+        ("probes/joint.csv", "slip", s.slip),
+        ("probes/joint.csv", "slip_x", s.slip * along[0]),
+        ("probes/joint.csv", "slip_z", s.slip * along[1]),
+        ("probes/joint.csv", "slip_rate", rate),
+        ("probes/joint.csv", "friction", s.shear / NORMAL),
+        ("probes/joint.csv", "normal_traction", NORMAL),
+        ("probes/joint.csv", "shear_traction", s.shear),
+        ("probes/joint.csv", "shear_traction_x", s.shear * along[0]),
+        ("probes/joint.csv", "shear_traction_z", s.shear * along[1]),
+        ("profiles/joint_*.csv", "area", 0.25 * w * d),
+        ("points/middle.csv", "displacement_x", s.middle * along[0]),
+        ("points/middle.csv", "displacement_z", s.middle * along[1]),
+        ("points/middle.csv", "stress_xy", s.shear * along[0]),
+        ("points/middle.csv", "stress_yz", s.shear * along[1]),
+        ("forces/top.csv", "force_x", s.shear * along[0] * w * d),
+        ("forces/top.csv", "force_z", s.shear * along[1] * w * d),
+    ];
+    all(ledger, (&files, &cost), "in space", &wanted)
+}
+
+/// Claims about numbers of a run at its end.
+fn all(ledger: &mut Ledger, (files, cost): (&Folder, &Cost), space: &str, wanted: &[Wanted<'_>]) -> Result<(), CaseError> {
+    for &(file, column, value) in wanted {
+        ledger
+            .claim(format!("two blocks that slide steadily {space}, at the end: {column} in {file}"))
+            .value(last(files, file, column)?)
+            .equals(value)
+            .relative(1e-8)
+            .evidence(
+                Evidence::Exact,
+                "friction of the law at the rate of the load; blocks, penalty and spring bend under it",
+            )
+            .because("Newton's method leaves 1e-11 of the forces, and files have ten digits")
+            .why_not_tighter("the last of ten digits may be off by any part of a half")
+            .covers(&[Capability::Outputs, Capability::VelocityFriction])
+            .cost(cost)
+            .record();
+    }
+    Ok(())
+}
+
+/// The last number of a column of a table, or of an array, in the last of the files of a name.
+fn last(files: &Folder, file: &str, column: &str) -> Result<f64, CaseError> {
+    let (folder, pattern) = file.split_once('/').ok_or("a file in no folder")?;
+    let start = pattern.split(['*', '.']).next().unwrap_or_default();
+    let names = files.names(folder)?;
+    let name = names.iter().rfind(|name| name.starts_with(start)).ok_or_else(|| format!("no {file}"))?;
+    let path = format!("{folder}/{name}");
+    let values = if name.ends_with("vtu") {
+        Fields::read(&files.text(&path)?)?.array(column)?.values.clone()
+    } else {
+        files.table(&path)?.column(column)?
+    };
+    values.last().copied().ok_or_else(|| format!("{file} has no {column}").into())
+}
