@@ -3,7 +3,7 @@
 //! Nothing moves along y, so that an initial stress alone presses the blocks. Slip is uniform, and a spring or a motion draws the
 //! upper block, which is the slave: everything has a closed form once the start is forgotten.
 
-use super::vtu::Fields;
+use super::last;
 use crate::cases::written::{self, Folder};
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 
@@ -205,19 +205,4 @@ fn all(ledger: &mut Ledger, (files, cost): (&Folder, &Cost), space: &str, wanted
             .record();
     }
     Ok(())
-}
-
-/// The last number of a column of a table, or of an array, in the last of the files of a name.
-fn last(files: &Folder, file: &str, column: &str) -> Result<f64, CaseError> {
-    let (folder, pattern) = file.split_once('/').ok_or("a file in no folder")?;
-    let start = pattern.split(['*', '.']).next().unwrap_or_default();
-    let names = files.names(folder)?;
-    let name = names.iter().rfind(|name| name.starts_with(start)).ok_or_else(|| format!("no {file}"))?;
-    let path = format!("{folder}/{name}");
-    let values = if name.ends_with("vtu") {
-        Fields::read(&files.text(&path)?)?.array(column)?.values.clone()
-    } else {
-        files.table(&path)?.column(column)?
-    };
-    values.last().copied().ok_or_else(|| format!("{file} has no {column}").into())
 }

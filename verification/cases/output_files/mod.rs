@@ -1,11 +1,13 @@
 //! Output files in formats of other communities: SEAS stations and VTK fields.
 
 mod contact;
+mod faults;
 mod fields;
 mod vtu;
 
-use crate::cases::written::Written;
+use crate::cases::written::{Folder, Written};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
+use vtu::Fields;
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -19,7 +21,8 @@ pub const CASE: Case = Case {
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     stations(ledger)?;
     fields::claims(ledger)?;
-    contact::claims(ledger)
+    contact::claims(ledger)?;
+    faults::claims(ledger)
 }
 
 /// Station files, and distance along the fault of the points nearest to the requested stations \[km\].
@@ -90,4 +93,21 @@ fn stations(ledger: &mut Ledger) -> Result<(), CaseError> {
             .record();
     }
     Ok(())
+}
+
+/// The last number of a column of a table, or of an array, in the last of the files of a name.
+fn last(files: &Folder, file: &str, column: &str) -> Result<f64, CaseError> {
+    let (folder, pattern) = file.split_once('/').unwrap_or((".", file));
+    let start = pattern.split(['*', '.']).next().unwrap_or_default();
+    let names = files.names(folder)?;
+    let name = names.iter().rfind(|name| name.starts_with(start)).ok_or_else(|| format!("no {file}"))?;
+    let path = format!("{folder}/{name}");
+    let values = if name.ends_with("vtu") {
+        Fields::read(&files.text(&path)?)?.array(column)?.values.clone()
+    } else if column == "each point" {
+        files.table(&path)?.numbers().pop().ok_or("no row")?
+    } else {
+        files.table(&path)?.column(column)?
+    };
+    values.last().copied().ok_or_else(|| format!("{file} has no {column}").into())
 }
