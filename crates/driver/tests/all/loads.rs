@@ -386,3 +386,15 @@ fn a_record_is_shared_out_to_its_stages() {
         assert!(error.contains(told), "{error}");
     }
 }
+
+#[test]
+fn a_bare_logarithm_after_a_stage_without_friction_is_warned_of() {
+    let bare = "{ kind = \"rate-and-state\", evolution = \"ageing\", form = \"bare\", mu0 = 0.6, a = 0.01, b = 0.005, l = \"5 um\", v_ref = \"1e-3 mm/s\", v_initial = \"1e-3 mm/s\" }";
+    let warned = |text: &str| {
+        let warnings = scene::read(text).unwrap_or_else(|e| panic!("{e}")).warnings;
+        warnings.iter().any(|w| w.message.contains("the bare logarithm has no value at rest"))
+    };
+    let with = varied(SANDWICH, &[With("interfaces.fault.law", bare)]);
+    assert!(warned(&with) && !warned(SANDWICH));
+    assert!(!warned(&varied(&with, &[Without("stages[0].frictionless")])));
+}

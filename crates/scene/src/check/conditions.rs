@@ -163,6 +163,18 @@ impl Checker<'_> {
                     (&law.span(), "the law"),
                 );
             }
+            let form = law.and_then(|law| law.get_ref().form.as_ref());
+            if let Some(form) = form.filter(|form| form.get_ref() == "bare") {
+                self.warn(
+                    form.span(),
+                    format!(
+                        "the bare logarithm has no value at rest, and interface `{}` may rest when it begins to resist after stage `{}`",
+                        interface.get_ref(),
+                        stage.name
+                    ),
+                    "`form = \"regularised\"` is regular at rest",
+                );
+            }
         }
     }
 
