@@ -139,7 +139,7 @@ fn of_body(body: &str, stage: &str, (largest, at): (Largest, [f64; 2]), young: f
 
 /// Largest strain and rotation in the cells of a block, at their centres and between these and their corners, about where stresses are
 /// computed; zero if the block accounts for large deformation, and in cells that leave no doubt.
-fn of_block<const D: usize>(model: &Model<D>, block: usize, u: &[f64]) -> Largest {
+pub fn of_block<const D: usize>(model: &Model<D>, block: usize, u: &[f64]) -> Largest {
     let followed = matches!(&model.blocks.get(block), Some(CellBlock::Nonlinear(b)) if b.model().kinematics == Kinematics::UpdatedLagrangian);
     // Antiplane motion has one component, and its equation is linear for slopes of any size.
     if followed || model.idealisation == Idealisation::Antiplane {
