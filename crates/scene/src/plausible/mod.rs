@@ -336,7 +336,7 @@ mod tests {
         assert_eq!(of_file(&["pressure"], "Pa", [0.0, 5e6, f64::NAN]), None);
         assert_eq!(of_file(&["fields", "a"], "", [0.0, 0.015]), None);
         let (message, help) = of_file(&["pressure"], "Pa", [0.0, -5.0]).unwrap();
-        assert!(message.contains("its largest is 5 Pa, and tractions are 1e3 to 2e10 Pa"), "{message}");
+        assert!(message.contains("its largest is 5 Pa, and tractions are 1000 to 2e10 Pa"), "{message}");
         assert!(help.contains("\"50 MPa\""), "{help}");
         assert!(of_file(&["fields", "a"], "", [0.01, 15.0]).is_some());
         assert!(of_file(&["fields", "l"], "m", [8.0, 40.0]).is_some());
