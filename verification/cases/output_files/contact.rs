@@ -58,7 +58,7 @@ fn scene(space: bool) -> String {
     };
     format!(
         "schema = 1\ntitle = \"steady sliding\"\nkinematics = \"{}\"\n{}{}\
-         [interfaces.joint]\nslave = \"upper.bottom\"\nmaster = \"lower.top\"\nmeasure = \"node-to-point\"\nsliding = \"small\"\n\
+         [interfaces.joint]\nslave = \"upper.bottom\"\nmaster = \"lower.top\"\nmeasure = \"node-to-point\"\nsliding = \"small\"\ninitial_stress = true\n\
          enforcement = {{ kind = \"penalty\", normal = {PENALTY:e}, tangential = {PENALTY:e} }}\n\
          law = {{ kind = \"rate\", form = \"regularised\", mu0 = {mu0:?}, a = {a:?}, v_ref = {v0:e} }}\n\
          [[stages]]\nname = \"slide\"\nduration = {DURATION:?}\n\

@@ -2,7 +2,8 @@
 //! towards its load.
 //!
 //! Slip is uniform, and friction strengthens with velocity. In the plane nothing changes from the start on. In space the fault
-//! starts along its rake and is drawn at 60 degrees from it: what it has forgotten is in the lag of slip behind the load.
+//! starts along its rake and is drawn at 60 degrees from it. It forgets its direction by a factor of e while it slips by the strength over
+//! the stiffness of the blocks, 0.4 mm, and slips by 10 mm. What it lags behind the load tells of the start.
 
 use super::last;
 use crate::cases::written::{Folder, Written};
@@ -11,7 +12,7 @@ use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 /// a, b, μ0, V_0 \[m/s\] and L \[m\].
 const LAW: [f64; 5] = [0.02, 0.015, 0.6, 1e-6, 8e-6];
 /// Normal traction \[Pa\].
-const NORMAL: f64 = 50e6;
+const NORMAL: f64 = 5e6;
 /// Shear moduli of both blocks, each a metre wide \[Pa\].
 const MODULI: [f64; 2] = [10e9, 40e9];
 /// Rate of the load \[m/s\], and how long it lasts \[s\].
@@ -157,13 +158,13 @@ fn all(ledger: &mut Ledger, (files, cost): (&Folder, &Cost), space: &str, wanted
             .claim(format!("a fault that slides steadily {space}, at the end: {column} in {file}"))
             .value(last(files, file, column)?)
             .equals(value)
-            .relative(1e-7)
+            .relative(5e-7)
             .evidence(
                 Evidence::Exact,
                 "friction of the law at the rate of the load; the blocks bend under it, and slip lags by what they bend since the start",
             )
-            .because("the error of ln V in a step is 1e-9, and files have ten digits")
-            .why_not_tighter("errors of some hundred steps may add")
+            .because("the error of ln V in a step is 1e-9, and the table of the largest rate has seven digits")
+            .why_not_tighter("most files have ten digits")
             .covers(&[Capability::Outputs, Capability::FaultCycles])
             .cost(cost)
             .record();
