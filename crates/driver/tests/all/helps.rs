@@ -28,7 +28,7 @@ slave = "upper.bottom"
 master = "lower.top"
 measure = "mortar"
 sliding = "small"
-enforcement = { kind = "penalty", normal = "10 E/h", tangential = "10 E/h" }
+enforcement = { kind = "penalty", normal = "10 E/h" }
 law = { kind = "coulomb", mu = 0.4 }
 [[stages]]
 name = "press"
@@ -108,7 +108,7 @@ fn finite_sliding_of_second_order_leads_out_of_its_refusals() {
     let nodes = varied(&mortar, &[NODES]);
     leads_to(
         &nodes,
-        "use `measure = \"mortar\"` with `sliding = \"small\"`, or elements of first order or hex27 there",
+        "use `measure = \"mortar\"` with `sliding = \"small\"`, or use elements of first order or hex27 there",
         &[varied(&nodes, &[MORTAR, SMALL]), elements(&nodes, "tet4"), elements(&nodes, "hex27")],
     );
     let in_plane = varied(&elements(&in_plane(), "quad8"), &[FINITE]);
@@ -122,7 +122,7 @@ fn finite_sliding_of_second_order_leads_out_of_its_refusals() {
 #[test]
 fn nodes_without_areas_lead_to_mortar() {
     let nodes = varied(&elements(IN_SPACE, "hex20"), &[NODES]);
-    let help = "use `measure = \"mortar\"`, or elements of first order or hex27 there";
+    let help = "use `measure = \"mortar\"`, or use elements of first order or hex27 there";
     leads_to(&nodes, help, &[varied(&nodes, &[MORTAR]), elements(&nodes, "hex8"), elements(&nodes, "hex27")]);
     let smoothed = varied(
         &nodes,

@@ -379,7 +379,7 @@ fn a_record_is_shared_out_to_its_stages() {
     }
     // Without `from` the second stage would begin at the start of the record, and without `tare` beside its set.
     for (first, second, told) in [
-        (", from = 0", ", from = 1", "begins with 0.02 mm, but `C.top` is at 0"),
+        (", from = 0", ", from = 1", "begins with 20 um, but `C.top` is at 0 m"),
         (", from = 0, tare = true", ", from = 4, tare = true", "run from 0.0 s to 3.0 s: none lies in what begins at 4.0 s"),
     ] {
         let error = two(first, second).err().unwrap().to_string();
