@@ -88,11 +88,14 @@ impl History {
         self.slip[k] + x * rise + x * (1.0 - x) * ((1.0 - x) * first + x * last)
     }
 
-    /// Slip rate at a time, whose logarithm is linear between rows.
+    /// Slip rate at a time: the derivative of the cubic of [`Self::slip_at`].
     fn rate_at(&self, time: f64) -> f64 {
         let k = self.before(time);
-        let x = (time - self.time[k]) / (self.time[k + 1] - self.time[k]);
-        self.rate[k].powf(1.0 - x) * self.rate[k + 1].powf(x)
+        let step = self.time[k + 1] - self.time[k];
+        let x = (time - self.time[k]) / step;
+        let rise = (self.slip[k + 1] - self.slip[k]) / step;
+        let (first, last) = (self.rate[k] - rise, rise - self.rate[k + 1]);
+        rise + (1.0 - x) * (1.0 - 3.0 * x) * first + x * (2.0 - 3.0 * x) * last
     }
 
     /// Shear traction at a time: the polynomial through the adjacent rows.

@@ -187,6 +187,9 @@ fn share(point: usize) -> f64 {
     if point == 0 || point + 1 == POINTS { 0.5 * APART } else { APART }
 }
 
+/// Growth of the slip rate in a step at the onset or the end of an event, of itself, at most.
+const GROWTH: f64 = 0.12;
+
 /// Error of the trapezoidal rule over the rows of an event, relative.
 const ROWS: f64 = 1e-4;
 
@@ -262,8 +265,90 @@ fn rupture(ledger: &mut Ledger) -> Result<(), CaseError> {
         .why_not_tighter("a neighbouring point is hundreds of metres away")
         .cost(&done.cost)
         .record();
+    rates(ledger, &done, (from, to))?;
+    centroid(ledger, &done, (from, to))?;
     moment_rates(ledger, &done, &sums, to)?;
     rupture_times(ledger, &done, (from, to))
+}
+
+/// Claims that the event lies between its thresholds, and its largest slip rate.
+fn rates(ledger: &mut Ledger, done: &Written, (from, to): (f64, f64)) -> Result<(), CaseError> {
+    let events = done.files.table("events.csv")?;
+    let histories = Histories::read(&done.files, &done.files.names("stations")?)?;
+    let fastest = |time: f64| (0..POINTS).map(|k| histories.rate(k, time)).fold(0.0, f64::max);
+    let falls = from + events.only("duration_above")?;
+    ledger
+        .claim("event on a fault between rocks of 10 and 40 GPa: slip rate of the fastest station at onset, at the end of the time above the upper threshold and at the end, over the thresholds")
+        .values(&[fastest(from) / ON, fastest(falls) / ON, fastest(to) / OFF])
+        .equals_each(&[1.0; 3])
+        .absolute(2e-4)
+        .evidence(Evidence::Exact, "what begins and ends an event: derivatives of cubics through rows of stations at all points")
+        .because("where slip rates change by x = 0.2 from row to row, 0.2 s apart, as the event ends: x^3/125 of them, and 1e-9 m over 0.2 s at 1e-4 m/s, from the digits of slip")
+        .cost(&done.cost)
+        .record();
+    let largest = (0..POINTS).map(|k| histories.largest(k, from, to)).fold(0.0, f64::max);
+    ledger
+        .claim("event on a fault between rocks of 10 and 40 GPa: its largest slip rate")
+        .unit("m/s")
+        .value(events.only("peak_rate")?)
+        .equals(largest)
+        .relative(2e-9)
+        .evidence(Evidence::Exact, "largest slip rate of the rows of all stations")
+        .because("a maximum has a row: half of the ninth decimal of log10 V is 1.2e-9 of V")
+        .why_not_tighter("the last digit may be off by any part of a half")
+        .cost(&done.cost)
+        .record();
+    Ok(())
+}
+
+/// Depth of the upper end of the fault \[m\].
+const UPPER: f64 = 1e3;
+
+/// Claims slip of the points, and its centroid in the report and in the file for seismologists.
+fn centroid(ledger: &mut Ledger, done: &Written, (from, to): (f64, f64)) -> Result<(), CaseError> {
+    let slips = done.files.table("events/rupture_times_000.csv")?.column("slip")?;
+    let histories = Histories::read(&done.files, &done.files.names("stations")?)?;
+    let largest = slips.iter().copied().fold(0.0, f64::max);
+    let slipped = slips.iter().enumerate().filter(|(_, slip)| **slip > SLIPPED * largest);
+    let off = slipped.map(|(k, slip)| (slip - histories.slipped(k, from, to)).abs() / largest);
+    ledger
+        .claim("slip of the points that slipped in an event, largest error over the largest slip")
+        .value(off.fold(if slips.len() == POINTS { 0.0 } else { f64::NAN }, f64::max))
+        .at_most(2e-8)
+        .evidence(Evidence::Exact, "files of their stations, with cubics between rows")
+        .because("a cubic misses x^4/384 of the slip of a step, in which the slip rate grows by x = 0.1 of itself at the onset, of some mm of 2 m, and less of others")
+        .why_not_tighter("steps are up to the integrator")
+        .cost(&done.cost)
+        .record();
+    let over = |f: &dyn Fn(usize) -> f64| (0..POINTS).map(|k| share(k) * slips[k] * f(k)).sum::<f64>();
+    let middle = over(&|k| APART * k as f64) / over(&|_| 1.0);
+    let located = done.report.events.first().and_then(|event| event.located.as_ref()).ok_or("no place")?;
+    let text = done.files.text("CMTSOLUTION")?;
+    let line = text.lines().find_map(|line| line.strip_prefix("depth:")).ok_or("no depth")?;
+    for (place, found, bound, because) in [
+        ("the report", located.centroid.depth, 1e-5, "slip has ten digits, over 6 km"),
+        (
+            "CMTSOLUTION",
+            1e3 * line.trim().parse::<f64>()?,
+            0.051,
+            "four decimals of a kilometre, half of the last",
+        ),
+    ] {
+        ledger
+            .claim(format!(
+                "event on a fault between rocks of 10 and 40 GPa: depth of its centroid in {place}"
+            ))
+            .unit("m")
+            .value(found)
+            .equals(UPPER + middle)
+            .absolute(bound)
+            .evidence(Evidence::Exact, "mean depth of all points, weighted by area times slip")
+            .because(because)
+            .why_not_tighter("the last digits may be off by any part of a half")
+            .cost(&done.cost)
+            .record();
+    }
+    Ok(())
 }
 
 /// Integral by the trapezoidal rule of rows of times and values.
@@ -282,9 +367,9 @@ fn moment_rates(ledger: &mut Ledger, done: &Written, sums: &Sums, end: f64) -> R
         .unit("N/s")
         .value(rows.first().ok_or("no row")?[1])
         .equals(modulus() * sums.rate)
-        .relative(ROWS)
-        .evidence(Evidence::Exact, "G times area times slip rate in the files of stations at all points at the onset")
-        .because("ln V is linear between rows a hundredth of a decade apart: an eighth of 0.023 squared, where it bends as fast as it grows")
+        .relative(0.125 * GROWTH * GROWTH)
+        .evidence(Evidence::Exact, "G times area times slip rate at all points: derivatives of cubics through rows of their stations")
+        .because("the first row is linear between the ends of its step, which slip rates that grow by x miss by x^2/8; x is a tenth at most")
         .cost(&done.cost)
         .record();
     ledger
@@ -332,12 +417,14 @@ fn rupture_times(ledger: &mut Ledger, done: &Written, (from, to): (f64, f64)) ->
     let names = done.files.names("stations")?;
     let histories = Histories::read(&done.files, &names)?;
     let (mut late, mut peak, mut missed) = (0.0_f64, 0.0_f64, 0);
+    let mut turned = 0.0_f64;
     for (k, row) in table.numbers().iter().enumerate() {
         let [time, largest] = [row[4], row[5]];
         let expected = histories.first(k, RUPTURED, from, to);
         missed += u64::from(time.is_nan() != expected.is_none());
         if let Some(expected) = expected {
             late = late.max((time - (expected - from)).abs());
+            turned = turned.max((largest / histories.largest(k, from, to) - 1.0).abs());
         }
         peak = peak.max((largest / histories.largest(k, from, to) - 1.0).abs());
     }
@@ -360,6 +447,15 @@ fn rupture_times(ledger: &mut Ledger, done: &Written, (from, to): (f64, f64)) ->
         .because(
             "the catalogue has 15 digits of the onset, 1e-5 s; rows and steps interpolate the same curve",
         )
+        .cost(&done.cost)
+        .record();
+    ledger
+        .claim("largest slip rates of the points that ruptured in an event, largest relative error")
+        .value(turned)
+        .at_most(2e-9)
+        .evidence(Evidence::Exact, "largest slip rate of the rows of their stations")
+        .because("a point that ruptures is the fastest within the event, where a maximum has a row: half of the ninth decimal of log10 V is 1.2e-9 of V")
+        .why_not_tighter("the last digits may be off by any part of a half")
         .cost(&done.cost)
         .record();
     ledger

@@ -1,6 +1,7 @@
 //! Vector slip on a fault in 3D: along a line, with rotated axes, and with a changing direction.
 
 mod reference;
+mod rows;
 mod surface;
 
 use crate::cases::followed::Followed;
@@ -29,6 +30,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     lines(ledger)?;
     turning(ledger)?;
     varied(ledger)?;
+    rows::claims(ledger)?;
     surface::gaussian(ledger)
 }
 
