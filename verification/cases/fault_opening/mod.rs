@@ -1,5 +1,7 @@
 //! Faults that open: cracks in a plate under tension, and shallow faults through events.
 
+mod ramps;
+
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_cycles::Balance;
@@ -38,6 +40,7 @@ const PRESSED: f64 = 1e6;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     apart(ledger)?;
+    ramps::claims(ledger)?;
     uniform(ledger)?;
     smooth(ledger)?;
     shallow(ledger)
@@ -71,19 +74,21 @@ fn apart(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
+/// A block between these places along x \[m\], in the plane or in space.
+fn block(name: &str, [from, to]: [f64; 2], flat: bool, element: &str) -> String {
+    let (min, max, divisions) = if flat {
+        (format!("[{from:?}, 0.0]"), format!("[{to:?}, 600.0]"), "[3, 4]")
+    } else {
+        (format!("[{from:?}, 0.0, 0.0]"), format!("[{to:?}, 600.0, 400.0]"), "[3, 4, 3]")
+    };
+    format!(
+        "[bodies.{name}]\nmaterial = \"rock\"\nmesh.block = {{ min = {min}, max = {max}, divisions = {divisions}, element = \"{element}\" }}\n"
+    )
+}
+
 /// Smallest and largest final opening between the blocks \[m\].
 fn parted(kinematics: &str, element: &str, slip: &str) -> Result<(f64, f64), CaseError> {
     let flat = kinematics != "3d";
-    let block = |name: &str, from: f64, to: f64| {
-        let (min, max, divisions) = if flat {
-            (format!("[{from:?}, 0.0]"), format!("[{to:?}, 600.0]"), "[3, 4]")
-        } else {
-            (format!("[{from:?}, 0.0, 0.0]"), format!("[{to:?}, 600.0, 400.0]"), "[3, 4, 3]")
-        };
-        format!(
-            "[bodies.{name}]\nmaterial = \"rock\"\nmesh.block = {{ min = {min}, max = {max}, divisions = {divisions}, element = \"{element}\" }}\n"
-        )
-    };
     let across = if flat { "y = 0" } else { "y = 0, z = 0" };
     let text = format!(
         r#"
@@ -113,8 +118,8 @@ conditions = [{{ set = "L.left", x = 0, {across} }}, {{ set = "R.right", x = {{ 
 stepper = "fault-ode"
 method = "stabilised"
 "#,
-        block("L", -A, 0.0),
-        block("R", 0.0, A)
+        block("L", [-A, 0.0], flat, element),
+        block("R", [0.0, A], flat, element)
     );
     let plan = seas::plan(&text)?;
     let mut opening = Vec::new();
