@@ -1,6 +1,7 @@
 //! Scenes of every kind of run that carries state from step to step.
 
 use crate::CaseError;
+use crate::cases::stick_slip::exponential;
 use asperity_vary::Change::{self, Add, With, Without};
 use asperity_vary::SceneText;
 
@@ -57,6 +58,7 @@ pub fn all() -> Result<Vec<Interrupted>, CaseError> {
         named("a plastic slab with inertia", die(&[&[PLASTIC], &FINITE, &MASS]))?,
         named("static-explicit steps", die(&[&FORWARD]))?,
         named("static-explicit steps, a plastic slab", die(&[&FORWARD, &[PLASTIC]]))?,
+        named("an interface through an event", exponential::coarse()?)?,
         named("a fault through events", block)?,
         named("slip that turns", turning)?,
         named("a fault that fluid opens", fluid)?,

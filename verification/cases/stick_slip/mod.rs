@@ -1,5 +1,7 @@
 //! Stick-slip of interfaces that springs draw, with radiation damping.
 
+pub(super) mod exponential;
+
 use super::slider as sliders;
 use super::texts::{self, Done};
 use super::{fault_pressing, seas};
@@ -65,6 +67,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     in_time(ledger)?;
     column_events(ledger, "the column's events", column(SPRINGS[1]))?;
     column_events(ledger, "the column's events in space", in_space(column(SPRINGS[1] * DEPTH)))?;
+    exponential::claims(ledger)?;
     block(ledger)?;
     ruptures(ledger)?;
     direct(ledger)

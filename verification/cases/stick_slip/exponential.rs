@@ -1,0 +1,158 @@
+//! An event of an interface whose slip rate grows and falls exponentially, as shear traction follows ramps.
+
+use super::texts;
+use super::{COLUMN, NORMAL, PRESSED, WIDTH};
+use crate::{Capability, CaseError, Evidence, Ledger};
+use asperity_vary::SceneText;
+
+/// Friction `mu0 + a ln(V/v_ref)`, with `v_ref` in \[m/s\].
+const MU0: f64 = 0.6;
+const A: f64 = 0.010;
+const V_REF: f64 = 1e-6;
+/// Shear modulus of column and base \[Pa\].
+const SHEAR: f64 = 4e9;
+/// Slip rates at which the event begins and ends, and the largest one \[m/s\].
+const ON: f64 = 1e-3;
+const OFF: f64 = 0.5e-3;
+const PEAK: f64 = 5e-3;
+/// Times in which the slip rate grows and falls by a factor of e \[s\].
+const GROWS: f64 = 1.0;
+const FALLS: f64 = 0.5;
+/// Time from the end of pressing to the beginning of slow growth, and from there to the peak \[s\].
+const FAST: f64 = 2.0;
+const SLOW: f64 = 4.0;
+
+/// Length of steps \[s\], for few of them, and a tolerance of slip that admits them \[m\].
+const STEP: f64 = 0.2;
+const LOOSE: f64 = 1e-3;
+
+/// The same column by steps of a fifth of a second.
+///
+/// # Errors
+/// If a key of the scene is not as expected.
+pub(in crate::cases) fn coarse() -> Result<SceneText, CaseError> {
+    Ok(scene()?
+        .with("stages[0].steps", 5)
+        .add("time.tolerance", format!("{LOOSE:?}"))
+        .add("time.friction_tolerance", "1e-3")
+        .add("time.first_step", format!("{STEP:?}"))
+        .add("time.max_step", format!("{STEP:?}")))
+}
+
+/// The column of `interface_rate_state` under a traction whose ramps make the slip rate grow and fall exponentially, without a state.
+///
+/// # Errors
+/// If a key of the scene is not as expected.
+fn scene() -> Result<SceneText, CaseError> {
+    let peak = MU0 + A * (PEAK / V_REF).ln();
+    let rows = [
+        (0.0, 0.0),
+        (FAST, peak - A * SLOW / GROWS),
+        (FAST + SLOW, peak),
+        (FAST + 2.0 * SLOW, peak - A * SLOW / FALLS),
+    ];
+    let rows = rows.map(|(time, friction)| format!("[{time:?}, {:?}]", friction * NORMAL));
+    let scene = (2..6).rev().fold(SceneText::new(COLUMN), |scene, k| scene.without(&format!("stages[{k}]")));
+    Ok(scene
+        .add("interfaces.fault.measure", "node-to-point")
+        .add("interfaces.fault.sliding", "small")
+        .with(
+            "interfaces.fault.law",
+            format!(r#"{{ kind = "rate", mu0 = {MU0:?}, a = {A:?}, v_ref = {V_REF:?} }}"#),
+        )
+        .with("stages[1].duration", format!("{:?}", FAST + 2.0 * SLOW))
+        .with("stages[1].conditions[0].x", "free")
+        .add("stages[1].conditions[0].traction", format!("[{{ table = [{}] }}, 0]", rows.join(", ")))
+        .add("events", format!("{{ above = {ON:?}, below = {OFF:?} }}")))
+}
+
+/// Slip rate at a time since the end of pressing, in the slow ramps \[m/s\].
+fn rate(time: f64) -> f64 {
+    let since = time - FAST - SLOW;
+    PEAK * (if since < 0.0 { since / GROWS } else { -since / FALLS }).exp()
+}
+
+/// Share of the slip of a step that has passed when the slip rate, which is exponential in time, reaches a value.
+fn share([from, to]: [f64; 2], value: f64) -> f64 {
+    (value - from) / (to - from)
+}
+
+/// Claims onset, duration and slip of the event.
+pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let done = texts::simulate(&coarse()?.text()?)?;
+    let [event] = super::events(&done)? else { return Err("not one event".into()) };
+    let (rise, fall) = ((PEAK / ON).ln() * GROWS, (PEAK / OFF).ln() * FALLS);
+    let times = [event.onset - PRESSED, event.onset - PRESSED + event.duration];
+    ledger
+        .claim("event whose slip rate grows and falls exponentially: onset and end")
+        .unit("s")
+        .values(&times)
+        .equals_each(&[FAST + SLOW - rise, FAST + SLOW + fall])
+        .absolute(1e-8)
+        .evidence(Evidence::Exact, "a ramp of traction makes ln V grow at its rate over a f_n")
+        .because("between ends of steps ln V is linear, as here; balance of forces to 1e-11 of what presses, over a: 1e-9 of ln V")
+        .why_not_tighter("where the last iteration of Newton's method ends below its tolerance is chance")
+        .covers(&[Capability::InterfaceStates, Capability::Events])
+        .cost(&done.cost)
+        .record();
+    // Slip of the steps themselves has the error of the rule of slip rates; what lies between the thresholds is a share of them.
+    let clock = done.record.times();
+    let slips = &done.record.histories()[0].points[0].slip;
+    let at = |time: f64, value: f64| -> Result<f64, CaseError> {
+        let k = clock.iter().position(|t| t - PRESSED >= time).filter(|k| *k > 0).ok_or("no step")?;
+        let share = share([clock[k - 1], clock[k]].map(|t| rate(t - PRESSED)), value);
+        Ok(slips[k - 1] + share * (slips[k] - slips[k - 1]))
+    };
+    let between = (at(times[1], OFF)? - at(times[0], ON)?).abs();
+    ledger
+        .claim("the same event: slip between its thresholds, against the slip of its steps")
+        .unit("m")
+        .value(event.mean_slip)
+        .equals(between)
+        .relative(1e-7)
+        .evidence(
+            Evidence::Exact,
+            "shares of the steps with onset and end: under exponential growth slip follows the slip rate",
+        )
+        .because("as for onset and end: 1e-9 of ln V, at some points that slip alike")
+        .why_not_tighter("where the last iteration of Newton's method ends below its tolerance is chance")
+        .covers(&[Capability::InterfaceStates, Capability::Events])
+        .cost(&done.cost)
+        .record();
+    // The time above the upper threshold, and the drop of friction from one threshold to the other.
+    let (above, drop) = ((PEAK / ON).ln() * (GROWS + FALLS), A * NORMAL * (ON / OFF).ln());
+    let moment = SHEAR * event.area * event.mean_slip;
+    let ratios = [
+        event.area / WIDTH,
+        event.moment / moment,
+        event.peak_rate / PEAK,
+        event.duration_above / above,
+        event.stress_drop / drop,
+    ];
+    ledger
+        .claim("the same event: area, moment, largest slip rate, time above the upper threshold and stress drop, over what they should be")
+        .values(&ratios)
+        .equals_each(&[1.0; 5])
+        .relative(1e-8)
+        .evidence(Evidence::Exact, "G times area times slip of the whole bottom; the slip rate where the load turns; ln V is linear in time, and friction is a ln V")
+        .because("as for onset and end")
+        .why_not_tighter("where the last iteration of Newton's method ends below its tolerance is chance")
+        .covers(&[Capability::InterfaceStates, Capability::Events])
+        .cost(&done.cost)
+        .record();
+    let fine = texts::simulate(&scene()?.text()?)?;
+    let [event] = super::events(&fine)? else { return Err("not one event".into()) };
+    ledger
+        .claim("an event under exponential growth: slip between its thresholds, by short steps")
+        .unit("m")
+        .value(event.mean_slip)
+        .equals(GROWS * (PEAK - ON) + FALLS * (PEAK - OFF))
+        .relative(4e-4)
+        .evidence(Evidence::Exact, "differences of slip rates over their rates of growth")
+        .because("the default bounds the error of slip of a step by 2e-5 of the largest motion that is given, 2e-10 m, over 1e4 steps")
+        .why_not_tighter("how many steps a tolerance takes is up to their control")
+        .covers(&[Capability::InterfaceStates, Capability::Events])
+        .cost(&fine.cost)
+        .record();
+    Ok(())
+}
