@@ -65,6 +65,7 @@ fn done(scene: SceneText, number: usize) -> Result<Done, CaseError> {
 
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     at_start(ledger)?;
+    takes_over(ledger)?;
     balance(ledger)?;
     through(ledger)?;
     events(ledger)
@@ -94,6 +95,33 @@ fn at_start(ledger: &mut Ledger) -> Result<(), CaseError> {
         .why_not_tighter(super::PROCESSORS)
         .covers(&[Capability::FaultCycles, Capability::PlaneStrain, Capability::Loads])
         .cost(&cost)
+        .record();
+    Ok(())
+}
+
+/// Force of the spring at the start, where it takes over from what held its side.
+fn takes_over(ledger: &mut Ledger) -> Result<(), CaseError> {
+    // The upper side is pushed down while the face is joined, so that it has to be held.
+    let text = pressed("1 s")
+        .without("stages[0].frictionless")
+        .with("stages[0].conditions[3].y", r#"{ to = "-2 um" }"#)
+        .text()?;
+    let done = Written::of(&text)?;
+    let first = |table: &str, name: &str| -> Result<f64, CaseError> {
+        Ok(*done.files.table(table)?.column(name)?.first().ok_or("no row")?)
+    };
+    let face = first("fault_forces.csv", "shear_force of face")?;
+    let spring = |name: &str| first("springs/B_top_y.csv", name);
+    ledger
+        .claim("spring of a block whose side was pushed while its face was joined, at the start: its force over the shear force of the face, and the way of its load point over that of the side")
+        .values(&[spring("force")? / face, spring("load_point")? / 2e-6])
+        .equals_each(&[1.0, 0.0])
+        .absolute(1e-9)
+        .evidence(Evidence::Exact, "balance of forces: the face holds block B and what pushed its upper side, from which a spring takes over")
+        .because("the column of the face has ten digits, and the face hardly slips yet, far below its friction")
+        .why_not_tighter("the last digit may be off by any part of a half")
+        .covers(&[Capability::FaultCycles, Capability::PlaneStrain, Capability::Loads])
+        .cost(&done.cost)
         .record();
     Ok(())
 }

@@ -28,6 +28,8 @@ const ROUNDING: f64 = 1e-10;
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     stages(ledger, "implicit", &[])?;
     stages(ledger, "static-explicit", &[With("time.stepper", "static-explicit")])?;
+    springs(ledger, "implicit")?;
+    springs(ledger, "static-explicit")?;
     column(ledger)
 }
 
@@ -78,6 +80,54 @@ fn stages(ledger: &mut Ledger, name: &str, changes: &[Change<'_>]) -> Result<(),
             .cost(&done.cost)
             .record();
     }
+    Ok(())
+}
+
+/// Way by which the bar is stretched before a spring takes over \[m\], its stiffness \[N/m\], and the way of its load point in the last
+/// stage \[m\].
+const STRETCHED: f64 = 1e-3;
+const SPRING: f64 = 2e9;
+const DRAWN: f64 = 3e-3;
+
+/// A spring takes over the force that held the bar, keeps it, and draws it on.
+fn springs(ledger: &mut Ledger, stepper: &str) -> Result<(), CaseError> {
+    let spring = |rate: f64| format!("{{ spring = {SPRING:?}, rate = {rate:?} }}");
+    let scene = SceneText::new(include_str!("scene.toml"));
+    let scene = (3..9).rev().fold(scene, |scene, k| scene.without(&format!("stages[{k}]")));
+    let scene = scene
+        .without("stages[0].conditions[3].traction")
+        .add("stages[0].conditions[3].x", format!("{{ to = {STRETCHED:?} }}"))
+        .without("stages[1].conditions[0].traction")
+        .add("stages[1].conditions[0].x", spring(0.0))
+        .without("stages[2].conditions[0].traction")
+        .add("stages[2].conditions[0].x", spring(0.5 * DRAWN))
+        .with_or_same("time.stepper", stepper);
+    let done = texts::simulate(&scene.text()?)?;
+    let springs = done.record.samples().iter().filter_map(|s| *s.springs.first()?);
+    let found: Vec<f64> = springs.flat_map(|s| [s.force, s.load_point, s.displacement]).collect();
+    // Two steps while the load point is at rest, and four while it is drawn.
+    let bar = MODULUS / LENGTH;
+    let exact: Vec<f64> = [0.0, 0.0, 0.25, 0.5, 0.75, 1.0]
+        .into_iter()
+        .flat_map(|share| {
+            let drawn = share * DRAWN;
+            let moved = drawn * SPRING / (bar + SPRING);
+            [bar * (STRETCHED + moved), drawn, STRETCHED + moved]
+        })
+        .collect();
+    if found.len() != exact.len() {
+        return Err(format!("{} values of springs", found.len()).into());
+    }
+    ledger
+        .claim(format!("spring that takes over the force that held a bar: force, way of its load point and of the bar at the end of each step, over those of the last, {stepper} steps"))
+        .values(&found.iter().enumerate().map(|(k, v)| v / exact[15 + k % 3]).collect::<Vec<_>>())
+        .equals_each(&exact.iter().enumerate().map(|(k, v)| v / exact[15 + k % 3]).collect::<Vec<_>>())
+        .absolute(ROUNDING)
+        .evidence(Evidence::Exact, "uniaxial strain: the force that held it stays, and bar and spring share the way that is drawn")
+        .because("a uniform strain lies in the space of the cells; balance of forces to 1e-11")
+        .why_not_tighter("where the last iteration of Newton's method ends below its tolerance is chance")
+        .cost(&done.cost)
+        .record();
     Ok(())
 }
 
