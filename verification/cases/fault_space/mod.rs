@@ -1,5 +1,7 @@
 //! Faults in three dimensions: slip along a rake, with slip across the rake and opening constrained to zero.
 
+mod mirrored;
+
 use crate::cases::fault_operator::matrix;
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
@@ -20,6 +22,7 @@ pub const CASE: Case = Case {
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     slab(ledger)?;
     both_directions(ledger)?;
+    mirrored::claims(ledger)?;
     gaussian(ledger)?;
     penny(ledger)?;
     blocks(ledger)
