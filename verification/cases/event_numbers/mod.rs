@@ -1,6 +1,7 @@
 //! Quantities derived from fault events, in output files: moment, area, slip, stress drop, hypocentre, magnitude.
 
 mod history;
+mod slow;
 
 use crate::cases::written::Written;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
@@ -18,6 +19,7 @@ pub const CASE: Case = Case {
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     pairs(ledger)?;
     stable(ledger)?;
+    slow::claims(ledger)?;
     rupture(ledger)
 }
 
