@@ -1,8 +1,9 @@
 //! An event of an interface whose slip rate grows and falls exponentially, as shear traction follows ramps.
 
-use super::texts;
+use super::texts::{self, Done};
 use super::{COLUMN, NORMAL, PRESSED, WIDTH};
 use crate::{Capability, CaseError, Evidence, Ledger};
+use asperity_driver::catalogue::Entry;
 use asperity_vary::SceneText;
 
 /// Friction `mu0 + a ln(V/v_ref)`, with `v_ref` in \[m/s\].
@@ -26,17 +27,61 @@ const SLOW: f64 = 4.0;
 const STEP: f64 = 0.2;
 const LOOSE: f64 = 1e-3;
 
-/// The same column by steps of a fifth of a second.
+/// The same column by steps of a fifth of a second, beside another that does not slip.
 ///
 /// # Errors
 /// If a key of the scene is not as expected.
 pub(in crate::cases) fn coarse() -> Result<SceneText, CaseError> {
-    Ok(scene()?
+    Ok(beside(scene()?)
         .with("stages[0].steps", 5)
         .add("time.tolerance", format!("{LOOSE:?}"))
         .add("time.friction_tolerance", "1e-3")
         .add("time.first_step", format!("{STEP:?}"))
         .add("time.max_step", format!("{STEP:?}")))
+}
+
+/// Distance of a second column \[m\], which is pressed alike and not sheared.
+const APART: f64 = 1.0;
+
+/// Adds a second column on its base.
+fn beside(scene: SceneText) -> SceneText {
+    let block = |min: [f64; 2], max: [f64; 2], divisions: &str| {
+        let [min, max] = [min, max].map(|[x, y]| [APART + x, y]);
+        format!(
+            r#"{{ mesh.block = {{ min = {min:?}, max = {max:?}, divisions = {divisions}, element = "quad4" }}, material = "column" }}"#
+        )
+    };
+    let scene = scene
+        .add("bodies.still", block([0.0, 0.0], [WIDTH, 0.2], "[2, 2]"))
+        .add("bodies.stand", block([-0.05, -0.05], [WIDTH + 0.05, 0.0], "[5, 1]"))
+        .add(
+            "interfaces.calm",
+            format!(
+                r#"{{ slave = "still.bottom", master = "stand.top", measure = "node-to-point", sliding = "small", enforcement = {{ kind = "penalty", normal = "1000 GPa/m", tangential = "1000 GPa/m" }}, {} }}"#,
+                law()
+            ),
+        )
+        .with("stages[0].frictionless", r#"["fault", "calm"]"#);
+    let pressed = |x: &str| format!(r#"{x}y = {{ to = "-10 um" }}"#);
+    [
+        ("stand.top", "x = 0, y = 0".to_string()),
+        ("stand.bottom", "x = 0, y = 0".to_string()),
+        ("stand.left", "x = 0, y = 0".to_string()),
+        ("stand.right", "x = 0, y = 0".to_string()),
+        ("still.top", pressed("x = 0, ")),
+        ("still.left", pressed("")),
+        ("still.right", pressed("")),
+        ("still.bottom", pressed("x = 0, ")),
+    ]
+    .into_iter()
+    .fold(scene, |scene, (set, motion)| {
+        scene.push("stages[0].conditions", format!(r#"{{ set = "{set}", {motion} }}"#))
+    })
+}
+
+/// Key of the law.
+fn law() -> String {
+    format!(r#"law = {{ kind = "rate", mu0 = {MU0:?}, a = {A:?}, v_ref = {V_REF:?} }}"#)
 }
 
 /// The column of `interface_rate_state` under a traction whose ramps make the slip rate grow and fall exponentially, without a state.
@@ -56,10 +101,7 @@ fn scene() -> Result<SceneText, CaseError> {
     Ok(scene
         .add("interfaces.fault.measure", "node-to-point")
         .add("interfaces.fault.sliding", "small")
-        .with(
-            "interfaces.fault.law",
-            format!(r#"{{ kind = "rate", mu0 = {MU0:?}, a = {A:?}, v_ref = {V_REF:?} }}"#),
-        )
+        .with("interfaces.fault.law", law().trim_start_matches("law = "))
         .with("stages[1].duration", format!("{:?}", FAST + 2.0 * SLOW))
         .with("stages[1].conditions[0].x", "free")
         .add("stages[1].conditions[0].traction", format!("[{{ table = [{}] }}, 0]", rows.join(", ")))
@@ -97,7 +139,8 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
         .record();
     // Slip of the steps themselves has the error of the rule of slip rates; what lies between the thresholds is a share of them.
     let clock = done.record.times();
-    let slips = &done.record.histories()[0].points[0].slip;
+    let history = done.record.history("fault").ok_or("no interface")?;
+    let slips = &history.points[0].slip;
     let at = |time: f64, value: f64| -> Result<f64, CaseError> {
         let k = clock.iter().position(|t| t - PRESSED >= time).filter(|k| *k > 0).ok_or("no step")?;
         let share = share([clock[k - 1], clock[k]].map(|t| rate(t - PRESSED)), value);
@@ -140,6 +183,7 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
         .covers(&[Capability::InterfaceStates, Capability::Events])
         .cost(&done.cost)
         .record();
+    on_its_interface(ledger, &done, event)?;
     let fine = texts::simulate(&scene()?.text()?)?;
     let [event] = super::events(&fine)? else { return Err("not one event".into()) };
     ledger
@@ -153,6 +197,31 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
         .why_not_tighter("how many steps a tolerance takes is up to their control")
         .covers(&[Capability::InterfaceStates, Capability::Events])
         .cost(&fine.cost)
+        .record();
+    Ok(())
+}
+
+/// Claims where the event is.
+fn on_its_interface(ledger: &mut Ledger, done: &Done, event: &Entry) -> Result<(), CaseError> {
+    let [x, y, _] = event.hypocentre;
+    let apart = &done.report.events.as_ref().ok_or("the scene has no events")?.interfaces;
+    let counts = apart.iter().map(|of| {
+        let own = of.events.iter().filter(|event| event.fault == of.fault).count();
+        own.abs_diff(usize::from(of.fault == "fault")) + of.events.len() - own
+    });
+    let off = [
+        usize::from(event.fault != "fault"),
+        usize::from(!(0.0..=WIDTH).contains(&x) || y != 0.0),
+        apart.len().abs_diff(2),
+        counts.sum(),
+    ];
+    ledger
+        .claim("the same event beside an interface that does not slip: its interface, its hypocentre, and events of each of both that are wrong")
+        .count(off.iter().sum::<usize>() as u64, 0)
+        .evidence(Evidence::Exact, "only the column that is sheared slips")
+        .because("a count")
+        .covers(&[Capability::InterfaceStates, Capability::Events])
+        .cost(&done.cost)
         .record();
     Ok(())
 }
