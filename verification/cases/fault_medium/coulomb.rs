@@ -71,6 +71,13 @@ fn in_space(ledger: &mut Ledger, wanted: &Reference) -> Result<(), CaseError> {
         .why_not_tighter("the last digit may be off by any part of a half")
         .cost(&done.cost)
         .record();
+    let plane = done.plan.coulomb.as_ref().ok_or("the plan has no planes")?.plane;
+    resolved(
+        ledger,
+        "at positions in space",
+        (&done, "events/coulomb_points_000.csv"),
+        [plane.normal, plane.slip],
+    )?;
     let mut worst = 0.0_f64;
     for (number, plane) in wanted.planes.iter().enumerate() {
         let text = one_cell(&asked(wanted, *plane));
@@ -92,6 +99,40 @@ fn in_space(ledger: &mut Ledger, wanted: &Reference) -> Result<(), CaseError> {
         .evidence(Evidence::OtherCode, "dislocs (Okada), which agrees with two triangles of cutde to 3e-14")
         .because("rounding of both programs, thirty times their difference")
         .why_not_tighter("changes on a plane are smaller than the stress, whose digits they have")
+        .cost(&done.cost)
+        .record();
+    Ok(())
+}
+
+/// Claims that the stresses in a table cause its changes on planes of this normal and direction of slip.
+fn resolved(
+    ledger: &mut Ledger,
+    place: &str,
+    (done, name): (&Written, &str),
+    [normal, slip]: [[f64; 3]; 2],
+) -> Result<(), CaseError> {
+    let table = done.files.table(name)?;
+    let all: Vec<Vec<f64>> = ["xx", "yy", "zz", "xy", "yz", "zx"]
+        .map(|axes| table.column(&format!("stress_{axes}")))
+        .into_iter()
+        .collect::<Result<_, _>>()?;
+    let (shear, pressed) = (table.column("shear_change")?, table.column("normal_change")?);
+    let (mut worst, mut largest) = (if shear.is_empty() { f64::NAN } else { 0.0_f64 }, 0.0_f64);
+    for k in 0..shear.len() {
+        let [xx, yy, zz, xy, yz, zx] = [0, 1, 2, 3, 4, 5].map(|c: usize| all[c][k]);
+        let rows = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]];
+        let on =
+            |way: &[f64; 3]| -> f64 { (0..9).map(|i| way[i / 3] * rows[i / 3][i % 3] * normal[i % 3]).sum() };
+        worst = worst.max((shear[k] - on(&slip)).abs()).max((pressed[k] + on(&normal)).abs());
+        largest = all.iter().map(|stress| stress[k].abs()).fold(largest, f64::max);
+    }
+    ledger
+        .claim(format!("changes of tractions {place} over an event, against the stress in the same rows: largest error over the largest stress"))
+        .value(worst / largest)
+        .at_most(2e-9)
+        .evidence(Evidence::Exact, "tractions of a stress on a plane: n.S.s, and -n.S.n for compression")
+        .because("stresses and tractions have ten digits, of which some add up")
+        .why_not_tighter("the last digits may be off by any part of a half")
         .cost(&done.cost)
         .record();
     Ok(())
@@ -191,6 +232,13 @@ fn in_the_plane(ledger: &mut Ledger) -> Result<(), CaseError> {
             .cost(&done.cost)
             .record();
     }
+    let in_space = |[x, y]: [f64; 2]| [x, y, 0.0];
+    resolved(
+        ledger,
+        "along a line at a depth",
+        (&done, "events/coulomb_000.csv"),
+        [in_space(normal), in_space(up)],
+    )?;
     across_the_plane(ledger, &done)
 }
 
