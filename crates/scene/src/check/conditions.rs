@@ -5,7 +5,7 @@ use super::interfaces::is_tied;
 use super::starts::Present;
 use super::{AXES, Checker};
 use crate::diagnostic::Diagnostic;
-use crate::model::{Condition, Kinematics, Loading, Motion, Pace, RotationSpec, Spanned, Stage};
+use crate::model::{Condition, Kinematics, Loading, Motion, Pace, RotationSpec, Spanned, Stage, Tabled};
 use crate::near::suggest;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -320,7 +320,7 @@ impl Checker<'_> {
     }
 
     /// Checks that a table lies within its stage. Values past the end would be lost silently, or taken as reached.
-    fn table(&mut self, points: &[(f64, f64)], place: Range<usize>, stage: &Stage, kind: Kind) {
+    fn table(&mut self, points: &Tabled, place: Range<usize>, stage: &Stage, kind: Kind) {
         let duration = stage.duration.get_ref().0;
         if points.len() < 2 {
             self.error(
@@ -351,8 +351,12 @@ impl Checker<'_> {
                 "the table extends to {time:?} s, but stage `{}` ends after {duration:?} s",
                 stage.name
             );
-            let help =
-                "times count from the start of the stage: end the table with it, or lengthen the stage";
+            let help = match points.file() {
+                Some(_) => {
+                    "`from` takes the part of a record that belongs to the stage, such as `from = 0`; or lengthen the stage"
+                }
+                None => "times count from the start of the stage: end the table with it, or lengthen the stage",
+            };
             self.errors
                 .push(Diagnostic::at(place, message, help).and(stage.duration.span(), "the stage ends"));
         }

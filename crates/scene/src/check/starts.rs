@@ -66,7 +66,10 @@ impl Checker<'_> {
                     self.error(
                         place.clone(),
                         format!("the table of {axis} begins{late} with {first}, but `{set}` is at {present} when stage `{name}` begins, and would jump there"),
-                        format!("begin it with `[\"0 s\", \"{present}\"]`: it then moves in a straight line to its next entry"),
+                        match points.file() {
+                            Some(_) => "`tare = true` counts from the first value of the column, and `from` from a time of it".to_string(),
+                            None => format!("begin it with `[\"0 s\", \"{present}\"]`: it then moves in a straight line to its next entry"),
+                        },
                     );
                 }
             }
@@ -115,7 +118,10 @@ impl Checker<'_> {
                     self.error(
                         place,
                         format!("the table of `{what}` begins{late} with {first:?} Pa, but it is {before:?} Pa on `{}` when stage `{}` begins, and would jump there", set.get_ref(), stage.name),
-                        format!("begin it with `[\"0 s\", \"{before:?} Pa\"]`: it then changes in a straight line to its next entry"),
+                        match points.file() {
+                            Some(_) => "`tare = true` counts from the first value of the column, and `from` from a time of it".to_string(),
+                            None => format!("begin it with `[\"0 s\", \"{before:?} Pa\"]`: it then changes in a straight line to its next entry"),
+                        },
                     );
                 }
                 present.insert(key, end);
