@@ -156,10 +156,15 @@ fn suite(options: &Options, state: &Path) -> Result<Summary, Box<dyn Error>> {
     let read = numbers::all()?;
     let unknown: Vec<String> = read.iter().flat_map(|number| number.unknown(&outcomes)).collect();
     if !unknown.is_empty() {
-        return Err(format!("verification/numbers.toml: no claim is called\n  {}", unknown.join("\n  ")).into());
+        return Err(
+            format!("verification/numbers.toml: no claim is called\n  {}", unknown.join("\n  ")).into()
+        );
     }
     let without = read.iter().filter(|number| number.held(&outcomes).is_empty()).count();
-    printing::out(format_args!("numbers in files: {} with evidence, {without} without\n", read.len() - without));
+    printing::out(format_args!(
+        "numbers in files: {} with evidence, {without} without\n",
+        read.len() - without
+    ));
     printing::out(format_args!("{summary}\n"));
     State { ended: true, ..State::default() }.write(state)?;
     Ok(summary)

@@ -276,7 +276,7 @@ pub fn in_steps(mesh: usize, dofs: usize) -> usize {
     3 * mesh + size_of::<f64>() * VECTORS * dofs
 }
 
-/// What a run builds of its bodies.
+/// Parts of the bodies that a run builds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Built {
     /// Vectors, for explicit steps.
@@ -288,7 +288,7 @@ pub enum Built {
 }
 
 impl Built {
-    /// What the run of a scene builds.
+    /// Parts that the run of a scene builds.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
         if *scene.time.stepper.get_ref() == Stepper::Explicit {

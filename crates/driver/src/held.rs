@@ -59,7 +59,13 @@ impl Held {
     #[must_use]
     pub fn with_systems(&self, solver: usize, condensed: bool) -> usize {
         let copies = if condensed { 2 } else { 1 };
-        PROGRAM + self.mesh + copies * self.stiffness + self.geometry + self.histories + self.tangents + solver
+        PROGRAM
+            + self.mesh
+            + copies * self.stiffness
+            + self.geometry
+            + self.histories
+            + self.tangents
+            + solver
     }
 
     /// Total of a run in explicit steps, which keep `numbers` of the cells and build no matrices of those with a history.

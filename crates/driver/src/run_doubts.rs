@@ -111,7 +111,8 @@ impl Worst {
     /// Warnings about the bodies in a stage.
     pub fn of_bodies<const D: usize>(&self, model: &Model<D>, stage: &str) -> impl Iterator<Item = Warning> {
         let bodies = model.bodies.iter().zip(&self.bodies);
-        bodies.filter_map(move |(b, (worst, at))| of_body(&b.name, stage, (*worst, *at), b.elastic[0].young()))
+        bodies
+            .filter_map(move |(b, (worst, at))| of_body(&b.name, stage, (*worst, *at), b.elastic[0].young()))
     }
 }
 
@@ -148,7 +149,8 @@ pub fn of_block<const D: usize>(model: &Model<D>, block: usize, u: &[f64]) -> La
     let cells = &model.mesh.blocks[block];
     let places = places(cells.kind);
     let doubtful = |cell: &usize| stretched(model, cells, *cell, u) > SAFE * SMALL_STRAIN.min(SMALL_ROTATION);
-    let all = (0..cells.len()).filter(doubtful).flat_map(|cell| places.iter().map(move |place| (cell, place)));
+    let all =
+        (0..cells.len()).filter(doubtful).flat_map(|cell| places.iter().map(move |place| (cell, place)));
     all.fold(Largest::default(), |largest, (cell, place)| {
         let gradient = gradient(model, cells, (cell, *place), u);
         let strain = 0.5 * (&gradient + gradient.transpose());

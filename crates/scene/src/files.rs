@@ -75,7 +75,7 @@ fn doubt(file: &TableFile, dimension: Dimension, points: &[(f64, f64)]) -> Optio
     Some(Warning::at(column.span(), format!("column `{}` of `{name}`: {message}", column.get_ref()), help))
 }
 
-/// What a scene takes of the entries of a file.
+/// Entries of a file that a scene takes.
 fn taken(
     file: &TableFile,
     mut points: Vec<(f64, f64)>,
@@ -90,7 +90,11 @@ fn taken(
         let [first, last] = [points.first(), points.last()].map(|p| p.map_or(0.0, |p| p.0));
         Diagnostic::at(
             from.span(),
-            format!("the times of `{}` run from {first:?} s to {last:?} s: none lies in what begins at {:?} s", file.file.get_ref(), from.get_ref().0),
+            format!(
+                "the times of `{}` run from {first:?} s to {last:?} s: none lies in what begins at {:?} s",
+                file.file.get_ref(),
+                from.get_ref().0
+            ),
             "`from` is the time in the file at which the stage begins",
         )
     })

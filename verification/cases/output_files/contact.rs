@@ -36,7 +36,9 @@ fn scene(space: bool) -> String {
     let [w, d] = WIDTHS;
     let [upper, lower] = HEIGHTS;
     let [mu0, a, v0] = LAW;
-    let corner = |x: f64, y: f64, z: f64| if space { format!("[{x:?}, {y:?}, {z:?}]") } else { format!("[{x:?}, {y:?}]") };
+    let corner = |x: f64, y: f64, z: f64| {
+        if space { format!("[{x:?}, {y:?}, {z:?}]") } else { format!("[{x:?}, {y:?}]") }
+    };
     let body = |name: &str, [from, to]: [f64; 2]| {
         let (min, max) = (corner(0.0, from, 0.0), corner(w, to, d));
         let (divisions, element) = if space { ("[1, 1, 1]", "hex8") } else { ("[1, 1]", "quad4") };
@@ -187,7 +189,12 @@ fn space(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Claims about numbers of a run at its end.
-fn all(ledger: &mut Ledger, (files, cost): (&Folder, &Cost), space: &str, wanted: &[Wanted<'_>]) -> Result<(), CaseError> {
+fn all(
+    ledger: &mut Ledger,
+    (files, cost): (&Folder, &Cost),
+    space: &str,
+    wanted: &[Wanted<'_>],
+) -> Result<(), CaseError> {
     for &(file, column, value) in wanted {
         ledger
             .claim(format!("two blocks that slide steadily {space}, at the end: {column} in {file}"))

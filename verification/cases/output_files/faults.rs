@@ -57,13 +57,23 @@ fn scene(space: bool) -> String {
     let (conditions, vector) = if space {
         let (up, along) = (half * ANGLE.sin(), half * ANGLE.cos());
         let drawn = |set: &str, sign: f64| {
-            format!("{{ set = \"{set}\", x = 0, y = {{ rate = {:e} }}, z = {{ rate = {:e} }} }}", -sign * up, sign * along)
+            format!(
+                "{{ set = \"{set}\", x = 0, y = {{ rate = {:e} }}, z = {{ rate = {:e} }} }}",
+                -sign * up,
+                sign * along
+            )
         };
         let held: String = ["left", "right"]
             .iter()
-            .flat_map(|body| ["bottom", "top", "back", "front"].map(|side| format!(", {{ set = \"{body}.{side}\", x = 0 }}")))
+            .flat_map(|body| {
+                ["bottom", "top", "back", "front"]
+                    .map(|side| format!(", {{ set = \"{body}.{side}\", x = 0 }}"))
+            })
             .collect();
-        (drawn("left.left", -1.0) + ", " + &drawn("right.right", 1.0) + &held, "rake = [0, 0, 1]\nslip = \"free\"\n")
+        (
+            drawn("left.left", -1.0) + ", " + &drawn("right.right", 1.0) + &held,
+            "rake = [0, 0, 1]\nslip = \"free\"\n",
+        )
     } else {
         let drawn = |set: &str, rate: f64| format!("{{ set = \"{set}\", z = {{ rate = {rate:e} }} }}");
         (drawn("left.left", -half) + ", " + &drawn("right.right", half), "")
@@ -152,7 +162,12 @@ fn space(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Claims about numbers of a run at its end. Of vectors the last component, along z, is taken.
-fn all(ledger: &mut Ledger, (files, cost): (&Folder, &Cost), space: &str, wanted: &[Wanted<'_>]) -> Result<(), CaseError> {
+fn all(
+    ledger: &mut Ledger,
+    (files, cost): (&Folder, &Cost),
+    space: &str,
+    wanted: &[Wanted<'_>],
+) -> Result<(), CaseError> {
     for &(file, column, value) in wanted {
         ledger
             .claim(format!("a fault that slides steadily {space}, at the end: {column} in {file}"))

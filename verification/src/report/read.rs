@@ -30,8 +30,14 @@ fn row(number: &Number, outcomes: &[Outcome]) -> String {
     let held = number.held(outcomes);
     let cases: Vec<String> = held
         .iter()
-        .map(|(case, count)| format!("<a href=\"cases/{case}.html\">{case}</a> <b class=\"good\">{count}</b>"))
+        .map(|(case, count)| {
+            format!("<a href=\"cases/{case}.html\">{case}</a> <b class=\"good\">{count}</b>")
+        })
         .collect();
-    let cases = if cases.is_empty() { "<span class=\"none\">no evidence</span>".to_owned() } else { cases.join(", ") };
+    let cases = if cases.is_empty() {
+        "<span class=\"none\">no evidence</span>".to_owned()
+    } else {
+        cases.join(", ")
+    };
     format!("<div><dt>{}</dt><dd>{cases}</dd></div>\n", escape(&number.name))
 }

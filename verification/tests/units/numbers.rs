@@ -22,7 +22,9 @@ fn of_the_book() -> Vec<(&'static str, String, String)> {
             continue;
         }
         let columns = names(cells[2]);
-        for file in names(cells[1]).into_iter().filter(|file| file != "events_*.csv" && file != "slow_events.csv") {
+        for file in
+            names(cells[1]).into_iter().filter(|file| file != "events_*.csv" && file != "slow_events.csv")
+        {
             all.extend(columns.iter().map(|column| (kind, file.clone(), column.clone())));
         }
     }

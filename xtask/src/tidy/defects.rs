@@ -32,11 +32,16 @@ fn outcomes(files: &[File]) -> Vec<Problem> {
     }
     for file in files {
         let name = file.path.strip_prefix(FOLDER).and_then(|p| p.strip_prefix('/')?.strip_suffix(".toml"));
-        let noticed = |name| results.get(name).is_some_and(Outcome::is_noticed);
-        if name.is_some_and(|name| !noticed(name)) {
-            let message =
-                "no claim has noticed it: run `cargo xtask defects`, and add a claim where none does";
-            found.push(Problem::new(&file.path, 0, message));
+        match name.map(|name| results.get(name)) {
+            // A run takes minutes, so that a defect may stand for a while before it has one.
+            Some(None) => {
+                let message = "it has not been made yet: run `cargo xtask defects`";
+                found.push(Problem { warning: true, ..Problem::new(&file.path, 0, message) });
+            }
+            Some(Some(outcome)) if !outcome.is_noticed() => {
+                found.push(Problem::new(&file.path, 0, "no claim has noticed it: add one"));
+            }
+            _ => {}
         }
     }
     found
@@ -84,7 +89,7 @@ mod tests {
             file("verification/defects/d.toml", &defect),
             file("verification/defects/results.json", results),
         ];
-        check(&files).len()
+        check(&files).iter().filter(|problem| !problem.warning).count()
     }
 
     #[test]
@@ -98,9 +103,9 @@ mod tests {
     #[test]
     fn a_defect_that_was_not_noticed_and_a_result_of_none_are_found() {
         let outcome = r#"{ "commit": "", "status": "ran", "cases": [], "noticed": [] }"#;
-        assert_eq!(with_results("one", "hertz_line", "{}"), 1);
+        assert_eq!(with_results("one", "hertz_line", "{}"), 0);
         assert_eq!(with_results("one", "hertz_line", &format!("{{ \"d\": {outcome} }}")), 1);
-        assert_eq!(with_results("one", "hertz_line", &format!("{{ \"e\": {outcome} }}")), 2);
+        assert_eq!(with_results("one", "hertz_line", &format!("{{ \"e\": {outcome} }}")), 1);
         assert_eq!(with_results("one", "hertz_line", "[]"), 1);
     }
 }

@@ -47,7 +47,7 @@ pub struct Plan<const D: usize> {
     pub steps: usize,
     /// Length of a step \[s\].
     pub dt: f64,
-    /// What sets that length.
+    /// Reason for that length.
     pub step_reason: String,
     /// Faults.
     pub faults: Vec<FaultView>,

@@ -123,7 +123,7 @@ pub struct Report {
     /// Wall time.
     #[serde(skip)]
     pub seconds: Phases,
-    /// What the text says about steps.
+    /// Cells and steps, for the text.
     #[serde(skip)]
     pub pace: Pace,
 }

@@ -121,10 +121,11 @@ impl<const D: usize> Field<D> {
     pub fn doubts(&self, region: &str, spots: &[Spot<D>]) -> impl Iterator<Item = Warning> {
         let values = spots.iter().filter_map(|spot| self.found(spot));
         let unit = self.dimension.map_or("", Dimension::si);
-        let implausible = plausible::of_file(&["faults", "fields", self.key], unit, values).map(|(message, help)| {
-            let message = format!("`{}` of {region} from `{}`: {message}", self.key, self.file);
-            Warning::at(self.span.clone(), message, help)
-        });
+        let implausible =
+            plausible::of_file(&["faults", "fields", self.key], unit, values).map(|(message, help)| {
+                let message = format!("`{}` of {region} from `{}`: {message}", self.key, self.file);
+                Warning::at(self.span.clone(), message, help)
+            });
         implausible.into_iter().chain(self.reach(region, spots))
     }
 

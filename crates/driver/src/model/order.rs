@@ -29,7 +29,8 @@ pub fn along_curve<const D: usize>(mesh: Mesh<D>) -> Mesh<D> {
         };
         let (order, moved) = sorted(block.len(), |cell| key(&centre(cell)));
         cells.push(moved);
-        let connectivity = order.iter().flat_map(|&cell| block.cell(cell).iter().map(|&n| number[n])).collect();
+        let connectivity =
+            order.iter().flat_map(|&cell| block.cell(cell).iter().map(|&n| number[n])).collect();
         Cells { kind: block.kind, connectivity }
     });
     let blocks = blocks.collect();

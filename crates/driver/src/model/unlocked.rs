@@ -25,7 +25,7 @@ pub fn admit(scene: &Scene, (name, body): (&str, &Body), kind: ElementKind) -> R
     })
 }
 
-/// What does not lock in the place of an element.
+/// Elements that do not lock, in the place of one that does.
 pub(super) fn remedy(scene: &Scene, body: &str, kind: ElementKind) -> String {
     let b_bar = "`formulation = \"b-bar\"`";
     let (first, second) = match kind {

@@ -74,7 +74,11 @@ fn a_step_without_solution_names_the_body_that_contact_has_let_go() {
     // The outer blocks move to one side, and nothing presses the middle one.
     let Outcome::Stopped { reason, .. } = outcome(DOUBLE_SHEAR) else { panic!("it runs") };
     assert!(reason.contains("the likely cause: body `middle` is free in"), "{reason}");
-    assert!(reason.contains("`one` presses nothing at 11 of 11 points, `other` presses nothing at 11 of 11 points"), "{reason}");
+    assert!(
+        reason
+            .contains("`one` presses nothing at 11 of 11 points, `other` presses nothing at 11 of 11 points"),
+        "{reason}"
+    );
 }
 
 #[test]

@@ -359,9 +359,7 @@ fn a_record_is_shared_out_to_its_stages() {
     let csv = "time [s],stroke [mm]\n0,0.02\n0.5,-0.48\n1.5,-1.48\n3,-0.58\n";
     std::fs::write(folder.path().join("test.csv"), csv).unwrap();
     let part = |more: &str| {
-        format!(
-            r#"{{ set = "C.top", y = {{ table = {{ file = "test.csv", column = "stroke"{more} }} }} }}"#
-        )
+        format!(r#"{{ set = "C.top", y = {{ table = {{ file = "test.csv", column = "stroke"{more} }} }} }}"#)
     };
     let two = |first: &str, second: &str| {
         let after = format!("{{ name = \"after\", duration = 2, conditions = [{}] }}", part(second));
@@ -380,7 +378,11 @@ fn a_record_is_shared_out_to_its_stages() {
     // Without `from` the second stage would begin at the start of the record, and without `tare` beside its set.
     for (first, second, told) in [
         (", from = 0", ", from = 1", "begins with 20 um, but `C.top` is at 0 m"),
-        (", from = 0, tare = true", ", from = 4, tare = true", "run from 0.0 s to 3.0 s: none lies in what begins at 4.0 s"),
+        (
+            ", from = 0, tare = true",
+            ", from = 4, tare = true",
+            "run from 0.0 s to 3.0 s: none lies in what begins at 4.0 s",
+        ),
     ] {
         let error = two(first, second).err().unwrap().to_string();
         assert!(error.contains(told), "{error}");

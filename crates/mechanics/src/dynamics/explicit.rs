@@ -6,10 +6,10 @@ use super::fault::{Fault, FaultState, Unbalanced};
 use super::inelastic::{self, Inelastic};
 use super::loads::Loads;
 use super::motion::{Motion, Sums};
-use super::room::Room;
-use super::stored;
 use super::nodes::Special;
+use super::room::Room;
 use super::springs::Springs;
+use super::stored;
 use super::{Problem, Stable, stable};
 use crate::{CellBlock, coordinates};
 use asperity_fem::block::lumped;
@@ -521,7 +521,8 @@ impl<'a, const D: usize> Explicit<'a, D> {
             works.stored = linear.stored(works.stored, self.problem.viscosity, start);
         }
         let elastic = 0.5 * works.stored;
-        let damped = if self.damped.is_empty() { 0.0 } else { works.internal.done - inelastic.all.done - elastic };
+        let damped =
+            if self.damped.is_empty() { 0.0 } else { works.internal.done - inelastic.all.done - elastic };
         (elastic + others, damped + inelastic.viscous.done)
     }
 

@@ -53,7 +53,9 @@ impl<const D: usize> Inelastic<D> {
         };
         if balance {
             let rest = zeros(true);
-            result.evaluate((&rest, &rest), Instant { time: 0.0, dt: 0.0 }, 0.0).map_err(|r| r.to_string())?;
+            result
+                .evaluate((&rest, &rest), Instant { time: 0.0, dt: 0.0 }, 0.0)
+                .map_err(|r| r.to_string())?;
             result.blocks.iter_mut().for_each(Block::reject);
             result.balanced = result.forces.clone();
         }
@@ -121,9 +123,8 @@ impl<const D: usize> Inelastic<D> {
 
     /// Elastic energy that the stress at the start may set free \[J\]: where nothing balances it, and where it relaxes.
     pub fn released(&self) -> f64 {
-        let free = |b: &&Block<D>| {
-            self.balanced.is_empty() || matches!(b.model().material, Material::Maxwell(_))
-        };
+        let free =
+            |b: &&Block<D>| self.balanced.is_empty() || matches!(b.model().material, Material::Maxwell(_));
         self.blocks.iter().filter(free).map(Block::strain_energy).sum()
     }
 

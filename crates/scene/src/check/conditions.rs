@@ -355,7 +355,9 @@ impl Checker<'_> {
                 Some(_) => {
                     "`from` takes the part of a record that belongs to the stage, such as `from = 0`; or lengthen the stage"
                 }
-                None => "times count from the start of the stage: end the table with it, or lengthen the stage",
+                None => {
+                    "times count from the start of the stage: end the table with it, or lengthen the stage"
+                }
             };
             self.errors
                 .push(Diagnostic::at(place, message, help).and(stage.duration.span(), "the stage ends"));

@@ -91,7 +91,8 @@ mod tests {
 
     #[test]
     fn parts_of_a_record_meet_where_stages_do() {
-        let stages = [(0.0, 4.0), (4.0, 8.0), (12.0, 8.0)].map(|(from, t)| part(&RECORD, from, Some(t)).unwrap());
+        let stages =
+            [(0.0, 4.0), (4.0, 8.0), (12.0, 8.0)].map(|(from, t)| part(&RECORD, from, Some(t)).unwrap());
         assert_eq!(stages[0], [(0.0, 1.0), (4.0, 1.8)]);
         assert_eq!(stages[1], [(0.0, 1.8), (6.0, 3.0), (6.0, 5.0), (8.0, 5.0)]);
         assert_eq!(stages[2], [(0.0, 5.0), (8.0, 5.0)]);

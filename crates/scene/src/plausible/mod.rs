@@ -81,7 +81,7 @@ struct Step<'a> {
     root: bool,
 }
 
-/// What is doubtful about the largest magnitude of the values that a key takes from a file, with a usual value as help; `unit` is
+/// Doubt about the largest magnitude of the values that a key takes from a file, with a usual value as help; `unit` is
 /// the SI unit of the key, empty for a plain number.
 #[must_use]
 pub fn of_file(keys: &[&str], unit: &str, values: impl IntoIterator<Item = f64>) -> Option<(String, String)> {
@@ -93,7 +93,10 @@ pub fn of_file(keys: &[&str], unit: &str, values: impl IntoIterator<Item = f64>)
     }
     let unit = if of.unit.is_empty() { String::new() } else { format!(" {}", of.unit) };
     let message = format!("its largest is {}{unit}, and {}", shown(largest), of.are());
-    Some((message, format!("is the unit of the file right? Such as {}; values that are meant may stay", of.example)))
+    Some((
+        message,
+        format!("is the unit of the file right? Such as {}; values that are meant may stay", of.example),
+    ))
 }
 
 struct Judge<'a> {
@@ -238,7 +241,7 @@ fn lists_number(form: &Schema) -> bool {
 }
 
 impl Quantity {
-    /// What its values usually are.
+    /// Usual values, in words.
     fn are(&self) -> String {
         let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
         let (name, [low, high]) = (self.name, self.usual);

@@ -23,7 +23,7 @@ pub(super) struct Counted {
     /// Step over the stable one, just so large that the number of steps does not exceed its own.
     pub courant: f64,
     pub cadence: Cadence,
-    /// What sets their length.
+    /// Reason for their length.
     pub why: String,
 }
 

@@ -42,14 +42,17 @@ pub(super) fn check<const D: usize>(
 
 /// Words for what a condition does, its place, and what would be right; `None` for one that leaves all components free.
 fn acts(condition: &Condition) -> Option<(&'static str, Range<usize>, &'static str)> {
-    const HELD: &str =
-        "leave it out, or prescribe motions on outer sides of the bodies; `creep` with `rate = 0` locks a part of a fault";
+    const HELD: &str = "leave it out, or prescribe motions on outer sides of the bodies; `creep` with `rate = 0` locks a part of a fault";
     const LOADED: &str = "leave it out: `normal` and `shear` of the fault load it, `pulses` too where bodies have mass, and `injection` where it slides through cycles";
     let on = |flag: &Option<Spanned<bool>>| flag.as_ref().filter(|f| *f.get_ref()).map(Spanned::span);
     let motions = [&condition.x, &condition.y, &condition.z].into_iter().flatten();
     let mut motions = motions.filter(|m| !matches!(m.get_ref(), Motion::Free));
     let absorbing = on(&condition.absorbing).map(|place| {
-        ("`absorbing`", place, "leave it out: waves leave through outer sides of the bodies, and cross a fault")
+        (
+            "`absorbing`",
+            place,
+            "leave it out: waves leave through outer sides of the bodies, and cross a fault",
+        )
     });
     absorbing
         .or_else(|| on(&condition.symmetry).map(|place| ("`symmetry`", place, HELD)))

@@ -41,11 +41,13 @@ fn factors_of_grids_are_estimated_within_half_as_much_again_and_never_surely_too
 
 #[test]
 fn bodies_in_explicit_steps_are_counted_without_matrices() {
-    let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/tpv5.toml")).unwrap();
+    let text =
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/tpv5.toml")).unwrap();
     let scene = asperity_driver::scene::read(&text).unwrap();
     assert_eq!(Built::of(&scene), Built::Vectors);
     // Two blocks of 9 x 18 x 36 km in cells of 100 m.
-    let block = || Counts { kind: ElementKind::Hex8, cells: 90.0 * 180.0 * 360.0, nodes: 91.0 * 181.0 * 361.0 };
+    let block =
+        || Counts { kind: ElementKind::Hex8, cells: 90.0 * 180.0 * 360.0, nodes: 91.0 * 181.0 * 361.0 };
     let bytes = |built: Built| built.bytes(&[block(), block()], Idealisation::ThreeD) as f64;
     // A run with cells of 200 m takes 0.9 kB a cell.
     assert!((bytes(Built::Vectors) / 10.5e9 - 1.0).abs() < 0.05, "{}", bytes(Built::Vectors));
