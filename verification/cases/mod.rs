@@ -48,6 +48,7 @@ mod contact_extremes;
 mod contact_facets;
 mod contact_hard;
 mod contact_invariance;
+mod contact_pairing;
 mod contact_patch;
 mod contact_patch_mortar;
 mod contact_rotation;
@@ -61,6 +62,7 @@ mod elastic_plastic_cylinder;
 mod elastic_waves;
 mod event_files;
 mod event_numbers;
+mod explicit_files;
 mod explicit_materials;
 mod fault_balance;
 pub(crate) mod fault_bend;
@@ -151,6 +153,7 @@ mod slider_scene;
 mod slider_stability;
 mod slider_states;
 mod slider_work_precision;
+mod stabilised_steps;
 mod stage_paths;
 mod static_explicit_jumps;
 mod steel_strip;
@@ -181,6 +184,7 @@ pub const ALL: &[Case] = &[
     contact_facets::CASE,
     contact_hard::CASE,
     contact_invariance::CASE,
+    contact_pairing::CASE,
     contact_patch::CASE,
     contact_patch_mortar::CASE,
     contact_rotation::CASE,
@@ -260,12 +264,14 @@ pub const ALL: &[Case] = &[
     slider_stability::CASE,
     slider_states::CASE,
     slider_work_precision::CASE,
+    stabilised_steps::CASE,
     two_rings::CASE,
     // Nonlinear bodies.
     cantilever_rotation::CASE,
     dynamic_rupture::CASE,
     elastic_plastic_cylinder::CASE,
     elastic_waves::CASE,
+    explicit_files::CASE,
     explicit_materials::CASE,
     rupture_in_space::CASE,
     rupture_in_space_full::CASE,

@@ -3,6 +3,8 @@
 use crate::cases::seas;
 use crate::{CaseError, Cost};
 use asperity_cycles::{Balance, FaultRun, Faults, Moment};
+use asperity_driver::checkpoint::Pauses;
+use asperity_driver::dynamic::{self, AnyPlan, Keeper};
 use asperity_driver::fault::{self, Files, Plan, Report};
 use asperity_driver::report::Outcome as Ended;
 use asperity_driver::{catalogue, plan, run, scene};
@@ -10,7 +12,9 @@ use asperity_ode::{Control, ObserveError, Observer, Outcome};
 use asperity_output::FieldSchedule;
 use asperity_output::located::{cmtsolution, quakeml};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
 
 /// A folder for the files of a run that is removed when dropped.
 pub struct Folder(PathBuf);
@@ -228,4 +232,77 @@ pub fn bodies_beside(text: &str, folder: &Path) -> Result<(Folder, Cost), CaseEr
         Ended::Completed => Ok((folder, cost)),
         other => Err(format!("the run did not come to its end: {other:?}").into()),
     }
+}
+
+/// A run of bodies with mass and its files.
+pub struct Waves {
+    /// Report of the run.
+    pub report: dynamic::Report,
+    /// Folder of the output files.
+    pub files: Folder,
+    /// Wall time and counts.
+    pub cost: Cost,
+}
+
+impl Waves {
+    /// Runs a scene with the stepper "explicit" to its end.
+    ///
+    /// # Errors
+    /// If the scene is refused, the run stops, or a file cannot be written.
+    pub fn of(text: &str) -> Result<Self, CaseError> {
+        Self::limited(text, None)
+    }
+
+    /// The same, interrupted after each step and resumed.
+    ///
+    /// # Errors
+    /// As [`Waves::of`].
+    pub fn in_parts(text: &str) -> Result<Self, CaseError> {
+        Self::limited(text, Some(Duration::ZERO))
+    }
+
+    fn limited(text: &str, wall: Option<Duration>) -> Result<Self, CaseError> {
+        let scene = scene::read(text).map_err(|e| format!("{e}\nin\n{text}"))?;
+        let (plan, files) = (dynamic::plan(&scene).map_err(|e| e.to_string())?, Folder::new()?);
+        let (report, cost) = Cost::of(|| match &plan {
+            AnyPlan::Two(plan) => shaken(plan, files.path(), wall),
+            AnyPlan::Three(plan) => shaken(plan, files.path(), wall),
+        });
+        let report = report?;
+        let cost = cost.count("steps", report.steps as f64);
+        Ok(Self { report, files, cost })
+    }
+}
+
+/// Runs a plan to its end, in parts if wall time is limited.
+fn shaken<const D: usize>(
+    plan: &dynamic::Plan<D>,
+    out: &Path,
+    wall: Option<Duration>,
+) -> Result<dynamic::Report, CaseError> {
+    loop {
+        let report = shaken_part(plan, out, wall)?;
+        match &report.outcome {
+            Ended::Completed => return Ok(report),
+            Ended::Interrupted { .. } => {}
+            stopped @ Ended::Stopped { .. } => return Err(format!("the run stopped: {stopped:?}").into()),
+        }
+    }
+}
+
+fn shaken_part<const D: usize>(
+    plan: &dynamic::Plan<D>,
+    out: &Path,
+    wall: Option<Duration>,
+) -> Result<dynamic::Report, CaseError> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let pauses = Pauses { every: Duration::MAX, wall, stop, begun: Instant::now() };
+    let (mut keeper, from) = match Keeper::resume(out, plan, "", false, pauses.clone())? {
+        Some((keeper, state)) => (keeper, Some(state)),
+        None => (Keeper::begin(out, plan, "", false, pauses)?, None),
+    };
+    let ended = dynamic::run(plan, &mut keeper, from.as_ref())?;
+    let report = dynamic::Report::new(plan, &ended, keeper.arrivals());
+    keeper.finish(matches!(report.outcome, Ended::Completed), ended.time)?;
+    Ok(report)
 }

@@ -1,6 +1,7 @@
 //! Bodies with inertia: vibration, a block that slides to rest, a plastic wave, a body that turns, a short blow.
 
 mod blow;
+mod handed;
 mod plastic;
 mod sliding;
 mod spinning;
@@ -28,6 +29,7 @@ pub const CASE: Case = Case {
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     vibration::run(ledger)?;
+    handed::run(ledger)?;
     sliding::run(ledger)?;
     plastic::run(ledger)?;
     spinning::run(ledger)?;

@@ -1,5 +1,7 @@
 //! Friction laws of interfaces on a column whose points are sliders on springs, with known tractions and slip.
 
+mod radiating;
+mod reversing;
 mod varying;
 
 use super::texts::{self, Done};
@@ -42,6 +44,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     capped_rate(ledger)?;
     capped_states(ledger)?;
     turning(ledger)?;
+    reversing::run(ledger)?;
+    radiating::run(ledger)?;
     varying::run(ledger)
 }
 

@@ -1,5 +1,8 @@
 //! Bodies with initial gravitational stress, and interfaces with the corresponding initial tractions.
 
+mod parted;
+mod sheet;
+
 use super::texts::{Done, simulate_in};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_vary::Change::{self, Add, With};
@@ -100,7 +103,9 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     blocks(ledger)?;
     meshes_that_do_not_match(ledger)?;
     wedge(ledger)?;
-    as_pressed_by_loads(ledger)
+    as_pressed_by_loads(ledger)?;
+    parted::claims(ledger)?;
+    sheet::claims(ledger)
 }
 
 /// Spurious motion of the parts at rest.

@@ -1,7 +1,7 @@
 //! Literature of the cases of the verification suite. A test of the suite compares it with their pages.
 
 /// Cases and the keys of their literature.
-const CASES: [(&str, &[&str]); 117] = [
+const CASES: [(&str, &[&str]); 120] = [
     ("absence", &["weidendorfer2004"]),
     ("antiplane", &["nehari1952", "strang1973", "timoshenko1970"]),
     ("block_dragged", &["codeaster"]),
@@ -16,6 +16,7 @@ const CASES: [(&str, &[&str]); 117] = [
     ("contact_facets", &["puso2002"]),
     ("contact_hard", &["alart1991", "chamberlain1982"]),
     ("contact_invariance", &[]),
+    ("contact_pairing", &[]),
     ("contact_patch", &["taylor1991"]),
     ("contact_patch_mortar", &["taylor1991", "puso2004"]),
     ("contact_rotation", &["hugheswinget1980", "wriggers2006"]),
@@ -27,6 +28,7 @@ const CASES: [(&str, &[&str]); 117] = [
     ("elastic_waves", &["lysmer1969"]),
     ("event_files", &["aki2002", "iaspei2013", "moritz2000", "snyder1987"]),
     ("event_numbers", &["iaspei2013", "aki2002", "starr1928", "rice1993"]),
+    ("explicit_files", &["lysmer1969", "cochard2000"]),
     ("explicit_materials", &["aki2002", "wood1952"]),
     ("fault_balance", &["rice1993"]),
     ("fault_bend", &["segall2010", "hirth1982", "xing2006"]),
@@ -135,6 +137,7 @@ const CASES: [(&str, &[&str]); 117] = [
     ("slider_stability", &["ruina1983", "riceruina1983"]),
     ("slider_states", &["gu1984", "huang1990"]),
     ("slider_work_precision", &["hairer1993", "hairer1996"]),
+    ("stabilised_steps", &["sommeijer1998"]),
     ("stage_paths", &["timoshenko1970"]),
     ("static_explicit_jumps", &["timoshenko1970"]),
     ("steel_strip", &["belendez2003"]),

@@ -1,0 +1,128 @@
+//! A spring on nodes of unequal mass, and the work of a load that ramps.
+
+use super::last;
+use crate::cases::waves::run;
+use crate::cases::written::Waves;
+use crate::{Capability, CaseError, Cost, Evidence, Ledger};
+use asperity_driver::dynamic::{self, AnyPlan};
+use asperity_driver::scene;
+use asperity_mechanics::{Pace, Spring};
+
+/// Steps of both runs.
+const STEPS: usize = 1000;
+
+/// A side so soft that its nodes move as points of mass: a quarter, a half and a quarter of 1/2 kg/m.
+const DRAWN: &str = r#"schema = 1
+title = "drawn"
+kinematics = "plane-strain"
+[materials.soft]
+young = 1e-9
+poisson = 0.25
+density = 1
+[bodies.block]
+material = "soft"
+mesh.block = { min = [0, 0], max = [1, 1], divisions = [1, 2], element = "quad4" }
+[[stages]]
+name = "draw"
+duration = 4
+steps = 1000
+conditions = []
+[time]
+stepper = "explicit"
+viscosity = 0
+"#;
+
+/// One cell as an oscillator: stiffness 1 and mass 1/2 of its free side.
+const RAMPED: &str = r#"schema = 1
+title = "ramped"
+kinematics = "plane-strain"
+[materials.rod]
+young = 1
+poisson = 0
+density = 1
+[bodies.cell]
+material = "rod"
+mesh.block = { min = [0, 0], max = [1, 1], divisions = [1, 1], element = "quad4" }
+[[stages]]
+name = "load"
+duration = 10
+steps = 1000
+conditions = [
+    { set = "cell.left", x = 0, y = 0 },
+    { set = "cell.right", y = 0, pressure = { to = -1 } },
+]
+[time]
+stepper = "explicit"
+viscosity = 0
+"#;
+
+/// Largest error of the phase of an oscillator turned by `angle` in all steps: (ω dt)²/24 of it.
+fn lead(angle: f64) -> f64 {
+    angle * (angle / STEPS as f64).powi(2) / 24.0
+}
+
+pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
+    drawn(ledger)?;
+    ramped(ledger)
+}
+
+/// The side drawn by a spring of 1 N/m whose far end moves at 1 m/s. Scenes have such springs in the ruptures of faults alone.
+fn drawn(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let scene = scene::read(DRAWN).map_err(|e| e.to_string())?;
+    let AnyPlan::Two(plan) = dynamic::plan(&scene).map_err(|e| e.to_string())? else {
+        return Err("a scene in space".into());
+    };
+    let mut problem = plan.problem;
+    let nodes = problem.model.mesh.nodes.iter().enumerate().filter(|(_, x)| x[0] > 0.5);
+    let side: Vec<(usize, f64)> = nodes.map(|(n, x)| (n, x[1])).collect();
+    let dofs = side.iter().map(|(n, _)| 2 * n).collect();
+    let spring = Spring { set: "block.right".into(), axis: 0, dofs, stiffness: 1.0, rate: Pace::Steady(1.0) };
+    problem.stages[0].springs.push(spring);
+    let (last, cost) = Cost::of(|| run(&problem, |_| ()));
+    let last = last?;
+    let (omega, end) = (2.0_f64.sqrt(), 4.0);
+    let found: Vec<f64> = side.iter().map(|(n, _)| last.displacement()[2 * n]).collect();
+    ledger
+        .claim("displacements of the nodes of a side of soft cells that a spring draws")
+        .unit("m")
+        .values(&found)
+        .equals_each(&[end - (omega * end).sin() / omega; 3])
+        .absolute(lead(omega * end))
+        .evidence(Evidence::Exact, "t - sin(ω t)/ω with ω² = 1/M, M the mass of the side: all nodes move as its mean")
+        .because("the phase of central differences, (ω dt)²/24 of the angle turned; cells resist with 1e-9 of the spring")
+        .covers(&[Capability::Waves, Capability::Stages])
+        .cost(&cost.count("steps", STEPS as f64))
+        .record();
+    Ok(())
+}
+
+fn ramped(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let run = Waves::of(RAMPED)?;
+    let (omega, end) = (2.0_f64.sqrt(), 10.0);
+    let (sine, cosine) = (omega * end).sin_cos();
+    // The force is t/T, and u = (t - sin(ω t)/ω)/T.
+    let work = (0.5 * end * end - end * sine / omega - (cosine - 1.0) / (omega * omega)) / (end * end);
+    let kinetic = 0.25 * ((1.0 - cosine) / end).powi(2);
+    let elastic = 0.5 * ((end - sine / omega) / end).powi(2);
+    let table = run.files.table("energy.csv")?;
+    // Largest change of each energy with the phase of the oscillation: 1/(ω T), and (1 - cos φ) sin φ/(2 T²) < 0.65/T².
+    let by_phase = 1.0 / (omega * end);
+    for (column, name, exact, by_phase) in [
+        ("loads", "work of a load that ramps on an oscillator", work, by_phase),
+        ("kinetic", "kinetic energy of that oscillator", kinetic, 0.65 / (end * end)),
+        ("elastic", "elastic energy of that oscillator", elastic, by_phase),
+    ] {
+        ledger
+            .claim(name)
+            .unit("J/m")
+            .value(last(&table.column(column)?)?)
+            .equals(exact)
+            .absolute(lead(omega * end) * by_phase)
+            .evidence(Evidence::Exact, "∫ F v dt with u = (t - sin(ω t)/ω)/T")
+            .because("the phase of central differences, (ω dt)²/24 of the angle turned, times the change of the energy with the phase")
+            .covers(&[Capability::Waves, Capability::Loads, Capability::Outputs])
+            .cost(&run.cost)
+            .record();
+    }
+    Ok(())
+}

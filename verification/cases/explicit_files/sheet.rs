@@ -1,0 +1,68 @@
+//! A compression wave along a sheet between rollers that leaves through an absorbing side.
+//!
+//! In plane stress the modulus of such a wave is E/(1 - ν²), and c² = E/(ρ (1 - ν²)). The energy of the wave is ∫ s²/(ρ c) dt.
+
+use super::last;
+use crate::cases::written::Waves;
+use crate::{Capability, CaseError, Evidence, Ledger};
+use std::f64::consts::TAU;
+
+const POISSON: f64 = 0.4;
+const LENGTH: f64 = 2.0;
+const HEIGHT: f64 = 0.5;
+const CELLS: usize = 80;
+/// Largest pressure, of a cosine of period 1.
+const PRESSURE: f64 = 1e-3;
+/// End of the run: the wave has left, and a reflection would not have returned to the driven end.
+const END: f64 = 3.2;
+
+fn scene() -> String {
+    let at = |k: i32| {
+        format!(
+            "[{:?}, {:?}]",
+            f64::from(k) / 200.0,
+            0.5 * PRESSURE * (1.0 - (TAU * f64::from(k) / 200.0).cos())
+        )
+    };
+    let rows: Vec<String> = (0..=200).map(at).collect();
+    format!(
+        "schema = 1\ntitle = \"sheet\"\nkinematics = \"plane-stress\"\n[materials.sheet]\nyoung = 1\npoisson = {POISSON:?}\ndensity = 1\n\
+         [bodies.bar]\nmaterial = \"sheet\"\n\
+         mesh.block = {{ min = [0, 0], max = [{LENGTH:?}, {HEIGHT:?}], divisions = [{CELLS}, 1], element = \"quad4\" }}\n\
+         [[stages]]\nname = \"push\"\nduration = {END:?}\nconditions = [{{ set = \"bar.left\", pressure = {{ table = [{}] }} }}, \
+         {{ set = \"bar.bottom\", y = 0 }}, {{ set = \"bar.top\", y = 0 }}, {{ set = \"bar.right\", absorbing = true }}]\n\
+         [time]\nstepper = \"explicit\"\nviscosity = 0\n[output]\nsampling = {:?}\n",
+        rows.join(", "),
+        END / 32.0
+    )
+}
+
+pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let run = Waves::of(&scene())?;
+    let table = run.files.table("energy.csv")?;
+    let speed = (1.0 / (1.0 - POISSON * POISSON)).sqrt();
+    let wavenumber = TAU / speed * LENGTH / CELLS as f64;
+    ledger
+        .claim("energy that an absorbing side takes from a compression wave in plane stress")
+        .unit("J/m")
+        .value(last(&table.column("absorbed")?)?)
+        .equals(HEIGHT * PRESSURE * PRESSURE * 3.0 / 8.0 / speed)
+        .relative(wavenumber * wavenumber / 8.0)
+        .evidence(Evidence::Exact, "∫ s²/(ρ c) dt of a cosine, c² = E/(ρ (1 - ν²))")
+        .because("(k h)²/8 at the period of the wave, by which the impedance of a row of cells differs")
+        .covers(&[Capability::Waves, Capability::PlaneStress, Capability::Outputs])
+        .cost(&run.cost)
+        .record();
+    let left = last(&table.column("kinetic")?)? + last(&table.column("elastic")?)?;
+    ledger
+        .claim("energy left behind by that wave over the work of the load")
+        .value(left / last(&table.column("loads")?)?)
+        .at_most(wavenumber.powi(4))
+        .evidence(Evidence::Exact, "dashpots of ρ c reflect nothing at normal incidence")
+        .because("a single node of cells of size h reflects less than (k h)² of the amplitude, and energy is its square")
+        .why_not_tighter("the share of wavelengths shorter than the period of the pulse decides")
+        .covers(&[Capability::Waves, Capability::PlaneStress, Capability::Outputs])
+        .cost(&run.cost)
+        .record();
+    Ok(())
+}
