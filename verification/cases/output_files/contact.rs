@@ -32,7 +32,7 @@ fn strength(rate: f64) -> f64 {
     NORMAL * a * (0.5 * rate / v0 * (mu0 / a).exp()).asinh()
 }
 
-fn scene(space: bool) -> String {
+fn scene(space: bool, [x, z]: [f64; 2]) -> String {
     let [w, d] = WIDTHS;
     let [upper, lower] = HEIGHTS;
     let [mu0, a, v0] = LAW;
@@ -52,7 +52,6 @@ fn scene(space: bool) -> String {
     };
     let held = |set: &str| format!("{{ set = \"{set}\", y = 0 }}, ");
     let sides = ["upper.left", "upper.right", "upper.top", "lower.left", "lower.right"].map(held).concat();
-    let [x, z] = RATES;
     let (drawn, below) = if space {
         (format!("x = {{ rate = {x:e} }}, z = {{ rate = {z:e} }}"), "x = 0, y = 0, z = 0")
     } else {
@@ -66,7 +65,7 @@ fn scene(space: bool) -> String {
          [[stages]]\nname = \"slide\"\nduration = {DURATION:?}\n\
          conditions = [{sides}{{ set = \"upper.top\", {drawn} }}, {{ set = \"lower.bottom\", {below} }}]\n\
          [time]\nstepper = \"implicit\"\n\
-         [output]\nprobes.joint = 1\nprofiles = 1\nfields = 1\n\
+         [output]\nprobes.joint = 2\nprofiles = 1\nfields = 1\n\
          points.middle = {{ body = \"upper\", at = {} }}\nforces.top = {{ set = \"upper.top\" }}\n",
         if space { "3d" } else { "plane-strain" },
         body("upper", [lower, lower + upper]),
@@ -110,7 +109,7 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 fn plane(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let (files, cost) = written::bodies(&scene(false))?;
+    let (files, cost) = written::bodies(&scene(false, RATES))?;
     let ([w, _], [rate, _]) = (WIDTHS, RATES);
     let way = rate * DURATION;
     let s = Steady::new(way, rate, w / SPRING);
@@ -157,16 +156,36 @@ fn plane(ledger: &mut Ledger) -> Result<(), CaseError> {
         ("fields/joint_*.vtu", "area", 0.5 * w),
         ("fields/joint_*.vtu", "status", 2.0),
     ];
-    all(ledger, (&files, &cost), "in the plane", &fields)
+    all(ledger, (&files, &cost), "in the plane", &fields)?;
+    let at_the_end = files.table("probes/joint.csv")?.head().iter().filter(|name| name.ends_with("at x = 400 mm")).count();
+    ledger
+        .claim("columns of probes of the interface of two blocks that lie at its end, of two probes")
+        .count(at_the_end as u64, 6)
+        .evidence(Evidence::Exact, "the first and the last of equally spaced probes lie at the ends")
+        .because("a probe has six columns")
+        .covers(&[Capability::Outputs])
+        .cost(&cost)
+        .record();
+    let (files, cost) = written::bodies(&scene(false, RATES.map(|rate| -rate)))?;
+    let wanted: [Wanted<'_>; 4] = [
+        ("probes/joint.csv", "slip", s.slip),
+        ("probes/joint.csv", "friction", s.shear / NORMAL),
+        ("springs/upper_top_x.csv", "force", -s.shear * w),
+        ("springs/upper_top_x.csv", "friction", s.shear / NORMAL),
+    ];
+    all(ledger, (&files, &cost), "in the plane the other way", &wanted)
 }
 
 fn space(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let (files, cost) = written::bodies(&scene(true))?;
+    let (files, cost) = written::bodies(&scene(true, RATES))?;
     let ([w, d], [x, z]) = (WIDTHS, RATES);
     let rate = x.hypot(z);
     let along = [x / rate, z / rate];
     let s = Steady::new(rate * DURATION, rate, 0.0);
-    let wanted: [Wanted<'_>; 17] = [
+    let mises = NORMAL.hypot(3.0_f64.sqrt() * s.shear);
+    let wanted: [Wanted<'_>; 19] = [
+        ("points/middle.csv", "mises", mises),
+        ("fields/bodies_*.vtu", "mises", mises),
         ("probes/joint.csv", "relative_displacement", s.relative),
         ("probes/joint.csv", "slip", s.slip),
         ("probes/joint.csv", "slip_x", s.slip * along[0]),
