@@ -228,7 +228,9 @@ pub fn bodies_beside(text: &str, folder: &Path) -> Result<(Folder, Cost), CaseEr
     let (folder, (fields, profiles)) = (Folder::new()?, plan.outputs());
     let mut files = asperity_output::Files::create(folder.path(), FieldSchedule { fields, profiles })?;
     let (report, cost) = Cost::of(|| run::run(&plan, &mut files));
-    match report?.outcome {
+    let report = report?;
+    std::fs::write(folder.path().join("report.json"), serde_json::to_string(&report)?)?;
+    match report.outcome {
         Ended::Completed => Ok((folder, cost)),
         other => Err(format!("the run did not come to its end: {other:?}").into()),
     }
