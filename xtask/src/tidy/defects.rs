@@ -3,7 +3,7 @@
 
 use super::problem::Problem;
 use super::tree::File;
-use crate::defects::{Defect, FOLDER, Outcome, RESULTS, Results};
+use crate::defects::{Defect, FOLDER, RESULTS, Results};
 
 /// Checks the defects against the files of the workspace.
 pub fn check(files: &[File]) -> Vec<Problem> {
