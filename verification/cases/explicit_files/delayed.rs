@@ -50,7 +50,7 @@ fn scene() -> String {
 /// Increase of the normal traction that friction feels.
 fn felt(t: f64, decay: f64) -> f64 {
     let n = 2000;
-    let step = (t.min(RISE)).max(0.0) / f64::from(n);
+    let step = t.clamp(0.0, RISE) / f64::from(n);
     let at = |k: i32| {
         let s = (f64::from(k) + 0.5) * step;
         0.5 * INCREASE * PI / RISE * (PI * s / RISE).sin() * (1.0 - (-decay * (t - s)).exp())

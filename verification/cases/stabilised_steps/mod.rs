@@ -61,10 +61,10 @@ impl Problem for Rod {
     fn rates(&self, at: Clock, y: &[f64], dy: &mut [f64]) {
         let heat = HEATING * (OMEGA * at.seconds()).cos();
         let of = |i: usize| y[i] * self.units[i];
-        for i in 0..N {
+        for (i, dy) in dy.iter_mut().enumerate() {
             let (before, after) =
                 (if i > 0 { of(i - 1) } else { 0.0 }, if i + 1 < N { of(i + 1) } else { 0.0 });
-            dy[i] = (stiffness() * (before - 2.0 * of(i) + after) + heat * mode(i)) / self.units[i];
+            *dy = (stiffness() * (before - 2.0 * of(i) + after) + heat * mode(i)) / self.units[i];
         }
     }
 

@@ -1,6 +1,6 @@
 //! Sides of a fault move as friction and the other side let them: conditions there are refused, in every kind of run with faults.
 //!
-//! Where a fault creeps or is locked, its sides may be held: that is how slip at depth is driven. A set that meets the fault in
+//! Sides of a fault that creeps or is locked may be held: that is how slip at depth is driven. A set that meets the fault in
 //! an edge or a node alone belongs to another side of a body.
 
 use super::placed::Placed;
