@@ -52,7 +52,9 @@ fn scene(space: bool, [x, z]: [f64; 2]) -> String {
         )
     };
     let held = |set: &str| format!("{{ set = \"{set}\", y = 0 }}, ");
-    let sides = ["upper.left", "upper.right", "upper.top", "lower.left", "lower.right"].map(held).concat();
+    let ends = ["upper.left", "upper.right", "upper.top", "lower.left", "lower.right"];
+    let faces = ["upper.back", "upper.front", "lower.back", "lower.front"];
+    let sides: String = ends.iter().chain(faces.iter().filter(|_| space)).map(|set| held(set)).collect();
     let (drawn, below) = if space {
         (format!("x = {{ rate = {x:e} }}, z = {{ rate = {z:e} }}"), "x = 0, y = 0, z = 0")
     } else {
@@ -159,13 +161,18 @@ fn plane(ledger: &mut Ledger) -> Result<(), CaseError> {
     ];
     all(ledger, (&files, &cost), "in the plane", &fields)?;
     report(ledger, (&files, &cost), &s, rate)?;
-    let at_the_end =
-        files.table("probes/joint.csv")?.head().iter().filter(|name| name.ends_with("at x = 400 mm")).count();
+    let table = files.table("probes/joint.csv")?;
+    let place = table.head().last().and_then(|name| name.split_once(" at x = ")).ok_or("no place")?.1;
+    let (value, unit) = place.split_once(' ').ok_or("no unit")?;
     ledger
-        .claim("columns of probes of the interface of two blocks that lie at its end, of two probes")
-        .count(at_the_end as u64, 6)
+        .claim("position of the last of two probes of the interface of two blocks, by the head of its column")
+        .unit("m")
+        .value(value.parse::<f64>()? * if unit == "mm" { 1e-3 } else { 1.0 })
+        .equals(w)
+        .absolute(1e-9)
         .evidence(Evidence::Exact, "the first and the last of equally spaced probes lie at the ends")
-        .because("a probe has six columns")
+        .because("positions in heads have four digits, and this one has one")
+        .why_not_tighter("there is nothing but rounding")
         .covers(&[Capability::Outputs])
         .cost(&cost)
         .record();
