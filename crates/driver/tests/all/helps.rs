@@ -130,7 +130,7 @@ fn nodes_without_areas_lead_to_mortar() {
     );
     leads_to(
         &smoothed,
-        "use `measure = \"mortar\"` without `smoothing`, or elements of first order or hex27 there",
+        "use `measure = \"mortar\"` without `smoothing`, or use elements of first order or hex27 there",
         &[
             varied(&smoothed, &[MORTAR, Without("interfaces.c.smoothing")]),
             varied(&smoothed, &[With("bodies.upper.mesh.block.element", "\"hex8\"")]),
