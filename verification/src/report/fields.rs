@@ -87,7 +87,7 @@ pub const PLOTS: [(&str, &str, &str, &str); 21] = [
 const MAP: &str = "Slip rate through time";
 
 /// Cases whose subject is not a field, and why.
-pub const WITHOUT: [(&str, &str); 3] = [
+pub const WITHOUT: [(&str, &str); 6] = [
     (
         "absence",
         "instructions and bytes of runs are counted here; the fields of these scenes stand on the pages of their cases",
@@ -96,6 +96,9 @@ pub const WITHOUT: [(&str, &str); 3] = [
         "output_files",
         "files are compared number by number; the fields they hold stand on the pages of other cases",
     ),
+    ("contact_pairing", "the partner of a single point is followed, and no field is computed"),
+    ("explicit_files", "files are compared number by number; waves stand on the pages of other cases"),
+    ("stabilised_steps", "a row of equations is integrated, which has no mesh"),
     ("scene_units", "values of a scene are compared in several units, and no field is computed"),
 ];
 

@@ -1,14 +1,17 @@
 /// Cases of many problems, or of files.
-const WITHOUT: [&str; 9] = [
+const WITHOUT: [&str; 12] = [
     "absence",
+    "contact_pairing",
     "elastic_waves",
     "event_files",
+    "explicit_files",
     "explicit_materials",
     "implicit_dynamics",
     "newton_convergence",
     "output_files",
     "restarts",
     "scene_units",
+    "stabilised_steps",
 ];
 
 #[test]
