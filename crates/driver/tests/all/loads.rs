@@ -400,3 +400,16 @@ fn a_bare_logarithm_after_a_stage_without_friction_is_warned_of() {
     assert!(warned(&with) && !warned(SANDWICH));
     assert!(!warned(&varied(&with, &[Without("stages[0].frictionless")])));
 }
+
+#[test]
+fn steps_end_at_profiles_and_fields_whose_number_is_given() {
+    let text = varied(SANDWICH, &[With("output.profiles", "7"), With("output.fields", "3")]);
+    let (_, record) = simulate(&text);
+    let end = 59.66;
+    for (of, count) in [("profiles", 7), ("fields", 3)] {
+        for k in 1..=count {
+            let wanted = end * f64::from(k) / f64::from(count);
+            assert!(record.times().iter().any(|t| (t - wanted).abs() < 1e-9), "{of}: {wanted}");
+        }
+    }
+}

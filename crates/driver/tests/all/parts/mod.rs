@@ -29,6 +29,7 @@ mod fault_planner_samples;
 mod field_cells;
 mod field_lattice;
 mod forecast;
+mod model_order;
 mod plan_penalty;
 mod refused;
 mod run_doubts;

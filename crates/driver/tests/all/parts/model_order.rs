@@ -1,0 +1,43 @@
+use asperity_driver::model::order::along_curve;
+use asperity_fem::element::ElementKind;
+use asperity_fem::mesh::generate::Grid;
+use asperity_fem::mesh::{Mesh, nodes_of_sides};
+
+/// Positions of nodes, in an order of their own.
+fn places<const D: usize>(mesh: &Mesh<D>, nodes: impl IntoIterator<Item = usize>) -> Vec<Vec<u64>> {
+    let mut places: Vec<Vec<u64>> =
+        nodes.into_iter().map(|n| mesh.nodes[n].iter().map(|x| x.to_bits()).collect()).collect();
+    places.sort();
+    places
+}
+
+#[test]
+fn the_same_cells_and_sides_follow_the_curve() {
+    let lines = [7, 5, 3].map(|n| (0..=n).map(f64::from).collect());
+    let mesh = Grid { lines, kind: ElementKind::Hex8 }.mesh().unwrap();
+    let cell = |mesh: &Mesh<3>, c: usize| places(mesh, mesh.blocks[0].cell(c).iter().copied());
+    let cells = |mesh: &Mesh<3>| {
+        let mut all: Vec<_> = (0..mesh.blocks[0].len()).map(|c| cell(mesh, c)).collect();
+        all.sort();
+        all
+    };
+    let sides = |mesh: &Mesh<3>| -> Vec<_> {
+        mesh.side_sets
+            .iter()
+            .map(|(name, set)| (name.clone(), places(mesh, nodes_of_sides(mesh, set))))
+            .collect()
+    };
+    let (before, spread) = ((cells(&mesh), sides(&mesh)), spread(&mesh));
+    let moved = along_curve(mesh);
+    assert_eq!(before, (cells(&moved), sides(&moved)));
+    assert!(!before.1.is_empty());
+    // The grid is numbered line by line, 48 nodes a layer. Cells along the curve have closer numbers.
+    assert!(self::spread(&moved) < spread, "{} {spread}", self::spread(&moved));
+}
+
+/// Mean difference of the numbers of the nodes of neighbouring cells.
+fn spread(mesh: &Mesh<3>) -> f64 {
+    let block = &mesh.blocks[0];
+    let pairs = (1..block.len()).map(|c| block.cell(c)[0].abs_diff(block.cell(c - 1)[0]) as f64);
+    pairs.sum::<f64>() / block.len() as f64
+}
