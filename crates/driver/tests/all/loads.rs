@@ -405,11 +405,13 @@ fn a_bare_logarithm_after_a_stage_without_friction_is_warned_of() {
 fn steps_end_at_profiles_and_fields_whose_number_is_given() {
     let text = varied(SANDWICH, &[With("output.profiles", "7"), With("output.fields", "3")]);
     let (_, record) = simulate(&text);
-    let end = 59.66;
+    // Intervals of the stages, which end at 9.66 s and 59.66 s.
     for (of, count) in [("profiles", 7), ("fields", 3)] {
-        for k in 1..=count {
-            let wanted = end * f64::from(k) / f64::from(count);
-            assert!(record.times().iter().any(|t| (t - wanted).abs() < 1e-9), "{of}: {wanted}");
+        for (start, end) in [(0.0, 9.66), (9.66, 59.66)] {
+            for k in 1..=count {
+                let wanted = start + (end - start) * f64::from(k) / f64::from(count);
+                assert!(record.times().iter().any(|t| (t - wanted).abs() < 1e-9), "{of}: {wanted}");
+            }
         }
     }
 }
