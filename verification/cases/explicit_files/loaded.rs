@@ -149,7 +149,7 @@ fn station(ledger: &mut Ledger, run: &Waves) -> Result<(), CaseError> {
             .value(last(name)?)
             .equals(value)
             .absolute(bound)
-            .evidence(Evidence::Exact, "a quarter of the motion of the oscillator, F/10 (t - sin(ω t)/ω) with ω² = 2")
+            .evidence(Evidence::Exact, "a quarter of the motion of the oscillator, (t - sin(ω t)/ω)/10 with ω² = 2")
             .because("the phase of central differences, (ω dt)²/24 of the angle turned, and the mean of two half steps")
             .why_not_tighter("both errors are largest at other phases")
             .covers(&[Capability::Waves, Capability::Outputs])
