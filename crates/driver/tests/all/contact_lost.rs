@@ -1,4 +1,4 @@
-//! Steps without solution whose cause is known: a body that contact held and has let go.
+//! Bodies that contact alone holds, and steps without solution where it has let one go.
 
 use crate::common::{planned, varied};
 use asperity_driver::report::Outcome;

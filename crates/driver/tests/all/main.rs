@@ -31,7 +31,6 @@ mod fault_opening;
 mod fault_outputs;
 mod fault_start;
 mod figures;
-mod held_by_contact;
 mod helps;
 mod inputs;
 mod instability;
