@@ -92,7 +92,10 @@ impl Checker<'_> {
                 );
             }
         }
-        let given = |key: &Option<Spanned<_>>, profile: bool| key.is_some() || profile;
+        // Beside an initial stress both are refused already.
+        let bodies = [&fault.minus, &fault.plus].map(|side| self.scene.body_of(side));
+        let stressed = bodies.iter().flatten().any(|body| body.initial_stress.is_some());
+        let given = |key: &Option<Spanned<_>>, profile: bool| key.is_some() || profile || stressed;
         for (key, patched, base) in [
             ("normal", &patch.normal, given(&fault.normal, fault.has_normal_along())),
             ("shear", &patch.shear, given(&fault.shear, fault.has_shear_along())),
