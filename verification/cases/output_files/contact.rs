@@ -3,7 +3,7 @@
 //! Nothing moves along y, so that an initial stress alone presses the blocks. Slip is uniform, and a spring or a motion draws the
 //! upper block, which is the slave: everything has a closed form once the start is forgotten.
 
-use super::last;
+use super::{OfFiles, Wanted};
 use crate::cases::written::{self, Folder};
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use serde_json::Value;
@@ -101,9 +101,6 @@ impl Steady {
         Self { shear, top, relative, slip: relative - shear / PENALTY, middle: top - 0.5 * bent[0] }
     }
 }
-
-/// A number in a file, and its value in closed form.
-type Wanted<'a> = (&'a str, &'a str, f64);
 
 /// See the module.
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -254,25 +251,17 @@ fn report(
 /// Claims about numbers of a run at its end.
 fn all(
     ledger: &mut Ledger,
-    (files, cost): (&Folder, &Cost),
+    run: (&Folder, &Cost),
     space: &str,
     wanted: &[Wanted<'_>],
 ) -> Result<(), CaseError> {
-    for &(file, column, value) in wanted {
-        ledger
-            .claim(format!("two blocks that slide steadily {space}, at the end: {column} in {file}"))
-            .value(last(files, file, column)?)
-            .equals(value)
-            .relative(1e-8)
-            .evidence(
-                Evidence::Exact,
-                "friction of the law at the rate of the load; blocks, penalty and spring bend under it",
-            )
-            .because("Newton's method leaves 1e-11 of the forces, and files have ten digits")
-            .why_not_tighter("the last of ten digits may be off by any part of a half")
-            .covers(&[Capability::Outputs, Capability::VelocityFriction])
-            .cost(cost)
-            .record();
-    }
-    Ok(())
+    let of_files = OfFiles {
+        title: &format!("two blocks that slide steadily {space}"),
+        bound: 1e-8,
+        source: "friction of the law at the rate of the load; blocks, penalty and spring bend under it",
+        because: "Newton's method leaves 1e-11 of the forces, and files have ten digits",
+        slack: "the last of ten digits may be off by any part of a half",
+        covers: &[Capability::Outputs, Capability::VelocityFriction],
+    };
+    of_files.claim(ledger, run, wanted)
 }

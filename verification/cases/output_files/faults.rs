@@ -5,9 +5,9 @@
 //! starts along its rake and is drawn at 60 degrees from it. It forgets its direction by a factor of e while it slips by the strength over
 //! the stiffness of the blocks, 0.4 mm, and slips by 10 mm. What it lags behind the load tells of the start.
 
-use super::last;
+use super::{OfFiles, Wanted};
 use crate::cases::written::{Folder, Written};
-use crate::{Capability, CaseError, Cost, Evidence, Ledger};
+use crate::{Capability, CaseError, Cost, Ledger};
 
 /// a, b, μ0, V_0 \[m/s\] and L \[m\].
 const LAW: [f64; 5] = [0.02, 0.015, 0.6, 1e-6, 8e-6];
@@ -94,9 +94,6 @@ fn scene(space: bool) -> String {
     )
 }
 
-/// A number in a file, and its value in closed form.
-type Wanted<'a> = (&'a str, &'a str, f64);
-
 /// See the module.
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     plane(ledger)?;
@@ -164,25 +161,17 @@ fn space(ledger: &mut Ledger) -> Result<(), CaseError> {
 /// Claims about numbers of a run at its end. Of vectors the last component, along z, is taken.
 fn all(
     ledger: &mut Ledger,
-    (files, cost): (&Folder, &Cost),
+    run: (&Folder, &Cost),
     space: &str,
     wanted: &[Wanted<'_>],
 ) -> Result<(), CaseError> {
-    for &(file, column, value) in wanted {
-        ledger
-            .claim(format!("a fault that slides steadily {space}, at the end: {column} in {file}"))
-            .value(last(files, file, column)?)
-            .equals(value)
-            .relative(5e-7)
-            .evidence(
-                Evidence::Exact,
-                "friction of the law at the rate of the load; the blocks bend under it, and slip lags by what they bend since the start",
-            )
-            .because("the error of ln V in a step is 1e-9, and the table of the largest rate has seven digits")
-            .why_not_tighter("most files have ten digits")
-            .covers(&[Capability::Outputs, Capability::FaultCycles])
-            .cost(cost)
-            .record();
-    }
-    Ok(())
+    let of_files = OfFiles {
+        title: &format!("a fault that slides steadily {space}"),
+        bound: 5e-7,
+        source: "friction of the law at the rate of the load; the blocks bend under it, and slip lags by what they bend since the start",
+        because: "the error of ln V in a step is 1e-9, and the table of the largest rate has seven digits",
+        slack: "most files have ten digits",
+        covers: &[Capability::Outputs, Capability::FaultCycles],
+    };
+    of_files.claim(ledger, run, wanted)
 }

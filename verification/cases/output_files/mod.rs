@@ -6,7 +6,7 @@ mod fields;
 mod vtu;
 
 use crate::cases::written::{Folder, Written};
-use crate::{Capability, Case, CaseError, Evidence, Ledger};
+use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use vtu::Fields;
 
 /// See the README.
@@ -93,6 +93,46 @@ fn stations(ledger: &mut Ledger) -> Result<(), CaseError> {
             .record();
     }
     Ok(())
+}
+
+/// A number in a file, and its value in closed form.
+type Wanted<'a> = (&'a str, &'a str, f64);
+
+/// Claims about the last numbers in the files of a run.
+struct OfFiles<'a> {
+    /// The problem.
+    title: &'a str,
+    /// Largest relative error.
+    bound: f64,
+    /// Reference, reason for the bound, and why it is not tighter.
+    source: &'a str,
+    because: &'a str,
+    slack: &'a str,
+    covers: &'a [Capability],
+}
+
+impl OfFiles<'_> {
+    fn claim(
+        &self,
+        ledger: &mut Ledger,
+        (files, cost): (&Folder, &Cost),
+        wanted: &[Wanted<'_>],
+    ) -> Result<(), CaseError> {
+        for &(file, column, value) in wanted {
+            ledger
+                .claim(format!("{}, at the end: {column} in {file}", self.title))
+                .value(last(files, file, column)?)
+                .equals(value)
+                .relative(self.bound)
+                .evidence(Evidence::Exact, self.source)
+                .because(self.because)
+                .why_not_tighter(self.slack)
+                .covers(self.covers)
+                .cost(cost)
+                .record();
+        }
+        Ok(())
+    }
 }
 
 /// The last number of a column of a table, or of an array, in the last of the files of a name.
