@@ -303,6 +303,7 @@ fn shaken_part<const D: usize>(
         Some((keeper, state)) => (keeper, Some(state)),
         None => (Keeper::begin(out, plan, "", false, pauses)?, None),
     };
+    keeper = keeper.unseen();
     let ended = dynamic::run(plan, &mut keeper, from.as_ref())?;
     let report = dynamic::Report::new(plan, &ended, keeper.arrivals());
     keeper.finish(matches!(report.outcome, Ended::Completed), ended.time)?;

@@ -97,13 +97,20 @@ impl Progress {
     /// Progress of a run in the directory `out`: a bar if standard error is a terminal, and lines otherwise.
     #[must_use]
     pub fn new(out: &Path) -> Self {
-        let sink = match printing::form() {
+        let mut progress = Self::unseen(out);
+        progress.sink = match printing::form() {
             Form::Quiet | Form::Json => Sink::None,
             Form::Plain if std::io::stderr().is_terminal() => Sink::Bar { bar: bar(), shown: None },
             Form::Plain => Sink::Lines { shown: 0, pulse: Pulse::new("setting up") },
         };
+        progress
+    }
+
+    /// Progress of a run in the directory `out` that is recorded and not shown.
+    #[must_use]
+    pub fn unseen(out: &Path) -> Self {
         let file = out.join(FILE);
-        Self { sink, file, started: Instant::now(), from: None, recorded: None }
+        Self { sink: Sink::None, file, started: Instant::now(), from: None, recorded: None }
     }
 
     /// Shows the completed part of the simulated time, with the current state.

@@ -138,6 +138,12 @@ impl<'a, const D: usize> Keeper<'a, D> {
         }
     }
 
+    /// The same run without a display of its progress.
+    #[must_use]
+    pub fn unseen(self) -> Self {
+        Self { progress: Progress::unseen(&self.out), ..self }
+    }
+
     /// True if plots are drawn at the end.
     #[must_use]
     pub fn draws(&self) -> bool {
