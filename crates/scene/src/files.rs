@@ -48,7 +48,7 @@ pub(super) fn fill_tables<'a>(
     columns: &mut Columns<'_>,
 ) -> Result<Vec<Warning>, Diagnostic> {
     let mut doubts = Vec::new();
-    for (table, dimension, duration) in tables {
+    for TableOver { table, dimension, keys, duration, holds } in tables {
         let Some(given) = table.file().cloned() else { continue };
         let time = given.time.as_ref().map_or((TIME, given.file.span()), |t| (t.get_ref(), t.span()));
         let wanted = [
@@ -57,19 +57,18 @@ pub(super) fn fill_tables<'a>(
         ];
         let mut found = columns(&given.file, &wanted)?.into_iter();
         let (times, values) = (found.next().unwrap_or_default(), found.next().unwrap_or_default());
-        table.fill(taken(&given, times.into_iter().zip(values).collect(), duration)?);
-        doubts.extend(doubt(&given, dimension, table));
+        table.fill(taken(&given, times.into_iter().zip(values).collect(), (duration, holds))?);
+        doubts.extend(doubt(&given, (keys, dimension), table));
     }
     Ok(doubts)
 }
 
-/// Warning of implausible values of a load or of a rate.
-fn doubt(file: &TableFile, dimension: Dimension, points: &[(f64, f64)]) -> Option<Warning> {
-    let keys: &[&str] = match dimension {
-        Dimension::Pressure => &["pressure"],
-        Dimension::Velocity => &["conditions", "rate"],
-        _ => &[],
-    };
+/// Warning of implausible values of a table that stands under these keys.
+fn doubt(
+    file: &TableFile,
+    (keys, dimension): (&[&str], Dimension),
+    points: &[(f64, f64)],
+) -> Option<Warning> {
     let (message, help) = plausible::of_file(keys, dimension.si(), points.iter().map(|p| p.1))?;
     let (column, name) = (&file.column, file.file.get_ref());
     Some(Warning::at(column.span(), format!("column `{}` of `{name}`: {message}", column.get_ref()), help))
@@ -79,14 +78,14 @@ fn doubt(file: &TableFile, dimension: Dimension, points: &[(f64, f64)]) -> Optio
 fn taken(
     file: &TableFile,
     mut points: Vec<(f64, f64)>,
-    duration: Option<f64>,
+    (duration, holds): (Option<f64>, bool),
 ) -> Result<Vec<(f64, f64)>, Diagnostic> {
     let tare = file.tare.as_ref().is_some_and(|tare| *tare.get_ref());
     if let Some(&(_, zero)) = points.first().filter(|_| tare) {
         points.iter_mut().for_each(|p| p.1 -= zero);
     }
     let Some(from) = &file.from else { return Ok(points) };
-    part(&points, from.get_ref().0, duration).ok_or_else(|| {
+    part(&points, from.get_ref().0, (duration, holds)).ok_or_else(|| {
         let [first, last] = [points.first(), points.last()].map(|p| p.map_or(0.0, |p| p.0));
         Diagnostic::at(
             from.span(),

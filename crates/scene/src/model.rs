@@ -125,11 +125,24 @@ impl Scene {
         let conditions = self.stages.iter_mut().flat_map(|stage| {
             let duration = Some(stage.duration.get_ref().0);
             let tables = stage.conditions.iter_mut().flat_map(|condition| condition.get_mut().tables_mut());
-            tables.map(move |(table, dimension)| (table, dimension, duration))
+            tables.map(move |(table, dimension)| {
+                let keys: &[&str] = match dimension {
+                    Dimension::Velocity => &["conditions", "rate"],
+                    Dimension::Pressure => &["conditions", "pressure"],
+                    _ => &["conditions"],
+                };
+                TableOver { table, dimension, keys, duration, holds: false }
+            })
         });
         let wells = self.faults.values_mut().filter_map(|fault| fault.injection.as_mut());
         let fluxes = wells.flat_map(|wells| &mut wells.0).filter_map(|well| match well.flux.get_mut() {
-            Flux::Steps(table) => Some((table, Dimension::Velocity, None)),
+            Flux::Steps(table) => Some(TableOver {
+                table,
+                dimension: Dimension::Velocity,
+                keys: &["injection", "flux"],
+                duration: None,
+                holds: true,
+            }),
             Flux::Constant(_) => None,
         });
         conditions.chain(fluxes)
@@ -350,8 +363,19 @@ pub struct Stage {
 /// A table of motions or loads: its dimension goes with it.
 type TableMut<'a> = (&'a mut Tabled, Dimension);
 
-/// The same with the duration of its stage, if it belongs to one \[s\].
-pub(crate) type TableOver<'a> = (&'a mut Tabled, Dimension, Option<f64>);
+/// A table that a file may fill.
+pub(crate) struct TableOver<'a> {
+    /// The table.
+    pub table: &'a mut Tabled,
+    /// Dimension of its values.
+    pub dimension: Dimension,
+    /// Keys under which it stands, as the table of plausible values has them.
+    pub keys: &'static [&'static str],
+    /// Duration of its stage, if it belongs to one \[s\].
+    pub duration: Option<f64>,
+    /// True if each value holds until the next entry; others are linear in between.
+    pub holds: bool,
+}
 
 impl Condition {
     /// Tables of its motions and loads.

@@ -65,16 +65,21 @@ pub struct TableFile {
 }
 
 /// The part of a table over a stage that begins at the time `from`, with times since then, up to its `duration` if it is known;
-/// `None` if it has no entry there. Of two entries at one time, a jump, the stage has that within it.
+/// `None` if it has no entry there. Of two entries at one time, a jump, the stage has that within it. Values that `hold` are those
+/// of the entry before, others linear in between.
 #[must_use]
-pub fn part(points: &[(f64, f64)], from: f64, duration: Option<f64>) -> Option<Vec<(f64, f64)>> {
+pub fn part(
+    points: &[(f64, f64)],
+    from: f64,
+    (duration, hold): (Option<f64>, bool),
+) -> Option<Vec<(f64, f64)>> {
     let end = duration.map_or(f64::INFINITY, |duration| from + duration);
     let begin = points.partition_point(|p| p.0 <= from);
     let stop = points.partition_point(|p| p.0 < end);
     let last = points.last().filter(|last| from < last.0)?;
     let between = |k: usize, t: f64| {
         let ((t0, v0), (t1, v1)) = (points[k - 1], points[k]);
-        v0 + (v1 - v0) * ((t - t0) / (t1 - t0))
+        if hold { v0 } else { v0 + (v1 - v0) * ((t - t0) / (t1 - t0)) }
     };
     let first = (begin > 0).then(|| (0.0, between(begin, from)));
     let inside = points[begin..stop].iter().map(|&(t, v)| (t - from, v));
@@ -91,8 +96,8 @@ mod tests {
 
     #[test]
     fn parts_of_a_record_meet_where_stages_do() {
-        let stages =
-            [(0.0, 4.0), (4.0, 8.0), (12.0, 8.0)].map(|(from, t)| part(&RECORD, from, Some(t)).unwrap());
+        let stages = [(0.0, 4.0), (4.0, 8.0), (12.0, 8.0)]
+            .map(|(from, t)| part(&RECORD, from, (Some(t), false)).unwrap());
         assert_eq!(stages[0], [(0.0, 1.0), (4.0, 1.8)]);
         assert_eq!(stages[1], [(0.0, 1.8), (6.0, 3.0), (6.0, 5.0), (8.0, 5.0)]);
         assert_eq!(stages[2], [(0.0, 5.0), (8.0, 5.0)]);
@@ -100,15 +105,20 @@ mod tests {
 
     #[test]
     fn a_jump_at_a_joint_belongs_to_neither_stage() {
-        assert_eq!(part(&RECORD, 8.0, Some(2.0)).unwrap(), [(0.0, 2.6), (2.0, 3.0)]);
-        assert_eq!(part(&RECORD, 10.0, Some(5.0)).unwrap(), [(0.0, 5.0), (5.0, 5.0)]);
+        assert_eq!(part(&RECORD, 8.0, (Some(2.0), false)).unwrap(), [(0.0, 2.6), (2.0, 3.0)]);
+        assert_eq!(part(&RECORD, 10.0, (Some(5.0), false)).unwrap(), [(0.0, 5.0), (5.0, 5.0)]);
+    }
+
+    #[test]
+    fn a_value_that_holds_is_that_of_the_entry_before() {
+        assert_eq!(part(&RECORD, 4.0, (None, true)).unwrap()[..2], [(0.0, 1.0), (6.0, 3.0)]);
     }
 
     #[test]
     fn a_record_may_begin_late_or_end_early_within_its_stage() {
-        assert_eq!(part(&RECORD[1..], 5.0, Some(2.0)), None);
-        assert_eq!(part(&RECORD, 15.0, Some(50.0)).unwrap(), [(0.0, 5.0), (5.0, 5.0)]);
-        assert_eq!(part(&RECORD, 15.0, None).unwrap(), [(0.0, 5.0), (5.0, 5.0)]);
-        assert_eq!(part(&RECORD, 20.0, Some(1.0)), None);
+        assert_eq!(part(&RECORD[1..], 5.0, (Some(2.0), false)), None);
+        assert_eq!(part(&RECORD, 15.0, (Some(50.0), false)).unwrap(), [(0.0, 5.0), (5.0, 5.0)]);
+        assert_eq!(part(&RECORD, 15.0, (None, false)).unwrap(), [(0.0, 5.0), (5.0, 5.0)]);
+        assert_eq!(part(&RECORD, 20.0, (Some(1.0), false)), None);
     }
 }

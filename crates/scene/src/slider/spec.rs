@@ -45,15 +45,19 @@ pub struct SliderScene {
 impl SliderScene {
     /// Tables of its courses that files have, with the dimension of their values.
     pub(super) fn tables_mut(&mut self) -> impl Iterator<Item = TableOver<'_>> {
+        let over = |keys: &'static [&'static str], dimension| {
+            move |table| TableOver { table, dimension, keys, duration: None, holds: false }
+        };
         let load = self.load.iter_mut().filter_map(|load| load.rate.get_mut().in_file_mut());
-        let load = load.map(|table| (table, Dimension::Velocity));
-        let sliders = self.sliders.values_mut().flat_map(|slider| {
+        let load = load.map(over(&["load", "rate"], Dimension::Velocity));
+        let sliders = self.sliders.values_mut().flat_map(move |slider| {
             let SliderSpec { normal, rate, .. } = slider.get_mut();
-            let normal = normal.get_mut().in_file_mut().map(|table| (table, Dimension::Pressure));
+            let normal = normal.get_mut().in_file_mut();
             let rate = rate.as_mut().and_then(|rate| rate.get_mut().in_file_mut());
-            normal.into_iter().chain(rate.map(|table| (table, Dimension::Velocity)))
+            let normal = normal.map(over(&["sliders", "normal"], Dimension::Pressure));
+            normal.into_iter().chain(rate.map(over(&["sliders", "rate"], Dimension::Velocity)))
         });
-        load.chain(sliders).map(|(table, dimension)| (table, dimension, None))
+        load.chain(sliders)
     }
 
     /// Names of the files of the scene.
