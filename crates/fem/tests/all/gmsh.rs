@@ -326,8 +326,8 @@ fn small_faults_of_a_file_are_named_with_their_places() {
         ("14 15 2 3 1 7", "14 15 2 3 1 8", &ORPHAN.replace("13", "14")),
         (
             "12 3 2 3 2",
-            "12 7 2 3 2",
-            "$Elements, line 27: element 12 has the unsupported type 7 (pyramid of 5 nodes)",
+            "12 77 2 3 2",
+            "$Elements, line 27: element 12 has the unsupported type 77 (no type of Gmsh that is known here)",
         ),
         ("$Nodes\n7", "$Nodes\n8", "$Nodes, line 23: expected the number of a node, found `$EndNodes`"),
         ("$Nodes\n7", "$Nodes\n999", TOO_MANY),
@@ -429,6 +429,50 @@ fn mid_nodes_of_a_file_lie_between_their_corners_in_the_order_of_vtk() {
                     assert!((x(node)[axis] - mean).abs() < 1e-9, "{name}: node {node}");
                 }
             }
+        }
+    }
+}
+
+/// A hexahedron of the volume `rock` under a pyramid of another, in version 2.2 and 4.1.
+fn under_a_pyramid(volume: &str) -> [String; 2] {
+    let names = format!("$PhysicalNames\n2\n3 1 \"rock\"\n3 2 \"{volume}\"\n$EndPhysicalNames\n");
+    let x = ["0 0 0", "1 0 0", "1 1 0", "0 1 0", "0 0 1", "1 0 1", "1 1 1", "0 1 1", "0.5 0.5 2"];
+    let v22: String = x.iter().enumerate().map(|(n, x)| format!("{} {x}\n", n + 1)).collect();
+    let v22 = format!(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n{names}$Nodes\n9\n{v22}$EndNodes\n$Elements\n2\n\
+         1 5 2 1 1 1 2 3 4 5 6 7 8\n2 7 2 2 2 5 6 7 8 9\n$EndElements\n"
+    );
+    let v41 = format!(
+        "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n{names}$Entities\n0 0 0 2\n1 0 0 0 1 1 1 1 1 0\n2 0 0 1 1 1 2 1 2 0\n\
+         $EndEntities\n$Nodes\n1 9 1 9\n3 1 0 9\n1\n2\n3\n4\n5\n6\n7\n8\n9\n{}\n$EndNodes\n$Elements\n2 2 1 2\n3 1 5 1\n\
+         1 1 2 3 4 5 6 7 8\n3 2 7 1\n2 5 6 7 8 9\n$EndElements\n",
+        x.join("\n")
+    );
+    [v22, v41]
+}
+
+#[test]
+fn elements_that_no_body_asks_for_need_not_be_known() {
+    let options = Options { only: Some(vec!["rock".to_string()]), ..Options::default() };
+    for text in under_a_pyramid("cap") {
+        let mesh: Mesh<3> = gmsh::parse(text.as_bytes()).unwrap().into_mesh(&options).unwrap();
+        assert_eq!(mesh.nodes.len(), 8);
+        let left = &mesh.left_out["cap"];
+        assert_eq!((left.kind.as_str(), left.count, left.element), ("7 (pyramid of 5 nodes)", 1, 2));
+    }
+}
+
+#[test]
+fn a_body_that_asks_for_elements_that_are_not_read_would_have_a_hole() {
+    let mut numbered = Options { only: Some(vec!["solid".to_string()]), ..Options::default() };
+    numbered.tags.insert("solid".to_string(), 2.into());
+    let named = Options { only: Some(vec!["rock".to_string()]), ..Options::default() };
+    for (volume, options) in [("cap", Options::default()), ("cap", numbered), ("rock", named)] {
+        for (text, line) in under_a_pyramid(volume).iter().zip([22, 31]) {
+            let error = gmsh::parse(text.as_bytes()).unwrap().into_mesh::<3>(&options).unwrap_err();
+            let wanted =
+                format!("$Elements, line {line}: elements of type 7 (pyramid of 5 nodes) are not read");
+            assert_eq!(error.to_string(), wanted);
         }
     }
 }

@@ -201,12 +201,13 @@ fn groups(
 fn of_type(unread: &Unread) -> raw::Unread {
     raw::Unread {
         kind: unread.kind.clone(),
-        body: shapes::is_continuum(&unread.kind),
+        dimension: shapes::dimension(&unread.kind),
         section: unread.keyword.name.clone(),
         place: Place::Line(unread.keyword.line),
         count: unread.tags.len(),
         first: unread.tags.iter().copied().min().unwrap_or(0),
         groups: BTreeMap::new(),
+        numbered: Vec::new(),
     }
 }
 

@@ -44,7 +44,9 @@ pub(super) fn faces(shape: Shape) -> &'static [&'static [usize]] {
     shape.element().map_or(&[], |element| element.definition().abaqus_faces)
 }
 
-/// True for a type of continuum elements, which bodies are made of.
-pub(super) fn is_continuum(kind: &str) -> bool {
-    ["C3D", "CPE", "CPS", "CAX", "CGAX", "CCL"].iter().any(|family| kind.starts_with(family))
+/// Dimension of a type of continuum elements, which bodies are made of; `None` for other types.
+pub(super) fn dimension(kind: &str) -> Option<usize> {
+    let solid = kind.starts_with("C3D").then_some(3);
+    let plane = ["CPE", "CPS", "CAX", "CGAX", "CCL"].iter().any(|family| kind.starts_with(family));
+    solid.or_else(|| plane.then_some(2))
 }

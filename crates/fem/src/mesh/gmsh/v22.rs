@@ -1,14 +1,14 @@
 //! Version 2.2: one list of nodes and one of elements; each element has the number of one physical group, and is listed once
 //! for each of its groups.
 
-use super::kinds;
+use super::kinds::{self, Kind, Places};
 use super::scan::{Coding, Scan};
 use crate::mesh::error::MeshError;
-use crate::mesh::raw::{RawBlock, RawGroup, RawMesh, RawNode, Shape};
+use crate::mesh::raw::{RawBlock, RawGroup, RawMesh, RawNode};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Type, physical group (0 for none), geometric entity (0 for none).
-type Key = (Shape, i64, i64);
+type Key = (Kind, i64, i64);
 
 /// Numbers and nodes of elements.
 #[derive(Default)]
@@ -22,6 +22,7 @@ struct Elements {
 pub(super) struct Reader {
     nodes: Option<Vec<RawNode>>,
     elements: Option<BTreeMap<Key, Elements>>,
+    places: Places,
 }
 
 impl Reader {
@@ -63,12 +64,12 @@ impl Reader {
         while read < count {
             if text {
                 let tag = number(scan, "the number of an element")?;
-                let shape = shape(scan, Some(tag))?;
+                let kind = kind(scan, Some(tag), &mut self.places)?;
                 let tags = scan.count("tags of an element", 1, 4)?;
-                element(scan, shape, tag, tags, &mut elements)?;
+                element(scan, kind, tag, tags, &mut elements)?;
                 read += 1;
             } else {
-                read += binary_run(scan, count - read, &mut elements)?;
+                read += binary_run(scan, count - read, (&mut elements, &mut self.places))?;
             }
         }
         self.elements = Some(elements);
@@ -81,20 +82,22 @@ impl Reader {
         let all: BTreeSet<(usize, i64)> = elements
             .keys()
             .filter(|(_, physical, _)| *physical != 0)
-            .map(|&(shape, physical, _)| (shape.dimension(), physical))
+            .map(|&(kind, physical, _)| (kind.dimension(), physical))
             .collect();
         let all: Vec<(usize, i64)> = all.into_iter().collect();
-        let block = |((shape, physical, entity), Elements { tags, nodes }): (Key, Elements)| RawBlock {
-            shape,
-            groups: all.binary_search(&(shape.dimension(), physical)).into_iter().collect(),
-            entity: Some(entity),
-            tags,
-            nodes,
-        };
-        let blocks = elements.into_iter().map(block).collect();
         let groups =
             all.iter().map(|&(dimension, tag)| RawGroup { dimension, tag: Some(tag), name: None }).collect();
-        Ok(RawMesh { nodes, blocks, groups, repeats: true, ..RawMesh::default() })
+        let mut mesh = RawMesh { nodes, groups, repeats: true, ..RawMesh::default() };
+        for ((kind, physical, entity), Elements { tags, nodes }) in elements {
+            let groups = all.binary_search(&(kind.dimension(), physical)).into_iter().collect();
+            match kind {
+                Kind::Read(shape) => {
+                    mesh.blocks.push(RawBlock { shape, groups, entity: Some(entity), tags, nodes });
+                }
+                Kind::Unread(other) => mesh.unread.extend(self.places.unread(other, &tags, groups)),
+            }
+        }
+        Ok(mesh)
     }
 }
 
@@ -114,12 +117,13 @@ fn number(scan: &mut Scan<'_>, what: &'static str) -> Result<u64, MeshError> {
     u64::try_from(number).map_err(|_| scan.unexpected("a number that is not negative"))
 }
 
-/// A supported element type.
-fn shape(scan: &mut Scan<'_>, element: Option<u64>) -> Result<Shape, MeshError> {
+/// A known element type.
+fn kind(scan: &mut Scan<'_>, element: Option<u64>, places: &mut Places) -> Result<Kind, MeshError> {
     let at = scan.position();
-    let kind = scan.int("a type of element")?;
-    if let Some(shape) = kinds::shape(kind) {
-        return Ok(shape);
+    let number_of_kind = scan.int("a type of element")?;
+    if let Some(kind) = Kind::of(number_of_kind) {
+        places.note(scan, at, kind);
+        return Ok(kind);
     }
     let element = match element {
         Some(tag) => tag,
@@ -130,21 +134,20 @@ fn shape(scan: &mut Scan<'_>, element: Option<u64>) -> Result<Shape, MeshError> 
             number(scan, "the number of an element")?
         }
     };
-    let (section, place, kind) = (scan.section_name(), scan.place_of(at), kinds::name(kind));
-    Err(MeshError::UnsupportedElement { section, place, element, kind })
+    Err(kinds::unknown(scan, at, element, number_of_kind))
 }
 
 /// Binary elements of one type: a header for all, then the elements.
 fn binary_run(
     scan: &mut Scan<'_>,
     left: usize,
-    elements: &mut BTreeMap<Key, Elements>,
+    (elements, places): (&mut BTreeMap<Key, Elements>, &mut Places),
 ) -> Result<usize, MeshError> {
-    let shape = shape(scan, None)?;
+    let kind = kind(scan, None, places)?;
     let count = number(scan, "elements")?;
     let tags = number(scan, "tags of an element")?;
     let tags = scan.bounded(tags, "tags of an element", 1, 4)?;
-    let count = scan.bounded(count, "elements", 1, 4 * (1 + tags + shape.nodes()))?;
+    let count = scan.bounded(count, "elements", 1, 4 * (1 + tags + kind.nodes()))?;
     if count == 0 || count > left {
         return Err(MeshError::Count {
             section: scan.section_name(),
@@ -155,7 +158,7 @@ fn binary_run(
     }
     for _ in 0..count {
         let tag = number(scan, "the number of an element")?;
-        element(scan, shape, tag, tags, elements)?;
+        element(scan, kind, tag, tags, elements)?;
     }
     Ok(count)
 }
@@ -163,7 +166,7 @@ fn binary_run(
 /// Tags and nodes of an element. The first tag is the physical group, the second the entity; partitions follow.
 fn element(
     scan: &mut Scan<'_>,
-    shape: Shape,
+    kind: Kind,
     tag: u64,
     tags: usize,
     elements: &mut BTreeMap<Key, Elements>,
@@ -177,12 +180,12 @@ fn element(
             _ => {}
         }
     }
-    let list = elements.entry((shape, physical, entity)).or_default();
+    let list = elements.entry((kind, physical, entity)).or_default();
     list.tags.push(tag);
     let first = list.nodes.len();
-    for _ in 0..shape.nodes() {
+    for _ in 0..kind.nodes() {
         list.nodes.push(number(scan, "the number of a node")?);
     }
-    shape.reorder(kinds::order(shape), &mut list.nodes[first..]);
+    kind.reorder(&mut list.nodes[first..]);
     Ok(())
 }

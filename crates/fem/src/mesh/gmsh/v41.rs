@@ -1,9 +1,9 @@
 //! Version 4.1: nodes and elements in blocks, one for each geometric entity; the entities hold their physical groups.
 
-use super::kinds;
+use super::kinds::{self, Kind, Places};
 use super::scan::Scan;
 use crate::mesh::error::MeshError;
-use crate::mesh::raw::{RawBlock, RawGroup, RawMesh, RawNode, Shape};
+use crate::mesh::raw::{RawBlock, RawGroup, RawMesh, RawNode};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Largest number of physical groups of one entity. Each element of the entity is in the sets of all its groups, so that this
@@ -16,7 +16,9 @@ type Entity = (usize, i64);
 /// A block of elements of an entity whose groups are not yet known.
 struct Block {
     entity: Entity,
-    block: RawBlock,
+    kind: Kind,
+    tags: Vec<u64>,
+    nodes: Vec<u64>,
 }
 
 /// Data read so far.
@@ -26,6 +28,7 @@ pub(super) struct Reader {
     physical: BTreeMap<Entity, Vec<i64>>,
     nodes: Option<Vec<RawNode>>,
     blocks: Option<Vec<Block>>,
+    places: Places,
 }
 
 impl Reader {
@@ -137,16 +140,16 @@ impl Reader {
         let mut places = BTreeMap::new();
         let mut held = 0;
         for _ in 0..count {
-            let Block { entity, mut block } = block(scan)?;
+            let mut block = block(scan, &mut self.places)?;
             held += block.tags.len() as u64;
-            // Blocks of one shape and entity are merged: a file may divide them as finely as it likes.
-            let place = *places.entry((entity, block.shape)).or_insert(blocks.len());
+            // Blocks of one type and entity are merged: a file may divide them as finely as it likes.
+            let place = *places.entry((block.entity, block.kind)).or_insert(blocks.len());
             match blocks.get_mut(place) {
-                Some(Block { block: first, .. }) => {
+                Some(first) => {
                     first.tags.append(&mut block.tags);
                     first.nodes.append(&mut block.nodes);
                 }
-                None => blocks.push(Block { entity, block }),
+                None => blocks.push(block),
             }
         }
         self.blocks = Some(blocks);
@@ -160,53 +163,58 @@ impl Reader {
         let all: BTreeSet<(usize, i64)> =
             blocks.iter().flat_map(|b| groups_of(&b.entity).iter().map(|&tag| (b.entity.0, tag))).collect();
         let all: Vec<(usize, i64)> = all.into_iter().collect();
-        let finish = |Block { entity, mut block }| {
-            let tags = groups_of(&entity).iter();
-            block.groups = tags.filter_map(|&tag| all.binary_search(&(entity.0, tag)).ok()).collect();
-            block.groups.sort_unstable();
-            block.groups.dedup();
-            block
-        };
-        let blocks = blocks.into_iter().map(finish).collect();
         let groups =
             all.iter().map(|&(dimension, tag)| RawGroup { dimension, tag: Some(tag), name: None }).collect();
-        Ok(RawMesh { nodes, blocks, groups, ..RawMesh::default() })
+        let mut mesh = RawMesh { nodes, groups, ..RawMesh::default() };
+        for Block { entity, kind, tags, nodes } in blocks {
+            let groups: BTreeSet<usize> = groups_of(&entity)
+                .iter()
+                .filter_map(|&tag| all.binary_search(&(entity.0, tag)).ok())
+                .collect();
+            let groups = groups.into_iter().collect();
+            match kind {
+                Kind::Read(shape) => {
+                    mesh.blocks.push(RawBlock { shape, groups, entity: Some(entity.1), tags, nodes });
+                }
+                Kind::Unread(other) => mesh.unread.extend(self.places.unread(other, &tags, groups)),
+            }
+        }
+        Ok(mesh)
     }
 }
 
 /// One block of `$Elements`.
-fn block(scan: &mut Scan<'_>) -> Result<Block, MeshError> {
+fn block(scan: &mut Scan<'_>, places: &mut Places) -> Result<Block, MeshError> {
     let dimension = scan.dimension()?;
     let entity = scan.int("the number of an entity")?;
     let at = scan.position();
-    let kind = scan.int("a type of element")?;
+    let number = scan.int("a type of element")?;
     let count = scan.size("elements")?;
-    let Some(shape) = kinds::shape(kind) else {
+    let Some(kind) = Kind::of(number) else {
         let element = scan.size("the number of an element")?;
-        let (section, place, kind) = (scan.section_name(), scan.place_of(at), kinds::name(kind));
-        return Err(MeshError::UnsupportedElement { section, place, element, kind });
+        return Err(kinds::unknown(scan, at, element, number));
     };
-    if shape.dimension() != dimension {
+    places.note(scan, at, kind);
+    if kind.dimension() != dimension {
         return Err(scan.unexpected("elements of the dimension of their entity"));
     }
-    let count = scan.bounded(count, "elements", 1 + shape.nodes(), 8 * (1 + shape.nodes()))?;
+    let count = scan.bounded(count, "elements", 1 + kind.nodes(), 8 * (1 + kind.nodes()))?;
     let mut tags = Vec::with_capacity(count);
-    let mut nodes = Vec::with_capacity(count * shape.nodes());
+    let mut nodes = Vec::with_capacity(count * kind.nodes());
     for _ in 0..count {
         tags.push(scan.size("the number of an element")?);
-        read_nodes(scan, shape, &mut nodes)?;
+        read_nodes(scan, kind, &mut nodes)?;
     }
-    let block = RawBlock { shape, groups: Vec::new(), entity: Some(entity), tags, nodes };
-    Ok(Block { entity: (dimension, entity), block })
+    Ok(Block { entity: (dimension, entity), kind, tags, nodes })
 }
 
 /// The nodes of an element, in the order of VTK.
-fn read_nodes(scan: &mut Scan<'_>, shape: Shape, nodes: &mut Vec<u64>) -> Result<(), MeshError> {
+fn read_nodes(scan: &mut Scan<'_>, kind: Kind, nodes: &mut Vec<u64>) -> Result<(), MeshError> {
     let first = nodes.len();
-    for _ in 0..shape.nodes() {
+    for _ in 0..kind.nodes() {
         nodes.push(scan.size("the number of a node")?);
     }
-    shape.reorder(kinds::order(shape), &mut nodes[first..]);
+    kind.reorder(&mut nodes[first..]);
     Ok(())
 }
 

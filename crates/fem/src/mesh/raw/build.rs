@@ -62,6 +62,9 @@ impl RawMesh {
         let mut connectivity = self.resolve(&index)?;
         self.check_dimension::<D>()?;
         let names = self.group_names(options)?;
+        for unread in &self.unread {
+            unread.check(self.dimension(), &names, options)?;
+        }
         self.orient::<D>(&mut connectivity, &self.asked(options, &names))?;
         let members = self.members::<D>(&connectivity)?;
         let (mut mesh, of_mesh) = self.cells::<D>(&members, &connectivity, options.length_unit);
@@ -87,7 +90,7 @@ impl RawMesh {
         }
         self.check_groups(&mesh, options)?;
         for unread in &self.unread {
-            unread.leave_out(&mut mesh, options)?;
+            unread.leave_out(&mut mesh, &names);
         }
         if !options.allow_free_parts {
             check_parts(&mesh, &tags, options)?;

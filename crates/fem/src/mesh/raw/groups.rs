@@ -49,7 +49,8 @@ impl RawMesh {
 
     /// Groups with elements.
     fn used_groups(&self) -> BTreeSet<usize> {
-        self.blocks.iter().filter(|b| !b.tags.is_empty()).flat_map(|b| b.groups.iter().copied()).collect()
+        let read = self.blocks.iter().filter(|b| !b.tags.is_empty()).flat_map(|b| &b.groups);
+        read.chain(self.unread.iter().flat_map(|u| &u.numbered)).copied().collect()
     }
 
     /// All named items in the file.

@@ -10,8 +10,8 @@ use std::collections::BTreeMap;
 pub struct Unread {
     /// Type, as the format names it.
     pub kind: String,
-    /// True if bodies are made of this type, so that a body without them has a hole.
-    pub body: bool,
+    /// Dimension, if it is known: bodies are made of elements of the greatest, so that a body without them has a hole.
+    pub dimension: Option<usize>,
     /// Section or keyword.
     pub section: String,
     /// Position.
@@ -22,49 +22,58 @@ pub struct Unread {
     pub first: u64,
     /// Elements in each set that has some.
     pub groups: BTreeMap<String, Vec<u64>>,
+    /// Groups of the file, by position, that have all of them.
+    pub numbered: Vec<usize>,
 }
 
 impl Unread {
+    /// Names of the sets that have some of these elements.
+    fn sets<'a>(&'a self, names: &'a [Vec<String>]) -> impl Iterator<Item = &'a String> {
+        self.groups.keys().chain(self.numbered.iter().flat_map(|&g| &names[g]))
+    }
+
     /// True if the body asks for these elements, by a set or since it takes all cells.
-    fn is_asked(&self, options: &Options) -> bool {
+    fn is_asked(&self, names: &[Vec<String>], options: &Options) -> bool {
         let is = |set: &String, asked: &String| {
             set == asked || set.strip_suffix(asked.as_str()).is_some_and(|instance| instance.ends_with('.'))
         };
         match &options.only {
             None => true,
-            Some(asked) => asked.iter().any(|asked| self.groups.keys().any(|set| is(set, asked))),
+            Some(asked) => asked.iter().any(|asked| self.sets(names).any(|set| is(set, asked))),
         }
     }
 
-    /// Refuses elements of bodies that are asked for; takes note of others.
-    pub(super) fn leave_out<const D: usize>(
+    /// Refuses elements of the dimension of bodies that are asked for. The groups of the file have these `names`.
+    pub(super) fn check(
         &self,
-        mesh: &mut Mesh<D>,
+        dimension: usize,
+        names: &[Vec<String>],
         options: &Options,
     ) -> Result<(), MeshError> {
-        if self.count == 0 {
+        let in_body = self.count > 0 && self.dimension.is_some_and(|d| d >= dimension);
+        if !in_body || !self.is_asked(names, options) {
             return Ok(());
         }
-        if self.body && self.is_asked(options) {
-            return Err(MeshError::UnsupportedKind {
-                section: self.section.clone(),
-                place: self.place,
-                kind: self.kind.clone(),
-            });
-        }
-        let left = |elements: &[u64]| LeftOut {
-            kind: self.kind.clone(),
-            count: elements.len(),
-            element: elements.iter().copied().min().unwrap_or(self.first),
-            read: false,
+        let (section, place, kind) = (self.section.clone(), self.place, self.kind.clone());
+        Err(MeshError::UnsupportedKind { section, place, kind })
+    }
+
+    /// Takes note of elements that no body has.
+    pub(super) fn leave_out<const D: usize>(&self, mesh: &mut Mesh<D>, names: &[Vec<String>]) {
+        let mut note = |set: String, count: usize, element: u64| {
+            let new = LeftOut { kind: self.kind.clone(), count, element, read: false };
+            let all = mesh.left_out.entry(set).or_insert_with(|| LeftOut { count: 0, ..new.clone() });
+            all.count += new.count;
+            all.element = all.element.min(new.element);
         };
         for (set, elements) in &self.groups {
-            mesh.left_out.insert(set.clone(), left(elements));
+            note(set.clone(), elements.len(), elements.iter().copied().min().unwrap_or(self.first));
         }
-        if self.groups.is_empty() {
-            let all = LeftOut { count: self.count, ..left(&[]) };
-            mesh.left_out.insert(format!("{} (in no set)", self.kind), all);
+        for set in self.numbered.iter().flat_map(|&g| &names[g]) {
+            note(set.clone(), self.count, self.first);
         }
-        Ok(())
+        if self.count > 0 && self.sets(names).next().is_none() {
+            note(format!("{} (in no set)", self.kind), self.count, self.first);
+        }
     }
 }

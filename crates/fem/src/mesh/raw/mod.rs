@@ -90,9 +90,11 @@ pub struct RawMesh {
 }
 
 impl RawMesh {
-    /// Greatest dimension of the elements.
+    /// Greatest dimension of the elements, of those that are not read, too.
     #[must_use]
     pub fn dimension(&self) -> usize {
-        self.blocks.iter().filter(|b| !b.tags.is_empty()).map(|b| b.shape.dimension()).max().unwrap_or(0)
+        let read = self.blocks.iter().filter(|b| !b.tags.is_empty()).map(|b| b.shape.dimension());
+        let unread = self.unread.iter().filter(|u| u.count > 0).filter_map(|u| u.dimension);
+        read.chain(unread).max().unwrap_or(0)
     }
 }
