@@ -28,11 +28,14 @@ const SLACK: f64 = 1e-2;
 const SERIES: f64 = 1.0;
 /// Below this μ/a the strength is closer to linear in V than to a logarithm.
 const LINEAR: f64 = 1.0;
-/// Share ε of f_ref below which the memory of normal traction ends where points lift off: with x = f_n/(ε f_ref), ln(f_n/f_ref)
-/// is continued by `ln ε - (1 - x²)/2`, of the same value and slope at x = 1. The memory of Linker and Dieterich (1992) was
-/// measured for changes by some tens of percent. At f_n = 0 its logarithm has no limit: a point that lifts off would strengthen
-/// without bound, and friction beyond about 2 wedges it, as it does under Coulomb's law.
+/// Smallest share ε of f_ref below which the memory of normal traction ends where points lift off: with x = f_n/(ε f_ref),
+/// ln(f_n/f_ref) is continued by `ln ε - (1 - x²)/2`, of the same value and slope at x = 1. The memory of Linker and Dieterich
+/// (1992) was measured for changes by some tens of percent. At f_n = 0 its logarithm has no limit: a point that lifts off would
+/// strengthen without bound.
 const LIFT_OFF: f64 = 0.1;
+/// Gain α (1/2 - ln ε) of friction down to f_n = 0 that a larger ε does not let strong memories exceed. Friction beyond about 2 wedges
+/// a point that lifts off, as it does under Coulomb's law.
+const STRONGEST: f64 = 0.8;
 /// Iterations after which the jump of a memory of shear traction is converged to rounding: convergence is quadratic from below.
 const MOST_JUMP: usize = 60;
 
@@ -128,8 +131,8 @@ pub struct Solver<'a, F, E: Evolution> {
     open: bool,
     /// f_n ∂/∂f_n of `log_normal`.
     follows: f64,
-    /// True if the memory of normal traction ends at [`LIFT_OFF`].
-    lifts: bool,
+    /// Share ε of f_ref at which the memory of normal traction ends; `None` if it has no end.
+    ends: Option<f64>,
     dt: f64,
 }
 
@@ -150,7 +153,7 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
             log_normal: 0.0,
             open: false,
             follows: 1.0,
-            lifts: false,
+            ends: None,
             dt: 0.0,
         }
     }
@@ -158,7 +161,9 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
     /// Lets the memory of normal traction end where points lift off, as on surfaces that may part.
     #[must_use]
     pub(crate) fn lifting(mut self) -> Self {
-        self.lifts = true;
+        let alpha: f64 = self.parts.iter().map(|p| p.normal_memory / p.evolution.per_phi()).sum();
+        let strong = if alpha > 0.0 { (0.5 - STRONGEST / alpha).exp() } else { 0.0 };
+        self.ends = Some(strong.max(LIFT_OFF));
         self
     }
 
@@ -190,12 +195,16 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
 
     /// Sets f_n = `normal`. Without normal traction no memory of it acts, but where it ends: see [`LIFT_OFF`] and `keep`.
     fn under(&mut self, normal: f64) {
-        let remembers = (normal > 0.0 || self.lifts) && self.parts.iter().any(|p| p.normal_memory != 0.0);
-        let (share, x) = (normal / self.reference, normal / (LIFT_OFF * self.reference));
-        (self.log_normal, self.follows) = match (remembers, self.lifts && x < 1.0) {
-            (false, _) => (0.0, 1.0),
-            (true, false) => (share.ln(), 1.0),
-            (true, true) => (LIFT_OFF.ln() - 0.5 * (1.0 - x * x), x * x),
+        let remembers =
+            (normal > 0.0 || self.ends.is_some()) && self.parts.iter().any(|p| p.normal_memory != 0.0);
+        let share = normal / self.reference;
+        (self.log_normal, self.follows) = match self.ends.filter(|ends| share < *ends) {
+            _ if !remembers => (0.0, 1.0),
+            None => (share.ln(), 1.0),
+            Some(ends) => {
+                let x = share / ends;
+                (ends.ln() - 0.5 * (1.0 - x * x), x * x)
+            }
         };
         self.open = normal == 0.0;
     }
