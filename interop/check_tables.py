@@ -17,7 +17,7 @@ import numpy as np
 import pandas
 
 # Columns that hold text.
-TEXT = {"stage", "name", "fault", "interface", "slider", "station", "receiver", "kind", "set"}
+TEXT = {"stage", "name", "fault", "surface", "interface", "slider", "station", "receiver", "kind", "set"}
 
 
 def read(path):

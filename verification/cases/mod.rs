@@ -100,6 +100,7 @@ mod interface_laws;
 mod interface_prestress;
 mod interface_rate_state;
 mod jaumann_shear;
+mod kinds_agree;
 mod kostrov_crack;
 mod lame_cylinder;
 mod large_rotation;
@@ -286,6 +287,7 @@ pub const ALL: &[Case] = &[
     stick_slip_inertia_events::CASE,
     jaumann_shear::CASE,
     large_rotation::CASE,
+    kinds_agree::CASE,
     kostrov_crack::CASE,
     maxwell_relaxation::CASE,
     uniaxial_hardening::CASE,

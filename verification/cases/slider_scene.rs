@@ -3,7 +3,7 @@
 use crate::CaseError;
 use crate::cases::written::Folder;
 use asperity_cycles::slider::{self as cycles, Problem};
-use asperity_driver::slider::{Entry, Histories, Plan, csv};
+use asperity_driver::slider::{Histories, Named, Plan, csv};
 use asperity_driver::slider_planner;
 use asperity_ode::Outcome;
 
@@ -47,7 +47,22 @@ fn table(text: &str, first: usize) -> Vec<Vec<f64>> {
     text.lines().skip(1).map(numbers).collect()
 }
 
-/// Rows of the slider's history and of the catalogue (without the name) from a run.
+/// Columns of a catalogue that come before tractions, friction and states: direction, onset, interval and so on.
+const EVENTS: [&str; 8] =
+    ["direction", "onset", "interval", "duration", "slip", "peak_rate", "least_rate", "stress_drop"];
+
+/// Rows of a catalogue: [`EVENTS`], and the columns that follow them in the file.
+fn events(text: &str) -> Result<Vec<Vec<f64>>, CaseError> {
+    let head: Vec<&str> = text.lines().next().unwrap_or_default().split(',').collect();
+    let place = |name: &&str| head.iter().position(|column| column.split(" [").next() == Some(name));
+    let order: Option<Vec<usize>> = EVENTS.iter().map(place).collect();
+    let order = order.ok_or_else(|| format!("a column is missing in {head:?}"))?;
+    let rest = 1 + place(&"least_rate").unwrap_or(0);
+    let row = |row: Vec<f64>| order.iter().map(|&k| row[k]).chain(row[rest..].iter().copied()).collect();
+    Ok(table(text, 0).into_iter().map(row).collect())
+}
+
+/// Rows of the slider's history and of the catalogue, see [`events`], from a run.
 ///
 /// # Errors
 /// If the run fails or a file cannot be written or read.
@@ -60,5 +75,5 @@ pub fn files(plan: &Problem) -> Result<[Vec<Vec<f64>>; 2], CaseError> {
     }
     histories.finish()?;
     let history = folder.text("history/block.csv")?;
-    Ok([table(&history, 0), table(&csv(&Entry::all(&run), &plan.names), 1)])
+    Ok([table(&history, 0), events(&csv(&Named::all(&run, &plan.names)))?])
 }

@@ -194,7 +194,7 @@ fn followed(plan: &Plan, out: &Path) -> Result<(FaultRun, Report), CaseError> {
 fn catalogues(out: &Path, plan: &Plan, report: &Report) -> Result<(), CaseError> {
     std::fs::write(out.join("events.csv"), catalogue::csv(&report.events))?;
     for fault in &report.faults {
-        std::fs::write(out.join(format!("events_{}.csv", fault.fault)), catalogue::csv(&fault.events))?;
+        std::fs::write(out.join(format!("events_{}.csv", fault.surface)), catalogue::csv(&fault.events))?;
     }
     if let Some(slow) = &report.slow_events {
         std::fs::write(out.join("slow_events.csv"), catalogue::csv(slow))?;
@@ -271,7 +271,7 @@ impl Waves {
             AnyPlan::Three(plan) => shaken(plan, files.path(), wall),
         });
         let report = report?;
-        let cost = cost.count("steps", report.steps as f64);
+        let cost = cost.count("steps", report.counts.steps as f64);
         Ok(Self { report, files, cost })
     }
 }

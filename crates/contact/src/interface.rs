@@ -483,9 +483,11 @@ impl<const D: usize> Interface<D> {
             let size = norm(t);
             f.shear[p] = g.tangential(p, t);
             f.shear_measure[p] = if D == 2 { t[0] } else { size };
-            f.friction[p] =
-                if contact.traction > 0.0 && self.tied.is_none() { size / contact.traction } else { 0.0 };
             let rate = shear.committed.rate[p];
+            // Radiation damping takes its part of the traction.
+            let strength = size - shear.damping * rate.abs();
+            f.friction[p] =
+                if contact.traction > 0.0 && self.tied.is_none() { strength / contact.traction } else { 0.0 };
             // Slip is along the traction. A point without traction takes the direction of its slip instead.
             let along = if t[0] == 0.0 { step[p][0] } else { t[0] };
             f.slip_rate[p] = if D == 2 { rate.copysign(rate * along) } else { rate };

@@ -37,7 +37,7 @@ pub struct PointFields<const D: usize> {
     pub slip_increment: Vec<[f64; D]>,
     /// Slip rate V \[m/s\]: signed along e_1 in two dimensions, its magnitude in three.
     pub slip_rate: Vec<f64>,
-    /// Friction |t|/f_n \[-\]; 0 if f_n = 0 or without friction.
+    /// Friction \[-\]: |t| without radiation damping, over f_n; 0 if f_n = 0 or without friction.
     pub friction: Vec<f64>,
     /// Status of the point.
     pub status: Vec<Status>,

@@ -68,7 +68,13 @@ fn nothing(value: &f64) -> bool {
 }
 
 impl Energy {
-    /// Imbalance divided by the largest part \[-\].
+    /// Energy that is missing: what was given minus what is kept and lost.
+    #[must_use]
+    pub fn missing(&self) -> f64 {
+        self.loads + self.opening - self.elastic - self.friction - self.radiated - self.kinetic
+    }
+
+    /// What is missing, divided by the largest part \[-\].
     #[must_use]
     pub fn imbalance(&self) -> f64 {
         let moved = [self.kinetic, self.opening, self.exchanged];
@@ -77,8 +83,7 @@ impl Energy {
         if largest == 0.0 {
             return 0.0;
         }
-        let lacks = self.loads + self.opening - self.elastic - self.friction - self.radiated - self.kinetic;
-        lacks.abs() / largest
+        self.missing().abs() / largest
     }
 
     /// Difference from an earlier budget.

@@ -22,7 +22,7 @@ pub struct Entry {
     /// Largest slip rate \[m/s\].
     pub peak_rate: f64,
     /// Fault or interface that contains the hypocentre.
-    pub fault: String,
+    pub surface: String,
     /// Distance of the hypocentre along the fault \[m\]; not defined in 3D and on interfaces.
     pub hypocentre_along: Option<f64>,
     /// Coordinates of the hypocentre \[m\].
@@ -101,7 +101,7 @@ impl Entry {
             duration: event.duration().unwrap_or(f64::NAN),
             duration_above: event.details.above,
             peak_rate: event.peak,
-            fault: ground.source(event.details.hypocentre),
+            surface: ground.source(event.details.hypocentre),
             hypocentre_along: place.along,
             hypocentre: place.at,
             largest_slip: points.clone().map(slip).fold(0.0, f64::max),
@@ -131,7 +131,7 @@ pub fn slipped(event: &Event<Rupture>, points: &Range<usize>) -> Vec<usize> {
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct FaultEvents {
     /// Fault or interface.
-    pub fault: String,
+    pub surface: String,
     /// Its events.
     pub events: Vec<Entry>,
     /// Onset of an event in progress at the end \[s\].
@@ -143,12 +143,15 @@ fn optional(value: Option<f64>) -> String {
     value.map(shortest).unwrap_or_default()
 }
 
+/// First columns of every catalogue.
+pub(crate) const HEAD: &str = "onset [s],duration [s],interval [s],peak_rate [m/s],stress_drop [Pa],surface";
+
 /// Catalogue as CSV.
 #[must_use]
 pub fn csv(events: &[Entry]) -> String {
     let turning = events.iter().any(|e| e.turned.is_some());
-    let mut text = String::from(
-        "onset [s],duration [s],peak_rate [m/s],fault,hypocentre_along [m],x [m],y [m],z [m],largest_slip [m],mean_slip [m],area [m2 or m],moment [N m or N],stress_drop [Pa],duration_above [s],interval [s],magnitude,rupture_length [m]",
+    let mut text = format!(
+        "{HEAD},hypocentre_along [m],x [m],y [m],z [m],largest_slip [m],mean_slip [m],area [m2 or m],moment [N m or N],duration_above [s],magnitude,rupture_length [m]",
     );
     let heats = events.iter().any(|e| e.largest_temperature.is_some());
     text.push_str(if heats { ",largest_temperature [K]" } else { "" });
@@ -158,11 +161,13 @@ pub fn csv(events: &[Entry]) -> String {
     for e in events {
         let _ = write!(
             text,
-            "{:.14e},{},{},{},{},{},{},{},{},{},{},{:e},{},{},{},{},{}",
+            "{:.14e},{},{},{},{},{},{},{},{},{},{},{},{},{:e},{},{},{}",
             e.onset,
             e.duration,
+            optional(e.interval),
             e.peak_rate,
-            e.fault,
+            shortest(e.stress_drop),
+            e.surface,
             e.hypocentre_along.map(shortest).unwrap_or_default(),
             shortest(e.hypocentre[0]),
             shortest(e.hypocentre[1]),
@@ -171,9 +176,7 @@ pub fn csv(events: &[Entry]) -> String {
             e.mean_slip,
             e.area,
             e.moment,
-            shortest(e.stress_drop),
             e.duration_above,
-            optional(e.interval),
             optional(e.magnitude),
             optional(e.rupture_length)
         );

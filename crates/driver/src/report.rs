@@ -12,7 +12,7 @@ use crate::cohesive;
 use crate::plan::{EventPlan, Plan, Sites, Summary};
 use crate::views;
 use crate::warning::Warning;
-use asperity_cycles::{ALL, Catalogue, Rupture};
+use asperity_cycles::{ALL, Catalogue, Rupture, Thresholds};
 use asperity_mechanics::{PlannedInterface, Stage};
 use asperity_output::view::{
     Counts, ForceMark, InterfaceFields, PointMark, PointValues, Samples, SpringMark, SpringValues, StepRecord,
@@ -21,8 +21,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-pub use common::{EnergyBalance, Kind, Outcome, Phases, Results, Status, Stop};
-pub use energy::{Budget, Closure};
+pub use common::{Kind, Outcome, Phases, Results, Status, Stop, Work};
+pub use energy::{Budget, Closure, EnergyBalance, EnergyTable};
 pub use passages::Passage;
 pub(crate) use passages::{doubts as passage_doubts, of as passages};
 
@@ -92,19 +92,18 @@ pub struct SpringResult {
 }
 
 /// Events of interfaces.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Events {
-    /// Slip rate above which an event begins \[m/s\].
-    pub above: f64,
-    /// Slip rate below which it ends \[m/s\].
-    pub below: f64,
+    /// Slip rates that begin and end events.
+    pub thresholds: Thresholds,
     /// Events of all interfaces together, detected by the fastest point of all.
+    #[serde(rename = "events")]
     pub all: Vec<Entry>,
     /// Onset of an event in progress at the end \[s\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub under_way: Option<f64>,
     /// Catalogue of each interface, if there are several.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(rename = "catalogues", skip_serializing_if = "Vec::is_empty")]
     pub interfaces: Vec<FaultEvents>,
 }
 
@@ -118,13 +117,12 @@ impl Events {
         };
         let under_way = |source: usize| catalogue.under_way(source).map(|e| e.onset.seconds());
         let of_interface = |(points, source): (&Range<usize>, usize)| FaultEvents {
-            fault: plan.ground[points.start].0.clone(),
+            surface: plan.ground[points.start].0.clone(),
             events: entries(source, points),
             under_way: under_way(source),
         };
         Self {
-            above: plan.thresholds.on,
-            below: plan.thresholds.off,
+            thresholds: plan.thresholds,
             all: entries(ALL, &(0..plan.ground.len())),
             under_way: under_way(ALL),
             interfaces: plan.points.iter().zip(1..catalogue.sources()).map(of_interface).collect(),
@@ -141,7 +139,7 @@ pub struct RunReport {
     pub checks: Checks,
     /// Outcome.
     pub outcome: Outcome,
-    /// Warnings about results outside the assumptions of the model; those about the scene are in the plan.
+    /// Warnings about results outside the assumptions of the model; in the file, those of the plan precede them.
     pub warnings: Vec<Warning>,
     /// Results per interface and stage.
     pub results: Vec<InterfaceResult>,
@@ -153,7 +151,7 @@ pub struct RunReport {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub springs: Vec<SpringResult>,
     /// Events of interfaces, if the scene asks for them.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(flatten)]
     pub events: Option<Events>,
     /// Balance of contact forces at the end.
     pub balance: Vec<InterfaceBalance>,

@@ -331,7 +331,8 @@ impl<const D: usize> Running<'_, D> {
         if plan.problem.mass.is_none() {
             warnings.extend(run_doubts::never_closed(&results));
         }
-        let energy = system.energy().map(|energy| work.energy.closure(energy));
+        let unit = views::energy_unit(plan);
+        let energy = system.energy().map(|energy| work.energy.closure(energy, unit));
         warnings.extend(energy.and_then(|energy| energy.doubt()));
         let passages = report::passages(system.episodes());
         warnings.extend(report::passage_doubts(&passages));

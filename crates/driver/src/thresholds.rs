@@ -13,6 +13,10 @@ const ENDS: f64 = 0.1;
 /// plates, which slide on after them.
 const SLOW_ENDS: f64 = 0.5;
 
+/// Default slip rate at which a point has ruptured \[m/s\], that of the benchmarks of spontaneous rupture; not below that at which
+/// events begin.
+pub const RUPTURED: f64 = 1e-3;
+
 /// Slip rates that begin and end slow events, if a scene asks for them.
 #[must_use]
 pub fn slow(events: Option<&EventSpec>) -> Option<Thresholds> {

@@ -71,7 +71,7 @@ pub fn setup<const D: usize>(plan: &Plan<D>, areas: &[Vec<f64>]) -> Setup {
 pub fn energy(energy: &mechanics::Energy) -> EnergyParts {
     EnergyParts {
         kinetic: energy.kinetic,
-        strain: energy.strain,
+        elastic: energy.strain,
         contact: energy.contact,
         springs: energy.springs,
         plastic: energy.plastic,
@@ -83,11 +83,13 @@ pub fn energy(energy: &mechanics::Energy) -> EnergyParts {
         loads: energy.loads,
         motions: energy.motions,
         missing: energy.missing(),
+        ..EnergyParts::default()
     }
 }
 
 /// Unit of energies.
-fn energy_unit<const D: usize>(plan: &Plan<D>) -> &'static str {
+#[must_use]
+pub fn energy_unit<const D: usize>(plan: &Plan<D>) -> &'static str {
     match force_unit(plan) {
         "N/m" => "J/m",
         _ => "J",

@@ -215,7 +215,7 @@ impl Files {
             file.push(&row(force))?;
         }
         if let (Some(file), Some(energy)) = (&mut self.energy, &view.energy) {
-            file.push(&row(&energy.named().map(|(_, value)| value)))?;
+            file.push(&table::energy_row(view.record.time, view.record.stage, view.record.step, energy))?;
         }
         if let Some(file) = &mut self.rates {
             let largest = |fields: &InterfaceFields| {

@@ -24,7 +24,7 @@ mod sampled;
 mod schedule;
 pub mod seas;
 pub mod seismogram;
-mod table;
+pub mod table;
 #[cfg(test)]
 mod tests;
 pub mod view;

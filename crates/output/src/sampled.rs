@@ -1,9 +1,8 @@
-//! Histories of points of bodies, of forces on sets and of springs in runs whose rows have a time alone, as CSV.
+//! Histories of points of bodies, of forces on sets and of springs in runs that write them by change, as CSV.
 
 use super::names::stems;
-use super::table::{POINT, force_columns, number, point_values, spring_columns};
+use super::table::{POINT, WHEN, force_columns, number, point_values, spring_columns};
 use super::view::{ForceMark, PointMark, Samples, SpringMark};
-use std::iter::once;
 
 /// Points, sets and springs that are sampled.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -35,18 +34,18 @@ impl Sampled {
             ),
         ];
         let of = |(folder, names, columns): (&str, Vec<&str>, Vec<String>)| {
-            let head = line(once("time [s]".to_string()).chain(columns));
+            let head = line(WHEN.iter().map(ToString::to_string).chain(columns));
             let file = |stem: String| (format!("{folder}/{stem}.csv"), head.clone());
             stems(names.into_iter()).into_iter().map(file).collect::<Vec<_>>()
         };
         all.into_iter().flat_map(of).collect()
     }
 
-    /// Row of each file at a time \[s\].
+    /// Row of each file at a time \[s\] of a stage, after a number of steps.
     #[must_use]
-    pub fn rows(&self, time: f64, samples: &Samples) -> Vec<String> {
-        let row =
-            |values: &[f64]| line(once(format!("{time:.14e}")).chain(values.iter().map(|&v| number(v))));
+    pub fn rows(&self, (time, stage, step): (f64, usize, u64), samples: &Samples) -> Vec<String> {
+        let when = || [format!("{time:.14e}"), stage.to_string(), step.to_string()].into_iter();
+        let row = |values: &[f64]| line(when().chain(values.iter().map(|&v| number(v))));
         let points = samples.points.iter().map(|p| row(&point_values(p)));
         let forces = samples.forces.iter().map(|f| row(f));
         let springs = samples.springs.iter().map(|s| {

@@ -144,12 +144,19 @@ pub(super) fn force_header(unit: &str) -> Vec<u8> {
     rows.bytes()
 }
 
-/// Header of an energy budget in this unit.
-pub(super) fn energy_header(unit: &str) -> Vec<u8> {
+/// Header of an energy budget in this unit, in every kind of run.
+#[must_use]
+pub fn energy_header(unit: &str) -> Vec<u8> {
     let mut rows = Rows::default();
     let columns = EnergyParts::default().named().map(|(name, _)| format!("{name} [{unit}]"));
     rows.push(WHEN.iter().map(ToString::to_string).chain(columns));
     rows.bytes()
+}
+
+/// Row of an energy budget.
+#[must_use]
+pub fn energy_row(time: f64, stage: usize, step: usize, energy: &EnergyParts) -> Vec<u8> {
+    history_row(time, stage, step, &energy.named().map(|(_, value)| value))
 }
 
 /// Header of the largest slip rates of interfaces.
@@ -181,7 +188,7 @@ pub(super) fn point_values(point: &PointValues) -> Vec<f64> {
 }
 
 /// First columns of a history.
-const WHEN: [&str; 3] = ["time [s]", "stage", "step"];
+pub(super) const WHEN: [&str; 3] = ["time [s]", "stage", "step"];
 
 /// CSV rows in memory.
 struct Rows(csv::Writer<Vec<u8>>);

@@ -232,7 +232,7 @@ pub struct EnergyParts {
     /// Kinetic energy.
     pub kinetic: f64,
     /// Elastic energy of the bodies.
-    pub strain: f64,
+    pub elastic: f64,
     /// Elastic energy of the penalties of the interfaces.
     pub contact: f64,
     /// Elastic energy of the springs of load points.
@@ -245,6 +245,8 @@ pub struct EnergyParts {
     pub friction: f64,
     /// Energy dissipated by the time integration.
     pub numerical: f64,
+    /// Energy carried away through absorbing sides.
+    pub absorbed: f64,
     /// Energy lost where bodies gain and lose their inertia.
     pub handover: f64,
     /// Energy at the start.
@@ -253,6 +255,8 @@ pub struct EnergyParts {
     pub loads: f64,
     /// Work of prescribed motions and of load points.
     pub motions: f64,
+    /// Work that the initial and imposed tractions of faults release.
+    pub released: f64,
     /// Energy by which the budget does not close.
     pub missing: f64,
 }
@@ -260,20 +264,22 @@ pub struct EnergyParts {
 impl EnergyParts {
     /// Names and values of the parts, in the order of the columns of files.
     #[must_use]
-    pub fn named(&self) -> [(&'static str, f64); 13] {
+    pub fn named(&self) -> [(&'static str, f64); 15] {
         [
             ("kinetic", self.kinetic),
-            ("strain", self.strain),
+            ("elastic", self.elastic),
             ("contact", self.contact),
             ("springs", self.springs),
             ("plastic", self.plastic),
             ("viscous", self.viscous),
             ("friction", self.friction),
             ("numerical", self.numerical),
+            ("absorbed", self.absorbed),
             ("handover", self.handover),
             ("start", self.start),
             ("loads", self.loads),
             ("motions", self.motions),
+            ("released", self.released),
             ("missing", self.missing),
         ]
     }

@@ -85,6 +85,19 @@ impl<'a> Array<'a> {
     }
 }
 
+/// VTK cell type of a face with this many nodes, in the order of its element; a polygon of corners if none has as many.
+#[must_use]
+pub fn face_type(nodes: usize) -> u8 {
+    match nodes {
+        3 => 5,
+        4 => 9,
+        6 => 22,
+        8 => 23,
+        9 => 28,
+        _ => 7,
+    }
+}
+
 /// Part of a file that does not change with time: points and cells, encoded once.
 #[derive(Clone, Debug)]
 pub struct Grid {

@@ -659,7 +659,7 @@ pub struct Output {
     pub seismograms: BTreeMap<String, Spanned<PointSpec>>,
     /// Explicit: time between rows of seismograms, stations, energies and moment rate; default 1/1000 of the run \[s\].
     pub sampling: Option<Spanned<Time>>,
-    /// Slip rate at which a point has ruptured; default `"0.1 m/s"`, explicit `"1 mm/s"` \[m/s\].
+    /// Slip rate at which a point has ruptured; default `"1 mm/s"` \[m/s\].
     pub rupture_rate: Option<Spanned<Velocity>>,
     /// Largest number of events with files of their own in `events`; 0 for none, default 20.
     pub event_files: Option<Spanned<usize>>,

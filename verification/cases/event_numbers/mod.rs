@@ -108,7 +108,7 @@ fn pairs(ledger: &mut Ledger) -> Result<(), CaseError> {
         .cost(&done.cost)
         .record();
     // The catalogue of its own fault excludes the creep of the other.
-    let own = done.report.faults.iter().find(|f| f.fault == "rupture").and_then(|f| f.events.first());
+    let own = done.report.faults.iter().find(|f| f.surface == "rupture").and_then(|f| f.events.first());
     let magnitude = own.and_then(|e| e.located.as_ref()?.magnitude).ok_or("no magnitude")?;
     for (found, place) in [(of("magnitude")?, " in the table of events"), (magnitude, " on 60 km of fault")] {
         ledger
@@ -128,7 +128,7 @@ fn pairs(ledger: &mut Ledger) -> Result<(), CaseError> {
 /// Claims hypocentre and slip of the uniform event.
 fn nucleates(ledger: &mut Ledger, done: &Written) -> Result<(), CaseError> {
     let events = done.files.table("events.csv")?;
-    let on_its_fault = events.words("fault")? == ["rupture"] && events.only("y")? >= -3e3 - 1e-6;
+    let on_its_fault = events.words("surface")? == ["rupture"] && events.only("y")? >= -3e3 - 1e-6;
     ledger
         .claim("events of the pair that weakens whose hypocentre lies on the other pair")
         .count(u64::from(!on_its_fault), 0)
@@ -410,7 +410,7 @@ fn moment_rates(ledger: &mut Ledger, done: &Written, sums: &Sums, end: f64) -> R
     Ok(())
 }
 
-/// Slip rate at which a point has ruptured \[m/s\]: the default.
+/// Slip rate at which a point has ruptured \[m/s\], as the scene gives it.
 const RUPTURED: f64 = 0.1;
 
 /// Claims the rupture times and the largest slip rates of the points.

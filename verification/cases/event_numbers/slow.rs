@@ -64,7 +64,7 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     let done = Written::of(&scene())?;
     let table = done.files.table("slow_events.csv")?;
     let fast = done.files.table("events.csv")?.column("onset")?;
-    let of_drawn = table.words("fault")?.iter().filter(|name| **name == "drawn").count();
+    let of_drawn = table.words("surface")?.iter().filter(|name| **name == "drawn").count();
     let off = [fast.len().abs_diff(1), table.numbers().len().abs_diff(2), of_drawn.abs_diff(2)];
     ledger
         .claim("slow events of a pair that is drawn in two slow pulses and a fast one beside a pair that creeps: events, slow events, and those on its fault, differences from one, two and two")

@@ -107,7 +107,7 @@ fn error(run: &Waves) -> Result<f64, CaseError> {
     let largest = 2.0 * TRACTION * growth(END, 1.0);
     let off = |row: &Vec<f64>| {
         let exact = 2.0 * TRACTION * growth(row[0], 1.0);
-        row[1..].iter().map(|v| (v - exact).abs()).fold(0.0, f64::max)
+        row[1..].iter().map(|v| (10_f64.powf(*v) - exact).abs()).fold(0.0, f64::max)
     };
     if rows.len() != ROWS + 1 {
         return Err(format!("{} profiles, and not {}", rows.len(), ROWS + 1).into());

@@ -206,11 +206,11 @@ fn on_its_interface(ledger: &mut Ledger, done: &Done, event: &Entry) -> Result<(
     let [x, y, _] = event.hypocentre;
     let apart = &done.report.events.as_ref().ok_or("the scene has no events")?.interfaces;
     let counts = apart.iter().map(|of| {
-        let own = of.events.iter().filter(|event| event.fault == of.fault).count();
-        own.abs_diff(usize::from(of.fault == "fault")) + of.events.len() - own
+        let own = of.events.iter().filter(|event| event.surface == of.surface).count();
+        own.abs_diff(usize::from(of.surface == "fault")) + of.events.len() - own
     });
     let off = [
-        usize::from(event.fault != "fault"),
+        usize::from(event.surface != "fault"),
         usize::from(!(0.0..=WIDTH).contains(&x) || y != 0.0),
         apart.len().abs_diff(2),
         counts.sum(),

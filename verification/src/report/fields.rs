@@ -87,7 +87,7 @@ pub const PLOTS: [(&str, &str, &str, &str); 21] = [
 const MAP: &str = "Slip rate through time";
 
 /// Cases whose subject is not a field, and why.
-pub const WITHOUT: [(&str, &str); 6] = [
+pub const WITHOUT: [(&str, &str); 7] = [
     (
         "absence",
         "instructions and bytes of runs are counted here; the fields of these scenes stand on the pages of their cases",
@@ -96,6 +96,7 @@ pub const WITHOUT: [(&str, &str); 6] = [
         "output_files",
         "files are compared number by number; the fields they hold stand on the pages of other cases",
     ),
+    ("kinds_agree", "runs of four kinds are compared at their ends, where slip and stress are uniform"),
     ("contact_pairing", "the partner of a single point is followed, and no field is computed"),
     ("explicit_files", "files are compared number by number; waves stand on the pages of other cases"),
     ("stabilised_steps", "a row of equations is integrated, which has no mesh"),

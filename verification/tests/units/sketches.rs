@@ -1,5 +1,5 @@
 /// Cases of many problems, or of files.
-const WITHOUT: [&str; 12] = [
+const WITHOUT: [&str; 13] = [
     "absence",
     "contact_pairing",
     "elastic_waves",
@@ -7,6 +7,7 @@ const WITHOUT: [&str; 12] = [
     "explicit_files",
     "explicit_materials",
     "implicit_dynamics",
+    "kinds_agree",
     "newton_convergence",
     "output_files",
     "restarts",

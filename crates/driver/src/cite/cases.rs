@@ -1,7 +1,7 @@
 //! Literature of the cases of the verification suite. A test of the suite compares it with their pages.
 
 /// Cases and the keys of their literature.
-const CASES: [(&str, &[&str]); 120] = [
+const CASES: [(&str, &[&str]); 121] = [
     ("absence", &["weidendorfer2004"]),
     ("antiplane", &["nehari1952", "strang1973", "timoshenko1970"]),
     ("block_dragged", &["codeaster"]),
@@ -79,6 +79,7 @@ const CASES: [(&str, &[&str]); 120] = [
     ("interface_prestress", &["jaeger2007"]),
     ("interface_rate_state", &["dieterich1979", "ruina1983", "hairer1993"]),
     ("jaumann_shear", &["dienes1979", "hugheswinget1980", "nagtegaal1982", "simo1998"]),
+    ("kinds_agree", &["rice1993"]),
     ("kostrov_crack", &["kostrov1964"]),
     ("lame_cylinder", &["timoshenko1970", "ciarlet1978"]),
     ("large_rotation", &["hugheswinget1980", "rubinstein1983"]),

@@ -4,7 +4,7 @@ use super::directory::Directory;
 use super::end::End;
 use super::pausing::Pausing;
 use super::read::Ready;
-use super::work::{draws_again, end, found, nothing_to_resume, pauses, written};
+use super::work::{draws_again, end, found, nothing_to_resume, pauses, resumed, written};
 use crate::checkpoint;
 use crate::dynamic::{self, AnyPlan, Keeper, Plan};
 use crate::report::Status;
@@ -34,14 +34,14 @@ fn run_in<const D: usize>(
     pausing: &Pausing,
 ) -> miette::Result<End> {
     let (path, physics, pauses) = (directory.path().to_path_buf(), &ready.physics, pauses(pausing)?);
-    let resumed = match pausing.resume {
+    let kept = match pausing.resume {
         true => Keeper::resume(&path, plan, physics, drawn, pauses.clone()).into_diagnostic()?,
         false => None,
     };
-    let (mut keeper, from) = match resumed {
+    let (mut keeper, from) = match kept {
         Some((keeper, state)) => {
             draws_again(drawn, keeper.draws());
-            out(format_args!("resumed from the checkpoint\n"));
+            resumed(state.time(), state.steps());
             (keeper, Some(state))
         }
         None => {
@@ -71,5 +71,5 @@ fn run_in<const D: usize>(
     out(format_args!("{}", report.text()));
     found(&doubts);
     written(directory);
-    Ok(end(report.outcome, Some(report.steps)))
+    Ok(end(report.outcome, Some(ended.steps)))
 }

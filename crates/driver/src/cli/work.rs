@@ -19,6 +19,7 @@ use asperity_output::plots::{self, Asked, EventPanel, PanelEvent, Sheet};
 use asperity_output::printing::{self, Form, out};
 use asperity_output::{FieldSchedule, Files, OutputError, Recorder, atomic, stems};
 use miette::IntoDiagnostic;
+use std::fmt::Display;
 use std::path::Path;
 use std::time::Instant;
 
@@ -50,12 +51,14 @@ pub(super) fn run_bodies(
         write_catalogues(directory.path(), &events.all, &events.interfaces).into_diagnostic()?;
     }
     report.seconds.output += clock.elapsed().as_secs_f64();
+    let found = report.warnings.clone();
+    report.warnings.splice(0..0, plan.summary().warnings.iter().cloned());
     directory.write(&report)?;
     print::results(&report);
     written(directory);
     let shown =
         |warning: &Warning| printing::form() != Form::Plain && plan.summary().warnings.contains(warning);
-    for warning in report.warnings.iter().filter(|warning| !shown(warning)) {
+    for warning in found.iter().filter(|warning| !shown(warning)) {
         printing::warning(&warning.to_string());
     }
     Ok(end(report.outcome, Some(report.counts.steps)))
@@ -110,7 +113,7 @@ fn kept(
     };
     draws_again(drawn, read.draws());
     let (kept, stand) = run::Kept::resume(path, read, files, drawn, pauses);
-    out(format_args!("resumed at {:.6e} s, step {}\n", stand.time(), stand.steps()));
+    resumed(stand.time(), stand.steps());
     Ok((kept, Some(stand)))
 }
 
@@ -119,6 +122,11 @@ pub(super) fn draws_again(asked: bool, begun_with: bool) {
     if asked && !begun_with {
         out(format_args!("no plots: the run was begun with --no-plots\n"));
     }
+}
+
+/// Says from where a run goes on.
+pub(super) fn resumed(time: f64, step: impl Display) {
+    out(format_args!("resumed at {time:.6e} s, step {step}\n"));
 }
 
 pub(super) fn nothing_to_resume(path: &Path) {
@@ -178,7 +186,7 @@ pub(super) fn run_sliders(
         .into_diagnostic()?;
     if problem.events.is_some() {
         lines::events(&report.events);
-        let events = slider::csv(&report.events, &problem.names);
+        let events = slider::csv(&report.events);
         atomic::write(&directory.path().join("events.csv"), events.as_bytes()).into_diagnostic()?;
     }
     report.seconds.output = clock.elapsed().as_secs_f64();
@@ -202,7 +210,7 @@ fn slider_keeper(
         match slider::Keeper::resume(path, problem, physics, pauses.clone()).into_diagnostic()? {
             Some((keeper, run)) => {
                 draws_again(drawn, keeper.draws());
-                out(format_args!("resumed at {:.6e} s, step {}\n", run.at.seconds(), run.counts.steps));
+                resumed(run.at.seconds(), run.counts.steps);
                 return Ok((keeper, run));
             }
             None => nothing_to_resume(path),
@@ -270,7 +278,7 @@ fn keeper<'a>(
     if resume {
         match fault::Keeper::resume(path, plan, physics, pauses.clone()).into_diagnostic()? {
             Some((keeper, run)) => {
-                out(format_args!("resumed at {:.6e} s, step {}\n", run.at.seconds(), run.counts.steps));
+                resumed(run.at.seconds(), run.counts.steps);
                 return Ok((keeper, run));
             }
             None => {
@@ -320,7 +328,7 @@ fn panel(plan: &fault::Plan, report: &fault::Report) -> EventPanel {
 fn write_catalogues(path: &Path, all: &[Entry], apart: &[FaultEvents]) -> Result<(), OutputError> {
     let write = |name: &str, events| atomic::write(&path.join(name), catalogue::csv(events).as_bytes());
     write("events.csv", all)?;
-    let names = stems(apart.iter().map(|f| f.fault.as_str()));
+    let names = stems(apart.iter().map(|f| f.surface.as_str()));
     let mut each = names.iter().zip(apart);
     each.try_for_each(|(name, fault)| write(&format!("events_{name}.csv"), &fault.events))
 }

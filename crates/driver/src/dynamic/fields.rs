@@ -4,7 +4,7 @@ use super::moment::Moment;
 use super::plan::Plan;
 use crate::fault::FaultView;
 use asperity_mechanics::dynamics::FaultState;
-use asperity_output::vtu::{Array, Grid, PvdEntry, Values, pvd};
+use asperity_output::vtu::{Array, Grid, PvdEntry, Values, face_type, pvd};
 use asperity_output::{OutputError, atomic};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -37,18 +37,9 @@ fn vectors(values: &[f64], axes: &[usize]) -> Vec<[f64; 3]> {
     values.chunks_exact(axes.len()).map(one).collect()
 }
 
-/// VTK cell type of a face with this many nodes; the order of nodes is that of the elements.
-fn face(nodes: usize) -> u8 {
-    match nodes {
-        3 => 5,
-        4 => 9,
-        _ => 28,
-    }
-}
-
 fn grid<const D: usize>(plan: &Plan<D>, fault: &FaultView) -> Grid {
     let places: Vec<[f64; 3]> = plan.points[fault.points.clone()].iter().map(|p| p.at).collect();
-    let cells: Vec<(u8, Vec<usize>)> = fault.faces.iter().map(|f| (face(f.len()), f.clone())).collect();
+    let cells: Vec<(u8, Vec<usize>)> = fault.faces.iter().map(|f| (face_type(f.len()), f.clone())).collect();
     Grid::new(&places, &cells)
 }
 

@@ -7,6 +7,7 @@ use crate::fault::FaultView;
 use crate::fault::compass::Compass;
 use crate::fault::shape::shape;
 use asperity_output::plots::{Curves, Fault, Measure, Plot, Points, Seen, Sheet, Velocities, short};
+use asperity_output::view::EnergyParts;
 
 /// Figures of a run up to a time \[s\].
 pub(super) fn sheet<const D: usize>(plan: &Plan<D>, end: f64, arrivals: &Arrivals, taken: &Taken) -> Sheet {
@@ -65,8 +66,11 @@ fn curves<const D: usize>(plan: &Plan<D>) -> Vec<Curves> {
             pairs: false,
         }
     };
-    let parts = ["kinetic", "elastic", "viscous", "friction", "absorbed", "loads", "released"];
-    let parts = parts.iter().enumerate().map(|(k, part)| ((*part).to_string(), 1 + k)).collect();
+    let shown = ["kinetic", "elastic", "viscous", "friction", "absorbed", "loads", "released"];
+    let named = EnergyParts::default().named().into_iter().map(|(name, _)| name).enumerate();
+    // Time, stage and step precede them.
+    let parts =
+        named.filter(|(_, name)| shown.contains(name)).map(|(k, name)| (name.into(), 3 + k)).collect();
     // Parts that the scene does not have are left out.
     let mut all = vec![chart("energy", ("Energy", energy), parts, true)];
     if !plan.points.is_empty() {

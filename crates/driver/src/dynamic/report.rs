@@ -8,7 +8,7 @@ use super::tables::moments_of;
 use crate::checks::Checks;
 use crate::fault::{FaultView, Resolution};
 use crate::outrun;
-use crate::report::{Kind, Outcome, Phases, Results, Stop};
+use crate::report::{EnergyTable, Kind, Outcome, Phases, Results, Stop, Work};
 use crate::warning::Warning;
 use asperity_mechanics::coordinates;
 use asperity_mechanics::dynamics::{Budget, Halt};
@@ -56,38 +56,31 @@ pub struct Pace {
 
 /// Energy budget at the end.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(into = "EnergyTable")]
+#[schemars(with = "EnergyTable")]
 pub struct WaveEnergy {
-    /// Kinetic energy.
-    pub kinetic: f64,
-    /// Elastic energy of the displacements.
-    pub elastic: f64,
-    /// Dissipated by viscosity.
-    pub viscous: f64,
-    /// Dissipated by friction.
-    pub friction: f64,
-    /// Carried away through absorbing sides.
-    pub absorbed: f64,
-    /// Work of loads and prescribed motions.
-    pub loads: f64,
-    /// Work that the initial and imposed tractions of faults release.
-    pub released: f64,
+    /// Unit of energies.
+    pub unit: &'static str,
+    /// Energy budget.
+    pub parts: Budget,
     /// Amount missing in the balance, over the largest part \[-\].
     pub imbalance: f64,
 }
 
-impl From<&Budget> for WaveEnergy {
-    fn from(b: &Budget) -> Self {
-        let largest = b.largest();
-        Self {
-            kinetic: b.kinetic,
-            elastic: b.elastic,
-            viscous: b.viscous,
-            friction: b.friction,
-            absorbed: b.absorbed,
-            loads: b.loads,
-            released: b.released,
-            imbalance: if largest > 0.0 { b.missing().abs() / largest } else { 0.0 },
-        }
+impl WaveEnergy {
+    fn new(unit: &'static str, parts: Budget) -> Self {
+        let largest = parts.largest();
+        let imbalance = if largest > 0.0 { parts.missing().abs() / largest } else { 0.0 };
+        Self { unit, parts, imbalance }
+    }
+}
+
+impl From<WaveEnergy> for EnergyTable {
+    fn from(WaveEnergy { unit, parts: e, imbalance }: WaveEnergy) -> Self {
+        let kept = [("kinetic", e.kinetic), ("elastic", e.elastic)];
+        let lost = [("viscous", e.viscous), ("friction", e.friction), ("absorbed", e.absorbed)];
+        let given = [("start", e.initial), ("loads", e.loads), ("released", e.released)];
+        Self::new(unit, (kept, lost, given), (e.missing(), imbalance))
     }
 }
 
@@ -104,8 +97,6 @@ pub struct Report {
     pub checks: Checks,
     /// Time at the end \[s\].
     pub end: f64,
-    /// Steps taken.
-    pub steps: usize,
     /// Length of a step \[s\].
     pub step: f64,
     /// Largest stable step \[s\].
@@ -116,10 +107,10 @@ pub struct Report {
     pub dofs: usize,
     /// Ruptures of the faults.
     pub ruptures: Vec<FaultRupture>,
-    /// Unit of energies.
-    pub unit: &'static str,
     /// Energy budget at the end.
     pub energy: WaveEnergy,
+    /// Work.
+    pub counts: Work,
     /// Wall time.
     #[serde(skip)]
     pub seconds: Phases,
@@ -150,7 +141,6 @@ impl Report {
             resolution: plan.resolution.clone(),
             checks: plan.checks.clone(),
             end: ended.time,
-            steps: ended.steps,
             step: plan.dt,
             stable_step: plan.stable.step,
             stable_at: plan.stiffest.to_vec(),
@@ -161,8 +151,8 @@ impl Report {
                 .enumerate()
                 .map(|(k, f)| rupture(plan, (k, f), ended, arrivals))
                 .collect(),
-            unit: if plan.per_length { "J/m" } else { "J" },
-            energy: (&ended.budget).into(),
+            energy: WaveEnergy::new(if plan.per_length { "J/m" } else { "J" }, ended.budget),
+            counts: Work { steps: ended.steps as u64, cells: Some(plan.cells()), ..Work::default() },
             seconds: Phases { set_up: ended.set_up, ..Phases::default() },
             pace: Pace {
                 cells: plan.cells(),
@@ -190,25 +180,17 @@ impl Report {
                 r.moment
             );
         }
-        let e = &self.energy;
+        let WaveEnergy { unit, parts: e, imbalance } = &self.energy;
         let _ = writeln!(
             text,
-            "  energy [{}]: kinetic {:.4e}, elastic {:.4e}, viscous {:.4e}, friction {:.4e}, absorbed {:.4e}, loads {:.4e}, released {:.4e}; imbalance {:.1e}",
-            self.unit,
-            e.kinetic,
-            e.elastic,
-            e.viscous,
-            e.friction,
-            e.absorbed,
-            e.loads,
-            e.released,
-            e.imbalance
+            "  energy [{unit}]: kinetic {:.4e}, elastic {:.4e}, viscous {:.4e}, friction {:.4e}, absorbed {:.4e}, loads {:.4e}, released {:.4e}; imbalance {imbalance:.1e}",
+            e.kinetic, e.elastic, e.viscous, e.friction, e.absorbed, e.loads, e.released
         );
         let s = &self.seconds;
         let _ = writeln!(
             text,
             "  {} steps; seconds: plan {:.2}, set-up {:.2}, steps {:.2}, output {:.2}",
-            self.steps, s.plan, s.set_up, s.steps, s.output
+            self.counts.steps, s.plan, s.set_up, s.steps, s.output
         );
         let Pace { cells, steps, share: (share, reason) } = &self.pace;
         let _ = writeln!(

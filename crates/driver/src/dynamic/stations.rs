@@ -2,8 +2,8 @@
 
 use super::moment::Moment;
 use super::plan::Plan;
-use crate::fault::Station;
 use crate::fault::cadence::NO_RATE;
+use crate::fault::{Station, stations};
 use asperity_output::seas::{Head, Row};
 
 /// A station: its file name, header and point.
@@ -17,9 +17,8 @@ pub(super) struct Stationed {
 pub(super) fn all<const D: usize>(plan: &Plan<D>) -> Vec<Stationed> {
     let mut all = Vec::new();
     for fault in &plan.faults {
-        for (k, (asked, point)) in fault.stations.iter().enumerate() {
-            let (name, head) = (format!("{}_{k:03}", fault.name), head(plan, &fault.name, asked, *point));
-            all.push(Stationed { name, head, point: *point });
+        for (name, (asked, point)) in stations::names(fault).into_iter().zip(&fault.stations) {
+            all.push(Stationed { name, head: head(plan, &fault.name, asked, *point), point: *point });
         }
     }
     all

@@ -3,9 +3,11 @@
 use super::moment::{Moment, size};
 use super::plan::Plan;
 use super::stations::{self, Stationed};
+use crate::fault::cadence::log_rate;
 use asperity_mechanics::dynamics::Budget;
 use asperity_output::decimals::{scientific, shortest};
-use asperity_output::{Growing, OutputError, seismogram};
+use asperity_output::view::EnergyParts;
+use asperity_output::{Growing, OutputError, seismogram, table};
 use std::path::{Path, PathBuf};
 
 /// Decimals of numbers in tables other than seismograms.
@@ -18,24 +20,22 @@ pub(super) struct Tables {
 }
 
 /// Name and header of energies.
-fn energies<const D: usize>(plan: &Plan<D>) -> (String, String) {
-    let unit = if plan.per_length { "J/m" } else { "J" };
-    let parts = ["kinetic", "elastic", "viscous", "friction", "absorbed", "loads", "released", "missing"];
-    let columns: String = parts.iter().map(|part| format!(",{part} [{unit}]")).collect();
-    ("energy.csv".into(), format!("time [s]{columns}\n"))
+fn energies<const D: usize>(plan: &Plan<D>) -> (String, Vec<u8>) {
+    ("energy.csv".into(), table::energy_header(if plan.per_length { "J/m" } else { "J" }))
 }
 
 /// Name and header of the moment rate.
-fn moments<const D: usize>(plan: &Plan<D>) -> (String, String) {
+fn moments<const D: usize>(plan: &Plan<D>) -> (String, Vec<u8>) {
     let unit = if plan.per_length { "N" } else { "N m" };
     let columns = |f: &crate::fault::FaultView| {
         format!(",moment_rate of {0} [{unit}/s],moment of {0} [{unit}]", f.name)
     };
-    ("moment_rate.csv".into(), format!("time [s]{}\n", plan.faults.iter().map(columns).collect::<String>()))
+    let head = format!("time [s]{}\n", plan.faults.iter().map(columns).collect::<String>());
+    ("moment_rate.csv".into(), head.into())
 }
 
 /// Names and headers of all tables.
-fn heads<const D: usize>(plan: &Plan<D>, stations: &[Stationed]) -> Vec<(String, String)> {
+fn heads<const D: usize>(plan: &Plan<D>, stations: &[Stationed]) -> Vec<(String, Vec<u8>)> {
     let mut heads = vec![energies(plan)];
     if !plan.points.is_empty() {
         heads.push(moments(plan));
@@ -43,11 +43,11 @@ fn heads<const D: usize>(plan: &Plan<D>, stations: &[Stationed]) -> Vec<(String,
             if D == 2 { shortest(p.along) } else { p.at.map(shortest).join(" ") }
         };
         let columns: String = plan.points.iter().map(|p| format!(",{}", place(p))).collect();
-        heads.push(("rate_profiles.csv".into(), format!("time [s]{columns}\n")));
-        heads.push(("slip_profiles.csv".into(), format!("time [s]{columns}\n")));
+        heads.push(("rate_profiles.csv".into(), format!("time [s]{columns}\n").into()));
+        heads.push(("slip_profiles.csv".into(), format!("time [s]{columns}\n").into()));
     }
-    heads.extend(stations.iter().map(|s| (format!("stations/{}", s.name), s.head.clone())));
-    let header = seismogram::header(&plan.axes);
+    heads.extend(stations.iter().map(|s| (format!("stations/{}", s.name), s.head.clone().into())));
+    let header = seismogram::header(&plan.axes).into_bytes();
     heads.extend(plan.receivers.iter().map(|r| (format!("seismograms/{}.csv", r.name), header.clone())));
     heads
 }
@@ -63,11 +63,11 @@ impl Tables {
         sizes: Option<&[u64]>,
     ) -> Result<Self, OutputError> {
         let stations = stations::all(plan);
-        let open = |(k, (name, head)): (usize, (String, String))| {
+        let open = |(k, (name, head)): (usize, (String, Vec<u8>))| {
             let path: PathBuf = out.join(name);
             match sizes.and_then(|s| s.get(k)) {
                 Some(&size) => Growing::reopen(path, size),
-                None => Growing::create(path, head.as_bytes()),
+                None => Growing::create(path, &head),
             }
         };
         let files = heads(plan, &stations).into_iter().enumerate().map(open).collect::<Result<_, _>>()?;
@@ -95,13 +95,15 @@ impl Tables {
         let mut first = 1;
         if !plan.points.is_empty() {
             if now.step.is_multiple_of(plan.cadence.profiles) {
-                self.files[2].push(profile(now.time, &now.fault.rate, plan.points.len()).as_bytes())?;
-                self.files[3].push(profile(now.time, &now.fault.slip, plan.points.len()).as_bytes())?;
+                let profile = |values, of: fn(f64) -> f64| profile(now.time, values, plan.points.len(), of);
+                self.files[2].push(profile(&now.fault.rate, log_rate).as_bytes())?;
+                self.files[3].push(profile(&now.fault.slip, |slip| slip).as_bytes())?;
             }
             first = 4;
         }
         let Some(budget) = &now.budget else { return Ok(()) };
-        self.files[0].push(energy(budget).as_bytes())?;
+        // There is one stage.
+        self.files[0].push(&table::energy_row(now.time, 0, now.step, &energy(budget)))?;
         if first > 1 {
             self.files[1].push(moment(plan, now).as_bytes())?;
         }
@@ -123,9 +125,20 @@ fn line(time: f64, values: impl Iterator<Item = f64>) -> String {
     text
 }
 
-fn energy(b: &Budget) -> String {
-    let parts = [b.kinetic, b.elastic, b.viscous, b.friction, b.absorbed, b.loads, b.released, b.missing()];
-    line(b.time, parts.into_iter())
+/// An energy budget in the form of all tables.
+fn energy(b: &Budget) -> EnergyParts {
+    EnergyParts {
+        kinetic: b.kinetic,
+        elastic: b.elastic,
+        viscous: b.viscous,
+        friction: b.friction,
+        absorbed: b.absorbed,
+        start: b.initial,
+        loads: b.loads,
+        released: b.released,
+        missing: b.missing(),
+        ..EnergyParts::default()
+    }
 }
 
 /// Rate and sum of ∫ G slip dA of each fault.
@@ -140,10 +153,10 @@ fn moment<const D: usize>(plan: &Plan<D>, now: &Moment<'_>) -> String {
     line(now.time, rates.into_iter().zip(sums).flat_map(|(rate, sum)| [rate, sum]))
 }
 
-/// Row of a profile: values with a sign in the plane, magnitudes of vectors.
-fn profile(time: f64, values: &[f64], points: usize) -> String {
+/// Row of a profile: `of` values with a sign in the plane, and of magnitudes of vectors.
+fn profile(time: f64, values: &[f64], points: usize, of: fn(f64) -> f64) -> String {
     if values.len() == points {
-        return line(time, values.iter().copied());
+        return line(time, values.iter().copied().map(of));
     }
-    line(time, (0..points).map(|p| size(values, points, p)))
+    line(time, (0..points).map(|p| of(size(values, points, p))))
 }

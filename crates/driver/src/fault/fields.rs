@@ -5,7 +5,7 @@ use super::locking;
 use super::plan::{FaultView, Outline, Plan};
 use super::states::has_theta;
 use asperity_cycles::{Components, Layout, Pressed};
-use asperity_output::vtu::{Array, Grid, Values};
+use asperity_output::vtu::{Array, Grid, Values, face_type};
 use asperity_output::{OutputError, atomic};
 use rayon::prelude::*;
 use std::path::Path;
@@ -118,13 +118,4 @@ pub(super) fn state(plan: &Plan, fault: &FaultView, y: &[f64], now: (&[f64], &Pr
         fields.push(Field::Scalar(format!("state_{}", k + 1), values));
     }
     fields
-}
-
-/// VTK cell type of a face with this many nodes; the node order is that of the elements.
-fn face_type(nodes: usize) -> u8 {
-    match nodes {
-        3 => 5,
-        4 => 9,
-        _ => 28,
-    }
 }

@@ -149,8 +149,8 @@ fn springs(plan: &Plan) -> Option<Curves> {
     let sampling = plan.sampling.as_ref().filter(|s| !s.sampled.springs.is_empty())?;
     let heads = sampling.sampled.heads();
     let first = heads.len() - sampling.sampled.springs.len();
-    // Time, load point, displacement, force and friction.
-    let points = |path: &str| Points::Table { table: path.into(), x: 1, y: 4, size: true };
+    // Time, stage, step, load point, displacement, force and friction.
+    let points = |path: &str| Points::Table { table: path.into(), x: 3, y: 6, size: true };
     let all = sampling.sampled.springs.iter().zip(&heads[first..]);
     Some(springs_curves(&plan.title, all.map(|(spring, (path, _))| (spring.name(), points(path))).collect()))
 }

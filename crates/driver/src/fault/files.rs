@@ -65,8 +65,9 @@ pub struct Files<'a> {
     general: usize,
     /// Points of the stations.
     stations: Vec<usize>,
-    /// End of the last step.
+    /// End of the last step, and the number of steps taken.
     before: Option<Clock>,
+    step: u64,
     snapshots: Option<Snapshots>,
     events: SourceTimes,
 }
@@ -92,6 +93,7 @@ impl<'a> Files<'a> {
             rows,
             stations: stations::points(plan),
             before: None,
+            step: 0,
             snapshots: Snapshots::begin(out, plan)?,
             events: SourceTimes::create(out, plan)?,
         })
@@ -117,6 +119,7 @@ impl<'a> Files<'a> {
             rows,
             stations: stations::points(plan),
             before,
+            step: from.step,
             snapshots,
             events: SourceTimes::resume(out, plan, events)?,
         })
@@ -127,7 +130,7 @@ impl<'a> Files<'a> {
     pub fn position(&self) -> Position {
         let gauges = self.rows.iter().map(|r| r.gauge).collect();
         let snapshots = self.snapshots.as_ref().map(Snapshots::taken);
-        Position { gauges, before: self.before, snapshots, events: self.events.written() }
+        Position { gauges, before: self.before, step: self.step, snapshots, events: self.events.written() }
     }
 
     /// Waits until all files are on the disc.
@@ -182,6 +185,7 @@ impl<'a> Files<'a> {
     fn write(&mut self, now: &Moment<'_>) -> Result<(), OutputError> {
         let (plan, time) = (self.plan, now.at.seconds());
         let earlier = self.before.replace(now.at);
+        self.step += u64::from(now.dt > 0.0);
         let then = now.step.as_ref().zip(earlier).map(|(step, at)| now.start_of(step, at));
         let (tables, rest) = self.rows.split_at_mut(self.general);
         let (samples, stations) = rest.split_at_mut(rest.len() - self.stations.len());
@@ -205,7 +209,7 @@ impl<'a> Files<'a> {
             let row = |now: &Moment<'_>| stations::row(plan, now, point);
             follow(rows, plan, now.speed(point), (now, then.as_ref()), &row)?;
         }
-        follow_samples(samples, plan, (now, then.as_ref()))?;
+        follow_samples(samples, plan, (now, then.as_ref()), self.step)?;
         match &mut self.snapshots {
             Some(snapshots) => match snapshots.take(plan, now)? {
                 Some(row) => tables[2].push(&row, &plan.cadence, time),
@@ -264,11 +268,15 @@ fn follow_samples(
     files: &mut [Rows],
     plan: &Plan,
     (now, then): (&Moment<'_>, Option<&Moment<'_>>),
+    step: u64,
 ) -> Result<(), OutputError> {
     let (Some(sampling), Some(view)) = (&plan.sampling, &plan.bodies) else { return Ok(()) };
-    let at = |moment: &Moment<'_>| sampling.sampled.rows(moment.at.seconds(), &sampling.at(view, moment));
-    let at_end = LazyCell::new(|| at(now));
-    let at_start = LazyCell::new(|| then.map_or_else(Vec::new, at));
+    let at = |moment: &Moment<'_>, step: u64| {
+        let when = (moment.at.seconds(), sampling.number, step);
+        sampling.sampled.rows(when, &sampling.at(view, moment))
+    };
+    let at_end = LazyCell::new(|| at(now, step));
+    let at_start = LazyCell::new(|| then.map_or_else(Vec::new, |then| at(then, step.saturating_sub(1))));
     for (k, rows) in files.iter_mut().enumerate() {
         let row = |moment: &Moment<'_>| {
             if std::ptr::eq(moment, now) { at_end[k].clone() } else { at_start[k].clone() }

@@ -11,7 +11,7 @@ use asperity_ode::{Control, ObserveError, Observer};
 use asperity_output::OutputError;
 use asperity_output::progress::{Now, Progress};
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// State at the last restart, if there was one.
 type Before = Option<Box<Stand>>;
@@ -25,8 +25,8 @@ pub struct Keeper<'a> {
     balance: Balance<'a>,
     progress: Progress,
     pauses: Pauses,
-    /// Instant of the last checkpoint.
-    written: Instant,
+    /// Instant of the last checkpoint, and the time that writing it took.
+    written: (Instant, Duration),
     steps: u64,
     /// State at the last restart.
     before: Before,
@@ -110,7 +110,7 @@ impl<'a> Keeper<'a> {
             balance,
             progress: Progress::new(out),
             pauses,
-            written: Instant::now(),
+            written: (Instant::now(), Duration::ZERO),
             steps,
             before: None,
             interrupted: None,
@@ -123,11 +123,12 @@ impl<'a> Keeper<'a> {
     }
 
     fn save(&mut self, last: Stand, before: Before) -> Result<(), OutputError> {
+        let begun = Instant::now();
         self.files.settle()?;
         let loads = identity::loads(self.plan, last.run.at.seconds());
         let (physics, end) = (self.physics.clone(), self.plan.problem.settings.end);
         Checkpoint { physics, end, loads, last, before }.write(&self.out)?;
-        self.written = Instant::now();
+        self.written = (Instant::now(), begun.elapsed());
         Ok(())
     }
 
@@ -208,7 +209,7 @@ impl Observer<Faults> for Keeper<'_> {
         self.interrupted = self.pauses.reason(true);
         let now = self.stand(run());
         self.before = Some(Box::new(now.clone()));
-        if self.interrupted.is_some() || self.written.elapsed() >= self.pauses.every {
+        if self.interrupted.is_some() || self.pauses.are_due(self.written) {
             self.save(now, None)?;
         }
         Ok(self.interrupted)

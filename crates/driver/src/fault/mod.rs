@@ -48,7 +48,7 @@ mod snapshots;
 mod source_time;
 mod states;
 mod station_figures;
-mod stations;
+pub(crate) mod stations;
 mod still_figures;
 mod stress_files;
 mod stresses;

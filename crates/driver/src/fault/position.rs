@@ -13,6 +13,9 @@ pub struct Position {
     pub(super) gauges: Vec<Gauge>,
     /// End of the last step.
     pub(super) before: Option<Clock>,
+    /// Number of steps taken.
+    #[serde(default)]
+    pub(super) step: u64,
     /// Snapshots, in 3D.
     #[serde(default)]
     pub(super) snapshots: Option<Taken>,

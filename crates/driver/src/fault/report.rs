@@ -15,11 +15,11 @@ use crate::catalogue::{Entry, FaultEvents, Scattered, Site, slipped};
 use crate::checks::Checks;
 use crate::outrun;
 use crate::report::{
-    EnergyBalance, ForceResult, Kind, Outcome, Phases, PointResult, Results, SpringResult, Stop,
+    EnergyBalance, ForceResult, Kind, Outcome, Phases, PointResult, Results, SpringResult, Stop, Work,
 };
 use crate::warning::Warning;
 use asperity_cycles::{
-    Balance, Components, Crack, Episode, Event, FaultRun, Layout, Mark, Outrun, Rupture, steady,
+    Balance, Components, Crack, Episode, Event, FaultRun, Layout, Mark, Outrun, Rupture, Thresholds, steady,
 };
 use asperity_mechanics::coordinates;
 use asperity_ode::{Failure, Outcome as Finish};
@@ -130,6 +130,11 @@ pub struct Cycle {
 /// For events that alternate in size the ratio lies between one half and two.
 const AFTERSHOCK: f64 = 0.1;
 
+/// Unit of energies.
+fn unit(plan: &Plan) -> &'static str {
+    if plan.in_space { "J" } else { "J/m" }
+}
+
 impl Cycle {
     fn new(marks: &[Mark], event: &Event<Rupture>, plan: &Plan, driven: Option<f64>) -> Self {
         let (a, b) = (&marks[0], &marks[1]);
@@ -141,7 +146,7 @@ impl Cycle {
             seismic,
             aseismic: b.potency - a.potency - seismic,
             driven: driven.map(|rate| rate * duration),
-            energy: b.energy.since(&a.energy).into(),
+            energy: EnergyBalance::new(unit(plan), b.energy.since(&a.energy)),
         }
     }
 
@@ -151,19 +156,6 @@ impl Cycle {
         let slip = self.seismic + self.aseismic;
         self.driven.filter(|driven| driven.abs() > AFTERSHOCK * slip.abs()).map(|driven| slip / driven)
     }
-}
-
-/// Work as operation counts, which do not depend on the machine.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
-pub struct Work {
-    /// Accepted steps.
-    pub steps: u64,
-    /// Rejected steps.
-    pub rejected: u64,
-    /// Evaluations of the right-hand side, each of which applies the operator once.
-    pub right_hand_sides: u64,
-    /// Points.
-    pub points: usize,
 }
 
 /// Report of a run.
@@ -195,22 +187,22 @@ pub struct Report {
     pub tolerance: f64,
     /// Time at the end \[s\].
     pub end: f64,
+    /// Slip rates that begin and end events.
+    pub thresholds: Thresholds,
     /// Events of all faults together, detected by the fastest point of all.
     pub events: Vec<Entry>,
     /// Onset of an event in progress at the end \[s\].
     pub under_way: Option<f64>,
     /// Catalogue of each fault, if there are several.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(rename = "catalogues", skip_serializing_if = "Vec::is_empty")]
     pub faults: Vec<FaultEvents>,
     /// Slow events of all faults, if the scene asks for them: none of them is part of an event of `events`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub slow_events: Option<Vec<Entry>>,
-    /// Unit of energies.
-    pub unit: &'static str,
     /// Energies up to the end.
     pub energy: EnergyBalance,
     /// Ruptures in which bodies had mass, and the errors of the hand-overs.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(rename = "passages", skip_serializing_if = "Vec::is_empty")]
     pub ruptures: Vec<Episode>,
     /// Cycles, from the end of each event to the end of the next.
     pub cycles: Vec<Cycle>,
@@ -306,7 +298,7 @@ fn in_a_line(number: usize, e: &Entry) -> String {
         e.peak_rate,
         length(e.largest_slip),
         fixed(e.stress_drop / 1e6, 3),
-        e.fault
+        e.surface
     )
 }
 
@@ -342,14 +334,14 @@ impl Report {
         let pressed = plan.problem.fault.pressed(run.at, &run.unknowns, &mut Crack::default());
         let End { points, forces, springs } = End::of(plan, run, &pressed);
         let opening = pressed.opening;
-        let energy = balance.energy(slip, &opening).into();
+        let energy = EnergyBalance::new(unit(plan), balance.energy(slip, &opening));
         let marks = balance.marks();
         let driven = if marks.len() > 1 { steady(&plan.problem) } else { None };
         let driven = driven.map(|rate| rate.iter().zip(&plan.points).map(|(v, p)| v * p.area).sum());
         let cycle = |(pair, event): (&[Mark], &Event<Rupture>)| Cycle::new(pair, event, plan, driven);
         let cycles = marks.windows(2).zip(events.iter().skip(1)).map(cycle).collect();
         let of_fault = |(fault, source): (&FaultView, usize)| FaultEvents {
-            fault: fault.name.clone(),
+            surface: fault.name.clone(),
             events: entries(plan, run.catalogue.ended(source), &fault.points),
             under_way: run.catalogue.under_way(source).map(|e| e.onset.seconds()),
         };
@@ -366,11 +358,11 @@ impl Report {
             method: plan.problem.settings.method.name().to_string(),
             tolerance: plan.problem.settings.tolerance,
             end: run.at.seconds(),
+            thresholds: plan.problem.settings.thresholds,
             events: entries(plan, events, &(0..plan.points.len())),
             under_way: run.under_way().map(|e| e.onset.seconds()),
             faults: plan.faults.iter().zip(1..run.sources()).map(of_fault).collect(),
             slow_events: slow_events(plan, run),
-            unit: if plan.in_space { "J" } else { "J/m" },
             energy,
             ruptures: run.progress.episodes.clone(),
             cycles,
@@ -380,8 +372,9 @@ impl Report {
             counts: Work {
                 steps: run.counts.steps,
                 rejected: run.counts.rejected,
-                right_hand_sides: run.counts.rates,
-                points: plan.points.len(),
+                right_hand_sides: Some(run.counts.rates),
+                points: Some(plan.points.len()),
+                ..Work::default()
             },
             seconds: Phases::default(),
         }
@@ -403,7 +396,7 @@ impl Report {
         for (k, event) in self.events.iter().enumerate() {
             let _ = writeln!(text, "  {}", in_a_line(k + 1, event));
         }
-        for FaultEvents { fault, events, .. } in &self.faults {
+        for FaultEvents { surface, events, .. } in &self.faults {
             let intervals: Vec<f64> = events.iter().filter_map(|e| e.interval).collect();
             let mean = intervals.iter().sum::<f64>() / intervals.len() as f64;
             let every = if intervals.is_empty() {
@@ -411,7 +404,7 @@ impl Report {
             } else {
                 format!(", every {} in the mean", time(mean))
             };
-            let _ = writeln!(text, "  fault `{fault}` by itself: {} events{every}", events.len());
+            let _ = writeln!(text, "  fault `{surface}` by itself: {} events{every}", events.len());
         }
         if let Some(slow) = &self.slow_events {
             let _ = writeln!(text, "  {} slow events", slow.len());
@@ -436,7 +429,7 @@ impl Report {
         let _ = writeln!(
             text,
             "  energy: loads {:.6e}{opening}, elastic {:.6e}, friction {:.6e}, radiated {:.6e} {}; closes to {:.1e} of the largest",
-            e.loads, e.elastic, e.friction, e.radiated, self.unit, self.energy.imbalance
+            e.loads, e.elastic, e.friction, e.radiated, self.energy.unit, self.energy.imbalance
         );
         for floor in &self.floors {
             let _ = writeln!(text, "  {}", floor.words());
@@ -455,7 +448,10 @@ impl Report {
         let _ = writeln!(
             text,
             "  {} steps ({} rejected), {} right-hand sides of {} points",
-            c.steps, c.rejected, c.right_hand_sides, c.points
+            c.steps,
+            c.rejected,
+            c.right_hand_sides.unwrap_or(0),
+            c.points.unwrap_or(0)
         );
         let Phases { plan, steps, output, .. } = self.seconds;
         let _ = writeln!(text, "  seconds: plan {plan:.2}, steps {steps:.2}, output {output:.2}");

@@ -14,6 +14,8 @@ pub struct Sampling {
     pub sampled: Sampled,
     /// Name of the stage in which faults slide.
     pub stage: String,
+    /// Number of that stage.
+    pub number: usize,
     bodies: Box<dyn Sample>,
     /// Tributary areas of the points of the faults \[m²; m\].
     areas: Vec<f64>,
@@ -45,14 +47,18 @@ pub(super) struct SampledBodies<const D: usize> {
 }
 
 impl Sampling {
-    pub(super) fn new<const D: usize>(bodies: SampledBodies<D>, areas: Vec<f64>, unit: &'static str) -> Self {
+    pub(super) fn new<const D: usize>(
+        bodies: SampledBodies<D>,
+        areas: Vec<f64>,
+        (unit, number): (&'static str, usize),
+    ) -> Self {
         let sampled = Sampled {
             points: bodies.wanted.points.iter().map(views::point_mark).collect(),
             forces: bodies.wanted.forces.iter().map(views::force_mark).collect(),
             springs: views::spring_marks(std::slice::from_ref(&bodies.stage)),
             unit,
         };
-        Self { sampled, stage: bodies.stage.name.clone(), bodies: Box::new(bodies), areas }
+        Self { sampled, stage: bodies.stage.name.clone(), number, bodies: Box::new(bodies), areas }
     }
 
     /// Values at a moment.

@@ -1,7 +1,7 @@
 //! Station files in the format of the SEAS community, one per station.
 
 use super::cadence::NO_RATE;
-use super::plan::{Plan, Station};
+use super::plan::{FaultView, Plan, Station};
 use asperity_cycles::Moment;
 use asperity_output::seas::{Head, Row};
 use std::path::PathBuf;
@@ -11,24 +11,30 @@ pub(super) fn points(plan: &Plan) -> Vec<usize> {
     plan.faults.iter().flat_map(|f| f.stations.iter().map(|s| s.1)).collect()
 }
 
+/// Names of the files of the stations of a fault. Distance in tenths of a kilometre, three digits, as in the names of the
+/// benchmarks, if this distinguishes them; otherwise their numbers.
+pub(crate) fn names(fault: &FaultView) -> Vec<String> {
+    let tenths = |asked: &Station| match asked {
+        Station::Along(s) => (s / 100.0).round(),
+        Station::At(_) => f64::NAN,
+    };
+    let apart = fault.stations.windows(2).all(|w| tenths(&w[0].0) < tenths(&w[1].0));
+    let name = |(k, (asked, _)): (usize, &(Station, usize))| {
+        let tenths = tenths(asked);
+        if apart && !tenths.is_nan() {
+            format!("{}_dp{tenths:03}", fault.name)
+        } else {
+            format!("{}_{k:03}", fault.name)
+        }
+    };
+    fault.stations.iter().enumerate().map(name).collect()
+}
+
 /// Paths of all station files, with their headers.
 pub(super) fn heads(plan: &Plan) -> Vec<(PathBuf, String)> {
     let mut heads = Vec::new();
     for fault in &plan.faults {
-        // Distance in tenths of a kilometre, three digits, as in the names of the benchmarks, if this distinguishes the
-        // stations.
-        let tenths = |asked: &Station| match asked {
-            Station::Along(s) => (s / 100.0).round(),
-            Station::At(_) => f64::NAN,
-        };
-        let apart = fault.stations.windows(2).all(|w| tenths(&w[0].0) < tenths(&w[1].0));
-        for (k, (asked, point)) in fault.stations.iter().enumerate() {
-            let tenths = tenths(asked);
-            let name = if apart && !tenths.is_nan() {
-                format!("{}_dp{tenths:03}", fault.name)
-            } else {
-                format!("{}_{k:03}", fault.name)
-            };
+        for (name, (asked, point)) in names(fault).into_iter().zip(&fault.stations) {
             heads.push((name.into(), head(plan, &fault.name, asked, *point)));
         }
     }

@@ -1,14 +1,13 @@
 //! Part common to every `report.json`: version, outcome and provenance.
 
 use crate::setup::Kept;
-use asperity_cycles::Energy;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// Version of the format of `report.json`. It increases if a key is removed or changes its meaning, not if one is
 /// added.
-pub const SCHEMA: u32 = 1;
+pub const SCHEMA: u32 = 2;
 
 /// Kind of run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
@@ -225,18 +224,32 @@ pub(crate) fn commit() -> &'static str {
     option_env!("ASPERITY_COMMIT").unwrap_or("unknown")
 }
 
-/// Energy budget with its imbalance.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct EnergyBalance {
-    /// Energy budget \[J; J per metre of thickness in 2D; J/m² for spring-sliders\].
-    #[serde(flatten)]
-    pub parts: Energy,
-    /// loads + opening - elastic - friction - radiated - kinetic| over the largest of these terms \[-\].
-    pub imbalance: f64,
-}
-
-impl From<Energy> for EnergyBalance {
-    fn from(parts: Energy) -> Self {
-        Self { parts, imbalance: parts.imbalance() }
-    }
+/// Work as operation counts, which do not depend on the machine.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct Work {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Rejected steps.
+    pub rejected: u64,
+    /// Points of faults.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub points: Option<usize>,
+    /// Cells of bodies.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cells: Option<usize>,
+    /// Evaluations of the right-hand side; with faults, each applies the operator once.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub right_hand_sides: Option<u64>,
+    /// Evaluations of the Jacobian.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub jacobians: Option<u64>,
+    /// Factorisations.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub factorisations: Option<u64>,
+    /// Solutions with these factorisations.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub solves: Option<u64>,
+    /// Restarts after events.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub restarts: Option<u64>,
 }

@@ -1,5 +1,6 @@
 //! Events of sliders, in the report and as CSV.
 
+use crate::catalogue::HEAD;
 use asperity_cycles::Event;
 use asperity_cycles::slider::{Edge, Slide, SliderRun};
 use asperity_output::decimals::shortest_scientific;
@@ -12,6 +13,7 @@ use std::fmt::Write as _;
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Entry {
     /// Number of the slider.
+    #[serde(skip)]
     pub slider: usize,
     /// Direction of slip: 1 for positive slip rates, -1 for negative ones.
     pub direction: i8,
@@ -33,6 +35,25 @@ pub struct Entry {
     pub at_onset: Edge,
     /// State of the slider at the end.
     pub at_end: Option<Edge>,
+}
+
+/// An event with the name of its slider.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Named {
+    /// Slider.
+    pub surface: String,
+    /// Event.
+    #[serde(flatten)]
+    pub entry: Entry,
+}
+
+impl Named {
+    /// Events of all sliders in order of onset.
+    #[must_use]
+    pub fn all(run: &SliderRun, names: &[String]) -> Vec<Self> {
+        let named = |entry: Entry| Self { surface: names[entry.slider].clone(), entry };
+        Entry::all(run).into_iter().map(named).collect()
+    }
 }
 
 impl Entry {
@@ -66,32 +87,30 @@ impl Entry {
     }
 }
 
-/// Events as CSV, with the names of the sliders; unknown values are empty.
+/// Events as CSV; unknown values are empty.
 #[must_use]
-pub fn csv(events: &[Entry], names: &[String]) -> String {
-    let states = events.iter().map(|e| e.at_onset.states.len()).max().unwrap_or(0);
-    let mut text = String::from(
-        "slider,direction,onset [s],interval [s],duration [s],slip [m],peak_rate [m/s],least_rate [m/s],stress_drop [Pa]",
-    );
+pub fn csv(events: &[Named]) -> String {
+    let states = events.iter().map(|e| e.entry.at_onset.states.len()).max().unwrap_or(0);
+    let mut text = format!("{HEAD},direction,slip [m],least_rate [m/s]");
     for edge in ["onset", "end"] {
         let _ = write!(text, ",traction_{edge} [Pa],friction_{edge} [-]");
         (1..=states).for_each(|i| text.push_str(&format!(",state_{i}_{edge}")));
     }
     text.push('\n');
     let known = |value: Option<f64>| value.map(shortest_scientific).unwrap_or_default();
-    for e in events {
+    for Named { surface, entry: e } in events {
         let _ = write!(
             text,
-            "{},{},{:.14e},{},{},{},{:e},{:e},{}",
-            quoted(&names[e.slider]),
-            e.direction,
+            "{:.14e},{},{},{:e},{},{},{},{},{:e}",
             e.onset,
-            known(e.interval),
             known(e.duration),
-            known(e.slip),
+            known(e.interval),
             e.peak_rate,
-            e.least_rate,
-            known(e.stress_drop)
+            known(e.stress_drop),
+            quoted(surface),
+            e.direction,
+            known(e.slip),
+            e.least_rate
         );
         for edge in [Some(&e.at_onset), e.at_end.as_ref()] {
             let _ = write!(text, ",{},{}", known(edge.map(|e| e.traction)), known(edge.map(|e| e.friction)));

@@ -9,7 +9,7 @@ mod report;
 mod summary;
 mod thin;
 
-pub use events::{Entry, csv};
+pub use events::{Entry, Named, csv};
 pub use files::{Histories, Positions};
 pub use keeper::{Checkpoint, Keeper};
 pub use plan::Plan;

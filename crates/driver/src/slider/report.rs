@@ -1,9 +1,9 @@
 //! Report of a run of spring-sliders, `report.json`.
 
-use super::events::Entry;
+use super::events::Named;
 use crate::checks::Checks;
 use crate::outrun;
-use crate::report::{EnergyBalance, Kind, Outcome, Phases, Results, Stop};
+use crate::report::{EnergyBalance, Kind, Outcome, Phases, Results, Stop, Work};
 use crate::warning::Warning;
 use asperity_cycles::slider::{Problem, SliderRun};
 use asperity_cycles::{Outrun, Thresholds};
@@ -12,35 +12,17 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::Write as _;
 
-/// Work as operation counts, which do not depend on the machine.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
-pub struct Work {
-    /// Accepted steps.
-    pub steps: u64,
-    /// Rejected steps.
-    pub rejected: u64,
-    /// Evaluations of the right-hand side.
-    pub right_hand_sides: u64,
-    /// Evaluations of the Jacobian.
-    pub jacobians: u64,
-    /// Factorisations.
-    pub factorisations: u64,
-    /// Solutions with these factorisations.
-    pub solves: u64,
-    /// Restarts after events.
-    pub restarts: u64,
-}
-
 impl From<Counts> for Work {
     fn from(c: Counts) -> Self {
         Self {
             steps: c.steps,
             rejected: c.rejected,
-            right_hand_sides: c.rates,
-            jacobians: c.jacobians,
-            factorisations: c.factorisations,
-            solves: c.solves,
-            restarts: c.restarts,
+            right_hand_sides: Some(c.rates),
+            jacobians: Some(c.jacobians),
+            factorisations: Some(c.factorisations),
+            solves: Some(c.solves),
+            restarts: Some(c.restarts),
+            ..Self::default()
         }
     }
 }
@@ -82,7 +64,7 @@ pub struct Report {
     /// Sliders at the end.
     pub last: Vec<Final>,
     /// Events.
-    pub events: Vec<Entry>,
+    pub events: Vec<Named>,
     /// Energy budget \[J/m²\], summed over the sliders; absent if the run was not observed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy: Option<EnergyBalance>,
@@ -151,8 +133,8 @@ impl Report {
             outcome,
             end: run.at.seconds(),
             last: last.collect(),
-            events: Entry::all(run),
-            energy: run.progress.budget.as_ref().map(|budget| budget.energy().into()),
+            events: Named::all(run, &problem.names),
+            energy: run.progress.budget.as_ref().map(|budget| EnergyBalance::new("J/m²", budget.energy())),
             counts: run.counts.into(),
             seconds: Phases::default(),
         }
@@ -162,13 +144,12 @@ impl Report {
     #[must_use]
     pub fn text(&self) -> String {
         let mut text = String::from("results\n");
-        for e in &self.events {
+        for Named { surface, entry: e } in &self.events {
             let told =
                 |value: Option<f64>, unit: &str| value.map_or("-".into(), |v| format!("{v:.6} {unit}"));
             let _ = writeln!(
                 text,
-                "  `{}` at {:.6} s: interval {}, slip {}, peak {:.6e} m/s, stress drop {}",
-                self.sliders[e.slider],
+                "  `{surface}` at {:.6} s: interval {}, slip {}, peak {:.6e} m/s, stress drop {}",
                 e.onset,
                 told(e.interval, "s"),
                 told(e.slip.map(|s| s * 1e6), "um"),
@@ -183,12 +164,12 @@ impl Report {
                 l.slider, self.end, l.slip_rate, l.friction
             );
         }
-        if let Some(EnergyBalance { parts: e, imbalance }) = &self.energy {
+        if let Some(EnergyBalance { parts: e, imbalance, unit }) = &self.energy {
             let kinetic =
                 if e.kinetic == 0.0 { String::new() } else { format!(", kinetic {:.6e}", e.kinetic) };
             let _ = writeln!(
                 text,
-                "  energy: loads {:.6e}, elastic {:.6e}, friction {:.6e}, radiated {:.6e}{kinetic} J/m²; closes to {imbalance:.1e} of the largest",
+                "  energy: loads {:.6e}, elastic {:.6e}, friction {:.6e}, radiated {:.6e}{kinetic} {unit}; closes to {imbalance:.1e} of the largest",
                 e.loads, e.elastic, e.friction, e.radiated
             );
         }
@@ -196,7 +177,11 @@ impl Report {
         let _ = writeln!(
             text,
             "  {} steps ({} rejected), {} right-hand sides, {} Jacobians, {} factorisations",
-            c.steps, c.rejected, c.right_hand_sides, c.jacobians, c.factorisations
+            c.steps,
+            c.rejected,
+            c.right_hand_sides.unwrap_or(0),
+            c.jacobians.unwrap_or(0),
+            c.factorisations.unwrap_or(0)
         );
         let Phases { steps, output, .. } = self.seconds;
         let _ = writeln!(text, "  seconds: steps {steps:.3}, output {output:.3}");

@@ -141,7 +141,7 @@ fn the_time_of_a_step_follows_from_counts_and_the_steps_are_those_of_the_run() {
     let report = std::fs::read(folder.path().join("out/report.json")).unwrap();
     let report: Value = serde_json::from_slice(&report).unwrap();
     // What happens at the end of the last step is known after one more.
-    assert_eq!(report["steps"].as_u64().unwrap() as usize, cost.steps.unwrap() + 1);
+    assert_eq!(report["counts"]["steps"].as_u64().unwrap() as usize, cost.steps.unwrap() + 1);
     for (scene, part) in [
         (SLIDER, "steps unknown, since errors decide them; time about 31 us a step, 31 ms per 1000 steps"),
         (waves, " a step, "),

@@ -148,7 +148,7 @@ fn a_run_that_is_interrupted_and_resumed_leaves_the_files_of_one_left_alone() {
     assert!(folder.join("parts/checkpoint").exists() || folder.join("parts").read_dir().unwrap().count() > 3);
     let last = run(folder, "parts", &["--resume"]);
     assert!(last.status.success(), "{}", told(&last));
-    assert!(text(&last.stdout).contains("resumed from the checkpoint"), "{}", text(&last.stdout));
+    assert!(text(&last.stdout).contains("resumed at "), "{}", text(&last.stdout));
     assert_same(folder, "parts");
 }
 
@@ -286,7 +286,7 @@ fn the_first_row_has_the_slip_rate_of_the_scene() {
         row.split(by).map(|v| v.parse().unwrap()).collect()
     };
     assert!((first(&read("stations/main_000"), ' ')[2] + 12.0).abs() < 1e-9);
-    assert!(first(&read("rate_profiles.csv"), ',')[1..].iter().all(|rate| (rate - 1e-12).abs() < 1e-24));
+    assert!(first(&read("rate_profiles.csv"), ',')[1..].iter().all(|log| (log + 12.0).abs() < 1e-9));
     // Points at rest have the least rate, which the head states.
     let still = crate::resume::folder(&varied(SCENE, &[Without("faults.main.patches")]));
     assert!(run(still.path(), "out", &["--no-plots"]).status.success());

@@ -273,7 +273,7 @@ fn each_fault_of_several_has_the_catalogue_it_has_alone() {
         let mut balance = asperity_cycles::Balance::new(&alone.problem);
         let alone = Report::new(&alone, &ended, &mut balance);
         assert!(alone.faults.is_empty());
-        assert_eq!(fault.fault, pair.0);
+        assert_eq!(fault.surface, pair.0);
         assert_eq!(fault.events.len(), alone.events.len());
         assert!(fault.events.len() >= 3, "{}", fault.events.len());
         for (a, b) in fault.events.iter().zip(&alone.events) {

@@ -30,11 +30,11 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// Energy missing in the balance \[J, or J/m of thickness\].
+    /// Energy that is missing: what was given minus what is kept and lost \[J, or J/m of thickness\].
     #[must_use]
     pub fn missing(&self) -> f64 {
-        let kept = self.kinetic + self.elastic + self.viscous;
-        kept + self.friction + self.absorbed - self.loads - self.released - self.initial
+        let given = self.initial + self.loads + self.released;
+        given - (self.kinetic + self.elastic) - (self.viscous + self.friction + self.absorbed)
     }
 
     /// Magnitude of the largest part.

@@ -93,6 +93,20 @@ pub struct ExplicitState {
     given: f64,
 }
 
+impl ExplicitState {
+    /// Time \[s\].
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Steps taken.
+    #[must_use]
+    pub fn steps(&self) -> usize {
+        self.steps
+    }
+}
+
 /// Works of all kinds of forces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Works {

@@ -134,11 +134,9 @@ fn cell(field: &str) -> String {
     field.parse().map_or_else(|_| field.to_owned(), elements::number)
 }
 
-/// Energy budget, in the unit of the report.
+/// Energy budget, with its unit.
 fn energy(report: &Value) -> String {
-    let budget: String = ["energy", "balance"].into_iter().map(|key| of_key(report, key)).collect();
-    let unit = text(report, "unit");
-    if budget.is_empty() || unit.is_empty() { budget } else { format!("<p>in {}</p>{budget}", escape(unit)) }
+    ["energy", "balance"].into_iter().map(|key| of_key(report, key)).collect()
 }
 
 /// Counts, which do not differ from run to run, and times and memory, which do.

@@ -22,11 +22,9 @@ use crate::model::{self, Model, counts, cuts, locking, meshes};
 use crate::outrun;
 use crate::plan::courses;
 use crate::scene::model::{Kinematics, Scene};
+use crate::thresholds;
 use crate::views;
 use asperity_mechanics::dynamics::Problem;
-
-/// Default slip rate at which a point has ruptured \[m/s\]: that of the community's benchmarks.
-const RUPTURED: f64 = 1e-3;
 
 /// Plans a scene whose stepper is "explicit".
 ///
@@ -110,7 +108,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         faults,
         points,
         resolution,
-        rupture_rate: scene.output.rupture_rate.as_ref().map_or(RUPTURED, |v| v.get_ref().0),
+        rupture_rate: scene.output.rupture_rate.as_ref().map_or(thresholds::RUPTURED, |v| v.get_ref().0),
         fastest: outrun::bound(placed.iter().map(|p| p.medium.waves)),
         receivers,
         epoch: outputs::epoch(scene)?,

@@ -45,9 +45,6 @@ const IN_THE_PLANE: (Method, f64) = (Method::Tsit5, 1e-5);
 /// hundreds of times below those of the cells, and a run with cells of 0.5 km takes half of the evaluations.
 const IN_SPACE: (Method, f64) = (Method::Stabilised, 1e-4);
 
-/// Default slip rate at which a point has ruptured \[m/s\], that of the benchmarks in space.
-const RUPTURED: f64 = 0.1;
-
 /// Default largest number of events with files of their own: the first events of a run, without thousands of files in a long one.
 const EVENT_FILES: usize = 20;
 
@@ -383,7 +380,7 @@ fn spread<const D: usize>(scene: &Scene, placed: &[Placed<D>], end: f64) -> Vec<
 
 /// Slip rate at which a point has ruptured \[m/s\]; events begin at the slip rate `on`.
 fn rupture_rate(scene: &Scene, on: f64) -> Result<f64, Diagnostic> {
-    let Some(given) = &scene.output.rupture_rate else { return Ok(RUPTURED.max(on)) };
+    let Some(given) = &scene.output.rupture_rate else { return Ok(thresholds::RUPTURED.max(on)) };
     let rate = given.get_ref().0;
     if rate < on {
         return Err(Diagnostic::at(

@@ -56,5 +56,6 @@ pub(super) fn of<const D: usize>(
     let beside = wanted.beside(&model, &loaded);
     let bodies =
         SampledBodies { model, initial_stress, wanted, stage: stage.clone(), beside, start, springs };
-    Ok(Some(Sampling::new(bodies, areas, unit)))
+    let number = scene.stages.iter().position(|s| s.name == stage.name).unwrap_or(0);
+    Ok(Some(Sampling::new(bodies, areas, (unit, number))))
 }

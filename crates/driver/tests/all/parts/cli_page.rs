@@ -27,7 +27,7 @@ fn a_page_has_what_its_directory_has() {
     std::fs::create_dir(folder.path().join("plots")).unwrap();
     std::fs::write(folder.path().join("plots/slip.svg"), "<svg><rect/></svg>").unwrap();
     std::fs::write(folder.path().join("plots/slip.png"), "no text").unwrap();
-    std::fs::write(folder.path().join("events.csv"), "onset [s],fault\n1.23456789e9,main\n").unwrap();
+    std::fs::write(folder.path().join("events.csv"), "onset [s],surface\n1.23456789e9,main\n").unwrap();
     let warning = json!({ "message": "cells > zone", "help": "refine", "place": { "line": 7, "column": 1 } });
     let report = json!({ "title": "a < b", "kind": "faults", "status": "stopped", "warnings": [warning],
         "outcome": { "stopped": { "reason": "no state" } }, "counts": { "steps": 12 } });

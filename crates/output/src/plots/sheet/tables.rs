@@ -61,6 +61,10 @@ impl Rows for Tables<'_> {
 
 impl Profiles for Tables<'_> {
     fn each(&self, look: &mut dyn FnMut(f64, &[f64])) -> Result<(), OutputError> {
-        self.shown("rate_profiles.csv", &mut |row| look(row[0], &row[1..]))
+        // The table has logarithms.
+        self.shown("rate_profiles.csv", &mut |row| {
+            let rates: Vec<f64> = row[1..].iter().map(|log| 10_f64.powf(*log)).collect();
+            look(row[0], &rates);
+        })
     }
 }
