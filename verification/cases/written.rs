@@ -169,6 +169,7 @@ impl Written {
         let (run, report) = found?;
         catalogues(files.path(), &plan, &report)?;
         fault::write_fields(files.path(), &plan, &run)?;
+        fault::write_bodies(files.path(), &plan, &run)?;
         fault::write_stresses(files.path(), &plan, &run)?;
         fault::write_finite_faults(files.path(), &plan, &run, &report.events)?;
         let cost = cost.count("steps", run.counts.steps as f64).count("points", plan.points.len() as f64);

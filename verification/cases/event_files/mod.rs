@@ -13,9 +13,10 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// Shear modulus \[Pa\] and area of the fault \[m²\].
+/// Shear modulus \[Pa\], length along strike \[m\] and area of the fault \[m²\].
 const ROCK: f64 = 32e9;
-const AREA: f64 = 1e6;
+const LENGTH: f64 = 1e3;
+const AREA: f64 = 1.5e3 * LENGTH;
 /// Origin of the scene: degrees north, degrees east, depth \[m\].
 const ORIGIN: [f64; 3] = [60.0, -150.0, 1e3];
 /// Mean radius of the Earth \[m\] (Moritz 2000), a scale for angles.
@@ -144,7 +145,7 @@ impl Worst {
         {
             self.table = self.table.max((events.only(column)? - number(&xml, name)?).abs());
         }
-        self.length = self.length.max((events.only("rupture_length")? - AREA.sqrt()).abs());
+        self.length = self.length.max((events.only("rupture_length")? - LENGTH).abs());
         self.place(mechanism.offset(at), &xml)
     }
 
@@ -213,7 +214,7 @@ impl Worst {
                 "m",
                 self.length,
                 1e-6,
-                "the horizontal edge of the fault, 1 km, at whose ends the points lie",
+                "the horizontal edge of the fault, 1 km, at whose ends the points lie; up dip they lie 1.5 km apart",
                 "rounding of positions of kilometres",
             ),
             (

@@ -1,6 +1,7 @@
 //! A spring on nodes of unequal mass, and the work of a load that ramps.
 
 use super::last;
+use crate::cases::output_files::vtu::Fields;
 use crate::cases::waves::run;
 use crate::cases::written::Waves;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
@@ -101,6 +102,8 @@ fn drawn(ledger: &mut Ledger) -> Result<(), CaseError> {
 fn ramped(ledger: &mut Ledger) -> Result<(), CaseError> {
     let run = Waves::of(RAMPED)?;
     station(ledger, &run)?;
+    header(ledger, &run)?;
+    velocities(ledger, &run)?;
     let (omega, end) = (2.0_f64.sqrt(), 10.0);
     let (sine, cosine) = (omega * end).sin_cos();
     // The force is t/T, and u = (t - sin(ω t)/ω)/T.
@@ -124,6 +127,90 @@ fn ramped(ledger: &mut Ledger) -> Result<(), CaseError> {
             .evidence(Evidence::Exact, "∫ F v dt with u = (t - sin(ω t)/ω)/T")
             .because("the phase of central differences, (ω dt)²/24 of the angle turned, times the change of the energy with the phase")
             .covers(&[Capability::Waves, Capability::Loads, Capability::Outputs])
+            .cost(&run.cost)
+            .record();
+    }
+    Ok(())
+}
+
+/// Words of the header of a SAC file, and its samples, by the table of the format (Goldstein and Snoke 2005), against the table of
+/// the same seismogram.
+fn header(ledger: &mut Ledger, run: &Waves) -> Result<(), CaseError> {
+    let names = run.files.names("seismograms")?;
+    let name = names.iter().find(|name| name.ends_with("X.sac")).ok_or("no SAC file along x")?;
+    let bytes = std::fs::read(run.files.path().join("seismograms").join(name))?;
+    let word = |k: usize| -> Result<[u8; 4], CaseError> {
+        Ok(bytes.get(4 * k..4 * k + 4).ok_or("the file ends early")?.try_into()?)
+    };
+    let float = |k: usize| -> Result<f64, CaseError> { Ok(f64::from(f32::from_le_bytes(word(k)?))) };
+    let table = run.files.table("seismograms/S.csv")?;
+    let (times, samples) = (table.column("time")?, table.column("velocity_x")?);
+    let n = samples.len();
+    let sorted = |pick: fn(f64, f64) -> f64| samples.iter().copied().reduce(pick).unwrap_or(f64::NAN);
+    let words = [
+        float(0)?,
+        float(1)?,
+        float(2)?,
+        float(5)?,
+        float(6)?,
+        float(56)?,
+        f64::from(i32::from_le_bytes(word(79)?)),
+    ];
+    let exact = [
+        times[1] - times[0],
+        sorted(f64::min),
+        sorted(f64::max),
+        times[0],
+        times[n - 1],
+        samples.iter().sum::<f64>() / n as f64,
+        n as f64,
+    ];
+    ledger
+        .claim("interval, least and largest sample, begin, end, mean and number of samples in the header of a SAC file")
+        .values(&words)
+        .equals_each(&exact)
+        .absolute(1e-7 * times[n - 1])
+        .evidence(Evidence::Exact, "words 0, 1, 2, 5, 6, 56 and 79 of the header, from the table of the seismogram")
+        .because("the format has numbers of seven digits")
+        .why_not_tighter("the last digit may be off by any part of a half")
+        .covers(&[Capability::Waves, Capability::Outputs])
+        .cost(&run.cost)
+        .record();
+    let found = (0..n).map(|k| float(158 + k)).collect::<Result<Vec<f64>, CaseError>>()?;
+    ledger
+        .claim("samples of a SAC file")
+        .unit("m/s")
+        .values(&found)
+        .equals_each(&samples)
+        .absolute(1e-7 * exact[2])
+        .evidence(Evidence::Exact, "the column of the table")
+        .because("the format has numbers of seven digits")
+        .why_not_tighter("the last digit may be off by any part of a half")
+        .covers(&[Capability::Waves, Capability::Outputs])
+        .cost(&run.cost)
+        .record();
+    Ok(())
+}
+
+/// Velocities and displacements of the free side in fields.
+fn velocities(ledger: &mut Ledger, run: &Waves) -> Result<(), CaseError> {
+    let (omega, step) = (2.0_f64.sqrt(), 10.0 / STEPS as f64);
+    for number in [3, 7] {
+        let t = f64::from(number);
+        let fields = Fields::read(&run.files.text(&format!("fields/bodies_{number:05}.vtu"))?)?;
+        let of = |name: &str| -> Result<f64, CaseError> {
+            let x = fields.array(name)?.values.chunks_exact(3).map(|v| v[0]).collect::<Vec<f64>>();
+            Ok(x.into_iter().fold(0.0, f64::max))
+        };
+        ledger
+            .claim(format!("a cell under a ramped load: velocity and displacement of its free side in the fields at {number} s"))
+            .values(&[of("velocity")?, of("displacement")?])
+            .equals_each(&[0.1 * (1.0 - (omega * t).cos()), 0.1 * (t - (omega * t).sin() / omega)])
+            .absolute(0.1 * (omega * step).powi(2) * (omega * t / 24.0 + 1.0 / 8.0))
+            .evidence(Evidence::Exact, "the motion of the oscillator, (t - sin(ω t)/ω)/10 with ω² = 2")
+            .because("the phase of central differences, (ω dt)²/24 of the angle turned, and the mean of two half steps")
+            .why_not_tighter("both errors are largest at other phases")
+            .covers(&[Capability::Waves, Capability::Outputs])
             .cost(&run.cost)
             .record();
     }

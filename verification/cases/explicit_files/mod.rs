@@ -1,9 +1,12 @@
 //! Numbers that runs of bodies with mass write, of scenes with closed forms.
 
+mod clamped;
 mod columns;
 mod delayed;
 mod loaded;
 mod oblique;
+mod partial;
+mod revived;
 mod sheet;
 
 use crate::{Capability, Case, CaseError, Ledger};
@@ -22,7 +25,10 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     oblique::claims(ledger)?;
     delayed::claims(ledger)?;
     sheet::claims(ledger)?;
-    loaded::claims(ledger)
+    loaded::claims(ledger)?;
+    partial::claims(ledger)?;
+    revived::claims(ledger)?;
+    clamped::claims(ledger)
 }
 
 /// The smooth step of imposed tractions of this duration, `exp((t - T)²/(t (t - 2T)))`.

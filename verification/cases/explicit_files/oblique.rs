@@ -4,6 +4,7 @@
 //! wave, which the end sends out a travel time earlier.
 
 use super::growth;
+use crate::cases::output_files::vtu::Fields;
 use crate::cases::written::Waves;
 use crate::{Capability, CaseError, Evidence, Ledger};
 use std::f64::consts::TAU;
@@ -18,8 +19,11 @@ const TRACTION: f64 = 0.1;
 const WAVE: f64 = 0.1;
 /// End of the run: waves return from the ends of the column later.
 const END: f64 = 3.6;
-/// Intervals between rows.
+/// Intervals between rows, and between fields.
 const ROWS: usize = 72;
+const FIELDS: usize = 12;
+/// The fields in which the wave passes the fault, at 2.4 s.
+const PASSING: usize = 8;
 
 /// Displacement of the end that sends out the wave, whose velocity is a period of a cosine.
 fn motion(t: f64) -> f64 {
@@ -51,7 +55,8 @@ fn scene() -> Result<String, CaseError> {
          normal = 1\nshear = 0\npulses = [{{ traction = {TRACTION:?}, centre = [0, 0.5, 1], radius = 1e4, duration = 1 }}]\n\
          [[stages]]\nname = \"slip\"\nduration = {END:?}\nconditions = [{conditions}{{ set = \"a.left\", absorbing = true }}, \
          {{ set = \"b.right\", z = {{ table = [{}] }} }}]\n\
-         [time]\nstepper = \"explicit\"\nviscosity = 0\n[output]\nsampling = {:?}\nprofiles = {ROWS}\n",
+         [time]\nstepper = \"explicit\"\nviscosity = 0\n[output]\nsampling = {:?}\nprofiles = {ROWS}\n\
+         fields = {FIELDS}\nstations.f = [[0, 0.5, 1]]\n",
         rows.join(", "),
         END / ROWS as f64
     ))
@@ -95,5 +100,73 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
         .covers(&[Capability::DynamicRupture, Capability::Outputs])
         .cost(&run.cost)
         .record();
+    vectors(ledger, &run, lag)
+}
+
+/// Vectors of slip and slip rate at the station, and in the fields while the wave passes.
+fn vectors(ledger: &mut Ledger, run: &Waves, lag: f64) -> Result<(), CaseError> {
+    let time = END * PASSING as f64 / FIELDS as f64;
+    let n = 4000;
+    let middle = |k: i32| time * (f64::from(k) + 0.5) / f64::from(n);
+    let along: f64 = (0..n).map(|k| 2.0 * TRACTION * growth(middle(k), 1.0) * time / f64::from(n)).sum();
+    let (slip, rate) = (
+        [along, 2.0 * motion(time - LENGTH)],
+        [2.0 * TRACTION * growth(time, 1.0), 2.0 * velocity(time - LENGTH)],
+    );
+    let fields = Fields::read(&run.files.text(&format!("fields/f_{PASSING:05}.vtu"))?)?;
+    // The last point, along y and z.
+    let last = |name: &str| -> Result<[f64; 2], CaseError> {
+        let values = &fields.array(name)?.values;
+        let n = values.len();
+        Ok([*values.get(n - 2).ok_or("no values")?, values[n - 1]])
+    };
+    let shear = last("shear_traction")?.map(f64::abs);
+    let normal = *fields.array("normal_traction")?.values.last().ok_or("no values")?;
+    let pvd = run.files.text("fields.pvd")?;
+    let file =
+        pvd.lines().find(|line| line.contains(&format!("f_{PASSING:05}.vtu"))).ok_or("no such file")?;
+    let named = file.split("timestep=\"").nth(1).and_then(|t| t.split('"').next()).ok_or("no time")?;
+    let table = run.files.table("stations/f_000")?;
+    let row = table.column("t")?.iter().position(|t| (t - time).abs() < 1e-6).ok_or("no such row")?;
+    let at = |name: &str| -> Result<f64, CaseError> { Ok(table.column(name)?[row]) };
+    let most = 2.0 * WAVE;
+    for (what, unit, found, exact, scale) in [
+        ("slip in the fields, along y and z", "m", last("slip")?, slip, most),
+        ("slip rate in the fields, along y and z", "m/s", last("slip_rate")?, rate, most),
+        ("slip of the station, in both directions", "m", [at("slip_2")?, at("slip_3")?], slip, most),
+        (
+            "slip rate of the station, in both directions",
+            "m/s",
+            [10.0_f64.powf(at("slip_rate_2")?), 10.0_f64.powf(at("slip_rate_3")?)],
+            rate,
+            most,
+        ),
+        (
+            "normal traction in the fields, and their time in the collection",
+            "Pa and s",
+            [normal, named.parse()?],
+            [1.0, time],
+            1.0,
+        ),
+        ("shear traction in the fields, beyond a friction of 1e-9", "Pa", shear, [0.0; 2], most),
+    ] {
+        ledger
+            .claim(format!("slip that a wave turns out of its direction, while it passes: {what}"))
+            .unit(unit)
+            .values(&found)
+            .equals_each(&exact)
+            .absolute(lag * scale)
+            .evidence(
+                Evidence::Exact,
+                "2 A G(t) along the rake and twice the wave across it, positive along normal x rake",
+            )
+            .because("the shift of phase of the wave on its way")
+            .why_not_tighter(
+                "the wave is nearly at its largest velocity, which a shift of phase changes least",
+            )
+            .covers(&[Capability::DynamicRupture, Capability::Solid3d, Capability::Outputs])
+            .cost(&run.cost)
+            .record();
+    }
     Ok(())
 }

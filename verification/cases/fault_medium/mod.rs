@@ -4,6 +4,7 @@ mod coulomb;
 mod depths;
 mod fields;
 mod files;
+mod grids;
 mod locking;
 mod receivers;
 mod surface;
@@ -50,7 +51,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     receivers::run(ledger)?;
     locking::run(ledger)?;
     surface::run(ledger)?;
-    coulomb::run(ledger)
+    coulomb::run(ledger)?;
+    grids::run(ledger)
 }
 
 /// A scene without loads; `fault` holds its geometry.

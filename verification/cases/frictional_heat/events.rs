@@ -47,10 +47,10 @@ fn variants() -> [(&'static str, &'static str, SceneText); 4] {
     ]
 }
 
-/// The report of a run, the temperature and pressure in its event, and its cost.
+/// The report of a run; slip, temperature, pressure and time in its event; and its cost.
 struct Ran {
     report: Report,
-    course: Vec<[f64; 3]>,
+    course: Vec<[f64; 4]>,
     cost: Cost,
 }
 
@@ -63,7 +63,8 @@ fn ran(scene: SceneText) -> Result<Ran, CaseError> {
         balance.step(now);
         if now.under_way().is_some() {
             let surface = &now.pressed.surface;
-            course.push([now.slip().all()[0], surface.temperature[0], surface.pressure[0]]);
+            let time = now.at.seconds();
+            course.push([now.slip().all()[0], surface.temperature[0], surface.pressure[0], time]);
         }
         Control::Go
     };
@@ -116,6 +117,24 @@ pub fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
                 .cost(&found.cost)
                 .record();
         }
+        let hottest =
+            found.course.iter().max_by(|a, b| a[1].total_cmp(&b[1])).ok_or("no step in the event")?;
+        let when = found.report.heat.first().map_or(f64::NAN, |heat| heat.when);
+        let onset = found.report.events.first().map_or(f64::NAN, |event| event.onset);
+        ledger
+            .claim(format!(
+                "time of the largest temperature of a slider with {what}, since the onset of its event"
+            ))
+            .unit("s")
+            .value(when - onset)
+            .equals(hottest[3] - onset)
+            .absolute(1e-6)
+            .evidence(Evidence::Exact, "the step in which the surface is hottest")
+            .because("rounding of a time of 1e9 seconds, twice")
+            .why_not_tighter("the event lasts a minute or so, and the surface cools slowly after it")
+            .covers(&[Capability::FrictionalHeat])
+            .cost(&found.cost)
+            .record();
         ledger
             .claim(format!("energy budget of a slider with {what}: imbalance over the largest part"))
             .value(found.report.energy.imbalance)

@@ -5,6 +5,7 @@ mod handed;
 mod plastic;
 mod sliding;
 mod spinning;
+mod tied;
 mod vibration;
 
 use super::texts::Done;
@@ -33,7 +34,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     sliding::run(ledger)?;
     plastic::run(ledger)?;
     spinning::run(ledger)?;
-    blow::run(ledger)
+    blow::run(ledger)?;
+    tied::run(ledger)
 }
 
 /// Largest energy that the budget of a run misses, over its largest part.

@@ -96,7 +96,32 @@ fn parted(ledger: &mut Ledger, (name, changes, bound): (&str, &[Change<'_>], f64
         .why_not_tighter("rounding depends on the order of sums")
         .cost(&done.cost)
         .record();
+    if name.ends_with("static-explicit") {
+        ends(ledger, &done);
+    }
     Ok(())
+}
+
+/// Steps that end where blocks part and where they meet again.
+fn ends(ledger: &mut Ledger, done: &super::Done) {
+    let share = PRESSURE * (BLOCKS + PENALTY) / LIFT;
+    let exact = [share, 2.0 - share];
+    let nearest = |wanted: &f64| {
+        let apart = |t: &f64| (t - wanted).abs();
+        let times = done.record.times().iter().copied();
+        times.min_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap_or(f64::NAN)
+    };
+    ledger
+        .claim("ends of forward steps nearest to where blocks with an initial stress part and meet again")
+        .unit("s")
+        .values(&exact.iter().map(nearest).collect::<Vec<_>>())
+        .equals_each(&exact)
+        .absolute(1e-8)
+        .evidence(Evidence::Exact, "the top has moved by p (C + 1/E_n)")
+        .because("the limits of a step have a band of 1e-9 or so, in which points open and close together")
+        .why_not_tighter("the width of the band is a choice")
+        .cost(&done.cost)
+        .record();
 }
 
 /// Blocks with a gap at the start, which expand into it and are then pressed together.

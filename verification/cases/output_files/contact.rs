@@ -9,13 +9,13 @@ use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use serde_json::Value;
 
 /// Width of the blocks along x, and along z in space \[m\].
-const WIDTHS: [f64; 2] = [0.4, 0.25];
+pub(super) const WIDTHS: [f64; 2] = [0.4, 0.25];
 /// Heights of the upper block, the slave, and of the lower one \[m\].
-const HEIGHTS: [f64; 2] = [0.3, 0.5];
+pub(super) const HEIGHTS: [f64; 2] = [0.3, 0.5];
 /// Their shear moduli \[Pa\], with a Poisson's ratio of 0.25.
 const MODULI: [f64; 2] = [8e9, 20e9];
 /// Normal traction \[Pa\].
-const NORMAL: f64 = 5e6;
+pub(super) const NORMAL: f64 = 5e6;
 /// Tangential penalty \[Pa/m\].
 const PENALTY: f64 = 2e13;
 /// μ0, a, and the slip rate V_0 of the law \[m/s\].
@@ -23,7 +23,7 @@ const LAW: [f64; 3] = [0.6, 0.01, 1e-6];
 /// Stiffness of the spring \[N/m per metre of thickness\].
 const SPRING: f64 = 4e9;
 /// Rates along x, and along z in space \[m/s\].
-const RATES: [f64; 2] = [2e-6, -1.5e-6];
+pub(super) const RATES: [f64; 2] = [2e-6, -1.5e-6];
 /// Duration: slip of the spring and the blocks by 8 um forgets the start by a factor of e, and 1.5 mm follow \[s\].
 const DURATION: f64 = 1000.0;
 
@@ -33,7 +33,7 @@ fn strength(rate: f64) -> f64 {
     NORMAL * a * (0.5 * rate / v0 * (mu0 / a).exp()).asinh()
 }
 
-fn scene(space: bool, [x, z]: [f64; 2]) -> String {
+pub(super) fn scene(space: bool, [x, z]: [f64; 2]) -> String {
     let [w, d] = WIDTHS;
     let [upper, lower] = HEIGHTS;
     let [mu0, a, v0] = LAW;
@@ -173,7 +173,16 @@ fn plane(ledger: &mut Ledger) -> Result<(), CaseError> {
         .covers(&[Capability::Outputs])
         .cost(&cost)
         .record();
+    let taken = steps(&files)?;
     let (files, cost) = written::bodies(&scene(false, RATES.map(|rate| -rate)))?;
+    ledger
+        .claim("two blocks that slide steadily in the plane: steps taken one way, less those the other way")
+        .count(taken.abs_diff(steps(&files)?), 0)
+        .evidence(Evidence::Exact, "the scene and its mirror image")
+        .because("estimates of errors do not depend on the sense of slip")
+        .covers(&[Capability::Implicit, Capability::VelocityFriction])
+        .cost(&cost)
+        .record();
     let wanted: [Wanted<'_>; 4] = [
         ("probes/joint.csv", "slip", s.slip),
         ("probes/joint.csv", "friction", s.shear / NORMAL),
@@ -181,6 +190,12 @@ fn plane(ledger: &mut Ledger) -> Result<(), CaseError> {
         ("springs/upper_top_x.csv", "friction", s.shear / NORMAL),
     ];
     all(ledger, (&files, &cost), "in the plane the other way", &wanted)
+}
+
+/// Steps of a run.
+fn steps(files: &Folder) -> Result<u64, CaseError> {
+    let report: Value = serde_json::from_str(&files.text("report.json")?)?;
+    report["counts"]["steps"].as_u64().ok_or_else(|| "no number of steps".into())
 }
 
 fn space(ledger: &mut Ledger) -> Result<(), CaseError> {

@@ -5,9 +5,11 @@
 //! starts along its rake and is drawn at 60 degrees from it. It forgets its direction by a factor of e while it slips by the strength over
 //! the stiffness of the blocks, 0.4 mm, and slips by 10 mm. What it lags behind the load tells of the start.
 
+use super::vtu::Fields;
 use super::{OfFiles, Wanted};
 use crate::cases::written::{Folder, Written};
-use crate::{Capability, CaseError, Cost, Ledger};
+use crate::{Capability, CaseError, Cost, Evidence, Ledger};
+use asperity_vary::SceneText;
 
 /// a, b, μ0, V_0 \[m/s\] and L \[m\].
 const LAW: [f64; 5] = [0.02, 0.015, 0.6, 1e-6, 8e-6];
@@ -20,6 +22,13 @@ const RATE: f64 = 1e-5;
 const DURATION: f64 = 1000.0;
 /// Angle of the load from the rake in space.
 const ANGLE: f64 = std::f64::consts::FRAC_PI_3;
+/// Both b of a law with two states, with the sum of the other.
+const STATES: [f64; 2] = [0.0105, 0.0045];
+/// Points in space.
+const POINTS: usize = 6;
+/// Rate of the plates, and slip rate of the slow point \[m/s\].
+const PLATES: f64 = 2e-5;
+const SLOW: f64 = 4e-6;
 /// Area of the fault \[m; m²\].
 const AREA: f64 = 2.0;
 
@@ -41,7 +50,7 @@ fn scene(space: bool) -> String {
     let [a, b, mu0, v0, l] = LAW;
     let block = |name: &str, from: f64| {
         let (z, divisions, element) =
-            if space { ([", 0", ", 1"], "[1, 1, 1]", "hex8") } else { (["", ""], "[1, 1]", "quad4") };
+            if space { ([", 0", ", 1"], "[1, 2, 1]", "hex8") } else { (["", ""], "[1, 2]", "quad4") };
         format!(
             "[bodies.{name}]\nmaterial = \"{name}\"\n\
              mesh.block = {{ min = [{from:?}, 0{}], max = [{:?}, 2{}], divisions = {divisions}, element = \"{element}\" }}\n",
@@ -97,7 +106,10 @@ fn scene(space: bool) -> String {
 /// See the module.
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     plane(ledger)?;
-    space(ledger)
+    space(ledger)?;
+    two_states(ledger)?;
+    deficit(ledger)?;
+    moved(ledger)
 }
 
 fn plane(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -156,6 +168,155 @@ fn space(ledger: &mut Ledger) -> Result<(), CaseError> {
         ("fields/main_*.vtu", "state_1", (LAW[3] / RATE).ln()),
     ];
     all(ledger, (&done.files, &done.cost), "in space", &wanted)
+}
+
+/// A law with two states, of which the slip law makes -b ln(V/V_0) in steady slip.
+fn two_states(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let [a, _, mu0, v0, l] = LAW;
+    let law = format!(
+        "{{ kind = \"rate-and-state\", evolution = \"slip\", mu0 = {mu0:?}, a = {a:?}, b = {STATES:?}, l = [{l:e}, {l:e}], v_ref = {v0:e}, v_initial = {RATE:e} }}"
+    );
+    let done = Written::of(&SceneText::new(&scene(true)).with("faults.main.law", law).text()?)?;
+    let names = done.files.names("fields")?;
+    let name = names.iter().rfind(|name| name.starts_with("main_")).ok_or("no fields")?;
+    let fields = Fields::read(&done.files.text(&format!("fields/{name}"))?)?;
+    for (k, b) in STATES.iter().enumerate() {
+        let found = &fields.array(&format!("state_{}", k + 1))?.values;
+        ledger
+            .claim(format!("a fault that slides steadily in space with two states: state {} at all points of its fields, at the end", k + 1))
+            .values(found)
+            .equals_each(&vec![-b * (RATE / v0).ln(); POINTS])
+            .absolute(1e-8)
+            .evidence(Evidence::Exact, "the slip law in steady slip, -b ln(V/V_0) for each state")
+            .because("the error of ln V in a step is 1e-9, times b")
+            .why_not_tighter("errors of steps decay with slip")
+            .covers(&[Capability::Outputs, Capability::FaultCycles, Capability::SeveralStates])
+            .cost(&done.cost)
+            .record();
+    }
+    let plane = SceneText::new(&scene(false));
+    let law = format!(
+        "{{ kind = \"rate-and-state\", evolution = \"slip\", mu0 = {mu0:?}, a = {a:?}, b = {STATES:?}, l = [{l:e}, {l:e}], v_ref = {v0:e}, v_initial = {RATE:e} }}"
+    );
+    let done = Written::of(&plane.with("faults.main.law", law).text()?)?;
+    let row = done.files.table("state_profiles.csv")?.numbers().pop().ok_or("no row")?;
+    ledger
+        .claim("a fault that slides steadily out of the plane with two states: its first state at all points of the profiles, at the end")
+        .values(&row[1..])
+        .equals_each(&[-STATES[0] * (RATE / v0).ln(); 3])
+        .absolute(1e-7)
+        .evidence(Evidence::Exact, "the slip law in steady slip, -b ln(V/V_0)")
+        .because("profiles have seven digits")
+        .why_not_tighter("the last digit may be off by a half")
+        .covers(&[Capability::Outputs, Capability::FaultCycles, Capability::SeveralStates])
+        .cost(&done.cost)
+        .record();
+    Ok(())
+}
+
+/// Coupling to plates that move by `PLATES`, of a fault whose last point, of half the area of the others, is slower, and of a second
+/// fault in other rock.
+fn deficit(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let held: String = ["left.left", "right.right", "third.left", "fourth.right"]
+        .map(|set| format!("{{ set = \"{set}\", z = 0 }}, "))
+        .concat();
+    let body = |from: f64, rock: &str| {
+        format!(
+            "{{ material = \"{rock}\", mesh.block = {{ min = [{from:?}, 10.0], max = [{:?}, 13.0], divisions = [1, 1], element = \"quad4\" }} }}",
+            from + 1.0
+        )
+    };
+    let creep = format!("{{ rate = {PLATES:e}, loading = \"backslip\" }}");
+    let [a, b, mu0, v0, l] = LAW;
+    let other = format!(
+        "{{ minus = \"third.right\", plus = \"fourth.left\", normal = {NORMAL:?}, rate = {RATE:e}, creep = {creep}, \
+         law = {{ kind = \"rate-and-state\", evolution = \"ageing\", mu0 = {mu0:?}, a = {a:?}, b = {b:?}, l = {l:e}, v_ref = {v0:e}, v_initial = {RATE:e} }} }}"
+    );
+    let text = SceneText::new(&scene(false))
+        .add("bodies.third", body(-1.0, "right"))
+        .add("bodies.fourth", body(0.0, "right"))
+        .add("faults.other", other)
+        .add("faults.main.creep", creep)
+        .add(
+            "faults.main.patches",
+            format!("[{{ box = {{ y = {{ from = 1.5, to = 3 }} }}, rate = {SLOW:e} }}]"),
+        )
+        .with("stages[0].conditions", format!("[{held}]"))
+        .with("stages[0].duration", 1e-3)
+        .text()?;
+    let done = Written::of(&text)?;
+    // Areas of the points are a half, one and a half.
+    let areas = [0.5, 1.0, 0.5];
+    let coupling = [RATE, RATE, SLOW].map(|rate| 1.0 - rate / PLATES);
+    let sum: f64 = areas.iter().zip(coupling).map(|(area, c)| area * c).sum();
+    let lag = 1.0 - RATE / PLATES;
+    let first = |file: &str, name: &str| -> Result<f64, CaseError> {
+        Ok(*done.files.table(file)?.column(name)?.first().ok_or("no row")?)
+    };
+    for (column, found, exact) in [
+        ("coupling", first("locking.csv", "coupling of main")?, sum / AREA),
+        ("moment_deficit_rate", first("locking.csv", "moment_deficit_rate of main")?, MODULUS * PLATES * sum),
+        (
+            "moment_rate",
+            first("moment_rate.csv", "moment_rate of main")?,
+            MODULUS * (1.5 * RATE + 0.5 * SLOW),
+        ),
+        ("coupling of the other fault", first("locking.csv", "coupling of other")?, lag),
+        (
+            "moment_deficit_rate of the other fault",
+            first("locking.csv", "moment_deficit_rate of other")?,
+            MODULI[1] * 3.0 * PLATES * lag,
+        ),
+        (
+            "moment_rate of the other fault",
+            first("moment_rate.csv", "moment_rate of other")?,
+            MODULI[1] * 3.0 * RATE,
+        ),
+        (
+            "normal force of the other fault",
+            first("fault_forces.csv", "normal_force of other")?,
+            3.0 * NORMAL,
+        ),
+    ] {
+        ledger
+            .claim(format!("a fault with points of unlike areas and rates that lag behind plates, beside another one, at the start: {column}"))
+            .value(found)
+            .equals(exact)
+            .relative(1e-8)
+            .evidence(Evidence::Exact, "1 - V/Vp, weighed by areas of a half, one and a half, and the moduli of the rocks of each fault")
+            .because("files have ten digits")
+            .why_not_tighter("the last digit may be off by any part of a half")
+            .covers(&[Capability::Outputs, Capability::FaultCycles])
+            .cost(&done.cost)
+            .record();
+    }
+    Ok(())
+}
+
+/// Displacements of the bodies at the end, which move rigidly as tractions do not change.
+fn moved(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let done = Written::of(&SceneText::new(&scene(false)).add("output.bodies", true).text()?)?;
+    let fields = Fields::read(&done.files.text("fields/bodies_end.vtu")?)?;
+    let along = |name: &str, c: usize| -> Result<Vec<f64>, CaseError> {
+        Ok(fields.array(name)?.values.chunks_exact(3).map(|v| v[c]).collect())
+    };
+    let (places, found) = (along("Points", 0)?, along("displacement", 2)?);
+    // On the fault nodes of both sides lie at one place.
+    let sides: Vec<f64> =
+        places.iter().zip(&found).map(|(x, u)| if *x == 0.0 { u.signum() } else { x.signum() }).collect();
+    ledger
+        .claim("displacements of the bodies beside a fault that slides steadily, in the field at the end")
+        .unit("m")
+        .values(&found)
+        .equals_each(&sides.iter().map(|side| 0.5 * side * RATE * DURATION).collect::<Vec<_>>())
+        .relative(1e-8)
+        .evidence(Evidence::Exact, "both blocks move as their drawn sides")
+        .because("the error of ln V in a step is 1e-9")
+        .why_not_tighter("errors of steps decay with slip")
+        .covers(&[Capability::Outputs, Capability::FaultCycles])
+        .cost(&done.cost)
+        .record();
+    Ok(())
 }
 
 /// Claims about numbers of a run at its end. Of vectors the last component, along z, is taken.

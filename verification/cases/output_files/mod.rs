@@ -3,7 +3,9 @@
 mod contact;
 mod faults;
 mod fields;
-mod vtu;
+mod mixed;
+mod states;
+pub(super) mod vtu;
 
 use crate::cases::written::{Folder, Written};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
@@ -22,7 +24,9 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     stations(ledger)?;
     fields::claims(ledger)?;
     contact::claims(ledger)?;
-    faults::claims(ledger)
+    faults::claims(ledger)?;
+    states::claims(ledger)?;
+    mixed::claims(ledger)
 }
 
 /// Station files, and distance along the fault of the points nearest to the requested stations \[km\].

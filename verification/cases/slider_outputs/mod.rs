@@ -3,7 +3,8 @@
 use super::slider::{self, Independent, MU0, V_REF};
 use super::slider_scene::{FRICTION, RATE, SLIP, STATE, TIME, files, plan, planned, text};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_cycles::slider::Problem;
+use asperity_cycles::slider::{self as cycles, Problem};
+use asperity_driver::slider::Report;
 use asperity_friction::evolution::definitions;
 use asperity_ode::Method;
 use asperity_vary::SceneText;
@@ -28,6 +29,7 @@ const NORMAL: f64 = 5e6;
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let reference = Independent::read()?;
     velocity_steps(ledger)?;
+    finals(ledger)?;
     cycles(ledger, &reference)?;
     backwards(ledger)?;
     holds(ledger, &reference)?;
@@ -135,6 +137,42 @@ fn velocity_steps(ledger: &mut Ledger) -> Result<(), CaseError> {
         .evidence(Evidence::Exact, "relaxation at constant V")
         .because("as friction")
         .why_not_tighter("as friction")
+        .cost(&cost)
+        .record();
+    Ok(())
+}
+
+/// The slider at the end of the imposed course, in the report.
+fn finals(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let course = "rate = { table = [[\"0 s\", \"1 um/s\"], [\"20 s\", \"1 um/s\"], [\"20 s\", \"10 um/s\"], [\"30 s\", \"10 um/s\"], [\"30 s\", \"0.1 um/s\"]] }";
+    let b = 0.015;
+    let (mut found, mut exact) = (Vec::new(), Vec::new());
+    let (done, cost) = Cost::of(|| -> Result<(), CaseError> {
+        for evolution in ["ageing", "slip"] {
+            let law = law(evolution, "0.015", "l = \"10 um\"");
+            let plan = plan(&text("", course, &law, "[time]\nend = \"60 s\"\ntolerance = 1e-11"))?;
+            let report = Report::new(&plan, &cycles::run(&plan, &mut ())?);
+            let last = report.last.first().ok_or("no slider in the report")?;
+            let [rate, _, phi] = imposed(evolution, b, (60.0, true));
+            let state = if evolution == "ageing" { phi / b } else { phi };
+            found.extend([last.slip_rate / rate, last.friction]);
+            found.extend(&last.states);
+            exact.extend([1.0, friction(rate, phi), state]);
+        }
+        Ok(())
+    });
+    done?;
+    if found.len() != exact.len() {
+        return Err("a state is missing".into());
+    }
+    ledger
+        .claim("imposed velocity steps, ageing and slip law: slip rate over that imposed, friction and state at the end in the report")
+        .values(&found)
+        .equals_each(&exact)
+        .absolute(1e-9)
+        .evidence(Evidence::Exact, "relaxation at constant V")
+        .because("a tolerance of 1e-11 a step, over some tens of steps")
+        .why_not_tighter("the order of the sum of errors of steps is what is known")
         .cost(&cost)
         .record();
     Ok(())

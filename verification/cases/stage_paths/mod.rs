@@ -1,5 +1,7 @@
 //! Loads and motions that carry over from stage to stage, and the forces and stresses that a run reports.
 
+mod noisy;
+
 use super::texts;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_vary::Change::{self, With};
@@ -30,7 +32,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     stages(ledger, "static-explicit", &[With("time.stepper", "static-explicit")])?;
     springs(ledger, "implicit")?;
     springs(ledger, "static-explicit")?;
-    column(ledger)
+    column(ledger)?;
+    noisy::claims(ledger)
 }
 
 /// Displacements of the drawn side at the ends of all steps \[m\].
