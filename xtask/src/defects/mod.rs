@@ -2,6 +2,7 @@
 
 mod definition;
 mod outcome;
+mod together;
 mod tree;
 
 pub use definition::{Defect, FOLDER};
@@ -9,9 +10,12 @@ pub use outcome::{Outcome, RESULTS, Results};
 
 use crate::stage::{Failure, announce};
 use outcome::Status;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::Mutex;
 use std::time::{Duration, Instant};
+use together::Together;
 use walkdir::WalkDir;
 
 /// Folder of the copy and its binaries.
@@ -37,133 +41,244 @@ pub struct Choice {
     pub list: bool,
 }
 
-/// Applies the defects one after the other and prints the claims that detect them. Each result is stored in [`RESULTS`]
-/// at once, so that an interrupted run can resume.
+/// Applies the defects and prints the claims that detect them. Each result is stored in [`RESULTS`] at once, so that an
+/// interrupted run can resume.
 pub fn run(root: &Path, choice: &Choice) -> Result<(), Failure> {
     let chosen = |defect: &Defect| choice.only.as_ref().is_none_or(|part| defect.name.contains(part));
     let defects: Vec<Defect> = Defect::all(root)?.into_iter().filter(chosen).collect();
     if choice.list {
         return list(root, &defects);
     }
-    let place = root.join(PLACE);
-    let commit = commit(root)?;
-    copy(root, &place.join("tree"))?;
-    announce("defects: the tree without defect");
-    // If the tree does not build without a defect, the compiler's messages say why.
-    if !ends_well(build(&place).stderr(Stdio::inherit()))? {
-        return Err(Failure::Defect { name: "none".into(), reason: "the tree does not build".into() });
+    let workshop = Workshop::open(root, choice)?;
+    let mut due = Vec::new();
+    for defect in &defects {
+        if choice.again || due_because(root, defect)?.is_some() {
+            due.push(defect);
+        }
     }
-    let mut found = Vec::new();
-    let tree = tree::hash(root)?;
+    // Tests are built for one defect at a time.
+    let alone = if choice.tests || due.len() < 2 { due } else { workshop.make_together(&due)? };
+    workshop.make_alone(&alone)?;
+    summarise(root, &defects)
+}
+
+/// Prints the results of the defects.
+fn summarise(root: &Path, defects: &[Defect]) -> Result<(), Failure> {
+    let results = Results::read(root)?;
+    let outcome = |defect: &Defect| results.get(&defect.name).cloned().unwrap_or_default();
     for defect in defects {
-        let files = tree::files(root, &defect)?;
-        let known = Results::read(root)?.take(&defect.name);
-        let known = known.filter(|o| o.is_noticed() && o.files == files && !choice.again);
-        let outcome = match known {
-            Some(outcome) => outcome,
-            None => {
-                announce(&format!("defect: {}", defect.name));
-                let outcome = Outcome {
-                    commit: commit.clone(),
-                    tree: tree.clone(),
-                    files,
-                    ..plant(&place, &defect, choice)?
-                };
-                Results::read(root)?.with(&defect.name, outcome.clone()).write(root)?;
-                outcome
-            }
-        };
-        println!("{:45} {}", defect.name, outcome.words());
-        found.push((defect, outcome));
+        println!("{:45} {}", defect.name, outcome(defect).words());
     }
-    let noticed = found.iter().filter(|(_, outcome)| outcome.is_noticed()).count();
-    println!("\ndefects: {noticed} of {} noticed by a claim", found.len());
-    for (defect, _) in found.iter().filter(|(_, outcome)| !outcome.is_noticed()) {
+    let (noticed, missed): (Vec<_>, Vec<_>) = defects.iter().partition(|d| outcome(d).is_noticed());
+    println!("\ndefects: {} of {} noticed by a claim", noticed.len(), defects.len());
+    for defect in missed {
         println!("  not noticed: {} ({})", defect.name, defect.wrong);
     }
     Ok(())
 }
 
-/// Prints the defects that the next run would plant: those without a result that noticed them, and those of which a file has
-/// changed since.
+/// Why a defect is to be made again: it has no result that noticed it, or a file that it touches has changed since.
+fn due_because(root: &Path, defect: &Defect) -> Result<Option<&'static str>, Failure> {
+    Ok(match Results::read(root)?.get(&defect.name) {
+        None => Some("no result"),
+        Some(outcome) if !outcome.is_noticed() => Some("not noticed"),
+        Some(outcome) if outcome.files != tree::files(root, defect)? => Some("stale"),
+        Some(_) => None,
+    })
+}
+
+/// Prints the defects that the next run would make, and why.
 fn list(root: &Path, defects: &[Defect]) -> Result<(), Failure> {
-    let results = Results::read(root)?;
     let mut due = 0;
     for defect in defects {
-        let why = match results.get(&defect.name) {
-            None => "no result",
-            Some(outcome) if !outcome.is_noticed() => "not noticed",
-            Some(outcome) if outcome.files != tree::files(root, defect)? => "stale",
-            Some(_) => continue,
-        };
-        due += 1;
-        println!("{:60} {why}", defect.name);
+        if let Some(why) = due_because(root, defect)? {
+            due += 1;
+            println!("{:60} {why}", defect.name);
+        }
     }
     println!("\ndefects: {due} of {} to be run", defects.len());
     Ok(())
 }
 
-/// Applies a defect to the copy, builds and verifies it, and reverts it.
-fn plant(place: &Path, defect: &Defect, choice: &Choice) -> Result<Outcome, Failure> {
-    let tree = place.join("tree");
-    let mut sound = Vec::new();
-    for change in &defect.change {
-        let path = tree.join(&change.file);
-        let text = read(&path)?;
-        let changed = change.applied(&text).ok_or_else(|| Failure::Defect {
-            name: defect.name.clone(),
-            reason: format!("its old text does not occur exactly once in {}", change.file),
-        })?;
-        write(&path, &changed)?;
-        sound.push((path, text));
-    }
-    let outcome = verify(place, defect, choice);
-    // In reverse order: if a file has two changes, the text saved before the first is the original.
-    for (path, text) in sound.iter().rev() {
-        write(path, text)?;
-    }
-    outcome
+/// The copy of a tree in which defects are made, and where their results go.
+struct Workshop<'a> {
+    root: &'a Path,
+    choice: &'a Choice,
+    place: PathBuf,
+    /// Commit and hash of the tree.
+    commit: String,
+    tree: String,
+    /// Held while the results are changed.
+    results: Mutex<()>,
 }
 
-/// Builds the copy and runs the cases that the defect names. If these do not detect it, the quick suite follows.
-fn verify(place: &Path, defect: &Defect, choice: &Choice) -> Result<Outcome, Failure> {
-    let mut outcome = Outcome::default();
-    if !ends_well(&mut build(place))? {
-        outcome.status = Status::DoesNotBuild;
-        return Ok(outcome);
+impl<'a> Workshop<'a> {
+    fn open(root: &'a Path, choice: &'a Choice) -> Result<Self, Failure> {
+        let place = root.join(PLACE);
+        copy(root, &place.join("tree"))?;
+        let (commit, tree) = (commit(root)?, tree::hash(root)?);
+        Ok(Self { root, choice, place, commit, tree, results: Mutex::new(()) })
     }
-    for case in &defect.expected {
-        suite(place, Some(case), &mut outcome)?;
-        outcome.cases.push(case.clone());
-    }
-    if !outcome.is_noticed() && !choice.expected {
-        suite(place, None, &mut outcome)?;
-        outcome.cases.clear();
-    }
-    if choice.tests {
-        outcome.tests = Some(failing_tests(place)?);
-    }
-    Ok(outcome)
-}
 
-/// Runs a case, or all quick ones, in the copy.
-fn suite(place: &Path, case: Option<&str>, outcome: &mut Outcome) -> Result<(), Failure> {
-    let report = place.join("report");
-    let results = report.join("report.json");
-    // A run that writes no report must not pass for the run before.
-    if results.exists() {
-        std::fs::remove_file(&results).map_err(failed(&results))?;
+    /// Makes defects in one build, and returns those that have to be made alone.
+    fn make_together<'d>(&self, defects: &[&'d Defect]) -> Result<Vec<&'d Defect>, Failure> {
+        let tree = self.place.join("tree");
+        let sound = Together::of(&tree, defects, defects.iter().map(|d| d.name.clone()).collect())?;
+        let mut alone = BTreeSet::new();
+        loop {
+            announce(&format!("defects: {} in one build", defects.len() - alone.len()));
+            let together = Together::of(&tree, defects, alone)?;
+            together.write(&tree)?;
+            let built = build(&self.place).arg("--message-format=short").stderr(Stdio::piped()).output();
+            sound.write(&tree)?;
+            let built = built.map_err(|source| Failure::Start { program: "cargo".into(), source })?;
+            alone = together.alone.clone();
+            if built.status.success() {
+                break;
+            }
+            let blamed = together.blamed(&String::from_utf8_lossy(&built.stderr));
+            if blamed.is_empty() {
+                // The compiler blames no defect: each is made alone, which tells more.
+                return Ok(defects.to_vec());
+            }
+            alone.extend(blamed);
+        }
+        let (apart, here): (Vec<_>, Vec<_>) = defects.iter().partition(|d| alone.contains(&d.name));
+        self.without(&here)?;
+        self.each(&here)?;
+        Ok(apart)
     }
-    let mut suite = Command::new(place.join("build/release/asperity-verification"));
-    suite.current_dir(place.join("tree")).arg("--out").arg(&report).stdout(Stdio::null());
-    if let Some(case) = case {
-        suite.args(["--case", case]);
+
+    /// Runs the cases of the defects without any, in which every claim holds.
+    fn without(&self, defects: &[&Defect]) -> Result<(), Failure> {
+        announce("defects: the cases without a defect");
+        let cases: BTreeSet<&String> = defects.iter().flat_map(|d| &d.expected).collect();
+        for case in cases {
+            let mut outcome = Outcome::default();
+            self.suite(None, Some(case), &mut outcome)?;
+            if outcome.is_noticed() || outcome.status != Status::Ran {
+                let reason = format!("the case `{case}` disagrees without a defect");
+                return Err(Failure::Defect { name: "none".into(), reason });
+            }
+        }
+        Ok(())
     }
-    if ends(&mut suite, if case.is_some() { LONGEST_CASE } else { LONGEST })?.is_none() {
-        outcome.status = Status::DoesNotEnd;
-        return Ok(());
+
+    /// Verifies defects that are in the build, two at a time: cases use one thread for the most part.
+    fn each(&self, defects: &[&Defect]) -> Result<(), Failure> {
+        let queue = Mutex::new(defects.iter());
+        let next = || queue.lock().ok().and_then(|mut queue| queue.next().copied());
+        let work = || -> Result<(), Failure> {
+            while let Some(defect) = next() {
+                let outcome = self.verify(defect, Some(&defect.name))?;
+                self.keep(defect, outcome)?;
+            }
+            Ok(())
+        };
+        std::thread::scope(|scope| {
+            let other = scope.spawn(work);
+            let own = work();
+            own.and(other.join().unwrap_or(Ok(())))
+        })
     }
-    outcome.add(&results)
+
+    /// Makes defects one after the other, each in a build of its own.
+    fn make_alone(&self, defects: &[&Defect]) -> Result<(), Failure> {
+        if defects.is_empty() {
+            return Ok(());
+        }
+        announce("defects: the tree without defect");
+        // If the tree does not build without a defect, the compiler's messages say why.
+        if !ends_well(build(&self.place).stderr(Stdio::inherit()))? {
+            return Err(Failure::Defect { name: "none".into(), reason: "the tree does not build".into() });
+        }
+        for defect in defects {
+            announce(&format!("defect: {}", defect.name));
+            let outcome = self.make(defect)?;
+            self.keep(defect, outcome)?;
+        }
+        Ok(())
+    }
+
+    /// Applies a defect to the copy, builds and verifies it, and reverts it.
+    fn make(&self, defect: &Defect) -> Result<Outcome, Failure> {
+        let tree = self.place.join("tree");
+        let mut sound = Vec::new();
+        for change in &defect.change {
+            let path = tree.join(&change.file);
+            let text = read(&path)?;
+            let changed = change.applied(&text).ok_or_else(|| Failure::Defect {
+                name: defect.name.clone(),
+                reason: format!("its old text does not occur exactly once in {}", change.file),
+            })?;
+            write(&path, &changed)?;
+            sound.push((path, text));
+        }
+        let outcome = if ends_well(&mut build(&self.place))? {
+            self.verify(defect, None)
+        } else {
+            Ok(Outcome { status: Status::DoesNotBuild, ..Outcome::default() })
+        };
+        // In reverse order: if a file has two changes, the text saved before the first is the original.
+        for (path, text) in sound.iter().rev() {
+            write(path, text)?;
+        }
+        outcome
+    }
+
+    /// Stores the result of a defect.
+    fn keep(&self, defect: &Defect, outcome: Outcome) -> Result<(), Failure> {
+        let outcome = Outcome {
+            commit: self.commit.clone(),
+            tree: self.tree.clone(),
+            files: tree::files(self.root, defect)?,
+            ..outcome
+        };
+        println!("{:45} {}", defect.name, outcome.words());
+        let _held = self.results.lock();
+        Results::read(self.root)?.with(&defect.name, outcome).write(self.root)
+    }
+
+    /// Runs the cases that the defect names. If these do not detect it, the quick suite follows.
+    fn verify(&self, defect: &Defect, chosen: Option<&str>) -> Result<Outcome, Failure> {
+        let mut outcome = Outcome::default();
+        for case in &defect.expected {
+            self.suite(chosen, Some(case), &mut outcome)?;
+            outcome.cases.push(case.clone());
+        }
+        if !outcome.is_noticed() && !self.choice.expected {
+            self.suite(chosen, None, &mut outcome)?;
+            outcome.cases.clear();
+        }
+        if self.choice.tests {
+            outcome.tests = Some(failing_tests(&self.place)?);
+        }
+        Ok(outcome)
+    }
+
+    /// Runs a case, or all quick ones, in the copy, with the defect that is `chosen` among those of the build.
+    fn suite(&self, chosen: Option<&str>, case: Option<&str>, outcome: &mut Outcome) -> Result<(), Failure> {
+        let report = self.place.join("report").join(chosen.unwrap_or("none"));
+        let results = report.join("report.json");
+        // A run that writes no report must not pass for the run before.
+        if results.exists() {
+            std::fs::remove_file(&results).map_err(failed(&results))?;
+        }
+        let mut suite = Command::new(self.place.join("build/release/asperity-verification"));
+        suite.current_dir(self.place.join("tree")).arg("--out").arg(&report);
+        suite.stdout(Stdio::null()).stderr(Stdio::null()).env_remove(together::VARIABLE);
+        if let Some(name) = chosen {
+            suite.env(together::VARIABLE, name);
+        }
+        if let Some(case) = case {
+            suite.args(["--case", case]);
+        }
+        if ends(&mut suite, if case.is_some() { LONGEST_CASE } else { LONGEST })?.is_none() {
+            outcome.status = Status::DoesNotEnd;
+            return Ok(());
+        }
+        outcome.add(&results)
+    }
 }
 
 /// Names of the tests of the workspace that fail in the copy.

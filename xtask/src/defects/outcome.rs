@@ -81,11 +81,6 @@ impl Results {
         self.0.get(name)
     }
 
-    /// Takes the result of a defect.
-    pub fn take(mut self, name: &str) -> Option<Outcome> {
-        self.0.remove(name)
-    }
-
     /// Names of the defects.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.0.keys().map(String::as_str)

@@ -12,7 +12,7 @@ mod lints;
 mod problem;
 mod readers;
 mod sentences;
-mod source;
+pub mod source;
 mod text;
 mod tree;
 mod variation;
