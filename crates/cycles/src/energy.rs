@@ -74,7 +74,7 @@ impl Energy {
         self.loads + self.opening - self.elastic - self.friction - self.radiated - self.kinetic
     }
 
-    /// What is missing, divided by the largest part \[-\].
+    /// Missing energy, divided by the largest part \[-\].
     #[must_use]
     pub fn imbalance(&self) -> f64 {
         let moved = [self.kinetic, self.opening, self.exchanged];

@@ -64,7 +64,8 @@ impl Points {
         let rows = |name: &str| -> Result<Vec<Vec<f64>>, CaseError> {
             Ok(run.files.table(name)?.numbers().into_iter().map(|row| row[1..].to_vec()).collect())
         };
-        let (slip, rate) = (rows("slip_profiles.csv")?, rows("rate_profiles.csv")?);
+        let (slip, mut rate) = (rows("slip_profiles.csv")?, rows("rate_profiles.csv")?);
+        rate.iter_mut().flatten().for_each(|log| *log = 10_f64.powf(*log));
         let ruptured = times.column("time")?.iter().map(|t| t.is_finite()).collect();
         let points = Self { slip, rate, ruptured, place: times.column("y")? };
         let whole = points.slip.len() == STEPS + 1 && points.rate.len() == STEPS + 1;

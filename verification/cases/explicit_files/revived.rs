@@ -82,9 +82,10 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     // change of slope times this width.
     let width = (END / CELLS.pow(2) as f64 * (1.0 - COURANT * COURANT) / 8.0).cbrt();
     let rounded = |of: &dyn Fn(f64) -> f64| 0.26 * steepest(of) * width;
-    let each = |row: &Vec<f64>| row[1..].iter().map(|v| (v - rate(row[0])).abs()).fold(0.0, f64::max);
+    let each =
+        |row: &Vec<f64>| row[1..].iter().map(|v| (10_f64.powf(*v) - rate(row[0])).abs()).fold(0.0, f64::max);
     let off: Vec<f64> = rows.iter().map(each).collect();
-    let found: Vec<(f64, f64)> = rows.iter().map(|row| (row[0], row[1])).collect();
+    let found: Vec<(f64, f64)> = rows.iter().map(|row| (row[0], 10_f64.powf(row[1]))).collect();
     ledger
         .claim("slip rates of columns whose slip ends, and which waves from their free ends revive, over the largest")
         .norm("largest difference through time")

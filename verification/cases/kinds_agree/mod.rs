@@ -19,7 +19,7 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// What waves that have not returned leave out of the stiffness, over eta V: 2 c_s T/H.
+/// Traction of the stiffness that is not felt before waves return, over eta V: 2 c_s T/H.
 const NOT_RETURNED: f64 = 1e-2;
 
 /// Files and report of a run.

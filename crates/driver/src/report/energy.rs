@@ -23,7 +23,7 @@ pub struct EnergyTable {
     pub lost: BTreeMap<&'static str, f64>,
     /// Works, and energy at the start.
     pub given: BTreeMap<&'static str, f64>,
-    /// What was given minus what is kept and lost, at the end.
+    /// Energy given minus energy kept and lost, at the end.
     pub missing: f64,
     /// Largest amount missing that was noted in the run, over the largest part \[-\].
     pub imbalance: f64,

@@ -105,7 +105,7 @@ pub(super) fn unknown(scan: &Scan<'_>, at: usize, element: u64, number: i64) -> 
     MeshError::UnsupportedElement { section, place, element, kind }
 }
 
-/// Where each type that is not read occurs first.
+/// First place of each type that is not read.
 #[derive(Default)]
 pub(super) struct Places(BTreeMap<Other, (String, Place)>);
 
