@@ -50,7 +50,7 @@ fn scene() -> String {
     )
 }
 
-/// What drives slip beyond friction.
+/// Traction that drives slip beyond friction.
 fn excess(t: f64) -> f64 {
     TRACTION * growth(t, RISE) - MU * pressure(t - ARRIVAL)
 }
