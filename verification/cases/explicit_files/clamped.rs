@@ -50,7 +50,7 @@ fn scene() -> String {
     )
 }
 
-/// Traction beyond friction, which drives slip.
+/// Traction that drives slip beyond friction.
 fn excess(t: f64) -> f64 {
     TRACTION * growth(t, RISE) - MU * pressure(t - ARRIVAL)
 }

@@ -21,7 +21,7 @@ const MODULUS: f64 = 2.0 * 1.0 * 4.0 / (1.0 + 4.0);
 /// Stations, in places along the fault.
 const STATIONS: [f64; 3] = [0.5, 1.0, 4.0];
 
-fn scene() -> String {
+fn scene(sense: f64) -> String {
     let body = |name: &str, from: i32, young: f64, density: f64| {
         format!(
             "[materials.{name}]\nyoung = {young:?}\npoisson = 0.25\ndensity = {density:?}\n[bodies.{name}]\nmaterial = \"{name}\"\n\
@@ -34,13 +34,14 @@ fn scene() -> String {
     format!(
         "schema = 1\ntitle = \"partial\"\nkinematics = \"antiplane\"\n{}{}\
          [faults.f]\nminus = \"a.right\"\nplus = \"b.left\"\nlaw = {{ kind = \"coulomb\", mu = 0.5 }}\nnormal = 1\n\
-         shear = 0.5\npulses = [{{ traction = 0.5, centre = [0, 0.75], radius = 3, duration = 1 }}]\n\
+         shear = {:?}\npulses = [{{ traction = 0.5, centre = [0, 0.75], radius = 3, duration = 1 }}]\n\
          [[stages]]\nname = \"slip\"\nduration = {END:?}\nsteps = {STEPS}\n\
          conditions = [{{ set = \"a.left\", absorbing = true }}, {{ set = \"b.right\", absorbing = true }}]\n\
          [time]\nstepper = \"explicit\"\nviscosity = 0\n\
          [output]\nrupture_rate = {RUPTURED:?}\nsampling = {:?}\nprofiles = {STEPS}\nstations.f = [{}]\n",
         body("a", -1, 2.5, 1.0),
         body("b", 0, 10.0, 4.0),
+        0.5 * sense,
         END / STEPS as f64,
         stations.join(", ")
     )
@@ -91,12 +92,14 @@ impl Points {
 }
 
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let run = Waves::of(&scene())?;
+    let run = Waves::of(&scene(1.0))?;
+    backwards(ledger, &run)?;
     let times = run.files.table("rupture_times.csv")?;
     let points = Points::read(&run, &times)?;
     moments(ledger, &run, &points)?;
     report(ledger, &run, &points)?;
     stations(ledger, &run, &points)?;
+    places(ledger, &run, &points, &times)?;
     let exact: Vec<f64> = (0..=ALONG).map(|p| points.largest(p)).collect();
     ledger
         .claim("a fault that ruptures in part: largest slip rates in the table of rupture times")
@@ -113,6 +116,35 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
         .covers(&[Capability::DynamicRupture, Capability::Outputs])
         .cost(&run.cost)
         .record();
+    Ok(())
+}
+
+/// Slip the other way: its profiles keep its sign, and nothing else changes.
+fn backwards(ledger: &mut Ledger, forwards: &Waves) -> Result<(), CaseError> {
+    let run = Waves::of(&scene(-1.0))?;
+    for (file, sign) in [
+        ("rate_profiles.csv", 1.0),
+        ("slip_profiles.csv", -1.0),
+        ("moment_rate.csv", 1.0),
+        ("energy.csv", 1.0),
+    ] {
+        let rows = |run: &Waves| -> Result<Vec<f64>, CaseError> {
+            let rows = run.files.table(file)?.numbers();
+            Ok(rows.into_iter().flat_map(|row| row.into_iter().skip(1)).collect())
+        };
+        let (found, other) = (rows(&run)?, rows(forwards)?);
+        ledger
+            .claim(format!("a fault that ruptures in part, and backwards: all numbers of {file}"))
+            .values(&found)
+            .equals_each(&other.iter().map(|v| sign * v).collect::<Vec<_>>())
+            .absolute(1e-13)
+            .evidence(Evidence::Exact, "the scene and its mirror image: slip has the other sign, logarithms of slip rates, moments and energies the same")
+            .because("rounding of numbers below one")
+            .why_not_tighter("the sum of rounding of the missing energy")
+            .covers(&[Capability::DynamicRupture, Capability::Outputs])
+            .cost(&run.cost)
+            .record();
+    }
     Ok(())
 }
 
@@ -169,6 +201,35 @@ fn report(ledger: &mut Ledger, run: &Waves, points: &Points) -> Result<(), CaseE
         .count(found["points"][1].as_u64().unwrap_or(u64::MAX).abs_diff(count as u64), 0)
         .evidence(Evidence::Exact, "the same points")
         .because("counts are exact")
+        .covers(&[Capability::DynamicRupture, Capability::Outputs])
+        .cost(&run.cost)
+        .record();
+    Ok(())
+}
+
+/// The point that ruptured first, and the areas in the heads of stations.
+fn places(ledger: &mut Ledger, run: &Waves, points: &Points, times: &Table) -> Result<(), CaseError> {
+    let times = times.column("time")?;
+    let first = times.iter().enumerate().filter(|(_, t)| t.is_finite()).min_by(|a, b| a.1.total_cmp(b.1));
+    let place = points.place[first.ok_or("nothing ruptured")?.0];
+    let found = run.report.ruptures.first().and_then(|r| r.first).ok_or("no first point")?;
+    let mut values = vec![found[1]];
+    let mut exact = vec![place];
+    for (k, place) in STATIONS.iter().enumerate() {
+        let text = run.files.text(&format!("stations/f_{k:03}"))?;
+        let after = text.split("tributary_area=").nth(1).ok_or("no area")?;
+        values.push(after.split_whitespace().next().ok_or("no area")?.parse()?);
+        exact.push(area((place / SIZE).round() as usize));
+    }
+    ledger
+        .claim("a fault that ruptures in part: place that ruptures first in the report, and areas in the heads of three stations")
+        .unit("m")
+        .values(&values)
+        .equals_each(&exact)
+        .absolute(1e-9)
+        .evidence(Evidence::Exact, "the least rupture time in the table, and cells of half a metre")
+        .because("heads have seven digits, and these numbers have two")
+        .why_not_tighter("there is nothing but rounding")
         .covers(&[Capability::DynamicRupture, Capability::Outputs])
         .cost(&run.cost)
         .record();

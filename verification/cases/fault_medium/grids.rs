@@ -141,7 +141,8 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     maps(ledger, &done)?;
     let table = done.files.table("events/rupture_times_000.csv")?;
     slips(ledger, &done, &table)?;
-    hypocentre(ledger, &done)
+    hypocentre(ledger, &done)?;
+    subfaults(ledger, &done, &table)
 }
 
 /// Maps of the surface, whose first coordinate is z.
@@ -193,6 +194,34 @@ fn slips(ledger: &mut Ledger, done: &Written, table: &Table) -> Result<(), CaseE
         )
         .because("the table has ten digits")
         .why_not_tighter("the last digit may be off by any part of a half")
+        .covers(&[Capability::Outputs, Capability::Medium, Capability::Events, Capability::Interop])
+        .cost(&done.cost)
+        .record();
+    Ok(())
+}
+
+/// Depths, slip and moments of the subfaults, whose positions are the middles of their upper edges.
+fn subfaults(ledger: &mut Ledger, done: &Written, table: &Table) -> Result<(), CaseError> {
+    let text = done.files.text("events/finite_fault_000.fsp")?;
+    let lines = text.lines().filter(|line| !line.starts_with('%') && !line.trim().is_empty());
+    let rows = lines.map(|line| line.split_whitespace().map(str::parse).collect::<Result<Vec<f64>, _>>());
+    let rows = rows.collect::<Result<Vec<_>, _>>()?;
+    let (depth, slip) = (table.column("y")?, table.column("slip")?);
+    let half = 0.5 * SIZES[2] * DIP.to_radians().sin();
+    let found: Vec<f64> = rows.iter().flat_map(|row| [row[4], row[5]]).collect();
+    let exact: Vec<f64> =
+        depth.iter().zip(&slip).flat_map(|(y, slip)| [-1e-3 * (y + half), slip.abs()]).collect();
+    if found.len() != exact.len() {
+        return Err(format!("{} subfaults", rows.len()).into());
+    }
+    ledger
+        .claim("depth of the upper edge in km, and slip in m, of the subfaults of a finite-fault model of six cells")
+        .values(&found)
+        .equals_each(&exact)
+        .absolute(5.1e-4)
+        .evidence(Evidence::Exact, "half a cell up dip from the positions in the table of points, and their slip")
+        .because("depths have three decimals")
+        .why_not_tighter("depths of these cells may be whole in the last digit")
         .covers(&[Capability::Outputs, Capability::Medium, Capability::Events, Capability::Interop])
         .cost(&done.cost)
         .record();

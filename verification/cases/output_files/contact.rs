@@ -6,6 +6,7 @@
 use super::{OfFiles, Wanted};
 use crate::cases::written::{self, Folder};
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
+use asperity_vary::SceneText;
 use serde_json::Value;
 
 /// Width of the blocks along x, and along z in space \[m\].
@@ -105,7 +106,8 @@ impl Steady {
 /// See the module.
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     plane(ledger)?;
-    space(ledger)
+    space(ledger)?;
+    free(ledger)
 }
 
 fn plane(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -229,6 +231,42 @@ fn space(ledger: &mut Ledger) -> Result<(), CaseError> {
     all(ledger, (&files, &cost), "in space", &wanted)
 }
 
+/// Blocks with free sides, whose tractions vary: their mean in the report carries the force on the top.
+fn free(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let text = SceneText::new(&scene(false, RATES))
+        .with("interfaces.joint.law", "{ kind = \"coulomb\", mu = 0.6 }")
+        .with(
+            "stages[0].conditions",
+            "[{ set = \"upper.top\", x = { to = 2e-6 }, y = 0 }, { set = \"lower.bottom\", x = 0, y = 0 }]",
+        )
+        .text()?;
+    let (files, cost) = written::bodies(&text)?;
+    let report: Value = serde_json::from_str(&files.text("report.json")?)?;
+    let mean = |name: &str| report["results"][0][name].as_f64().ok_or_else(|| format!("no {name}"));
+    let [width, _] = WIDTHS;
+    let force = |name: &str| super::last(&files, "forces/top.csv", name);
+    let shears = files.names("profiles")?.pop().ok_or("no profile")?;
+    let shears = files.table(&format!("profiles/{shears}"))?.column("shear_traction")?;
+    if shears.windows(2).all(|w| (w[0] - w[1]).abs() < 1e-3 * w[0].abs()) {
+        return Err("the tractions do not vary".into());
+    }
+    ledger
+        .claim(
+            "two blocks with free sides, sheared: mean tractions in report.json against the force on the top",
+        )
+        .unit("Pa")
+        .values(&[mean("mean_shear_traction")?, mean("mean_normal_traction")?])
+        .equals_each(&[-force("force_x")? / width, -force("force_y")? / width])
+        .relative(1e-8)
+        .evidence(Evidence::Exact, "balance of forces of the upper block")
+        .because("Newton's method leaves 1e-11 of the forces, and files have ten digits")
+        .why_not_tighter("the last of ten digits may be off by any part of a half")
+        .covers(&[Capability::Outputs, Capability::Balance])
+        .cost(&cost)
+        .record();
+    Ok(())
+}
+
 /// Claims about the report of the run in the plane.
 fn report(
     ledger: &mut Ledger,
@@ -238,6 +276,18 @@ fn report(
 ) -> Result<(), CaseError> {
     let report: Value = serde_json::from_str(&files.text("report.json")?)?;
     let result = &report["results"][0];
+    let counts: Vec<f64> = [0, 1, 2].iter().filter_map(|k| result["status"][k].as_f64()).collect();
+    ledger
+        .claim("two blocks that slide steadily in the plane, at the end: points that are open, stick and slip in report.json")
+        .values(&counts)
+        .equals_each(&[0.0, 0.0, 3.0])
+        .absolute(0.5)
+        .evidence(Evidence::Exact, "all three points slide")
+        .because("counts are whole numbers")
+        .why_not_tighter("half a point")
+        .covers(&[Capability::Outputs])
+        .cost(cost)
+        .record();
     for (name, value) in [
         ("mean_normal_traction", NORMAL),
         ("mid_normal_traction", NORMAL),

@@ -109,7 +109,8 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     space(ledger)?;
     two_states(ledger)?;
     deficit(ledger)?;
-    moved(ledger)
+    moved(ledger)?;
+    snapshots(ledger)
 }
 
 fn plane(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -290,6 +291,33 @@ fn deficit(ledger: &mut Ledger) -> Result<(), CaseError> {
             .cost(&done.cost)
             .record();
     }
+    Ok(())
+}
+
+/// The list of snapshots has the rate of the fastest point, which is not the first.
+fn snapshots(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let text = SceneText::new(&scene(true))
+        .add(
+            "faults.main.patches",
+            format!("[{{ box = {{ y = {{ from = -1, to = 0.5 }} }}, rate = {SLOW:e} }}]"),
+        )
+        .with("stages[0].duration", 1e-3)
+        .text()?;
+    let done = Written::of(&text)?;
+    let first = *done.files.table("snapshots.csv")?.column("log10 slip_rate")?.first().ok_or("no row")?;
+    ledger
+        .claim(
+            "a fault in space with slow points: largest slip rate in the first row of the list of snapshots",
+        )
+        .value(first)
+        .equals(RATE.log10())
+        .absolute(1e-6)
+        .evidence(Evidence::Exact, "the slip rate of the other points at the start")
+        .because("the list has six decimals")
+        .why_not_tighter("the last digit may be off by a half")
+        .covers(&[Capability::Outputs, Capability::FaultCycles])
+        .cost(&done.cost)
+        .record();
     Ok(())
 }
 
