@@ -2,7 +2,7 @@
 
 use super::product::{self, WIDE};
 use super::shapes::Shapes;
-use super::simplex;
+use super::{Displacements, simplex};
 use crate::element::MOST_NODES;
 use crate::mesh::Mesh;
 use nalgebra::SMatrix;
@@ -136,14 +136,13 @@ impl Piece {
         self.slots = self.nodes().iter().map(entry).collect();
     }
 
-    /// Computes the forces of the cells on the nodes of the piece at displacements `u` of all nodes, C components each. Cells find
+    /// Computes the forces of the cells on the nodes of the piece at displacements of all nodes, C components each. Cells find
     /// both in `room` by numbers of two bytes.
-    pub fn forces<const C: usize>(&self, u: &[f64], room: &mut Room) {
-        let (u, _) = u.as_chunks::<C>();
+    pub fn forces<const C: usize>(&self, all: &Displacements<'_>, room: &mut Room) {
         room.u.resize(self.nodes.len() * C, 0.0);
         room.forces.resize(self.nodes.len() * C, 0.0);
         for (own, &node) in room.u.as_chunks_mut::<C>().0.iter_mut().zip(&self.nodes) {
-            *own = u[node as usize];
+            *own = all.of(node as usize);
         }
         let Room { u, forces, lanes } = room;
         Arch::new().dispatch(Evaluation::<C> { piece: self, u, forces, lanes });
