@@ -4,7 +4,7 @@
 //! writes the forces of its own nodes, and a second pass adds the pieces that share a node, in order: the result does not depend on
 //! the number of threads. Nodes of grids are computed row by row instead ([`stencil`]), and cells whose nodes are all of these
 //! belong to no piece. Within a piece cells are treated in groups:
-//! - constant-strain simplices by their gradients ([`simplex`]);
+//! - constant-strain simplices by their gradients ([`simplex`], [`tetrahedra`]);
 //! - cells of equal shape by one stiffness matrix, several cells at once ([`product`]);
 //! - other cells by a matrix each.
 
@@ -17,6 +17,7 @@ mod shapes;
 mod simplex;
 mod stable;
 mod stencil;
+mod tetrahedra;
 
 pub use stable::{Highest, highest_frequency};
 
