@@ -4,7 +4,7 @@
 //! writes the forces of its own nodes, and a second pass adds the pieces that share a node, in order: the result does not depend on
 //! the number of threads. Nodes of grids are computed row by row instead ([`stencil`]), and cells whose nodes are all of these
 //! belong to no piece. Within a piece cells are treated in groups:
-//! - constant-strain simplices by their gradients ([`simplex`]);
+//! - constant-strain simplices by their gradients ([`simplex`], [`tetrahedra`]);
 //! - cells of equal shape by one stiffness matrix, several cells at once ([`product`]);
 //! - other cells by a matrix each.
 
@@ -17,6 +17,7 @@ mod shapes;
 mod simplex;
 mod stable;
 mod stencil;
+mod tetrahedra;
 
 pub use stable::{Highest, highest_frequency};
 
@@ -27,6 +28,35 @@ use piece::{Piece, Room};
 use rayon::prelude::*;
 use shapes::Shapes;
 use stencil::Stencils;
+
+/// Displacements u + t v at which forces are computed: damping adds the rate of the strain times a relaxation time.
+#[derive(Clone, Copy, Debug)]
+pub struct Displacements<'a> {
+    /// u \[m\].
+    pub u: &'a [f64],
+    /// v \[m/s\]; empty where nothing damps.
+    pub velocity: &'a [f64],
+    /// t \[s\].
+    pub ahead: f64,
+}
+
+impl<'a> Displacements<'a> {
+    /// Displacements without damping \[m\].
+    #[must_use]
+    pub fn plain(u: &'a [f64]) -> Self {
+        Self { u, velocity: &[], ahead: 0.0 }
+    }
+
+    /// Those of a node of C components.
+    #[inline(always)]
+    fn of<const C: usize>(&self, node: usize) -> [f64; C] {
+        let u = self.u.as_chunks::<C>().0[node];
+        match self.velocity.as_chunks::<C>().0.get(node) {
+            Some(v) => std::array::from_fn(|c| u[c] + self.ahead * v[c]),
+            None => u,
+        }
+    }
+}
 
 /// Forces K u of the linear blocks of a mesh. Degree of freedom = node * components + component.
 #[derive(Clone, Debug)]
@@ -84,8 +114,8 @@ impl MatrixFree {
         self.matrices
     }
 
-    /// Computes the forces at displacements `u` \[m\]; [`MatrixFree::force`] reads them.
-    pub fn evaluate(&mut self, u: &[f64]) {
+    /// Computes the forces at displacements; [`MatrixFree::force`] reads them.
+    pub fn evaluate(&mut self, u: &Displacements<'_>) {
         match self.components {
             1 => self.evaluate_of::<1>(u),
             2 => self.evaluate_of::<2>(u),
@@ -93,7 +123,7 @@ impl MatrixFree {
         }
     }
 
-    fn evaluate_of<const C: usize>(&mut self, u: &[f64]) {
+    fn evaluate_of<const C: usize>(&mut self, u: &Displacements<'_>) {
         self.stencils.evaluate::<C>(u);
         self.pieces.par_iter().for_each_init(Room::default, |room, piece| {
             piece.forces::<C>(u, room);
@@ -138,7 +168,7 @@ impl MatrixFree {
 
     /// Writes K u.
     pub fn apply(&mut self, u: &[f64], forces: &mut [f64]) {
-        self.evaluate(u);
+        self.evaluate(&Displacements::plain(u));
         for (node, force) in forces.chunks_exact_mut(self.components).enumerate() {
             for (component, force) in force.iter_mut().enumerate() {
                 *force = self.force(node, component);

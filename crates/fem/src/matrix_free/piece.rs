@@ -2,10 +2,10 @@
 
 use super::product::{self, WIDE};
 use super::shapes::Shapes;
-use super::simplex;
+use super::tetrahedra::{self, Gradients, Quad, Tetrahedra};
+use super::{Displacements, simplex};
 use crate::element::MOST_NODES;
 use crate::mesh::Mesh;
-use nalgebra::SMatrix;
 use pulp::{Arch, Simd, WithSimd};
 
 /// Groups of cells gathered before the first of them is computed: numbers written one by one cannot be read as vectors at once.
@@ -35,6 +35,8 @@ pub(super) struct Room {
     /// Forces of the last piece, node by node.
     pub forces: Vec<f64>,
     lanes: Lanes,
+    /// Displacements and forces of the nodes of a piece of tetrahedra.
+    quads: [Vec<Quad>; 2],
 }
 
 /// Displacements and forces of a batch of cells, degree of freedom by degree of freedom. It is kept from group to group: clearing it
@@ -55,7 +57,9 @@ struct Group {
 
 #[derive(Clone, Debug)]
 enum Kind {
-    /// Moduli (G, λ), then for each [`WIDE`] cells their gradients and volumes.
+    /// Tetrahedra: moduli (G, λ), and gradients of each [`WIDE`] cells.
+    Tetrahedra { moduli: (f64, f64), gradients: Vec<Gradients> },
+    /// Triangles: moduli (G, λ), then for each [`WIDE`] cells their gradients and volumes.
     Simplex { moduli: (f64, f64), gradients: Vec<[f64; WIDE]> },
     /// One matrix for all cells.
     Shared(Vec<f64>),
@@ -87,8 +91,12 @@ impl Piece {
         let corners = block.kind.nodes();
         let groups = match shapes {
             Shapes::Simplex { shear, dilatation } => {
-                let gradients = gradients(mesh, k, cells);
-                let kind = Kind::Simplex { moduli: (*shear, *dilatation), gradients };
+                let moduli = (*shear, *dilatation);
+                let kind = if D == 3 {
+                    Kind::Tetrahedra { moduli, gradients: tetrahedra::gradients(mesh, k, cells) }
+                } else {
+                    Kind::Simplex { moduli, gradients: gradients(mesh, k, cells) }
+                };
                 vec![Group { connectivity: connectivity(cells), kind }]
             }
             Shapes::Shared { matrices, shape, size } => {
@@ -118,6 +126,7 @@ impl Piece {
     pub fn bytes(&self) -> usize {
         let of_group = |g: &Group| {
             let numbers = match &g.kind {
+                Kind::Tetrahedra { gradients, .. } => size_of_val(&gradients[..]) / size_of::<f64>(),
                 Kind::Simplex { gradients, .. } => gradients.len() * WIDE,
                 Kind::Shared(matrix) | Kind::Own(matrix) => matrix.len(),
             };
@@ -136,16 +145,27 @@ impl Piece {
         self.slots = self.nodes().iter().map(entry).collect();
     }
 
-    /// Computes the forces of the cells on the nodes of the piece at displacements `u` of all nodes, C components each. Cells find
+    /// Computes the forces of the cells on the nodes of the piece at displacements of all nodes, C components each. Cells find
     /// both in `room` by numbers of two bytes.
-    pub fn forces<const C: usize>(&self, u: &[f64], room: &mut Room) {
-        let (u, _) = u.as_chunks::<C>();
+    pub fn forces<const C: usize>(&self, all: &Displacements<'_>, room: &mut Room) {
         room.u.resize(self.nodes.len() * C, 0.0);
         room.forces.resize(self.nodes.len() * C, 0.0);
-        for (own, &node) in room.u.as_chunks_mut::<C>().0.iter_mut().zip(&self.nodes) {
-            *own = u[node as usize];
+        if let [Group { connectivity, kind: Kind::Tetrahedra { moduli, gradients } }] = &self.groups[..] {
+            let cells = connectivity.as_chunks().0;
+            let [u, forces] = &mut room.quads;
+            u.clear();
+            u.extend(self.nodes.iter().map(|&node| tetrahedra::quad(all.of::<C>(node as usize))));
+            forces.clear();
+            forces.resize(u.len(), [0.0; 4]);
+            Arch::new().dispatch(Tetrahedra { cells, moduli: *moduli, gradients, u, forces });
+            let own = room.forces.as_chunks_mut::<C>().0.iter_mut().zip(forces);
+            own.for_each(|(own, force)| own.copy_from_slice(&force[..C]));
+            return;
         }
-        let Room { u, forces, lanes } = room;
+        for (own, &node) in room.u.as_chunks_mut::<C>().0.iter_mut().zip(&self.nodes) {
+            *own = all.of(node as usize);
+        }
+        let Room { u, forces, lanes, .. } = room;
         Arch::new().dispatch(Evaluation::<C> { piece: self, u, forces, lanes });
     }
 }
@@ -158,24 +178,19 @@ fn by_shape(shape: &[u32], cells: &[usize]) -> Vec<(u32, Vec<usize>)> {
     groups.map(|group| (shape[group[0]], group.to_vec())).collect()
 }
 
-/// Gradients and volumes of simplices, [`WIDE`] cells after [`WIDE`]; missing cells at the end have no volume.
+/// Gradients and volumes of triangles, [`WIDE`] cells after [`WIDE`]; missing cells at the end have no volume.
 fn gradients<const D: usize>(mesh: &Mesh<D>, k: usize, cells: &[usize]) -> Vec<[f64; WIDE]> {
     let stride = D * D + 1;
     let mut result = vec![[0.0; WIDE]; cells.len().div_ceil(WIDE) * stride];
     for (at, &cell) in cells.iter().enumerate() {
-        let nodes = mesh.blocks[k].cell(cell);
-        let origin = &mesh.nodes[nodes[0]];
-        let edges = SMatrix::<f64, D, D>::from_fn(|a, i| mesh.nodes[nodes[a + 1]][i] - origin[i]);
-        // Rows of the inverse are axes, columns nodes; an inverted cell was refused when the block was made.
-        let inverse = edges.try_inverse().unwrap_or_else(|| edges.map(|_| f64::NAN));
-        let factorial = if D == 2 { 2.0 } else { 6.0 };
+        let (gradients, volume) = simplex::gradients(mesh, mesh.blocks[k].cell(cell));
         let lanes = &mut result[at / WIDE * stride..][..stride];
         for a in 0..D {
             for j in 0..D {
-                lanes[a * D + j][at % WIDE] = inverse[(j, a)];
+                lanes[a * D + j][at % WIDE] = gradients[(j, a)];
             }
         }
-        lanes[D * D][at % WIDE] = crate::block::determinant(&edges) / factorial;
+        lanes[D * D][at % WIDE] = volume;
     }
     result
 }
@@ -200,7 +215,9 @@ impl<const C: usize> WithSimd for Evaluation<'_, C> {
         for group in &self.piece.groups {
             let cells = (corners, group.connectivity.as_slice());
             match &group.kind {
-                Kind::Simplex { moduli, gradients } => simplices(cells, (*moduli, gradients), u, forces),
+                Kind::Simplex { moduli, gradients } => triangles(cells, (*moduli, gradients), u, forces),
+                // Pieces of tetrahedra have no other cells, and a form of displacements of their own.
+                Kind::Tetrahedra { .. } => {}
                 Kind::Shared(matrix) => shared(simd, cells, matrix, (u, forces), self.lanes),
                 Kind::Own(matrices) => own(cells, matrices, u, forces),
             }
@@ -281,25 +298,24 @@ fn own<const C: usize>(
 }
 
 #[inline(always)]
-fn simplices<const C: usize>(
+fn triangles<const C: usize>(
     (corners, cells): (usize, &[u16]),
     (moduli, gradients): ((f64, f64), &[[f64; WIDE]]),
     u: &[[f64; C]],
     forces: &mut [[f64; C]],
 ) {
-    let dimension = corners - 1;
-    let stride = dimension * dimension + 1;
-    let (mut x, mut y) = ([[[0.0; WIDE]; 12]; BATCH], [[[0.0; WIDE]; 12]; BATCH]);
+    const STRIDE: usize = 2 * 2 + 1;
+    let (mut x, mut y) = ([[[0.0; WIDE]; 6]; BATCH], [[[0.0; WIDE]; 6]; BATCH]);
     let wide = WIDE * corners;
-    for (cells, gradients) in cells.chunks(BATCH * wide).zip(gradients.chunks(BATCH * stride)) {
+    for (cells, gradients) in cells.chunks(BATCH * wide).zip(gradients.chunks(BATCH * STRIDE)) {
         for (cells, x) in cells.chunks(wide).zip(&mut x) {
             gather((corners, cells), u, x);
         }
-        for (gradients, (x, y)) in gradients.chunks_exact(stride).zip(x.iter().zip(&mut y)) {
-            match (dimension, C) {
-                (2, 1) => simplex::antiplane::<2>(moduli.0, gradients, x, y),
-                (2, _) => simplex::forces::<2>(moduli, gradients, x, y),
-                _ => simplex::forces::<3>(moduli, gradients, x, y),
+        for (gradients, (x, y)) in gradients.chunks_exact(STRIDE).zip(x.iter().zip(&mut y)) {
+            if C == 1 {
+                simplex::antiplane::<2>(moduli.0, gradients, x, y);
+            } else {
+                simplex::forces::<2>(moduli, gradients, x, y);
             }
         }
         for (cells, y) in cells.chunks(wide).zip(&y) {

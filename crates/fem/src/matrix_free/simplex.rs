@@ -1,9 +1,22 @@
-//! Forces of constant-strain simplices from their gradients.
+//! Gradients of constant-strain simplices, and the forces of triangles.
 //!
 //! With g_a = ∇N_a and the differences d_a = u_a - u_0 for the nodes after the first, `H = Σ d_a ⊗ g_a`, `σ = λ tr H I + G (H + Hᵀ)`,
 //! `f_a = V σ g_a` and `f_0 = -Σ f_a`. In antiplane motion `f_a = V G (Σ d_b g_b)·g_a`.
 
 use super::product::WIDE;
+use crate::block::determinant;
+use crate::mesh::Mesh;
+use nalgebra::SMatrix;
+
+/// Gradients of the nodes of a cell after the first, a column each, and its volume.
+pub(super) fn gradients<const D: usize>(mesh: &Mesh<D>, nodes: &[usize]) -> (SMatrix<f64, D, D>, f64) {
+    let origin = &mesh.nodes[nodes[0]];
+    let edges = SMatrix::<f64, D, D>::from_fn(|a, i| mesh.nodes[nodes[a + 1]][i] - origin[i]);
+    // An inverted cell was refused when the block was made.
+    let inverse = edges.try_inverse().unwrap_or_else(|| edges.map(|_| f64::NAN));
+    let factorial = if D == 2 { 2.0 } else { 6.0 };
+    (inverse, determinant(&edges) / factorial)
+}
 
 /// Values of a group of cells.
 type Lanes = [f64; WIDE];

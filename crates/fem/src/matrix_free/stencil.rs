@@ -3,6 +3,7 @@
 //! Displacements are copied so that a vector holds one component of neighbouring nodes of a run. Each node is then computed once, and
 //! nothing is gathered or added up between cells. Nodes in no run belong to the pieces.
 
+use super::Displacements;
 use super::runs::{Neighbour, Runs};
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
@@ -150,7 +151,7 @@ impl Stencils {
     }
 
     /// Computes the forces at displacements `u`, C components a node.
-    pub fn evaluate<const C: usize>(&mut self, u: &[f64]) {
+    pub fn evaluate<const C: usize>(&mut self, u: &Displacements<'_>) {
         if self.is_empty() {
             return;
         }
@@ -167,17 +168,21 @@ impl Stencils {
     }
 
     /// Copies displacements, component by component.
-    fn copy<const C: usize>(&mut self, u: &[f64]) {
-        let (u, _) = u.as_chunks::<C>();
+    fn copy<const C: usize>(&mut self, all: &Displacements<'_>) {
+        let (u, velocity) = (all.u.as_chunks::<C>().0, all.velocity.as_chunks::<C>().0);
         let period = self.period;
         let length = self.forces.len();
         let mut parts: Vec<Vec<&mut [f64]>> = self.tasks.iter().map(|_| Vec::new()).collect();
         for lines in self.u[..length].chunks_mut(self.columns) {
             lines.chunks_mut(COLUMNS).zip(&mut parts).for_each(|(line, parts)| parts.push(line));
         }
-        parts.into_par_iter().zip(u.par_chunks(COLUMNS * period)).for_each(|(lines, u)| match period {
-            1 => Arch::new().dispatch(Copy::<C, 1> { u, lines }),
-            _ => Arch::new().dispatch(Copy::<C, 2> { u, lines }),
+        let nodes = u.par_chunks(COLUMNS * period).enumerate();
+        parts.into_par_iter().zip(nodes).for_each(|(lines, (task, u))| {
+            let v = velocity.chunks(COLUMNS * period).nth(task).unwrap_or_default();
+            match period {
+                1 => Arch::new().dispatch(Copy::<C, 1> { u, v, ahead: all.ahead, lines }),
+                _ => Arch::new().dispatch(Copy::<C, 2> { u, v, ahead: all.ahead, lines }),
+            }
         });
     }
 
@@ -234,6 +239,9 @@ impl Stencils {
 /// Copies displacements of the nodes of a task to the lines of their components and residues.
 struct Copy<'a, const C: usize, const P: usize> {
     u: &'a [[f64; C]],
+    /// Velocities; empty where nothing damps.
+    v: &'a [[f64; C]],
+    ahead: f64,
     lines: Vec<&'a mut [f64]>,
 }
 
@@ -241,16 +249,19 @@ impl<const C: usize, const P: usize> WithSimd for Copy<'_, C, P> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(mut self, _: S) {
-        for (block, nodes) in self.u.chunks(COPIED * P).enumerate() {
-            for (k, line) in self.lines.iter_mut().enumerate() {
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { u, v, ahead, mut lines } = self;
+        for (block, u) in u.chunks(COPIED * P).enumerate() {
+            for (k, line) in lines.iter_mut().enumerate() {
                 let (c, residue) = (k / P, k % P);
                 let line = &mut line[block * COPIED..];
-                for (to, from) in line.iter_mut().zip(nodes.chunks(P)) {
-                    if let Some(node) = from.get(residue) {
-                        *to = node[c];
-                    }
+                let u = u.iter().skip(residue).step_by(P).map(|u| u[c]);
+                if v.is_empty() {
+                    line.iter_mut().zip(u).for_each(|(to, u)| *to = u);
+                    continue;
                 }
+                let v = v[block * COPIED * P..].iter().skip(residue).step_by(P).map(|v| v[c]);
+                line.iter_mut().zip(u.zip(v)).for_each(|(to, (u, v))| *to = u + ahead * v);
             }
         }
     }
@@ -296,8 +307,12 @@ impl<const C: usize> Evaluation<'_, C> {
         let own = part.column % COLUMNS;
         for (c, sum) in sums.iter().enumerate() {
             let line = &mut self.lines[c * self.period + part.residue][own..][..length];
-            for (own, sum) in line.chunks_mut(S::F64_LANES).zip(sum) {
-                simd.partial_store_f64s(own, *sum);
+            let (whole, rest) = S::as_mut_simd_f64s(line);
+            for (own, sum) in whole.iter_mut().zip(sum) {
+                *own = *sum;
+            }
+            if let Some(sum) = sum.get(whole.len()).filter(|_| !rest.is_empty()) {
+                simd.partial_store_f64s(rest, *sum);
             }
         }
         length

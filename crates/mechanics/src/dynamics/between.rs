@@ -1,5 +1,6 @@
 //! Surroundings of a fault in a step: its nodes and their motion.
 
+use super::SplitPoint;
 use super::nodes::{Special, dot};
 
 /// Mobility over that of free nodes below which a point is held: the square of the rounding of unit vectors is far below, absorbing sides far above.
@@ -16,6 +17,8 @@ pub(super) struct Between<'a> {
     pub displacement: &'a [[f64; 3]],
     /// Special nodes of each point: minus, plus.
     pub pairs: &'a [[usize; 2]],
+    /// Mobilities of each point.
+    pub mobilities: &'a [Mobility],
     /// Special nodes of each tie.
     pub tied: &'a [[usize; 2]],
     /// Number of components of displacements.
@@ -42,17 +45,24 @@ impl Between<'_> {
             self.acceleration[node].iter_mut().zip(caused).for_each(|(a, c)| *a += c);
         }
     }
+}
 
-    /// The mobility along a direction of slip; `None` if conditions hold both nodes along it, as on a plane of symmetry.
-    pub fn slides(&self, point: usize, area: f64, e: &[f64; 3]) -> Option<f64> {
-        let mobility = self.mobility(point, area, e);
-        let free: f64 = self.pairs[point].iter().map(|&k| area / self.nodes[k].mass).sum();
-        (mobility > HELD * free).then_some(mobility)
-    }
+/// Inverse mass of a point of a fault for motion apart, times its area \[m²/kg\].
+#[derive(Clone, Debug)]
+pub(super) struct Mobility {
+    /// Along the normal; 0 in antiplane motion.
+    pub normal: f64,
+    /// Along each direction of slip; `None` if conditions hold both nodes along it, as on a plane of symmetry.
+    pub along: [Option<f64>; 2],
+}
 
-    /// Inverse mass of a point for motion apart, times its area \[m²/kg\].
-    pub fn mobility(&self, point: usize, area: f64, e: &[f64; 3]) -> f64 {
-        let [minus, plus] = self.pairs[point];
-        area * (self.nodes[minus].along(e) + self.nodes[plus].along(e))
+impl Mobility {
+    /// Mobility of a point between its special nodes.
+    pub fn new(point: &SplitPoint, pair: [&Special; 2]) -> Self {
+        let of = |e: &[f64; 3]| point.area * (pair[0].along(e) + pair[1].along(e));
+        let free: f64 = pair.iter().map(|s| point.area / s.mass).sum();
+        let slides = |e: &[f64; 3]| Some(of(e)).filter(|mobility| *mobility > HELD * free);
+        let along = std::array::from_fn(|c| point.along.get(c).and_then(slides));
+        Self { normal: of(&point.normal), along }
     }
 }

@@ -1,12 +1,13 @@
 //! Steps of explicit dynamics.
 
-use super::between::Between;
+use super::acting::{Acting, in_space};
+use super::between::{Between, Mobility};
 use super::budget::{Budget, Work};
 use super::fault::{Fault, FaultState, Unbalanced};
 use super::inelastic::{self, Inelastic};
 use super::loads::Loads;
 use super::motion::{Motion, Sums};
-use super::nodes::Special;
+use super::nodes::{Special, Specials};
 use super::room::Room;
 use super::springs::Springs;
 use super::stored;
@@ -14,14 +15,14 @@ use super::{Problem, Stable, stable};
 use crate::{CellBlock, coordinates};
 use asperity_fem::block::lumped;
 use asperity_fem::dof::Constraints;
-use asperity_fem::matrix_free::MatrixFree;
+use asperity_fem::matrix_free::{Displacements, MatrixFree};
 use asperity_fem::nonlinear;
 use asperity_fem::term::{Instant, Refusal};
 use asperity_friction::Failure;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// Special nodes of one task: few, so that both threads of a small fault have some, and enough to pay for one.
+/// Nodes of faults of one task: few, so that both threads of a small fault have some, and enough to pay for one.
 const NODES: usize = 256;
 
 /// Largest energy of the bodies over all that was put in. In a stable scheme at nine tenths of the stable step it is below 1/(1 - 0.9²) = 5.3:
@@ -131,9 +132,11 @@ pub struct Explicit<'a, const D: usize> {
     mass: Vec<f64>,
     /// 1/mass; 0 at special nodes \[1/kg\].
     inverse: Vec<f64>,
-    special: Vec<Special>,
+    special: Specials,
     /// Special nodes of each point of the faults.
     pairs: Vec<[usize; 2]>,
+    /// Mobilities of each point of the faults.
+    mobilities: Vec<Mobility>,
     /// Special nodes of each tie of the faults.
     tied: Vec<[usize; 2]>,
     constraints: Constraints,
@@ -146,8 +149,6 @@ pub struct Explicit<'a, const D: usize> {
     u: Vec<f64>,
     /// vⁿ⁻¹ᐟ² \[m/s\]; at the start v⁰.
     velocity: Vec<f64>,
-    /// u + β Δt v, where damping acts \[m\].
-    damped: Vec<f64>,
     room: Room,
     /// Displacements that conditions prescribe at the next step \[m\].
     imposed: Vec<f64>,
@@ -182,8 +183,9 @@ impl<'a, const D: usize> Explicit<'a, D> {
             components,
             inverse: mass.iter().map(|m| 1.0 / m).collect(),
             mass,
-            special: Vec::new(),
+            special: Specials::default(),
             pairs: Vec::new(),
+            mobilities: Vec::new(),
             tied: Vec::new(),
             constraints: Constraints::default(),
             loads: Loads::default(),
@@ -192,7 +194,6 @@ impl<'a, const D: usize> Explicit<'a, D> {
             time: 0.0,
             steps: 0,
             u: vec![0.0; dofs],
-            damped: if problem.viscosity > 0.0 { vec![0.0; dofs] } else { Vec::new() },
             velocity,
             room: Room::default(),
             imposed: Vec::new(),
@@ -212,20 +213,19 @@ impl<'a, const D: usize> Explicit<'a, D> {
         self.dt = problem.step_of(stage, &self.stable);
         self.constraints = problem.stages[stage].constraints(&self.u);
         self.appoint(stage);
-        if self.steps == 0 {
-            if let Some(fault) = &problem.fault {
-                self.fault = fault.start(self.dt).map_err(|failure| {
-                    format!(
-                        "{}: no state of the law carries the tractions of the start at the slip rate of the start; its parameters, such as `a`, or `shear`, \
-                         `normal` and `rate` are the cause",
-                        self.placed(&failure)
-                    )
-                })?;
-                if fault.onset.is_some() {
-                    self.slide(fault);
-                }
+        if self.steps == 0
+            && let Some(fault) = &problem.fault
+        {
+            self.fault = fault.start(self.dt).map_err(|failure| {
+                format!(
+                    "{}: no state of the law carries the tractions of the start at the slip rate of the start; its parameters, such as `a`, or `shear`, \
+                     `normal` and `rate` are the cause",
+                    self.placed(&failure)
+                )
+            })?;
+            if fault.onset.is_some() {
+                self.slide(fault);
             }
-            self.damp();
         }
         Ok(())
     }
@@ -236,7 +236,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
         pair.map_or_else(
             || failure.to_string(),
             |pair| {
-                let node = self.special[pair[0]].node;
+                let node = self.special.all[pair[0]].node;
                 format!("{failure}, at {}", coordinates::in_words(&self.problem.model.mesh.nodes[node]))
             },
         )
@@ -247,11 +247,11 @@ impl<'a, const D: usize> Explicit<'a, D> {
         let n = fault.points.len();
         for (point, (p, pair)) in fault.points.iter().zip(&self.pairs).enumerate() {
             for (c, e) in p.along.iter().enumerate() {
-                let inverse = pair.map(|k| self.special[k].along(e));
+                let inverse = pair.map(|k| self.special.all[k].along(e));
                 let both = inverse[0] + inverse[1];
                 let rate = if both > 0.0 { fault.rate[c * n + point] / both } else { 0.0 };
                 for ((&k, inverse), sign) in pair.iter().zip(inverse).zip([-1.0, 1.0]) {
-                    let first = self.special[k].node * self.components;
+                    let first = self.special.all[k].node * self.components;
                     let own = &mut self.velocity[first..first + self.components];
                     own.iter_mut().zip(e).for_each(|(v, e)| *v += sign * inverse * rate * e);
                 }
@@ -272,29 +272,25 @@ impl<'a, const D: usize> Explicit<'a, D> {
         let loaded =
             self.constraints.channels.iter().flat_map(|c| c.forces.iter().map(|(d, _)| d / components));
         let held = self.constraints.fixed.iter().map(|d| d / components);
-        let mut nodes: Vec<usize> = of_fault
-            .chain(problem.absorbing.iter().map(|d| d.node))
-            .chain(loaded)
-            .chain(held)
-            .chain(drawn)
-            .collect();
-        nodes.sort_unstable();
-        nodes.dedup();
+        let others = problem.absorbing.iter().map(|d| d.node).chain(loaded).chain(held).chain(drawn);
+        let (of_fault, others): (Vec<usize>, Vec<usize>) = (of_fault.collect(), others.collect());
         let dashpot = |node: usize| {
             let found = problem.absorbing.binary_search_by_key(&node, |d| d.node);
             found.ok().map(|k| &problem.absorbing[k])
         };
         self.inverse = self.mass.iter().map(|m| 1.0 / m).collect();
-        self.special = nodes.iter().map(|&n| Special::new(n, self.mass[n], dashpot(n))).collect();
-        // Every degree of freedom asked for belongs to one of the nodes.
-        let find = |node: usize| nodes.partition_point(|n| *n < node);
+        self.special =
+            Specials::new(of_fault, others, |node| Special::new(node, self.mass[node], dashpot(node)));
         for &dof in &self.constraints.fixed {
-            self.special[find(dof / components)].prescribed[dof % components] = true;
+            let place = self.special.find(dof / components);
+            self.special.all[place].prescribed[dof % components] = true;
         }
-        for special in &mut self.special {
+        for special in &mut self.special.all {
             special.prepare(components, self.dt);
             self.inverse[special.node] = 0.0;
         }
+        // Every degree of freedom asked for belongs to one of the nodes.
+        let find = |node: usize| self.special.find(node);
         self.loads = Loads::new(&self.constraints, |dof| (find(dof / components), dof % components));
         self.springs = Springs::new(springs, span, |dof| {
             (find(dof / components), dof % components, self.mass[dof / components])
@@ -303,15 +299,9 @@ impl<'a, const D: usize> Explicit<'a, D> {
             problem.fault.iter().flat_map(|f| &f.points).map(|p| [find(p.minus), find(p.plus)]).collect();
         self.tied =
             problem.fault.iter().flat_map(|f| &f.ties).map(|t| [find(t.minus), find(t.plus)]).collect();
+        self.mobilities =
+            problem.fault.iter().flat_map(|f| f.mobilities(&self.special.all, &self.pairs)).collect();
         self.imposed = if self.constraints.fixed.is_empty() { Vec::new() } else { self.u.clone() };
-    }
-
-    /// Displacements plus damping.
-    fn damp(&mut self) {
-        let factor = self.problem.viscosity * self.dt;
-        for ((damped, u), v) in self.damped.iter_mut().zip(&self.u).zip(&self.velocity) {
-            *damped = u + factor * v;
-        }
     }
 
     /// Takes a step.
@@ -328,11 +318,15 @@ impl<'a, const D: usize> Explicit<'a, D> {
 
     /// Moves all nodes under the forces at uⁿ.
     fn move_with(&mut self, room: &mut Room) -> Result<(), Halt> {
+        self.load(room);
         self.free_accelerations(room);
         let fault = self.faults(room)?;
-        let kick = self.kick();
-        let sums = self.move_all(kick);
-        self.finish(room, (kick, sums), fault)
+        let sums = self.move_all(room);
+        self.account(room, &sums, fault);
+        self.inelastic.accept();
+        self.time += self.dt;
+        self.steps += 1;
+        self.grown(sums.moving)
     }
 
     /// Time over which velocities change: the first step starts from the velocity at the start, half a step later than those after it.
@@ -342,45 +336,45 @@ impl<'a, const D: usize> Explicit<'a, D> {
 
     /// Internal forces at uⁿ.
     fn forces(&mut self) -> Result<(), Halt> {
-        let moved = if self.damped.is_empty() { &self.u } else { &self.damped };
-        self.product.evaluate(moved);
+        let ahead = self.problem.viscosity * self.dt;
+        let velocity = if ahead > 0.0 { &self.velocity[..] } else { &[] };
+        self.product.evaluate(&Displacements { u: &self.u, velocity, ahead });
         let at = Instant { time: self.time, dt: self.dt };
         let refused = |r: Refusal| Halt::Refused { time: at.time, reason: r.to_string() };
-        let relaxation = self.problem.viscosity * self.dt;
-        self.inelastic.evaluate((&self.u, &self.velocity), at, relaxation).map_err(refused)
+        self.inelastic.evaluate((&self.u, &self.velocity), at, ahead).map_err(refused)
     }
 
-    /// Accelerations of the special nodes without the changes of tractions on faults, with loads, internal forces, velocities and
-    /// displacements there.
-    fn free_accelerations(&mut self, room: &mut Room) {
-        room.clear(self.special.len());
+    /// Loads and prescribed displacements of the special nodes.
+    fn load(&mut self, room: &mut Room) {
+        let special = &self.special;
+        let loaded = if self.loads.is_empty() && self.springs.is_empty() { 0 } else { special.all.len() };
+        room.clear(special.faulted, loaded);
         self.loads.add(self.time, &mut room.external);
-        let next = self.time + self.dt;
+        let of = |place: usize, c: usize| self.u[special.all[place].node * self.components + c];
+        self.springs.add(self.time, of, &mut room.external);
         if !self.imposed.is_empty() {
-            self.constraints.impose(next, &mut self.imposed);
+            self.constraints.impose(self.time + self.dt, &mut self.imposed);
         }
+    }
+
+    /// Accelerations of the nodes of faults without the changes of tractions, with velocities and displacements there.
+    fn free_accelerations(&self, room: &mut Room) {
+        let Room { external, acceleration, before, displacement, .. } = room;
+        let acting = self.acting(external);
         let of_node = of_nodes(&self.product, self.inelastic.forces(), self.components);
-        let (velocity, u) = (&self.velocity, &self.u);
-        let components = self.components;
-        let all = room.internal.par_iter_mut().zip(&mut room.before).zip(&mut room.displacement);
-        all.zip(&self.special).with_min_len(NODES).for_each(|(((internal, before), displacement), s)| {
-            *internal = of_node(s.node);
-            (*before, *displacement) = (vector(velocity, s.node, components), vector(u, s.node, components));
+        let (velocity, u, components) = (&self.velocity, &self.u, self.components);
+        let all = acceleration.par_iter_mut().zip(before).zip(displacement).enumerate();
+        all.with_min_len(NODES).for_each(|(place, ((acceleration, before), displacement))| {
+            let node = acting.nodes.all[place].node;
+            (*before, *displacement) = (vector(velocity, node, components), vector(u, node, components));
+            *acceleration = acting.acceleration(place, [&of_node(node), before, displacement]);
         });
-        self.springs.add(self.time, &room.displacement, &mut room.external);
-        let Room { acceleration, internal, external, before, .. } = room;
-        let forces = internal.par_iter().zip(external.par_iter()).zip(before.par_iter());
-        let (imposed, dt) = (&self.imposed, self.dt);
-        let nodes = acceleration.par_iter_mut().zip(&self.special).zip(forces).with_min_len(NODES);
-        nodes.for_each(|((acceleration, s), ((internal, external), before))| {
-            let drag = s.drag(before);
-            let force = std::array::from_fn(|c| external[c] + drag[c] - internal[c]);
-            *acceleration = s.accelerated(&force);
-            for c in (0..components).filter(|&c| s.prescribed[c]) {
-                let dof = s.node * components + c;
-                acceleration[c] = ((imposed[dof] - u[dof]) / dt - velocity[dof]) / dt;
-            }
-        });
+    }
+
+    /// What acts on the special nodes under these loads.
+    fn acting<'b>(&'b self, external: &'b [[f64; 3]]) -> Acting<'b> {
+        let (nodes, imposed, components) = (&self.special, &self.imposed[..], self.components);
+        Acting { nodes, external, imposed, components, dt: self.dt, kick: self.kick() }
     }
 
     /// Balances the faults. The new state replaces the present one once the step is taken.
@@ -389,11 +383,12 @@ impl<'a, const D: usize> Explicit<'a, D> {
         let mut state = self.fault.clone();
         let (time, dt) = (self.time, self.dt);
         let mut between = Between {
-            nodes: &self.special,
+            nodes: &self.special.all,
             acceleration: &mut room.acceleration,
             velocity: &room.before,
             displacement: &room.displacement,
             pairs: &self.pairs,
+            mobilities: &self.mobilities,
             tied: &self.tied,
             components: self.components,
             time,
@@ -408,76 +403,30 @@ impl<'a, const D: usize> Explicit<'a, D> {
         }
     }
 
-    /// Moves the free nodes; special nodes move at their old velocity, to be corrected.
-    fn move_all(&mut self, kick: f64) -> Sums {
-        let Self { product, inelastic, mass, inverse, u, velocity, damped, dt, .. } = self;
-        let history = inelastic.forces();
-        let (dt, damping) = (*dt, self.problem.viscosity * *dt);
-        let motion = Motion { product, history, mass, inverse, kick, dt, damping };
-        motion.all(self.components, u, velocity, damped)
-    }
-
-    /// Moves the special nodes, and closes the step.
-    fn finish(
-        &mut self,
-        room: &mut Room,
-        (kick, mut sums): (f64, Sums),
-        fault: Option<FaultState>,
-    ) -> Result<(), Halt> {
-        let (components, dt) = (self.components, self.dt);
-        let (mut loads, mut absorbed) = ([0.0; 2], [0.0; 2]);
-        let Room { acceleration, internal, external, before, after, displacement } = room;
-        after.clone_from(before);
-        for (k, s) in self.special.iter().enumerate() {
-            for c in 0..components {
-                after[k][c] = before[k][c] + kick * acceleration[k][c];
-                if s.prescribed[c] {
-                    after[k][c] = before[k][c] + dt * acceleration[k][c];
-                }
-            }
-            let middle: [f64; 3] = std::array::from_fn(|c| 0.5 * (before[k][c] + after[k][c]));
-            let drag = s.drag(&middle);
-            for c in 0..components {
-                let (dof, b, a) = (s.node * components + c, before[k][c], after[k][c]);
-                let internal = internal[k][c];
-                // What a prescribed motion exerts follows from the balance of the node; faults do not act along it.
-                let reaction = if s.prescribed[c] {
-                    s.mass * acceleration[k][c] + internal - drag[c]
-                } else {
-                    external[k][c]
-                };
-                sums.internal[0] += internal * b;
-                sums.internal[1] += internal * a;
-                let prior = if self.steps == 0 && !s.prescribed[c] { 2.0 * b - a } else { b };
-                sums.kinetic += s.mass * prior * a;
-                sums.moving += s.mass * a * a;
-                for (side, v) in [b, a].into_iter().enumerate() {
-                    loads[side] += 0.5 * dt * reaction * v;
-                    absorbed[side] -= 0.5 * dt * drag[c] * v;
-                }
-                self.velocity[dof] = a;
-                self.u[dof] = if s.prescribed[c] { self.imposed[dof] } else { self.u[dof] + dt * (a - b) };
-                if !self.damped.is_empty() {
-                    self.damped[dof] = self.u[dof] + self.problem.viscosity * dt * a;
-                }
-            }
+    /// Moves all nodes, and writes the velocities of the nodes of faults after.
+    fn move_all(&mut self, room: &mut Room) -> Sums {
+        let (mut u, mut velocity) = (std::mem::take(&mut self.u), std::mem::take(&mut self.velocity));
+        let acting = self.acting(&room.external);
+        let sides = acting.nodes.all.iter().zip(&room.before).zip(&room.acceleration);
+        for (after, ((s, before), acceleration)) in room.after.iter_mut().zip(sides) {
+            *after = acting.after(s, before, acceleration);
         }
-        self.account((&before[..], &after[..]), displacement, sums, (loads, absorbed), fault);
-        self.inelastic.accept();
-        self.time += dt;
-        self.steps += 1;
-        self.grown(sums.moving)
+        let motion = Motion {
+            product: &self.product,
+            history: self.inelastic.forces(),
+            mass: &self.mass,
+            inverse: &self.inverse,
+            faulted: &room.acceleration,
+            acting,
+        };
+        let sums = motion.all(&mut u, &mut velocity);
+        (self.u, self.velocity) = (u, velocity);
+        sums
     }
 
     /// Adds the works of the step, and writes the energy at tⁿ.
-    fn account(
-        &mut self,
-        (before, after): (&[[f64; 3]], &[[f64; 3]]),
-        displacement: &[[f64; 3]],
-        sums: Sums,
-        (loads, absorbed): ([f64; 2], [f64; 2]),
-        fault: Option<FaultState>,
-    ) {
+    fn account(&mut self, room: &Room, sums: &Sums, fault: Option<FaultState>) {
+        let Room { before, after, displacement, .. } = room;
         let (half, first) = (0.5 * self.dt, self.steps == 0);
         let kinetic = 0.5 * sums.kinetic;
         let works = &mut self.works;
@@ -486,8 +435,8 @@ impl<'a, const D: usize> Explicit<'a, D> {
             work.add(if first { 0.0 } else { before }, after);
         };
         add(&mut works.internal, sums.internal.map(|w| half * w));
-        add(&mut works.loads, loads);
-        add(&mut works.absorbed, absorbed);
+        add(&mut works.loads, sums.loads.map(|w| half * w));
+        add(&mut works.absorbed, sums.absorbed.map(|w| half * w));
         let [all, viscous] = self.inelastic.works(&self.velocity, half);
         add(&mut works.inelastic.all, all);
         add(&mut works.inelastic.viscous, viscous);
@@ -503,7 +452,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
             add(&mut works.released, released);
         }
         let initial = if first { kinetic } else { self.budget.initial };
-        let (elastic, viscous) = self.bodies(&sums);
+        let (elastic, viscous) = self.bodies(sums);
         let put_in = self.works.loads.done + self.works.released.done;
         let had = self.budget.loads + self.budget.released;
         let at_start = if first { initial.max(0.0) + self.inelastic.released() } else { 0.0 };
@@ -535,8 +484,11 @@ impl<'a, const D: usize> Explicit<'a, D> {
             works.stored = linear.stored(works.stored, self.problem.viscosity, start);
         }
         let elastic = 0.5 * works.stored;
-        let damped =
-            if self.damped.is_empty() { 0.0 } else { works.internal.done - inelastic.all.done - elastic };
+        let damped = if self.problem.viscosity > 0.0 {
+            works.internal.done - inelastic.all.done - elastic
+        } else {
+            0.0
+        };
         (elastic + others, damped + inelastic.viscous.done)
     }
 
@@ -658,7 +610,6 @@ impl<'a, const D: usize> Explicit<'a, D> {
         if !self.imposed.is_empty() {
             self.imposed.clone_from(&saved.u);
         }
-        self.damp();
         true
     }
 }
@@ -675,13 +626,10 @@ fn of_nodes<'a>(
     others: &'a [f64],
     components: usize,
 ) -> impl Fn(usize) -> [f64; 3] + Sync + 'a {
-    fn in_space<const C: usize>(v: [f64; C]) -> [f64; 3] {
-        std::array::from_fn(|c| v.get(c).copied().unwrap_or(0.0))
-    }
     move |node| {
         let mut force = match components {
-            1 => in_space(product.force_of::<1>(node)),
-            2 => in_space(product.force_of::<2>(node)),
+            1 => in_space(&product.force_of::<1>(node)),
+            2 => in_space(&product.force_of::<2>(node)),
             _ => product.force_of::<3>(node),
         };
         let others = others.get(node * components..(node + 1) * components).unwrap_or_default();

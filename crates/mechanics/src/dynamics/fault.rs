@@ -4,8 +4,8 @@
 //! The normal traction is the closing one where it presses, otherwise none. Friction bounds the shear traction
 //! ([`asperity_friction::inertial`]). Tractions act in addition to the initial state, which is in balance: bodies feel the difference.
 
-use super::between::Between;
-use super::nodes::dot;
+use super::between::{Between, Mobility};
+use super::nodes::{Special, dot};
 use super::ties::{self, Tie};
 use super::{Onset, Pulse};
 use asperity_friction::Failure;
@@ -185,6 +185,12 @@ impl Fault {
         values[point..].iter().step_by(n).map(|v| v * v).sum::<f64>().sqrt()
     }
 
+    /// Mobilities of the points between special nodes, of which `pairs` holds those of each point.
+    pub(super) fn mobilities(&self, nodes: &[Special], pairs: &[[usize; 2]]) -> Vec<Mobility> {
+        let of = |(point, pair): (&SplitPoint, &[usize; 2])| Mobility::new(point, pair.map(|k| &nodes[k]));
+        self.points.iter().zip(pairs).map(of).collect()
+    }
+
     /// Loads of the points at a time \[s\].
     fn loads(&self, time: f64) -> Loads {
         Loads { time, growth: self.pulses.iter().map(|p| p.growth(time)).collect() }
@@ -226,7 +232,7 @@ impl Fault {
             let mut force = [0.0; 3];
             for (c, e) in p.along.iter().enumerate() {
                 let entry = c * n + point;
-                if between.slides(point, p.area, e).is_none() {
+                if between.mobilities[point].along[c].is_none() {
                     // Conditions carry the traction: friction neither bounds it nor does it cause motion.
                     state.shear[entry] = self.loading(entry, &loads);
                     continue;
@@ -254,7 +260,7 @@ impl Fault {
         state: &mut FaultState,
     ) -> Result<f64, Unbalanced> {
         let p = &self.points[point];
-        let mobility = between.mobility(point, p.area, &p.normal);
+        let mobility = between.mobilities[point].normal;
         let gap = p.gap + between.jump(between.displacement, point, &p.normal);
         state.gap[point] = gap;
         if mobility == 0.0 {
@@ -293,7 +299,7 @@ impl Fault {
             // A point that conditions hold in all directions of slip is not pushed, whatever its impedance.
             let mut impedance = 1.0;
             for (c, e) in p.along.iter().enumerate() {
-                let Some(mobility) = between.slides(point, p.area, e) else { continue };
+                let Some(mobility) = between.mobilities[point].along[c] else { continue };
                 let entry = c * n + point;
                 impedance = 1.0 / (reach * mobility);
                 let rate = between.jump(between.velocity, point, e)

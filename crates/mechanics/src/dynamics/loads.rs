@@ -23,6 +23,11 @@ impl Loads {
         Self { channels: channels.map(|c| (c.amplitude.clone(), placed(&c.forces))).collect() }
     }
 
+    /// True without loads.
+    pub fn is_empty(&self) -> bool {
+        self.channels.is_empty()
+    }
+
     /// Adds the forces at `time` to those of the special nodes \[N\].
     pub fn add(&self, time: f64, forces: &mut [[f64; 3]]) {
         for (amplitude, places) in &self.channels {

@@ -15,6 +15,7 @@
 //! - [`Budget`] is the energy, whose parts close to rounding.
 
 mod absorbing;
+mod acting;
 mod between;
 mod budget;
 mod explicit;

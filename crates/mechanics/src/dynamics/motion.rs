@@ -1,8 +1,10 @@
-//! Motion of the free nodes over a step.
+//! Motion of the nodes over a step.
 
+use super::acting::Acting;
 use asperity_fem::matrix_free::MatrixFree;
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Nodes moved by one task: fixed, so that sums do not depend on the number of threads.
 const CHUNK: usize = 4096;
@@ -21,18 +23,28 @@ pub(super) struct Sums {
     pub elastic: f64,
     /// v·M v of the half step after.
     pub moving: f64,
+    /// Powers of loads and prescribed motions before and after.
+    pub loads: [f64; 2],
+    /// Powers that dashpots absorb, before and after.
+    pub absorbed: [f64; 2],
 }
 
 impl Sums {
     fn plus(self, other: Self) -> Self {
+        let both = |a: [f64; 2], b: [f64; 2]| [a[0] + b[0], a[1] + b[1]];
         Self {
-            internal: [self.internal[0] + other.internal[0], self.internal[1] + other.internal[1]],
+            internal: both(self.internal, other.internal),
             kinetic: self.kinetic + other.kinetic,
             elastic: self.elastic + other.elastic,
             moving: self.moving + other.moving,
+            loads: both(self.loads, other.loads),
+            absorbed: both(self.absorbed, other.absorbed),
         }
     }
 }
+
+/// Forces on the nodes of a group, their displacements and their velocities.
+type Group<'a, const C: usize> = (&'a [[f64; C]], &'a [[f64; C]], &'a mut [[f64; C]]);
 
 /// Forces, masses and lengths of time that move the nodes.
 pub(super) struct Motion<'a> {
@@ -42,42 +54,30 @@ pub(super) struct Motion<'a> {
     pub history: &'a [f64],
     /// Lumped mass of each node \[kg\].
     pub mass: &'a [f64],
-    /// 1/mass; 0 at special nodes, which move at their old velocity \[1/kg\].
+    /// 1/mass; 0 at special nodes \[1/kg\].
     pub inverse: &'a [f64],
-    /// Time over which velocities change \[s\].
-    pub kick: f64,
-    /// Δt \[s\].
-    pub dt: f64,
-    /// β Δt \[s\].
-    pub damping: f64,
+    /// What acts on the special nodes.
+    pub acting: Acting<'a>,
+    /// Accelerations of the nodes of faults \[m/s²\].
+    pub faulted: &'a [[f64; 3]],
 }
 
-/// Displacements, velocities and damped displacements of the nodes of a task; the last are empty without damping.
-type Parts<'p> = ((&'p mut [f64], &'p mut [f64]), &'p mut [f64]);
-
 impl Motion<'_> {
-    /// Moves all nodes of so many components.
-    pub fn all(&self, components: usize, u: &mut [f64], velocity: &mut [f64], damped: &mut [f64]) -> Sums {
-        match components {
-            1 => self.of::<1>(u, velocity, damped),
-            2 => self.of::<2>(u, velocity, damped),
-            _ => self.of::<3>(u, velocity, damped),
+    /// Moves all nodes.
+    pub fn all(&self, u: &mut [f64], velocity: &mut [f64]) -> Sums {
+        match self.acting.components {
+            1 => self.of::<1>(u, velocity),
+            2 => self.of::<2>(u, velocity),
+            _ => self.of::<3>(u, velocity),
         }
     }
 
-    fn of<const C: usize>(&self, u: &mut [f64], velocity: &mut [f64], damped: &mut [f64]) -> Sums {
+    fn of<const C: usize>(&self, u: &mut [f64], velocity: &mut [f64]) -> Sums {
         let width = CHUNK * C;
-        let mut own: Vec<&mut [f64]> = damped.chunks_mut(width).collect();
-        own.resize_with(u.len().div_ceil(width), Default::default);
-        let chunks = u.par_chunks_mut(width).zip(velocity.par_chunks_mut(width)).zip(own);
-        let parts: Vec<Sums> =
-            chunks.enumerate().map(|(k, parts)| self.chunk::<C>(k * CHUNK, parts)).collect();
+        let chunks = u.par_chunks_mut(width).zip(velocity.par_chunks_mut(width));
+        let task = |(k, (u, v))| Arch::new().dispatch(Task::<C> { motion: self, start: k * CHUNK, u, v });
+        let parts: Vec<Sums> = chunks.enumerate().map(task).collect();
         parts.into_iter().fold(Sums::default(), Sums::plus)
-    }
-
-    /// Moves the nodes of a task, the first of which is `start`.
-    fn chunk<const C: usize>(&self, start: usize, ((u, v), w): Parts<'_>) -> Sums {
-        Arch::new().dispatch(Task::<C> { motion: self, start, u, v, w })
     }
 
     /// Reads the forces on nodes from `first` on.
@@ -100,6 +100,21 @@ impl Motion<'_> {
         }
     }
 
+    /// Accelerates the special nodes of a group at these places, whose first node is `first`. They are moved with the others.
+    #[inline(always)]
+    fn special<const C: usize>(
+        &self,
+        (first, places): (usize, &[Range<usize>; 2]),
+        (force, u, v): Group<'_, C>,
+        sums: &mut Sums,
+    ) {
+        for place in places.iter().cloned().flatten() {
+            let own = self.acting.nodes.all[place].node - first;
+            let known = self.faulted.get(place);
+            self.acting.accelerate((place, known), (&force[own], &u[own], &mut v[own]), sums);
+        }
+    }
+
     /// Moves as many degrees of freedom as a vector has; returns their displacements and velocities.
     #[inline(always)]
     fn vector<S: Simd>(
@@ -111,11 +126,12 @@ impl Motion<'_> {
         sums: &mut Vectors<S>,
     ) -> (S::f64s, S::f64s) {
         let zero = simd.splat_f64s(0.0);
-        let kick = simd.mul_f64s(simd.splat_f64s(self.kick), inverse);
+        let Acting { kick, dt, .. } = self.acting;
+        let back = simd.splat_f64s(if kick < dt { 1.0 } else { 0.0 });
+        let kick = simd.mul_f64s(simd.splat_f64s(kick), inverse);
         let after = simd.sub_f64s(before, simd.mul_f64s(kick, force));
         let free = simd.select_f64s(simd.greater_than_f64s(inverse, zero), force, zero);
         // Half a step before the start the velocity would have been 2 v⁰ - v¹ᐟ².
-        let back = simd.splat_f64s(if self.kick < self.dt { 1.0 } else { 0.0 });
         let prior = simd.mul_add_e_f64s(back, simd.sub_f64s(before, after), before);
         let momentum = simd.mul_f64s(counted, after);
         sums.before = simd.mul_add_e_f64s(free, before, sums.before);
@@ -123,7 +139,7 @@ impl Motion<'_> {
         sums.kinetic = simd.mul_add_e_f64s(momentum, prior, sums.kinetic);
         sums.moving = simd.mul_add_e_f64s(momentum, after, sums.moving);
         sums.elastic = simd.mul_add_e_f64s(u, force, sums.elastic);
-        (simd.mul_add_e_f64s(simd.splat_f64s(self.dt), after, u), after)
+        (simd.mul_add_e_f64s(simd.splat_f64s(dt), after, u), after)
     }
 }
 
@@ -133,7 +149,6 @@ struct Task<'a, 'p, const C: usize> {
     start: usize,
     u: &'p mut [f64],
     v: &'p mut [f64],
-    w: &'p mut [f64],
 }
 
 impl<const C: usize> WithSimd for Task<'_, '_, C> {
@@ -141,34 +156,39 @@ impl<const C: usize> WithSimd for Task<'_, '_, C> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Sums {
-        let Self { motion, start, u, v, w } = self;
-        let mut sums = Vectors::new(simd);
+        let Self { motion, start, u, v } = self;
+        let nodes = motion.acting.nodes;
+        let mut next = nodes.from(start);
+        let (mut vectors, mut sums) = (Vectors::new(simd), Sums::default());
         let [mut forces, mut counted, mut inverse] = [[[0.0; C]; GROUP]; 3];
         let groups = u.chunks_mut(GROUP * C).zip(v.chunks_mut(GROUP * C));
         for (group, (u, v)) in groups.enumerate() {
             let (first, length) = (start + group * GROUP, u.len() / C);
+            let places = nodes.until(first + length, &mut next);
             motion.read(first, &mut forces[..length]);
             motion.masses(first, &mut counted[..length], &mut inverse[..length]);
+            let (own_u, own_v) = (u.as_chunks::<C>().0, v.as_chunks_mut::<C>().0);
+            motion.special((first, &places), (&forces[..length], own_u, own_v), &mut sums);
             let (f, f_rest) = S::as_simd_f64s(forces[..length].as_flattened());
             let (m, m_rest) = S::as_simd_f64s(counted[..length].as_flattened());
             let (i, i_rest) = S::as_simd_f64s(inverse[..length].as_flattened());
-            let ((u, u_rest), (v, v_rest)) = (S::as_mut_simd_f64s(u), S::as_mut_simd_f64s(v));
-            for (((u, v), f), (m, i)) in u.iter_mut().zip(v).zip(f).zip(m.iter().zip(i)) {
-                (*u, *v) = motion.vector(simd, (*u, *v), *f, (*m, *i), &mut sums);
+            let ((u_whole, u_rest), (v, v_rest)) = (S::as_mut_simd_f64s(u), S::as_mut_simd_f64s(v));
+            for (((u, v), f), (m, i)) in u_whole.iter_mut().zip(v).zip(f).zip(m.iter().zip(i)) {
+                (*u, *v) = motion.vector(simd, (*u, *v), *f, (*m, *i), &mut vectors);
             }
             if !u_rest.is_empty() {
                 let part = |values: &[f64]| simd.partial_load_f64s(values);
                 let masses = (part(m_rest), part(i_rest));
                 let moved = (part(u_rest), part(v_rest));
-                let (u, v) = motion.vector(simd, moved, part(f_rest), masses, &mut sums);
+                let (u, v) = motion.vector(simd, moved, part(f_rest), masses, &mut vectors);
                 simd.partial_store_f64s(u_rest, u);
                 simd.partial_store_f64s(v_rest, v);
             }
+            for special in places.into_iter().flatten().map(|place| &nodes.all[place]) {
+                motion.acting.put(special, &mut u.as_chunks_mut::<C>().0[special.node - first]);
+            }
         }
-        for ((w, u), v) in w.iter_mut().zip(u).zip(v) {
-            *w = *u + motion.damping * *v;
-        }
-        sums.total(simd)
+        vectors.total(simd).plus(sums)
     }
 }
 
@@ -196,6 +216,7 @@ impl<S: Simd> Vectors<S> {
             kinetic: sum(self.kinetic),
             elastic: sum(self.elastic),
             moving: sum(self.moving),
+            ..Sums::default()
         }
     }
 }

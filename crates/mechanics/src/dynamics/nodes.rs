@@ -2,6 +2,59 @@
 
 use super::absorbing::Dashpot;
 use nalgebra::SMatrix;
+use std::ops::Range;
+
+/// All special nodes: first those of faults, then the others, each by ascending nodes. Accelerations of the former are known
+/// before any node moves, since the tractions follow from them; the others move with the free nodes around them.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Specials {
+    /// Nodes.
+    pub all: Vec<Special>,
+    /// Number of those of faults.
+    pub faulted: usize,
+}
+
+impl Specials {
+    /// Nodes of faults and others, of which those of faults are left out.
+    pub fn new(faulted: Vec<usize>, others: Vec<usize>, special: impl Fn(usize) -> Special) -> Self {
+        let ascending = |mut nodes: Vec<usize>| {
+            nodes.sort_unstable();
+            nodes.dedup();
+            nodes
+        };
+        let (faulted, mut others) = (ascending(faulted), ascending(others));
+        others.retain(|node| faulted.binary_search(node).is_err());
+        Self { faulted: faulted.len(), all: faulted.into_iter().chain(others).map(special).collect() }
+    }
+
+    /// Place of a node, which must be special.
+    pub fn find(&self, node: usize) -> usize {
+        let (faulted, others) = self.all.split_at(self.faulted);
+        let place = faulted.partition_point(|s| s.node < node);
+        if faulted.get(place).is_some_and(|s| s.node == node) {
+            return place;
+        }
+        self.faulted + others.partition_point(|s| s.node < node)
+    }
+
+    /// Places of the first nodes from `node` on: of faults, and others.
+    pub fn from(&self, node: usize) -> [usize; 2] {
+        let (faulted, others) = self.all.split_at(self.faulted);
+        let before = |nodes: &[Special]| nodes.partition_point(|s| s.node < node);
+        [before(faulted), self.faulted + before(others)]
+    }
+
+    /// Places of the nodes before `end` from the `next` ones on, which move past them.
+    pub fn until(&self, end: usize, next: &mut [usize; 2]) -> [Range<usize>; 2] {
+        let ends = [self.faulted, self.all.len()];
+        std::array::from_fn(|list| {
+            let start = next[list];
+            let count = self.all[start..ends[list]].iter().take_while(|s| s.node < end).count();
+            next[list] = start + count;
+            start..next[list]
+        })
+    }
+}
 
 /// A node at which more than internal forces act.
 #[derive(Clone, Debug)]

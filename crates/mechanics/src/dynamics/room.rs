@@ -1,14 +1,12 @@
 //! Values at the special nodes in a step. They are kept from step to step: to ask for memory would cost more than to fill it.
 
-/// See the module.
+/// See the module. Loads are those of all special nodes, all else is at the nodes of faults.
 #[derive(Debug, Default)]
 pub(super) struct Room {
+    /// Loads \[N\]; empty where nothing loads a special node.
+    pub external: Vec<[f64; 3]>,
     /// Accelerations \[m/s²\].
     pub acceleration: Vec<[f64; 3]>,
-    /// Internal forces \[N\].
-    pub internal: Vec<[f64; 3]>,
-    /// Loads \[N\].
-    pub external: Vec<[f64; 3]>,
     /// Velocities half a step before \[m/s\].
     pub before: Vec<[f64; 3]>,
     /// Velocities half a step after \[m/s\].
@@ -18,13 +16,13 @@ pub(super) struct Room {
 }
 
 impl Room {
-    /// Room for so many nodes, without loads.
-    pub fn clear(&mut self, nodes: usize) {
-        let Self { acceleration, internal, external, before, displacement, .. } = self;
-        for values in [acceleration, internal, before, displacement] {
-            values.resize(nodes, [0.0; 3]);
+    /// Room for so many nodes of faults, and for loads of so many special nodes, which are zero.
+    pub fn clear(&mut self, faulted: usize, loaded: usize) {
+        let Self { acceleration, external, before, after, displacement } = self;
+        for values in [acceleration, before, after, displacement] {
+            values.resize(faulted, [0.0; 3]);
         }
         external.clear();
-        external.resize(nodes, [0.0; 3]);
+        external.resize(loaded, [0.0; 3]);
     }
 }

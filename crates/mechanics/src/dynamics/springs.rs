@@ -31,10 +31,15 @@ impl Springs {
         Self(springs.iter().map(attached).collect())
     }
 
-    /// Adds the forces at `time` to those of the special nodes with these displacements \[N\].
-    pub fn add(&self, time: f64, displacement: &[[f64; 3]], forces: &mut [[f64; 3]]) {
+    /// True without springs.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Adds the forces at `time` to those of the special nodes; `displacement` is that of a component of such a node \[N\].
+    pub fn add(&self, time: f64, displacement: impl Fn(usize, usize) -> f64, forces: &mut [[f64; 3]]) {
         for Attached { places, stiffness, drawn } in &self.0 {
-            let mean: f64 = places.iter().map(|&(node, c, share)| share * displacement[node][c]).sum();
+            let mean: f64 = places.iter().map(|&(node, c, share)| share * displacement(node, c)).sum();
             let force = stiffness * (drawn.at(time) - mean);
             places.iter().for_each(|&(node, c, share)| forces[node][c] += share * force);
         }
