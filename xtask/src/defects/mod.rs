@@ -1,6 +1,7 @@
 //! Planted defects: each is applied to a copy of the tree, which is then built and verified. A claim should detect it.
 
 mod definition;
+mod files;
 mod outcome;
 mod together;
 mod tree;
@@ -9,6 +10,7 @@ pub use definition::{Defect, FOLDER};
 pub use outcome::{Outcome, RESULTS, Results};
 
 use crate::stage::{Failure, announce};
+use files::{copy, failed, read, write};
 use outcome::Status;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -16,7 +18,6 @@ use std::process::{Command, Stdio};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 use together::Together;
-use walkdir::WalkDir;
 
 /// Folder of the copy and its binaries.
 const PLACE: &str = "target/defects";
@@ -77,7 +78,7 @@ fn summarise(root: &Path, defects: &[Defect]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Why a defect is to be made again: it has no result that noticed it, or a file that it touches has changed since.
+/// Reason to make a defect again: it has no result that noticed it, or a file that it touches has changed since.
 fn due_because(root: &Path, defect: &Defect) -> Result<Option<&'static str>, Failure> {
     Ok(match Results::read(root)?.get(&defect.name) {
         None => Some("no result"),
@@ -347,41 +348,4 @@ fn ends(command: &mut Command, longest: Duration) -> Result<Option<bool>, Failur
             }
         }
     }
-}
-
-/// Copies the sources. Unchanged files keep their times, so that little is rebuilt.
-fn copy(from: &Path, to: &Path) -> Result<(), Failure> {
-    let skipped = |name: &str, depth| name == ".git" || depth == 1 && (name == "target" || name == "out");
-    let walk = WalkDir::new(from).sort_by_file_name().into_iter();
-    for entry in walk.filter_entry(|e| !skipped(&e.file_name().to_string_lossy(), e.depth())) {
-        let entry = entry?;
-        let path = entry.path();
-        let target = to.join(path.strip_prefix(from).unwrap_or(path));
-        if entry.file_type().is_dir() {
-            create(&target)?;
-        } else if entry.file_type().is_file() {
-            let bytes = std::fs::read(path).map_err(failed(path))?;
-            if std::fs::read(&target).ok().as_ref() != Some(&bytes) {
-                std::fs::write(&target, &bytes).map_err(failed(&target))?;
-            }
-        }
-    }
-    Ok(())
-}
-
-fn failed(path: &Path) -> impl Fn(std::io::Error) -> Failure {
-    let path = PathBuf::from(path);
-    move |source| Failure::Read { path: path.clone(), source }
-}
-
-fn create(folder: &Path) -> Result<(), Failure> {
-    std::fs::create_dir_all(folder).map_err(failed(folder))
-}
-
-fn read(path: &Path) -> Result<String, Failure> {
-    std::fs::read_to_string(path).map_err(failed(path))
-}
-
-fn write(path: &Path, text: &str) -> Result<(), Failure> {
-    std::fs::write(path, text).map_err(failed(path))
 }

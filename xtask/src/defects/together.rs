@@ -4,7 +4,7 @@
 //! functions that are evaluated by the compiler, and what does not compile beside the sound form.
 
 use super::definition::{Change, Defect};
-use super::{read, write};
+use super::files::{read, write};
 use crate::stage::Failure;
 use crate::tidy::source::{mask, regions};
 use std::collections::{BTreeMap, BTreeSet};
@@ -110,7 +110,11 @@ impl Source {
         let at = text[..text.find(&change.old)?].chars().count();
         let end = at + change.old.chars().count();
         let bodies = regions::occurrences(&self.code, "fn ").into_iter().filter_map(|f| self.body(f));
-        bodies.filter(|(_, body)| body.start <= at && end <= body.end).last().filter(|b| b.0).map(|b| b.1)
+        bodies
+            .filter(|(_, body)| body.start <= at && end <= body.end)
+            .next_back()
+            .filter(|b| b.0)
+            .map(|b| b.1)
     }
 
     /// The body of the function that this keyword begins, and whether it can be doubled.

@@ -80,7 +80,7 @@ impl From<WaveEnergy> for EnergyTable {
         let kept = [("kinetic", e.kinetic), ("elastic", e.elastic)];
         let lost = [("viscous", e.viscous), ("friction", e.friction), ("absorbed", e.absorbed)];
         let given = [("start", e.initial), ("loads", e.loads), ("released", e.released)];
-        Self::new(unit, (kept, lost, given), (e.missing(), imbalance))
+        Self::new(unit, [&kept, &lost, &given], (e.missing(), imbalance))
     }
 }
 

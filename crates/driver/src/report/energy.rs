@@ -29,13 +29,13 @@ pub struct EnergyTable {
     pub imbalance: f64,
 }
 
+/// Name and value of an energy.
+type Part = (&'static str, f64);
+
 impl EnergyTable {
-    pub(crate) fn new<const K: usize, const L: usize, const G: usize>(
-        unit: &'static str,
-        (kept, lost, given): ([(&'static str, f64); K], [(&'static str, f64); L], [(&'static str, f64); G]),
-        (missing, imbalance): (f64, f64),
-    ) -> Self {
-        let [kept, lost, given] = [kept.to_vec(), lost.to_vec(), given.to_vec()].map(BTreeMap::from_iter);
+    /// The budget of these parts: kept, lost and given.
+    pub(crate) fn new(unit: &'static str, parts: [&[Part]; 3], (missing, imbalance): (f64, f64)) -> Self {
+        let [kept, lost, given] = parts.map(|parts| parts.iter().copied().collect());
         Self { unit, kept, lost, given, missing, imbalance }
     }
 }
@@ -65,7 +65,7 @@ impl From<Budget> for EnergyTable {
             ("handover", e.handover),
         ];
         let given = [("start", e.start), ("loads", e.loads), ("motions", e.motions)];
-        Self::new(unit, (kept, lost, given), (e.missing, imbalance))
+        Self::new(unit, [&kept, &lost, &given], (e.missing, imbalance))
     }
 }
 
@@ -95,7 +95,7 @@ impl From<EnergyBalance> for EnergyTable {
         let kept = [("kinetic", e.kinetic), ("elastic", e.elastic)];
         let lost = [("friction", e.friction), ("radiated", e.radiated)];
         let given = [("loads", e.loads), ("opening", e.opening)];
-        Self::new(unit, (kept, lost, given), (e.missing(), imbalance))
+        Self::new(unit, [&kept, &lost, &given], (e.missing(), imbalance))
     }
 }
 

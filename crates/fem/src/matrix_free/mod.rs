@@ -8,6 +8,7 @@
 //! - cells of equal shape by one stiffness matrix, several cells at once ([`product`]);
 //! - other cells by a matrix each.
 
+mod displacements;
 mod partial;
 mod partition;
 mod piece;
@@ -19,6 +20,7 @@ mod stable;
 mod stencil;
 mod tetrahedra;
 
+pub use displacements::Displacements;
 pub use stable::{Highest, highest_frequency};
 
 use crate::block::LinearBlock;
@@ -28,35 +30,6 @@ use piece::{Piece, Room};
 use rayon::prelude::*;
 use shapes::Shapes;
 use stencil::Stencils;
-
-/// Displacements u + t v at which forces are computed: damping adds the rate of the strain times a relaxation time.
-#[derive(Clone, Copy, Debug)]
-pub struct Displacements<'a> {
-    /// u \[m\].
-    pub u: &'a [f64],
-    /// v \[m/s\]; empty where nothing damps.
-    pub velocity: &'a [f64],
-    /// t \[s\].
-    pub ahead: f64,
-}
-
-impl<'a> Displacements<'a> {
-    /// Displacements without damping \[m\].
-    #[must_use]
-    pub fn plain(u: &'a [f64]) -> Self {
-        Self { u, velocity: &[], ahead: 0.0 }
-    }
-
-    /// Those of a node of C components.
-    #[inline(always)]
-    fn of<const C: usize>(&self, node: usize) -> [f64; C] {
-        let u = self.u.as_chunks::<C>().0[node];
-        match self.velocity.as_chunks::<C>().0.get(node) {
-            Some(v) => std::array::from_fn(|c| u[c] + self.ahead * v[c]),
-            None => u,
-        }
-    }
-}
 
 /// Forces K u of the linear blocks of a mesh. Degree of freedom = node * components + component.
 #[derive(Clone, Debug)]

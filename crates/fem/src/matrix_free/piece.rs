@@ -1,9 +1,10 @@
 //! Cells of a piece, with the numbers of its nodes and the forces on them.
 
+use super::displacements::Displacements;
 use super::product::{self, WIDE};
 use super::shapes::Shapes;
+use super::simplex;
 use super::tetrahedra::{self, Gradients, Quad, Tetrahedra};
-use super::{Displacements, simplex};
 use crate::element::MOST_NODES;
 use crate::mesh::Mesh;
 use pulp::{Arch, Simd, WithSimd};

@@ -3,7 +3,7 @@
 //! Displacements are copied so that a vector holds one component of neighbouring nodes of a run. Each node is then computed once, and
 //! nothing is gathered or added up between cells. Nodes in no run belong to the pieces.
 
-use super::Displacements;
+use super::displacements::Displacements;
 use super::runs::{Neighbour, Runs};
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;

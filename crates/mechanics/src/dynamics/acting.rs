@@ -1,9 +1,9 @@
 //! Motion of the special nodes: what acts on them besides the forces of cells.
 
-use super::motion::Sums;
 use super::nodes::{Special, Specials};
+use super::sums::Sums;
 
-/// What acts on the special nodes in a step.
+/// Loads and constraints of the special nodes in a step.
 pub(super) struct Acting<'a> {
     pub nodes: &'a Specials,
     /// Loads \[N\]; empty where nothing loads a special node.

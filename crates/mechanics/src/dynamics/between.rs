@@ -1,7 +1,7 @@
 //! Surroundings of a fault in a step: its nodes and their motion.
 
-use super::SplitPoint;
 use super::nodes::{Special, dot};
+use super::split::SplitPoint;
 
 /// Mobility over that of free nodes below which a point is held: the square of the rounding of unit vectors is far below, absorbing sides far above.
 const HELD: f64 = 1e-12;

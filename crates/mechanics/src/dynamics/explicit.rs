@@ -6,11 +6,12 @@ use super::budget::{Budget, Work};
 use super::fault::{Fault, FaultState, Unbalanced};
 use super::inelastic::{self, Inelastic};
 use super::loads::Loads;
-use super::motion::{Motion, Sums};
+use super::motion::Motion;
 use super::nodes::{Special, Specials};
 use super::room::Room;
 use super::springs::Springs;
 use super::stored;
+use super::sums::Sums;
 use super::{Problem, Stable, stable};
 use crate::{CellBlock, coordinates};
 use asperity_fem::block::lumped;
@@ -371,7 +372,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
         });
     }
 
-    /// What acts on the special nodes under these loads.
+    /// Special nodes under these loads.
     fn acting<'b>(&'b self, external: &'b [[f64; 3]]) -> Acting<'b> {
         let (nodes, imposed, components) = (&self.special, &self.imposed[..], self.components);
         Acting { nodes, external, imposed, components, dt: self.dt, kick: self.kick() }

@@ -6,29 +6,12 @@
 
 use super::between::{Between, Mobility};
 use super::nodes::{Special, dot};
+use super::split::SplitPoint;
 use super::ties::{self, Tie};
 use super::{Onset, Pulse};
 use asperity_friction::Failure;
 use asperity_friction::inertial::{InertialFault, Push, Pushed};
 use serde::{Deserialize, Serialize};
-
-/// A pair of nodes at one place. Vectors have the components of displacements, then zeros: in antiplane motion slip is the first, and the normal
-/// is zero.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SplitPoint {
-    /// Node of the minus side.
-    pub minus: usize,
-    /// Node of the plus side.
-    pub plus: usize,
-    /// Tributary area \[m², m in the plane\].
-    pub area: f64,
-    /// Unit normal from minus to plus.
-    pub normal: [f64; 3],
-    /// Unit vectors along which the plus side slides, one or two.
-    pub along: Vec<[f64; 3]>,
-    /// Gap at the start \[m\].
-    pub gap: f64,
-}
 
 /// Relaxation of the normal traction that friction feels, `dσ̂/dt = -(|V| + V*)/L (σ̂ - σ)`. Between unlike rocks slip at a friction that
 /// follows the normal traction at once is ill-posed (Cochard & Rice 2000; Prakash & Clifton 1993 observed the delay).

@@ -28,18 +28,21 @@ mod onset;
 mod problem;
 mod pulse;
 mod room;
+mod split;
 mod springs;
 mod stable;
 mod stored;
+mod sums;
 mod ties;
 
 pub use absorbing::{Dashpot, dashpots};
 pub use budget::Budget;
 pub use explicit::{Explicit, ExplicitState, Halt};
-pub use fault::{Fault, FaultState, Forced, Regularisation, SplitPoint};
+pub use fault::{Fault, FaultState, Forced, Regularisation};
 pub use onset::Onset;
 pub use problem::Problem;
 pub use pulse::Pulse;
+pub use split::SplitPoint;
 pub use stable::{Stable, stable};
 pub use ties::Tie;
 

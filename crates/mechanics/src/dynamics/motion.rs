@@ -1,6 +1,7 @@
 //! Motion of the nodes over a step.
 
 use super::acting::Acting;
+use super::sums::Sums;
 use asperity_fem::matrix_free::MatrixFree;
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
@@ -11,37 +12,6 @@ const CHUNK: usize = 4096;
 
 /// Nodes whose forces are read at once, so that they stay in the first cache.
 const GROUP: usize = 128;
-
-/// Sums over nodes, for the energy.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Sums {
-    /// f·v before and after.
-    pub internal: [f64; 2],
-    /// v·M v of both half steps.
-    pub kinetic: f64,
-    /// u·f.
-    pub elastic: f64,
-    /// v·M v of the half step after.
-    pub moving: f64,
-    /// Powers of loads and prescribed motions before and after.
-    pub loads: [f64; 2],
-    /// Powers that dashpots absorb, before and after.
-    pub absorbed: [f64; 2],
-}
-
-impl Sums {
-    fn plus(self, other: Self) -> Self {
-        let both = |a: [f64; 2], b: [f64; 2]| [a[0] + b[0], a[1] + b[1]];
-        Self {
-            internal: both(self.internal, other.internal),
-            kinetic: self.kinetic + other.kinetic,
-            elastic: self.elastic + other.elastic,
-            moving: self.moving + other.moving,
-            loads: both(self.loads, other.loads),
-            absorbed: both(self.absorbed, other.absorbed),
-        }
-    }
-}
 
 /// Forces on the nodes of a group, their displacements and their velocities.
 type Group<'a, const C: usize> = (&'a [[f64; C]], &'a [[f64; C]], &'a mut [[f64; C]]);
@@ -56,7 +26,7 @@ pub(super) struct Motion<'a> {
     pub mass: &'a [f64],
     /// 1/mass; 0 at special nodes \[1/kg\].
     pub inverse: &'a [f64],
-    /// What acts on the special nodes.
+    /// Loads and constraints of the special nodes.
     pub acting: Acting<'a>,
     /// Accelerations of the nodes of faults \[m/s²\].
     pub faulted: &'a [[f64; 3]],
