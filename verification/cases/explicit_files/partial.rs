@@ -174,7 +174,7 @@ fn report(ledger: &mut Ledger, run: &Waves, points: &Points) -> Result<(), CaseE
     let report: Value = serde_json::to_value(&run.report)?;
     let found = &report["ruptures"][0];
     let count = points.ruptured.iter().filter(|r| **r).count();
-    if count < 3 || count > ALONG - 2 {
+    if !(3..=ALONG - 2).contains(&count) {
         return Err(format!("{count} points ruptured, and not a part").into());
     }
     for (name, exact) in [

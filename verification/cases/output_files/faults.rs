@@ -186,7 +186,7 @@ fn two_states(ledger: &mut Ledger) -> Result<(), CaseError> {
         ledger
             .claim(format!("a fault that slides steadily in space with two states: state {} at all points of its fields, at the end", k + 1))
             .values(found)
-            .equals_each(&vec![-b * (RATE / v0).ln(); POINTS])
+            .equals_each(&[-b * (RATE / v0).ln(); POINTS])
             .absolute(1e-8)
             .evidence(Evidence::Exact, "the slip law in steady slip, -b ln(V/V_0) for each state")
             .because("the error of ln V in a step is 1e-9, times b")

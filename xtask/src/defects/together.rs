@@ -109,12 +109,9 @@ impl Source {
         let text: String = self.text.iter().collect();
         let at = text[..text.find(&change.old)?].chars().count();
         let end = at + change.old.chars().count();
-        let bodies = regions::occurrences(&self.code, "fn ").into_iter().filter_map(|f| self.body(f));
-        bodies
-            .filter(|(_, body)| body.start <= at && end <= body.end)
-            .next_back()
-            .filter(|b| b.0)
-            .map(|b| b.1)
+        let mut bodies = regions::occurrences(&self.code, "fn ").into_iter().filter_map(|f| self.body(f));
+        let around = bodies.rfind(|(_, body)| body.start <= at && end <= body.end);
+        around.filter(|(doubles, _)| *doubles).map(|(_, body)| body)
     }
 
     /// The body of the function that this keyword begins, and whether it can be doubled.
