@@ -76,9 +76,7 @@ impl Tetrahedra<'_> {
                 *g = S::as_simd_f64s(lanes).0[part];
             }
             let forces = self.of_cells(simd, cells, &g);
-            for (node, force) in forces.into_iter().enumerate() {
-                self.scatter(simd, cells, node, force);
-            }
+            self.scatter(simd, cells, forces);
         }
     }
 
@@ -137,19 +135,23 @@ impl Tetrahedra<'_> {
         simd.deinterleave_shfl_f64s([x[0], x[1], x[2], x[3]])
     }
 
-    /// Adds the forces on a node of each cell.
+    /// Adds the forces on the nodes of each cell, cell by cell: sums do not depend on how many numbers a vector has.
     #[inline(always)]
-    fn scatter<S: Simd>(&mut self, simd: S, cells: &[[u16; 4]], node: usize, [x, y, z]: [S::f64s; 3]) {
-        let mut quads = [[0.0; 4]; WIDE];
-        let by_cells = simd.interleave_shfl_f64s([x, y, z, simd.splat_f64s(0.0)]);
-        let (all, _) = S::as_mut_simd_f64s(quads.as_flattened_mut());
-        for (to, from) in all.iter_mut().zip(by_cells) {
-            *to = from;
+    fn scatter<S: Simd>(&mut self, simd: S, cells: &[[u16; 4]], forces: [[S::f64s; 3]; 4]) {
+        let mut quads = [[[0.0; 4]; WIDE]; 4];
+        for (quads, [x, y, z]) in quads.iter_mut().zip(forces) {
+            let by_cells = simd.interleave_shfl_f64s([x, y, z, simd.splat_f64s(0.0)]);
+            let (all, _) = S::as_mut_simd_f64s(quads.as_flattened_mut());
+            for (to, from) in all.iter_mut().zip(by_cells) {
+                *to = from;
+            }
         }
-        for lane in 0..S::F64_LANES {
-            let force = &mut self.forces[cells[lane][node] as usize];
-            for c in 0..4 {
-                force[c] += quads[lane][c];
+        for (lane, nodes) in cells.iter().enumerate() {
+            for (quads, &node) in quads.iter().zip(nodes) {
+                let force = &mut self.forces[node as usize];
+                for c in 0..4 {
+                    force[c] += quads[lane][c];
+                }
             }
         }
     }
