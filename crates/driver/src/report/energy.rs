@@ -25,8 +25,11 @@ pub struct EnergyTable {
     pub given: BTreeMap<&'static str, f64>,
     /// Energy given minus energy kept and lost, at the end.
     pub missing: f64,
-    /// Largest amount missing that was noted in the run, over the largest part \[-\].
+    /// Missing energy over the largest part \[-\]: the largest of all steps of bodies with inertia, otherwise that at the end.
     pub imbalance: f64,
+    /// Sum over steps of the size of the work on openings, which closing returns; it counts as a part.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub exchanged: Option<f64>,
 }
 
 /// Name and value of an energy.
@@ -36,7 +39,7 @@ impl EnergyTable {
     /// The budget of these parts: kept, lost and given.
     pub(crate) fn new(unit: &'static str, parts: [&[Part]; 3], (missing, imbalance): (f64, f64)) -> Self {
         let [kept, lost, given] = parts.map(|parts| parts.iter().copied().collect());
-        Self { unit, kept, lost, given, missing, imbalance }
+        Self { unit, kept, lost, given, missing, imbalance, exchanged: None }
     }
 }
 
@@ -95,7 +98,8 @@ impl From<EnergyBalance> for EnergyTable {
         let kept = [("kinetic", e.kinetic), ("elastic", e.elastic)];
         let lost = [("friction", e.friction), ("radiated", e.radiated)];
         let given = [("loads", e.loads), ("opening", e.opening)];
-        Self::new(unit, [&kept, &lost, &given], (e.missing(), imbalance))
+        let exchanged = (e.exchanged != 0.0).then_some(e.exchanged);
+        Self { exchanged, ..Self::new(unit, [&kept, &lost, &given], (e.missing(), imbalance)) }
     }
 }
 
