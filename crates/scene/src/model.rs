@@ -53,6 +53,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 pub use stress::*;
 pub use surface::*;
+pub(crate) use tabled::TableOver;
 pub use tabled::{TableFile, Tabled, part};
 pub use trace::{Trace, TraceFile};
 
@@ -362,20 +363,6 @@ pub struct Stage {
 
 /// A table of motions or loads: its dimension goes with it.
 type TableMut<'a> = (&'a mut Tabled, Dimension);
-
-/// A table that a file may fill.
-pub(crate) struct TableOver<'a> {
-    /// The table.
-    pub table: &'a mut Tabled,
-    /// Dimension of its values.
-    pub dimension: Dimension,
-    /// Keys under which it stands, as the table of plausible values has them.
-    pub keys: &'static [&'static str],
-    /// Duration of its stage, if it belongs to one \[s\].
-    pub duration: Option<f64>,
-    /// True if each value holds until the next entry; others are linear in between.
-    pub holds: bool,
-}
 
 impl Condition {
     /// Tables of its motions and loads.

@@ -160,6 +160,12 @@ fn plane(ledger: &mut Ledger) -> Result<(), CaseError> {
     ];
     all(ledger, (&files, &cost), "in the plane", &fields)?;
     report(ledger, (&files, &cost), &s, rate)?;
+    head(ledger, (&files, &cost))?;
+    backwards(ledger, &files, &s)
+}
+
+/// The position in the head of a column of a probe.
+fn head(ledger: &mut Ledger, (files, cost): (&Folder, &Cost)) -> Result<(), CaseError> {
     let table = files.table("probes/joint.csv")?;
     let place = table.head().last().and_then(|name| name.split_once(" at x = ")).ok_or("no place")?.1;
     let (value, unit) = place.split_once(' ').ok_or("no unit")?;
@@ -167,15 +173,20 @@ fn plane(ledger: &mut Ledger) -> Result<(), CaseError> {
         .claim("position of the last of two probes of the interface of two blocks, by the head of its column")
         .unit("m")
         .value(value.parse::<f64>()? * if unit == "mm" { 1e-3 } else { 1.0 })
-        .equals(w)
+        .equals(WIDTHS[0])
         .absolute(1e-9)
         .evidence(Evidence::Exact, "the first and the last of equally spaced probes lie at the ends")
         .because("positions in heads have four digits, and this one has one")
         .why_not_tighter("there is nothing but rounding")
         .covers(&[Capability::Outputs])
-        .cost(&cost)
+        .cost(cost)
         .record();
-    let taken = steps(&files)?;
+    Ok(())
+}
+
+/// The blocks drawn the other way, as they were in these files.
+fn backwards(ledger: &mut Ledger, forwards: &Folder, s: &Steady) -> Result<(), CaseError> {
+    let taken = steps(forwards)?;
     let (files, cost) = written::bodies(&scene(false, RATES.map(|rate| -rate)))?;
     ledger
         .claim("two blocks that slide steadily in the plane: steps taken one way, less those the other way")
@@ -188,7 +199,7 @@ fn plane(ledger: &mut Ledger) -> Result<(), CaseError> {
     let wanted: [Wanted<'_>; 4] = [
         ("probes/joint.csv", "slip", s.slip),
         ("probes/joint.csv", "friction", s.shear / NORMAL),
-        ("springs/upper_top_x.csv", "force", -s.shear * w),
+        ("springs/upper_top_x.csv", "force", -s.shear * WIDTHS[0]),
         ("springs/upper_top_x.csv", "friction", s.shear / NORMAL),
     ];
     all(ledger, (&files, &cost), "in the plane the other way", &wanted)

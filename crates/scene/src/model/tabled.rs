@@ -1,7 +1,7 @@
 //! Tables of a value over time, in a scene or in a file.
 
 use crate::spanned::Spanned;
-use crate::units::Time;
+use crate::units::{Dimension, Time};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::ops::Deref;
@@ -62,6 +62,20 @@ pub struct TableFile {
     pub from: Option<Spanned<Time>>,
     /// `true`: values count from the first of the column, as those of an instrument that is set to zero.
     pub tare: Option<Spanned<bool>>,
+}
+
+/// A table that a file may fill.
+pub(crate) struct TableOver<'a> {
+    /// The table.
+    pub table: &'a mut Tabled,
+    /// Dimension of its values.
+    pub dimension: Dimension,
+    /// Keys under which it stands, as the table of plausible values has them.
+    pub keys: &'static [&'static str],
+    /// Duration of its stage, if it belongs to one \[s\].
+    pub duration: Option<f64>,
+    /// True if each value holds until the next entry; others are linear in between.
+    pub holds: bool,
 }
 
 /// The part of a table over a stage that begins at the time `from`, with times since then, up to its `duration` if it is known;

@@ -10,11 +10,15 @@ use crate::scene::model::{Fault as Spec, Scene};
 use asperity_cycles::medium::across;
 use asperity_mechanics::dynamics::{Fault, Pulse, Regularisation, SplitPoint, Tie};
 
-/// The faults of a scene, from the points that slide; `None` without.
+/// The faults of a scene, from the points that slide, with those that are `locked` or creep as ties; `None` without.
 ///
 /// # Errors
 /// [`Diagnostic`] where the law cannot be built, or a pulse acts nowhere.
-pub(super) fn of<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Result<Option<Fault>, Diagnostic> {
+pub(super) fn of<const D: usize>(
+    scene: &Scene,
+    placed: &[Placed<D>],
+    locked: &[Placed<D>],
+) -> Result<Option<Fault>, Diagnostic> {
     let named: Vec<(&String, &Spec)> = scene.faults.iter().collect();
     let (Some(first), Some((_, any))) = (placed.first(), named.first()) else { return Ok(None) };
     let spec = |p: &Placed<D>| named[p.fault].1;
@@ -52,7 +56,7 @@ pub(super) fn of<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Result<
             .collect(),
         forced: forced::of(&named, placed)?,
         onset: None,
-        ties: Vec::new(),
+        ties: locked.iter().map(tie).collect(),
     }))
 }
 
@@ -70,7 +74,7 @@ pub(super) fn apart<const D: usize>(placed: Vec<Placed<D>>) -> (Vec<Placed<D>>, 
 }
 
 /// The nodes of a point that does not slide, as a pair that stays together.
-pub(super) fn tie<const D: usize>(placed: &Placed<D>) -> Tie {
+fn tie<const D: usize>(placed: &Placed<D>) -> Tie {
     Tie { minus: placed.point.place.minus, plus: placed.point.place.plus }
 }
 

@@ -89,14 +89,11 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     checks.faults = of_faults::checks::faults(scene, (&placed, &prescribed), &faults, &resolution);
     checks.cost = cost(&model, &counted, points.len(), memory_bytes);
     let idealisation = model.idealisation;
-    let mut fault = faults::of(scene, &placed)?;
+    let fault = faults::of(scene, &placed, &locked)?;
     warnings.extend(doubts::unlike(scene, &placed, true));
     if let Some(fault) = &fault {
         let duration = counted.steps as f64 * counted.dt;
         crate::doubts::add(&mut warnings, doubts::pulses(scene, &placed, fault, duration));
-    }
-    if let Some(fault) = &mut fault {
-        fault.ties = locked.iter().map(faults::tie).collect();
     }
     Ok(Plan {
         title: scene.title.clone(),

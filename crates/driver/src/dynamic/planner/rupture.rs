@@ -1,6 +1,6 @@
 //! Plans the bodies with mass that compute the ruptures of faults through cycles.
 
-use super::faults::{apart, tie};
+use super::faults::apart;
 use super::{doubts, faults, masses, steps};
 use crate::diagnostic::Diagnostic;
 use crate::fault::Plan as Cycles;
@@ -63,10 +63,7 @@ fn bodies<const D: usize>(
             "report this with the scene",
         ));
     }
-    let mut fault = faults::of(scene, &placed)?;
-    if let Some(fault) = &mut fault {
-        fault.ties = creeping.iter().map(tie).collect();
-    }
+    let fault = faults::of(scene, &placed, &creeping)?;
     let absorbing = masses::absorbing(scene, &model, &density)?;
     let courant = steps::courant(scene);
     let duration = STEPS * courant * stable.step;

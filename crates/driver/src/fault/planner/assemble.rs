@@ -130,13 +130,7 @@ pub(super) fn plan_of<const D: usize>(
     let settings = settings(scene, &placed, end)?;
     pressing::rests(scene, (&placed, &fault), (&start, settings.thresholds.on))?;
     let mut warnings = around.warnings;
-    warnings.extend(pressing::unused_rates(scene, &placed));
-    crate::doubts::add(&mut warnings, start_doubts::check(scene, &placed, &fault));
-    warnings.extend(upright::above_ground(scene, &placed)?);
-    let amplitudes = fault.pulses.iter().map(|p| p.amplitude.as_slice());
-    crate::doubts::add(&mut warnings, pulses::doubts(&named, amplitudes, &pulses::at_rest(&fault)));
-    crate::doubts::add(&mut warnings, endless(scene, around.loading));
-    crate::doubts::add(&mut warnings, radiation::doubts(scene, &placed));
+    doubt(scene, (&placed, &fault), around.loading, &mut warnings)?;
     warnings.extend(spread(scene, &placed, end));
     warnings.extend(steady::starts(scene, &placed, &fault, (&loading, end)));
     let (faults, points) = views(scene, cells, &placed, turns)?;
@@ -181,6 +175,24 @@ pub(super) fn plan_of<const D: usize>(
         notes: around.notes,
         checks,
     })
+}
+
+/// Adds doubts of the start of faults, of their pulses and their damping under loads of this rate \[m/s\].
+fn doubt<const D: usize>(
+    scene: &Scene,
+    (placed, fault): (&[Placed<D>], &Fault),
+    rate: f64,
+    warnings: &mut Vec<Warning>,
+) -> Result<(), Diagnostic> {
+    let named: Vec<(&String, &Spec)> = scene.faults.iter().collect();
+    warnings.extend(pressing::unused_rates(scene, placed));
+    crate::doubts::add(warnings, start_doubts::check(scene, placed, fault));
+    warnings.extend(upright::above_ground(scene, placed)?);
+    let amplitudes = fault.pulses.iter().map(|p| p.amplitude.as_slice());
+    crate::doubts::add(warnings, pulses::doubts(&named, amplitudes, &pulses::at_rest(fault)));
+    crate::doubts::add(warnings, endless(scene, rate));
+    crate::doubts::add(warnings, radiation::doubts(scene, placed));
+    Ok(())
 }
 
 /// Adds the rate of loading and the machine of each fault to its checks; `machines` has the stiffness of springs at each fault.

@@ -216,9 +216,8 @@ fn between_bodies<const D: usize>(
     // If weight or a stage before presses the bodies, normal tractions are known only once their equations are solved.
     let known = stage.weight.is_empty() && pressing.is_none();
     let early = known.then(|| resolved(scene, &placed, &mut warnings)).transpose()?;
-    let of_bodies = model::checks::of(scene, &model)?;
+    let (of_bodies, held) = (model::checks::of(scene, &model)?, Held::by(&model));
     warnings.extend(upright::held_above(scene, &model));
-    let held = Held::by(&model);
     let conditions = conditions(scene, stage, model.idealisation.components());
     let at_rest = vec![0.0; model.dofs()];
     // Weight acts while the bodies are pressed, or else before the start.
