@@ -6,6 +6,7 @@
 )]
 
 mod benchmarks;
+mod code;
 mod defects;
 mod interop;
 mod notices;

@@ -6,12 +6,12 @@ mod watched;
 
 use crate::average::Averaging;
 use crate::build::{build_measure, check};
-use crate::enforce::{Enforcement, Multipliers, Penalty, Unknowns, tangential};
+use crate::enforce::{Multipliers, Penalty, Unknowns, tangential};
 use crate::error::ContactError;
 use crate::measure::{Attachment, Geometry, Measure, NormalPoint, Slides, Tractions};
 use crate::observe::{Balance, PointFields, Work};
 use crate::shear::{Past, Shear, TwoStep};
-use crate::spec::{InterfaceSpec, SlavePoint, SurfaceNode, TimeRule};
+use crate::spec::{Enforcement, InterfaceSpec, SlavePoint, SurfaceNode, TimeRule};
 use crate::status::{Status, label};
 use crate::vector::{add, axpy, dot, moment, norm, scaled, sub};
 use crate::watch::Watch;

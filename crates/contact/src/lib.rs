@@ -25,13 +25,14 @@ mod vector;
 pub mod watch;
 
 pub use asperity_fem::element::face::{self as shape, FaceKind as SegmentKind};
-pub use enforce::Enforcement;
 pub use error::ContactError;
 pub use history::InterfaceState;
 pub use interface::Interface;
 pub use observe::{Balance, PointFields, Work};
 pub use press::StartTraction;
-pub use spec::{InterfaceSpec, MeasureKind, Segment, SlavePoint, Sliding, Smoothing, SurfaceNode, TimeRule};
+pub use spec::{
+    Enforcement, InterfaceSpec, MeasureKind, Segment, SlavePoint, Sliding, Smoothing, SurfaceNode, TimeRule,
+};
 pub use status::Status;
 pub use watch::{Course, RateLimit, Watch};
 

@@ -1,7 +1,8 @@
 //! The scene language with the friction laws of this program.
 
 pub use asperity_scene::{
-    Entry, check, files, keys, law, model, names, near, plausible, settings, slider, units, unprintable,
+    Entry, check, files, keys, law, model, names, near, plausible, reader, settings, slider, units,
+    unprintable,
 };
 
 use crate::columns::file::columns_of;

@@ -12,7 +12,8 @@ use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::doubts;
 use crate::laws::{self, Theta};
 use crate::scene::model::Spanned;
-use crate::scene::slider::{self, SliderScene};
+use crate::scene::reader;
+use crate::scene::slider::SliderScene;
 use crate::slider::Plan;
 use asperity_cycles::slider::{Problem, Rows};
 use asperity_friction::slider::{History, Slider, System};
@@ -33,7 +34,7 @@ pub fn read(text: &str) -> Result<Plan, Diagnostics> {
 /// # Errors
 /// All errors of the scene, or the first one that prevents reading it.
 pub fn read_in(text: &str, folder: &Path) -> Result<(Plan, Vec<Spanned<String>>), Diagnostics> {
-    let scene = slider::read_with(text, &mut |file, wanted| columns_of(folder, file, wanted))?;
+    let scene = reader::read_sliders_with(text, &mut |file, wanted| columns_of(folder, file, wanted))?;
     let mut planner = Planner::default();
     let plan = planner.plan(&scene);
     let mut errors = planner.errors;

@@ -1,6 +1,6 @@
 //! Slip rates that begin and end events on surfaces.
 
-use crate::scene::slider::EventSpec;
+use crate::scene::model::EventSpec;
 use asperity_cycles::Thresholds;
 
 /// Default slip rate at which an event begins \[m/s\]. For rock under crustal stress, radiation damping begins to matter there.

@@ -149,21 +149,21 @@ pub enum FemError {
         /// Singular, or not positive definite.
         singular: bool,
         /// Pivot at which this was found.
-        pivot: crate::multifrontal::Pivot,
+        pivot: Pivot,
     },
     /// The iterative solver gave up.
     #[error("conjugate gradients: {0}")]
-    NotConverged(crate::iterative::Outcome),
+    NotConverged(crate::outcome::Outcome),
     /// A symmetric matrix that the direct solver could not factor.
     #[error(transparent)]
-    Direct(#[from] crate::multifrontal::DirectError),
+    Direct(#[from] DirectError),
 }
 
 impl FemError {
     /// The pivot of a matrix that could not be factored. Its `equation` is a degree of freedom in [`FemError::Unheld`] and in
     /// errors of a condensation (there, of the body).
     #[must_use]
-    pub fn pivot(&self) -> Option<crate::multifrontal::Pivot> {
+    pub fn pivot(&self) -> Option<Pivot> {
         match self {
             Self::Unheld { pivot, .. } => Some(*pivot),
             Self::Direct(error) => error.pivot(),
@@ -176,8 +176,81 @@ impl FemError {
     pub fn is_singular(&self) -> bool {
         match self {
             Self::Unheld { singular, .. } => *singular,
-            Self::Direct(error) => matches!(error, crate::multifrontal::DirectError::Singular(_)),
+            Self::Direct(error) => matches!(error, DirectError::Singular(_)),
             _ => false,
         }
     }
+}
+
+/// A pivot that cannot be used as a divisor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pivot {
+    /// Equation, in the numbering of the matrix.
+    pub equation: usize,
+    /// Diagonal entry after the elimination.
+    pub pivot: f64,
+    /// Diagonal entry of the matrix.
+    pub diagonal: f64,
+}
+
+/// Reasons why a matrix was not factored.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum DirectError {
+    /// A negative pivot, or one that is not a number.
+    #[error(
+        "the matrix is not positive definite: equation {} has the pivot {:e} (diagonal {:e})",
+        .0.equation, .0.pivot, .0.diagonal
+    )]
+    NotPositive(Pivot),
+    /// A pivot of the size of rounding: a motion that nothing resists.
+    #[error(
+        "the matrix is singular: equation {} is not held, its pivot {:e} is rounding of its diagonal {:e}",
+        .0.equation, .0.pivot, .0.diagonal
+    )]
+    Singular(Pivot),
+    /// More memory than allowed.
+    #[error(
+        "the direct solver needs {:.2} GiB for {equations} equations, {:.2} GiB are allowed",
+        gibibytes(*.needed), gibibytes(*.allowed)
+    )]
+    Memory {
+        /// Memory needed \[bytes\].
+        needed: usize,
+        /// Memory allowed \[bytes\].
+        allowed: usize,
+        /// Number of equations.
+        equations: usize,
+    },
+    /// The operating system refused memory.
+    #[error("the system has no memory left for the direct solver")]
+    OutOfMemory,
+    /// No order of elimination.
+    #[error("{0}")]
+    Ordering(String),
+}
+
+impl DirectError {
+    /// The same error with the equation in another numbering.
+    #[must_use]
+    pub fn renumbered(self, number: impl Fn(usize) -> usize) -> Self {
+        let other = |p: Pivot| Pivot { equation: number(p.equation), ..p };
+        match self {
+            Self::NotPositive(p) => Self::NotPositive(other(p)),
+            Self::Singular(p) => Self::Singular(other(p)),
+            same => same,
+        }
+    }
+
+    /// The pivot in question.
+    #[must_use]
+    pub fn pivot(&self) -> Option<Pivot> {
+        match self {
+            Self::NotPositive(p) | Self::Singular(p) => Some(*p),
+            _ => None,
+        }
+    }
+}
+
+fn gibibytes(bytes: usize) -> f64 {
+    bytes as f64 / f64::from(1 << 30)
 }

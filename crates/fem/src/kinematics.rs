@@ -1,7 +1,8 @@
 //! Assumptions on a displacement field: the idealisation of space, and the treatment of the dilatation.
 
-use crate::element::{ElementKind, Point};
+use crate::element::ElementKind;
 use crate::error::FemError;
+use crate::quadrature::Point;
 use std::f64::consts::TAU;
 
 /// Idealisation of space. Degree of freedom = node * [`Idealisation::components`] + component.

@@ -22,12 +22,14 @@ pub mod multifrontal;
 pub mod nonlinear;
 pub mod ordering;
 pub mod origin;
+pub mod outcome;
 pub mod quadrature;
 pub mod scatter;
 pub mod sparse;
 pub mod surface;
 pub mod table;
 pub mod term;
+pub mod vector;
 
 pub use error::FemError;
 

@@ -6,7 +6,7 @@
 //! Minimum degree is local and fast. Nested dissection cuts the graph by small separators and pays off if separators are large,
 //! that is in three dimensions. [`Ordering::Automatic`] evaluates the cost of minimum degree, see [`DISSECTION_PAYS`].
 
-use crate::multifrontal::DirectError;
+use crate::error::DirectError;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::amd;

@@ -1,6 +1,7 @@
 //! Quadrature rules on the reference elements. Weights sum to the measure of the element: 2^d, 1/2, 1/6, and 1 for the wedge.
 
-use crate::element::Point;
+/// A quadrature point: natural coordinates and weight.
+pub type Point = ([f64; 3], f64);
 
 /// Product Gauss rule with `n` (1 to 5) points per axis on [-1, 1]^dimension: degree 2n - 1 in each variable.
 ///

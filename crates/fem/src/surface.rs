@@ -4,6 +4,7 @@ use crate::element::FaceKind;
 use crate::kinematics::Idealisation;
 use crate::mesh::{Mesh, MeshFace, Side};
 use crate::quadrature;
+pub use crate::vector::length;
 use std::collections::BTreeMap;
 
 /// Shape functions of a face at its quadrature points: N, dN/dξ, weight.
@@ -98,12 +99,6 @@ pub fn areas<const D: usize>(
         }
     });
     areas
-}
-
-/// Euclidean length.
-#[must_use]
-pub fn length<const D: usize>(v: &[f64; D]) -> f64 {
-    v.iter().map(|c| c * c).sum::<f64>().sqrt()
 }
 
 /// Visits every quadrature point of every face: nodes, N, weight (2πr included), point.

@@ -3,13 +3,11 @@
 mod choice;
 mod given;
 mod reader;
-mod several;
 mod table;
 mod vary;
 
 pub use choice::{Evolution, Form, Heat, LawChoice, State, Strength};
 pub use given::given;
-pub use several::Several;
 pub use table::{Bound, EvolutionRow, KindRow, Laws, OrderRow, ParameterRow};
 
 use super::model::{LawSpec, Spanned};

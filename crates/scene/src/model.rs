@@ -5,6 +5,7 @@
 
 mod body;
 mod coulomb;
+mod event;
 mod fault;
 mod field;
 mod flux;
@@ -25,13 +26,13 @@ mod tabled;
 mod trace;
 
 pub use super::here::here;
-use super::law::Several;
-use super::slider::EventSpec;
+use super::several::Several;
 use super::units::{Angle, Dimension, Length, Memory, Penalty, Penetration, Pressure, Time, Velocity};
 pub use crate::spanned::Spanned;
 use crate::warning::Warning;
 pub use body::*;
 pub use coulomb::*;
+pub use event::EventSpec;
 pub use fault::*;
 pub use field::*;
 pub use flux::Flux;

@@ -5,8 +5,8 @@
 
 use super::definition::{Change, Defect};
 use super::files::{read, write};
+use crate::code::{mask, regions};
 use crate::stage::Failure;
-use crate::tidy::source::{mask, regions};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::ops::Range;

@@ -12,7 +12,7 @@ mod lints;
 mod problem;
 mod readers;
 mod sentences;
-pub mod source;
+mod source;
 mod text;
 mod tree;
 mod variation;

@@ -1,8 +1,8 @@
 //! Rule that scenes in the suite, benches and tests are varied by key path, not by replacing text.
 
 use super::problem::Problem;
-use super::source::{mask, regions};
 use super::tree::File;
+use crate::code::{mask, regions};
 
 /// Functions that replace text and do not report a missing match.
 const CALLS: [&str; 2] = [".replace(", ".replacen("];

@@ -7,31 +7,6 @@ use crate::measure::NormalPoint;
 pub(crate) use unknown::{Buffers, REGULAR, Unknowns};
 pub(crate) use uzawa::{Multipliers, tangential};
 
-/// Methods of enforcing the contact constraints.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Enforcement {
-    /// Tractions proportional to the penetration and to the elastic part of the tangential motion.
-    #[default]
-    Penalty,
-    /// Penalty tractions about multipliers. The multipliers are set to the tractions found until these no longer change
-    /// (Uzawa's method; Hestenes 1969, Powell 1969; with friction Simo and Laursen 1992).
-    Uzawa {
-        /// Largest admissible penetration, and largest admissible elastic part of the tangential motion of a step \[m\].
-        tolerance: f64,
-        /// Most augmentations per step.
-        most: usize,
-    },
-    /// Multipliers that are unknowns of the system (Alart and Curnier 1991). The constraints hold to rounding, and the
-    /// penalties only decide on which side of a kink an iterate lies.
-    AugmentedLagrangian {
-        /// First degree of freedom of the unknowns. Each slave point has one unknown, or D with a law, one point after another.
-        first: usize,
-        /// Stiffness that scales tractions to lengths of the size of displacements: Young's modulus over the element size
-        /// \[Pa/m\].
-        unit: f64,
-    },
-}
-
 /// Penalty: `f_n = E_n <-g_n>`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Penalty {

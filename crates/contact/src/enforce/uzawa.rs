@@ -9,7 +9,7 @@
 //! Simo, J. C. and Laursen, T. A. (1992), An augmented Lagrangian treatment of contact problems involving friction,
 //! Computers and Structures 42, 97-116.
 
-use super::Enforcement;
+use crate::spec::Enforcement;
 
 /// Multipliers of all points.
 #[derive(Clone, Debug)]

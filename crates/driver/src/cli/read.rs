@@ -159,7 +159,7 @@ impl Source {
         let text = Text { name, file, resolved, settings: settings.to_vec() };
         let told = |errors: &Diagnostics| text.report(errors);
         let (read, folder) = (text.resolved.text(), path.parent().unwrap_or(Path::new("")));
-        let (parsed, inputs) = if scene::slider::is_slider(read) {
+        let (parsed, inputs) = if scene::reader::is_slider(read) {
             let (plan, files) = slider_planner::read_in(read, folder).map_err(|errors| told(&errors))?;
             let named: Vec<_> = files.iter().map(|file| (file.span(), file.get_ref().as_str())).collect();
             (Parsed::Sliders(Box::new(plan)), Inputs::of(read, folder, &named)?)
@@ -197,9 +197,8 @@ impl Source {
     /// Citations of the scene.
     pub fn citations(&self) -> miette::Result<Citations> {
         let citations = match &self.parsed {
-            Parsed::Sliders(_) => {
-                scene::slider::read(self.text.resolved.text()).and_then(|scene| cite::of_sliders(&scene))
-            }
+            Parsed::Sliders(_) => scene::reader::read_sliders(self.text.resolved.text())
+                .and_then(|scene| cite::of_sliders(&scene)),
             Parsed::Bodies(scene) => cite::of_scene(scene),
         };
         citations.map_err(|errors| self.text.report(&errors))

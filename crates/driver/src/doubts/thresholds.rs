@@ -1,6 +1,6 @@
 //! Slip rates of events that the loads themselves reach.
 
-use crate::scene::slider::EventSpec;
+use crate::scene::model::EventSpec;
 use crate::warning::Warning;
 use asperity_cycles::Thresholds;
 use std::ops::Range;

@@ -2,9 +2,9 @@
 
 use super::Planner;
 use crate::diagnostic::Diagnostic;
+use crate::scene::model::EventSpec;
 use crate::scene::model::Spanned;
 use crate::scene::near;
-use crate::scene::slider::EventSpec;
 use crate::scene::slider::SliderTime;
 use crate::scene::units::Time;
 use asperity_cycles::Thresholds;

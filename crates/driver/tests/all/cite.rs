@@ -32,7 +32,7 @@ fn of(text: &str, changes: &[Change<'_>]) -> Vec<&'static str> {
 
 fn of_slider(changes: &[Change<'_>]) -> Vec<&'static str> {
     let text = varied(SLIDER, changes);
-    keys(&of_sliders(&scene::slider::read(&text).unwrap_or_else(|e| panic!("{e}\n{text}"))).unwrap())
+    keys(&of_sliders(&scene::reader::read_sliders(&text).unwrap_or_else(|e| panic!("{e}\n{text}"))).unwrap())
 }
 
 /// Keys that a change adds, and those that it takes away.

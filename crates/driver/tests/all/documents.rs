@@ -66,7 +66,7 @@ fn pages(folder: &Path) -> Vec<PathBuf> {
 }
 
 fn refusal(text: &str) -> Option<String> {
-    if scene::slider::is_slider(text) {
+    if scene::reader::is_slider(text) {
         return asperity_driver::slider_planner::read(text).err().map(|e| e.to_string());
     }
     match scene::read_in(text, &root().join("crates/driver/tests/meshes")) {

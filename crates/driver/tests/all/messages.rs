@@ -40,7 +40,7 @@ impl Entry {
 /// Error in a scene, of either kind.
 pub fn refusal(text: &str) -> Option<Diagnostics> {
     let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/meshes");
-    if scene::slider::is_slider(text) {
+    if scene::reader::is_slider(text) {
         return asperity_driver::slider_planner::read_in(text, &meshes).err();
     }
     match scene::read_in(text, &meshes) {

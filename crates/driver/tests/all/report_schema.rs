@@ -73,7 +73,7 @@ fn all_scenes_run_and_their_reports_keep_to_the_published_schema() {
             continue;
         }
         let text = fs::read_to_string(&scene).unwrap();
-        let sliders = asperity_driver::scene::slider::is_slider(&text);
+        let sliders = asperity_driver::scene::reader::is_slider(&text);
         let report = report(&scene, if sliders { &[] } else { &["--wall-time", "0.4 s"] });
         assert_eq!(faults(&report), Vec::<String>::new(), "{}", scene.display());
         assert!(validator.is_valid(&report), "{}", scene.display());

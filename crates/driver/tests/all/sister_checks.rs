@@ -4,7 +4,7 @@ use crate::common::{SANDWICH, cycles};
 use crate::dynamic;
 use asperity_driver::plan::{self, ScenePlan};
 use asperity_driver::scene;
-use asperity_driver::scene::slider::is_slider;
+use asperity_driver::scene::reader::is_slider;
 use asperity_driver::slider_planner;
 use asperity_vary::Change::{self, Add, With, WithOrSame};
 use asperity_vary::SceneText;

@@ -5,7 +5,8 @@ use crate::error::FemError;
 use crate::iterative::dense::Block;
 use crate::iterative::near_null;
 use crate::iterative::smoothed_aggregation::Settings;
-use crate::iterative::{Method, Outcome, Solver};
+use crate::iterative::{Method, Solver};
+use crate::outcome::Outcome;
 use crate::term::Pattern;
 use std::fmt::Debug;
 

@@ -2,7 +2,8 @@
 
 use super::face::FaceKind;
 use super::kind::ElementKind;
-use super::shape::{Point, Shape};
+use super::shape::Shape;
+use crate::quadrature::Point;
 
 /// A face of an element.
 #[derive(Clone, Copy, Debug, PartialEq)]

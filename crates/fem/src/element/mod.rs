@@ -21,10 +21,10 @@ mod wedge6;
 pub use definition::{Definition, Face, Foreign};
 pub use face::FaceKind;
 pub use kind::ElementKind;
-pub use shape::{MOST_NODES, Point, Shape};
+pub use shape::{MOST_NODES, Shape};
 
 use crate::error::FemError;
-use crate::quadrature;
+use crate::quadrature::{self, Point};
 use std::str::FromStr;
 
 impl ElementKind {

@@ -17,6 +17,3 @@ impl Default for Shape {
         Self { n: [0.0; MOST_NODES], dn: [[0.0; 3]; MOST_NODES] }
     }
 }
-
-/// A quadrature point: natural coordinates and weight.
-pub type Point = ([f64; 3], f64);

@@ -1,8 +1,8 @@
 //! Preconditioned conjugate gradients (Hestenes and Stiefel 1952; Saad, Iterative Methods, 2003, algorithm 9.1).
 
 use super::csr::BlockCsr;
-use super::outcome::{Outcome, Report};
 use super::vector::{add_scaled, dot, scale_add};
+use crate::outcome::{Outcome, Report};
 
 /// A symmetric positive definite approximation of the inverse.
 pub trait Preconditioner<const B: usize> {

@@ -10,18 +10,17 @@ pub mod csr;
 pub mod dense;
 pub mod matrix;
 pub mod near_null;
-pub mod outcome;
 pub mod smoothed_aggregation;
 pub mod vector;
 
 use crate::dof::Equations;
 use crate::error::FemError;
+use crate::outcome::Outcome;
 use crate::term::Pattern;
 use block_jacobi::BlockJacobi;
 use csr::BlockCsr;
 use dense::Block;
 use matrix::Assembly;
-pub use outcome::{Outcome, Report};
 use smoothed_aggregation::{Hierarchy, LevelSize, Settings};
 
 /// Iterations after which the solution is abandoned: several times the number needed in the hardest case of the benchmark with

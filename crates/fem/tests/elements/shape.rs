@@ -1,7 +1,8 @@
 //! Shape functions, faces, quadrature.
 
-use asperity_fem::element::{ElementKind, Point, face};
+use asperity_fem::element::{ElementKind, face};
 use asperity_fem::quadrature;
+use asperity_fem::quadrature::Point;
 
 /// Points inside every reference element.
 const INSIDE: [[f64; 3]; 2] = [[0.21, 0.34, 0.17], [0.5, 0.11, 0.29]];

@@ -2,11 +2,11 @@
 //! it had never been interrupted.
 
 use super::bodies::BodiesState;
-use super::springs::{SpringStart, Springs};
+use super::springs::Springs;
 use super::{Assembled, terms};
-use crate::Stage;
 use crate::inertia::{MassState, Moving};
 use crate::step::StepperState;
+use crate::{SpringStart, Stage};
 use asperity_contact::InterfaceState;
 use asperity_fem::term::{Linearized, Saved as _};
 use serde::{Deserialize, Serialize};

@@ -3,12 +3,12 @@
 use super::Checker;
 use super::interfaces::RATED;
 use crate::law;
+use crate::model::EventSpec;
 use crate::model::{
     Along, Creep, CreepLoading, DampingSpec, Fault, Interface, Kinematics, Motion, Outside, Path, Profile,
     Profiled, SlipSpec, Spanned, Station, Stepper,
 };
 use crate::near::suggest;
-use crate::slider::EventSpec;
 use crate::units::Angle;
 
 /// Kinds of law from which the slip rate cannot be computed.

@@ -2,12 +2,12 @@
 
 use super::choice::{Evolution, FORMS, Form, Heat, LawChoice, State, Strength};
 use super::given::{Quantity, scalar};
-use super::several::Several;
 use super::table::Bound::{self, BelowReference, Finite, NotNegative, Positive};
 use super::table::{EvolutionRow, KindRow, Laws, OrderRow, ParameterRow};
 use crate::diagnostic::Diagnostic;
 use crate::model::{LawSpec, Spanned};
 use crate::near;
+use crate::several::Several;
 use std::ops::Range;
 
 /// Largest number of state variables of a law: those that a slider can hold.

@@ -3,7 +3,7 @@
 use super::setting::Setting;
 use crate::keys::{self, Path, Step, written};
 use crate::near::suggest;
-use crate::slider::is_slider;
+use crate::reader::is_slider;
 use std::ops::Range;
 use toml_edit::{Document, Item};
 

@@ -1,8 +1,7 @@
 //! A scene of spring-sliders as a value: the contents of its file in SI units, before any decision is made.
 
 use super::course::Course;
-use super::event::EventSpec;
-use crate::model::{LawSpec, Spanned, TableOver};
+use crate::model::{EventSpec, LawSpec, Spanned, TableOver};
 use crate::shape::{Either, shaped};
 use crate::units::{Damping, Dimension, Mass, Pressure, Spring, Time, Velocity};
 use crate::warning::Warning;
@@ -44,7 +43,7 @@ pub struct SliderScene {
 
 impl SliderScene {
     /// Tables of its courses that files have, with the dimension of their values.
-    pub(super) fn tables_mut(&mut self) -> impl Iterator<Item = TableOver<'_>> {
+    pub(crate) fn tables_mut(&mut self) -> impl Iterator<Item = TableOver<'_>> {
         let over = |keys: &'static [&'static str], dimension| {
             move |table| TableOver { table, dimension, keys, duration: None, holds: false }
         };

@@ -1,6 +1,6 @@
 //! Names in a source: those its `use` declarations import, and the paths in its code.
 
-use crate::tidy::source::mask::is_name;
+use crate::code::mask::is_name;
 
 /// A name that a `use` declaration imports into its module.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -138,7 +138,7 @@ fn group(tokens: &[String], from: usize, path: &[String], public: bool, found: &
 #[cfg(test)]
 mod tests {
     use super::{Binding, names};
-    use crate::tidy::source::mask;
+    use crate::code::mask;
 
     fn read(source: &str) -> super::Names {
         names(&mask::code(source))

@@ -1,6 +1,6 @@
 //! Float literals in masked code.
 
-use super::mask::is_name;
+use crate::code::mask::is_name;
 
 /// A literal: its position and value.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,11 +1,10 @@
 //! Rules about Rust sources.
 
 mod floats;
-pub mod mask;
-pub mod regions;
 
 use super::graph::LIBRARIES;
 use super::problem::Problem;
+use crate::code::{mask, regions};
 use std::ops::Range;
 
 /// Magnitude below which a float literal must be a documented constant: it is a tolerance or a unit, and both need a reason.

@@ -3,7 +3,7 @@
 use super::surface::InnerFace;
 use super::{SplitError, Surface};
 use crate::mesh::Mesh;
-use crate::surface::length;
+use crate::vector::length;
 use std::collections::BTreeMap;
 
 /// Cosine below which a direction counts as lying in the surface: three degrees, less than anyone would call "across".

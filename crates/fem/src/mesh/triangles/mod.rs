@@ -9,6 +9,7 @@ use super::MeshError;
 use super::error::Holder;
 use super::raw::{Options, RawBlock, RawMesh, Shape};
 use crate::element::ElementKind;
+use crate::vector::length;
 use std::collections::BTreeMap;
 
 /// Least height of a triangle over its longest side; a flatter one has no area beyond the rounding of coordinates that are
@@ -109,7 +110,7 @@ impl Triangles {
         let corners = self.positions(last);
         let side = |k: usize| {
             let (a, b) = (&corners[k], &corners[(k + 1) % 3]);
-            length(&std::array::from_fn(|c| b[c] - a[c]))
+            length::<3>(&std::array::from_fn(|c| b[c] - a[c]))
         };
         let longest = side(0).max(side(1)).max(side(2));
         if 2.0 * length(&vector(&corners)) > FLAT * longest * longest {
@@ -127,10 +128,6 @@ fn vector([a, b, c]: &[[f64; 3]; 3]) -> [f64; 3] {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
         0.5 * (p[i] * q[j] - p[j] * q[i])
     })
-}
-
-fn length(v: &[f64; 3]) -> f64 {
-    v.iter().map(|c| c * c).sum::<f64>().sqrt()
 }
 
 /// Blocks of surface elements in the groups of these names, or all.

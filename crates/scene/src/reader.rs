@@ -1,0 +1,108 @@
+//! Reading of scenes: of bodies and faults, and of spring-sliders (`kinematics = "spring-slider"`).
+
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::files::{self, Columns};
+use crate::law::Laws;
+use crate::model::{Scene, Spanned};
+use crate::slider::SliderScene;
+use crate::{azimuth, check, explain, near, plausible, unprintable};
+use serde::Deserialize;
+use std::path::Path;
+
+/// Reads and checks a scene with the friction laws known to the program. Files are named relative to `folder`, and `columns` reads those whose
+/// numbers belong to the scene.
+///
+/// # Errors
+/// All errors of the checks, or the first error of the text or of a file.
+pub fn read(text: &str, folder: &Path, laws: &Laws, columns: &mut Columns<'_>) -> Result<Scene, Diagnostics> {
+    if let Some(error) = unprintable::find(text) {
+        return Err(Diagnostics(vec![error]));
+    }
+    let mut scene: Scene = toml::from_str(text).map_err(|e| Diagnostics(vec![explain::explain(&e, text)]))?;
+    scene.folder = folder.to_path_buf();
+    let doubts = files::fill(&mut scene, columns).map_err(|error| Diagnostics(vec![error]))?;
+    azimuth::rakes(&mut scene);
+    let (mut errors, mut warnings) = check::check(&scene, laws);
+    plausible::judge(text, plausible::Known::of(&scene), &mut errors, &mut warnings);
+    warnings.extend(doubts);
+    scene.warnings = warnings;
+    if errors.is_empty() { Ok(scene) } else { Err(Diagnostics(errors)) }
+}
+
+/// Known kinematics.
+const KINEMATICS: [&str; 6] =
+    ["plane-strain", "plane-stress", "axisymmetric", "antiplane", "3d", "spring-slider"];
+
+/// Keys of a scene that determine its kind.
+#[derive(Deserialize)]
+struct Head {
+    kinematics: Option<Spanned<toml::Value>>,
+    sliders: Option<serde::de::IgnoredAny>,
+}
+
+impl Head {
+    /// True if the scene is one of bodies.
+    fn bodies(&self) -> bool {
+        let known = |k: &Spanned<toml::Value>| {
+            k.get_ref().as_str().is_none_or(|k| k != "spring-slider" && KINEMATICS.contains(&k))
+        };
+        self.sliders.is_none() && self.kinematics.as_ref().is_none_or(known)
+    }
+
+    /// Error in the kinematics of a scene of sliders, if any.
+    fn error(&self) -> Option<Diagnostic> {
+        let help = "sliders belong to `kinematics = \"spring-slider\"`";
+        let Some(kinematics) = &self.kinematics else {
+            return Some(Diagnostic::at(0..1, "the key `kinematics` is missing", help));
+        };
+        let place = kinematics.span();
+        let Some(name) = kinematics.get_ref().as_str() else {
+            return Some(Diagnostic::at(place, "the kinematics is a text in quotes", help));
+        };
+        if name == "spring-slider" {
+            return None;
+        }
+        Some(if KINEMATICS.contains(&name) {
+            let message = format!("the scene has sliders, but its kinematics is \"{name}\"");
+            Diagnostic::at(place, message, help)
+        } else {
+            let help = near::suggest(name, "kinematics", KINEMATICS);
+            Diagnostic::at(place, format!("there is no kinematics `{name}`"), help)
+        })
+    }
+}
+
+/// True if a scene file is to be read by [`read_sliders_with`]: it has sliders, or its kinematics is "spring-slider" or unknown.
+#[must_use]
+pub fn is_slider(text: &str) -> bool {
+    toml::from_str::<Head>(text).is_ok_and(|head| !head.bodies())
+}
+
+/// Reads a scene of spring-sliders. `columns` reads the files of its courses.
+///
+/// # Errors
+/// The first error of the reader, or of a file.
+pub fn read_sliders_with(text: &str, columns: &mut Columns<'_>) -> Result<SliderScene, Diagnostics> {
+    let mut scene = read_sliders(text)?;
+    let doubts = files::fill_tables(scene.tables_mut(), columns);
+    scene.warnings.extend(doubts.map_err(|error| Diagnostics(vec![error]))?);
+    Ok(scene)
+}
+
+/// Reads a scene of spring-sliders apart from the files of its courses.
+///
+/// # Errors
+/// The first error of the reader.
+pub fn read_sliders(text: &str) -> Result<SliderScene, Diagnostics> {
+    if let Some(error) = toml::from_str::<Head>(text).ok().and_then(|head| head.error()) {
+        return Err(Diagnostics(vec![error]));
+    }
+    if let Some(error) = unprintable::find(text) {
+        return Err(Diagnostics(vec![error]));
+    }
+    let mut scene: SliderScene =
+        toml::from_str(text).map_err(|e| Diagnostics(vec![explain::explain(&e, text)]))?;
+    let mut errors = Vec::new();
+    plausible::judge(text, plausible::Known::SLIDERS, &mut errors, &mut scene.warnings);
+    if errors.is_empty() { Ok(scene) } else { Err(Diagnostics(errors)) }
+}
