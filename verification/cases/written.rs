@@ -4,12 +4,12 @@ use crate::cases::seas;
 use crate::{CaseError, Cost};
 use asperity_cycles::{Balance, FaultRun, Faults, Moment};
 use asperity_driver::checkpoint::Pauses;
-use asperity_driver::dynamic::{self, AnyPlan, Keeper};
+use asperity_driver::dynamic::{self, AnyPlan};
 use asperity_driver::fault::{self, Files, Plan, Report};
+use asperity_driver::keep::{Keeper, Place};
 use asperity_driver::report::Outcome as Ended;
 use asperity_driver::{catalogue, plan, run, scene};
 use asperity_ode::{Control, ObserveError, Observer, Outcome};
-use asperity_output::FieldSchedule;
 use asperity_output::located::{cmtsolution, quakeml};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -226,8 +226,8 @@ pub fn bodies(text: &str) -> Result<(Folder, Cost), CaseError> {
 pub fn bodies_beside(text: &str, folder: &Path) -> Result<(Folder, Cost), CaseError> {
     let scene = scene::read_in(text, folder).map_err(|e| format!("{e}\nin\n{text}"))?;
     let plan = plan::plan(&scene).map_err(|e| e.to_string())?;
-    let (folder, (fields, profiles)) = (Folder::new()?, plan.outputs());
-    let mut files = asperity_output::Files::create(folder.path(), FieldSchedule { fields, profiles })?;
+    let folder = Folder::new()?;
+    let mut files = asperity_output::Files::create(folder.path(), plan.outputs())?;
     let (report, cost) = Cost::of(|| run::run(&plan, &mut files));
     let report = report?;
     std::fs::write(folder.path().join("report.json"), serde_json::to_string(&report)?)?;
@@ -300,13 +300,13 @@ fn shaken_part<const D: usize>(
 ) -> Result<dynamic::Report, CaseError> {
     let stop = Arc::new(AtomicBool::new(false));
     let pauses = Pauses { every: Duration::MAX, wall, stop, begun: Instant::now() };
-    let (mut keeper, from) = match Keeper::resume(out, plan, "", false, pauses.clone())? {
-        Some((keeper, state)) => (keeper, Some(state)),
-        None => (Keeper::begin(out, plan, "", false, pauses)?, None),
+    let place = Place { out, physics: "", drawn: false, pauses };
+    let (mut keeper, from) = match Keeper::<dynamic::Outputs<D>>::resume(plan, place.clone())? {
+        Some((keeper, stand)) => (keeper, Some(stand)),
+        None => (Keeper::begin(plan, place)?, None),
     };
-    keeper = keeper.unseen();
-    let ended = dynamic::run(plan, &mut keeper, from.as_ref())?;
-    let report = dynamic::Report::new(plan, &ended, keeper.arrivals());
-    keeper.finish(matches!(report.outcome, Ended::Completed), ended.time)?;
+    let ended = dynamic::run(plan, &mut keeper, from)?;
+    let report = dynamic::Report::new(plan, &ended);
+    keeper.finish(matches!(report.outcome, Ended::Completed)).complete(out, &ended)?;
     Ok(report)
 }

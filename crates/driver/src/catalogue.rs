@@ -3,10 +3,12 @@
 use asperity_cycles::{Event, Rupture};
 use asperity_output::decimals::shortest;
 use asperity_output::located::Located;
+use asperity_output::{OutputError, atomic, stems};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::ops::Range;
+use std::path::Path;
 
 /// An event in the catalogue.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -193,4 +195,16 @@ pub fn csv(events: &[Entry]) -> String {
         text.push('\n');
     }
     text
+}
+
+/// Writes the catalogue of all faults or interfaces as a table, and one table of each if there are several.
+///
+/// # Errors
+/// If a file cannot be written.
+pub fn write(path: &Path, all: &[Entry], apart: &[FaultEvents]) -> Result<(), OutputError> {
+    let table = |name: &str, events: &[Entry]| atomic::write(&path.join(name), csv(events).as_bytes());
+    table("events.csv", all)?;
+    let names = stems(apart.iter().map(|f| f.surface.as_str()));
+    let mut each = names.iter().zip(apart);
+    each.try_for_each(|(name, fault)| table(&format!("events_{name}.csv"), &fault.events))
 }

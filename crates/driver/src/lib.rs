@@ -22,6 +22,7 @@ mod held;
 mod idealisation;
 mod impedance;
 pub mod initial_stress;
+pub mod keep;
 pub mod loading;
 mod missing;
 pub mod model;

@@ -4,6 +4,7 @@ pub mod common;
 mod energy;
 mod passages;
 pub mod schema;
+pub mod text;
 
 use crate::balance::InterfaceBalance;
 use crate::catalogue::{Entry, FaultEvents};
@@ -21,6 +22,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
+pub(crate) use common::results;
 pub use common::{Kind, Outcome, Phases, Results, Status, Stop, Work};
 pub use energy::{Budget, Closure, EnergyBalance, EnergyTable};
 pub use passages::Passage;
@@ -170,23 +172,19 @@ pub struct RunReport {
     pub seconds: Phases,
 }
 
-impl Results for RunReport {
-    const KIND: Kind = Kind::Bodies;
-
-    fn outcome(&self) -> &Outcome {
-        &self.outcome
-    }
-
-    fn seconds(&self) -> Phases {
-        self.seconds
-    }
-}
+results!(RunReport, Kind::Bodies);
 
 impl RunReport {
     /// Empty report of a plan.
     #[must_use]
     pub fn new<const D: usize>(plan: &Plan<D>) -> Self {
         Self { plan: plan.summary.clone(), checks: plan.checks.clone(), ..Self::default() }
+    }
+
+    /// Summary to be read at the end of the run.
+    #[must_use]
+    pub fn text(&self) -> String {
+        text::of(self)
     }
 
     /// Adds the values known at the end.

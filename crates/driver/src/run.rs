@@ -1,10 +1,10 @@
 //! Runs a plan: stages in sequence, steps within a stage, observers after each step.
 
 pub mod events;
-mod keeper;
+mod outputs;
 mod stand;
 
-pub use keeper::{Bodies, Checkpoint, Kept};
+pub use outputs::{Bodies, Outputs, Saved};
 pub use stand::Stand;
 
 use crate::balance::balance;
@@ -22,7 +22,7 @@ use asperity_ode::{ObserveError, Observer};
 use asperity_output::Writer;
 use asperity_output::view::{InterfaceFields, Samples, StepRecord, StepView};
 use events::{Events, Moment};
-use keeper::Unkept;
+use outputs::Unkept;
 use stand::{Found, Said, Work};
 use std::time::Instant as Clock;
 

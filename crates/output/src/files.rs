@@ -183,7 +183,7 @@ impl Files {
         for ((part, mesh), fields) in self.interfaces.iter().zip(&self.setup.interfaces).zip(view.interfaces)
         {
             let path = self.out.join(format!("profiles/{}_{:03}.csv", part.stem, self.profile_number));
-            atomic::write(&path, &table::profile(view.record.time, mesh, fields))?;
+            atomic::write(&path, table::profile(view.record.time, mesh, fields).as_bytes())?;
         }
         Ok(())
     }
@@ -237,7 +237,7 @@ impl Files {
     /// Creates the tables, or reopens them at these sizes in bytes.
     fn begin_tables(&mut self, setup: &Setup, bytes: Option<Vec<u64>>) -> Result<(), OutputError> {
         let (mut left, reopens) = (bytes.iter().flatten(), bytes.is_some());
-        let mut table = |path: PathBuf, header: &[u8]| match left.next() {
+        let mut table = |path: PathBuf, header: &str| match left.next() {
             Some(bytes) => Growing::reopen(path, *bytes),
             None if reopens => {
                 Err(OutputError::Shape { what: "tables of the checkpoint".into(), expected: 1, found: 0 })
@@ -250,15 +250,14 @@ impl Files {
                 part.probes = Some(table(path, &table::probe_header(mesh))?);
             }
         }
-        let mut begin =
-            |folder: &str, names: Vec<&str>, header: &[u8]| -> Result<Vec<Growing>, OutputError> {
-                if names.is_empty() {
-                    return Ok(Vec::new());
-                }
-                atomic::create_dir(&self.out.join(folder))?;
-                let file = |stem: String| table(self.out.join(format!("{folder}/{stem}.csv")), header);
-                stems(names.into_iter()).into_iter().map(file).collect()
-            };
+        let mut begin = |folder: &str, names: Vec<&str>, header: &str| -> Result<Vec<Growing>, OutputError> {
+            if names.is_empty() {
+                return Ok(Vec::new());
+            }
+            atomic::create_dir(&self.out.join(folder))?;
+            let file = |stem: String| table(self.out.join(format!("{folder}/{stem}.csv")), header);
+            stems(names.into_iter()).into_iter().map(file).collect()
+        };
         let points = setup.points.iter().map(|p| p.name.as_str()).collect();
         let forces = setup.forces.iter().map(|f| f.name.as_str()).collect();
         let points = begin("points", points, &table::point_header())?;

@@ -20,7 +20,8 @@ impl Growing {
     ///
     /// # Errors
     /// If the file cannot be written.
-    pub fn create(path: PathBuf, header: &[u8]) -> Result<Self, OutputError> {
+    pub fn create(path: PathBuf, header: impl AsRef<[u8]>) -> Result<Self, OutputError> {
+        let header = header.as_ref();
         atomic::write(&path, header)?;
         match fs::OpenOptions::new().append(true).open(&path) {
             Ok(file) => Ok(Self { path, file, bytes: header.len() as u64 }),
@@ -50,7 +51,8 @@ impl Growing {
     ///
     /// # Errors
     /// If the file cannot be written.
-    pub fn push(&mut self, row: &[u8]) -> Result<(), OutputError> {
+    pub fn push(&mut self, row: impl AsRef<[u8]>) -> Result<(), OutputError> {
+        let row = row.as_ref();
         self.bytes += row.len() as u64;
         self.file.write_all(row).map_err(|source| OutputError::write(&self.path, source))
     }

@@ -1,9 +1,7 @@
 //! Progress of a run: for people as a bar on a terminal, otherwise one line per interval; for programs as lines of JSON, and as a
 //! file in the output directory. In this crate only this module and [`Pulse`] read a clock.
 
-use super::OutputError;
 use super::pulse::Pulse;
-use super::view::{Setup, StepView, Writer};
 use crate::printing::{self, Form};
 use crate::words::{about, time};
 use crate::{atomic, memory};
@@ -113,6 +111,16 @@ impl Progress {
         Self { sink: Sink::None, file, started: Instant::now(), from: None, recorded: None }
     }
 
+    /// Begins the display anew, with the first step.
+    pub fn begin(&mut self) {
+        (self.started, self.from) = (Instant::now(), None);
+        match &mut self.sink {
+            Sink::Bar { bar, .. } => bar.reset(),
+            Sink::Lines { shown, .. } => *shown = 0,
+            Sink::None => {}
+        }
+    }
+
     /// Shows the completed part of the simulated time, with the current state.
     pub fn show(&mut self, part: f64, now: impl Fn() -> Now) {
         let part = part.clamp(0.0, 1.0);
@@ -191,43 +199,10 @@ impl Drop for Progress {
     }
 }
 
-impl Writer for Progress {
-    fn begin(&mut self, _: &Setup) -> Result<(), OutputError> {
-        (self.started, self.from) = (Instant::now(), None);
-        match &mut self.sink {
-            Sink::Bar { bar, .. } => bar.reset(),
-            Sink::Lines { shown, .. } => *shown = 0,
-            Sink::None => {}
-        }
-        Ok(())
-    }
-
-    fn step(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
-        self.show(view.record.time / view.end_time, || of(view));
-        Ok(())
-    }
-}
-
 /// Interval reached by `part` of the run, if it lies beyond the last one shown.
 fn passed(part: f64, shown: usize) -> Option<usize> {
     let now = (part * LINES) as usize;
     (now > shown).then_some(now)
-}
-
-/// State of bodies.
-fn of(view: &StepView<'_>) -> Now {
-    let record = view.record;
-    let rates = view.interfaces.iter().flat_map(|interface| &interface.slip_rate);
-    Now {
-        stage: Some(view.stage.to_string()),
-        time: record.time,
-        end: view.end_time,
-        step: record.step as u64,
-        step_length: record.dt,
-        largest_rate: rates.map(|rate| rate.abs()).filter(|rate| rate.is_finite()).reduce(f64::max),
-        iterations: Some(record.iterations as u64),
-        events: None,
-    }
 }
 
 /// A state as a line, with the wall time that the rest takes.

@@ -61,7 +61,7 @@ fn states(mesh: &InterfaceMesh) -> impl Iterator<Item = String> {
 }
 
 /// Profile with one row per slave node: time, position, tributary area and all fields.
-pub(super) fn profile(time: f64, mesh: &InterfaceMesh, fields: &InterfaceFields) -> Vec<u8> {
+pub(super) fn profile(time: f64, mesh: &InterfaceMesh, fields: &InterfaceFields) -> String {
     let mut rows = Rows::default();
     let head = ["time [s]", "node", "x [m]", "y [m]", "z [m]", "area [m2]"];
     rows.push(
@@ -77,18 +77,18 @@ pub(super) fn profile(time: f64, mesh: &InterfaceMesh, fields: &InterfaceFields)
         let values = columns(&PROFILE, mesh).map(|(_, read)| number(read(fields, i)));
         rows.push(place.chain([area]).chain(values).chain(states));
     }
-    rows.bytes()
+    rows.text()
 }
 
 /// Header of a table of probes.
-pub(super) fn probe_header(mesh: &InterfaceMesh) -> Vec<u8> {
+pub(super) fn probe_header(mesh: &InterfaceMesh) -> String {
     let mut rows = Rows::default();
     let labels = crate::plots::labels::position_labels(mesh.probes.iter().map(|&node| mesh.positions[node]));
     let names: Vec<String> =
         columns(&PROBE, mesh).map(|(name, _)| (*name).to_string()).chain(states(mesh)).collect();
     let columns = labels.iter().flat_map(|label| names.iter().map(move |name| format!("{name} at {label}")));
     rows.push(WHEN.iter().map(ToString::to_string).chain(columns));
-    rows.bytes()
+    rows.text()
 }
 
 /// One row of a table of probes.
@@ -98,7 +98,7 @@ pub(super) fn probe_row(
     step: usize,
     mesh: &InterfaceMesh,
     fields: &InterfaceFields,
-) -> Vec<u8> {
+) -> String {
     let values = mesh.probes.iter().flat_map(|&i| {
         let states = (0..mesh.states).map(move |k| fields.state(k, i));
         columns(&PROBE, mesh).map(move |(_, read)| read(fields, i)).chain(states)
@@ -121,10 +121,10 @@ pub(super) const POINT: [&str; 10] = [
 ];
 
 /// Header of a history at a point of a body.
-pub(super) fn point_header() -> Vec<u8> {
+pub(super) fn point_header() -> String {
     let mut rows = Rows::default();
     rows.push(WHEN.iter().chain(&POINT).map(ToString::to_string));
-    rows.bytes()
+    rows.text()
 }
 
 /// Columns of a force in this unit.
@@ -138,48 +138,48 @@ pub(super) fn spring_columns(unit: &str) -> [String; 4] {
 }
 
 /// Header of a history of a force in this unit.
-pub(super) fn force_header(unit: &str) -> Vec<u8> {
+pub(super) fn force_header(unit: &str) -> String {
     let mut rows = Rows::default();
     rows.push(WHEN.iter().map(ToString::to_string).chain(force_columns(unit)));
-    rows.bytes()
+    rows.text()
 }
 
 /// Header of an energy budget in this unit, in every kind of run.
 #[must_use]
-pub fn energy_header(unit: &str) -> Vec<u8> {
+pub fn energy_header(unit: &str) -> String {
     let mut rows = Rows::default();
     let columns = EnergyParts::default().named().map(|(name, _)| format!("{name} [{unit}]"));
     rows.push(WHEN.iter().map(ToString::to_string).chain(columns));
-    rows.bytes()
+    rows.text()
 }
 
 /// Row of an energy budget.
 #[must_use]
-pub fn energy_row(time: f64, stage: usize, step: usize, energy: &EnergyParts) -> Vec<u8> {
+pub fn energy_row(time: f64, stage: usize, step: usize, energy: &EnergyParts) -> String {
     history_row(time, stage, step, &energy.named().map(|(_, value)| value))
 }
 
 /// Header of the largest slip rates of interfaces.
-pub(super) fn rates_header<'a>(names: impl Iterator<Item = &'a str>) -> Vec<u8> {
+pub(super) fn rates_header<'a>(names: impl Iterator<Item = &'a str>) -> String {
     let mut rows = Rows::default();
     let columns = names.map(|name| format!("largest slip_rate of {name} [m/s]"));
     rows.push(WHEN.iter().map(ToString::to_string).chain(columns));
-    rows.bytes()
+    rows.text()
 }
 
 /// Header of a history of a spring, with forces in this unit.
-pub(super) fn spring_header(unit: &str) -> Vec<u8> {
+pub(super) fn spring_header(unit: &str) -> String {
     let mut rows = Rows::default();
     rows.push(WHEN.iter().map(ToString::to_string).chain(spring_columns(unit)));
-    rows.bytes()
+    rows.text()
 }
 
 /// One row of a history: time, stage, step, values.
-pub(super) fn history_row(time: f64, stage: usize, step: usize, values: &[f64]) -> Vec<u8> {
+pub(super) fn history_row(time: f64, stage: usize, step: usize, values: &[f64]) -> String {
     let mut rows = Rows::default();
     let when = [number(time), stage.to_string(), step.to_string()];
     rows.push(when.into_iter().chain(values.iter().map(|&v| number(v))));
-    rows.bytes()
+    rows.text()
 }
 
 /// Values of a point in the order of its columns.
@@ -204,7 +204,8 @@ impl Rows {
         self.0.write_record(row.map(String::into_bytes)).expect("writing to a Vec cannot fail");
     }
 
-    fn bytes(self) -> Vec<u8> {
-        self.0.into_inner().expect("writing to a Vec cannot fail")
+    fn text(self) -> String {
+        let bytes = self.0.into_inner().expect("writing to a Vec cannot fail");
+        String::from_utf8(bytes).expect("rows are made of text")
     }
 }

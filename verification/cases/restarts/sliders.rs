@@ -4,9 +4,10 @@ use super::Parts;
 use crate::cases::programs;
 use crate::cases::written::Folder;
 use crate::{CaseError, Cost};
-use asperity_cycles::slider::{Problem, resume};
+use asperity_cycles::slider::{Problem, SliderRun, resume};
 use asperity_driver::checkpoint::{self, Pauses};
-use asperity_driver::slider::Keeper;
+use asperity_driver::keep::{Keeper, Place};
+use asperity_driver::slider::Outputs;
 use asperity_driver::slider_planner;
 use asperity_vary::Change::{self, Add, With};
 use asperity_vary::SceneText;
@@ -67,19 +68,16 @@ fn in_parts(name: &'static str, problem: &Problem) -> Result<Parts, CaseError> {
 /// Runs the next part of a run into `out`: up to the next restart, or to its end if there is no limit of wall time.
 /// Returns true if it was interrupted.
 fn part(problem: &Problem, out: &Path, wall: Option<Duration>) -> Result<bool, CaseError> {
-    let pauses = || Pauses {
-        every: Duration::MAX,
-        wall,
-        stop: Arc::new(AtomicBool::new(false)),
-        begun: Instant::now(),
-    };
-    let (mut keeper, from) = match Keeper::resume(out, problem, "", pauses())? {
+    let pauses =
+        Pauses { every: Duration::MAX, wall, stop: Arc::new(AtomicBool::new(false)), begun: Instant::now() };
+    let place = Place { out, physics: "", drawn: true, pauses };
+    let (mut keeper, from) = match Keeper::<Outputs>::resume(problem, place.clone())? {
         Some(resumed) => resumed,
-        None => Keeper::begin(out, problem, "", true, pauses())?,
+        None => (Keeper::begin(problem, place)?, SliderRun::new(problem)),
     };
     let run = resume(problem, from, &mut keeper)?;
     let interrupted = keeper.interrupted().is_some();
-    keeper.finish(!interrupted)?;
+    keeper.finish(!interrupted).complete()?;
     if !interrupted {
         checkpoint::remove(out)?;
         // All of the run: events, energies and counts, in every digit and whether a checkpoint holds them or not.

@@ -1,13 +1,12 @@
 //! Contents of an output directory, and the check that a run may begin there.
 
-use super::begin::{Begin, LOCK, PAGE, PLOTS, README, REPORT, RESERVE, SCENE};
+use super::begin::{Begin, LOCK, REPORT, SCENE};
+use super::entries;
 use super::full;
 use super::inputs;
 use crate::checkpoint;
 use crate::report::Status;
 use crate::setup;
-use asperity_output::plots::Sheet;
-use asperity_output::progress;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -16,99 +15,14 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-/// Files that runs write to their directory.
-const FILES: [&str; 38] = [
-    REPORT,
-    PAGE,
-    SCENE,
-    README,
-    Sheet::FILE,
-    progress::FILE,
-    LOCK,
-    ".writable",
-    RESERVE,
-    checkpoint::FILE,
-    "fields.pvd",
-    "bodies.pvd",
-    "events.pvd",
-    "events.csv",
-    "events.json",
-    "slow_events.csv",
-    "events.quakeml",
-    "CMTSOLUTION",
-    "largest_rate.csv",
-    "largest_rates.csv",
-    "opening_profiles.csv",
-    "temperature_profiles.csv",
-    "pressure_profiles.csv",
-    "slip_profiles.csv",
-    "rate_profiles.csv",
-    "state_profiles.csv",
-    "coupling_profiles.csv",
-    "locking.csv",
-    "snapshots.csv",
-    "energy.csv",
-    "moment_rate.csv",
-    "fault_forces.csv",
-    "surface_profiles_x.csv",
-    "surface_profiles_y.csv",
-    "surface_profiles_z.csv",
-    "rupture_times.csv",
-    // Files left by file managers.
-    ".DS_Store",
-    "Thumbs.db",
-];
-
-/// Folders that runs make, with the extensions of the files in them.
-const FOLDERS: [(&str, &[&str]); 15] = [
-    ("events", &["csv", "grd", "fsp", "vtu"]),
-    ("fields", &["vtu"]),
-    ("profiles", &["csv"]),
-    ("probes", &["csv"]),
-    ("points", &["csv"]),
-    ("forces", &["csv"]),
-    ("springs", &["csv"]),
-    ("history", &["csv"]),
-    ("receivers", &["csv"]),
-    (PLOTS, &["svg", "png", "pdf"]),
-    (setup::FOLDER, &["bin"]),
-    // Those that the scene names.
-    (inputs::FOLDER, &[]),
-    ("stations", &[""]),
-    ("platform", &["txt", "dat"]),
-    ("seismograms", &["csv", "mseed", "sac"]),
-];
-
-/// Files and folders that each end of a run writes again as a whole.
-const OF_AN_END: [&str; 8] = [
-    PAGE,
-    Sheet::FILE,
-    PLOTS,
-    "events.csv",
-    "events.json",
-    "slow_events.csv",
-    "events.quakeml",
-    "CMTSOLUTION",
-];
-
 /// Files and folders in a directory that the end of a run has written about its state then.
 pub(super) fn of_an_end(path: &Path) -> std::io::Result<Vec<PathBuf>> {
-    let of_an_end = |name: &OsStr| OF_AN_END.iter().any(|end| name == *end) || is_catalogue(name);
+    let of_an_end = |name: &OsStr| entries::named(name).is_some_and(|entry| entry.of_an_end);
     let entries = fs::read_dir(path)?.map(|entry| Ok(entry?.path()));
     let entries = entries.filter(|entry: &std::io::Result<PathBuf>| {
         entry.as_ref().map_or(true, |path| path.file_name().is_some_and(of_an_end))
     });
     entries.collect()
-}
-
-/// True for the catalogue of one fault or interface: with several, each may have its own.
-fn is_catalogue(name: &OsStr) -> bool {
-    name.to_str().is_some_and(|n| n.starts_with("events_") && n.ends_with(".csv"))
-}
-
-/// Names of the files and folders.
-pub fn names() -> impl Iterator<Item = &'static str> {
-    FILES.into_iter().chain(FOLDERS.iter().map(|(name, _)| *name))
 }
 
 /// First entry of a directory that no run writes; `None` if there is none or the directory does not exist.
@@ -122,18 +36,17 @@ pub(super) fn foreign(path: &Path) -> std::io::Result<Option<PathBuf>> {
                 Ok((!ours && !temporary(name)).then(|| file.to_path_buf()))
             });
         }
-        if entry.is_dir() {
-            let folder = FOLDERS.iter().find(|(folder, _)| name == *folder);
-            return folder.map_or(Ok(Some(entry.to_path_buf())), |(_, endings)| {
-                foreign_in(entry, |name, file| {
-                    let ending = Path::new(name).extension().unwrap_or_default();
-                    let ours = file.is_file() && endings.iter().any(|e| ending == *e);
-                    Ok((!ours && !temporary(name)).then(|| file.to_path_buf()))
-                })
-            });
+        let known = entries::named(name).filter(|known| known.endings.is_some() == entry.is_dir());
+        let Some(known) = known else {
+            return Ok((entry.is_dir() || !temporary(name)).then(|| entry.to_path_buf()));
+        };
+        if !entry.is_dir() {
+            return Ok(None);
         }
-        let ours = FILES.iter().any(|file| name == *file) || is_catalogue(name) || temporary(name);
-        Ok((!ours).then(|| entry.to_path_buf()))
+        foreign_in(entry, |name, file| {
+            let ours = file.is_file() && known.holds(name);
+            Ok((!ours && !temporary(name)).then(|| file.to_path_buf()))
+        })
     })
 }
 

@@ -9,10 +9,12 @@ pub mod contents;
 mod difference;
 mod directory;
 mod end;
+pub mod entries;
 pub mod explain;
 pub mod full;
 pub mod inputs;
 pub mod json;
+mod kinds;
 mod lines;
 mod lock;
 mod manual;
@@ -25,8 +27,6 @@ mod read;
 pub mod readme;
 pub mod signals;
 pub mod status;
-mod waves;
-mod work;
 
 use crate::report;
 use crate::setup::{Setups, When};
@@ -41,10 +41,8 @@ use miette::IntoDiagnostic;
 pub use new::Template;
 pub use pausing::Pausing;
 pub use plot::Redrawing;
-use read::{Planned, Source};
+use read::Source;
 use std::path::{Path, PathBuf};
-use waves::run_waves;
-use work::{run_bodies, run_faults, run_sliders};
 
 /// Executes a command.
 ///
@@ -120,16 +118,7 @@ fn run(
     }
     directory.planned(print::plan_text(&ready.plan), std::mem::take(&mut ready.meshes));
     lines::planned(&mut ready);
-    let mut ruptures = match &mut ready.plan {
-        Planned::Faults(plan) => plan.ruptures.take(),
-        Planned::Bodies(_) | Planned::Sliders(_) | Planned::Dynamic(_) => None,
-    };
-    match &ready.plan {
-        Planned::Bodies(plan) => run_bodies(plan, &ready, directory, drawn, pauses),
-        Planned::Sliders(plan) => run_sliders(plan, &ready, directory, drawn, pauses),
-        Planned::Faults(plan) => run_faults((plan, ruptures.as_mut()), &ready, directory, drawn, pauses),
-        Planned::Dynamic(plan) => run_waves(plan, &ready, directory, drawn, pauses),
-    }
+    kinds::run(&mut ready, directory, drawn, pauses)
 }
 
 fn default_output(scene: &Path) -> PathBuf {

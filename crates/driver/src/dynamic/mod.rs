@@ -4,8 +4,8 @@
 pub mod arrivals;
 mod fields;
 mod figures;
-mod keeper;
 mod moment;
+mod outputs;
 mod plan;
 mod planner;
 mod report;
@@ -14,8 +14,9 @@ mod seismograms;
 mod stations;
 mod tables;
 
-pub use keeper::{Checkpoint, Keeper};
+pub use moment::Moment;
+pub use outputs::{Dynamics, Outputs, Saved};
 pub use plan::{AnyPlan, Cadence, Plan, Receiver};
 pub use planner::{plan, ruptures};
 pub use report::Report;
-pub use run::{Ended, RunError, run};
+pub use run::{Ended, RunError, Stand, run};

@@ -1,6 +1,5 @@
 //! Report of a run of bodies with mass, `report.json`.
 
-use super::arrivals::Arrivals;
 use super::moment::size;
 use super::plan::Plan;
 use super::run::Ended;
@@ -8,7 +7,7 @@ use super::tables::moments_of;
 use crate::checks::Checks;
 use crate::fault::{FaultView, Resolution};
 use crate::outrun;
-use crate::report::{EnergyTable, Kind, Outcome, Phases, Results, Stop, Work};
+use crate::report::{EnergyTable, Kind, Outcome, Phases, Stop, Work, results};
 use crate::warning::Warning;
 use asperity_mechanics::coordinates;
 use asperity_mechanics::dynamics::{Budget, Halt};
@@ -119,25 +118,15 @@ pub struct Report {
     pub pace: Pace,
 }
 
-impl Results for Report {
-    const KIND: Kind = Kind::Dynamics;
-
-    fn outcome(&self) -> &Outcome {
-        &self.outcome
-    }
-
-    fn seconds(&self) -> Phases {
-        self.seconds
-    }
-}
+results!(Report, Kind::Dynamics);
 
 impl Report {
     /// Report of a run of a plan.
     #[must_use]
-    pub fn new<const D: usize>(plan: &Plan<D>, ended: &Ended, arrivals: &Arrivals) -> Self {
+    pub fn new<const D: usize>(plan: &Plan<D>, ended: &Ended) -> Self {
         Self {
             outcome: outcome(plan, ended),
-            warnings: plan.warnings.clone(),
+            warnings: plan.warnings.iter().chain(&ended.doubts).cloned().collect(),
             resolution: plan.resolution.clone(),
             checks: plan.checks.clone(),
             end: ended.time,
@@ -145,12 +134,7 @@ impl Report {
             stable_step: plan.stable.step,
             stable_at: plan.stiffest.to_vec(),
             dofs: plan.problem.model.dofs(),
-            ruptures: plan
-                .faults
-                .iter()
-                .enumerate()
-                .map(|(k, f)| rupture(plan, (k, f), ended, arrivals))
-                .collect(),
+            ruptures: plan.faults.iter().enumerate().map(|(k, f)| rupture(plan, (k, f), ended)).collect(),
             energy: WaveEnergy::new(if plan.per_length { "J/m" } else { "J" }, ended.budget),
             counts: Work { steps: ended.steps as u64, cells: Some(plan.cells()), ..Work::default() },
             seconds: Phases { set_up: ended.set_up, ..Phases::default() },
@@ -251,8 +235,8 @@ fn rupture<const D: usize>(
     plan: &Plan<D>,
     (number, fault): (usize, &FaultView),
     ended: &Ended,
-    arrivals: &Arrivals,
 ) -> FaultRupture {
+    let arrivals = &ended.arrivals;
     let points = fault.points.clone();
     let slip = |p: usize| size(&ended.fault.slip, plan.points.len(), p);
     let ruptured: Vec<(usize, f64)> = points.clone().filter_map(|p| Some((p, arrivals.times[p]?))).collect();

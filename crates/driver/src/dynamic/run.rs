@@ -1,10 +1,14 @@
 //! The loop over the steps of a run.
 
-use super::keeper::Keeper;
+use super::arrivals::Arrivals;
 use super::moment::{Before, size};
+use super::outputs::Dynamics;
 use super::plan::Plan;
+use crate::run_doubts::Worst;
+use crate::warning::Warning;
 use asperity_mechanics::dynamics::{Budget, Explicit, ExplicitState, FaultState, Halt};
-use asperity_output::OutputError;
+use asperity_ode::{ObserveError, Observer};
+use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
 /// Reason why a run could not be carried out.
@@ -17,8 +21,8 @@ pub enum RunError {
     #[error("the run that is to be resumed is another")]
     Foreign,
     /// An output could not be written.
-    #[error(transparent)]
-    Output(#[from] OutputError),
+    #[error("{0}")]
+    Output(#[from] ObserveError),
 }
 
 /// State at the end of a run.
@@ -40,6 +44,10 @@ pub struct Ended {
     pub halt: Option<Halt>,
     /// Reason why the run was interrupted, if it was.
     pub interrupted: Option<&'static str>,
+    /// Rupture times and largest slip rates.
+    pub arrivals: Arrivals,
+    /// Warnings about strains and rotations.
+    pub doubts: Vec<Warning>,
 }
 
 /// Halt where a fault is faster than shear waves in the bodies, or its rate no number.
@@ -51,6 +59,27 @@ fn outran<const D: usize>(plan: &Plan<D>, explicit: &Explicit<'_, D>) -> Option<
     Some(Halt::Outrun { point, rate })
 }
 
+/// State of a run between two steps.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Stand {
+    /// State of bodies and faults.
+    pub state: ExplicitState,
+    /// Rupture times so far.
+    pub(super) arrivals: Arrivals,
+    /// Largest strains and rotations so far.
+    worst: Worst,
+}
+
+impl Stand {
+    /// True if the faults of the plan have as many points.
+    pub(super) fn fits<const D: usize>(&self, plan: &Plan<D>) -> bool {
+        self.arrivals.times.len() == plan.points.len()
+    }
+}
+
+/// Steps between those whose strains are judged: a wave crosses some tens of cells meanwhile, and judging takes as long as a step.
+const JUDGED: usize = 64;
+
 /// Runs a plan from its start, or from a saved state. Everything at the time of a step is known after the next, so that there is one more
 /// than the plan has.
 ///
@@ -58,19 +87,26 @@ fn outran<const D: usize>(plan: &Plan<D>, explicit: &Explicit<'_, D>) -> Option<
 /// [`RunError`].
 pub fn run<const D: usize>(
     plan: &Plan<D>,
-    keeper: &mut Keeper<'_, D>,
-    from: Option<&ExplicitState>,
+    observer: &mut dyn Observer<Dynamics>,
+    from: Option<Stand>,
 ) -> Result<Ended, RunError> {
     let clock = Instant::now();
     let mut explicit = Explicit::new(&plan.problem).map_err(RunError::SetUp)?;
     explicit.begin_stage(0).map_err(RunError::SetUp)?;
-    if from.is_some_and(|state| !explicit.restore(state)) {
+    if from.as_ref().is_some_and(|stand| !explicit.restore(&stand.state)) {
         return Err(RunError::Foreign);
     }
+    let (mut arrivals, mut worst) = match from {
+        Some(stand) => (stand.arrivals, stand.worst),
+        None => (Arrivals::new(plan.points.len()), Worst::default()),
+    };
+    let model = &plan.problem.model;
     let (earlier, set_up) = (explicit.steps(), clock.elapsed().as_secs_f64());
-    let (mut halt, mut interrupted) = (None, None);
+    observer.begin(&())?;
+    let (mut halt, mut interrupted, mut back) = (None, None, None);
     while explicit.steps() <= plan.steps {
-        interrupted = keeper.pause(|| explicit.save())?;
+        let mut stand = || Stand { state: explicit.save(), arrivals: arrivals.clone(), worst: worst.clone() };
+        interrupted = observer.pause(&mut stand)?;
         if interrupted.is_some() {
             break;
         }
@@ -80,17 +116,27 @@ pub fn run<const D: usize>(
         if halt.is_some() {
             break;
         }
-        if let Some(halt) = outran(plan, &explicit) {
-            // What is known after a step is the state at its start, which does not stand.
-            let (budget, time) = (explicit.budget(), (explicit.time() - 2.0 * plan.dt).max(0.0));
-            let (steps, halt) = (explicit.steps(), Some(halt));
-            return Ok(Ended { steps, earlier, set_up, time, budget, fault: last, halt, interrupted });
+        halt = outran(plan, &explicit);
+        if halt.is_some() {
+            back = Some(last);
+            break;
         }
-        keeper.step(&before.after(plan, &mut explicit))?;
-        keeper.judge((explicit.steps(), explicit.time()), explicit.displacement(), false);
+        let moment = before.after(plan, &mut explicit);
+        if !plan.points.is_empty() {
+            arrivals.see(moment.time, &moment.fault.rate, plan.rupture_rate);
+        }
+        observer.step(&moment)?;
+        if explicit.steps().is_multiple_of(JUDGED) {
+            worst.judge((model, explicit.time()), explicit.displacement());
+        }
     }
-    keeper.judge((explicit.steps(), explicit.time()), explicit.displacement(), true);
-    let (budget, fault) = (explicit.budget(), explicit.fault().clone());
-    let steps = explicit.steps();
-    Ok(Ended { steps, earlier, set_up, time: budget.time, budget, fault, halt, interrupted })
+    // A step that outran waves is not kept: what is known after it is the state at its start.
+    if back.is_none() {
+        worst.judge((model, explicit.time()), explicit.displacement());
+    }
+    let (steps, budget) = (explicit.steps(), explicit.budget());
+    let time = if back.is_some() { (explicit.time() - 2.0 * plan.dt).max(0.0) } else { budget.time };
+    let fault = back.unwrap_or_else(|| explicit.fault().clone());
+    let doubts = plan.problem.stages.iter().flat_map(|stage| worst.of_bodies(model, &stage.name)).collect();
+    Ok(Ended { steps, earlier, set_up, time, budget, fault, halt, interrupted, arrivals, doubts })
 }

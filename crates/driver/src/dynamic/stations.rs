@@ -2,23 +2,19 @@
 
 use super::moment::Moment;
 use super::plan::Plan;
+use super::tables::{Course, Table};
 use crate::fault::cadence::NO_RATE;
 use crate::fault::{Station, stations};
 use asperity_output::seas::{Head, Row};
 
-/// A station: its file name, header and point.
-pub(super) struct Stationed {
-    pub name: String,
-    pub head: String,
-    pub point: usize,
-}
-
-/// Stations of all faults.
-pub(super) fn all<const D: usize>(plan: &Plan<D>) -> Vec<Stationed> {
+/// Tables of the stations of all faults.
+pub(super) fn tables<const D: usize>(plan: &Plan<D>) -> Vec<Table<'_>> {
     let mut all = Vec::new();
     for fault in &plan.faults {
         for (name, (asked, point)) in stations::names(fault).into_iter().zip(&fault.stations) {
-            all.push(Stationed { name, head: head(plan, &fault.name, asked, *point), point: *point });
+            let head = head(plan, &fault.name, asked, *point);
+            let row = |now: &Moment<'_>| row(plan, now, *point);
+            all.push(Table::new(format!("stations/{name}"), head, Course::Rows, row));
         }
     }
     all
@@ -49,7 +45,7 @@ fn head<const D: usize>(plan: &Plan<D>, fault: &str, asked: &Station, point: usi
 }
 
 /// Row of a station. A point at rest has the smallest slip rate that files show.
-pub(super) fn row<const D: usize>(plan: &Plan<D>, now: &Moment<'_>, point: usize) -> String {
+fn row<const D: usize>(plan: &Plan<D>, now: &Moment<'_>, point: usize) -> String {
     let points = plan.points.len();
     let of = |values: &[f64]| -> Vec<f64> { values.iter().skip(point).step_by(points).copied().collect() };
     let states = now.fault.states.len() / points;

@@ -1,82 +1,125 @@
 //! Tables that grow during a run: energies, moment rate, profiles, stations and seismograms.
 
 use super::moment::{Moment, size};
+use super::outputs::Dynamics;
 use super::plan::Plan;
-use super::stations::{self, Stationed};
+use super::stations;
 use crate::fault::cadence::log_rate;
+use crate::fault::{FaultView, PointView};
+use crate::keep;
 use asperity_mechanics::dynamics::Budget;
 use asperity_output::decimals::{scientific, shortest};
 use asperity_output::view::EnergyParts;
 use asperity_output::{Growing, OutputError, seismogram, table};
-use std::path::{Path, PathBuf};
+use std::collections::BTreeMap;
+use std::path::Path;
 
 /// Decimals of numbers in tables other than seismograms.
 const DECIMALS: usize = 9;
 
-/// All tables of a run, in a fixed order.
-pub(super) struct Tables {
-    stations: Vec<Stationed>,
-    files: Vec<Growing>,
+/// Steps after which rows are due.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Course {
+    /// Those between rows; the energies are known then.
+    Rows,
+    /// Those between profiles.
+    Profiles,
 }
 
-/// Name and header of energies.
-fn energies<const D: usize>(plan: &Plan<D>) -> (String, Vec<u8>) {
-    ("energy.csv".into(), table::energy_header(if plan.per_length { "J/m" } else { "J" }))
-}
+/// A table of a run of bodies with mass.
+pub(super) type Table<'a> = keep::Table<'a, Dynamics, Course>;
 
-/// Name and header of the moment rate.
-fn moments<const D: usize>(plan: &Plan<D>) -> (String, Vec<u8>) {
-    let unit = if plan.per_length { "N" } else { "N m" };
-    let columns = |f: &crate::fault::FaultView| {
-        format!(",moment_rate of {0} [{unit}/s],moment of {0} [{unit}]", f.name)
-    };
-    let head = format!("time [s]{}\n", plan.faults.iter().map(columns).collect::<String>());
-    ("moment_rate.csv".into(), head.into())
-}
-
-/// Names and headers of all tables.
-fn heads<const D: usize>(plan: &Plan<D>, stations: &[Stationed]) -> Vec<(String, Vec<u8>)> {
-    let mut heads = vec![energies(plan)];
+/// All tables of a plan.
+fn all<const D: usize>(plan: &Plan<D>) -> Vec<Table<'_>> {
+    let mut all = vec![energies(plan)];
     if !plan.points.is_empty() {
-        heads.push(moments(plan));
-        let place = |p: &crate::fault::PointView| {
-            if D == 2 { shortest(p.along) } else { p.at.map(shortest).join(" ") }
-        };
-        let columns: String = plan.points.iter().map(|p| format!(",{}", place(p))).collect();
-        heads.push(("rate_profiles.csv".into(), format!("time [s]{columns}\n").into()));
-        heads.push(("slip_profiles.csv".into(), format!("time [s]{columns}\n").into()));
+        all.push(moments(plan));
+        all.push(profiles(plan, "rate_profiles.csv", |now| &now.fault.rate, log_rate));
+        all.push(profiles(plan, "slip_profiles.csv", |now| &now.fault.slip, |slip| slip));
     }
-    heads.extend(stations.iter().map(|s| (format!("stations/{}", s.name), s.head.clone().into())));
-    let header = seismogram::header(&plan.axes).into_bytes();
-    heads.extend(plan.receivers.iter().map(|r| (format!("seismograms/{}.csv", r.name), header.clone())));
-    heads
+    all.extend(stations::tables(plan));
+    let header = seismogram::header(&plan.axes);
+    all.extend(plan.receivers.iter().enumerate().map(|(k, receiver)| {
+        let row = move |now: &Moment<'_>| {
+            let [velocity, displacement] = &now.received[k];
+            seismogram::row(now.time, velocity, displacement)
+        };
+        Table::new(format!("seismograms/{}.csv", receiver.name), header.clone(), Course::Rows, row)
+    }));
+    all
 }
 
-impl Tables {
-    /// Creates all tables in `out`, or resumes them at these sizes in bytes.
+/// Energy budget. There is one stage.
+fn energies<const D: usize>(plan: &Plan<D>) -> Table<'_> {
+    let head = table::energy_header(if plan.per_length { "J/m" } else { "J" });
+    let row = |now: &Moment<'_>| {
+        let row = |budget| table::energy_row(now.time, 0, now.step, &energy(budget));
+        now.budget.as_ref().map_or(String::new(), row)
+    };
+    Table::new("energy.csv", head, Course::Rows, row)
+}
+
+/// Moment rates and moments of faults.
+fn moments<const D: usize>(plan: &Plan<D>) -> Table<'_> {
+    let unit = if plan.per_length { "N" } else { "N m" };
+    let columns = |f: &FaultView| format!(",moment_rate of {0} [{unit}/s],moment of {0} [{unit}]", f.name);
+    let columns: String = plan.faults.iter().map(columns).collect();
+    let row = |now: &Moment<'_>| {
+        let (rates, sums) = (moments_of(plan, &now.fault.rate), moments_of(plan, &now.fault.slip));
+        line(now.time, rates.into_iter().zip(sums).flat_map(|(rate, sum)| [rate, sum]))
+    };
+    Table::new("moment_rate.csv", format!("time [s]{columns}\n"), Course::Rows, row)
+}
+
+/// Profile of values `of` all points: with a sign in the plane, and of magnitudes of vectors.
+fn profiles<'a, const D: usize>(
+    plan: &'a Plan<D>,
+    path: &str,
+    values: for<'n> fn(&'n Moment<'_>) -> &'n [f64],
+    of: fn(f64) -> f64,
+) -> Table<'a> {
+    let points = plan.points.len();
+    let place = |p: &PointView| if D == 2 { shortest(p.along) } else { p.at.map(shortest).join(" ") };
+    let columns: String = plan.points.iter().map(|p| format!(",{}", place(p))).collect();
+    let row = move |now: &Moment<'_>| {
+        let values = values(now);
+        if values.len() == points {
+            return line(now.time, values.iter().copied().map(of));
+        }
+        line(now.time, (0..points).map(|p| of(size(values, points, p))))
+    };
+    Table::new(path, format!("time [s]{columns}\n"), Course::Profiles, row)
+}
+
+/// The tables of a run, with their files.
+#[derive(Default)]
+pub(super) struct Tables<'a>(Vec<(Table<'a>, Growing)>);
+
+impl<'a> Tables<'a> {
+    /// Creates all tables in `out`, or resumes them at these sizes in bytes. `None` if these are of other tables.
     ///
     /// # Errors
     /// If a file cannot be written, or has fewer bytes than that.
     pub fn open<const D: usize>(
         out: &Path,
-        plan: &Plan<D>,
-        sizes: Option<&[u64]>,
-    ) -> Result<Self, OutputError> {
-        let stations = stations::all(plan);
-        let open = |(k, (name, head)): (usize, (String, Vec<u8>))| {
-            let path: PathBuf = out.join(name);
-            match sizes.and_then(|s| s.get(k)) {
-                Some(&size) => Growing::reopen(path, size),
-                None => Growing::create(path, &head),
-            }
+        plan: &'a Plan<D>,
+        sizes: Option<&BTreeMap<String, u64>>,
+    ) -> Result<Option<Self>, OutputError> {
+        let all = all(plan);
+        let known = |table: &Table<'_>| sizes.is_none_or(|sizes| sizes.contains_key(&table.path));
+        if !all.iter().all(known) || sizes.is_some_and(|sizes| sizes.len() != all.len()) {
+            return Ok(None);
+        }
+        let open = |table: Table<'a>| {
+            let file = table.open(out, sizes.and_then(|sizes| sizes.get(&table.path).copied()))?;
+            Ok((table, file))
         };
-        let files = heads(plan, &stations).into_iter().enumerate().map(open).collect::<Result<_, _>>()?;
-        Ok(Self { stations, files })
+        all.into_iter().map(open).collect::<Result<_, _>>().map(|all| Some(Self(all)))
     }
 
-    /// Sizes of all tables \[bytes\].
-    pub fn sizes(&self) -> Vec<u64> {
-        self.files.iter().map(Growing::bytes).collect()
+    /// Sizes of all tables \[bytes\], by their paths.
+    pub fn sizes(&self) -> BTreeMap<String, u64> {
+        self.0.iter().map(|(table, file)| (table.path.clone(), file.bytes())).collect()
     }
 
     /// Waits until all rows are on the disc.
@@ -84,7 +127,7 @@ impl Tables {
     /// # Errors
     /// If the rows cannot be written.
     pub fn settle(&self) -> Result<(), OutputError> {
-        self.files.iter().try_for_each(Growing::settle)
+        self.0.iter().try_for_each(|(_, file)| file.settle())
     }
 
     /// Writes the rows that are due.
@@ -92,27 +135,14 @@ impl Tables {
     /// # Errors
     /// If a row cannot be written.
     pub fn step<const D: usize>(&mut self, plan: &Plan<D>, now: &Moment<'_>) -> Result<(), OutputError> {
-        let mut first = 1;
-        if !plan.points.is_empty() {
-            if now.step.is_multiple_of(plan.cadence.profiles) {
-                let profile = |values, of: fn(f64) -> f64| profile(now.time, values, plan.points.len(), of);
-                self.files[2].push(profile(&now.fault.rate, log_rate).as_bytes())?;
-                self.files[3].push(profile(&now.fault.slip, |slip| slip).as_bytes())?;
+        for (table, file) in &mut self.0 {
+            let due = match table.course {
+                Course::Rows => now.budget.is_some(),
+                Course::Profiles => now.step.is_multiple_of(plan.cadence.profiles),
+            };
+            if due {
+                file.push((table.row)(now, now.step as u64).as_bytes())?;
             }
-            first = 4;
-        }
-        let Some(budget) = &now.budget else { return Ok(()) };
-        // There is one stage.
-        self.files[0].push(&table::energy_row(now.time, 0, now.step, &energy(budget)))?;
-        if first > 1 {
-            self.files[1].push(moment(plan, now).as_bytes())?;
-        }
-        let (on_faults, on_bodies) = self.files[first..].split_at_mut(self.stations.len());
-        for (file, station) in on_faults.iter_mut().zip(&self.stations) {
-            file.push(stations::row(plan, now, station.point).as_bytes())?;
-        }
-        for (file, [velocity, displacement]) in on_bodies.iter_mut().zip(&now.received) {
-            file.push(seismogram::row(now.time, velocity, displacement).as_bytes())?;
         }
         Ok(())
     }
@@ -146,17 +176,4 @@ pub(super) fn moments_of<const D: usize>(plan: &Plan<D>, values: &[f64]) -> Vec<
     let of =
         |p: usize| plan.points[p].shear_modulus * plan.points[p].area * size(values, plan.points.len(), p);
     plan.faults.iter().map(|f| f.points.clone().map(of).sum()).collect()
-}
-
-fn moment<const D: usize>(plan: &Plan<D>, now: &Moment<'_>) -> String {
-    let (rates, sums) = (moments_of(plan, &now.fault.rate), moments_of(plan, &now.fault.slip));
-    line(now.time, rates.into_iter().zip(sums).flat_map(|(rate, sum)| [rate, sum]))
-}
-
-/// Row of a profile: `of` values with a sign in the plane, and of magnitudes of vectors.
-fn profile(time: f64, values: &[f64], points: usize, of: fn(f64) -> f64) -> String {
-    if values.len() == points {
-        return line(time, values.iter().copied().map(of));
-    }
-    line(time, (0..points).map(|p| of(size(values, points, p))))
 }

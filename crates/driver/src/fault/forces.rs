@@ -1,24 +1,26 @@
 //! Forces of faults through a run: integrals of the tractions over the points that slide by friction.
 
 use super::plan::{FaultView, Plan};
+use super::tables::{Course, Table, line};
 use asperity_cycles::Moment;
 use asperity_output::decimals::scientific;
-
-/// Name of the table.
-pub(super) const FILE: &str = "fault_forces.csv";
 
 /// Unit of forces: in the plane they are per metre of thickness.
 fn unit(plan: &Plan) -> &'static str {
     if plan.in_space { "N" } else { "N/m" }
 }
 
-/// Header of the table.
-pub(super) fn head(plan: &Plan) -> String {
+/// The table.
+pub(super) fn table(plan: &Plan) -> Table<'_> {
     let unit = unit(plan);
     let columns =
         |f: &FaultView| format!(",shear_force of {0} [{unit}],normal_force of {0} [{unit}]", f.name);
     let columns: String = plan.faults.iter().map(columns).collect();
-    format!("time [s]{columns}\n")
+    let row = |now: &Moment<'_>| {
+        let values = plan.faults.iter().flat_map(|fault| of(plan, fault, now));
+        line(now.at.seconds(), values.map(|value| scientific(value, 9)))
+    };
+    Table::new("fault_forces.csv", format!("time [s]{columns}\n"), Course::Largest, row)
 }
 
 /// Shear force along positive slip, with that of radiation damping, and effective normal force of a fault at a moment \[N; N/m\]. With vector slip the
@@ -34,15 +36,4 @@ fn of(plan: &Plan, fault: &FaultView, now: &Moment<'_>) -> [f64; 2] {
         pressed += area * normal;
     }
     [shear, pressed]
-}
-
-/// Row of the table.
-pub(super) fn row(plan: &Plan, now: &Moment<'_>) -> String {
-    let mut row = format!("{:.14e}", now.at.seconds());
-    for value in plan.faults.iter().flat_map(|fault| of(plan, fault, now)) {
-        row.push(',');
-        row.push_str(&scientific(value, 9));
-    }
-    row.push('\n');
-    row
 }

@@ -6,11 +6,10 @@
 
 use super::moments;
 use super::plan::{FaultView, Plan};
+use super::tables::{Course, Table, line};
 use asperity_cycles::{Components, Moment};
 use asperity_output::decimals::scientific;
 
-/// Name of the table.
-pub(super) const FILE: &str = "locking.csv";
 /// Name of the table of profiles.
 pub(super) const PROFILES: &str = "coupling_profiles.csv";
 
@@ -39,34 +38,31 @@ pub(super) fn profile(plan: &Plan, now: &Moment<'_>) -> Vec<f64> {
     (0..plan.points.len()).map(|p| coupling(plan, &now.rate, p)).collect()
 }
 
-/// Header of the table.
-pub(super) fn head(plan: &Plan) -> String {
+/// The table, if plates load any fault: the mean coupling of each, weighted by G |Vp| dA, and the rate of its moment deficit.
+pub(super) fn table(plan: &Plan) -> Option<Table<'_>> {
     let unit = moments::unit(plan);
     let columns = |name: &str| format!(",coupling of {name} [-],moment_deficit_rate of {name} [{unit}/s]");
     let columns: String = faults(plan).map(|fault| columns(&fault.name)).collect();
-    format!("time [s]{columns}\n")
+    let row = |now: &Moment<'_>| {
+        let values = faults(plan).flat_map(|fault| deficit(plan, fault, now));
+        line(now.at.seconds(), values.map(|value| scientific(value, 9)))
+    };
+    let table = || Table::new("locking.csv", format!("time [s]{columns}\n"), Course::Largest, row);
+    any(plan).then(table)
 }
 
-/// Row of the table: the mean coupling of each fault, weighted by G |Vp| dA, and the rate of its moment deficit.
-pub(super) fn row(plan: &Plan, now: &Moment<'_>) -> String {
-    let mut row = format!("{:.14e}", now.at.seconds());
-    for fault in faults(plan) {
-        let (mut deficit, mut whole) = (0.0, 0.0);
-        for p in fault.points.clone() {
-            let point = &plan.points[p];
-            let Some(plate) = point.plate else { continue };
-            let speed = plate.iter().take(now.rate.components()).map(|v| v * v).sum::<f64>().sqrt();
-            let moment = point.shear_modulus * point.area * speed;
-            deficit += moment * coupling(plan, &now.rate, p);
-            whole += moment;
-        }
-        for value in [deficit / whole, deficit] {
-            row.push(',');
-            row.push_str(&scientific(value, 9));
-        }
+/// Mean coupling of a fault \[-\], and the rate of its moment deficit \[N m/s; N/s in the plane\].
+fn deficit(plan: &Plan, fault: &FaultView, now: &Moment<'_>) -> [f64; 2] {
+    let (mut deficit, mut whole) = (0.0, 0.0);
+    for p in fault.points.clone() {
+        let point = &plan.points[p];
+        let Some(plate) = point.plate else { continue };
+        let speed = plate.iter().take(now.rate.components()).map(|v| v * v).sum::<f64>().sqrt();
+        let moment = point.shear_modulus * point.area * speed;
+        deficit += moment * coupling(plan, &now.rate, p);
+        whole += moment;
     }
-    row.push('\n');
-    row
+    [deficit / whole, deficit]
 }
 
 /// Faults that plates load.

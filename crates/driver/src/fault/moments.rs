@@ -1,6 +1,7 @@
 //! Moment rates and moments of faults through a run.
 
 use super::plan::Plan;
+use super::tables::{Course, Table, line};
 use asperity_cycles::{Components, Moment};
 use asperity_output::decimals::scientific;
 
@@ -12,12 +13,12 @@ pub(super) fn unit(plan: &Plan) -> &'static str {
     if plan.in_space { "N m" } else { "N" }
 }
 
-/// Header of the table.
-pub(super) fn head(plan: &Plan) -> String {
+/// The table.
+pub(super) fn table(plan: &Plan) -> Table<'_> {
     let unit = unit(plan);
     let columns = |name: &str| format!(",moment_rate of {name} [{unit}/s],moment of {name} [{unit}]");
     let columns: String = plan.faults.iter().map(|f| columns(&f.name)).collect();
-    format!("time [s]{columns}\n")
+    Table::new(FILE, format!("time [s]{columns}\n"), Course::Largest, |now| row(plan, now))
 }
 
 /// ∫ G |v| dA of each fault, of slip or of slip rates v.
@@ -31,15 +32,7 @@ pub(super) fn rate(plan: &Plan, now: &Moment<'_>) -> f64 {
     of(plan, &now.rate).iter().sum()
 }
 
-/// Row of the table.
-pub(super) fn row(plan: &Plan, now: &Moment<'_>) -> String {
-    let mut row = format!("{:.14e}", now.at.seconds());
-    for (rate, sum) in of(plan, &now.rate).into_iter().zip(of(plan, &now.slip())) {
-        for value in [rate, sum] {
-            row.push(',');
-            row.push_str(&scientific(value, 9));
-        }
-    }
-    row.push('\n');
-    row
+fn row(plan: &Plan, now: &Moment<'_>) -> String {
+    let both = of(plan, &now.rate).into_iter().zip(of(plan, &now.slip()));
+    line(now.at.seconds(), both.flat_map(|(rate, sum)| [scientific(rate, 9), scientific(sum, 9)]))
 }

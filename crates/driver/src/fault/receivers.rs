@@ -1,6 +1,7 @@
 //! Displacements and velocities of positions in rock or bodies: from slip of the faults, in closed form or by weights of the
 //! condensed bodies, and from loads.
 
+use super::tables::{self, Course};
 use asperity_cycles::Moment;
 use asperity_fem::table::Table;
 use asperity_output::seismogram;
@@ -71,15 +72,16 @@ impl Receiver {
     }
 }
 
-/// Names of the files, with their headers.
-pub(super) fn heads(receivers: &Receivers) -> Vec<(String, String)> {
+/// Tables of all receivers.
+pub(super) fn tables(receivers: &Receivers) -> impl Iterator<Item = tables::Table<'_>> {
     let head = seismogram::header(&receivers.axes);
-    receivers.all.iter().map(|r| (format!("receivers/{}.csv", r.name), head.clone())).collect()
-}
-
-/// Row of a receiver.
-pub(super) fn row(receivers: &Receivers, number: usize, now: &Moment<'_>) -> String {
-    let [displacement, velocity] = receivers.all[number].moves(&receivers.rates, now);
-    let along = |v: [f64; 3]| receivers.axes.iter().map(|&axis| v[axis]).collect::<Vec<f64>>();
-    seismogram::row(now.at.seconds(), &along(velocity), &along(displacement))
+    receivers.all.iter().map(move |receiver| {
+        let row = |now: &Moment<'_>| {
+            let motion = receiver.moves(&receivers.rates, now);
+            let [displacement, velocity] =
+                motion.map(|v| receivers.axes.iter().map(|&axis| v[axis]).collect::<Vec<f64>>());
+            seismogram::row(now.at.seconds(), &velocity, &displacement)
+        };
+        tables::Table::new(format!("receivers/{}.csv", receiver.name), head.clone(), Course::Largest, row)
+    })
 }

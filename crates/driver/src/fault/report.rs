@@ -15,7 +15,7 @@ use crate::catalogue::{Entry, FaultEvents, Scattered, Site, slipped};
 use crate::checks::Checks;
 use crate::outrun;
 use crate::report::{
-    EnergyBalance, ForceResult, Kind, Outcome, Phases, PointResult, Results, SpringResult, Stop, Work,
+    EnergyBalance, ForceResult, Kind, Outcome, Phases, PointResult, SpringResult, Stop, Work, results,
 };
 use crate::warning::Warning;
 use asperity_cycles::{
@@ -222,17 +222,7 @@ pub struct Report {
     pub seconds: Phases,
 }
 
-impl Results for Report {
-    const KIND: Kind = Kind::Faults;
-
-    fn outcome(&self) -> &Outcome {
-        &self.outcome
-    }
-
-    fn seconds(&self) -> Phases {
-        self.seconds
-    }
-}
+results!(Report, Kind::Faults);
 
 /// Reason for the failure of an integration, in terms of the fault if possible.
 fn why(plan: &Plan, run: &FaultRun, failure: &Failure) -> String {

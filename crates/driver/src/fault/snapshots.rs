@@ -5,14 +5,14 @@ use super::fields::{self, Surface};
 use super::plan::Plan;
 use asperity_cycles::Moment;
 use asperity_output::decimals::fixed;
-use asperity_output::{OutputError, atomic};
+use asperity_output::{Growing, OutputError, atomic};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// Name of the list of snapshots.
 pub(super) const LIST: &str = "snapshots.csv";
 /// Header of the list.
-pub(super) const HEAD: &str = "snapshot,time [s],log10 slip_rate [m/s]\n";
+const HEAD: &str = "snapshot,time [s],log10 slip_rate [m/s]\n";
 /// Time between snapshots in an event over that between profiles; a rupture crosses a few kilometres in two seconds.
 const IN_EVENTS: f64 = 2.0;
 /// Size of all snapshots together over the largest size of a growing file.
@@ -23,6 +23,8 @@ const FILES: u64 = 10;
 pub(super) struct Taken {
     count: usize,
     pub gauge: Gauge,
+    /// Size of the list \[bytes\].
+    list: u64,
 }
 
 /// Writes `fields/FAULT_00000.vtu` and so on.
@@ -31,6 +33,7 @@ pub(super) struct Snapshots {
     folder: PathBuf,
     /// Surface of each fault.
     surfaces: Vec<Surface>,
+    list: Growing,
     taken: Taken,
 }
 
@@ -40,41 +43,48 @@ pub(super) fn name(fault: &str, number: usize) -> String {
 }
 
 impl Snapshots {
-    /// Snapshots of a run, if its faults are surfaces in 3D.
+    /// Snapshots of a run, if its faults are surfaces in 3D; after those already taken, if any.
     ///
     /// # Errors
-    /// If the folder cannot be created.
-    pub fn begin(out: &Path, plan: &Plan) -> Result<Option<Self>, OutputError> {
+    /// If the folder or the list cannot be written.
+    pub fn open(out: &Path, plan: &Plan, taken: Option<Taken>) -> Result<Option<Self>, OutputError> {
         if !plan.in_space {
             return Ok(None);
         }
         let folder = out.join("fields");
         atomic::create_dir(&folder)?;
         let surfaces = plan.faults.iter().map(|fault| Surface::of(plan, fault)).collect();
-        Ok(Some(Self { folder, surfaces, taken: Taken::default() }))
-    }
-
-    /// Resumes after the snapshots already taken.
-    pub fn from(self, taken: Taken) -> Self {
-        Self { taken, ..self }
+        let list = match taken {
+            Some(taken) => Growing::reopen(out.join(LIST), taken.list)?,
+            None => Growing::create(out.join(LIST), HEAD.as_bytes())?,
+        };
+        Ok(Some(Self { folder, surfaces, list, taken: taken.unwrap_or_default() }))
     }
 
     /// Number and gauge of the snapshots taken.
     pub fn taken(&self) -> Taken {
-        self.taken
+        Taken { list: self.list.bytes(), ..self.taken }
     }
 
-    /// Takes a snapshot if it is due, and returns its row of the list.
+    /// Waits until the list is on the disc.
+    ///
+    /// # Errors
+    /// If something could not be written.
+    pub fn settle(&self) -> Result<(), OutputError> {
+        self.list.settle()
+    }
+
+    /// Takes a snapshot if it is due.
     ///
     /// # Errors
     /// If a file cannot be written.
-    pub fn take(&mut self, plan: &Plan, now: &Moment<'_>) -> Result<Option<String>, OutputError> {
+    pub fn take(&mut self, plan: &Plan, now: &Moment<'_>) -> Result<(), OutputError> {
         let time = now.at.seconds();
         let fast = now.largest >= plan.problem.settings.thresholds.on;
         let [between, within] = plan.cadence.contours;
         let interval = if fast { (IN_EVENTS * within).min(between) } else { between };
         if !self.taken.gauge.profile(Reading { time, rate: now.largest }, interval, RATE_CHANGE) {
-            return Ok(None);
+            return Ok(());
         }
         let number = self.taken.count;
         for (fault, surface) in plan.faults.iter().zip(&self.surfaces) {
@@ -83,6 +93,7 @@ impl Snapshots {
             self.taken.gauge.spend(bytes, FILES * plan.cadence.largest_file, time);
         }
         self.taken.count = number + 1;
-        Ok(Some(format!("{number},{time:.14e},{}\n", fixed(log_rate(now.largest), 6))))
+        let row = format!("{number},{time:.14e},{}\n", fixed(log_rate(now.largest), 6));
+        self.list.push(row.as_bytes())
     }
 }

@@ -32,7 +32,7 @@ fn named(plan: &Plan) -> Vec<Named<'_>> {
                 }
             };
             let name = if several { format!("{}, {place}", fault.name) } else { place };
-            Named { fault, name, path: format!("stations/{}", path.display()), point: *point }
+            Named { fault, name, path: format!("stations/{}", path), point: *point }
         })
         .collect()
 }

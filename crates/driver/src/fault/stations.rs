@@ -2,14 +2,9 @@
 
 use super::cadence::NO_RATE;
 use super::plan::{FaultView, Plan, Station};
+use super::tables::{Course, Table};
 use asperity_cycles::Moment;
 use asperity_output::seas::{Head, Row};
-use std::path::PathBuf;
-
-/// Points of all stations.
-pub(super) fn points(plan: &Plan) -> Vec<usize> {
-    plan.faults.iter().flat_map(|f| f.stations.iter().map(|s| s.1)).collect()
-}
 
 /// Names of the files of the stations of a fault. Distance in tenths of a kilometre, three digits, as in the names of the
 /// benchmarks, if this distinguishes them; otherwise their numbers.
@@ -30,15 +25,24 @@ pub(crate) fn names(fault: &FaultView) -> Vec<String> {
     fault.stations.iter().enumerate().map(name).collect()
 }
 
-/// Paths of all station files, with their headers.
-pub(super) fn heads(plan: &Plan) -> Vec<(PathBuf, String)> {
+/// Names of all station files, with their headers.
+pub(super) fn heads(plan: &Plan) -> Vec<(String, String)> {
     let mut heads = Vec::new();
     for fault in &plan.faults {
         for (name, (asked, point)) in names(fault).into_iter().zip(&fault.stations) {
-            heads.push((name.into(), head(plan, &fault.name, asked, *point)));
+            heads.push((name, head(plan, &fault.name, asked, *point)));
         }
     }
     heads
+}
+
+/// Tables of all stations.
+pub(super) fn tables(plan: &Plan) -> impl Iterator<Item = Table<'_>> {
+    let points = plan.faults.iter().flat_map(|f| f.stations.iter().map(|s| s.1));
+    heads(plan).into_iter().zip(points).map(move |((name, head), point)| {
+        let row = move |now: &Moment<'_>| row(plan, now, point);
+        Table::new(format!("stations/{name}"), head, Course::Point(point), row)
+    })
 }
 
 fn head(plan: &Plan, fault: &str, asked: &Station, point: usize) -> String {
@@ -71,8 +75,7 @@ fn pressurises(plan: &Plan, point: usize) -> bool {
     plan.heat_at(point).is_some_and(|heat| heat.layer.pressurisation.is_some())
 }
 
-/// Row of a station.
-pub(super) fn row(plan: &Plan, now: &Moment<'_>, point: usize) -> String {
+fn row(plan: &Plan, now: &Moment<'_>, point: usize) -> String {
     let states = plan.problem.fault.law.states();
     let normal = now.normal(point);
     let theta = plan.points[point].theta.filter(|_| states == 1);

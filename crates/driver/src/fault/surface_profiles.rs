@@ -1,8 +1,11 @@
 //! Displacement of the free surface along a line through a run, as tables of profiles.
 
 use super::plan::Plan;
+use super::profiles::SELDOM;
 use super::receivers::Receivers;
+use super::tables::{self, Table};
 use asperity_cycles::Moment;
+use asperity_output::decimals::scientific;
 
 /// Names of the tables, by the axis of the displacement.
 pub(super) const NAMES: [&str; 3] =
@@ -13,14 +16,16 @@ pub(super) fn followed(plan: &Plan) -> Option<&Receivers> {
     plan.free_surface.as_ref()?.through.as_ref()
 }
 
-/// Names of the files with their headers: a column for each position along x.
-pub(super) fn heads(plan: &Plan) -> Vec<(&'static str, String)> {
-    let Some(line) = followed(plan) else { return Vec::new() };
-    let columns: String = line.all.iter().map(|position| format!(",{}", position.at[0])).collect();
-    line.axes.iter().map(|&axis| (NAMES[axis], format!("time [s]{columns}\n"))).collect()
-}
-
-/// Displacements of all positions along an axis \[m\].
-pub(super) fn values(line: &Receivers, axis: usize, now: &Moment<'_>) -> Vec<f64> {
-    line.all.iter().map(|position| position.moves(&line.rates, now)[0][axis]).collect()
+/// The tables, if there is such a line: a column for each position along x.
+pub(super) fn tables(plan: &Plan) -> impl Iterator<Item = Table<'_>> {
+    followed(plan).into_iter().flat_map(|line| {
+        let columns: String = line.all.iter().map(|position| format!(",{}", position.at[0])).collect();
+        line.axes.iter().map(move |&axis| {
+            let row = move |now: &Moment<'_>| {
+                let moved = line.all.iter().map(|position| position.moves(&line.rates, now)[0][axis]);
+                tables::line(now.at.seconds(), moved.map(|u| scientific(u, 9)))
+            };
+            Table::new(NAMES[axis], format!("time [s]{columns}\n"), SELDOM, row)
+        })
+    })
 }

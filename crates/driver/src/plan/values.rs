@@ -6,6 +6,7 @@ use crate::checks::Checks;
 use crate::laws::Theta;
 use crate::warning::Warning;
 use asperity_mechanics::{Mass, Problem};
+use asperity_output::FieldSchedule;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -68,11 +69,12 @@ impl AnyPlan {
 
     /// Field and profile outputs per stage.
     #[must_use]
-    pub fn outputs(&self) -> (usize, usize) {
-        match self {
+    pub fn outputs(&self) -> FieldSchedule {
+        let (fields, profiles) = match self {
             Self::Two(p) => (p.field_outputs, p.profile_outputs),
             Self::Three(p) => (p.field_outputs, p.profile_outputs),
-        }
+        };
+        FieldSchedule { fields, profiles }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Part common to every `report.json`: version, outcome and provenance.
 
 use crate::setup::Kept;
+use crate::warning::Warning;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -215,9 +216,56 @@ pub trait Results: Serialize {
     /// Outcome.
     fn outcome(&self) -> &Outcome;
 
+    /// Warnings of the plan, and of what the run has found.
+    fn warnings(&self) -> &[Warning];
+
+    /// Accepted steps.
+    fn steps(&self) -> u64;
+
     /// Wall time.
     fn seconds(&self) -> Phases;
+
+    /// Wall time, to be completed.
+    fn seconds_mut(&mut self) -> &mut Phases;
+
+    /// Summary to be read at the end of the run.
+    fn text(&self) -> String;
 }
+
+/// Implements what reports of all kinds have in fields of the same names.
+macro_rules! results {
+    ($report:ty, $kind:expr) => {
+        impl $crate::report::Results for $report {
+            const KIND: $crate::report::Kind = $kind;
+
+            fn outcome(&self) -> &$crate::report::Outcome {
+                &self.outcome
+            }
+
+            fn warnings(&self) -> &[$crate::warning::Warning] {
+                &self.warnings
+            }
+
+            fn steps(&self) -> u64 {
+                self.counts.steps as u64
+            }
+
+            fn seconds(&self) -> $crate::report::Phases {
+                self.seconds
+            }
+
+            fn seconds_mut(&mut self) -> &mut $crate::report::Phases {
+                &mut self.seconds
+            }
+
+            fn text(&self) -> String {
+                self.text()
+            }
+        }
+    };
+}
+
+pub(crate) use results;
 
 /// Commit of the program, "unknown" outside a checkout.
 pub(crate) fn commit() -> &'static str {

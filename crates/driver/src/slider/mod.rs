@@ -3,7 +3,7 @@
 mod events;
 mod figures;
 mod files;
-mod keeper;
+mod outputs;
 mod plan;
 mod report;
 mod summary;
@@ -11,6 +11,6 @@ mod thin;
 
 pub use events::{Entry, Named, csv};
 pub use files::{Histories, Positions};
-pub use keeper::{Checkpoint, Keeper};
+pub use outputs::{Outputs, Saved};
 pub use plan::Plan;
 pub use report::Report;

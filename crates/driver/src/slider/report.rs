@@ -3,7 +3,7 @@
 use super::events::Named;
 use crate::checks::Checks;
 use crate::outrun;
-use crate::report::{EnergyBalance, Kind, Outcome, Phases, Results, Stop, Work};
+use crate::report::{EnergyBalance, Kind, Outcome, Phases, Stop, Work, results};
 use crate::warning::Warning;
 use asperity_cycles::slider::{Problem, SliderRun};
 use asperity_cycles::{Outrun, Thresholds};
@@ -75,17 +75,7 @@ pub struct Report {
     pub seconds: Phases,
 }
 
-impl Results for Report {
-    const KIND: Kind = Kind::Sliders;
-
-    fn outcome(&self) -> &Outcome {
-        &self.outcome
-    }
-
-    fn seconds(&self) -> Phases {
-        self.seconds
-    }
-}
+results!(Report, Kind::Sliders);
 
 /// Outcome of a run in which a slider was faster than shear waves beyond a time \[s\].
 fn outran(problem: &Problem, Outrun { point, rate }: Outrun, time: f64) -> Outcome {

@@ -452,7 +452,7 @@ fn strains_of_waves_that_are_not_small_are_told() {
         let done = run(folder.path(), "out", &["--no-plots"]);
         assert!(done.status.success(), "{}", told(&done));
         let report = fs::read_to_string(folder.path().join("out/report.json")).unwrap();
-        let said = text(&done.stdout).contains("warning: body `bar` is strained by 0.0");
+        let said = text(&done.stderr).contains("warning: body `bar` is strained by 0.0");
         (said, report.contains("body `bar` is strained by 0.0"))
     };
     assert_eq!(warnings("400 m/s", "small"), (true, true));

@@ -374,7 +374,7 @@ fn what_does_not_fit_the_checkpoint_is_refused() {
     let good = fs::read_to_string(&path).unwrap();
     fs::write(&path, &good[..good.len() / 2]).unwrap();
     refused("is damaged");
-    let (head, rest) = good.split_once("version 5").unwrap();
+    let (head, rest) = good.split_once("version 6").unwrap();
     fs::write(&path, format!("{head}version 99{rest}")).unwrap();
     refused("has version 99");
     fs::write(&path, good).unwrap();

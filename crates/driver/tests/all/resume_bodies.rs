@@ -5,13 +5,14 @@
 use crate::common::planned;
 use crate::common::told;
 use crate::resume::{assert_same, files, folder, run, text};
-use asperity_driver::checkpoint::{self, Contents as _, Pauses};
+use asperity_driver::checkpoint::{self, Pauses};
+use asperity_driver::keep::{Keeper, Place};
 use asperity_driver::plan::AnyPlan;
 use asperity_driver::report::{Outcome, RunReport};
-use asperity_driver::run::{Bodies, Checkpoint, Kept, RunError, Stand, run_kept};
+use asperity_driver::run::{Bodies, Outputs, RunError, Stand, run_kept};
 use asperity_ode::{Control, ObserveError, Observer};
 use asperity_output::view::{Setup, StepView};
-use asperity_output::{FieldSchedule, Files, Recorder};
+use asperity_output::{FieldSchedule, Recorder};
 use asperity_vary::Change::{self, Add, With, WithOrSame, Without};
 use asperity_vary::SceneText;
 use serde_json::Value;
@@ -172,7 +173,7 @@ const SPACE: [Change<'_>; 12] = [
 
 /// Interrupts a run before its trial number `left`.
 struct Interrupted {
-    kept: Kept,
+    kept: Keeper<Outputs>,
     stop: Arc<AtomicBool>,
     left: usize,
 }
@@ -207,16 +208,11 @@ fn resumed(plan: &AnyPlan, out: &Path, trials: usize) -> Result<(RunReport, Reco
     let stop = Arc::new(AtomicBool::new(false));
     let every = Duration::from_secs(3600);
     let pauses = Pauses { every, wall: None, stop: Arc::clone(&stop), begun: Instant::now() };
-    let outputs = Files::create(out, FieldSchedule { fields: 2, profiles: 3 }).unwrap();
-    let (kept, from) = match Checkpoint::read(out, "p").unwrap() {
-        Some(read) => {
-            let (kept, stand) = Kept::resume(out, read, outputs, true, pauses);
-            (kept, Some(stand))
-        }
-        None => {
-            let recorder = Recorder::new().with_bodies();
-            (Kept::begin(out, "p", outputs, Some(recorder), pauses).unwrap(), None)
-        }
+    let place = Place { out, physics: "p", drawn: true, pauses };
+    let schedule = FieldSchedule { fields: 2, profiles: 3 };
+    let (kept, from) = match Keeper::<Outputs>::resume(schedule, place.clone()).unwrap() {
+        Some((kept, stand)) => (kept, Some(stand)),
+        None => (Keeper::begin(schedule, place).unwrap(), None),
     };
     let mut keeper = Interrupted { kept, stop, left: trials };
     let report = run_kept(plan, &mut keeper, from)?;
@@ -224,7 +220,7 @@ fn resumed(plan: &AnyPlan, out: &Path, trials: usize) -> Result<(RunReport, Reco
     if completed {
         checkpoint::remove(out).unwrap();
     }
-    Ok((report, keeper.kept.finish(completed).unwrap()))
+    Ok((report, keeper.kept.finish(completed).recorder().unwrap()))
 }
 
 /// Report of a run without the parts that depend on the machine.
@@ -518,8 +514,8 @@ fn no_field_of_the_state_can_be_left_out() {
             let (report, _) = part(&plan, &out, trials);
             assert!(matches!(report.outcome, Outcome::Interrupted { .. }), "{name}");
             let pointer = match field.strip_prefix("contact/") {
-                Some(field) => format!("/stand/system/interfaces/0/{field}"),
-                None => format!("/stand/{field}"),
+                Some(field) => format!("/state/stand/system/interfaces/0/{field}"),
+                None => format!("/state/stand/{field}"),
             };
             assert!(forget(&out, &pointer), "{name}: {field} is nothing but zeros");
             if left(&plan, &out).as_ref() == Some(&whole) {
@@ -593,7 +589,7 @@ fn a_checkpoint_of_bodies_that_does_not_fit_is_refused() {
     let good = fs::read_to_string(&path).unwrap();
     fs::write(&path, &good[..good.len() / 2]).unwrap();
     refused(&["--resume"], "is damaged");
-    let rest = good.strip_prefix("asperity checkpoint of bodies, version 3\n").unwrap();
+    let rest = good.strip_prefix("asperity checkpoint of bodies, version 4\n").unwrap();
     fs::write(&path, format!("asperity checkpoint of bodies, version 99\n{rest}")).unwrap();
     refused(&["--resume"], "has version 99");
     fs::write(&path, format!("asperity checkpoint of faults, version 1\n{rest}")).unwrap();

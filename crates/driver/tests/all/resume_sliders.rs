@@ -7,7 +7,8 @@ use crate::common::told;
 use crate::resume::{assert_same, files, folder, run, text};
 use asperity_cycles::slider::{Problem, SliderRun, resume};
 use asperity_driver::checkpoint::{self, Pauses};
-use asperity_driver::slider::Keeper;
+use asperity_driver::keep::{Keeper, Place};
+use asperity_driver::slider::Outputs;
 use asperity_ode::{Method, Outcome};
 use asperity_output::plots::Asked;
 use asperity_vary::Change::{self, Add, With, WithOrSame};
@@ -58,14 +59,15 @@ fn pauses(wall: Option<Duration>) -> Pauses {
 /// Runs a part of a run into `out`, until the next restart or to the end. Returns the run, and true if it was
 /// interrupted.
 fn part(problem: &Problem, out: &Path, wall: Option<Duration>) -> Result<(SliderRun, bool), String> {
-    let resumed = Keeper::resume(out, problem, "", pauses(wall)).map_err(|e| e.to_string())?;
+    let place = Place { out, physics: "", drawn: true, pauses: pauses(wall) };
+    let resumed = Keeper::<Outputs>::resume(problem, place.clone()).map_err(|e| e.to_string())?;
     let (mut keeper, from) = match resumed {
         Some(resumed) => resumed,
-        None => Keeper::begin(out, problem, "", true, pauses(wall)).unwrap(),
+        None => (Keeper::begin(problem, place).unwrap(), SliderRun::new(problem)),
     };
     let ended = resume(problem, from, &mut keeper).map_err(|e| e.to_string())?;
     let interrupted = keeper.interrupted().is_some();
-    let sheet = keeper.finish(!interrupted).unwrap().sheet(problem, &[], ended.at.seconds());
+    let sheet = keeper.finish(!interrupted).complete().unwrap().sheet(problem, &[], ended.at.seconds());
     sheet.draw(out, &out.join("plots"), &Asked::default()).unwrap();
     if !interrupted {
         checkpoint::remove(out).unwrap();
@@ -146,15 +148,15 @@ fn what_a_checkpoint_holds_is_needed() {
     let (expected, _) = part(&problem, &whole, None).unwrap();
     let expected = (format!("{expected:?}"), files(&whole));
     let forgotten: [(&str, Value); 9] = [
-        ("/run/next_step/length", 1e-3.into()),
-        ("/run/progress/travelled/load", 0.into()),
-        ("/run/progress/due/interval", 0.into()),
-        ("/run/progress/due/listed", 0.into()),
-        ("/run/counts/steps", 0.into()),
-        ("/run/progress/budget/driven", 0.into()),
-        ("/run/progress/budget/energy/radiated", 0.into()),
-        ("/run/progress/detectors/0/least", 1.into()),
-        ("/histories/sliders/0/thin/last", Value::Null),
+        ("/state/run/next_step/length", 1e-3.into()),
+        ("/state/run/progress/travelled/load", 0.into()),
+        ("/state/run/progress/due/interval", 0.into()),
+        ("/state/run/progress/due/listed", 0.into()),
+        ("/state/run/counts/steps", 0.into()),
+        ("/state/run/progress/budget/driven", 0.into()),
+        ("/state/run/progress/budget/energy/radiated", 0.into()),
+        ("/state/run/progress/detectors/0/least", 1.into()),
+        ("/state/histories/sliders/0/thin/last", Value::Null),
     ];
     for (i, (pointer, value)) in forgotten.into_iter().enumerate() {
         let out = folder.path().join(i.to_string());
@@ -163,7 +165,8 @@ fn what_a_checkpoint_holds_is_needed() {
             assert!(part(&problem, &out, Some(Duration::ZERO)).unwrap().1, "{pointer}");
             let contents = fs::read_to_string(out.join("checkpoint")).unwrap();
             let json: Value = serde_json::from_str(contents.lines().nth(2).unwrap()).unwrap();
-            if json["run"]["progress"]["passed"] == 2 && !json["run"]["next_step"].is_null() {
+            if json["state"]["run"]["progress"]["passed"] == 2 && !json["state"]["run"]["next_step"].is_null()
+            {
                 break;
             }
         }

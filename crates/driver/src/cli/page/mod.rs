@@ -3,10 +3,11 @@
 pub mod elements;
 
 use super::begin::{PAGE, SCENE};
-use super::readme;
+use super::entries;
 use asperity_output::{OutputError, atomic, progress};
 use elements::{escape, folded, section, table, value};
 use serde_json::{Map, Value};
+use std::ffi::OsStr;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
@@ -156,7 +157,7 @@ fn of_key(report: &Value, key: &str) -> String {
 /// Files and folders of the directory with what they are.
 fn files(folder: &Path) -> String {
     let row = |name: &String| {
-        let meaning = readme::meaning(name)?;
+        let meaning = entries::named(OsStr::new(name))?.meaning;
         let name = escape(name);
         Some(format!("<li><a href=\"{name}\">{name}</a>: {}</li>", escape(meaning)))
     };

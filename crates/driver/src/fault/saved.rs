@@ -1,7 +1,7 @@
-//! The checkpoint of a run of faults.
+//! The state of a run of faults in its checkpoint.
 
 use super::position::Position;
-use crate::checkpoint::Contents;
+use crate::checkpoint;
 use asperity_cycles::{FaultRun, Sums};
 use serde::{Deserialize, Serialize};
 
@@ -16,11 +16,9 @@ pub struct Stand {
     pub sums: Sums,
 }
 
-/// Everything needed to resume a run.
+/// Everything needed to resume a run, even to a later end or to more events.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Checkpoint {
-    /// Hash of the physics of the scene and of the mesh files it names; see [`super::identity`].
-    pub physics: String,
+pub struct Saved {
     /// Planned end of the run \[s\].
     pub end: f64,
     /// Identity of the loads so far; see [`super::identity::loads`].
@@ -32,12 +30,8 @@ pub struct Checkpoint {
     pub before: Option<Box<Stand>>,
 }
 
-impl Contents for Checkpoint {
+impl checkpoint::Saved for Saved {
     const OF: &'static str = "faults";
-    const VERSION: &'static str = "5";
+    const VERSION: &'static str = "6";
     const ALLOWED: &'static str = "the duration of the last stage, `stop_after` or `[place]`";
-
-    fn physics(&self) -> &str {
-        &self.physics
-    }
 }
