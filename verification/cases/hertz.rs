@@ -1,7 +1,8 @@
 //! Hertz contacts of the cases: scenes with single changes, tractions of a run, closed-form solutions.
 
 use crate::{CaseError, Cost, Ledger, Plot, Series};
-use asperity_driver::report::{Outcome, RunReport};
+use asperity_driver::report::Outcome;
+use asperity_driver::run::RunReport;
 use asperity_driver::scene::model::{
     BlockMesh, LawSpec, Measure, MeshSource, Motion, Scene, Sliding, SpacingSpec, here,
 };

@@ -2,8 +2,9 @@
 
 use crate::CaseError;
 use asperity_driver::plan;
-use asperity_driver::report::{Outcome, RunReport, mean};
+use asperity_driver::report::Outcome;
 use asperity_driver::run;
+use asperity_driver::run::{RunReport, mean};
 use asperity_driver::scene;
 pub use asperity_driver::scene::model::Scene;
 use asperity_driver::scene::model::{MeshSource, Stepper, here};

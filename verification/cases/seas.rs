@@ -3,7 +3,7 @@
 use crate::{CaseError, Cost};
 use asperity_cycles::{Episode, Event, FaultRun, Moment, Rupture, Settings};
 use asperity_driver::fault::Plan;
-use asperity_driver::plan::{ScenePlan, plan_scene};
+use asperity_driver::kinds::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_ode::{Control, Outcome};
 

@@ -1,7 +1,8 @@
 //! Scenes of cases as texts that a user could run, read by the public reader.
 
 use crate::{CaseError, Cost};
-use asperity_driver::report::{Outcome, RunReport};
+use asperity_driver::report::Outcome;
+use asperity_driver::run::RunReport;
 use asperity_driver::{plan, run, scene};
 use asperity_output::Recorder;
 use asperity_output::view::InterfaceFields;

@@ -1,11 +1,11 @@
 //! Point spacing of an interface between bodies, compared with the cohesive zone of its friction.
 //!
-//! The length of the zone is inversely proportional to f_n ([`crate::fault::Ground`]), and f_n is known only once the bodies are pressed. The
+//! The length of the zone is inversely proportional to f_n ([`crate::resolution::Ground`]), and f_n is known only once the bodies are pressed. The
 //! checks of the plan therefore state the f_n under which one point is left. If loads alone press a flat interface, the mean f_n is known in advance and is
 //! checked in the plan. Otherwise a run stops if a point slides under an f_n so large that the zone holds less than one point. The end of each stage
 //! warns if the zone holds fewer than three.
 
-use crate::fault::{ENOUGH, FEW};
+use crate::resolution::{ENOUGH, FEW};
 use crate::warning::Warning;
 use asperity_mechanics::Resolved;
 

@@ -2,9 +2,8 @@
 
 pub mod file;
 pub(crate) mod unit;
-mod wrong;
 
-pub use wrong::Wrong;
+pub use crate::wrong::Wrong;
 
 use asperity_scene::near::suggest;
 use asperity_scene::units::{self, Dimension};

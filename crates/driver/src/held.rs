@@ -1,7 +1,7 @@
 //! Memory of a run.
 
-use crate::forecast::{self, Counts};
 use crate::model::counts;
+use crate::model::forecast::{self, Counts};
 use asperity_mechanics::{CellBlock, Model};
 
 /// Bytes of the program with its libraries, tables and plots. The smallest scenes take 12 MB without plots and 38 MB with them.

@@ -1,7 +1,9 @@
 //! Conditions of the stages, converted to fixed degrees of freedom and loading channels.
 
+pub(crate) mod courses;
 mod jumps;
 mod shared;
+pub mod sizes;
 mod stiff;
 
 use crate::diagnostic::Diagnostic;

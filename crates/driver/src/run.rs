@@ -1,18 +1,23 @@
 //! Runs a plan: stages in sequence, steps within a stage, observers after each step.
 
+mod doubts;
 pub mod events;
 mod outputs;
+mod passages;
+pub mod report;
 mod stand;
+pub mod text;
+mod views;
 
 pub use outputs::{Bodies, Outputs, Saved};
+pub use passages::Passage;
+pub use report::{InterfaceResult, RunReport, mean};
 pub use stand::Stand;
 
 use crate::balance::balance;
 use crate::plan::{AnyPlan, Plan, restraint};
-use crate::report::{self, Outcome, Phases, RunReport};
-use crate::run_doubts;
+use crate::report::{Outcome, Phases};
 use crate::stop;
-use crate::views;
 use crate::warning::Warning;
 use asperity_contact::{Course, PointFields, Status, Watch};
 use asperity_mechanics::step::{Accepted, Cut, Failure};
@@ -236,7 +241,12 @@ impl<const D: usize> Running<'_, D> {
     /// Notes the worst of the stage so far; the last state of a stage is always judged.
     fn worst(&mut self, system: &Assembled<'_, D>, last: bool) {
         let displacement = || system.displacement();
-        self.found.worst.see((self.plan, system.time()), &interface_fields(system), &displacement, last);
+        self.found.worst.see(
+            (&self.plan.problem, system.time()),
+            &interface_fields(system),
+            &displacement,
+            last,
+        );
     }
 
     /// Outcome of a run whose slip the steps can no longer follow; `None` if they can.
@@ -307,7 +317,7 @@ impl<const D: usize> Running<'_, D> {
         self.found.forces.extend(report::forces(plan, stage, &samples));
         self.found.springs.extend(report::springs(plan, stage, &samples));
         self.worst(system, true);
-        let doubts = std::mem::take(&mut self.found.worst).warnings(plan, &stage.name);
+        let doubts = std::mem::take(&mut self.found.worst).warnings(&plan.problem, &stage.name);
         self.found.warnings.extend(resolution.into_iter().chain(doubts).map(Said::from));
     }
 
@@ -315,8 +325,8 @@ impl<const D: usize> Running<'_, D> {
     fn samples(&self, stage: &Stage, system: &Assembled<'_, D>) -> Samples {
         let of = |f: &PointFields<D>| f.normal_traction.iter().zip(&f.area).map(|(f, a)| f * a).sum::<f64>();
         let normal = system.interfaces().iter().map(|i| of(i.points())).sum();
-        let springs = views::springs(&self.plan.problem.stages, stage, &system.springs(), normal);
-        views::samples(system.samples(), springs)
+        let springs = crate::views::springs(&self.plan.problem.stages, stage, &system.springs(), normal);
+        crate::views::samples(system.samples(), springs)
     }
 
     /// Report of the run.
@@ -329,13 +339,13 @@ impl<const D: usize> Running<'_, D> {
         let mut warnings: Vec<Warning> = warnings.into_iter().map(Warning::from).collect();
         // With inertia bodies may meet and part within a stage.
         if plan.problem.mass.is_none() {
-            warnings.extend(run_doubts::never_closed(&results));
+            warnings.extend(doubts::never_closed(&results));
         }
-        let unit = views::energy_unit(plan);
+        let unit = crate::views::energy_unit(plan.problem.model.idealisation);
         let energy = system.energy().map(|energy| work.energy.closure(energy, unit));
         warnings.extend(energy.and_then(|energy| energy.doubt()));
-        let passages = report::passages(system.episodes());
-        warnings.extend(report::passage_doubts(&passages));
+        let passages = passages::of(system.episodes());
+        warnings.extend(passages::doubts(&passages));
         let events = plan.events.as_ref().zip(events);
         let events = events.map(|(plan, e)| report::Events::new(plan, &e.catalogue, system.areas()));
         let mut report = RunReport {
@@ -427,7 +437,7 @@ impl<const D: usize> Running<'_, D> {
             end_time,
             interfaces: &interfaces,
             samples: &samples,
-            energy: system.energy().map(|energy| views::energy(&energy)),
+            energy: system.energy().map(|energy| crate::views::energy(&energy)),
             fields: &|| views::body_fields(self.plan, system.blocks(), &system.displacement()),
         };
         if stopped {

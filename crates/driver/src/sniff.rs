@@ -1,7 +1,7 @@
 //! Kinds of files, by their first bytes: a reader that is given another kind of file than its own says which one it is, and what
 //! would be right.
 
-use crate::columns::Wrong;
+use crate::wrong::Wrong;
 
 /// Kind of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,7 +4,8 @@
 mod condition;
 
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_driver::report::{Outcome, RunReport};
+use asperity_driver::report::Outcome;
+use asperity_driver::run::RunReport;
 use asperity_driver::scene::model::{BlockMesh, EnforcementKind, Loading, Measure, MeshSource, Scene, here};
 use asperity_driver::scene::units::{Penalty, Penetration};
 use asperity_driver::{plan, run as driver_run, scene as reader};

@@ -4,7 +4,8 @@ mod overhang;
 mod sliver;
 
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::report::{Outcome, RunReport};
+use asperity_driver::report::Outcome;
+use asperity_driver::run::RunReport;
 use asperity_driver::scene::model::{
     BlockMesh, Condition, Kinematics, Measure, MeshSource, Motion, Scene, Sliding, here,
 };

@@ -1,7 +1,8 @@
 //! Cracks in a plane: closed under compression with friction, and opened by pressure.
 
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_driver::report::{Outcome, RunReport};
+use asperity_driver::report::Outcome;
+use asperity_driver::run::RunReport;
 use asperity_driver::scene::model::{
     FaultMesh, InitialStress, Interface, Measure, MeshSource, Scene, SpacingSpec, here,
 };

@@ -7,7 +7,7 @@ use super::parts::{MICROMETRE, Made, PER_PASCAL, Words, exact, interpolated, opt
 use crate::CaseError;
 use crate::cases::sandwich::{self, PRESSED, Run, V_LOAD};
 use asperity_driver::benchmark::Quantity;
-use asperity_driver::report::mean;
+use asperity_driver::run::mean;
 
 /// Heights of the slip probes \[m\] and the names of their quantities.
 const HEIGHTS: [(f64, &str, &str); 3] = [

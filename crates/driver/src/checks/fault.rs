@@ -1,7 +1,7 @@
 //! Checks of a fault.
 
 use super::MachineCheck;
-use crate::fault::Resolution;
+use crate::resolution::Resolution;
 use schemars::JsonSchema;
 use serde::Serialize;
 

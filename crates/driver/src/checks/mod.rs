@@ -2,10 +2,11 @@
 
 mod cost;
 mod fault;
+pub(crate) mod of_model;
 pub mod rates;
 mod words;
 
-use crate::fault::Coarsest;
+use crate::resolution::Coarsest;
 use schemars::JsonSchema;
 use serde::Serialize;
 

@@ -9,7 +9,7 @@ use super::lock::Lock;
 use super::page::{self, Texts};
 use super::readme;
 use crate::checkpoint;
-use crate::forecast;
+use crate::model::forecast;
 use crate::report::common::{Kind, Phases, Provenance, Report, Results, SCHEMA, Sketch, Status, commit};
 use crate::setup::{self, Kept};
 use crate::sha256::sha256;

@@ -25,10 +25,10 @@ mod plot;
 pub mod print;
 mod read;
 pub mod readme;
+pub mod schema;
 pub mod signals;
 pub mod status;
 
-use crate::report;
 use crate::setup::{Setups, When};
 pub use arguments::{Arguments, Checking, Command, Running, Schema, Set};
 use asperity_output::{Pulse, printing};
@@ -60,7 +60,7 @@ pub fn execute(arguments: &Arguments) -> miette::Result<End> {
         Command::Schema { of } => {
             let schema = match of {
                 Schema::Scene => serde_json::to_string_pretty(&asperity_scene::schema::schema()),
-                Schema::Report => serde_json::to_string_pretty(&report::schema::schema()),
+                Schema::Report => serde_json::to_string_pretty(&schema::schema()),
             };
             let schema = schema.into_diagnostic()?;
             printing::out(format_args!("{schema}\n"));

@@ -8,7 +8,8 @@ use crate::cite::{self, Citations};
 use crate::diagnostic::{Diagnostics, report_set};
 use crate::dynamic;
 use crate::fault;
-use crate::plan::{self, AnyPlan, ScenePlan};
+use crate::kinds::{self, ScenePlan};
+use crate::plan::{self, AnyPlan};
 use crate::report::Kind;
 use crate::scene;
 use crate::scene::settings::{self, Origin, Resolved, Setting};
@@ -218,7 +219,7 @@ impl Source {
             Parsed::Sliders(plan) => Planned::Sliders(plan),
             Parsed::Bodies(scene) => {
                 // A mesh file that cannot be read is reported by the plan, which knows the position in the scene.
-                match plan::plan_beside(&scene, setups) {
+                match kinds::plan_beside(&scene, setups) {
                     Ok(ScenePlan::Bodies(plan)) => Planned::Bodies(plan),
                     Ok(ScenePlan::Faults(plan)) => Planned::Faults(plan),
                     Ok(ScenePlan::Dynamic(plan)) => Planned::Dynamic(plan),

@@ -1,6 +1,6 @@
 //! Units of columns, from the file or the scene.
 
-use super::wrong::Wrong;
+use crate::wrong::Wrong;
 use asperity_scene::units::{self, Dimension};
 
 /// Unit of numbers of this dimension: that of the file, or the stated one where the file has none.

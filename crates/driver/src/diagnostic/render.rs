@@ -1,7 +1,7 @@
 //! Errors of a scene as shown to the user: the position in the file, a caret, and a suggested correction.
 
 use super::{Diagnostic, Diagnostics, line_column};
-use crate::scene::settings::{Origin, Resolved, Setting};
+use asperity_scene::settings::{Origin, Resolved, Setting};
 use miette::{
     LabeledSpan, MietteError, MietteSpanContents, NamedSource, Report, SourceCode, SourceSpan, SpanContents,
 };

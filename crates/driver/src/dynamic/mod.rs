@@ -9,14 +9,15 @@ mod outputs;
 mod plan;
 mod planner;
 mod report;
+mod rows;
 mod run;
 mod seismograms;
 mod stations;
 mod tables;
 
 pub use moment::Moment;
-pub use outputs::{Dynamics, Outputs, Saved};
+pub use outputs::{Outputs, Saved};
 pub use plan::{AnyPlan, Cadence, Plan, Receiver};
 pub use planner::{plan, ruptures};
 pub use report::Report;
-pub use run::{Ended, RunError, Stand, run};
+pub use run::{Dynamics, Ended, RunError, Stand, run};

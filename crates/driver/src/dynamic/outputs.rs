@@ -3,12 +3,12 @@
 use super::fields::{Fields, Taken};
 use super::moment::Moment;
 use super::plan::Plan;
-use super::run::Stand;
+use super::run::{Dynamics, Stand};
 use super::tables::Tables;
 use super::{Ended, figures, seismograms};
 use crate::checkpoint::{self, ResumeError};
 use crate::keep::{self, Place};
-use asperity_ode::{Control, Kind, ObserveError};
+use asperity_ode::{Control, ObserveError};
 use asperity_output::decimals::shortest;
 use asperity_output::plots::Sheet;
 use asperity_output::progress::Now;
@@ -16,16 +16,6 @@ use asperity_output::{OutputError, atomic};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
-
-/// Kind of a run of bodies with mass.
-#[derive(Clone, Copy, Debug)]
-pub struct Dynamics;
-
-impl Kind for Dynamics {
-    type Setup = ();
-    type Moment<'a> = Moment<'a>;
-    type Stand = Stand;
-}
 
 /// Everything needed to resume a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,9 +1,10 @@
 //! The problem and its outputs, and their description before the run.
 
 use crate::checks::Checks;
-use crate::fault::words::{length, time};
-use crate::fault::{FaultView, PointView, Resolution};
+use crate::fault::{FaultView, PointView};
+use crate::resolution::Resolution;
 use crate::warning::Warning;
+use crate::words::{length, time};
 use asperity_fem::mesh::Cells;
 use asperity_mechanics::dynamics::{Problem, Stable};
 use asperity_output::view::MeshView;

@@ -1,13 +1,12 @@
 //! The loop over the steps of a run.
 
 use super::arrivals::Arrivals;
-use super::moment::{Before, size};
-use super::outputs::Dynamics;
+use super::moment::{Before, Moment, size};
 use super::plan::Plan;
-use crate::run_doubts::Worst;
 use crate::warning::Warning;
+use crate::worst::Worst;
 use asperity_mechanics::dynamics::{Budget, Explicit, ExplicitState, FaultState, Halt};
-use asperity_ode::{ObserveError, Observer};
+use asperity_ode::{Kind, ObserveError, Observer};
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
@@ -57,6 +56,16 @@ fn outran<const D: usize>(plan: &Plan<D>, explicit: &Explicit<'_, D>) -> Option<
     let beyond = speeds.filter(|(_, rate)| *rate > plan.fastest || rate.is_nan());
     let (point, rate) = beyond.reduce(|a, b| if b.1 > a.1 { b } else { a })?;
     Some(Halt::Outrun { point, rate })
+}
+
+/// Kind of a run of bodies with mass.
+#[derive(Clone, Copy, Debug)]
+pub struct Dynamics;
+
+impl Kind for Dynamics {
+    type Setup = ();
+    type Moment<'a> = Moment<'a>;
+    type Stand = Stand;
 }
 
 /// State of a run between two steps.

@@ -2,7 +2,7 @@
 
 use super::moment::Moment;
 use super::plan::Plan;
-use super::tables::{Course, Table};
+use super::rows::{Course, Table};
 use crate::fault::cadence::NO_RATE;
 use crate::fault::{Station, stations};
 use asperity_output::seas::{Head, Row};

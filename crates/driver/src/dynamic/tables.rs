@@ -1,12 +1,11 @@
 //! Tables that grow during a run: energies, moment rate, profiles, stations and seismograms.
 
 use super::moment::{Moment, size};
-use super::outputs::Dynamics;
 use super::plan::Plan;
+use super::rows::{Course, Table};
 use super::stations;
 use crate::fault::cadence::log_rate;
 use crate::fault::{FaultView, PointView};
-use crate::keep;
 use asperity_mechanics::dynamics::Budget;
 use asperity_output::decimals::{scientific, shortest};
 use asperity_output::view::EnergyParts;
@@ -16,18 +15,6 @@ use std::path::Path;
 
 /// Decimals of numbers in tables other than seismograms.
 const DECIMALS: usize = 9;
-
-/// Steps after which rows are due.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Course {
-    /// Those between rows; the energies are known then.
-    Rows,
-    /// Those between profiles.
-    Profiles,
-}
-
-/// A table of a run of bodies with mass.
-pub(super) type Table<'a> = keep::Table<'a, Dynamics, Course>;
 
 /// All tables of a plan.
 fn all<const D: usize>(plan: &Plan<D>) -> Vec<Table<'_>> {

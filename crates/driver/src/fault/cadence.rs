@@ -6,8 +6,8 @@
 //! Once a file reaches half of its largest size, these limits double; at three quarters they double again, and so on. The file therefore never
 //! exceeds its largest size and still covers a long time.
 
-use super::words::YEAR;
 use crate::warning::Warning;
+use crate::words::YEAR;
 use serde::{Deserialize, Serialize};
 
 /// Default change of log10 of the slip rate from row to row.

@@ -1,7 +1,7 @@
 //! View of the surface of a fault in figures: with north up, with up up, or along its rake where no direction is known.
 
-use super::frame::Frame;
 use super::plan::PointView;
+use crate::place::Frame;
 use asperity_cycles::medium;
 use asperity_output::plots::Surface;
 use nalgebra::Vector3;

@@ -1,9 +1,9 @@
 //! Changes of Coulomb stress over each event in homogeneous rock: tables, and in space grids.
 
 use super::coulomb::{Change, Coulomb, CoulombMap};
-use super::frame::Frame;
 use super::plan::Plan;
 use super::source_time::FOLDER;
+use crate::place::Frame;
 use asperity_cycles::FaultRun;
 use asperity_output::decimals::{scientific, shortest};
 use asperity_output::grd::Grid;

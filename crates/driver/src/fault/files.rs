@@ -6,15 +6,30 @@
 use super::cadence::{Gauge, warning};
 use super::plan::Plan;
 use super::position::Position;
+use super::rows::{Ends, Rows, Table};
 use super::snapshots::Snapshots;
 use super::source_time::SourceTimes;
-use super::tables::{self, Ends, Rows};
+use super::{
+    forces, largest, locking, moments, profiles, receiver_rows, sampled_rows, stations, surface_profiles,
+};
 use crate::checkpoint::{self, ResumeError};
 use crate::warning::Warning;
 use asperity_cycles::{Faults, Moment};
 use asperity_ode::{Clock, Control, ObserveError, Observer};
 use asperity_output::{OutputError, atomic};
 use std::path::Path;
+
+/// All tables of a plan that grow during the run.
+fn all(plan: &Plan) -> Vec<Table<'_>> {
+    let mut all = vec![largest::table(plan), moments::table(plan), forces::table(plan)];
+    all.extend(locking::table(plan));
+    all.extend(profiles::tables(plan));
+    all.extend(surface_profiles::tables(plan));
+    all.extend(receiver_rows::tables(&plan.receivers));
+    all.extend(sampled_rows::tables(plan));
+    all.extend(stations::tables(plan));
+    all
+}
 
 /// See the module.
 pub struct Files<'a> {
@@ -35,7 +50,7 @@ impl<'a> Files<'a> {
     pub fn create(out: &Path, plan: &'a Plan) -> Result<Self, OutputError> {
         atomic::writable_dir(out)?;
         atomic::create_dir(&out.join("stations"))?;
-        let tables = tables::all(plan).into_iter().map(|table| Rows::open(out, table, None));
+        let tables = all(plan).into_iter().map(|table| Rows::open(out, table, None));
         Ok(Self {
             plan,
             tables: tables.collect::<Result<_, _>>()?,
@@ -51,12 +66,12 @@ impl<'a> Files<'a> {
     /// # Errors
     /// If a file is missing, shorter than it was, or cannot be written.
     pub fn resume(out: &Path, plan: &'a Plan, from: &Position) -> Result<Self, ResumeError> {
-        let all = tables::all(plan);
+        let all = all(plan);
         let known = all.iter().all(|table| from.gauges.contains_key(&table.path));
         if !known || all.len() != from.gauges.len() || plan.in_space != from.snapshots.is_some() {
             return Err(checkpoint::foreign(out, "its list of output files differs from that of this scene"));
         }
-        let reopen = |table: tables::Table<'a>| {
+        let reopen = |table: Table<'a>| {
             let gauge = from.gauges.get(&table.path).copied();
             Rows::open(out, table, gauge)
         };

@@ -1,10 +1,10 @@
 //! Finite-fault models of events in FSP format, and the slip of plane faults as grids.
 
 use super::event_tables::reached;
-use super::frame::Frame;
 use super::plan::{CellGrid, FaultView, Plan};
 use super::source_time::FOLDER;
 use crate::catalogue::{Entry, slipped};
+use crate::place::Frame;
 use asperity_cycles::{Event, FaultRun, Rupture};
 use asperity_output::grd::{Axis, Grid};
 use asperity_output::located::{Row, Segment, SourceModel};

@@ -1,7 +1,7 @@
 //! Forces of faults through a run: integrals of the tractions over the points that slide by friction.
 
 use super::plan::{FaultView, Plan};
-use super::tables::{Course, Table, line};
+use super::rows::{Course, Table, line};
 use asperity_cycles::Moment;
 use asperity_output::decimals::scientific;
 

@@ -1,8 +1,8 @@
 //! Heat of faults during a run.
 
 use super::plan::{HeatView, Plan};
-use super::words::time;
 use crate::warning::Warning;
+use crate::words::time;
 use asperity_cycles::Warmed;
 use schemars::JsonSchema;
 use serde::Serialize;

@@ -1,7 +1,7 @@
 //! Times of a run at which figures show faults between events.
 
 use super::plan::Plan;
-use super::words::time;
+use crate::words::time;
 use asperity_cycles::FaultRun;
 
 /// Share of the time since the event before by which "just before" an event lies ahead of it: its nucleation is then slow, and

@@ -2,7 +2,7 @@
 
 use super::cadence::log_rate;
 use super::plan::Plan;
-use super::tables::{Course, Table, line};
+use super::rows::{Course, Table, line};
 use asperity_cycles::Moment;
 use asperity_output::decimals::{fixed, scientific};
 

@@ -1,7 +1,7 @@
 //! Simulated events in the form of catalogue entries, for scenes with a geographic frame.
 
-use super::frame::Frame;
 use super::plan::Plan;
+use crate::place::Frame;
 use asperity_cycles::{Event, Rupture};
 use asperity_output::located::{Located, Tensor, magnitude};
 use nalgebra::{Matrix3, Vector3};

@@ -6,7 +6,7 @@
 
 use super::moments;
 use super::plan::{FaultView, Plan};
-use super::tables::{Course, Table, line};
+use super::rows::{Course, Table, line};
 use asperity_cycles::{Components, Moment};
 use asperity_output::decimals::scientific;
 

@@ -1,7 +1,7 @@
 //! Moment rates and moments of faults through a run.
 
 use super::plan::Plan;
-use super::tables::{Course, Table, line};
+use super::rows::{Course, Table, line};
 use asperity_cycles::{Components, Moment};
 use asperity_output::decimals::scientific;
 

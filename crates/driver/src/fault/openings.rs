@@ -1,7 +1,7 @@
 //! Opening of faults during a run.
 
 use super::plan::Plan;
-use super::words::time;
+use crate::words::time;
 use asperity_cycles::Opened;
 use schemars::JsonSchema;
 use serde::Serialize;

@@ -1,8 +1,8 @@
 //! Tables of the displacements of receivers over each event.
 
-use super::frame::Frame;
 use super::plan::Plan;
 use super::source_time::FOLDER;
+use crate::place::Frame;
 use asperity_cycles::{Event, FaultRun, Rupture};
 use asperity_output::decimals::{scientific, shortest};
 use asperity_output::{OutputError, atomic};

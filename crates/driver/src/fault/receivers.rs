@@ -1,10 +1,8 @@
 //! Displacements and velocities of positions in rock or bodies: from slip of the faults, in closed form or by weights of the
 //! condensed bodies, and from loads.
 
-use super::tables::{self, Course};
 use asperity_cycles::Moment;
 use asperity_fem::table::Table;
-use asperity_output::seismogram;
 
 /// A position whose motion is written.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,18 +68,4 @@ impl Receiver {
         }
         sum
     }
-}
-
-/// Tables of all receivers.
-pub(super) fn tables(receivers: &Receivers) -> impl Iterator<Item = tables::Table<'_>> {
-    let head = seismogram::header(&receivers.axes);
-    receivers.all.iter().map(move |receiver| {
-        let row = |now: &Moment<'_>| {
-            let motion = receiver.moves(&receivers.rates, now);
-            let [displacement, velocity] =
-                motion.map(|v| receivers.axes.iter().map(|&axis| v[axis]).collect::<Vec<f64>>());
-            seismogram::row(now.at.seconds(), &velocity, &displacement)
-        };
-        tables::Table::new(format!("receivers/{}.csv", receiver.name), head.clone(), Course::Largest, row)
-    })
 }

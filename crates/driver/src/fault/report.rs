@@ -7,17 +7,17 @@ use super::located::locate;
 use super::not_finite;
 use super::openings::{OpenedFault, openings};
 use super::plan::{FaultView, Plan, PointView};
-use super::resolution::Resolution;
 use super::rupture_length::rupture_length;
 use super::sampled_end::{End, in_words};
-use super::words::{length, time};
 use crate::catalogue::{Entry, FaultEvents, Scattered, Site, slipped};
 use crate::checks::Checks;
 use crate::outrun;
 use crate::report::{
     EnergyBalance, ForceResult, Kind, Outcome, Phases, PointResult, SpringResult, Stop, Work, results,
 };
+use crate::resolution::Resolution;
 use crate::warning::Warning;
+use crate::words::{length, time};
 use asperity_cycles::{
     Balance, Components, Crack, Episode, Event, FaultRun, Layout, Mark, Outrun, Rupture, Thresholds, steady,
 };

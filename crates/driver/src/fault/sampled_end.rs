@@ -2,8 +2,8 @@
 
 use super::plan::Plan;
 use super::sampling::Sampling;
-use super::words::length;
 use crate::report::{ForceResult, PointResult, SpringResult};
+use crate::words::length;
 use asperity_cycles::{FaultRun, Layout, Pressed};
 use asperity_output::view::{ForceMark, PointMark, PointValues, SpringMark, SpringValues};
 

@@ -3,7 +3,7 @@
 use super::plan::{FaultView, Plan, Station};
 use super::states;
 use super::stations;
-use super::words::length;
+use crate::words::length;
 use asperity_cycles::FaultRun;
 use asperity_output::plots::{Curves, Measure, Points, Portrait};
 

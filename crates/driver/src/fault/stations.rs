@@ -2,7 +2,7 @@
 
 use super::cadence::NO_RATE;
 use super::plan::{FaultView, Plan, Station};
-use super::tables::{Course, Table};
+use super::rows::{Course, Table};
 use asperity_cycles::Moment;
 use asperity_output::seas::{Head, Row};
 

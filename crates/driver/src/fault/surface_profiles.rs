@@ -3,7 +3,7 @@
 use super::plan::Plan;
 use super::profiles::SELDOM;
 use super::receivers::Receivers;
-use super::tables::{self, Table};
+use super::rows::{self, Table};
 use asperity_cycles::Moment;
 use asperity_output::decimals::scientific;
 
@@ -23,7 +23,7 @@ pub(super) fn tables(plan: &Plan) -> impl Iterator<Item = Table<'_>> {
         line.axes.iter().map(move |&axis| {
             let row = move |now: &Moment<'_>| {
                 let moved = line.all.iter().map(|position| position.moves(&line.rates, now)[0][axis]);
-                tables::line(now.at.seconds(), moved.map(|u| scientific(u, 9)))
+                rows::line(now.at.seconds(), moved.map(|u| scientific(u, 9)))
             };
             Table::new(NAMES[axis], format!("time [s]{columns}\n"), SELDOM, row)
         })

@@ -1,10 +1,10 @@
 //! Displacement of the free surface over each event: tables, and in space grids.
 
-use super::frame::Frame;
 use super::free_surface::FreeSurface;
 use super::plan::Plan;
 use super::receiver_tables::{columns, values};
 use super::source_time::FOLDER;
+use crate::place::Frame;
 use asperity_cycles::FaultRun;
 use asperity_output::grd::Grid;
 use asperity_output::{OutputError, atomic};

@@ -6,9 +6,9 @@
 
 use super::region::{Region, Spot};
 use crate::columns::Wrong;
-use crate::fault::frame::Frame;
-use crate::fault::map::Map;
-use crate::fault::planner::frame;
+use crate::place;
+use crate::place::Frame;
+use crate::place::Map;
 use crate::scene::model::Scene;
 use asperity_fem::mesh::sheet::ScatterError;
 use nalgebra::{Matrix3, Vector3};
@@ -242,7 +242,7 @@ fn fit<const D: usize>(region: &Region<'_, D>, names: &[&str]) -> Result<(), Wro
 
 /// Depth as a function of the position in the scene.
 fn down<const D: usize>(scene: &Scene) -> Result<Axis<D>, Wrong> {
-    let up = if D == 2 { Some([0.0, 1.0, 0.0]) } else { frame::up(scene) };
+    let up = if D == 2 { Some([0.0, 1.0, 0.0]) } else { place::up(scene) };
     let up = up.ok_or_else(|| Wrong {
         message: "its column `depth` needs a direction down".into(),
         help: "add `[place]` with `up`, or give `y` or `z`".into(),
@@ -254,7 +254,7 @@ fn down<const D: usize>(scene: &Scene) -> Result<Axis<D>, Wrong> {
 
 /// Geographic frame of the scene.
 fn framed<const D: usize>(scene: &Scene) -> Result<Frame, Wrong> {
-    let frame = frame::of(scene, D == 3).map_err(|e| unplaced(e.to_string()))?;
+    let frame = place::of(scene, D == 3).map_err(|e| unplaced(e.to_string()))?;
     frame.ok_or_else(|| unplaced("its longitudes need a `[place]`".into()))
 }
 

@@ -1,18 +1,18 @@
 //! The discrete model of a scene: one mesh of all bodies, and the type of each block of its cells.
 
-pub(crate) mod checks;
 pub(crate) mod cuts;
+pub mod forecast;
 pub mod locking;
 pub mod materials;
 pub mod meshes;
 pub mod order;
+pub(crate) mod samples;
 pub(crate) mod sets;
-pub mod sizes;
 pub mod surfaces;
 mod unlocked;
 
+use self::forecast::Counts;
 use crate::diagnostic::Diagnostic;
-use crate::forecast::{self, Counts};
 use crate::idealisation;
 use crate::initial_stress;
 use crate::scene::model as scene;

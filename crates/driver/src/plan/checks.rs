@@ -3,12 +3,12 @@
 use super::PlannedInterface;
 use super::cohesive::{self, Shortest, pressed};
 use super::friction::Friction;
+use crate::checks::of_model::{self, Driven, body_name, field_bytes, machines};
 use crate::checks::{Checks, Cost, InterfaceCheck, MachineCheck, WeakeningCheck, rates};
 use crate::diagnostic::Diagnostic;
-use crate::fault::{Coarsest, critical_slope};
 use crate::loading::Stage;
-use crate::model::checks::{Driven, body_name, field_bytes, machines};
 use crate::model::{self, Model};
+use crate::resolution::{Coarsest, critical_slope};
 use crate::scene::model::{Interface as Spec, Scene};
 use asperity_fem::mesh::Side;
 use asperity_fem::surface;
@@ -28,7 +28,7 @@ pub(super) fn of<const D: usize>(
     stages: &[Stage],
     (memory_bytes, solver): (usize, &Solver),
 ) -> Result<Checks, Diagnostic> {
-    let mut checks = model::checks::of(scene, model)?;
+    let mut checks = of_model::of(scene, model)?;
     let surfaces: Vec<Driven> =
         interfaces.iter().map(|i| driven(scene, model, i)).collect::<Result<_, _>>()?;
     let machines = stages.last().map_or_else(Vec::new, |stage| machines(stage, &surfaces));

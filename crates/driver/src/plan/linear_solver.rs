@@ -2,8 +2,8 @@
 
 use crate::amounts::{memory, size};
 use crate::diagnostic::Diagnostic;
-use crate::forecast;
 use crate::model::counts;
+use crate::model::forecast;
 use crate::scene::model::{Method as Asked, Scene, Spanned};
 use asperity_fem::FemError;
 use asperity_fem::assembly::{Lower, Symmetry};

@@ -1,7 +1,7 @@
 //! Picture of the meshes of a scene with its sets, for `asperity check --plot`.
 
+use crate::checks::of_model::used;
 use crate::diagnostic::Diagnostic;
-use crate::model::checks::used;
 use crate::model::{self, Model, bounds};
 use crate::scene::model::Scene;
 use asperity_fem::element::ElementKind;

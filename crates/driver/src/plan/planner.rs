@@ -2,60 +2,15 @@
 //! the scene.
 
 use super::friction::Friction;
-use super::{
-    AnyPlan, Plan, checks, courses, doubts, events, inertia, interfaces, linear_solver, path, restraint,
-    samples,
-};
+use super::{AnyPlan, Plan, checks, doubts, events, inertia, interfaces, linear_solver, path, restraint};
 use super::{start_balance, stepping, stress_level, summary};
 use crate::diagnostic::Diagnostic;
-use crate::dynamic;
-use crate::fault;
-use crate::forecast;
 use crate::initial_stress;
-use crate::loading::{self, Stage};
-use crate::model::{self, cuts, meshes, sizes};
-use crate::scene::model::{Scene, Stepper};
-use crate::setup::Setups;
+use crate::loading::{self, Stage, courses, sizes};
+use crate::model::forecast;
+use crate::model::{self, cuts, meshes, samples};
+use crate::scene::model::Scene;
 use asperity_mechanics::{Mass, Problem};
-
-/// Plan of a scene with bodies, by kind.
-#[derive(Debug)]
-pub enum ScenePlan {
-    /// Stages of bodies and interfaces.
-    Bodies(Box<AnyPlan>),
-    /// Faults over earthquake cycles.
-    Faults(Box<fault::Plan>),
-    /// Bodies with mass, whose faults radiate waves.
-    Dynamic(Box<dynamic::AnyPlan>),
-}
-
-/// Plans a scene of any of these kinds.
-///
-/// # Errors
-/// [`Diagnostic`] with the position in the scene.
-pub fn plan_scene(scene: &Scene) -> Result<ScenePlan, Diagnostic> {
-    plan_beside(scene, &Setups::none())
-}
-
-/// Plans a scene of any of these kinds. Set-ups of faults that take long are kept, and read where they were kept before.
-///
-/// # Errors
-/// [`Diagnostic`] with the position in the scene.
-pub fn plan_beside(scene: &Scene, setups: &Setups) -> Result<ScenePlan, Diagnostic> {
-    Ok(if *scene.time.stepper.get_ref() == Stepper::Explicit {
-        ScenePlan::Dynamic(Box::new(dynamic::plan(scene)?))
-    } else if scene.faults.is_empty() {
-        ScenePlan::Bodies(Box::new(plan(scene)?))
-    } else {
-        let mut plan = fault::plan_beside(scene, setups)?;
-        if *scene.time.stepper.get_ref() == Stepper::Auto {
-            let (ruptures, doubts) = dynamic::ruptures(scene, &plan)?;
-            plan.ruptures = Some(ruptures);
-            plan.warnings.extend(doubts);
-        }
-        ScenePlan::Faults(Box::new(plan))
-    })
-}
 
 /// Plans a scene of bodies and interfaces.
 ///

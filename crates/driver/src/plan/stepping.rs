@@ -1,7 +1,7 @@
 //! Time stepper of a scene and its step control.
 
-use super::courses;
 use crate::diagnostic::Diagnostic;
+use crate::loading::courses;
 use crate::scene::model::{Rule, Scene, Spanned, Stepper};
 use asperity_contact::TimeRule;
 use asperity_friction::law::RateBounds;

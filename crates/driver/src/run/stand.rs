@@ -1,9 +1,10 @@
 //! State of a run of bodies between two trials of steps.
 
 use super::events::Events;
-use crate::report::{Closure, ForceResult, InterfaceResult, PointResult, SpringResult};
-use crate::run_doubts::Worst;
+use super::report::InterfaceResult;
+use crate::report::{Closure, ForceResult, PointResult, SpringResult};
 use crate::warning::Warning;
+use crate::worst::Worst;
 use asperity_mechanics::timing::StepLengthState;
 use asperity_mechanics::{Counts, SystemState};
 use asperity_output::view::StepRecord;

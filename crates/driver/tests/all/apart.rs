@@ -1,6 +1,6 @@
 //! Faults that cross, fold over themselves, or lie too close to each other in a medium are refused, with both places.
 
-use asperity_driver::plan::plan_scene;
+use asperity_driver::kinds::plan_scene;
 use asperity_driver::scene;
 use std::fmt::Write as _;
 use std::path::Path;

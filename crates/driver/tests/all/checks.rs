@@ -3,7 +3,7 @@
 
 use crate::common::coarse_sandwich as coarse;
 use asperity_driver::checks::Checks;
-use asperity_driver::plan::{self, ScenePlan};
+use asperity_driver::kinds::{self, ScenePlan};
 use asperity_driver::{scene, slider_planner};
 use asperity_vary::SceneText;
 use serde_json::Value;
@@ -21,7 +21,7 @@ fn text(bytes: &[u8]) -> String {
 }
 
 fn checks(text: &str) -> Checks {
-    match plan::plan_scene(&scene::read(text).unwrap()).unwrap() {
+    match kinds::plan_scene(&scene::read(text).unwrap()).unwrap() {
         ScenePlan::Bodies(plan) => plan.checks().clone(),
         ScenePlan::Faults(plan) => plan.checks,
         ScenePlan::Dynamic(plan) => plan.checks().clone(),

@@ -2,7 +2,8 @@
 
 use crate::common::varied;
 use asperity_driver::plan::{self, AnyPlan};
-use asperity_driver::report::{Outcome, RunReport};
+use asperity_driver::report::Outcome;
+use asperity_driver::run::RunReport;
 use asperity_driver::{run, scene};
 use asperity_output::Recorder;
 use asperity_vary::Change::{With, WithOrSame};

@@ -4,7 +4,7 @@
 //! of lines. Lines of progress and times are left out. Counts may differ by a twentieth and results by 1e-4, as on
 //! another processor.
 
-use asperity_driver::{plan, scene};
+use asperity_driver::{kinds, scene};
 use std::path::{Path, PathBuf};
 
 /// Pages with commands, in the order of reading.
@@ -71,7 +71,7 @@ fn refusal(text: &str) -> Option<String> {
     }
     match scene::read_in(text, &root().join("crates/driver/tests/meshes")) {
         Err(errors) => Some(errors.to_string()),
-        Ok(scene) => plan::plan_scene(&scene).err().map(|e| e.to_string()),
+        Ok(scene) => kinds::plan_scene(&scene).err().map(|e| e.to_string()),
     }
 }
 

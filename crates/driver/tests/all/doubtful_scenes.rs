@@ -3,9 +3,11 @@
 //! describe.
 
 use crate::common::{SANDWICH, varied};
-use asperity_driver::plan::{self, ScenePlan};
-use asperity_driver::report::{Outcome, RunReport, Stop};
+use asperity_driver::kinds::{self, ScenePlan};
+use asperity_driver::plan;
+use asperity_driver::report::{Outcome, Stop};
 use asperity_driver::run;
+use asperity_driver::run::RunReport;
 use asperity_driver::scene;
 use asperity_driver::warning::{Place, Warning};
 use asperity_output::Recorder;
@@ -33,7 +35,7 @@ fn file(name: &str) -> String {
 
 fn warnings(text: &str) -> Vec<Warning> {
     let scene = scene::read_in(text, &here("tests/meshes")).unwrap();
-    let mut warnings = match plan::plan_scene(&scene).unwrap() {
+    let mut warnings = match kinds::plan_scene(&scene).unwrap() {
         ScenePlan::Bodies(plan) => plan.summary().warnings.clone(),
         ScenePlan::Faults(plan) => plan.warnings.clone(),
         ScenePlan::Dynamic(mut plan) => plan.warnings_mut().to_vec(),

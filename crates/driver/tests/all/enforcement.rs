@@ -1,8 +1,9 @@
 //! Multipliers and bonded interfaces end to end: scenes with closed forms.
 
 use crate::common::{close, displacements, fields, planned, simulate, varied};
-use asperity_driver::report::{Outcome, RunReport};
+use asperity_driver::report::Outcome;
 use asperity_driver::run;
+use asperity_driver::run::RunReport;
 use asperity_output::Recorder;
 use asperity_vary::Change::With;
 

@@ -4,7 +4,7 @@ use crate::common::varied;
 use asperity_cycles::operator::{Both, Dense, Operator};
 use asperity_cycles::{Balance, Event, Moment, Rupture};
 use asperity_driver::fault::{Plan, Report};
-use asperity_driver::plan::{ScenePlan, plan_scene};
+use asperity_driver::kinds::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_ode::{Control, Method, Outcome};
 use asperity_vary::Change::{self, Add, With, WithOrSame, Without};

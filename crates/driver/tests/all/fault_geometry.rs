@@ -4,7 +4,7 @@ use crate::common::varied;
 use asperity_driver::diagnostic;
 use asperity_driver::diagnostic::Diagnostic;
 use asperity_driver::fault::Plan;
-use asperity_driver::plan::{ScenePlan, plan_scene};
+use asperity_driver::kinds::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_ode::Outcome;
 use asperity_vary::Change::With;

@@ -5,7 +5,7 @@ use crate::common::varied;
 use crate::resume::{folder, run, text};
 use asperity_cycles::Layout;
 use asperity_driver::fault::Plan;
-use asperity_driver::plan::{ScenePlan, plan_scene};
+use asperity_driver::kinds::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_vary::Change::{Add, With, Without};
 use std::fs;

@@ -4,7 +4,7 @@
 use crate::common::varied;
 use asperity_cycles::operator::Form;
 use asperity_driver::fault::{Plan, plan_with};
-use asperity_driver::plan::{ScenePlan, plan_scene};
+use asperity_driver::kinds::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_vary::Change::{self, With, Without};
 

@@ -5,7 +5,7 @@ use crate::common::varied;
 use asperity_cycles::{Balance, FaultRun, Moment};
 use asperity_driver::diagnostic::Diagnostic;
 use asperity_driver::fault::{Plan, Report};
-use asperity_driver::plan::{ScenePlan, plan_scene};
+use asperity_driver::kinds::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_ode::{Control, Outcome};
 use asperity_vary::Change::{self, Add, With, Without};

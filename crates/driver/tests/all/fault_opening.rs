@@ -3,7 +3,7 @@
 use crate::common::varied;
 use asperity_cycles::{Balance, FaultRun, Layout, Moment};
 use asperity_driver::fault::{Plan, Report};
-use asperity_driver::plan::{ScenePlan, plan_scene};
+use asperity_driver::kinds::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_ode::{Control, Outcome};
 use asperity_vary::Change::{Add, With, Without};

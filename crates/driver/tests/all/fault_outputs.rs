@@ -5,7 +5,7 @@ use crate::common::cycles::SCENE;
 use crate::common::varied;
 use asperity_cycles::{Event, FaultRun, Faults, Moment, Rupture, resume};
 use asperity_driver::fault::{Files, Plan, Position, Report, sheet};
-use asperity_driver::plan::{ScenePlan, plan_scene};
+use asperity_driver::kinds::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_ode::{Control, ObserveError, Observer};
 use asperity_output::plots::{Asked, EventPanel};
@@ -138,8 +138,10 @@ fn every_peak_stands_in_the_files_and_rows_come_by_change() {
         let found = rows.iter().map(|r| r[1]).fold(0.0, f64::max);
         assert!((found / event.peak - 1.0).abs() < 0.005, "{found} {}", event.peak);
     }
-    let largest = *seen.sizes.iter().max().unwrap();
-    assert!(largest < 3000, "what files keep in memory grows: {largest}");
+    // Numbers have more digits in some states than in others, but there are no more of them.
+    let (early, late) = seen.sizes.split_at(seen.sizes.len() / 2);
+    let [early, late] = [early, late].map(|sizes| *sizes.iter().max().unwrap());
+    assert!(late as f64 <= 1.1 * early as f64, "what files keep in memory grows: {early} {late}");
 }
 
 #[test]

@@ -5,7 +5,7 @@ use crate::common::varied;
 use asperity_cycles::Moment;
 use asperity_driver::dynamic::{self, AnyPlan};
 use asperity_driver::fault::Plan;
-use asperity_driver::plan::{ScenePlan, plan_scene};
+use asperity_driver::kinds::{ScenePlan, plan_scene};
 use asperity_driver::scene::{self, read_in};
 use asperity_ode::Control;
 use asperity_vary::Change::{self, Add, With, Without};

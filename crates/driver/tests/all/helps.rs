@@ -2,7 +2,7 @@
 
 use crate::common::varied;
 use asperity_driver::diagnostic::Diagnostic;
-use asperity_driver::plan::{self, ScenePlan};
+use asperity_driver::kinds::{self, ScenePlan};
 use asperity_driver::scene;
 use asperity_driver::warning::Warning;
 use asperity_vary::Change::{self, Add, With, Without};
@@ -76,7 +76,7 @@ fn b_bar(scene: &str) -> String {
 
 fn planned(text: &str) -> Result<Vec<Warning>, Diagnostic> {
     let scene = scene::read(text).unwrap_or_else(|e| panic!("{e:?}\n{text}"));
-    Ok(match plan::plan_scene(&scene)? {
+    Ok(match kinds::plan_scene(&scene)? {
         ScenePlan::Bodies(plan) => plan.summary().warnings.clone(),
         ScenePlan::Faults(plan) => plan.warnings.clone(),
         ScenePlan::Dynamic(mut plan) => plan.warnings_mut().to_vec(),

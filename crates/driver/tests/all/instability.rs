@@ -2,8 +2,9 @@
 //! variants run to their end.
 
 use crate::common::{SANDWICH, plain_evolutions, planned};
-use asperity_driver::report::{Outcome, RunReport, Stop};
+use asperity_driver::report::{Outcome, Stop};
 use asperity_driver::run;
+use asperity_driver::run::RunReport;
 use asperity_output::Recorder;
 use asperity_vary::Change::{Add, With};
 use asperity_vary::{Change, SceneText};

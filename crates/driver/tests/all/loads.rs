@@ -3,7 +3,8 @@
 
 use crate::common::{SANDWICH, varied};
 use asperity_driver::plan::{self, AnyPlan};
-use asperity_driver::report::{Outcome, RunReport};
+use asperity_driver::report::Outcome;
+use asperity_driver::run::RunReport;
 use asperity_driver::{run, scene, slider_planner};
 use asperity_output::Recorder;
 use asperity_vary::Change::{self, Add, Push, With, Without};

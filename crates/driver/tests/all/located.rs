@@ -116,7 +116,7 @@ fn uniform(text: &str, slip: f64) -> Located {
 /// The same with all components of slip.
 fn slipped(text: &str, components: &[f64]) -> Located {
     use asperity_cycles::{Components, Event, Rupture};
-    use asperity_driver::plan::{ScenePlan, plan_scene};
+    use asperity_driver::kinds::{ScenePlan, plan_scene};
     use asperity_ode::Clock;
     let plan = match plan_scene(&asperity_driver::scene::read(text).unwrap()).unwrap() {
         ScenePlan::Faults(plan) => *plan,

@@ -2,7 +2,7 @@
 
 use crate::resume::{assert_same, folder, run, text};
 use asperity_driver::fault::Plan;
-use asperity_driver::plan::{ScenePlan, plan_scene};
+use asperity_driver::kinds::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_vary::SceneText;
 use std::fs;

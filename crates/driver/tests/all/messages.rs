@@ -45,7 +45,7 @@ pub fn refusal(text: &str) -> Option<Diagnostics> {
     }
     match scene::read_in(text, &meshes) {
         Err(errors) => Some(errors),
-        Ok(scene) => asperity_driver::plan::plan_scene(&scene).err().map(Diagnostics::from),
+        Ok(scene) => asperity_driver::kinds::plan_scene(&scene).err().map(Diagnostics::from),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Plates as Slab2 publishes them: grids of heights in km in netCDF-4, longitudes from 0 to 360, NaN beside the plate.
 
 use asperity_driver::fault::Plan;
-use asperity_driver::plan::{ScenePlan, plan_scene};
+use asperity_driver::kinds::{ScenePlan, plan_scene};
 use asperity_driver::scene::read_in;
 use asperity_vary::Change::{Add, With};
 use std::path::Path;

@@ -1,7 +1,7 @@
 //! `report.json` of every kind of run conforms to the schema that the book publishes.
 #![allow(clippy::disallowed_methods, clippy::print_stdout)]
 
-use asperity_driver::report::schema::schema;
+use asperity_driver::cli::schema::schema;
 use jsonschema::Validator;
 use serde_json::Value;
 use std::fs;

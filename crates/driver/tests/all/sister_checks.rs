@@ -2,7 +2,7 @@
 
 use crate::common::{SANDWICH, cycles};
 use crate::dynamic;
-use asperity_driver::plan::{self, ScenePlan};
+use asperity_driver::kinds::{self, ScenePlan};
 use asperity_driver::scene;
 use asperity_driver::scene::reader::is_slider;
 use asperity_driver::slider_planner;
@@ -92,7 +92,7 @@ fn said(text: &str) -> Vec<String> {
         Ok(scene) => scene,
         Err(errors) => return errors.0.iter().map(ToString::to_string).collect(),
     };
-    let warnings = match plan::plan_scene(&scene) {
+    let warnings = match kinds::plan_scene(&scene) {
         Ok(ScenePlan::Bodies(plan)) => plan.summary().warnings.clone(),
         Ok(ScenePlan::Faults(plan)) => plan.warnings.clone(),
         Ok(ScenePlan::Dynamic(plan)) => plan.warnings().to_vec(),

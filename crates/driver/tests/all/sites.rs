@@ -1,7 +1,7 @@
 //! Receivers and sites at the free surface, with faults that are curved and creep.
 
 use asperity_driver::fault::Plan;
-use asperity_driver::plan::{ScenePlan, plan_scene};
+use asperity_driver::kinds::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use std::fmt::Write as _;
 use std::path::Path;

@@ -4,7 +4,8 @@
 use crate::common::{displacements, fields, planned, simulate};
 use asperity_driver::diagnostic::Diagnostic;
 use asperity_driver::plan;
-use asperity_driver::report::{Outcome, RunReport};
+use asperity_driver::report::Outcome;
+use asperity_driver::run::RunReport;
 use asperity_driver::{run, scene};
 use asperity_output::Recorder;
 use std::path::Path;

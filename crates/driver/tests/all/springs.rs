@@ -1,7 +1,8 @@
 //! Sets that springs draw, against closed forms.
 
 use crate::common::{close, coarse_sandwich, displacements, simulate, varied};
-use asperity_driver::report::{RunReport, SpringResult};
+use asperity_driver::report::SpringResult;
+use asperity_driver::run::RunReport;
 use asperity_vary::Change::{Add, With, Without};
 
 const YOUNG: f64 = 10e9;

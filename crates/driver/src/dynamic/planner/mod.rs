@@ -11,16 +11,16 @@ mod steps;
 pub use rupture::ruptures;
 
 use super::plan::{AnyPlan, Plan};
+use crate::checks::of_model::{self, field_bytes};
 use crate::checks::{Cost, rates};
 use crate::diagnostic::Diagnostic;
 use crate::fault::planner::{self as of_faults, Meshed};
-use crate::forecast;
 use crate::held::Held;
 use crate::loading;
-use crate::model::checks::field_bytes;
+use crate::loading::courses;
+use crate::model::forecast;
 use crate::model::{self, Model, counts, cuts, locking, meshes};
 use crate::outrun;
-use crate::plan::courses;
 use crate::scene::model::{Kinematics, Scene};
 use crate::thresholds;
 use crate::views;
@@ -84,7 +84,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     notes.extend(outputs::notes(scene, counted.cadence.rows as f64 * counted.dt));
     let memory_bytes = Held::by(&model).in_steps(stable.highest.kept, model.dofs());
     forecast::fits(scene, memory_bytes)?;
-    let mut checks = model::checks::of(scene, &model)?;
+    let mut checks = of_model::of(scene, &model)?;
     let prescribed = of_faults::checks::counted(scene, &locked);
     checks.faults = of_faults::checks::faults(scene, (&placed, &prescribed), &faults, &resolution);
     checks.cost = cost(&model, &counted, points.len(), memory_bytes);

@@ -4,18 +4,19 @@ use super::super::bodies::BodiesView;
 use super::super::cadence::{self, Cadence};
 use super::super::plan::{FaultView, Plan, PointView, Station};
 use super::super::receivers::Receivers;
-use super::super::resolution::Resolution;
 use super::super::sampling::Sampling;
 use super::super::stresses::BodyStresses;
 use super::cells::Cells;
 use super::placed::{Placed, components, in_space, slides};
 use super::pulses::{self, pulses};
-use super::{asked, checks, floor, frame, heated, pressing, radiation, sense, start_doubts, steady, upright};
+use super::{asked, checks, floor, heated, pressing, radiation, sense, start_doubts, steady, upright};
 use crate::checks::{Checks, Cost, FaultCheck, rates};
 use crate::diagnostic::Diagnostic;
 use crate::doubts::Fluid;
 use crate::laws::{self, Theta};
 use crate::outrun;
+use crate::place;
+use crate::resolution::Resolution;
 use crate::scene::law::LawChoice;
 use crate::scene::model::{
     Creep, Fault as Spec, Flux, Injection as Well, Scene, SlipSpec, Station as Asking,
@@ -159,7 +160,7 @@ pub(super) fn plan_of<const D: usize>(
         coulomb: None,
         platform: None,
         slow: thresholds::slow(scene.events.as_ref()),
-        up: frame::up(scene),
+        up: place::up(scene),
         medium: around.medium,
         dofs: around.dofs,
         creeping: around.creeping,
@@ -167,7 +168,7 @@ pub(super) fn plan_of<const D: usize>(
         bodies: around.bodies,
         sampling: around.sampling,
         stresses: around.stresses,
-        frame: frame::of(scene, D == 3)?,
+        frame: place::of(scene, D == 3)?,
         in_space: D == 3,
         kinematics: scene.kinematics.get_ref().words(),
         resolution: around.resolution,

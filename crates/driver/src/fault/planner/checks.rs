@@ -1,13 +1,14 @@
 //! Checks of faults: their points, and what profiles, patches and stations reach.
 
 use super::asked::lists;
-use super::critical::critical_slope;
 use super::patches::weight;
 use super::placed::{Placed, along};
-use super::resolution::Ground;
+use crate::checks::of_model::{Driven, body_name};
 use crate::checks::{FaultCheck, MachineCheck, PatchCheck, ProfileCheck, StationCheck};
-use crate::fault::{FaultView, Resolution, Station};
-use crate::model::checks::{Driven, body_name};
+use crate::fault::{FaultView, Station};
+use crate::resolution::Ground;
+use crate::resolution::Resolution;
+use crate::resolution::critical_slope;
 use crate::scene::model::{Fault as Spec, Patch, Profile, Scene};
 
 /// Number of points of each fault.

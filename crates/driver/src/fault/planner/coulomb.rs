@@ -1,8 +1,8 @@
 //! Direction of the planes on which changes of Coulomb stress are resolved.
 
 use super::super::coulomb::ReceiverPlane;
-use super::frame;
 use crate::diagnostic::Diagnostic;
+use crate::place;
 use crate::scene::model::{CoulombSpec, Scene};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -46,7 +46,7 @@ fn exact(angle: f64) -> (f64, f64) {
 /// Directions east, north and up in the axes of the scene, as columns. Without a place on Earth x points to the north and z to
 /// the east, as maps show them.
 fn directions(scene: &Scene) -> Result<Matrix3<f64>, Diagnostic> {
-    let Some(frame) = frame::of(scene, true)? else {
+    let Some(frame) = place::of(scene, true)? else {
         return Ok(Matrix3::from_columns(&[Vector3::z(), Vector3::x(), Vector3::y()]));
     };
     Ok(frame.axes.transpose())

@@ -5,10 +5,10 @@
 //! causes the tractions, and from either side the displacements, of a uniform medium with `G = 2 G⁺ G⁻/(G⁺ + G⁻)` (exact in antiplane motion).
 //! Moments use that G.
 
-use super::resolution;
 use crate::diagnostic::Diagnostic;
 use crate::impedance::{self, radiated};
 use crate::model::{self, Model};
+use crate::resolution;
 use crate::scene::model::{Fault as Spec, Scene};
 use asperity_cycles::medium::Place;
 use asperity_fem::mesh::Side;

@@ -1,10 +1,11 @@
 //! Resolution of all faults of a scene.
 
-use super::super::resolution::Resolution;
+use super::floor;
 use super::placed::Placed;
-use super::{floor, resolution};
 use crate::diagnostic::Diagnostic;
 use crate::doubts;
+use crate::resolution;
+use crate::resolution::Resolution;
 use crate::scene::model::Scene;
 use crate::warning::Warning;
 use resolution::Ground;

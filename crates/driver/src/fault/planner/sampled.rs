@@ -5,7 +5,7 @@ use crate::diagnostic::Diagnostic;
 use crate::initial_stress;
 use crate::loading::{Spring, Stage};
 use crate::model;
-use crate::plan::samples;
+use crate::model::samples;
 use crate::scene::model::{Scene, Stepper};
 use crate::views;
 use asperity_cycles::medium::Pressed;

@@ -1,9 +1,9 @@
 //! Doubts about the direction up of a scene with a place on Earth.
 
-use super::frame;
 use super::placed::{Placed, in_space};
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
+use crate::place;
 use crate::scene::model::{Scene, Spanned};
 use crate::warning::Warning;
 use asperity_fem::surface;
@@ -30,7 +30,7 @@ pub(super) fn above_ground<const D: usize>(
     scene: &Scene,
     placed: &[Placed<D>],
 ) -> Result<Option<Warning>, Diagnostic> {
-    let (Some(span), Some(frame)) = (place(scene), frame::of(scene, D == 3)?) else { return Ok(None) };
+    let (Some(span), Some(frame)) = (place(scene), place::of(scene, D == 3)?) else { return Ok(None) };
     let height = |p: &Placed<D>| frame.height(&in_space(&p.point.place.at));
     let highest = placed.iter().map(|p| (height(p), p.fault)).reduce(|a, b| if b.0 > a.0 { b } else { a });
     let found = highest.filter(|(height, _)| *height > HIGHEST);

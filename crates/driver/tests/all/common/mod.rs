@@ -5,7 +5,8 @@ pub mod sliders;
 pub mod written;
 
 use asperity_driver::plan::{self, AnyPlan};
-use asperity_driver::report::{Outcome, RunReport};
+use asperity_driver::report::Outcome;
+use asperity_driver::run::RunReport;
 use asperity_driver::{run, scene};
 use asperity_friction::evolution::definitions;
 use asperity_output::Recorder;

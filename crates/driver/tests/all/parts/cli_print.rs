@@ -1,4 +1,4 @@
-use asperity_driver::report::text::*;
+use asperity_driver::run::text::*;
 
 #[test]
 fn vectors_are_printed_to_seven_digits_of_the_largest_component() {

@@ -1,5 +1,5 @@
 use asperity_driver::fault::cadence::*;
-use asperity_driver::fault::words::YEAR;
+use asperity_driver::words::YEAR;
 
 const CADENCE: Cadence = Cadence {
     decades: 0.125,

@@ -1,4 +1,4 @@
-use asperity_driver::fault::planner::resolution::*;
+use asperity_driver::resolution::*;
 use asperity_driver::scene::law::LawChoice;
 use asperity_driver::scene::law::{Evolution, Form, State, Strength};
 use asperity_fem::element::FaceKind;

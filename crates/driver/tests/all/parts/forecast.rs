@@ -1,4 +1,4 @@
-use asperity_driver::forecast::*;
+use asperity_driver::model::forecast::*;
 use asperity_fem::assembly::Lower;
 use asperity_fem::dof::Constraints;
 use asperity_fem::element::ElementKind;

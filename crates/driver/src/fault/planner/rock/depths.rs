@@ -1,8 +1,8 @@
 //! Faults in space that are given by depths on a map, such as the interface of two plates.
 
-use super::super::frame;
 use crate::diagnostic::Diagnostic;
 use crate::model::surfaces;
+use crate::place;
 use crate::scene::model::{DepthTriangles, Scene};
 use asperity_fem::mesh::netcdf;
 use asperity_fem::mesh::sheet::{self, Depths, Sheet, SheetError};
@@ -20,7 +20,7 @@ pub(super) fn triangles(
     (name, spec): (&str, &DepthTriangles),
     bytes: &[u8],
 ) -> Result<(Triangles, String), Diagnostic> {
-    let Some(frame) = frame::of(scene, true)? else {
+    let Some(frame) = place::of(scene, true)? else {
         return Err(Diagnostic::at(spec.file.span(), "depths on a map need a `[place]`", PLACE));
     };
     let refuse = |error: SheetError| refused(spec, &error);

@@ -1,12 +1,12 @@
 //! Positions of horizontal maps, and those on the free surface of a half-space whose displacement over each event is written.
 
-use super::super::super::frame::Frame;
 use super::super::super::free_surface::{FreeSurface, SurfaceAxes};
 use super::super::super::receivers::{Receiver, Receivers};
-use super::super::frame;
 use super::super::placed::{Placed, in_space};
 use super::receivers;
 use crate::diagnostic::Diagnostic;
+use crate::place;
+use crate::place::Frame;
 use crate::scene::model::{AngleExtent, Extent, Scene, Spanned, SurfaceSpec};
 use asperity_cycles::medium::patches::Patches;
 use asperity_fem::material::elastic::Elastic;
@@ -88,7 +88,7 @@ pub(super) fn positions<const D: usize>(
     placed: &[Placed<D>],
 ) -> Result<(SurfaceAxes, Vec<[f64; 3]>), Diagnostic> {
     let spec = map.get_ref();
-    let frame = frame::of(scene, D == 3)?;
+    let frame = place::of(scene, D == 3)?;
     let around = [0, 2].map(|axis| around(placed, axis, spec.spacing.get_ref().0));
     let given = |extent: &Option<Spanned<Extent>>| extent.as_ref().and_then(|e| ends(e.get_ref()));
     let [x, z] = [(&spec.x, 0), (&spec.z, 1)].map(|(extent, k)| given(extent).unwrap_or(around[k]));

@@ -1,10 +1,10 @@
 //! Sites on Earth as receivers in the free surface.
 
-use super::super::super::frame::Frame;
-use super::super::frame;
 use crate::columns::file::{read, refused};
 use crate::columns::{Columns, Wrong};
 use crate::diagnostic::Diagnostic;
+use crate::place;
+use crate::place::Frame;
 use crate::scene::model::Scene;
 use crate::scene::units::Dimension;
 use std::collections::BTreeSet;
@@ -21,7 +21,7 @@ const FARTHEST: f64 = 900e3;
 /// # Errors
 /// [`Diagnostic`] at a site that is far from the origin, or at a file that cannot be read.
 pub(super) fn of(scene: &Scene, in_space: bool) -> Result<Vec<Given>, Diagnostic> {
-    let Some(frame) = frame::of(scene, in_space)? else { return Ok(Vec::new()) };
+    let Some(frame) = place::of(scene, in_space)? else { return Ok(Vec::new()) };
     let mut all = Vec::new();
     for (name, site) in &scene.output.sites {
         let [longitude, latitude] =

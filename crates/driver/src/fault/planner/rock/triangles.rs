@@ -1,13 +1,13 @@
 //! Faults in space that are surfaces of triangles.
 
 use super::super::super::plan::Outline;
-use super::super::super::resolution::Resolution;
 use super::super::place::directions;
 use super::super::placed::in_space;
 use super::depths;
 use super::tiling::{Cut, Tiling, buried, in_dimension};
 use crate::diagnostic::Diagnostic;
 use crate::model::surfaces;
+use crate::resolution::Resolution;
 use crate::scene::model::{Fault as Spec, FaultTriangles, Scene};
 use crate::warning::Warning;
 use asperity_cycles::kernel::{KernelError, Space, Triangle};

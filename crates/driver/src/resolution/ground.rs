@@ -16,13 +16,13 @@
 //!
 //! Only points that weaken, b > a, are considered. f_n is the initial normal traction.
 
-use super::super::resolution::{Coarsest, ENOUGH, FEW, Resolution, TOO_FEW};
-use super::super::words::length;
+use super::{Coarsest, ENOUGH, FEW, Resolution, TOO_FEW};
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
 use crate::scene::law::LawChoice;
 use crate::scene::model::{Fault as Spec, UnderResolved};
 use crate::warning::Warning;
+use crate::words::length;
 use asperity_cycles::medium::Place;
 use asperity_fem::element::FaceKind;
 use asperity_fem::kinematics::Idealisation;
@@ -168,7 +168,7 @@ pub fn modulus(idealisation: Idealisation, shear: f64, poisson: f64) -> f64 {
 ///
 /// # Errors
 /// [`Diagnostic`] if they are too few and the scene does not allow it.
-pub(super) fn check(found: &Resolution, spec: &Spec, in_space: bool) -> Result<Option<Warning>, Diagnostic> {
+pub(crate) fn check(found: &Resolution, spec: &Spec, in_space: bool) -> Result<Option<Warning>, Diagnostic> {
     let zone = &found.cohesive_zone;
     if zone.points >= FEW {
         return Ok(None);

@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 
 /// Geographic position and epoch, as given in the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Origin {
+pub(crate) struct Origin {
     /// Time zero.
     pub epoch: Timestamp,
     /// Degrees north.
@@ -32,16 +32,16 @@ pub struct Frame {
     /// Depth of the origin of coordinates \[m\].
     depth: f64,
     /// Axes of the scene in east, north and up, as columns.
-    pub(super) axes: Matrix3<f64>,
+    pub(crate) axes: Matrix3<f64>,
     /// Length out of the plane \[m\]; 1 in 3D.
-    pub(super) length: Option<f64>,
+    pub(crate) length: Option<f64>,
 }
 
 impl Frame {
     /// Frame of a scene. A 2D scene is viewed along the strike: x to the right of it, y up. In 3D, `vertical` holds the directions up and along the
     /// strike.
     #[must_use]
-    pub(super) fn new(origin: &Origin, strike: f64, vertical: Option<[[f64; 3]; 2]>) -> Self {
+    pub(crate) fn new(origin: &Origin, strike: f64, vertical: Option<[[f64; 3]; 2]>) -> Self {
         let (sine, cosine) = strike.sin_cos();
         let (right, along, up) =
             (Vector3::new(cosine, -sine, 0.0), Vector3::new(sine, cosine, 0.0), Vector3::z());
@@ -67,19 +67,19 @@ impl Frame {
     }
 
     /// Geographic position of a point of the scene.
-    pub(super) fn spot(&self, at: &[f64; 3]) -> Spot {
+    pub(crate) fn spot(&self, at: &[f64; 3]) -> Spot {
         let offset = self.axes * Vector3::from(*at);
         let (longitude, latitude) = self.map().degrees([offset.x, offset.y]);
         Spot { latitude, longitude, depth: self.depth - offset.z }
     }
 
     /// Height of a point of the scene above sea level \[m\].
-    pub(super) fn height(&self, at: &[f64; 3]) -> f64 {
+    pub(crate) fn height(&self, at: &[f64; 3]) -> f64 {
         self.axes.row(2).iter().zip(at).map(|(up, x)| up * x).sum::<f64>() - self.depth
     }
 
     /// Position in the scene of a depth \[m\] below a position east and north of the origin \[m\].
-    pub(super) fn position(&self, [east, north]: [f64; 2], depth: f64) -> [f64; 3] {
+    pub(crate) fn position(&self, [east, north]: [f64; 2], depth: f64) -> [f64; 3] {
         (self.axes.transpose() * Vector3::new(east, north, self.depth - depth)).into()
     }
 
@@ -89,7 +89,7 @@ impl Frame {
     }
 
     /// Position in the scene at the height of the origin, at these distances east and north of it \[m\].
-    pub(super) fn level(&self, at: [f64; 2]) -> [f64; 3] {
+    pub(crate) fn level(&self, at: [f64; 2]) -> [f64; 3] {
         self.position(at, self.depth)
     }
 

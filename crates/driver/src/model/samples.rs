@@ -1,7 +1,7 @@
 //! Points and sets whose values a scene requests, located in the bodies.
 
+use super::{self as model, Model};
 use crate::diagnostic::Diagnostic;
-use crate::model::{self, Model};
 use crate::scene::model::{PointSpec, Scene, Spanned};
 use asperity_fem::mesh::locate;
 use asperity_mechanics::coordinates::in_words;

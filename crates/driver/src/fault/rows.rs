@@ -2,7 +2,6 @@
 
 use super::cadence::{Cadence, Gauge, Reading};
 use super::plan::Plan;
-use super::{forces, largest, locking, moments, profiles, receivers, sampling, stations, surface_profiles};
 use crate::keep;
 use asperity_cycles::{Faults, Moment};
 use asperity_output::{Growing, OutputError};
@@ -25,18 +24,6 @@ pub(super) enum Course {
         /// True if there is none in events.
         between_events: bool,
     },
-}
-
-/// All tables of a plan that grow during the run.
-pub(super) fn all(plan: &Plan) -> Vec<Table<'_>> {
-    let mut all = vec![largest::table(plan), moments::table(plan), forces::table(plan)];
-    all.extend(locking::table(plan));
-    all.extend(profiles::tables(plan));
-    all.extend(surface_profiles::tables(plan));
-    all.extend(receivers::tables(&plan.receivers));
-    all.extend(sampling::tables(plan));
-    all.extend(stations::tables(plan));
-    all
 }
 
 /// The end of a step, and its start if the method provides it.

@@ -1,7 +1,7 @@
 //! JSON Schema of `report.json`.
 
-use super::RunReport;
-use super::common::{Kind, Report, Results, SCHEMA, Sketch};
+use crate::report::common::{Kind, Report, Results, SCHEMA, Sketch};
+use crate::run::RunReport;
 use crate::{dynamic, fault, slider};
 use schemars::generate::{SchemaGenerator, SchemaSettings};
 use schemars::{JsonSchema, Schema};

@@ -1,32 +1,22 @@
-//! Report of a run of bodies, `report.json`: its results and its work. The part common to all reports is in [`common`].
+//! Report of a run of bodies, `report.json`: its results and its work.
 
-pub mod common;
-mod energy;
-mod passages;
-pub mod schema;
-pub mod text;
-
+use super::passages::Passage;
 use crate::balance::InterfaceBalance;
 use crate::catalogue::{Entry, FaultEvents};
 use crate::checks::Checks;
 use crate::cohesive;
 use crate::plan::{EventPlan, Plan, Sites, Summary};
+use crate::report::{
+    Budget, ForceResult, Kind, Outcome, Phases, PointResult, SpringResult, results as common,
+};
 use crate::views;
 use crate::warning::Warning;
 use asperity_cycles::{ALL, Catalogue, Rupture, Thresholds};
 use asperity_mechanics::{PlannedInterface, Stage};
-use asperity_output::view::{
-    Counts, ForceMark, InterfaceFields, PointMark, PointValues, Samples, SpringMark, SpringValues, StepRecord,
-};
+use asperity_output::view::{Counts, InterfaceFields, Samples, StepRecord};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
-
-pub(crate) use common::results;
-pub use common::{Kind, Outcome, Phases, Results, Status, Stop, Work};
-pub use energy::{Budget, Closure, EnergyBalance, EnergyTable};
-pub use passages::Passage;
-pub(crate) use passages::{doubts as passage_doubts, of as passages};
 
 /// Values of an interface at the end of a stage.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -49,48 +39,6 @@ pub struct InterfaceResult {
     pub friction: [f64; 2],
     /// Number of open, sticking and slipping points.
     pub status: [usize; 3],
-}
-
-/// Values at a point of a body at the end of a stage.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct PointResult {
-    /// Point.
-    #[serde(flatten)]
-    pub point: PointMark,
-    /// Stage.
-    pub stage: String,
-    /// Values.
-    #[serde(flatten)]
-    pub values: PointValues,
-}
-
-/// Force on a set at the end of a stage.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ForceResult {
-    /// Set.
-    #[serde(flatten)]
-    pub force: ForceMark,
-    /// Stage.
-    pub stage: String,
-    /// Force acting on the body through the nodes of the set.
-    pub value: [f64; 3],
-    /// Unit of the force: N, or N/m of thickness.
-    pub unit: String,
-}
-
-/// State of a spring at the end of a stage.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct SpringResult {
-    /// Spring.
-    #[serde(flatten)]
-    pub spring: SpringMark,
-    /// Stage.
-    pub stage: String,
-    /// Values.
-    #[serde(flatten)]
-    pub values: SpringValues,
-    /// Unit of the force: N, or N/m of thickness.
-    pub unit: String,
 }
 
 /// Events of interfaces.
@@ -172,19 +120,13 @@ pub struct RunReport {
     pub seconds: Phases,
 }
 
-results!(RunReport, Kind::Bodies);
+common!(RunReport, Kind::Bodies);
 
 impl RunReport {
     /// Empty report of a plan.
     #[must_use]
     pub fn new<const D: usize>(plan: &Plan<D>) -> Self {
         Self { plan: plan.summary.clone(), checks: plan.checks.clone(), ..Self::default() }
-    }
-
-    /// Summary to be read at the end of the run.
-    #[must_use]
-    pub fn text(&self) -> String {
-        text::of(self)
     }
 
     /// Adds the values known at the end.
@@ -247,7 +189,7 @@ pub(crate) fn forces<const D: usize>(plan: &Plan<D>, stage: &Stage, samples: &Sa
         force: views::force_mark(force),
         stage: stage.name.clone(),
         value: *value,
-        unit: views::force_unit(plan).to_string(),
+        unit: views::force_unit(plan.problem.model.idealisation).to_string(),
     })
     .collect()
 }
@@ -260,7 +202,7 @@ pub(crate) fn springs<const D: usize>(plan: &Plan<D>, stage: &Stage, samples: &S
         spring,
         stage: stage.name.clone(),
         values,
-        unit: views::force_unit(plan).to_string(),
+        unit: views::force_unit(plan.problem.model.idealisation).to_string(),
     };
     pulling.map(of).collect()
 }

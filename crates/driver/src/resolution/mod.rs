@@ -1,6 +1,13 @@
 //! Resolution of the length scales of friction by the points of a fault.
 
-use super::words::length;
+mod critical;
+mod ground;
+
+pub use critical::critical_slope;
+pub(crate) use ground::check;
+pub use ground::{Ground, links, modulus, of_points, spacings};
+
+use crate::words::length;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -56,7 +63,7 @@ impl Resolution {
 }
 
 impl Coarsest {
-    pub(super) fn place(&self, in_space: bool) -> String {
+    pub(crate) fn place(&self, in_space: bool) -> String {
         let [x, y, z] = self.at;
         if in_space {
             format!("({}, {}, {})", length(x), length(y), length(z))

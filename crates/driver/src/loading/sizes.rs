@@ -1,9 +1,9 @@
 //! Checks the sizes of bodies whose meshes come from files. If their unit was omitted, they may be a thousand times too
 //! large.
 
-use super::{Body, Model, bounds};
+use super::Stage;
 use crate::lengths::brief;
-use crate::loading::Stage;
+use crate::model::{Body, Model, bounds};
 use crate::scene::model::{MeshSource, Scene, Spanned};
 use crate::warning::Warning;
 use std::ops::Range;

@@ -1,9 +1,9 @@
 //! Checks of bodies and of the sets that a scene uses.
 
-use super::{Model, bounds, counts, nodes};
-use crate::checks::{BodyCheck, Checks, SetCheck};
+use super::{BodyCheck, Checks, SetCheck};
 use crate::diagnostic::Diagnostic;
-use crate::forecast::Counts;
+use crate::model::forecast::Counts;
+use crate::model::{Model, bounds, counts, nodes};
 use crate::scene::model::{Condition, Motion, Scene, Spanned};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;

@@ -1,10 +1,18 @@
 //! Results of a run of bodies as text.
 
-use super::{Passage, RunReport};
+use super::passages::Passage;
+use super::report::RunReport;
 use asperity_output::decimals::fixed;
 
-/// Summary to be read at the end of a run of bodies.
-pub(super) fn of(report: &RunReport) -> String {
+impl RunReport {
+    /// Summary to be read at the end of the run.
+    #[must_use]
+    pub fn text(&self) -> String {
+        of(self)
+    }
+}
+
+fn of(report: &RunReport) -> String {
     let mut text = String::new();
     text.push_str(&format!("results\n"));
     for r in &report.results {

@@ -1,6 +1,12 @@
 //! Geographic frame of a scene.
 
-use super::super::frame::{Frame, Origin};
+mod frame;
+mod map;
+
+pub use frame::Frame;
+pub(crate) use frame::Origin;
+pub(crate) use map::Map;
+
 use crate::diagnostic::Diagnostic;
 use crate::scene::model::{MediumKind, Scene};
 use asperity_scene::upright::Axes;

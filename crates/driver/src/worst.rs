@@ -1,8 +1,6 @@
 //! Warnings about results outside the assumptions of the model: strain, rotation and slip that are not small, and contacts that never closed.
 
 use crate::lengths::brief;
-use crate::plan::Plan;
-use crate::report::InterfaceResult;
 use crate::warning::Warning;
 use asperity_contact::Sliding;
 use asperity_fem::element::ElementKind;
@@ -10,7 +8,7 @@ use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::Cells;
 use asperity_fem::mesh::MeshFace;
 use asperity_fem::nonlinear::Kinematics;
-use asperity_mechanics::{CellBlock, Model, Path, PlannedInterface};
+use asperity_mechanics::{CellBlock, Model, Path, PlannedInterface, Problem};
 use asperity_output::view::InterfaceFields;
 use nalgebra::{DMatrix, SymmetricEigen};
 use serde::{Deserialize, Serialize};
@@ -57,7 +55,7 @@ impl Worst {
     /// which costs a solution where bodies are condensed: then slip and tractions tell whether it is worth it.
     pub fn see<const D: usize>(
         &mut self,
-        (plan, time): (&Plan<D>, f64),
+        (problem, time): (&Problem<D>, f64),
         fields: &[InterfaceFields],
         displacement: &dyn Fn() -> Vec<f64>,
         last: bool,
@@ -68,7 +66,7 @@ impl Worst {
             *slid = slid.max(largest(&mut f.relative_displacement.iter().copied()));
         }
         let traction = largest(&mut fields.iter().flat_map(|f| f.normal_traction.iter().copied()));
-        let condensed = plan.problem.path == Path::Condensed;
+        let condensed = problem.path == Path::Condensed;
         let (size, u) = if condensed {
             (self.slid.iter().copied().fold(0.0, f64::max), None)
         } else {
@@ -80,7 +78,7 @@ impl Worst {
             return;
         }
         self.judged = [self.judged[0].max(size), self.judged[1].max(traction)];
-        self.judge((&plan.problem.model, time), &u.unwrap_or_else(displacement));
+        self.judge((&problem.model, time), &u.unwrap_or_else(displacement));
     }
 
     /// Sees displacements of a model \[m\] at a time \[s\].
@@ -101,9 +99,9 @@ impl Worst {
 
     /// Warnings about the stage.
     #[must_use]
-    pub fn warnings<const D: usize>(&self, plan: &Plan<D>, stage: &str) -> Vec<Warning> {
-        let model = &plan.problem.model;
-        let interfaces = plan.problem.interfaces.iter().zip(&self.slid);
+    pub fn warnings<const D: usize>(&self, problem: &Problem<D>, stage: &str) -> Vec<Warning> {
+        let model = &problem.model;
+        let interfaces = problem.interfaces.iter().zip(&self.slid);
         let dragged = interfaces.filter_map(|(i, slid)| dragged(model, i, stage, *slid));
         self.of_bodies(model, stage).chain(dragged).collect()
     }
@@ -263,24 +261,4 @@ fn face_size<const D: usize>(model: &Model<D>, faces: &[MeshFace]) -> f64 {
         (0..D).map(|c| (a[c] - b[c]).powi(2)).sum::<f64>().sqrt()
     };
     faces.iter().map(edge).sum::<f64>() / faces.len().max(1) as f64
-}
-
-/// Warnings about interfaces that were open at the end of every stage.
-#[must_use]
-pub fn never_closed(results: &[InterfaceResult]) -> Vec<Warning> {
-    let mut names: Vec<&str> = results.iter().map(|r| r.interface.as_str()).collect();
-    names.sort_unstable();
-    names.dedup();
-    let open = |name: &&str| {
-        let mut own = results.iter().filter(|r| r.interface == *name);
-        own.all(|r| r.status[1] + r.status[2] == 0)
-    };
-    let told = |name: &str| {
-        Warning::at(
-            0..0,
-            format!("interface `{name}` was open at the end of every stage and transmitted nothing"),
-            "is the gap at the start right, and do the bodies move towards each other?",
-        )
-    };
-    names.into_iter().filter(open).map(told).collect()
 }
