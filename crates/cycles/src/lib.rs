@@ -1,57 +1,32 @@
 #![doc = include_str!("../README.md")]
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
-mod below;
-mod catalogue;
-mod components;
-mod cycle;
-mod deficit;
-mod energy;
-mod episode;
+mod accounts;
+mod course;
 mod equations;
 mod error;
-mod fault_run;
-mod floor;
-mod follow;
-mod front;
-pub mod heat;
 pub mod kernel;
-mod loading;
 pub mod medium;
-mod moment;
-mod opened;
-mod opening;
 pub mod operator;
-mod pressure;
-mod problem;
-mod pulse;
-mod run;
-mod rupture;
-mod settle;
+pub mod problem;
+pub mod processes;
 pub mod slider;
-mod warmed;
-mod waves;
 
-pub use below::{Below, Used};
-pub use catalogue::{Catalogue, Event, Thresholds};
-pub use components::{Components, PerPoint};
-pub use cycle::{RESTART, Settings, resume, resume_with, run};
-pub use deficit::deficit;
-pub use energy::{Balance, Energy, Mark, Sums, steady};
-pub use equations::{Equations, Fault, Layout, Pressed};
+pub use accounts::{
+    ALL, Balance, Catalogue, Crossing, Detector, Ends, Energy, Event, Front, Mark, Moment, Rupture, Sums,
+    Values, steady,
+};
+pub use course::{
+    Dynamics, Episode, FaultRun, Faults, Handover, NextStep, Outrun, RESTART, Run, Shaken, Start, Waves,
+    resume, resume_with, run,
+};
+pub use equations::Equations;
 pub use error::RunError;
-pub use fault_run::{ALL, FaultRun, Outrun};
-pub use floor::Floor;
-pub use front::Front;
-pub use loading::Loading;
-pub use moment::{Ends, Faults, Moment};
-pub use opened::{Opened, Widest};
-pub use opening::{Crack, Opening};
-pub use pressure::{Injection, Pressure};
-pub use problem::Problem;
-pub use pulse::Pulse;
-pub use run::{NextStep, Run};
-pub use rupture::{Crossing, Detector, Rupture, Values};
+pub use problem::{
+    Components, Fault, Layout, Loading, PerPoint, Pressed, Problem, Processes, Settings, Thresholds,
+};
+pub use processes::{
+    BODIES, Below, Crack, Floor, Injection, OPENING, Opened, Opening, Pressure, Pulse, Used, Widest, deficit,
+    heat,
+};
 pub use slider::ANY_ROCK;
-pub use warmed::{Warmed, Warmest};
-pub use waves::{Dynamics, Episode, Handover, Shaken, Start, Waves};

@@ -1,5 +1,6 @@
 //! Catalogue of events of faults and interfaces: its entries, and the table of them.
 
+use asperity_cycles::heat::TEMPERATURE;
 use asperity_cycles::{Event, Rupture};
 use asperity_output::decimals::shortest;
 use asperity_output::located::Located;
@@ -113,7 +114,7 @@ impl Entry {
             magnitude: None,
             rupture_length: None,
             stress_drop: over(&work) / potency,
-            largest_temperature: event.details.hottest,
+            largest_temperature: event.details.largest(&TEMPERATURE),
             direction: None,
             turned: None,
             located: None,

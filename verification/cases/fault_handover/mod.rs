@@ -72,7 +72,7 @@ fn slabs(scene: SceneText, width: f64) -> Result<Slabs, CaseError> {
     let (found, episodes) = seas::found_with_mass(&mut plan, |now| {
         balance.step(now);
         if now.events().len() > 2 {
-            imbalance = balance.energy(now.slip().all(), &now.pressed.opening).imbalance();
+            imbalance = balance.energy(now.slip().all(), now.pressed).imbalance();
         }
         if let Some(event) = now.under_way().filter(|_| now.events().len() == 2) {
             history.push((now.at.since(&event.onset), now.largest));

@@ -4,7 +4,7 @@ mod ramps;
 
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_cycles::Balance;
+use asperity_cycles::{Balance, OPENING};
 use asperity_driver::fault::{Plan, Report};
 use asperity_ode::{Control, Outcome};
 use asperity_vary::SceneText;
@@ -124,7 +124,7 @@ method = "stabilised"
     let plan = seas::plan(&text)?;
     let mut opening = Vec::new();
     seas::found(&plan, &plan.problem.settings, |now| {
-        opening = (0..plan.points.len()).filter_map(|p| now.opening(p)).collect();
+        opening = (0..plan.points.len()).filter_map(|p| now.at(&OPENING, p)).collect();
     })?;
     Ok(opening.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), o| (l.min(*o), m.max(*o))))
 }
@@ -205,7 +205,7 @@ fn pulled(plan: &Plan) -> Result<Pulled, CaseError> {
     let mut shear = [f64::NAN; 2];
     let mut look = |now: &asperity_cycles::Moment<'_>| {
         balance.step(now);
-        opening = (0..n).map(|p| now.opening(p).unwrap_or(f64::NAN)).collect();
+        opening = (0..n).map(|p| now.at(&OPENING, p).unwrap_or(f64::NAN)).collect();
         slip = now.slip().all().to_vec();
         let open = (0..n).filter(|&p| opening[p] > 0.0).map(|p| at[p].abs());
         fronts.extend(open.reduce(f64::max).map(|front| (now.at.seconds(), front)));

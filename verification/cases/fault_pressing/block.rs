@@ -60,6 +60,7 @@ fn done(scene: SceneText, number: usize) -> Result<Done, CaseError> {
     let run = run?;
     let report = Report::new(&plan, &run, &mut balance);
     let events = run.events().to_vec();
+    drop(balance);
     Ok(Done { plan, report, forces, events, cost })
 }
 

@@ -3,6 +3,7 @@
 use crate::cases::seas;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_cycles::Balance;
+use asperity_cycles::heat::{PRESSURE, TEMPERATURE};
 use asperity_driver::fault::Report;
 use asperity_ode::{Control, Outcome};
 use asperity_vary::SceneText;
@@ -62,9 +63,13 @@ fn ran(scene: SceneText) -> Result<Ran, CaseError> {
     let mut watch = |now: &asperity_cycles::Moment<'_>| {
         balance.step(now);
         if now.under_way().is_some() {
-            let surface = &now.pressed.surface;
             let time = now.at.seconds();
-            course.push([now.slip().all()[0], surface.temperature[0], surface.pressure[0], time]);
+            course.push([
+                now.slip().all()[0],
+                now.pressed.of(&TEMPERATURE)[0],
+                now.pressed.of(&PRESSURE)[0],
+                time,
+            ]);
         }
         Control::Go
     };

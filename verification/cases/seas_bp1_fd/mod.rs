@@ -74,7 +74,7 @@ impl Watch<'_> {
     fn see(&mut self, now: &Moment<'_>) {
         self.balance.step(now);
         if now.events().len() == 2 {
-            self.imbalance = self.balance.energy(now.slip().all(), &now.pressed.opening).imbalance();
+            self.imbalance = self.balance.energy(now.slip().all(), now.pressed).imbalance();
         }
         let Some(event) = now.under_way().filter(|_| now.events().is_empty()) else { return };
         let since = now.at.since(&event.onset);

@@ -44,8 +44,8 @@ impl Problem for Differenced<'_> {
 }
 
 /// An observer that stops the run at the onset of the third event, or at the limit of wall time.
-struct Follow<'a> {
-    equations: &'a Equations<'a>,
+struct Follow<'a, 'f> {
+    equations: &'a Equations<'f>,
     rate: Vec<f64>,
     /// Onsets so far \[yr\], taken at the end of the step.
     onsets: Vec<f64>,
@@ -57,7 +57,7 @@ struct Follow<'a> {
     trace: Vec<(f64, f64)>,
 }
 
-impl Sink for Follow<'_> {
+impl Sink for Follow<'_, '_> {
     fn accepted(&mut self, step: &Step<'_>) -> Control {
         let (now, wall) = (step.end.seconds() / YEAR, self.clock.elapsed().as_secs_f64());
         self.trace.push((now, wall));

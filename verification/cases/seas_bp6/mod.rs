@@ -2,7 +2,7 @@
 
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_cycles::Moment;
+use asperity_cycles::{Moment, Pressure};
 use asperity_driver::fault::Plan;
 use asperity_vary::SceneText;
 
@@ -88,7 +88,7 @@ impl Seen {
 /// Runs a plan whose fault takes `share` of the injected fluid.
 fn seen(plan: &Plan, share: f64) -> Result<Seen, CaseError> {
     let mut out = Seen { least: f64::INFINITY, ..Seen::default() };
-    let pressure = plan.problem.fault.pressure.as_ref().ok_or("the scene injects nothing")?;
+    let pressure = plan.problem.fault.processes.find::<Pressure>().ok_or("the scene injects nothing")?;
     let mut exerted = vec![0.0; plan.points.len()];
     let found = seas::found(plan, &plan.problem.settings, |now| {
         out.peak = out.peak.max(now.largest);

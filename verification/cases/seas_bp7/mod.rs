@@ -100,7 +100,7 @@ fn run_of(plan: &Plan) -> Result<Run, CaseError> {
         let event = now.events().len();
         if event > slip.len() {
             slip.push(places.iter().map(|&p| now.slip().component(0)[p]).collect());
-            energy = Some(balance.energy(now.slip().all(), &[]));
+            energy = Some(balance.energy(now.slip().all(), now.pressed));
             largest.push(0.0);
         }
         largest[event] = largest[event].max(now.largest);

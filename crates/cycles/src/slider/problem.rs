@@ -1,7 +1,7 @@
 //! The problem to integrate and its settings.
 
 use super::rows::Rows;
-use crate::catalogue::Thresholds;
+use crate::problem::Thresholds;
 use asperity_friction::slider::System;
 use asperity_ode::{Method, Options};
 

@@ -8,12 +8,10 @@ use super::equations::{EventKind, Piece, Uneventful, kinds};
 use super::problem::Problem;
 use super::rows::Due;
 use super::slide::{self, Detectors, Edge, Slide};
-use crate::components::Components;
+use crate::course::{NextStep, Outrun, Run, outrun};
 use crate::error::RunError;
-use crate::fault_run::Outrun;
-use crate::follow::outrun;
 use crate::medium::{Slips, Travelled};
-use crate::run::{NextStep, Run};
+use crate::problem::Components;
 use asperity_friction::slider::{Condition, Slider};
 use asperity_ode::{
     Clock, Control, Failure, Kind, Method, ObserveError, Observer, Occurrence, Options, Outcome, Sink, Step,

@@ -1,6 +1,6 @@
 //! Events of sliders: onset and end, direction and amount of slip, slip rates, and stress drop.
 
-use crate::catalogue::{Catalogue, Event};
+use crate::accounts::{Catalogue, Event};
 use asperity_ode::Clock;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -8,7 +8,7 @@ use super::platform_files;
 use super::receiver_tables;
 use super::snapshots;
 use super::surface_tables;
-use asperity_cycles::{Event, FaultRun, Rupture};
+use asperity_cycles::{Event, FaultRun, OPENING, Rupture};
 use asperity_output::vtu::{PvdEntry, pvd};
 use asperity_output::{OutputError, atomic, rows};
 use std::path::Path;
@@ -48,7 +48,7 @@ pub fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), OutputError>
             if fault.normal.opens {
                 fields.push(Field::Scalar(
                     "opening".into(),
-                    event.details.opening[fault.points.clone()].to_vec(),
+                    event.details.change(&OPENING)[fault.points.clone()].to_vec(),
                 ));
             }
             let (file, onset) = (format!("{}_event_{k:03}.vtu", fault.name), event.onset.seconds());

@@ -1,7 +1,7 @@
 //! Displacements of the bodies as VTU files.
 
 use super::plan::Plan;
-use asperity_cycles::{Crack, FaultRun, Layout};
+use asperity_cycles::{FaultRun, Layout, OPENING};
 use asperity_output::vtu::{Array, Grid, PvdEntry, pvd};
 use asperity_output::{OutputError, atomic};
 use std::path::Path;
@@ -25,12 +25,16 @@ pub fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), OutputError>
     for (k, event) in run.events().iter().enumerate() {
         // Loads are zero at time 0, so these displacements are caused by slip and opening alone.
         let displacement =
-            view.bodies.vectors(&[event.details.slip.all(), &event.details.opening].concat(), 0.0);
+            view.bodies.vectors(&[event.details.slip.all(), event.details.change(&OPENING)].concat(), 0.0);
         put(format!("bodies_event_{k:03}.vtu"), event.onset.seconds(), &displacement)?;
     }
     let slip = &run.unknowns[Layout::of(&plan.problem.fault).slip()];
-    let opening = plan.problem.fault.pressed(run.at, &run.unknowns, &mut Crack::default()).opening;
+    let pressed = plan.problem.fault.pressed(run.at, &run.unknowns);
     let end = run.at.seconds();
-    put("bodies_end.vtu".into(), end, &view.bodies.vectors(&view.jumps([slip, &opening], end), end))?;
+    put(
+        "bodies_end.vtu".into(),
+        end,
+        &view.bodies.vectors(&view.jumps([slip, pressed.of(&OPENING)], end), end),
+    )?;
     atomic::write(&out.join("bodies.pvd"), &pvd(&entries))
 }

@@ -4,7 +4,8 @@ use super::cadence::log_rate;
 use super::locking;
 use super::plan::{FaultView, Outline, Plan};
 use super::states::has_theta;
-use asperity_cycles::{Components, Layout, Pressed};
+use asperity_cycles::heat::{PRESSURE, TEMPERATURE};
+use asperity_cycles::{Components, Layout, OPENING, Pressed};
 use asperity_output::vtu::{Array, Grid, Values, face_type};
 use asperity_output::{OutputError, atomic};
 use rayon::prelude::*;
@@ -94,14 +95,14 @@ pub(super) fn state(plan: &Plan, fault: &FaultView, y: &[f64], now: (&[f64], &Pr
     fields.push(Field::Vector("slip_rate_vector".into(), vectors));
     fields.extend(along(plan, fault, "shear_traction", &shear));
     fields.push(Field::Scalar("normal_traction".into(), fault.points.clone().map(normal).collect()));
+    let of = |quantity| pressed.of(quantity)[fault.points.clone()].to_vec();
     if fault.normal.opens {
-        fields.push(Field::Scalar("opening".into(), pressed.opening[fault.points.clone()].to_vec()));
+        fields.push(Field::Scalar("opening".into(), of(&OPENING)));
     }
     if let Some(heat) = &fault.heat {
-        let of = |values: &[f64]| values[fault.points.clone()].to_vec();
-        fields.push(Field::Scalar("temperature".into(), of(&pressed.surface.temperature)));
+        fields.push(Field::Scalar("temperature".into(), of(&TEMPERATURE)));
         if heat.layer.pressurisation.is_some() {
-            fields.push(Field::Scalar("pore_pressure".into(), of(&pressed.surface.pressure)));
+            fields.push(Field::Scalar("pore_pressure".into(), of(&PRESSURE)));
         }
     }
     if locking::loaded(plan, fault) {

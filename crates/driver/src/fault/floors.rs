@@ -30,7 +30,8 @@ pub struct FloorUse {
 
 /// Use of the floors of all faults.
 #[must_use]
-pub fn uses(plan: &Plan, used: &Used) -> Vec<FloorUse> {
+pub fn uses(plan: &Plan, used: Option<&Used>) -> Vec<FloorUse> {
+    let Some(used) = used else { return Vec::new() };
     let with_floor = plan.faults.iter().filter_map(|f| Some((f, f.normal.floor?)));
     with_floor
         .map(|(fault, floor)| {

@@ -3,7 +3,7 @@
 use super::plan::{HeatView, Plan};
 use crate::warning::Warning;
 use crate::words::time;
-use asperity_cycles::Warmed;
+use asperity_cycles::heat::Warmed;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -32,10 +32,10 @@ pub struct HeatedFault {
 
 /// Heat of all faults that have some, and warnings of melting.
 #[must_use]
-pub fn heats(plan: &Plan, warmed: &Warmed) -> (Vec<HeatedFault>, Vec<Warning>) {
+pub fn heats(plan: &Plan, warmed: Option<&Warmed>) -> (Vec<HeatedFault>, Vec<Warning>) {
     let (mut all, mut warnings) = (Vec::new(), Vec::new());
     for fault in &plan.faults {
-        let Some(heat) = &fault.heat else { continue };
+        let (Some(heat), Some(warmed)) = (&fault.heat, warmed) else { continue };
         let warmest = warmed.of(fault.points.clone(), heat.melting.unwrap_or(f64::INFINITY));
         let found = HeatedFault {
             fault: fault.name.clone(),

@@ -31,7 +31,8 @@ pub struct OpenedFault {
 
 /// Openings of all faults that may open; `end` holds the openings at the end \[m\].
 #[must_use]
-pub fn openings(plan: &Plan, opened: &Opened, end: &[f64]) -> Vec<OpenedFault> {
+pub fn openings(plan: &Plan, opened: Option<&Opened>, end: &[f64]) -> Vec<OpenedFault> {
+    let Some(opened) = opened else { return Vec::new() };
     let with = plan.faults.iter().filter(|f| f.normal.opens);
     with.map(|fault| {
         let widest = opened.of(fault.points.clone());

@@ -29,7 +29,7 @@ pub struct Outputs<'a> {
 impl<'a> Outputs<'a> {
     /// State of a run.
     fn stand(&self, run: FaultRun) -> Stand {
-        Stand { run, files: self.files.position(), sums: self.balance.sums().clone() }
+        Stand { run, files: self.files.position(), sums: self.balance.sums() }
     }
 
     fn saving(&self, last: Stand, before: Before) -> Saved {

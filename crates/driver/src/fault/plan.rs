@@ -16,7 +16,7 @@ use crate::resolution::Resolution;
 use crate::ruptures::Ruptures;
 use crate::warning::Warning;
 use asperity_cycles::heat::Layer;
-use asperity_cycles::{Components, FaultRun, Layout, Problem, Pulse, Thresholds};
+use asperity_cycles::{Components, FaultRun, Layout, Opening, Pressure, Problem, Pulse, Thresholds};
 use std::fmt::Write as _;
 
 /// A point of a fault, as needed by the output.
@@ -252,13 +252,14 @@ impl Plan {
         } else {
             self.faults.iter().for_each(|f| line("physics", f.normal.words(&f.name)));
         }
-        if self.problem.fault.pressure.is_some() {
+        let processes = &self.problem.fault.processes;
+        if processes.find::<Pressure>().is_some() {
             line(
                 "physics",
                 "fluid is injected and diffuses along the fault; its pressure is known at all times".into(),
             );
         }
-        self.problem.fault.pulses.iter().for_each(|pulse| line("physics", of_pulse(pulse)));
+        processes.each::<Pulse>().for_each(|pulse| line("physics", of_pulse(pulse)));
         for fault in &self.faults {
             if let Some(heat) = &fault.heat {
                 line("physics", heat.words(&fault.name));
@@ -283,7 +284,7 @@ impl Plan {
             ),
         );
         line("operator", self.problem.fault.operator.words());
-        if let Some(opening) = &self.problem.fault.opening {
+        if let Some(opening) = processes.find::<Opening>() {
             line("operator", opening.words());
         }
         self.outputs().into_iter().for_each(|words| line("output", words));

@@ -4,7 +4,8 @@ use super::cadence::{RATE_CHANGE, log_rate};
 use super::plan::Plan;
 use super::rows::{Course, Table, line};
 use super::{locking, states};
-use asperity_cycles::Moment;
+use asperity_cycles::heat::{Heat, PRESSURE, TEMPERATURE};
+use asperity_cycles::{Moment, OPENING, Opening};
 use asperity_output::decimals::{fixed, scientific};
 
 /// The tables; none in space, where there are snapshots.
@@ -12,7 +13,8 @@ pub(super) fn tables(plan: &Plan) -> Vec<Table<'_>> {
     if plan.in_space {
         return Vec::new();
     }
-    let heat = plan.problem.fault.heat.as_ref();
+    let processes = &plan.problem.fault.processes;
+    let heat = processes.find::<Heat>();
     let mut all = vec![
         table(
             plan,
@@ -30,15 +32,21 @@ pub(super) fn tables(plan: &Plan) -> Vec<Table<'_>> {
         ),
     ];
     let six = |value| scientific(value, 6);
-    if plan.problem.fault.opening.is_some() {
-        all.push(table(plan, "opening_profiles.csv", SELDOM, |_, now| now.pressed.opening.clone(), six));
+    if processes.find::<Opening>().is_some() {
+        all.push(table(
+            plan,
+            "opening_profiles.csv",
+            SELDOM,
+            |_, now| now.pressed.of(&OPENING).to_vec(),
+            six,
+        ));
     }
     if heat.is_some() {
-        let values: Values = |_, now| now.pressed.surface.temperature.clone();
+        let values: Values = |_, now| now.pressed.of(&TEMPERATURE).to_vec();
         all.push(table(plan, "temperature_profiles.csv", SELDOM, values, six));
     }
-    if heat.is_some_and(|heat| heat.pressurises()) {
-        let values: Values = |_, now| now.pressed.surface.pressure.clone();
+    if heat.is_some_and(Heat::pressurises) {
+        let values: Values = |_, now| now.pressed.of(&PRESSURE).to_vec();
         all.push(table(plan, "pressure_profiles.csv", SELDOM, values, six));
     }
     if states::any(plan) {

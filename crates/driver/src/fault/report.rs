@@ -19,7 +19,7 @@ use crate::resolution::Resolution;
 use crate::warning::Warning;
 use crate::words::{length, time};
 use asperity_cycles::{
-    Balance, Components, Crack, Episode, Event, FaultRun, Layout, Mark, Outrun, Rupture, Thresholds, steady,
+    Balance, Components, Episode, Event, FaultRun, Layout, Mark, OPENING, Outrun, Rupture, Thresholds, steady,
 };
 use asperity_mechanics::coordinates;
 use asperity_ode::{Failure, Outcome as Finish};
@@ -321,10 +321,9 @@ impl Report {
         };
         let events = run.events();
         let slip = &run.unknowns[Layout::of(&plan.problem.fault).slip()];
-        let pressed = plan.problem.fault.pressed(run.at, &run.unknowns, &mut Crack::default());
+        let pressed = plan.problem.fault.pressed(run.at, &run.unknowns);
         let End { points, forces, springs } = End::of(plan, run, &pressed);
-        let opening = pressed.opening;
-        let energy = EnergyBalance::new(unit(plan), balance.energy(slip, &opening));
+        let energy = EnergyBalance::new(unit(plan), balance.energy(slip, &pressed));
         let marks = balance.marks();
         let driven = if marks.len() > 1 { steady(&plan.problem) } else { None };
         let driven = driven.map(|rate| rate.iter().zip(&plan.points).map(|(v, p)| v * p.area).sum());
@@ -335,14 +334,14 @@ impl Report {
             events: entries(plan, run.catalogue.ended(source), &fault.points),
             under_way: run.catalogue.under_way(source).map(|e| e.onset.seconds()),
         };
-        let (heat, molten) = heats(plan, balance.warmed());
+        let (heat, molten) = heats(plan, balance.account());
         Self {
             outcome,
             warnings: plan.warnings.iter().cloned().chain(molten).collect(),
             resolution: plan.resolution.clone(),
             checks: plan.checks.of_any_machine(),
-            floors: uses(plan, balance.floors()),
-            openings: openings(plan, balance.opened(), &opening),
+            floors: uses(plan, balance.account()),
+            openings: openings(plan, balance.account(), pressed.of(&OPENING)),
             heat,
             compression: Compression::of(plan.problem.fault.operator.as_ref()),
             method: plan.problem.settings.method.name().to_string(),

@@ -4,7 +4,7 @@ use super::plan::Plan;
 use super::sampling::Sampling;
 use crate::report::{ForceResult, PointResult, SpringResult};
 use crate::words::length;
-use asperity_cycles::{FaultRun, Layout, Pressed};
+use asperity_cycles::{FaultRun, Layout, OPENING, Pressed};
 use asperity_output::view::{ForceMark, PointMark, PointValues, SpringMark, SpringValues};
 
 /// Values at the end of a run.
@@ -20,7 +20,7 @@ impl End {
     pub fn of(plan: &Plan, run: &FaultRun, pressed: &Pressed) -> Self {
         let (Some(sampling), Some(view)) = (&plan.sampling, &plan.bodies) else { return Self::default() };
         let slip = &run.unknowns[Layout::of(&plan.problem.fault).slip()];
-        let values = sampling.values(view, [slip, &pressed.opening], run.at.seconds(), &pressed.normal);
+        let values = sampling.values(view, [slip, pressed.of(&OPENING)], run.at.seconds(), &pressed.normal);
         let Sampling { sampled, stage, .. } = sampling;
         let (stage, unit) = (stage.clone(), sampled.unit.to_string());
         let point = |(point, values): (&PointMark, PointValues)| PointResult {

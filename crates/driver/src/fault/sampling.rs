@@ -2,7 +2,7 @@
 
 use super::bodies::BodiesView;
 use crate::views;
-use asperity_cycles::Moment;
+use asperity_cycles::{Moment, OPENING};
 use asperity_mechanics::{Beside, Model, SpringNow, SpringStart, Stage, StressField, Wanted};
 use asperity_output::Sampled;
 use asperity_output::view::Samples;
@@ -63,7 +63,7 @@ impl Sampling {
 
     /// Values at a moment.
     pub(super) fn at(&self, view: &BodiesView, now: &Moment<'_>) -> Samples {
-        self.values(view, [now.slip().all(), &now.pressed.opening], now.at.seconds(), &now.pressed.normal)
+        self.values(view, [now.slip().all(), now.pressed.of(&OPENING)], now.at.seconds(), &now.pressed.normal)
     }
 
     /// Values under this slip and opening of the points \[m\] at a time \[s\], with these normal tractions \[Pa\].

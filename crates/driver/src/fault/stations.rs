@@ -3,7 +3,8 @@
 use super::cadence::NO_RATE;
 use super::plan::{FaultView, Plan, Station};
 use super::rows::{Course, Table};
-use asperity_cycles::Moment;
+use asperity_cycles::heat::{PRESSURE, TEMPERATURE};
+use asperity_cycles::{Moment, OPENING};
 use asperity_output::seas::{Head, Row};
 
 /// Names of the files of the stations of a fault. Distance in tenths of a kilometre, three digits, as in the names of the
@@ -80,8 +81,6 @@ fn row(plan: &Plan, now: &Moment<'_>, point: usize) -> String {
     let normal = now.normal(point);
     let theta = plan.points[point].theta.filter(|_| states == 1);
     let log_state = theta.map_or(f64::NAN, |theta| theta.log10(now.states().at(point)[0]));
-    let surface = &now.pressed.surface;
-    let at = |values: &[f64]| values.get(point).copied();
     let row = Row {
         time: now.at.seconds(),
         slip: now.slip().at(point).collect(),
@@ -90,9 +89,9 @@ fn row(plan: &Plan, now: &Moment<'_>, point: usize) -> String {
         shear: now.m().at(point).map(|m| normal * plan.problem.fault.law.scale(point) * m).collect(),
         log_state,
         normal,
-        opening: now.opening(point).filter(|_| opens(plan, point)),
-        temperature: at(&surface.temperature).filter(|_| plan.heat_at(point).is_some()),
-        pressure: at(&surface.pressure).filter(|_| pressurises(plan, point)),
+        opening: now.at(&OPENING, point).filter(|_| opens(plan, point)),
+        temperature: now.at(&TEMPERATURE, point).filter(|_| plan.heat_at(point).is_some()),
+        pressure: now.at(&PRESSURE, point).filter(|_| pressurises(plan, point)),
     };
     row.text()
 }

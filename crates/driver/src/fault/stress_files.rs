@@ -3,7 +3,7 @@
 use super::coulomb::Change;
 use super::plan::Plan;
 use super::source_time::FOLDER;
-use asperity_cycles::FaultRun;
+use asperity_cycles::{FaultRun, OPENING};
 use asperity_output::vtu::{Array, Grid, Values};
 use asperity_output::{OutputError, atomic};
 use std::path::Path;
@@ -18,7 +18,7 @@ pub fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), OutputError>
     let grid = Grid::new(&view.nodes, &view.cells);
     let folder = out.join(FOLDER);
     for (number, event) in run.events().iter().enumerate().take(plan.event_files) {
-        let jumps = [event.details.slip.all(), &event.details.opening].concat();
+        let jumps = [event.details.slip.all(), event.details.change(&OPENING)].concat();
         let (stress, changes): (Vec<[f64; 6]>, Vec<Change>) = stresses.at(view, &jumps).into_iter().unzip();
         let part = |of: fn(&Change) -> f64| changes.iter().map(of).collect::<Vec<f64>>();
         let [shear, normal, coulomb] = [part(|c| c.shear), part(|c| c.normal), part(|c| c.coulomb)];

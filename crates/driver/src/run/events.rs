@@ -104,7 +104,7 @@ impl Events {
                 let values = Values {
                     slip: Components::new(&slip, n),
                     shear: Components::new(&shear, n),
-                    opening: &[],
+                    fields: &[],
                 };
                 detector.pass((&mut self.catalogue, source), crossing, (at, fastest), values);
                 note_peak(&mut self.catalogue, source, to);

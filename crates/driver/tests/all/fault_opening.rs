@@ -1,7 +1,7 @@
 //! Faults that open: tractions balance, the energy budget closes, and faults that never open have unchanged results.
 
 use crate::common::varied;
-use asperity_cycles::{Balance, FaultRun, Layout, Moment};
+use asperity_cycles::{Balance, FaultRun, Layout, Moment, OPENING, Opening, Pressure};
 use asperity_driver::fault::{Plan, Report};
 use asperity_driver::kinds::{ScenePlan, plan_scene};
 use asperity_driver::scene;
@@ -36,7 +36,7 @@ struct Found {
 /// is open.
 fn followed(plan: &Plan) -> Found {
     let (n, fault) = (plan.points.len(), &plan.problem.fault);
-    let (law, opening) = (&fault.law, fault.opening.as_ref().unwrap());
+    let (law, opening) = (&fault.law, fault.processes.find::<Opening>().unwrap());
     let floor = plan.faults[0].normal.floor.unwrap();
     let (shear_rate, normal_rate) = plan.problem.loading.rates(1.0, n, true);
     let layout = Layout::of(fault);
@@ -51,14 +51,14 @@ fn followed(plan: &Plan) -> Found {
     let mut look = |now: &Moment<'_>| {
         balance.step(now);
         let time = now.at.seconds();
-        let by: Vec<f64> = (0..n).map(|p| now.opening(p).unwrap()).collect();
+        let by: Vec<f64> = (0..n).map(|p| now.at(&OPENING, p).unwrap()).collect();
         let (mut shear, mut press) = (vec![0.0; n], vec![0.0; n]);
         fault.operator.shear(now.slip().all(), &mut shear);
         opening.sheared(&by, &mut shear);
         fault.operator.normal(now.slip().all(), &mut press);
         opening.pressing(&by, &mut press);
         for p in 0..n {
-            let fluid = fault.pressure.as_ref().map_or(0.0, |f| f.at(p, time));
+            let fluid = fault.processes.find::<Pressure>().map_or(0.0, |f| f.at(p, time));
             let pressed = fault.normal[p] + press[p] + normal_rate[p] * time - fluid;
             let resists = friction(p, pressed.max(floor), now.unknowns[p], now.rate.component(0)[p]);
             along = along.max((first[p] + shear[p] + shear_rate[p] * time - resists).abs() / scale);
@@ -141,17 +141,17 @@ fn sides_of_a_fault_lie_as_far_apart_as_it_is_open() {
         &[Add("output.bodies", "true"), With("faults.main.injection.until", "20 d")],
     ));
     let found = followed(&plan);
-    let end = plan.problem.fault.pressed(found.run.at, &found.run.unknowns, &mut Default::default());
+    let end = plan.problem.fault.pressed(found.run.at, &found.run.unknowns);
     let slip = &found.run.unknowns[Layout::of(&plan.problem.fault).slip()];
     let view = plan.bodies.as_ref().unwrap();
-    let moved = view.bodies.vectors(&[slip, &end.opening].concat(), found.run.at.seconds());
-    let largest = slip.iter().chain(&end.opening).fold(0.0_f64, |l, v| l.max(v.abs()));
-    assert!(end.opening.iter().any(|o| *o > 0.01));
+    let moved = view.bodies.vectors(&[slip, end.of(&OPENING)].concat(), found.run.at.seconds());
+    let largest = slip.iter().chain(end.of(&OPENING)).fold(0.0_f64, |l, v| l.max(v.abs()));
+    assert!(end.of(&OPENING).iter().any(|o| *o > 0.01));
     for (p, (&[minus, plus], point)) in view.sides.iter().zip(&plan.points).enumerate() {
         for (c, (way, normal)) in point.slides.iter().zip(point.normal).enumerate() {
             let jump = moved[plus][c] - moved[minus][c];
             // Rounding of displacements.
-            let off = jump - slip[p] * way - end.opening[p] * normal;
+            let off = jump - slip[p] * way - end.of(&OPENING)[p] * normal;
             assert!(off.abs() < 1e-12 * largest, "{p} {c} {off:e}");
         }
     }
@@ -166,7 +166,7 @@ fn the_plan_says_what_opens_and_counts_its_memory() {
         "{text}"
     );
     let closed = planned(&varied(INJECTED, &[Without("faults.main.opening")]));
-    let opening = plan.problem.fault.opening.as_ref().unwrap();
+    let opening = plan.problem.fault.processes.find::<Opening>().unwrap();
     let n = plan.points.len();
     assert_eq!((opening.points().len(), opening.bytes()), (n, 2 * n * n * size_of::<f64>()));
     assert!(plan.memory_bytes >= closed.memory_bytes);

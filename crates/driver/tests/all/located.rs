@@ -133,9 +133,7 @@ fn slipped(text: &str, components: &[f64]) -> Located {
             hypocentre: n - 1,
             slip: Components::new(components.iter().flat_map(|&slip| vec![slip; n]).collect(), n),
             drop: Components::new(vec![0.0; n * components.len()], n),
-            opening: Vec::new(),
-            hottest: None,
-            front: asperity_cycles::Front::default(),
+            ..Rupture::default()
         },
     };
     let located = locate(&plan, plan.frame.as_ref().unwrap(), &event, &(0..plan.points.len())).unwrap();

@@ -27,7 +27,7 @@ use asperity_cycles::heat::Heat;
 use asperity_cycles::medium::across;
 use asperity_cycles::operator::Operator;
 use asperity_cycles::{
-    Crack, Fault, Floor, Injection, Layout, Loading, Opening, Pressure, Problem, Pulse, Settings,
+    Fault, Floor, Injection, Layout, Loading, Opening, Pressure, Problem, Processes, Pulse, Settings,
 };
 use asperity_friction::Failure;
 use asperity_friction::fault::FaultLaw;
@@ -113,19 +113,18 @@ pub(super) fn plan_of<const D: usize>(
     let mut law = if turns { Box::new(Turning::new(law)) } else { law };
     let heat = heated::heat(scene, &placed, law.as_mut(), end);
     let modes = heat.as_ref().map_or(0, Heat::bytes);
+    let pulses = pulses(&named, &placed, if turns { 2 } else { 1 })?;
     let fault = Fault {
         operator,
         law,
         damping: placed.iter().map(|p| p.damping).collect(),
         normal: placed.iter().map(|p| p.normal).collect(),
-        pulses: pulses(&named, &placed, if turns { 2 } else { 1 })?
-            .into_iter()
-            .map(|(amplitude, rise)| Pulse { amplitude, rise })
-            .collect(),
-        pressure: pressure(scene, &placed)?,
-        heat,
-        floor: Floor::new(placed.iter().map(|p| p.floor)),
-        opening,
+        processes: Processes::default()
+            .and(pulses.into_iter().map(|(amplitude, rise)| Pulse { amplitude, rise }))
+            .and(pressure(scene, &placed)?)
+            .and(heat)
+            .and(opening)
+            .and(Floor::new(placed.iter().map(|p| p.floor))),
     };
     let start = start(&placed, &fault).map_err(|(p, failure)| at_point(&named, &placed[p], &failure))?;
     let settings = settings(scene, &placed, end)?;
@@ -189,7 +188,7 @@ fn doubt<const D: usize>(
     warnings.extend(pressing::unused_rates(scene, placed));
     crate::doubts::add(warnings, start_doubts::check(scene, placed, fault));
     warnings.extend(upright::above_ground(scene, placed)?);
-    let amplitudes = fault.pulses.iter().map(|p| p.amplitude.as_slice());
+    let amplitudes = fault.processes.each::<Pulse>().map(|p| p.amplitude.as_slice());
     crate::doubts::add(warnings, pulses::doubts(&named, amplitudes, &pulses::at_rest(fault)));
     crate::doubts::add(warnings, endless(scene, rate));
     crate::doubts::add(warnings, radiation::doubts(scene, placed));
@@ -291,7 +290,7 @@ fn start<const D: usize>(placed: &[Placed<D>], fault: &Fault) -> Result<Vec<f64>
         let normal = layout.normal();
         y[normal].iter_mut().zip(placed).for_each(|(f, point)| *f = point.normal);
     }
-    let pressed = fault.pressed(Clock::new(0.0, 0.0), &y, &mut Crack::default());
+    let pressed = fault.pressed(Clock::new(0.0, 0.0), &y);
     for (p, point) in placed.iter().enumerate() {
         let rate = point.rate;
         let states = layout.states().start + p * n..layout.states().start + (p + 1) * n;

@@ -44,10 +44,7 @@ pub(super) fn starts<const D: usize>(
     (loading, end): (&Loading, f64),
 ) -> Option<Warning> {
     let spec = scene.faults.values().nth(placed.iter().find(|p| weakens(p))?.fault)?;
-    let disturbed = fault.heat.is_some()
-        || fault.pressure.is_some()
-        || !fault.pulses.is_empty()
-        || !placed.iter().all(is_steady);
+    let disturbed = fault.processes.disturb() || !placed.iter().all(is_steady);
     (!disturbed && is_balanced(placed, fault, loading, end)).then(|| {
         Warning::at(
             spec.rate.span(),

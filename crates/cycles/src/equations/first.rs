@@ -1,0 +1,70 @@
+//! The first instants after a process begins or ends to change tractions at an infinite rate.
+
+use super::Equations;
+use asperity_friction::fault::Drive;
+use asperity_ode::Clock;
+
+/// Share of its tolerance by which an unknown may drift in the first instants of an injection.
+const DRIFT: f64 = 0.01;
+/// Largest relative change of f_n in these instants. Its square is neglected; it changes m ~ 100 by less than a
+/// hundredth of any practical tolerance.
+const GENTLE: f64 = 1e-5;
+/// Largest share of a leg that the first instants may take.
+const FIRST: f64 = 1e-3;
+/// Number of quarterings in the search for a time in which f_n changes little; f_n varies with the square root of time.
+const QUARTERINGS: usize = 60;
+
+impl Equations<'_> {
+    /// Advances over the first instants after an injection begins or ends at `at`, when the rate of pressure is
+    /// infinite. Writes the response of friction to the pressure into `y`, and returns the time over which everything
+    /// else can be held constant \[s\]. `most` is the length of the leg \[s\]. None if no injection begins or ends at
+    /// `at`.
+    ///
+    /// Over so short a time m and the states follow f_n alone, `dm = (∂ṁ/∂ḟ_n) Δf_n`, since the rates are linear in
+    /// ḟ_n. Everything else drifts by at most a hundredth of its tolerance.
+    pub fn first_instants(&self, at: Clock, y: &mut [f64], tolerances: &[f64], most: f64) -> Option<f64> {
+        let time = at.seconds();
+        if !self.fault.processes.iter().any(|process| process.is_sudden(time)) {
+            return None;
+        }
+        let (l, mut dy) = (self.layout, vec![0.0; y.len()]);
+        self.evaluate(at, y, &mut dy, Some(time));
+        let mut time = FIRST * most;
+        for (rate, tolerance) in dy.iter().zip(tolerances) {
+            time = time.min(DRIFT * tolerance / rate.abs());
+        }
+        let working = &mut self.scratch.borrow_mut().working;
+        let before = working.pressed(at, y);
+        let normal = &before.normal;
+        let mut change = |time: f64| working.pressed(at.later(time), y);
+        let less = |after: &[f64], before: &[f64]| -> Vec<f64> {
+            after.iter().zip(before).map(|(b, a)| b - a).collect()
+        };
+        let mut after = change(time);
+        for _ in 0..QUARTERINGS {
+            if after.normal.iter().zip(normal).all(|(b, a)| (b - a).abs() <= GENTLE * a) {
+                break;
+            }
+            time *= 0.25;
+            after = change(time);
+        }
+        let changes = less(&after.normal, normal);
+        let (m, states) = (l.m(), l.states());
+        let (zeros, still_shear, mut shear) = (vec![0.0; l.points()], vec![0.0; m.end], vec![0.0; m.end]);
+        for energetic in self.fault.processes.iter().filter_map(|process| process.energetic()) {
+            energetic.sheared([&before, &after], &mut shear);
+        }
+        let mut moved = vec![0.0; states.end];
+        let mut still = vec![0.0; states.end];
+        for (rate, shear, out) in [(&changes, &shear, &mut moved), (&zeros, &still_shear, &mut still)] {
+            let drive =
+                Drive { normal, normal_rate: Some(rate), shear_rate: shear, damping: &self.fault.damping };
+            let (dm, ds) = out.split_at_mut(m.end);
+            self.fault.law.rates(0, drive, &y[m.clone()], &y[states.clone()], dm, ds);
+        }
+        for ((y, moved), still) in y.iter_mut().zip(&moved).zip(&still) {
+            *y += moved - still;
+        }
+        Some(time)
+    }
+}

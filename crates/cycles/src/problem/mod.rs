@@ -1,0 +1,38 @@
+//! The problem to integrate: faults with their processes and their medium, loads, initial values, and settings.
+
+mod components;
+mod fault;
+mod layout;
+mod loading;
+mod pressed;
+mod process;
+mod settings;
+mod stage;
+mod way;
+mod working;
+
+pub use components::{Components, PerPoint};
+pub use fault::Fault;
+pub use layout::Layout;
+pub use loading::Loading;
+pub use pressed::{Field, OverEvents, Pressed, Quantity};
+pub use process::{Account, Acting, Energetic, Host, Phase, Process, Processes};
+pub use settings::{Settings, Thresholds};
+pub use stage::{Now, Passage, Rates, Saved, Stretch, Time, Tractions};
+pub(crate) use way::Way;
+pub use working::Working;
+
+/// Faults in their medium, with all that a run needs.
+#[derive(Debug)]
+pub struct Problem {
+    /// Friction, processes and the medium.
+    pub fault: Fault,
+    /// Tributary areas of the points \[m²; m per metre of thickness\].
+    pub areas: Vec<f64>,
+    /// Loads.
+    pub loading: Loading,
+    /// Initial unknowns.
+    pub start: Vec<f64>,
+    /// Settings of the integration.
+    pub settings: Settings,
+}

@@ -1,0 +1,88 @@
+//! Frictional heat and the pressure of the fluid that it expands, by diffusion across a fault.
+//!
+//! Slip heats a zone in which it is distributed as a Gaussian of standard deviation w. Along the normal z of the fault
+//!
+//! ```text
+//! ∂T/∂t = α_th ∂²T/∂z² + τ V/(ρ c) exp(-z²/(2 w²))/(√(2π) w),   ∂p/∂t = α_hy ∂²p/∂z² + Λ ∂T/∂t,
+//! ```
+//!
+//! J. R. Rice, J. Geophys. Res. 111 (2006) B05311; H. Noda, N. Lapusta, J. Geophys. Res. 115 (2010) B12314. Friction feels
+//! T and p at the centre z = 0. Let D_α be the density there of heat that diffuses with α. Then `T = T_0 + D_th/(ρ c)`, and
+//!
+//! ```text
+//! p = Λ/(ρ c) (α_hy D_hy - α_th D_th)/(α_hy - α_th).
+//! ```
+//!
+//! The thickness h of a zone is that of a layer of uniform slip with the same rate of heating at its centre, `h = √(2π) w`.
+//! Each D is a sum of decaying modes, see [`modes`]; how they advance is described in [`memory`].
+
+mod heated;
+mod memory;
+mod modes;
+mod warmed;
+mod zones;
+
+pub use memory::{Memory, Surface, Windows};
+pub use modes::Modes;
+pub use warmed::{Warmed, Warmest};
+pub use zones::{Heat, Layer, Pressurisation, Zone};
+
+use crate::problem::{Account, Acting, Host, OverEvents, Phase, Pressed, Process, Quantity, Saved, Time};
+use heated::Heated;
+
+/// Temperature at the centre of the zone that slips.
+pub static TEMPERATURE: Quantity = Quantity {
+    name: "temperature",
+    unit: "K",
+    meaning: "temperature at the centre of the zone that slips",
+    over_events: Some(OverEvents::Largest),
+};
+
+/// Pressure of the fluid that heat expands.
+pub static PRESSURE: Quantity = Quantity {
+    name: "pressure",
+    unit: "Pa",
+    meaning: "pressure of heated fluid in excess of that at the start",
+    over_events: None,
+};
+
+/// Rate of that pressure.
+static PRESSURE_RATE: Quantity =
+    Quantity { name: "pressure rate", unit: "Pa/s", meaning: "rate of that pressure", over_events: None };
+
+impl Process for Heat {
+    fn name(&self) -> &'static str {
+        "heat"
+    }
+
+    fn phase(&self) -> Phase {
+        Phase::Heat
+    }
+
+    fn begin<'a>(&'a self, host: Host<'a>, saved: Option<&Saved>) -> Box<dyn Acting + 'a> {
+        Box::new(Heated::new(self, host, saved))
+    }
+
+    fn unknowns(&self) -> usize {
+        self.points()
+    }
+
+    fn scales(&self, host: Host<'_>) -> Vec<f64> {
+        Heat::scales(self, host.law, host.normal)
+    }
+
+    fn presses(&self) -> bool {
+        self.pressurises()
+    }
+
+    fn fluid(&self, _: Time, pressed: &Pressed, sum: &mut [[f64; 2]]) {
+        let (pressures, rates) = (pressed.of(&PRESSURE), pressed.of(&PRESSURE_RATE));
+        for ([pressure, rise], (own, rate)) in sum.iter_mut().zip(pressures.iter().zip(rates)) {
+            (*pressure, *rise) = (*pressure + own, *rise + rate);
+        }
+    }
+
+    fn account(&self, saved: Option<&Saved>) -> Option<Box<dyn Account>> {
+        Some(Box::new(Warmed::new(saved)))
+    }
+}
