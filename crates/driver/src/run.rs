@@ -343,7 +343,12 @@ impl<const D: usize> Running<'_, D> {
         }
         let unit = crate::views::energy_unit(plan.problem.model.idealisation);
         let energy = system.energy().map(|energy| work.energy.closure(energy, unit));
-        warnings.extend(energy.and_then(|energy| energy.doubt()));
+        warnings.extend(energy.as_ref().and_then(|energy| {
+            energy.doubt(
+                "points of contact may open and close in every other step",
+                "take shorter steps, a `spectral_radius` of 0.5 or less, or a softer penalty",
+            )
+        }));
         let passages = passages::of(system.episodes());
         warnings.extend(passages::doubts(&passages));
         let events = plan.events.as_ref().zip(events);

@@ -220,7 +220,7 @@ fn pulled(plan: &Plan) -> Result<Pulled, CaseError> {
     }
     let energy = Report::new(plan, &out, &mut balance).energy;
     let cost = cost.count("points", n as f64).count("steps", out.counts.steps as f64);
-    let (work, imbalance) = (energy.parts.opening, energy.imbalance);
+    let (work, imbalance) = (energy.part("opening"), energy.imbalance);
     Ok(Pulled { at, opening, slip, fall: shear[0] - shear[1], fronts, work, imbalance, cost })
 }
 

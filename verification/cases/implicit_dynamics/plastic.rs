@@ -113,7 +113,7 @@ fn stresses(ledger: &mut Ledger, done: &Done, wave: &Wave, curves: &[Vec<(f64, f
     ledger
         .claim("energy that plastic flow dissipates")
         .unit("J/m")
-        .value(done.report.energy.map_or(f64::NAN, |e| e.parts.plastic))
+        .value(done.report.energy.as_ref().map_or(f64::NAN, |e| e.part("plastic")))
         .equals(wave.work() * volume)
         .relative(0.01)
         .evidence(Evidence::Exact, "(Y + H e/2) e of the volume behind the front")

@@ -35,11 +35,11 @@ pub fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         .covers(&COVERS)
         .cost(&done.cost)
         .record();
-    let energy = done.report.energy.ok_or("no energy")?;
+    let energy = done.report.energy.as_ref().ok_or("no energy")?;
     ledger
         .claim("energy that friction dissipates")
         .unit("J/m")
-        .value(energy.parts.friction)
+        .value(energy.part("friction"))
         .equals(0.5 * MASS * SPEED * SPEED)
         .relative(late)
         .evidence(Evidence::Exact, "kinetic energy at the start")

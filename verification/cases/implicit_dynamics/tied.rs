@@ -38,14 +38,14 @@ pub fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let moved = rate / k * (end - sine / w);
     let speed = rate / k * (1.0 - cosine);
     let work = rate * rate / k * (0.5 * end * end - end * sine / w - (cosine - 1.0) / (w * w));
-    let energy = done.report.energy.ok_or("no energy")?;
+    let energy = done.report.energy.as_ref().ok_or("no energy")?;
     // The phase by which the trapezoidal rule lags, and what the block bends beside the tie.
     let late = (w * end / STEPS as f64).powi(2) / 12.0 * w * end + 2.0 * k / YOUNG;
     let covers = [Capability::Inertia, Capability::PenaltyContact2d, Capability::Loads];
     for (name, found, exact, by_phase) in [
-        ("energy of the tie", energy.parts.contact, 0.5 * k * moved * moved, rate * moved / w),
-        ("work of the load", energy.parts.loads, work, rate * rate / k * (end / w + 1.0 / (w * w))),
-        ("kinetic energy", energy.parts.kinetic, 0.5 * speed * speed, speed * rate / k),
+        ("energy of the tie", energy.part("contact"), 0.5 * k * moved * moved, rate * moved / w),
+        ("work of the load", energy.part("loads"), work, rate * rate / k * (end / w + 1.0 / (w * w))),
+        ("kinetic energy", energy.part("kinetic"), 0.5 * speed * speed, speed * rate / k),
     ] {
         ledger
             .claim(format!("a block on a tie under a load that ramps: {name}"))

@@ -152,7 +152,11 @@ fn budget(ledger: &mut Ledger) -> Result<(), CaseError> {
             .cost(&done.cost)
             .record();
         if radius == 1.0 {
-            let lost = done.report.energy.map_or(f64::NAN, |e| (e.parts.numerical / e.parts.start).abs());
+            let lost = done
+                .report
+                .energy
+                .as_ref()
+                .map_or(f64::NAN, |e| (e.part("numerical") / e.part("start")).abs());
             ledger
                 .claim("energy that the method dissipates with spectral radius 1, over that at the start")
                 .value(lost)

@@ -11,7 +11,7 @@ use crate::report::{EnergyTable, Kind, Outcome, Phases, Stop, Work, results};
 use crate::resolution::Resolution;
 use crate::warning::Warning;
 use asperity_mechanics::coordinates;
-use asperity_mechanics::dynamics::{Budget, Halt};
+use asperity_mechanics::dynamics::Halt;
 use asperity_output::decimals::fixed;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -54,36 +54,6 @@ pub struct Pace {
     pub share: (f64, String),
 }
 
-/// Energy budget at the end.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
-#[serde(into = "EnergyTable")]
-#[schemars(with = "EnergyTable")]
-pub struct WaveEnergy {
-    /// Unit of energies.
-    pub unit: &'static str,
-    /// Energy budget.
-    pub parts: Budget,
-    /// Amount missing in the balance, over the largest part \[-\].
-    pub imbalance: f64,
-}
-
-impl WaveEnergy {
-    fn new(unit: &'static str, parts: Budget) -> Self {
-        let largest = parts.largest();
-        let imbalance = if largest > 0.0 { parts.missing().abs() / largest } else { 0.0 };
-        Self { unit, parts, imbalance }
-    }
-}
-
-impl From<WaveEnergy> for EnergyTable {
-    fn from(WaveEnergy { unit, parts: e, imbalance }: WaveEnergy) -> Self {
-        let kept = [("kinetic", e.kinetic), ("elastic", e.elastic)];
-        let lost = [("viscous", e.viscous), ("friction", e.friction), ("absorbed", e.absorbed)];
-        let given = [("start", e.initial), ("loads", e.loads), ("released", e.released)];
-        Self::new(unit, [&kept, &lost, &given], (e.missing(), imbalance))
-    }
-}
-
 /// Report of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Report {
@@ -108,7 +78,7 @@ pub struct Report {
     /// Ruptures of the faults.
     pub ruptures: Vec<FaultRupture>,
     /// Energy budget at the end.
-    pub energy: WaveEnergy,
+    pub energy: EnergyTable,
     /// Work.
     pub counts: Work,
     /// Wall time.
@@ -125,9 +95,12 @@ impl Report {
     /// Report of a run of a plan.
     #[must_use]
     pub fn new<const D: usize>(plan: &Plan<D>, ended: &Ended) -> Self {
+        let energy = EnergyTable::of_waves(if plan.per_length { "J/m" } else { "J" }, &ended.budget);
+        let doubt =
+            energy.doubt("the steps are too long for it", "take a smaller `courant`, or more `viscosity`");
         Self {
             outcome: outcome(plan, ended),
-            warnings: plan.warnings.iter().chain(&ended.doubts).cloned().collect(),
+            warnings: plan.warnings.iter().chain(&ended.doubts).cloned().chain(doubt).collect(),
             resolution: plan.resolution.clone(),
             checks: plan.checks.clone(),
             end: ended.time,
@@ -136,7 +109,7 @@ impl Report {
             stable_at: plan.stiffest.to_vec(),
             dofs: plan.problem.model.dofs(),
             ruptures: plan.faults.iter().enumerate().map(|(k, f)| rupture(plan, (k, f), ended)).collect(),
-            energy: WaveEnergy::new(if plan.per_length { "J/m" } else { "J" }, ended.budget),
+            energy,
             counts: Work { steps: ended.steps as u64, cells: Some(plan.cells()), ..Work::default() },
             seconds: Phases { set_up: ended.set_up, ..Phases::default() },
             pace: Pace {
@@ -165,12 +138,7 @@ impl Report {
                 r.moment
             );
         }
-        let WaveEnergy { unit, parts: e, imbalance } = &self.energy;
-        let _ = writeln!(
-            text,
-            "  energy [{unit}]: kinetic {:.4e}, elastic {:.4e}, viscous {:.4e}, friction {:.4e}, absorbed {:.4e}, loads {:.4e}, released {:.4e}; imbalance {imbalance:.1e}",
-            e.kinetic, e.elastic, e.viscous, e.friction, e.absorbed, e.loads, e.released
-        );
+        let _ = writeln!(text, "  {}", self.energy.text());
         let s = &self.seconds;
         let _ = writeln!(
             text,

@@ -4,7 +4,7 @@ use super::moment::Moment;
 use super::plan::Plan;
 use super::rows::{Course, Table};
 use crate::fault::cadence::NO_RATE;
-use crate::fault::{Station, stations};
+use crate::fault::stations;
 use asperity_output::seas::{Head, Row};
 
 /// Tables of the stations of all faults.
@@ -12,7 +12,10 @@ pub(super) fn tables<const D: usize>(plan: &Plan<D>) -> Vec<Table<'_>> {
     let mut all = Vec::new();
     for fault in &plan.faults {
         for (name, (asked, point)) in stations::names(fault).into_iter().zip(&fault.stations) {
-            let head = head(plan, &fault.name, asked, *point);
+            let view = &plan.points[*point];
+            let location = stations::location(fault, asked, view);
+            let plain = stations::plain(&plan.title, (&location, view), D == 3);
+            let head = Head { opens: opens(plan), ..plain }.text();
             let row = |now: &Moment<'_>| row(plan, now, *point);
             all.push(Table::new(format!("stations/{name}"), head, Course::Rows, row));
         }
@@ -22,26 +25,6 @@ pub(super) fn tables<const D: usize>(plan: &Plan<D>) -> Vec<Table<'_>> {
 
 fn opens<const D: usize>(plan: &Plan<D>) -> bool {
     plan.problem.fault.as_ref().is_some_and(|f| f.opens)
-}
-
-fn head<const D: usize>(plan: &Plan<D>, fault: &str, asked: &Station, point: usize) -> String {
-    let view = &plan.points[point];
-    let location = match asked {
-        Station::Along(s) => format!("{s} m along fault {fault}, point at {:.6} m", view.along),
-        Station::At(at) => format!("{at:?} m on fault {fault}, point at {:?} m", view.at),
-    };
-    let head = Head {
-        title: &plan.title,
-        version: env!("CARGO_PKG_VERSION"),
-        area: view.area,
-        in_space: D == 3,
-        location: &location,
-        directions: view.across.map(|across| [view.slides, across]),
-        opens: opens(plan),
-        heats: false,
-        pressurises: false,
-    };
-    head.text()
 }
 
 /// Row of a station. A point at rest has the smallest slip rate that files show.

@@ -5,7 +5,7 @@ use super::plan::Plan;
 use super::rows::{Course, Table};
 use super::stations;
 use crate::fault::cadence::log_rate;
-use crate::fault::{FaultView, PointView};
+use crate::fault::{PointView, moments};
 use asperity_mechanics::dynamics::Budget;
 use asperity_output::decimals::{scientific, shortest};
 use asperity_output::view::EnergyParts;
@@ -20,7 +20,7 @@ const DECIMALS: usize = 9;
 fn all<const D: usize>(plan: &Plan<D>) -> Vec<Table<'_>> {
     let mut all = vec![energies(plan)];
     if !plan.points.is_empty() {
-        all.push(moments(plan));
+        all.push(moment_rates(plan));
         all.push(profiles(plan, "rate_profiles.csv", |now| &now.fault.rate, log_rate));
         all.push(profiles(plan, "slip_profiles.csv", |now| &now.fault.slip, |slip| slip));
     }
@@ -47,15 +47,13 @@ fn energies<const D: usize>(plan: &Plan<D>) -> Table<'_> {
 }
 
 /// Moment rates and moments of faults.
-fn moments<const D: usize>(plan: &Plan<D>) -> Table<'_> {
+fn moment_rates<const D: usize>(plan: &Plan<D>) -> Table<'_> {
     let unit = if plan.per_length { "N" } else { "N m" };
-    let columns = |f: &FaultView| format!(",moment_rate of {0} [{unit}/s],moment of {0} [{unit}]", f.name);
-    let columns: String = plan.faults.iter().map(columns).collect();
     let row = |now: &Moment<'_>| {
         let (rates, sums) = (moments_of(plan, &now.fault.rate), moments_of(plan, &now.fault.slip));
         line(now.time, rates.into_iter().zip(sums).flat_map(|(rate, sum)| [rate, sum]))
     };
-    Table::new("moment_rate.csv", format!("time [s]{columns}\n"), Course::Rows, row)
+    Table::new(moments::FILE, moments::head(&plan.faults, unit), Course::Rows, row)
 }
 
 /// Profile of values `of` all points: with a sign in the plane, and of magnitudes of vectors.

@@ -25,7 +25,7 @@ mod largest;
 
 pub mod located;
 mod locking;
-mod moments;
+pub(crate) mod moments;
 mod normal;
 mod not_finite;
 mod openings;

@@ -1,12 +1,12 @@
 //! Moment rates and moments of faults through a run.
 
-use super::plan::Plan;
+use super::plan::{FaultView, Plan};
 use super::rows::{Course, Table, line};
 use asperity_cycles::{Components, Moment};
 use asperity_output::decimals::scientific;
 
 /// Name of the table.
-pub(super) const FILE: &str = "moment_rate.csv";
+pub(crate) const FILE: &str = "moment_rate.csv";
 
 /// Unit of moments: in the plane they are per metre of thickness.
 pub(super) fn unit(plan: &Plan) -> &'static str {
@@ -15,10 +15,14 @@ pub(super) fn unit(plan: &Plan) -> &'static str {
 
 /// The table.
 pub(super) fn table(plan: &Plan) -> Table<'_> {
-    let unit = unit(plan);
+    Table::new(FILE, head(&plan.faults, unit(plan)), Course::Largest, |now| row(plan, now))
+}
+
+/// Header of the table for moments in this unit.
+pub(crate) fn head(faults: &[FaultView], unit: &str) -> String {
     let columns = |name: &str| format!(",moment_rate of {name} [{unit}/s],moment of {name} [{unit}]");
-    let columns: String = plan.faults.iter().map(|f| columns(&f.name)).collect();
-    Table::new(FILE, format!("time [s]{columns}\n"), Course::Largest, |now| row(plan, now))
+    let columns: String = faults.iter().map(|f| columns(&f.name)).collect();
+    format!("time [s]{columns}\n")
 }
 
 /// ∫ G |v| dA of each fault, of slip or of slip rates v.

@@ -13,7 +13,7 @@ use crate::catalogue::{Entry, FaultEvents, Scattered, Site, slipped};
 use crate::checks::Checks;
 use crate::outrun;
 use crate::report::{
-    EnergyBalance, ForceResult, Kind, Outcome, Phases, PointResult, SpringResult, Stop, Work, results,
+    EnergyTable, ForceResult, Kind, Outcome, Phases, PointResult, SpringResult, Stop, Work, results,
 };
 use crate::resolution::Resolution;
 use crate::warning::Warning;
@@ -112,7 +112,7 @@ impl Turned {
 }
 
 /// A cycle, from the end of an event to the end of the next.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Cycle {
     /// Duration of the cycle \[s\].
     pub duration: f64,
@@ -123,7 +123,7 @@ pub struct Cycle {
     /// Slip at the rates that would keep tractions constant under the loads, if the loads are constant.
     pub driven: Option<f64>,
     /// Energies of the cycle.
-    pub energy: EnergyBalance,
+    pub energy: EnergyTable,
 }
 
 /// Ratio of load-driven slip to all slip since the previous event below which an event counts as an aftershock, part of the previous event's slip.
@@ -146,7 +146,7 @@ impl Cycle {
             seismic,
             aseismic: b.potency - a.potency - seismic,
             driven: driven.map(|rate| rate * duration),
-            energy: EnergyBalance::new(unit(plan), b.energy.since(&a.energy)),
+            energy: EnergyTable::of_faults(unit(plan), &b.energy.since(&a.energy)),
         }
     }
 
@@ -200,7 +200,7 @@ pub struct Report {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub slow_events: Option<Vec<Entry>>,
     /// Energies up to the end.
-    pub energy: EnergyBalance,
+    pub energy: EnergyTable,
     /// Ruptures in which bodies had mass, and the errors of the hand-overs.
     #[serde(rename = "passages", skip_serializing_if = "Vec::is_empty")]
     pub ruptures: Vec<Episode>,
@@ -323,7 +323,9 @@ impl Report {
         let slip = &run.unknowns[Layout::of(&plan.problem.fault).slip()];
         let pressed = plan.problem.fault.pressed(run.at, &run.unknowns);
         let End { points, forces, springs } = End::of(plan, run, &pressed);
-        let energy = EnergyBalance::new(unit(plan), balance.energy(slip, &pressed));
+        let energy = EnergyTable::of_faults(unit(plan), &balance.energy(slip, &pressed));
+        let unbalanced =
+            energy.doubt("the steps are too long for it", "take a smaller `log_rate_tolerance` in `[time]`");
         let marks = balance.marks();
         let driven = if marks.len() > 1 { steady(&plan.problem) } else { None };
         let driven = driven.map(|rate| rate.iter().zip(&plan.points).map(|(v, p)| v * p.area).sum());
@@ -337,7 +339,7 @@ impl Report {
         let (heat, molten) = heats(plan, balance.account());
         Self {
             outcome,
-            warnings: plan.warnings.iter().cloned().chain(molten).collect(),
+            warnings: plan.warnings.iter().cloned().chain(molten).chain(unbalanced).collect(),
             resolution: plan.resolution.clone(),
             checks: plan.checks.of_any_machine(),
             floors: uses(plan, balance.account()),
@@ -412,14 +414,7 @@ impl Report {
                 closure
             );
         }
-        let e = &self.energy.parts;
-        let opening =
-            if self.openings.is_empty() { String::new() } else { format!(", on openings {:.6e}", e.opening) };
-        let _ = writeln!(
-            text,
-            "  energy: loads {:.6e}{opening}, elastic {:.6e}, friction {:.6e}, radiated {:.6e} {}; closes to {:.1e} of the largest",
-            e.loads, e.elastic, e.friction, e.radiated, self.energy.unit, self.energy.imbalance
-        );
+        let _ = writeln!(text, "  {}", self.energy.text());
         for floor in &self.floors {
             let _ = writeln!(text, "  {}", floor.words());
         }

@@ -1,7 +1,7 @@
 //! Station files in the format of the SEAS community, one per station.
 
 use super::cadence::NO_RATE;
-use super::plan::{FaultView, Plan, Station};
+use super::plan::{FaultView, Plan, PointView, Station};
 use super::rows::{Course, Table};
 use asperity_cycles::heat::{PRESSURE, TEMPERATURE};
 use asperity_cycles::{Moment, OPENING};
@@ -31,7 +31,7 @@ pub(super) fn heads(plan: &Plan) -> Vec<(String, String)> {
     let mut heads = Vec::new();
     for fault in &plan.faults {
         for (name, (asked, point)) in names(fault).into_iter().zip(&fault.stations) {
-            heads.push((name, head(plan, &fault.name, asked, *point)));
+            heads.push((name, head(plan, fault, asked, *point)));
         }
     }
     heads
@@ -46,22 +46,38 @@ pub(super) fn tables(plan: &Plan) -> impl Iterator<Item = Table<'_>> {
     })
 }
 
-fn head(plan: &Plan, fault: &str, asked: &Station, point: usize) -> String {
-    let view = &plan.points[point];
-    let location = match asked {
+/// Words for the location of a station of a fault at a point.
+pub(crate) fn location(fault: &FaultView, asked: &Station, view: &PointView) -> String {
+    let fault = &fault.name;
+    match asked {
         Station::Along(s) => format!("{s} m along fault {fault}, point at {:.6} m", view.along),
         Station::At(at) => format!("{at:?} m on fault {fault}, point at {:?} m", view.at),
-    };
-    let head = Head {
-        title: &plan.title,
+    }
+}
+
+/// Head of the file of a station at a point, of a fault that neither opens nor heats.
+pub(crate) fn plain<'a>(title: &'a str, (location, view): (&'a str, &PointView), in_space: bool) -> Head<'a> {
+    Head {
+        title,
         version: env!("CARGO_PKG_VERSION"),
         area: view.area,
-        in_space: plan.in_space,
-        location: &location,
+        in_space,
+        location,
         directions: view.across.map(|across| [view.slides, across]),
+        opens: false,
+        heats: false,
+        pressurises: false,
+    }
+}
+
+fn head(plan: &Plan, fault: &FaultView, asked: &Station, point: usize) -> String {
+    let view = &plan.points[point];
+    let location = location(fault, asked, view);
+    let head = Head {
         opens: opens(plan, point),
         heats: plan.heat_at(point).is_some(),
         pressurises: pressurises(plan, point),
+        ..plain(&plan.title, (&location, view), plan.in_space)
     };
     head.text()
 }

@@ -4,10 +4,11 @@ use crate::views;
 use crate::warning::Warning;
 use asperity_cycles::Energy;
 use asperity_mechanics as mechanics;
-use asperity_output::view::EnergyParts;
+use asperity_mechanics::dynamics;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 
 /// Imbalance above which a run warns: forces and speeds then err by some per cent.
 const DOUBTFUL: f64 = 0.05;
@@ -37,27 +38,35 @@ type Part = (&'static str, f64);
 
 impl EnergyTable {
     /// The budget of these parts: kept, lost and given.
-    pub(crate) fn new(unit: &'static str, parts: [&[Part]; 3], (missing, imbalance): (f64, f64)) -> Self {
+    fn new(unit: &'static str, parts: [&[Part]; 3], (missing, imbalance): (f64, f64)) -> Self {
         let [kept, lost, given] = parts.map(|parts| parts.iter().copied().collect());
         Self { unit, kept, lost, given, missing, imbalance, exchanged: None }
     }
-}
 
-/// Energy budget of bodies at the end of a run, with its imbalance.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
-#[serde(into = "EnergyTable")]
-#[schemars(with = "EnergyTable")]
-pub struct Budget {
-    /// Unit of energies.
-    pub unit: &'static str,
-    /// Energy budget \[J; J per metre of thickness in plane strain and antiplane motion\].
-    pub parts: EnergyParts,
-    /// Largest amount by which the budget missed its closure in any step, over the largest of its parts in the run \[-\].
-    pub imbalance: f64,
-}
+    /// Budget of faults or sliders.
+    #[must_use]
+    pub fn of_faults(unit: &'static str, e: &Energy) -> Self {
+        let kept = [("kinetic", e.kinetic), ("elastic", e.elastic)];
+        let lost = [("friction", e.friction), ("radiated", e.radiated)];
+        let given = [("loads", e.loads), ("opening", e.opening)];
+        let exchanged = (e.exchanged != 0.0).then_some(e.exchanged);
+        Self { exchanged, ..Self::new(unit, [&kept, &lost, &given], (e.missing(), e.imbalance())) }
+    }
 
-impl From<Budget> for EnergyTable {
-    fn from(Budget { unit, parts: e, imbalance }: Budget) -> Self {
+    /// Budget of bodies with mass in explicit steps.
+    #[must_use]
+    pub fn of_waves(unit: &'static str, e: &dynamics::Budget) -> Self {
+        let largest = e.largest();
+        let imbalance = if largest > 0.0 { e.missing().abs() / largest } else { 0.0 };
+        let kept = [("kinetic", e.kinetic), ("elastic", e.elastic)];
+        let lost = [("viscous", e.viscous), ("friction", e.friction), ("absorbed", e.absorbed)];
+        let given = [("start", e.initial), ("loads", e.loads), ("released", e.released)];
+        Self::new(unit, [&kept, &lost, &given], (e.missing(), imbalance))
+    }
+
+    /// Budget of bodies with inertia, which missed its closure by `imbalance` of its largest part \[-\].
+    fn of_bodies(unit: &'static str, energy: &mechanics::Energy, imbalance: f64) -> Self {
+        let e = views::energy(energy);
         let kept =
             [("kinetic", e.kinetic), ("elastic", e.elastic), ("contact", e.contact), ("springs", e.springs)];
         let lost = [
@@ -70,48 +79,41 @@ impl From<Budget> for EnergyTable {
         let given = [("start", e.start), ("loads", e.loads), ("motions", e.motions)];
         Self::new(unit, [&kept, &lost, &given], (e.missing, imbalance))
     }
-}
 
-/// Energy budget of faults or sliders, with its imbalance.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
-#[serde(into = "EnergyTable")]
-#[schemars(with = "EnergyTable")]
-pub struct EnergyBalance {
-    /// Unit of energies.
-    pub unit: &'static str,
-    /// Energy budget.
-    pub parts: Energy,
-    /// |loads + opening - elastic - friction - radiated - kinetic| over the largest of these terms \[-\].
-    pub imbalance: f64,
-}
-
-impl EnergyBalance {
-    /// The budget in this unit.
+    /// An energy by its name; 0 without one.
     #[must_use]
-    pub fn new(unit: &'static str, parts: Energy) -> Self {
-        Self { unit, parts, imbalance: parts.imbalance() }
+    pub fn part(&self, name: &str) -> f64 {
+        [&self.kept, &self.lost, &self.given]
+            .into_iter()
+            .find_map(|parts| parts.get(name))
+            .copied()
+            .unwrap_or(0.0)
     }
-}
 
-impl From<EnergyBalance> for EnergyTable {
-    fn from(EnergyBalance { unit, parts: e, imbalance }: EnergyBalance) -> Self {
-        let kept = [("kinetic", e.kinetic), ("elastic", e.elastic)];
-        let lost = [("friction", e.friction), ("radiated", e.radiated)];
-        let given = [("loads", e.loads), ("opening", e.opening)];
-        let exchanged = (e.exchanged != 0.0).then_some(e.exchanged);
-        Self { exchanged, ..Self::new(unit, [&kept, &lost, &given], (e.missing(), imbalance)) }
+    /// The budget in a line, without parts that are zero.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let mut text = format!("energy [{}]:", self.unit);
+        for (name, parts) in [("given", &self.given), ("kept", &self.kept), ("lost", &self.lost)] {
+            let parts: Vec<String> = parts
+                .iter()
+                .filter(|part| *part.1 != 0.0)
+                .map(|(name, value)| format!("{name} {value:.6e}"))
+                .collect();
+            if !parts.is_empty() {
+                let _ = write!(text, " {name} {};", parts.join(", "));
+            }
+        }
+        let _ = write!(text, " closes to {:.1e} of the largest", self.imbalance);
+        text
     }
-}
 
-impl Budget {
-    /// Warning about a budget that does not close.
-    pub(crate) fn doubt(&self) -> Option<Warning> {
+    /// Warning about a budget that does not close, with the usual `cause` and the help against it.
+    #[must_use]
+    pub fn doubt(&self, cause: &str, help: &str) -> Option<Warning> {
         (self.imbalance > DOUBTFUL).then(|| {
-            let message = format!(
-                "the energy budget misses {:.2} of its largest part: points of contact may open and close in every other step",
-                self.imbalance
-            );
-            let help = "take shorter steps, a `spectral_radius` of 0.5 or less, or a softer penalty";
+            let message =
+                format!("the energy budget misses {:.2} of its largest part: {cause}", self.imbalance);
             Warning::at(0..0, message, help)
         })
     }
@@ -135,8 +137,8 @@ impl Closure {
     }
 
     /// Budget at the end of a run.
-    pub(crate) fn closure(&self, end: mechanics::Energy, unit: &'static str) -> Budget {
+    pub(crate) fn closure(&self, end: mechanics::Energy, unit: &'static str) -> EnergyTable {
         let imbalance = if self.missing == 0.0 { 0.0 } else { self.missing / self.largest };
-        Budget { unit, parts: views::energy(&end), imbalance }
+        EnergyTable::of_bodies(unit, &end, imbalance)
     }
 }

@@ -6,5 +6,5 @@ mod samples;
 
 pub(crate) use common::results;
 pub use common::{Kind, Outcome, Phases, Results, Status, Stop, Work};
-pub use energy::{Budget, Closure, EnergyBalance, EnergyTable};
+pub use energy::{Closure, EnergyTable};
 pub use samples::{ForceResult, PointResult, SpringResult};

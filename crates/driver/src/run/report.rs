@@ -7,7 +7,7 @@ use crate::checks::Checks;
 use crate::cohesive;
 use crate::plan::{EventPlan, Plan, Sites, Summary};
 use crate::report::{
-    Budget, ForceResult, Kind, Outcome, Phases, PointResult, SpringResult, results as common,
+    EnergyTable, ForceResult, Kind, Outcome, Phases, PointResult, SpringResult, results as common,
 };
 use crate::views;
 use crate::warning::Warning;
@@ -107,7 +107,7 @@ pub struct RunReport {
     pub balance: Vec<InterfaceBalance>,
     /// Energy budget at the end, if the bodies have inertia.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub energy: Option<Budget>,
+    pub energy: Option<EnergyTable>,
     /// Passages from equilibrium to inertia and back, if the stepper is "auto".
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub passages: Vec<Passage>,

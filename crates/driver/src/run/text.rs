@@ -48,7 +48,7 @@ fn of(report: &RunReport) -> String {
         ));
     }
     if let Some(energy) = &report.energy {
-        text.push_str(&format!("  energy budget closes to {:.1e} of its largest part\n", energy.imbalance));
+        text.push_str(&format!("  {}\n", energy.text()));
     }
     if !report.passages.is_empty() {
         let most = |of: fn(&Passage) -> f64| report.passages.iter().map(of).fold(0.0, f64::max);

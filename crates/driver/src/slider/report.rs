@@ -3,7 +3,7 @@
 use super::events::Named;
 use crate::checks::Checks;
 use crate::outrun;
-use crate::report::{EnergyBalance, Kind, Outcome, Phases, Stop, Work, results};
+use crate::report::{EnergyTable, Kind, Outcome, Phases, Stop, Work, results};
 use crate::warning::Warning;
 use asperity_cycles::slider::{Problem, SliderRun};
 use asperity_cycles::{Outrun, Thresholds};
@@ -67,7 +67,7 @@ pub struct Report {
     pub events: Vec<Named>,
     /// Energy budget \[J/m²\], summed over the sliders; absent if the run was not observed.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub energy: Option<EnergyBalance>,
+    pub energy: Option<EnergyTable>,
     /// Work.
     pub counts: Work,
     /// Wall time.
@@ -112,10 +112,15 @@ impl Report {
                 states: y[1..=s.law.states()].to_vec(),
             }
         });
+        let energy = run.progress.budget.as_ref();
+        let energy = energy.map(|budget| EnergyTable::of_faults("J/m²", &budget.energy()));
+        let doubt = |energy: &EnergyTable| {
+            energy.doubt("the steps are too long for it", "take a smaller `tolerance` in `[time]`")
+        };
         Self {
+            warnings: energy.iter().filter_map(doubt).collect(),
             dynamics: problem.dynamics().to_string(),
             sliders: problem.names.clone(),
-            warnings: Vec::new(),
             checks: Checks::default(),
             method: problem.method.name().to_string(),
             tolerance: problem.tolerance,
@@ -124,7 +129,7 @@ impl Report {
             end: run.at.seconds(),
             last: last.collect(),
             events: Named::all(run, &problem.names),
-            energy: run.progress.budget.as_ref().map(|budget| EnergyBalance::new("J/m²", budget.energy())),
+            energy,
             counts: run.counts.into(),
             seconds: Phases::default(),
         }
@@ -154,14 +159,8 @@ impl Report {
                 l.slider, self.end, l.slip_rate, l.friction
             );
         }
-        if let Some(EnergyBalance { parts: e, imbalance, unit }) = &self.energy {
-            let kinetic =
-                if e.kinetic == 0.0 { String::new() } else { format!(", kinetic {:.6e}", e.kinetic) };
-            let _ = writeln!(
-                text,
-                "  energy: loads {:.6e}, elastic {:.6e}, friction {:.6e}, radiated {:.6e}{kinetic} {unit}; closes to {imbalance:.1e} of the largest",
-                e.loads, e.elastic, e.friction, e.radiated
-            );
+        if let Some(energy) = &self.energy {
+            let _ = writeln!(text, "  {}", energy.text());
         }
         let c = &self.counts;
         let _ = writeln!(

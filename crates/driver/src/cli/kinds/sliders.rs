@@ -40,7 +40,8 @@ impl<'a> Run for Sliders<'a> {
     fn report(&self, run: &mut SliderRun, keeper: &mut Keeper<Self::Outputs>) -> Report {
         let Plan { problem, warnings, checks, .. } = self.0;
         let mut report = Report::new(problem, run);
-        (report.warnings, report.checks) = (warnings.clone(), checks.clone());
+        report.warnings.splice(0..0, warnings.iter().cloned());
+        report.checks.clone_from(checks);
         if let Some(why) = keeper.interrupted() {
             report.outcome = Outcome::Interrupted { stage: None, time: report.end, reason: why.into() };
         }

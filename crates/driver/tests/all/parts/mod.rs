@@ -32,6 +32,7 @@ mod forecast;
 mod model_order;
 mod plan_penalty;
 mod refused;
+mod report_energy;
 mod run_doubts;
 mod run_events;
 mod setup;
