@@ -4,7 +4,6 @@
 mod accounts;
 mod course;
 mod equations;
-mod error;
 pub mod kernel;
 pub mod medium;
 pub mod operator;
@@ -21,9 +20,8 @@ pub use course::{
     resume, resume_with, run,
 };
 pub use equations::Equations;
-pub use error::RunError;
 pub use problem::{
-    Components, Fault, Layout, Loading, PerPoint, Pressed, Problem, Processes, Settings, Thresholds,
+    Components, Fault, Layout, Loading, PerPoint, Pressed, Problem, Processes, RunError, Settings, Thresholds,
 };
 pub use processes::{
     BODIES, Below, Crack, Floor, Injection, OPENING, Opened, Opening, Pressure, Pulse, Used, Widest, deficit,

@@ -1,5 +1,6 @@
 //! Checks of a scene before anything is built. All errors are collected.
 
+pub mod apart;
 mod bodies;
 mod conditions;
 mod corners;

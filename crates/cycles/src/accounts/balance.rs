@@ -29,7 +29,7 @@ use serde::{Deserialize, Serialize};
 use std::any::Any;
 use std::ops::Range;
 
-/// Share of a step by which its end may lie beyond the end of an injection, owing to rounding of times.
+/// Share of a step by which its end may lie beyond a change of a process, owing to rounding of times.
 const ROUNDING: f64 = 1e-9;
 
 /// Components of points in a sum of works. Their number is fixed, so that results do not depend on the number of threads.

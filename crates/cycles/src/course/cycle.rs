@@ -12,8 +12,7 @@ use super::follow::{End, Follow};
 use super::run::NextStep;
 use super::waves::Dynamics;
 use crate::equations::Equations;
-use crate::error::RunError;
-use crate::problem::{Fault, Loading, Problem, Settings};
+use crate::problem::{Fault, Loading, Problem, RunError, Settings};
 use asperity_ode::{
     Clock, Control, Failure, Finished, ObserveError, Observer, Occurrence, Options, Outcome, Sink, Step,
 };

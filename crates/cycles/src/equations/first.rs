@@ -4,7 +4,7 @@ use super::Equations;
 use asperity_friction::fault::Drive;
 use asperity_ode::Clock;
 
-/// Share of its tolerance by which an unknown may drift in the first instants of an injection.
+/// Share of its tolerance by which an unknown may drift in the first instants after a sudden change.
 const DRIFT: f64 = 0.01;
 /// Largest relative change of f_n in these instants. Its square is neglected; it changes m ~ 100 by less than a
 /// hundredth of any practical tolerance.
@@ -15,10 +15,9 @@ const FIRST: f64 = 1e-3;
 const QUARTERINGS: usize = 60;
 
 impl Equations<'_> {
-    /// Advances over the first instants after an injection begins or ends at `at`, when the rate of pressure is
-    /// infinite. Writes the response of friction to the pressure into `y`, and returns the time over which everything
-    /// else can be held constant \[s\]. `most` is the length of the leg \[s\]. None if no injection begins or ends at
-    /// `at`.
+    /// Advances over the first instants after `at`, when the rate of a process is infinite. Writes the response of
+    /// friction to the change of f_n into `y`, and returns the time over which everything else can be held constant
+    /// \[s\]. `most` is the length of the leg \[s\]. None if no process is sudden at `at`.
     ///
     /// Over so short a time m and the states follow f_n alone, `dm = (∂ṁ/∂ḟ_n) Δf_n`, since the rates are linear in
     /// ḟ_n. Everything else drifts by at most a hundredth of its tolerance.

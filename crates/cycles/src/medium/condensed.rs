@@ -1,7 +1,6 @@
 //! Bodies condensed onto the jumps of their faults: the tractions that slip and loads cause.
 
 use super::bodies::Bodies;
-use super::forces::{Bearing, Forces, Matrix};
 use super::held;
 use super::loads::Loads;
 use super::machine::Machine;
@@ -9,6 +8,7 @@ use super::mirror::Mirror;
 use super::place::{Place, across};
 use super::point::{Initial, Point};
 use super::refusal::Refusal;
+use crate::operator::{Bearing, Forces, Matrix};
 use crate::problem::Loading;
 use crate::processes::Opening;
 use asperity_fem::FemError;

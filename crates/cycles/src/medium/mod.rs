@@ -1,10 +1,8 @@
-//! Media around sliding points: bodies condensed onto the points of faults, homogeneous rock without bodies, and springs between
-//! sliders.
+//! Media around sliding points: bodies condensed onto the points of faults, homogeneous rock without bodies.
 
 mod bodies;
 mod condensed;
 mod displaced;
-mod forces;
 mod held;
 mod loads;
 mod machine;
@@ -14,13 +12,10 @@ mod place;
 mod point;
 mod pressed;
 mod refusal;
-mod springs;
 mod stressed;
-mod tractions;
 
 pub use bodies::{Bodies, Followed};
 pub use condensed::{Conditions, Surroundings, condense, least_bytes};
-pub use forces::Forces;
 pub use loads::Loads;
 pub use machine::Spring;
 pub use mirror::Mirror;
@@ -28,5 +23,3 @@ pub use place::{Place, across, unit};
 pub use point::{Initial, Point};
 pub use pressed::{Pressed, Pressing, press};
 pub use refusal::Refusal;
-pub(crate) use springs::{Slips, Travelled};
-pub use tractions::Tractions;

@@ -4,11 +4,10 @@
 //! Positions of faults have y up; the free surface of a half-space is y = 0. The axes of [`crate::kernel`] have z up: in the plane
 //! (x, z) of a kernel is (x, y) here, in space (x, y, z) of a kernel is (z, x, y) here, which keeps the handedness.
 
-use super::tractions::Tractions;
 use crate::kernel::{Field, Rectangle, Segment, Space, Triangle};
 use crate::operator::{
     Accuracy, Both, Checked, Dense, Division, Entry, Form, Geometry, Lattice, Operator, Planar, Toeplitz,
-    dense,
+    Tractions, dense,
 };
 use asperity_fem::material::elastic::Elastic;
 use nalgebra::{Matrix3, Vector3};

@@ -1,7 +1,8 @@
 //! Storage of an operator: dense or compressed.
 
+use super::forces::Forces;
+use super::tractions::Tractions;
 use super::{Both, Checked, Dense, Geometry, Hierarchical, Operator, Tolerance};
-use crate::medium::{Forces, Tractions};
 
 /// Storage of an operator.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,8 +6,8 @@
 use super::Operator;
 use super::blocks::{Compressed, Content, Part, Precision, Sizes};
 use super::cluster::{Cluster, Tree};
+use super::forces::Forces;
 use super::low_rank::{GROUP, LowRank, low_rank};
-use crate::medium::Forces;
 use nalgebra::DMatrix;
 use pulp::Arch;
 use serde::{Deserialize, Serialize};
@@ -355,8 +355,7 @@ impl Operator for Hierarchical {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::{Geometry, Hierarchical, Tolerance};
-    use crate::medium::Forces;
-    use crate::operator::{Dense, Operator};
+    use crate::operator::{Dense, Forces, Operator};
 
     const TOLERANCE: f64 = 1e-9;
 

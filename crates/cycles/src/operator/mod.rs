@@ -6,6 +6,7 @@ mod checked;
 mod cluster;
 mod crosses;
 mod dense;
+mod forces;
 mod form;
 mod hierarchical;
 mod lattice;
@@ -15,17 +16,21 @@ mod rows;
 mod sampled;
 mod stored;
 mod toeplitz;
+mod tractions;
 
 pub use blocks::Sizes;
 pub use both::Both;
 pub use checked::{Checked, Errors};
 pub use dense::Dense;
+pub use forces::Forces;
+pub(crate) use forces::{Bearing, Matrix};
 pub use form::{Form, dense, of_forces};
 pub use hierarchical::{Geometry, Hierarchical, Tolerance};
 pub use lattice::Lattice;
 pub use planar::Planar;
 pub use sampled::{Accuracy, Division, Entry};
 pub use toeplitz::Toeplitz;
+pub use tractions::Tractions;
 
 use std::any::Any;
 

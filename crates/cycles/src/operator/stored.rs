@@ -62,9 +62,8 @@ impl<'de> Deserialize<'de> for Box<dyn Operator> {
 
 #[cfg(test)]
 mod tests {
-    use crate::medium::Forces;
     use crate::operator::{
-        Both, Checked, Dense, Geometry, Hierarchical, Lattice, Operator, Planar, Toeplitz, Tolerance,
+        Both, Checked, Dense, Forces, Geometry, Hierarchical, Lattice, Operator, Planar, Toeplitz, Tolerance,
     };
 
     const POINTS: usize = 300;

@@ -1,6 +1,7 @@
 //! The problem to integrate: faults with their processes and their medium, loads, initial values, and settings.
 
 mod components;
+mod error;
 mod fault;
 mod layout;
 mod loading;
@@ -12,6 +13,7 @@ mod way;
 mod working;
 
 pub use components::{Components, PerPoint};
+pub use error::RunError;
 pub use fault::Fault;
 pub use layout::Layout;
 pub use loading::Loading;

@@ -74,7 +74,7 @@ pub trait Process: Any + Debug + Send + Sync {
     /// Adds the pressures of its fluid \[Pa\] and their rates \[Pa/s\] at all points, for the energy budget.
     fn fluid(&self, _time: Time, _pressed: &Pressed, _sum: &mut [[f64; 2]]) {}
 
-    /// What it does to bodies, where this is more than pressures and imposed tractions on slip.
+    /// Its effect on bodies, where this is more than pressures and imposed tractions on slip.
     fn energetic(&self) -> Option<&dyn Energetic> {
         None
     }
@@ -133,7 +133,7 @@ pub trait Acting: Debug + Send + Sync {
     }
 }
 
-/// What a process does to bodies, where it is more than pressures at points and imposed tractions.
+/// Effect of a process on bodies, where it is more than pressures at points and imposed tractions.
 pub trait Energetic {
     /// Adds the normal tractions that it causes at the start \[Pa\].
     fn first(&self, pressed: &Pressed, normal: &mut [f64]);

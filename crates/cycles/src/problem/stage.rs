@@ -1,4 +1,4 @@
-//! What processes see of a stage and of a step, and what is saved of them.
+//! Stages and steps as processes see them, and their saved states.
 
 use super::components::Components;
 use super::pressed::Pressed;
@@ -102,7 +102,7 @@ impl Saved {
         Self { process: process.into(), at: None, lists: lists.map(<[f64]>::to_vec).into() }
     }
 
-    /// That of a process among others.
+    /// State of a process among those of others.
     #[must_use]
     pub fn find<'a>(all: &'a [Self], process: &str) -> Option<&'a Self> {
         all.iter().find(|saved| saved.process == process)

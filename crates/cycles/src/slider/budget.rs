@@ -16,8 +16,8 @@
 //! integrator uses none of these integrals, so the imbalance of the budget is an independent measure of the error.
 
 use super::equations::Piece;
+use super::springs::Slips;
 use crate::accounts::Energy;
-use crate::medium::Slips;
 use asperity_friction::slider::Condition;
 use asperity_ode::{Clock, Step};
 use serde::{Deserialize, Serialize};

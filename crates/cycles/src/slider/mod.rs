@@ -8,10 +8,10 @@ mod problem;
 mod rows;
 mod run;
 mod slide;
+mod springs;
 pub mod stability;
 
 pub use budget::Budget;
-pub(crate) use equations::Piece;
 pub use problem::{ANY_ROCK, DEFAULT_METHOD, DEFAULT_TOLERANCE, MOST_STEPS, Problem, RESTART};
 pub use rows::{DEFAULT_CHANGE, Rows};
 pub use run::{Now, SliderRun, Sliders, resume, run};

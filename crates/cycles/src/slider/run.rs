@@ -8,10 +8,9 @@ use super::equations::{EventKind, Piece, Uneventful, kinds};
 use super::problem::Problem;
 use super::rows::Due;
 use super::slide::{self, Detectors, Edge, Slide};
+use super::springs::{Slips, Travelled};
 use crate::course::{NextStep, Outrun, Run, outrun};
-use crate::error::RunError;
-use crate::medium::{Slips, Travelled};
-use crate::problem::Components;
+use crate::problem::{Components, RunError};
 use asperity_friction::slider::{Condition, Slider};
 use asperity_ode::{
     Clock, Control, Failure, Kind, Method, ObserveError, Observer, Occurrence, Options, Outcome, Sink, Step,

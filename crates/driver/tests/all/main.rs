@@ -29,6 +29,7 @@ mod fault_mirror;
 mod fault_normal;
 mod fault_opening;
 mod fault_outputs;
+mod fault_processes;
 mod fault_start;
 mod figures;
 mod helps;

@@ -29,6 +29,7 @@ impl Checker<'_> {
             self.physics_of(fault);
             self.wells(fault);
             self.heat_of(fault);
+            self.processes_of(fault);
             for (name, profile) in fault.profiles.all() {
                 let sense = match name {
                     "shear" => fault.slides().then(|| fault.rate.get_ref().0.signum()),

@@ -33,7 +33,7 @@ impl Checker<'_> {
             self.positive_heat(("diffusivity", value, place), "1 mm^2/s");
         }
         self.temperatures(fault, heat);
-        self.beside_heat(fault, heat);
+        self.weakening(fault, heat);
     }
 
     /// Refuses a value that is not positive.
@@ -86,8 +86,8 @@ impl Checker<'_> {
         }
     }
 
-    /// Checks the other keys of the fault that heat needs or does not go with.
-    fn beside_heat(&mut self, fault: &Fault, heat: &Heat) {
+    /// Checks that the law has contacts that weaken where their temperature is given.
+    fn weakening(&mut self, fault: &Fault, heat: &Heat) {
         let evolution = fault.law.get_ref().evolution.as_ref();
         let flash = evolution.is_some_and(|e| e.get_ref() == "flash");
         if let Some(weakening) = heat.weakening_temperature.as_ref().filter(|_| !flash) {
@@ -96,22 +96,6 @@ impl Checker<'_> {
                 "`weakening_temperature` is that of contacts that weaken by flash heating, and the law has none",
                 "use `evolution = \"flash\"`, or remove it",
                 (&fault.law.span(), "the law"),
-            );
-        }
-        if let Some(injection) = &fault.injection {
-            self.conflict(
-                &heat.thickness.span(),
-                "heat of friction is not computed where fluid is injected",
-                "remove `heat` or `injection`",
-                (&injection.span(), "the injection"),
-            );
-        }
-        if let Some(opening) = fault.opening.as_ref().filter(|o| *o.get_ref()) {
-            self.conflict(
-                &heat.thickness.span(),
-                "heat of friction is not computed on faults that open",
-                "remove `heat` or `opening`",
-                (&opening.span(), "`opening`"),
             );
         }
     }

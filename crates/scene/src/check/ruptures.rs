@@ -1,7 +1,8 @@
 //! Faults through cycles whose ruptures have mass: the stepper "auto" in a scene with faults.
 
 use super::Checker;
-use crate::model::{Fault, Injections, Spanned, Stepper};
+use super::apart::{PROCESSES, process};
+use crate::model::{Fault, Spanned, Stepper};
 
 impl Checker<'_> {
     /// True if the scene has faults and the stepper is "auto".
@@ -29,16 +30,12 @@ impl Checker<'_> {
 
     /// Refuses what a fault cannot do in ruptures with mass.
     fn without_company(&mut self, fault: &Fault) {
-        let opens = fault.opening.as_ref().filter(|o| *o.get_ref() && !self.is_antiplane());
-        let keys = [
-            ("injection", fault.injection.as_ref().map(Injections::span)),
-            ("normal_floor", fault.normal_floor.as_ref().map(Spanned::span)),
-            ("normal_changes", fault.normal_changes.as_ref().map(Spanned::span)),
-            ("heat", fault.heat.as_ref().map(|h| h.thickness.span())),
-            ("opening", opens.map(Spanned::span)),
-            ("pulses", fault.pulses.first().map(|p| p.traction.span())),
-        ];
-        for (key, place) in keys.into_iter().filter_map(|(key, place)| Some((key, place?))) {
+        let changes = fault.normal_changes.as_ref().map(Spanned::span);
+        // An opening in antiplane motion is refused as such.
+        let keys = PROCESSES.into_iter().filter(|key| *key != "opening" || !self.is_antiplane());
+        let places = keys.filter_map(|key| Some((key, process(fault, key)?)));
+        let places: Vec<_> = places.chain(changes.map(|place| ("normal_changes", place))).collect();
+        for (key, place) in places {
             self.conflict(
                 &place,
                 format!("`{key}` of a fault whose ruptures have mass"),

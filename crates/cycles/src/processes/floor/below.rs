@@ -1,8 +1,15 @@
 //! Use of the floors of normal traction during a run.
 
-use super::BODIES;
-use crate::problem::{Account, Components, Passage, Saved};
+use crate::problem::{Account, Components, Passage, Quantity, Saved};
 use std::ops::Range;
+
+/// Normal tractions of the bodies, less the pressure of fluid, before the floor.
+pub static BODIES: Quantity = Quantity {
+    name: "bodies",
+    unit: "Pa",
+    meaning: "normal traction of the bodies, less the pressure of fluid; 0 where a point is open",
+    over_events: None,
+};
 
 /// Use of the floors so far, point by point.
 #[derive(Clone, Debug, Default, PartialEq)]

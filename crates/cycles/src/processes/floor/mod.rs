@@ -8,17 +8,9 @@
 
 mod below;
 
-pub use below::{Below, Used};
+pub use below::{BODIES, Below, Used};
 
-use crate::problem::{Account, Acting, Field, Host, Phase, Process, Quantity, Saved, Time, Tractions};
-
-/// Normal tractions of the bodies, less the pressure of fluid, before the floor.
-pub static BODIES: Quantity = Quantity {
-    name: "bodies",
-    unit: "Pa",
-    meaning: "normal traction of the bodies, less the pressure of fluid; 0 where a point is open",
-    over_events: None,
-};
+use crate::problem::{Account, Acting, Field, Host, Phase, Process, Saved, Time, Tractions};
 
 /// The floors of the points \[Pa\]; minus infinity where there is none.
 #[derive(Clone, Debug, PartialEq)]

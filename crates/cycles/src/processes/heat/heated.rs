@@ -1,8 +1,8 @@
 //! Heated faults during an integration: what friction feels of the heat, and what it adds to it.
 
 use super::memory::{Memory, Surface, Windows};
+use super::quantities::{PRESSURE, PRESSURE_RATE, TEMPERATURE};
 use super::zones::Heat;
-use super::{PRESSURE, PRESSURE_RATE, TEMPERATURE};
 use crate::problem::{Acting, Field, Host, Now, Rates, Saved, Time, Tractions};
 use asperity_friction::fault::FaultLaw;
 use asperity_ode::Clock;

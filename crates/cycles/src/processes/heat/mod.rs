@@ -19,36 +19,19 @@
 mod heated;
 mod memory;
 mod modes;
+mod quantities;
 mod warmed;
 mod zones;
 
 pub use memory::{Memory, Surface, Windows};
 pub use modes::Modes;
+pub use quantities::{PRESSURE, TEMPERATURE};
 pub use warmed::{Warmed, Warmest};
 pub use zones::{Heat, Layer, Pressurisation, Zone};
 
-use crate::problem::{Account, Acting, Host, OverEvents, Phase, Pressed, Process, Quantity, Saved, Time};
+use crate::problem::{Account, Acting, Host, Phase, Pressed, Process, Saved, Time};
 use heated::Heated;
-
-/// Temperature at the centre of the zone that slips.
-pub static TEMPERATURE: Quantity = Quantity {
-    name: "temperature",
-    unit: "K",
-    meaning: "temperature at the centre of the zone that slips",
-    over_events: Some(OverEvents::Largest),
-};
-
-/// Pressure of the fluid that heat expands.
-pub static PRESSURE: Quantity = Quantity {
-    name: "pressure",
-    unit: "Pa",
-    meaning: "pressure of heated fluid in excess of that at the start",
-    over_events: None,
-};
-
-/// Rate of that pressure.
-static PRESSURE_RATE: Quantity =
-    Quantity { name: "pressure rate", unit: "Pa/s", meaning: "rate of that pressure", over_events: None };
+use quantities::PRESSURE_RATE;
 
 impl Process for Heat {
     fn name(&self) -> &'static str {

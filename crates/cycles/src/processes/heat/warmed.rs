@@ -1,6 +1,6 @@
 //! Largest temperatures and pore pressures during a run.
 
-use super::{PRESSURE, TEMPERATURE};
+use super::quantities::{PRESSURE, TEMPERATURE};
 use crate::problem::{Account, Passage, Saved};
 use std::ops::Range;
 

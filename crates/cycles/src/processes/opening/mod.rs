@@ -4,19 +4,10 @@ mod complementarity;
 mod opened;
 
 pub use complementarity::{Crack, Opening};
-pub use opened::{Opened, Widest};
+pub use opened::{OPENING, Opened, Widest};
 
 use crate::problem::{
-    Account, Acting, Energetic, Field, Host, OverEvents, Phase, Pressed, Process, Quantity, Saved, Stretch,
-    Time, Tractions, Way,
-};
-
-/// Opening of points.
-pub static OPENING: Quantity = Quantity {
-    name: "opening",
-    unit: "m",
-    meaning: "distance by which both sides have parted",
-    over_events: Some(OverEvents::Change),
+    Account, Acting, Energetic, Field, Host, Phase, Pressed, Process, Saved, Stretch, Time, Tractions, Way,
 };
 
 impl Process for Opening {

@@ -1,8 +1,15 @@
 //! Statistics of openings in a run.
 
-use super::OPENING;
-use crate::problem::{Account, Passage, Saved};
+use crate::problem::{Account, OverEvents, Passage, Quantity, Saved};
 use std::ops::Range;
+
+/// Opening of points.
+pub static OPENING: Quantity = Quantity {
+    name: "opening",
+    unit: "m",
+    meaning: "distance by which both sides have parted",
+    over_events: Some(OverEvents::Change),
+};
 
 /// Openings so far, point by point.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -1,8 +1,9 @@
 //! Slip of the sliders from the tractions of their springs: `K u = k u_load - (T - T_0)`, with a matrix as sparse as the
 //! springs.
 
-use crate::error::RunError;
-use crate::slider::{Piece, Problem};
+use super::equations::Piece;
+use super::problem::Problem;
+use crate::problem::RunError;
 use asperity_friction::slider::Condition;
 use asperity_ode::Clock;
 use faer::linalg::solvers::SolveCore;

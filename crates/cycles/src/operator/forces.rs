@@ -1,13 +1,13 @@
 //! Forces on the jumps of points, from which the operator of their fault is made.
 
+use super::dense::Dense;
 use super::tractions::Tractions;
-use crate::operator::Dense;
 use asperity_fem::condense::Remainder;
 use rayon::prelude::*;
 
 /// The condensed matrix. It is symmetric: a force on a jump caused by another is that on the other caused by the first.
 #[derive(Debug)]
-pub(super) enum Matrix {
+pub(crate) enum Matrix {
     /// As the elimination leaves it.
     Triangle(Remainder),
     /// All entries, row by row, and the number of rows.
@@ -26,7 +26,7 @@ impl Matrix {
 
 /// Conversion of the forces on a point to tractions.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bearing {
+pub(crate) struct Bearing {
     /// Tributary area \[m²; m per metre of thickness\].
     pub area: f64,
     /// True if its normal traction is constant, either because supports on both sides take its change or because the
@@ -50,19 +50,19 @@ impl Bearing {
 /// Forces on the jumps of points. It is as large as the condensed matrix; an operator made from it is smaller.
 #[derive(Debug)]
 pub struct Forces {
-    pub(super) matrix: Matrix,
+    pub(crate) matrix: Matrix,
     /// Slip of the condensed bodies over that of the fault.
-    pub(super) share: f64,
+    pub(crate) share: f64,
     /// Row of the first component of slip of each point; with more than one component of displacement, the opening follows
     /// slip.
-    pub(super) rows: Vec<usize>,
-    pub(super) bearings: Vec<Bearing>,
+    pub(crate) rows: Vec<usize>,
+    pub(crate) bearings: Vec<Bearing>,
     /// Number of components of slip.
-    pub(super) tangents: usize,
+    pub(crate) tangents: usize,
     /// True for the components of slip that change normal tractions.
-    pub(super) presses: Vec<bool>,
+    pub(crate) presses: Vec<bool>,
     /// True if slip in one direction loads the other.
-    pub(super) across: bool,
+    pub(crate) across: bool,
 }
 
 impl Forces {
@@ -100,7 +100,7 @@ impl Forces {
     }
 
     /// Tractions of all points along a component, caused by slip of a point along a component.
-    pub(super) fn caused(
+    pub(crate) fn caused(
         &self,
         component: usize,
         slip: (usize, usize),
@@ -109,7 +109,7 @@ impl Forces {
     }
 
     /// Largest magnitude of tractions along a component caused by slip along a component.
-    pub(super) fn largest(&self, component: usize, slip: usize) -> f64 {
+    pub(crate) fn largest(&self, component: usize, slip: usize) -> f64 {
         let of = |q: usize| self.caused(component, (slip, q)).fold(0.0_f64, |l, v| l.max(v.abs()));
         (0..self.points()).into_par_iter().map(of).reduce(|| 0.0, f64::max)
     }
@@ -187,7 +187,7 @@ impl Forces {
     /// Memory of the operator, at most \[bytes\]: tractions of a pair of components along slip are stored once, and normal
     /// ones for each component. `components` are those of displacement.
     #[must_use]
-    pub(super) fn operator_bytes(components: usize, tangents: usize, points: usize) -> usize {
+    pub(crate) fn operator_bytes(components: usize, tangents: usize, points: usize) -> usize {
         let normal = if components > 1 { tangents } else { 0 };
         (tangents * (tangents + 1) / 2 + normal) * points.pow(2) * size_of::<f64>()
     }

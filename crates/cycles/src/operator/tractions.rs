@@ -1,6 +1,6 @@
 //! Matrices of the tractions that slip causes.
 
-use crate::operator::Dense;
+use super::dense::Dense;
 
 /// Tractions caused by slip, component by component.
 #[derive(Debug)]
