@@ -1,9 +1,7 @@
 //! Amounts of memory.
 
+use crate::defaults;
 use crate::scene::model::Scene;
-
-/// Default of `memory`. It is a constant because results must not depend on the memory of the machine.
-const MEMORY: f64 = 8.0 * 1024.0 * 1024.0 * 1024.0;
 
 /// Amount of memory as text with a unit.
 #[must_use]
@@ -22,5 +20,5 @@ pub fn size(bytes: usize) -> String {
 /// Memory that the factorisations of a scene may use \[bytes\].
 #[must_use]
 pub fn memory(scene: &Scene) -> usize {
-    scene.solver.memory.as_ref().map_or(MEMORY, |m| m.get_ref().0) as usize
+    scene.solver.memory.as_ref().map_or(defaults::MEMORY, |m| m.get_ref().0) as usize
 }

@@ -1,12 +1,9 @@
 //! Slip rates at which bodies gain and lose their inertia, for interfaces and for faults.
 
+use crate::defaults;
 use crate::diagnostic::Diagnostic;
 use crate::scene::model::{HandoverSpec, Scene};
 
-/// Default slip rate above which bodies have inertia \[m/s\], that of events. Radiation changes tractions there by some kPa.
-const ABOVE: f64 = 1e-3;
-/// Default of the slip rate below which they return to equilibrium, over that above which they leave it \[-\].
-const BELOW: f64 = 0.1;
 /// Smallest ratio of the slip rate at which bodies gain inertia to the largest rate of the loads \[-\].
 const APART: f64 = 10.0;
 
@@ -30,8 +27,8 @@ pub fn of(scene: &Scene, loading: f64) -> Result<Bounds, Diagnostic> {
         Some(given) => (given.span(), given.get_ref().clone()),
         None => (scene.time.stepper.span(), HandoverSpec::default()),
     };
-    let above = spec.above.as_ref().map_or(ABOVE, |v| v.get_ref().0);
-    let below = spec.below.as_ref().map_or(BELOW * above, |v| v.get_ref().0);
+    let above = spec.above.as_ref().map_or(defaults::HANDOVER_ABOVE, |v| v.get_ref().0);
+    let below = spec.below.as_ref().map_or(defaults::HANDOVER_BELOW * above, |v| v.get_ref().0);
     if below >= above {
         let place = spec.below.map_or(place, |below| below.span());
         let message = format!(
@@ -51,5 +48,5 @@ pub fn of(scene: &Scene, loading: f64) -> Result<Bounds, Diagnostic> {
             format!("`handover = {{ above = \"{:e} m/s\" }}` or more, or slower loads", APART * loading);
         return Err(Diagnostic::at(place, message, help));
     }
-    Ok(Bounds { above, below, kinetic: spec.kinetic.map_or(1.0, |k| *k.get_ref()) })
+    Ok(Bounds { above, below, kinetic: spec.kinetic.map_or(defaults::HANDOVER_KINETIC, |k| *k.get_ref()) })
 }

@@ -48,4 +48,4 @@ pub mod worst;
 mod wrong;
 
 pub use asperity_laws as laws;
-pub use asperity_scene::{lengths, warning};
+pub use asperity_scene::{defaults, lengths, warning};

@@ -1,7 +1,7 @@
 //! The scene language with the friction laws of this program.
 
 pub use asperity_scene::{
-    Entry, check, files, keys, law, model, names, near, plausible, reader, settings, slider, units,
+    Entry, check, files, keys, kind, law, model, names, near, plausible, reader, settings, slider, units,
     unprintable,
 };
 

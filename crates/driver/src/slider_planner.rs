@@ -8,6 +8,7 @@ mod settings;
 mod start;
 
 use crate::columns::file::columns_of;
+use crate::defaults;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::doubts;
 use crate::laws::{self, Theta};
@@ -101,8 +102,8 @@ impl Planner {
         problem.title.clone_from(&scene.title);
         problem.names = names;
         problem.method = settings.method.unwrap_or(problem.method);
-        problem.tolerance = settings.tolerance.unwrap_or(problem.tolerance);
-        problem.most_steps = settings.most_steps.unwrap_or(problem.most_steps);
+        problem.tolerance = settings.tolerance.unwrap_or(defaults::SLIDER_TOLERANCE);
+        problem.most_steps = settings.most_steps.unwrap_or(defaults::SLIDER_STEPS);
         (problem.first_step, problem.largest_step) = (settings.first_step, settings.largest_step);
         problem.output = output?;
         let extremes = scene.output.as_ref().and_then(|o| o.extremes.as_ref());

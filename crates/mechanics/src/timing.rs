@@ -12,16 +12,16 @@ const GROWTH: f64 = 2.0;
 /// Smallest factor from an accepted step to the next.
 const SHRINK: f64 = 0.3;
 /// First step as a share of the stage, if the scene gives none.
-const FIRST: f64 = 1e-3;
+pub const FIRST: f64 = 1e-3;
 /// Smallest step as a share of the stage, if the scene gives none. It is six orders below the first, the factor by which slip
 /// accelerates from the rate of the loads to the limit of quasi-static states.
-const SMALLEST: f64 = 1e-9;
+pub const SMALLEST: f64 = 1e-9;
 /// Same share if no law weakens: ten orders below the first, for sets of contacts and yielding points that change one by one.
-const LEAST: f64 = 1e-13;
+pub const LEAST: f64 = 1e-13;
 /// Smallest step over the spacing of floating-point times at the end of the stage. Shorter steps do not advance the time.
 const SPACING: f64 = 4.0 * f64::EPSILON;
 /// Largest step as a share of the stage, if the scene gives none.
-const LARGEST: f64 = 0.05;
+pub const LARGEST: f64 = 0.05;
 /// Newton iterations up to which a step may grow. A change of contact takes three to six.
 const EASY: usize = 8;
 /// Newton iterations above which the next step is halved, half the number at which it would fail.

@@ -1,5 +1,6 @@
 //! Numbers of a scene that stand in files of columns.
 
+use crate::defaults::TIME_COLUMN;
 use crate::diagnostic::Diagnostic;
 use crate::model::{Scene, Spanned, TableFile, TableOver, part};
 use crate::plausible;
@@ -20,9 +21,6 @@ pub struct Column<'a> {
 
 /// Reader of files: numbers of the columns of a file, in SI units and in their order.
 pub type Columns<'a> = dyn FnMut(&Spanned<String>, &[Column<'_>]) -> Result<Vec<Vec<f64>>, Diagnostic> + 'a;
-
-/// Name of the column of times, if none is given.
-const TIME: &str = "time";
 
 /// Fills the tables and traces of a scene whose numbers stand in files.
 ///
@@ -50,7 +48,7 @@ pub(super) fn fill_tables<'a>(
     let mut doubts = Vec::new();
     for TableOver { table, dimension, keys, duration, holds } in tables {
         let Some(given) = table.file().cloned() else { continue };
-        let time = given.time.as_ref().map_or((TIME, given.file.span()), |t| (t.get_ref(), t.span()));
+        let time = given.time.as_ref().map_or((TIME_COLUMN, given.file.span()), |t| (t.get_ref(), t.span()));
         let wanted = [
             Column { name: time.0, place: time.1, dimension: Dimension::Time },
             Column { name: given.column.get_ref(), place: given.column.span(), dimension },

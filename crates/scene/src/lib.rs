@@ -3,6 +3,7 @@
 
 mod azimuth;
 pub mod check;
+pub mod defaults;
 pub mod diagnostic;
 mod entry;
 mod exact;
@@ -10,6 +11,7 @@ mod explain;
 pub mod files;
 mod here;
 pub mod keys;
+pub mod kind;
 pub mod law;
 pub mod lengths;
 pub mod model;
@@ -28,6 +30,7 @@ mod title;
 pub mod units;
 pub mod unprintable;
 pub mod upright;
+mod usual;
 pub mod warning;
 
 pub use entry::Entry;

@@ -12,6 +12,8 @@ mod flux;
 mod forced;
 mod heat;
 mod inertia;
+mod interface;
+mod law;
 mod medium;
 mod pace;
 mod patch;
@@ -26,9 +28,11 @@ mod tabled;
 mod trace;
 
 pub use super::here::here;
-use super::several::Several;
-use super::units::{Angle, Dimension, Length, Memory, Penalty, Penetration, Pressure, Time, Velocity};
+use super::units::{Angle, Dimension, Length, Memory, Time, Velocity};
+use crate::defaults;
+use crate::kind::{self, Kind};
 pub use crate::spanned::Spanned;
+use crate::usual::usual;
 use crate::warning::Warning;
 pub use body::*;
 pub use coulomb::*;
@@ -39,6 +43,8 @@ pub use flux::Flux;
 pub use forced::ForcedRupture;
 pub use heat::*;
 pub use inertia::*;
+pub use interface::*;
+pub use law::LawSpec;
 pub use medium::*;
 pub use pace::Pace;
 pub use patch::*;
@@ -46,8 +52,7 @@ pub use place::Place;
 pub use platform::PlatformSpec;
 pub use pulse::Pulse;
 use schemars::JsonSchema;
-use serde::Deserialize;
-use serde::de::IgnoredAny;
+use serde::{Deserialize, Serialize};
 pub use site::Site;
 pub use solver::*;
 use std::collections::BTreeMap;
@@ -72,19 +77,25 @@ pub struct Scene {
     /// Materials by name.
     pub materials: BTreeMap<String, Material>,
     /// Bodies by name.
+    #[schemars(extend("x-kinds" = kind::BODIES, "x-instead" = "a scene has bodies or a medium"))]
     #[serde(default)]
     pub bodies: BTreeMap<String, Body>,
     /// Homogeneous rock around faults, instead of bodies.
+    #[schemars(extend("x-kinds" = [Kind::Medium], "x-instead" = "waves run in bodies: a body with `mesh.fault` around the fault, and `absorbing = true` on its sides"))]
     pub medium: Option<Medium>,
     /// Interfaces by name.
+    #[schemars(extend("x-kinds" = kind::INTERFACES, "x-instead" = "surfaces slide as faults there: two sides with the same nodes, `[faults.NAME]` with `minus` and `plus`"))]
     #[serde(default)]
     pub interfaces: BTreeMap<String, Interface>,
-    /// Faults by name, for the stepper "fault-ode".
+    /// Faults by name.
+    #[schemars(extend("x-kinds" = kind::FAULTS, "x-instead" = "bodies touch and slide at `[interfaces.NAME]`"))]
     #[serde(default)]
     pub faults: BTreeMap<String, Fault>,
     /// Events of faults, or of interfaces whose laws depend on the slip rate.
+    #[schemars(extend("x-kinds" = kind::SLOW, "x-instead" = "a point has ruptured at `rupture_rate` of `[output]`"))]
     pub events: Option<EventSpec>,
     /// Geographical position of the origin and time zero, for catalogues.
+    #[schemars(extend("x-kinds" = kind::FAULTS, "x-instead" = "only events of faults have a location"))]
     pub place: Option<Place>,
     /// Stages in sequence.
     pub stages: Vec<Stage>,
@@ -105,6 +116,20 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Kind of its run.
+    #[must_use]
+    pub fn kind(&self) -> Kind {
+        match *self.time.stepper.get_ref() {
+            Stepper::Implicit => Kind::Implicit,
+            Stepper::StaticExplicit => Kind::StaticExplicit,
+            Stepper::Explicit => Kind::Explicit,
+            Stepper::FaultOde if self.medium.is_some() => Kind::Medium,
+            Stepper::FaultOde => Kind::Cycles,
+            Stepper::Auto if self.faults.is_empty() => Kind::Auto,
+            Stepper::Auto => Kind::Ruptures,
+        }
+    }
+
     /// Settings of inertia; `None` if the bodies move through states of equilibrium alone.
     #[must_use]
     pub fn inertia(&self) -> Option<InertiaSpec> {
@@ -191,159 +216,6 @@ impl Scene {
     }
 }
 
-/// A contact interface between two side sets.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Interface {
-    /// Slave side, `BODY.SIDE`.
-    pub slave: Spanned<String>,
-    /// Master side, of another body, or the other side of a surface along which a body is split.
-    pub master: Spanned<String>,
-    /// Measure of gaps: `"mortar"` or `"node-to-point"`.
-    pub measure: Spanned<Measure>,
-    /// Sliding: `"small"`, or `"finite"`, where the pairing follows the motion.
-    pub sliding: Spanned<Sliding>,
-    /// Smoothing of the master surface: `"cubic"`, with `"node-to-point"` only; absent: none.
-    pub smoothing: Option<Spanned<Smoothing>>,
-    /// Enforcement of contact: `{ kind = .., normal = .., tangential = .. }`; `tangential` if and only if there is a law.
-    pub enforcement: Enforcement,
-    /// A [friction law](laws.md) or a bond; absent: frictionless.
-    pub law: Option<Spanned<LawSpec>>,
-    /// Values of parameters of the law at positions in files.
-    #[serde(default)]
-    pub fields: LawFields,
-    /// Radiation damping η of a law of the slip rate: `"radiation"`, or a value; absent: none \[Pa s/m\].
-    pub damping: Option<Spanned<DampingSpec>>,
-    /// Treatment of points too far apart to resolve friction that weakens: `"refuse"` (default) or `"allow"`.
-    pub under_resolved: Option<Spanned<UnderResolved>>,
-    /// `true`: the interface starts with the tractions of the [initial stress](bodies.md) of its bodies; default `false`.
-    pub initial_stress: Option<Spanned<bool>>,
-    /// A key of faults; refused here.
-    #[schemars(skip)]
-    pub normal: Option<Spanned<IgnoredAny>>,
-    /// A key of faults; refused here.
-    #[schemars(skip)]
-    pub shear: Option<Spanned<IgnoredAny>>,
-    /// A key of faults; refused here.
-    #[schemars(skip)]
-    pub rate: Option<Spanned<IgnoredAny>>,
-    /// A key of faults; refused here.
-    #[schemars(skip)]
-    pub profiles: Option<Spanned<IgnoredAny>>,
-}
-
-/// Measures of gaps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Measure {
-    /// Gap of each slave node to the closest point of a master segment.
-    NodeToPoint,
-    /// Gaps between slave and master facets over their overlap, averaged to slave nodes.
-    Mortar,
-}
-
-/// Sliding regimes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Sliding {
-    /// Pairing fixed in the reference configuration; allows condensation.
-    Small,
-    /// Pairing and normal follow the motion.
-    Finite,
-}
-
-/// Smoothings of a master surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Smoothing {
-    /// Cubic patches that share a tangent plane at their nodes.
-    Cubic,
-}
-
-/// Enforcement of the contact constraint.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Enforcement {
-    /// Kind.
-    pub kind: Spanned<EnforcementKind>,
-    /// Normal penalty E_n \[Pa/m\].
-    pub normal: Spanned<Penalty>,
-    /// Tangential penalty E_t \[Pa/m\]; needed with friction.
-    pub tangential: Option<Spanned<Penalty>>,
-    /// Uzawa: largest admissible penetration, and largest admissible elastic part of the tangential motion of a step.
-    pub penetration: Option<Spanned<Penetration>>,
-    /// Uzawa: largest number of augmentations per step.
-    pub augmentations: Option<Spanned<usize>>,
-}
-
-/// Methods of enforcement.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum EnforcementKind {
-    /// Traction proportional to penetration.
-    Penalty,
-    /// Penalty tractions about multipliers that are updated between solutions.
-    Uzawa,
-    /// Multipliers as unknowns of the system.
-    AugmentedLagrangian,
-}
-
-/// A friction law as written in a scene. The plan checks which parameters belong to which kind.
-#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct LawSpec {
-    /// coulomb, static-kinetic, slip-weakening, rate, rate-and-state, tied.
-    pub kind: Option<Spanned<String>>,
-    /// Coulomb: friction coefficient \[-\].
-    pub mu: Option<Spanned<f64>>,
-    /// Static-kinetic, slip-weakening: coefficient before slip \[-\].
-    pub mu_s: Option<Spanned<f64>>,
-    /// Static-kinetic, slip-weakening: coefficient during or after slip \[-\].
-    pub mu_k: Option<Spanned<f64>>,
-    /// Slip-weakening: slip over which the coefficient falls \[m\].
-    pub d_c: Option<Spanned<Length>>,
-    /// Coulomb, slip-weakening: shear traction that a closed point carries at no normal traction \[Pa\].
-    pub cohesion: Option<Spanned<Pressure>>,
-    /// Strength form: regularised (default), bare or cut-off.
-    pub form: Option<Spanned<String>>,
-    /// State evolution: ageing, slip, prz, nagata or flash.
-    pub evolution: Option<Spanned<String>>,
-    /// Reference coefficient μ0 \[-\].
-    pub mu0: Option<Spanned<f64>>,
-    /// Direct effect a \[-\].
-    pub a: Option<Spanned<f64>>,
-    /// Evolution effect b \[-\], of each state variable.
-    pub b: Option<Spanned<Several<f64>>>,
-    /// Characteristic slip L \[m\], of each state variable.
-    pub l: Option<Spanned<Several<Length>>>,
-    /// Reference slip rate Vref \[m/s\].
-    pub v_ref: Option<Spanned<Velocity>>,
-    /// Initial state: slip rate at which the point was in steady state \[m/s\].
-    pub v_initial: Option<Spanned<Velocity>>,
-    /// Form cut-off: cut-off rate V1 of the direct effect \[m/s\].
-    pub v_cut: Option<Spanned<Velocity>>,
-    /// Evolution ageing: cut-off rate V2 of the state effect \[m/s\].
-    pub v_cut_state: Option<Spanned<Velocity>>,
-    /// Memory of normal traction α \[-\], of each state variable (default 0).
-    pub alpha: Option<Spanned<Several<f64>>>,
-    /// With α > 0: normal traction under which the point was in steady state \[Pa\].
-    pub normal_initial: Option<Spanned<Pressure>>,
-    /// Evolution nagata: memory of shear traction c \[-\].
-    pub c: Option<Spanned<f64>>,
-    /// Evolution flash: fully weakened coefficient μ_w \[-\].
-    pub mu_w: Option<Spanned<f64>>,
-    /// Evolution flash: slip rate V_w at which weakening begins \[m/s\].
-    pub v_w: Option<Spanned<Velocity>>,
-    /// Activation energy Q \[J/mol\].
-    pub activation: Option<Spanned<f64>>,
-    /// Temperature for which the parameters hold \[K\].
-    pub t_ref: Option<Spanned<f64>>,
-    /// Temperature \[K\].
-    pub temperature: Option<Spanned<f64>>,
-    /// F_limit: largest shear traction \[Pa\].
-    pub f_limit: Option<Spanned<Pressure>>,
-}
-
 /// One stage of loading.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -353,12 +225,15 @@ pub struct Stage {
     /// Duration \[s\].
     pub duration: Spanned<Time>,
     /// Interfaces that are frictionless in this stage; faults in one that presses.
+    #[schemars(extend("x-kinds" = kind::SLOW))]
     #[serde(default)]
     pub frictionless: Vec<Spanned<String>>,
     /// Conditions that begin with this stage; earlier ones continue unless they are replaced.
+    #[schemars(extend("x-kinds" = kind::BODIES, "x-instead" = "`creep` of a fault loads it by the creep of its continuation"))]
     #[serde(default)]
     pub conditions: Vec<Spanned<Condition>>,
     /// Number of equal steps, instead of adaptive steps.
+    #[schemars(extend("x-kinds" = kind::INTERFACES_OR_EXPLICIT, "x-instead" = "the method chooses the steps of faults through cycles"))]
     pub steps: Option<Spanned<usize>>,
 }
 
@@ -423,7 +298,8 @@ pub struct Condition {
     pub traction: Option<Spanned<Vec<Loading>>>,
     /// Pressure, positive into the body.
     pub pressure: Option<Spanned<Loading>>,
-    /// Explicit, and ruptures of "auto": `true`: the side absorbs waves that leave the body.
+    /// `true`: the side absorbs waves that leave the body.
+    #[schemars(extend("x-kinds" = kind::WAVES))]
     pub absorbing: Option<Spanned<bool>>,
 }
 
@@ -520,46 +396,64 @@ pub enum Loading {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "snake_case")]
 pub struct TimeControl {
-    /// Stepper: `"implicit"`, `"static-explicit"`, for faults `"fault-ode"`, with inertia `"explicit"`, and `"auto"`: with
-    /// inertia while surfaces slip fast.
+    /// `"implicit"`, `"static-explicit"`, for faults `"fault-ode"`, with inertia `"explicit"`, and `"auto"`: with inertia while
+    /// surfaces slip fast.
     pub stepper: Spanned<Stepper>,
-    /// Both: rule for the slip rate, `"bdf2"` or `"backward-euler"`.
+    /// Rule for the slip rate: `"bdf2"` or `"backward-euler"`.
+    #[schemars(extend("x-kinds" = kind::INTERFACES, "x-default" = usual(Rule::default()).but(Rule::Bdf2, "with a law of kind rate-and-state")))]
     #[serde(default)]
     pub rule: Option<Spanned<Rule>>,
-    /// Both: `"auto"` (default), `"condensed"` or `"full"`.
+    /// `"auto"`, `"condensed"` or `"full"`.
+    #[schemars(extend("x-kinds" = kind::INTERFACES, "x-default" = usual(Path::default())))]
     #[serde(default)]
     pub path: Path,
-    /// Implicit: largest estimated error of slip per step; default 2e-5 of the largest prescribed travel \[m\].
+    /// Largest estimated error of slip per step \[m\].
+    #[schemars(extend("x-kinds" = kind::ITERATED, "x-default" = usual(defaults::SLIP_TOLERANCE).of("the largest prescribed travel")))]
     pub tolerance: Option<Spanned<Length>>,
-    /// Implicit: largest estimated error of friction coefficients per step, 1e-9 to 1e-2 \[-\].
+    /// Largest estimated error of friction coefficients per step, 1e-9 to 1e-2 \[-\].
+    #[schemars(extend("x-kinds" = kind::INTERFACES, "x-default" = usual(defaults::FRICTION_TOLERANCE).only("with a law of kind rate-and-state")))]
     pub friction_tolerance: Option<Spanned<f64>>,
-    /// Implicit: `true`, or `{ spectral_radius = .., tolerance = .. }`: the bodies have mass; default `false`.
+    /// `true`, or `{ spectral_radius = .., tolerance = .. }`: the bodies have mass.
+    #[schemars(extend("x-kinds" = kind::ITERATED, "x-default" = usual(false).but(true, "with \"auto\"")))]
     pub inertia: Option<Spanned<Inertia>>,
-    /// Auto: slip rates between which bodies pass from equilibrium to inertia and back.
+    /// Slip rates between which bodies pass from equilibrium to inertia and back.
+    #[schemars(extend("x-kinds" = [Kind::Auto, Kind::Ruptures]))]
     pub handover: Option<Spanned<HandoverSpec>>,
-    /// Both: first step; default 1/1000 of the stage \[s\].
+    /// First step \[s\].
+    #[schemars(extend("x-kinds" = kind::INTERFACES, "x-default" = usual(defaults::FIRST_STEP).of("the stage")))]
     pub first_step: Option<Spanned<Time>>,
-    /// Both: largest step; default 1/20 of the stage \[s\].
+    /// Largest step \[s\].
+    #[schemars(extend("x-kinds" = kind::INTERFACES, "x-default" = usual(defaults::LARGEST_STEP).of("the stage")))]
     pub max_step: Option<Spanned<Time>>,
-    /// Both: smallest step, below which a run stops; default 1e-9 of the stage, 1e-13 with damping \[s\].
+    /// Smallest step, below which a run stops \[s\].
+    #[schemars(extend("x-kinds" = kind::INTERFACES, "x-default" = usual(defaults::SMALLEST_STEP).of("the stage").but(defaults::LEAST_STEP, "if no law weakens or depends on the rate, or with damping").of("it")))]
     pub min_step: Option<Spanned<Time>>,
-    /// Both: slip rate at which a run stops with an [instability](#instabilities) \[m/s\].
+    /// Slip rate at which a run stops with an [instability](#instabilities) \[m/s\].
+    #[schemars(extend("x-kinds" = [Kind::Implicit, Kind::StaticExplicit], "x-instead" = "bodies with inertia follow an instability"))]
     pub slip_rate_limit: Option<Spanned<Velocity>>,
-    /// Fault-ode, and "auto" with faults: `"tsit5"` (default in the plane), `"stabilised"` (in space), `"dop853"`, `"rkc2"` or `"tsit45"`.
+    /// `"tsit5"`, `"stabilised"`, `"dop853"`, `"rkc2"` or `"tsit45"`.
+    #[schemars(extend("x-kinds" = kind::FAULT_CYCLES, "x-default" = usual(defaults::METHOD).but(defaults::METHOD_IN_SPACE, "in space")))]
     pub method: Option<Spanned<String>>,
-    /// Fault-ode, and "auto" with faults: admissible error of ln V per step; default 1e-5, and 1e-4 with the default method in space \[-\].
+    /// Admissible error of ln V per step \[-\].
+    #[schemars(extend("x-kinds" = kind::FAULT_CYCLES, "x-default" = usual(defaults::LOG_RATE).but(defaults::LOG_RATE_IN_SPACE, "with the default method in space")))]
     pub log_rate_tolerance: Option<Spanned<f64>>,
-    /// Explicit, and "auto" with faults: step over the stable step; default 0.5 \[-\].
+    /// Step over the stable step \[-\].
+    #[schemars(extend("x-kinds" = kind::WAVES, "x-default" = usual(defaults::COURANT)))]
     pub courant: Option<Spanned<f64>>,
-    /// Explicit, and "auto" with faults: time of Kelvin-Voigt viscosity over the step; default 0.1 \[-\].
+    /// Time of Kelvin-Voigt viscosity over the step \[-\].
+    #[schemars(extend("x-kinds" = kind::WAVES, "x-default" = usual(defaults::VISCOSITY)))]
     pub viscosity: Option<Spanned<f64>>,
-    /// Static-explicit: largest admissible residual of a step over the largest force, at most 1e-2; default 1e-4 \[-\].
+    /// Largest admissible residual of a step over the largest force, at most 1e-2 \[-\].
+    #[schemars(extend("x-kinds" = [Kind::StaticExplicit], "x-default" = usual(defaults::DRIFT).but(defaults::RATE_DRIFT, "with a law of kind rate-and-state")))]
     pub drift: Option<Spanned<f64>>,
-    /// Static-explicit: bound on the change of ln V per step; default 0.5 \[-\].
+    /// Bound on the change of ln V per step \[-\].
+    #[schemars(extend("x-kinds" = [Kind::StaticExplicit], "x-default" = usual(defaults::RATE_CHANGE)))]
     pub rate_change: Option<Spanned<f64>>,
-    /// Static-explicit: slip per step over L; default 0.1 \[-\].
+    /// Slip per step over L \[-\].
+    #[schemars(extend("x-kinds" = [Kind::StaticExplicit], "x-default" = usual(defaults::ZETA)))]
     pub zeta: Option<Spanned<f64>>,
-    /// Both: largest departure of a table from its chord within a step, over the range of the table; default 1e-4 \[-\].
+    /// Largest departure of a table from its chord within a step, over the range of the table \[-\].
+    #[schemars(extend("x-kinds" = kind::INTERFACES, "x-default" = usual(defaults::COURSE_TOLERANCE)))]
     pub course_tolerance: Option<Spanned<f64>>,
     /// Imposed ends of all steps of the run \[s\]; cannot be read from a file.
     #[serde(skip)]
@@ -583,7 +477,7 @@ pub enum Stepper {
 }
 
 /// Rules of the implicit stepper for the slip rate.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Rule {
     /// First order.
@@ -594,7 +488,7 @@ pub enum Rule {
 }
 
 /// System to be solved.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Path {
     /// Condensed if the scene allows it.
@@ -611,51 +505,73 @@ pub enum Path {
 #[serde(deny_unknown_fields)]
 pub struct Output {
     /// Number of positions along the slave side, recorded at every step.
+    #[schemars(extend("x-kinds" = kind::INTERFACES, "x-instead" = "`stations` are positions on faults"))]
     #[serde(default)]
     pub probes: BTreeMap<String, Spanned<usize>>,
     /// `{ body = "A", at = ["48 mm", "52 mm"] }`: displacement and stress at a position in the undeformed body, at every step.
+    #[schemars(extend("x-kinds" = kind::INTERFACES_OR_CYCLES, "x-instead" = "with mass, `seismograms` are positions in bodies; in a medium, `receivers`"))]
     #[serde(default)]
     pub points: BTreeMap<String, Spanned<PointSpec>>,
     /// `{ set = "A.left" }`: total force on a set, at every step.
+    #[schemars(extend("x-kinds" = kind::INTERFACES_OR_CYCLES))]
     #[serde(default)]
     pub forces: BTreeMap<String, Spanned<ForceSpec>>,
-    /// Field files per stage, at equal intervals, at which steps then end; default 1, explicit 10.
+    /// Field files per stage, at equal intervals, at which steps then end.
+    #[schemars(extend("x-kinds" = kind::INTERFACES_OR_EXPLICIT, "x-default" = usual(defaults::FIELDS).only("at the next steps").but(defaults::WAVE_FIELDS, "with \"explicit\""), "x-instead" = "outputs of faults through cycles are `stations`, the catalogue and profiles of slip"))]
     pub fields: Option<Spanned<usize>>,
-    /// Profiles per stage, at equal intervals, at which steps then end; default 10 at the next steps, explicit 200.
+    /// Profiles per stage, at equal intervals, at which steps then end.
+    #[schemars(extend("x-kinds" = kind::INTERFACES_OR_EXPLICIT, "x-default" = usual(defaults::PROFILES).only("at the next steps").but(defaults::WAVE_PROFILES, "with \"explicit\""), "x-instead" = "profiles of faults through cycles follow `contours`"))]
     pub profiles: Option<Spanned<usize>>,
     /// `true`: displacements of the bodies over each event and at the end, as VTU.
+    #[schemars(extend("x-kinds" = [Kind::Cycles, Kind::Ruptures], "x-default" = usual(false), "x-instead" = "displacements of bodies with interfaces or mass are `fields`"))]
     pub bodies: Option<Spanned<bool>>,
     /// Positions on a fault: distances along it, or coordinates `[x, y]`, in space `[x, y, z]`.
+    #[schemars(extend("x-kinds" = kind::FAULTS, "x-instead" = "`probes` are positions on interfaces"))]
     #[serde(default)]
     pub stations: BTreeMap<String, Spanned<Vec<Spanned<Station>>>>,
     /// `[x, y]`, in space `[x, y, z]`: displacement and velocity of a position in a medium, y up, or in bodies.
+    #[schemars(extend("x-kinds" = kind::CYCLES, "x-instead" = "in a body, `points.NAME = { body = \"..\", at = [..] }` has the displacement; with mass, `seismograms.NAME` the velocity"))]
     #[serde(default)]
     pub receivers: BTreeMap<String, Spanned<Vec<Length>>>,
-    /// In a half-space in space with `[place]`: `{ longitude = "-123.5 deg", latitude = "48.4 deg" }`: a receiver at the free surface.
+    /// In a half-space in space with `[place]`: `{ longitude = "-123.5 deg", latitude = "48.4 deg" }`: a receiver at the free
+    /// surface.
+    #[schemars(extend("x-kinds" = [Kind::Medium], "x-instead" = "elsewhere, `receivers.NAME` has coordinates"))]
     #[serde(default)]
     pub sites: BTreeMap<String, Spanned<Site>>,
     /// CSV file of such sites, with the columns `name`, `longitude` and `latitude` (or `lon` and `lat`) in degrees.
+    #[schemars(extend("x-kinds" = [Kind::Medium]))]
     pub site_file: Option<Spanned<String>>,
     /// In a half-space: `{ spacing = "2 km" }`: map of the displacement of the free surface over each event.
+    #[schemars(extend("x-kinds" = [Kind::Medium]))]
     pub surface: Option<Spanned<SurfaceSpec>>,
-    /// `{ friction = 0.4, strike = "30 deg", dip = "90 deg", rake = "0 deg" }`: changes of Coulomb stress on such planes over each event.
+    /// `{ friction = 0.4, strike = "30 deg", dip = "90 deg", rake = "0 deg" }`: changes of Coulomb stress on such planes over
+    /// each event.
+    #[schemars(extend("x-kinds" = kind::FAULT_CYCLES, "x-instead" = "its events change the stress"))]
     pub coulomb: Option<Spanned<CoulombSpec>>,
-    /// In a medium: `{ problem = "SEAS Benchmark BP5-QD", modeler = "A. Author" }`: files for the platform of a benchmark in space.
+    /// `{ problem = "SEAS Benchmark BP5-QD", modeler = "A. Author" }`: files for the platform of a benchmark in space.
+    #[schemars(extend("x-kinds" = [Kind::Medium], "x-instead" = "`stations` have the format of benchmarks in the plane"))]
     pub platform: Option<Spanned<PlatformSpec>>,
-    /// Explicit: `{ body = "A", at = ["1 km", "2 km"] }`: velocity and displacement at a position, at equal intervals.
+    /// `{ body = "A", at = ["1 km", "2 km"] }`: velocity and displacement at a position, at equal intervals.
+    #[schemars(extend("x-kinds" = [Kind::Explicit]))]
     #[serde(default)]
     pub seismograms: BTreeMap<String, Spanned<PointSpec>>,
-    /// Explicit: time between rows of seismograms, stations, energies and moment rate; default 1/1000 of the run \[s\].
+    /// Time between rows of seismograms, stations, energies and moment rate \[s\].
+    #[schemars(extend("x-kinds" = [Kind::Explicit], "x-default" = usual(1.0 / defaults::WAVE_ROWS as f64).of("the run")))]
     pub sampling: Option<Spanned<Time>>,
-    /// Slip rate at which a point has ruptured; default `"1 mm/s"` \[m/s\].
+    /// Slip rate at which a point has ruptured; not below `above` of `[events]` \[m/s\].
+    #[schemars(extend("x-kinds" = kind::FAULTS, "x-default" = usual(defaults::RUPTURED)))]
     pub rupture_rate: Option<Spanned<Velocity>>,
-    /// Largest number of events with files of their own in `events`; 0 for none, default 20.
+    /// Largest number of events with files of their own in `events`; 0 for none.
+    #[schemars(extend("x-kinds" = kind::FAULT_CYCLES, "x-default" = usual(defaults::EVENT_FILES)))]
     pub event_files: Option<Spanned<usize>>,
     /// Changes after which rows of stations and of the largest slip rate are written.
+    #[schemars(extend("x-kinds" = kind::FAULT_CYCLES, "x-instead" = "how often something is written are `fields` and `profiles`"))]
     pub cadence: Option<Spanned<CadenceSpec>>,
     /// Intervals between profiles of slip: between events, and during them \[s\].
+    #[schemars(extend("x-kinds" = kind::FAULT_CYCLES, "x-instead" = "how often something is written are `fields` and `profiles`"))]
     pub contours: Option<Spanned<[Time; 2]>>,
-    /// Largest size of a file that grows; default `"100 MB"`, at least `"10 kB"`.
+    /// Largest size of a file that grows; at least `"10 kB"`.
+    #[schemars(extend("x-kinds" = kind::FAULT_CYCLES, "x-default" = usual(defaults::LARGEST_FILE)))]
     pub largest_file: Option<Spanned<Memory>>,
 }
 
@@ -664,12 +580,16 @@ pub struct Output {
 #[serde(deny_unknown_fields)]
 pub struct CadenceSpec {
     /// Change of log10 of the slip rate \[-\].
+    #[schemars(extend("x-default" = usual(defaults::DECADES)))]
     pub decades: Option<Spanned<f64>>,
     /// Slip.
+    #[schemars(extend("x-default" = usual(defaults::CADENCE_SLIP).of("the smallest L")))]
     pub slip: Option<Spanned<Length>>,
     /// Longest time between two rows.
+    #[schemars(extend("x-default" = usual(defaults::LONGEST).only("or 1/500 of a shorter run")))]
     pub longest: Option<Spanned<Time>>,
     /// Shortest time between two rows that are due to slip.
+    #[schemars(extend("x-default" = usual(defaults::SHORTEST).only("or 1/500 of a shorter run")))]
     pub shortest: Option<Spanned<Time>>,
 }
 

@@ -2,12 +2,17 @@
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::files::{self, Columns};
+use crate::keys::{self, Tree};
+use crate::kind::Kind;
 use crate::law::Laws;
 use crate::model::{Scene, Spanned};
 use crate::slider::SliderScene;
+use crate::warning::Warning;
 use crate::{azimuth, check, explain, near, plausible, unprintable};
 use serde::Deserialize;
+use std::ops::Range;
 use std::path::Path;
+use toml_edit::Document;
 
 /// Reads and checks a scene with the friction laws known to the program. Files are named relative to `folder`, and `columns` reads those whose
 /// numbers belong to the scene.
@@ -23,7 +28,8 @@ pub fn read(text: &str, folder: &Path, laws: &Laws, columns: &mut Columns<'_>) -
     let doubts = files::fill(&mut scene, columns).map_err(|error| Diagnostics(vec![error]))?;
     azimuth::rakes(&mut scene);
     let (mut errors, mut warnings) = check::check(&scene, laws);
-    plausible::judge(text, plausible::Known::of(&scene), &mut errors, &mut warnings);
+    let (kind, stated) = (scene.kind(), scene.time.stepper.span());
+    judge(text, plausible::Known::of(&scene), (kind, stated), &mut errors, &mut warnings);
     warnings.extend(doubts);
     scene.warnings = warnings;
     if errors.is_empty() { Ok(scene) } else { Err(Diagnostics(errors)) }
@@ -103,6 +109,21 @@ pub fn read_sliders(text: &str) -> Result<SliderScene, Diagnostics> {
     let mut scene: SliderScene =
         toml::from_str(text).map_err(|e| Diagnostics(vec![explain::explain(&e, text)]))?;
     let mut errors = Vec::new();
-    plausible::judge(text, plausible::Known::SLIDERS, &mut errors, &mut scene.warnings);
+    let kind = (Kind::Sliders, scene.kinematics.span());
+    judge(text, plausible::Known::SLIDERS, kind, &mut errors, &mut scene.warnings);
     if errors.is_empty() { Ok(scene) } else { Err(Diagnostics(errors)) }
+}
+
+/// Adds what a walk through the text finds: keys that do not belong to the kind of run, which is stated here, and implausible values.
+fn judge(
+    text: &str,
+    known: plausible::Known,
+    (kind, stated): (Kind, Range<usize>),
+    errors: &mut Vec<Diagnostic>,
+    warnings: &mut Vec<Warning>,
+) {
+    let Ok(document) = Document::parse(text) else { return };
+    let tree = Tree::new();
+    keys::refuse((&tree, &document), kind, stated, errors);
+    plausible::judge((&tree, &document), known, errors, warnings);
 }

@@ -40,6 +40,11 @@ fn text(key: &Key) -> String {
     if !key.row.unit.is_empty() {
         text += &format!("  unit: {}\n", key.row.unit);
     }
+    for (what, words) in [("default", &key.row.default), ("only for", &key.row.kinds)] {
+        if !words.is_empty() {
+            text += &folded(&format!("  {what}: "), &plain(words));
+        }
+    }
     for (name, meaning) in &key.choices {
         text += &folded(&format!("  \"{name}\": "), &plain(meaning));
     }
@@ -56,7 +61,7 @@ fn table(rows: &[Row]) -> String {
     let (keys, units) = (width(|row| &row.key), width(|row| &row.unit));
     let line = |row: &Row| {
         let (key, unit) = (&row.key, &row.unit);
-        folded(&format!("    {key:keys$}  {unit:units$}  "), &plain(&row.text))
+        folded(&format!("    {key:keys$}  {unit:units$}  "), &plain(&row.full()))
     };
     rows.iter().map(line).collect()
 }

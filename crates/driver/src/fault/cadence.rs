@@ -6,21 +6,13 @@
 //! Once a file reaches half of its largest size, these limits double; at three quarters they double again, and so on. The file therefore never
 //! exceeds its largest size and still covers a long time.
 
+use crate::defaults;
 use crate::warning::Warning;
 use crate::words::YEAR;
 use serde::{Deserialize, Serialize};
 
-/// Default change of log10 of the slip rate from row to row.
-const DECADES: f64 = 0.125;
 /// Change of log10 of the largest slip rate from one profile of rates to the next.
 pub(super) const RATE_CHANGE: f64 = 0.5;
-/// Default slip from row to row over the smallest characteristic slip of the fault, which is the slip over which the state evolves. In BP1 this is 4
-/// mm, or a tenth of a second at 4 cm/s.
-const SLIP: f64 = 0.5;
-/// Default longest time between rows \[s\]: the cadence that the benchmarks request between events.
-const LONGEST: f64 = 0.1 * YEAR;
-/// Default least time between rows due to slip alone \[s\]: the cadence that the benchmarks request in events.
-const SHORTEST: f64 = 0.1;
 /// Default time between profiles of slip between events \[s\].
 const BETWEEN: f64 = 5.0 * YEAR;
 /// Default slip between two profiles in an event, at the slip rate that begins it \[m\]: one second at 1 mm/s.
@@ -29,8 +21,6 @@ const PROFILE_SLIP: f64 = 1e-3;
 const LEAST_ROWS: f64 = 500.0;
 /// Least number of profiles of a run; see [`LEAST_ROWS`].
 const LEAST_PROFILES: f64 = 100.0;
-/// Default largest size of a file \[bytes\].
-const LARGEST_FILE: f64 = 100e6;
 /// An extremum gets a row if log10 of its slip rate differs by this much from the row before. The error of a peak in a file is at most half a per
 /// cent.
 const EXTREMUM: f64 = 2e-3;
@@ -80,13 +70,13 @@ impl Cadence {
     pub fn new(asked: Asked, end: f64, on: f64, length: Option<f64>) -> Self {
         let between = BETWEEN.min(end / LEAST_PROFILES);
         Self {
-            decades: asked.decades.unwrap_or(DECADES),
-            slip: asked.slip.or(length.map(|l| SLIP * l)).unwrap_or(f64::INFINITY),
-            longest: asked.longest.unwrap_or(LONGEST.min(end / LEAST_ROWS)),
-            shortest: asked.shortest.unwrap_or(SHORTEST.min(end / LEAST_ROWS)),
+            decades: asked.decades.unwrap_or(defaults::DECADES),
+            slip: asked.slip.or(length.map(|l| defaults::CADENCE_SLIP * l)).unwrap_or(f64::INFINITY),
+            longest: asked.longest.unwrap_or(defaults::LONGEST.min(end / LEAST_ROWS)),
+            shortest: asked.shortest.unwrap_or(defaults::SHORTEST.min(end / LEAST_ROWS)),
             contours: asked.contours.unwrap_or([between, (PROFILE_SLIP / on).min(between)]),
             fast: on,
-            largest_file: asked.largest_file.unwrap_or(LARGEST_FILE) as u64,
+            largest_file: asked.largest_file.unwrap_or(defaults::LARGEST_FILE) as u64,
         }
     }
 

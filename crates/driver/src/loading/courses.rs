@@ -1,5 +1,6 @@
 //! Steps and the tables that a stage prescribes: at how many entries steps end, and what equal steps pass over.
 
+use crate::defaults;
 use crate::lengths;
 use crate::scene::model::{Condition, Loading, Motion, Pace, Scene, Spanned, Stage};
 use crate::warning::Warning;
@@ -8,10 +9,7 @@ use asperity_fem::table::Table;
 use asperity_mechanics::Course;
 use std::ops::Range;
 
-/// Default bound on the departure of a table from its chord within a step, relative to the range of the table: a tenth of the precision of
-/// load cells and displacement transducers.
-const COURSE_TOLERANCE: f64 = 1e-4;
-/// The same for steps that follow waves, which are many for each bend of a table: a tenth of the range within a step is a pulse of a few
+/// Departure of a table from its chord within a step that follows waves, which are many for each bend of a table: a tenth of the range within a step is a pulse of a few
 /// steps.
 pub const WAVES: f64 = 0.1;
 /// Number of corners from which a warning says what they cost.
@@ -31,7 +29,7 @@ struct Prescribed {
 
 /// Tolerance of courses of a scene.
 pub fn tolerance(scene: &Scene) -> f64 {
-    scene.time.course_tolerance.as_ref().map_or(COURSE_TOLERANCE, |t| *t.get_ref())
+    scene.time.course_tolerance.as_ref().map_or(defaults::COURSE_TOLERANCE, |t| *t.get_ref())
 }
 
 /// Remarks on the tables of the stages of a scene, and warnings.

@@ -5,6 +5,7 @@ use super::cohesive::{self, Shortest, pressed};
 use super::friction::Friction;
 use crate::checks::of_model::{self, Driven, body_name, field_bytes, machines};
 use crate::checks::{Checks, Cost, InterfaceCheck, MachineCheck, WeakeningCheck, rates};
+use crate::defaults;
 use crate::diagnostic::Diagnostic;
 use crate::loading::Stage;
 use crate::model::{self, Model};
@@ -47,14 +48,16 @@ pub(super) fn of<const D: usize>(
             machine: machines.get(k).copied().flatten().map(|k| machine(k, friction, normal)),
         });
     }
-    let fields = scene.output.fields.as_ref().map_or(1, |n| *n.get_ref()) * stages.len();
+    let fields = scene.output.fields.as_ref().map_or(defaults::FIELDS, |n| *n.get_ref()) * stages.len();
     checks.cost = Cost {
         memory_bytes: Some(memory_bytes),
         steps: stages.iter().map(|s| s.steps).sum(),
         step_seconds: solver.operations.map(rates::of_bodies),
         fields: Some(fields),
         field_bytes: Some(field_bytes(model, VALUES)),
-        profiles: Some(scene.output.profiles.as_ref().map_or(10, |n| *n.get_ref()) * stages.len()),
+        profiles: Some(
+            scene.output.profiles.as_ref().map_or(defaults::PROFILES, |n| *n.get_ref()) * stages.len(),
+        ),
         ..Cost::default()
     };
     Ok(checks)

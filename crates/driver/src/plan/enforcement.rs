@@ -1,12 +1,9 @@
 //! Contact enforcement declared in a scene, in SI units.
 
+use crate::defaults;
 use crate::scene::model::{Enforcement as Spec, EnforcementKind, Spanned};
 use crate::scene::units::{Penalty, Penetration};
 use asperity_mechanics::Enforced;
-
-/// Default limit of the augmentations per step. With a penalty of 1 E/h each leaves a third to a half of the penetration, with 100 E/h a hundredth.
-/// If more are needed, the penalty is too small for the method.
-const AUGMENTATIONS: usize = 40;
 
 /// Enforcement for a slave body with this ratio of Young's modulus to element size \[Pa/m\] and this element size
 /// \[m\].
@@ -21,7 +18,7 @@ pub fn enforced(spec: &Spec, young_per_size: f64, size: f64) -> Enforced {
                 Penetration::Value(value) => value,
                 Penetration::Sizes(factor) => factor * size,
             }),
-            most: spec.augmentations.as_ref().map_or(AUGMENTATIONS, |m| *m.get_ref()),
+            most: spec.augmentations.as_ref().map_or(defaults::AUGMENTATIONS, |m| *m.get_ref()),
         },
     }
 }

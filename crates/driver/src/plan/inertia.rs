@@ -1,18 +1,12 @@
 //! Inertia of the bodies of a scene.
 
+use crate::defaults;
 use crate::diagnostic::Diagnostic;
 use crate::handover;
 use crate::impedance;
 use crate::model::{self, Model};
 use crate::scene::model::{Scene, Stepper};
 use asperity_mechanics::{Handover, Mass};
-
-/// Default spectral radius. Above some 0.6 a point that meets with a stiff penalty opens and closes in every other step, and the
-/// energy grows (case `impact_bars`). At 0.5 a vibration of sixty steps a period loses 1.3e-4 of its amplitude in a period.
-const RADIUS: f64 = 0.5;
-/// Default bound on the error of displacement in a step. It is about the error of the period of a steady vibration, which then
-/// takes some sixty steps.
-const TOLERANCE: f64 = 1e-3;
 
 /// Inertia of the bodies; `None` if the scene declares none. `loading` is the largest rate of the loads \[m/s\].
 ///
@@ -53,8 +47,8 @@ pub fn of<const D: usize>(scene: &Scene, model: &Model<D>, loading: f64) -> Resu
     Ok(Some(Mass {
         density,
         velocity,
-        radius: settings.spectral_radius.map_or(RADIUS, |r| *r.get_ref()),
-        tolerance: settings.tolerance.map_or(TOLERANCE, |t| *t.get_ref()),
+        radius: settings.spectral_radius.map_or(defaults::SPECTRAL_RADIUS, |r| *r.get_ref()),
+        tolerance: settings.tolerance.map_or(defaults::INERTIA_TOLERANCE, |t| *t.get_ref()),
         handover,
     }))
 }

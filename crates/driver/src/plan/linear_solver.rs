@@ -1,6 +1,7 @@
 //! Choice of the linear solver. It depends on the scene alone, so that neither the choice nor the results depend on the machine.
 
 use crate::amounts::{memory, size};
+use crate::defaults;
 use crate::diagnostic::Diagnostic;
 use crate::model::counts;
 use crate::model::forecast;
@@ -13,11 +14,6 @@ use asperity_fem::term::Pattern;
 use asperity_mechanics::solver::{Method, Prepared, Solver, local, moving_mortar, retained, symmetry};
 use asperity_mechanics::{CellBlock, Model, Path, PlannedInterface, Spring, Stage, Stepping};
 
-/// Default of `tolerance`. Newton's method converges to 1e-11 of the largest force; with linear solutions to 1e-10, linear steps take one or two
-/// iterations.
-const TOLERANCE: f64 = 1e-10;
-/// Default of `most_iterations`: twenty times the number for the hardest case of the benchmark.
-const MOST_ITERATIONS: usize = 2000;
 /// Memory of the iterative method over that of its matrix; 2.5 to 3.8 in the benchmark.
 const HIERARCHY: usize = 4;
 /// Number of degrees of freedom up to which a plan analyses the system of generated blocks, which takes a second in 3D. For larger systems memory is
@@ -238,8 +234,9 @@ impl<const D: usize> Choice<'_, D> {
             let what = format!("the iterative solution of {} degrees of freedom", self.model.dofs());
             return Err(self.too_much(&what, bytes, false));
         }
-        let tolerance = solver.tolerance.as_ref().map_or(TOLERANCE, |t| *t.get_ref());
-        let most_iterations = solver.most_iterations.as_ref().map_or(MOST_ITERATIONS, |m| *m.get_ref());
+        let tolerance = solver.tolerance.as_ref().map_or(defaults::SOLVER_TOLERANCE, |t| *t.get_ref());
+        let most_iterations =
+            solver.most_iterations.as_ref().map_or(defaults::MOST_ITERATIONS, |m| *m.get_ref());
         Ok(Solver {
             method: Method::Iterative { tolerance, most_iterations },
             memory: self.memory(),

@@ -4,6 +4,7 @@
 use super::friction::Friction;
 use super::{AnyPlan, Plan, checks, doubts, events, inertia, interfaces, linear_solver, path, restraint};
 use super::{start_balance, stepping, stress_level, summary};
+use crate::defaults;
 use crate::diagnostic::Diagnostic;
 use crate::initial_stress;
 use crate::loading::{self, Stage, courses, sizes};
@@ -81,8 +82,8 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
             mass,
             samples,
         },
-        field_outputs: scene.output.fields.as_ref().map_or(1, |f| *f.get_ref()),
-        profile_outputs: scene.output.profiles.as_ref().map_or(10, |f| *f.get_ref()),
+        field_outputs: scene.output.fields.as_ref().map_or(defaults::FIELDS, |f| *f.get_ref()),
+        profile_outputs: scene.output.profiles.as_ref().map_or(defaults::PROFILES, |f| *f.get_ref()),
         events,
         thetas,
         summary,

@@ -1,29 +1,25 @@
 //! Time stepper of a scene and its step control.
 
+use crate::defaults;
 use crate::diagnostic::Diagnostic;
 use crate::loading::courses;
 use crate::scene::model::{Rule, Scene, Spanned, Stepper};
 use asperity_contact::TimeRule;
 use asperity_friction::law::RateBounds;
+use asperity_mechanics::timing;
 use asperity_mechanics::{Control, Stage, Stepping};
 use asperity_output::FieldSchedule;
 
-/// Default bound on the local error of slip per step, relative to the largest prescribed displacement.
-const SLIP_TOLERANCE: f64 = 2e-5;
-/// Default bound on the estimated error of friction coefficients per step, if a law has a state variable. Over velocity steps, holds and the
-/// subsequent response it gives errors of up to 5e-5 (case `interface_rate_state`).
-const FRICTION_TOLERANCE: f64 = 2e-6;
-/// Kind of these laws.
+/// Kind of laws with a state variable.
 const RATE_AND_STATE: &str = "rate-and-state";
-/// Default bound r8 on |Δ ln V|.
-const RATE_CHANGE: f64 = 0.5;
-/// Default ζ of r8.
-const ZETA: f64 = 0.1;
-/// Default residual that a forward step may leave, over the largest force: a tenth of the precision to which tractions are read.
-const DRIFT: f64 = 1e-4;
-/// The same for laws that depend on slip rate, which respond to unbalanced forces. Its error in friction is that of some tens of steps
-/// ([`FRICTION_TOLERANCE`]).
-const RATE_DRIFT: f64 = 1e-5;
+
+/// Shares of a stage that the step control takes are those that the keys show.
+const _: () = assert!(
+    timing::FIRST == defaults::FIRST_STEP
+        && timing::LARGEST == defaults::LARGEST_STEP
+        && timing::SMALLEST == defaults::SMALLEST_STEP
+        && timing::LEAST == defaults::LEAST_STEP
+);
 
 /// Chooses the stepper of a scene.
 ///
@@ -41,11 +37,11 @@ pub fn choose(scene: &Scene) -> Result<Stepping, Diagnostic> {
             Stepping { rule, bounds, drift: None }
         }
         Stepper::StaticExplicit => {
-            let usual = if evolves(scene) { RATE_DRIFT } else { DRIFT };
+            let usual = if evolves(scene) { defaults::RATE_DRIFT } else { defaults::DRIFT };
             let drift = time.drift.as_ref().map_or(usual, |d| *d.get_ref());
             let bounds = RateBounds {
-                zeta: time.zeta.as_ref().map_or(ZETA, |z| *z.get_ref()),
-                log_rate: time.rate_change.as_ref().map_or(RATE_CHANGE, |r| *r.get_ref()),
+                zeta: time.zeta.as_ref().map_or(defaults::ZETA, |z| *z.get_ref()),
+                log_rate: time.rate_change.as_ref().map_or(defaults::RATE_CHANGE, |r| *r.get_ref()),
             };
             Stepping { rule, bounds, drift: Some(drift) }
         }
@@ -81,9 +77,9 @@ pub fn control(scene: &Scene, stages: &[Stage]) -> Control {
     let travel = stages.iter().map(Stage::driven).fold(0.0, f64::max);
     // Without motion there is no displacement to compare slip with; static-explicit steps use the R-minimum rule.
     let adapts = travel > 0.0 && matches!(time.stepper.get_ref(), Stepper::Implicit | Stepper::Auto);
-    let usual = if adapts { SLIP_TOLERANCE * travel } else { f64::INFINITY };
+    let usual = if adapts { defaults::SLIP_TOLERANCE * travel } else { f64::INFINITY };
     // Without a state variable errors of friction do not persist, so the error as points begin to slip one by one need not be small.
-    let accuracy = if evolves(scene) { FRICTION_TOLERANCE } else { f64::INFINITY };
+    let accuracy = if evolves(scene) { defaults::FRICTION_TOLERANCE } else { f64::INFINITY };
     Control {
         tolerance: time.tolerance.as_ref().map_or(usual, |t| t.get_ref().0),
         friction: time.friction_tolerance.as_ref().map_or(accuracy, |t| *t.get_ref()),

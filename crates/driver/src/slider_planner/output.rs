@@ -1,6 +1,7 @@
 //! Rows of the histories.
 
 use super::Planner;
+use crate::defaults;
 use crate::scene::near;
 use crate::scene::slider::{OutputSpec, Which};
 use asperity_cycles::slider::Rows;
@@ -33,8 +34,7 @@ impl Planner {
         let times = times?;
         // If times are given, they alone determine the rows, unless a change is given as well.
         let by_change = times.is_empty() && interval.is_none();
-        let default = Rows::default();
-        let change = change.or(default.change.filter(|_| by_change));
+        let change = change.or(by_change.then_some(defaults::SLIDER_CHANGE));
         Some(Rows { change, times, interval, histories })
     }
 

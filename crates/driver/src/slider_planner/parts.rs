@@ -84,10 +84,6 @@ impl Planner {
                 return None;
             }
         };
-        if let Some(limit) = &spec.get_ref().f_limit {
-            let message = "a spring-slider has no limit of the shear traction";
-            self.error::<()>(limit.span(), message, "remove `f_limit`");
-        }
         match laws::build_sliding(&choice) {
             Ok(Some(law)) => Some(law),
             Ok(None) => self.error(

@@ -1,6 +1,7 @@
 //! Settings of time integration and events.
 
 use super::Planner;
+use crate::defaults;
 use crate::diagnostic::Diagnostic;
 use crate::scene::model::EventSpec;
 use crate::scene::model::Spanned;
@@ -72,17 +73,9 @@ impl Planner {
 
     pub(super) fn events(&mut self, spec: &EventSpec) -> Option<Thresholds> {
         self.count("stop_after", spec.stop_after.as_ref());
-        for (key, given) in [("slow_above", &spec.slow_above), ("slow_below", &spec.slow_below)] {
-            if let Some(given) = given {
-                let message =
-                    format!("`{key}` is for slow events of faults through cycles, and sliders have none");
-                self.error::<()>(given.span(), message, format!("remove `{key}`, or choose `above` lower"));
-            }
-        }
         let on = self.positive("above", spec.above.get_ref().0, spec.above.span(), "\"1 mm/s\"")?;
         let off = match &spec.below {
-            // An order of magnitude lower, so that a rate fluctuating about the threshold counts as one event.
-            None => 0.1 * on,
+            None => defaults::EVENT_ENDS * on,
             Some(below) => {
                 let off = self.positive("below", below.get_ref().0, below.span(), "\"0.1 mm/s\"")?;
                 if off >= on {

@@ -12,7 +12,8 @@ const END: &str = "<!-- end -->";
 fn row(of: &str, key: &str) -> String {
     let row = keys::row(of, key).unwrap_or_else(|| panic!("{of} has no key {key}"));
     assert!(!row.text.is_empty(), "{key} of {of} has no description");
-    let text = row.text.split('|').collect::<Vec<_>>().join("\\|");
+    let full = row.full();
+    let text = full.split('|').collect::<Vec<_>>().join("\\|");
     format!("| `{}` | {} | {text} |\n", row.key, row.unit)
 }
 

@@ -16,6 +16,7 @@ mod common;
 mod compare;
 mod contact_limits;
 mod contact_lost;
+mod defaults;
 mod directories;
 mod documents;
 mod doubtful_scenes;

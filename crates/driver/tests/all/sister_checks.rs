@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 const PAGE: &str = include_str!("../../../../docs/src/checks.md");
 
 /// A fault in homogeneous rock.
-const MEDIUM: &str = r#"
+pub const MEDIUM: &str = r#"
 schema = 1
 title = "a fault in rock"
 kinematics = "antiplane"
@@ -41,7 +41,7 @@ stepper = "fault-ode"
 above = "1e-3 m/s"
 "#;
 
-const SLIDER: &str = r#"
+pub const SLIDER: &str = r#"
 schema = 1
 title = "a slider"
 kinematics = "spring-slider"

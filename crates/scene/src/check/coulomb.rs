@@ -1,7 +1,7 @@
 //! Planes on which changes of Coulomb stress are resolved.
 
 use super::{AXES, Checker};
-use crate::model::{CoulombSpec, Kinematics, MediumKind, Spanned, Stepper};
+use crate::model::{CoulombSpec, Kinematics, MediumKind, Spanned};
 use crate::units::{Angle, Length};
 use std::ops::Range;
 
@@ -13,15 +13,6 @@ impl Checker<'_> {
     pub(super) fn coulomb(&mut self) {
         let Some(given) = &self.scene.output.coulomb else { return };
         let spec = given.get_ref();
-        let stepper = *self.scene.time.stepper.get_ref();
-        if self.scene.faults.is_empty() || stepper == Stepper::Explicit {
-            self.error(
-                given.span(),
-                "`coulomb` is for faults through earthquake cycles, whose events change the stress",
-                "remove it",
-            );
-            return;
-        }
         self.effective_friction(&spec.friction);
         self.plane(given.span(), spec);
         if self.scene.medium.is_some() {
@@ -151,20 +142,8 @@ impl Checker<'_> {
         }
     }
 
-    /// Refuses positions between bodies, whose cells all have stresses.
+    /// Checks that directions up and north are known.
     fn coulomb_between_bodies(&mut self, spec: &CoulombSpec) {
-        let keys = [
-            ("map", spec.map.as_ref().map(Spanned::span)),
-            ("depth", spec.depth.as_ref().map(Spanned::span)),
-            ("points", spec.points.values().next().map(Spanned::span)),
-        ];
-        for (key, place) in keys.into_iter().filter_map(|(key, place)| Some((key, place?))) {
-            self.error(
-                place,
-                format!("`{key}` of `coulomb` is for a `[medium]`"),
-                "remove it: between bodies all their cells have stresses",
-            );
-        }
         let upright = self.scene.place.is_some() || self.dimension() < 3;
         if let Some(strike) = spec.strike.as_ref().filter(|_| !upright) {
             self.error(

@@ -1,7 +1,7 @@
 //! Bodies with mass, whose faults radiate waves: the stepper "explicit".
 
 use super::{AXES, Checker};
-use crate::model::{Body, Condition, Fault, Injections, PointSpec, SlipSpec, Spanned, Stage, Stepper};
+use crate::model::{Body, Condition, Fault, PointSpec, SlipSpec, Spanned, Stage, Stepper};
 use crate::near::suggest;
 use std::ops::Range;
 
@@ -19,10 +19,9 @@ impl Checker<'_> {
         self.parts();
         self.masses_of_waves();
         self.stability();
-        self.foreign_outputs();
         let scene = self.scene;
         for fault in scene.faults.values() {
-            self.without_cycles(fault);
+            self.creep_with_mass(fault);
             self.direction_with_mass(fault);
             self.start_with_mass(fault);
             self.delay(fault);
@@ -44,64 +43,27 @@ impl Checker<'_> {
         }
     }
 
-    /// Refuses keys of the stepper "explicit" with another stepper.
-    pub(super) fn explicit_alone(&mut self) {
-        let scene = self.scene;
-        let output = &scene.output;
-        let mut keys = vec![("sampling", output.sampling.as_ref().map(Spanned::span))];
-        if scene.faults.is_empty() {
-            keys.push(("rupture_rate", output.rupture_rate.as_ref().map(Spanned::span)));
-        }
-        keys.extend(
-            scene.faults.values().map(|f| ("normal_delay", f.normal_delay.as_ref().map(Spanned::span))),
-        );
-        keys.extend(output.seismograms.values().map(|s| ("seismograms", Some(s.span()))));
-        let conditions = scene.stages.iter().flat_map(|s| &s.conditions);
-        if !self.has_ruptures() {
-            keys.extend(conditions.map(|c| ("absorbing", c.get_ref().absorbing.as_ref().map(Spanned::span))));
-        }
-        for (key, place) in keys.into_iter().filter_map(|(key, place)| Some((key, place?))) {
-            self.conflict(
-                &place,
-                format!("`{key}` is for bodies with mass, in which waves run"),
-                "remove it, or use `stepper = \"explicit\"`",
-                (&scene.time.stepper.span(), "the stepper"),
-            );
-        }
-    }
-
-    /// Checks what the scene consists of: bodies and faults, in one stage.
+    /// Checks that the scene has one stage.
     fn parts(&mut self) {
         let scene = self.scene;
-        let place = scene.time.stepper.span();
-        if let Some((name, interface)) = scene.interfaces.iter().next() {
-            self.conflict(
-                &interface.slave.span(),
-                format!("interface `{name}` in a scene with the stepper \"explicit\""),
-                "surfaces slide as faults: two sides with the same nodes, `[faults.NAME]` with `minus` and `plus`",
-                (&place, "the stepper"),
-            );
-        }
-        if let Some(medium) = &scene.medium {
-            self.conflict(
-                &medium.material.span(),
-                "waves run in bodies, and `[medium]` is rock without bodies",
-                "a body with `mesh.fault` around the fault, and `absorbing = true` on its sides",
-                (&place, "the stepper"),
-            );
-        }
-        if let Some(events) = &scene.events {
-            self.error(
-                events.above.span(),
-                "events are those of faults through cycles",
-                "remove `[events]`; a point has ruptured at `rupture_rate` of `[output]`",
-            );
-        }
         if let Some(second) = scene.stages.get(1) {
             self.error(
                 second.duration.span(),
                 format!("a scene with the stepper \"explicit\" has one stage, found {}", scene.stages.len()),
                 "motions and loads that change with time are tables",
+            );
+        }
+    }
+
+    /// Refuses creep at a rate: between bodies with mass, parts of a fault are locked at most.
+    fn creep_with_mass(&mut self, fault: &Fault) {
+        let rate = fault.creep.as_ref().map(|creep| &creep.rate).filter(|rate| rate.get_ref().0 != 0.0);
+        if let Some(rate) = rate {
+            self.conflict(
+                &rate.span(),
+                "`creep` of a fault between bodies with mass",
+                "remove it: at `rate = 0` a part of the fault is locked",
+                (&self.scene.time.stepper.span(), "the stepper"),
             );
         }
     }
@@ -149,82 +111,6 @@ impl Checker<'_> {
                 viscosity.span(),
                 "`viscosity` must not be negative",
                 "such as `viscosity = 0.1`, the time of viscosity over the step; 0 for none",
-            );
-        }
-    }
-
-    /// Refuses outputs of other steppers.
-    fn foreign_outputs(&mut self) {
-        let scene = self.scene;
-        let (output, solver) = (&scene.output, &scene.solver);
-        let mut keys = vec![
-            ("bodies", output.bodies.as_ref().map(Spanned::span)),
-            ("cadence", output.cadence.as_ref().map(Spanned::span)),
-            ("contours", output.contours.as_ref().map(Spanned::span)),
-            ("event_files", output.event_files.as_ref().map(Spanned::span)),
-            ("largest_file", output.largest_file.as_ref().map(Spanned::span)),
-            ("method", solver.method.as_ref().map(Spanned::span)),
-            ("tolerance", solver.tolerance.as_ref().map(Spanned::span)),
-            ("most_iterations", solver.most_iterations.as_ref().map(Spanned::span)),
-        ];
-        keys.extend(output.probes.values().map(|p| ("probes", Some(p.span()))));
-        keys.extend(output.points.values().map(|p| ("points", Some(p.span()))));
-        keys.extend(output.forces.values().map(|p| ("forces", Some(p.span()))));
-        keys.extend(
-            scene.stages.iter().flat_map(|s| &s.frictionless).map(|f| ("frictionless", Some(f.span()))),
-        );
-        for (key, place) in keys.into_iter().filter_map(|(key, place)| Some((key, place?))) {
-            self.conflict(
-                &place,
-                format!("`{key}` has no meaning with the stepper \"explicit\""),
-                "remove it; outputs are `seismograms`, `stations`, `fields`, `profiles` and `sampling`",
-                (&scene.time.stepper.span(), "the stepper"),
-            );
-        }
-    }
-
-    /// Refuses keys of faults through cycles.
-    fn without_cycles(&mut self, fault: &Fault) {
-        let keys = [
-            (
-                "creep",
-                fault
-                    .creep
-                    .as_ref()
-                    .map(|c| &c.rate)
-                    .filter(|rate| rate.get_ref().0 != 0.0)
-                    .map(Spanned::span),
-                "at `rate = 0` a part of the fault is locked",
-            ),
-            ("injection", fault.injection.as_ref().map(Injections::span), "pressure acts through `normal`"),
-            (
-                "damping",
-                fault.damping.as_ref().map(Spanned::span),
-                "bodies with mass radiate the waves themselves",
-            ),
-            (
-                "normal_floor",
-                fault.normal_floor.as_ref().map(Spanned::span),
-                "where nothing presses there is no friction",
-            ),
-            (
-                "normal_changes",
-                fault.normal_changes.as_ref().map(Spanned::span),
-                "normal tractions follow from the momentum of both sides",
-            ),
-            (
-                "heat",
-                fault.heat.as_ref().map(|h| h.thickness.span()),
-                "frictional heat is followed through cycles only",
-            ),
-            ("f_limit", fault.law.get_ref().f_limit.as_ref().map(Spanned::span), "interfaces have limits"),
-        ];
-        for (key, place, why) in keys.into_iter().filter_map(|(key, place, why)| Some((key, place?, why))) {
-            self.conflict(
-                &place,
-                format!("`{key}` of a fault between bodies with mass"),
-                format!("remove it: {why}"),
-                (&self.scene.time.stepper.span(), "the stepper"),
             );
         }
     }

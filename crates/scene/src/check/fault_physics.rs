@@ -6,14 +6,6 @@ use crate::model::{Fault, Spanned};
 
 impl Checker<'_> {
     pub(super) fn physics_of(&mut self, fault: &Fault) {
-        if let Some(limit) = fault.law.get_ref().f_limit.as_ref().filter(|_| !self.has_waves()) {
-            // At the limit friction does not depend on the slip rate, so the rate cannot be computed from it.
-            self.error(
-                limit.span(),
-                "a fault through cycles has no limit of the shear traction: the slip rate would not follow from friction that has reached it",
-                "remove `f_limit`; a smaller `normal` or `mu0` lowers the strength, and interfaces have limits",
-            );
-        }
         let positive = |v: f64| v > 0.0 && v.is_finite();
         if let Some(floor) = fault.normal_floor.as_ref().filter(|f| !positive(f.get_ref().0)) {
             self.error(

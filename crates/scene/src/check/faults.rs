@@ -5,7 +5,7 @@ use super::interfaces::RATED;
 use crate::law;
 use crate::model::EventSpec;
 use crate::model::{
-    Along, Creep, CreepLoading, DampingSpec, Fault, Interface, Kinematics, Motion, Outside, Path, Profile,
+    Along, Creep, CreepLoading, DampingSpec, Fault, Interface, Kinematics, Motion, Outside, Profile,
     Profiled, SlipSpec, Spanned, Station, Stepper,
 };
 use crate::near::suggest;
@@ -55,55 +55,7 @@ impl Checker<'_> {
         self.cadence();
         self.events();
         self.springs();
-        self.left_out();
         self.medium();
-    }
-
-    /// Refuses keys that do not apply to faults and would be ignored silently.
-    fn left_out(&mut self) {
-        let scene = self.scene;
-        if self.has_waves() {
-            return;
-        }
-        let Some(fault) = scene.faults.values().next() else {
-            if let Some(bodies) = &scene.output.bodies {
-                self.error(
-                    bodies.span(),
-                    "`bodies` is for scenes with faults",
-                    "remove it; displacements of bodies are `fields`",
-                );
-            }
-            self.cadence_without_faults();
-            return;
-        };
-        let (output, solver) = (&scene.output, &scene.solver);
-        let mut keys = vec![
-            ("fields", output.fields.as_ref().map(Spanned::span)),
-            ("profiles", output.profiles.as_ref().map(Spanned::span)),
-            ("path", (scene.time.path != Path::Auto).then(|| scene.time.stepper.span())),
-            ("method", solver.method.as_ref().map(Spanned::span)),
-            ("tolerance", solver.tolerance.as_ref().map(Spanned::span)),
-            ("most_iterations", solver.most_iterations.as_ref().map(Spanned::span)),
-        ];
-        keys.extend(output.probes.values().map(|p| ("probes", Some(p.span()))));
-        if scene.medium.is_some() || self.has_ruptures() {
-            keys.extend(output.points.values().map(|p| ("points", Some(p.span()))));
-            keys.extend(output.forces.values().map(|p| ("forces", Some(p.span()))));
-        }
-        keys.extend(scene.stages.iter().map(|stage| ("steps", stage.steps.as_ref().map(Spanned::span))));
-        let what = match (&scene.medium, self.has_ruptures()) {
-            (Some(_), _) => "a medium",
-            (None, true) => "faults whose ruptures have mass",
-            (None, false) => "faults",
-        };
-        for (key, place) in keys.into_iter().filter_map(|(key, place)| Some((key, place?))) {
-            self.conflict(
-                &place,
-                format!("`{key}` has no meaning in a scene with {what}"),
-                "remove it; outputs of faults are `stations` in `[output]`, the catalogue and profiles of slip",
-                (&fault.span(), "a fault"),
-            );
-        }
     }
 
     /// Checks springs that pull sets.
@@ -136,7 +88,6 @@ impl Checker<'_> {
         if self.has_waves() {
             return self.explicit();
         }
-        self.explicit_alone();
         if self.has_ruptures() {
             self.ruptures();
         }
@@ -149,24 +100,8 @@ impl Checker<'_> {
                 "the stepper \"fault-ode\" integrates faults, and the scene has none",
                 "add `[faults.NAME]`, or use \"implicit\" or \"static-explicit\"",
             ),
-            Some(fault) if !ode => self.conflict(
-                &stepper.span(),
-                "faults are integrated by the stepper \"fault-ode\"",
-                "use `stepper = \"fault-ode\"`, or interfaces instead of faults",
-                (&fault.span(), "a fault"),
-            ),
-            Some(fault) => {
-                if let Some((name, interface)) = scene.interfaces.iter().next() {
-                    self.conflict(
-                        &interface.slave.span(),
-                        format!("interface `{name}` in a scene with faults"),
-                        "a scene has interfaces or faults",
-                        (&fault.span(), "a fault"),
-                    );
-                }
-                self.stages_of_faults(fault);
-            }
-            None => {}
+            Some(fault) if ode => self.stages_of_faults(fault),
+            _ => {}
         }
         self.events_without_source();
     }
@@ -525,20 +460,8 @@ impl Checker<'_> {
             );
         }
         self.slow_events(events);
-        self.only_of_sliders(events);
         if let Some(n) = events.stop_after.as_ref().filter(|n| *n.get_ref() == 0) {
             self.error(n.span(), "`stop_after` must be at least 1", "or leave the line out");
-        }
-    }
-
-    /// Refuses what only the events of spring-sliders use.
-    fn only_of_sliders(&mut self, events: &EventSpec) {
-        if let Some(peaks) = &events.peaks {
-            self.error(
-                peaks.span(),
-                "`peaks` locates the extremes of slip rates of spring-sliders; events of faults and interfaces have the largest rate of their steps",
-                "remove `peaks`",
-            );
         }
     }
 
@@ -554,14 +477,6 @@ impl Checker<'_> {
             }
             return;
         };
-        if self.scene.faults.is_empty() {
-            self.error(
-                slow.span(),
-                "`slow_above` begins slow events of faults through cycles, and the scene has no fault",
-                "remove it, and `slow_below`; a second run with a smaller `above` lists the slow events of interfaces",
-            );
-            return;
-        }
         let (rate, above) = (slow.get_ref().0, events.above.get_ref().0);
         if !(rate > 0.0 && rate < above) {
             self.conflict(

@@ -11,14 +11,7 @@ impl Checker<'_> {
     pub(super) fn forced(&mut self, fault: &Fault) {
         let Some(forced) = &fault.forced_rupture else { return };
         let kind = fault.law.get_ref().kind.as_ref();
-        if !self.has_waves() {
-            self.conflict(
-                &forced.centre.span(),
-                "`forced_rupture` of a fault without waves: it starts a rupture of bodies with mass under slip weakening",
-                "remove it, and start events by `pulses` or a patch of `shear`; or `stepper = \"explicit\"`",
-                (&self.scene.time.stepper.span(), "the stepper"),
-            );
-        } else if let Some(kind) = kind.filter(|kind| kind.get_ref() != LAW) {
+        if let Some(kind) = kind.filter(|kind| kind.get_ref() != LAW) {
             self.conflict(
                 &forced.centre.span(),
                 format!("`forced_rupture` of a fault with a law of kind \"{}\"", kind.get_ref()),

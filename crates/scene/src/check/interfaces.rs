@@ -128,35 +128,13 @@ impl Checker<'_> {
                 (&self.scene.time.stepper.span(), "the stepper"),
             );
         }
-        let stepper = &self.scene.time.stepper;
-        if *stepper.get_ref() == Stepper::StaticExplicit {
-            self.conflict(
-                &damping.span(),
-                format!("interface `{name}` has `damping`, which static-explicit steps do not follow"),
-                "use `stepper = \"implicit\"`, or remove `damping`",
-                (&stepper.span(), "the stepper"),
-            );
-        }
     }
 
     /// Checks that an enforcement has the keys it needs and none of another kind.
     fn enforcement(&mut self, name: &str, enforcement: &Enforcement) {
         let kind = &enforcement.kind;
         let uzawa = *kind.get_ref() == EnforcementKind::Uzawa;
-        let keys = [
-            ("penetration", enforcement.penetration.as_ref().map(Spanned::span)),
-            ("augmentations", enforcement.augmentations.as_ref().map(Spanned::span)),
-        ];
-        if !uzawa {
-            for (key, place) in keys.into_iter().filter_map(|(key, place)| Some((key, place?))) {
-                self.conflict(
-                    &place,
-                    format!("`{key}` belongs to the enforcement \"uzawa\""),
-                    format!("remove `{key}`: what penetrates follows from the penalty, or is nothing with \"augmented-lagrangian\""),
-                    (&kind.span(), "the kind"),
-                );
-            }
-        } else if enforcement.penetration.is_none() {
+        if uzawa && enforcement.penetration.is_none() {
             self.error(
                 kind.span(),
                 format!("the enforcement \"uzawa\" of interface `{name}` needs `penetration`, where to end"),

@@ -81,16 +81,9 @@ impl Checker<'_> {
         let own: Vec<&str> = keys.iter().filter(|k| k.2.contains(kind)).map(|k| k.0).collect();
         let help = format!("the parameters of this hardening are {}", own.join(", "));
         for (key, given, kinds) in keys {
-            match (given, kinds.contains(kind)) {
-                (None, true) => {
-                    let message = format!("the hardening of material `{name}` has no `{key}`");
-                    self.error(place.clone(), message, help.clone());
-                }
-                (Some(given), false) => {
-                    let message = format!("`{key}` does not belong to the hardening of material `{name}`");
-                    self.conflict(&given, message, help.clone(), (&place, "the hardening"));
-                }
-                _ => {}
+            if given.is_none() && kinds.contains(kind) {
+                let message = format!("the hardening of material `{name}` has no `{key}`");
+                self.error(place.clone(), message, help.clone());
             }
         }
     }

@@ -20,14 +20,6 @@ impl Checker<'_> {
             self.sides_of(name, fault);
             return;
         };
-        if fault.has_sides() {
-            self.conflict(
-                &fault.minus.span(),
-                format!("fault `{name}` has sides, and a medium has no bodies"),
-                "describe it by `line` in the plane, or by `rectangle` or `triangles` in space",
-                (&medium.kind.span(), "the medium"),
-            );
-        }
         let in_space = *self.scene.kinematics.get_ref() == Kinematics::ThreeD;
         let (wanted, example) = if in_space {
             (
@@ -50,19 +42,11 @@ impl Checker<'_> {
                 example,
             ),
         }
-        self.without_medium_of(fault);
     }
 
     fn sides_of(&mut self, name: &str, fault: &Fault) {
-        let line = fault.line.as_ref().map(|l| ("line", l.trace.span()));
-        let rectangle = fault.rectangle.as_ref().map(|r| ("rectangle", r.from.span()));
-        let triangles = fault.triangles.as_ref().map(|t| ("triangles", t.file().span()));
-        if let Some((key, place)) = line.or(rectangle).or(triangles) {
-            self.error(
-                place,
-                format!("fault `{name}` has `{key}`, which is for faults in a medium"),
-                "add `[medium]` and remove the bodies, or name the sides `minus` and `plus`",
-            );
+        // Geometry of a medium is refused as such.
+        if fault.line.is_some() || fault.rectangle.is_some() || fault.triangles.is_some() {
             return;
         }
         for (key, set) in [("minus", &fault.minus), ("plus", &fault.plus)] {
@@ -75,27 +59,6 @@ impl Checker<'_> {
             } else {
                 self.set(set);
             }
-        }
-    }
-
-    /// Refuses keys of a fault that a medium does not offer.
-    fn without_medium_of(&mut self, fault: &Fault) {
-        if let Some(opening) = fault.opening.as_ref().filter(|o| *o.get_ref()) {
-            self.error(
-                opening.span(),
-                "faults do not open in a medium yet",
-                "remove `opening`; faults between bodies open",
-            );
-        }
-        let creep = fault.creep.as_ref();
-        let border = creep
-            .and_then(|c| c.beyond.as_ref().map(Spanned::span).or(c.outside.as_ref().map(Spanned::span)));
-        if let Some(place) = border {
-            self.error(
-                place,
-                "creep in a medium has no border: it is that of the continuation of the fault",
-                "remove it, and let the fault end where the creep begins",
-            );
         }
     }
 
@@ -120,14 +83,6 @@ impl Checker<'_> {
             ),
             Some(_) => {}
         }
-        if let Some((name, body)) = scene.bodies.iter().next() {
-            self.conflict(
-                &body.material.span(),
-                format!("body `{name}` in a scene with a medium"),
-                "a scene has bodies or a medium",
-                (&medium.kind.span(), "the medium"),
-            );
-        }
         if scene.faults.is_empty() {
             self.error(medium.kind.span(), "a medium without a fault", "add `[faults.NAME]`");
         }
@@ -140,16 +95,6 @@ impl Checker<'_> {
                 format!("there is no medium in {}", self.idealisation()),
                 "\"antiplane\", \"plane-strain\" or \"3d\"",
             );
-        }
-        for condition in scene.stages.iter().flat_map(|s| &s.conditions) {
-            self.error(
-                condition.span(),
-                "a medium has no sides on which conditions act",
-                "remove it; `creep` of a fault loads it by the creep of its continuation",
-            );
-        }
-        if let Some(bodies) = &scene.output.bodies {
-            self.error(bodies.span(), "`bodies` in a scene with a medium, which has none", "remove it");
         }
     }
 

@@ -76,24 +76,6 @@ impl Checker<'_> {
         }
     }
 
-    /// Refuses outputs of faults in a scene without faults.
-    pub(super) fn cadence_without_faults(&mut self) {
-        let output = &self.scene.output;
-        let keys = [
-            ("cadence", output.cadence.as_ref().map(Spanned::span)),
-            ("contours", output.contours.as_ref().map(Spanned::span)),
-            ("event_files", output.event_files.as_ref().map(Spanned::span)),
-            ("largest_file", output.largest_file.as_ref().map(Spanned::span)),
-        ];
-        for (key, place) in keys.into_iter().filter_map(|(key, place)| Some((key, place?))) {
-            self.error(
-                place,
-                format!("`{key}` is for scenes with faults"),
-                "remove it; how often something is written are `fields` and `profiles`",
-            );
-        }
-    }
-
     /// Checks the slip rate at which points of faults through cycles have ruptured; explicit steps check their own.
     fn rupture_rate(&mut self) {
         let rate = self.scene.output.rupture_rate.as_ref().filter(|_| !self.has_waves());

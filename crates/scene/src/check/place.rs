@@ -9,13 +9,6 @@ use jiff::{SignedDuration, Timestamp};
 impl Checker<'_> {
     pub(super) fn place(&mut self) {
         let Some(place) = &self.scene.place else { return };
-        if self.scene.faults.is_empty() {
-            self.error(
-                place.epoch.span(),
-                "only events of faults have a location, and the scene has no fault",
-                "remove `[place]`",
-            );
-        }
         self.angle("latitude", &place.latitude, (-90.0, 90.0));
         self.angle("longitude", &place.longitude, (-180.0, 360.0));
         self.angle("strike", &place.strike, (0.0, 360.0));

@@ -1,19 +1,11 @@
 //! Files of the platform of a community benchmark.
 
 use super::Checker;
-use crate::model::Stepper;
 
 impl Checker<'_> {
-    /// Checks what the heads of the files say, and that the scene has such files.
+    /// Checks what the heads of the files say.
     pub(super) fn platform(&mut self) {
         let Some(asked) = &self.scene.output.platform else { return };
-        if self.scene.medium.is_none() || *self.scene.time.stepper.get_ref() != Stepper::FaultOde {
-            self.error(
-                asked.span(),
-                "`platform` is for faults in a `[medium]` through earthquake cycles",
-                "remove it; `stations` have the format of benchmarks in the plane",
-            );
-        }
         let spec = asked.get_ref();
         if let Some(date) = spec.date.as_ref().filter(|d| !is_date(d.get_ref())) {
             self.error(

@@ -1,7 +1,7 @@
 //! Positions in a medium or in bodies whose motion is written.
 
 use super::{AXES, Checker};
-use crate::model::{Kinematics, MediumKind, Spanned, Stepper};
+use crate::model::{Kinematics, MediumKind, Spanned};
 
 impl Checker<'_> {
     /// Checks the receivers of a scene.
@@ -10,17 +10,6 @@ impl Checker<'_> {
         let axes: Vec<usize> = (0..self.dimension()).collect();
         for (name, at) in &scene.output.receivers {
             self.name("a receiver", name, at.span());
-            let between = scene.medium.is_none();
-            if between && (scene.faults.is_empty() || *scene.time.stepper.get_ref() != Stepper::FaultOde) {
-                self.error(
-                    at.span(),
-                    "receivers are for faults through cycles with the stepper \"fault-ode\"",
-                    format!(
-                        "in a body, `points.{name} = {{ body = \"..\", at = [..] }}` has the displacement; with mass, `seismograms.{name}` the velocity"
-                    ),
-                );
-                continue;
-            }
             if !self.count(at, "receivers", &axes) {
                 continue;
             }

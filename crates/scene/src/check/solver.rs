@@ -1,7 +1,7 @@
 //! Solution of the linear systems.
 
 use super::Checker;
-use crate::model::{Method, Path, Spanned};
+use crate::model::{Method, Path};
 use std::ops::RangeInclusive;
 
 /// Tolerances of the iterative method. Rounding leaves about 1e-14; above 1e-2 no step would converge.
@@ -28,32 +28,13 @@ impl Checker<'_> {
             );
         }
         let Some(method) = &solver.method else { return };
-        let iterative = [
-            ("tolerance", solver.tolerance.as_ref().map(Spanned::span)),
-            ("most_iterations", solver.most_iterations.as_ref().map(Spanned::span)),
-        ];
-        match *method.get_ref() {
-            Method::Auto => {}
-            Method::Direct => {
-                for (key, place) in iterative.into_iter().filter_map(|(key, place)| Some((key, place?))) {
-                    self.conflict(
-                        &place,
-                        format!("`{key}` belongs to the iterative method, but the method is \"direct\""),
-                        format!("remove `{key}`, or use `method = \"iterative\"` or \"auto\""),
-                        (&method.span(), "the method"),
-                    );
-                }
-            }
-            Method::Iterative => {
-                if self.scene.time.path == Path::Condensed {
-                    self.conflict(
-                        &method.span(),
-                        "the iterative method does not condense, but the path is \"condensed\"",
-                        "use `path = \"full\"`, or `method = \"direct\"`",
-                        (&self.scene.time.stepper.span(), "in the table with the path"),
-                    );
-                }
-            }
+        if *method.get_ref() == Method::Iterative && self.scene.time.path == Path::Condensed {
+            self.conflict(
+                &method.span(),
+                "the iterative method does not condense, but the path is \"condensed\"",
+                "use `path = \"full\"`, or `method = \"direct\"`",
+                (&self.scene.time.stepper.span(), "in the table with the path"),
+            );
         }
     }
 }

@@ -80,8 +80,6 @@ impl Checker<'_> {
         self.needs(stress, "level", stress.level.is_some(), example);
         self.needs(stress, "stress", stress.stress.is_some(), example);
         self.needs(stress, "gradient", stress.gradient.is_some(), example);
-        self.is_of("lithostatic", "k0", &stress.k0);
-        self.is_of("lithostatic", "overburden", &stress.overburden);
         if let Some(values) = &stress.stress {
             self.components("stress", &values.span(), values.get_ref().len());
             self.sheet(&values.span(), values.get_ref().len(), values.get_ref().get(2).map(|z| z.0));
@@ -100,9 +98,6 @@ impl Checker<'_> {
         let example = "such as { kind = \"lithostatic\", level = \"0 m\", k0 = 0.5 }";
         self.needs(stress, "level", stress.level.is_some(), example);
         self.needs(stress, "k0", stress.k0.is_some(), example);
-        self.is_of("linear", "along", &stress.along);
-        self.is_of("linear", "stress", &stress.stress);
-        self.is_of("linear", "gradient", &stress.gradient);
         if let Some(k0) = stress.k0.as_ref().filter(|k| !(k.get_ref().is_finite() && *k.get_ref() >= 0.0)) {
             self.error(
                 k0.span(),
@@ -144,16 +139,6 @@ impl Checker<'_> {
     fn needs(&mut self, stress: &VaryingStress, key: &str, given: bool, example: &str) {
         if !given {
             self.error(stress.kind.span(), format!("the initial stress has no `{key}`"), example);
-        }
-    }
-
-    fn is_of<T>(&mut self, kind: &str, key: &str, given: &Option<Spanned<T>>) {
-        if let Some(given) = given {
-            self.error(
-                given.span(),
-                format!("`{key}` belongs to `kind = \"{kind}\"`"),
-                "remove it, or change the kind",
-            );
         }
     }
 }

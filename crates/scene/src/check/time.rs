@@ -22,7 +22,6 @@ impl Checker<'_> {
     pub(super) fn time(&mut self) {
         let time = &self.scene.time;
         let stepper = *time.stepper.get_ref();
-        self.foreign_keys(stepper);
         if let Some(tolerance) = time.tolerance.as_ref().filter(|t| t.get_ref().0 <= 0.0) {
             self.error(
                 tolerance.span(),
@@ -136,74 +135,5 @@ impl Checker<'_> {
                 );
             }
         }
-    }
-
-    /// Reports keys that belong to other steppers.
-    fn foreign_keys(&mut self, stepper: Stepper) {
-        use Stepper::{Auto, Explicit, FaultOde, Implicit, StaticExplicit};
-        let time = &self.scene.time;
-        let place =
-            |p: Option<Range<usize>>, key: &'static str, of: &'static [Stepper]| p.map(|p| (key, p, of));
-        let keys = [
-            place(time.drift.as_ref().map(Spanned::span), "drift", &[StaticExplicit]),
-            place(time.rate_change.as_ref().map(Spanned::span), "rate_change", &[StaticExplicit]),
-            place(time.zeta.as_ref().map(Spanned::span), "zeta", &[StaticExplicit]),
-            place(time.rule.as_ref().map(Spanned::span), "rule", &[Implicit, StaticExplicit, Auto]),
-            place(time.tolerance.as_ref().map(Spanned::span), "tolerance", &[Implicit, Auto]),
-            place(
-                time.friction_tolerance.as_ref().map(Spanned::span),
-                "friction_tolerance",
-                &[Implicit, StaticExplicit, Auto],
-            ),
-            place(
-                time.course_tolerance.as_ref().map(Spanned::span),
-                "course_tolerance",
-                &[Implicit, StaticExplicit, Auto],
-            ),
-            place(time.inertia.as_ref().map(Spanned::span), "inertia", &[Implicit, Auto]),
-            place(
-                time.first_step.as_ref().map(Spanned::span),
-                "first_step",
-                &[Implicit, StaticExplicit, Auto],
-            ),
-            place(time.max_step.as_ref().map(Spanned::span), "max_step", &[Implicit, StaticExplicit, Auto]),
-            place(time.min_step.as_ref().map(Spanned::span), "min_step", &[Implicit, StaticExplicit, Auto]),
-            place(
-                time.slip_rate_limit.as_ref().map(Spanned::span),
-                "slip_rate_limit",
-                &[Implicit, StaticExplicit],
-            ),
-            place(time.handover.as_ref().map(Spanned::span), "handover", &[Auto]),
-            place(time.courant.as_ref().map(Spanned::span), "courant", &[Explicit]),
-            place(time.viscosity.as_ref().map(Spanned::span), "viscosity", &[Explicit]),
-            place(time.method.as_ref().map(Spanned::span), "method", &[FaultOde]),
-            place(time.log_rate_tolerance.as_ref().map(Spanned::span), "log_rate_tolerance", &[FaultOde]),
-        ];
-        let own = stepper_name(stepper);
-        // Faults through cycles with ruptures take the keys of the two steppers that they pass between.
-        let ruptures = self.has_ruptures();
-        let known = |of: &[Stepper]| match ruptures {
-            true => *of == [Auto] || of.contains(&FaultOde) || of.contains(&Explicit),
-            false => of.contains(&stepper),
-        };
-        for (key, place, of) in keys.into_iter().flatten().filter(|(_, _, of)| !known(of)) {
-            let other = stepper_name(of[0]);
-            self.conflict(
-                &place,
-                format!("`{key}` belongs to the stepper \"{other}\", but the stepper is \"{own}\""),
-                format!("remove `{key}`, or use `stepper = \"{other}\"`"),
-                (&self.scene.time.stepper.span(), "the stepper"),
-            );
-        }
-    }
-}
-
-fn stepper_name(stepper: Stepper) -> &'static str {
-    match stepper {
-        Stepper::Implicit => "implicit",
-        Stepper::StaticExplicit => "static-explicit",
-        Stepper::FaultOde => "fault-ode",
-        Stepper::Explicit => "explicit",
-        Stepper::Auto => "auto",
     }
 }

@@ -1,18 +1,13 @@
 //! Values that have no effect in combination with others.
 
 use super::Checker;
+use crate::defaults;
 use crate::model::{Spanned, Stage, Stepper};
 use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// Share of a step by which equal steps may violate a bound: rounding of durations divided by numbers of steps.
 const ROUNDING: f64 = 1e-9;
-
-/// Default first step as a share of the duration of its stage, as in the step control.
-const FIRST: f64 = 1e-3;
-
-/// Default largest step as a share of the duration of its stage, as in the step control.
-const LARGEST: f64 = 0.05;
 
 /// Largest spacing of neighbouring floating-point times, as a share of the first step of a stage. Increments of motions and of
 /// time differ by this share.
@@ -85,7 +80,7 @@ impl Checker<'_> {
             let duration = stage.duration.get_ref().0;
             let first = match &stage.steps {
                 Some(steps) => duration / (*steps.get_ref()).max(1) as f64,
-                None => first_step.unwrap_or(FIRST * duration).min(duration),
+                None => first_step.unwrap_or(defaults::FIRST_STEP * duration).min(duration),
             };
             let apart = f64::EPSILON * start;
             if index > 0 && first > 0.0 && apart > RESOLVED * first {
@@ -145,7 +140,7 @@ impl Checker<'_> {
         if longest <= 0.0 {
             return;
         }
-        let largest = LARGEST * longest;
+        let largest = defaults::LARGEST_STEP * longest;
         if let (Some(first), None) = (&time.first_step, &time.max_step)
             && first.get_ref().0 > largest * (1.0 + ROUNDING)
         {
@@ -156,12 +151,12 @@ impl Checker<'_> {
             self.warn(first.span(), message, "give `max_step` as well, or a shorter first step");
         }
         if let (Some(least), None) = (&time.min_step, &time.first_step)
-            && least.get_ref().0 > FIRST * longest * (1.0 + ROUNDING)
+            && least.get_ref().0 > defaults::FIRST_STEP * longest * (1.0 + ROUNDING)
         {
             let message = format!(
                 "`min_step` is {:?} s, but the first step of each stage is a thousandth of it, {:?} s at most",
                 least.get_ref().0,
-                FIRST * longest
+                defaults::FIRST_STEP * longest
             );
             self.warn(least.span(), message, "give `first_step` as well, or a smaller `min_step`");
         }

@@ -1,10 +1,13 @@
 //! Search for a key of scenes by its path, or by the end of its path.
 
+use super::foreign;
 use super::path::{Path, Step};
 use super::row::{Key, Row, row_of};
 use super::tree::{Tree, properties};
 use super::value;
+use crate::kind::{Kind, OF_BODIES};
 use crate::near::{nearest, suggest};
+use crate::usual;
 use serde_json::Value;
 use std::cmp::Ordering;
 
@@ -198,6 +201,38 @@ fn below<'a>(tree: &'a Tree, schema: &'a Value, path: &str, depth: usize) -> Vec
     all
 }
 
+/// A key with a default that holds in most scenes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Documented {
+    /// Path, with `NAME` for names.
+    pub path: String,
+    /// Default as a scene gives it.
+    pub default: String,
+    /// Kinds of run to which it belongs.
+    pub kinds: Vec<Kind>,
+}
+
+/// Keys with defaults.
+#[must_use]
+pub fn documented() -> Vec<Documented> {
+    let tree = Tree::new();
+    let mut found = Vec::new();
+    for (kind, all) in tree.kinds().zip([&OF_BODIES[..], &[Kind::Sliders]]) {
+        for place in below(&tree, kind, "", 0) {
+            let Some((table, key)) = &place.table else { continue };
+            let unit = row_of(&tree, table, key).unit;
+            let Some(default) = usual::entry(&place.schema["x-default"], &unit) else { continue };
+            let own = foreign::kinds(place.schema).unwrap_or_else(|| all.to_vec());
+            let kinds: Vec<Kind> = own.into_iter().filter(|kind| all.contains(kind)).collect();
+            if kinds.is_empty() {
+                continue;
+            }
+            found.push(Documented { path: place.path, default, kinds });
+        }
+    }
+    found
+}
+
 /// True if a path ends with these steps, apart from names.
 fn ends_with(path: &str, steps: &[&str]) -> bool {
     let own: Vec<&str> = path.split('.').filter(|step| *step != "NAME").collect();
@@ -217,6 +252,8 @@ fn keys(tree: &Tree, places: Vec<Place<'_>>) -> Vec<Key> {
                 key: "NAME".into(),
                 unit: String::new(),
                 text: tables.iter().find_map(|t| t["description"].as_str()).unwrap_or_default().into(),
+                default: String::new(),
+                kinds: String::new(),
                 needed: false,
             },
         };

@@ -1,12 +1,16 @@
 //! Rows of the reference of keys: from the schema of scenes, like the tables of the book.
 
 mod find;
+mod foreign;
 mod path;
 mod row;
 mod tree;
 mod value;
+mod visit;
 
-pub use find::{Found, check, find};
+pub use find::{Documented, Found, check, documented, find};
+pub(crate) use foreign::refuse;
 pub use path::{Path, Step, written};
 pub use row::{Key, Row, roots, row};
 pub(crate) use tree::Tree;
+pub(crate) use visit::{Step as Visited, Visitor, visit};

@@ -1,6 +1,8 @@
 //! Rows of the reference of keys.
 
+use super::foreign;
 use super::tree::{self, Tree};
+use crate::usual;
 use serde_json::Value;
 
 /// A row of the reference.
@@ -12,8 +14,23 @@ pub struct Row {
     pub unit: String,
     /// Description in one line of Markdown.
     pub text: String,
+    /// Default in one line; empty if it has none.
+    pub default: String,
+    /// Kinds of run and choices beside it for which it is, in words; empty for all.
+    pub kinds: String,
     /// True if the table must have this key.
     pub needed: bool,
+}
+
+impl Row {
+    /// Description with the default and the kinds of run.
+    #[must_use]
+    pub fn full(&self) -> String {
+        let default =
+            if self.default.is_empty() { String::new() } else { format!(" Default {}.", self.default) };
+        let kinds = if self.kinds.is_empty() { String::new() } else { format!(" Only for {}.", self.kinds) };
+        format!("{}{default}{kinds}", self.text)
+    }
 }
 
 /// A key of scenes.
@@ -48,7 +65,9 @@ pub(super) fn row_of(tree: &Tree, table: &Value, key: &str) -> Row {
     let name = if tree.is_named(property) { ".NAME" } else { "" };
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
     let needed = table["required"].as_array().is_some_and(|all| all.iter().any(|one| one == key));
-    Row { key: format!("{key}{name}"), unit, text, needed }
+    let default = usual::line(&property["x-default"], &unit);
+    let kinds = foreign::scope(property);
+    Row { key: format!("{key}{name}"), unit, text, default, kinds, needed }
 }
 
 /// Row of a key of the definition `of`; `None` if there is no such key.

@@ -2,16 +2,19 @@
 
 use super::stress::InitialStress;
 use super::trace::Trace;
+use crate::defaults;
 use crate::exact::{self, Exactly};
+use crate::kind::Kind;
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
 use crate::units::{Density, Length, Pressure, Velocity, Viscosity};
+use crate::usual::usual;
 use schemars::JsonSchema;
-use serde::Deserialize;
 use serde::de::{
     self, Deserializer, MapAccess, SeqAccess, Visitor,
     value::{MapAccessDeserializer, SeqAccessDeserializer},
 };
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -85,19 +88,24 @@ impl Material {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Plasticity {
-    /// Initial yield stress Y0; not with a table \[Pa\].
+    /// Initial yield stress Y0 \[Pa\].
     #[serde(rename = "yield")]
+    #[schemars(extend("x-with" = ["hardening", "perfect", "linear", "power"]))]
     pub initial: Option<Spanned<Pressure>>,
     /// Hardening of the yield stress.
     pub hardening: Spanned<Hardening>,
-    /// Linear: H = dY/de_p \[Pa\].
+    /// Slope H = dY/de_p \[Pa\].
+    #[schemars(extend("x-with" = ["hardening", "linear"]))]
     pub modulus: Option<Spanned<Pressure>>,
-    /// Power: reference plastic strain e_0 \[-\].
+    /// Reference plastic strain e_0 \[-\].
+    #[schemars(extend("x-with" = ["hardening", "power"]))]
     pub strain: Option<Spanned<f64>>,
-    /// Power: exponent n \[-\].
+    /// Exponent n \[-\].
+    #[schemars(extend("x-with" = ["hardening", "power"]))]
     pub exponent: Option<Spanned<f64>>,
-    /// Table: (plastic strain \[-\], yield stress \[Pa\]).
+    /// Pairs (plastic strain \[-\], yield stress \[Pa\]).
     #[serde(default, deserialize_with = "exact::optional_pairs")]
+    #[schemars(extend("x-with" = ["hardening", "table"]))]
     pub table: Option<Spanned<Vec<(f64, Pressure)>>>,
 }
 
@@ -135,17 +143,20 @@ pub struct Body {
     pub extrude: Option<Spanned<Vec<Length>>>,
     /// Name of a material, or a table of names by groups of cells: `{ lower = "a", upper = "b" }`.
     pub material: Spanned<MaterialChoice>,
-    /// Treatment of the dilatation: `"standard"` (default) or `"b-bar"`.
+    /// Treatment of the dilatation: `"standard"` or `"b-bar"`.
+    #[schemars(extend("x-default" = usual(Formulation::default())))]
     #[serde(default)]
     pub formulation: Option<Spanned<Formulation>>,
-    /// Measure of strains: `"small"` (default) or `"finite"`.
+    /// Measure of strains: `"small"` or `"finite"`.
+    #[schemars(extend("x-default" = usual(Strain::default())))]
     #[serde(default)]
     pub strain: Option<Spanned<Strain>>,
-    /// Initial stress, tension positive: a list, or a [table](#stress-that-grows-with-depth); default 0 \[Pa\].
+    /// Initial stress, tension positive: a list, or a [table](#stress-that-grows-with-depth); absent: none \[Pa\].
     pub initial_stress: Option<Spanned<InitialStress>>,
     /// Acceleration of gravity: plain numbers, one per axis of motion; needs `density` \[m/s2\].
     pub gravity: Option<Spanned<Vec<f64>>>,
-    /// Velocity at the start, one entry per axis of motion; needs `inertia`; default 0 \[m/s\].
+    /// Velocity at the start, one entry per axis of motion; needs `inertia`; absent: none \[m/s\].
+    #[schemars(extend("x-kinds" = [Kind::Implicit], "x-instead" = "other bodies start in equilibrium"))]
     pub velocity: Option<Spanned<Vec<Velocity>>>,
 }
 
@@ -201,20 +212,22 @@ impl<'de> Deserialize<'de> for MaterialChoice {
 }
 
 /// Treatments of the dilatation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Formulation {
     /// Standard: integrated as the shape functions give it.
+    #[default]
     Standard,
     /// Projected in each cell; avoids locking near incompressibility.
     BBar,
 }
 
 /// Measures of strain.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Strain {
     /// Infinitesimal, on the reference geometry.
+    #[default]
     Small,
     /// Finite: updated Lagrangian, Jaumann rate of the Kirchhoff stress.
     Finite,
@@ -336,7 +349,8 @@ pub struct QuadrilateralMesh {
 pub struct FaultMesh {
     /// Vertices of the fault from tip to tip, `[[x, y], ..]`, y up; monotonic in y \[m\].
     pub trace: Spanned<Trace>,
-    /// Curve through the vertices: `"spline"` (default), a smooth curve, or `"polyline"`, straight lines with corners.
+    /// Curve through the vertices: `"spline"`, a smooth curve, or `"polyline"`, straight lines with corners.
+    #[schemars(extend("x-default" = usual(InterpolationSpec::default())))]
     #[serde(default)]
     pub interpolation: InterpolationSpec,
     /// Sizes of the cells along the fault, in one of the three forms above; distances are measured from the first vertex \[m\].
@@ -356,7 +370,7 @@ pub struct FaultMesh {
 }
 
 /// Curve through the vertices of a trace.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum InterpolationSpec {
     /// A smooth curve.
@@ -436,7 +450,8 @@ pub struct GmshMesh {
     pub file: Spanned<String>,
     /// Physical groups of cells that form the body; absent: all cells.
     pub groups: Option<Spanned<Vec<Spanned<String>>>>,
-    /// Unit of length of the file, default `"m"`.
+    /// Unit of length of the file.
+    #[schemars(extend("x-default" = usual(defaults::FILE_UNIT)))]
     pub unit: Option<Spanned<String>>,
     /// Numbers of groups by name.
     #[serde(default)]
@@ -510,7 +525,8 @@ pub struct AbaqusMesh {
     pub file: Spanned<String>,
     /// Element sets that form the body; absent: all elements.
     pub elsets: Option<Spanned<Vec<Spanned<String>>>>,
-    /// Unit of length of the file, default `"m"`.
+    /// Unit of length of the file.
+    #[schemars(extend("x-default" = usual(defaults::FILE_UNIT)))]
     pub unit: Option<Spanned<String>>,
     /// Named surfaces inside the body along which it is split into two sides, `BODY.NAME.minus` and `BODY.NAME.plus`.
     #[serde(default)]

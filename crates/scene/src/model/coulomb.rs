@@ -1,8 +1,10 @@
 //! Planes on which changes of Coulomb stress are resolved.
 
 use super::SurfaceSpec;
+use crate::kind::Kind;
 use crate::spanned::Spanned;
 use crate::units::{Angle, Length};
+use crate::usual::usual;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -19,11 +21,14 @@ pub struct CoulombSpec {
     pub dip: Spanned<Angle>,
     /// Motion of the hanging wall: 0 left-lateral, 90 degrees reverse, 180 right-lateral, -90 normal \[rad\].
     pub rake: Spanned<Angle>,
-    /// In a medium: positions at the `depth`, with the keys of `surface`.
+    /// Positions at the `depth`, with the keys of `surface`.
+    #[schemars(extend("x-kinds" = [Kind::Medium], "x-instead" = "between bodies all their cells have stresses"))]
     pub map: Option<Spanned<SurfaceSpec>>,
     /// Depth of the map below y = 0 \[m\].
+    #[schemars(extend("x-kinds" = [Kind::Medium], "x-default" = usual(0), "x-instead" = "between bodies all their cells have stresses"))]
     pub depth: Option<Spanned<Length>>,
-    /// In a medium: `[x, y]`, in space `[x, y, z]`: a position, y up \[m\].
+    /// `[x, y]`, in space `[x, y, z]`: a position, y up \[m\].
+    #[schemars(extend("x-kinds" = [Kind::Medium], "x-instead" = "between bodies all their cells have stresses"))]
     #[serde(default)]
     pub points: BTreeMap<String, Spanned<Vec<Length>>>,
 }

@@ -1,7 +1,10 @@
 //! Definition of events by thresholds of the slip rate.
 
+use crate::defaults;
+use crate::kind::{self, Kind};
 use crate::spanned::Spanned;
 use crate::units::Velocity;
+use crate::usual::usual;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -11,14 +14,18 @@ use serde::Deserialize;
 pub struct EventSpec {
     /// Slip rate above which an event begins; on faults and interfaces, that of the fastest point \[m/s\].
     pub above: Spanned<Velocity>,
-    /// Slip rate below which an event ends; default: a tenth of `above` \[m/s\].
+    /// Slip rate below which an event ends \[m/s\].
+    #[schemars(extend("x-default" = usual(defaults::EVENT_ENDS).of("`above`")))]
     pub below: Option<Spanned<Velocity>>,
-    /// Faults through cycles: slip rate above which a slow event begins, which stays slower than `above` \[m/s\].
+    /// Slip rate above which a slow event begins, which stays slower than `above` \[m/s\].
+    #[schemars(extend("x-kinds" = kind::FAULT_CYCLES, "x-instead" = "a second run with a smaller `above` lists slow events"))]
     pub slow_above: Option<Spanned<Velocity>>,
-    /// Slip rate below which a slow event ends; default: half of `slow_above` \[m/s\].
+    /// Slip rate below which a slow event ends \[m/s\].
+    #[schemars(extend("x-kinds" = kind::FAULT_CYCLES, "x-default" = usual(defaults::SLOW_EVENT_ENDS).of("`slow_above`")))]
     pub slow_below: Option<Spanned<Velocity>>,
     /// Number of events after which the run ends; with several sliders, events of the first by name.
     pub stop_after: Option<Spanned<usize>>,
-    /// Sliders: `true` locates the extremes of the slip rate; default `true`.
+    /// `true` locates the extremes of the slip rate.
+    #[schemars(extend("x-kinds" = [Kind::Sliders], "x-default" = usual(true), "x-instead" = "events of faults and interfaces have the largest rate of their steps"))]
     pub peaks: Option<Spanned<bool>>,
 }

@@ -4,13 +4,15 @@ use super::{
     FaultLine, FaultRectangle, FaultTriangles, Fields, Flux, ForcedRupture, Heat, LawSpec, Patch, Pulse,
 };
 use crate::here::here;
+use crate::kind::{self, Kind};
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
 use crate::units::{Angle, Damping, Length, Pressure, Time, Velocity};
+use crate::usual::usual;
 use schemars::JsonSchema;
-use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::ops::Range;
 
@@ -18,19 +20,24 @@ use std::ops::Range;
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fault {
-    /// Minus side, such as `BODY.fault.minus`; not in a medium.
+    /// Minus side, such as `BODY.fault.minus`.
+    #[schemars(extend("x-kinds" = kind::BETWEEN_BODIES, "x-instead" = "a fault in a medium is a `line` in the plane, a `rectangle` or `triangles` in space"))]
     #[serde(default = "absent")]
     pub minus: Spanned<String>,
-    /// Plus side, such as `BODY.fault.plus`; slip is that of plus relative to minus; not in a medium.
+    /// Plus side, such as `BODY.fault.plus`; slip is that of plus relative to minus.
+    #[schemars(extend("x-kinds" = kind::BETWEEN_BODIES, "x-instead" = "a fault in a medium is a `line` in the plane, a `rectangle` or `triangles` in space"))]
     #[serde(default = "absent")]
     pub plus: Spanned<String>,
-    /// In a medium, in the plane: the line of the fault.
+    /// In the plane: the line of the fault.
+    #[schemars(extend("x-kinds" = [Kind::Medium], "x-instead" = "add `[medium]` and remove the bodies, or name the sides `minus` and `plus`"))]
     pub line: Option<FaultLine>,
-    /// In a medium, in space: the rectangle of the fault.
+    /// In space: the rectangle of the fault.
+    #[schemars(extend("x-kinds" = [Kind::Medium], "x-instead" = "add `[medium]` and remove the bodies, or name the sides `minus` and `plus`"))]
     pub rectangle: Option<FaultRectangle>,
-    /// In a medium, in space: a file with the triangles of the fault.
+    /// In space: a file with the triangles of the fault.
+    #[schemars(extend("x-kinds" = [Kind::Medium], "x-instead" = "add `[medium]` and remove the bodies, or name the sides `minus` and `plus`"))]
     pub triangles: Option<FaultTriangles>,
-    /// A [friction law](laws.md) of kind `"rate-and-state"` or `"rate"`, without `f_limit`; explicit: also one of slip.
+    /// A [friction law](laws.md) of kind `"rate-and-state"` or `"rate"`; with `"explicit"` also one of slip.
     pub law: Spanned<LawSpec>,
     /// Values of `a`, `b`, `l`, `normal`, `shear` or `cohesion` along the fault.
     #[serde(default)]
@@ -42,9 +49,11 @@ pub struct Fault {
     #[serde(default)]
     pub patches: Vec<Patch>,
     /// Shear tractions that grow on parts of the fault, to start an event.
+    #[schemars(extend("x-kinds" = kind::WITHOUT_RUPTURES))]
     #[serde(default)]
     pub pulses: Vec<Pulse>,
-    /// Explicit, slip weakening: friction falls at a time that a front reaches each point, to start a rupture.
+    /// Slip weakening: friction falls at a time that a front reaches each point, to start a rupture.
+    #[schemars(extend("x-kinds" = [Kind::Explicit], "x-instead" = "start events by `pulses` or a patch of `shear`"))]
     pub forced_rupture: Option<ForcedRupture>,
     /// Initial normal traction, compression positive; absent: given by the initial stress of the bodies \[Pa\].
     pub normal: Option<Spanned<Pressure>>,
@@ -54,6 +63,7 @@ pub struct Fault {
     /// Initial shear traction, of the sign of `rate`; absent: that of the law's initial steady state \[Pa\].
     pub shear: Option<Spanned<Pressure>>,
     /// Radiation damping η, or `"radiation"`; absent: none \[Pa s/m\].
+    #[schemars(extend("x-kinds" = kind::FAULT_CYCLES, "x-instead" = "bodies with mass radiate the waves themselves"))]
     pub damping: Option<Spanned<DampingSpec>>,
     /// Part of the fault that slips at an imposed rate.
     pub creep: Option<Creep>,
@@ -62,21 +72,29 @@ pub struct Fault {
     pub rake: Option<Spanned<[f64; 3]>>,
     /// In space with `[place]`, instead of `rake`: azimuth of the motion of the plus side past the minus side \[rad\].
     pub azimuth: Option<Spanned<Angle>>,
-    /// In space: `"along-rake"` (default), or `"free"` for slip whose direction may turn.
+    /// In space: `"along-rake"`, or `"free"` for slip whose direction may turn.
+    #[schemars(extend("x-default" = usual(SlipSpec::default()).only("in space")))]
     pub slip: Option<Spanned<SlipSpec>>,
     /// Fluid injected at one position that diffuses along the fault, or a list of such wells.
+    #[schemars(extend("x-kinds" = kind::CYCLES, "x-instead" = "between bodies with mass, pressure acts through `normal`"))]
     pub injection: Option<Injections>,
     /// Heat of friction, which may change friction and the pressure of pore fluid.
+    #[schemars(extend("x-kinds" = kind::CYCLES, "x-instead" = "frictional heat is followed through cycles without mass only"))]
     pub heat: Option<Heat>,
-    /// Treatment of less than one point per cohesive zone: `"refuse"` (default) or `"allow"`.
+    /// Treatment of less than one point per cohesive zone: `"refuse"` or `"allow"`.
+    #[schemars(extend("x-default" = usual(UnderResolved::default())))]
     pub under_resolved: Option<Spanned<UnderResolved>>,
-    /// `false`: slip and loads do not change normal tractions; default `true`.
+    /// `false`: slip and loads do not change normal tractions.
+    #[schemars(extend("x-kinds" = kind::CYCLES, "x-default" = usual(true), "x-instead" = "normal tractions follow from the momentum of both sides"))]
     pub normal_changes: Option<Spanned<bool>>,
     /// Smallest normal traction used by friction \[Pa\].
+    #[schemars(extend("x-kinds" = kind::CYCLES, "x-instead" = "between bodies with mass there is no friction where nothing presses"))]
     pub normal_floor: Option<Spanned<Pressure>>,
-    /// `true`: the sides separate where there is no compression; needs `normal_floor`, but with mass none; default `false`.
+    /// `true`: the sides separate where there is no compression; needs `normal_floor`, but with mass none.
+    #[schemars(extend("x-kinds" = [Kind::Cycles, Kind::Explicit], "x-default" = usual(false)))]
     pub opening: Option<Spanned<bool>>,
-    /// Explicit: friction follows changes of the normal traction with a delay, `{ length = "1 mm", rate = "1 m/s" }`.
+    /// Friction follows changes of the normal traction with a delay, `{ length = "1 mm", rate = "1 m/s" }`.
+    #[schemars(extend("x-kinds" = [Kind::Explicit]))]
     pub normal_delay: Option<Spanned<NormalDelay>>,
 }
 
@@ -140,20 +158,22 @@ impl Fault {
 }
 
 /// Treatment of a fault whose points are farther apart than the length of the cohesive zone.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum UnderResolved {
     /// The scene is refused.
+    #[default]
     Refuse,
     /// The scene runs with a warning.
     Allow,
 }
 
 /// Directions in which a fault in space slips.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SlipSpec {
     /// Along `rake`; slip across it is held at zero.
+    #[default]
     AlongRake,
     /// Along the shear traction, whatever its direction in the fault; along `rake` at the start.
     Free,
@@ -173,7 +193,8 @@ pub struct Profiles {
     pub normal: Option<Profiled>,
     /// Initial shear traction \[Pa\].
     pub shear: Option<Profiled>,
-    /// Explicit, laws of slip: shear traction that a closed point carries at no normal traction \[Pa\].
+    /// Laws of slip: shear traction that a closed point carries at no normal traction \[Pa\].
+    #[schemars(extend("x-kinds" = [Kind::Explicit]))]
     pub cohesion: Option<Profiled>,
 }
 
@@ -251,12 +272,15 @@ pub enum Along {
 #[serde(deny_unknown_fields)]
 pub struct Creep {
     /// Distance along a plane fault from its upper end beyond which the slip rate is imposed \[m\].
+    #[schemars(extend("x-kinds" = kind::BETWEEN_BODIES, "x-instead" = "let the fault end where the creep begins"))]
     pub beyond: Option<Spanned<Length>>,
     /// Ranges of coordinates outside which the slip rate is imposed.
+    #[schemars(extend("x-kinds" = kind::BETWEEN_BODIES, "x-instead" = "let the fault end where the creep begins"))]
     pub outside: Option<Spanned<Outside>>,
     /// Slip rate \[m/s\].
     pub rate: Spanned<Velocity>,
-    /// Load of the creep: `"slip"` of its part of the fault (default between bodies), or `"backslip"` of all the rest (in a medium always).
+    /// Load of the creep: `"slip"` of its part of the fault, or `"backslip"` of all the rest.
+    #[schemars(extend("x-default" = usual("slip").only("between bodies").but("backslip", "in a medium")))]
     pub loading: Option<Spanned<CreepLoading>>,
     /// Direction of the slip rate if the direction of slip may turn, of any length; absent: that of the fault.
     #[serde(default, deserialize_with = "crate::exact::optional")]

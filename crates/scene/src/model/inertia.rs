@@ -1,8 +1,10 @@
 //! Inertia of bodies as declared in a scene.
 
+use crate::defaults;
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
 use crate::units::Velocity;
+use crate::usual::usual;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{self, Deserializer, MapAccess, Visitor, value::MapAccessDeserializer};
@@ -12,9 +14,11 @@ use std::fmt;
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct InertiaSpec {
-    /// Spectral radius ρ∞ at frequencies that the steps do not resolve, 0 to 1; 1 dissipates nothing; default 0.5 \[-\].
+    /// Spectral radius ρ∞ at frequencies that the steps do not resolve, 0 to 1; 1 dissipates nothing \[-\].
+    #[schemars(extend("x-default" = usual(defaults::SPECTRAL_RADIUS)))]
     pub spectral_radius: Option<Spanned<f64>>,
-    /// Largest error of displacement in a step over the largest displacement of a step; default 1e-3 \[-\].
+    /// Largest error of displacement in a step over the largest displacement of a step \[-\].
+    #[schemars(extend("x-default" = usual(defaults::INERTIA_TOLERANCE)))]
     pub tolerance: Option<Spanned<f64>>,
 }
 
@@ -22,12 +26,15 @@ pub struct InertiaSpec {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HandoverSpec {
-    /// Largest slip rate above which bodies have inertia; default 1 mm/s \[m/s\].
+    /// Largest slip rate above which bodies have inertia \[m/s\].
+    #[schemars(extend("x-default" = usual(defaults::HANDOVER_ABOVE)))]
     pub above: Option<Spanned<Velocity>>,
-    /// Largest slip rate below which they return to equilibrium, once it has stayed there while a shear wave crosses the
-    /// bodies and returns; default a tenth of `above` \[m/s\].
+    /// Largest slip rate below which they return to equilibrium, once it has stayed there while a shear wave crosses the bodies
+    /// and returns \[m/s\].
+    #[schemars(extend("x-default" = usual(defaults::HANDOVER_BELOW).of("`above`")))]
     pub below: Option<Spanned<Velocity>>,
-    /// Largest kinetic energy with which they return, over the largest since they left; default 1, which is none \[-\].
+    /// Largest kinetic energy with which they return, over the largest since they left; 1 is none \[-\].
+    #[schemars(extend("x-default" = usual(defaults::HANDOVER_KINETIC)))]
     pub kinetic: Option<Spanned<f64>>,
 }
 

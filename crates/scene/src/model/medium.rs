@@ -1,9 +1,11 @@
 //! Homogeneous rock without bodies around faults, and the geometry of faults in it.
 
 use super::{InterpolationSpec, SpacingSpec, Trace};
+use crate::defaults;
 use crate::exact;
 use crate::spanned::Spanned;
 use crate::units::{Angle, Length};
+use crate::usual::usual;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -33,7 +35,8 @@ pub enum MediumKind {
 pub struct FaultLine {
     /// Vertices of the fault from tip to tip, `[[x, y], ..]`, y up \[m\].
     pub trace: Spanned<Trace>,
-    /// Curve through the vertices: `"spline"` (default), a smooth curve, or `"polyline"`, straight lines with corners.
+    /// Curve through the vertices: `"spline"`, a smooth curve, or `"polyline"`, straight lines with corners.
+    #[schemars(extend("x-default" = usual(InterpolationSpec::default())))]
     #[serde(default)]
     pub interpolation: InterpolationSpec,
     /// Sizes of the cells, in one of the forms of [meshes](meshes.md); distances are measured from the first vertex \[m\].
@@ -51,7 +54,8 @@ pub struct FaultRectangle {
     /// `to` \[m\].
     #[serde(deserialize_with = "exact::list")]
     pub to: Spanned<[Length; 3]>,
-    /// Dip, above 0 and at most 90 degrees; default: 90 degrees \[rad\].
+    /// Dip, above 0 and at most 90 degrees \[rad\].
+    #[schemars(extend("x-default" = usual(defaults::DIP)))]
     pub dip: Option<Spanned<Angle>>,
     /// Extent down dip \[m\].
     pub width: Spanned<Length>,
@@ -97,7 +101,8 @@ pub struct GmshTriangles {
     pub file: Spanned<String>,
     /// Physical groups of triangles that form the fault; absent: all triangles, in a file without cells in space.
     pub groups: Option<Spanned<Vec<Spanned<String>>>>,
-    /// Unit of length of the file, default `"m"`.
+    /// Unit of length of the file.
+    #[schemars(extend("x-default" = usual(defaults::FILE_UNIT)))]
     pub unit: Option<Spanned<String>>,
 }
 
@@ -109,7 +114,8 @@ pub struct AbaqusTriangles {
     pub file: Spanned<String>,
     /// Element sets of triangles that form the fault; absent: all triangles, in a file without cells in space.
     pub elsets: Option<Spanned<Vec<Spanned<String>>>>,
-    /// Unit of length of the file, default `"m"`.
+    /// Unit of length of the file.
+    #[schemars(extend("x-default" = usual(defaults::FILE_UNIT)))]
     pub unit: Option<Spanned<String>>,
 }
 
@@ -121,7 +127,8 @@ pub struct StlTriangles {
     pub file: Spanned<String>,
     /// Names of the solids of a text that form the fault; absent: all triangles.
     pub solids: Option<Spanned<Vec<Spanned<String>>>>,
-    /// Unit of length of the file, default `"m"`.
+    /// Unit of length of the file.
+    #[schemars(extend("x-default" = usual(defaults::FILE_UNIT)))]
     pub unit: Option<Spanned<String>>,
 }
 

@@ -1,10 +1,12 @@
 //! Patches of a fault with parameters of their own.
 
 use super::Outside;
+use crate::kind::Kind;
 use crate::spanned::Spanned;
 use crate::units::{Length, Pressure, Velocity};
+use crate::usual::usual;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// A part of a fault with parameters of its own. Keys that are absent leave the values as they are.
@@ -16,11 +18,14 @@ pub struct Patch {
     pub within: Option<Spanned<Outside>>,
     /// Extent as a ball around a position: on a plane fault a disc.
     pub disc: Option<Disc>,
-    /// Width around the extent over which values pass linearly to those outside; absent: 0 \[m\].
+    /// Width around the extent over which values pass linearly to those outside \[m\].
+    #[schemars(extend("x-default" = usual(0)))]
     pub edge: Option<Spanned<Length>>,
-    /// `true`: values pass over the edge by a smooth step, not linearly; default `false`.
+    /// `true`: values pass over the edge by a smooth step, not linearly.
+    #[schemars(extend("x-default" = usual(false)))]
     pub smooth: Option<Spanned<bool>>,
-    /// `"replace"` (default), or `"largest"` or `"smallest"` of the values of the patch and those before.
+    /// `"replace"`, or `"largest"` or `"smallest"` of the values of the patch and those before.
+    #[schemars(extend("x-default" = usual(Combine::default())))]
     pub combine: Option<Spanned<Combine>>,
     /// Direct effect a \[-\].
     pub a: Option<Spanned<f64>>,
@@ -34,7 +39,8 @@ pub struct Patch {
     pub shear: Option<Spanned<Pressure>>,
     /// Initial slip rate, of the sign of that of the fault \[m/s\].
     pub rate: Option<Spanned<Velocity>>,
-    /// Explicit, laws of slip: shear traction that a closed point carries at no normal traction \[Pa\].
+    /// Laws of slip: shear traction that a closed point carries at no normal traction \[Pa\].
+    #[schemars(extend("x-kinds" = [Kind::Explicit]))]
     pub cohesion: Option<Spanned<Pressure>>,
 }
 
@@ -76,10 +82,11 @@ pub struct Disc {
 }
 
 /// Value at a point of a patch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Combine {
     /// Value of the patch.
+    #[default]
     Replace,
     /// The larger one of the value of the patch and that before.
     Largest,

@@ -2,6 +2,7 @@
 
 use crate::spanned::Spanned;
 use crate::units::{Angle, Length};
+use crate::usual::usual;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -15,7 +16,8 @@ pub struct Place {
     pub latitude: Spanned<Angle>,
     /// Longitude of the origin, east positive \[rad\].
     pub longitude: Spanned<Angle>,
-    /// Depth of the origin; default 0 \[m\].
+    /// Depth of the origin \[m\].
+    #[schemars(extend("x-default" = usual(0)))]
     pub depth: Option<Spanned<Length>>,
     /// Azimuth of the direction into the plane, with x to its right and y up; in space, azimuth of `along`.
     pub strike: Spanned<Angle>,

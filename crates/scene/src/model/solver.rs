@@ -1,27 +1,34 @@
 //! The table `[solver]`: solution of the linear systems of the steps.
 
 use super::Spanned;
+use crate::defaults;
+use crate::kind;
 use crate::units::Memory;
+use crate::usual::usual;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// Solution of the linear systems of the steps.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Solver {
-    /// Method: `"auto"` (default), `"direct"` or `"iterative"`.
+    /// Method: `"auto"`, `"direct"` or `"iterative"`.
+    #[schemars(extend("x-kinds" = kind::INTERFACES, "x-default" = usual(Method::default())))]
     #[serde(default)]
     pub method: Option<Spanned<Method>>,
-    /// Memory limit of the solver; default `"8 GiB"`.
+    /// Memory limit of the solver.
+    #[schemars(extend("x-default" = usual(defaults::MEMORY)))]
     pub memory: Option<Spanned<Memory>>,
-    /// Iterative: admissible residual of a solution over its load, 1e-14 to 1e-2, default 1e-10 \[-\].
+    /// Admissible residual of a solution over its load, 1e-14 to 1e-2 \[-\].
+    #[schemars(extend("x-with" = ["method", "iterative", "auto"], "x-kinds" = kind::INTERFACES, "x-default" = usual(defaults::SOLVER_TOLERANCE)))]
     pub tolerance: Option<Spanned<f64>>,
-    /// Iterative: largest number of iterations per solution, default 2000.
+    /// Largest number of iterations per solution.
+    #[schemars(extend("x-with" = ["method", "iterative", "auto"], "x-kinds" = kind::INTERFACES, "x-default" = usual(defaults::MOST_ITERATIONS)))]
     pub most_iterations: Option<Spanned<usize>>,
 }
 
 /// Methods of solution.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// Direct if it fits into memory; otherwise iterative for linear bodies in space without interfaces.

@@ -3,6 +3,7 @@
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
 use crate::units::{Gradient, Length, Pressure};
+use crate::usual::usual;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
@@ -32,18 +33,23 @@ impl InitialStress {
 pub struct VaryingStress {
     /// Source.
     pub kind: Spanned<StressKind>,
-    /// Linear: the axis.
+    /// Axis along which the stress grows.
+    #[schemars(extend("x-with" = ["kind", "linear"]))]
     pub along: Option<Spanned<Axis>>,
     /// Lithostatic: coordinate of the upper end along the axis of `gravity`. Linear: coordinate at which the stress is `stress`
     /// \[m\].
     pub level: Option<Spanned<Length>>,
-    /// Linear: components at the level, in the order of a uniform stress \[Pa\].
+    /// Components at the level, in the order of a uniform stress \[Pa\].
+    #[schemars(extend("x-with" = ["kind", "linear"]))]
     pub stress: Option<Spanned<Vec<Pressure>>>,
-    /// Linear: gradient of the components along the axis \[Pa/m\].
+    /// Gradient of the components along the axis \[Pa/m\].
+    #[schemars(extend("x-with" = ["kind", "linear"]))]
     pub gradient: Option<Spanned<Vec<Gradient>>>,
     /// Ratio of the stress in all horizontal directions to the vertical stress \[-\].
+    #[schemars(extend("x-with" = ["kind", "lithostatic"]))]
     pub k0: Option<Spanned<f64>>,
-    /// Vertical pressure at the level from overlying layers that are other bodies; default 0 \[Pa\].
+    /// Vertical pressure at the level from overlying layers that are other bodies \[Pa\].
+    #[schemars(extend("x-with" = ["kind", "lithostatic"], "x-default" = usual(0)))]
     pub overburden: Option<Spanned<Pressure>>,
 }
 

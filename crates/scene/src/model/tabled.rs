@@ -1,7 +1,9 @@
 //! Tables of a value over time, in a scene or in a file.
 
+use crate::defaults;
 use crate::spanned::Spanned;
 use crate::units::{Dimension, Time};
+use crate::usual::usual;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::ops::Deref;
@@ -56,7 +58,8 @@ pub struct TableFile {
     pub file: Spanned<String>,
     /// Column of the values.
     pub column: Spanned<String>,
-    /// Column of the times since the stage began; default `"time"`.
+    /// Column of the times since the stage began.
+    #[schemars(extend("x-default" = usual(defaults::TIME_COLUMN)))]
     pub time: Option<Spanned<String>>,
     /// Time in the file at which the stage begins; entries outside the stage are then left out \[s\].
     pub from: Option<Spanned<Time>>,

@@ -6,7 +6,7 @@ mod table;
 pub use table::covers;
 
 use crate::diagnostic::Diagnostic;
-use crate::keys::{Tree, written};
+use crate::keys::{Tree, Visited as Step, Visitor, visit, written};
 use crate::model::Scene;
 use crate::units;
 use crate::warning::Warning;
@@ -14,7 +14,7 @@ use serde_json::Value as Schema;
 use std::collections::BTreeSet;
 use std::ops::Range;
 use table::{Quantity, Refused, quantity};
-use toml_edit::{Document, Item, Value};
+use toml_edit::{Document, Value};
 
 /// Speed that shear waves exceed in no rock of the crust or the upper mantle \[m/s\] (PREM; Dziewonski & Anderson 1981).
 const ANY_ROCK: f64 = 5e3;
@@ -47,16 +47,16 @@ impl Known {
     }
 }
 
-/// Adds what is implausible in the text of a scene to what is wrong with it and to what is doubtful. A value about which
+/// Adds what is implausible in the text of a scene, read along this tree of keys, to what is wrong with it and to what is doubtful. A value about which
 /// something has been said is left alone.
-pub fn judge(text: &str, known: Known, errors: &mut Vec<Diagnostic>, warnings: &mut Vec<Warning>) {
-    let Ok(document) = Document::parse(text) else { return };
-    let tree = Tree::new();
-    let Some(kind) = tree.kinds().nth(usize::from(known.sliders)) else { return };
-    let mut judge =
-        Judge { tree: &tree, known, told: BTreeSet::new(), errors: Vec::new(), warnings: Vec::new() };
-    let root = if known.faults { vec![Step { key: "faulted", name: true, root: true }] } else { Vec::new() };
-    judge.item(tree.forms(kind), document.as_item(), &root);
+pub(crate) fn judge(
+    (tree, document): (&Tree, &Document<&str>),
+    known: Known,
+    errors: &mut Vec<Diagnostic>,
+    warnings: &mut Vec<Warning>,
+) {
+    let mut judge = Judge { known, told: BTreeSet::new(), errors: Vec::new(), warnings: Vec::new() };
+    visit(tree, document, known.sliders, &mut judge);
     let said = |at: &Range<usize>| {
         let meets = |other: &Range<usize>| other.start < at.end && at.start < other.end;
         errors.iter().any(|e| meets(&e.span))
@@ -69,16 +69,6 @@ pub fn judge(text: &str, known: Known, errors: &mut Vec<Diagnostic>, warnings: &
     warnings.append(&mut doubtful);
     errors.sort_by_key(|e| (e.span.is_empty(), e.span.start));
     warnings.sort_by_key(|w| (w.span.is_empty(), w.span.start));
-}
-
-/// A step of a path.
-#[derive(Clone, Copy, Debug)]
-struct Step<'a> {
-    key: &'a str,
-    /// True for a name that the scene chooses, which says nothing about the quantity.
-    name: bool,
-    /// True for the mark of a kind of scene, which is no part of the path.
-    root: bool,
 }
 
 /// Doubt about the largest magnitude of the values that a key takes from a file, with a usual value as help; `unit` is
@@ -99,8 +89,7 @@ pub fn of_file(keys: &[&str], unit: &str, values: impl IntoIterator<Item = f64>)
     ))
 }
 
-struct Judge<'a> {
-    tree: &'a Tree,
+struct Judge {
     known: Known,
     /// Paths of which something has been said: of a list, only the first entry that is implausible.
     told: BTreeSet<String>,
@@ -108,67 +97,9 @@ struct Judge<'a> {
     warnings: Vec<Warning>,
 }
 
-impl<'a> Judge<'a> {
-    /// Judges what stands below a key whose value has one of these forms.
-    fn item(&mut self, forms: Vec<&'a Schema>, item: &Item, path: &[Step<'_>]) {
-        match item {
-            Item::Value(value) => self.value(forms, value, path),
-            Item::Table(table) => table.iter().for_each(|(key, item)| self.under(&forms, key, item, path)),
-            Item::ArrayOfTables(list) => {
-                let forms = self.entries(&forms, 0);
-                for table in list {
-                    table.iter().for_each(|(key, item)| self.under(&forms, key, item, path));
-                }
-            }
-            Item::None => {}
-        }
-    }
-
-    fn value(&mut self, forms: Vec<&'a Schema>, value: &Value, path: &[Step<'_>]) {
-        match value {
-            Value::InlineTable(table) => {
-                for (key, value) in table {
-                    let (step, forms) = self.step(&forms, key);
-                    self.value(forms, value, &[path, &[step]].concat());
-                }
-            }
-            Value::Array(list) => {
-                for (k, entry) in list.iter().enumerate() {
-                    let forms = self.entries(&forms, k);
-                    self.value(forms, entry, path);
-                }
-            }
-            _ => self.scalar(&forms, value, path),
-        }
-    }
-
-    fn under(&mut self, forms: &[&'a Schema], key: &str, item: &Item, path: &[Step<'_>]) {
-        let (step, forms) = self.step(forms, key);
-        self.item(forms, item, &[path, &[step]].concat());
-    }
-
-    /// The step to a key of tables, and the forms that its value may have.
-    fn step<'k>(&self, forms: &[&'a Schema], key: &'k str) -> (Step<'k>, Vec<&'a Schema>) {
-        let own = forms.iter().map(|f| &f["properties"][key]).filter(|s| s.is_object());
-        let own: Vec<&'a Schema> = own.flat_map(|s| self.tree.forms(s)).collect();
-        if !own.is_empty() {
-            return (Step { key, name: false, root: false }, own);
-        }
-        let named = forms.iter().map(|f| &f["additionalProperties"]).filter(|s| s.is_object());
-        (Step { key, name: true, root: false }, named.flat_map(|s| self.tree.forms(s)).collect())
-    }
-
-    /// Forms of an entry of a list, by its number.
-    fn entries(&self, forms: &[&'a Schema], number: usize) -> Vec<&'a Schema> {
-        let of = |form: &&'a Schema| match form["prefixItems"].get(number) {
-            Some(own) => self.tree.forms(own),
-            None => form.get("items").map(|s| self.tree.forms(s)).unwrap_or_default(),
-        };
-        forms.iter().flat_map(of).collect()
-    }
-
+impl<'s> Visitor<'s> for Judge {
     /// Judges a value. One that does not belong to the scene, or is no number, is left to other checks.
-    fn scalar(&mut self, forms: &[&'a Schema], value: &Value, path: &[Step<'_>]) {
+    fn value(&mut self, forms: &[&'s Schema], value: &Value, path: &[Step<'_>]) {
         let Some(at) = value.span() else { return };
         let unit = forms.iter().find_map(|f| f["x-unit"].as_str());
         let is_number = |f: &&&Schema| f["type"].as_str().is_some_and(|t| t == "number" || t == "integer");
@@ -184,7 +115,9 @@ impl<'a> Judge<'a> {
             },
             _ => return,
         };
-        let mut keys: Vec<&str> = path.iter().map(|s| if s.name && !s.root { "" } else { s.key }).collect();
+        let root = self.known.faults.then_some("faulted");
+        let steps = path.iter().map(|s| if s.named { "" } else { s.key });
+        let mut keys: Vec<&str> = root.into_iter().chain(steps).collect();
         // The value of a point of a profile is that of its parameter, in SI units.
         let profiled = unit.is_none() && keys.contains(&"profiles") && keys.last() == Some(&"points");
         if profiled {
@@ -194,7 +127,9 @@ impl<'a> Judge<'a> {
         let Some(quantity) = quantity(&keys, of_unit) else { return };
         self.compare(quantity, (found, given), at, path);
     }
+}
 
+impl Judge {
     fn compare(&mut self, of: &Quantity, (found, bare): (f64, bool), at: Range<usize>, path: &[Step<'_>]) {
         let size = found.abs();
         let [low, high] = of.usual;
@@ -206,7 +141,7 @@ impl<'a> Judge<'a> {
         if size == 0.0 || !size.is_finite() || (low..=high).contains(&size) && size < most {
             return;
         }
-        let steps = path.iter().filter(|s| !s.root).map(|s| written(s.key));
+        let steps = path.iter().map(|s| written(s.key));
         let path = steps.collect::<Vec<_>>().join(".");
         if !self.told.insert(path.clone()) {
             return;
@@ -266,7 +201,8 @@ mod tests {
     /// Refusals and warnings of a scene, with line and message.
     fn said(text: &str, known: Known) -> Vec<(bool, usize, String)> {
         let (mut errors, mut warnings) = (Vec::new(), Vec::new());
-        judge(text, known, &mut errors, &mut warnings);
+        let (tree, document) = (Tree::new(), Document::parse(text).unwrap());
+        judge((&tree, &document), known, &mut errors, &mut warnings);
         let line = |at: &Range<usize>| text[..at.start].lines().count();
         let wrong = errors.iter().map(|e| (true, line(&e.span), e.message.clone()));
         wrong.chain(warnings.iter().map(|w| (false, line(&w.span), w.message.clone()))).collect()

@@ -1,9 +1,11 @@
 //! A scene of spring-sliders as a value: the contents of its file in SI units, before any decision is made.
 
 use super::course::Course;
+use crate::defaults;
 use crate::model::{EventSpec, LawSpec, Spanned, TableOver};
 use crate::shape::{Either, shaped};
 use crate::units::{Damping, Dimension, Mass, Pressure, Spring, Time, Velocity};
+use crate::usual::usual;
 use crate::warning::Warning;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -115,15 +117,18 @@ pub struct SpringSpec {
 pub struct SliderTime {
     /// End of the run \[s\].
     pub end: Spanned<Time>,
-    /// Method: `"switching"` (default), `"dop853"`, `"radau5"`, `"tsit5"`, `"bdf"`, `"tr-bdf2"`, `"esdirk34"` or `"tsit45"`.
+    /// Method: `"switching"`, `"dop853"`, `"radau5"`, `"tsit5"`, `"bdf"`, `"tr-bdf2"`, `"esdirk34"` or `"tsit45"`.
+    #[schemars(extend("x-default" = usual(defaults::SLIDER_METHOD)))]
     pub method: Option<Spanned<String>>,
-    /// Admissible error of ln V per step, and of the states to the same effect, 1e-14 to 0.1; default 1e-8 \[-\].
+    /// Admissible error of ln V per step, and of the states to the same effect, 1e-14 to 0.1 \[-\].
+    #[schemars(extend("x-default" = usual(defaults::SLIDER_TOLERANCE)))]
     pub tolerance: Option<Spanned<f64>>,
     /// First step; absent: chosen from the rates \[s\].
     pub first_step: Option<Spanned<Time>>,
     /// Largest step; absent: unlimited \[s\].
     pub max_step: Option<Spanned<Time>>,
-    /// Largest number of steps, after which the run is given up; default 20 000 000.
+    /// Largest number of steps, after which the run is given up.
+    #[schemars(extend("x-default" = usual(defaults::SLIDER_STEPS)))]
     pub most_steps: Option<Spanned<usize>>,
 }
 
@@ -131,16 +136,18 @@ pub struct SliderTime {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OutputSpec {
-    /// Change of ln V after which a row is written, or of friction by a twentieth of it; default 0.05 without `times` and
-    /// `interval` \[-\].
+    /// Change of ln V after which a row is written, or of friction by a twentieth of it \[-\].
+    #[schemars(extend("x-default" = usual(defaults::SLIDER_CHANGE).only("without `times` and `interval`")))]
     pub change: Option<Spanned<f64>>,
     /// Times of rows, ascending; where something jumps, one before and one after \[s\].
     pub times: Option<Spanned<Vec<Spanned<Time>>>>,
     /// Interval between rows, from time 0 \[s\].
     pub interval: Option<Spanned<Time>>,
-    /// Histories: `false` for none, or a list of sliders; default all.
+    /// Histories: `false` for none, or a list of sliders.
+    #[schemars(extend("x-default" = usual(true)))]
     pub histories: Option<Which>,
-    /// `true`: the extremes of the slip rate are located and written even without `[events]`; default `false`.
+    /// `true`: the extremes of the slip rate are located and written even without `[events]`.
+    #[schemars(extend("x-default" = usual(false)))]
     pub extremes: Option<Spanned<bool>>,
 }
 

@@ -13,6 +13,7 @@ pub use rupture::ruptures;
 use super::plan::{AnyPlan, Plan};
 use crate::checks::of_model::{self, field_bytes};
 use crate::checks::{Cost, rates};
+use crate::defaults;
 use crate::diagnostic::Diagnostic;
 use crate::fault::planner::{self as of_faults, Meshed};
 use crate::held::Held;
@@ -22,7 +23,6 @@ use crate::model::forecast;
 use crate::model::{self, Model, counts, cuts, locking, meshes};
 use crate::outrun;
 use crate::scene::model::{Kinematics, Scene};
-use crate::thresholds;
 use crate::views;
 use asperity_mechanics::dynamics::Problem;
 
@@ -105,7 +105,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         faults,
         points,
         resolution,
-        rupture_rate: scene.output.rupture_rate.as_ref().map_or(thresholds::RUPTURED, |v| v.get_ref().0),
+        rupture_rate: scene.output.rupture_rate.as_ref().map_or(defaults::RUPTURED, |v| v.get_ref().0),
         fastest: outrun::bound(placed.iter().map(|p| p.medium.waves)),
         receivers,
         epoch: outputs::epoch(scene)?,

@@ -1,17 +1,14 @@
 //! Number and length of the steps, and the steps between outputs.
 
 use super::super::plan::Cadence;
+use crate::defaults;
 use crate::diagnostic::Diagnostic;
 use crate::scene::model::Scene;
 use asperity_mechanics::Stage;
 use asperity_mechanics::dynamics::Stable;
 
-/// Default step over the stable one.
-const COURANT: f64 = 0.5;
-/// Default time of Kelvin-Voigt viscosity over the step: it damps what the mesh does not resolve.
-const VISCOSITY: f64 = 0.1;
 /// Default rows, profiles and fields of a run.
-const OUTPUTS: [usize; 3] = [1000, 200, 10];
+const OUTPUTS: [usize; 3] = [defaults::WAVE_ROWS, defaults::WAVE_PROFILES, defaults::WAVE_FIELDS];
 /// Relative rounding of times given as decimals.
 const ROUNDING: f64 = 1e-9;
 
@@ -29,12 +26,12 @@ pub(super) struct Counted {
 
 /// Time of viscosity over the step.
 pub(super) fn viscosity(scene: &Scene) -> f64 {
-    scene.time.viscosity.as_ref().map_or(VISCOSITY, |v| *v.get_ref())
+    scene.time.viscosity.as_ref().map_or(defaults::VISCOSITY, |v| *v.get_ref())
 }
 
 /// Step over the stable one.
 pub(super) fn courant(scene: &Scene) -> f64 {
-    scene.time.courant.as_ref().map_or(COURANT, |c| *c.get_ref())
+    scene.time.courant.as_ref().map_or(defaults::COURANT, |c| *c.get_ref())
 }
 
 /// Chooses the steps of the only stage.

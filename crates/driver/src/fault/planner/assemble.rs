@@ -11,6 +11,7 @@ use super::placed::{Placed, components, in_space, slides};
 use super::pulses::{self, pulses};
 use super::{asked, checks, floor, heated, pressing, radiation, sense, start_doubts, steady, upright};
 use crate::checks::{Checks, Cost, FaultCheck, rates};
+use crate::defaults;
 use crate::diagnostic::Diagnostic;
 use crate::doubts::Fluid;
 use crate::laws::{self, Theta};
@@ -40,14 +41,11 @@ use std::ops::Range;
 /// recurrence time in the onsets of BP1's first events. A tolerance ten times larger saves a tenth to a sixth of the work, but steps then lie at
 /// the edge of the stability region, where errors of the fastest modes do not average out: on cells of 25 m the slip of a cycle differed by
 /// 0.24 % from the imposed slip, and its duration by 0.1 %.
-const IN_THE_PLANE: (Method, f64) = (Method::Tsit5, 1e-5);
+const IN_THE_PLANE: (Method, f64) = (Method::Tsit5, defaults::LOG_RATE);
 
 /// Default method and error of ln V in space, where stability limits most steps between events. Intervals of BP5 have errors of 7e-6 from it,
 /// hundreds of times below those of the cells, and a run with cells of 0.5 km takes half of the evaluations.
-const IN_SPACE: (Method, f64) = (Method::Stabilised, 1e-4);
-
-/// Default largest number of events with files of their own: the first events of a run, without thousands of files in a long one.
-const EVENT_FILES: usize = 20;
+const IN_SPACE: (Method, f64) = (Method::Stabilised, defaults::LOG_RATE_IN_SPACE);
 
 /// Number of steps after which a run is stopped: a hundred times those of BP1 at full length.
 const MOST_STEPS: usize = 20_000_000;
@@ -151,7 +149,7 @@ pub(super) fn plan_of<const D: usize>(
         faults,
         points,
         cadence,
-        event_files: scene.output.event_files.as_ref().map_or(EVENT_FILES, |n| *n.get_ref()),
+        event_files: scene.output.event_files.as_ref().map_or(defaults::EVENT_FILES, |n| *n.get_ref()),
         problem: Problem { fault, areas, loading, start, settings },
         ruptures: None,
         receivers: Receivers::default(),
@@ -392,7 +390,7 @@ fn spread<const D: usize>(scene: &Scene, placed: &[Placed<D>], end: f64) -> Vec<
 
 /// Slip rate at which a point has ruptured \[m/s\]; events begin at the slip rate `on`.
 fn rupture_rate(scene: &Scene, on: f64) -> Result<f64, Diagnostic> {
-    let Some(given) = &scene.output.rupture_rate else { return Ok(thresholds::RUPTURED.max(on)) };
+    let Some(given) = &scene.output.rupture_rate else { return Ok(defaults::RUPTURED.max(on)) };
     let rate = given.get_ref().0;
     if rate < on {
         return Err(Diagnostic::at(

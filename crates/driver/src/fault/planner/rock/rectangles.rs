@@ -4,6 +4,7 @@ use super::super::super::plan::CellGrid;
 use super::super::place::directions;
 use super::super::placed::in_space;
 use super::tiling::{Cut, buried, in_dimension};
+use crate::defaults;
 use crate::diagnostic::Diagnostic;
 use crate::scene::model::{Fault as Spec, FaultRectangle};
 use asperity_cycles::kernel::{Placement, Rectangle, Space};
@@ -84,7 +85,7 @@ impl Grid {
         let length = x.hypot(z);
         let (width, size) = (spec.width.get_ref().0, spec.size.get_ref().0);
         // The scene check admits no dip above a right angle beyond rounding.
-        let dip = spec.dip.as_ref().map_or(FRAC_PI_2, |d| d.get_ref().0.min(FRAC_PI_2));
+        let dip = spec.dip.as_ref().map_or(defaults::DIP, |d| d.get_ref().0.min(FRAC_PI_2));
         let [columns, rows] = [length, width].map(|extent| ((extent / size).round() as usize).max(1));
         let [sx, sz] = [x / length, z / length];
         // To the right of strike, seen from above: y up, and z towards the viewer of the (x, y) plane.

@@ -1,0 +1,113 @@
+//! Interfaces as declared in a scene.
+
+use super::{DampingSpec, LawFields, LawSpec, UnderResolved};
+use crate::defaults;
+use crate::kind;
+use crate::spanned::Spanned;
+use crate::units::{Penalty, Penetration};
+use crate::usual::usual;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+
+/// A contact interface between two side sets.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Interface {
+    /// Slave side, `BODY.SIDE`.
+    pub slave: Spanned<String>,
+    /// Master side, of another body, or the other side of a surface along which a body is split.
+    pub master: Spanned<String>,
+    /// Measure of gaps: `"mortar"` or `"node-to-point"`.
+    pub measure: Spanned<Measure>,
+    /// Sliding: `"small"`, or `"finite"`, where the pairing follows the motion.
+    pub sliding: Spanned<Sliding>,
+    /// Smoothing of the master surface: `"cubic"`, with `"node-to-point"` only; absent: none.
+    pub smoothing: Option<Spanned<Smoothing>>,
+    /// Enforcement of contact: `{ kind = .., normal = .., tangential = .. }`; `tangential` if and only if there is a law.
+    pub enforcement: Enforcement,
+    /// A [friction law](laws.md) or a bond; absent: frictionless.
+    pub law: Option<Spanned<LawSpec>>,
+    /// Values of parameters of the law at positions in files.
+    #[serde(default)]
+    pub fields: LawFields,
+    /// Radiation damping η of a law of the slip rate: `"radiation"`, or a value; absent: none \[Pa s/m\].
+    #[schemars(extend("x-kinds" = kind::ITERATED))]
+    pub damping: Option<Spanned<DampingSpec>>,
+    /// Treatment of points too far apart to resolve friction that weakens: `"refuse"` or `"allow"`.
+    #[schemars(extend("x-default" = usual(UnderResolved::default())))]
+    pub under_resolved: Option<Spanned<UnderResolved>>,
+    /// `true`: the interface starts with the tractions of the [initial stress](bodies.md) of its bodies.
+    #[schemars(extend("x-default" = usual(false)))]
+    pub initial_stress: Option<Spanned<bool>>,
+    /// A key of faults; refused here.
+    #[schemars(skip)]
+    pub normal: Option<Spanned<IgnoredAny>>,
+    /// A key of faults; refused here.
+    #[schemars(skip)]
+    pub shear: Option<Spanned<IgnoredAny>>,
+    /// A key of faults; refused here.
+    #[schemars(skip)]
+    pub rate: Option<Spanned<IgnoredAny>>,
+    /// A key of faults; refused here.
+    #[schemars(skip)]
+    pub profiles: Option<Spanned<IgnoredAny>>,
+}
+
+/// Measures of gaps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Measure {
+    /// Gap of each slave node to the closest point of a master segment.
+    NodeToPoint,
+    /// Gaps between slave and master facets over their overlap, averaged to slave nodes.
+    Mortar,
+}
+
+/// Sliding regimes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Sliding {
+    /// Pairing fixed in the reference configuration; allows condensation.
+    Small,
+    /// Pairing and normal follow the motion.
+    Finite,
+}
+
+/// Smoothings of a master surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Smoothing {
+    /// Cubic patches that share a tangent plane at their nodes.
+    Cubic,
+}
+
+/// Enforcement of the contact constraint.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Enforcement {
+    /// Kind.
+    pub kind: Spanned<EnforcementKind>,
+    /// Normal penalty E_n \[Pa/m\].
+    pub normal: Spanned<Penalty>,
+    /// Tangential penalty E_t \[Pa/m\]; needed with friction.
+    pub tangential: Option<Spanned<Penalty>>,
+    /// Largest admissible penetration, and largest admissible elastic part of the tangential motion of a step.
+    #[schemars(extend("x-with" = ["kind", "uzawa"], "x-instead" = "what penetrates follows from the penalty, or is nothing with \"augmented-lagrangian\""))]
+    pub penetration: Option<Spanned<Penetration>>,
+    /// Largest number of augmentations per step.
+    #[schemars(extend("x-with" = ["kind", "uzawa"], "x-default" = usual(defaults::AUGMENTATIONS)))]
+    pub augmentations: Option<Spanned<usize>>,
+}
+
+/// Methods of enforcement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum EnforcementKind {
+    /// Traction proportional to penetration.
+    Penalty,
+    /// Penalty tractions about multipliers that are updated between solutions.
+    Uzawa,
+    /// Multipliers as unknowns of the system.
+    AugmentedLagrangian,
+}
