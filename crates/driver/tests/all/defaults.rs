@@ -6,7 +6,7 @@ use crate::sister_checks::{MEDIUM, SLIDER};
 use asperity_driver::scene::keys::{self, Documented};
 use asperity_driver::scene::kind::Kind;
 use asperity_driver::scene::{self, settings};
-use asperity_driver::{plan, slider_planner};
+use asperity_driver::{kinds, slider_planner};
 use asperity_vary::Change::{Add, With, Without};
 
 /// Scenes by their kind of run, coarse so that their plans are quick. Keys of the stepper "auto" are those of others, but for
@@ -47,7 +47,7 @@ fn planned(text: &str) -> Result<String, String> {
         format!("{:?}", slider_planner::read(text).map_err(|e| e.to_string())?)
     } else {
         let scene = scene::read(text).map_err(|e| e.to_string())?;
-        format!("{:?}", plan::plan_scene(&scene).map_err(|e| e.to_string())?)
+        format!("{:?}", kinds::plan_scene(&scene).map_err(|e| e.to_string())?)
     };
     Ok(without(&without(&without(&all, "warnings: [", ']'), "span: ", ','), "PatternId(", ')'))
 }

@@ -3,7 +3,7 @@
 use crate::common::varied;
 use asperity_cycles::{Balance, FaultRun, Faults, Moment, Sums, resume};
 use asperity_driver::fault::Plan;
-use asperity_driver::plan::{ScenePlan, plan_scene};
+use asperity_driver::kinds::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_ode::{Control, ObserveError, Observer, Outcome};
 use asperity_scene::check::apart::{APART, PROCESSES};

@@ -13,17 +13,11 @@ use cycle::Circle;
 use modules::{Crate, Module};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Crates that are being reworked: a cycle of their folders is a warning until they are.
-const REWORKED: [&str; 2] = ["crates/cycles/src", "crates/driver/src"];
-
 /// Finds cycles of files, and cycles of folders.
 pub fn check(files: &[File]) -> Vec<Problem> {
     let (of_files, of_folders) = circles(files);
     let of_files = of_files.iter().map(|circle| problem("files", circle));
-    let of_folders = of_folders.iter().map(|circle| Problem {
-        warning: REWORKED.contains(&circle.folder.as_str()),
-        ..problem("folders", circle)
-    });
+    let of_folders = of_folders.iter().map(|circle| problem("folders", circle));
     of_files.chain(of_folders).collect()
 }
 
@@ -170,12 +164,6 @@ mod tests {
             !found[0].warning
                 && found[0].message.contains("2 folders use each other, among them a -> b -> a")
         );
-        // One level below, in a crate that is being reworked.
-        let below: Vec<File> = files(&list)
-            .into_iter()
-            .map(|file| File { path: file.path.replacen("x/src", "driver/src", 1), ..file })
-            .collect();
-        assert!(check(&below).iter().all(|problem| problem.warning) && check(&below).len() == 1);
     }
 
     #[test]
