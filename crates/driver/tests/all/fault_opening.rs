@@ -120,7 +120,7 @@ fn a_shallow_thrust_runs_through_events_that_open_it() {
     found.balances(&plan, 0.025);
     assert!(found.most > 0, "{:?}", found.report.openings);
     let text = found.report.text();
-    assert!(text.contains("on openings") && text.contains("fault `main` opened at"), "{text}");
+    assert!(text.contains(", opening ") && text.contains("fault `main` opened at"), "{text}");
 }
 
 #[test]

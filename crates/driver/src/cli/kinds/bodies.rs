@@ -1,6 +1,6 @@
 //! Runs of bodies with interfaces.
 
-use super::Run;
+use super::run::{Run, Where};
 use crate::checkpoint;
 use crate::cli::lines;
 use crate::keep::Keeper;
@@ -47,7 +47,7 @@ impl Run for Bodies<'_> {
 
     fn complete(
         &self,
-        (out, _): (&Path, &str),
+        (out, _): Where<'_>,
         outputs: Outputs,
         _: &RunReport,
         report: &RunReport,

@@ -1,6 +1,6 @@
 //! Runs of bodies with mass.
 
-use super::Run;
+use super::run::{Run, Where};
 use crate::checkpoint;
 use crate::dynamic::{self, Ended, Outputs, Plan, Report, RunError, Stand};
 use crate::keep::Keeper;
@@ -45,7 +45,7 @@ impl<'a, const D: usize> Run for Dynamics<'a, D> {
 
     fn complete(
         &self,
-        (out, _): (&Path, &str),
+        (out, _): Where<'_>,
         outputs: Self::Outputs,
         ended: &Ended,
         _: &Report,

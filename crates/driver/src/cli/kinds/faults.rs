@@ -1,6 +1,6 @@
 //! Runs of faults, with bodies that have mass in ruptures if there are any.
 
-use super::Run;
+use super::run::{Run, Where};
 use crate::catalogue::{self, Entry};
 use crate::cli::{json, lines};
 use crate::fault::{self, Outputs, Plan, Report};
@@ -64,7 +64,7 @@ impl<'a> Run for Faults<'a> {
 
     fn complete(
         &self,
-        (path, hash): (&Path, &str),
+        (path, hash): Where<'_>,
         _: Self::Outputs,
         run: &FaultRun,
         report: &Report,

@@ -3,6 +3,7 @@
 mod bodies;
 mod dynamics;
 mod faults;
+mod run;
 mod sliders;
 
 use super::directory::Directory;
@@ -11,57 +12,21 @@ use super::pausing::Pausing;
 use super::read::{Planned, Ready};
 use super::signals;
 use crate::checkpoint::Pauses;
-use crate::keep::{Keeper, Outputs, Place, Stand};
+use crate::keep::{Keeper, Outputs as _, Place, Stand};
 use crate::model::forecast;
 use crate::report::{Outcome, Results, Status};
 use crate::warning::Warning;
-use asperity_output::plots::{Asked, Sheet};
+use asperity_output::plots::Asked;
 use asperity_output::printing::{self, out};
 use bodies::Bodies;
 use dynamics::Dynamics;
 use faults::Faults;
 use miette::IntoDiagnostic;
+use run::Run;
 use sliders::Sliders;
 use std::fmt::Display;
 use std::path::Path;
 use std::time::Instant;
-
-/// A planned run of one kind: its steps, its report and its files.
-trait Run {
-    type Outputs: Outputs;
-    /// State at the end.
-    type Ended;
-    type Report: Results;
-
-    /// The plan, as the outputs refer to it.
-    fn plan(&self) -> <Self::Outputs as Outputs>::Plan;
-
-    /// Time \[s\] and number of steps of a state.
-    fn reached(stand: &Stand<Self::Outputs>) -> (f64, u64);
-
-    /// Takes the steps, from the start or from a saved state.
-    fn run(
-        &mut self,
-        out: &Path,
-        keeper: &mut Keeper<Self::Outputs>,
-        from: Option<Stand<Self::Outputs>>,
-    ) -> miette::Result<Self::Ended>;
-
-    /// Report of the run.
-    fn report(&self, ended: &mut Self::Ended, keeper: &mut Keeper<Self::Outputs>) -> Self::Report;
-
-    /// Writes the files of the end, and returns the figures.
-    fn complete(
-        &self,
-        place: Where<'_>,
-        outputs: Self::Outputs,
-        ended: &Self::Ended,
-        report: &Self::Report,
-    ) -> miette::Result<Option<Sheet>>;
-}
-
-/// Directory of a run, and SHA-256 of its scene.
-type Where<'a> = (&'a Path, &'a str);
 
 /// Runs a plan in its directory.
 pub(super) fn run(

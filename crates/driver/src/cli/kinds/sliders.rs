@@ -1,6 +1,6 @@
 //! Runs of spring-sliders.
 
-use super::Run;
+use super::run::{Run, Where};
 use crate::cli::lines;
 use crate::keep::Keeper;
 use crate::report::Outcome;
@@ -50,7 +50,7 @@ impl<'a> Run for Sliders<'a> {
 
     fn complete(
         &self,
-        (out, _): (&Path, &str),
+        (out, _): Where<'_>,
         outputs: Self::Outputs,
         _: &SliderRun,
         report: &Report,

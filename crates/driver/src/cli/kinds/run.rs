@@ -1,0 +1,43 @@
+//! Kinds of run as the path from a plan to a report sees them.
+
+use crate::keep::{Keeper, Outputs, Stand};
+use crate::report::Results;
+use asperity_output::plots::Sheet;
+use std::path::Path;
+
+/// A planned run of one kind: its steps, its report and its files.
+pub(super) trait Run {
+    type Outputs: Outputs;
+    /// State at the end.
+    type Ended;
+    type Report: Results;
+
+    /// The plan, as the outputs refer to it.
+    fn plan(&self) -> <Self::Outputs as Outputs>::Plan;
+
+    /// Time \[s\] and number of steps of a state.
+    fn reached(stand: &Stand<Self::Outputs>) -> (f64, u64);
+
+    /// Takes the steps, from the start or from a saved state.
+    fn run(
+        &mut self,
+        out: &Path,
+        keeper: &mut Keeper<Self::Outputs>,
+        from: Option<Stand<Self::Outputs>>,
+    ) -> miette::Result<Self::Ended>;
+
+    /// Report of the run.
+    fn report(&self, ended: &mut Self::Ended, keeper: &mut Keeper<Self::Outputs>) -> Self::Report;
+
+    /// Writes the files of the end, and returns the figures.
+    fn complete(
+        &self,
+        place: Where<'_>,
+        outputs: Self::Outputs,
+        ended: &Self::Ended,
+        report: &Self::Report,
+    ) -> miette::Result<Option<Sheet>>;
+}
+
+/// Directory of a run, and SHA-256 of its scene.
+pub(super) type Where<'a> = (&'a Path, &'a str);
