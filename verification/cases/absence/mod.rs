@@ -34,6 +34,9 @@ struct Measured {
 }
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
+    if let Some(file) = Term::missing() {
+        return Err(format!("{file} is named as a file of a term and does not exist").into());
+    }
     let scenes = scenes::all()?;
     if !callgrind::is_installed() {
         ledger.not_covered("instructions by source file", "callgrind (valgrind) is not installed");

@@ -1,6 +1,7 @@
 //! Terms that a scene may declare, and the source files that compute them.
 
 use super::callgrind::Instructions;
+use std::path::Path;
 
 /// A term of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -93,13 +94,24 @@ impl Term {
             Self::Faults => &[
                 "crates/cycles/src/operator/",
                 "crates/cycles/src/medium/condensed.rs",
-                "crates/cycles/src/cycle.rs",
-                "crates/cycles/src/equations.rs",
+                "crates/cycles/src/course/cycle.rs",
+                "crates/cycles/src/equations/",
             ],
-            Self::Sliders => &["crates/cycles/src/slider/", "crates/cycles/src/medium/springs.rs"],
-            Self::Fluid => &["crates/cycles/src/pressure.rs"],
+            Self::Sliders => &["crates/cycles/src/slider/"],
+            Self::Fluid => &["crates/cycles/src/processes/injection.rs"],
             Self::Plots => &["crates/output/src/plots/png.rs", "crates/output/src/plots/svg.rs"],
         }
+    }
+
+    /// File that is named and does not exist, so that its instructions would always be none.
+    pub fn missing() -> Option<&'static str> {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent()?;
+        Self::ALL
+            .iter()
+            .flat_map(|term| term.files())
+            .chain(&NO_TERM)
+            .copied()
+            .find(|file| !root.join(file).exists())
     }
 
     /// Instructions of the term in a run.
