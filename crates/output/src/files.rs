@@ -193,13 +193,7 @@ impl Files {
             self.interfaces.iter_mut().zip(&self.setup.interfaces).zip(view.interfaces)
         {
             let Some(file) = &mut part.probes else { continue };
-            file.push(&table::probe_row(
-                view.record.time,
-                view.record.stage,
-                view.record.step,
-                mesh,
-                fields,
-            ))?;
+            file.push(table::probe_row(view.record.time, view.record.stage, view.record.step, mesh, fields))?;
         }
         Ok(())
     }
@@ -209,13 +203,13 @@ impl Files {
             table::history_row(view.record.time, view.record.stage, view.record.step, values)
         };
         for (file, point) in self.points.iter_mut().zip(&view.samples.points) {
-            file.push(&row(&table::point_values(point)))?;
+            file.push(row(&table::point_values(point)))?;
         }
         for (file, force) in self.forces.iter_mut().zip(&view.samples.forces) {
-            file.push(&row(force))?;
+            file.push(row(force))?;
         }
         if let (Some(file), Some(energy)) = (&mut self.energy, &view.energy) {
-            file.push(&table::energy_row(view.record.time, view.record.stage, view.record.step, energy))?;
+            file.push(table::energy_row(view.record.time, view.record.stage, view.record.step, energy))?;
         }
         if let Some(file) = &mut self.rates {
             let largest = |fields: &InterfaceFields| {
@@ -223,12 +217,12 @@ impl Files {
                 sizes.fold(0.0, f64::max)
             };
             let own = self.setup.eventful.iter().filter_map(|&i| view.interfaces.get(i));
-            file.push(&row(&own.map(largest).collect::<Vec<_>>()))?;
+            file.push(row(&own.map(largest).collect::<Vec<_>>()))?;
         }
         for (file, spring) in self.springs.iter_mut().zip(&view.samples.springs) {
             if let Some(spring) = spring {
                 let SpringValues { load_point, displacement, force, friction } = *spring;
-                file.push(&row(&[load_point, displacement, force, friction]))?;
+                file.push(row(&[load_point, displacement, force, friction]))?;
             }
         }
         Ok(())

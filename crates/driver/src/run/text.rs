@@ -13,8 +13,7 @@ impl RunReport {
 }
 
 fn of(report: &RunReport) -> String {
-    let mut text = String::new();
-    text.push_str(&format!("results\n"));
+    let mut text = String::from("results\n");
     for r in &report.results {
         text.push_str(&format!(
             "  {} after `{}`: mean normal traction {} MPa, mean shear traction {} MPa, slip {} to {} um, friction {} to {}\n",

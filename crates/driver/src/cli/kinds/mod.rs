@@ -96,11 +96,7 @@ impl How<'_> {
     }
 
     /// Begins a run, or resumes the one in the directory.
-    fn keeper<R: Run>(
-        &self,
-        run: &R,
-        path: &Path,
-    ) -> miette::Result<(Keeper<R::Outputs>, Option<Stand<R::Outputs>>)> {
+    fn keeper<R: Run>(&self, run: &R, path: &Path) -> miette::Result<Kept<R::Outputs>> {
         let stop = signals::watched().into_diagnostic()?;
         let Pausing { resume, wall_time: wall, checkpoint_every: every } = *self.pausing;
         let pauses = Pauses { every, wall, stop, begun: Instant::now() };
@@ -121,6 +117,9 @@ impl How<'_> {
         Ok((Keeper::begin(run.plan(), place).into_diagnostic()?, None))
     }
 }
+
+/// A keeper, with the state from which its run resumes, if it does.
+type Kept<O> = (Keeper<O>, Option<Stand<O>>);
 
 /// Prints the results, the warnings that the plan did not have, the peak memory and the output directory.
 fn printed(report: &impl Results, planned: &[Warning], directory: &Directory) {
