@@ -182,7 +182,11 @@ impl<O: Outputs> Keeper<O> {
     /// # Errors
     /// If something cannot be written.
     pub fn save(&mut self, saved: &O::Saved) -> Result<(), OutputError> {
-        let begun = Instant::now();
+        self.save_since(Instant::now(), saved)
+    }
+
+    /// Writes a checkpoint whose state was copied from the instant `begun` on, which counts as its cost.
+    fn save_since(&mut self, begun: Instant, saved: &O::Saved) -> Result<(), OutputError> {
         self.outputs.settle()?;
         checkpoint::write(&self.out, &self.physics, saved)?;
         self.written = (Instant::now(), begun.elapsed());
@@ -223,8 +227,9 @@ impl<O: Outputs> Observer<O::Kind> for Keeper<O> {
         let moved = std::mem::replace(&mut self.moved, true);
         self.interrupted = self.pauses.reason(moved);
         let due = self.interrupted.is_some() || moved && self.pauses.are_due(self.written);
+        let begun = Instant::now();
         if let Some(saved) = self.outputs.saved(stand, due) {
-            self.save(&saved)?;
+            self.save_since(begun, &saved)?;
         }
         Ok(self.interrupted)
     }
