@@ -48,3 +48,25 @@ fn a_threshold_outside_a_step_is_passed_at_its_end() {
         assert_eq!((share.time, share.slip), (expected, expected), "{rates:?}");
     }
 }
+
+/// A point creeps at 0.05 mm/s while another one accelerates, and is the only one that ever reaches the threshold.
+#[test]
+fn an_event_begins_at_the_point_that_passes_the_threshold() {
+    let plan = EventPlan {
+        thresholds: Thresholds { on: 1e-3, off: 1e-4 },
+        stop_after: None,
+        interfaces: vec![0],
+        points: std::iter::once(0..2).collect(),
+        ground: Vec::new(),
+    };
+    let at = |t: f64| Moment {
+        time: t,
+        rate: vec![5e-5, 1e-7 * t.exp()],
+        slip: vec![0.0; 2],
+        shear: vec![0.0; 2],
+    };
+    let mut events = Events::new(&plan);
+    // From 3e-5 m/s to 1.6e-3 m/s: the first point is the fastest when the step begins.
+    events.step(&at(5.7), &at(9.7));
+    assert_eq!(events.catalogue.under_way(ALL).unwrap().details.hypocentre, 1);
+}
