@@ -225,7 +225,8 @@ impl<'a> Balance<'a> {
         let last = (end, moment.unknowns, step.end_rates, moment.pressed);
         [first, last].map(|(at, unknowns, rates, pressed)| {
             let time = Time { at, until };
-            let mut fluid = vec![[0.0; 2]; self.problem.areas.len()];
+            let mut fluid =
+                vec![[0.0; 2]; if fault.processes.is_empty() { 0 } else { self.problem.areas.len() }];
             fault.processes.iter().for_each(|process| process.fluid(time, pressed, &mut fluid));
             let pressing = self.working.as_mut().map(|working| working.pressing(time, unknowns, rates));
             End { time: at, unknowns, rates, pressed, fluid, pressing }
@@ -303,7 +304,7 @@ struct End<'a> {
     unknowns: &'a [f64],
     rates: &'a [f64],
     pressed: &'a Pressed,
-    /// Pressure of fluid at each point \[Pa\], and its rate \[Pa/s\].
+    /// Pressure of fluid at each point \[Pa\], and its rate \[Pa/s\]; empty without processes.
     fluid: Vec<[f64; 2]>,
     /// Rates of normal tractions and of values of processes, where more than pressures at points changes them.
     pressing: Option<Pressed>,
@@ -322,7 +323,8 @@ impl End<'_> {
         } else {
             (self.unknowns[normals.start + p], self.rates[normals.start + p])
         };
-        let ([pressure, rise], least) = (self.fluid[p], fault.processes.least(p));
+        let Some([pressure, rise]) = self.fluid.get(p) else { return [total, growth] };
+        let least = fault.processes.least(p);
         if total - pressure < least { [least, 0.0] } else { [total - pressure, growth - rise] }
     }
 }

@@ -190,6 +190,12 @@ impl Processes {
         others.into_iter().fold(self, Self::with)
     }
 
+    /// True if there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     /// All processes in their order.
     pub fn iter(&self) -> impl Iterator<Item = &dyn Process> {
         self.0.iter().map(Box::as_ref)

@@ -64,7 +64,7 @@ impl<'a, const D: usize> keep::Outputs for Outputs<'a, D> {
     fn create(plan: &'a Plan<D>, place: &Place<'_>) -> Result<Self, OutputError> {
         let (out, drawn) = (place.out, place.drawn);
         atomic::writable_dir(out)?;
-        let tables = Tables::open(out, plan, None)?.unwrap_or_default();
+        let tables = Tables::create(out, plan)?;
         Ok(Self { plan, tables, fields: Fields::new(out, plan, Taken::default(), drawn)?, drawn })
     }
 
@@ -74,7 +74,7 @@ impl<'a, const D: usize> keep::Outputs for Outputs<'a, D> {
         Saved { stand, sizes, taken, drawn }: Saved,
     ) -> Result<Option<(Self, Stand)>, ResumeError> {
         let out = place.out;
-        let tables = Tables::open(out, plan, Some(&sizes))?.filter(|_| stand.fits(plan));
+        let tables = Tables::reopen(out, plan, &sizes)?.filter(|_| stand.fits(plan));
         let Some(tables) = tables else { return Err(checkpoint::other_files(out)) };
         let drawn = drawn && place.drawn;
         let fields = Fields::new(out, plan, taken, drawn)?;

@@ -77,29 +77,43 @@ fn profiles<'a, const D: usize>(
 }
 
 /// The tables of a run, with their files.
-#[derive(Default)]
 pub(super) struct Tables<'a>(Vec<(Table<'a>, Growing)>);
 
 impl<'a> Tables<'a> {
-    /// Creates all tables in `out`, or resumes them at these sizes in bytes. `None` if these are of other tables.
+    /// Creates all tables in `out`.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn create<const D: usize>(out: &Path, plan: &'a Plan<D>) -> Result<Self, OutputError> {
+        Self::open(out, plan, |_| None)
+    }
+
+    /// Reopens all tables in `out` at these sizes in bytes. `None` if these are of other tables.
     ///
     /// # Errors
     /// If a file cannot be written, or has fewer bytes than that.
-    pub fn open<const D: usize>(
+    pub fn reopen<const D: usize>(
         out: &Path,
         plan: &'a Plan<D>,
-        sizes: Option<&BTreeMap<String, u64>>,
+        sizes: &BTreeMap<String, u64>,
     ) -> Result<Option<Self>, OutputError> {
         let all = all(plan);
-        let known = |table: &Table<'_>| sizes.is_none_or(|sizes| sizes.contains_key(&table.path));
-        if !all.iter().all(known) || sizes.is_some_and(|sizes| sizes.len() != all.len()) {
+        if all.len() != sizes.len() || !all.iter().all(|table| sizes.contains_key(&table.path)) {
             return Ok(None);
         }
+        Self::open(out, plan, |table| sizes.get(&table.path).copied()).map(Some)
+    }
+
+    fn open<const D: usize>(
+        out: &Path,
+        plan: &'a Plan<D>,
+        size: impl Fn(&Table<'_>) -> Option<u64>,
+    ) -> Result<Self, OutputError> {
         let open = |table: Table<'a>| {
-            let file = table.open(out, sizes.and_then(|sizes| sizes.get(&table.path).copied()))?;
+            let file = table.open(out, size(&table))?;
             Ok((table, file))
         };
-        all.into_iter().map(open).collect::<Result<_, _>>().map(|all| Some(Self(all)))
+        all(plan).into_iter().map(open).collect::<Result<_, _>>().map(Self)
     }
 
     /// Sizes of all tables \[bytes\], by their paths.

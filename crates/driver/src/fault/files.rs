@@ -49,7 +49,6 @@ impl<'a> Files<'a> {
     /// If a file cannot be written.
     pub fn create(out: &Path, plan: &'a Plan) -> Result<Self, OutputError> {
         atomic::writable_dir(out)?;
-        atomic::create_dir(&out.join("stations"))?;
         let tables = all(plan).into_iter().map(|table| Rows::open(out, table, None));
         Ok(Self {
             plan,
@@ -69,7 +68,7 @@ impl<'a> Files<'a> {
         let all = all(plan);
         let known = all.iter().all(|table| from.gauges.contains_key(&table.path));
         if !known || all.len() != from.gauges.len() || plan.in_space != from.snapshots.is_some() {
-            return Err(checkpoint::foreign(out, "its list of output files differs from that of this scene"));
+            return Err(checkpoint::other_files(out));
         }
         let reopen = |table: Table<'a>| {
             let gauge = from.gauges.get(&table.path).copied();
@@ -95,6 +94,11 @@ impl<'a> Files<'a> {
             snapshots: self.snapshots.as_ref().map(Snapshots::taken),
             events: self.events.written(),
         }
+    }
+
+    /// Number of steps taken.
+    pub(super) fn steps(&self) -> u64 {
+        self.step
     }
 
     /// Waits until all files are on the disc.

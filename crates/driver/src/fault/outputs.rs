@@ -21,7 +21,6 @@ pub struct Outputs<'a> {
     plan: &'a Plan,
     files: Files<'a>,
     balance: Balance<'a>,
-    steps: u64,
     before: Before,
     drawn: bool,
 }
@@ -86,7 +85,7 @@ impl<'a> keep::Outputs for Outputs<'a> {
     fn create(plan: &'a Plan, place: &Place<'_>) -> Result<Self, OutputError> {
         let files = Files::create(place.out, plan)?;
         let (balance, drawn) = (Balance::new(&plan.problem), place.drawn);
-        Ok(Self { plan, files, balance, steps: 0, before: None, drawn })
+        Ok(Self { plan, files, balance, before: None, drawn })
     }
 
     fn reopen(
@@ -100,12 +99,11 @@ impl<'a> keep::Outputs for Outputs<'a> {
         }
         let Some((from, before)) = from(out, plan, saved)? else { return Ok(None) };
         let files = Files::resume(out, plan, &from.files)?;
-        let (balance, steps) = (Balance::resume(&plan.problem, from.sums), from.run.counts.steps);
-        Ok(Some((Self { plan, files, balance, steps, before, drawn }, from.run)))
+        let balance = Balance::resume(&plan.problem, from.sums);
+        Ok(Some((Self { plan, files, balance, before, drawn }, from.run)))
     }
 
     fn step(&mut self, moment: &Moment<'_>) -> Result<Control, ObserveError> {
-        self.steps += u64::from(moment.dt > 0.0);
         let (balance, files) = (&mut self.balance, &mut self.files);
         if moment.step.as_ref().is_some_and(|step| step.waves.is_some()) {
             balance.step(moment);
@@ -141,7 +139,7 @@ impl<'a> keep::Outputs for Outputs<'a> {
         Now {
             time,
             end,
-            step: self.steps,
+            step: self.files.steps(),
             step_length: moment.dt,
             largest_rate: Some(moment.largest),
             events: Some(moment.events().len() as u64),

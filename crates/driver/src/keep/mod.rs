@@ -209,9 +209,9 @@ impl<O: Outputs> Observer<O::Kind> for Keeper<O> {
 
     fn step(&mut self, moment: &<O::Kind as Kind>::Moment<'_>) -> Result<Control, ObserveError> {
         self.moved = true;
+        let control = self.outputs.step(moment)?;
         let [time, end] = self.outputs.times(moment);
         self.progress.show(time / end, || self.outputs.now(moment));
-        let control = self.outputs.step(moment)?;
         let Some(reason) = self.pauses.reason(true) else { return Ok(control) };
         let Some(saved) = self.outputs.restart(moment) else { return Ok(control) };
         self.save(&saved)?;

@@ -94,6 +94,10 @@ impl EnergyTable {
     #[must_use]
     pub fn text(&self) -> String {
         let mut text = format!("energy [{}]:", self.unit);
+        if [&self.given, &self.kept, &self.lost].iter().all(|parts| parts.values().all(|value| *value == 0.0))
+        {
+            return text + " none was given, kept or lost";
+        }
         for (name, parts) in [("given", &self.given), ("kept", &self.kept), ("lost", &self.lost)] {
             let parts: Vec<String> = parts
                 .iter()

@@ -85,10 +85,8 @@ impl How<'_> {
         }
         let seconds = report.seconds_mut();
         seconds.plan = self.seconds;
-        // Some kinds measure their phases themselves.
-        if seconds.steps == 0.0 {
-            seconds.steps = taken - seconds.set_up;
-        }
+        // Bodies write some of their outputs between steps.
+        seconds.steps = taken - seconds.set_up - seconds.output;
         seconds.output += clock.elapsed().as_secs_f64();
         directory.write(&report)?;
         printed(&report, planned, directory);

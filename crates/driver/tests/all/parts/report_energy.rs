@@ -29,4 +29,6 @@ fn parts_are_found_by_their_names_and_shown_without_those_that_are_zero() {
     let text = "energy [J/m]: given loads 1.000000e1; kept elastic 4.000000e0; lost friction 6.000000e0; \
                 closes to 0.0e0 of the largest";
     assert_eq!(table.text(), text);
+    let none = EnergyTable::of_faults("J", &Energy::default()).text();
+    assert_eq!(none, "energy [J]: none was given, kept or lost");
 }
