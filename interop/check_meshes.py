@@ -1,6 +1,6 @@
 """Compares mesh files as read by asperity, Gmsh and meshio, and exits non-zero if they differ.
 
-    cargo run --release -p asperity-driver --example mesh_summary -- target/meshes.json crates/fem/tests/meshes/[gmu]*.*[hp]
+    cargo run --release -p asperity --example mesh_summary -- target/meshes.json crates/fem/tests/meshes/[gmu]*.*[hp]
     python interop/check_meshes.py target/meshes.json crates/fem/tests/meshes
 
 Gmsh is the reference for its own format: number of nodes, cells by element, and groups with their numbers of cells, faces

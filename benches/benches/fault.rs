@@ -4,9 +4,9 @@
 
 use asperity_cycles::Equations;
 use asperity_cycles::operator::{Both, Form, Lattice, Operator, Planar, Toeplitz};
-use asperity_driver::fault::{Plan, plan_with};
-use asperity_driver::scene;
 use asperity_ode::{Clock, Problem};
+use asperity_plan::faults::{Plan, plan_with};
+use asperity_plan::reading::scene;
 use asperity_vary::bp1::bp1;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 

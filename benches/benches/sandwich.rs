@@ -1,8 +1,10 @@
 //! Plan and run of the sandwich, without output.
 #![allow(missing_docs)]
 
-use asperity_driver::{plan, run, scene};
+use asperity::kinds;
 use asperity_output::Recorder;
+use asperity_plan::bodies;
+use asperity_plan::reading::scene;
 use criterion::{Criterion, criterion_group, criterion_main};
 
 fn sandwich(c: &mut Criterion) {
@@ -10,11 +12,11 @@ fn sandwich(c: &mut Criterion) {
     let scene = scene::read(include_str!("../../scenes/sandwich.toml")).expect("the scene is admissible");
     let mut group = c.benchmark_group("sandwich");
     group.sample_size(10);
-    group.bench_function("plan", |b| b.iter(|| plan::plan(&scene)));
+    group.bench_function("plan", |b| b.iter(|| bodies::plan(&scene)));
     group.bench_function("plan and run", |b| {
         b.iter(|| {
-            let plan = plan::plan(&scene).expect("a plan");
-            run::run(&plan, &mut Recorder::new()).expect("a report")
+            let plan = bodies::plan(&scene).expect("a plan");
+            kinds::bodies::run(&plan, &mut Recorder::new()).expect("a report")
         });
     });
     group.finish();

@@ -1,9 +1,9 @@
 //! Earthquake cycles of spring-sliders.
 #![allow(missing_docs, clippy::print_stdout)]
 
+use asperity::kinds::sliders::Entry;
 use asperity_cycles::Thresholds;
 use asperity_cycles::slider::{self, Problem};
-use asperity_driver::slider::Entry;
 use asperity_friction::evolution::ageing::Ageing;
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider, Sliding, Spring, System};

@@ -6,9 +6,9 @@
 
 use asperity_cycles::Moment;
 use asperity_cycles::operator::Form;
-use asperity_driver::fault::{Plan, plan_with};
-use asperity_driver::scene;
 use asperity_ode::Control;
+use asperity_plan::faults::{Plan, plan_with};
+use asperity_plan::reading::scene;
 use std::process::ExitCode;
 use std::time::Instant;
 

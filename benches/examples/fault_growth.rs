@@ -6,8 +6,8 @@
 
 use asperity_benches::growth::{FILE, bent, power, squares, triangles};
 use asperity_cycles::Settings;
-use asperity_driver::fault::{Plan, plan};
-use asperity_driver::scene;
+use asperity_plan::faults::{Plan, plan};
+use asperity_plan::reading::scene;
 use std::fs;
 use std::ops::RangeInclusive;
 use std::path::Path;

@@ -3,11 +3,12 @@
 use super::programs;
 use super::written::Folder;
 use crate::{CaseError, Ledger};
-use asperity_driver::scene::model::Scene;
-use asperity_driver::{plan, run};
+use asperity::kinds;
 use asperity_fem::mesh::Mesh;
 use asperity_output::view::MeshView;
 use asperity_output::{Recorder, plots};
+use asperity_plan::bodies;
+use asperity_plan::reading::scene::model::Scene;
 use std::path::Path;
 
 /// Every so many of these points that single markers can be told apart.
@@ -59,9 +60,9 @@ pub fn displacement<const D: usize>(
 /// # Errors
 /// If the scene is refused, the stage is not reached, or the scene has no bodies.
 pub fn mises(scene: &Scene, stage: &str) -> Result<String, CaseError> {
-    let plan = plan::plan(scene).map_err(|error| error.to_string())?;
+    let plan = bodies::plan(scene).map_err(|error| error.to_string())?;
     let mut record = Recorder::new().with_bodies();
-    run::run(&plan, &mut record)?;
+    kinds::bodies::run(&plan, &mut record)?;
     recorded(&record, stage)
 }
 

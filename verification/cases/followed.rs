@@ -1,9 +1,11 @@
 //! Common parts of the energy-budget cases: a fault run with its report and one of its restart points.
 
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
-use asperity_cycles::{Balance, Event, FaultRun, Faults, Moment, Rupture, Settings, resume};
-use asperity_driver::fault::{Plan, Report};
-use asperity_ode::{Control, ObserveError, Observer, Outcome};
+use asperity::kinds::faults::Report;
+use asperity_cycles::{Balance, FaultRun, Faults, Moment, Rupture, Settings, resume};
+use asperity_ode::{Control, Outcome};
+use asperity_plan::faults::Plan;
+use asperity_run::{Event, ObserveError, Observer};
 
 /// Sums the energy balance and keeps one of the restart points.
 struct Look<'a> {

@@ -1,14 +1,16 @@
 //! Hertz contacts of the cases: scenes with single changes, tractions of a run, closed-form solutions.
 
 use crate::{CaseError, Cost, Ledger, Plot, Series};
-use asperity_driver::report::Outcome;
-use asperity_driver::run::RunReport;
-use asperity_driver::scene::model::{
+use asperity::kinds;
+use asperity::kinds::bodies::RunReport;
+use asperity_output::Recorder;
+use asperity_plan::bodies;
+use asperity_plan::reading::scene as reader;
+use asperity_plan::reading::scene::model::{
     BlockMesh, LawSpec, Measure, MeshSource, Motion, Scene, Sliding, SpacingSpec, here,
 };
-use asperity_driver::scene::units::{Length, Penalty};
-use asperity_driver::{plan, run as driver_run, scene as reader};
-use asperity_output::Recorder;
+use asperity_plan::reading::scene::units::{Length, Penalty};
+use asperity_run::report::Outcome;
 use std::f64::consts::PI;
 
 /// Reads a scene of the product or of a case.
@@ -131,8 +133,8 @@ pub struct Done {
 pub fn simulate(scene: &Scene) -> Result<Done, CaseError> {
     let mut record = Recorder::new();
     let (report, cost) = Cost::of(|| -> Result<RunReport, CaseError> {
-        let plan = plan::plan(scene).map_err(|e| e.to_string())?;
-        Ok(driver_run::run(&plan, &mut record)?)
+        let plan = bodies::plan(scene).map_err(|e| e.to_string())?;
+        Ok(kinds::bodies::run(&plan, &mut record)?)
     });
     let report = report?;
     if let Outcome::Stopped { reason, .. } = &report.outcome {

@@ -1,16 +1,16 @@
 //! The sandwich benchmark as the cases use it: the product's scene file, with one setting changed at a time.
 
 use crate::CaseError;
-use asperity_driver::plan;
-use asperity_driver::report::Outcome;
-use asperity_driver::run;
-use asperity_driver::run::{RunReport, mean};
-use asperity_driver::scene;
-pub use asperity_driver::scene::model::Scene;
-use asperity_driver::scene::model::{MeshSource, Stepper, here};
-use asperity_driver::scene::units::{Length, Penalty, Pressure, Velocity};
+use asperity::kinds;
+use asperity::kinds::bodies::{RunReport, mean};
 use asperity_output::Recorder;
 use asperity_output::view::InterfaceFields;
+use asperity_plan::bodies;
+use asperity_plan::reading::scene;
+pub use asperity_plan::reading::scene::model::Scene;
+use asperity_plan::reading::scene::model::{MeshSource, Stepper, here};
+use asperity_plan::reading::scene::units::{Length, Penalty, Pressure, Velocity};
+use asperity_run::report::Outcome;
 
 /// Young's modulus of the benchmark \[Pa\].
 pub const YOUNG: f64 = 44.8e9;
@@ -187,9 +187,9 @@ pub fn tolerance(mut scene: Scene, metres: f64) -> Scene {
 
 /// Runs a scene to its end, keeping histories at all slave nodes.
 pub fn simulate(scene: &Scene) -> Result<Run, CaseError> {
-    let plan = plan::plan(scene).map_err(|e| e.to_string())?;
+    let plan = bodies::plan(scene).map_err(|e| e.to_string())?;
     let mut record = Recorder::new().at_all_nodes();
-    let report = run::run(&plan, &mut record)?;
+    let report = kinds::bodies::run(&plan, &mut record)?;
     match &report.outcome {
         Outcome::Completed => finite(&record).map(|()| Run { report, record }),
         Outcome::Stopped { reason, time, .. } => Err(format!("stopped at {time} s: {reason}").into()),
@@ -237,7 +237,7 @@ pub fn element(mut scene: Scene, name: &str) -> Scene {
 
 /// The scene as a three-dimensional layer of `thickness` \[mm\] in z, held in z on both faces: plane strain.
 pub fn layer(mut scene: Scene, thickness: f64, name: &str) -> Scene {
-    use asperity_driver::scene::model::{Condition, Kinematics, Motion};
+    use asperity_plan::reading::scene::model::{Condition, Kinematics, Motion};
     scene.kinematics = here(Kinematics::ThreeD);
     for body in ["A", "B"] {
         let mesh = mesh_of(&mut scene, body);

@@ -1,11 +1,12 @@
 //! Parts shared by the cases of earthquake cycles: plans of scenes, and events of runs with their cost.
 
 use crate::{CaseError, Cost};
-use asperity_cycles::{Episode, Event, FaultRun, Moment, Rupture, Settings};
-use asperity_driver::fault::Plan;
-use asperity_driver::kinds::{ScenePlan, plan_scene};
-use asperity_driver::scene;
+use asperity_cycles::{Episode, FaultRun, Moment, Rupture, Settings};
 use asperity_ode::{Control, Outcome};
+use asperity_plan::faults::Plan;
+use asperity_plan::reading::scene;
+use asperity_plan::{ScenePlan, plan_scene};
+use asperity_run::Event;
 
 /// A year \[s\], as the benchmarks count it.
 pub const YEAR: f64 = 365.25 * 86400.0;

@@ -2,10 +2,10 @@
 
 use crate::CaseError;
 use crate::cases::written::Folder;
+use asperity::kinds::sliders::{Histories, Named, csv};
 use asperity_cycles::slider::{self as cycles, Problem};
-use asperity_driver::slider::{Histories, Named, Plan, csv};
-use asperity_driver::slider_planner;
 use asperity_ode::Outcome;
+use asperity_plan::sliders::{Plan, planner};
 
 /// Columns of a history.
 pub const TIME: usize = 0;
@@ -30,7 +30,7 @@ pub fn text(load: &str, slider: &str, law: &str, rest: &str) -> String {
 /// # Errors
 /// If the scene is rejected.
 pub fn planned(text: &str) -> Result<Plan, CaseError> {
-    slider_planner::read(text).map_err(|e| format!("{e}\nin\n{text}").into())
+    planner::read(text).map_err(|e| format!("{e}\nin\n{text}").into())
 }
 
 /// Problem of a scene.

@@ -1,11 +1,13 @@
 //! Scenes of cases as texts that a user could run, read by the public reader.
 
 use crate::{CaseError, Cost};
-use asperity_driver::report::Outcome;
-use asperity_driver::run::RunReport;
-use asperity_driver::{plan, run, scene};
+use asperity::kinds;
+use asperity::kinds::bodies::RunReport;
 use asperity_output::Recorder;
 use asperity_output::view::InterfaceFields;
+use asperity_plan::bodies;
+use asperity_plan::reading::scene;
+use asperity_run::report::Outcome;
 use std::path::Path;
 
 /// A run that may have ended early.
@@ -35,9 +37,9 @@ pub fn attempt(text: &str) -> Result<Done, CaseError> {
 pub fn attempt_in(text: &str, folder: &str) -> Result<Done, CaseError> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(folder);
     let scene = scene::read_in(text, &folder).map_err(|e| format!("{e}\nin\n{text}"))?;
-    let plan = plan::plan(&scene).map_err(|e| e.to_string())?;
+    let plan = bodies::plan(&scene).map_err(|e| e.to_string())?;
     let mut record = Recorder::new().at_all_nodes().with_bodies();
-    let (report, cost) = Cost::of(|| run::run(&plan, &mut record));
+    let (report, cost) = Cost::of(|| kinds::bodies::run(&plan, &mut record));
     let report = report?;
     let cost = cost.counts(&report.counts);
     Ok(Done { scene: text.to_owned(), report, record, cost })

@@ -5,8 +5,7 @@ use asperity_fem::block::LinearBlock;
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::material::elastic::Elastic;
-use asperity_fem::mesh::nodes_of_sides;
-use asperity_fem::mesh::{Mesh, generate::Grid};
+use asperity_fem::mesh::{Mesh, generate::Grid, nodes_of_sides};
 use asperity_mechanics::dynamics::{Explicit, Problem, SplitPoint};
 use asperity_mechanics::{Body, CellBlock, Model, Stage};
 

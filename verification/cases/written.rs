@@ -2,15 +2,19 @@
 
 use crate::cases::seas;
 use crate::{CaseError, Cost};
+use asperity::checkpoint::Pauses;
+use asperity::keep::{Keeper, Place};
+use asperity::kinds::faults::{Files, Report};
+use asperity::{catalogue, kinds};
 use asperity_cycles::{Balance, FaultRun, Faults, Moment};
-use asperity_driver::checkpoint::Pauses;
-use asperity_driver::dynamic::{self, AnyPlan};
-use asperity_driver::fault::{self, Files, Plan, Report};
-use asperity_driver::keep::{Keeper, Place};
-use asperity_driver::report::Outcome as Ended;
-use asperity_driver::{catalogue, plan, run, scene};
-use asperity_ode::{Control, ObserveError, Observer, Outcome};
+use asperity_ode::{Control, Outcome};
 use asperity_output::located::{cmtsolution, quakeml};
+use asperity_plan::dynamics::AnyPlan;
+use asperity_plan::faults::Plan;
+use asperity_plan::reading::scene;
+use asperity_plan::{bodies, dynamics};
+use asperity_run::report::Outcome as Ended;
+use asperity_run::{ObserveError, Observer};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -168,10 +172,10 @@ impl Written {
         let (found, cost) = Cost::of(|| followed(&plan, files.path()));
         let (run, report) = found?;
         catalogues(files.path(), &plan, &report)?;
-        fault::write_fields(files.path(), &plan, &run)?;
-        fault::write_bodies(files.path(), &plan, &run)?;
-        fault::write_stresses(files.path(), &plan, &run)?;
-        fault::write_finite_faults(files.path(), &plan, &run, &report.events)?;
+        kinds::faults::write_fields(files.path(), &plan, &run)?;
+        kinds::faults::write_bodies(files.path(), &plan, &run)?;
+        kinds::faults::write_stresses(files.path(), &plan, &run)?;
+        kinds::faults::write_finite_faults(files.path(), &plan, &run, &report.events)?;
         let cost = cost.count("steps", run.counts.steps as f64).count("points", plan.points.len() as f64);
         Ok(Self { plan, report, files, cost })
     }
@@ -225,10 +229,10 @@ pub fn bodies(text: &str) -> Result<(Folder, Cost), CaseError> {
 /// As there.
 pub fn bodies_beside(text: &str, folder: &Path) -> Result<(Folder, Cost), CaseError> {
     let scene = scene::read_in(text, folder).map_err(|e| format!("{e}\nin\n{text}"))?;
-    let plan = plan::plan(&scene).map_err(|e| e.to_string())?;
+    let plan = bodies::plan(&scene).map_err(|e| e.to_string())?;
     let folder = Folder::new()?;
     let mut files = asperity_output::Files::create(folder.path(), plan.outputs())?;
-    let (report, cost) = Cost::of(|| run::run(&plan, &mut files));
+    let (report, cost) = Cost::of(|| kinds::bodies::run(&plan, &mut files));
     let report = report?;
     std::fs::write(folder.path().join("report.json"), serde_json::to_string(&report)?)?;
     match report.outcome {
@@ -240,7 +244,7 @@ pub fn bodies_beside(text: &str, folder: &Path) -> Result<(Folder, Cost), CaseEr
 /// A run of bodies with mass and its files.
 pub struct Waves {
     /// Report of the run.
-    pub report: dynamic::Report,
+    pub report: kinds::dynamics::Report,
     /// Folder of the output files.
     pub files: Folder,
     /// Wall time and counts.
@@ -266,7 +270,7 @@ impl Waves {
 
     fn limited(text: &str, wall: Option<Duration>) -> Result<Self, CaseError> {
         let scene = scene::read(text).map_err(|e| format!("{e}\nin\n{text}"))?;
-        let (plan, files) = (dynamic::plan(&scene).map_err(|e| e.to_string())?, Folder::new()?);
+        let (plan, files) = (dynamics::plan(&scene).map_err(|e| e.to_string())?, Folder::new()?);
         let (report, cost) = Cost::of(|| match &plan {
             AnyPlan::Two(plan) => shaken(plan, files.path(), wall),
             AnyPlan::Three(plan) => shaken(plan, files.path(), wall),
@@ -279,10 +283,10 @@ impl Waves {
 
 /// Runs a plan to its end, in parts if wall time is limited.
 fn shaken<const D: usize>(
-    plan: &dynamic::Plan<D>,
+    plan: &dynamics::Plan<D>,
     out: &Path,
     wall: Option<Duration>,
-) -> Result<dynamic::Report, CaseError> {
+) -> Result<kinds::dynamics::Report, CaseError> {
     loop {
         let report = shaken_part(plan, out, wall)?;
         match &report.outcome {
@@ -294,19 +298,19 @@ fn shaken<const D: usize>(
 }
 
 fn shaken_part<const D: usize>(
-    plan: &dynamic::Plan<D>,
+    plan: &dynamics::Plan<D>,
     out: &Path,
     wall: Option<Duration>,
-) -> Result<dynamic::Report, CaseError> {
+) -> Result<kinds::dynamics::Report, CaseError> {
     let stop = Arc::new(AtomicBool::new(false));
     let pauses = Pauses { every: Duration::MAX, wall, stop, begun: Instant::now() };
     let place = Place { out, physics: "", drawn: false, pauses };
-    let (mut keeper, from) = match Keeper::<dynamic::Outputs<D>>::resume(plan, place.clone())? {
+    let (mut keeper, from) = match Keeper::<kinds::dynamics::Outputs<D>>::resume(plan, place.clone())? {
         Some((keeper, stand)) => (keeper, Some(stand)),
         None => (Keeper::begin(plan, place)?, None),
     };
-    let ended = dynamic::run(plan, &mut keeper, from)?;
-    let report = dynamic::Report::new(plan, &ended);
+    let ended = kinds::dynamics::run(plan, &mut keeper, from)?;
+    let report = kinds::dynamics::Report::new(plan, &ended);
     keeper.finish(matches!(report.outcome, Ended::Completed)).complete(out, &ended)?;
     Ok(report)
 }

@@ -1,6 +1,6 @@
 //! Runs the verification suite and writes its report.
 
-use asperity_driver::cli::{self, Arguments};
+use asperity::cli::{self, Arguments};
 use asperity_output::printing;
 use asperity_verification::case::{Case, Outcome};
 use asperity_verification::pool::{self, Limits};

@@ -1,7 +1,7 @@
 //! Checks of the community benchmarks: their files agree with each other, and no reference value changes.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-use asperity_driver::benchmark;
+use asperity_reference::benchmark;
 use asperity_verification::benchmarks::{ALL, pages};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeSet;

@@ -82,7 +82,7 @@ fn years(text: &str) -> Vec<String> {
 
 #[test]
 fn the_program_cites_the_literature_of_every_case() {
-    use asperity_driver::cite;
+    use asperity_reference::cite;
     let names: BTreeSet<&str> = cite::names().collect();
     assert_eq!(names, cases::ALL.iter().map(|case| case.name).collect());
     for case in cases::ALL {

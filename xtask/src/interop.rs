@@ -50,8 +50,7 @@ pub fn run(root: &Path) -> Result<(), Failure> {
         |name: &str, arguments: &[&str]| Stage::new(name, &inside).args(arguments.iter().copied()).run(root);
     check("interop of fields", &["interop/check_vtu.py", "out/sandwich"])?;
     for (scene, out) in RUNS {
-        let binary =
-            ["run", "--release", "--quiet", "-p", "asperity-driver", "--", "run", scene, "--out", out];
+        let binary = ["run", "--release", "--quiet", "-p", "asperity", "--", "run", scene, "--out", out];
         Stage::new(scene, "cargo").args(binary).args(["--force"]).run(root)?;
     }
     for out in ["out/strike_slip", "out/thrust"] {
@@ -69,7 +68,7 @@ pub fn run(root: &Path) -> Result<(), Failure> {
     check("interop of schemas", &json)?;
     check("interop of values", &["interop/check_fields.py", &program, "interop/fields.toml"])?;
     let summary = "target/meshes.json";
-    let example = ["run", "--release", "--quiet", "-p", "asperity-driver", "--example", "mesh_summary", "--"];
+    let example = ["run", "--release", "--quiet", "-p", "asperity", "--example", "mesh_summary", "--"];
     let files = meshes(root)?;
     Stage::new("meshes", "cargo")
         .args(example)

@@ -8,7 +8,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 /// Package whose dependencies are listed.
-const PROGRAM: &str = "asperity-driver";
+const PROGRAM: &str = "asperity";
 
 /// Beginnings of the names of files with licences, in lower case.
 const LICENCES: [&str; 4] = ["license", "licence", "copying", "notice"];

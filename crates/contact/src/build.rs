@@ -1,10 +1,9 @@
 //! Checks of a specification and construction of its measure.
 
 use crate::error::ContactError;
-use crate::measure::Measure;
-use crate::measure::mortar;
 use crate::measure::node_to_point::finite::Finite;
 use crate::measure::node_to_point::small::small;
+use crate::measure::{Measure, mortar};
 use crate::search::surface::Surface;
 use crate::spec::{InterfaceSpec, MeasureKind, Segment, Sliding, Smoothing, SurfaceNode};
 use crate::vector::{norm, sub};

@@ -12,8 +12,7 @@ pub mod processes;
 pub mod slider;
 
 pub use accounts::{
-    ALL, Balance, Catalogue, Crossing, Detector, Ends, Energy, Event, Front, Mark, Moment, Rupture, Sums,
-    Values, steady,
+    Balance, Crossing, Detector, Ends, Energy, Front, Mark, Moment, Rupture, Sums, Values, steady,
 };
 pub use course::{
     Dynamics, Episode, FaultRun, Faults, Handover, NextStep, Outrun, RESTART, Run, Shaken, Start, Waves,

@@ -4,9 +4,7 @@
 #[path = "usual/mod.rs"]
 mod usual;
 
-use asperity_friction::Failure;
 use asperity_friction::component::Component;
-use asperity_friction::each_evolution;
 use asperity_friction::evolution::flash::{Flash, Weakening};
 use asperity_friction::evolution::{
     Common, Defined, Evolution, Speed, ageing::Ageing, nagata::Nagata, slip::Slip,
@@ -14,6 +12,7 @@ use asperity_friction::evolution::{
 use asperity_friction::law::{Drives, Law, Rated, Regime, Responses, Trials};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::strength::{Form, Parameters, bare::Bare, regularised::Regularised};
+use asperity_friction::{Failure, each_evolution};
 use usual::usual;
 
 const V_REF: f64 = 1e-6;

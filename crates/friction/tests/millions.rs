@@ -2,12 +2,11 @@
 //! iterations.
 #![allow(clippy::unwrap_used)]
 
-use asperity_friction::Failure;
+use asperity_friction::{Failure, each_evolution};
 #[path = "usual/mod.rs"]
 mod usual;
 
 use asperity_friction::component::Component;
-use asperity_friction::each_evolution;
 use asperity_friction::evolution::flash::{Flash, Weakening};
 use asperity_friction::evolution::{
     Common, Defined, Evolution, ageing::Ageing, slip::Slip, stateless::Stateless,

@@ -4,7 +4,6 @@
 mod cell_size;
 mod choices;
 pub mod coordinates;
-mod counts;
 pub mod declared;
 pub mod dynamics;
 mod enforced;
@@ -30,7 +29,6 @@ mod turning;
 
 pub use cell_size::cell_size;
 pub use choices::{Control, Path, Stepping};
-pub use counts::Counts;
 pub use enforced::Enforced;
 pub use inertia::{Energy, Episode, Handover, Mass};
 pub use interface::{Measure, PlannedInterface, interface_nodes};

@@ -1,15 +1,13 @@
 //! The discrete model: one mesh of all bodies, and the cells of each of its blocks.
 
 use super::cell_size::cell_size;
-use asperity_fem::FemError;
 use asperity_fem::block::LinearBlock;
 use asperity_fem::condense::Stiffness;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::mesh::{Mesh, Side};
-use asperity_fem::nonlinear;
-use asperity_fem::surface;
 use asperity_fem::term::{Blocks, Limited, Linearized, Pattern, Saved as _};
+use asperity_fem::{FemError, nonlinear, surface};
 use std::collections::BTreeMap;
 use std::ops::Range;
 

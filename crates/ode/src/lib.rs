@@ -11,7 +11,6 @@ mod explicit;
 mod lu;
 mod matrices;
 mod method;
-mod observer;
 mod own;
 mod pair;
 mod problem;
@@ -29,7 +28,6 @@ mod tsit5;
 
 pub use clock::Clock;
 pub use method::{Method, Options, UnknownMethod};
-pub use observer::{Kind, ObserveError, Observer, Observers};
 pub use problem::Problem;
 pub use report::{Control, Counts, Failure, Finished, Occurrence, Outcome};
 pub use sink::{Sink, Step};

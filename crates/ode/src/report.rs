@@ -25,6 +25,12 @@ pub enum Control {
     Stop,
 }
 
+impl From<()> for Control {
+    fn from((): ()) -> Self {
+        Self::Go
+    }
+}
+
 /// Costs of an integration.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counts {

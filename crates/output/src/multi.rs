@@ -53,7 +53,7 @@ fn sharing<'a>(view: &StepView<'a>, fields: &'a dyn Fn() -> BodyFields) -> StepV
         end_time: view.end_time,
         interfaces: view.interfaces,
         samples: view.samples,
-        energy: view.energy,
+        energy: view.energy.clone(),
         fields,
     }
 }

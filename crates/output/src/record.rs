@@ -1,6 +1,7 @@
 //! A run kept in memory: records of all steps, histories at points of the interfaces, and states at the ends of stages.
 
-use super::view::{BodyFields, EnergyParts, InterfaceFields, Samples, Setup, StepRecord, StepView, Writer};
+use super::table::ENERGIES;
+use super::view::{BodyFields, InterfaceFields, Samples, Setup, StepRecord, StepView, Writer};
 use crate::error::{OutputError, expect_length};
 use crate::numbers;
 use serde::{Deserialize, Serialize};
@@ -74,7 +75,7 @@ pub struct Recorder {
     times: Vec<f64>,
     samples: Vec<Samples>,
     #[serde(default)]
-    energies: Vec<EnergyParts>,
+    energies: Vec<[f64; ENERGIES.len()]>,
     histories: Vec<InterfaceHistory>,
     stage_ends: Vec<StageEnd>,
 }
@@ -146,10 +147,11 @@ impl Recorder {
         &self.samples
     }
 
-    /// Energy budgets after each accepted step of bodies with inertia; otherwise empty.
+    /// An energy by its name after each accepted step of bodies with inertia; `None` without inertia, or if there is none of this name.
     #[must_use]
-    pub fn energies(&self) -> &[EnergyParts] {
-        &self.energies
+    pub fn energy(&self, name: &str) -> Option<Vec<f64>> {
+        let own = ENERGIES.iter().position(|energy| *energy == name)?;
+        (!self.energies.is_empty()).then(|| self.energies.iter().map(|all| all[own]).collect())
     }
 
     /// Histories, one entry per interface in the order of [`Setup::interfaces`].
@@ -212,7 +214,7 @@ impl Writer for Recorder {
         self.times.push(view.record.time);
         self.records.push(view.record.clone());
         self.samples.push(view.samples.clone());
-        self.energies.extend(view.energy);
+        self.energies.extend(view.energy.as_ref().map(|energies| ENERGIES.map(|name| energies.part(name))));
         for (history, fields) in self.histories.iter_mut().zip(view.interfaces) {
             for point in &mut history.points {
                 point.push(fields);

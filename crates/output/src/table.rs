@@ -1,7 +1,8 @@
 //! CSV tables: profiles along an interface at one time, and histories at its probes.
 
 use super::decimals::{shortest, shortest_scientific};
-use super::view::{EnergyParts, InterfaceFields, InterfaceMesh, PointValues};
+use super::view::{InterfaceFields, InterfaceMesh, PointValues};
+use asperity_run::Energies;
 
 /// A column of an interface table: its name with unit, and the function that reads it.
 type Column = (&'static str, fn(&InterfaceFields, usize) -> f64);
@@ -144,19 +145,39 @@ pub(super) fn force_header(unit: &str) -> String {
     rows.text()
 }
 
-/// Header of an energy budget in this unit, in every kind of run.
+/// Energies in the order of the columns of files, in every kind of run.
+pub const ENERGIES: [&str; 14] = [
+    "kinetic",
+    "elastic",
+    "contact",
+    "springs",
+    "plastic",
+    "viscous",
+    "friction",
+    "numerical",
+    "absorbed",
+    "handover",
+    "start",
+    "loads",
+    "motions",
+    "released",
+];
+
+/// Header of an energy budget in this unit.
 #[must_use]
 pub fn energy_header(unit: &str) -> String {
     let mut rows = Rows::default();
-    let columns = EnergyParts::default().named().map(|(name, _)| format!("{name} [{unit}]"));
+    let columns = ENERGIES.iter().chain(&["missing"]).map(|name| format!("{name} [{unit}]"));
     rows.push(WHEN.iter().map(ToString::to_string).chain(columns));
     rows.text()
 }
 
 /// Row of an energy budget.
 #[must_use]
-pub fn energy_row(time: f64, stage: usize, step: usize, energy: &EnergyParts) -> String {
-    history_row(time, stage, step, &energy.named().map(|(_, value)| value))
+pub fn energy_row(time: f64, stage: usize, step: usize, energies: &Energies) -> String {
+    let mut values = ENERGIES.map(|name| energies.part(name)).to_vec();
+    values.push(energies.missing());
+    history_row(time, stage, step, &values)
 }
 
 /// Header of the largest slip rates of interfaces.

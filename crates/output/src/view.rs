@@ -2,6 +2,7 @@
 //! components, so that the same writers and plots serve all dimensions.
 
 use crate::numbers;
+use asperity_run::Energies;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -225,66 +226,6 @@ pub struct Samples {
     pub springs: Vec<Option<SpringValues>>,
 }
 
-/// Energy budget of bodies with inertia since the start \[J, or J/m of thickness\]:
-/// `kinetic + strain + contact + springs + plastic + viscous + friction + numerical + handover + missing = start + loads + motions`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct EnergyParts {
-    /// Kinetic energy.
-    pub kinetic: f64,
-    /// Elastic energy of the bodies.
-    pub elastic: f64,
-    /// Elastic energy of the penalties of the interfaces.
-    pub contact: f64,
-    /// Elastic energy of the springs of load points.
-    pub springs: f64,
-    /// Energy dissipated by plastic flow.
-    pub plastic: f64,
-    /// Energy dissipated by viscous flow.
-    pub viscous: f64,
-    /// Energy dissipated by friction.
-    pub friction: f64,
-    /// Energy dissipated by the time integration.
-    pub numerical: f64,
-    /// Energy carried away through absorbing sides.
-    pub absorbed: f64,
-    /// Energy lost where bodies gain and lose their inertia.
-    pub handover: f64,
-    /// Energy at the start.
-    pub start: f64,
-    /// Work of loads.
-    pub loads: f64,
-    /// Work of prescribed motions and of load points.
-    pub motions: f64,
-    /// Work that the initial and imposed tractions of faults release.
-    pub released: f64,
-    /// Energy by which the budget does not close.
-    pub missing: f64,
-}
-
-impl EnergyParts {
-    /// Names and values of the parts, in the order of the columns of files.
-    #[must_use]
-    pub fn named(&self) -> [(&'static str, f64); 15] {
-        [
-            ("kinetic", self.kinetic),
-            ("elastic", self.elastic),
-            ("contact", self.contact),
-            ("springs", self.springs),
-            ("plastic", self.plastic),
-            ("viscous", self.viscous),
-            ("friction", self.friction),
-            ("numerical", self.numerical),
-            ("absorbed", self.absorbed),
-            ("handover", self.handover),
-            ("start", self.start),
-            ("loads", self.loads),
-            ("motions", self.motions),
-            ("released", self.released),
-            ("missing", self.missing),
-        ]
-    }
-}
-
 /// Record of one step in the report.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StepRecord {
@@ -314,41 +255,6 @@ pub struct StepRecord {
     pub limited_by: String,
 }
 
-/// Operation counts of a run.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
-pub struct Counts {
-    /// Accepted steps.
-    pub steps: usize,
-    /// Rejected trials.
-    pub rejected: usize,
-    /// Newton iterations, or forward solves.
-    pub iterations: usize,
-    /// Augmentations of multipliers (Uzawa's method).
-    pub augmentations: usize,
-    /// Residual evaluations.
-    pub residuals: usize,
-    /// Tangent evaluations.
-    pub tangents: usize,
-    /// Factorisations of the step's system.
-    pub factorisations: usize,
-    /// Factorisations among them by LU because a symmetric system was not positive definite.
-    pub indefinite: usize,
-    /// Solves with factorisations of the step's system.
-    pub solves: usize,
-    /// Iterations of conjugate gradients, if the method is iterative.
-    pub linear_iterations: usize,
-    /// Factorisations of bodies (condensation).
-    pub body_factorisations: usize,
-    /// Right-hand sides solved with the factorisations of bodies.
-    pub body_solves: usize,
-    /// Searches for contact pairs.
-    pub searches: usize,
-    /// Searches skipped because a bound on the motion proved that no pairing had changed.
-    pub searches_skipped: usize,
-    /// Projections onto single segments in searches.
-    pub projections: usize,
-}
-
 /// View of a step for its observers.
 pub struct StepView<'a> {
     /// Record of the step.
@@ -364,7 +270,7 @@ pub struct StepView<'a> {
     /// Points and forces, in the order of [`Setup::points`] and [`Setup::forces`].
     pub samples: &'a Samples,
     /// Energy budget, if the bodies have inertia.
-    pub energy: Option<EnergyParts>,
+    pub energy: Option<Energies>,
     /// Recovers the fields of the bodies; on the condensed path this costs a solve.
     pub fields: &'a dyn Fn() -> BodyFields,
 }

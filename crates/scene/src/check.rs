@@ -37,7 +37,7 @@ use super::near::suggest;
 use crate::diagnostic::Diagnostic;
 use crate::law::Laws;
 use crate::names::SIDES;
-use crate::warning::Warning;
+use asperity_run::Warning;
 use std::ops::Range;
 
 /// All errors and warnings of a scene, in the order of the file.

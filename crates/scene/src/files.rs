@@ -5,7 +5,7 @@ use crate::diagnostic::Diagnostic;
 use crate::model::{Scene, Spanned, TableFile, TableOver, part};
 use crate::plausible;
 use crate::units::{Dimension, Length};
-use crate::warning::Warning;
+use asperity_run::Warning;
 use std::ops::Range;
 
 /// A column of a file that a scene names.

@@ -33,7 +33,7 @@ use crate::defaults;
 use crate::kind::{self, Kind};
 pub use crate::spanned::Spanned;
 use crate::usual::usual;
-use crate::warning::Warning;
+use asperity_run::Warning;
 pub use body::*;
 pub use coulomb::*;
 pub use event::EventSpec;

@@ -3,10 +3,12 @@
 mod prestress;
 
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::report::Outcome;
-use asperity_driver::{plan, run as driver, scene};
+use asperity::kinds;
 use asperity_output::Recorder;
 use asperity_output::view::Samples;
+use asperity_plan::bodies;
+use asperity_plan::reading::scene;
+use asperity_run::report::Outcome;
 use asperity_vary::SceneText;
 use std::f64::consts::{PI, SQRT_2};
 
@@ -35,9 +37,9 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 fn simulate(text: &str) -> Result<(Samples, Cost), CaseError> {
     let (result, cost) = Cost::of(|| {
         let scene = scene::read(text).map_err(|e| e.to_string())?;
-        let plan = plan::plan(&scene).map_err(|e| e.to_string())?;
+        let plan = bodies::plan(&scene).map_err(|e| e.to_string())?;
         let mut record = Recorder::new();
-        let report = driver::run(&plan, &mut record).map_err(|e| e.to_string())?;
+        let report = kinds::bodies::run(&plan, &mut record).map_err(|e| e.to_string())?;
         let last = record.samples().last().cloned().ok_or("no step was taken")?;
         Ok::<_, CaseError>((report, last))
     });

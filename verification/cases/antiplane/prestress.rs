@@ -3,7 +3,7 @@
 use crate::cases::seas;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity_cycles::Layout;
-use asperity_driver::fault::Plan;
+use asperity_plan::faults::Plan;
 
 use super::simulate;
 

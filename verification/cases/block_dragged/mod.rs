@@ -105,7 +105,7 @@ fn row(name: &str, values: &[f64], reference: &[f64], done: &Done) -> [String; 5
         name.to_owned(),
         text.join(", "),
         format!("{error:.3}"),
-        done.report.counts.iterations.to_string(),
+        done.report.counts.operations.iterations.to_string(),
         done.cost.wall.map_or_else(String::new, |w| format!("{w:.2}")),
     ]
 }

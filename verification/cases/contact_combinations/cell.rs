@@ -1,9 +1,11 @@
 //! One combination: its scene, its outcome, and the strength of its friction law.
 
 use crate::CaseError;
-use asperity_driver::report::Outcome;
-use asperity_driver::{plan, run, scene};
+use asperity::kinds;
 use asperity_output::Recorder;
+use asperity_plan::bodies;
+use asperity_plan::reading::scene;
+use asperity_run::report::Outcome;
 use asperity_vary::Change::{self, Add, With};
 use asperity_vary::SceneText;
 use std::path::Path;
@@ -342,13 +344,13 @@ impl Cell {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
         let planned = scene::read_in(&text, folder)
             .map_err(|e| e.to_string())
-            .and_then(|scene| plan::plan(&scene).map_err(|e| e.to_string()));
+            .and_then(|scene| bodies::plan(&scene).map_err(|e| e.to_string()));
         let plan = match planned {
             Ok(plan) => plan,
             Err(reason) => return Ok(End::Refused(reason.lines().next().unwrap_or_default().to_owned())),
         };
         let mut record = Recorder::new();
-        let report = run::run(&plan, &mut record)?;
+        let report = kinds::bodies::run(&plan, &mut record)?;
         if let Outcome::Stopped { reason, .. } = report.outcome {
             return Ok(End::Stopped(reason));
         }

@@ -6,7 +6,7 @@ mod table;
 use super::texts::simulate;
 use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
-use asperity_driver::scene;
+use asperity_plan::reading::scene;
 use asperity_vary::SceneText;
 use cell::{Bodies, Cell, ENFORCEMENTS, Face, Kinematics, LAWS, Law, Pairing, Start};
 use table::{Table, claims, distance};

@@ -4,17 +4,17 @@ use crate::CaseError;
 use asperity_contact::{
     Enforcement, Interface, InterfaceSpec, MeasureKind, Segment, SlavePoint, Sliding, SurfaceNode,
 };
-use asperity_driver::plan::{self, AnyPlan, Plan, PlannedInterface, interface_nodes};
-use asperity_driver::scene::model::{EnforcementKind, Measure};
 use asperity_fem::mesh::MeshFace;
 use asperity_fem::term::{Instant, Linearized};
 use asperity_friction::law::RateBounds;
+use asperity_plan::bodies::{self, AnyPlan, Plan, PlannedInterface, interface_nodes};
+use asperity_plan::reading::scene::model::{EnforcementKind, Measure};
 use nalgebra::DMatrix;
 
 /// Condition number, in the 2-norm, of the tangent in stick on the matching mesh. Uzawa's method has that of the penalty method.
 pub fn of(kind: EnforcementKind, factor: f64) -> Result<f64, CaseError> {
     let (scene, _) = super::scene(kind, factor, Measure::NodeToPoint, 4)?;
-    let AnyPlan::Two(plan) = plan::plan(&scene).map_err(|e| e.to_string())? else {
+    let AnyPlan::Two(plan) = bodies::plan(&scene).map_err(|e| e.to_string())? else {
         return Err("the scene is not plane".into());
     };
     let planned = &plan.problem.interfaces[0];

@@ -4,12 +4,16 @@
 mod condition;
 
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_driver::report::Outcome;
-use asperity_driver::run::RunReport;
-use asperity_driver::scene::model::{BlockMesh, EnforcementKind, Loading, Measure, MeshSource, Scene, here};
-use asperity_driver::scene::units::{Penalty, Penetration};
-use asperity_driver::{plan, run as driver_run, scene as reader};
+use asperity::kinds;
+use asperity::kinds::bodies::RunReport;
 use asperity_output::Recorder;
+use asperity_plan::bodies;
+use asperity_plan::reading::scene as reader;
+use asperity_plan::reading::scene::model::{
+    BlockMesh, EnforcementKind, Loading, Measure, MeshSource, Scene, here,
+};
+use asperity_plan::reading::scene::units::{Penalty, Penetration};
+use asperity_run::report::Outcome;
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -120,9 +124,9 @@ fn scene(
 
 fn run_one(kind: EnforcementKind, factor: f64, measure: Measure, lower: usize) -> Result<Found, CaseError> {
     let (scene, springs) = scene(kind, factor, measure, lower)?;
-    let plan = plan::plan(&scene).map_err(|e| e.to_string())?;
+    let plan = bodies::plan(&scene).map_err(|e| e.to_string())?;
     let mut record = Recorder::new();
-    let (report, cost) = Cost::of(|| driver_run::run(&plan, &mut record));
+    let (report, cost) = Cost::of(|| kinds::bodies::run(&plan, &mut record));
     let report = report?;
     if let Outcome::Stopped { reason, .. } = &report.outcome {
         return Err(format!("stopped: {reason}").into());
@@ -148,7 +152,7 @@ fn run_one(kind: EnforcementKind, factor: f64, measure: Measure, lower: usize) -
         springs: against(&springs),
         penetration: report.steps.iter().map(|s| s.penetration).fold(0.0, f64::max),
         press: (press.iterations, press.augmentations),
-        all: (report.counts.iterations, report.counts.augmentations),
+        all: (report.counts.operations.iterations, report.counts.operations.augmentations),
         sliding: last.augmentations,
         cost,
         report,

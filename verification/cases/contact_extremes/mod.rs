@@ -3,8 +3,10 @@
 use super::contact_hard::scenes::{Done, Pair, block};
 use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
-use asperity_driver::{plan, run as driver_run, scene};
+use asperity::kinds;
 use asperity_output::Recorder;
+use asperity_plan::bodies;
+use asperity_plan::reading::scene;
 use asperity_vary::SceneText;
 use std::fmt::Write;
 
@@ -89,7 +91,7 @@ fn invariance(ledger: &mut Ledger) -> Result<(), CaseError> {
         )?;
         ledger
             .claim(format!("Newton iterations in mm and MPa over those in m and Pa, {measure}"))
-            .value(mm.report.counts.iterations as f64 / si.report.counts.iterations as f64)
+            .value(mm.report.counts.operations.iterations as f64 / si.report.counts.operations.iterations as f64)
             .equals(1.0)
             .absolute(0.05)
             .evidence(Evidence::Exact, "the problem is the same")
@@ -160,10 +162,10 @@ fn renumbered(pair: &Pair) -> Result<(String, Recorder, Vec<usize>), CaseError> 
     pair.meshes[1] = "mesh.gmsh = { file = \"upper.msh\" }".into();
     let mut scene = scene::read(&pair.text()).map_err(|e| e.to_string())?;
     scene.folder.clone_from(&folder);
-    let plan = plan::plan(&scene).map_err(|e| e.to_string());
+    let plan = bodies::plan(&scene).map_err(|e| e.to_string());
     std::fs::remove_dir_all(&folder)?;
     let mut record = Recorder::new();
-    driver_run::run(&plan?, &mut record)?;
+    kinds::bodies::run(&plan?, &mut record)?;
     let positions = &record.setup().interfaces[0].positions;
     let mut order: Vec<usize> = (0..positions.len()).collect();
     order.sort_by(|a, b| positions[*a][0].total_cmp(&positions[*b][0]));

@@ -141,7 +141,7 @@ impl Way {
             ratio,
             normal: mean(&normal),
             cost: done.cost,
-            iterations: done.report.counts.iterations,
+            iterations: done.report.counts.operations.iterations,
         })
     }
 

@@ -1,11 +1,13 @@
 //! Two bodies with one interface, as scenes a user could write.
 
 use crate::{CaseError, Cost};
-use asperity_driver::report::Outcome;
-use asperity_driver::run::RunReport;
-use asperity_driver::{plan, run, scene};
+use asperity::kinds;
+use asperity::kinds::bodies::RunReport;
 use asperity_output::Recorder;
 use asperity_output::view::InterfaceFields;
+use asperity_plan::bodies;
+use asperity_plan::reading::scene;
+use asperity_run::report::Outcome;
 
 /// A scene of two bodies; the strings are parts of its file.
 #[derive(Clone, Debug)]
@@ -116,9 +118,9 @@ impl Done {
     /// Runs the scene in `text`.
     pub fn of(text: &str) -> Result<Self, CaseError> {
         let scene = scene::read(text).map_err(|e| format!("{e}\n{text}"))?;
-        let plan = plan::plan(&scene).map_err(|e| e.to_string())?;
+        let plan = bodies::plan(&scene).map_err(|e| e.to_string())?;
         let mut record = Recorder::new().with_bodies().at_all_nodes();
-        let (report, cost) = Cost::of(|| run::run(&plan, &mut record));
+        let (report, cost) = Cost::of(|| kinds::bodies::run(&plan, &mut record));
         let report = report?;
         let cost = cost.counts(&report.counts);
         Ok(Self { scene: text.to_owned(), report, record, cost })

@@ -4,14 +4,16 @@ mod overhang;
 mod sliver;
 
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::report::Outcome;
-use asperity_driver::run::RunReport;
-use asperity_driver::scene::model::{
+use asperity::kinds;
+use asperity::kinds::bodies::RunReport;
+use asperity_output::Recorder;
+use asperity_plan::bodies;
+use asperity_plan::reading::scene as reader;
+use asperity_plan::reading::scene::model::{
     BlockMesh, Condition, Kinematics, Measure, MeshSource, Motion, Scene, Sliding, here,
 };
-use asperity_driver::scene::units::{Length, Penalty};
-use asperity_driver::{plan, run as driver_run, scene as reader};
-use asperity_output::Recorder;
+use asperity_plan::reading::scene::units::{Length, Penalty};
+use asperity_run::report::Outcome;
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -82,9 +84,9 @@ fn base(
 }
 
 fn simulate(scene: &Scene, exact: f64) -> Result<Done, CaseError> {
-    let plan = plan::plan(scene).map_err(|e| e.to_string())?;
+    let plan = bodies::plan(scene).map_err(|e| e.to_string())?;
     let mut record = Recorder::new().with_bodies();
-    let (report, cost) = Cost::of(|| driver_run::run(&plan, &mut record));
+    let (report, cost) = Cost::of(|| kinds::bodies::run(&plan, &mut record));
     let report = report?;
     match &report.outcome {
         Outcome::Completed => {

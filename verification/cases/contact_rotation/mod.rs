@@ -138,7 +138,7 @@ fn total_form(
         what.to_owned(),
         format!("{error:.1e}"),
         format!("{traction:.1e}"),
-        done.report.counts.iterations.to_string(),
+        done.report.counts.operations.iterations.to_string(),
     ])
 }
 

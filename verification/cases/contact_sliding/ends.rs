@@ -59,7 +59,7 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
             format!("{:.1e}", free.work / free.moved),
             format!("{:.3}", rubbed.work),
             format!("{:.3}", rubbed.dissipated),
-            smooth.report.counts.iterations.to_string(),
+            smooth.report.counts.operations.iterations.to_string(),
             smooth.report.counts.rejected.to_string(),
         ]);
     }

@@ -86,7 +86,7 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
             v.name.to_owned(),
             format!("{:.2} %", 100.0 * steady.oscillation),
             format!("{:.4}", steady.ratio),
-            done.report.counts.iterations.to_string(),
+            done.report.counts.operations.iterations.to_string(),
             done.report.counts.rejected.to_string(),
             done.cost.wall.map_or_else(String::new, |w| format!("{w:.2}")),
         ]);

@@ -3,7 +3,7 @@
 use super::MEASURES;
 use crate::cases::texts::{attempt, simulate};
 use crate::{Capability, CaseError, Evidence, Ledger};
-use asperity_driver::report::Outcome;
+use asperity_run::report::Outcome;
 use asperity_vary::SceneText;
 
 const SCENE: &str = include_str!("../../../scenes/slope.toml");

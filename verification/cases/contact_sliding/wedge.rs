@@ -35,7 +35,7 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
                 format!("{exact:.6}"),
                 format!("{last:.6}"),
                 format!("{error:.1e}"),
-                done.report.counts.iterations.to_string(),
+                done.report.counts.operations.iterations.to_string(),
             ]);
         }
     }

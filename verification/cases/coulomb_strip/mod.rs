@@ -82,7 +82,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         rows.push([
             name.to_owned(),
             done.report.counts.steps.to_string(),
-            done.report.counts.iterations.to_string(),
+            done.report.counts.operations.iterations.to_string(),
             done.report.counts.rejected.to_string(),
             done.cost.wall.map_or_else(String::new, |w| format!("{w:.3}")),
         ]);

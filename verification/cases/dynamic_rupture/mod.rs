@@ -160,7 +160,7 @@ fn drawn(ledger: &mut Ledger, found: &Rupture, reference: &Reference, (name, tit
     let budget = found.budget;
     ledger
         .claim(format!("{title}: missing energy over its largest part"))
-        .value(budget.missing().abs() / budget.largest())
+        .value(budget.energies().imbalance())
         .at_most(1e-13)
         .evidence(Evidence::Exact, "central differences keep the balance of energy but for rounding")
         .because("a step rounds by 1e-16, and some thousand steps at most by their sum")

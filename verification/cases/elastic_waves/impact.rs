@@ -64,7 +64,7 @@ fn collide() -> Result<Collision, CaseError> {
     let budget = last.budget();
     let mean = |v: &[f64]| v.iter().step_by(2).sum::<f64>() / half as f64;
     let after = [mean(&last.velocity()[..2 * half]), mean(&last.velocity()[2 * half..])];
-    Ok(Collision { history, after, missing: budget.missing().abs() / budget.largest(), overlap })
+    Ok(Collision { history, after, missing: budget.energies().imbalance(), overlap })
 }
 
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {

@@ -63,7 +63,7 @@ fn stand(n: usize) -> Result<Standing, CaseError> {
         let of = |(n, s): (usize, &f64)| (last.displacement()[2 * n] - amplitude * s).abs();
         shape.iter().enumerate().map(of).fold(0.0, f64::max) * omega
     };
-    let missing = budget.missing().abs() / budget.largest();
+    let missing = budget.energies().imbalance();
     let cost = cost.count("steps", last.steps() as f64).count("cells", n as f64);
     Ok(Standing {
         discrete: off(discrete),

@@ -5,9 +5,10 @@ use crate::cases::output_files::vtu::Fields;
 use crate::cases::waves::run;
 use crate::cases::written::Waves;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::dynamic::{self, AnyPlan};
-use asperity_driver::scene;
 use asperity_mechanics::{Pace, Spring};
+use asperity_plan::dynamics;
+use asperity_plan::dynamics::AnyPlan;
+use asperity_plan::reading::scene;
 
 /// Steps of both runs.
 const STEPS: usize = 1000;
@@ -72,7 +73,7 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
 /// The side drawn by a spring of 1 N/m whose far end moves at 1 m/s. Scenes have such springs in the ruptures of faults alone.
 fn drawn(ledger: &mut Ledger) -> Result<(), CaseError> {
     let scene = scene::read(DRAWN).map_err(|e| e.to_string())?;
-    let AnyPlan::Two(plan) = dynamic::plan(&scene).map_err(|e| e.to_string())? else {
+    let AnyPlan::Two(plan) = dynamics::plan(&scene).map_err(|e| e.to_string())? else {
         return Err("a scene in space".into());
     };
     let mut problem = plan.problem;

@@ -6,9 +6,10 @@ mod relaxing;
 mod spinning;
 
 use crate::{Capability, Case, CaseError, Ledger};
-use asperity_driver::dynamic::{self, AnyPlan};
-use asperity_driver::scene;
 use asperity_mechanics::dynamics::Problem;
+use asperity_plan::dynamics;
+use asperity_plan::dynamics::AnyPlan;
+use asperity_plan::reading::scene;
 use asperity_vary::SceneText;
 
 /// See the README.
@@ -31,7 +32,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 fn problem(scene: SceneText) -> Result<Problem<2>, CaseError> {
     let text = scene.text()?;
     let scene = scene::read(&text).map_err(|e| format!("{e}\nin\n{text}"))?;
-    match dynamic::plan(&scene).map_err(|e| e.to_string())? {
+    match dynamics::plan(&scene).map_err(|e| e.to_string())? {
         AnyPlan::Two(plan) => Ok(plan.problem),
         AnyPlan::Three(_) => Err("a scene in space".into()),
     }

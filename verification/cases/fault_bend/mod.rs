@@ -3,8 +3,9 @@
 use crate::cases::dislocation::{self, Stress};
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_cycles::{Event, Rupture};
-use asperity_driver::fault::Plan;
+use asperity_cycles::Rupture;
+use asperity_plan::faults::Plan;
+use asperity_run::Event;
 use asperity_vary::SceneText;
 use nalgebra::Complex;
 

@@ -4,7 +4,7 @@ use crate::cases::followed::Followed;
 use crate::cases::seas;
 use crate::cases::written::Written;
 use crate::{Capability, CaseError, Evidence, Ledger};
-use asperity_driver::fault::Plan;
+use asperity_plan::faults::Plan;
 use asperity_vary::SceneText;
 use std::fmt::Write as _;
 

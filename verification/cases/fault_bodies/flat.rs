@@ -3,7 +3,7 @@
 use super::{FAR, LAW, POISSON, ROCK, bent, drawn, material};
 use crate::cases::dislocation::{self, Stress};
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::fault::Plan;
+use asperity_plan::faults::Plan;
 use nalgebra::Complex;
 
 /// Length of the fault down its dip \[m\].

@@ -6,12 +6,10 @@ mod positions;
 mod section;
 mod unlike;
 
-use crate::cases::dislocation;
-use crate::cases::drawn;
 use crate::cases::fault_operator::matrix;
-use crate::cases::seas;
+use crate::cases::{dislocation, drawn, seas};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_driver::fault::Plan;
+use asperity_plan::faults::Plan;
 use asperity_vary::SceneText;
 use dislocation::Stress;
 use nalgebra::{Complex, DMatrix, DVector};

@@ -5,7 +5,7 @@ use crate::cases::dislocation::{self, Stress};
 use crate::cases::seas;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity_cycles::Moment;
-use asperity_driver::fault::Plan;
+use asperity_plan::faults::Plan;
 use nalgebra::Complex;
 use std::f64::consts::{FRAC_PI_3, TAU};
 use std::fmt::Write as _;

@@ -3,7 +3,7 @@
 use super::{A, WIDE, halves};
 use crate::cases::seas;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_driver::fault::Plan;
+use asperity_plan::faults::Plan;
 use std::f64::consts::LN_2;
 
 /// Shear moduli of the sides of smaller and larger x \[Pa\]: the softer one is the minus side.

@@ -2,12 +2,11 @@
 
 mod space;
 
-use crate::cases::drawn;
-use crate::cases::{fault_operator, seas};
+use crate::cases::{drawn, fault_operator, seas};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_cycles::operator::Form;
-use asperity_driver::fault::{Plan, plan_with};
-use asperity_driver::scene;
+use asperity_plan::faults::{Plan, plan_with};
+use asperity_plan::reading::scene;
 use asperity_vary::bp1::{BP1, bp1};
 
 /// See the README.

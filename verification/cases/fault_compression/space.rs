@@ -4,7 +4,7 @@ use crate::cases::fault_medium::triangles::{DISC, FROM_FILE, halved, planned, we
 use crate::cases::seas;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity_cycles::operator::Form;
-use asperity_driver::fault::Plan;
+use asperity_plan::faults::Plan;
 use asperity_vary::SceneText;
 
 /// Tolerances of the compression relative to each block.

@@ -3,7 +3,7 @@
 use crate::cases::okada::Rectangle;
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_driver::fault::{BodiesView, Plan};
+use asperity_plan::faults::{BodiesView, Plan};
 use std::collections::BTreeMap;
 
 /// See the README.

@@ -3,7 +3,7 @@
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_cycles::Layout;
-use asperity_driver::fault::Plan;
+use asperity_plan::faults::Plan;
 
 /// See the README.
 pub const CASE: Case = Case {

@@ -3,9 +3,8 @@
 use crate::cases::seas::{self, Found, YEAR};
 use crate::cases::slider_scene;
 use crate::{Axis, Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
-use asperity_cycles::slider as cycles;
-use asperity_cycles::{Balance, Episode};
-use asperity_driver::slider::Entry;
+use asperity::kinds::sliders::Entry;
+use asperity_cycles::{Balance, Episode, slider as cycles};
 use asperity_vary::SceneText;
 
 /// See the README.

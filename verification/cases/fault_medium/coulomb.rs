@@ -6,7 +6,7 @@ use crate::cases::dislocation::{self, Stress};
 use crate::cases::seas;
 use crate::cases::written::Written;
 use crate::{CaseError, Evidence, Ledger};
-use asperity_driver::fault::PointView;
+use asperity_plan::faults::PointView;
 use nalgebra::Complex;
 use serde::Deserialize;
 use std::f64::consts::FRAC_PI_3;

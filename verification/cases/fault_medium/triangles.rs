@@ -5,8 +5,8 @@ use crate::cases::seas;
 use crate::cases::written::Folder;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity_cycles::operator::Form;
-use asperity_driver::fault::{Plan, plan_with};
-use asperity_driver::scene;
+use asperity_plan::faults::{Plan, plan_with};
+use asperity_plan::reading::scene;
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
 

@@ -4,9 +4,10 @@ mod ramps;
 
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use asperity::kinds::faults::Report;
 use asperity_cycles::{Balance, OPENING};
-use asperity_driver::fault::{Plan, Report};
 use asperity_ode::{Control, Outcome};
+use asperity_plan::faults::Plan;
 use asperity_vary::SceneText;
 
 /// See the README.

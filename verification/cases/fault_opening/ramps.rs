@@ -3,7 +3,7 @@
 use super::{A, PRESSED, YOUNG, block};
 use crate::cases::written::Written;
 use crate::{Capability, CaseError, Evidence, Ledger};
-use asperity_driver::report::Outcome;
+use asperity_run::report::Outcome;
 
 /// Height of the blocks \[m\], and duration of the runs \[s\].
 const HEIGHT: f64 = 600.0;

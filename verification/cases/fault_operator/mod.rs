@@ -1,9 +1,8 @@
 //! Tractions caused by slip in plane strain: a crack, a fault that slips uniformly, and dipping faults below a free surface.
 
-use crate::cases::drawn;
-use crate::cases::{dislocation, seas};
+use crate::cases::{dislocation, drawn, seas};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_driver::fault::Plan;
+use asperity_plan::faults::Plan;
 use dislocation::Stress;
 use nalgebra::{Complex, DMatrix, DVector};
 

@@ -4,9 +4,11 @@ use super::ROUNDING;
 use crate::cases::seas;
 use crate::cases::written::Written;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
-use asperity_cycles::{Balance, Event, Moment, Rupture};
-use asperity_driver::fault::{Plan, Report};
+use asperity::kinds::faults::Report;
+use asperity_cycles::{Balance, Moment, Rupture};
 use asperity_ode::Control;
+use asperity_plan::faults::Plan;
+use asperity_run::Event;
 use asperity_vary::SceneText;
 
 const BLOCK: &str = include_str!("block.toml");

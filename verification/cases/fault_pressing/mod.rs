@@ -5,7 +5,7 @@ pub(super) mod block;
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_cycles::Layout;
-use asperity_driver::fault::Plan;
+use asperity_plan::faults::Plan;
 
 /// See the README.
 pub const CASE: Case = Case {

@@ -2,7 +2,7 @@
 
 use super::{Blocks, ROCK};
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::fault::Plan;
+use asperity_plan::faults::Plan;
 
 /// Rate of the plates \[m/s\].
 const PLATES: f64 = 1e-9;

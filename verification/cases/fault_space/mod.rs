@@ -5,7 +5,7 @@ mod mirrored;
 use crate::cases::fault_operator::matrix;
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_driver::fault::Plan;
+use asperity_plan::faults::Plan;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::fmt::Write as _;

@@ -3,8 +3,8 @@
 use super::{CRITICAL, FIRST, RATE, SHEAR_MODULUS, THICKNESS, Variant, WIDTH};
 use crate::cases::seas;
 use crate::{CaseError, Cost, Evidence, Ledger};
-use asperity_driver::checks::FaultCheck;
-use asperity_driver::fault::Plan;
+use asperity_plan::faults::Plan;
+use asperity_plan::shared::checks::FaultCheck;
 
 /// Checks of the only fault of a plan.
 fn only(plan: Plan) -> Result<FaultCheck, CaseError> {

@@ -3,8 +3,8 @@
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_cycles::{Equations, Layout, run as integrate};
-use asperity_driver::fault::Plan;
 use asperity_ode::{Clock, Outcome, Problem};
+use asperity_plan::faults::Plan;
 use asperity_vary::SceneText;
 use modes::Mode;
 use nalgebra::{Complex, Matrix2};

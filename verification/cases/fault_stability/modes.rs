@@ -1,7 +1,7 @@
 //! Modes of slip: eigenvectors of the operator of the bodies under the interface mass.
 
 use crate::CaseError;
-use asperity_driver::fault::Plan;
+use asperity_plan::faults::Plan;
 use nalgebra::DMatrix;
 use std::f64::consts::PI;
 

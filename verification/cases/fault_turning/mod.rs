@@ -7,7 +7,7 @@ mod surface;
 use crate::cases::followed::Followed;
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
-use asperity_driver::fault::Plan;
+use asperity_plan::faults::Plan;
 use asperity_vary::SceneText;
 use reference::{Fault, Slid};
 

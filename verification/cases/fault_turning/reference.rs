@@ -2,8 +2,8 @@
 
 use crate::CaseError;
 use asperity_cycles::operator::Operator;
-use asperity_driver::fault::Plan;
 use asperity_ode::{Clock, Control, Method, Occurrence, Options, Outcome, Problem, Sink, Step, integrate};
+use asperity_plan::faults::Plan;
 
 /// Friction of the scene: f0, a, b, L \[m\] and V0 \[m/s\].
 const F0: f64 = 0.6;

@@ -2,7 +2,7 @@
 
 use crate::cases::seas;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::fault::Plan;
+use asperity_plan::faults::Plan;
 use std::f64::consts::TAU;
 
 const POISSON: f64 = 0.25;

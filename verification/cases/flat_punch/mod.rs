@@ -2,7 +2,7 @@
 
 use super::hertz::{self, Tractions};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::scene::model::{Measure, Scene, Sliding};
+use asperity_plan::reading::scene::model::{Measure, Scene, Sliding};
 use asperity_vary::SceneText;
 use std::f64::consts::PI;
 

@@ -2,8 +2,8 @@
 
 use super::slider::{self, Kind, Set};
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
+use asperity::kinds::sliders::Entry;
 use asperity_cycles::slider::{self as cycles, Now};
-use asperity_driver::slider::Entry;
 use asperity_friction::Failure;
 use asperity_friction::component::Component;
 use asperity_friction::evolution::stateless::Stateless;

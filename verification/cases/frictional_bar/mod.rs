@@ -56,7 +56,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
                 format!("{:.1e}", profile.nodal_error()),
                 format!("{:.1e}", profile.error()),
                 format!("{}", profile.front()),
-                done.report.counts.iterations.to_string(),
+                done.report.counts.operations.iterations.to_string(),
                 done.cost.wall.map_or_else(String::new, |w| format!("{w:.3}")),
             ]);
             finest = Some((done, profile));

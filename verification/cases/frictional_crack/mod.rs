@@ -1,15 +1,17 @@
 //! Cracks in a plane: closed under compression with friction, and opened by pressure.
 
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_driver::report::Outcome;
-use asperity_driver::run::RunReport;
-use asperity_driver::scene::model::{
-    FaultMesh, InitialStress, Interface, Measure, MeshSource, Scene, SpacingSpec, here,
-};
-use asperity_driver::scene::units::{Length, Penalty};
-use asperity_driver::{plan, run as driver_run, scene as reader};
+use asperity::kinds;
+use asperity::kinds::bodies::RunReport;
 use asperity_output::Recorder;
 use asperity_output::view::InterfaceFields;
+use asperity_plan::bodies;
+use asperity_plan::reading::scene as reader;
+use asperity_plan::reading::scene::model::{
+    FaultMesh, InitialStress, Interface, Measure, MeshSource, Scene, SpacingSpec, here,
+};
+use asperity_plan::reading::scene::units::{Length, Penalty};
+use asperity_run::report::Outcome;
 use std::f64::consts::PI;
 
 /// See the README.
@@ -104,8 +106,8 @@ struct Done {
 fn simulate(scene: &Scene) -> Result<Done, CaseError> {
     let mut record = Recorder::new();
     let (report, cost) = Cost::of(|| {
-        let plan = plan::plan(scene).map_err(|e| e.to_string())?;
-        driver_run::run(&plan, &mut record).map_err(|e| e.to_string())
+        let plan = bodies::plan(scene).map_err(|e| e.to_string())?;
+        kinds::bodies::run(&plan, &mut record).map_err(|e| e.to_string())
     });
     let report = report?;
     if let Outcome::Stopped { reason, .. } = &report.outcome {

@@ -2,9 +2,9 @@
 
 use crate::cases::seas;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger, Plot, Series};
+use asperity::kinds::faults::Report;
 use asperity_cycles::Balance;
 use asperity_cycles::heat::{PRESSURE, TEMPERATURE};
-use asperity_driver::fault::Report;
 use asperity_ode::{Control, Outcome};
 use asperity_vary::SceneText;
 

@@ -2,7 +2,7 @@
 
 use super::hertz::{self, Done, Hertz, Tractions, compliance};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
-use asperity_driver::scene::model::{Measure, Sliding};
+use asperity_plan::reading::scene::model::{Measure, Sliding};
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -144,7 +144,7 @@ impl Ball {
             percent(self.shear_error()),
             format!("{:.3}", self.edge()[0] * 1e3),
             format!("{:.3}", self.edge()[1] * 1e3),
-            format!("{}", self.done.report.counts.iterations),
+            format!("{}", self.done.report.counts.operations.iterations),
             format!("{:.2}", self.done.cost.wall.unwrap_or(f64::NAN)),
         ]
     }

@@ -2,7 +2,7 @@
 
 use super::hertz::{self, Done, Hertz, Tractions, compliance};
 use crate::{Capability, Case, CaseError, Evidence, Floor, Ledger};
-use asperity_driver::scene::model::{Measure, MeshSource, Scene, Sliding};
+use asperity_plan::reading::scene::model::{Measure, MeshSource, Scene, Sliding};
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -81,7 +81,7 @@ fn table(ledger: &mut Ledger) -> Result<(), CaseError> {
                     percent(r.peak()),
                     percent(r.l2(&r.at.p)),
                     percent(r.l2(&r.at.coefficient)),
-                    format!("{}", r.done.report.counts.iterations),
+                    format!("{}", r.done.report.counts.operations.iterations),
                     format!("{:.2}", r.done.cost.wall.unwrap_or(f64::NAN)),
                 ]);
             }

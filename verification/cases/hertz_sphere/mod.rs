@@ -2,7 +2,7 @@
 
 use super::hertz::{self, Hertz, Tractions, compliance};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::scene::model::{Measure, Sliding};
+use asperity_plan::reading::scene::model::{Measure, Sliding};
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -44,7 +44,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
                 percent(peak),
                 percent(at.peak() / exact.p0 - 1.0),
                 percent(l2),
-                format!("{}", done.report.counts.iterations),
+                format!("{}", done.report.counts.operations.iterations),
                 format!("{:.2}", done.cost.wall.unwrap_or(f64::NAN)),
             ]);
             if size == FINEST {

@@ -59,12 +59,12 @@ pub fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         .cost(&done.cost)
         .record();
     let times = done.record.times();
-    let curve = |pick: fn(&asperity_output::view::EnergyParts) -> f64| -> Vec<(f64, f64)> {
-        times.iter().zip(done.record.energies()).map(|(t, e)| (*t, pick(e))).collect()
+    let curve = |name: &str| -> Vec<(f64, f64)> {
+        times.iter().copied().zip(done.record.energy(name).unwrap_or_default()).collect()
     };
     let plot = Plot::xy("a block slides to rest", "time [s]", "energy [J/m]")
-        .series(Series::line("kinetic", &curve(|e| e.kinetic)))
-        .series(Series::line("friction", &curve(|e| e.friction)));
+        .series(Series::line("kinetic", &curve("kinetic")))
+        .series(Series::line("friction", &curve("friction")));
     ledger.plot(plot);
     Ok(())
 }

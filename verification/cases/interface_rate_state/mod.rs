@@ -4,15 +4,15 @@ use super::slider::{self, Kind};
 use super::texts::{self, Done};
 use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Evidence, Floor, Ledger, Plot, Series};
+use asperity::kinds::sliders::Entry;
 use asperity_cycles::Thresholds;
 use asperity_cycles::slider::{self as cycles, Now, Problem, Rows};
-use asperity_driver::report::{Outcome, Stop};
-use asperity_driver::slider::Entry;
 use asperity_friction::evolution::{ageing::Ageing, slip::Slip};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider, Sliding};
 use asperity_friction::strength::{Parameters, regularised::Regularised};
 use asperity_ode::Method;
+use asperity_run::report::{Outcome, Stop};
 use asperity_vary::Change::{self, Add};
 use asperity_vary::SceneText;
 use std::sync::Arc;
@@ -266,14 +266,14 @@ fn work(ledger: &mut Ledger) -> Result<(), CaseError> {
                 let done = texts::simulate(&with(scene, kind, "node-to-point", "small", &time)?)?;
                 let error = error(&done, &reference(kind, stiffness(HEIGHT), &done)?);
                 let counts = &done.report.counts;
-                points.push((error, counts.iterations as f64));
+                points.push((error, counts.operations.iterations as f64));
                 rows.push([
                     name.clone(),
                     rule.to_string(),
                     format!("2e-{power}"),
                     format!("{error:.2e}"),
                     format!("{}", counts.steps),
-                    format!("{}", counts.iterations),
+                    format!("{}", counts.operations.iterations),
                 ]);
             }
             needed.push(at(&points, DEFAULT).ok_or("no setting reaches the error")?);

@@ -6,7 +6,7 @@ mod shapes;
 use crate::cases::slider_scene;
 use crate::cases::written::{self, Folder, Waves, Written};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::slider;
+use asperity::kinds;
 use scenes::{AREA, DAMPING, DURATION, HEIGHT, LAW, MODULUS, NORMAL, SHEAR, STEPS, TOLERANCE};
 use serde_json::Value;
 
@@ -117,12 +117,12 @@ fn inertia() -> Result<Ran, CaseError> {
 
 fn block(rate: f64) -> Result<Ran, CaseError> {
     let (problem, files) = (slider_scene::plan(&scenes::block(rate))?, Folder::new()?);
-    let mut histories = slider::Histories::create(files.path(), &problem)?;
+    let mut histories = kinds::sliders::Histories::create(files.path(), &problem)?;
     let (run, cost) = Cost::of(|| asperity_cycles::slider::run(&problem, &mut histories));
     let run = run?;
     histories.finish()?;
-    let report = slider::Report::new(&problem, &run);
-    std::fs::write(files.path().join("events.csv"), slider::csv(&report.events))?;
+    let report = kinds::sliders::Report::new(&problem, &run);
+    std::fs::write(files.path().join("events.csv"), kinds::sliders::csv(&report.events))?;
     Ok(Ran { kind: "a slider", files, report: serde_json::to_value(report)?, cost })
 }
 

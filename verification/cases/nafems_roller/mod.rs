@@ -2,7 +2,7 @@
 
 use super::hertz::{self, Hertz, compliance};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
-use asperity_driver::scene::model::{Measure, Sliding, here};
+use asperity_plan::reading::scene::model::{Measure, Sliding, here};
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -46,7 +46,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
             percent(fit.p0 / exact.p0 - 1.0),
             percent(at.peak() / exact.p0 - 1.0),
             percent(l2),
-            format!("{}", done.report.counts.iterations),
+            format!("{}", done.report.counts.operations.iterations),
             format!("{:.2}", done.cost.wall.unwrap_or(f64::NAN)),
         ]);
         peaks.push(at.peak() / exact.p0);

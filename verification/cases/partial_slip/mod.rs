@@ -2,7 +2,7 @@
 
 use super::hertz::{self, Done, Hertz, Tractions, compliance};
 use crate::{Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
-use asperity_driver::scene::model::{Measure, Motion, Scene, Sliding, here};
+use asperity_plan::reading::scene::model::{Measure, Motion, Scene, Sliding, here};
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -110,7 +110,7 @@ impl Sheared {
             format!("{:.2}", 100.0 * self.error()),
             format!("{:.3}", self.edge()[0] * 1e3),
             format!("{}", counts.steps),
-            format!("{}", counts.iterations),
+            format!("{}", counts.operations.iterations),
             format!("{:.2}", self.done.cost.wall.unwrap_or(f64::NAN)),
         ]
     }

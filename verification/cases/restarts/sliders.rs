@@ -4,11 +4,11 @@ use super::Parts;
 use crate::cases::programs;
 use crate::cases::written::Folder;
 use crate::{CaseError, Cost};
+use asperity::checkpoint::{self, Pauses};
+use asperity::keep::{Keeper, Place};
+use asperity::kinds::sliders::Outputs;
 use asperity_cycles::slider::{Problem, SliderRun, resume};
-use asperity_driver::checkpoint::{self, Pauses};
-use asperity_driver::keep::{Keeper, Place};
-use asperity_driver::slider::Outputs;
-use asperity_driver::slider_planner;
+use asperity_plan::sliders::planner;
 use asperity_vary::Change::{self, Add, With};
 use asperity_vary::SceneText;
 use std::path::Path;
@@ -46,8 +46,8 @@ pub fn run() -> Result<Vec<Parts>, CaseError> {
     let few = With("events.stop_after", "3");
     let of = |(name, changes): (&'static str, Vec<Change<'_>>)| {
         let scene = SceneText::new(include_str!("../../../scenes/spring-slider.toml"));
-        let plan = slider_planner::read(&scene.changed(&changes).changed(&[few]).text()?)
-            .map_err(|e| e.to_string())?;
+        let plan =
+            planner::read(&scene.changed(&changes).changed(&[few]).text()?).map_err(|e| e.to_string())?;
         in_parts(name, &Problem { restart: STEPS, ..plan.problem })
     };
     scenes.into_iter().map(of).collect()

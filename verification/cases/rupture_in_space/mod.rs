@@ -129,7 +129,7 @@ pub(crate) fn energy(ledger: &mut Ledger, name: &str, found: &Rupture) {
     let budget = found.budget;
     ledger
         .claim(format!("{name}: missing energy over its largest part"))
-        .value(budget.missing().abs() / budget.largest())
+        .value(budget.energies().imbalance())
         .at_most(1e-13)
         .evidence(Evidence::Exact, "central differences keep the balance of energy but for rounding")
         .because("a step rounds by 1e-16, and some thousand steps at most by their sum")

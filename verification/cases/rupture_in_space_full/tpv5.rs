@@ -5,8 +5,9 @@
 
 use crate::cases::rupture_in_space::{Reference, Rupture, SOURCE, follow, times_at};
 use crate::{CaseError, Evidence, Ledger, Plot, Series};
-use asperity_driver::dynamic::{self, AnyPlan};
-use asperity_driver::scene;
+use asperity_plan::dynamics;
+use asperity_plan::dynamics::AnyPlan;
+use asperity_plan::reading::scene;
 use asperity_vary::SceneText;
 
 const SCENE: &str = include_str!("../../../scenes/tpv5.toml");
@@ -26,7 +27,7 @@ const ALONG: [f64; 2] = [2e3, 4.5e3];
 fn run(text: SceneText) -> Result<Rupture, CaseError> {
     let text = text.text()?;
     let scene = scene::read(&text).map_err(|e| format!("{e}\nin\n{text}"))?;
-    match dynamic::plan(&scene).map_err(|e| e.to_string())? {
+    match dynamics::plan(&scene).map_err(|e| e.to_string())? {
         AnyPlan::Three(plan) => {
             let at = plan.points.iter().map(|p| [p.at[2], p.at[1] + MIDDLE]).collect();
             follow(&plan.problem, at, &[])

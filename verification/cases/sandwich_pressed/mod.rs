@@ -151,7 +151,7 @@ fn frictional(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (h, reference) in [(1.25, 9.50709), (0.625, 9.499566)] {
         let mut scene = sandwich::frictional(sandwich::size(sandwich::base()?, h));
         scene.stages.truncate(1);
-        scene.stages[0].steps = Some(asperity_driver::scene::model::here(10));
+        scene.stages[0].steps = Some(asperity_plan::reading::scene::model::here(10));
         let (run, cost) = Cost::of(|| sandwich::simulate(&scene));
         let run = run?;
         let cost = cost.counts(&run.report.counts);

@@ -240,7 +240,7 @@ fn variants(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut scene = sandwich::tolerance(sandwich::base()?, 1e-8);
     for interface in scene.interfaces.values_mut() {
         interface.sliding =
-            asperity_driver::scene::model::here(asperity_driver::scene::model::Sliding::Finite);
+            asperity_plan::reading::scene::model::here(asperity_plan::reading::scene::model::Sliding::Finite);
     }
     let finite = sandwich::simulate(&scene)?;
     for (name, run, stress, slips) in [

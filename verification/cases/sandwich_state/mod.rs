@@ -3,9 +3,10 @@
 use crate::cases::seas::{self, Found};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_cycles::operator::Dense;
-use asperity_cycles::{Event, Loading, Rupture, run as integrate};
-use asperity_driver::fault::Plan;
+use asperity_cycles::{Loading, Rupture, run as integrate};
 use asperity_fem::table::Table;
+use asperity_plan::faults::Plan;
+use asperity_run::Event;
 use asperity_vary::SceneText;
 
 /// See the README.

@@ -2,7 +2,7 @@
 
 use super::sandwich::{self, PRESSED, Run, Scene};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Floor, Ledger, Plot, Series};
-use asperity_driver::scene::model::{Path, Rule, here};
+use asperity_plan::reading::scene::model::{Path, Rule, here};
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -81,7 +81,7 @@ fn measure(scene: &Scene, step: f64, reference: &Reference) -> Result<(Setting, 
     let run = run?;
     let error = reference.error(&run)?;
     let wall = run.report.seconds.steps;
-    let setting = Setting { step, error, wall, solves: run.report.counts.solves as f64 };
+    let setting = Setting { step, error, wall, solves: run.report.counts.operations.solves as f64 };
     let cost = cost.counts(&run.report.counts);
     Ok((setting, run, cost))
 }

@@ -4,8 +4,8 @@ use super::{HEAD, square};
 use crate::cases::seas;
 use crate::cases::written::{self, Folder};
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::fault::{Plan, plan};
-use asperity_driver::scene;
+use asperity_plan::faults::{Plan, plan};
+use asperity_plan::reading::scene;
 
 /// Runs the claims on files.
 pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {

@@ -3,8 +3,8 @@
 use crate::cases::seas::{self, CONVERGED, Found};
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_cycles::Moment;
-use asperity_driver::fault::Plan;
 use asperity_ode::Method;
+use asperity_plan::faults::Plan;
 use asperity_vary::SceneText;
 use asperity_vary::bp1::{SIZE, bp1};
 

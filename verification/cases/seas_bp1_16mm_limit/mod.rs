@@ -1,8 +1,7 @@
 //! The limit in cell size and tolerance of the two events of the case `seas_bp1_16mm`.
 
-use crate::cases::drawn;
-use crate::cases::seas;
 use crate::cases::seas_bp1_16mm::{LAWS, Law, text};
+use crate::cases::{drawn, seas};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_ode::Method;
 

@@ -3,7 +3,7 @@
 use crate::cases::seas::{self, Found};
 use crate::{Axis, Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
 use asperity_cycles::{Balance, Episode, Moment};
-use asperity_driver::fault::Plan;
+use asperity_plan::faults::Plan;
 use asperity_vary::SceneText;
 
 /// See the README.

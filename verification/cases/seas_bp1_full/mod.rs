@@ -2,8 +2,8 @@
 
 use crate::cases::seas::{self, CONVERGED, Found};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
-use asperity_driver::fault::Plan;
 use asperity_ode::Method;
+use asperity_plan::faults::Plan;
 use asperity_vary::SceneText;
 use asperity_vary::bp1::{BP1, sized};
 

@@ -4,8 +4,8 @@ use super::{ABOVE, EVENTS};
 use crate::cases::seas::YEAR;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity_cycles::Equations;
-use asperity_driver::fault::Plan;
 use asperity_ode::{Clock, Control, Method, Occurrence, Options, Problem, Sink, Step};
+use asperity_plan::faults::Plan;
 use std::time::Instant;
 
 /// Wall time after which such a method is stopped \[s\]: some thirty times what the default needs to reach the third event.

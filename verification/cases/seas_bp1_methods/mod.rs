@@ -2,8 +2,8 @@
 
 use crate::cases::seas::{self, YEAR};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_driver::fault::Plan;
 use asperity_ode::{Method, Outcome};
+use asperity_plan::faults::Plan;
 use asperity_vary::bp1::BP1;
 use std::time::Instant;
 

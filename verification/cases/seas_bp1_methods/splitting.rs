@@ -6,8 +6,8 @@
 use super::{ABOVE, EVENTS, Setting};
 use crate::cases::seas::YEAR;
 use asperity_cycles::Equations;
-use asperity_driver::fault::Plan;
 use asperity_ode::{Clock, Problem};
+use asperity_plan::faults::Plan;
 use std::time::Instant;
 
 /// Vref and L of BP1 \[m/s\], \[m\].

@@ -2,8 +2,9 @@
 
 use crate::cases::seas::{self, Found, YEAR};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
-use asperity_cycles::{Event, Rupture};
-use asperity_driver::fault::Plan;
+use asperity_cycles::Rupture;
+use asperity_plan::faults::Plan;
+use asperity_run::Event;
 
 /// See the README.
 pub const CASE: Case = Case {

@@ -3,7 +3,7 @@
 use crate::cases::seas::{self, Found};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_cycles::Moment;
-use asperity_driver::fault::Plan;
+use asperity_plan::faults::Plan;
 use asperity_vary::SceneText;
 
 /// See the README.

@@ -3,7 +3,7 @@
 use crate::cases::seas::{self, Found, IN_SPACE, SpaceEvent, YEAR, independent_in_space};
 use crate::{Axis, Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
 use asperity_cycles::{Balance, Moment};
-use asperity_driver::fault::Plan;
+use asperity_plan::faults::Plan;
 use asperity_vary::SceneText;
 
 /// See the README.

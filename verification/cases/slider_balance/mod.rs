@@ -2,9 +2,9 @@
 
 use super::slider::{self, Kind, Set};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Series};
+use asperity::kinds::sliders::{Entry, Report};
 use asperity_cycles::Energy;
 use asperity_cycles::slider::{Now, Problem, SliderRun, run as integrate};
-use asperity_driver::slider::{Entry, Report};
 use asperity_ode::Outcome;
 
 /// See the README.

@@ -2,8 +2,8 @@
 
 use super::slider::{self, Independent, Kind, Set};
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
+use asperity::kinds::sliders::{Entry, Report};
 use asperity_cycles::slider::{self as cycles, Now};
-use asperity_driver::slider::{Entry, Report};
 use asperity_ode::Method;
 
 /// See the README.

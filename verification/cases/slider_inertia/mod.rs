@@ -2,8 +2,8 @@
 
 use super::slider::{MU0, V_REF, plan, work};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Series};
+use asperity::kinds::sliders::Entry;
 use asperity_cycles::slider::{self as cycles, Problem};
-use asperity_driver::slider::Entry;
 use asperity_friction::evolution::{ageing::Ageing, slip::Slip};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider, Sliding};

@@ -2,9 +2,9 @@
 
 use super::slider::{self, Independent, Set, V_REF};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use asperity::kinds::sliders::{Entry, Report};
 use asperity_cycles::Thresholds;
 use asperity_cycles::slider::{self as cycles, Now, Problem};
-use asperity_driver::slider::{Entry, Report};
 use asperity_friction::evolution::slip::Slip;
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::History;

@@ -3,8 +3,8 @@
 use super::slider::{self, Independent, MU0, V_REF};
 use super::slider_scene::{FRICTION, RATE, SLIP, STATE, TIME, files, plan, planned, text};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use asperity::kinds::sliders::Report;
 use asperity_cycles::slider::{self as cycles, Problem};
-use asperity_driver::slider::Report;
 use asperity_friction::evolution::definitions;
 use asperity_ode::Method;
 use asperity_vary::SceneText;

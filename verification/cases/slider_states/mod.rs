@@ -2,8 +2,8 @@
 
 use super::slider::{self, Independent, Kind, MU0, Set, V_REF};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Series};
+use asperity::kinds::sliders::{Entry, Report};
 use asperity_cycles::slider::Problem;
-use asperity_driver::slider::{Entry, Report};
 use asperity_friction::component::Component;
 use asperity_friction::evolution::slip::Slip;
 use asperity_friction::rate::RateLaw;

@@ -2,8 +2,8 @@
 
 use super::slider::{self, Kind, Set};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
+use asperity::kinds::sliders::{Entry, Report};
 use asperity_cycles::slider::{self as cycles, Problem};
-use asperity_driver::slider::{Entry, Report};
 use asperity_ode::{Method, Outcome};
 use std::time::Instant;
 

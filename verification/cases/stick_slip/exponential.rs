@@ -3,7 +3,7 @@
 use super::texts::{self, Done};
 use super::{COLUMN, NORMAL, PRESSED, WIDTH};
 use crate::{Capability, CaseError, Evidence, Ledger};
-use asperity_driver::catalogue::Entry;
+use asperity::catalogue::Entry;
 use asperity_vary::SceneText;
 
 /// Friction `mu0 + a ln(V/v_ref)`, with `v_ref` in \[m/s\].

@@ -2,21 +2,21 @@
 
 pub(super) mod exponential;
 
-use super::slider as sliders;
 use super::texts::{self, Done};
-use super::{fault_pressing, seas};
+use super::{fault_pressing, seas, slider as sliders};
 use crate::cases::drawn;
 use crate::ledger::Draft;
 use crate::{Capability, Case, CaseError, Evidence, Floor, Ledger, Plot, Series};
+use asperity::catalogue::Entry;
+use asperity::kinds::sliders::Entry as SliderEntry;
+use asperity_cycles::Rupture;
 use asperity_cycles::slider::{self as cycles, Now, Problem, Rows};
-use asperity_cycles::{Event, Rupture};
-use asperity_driver::catalogue::Entry;
-use asperity_driver::slider::Entry as SliderEntry;
 use asperity_friction::evolution::ageing::Ageing;
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider};
 use asperity_friction::strength::{Parameters, regularised::Regularised};
 use asperity_ode::Method;
+use asperity_run::Event;
 use asperity_vary::SceneText;
 use std::sync::Arc;
 

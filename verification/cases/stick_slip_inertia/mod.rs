@@ -4,8 +4,8 @@ use super::slider;
 use super::stick_slip::{self, WIDTH};
 use super::texts::{self, Done};
 use crate::{Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
+use asperity::kinds::sliders::Entry as SliderEntry;
 use asperity_cycles::slider as cycles;
-use asperity_driver::slider::Entry as SliderEntry;
 use asperity_friction::slider::History;
 use asperity_vary::SceneText;
 

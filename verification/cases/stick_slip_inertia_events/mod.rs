@@ -1,13 +1,12 @@
 //! Five events of the laboratory block with inertia, beside the same block with radiation damping.
 
-use super::slider;
-use super::stick_slip;
 use super::stick_slip_inertia::energies;
 use super::texts::{self, Done};
+use super::{slider, stick_slip};
 use crate::{Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
+use asperity::catalogue::Entry;
+use asperity::kinds::sliders::Entry as SliderEntry;
 use asperity_cycles::slider as cycles;
-use asperity_driver::catalogue::Entry;
-use asperity_driver::slider::Entry as SliderEntry;
 use asperity_friction::evolution::ageing::Ageing;
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider};

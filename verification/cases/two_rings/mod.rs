@@ -5,10 +5,12 @@ mod mesh;
 
 use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_driver::report::Outcome;
-use asperity_driver::scene::model::{Measure, here};
-use asperity_driver::{plan, run as driver_run, scene as reader};
+use asperity::kinds;
 use asperity_output::Recorder;
+use asperity_plan::bodies;
+use asperity_plan::reading::scene as reader;
+use asperity_plan::reading::scene::model::{Measure, here};
+use asperity_run::report::Outcome;
 use exact::{RADII, Rings};
 use std::f64::consts::FRAC_PI_2;
 
@@ -55,8 +57,8 @@ fn simulate(measure: Measure, order: usize, fine: usize, exact: &Rings) -> Resul
     scene.interfaces.get_mut("contact").ok_or("the scene has no contact")?.measure = here(measure);
     let mut record = Recorder::new().with_bodies();
     let (report, cost) = Cost::of(|| {
-        let plan = plan::plan(&scene).map_err(|e| e.to_string())?;
-        driver_run::run(&plan, &mut record).map_err(|e| e.to_string())
+        let plan = bodies::plan(&scene).map_err(|e| e.to_string())?;
+        kinds::bodies::run(&plan, &mut record).map_err(|e| e.to_string())
     });
     std::fs::remove_dir_all(&folder)?;
     let report = report?;

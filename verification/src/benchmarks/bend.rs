@@ -6,7 +6,7 @@ use super::parts::{Made, PER_PASCAL, Words, interpolated, reference};
 use super::rounded::digits;
 use crate::CaseError;
 use crate::cases::fault_bend;
-use asperity_driver::benchmark::{Place, Quantity};
+use asperity_reference::benchmark::{Place, Quantity};
 
 /// Error of scipy's quadrature and of the twelve digits in the file \[MPa\].
 const QUADRATURE: f64 = 1e-6;

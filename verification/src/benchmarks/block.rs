@@ -9,8 +9,8 @@ use crate::CaseError;
 use crate::cases::sandwich_state::{block, small_block};
 use crate::cases::seas;
 use asperity_cycles::Moment;
-use asperity_driver::benchmark::Quantity;
-use asperity_driver::fault::Plan;
+use asperity_plan::faults::Plan;
+use asperity_reference::benchmark::Quantity;
 
 /// Element size of this program's entry \[mm\].
 const SIZE: f64 = 0.3125;
@@ -131,7 +131,7 @@ struct Cycle {
 /// Mean friction over the points of a plan \[MPa\].
 fn friction(plan: &Plan, now: &Moment<'_>) -> f64 {
     let law = &plan.problem.fault.law;
-    let of = |(p, point): (usize, &asperity_driver::fault::PointView)| {
+    let of = |(p, point): (usize, &asperity_plan::faults::PointView)| {
         point.area * now.normal(p) * law.scale(p) * now.unknowns[p].abs()
     };
     let area: f64 = plan.points.iter().map(|p| p.area).sum();

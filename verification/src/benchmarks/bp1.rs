@@ -6,7 +6,7 @@ use super::limit::{self, Limit};
 use super::parts::{Made, Words, interpolated, reference};
 use crate::CaseError;
 use crate::cases::seas;
-use asperity_driver::benchmark::Quantity;
+use asperity_reference::benchmark::Quantity;
 use asperity_vary::bp1::bp1;
 
 /// Seconds in a year, as in the community benchmark.

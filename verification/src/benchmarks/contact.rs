@@ -5,8 +5,8 @@ use super::independent::Results;
 use super::parts::{Made, Words, exact, interpolated, reference};
 use crate::CaseError;
 use crate::cases::hertz::{self, Hertz, Tractions, compliance};
-use asperity_driver::benchmark::Quantity;
-use asperity_driver::scene::model::{Motion, Scene, here};
+use asperity_plan::reading::scene::model::{Motion, Scene, here};
+use asperity_reference::benchmark::Quantity;
 
 /// Positions of pressures over the half-width.
 const PRESSURES: [f64; 11] = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95];

@@ -1,7 +1,7 @@
 //! Results of a benchmark as a table that `asperity compare` reads.
 
 use super::rounded::digits;
-use asperity_driver::benchmark::Reference;
+use asperity_reference::benchmark::Reference;
 use std::fmt::Write as _;
 
 /// Significant digits of the values of an entry.

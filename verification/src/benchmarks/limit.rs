@@ -1,7 +1,7 @@
 //! Limits of values on successively halved meshes, with their uncertainty.
 
 use super::rounded::digits;
-use asperity_driver::benchmark::Place;
+use asperity_reference::benchmark::Place;
 
 /// Largest ratio of successive differences that is extrapolated, order 0.4. Extrapolation of slower sequences amplifies errors of
 /// other orders.

@@ -1,7 +1,7 @@
 //! Files of a benchmark that are derived from its reference values and results.
 
 use crate::CaseError;
-use asperity_driver::benchmark::{Judgement, Reference, Submission};
+use asperity_reference::benchmark::{Judgement, Reference, Submission};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -2,8 +2,8 @@
 
 use super::entry::Entry;
 use super::rounded::digits;
-use asperity_driver::benchmark::reference::SCHEMA;
-use asperity_driver::benchmark::{Along, Place, Quantity, Reference};
+use asperity_reference::benchmark::reference::SCHEMA;
+use asperity_reference::benchmark::{Along, Place, Quantity, Reference};
 
 /// Licence of the values.
 const LICENSE: &str = "CC0-1.0";

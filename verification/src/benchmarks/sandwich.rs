@@ -6,8 +6,8 @@ use super::limit::{self, Limit};
 use super::parts::{MICROMETRE, Made, PER_PASCAL, Words, exact, interpolated, optional, reference};
 use crate::CaseError;
 use crate::cases::sandwich::{self, PRESSED, Run, V_LOAD};
-use asperity_driver::benchmark::Quantity;
-use asperity_driver::run::mean;
+use asperity::kinds::bodies::mean;
+use asperity_reference::benchmark::Quantity;
 
 /// Heights of the slip probes \[m\] and the names of their quantities.
 const HEIGHTS: [(f64, &str, &str); 3] = [

@@ -5,7 +5,7 @@ use super::figures;
 use super::page::escape;
 use crate::cases::drawn;
 use crate::ledger::Picture;
-use asperity_driver::scene;
+use asperity_plan::reading::scene;
 use std::path::Path;
 
 /// Case, scene in the repository, and stage.

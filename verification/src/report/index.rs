@@ -1,11 +1,10 @@
 //! The first page: the outcome and the cases by subject, with a filter and a search.
 
-use super::claims;
 use super::history::Release;
-use super::ids;
 use super::page::{Depth, escape, number, page, time, word};
 use super::provenance::Provenance;
 use super::subjects::{self, Subject};
+use super::{claims, ids};
 use crate::case::Outcome;
 use crate::claim::{Judged, Mark, Verdict};
 use crate::suite::Summary;

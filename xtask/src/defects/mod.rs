@@ -306,7 +306,8 @@ fn cargo(place: &Path, arguments: &[&str]) -> Command {
     cargo.args(arguments).arg("--release");
     for setting in [
         "profile.release.incremental=true",
-        "profile.release.package.asperity-driver.opt-level=1",
+        "profile.release.package.asperity-plan.opt-level=1",
+        "profile.release.package.asperity.opt-level=1",
         "profile.release.package.asperity-verification.opt-level=0",
     ] {
         cargo.args(["--config", setting]);

@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::Command;
 
 /// Packages with programs that are run beside the tests of the workspace.
-const PROGRAMS: [&str; 3] = ["asperity-driver", "asperity-verification", "xtask"];
+const PROGRAMS: [&str; 3] = ["asperity", "asperity-verification", "xtask"];
 
 /// Compares the features of each program's libraries with those in the tests of the whole workspace.
 pub fn check(root: &Path) -> Result<Vec<Problem>, Failure> {

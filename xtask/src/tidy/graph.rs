@@ -7,57 +7,64 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 /// Workspace packages on which each package may depend, including tests and build scripts.
-const ALLOWED: [(&str, &[&str]); 14] = [
+const ALLOWED: [(&str, &[&str]); 17] = [
     ("asperity-friction", &[]),
     ("asperity-fem", &[]),
     ("asperity-ode", &[]),
-    ("asperity-scene", &[]),
-    ("asperity-output", &[]),
     ("asperity-vary", &[]),
+    ("asperity-run", &["asperity-ode"]),
+    ("asperity-scene", &["asperity-run"]),
+    ("asperity-output", &["asperity-run"]),
     ("asperity-contact", &["asperity-fem", "asperity-friction"]),
-    ("asperity-mechanics", &["asperity-fem", "asperity-friction", "asperity-contact"]),
-    ("asperity-cycles", &["asperity-fem", "asperity-friction", "asperity-ode"]),
+    ("asperity-mechanics", &["asperity-fem", "asperity-friction", "asperity-contact", "asperity-run"]),
+    ("asperity-cycles", &["asperity-fem", "asperity-friction", "asperity-ode", "asperity-run"]),
     ("asperity-laws", &["asperity-friction", "asperity-scene"]),
-    (
-        "asperity-driver",
-        &[
-            "asperity-fem",
-            "asperity-friction",
-            "asperity-ode",
-            "asperity-scene",
-            "asperity-output",
-            "asperity-contact",
-            "asperity-mechanics",
-            "asperity-cycles",
-            "asperity-laws",
-            "asperity-vary",
-        ],
-    ),
+    ("asperity-plan", BELOW_PLANS),
+    ("asperity-reference", &["asperity-laws", "asperity-output", "asperity-plan", "asperity-scene"]),
+    ("asperity", PROGRAMS),
     ("asperity-verification", PROGRAMS),
     ("asperity-benches", PROGRAMS),
     ("xtask", &[]),
 ];
 
-/// Packages that programs beside the driver may use.
-const PROGRAMS: &[&str] = &[
+/// Packages that plans are made with.
+const BELOW_PLANS: &[&str] = &[
     "asperity-fem",
     "asperity-friction",
     "asperity-ode",
+    "asperity-run",
     "asperity-scene",
     "asperity-output",
     "asperity-contact",
     "asperity-mechanics",
     "asperity-cycles",
     "asperity-laws",
-    "asperity-driver",
+];
+
+/// Packages that programs may use.
+const PROGRAMS: &[&str] = &[
+    "asperity-fem",
+    "asperity-friction",
+    "asperity-ode",
+    "asperity-run",
+    "asperity-scene",
+    "asperity-output",
+    "asperity-contact",
+    "asperity-mechanics",
+    "asperity-cycles",
+    "asperity-laws",
+    "asperity-plan",
+    "asperity-reference",
+    "asperity",
     "asperity-vary",
 ];
 
 /// Libraries that work only on values.
-pub const LIBRARIES: [&str; 9] = [
+pub const LIBRARIES: [&str; 10] = [
     "asperity-friction",
     "asperity-fem",
     "asperity-ode",
+    "asperity-run",
     "asperity-scene",
     "asperity-contact",
     "asperity-mechanics",
@@ -196,7 +203,8 @@ mod tests {
             ("asperity-fem", "asperity-friction"),
             ("asperity-friction", "asperity-fem"),
             ("asperity-fem", "asperity-contact"),
-            ("asperity-contact", "asperity-driver"),
+            ("asperity-contact", "asperity-plan"),
+            ("asperity-plan", "asperity"),
             ("asperity-ode", "asperity-friction"),
             ("asperity-fem", "asperity-ode"),
             ("asperity-output", "asperity-fem"),
@@ -205,7 +213,9 @@ mod tests {
             ("asperity-cycles", "asperity-mechanics"),
             ("asperity-cycles", "asperity-scene"),
             ("asperity-mechanics", "asperity-cycles"),
-            ("asperity-driver", "asperity-verification"),
+            ("asperity", "asperity-verification"),
+            ("asperity-plan", "asperity-reference"),
+            ("asperity-run", "asperity-scene"),
             ("xtask", "asperity-fem"),
         ] {
             assert_eq!(direction(&members(), &[edge(from, to)]).len(), 1, "{from} -> {to}");
@@ -221,16 +231,13 @@ mod tests {
 
     #[test]
     fn terminals_and_pictures_in_a_library_are_caught() {
-        assert_eq!(
-            libraries(&[edge("asperity-fem", "plotters"), edge("asperity-driver", "plotters")]).len(),
-            1
-        );
+        assert_eq!(libraries(&[edge("asperity-fem", "plotters"), edge("asperity", "plotters")]).len(), 1);
         assert_eq!(libraries(&[edge("asperity-friction", "clap")]).len(), 1);
     }
 
     #[test]
     fn a_hidden_library_is_caught_outside_its_package() {
-        let edges = [edge("asperity-ode", "diffsol"), edge("asperity-driver", "diffsol")];
+        let edges = [edge("asperity-ode", "diffsol"), edge("asperity", "diffsol")];
         assert_eq!(hidden(&edges), hidden(&edges[1..]));
         assert_eq!(hidden(&edges).len(), 1);
     }

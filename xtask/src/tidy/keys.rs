@@ -135,7 +135,7 @@ pub enum Kind {
         let file = |path: &str, text: &str| File { path: path.to_owned(), text: text.to_owned() };
         let files = [
             file("crates/scene/src/model.rs", SOURCE),
-            file("crates/driver/src/report.rs", SOURCE),
+            file("crates/run/src/report.rs", SOURCE),
             file("docs/src/scene/bodies.md", page),
         ];
         check(&files).iter().map(|problem| format!("{}", problem.line)).collect()

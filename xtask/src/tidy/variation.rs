@@ -60,7 +60,7 @@ mod tests {
         for path in ["verification/cases/a/mod.rs", "benches/benches/a.rs", "crates/ode/tests/all/a.rs"] {
             assert_eq!(lines(path, text), [2, 4], "{path}");
         }
-        for path in ["crates/driver/src/a.rs", "xtask/src/a.rs", "benches/compare/a.py"] {
+        for path in ["crates/plan/src/a.rs", "xtask/src/a.rs", "benches/compare/a.py"] {
             assert_eq!(lines(path, text), [0usize; 0], "{path}");
         }
     }

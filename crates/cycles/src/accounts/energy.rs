@@ -1,5 +1,6 @@
 //! Parts of an energy budget.
 
+use asperity_run::Energies;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -32,22 +33,21 @@ fn nothing(value: &f64) -> bool {
 }
 
 impl Energy {
-    /// Energy that is missing: what was given minus what is kept and lost.
+    /// The budget by the names of its parts.
     #[must_use]
-    pub fn missing(&self) -> f64 {
-        self.loads + self.opening - self.elastic - self.friction - self.radiated - self.kinetic
+    pub fn energies(&self) -> Energies {
+        Energies {
+            given: vec![("loads", self.loads), ("opening", self.opening)],
+            kept: vec![("elastic", self.elastic), ("kinetic", self.kinetic)],
+            lost: vec![("friction", self.friction), ("radiated", self.radiated)],
+            exchanged: self.exchanged,
+        }
     }
 
-    /// Missing energy, divided by the largest part \[-\].
+    /// Missing energy over the largest part \[-\].
     #[must_use]
     pub fn imbalance(&self) -> f64 {
-        let moved = [self.kinetic, self.opening, self.exchanged];
-        let parts = [self.loads, self.elastic, self.friction, self.radiated].into_iter().chain(moved);
-        let largest = parts.fold(0.0_f64, |l, v| l.max(v.abs()));
-        if largest == 0.0 {
-            return 0.0;
-        }
-        self.missing().abs() / largest
+        self.energies().imbalance()
     }
 
     /// Difference from an earlier budget.

@@ -1,7 +1,6 @@
 //! Accounts of runs: events, energy, and the state that observers see.
 
 mod balance;
-mod catalogue;
 mod energy;
 mod front;
 mod moment;
@@ -9,7 +8,6 @@ mod rupture;
 mod steady;
 
 pub use balance::{Balance, Sums};
-pub use catalogue::{ALL, Catalogue, Event};
 pub use energy::{Energy, Mark};
 pub use front::Front;
 pub(crate) use front::Stride;

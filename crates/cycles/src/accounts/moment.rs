@@ -1,9 +1,9 @@
 //! State of a fault at the end of a step, for observers of a run.
 
-use super::catalogue::{ALL, Catalogue, Event};
 use super::rupture::Rupture;
 use crate::problem::{Components, Layout, PerPoint, Pressed, Quantity};
 use asperity_ode::Clock;
+use asperity_run::{ALL, Catalogue, Event};
 
 /// State of a fault at the end of a step.
 #[derive(Clone, Copy, Debug)]

@@ -1,10 +1,10 @@
 //! Events of faults. An event begins when the fastest point exceeds a slip rate, and ends when all points are below a
 //! lower one. The time above the upper rate alone, which the community reports, is recorded as well.
 
-use super::catalogue::{Catalogue, Event};
 use super::front::Front;
 use crate::problem::{Components, Field, OverEvents, Quantity, Thresholds};
 use asperity_ode::Clock;
+use asperity_run::{Catalogue, Event};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::ops::Range;

@@ -13,9 +13,8 @@ use super::run::NextStep;
 use super::waves::Dynamics;
 use crate::equations::Equations;
 use crate::problem::{Fault, Loading, Problem, RunError, Settings};
-use asperity_ode::{
-    Clock, Control, Failure, Finished, ObserveError, Observer, Occurrence, Options, Outcome, Sink, Step,
-};
+use asperity_ode::{Clock, Control, Failure, Finished, Occurrence, Options, Outcome, Sink, Step};
+use asperity_run::{ObserveError, Observer};
 
 /// Number of accepted steps after which the integration restarts. It costs one more evaluation of the rates in about 1500.
 pub const RESTART: u64 = 256;

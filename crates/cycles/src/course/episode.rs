@@ -14,7 +14,8 @@ use super::settle::settled;
 use super::waves::{Dynamics, Episode, Handover, Shaken, Start};
 use crate::equations::Equations;
 use crate::problem::{Components, Fault, Layout, Loading, Pressed};
-use asperity_ode::{Clock, Control, Failure, ObserveError, Observer, Outcome};
+use asperity_ode::{Clock, Control, Failure, Outcome};
+use asperity_run::{ObserveError, Observer};
 
 /// A fault and its loading.
 #[derive(Clone, Copy)]

@@ -2,10 +2,10 @@
 
 use super::run::Run;
 use super::waves::Episode;
-use crate::accounts::{ALL, Detector, Event, Moment, Rupture};
+use crate::accounts::{Detector, Moment, Rupture};
 use crate::equations::Equations;
 use crate::problem::{Fault, Pressed, Saved, Thresholds};
-use asperity_ode::Kind;
+use asperity_run::{ALL, Event, Kind};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 

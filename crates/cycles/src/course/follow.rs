@@ -1,10 +1,11 @@
 //! Follows a run step by step: detects events by the largest slip rate, and reports each step to the observer.
 
 use super::fault_run::{Faults, Outrun};
-use crate::accounts::{ALL, Catalogue, Detector, Ends, Moment, Rupture, Stride, Values};
+use crate::accounts::{Detector, Ends, Moment, Rupture, Stride, Values};
 use crate::equations::Equations;
 use crate::problem::{Components, Fault, Field, Pressed};
-use asperity_ode::{Clock, Control, ObserveError, Observer, Step};
+use asperity_ode::{Clock, Control, Step};
+use asperity_run::{ALL, Catalogue, ObserveError, Observer};
 use std::ops::Range;
 
 /// The course of the unknowns over a step.

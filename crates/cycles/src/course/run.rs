@@ -1,7 +1,7 @@
 //! A run in progress or at its end.
 
-use crate::accounts::Catalogue;
 use asperity_ode::{Clock, Counts, Outcome};
+use asperity_run::Catalogue;
 use serde::{Deserialize, Serialize};
 
 /// Results of a run, or its results so far. At a restart they suffice to resume it. `D` are the details of its events,

@@ -1,6 +1,6 @@
 //! Reasons why a run cannot begin or cannot be observed.
 
-use asperity_ode::ObserveError;
+use asperity_run::ObserveError;
 
 /// Reason why a run cannot begin or cannot be observed.
 #[derive(Debug, thiserror::Error)]

@@ -12,9 +12,8 @@ use super::springs::{Slips, Travelled};
 use crate::course::{NextStep, Outrun, Run, outrun};
 use crate::problem::{Components, RunError};
 use asperity_friction::slider::{Condition, Slider};
-use asperity_ode::{
-    Clock, Control, Failure, Kind, Method, ObserveError, Observer, Occurrence, Options, Outcome, Sink, Step,
-};
+use asperity_ode::{Clock, Control, Failure, Method, Occurrence, Options, Outcome, Sink, Step};
+use asperity_run::{Kind, ObserveError, Observer};
 use serde::{Deserialize, Serialize};
 
 /// State of the sliders at an instant.

@@ -1,7 +1,7 @@
 //! Events of sliders: onset and end, direction and amount of slip, slip rates, and stress drop.
 
-use crate::accounts::{Catalogue, Event};
 use asperity_ode::Clock;
+use asperity_run::{Catalogue, Event};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -3,9 +3,8 @@
 use crate::dof::Equations;
 use crate::error::FemError;
 use crate::iterative::dense::Block;
-use crate::iterative::near_null;
 use crate::iterative::smoothed_aggregation::Settings;
-use crate::iterative::{Method, Solver};
+use crate::iterative::{Method, Solver, near_null};
 use crate::outcome::Outcome;
 use crate::term::Pattern;
 use std::fmt::Debug;

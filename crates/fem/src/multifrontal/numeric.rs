@@ -3,12 +3,11 @@
 //! A front adds the matrix's values of its columns and the contributions of its children (extend-add) and eliminates its
 //! pivots. It passes on `-L L'` of its other rows plus the contributions of its children there (Duff, Reid 1983; Liu 1992).
 
-use super::dense;
 use super::extend::{Passed, extend};
 use super::symbolic::{Front, Symbolic};
 use super::tasks::{self, Slot, open, slots};
 use super::triangle::Triangle;
-use super::{DirectError, Pivot};
+use super::{DirectError, Pivot, dense};
 use faer::MatMut;
 use pulp::Arch;
 use std::fmt;

@@ -1,10 +1,8 @@
 //! The point return and the rate form, over the whole admissible range.
 
 use super::usual::usual;
-use asperity_friction::Failure;
 use asperity_friction::component::Component;
 use asperity_friction::coulomb::Coulomb;
-use asperity_friction::each_evolution;
 use asperity_friction::evolution::flash::{Flash, Weakening};
 use asperity_friction::evolution::nagata::Nagata;
 use asperity_friction::evolution::{
@@ -15,6 +13,7 @@ use asperity_friction::rate::RateLaw;
 use asperity_friction::strength::arrhenius::Arrhenius;
 use asperity_friction::strength::cut_off::CutOff;
 use asperity_friction::strength::{Form, Parameters, bare::Bare, regularised::Regularised};
+use asperity_friction::{Failure, each_evolution};
 use proptest::prelude::*;
 
 /// Answer for one point.

@@ -4,8 +4,9 @@ use super::common::*;
 use super::usual::usual;
 use asperity_friction::each_evolution;
 use asperity_friction::evolution::flash::Flash;
-use asperity_friction::evolution::{Common, Defined, Evolution, Speed, Variable};
-use asperity_friction::evolution::{ageing::Ageing, nagata::Nagata, slip::Slip};
+use asperity_friction::evolution::{
+    Common, Defined, Evolution, Speed, Variable, ageing::Ageing, nagata::Nagata, slip::Slip,
+};
 
 /// Calls a function with every evolution of the table, and with values of its state variable to start from.
 macro_rules! with_every_evolution {

@@ -3,6 +3,7 @@
 //! With the kinetic energy ½ vⁿ⁺¹ᐟ²·M vⁿ⁻¹ᐟ² and the elastic energy ½ uⁿ·K uⁿ, central differences keep the balance exactly, if the work of
 //! each force over a step is the mean of its values at both ends times the displacement: rounding alone is left.
 
+use asperity_run::Energies;
 use serde::{Deserialize, Serialize};
 
 /// Parts of the energy at a step \[J, or J/m of thickness\].
@@ -30,27 +31,15 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// Energy that is missing: what was given minus what is kept and lost \[J, or J/m of thickness\].
+    /// The budget by the names of its parts.
     #[must_use]
-    pub fn missing(&self) -> f64 {
-        let given = self.initial + self.loads + self.released;
-        given - (self.kinetic + self.elastic) - (self.viscous + self.friction + self.absorbed)
-    }
-
-    /// Magnitude of the largest part.
-    #[must_use]
-    pub fn largest(&self) -> f64 {
-        let parts = [
-            self.kinetic,
-            self.elastic,
-            self.viscous,
-            self.friction,
-            self.absorbed,
-            self.loads,
-            self.released,
-            self.initial,
-        ];
-        parts.into_iter().fold(0.0, |largest, part| f64::max(largest, part.abs()))
+    pub fn energies(&self) -> Energies {
+        Energies {
+            given: vec![("start", self.initial), ("loads", self.loads), ("released", self.released)],
+            kept: vec![("kinetic", self.kinetic), ("elastic", self.elastic)],
+            lost: vec![("viscous", self.viscous), ("friction", self.friction), ("absorbed", self.absorbed)],
+            exchanged: 0.0,
+        }
     }
 }
 

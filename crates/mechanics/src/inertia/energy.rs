@@ -3,6 +3,7 @@
 use crate::{CellBlock, PlannedInterface, SpringNow};
 use asperity_contact::{Interface, PointFields};
 use asperity_fem::dof::Channel;
+use asperity_run::Energies;
 use serde::{Deserialize, Serialize};
 
 /// Energy budget since the start \[J, or J/m of thickness in plane strain and antiplane motion\]:
@@ -39,21 +40,26 @@ pub struct Energy {
 }
 
 impl Energy {
-    /// Energy that is missing: right side minus left side.
+    /// The budget by the names of its parts.
     #[must_use]
-    pub fn missing(&self) -> f64 {
-        let stored = self.kinetic + self.strain + self.contact + self.springs;
-        let lost = self.plastic + self.viscous + self.friction + self.numerical + self.handover;
-        self.start + self.loads + self.motions - stored - lost
-    }
-
-    /// Largest part.
-    #[must_use]
-    pub fn largest(&self) -> f64 {
-        let stored = [self.kinetic, self.strain, self.contact, self.springs];
-        let lost = [self.plastic, self.viscous, self.friction, self.numerical, self.handover];
-        let given = [self.start, self.loads, self.motions];
-        stored.into_iter().chain(lost).chain(given).fold(0.0, |most, part| most.max(part.abs()))
+    pub fn energies(&self) -> Energies {
+        Energies {
+            given: vec![("start", self.start), ("loads", self.loads), ("motions", self.motions)],
+            kept: vec![
+                ("kinetic", self.kinetic),
+                ("elastic", self.strain),
+                ("contact", self.contact),
+                ("springs", self.springs),
+            ],
+            lost: vec![
+                ("plastic", self.plastic),
+                ("viscous", self.viscous),
+                ("friction", self.friction),
+                ("numerical", self.numerical),
+                ("handover", self.handover),
+            ],
+            exchanged: 0.0,
+        }
     }
 }
 

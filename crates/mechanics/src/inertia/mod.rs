@@ -11,10 +11,9 @@ pub use episode::{Episode, Handover};
 
 use crate::{CellBlock, Model, PlannedInterface, SpringNow};
 use asperity_contact::Interface;
-use asperity_fem::FemError;
 use asperity_fem::dof::{Channel, Constraints};
-use asperity_fem::mass;
 use asperity_fem::term::Limited;
+use asperity_fem::{FemError, mass};
 use energy::Shears;
 use episode::Regime;
 use serde::{Deserialize, Serialize};

@@ -5,8 +5,8 @@
 
 use super::implicit::Implicit;
 use super::{Failure, Solved};
-use crate::Counts;
 use asperity_fem::term::{Augmented, Instant, Linearized};
+use asperity_run::Operations;
 
 impl Implicit {
     /// Solves the balance of forces until the violations of all terms with multipliers are within tolerance.
@@ -15,7 +15,7 @@ impl Implicit {
         terms: &mut [&mut dyn Linearized],
         u: &mut Vec<f64>,
         at: Instant,
-        counts: &mut Counts,
+        counts: &mut Operations,
     ) -> Result<Solved, Failure> {
         let (iterations, residual_ratio) = self.iterate(terms, u, at, counts)?;
         let mut solved = Solved { iterations, residual_ratio, augmentations: 0 };

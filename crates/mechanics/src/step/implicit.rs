@@ -11,11 +11,11 @@
 
 use super::anchor::Anchor;
 use super::{Accepted, Balance, Before, Failure, Solved, State, StepperState, accurate, line, unopposed};
-use crate::Counts;
 use asperity_fem::FemError;
 use asperity_fem::assembly::{Symmetry, System};
 use asperity_fem::dof::Constraints;
 use asperity_fem::term::{Instant, Linearized, PatternId};
+use asperity_run::Operations;
 
 /// Residual over the largest force at which an iteration has converged. Rounding leaves 1e-14 to 1e-12 (the condensed stiffness
 /// acts on displacements some hundred times the elastic ones). A Newton step below this bound squares it.
@@ -157,7 +157,7 @@ impl Implicit {
         constraints: &Constraints,
         state: &mut State,
         dt: f64,
-        counts: &mut Counts,
+        counts: &mut Operations,
     ) -> Result<Accepted, Failure> {
         let at = Instant { time: state.time + dt, dt };
         let mut u = self.predict(state, dt);
@@ -215,7 +215,7 @@ impl Implicit {
         u: &mut Vec<f64>,
         at: Instant,
         drift: f64,
-        counts: &mut Counts,
+        counts: &mut Operations,
     ) -> Result<Corrected, Failure> {
         self.residuals.clear();
         prepare(terms, u)?;
@@ -234,7 +234,7 @@ impl Implicit {
         terms: &mut [&mut dyn Linearized],
         u: &mut Vec<f64>,
         at: Instant,
-        counts: &mut Counts,
+        counts: &mut Operations,
     ) -> Result<(usize, f64), Failure> {
         prepare(terms, u)?;
         self.evaluate(terms, u, at, counts)?;
@@ -257,7 +257,7 @@ impl Implicit {
         u: &mut Vec<f64>,
         at: Instant,
         pairing: usize,
-        counts: &mut Counts,
+        counts: &mut Operations,
     ) -> Result<(usize, f64), Failure> {
         let mut progress = Progress::new(u);
         for iteration in 0..MOST_ITERATIONS {
@@ -307,7 +307,7 @@ impl Implicit {
         u: &mut [f64],
         progress: &mut Progress,
         at: Instant,
-        counts: &mut Counts,
+        counts: &mut Operations,
     ) -> Result<(), String> {
         u.copy_from_slice(&progress.best_u);
         progress.moved = f64::INFINITY;
@@ -336,7 +336,7 @@ impl Implicit {
         terms: &mut [&mut dyn Linearized],
         u: &[f64],
         at: Instant,
-        counts: &mut Counts,
+        counts: &mut Operations,
     ) -> Result<bool, String> {
         let patterns = |terms: &[&mut dyn Linearized]| -> Vec<PatternId> {
             terms.iter().map(|t| t.pattern().id()).collect()
@@ -355,7 +355,7 @@ impl Implicit {
         terms: &mut [&mut dyn Linearized],
         u: &[f64],
         at: Instant,
-        counts: &mut Counts,
+        counts: &mut Operations,
     ) -> Result<(), String> {
         self.balance.evaluate(terms, u, at, counts).map_err(|e| e.to_string())
     }
@@ -383,7 +383,7 @@ impl Implicit {
     fn direction(
         &mut self,
         terms: &mut [&mut dyn Linearized],
-        counts: &mut Counts,
+        counts: &mut Operations,
     ) -> Result<Direction, Failure> {
         let always = terms.iter().all(|t| t.constant_tangent().is_some());
         match self.solve(terms, counts) {
@@ -408,7 +408,7 @@ impl Implicit {
         u: &[f64],
         direction: &Direction,
         at: Instant,
-        counts: &mut Counts,
+        counts: &mut Operations,
     ) -> Failure {
         if let Err(why) = self.evaluate(terms, u, at, counts) {
             return why.into();
@@ -427,7 +427,7 @@ impl Implicit {
     fn solve(
         &mut self,
         terms: &mut [&mut dyn Linearized],
-        counts: &mut Counts,
+        counts: &mut Operations,
     ) -> Result<Vec<f64>, FemError> {
         let before = Before::of(&self.system);
         let mut rhs = self.system.equations().gather(&self.balance.r);
@@ -455,7 +455,7 @@ impl Implicit {
         direction: &Direction,
         trusted: bool,
         at: Instant,
-        counts: &mut Counts,
+        counts: &mut Operations,
     ) -> Result<f64, String> {
         let along = &direction.along;
         let (start, slope) = (self.norm()?, work(&self.balance.r, along));
@@ -491,7 +491,7 @@ impl Implicit {
         along: &[f64],
         slope: f64,
         at: Instant,
-        counts: &mut Counts,
+        counts: &mut Operations,
     ) -> f64 {
         let mut from = (1.0, slope);
         while STRIDE * from.0 * largest(along) <= self.extent {
@@ -514,7 +514,7 @@ impl Implicit {
         u: &[f64],
         along: &[f64],
         at: Instant,
-        counts: &mut Counts,
+        counts: &mut Operations,
     ) -> Result<f64, String> {
         let start = self.norm()?;
         let mut best: Option<(f64, f64)> = None;
@@ -540,7 +540,7 @@ impl Implicit {
         u: &[f64],
         along: &[f64],
         at: Instant,
-        counts: &mut Counts,
+        counts: &mut Operations,
     ) -> Trial {
         match self.trial.evaluate(terms, u, at, counts) {
             Ok(()) => Trial {

@@ -11,11 +11,11 @@ mod stepper;
 pub use saved::StepperState;
 pub use stepper::Stepper;
 
-use crate::Counts;
 use asperity_fem::FemError;
 use asperity_fem::assembly::System;
 use asperity_fem::dof::Equations;
 use asperity_fem::term::{Instant, Linearized, Objection, Refusal, Term};
+use asperity_run::Operations;
 
 /// Displacements of the system and their time.
 #[derive(Clone, Debug)]
@@ -102,7 +102,7 @@ fn accurate<T: Term + ?Sized>(terms: &mut [&mut T], bound: f64) -> Result<f64, F
     if error > bound { Err(Failure::Inaccurate { error }) } else { Ok(error) }
 }
 
-/// Counts of a linear system before a step.
+/// Operations of a linear system before a step.
 #[derive(Clone, Copy)]
 struct Before {
     indefinite: usize,
@@ -115,7 +115,7 @@ impl Before {
     }
 
     /// Adds the operations performed since.
-    fn count(self, system: &System, counts: &mut Counts) {
+    fn count(self, system: &System, counts: &mut Operations) {
         counts.indefinite += system.indefinite - self.indefinite;
         counts.linear_iterations += system.iterations - self.iterations;
     }
@@ -184,7 +184,7 @@ impl Balance {
         terms: &mut [&mut T],
         u: &[f64],
         at: Instant,
-        counts: &mut Counts,
+        counts: &mut Operations,
     ) -> Result<(), Refusal> {
         counts.residuals += 1;
         self.r.clear();

@@ -10,10 +10,10 @@
 
 use super::implicit::Implicit;
 use super::{Accepted, Before, Cut, Failure, State, StepperState, accurate, unopposed};
-use crate::Counts;
 use asperity_fem::assembly::{Symmetry, System};
 use asperity_fem::dof::Constraints;
 use asperity_fem::term::{Fraction, Instant, Limited, Linearized, Pattern};
+use asperity_run::Operations;
 
 /// Fractions this close to 1 do not bind. Events within 1e-9 of the step's end switch with it.
 const WHOLE: f64 = 1.0 - 1e-9;
@@ -93,7 +93,7 @@ impl StaticExplicit {
         constraints: &Constraints,
         state: &mut State,
         dt: (f64, f64),
-        counts: &mut Counts,
+        counts: &mut Operations,
     ) -> Result<Accepted, Failure> {
         let result = self
             .foresee(terms, constraints, state, dt, counts)
@@ -112,7 +112,7 @@ impl StaticExplicit {
         constraints: &Constraints,
         state: &State,
         (wanted, smallest_step): (f64, f64),
-        counts: &mut Counts,
+        counts: &mut Operations,
     ) -> Result<Foreseen, Failure> {
         for term in terms.iter_mut() {
             term.prepare(&state.u)?;
@@ -155,7 +155,7 @@ impl StaticExplicit {
         constraints: &Constraints,
         state: &mut State,
         Foreseen { at, du, cut, cause }: Foreseen,
-        counts: &mut Counts,
+        counts: &mut Operations,
     ) -> Result<Accepted, Failure> {
         let mut u: Vec<f64> = state.u.iter().zip(&du).map(|(u, du)| u + du).collect();
         constraints.impose(at.time, &mut u);
@@ -186,7 +186,7 @@ impl StaticExplicit {
         constraints: &Constraints,
         state: &State,
         at: Instant,
-        counts: &mut Counts,
+        counts: &mut Operations,
     ) -> Result<Vec<f64>, Failure> {
         let system = self.newton.system_mut();
         let mut du = prescribed_increment(constraints, state, at);

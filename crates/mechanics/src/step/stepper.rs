@@ -3,10 +3,10 @@
 use super::implicit::Implicit;
 use super::static_explicit::StaticExplicit;
 use super::{Accepted, Failure, State, StepperState};
-use crate::Counts;
 use asperity_fem::assembly::{Symmetry, System};
 use asperity_fem::dof::Constraints;
 use asperity_fem::term::{Limited, Linearized};
+use asperity_run::Operations;
 
 /// A stepper of either kind.
 pub trait Stepper {
@@ -26,7 +26,7 @@ pub trait Stepper {
         constraints: &Constraints,
         state: &mut State,
         dt: (f64, f64),
-        counts: &mut Counts,
+        counts: &mut Operations,
     ) -> Result<Accepted, Failure>;
 
     /// Sets the largest error of friction coefficients with which a step is accepted \[-\].
@@ -62,7 +62,7 @@ impl Stepper for Implicit {
         constraints: &Constraints,
         state: &mut State,
         (dt, _): (f64, f64),
-        counts: &mut Counts,
+        counts: &mut Operations,
     ) -> Result<Accepted, Failure> {
         let mut terms: Vec<&mut dyn Linearized> =
             terms.iter_mut().map(|term| &mut **term as &mut dyn Linearized).collect();
@@ -104,7 +104,7 @@ impl Stepper for StaticExplicit {
         constraints: &Constraints,
         state: &mut State,
         dt: (f64, f64),
-        counts: &mut Counts,
+        counts: &mut Operations,
     ) -> Result<Accepted, Failure> {
         StaticExplicit::step(self, terms, constraints, state, dt, counts)
     }

@@ -1,8 +1,9 @@
 //! The bodies of a system during a run, condensed or not.
 
-use crate::{CellBlock, Counts};
+use crate::CellBlock;
 use asperity_fem::dof::Constraints;
 use asperity_fem::term::Limited;
+use asperity_run::Operations;
 use serde::{Deserialize, Serialize};
 
 /// State of the bodies.
@@ -34,7 +35,7 @@ pub trait Bodies<const D: usize> {
     fn blocks(&self) -> &[CellBlock<D>];
 
     /// Adds operations performed outside the steps.
-    fn add_counts(&self, counts: &mut Counts);
+    fn add_counts(&self, counts: &mut Operations);
 
     /// Committed histories and counts of operations.
     fn save(&self) -> BodiesState;

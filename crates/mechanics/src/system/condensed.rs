@@ -2,11 +2,12 @@
 
 use super::bodies::{Bodies, BodiesState};
 use crate::solver::{self, Prepared};
-use crate::{CellBlock, Counts, Problem, free};
+use crate::{CellBlock, Problem, free};
 use asperity_fem::FemError;
 use asperity_fem::condense::{Analysis, Condensation, Condensed};
 use asperity_fem::dof::{Channel, Constraints};
 use asperity_fem::term::Limited;
+use asperity_run::Operations;
 
 /// One term per body, on its retained degrees of freedom; none before the first stage.
 pub struct CondensedBodies<'a, const D: usize> {
@@ -54,7 +55,7 @@ impl<const D: usize> Bodies<D> for CondensedBodies<'_, D> {
         &self.problem.model.blocks
     }
 
-    fn add_counts(&self, counts: &mut Counts) {
+    fn add_counts(&self, counts: &mut Operations) {
         counts.body_factorisations += self.factorisations;
         counts.body_solves += self.solves + self.solves();
     }

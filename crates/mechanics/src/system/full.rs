@@ -1,10 +1,11 @@
 //! Bodies with all their degrees of freedom in the system.
 
 use super::bodies::{Bodies, BodiesState};
-use crate::{CellBlock, Counts, Model};
+use crate::{CellBlock, Model};
 use asperity_fem::dof::Constraints;
 use asperity_fem::loads::ExternalForces;
 use asperity_fem::term::{Limited, Saved as _};
+use asperity_run::Operations;
 
 /// Cell blocks and loads on all degrees of freedom.
 pub struct Full<const D: usize> {
@@ -41,7 +42,7 @@ impl<const D: usize> Bodies<D> for Full<D> {
         &self.blocks
     }
 
-    fn add_counts(&self, _counts: &mut Counts) {}
+    fn add_counts(&self, _counts: &mut Operations) {}
 
     fn save(&self) -> BodiesState {
         let histories = self.blocks.iter().filter_map(CellBlock::history).collect();

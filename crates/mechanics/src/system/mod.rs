@@ -22,11 +22,12 @@ use super::step::static_explicit::StaticExplicit;
 use super::step::{Accepted, Failure, State, Stepper};
 use super::{CellBlock, Path, PlannedInterface, Problem, Resolved, Stage, declared};
 use crate::inertia::Moving;
-use crate::{Counts, Samples, SpringNow, SpringStart};
+use crate::{Samples, SpringNow, SpringStart};
 use asperity_contact::{Interface, TimeRule};
 use asperity_fem::assembly::{Iterative, NearNull, Storage, System};
 use asperity_fem::dof::Constraints;
 use asperity_fem::term::Limited;
+use asperity_run::Operations;
 
 /// Terms, constraints, stepper and state of a problem.
 pub struct Assembled<'a, const D: usize> {
@@ -213,7 +214,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
     ///
     /// # Errors
     /// [`Failure`], in which case nothing was committed.
-    pub fn step(&mut self, (dt, smallest): (f64, f64), counts: &mut Counts) -> Result<Accepted, Failure> {
+    pub fn step(&mut self, (dt, smallest): (f64, f64), counts: &mut Operations) -> Result<Accepted, Failure> {
         self.start_moving(dt, counts)?;
         let Some(stepper) = &mut self.stepper else {
             return Err(Failure::Refused("no stage has begun".into()));
@@ -332,7 +333,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
     }
 
     /// Adds operations performed outside the steps.
-    pub fn add_counts(&self, counts: &mut Counts) {
+    pub fn add_counts(&self, counts: &mut Operations) {
         self.bodies.add_counts(counts);
         for work in self.interfaces.iter().map(Interface::work) {
             counts.searches += work.searches as usize;

@@ -1,10 +1,10 @@
 //! Inertia of a system between its steps.
 
 use super::{Assembled, springs, terms};
-use crate::Counts;
 use crate::inertia::{Energy, Episode, Moving, View};
 use crate::step::{Balance, Failure};
 use asperity_fem::term::Instant;
+use asperity_run::Operations;
 
 /// Length of the step in which the forces at the start of a stage are evaluated, over that of its first step. Bodies relax and
 /// surfaces slip by this share of what they do in the first step, which is far below the error of the step.
@@ -13,7 +13,7 @@ const INSTANT: f64 = 1e-6;
 impl<const D: usize> Assembled<'_, D> {
     /// Prepares bodies with mass for a step of length `dt`. Before the first step of a stage this finds their accelerations from
     /// the forces under the conditions of the stage.
-    pub(super) fn start_moving(&mut self, dt: f64, counts: &mut Counts) -> Result<(), Failure> {
+    pub(super) fn start_moving(&mut self, dt: f64, counts: &mut Operations) -> Result<(), Failure> {
         let Some(moving) = &mut self.moving else { return Ok(()) };
         let pulled = springs::now(self.springs.as_ref(), &self.state);
         moving.note(&self.interfaces, pulled.clone());

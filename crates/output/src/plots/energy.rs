@@ -3,18 +3,18 @@
 use super::chart::Measure;
 use super::sheet::{Curves, Points};
 use crate::Recorder;
+use crate::table::ENERGIES;
 
-/// Parts that are not drawn: the constant at the start, and what is too small to see.
-const OMITTED: [&str; 2] = ["start", "missing"];
+/// Part that is not drawn: a constant.
+const START: &str = "start";
 
 /// The budget; `None` if the bodies have no inertia. Parts that stay zero are omitted.
 pub(super) fn budget(recorder: &Recorder) -> Option<Curves> {
-    let (times, energies) = (recorder.times(), recorder.energies());
-    let names = energies.first()?.named().map(|(name, _)| name);
-    let curve = |k: usize| {
-        let points = times.iter().zip(energies).map(|(&time, energy)| (time, energy.named()[k].1));
-        (names[k].to_string(), Points::over_time(points))
+    let curve = |name: &str| {
+        let energy = recorder.energy(name)?;
+        Some((name.to_string(), Points::over_time(recorder.times().iter().copied().zip(energy))))
     };
+    let curves = ENERGIES.into_iter().filter(|name| *name != START).map(curve).collect::<Option<_>>()?;
     let setup = recorder.setup();
     let name = match setup.energy_unit {
         Some("J/m") => "Energy per metre of thickness",
@@ -25,7 +25,7 @@ pub(super) fn budget(recorder: &Recorder) -> Option<Curves> {
         title: setup.title.clone(),
         x: ("Time".into(), Measure::Time),
         y: (name.into(), Measure::Energy),
-        curves: (0..names.len()).filter(|&k| !OMITTED.contains(&names[k])).map(curve).collect(),
+        curves,
         event: None,
         without_zero: true,
         until: None,

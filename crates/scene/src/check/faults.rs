@@ -3,10 +3,9 @@
 use super::Checker;
 use super::interfaces::RATED;
 use crate::law;
-use crate::model::EventSpec;
 use crate::model::{
-    Along, Creep, CreepLoading, DampingSpec, Fault, Interface, Kinematics, Motion, Outside, Profile,
-    Profiled, SlipSpec, Spanned, Station, Stepper,
+    Along, Creep, CreepLoading, DampingSpec, EventSpec, Fault, Interface, Kinematics, Motion, Outside,
+    Profile, Profiled, SlipSpec, Spanned, Station, Stepper,
 };
 use crate::near::suggest;
 use crate::units::Angle;

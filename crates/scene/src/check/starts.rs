@@ -1,7 +1,6 @@
 //! Starts of stages: tables carry on from where the stage before has ended, and bodies with mass do not jump.
 
-use super::pressing;
-use super::{AXES, Checker};
+use super::{AXES, Checker, pressing};
 use crate::lengths::show;
 use crate::model::{Condition, Loading, Motion, Spanned, Stage, Stepper};
 use std::collections::BTreeMap;

@@ -1,10 +1,9 @@
 //! Search for a key of scenes by its path, or by the end of its path.
 
-use super::foreign;
 use super::path::{Path, Step};
 use super::row::{Key, Row, row_of};
 use super::tree::{Tree, properties};
-use super::value;
+use super::{foreign, value};
 use crate::kind::{Kind, OF_BODIES};
 use crate::near::{nearest, suggest};
 use crate::usual;

@@ -1,11 +1,10 @@
 //! Interfaces as declared in a scene.
 
 use super::{DampingSpec, LawFields, LawSpec, UnderResolved};
-use crate::defaults;
-use crate::kind;
 use crate::spanned::Spanned;
 use crate::units::{Penalty, Penetration};
 use crate::usual::usual;
+use crate::{defaults, kind};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::IgnoredAny;

@@ -1,11 +1,10 @@
 //! Homogeneous rock without bodies around faults, and the geometry of faults in it.
 
 use super::{InterpolationSpec, SpacingSpec, Trace};
-use crate::defaults;
-use crate::exact;
 use crate::spanned::Spanned;
 use crate::units::{Angle, Length};
 use crate::usual::usual;
+use crate::{defaults, exact};
 use schemars::JsonSchema;
 use serde::Deserialize;
 

@@ -1,10 +1,9 @@
 //! The table `[solver]`: solution of the linear systems of the steps.
 
 use super::Spanned;
-use crate::defaults;
-use crate::kind;
 use crate::units::Memory;
 use crate::usual::usual;
+use crate::{defaults, kind};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

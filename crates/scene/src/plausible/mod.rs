@@ -9,7 +9,7 @@ use crate::diagnostic::Diagnostic;
 use crate::keys::{Tree, Visited as Step, Visitor, visit, written};
 use crate::model::Scene;
 use crate::units;
-use crate::warning::Warning;
+use asperity_run::Warning;
 use serde_json::Value as Schema;
 use std::collections::BTreeSet;
 use std::ops::Range;

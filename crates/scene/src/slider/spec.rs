@@ -6,7 +6,7 @@ use crate::model::{EventSpec, LawSpec, Spanned, TableOver};
 use crate::shape::{Either, shaped};
 use crate::units::{Damping, Dimension, Mass, Pressure, Spring, Time, Velocity};
 use crate::usual::usual;
-use crate::warning::Warning;
+use asperity_run::Warning;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{self, Deserializer, SeqAccess, Visitor};

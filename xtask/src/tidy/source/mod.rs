@@ -189,7 +189,7 @@ mod tests {
             "print!(\"x\");",
         ] {
             assert_eq!(lines("crates/contact/src/a.rs", line), [1], "{line}");
-            assert_eq!(lines("crates/driver/src/a.rs", line), [0usize; 0], "{line}");
+            assert_eq!(lines("crates/plan/src/a.rs", line), [0usize; 0], "{line}");
             assert_eq!(lines("crates/contact/tests/a.rs", line), [0usize; 0], "{line}");
         }
         assert_eq!(lines(LIBRARY, "let x = env!(\"A\");"), [0usize; 0]);

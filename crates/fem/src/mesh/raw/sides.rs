@@ -1,7 +1,6 @@
 //! Identification of elements of face groups with faces of cells.
 
-use super::Options;
-use super::RawMesh;
+use super::{Options, RawMesh};
 use crate::mesh::error::MeshError;
 use crate::mesh::{LeftOut, Mesh, Side};
 use std::collections::BTreeMap;

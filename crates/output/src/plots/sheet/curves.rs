@@ -3,9 +3,8 @@
 use super::asked::Asked;
 use super::event::OfEvent;
 use super::tables::Tables;
-use crate::OutputError;
-use crate::numbers;
 use crate::plots::chart::{Chart, Measure};
+use crate::{OutputError, numbers};
 use serde::{Deserialize, Serialize};
 
 /// Curves in one frame.

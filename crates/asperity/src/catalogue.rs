@@ -1,0 +1,190 @@
+//! Catalogue of events of faults and interfaces: its entries, and the table of them.
+
+use asperity_cycles::Rupture;
+use asperity_cycles::heat::TEMPERATURE;
+use asperity_output::decimals::shortest;
+use asperity_output::located::Located;
+use asperity_output::{OutputError, atomic, stems};
+use asperity_run::{Event, SlipPoints};
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::fmt::Write as _;
+use std::ops::Range;
+use std::path::Path;
+
+/// An event in the catalogue.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Entry {
+    /// Onset \[s\].
+    pub onset: f64,
+    /// Time since the onset of the previous event \[s\].
+    pub interval: Option<f64>,
+    /// Duration: time until all points are slower than the rate that ends events \[s\].
+    pub duration: f64,
+    /// Part of the duration in which the fastest point was faster than the rate that begins events \[s\], as defined by the SEAS community.
+    pub duration_above: f64,
+    /// Largest slip rate \[m/s\].
+    pub peak_rate: f64,
+    /// Fault or interface that contains the hypocentre.
+    pub surface: String,
+    /// Distance of the hypocentre along the fault \[m\]; not defined in 3D and on interfaces.
+    pub hypocentre_along: Option<f64>,
+    /// Coordinates of the hypocentre \[m\].
+    pub hypocentre: [f64; 3],
+    /// Largest slip \[m\].
+    pub largest_slip: f64,
+    /// Mean slip over the points that slipped more than a hundredth of the largest slip \[m\].
+    pub mean_slip: f64,
+    /// Area of these points \[m²; m per metre of thickness\].
+    pub area: f64,
+    /// Moment ∫ G slip dA \[N m; N per metre of thickness\]; for vector slip, that of the sum of its moment tensors.
+    pub moment: f64,
+    /// Moment magnitude; absent in the plane if the length out of it is unknown.
+    pub magnitude: Option<f64>,
+    /// Distance between the outermost of these points along strike, in the plane along the fault \[m\]; absent where it is not
+    /// defined.
+    pub rupture_length: Option<f64>,
+    /// Mean drop of shear traction over these points, weighted by slip \[Pa\].
+    pub stress_drop: f64,
+    /// Largest temperature, if friction heats the fault \[K\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub largest_temperature: Option<f64>,
+    /// Unit vector of ∫ G slip dA, for vector slip.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub direction: Option<[f64; 3]>,
+    /// Angle from `rake` to mean slip, for vector slip, positive towards normal x `rake` \[degrees\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub turned: Option<f64>,
+    /// Seismological parameters, if the scene has a geographic frame.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub located: Option<Located>,
+}
+
+/// Share of the largest slip above which a point counts as slipped.
+const SLIPPED: f64 = 0.01;
+
+impl Entry {
+    /// Entry of an event on some ground, restricted to these points.
+    #[must_use]
+    pub fn of(ground: &dyn SlipPoints, event: &Event<Rupture>, points: &Range<usize>) -> Self {
+        let slip = |p: usize| event.details.slip.size(p);
+        let slipped = slipped(event, points);
+        let over = |value: &dyn Fn(usize) -> f64| {
+            slipped.iter().map(|&p| value(p) * ground.site(p).area).sum::<f64>()
+        };
+        let (area, potency) = (over(&|_| 1.0), over(&slip));
+        // A drop is positive if a traction that drives slip decreases.
+        let work =
+            |p: usize| event.details.slip.at(p).zip(event.details.drop.at(p)).map(|(s, t)| s * t).sum();
+        let place = ground.site(event.details.hypocentre);
+        Self {
+            onset: event.onset.seconds(),
+            interval: event.interval,
+            duration: event.duration().unwrap_or(f64::NAN),
+            duration_above: event.details.above,
+            peak_rate: event.peak,
+            surface: ground.source(event.details.hypocentre),
+            hypocentre_along: place.along,
+            hypocentre: place.at,
+            largest_slip: points.clone().map(slip).fold(0.0, f64::max),
+            mean_slip: potency / area,
+            area,
+            moment: over(&|p| ground.site(p).shear_modulus * slip(p)),
+            magnitude: None,
+            rupture_length: None,
+            stress_drop: over(&work) / potency,
+            largest_temperature: event.details.largest(&TEMPERATURE),
+            direction: None,
+            turned: None,
+            located: None,
+        }
+    }
+}
+
+/// Points that slipped in an event, among these.
+#[must_use]
+pub fn slipped(event: &Event<Rupture>, points: &Range<usize>) -> Vec<usize> {
+    let slip = |p: usize| event.details.slip.size(p);
+    let largest = points.clone().map(slip).fold(0.0, f64::max);
+    points.clone().filter(|&p| slip(p) > SLIPPED * largest).collect()
+}
+
+/// Catalogue of one of several faults or interfaces, with events detected by its own fastest point and with its own slip.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct FaultEvents {
+    /// Fault or interface.
+    pub surface: String,
+    /// Its events.
+    pub events: Vec<Entry>,
+    /// Onset of an event in progress at the end \[s\].
+    pub under_way: Option<f64>,
+}
+
+/// Value as text; empty where there is none.
+fn optional(value: Option<f64>) -> String {
+    value.map(shortest).unwrap_or_default()
+}
+
+/// First columns of every catalogue.
+pub const HEAD: &str = "onset [s],duration [s],interval [s],peak_rate [m/s],stress_drop [Pa],surface";
+
+/// Catalogue as CSV.
+#[must_use]
+pub fn csv(events: &[Entry]) -> String {
+    let turning = events.iter().any(|e| e.turned.is_some());
+    let mut text = format!(
+        "{HEAD},hypocentre_along [m],x [m],y [m],z [m],largest_slip [m],mean_slip [m],area [m2 or m],moment [N m or N],duration_above [s],magnitude,rupture_length [m]",
+    );
+    let heats = events.iter().any(|e| e.largest_temperature.is_some());
+    text.push_str(if heats { ",largest_temperature [K]" } else { "" });
+    let placed = events.iter().any(|e| e.located.is_some());
+    text.push_str(if placed { ",latitude [deg],longitude [deg],depth [m]" } else { "" });
+    text.push_str(if turning { ",direction_x,direction_y,direction_z,turned [deg]\n" } else { "\n" });
+    for e in events {
+        let _ = write!(
+            text,
+            "{:.14e},{},{},{},{},{},{},{},{},{},{},{},{},{:e},{},{},{}",
+            e.onset,
+            e.duration,
+            optional(e.interval),
+            e.peak_rate,
+            shortest(e.stress_drop),
+            e.surface,
+            e.hypocentre_along.map(shortest).unwrap_or_default(),
+            shortest(e.hypocentre[0]),
+            shortest(e.hypocentre[1]),
+            shortest(e.hypocentre[2]),
+            e.largest_slip,
+            e.mean_slip,
+            e.area,
+            e.moment,
+            e.duration_above,
+            optional(e.magnitude),
+            optional(e.rupture_length)
+        );
+        let mut further: Vec<Option<f64>> = e.largest_temperature.iter().copied().map(Some).collect();
+        if placed {
+            let spot = e.located.as_ref().map(|l| &l.hypocentre);
+            further.extend([spot.map(|s| s.latitude), spot.map(|s| s.longitude), spot.map(|s| s.depth)]);
+        }
+        further.extend(e.direction.iter().flatten().chain(&e.turned).copied().map(Some));
+        for value in further {
+            text.push(',');
+            text.push_str(&optional(value));
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// Writes the catalogue of all faults or interfaces as a table, and one table of each if there are several.
+///
+/// # Errors
+/// If a file cannot be written.
+pub fn write(path: &Path, all: &[Entry], apart: &[FaultEvents]) -> Result<(), OutputError> {
+    let table = |name: &str, events: &[Entry]| atomic::write(&path.join(name), csv(events).as_bytes());
+    table("events.csv", all)?;
+    let names = stems(apart.iter().map(|f| f.surface.as_str()));
+    let mut each = names.iter().zip(apart);
+    each.try_for_each(|(name, fault)| table(&format!("events_{name}.csv"), &fault.events))
+}

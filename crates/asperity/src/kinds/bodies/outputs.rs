@@ -1,0 +1,146 @@
+//! Outputs of a run of bodies: its files and the data for its figures.
+
+use super::stand::Stand;
+use crate::checkpoint::{self, ResumeError};
+use crate::keep::{self, Place};
+use asperity_ode::Control;
+use asperity_output::progress::Now;
+use asperity_output::view::{Setup, StepView};
+use asperity_output::{FieldSchedule, Files, FilesState, Multi, OutputError, Recorder, Writer};
+use asperity_run::{Kind, ObserveError, Observer};
+use serde::{Deserialize, Serialize};
+
+/// Kind of a run of bodies.
+#[derive(Clone, Copy, Debug)]
+pub struct Bodies;
+
+impl Kind for Bodies {
+    type Setup = Setup;
+    type Moment<'a> = StepView<'a>;
+    type Stand = Stand;
+}
+
+/// Observer that keeps nothing and never interrupts a run.
+pub(super) struct Unkept<'a>(pub &'a mut dyn Writer);
+
+impl Observer<Bodies> for Unkept<'_> {
+    fn begin(&mut self, setup: &Setup) -> Result<(), ObserveError> {
+        Ok(self.0.begin(setup)?)
+    }
+
+    fn step(&mut self, view: &StepView<'_>) -> Result<Control, ObserveError> {
+        self.0.step(view)?;
+        Ok(Control::Go)
+    }
+
+    fn end(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+        Ok(self.0.end(view)?)
+    }
+}
+
+/// Everything needed to resume a run of bodies.
+#[derive(Serialize, Deserialize)]
+pub struct Saved {
+    /// State of the run.
+    stand: Stand,
+    /// Positions in the output files.
+    files: FilesState,
+    /// Data for the plots at the end, if there are any.
+    recorder: Option<Recorder>,
+}
+
+impl checkpoint::Saved for Saved {
+    const OF: &'static str = "bodies";
+    const VERSION: &'static str = "4";
+}
+
+/// See the module.
+pub struct Outputs {
+    files: Files,
+    recorder: Option<Recorder>,
+    resumed: bool,
+}
+
+impl Outputs {
+    /// Data for the figures, if the run draws any.
+    #[must_use]
+    pub fn recorder(self) -> Option<Recorder> {
+        self.recorder
+    }
+
+    fn all(&mut self) -> Multi<'_> {
+        let mut all = vec![&mut self.files as &mut dyn Writer];
+        all.extend(self.recorder.as_mut().map(|r| r as &mut dyn Writer));
+        Multi::new(all)
+    }
+}
+
+impl keep::Outputs for Outputs {
+    type Kind = Bodies;
+    type Plan = FieldSchedule;
+    type Saved = Saved;
+
+    fn create(schedule: FieldSchedule, place: &Place<'_>) -> Result<Self, OutputError> {
+        let recorder = place.drawn.then(|| Recorder::new().with_bodies());
+        Ok(Self { files: Files::create(place.out, schedule)?, recorder, resumed: false })
+    }
+
+    /// A run that was begun without figures continues without them.
+    fn reopen(
+        schedule: FieldSchedule,
+        place: &Place<'_>,
+        Saved { stand, files, recorder }: Saved,
+    ) -> Result<Option<(Self, Stand)>, ResumeError> {
+        let files = Files::create(place.out, schedule)?.resumed(files);
+        let recorder = recorder.filter(|_| place.drawn);
+        Ok(Some((Self { files, recorder, resumed: true }, stand)))
+    }
+
+    fn begin(&mut self, setup: &Setup) -> Result<(), ObserveError> {
+        if !self.resumed {
+            return Ok(self.all().begin(setup)?);
+        }
+        self.files.begin(setup)?;
+        Ok(self.recorder.as_mut().map_or(Ok(()), |recorder| recorder.resume(setup))?)
+    }
+
+    fn step(&mut self, view: &StepView<'_>) -> Result<Control, ObserveError> {
+        self.all().step(view)?;
+        Ok(Control::Go)
+    }
+
+    fn end(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+        Ok(self.all().end(view)?)
+    }
+
+    fn settle(&self) -> Result<(), OutputError> {
+        self.files.settle()
+    }
+
+    fn saved(&mut self, stand: &mut dyn FnMut() -> Stand, due: bool) -> Option<Saved> {
+        due.then(|| Saved { stand: stand(), files: self.files.state(), recorder: self.recorder.clone() })
+    }
+
+    fn times(&self, view: &StepView<'_>) -> [f64; 2] {
+        [view.record.time, view.end_time]
+    }
+
+    fn now(&self, view: &StepView<'_>) -> Now {
+        let (record, [time, end]) = (view.record, self.times(view));
+        let rates = view.interfaces.iter().flat_map(|interface| &interface.slip_rate);
+        Now {
+            stage: Some(view.stage.to_string()),
+            time,
+            end,
+            step: record.step as u64,
+            step_length: record.dt,
+            largest_rate: rates.map(|rate| rate.abs()).filter(|rate| rate.is_finite()).reduce(f64::max),
+            iterations: Some(record.iterations as u64),
+            events: None,
+        }
+    }
+
+    fn draws(&self) -> bool {
+        self.recorder.is_some()
+    }
+}

@@ -1,0 +1,162 @@
+//! Tables that grow during a run: energies, moment rate, profiles, stations and seismograms.
+
+use super::moment::{Moment, size};
+use super::rows::{Course, Table};
+use super::stations;
+use crate::kinds::faults::moments;
+use asperity_mechanics::dynamics::Budget;
+use asperity_output::decimals::{scientific, shortest};
+use asperity_output::{Growing, OutputError, seismogram, table};
+use asperity_plan::dynamics::Plan;
+use asperity_plan::faults::PointView;
+use asperity_plan::faults::cadence::log_rate;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Decimals of numbers in tables other than seismograms.
+const DECIMALS: usize = 9;
+
+/// All tables of a plan.
+fn all<const D: usize>(plan: &Plan<D>) -> Vec<Table<'_>> {
+    let mut all = vec![energies(plan)];
+    if !plan.points.is_empty() {
+        all.push(moment_rates(plan));
+        all.push(profiles(plan, "rate_profiles.csv", |now| &now.fault.rate, log_rate));
+        all.push(profiles(plan, "slip_profiles.csv", |now| &now.fault.slip, |slip| slip));
+    }
+    all.extend(stations::tables(plan));
+    let header = seismogram::header(&plan.axes);
+    all.extend(plan.receivers.iter().enumerate().map(|(k, receiver)| {
+        let row = move |now: &Moment<'_>| {
+            let [velocity, displacement] = &now.received[k];
+            seismogram::row(now.time, velocity, displacement)
+        };
+        Table::new(format!("seismograms/{}.csv", receiver.name), header.clone(), Course::Rows, row)
+    }));
+    all
+}
+
+/// Energy budget. There is one stage.
+fn energies<const D: usize>(plan: &Plan<D>) -> Table<'_> {
+    let head = table::energy_header(if plan.per_length { "J/m" } else { "J" });
+    let row = |now: &Moment<'_>| {
+        let row = |budget: &Budget| table::energy_row(now.time, 0, now.step, &budget.energies());
+        now.budget.as_ref().map_or(String::new(), row)
+    };
+    Table::new("energy.csv", head, Course::Rows, row)
+}
+
+/// Moment rates and moments of faults.
+fn moment_rates<const D: usize>(plan: &Plan<D>) -> Table<'_> {
+    let unit = if plan.per_length { "N" } else { "N m" };
+    let row = |now: &Moment<'_>| {
+        let (rates, sums) = (moments_of(plan, &now.fault.rate), moments_of(plan, &now.fault.slip));
+        line(now.time, rates.into_iter().zip(sums).flat_map(|(rate, sum)| [rate, sum]))
+    };
+    Table::new(moments::FILE, moments::head(&plan.faults, unit), Course::Rows, row)
+}
+
+/// Profile of values `of` all points: with a sign in the plane, and of magnitudes of vectors.
+fn profiles<'a, const D: usize>(
+    plan: &'a Plan<D>,
+    path: &str,
+    values: for<'n> fn(&'n Moment<'_>) -> &'n [f64],
+    of: fn(f64) -> f64,
+) -> Table<'a> {
+    let points = plan.points.len();
+    let place = |p: &PointView| if D == 2 { shortest(p.along) } else { p.at.map(shortest).join(" ") };
+    let columns: String = plan.points.iter().map(|p| format!(",{}", place(p))).collect();
+    let row = move |now: &Moment<'_>| {
+        let values = values(now);
+        if values.len() == points {
+            return line(now.time, values.iter().copied().map(of));
+        }
+        line(now.time, (0..points).map(|p| of(size(values, points, p))))
+    };
+    Table::new(path, format!("time [s]{columns}\n"), Course::Profiles, row)
+}
+
+/// The tables of a run, with their files.
+pub(super) struct Tables<'a>(Vec<(Table<'a>, Growing)>);
+
+impl<'a> Tables<'a> {
+    /// Creates all tables in `out`.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn create<const D: usize>(out: &Path, plan: &'a Plan<D>) -> Result<Self, OutputError> {
+        Self::open(out, plan, |_| None)
+    }
+
+    /// Reopens all tables in `out` at these sizes in bytes. `None` if these are of other tables.
+    ///
+    /// # Errors
+    /// If a file cannot be written, or has fewer bytes than that.
+    pub fn reopen<const D: usize>(
+        out: &Path,
+        plan: &'a Plan<D>,
+        sizes: &BTreeMap<String, u64>,
+    ) -> Result<Option<Self>, OutputError> {
+        let all = all(plan);
+        if all.len() != sizes.len() || !all.iter().all(|table| sizes.contains_key(&table.path)) {
+            return Ok(None);
+        }
+        Self::open(out, plan, |table| sizes.get(&table.path).copied()).map(Some)
+    }
+
+    fn open<const D: usize>(
+        out: &Path,
+        plan: &'a Plan<D>,
+        size: impl Fn(&Table<'_>) -> Option<u64>,
+    ) -> Result<Self, OutputError> {
+        let open = |table: Table<'a>| {
+            let file = table.open(out, size(&table))?;
+            Ok((table, file))
+        };
+        all(plan).into_iter().map(open).collect::<Result<_, _>>().map(Self)
+    }
+
+    /// Sizes of all tables \[bytes\], by their paths.
+    pub fn sizes(&self) -> BTreeMap<String, u64> {
+        self.0.iter().map(|(table, file)| (table.path.clone(), file.bytes())).collect()
+    }
+
+    /// Waits until all rows are on the disc.
+    ///
+    /// # Errors
+    /// If the rows cannot be written.
+    pub fn settle(&self) -> Result<(), OutputError> {
+        self.0.iter().try_for_each(|(_, file)| file.settle())
+    }
+
+    /// Writes the rows that are due.
+    ///
+    /// # Errors
+    /// If a row cannot be written.
+    pub fn step<const D: usize>(&mut self, plan: &Plan<D>, now: &Moment<'_>) -> Result<(), OutputError> {
+        for (table, file) in &mut self.0 {
+            let due = match table.course {
+                Course::Rows => now.budget.is_some(),
+                Course::Profiles => now.step.is_multiple_of(plan.cadence.profiles),
+            };
+            if due {
+                file.push((table.row)(now, now.step as u64).as_bytes())?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn line(time: f64, values: impl Iterator<Item = f64>) -> String {
+    let mut text = shortest(time);
+    values.for_each(|v| text.extend([",", &scientific(v, DECIMALS)]));
+    text.push('\n');
+    text
+}
+
+/// Rate and sum of ∫ G slip dA of each fault.
+pub(super) fn moments_of<const D: usize>(plan: &Plan<D>, values: &[f64]) -> Vec<f64> {
+    let of =
+        |p: usize| plan.points[p].shear_modulus * plan.points[p].area * size(values, plan.points.len(), p);
+    plan.faults.iter().map(|f| f.points.clone().map(of).sum()).collect()
+}

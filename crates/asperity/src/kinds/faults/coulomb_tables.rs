@@ -1,0 +1,138 @@
+//! Changes of Coulomb stress over each event in homogeneous rock: tables, and in space grids.
+
+use super::source_time::FOLDER;
+use asperity_cycles::FaultRun;
+use asperity_output::decimals::{scientific, shortest};
+use asperity_output::grd::Grid;
+use asperity_output::{OutputError, atomic};
+use asperity_plan::faults::{Change, Coulomb, CoulombMap, Plan};
+use asperity_plan::shared::place::Frame;
+use std::path::Path;
+
+/// Columns of a position.
+const PLACE: &str = "x [m],y [m],z [m]";
+/// Further columns where the scene has a place on Earth.
+const PLACED: &str = ",longitude [deg],latitude [deg],depth [m]";
+/// Columns of a stress.
+const STRESS: &str =
+    ",stress_xx [Pa],stress_yy [Pa],stress_zz [Pa],stress_xy [Pa],stress_yz [Pa],stress_zx [Pa]";
+/// Columns of a change.
+const CHANGE: &str = ",shear_change [Pa],normal_change [Pa],coulomb_change [Pa]";
+
+/// Name of the table of the map of an event by its number.
+pub(super) fn name(number: usize) -> String {
+    format!("coulomb_{number:03}.csv")
+}
+
+/// Number of the column of the change in the tables of maps, which is the last.
+pub(super) fn column(plan: &Plan) -> usize {
+    [&head(plan.frame.as_ref()), STRESS, CHANGE].iter().map(|part| part.matches(',').count()).sum()
+}
+
+/// Writes `events/coulomb_000.csv` and so on for the first events, in space also their grids,
+/// `events/coulomb_points_000.csv`, and with several faults `events/coulomb_faults_000.csv`.
+///
+/// # Errors
+/// If a file cannot be written.
+pub(super) fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), OutputError> {
+    let Some(coulomb) = &plan.coulomb else { return Ok(()) };
+    let events = &run.events()[..run.events().len().min(plan.event_files)];
+    let slips: Vec<&[f64]> = events.iter().map(|event| event.details.slip.all()).collect();
+    let folder = out.join(FOLDER);
+    if let Some(map) = &coulomb.map {
+        write_map(&folder, plan, (coulomb, map), &slips)?;
+    }
+    if !coulomb.points.is_empty() {
+        write_points(&folder, plan, coulomb, &slips)?;
+    }
+    if coulomb.on_faults {
+        write_faults(&folder, plan, coulomb, &slips)?;
+    }
+    Ok(())
+}
+
+fn write_map(
+    folder: &Path,
+    plan: &Plan,
+    (coulomb, map): (&Coulomb, &CoulombMap),
+    slips: &[&[f64]],
+) -> Result<(), OutputError> {
+    let frame = plan.frame.as_ref();
+    let found = coulomb.at(&map.positions, slips);
+    for number in 0..slips.len() {
+        let mut text = format!("{}{STRESS}{CHANGE}\n", head(frame));
+        for (at, all) in map.positions.iter().zip(&found) {
+            let (stress, change) = &all[number];
+            text.push_str(&format!("{}{}{}\n", place(frame, at), numbers(stress), changed(change)));
+        }
+        atomic::write(&folder.join(name(number)), text.as_bytes())?;
+        if let Some([x, y]) = map.axes.in_grids() {
+            let values: Vec<f64> = found.iter().map(|all| all[number].1.coulomb).collect();
+            let title = format!("{}, event {}", plan.title, number + 1);
+            let meaning = "change of Coulomb stress";
+            let grid = Grid { title: &title, x, y, meaning, unit: "Pa", values: &values };
+            atomic::write(&folder.join(format!("coulomb_{number:03}.grd")), &grid.bytes())?;
+        }
+    }
+    Ok(())
+}
+
+fn write_points(folder: &Path, plan: &Plan, coulomb: &Coulomb, slips: &[&[f64]]) -> Result<(), OutputError> {
+    let frame = plan.frame.as_ref();
+    let positions: Vec<[f64; 3]> = coulomb.points.iter().map(|p| p.1).collect();
+    let found = coulomb.at(&positions, slips);
+    for number in 0..slips.len() {
+        let mut text = format!("name,{}{STRESS}{CHANGE}\n", head(frame));
+        for ((name, at), all) in coulomb.points.iter().zip(&found) {
+            let (stress, change) = &all[number];
+            let row = format!("{}{}{}", place(frame, at), numbers(stress), changed(change));
+            text.push_str(&format!("{name},{row}\n"));
+        }
+        atomic::write(&folder.join(format!("coulomb_points_{number:03}.csv")), text.as_bytes())?;
+    }
+    Ok(())
+}
+
+fn write_faults(folder: &Path, plan: &Plan, coulomb: &Coulomb, slips: &[&[f64]]) -> Result<(), OutputError> {
+    if slips.is_empty() {
+        return Ok(());
+    }
+    let frame = plan.frame.as_ref();
+    let places: Vec<[f64; 3]> = plan.points.iter().map(|p| p.at).collect();
+    let areas: Vec<f64> = plan.points.iter().map(|p| p.area).collect();
+    let faults: Vec<_> = plan.faults.iter().map(|f| f.points.clone()).collect();
+    let found = coulomb.on_cells(slips, &places, (&areas, &faults));
+    for (number, changes) in found.iter().enumerate() {
+        let mut text = format!("fault,{}{CHANGE}\n", head(frame));
+        for fault in &plan.faults {
+            for point in fault.points.clone() {
+                let row = format!("{}{}", place(frame, &places[point]), changed(&changes[point]));
+                text.push_str(&format!("{},{row}\n", fault.name));
+            }
+        }
+        atomic::write(&folder.join(format!("coulomb_faults_{number:03}.csv")), text.as_bytes())?;
+    }
+    Ok(())
+}
+
+/// Columns of a position in a scene with or without a place on Earth.
+fn head(frame: Option<&Frame>) -> String {
+    format!("{PLACE}{}", if frame.is_some() { PLACED } else { "" })
+}
+
+fn place(frame: Option<&Frame>, at: &[f64; 3]) -> String {
+    let mut row: Vec<String> = at.map(shortest).into();
+    if let Some(spot) = frame.map(|frame| frame.spot(at)) {
+        row.extend([spot.longitude, spot.latitude, spot.depth].map(shortest));
+    }
+    row.join(",")
+}
+
+fn changed(change: &Change) -> String {
+    numbers(&[change.shear, change.normal, change.coulomb])
+}
+
+/// Numbers with a comma before each.
+fn numbers(values: &[f64]) -> String {
+    values.iter().map(|v| format!(",{}", scientific(*v, 9))).collect()
+}

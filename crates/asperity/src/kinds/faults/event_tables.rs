@@ -1,0 +1,69 @@
+//! Tables of the points of events: rupture times, largest slip rates, slip and stress drop.
+
+use super::fields::{Field, along};
+use super::source_time::FOLDER;
+use asperity_cycles::{FaultRun, Rupture};
+use asperity_output::decimals::{scientific, shortest};
+use asperity_output::{OutputError, atomic};
+use asperity_plan::faults::{FaultView, Plan};
+use asperity_run::Event;
+use std::path::Path;
+
+/// Header of the tables.
+const HEAD: &str =
+    "fault,x [m],y [m],z [m],time since onset [s],largest slip_rate [m/s],slip [m],stress_drop [Pa]";
+/// Further column for vector slip: the angle from the rake to the slip.
+const TURNED: &str = ",turned [deg]";
+
+/// Writes `events/rupture_times_000.csv` and so on for the first events, with a row for each point.
+///
+/// # Errors
+/// If a file cannot be written.
+pub(super) fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), OutputError> {
+    let folder = out.join(FOLDER);
+    for (number, event) in run.events().iter().enumerate().take(plan.event_files) {
+        let path = folder.join(format!("rupture_times_{number:03}.csv"));
+        atomic::write(&path, table(plan, event).as_bytes())?;
+    }
+    Ok(())
+}
+
+/// Time since the onset at which a point ruptured \[s\]; NaN where it did not.
+pub(super) fn reached(event: &Event<Rupture>, point: usize) -> f64 {
+    event.details.front.reached.get(point).copied().flatten().unwrap_or(f64::NAN)
+}
+
+/// Angle from the rake to the slip of a point, if slip may turn \[degrees\].
+pub(super) fn turned(event: &Event<Rupture>, point: usize) -> Option<f64> {
+    let slip = &event.details.slip;
+    (slip.components() > 1).then(|| slip.component(1)[point].atan2(slip.component(0)[point]).to_degrees())
+}
+
+fn table(plan: &Plan, event: &Event<Rupture>) -> String {
+    let turns = event.details.slip.components() > 1;
+    let mut text = format!("{HEAD}{}\n", if turns { TURNED } else { "" });
+    for fault in &plan.faults {
+        rows(plan, fault, event, &mut text);
+    }
+    text
+}
+
+/// Rows of the points of a fault.
+fn rows(plan: &Plan, fault: &FaultView, event: &Event<Rupture>, text: &mut String) {
+    let scalars = |[first, _]: [Field; 2]| match first {
+        Field::Scalar(_, values) => values,
+        Field::Vector(..) => Vec::new(),
+    };
+    let slips = scalars(along(plan, fault, "slip", &event.details.slip));
+    let drops = scalars(along(plan, fault, "stress_drop", &event.details.drop));
+    for ((point, slip), drop) in fault.points.clone().zip(slips).zip(drops) {
+        let [x, y, z] = plan.points[point].at.map(shortest);
+        let peak = event.details.front.peaks.get(point).copied().unwrap_or(f64::NAN);
+        let values = [reached(event, point), peak, slip, drop].map(|v| scientific(v, 9)).join(",");
+        text.push_str(&format!("{},{x},{y},{z},{values}", fault.name));
+        if let Some(turned) = turned(event, point) {
+            text.push_str(&format!(",{}", scientific(turned, 6)));
+        }
+        text.push('\n');
+    }
+}

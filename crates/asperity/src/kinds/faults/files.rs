@@ -1,0 +1,136 @@
+//! Output files of a run that grow with it: tables, snapshots in space, and moment rates of events.
+//!
+//! Rows are due after changes and after intervals of simulated time, not after steps, so that the size of a file
+//! depends on events.
+
+use super::position::Position;
+use super::rows::{Ends, Rows, Table};
+use super::snapshots::Snapshots;
+use super::source_time::SourceTimes;
+use super::{
+    forces, largest, locking, moments, profiles, receiver_rows, sampled_rows, stations, surface_profiles,
+};
+use crate::checkpoint::{self, ResumeError};
+use asperity_cycles::{Faults, Moment};
+use asperity_ode::{Clock, Control};
+use asperity_output::{OutputError, atomic};
+use asperity_plan::faults::Plan;
+use asperity_plan::faults::cadence::{Gauge, warning};
+use asperity_run::{ObserveError, Observer, Warning};
+use std::path::Path;
+
+/// All tables of a plan that grow during the run.
+fn all(plan: &Plan) -> Vec<Table<'_>> {
+    let mut all = vec![largest::table(plan), moments::table(plan), forces::table(plan)];
+    all.extend(locking::table(plan));
+    all.extend(profiles::tables(plan));
+    all.extend(surface_profiles::tables(plan));
+    all.extend(receiver_rows::tables(&plan.receivers));
+    all.extend(sampled_rows::tables(plan));
+    all.extend(stations::tables(plan));
+    all
+}
+
+/// See the module.
+pub struct Files<'a> {
+    plan: &'a Plan,
+    tables: Vec<Rows<'a>>,
+    /// End of the last step, and the number of steps taken.
+    before: Option<Clock>,
+    step: u64,
+    snapshots: Option<Snapshots>,
+    events: SourceTimes,
+}
+
+impl<'a> Files<'a> {
+    /// Creates the files in `out` and writes their headers.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn create(out: &Path, plan: &'a Plan) -> Result<Self, OutputError> {
+        atomic::writable_dir(out)?;
+        let tables = all(plan).into_iter().map(|table| Rows::open(out, table, None));
+        Ok(Self {
+            plan,
+            tables: tables.collect::<Result<_, _>>()?,
+            before: None,
+            step: 0,
+            snapshots: Snapshots::open(out, plan, None)?,
+            events: SourceTimes::create(out, plan)?,
+        })
+    }
+
+    /// Resumes the files in `out` at their recorded positions; anything written after them is cut off.
+    ///
+    /// # Errors
+    /// If a file is missing, shorter than it was, or cannot be written.
+    pub fn resume(out: &Path, plan: &'a Plan, from: &Position) -> Result<Self, ResumeError> {
+        let all = all(plan);
+        let known = all.iter().all(|table| from.gauges.contains_key(&table.path));
+        if !known || all.len() != from.gauges.len() || plan.in_space != from.snapshots.is_some() {
+            return Err(checkpoint::other_files(out));
+        }
+        let reopen = |table: Table<'a>| {
+            let gauge = from.gauges.get(&table.path).copied();
+            Rows::open(out, table, gauge)
+        };
+        Ok(Self {
+            plan,
+            tables: all.into_iter().map(reopen).collect::<Result<_, _>>()?,
+            before: from.before,
+            step: from.step,
+            snapshots: Snapshots::open(out, plan, from.snapshots)?,
+            events: SourceTimes::resume(out, plan, from.events)?,
+        })
+    }
+
+    /// Current positions in the files.
+    #[must_use]
+    pub fn position(&self) -> Position {
+        Position {
+            gauges: self.tables.iter().map(Rows::position).collect(),
+            before: self.before,
+            step: self.step,
+            snapshots: self.snapshots.as_ref().map(Snapshots::taken),
+            events: self.events.written(),
+        }
+    }
+
+    /// Number of steps taken.
+    pub(super) fn steps(&self) -> u64 {
+        self.step
+    }
+
+    /// Waits until all files are on the disc.
+    ///
+    /// # Errors
+    /// If something could not be written.
+    pub fn settle(&self) -> Result<(), OutputError> {
+        self.events.settle()?;
+        self.snapshots.iter().try_for_each(Snapshots::settle)?;
+        self.tables.iter().try_for_each(Rows::settle)
+    }
+
+    /// Warning about files whose rows have been thinned out.
+    #[must_use]
+    pub fn warning(&self) -> Option<Warning> {
+        let mut files: Vec<(String, Gauge)> = self.tables.iter().map(Rows::position).collect();
+        files.extend(self.snapshots.as_ref().map(|s| ("fields".to_string(), s.taken().gauge)));
+        files.extend(self.events.coarse());
+        warning(&files, self.plan.cadence.largest_file)
+    }
+}
+
+impl Observer<Faults> for Files<'_> {
+    fn step(&mut self, now: &Moment<'_>) -> Result<Control, ObserveError> {
+        let plan = self.plan;
+        let earlier = self.before.replace(now.at);
+        self.step += u64::from(now.dt > 0.0);
+        let then = now.step.as_ref().zip(earlier).map(|(step, at)| now.start_of(step, at));
+        let ends = Ends { now, then: then.as_ref(), step: self.step };
+        self.tables.iter_mut().try_for_each(|table| table.step(plan, ends))?;
+        self.events.step(plan, now)?;
+        self.snapshots.iter_mut().try_for_each(|snapshots| snapshots.take(plan, now))?;
+        Ok(Control::Go)
+    }
+}

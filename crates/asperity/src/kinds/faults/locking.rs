@@ -1,0 +1,71 @@
+//! Coupling of faults to the plates that load them: how far slip lags behind the motion of the plates.
+//!
+//! At a point it is c = 1 - V.Vp/Vp.Vp, with the slip rate V and the rate Vp of the plates: 1 where the point is locked, 0 where
+//! it creeps with the plates, negative where it is faster. The slip deficit grows at c Vp, the backslip of J. C. Savage,
+//! J. Geophys. Res. 88 (1983) 4984, and the moment deficit at the integral of G c |Vp|.
+
+use super::moments;
+use super::rows::{Course, Table, line};
+use asperity_cycles::{Components, Moment};
+use asperity_output::decimals::scientific;
+use asperity_plan::faults::{FaultView, Plan};
+
+/// Name of the table of profiles.
+pub(super) const PROFILES: &str = "coupling_profiles.csv";
+
+/// True if plates load any fault.
+pub(super) fn any(plan: &Plan) -> bool {
+    plan.faults.iter().any(|fault| loaded(plan, fault))
+}
+
+/// True if plates load a fault.
+pub(super) fn loaded(plan: &Plan, fault: &FaultView) -> bool {
+    plan.points[fault.points.clone()].iter().any(|point| point.plate.is_some())
+}
+
+/// Coupling of a point; NaN on a fault that no plates load.
+pub(super) fn coupling(plan: &Plan, rate: &Components<&[f64]>, point: usize) -> f64 {
+    let Some(plate) = plan.points[point].plate else { return f64::NAN };
+    let own = plate.iter().take(rate.components());
+    let (along, whole) = own.enumerate().fold((0.0, 0.0), |(along, whole), (c, plate)| {
+        (along + rate.component(c)[point] * plate, whole + plate * plate)
+    });
+    1.0 - along / whole
+}
+
+/// Coupling of all points.
+pub(super) fn profile(plan: &Plan, now: &Moment<'_>) -> Vec<f64> {
+    (0..plan.points.len()).map(|p| coupling(plan, &now.rate, p)).collect()
+}
+
+/// The table, if plates load any fault: the mean coupling of each, weighted by G |Vp| dA, and the rate of its moment deficit.
+pub(super) fn table(plan: &Plan) -> Option<Table<'_>> {
+    let unit = moments::unit(plan);
+    let columns = |name: &str| format!(",coupling of {name} [-],moment_deficit_rate of {name} [{unit}/s]");
+    let columns: String = faults(plan).map(|fault| columns(&fault.name)).collect();
+    let row = |now: &Moment<'_>| {
+        let values = faults(plan).flat_map(|fault| deficit(plan, fault, now));
+        line(now.at.seconds(), values.map(|value| scientific(value, 9)))
+    };
+    let table = || Table::new("locking.csv", format!("time [s]{columns}\n"), Course::Largest, row);
+    any(plan).then(table)
+}
+
+/// Mean coupling of a fault \[-\], and the rate of its moment deficit \[N m/s; N/s in the plane\].
+fn deficit(plan: &Plan, fault: &FaultView, now: &Moment<'_>) -> [f64; 2] {
+    let (mut deficit, mut whole) = (0.0, 0.0);
+    for p in fault.points.clone() {
+        let point = &plan.points[p];
+        let Some(plate) = point.plate else { continue };
+        let speed = plate.iter().take(now.rate.components()).map(|v| v * v).sum::<f64>().sqrt();
+        let moment = point.shear_modulus * point.area * speed;
+        deficit += moment * coupling(plan, &now.rate, p);
+        whole += moment;
+    }
+    [deficit / whole, deficit]
+}
+
+/// Faults that plates load.
+fn faults(plan: &Plan) -> impl Iterator<Item = &FaultView> {
+    plan.faults.iter().filter(|fault| loaded(plan, fault))
+}

@@ -1,0 +1,20 @@
+//! Tables of the motion of receivers through a run.
+
+use super::rows::{Course, Table};
+use asperity_cycles::Moment;
+use asperity_output::seismogram;
+use asperity_plan::faults::Receivers;
+
+/// Tables of all receivers.
+pub(super) fn tables(receivers: &Receivers) -> impl Iterator<Item = Table<'_>> {
+    let head = seismogram::header(&receivers.axes);
+    receivers.all.iter().map(move |receiver| {
+        let row = |now: &Moment<'_>| {
+            let motion = receiver.moves(&receivers.rates, now);
+            let [displacement, velocity] =
+                motion.map(|v| receivers.axes.iter().map(|&axis| v[axis]).collect::<Vec<f64>>());
+            seismogram::row(now.at.seconds(), &velocity, &displacement)
+        };
+        Table::new(format!("receivers/{}.csv", receiver.name), head.clone(), Course::Largest, row)
+    })
+}

@@ -1,0 +1,61 @@
+//! Tables of the displacements of receivers over each event.
+
+use super::source_time::FOLDER;
+use asperity_cycles::{FaultRun, Rupture};
+use asperity_output::decimals::{scientific, shortest};
+use asperity_output::{OutputError, atomic};
+use asperity_plan::faults::Plan;
+use asperity_plan::shared::place::Frame;
+use asperity_run::Event;
+use nalgebra::Vector3;
+use std::path::Path;
+
+/// Columns of a position and its displacement.
+const COLUMNS: &str = "x [m],y [m],z [m],displacement_x [m],displacement_y [m],displacement_z [m]";
+/// Further columns where the scene has a place on Earth.
+const PLACED: &str = ",longitude [deg],latitude [deg],depth [m],east [m],north [m],up [m]";
+
+/// Writes `events/displacements_000.csv` and so on for the first events: displacements of all receivers that slip in the event
+/// causes.
+///
+/// # Errors
+/// If a file cannot be written.
+pub(super) fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), OutputError> {
+    if plan.receivers.all.is_empty() {
+        return Ok(());
+    }
+    for (number, event) in run.events().iter().enumerate().take(plan.event_files) {
+        let path = out.join(FOLDER).join(format!("displacements_{number:03}.csv"));
+        atomic::write(&path, table(plan, event).as_bytes())?;
+    }
+    Ok(())
+}
+
+/// Columns of a position and its displacement, in a scene with or without a place on Earth.
+pub(super) fn columns(frame: Option<&Frame>) -> String {
+    format!("{COLUMNS}{}", if frame.is_some() { PLACED } else { "" })
+}
+
+/// Values of the columns of a position and its displacement.
+pub(super) fn values(frame: Option<&Frame>, at: &[f64; 3], moved: [f64; 3]) -> Vec<String> {
+    let mut row: Vec<String> = at.map(shortest).into();
+    row.extend(moved.map(|u| scientific(u, 9)));
+    if let Some(frame) = frame {
+        let spot = frame.spot(at);
+        row.extend([spot.longitude, spot.latitude, spot.depth].map(shortest));
+        let east_north_up: [f64; 3] = (frame.axes * Vector3::from(moved)).into();
+        row.extend(east_north_up.map(|u| scientific(u, 9)));
+    }
+    row
+}
+
+fn table(plan: &Plan, event: &Event<Rupture>) -> String {
+    let frame = plan.frame.as_ref();
+    let mut text = format!("name,{}\n", columns(frame));
+    for receiver in &plan.receivers.all {
+        let moved = receiver.caused(event.details.slip.all().iter().copied());
+        let row = values(frame, &receiver.at, moved).join(",");
+        text.push_str(&format!("{},{row}\n", receiver.name));
+    }
+    text
+}

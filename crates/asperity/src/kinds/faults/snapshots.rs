@@ -1,0 +1,99 @@
+//! Snapshots of the state of faults in 3D during a run, as VTU files.
+
+use super::fields::{self, Surface};
+use asperity_cycles::Moment;
+use asperity_output::decimals::fixed;
+use asperity_output::{Growing, OutputError, atomic};
+use asperity_plan::faults::Plan;
+use asperity_plan::faults::cadence::{Gauge, RATE_CHANGE, Reading, log_rate};
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+/// Name of the list of snapshots.
+pub(super) const LIST: &str = "snapshots.csv";
+/// Header of the list.
+const HEAD: &str = "snapshot,time [s],log10 slip_rate [m/s]\n";
+/// Time between snapshots in an event over that between profiles; a rupture crosses a few kilometres in two seconds.
+const IN_EVENTS: f64 = 2.0;
+/// Size of all snapshots together over the largest size of a growing file.
+const FILES: u64 = 10;
+
+/// Number of snapshots taken, and the gauge that decides when the next is due.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Taken {
+    count: usize,
+    pub gauge: Gauge,
+    /// Size of the list \[bytes\].
+    list: u64,
+}
+
+/// Writes `fields/FAULT_00000.vtu` and so on.
+#[derive(Debug)]
+pub(super) struct Snapshots {
+    folder: PathBuf,
+    /// Surface of each fault.
+    surfaces: Vec<Surface>,
+    list: Growing,
+    taken: Taken,
+}
+
+/// Name of a snapshot file.
+pub(super) fn name(fault: &str, number: usize) -> String {
+    format!("{fault}_{number:05}.vtu")
+}
+
+impl Snapshots {
+    /// Snapshots of a run, if its faults are surfaces in 3D; after those already taken, if any.
+    ///
+    /// # Errors
+    /// If the folder or the list cannot be written.
+    pub fn open(out: &Path, plan: &Plan, taken: Option<Taken>) -> Result<Option<Self>, OutputError> {
+        if !plan.in_space {
+            return Ok(None);
+        }
+        let folder = out.join("fields");
+        atomic::create_dir(&folder)?;
+        let surfaces = plan.faults.iter().map(|fault| Surface::of(plan, fault)).collect();
+        let list = match taken {
+            Some(taken) => Growing::reopen(out.join(LIST), taken.list)?,
+            None => Growing::create(out.join(LIST), HEAD.as_bytes())?,
+        };
+        Ok(Some(Self { folder, surfaces, list, taken: taken.unwrap_or_default() }))
+    }
+
+    /// Number and gauge of the snapshots taken.
+    pub fn taken(&self) -> Taken {
+        Taken { list: self.list.bytes(), ..self.taken }
+    }
+
+    /// Waits until the list is on the disc.
+    ///
+    /// # Errors
+    /// If something could not be written.
+    pub fn settle(&self) -> Result<(), OutputError> {
+        self.list.settle()
+    }
+
+    /// Takes a snapshot if it is due.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn take(&mut self, plan: &Plan, now: &Moment<'_>) -> Result<(), OutputError> {
+        let time = now.at.seconds();
+        let fast = now.largest >= plan.problem.settings.thresholds.on;
+        let [between, within] = plan.cadence.contours;
+        let interval = if fast { (IN_EVENTS * within).min(between) } else { between };
+        if !self.taken.gauge.profile(Reading { time, rate: now.largest }, interval, RATE_CHANGE) {
+            return Ok(());
+        }
+        let number = self.taken.count;
+        for (fault, surface) in plan.faults.iter().zip(&self.surfaces) {
+            let state = fields::state(plan, fault, now.unknowns, (now.rate.all(), now.pressed));
+            let bytes = surface.put(&self.folder.join(name(&fault.name, number)), time, &state)?;
+            self.taken.gauge.spend(bytes, FILES * plan.cadence.largest_file, time);
+        }
+        self.taken.count = number + 1;
+        let row = format!("{number},{time:.14e},{}\n", fixed(log_rate(now.largest), 6));
+        self.list.push(row.as_bytes())
+    }
+}

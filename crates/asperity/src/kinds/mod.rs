@@ -1,0 +1,9 @@
+//! Runs of each kind: their steps as observers see them, what they write, and their reports.
+
+pub mod balance;
+pub mod bodies;
+pub mod dynamics;
+pub mod faults;
+pub mod sliders;
+mod stop;
+pub mod worst;

@@ -1,0 +1,133 @@
+//! Events of sliders, in the report and as CSV.
+
+use crate::catalogue::HEAD;
+use asperity_cycles::slider::{Edge, Slide, SliderRun};
+use asperity_output::decimals::shortest_scientific;
+use asperity_run::Event;
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::fmt::Write as _;
+
+/// An event. It begins when |V| exceeds the upper threshold in one direction, and ends when |V| falls below the lower
+/// one.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Entry {
+    /// Number of the slider.
+    #[serde(skip)]
+    pub slider: usize,
+    /// Direction of slip: 1 for positive slip rates, -1 for negative ones.
+    pub direction: i8,
+    /// Time at which |V| rose through the upper threshold \[s\].
+    pub onset: f64,
+    /// Time since the previous onset in either direction, with digits that large times lose \[s\].
+    pub interval: Option<f64>,
+    /// Time from onset to end; unknown if the run ended first \[s\].
+    pub duration: Option<f64>,
+    /// Slip from onset to end; negative for negative slip rates \[m\].
+    pub slip: Option<f64>,
+    /// Largest |V| at the steps, or exact if extremes are located \[m/s\].
+    pub peak_rate: f64,
+    /// Smallest |V| since the previous event; zero if the slider reversed \[m/s\].
+    pub least_rate: f64,
+    /// Traction at the onset minus that at the end, in the direction of slip \[Pa\].
+    pub stress_drop: Option<f64>,
+    /// State of the slider at the onset.
+    pub at_onset: Edge,
+    /// State of the slider at the end.
+    pub at_end: Option<Edge>,
+}
+
+/// An event with the name of its slider.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Named {
+    /// Slider.
+    pub surface: String,
+    /// Event.
+    #[serde(flatten)]
+    pub entry: Entry,
+}
+
+impl Named {
+    /// Events of all sliders in order of onset.
+    #[must_use]
+    pub fn all(run: &SliderRun, names: &[String]) -> Vec<Self> {
+        let named = |entry: Entry| Self { surface: names[entry.slider].clone(), entry };
+        Entry::all(run).into_iter().map(named).collect()
+    }
+}
+
+impl Entry {
+    /// Events of all sliders in order of onset.
+    #[must_use]
+    pub fn all(run: &SliderRun) -> Vec<Self> {
+        run.catalogue.in_order().into_iter().map(|(slider, event)| Self::new(slider, event)).collect()
+    }
+
+    /// Events of one slider.
+    #[must_use]
+    pub fn of(run: &SliderRun, slider: usize) -> Vec<Self> {
+        run.catalogue.of(slider).iter().map(|event| Self::new(slider, event)).collect()
+    }
+
+    fn new(slider: usize, event: &Event<Slide>) -> Self {
+        let details = &event.details;
+        Self {
+            slider,
+            direction: details.direction,
+            onset: event.onset.seconds(),
+            interval: event.interval,
+            duration: event.duration(),
+            slip: details.slip(),
+            peak_rate: event.peak,
+            least_rate: details.least_rate,
+            stress_drop: details.stress_drop(),
+            at_onset: details.at_onset.clone(),
+            at_end: details.at_end.clone(),
+        }
+    }
+}
+
+/// Events as CSV; unknown values are empty.
+#[must_use]
+pub fn csv(events: &[Named]) -> String {
+    let states = events.iter().map(|e| e.entry.at_onset.states.len()).max().unwrap_or(0);
+    let mut text = format!("{HEAD},direction,slip [m],least_rate [m/s]");
+    for edge in ["onset", "end"] {
+        let _ = write!(text, ",traction_{edge} [Pa],friction_{edge} [-]");
+        (1..=states).for_each(|i| text.push_str(&format!(",state_{i}_{edge}")));
+    }
+    text.push('\n');
+    let known = |value: Option<f64>| value.map(shortest_scientific).unwrap_or_default();
+    for Named { surface, entry: e } in events {
+        let _ = write!(
+            text,
+            "{:.14e},{},{},{:e},{},{},{},{},{:e}",
+            e.onset,
+            known(e.duration),
+            known(e.interval),
+            e.peak_rate,
+            known(e.stress_drop),
+            quoted(surface),
+            e.direction,
+            known(e.slip),
+            e.least_rate
+        );
+        for edge in [Some(&e.at_onset), e.at_end.as_ref()] {
+            let _ = write!(text, ",{},{}", known(edge.map(|e| e.traction)), known(edge.map(|e| e.friction)));
+            for i in 0..states {
+                let _ = write!(text, ",{}", known(edge.and_then(|e| e.states.get(i).copied())));
+            }
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// A name as a CSV field.
+fn quoted(name: &str) -> String {
+    if name.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", name.replace('"', "\"\""))
+    } else {
+        name.to_string()
+    }
+}

@@ -1,0 +1,263 @@
+//! Warnings about results outside the assumptions of the model: strain, rotation and slip that are not small, and contacts that never closed.
+
+use asperity_contact::Sliding;
+use asperity_fem::element::ElementKind;
+use asperity_fem::kinematics::Idealisation;
+use asperity_fem::mesh::{Cells, MeshFace};
+use asperity_fem::nonlinear::Kinematics;
+use asperity_mechanics::{CellBlock, Model, Path, PlannedInterface, Problem};
+use asperity_output::view::InterfaceFields;
+use asperity_run::Warning;
+use asperity_scene::lengths::brief;
+use nalgebra::{DMatrix, SymmetricEigen};
+use serde::{Deserialize, Serialize};
+
+/// Largest principal strain admitted in small-strain theory \[-\]. The error is of the order of the strain itself, so that stress and area have
+/// errors of about five per cent here.
+const SMALL_STRAIN: f64 = 0.05;
+
+/// Largest rotation admitted in small-strain theory \[rad\]. It takes a rotation θ for a strain θ²/2, here 1.25e-3, which in rock is tens of MPa.
+const SMALL_ROTATION: f64 = 0.05;
+
+/// Share of these below which differences of displacement within a cell over its shortest edge leave no doubt: gradients are at most
+/// some times as large, unless a cell is ten times flatter than its edges.
+const SAFE: f64 = 0.1;
+
+/// Slip over the size of the master faces from which a fixed pairing is wrong, because the node is then on another face.
+const SMALL_SLIDING: f64 = 1.0;
+
+/// Largest principal strain and rotation of the cells of a body.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Largest {
+    /// Largest principal strain \[-\].
+    pub strain: f64,
+    /// Largest rotation \[rad\].
+    pub rotation: f64,
+}
+
+/// Growth of displacements or tractions from which on a state is judged again: a strain in between is at most so much larger.
+const GROWN: f64 = 1.05;
+
+/// The worst states of a stage so far.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Worst {
+    /// Largest strain and rotation of each body, with their times \[s\].
+    bodies: Vec<(Largest, [f64; 2])>,
+    /// Largest relative displacement of each interface \[m\].
+    slid: Vec<f64>,
+    /// Sizes of the state that was judged last: displacements \[m\], and tractions of interfaces \[Pa\].
+    judged: [f64; 2],
+}
+
+impl Worst {
+    /// Sees the end of a step, with the slip and the tractions of the interfaces. `displacement` gives that of all degrees of freedom,
+    /// which costs a solution where bodies are condensed: then slip and tractions tell whether it is worth it.
+    pub fn see<const D: usize>(
+        &mut self,
+        (problem, time): (&Problem<D>, f64),
+        fields: &[InterfaceFields],
+        displacement: &dyn Fn() -> Vec<f64>,
+        last: bool,
+    ) {
+        let largest = |values: &mut dyn Iterator<Item = f64>| values.map(f64::abs).fold(0.0, f64::max);
+        self.slid.resize(fields.len(), 0.0);
+        for (slid, f) in self.slid.iter_mut().zip(fields) {
+            *slid = slid.max(largest(&mut f.relative_displacement.iter().copied()));
+        }
+        let traction = largest(&mut fields.iter().flat_map(|f| f.normal_traction.iter().copied()));
+        let condensed = problem.path == Path::Condensed;
+        let (size, u) = if condensed {
+            (self.slid.iter().copied().fold(0.0, f64::max), None)
+        } else {
+            let u = displacement();
+            (largest(&mut u.iter().copied()), Some(u))
+        };
+        let grown = |now: f64, before: f64| now > GROWN * before;
+        if !(last || grown(size, self.judged[0]) || grown(traction, self.judged[1])) {
+            return;
+        }
+        self.judged = [self.judged[0].max(size), self.judged[1].max(traction)];
+        self.judge((&problem.model, time), &u.unwrap_or_else(displacement));
+    }
+
+    /// Sees displacements of a model \[m\] at a time \[s\].
+    pub fn judge<const D: usize>(&mut self, (model, time): (&Model<D>, f64), u: &[f64]) {
+        self.bodies.resize(model.bodies.len(), Default::default());
+        for (body, (worst, at)) in model.bodies.iter().zip(&mut self.bodies) {
+            for block in body.blocks.clone() {
+                let now = of_block(model, block, u);
+                if now.strain > worst.strain {
+                    (worst.strain, at[0]) = (now.strain, time);
+                }
+                if now.rotation > worst.rotation {
+                    (worst.rotation, at[1]) = (now.rotation, time);
+                }
+            }
+        }
+    }
+
+    /// Warnings about the stage.
+    #[must_use]
+    pub fn warnings<const D: usize>(&self, problem: &Problem<D>, stage: &str) -> Vec<Warning> {
+        let model = &problem.model;
+        let interfaces = problem.interfaces.iter().zip(&self.slid);
+        let dragged = interfaces.filter_map(|(i, slid)| dragged(model, i, stage, *slid));
+        self.of_bodies(model, stage).chain(dragged).collect()
+    }
+
+    /// Warnings about the bodies in a stage.
+    pub fn of_bodies<const D: usize>(&self, model: &Model<D>, stage: &str) -> impl Iterator<Item = Warning> {
+        let bodies = model.bodies.iter().zip(&self.bodies);
+        bodies
+            .filter_map(move |(b, (worst, at))| of_body(&b.name, stage, (*worst, *at), b.elastic[0].young()))
+    }
+}
+
+fn of_body(body: &str, stage: &str, (largest, at): (Largest, [f64; 2]), young: f64) -> Option<Warning> {
+    let help = format!("add `strain = \"finite\"` to body `{body}`, or check the loads and the units");
+    if largest.strain > SMALL_STRAIN {
+        let message = format!(
+            "body `{body}` is strained by {:.3} in stage `{stage}`, most at {:e} s, and its strain is taken as small (up to {SMALL_STRAIN})",
+            largest.strain, at[0]
+        );
+        return Some(Warning::at(0..0, message, help));
+    }
+    (largest.rotation > SMALL_ROTATION).then(|| {
+        let theta = largest.rotation;
+        let message = format!(
+            "body `{body}` turns by {theta:.3} rad in stage `{stage}`, most at {:e} s, which a theory of small strain takes for a strain of {:.1e}, a stress of \
+             about {:.3e} Pa",
+            at[1],
+            0.5 * theta * theta,
+            0.5 * theta * theta * young
+        );
+        Warning::at(0..0, message, help)
+    })
+}
+
+/// Largest strain and rotation in the cells of a block, at their centres and between these and their corners, about where stresses are
+/// computed; zero if the block accounts for large deformation, and in cells that leave no doubt.
+pub fn of_block<const D: usize>(model: &Model<D>, block: usize, u: &[f64]) -> Largest {
+    let followed = matches!(&model.blocks.get(block), Some(CellBlock::Nonlinear(b)) if b.model().kinematics == Kinematics::UpdatedLagrangian);
+    // Antiplane motion has one component, and its equation is linear for slopes of any size.
+    if followed || model.idealisation == Idealisation::Antiplane {
+        return Largest::default();
+    }
+    let cells = &model.mesh.blocks[block];
+    let places = places(cells.kind);
+    let doubtful = |cell: &usize| stretched(model, cells, *cell, u) > SAFE * SMALL_STRAIN.min(SMALL_ROTATION);
+    let all =
+        (0..cells.len()).filter(doubtful).flat_map(|cell| places.iter().map(move |place| (cell, place)));
+    all.fold(Largest::default(), |largest, (cell, place)| {
+        let gradient = gradient(model, cells, (cell, *place), u);
+        let strain = 0.5 * (&gradient + gradient.transpose());
+        let spin = 0.5 * (&gradient - gradient.transpose());
+        let principal = SymmetricEigen::new(strain).eigenvalues.amax().max(hoop(model, cells, cell, u));
+        // In 3D each component of the rotation vector appears twice in the spin.
+        Largest {
+            strain: largest.strain.max(principal),
+            rotation: largest.rotation.max(spin.norm() / std::f64::consts::SQRT_2),
+        }
+    })
+}
+
+/// Largest difference of a displacement within a cell over its shortest edge, and the hoop strain in axisymmetry.
+fn stretched<const D: usize>(model: &Model<D>, cells: &Cells, cell: usize, u: &[f64]) -> f64 {
+    let nodes = cells.cell(cell);
+    let corners = &nodes[..cells.kind.corners()];
+    let range = |c: usize| {
+        let values = nodes.iter().map(|&n| u[n * D + c]);
+        let (least, most) =
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+        most - least
+    };
+    let square = |a: usize, b: usize| {
+        let (a, b) = (&model.mesh.nodes[a], &model.mesh.nodes[b]);
+        (0..D).map(|c| (a[c] - b[c]).powi(2)).sum::<f64>()
+    };
+    let pairs = corners.iter().enumerate().flat_map(|(k, &a)| corners[..k].iter().map(move |&b| (a, b)));
+    let shortest = pairs.map(|(a, b)| square(a, b)).fold(f64::INFINITY, f64::min).sqrt();
+    let largest = (0..D).map(range).fold(0.0, f64::max);
+    (largest / shortest).max(hoop(model, cells, cell, u))
+}
+
+/// Magnitude of the hoop strain in axisymmetry.
+fn hoop<const D: usize>(model: &Model<D>, cells: &Cells, cell: usize, u: &[f64]) -> f64 {
+    if model.idealisation != Idealisation::Axisymmetric {
+        return 0.0;
+    }
+    let nodes = cells.cell(cell);
+    let radius: f64 = nodes.iter().map(|&n| model.mesh.nodes[n][0]).sum();
+    let moved: f64 = nodes.iter().map(|&n| u[n * D]).sum();
+    (moved / radius).abs()
+}
+
+/// Distance of the points towards the corners, over that of the corners: that of the Gauss points of first order, 1/√3.
+const TOWARDS: f64 = 0.577_350_269_189_625_8;
+
+/// Natural coordinates of the centre of a cell and of points towards its corners; simplices of first order have one strain.
+fn places(kind: ElementKind) -> Vec<[f64; 3]> {
+    let corners = &kind.node_coordinates()[..kind.corners()];
+    let middle: [f64; 3] =
+        std::array::from_fn(|c| corners.iter().map(|x| x[c]).sum::<f64>() / corners.len() as f64);
+    let towards = |x: &[f64; 3]| std::array::from_fn(|c| middle[c] + TOWARDS * (x[c] - middle[c]));
+    std::iter::once(middle).chain(corners.iter().map(towards)).collect()
+}
+
+/// Displacement gradient at natural coordinates of a cell.
+fn gradient<const D: usize>(
+    model: &Model<D>,
+    cells: &Cells,
+    (cell, at): (usize, [f64; 3]),
+    u: &[f64],
+) -> DMatrix<f64> {
+    let shape = cells.kind.shape(at);
+    let (mut jacobian, mut natural) = (DMatrix::<f64>::zeros(D, D), DMatrix::<f64>::zeros(D, D));
+    for (a, &node) in cells.cell(cell).iter().enumerate() {
+        for i in 0..D {
+            for m in 0..D {
+                jacobian[(i, m)] += model.mesh.nodes[node][i] * shape.dn[a][m];
+                natural[(i, m)] += u[node * D + i] * shape.dn[a][m];
+            }
+        }
+    }
+    // A cell whose Jacobian cannot be inverted is refused when the bodies are built.
+    jacobian.try_inverse().map_or_else(|| DMatrix::zeros(D, D), |inverse| natural * inverse)
+}
+
+/// Warning about a side that is dragged off the faces it was paired with.
+fn dragged<const D: usize>(
+    model: &Model<D>,
+    planned: &PlannedInterface,
+    stage: &str,
+    slid: f64,
+) -> Option<Warning> {
+    if planned.sliding == Sliding::Finite || planned.law.as_ref().is_some_and(|l| l.bonded()) {
+        return None;
+    }
+    let size = face_size(model, &planned.master_faces);
+    (slid > SMALL_SLIDING * size).then(|| {
+        Warning::at(
+            0..0,
+            format!(
+                "interface `{}` slides by {} in stage `{stage}`, {:.1} times the size {} of the faces of its master, and its pairing does not \
+                 follow: beyond some {} nodes bear on faces that they have left, with full friction even off the end of the master",
+                planned.name,
+                brief(slid),
+                slid / size,
+                brief(size),
+                brief(SMALL_SLIDING * size)
+            ),
+            "use `sliding = \"finite\"`; with \"small\" every node keeps the partner that it has at the start",
+        )
+    })
+}
+
+/// Mean distance between the first two corners of faces \[m\].
+fn face_size<const D: usize>(model: &Model<D>, faces: &[MeshFace]) -> f64 {
+    let edge = |face: &MeshFace| {
+        let (a, b) = (model.mesh.nodes[face.nodes[0]], model.mesh.nodes[face.nodes[1]]);
+        (0..D).map(|c| (a[c] - b[c]).powi(2)).sum::<f64>().sqrt()
+    };
+    faces.iter().map(edge).sum::<f64>() / faces.len().max(1) as f64
+}

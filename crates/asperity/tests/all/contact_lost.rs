@@ -1,0 +1,89 @@
+//! Bodies that contact alone holds, and steps without solution where it has let one go.
+
+use crate::common::{planned, varied};
+use asperity::kinds;
+use asperity_output::Recorder;
+use asperity_run::report::Outcome;
+use asperity_vary::Change::With;
+
+/// A block between two others, which the first stage may press or carry off.
+const DOUBLE_SHEAR: &str = r#"
+schema = 1
+title = "double direct shear"
+kinematics = "plane-strain"
+[materials.granite]
+young = "44.8 GPa"
+poisson = 0.12
+density = "2700 kg/m^3"
+[bodies.left]
+material = "granite"
+mesh.block = { min = ["0 mm", "0 mm"], max = ["25 mm", "50 mm"], size = "5 mm", element = "quad4" }
+[bodies.middle]
+material = "granite"
+mesh.block = { min = ["25 mm", "0 mm"], max = ["75 mm", "50 mm"], size = "5 mm", element = "quad4" }
+[bodies.right]
+material = "granite"
+mesh.block = { min = ["75 mm", "0 mm"], max = ["100 mm", "50 mm"], size = "5 mm", element = "quad4" }
+[interfaces.one]
+slave = "left.right"
+master = "middle.left"
+measure = "node-to-point"
+sliding = "small"
+enforcement = { kind = "penalty", normal = "100 E/h", tangential = "100 E/h" }
+law = { kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, a = 0.005, b = 0.020, l = "4 um", v_ref = "1 um/s", v_initial = "1 um/s" }
+damping = "radiation"
+[interfaces.other]
+slave = "right.left"
+master = "middle.right"
+measure = "node-to-point"
+sliding = "small"
+enforcement = { kind = "penalty", normal = "100 E/h", tangential = "100 E/h" }
+law = { kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, a = 0.005, b = 0.020, l = "4 um", v_ref = "1 um/s", v_initial = "1 um/s" }
+damping = "radiation"
+[[stages]]
+name = "press"
+duration = "10 s"
+conditions = [
+    { set = "left.left", x = { to = "0.066 mm" } },
+    { set = "right.right", x = { to = "0.066 mm" } },
+    { set = "left.bottom", y = 0 },
+    { set = "right.bottom", y = 0 },
+    { set = "middle.top", y = 0 },
+]
+[[stages]]
+name = "hold"
+duration = "100 s"
+[[stages]]
+name = "slide"
+duration = "1000 s"
+conditions = [{ set = "middle.top", y = { spring = 1e10, rate = "-1 um/s" } }]
+[time]
+stepper = "implicit"
+friction_tolerance = 2e-5
+[events]
+above = "1 mm/s"
+stop_after = 1
+"#;
+
+fn outcome(text: &str) -> Outcome {
+    kinds::bodies::run(&planned(text), &mut Recorder::new()).unwrap().outcome
+}
+
+#[test]
+fn a_step_without_solution_names_the_body_that_contact_has_let_go() {
+    // The outer blocks move to one side, and nothing presses the middle one.
+    let Outcome::Stopped { reason, .. } = outcome(DOUBLE_SHEAR) else { panic!("it runs") };
+    assert!(reason.contains("the likely cause: body `middle` is free in"), "{reason}");
+    assert!(
+        reason
+            .contains("`one` presses nothing at 11 of 11 points, `other` presses nothing at 11 of 11 points"),
+        "{reason}"
+    );
+}
+
+#[test]
+fn a_block_that_is_pressed_from_both_sides_is_held_by_contact() {
+    let text = varied(DOUBLE_SHEAR, &[With("stages[0].conditions[1].x.to", "\"-0.066 mm\"")]);
+    let outcome = outcome(&text);
+    assert!(!format!("{outcome:?}").contains("the likely cause"), "{outcome:?}");
+}

@@ -1,9 +1,0 @@
-use asperity_driver::cite::scene::*;
-use asperity_ode::Method as Integrator;
-
-#[test]
-fn every_integrator_has_a_source() {
-    for method in Integrator::ALL {
-        assert!(!integrator(method.name()).is_empty(), "{}", method.name());
-    }
-}

@@ -1,0 +1,122 @@
+//! Checks of a plan of bodies and interfaces.
+
+use super::PlannedInterface;
+use super::cohesive::{self, Shortest, pressed};
+use super::friction::Friction;
+use crate::reading::diagnostic::Diagnostic;
+use crate::reading::scene::model::{Interface as Spec, Scene};
+use crate::shared::checks::of_model::{self, Driven, body_name, field_bytes, machines};
+use crate::shared::checks::{Checks, Cost, InterfaceCheck, MachineCheck, WeakeningCheck, rates};
+use crate::shared::loading::Stage;
+use crate::shared::model::{self, Model};
+use crate::shared::resolution::{Coarsest, critical_slope};
+use asperity_fem::mesh::Side;
+use asperity_fem::surface;
+use asperity_mechanics::solver::Solver;
+use asperity_scene::defaults;
+
+/// Values of the fields of bodies at a node (displacement and Mises stress) and in a cell (stress, Mises stress and the body).
+const VALUES: [usize; 2] = [3 + 1, 6 + 2];
+
+/// Checks of a plan.
+///
+/// # Errors
+/// [`Diagnostic`] at a set without faces.
+pub(super) fn of<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    (interfaces, frictions): (&[PlannedInterface], &[Option<Friction>]),
+    stages: &[Stage],
+    (memory_bytes, solver): (usize, &Solver),
+) -> Result<Checks, Diagnostic> {
+    let mut checks = of_model::of(scene, model)?;
+    let surfaces: Vec<Driven> =
+        interfaces.iter().map(|i| driven(scene, model, i)).collect::<Result<_, _>>()?;
+    let machines = stages.last().map_or_else(Vec::new, |stage| machines(stage, &surfaces));
+    for (k, planned) in interfaces.iter().enumerate() {
+        let spec = &scene.interfaces[&planned.name];
+        let friction = frictions[k].as_ref();
+        let normal = pressed(scene, model, stages, (&planned.name, spec)).filter(|normal| *normal > 0.0);
+        let sides = model::sides(model, &spec.slave)?;
+        checks.interfaces.push(InterfaceCheck {
+            interface: planned.name.clone(),
+            points: planned.slave.len(),
+            faces: [planned.slave_faces.len(), planned.master_faces.len()],
+            area: surfaces[k].area,
+            damping: planned.damping,
+            weakening: weakening(model, (spec, friction), (&planned.slave, sides), normal),
+            machine: machines.get(k).copied().flatten().map(|k| machine(k, friction, normal)),
+        });
+    }
+    let fields = scene.output.fields.as_ref().map_or(defaults::FIELDS, |n| *n.get_ref()) * stages.len();
+    checks.cost = Cost {
+        memory_bytes: Some(memory_bytes),
+        steps: stages.iter().map(|s| s.steps).sum(),
+        step_seconds: solver.operations.map(rates::of_bodies),
+        fields: Some(fields),
+        field_bytes: Some(field_bytes(model, VALUES)),
+        profiles: Some(
+            scene.output.profiles.as_ref().map_or(defaults::PROFILES, |n| *n.get_ref()) * stages.len(),
+        ),
+        ..Cost::default()
+    };
+    Ok(checks)
+}
+
+/// The surface of an interface, as springs see it.
+fn driven<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    planned: &PlannedInterface,
+) -> Result<Driven, Diagnostic> {
+    let spec = &scene.interfaces[&planned.name];
+    let rubs = planned.law.as_ref().is_some_and(|law| !law.bonded());
+    let sides = model::sides(model, &spec.slave)?;
+    let area: f64 = surface::areas(&model.mesh, sides, model.idealisation).values().sum();
+    let mut sum = [0.0; 3];
+    // In antiplane motion every axis of motion lies in the surface.
+    if model.idealisation.components() == D {
+        let normals = surface::integrate(&model.mesh, sides, model.idealisation, |p, v| {
+            v[..D].copy_from_slice(&p.normal);
+        });
+        normals.into_iter().for_each(|(dof, value)| sum[dof % D] += value);
+    }
+    let size = surface::length(&sum);
+    let normal = if size > 0.0 { sum.map(|c| c / size) } else { sum };
+    Ok(Driven { bodies: [body_name(&spec.slave), body_name(&spec.master)], normal, area, rubs })
+}
+
+/// Lengths of friction that weakens, and the distance of points, where the fewest points stand on the cohesive zone.
+fn weakening<const D: usize>(
+    model: &Model<D>,
+    interface: (&Spec, Option<&Friction>),
+    sides: (&[(usize, f64)], &[Side]),
+    normal: Option<f64>,
+) -> Option<WeakeningCheck> {
+    let both = cohesive::shortest(model, interface, sides)?;
+    let at = |node: usize| std::array::from_fn(|c| model.mesh.nodes[node].get(c).copied().unwrap_or(0.0));
+    let under = |s: Shortest| {
+        let length = s.length / normal?;
+        Some(Coarsest { length, spacing: s.spacing, points: length / s.spacing, at: at(s.node), along: 0.0 })
+    };
+    let [zone, nucleation] = both;
+    Some(WeakeningCheck {
+        spacing: zone.spacing,
+        at: at(zone.node),
+        one_point: both.map(|s| s.length / s.spacing),
+        normal,
+        cohesive_zone: under(zone),
+        nucleation: under(nucleation),
+    })
+}
+
+/// The springs of an interface and the largest critical stiffness of its points.
+fn machine(stiffness: f64, friction: Option<&Friction>, normal: Option<f64>) -> MachineCheck {
+    let laws = friction.map_or(&[][..], Friction::laws);
+    let slope = laws.iter().filter_map(critical_slope).reduce(f64::max).filter(|slope| *slope > 0.0);
+    MachineCheck {
+        stiffness,
+        critical: normal.zip(slope).map(|(normal, slope)| normal * slope),
+        critical_normal: slope.map(|slope| stiffness / slope),
+    }
+}

@@ -1,0 +1,197 @@
+//! Interfaces of a scene, checked and converted to those of a plan.
+
+use super::enforcement::{enforced, in_pascal_per_metre};
+use super::friction::Friction;
+use super::penalty::{self, Softer};
+use super::{PlannedInterface, cohesive, damping, pressed, watch};
+use crate::reading::diagnostic::Diagnostic;
+use crate::reading::scene::model::{Interface as InterfaceSpec, Measure, Scene, Sliding};
+use crate::shared::model::{self, Model};
+use asperity_contact::{self as contact, Watch};
+use asperity_fem::mesh::{MeshFace, Side, face_kind, nodes_of_sides};
+use asperity_mechanics::{self as mechanics, coordinates};
+
+/// Fraction of the largest tributary area of an interface below which an area is zero to within rounding.
+const NO_AREA: f64 = 1e-12;
+
+/// Plans an interface with its friction; `loading` is the largest rate that the stages prescribe \[m/s\].
+///
+/// # Errors
+/// [`Diagnostic`] with the position in the scene.
+pub fn plan<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    (name, spec): (&str, &InterfaceSpec),
+    loading: f64,
+) -> Result<(PlannedInterface, Option<Friction>), Diagnostic> {
+    if model.idealisation.components() != D {
+        return Err(Diagnostic::at(
+            spec.slave.span(),
+            format!("interface `{name}`: there are no interfaces between bodies in antiplane motion"),
+            "interfaces exist with \"plane-strain\", \"plane-stress\", \"axisymmetric\" and \"3d\", and friction without \
+             bodies as `kinematics = \"spring-slider\"`; in antiplane motion bodies have conditions on their sets",
+        ));
+    }
+    let slave_sides = model::sides(model, &spec.slave)?;
+    let master_sides = model::sides(model, &spec.master)?;
+    let body = model.body_of(spec.slave.get_ref()).map(|b| &model.bodies[b]);
+    let body = body.ok_or_else(|| {
+        let help = "sets of bodies are named `body.set`";
+        Diagnostic::at(spec.slave.span(), format!("interface `{name}`: the slave side has no body"), help)
+    })?;
+    check_faces(model, spec, slave_sides, master_sides)?;
+    let slave = slave_points(model, name, spec, slave_sides, master_sides)?;
+    if slave.is_empty() {
+        return Err(Diagnostic::at(
+            spec.master.span(),
+            format!("the two sides of interface `{name}` are the same nodes"),
+            "an interface lies between two sides that can separate; `split` in a mesh makes them",
+        ));
+    }
+    let damping = damping::of(scene, model, (name, spec), (slave_sides, master_sides))?;
+    let friction = Friction::choose(scene, model, (name, spec), &slave)?;
+    let (law, watch) = match spec.law.as_ref().zip(friction.as_ref()) {
+        Some((law, friction)) => {
+            let sides = (slave_sides, master_sides);
+            let watch = watch::of(scene, model, friction.laws(), (sides, damping), loading)?;
+            (Some(friction.build(law)?), watch)
+        }
+        None => (None, Watch::default()),
+    };
+    let resolved = cohesive::resolved(model, (spec, friction.as_ref()), (&slave, slave_sides));
+    let young_per_size = model.young_per_size(body, slave_sides);
+    let enforced = enforced(&spec.enforcement, young_per_size, model.element_size(body, slave_sides));
+    let facing = model.body_of(spec.master.get_ref()).map_or(body, |b| &model.bodies[b]);
+    let softer = Softer::of(model, (body, slave_sides), (facing, master_sides));
+    penalty::check(name, spec, &softer)?;
+    let planned = PlannedInterface {
+        name: name.to_string(),
+        enforced,
+        unknowns: enforced.unknowns(slave.len(), if law.is_some() { D } else { 1 }),
+        slave,
+        slave_faces: slave_sides.iter().map(|s| MeshFace::new(&model.mesh, s)).collect(),
+        master_faces: master_sides.iter().map(|s| MeshFace::new(&model.mesh, s)).collect(),
+        measure: match spec.measure.get_ref() {
+            Measure::NodeToPoint => mechanics::Measure::NodeToPoint,
+            Measure::Mortar => mechanics::Measure::Mortar,
+        },
+        sliding: match spec.sliding.get_ref() {
+            Sliding::Small => contact::Sliding::Small,
+            Sliding::Finite => contact::Sliding::Finite,
+        },
+        smoothed: spec.smoothing.is_some(),
+        normal_penalty: in_pascal_per_metre(&spec.enforcement.normal, young_per_size),
+        tangential_penalty: (spec.enforcement.tangential.as_ref())
+            .map_or(0.0, |t| in_pascal_per_metre(t, young_per_size)),
+        law,
+        damping,
+        blamed: penalty::blamed(name, &spec.enforcement, &softer),
+        pressed: pressed::of(scene, model, (name, spec), slave_sides)?,
+        watch: Watch { coarse_beyond: resolved.as_ref().and_then(|r| r.refused_beyond), ..watch },
+        resolved,
+        probes: scene.output.probes.get(name).map_or(0, |p| *p.get_ref()),
+    };
+    Ok((planned, friction))
+}
+
+/// Slave points of an interface, ascending, with their tributary areas.
+fn slave_points<const D: usize>(
+    model: &Model<D>,
+    name: &str,
+    spec: &InterfaceSpec,
+    slave: &[Side],
+    master: &[Side],
+) -> Result<Vec<(usize, f64)>, Diagnostic> {
+    // The tip of a split surface lies on both sides, which cannot separate there.
+    let master_nodes = nodes_of_sides(&model.mesh, master);
+    let nodes =
+        nodes_of_sides(&model.mesh, slave).into_iter().filter(|n| master_nodes.binary_search(n).is_err());
+    if *spec.measure.get_ref() == Measure::Mortar {
+        return Ok(nodes.map(|n| (n, 1.0)).collect());
+    }
+    let areas = model.tributary_areas(slave).map_err(|e| {
+        let help = format!("{} first order or hex27 there", instead(spec, "use elements of"));
+        Diagnostic::at(spec.slave.span(), e.to_string(), help)
+    })?;
+    let slave: Vec<(usize, f64)> = nodes.map(|n| (n, areas[&n])).collect();
+    let largest = slave.iter().map(|s| s.1).fold(0.0, f64::max);
+    if let Some((node, _)) = slave.iter().find(|s| s.1 <= NO_AREA * largest) {
+        return Err(Diagnostic::at(
+            spec.slave.span(),
+            format!(
+                "the slave node at {} of interface `{name}` has no tributary area",
+                coordinates::in_words(&model.mesh.nodes[*node])
+            ),
+            format!(
+                "elements of second order have none on the axis of revolution: {} quad4 or tri3",
+                instead(spec, "use")
+            ),
+        ));
+    }
+    Ok(slave)
+}
+
+/// Mortar in the place of node-to-point where slave nodes need areas, and the beginning of the alternative to it.
+fn instead(spec: &InterfaceSpec, other: &str) -> String {
+    // In finite sliding, mortar has no faces of second order either.
+    let finite = *spec.sliding.get_ref() == Sliding::Finite;
+    let small = if finite { " with `sliding = \"small\"`" } else { "" };
+    let flat = if spec.smoothing.is_some() { " without `smoothing`" } else { "" };
+    format!("use `measure = \"mortar\"`{small}{flat}, or {other}")
+}
+
+/// Checks that the contact measure supports the faces of both sides.
+fn check_faces<const D: usize>(
+    model: &Model<D>,
+    spec: &InterfaceSpec,
+    slave: &[Side],
+    master: &[Side],
+) -> Result<(), Diagnostic> {
+    let linear = |side: &Side| face_kind(&model.mesh, side).first_order();
+    if let Some(smoothing) = &spec.smoothing
+        && let Some(side) = master.iter().find(|s| !linear(s))
+    {
+        let element = model.mesh.blocks[side.block].kind.name();
+        return Err(Diagnostic::at(
+            smoothing.span(),
+            format!("smoothing needs master faces of first order, but the master has faces of {element}"),
+            "faces of second order are curved already: leave `smoothing` out",
+        ));
+    }
+    if *spec.measure.get_ref() == Measure::Mortar {
+        if let Some(smoothing) = &spec.smoothing {
+            return Err(Diagnostic::at(
+                smoothing.span(),
+                "smoothing is a property of node-to-point; mortar integrates over the facets themselves",
+                "leave `smoothing` out",
+            ));
+        }
+        if *spec.sliding.get_ref() == Sliding::Finite
+            && let Some(side) = slave.iter().chain(master).find(|s| !linear(s))
+        {
+            let element = model.mesh.blocks[side.block].kind.name();
+            return Err(Diagnostic::at(
+                spec.sliding.span(),
+                format!(
+                    "finite sliding of a mortar interface needs faces of first order, but it has faces of {element}"
+                ),
+                if model.tributary_areas(slave).is_ok() {
+                    "use elements of first order there, `sliding = \"small\"`, or `measure = \"node-to-point\"`"
+                } else {
+                    "use elements of first order there (hex8 with `formulation = \"b-bar\"` does not lock), or `sliding = \"small\"`"
+                },
+            ));
+        }
+    }
+    let both = slave.iter().filter(|s| master.contains(s)).count();
+    if both > 0 {
+        return Err(Diagnostic::at(
+            spec.master.span(),
+            format!(
+                "{both} faces are slave and master at once: a surface in contact with itself is not supported"
+            ),
+            "declare the parts that meet as two sets without common faces",
+        ));
+    }
+    Ok(())
+}

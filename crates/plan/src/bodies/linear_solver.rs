@@ -1,0 +1,268 @@
+//! Choice of the linear solver. It depends on the scene alone, so that neither the choice nor the results depend on the machine.
+
+use crate::reading::diagnostic::Diagnostic;
+use crate::reading::scene::model::{Method as Asked, Scene, Spanned};
+use crate::shared::amounts::{memory, size};
+use crate::shared::model::{counts, forecast};
+use asperity_fem::assembly::{Lower, Symmetry};
+use asperity_fem::dof::{Constraints, Equations};
+use asperity_fem::term::Pattern;
+use asperity_fem::{FemError, condense};
+use asperity_mechanics::solver::{Method, Prepared, Solver, local, moving_mortar, retained, symmetry};
+use asperity_mechanics::{CellBlock, Model, Path, PlannedInterface, Spring, Stage, Stepping};
+use asperity_scene::defaults;
+
+/// Memory of the iterative method over that of its matrix; 2.5 to 3.8 in the benchmark.
+const HIERARCHY: usize = 4;
+/// Number of degrees of freedom up to which a plan analyses the system of generated blocks, which takes a second in 3D. For larger systems memory is
+/// estimated from counts, and the run does the analysis.
+const ANALYSED: usize = 50_000;
+/// Memory of LU over that of Cholesky with the same pattern: both triangles, without the fill due to pivoting.
+const UNSYMMETRIC: usize = 2;
+
+/// Chooses the linear solver.
+///
+/// # Errors
+/// [`Diagnostic`] if the method cannot be used for the scene, or takes more memory than is allowed.
+pub fn choose<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    interfaces: &[PlannedInterface],
+    stages: &[Stage],
+    path: Path,
+    stepping: &Stepping,
+) -> Result<Solver, Diagnostic> {
+    let choice = Choice { scene, model, interfaces, stages, stepping };
+    match path {
+        Path::Condensed => choice.condensed(),
+        Path::Full => choice.full(),
+    }
+}
+
+struct Choice<'a, const D: usize> {
+    scene: &'a Scene,
+    model: &'a Model<D>,
+    interfaces: &'a [PlannedInterface],
+    stages: &'a [Stage],
+    stepping: &'a Stepping,
+}
+
+impl<const D: usize> Choice<'_, D> {
+    fn memory(&self) -> usize {
+        memory(self.scene)
+    }
+
+    /// First stage with an unsymmetric tangent.
+    fn unsymmetric(&self) -> Option<&Stage> {
+        let general =
+            |s: &&Stage| symmetry(self.model, self.interfaces, self.stepping, s) == Symmetry::General;
+        self.stages.iter().find(general)
+    }
+
+    /// Bytes estimated from counts alone, if the model is large and the counts are sufficient.
+    fn counted(&self, bytes: impl Fn(&Scene) -> Option<usize>) -> Option<usize> {
+        if self.model.dofs() <= ANALYSED { None } else { bytes(self.scene) }
+    }
+
+    /// Memory for condensing the bodies onto `retained`, without the interface.
+    fn condensations(&self, retained: &[Vec<usize>]) -> Result<(Prepared, usize), Diagnostic> {
+        if let Some(bytes) = self.counted(forecast::condensation) {
+            return Ok((Prepared::Nothing, bytes));
+        }
+        let mut analyses = Vec::new();
+        let fixed = &self.stages[0].fixed;
+        for (body, retained) in self.model.bodies.iter().zip(retained) {
+            let dofs = &body.dofs;
+            let pattern = self.model.pattern(body);
+            let analysis =
+                condense::Analysis::new(&[&pattern], dofs.len(), &local(retained, dofs), &local(fixed, dofs));
+            let place = || self.scene.bodies[&body.name].material.span();
+            let refused = |e: FemError| self.or_full(Diagnostic::body(&body.name, place(), e.to_string()));
+            analyses.push(analysis.map_err(refused)?);
+        }
+        let bytes = analyses.iter().map(condense::Analysis::bytes).sum();
+        Ok((Prepared::Bodies(analyses), bytes))
+    }
+
+    fn condensed(&self) -> Result<Solver, Diagnostic> {
+        let retained = retained(self.model, self.interfaces, self.stages);
+        let (prepared, bodies) = self.condensations(&retained)?;
+        let mut kept = retained.iter().map(Vec::len).sum::<usize>();
+        kept += self.interfaces.iter().map(|i| i.unknowns).sum::<usize>();
+        // The interface matrix, its factor, and the copy made for a term.
+        let dense = 3 * kept * kept * size_of::<f64>();
+        let bytes = bodies + dense;
+        if bytes > self.memory() {
+            let what = format!("condensing the bodies onto {kept} degrees of freedom");
+            let refused = self.too_much(&what, bytes, false);
+            return Err(self.or_full(refused));
+        }
+        let why = match self.unsymmetric() {
+            None => "bodies by Cholesky factors, the interface by dense Cholesky factors",
+            Some(_) => "bodies by Cholesky factors, the interface by dense LU where friction acts",
+        };
+        Ok(Solver {
+            method: Method::Dense,
+            memory: self.memory(),
+            prepared,
+            bytes,
+            operations: Some((kept as f64).powi(3) / if self.unsymmetric().is_some() { 1.5 } else { 3.0 }),
+            why: format!("direct: {why}"),
+        })
+    }
+
+    /// A refusal of the condensation that names the full system where that is solved.
+    fn or_full(&self, refused: Diagnostic) -> Diagnostic {
+        if self.full().is_err() {
+            return refused;
+        }
+        let full = "use `path = \"full\"` in `[time]`";
+        let help = refused.help.map_or_else(|| full.to_string(), |help| format!("{full}, or {help}"));
+        Diagnostic { help: Some(help), ..refused }
+    }
+
+    fn full(&self) -> Result<Solver, Diagnostic> {
+        let method = self.scene.solver.method();
+        if method == Asked::Iterative {
+            return self.iterative("the scene asks for it".into());
+        }
+        let unsymmetric = self.unsymmetric();
+        let (prepared, bytes) = match self.counted(forecast::factorisation) {
+            Some(bytes) => (Prepared::Nothing, bytes),
+            None => {
+                let patterns: Vec<&Pattern> = self.model.blocks.iter().map(CellBlock::pattern).collect();
+                let analysis = Lower::new(&patterns, &self.equations()).analyse();
+                let analysis = analysis.map_err(|e| self.at_memory(e.to_string()))?;
+                let bytes = analysis.symbolic().bytes();
+                (Prepared::System(analysis), bytes)
+            }
+        };
+        let bytes = if unsymmetric.is_some() { UNSYMMETRIC } else { 1 } * bytes;
+        if bytes <= self.memory() {
+            return Ok(self.direct(prepared, bytes));
+        }
+        if method == Asked::Auto && self.linear_in_space() {
+            let why = format!("a factorisation would take {} of {}", size(bytes), size(self.memory()));
+            return self.iterative(why);
+        }
+        let what = format!("the factorisation of {} degrees of freedom", self.model.dofs());
+        Err(self.too_much(&what, bytes, unsymmetric.is_none()))
+    }
+
+    /// True if the iterative method is a remedy when factors do not fit into memory.
+    fn linear_in_space(&self) -> bool {
+        D == 3 && self.interfaces.is_empty() && self.model.is_linear() && self.pulled().is_none()
+    }
+
+    /// Equation numbering of the first stage.
+    fn equations(&self) -> Equations {
+        let constraints = Constraints { fixed: self.stages[0].fixed.clone(), channels: Vec::new() };
+        constraints.equations(self.model.dofs())
+    }
+
+    fn direct(&self, prepared: Prepared, bytes: usize) -> Solver {
+        let general =
+            |s: &&Stage| symmetry(self.model, self.interfaces, self.stepping, s) == Symmetry::General;
+        let count = self.stages.iter().filter(general).count();
+        let factors = match count {
+            0 => "symmetric factorisation (Cholesky)".to_string(),
+            n if n == self.stages.len() => "unsymmetric factorisation (LU)".to_string(),
+            _ => {
+                let names: Vec<String> =
+                    self.stages.iter().filter(general).map(|s| format!("`{}`", s.name)).collect();
+                format!("symmetric factorisation (Cholesky), unsymmetric (LU) in {}", names.join(", "))
+            }
+        };
+        let still = self.scene.inertia().is_none();
+        let once = self.interfaces.is_empty() && self.model.is_linear() && still;
+        let often = if once { ", once for each set of supports" } else { "" };
+        let operations = match &prepared {
+            Prepared::System(analysis) if !once => {
+                let cholesky = analysis.symbolic().operations();
+                Some(if count > 0 { UNSYMMETRIC as f64 * cholesky } else { cholesky })
+            }
+            _ => None,
+        };
+        Solver {
+            method: Method::Sparse,
+            memory: self.memory(),
+            prepared,
+            bytes,
+            operations,
+            why: format!("direct: {factors}{often}"),
+        }
+    }
+
+    /// First spring of the scene.
+    fn pulled(&self) -> Option<&Spring> {
+        self.stages.iter().flat_map(|s| &s.springs).next()
+    }
+
+    fn iterative(&self, why: String) -> Result<Solver, Diagnostic> {
+        let solver = &self.scene.solver;
+        if let Some(spring) = self.pulled() {
+            return Err(Diagnostic::at(
+                solver.method.as_ref().map_or(0..0, Spanned::span),
+                format!(
+                    "the iterative method numbers every node on its own, but a spring moves `{}` as one",
+                    spring.set
+                ),
+                "use `method = \"direct\"`, or leave it out",
+            ));
+        }
+        if let Some(stage) = self.unsymmetric() {
+            let reason = if self.interfaces.iter().any(|i| i.unknowns > 0) {
+                "multipliers that are unknowns (\"augmented-lagrangian\") make it indefinite".into()
+            } else if self.interfaces.iter().any(|i| i.law.as_ref().is_some_and(|l| !l.bonded())) {
+                format!("friction in stage `{}` makes its matrix unsymmetric", stage.name)
+            } else if self.interfaces.iter().any(moving_mortar) {
+                "a mortar interface with finite sliding makes its matrix unsymmetric".into()
+            } else {
+                "large deformation makes its matrix unsymmetric".into()
+            };
+            return Err(Diagnostic::at(
+                solver.method.as_ref().map_or(0..0, Spanned::span),
+                format!("the iterative method needs a symmetric matrix, but {reason}"),
+                "use `method = \"direct\"`, or leave it out",
+            ));
+        }
+        let matrix = forecast::matrix_bytes(&counts(&self.model.mesh), self.model.idealisation.components());
+        let bytes = HIERARCHY * matrix;
+        if bytes > self.memory() {
+            let what = format!("the iterative solution of {} degrees of freedom", self.model.dofs());
+            return Err(self.too_much(&what, bytes, false));
+        }
+        let tolerance = solver.tolerance.as_ref().map_or(defaults::SOLVER_TOLERANCE, |t| *t.get_ref());
+        let most_iterations =
+            solver.most_iterations.as_ref().map_or(defaults::MOST_ITERATIONS, |m| *m.get_ref());
+        Ok(Solver {
+            method: Method::Iterative { tolerance, most_iterations },
+            memory: self.memory(),
+            prepared: Prepared::Nothing,
+            bytes,
+            operations: None,
+            why: format!(
+                "iterative: {why}; conjugate gradients with smoothed aggregation to a residual of {tolerance:e}"
+            ),
+        })
+    }
+
+    /// Error for a system that is too large to be numbered.
+    fn at_memory(&self, message: String) -> Diagnostic {
+        let solver = &self.scene.solver;
+        let given = solver.memory.as_ref().map(Spanned::span).or(solver.method.as_ref().map(Spanned::span));
+        let place = given.unwrap_or_else(|| forecast::place_of_size(self.scene));
+        Diagnostic::at(place, message, "take a coarser mesh")
+    }
+
+    fn too_much(&self, what: &str, bytes: usize, iterative: bool) -> Diagnostic {
+        let iterative = if iterative { ", use `method = \"iterative\"` in `[solver]`" } else { "" };
+        Diagnostic::at(
+            forecast::place_of_size(self.scene),
+            format!("{what} needs about {}, and {} are allowed", size(bytes), size(self.memory())),
+            format!(
+                "raise `memory` in `[solver]` where the machine has it{iterative}, or take a coarser mesh"
+            ),
+        )
+    }
+}

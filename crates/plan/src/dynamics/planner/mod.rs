@@ -1,0 +1,155 @@
+//! Plans a scene with the stepper "explicit".
+
+mod doubts;
+mod faults;
+mod forced;
+mod masses;
+mod outputs;
+mod rupture;
+mod steps;
+
+pub use rupture::ruptures;
+
+use super::plan::{AnyPlan, Plan};
+use crate::faults::planner::{self as of_faults, Meshed};
+use crate::reading::diagnostic::Diagnostic;
+use crate::reading::scene::model::{Kinematics, Scene};
+use crate::shared::checks::of_model::{self, field_bytes};
+use crate::shared::checks::{Cost, rates};
+use crate::shared::held::Held;
+use crate::shared::loading::courses;
+use crate::shared::model::{self, Model, counts, cuts, forecast, locking, meshes};
+use crate::shared::{loading, outrun, views};
+use asperity_mechanics::dynamics::Problem;
+use asperity_scene::defaults;
+
+/// Plans a scene whose stepper is "explicit".
+///
+/// # Errors
+/// [`Diagnostic`] with the place in the scene.
+pub fn plan(scene: &Scene) -> Result<AnyPlan, Diagnostic> {
+    Ok(match scene.kinematics.get_ref().dimension() {
+        2 => AnyPlan::Two(Box::new(plan_in::<2>(scene)?)),
+        _ => AnyPlan::Three(Box::new(plan_in::<3>(scene)?)),
+    })
+}
+
+/// Refuses faults in kinematics whose jumps they do not describe.
+fn admit(scene: &Scene) -> Result<(), Diagnostic> {
+    let kinematics = scene.kinematics.get_ref();
+    let known = matches!(kinematics, Kinematics::Antiplane | Kinematics::PlaneStrain | Kinematics::ThreeD);
+    if scene.faults.is_empty() || known {
+        return Ok(());
+    }
+    Err(Diagnostic::at(
+        scene.kinematics.span(),
+        format!("faults in {} are not stepped", kinematics.words()),
+        "\"antiplane\", \"plane-strain\" and \"3d\" are",
+    ))
+}
+
+fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
+    admit(scene)?;
+    let model = model::build::<D>(scene)?;
+    let stages = loading::stages(scene, &model)?;
+    let mut warnings = scene.warnings.clone();
+    warnings.extend(locking::doubts(scene, &model)?);
+    let mut notes = meshes::notes(scene)?;
+    notes.extend(cuts::notes(scene, &model.mesh));
+    notes.extend(meshes::left_out(&model));
+    let density = masses::densities(scene, &model)?;
+    let viscosity = steps::viscosity(scene);
+    let stable = masses::stable(scene, &model, &density, viscosity)?;
+    let counted = steps::choose(scene, &stages[0], &stable)?;
+    let (locked, placed) = if scene.faults.is_empty() {
+        (Vec::new(), Vec::new())
+    } else {
+        let (all, more) = of_faults::all_points(scene, &model, &mut warnings)?;
+        notes = more;
+        faults::apart(all)
+    };
+    if placed.is_empty() && !locked.is_empty() {
+        let named: Vec<_> = scene.faults.iter().collect();
+        return Err(of_faults::nothing_slides(&named, &locked));
+    }
+    let steps = (counted.steps, counted.dt);
+    crate::doubts::add(&mut warnings, doubts::check(scene, &placed, &stages[0], steps));
+    warnings.extend(courses::passed_over(&scene.stages[0], counted.dt, courses::WAVES));
+    let resolution = of_faults::resolved(scene, &placed, &mut warnings)?;
+    let (faults, points) = of_faults::views(scene, &Meshed { model: &model }, &placed, D == 3)?;
+    let receivers = outputs::receivers(scene, &model)?;
+    notes.extend(outputs::notes(scene, counted.cadence.rows as f64 * counted.dt));
+    let memory_bytes = Held::by(&model).in_steps(stable.highest.kept, model.dofs());
+    forecast::fits(scene, memory_bytes)?;
+    let mut checks = of_model::of(scene, &model)?;
+    let prescribed = of_faults::checks::counted(scene, &locked);
+    checks.faults = of_faults::checks::faults(scene, (&placed, &prescribed), &faults, &resolution);
+    checks.cost = cost(&model, &counted, points.len(), memory_bytes);
+    let idealisation = model.idealisation;
+    let fault = faults::of(scene, &placed, &locked)?;
+    warnings.extend(doubts::unlike(scene, &placed, true));
+    if let Some(fault) = &fault {
+        let duration = counted.steps as f64 * counted.dt;
+        crate::doubts::add(&mut warnings, doubts::pulses(scene, &placed, fault, duration));
+    }
+    Ok(Plan {
+        title: scene.title.clone(),
+        stiffest: masses::middle(&model, &stable),
+        steps: counted.steps,
+        dt: counted.dt,
+        step_reason: counted.why,
+        cadence: counted.cadence,
+        faults,
+        points,
+        resolution,
+        rupture_rate: scene.output.rupture_rate.as_ref().map_or(defaults::RUPTURED, |v| v.get_ref().0),
+        fastest: outrun::bound(placed.iter().map(|p| p.medium.waves)),
+        receivers,
+        epoch: outputs::epoch(scene)?,
+        mesh: views::mesh_view(&model, false),
+        axes: (0..idealisation.components()).map(|c| idealisation.axis(c)).collect(),
+        per_length: views::per_length(idealisation),
+        kinematics: scene.kinematics.get_ref().words(),
+        memory_bytes,
+        warnings,
+        notes,
+        checks,
+        problem: Problem {
+            courant: counted.courant,
+            viscosity,
+            fault,
+            absorbing: masses::absorbing(scene, &model, &density)?,
+            velocity: Vec::new(),
+            stages,
+            density,
+            model,
+        },
+        stable,
+    })
+}
+
+/// Values of a field at a node, velocity and displacement, and in a cell.
+const VALUES: [usize; 2] = [6, 0];
+
+/// Cost of a run with these steps.
+fn cost<const D: usize>(
+    model: &Model<D>,
+    counted: &steps::Counted,
+    points: usize,
+    memory_bytes: usize,
+) -> Cost {
+    let components = model.idealisation.components();
+    let dofs = counts(&model.mesh).iter().map(|c| c.cells as usize * c.kind.nodes() * components).sum();
+
+    let times = |each: usize| Some(counted.steps / each);
+    Cost {
+        memory_bytes: Some(memory_bytes),
+        steps: Some(counted.steps),
+        step_seconds: Some(rates::of_waves(dofs, points)),
+        fields: times(counted.cadence.fields),
+        field_bytes: Some(field_bytes(model, VALUES)),
+        profiles: times(counted.cadence.profiles),
+        rows: times(counted.cadence.rows),
+        ..Cost::default()
+    }
+}

@@ -1,0 +1,483 @@
+//! The plan of faults from their points and what surrounds them.
+
+use super::super::bodies::BodiesView;
+use super::super::cadence::{self, Cadence};
+use super::super::plan::{FaultView, Plan, PointView, Station};
+use super::super::receivers::Receivers;
+use super::super::sampling::Sampling;
+use super::super::stresses::BodyStresses;
+use super::cells::Cells;
+use super::placed::{Placed, components, in_space, slides};
+use super::pulses::{self, pulses};
+use super::{asked, checks, floor, heated, pressing, radiation, sense, start_doubts, steady, upright};
+use crate::doubts::Fluid;
+use crate::reading::diagnostic::Diagnostic;
+use crate::reading::scene::law::LawChoice;
+use crate::reading::scene::model::{
+    Creep, Fault as Spec, Flux, Injection as Well, Scene, SlipSpec, Station as Asking,
+};
+use crate::shared::checks::{Checks, Cost, FaultCheck, rates};
+use crate::shared::resolution::Resolution;
+use crate::shared::{outrun, place, thresholds};
+use asperity_cycles::heat::Heat;
+use asperity_cycles::medium::across;
+use asperity_cycles::operator::Operator;
+use asperity_cycles::{
+    Fault, Floor, Injection, Layout, Loading, Opening, Pressure, Problem, Processes, Pulse, Settings,
+};
+use asperity_friction::Failure;
+use asperity_friction::fault::FaultLaw;
+use asperity_friction::turning::Turning;
+use asperity_laws::{self as laws, Theta};
+use asperity_mechanics::coordinates;
+use asperity_ode::{Clock, Method};
+use asperity_run::Warning;
+use asperity_scene::defaults;
+use std::ops::Range;
+
+/// Default method and error of ln V in a step, in the plane. Among the explicit methods it needs the fewest evaluations for an error of 1e-5 of the
+/// recurrence time in the onsets of BP1's first events. A tolerance ten times larger saves a tenth to a sixth of the work, but steps then lie at
+/// the edge of the stability region, where errors of the fastest modes do not average out: on cells of 25 m the slip of a cycle differed by
+/// 0.24 % from the imposed slip, and its duration by 0.1 %.
+const IN_THE_PLANE: (Method, f64) = (Method::Tsit5, defaults::LOG_RATE);
+
+/// Default method and error of ln V in space, where stability limits most steps between events. Intervals of BP5 have errors of 7e-6 from it,
+/// hundreds of times below those of the cells, and a run with cells of 0.5 km takes half of the evaluations.
+const IN_SPACE: (Method, f64) = (Method::Stabilised, defaults::LOG_RATE_IN_SPACE);
+
+/// Number of steps after which a run is stopped: a hundred times those of BP1 at full length.
+const MOST_STEPS: usize = 20_000_000;
+
+/// Points of faults that slide freely, and what acts on them.
+pub(super) struct Surrounded<const D: usize> {
+    pub placed: Vec<Placed<D>>,
+    pub operator: Box<dyn Operator>,
+    pub opening: Option<Opening>,
+    pub loading: Loading,
+    pub end: f64,
+}
+
+/// Description of the surroundings of faults for the output.
+pub(super) struct Around {
+    pub medium: &'static str,
+    pub dofs: usize,
+    pub creeping: usize,
+    pub memory_bytes: usize,
+    pub bodies: Option<BodiesView>,
+    pub sampling: Option<Sampling>,
+    pub stresses: Option<BodyStresses>,
+    pub resolution: Vec<Resolution>,
+    pub warnings: Vec<Warning>,
+    pub notes: Vec<String>,
+    /// Checks of the bodies.
+    pub checks: Checks,
+    /// Number of points of each fault that do not slide by their law.
+    pub prescribed: Vec<usize>,
+    /// Stiffness of the springs that drive each fault, if there are any \[Pa/m\].
+    pub machines: Vec<Option<f64>>,
+    /// Largest rate at which stages and plates move anything \[m/s\].
+    pub loading: f64,
+}
+
+/// True if slip may turn. The scene check ensures that all faults have the same.
+pub(super) fn turns(scene: &Scene) -> bool {
+    let free = |s: &Spec| s.slip.as_ref().is_some_and(|s| *s.get_ref() == SlipSpec::Free);
+    scene.faults.values().any(free)
+}
+
+/// Refusal of the law or the start of a point, with its place.
+fn at_point<const D: usize>(named: &[(&String, &Spec)], point: &Placed<D>, failure: &Failure) -> Diagnostic {
+    let (name, spec) = named[point.fault];
+    let error = crate::shared::refused::refused(&spec.law, failure);
+    let at = coordinates::in_words(&point.point.place.at);
+    let place = failure.point().map_or_else(String::new, |_| format!("; it is on fault `{name}` at {at}"));
+    Diagnostic { message: format!("{}{place}", error.message), ..error }
+}
+
+/// Plan of faults from their points and surroundings.
+pub(super) fn plan_of<const D: usize>(
+    scene: &Scene,
+    surrounded: Surrounded<D>,
+    around: Around,
+    cells: &dyn Cells<D>,
+) -> Result<Plan, Diagnostic> {
+    let Surrounded { placed, operator, opening, loading, end } = surrounded;
+    let named: Vec<(&String, &Spec)> = scene.faults.iter().collect();
+    let at_law = |e: Failure| crate::shared::refused::refused(&named[placed[0].fault].1.law, &e);
+    let turns = turns(scene);
+    let law = friction(&named, &placed, at_law)?;
+    let mut law = if turns { Box::new(Turning::new(law)) } else { law };
+    let heat = heated::heat(scene, &placed, law.as_mut(), end);
+    let modes = heat.as_ref().map_or(0, Heat::bytes);
+    let pulses = pulses(&named, &placed, if turns { 2 } else { 1 })?;
+    let fault = Fault {
+        operator,
+        law,
+        damping: placed.iter().map(|p| p.damping).collect(),
+        normal: placed.iter().map(|p| p.normal).collect(),
+        processes: Processes::default()
+            .and(pulses.into_iter().map(|(amplitude, rise)| Pulse { amplitude, rise }))
+            .and(pressure(scene, &placed)?)
+            .and(heat)
+            .and(opening)
+            .and(Floor::new(placed.iter().map(|p| p.floor))),
+    };
+    let start = start(&placed, &fault).map_err(|(p, failure)| at_point(&named, &placed[p], &failure))?;
+    let settings = settings(scene, &placed, end)?;
+    pressing::rests(scene, (&placed, &fault), (&start, settings.thresholds.on))?;
+    let mut warnings = around.warnings;
+    doubt(scene, (&placed, &fault), around.loading, &mut warnings)?;
+    warnings.extend(spread(scene, &placed, end));
+    warnings.extend(steady::starts(scene, &placed, &fault, (&loading, end)));
+    let (faults, points) = views(scene, cells, &placed, turns)?;
+    let areas = placed.iter().map(|p| p.point.place.area).collect();
+    let cadence = cadence(scene, &fault, end);
+    let mut checks = around.checks;
+    checks.faults = checks::faults(scene, (&placed, &around.prescribed), &faults, &around.resolution);
+    add_loads(&mut checks.faults, scene, &placed, (&loading, end, &around.machines));
+    let memory_bytes = around.memory_bytes + modes;
+    checks.cost = Cost {
+        memory_bytes: Some(memory_bytes),
+        step_seconds: Some(rates::of_faults(settings.method, placed.len(), fault.operator.moved() + modes)),
+        largest_file: Some(cadence.largest_file),
+        ..Cost::default()
+    };
+    Ok(Plan {
+        title: scene.title.clone(),
+        faults,
+        points,
+        cadence,
+        event_files: scene.output.event_files.as_ref().map_or(defaults::EVENT_FILES, |n| *n.get_ref()),
+        problem: Problem { fault, areas, loading, start, settings },
+        ruptures: None,
+        receivers: Receivers::default(),
+        free_surface: None,
+        coulomb: None,
+        platform: None,
+        slow: thresholds::slow(scene.events.as_ref()),
+        up: place::up(scene),
+        medium: around.medium,
+        dofs: around.dofs,
+        creeping: around.creeping,
+        memory_bytes,
+        bodies: around.bodies,
+        sampling: around.sampling,
+        stresses: around.stresses,
+        frame: place::of(scene, D == 3)?,
+        in_space: D == 3,
+        kinematics: scene.kinematics.get_ref().words(),
+        resolution: around.resolution,
+        warnings,
+        notes: around.notes,
+        checks,
+    })
+}
+
+/// Adds doubts of the start of faults, of their pulses and their damping under loads of this rate \[m/s\].
+fn doubt<const D: usize>(
+    scene: &Scene,
+    (placed, fault): (&[Placed<D>], &Fault),
+    rate: f64,
+    warnings: &mut Vec<Warning>,
+) -> Result<(), Diagnostic> {
+    let named: Vec<(&String, &Spec)> = scene.faults.iter().collect();
+    warnings.extend(pressing::unused_rates(scene, placed));
+    crate::doubts::add(warnings, start_doubts::check(scene, placed, fault));
+    warnings.extend(upright::above_ground(scene, placed)?);
+    let amplitudes = fault.processes.each::<Pulse>().map(|p| p.amplitude.as_slice());
+    crate::doubts::add(warnings, pulses::doubts(&named, amplitudes, &pulses::at_rest(fault)));
+    crate::doubts::add(warnings, endless(scene, rate));
+    crate::doubts::add(warnings, radiation::doubts(scene, placed));
+    Ok(())
+}
+
+/// Adds the rate of loading and the machine of each fault to its checks; `machines` has the stiffness of springs at each fault.
+fn add_loads<const D: usize>(
+    checks: &mut [FaultCheck],
+    scene: &Scene,
+    placed: &[Placed<D>],
+    (loading, end, machines): (&Loading, f64, &[Option<f64>]),
+) {
+    for (k, (check, spec)) in checks.iter_mut().zip(scene.faults.values()).enumerate() {
+        let sense = spec.rate.get_ref().0.signum();
+        check.loading = sense::first_rate(placed, k, loading, end).map(|rate| rate * sense);
+        let springs = machines.get(k).copied().flatten();
+        check.machine = springs.map(|stiffness| checks::machine(stiffness, k, placed));
+    }
+}
+
+/// Laws of all points, which are of one kind.
+fn friction<const D: usize>(
+    faults: &[(&String, &Spec)],
+    placed: &[Placed<D>],
+    at_law: impl Fn(Failure) -> Diagnostic,
+) -> Result<Box<dyn FaultLaw>, Diagnostic> {
+    let (first, rest) = (&placed[0], &placed[1..]);
+    let spec = |p: &Placed<D>| &faults[p.fault].1.law;
+    if let Some(other) = rest.iter().find(|p| !first.law.same_kind(&p.law)) {
+        return Err(Diagnostic::at(
+            spec(other).span(),
+            "the faults have laws of different kinds",
+            "one form, one evolution and as many states for all faults of a scene; parameters may differ",
+        ));
+    }
+    let choices: Vec<LawChoice> = rest.iter().map(|p| p.law.clone()).collect();
+    laws::build_fault(&first.law, &choices).map_err(at_law)?.ok_or_else(|| asked::another_law(spec(first)))
+}
+
+/// Positions and areas of points, and the points of each fault that has some.
+pub(super) fn geometry<const D: usize>(placed: &[Placed<D>]) -> (Vec<[f64; 3]>, Vec<f64>, Vec<Range<usize>>) {
+    let places = placed.iter().map(|p| in_space(&p.point.place.at)).collect();
+    let areas = placed.iter().map(|p| p.point.place.area).collect();
+    let last = placed.last().map_or(0, |p| p.fault);
+    let first = |fault: usize| placed.partition_point(|p| p.fault < fault);
+    let faults = (0..=last).map(|f| first(f)..first(f + 1)).filter(|r| !r.is_empty()).collect();
+    (places, areas, faults)
+}
+
+/// Pressure of the injected fluid.
+fn pressure<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Result<Option<Pressure>, Diagnostic> {
+    let mut pressure: Option<Pressure> = None;
+    for (fault, (name, spec)) in scene.faults.iter().enumerate() {
+        let Some(wells) = &spec.injection else { continue };
+        let points = placed.iter().filter(|p| p.fault == fault);
+        let along: Vec<f64> = points.map(|p| p.point.place.along).collect();
+        let (least, most) = along.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), s| (l.min(*s), m.max(*s)));
+        for well in &wells.0 {
+            let at = well.at.get_ref().0;
+            if !(least <= at && at <= most) {
+                return Err(Diagnostic::at(
+                    well.at.span(),
+                    format!("fault `{name}` does not slide at {at} m along it, where fluid is injected"),
+                    format!("it slides from {least} to {most} m"),
+                ));
+            }
+            let first = placed.partition_point(|p| p.fault < fault);
+            let distances = along.iter().map(|s| s - at).collect();
+            pressure.get_or_insert_default().add(injected(well), first, distances);
+        }
+    }
+    Ok(pressure)
+}
+
+/// Flow of a well: steps of its flux.
+fn injected(well: &Well) -> Injection {
+    let flux = match well.flux.get_ref() {
+        Flux::Steps(steps) => steps.to_vec(),
+        Flux::Constant(flux) => {
+            let end = well.until.as_ref().map(|t| (t.get_ref().0, 0.0));
+            std::iter::once((0.0, *flux)).chain(end).collect()
+        }
+    };
+    Injection {
+        flux,
+        diffusivity: *well.diffusivity.get_ref(),
+        porosity: *well.porosity.get_ref(),
+        compressibility: *well.compressibility.get_ref(),
+    }
+}
+
+/// Initial unknowns: every point slides at its initial rate.
+fn start<const D: usize>(placed: &[Placed<D>], fault: &Fault) -> Result<Vec<f64>, (usize, Failure)> {
+    let layout = Layout::of(fault);
+    let n = fault.law.states();
+    let mut y = vec![0.0; layout.size()];
+    if !layout.normal().is_empty() {
+        let normal = layout.normal();
+        y[normal].iter_mut().zip(placed).for_each(|(f, point)| *f = point.normal);
+    }
+    let pressed = fault.pressed(Clock::new(0.0, 0.0), &y);
+    for (p, point) in placed.iter().enumerate() {
+        let rate = point.rate;
+        let states = layout.states().start + p * n..layout.states().start + (p + 1) * n;
+        let initial = match &point.law {
+            LawChoice::RateAndState { v_initial, .. } => *v_initial,
+            _ => rate.abs(),
+        };
+        let law: &dyn FaultLaw = fault.law.as_ref();
+        law.steady(p, initial.ln(), &mut y[states.clone()]);
+        if let Some(state) = point.state {
+            y[states.start] = state;
+        }
+        if let Some(shear) = point.pressed_shear {
+            // The traction of damping at the slip rate that follows is left out: it is small, or the start is refused.
+            let scale = law.scale(p) * pressed.normal[p];
+            for (component, shear) in shear.into_iter().take(layout.components()).enumerate() {
+                y[component * layout.points() + p] = shear / scale;
+            }
+        } else if let Some(shear) = point.shear {
+            // Friction is odd in the slip rate, so its magnitude is found for a positive rate.
+            let mu = (shear - fault.damping[p] * rate) * rate.signum() / pressed.normal[p];
+            law.states_for(p, rate.abs(), mu, &mut y[states.clone()]).map_err(|e| (p, e))?;
+            y[p] = mu * rate.signum() / law.scale(p);
+        } else {
+            y[p] = law.at_rate(p, rate, &y[states]).map_err(|e| (p, e))?;
+        }
+    }
+    Ok(y)
+}
+
+/// Method and tolerance of ln V of a scene in D dimensions. A method other than the default one has the tolerance of the plane, unless the scene
+/// gives one.
+fn integrator<const D: usize>(scene: &Scene) -> Result<(Method, f64), Diagnostic> {
+    let time = &scene.time;
+    let tolerance = time.log_rate_tolerance.as_ref().map(|t| *t.get_ref());
+    let usual = if D == 3 && !heated::any(scene) { IN_SPACE } else { IN_THE_PLANE };
+    let (method, default) = match &time.method {
+        None => usual,
+        Some(name) => match name.get_ref().parse::<Method>() {
+            Ok(method) if Method::EXPLICIT.contains(&method) => {
+                (method, if method == usual.0 { usual.1 } else { IN_THE_PLANE.1 })
+            }
+            _ => {
+                let those = Method::EXPLICIT.map(|m| format!("\"{}\"", m.name())).join(", ");
+                return Err(Diagnostic::at(
+                    name.span(),
+                    format!("the method \"{}\" does not integrate faults", name.get_ref()),
+                    format!("those without a Jacobian do: {those}"),
+                ));
+            }
+        },
+    };
+    Ok((heated::method(scene, method)?, tolerance.unwrap_or(default)))
+}
+
+fn settings<const D: usize>(scene: &Scene, placed: &[Placed<D>], end: f64) -> Result<Settings, Diagnostic> {
+    let (method, tolerance) = integrator::<D>(scene)?;
+    let events = scene.events.as_ref();
+    let thresholds = thresholds::of(events);
+    Ok(Settings {
+        method,
+        tolerance,
+        end,
+        thresholds,
+        rupture_rate: rupture_rate(scene, thresholds.on)?,
+        most_events: events.and_then(|e| e.stop_after.as_ref()).map(|n| *n.get_ref()),
+        most_steps: MOST_STEPS,
+        fastest: outrun::bound(placed.iter().map(|p| p.medium.waves)),
+    })
+}
+
+/// Warnings about events that do not end, as `loading` or creep keep up the slip rate that ends them \[m/s\].
+fn endless(scene: &Scene, loading: f64) -> Vec<Warning> {
+    let Some(events) = scene.events.as_ref() else { return Vec::new() };
+    let creeps = scene.faults.values().filter_map(|f| f.creep.as_ref());
+    let fastest = creeps.map(|c| c.rate.get_ref().0.abs()).fold(loading, f64::max);
+    let usual = crate::doubts::thresholds(events, thresholds::of(Some(events)), fastest, false);
+    let slow =
+        thresholds::slow(Some(events)).and_then(|t| crate::doubts::thresholds(events, t, fastest, true));
+    // One warning per cause: the rate of the loads.
+    usual.or(slow).into_iter().collect()
+}
+
+/// Warnings about fluid that has run beyond the ends of its fault before the run ends \[s\].
+fn spread<const D: usize>(scene: &Scene, placed: &[Placed<D>], end: f64) -> Vec<Warning> {
+    let of = |(k, (name, spec)): (usize, (&String, &Spec))| {
+        let wells = spec.injection.as_ref()?;
+        let along = placed.iter().filter(|p| p.fault == k).map(|p| p.point.place.along);
+        let ends = along.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], s| [l.min(s), h.max(s)]);
+        // One warning per fault: of the first well whose fluid has run too far.
+        wells.0.iter().find_map(|well| {
+            let at = well.at.get_ref().0;
+            let fluid = Fluid { at, ends, diffusivity: *well.diffusivity.get_ref(), duration: end };
+            crate::doubts::fluid(name, well.diffusivity.span(), fluid)
+        })
+    };
+    scene.faults.iter().enumerate().filter_map(of).collect()
+}
+
+/// Slip rate at which a point has ruptured \[m/s\]; events begin at the slip rate `on`.
+fn rupture_rate(scene: &Scene, on: f64) -> Result<f64, Diagnostic> {
+    let Some(given) = &scene.output.rupture_rate else { return Ok(defaults::RUPTURED.max(on)) };
+    let rate = given.get_ref().0;
+    if rate < on {
+        return Err(Diagnostic::at(
+            given.span(),
+            format!("points would rupture at {rate:e} m/s, before their event begins at {on:e} m/s"),
+            "`rupture_rate` at least as large as `above` of `[events]`",
+        ));
+    }
+    Ok(rate)
+}
+
+/// Cadence of the output.
+fn cadence(scene: &Scene, fault: &Fault, end: f64) -> Cadence {
+    let lengths = (0..fault.law.points()).filter_map(|p| fault.law.length(p));
+    let on = thresholds::of(scene.events.as_ref()).on;
+    let output = &scene.output;
+    let asked = output.cadence.as_ref().map(|c| c.get_ref());
+    let asked = cadence::Asked {
+        decades: asked.and_then(|c| c.decades.as_ref()).map(|d| *d.get_ref()),
+        slip: asked.and_then(|c| c.slip.as_ref()).map(|s| s.get_ref().0),
+        longest: asked.and_then(|c| c.longest.as_ref()).map(|t| t.get_ref().0),
+        shortest: asked.and_then(|c| c.shortest.as_ref()).map(|t| t.get_ref().0),
+        contours: output.contours.as_ref().map(|c| [c.get_ref()[0].0, c.get_ref()[1].0]),
+        largest_file: output.largest_file.as_ref().map(|m| m.get_ref().0),
+    };
+    Cadence::new(asked, end, on, lengths.reduce(f64::min))
+}
+
+/// Faults and points, as needed by the output.
+pub(crate) fn views<const D: usize>(
+    scene: &Scene,
+    cells: &dyn Cells<D>,
+    placed: &[Placed<D>],
+    turns: bool,
+) -> Result<(Vec<FaultView>, Vec<PointView>), Diagnostic> {
+    let creeps: Vec<Option<&Creep>> = scene.faults.values().map(|spec| spec.creep.as_ref()).collect();
+    let points: Vec<PointView> = placed
+        .iter()
+        .map(|p| {
+            let place = &p.point.place;
+            let (at, normal): ([f64; 3], [f64; 3]) = (in_space(&place.at), in_space(&place.normal));
+            let slides = slides(p);
+            let (along, area, theta) = (place.along, place.area, Theta::of(&p.law));
+            let plate = creeps[p.fault].map(|creep| components(place, creep.rate.get_ref().0));
+            let shear_modulus = p.medium.shear_modulus;
+            PointView {
+                at,
+                along,
+                normal,
+                slides,
+                across: turns.then(|| across(&normal, &slides)),
+                area,
+                shear_modulus,
+                theta,
+                plate: plate.filter(|rate| rate[0] != 0.0 || turns && rate[1] != 0.0),
+            }
+        })
+        .collect();
+    let mut faults = Vec::new();
+    for (k, (name, spec)) in scene.faults.iter().enumerate() {
+        let first = placed.partition_point(|p| p.fault < k);
+        let last = placed.partition_point(|p| p.fault <= k);
+        let asked = scene.output.stations.get(name);
+        let off = |p: usize, s: &Asking| match s {
+            Asking::Along(s) => (points[p].along - s).abs(),
+            Asking::At(at) => at.iter().zip(&points[p].at).map(|(a, b)| (a - b).powi(2)).sum(),
+        };
+        let nearest = |s: &Asking| (first..last).min_by(|&a, &b| off(a, s).total_cmp(&off(b, s)));
+        let mut stations = Vec::new();
+        for asked in asked.iter().flat_map(|a| a.get_ref()) {
+            let Some(point) = nearest(asked.get_ref()) else { continue };
+            let size = cells.size(spec, &placed[point])?;
+            asked::station(name, asked, (&placed[first..last], point - first), size)?;
+            let station = match asked.get_ref() {
+                Asking::Along(s) => Station::Along(*s),
+                Asking::At(at) => Station::At(at.clone()),
+            };
+            stations.push((station, point));
+        }
+        faults.push(FaultView {
+            name: name.clone(),
+            points: first..last,
+            normal: floor::choice(spec),
+            heat: heated::view(spec, &placed[first..last]),
+            stations,
+            faces: cells.faces((k, spec), &placed[first..last])?,
+            outline: cells.outline(k),
+            grid: cells.grid(k),
+        });
+    }
+    Ok((faults, points))
+}

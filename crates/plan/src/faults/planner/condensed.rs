@@ -1,0 +1,88 @@
+//! Bodies condensed onto the points of their faults, with the operator made of the forces that are left. Both are kept beside the
+//! run where they took long.
+
+use super::assemble::geometry;
+use super::held::Asked;
+use super::placed::Placed;
+use crate::reading::diagnostic::Diagnostic;
+use crate::reading::scene::model::{Fault as Spec, Scene};
+use crate::shared::setup::{Key, Setups};
+use asperity_cycles::medium::{Bodies, Conditions, Initial, Mirror, Surroundings, condense};
+use asperity_cycles::operator::{Form, Geometry, Operator, of_forces};
+use asperity_cycles::{Loading, Opening};
+use asperity_fem::condense::Stiffness;
+pub use asperity_run::report::Part;
+use serde::{Deserialize, Serialize};
+
+/// Condensed bodies.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Condensed {
+    /// Tractions that slip causes.
+    pub operator: Box<dyn Operator>,
+    /// Tractions that openings cause, where points may open.
+    pub opening: Option<Opening>,
+    /// Tractions that loads and creep cause.
+    pub loading: Loading,
+    /// Rates of shear tractions caused by creep, component by component \[Pa/s\].
+    pub creep: Option<Vec<f64>>,
+    /// Rates of shear tractions that slip of all points with the plates would cause, along the first direction \[Pa/s\]. Nearly all
+    /// of it cancels, so that it is found before the forces are compressed.
+    pub with_plates: Vec<f64>,
+    /// Tractions caused by weight.
+    pub weight: Option<Initial>,
+    /// Peak memory of the condensation \[bytes\].
+    pub bytes: usize,
+    /// True if one of two bodies that mirror each other was condensed for both.
+    pub mirrored: bool,
+    /// The bodies with their factor, where displacements are asked for; they are not kept beside a run.
+    #[serde(skip)]
+    pub bodies: Option<Bodies>,
+}
+
+/// Bodies condensed onto the points that slide freely, `placed`. `inputs` is the hash of their stiffness.
+///
+/// # Errors
+/// [`Diagnostic`] if they cannot be condensed.
+pub(super) fn of<const D: usize>(
+    (asked, placed): (Asked<'_, D>, &[Placed<D>]),
+    bodies: Stiffness,
+    (conditions, mirror, form): (Conditions, Option<&Mirror>, Form),
+    (setups, inputs): (&Setups, Option<String>),
+) -> Result<Condensed, Diagnostic> {
+    let (places, areas, faults) = geometry(placed);
+    let geometry = Geometry { places: &places, faults: &faults, areas: &areas, surfaces: D == 3 };
+    let rates = rates(asked.scene, placed);
+    let make = || -> Result<Condensed, Diagnostic> {
+        let surroundings = condense(bodies, asked.loads, asked.points, conditions, mirror);
+        let surroundings = surroundings.map_err(|e| asked.error(&e))?;
+        let Surroundings { forces, opening, loading, creep, weight, bytes, mirrored, bodies } = surroundings;
+        let with_plates = forces.shear_along(&rates);
+        let operator = of_forces(forces, &geometry, form);
+        Ok(Condensed { operator, opening, loading, creep, with_plates, weight, bytes, mirrored, bodies })
+    };
+    if conditions.keep {
+        return make();
+    }
+    let inputs = inputs.and_then(|stiffness| {
+        setups.hash(|key| {
+            let of_bodies = key.value(&stiffness).value(asked.loads).value(&asked.points);
+            let shape = (conditions.components, conditions.tangents, form);
+            of_bodies.value(&shape).value(&mirror).value(&geometry).value(&rates)
+        })
+    });
+    setups.part(Part::Operator, inputs, make)
+}
+
+/// Rate at which the fault of each point creeps \[m/s\].
+fn rates<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Vec<f64> {
+    let rate = |spec: &Spec| spec.creep.as_ref().map_or(0.0, |c| c.rate.get_ref().0);
+    let of_faults: Vec<f64> = scene.faults.values().map(rate).collect();
+    placed.iter().map(|p| of_faults[p.fault]).collect()
+}
+
+/// Adds the stiffness of bodies to a hash.
+pub(super) fn of_stiffness(key: Key, bodies: &Stiffness) -> Key {
+    let blocks = bodies.pattern.blocks().map(<[usize]>::len);
+    let pattern = key.counts(bodies.pattern.dofs().iter().copied()).counts(blocks);
+    pattern.numbers(&bodies.values).value(&bodies.dofs)
+}

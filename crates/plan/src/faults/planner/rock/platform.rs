@@ -1,0 +1,116 @@
+//! Files of a vertical fault in space for the platform of a community benchmark.
+
+use super::super::super::platform::Platform;
+use super::super::assemble::turns;
+use super::super::placed::{Placed, in_space, slides};
+use crate::reading::diagnostic::Diagnostic;
+use crate::reading::scene::model::{Scene, Spanned, Station};
+use asperity_cycles::medium::across;
+use asperity_output::platform::Submission;
+use nalgebra::Vector3;
+
+/// Difference of directions that count as the same: rounding.
+const SAME: f64 = 1e-9;
+
+/// Metres per kilometre.
+const KM: f64 = 1e3;
+
+/// Files of a scene, if it asks for them.
+///
+/// # Errors
+/// [`Diagnostic`] at a fault that is no vertical plane, at slip that is not along strike, or at positions that have the same name.
+pub(super) fn of<const D: usize>(
+    scene: &Scene,
+    placed: &[Placed<D>],
+) -> Result<Option<Platform>, Diagnostic> {
+    let Some(asked) = &scene.output.platform else { return Ok(None) };
+    let spec = asked.get_ref();
+    let (1, Some(first)) = (scene.faults.len(), placed.first()) else {
+        return Err(Diagnostic::at(
+            asked.span(),
+            format!(
+                "the files of the platform are those of one fault, and the scene has {}",
+                scene.faults.len()
+            ),
+            "one scene for each benchmark",
+        ));
+    };
+    let normal = Vector3::from(in_space(&first.point.place.normal));
+    let plane =
+        placed.iter().all(|p| (Vector3::from(in_space(&p.point.place.normal)) - normal).norm() < SAME);
+    if D != 3 || !plane || normal.y.abs() > SAME {
+        return Err(Diagnostic::at(
+            asked.span(),
+            "the files of the platform are those of a vertical plane in space",
+            "remove `platform`; `stations` have the format of benchmarks in the plane",
+        ));
+    }
+    let down = -Vector3::y();
+    let along = down.cross(&normal);
+    let rake = Vector3::from(slides(first));
+    let aside = Vector3::from(across(&normal.into(), &rake.into()));
+    let signs = [rake.dot(&along), aside.dot(&down)];
+    if signs.iter().any(|sign| (sign.abs() - 1.0).abs() > SAME) {
+        return Err(Diagnostic::at(
+            asked.span(),
+            "the files of the platform have slip along strike and down, and `rake` is neither",
+            "a `rake` along strike, with `slip = \"free\"` where slip may turn",
+        ));
+    }
+    let axes = [normal, along, down];
+    let on_fault = |[_, strike, depth]: [f64; 3]| {
+        let name = format!("fltst_strk{}dp{}", km(strike), km(depth));
+        let location = format!("on fault, {} km along strike, {} km depth", strike / KM, depth / KM);
+        (name, location)
+    };
+    let off_fault = |[off, strike, depth]: [f64; 3]| {
+        let name = format!("blkst_strk{}fn{}dp{}", km(strike), km(off), km(depth));
+        let [off, strike, depth] = [off, strike, depth].map(|x| x / KM);
+        (name, format!("off fault, {strike} km along strike, {off} km away from the fault, {depth} km depth"))
+    };
+    // Adding zero turns -0 into 0.
+    let seen = |at: &[f64]| {
+        let at = Vector3::from_fn(|c, _| at.get(c).copied().unwrap_or(0.0));
+        axes.map(|axis| axis.dot(&at) + 0.0)
+    };
+    let mut stations = Vec::new();
+    for station in scene.output.stations.values().flat_map(|all| all.get_ref()) {
+        if let Station::At(at) = station.get_ref() {
+            stations.push(on_fault(seen(at)));
+        }
+    }
+    let receivers = scene.output.receivers.values().map(|at| {
+        let at: Vec<f64> = at.get_ref().iter().map(|x| x.0).collect();
+        off_fault(seen(&at))
+    });
+    let receivers: Vec<(String, String)> = receivers.collect();
+    distinct(asked, stations.iter().chain(&receivers).map(|named| named.0.as_str()))?;
+    let spacing = placed.iter().map(|p| p.spacing).fold(0.0, f64::max);
+    let submission = Submission {
+        problem: spec.problem.get_ref().clone(),
+        version: env!("CARGO_PKG_VERSION").into(),
+        modeler: spec.modeler.get_ref().clone(),
+        date: spec.date.as_ref().map(|date| date.get_ref().clone()),
+        element_size: format!("{spacing} m"),
+    };
+    let axes = axes.map(Into::into);
+    let signs = signs.map(f64::signum);
+    Ok(Some(Platform { submission, axes, turns: turns(scene), signs, stations, receivers }))
+}
+
+/// Whole kilometres with a sign and two digits, as in the names of the benchmarks.
+fn km(metres: f64) -> String {
+    // Adding zero turns -0 into 0.
+    format!("{:+03}", (metres / KM).round() + 0.0)
+}
+
+fn distinct<'a, T>(asked: &Spanned<T>, names: impl Iterator<Item = &'a str>) -> Result<(), Diagnostic> {
+    let mut sorted: Vec<&str> = names.collect();
+    sorted.sort_unstable();
+    let Some(twice) = sorted.windows(2).find(|pair| pair[0] == pair[1]) else { return Ok(()) };
+    Err(Diagnostic::at(
+        asked.span(),
+        format!("two positions have the file `{}`: names of the platform have whole kilometres", twice[0]),
+        "positions at least a kilometre apart, or no `platform`",
+    ))
+}

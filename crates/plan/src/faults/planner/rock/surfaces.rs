@@ -1,0 +1,34 @@
+//! Faults in space, divided into rectangles and triangles.
+
+use super::tiling::Tiling;
+use super::{rectangles, triangles};
+use crate::reading::diagnostic::Diagnostic;
+use crate::reading::scene::model::Scene;
+use asperity_cycles::kernel::Space;
+use asperity_cycles::medium::patches::Patches;
+
+/// Cells of all faults.
+///
+/// # Errors
+/// [`Diagnostic`] at a fault that cannot be divided, or that leaves the rock.
+pub(super) fn tiling<const D: usize>(scene: &Scene, space: Space) -> Result<Tiling<D>, Diagnostic> {
+    let (mut tiles, mut grids) = (Vec::new(), Vec::new());
+    let (mut faults, mut notes) = (Vec::new(), Vec::new());
+    for (name, spec) in &scene.faults {
+        if let Some(rectangle) = &spec.rectangle {
+            let numbers = (tiles.len(), grids.len());
+            let found = rectangles::cells((name, spec), rectangle, space, numbers)?;
+            tiles.extend(found.tiles);
+            grids.push(found.grid);
+            faults.push(found.cut);
+            notes.push(found.note);
+        }
+        if let Some(surface) = &spec.triangles {
+            let found = triangles::cells(scene, (name, spec), surface, space, tiles.len())?;
+            tiles.extend(found.tiles);
+            faults.push(found.cut);
+            notes.extend(found.notes);
+        }
+    }
+    Ok(Tiling { patches: Patches::Space { tiles, grids }, faults, notes })
+}

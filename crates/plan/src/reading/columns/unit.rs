@@ -1,0 +1,46 @@
+//! Units of columns, from the file or the scene.
+
+use crate::reading::wrong::Wrong;
+use asperity_scene::units::{self, Dimension};
+
+/// Unit of numbers of this dimension: that of the file, or the stated one where the file has none.
+///
+/// # Errors
+/// [`Wrong`] for a unit that is missing, of another dimension, or not the stated one. `what` is such as `("column", "x")`.
+pub(crate) fn chosen<'a>(
+    (what, name): (&str, &str),
+    own: Option<&'a str>,
+    stated: Option<&'a str>,
+    dimension: Option<Dimension>,
+) -> Result<Option<&'a str>, Wrong> {
+    let own = own.filter(|unit| !unit.is_empty());
+    let Some(dimension) = dimension else {
+        return match own.or(stated) {
+            None | Some("-" | "1") => Ok(None),
+            Some(unit) => Err(Wrong::new(
+                format!("its {what} `{name}` has the unit {unit}, and is a number without a unit"),
+                format!("`{name}` or `{name} [-]`"),
+            )),
+        };
+    };
+    let size = |unit: &str| {
+        units::parse(&format!("1 {unit}"), dimension).map_err(|why| {
+            let help = format!("such as `{name} [{}]`", dimension.si());
+            Wrong::new(format!("the unit of its {what} `{name}`: {why}"), help)
+        })
+    };
+    let Some(unit) = own.or(stated) else {
+        return Err(Wrong::new(
+            format!("its {what} `{name}` has no unit, and is {}", dimension.name()),
+            format!("the unit in brackets, such as `{name} [{}]`", dimension.si()),
+        ));
+    };
+    let own_size = size(unit)?;
+    match stated {
+        Some(stated) if size(stated)? != own_size => Err(Wrong::new(
+            format!("its {what} `{name}` has the unit {unit}, and the scene states {stated}"),
+            "leave the unit out of the scene where the file has it",
+        )),
+        _ => Ok(Some(unit)),
+    }
+}

@@ -1,0 +1,8 @@
+//! Scenes and tables of columns as they are read, and what is wrong with them.
+
+pub mod columns;
+pub mod diagnostic;
+pub mod missing;
+pub mod scene;
+pub mod sniff;
+pub mod wrong;

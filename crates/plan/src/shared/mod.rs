@@ -1,0 +1,23 @@
+//! What the plans of several kinds of run need.
+
+pub mod amounts;
+pub mod checks;
+pub mod cohesive;
+pub mod field;
+pub mod handover;
+pub mod held;
+pub mod idealisation;
+pub mod impedance;
+pub mod initial_stress;
+pub mod loading;
+pub mod model;
+pub mod outrun;
+pub mod place;
+pub mod refused;
+pub mod resolution;
+pub mod ruptures;
+pub mod setup;
+pub mod sha256;
+pub mod thresholds;
+pub mod views;
+pub mod words;

@@ -1,0 +1,16 @@
+#![doc = include_str!("../README.md")]
+
+mod catalogue;
+mod counts;
+mod energy;
+mod observer;
+pub mod report;
+mod sites;
+mod warning;
+
+pub use catalogue::{ALL, Catalogue, Event};
+pub use counts::{Counts, Integration, Operations};
+pub use energy::{Closure, Energies, EnergyTable, Part};
+pub use observer::{Kind, ObserveError, Observer, Observers};
+pub use sites::{Site, SlipPoints};
+pub use warning::{Place, Warning};
