@@ -2,6 +2,7 @@
 
 use asperity_cycles::Rupture;
 use asperity_cycles::heat::TEMPERATURE;
+use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::shortest;
 use asperity_output::located::Located;
 use asperity_output::{OutputError, atomic, stems};
@@ -126,20 +127,66 @@ fn optional(value: Option<f64>) -> String {
 }
 
 /// First columns of every catalogue.
-pub const HEAD: &str = "onset [s],duration [s],interval [s],peak_rate [m/s],stress_drop [Pa],surface";
+#[must_use]
+pub fn first_columns() -> [Column; 6] {
+    [
+        Column::new("onset", "s", Sign::None, "time of onset"),
+        Column::new(
+            "duration",
+            "s",
+            Sign::None,
+            "time until all points are slower than the rate that ends events",
+        ),
+        Column::new("interval", "s", Sign::None, "time since the onset of the event before"),
+        Column::new("peak_rate", "m/s", Sign::Size, "largest slip rate"),
+        Column::new("stress_drop", "Pa", Sign::Fall, "drop of shear traction, weighted by slip"),
+        Column::new("surface", "", Sign::None, "fault, interface or slider of the hypocentre"),
+    ]
+}
+
+/// Columns of a catalogue of events; further ones where friction heats faults, scenes have a place on Earth or slip may turn.
+#[must_use]
+pub fn columns(events: &[Entry]) -> Vec<Column> {
+    let mut all = Vec::from(first_columns());
+    all.push(Column::new("hypocentre_along", "m", Sign::None, "distance of the hypocentre along the fault"));
+    all.extend(column::position());
+    all.extend([
+        Column::new("largest_slip", "m", Sign::Size, "largest slip"),
+        Column::new("mean_slip", "m", Sign::Size, "mean slip over the points that slipped"),
+        Column::new("area", "m2 or m", Sign::Size, "area of the points that slipped"),
+        Column::new("moment", "N m or N", Sign::Size, "moment"),
+        Column::new("duration_above", "s", Sign::None, "time above the rate that begins events"),
+        Column::new("magnitude", "", Sign::None, "moment magnitude"),
+        Column::new("rupture_length", "m", Sign::None, "distance between the outermost points that slipped"),
+    ]);
+    if events.iter().any(|e| e.largest_temperature.is_some()) {
+        all.push(Column::new("largest_temperature", "K", Sign::None, "largest temperature"));
+    }
+    if events.iter().any(|e| e.located.is_some()) {
+        all.extend([
+            Column::new("latitude", "deg", Sign::None, "latitude of the hypocentre"),
+            Column::new("longitude", "deg", Sign::None, "longitude of the hypocentre"),
+            Column::new("depth", "m", Sign::None, "depth of the hypocentre"),
+        ]);
+    }
+    if events.iter().any(|e| e.turned.is_some()) {
+        all.extend(column::axes("direction", "", Sign::Vector, "direction of the mean slip"));
+        all.push(Column::new("turned", "deg", Sign::None, "angle from the rake to the mean slip"));
+    }
+    all
+}
+
+/// The tables of a catalogue with their columns.
+#[must_use]
+pub fn tables(events: &[Entry]) -> Vec<(String, Vec<Column>)> {
+    ["events.csv", "events_*.csv", "slow_events.csv"].map(|name| (name.into(), columns(events))).into()
+}
 
 /// Catalogue as CSV.
 #[must_use]
 pub fn csv(events: &[Entry]) -> String {
-    let turning = events.iter().any(|e| e.turned.is_some());
-    let mut text = format!(
-        "{HEAD},hypocentre_along [m],x [m],y [m],z [m],largest_slip [m],mean_slip [m],area [m2 or m],moment [N m or N],duration_above [s],magnitude,rupture_length [m]",
-    );
-    let heats = events.iter().any(|e| e.largest_temperature.is_some());
-    text.push_str(if heats { ",largest_temperature [K]" } else { "" });
+    let mut text = column::header(&columns(events));
     let placed = events.iter().any(|e| e.located.is_some());
-    text.push_str(if placed { ",latitude [deg],longitude [deg],depth [m]" } else { "" });
-    text.push_str(if turning { ",direction_x,direction_y,direction_z,turned [deg]\n" } else { "\n" });
     for e in events {
         let _ = write!(
             text,

@@ -8,12 +8,14 @@
 use super::record::{check_interfaces, check_probes, check_samples};
 use super::schedule::{Due, FieldSchedule};
 use super::view::{
-    BodyFields, InterfaceFields, InterfaceMesh, MeshView, Setup, SpringMark, SpringValues, StepView, Writer,
+    BodyFields, InterfaceFields, InterfaceMesh, MeshView, Setup, SpringValues, StepView, Writer,
 };
 use super::vtu::{Array, Grid, PvdEntry, Values, pvd};
+use crate::column::{self, Column};
 use crate::error::{OutputError, expect_length};
 use crate::growing::Growing;
 use crate::names::stems;
+use crate::sampled::Sampled;
 use crate::{atomic, table};
 use serde::{Deserialize, Serialize};
 use std::fs;
@@ -228,49 +230,61 @@ impl Files {
         Ok(())
     }
 
-    /// Creates the tables, or reopens them at these sizes in bytes.
-    fn begin_tables(&mut self, setup: &Setup, bytes: Option<Vec<u64>>) -> Result<(), OutputError> {
-        let (mut left, reopens) = (bytes.iter().flatten(), bytes.is_some());
-        let mut table = |path: PathBuf, header: &str| match left.next() {
-            Some(bytes) => Growing::reopen(path, *bytes),
-            None if reopens => {
-                Err(OutputError::Shape { what: "tables of the checkpoint".into(), expected: 1, found: 0 })
-            }
-            None => Growing::create(path, header),
-        };
-        for (part, mesh) in self.interfaces.iter_mut().zip(&setup.interfaces) {
-            if !mesh.probes.is_empty() {
-                let path = self.out.join(format!("probes/{}.csv", part.stem));
-                part.probes = Some(table(path, &table::probe_header(mesh))?);
-            }
+    /// Tables that grow during the run, by their paths, with their columns: those of probes, then of points, of forces, of springs,
+    /// of the energy budget and of the largest slip rates.
+    fn growing(&self) -> Vec<(String, Vec<Column>)> {
+        let setup = &self.setup;
+        let probed =
+            self.interfaces.iter().zip(&setup.interfaces).filter(|(_, mesh)| !mesh.probes.is_empty());
+        let mut all: Vec<(String, Vec<Column>)> = probed
+            .map(|(part, mesh)| (format!("probes/{}.csv", part.stem), table::probe_columns(mesh)))
+            .collect();
+        let (points, forces, springs) = (setup.points.clone(), setup.forces.clone(), setup.springs.clone());
+        all.extend(Sampled { points, forces, springs, unit: setup.force_unit }.tables());
+        all.extend(setup.energy_unit.map(|unit| ("energy.csv".into(), table::energy_columns(unit))));
+        if !setup.eventful.is_empty() {
+            let eventful = setup.eventful.iter().filter_map(|&i| setup.interfaces.get(i));
+            let columns = table::rate_columns(eventful.map(|mesh| mesh.name.as_str()));
+            all.push(("largest_rates.csv".into(), columns));
         }
-        let mut begin = |folder: &str, names: Vec<&str>, header: &str| -> Result<Vec<Growing>, OutputError> {
-            if names.is_empty() {
-                return Ok(Vec::new());
-            }
-            atomic::create_dir(&self.out.join(folder))?;
-            let file = |stem: String| table(self.out.join(format!("{folder}/{stem}.csv")), header);
-            stems(names.into_iter()).into_iter().map(file).collect()
-        };
-        let points = setup.points.iter().map(|p| p.name.as_str()).collect();
-        let forces = setup.forces.iter().map(|f| f.name.as_str()).collect();
-        let points = begin("points", points, &table::point_header())?;
-        let forces = begin("forces", forces, &table::force_header(setup.force_unit))?;
-        let springs: Vec<String> = setup.springs.iter().map(SpringMark::name).collect();
-        let springs = springs.iter().map(String::as_str).collect();
-        let springs = begin("springs", springs, &table::spring_header(setup.force_unit))?;
-        (self.points, self.forces, self.springs) = (points, forces, springs);
-        self.energy = match setup.energy_unit {
-            Some(unit) => Some(table(self.out.join("energy.csv"), &table::energy_header(unit))?),
-            None => None,
-        };
-        let eventful = || setup.eventful.iter().filter_map(|&i| setup.interfaces.get(i));
-        self.rates = if setup.eventful.is_empty() {
-            None
-        } else {
-            let header = table::rates_header(eventful().map(|mesh| mesh.name.as_str()));
-            Some(table(self.out.join("largest_rates.csv"), &header)?)
-        };
+        all
+    }
+
+    /// All tables with their columns, of this run.
+    #[must_use]
+    pub fn columns(&self) -> Vec<(String, Vec<Column>)> {
+        let profiles = self.interfaces.iter().zip(&self.setup.interfaces);
+        let profiles = profiles
+            .filter(|_| self.profile_number > 0)
+            .map(|(part, mesh)| (format!("profiles/{}_*.csv", part.stem), table::profile_columns(mesh)));
+        self.growing().into_iter().chain(profiles).collect()
+    }
+
+    /// Creates the tables, or reopens them at these sizes in bytes.
+    fn begin_tables(&mut self, bytes: Option<Vec<u64>>) -> Result<(), OutputError> {
+        let all = self.growing();
+        if let Some(bytes) = bytes.as_ref().filter(|bytes| bytes.len() != all.len()) {
+            let what = "tables of the checkpoint".into();
+            return Err(OutputError::Shape { what, expected: all.len(), found: bytes.len() });
+        }
+        let mut tables = Vec::with_capacity(all.len());
+        for (k, (path, columns)) in all.into_iter().enumerate() {
+            let path = self.out.join(path);
+            path.parent().map_or(Ok(()), atomic::create_dir)?;
+            tables.push(match bytes.as_ref().and_then(|bytes| bytes.get(k)) {
+                Some(bytes) => Growing::reopen(path, *bytes)?,
+                None => Growing::create(path, column::header(&columns))?,
+            });
+        }
+        let mut tables = tables.into_iter();
+        for (part, mesh) in self.interfaces.iter_mut().zip(&self.setup.interfaces) {
+            part.probes = if mesh.probes.is_empty() { None } else { tables.next() };
+        }
+        self.points = tables.by_ref().take(self.setup.points.len()).collect();
+        self.forces = tables.by_ref().take(self.setup.forces.len()).collect();
+        self.springs = tables.by_ref().take(self.setup.springs.len()).collect();
+        self.energy = self.setup.energy_unit.and_then(|_| tables.next());
+        self.rates = tables.next();
         Ok(())
     }
 
@@ -340,12 +354,11 @@ impl Writer for Files {
         let wanted = [
             ("fields", self.schedule.fields > 0 && self.bodies.is_some()),
             ("profiles", self.schedule.profiles > 0 && !setup.interfaces.is_empty()),
-            ("probes", setup.interfaces.iter().any(|mesh| !mesh.probes.is_empty())),
         ];
         for (folder, _) in wanted.iter().filter(|(_, wanted)| *wanted) {
             atomic::create_dir(&self.out.join(folder))?;
         }
-        self.begin_tables(setup, bytes)
+        self.begin_tables(bytes)
     }
 
     fn step(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {

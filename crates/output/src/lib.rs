@@ -2,6 +2,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod atomic;
+pub mod column;
 pub mod decimals;
 mod error;
 pub mod files;
@@ -31,6 +32,7 @@ pub mod view;
 pub mod vtu;
 pub mod words;
 
+pub use column::{Column, Sign};
 pub use error::OutputError;
 pub use files::{Files, FilesState};
 pub use growing::Growing;

@@ -1,7 +1,8 @@
 //! Histories of points of bodies, of forces on sets and of springs in runs that write them by change, as CSV.
 
+use super::column::Column;
 use super::names::stems;
-use super::table::{POINT, WHEN, force_columns, number, point_values, spring_columns};
+use super::table::{force_columns, number, point_columns, point_values, spring_columns};
 use super::view::{ForceMark, PointMark, Samples, SpringMark};
 
 /// Points, sets and springs that are sampled.
@@ -18,24 +19,17 @@ pub struct Sampled {
 }
 
 impl Sampled {
-    /// Paths of the files below the folder of a run, with their headers: points, then forces, then springs.
+    /// Paths of the files below the folder of a run, with their columns: points, then forces, then springs.
     #[must_use]
-    pub fn heads(&self) -> Vec<(String, String)> {
+    pub fn tables(&self) -> Vec<(String, Vec<Column>)> {
         let springs: Vec<String> = self.springs.iter().map(SpringMark::name).collect();
-        let point: Vec<String> = POINT.iter().map(ToString::to_string).collect();
-        let force: Vec<String> = force_columns(self.unit).collect();
-        let all = [
-            ("points", self.points.iter().map(|p| p.name.as_str()).collect(), point),
-            ("forces", self.forces.iter().map(|f| f.name.as_str()).collect(), force),
-            (
-                "springs",
-                springs.iter().map(String::as_str).collect::<Vec<_>>(),
-                spring_columns(self.unit).into(),
-            ),
+        let all: [(&str, Vec<&str>, Vec<Column>); 3] = [
+            ("points", self.points.iter().map(|p| p.name.as_str()).collect(), point_columns()),
+            ("forces", self.forces.iter().map(|f| f.name.as_str()).collect(), force_columns(self.unit)),
+            ("springs", springs.iter().map(String::as_str).collect(), spring_columns(self.unit)),
         ];
-        let of = |(folder, names, columns): (&str, Vec<&str>, Vec<String>)| {
-            let head = line(WHEN.iter().map(ToString::to_string).chain(columns));
-            let file = |stem: String| (format!("{folder}/{stem}.csv"), head.clone());
+        let of = |(folder, names, columns): (&str, Vec<&str>, Vec<Column>)| {
+            let file = |stem: String| (format!("{folder}/{stem}.csv"), columns.clone());
             stems(names.into_iter()).into_iter().map(file).collect::<Vec<_>>()
         };
         all.into_iter().flat_map(of).collect()

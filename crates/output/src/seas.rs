@@ -1,5 +1,6 @@
 //! Station files in the format of the SEAS community.
 
+use crate::column::{Column, Sign};
 use crate::decimals::{fixed, scientific};
 
 /// Least slip rate in files of stations \[m/s\], which stands for rest: the benchmarks in 3D treat it as zero.
@@ -28,27 +29,59 @@ pub struct Head<'a> {
     pub pressurises: bool,
 }
 
-/// Names of the columns with units and names of the fields, for slip in a fixed direction.
-const ALONG_A_LINE: (&[&str], &str) = (
-    &["Slip (m)", "Slip rate (log10 m/s)", "Shear stress (MPa)", "State (log10 s)", "Normal stress (MPa)"],
-    "t slip slip_rate shear_stress state normal_stress",
-);
-/// Names of the columns with units and names of the fields, for slip whose direction may turn.
-const IN_A_PLANE: (&[&str], &str) = (
-    &[
-        "Slip_2 (m)",
-        "Slip_3 (m)",
-        "Slip_rate_2 (log10 m/s)",
-        "Slip_rate_3 (log10 m/s)",
-        "Shear_stress_2 (MPa)",
-        "Shear_stress_3 (MPa)",
-        "State (log10 s)",
-        "Normal stress (MPa)",
-    ],
-    "t slip_2 slip_3 slip_rate_2 slip_rate_3 shear_stress_2 shear_stress_3 state normal_stress",
+/// A column of a station: as the community names it with its unit, and as files name it.
+type Field = (&'static str, &'static str, &'static str, Sign, &'static str);
+
+/// Columns for slip in a fixed direction.
+const ALONG_A_LINE: [Field; 3] = [
+    ("Slip (m)", "slip", "m", Sign::Slip, SLIP),
+    ("Slip rate (log10 m/s)", "slip_rate", "log10 m/s", Sign::Log, RATE),
+    ("Shear stress (MPa)", "shear_stress", "MPa", Sign::Slip, SHEAR),
+];
+/// Columns for slip whose direction may turn.
+const IN_A_PLANE: [Field; 6] = [
+    ("Slip_2 (m)", "slip_2", "m", Sign::Component, SLIP),
+    ("Slip_3 (m)", "slip_3", "m", Sign::Component, SLIP),
+    ("Slip_rate_2 (log10 m/s)", "slip_rate_2", "log10 m/s", Sign::Log, RATE),
+    ("Slip_rate_3 (log10 m/s)", "slip_rate_3", "log10 m/s", Sign::Log, RATE),
+    ("Shear_stress_2 (MPa)", "shear_stress_2", "MPa", Sign::Component, SHEAR),
+    ("Shear_stress_3 (MPa)", "shear_stress_3", "MPa", Sign::Component, SHEAR),
+];
+const SLIP: &str = "slip since the start";
+const RATE: &str = "decadic logarithm of the slip rate";
+const SHEAR: &str = "shear traction that friction resists";
+
+/// Columns of every station, before and after those of slip.
+const TIME: Field = ("Time (s)", "t", "s", Sign::None, "time of the row");
+const LAST: [Field; 2] = [
+    ("State (log10 s)", "state", "log10 s", Sign::None, "decadic logarithm of the state of friction"),
+    ("Normal stress (MPa)", "normal_stress", "MPa", Sign::Compression, "normal traction"),
+];
+const OPENING: Field = ("Opening (m)", "opening", "m", Sign::Apart, "separation of the sides");
+const TEMPERATURE: Field = ("Temperature (K)", "temperature", "K", Sign::None, "temperature");
+const PRESSURE: Field = (
+    "Pore pressure (MPa)",
+    "pore_pressure",
+    "MPa",
+    Sign::None,
+    "pore pressure in excess of that at the start",
 );
 
 impl Head<'_> {
+    fn fields(&self) -> Vec<Field> {
+        let slips = if self.directions.is_some() { &IN_A_PLANE[..] } else { &ALONG_A_LINE };
+        let further = [(self.opens, OPENING), (self.heats, TEMPERATURE), (self.pressurises, PRESSURE)];
+        let further = further.into_iter().filter(|field| field.0).map(|field| field.1);
+        [TIME].into_iter().chain(slips.iter().copied()).chain(LAST).chain(further).collect()
+    }
+
+    /// Columns of the rows.
+    #[must_use]
+    pub fn columns(&self) -> Vec<Column> {
+        let of = |(_, name, unit, sign, meaning): Field| Column::new(name, unit, sign, meaning);
+        self.fields().into_iter().map(of).collect()
+    }
+
     /// The lines above the rows.
     #[must_use]
     pub fn text(&self) -> String {
@@ -61,22 +94,11 @@ impl Head<'_> {
         if let Some([two, three]) = &self.directions {
             head.push_str(&format!("# directions: 2 is along {two:?}, 3 along {three:?}\n"));
         }
-        let (columns, names) = if self.directions.is_some() { IN_A_PLANE } else { ALONG_A_LINE };
-        let further = [
-            (self.opens, "Opening (m)", "opening"),
-            (self.heats, "Temperature (K)", "temperature"),
-            (self.pressurises, "Pore pressure (MPa)", "pore_pressure"),
-        ];
-        let further: Vec<(&str, &str)> = further.iter().filter(|c| c.0).map(|c| (c.1, c.2)).collect();
-        let last = further.iter().map(|(column, _)| column);
-        for (k, column) in std::iter::once(&"Time (s)").chain(columns).chain(last).enumerate() {
-            head.push_str(&format!("# Column #{} = {column}\n", k + 1));
+        let fields = self.fields();
+        for (k, field) in fields.iter().enumerate() {
+            head.push_str(&format!("# Column #{} = {}\n", k + 1, field.0));
         }
-        head.push_str(names);
-        for (_, name) in further {
-            head.push(' ');
-            head.push_str(name);
-        }
+        head.push_str(&fields.iter().map(|field| field.1).collect::<Vec<_>>().join(" "));
         head.push('\n');
         head
     }

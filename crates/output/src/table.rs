@@ -1,50 +1,118 @@
 //! CSV tables: profiles along an interface at one time, and histories at its probes.
 
+use super::column::{self, Column, Sign};
 use super::decimals::{shortest, shortest_scientific};
 use super::view::{InterfaceFields, InterfaceMesh, PointValues};
 use asperity_run::Energies;
 
-/// A column of an interface table: its name with unit, and the function that reads it.
-type Column = (&'static str, fn(&InterfaceFields, usize) -> f64);
+/// A column of an interface table, and the function that reads its values.
+struct Field {
+    column: fn() -> Column,
+    read: fn(&InterfaceFields, usize) -> f64,
+}
 
 /// Columns of a profile.
-const PROFILE: [Column; 11] = [
-    ("gap [m]", InterfaceFields::written_gap),
-    ("normal_traction [Pa]", |f, i| f.normal_traction[i]),
-    ("shear_traction [Pa]", |f, i| f.shear_traction[i]),
-    ("relative_displacement [m]", |f, i| f.relative_displacement[i]),
-    ("slip [m]", |f, i| f.slip[i]),
-    ("slip_rate [m/s]", |f, i| f.slip_rate[i]),
-    ("friction [-]", |f, i| f.friction[i]),
-    ("mean_normal_traction [Pa]", |f, i| f.mean_normal_traction[i]),
-    ("mean_shear_traction [Pa]", |f, i| f.mean_shear_traction[i]),
-    ("status [0 open 1 stick 2 slip]", |f, i| f64::from(f.status[i])),
-    ("paired [0 no 1 yes]", |f, i| f64::from(u8::from(f.paired(i)))),
+const PROFILE: [Field; 11] = [
+    Field {
+        column: || Column::new("gap", "m", Sign::Apart, "normal gap, negative for penetration"),
+        read: InterfaceFields::written_gap,
+    },
+    Field {
+        column: || Column::new("normal_traction", "Pa", Sign::Compression, "normal traction"),
+        read: |f, i| f.normal_traction[i],
+    },
+    SHEAR_TRACTION,
+    RELATIVE_DISPLACEMENT,
+    SLIP,
+    SLIP_RATE,
+    FRICTION,
+    Field {
+        column: || {
+            Column::new(
+                "mean_normal_traction",
+                "Pa",
+                Sign::Compression,
+                "normal traction averaged around the node",
+            )
+        },
+        read: |f, i| f.mean_normal_traction[i],
+    },
+    Field {
+        column: || {
+            Column::new("mean_shear_traction", "Pa", Sign::Slip, "shear traction averaged around the node")
+        },
+        read: |f, i| f.mean_shear_traction[i],
+    },
+    Field {
+        column: || Column::new("status", "0 open 1 stick 2 slip", Sign::None, "state of contact"),
+        read: |f, i| f64::from(f.status[i]),
+    },
+    Field {
+        column: || Column::new("paired", "0 no 1 yes", Sign::None, "0 where the node has no partner"),
+        read: |f, i| f64::from(u8::from(f.paired(i))),
+    },
 ];
 
 /// Columns of each probe.
-const PROBE: [Column; 6] = [
-    ("relative_displacement [m]", |f, i| f.relative_displacement[i]),
-    ("slip [m]", |f, i| f.slip[i]),
-    ("slip_rate [m/s]", |f, i| f.slip_rate[i]),
-    ("friction [-]", |f, i| f.friction[i]),
-    ("normal_traction [Pa]", |f, i| f.normal_traction[i]),
-    ("shear_traction [Pa]", |f, i| f.shear_traction[i]),
+const PROBE: [Field; 6] = [
+    RELATIVE_DISPLACEMENT,
+    SLIP,
+    SLIP_RATE,
+    FRICTION,
+    Field {
+        column: || Column::new("normal_traction", "Pa", Sign::Compression, "normal traction"),
+        read: |f, i| f.normal_traction[i],
+    },
+    SHEAR_TRACTION,
 ];
 
-/// Additional columns of profiles and probes in space.
-const SPACE: [Column; 6] = [
-    ("slip_x [m]", |f, i| f.slip_vector[i][0]),
-    ("slip_y [m]", |f, i| f.slip_vector[i][1]),
-    ("slip_z [m]", |f, i| f.slip_vector[i][2]),
-    ("shear_traction_x [Pa]", |f, i| f.shear_vector[i][0]),
-    ("shear_traction_y [Pa]", |f, i| f.shear_vector[i][1]),
-    ("shear_traction_z [Pa]", |f, i| f.shear_vector[i][2]),
-];
+const SHEAR_TRACTION: Field = Field {
+    column: || Column::new("shear_traction", "Pa", Sign::Slip, "shear traction"),
+    read: |f, i| f.shear_traction[i],
+};
+const RELATIVE_DISPLACEMENT: Field = Field {
+    column: || Column::new("relative_displacement", "m", Sign::Slip, "motion of the slave past the master"),
+    read: |f, i| f.relative_displacement[i],
+};
+const SLIP: Field = Field {
+    column: || Column::new("slip", "m", Sign::Slip, "plastic part of the relative displacement"),
+    read: |f, i| f.slip[i],
+};
+const SLIP_RATE: Field = Field {
+    column: || Column::new("slip_rate", "m/s", Sign::Slip, "rate of slip"),
+    read: |f, i| f.slip_rate[i],
+};
+const FRICTION: Field = Field {
+    column: || Column::new("friction", "-", Sign::Size, "shear over normal traction"),
+    read: |f, i| f.friction[i],
+};
 
-/// Columns of a table with the additional columns in space.
-fn columns(table: &'static [Column], mesh: &InterfaceMesh) -> impl Iterator<Item = &'static Column> + use<> {
-    table.iter().chain(if mesh.in_space { &SPACE[..] } else { &[] })
+/// Columns of a table of an interface, with vectors in space, and states of its law.
+fn columns(fields: &[Field], mesh: &InterfaceMesh) -> Vec<Column> {
+    let mut columns: Vec<Column> = fields.iter().map(|field| (field.column)()).collect();
+    if mesh.in_space {
+        columns.extend(column::axes("slip", "m", Sign::Vector, "slip of the slave past the master"));
+        columns.extend(column::axes(
+            "shear_traction",
+            "Pa",
+            Sign::Vector,
+            "shear traction of the slave side",
+        ));
+    }
+    let state = |k| Column::new(format!("state_{k}"), "", Sign::None, "state variable of the law");
+    columns.extend((1..=mesh.states).map(state));
+    columns
+}
+
+/// Values of these columns at a node.
+fn values(fields: &[Field], mesh: &InterfaceMesh, now: &InterfaceFields, node: usize) -> Vec<f64> {
+    let mut values: Vec<f64> = fields.iter().map(|field| (field.read)(now, node)).collect();
+    if mesh.in_space {
+        values.extend(now.slip_vector[node]);
+        values.extend(now.shear_vector[node]);
+    }
+    values.extend((0..mesh.states).map(|k| now.state(k, node)));
+    values
 }
 
 /// The shortest decimal that reads back as the same number, with an exponent if that is easier to read.
@@ -56,40 +124,35 @@ pub(super) fn number(value: f64) -> String {
     if (1e-2..1e6).contains(&value.abs()) { shortest(value) } else { shortest_scientific(value) }
 }
 
-/// Names of the columns of the state variables of an interface's law.
-fn states(mesh: &InterfaceMesh) -> impl Iterator<Item = String> {
-    (1..=mesh.states).map(|k| format!("state_{k}"))
+/// Columns of a profile.
+pub(super) fn profile_columns(mesh: &InterfaceMesh) -> Vec<Column> {
+    let node = Column::new("node", "", Sign::None, "number of the slave node");
+    let area = Column::new("area", "m2", Sign::Size, "tributary area");
+    let place = [column::time(), node].into_iter().chain(column::position()).chain([area]);
+    place.chain(columns(&PROFILE, mesh)).collect()
 }
 
 /// Profile with one row per slave node: time, position, tributary area and all fields.
 pub(super) fn profile(time: f64, mesh: &InterfaceMesh, fields: &InterfaceFields) -> String {
+    let mut text = column::header(&profile_columns(mesh));
     let mut rows = Rows::default();
-    let head = ["time [s]", "node", "x [m]", "y [m]", "z [m]", "area [m2]"];
-    rows.push(
-        head.iter()
-            .map(ToString::to_string)
-            .chain(columns(&PROFILE, mesh).map(|(name, _)| (*name).to_string()))
-            .chain(states(mesh)),
-    );
     for (i, position) in mesh.positions.iter().enumerate() {
         let place = [number(time), i.to_string()].into_iter().chain(position.iter().map(|&x| number(x)));
-        let area = number(fields.area[i]);
-        let states = (0..mesh.states).map(|k| number(fields.state(k, i)));
-        let values = columns(&PROFILE, mesh).map(|(_, read)| number(read(fields, i)));
-        rows.push(place.chain([area]).chain(values).chain(states));
+        let all = [fields.area[i]].into_iter().chain(values(&PROFILE, mesh, fields, i));
+        rows.push(place.chain(all.map(number)));
     }
-    rows.text()
+    text.push_str(&rows.text());
+    text
 }
 
-/// Header of a table of probes.
-pub(super) fn probe_header(mesh: &InterfaceMesh) -> String {
-    let mut rows = Rows::default();
+/// Columns of a table of probes.
+pub(super) fn probe_columns(mesh: &InterfaceMesh) -> Vec<Column> {
     let labels = crate::plots::labels::position_labels(mesh.probes.iter().map(|&node| mesh.positions[node]));
-    let names: Vec<String> =
-        columns(&PROBE, mesh).map(|(name, _)| (*name).to_string()).chain(states(mesh)).collect();
-    let columns = labels.iter().flat_map(|label| names.iter().map(move |name| format!("{name} at {label}")));
-    rows.push(WHEN.iter().map(ToString::to_string).chain(columns));
-    rows.text()
+    let mut all = Vec::from(when());
+    for label in &labels {
+        all.extend(columns(&PROBE, mesh).into_iter().map(|column| column.at(label)));
+    }
+    all
 }
 
 /// One row of a table of probes.
@@ -100,49 +163,37 @@ pub(super) fn probe_row(
     mesh: &InterfaceMesh,
     fields: &InterfaceFields,
 ) -> String {
-    let values = mesh.probes.iter().flat_map(|&i| {
-        let states = (0..mesh.states).map(move |k| fields.state(k, i));
-        columns(&PROBE, mesh).map(move |(_, read)| read(fields, i)).chain(states)
-    });
-    history_row(time, stage, step, &values.collect::<Vec<f64>>())
+    let all = mesh.probes.iter().flat_map(|&node| values(&PROBE, mesh, fields, node));
+    history_row(time, stage, step, &all.collect::<Vec<f64>>())
 }
 
 /// Columns of a history at a point of a body.
-pub(super) const POINT: [&str; 10] = [
-    "displacement_x [m]",
-    "displacement_y [m]",
-    "displacement_z [m]",
-    "stress_xx [Pa]",
-    "stress_yy [Pa]",
-    "stress_zz [Pa]",
-    "stress_xy [Pa]",
-    "stress_yz [Pa]",
-    "stress_zx [Pa]",
-    "mises [Pa]",
-];
-
-/// Header of a history at a point of a body.
-pub(super) fn point_header() -> String {
-    let mut rows = Rows::default();
-    rows.push(WHEN.iter().chain(&POINT).map(ToString::to_string));
-    rows.text()
+pub(super) fn point_columns() -> Vec<Column> {
+    let moved = column::axes("displacement", "m", Sign::Axis, "displacement");
+    let mises = Column::new("mises", "Pa", Sign::Size, "equivalent stress of von Mises");
+    when().into_iter().chain(moved).chain(column::stress()).chain([mises]).collect()
 }
 
-/// Columns of a force in this unit.
-pub(super) fn force_columns(unit: &str) -> impl Iterator<Item = String> {
-    ["x", "y", "z"].into_iter().map(move |axis| format!("force_{axis} [{unit}]"))
+/// Columns of a history of a force in this unit.
+pub(super) fn force_columns(unit: &'static str) -> Vec<Column> {
+    let force = column::axes("force", unit, Sign::Axis, "force on the body through the set");
+    when().into_iter().chain(force).collect()
 }
 
-/// Columns of a spring, with forces in this unit.
-pub(super) fn spring_columns(unit: &str) -> [String; 4] {
-    ["load_point [m]".into(), "displacement [m]".into(), format!("force [{unit}]"), "friction [-]".into()]
-}
-
-/// Header of a history of a force in this unit.
-pub(super) fn force_header(unit: &str) -> String {
-    let mut rows = Rows::default();
-    rows.push(WHEN.iter().map(ToString::to_string).chain(force_columns(unit)));
-    rows.text()
+/// Columns of a history of a spring, with forces in this unit.
+pub(super) fn spring_columns(unit: &'static str) -> Vec<Column> {
+    let own = [
+        Column::new(
+            "load_point",
+            "m",
+            Sign::Axis,
+            "displacement of the load point since the spring was attached",
+        ),
+        Column::new("displacement", "m", Sign::Axis, "displacement of the set since the spring was attached"),
+        Column::new("force", unit, Sign::Axis, "force of the spring on the set"),
+        Column::new("friction", "-", Sign::Size, "force over the sum of the normal forces on all interfaces"),
+    ];
+    when().into_iter().chain(own).collect()
 }
 
 /// Energies in the order of the columns of files, in every kind of run.
@@ -163,13 +214,12 @@ pub const ENERGIES: [&str; 14] = [
     "released",
 ];
 
-/// Header of an energy budget in this unit.
+/// Columns of an energy budget in this unit.
 #[must_use]
-pub fn energy_header(unit: &str) -> String {
-    let mut rows = Rows::default();
-    let columns = ENERGIES.iter().chain(&["missing"]).map(|name| format!("{name} [{unit}]"));
-    rows.push(WHEN.iter().map(ToString::to_string).chain(columns));
-    rows.text()
+pub fn energy_columns(unit: &'static str) -> Vec<Column> {
+    let part = |name| Column::new(name, unit, Sign::None, "part of the energy budget");
+    let missing = Column::new("missing", unit, Sign::None, "energy given minus energy kept and lost");
+    when().into_iter().chain(ENERGIES.map(part)).chain([missing]).collect()
 }
 
 /// Row of an energy budget.
@@ -180,19 +230,12 @@ pub fn energy_row(time: f64, stage: usize, step: usize, energies: &Energies) -> 
     history_row(time, stage, step, &values)
 }
 
-/// Header of the largest slip rates of interfaces.
-pub(super) fn rates_header<'a>(names: impl Iterator<Item = &'a str>) -> String {
-    let mut rows = Rows::default();
-    let columns = names.map(|name| format!("largest slip_rate of {name} [m/s]"));
-    rows.push(WHEN.iter().map(ToString::to_string).chain(columns));
-    rows.text()
-}
-
-/// Header of a history of a spring, with forces in this unit.
-pub(super) fn spring_header(unit: &str) -> String {
-    let mut rows = Rows::default();
-    rows.push(WHEN.iter().map(ToString::to_string).chain(spring_columns(unit)));
-    rows.text()
+/// Columns of the largest slip rates of interfaces.
+pub(super) fn rate_columns<'a>(names: impl Iterator<Item = &'a str>) -> Vec<Column> {
+    let rate = |name: &str| {
+        Column::new("largest slip_rate", "m/s", Sign::Size, "largest slip rate of its points").of(name)
+    };
+    when().into_iter().chain(names.map(rate)).collect()
 }
 
 /// One row of a history: time, stage, step, values.
@@ -209,10 +252,14 @@ pub(super) fn point_values(point: &PointValues) -> Vec<f64> {
 }
 
 /// First columns of a history.
-pub(super) const WHEN: [&str; 3] = ["time [s]", "stage", "step"];
+fn when() -> [Column; 3] {
+    let stage = Column::new("stage", "", Sign::None, "number of the stage, from 0");
+    let step = Column::new("step", "", Sign::None, "number of steps taken");
+    [column::time(), stage, step]
+}
 
 /// CSV rows in memory.
-struct Rows(csv::Writer<Vec<u8>>);
+pub(crate) struct Rows(csv::Writer<Vec<u8>>);
 
 impl Default for Rows {
     fn default() -> Self {
@@ -221,11 +268,13 @@ impl Default for Rows {
 }
 
 impl Rows {
-    fn push(&mut self, row: impl Iterator<Item = String>) {
+    /// Adds a row.
+    pub fn push(&mut self, row: impl Iterator<Item = String>) {
         self.0.write_record(row.map(String::into_bytes)).expect("writing to a Vec cannot fail");
     }
 
-    fn text(self) -> String {
+    /// All rows.
+    pub fn text(self) -> String {
         let bytes = self.0.into_inner().expect("writing to a Vec cannot fail");
         String::from_utf8(bytes).expect("rows are made of text")
     }

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// Counts of a run, which do not depend on the machine: its steps, its size, and operations `O` of its kind.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+#[schemars(rename = "CountsOf{O}")]
 pub struct Counts<O> {
     /// Accepted steps.
     pub steps: u64,

@@ -8,6 +8,7 @@ use super::page::{self, Texts};
 use super::{full, json, readme};
 use crate::checkpoint;
 use crate::report::{Results, commit};
+use asperity_output::Column;
 use asperity_output::atomic;
 use asperity_plan::shared::model::forecast;
 use asperity_plan::shared::setup;
@@ -52,6 +53,8 @@ pub(super) struct Directory {
     meshes: BTreeMap<String, String>,
     /// Parts of the set-up that were read or kept.
     setup: Vec<SetupPart>,
+    /// Tables of the run, by their paths, with their columns.
+    tables: Vec<(String, Vec<Column>)>,
     room: Room,
     /// Lock held for the duration of the run.
     _lock: Option<Lock>,
@@ -87,7 +90,8 @@ impl Directory {
         };
         let path = path.to_path_buf();
         let (plan, meshes, setup) = Default::default();
-        let mut directory = Self { path, begin, plan, meshes, setup, room, _lock: lock };
+        let tables = Vec::new();
+        let mut directory = Self { path, begin, plan, meshes, setup, tables, room, _lock: lock };
         if let Err(error) = directory.open() {
             // A failure to clean up adds nothing to the error that is reported.
             let _ = directory.undo(&directory.room);
@@ -139,6 +143,11 @@ impl Directory {
         self.setup = setup;
     }
 
+    /// Takes the tables of the run with their columns, for the text about its files.
+    pub fn tabulates(&mut self, tables: Vec<(String, Vec<Column>)>) {
+        self.tables = tables;
+    }
+
     /// Takes the plan as printed, for the page of the run, and the hashes of the files from which it was made.
     pub fn planned(&mut self, plan: String, meshes: BTreeMap<String, String>) {
         (self.plan, self.meshes) = (plan, meshes);
@@ -165,7 +174,7 @@ impl Directory {
 
     /// Writes what each file is. It is no result: a run continues where it cannot be written.
     fn describe(&self) {
-        let _ = readme::write(&self.path, &self.begin.title);
+        let _ = readme::write(&self.path, &self.begin.title, &self.tables);
     }
 
     /// Removes what the end of the part before has written about the run as it was then: its page, figures and catalogues. All of it is written again

@@ -2,13 +2,14 @@
 
 use super::begin::{README, REPORT};
 use super::entries;
+use asperity_output::column::{self, Column};
 use asperity_output::{OutputError, atomic};
 use std::ffi::OsStr;
 use std::fs;
 use std::path::Path;
 
-/// Writes the text about the files that exist.
-pub(super) fn write(folder: &Path, title: &str) -> Result<(), OutputError> {
+/// Writes the text about the files that exist, and about the columns of these tables among them.
+pub(super) fn write(folder: &Path, title: &str, tables: &[(String, Vec<Column>)]) -> Result<(), OutputError> {
     let mut names: Vec<String> = fs::read_dir(folder)
         .into_iter()
         .flatten()
@@ -23,9 +24,27 @@ pub(super) fn write(folder: &Path, title: &str) -> Result<(), OutputError> {
         Some(format!("- `{name}{slash}`: {meaning}\n"))
     };
     let rows: String = names.iter().filter(|name| !name.starts_with('.')).filter_map(row).collect();
-    let text = format!(
-        "# {title}\n\nResults of a run of asperity {}. The chapter \"Files and columns\" of its book has all columns.\n\n{rows}",
+    let mut text = format!(
+        "# {title}\n\nResults of a run of asperity {}, described in the chapter \"Files and columns\" of its book.\n\n{rows}",
         env!("CARGO_PKG_VERSION")
     );
+    let written: Vec<(String, Vec<Column>)> =
+        tables.iter().filter(|table| exists(folder, &table.0)).cloned().collect();
+    if !written.is_empty() {
+        text.push_str(
+            "\n## Columns of tables\n\nThe chapter \"Signs in files\" explains the words of signs.\n\n",
+        );
+        text.push_str(&column::described(&written));
+    }
     atomic::write(&folder.join(README), text.as_bytes())
+}
+
+/// True if there is a file of this path below a folder, where `*` stands for any text in its name.
+fn exists(folder: &Path, path: &str) -> bool {
+    let Some((begin, end)) = path.split_once('*') else { return folder.join(path).exists() };
+    let (inner, begin) = begin.rsplit_once('/').unwrap_or(("", begin));
+    let names = fs::read_dir(folder.join(inner)).into_iter().flatten().flatten();
+    names
+        .filter_map(|entry| entry.file_name().into_string().ok())
+        .any(|name| name.starts_with(begin) && name.ends_with(end))
 }

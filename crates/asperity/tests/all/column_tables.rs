@@ -1,6 +1,7 @@
-//! Tables of the columns of output files in the book, which are generated from the files of the scenes in the reference.
+//! Tables of the columns of output files in the book, which are generated from what runs of the scenes in the reference say about their files.
 #![allow(clippy::disallowed_methods)]
 
+use crate::common::written::{Described, described};
 use crate::documents::blocks;
 use std::collections::BTreeMap;
 use std::fs;
@@ -14,49 +15,12 @@ fn book() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src")
 }
 
-/// Names and units of a table's columns, each once: without positions, and with a single name for columns headed by a
-/// number.
-fn columns(table: &str) -> Vec<String> {
-    let seas = table.lines().find(|line| line.starts_with("t slip"));
-    let names: Vec<&str> = match seas {
-        Some(line) => line.split(' ').collect(),
-        None => table.lines().next().unwrap().split(',').collect(),
-    };
-    let mut found = Vec::new();
-    for name in names {
-        let (name, unit) = name.split_once(" [").unwrap_or((name, ""));
-        let unit = unit.split(']').next().unwrap();
-        let text = match (name.parse::<f64>(), unit) {
-            (Ok(_), _) => "one column per point, headed by its distance along the fault \\[m\\]".to_string(),
-            (_, "" | "-") => format!("`{name}`"),
-            (_, unit) => format!("`{name}` \\[{unit}\\]"),
-        };
-        if !found.contains(&text) {
-            found.push(text);
-        }
-    }
-    found
-}
-
-/// Tables below a folder, by their names: those of one folder share a row.
-fn tables(root: &Path, folder: &Path, found: &mut BTreeMap<String, Vec<String>>) {
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        let name = path.strip_prefix(root).unwrap().to_string_lossy().into_owned();
-        if path.is_dir() {
-            tables(root, &path, found);
-        } else if path.extension().is_some_and(|e| e == "csv") || folder.ends_with("stations") {
-            let extension = path.extension().map_or(String::new(), |e| format!(".{}", e.to_string_lossy()));
-            // Files of events are of several kinds, which their names say before the number of the event.
-            let kind =
-                name.strip_prefix("events/").map_or("", |file| file.split(char::is_numeric).next().unwrap());
-            let name = name
-                .split_once('/')
-                .map_or(name.clone(), |(folder, _)| format!("{folder}/{kind}*{extension}"));
-            let columns = columns(&fs::read_to_string(&path).unwrap());
-            let earlier = found.insert(name.clone(), columns.clone());
-            assert!(earlier.is_none_or(|earlier| earlier == columns), "{name} has several sets of columns");
-        }
+/// A column as the page shows it.
+fn shown(column: &Described) -> String {
+    match (column.column.as_str(), column.unit.as_str()) {
+        ("each point", _) => "one column per point, headed by its distance along the fault \\[m\\]".into(),
+        (name, "" | "-") => format!("`{name}`"),
+        (name, unit) => format!("`{name}` \\[{unit}\\]"),
     }
 }
 
@@ -68,11 +32,13 @@ fn rows(page: &str) -> String {
     let mut run = Command::new(env!("CARGO_BIN_EXE_asperity"));
     let run = run.args(["run", "scene.toml", "--no-plots"]).current_dir(folder.path()).output().unwrap();
     assert!(run.status.success(), "{page}: {}", String::from_utf8_lossy(&run.stderr));
-    let mut found = BTreeMap::new();
-    let out = folder.path().join("out/scene");
-    tables(&out, &out, &mut found);
+    let mut found: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for column in described(&folder.path().join("out/scene")) {
+        let files: Vec<String> = column.files.iter().map(|file| format!("`{file}`")).collect();
+        found.entry(files.join(", ")).or_default().push(shown(&column));
+    }
     assert!(!found.is_empty(), "{page} leaves no tables");
-    found.into_iter().map(|(name, columns)| format!("| `{name}` | {} |\n", columns.join(", "))).collect()
+    found.into_iter().map(|(files, columns)| format!("| {files} | {} |\n", columns.join(", "))).collect()
 }
 
 #[test]

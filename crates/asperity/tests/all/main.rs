@@ -49,6 +49,7 @@ mod meshes;
 mod messages;
 mod mixing;
 mod names;
+mod one_name;
 mod parts;
 mod plate_grids;
 mod plot;

@@ -3,7 +3,7 @@
 //!
 //! Block A lies at x < 0 and block B at x > 0, pressed together along x. B is moved along the plane between them, or A the other way.
 
-use crate::common::written::{Column, arrays, files, table};
+use crate::common::written::{Column, arrays, described, files, fits, table};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -37,16 +37,6 @@ fn rules(section: &str) -> Vec<Rule> {
         Rule { files: listed(cells[0]), columns: listed(cells[1]), sign: cells[2].trim().to_owned() }
     })
     .collect()
-}
-
-/// True if a path is of this form, with one `*`.
-fn fits(path: &str, form: &str) -> bool {
-    match form.split_once('*') {
-        Some((start, end)) => {
-            path.starts_with(start) && path.ends_with(end) && path.len() >= start.len() + end.len()
-        }
-        None => path == form,
-    }
 }
 
 /// Motion of B relative to A, the resulting slip, and the directions of the page.
@@ -126,7 +116,7 @@ fn jump(columns: &[Column]) -> Option<Column> {
 type Said = BTreeMap<(String, String), f64>;
 
 fn read(out: &Path, section: &str, motion: &Motion) -> Said {
-    let (rules, mut all) = (rules(section), Said::new());
+    let (rules, mut all, described) = (rules(section), Said::new(), described(out));
     for path in files(out) {
         let name = path.strip_prefix(out).unwrap().to_string_lossy().into_owned();
         let mut columns = if name.ends_with(".vtu") {
@@ -146,6 +136,13 @@ fn read(out: &Path, section: &str, motion: &Motion) -> Said {
                 .iter()
                 .find(|r| r.files.iter().any(|form| fits(&name, form)) && r.columns.contains(&column.name));
             let rule = rule.unwrap_or_else(|| panic!("no row of the page has `{}` of {name}", column.name));
+            if !name.ends_with(".vtu") {
+                let own = described
+                    .iter()
+                    .find(|d| d.files.iter().any(|form| fits(&name, form)) && fits(&column.name, &d.column));
+                let own = own.unwrap_or_else(|| panic!("`{}` of {name} is not described", column.name));
+                assert_eq!(own.sign, rule.sign, "`{}` of {name}", column.name);
+            }
             let said = said(&rule.sign, column, motion);
             let largest = column.values.iter().filter(|v| v.is_finite()).fold(0.0_f64, |m, v| m.max(v.abs()));
             assert!(

@@ -7,5 +7,5 @@ mod trace;
 
 pub use mini_seed::{SHORTEST, mini_seed};
 pub use sac::sac;
-pub use table::{header, read, row};
+pub use table::{columns, read, row};
 pub use trace::{AXES, Trace, channel, code};

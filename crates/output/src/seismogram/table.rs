@@ -2,20 +2,20 @@
 
 use super::trace::AXES;
 use crate::OutputError;
+use crate::column::{self, Column, Sign};
 use crate::decimals::shortest_scientific;
 use std::path::Path;
 
-/// Header of a table: time, velocities and displacements of the axes along which points move.
+/// Columns of a table: time, velocities and displacements of the axes along which points move.
 #[must_use]
-pub fn header(axes: &[usize]) -> String {
-    let mut text = String::from("time [s]");
-    for (name, unit) in [("velocity", "m/s"), ("displacement", "m")] {
-        for &axis in axes {
-            text.push_str(&format!(",{name}_{} [{unit}]", AXES[axis].to_ascii_lowercase()));
-        }
-    }
-    text.push('\n');
-    text
+pub fn columns(axes: &[usize]) -> Vec<Column> {
+    let of = |name: &'static str, unit| {
+        let own = move |axis: &usize| {
+            Column::new(format!("{name}_{}", AXES[*axis].to_ascii_lowercase()), unit, Sign::Axis, name)
+        };
+        axes.iter().map(own)
+    };
+    [column::time()].into_iter().chain(of("velocity", "m/s")).chain(of("displacement", "m")).collect()
 }
 
 /// Row of a table. Numbers read back as the same numbers.
@@ -51,7 +51,7 @@ mod tests {
     fn velocities_are_read_back_to_the_last_bit() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.csv");
-        let mut text = header(&[0, 1]);
+        let mut text = column::header(&columns(&[0, 1]));
         assert_eq!(
             text,
             "time [s],velocity_x [m/s],velocity_y [m/s],displacement_x [m],displacement_y [m]\n"

@@ -4,7 +4,8 @@ use super::run::{Run, Where};
 use crate::cli::lines;
 use crate::keep::Keeper;
 use crate::kinds::bodies::{Outputs, RunError, RunReport, Stand};
-use crate::{checkpoint, kinds};
+use crate::{catalogue, checkpoint, kinds};
+use asperity_output::Column;
 use asperity_output::FieldSchedule;
 use asperity_output::plots::{self, Sheet};
 use asperity_plan::bodies::AnyPlan;
@@ -45,6 +46,11 @@ impl Run for Bodies<'_> {
         report
     }
 
+    fn tables(&self, outputs: &Outputs, report: &RunReport) -> Vec<(String, Vec<Column>)> {
+        let events = report.events.as_ref().map(|events| catalogue::tables(&events.all));
+        outputs.tables().into_iter().chain(events.into_iter().flatten()).collect()
+    }
+
     fn complete(
         &self,
         (out, _): Where<'_>,
@@ -54,7 +60,7 @@ impl Run for Bodies<'_> {
     ) -> miette::Result<Option<Sheet>> {
         if let Some(events) = &report.events {
             lines::events(&events.all);
-            crate::catalogue::write(out, &events.all, &events.interfaces).into_diagnostic()?;
+            catalogue::write(out, &events.all, &events.interfaces).into_diagnostic()?;
         }
         Ok(outputs.recorder().as_ref().map(plots::sheet))
     }

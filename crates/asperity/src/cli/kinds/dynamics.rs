@@ -4,6 +4,7 @@ use super::run::{Run, Where};
 use crate::keep::Keeper;
 use crate::kinds::dynamics::{Ended, Outputs, Report, RunError, Stand};
 use crate::{checkpoint, kinds};
+use asperity_output::Column;
 use asperity_output::plots::Sheet;
 use asperity_plan::dynamics::Plan;
 use miette::IntoDiagnostic;
@@ -42,6 +43,10 @@ impl<'a, const D: usize> Run for Dynamics<'a, D> {
 
     fn report(&self, ended: &mut Ended, _: &mut Keeper<Self::Outputs>) -> Report {
         Report::new(self.0, ended)
+    }
+
+    fn tables(&self, _: &Self::Outputs, _: &Report) -> Vec<(String, Vec<Column>)> {
+        kinds::dynamics::tables(self.0)
     }
 
     fn complete(

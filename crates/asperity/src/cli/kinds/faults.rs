@@ -7,6 +7,7 @@ use crate::keep::Keeper;
 use crate::kinds;
 use crate::kinds::faults::{Outputs, Report};
 use asperity_cycles::FaultRun;
+use asperity_output::Column;
 use asperity_output::atomic;
 use asperity_output::plots::{EventPanel, PanelEvent, Sheet};
 use asperity_output::printing::out;
@@ -62,6 +63,10 @@ impl<'a> Run for Faults<'a> {
             report.outcome = Outcome::Interrupted { stage: None, time: report.end, reason: why.into() };
         }
         report
+    }
+
+    fn tables(&self, _: &Self::Outputs, report: &Report) -> Vec<(String, Vec<Column>)> {
+        kinds::faults::tables(self.plan).into_iter().chain(catalogue::tables(&report.events)).collect()
     }
 
     fn complete(

@@ -2,6 +2,7 @@
 
 use crate::keep::{Keeper, Outputs, Stand};
 use crate::report::Results;
+use asperity_output::Column;
 use asperity_output::plots::Sheet;
 use std::path::Path;
 
@@ -28,6 +29,9 @@ pub(super) trait Run {
 
     /// Report of the run.
     fn report(&self, ended: &mut Self::Ended, keeper: &mut Keeper<Self::Outputs>) -> Self::Report;
+
+    /// Tables that the run may have written, by their paths below its directory, with their columns. `*` in a path stands for any text.
+    fn tables(&self, outputs: &Self::Outputs, report: &Self::Report) -> Vec<(String, Vec<Column>)>;
 
     /// Writes the files of the end, and returns the figures.
     fn complete(

@@ -3,8 +3,9 @@
 use super::run::{Run, Where};
 use crate::cli::lines;
 use crate::keep::Keeper;
-use crate::kinds::sliders::{Outputs, Report, csv};
+use crate::kinds::sliders::{Histories, Outputs, Report, columns, csv};
 use asperity_cycles::slider::{Problem, SliderRun, resume};
+use asperity_output::Column;
 use asperity_output::atomic;
 use asperity_output::plots::Sheet;
 use asperity_plan::sliders::Plan;
@@ -47,6 +48,11 @@ impl<'a> Run for Sliders<'a> {
             report.outcome = Outcome::Interrupted { stage: None, time: report.end, reason: why.into() };
         }
         report
+    }
+
+    fn tables(&self, _: &Self::Outputs, report: &Report) -> Vec<(String, Vec<Column>)> {
+        let events = ("events.csv".into(), columns(&report.events));
+        Histories::tables(&self.0.problem).into_iter().chain([events]).collect()
     }
 
     fn complete(

@@ -6,7 +6,7 @@ use crate::keep::{self, Place};
 use asperity_ode::Control;
 use asperity_output::progress::Now;
 use asperity_output::view::{Setup, StepView};
-use asperity_output::{FieldSchedule, Files, FilesState, Multi, OutputError, Recorder, Writer};
+use asperity_output::{Column, FieldSchedule, Files, FilesState, Multi, OutputError, Recorder, Writer};
 use asperity_run::{Kind, ObserveError, Observer};
 use serde::{Deserialize, Serialize};
 
@@ -66,6 +66,12 @@ impl Outputs {
     #[must_use]
     pub fn recorder(self) -> Option<Recorder> {
         self.recorder
+    }
+
+    /// Tables of the run, by their paths, with their columns.
+    #[must_use]
+    pub fn tables(&self) -> Vec<(String, Vec<Column>)> {
+        self.files.columns()
     }
 
     fn all(&mut self) -> Multi<'_> {

@@ -1,6 +1,7 @@
 //! Rupture times: when the slip rate of each point first reaches a threshold.
 
 use super::moment::size;
+use asperity_output::column::{self, Column, Sign};
 use serde::{Deserialize, Serialize};
 
 /// Rupture times so far.
@@ -35,4 +36,12 @@ impl Arrivals {
         }
         self.before.0 = time;
     }
+}
+
+/// Columns of the table of rupture times.
+pub(super) fn columns() -> Vec<Column> {
+    let fault = Column::new("fault", "", Sign::None, "fault of the point");
+    let time = Column::new("time", "s", Sign::None, "time at which the point ruptured; NaN without rupture");
+    let rate = Column::new("largest slip_rate", "m/s", Sign::Size, "largest slip rate");
+    [fault].into_iter().chain(column::position()).chain([time, rate]).collect()
 }

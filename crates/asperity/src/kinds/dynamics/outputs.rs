@@ -4,10 +4,11 @@ use super::fields::{Fields, Taken};
 use super::moment::Moment;
 use super::run::{Dynamics, Stand};
 use super::tables::Tables;
-use super::{Ended, figures, seismograms};
+use super::{Ended, arrivals, figures, seismograms};
 use crate::checkpoint::{self, ResumeError};
 use crate::keep::{self, Place};
 use asperity_ode::Control;
+use asperity_output::column;
 use asperity_output::decimals::shortest;
 use asperity_output::plots::Sheet;
 use asperity_output::progress::Now;
@@ -124,7 +125,7 @@ impl<'a, const D: usize> keep::Outputs for Outputs<'a, D> {
 
 /// Table of rupture times; NaN for points that did not rupture.
 fn ruptures<const D: usize>(plan: &Plan<D>, ended: &Ended) -> String {
-    let mut text = String::from("fault,x [m],y [m],z [m],time [s],largest slip_rate [m/s]\n");
+    let mut text = column::header(&arrivals::columns());
     for fault in &plan.faults {
         for p in fault.points.clone() {
             let place = plan.points[p].at.map(shortest).join(",");

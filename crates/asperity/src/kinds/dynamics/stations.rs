@@ -15,9 +15,10 @@ pub(super) fn tables<const D: usize>(plan: &Plan<D>) -> Vec<Table<'_>> {
             let view = &plan.points[*point];
             let location = stations::location(fault, asked, view);
             let plain = stations::plain(&plan.title, (&location, view), D == 3);
-            let head = Head { opens: opens(plan), ..plain }.text();
+            let head = Head { opens: opens(plan), ..plain };
             let row = |now: &Moment<'_>| row(plan, now, *point);
-            all.push(Table::new(format!("stations/{name}"), head, Course::Rows, row));
+            let table = Table::new(format!("stations/{name}"), head.columns(), Course::Rows, row);
+            all.push(table.headed(head.text()));
         }
     }
     all

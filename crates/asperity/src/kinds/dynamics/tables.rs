@@ -2,9 +2,11 @@
 
 use super::moment::{Moment, size};
 use super::rows::{Course, Table};
-use super::stations;
+use super::{arrivals, stations};
 use crate::kinds::faults::moments;
+use crate::kinds::faults::profile::{Profile, RATE, SLIP};
 use asperity_mechanics::dynamics::Budget;
+use asperity_output::Column;
 use asperity_output::decimals::{scientific, shortest};
 use asperity_output::{Growing, OutputError, seismogram, table};
 use asperity_plan::dynamics::Plan;
@@ -21,51 +23,57 @@ fn all<const D: usize>(plan: &Plan<D>) -> Vec<Table<'_>> {
     let mut all = vec![energies(plan)];
     if !plan.points.is_empty() {
         all.push(moment_rates(plan));
-        all.push(profiles(plan, "rate_profiles.csv", |now| &now.fault.rate, log_rate));
-        all.push(profiles(plan, "slip_profiles.csv", |now| &now.fault.slip, |slip| slip));
+        all.push(profiles(plan, RATE, |now| &now.fault.rate, log_rate));
+        all.push(profiles(plan, SLIP, |now| &now.fault.slip, |slip| slip));
     }
     all.extend(stations::tables(plan));
-    let header = seismogram::header(&plan.axes);
+    let columns = seismogram::columns(&plan.axes);
     all.extend(plan.receivers.iter().enumerate().map(|(k, receiver)| {
         let row = move |now: &Moment<'_>| {
             let [velocity, displacement] = &now.received[k];
             seismogram::row(now.time, velocity, displacement)
         };
-        Table::new(format!("seismograms/{}.csv", receiver.name), header.clone(), Course::Rows, row)
+        Table::new(format!("seismograms/{}.csv", receiver.name), columns.clone(), Course::Rows, row)
     }));
     all
 }
 
+/// Tables of a run, by their paths, with their columns.
+#[must_use]
+pub fn tables<const D: usize>(plan: &Plan<D>) -> Vec<(String, Vec<Column>)> {
+    let growing = all(plan).into_iter().map(|table| (table.path, table.columns));
+    growing.chain([("rupture_times.csv".into(), arrivals::columns())]).collect()
+}
+
 /// Energy budget. There is one stage.
 fn energies<const D: usize>(plan: &Plan<D>) -> Table<'_> {
-    let head = table::energy_header(if plan.per_length { "J/m" } else { "J" });
+    let columns = table::energy_columns(if plan.per_length { "J/m" } else { "J" });
     let row = |now: &Moment<'_>| {
         let row = |budget: &Budget| table::energy_row(now.time, 0, now.step, &budget.energies());
         now.budget.as_ref().map_or(String::new(), row)
     };
-    Table::new("energy.csv", head, Course::Rows, row)
+    Table::new("energy.csv", columns, Course::Rows, row)
 }
 
 /// Moment rates and moments of faults.
 fn moment_rates<const D: usize>(plan: &Plan<D>) -> Table<'_> {
-    let unit = if plan.per_length { "N" } else { "N m" };
     let row = |now: &Moment<'_>| {
         let (rates, sums) = (moments_of(plan, &now.fault.rate), moments_of(plan, &now.fault.slip));
         line(now.time, rates.into_iter().zip(sums).flat_map(|(rate, sum)| [rate, sum]))
     };
-    Table::new(moments::FILE, moments::head(&plan.faults, unit), Course::Rows, row)
+    Table::new(moments::FILE, moments::columns(&plan.faults, plan.per_length), Course::Rows, row)
 }
 
 /// Profile of values `of` all points: with a sign in the plane, and of magnitudes of vectors.
 fn profiles<'a, const D: usize>(
     plan: &'a Plan<D>,
-    path: &str,
+    profile: Profile,
     values: for<'n> fn(&'n Moment<'_>) -> &'n [f64],
     of: fn(f64) -> f64,
 ) -> Table<'a> {
     let points = plan.points.len();
     let place = |p: &PointView| if D == 2 { shortest(p.along) } else { p.at.map(shortest).join(" ") };
-    let columns: String = plan.points.iter().map(|p| format!(",{}", place(p))).collect();
+    let columns = profile.columns(plan.points.iter().map(place));
     let row = move |now: &Moment<'_>| {
         let values = values(now);
         if values.len() == points {
@@ -73,7 +81,7 @@ fn profiles<'a, const D: usize>(
         }
         line(now.time, (0..points).map(|p| of(size(values, points, p))))
     };
-    Table::new(path, format!("time [s]{columns}\n"), Course::Profiles, row)
+    Table::new(profile.0, columns, Course::Profiles, row)
 }
 
 /// The tables of a run, with their files.

@@ -1,7 +1,9 @@
 //! Changes of Coulomb stress over each event in homogeneous rock: tables, and in space grids.
 
+use super::receiver_tables::on_earth;
 use super::source_time::FOLDER;
 use asperity_cycles::FaultRun;
+use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::{scientific, shortest};
 use asperity_output::grd::Grid;
 use asperity_output::{OutputError, atomic};
@@ -9,15 +11,37 @@ use asperity_plan::faults::{Change, Coulomb, CoulombMap, Plan};
 use asperity_plan::shared::place::Frame;
 use std::path::Path;
 
-/// Columns of a position.
-const PLACE: &str = "x [m],y [m],z [m]";
-/// Further columns where the scene has a place on Earth.
-const PLACED: &str = ",longitude [deg],latitude [deg],depth [m]";
-/// Columns of a stress.
-const STRESS: &str =
-    ",stress_xx [Pa],stress_yy [Pa],stress_zz [Pa],stress_xy [Pa],stress_yz [Pa],stress_zx [Pa]";
-/// Columns of a change.
-const CHANGE: &str = ",shear_change [Pa],normal_change [Pa],coulomb_change [Pa]";
+/// Columns of a position, with the name that heads them if there is one, and of what is there.
+fn columns(frame: Option<&Frame>, name: Option<Column>, with_stress: bool) -> Vec<Column> {
+    let mut all: Vec<Column> = name.into_iter().chain(column::position()).collect();
+    if frame.is_some() {
+        all.extend(on_earth());
+    }
+    if with_stress {
+        all.extend(column::stress());
+    }
+    all.extend([
+        Column::new("shear_change", "Pa", Sign::Driving, "change of the shear traction along the rake"),
+        Column::new("normal_change", "Pa", Sign::Compression, "change of the normal traction"),
+        Column::new("coulomb_change", "Pa", Sign::Driving, "change of Coulomb stress"),
+    ]);
+    all
+}
+
+/// Columns of maps.
+pub(super) fn of_map(frame: Option<&Frame>) -> Vec<Column> {
+    columns(frame, None, true)
+}
+
+/// Columns of named positions.
+pub(super) fn of_points(frame: Option<&Frame>) -> Vec<Column> {
+    columns(frame, Some(Column::new("name", "", Sign::None, "name of the position")), true)
+}
+
+/// Columns of cells of faults.
+pub(super) fn of_faults(frame: Option<&Frame>) -> Vec<Column> {
+    columns(frame, Some(Column::new("fault", "", Sign::None, "fault of the cell")), false)
+}
 
 /// Name of the table of the map of an event by its number.
 pub(super) fn name(number: usize) -> String {
@@ -26,7 +50,7 @@ pub(super) fn name(number: usize) -> String {
 
 /// Number of the column of the change in the tables of maps, which is the last.
 pub(super) fn column(plan: &Plan) -> usize {
-    [&head(plan.frame.as_ref()), STRESS, CHANGE].iter().map(|part| part.matches(',').count()).sum()
+    of_map(plan.frame.as_ref()).len() - 1
 }
 
 /// Writes `events/coulomb_000.csv` and so on for the first events, in space also their grids,
@@ -60,7 +84,7 @@ fn write_map(
     let frame = plan.frame.as_ref();
     let found = coulomb.at(&map.positions, slips);
     for number in 0..slips.len() {
-        let mut text = format!("{}{STRESS}{CHANGE}\n", head(frame));
+        let mut text = column::header(&of_map(frame));
         for (at, all) in map.positions.iter().zip(&found) {
             let (stress, change) = &all[number];
             text.push_str(&format!("{}{}{}\n", place(frame, at), numbers(stress), changed(change)));
@@ -82,7 +106,7 @@ fn write_points(folder: &Path, plan: &Plan, coulomb: &Coulomb, slips: &[&[f64]])
     let positions: Vec<[f64; 3]> = coulomb.points.iter().map(|p| p.1).collect();
     let found = coulomb.at(&positions, slips);
     for number in 0..slips.len() {
-        let mut text = format!("name,{}{STRESS}{CHANGE}\n", head(frame));
+        let mut text = column::header(&of_points(frame));
         for ((name, at), all) in coulomb.points.iter().zip(&found) {
             let (stress, change) = &all[number];
             let row = format!("{}{}{}", place(frame, at), numbers(stress), changed(change));
@@ -103,7 +127,7 @@ fn write_faults(folder: &Path, plan: &Plan, coulomb: &Coulomb, slips: &[&[f64]])
     let faults: Vec<_> = plan.faults.iter().map(|f| f.points.clone()).collect();
     let found = coulomb.on_cells(slips, &places, (&areas, &faults));
     for (number, changes) in found.iter().enumerate() {
-        let mut text = format!("fault,{}{CHANGE}\n", head(frame));
+        let mut text = column::header(&of_faults(frame));
         for fault in &plan.faults {
             for point in fault.points.clone() {
                 let row = format!("{}{}", place(frame, &places[point]), changed(&changes[point]));
@@ -113,11 +137,6 @@ fn write_faults(folder: &Path, plan: &Plan, coulomb: &Coulomb, slips: &[&[f64]])
         atomic::write(&folder.join(format!("coulomb_faults_{number:03}.csv")), text.as_bytes())?;
     }
     Ok(())
-}
-
-/// Columns of a position in a scene with or without a place on Earth.
-fn head(frame: Option<&Frame>) -> String {
-    format!("{PLACE}{}", if frame.is_some() { PLACED } else { "" })
 }
 
 fn place(frame: Option<&Frame>, at: &[f64; 3]) -> String {

@@ -3,17 +3,33 @@
 use super::fields::{Field, along};
 use super::source_time::FOLDER;
 use asperity_cycles::{FaultRun, Rupture};
+use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::{scientific, shortest};
 use asperity_output::{OutputError, atomic};
 use asperity_plan::faults::{FaultView, Plan};
 use asperity_run::Event;
 use std::path::Path;
 
-/// Header of the tables.
-const HEAD: &str =
-    "fault,x [m],y [m],z [m],time since onset [s],largest slip_rate [m/s],slip [m],stress_drop [Pa]";
-/// Further column for vector slip: the angle from the rake to the slip.
-const TURNED: &str = ",turned [deg]";
+/// Columns of the tables, with the angle of slip where it may turn.
+pub(super) fn columns(turns: bool) -> Vec<Column> {
+    let turned = Column::new("turned", "deg", Sign::None, "angle from the rake to the slip");
+    [Column::new("fault", "", Sign::None, "fault of the point")]
+        .into_iter()
+        .chain(column::position())
+        .chain([
+            Column::new(
+                "time since onset",
+                "s",
+                Sign::None,
+                "time at which the point ruptured; NaN without rupture",
+            ),
+            Column::new("largest slip_rate", "m/s", Sign::Size, "largest slip rate in the event"),
+            Column::new("slip", "m", Sign::Slip, "slip in the event"),
+            Column::new("stress_drop", "Pa", Sign::Slip, "fall of the shear traction in the event"),
+        ])
+        .chain(turns.then_some(turned))
+        .collect()
+}
 
 /// Writes `events/rupture_times_000.csv` and so on for the first events, with a row for each point.
 ///
@@ -41,7 +57,7 @@ pub(super) fn turned(event: &Event<Rupture>, point: usize) -> Option<f64> {
 
 fn table(plan: &Plan, event: &Event<Rupture>) -> String {
     let turns = event.details.slip.components() > 1;
-    let mut text = format!("{HEAD}{}\n", if turns { TURNED } else { "" });
+    let mut text = column::header(&columns(turns));
     for fault in &plan.faults {
         rows(plan, fault, event, &mut text);
     }

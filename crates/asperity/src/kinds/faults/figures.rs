@@ -144,10 +144,10 @@ fn on_faults(plan: &Plan, run: &FaultRun, (names, shapes): (&[String], &[usize])
 /// Macroscopic friction against the way of each load point, from the tables of springs.
 fn springs(plan: &Plan) -> Option<Curves> {
     let sampling = plan.sampling.as_ref().filter(|s| !s.sampled.springs.is_empty())?;
-    let heads = sampling.sampled.heads();
-    let first = heads.len() - sampling.sampled.springs.len();
+    let tables = sampling.sampled.tables();
+    let first = tables.len() - sampling.sampled.springs.len();
     // Time, stage, step, load point, displacement, force and friction.
     let points = |path: &str| Points::Table { table: path.into(), x: 3, y: 6, size: true };
-    let all = sampling.sampled.springs.iter().zip(&heads[first..]);
+    let all = sampling.sampled.springs.iter().zip(&tables[first..]);
     Some(springs_curves(&plan.title, all.map(|(spring, (path, _))| (spring.name(), points(path))).collect()))
 }

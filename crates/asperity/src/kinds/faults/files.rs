@@ -8,12 +8,13 @@ use super::rows::{Ends, Rows, Table};
 use super::snapshots::Snapshots;
 use super::source_time::SourceTimes;
 use super::{
-    forces, largest, locking, moments, profiles, receiver_rows, sampled_rows, stations, surface_profiles,
+    coulomb_tables, event_tables, forces, largest, locking, moments, profiles, receiver_rows,
+    receiver_tables, sampled_rows, snapshots, source_time, stations, surface_profiles,
 };
 use crate::checkpoint::{self, ResumeError};
 use asperity_cycles::{Faults, Moment};
 use asperity_ode::{Clock, Control};
-use asperity_output::{OutputError, atomic};
+use asperity_output::{Column, OutputError, atomic};
 use asperity_plan::faults::Plan;
 use asperity_plan::faults::cadence::{Gauge, warning};
 use asperity_run::{ObserveError, Observer, Warning};
@@ -29,6 +30,26 @@ fn all(plan: &Plan) -> Vec<Table<'_>> {
     all.extend(sampled_rows::tables(plan));
     all.extend(stations::tables(plan));
     all
+}
+
+/// Tables of a run, by their paths, with their columns: those that grow, and those of single events.
+#[must_use]
+pub fn tables(plan: &Plan) -> Vec<(String, Vec<Column>)> {
+    let frame = plan.frame.as_ref();
+    let of_events = [
+        (snapshots::LIST, snapshots::columns()),
+        ("events/moment_rate_*.csv", source_time::columns(plan)),
+        ("events/rupture_times_*.csv", event_tables::columns(plan.problem.fault.law.components() > 1)),
+        ("events/displacements_*.csv", receiver_tables::named(frame)),
+        ("events/surface_*.csv", receiver_tables::columns(frame)),
+        ("events/coulomb_points_*.csv", coulomb_tables::of_points(frame)),
+        ("events/coulomb_faults_*.csv", coulomb_tables::of_faults(frame)),
+    ];
+    // Its names are those of the other tables of Coulomb stress, but for what follows.
+    let map = plan.coulomb.as_ref().and_then(|coulomb| coulomb.map.as_ref());
+    let map = map.map(|_| ("events/coulomb_*.csv", coulomb_tables::of_map(frame)));
+    let growing = all(plan).into_iter().map(|table| (table.path, table.columns));
+    growing.chain(of_events.into_iter().chain(map).map(|(path, columns)| (path.into(), columns))).collect()
 }
 
 /// See the module.

@@ -2,6 +2,7 @@
 
 use super::rows::{Course, Table, line};
 use asperity_cycles::Moment;
+use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::scientific;
 use asperity_plan::faults::{FaultView, Plan};
 
@@ -13,14 +14,24 @@ fn unit(plan: &Plan) -> &'static str {
 /// The table.
 pub(super) fn table(plan: &Plan) -> Table<'_> {
     let unit = unit(plan);
-    let columns =
-        |f: &FaultView| format!(",shear_force of {0} [{unit}],normal_force of {0} [{unit}]", f.name);
-    let columns: String = plan.faults.iter().map(columns).collect();
+    let of_fault = |fault: &FaultView| {
+        [
+            Column::new(
+                "shear_force",
+                unit,
+                Sign::Along,
+                "integral of the shear traction, with that of radiation",
+            ),
+            Column::new("normal_force", unit, Sign::Compression, "integral of the effective normal traction"),
+        ]
+        .map(|column| column.of(&fault.name))
+    };
+    let columns = [column::time()].into_iter().chain(plan.faults.iter().flat_map(of_fault)).collect();
     let row = |now: &Moment<'_>| {
         let values = plan.faults.iter().flat_map(|fault| of(plan, fault, now));
         line(now.at.seconds(), values.map(|value| scientific(value, 9)))
     };
-    Table::new("fault_forces.csv", format!("time [s]{columns}\n"), Course::Largest, row)
+    Table::new("fault_forces.csv", columns, Course::Largest, row)
 }
 
 /// Shear force along positive slip, with that of radiation damping, and effective normal force of a fault at a moment \[N; N/m\]. With vector slip the

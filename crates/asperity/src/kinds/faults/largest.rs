@@ -2,16 +2,25 @@
 
 use super::rows::{Course, Table, line};
 use asperity_cycles::Moment;
+use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::{fixed, scientific};
 use asperity_plan::faults::Plan;
 use asperity_plan::faults::cadence::log_rate;
 
 /// Columns of the table. Means are weighted by area; for vector slip they are of the components along the rake.
-const HEAD: &str = "time [s],log10 slip_rate [m/s],point,mean shear_traction [Pa],mean slip [m]\n";
+fn columns() -> Vec<Column> {
+    vec![
+        column::time(),
+        Column::new("log10 slip_rate", "m/s", Sign::Log, "largest slip rate"),
+        Column::new("point", "", Sign::None, "number of the fastest point"),
+        Column::new("mean shear_traction", "Pa", Sign::Along, "shear traction, averaged over the area"),
+        Column::new("mean slip", "m", Sign::Along, "slip, averaged over the area"),
+    ]
+}
 
 /// The table.
 pub(super) fn table(plan: &Plan) -> Table<'_> {
-    Table::new("largest_rate.csv", HEAD.into(), Course::Largest, |now| row(plan, now))
+    Table::new("largest_rate.csv", columns(), Course::Largest, |now| row(plan, now))
 }
 
 fn row(plan: &Plan, now: &Moment<'_>) -> String {

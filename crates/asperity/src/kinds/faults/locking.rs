@@ -4,14 +4,16 @@
 //! it creeps with the plates, negative where it is faster. The slip deficit grows at c Vp, the backslip of J. C. Savage,
 //! J. Geophys. Res. 88 (1983) 4984, and the moment deficit at the integral of G c |Vp|.
 
-use super::moments;
+use super::profile::Profile;
 use super::rows::{Course, Table, line};
 use asperity_cycles::{Components, Moment};
+use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::scientific;
 use asperity_plan::faults::{FaultView, Plan};
 
-/// Name of the table of profiles.
-pub(super) const PROFILES: &str = "coupling_profiles.csv";
+/// Profile of the coupling.
+pub(super) const PROFILES: Profile =
+    Profile("coupling_profiles.csv", "-", Sign::None, "coupling to the plates that load the fault");
 
 /// True if plates load any fault.
 pub(super) fn any(plan: &Plan) -> bool {
@@ -40,15 +42,20 @@ pub(super) fn profile(plan: &Plan, now: &Moment<'_>) -> Vec<f64> {
 
 /// The table, if plates load any fault: the mean coupling of each, weighted by G |Vp| dA, and the rate of its moment deficit.
 pub(super) fn table(plan: &Plan) -> Option<Table<'_>> {
-    let unit = moments::unit(plan);
-    let columns = |name: &str| format!(",coupling of {name} [-],moment_deficit_rate of {name} [{unit}/s]");
-    let columns: String = faults(plan).map(|fault| columns(&fault.name)).collect();
+    let unit = if plan.in_space { "N m/s" } else { "N/s" };
+    let of_fault = |fault: &FaultView| {
+        [
+            Column::new("coupling", "-", Sign::None, "mean coupling to the plates, weighted by G Vp dA"),
+            Column::new("moment_deficit_rate", unit, Sign::None, "rate at which the moment deficit grows"),
+        ]
+        .map(|column| column.of(&fault.name))
+    };
+    let columns = [column::time()].into_iter().chain(faults(plan).flat_map(of_fault)).collect();
     let row = |now: &Moment<'_>| {
         let values = faults(plan).flat_map(|fault| deficit(plan, fault, now));
         line(now.at.seconds(), values.map(|value| scientific(value, 9)))
     };
-    let table = || Table::new("locking.csv", format!("time [s]{columns}\n"), Course::Largest, row);
-    any(plan).then(table)
+    any(plan).then(|| Table::new("locking.csv", columns, Course::Largest, row))
 }
 
 /// Mean coupling of a fault \[-\], and the rate of its moment deficit \[N m/s; N/s in the plane\].

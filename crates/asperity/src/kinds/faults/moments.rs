@@ -2,27 +2,34 @@
 
 use super::rows::{Course, Table, line};
 use asperity_cycles::{Components, Moment};
+use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::scientific;
 use asperity_plan::faults::{FaultView, Plan};
 
 /// Name of the table.
 pub(crate) const FILE: &str = "moment_rate.csv";
 
-/// Unit of moments: in the plane they are per metre of thickness.
-pub(super) fn unit(plan: &Plan) -> &'static str {
-    if plan.in_space { "N m" } else { "N" }
-}
-
 /// The table.
 pub(super) fn table(plan: &Plan) -> Table<'_> {
-    Table::new(FILE, head(&plan.faults, unit(plan)), Course::Largest, |now| row(plan, now))
+    Table::new(FILE, columns(&plan.faults, !plan.in_space), Course::Largest, |now| row(plan, now))
 }
 
-/// Header of the table for moments in this unit.
-pub(crate) fn head(faults: &[FaultView], unit: &str) -> String {
-    let columns = |name: &str| format!(",moment_rate of {name} [{unit}/s],moment of {name} [{unit}]");
-    let columns: String = faults.iter().map(|f| columns(&f.name)).collect();
-    format!("time [s]{columns}\n")
+/// Columns of the table, per metre of thickness or not.
+pub(crate) fn columns(faults: &[FaultView], per_length: bool) -> Vec<Column> {
+    let (rate, sum) = if per_length { ("N/s", "N") } else { ("N m/s", "N m") };
+    let of = |fault: &FaultView| {
+        [
+            Column::new(
+                "moment_rate",
+                rate,
+                Sign::Size,
+                "integral of G |V| dA over points that slide by friction",
+            ),
+            Column::new("moment", sum, Sign::Size, "integral of G |s| dA over points that slide by friction"),
+        ]
+        .map(|column| column.of(&fault.name))
+    };
+    [column::time()].into_iter().chain(faults.iter().flat_map(of)).collect()
 }
 
 /// ∫ G |v| dA of each fault, of slip or of slip rates v.

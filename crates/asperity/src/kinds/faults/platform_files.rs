@@ -32,7 +32,7 @@ pub(super) fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), Outpu
     let put = |name: &str, head: String, rows: String| {
         atomic::write(&folder.join(name), format!("{head}{rows}").as_bytes())
     };
-    for ((name, location), (own, _)) in platform.stations.iter().zip(stations::heads(plan)) {
+    for ((name, location), (own, ..)) in platform.stations.iter().zip(stations::all(plan)) {
         let text = read(&out.join("stations").join(own))?;
         let rows = table(&text, ' ').filter_map(|row| on_fault(platform, &row)).collect();
         put(&format!("{name}.txt"), platform.submission.on_fault(location), rows)?;

@@ -1,9 +1,11 @@
 //! Profiles along faults in the plane through a run: slip, slip rate and, where there are any, states, coupling, opening and heat.
 
+use super::profile::{Profile, RATE, SLIP};
 use super::rows::{Course, Table, line};
 use super::{locking, states};
 use asperity_cycles::heat::{Heat, PRESSURE, TEMPERATURE};
 use asperity_cycles::{Moment, OPENING, Opening};
+use asperity_output::Sign;
 use asperity_output::decimals::{fixed, scientific};
 use asperity_plan::faults::Plan;
 use asperity_plan::faults::cadence::{RATE_CHANGE, log_rate};
@@ -15,39 +17,19 @@ pub(super) fn tables(plan: &Plan) -> Vec<Table<'_>> {
     }
     let processes = &plan.problem.fault.processes;
     let heat = processes.find::<Heat>();
-    let mut all = vec![
-        table(
-            plan,
-            "slip_profiles.csv",
-            SELDOM,
-            |_, now| now.slip().component(0).to_vec(),
-            |u| scientific(u, 6),
-        ),
-        table(
-            plan,
-            "rate_profiles.csv",
-            OFTEN,
-            |_, now| now.rate.component(0).to_vec(),
-            |v| fixed(log_rate(v), 3),
-        ),
-    ];
     let six = |value| scientific(value, 6);
+    let mut all = vec![
+        table(plan, SLIP, SELDOM, |_, now| now.slip().component(0).to_vec(), six),
+        table(plan, RATE, OFTEN, |_, now| now.rate.component(0).to_vec(), |v| fixed(log_rate(v), 3)),
+    ];
     if processes.find::<Opening>().is_some() {
-        all.push(table(
-            plan,
-            "opening_profiles.csv",
-            SELDOM,
-            |_, now| now.pressed.of(&OPENING).to_vec(),
-            six,
-        ));
+        all.push(table(plan, OPEN, SELDOM, |_, now| now.pressed.of(&OPENING).to_vec(), six));
     }
     if heat.is_some() {
-        let values: Values = |_, now| now.pressed.of(&TEMPERATURE).to_vec();
-        all.push(table(plan, "temperature_profiles.csv", SELDOM, values, six));
+        all.push(table(plan, WARMTH, SELDOM, |_, now| now.pressed.of(&TEMPERATURE).to_vec(), six));
     }
     if heat.is_some_and(Heat::pressurises) {
-        let values: Values = |_, now| now.pressed.of(&PRESSURE).to_vec();
-        all.push(table(plan, "pressure_profiles.csv", SELDOM, values, six));
+        all.push(table(plan, FLUID, SELDOM, |_, now| now.pressed.of(&PRESSURE).to_vec(), six));
     }
     if states::any(plan) {
         all.push(table(plan, states::PROFILES, OFTEN, states::profile, six));
@@ -59,6 +41,10 @@ pub(super) fn tables(plan: &Plan) -> Vec<Table<'_>> {
     all
 }
 
+const OPEN: Profile = Profile("opening_profiles.csv", "m", Sign::Apart, "separation of the sides");
+const WARMTH: Profile = Profile("temperature_profiles.csv", "K", Sign::None, "temperature");
+const FLUID: Profile = Profile("pressure_profiles.csv", "Pa", Sign::None, "pore pressure");
+
 /// Profiles that do not depend on the change of the largest slip rate.
 pub(super) const SELDOM: Course = Course::Time { change: f64::INFINITY, between_events: false };
 const OFTEN: Course = Course::Time { change: RATE_CHANGE, between_events: false };
@@ -68,12 +54,12 @@ type Values = fn(&Plan, &Moment<'_>) -> Vec<f64>;
 
 fn table<'a>(
     plan: &'a Plan,
-    path: &str,
+    profile: Profile,
     course: Course,
     values: Values,
     text: fn(f64) -> String,
 ) -> Table<'a> {
-    let along: String = plan.points.iter().map(|p| format!(",{}", p.along)).collect();
+    let columns = profile.columns(plan.points.iter().map(|p| p.along.to_string()));
     let row = move |now: &Moment<'_>| line(now.at.seconds(), values(plan, now).into_iter().map(text));
-    Table::new(path, format!("time [s]{along}\n"), course, row)
+    Table::new(profile.0, columns, course, row)
 }

@@ -7,7 +7,7 @@ use asperity_plan::faults::Receivers;
 
 /// Tables of all receivers.
 pub(super) fn tables(receivers: &Receivers) -> impl Iterator<Item = Table<'_>> {
-    let head = seismogram::header(&receivers.axes);
+    let columns = seismogram::columns(&receivers.axes);
     receivers.all.iter().map(move |receiver| {
         let row = |now: &Moment<'_>| {
             let motion = receiver.moves(&receivers.rates, now);
@@ -15,6 +15,6 @@ pub(super) fn tables(receivers: &Receivers) -> impl Iterator<Item = Table<'_>> {
                 motion.map(|v| receivers.axes.iter().map(|&axis| v[axis]).collect::<Vec<f64>>());
             seismogram::row(now.at.seconds(), &velocity, &displacement)
         };
-        Table::new(format!("receivers/{}.csv", receiver.name), head.clone(), Course::Largest, row)
+        Table::new(format!("receivers/{}.csv", receiver.name), columns.clone(), Course::Largest, row)
     })
 }

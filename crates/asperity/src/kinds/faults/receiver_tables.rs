@@ -2,6 +2,7 @@
 
 use super::source_time::FOLDER;
 use asperity_cycles::{FaultRun, Rupture};
+use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::{scientific, shortest};
 use asperity_output::{OutputError, atomic};
 use asperity_plan::faults::Plan;
@@ -9,11 +10,6 @@ use asperity_plan::shared::place::Frame;
 use asperity_run::Event;
 use nalgebra::Vector3;
 use std::path::Path;
-
-/// Columns of a position and its displacement.
-const COLUMNS: &str = "x [m],y [m],z [m],displacement_x [m],displacement_y [m],displacement_z [m]";
-/// Further columns where the scene has a place on Earth.
-const PLACED: &str = ",longitude [deg],latitude [deg],depth [m],east [m],north [m],up [m]";
 
 /// Writes `events/displacements_000.csv` and so on for the first events: displacements of all receivers that slip in the event
 /// causes.
@@ -32,8 +28,29 @@ pub(super) fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), Outpu
 }
 
 /// Columns of a position and its displacement, in a scene with or without a place on Earth.
-pub(super) fn columns(frame: Option<&Frame>) -> String {
-    format!("{COLUMNS}{}", if frame.is_some() { PLACED } else { "" })
+pub(super) fn columns(frame: Option<&Frame>) -> Vec<Column> {
+    let moved = column::axes("displacement", "m", Sign::Axis, "displacement that slip of the event causes");
+    let mut all: Vec<Column> = column::position().into_iter().chain(moved).collect();
+    if frame.is_some() {
+        all.extend(on_earth());
+        let part = |name| Column::new(name, "m", Sign::None, "displacement in this direction");
+        all.extend(["east", "north", "up"].map(part));
+    }
+    all
+}
+
+/// Columns of a position on Earth.
+pub(super) fn on_earth() -> [Column; 3] {
+    [
+        Column::new("longitude", "deg", Sign::None, "longitude of the position"),
+        Column::new("latitude", "deg", Sign::None, "latitude of the position"),
+        Column::new("depth", "m", Sign::None, "depth of the position"),
+    ]
+}
+
+/// Columns of the tables of named receivers.
+pub(super) fn named(frame: Option<&Frame>) -> Vec<Column> {
+    [Column::new("name", "", Sign::None, "name of the receiver")].into_iter().chain(columns(frame)).collect()
 }
 
 /// Values of the columns of a position and its displacement.
@@ -51,7 +68,7 @@ pub(super) fn values(frame: Option<&Frame>, at: &[f64; 3], moved: [f64; 3]) -> V
 
 fn table(plan: &Plan, event: &Event<Rupture>) -> String {
     let frame = plan.frame.as_ref();
-    let mut text = format!("name,{}\n", columns(frame));
+    let mut text = column::header(&named(frame));
     for receiver in &plan.receivers.all {
         let moved = receiver.caused(event.details.slip.all().iter().copied());
         let row = values(frame, &receiver.at, moved).join(",");

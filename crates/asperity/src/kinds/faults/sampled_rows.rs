@@ -3,6 +3,7 @@
 use super::rows::{Course, Table};
 use asperity_cycles::Moment;
 use asperity_ode::Clock;
+use asperity_output::Column;
 use asperity_plan::faults::Plan;
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -11,8 +12,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub(super) fn tables(plan: &Plan) -> Vec<Table<'_>> {
     let (Some(sampling), Some(view)) = (&plan.sampling, &plan.bodies) else { return Vec::new() };
     let rows = Arc::new(Mutex::new(Lately::default()));
-    let heads = sampling.sampled.heads().into_iter().enumerate();
-    let table = |(k, (path, head)): (usize, (String, String))| {
+    let all = sampling.sampled.tables().into_iter().enumerate();
+    let table = |(k, (path, columns)): (usize, (String, Vec<Column>))| {
         let rows = Arc::clone(&rows);
         let row = move |now: &Moment<'_>, step: u64| {
             let mut rows = rows.lock().unwrap_or_else(PoisonError::into_inner);
@@ -22,9 +23,9 @@ pub(super) fn tables(plan: &Plan) -> Vec<Table<'_>> {
             })[k]
                 .clone()
         };
-        Table { path, head, course: Course::Largest, row: Box::new(row) }
+        Table { path, columns, head: None, course: Course::Largest, row: Box::new(row) }
     };
-    heads.map(table).collect()
+    all.map(table).collect()
 }
 
 /// Rows of all tables at the two moments sampled last.

@@ -2,6 +2,7 @@
 
 use super::fields::{self, Surface};
 use asperity_cycles::Moment;
+use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::fixed;
 use asperity_output::{Growing, OutputError, atomic};
 use asperity_plan::faults::Plan;
@@ -11,8 +12,6 @@ use std::path::{Path, PathBuf};
 
 /// Name of the list of snapshots.
 pub(super) const LIST: &str = "snapshots.csv";
-/// Header of the list.
-const HEAD: &str = "snapshot,time [s],log10 slip_rate [m/s]\n";
 /// Time between snapshots in an event over that between profiles; a rupture crosses a few kilometres in two seconds.
 const IN_EVENTS: f64 = 2.0;
 /// Size of all snapshots together over the largest size of a growing file.
@@ -37,6 +36,15 @@ pub(super) struct Snapshots {
     taken: Taken,
 }
 
+/// Columns of the list of snapshots.
+pub(super) fn columns() -> Vec<Column> {
+    vec![
+        Column::new("snapshot", "", Sign::None, "number of the snapshot"),
+        column::time(),
+        Column::new("log10 slip_rate", "m/s", Sign::Log, "largest slip rate"),
+    ]
+}
+
 /// Name of a snapshot file.
 pub(super) fn name(fault: &str, number: usize) -> String {
     format!("{fault}_{number:05}.vtu")
@@ -56,7 +64,7 @@ impl Snapshots {
         let surfaces = plan.faults.iter().map(|fault| Surface::of(plan, fault)).collect();
         let list = match taken {
             Some(taken) => Growing::reopen(out.join(LIST), taken.list)?,
-            None => Growing::create(out.join(LIST), HEAD.as_bytes())?,
+            None => Growing::create(out.join(LIST), column::header(&columns()))?,
         };
         Ok(Some(Self { folder, surfaces, list, taken: taken.unwrap_or_default() }))
     }

@@ -7,6 +7,7 @@ use super::moments;
 use crate::checkpoint::ResumeError;
 use asperity_cycles::{Moment, Rupture};
 use asperity_ode::Clock;
+use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::scientific;
 use asperity_output::{Growing, OutputError, atomic};
 use asperity_plan::faults::Plan;
@@ -121,7 +122,7 @@ impl SourceTimes {
     }
 
     fn begin(&mut self, plan: &Plan) -> Result<(), OutputError> {
-        let head = format!("time since onset [s],moment_rate [{}/s]\n", moments::unit(plan));
+        let head = column::header(&columns(plan));
         let path = self.folder.join(name(self.written.events - 1));
         self.file = Some(Growing::create(path, head.as_bytes())?);
         self.written.open = Some(Gauge::of(head.len() as u64));
@@ -159,6 +160,15 @@ impl SourceTimes {
         gauge.spend(row.len() as u64, plan.cadence.largest_file, at.seconds());
         file.push(row.as_bytes())
     }
+}
+
+/// Columns of the tables.
+pub(super) fn columns(plan: &Plan) -> Vec<Column> {
+    let unit = if plan.in_space { "N m/s" } else { "N/s" };
+    vec![
+        Column::new("time since onset", "s", Sign::None, "time since the onset of the event"),
+        Column::new("moment_rate", unit, Sign::Size, "moment rate of all faults together"),
+    ]
 }
 
 /// Rate at a time within a step from its ends.

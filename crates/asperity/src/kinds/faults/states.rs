@@ -1,10 +1,17 @@
 //! The state variable of friction as tables and figures show it: log10 of θ where the law has one, otherwise its first state.
 
+use super::profile::Profile;
 use asperity_cycles::Moment;
+use asperity_output::Sign;
 use asperity_plan::faults::{FaultView, Plan};
 
-/// Name of the table of profiles.
-pub(super) const PROFILES: &str = "state_profiles.csv";
+/// Profile of the state.
+pub(super) const PROFILES: Profile = Profile(
+    "state_profiles.csv",
+    "",
+    Sign::Log,
+    "log10 of the state in seconds, or the first state of a law without it",
+);
 
 /// True if the law has a state.
 pub(super) fn any(plan: &Plan) -> bool {

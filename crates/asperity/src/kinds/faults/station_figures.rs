@@ -22,8 +22,8 @@ struct Named<'a> {
 fn named(plan: &Plan) -> Vec<Named<'_>> {
     let all = plan.faults.iter().flat_map(|fault| fault.stations.iter().map(move |station| (fault, station)));
     let several = plan.faults.iter().filter(|fault| !fault.stations.is_empty()).count() > 1;
-    all.zip(stations::heads(plan))
-        .map(|((fault, (asked, point)), (path, _))| {
+    all.zip(stations::all(plan))
+        .map(|((fault, (asked, point)), (path, ..))| {
             let place = match asked {
                 Station::Along(at) => short(*at),
                 Station::At(at) => {

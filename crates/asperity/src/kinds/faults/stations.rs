@@ -3,6 +3,7 @@
 use super::rows::{Course, Table};
 use asperity_cycles::heat::{PRESSURE, TEMPERATURE};
 use asperity_cycles::{Moment, OPENING};
+use asperity_output::Column;
 use asperity_output::seas::{Head, Row};
 use asperity_plan::faults::cadence::NO_RATE;
 use asperity_plan::faults::{FaultView, Plan, PointView, Station};
@@ -26,23 +27,24 @@ pub(crate) fn names(fault: &FaultView) -> Vec<String> {
     fault.stations.iter().enumerate().map(name).collect()
 }
 
-/// Names of all station files, with their headers.
-pub(super) fn heads(plan: &Plan) -> Vec<(String, String)> {
-    let mut heads = Vec::new();
+/// Names of all station files, with their points, headers and columns.
+pub(super) fn all(plan: &Plan) -> Vec<(String, usize, String, Vec<Column>)> {
+    let mut all = Vec::new();
     for fault in &plan.faults {
         for (name, (asked, point)) in names(fault).into_iter().zip(&fault.stations) {
-            heads.push((name, head(plan, fault, asked, *point)));
+            let location = location(fault, asked, &plan.points[*point]);
+            let head = head(plan, &location, *point);
+            all.push((name, *point, head.text(), head.columns()));
         }
     }
-    heads
+    all
 }
 
 /// Tables of all stations.
 pub(super) fn tables(plan: &Plan) -> impl Iterator<Item = Table<'_>> {
-    let points = plan.faults.iter().flat_map(|f| f.stations.iter().map(|s| s.1));
-    heads(plan).into_iter().zip(points).map(move |((name, head), point)| {
+    all(plan).into_iter().map(move |(name, point, head, columns)| {
         let row = move |now: &Moment<'_>| row(plan, now, point);
-        Table::new(format!("stations/{name}"), head, Course::Point(point), row)
+        Table::new(format!("stations/{name}"), columns, Course::Point(point), row).headed(head)
     })
 }
 
@@ -70,16 +72,13 @@ pub(crate) fn plain<'a>(title: &'a str, (location, view): (&'a str, &PointView),
     }
 }
 
-fn head(plan: &Plan, fault: &FaultView, asked: &Station, point: usize) -> String {
-    let view = &plan.points[point];
-    let location = location(fault, asked, view);
-    let head = Head {
+fn head<'a>(plan: &'a Plan, location: &'a str, point: usize) -> Head<'a> {
+    Head {
         opens: opens(plan, point),
         heats: plan.heat_at(point).is_some(),
         pressurises: pressurises(plan, point),
-        ..plain(&plan.title, (&location, view), plan.in_space)
-    };
-    head.text()
+        ..plain(&plan.title, (location, &plan.points[point]), plan.in_space)
+    }
 }
 
 /// True if the fault of a point may open.

@@ -3,6 +3,7 @@
 use super::profiles::SELDOM;
 use super::rows::{self, Table};
 use asperity_cycles::Moment;
+use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::scientific;
 use asperity_plan::faults::{Plan, Receivers};
 
@@ -18,13 +19,15 @@ pub(super) fn followed(plan: &Plan) -> Option<&Receivers> {
 /// The tables, if there is such a line: a column for each position along x.
 pub(super) fn tables(plan: &Plan) -> impl Iterator<Item = Table<'_>> {
     followed(plan).into_iter().flat_map(|line| {
-        let columns: String = line.all.iter().map(|position| format!(",{}", position.at[0])).collect();
         line.axes.iter().map(move |&axis| {
             let row = move |now: &Moment<'_>| {
                 let moved = line.all.iter().map(|position| position.moves(&line.rates, now)[0][axis]);
                 rows::line(now.at.seconds(), moved.map(|u| scientific(u, 9)))
             };
-            Table::new(NAMES[axis], format!("time [s]{columns}\n"), SELDOM, row)
+            let places = line.all.iter().map(|position| position.at[0].to_string());
+            let moved =
+                Column::each("each position", "m", Sign::Axis, "displacement of the free surface", places);
+            Table::new(NAMES[axis], vec![column::time(), moved], SELDOM, row)
         })
     })
 }

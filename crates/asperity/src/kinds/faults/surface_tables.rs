@@ -3,6 +3,7 @@
 use super::receiver_tables::{columns, values};
 use super::source_time::FOLDER;
 use asperity_cycles::FaultRun;
+use asperity_output::column;
 use asperity_output::grd::Grid;
 use asperity_output::{OutputError, atomic};
 use asperity_plan::faults::{FreeSurface, Plan};
@@ -37,7 +38,7 @@ pub(super) fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), Outpu
 
 fn table(plan: &Plan, surface: &FreeSurface, moved: &[[f64; 3]]) -> String {
     let frame = plan.frame.as_ref();
-    let mut text = format!("{}\n", columns(frame));
+    let mut text = column::header(&columns(frame));
     for (at, moved) in surface.positions.iter().zip(moved) {
         text.push_str(&values(frame, at, *moved).join(","));
         text.push('\n');

@@ -1,7 +1,8 @@
 //! Events of sliders, in the report and as CSV.
 
-use crate::catalogue::HEAD;
+use crate::catalogue::first_columns;
 use asperity_cycles::slider::{Edge, Slide, SliderRun};
+use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::shortest_scientific;
 use asperity_run::Event;
 use schemars::JsonSchema;
@@ -87,16 +88,30 @@ impl Entry {
     }
 }
 
+/// Columns of the events of sliders.
+#[must_use]
+pub fn columns(events: &[Named]) -> Vec<Column> {
+    let states = events.iter().map(|e| e.entry.at_onset.states.len()).max().unwrap_or(0);
+    let mut all = Vec::from(first_columns());
+    all.extend([
+        Column::new("direction", "", Sign::Slip, "sign of the slip"),
+        Column::new("slip", "m", Sign::Slip, "slip in the event"),
+        Column::new("least_rate", "m/s", Sign::Size, "least slip rate in the event"),
+    ]);
+    for edge in ["onset", "end"] {
+        all.push(Column::new(format!("traction_{edge}"), "Pa", Sign::Slip, "shear traction then"));
+        all.push(Column::new(format!("friction_{edge}"), "-", Sign::Slip, "shear over normal traction then"));
+        let state = |i| Column::new(format!("state_{i}_{edge}"), "", Sign::None, "state variable then");
+        all.extend((1..=states).map(state));
+    }
+    all
+}
+
 /// Events as CSV; unknown values are empty.
 #[must_use]
 pub fn csv(events: &[Named]) -> String {
     let states = events.iter().map(|e| e.entry.at_onset.states.len()).max().unwrap_or(0);
-    let mut text = format!("{HEAD},direction,slip [m],least_rate [m/s]");
-    for edge in ["onset", "end"] {
-        let _ = write!(text, ",traction_{edge} [Pa],friction_{edge} [-]");
-        (1..=states).for_each(|i| text.push_str(&format!(",state_{i}_{edge}")));
-    }
-    text.push('\n');
+    let mut text = column::header(&columns(events));
     let known = |value: Option<f64>| value.map(shortest_scientific).unwrap_or_default();
     for Named { surface, entry: e } in events {
         let _ = write!(

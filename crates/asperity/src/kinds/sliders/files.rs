@@ -5,6 +5,7 @@ use super::thin::{Row, Thin};
 use asperity_cycles::slider::{Now, Problem, Sliders};
 use asperity_laws::Theta;
 use asperity_ode::Control;
+use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::{shortest, shortest_scientific};
 use asperity_output::plots::{Plot, Sheet};
 use asperity_output::{Growing, OutputError, atomic};
@@ -81,7 +82,7 @@ impl Histories {
         for (i, (stem, slider)) in stems.iter().zip(problem.system.sliders()).enumerate() {
             let file = if problem.output.writes(i) {
                 atomic::create_dir(&folder)?;
-                let header = header(slider.law.states());
+                let header = column::header(&columns(slider.law.states()));
                 Some(open(folder.join(format!("{stem}.csv")), header.as_bytes(), i)?)
             } else {
                 None
@@ -89,6 +90,17 @@ impl Histories {
             sliders.push(Kept { file, ..Kept::default() });
         }
         Ok(Self { sliders, traced: false })
+    }
+
+    /// Tables with their columns.
+    #[must_use]
+    pub fn tables(problem: &Problem) -> Vec<(String, Vec<Column>)> {
+        let stems = asperity_output::stems(problem.names.iter().map(String::as_str));
+        let all = stems.iter().zip(problem.system.sliders()).enumerate();
+        let written = all.filter(|(i, _)| problem.output.writes(*i));
+        written
+            .map(|(_, (stem, slider))| (format!("history/{stem}.csv"), columns(slider.law.states())))
+            .collect()
     }
 
     /// Current positions in the histories.
@@ -154,12 +166,22 @@ impl Histories {
     }
 }
 
-/// Header of the history of a slider.
-fn header(states: usize) -> String {
-    let head =
-        "time [s],step [s],slip [m],slip_rate [m/s],friction [-],traction [Pa],normal_traction [Pa],load [m]";
-    let states: String = (1..=states).map(|i| format!(",state_{i}")).collect();
-    format!("{head}{states}\n")
+/// Columns of the history of a slider.
+fn columns(states: usize) -> Vec<Column> {
+    let mut all = vec![
+        column::time(),
+        Column::new("step", "s", Sign::None, "length of the step"),
+        Column::new("slip", "m", Sign::Slip, "slip since the start"),
+        Column::new("slip_rate", "m/s", Sign::Slip, "slip rate"),
+        Column::new("friction", "-", Sign::Slip, "shear over normal traction"),
+        Column::new("traction", "Pa", Sign::Slip, "shear traction"),
+        Column::new("normal_traction", "Pa", Sign::Compression, "normal traction"),
+        Column::new("load", "m", Sign::Slip, "displacement of the load point"),
+    ];
+    all.extend(
+        (1..=states).map(|i| Column::new(format!("state_{i}"), "", Sign::None, "state variable of the law")),
+    );
+    all
 }
 
 impl Kept {

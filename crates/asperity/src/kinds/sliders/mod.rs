@@ -7,7 +7,7 @@ mod outputs;
 mod report;
 mod thin;
 
-pub use events::{Entry, Named, csv};
+pub use events::{Entry, Named, columns, csv};
 pub use files::{Histories, Positions};
 pub use outputs::{Outputs, Saved};
 pub use report::Report;

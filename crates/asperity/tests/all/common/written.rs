@@ -16,6 +16,40 @@ pub struct Column {
     pub values: Vec<f64>,
 }
 
+/// A column as the text about the files of a run describes it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Described {
+    /// Names of its files, where `*` stands for any text.
+    pub files: Vec<String>,
+    /// Name, with `*` for parts of the scene; `each point` where the table has a column for each point.
+    pub column: String,
+    pub unit: String,
+    pub sign: String,
+}
+
+/// Columns in the text about the files of a run.
+pub fn described(out: &Path) -> Vec<Described> {
+    let text = fs::read_to_string(out.join("README.md")).unwrap();
+    let rows = text.lines().filter(|line| line.starts_with("| `"));
+    rows.map(|row| {
+        let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+        let [_, files, column, unit, sign, ..] = cells[..] else { panic!("{row}") };
+        let files = files.split(", ").map(|file| file.trim_matches('`').to_owned()).collect();
+        Described { files, column: column.trim_matches('`').into(), unit: unit.into(), sign: sign.into() }
+    })
+    .collect()
+}
+
+/// True if a name is of this form, with at most one `*`.
+pub fn fits(name: &str, form: &str) -> bool {
+    match form.split_once('*') {
+        Some((start, end)) => {
+            name.starts_with(start) && name.ends_with(end) && name.len() >= start.len() + end.len()
+        }
+        None => name == form,
+    }
+}
+
 /// Files below a folder, in the order of their names.
 pub fn files(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
