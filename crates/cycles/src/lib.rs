@@ -24,6 +24,6 @@ pub use problem::{
 };
 pub use processes::{
     BODIES, Below, Crack, Floor, Injection, OPENING, Opened, Opening, Pressure, Pulse, Used, Widest, deficit,
-    heat,
+    diffusion, heat,
 };
 pub use slider::ANY_ROCK;

@@ -6,6 +6,7 @@ mod conditions;
 mod corners;
 mod coulomb;
 pub mod course;
+mod diffusion;
 mod explicit;
 mod fault_physics;
 mod faults;

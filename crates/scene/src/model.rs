@@ -5,6 +5,7 @@
 
 mod body;
 mod coulomb;
+mod diffusion;
 mod event;
 mod fault;
 mod field;
@@ -36,6 +37,7 @@ use crate::usual::usual;
 use asperity_run::Warning;
 pub use body::*;
 pub use coulomb::*;
+pub use diffusion::*;
 pub use event::EventSpec;
 pub use fault::*;
 pub use field::*;
@@ -161,8 +163,7 @@ impl Scene {
                 TableOver { table, dimension, keys, duration, holds: false }
             })
         });
-        let wells = self.faults.values_mut().filter_map(|fault| fault.injection.as_mut());
-        let fluxes = wells.flat_map(|wells| &mut wells.0).filter_map(|well| match well.flux.get_mut() {
+        let fluxes = self.faults.values_mut().flat_map(Fault::fluxes_mut).filter_map(|flux| match flux {
             Flux::Steps(table) => Some(TableOver {
                 table,
                 dimension: Dimension::Velocity,
@@ -194,13 +195,14 @@ impl Scene {
         });
         let faults = self.faults.values().filter_map(|fault| Some(fault.triangles.as_ref()?.file()));
         let fields = self.faults.values().flat_map(|fault| fault.fields.all());
+        let hydraulic = self.faults.values().filter_map(|fault| fault.diffusion.as_ref());
+        let hydraulic = hydraulic.flat_map(Diffusion::parameters).map(|(key, .., field)| (key, field));
         let of_laws = self.interfaces.values().flat_map(|interface| interface.fields.all());
-        let fields = fields.chain(of_laws).filter_map(|(_, field)| Some(&field?.file));
+        let fields = fields.chain(of_laws).chain(hydraulic).filter_map(|(_, field)| Some(&field?.file));
         let conditions = self.stages.iter().flat_map(|stage| &stage.conditions);
         let tables =
             conditions.flat_map(|c| c.get_ref().tables()).filter_map(|table| Some(&table.file()?.file));
-        let wells = self.faults.values().filter_map(|fault| fault.injection.as_ref());
-        let fluxes = wells.flat_map(|wells| &wells.0).filter_map(|well| match well.flux.get_ref() {
+        let fluxes = self.faults.values().flat_map(Fault::fluxes).filter_map(|flux| match flux {
             Flux::Steps(table) => Some(&table.file()?.file),
             Flux::Constant(_) => None,
         });

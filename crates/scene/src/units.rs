@@ -45,12 +45,14 @@ pub enum Dimension {
     HeatCapacity,
     /// Pressure per temperature \[Pa/K\].
     PerKelvin,
+    /// \[m²\].
+    Permeability,
 }
 
 impl Dimension {
     /// All dimensions.
     #[cfg(test)]
-    pub(crate) const ALL: [Self; 17] = [
+    pub(crate) const ALL: [Self; 18] = [
         Self::Length,
         Self::Time,
         Self::Pressure,
@@ -68,6 +70,7 @@ impl Dimension {
         Self::Diffusivity,
         Self::HeatCapacity,
         Self::PerKelvin,
+        Self::Permeability,
     ];
 
     /// Name with its article.
@@ -91,6 +94,7 @@ impl Dimension {
             Self::Diffusivity => "a diffusivity",
             Self::HeatCapacity => "a heat capacity per volume",
             Self::PerKelvin => "a pressure per temperature",
+            Self::Permeability => "a permeability",
         }
     }
 
@@ -114,6 +118,7 @@ impl Dimension {
                 "a heat capacity per volume such as \"2.7 MJ/(m^3 K)\" or a number in J/(m^3 K)"
             }
             Self::PerKelvin => "a pressure per temperature such as \"0.5 MPa/K\" or a number in Pa/K",
+            Self::Permeability => "a permeability such as \"1e-15 m^2\" or a number in m^2",
             Self::Memory => "an amount of memory such as \"8 GiB\" or a number of bytes",
         }
     }
@@ -136,6 +141,7 @@ impl Dimension {
             Self::Diffusivity => "m2/s",
             Self::HeatCapacity => "J/(m3 K)",
             Self::PerKelvin => "Pa/K",
+            Self::Permeability => "m2",
             Self::Memory => "bytes",
         }
     }
@@ -157,6 +163,7 @@ impl Dimension {
             Self::Diffusivity => "m^2/s, mm^2/s, cm^2/s",
             Self::HeatCapacity => "J/(m^3 K), kJ/(m^3 K), MJ/(m^3 K)",
             Self::PerKelvin => "Pa/K, kPa/K, MPa/K",
+            Self::Permeability => "m^2, D, mD, uD",
             Self::Memory => "B, kB, MB, GB, KiB, MiB, GiB",
         }
     }
@@ -176,6 +183,8 @@ const KIBIBYTE: f64 = 1024.0;
 const MINUTE: f64 = 60.0;
 const HOUR: f64 = 3600.0;
 const DAY: f64 = 86400.0;
+/// One darcy: 1 cm/s of a fluid of 1 cP under 1 atm/cm \[m²\].
+const DARCY: f64 = 1e-7 / 101_325.0;
 /// The Julian year of 365.25 days \[s\].
 const YEAR: f64 = 365.25 * DAY;
 
@@ -227,6 +236,10 @@ fn unit(name: &str) -> Option<Unit> {
         }
         _ => {}
     }
+    if let Some(power) = permeability(name) {
+        let factor = if name.ends_with('D') { DARCY } else { 1.0 };
+        return Some(Unit { dimension: Dimension::Permeability, power, factor });
+    }
     if let Some((dimension, power)) = thermal(name) {
         return Some(Unit { dimension, power, factor: 1.0 });
     }
@@ -253,6 +266,16 @@ fn unit(name: &str) -> Option<Unit> {
         _ => return None,
     };
     Some(Unit { dimension, power: over.power - under.power, factor: over.factor / under.factor })
+}
+
+/// Decimal power of the units of permeability.
+fn permeability(name: &str) -> Option<i32> {
+    match name {
+        "m^2" | "m²" | "m2" | "D" => Some(0),
+        "mD" => Some(-3),
+        "uD" | "µD" | "μD" => Some(-6),
+        _ => None,
+    }
 }
 
 /// Dimension and decimal power of the units of heat and diffusion.
@@ -443,6 +466,8 @@ quantity! {
     HeatCapacity: HeatCapacity,
     /// A pressure per temperature \[Pa/K\].
     PerKelvin: PerKelvin,
+    /// A permeability \[m²\].
+    Permeability: Permeability,
 }
 
 /// A contact penalty.

@@ -1,6 +1,7 @@
 //! Processes on faults, each behind the seam of [`crate::problem::Process`].
 
 mod deficit;
+pub mod diffusion;
 mod floor;
 pub mod heat;
 mod injection;

@@ -14,6 +14,7 @@ use crate::shared::place::Frame;
 use crate::shared::resolution::Resolution;
 use crate::shared::ruptures::Ruptures;
 use asperity_cycles::heat::Layer;
+use asperity_cycles::diffusion::Diffusion;
 use asperity_cycles::{Components, FaultRun, Layout, Opening, Pressure, Problem, Pulse, Thresholds};
 use asperity_laws::Theta;
 use asperity_run::{Site, SlipPoints, Warning};
@@ -278,6 +279,7 @@ impl Plan {
                 "fluid is injected and diffuses along the fault; its pressure is known at all times".into(),
             );
         }
+        processes.each::<Diffusion>().for_each(|fluid| line("physics", fluid.words()));
         processes.each::<Pulse>().for_each(|pulse| line("physics", of_pulse(pulse)));
         for fault in &self.faults {
             if let Some(heat) = &fault.heat {

@@ -160,6 +160,9 @@ fn add_fault(citations: &mut Citations, of: &str, fault: &Fault) -> Result<(), D
             citations.add(key, format!("{of}: heat of friction"));
         }
     }
+    if fault.diffusion.is_some() {
+        citations.add("hairer1996", format!("{of}: implicit steps of the fluid"));
+    }
     Ok(())
 }
 

@@ -5,7 +5,7 @@ use crate::model::{Fault, Injections, Spanned};
 use std::ops::Range;
 
 /// Keys of the processes of a fault.
-pub const PROCESSES: [&str; 5] = ["pulses", "injection", "heat", "opening", "normal_floor"];
+pub const PROCESSES: [&str; 6] = ["pulses", "injection", "diffusion", "heat", "opening", "normal_floor"];
 
 /// Two processes that cannot be together on a fault.
 #[derive(Clone, Copy, Debug)]
@@ -21,11 +21,23 @@ pub struct Apart {
 }
 
 /// All pairs that cannot be together.
-pub const APART: [Apart; 2] = [
+pub const APART: [Apart; 4] = [
     Apart {
         one: "heat",
         other: "injection",
         reason: "heat of friction is not computed where fluid is injected",
+        named: "the injection",
+    },
+    Apart {
+        one: "heat",
+        other: "diffusion",
+        reason: "heat of friction is not computed where fluid diffuses along a fault",
+        named: "the diffusion",
+    },
+    Apart {
+        one: "diffusion",
+        other: "injection",
+        reason: "`injection` and `diffusion` describe the fluid of one fault: each has its own wells",
         named: "the injection",
     },
     Apart {
@@ -41,6 +53,7 @@ pub(super) fn process(fault: &Fault, key: &str) -> Option<Range<usize>> {
     match key {
         "pulses" => fault.pulses.first().map(|pulse| pulse.traction.span()),
         "injection" => fault.injection.as_ref().map(Injections::span),
+        "diffusion" => fault.diffusion.as_ref().map(|diffusion| diffusion.viscosity.span()),
         "heat" => fault.heat.as_ref().map(|heat| heat.thickness.span()),
         "opening" => fault.opening.as_ref().filter(|opens| *opens.get_ref()).map(Spanned::span),
         "normal_floor" => fault.normal_floor.as_ref().map(Spanned::span),

@@ -27,6 +27,7 @@ impl Checker<'_> {
             self.start_of(fault);
             self.physics_of(fault);
             self.wells(fault);
+            self.diffusion(fault);
             self.heat_of(fault);
             self.processes_of(fault);
             for (name, profile) in fault.profiles.all() {
@@ -364,7 +365,7 @@ impl Checker<'_> {
     }
 
     /// Checks a profile of values of a sign, if they must have one.
-    fn profile(&mut self, name: &str, profile: &Profile, sign: Option<f64>) {
+    pub(super) fn profile(&mut self, name: &str, profile: &Profile, sign: Option<f64>) {
         match (*profile.along.get_ref(), self.in_space()) {
             (Along::Distance, true) => self.error(
                 profile.along.span(),
@@ -379,8 +380,13 @@ impl Checker<'_> {
             _ => {}
         }
         let points = profile.points.get_ref();
+        let value = match name {
+            "permeability" => "1e-15",
+            "storage" => "1e-9",
+            _ => "0.01",
+        };
         let example = format!(
-            "such as `profiles.{name} = {{ along = \"distance\", points = [[\"15 km\", 0.01], ..] }}`"
+            "such as `profiles.{name} = {{ along = \"distance\", points = [[\"15 km\", {value}], ..] }}`"
         );
         if points.is_empty() {
             self.error(profile.points.span(), format!("the profile of `{name}` has no points"), example);

@@ -2,6 +2,7 @@
 
 use super::Checker;
 use crate::model::{Fault, Flux, Injection, Kinematics, Spanned, Tabled};
+use crate::units::{Length, Time};
 
 impl Checker<'_> {
     /// Checks the wells of a fault.
@@ -25,12 +26,7 @@ impl Checker<'_> {
     /// Refuses wells of a fault at one place, and in layers that differ: pressures of one layer add up.
     fn beside(&mut self, well: &Injection, other: &Injection) {
         if well.at.get_ref().0 == other.at.get_ref().0 {
-            self.conflict(
-                &well.at.span(),
-                "two wells at one position of the fault",
-                "one well with the sum of both, such as `flux = { steps = [[\"0 d\", \"1e-6 m/s\"], [\"10 d\", 0]] }`",
-                (&other.at.span(), "the other well"),
-            );
+            self.at_one_position(&well.at, &other.at);
         }
         for (key, one, two) in [
             ("diffusivity", &well.diffusivity, &other.diffusivity),
@@ -48,9 +44,19 @@ impl Checker<'_> {
         }
     }
 
+    /// Refuses a well where another one is.
+    pub(super) fn at_one_position(&mut self, well: &Spanned<Length>, other: &Spanned<Length>) {
+        self.conflict(
+            &well.span(),
+            "two wells at one position of the fault",
+            "one well with the sum of both, such as `flux = { steps = [[\"0 d\", \"1e-6 m/s\"], [\"10 d\", 0]] }`",
+            (&other.span(), "the other well"),
+        );
+    }
+
     fn well(&mut self, injection: &Injection) {
         let positive = |v: f64| v > 0.0 && v.is_finite();
-        self.flux(injection);
+        self.flux(&injection.flux, injection.until.as_ref());
         for (name, value, example) in [
             ("diffusivity", &injection.diffusivity, "in m²/s, such as `diffusivity = 0.1`"),
             ("compressibility", &injection.compressibility, "in 1/Pa, such as `compressibility = 1e-8`"),
@@ -67,13 +73,6 @@ impl Checker<'_> {
                 "such as `porosity = 0.1`",
             );
         }
-        if let Some(until) = injection.until.as_ref().filter(|t| !positive(t.get_ref().0)) {
-            self.error(
-                until.span(),
-                "`until` must be positive",
-                "such as `until = \"100 d\"`, or leave it out",
-            );
-        }
         if *self.scene.kinematics.get_ref() == Kinematics::ThreeD {
             self.conflict(
                 &injection.at.span(),
@@ -84,22 +83,30 @@ impl Checker<'_> {
         }
     }
 
-    fn flux(&mut self, injection: &Injection) {
-        match injection.flux.get_ref() {
-            Flux::Constant(flux) if !flux.is_finite() || *flux == 0.0 => self.error(
-                injection.flux.span(),
+    /// Checks the flux of a well and its end.
+    pub(super) fn flux(&mut self, flux: &Spanned<Flux>, until: Option<&Spanned<Time>>) {
+        if let Some(until) = until.filter(|t| !(t.get_ref().0 > 0.0 && t.get_ref().0.is_finite())) {
+            self.error(
+                until.span(),
+                "`until` must be positive",
+                "such as `until = \"100 d\"`, or leave it out",
+            );
+        }
+        match flux.get_ref() {
+            Flux::Constant(value) if !value.is_finite() || *value == 0.0 => self.error(
+                flux.span(),
                 "`flux` must not be zero",
                 "such as `flux = \"1.25e-6 m/s\"`; negative for extraction",
             ),
             Flux::Constant(_) => {}
             Flux::Steps(steps) => {
-                self.steps_of_flux(&injection.flux, steps);
-                if let Some(until) = &injection.until {
+                self.steps_of_flux(flux, steps);
+                if let Some(until) = until {
                     self.conflict(
                         &until.span(),
                         "`until` of a well whose `flux` has steps",
                         "a last step with a flux of 0, such as `[\"100 d\", 0]`",
-                        (&injection.flux.span(), "the steps"),
+                        (&flux.span(), "the steps"),
                     );
                 }
             }

@@ -1,7 +1,7 @@
 //! Faults as declared in a scene, for simulations of earthquake cycles.
 
 use super::{
-    FaultLine, FaultRectangle, FaultTriangles, Fields, Flux, ForcedRupture, Heat, LawSpec, Patch, Pulse,
+    Diffusion, FaultLine, FaultRectangle, FaultTriangles, Fields, Flux, ForcedRupture, Heat, LawSpec, Patch, Pulse,
 };
 use crate::here::here;
 use crate::kind::{self, Kind};
@@ -78,6 +78,9 @@ pub struct Fault {
     /// Fluid injected at one position that diffuses along the fault, or a list of such wells.
     #[schemars(extend("x-kinds" = kind::CYCLES, "x-instead" = "between bodies with mass, pressure acts through `normal`"))]
     pub injection: Option<Injections>,
+    /// Fluid from wells that diffuses along the fault, whose permeability and storage may vary.
+    #[schemars(extend("x-kinds" = kind::CYCLES, "x-instead" = "between bodies with mass, pressure acts through `normal`"))]
+    pub diffusion: Option<Diffusion>,
     /// Heat of friction, which may change friction and the pressure of pore fluid.
     #[schemars(extend("x-kinds" = kind::CYCLES, "x-instead" = "frictional heat is followed through cycles without mass only"))]
     pub heat: Option<Heat>,
@@ -136,6 +139,20 @@ impl Fault {
             _ if self.minus.get_ref().is_empty() => self.law.span(),
             _ => self.minus.span(),
         }
+    }
+
+    /// Fluxes of its wells.
+    pub fn fluxes(&self) -> impl Iterator<Item = &Flux> {
+        let injected = self.injection.iter().flat_map(|wells| &wells.0).map(|well| &well.flux);
+        let diffusing = self.diffusion.iter().flat_map(|d| d.wells.get_ref()).map(|well| &well.flux);
+        injected.chain(diffusing).map(Spanned::get_ref)
+    }
+
+    /// Fluxes of its wells, which files may fill.
+    pub(crate) fn fluxes_mut(&mut self) -> impl Iterator<Item = &mut Flux> {
+        let injected = self.injection.iter_mut().flat_map(|wells| &mut wells.0).map(|well| &mut well.flux);
+        let diffusing = self.diffusion.iter_mut().flat_map(|d| d.wells.get_mut());
+        injected.chain(diffusing.map(|well| &mut well.flux)).map(Spanned::get_mut)
     }
 
     /// True if a profile or a file gives its initial normal traction along it.

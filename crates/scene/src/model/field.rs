@@ -110,6 +110,7 @@ pub fn field_dimension(key: &str) -> Option<Dimension> {
         "normal" | "shear" | "cohesion" | "f_limit" => Some(Dimension::Pressure),
         "v_initial" | "rate" => Some(Dimension::Velocity),
         "state" => Some(Dimension::Time),
+        "permeability" => Some(Dimension::Permeability),
         _ => None,
     }
 }

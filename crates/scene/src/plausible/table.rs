@@ -100,7 +100,7 @@ pub(super) const QUANTITIES: &[Quantity] = &[
         Refused::Waves,
     ),
     refused(
-        row(("fluxes of fluid", "m/s"), &["injection.flux"], [1e-12, 1e-2], "\"1e-7 m/s\""),
+        row(("fluxes of fluid", "m/s"), &["injection.flux", "wells.flux"], [1e-12, 1e-2], "\"1e-7 m/s\""),
         Refused::Waves,
     ),
     refused(
@@ -111,6 +111,7 @@ pub(super) const QUANTITIES: &[Quantity] = &[
     row(("densities of rock or metal", "kg/m3"), &[], [100.0, 30_000.0], "\"2700 kg/m^3\""),
     row(("dampings", "Pa s/m"), &[], [1e4, 1e8], "\"4.6 MPa s/m\""),
     row(("masses per area", "kg/m2"), &[], [1.0, 1e13], "\"5000 kg/m^2\""),
+    row(("viscosities of fluids", "Pa s"), &["diffusion.viscosity"], [1e-6, 1.0], "\"1e-3 Pa s\""),
     row(("viscosities", "Pa s"), &[], [1e3, 1e27], "\"1e19 Pa s\""),
     row(("gradients of stress", "Pa/m"), &["gradient"], [1e2, 1e8], "\"16 MPa/km\""),
     row(("stiffnesses per area", "Pa/m"), &[], [1e2, 1e20], "\"10 GPa/m\""),
@@ -126,6 +127,8 @@ pub(super) const QUANTITIES: &[Quantity] = &[
     row(("hydraulic diffusivities", "m2/s"), &["pressurisation.diffusivity"], [1e-10, 1e-1], "\"1 mm^2/s\""),
     row(("thermal diffusivities", "m2/s"), &[], [1e-8, 1e-4], "\"1 mm^2/s\""),
     row(("heat capacities", "J/(m3 K)"), &[], [1e5, 1e8], "\"2.7 MJ/(m^3 K)\""),
+    row(("permeabilities", "m2"), &["permeability"], [1e-25, 1e-7], "\"1e-15 m^2\""),
+    row(("permeabilities", "m2"), &[], [1e-25, 1e-7], "\"1e-15 m^2\""),
     row(("pressures per temperature", "Pa/K"), &[], [1e3, 1e7], "\"0.5 MPa/K\""),
     row(("amounts of memory", "bytes"), &[], [1e3, 1e15], "\"4 GB\""),
     row(("friction coefficients", ""), &["mu", "mu0", "mu_s", "mu_k", "mu_w"], [0.0, MOST_FRICTION], "0.6"),
@@ -136,6 +139,7 @@ pub(super) const QUANTITIES: &[Quantity] = &[
     row(("accelerations of gravity in m/s2", ""), &["gravity"], [1e-3, 100.0], "9.81"),
     row(("ratios of stresses", ""), &["k0"], [0.0, 5.0], "0.7"),
     row(("diffusivities of fluid in m2/s", ""), &["injection.diffusivity"], [1e-9, 100.0], "0.1"),
+    row(("storages in 1/Pa", ""), &["storage"], [1e-14, 1e-6], "1e-9"),
     row(("compressibilities in 1/Pa", ""), &["compressibility"], [1e-12, 1e-6], "1e-8"),
     row(("growths of cells from row to row", ""), &["growth", "ratio"], [0.0, 3.0], "1.25"),
     row(("viscosities in steps", ""), &["time.viscosity"], [0.0, 1.0], "0.1"),

@@ -1,8 +1,9 @@
 //! Fields on faults in 3D as VTU files: states during a run and at its end, and slip and traction drop of each event.
 
 use super::locking;
+use super::pore;
 use super::states::has_theta;
-use asperity_cycles::heat::{PRESSURE, TEMPERATURE};
+use asperity_cycles::heat::TEMPERATURE;
 use asperity_cycles::{Components, Layout, OPENING, Pressed};
 use asperity_output::vtu::{Array, Grid, Values, face_type};
 use asperity_output::{OutputError, atomic};
@@ -99,11 +100,12 @@ pub(super) fn state(plan: &Plan, fault: &FaultView, y: &[f64], now: (&[f64], &Pr
     if fault.normal.opens {
         fields.push(Field::Scalar("opening".into(), of(&OPENING)));
     }
-    if let Some(heat) = &fault.heat {
+    if fault.heat.is_some() {
         fields.push(Field::Scalar("temperature".into(), of(&TEMPERATURE)));
-        if heat.layer.pressurisation.is_some() {
-            fields.push(Field::Scalar("pore_pressure".into(), of(&PRESSURE)));
-        }
+    }
+    if pore::changes(plan, fault.points.start) {
+        let values = fault.points.clone().map(|p| pore::at(pressed, p)).collect();
+        fields.push(Field::Scalar("pore_pressure".into(), values));
     }
     if locking::loaded(plan, fault) {
         let values = fault.points.clone().map(|p| locking::coupling(plan, &rate, p)).collect();

@@ -25,6 +25,7 @@ mod openings;
 mod outputs;
 mod platform_files;
 pub mod position;
+mod pore;
 pub(crate) mod profile;
 mod profiles;
 mod receiver_figures;

@@ -2,8 +2,8 @@
 
 use super::profile::{Profile, RATE, SLIP};
 use super::rows::{Course, Table, line};
-use super::{locking, states};
-use asperity_cycles::heat::{Heat, PRESSURE, TEMPERATURE};
+use super::{locking, pore, states};
+use asperity_cycles::heat::{Heat, TEMPERATURE};
 use asperity_cycles::{Moment, OPENING, Opening};
 use asperity_output::Sign;
 use asperity_output::decimals::{fixed, scientific};
@@ -28,8 +28,9 @@ pub(super) fn tables(plan: &Plan) -> Vec<Table<'_>> {
     if heat.is_some() {
         all.push(table(plan, WARMTH, SELDOM, |_, now| now.pressed.of(&TEMPERATURE).to_vec(), six));
     }
-    if heat.is_some_and(Heat::pressurises) {
-        all.push(table(plan, FLUID, SELDOM, |_, now| now.pressed.of(&PRESSURE).to_vec(), six));
+    if pore::any(plan) {
+        let values: Values = |plan, now| (0..plan.points.len()).map(|p| pore::at(now.pressed, p)).collect();
+        all.push(table(plan, FLUID, SELDOM, values, six));
     }
     if states::any(plan) {
         all.push(table(plan, states::PROFILES, OFTEN, states::profile, six));

@@ -1,7 +1,8 @@
 //! Station files in the format of the SEAS community, one per station.
 
+use super::pore;
 use super::rows::{Course, Table};
-use asperity_cycles::heat::{PRESSURE, TEMPERATURE};
+use asperity_cycles::heat::TEMPERATURE;
 use asperity_cycles::{Moment, OPENING};
 use asperity_output::Column;
 use asperity_output::seas::{Head, Row};
@@ -76,7 +77,7 @@ fn head<'a>(plan: &'a Plan, location: &'a str, point: usize) -> Head<'a> {
     Head {
         opens: opens(plan, point),
         heats: plan.heat_at(point).is_some(),
-        pressurises: pressurises(plan, point),
+        pressurises: pore::changes(plan, point),
         ..plain(&plan.title, (location, &plan.points[point]), plan.in_space)
     }
 }
@@ -84,11 +85,6 @@ fn head<'a>(plan: &'a Plan, location: &'a str, point: usize) -> Head<'a> {
 /// True if the fault of a point may open.
 fn opens(plan: &Plan, point: usize) -> bool {
     plan.faults.iter().any(|f| f.normal.opens && f.points.contains(&point))
-}
-
-/// True if heat changes the pressure of fluid at a point.
-fn pressurises(plan: &Plan, point: usize) -> bool {
-    plan.heat_at(point).is_some_and(|heat| heat.layer.pressurisation.is_some())
 }
 
 fn row(plan: &Plan, now: &Moment<'_>, point: usize) -> String {
@@ -106,7 +102,7 @@ fn row(plan: &Plan, now: &Moment<'_>, point: usize) -> String {
         normal,
         opening: now.at(&OPENING, point).filter(|_| opens(plan, point)),
         temperature: now.at(&TEMPERATURE, point).filter(|_| plan.heat_at(point).is_some()),
-        pressure: now.at(&PRESSURE, point).filter(|_| pressurises(plan, point)),
+        pressure: pore::changes(plan, point).then(|| pore::at(now.pressed, point)),
     };
     row.text()
 }

@@ -9,7 +9,9 @@ use super::super::stresses::BodyStresses;
 use super::cells::Cells;
 use super::placed::{Placed, components, in_space, slides};
 use super::pulses::{self, pulses};
-use super::{asked, checks, floor, heated, pressing, radiation, sense, start_doubts, steady, upright};
+use super::{
+    asked, checks, diffusion, floor, heated, pressing, radiation, sense, start_doubts, steady, upright,
+};
 use crate::doubts::Fluid;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::LawChoice;
@@ -19,6 +21,7 @@ use crate::reading::scene::model::{
 use crate::shared::checks::{Checks, Cost, FaultCheck, rates};
 use crate::shared::resolution::Resolution;
 use crate::shared::{outrun, place, thresholds};
+use asperity_cycles::diffusion::Diffusion;
 use asperity_cycles::heat::Heat;
 use asperity_cycles::medium::across;
 use asperity_cycles::operator::Operator;
@@ -110,6 +113,9 @@ pub(super) fn plan_of<const D: usize>(
     let heat = heated::heat(scene, &placed, law.as_mut(), end);
     let modes = heat.as_ref().map_or(0, Heat::bytes);
     let pulses = pulses(&named, &placed, if turns { 2 } else { 1 })?;
+    let (mut warnings, mut notes) = (around.warnings, around.notes);
+    let diffusion = diffusion::diffusion(scene, &placed, end, (&mut warnings, &mut notes))?;
+    let responses = diffusion.as_ref().map_or(0, Diffusion::bytes);
     let fault = Fault {
         operator,
         law,
@@ -118,6 +124,7 @@ pub(super) fn plan_of<const D: usize>(
         processes: Processes::default()
             .and(pulses.into_iter().map(|(amplitude, rise)| Pulse { amplitude, rise }))
             .and(pressure(scene, &placed)?)
+            .and(diffusion)
             .and(heat)
             .and(opening)
             .and(Floor::new(placed.iter().map(|p| p.floor))),
@@ -125,7 +132,6 @@ pub(super) fn plan_of<const D: usize>(
     let start = start(&placed, &fault).map_err(|(p, failure)| at_point(&named, &placed[p], &failure))?;
     let settings = settings(scene, &placed, end)?;
     pressing::rests(scene, (&placed, &fault), (&start, settings.thresholds.on))?;
-    let mut warnings = around.warnings;
     doubt(scene, (&placed, &fault), around.loading, &mut warnings)?;
     warnings.extend(spread(scene, &placed, end));
     warnings.extend(steady::starts(scene, &placed, &fault, (&loading, end)));
@@ -135,7 +141,7 @@ pub(super) fn plan_of<const D: usize>(
     let mut checks = around.checks;
     checks.faults = checks::faults(scene, (&placed, &around.prescribed), &faults, &around.resolution);
     add_loads(&mut checks.faults, scene, &placed, (&loading, end, &around.machines));
-    let memory_bytes = around.memory_bytes + modes;
+    let memory_bytes = around.memory_bytes + modes + responses;
     checks.cost = Cost {
         memory_bytes: Some(memory_bytes),
         step_seconds: Some(rates::of_faults(settings.method, placed.len(), fault.operator.moved() + modes)),
@@ -168,7 +174,7 @@ pub(super) fn plan_of<const D: usize>(
         kinematics: scene.kinematics.get_ref().words(),
         resolution: around.resolution,
         warnings,
-        notes: around.notes,
+        notes,
         checks,
     })
 }

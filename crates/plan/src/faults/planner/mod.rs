@@ -10,6 +10,7 @@ pub(crate) mod checks;
 mod condensed;
 mod coulomb;
 pub mod cover;
+mod diffusion;
 pub mod fields;
 mod floor;
 mod heated;

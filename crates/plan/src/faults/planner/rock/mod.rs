@@ -107,6 +107,7 @@ fn unloaded(scene: &Scene) -> Option<Warning> {
     let loads = |spec: &Spec| {
         spec.creep.as_ref().is_some_and(|c| c.rate.get_ref().0 != 0.0)
             || spec.injection.is_some()
+            || spec.diffusion.is_some()
             || !spec.pulses.is_empty()
     };
     let first = scene.faults.values().next()?;

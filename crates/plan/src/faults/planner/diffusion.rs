@@ -1,0 +1,165 @@
+//! Fluid that diffuses along faults: hydraulic properties at their points, and wells.
+
+use super::placed::{Placed, at};
+use crate::reading::diagnostic::Diagnostic;
+use crate::shared::field::{Bound, Field, Files, Parameter, Region, Spot};
+use asperity_scene::lengths::brief;
+use crate::reading::scene::model::{
+    Diffusion as Given, DiffusionEnds, Flux, Hydraulic, Profiled, Scene, Well, field_dimension,
+};
+use asperity_run::Warning;
+use asperity_cycles::diffusion::{Diffusion, Line, Source};
+use asperity_mechanics::coordinates;
+use std::ops::Range;
+
+/// Warnings and notes of a plan.
+type Said<'a> = (&'a mut Vec<Warning>, &'a mut Vec<String>);
+
+/// Fluid along all faults in a run that ends at `end` \[s\].
+///
+/// # Errors
+/// [`Diagnostic`] at a well beyond its fault, or at a file that cannot be used.
+pub(super) fn diffusion<const D: usize>(
+    scene: &Scene,
+    placed: &[Placed<D>],
+    end: f64,
+    said: Said<'_>,
+) -> Result<Option<Diffusion>, Diagnostic> {
+    let mut all: Option<Diffusion> = None;
+    for (k, (name, spec)) in scene.faults.iter().enumerate() {
+        let Some(given) = &spec.diffusion else { continue };
+        let first = placed.partition_point(|p| p.fault < k);
+        let points = &placed[first..placed.partition_point(|p| p.fault <= k)];
+        if points.is_empty() {
+            continue;
+        }
+        let line = line(scene, (name, given), points, (&mut *said.0, &mut *said.1))?;
+        let wells = given.wells.get_ref().iter().map(|well| source((name, well), &line));
+        let wells = wells.collect::<Result<Vec<_>, _>>()?;
+        let own = all.get_or_insert_default();
+        own.add(first, &line, &wells, end);
+        said.0.extend(narrow((name, given), &line, &wells, end));
+        said.0.extend(lifted((name, given), (&*own, &wells), (placed, first), end));
+    }
+    Ok(all)
+}
+
+/// Hydraulic properties of the points of a fault.
+fn line<const D: usize>(
+    scene: &Scene,
+    (name, given): (&str, &Given),
+    points: &[Placed<D>],
+    (warnings, notes): Said<'_>,
+) -> Result<Line, Diagnostic> {
+    let region = format!("fault `{name}`");
+    let spots: Vec<Spot<D>> = points.iter().map(spot).collect();
+    let mut files = Files::default();
+    let mut values = |(key, value, profile, field): Hydraulic<'_>| {
+        if let Some(field) = field {
+            let parameter = Parameter { key, dimension: field_dimension(key), bound: Bound::Positive };
+            let all = Region { scene, spots: &spots, name: &region };
+            let field = Field::read(&mut files, &all, (field, &parameter))?;
+            warnings.extend(field.doubts(&region, &spots));
+            notes.push(field.note(&region, spots.iter()));
+            return spots.iter().map(|spot| field.at(&region, spot)).collect();
+        }
+        // The scene check ensures that one of them is given.
+        let constant = value.map_or(f64::NAN, |v| v.0);
+        let of = |p: &Placed<D>| profile.map_or(constant, |Profiled(list)| {
+            list.iter().map(|profile| at(profile, &p.point.place)).fold(f64::NEG_INFINITY, f64::max)
+        });
+        Ok(points.iter().map(of).collect::<Vec<f64>>())
+    };
+    let [permeability, storage] = given.parameters();
+    let (permeability, storage) = (values(permeability)?, values(storage)?);
+    let viscosity = given.viscosity.get_ref().0;
+    Ok(Line {
+        positions: points.iter().map(|p| p.point.place.along).collect(),
+        lengths: points.iter().map(|p| p.point.place.area).collect(),
+        mobility: permeability.into_iter().map(|k| k / viscosity).collect(),
+        storage,
+        drained: given.ends.as_ref().is_some_and(|ends| *ends.get_ref() == DiffusionEnds::Drained),
+    })
+}
+
+fn spot<const D: usize>(placed: &Placed<D>) -> Spot<D> {
+    let place = &placed.point.place;
+    Spot { at: place.at, along: Some(place.along) }
+}
+
+/// A well with the steps of its flux, on the cells of its fault.
+fn source((name, well): (&str, &Well), line: &Line) -> Result<Source, Diagnostic> {
+    let at = well.at.get_ref().0;
+    let [low, high] = ends(line);
+    if !(low <= at && at <= high) {
+        return Err(Diagnostic::at(
+            well.at.span(),
+            format!("fault `{name}` does not slide at {at} m along it, where fluid is injected"),
+            format!("it slides from {low} to {high} m"),
+        ));
+    }
+    let flux = match well.flux.get_ref() {
+        Flux::Steps(steps) => steps.to_vec(),
+        Flux::Constant(flux) => {
+            let end = well.until.as_ref().map(|t| (t.get_ref().0, 0.0));
+            std::iter::once((0.0, *flux)).chain(end).collect()
+        }
+    };
+    Ok(Source { at, flux })
+}
+
+/// Ends of the cells of a line \[m\]. Distances along a fault count from its upper end.
+fn ends(line: &Line) -> [f64; 2] {
+    let last = line.positions.len() - 1;
+    let low = line.positions[0] - 0.5 * line.lengths[0];
+    [low.max(0.0), line.positions[last] + 0.5 * line.lengths[last]]
+}
+
+/// Warning about a well whose fluid stays within its cell: pressure is that of the mean over the cell.
+fn narrow((name, given): (&str, &Given), line: &Line, wells: &[Source], end: f64) -> Option<Warning> {
+    let mut all = wells.iter().zip(given.wells.get_ref());
+    all.find_map(|(well, spec)| {
+        let begin = well.flux.iter().find(|step| step.1 != 0.0)?.0;
+        let near = |k: &usize| (line.positions[*k] - well.at).abs();
+        let k = (0..line.positions.len()).min_by(|a, b| near(a).total_cmp(&near(b)))?;
+        let spread = 2.0 * (line.mobility[k] / line.storage[k] * (end - begin)).sqrt();
+        let size = line.lengths[k];
+        (spread < size).then(|| {
+            let message = format!(
+                "fluid from the well at {} of fault `{name}` spreads over {} until the run ends, and cells there have {}: its pressure is the mean over them",
+                brief(well.at),
+                brief(spread),
+                brief(size)
+            );
+            Warning::at(spec.at.span(), message, "smaller cells; or check the units of `permeability`, `viscosity` and `storage`")
+        })
+    })
+}
+
+/// Warning about a fault whose fluid takes all of its normal traction at the start, at a change of a flux or at the end.
+fn lifted<const D: usize>(
+    (name, given): (&str, &Given),
+    (fluid, wells): (&Diffusion, &[Source]),
+    (placed, first): (&[Placed<D>], usize),
+    end: f64,
+) -> Option<Warning> {
+    let times = wells.iter().flat_map(|well| well.flux.iter().map(|step| step.0)).filter(|t| *t < end);
+    let mut times: Vec<f64> = times.chain([end]).collect();
+    times.sort_by(f64::total_cmp);
+    let mut sum = vec![[0.0; 2]; placed.len()];
+    times.into_iter().find_map(|time| {
+        sum.fill([0.0; 2]);
+        fluid.add_to(time, f64::INFINITY, &mut sum);
+        let own = placed.iter().zip(&sum).skip(first).filter(|(p, _)| p.fault == placed[first].fault);
+        let (point, [pressure, _]) = own.filter(|(p, felt)| felt[0] > p.normal && p.floor.is_none()).max_by(
+            |(_, a), (_, b)| a[0].total_cmp(&b[0]),
+        )?;
+        let message = format!(
+            "after {time:e} s fluid presses with {pressure:.4e} Pa on fault `{name}` at {}, whose normal traction at the start is {:.4e} Pa: the run would end there",
+            coordinates::in_words(&point.point.place.at),
+            point.normal
+        );
+        let place: Range<usize> = given.wells.span();
+        Some(Warning::at(place, message, "check the units of `flux`, `permeability` and `storage`; or give the fault a `normal_floor`"))
+    })
+}
