@@ -81,6 +81,7 @@ mod fault_turning;
 mod first_slip;
 mod flamant_boussinesq;
 mod flat_punch;
+mod fluid_along_fault;
 mod followed;
 mod forward_drift;
 mod friction_hard_numerics;
@@ -210,6 +211,7 @@ pub const ALL: &[Case] = &[
     fault_turning::CASE,
     flamant_boussinesq::CASE,
     flat_punch::CASE,
+    fluid_along_fault::CASE,
     friction_hard_numerics::CASE,
     friction_steady_state::CASE,
     friction_velocity_steps::CASE,

@@ -104,6 +104,8 @@ capabilities! {
     FaultCycles => "faults through earthquake cycles",
     /// Temperature and pore pressure of faults that friction heats.
     FrictionalHeat => "frictional heat of faults",
+    /// Pore fluid that diffuses along faults from wells.
+    FluidDiffusion => "fluid that diffuses along faults",
     /// Faults in homogeneous rock without bodies.
     Medium => "faults in homogeneous rock without bodies",
     /// Sliders coupled by springs.

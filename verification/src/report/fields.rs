@@ -46,7 +46,7 @@ pub const FIELDS: [(&str, &str, &str); 33] = [
 ];
 
 /// Case, scene in the repository, plot of its run, and title, for faults and spring-sliders.
-pub const PLOTS: [(&str, &str, &str, &str); 21] = [
+pub const PLOTS: [(&str, &str, &str, &str); 22] = [
     ("event_files", "verification/cases/event_files/scene.toml", "largest_rate", "Largest slip rate"),
     ("event_numbers", "verification/cases/event_numbers/rupture.toml", "main_rate", MAP),
     ("fault_balance", "verification/cases/fault_balance/scene.toml", "main_rate", MAP),
@@ -60,6 +60,12 @@ pub const PLOTS: [(&str, &str, &str, &str); 21] = [
         "Macroscopic friction",
     ),
     ("fault_turning", "verification/cases/fault_turning/scene.toml", "largest_rate", "Largest slip rate"),
+    (
+        "fluid_along_fault",
+        "verification/cases/fluid_along_fault/scene.toml",
+        "main_slip",
+        "Slip through time",
+    ),
     ("frictional_heat", "scenes/thermal-pressurisation.toml", "largest_rate", "Largest slip rate"),
     ("sandwich_state", "scenes/sandwich-state.toml", "largest_rate", "Largest slip rate"),
     ("seas_bp1", "scenes/bp1.toml", "main_rate", MAP),

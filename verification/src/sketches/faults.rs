@@ -28,6 +28,7 @@ pub(super) fn of(name: &str) -> Option<Sketch> {
         "fault_bodies" => bodies(),
         "event_numbers" => unlike(),
         "seas_bp6" => injection(),
+        "fluid_along_fault" => fluid(),
         "frictional_heat" => zone(),
         "dynamic_rupture" => rupture(),
         "rupture_in_space" | "rupture_in_space_full" => plane_rupture(),
@@ -271,6 +272,18 @@ fn bodies() -> Sketch {
         .fault(&Sketch::arc((92.0, 58.0), 26.0, (180.0, 225.0)))
         .note((58.0, 17.0), "an arc, 90 to 45°")
         .text((50.0, 4.0), "also a crack, and pairs of blocks")
+}
+
+fn fluid() -> Sketch {
+    Sketch::new(58.0)
+        .block((10.0, 8.0), (90.0, 50.0), "")
+        .fault(&[(16.0, 29.0), (84.0, 29.0)])
+        .arrow((38.0, 46.0), (38.0, 30.5), "")
+        .note((41.0, 43.0), "q")
+        .note((18.0, 34.0), "k₁, S₁")
+        .note((66.0, 34.0), "k₂, S₂")
+        .dimension((16.0, 20.0), (84.0, 20.0), "16 km")
+        .text((50.0, 13.0), "S ∂p/∂t = ∂(k/η ∂p/∂x)/∂x + q δ")
 }
 
 fn injection() -> Sketch {

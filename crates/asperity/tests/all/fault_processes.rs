@@ -13,6 +13,10 @@ use asperity_vary::Change::{self, Add, With, Without};
 /// A fault below a free surface with a floor that fluid opens.
 const SCENE: &str = include_str!("../../../../scenes/fault-opening.toml");
 
+/// Fluid that does not open the fault without a floor; permeability jumps at 1.5 km.
+const DIFFUSION: &str = "{ profiles.permeability = { along = \"distance\", points = [[\"1.4 km\", 1e-13], [\"1.6 km\", 1e-15]] }, storage = 1e-9, \
+     viscosity = \"1e-3 Pa s\", wells = [{ at = \"1 km\", flux = \"4e-6 m/s\", until = \"5 d\" }] }";
+
 /// The scene with these processes alone.
 fn with(keys: &[&str]) -> String {
     let changes = PROCESSES.map(|key| (key, keys.contains(&key))).into_iter().filter_map(|change| match change {
@@ -25,6 +29,7 @@ fn with(keys: &[&str]) -> String {
             "{ thickness = \"20 mm\", diffusivity = \"1 mm^2/s\", capacity = \"2.7 MJ/(m^3 K)\", temperature = \"400 K\", \
              pressurisation = { coefficient = \"0.1 MPa/K\", diffusivity = \"10 mm^2/s\" } }",
         )),
+        ("diffusion", true) => Some(Add("faults.main.diffusion", DIFFUSION)),
         ("injection", false) => Some(Without("faults.main.injection")),
         ("opening", false) => Some(Without("faults.main.opening")),
         ("normal_floor", false) => Some(Without("faults.main.normal_floor")),

@@ -24,6 +24,7 @@ mod dynamic;
 mod ends;
 mod enforcement;
 mod fault;
+mod fault_fluid;
 mod fault_geometry;
 mod fault_heat;
 mod fault_mirror;

@@ -1,7 +1,7 @@
 //! Literature of the cases of the verification suite. A test of the suite compares it with their pages.
 
 /// Cases and the keys of their literature.
-const CASES: [(&str, &[&str]); 121] = [
+const CASES: [(&str, &[&str]); 122] = [
     ("absence", &["weidendorfer2004"]),
     ("antiplane", &["nehari1952", "strang1973", "timoshenko1970"]),
     ("block_dragged", &["codeaster"]),
@@ -62,6 +62,7 @@ const CASES: [(&str, &[&str]); 121] = [
     ("first_slip", &["yamada1968", "ida1972"]),
     ("flamant_boussinesq", &["johnson1985", "haverkamp1984"]),
     ("flat_punch", &["sadowsky1928", "johnson1985"]),
+    ("fluid_along_fault", &["carslaw1959", "hairer1996"]),
     ("forward_drift", &["yamada1968", "xing2002b"]),
     ("friction_hard_numerics", &["rice1996", "lapusta2000"]),
     ("friction_steady_state", &["dieterich1979", "ruina1983", "rice1996"]),

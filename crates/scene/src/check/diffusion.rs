@@ -10,7 +10,11 @@ impl Checker<'_> {
         self.hydraulic(diffusion);
         let viscosity = &diffusion.viscosity;
         if !(viscosity.get_ref().0 > 0.0) {
-            self.error(viscosity.span(), "`viscosity` must be positive", "water has `viscosity = \"1e-3 Pa s\"`");
+            self.error(
+                viscosity.span(),
+                "`viscosity` must be positive",
+                "water has `viscosity = \"1e-3 Pa s\"`",
+            );
         }
         let wells = diffusion.wells.get_ref();
         if wells.is_empty() {
@@ -57,7 +61,9 @@ impl Checker<'_> {
                 [] => self.error(
                     diffusion.viscosity.span(),
                     format!("`diffusion` has no `{key}`"),
-                    format!("`{key} = {example}`, or values along the fault by `profiles.{key}` or `fields.{key}`"),
+                    format!(
+                        "`{key} = {example}`, or values along the fault by `profiles.{key}` or `fields.{key}`"
+                    ),
                 ),
                 [_] => {}
                 [first, second, ..] => self.conflict(

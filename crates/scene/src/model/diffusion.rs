@@ -32,8 +32,7 @@ pub struct Diffusion {
 }
 
 /// A parameter of the diffusion: its key, its constant value, its profile and its file.
-pub type Hydraulic<'a> =
-    (&'static str, Option<(f64, Range<usize>)>, Option<&'a Profiled>, Option<&'a Field>);
+pub type Hydraulic<'a> = (&'static str, Option<(f64, Range<usize>)>, Option<&'a Profiled>, Option<&'a Field>);
 
 impl Diffusion {
     /// Parameters that may vary along the fault.

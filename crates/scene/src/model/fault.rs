@@ -1,7 +1,8 @@
 //! Faults as declared in a scene, for simulations of earthquake cycles.
 
 use super::{
-    Diffusion, FaultLine, FaultRectangle, FaultTriangles, Fields, Flux, ForcedRupture, Heat, LawSpec, Patch, Pulse,
+    Diffusion, FaultLine, FaultRectangle, FaultTriangles, Fields, Flux, ForcedRupture, Heat, LawSpec, Patch,
+    Pulse,
 };
 use crate::here::here;
 use crate::kind::{self, Kind};

@@ -123,7 +123,8 @@ impl Chain {
         let n = v.len();
         let (mut own, mut flow) = (Vec::with_capacity(n), Vec::with_capacity(n));
         for (i, v) in v.iter().enumerate() {
-            let (mut ground, mut source) = (z * self.capacity[i] + self.drain[i], C::from(self.capacity[i] * v));
+            let (mut ground, mut source) =
+                (z * self.capacity[i] + self.drain[i], C::from(self.capacity[i] * v));
             if let Some(k) = i.checked_sub(1) {
                 let (before, conductance): (C, f64) = (own[k], self.conductance[k]);
                 let passed = conductance / (before + conductance);
@@ -170,7 +171,8 @@ mod tests {
     }
 
     #[test]
-    fn steady_pressure_between_drained_ends_is_linear_on_either_side_of_a_well_and_bends_where_permeability_jumps() {
+    fn steady_pressure_between_drained_ends_is_linear_on_either_side_of_a_well_and_bends_where_permeability_jumps()
+     {
         let line = line();
         let (chain, at) = (line.chain(), 3.6);
         let inlet = line.inlet(at);

@@ -92,8 +92,11 @@ impl Diffusion {
     #[must_use]
     pub fn words(&self) -> String {
         let steps = self.wells.iter().map(|well| well.response.steps()).max().unwrap_or(0);
-        let wells = if self.wells.len() == 1 { "a well".into() } else { format!("{} wells", self.wells.len()) };
-        format!("fluid from {wells} diffuses along the fault; its pressure follows from {steps} implicit steps")
+        let wells =
+            if self.wells.len() == 1 { "a well".into() } else { format!("{} wells", self.wells.len()) };
+        format!(
+            "fluid from {wells} diffuses along the fault; its pressure follows from {steps} implicit steps"
+        )
     }
 
     /// Size of the responses \[bytes\].
@@ -196,7 +199,8 @@ mod tests {
         let error = |cells: i32| {
             let line = line(cells);
             let all = felt(&diffusion(&line, &wells), line.positions.len(), 1e6, f64::INFINITY);
-            let exact = |x: f64| wells.iter().map(|(at, flux)| injection(flux).pressure(x - at, 1e6).0).sum::<f64>();
+            let exact =
+                |x: f64| wells.iter().map(|(at, flux)| injection(flux).pressure(x - at, 1e6).0).sum::<f64>();
             line.positions.iter().zip(all).map(|(x, p)| (p[0] - exact(*x)).abs()).fold(0.0, f64::max)
         };
         let errors = [100, 200, 400].map(error);
@@ -214,6 +218,8 @@ mod tests {
         let rate = felt(&begun, 40, 10.0, f64::INFINITY)[19][1];
         assert!((rate / (0.5e-6 / (1e-9 * 100.0)) - 1.0).abs() < 1e-14, "{rate}");
         assert_eq!(begun.breaks(), [10.0]);
+        let at_the_end = diffusion(&line, &[(2000.0, &[(1e7, 1e-6)])]);
+        assert_eq!(felt(&at_the_end, 40, 1e7, f64::INFINITY)[19], [0.0, rate]);
     }
 
     #[test]

@@ -55,15 +55,17 @@ impl Response {
         // Where nothing flows, pressure is linear in time and every step exact.
         let mut length = if fastest > 0.0 { FIRST / fastest } else { 1.0 };
         let poles = Poles::new();
-        while nodes[nodes.len() - 1].time < end {
+        loop {
             for _ in 0..STEPS {
                 nodes.push(poles.step(chain, &nodes[nodes.len() - 1], length));
+            }
+            if nodes[nodes.len() - 1].time >= end {
+                return Self { nodes };
             }
             if nodes.len() > 2 * STEPS {
                 length *= 2.0;
             }
         }
-        Self { nodes }
     }
 
     /// Number of its steps.
@@ -86,7 +88,8 @@ impl Response {
         let value: [f64; 6] = std::array::from_fn(|i| value[i] * scale[i]);
         let slope: [f64; 6] = std::array::from_fn(|i| slope[i] * scale[i] / h);
         for (i, [pressure, rate]) in sum.iter_mut().enumerate() {
-            let ends = [start.pressure[i], start.rate[i], start.bend[i], end.pressure[i], end.rate[i], end.bend[i]];
+            let ends =
+                [start.pressure[i], start.rate[i], start.bend[i], end.pressure[i], end.rate[i], end.bend[i]];
             *pressure += dot(&value, &ends);
             *rate += dot(&slope, &ends);
         }

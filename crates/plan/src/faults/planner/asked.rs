@@ -145,8 +145,12 @@ pub(super) fn profiles<const D: usize>(
 }
 
 /// Profiles of a fault with their keys.
-pub(super) fn lists(spec: &Spec) -> [(&'static str, Option<&Profiled>); 6] {
-    spec.profiles.all()
+pub(super) fn lists(spec: &Spec) -> Vec<(&'static str, Option<&Profiled>)> {
+    let hydraulic = ["permeability", "storage"].map(|key| {
+        let given = spec.diffusion.iter().flat_map(|d| d.parameters()).find(|p| p.0 == key);
+        (key, given.and_then(|p| p.2))
+    });
+    spec.profiles.all().into_iter().chain(hydraulic).collect()
 }
 
 /// True if two profiles are the same.

@@ -38,6 +38,7 @@ pub(super) fn diffusion<const D: usize>(
         let wells = wells.collect::<Result<Vec<_>, _>>()?;
         let own = all.get_or_insert_default();
         own.add(first, &line, &wells, end);
+        said.0.extend(idle((name, given), &wells, end));
         said.0.extend(narrow((name, given), &line, &wells, end));
         said.0.extend(lifted((name, given), (&*own, &wells), (placed, first), end));
     }
@@ -65,9 +66,11 @@ fn line<const D: usize>(
         }
         // The scene check ensures that one of them is given.
         let constant = value.map_or(f64::NAN, |v| v.0);
-        let of = |p: &Placed<D>| profile.map_or(constant, |Profiled(list)| {
-            list.iter().map(|profile| at(profile, &p.point.place)).fold(f64::NEG_INFINITY, f64::max)
-        });
+        let of = |p: &Placed<D>| {
+            profile.map_or(constant, |Profiled(list)| {
+                list.iter().map(|profile| at(profile, &p.point.place)).fold(f64::NEG_INFINITY, f64::max)
+            })
+        };
         Ok(points.iter().map(of).collect::<Vec<f64>>())
     };
     let [permeability, storage] = given.parameters();
@@ -115,11 +118,25 @@ fn ends(line: &Line) -> [f64; 2] {
     [low.max(0.0), line.positions[last] + 0.5 * line.lengths[last]]
 }
 
+/// Warning about a well that begins when the run has ended.
+fn idle((name, given): (&str, &Given), wells: &[Source], end: f64) -> Option<Warning> {
+    let late = |well: &Source| well.flux.iter().find(|step| step.1 != 0.0).is_some_and(|step| step.0 >= end);
+    let (_, well) = wells.iter().zip(given.wells.get_ref()).find(|(well, _)| late(well))?;
+    let at = brief(well.at.get_ref().0);
+    let message =
+        format!("the well at {at} of fault `{name}` begins after the end of the run, which is at {end:e} s");
+    Some(Warning::at(
+        well.flux.span(),
+        message,
+        "check the unit of its times, which count from the start of the run",
+    ))
+}
+
 /// Warning about a well whose fluid stays within its cell: pressure is that of the mean over the cell.
 fn narrow((name, given): (&str, &Given), line: &Line, wells: &[Source], end: f64) -> Option<Warning> {
     let mut all = wells.iter().zip(given.wells.get_ref());
     all.find_map(|(well, spec)| {
-        let begin = well.flux.iter().find(|step| step.1 != 0.0)?.0;
+        let begin = well.flux.iter().find(|step| step.1 != 0.0).filter(|step| step.0 < end)?.0;
         let near = |k: &usize| (line.positions[*k] - well.at).abs();
         let k = (0..line.positions.len()).min_by(|a, b| near(a).total_cmp(&near(b)))?;
         let spread = 2.0 * (line.mobility[k] / line.storage[k] * (end - begin)).sqrt();
