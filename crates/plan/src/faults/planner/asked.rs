@@ -191,7 +191,7 @@ fn constant<const D: usize>(
          to {high} m",
         first.0.0, last.0.0
     );
-    Some((message, "check the unit and the sign of its positions, or give the one value in the law"))
+    Some((message, "check the unit and the sign of its positions, or give one value instead of the profile"))
 }
 
 /// Refuses a station farther than `size` \[m\] from the nearest sliding point, which is number `point` of `placed`.
