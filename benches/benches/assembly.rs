@@ -60,7 +60,7 @@ fn measure<const D: usize>(kind: ElementKind, n: usize, pools: &[rayon::ThreadPo
             .mesh()
             .expect("admissible");
     let material = Elastic::new(44.8e9, 0.25).expect("admissible");
-    let space = Idealisation::of_dimension(D);
+    let space = Idealisation::from_dimension(D);
     let block = LinearBlock::new(&mesh, 0, &material, space, Formulation::Standard).expect("admissible");
     let fixed = nodes_of_sides(&mesh, &mesh.side_sets["left"]).into_iter();
     let fixed = fixed.flat_map(|k| k * D..(k + 1) * D).collect();

@@ -25,7 +25,7 @@ fn mesh<const D: usize>(kind: ElementKind, n: usize) -> Mesh<D> {
 }
 
 fn block<const D: usize>(mesh: &Mesh<D>) -> LinearBlock<D> {
-    LinearBlock::new(mesh, 0, &material(), Idealisation::of_dimension(D), Formulation::Standard)
+    LinearBlock::new(mesh, 0, &material(), Idealisation::from_dimension(D), Formulation::Standard)
         .expect("admissible")
 }
 

@@ -3,7 +3,7 @@
 #![allow(missing_docs, reason = "criterion writes its entry point")]
 
 use asperity_benches::direct::stiffness;
-use asperity_fem::multifrontal::{Cholesky, Symbolic};
+use asperity_fem::multifrontal::{Cholesky, SymbolicCholesky};
 use asperity_fem::ordering::Ordering;
 use criterion::{Criterion, criterion_group, criterion_main};
 use faer::Mat;
@@ -22,7 +22,7 @@ fn measure(criterion: &mut Criterion, case: &str) {
     let matrix = stiffness(case).expect("a case");
     let mut group = criterion.benchmark_group(format!("direct {case}"));
     group.sample_size(10);
-    let analyse = || Symbolic::new(matrix.symbolic(), Ordering::Automatic).expect("a small pattern");
+    let analyse = || SymbolicCholesky::new(matrix.symbolic(), Ordering::Automatic).expect("a small pattern");
     group.bench_function("order and analyse", |b| b.iter(|| black_box(analyse())));
     let factor = Cholesky::new(Arc::new(analyse()), matrix.values()).expect("held on one side");
     let mut kept = Some(factor.clone());

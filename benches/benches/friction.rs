@@ -9,10 +9,10 @@ use asperity_friction::evolution::flash::{Flash, Weakening};
 use asperity_friction::evolution::{
     Evolution, ageing::Ageing, nagata::Nagata, prz::Prz, slip::Slip, stateless::Stateless,
 };
-use asperity_friction::law::{Drives, Law, Rated, Regime, Responses, Trials};
+use asperity_friction::law::{Drives, Law, RateDependent, Regime, Responses, Trials};
 use asperity_friction::point::{Point, Solver};
 use asperity_friction::rate::RateLaw;
-use asperity_friction::slider::Sliding;
+use asperity_friction::slider::SliderLaw;
 use asperity_friction::slip_weakening::SlipWeakening;
 use asperity_friction::static_kinetic::StaticKinetic;
 use asperity_friction::strength::{Form, Parameters, regularised::Regularised};

@@ -6,7 +6,7 @@ use asperity_cycles::Thresholds;
 use asperity_cycles::slider::{self, Problem};
 use asperity_friction::evolution::ageing::Ageing;
 use asperity_friction::rate::RateLaw;
-use asperity_friction::slider::{History, Slider, Sliding, Spring, System};
+use asperity_friction::slider::{History, Slider, SliderLaw, Spring, System};
 use asperity_friction::strength::{Parameters, regularised::Regularised};
 use asperity_ode::Method;
 use criterion::{Criterion, criterion_group, criterion_main};

@@ -8,7 +8,7 @@
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 use asperity_benches::direct::stiffness;
-use asperity_fem::multifrontal::{Cholesky, Symbolic};
+use asperity_fem::multifrontal::{Cholesky, SymbolicCholesky};
 use asperity_fem::ordering::Ordering;
 use asperity_fem::sparse::ScatterMap;
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -107,7 +107,7 @@ fn own(case: &str, matrix: &ScatterMap, threads: usize, runs: usize) -> Result<(
     let mut residual = 0.0;
     let (mut stored, mut bytes, mut operations) = (0, 0.0, 0.0);
     for _ in 0..runs {
-        let symbolic = clock(&mut times[0], || Symbolic::new(matrix.symbolic(), Ordering::Automatic));
+        let symbolic = clock(&mut times[0], || SymbolicCholesky::new(matrix.symbolic(), Ordering::Automatic));
         let symbolic = Arc::new(symbolic.map_err(|e| e.to_string())?);
         stored = symbolic.stored();
         (bytes, operations) = (symbolic.bytes() as f64, symbolic.operations());
@@ -130,8 +130,10 @@ fn library(case: &str, matrix: &ScatterMap, threads: usize, runs: usize) -> Resu
     let n = matrix.order();
     let par = if threads > 1 { Par::rayon(threads) } else { Par::Seq };
     // The same ordering for both, since the numeric part is compared.
-    let order: Vec<usize> =
-        Symbolic::new(matrix.symbolic(), Ordering::Automatic).map_err(|e| e.to_string())?.order().collect();
+    let order: Vec<usize> = SymbolicCholesky::new(matrix.symbolic(), Ordering::Automatic)
+        .map_err(|e| e.to_string())?
+        .order()
+        .collect();
     let mut inverse = vec![0; n];
     order.iter().enumerate().for_each(|(k, &e)| inverse[e] = k);
     let permutation = faer::perm::Perm::new_checked(order.into(), inverse.into(), n);

@@ -36,7 +36,7 @@ fn of_block<const D: usize>(kind: ElementKind, divisions: f64) -> ScatterMap {
     };
     let mesh = block.mesh().expect("the block is well formed");
     let material = Elastic::new(50e9, 0.25).expect("an admissible material");
-    let cells = LinearBlock::new(&mesh, 0, &material, Idealisation::of_dimension(D), Formulation::Standard)
+    let cells = LinearBlock::new(&mesh, 0, &material, Idealisation::from_dimension(D), Formulation::Standard)
         .expect("its cells are cubes");
     let left = mesh.nodes.iter().enumerate().filter(|(_, x)| x[0] == 0.0);
     let fixed = left.flat_map(|(n, _)| (0..D).map(move |i| n * D + i)).collect();

@@ -32,7 +32,7 @@ pub fn rock<const D: usize>(kind: ElementKind, n: usize) -> Result<Problem<D>, F
     let block =
         Block { min: [0.0; D], max: [1e3; D], divisions: [n; D], grading: [Grading::Uniform; D], kind };
     let mesh = block.mesh()?;
-    let (rock, idealisation) = (Elastic::new(80e9, 0.25)?, Idealisation::of_dimension(D));
+    let (rock, idealisation) = (Elastic::new(80e9, 0.25)?, Idealisation::from_dimension(D));
     let cells = LinearBlock::new(&mesh, 0, &rock, idealisation, Formulation::Standard)?;
     let dofs = mesh.nodes.len() * D;
     let body = Body {

@@ -7,7 +7,7 @@ use asperity_fem::mesh::split::{Surface, split};
 use asperity_fem::mesh::{Mesh, MeshError, Options, RawMesh};
 
 #[global_allocator]
-static ALLOCATOR: counting::Counting = counting::Counting;
+static ALLOCATOR: counting::CountingAllocator = counting::CountingAllocator;
 
 /// Limit on memory in bytes per byte of a file, and for an empty file. `crates/fem/tests/memory.rs` gives the reasons;
 /// here the meshes come on top.

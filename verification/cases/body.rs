@@ -12,7 +12,7 @@ use asperity_fem::mesh::generate::{Block as Box, Grading};
 use asperity_fem::mesh::{Mesh, nodes_of_sides};
 use asperity_fem::nonlinear::{Block, Kinematics, Limits, Material, Model};
 use asperity_fem::surface;
-use asperity_fem::term::{Fraction, Instant, Limited, Linearized, Pattern, Refusal, Term};
+use asperity_fem::term::{ForwardTerm, Fraction, Instant, Linearized, Pattern, Refusal, Term};
 use serde::Serialize;
 use std::f64::consts::FRAC_PI_2;
 

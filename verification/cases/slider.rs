@@ -5,7 +5,7 @@ use asperity_cycles::Thresholds;
 use asperity_cycles::slider::{self, Now, Problem, SliderRun};
 use asperity_friction::evolution::{ageing::Ageing, slip::Slip};
 use asperity_friction::rate::RateLaw;
-use asperity_friction::slider::{History, Slider, Sliding, System};
+use asperity_friction::slider::{History, Slider, SliderLaw, System};
 use asperity_friction::strength::{Parameters, regularised::Regularised};
 use asperity_ode::{Counts, Method, Outcome};
 use std::sync::Arc;
@@ -109,7 +109,7 @@ impl Set {
     ///
     /// # Errors
     /// Parameters out of range.
-    pub fn law(&self, kind: Kind) -> Result<Arc<dyn Sliding>, CaseError> {
+    pub fn law(&self, kind: Kind) -> Result<Arc<dyn SliderLaw>, CaseError> {
         let form = Regularised(Parameters::new(MU0, self.a, V_REF)?);
         Ok(match kind {
             Kind::Ageing => {
@@ -122,7 +122,7 @@ impl Set {
     }
 
     /// One slider with this law.
-    pub fn slider(&self, law: Arc<dyn Sliding>) -> Slider {
+    pub fn slider(&self, law: Arc<dyn SliderLaw>) -> Slider {
         Slider {
             law,
             stiffness: self.stiffness,
@@ -219,7 +219,8 @@ pub fn at_times(plan: &Problem, times: &[f64]) -> Result<Vec<(f64, f64)>, CaseEr
         .map(|&time| {
             let until = Problem { end: time, events: None, peaks: false, most_events: None, ..plan.clone() };
             let run = finish(&until)?;
-            let (speed, mu) = plan.system.sliders()[0].law.slip(plan.system.of(0, &run.unknowns));
+            let (speed, mu) =
+                plan.system.sliders()[0].law.slip(plan.system.slider_unknowns(0, &run.unknowns));
             Ok((speed.rate, mu))
         })
         .collect()

@@ -4,7 +4,7 @@ use asperity_cycles::Rupture;
 use asperity_cycles::heat::TEMPERATURE;
 use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::shortest;
-use asperity_output::located::Located;
+use asperity_output::located::SourceParameters;
 use asperity_output::{OutputError, atomic, stems};
 use asperity_run::{Event, SlipPoints};
 use schemars::JsonSchema;
@@ -58,7 +58,7 @@ pub struct Entry {
     pub turned: Option<f64>,
     /// Seismological parameters, if the scene has a geographic frame.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub located: Option<Located>,
+    pub located: Option<SourceParameters>,
 }
 
 /// Share of the largest slip above which a point counts as slipped.

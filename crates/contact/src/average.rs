@@ -33,8 +33,10 @@ impl Averaging {
     pub(crate) fn apply<const D: usize>(
         &mut self,
         measure: &dyn Measure<D>,
-        (normal, shear): (&[f64], &[[f64; D]]),
-        (mean_normal, mean_shear): (&mut [f64], &mut [[f64; D]]),
+        normal: &[f64],
+        shear: &[[f64; D]],
+        mean_normal: &mut [f64],
+        mean_shear: &mut [[f64; D]],
     ) {
         mean_normal.copy_from_slice(normal);
         mean_shear.copy_from_slice(shear);

@@ -1,7 +1,7 @@
 //! Checks of a specification and construction of its measure.
 
 use crate::error::ContactError;
-use crate::measure::node_to_point::finite::Finite;
+use crate::measure::node_to_point::finite::NodeToPointMeasure;
 use crate::measure::node_to_point::small::small;
 use crate::measure::{Measure, mortar};
 use crate::search::surface::Surface;
@@ -132,7 +132,7 @@ pub(crate) fn build_measure<const D: usize>(
             (Box::new(measure), projections)
         }
         (MeasureKind::NodeToPoint, Sliding::Finite) => {
-            let (measure, projections) = Finite::new(&nodes, &spec.slave, surface);
+            let (measure, projections) = NodeToPointMeasure::new(&nodes, &spec.slave, surface);
             (Box::new(measure), projections)
         }
     })

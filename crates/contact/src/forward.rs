@@ -7,9 +7,9 @@ use crate::interface::Interface;
 use crate::measure::{NormalPoint, ShearPoint, Slides};
 use crate::shear::{Shear, Slices};
 use crate::vector::{add, axpy, dot, norm, scaled};
-use asperity_fem::term::{Fraction, Instant, Limited, Refusal};
+use asperity_fem::term::{ForwardTerm, Fraction, Instant, Refusal};
 use asperity_friction::Failure;
-use asperity_friction::law::{Increments, Limit, LimitKind, Present, RateBounds, Rates, Regime};
+use asperity_friction::law::{Increments, Limit, LimitKind, PresentStates, RateBounds, Rates, Regime};
 
 /// Points within this distance of an event, relative to the increment that leads to it, switch with the step instead of
 /// limiting it. Otherwise simultaneous events of a symmetric scene would cost one step each, at fractions that are pure
@@ -71,7 +71,7 @@ impl Shear {
             v.resize(n, 0.0);
         }
         if n > 0 {
-            let present = Present {
+            let present = PresentStates {
                 points: &s.index,
                 normal: &s.normal,
                 traction: &s.trial,
@@ -240,8 +240,8 @@ impl Shear {
 
 impl Slices {
     /// The gathered points in the form that a law takes.
-    fn present(&self, stiffness: f64, options: PresentOptions) -> Present<'_> {
-        Present {
+    fn present(&self, stiffness: f64, options: PresentOptions) -> PresentStates<'_> {
+        PresentStates {
             points: &self.index,
             normal: &self.normal,
             traction: &self.trial,
@@ -328,7 +328,7 @@ impl<const D: usize> Interface<D> {
     }
 }
 
-impl<const D: usize> Limited for Interface<D> {
+impl<const D: usize> ForwardTerm for Interface<D> {
     fn rate(&mut self, at: Instant, values: &mut [f64], constant: &mut [f64]) -> Result<(), Refusal> {
         if self.unknowns.is_some() {
             return Err(self.refuse("multipliers that are unknowns have no rate form".to_owned()));

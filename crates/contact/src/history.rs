@@ -4,7 +4,7 @@ use crate::interface::Interface;
 use crate::measure::saved::MeasureState;
 use crate::observe::Work;
 use crate::shear::Shear;
-use asperity_fem::term::{Saved, Term as _};
+use asperity_fem::term::{Restorable, Term as _};
 use asperity_friction::law::Regime;
 use serde::{Deserialize, Serialize};
 
@@ -59,7 +59,7 @@ struct ShearState {
 }
 
 impl ShearState {
-    fn of(shear: &Shear) -> Self {
+    fn from_shear(shear: &Shear) -> Self {
         let c = &shear.committed;
         Self {
             traction: c.traction.clone(),
@@ -115,7 +115,7 @@ impl<const D: usize> Interface<D> {
     }
 }
 
-impl<const D: usize> Saved for Interface<D> {
+impl<const D: usize> Restorable for Interface<D> {
     type State = InterfaceState;
 
     fn save(&self) -> InterfaceState {
@@ -129,7 +129,7 @@ impl<const D: usize> Saved for Interface<D> {
             relative: motion.relative.clone(),
             slip: motion.slip.clone(),
             step: motion.step.clone(),
-            shear: self.shear.as_ref().map(ShearState::of),
+            shear: self.shear.as_ref().map(ShearState::from_shear),
             unknowns: self.unknowns.as_ref().map_or_else(Vec::new, |u| u.committed.clone()),
             tied: self.tied.as_ref().map(|t| t.iter().map(bond).collect()),
             pressed: self.pressed.is_some(),

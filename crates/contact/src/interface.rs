@@ -10,7 +10,7 @@ use crate::enforce::{Multipliers, Penalty, Unknowns, tangential};
 use crate::error::ContactError;
 use crate::measure::{Attachment, Geometry, Measure, NormalPoint, Slides, Tractions};
 use crate::observe::{Balance, PointFields, Work};
-use crate::shear::{Past, Shear, TwoStep};
+use crate::shear::{PreviousStep, Shear, TwoStep};
 use crate::spec::{Enforcement, InterfaceSpec, SlavePoint, SurfaceNode, TimeRule};
 use crate::status::{Status, label};
 use crate::vector::{add, axpy, dot, moment, norm, scaled, sub};
@@ -53,12 +53,12 @@ impl Motion {
 
 /// A committed and a trial copy.
 #[derive(Clone, Debug)]
-pub(crate) struct Kept<T> {
+pub(crate) struct StatePair<T> {
     pub committed: T,
     pub trial: T,
 }
 
-impl<T: Clone> Kept<T> {
+impl<T: Clone> StatePair<T> {
     fn new(value: T) -> Self {
         Self { trial: value.clone(), committed: value }
     }
@@ -91,10 +91,10 @@ pub struct Interface<const D: usize> {
     pub(crate) trial_dt: f64,
     pub(crate) measure: Box<dyn Measure<D>>,
     /// Displacements of the interface's nodes \[m\].
-    pub(crate) u: Kept<Vec<[f64; D]>>,
+    pub(crate) u: StatePair<Vec<[f64; D]>>,
     pub(crate) geometry: Geometry<D>,
-    pub(crate) contact: Kept<Vec<NormalPoint>>,
-    pub(crate) motion: Kept<Motion>,
+    pub(crate) contact: StatePair<Vec<NormalPoint>>,
+    pub(crate) motion: StatePair<Motion>,
     pub(crate) shear: Option<Shear>,
     pub(crate) force: Vec<[f64; D]>,
     pub(crate) du: Vec<[f64; D]>,
@@ -123,7 +123,7 @@ impl<const D: usize> Interface<D> {
         let mut interface = Self {
             penalty: Penalty { stiffness: spec.normal_penalty, closure: CLOSURE * spec.scale },
             tangential_penalty: spec.tangential_penalty,
-            multipliers: Multipliers::of(&spec.enforcement, n),
+            multipliers: Multipliers::from_enforcement(&spec.enforcement, n),
             unknowns: None,
             tied: None,
             pressed: None,
@@ -135,10 +135,10 @@ impl<const D: usize> Interface<D> {
             previous_dt: None,
             trial_dt: 0.0,
             measure,
-            u: Kept::new(vec![[0.0; D]; spec.nodes.len()]),
+            u: StatePair::new(vec![[0.0; D]; spec.nodes.len()]),
             geometry: Geometry::new(n),
-            contact: Kept::new(vec![NormalPoint::default(); n]),
-            motion: Kept::new(Motion::new(n)),
+            contact: StatePair::new(vec![NormalPoint::default(); n]),
+            motion: StatePair::new(Motion::new(n)),
             touch,
             shear: spec.law.map(|law| Shear::new(law, spec.tangential_penalty, touch, n)),
             force: vec![[0.0; D]; n],
@@ -212,7 +212,7 @@ impl<const D: usize> Interface<D> {
         let n = self.slave.len();
         self.shear = law.map(|law| Shear::new(law, self.tangential_penalty, self.touch, n));
         self.set_damping(self.damping);
-        self.motion = Kept::new(Motion::new(n));
+        self.motion = StatePair::new(Motion::new(n));
         self.previous_dt = None;
         self.tie();
         if self.tied.is_some() {
@@ -342,7 +342,7 @@ impl<const D: usize> Interface<D> {
         self.check_bonds()?;
         self.enforce();
         let past = match (self.rule, self.previous_dt) {
-            (TimeRule::Bdf2, Some(previous)) => Some(Past {
+            (TimeRule::Bdf2, Some(previous)) => Some(PreviousStep {
                 two_step: TwoStep::new(dt, previous),
                 slip: &self.motion.committed.step,
                 contact: &self.contact.committed,
@@ -454,8 +454,10 @@ impl<const D: usize> Interface<D> {
         let f = &mut self.fields;
         self.averaging.apply(
             self.measure.as_ref(),
-            (&f.normal_traction, &f.shear),
-            (&mut f.mean_normal, &mut f.mean_shear),
+            &f.normal_traction,
+            &f.shear,
+            &mut f.mean_normal,
+            &mut f.mean_shear,
         );
     }
 

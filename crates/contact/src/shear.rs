@@ -6,7 +6,7 @@
 use crate::measure::{NormalPoint, ShearPoint};
 use crate::vector::{axpy, dot, norm, scaled};
 use asperity_friction::Failure;
-use asperity_friction::law::{Lag, Law, Regime, Responses, Taken, Trials};
+use asperity_friction::law::{Lag, Law, Regime, Responses, StepOutcome, Trials};
 use std::sync::Arc;
 
 /// Frictional history of all points.
@@ -130,7 +130,7 @@ impl TwoStep {
 
 /// Values of the previous step that two-step differences need.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Past<'a> {
+pub(crate) struct PreviousStep<'a> {
     pub two_step: TwoStep,
     /// Slip increments of the last step \[m\].
     pub slip: &'a [[f64; 2]],
@@ -138,10 +138,10 @@ pub(crate) struct Past<'a> {
     pub contact: &'a [NormalPoint],
 }
 
-impl Past<'_> {
+impl PreviousStep<'_> {
     /// Weight and offset of a point whose trial traction points along `direction`. A point that was open has no past and starts
     /// with backward Euler.
-    fn of(&self, p: usize, direction: &[f64; 2]) -> (f64, f64) {
+    fn weight_and_offset(&self, p: usize, direction: &[f64; 2]) -> (f64, f64) {
         if !self.contact[p].closed {
             return (1.0, 0.0);
         }
@@ -201,14 +201,14 @@ impl Shear {
         normal: &[NormalPoint],
         increment: &[[f64; 2]],
         dt: f64,
-        past: Option<Past<'_>>,
+        previous: Option<PreviousStep<'_>>,
         step: &mut [[f64; 2]],
     ) -> Result<(), Failure> {
-        self.gather(from, normal, increment, past);
+        self.gather(from, normal, increment, previous);
         let s = &mut self.slices;
         s.size_answers(self.law.states());
         if !s.index.is_empty() {
-            let lag = past.map(|_| Lag { weight: &s.weight, offset: &s.offset });
+            let lag = previous.map(|_| Lag { weight: &s.weight, offset: &s.offset });
             // The solver's own initial guess is better than the rate of the previous step as soon as the rate changes by more
             // than a few percent.
             let trials = Trials {
@@ -241,7 +241,7 @@ impl Shear {
         from: Option<&[[f64; 2]]>,
         normal: &[NormalPoint],
         increment: &[[f64; 2]],
-        past: Option<Past<'_>>,
+        previous: Option<PreviousStep<'_>>,
     ) {
         let k = self.law.states();
         let from = from.unwrap_or(&self.committed.traction);
@@ -261,8 +261,8 @@ impl Shear {
             s.trial.push(size);
             s.direction.push(direction);
             s.old.extend_from_slice(&self.committed.states[p * k..(p + 1) * k]);
-            if let Some(past) = past {
-                let (weight, offset) = past.of(p, &direction);
+            if let Some(previous) = previous {
+                let (weight, offset) = previous.weight_and_offset(p, &direction);
                 s.weight.push(weight);
                 s.offset.push(offset);
             }
@@ -281,7 +281,7 @@ impl Shear {
             s.before.push(if along < 0.0 { -self.committed.rate[p] } else { self.committed.rate[p] });
         }
         s.error.resize(s.index.len(), 0.0);
-        let taken = Taken {
+        let outcome = StepOutcome {
             points: &s.index,
             normal: &s.normal,
             before: &s.before,
@@ -291,7 +291,7 @@ impl Shear {
             old: &s.old,
             new: &s.states,
         };
-        self.law.error(taken, &mut s.error);
+        self.law.error(outcome, &mut s.error);
         let mean = s.normal.iter().sum::<f64>() / s.normal.len() as f64;
         // Without normal traction friction carries no load.
         if mean.is_nan() || mean <= 0.0 {

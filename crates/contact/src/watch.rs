@@ -58,7 +58,7 @@ pub enum Course {
 
 /// Slip that a step may take where the states of the law lose strength: `most` (1 + η V/(a f_n)), with the smaller of the rates
 /// before and after the step \[m\].
-pub(crate) fn spanned((most, damped): (f64, f64), rates: [f64; 2], normal: f64) -> f64 {
+pub(crate) fn spanned(most: f64, damped: f64, rates: [f64; 2], normal: f64) -> f64 {
     if damped == 0.0 || normal <= 0.0 {
         return most;
     }

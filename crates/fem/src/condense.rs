@@ -3,20 +3,20 @@
 //! With interior b, retained i and prescribed d, `K_bb u_b + K_bi u_i + K_bd u_d = f_b` gives `r_i = S u_i + h`, `S = K_ii -
 //! K_ib K_bb⁻¹ K_bi`, `h = K_ib K_bb⁻¹ (f_b - K_bd u_d) + K_id u_d - f_i`. The retained equations come last in the elimination,
 //! which stops before them: the remaining matrix is S, obtained without solving for any of its columns. Loads are linear in the
-//! channel amplitudes, so `h = Σ_c α_c(t) h_c` with half a solve per channel. A stepper cannot distinguish a [`Condensed`] body
+//! channel amplitudes, so `h = Σ_c α_c(t) h_c` with half a solve per channel. A stepper cannot distinguish a [`CondensedBody`] body
 //! from any other term; interior displacements are recovered only on request.
 
-mod loaded;
+mod loaded_body;
 
 use crate::dof::{Channel, Constraints, Equations};
 use crate::error::FemError;
-use crate::multifrontal::{Cholesky, DirectError, Symbolic};
+use crate::multifrontal::{Cholesky, DirectError, SymbolicCholesky};
 use crate::ordering::Ordering;
 use crate::sparse::{Part, ScatterMap, lower_pattern};
 use crate::table::Table;
-use crate::term::{Instant, Limited, Linearized, Pattern, Refusal, Term};
+use crate::term::{ForwardTerm, Instant, Linearized, Pattern, Refusal, Term};
 use faer::MatMut;
-pub use loaded::{Loaded, Remainder};
+pub use loaded_body::{LoadedBody, Remainder};
 use std::sync::Arc;
 
 /// A linear body before condensation: its stiffness as dense cell blocks.
@@ -64,7 +64,7 @@ pub struct Analysis {
     retained: Vec<usize>,
     /// Prescribed degrees of freedom that are not retained.
     fixed: Vec<usize>,
-    symbolic: Arc<Symbolic>,
+    symbolic: Arc<SymbolicCholesky>,
 }
 
 impl Analysis {
@@ -84,7 +84,7 @@ impl Analysis {
         let active = Constraints { fixed: fixed.clone(), channels: Vec::new() }.equations(dofs);
         let last: Vec<usize> = retained.iter().map(|&d| active.number[d]).collect();
         let lower = lower_pattern(patterns, &active);
-        let symbolic = Arc::new(Symbolic::retaining(lower.as_ref(), Ordering::Automatic, &last)?);
+        let symbolic = Arc::new(SymbolicCholesky::retaining(lower.as_ref(), Ordering::Automatic, &last)?);
         Ok(Self { active, retained: retained.to_vec(), fixed, symbolic })
     }
 
@@ -213,7 +213,7 @@ struct Load {
 
 /// A condensed body as a term on the interface degrees of freedom.
 #[derive(Debug)]
-pub struct Condensed {
+pub struct CondensedBody {
     name: String,
     reduction: Reduction,
     loads: Vec<Load>,
@@ -223,11 +223,11 @@ pub struct Condensed {
     local: Vec<f64>,
 }
 
-impl Condensed {
+impl CondensedBody {
     /// Joins a reduction to the system: `system[k]` is the system number of its k-th retained degree of freedom.
     #[must_use]
     pub fn new(name: String, reduction: Reduction, system: &[usize]) -> Self {
-        let pattern = Pattern::of_blocks([system]);
+        let pattern = Pattern::from_blocks([system]);
         let local = vec![0.0; system.len()];
         Self { name, reduction, loads: Vec::new(), pattern, local }
     }
@@ -292,7 +292,7 @@ impl Condensed {
 
 /// The interior of a condensed body whose stiffness has been moved out: it recovers displacements, and is no term.
 #[derive(Debug)]
-pub struct Interior(Condensed);
+pub struct Interior(CondensedBody);
 
 impl Interior {
     /// Number of retained degrees of freedom.
@@ -337,7 +337,7 @@ impl Interior {
     }
 }
 
-impl Term for Condensed {
+impl Term for CondensedBody {
     fn name(&self) -> &str {
         &self.name
     }
@@ -364,7 +364,7 @@ impl Term for Condensed {
     fn reject(&mut self) {}
 }
 
-impl Linearized for Condensed {
+impl Linearized for CondensedBody {
     fn pattern(&self) -> &Pattern {
         &self.pattern
     }
@@ -378,7 +378,7 @@ impl Linearized for Condensed {
     }
 }
 
-impl Limited for Condensed {
+impl ForwardTerm for CondensedBody {
     fn rate(&mut self, at: Instant, values: &mut [f64], constant: &mut [f64]) -> Result<(), Refusal> {
         values.copy_from_slice(&self.reduction.schur);
         for load in &self.loads {

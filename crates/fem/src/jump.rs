@@ -61,7 +61,7 @@ impl<const C: usize> Jumps<C> {
     }
 
     /// Jump and component of a degree of freedom of a plus node.
-    fn of(&self, dof: usize) -> Option<(&Jump<C>, usize)> {
+    fn find(&self, dof: usize) -> Option<(&Jump<C>, usize)> {
         let component = dof % C;
         self.by_plus.get(&(dof - component)).map(|&k| (&self.list[k], component))
     }
@@ -75,7 +75,7 @@ impl<const C: usize> Jumps<C> {
         for cell in body.pattern.blocks() {
             let values = &body.values[offset..offset + cell.len() * cell.len()];
             offset += values.len();
-            if cell.iter().any(|&d| self.of(d).is_some()) {
+            if cell.iter().any(|&d| self.find(d).is_some()) {
                 let (dofs, values) = self.cell(cell, values);
                 cells.push(dofs);
                 all.extend(values);
@@ -91,7 +91,7 @@ impl<const C: usize> Jumps<C> {
     fn cell(&self, cell: &[usize], values: &[f64]) -> (Vec<usize>, Vec<f64>) {
         let mut dofs = cell.to_vec();
         for &dof in cell {
-            if let Some((jump, component)) = self.of(dof)
+            if let Some((jump, component)) = self.find(dof)
                 && !dofs.contains(&(jump.minus + component))
             {
                 dofs.push(jump.minus + component);
@@ -122,7 +122,7 @@ impl<const C: usize> Jumps<C> {
 
     /// Displacement `dof` in terms of the transformed unknowns.
     fn row(&self, dof: usize) -> Vec<(usize, f64)> {
-        match self.of(dof) {
+        match self.find(dof) {
             None => vec![(dof, 1.0)],
             Some((jump, c)) => std::iter::once((jump.minus + c, 1.0))
                 .chain((0..C).map(|k| (jump.plus + k, jump.frame[k][c])))
@@ -138,7 +138,7 @@ impl<const C: usize> Jumps<C> {
     pub fn channel(&self, channel: &Channel, fixed: &[usize]) -> Result<Channel, ObliqueConstraint> {
         let mut prescribed: BTreeMap<usize, f64> = BTreeMap::new();
         for &(dof, value) in &channel.prescribed {
-            match self.of(dof) {
+            match self.find(dof) {
                 None => *prescribed.entry(dof).or_default() += value,
                 Some((jump, c)) => {
                     for k in self.held(jump, c, fixed)? {
@@ -182,7 +182,7 @@ impl<const C: usize> Jumps<C> {
     pub fn fixed(&self, fixed: &[usize]) -> Result<Vec<usize>, ObliqueConstraint> {
         let mut result = Vec::with_capacity(fixed.len());
         for &dof in fixed {
-            match self.of(dof) {
+            match self.find(dof) {
                 None => result.push(dof),
                 Some((jump, c)) => {
                     result.extend(self.held(jump, c, fixed)?.into_iter().map(|k| jump.plus + k))

@@ -28,7 +28,7 @@ impl Idealisation {
 
     /// Plane strain or three dimensions: the default for a mesh of this dimension.
     #[must_use]
-    pub fn of_dimension(dimension: usize) -> Self {
+    pub fn from_dimension(dimension: usize) -> Self {
         if dimension == 2 { Self::PlaneStrain } else { Self::ThreeD }
     }
 

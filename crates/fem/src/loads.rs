@@ -1,7 +1,7 @@
 //! External forces as a term: patterns times amplitudes.
 
 use crate::table::Table;
-use crate::term::{Instant, Limited, Linearized, Pattern, Refusal, Term};
+use crate::term::{ForwardTerm, Instant, Linearized, Pattern, Refusal, Term};
 
 /// Nodal forces that vary in time.
 #[derive(Clone, Debug, Default)]
@@ -54,7 +54,7 @@ impl Linearized for ExternalForces {
     }
 }
 
-impl Limited for ExternalForces {
+impl ForwardTerm for ExternalForces {
     fn rate(&mut self, at: Instant, _values: &mut [f64], constant: &mut [f64]) -> Result<(), Refusal> {
         self.subtract(|table| table.value(at.time) - table.value(at.time - at.dt), constant);
         Ok(())

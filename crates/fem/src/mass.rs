@@ -29,7 +29,7 @@ pub fn consistent<const D: usize>(mesh: &Mesh<D>, density: &[f64], idealisation:
         let rule: Vec<_> = kind.mass_quadrature().into_iter().map(|(xi, w)| (kind.shape(xi), w)).collect();
         let mut one = vec![0.0; kind.nodes() * kind.nodes()];
         for cell in 0..cells.len() {
-            of_cell(mesh, (cells, cell), &rule, (density, idealisation), &mut one);
+            write_cell_mass(mesh, (cells, cell), &rule, (density, idealisation), &mut one);
             for c in 0..components {
                 blocks.push(cells.cell(cell).iter().map(|&node| node * components + c));
                 values.extend_from_slice(&one);
@@ -40,7 +40,7 @@ pub fn consistent<const D: usize>(mesh: &Mesh<D>, density: &[f64], idealisation:
 }
 
 /// Writes the mass of one component of a cell, row by row.
-fn of_cell<const D: usize>(
+fn write_cell_mass<const D: usize>(
     mesh: &Mesh<D>,
     (cells, cell): (&Cells, usize),
     rule: &[(Shape, f64)],

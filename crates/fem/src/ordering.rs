@@ -98,14 +98,14 @@ impl Graph {
 
 /// A pattern with indistinguishable consecutive equations collapsed.
 #[derive(Clone, Debug)]
-pub(crate) struct Compressed {
+pub(crate) struct CompressedPattern {
     /// First equation of each vertex; one more entry than vertices.
     pub first: Vec<usize>,
     /// Couplings of vertices.
     pub graph: Graph,
 }
 
-impl Compressed {
+impl CompressedPattern {
     /// Number of equations of a vertex.
     pub fn weight(&self, vertex: usize) -> usize {
         self.first[vertex + 1] - self.first[vertex]
@@ -122,7 +122,7 @@ fn below<'a>(pattern: SymbolicSparseColMatRef<'a, usize>, col: usize) -> &'a [us
 ///
 /// Equations v and v+1 are equivalent if v couples to v+1, the rows below are the same, and every column before v holds both or
 /// neither: counted in one pass over the pattern.
-pub(crate) fn compress(pattern: SymbolicSparseColMatRef<'_, usize>, class: &[bool]) -> Compressed {
+pub(crate) fn compress(pattern: SymbolicSparseColMatRef<'_, usize>, class: &[bool]) -> CompressedPattern {
     let n = pattern.ncols();
     let mut above = vec![0_u32; n];
     let mut both = vec![0_u32; n];
@@ -158,7 +158,7 @@ pub(crate) fn compress(pattern: SymbolicSparseColMatRef<'_, usize>, class: &[boo
         }
     };
     let graph = Graph::from_edges(first.len() - 1, &visit);
-    Compressed { first, graph }
+    CompressedPattern { first, graph }
 }
 
 /// Orders the vertices: position -> vertex. Those marked in `last` come last, in their order; the others are ordered by

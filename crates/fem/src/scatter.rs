@@ -144,7 +144,7 @@ mod tests {
     #[test]
     fn forces_of_cells_are_those_of_a_serial_loop_for_any_number_of_threads() {
         let cells: Vec<[usize; 3]> = (0..5000).map(|k| [k, (7 * k + 1) % 5002, k + 2]).collect();
-        let pattern = Pattern::of_blocks(cells.iter().map(|c| c.as_slice()));
+        let pattern = Pattern::from_blocks(cells.iter().map(|c| c.as_slice()));
         let force = |cell: usize, dofs: &[usize], f: &mut [f64]| {
             for (f, &dof) in f.iter_mut().zip(dofs) {
                 *f = ((cell * 31 + dof) as f64).sin();

@@ -55,7 +55,7 @@ fn line(kind: FaceKind, x: f64, w: f64) -> RulePoint {
 #[must_use]
 pub fn mean_normal<const D: usize>(mesh: &Mesh<D>, sides: &[Side]) -> Option<[f64; D]> {
     let (mut sum, mut area) = ([0.0; D], 0.0);
-    for_each_point(mesh, sides, Idealisation::of_dimension(D), |_, _, weight, point| {
+    for_each_point(mesh, sides, Idealisation::from_dimension(D), |_, _, weight, point| {
         sum.iter_mut().zip(point.normal).for_each(|(sum, n)| *sum += weight * n);
         area += weight * length(&point.normal);
     });

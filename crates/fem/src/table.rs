@@ -63,7 +63,7 @@ impl Table {
     /// The integral from the first time on of a rate through `(time, rate)`, linear in between. Times do not decrease; two entries
     /// at one time are a jump of the rate.
     #[must_use]
-    pub fn of_rates(rates: &[(f64, f64)]) -> Self {
+    pub fn from_rates(rates: &[(f64, f64)]) -> Self {
         let (mut times, mut values, mut bends) = (Vec::new(), Vec::new(), Vec::new());
         times.extend(rates.first().map(|first| first.0));
         values.extend(rates.first().map(|_| 0.0));
@@ -233,14 +233,14 @@ mod tests {
 
     #[test]
     fn the_integral_of_a_rate_is_exact_within_ramps_and_over_jumps() {
-        let table = Table::of_rates(&[(1.0, 2.0), (3.0, 2.0), (3.0, -1.0), (5.0, 3.0)]);
+        let table = Table::from_rates(&[(1.0, 2.0), (3.0, 2.0), (3.0, -1.0), (5.0, 3.0)]);
         // 2 (t - 1), then 4 - s + s², with s = t - 3.
         for (time, value, rate) in [(2.0, 2.0, 2.0), (3.5, 3.75, 0.0), (4.0, 4.0, 1.0)] {
             approx::assert_relative_eq!(table.value(time), value, max_relative = 1e-15);
             approx::assert_abs_diff_eq!(table.slope(time), rate, epsilon = 1e-15);
         }
         assert_eq!((table.value(5.0), table.derivatives(5.0, 4.5)), (6.0, [3.0, 2.0]));
-        assert!(Table::of_rates(&[(0.0, 2.0), (1.0, 2.0), (1.0, 5.0), (2.0, 5.0)]).bends.is_empty());
+        assert!(Table::from_rates(&[(0.0, 2.0), (1.0, 2.0), (1.0, 5.0), (2.0, 5.0)]).bends.is_empty());
     }
 
     #[test]

@@ -176,7 +176,7 @@ impl Pattern {
     }
 
     /// Makes a pattern of blocks given one after another.
-    pub fn of_blocks<'a>(blocks: impl IntoIterator<Item = &'a [usize]>) -> Self {
+    pub fn from_blocks<'a>(blocks: impl IntoIterator<Item = &'a [usize]>) -> Self {
         let mut all = Blocks::default();
         blocks.into_iter().for_each(|block| all.push(block.iter().copied()));
         Self::new(all)
@@ -281,7 +281,7 @@ impl Fraction {
 }
 
 /// Serves forward (rate-form) steps: `K Δu = ΔF`, from the committed state.
-pub trait Limited: Linearized {
+pub trait ForwardTerm: Linearized {
     /// Writes the rate tangent in the order of the pattern, and adds the constant part of the force increment over `dt`
     /// that does not depend on Δu (with the sign of a residual) to `constant`.
     ///
@@ -303,13 +303,13 @@ pub trait Limited: Linearized {
 }
 
 /// Gives and takes committed history as plain values.
-pub trait Saved {
+pub trait Restorable {
     /// The values.
     type State;
 
     /// Committed history, and all else that decides how the term answers what follows, to the last bit.
     fn save(&self) -> Self::State;
 
-    /// Restores what [`Saved::save`] gave. Returns false, changing nothing, when the sizes do not fit.
+    /// Restores what [`Restorable::save`] gave. Returns false, changing nothing, when the sizes do not fit.
     fn restore(&mut self, saved: &Self::State) -> bool;
 }

@@ -5,17 +5,17 @@
 mod counting;
 
 use asperity_fem::block::LinearBlock;
-use asperity_fem::condense::{Condensation, Loaded, Stiffness};
+use asperity_fem::condense::{Condensation, LoadedBody, Stiffness};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::mesh::generate::{Block, Grading};
 use asperity_fem::mesh::{MeshError, Options, RawMesh, abaqus, gmsh};
-use counting::{Counting, peak_of};
+use counting::{CountingAllocator, peak_of};
 use std::fmt::Write;
 
 #[global_allocator]
-static ALLOCATOR: Counting = Counting;
+static ALLOCATOR: CountingAllocator = CountingAllocator;
 
 /// Memory that a reader needs for an empty file \[bytes\]: names, tables of quadrature, an error.
 const BASE: usize = 64 << 10;
@@ -289,7 +289,8 @@ fn condensation_with_loads_holds_what_it_foretells_and_less_than_the_factor() {
     pool.install(|| {
         let (body, dofs) = square(60);
         let (retained, fixed) = ((0..61).collect::<Vec<_>>(), (dofs - 61..dofs).collect::<Vec<_>>());
-        let loaded = |body: &Stiffness| Loaded::analyse(body.clone(), &retained, &fixed, Vec::new()).unwrap();
+        let loaded =
+            |body: &Stiffness| LoadedBody::analyse(body.clone(), &retained, &fixed, Vec::new()).unwrap();
         // Dense kernels keep their memory after the first use.
         loaded(&body).eliminate(usize::MAX).unwrap();
         let loaded = loaded(&body);

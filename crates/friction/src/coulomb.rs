@@ -3,9 +3,9 @@
 
 use crate::Failure;
 use crate::evolution::{Bound, Parameter, Unit};
-use crate::kind::{COHESION, Kind, Tabled, values};
-use crate::law::{Increments, Law, Limit, Present, RateBounds, Rates, Regime, Responses, Trials};
-use crate::yielding::{all_finite, answer, at_strength, cap, first_exit, strength};
+use crate::kind::{COHESION, Kind, TableLaw, values};
+use crate::law::{Increments, Law, Limit, PresentStates, RateBounds, Rates, Regime, Responses, Trials};
+use crate::yielding::{Cone, all_finite, answer, at_strength, cap, first_exit, strength};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +37,7 @@ impl Coulomb {
 
     /// Strength F̄ and ∂F̄/∂f_n.
     pub(crate) fn strength(&self, normal: f64) -> (f64, f64) {
-        strength((self.mu, self.cohesion), normal, self.limit)
+        strength(Cone { mu: self.mu, cohesion: self.cohesion }, normal, self.limit)
     }
 }
 
@@ -70,7 +70,7 @@ pub fn cone_exit(t: [f64; 2], dt: [f64; 2], f: f64, df: f64, mu: f64) -> Option<
         .reduce(f64::min)
 }
 
-impl Tabled for Coulomb {
+impl TableLaw for Coulomb {
     const KIND: Kind = Kind {
         name: "coulomb",
         meaning: "a constant coefficient",
@@ -134,7 +134,7 @@ impl Law for Coulomb {
         Ok(())
     }
 
-    fn rates(&self, present: Present<'_>, out: Rates<'_>) -> Result<(), Failure> {
+    fn rates(&self, present: PresentStates<'_>, out: Rates<'_>) -> Result<(), Failure> {
         for k in 0..present.normal.len() {
             let (strength, slope) = self.strength(present.normal[k]);
             (out.along[k], out.coupling[k], out.constant[k]) = match present.regime[k] {
@@ -145,11 +145,11 @@ impl Law for Coulomb {
         Ok(())
     }
 
-    fn limit(&self, present: Present<'_>, step: Increments<'_>, _bounds: RateBounds) -> Option<Limit> {
-        first_exit(&present, &step, |_| (self.mu, self.cohesion), self.limit)
+    fn limit(&self, present: PresentStates<'_>, step: Increments<'_>, _bounds: RateBounds) -> Option<Limit> {
+        first_exit(&present, &step, |_| Cone { mu: self.mu, cohesion: self.cohesion }, self.limit)
     }
 
-    fn stands(&self, present: Present<'_>, k: usize) -> bool {
+    fn stands(&self, present: PresentStates<'_>, k: usize) -> bool {
         at_strength(&present, k, self.strength(present.normal[k]).0)
     }
 }

@@ -18,7 +18,7 @@ pub struct Drive<'a> {
 
 impl Drive<'_> {
     /// Forcing of some of the points, of slip in one direction.
-    pub(crate) fn of(&self, points: Range<usize>) -> Drive<'_> {
+    pub(crate) fn slice(&self, points: Range<usize>) -> Drive<'_> {
         Drive {
             normal: &self.normal[points.clone()],
             normal_rate: self.normal_rate.map(|rate| &rate[points.clone()]),

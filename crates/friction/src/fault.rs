@@ -8,7 +8,7 @@
 use crate::Failure;
 pub use crate::drive::Drive;
 use crate::sheet::Sheet;
-use crate::slider::{Line, Sliding};
+use crate::slider::{Line, SliderLaw};
 
 /// Laws of the points of a fault. Slices hold one entry per point, and states are point-major; `first` is the number of the first point
 /// of the slices. If slip has more than one component, then m, slip rates and shear tractions hold the first components of all points,
@@ -54,7 +54,7 @@ pub trait FaultLaw: Send + Sync + std::fmt::Debug {
     /// Changes the state of a point so that its friction coefficient at slip rate `rate` \[m/s\] is `mu`.
     ///
     /// # Errors
-    /// Those of [`Sliding::states_for`], with the number of the point.
+    /// Those of [`SliderLaw::states_for`], with the number of the point.
     fn states_for(&self, point: usize, rate: f64, mu: f64, states: &mut [f64]) -> Result<(), Failure>;
 
     /// m of a point at a slip rate \[m/s\] of either sign.
@@ -88,12 +88,12 @@ pub struct Points<L> {
     sheet: Option<Sheet>,
 }
 
-impl<L: Sliding> Points<L> {
+impl<L: SliderLaw> Points<L> {
     /// From the laws of the points: at least one, all with the same number of states.
     #[must_use]
     pub fn new(laws: Vec<L>) -> Self {
         debug_assert!(laws.windows(2).all(|w| w[0].states() == w[1].states()));
-        let lines: Option<Vec<Line>> = laws.iter().map(Sliding::line).collect();
+        let lines: Option<Vec<Line>> = laws.iter().map(SliderLaw::line).collect();
         let sheet = lines.filter(|l| !l.is_empty()).map(|lines| Sheet::new(&lines));
         Self { laws, sheet }
     }
@@ -113,7 +113,7 @@ impl<L: Sliding> Points<L> {
 /// Largest number of unknowns of a point, m included: that of a slider.
 const MOST: usize = 16;
 
-impl<L: Sliding + Clone + 'static> FaultLaw for Points<L> {
+impl<L: SliderLaw + Clone + 'static> FaultLaw for Points<L> {
     fn points(&self) -> usize {
         self.laws.len()
     }
@@ -193,7 +193,7 @@ impl<L: Sliding + Clone + 'static> FaultLaw for Points<L> {
     }
 
     fn warms(&self) -> bool {
-        self.laws.iter().any(Sliding::warms)
+        self.laws.iter().any(SliderLaw::warms)
     }
 
     fn copy(&self) -> Box<dyn FaultLaw> {

@@ -12,7 +12,7 @@ use crate::coulomb::Coulomb;
 use crate::evolution::{AT_REST, Evolution};
 use crate::law::{Law, Trials};
 use crate::rate::RateLaw;
-use crate::slider::Sliding as _;
+use crate::slider::SliderLaw as _;
 use crate::slip_weakening::SlipWeakening;
 use crate::static_kinetic::StaticKinetic;
 use crate::strength::Form;
@@ -36,7 +36,7 @@ pub struct Push {
 
 /// Answer of a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pushed {
+pub struct PointBalance {
     /// Shear traction τ, between 0 and T \[Pa\].
     pub traction: f64,
     /// Slip rate V ≥ 0 \[m/s\].
@@ -49,7 +49,7 @@ pub trait Inertial: Law {
     ///
     /// # Errors
     /// [`Failure`] of the point 0.
-    fn push(&self, push: &Push, states: &mut [f64]) -> Result<Pushed, Failure>;
+    fn push(&self, push: &Push, states: &mut [f64]) -> Result<PointBalance, Failure>;
 
     /// Writes the states at the start; with a slip rate \[m/s\] and a friction coefficient, such that both hold.
     ///
@@ -82,14 +82,14 @@ pub trait InertialFault: Send + Sync + std::fmt::Debug {
     ///
     /// # Errors
     /// [`Failure`] with the number of the point.
-    fn push(&self, pushes: &[Push], states: &mut [f64], answers: &mut [Pushed]) -> Result<(), Failure>;
+    fn push(&self, pushes: &[Push], states: &mut [f64], answers: &mut [PointBalance]) -> Result<(), Failure>;
 }
 
 /// One law for each point, all of one kind.
 #[derive(Clone, Debug)]
-pub struct EachPoint<L>(pub Vec<L>);
+pub struct InertialPoints<L>(pub Vec<L>);
 
-impl<L: Inertial> InertialFault for EachPoint<L> {
+impl<L: Inertial> InertialFault for InertialPoints<L> {
     fn points(&self) -> usize {
         self.0.len()
     }
@@ -106,7 +106,7 @@ impl<L: Inertial> InertialFault for EachPoint<L> {
         self.0[point].start(at, states).map_err(|f| f.at(point))
     }
 
-    fn push(&self, pushes: &[Push], states: &mut [f64], answers: &mut [Pushed]) -> Result<(), Failure> {
+    fn push(&self, pushes: &[Push], states: &mut [f64], answers: &mut [PointBalance]) -> Result<(), Failure> {
         let n = self.states();
         for (point, ((law, push), answer)) in self.0.iter().zip(pushes).zip(answers).enumerate() {
             let own = &mut states[point * n..(point + 1) * n];
@@ -117,7 +117,7 @@ impl<L: Inertial> InertialFault for EachPoint<L> {
 }
 
 impl<F: Form, E: Evolution> Inertial for RateLaw<F, E> {
-    fn push(&self, push: &Push, states: &mut [f64]) -> Result<Pushed, Failure> {
+    fn push(&self, push: &Push, states: &mut [f64]) -> Result<PointBalance, Failure> {
         let half = 0.5 * push.dt;
         let trials = Trials {
             points: &[0],
@@ -129,7 +129,7 @@ impl<F: Form, E: Evolution> Inertial for RateLaw<F, E> {
             lag: None,
             near: Some(&[push.near]),
         };
-        self.balance_twice(&trials, states).map(|(traction, rate)| Pushed { traction, rate })
+        self.balance_twice(&trials, states).map(|(traction, rate)| PointBalance { traction, rate })
     }
 
     fn start(&self, at: Option<(f64, f64)>, states: &mut [f64]) -> Result<(), Failure> {
@@ -162,14 +162,14 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
 const MOST: usize = 15;
 
 impl Inertial for Coulomb {
-    fn push(&self, push: &Push, _states: &mut [f64]) -> Result<Pushed, Failure> {
+    fn push(&self, push: &Push, _states: &mut [f64]) -> Result<PointBalance, Failure> {
         finite(push)?;
         Ok(held(push, pressed(push, self.strength(push.normal).0)))
     }
 }
 
 impl Inertial for StaticKinetic {
-    fn push(&self, push: &Push, states: &mut [f64]) -> Result<Pushed, Failure> {
+    fn push(&self, push: &Push, states: &mut [f64]) -> Result<PointBalance, Failure> {
         finite(push)?;
         let (held_by, sliding) = self.strengths(states[0], push.normal);
         let answer = if push.trial <= held_by { held(push, held_by) } else { held(push, sliding) };
@@ -180,7 +180,7 @@ impl Inertial for StaticKinetic {
 
 impl Inertial for SlipWeakening {
     /// The strength is that of the slip reached, or of the slip that is imposed; the slip of the step weakens the next.
-    fn push(&self, push: &Push, states: &mut [f64]) -> Result<Pushed, Failure> {
+    fn push(&self, push: &Push, states: &mut [f64]) -> Result<PointBalance, Failure> {
         finite(push)?;
         let imposed = self.imposed(push.weakened);
         let answer = held(push, pressed(push, self.strength_at(states[0].max(imposed), push.normal)));
@@ -195,9 +195,9 @@ fn pressed(push: &Push, strength: f64) -> f64 {
 }
 
 /// The answer of a point that carries at most `strength` \[Pa\].
-fn held(push: &Push, strength: f64) -> Pushed {
+fn held(push: &Push, strength: f64) -> PointBalance {
     let traction = push.trial.min(strength);
-    Pushed { traction, rate: (push.trial - traction) / push.impedance }
+    PointBalance { traction, rate: (push.trial - traction) / push.impedance }
 }
 
 /// Refuses a point with inputs that are not finite.
@@ -212,7 +212,7 @@ fn finite(push: &Push) -> Result<(), Failure> {
 
 #[cfg(test)]
 mod tests {
-    use super::{EachPoint, Inertial as _, InertialFault as _, Push, Pushed};
+    use super::{Inertial as _, InertialFault as _, InertialPoints, PointBalance, Push};
     use crate::coulomb::Coulomb;
     use crate::evolution::ageing::Ageing;
     use crate::law::Law as _;
@@ -236,7 +236,7 @@ mod tests {
         let first = Push { normal: 120e6, trial: 0.0, impedance, near: 0.0, dt: 0.5 * dt, weakened: 0.0 };
         let trial = |t: f64| 72.5e6 + 8e6 * t;
         law.push(&Push { trial: trial(0.0), ..first }, &mut states).unwrap();
-        let mut answer = Pushed { traction: 0.0, rate: 0.0 };
+        let mut answer = PointBalance { traction: 0.0, rate: 0.0 };
         for k in 1..=n {
             let push = Push { trial: trial(k as f64 * dt), near: answer.rate, dt, ..first };
             answer = law.push(&push, &mut states).unwrap();
@@ -264,20 +264,20 @@ mod tests {
         assert!((answer.rate / 1e-12 - 1.0).abs() < 1e-6, "{answer:?}");
         assert!((answer.traction + push.impedance * answer.rate - 75e6).abs() < 1e-6);
         let mut mu = [0.0];
-        let pushed = law.push(&Push { trial: 100e6, ..push }, &mut states).unwrap();
-        law.coefficient(&[120e6], &[pushed.rate], &states, &mut mu).unwrap();
+        let balance = law.push(&Push { trial: 100e6, ..push }, &mut states).unwrap();
+        law.coefficient(&[120e6], &[balance.rate], &states, &mut mu).unwrap();
         // The states have passed another half step since.
-        assert!((pushed.traction / (120e6 * mu[0]) - 1.0).abs() < 0.01, "{pushed:?} {mu:?}");
+        assert!((balance.traction / (120e6 * mu[0]) - 1.0).abs() < 0.01, "{balance:?} {mu:?}");
     }
 
     #[test]
     fn slip_weakens_the_next_step_and_points_below_their_strength_rest() {
-        let law = EachPoint(vec![SlipWeakening::new(0.677, 0.525, 0.4, None).unwrap(); 2]);
+        let law = InertialPoints(vec![SlipWeakening::new(0.677, 0.525, 0.4, None).unwrap(); 2]);
         let push = |trial| Push { normal: 120e6, trial, impedance: 4e6, near: 0.0, dt: 0.01, weakened: 0.0 };
         let mut states = [0.0, 0.2];
-        let mut answers = [Pushed { traction: 0.0, rate: 0.0 }; 2];
+        let mut answers = [PointBalance { traction: 0.0, rate: 0.0 }; 2];
         law.push(&[push(81e6), push(81e6)], &mut states, &mut answers).unwrap();
-        assert_eq!(answers[0], Pushed { traction: 81e6, rate: 0.0 });
+        assert_eq!(answers[0], PointBalance { traction: 81e6, rate: 0.0 });
         let strength = 120e6 * 0.601;
         assert!((answers[1].traction / strength - 1.0).abs() < 1e-14);
         assert!((states[1] - 0.2 - (81e6 - strength) / 4e6 * 0.01).abs() < 1e-14);

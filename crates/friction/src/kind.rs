@@ -3,7 +3,7 @@
 use crate::Failure;
 use crate::evolution::{Bound, Parameter, Unit};
 use crate::law::Law;
-use crate::pointwise::Pointwise;
+use crate::pointwise::PointwiseLaw;
 use std::sync::Arc;
 
 /// A row of the table.
@@ -61,7 +61,7 @@ pub enum Weakening {
 }
 
 /// A law of the table.
-pub trait Tabled: Law + Sized + 'static {
+pub trait TableLaw: Law + Sized + 'static {
     /// Its row.
     const KIND: Kind;
 
@@ -94,32 +94,32 @@ macro_rules! each_kind {
 #[must_use]
 pub fn kinds() -> Vec<&'static Kind> {
     let mut rows = Vec::new();
-    each_kind!(Row => rows.push(&<Row as Tabled>::KIND));
+    each_kind!(Row => rows.push(&<Row as TableLaw>::KIND));
     rows
 }
 
-/// Builds the law of this name; see [`Tabled::build`].
+/// Builds the law of this name; see [`TableLaw::build`].
 ///
 /// # Errors
 /// [`Failure::Parameter`], also where the table has no such name.
 pub fn build(name: &str, own: &[f64], cap: Option<f64>) -> Result<Arc<dyn Law>, Failure> {
     each_kind!(Row => {
-        if <Row as Tabled>::KIND.name == name {
-            return Ok(Arc::new(<Row as Tabled>::build(own, cap)?));
+        if <Row as TableLaw>::KIND.name == name {
+            return Ok(Arc::new(<Row as TableLaw>::build(own, cap)?));
         }
     });
     Err(Failure::Parameter { name: "kind", value: f64::NAN, admissible: "a kind of the table" })
 }
 
-/// Builds a law of this name with values of its own at each point, and a largest shear traction \[Pa\] of each; see [`Tabled::build`].
+/// Builds a law of this name with values of its own at each point, and a largest shear traction \[Pa\] of each; see [`TableLaw::build`].
 ///
 /// # Errors
 /// [`Failure::Parameter`], also where the table has no such name, and without points.
 pub fn build_each(name: &str, points: &[(&[f64], Option<f64>)]) -> Result<Arc<dyn Law>, Failure> {
     each_kind!(Row => {
-        if <Row as Tabled>::KIND.name == name {
-            let laws = points.iter().map(|(own, cap)| <Row as Tabled>::build(own, *cap));
-            return Ok(Arc::new(Pointwise::new(laws.collect::<Result<_, _>>()?)?));
+        if <Row as TableLaw>::KIND.name == name {
+            let laws = points.iter().map(|(own, cap)| <Row as TableLaw>::build(own, *cap));
+            return Ok(Arc::new(PointwiseLaw::new(laws.collect::<Result<_, _>>()?)?));
         }
     });
     Err(Failure::Parameter { name: "kind", value: f64::NAN, admissible: "a kind of the table" })
@@ -129,8 +129,8 @@ pub fn build_each(name: &str, points: &[(&[f64], Option<f64>)]) -> Result<Arc<dy
 #[must_use]
 pub fn weakening(name: &str, own: &[f64]) -> Weakening {
     each_kind!(Row => {
-        if <Row as Tabled>::KIND.name == name {
-            return <Row as Tabled>::weakening(own);
+        if <Row as TableLaw>::KIND.name == name {
+            return <Row as TableLaw>::weakening(own);
         }
     });
     Weakening::None

@@ -68,7 +68,7 @@ pub struct Lag<'a> {
 /// Result of a step of `n` closed points, for an estimate of its error. Rates and slips are components along the traction at
 /// the end.
 #[derive(Clone, Copy, Debug)]
-pub struct Taken<'a> {
+pub struct StepOutcome<'a> {
     /// Number of each point on its surface, `n` values: a law that varies along the surface picks its parameters by it.
     pub points: &'a [usize],
     /// f_n at the end \[Pa\].
@@ -87,10 +87,10 @@ pub struct Taken<'a> {
     pub new: &'a [f64],
 }
 
-impl Taken<'_> {
+impl StepOutcome<'_> {
     /// The result of one of the points, each of which has so many states.
-    pub(crate) fn one(&self, k: usize, states: usize) -> Taken<'_> {
-        Taken {
+    pub(crate) fn one(&self, k: usize, states: usize) -> StepOutcome<'_> {
+        StepOutcome {
             points: &self.points[k..=k],
             normal: &self.normal[k..=k],
             before: &self.before[k..=k],
@@ -139,7 +139,7 @@ impl Responses<'_> {
 
 /// State of `n` closed points at the start of a forward (rate-form) step.
 #[derive(Clone, Copy, Debug)]
-pub struct Present<'a> {
+pub struct PresentStates<'a> {
     /// Number of each point on its surface, `n` values: a law that varies along the surface picks its parameters by it.
     pub points: &'a [usize],
     /// Normal traction f_n \[Pa\].
@@ -160,10 +160,10 @@ pub struct Present<'a> {
     pub rate_floor: f64,
 }
 
-impl Present<'_> {
+impl PresentStates<'_> {
     /// The state of one of the points, each of which has so many states.
-    pub(crate) fn one(&self, k: usize, states: usize) -> Present<'_> {
-        Present {
+    pub(crate) fn one(&self, k: usize, states: usize) -> PresentStates<'_> {
+        PresentStates {
             points: &self.points[k..=k],
             normal: &self.normal[k..=k],
             traction: &self.traction[k..=k],
@@ -260,7 +260,7 @@ pub struct Drives<'a> {
 }
 
 /// A law whose slip rate follows from tractions and states.
-pub trait Rated: Law {
+pub trait RateDependent: Law {
     /// Computes the slip rates \[m/s\] and the rates of change \[1/s\] of the states that the law keeps, at constant f_n,
     /// point-major.
     ///
@@ -320,19 +320,19 @@ pub trait Law: Send + Sync + std::fmt::Debug {
 
     /// Estimates the error of the friction coefficient at the end of a step, one value per point \[-\]; 0 for laws that do not
     /// depend on rates.
-    fn error(&self, _taken: Taken<'_>, out: &mut [f64]) {
+    fn error(&self, _outcome: StepOutcome<'_>, out: &mut [f64]) {
         out.fill(0.0);
     }
 
     /// Linearises the law at the present state for a forward step.
-    fn rates(&self, present: Present<'_>, out: Rates<'_>) -> Result<(), Failure>;
+    fn rates(&self, present: PresentStates<'_>, out: Rates<'_>) -> Result<(), Failure>;
 
     /// The smallest limit r6 or r8 over the slice for the increments of a whole step, or `None` if no limit applies.
-    fn limit(&self, present: Present<'_>, step: Increments<'_>, bounds: RateBounds) -> Option<Limit>;
+    fn limit(&self, present: PresentStates<'_>, step: Increments<'_>, bounds: RateBounds) -> Option<Limit>;
 
     /// True if point `k`, at rest, is at its strength and would slip at the slightest push. Called only for laws with an elastic
     /// domain.
-    fn stands(&self, _present: Present<'_>, _k: usize) -> bool {
+    fn stands(&self, _present: PresentStates<'_>, _k: usize) -> bool {
         false
     }
 }

@@ -15,6 +15,7 @@ mod line;
 mod pace;
 pub mod point;
 pub mod pointwise;
+pub mod rake;
 pub mod rate;
 pub mod sheet;
 pub mod slider;
@@ -22,7 +23,6 @@ pub mod slip_weakening;
 pub mod static_kinetic;
 pub mod strength;
 pub mod tied;
-pub mod turning;
 mod yielding;
 
 /// Failures of a law.

@@ -27,11 +27,11 @@ impl Pace {
     }
 
     /// Evolution rate of a state of characteristic slip `length` \[m\].
-    pub(crate) fn rate(self, length: Option<f64>, dt: f64) -> Linear {
+    pub(crate) fn rate(self, length: Option<f64>, dt: f64) -> LinearRate {
         // The mean rate of the step before gives x; only the weight depends on x, and only to second order.
         let before = self.offset / (self.weight - 1.0);
         let g = length.map_or(1.0, |l| share(before * dt / l));
-        Linear { slope: 1.0 - g + g / self.weight, constant: g * self.offset / self.weight }
+        LinearRate { slope: 1.0 - g + g / self.weight, constant: g * self.offset / self.weight }
     }
 }
 
@@ -48,13 +48,13 @@ fn share(x: f64) -> f64 {
 
 /// A rate that is linear in V: `slope V + constant`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Linear {
+pub(crate) struct LinearRate {
     pub slope: f64,
     /// \[m/s\].
     pub constant: f64,
 }
 
-impl Linear {
+impl LinearRate {
     /// V itself.
     pub(crate) const SAME: Self = Self { slope: 1.0, constant: 0.0 };
 
@@ -113,7 +113,7 @@ mod tests {
         // Three equal steps at V: weight 3/2, offset V/2.
         let v = 3e-6;
         for length in [None, Some(1e-9), Some(1e-5), Some(1.0)] {
-            let (speed, _) = Pace::new(1.5, 0.5 * v).unwrap().rate(length, 2.0).at(Speed::of_log(v.ln()));
+            let (speed, _) = Pace::new(1.5, 0.5 * v).unwrap().rate(length, 2.0).at(Speed::from_log(v.ln()));
             assert!((speed.rate / v - 1.0).abs() < 1e-14, "{length:?}: {}", speed.rate);
         }
     }

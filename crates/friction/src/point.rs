@@ -6,8 +6,8 @@
 
 use crate::Failure;
 use crate::component::Component;
-use crate::evolution::{AT_REST, Evolution, Evolved, Speed};
-use crate::pace::{Halves, Linear, Pace};
+use crate::evolution::{AT_REST, Evolution, Speed, StateUpdate};
+use crate::pace::{Halves, LinearRate, Pace};
 use crate::strength::Form;
 
 /// Largest number of iterations; none of the property tests takes more than twelve.
@@ -97,7 +97,7 @@ struct Value {
 
 /// Strength at a slip rate, with the states that belong to it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Present {
+pub(crate) struct PresentStrength {
     pub mu: f64,
     /// dμ/dln V with evolving states \[-\].
     pub slope: f64,
@@ -120,7 +120,7 @@ pub struct Solver<'a, F, E: Evolution> {
     /// The two-step difference of the step; `None` for backward Euler.
     pace: Option<Pace>,
     /// Rates at which the states evolve.
-    rates: Vec<Linear>,
+    rates: Vec<LinearRate>,
     /// State variables, before the jump of a shear memory.
     before: Vec<f64>,
     /// State variables after the last evaluation.
@@ -147,7 +147,7 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
             reference,
             starts: Vec::with_capacity(n),
             pace: None,
-            rates: vec![Linear::SAME; n],
+            rates: vec![LinearRate::SAME; n],
             before: vec![0.0; n],
             after: vec![0.0; n],
             log_normal: 0.0,
@@ -173,13 +173,13 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
     }
 
     /// Strength after a step of length `dt` at ln V from the states `old` as the law keeps them; [`AT_REST`] stands for zero V.
-    pub(crate) fn after(&mut self, old: &[f64], normal: f64, dt: f64, log_rate: f64) -> Present {
+    pub(crate) fn after(&mut self, old: &[f64], normal: f64, dt: f64, log_rate: f64) -> PresentStrength {
         self.prepare(old, normal, dt);
         // Only the strength is needed: neither spring nor drive.
         let p = Point { normal: 1.0, drive: 0.0, spring: 0.0, dt, guess: None };
         let value = self.evaluate(&p, log_rate, 0);
         let s = value.solution;
-        Present { mu: s.mu, slope: s.slope, d_phi: value.d_phi, d_normal: s.d_normal, phi: value.phi }
+        PresentStrength { mu: s.mu, slope: s.slope, d_phi: value.d_phi, d_normal: s.d_normal, phi: value.phi }
     }
 
     /// Sets the states from the kept ones under f_n = `normal` and μ, and returns φ.
@@ -236,7 +236,7 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
             self.starts.push(part.evolution.start(*before, dt));
         }
         for (part, rate) in self.parts.iter().zip(&mut self.rates) {
-            *rate = self.pace.map_or(Linear::SAME, |pace| pace.rate(part.evolution.length(), dt));
+            *rate = self.pace.map_or(LinearRate::SAME, |pace| pace.rate(part.evolution.length(), dt));
         }
     }
 
@@ -253,17 +253,17 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
     }
 
     /// Evolves one part; with a memory of shear traction the state jumps first.
-    fn evolve(&mut self, i: usize, speed: Speed) -> (Evolved, f64) {
+    fn evolve(&mut self, i: usize, speed: Speed) -> (StateUpdate, f64) {
         let part = &self.parts[i];
         let (own, by_own) = self.rates[i].at(speed);
         if part.shear_memory == 0.0 {
-            let evolved = by_end(part.evolution.evolve(&self.starts[i], own), by_own);
-            return (evolved, evolved.d_state);
+            let update = by_end(part.evolution.evolve(&self.starts[i], own), by_own);
+            return (update, update.d_state);
         }
         let (before, d_before, share) = self.jump(i, speed.log);
-        let mut evolved = by_end(part.evolution.evolve(&part.evolution.start(before, self.dt), own), by_own);
-        evolved.d_log_rate += evolved.d_state * d_before;
-        (evolved, evolved.d_state * share)
+        let mut update = by_end(part.evolution.evolve(&part.evolution.start(before, self.dt), own), by_own);
+        update.d_log_rate += update.d_state * d_before;
+        (update, update.d_state * share)
     }
 
     /// State after the jump of V, at which s + c' μ(V, φ(s)) is constant, with its derivatives by ln V and by that constant.
@@ -307,16 +307,16 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
     }
 
     fn evaluate(&mut self, p: &Point, z: f64, iterations: usize) -> Value {
-        let speed = Speed::of_log(z);
+        let speed = Speed::from_log(z);
         let (mut phi, mut first, mut second, mut by_normal) = (0.0, 0.0, 0.0, 0.0);
         for i in 0..self.parts.len() {
-            let (evolved, d_kept) = self.evolve(i, speed);
+            let (update, d_kept) = self.evolve(i, speed);
             let part = &self.parts[i];
-            self.after[i] = evolved.state;
-            let (slope, bend) = part.evolution.phi_slopes(evolved.state);
-            phi += part.evolution.phi(evolved.state);
-            first += slope * evolved.d_log_rate;
-            second += slope * evolved.curvature + bend * evolved.d_log_rate * evolved.d_log_rate;
+            self.after[i] = update.state;
+            let (slope, bend) = part.evolution.phi_slopes(update.state);
+            phi += part.evolution.phi(update.state);
+            first += slope * update.d_log_rate;
+            second += slope * update.curvature + bend * update.d_log_rate * update.d_log_rate;
             by_normal -= slope * d_kept * part.normal_memory * self.follows;
         }
         let s = self.form.at(z, phi);
@@ -417,7 +417,7 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
         if self.parts.is_empty() || p.dt == 0.0 {
             return Ok((everywhere, 0));
         }
-        let highest = Speed::of_log(top);
+        let highest = Speed::from_log(top);
         let bounds = self.parts.iter().zip(&self.before).zip(&self.rates);
         let weakening: f64 = bounds
             .map(|((part, &s), rate)| rate.slope * part.evolution.weakening(s, rate.at(highest).0.log))
@@ -474,13 +474,13 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
 
 /// Derivatives of an evolved state by the logarithm of the rate at the end of the step; the evolution rate changes by `share`
 /// times as much.
-fn by_end(evolved: Evolved, share: f64) -> Evolved {
+fn by_end(update: StateUpdate, share: f64) -> StateUpdate {
     if share == 1.0 {
-        return evolved;
+        return update;
     }
-    let Evolved { d_log_rate, curvature, .. } = evolved;
+    let StateUpdate { d_log_rate, curvature, .. } = update;
     let curvature = share * (share * curvature + (1.0 - share) * d_log_rate);
-    Evolved { d_log_rate: share * d_log_rate, curvature, ..evolved }
+    StateUpdate { d_log_rate: share * d_log_rate, curvature, ..update }
 }
 
 /// ln ω(x) with ω + ln ω = x, to about a percent of an e-fold: asymptotic forms at both ends and one Newton step between.

@@ -1,18 +1,18 @@
 //! A law with parameters of its own at each point of a surface.
 
 use crate::Failure;
-use crate::law::{Increments, Law, Limit, Present, RateBounds, Rates, Responses, Taken, Trials};
+use crate::law::{Increments, Law, Limit, PresentStates, RateBounds, Rates, Responses, StepOutcome, Trials};
 use crate::yielding::smaller;
 
 /// Laws of the points of a surface, by their numbers; all of one kind, with the same number of states.
 #[derive(Clone, Debug)]
-pub struct Pointwise<L> {
+pub struct PointwiseLaw<L> {
     laws: Vec<L>,
     name: &'static str,
     states: usize,
 }
 
-impl<L: Law> Pointwise<L> {
+impl<L: Law> PointwiseLaw<L> {
     /// Laws of the points 0, 1, ..
     ///
     /// # Errors
@@ -28,12 +28,12 @@ impl<L: Law> Pointwise<L> {
     }
 
     /// Law of an entry of the slices.
-    fn of(&self, points: &[usize], k: usize) -> &L {
+    fn law(&self, points: &[usize], k: usize) -> &L {
         &self.laws[points[k]]
     }
 }
 
-impl<L: Law> Law for Pointwise<L> {
+impl<L: Law> Law for PointwiseLaw<L> {
     fn name(&self) -> &'static str {
         self.name
     }
@@ -82,37 +82,37 @@ impl<L: Law> Law for Pointwise<L> {
     fn respond(&self, trials: Trials<'_>, old: &[f64], mut out: Responses<'_>) -> Result<(), Failure> {
         let n = self.states;
         for k in 0..trials.normal.len() {
-            self.of(trials.points, k)
+            self.law(trials.points, k)
                 .respond(trials.one(k), &old[k * n..(k + 1) * n], out.one(k, n))
                 .map_err(|f| f.at(k))?;
         }
         Ok(())
     }
 
-    fn error(&self, taken: Taken<'_>, out: &mut [f64]) {
+    fn error(&self, outcome: StepOutcome<'_>, out: &mut [f64]) {
         for (k, out) in out.chunks_exact_mut(1).enumerate() {
-            self.of(taken.points, k).error(taken.one(k, self.states), out);
+            self.law(outcome.points, k).error(outcome.one(k, self.states), out);
         }
     }
 
-    fn rates(&self, present: Present<'_>, mut out: Rates<'_>) -> Result<(), Failure> {
+    fn rates(&self, present: PresentStates<'_>, mut out: Rates<'_>) -> Result<(), Failure> {
         for k in 0..present.normal.len() {
-            let law = self.of(present.points, k);
+            let law = self.law(present.points, k);
             law.rates(present.one(k, self.states), out.one(k)).map_err(|f| f.at(k))?;
         }
         Ok(())
     }
 
-    fn limit(&self, present: Present<'_>, step: Increments<'_>, bounds: RateBounds) -> Option<Limit> {
+    fn limit(&self, present: PresentStates<'_>, step: Increments<'_>, bounds: RateBounds) -> Option<Limit> {
         let of = |k: usize| {
-            let law = self.of(present.points, k);
+            let law = self.law(present.points, k);
             let found = law.limit(present.one(k, self.states), step.one(k), bounds)?;
             Some(Limit { point: k, ..found })
         };
         (0..present.normal.len()).map(of).fold(None, smaller)
     }
 
-    fn stands(&self, present: Present<'_>, k: usize) -> bool {
-        self.of(present.points, k).stands(present.one(k, self.states), 0)
+    fn stands(&self, present: PresentStates<'_>, k: usize) -> bool {
+        self.law(present.points, k).stands(present.one(k, self.states), 0)
     }
 }

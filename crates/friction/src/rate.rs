@@ -3,12 +3,14 @@
 mod balance;
 mod error;
 mod forward;
-mod rated;
+mod slip_rates;
 
 use crate::Failure;
 use crate::component::Component;
 use crate::evolution::{AT_REST, Evolution, stateless::Stateless};
-use crate::law::{Increments, Law, Limit, Present, RateBounds, Rates, Regime, Responses, Taken, Trials};
+use crate::law::{
+    Increments, Law, Limit, PresentStates, RateBounds, Rates, Regime, Responses, StepOutcome, Trials,
+};
 use crate::pace::Pace;
 use crate::point::{Point, Solver};
 use crate::strength::{Form, Parameters, regularised::Regularised};
@@ -358,15 +360,15 @@ impl<F: Form, E: Evolution> Law for RateLaw<F, E> {
         Ok(())
     }
 
-    fn error(&self, taken: Taken<'_>, out: &mut [f64]) {
-        self.estimate(&taken, out);
+    fn error(&self, outcome: StepOutcome<'_>, out: &mut [f64]) {
+        self.estimate(&outcome, out);
     }
 
-    fn rates(&self, present: Present<'_>, out: Rates<'_>) -> Result<(), Failure> {
+    fn rates(&self, present: PresentStates<'_>, out: Rates<'_>) -> Result<(), Failure> {
         self.forward_rates(&present, out)
     }
 
-    fn limit(&self, present: Present<'_>, step: Increments<'_>, bounds: RateBounds) -> Option<Limit> {
+    fn limit(&self, present: PresentStates<'_>, step: Increments<'_>, bounds: RateBounds) -> Option<Limit> {
         self.forward_limit(&present, &step, &bounds)
     }
 }

@@ -51,7 +51,7 @@ impl Group {
 
     /// |V| and ∂V/∂m.
     #[inline(always)]
-    fn speed(&self, lines: &Lines) -> [Each; 2] {
+    fn speed(&self, lines: &Lines) -> [LaneValues; 2] {
         let state = each(&each(&lines.b, &self.s, |b, s| b * s), &lines.per_a, |bs, per_a| bs * per_a);
         let size = each(&self.m, &self.m, |m, _| m.abs());
         let less = each(&size, &lines.offset, |m, offset| m - offset);
@@ -114,7 +114,7 @@ impl Sheet {
     ) {
         let of_task = |task: usize, dm: &mut [f64], ds: &mut [f64]| {
             let points = task * TASK * LANES..task * TASK * LANES + dm.len();
-            let (m, s, drive) = (&m[points.clone()], &s[points.clone()], drive.of(points));
+            let (m, s, drive) = (&m[points.clone()], &s[points.clone()], drive.slice(points));
             self.arch.dispatch(Rates { lines: &self.lines[task * TASK..], drive: &drive, m, s, dm, ds });
         };
         let size = TASK * LANES;
@@ -265,11 +265,11 @@ const TERMS: [f64; 14] = [
 ];
 
 /// A value for each point of a group.
-type Each = [f64; LANES];
+type LaneValues = [f64; LANES];
 
 /// Applies an operation to each point. One operation at a time goes over all points, so that the compiler takes vectors of them.
 #[inline(always)]
-fn each(a: &Each, b: &Each, operation: impl Fn(f64, f64) -> f64) -> Each {
+fn each(a: &LaneValues, b: &LaneValues, operation: impl Fn(f64, f64) -> f64) -> LaneValues {
     let mut all = [0.0; LANES];
     for k in 0..LANES {
         all[k] = operation(a[k], b[k]);
@@ -279,7 +279,7 @@ fn each(a: &Each, b: &Each, operation: impl Fn(f64, f64) -> f64) -> Each {
 
 /// e^x to about an ulp, without branches. Below [`LEAST`] and above [`MOST`] it is the value there; NaN for x = NaN.
 #[inline(always)]
-fn exp(x: &Each) -> Each {
+fn exp(x: &LaneValues) -> LaneValues {
     // Comparisons with NaN are false, so that it is kept.
     let x = each(x, x, |x, _| if x < LEAST { LEAST } else { x });
     let x = each(&x, &x, |x, _| if x > MOST { MOST } else { x });

@@ -13,11 +13,11 @@
 
 use crate::Failure;
 use crate::evolution::{Bound, Parameter, Unit};
-use crate::kind::{COHESION, Kind, Order, Tabled, Weakening, values};
+use crate::kind::{COHESION, Kind, Order, TableLaw, Weakening, values};
 use crate::law::{
-    BAND, Increments, Law, Limit, LimitKind, Present, RateBounds, Rates, Regime, Responses, Trials,
+    BAND, Increments, Law, Limit, LimitKind, PresentStates, RateBounds, Rates, Regime, Responses, Trials,
 };
-use crate::yielding::{all_finite, at_strength, cap, exit, rate_of, smaller};
+use crate::yielding::{Cone, all_finite, at_strength, cap, exit, rate_of, smaller};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -167,7 +167,7 @@ impl SlipWeakening {
     }
 }
 
-impl Tabled for SlipWeakening {
+impl TableLaw for SlipWeakening {
     const KIND: Kind = Kind {
         name: "slip-weakening",
         meaning: "the coefficient falls linearly from `mu_s` to `mu_k` over the slip `d_c`",
@@ -280,7 +280,7 @@ impl Law for SlipWeakening {
         Ok(())
     }
 
-    fn rates(&self, present: Present<'_>, out: Rates<'_>) -> Result<(), Failure> {
+    fn rates(&self, present: PresentStates<'_>, out: Rates<'_>) -> Result<(), Failure> {
         for k in 0..present.normal.len() {
             let (normal, traction, slip) = (present.normal[k], present.traction[k], present.states[k]);
             all_finite(k, normal, traction, &[slip])?;
@@ -302,18 +302,22 @@ impl Law for SlipWeakening {
 
     /// Limits r6 of sticking points and r8 of slipping ones. Where a slipping point passes from the cap to the weakening
     /// branch, the step is not cut: r8 bounds the difference, and the next step corrects it.
-    fn limit(&self, present: Present<'_>, step: Increments<'_>, bounds: RateBounds) -> Option<Limit> {
+    fn limit(&self, present: PresentStates<'_>, step: Increments<'_>, bounds: RateBounds) -> Option<Limit> {
         (0..present.normal.len())
             .map(|k| match present.regime[k] {
-                Regime::Stick => {
-                    exit(&present, &step, k, (self.mu(present.states[k]), self.cohesion), self.limit)
-                }
+                Regime::Stick => exit(
+                    &present,
+                    &step,
+                    k,
+                    Cone { mu: self.mu(present.states[k]), cohesion: self.cohesion },
+                    self.limit,
+                ),
                 Regime::Slip => self.slip_limit(present.states[k], step.slip[k], k, bounds.zeta),
             })
             .fold(None, smaller)
     }
 
-    fn stands(&self, present: Present<'_>, k: usize) -> bool {
+    fn stands(&self, present: PresentStates<'_>, k: usize) -> bool {
         at_strength(&present, k, self.strength(present.states[k], present.normal[k]).value)
     }
 }

@@ -10,9 +10,9 @@
 
 use crate::Failure;
 use crate::evolution::{Bound, Parameter, Unit};
-use crate::kind::{Kind, Order, Tabled, Weakening, values};
-use crate::law::{Increments, Law, Limit, Present, RateBounds, Rates, Regime, Responses, Trials};
-use crate::yielding::{all_finite, answer, at_strength, cap, first_exit, strength};
+use crate::kind::{Kind, Order, TableLaw, Weakening, values};
+use crate::law::{Increments, Law, Limit, PresentStates, RateBounds, Rates, Regime, Responses, Trials};
+use crate::yielding::{Cone, all_finite, answer, at_strength, cap, first_exit, strength};
 
 /// The state variable of a point that slips.
 const SLIPPING: f64 = 1.0;
@@ -57,11 +57,11 @@ impl StaticKinetic {
 
     /// Strength F̄ and ∂F̄/∂f_n at a friction coefficient.
     fn strength(&self, mu: f64, normal: f64) -> (f64, f64) {
-        strength((mu, 0.0), normal, self.limit)
+        strength(Cone { mu, cohesion: 0.0 }, normal, self.limit)
     }
 }
 
-impl Tabled for StaticKinetic {
+impl TableLaw for StaticKinetic {
     const KIND: Kind = Kind {
         name: "static-kinetic",
         meaning: "the coefficient drops from `mu_s` to `mu_k` where slip begins",
@@ -145,7 +145,7 @@ impl Law for StaticKinetic {
     }
 
     /// Linearises the law; a point that leaves rest takes the drop F̄_k - F̄_s over the step.
-    fn rates(&self, present: Present<'_>, out: Rates<'_>) -> Result<(), Failure> {
+    fn rates(&self, present: PresentStates<'_>, out: Rates<'_>) -> Result<(), Failure> {
         for k in 0..present.normal.len() {
             let (normal, traction) = (present.normal[k], present.traction[k]);
             all_finite(k, normal, traction, &[])?;
@@ -160,11 +160,11 @@ impl Law for StaticKinetic {
         Ok(())
     }
 
-    fn limit(&self, present: Present<'_>, step: Increments<'_>, _bounds: RateBounds) -> Option<Limit> {
-        first_exit(&present, &step, |k| (self.mu(present.states[k]), 0.0), self.limit)
+    fn limit(&self, present: PresentStates<'_>, step: Increments<'_>, _bounds: RateBounds) -> Option<Limit> {
+        first_exit(&present, &step, |k| Cone { mu: self.mu(present.states[k]), cohesion: 0.0 }, self.limit)
     }
 
-    fn stands(&self, present: Present<'_>, k: usize) -> bool {
+    fn stands(&self, present: PresentStates<'_>, k: usize) -> bool {
         at_strength(&present, k, self.strength(self.mu(present.states[k]), present.normal[k]).0)
     }
 }

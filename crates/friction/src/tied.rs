@@ -1,15 +1,15 @@
 //! Bonded points: no slip whatever the tractions, no state, and normal tension is carried as well.
 
 use crate::Failure;
-use crate::kind::{Kind, Tabled, values};
-use crate::law::{Increments, Law, Limit, Present, RateBounds, Rates, Regime, Responses, Trials};
+use crate::kind::{Kind, TableLaw, values};
+use crate::law::{Increments, Law, Limit, PresentStates, RateBounds, Rates, Regime, Responses, Trials};
 use crate::yielding::all_finite;
 
 /// See the module.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tied;
 
-impl Tabled for Tied {
+impl TableLaw for Tied {
     const KIND: Kind = Kind {
         name: "tied",
         meaning: "a bond: the points neither slip nor separate, and carry tension",
@@ -75,14 +75,19 @@ impl Law for Tied {
         Ok(())
     }
 
-    fn rates(&self, _present: Present<'_>, out: Rates<'_>) -> Result<(), Failure> {
+    fn rates(&self, _present: PresentStates<'_>, out: Rates<'_>) -> Result<(), Failure> {
         out.along.fill(1.0);
         out.coupling.fill(0.0);
         out.constant.fill(0.0);
         Ok(())
     }
 
-    fn limit(&self, _present: Present<'_>, _step: Increments<'_>, _bounds: RateBounds) -> Option<Limit> {
+    fn limit(
+        &self,
+        _present: PresentStates<'_>,
+        _step: Increments<'_>,
+        _bounds: RateBounds,
+    ) -> Option<Limit> {
         None
     }
 }

@@ -1,7 +1,7 @@
 //! Parts common to laws with a yield surface: the capped cone, the return of a point to it, and limit r6.
 
 use crate::Failure;
-use crate::law::{BAND, Increments, Limit, LimitKind, Present, Regime, Responses, Trials};
+use crate::law::{BAND, Increments, Limit, LimitKind, PresentStates, Regime, Responses, Trials};
 use crate::line::Line;
 
 /// A largest shear traction F_limit \[Pa\]; infinite if there is none.
@@ -23,11 +23,20 @@ pub(crate) fn cohesion(value: f64) -> Result<f64, Failure> {
     Err(Failure::Parameter { name: "cohesion", value, admissible: "0 <= cohesion, finite" })
 }
 
-/// Strength F̄ = min(c + μ f_n, F_limit) \[Pa\] and ∂F̄/∂f_n \[-\], with μ and c.
+/// Cone of a yield law: the strength is c + μ f_n.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cone {
+    /// μ \[-\].
+    pub mu: f64,
+    /// c \[Pa\].
+    pub cohesion: f64,
+}
+
+/// Strength F̄ = min(c + μ f_n, F_limit) \[Pa\] and ∂F̄/∂f_n \[-\].
 #[inline]
-pub(crate) fn strength((mu, cohesion): (f64, f64), normal: f64, cap: f64) -> (f64, f64) {
-    let cone = cohesion + mu * normal;
-    if cone <= cap { (cone, mu) } else { (cap, 0.0) }
+pub(crate) fn strength(cone: Cone, normal: f64, cap: f64) -> (f64, f64) {
+    let value = cone.cohesion + cone.mu * normal;
+    if value <= cap { (value, cone.mu) } else { (cap, 0.0) }
 }
 
 /// Refuses a point with inputs that are not finite.
@@ -68,11 +77,11 @@ pub(crate) fn rate_of(t: &Trials<'_>, k: usize, slip: f64) -> f64 {
     weight * slip / t.dt - offset
 }
 
-/// Limit r6 over all sticking points, with μ and c that hold each and the cap \[Pa\].
+/// Limit r6 over all sticking points, with the cone that holds each and the cap \[Pa\].
 pub(crate) fn first_exit(
-    present: &Present<'_>,
+    present: &PresentStates<'_>,
     step: &Increments<'_>,
-    cone: impl Fn(usize) -> (f64, f64),
+    cone: impl Fn(usize) -> Cone,
     cap: f64,
 ) -> Option<Limit> {
     (0..present.normal.len())
@@ -89,12 +98,12 @@ pub(crate) fn smaller(a: Option<Limit>, b: Option<Limit>) -> Option<Limit> {
     }
 }
 
-/// Limit r6 of the sticking point k with friction coefficient μ, cohesion c and cap \[Pa\].
+/// Limit r6 of the sticking point k with this cone and cap \[Pa\].
 pub(crate) fn exit(
-    present: &Present<'_>,
+    present: &PresentStates<'_>,
     step: &Increments<'_>,
     k: usize,
-    (mu, cohesion): (f64, f64),
+    Cone { mu, cohesion }: Cone,
     cap: f64,
 ) -> Option<Limit> {
     let line = Line { at: present.traction[k], change: step.traction[k] };
@@ -106,6 +115,6 @@ pub(crate) fn exit(
 }
 
 /// True if the traction of point k is its strength \[Pa\].
-pub(crate) fn at_strength(present: &Present<'_>, k: usize, strength: f64) -> bool {
+pub(crate) fn at_strength(present: &PresentStates<'_>, k: usize, strength: f64) -> bool {
     present.traction[k].abs() >= strength * (1.0 - BAND)
 }

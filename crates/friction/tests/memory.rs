@@ -7,9 +7,9 @@ mod usual;
 use asperity_friction::component::Component;
 use asperity_friction::evolution::flash::{Flash, Weakening};
 use asperity_friction::evolution::{
-    Common, Defined, Evolution, Speed, ageing::Ageing, nagata::Nagata, slip::Slip,
+    Common, Evolution, Speed, TableEvolution, ageing::Ageing, nagata::Nagata, slip::Slip,
 };
-use asperity_friction::law::{Drives, Law, Rated, Regime, Responses, Trials};
+use asperity_friction::law::{Drives, Law, RateDependent, Regime, Responses, Trials};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::strength::{Form, Parameters, bare::Bare, regularised::Regularised};
 use asperity_friction::{Failure, each_evolution};
@@ -296,7 +296,7 @@ fn implicit_steps_follow_a_varying_normal_traction_at_first_order() {
     first_order(&slip(), ALPHA, slip_equation);
     first_order(&ageing(), ALPHA, ageing_equation);
     // A smaller memory, since some laws weaken with θ themselves.
-    each_evolution!(Law => if <Law as Defined>::DEFINITION.is_plain() {
+    each_evolution!(Law => if <Law as TableEvolution>::DEFINITION.is_plain() {
         let law = usual::<Law>(common());
         first_order(&law, 0.05, |phi, v| {
             let (slope, _) = law.phi_slopes(phi * law.per_phi());
@@ -387,7 +387,7 @@ fn initial_states_are_steady_under_the_initial_normal_traction() {
     let steady = |v: f64| 0.6 + (A - B) * f64::ln(v / V_REF);
     check(&[(slip(), ALPHA)], steady);
     check(&[(ageing(), ALPHA)], steady);
-    each_evolution!(Law => if <Law as Defined>::DEFINITION.is_plain() {
+    each_evolution!(Law => if <Law as TableEvolution>::DEFINITION.is_plain() {
         check(&[(usual::<Law>(common()), ALPHA)], steady);
     });
     check(&[(Nagata::new(B, LENGTH, V_REF, 2.0).unwrap(), ALPHA)], steady);
@@ -442,7 +442,7 @@ fn equal_states_add_up() {
     check(&slip(), &Slip::new(0.5 * B, LENGTH, V_REF).unwrap());
     check(&ageing(), &Ageing::new(0.5 * B, LENGTH, V_REF).unwrap());
     let halved = Common { b: 0.5 * B, ..common() };
-    each_evolution!(Law => if <Law as Defined>::DEFINITION.is_plain() {
+    each_evolution!(Law => if <Law as TableEvolution>::DEFINITION.is_plain() {
         check(&usual::<Law>(common()), &usual::<Law>(halved));
     });
     let cut = |b| Ageing::new(b, LENGTH, V_REF).unwrap().with_cut_off(1e-5).unwrap();

@@ -9,9 +9,9 @@ mod usual;
 use asperity_friction::component::Component;
 use asperity_friction::evolution::flash::{Flash, Weakening};
 use asperity_friction::evolution::{
-    Common, Defined, Evolution, ageing::Ageing, slip::Slip, stateless::Stateless,
+    Common, Evolution, TableEvolution, ageing::Ageing, slip::Slip, stateless::Stateless,
 };
-use asperity_friction::law::{Drives, Rated};
+use asperity_friction::law::{Drives, RateDependent};
 use asperity_friction::point::{Point, Solution, Solver};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::strength::{
@@ -171,7 +171,7 @@ fn the_slip_law_balances_in_few_iterations() {
 #[test]
 fn every_evolution_balances_in_few_iterations() {
     each_evolution!(Law => implicit(
-        <Law as Defined>::DEFINITION.name,
+        <Law as TableEvolution>::DEFINITION.name,
         |a| Regularised(parameters(a)),
         |r, a| {
             let (b, length) = effects(r);

@@ -8,15 +8,15 @@ use asperity_friction::Failure;
 use asperity_friction::component::Component;
 use asperity_friction::coulomb::Coulomb;
 use asperity_friction::evolution::{
-    self, Common, Defined, Definition, Variable, Visit, stateless::Stateless,
+    self, Common, Definition, TableEvolution, Variable, Visit, stateless::Stateless,
 };
 use asperity_friction::fault::{FaultLaw, Points};
 use asperity_friction::inertial::{self, Inertial, InertialFault};
-use asperity_friction::kind::{self, Kind, Order, Tabled};
+use asperity_friction::kind::{self, Kind, Order, TableLaw};
 use asperity_friction::law::Law;
-use asperity_friction::pointwise::Pointwise;
+use asperity_friction::pointwise::PointwiseLaw;
 use asperity_friction::rate::RateLaw;
-use asperity_friction::slider::Sliding;
+use asperity_friction::slider::SliderLaw;
 use asperity_friction::slip_weakening::SlipWeakening;
 use asperity_friction::static_kinetic::StaticKinetic;
 use asperity_friction::strength::{
@@ -124,14 +124,14 @@ pub fn build_each(first: &LawChoice, rest: &[LawChoice]) -> Result<Arc<dyn Law>,
     };
     let part = sliding(first).ok_or_else(|| unlike.clone())?;
     let rest: Option<Vec<_>> = rest.iter().map(sliding).collect();
-    with_form(&List { first: part, rest: rest.ok_or(unlike)? }, OfInterface)?
+    with_form(&List { first: part, rest: rest.ok_or(unlike)? }, InterfaceBuilder)?
 }
 
 /// Builds the law that a scene chose for sliders; `None` if it has an elastic domain.
 ///
 /// # Errors
 /// [`Failure::Parameter`] with the admissible range.
-pub fn build_sliding(choice: &LawChoice) -> Result<Option<Arc<dyn Sliding>>, Failure> {
+pub fn build_sliding(choice: &LawChoice) -> Result<Option<Arc<dyn SliderLaw>>, Failure> {
     match parts(choice) {
         Parts::Elastic(law) => law.map(|_| None),
         Parts::Sliding(strength, history) => single(strength, history).map(Some),
@@ -148,7 +148,7 @@ pub fn build_fault(first: &LawChoice, rest: &[LawChoice]) -> Result<Option<Box<d
         Parts::Sliding(strength, history) => Some((strength, history)),
     };
     let Some(first) = sliding(first) else { return Ok(None) };
-    with_form(&List { first, rest: rest.iter().filter_map(sliding).collect() }, EachPoint).map(Some)
+    with_form(&List { first, rest: rest.iter().filter_map(sliding).collect() }, FaultBuilder).map(Some)
 }
 
 /// Builds the laws of the points of a fault between bodies with mass, which are of one kind; `None` if it is a bond.
@@ -173,17 +173,18 @@ pub fn build_inertial(
         Parts::Sliding(strength, history) => Some((strength, history)),
     };
     let Some(first) = sliding(first) else { return Ok(None) };
-    with_form(&List { first, rest: rest.iter().filter_map(sliding).collect() }, WithMass).map(Some)
+    with_form(&List { first, rest: rest.iter().filter_map(sliding).collect() }, InertialFaultBuilder)
+        .map(Some)
 }
 
 /// Laws of points that are all of one kind with an elastic domain.
-fn yielding<L: Tabled + Inertial>(all: &[&LawChoice]) -> Result<Box<dyn InertialFault>, Failure> {
+fn yielding<L: TableLaw + Inertial>(all: &[&LawChoice]) -> Result<Box<dyn InertialFault>, Failure> {
     let own = |choice: &&LawChoice| match choice {
-        LawChoice::Yielding { own, f_limit, .. } => Some(<L as Tabled>::build(own, *f_limit)),
+        LawChoice::Yielding { own, f_limit, .. } => Some(<L as TableLaw>::build(own, *f_limit)),
         LawChoice::Rate { .. } | LawChoice::RateAndState { .. } => None,
     };
     let laws: Vec<L> = all.iter().filter_map(own).collect::<Result<_, _>>()?;
-    Ok(Box::new(inertial::EachPoint(laws)))
+    Ok(Box::new(inertial::InertialPoints(laws)))
 }
 
 /// Components of a law.
@@ -236,52 +237,52 @@ fn parts(choice: &LawChoice) -> Parts<'_> {
 
 /// Builds a product from laws of one kind, for any kind.
 trait Finish {
-    type Made;
+    type Product;
 
-    fn finish<L: Sliding + Inertial + Clone + 'static>(self, first: L, rest: Vec<L>) -> Self::Made;
+    fn finish<L: SliderLaw + Inertial + Clone + 'static>(self, first: L, rest: Vec<L>) -> Self::Product;
 }
 
 /// Builds the single law of an interface or slider.
-struct Single;
+struct LawBuilder;
 
-impl Finish for Single {
-    type Made = Arc<dyn Sliding>;
+impl Finish for LawBuilder {
+    type Product = Arc<dyn SliderLaw>;
 
-    fn finish<L: Sliding + Inertial + Clone + 'static>(self, first: L, _: Vec<L>) -> Self::Made {
+    fn finish<L: SliderLaw + Inertial + Clone + 'static>(self, first: L, _: Vec<L>) -> Self::Product {
         Arc::new(first)
     }
 }
 
 /// Builds the law of an interface whose parameters vary from point to point.
-struct OfInterface;
+struct InterfaceBuilder;
 
-impl Finish for OfInterface {
-    type Made = Result<Arc<dyn Law>, Failure>;
+impl Finish for InterfaceBuilder {
+    type Product = Result<Arc<dyn Law>, Failure>;
 
-    fn finish<L: Sliding + Inertial + Clone + 'static>(self, first: L, rest: Vec<L>) -> Self::Made {
-        Ok(Arc::new(Pointwise::new(std::iter::once(first).chain(rest).collect())?))
+    fn finish<L: SliderLaw + Inertial + Clone + 'static>(self, first: L, rest: Vec<L>) -> Self::Product {
+        Ok(Arc::new(PointwiseLaw::new(std::iter::once(first).chain(rest).collect())?))
     }
 }
 
 /// Builds the laws of the points of a fault.
-struct EachPoint;
+struct FaultBuilder;
 
-impl Finish for EachPoint {
-    type Made = Box<dyn FaultLaw>;
+impl Finish for FaultBuilder {
+    type Product = Box<dyn FaultLaw>;
 
-    fn finish<L: Sliding + Inertial + Clone + 'static>(self, first: L, rest: Vec<L>) -> Self::Made {
+    fn finish<L: SliderLaw + Inertial + Clone + 'static>(self, first: L, rest: Vec<L>) -> Self::Product {
         Box::new(Points::new(std::iter::once(first).chain(rest).collect()))
     }
 }
 
 /// Builds the laws of the points of a fault between bodies with mass.
-struct WithMass;
+struct InertialFaultBuilder;
 
-impl Finish for WithMass {
-    type Made = Box<dyn InertialFault>;
+impl Finish for InertialFaultBuilder {
+    type Product = Box<dyn InertialFault>;
 
-    fn finish<L: Sliding + Inertial + 'static>(self, first: L, rest: Vec<L>) -> Self::Made {
-        Box::new(inertial::EachPoint(std::iter::once(first).chain(rest).collect()))
+    fn finish<L: SliderLaw + Inertial + 'static>(self, first: L, rest: Vec<L>) -> Self::Product {
+        Box::new(inertial::InertialPoints(std::iter::once(first).chain(rest).collect()))
     }
 }
 
@@ -294,61 +295,61 @@ struct List<'a> {
     rest: Vec<Part<'a>>,
 }
 
-fn single(strength: &Strength, history: History<'_>) -> Result<Arc<dyn Sliding>, Failure> {
-    with_form(&List { first: (strength, history), rest: Vec::new() }, Single)
+fn single(strength: &Strength, history: History<'_>) -> Result<Arc<dyn SliderLaw>, Failure> {
+    with_form(&List { first: (strength, history), rest: Vec::new() }, LawBuilder)
 }
 
-fn with_form<M: Finish>(list: &List<'_>, made: M) -> Result<M::Made, Failure> {
+fn with_form<M: Finish>(list: &List<'_>, builder: M) -> Result<M::Product, Failure> {
     let parameters = |s: &Strength| Parameters::new(s.mu0, s.a, s.v_ref);
     match list.first.0.form {
-        Form::Bare => with_heat(list, made, |s| Ok(Bare(parameters(s)?))),
-        Form::CutOff { v_cut } => with_heat(list, made, |s| CutOff::new(parameters(s)?, v_cut)),
-        Form::Regularised => with_heat(list, made, |s| Ok(Regularised(parameters(s)?))),
+        Form::Bare => with_heat(list, builder, |s| Ok(Bare(parameters(s)?))),
+        Form::CutOff { v_cut } => with_heat(list, builder, |s| CutOff::new(parameters(s)?, v_cut)),
+        Form::Regularised => with_heat(list, builder, |s| Ok(Regularised(parameters(s)?))),
     }
 }
 
 fn with_heat<M: Finish, F: strength::Form + 'static>(
     list: &List<'_>,
-    made: M,
+    builder: M,
     form: impl Fn(&Strength) -> Result<F, Failure>,
-) -> Result<M::Made, Failure> {
+) -> Result<M::Product, Failure> {
     match list.first.0.heat {
-        None => with_evolution(list, made, form),
+        None => with_evolution(list, builder, form),
         Some(h) => {
-            with_evolution(list, made, |s| Arrhenius::new(form(s)?, h.activation, h.t_ref, h.temperature))
+            with_evolution(list, builder, |s| Arrhenius::new(form(s)?, h.activation, h.t_ref, h.temperature))
         }
     }
 }
 
 fn with_evolution<M: Finish, F: strength::Form + 'static>(
     list: &List<'_>,
-    made: M,
+    builder: M,
     form: impl Fn(&Strength) -> Result<F, Failure>,
-) -> Result<M::Made, Failure> {
+) -> Result<M::Product, Failure> {
     let Some(chosen) = list.first.1.evolution else {
-        return assemble(list, made, form, |_, _| Ok(Stateless));
+        return assemble(list, builder, form, |_, _| Ok(Stateless));
     };
     let admissible = "an evolution of the table";
     let unknown = Failure::Parameter { name: "evolution", value: f64::NAN, admissible };
-    evolution::with(chosen.name, OfEvolution { list, made, form, own: &chosen.own }).ok_or(unknown)?
+    evolution::with(chosen.name, EvolutionVisitor { list, builder, form, own: &chosen.own }).ok_or(unknown)?
 }
 
 /// Visitor that builds laws of the given evolution.
-struct OfEvolution<'a, M, F> {
+struct EvolutionVisitor<'a, M, F> {
     list: &'a List<'a>,
-    made: M,
+    builder: M,
     form: F,
     own: &'a [Option<f64>],
 }
 
 impl<M: Finish, F: strength::Form + 'static, B: Fn(&Strength) -> Result<F, Failure>> Visit
-    for OfEvolution<'_, M, B>
+    for EvolutionVisitor<'_, M, B>
 {
-    type Made = Result<M::Made, Failure>;
+    type Product = Result<M::Product, Failure>;
 
-    fn visit<E: Defined + 'static>(self) -> Self::Made {
-        let Self { list, made, form, own } = self;
-        assemble(list, made, form, |s, p| {
+    fn visit<E: TableEvolution + 'static>(self) -> Self::Product {
+        let Self { list, builder, form, own } = self;
+        assemble(list, builder, form, |s, p| {
             let common = Common { mu0: s.mu0, a: s.a, v_ref: s.v_ref, b: p.b, length: p.l };
             E::build(&common, own)
         })
@@ -357,10 +358,10 @@ impl<M: Finish, F: strength::Form + 'static, B: Fn(&Strength) -> Result<F, Failu
 
 fn assemble<M: Finish, F: strength::Form + 'static, E: evolution::Evolution + 'static>(
     list: &List<'_>,
-    made: M,
+    builder: M,
     form: impl Fn(&Strength) -> Result<F, Failure>,
     evolution: impl Fn(&Strength, &State) -> Result<E, Failure>,
-) -> Result<M::Made, Failure> {
+) -> Result<M::Product, Failure> {
     let law = |(strength, history): &Part<'_>| {
         let parts = history.states.iter().map(|p| Component::new(evolution(strength, p)?, p.alpha));
         let parts = parts.collect::<Result<Vec<_>, _>>()?;
@@ -373,5 +374,5 @@ fn assemble<M: Finish, F: strength::Form + 'static, E: evolution::Evolution + 's
         )
     };
     let rest = list.rest.iter().map(law).collect::<Result<Vec<_>, _>>()?;
-    Ok(made.finish(law(&list.first)?, rest))
+    Ok(builder.finish(law(&list.first)?, rest))
 }

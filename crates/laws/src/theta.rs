@@ -18,7 +18,7 @@ pub struct Theta {
 impl Theta {
     /// θ of a law, if it has one.
     #[must_use]
-    pub fn of(law: &LawChoice) -> Option<Self> {
+    pub fn from_law(law: &LawChoice) -> Option<Self> {
         let LawChoice::RateAndState { strength, evolution, states, .. } = law else { return None };
         let [state] = states.as_slice() else { return None };
         let variable = evolution::definition(evolution.name)?.variable;

@@ -29,7 +29,7 @@ pub(crate) fn unsolved<const D: usize>(
 }
 
 /// Describes a motion out of the model that contact and friction do not stop.
-pub(crate) fn adrift<const D: usize>(model: &Model<D>, (node, component): (usize, usize)) -> String {
+pub(crate) fn adrift<const D: usize>(model: &Model<D>, node: usize, component: usize) -> String {
     let axis = AXES[model.idealisation.axis(component)];
     let body = model.bodies.iter().find(|b| b.nodes.contains(&node));
     let body = body.map_or(String::new(), |b| format!(" of body `{}`", b.name));

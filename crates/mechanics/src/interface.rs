@@ -1,8 +1,8 @@
 //! An interface between bodies, as data.
 
-use super::enforced::Enforced;
-use super::pressed::Pressed;
-use super::resolved::Resolved;
+use super::enforcement::PlannedEnforcement;
+use super::initial_tractions::InitialTractions;
+use super::zone_resolution::ZoneResolution;
 use asperity_contact::{Sliding, Watch};
 use asperity_fem::mesh::MeshFace;
 use asperity_friction::law::Law;
@@ -40,7 +40,7 @@ pub struct PlannedInterface {
     /// Tangential penalty E_t \[Pa/m\]; 0 without friction.
     pub tangential_penalty: f64,
     /// Enforcement of the constraints.
-    pub enforced: Enforced,
+    pub enforced: PlannedEnforcement,
     /// Number of multipliers that are unknowns of the system.
     pub unknowns: usize,
     /// Friction or bond; `None` if the scene declares none.
@@ -50,9 +50,9 @@ pub struct PlannedInterface {
     /// Description of its penalty, if it is so large that it slows the iterations.
     pub blamed: Option<String>,
     /// Tractions of the initial stress, if its bodies have one.
-    pub pressed: Option<Pressed>,
+    pub pressed: Option<InitialTractions>,
     /// Resolution of the cohesive zone by its points, if friction weakens with slip.
-    pub resolved: Option<Resolved>,
+    pub resolved: Option<ZoneResolution>,
     /// Conditions that steps must meet.
     pub watch: Watch,
     /// Number of probe positions.

@@ -6,7 +6,7 @@ use asperity_fem::condense::Stiffness;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::mesh::{Mesh, Side};
-use asperity_fem::term::{Blocks, Limited, Linearized, Pattern, Saved as _};
+use asperity_fem::term::{Blocks, ForwardTerm, Linearized, Pattern, Restorable as _};
 use asperity_fem::{FemError, nonlinear, surface};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -56,7 +56,7 @@ impl<const D: usize> CellBlock<D> {
     }
 
     /// Block as a term of a forward step.
-    pub fn limited(&mut self) -> &mut dyn Limited {
+    pub fn limited(&mut self) -> &mut dyn ForwardTerm {
         match self {
             Self::Linear(block) => block.as_mut(),
             Self::Nonlinear(block) => block.as_mut(),

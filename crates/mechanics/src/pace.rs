@@ -23,7 +23,7 @@ impl Pace {
     }
 
     /// Points of a rate by a table at times of the run, over a whole stage; `None` for a constant one.
-    pub(crate) fn points(&self, (start, end): (f64, f64)) -> Option<Vec<(f64, f64)>> {
+    pub(crate) fn points(&self, start: f64, end: f64) -> Option<Vec<(f64, f64)>> {
         let Self::Table(points) = self else { return None };
         let mut all: Vec<(f64, f64)> = points.iter().map(|p| (start + p.0, p.1)).collect();
         if let Some(&(_, rate)) = all.first().filter(|p| p.0 > start) {
@@ -37,18 +37,18 @@ impl Pace {
 
     /// Displacement of what moves at this rate during a stage.
     #[must_use]
-    pub fn drawn(&self, (start, end): (f64, f64)) -> Drawn {
-        match (self, self.points((start, end))) {
-            (Self::Table(_), Some(points)) => Drawn::Table(Table::of_rates(&points)),
-            (Self::Steady(rate), _) => Drawn::Steady { rate: *rate, start },
-            (Self::Table(_), None) => Drawn::Steady { rate: 0.0, start },
+    pub fn drawn(&self, start: f64, end: f64) -> Travel {
+        match (self, self.points(start, end)) {
+            (Self::Table(_), Some(points)) => Travel::Table(Table::from_rates(&points)),
+            (Self::Steady(rate), _) => Travel::Steady { rate: *rate, start },
+            (Self::Table(_), None) => Travel::Steady { rate: 0.0, start },
         }
     }
 }
 
 /// Displacement since the start of a stage of what moves at a rate.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Drawn {
+pub enum Travel {
     /// At a constant rate \[m/s\] from a time on \[s\].
     Steady {
         /// Rate \[m/s\].
@@ -60,7 +60,7 @@ pub enum Drawn {
     Table(Table),
 }
 
-impl Drawn {
+impl Travel {
     /// Displacement at a time of the run \[m\].
     #[must_use]
     pub fn at(&self, time: f64) -> f64 {
@@ -87,11 +87,11 @@ mod tests {
     #[test]
     fn a_rate_by_a_table_holds_before_and_after_it() {
         let pace = Pace::Table(vec![(1.0, 2.0), (3.0, 2.0), (3.0, -1.0)]);
-        let drawn = pace.drawn((10.0, 20.0));
+        let drawn = pace.drawn(10.0, 20.0);
         assert_eq!([10.0, 11.0, 13.0, 20.0].map(|t| drawn.at(t)), [0.0, 2.0, 6.0, -1.0]);
         assert_eq!(drawn.pull(7.0, 14.0, 2.0), 7.0 * (2.0 - 1.0));
         assert_eq!(pace.largest(), 2.0);
-        let steady = Pace::Steady(-0.5).drawn((10.0, 20.0));
+        let steady = Pace::Steady(-0.5).drawn(10.0, 20.0);
         assert_eq!((steady.at(14.0), steady.pull(7.0, 14.0, 2.0)), (-2.0, -7.0));
     }
 }

@@ -27,7 +27,7 @@ pub struct Pieces(Vec<Piece>);
 impl Pieces {
     /// Pieces of a stage. Corners are those of its courses, from which their entries depart by at most `tolerance` of the range.
     #[must_use]
-    pub fn of(stage: &Stage, tolerance: f64) -> Self {
+    pub fn from_stage(stage: &Stage, tolerance: f64) -> Self {
         let courses = stage.courses();
         let mut ends: Vec<f64> = courses.iter().flat_map(|course| turns(course, tolerance)).collect();
         ends.retain(|&t| t > stage.start && t < stage.end);
@@ -86,7 +86,7 @@ mod tests {
 
     #[test]
     fn steps_end_at_corners_and_move_a_course_by_a_twentieth_of_its_range() {
-        let pieces = Pieces::of(&stage(&[&[(0.0, 0.0), (4.0, 0.0), (5.0, 2.0), (10.0, 2.0)]]), 1e-4);
+        let pieces = Pieces::from_stage(&stage(&[&[(0.0, 0.0), (4.0, 0.0), (5.0, 2.0), (10.0, 2.0)]]), 1e-4);
         let ends: Vec<f64> = pieces.0.iter().map(|p| p.end).collect();
         assert_eq!(ends, [5.0, 6.0, 11.0]);
         assert_eq!(pieces.at(1.0), Some(Piece { end: 5.0, longest: 4.0 }));
@@ -96,20 +96,23 @@ mod tests {
 
     #[test]
     fn a_ramp_over_the_stage_has_no_pieces() {
-        assert_eq!(Pieces::of(&stage(&[&[(0.0, 0.0), (10.0, 3.0)]]), 1e-4), Pieces::default());
-        assert_eq!(Pieces::of(&stage(&[]), 1e-4).at(3.0), None);
+        assert_eq!(Pieces::from_stage(&stage(&[&[(0.0, 0.0), (10.0, 3.0)]]), 1e-4), Pieces::default());
+        assert_eq!(Pieces::from_stage(&stage(&[]), 1e-4).at(3.0), None);
     }
 
     #[test]
     fn corners_that_differ_by_rounding_are_one() {
         let (a, b) = (0.3, 0.1 + 0.2);
-        let pieces = Pieces::of(
+        let pieces = Pieces::from_stage(
             &stage(&[&[(0.0, 0.0), (a, 1.0), (10.0, 0.0)], &[(0.0, 0.0), (b, 2.0), (10.0, 5.0)]]),
             1e-4,
         );
         let ends: Vec<f64> = pieces.0.iter().map(|p| p.end).collect();
         assert_eq!(ends, [1.0 + a, 11.0]);
-        let late = Pieces::of(&stage(&[&[(0.0, 0.0), (5.0, 1.0), (10.0 * (1.0 - f64::EPSILON), 0.0)]]), 1e-4);
+        let late = Pieces::from_stage(
+            &stage(&[&[(0.0, 0.0), (5.0, 1.0), (10.0 * (1.0 - f64::EPSILON), 0.0)]]),
+            1e-4,
+        );
         let ends: Vec<f64> = late.0.iter().map(|p| p.end).collect();
         assert_eq!(ends, [6.0, 11.0]);
     }

@@ -1,7 +1,9 @@
 //! The problem to be solved: bodies, interfaces and stages, with the methods chosen for them.
 
 use super::solver::Solver;
-use super::{CellBlock, Control, Mass, Model, Path, PlannedInterface, Stage, Stepping, StressField, Wanted};
+use super::{
+    CellBlock, Control, Mass, Model, Path, PlannedInterface, SampleRequest, Stage, Stepping, StressField,
+};
 use asperity_contact::Sliding;
 use asperity_fem::nonlinear::Kinematics;
 
@@ -27,7 +29,7 @@ pub struct Problem<const D: usize> {
     /// Inertia; `None` if the bodies move through states of equilibrium.
     pub mass: Option<Mass>,
     /// Points and sets of bodies evaluated in every step.
-    pub samples: Wanted,
+    pub samples: SampleRequest,
 }
 
 impl<const D: usize> Problem<D> {

@@ -29,7 +29,7 @@ pub struct Motion {
 }
 
 /// True for the points of an interface that are closed, by the numbers of the interface and of the point.
-type Closed<'a> = &'a dyn Fn(usize, usize) -> bool;
+type ClosureTest<'a> = &'a dyn Fn(usize, usize) -> bool;
 
 /// Checks all bodies in all stages. Returns the motions that are held by contact alone.
 ///
@@ -68,7 +68,7 @@ pub fn parted<const D: usize>(
     model: &Model<D>,
     stage: &Stage,
     interfaces: &[PlannedInterface],
-    closed: Closed<'_>,
+    closed: ClosureTest<'_>,
 ) -> Option<Motion> {
     let alone = parts(model).find_map(|(body, nodes)| {
         let mut rows = condition_rows(model, nodes, stage);
@@ -89,7 +89,7 @@ fn moving_as_one<const D: usize>(
     model: &Model<D>,
     stage: &Stage,
     interfaces: &[PlannedInterface],
-    closed: Closed<'_>,
+    closed: ClosureTest<'_>,
 ) -> Option<Motion> {
     let parts: Vec<(usize, &Vec<usize>)> = parts(model).collect();
     let mut group: Vec<usize> = (0..parts.len()).collect();
@@ -129,7 +129,7 @@ fn closed_rows<const D: usize>(
     nodes: &[usize],
     stage: &Stage,
     interfaces: &[PlannedInterface],
-    closed: Closed<'_>,
+    closed: ClosureTest<'_>,
 ) -> Vec<Row> {
     let position = centred(model, nodes);
     let mut rows = Vec::new();

@@ -39,7 +39,7 @@ pub struct ForceSet {
 
 /// Points and sets of bodies whose values are requested.
 #[derive(Clone, Debug, Default)]
-pub struct Wanted {
+pub struct SampleRequest {
     /// Points, by name.
     pub points: Vec<Point>,
     /// Sets, by name.
@@ -57,7 +57,7 @@ pub struct PointValues {
     pub mises: f64,
 }
 
-/// Values at the points and sets [`Wanted`].
+/// Values at the points and sets [`SampleRequest`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Samples {
     /// Values at each point.
@@ -69,9 +69,9 @@ pub struct Samples {
 
 /// Loads of a stage that act on nodes of a set but do not belong to it: resultant at unit amplitude \[N, or N/m of thickness\],
 /// and amplitude.
-pub type Beside = Vec<([f64; 3], Table)>;
+pub type ForeignLoads = Vec<([f64; 3], Table)>;
 
-impl Wanted {
+impl SampleRequest {
     /// True if nothing is requested.
     #[must_use]
     pub fn is_empty(&self) -> bool {
@@ -80,7 +80,7 @@ impl Wanted {
 
     /// Loads of a stage on the nodes of each set that do not belong to the set.
     #[must_use]
-    pub fn beside<const D: usize>(&self, model: &Model<D>, stage: &Stage) -> Vec<Beside> {
+    pub fn beside<const D: usize>(&self, model: &Model<D>, stage: &Stage) -> Vec<ForeignLoads> {
         let components = model.idealisation.components();
         let one = |wanted: &ForceSet| {
             let channels = stage.loads_beside(&wanted.set).map(|channel| {
@@ -103,15 +103,17 @@ impl Wanted {
     pub fn values<const D: usize>(
         &self,
         model: &Model<D>,
-        (blocks, initial): (&[CellBlock<D>], &[Option<StressField>]),
-        (u, time): (&[f64], f64),
-        beside: &[Beside],
+        blocks: &[CellBlock<D>],
+        initial: &[Option<StressField>],
+        u: &[f64],
+        time: f64,
+        beside: &[ForeignLoads],
     ) -> Samples {
         let point = |p: &Point| {
             let stress = p.stress(model, (blocks, initial), u);
             PointValues { displacement: p.displacement(model, u), mises: von_mises(&stress), stress }
         };
-        let force = |(set, beside): (&ForceSet, &Beside)| {
+        let force = |(set, beside): (&ForceSet, &ForeignLoads)| {
             let mut force = set.internal(model, blocks, u);
             for (sum, amplitude) in beside {
                 let amplitude = amplitude.value(time);
@@ -131,7 +133,8 @@ impl Point {
     #[must_use]
     pub fn new<const D: usize>(
         model: &Model<D>,
-        (name, body): (&str, &str),
+        name: &str,
+        body: &str,
         position: Vec<f64>,
         found: &Location,
     ) -> Self {
@@ -186,7 +189,7 @@ impl Point {
 impl ForceSet {
     /// Makes a set of these nodes, which ascend.
     #[must_use]
-    pub fn new<const D: usize>(model: &Model<D>, (name, set): (&str, &str), nodes: Vec<usize>) -> Self {
+    pub fn new<const D: usize>(model: &Model<D>, name: &str, set: &str, nodes: Vec<usize>) -> Self {
         let cells = cells_with(model, &nodes);
         Self { name: name.to_string(), set: set.to_string(), nodes, cells }
     }
@@ -253,7 +256,7 @@ mod tests {
     #[test]
     fn weights_carry_linear_fields_to_any_place_of_any_element() {
         for kind in ElementKind::ALL {
-            let space = Idealisation::of_dimension(kind.dimension());
+            let space = Idealisation::from_dimension(kind.dimension());
             let rule: Vec<[f64; 3]> = space.quadrature(kind).into_iter().map(|(xi, _)| xi).collect();
             let f =
                 |x: &[f64; 3]| 2.0 + x[0] - 3.0 * x[1] + if kind.dimension() == 3 { 0.5 * x[2] } else { 0.0 };

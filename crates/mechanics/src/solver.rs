@@ -14,7 +14,7 @@ pub struct Solver {
     /// Memory that a factorisation may use \[bytes\].
     pub memory: usize,
     /// Analyses from which the memory was predicted.
-    pub prepared: Prepared,
+    pub prepared: Analyses,
     /// Predicted memory of the method \[bytes\].
     pub bytes: usize,
     /// Operations of a factorisation of the system in each iteration; `None` if they are not known in advance, or one factorisation serves many steps.
@@ -41,7 +41,7 @@ pub enum Method {
 
 /// Symbolic analyses for the degrees of freedom fixed in the first stage.
 #[derive(Debug)]
-pub enum Prepared {
+pub enum Analyses {
     /// No analysis.
     Nothing,
     /// Analyses of the bodies, for condensation.

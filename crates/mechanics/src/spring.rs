@@ -15,7 +15,7 @@ pub struct SpringStart {
 
 /// State of a spring.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SpringNow {
+pub struct SpringState {
     /// Force on the set, as a load cell reads it \[N; N/m of thickness in the plane\].
     pub force: f64,
     /// Displacement of the load point since the spring was attached \[m\].
@@ -26,11 +26,11 @@ pub struct SpringNow {
     pub energy: f64,
 }
 
-impl SpringNow {
+impl SpringState {
     /// State of a spring of this stiffness \[N/m\] whose load point has moved by `drawn` since `start`, with its set displaced by
     /// `displacement` \[m\].
     #[must_use]
-    pub fn of(start: &SpringStart, stiffness: f64, drawn: f64, displacement: f64) -> Self {
+    pub fn new(start: &SpringStart, stiffness: f64, drawn: f64, displacement: f64) -> Self {
         let force = start.force + stiffness * (drawn - (displacement - start.displacement));
         let energy = 0.5 * force * force / stiffness;
         Self { force, load_point: start.load_point + drawn, displacement, energy }

@@ -1,7 +1,7 @@
 //! A stage of loading: conditions on degrees of freedom of the common mesh.
 
-use super::pace::{Drawn, Pace};
-use super::turning::Turning;
+use super::pace::{Pace, Travel};
+use super::rotation::RotatedSet;
 use asperity_fem::corners::{corners, range};
 use asperity_fem::dof::{Channel, Constraints};
 use asperity_fem::table::Table;
@@ -40,15 +40,15 @@ pub struct Course {
 impl Course {
     /// Course of a displacement or load.
     #[must_use]
-    pub fn of(moves: Table) -> Self {
+    pub fn from_table(moves: Table) -> Self {
         Self { times: moves.times().to_vec(), values: moves.values().to_vec(), moves }
     }
 
     /// Course of a rate through these points.
     #[must_use]
-    pub fn of_rates(points: &[(f64, f64)]) -> Self {
+    pub fn from_rates(points: &[(f64, f64)]) -> Self {
         let (times, values) = points.iter().copied().unzip();
-        Self { times, values, moves: Table::of_rates(points) }
+        Self { times, values, moves: Table::from_rates(points) }
     }
 
     /// Indices of its corners, from whose chords entries depart by at most `tolerance` of the range.
@@ -80,7 +80,7 @@ pub struct Stage {
     /// Motions, with the degrees of freedom they prescribe.
     pub motions: Vec<(Vec<usize>, Motion)>,
     /// Components that rotate with their sets.
-    pub turning: Vec<Turning>,
+    pub turning: Vec<RotatedSet>,
     /// Loads, each with the set it acts on, if it acts on a set.
     pub loads: Vec<(Option<String>, Channel)>,
     /// Fixed degrees of freedom, sorted.
@@ -132,7 +132,7 @@ impl Stage {
         for (dofs, motion) in &self.motions {
             self.motion_channels(dofs, motion, u0, &mut channels);
         }
-        channels.extend(self.turning.iter().flat_map(|t| t.channels((self.start, self.end), u0)));
+        channels.extend(self.turning.iter().flat_map(|t| t.channels(self.start, self.end, u0)));
         channels.retain(|c| !c.prescribed.is_empty() || !c.forces.is_empty());
         Constraints { fixed: self.fixed.clone(), channels }
     }
@@ -145,16 +145,16 @@ impl Stage {
     /// Courses that tables prescribe, over the time of the run.
     #[must_use]
     pub fn courses(&self) -> Vec<Course> {
-        let loads = self.loads.iter().map(|(_, channel)| Course::of(channel.amplitude.clone()));
+        let loads = self.loads.iter().map(|(_, channel)| Course::from_table(channel.amplitude.clone()));
         self.moved().chain(loads).collect()
     }
 
     /// Courses of the tables of motions and load points.
     fn moved(&self) -> impl Iterator<Item = Course> {
-        let span = (self.start, self.end);
-        let paced = move |pace: &Pace| pace.points(span).map(|points| Course::of_rates(&points));
+        let (start, end) = (self.start, self.end);
+        let paced = move |pace: &Pace| pace.points(start, end).map(|points| Course::from_rates(&points));
         let motion = move |(_, motion): &(Vec<usize>, Motion)| match motion {
-            Motion::Table(points) => Some(Course::of(self.table(points))),
+            Motion::Table(points) => Some(Course::from_table(self.table(points))),
             Motion::Rate(pace) => paced(pace),
             Motion::Fixed(_) | Motion::To(_) | Motion::Hold => None,
         };
@@ -254,9 +254,9 @@ impl Stage {
             Motion::Fixed(value) if *value != 0.0 => channels.push(unit(constant(*value))),
             Motion::To(value) => channels.extend([present(ramp(1.0, 0.0)), unit(ramp(0.0, *value))]),
             Motion::Rate(pace) => {
-                let moved = match pace.drawn((self.start, self.end)) {
-                    Drawn::Steady { rate, .. } => ramp(0.0, rate * (self.end - self.start)),
-                    Drawn::Table(table) => table,
+                let moved = match pace.drawn(self.start, self.end) {
+                    Travel::Steady { rate, .. } => ramp(0.0, rate * (self.end - self.start)),
+                    Travel::Table(table) => table,
                 };
                 channels.extend([present(constant(1.0)), unit(moved)]);
             }

@@ -30,7 +30,7 @@ impl StressField {
 
     /// Makes a stress \[Pa\] at `level` \[m\] of an axis, with a `gradient` along it \[Pa/m\].
     #[must_use]
-    pub fn new(stress: [f64; 6], gradient: [f64; 6], (axis, level): (usize, f64)) -> Self {
+    pub fn new(stress: [f64; 6], gradient: [f64; 6], axis: usize, level: f64) -> Self {
         Self { stress, gradient, axis, level }
     }
 

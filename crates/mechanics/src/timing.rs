@@ -103,7 +103,11 @@ impl StepLength {
             largest: if imposed.is_some() { f64::INFINITY } else { largest },
             tolerance: imposed.is_none().then_some(control.tolerance),
             friction: imposed.is_none().then_some(control.friction),
-            pieces: if imposed.is_some() { Pieces::default() } else { Pieces::of(stage, control.course) },
+            pieces: if imposed.is_some() {
+                Pieces::default()
+            } else {
+                Pieces::from_stage(stage, control.course)
+            },
             goal: stage.end,
             outputs: if imposed.is_some() { Vec::new() } else { within(&control.outputs, stage) },
             imposed,
@@ -169,7 +173,7 @@ impl StepLength {
 
     /// Records an accepted step: its length, the reason if the stepper shortened it, and its figures. No step becomes shorter
     /// than the smallest.
-    pub fn accepted(&mut self, (taken, cut): (f64, Cut), figures: Figures) {
+    pub fn accepted(&mut self, taken: f64, cut: Cut, figures: Figures) {
         let Figures { slip, friction, fill, inertia, iterations } = figures;
         // Both the error of slip in a backward-Euler step and that of V in a two-step difference fall with the square of the
         // step length.

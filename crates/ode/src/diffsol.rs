@@ -8,7 +8,7 @@
 use super::clock::Clock;
 use super::method::Method;
 use super::problem::System;
-use super::report::{Counts, Failure, Finished};
+use super::report::{Counts, Failure, Solution};
 use super::stepper::{MOST_REJECTIONS, SHORTEST, Stepper};
 use ::diffsol::error::OdeSolverError;
 use ::diffsol::{
@@ -30,13 +30,13 @@ const PATIENCE: f64 = 67_108_864.0;
 const HALF: f64 = 0.5;
 
 /// The Jacobian last evaluated, with its time and state: the library requests its products with one vector at a time.
-struct Remembered {
+struct JacobianCache {
     at: Option<Clock>,
     y: Vec<f64>,
     jacobian: Vec<f64>,
 }
 
-impl Remembered {
+impl JacobianCache {
     fn multiply(&mut self, system: &System<'_>, t: f64, y: &[f64], v: &[f64], out: &mut [f64]) {
         let at = system.clock(t);
         if self.at != Some(at) || self.y != y {
@@ -61,11 +61,11 @@ pub(super) fn with_stepper(
     system: &System<'_>,
     state: &[f64],
     largest: f64,
-    run: &mut dyn FnMut(&mut dyn Stepper) -> Finished,
-) -> Result<Finished, Failure> {
+    run: &mut dyn FnMut(&mut dyn Stepper) -> Solution,
+) -> Result<Solution, Failure> {
     let n = system.size;
     let entries = if method.implicit() { n * n } else { 0 };
-    let remembered = RefCell::new(Remembered { at: None, y: vec![0.0; n], jacobian: vec![0.0; entries] });
+    let remembered = RefCell::new(JacobianCache { at: None, y: vec![0.0; n], jacobian: vec![0.0; entries] });
     let mut problem = OdeBuilder::<Matrix>::new()
         .rtol(system.rtol)
         .atol(system.atol.iter().copied())
@@ -87,23 +87,23 @@ pub(super) fn with_stepper(
     if method == Method::Bdf {
         let state = BdfState::new_without_initialise(&problem).map_err(wrong)?;
         let solver = problem.bdf_solver::<Factors>(state).map_err(wrong)?;
-        return Ok(run(&mut Wrapped::new(solver, n, largest, method)));
+        return Ok(run(&mut LibrarySolver::new(solver, n, largest, method)));
     }
     let state = RkState::new_without_initialise(&problem).map_err(wrong)?;
     Ok(match method {
-        Method::TrBdf2 => run(&mut Wrapped::new(
+        Method::TrBdf2 => run(&mut LibrarySolver::new(
             problem.tr_bdf2_solver::<Factors>(state).map_err(wrong)?,
             n,
             largest,
             method,
         )),
-        Method::Esdirk34 => run(&mut Wrapped::new(
+        Method::Esdirk34 => run(&mut LibrarySolver::new(
             problem.esdirk34_solver::<Factors>(state).map_err(wrong)?,
             n,
             largest,
             method,
         )),
-        _ => run(&mut Wrapped::new(problem.tsit45_solver(state).map_err(wrong)?, n, largest, method)),
+        _ => run(&mut LibrarySolver::new(problem.tsit45_solver(state).map_err(wrong)?, n, largest, method)),
     })
 }
 
@@ -116,7 +116,7 @@ fn finite(values: &[f64]) -> bool {
 }
 
 /// A solver of the library.
-struct Wrapped<'p, E, S> {
+struct LibrarySolver<'p, E, S> {
     solver: S,
     equations: PhantomData<&'p E>,
     method: Method,
@@ -131,7 +131,7 @@ struct Wrapped<'p, E, S> {
     rejected: u64,
 }
 
-impl<'p, E, S> Wrapped<'p, E, S>
+impl<'p, E, S> LibrarySolver<'p, E, S>
 where
     E: OdeEquations<T = f64, V = Vector, M = Matrix, C = NalgebraContext>,
     S: OdeSolverMethod<'p, E>,
@@ -205,7 +205,7 @@ where
     }
 }
 
-impl<'p, E, S> Stepper for Wrapped<'p, E, S>
+impl<'p, E, S> Stepper for LibrarySolver<'p, E, S>
 where
     E: OdeEquations<T = f64, V = Vector, M = Matrix, C = NalgebraContext>,
     S: OdeSolverMethod<'p, E>,

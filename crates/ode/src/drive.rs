@@ -1,9 +1,9 @@
 //! The loop common to all methods: time, events, sink and counts.
 
 use super::clock::Clock;
-use super::events::{Found, Watch};
+use super::events::{EventCrossing, Watch};
 use super::problem::System;
-use super::report::{Control, Counts, Failure, Finished, Occurrence, Outcome};
+use super::report::{Control, Counts, Failure, Occurrence, Outcome, Solution};
 use super::sink::{Sink, Step};
 use super::stepper::{NOTHING_LEFT, Stepper};
 
@@ -17,7 +17,7 @@ const MOST_STILL: u64 = 100;
 const STILL_SHARE: f64 = 1e-10;
 
 /// An integration under way.
-pub(super) struct Drive<'a> {
+pub(super) struct Integration<'a> {
     system: &'a System<'a>,
     stepper: &'a mut dyn Stepper,
     sink: &'a mut dyn Sink,
@@ -31,12 +31,12 @@ pub(super) struct Drive<'a> {
     counts: Counts,
     /// Number of steps, including those of zero length to an event.
     advances: usize,
-    still: Still,
+    still: Stagnation,
 }
 
 /// Consecutive steps in which the state has not moved.
 #[derive(Default)]
-struct Still {
+struct Stagnation {
     steps: u64,
     /// Length of the first of them \[s\].
     first: f64,
@@ -51,7 +51,7 @@ struct Landing {
     exact: bool,
 }
 
-impl<'a> Drive<'a> {
+impl<'a> Integration<'a> {
     pub fn new(
         system: &'a System<'a>,
         stepper: &'a mut dyn Stepper,
@@ -67,7 +67,7 @@ impl<'a> Drive<'a> {
             stepper,
             start,
             advances: 0,
-            still: Still::default(),
+            still: Stagnation::default(),
             sink,
             target,
             most_steps,
@@ -79,7 +79,7 @@ impl<'a> Drive<'a> {
     }
 
     /// Integrates to the end.
-    pub fn run(mut self, first_step: Option<f64>) -> Finished {
+    pub fn run(mut self, first_step: Option<f64>) -> Solution {
         let outcome = match self.steps(first_step) {
             Ok(outcome) => outcome,
             Err(reason) => Outcome::Failed { reason },
@@ -87,7 +87,7 @@ impl<'a> Drive<'a> {
         self.stepper.tally(&mut self.counts);
         self.counts.rates = self.system.rates.get();
         self.counts.jacobians = self.system.jacobians.get();
-        Finished { outcome, at: self.system.clock(self.t), state: self.state, counts: self.counts }
+        Solution { outcome, at: self.system.clock(self.t), state: self.state, counts: self.counts }
     }
 
     fn steps(&mut self, first_step: Option<f64>) -> Result<Outcome, Failure> {
@@ -147,7 +147,7 @@ impl<'a> Drive<'a> {
     }
 
     /// Completes a step that ends at the event found in it.
-    fn eventful(&mut self, found: Found) -> Result<Control, Failure> {
+    fn eventful(&mut self, found: EventCrossing) -> Result<Control, Failure> {
         let (start, _) = self.stepper.span();
         let next = self.stepper.next_length();
         let landing = self.land(found);
@@ -174,7 +174,7 @@ impl<'a> Drive<'a> {
     }
 
     /// Ends the step at the event: the step is retaken up to the event if the method can, or cut by its dense output.
-    fn land(&mut self, found: Found) -> Landing {
+    fn land(&mut self, found: EventCrossing) -> Landing {
         let (t0, t1) = self.stepper.span();
         let h = t1 - t0;
         if found.fraction >= 1.0 {
@@ -194,7 +194,7 @@ impl<'a> Drive<'a> {
     }
 
     /// Retakes the step up to the root, corrected by the secant method. `false`: the stepper cannot.
-    fn retake(&mut self, found: Found, h: f64) -> bool {
+    fn retake(&mut self, found: EventCrossing, h: f64) -> bool {
         let mut length = found.fraction * h;
         if self.system.problem.extreme(found.event) {
             return self.stepper.retake(self.system, length);

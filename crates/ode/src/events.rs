@@ -42,7 +42,7 @@ pub(super) struct Watch {
 
 /// First change of sign in a step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Found {
+pub(super) struct EventCrossing {
     /// Fraction of the step.
     pub fraction: f64,
     /// Number of the function.
@@ -79,7 +79,7 @@ impl Watch {
     }
 
     /// Finds the first change of sign in the stepper's last step.
-    pub fn scan(&mut self, system: &System<'_>, stepper: &dyn Stepper) -> Option<Found> {
+    pub fn scan(&mut self, system: &System<'_>, stepper: &dyn Stepper) -> Option<EventCrossing> {
         if self.idle() {
             return None;
         }
@@ -88,12 +88,12 @@ impl Watch {
         system.problem.event(system.clock(t1), stepper.end(), &mut self.end);
         self.middle_state(stepper, t1 - t0, system);
         system.problem.event(system.clock(t0 + 0.5 * (t1 - t0)), &self.state, &mut self.middle);
-        let mut first: Option<Found> = None;
+        let mut first: Option<EventCrossing> = None;
         for event in 0..self.functions.len() {
             let fraction = self.first_change(system, stepper, event);
             self.functions[event].found = fraction;
             if fraction < first.map_or(f64::INFINITY, |f| f.fraction) {
-                first = Some(Found { fraction, event });
+                first = Some(EventCrossing { fraction, event });
             }
         }
         self.fresh = false;
@@ -202,7 +202,7 @@ impl Watch {
     }
 
     /// Value of the function `event` at a fraction of the step, and its slope with respect to that fraction.
-    pub fn slope(&mut self, system: &System<'_>, stepper: &dyn Stepper, found: Found) -> f64 {
+    pub fn slope(&mut self, system: &System<'_>, stepper: &dyn Stepper, found: EventCrossing) -> f64 {
         let (low, high) = ((found.fraction - EARLY).max(0.0), (found.fraction + EARLY).min(1.0));
         let rise =
             self.value(system, stepper, found.event, high) - self.value(system, stepper, found.event, low);
@@ -221,7 +221,7 @@ impl Watch {
         system: &System<'_>,
         t: f64,
         y: &[f64],
-        found: Found,
+        found: EventCrossing,
         mut fired: impl FnMut(usize, bool),
     ) {
         system.problem.event(system.clock(t), y, &mut self.end);

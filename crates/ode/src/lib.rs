@@ -29,10 +29,10 @@ mod tsit5;
 pub use clock::Clock;
 pub use method::{Method, Options, UnknownMethod};
 pub use problem::Problem;
-pub use report::{Control, Counts, Failure, Finished, Occurrence, Outcome};
+pub use report::{Control, Counts, Failure, Occurrence, Outcome, Solution};
 pub use sink::{Sink, Step};
 
-use drive::Drive;
+use drive::Integration;
 use own::OneStep;
 use problem::System;
 use std::cell::Cell;
@@ -48,10 +48,10 @@ pub fn integrate(
     until: f64,
     options: &Options,
     sink: &mut dyn Sink,
-) -> Finished {
+) -> Solution {
     if let Err(reason) = fit(problem, state, until, options) {
         let outcome = Outcome::Failed { reason };
-        return Finished { outcome, at, state: state.to_vec(), counts: Counts::default() };
+        return Solution { outcome, at, state: state.to_vec(), counts: Counts::default() };
     }
     let base = at.rebased();
     let target = base.with_local(until).rebased();
@@ -67,7 +67,7 @@ pub fn integrate(
     };
     let largest = options.largest_step.unwrap_or(f64::INFINITY).min(until);
     let mut run = |stepper: &mut dyn Stepper| {
-        Drive::new(&system, stepper, sink, state, target, options.most_steps).run(options.first_step)
+        Integration::new(&system, stepper, sink, state, target, options.most_steps).run(options.first_step)
     };
     let stiff = options.begin_stiff;
     match options.method {
@@ -75,14 +75,18 @@ pub fn integrate(
         Method::Tsit5 => run(&mut OneStep::new(tsit5::Tsit5::new(size), size, largest)),
         Method::Radau5 => run(&mut OneStep::new(radau5::Radau5::new(size), size, largest)),
         Method::Rkc2 => run(&mut OneStep::new(rkc::Rkc2::new(size), size, largest)),
-        Method::Stabilised => run(&mut OneStep::new(stabilised::Stabilised::new(size, stiff), size, largest)),
-        Method::Switching => run(&mut OneStep::new(switching::Switching::new(size, stiff), size, largest)),
+        Method::Stabilised => {
+            run(&mut OneStep::new(stabilised::StabilisedMethod::new(size, stiff), size, largest))
+        }
+        Method::Switching => {
+            run(&mut OneStep::new(switching::SwitchingMethod::new(size, stiff), size, largest))
+        }
         Method::Bdf | Method::TrBdf2 | Method::Esdirk34 | Method::Tsit45 => {
             match diffsol::with_stepper(options.method, &system, state, largest, &mut run) {
                 Ok(finished) => finished,
                 Err(reason) => {
                     let outcome = Outcome::Failed { reason };
-                    Finished { outcome, at, state: state.to_vec(), counts: Counts::default() }
+                    Solution { outcome, at, state: state.to_vec(), counts: Counts::default() }
                 }
             }
         }

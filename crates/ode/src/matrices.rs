@@ -20,7 +20,7 @@ pub(super) enum Matrices {
     /// All entries, column by column.
     Dense { jacobian: Vec<f64>, real: Lu<f64>, complex: Lu<Complex<f64>> },
     /// The entries at the places named by the problem.
-    Sparse(Box<Sparse>),
+    Sparse(Box<SparseMatrices>),
 }
 
 impl Matrices {
@@ -28,7 +28,7 @@ impl Matrices {
     pub fn evaluate(&mut self, system: &System<'_>, t: f64, y: &[f64]) {
         if let Self::Unknown(n) = *self {
             let places = if n < FEW { None } else { system.problem.places() };
-            *self = match places.and_then(|places| Sparse::new(n, &places)) {
+            *self = match places.and_then(|places| SparseMatrices::new(n, &places)) {
                 Some(sparse) => Self::Sparse(Box::new(sparse)),
                 None => Self::Dense {
                     jacobian: vec![0.0; n * n],
@@ -130,7 +130,7 @@ fn solve<T: faer::traits::ComplexField>(factor: Option<&SparseLu<usize, T>>, b: 
 
 /// See [`Matrices::Sparse`].
 #[derive(Debug)]
-pub(super) struct Sparse {
+pub(super) struct SparseMatrices {
     pattern: SymbolicSparseColMat<usize>,
     symbolic: SymbolicLu<usize>,
     /// Slots to which the entries given by the problem are added.
@@ -143,7 +143,7 @@ pub(super) struct Sparse {
     complex: Option<SparseLu<usize, Complex<f64>>>,
 }
 
-impl Sparse {
+impl SparseMatrices {
     /// `None` if the places are not those of a matrix of this size.
     fn new(n: usize, places: &[(usize, usize)]) -> Option<Self> {
         if places.iter().any(|&(row, column)| row >= n || column >= n) {
@@ -292,7 +292,7 @@ mod tests {
     fn sparse_and_dense_factors_solve_the_same() {
         let (places, given) = chain(20);
         let n = 40;
-        let mut sparse = Sparse::new(n, &places).unwrap();
+        let mut sparse = SparseMatrices::new(n, &places).unwrap();
         let mut dense = vec![0.0; n * n];
         for ((&(row, column), &slot), value) in places.iter().zip(&sparse.slots).zip(&given) {
             sparse.values[slot] += value;
@@ -332,9 +332,9 @@ mod tests {
     #[test]
     fn entries_that_are_not_finite_are_refused() {
         let (places, _) = chain(20);
-        let mut sparse = Sparse::new(40, &places).unwrap();
+        let mut sparse = SparseMatrices::new(40, &places).unwrap();
         sparse.values[3] = f64::NAN;
         assert!(!sparse.factorise(1.0, Complex::new(1.0, 1.0)));
-        assert!(Sparse::new(39, &places).is_none());
+        assert!(SparseMatrices::new(39, &places).is_none());
     }
 }

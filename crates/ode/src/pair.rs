@@ -8,16 +8,16 @@ use super::report::Counts;
 /// Choice between two methods for the next step.
 pub(super) trait Criterion {
     /// Method for steps limited by accuracy.
-    type Usual: Formula;
+    type NonstiffMethod: Formula;
     /// Method for steps limited by stability.
-    type Stiff: Formula;
+    type StiffMethod: Formula;
     /// Counts against the usual and against the stiff method at which the other takes over.
     const ENOUGH: [f64; 2];
 
     /// Updated count against the active method after the step just accepted, where it was `before`; `stiff` is true for the
     /// stiff method.
     fn against(
-        methods: (&mut Self::Usual, &mut Self::Stiff),
+        methods: (&mut Self::NonstiffMethod, &mut Self::StiffMethod),
         stiff: bool,
         before: f64,
         system: &System<'_>,
@@ -28,8 +28,8 @@ pub(super) trait Criterion {
 /// See the module.
 #[derive(Debug)]
 pub(super) struct Pair<C: Criterion> {
-    usual: C::Usual,
-    other: C::Stiff,
+    usual: C::NonstiffMethod,
+    other: C::StiffMethod,
     /// True if the step last tried is of the stiff method; then the same for the next step.
     stiff: bool,
     next_stiff: bool,
@@ -39,7 +39,7 @@ pub(super) struct Pair<C: Criterion> {
 
 impl<C: Criterion> Pair<C> {
     /// A pair that begins with the stiff method or with the usual one.
-    pub fn of(usual: C::Usual, other: C::Stiff, stiff: bool) -> Self {
+    pub fn from_methods(usual: C::NonstiffMethod, other: C::StiffMethod, stiff: bool) -> Self {
         Self { usual, other, stiff, next_stiff: stiff, against: 0.0 }
     }
 

@@ -110,7 +110,7 @@ pub enum Failure {
 
 /// Result of an integration.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Finished {
+pub struct Solution {
     /// Outcome.
     pub outcome: Outcome,
     /// Time of the last valid state.

@@ -23,8 +23,8 @@ const AGAINST: f64 = 3.0;
 pub(super) struct Stretch;
 
 impl Criterion for Stretch {
-    type Usual = Tsit5;
-    type Stiff = Rkc2;
+    type NonstiffMethod = Tsit5;
+    type StiffMethod = Rkc2;
     const ENOUGH: [f64; 2] = [AGAINST; 2];
 
     fn against(
@@ -41,10 +41,10 @@ impl Criterion for Stretch {
 }
 
 /// The method.
-pub(super) type Stabilised = Pair<Stretch>;
+pub(super) type StabilisedMethod = Pair<Stretch>;
 
-impl Stabilised {
+impl StabilisedMethod {
     pub fn new(size: usize, stiff: bool) -> Self {
-        Self::of(Tsit5::new(size), Rkc2::new(size), stiff)
+        Self::from_methods(Tsit5::new(size), Rkc2::new(size), stiff)
     }
 }

@@ -34,8 +34,8 @@ const FREE: f64 = 6.0;
 pub(super) struct Boundary;
 
 impl Criterion for Boundary {
-    type Usual = Dop853;
-    type Stiff = Radau5;
+    type NonstiffMethod = Dop853;
+    type StiffMethod = Radau5;
     const ENOUGH: [f64; 2] = [BINDING, FREE];
 
     fn against(
@@ -55,10 +55,10 @@ impl Criterion for Boundary {
 }
 
 /// The method.
-pub(super) type Switching = Pair<Boundary>;
+pub(super) type SwitchingMethod = Pair<Boundary>;
 
-impl Switching {
+impl SwitchingMethod {
     pub fn new(size: usize, stiff: bool) -> Self {
-        Self::of(Dop853::new(size), Radau5::new(size), stiff)
+        Self::from_methods(Dop853::new(size), Radau5::new(size), stiff)
     }
 }

@@ -6,16 +6,16 @@
 //! ```
 
 use super::record::{check_interfaces, check_probes, check_samples};
-use super::schedule::{Due, FieldSchedule};
+use super::schedule::{FieldSchedule, OutputIntervals};
 use super::view::{
     BodyFields, InterfaceFields, InterfaceMesh, MeshView, Setup, SpringValues, StepView, Writer,
 };
 use super::vtu::{Array, Grid, PvdEntry, Values, pvd};
 use crate::column::{self, Column};
 use crate::error::{OutputError, expect_length};
-use crate::growing::Growing;
+use crate::growing_table::GrowingTable;
 use crate::names::stems;
-use crate::sampled::Sampled;
+use crate::sample_sites::SampleSites;
 use crate::{atomic, table};
 use serde::{Deserialize, Serialize};
 use std::fs;
@@ -27,16 +27,16 @@ use std::path::{Path, PathBuf};
 pub struct Files {
     out: PathBuf,
     schedule: FieldSchedule,
-    fields_due: Due,
-    profiles_due: Due,
+    fields_due: OutputIntervals,
+    profiles_due: OutputIntervals,
     bodies: Option<Bodies>,
     interfaces: Vec<Part>,
-    points: Vec<Growing>,
-    forces: Vec<Growing>,
-    energy: Option<Growing>,
-    springs: Vec<Growing>,
+    points: Vec<GrowingTable>,
+    forces: Vec<GrowingTable>,
+    energy: Option<GrowingTable>,
+    springs: Vec<GrowingTable>,
     /// Largest slip rates of the interfaces that are searched for events.
-    rates: Option<Growing>,
+    rates: Option<GrowingTable>,
     collection: Vec<PvdEntry>,
     field_number: usize,
     /// Times of the last profiles and the last fields written \[s\].
@@ -63,7 +63,7 @@ struct Part {
     grid: Grid,
     /// Number of state variables of its law.
     states: usize,
-    probes: Option<Growing>,
+    probes: Option<GrowingTable>,
 }
 
 /// Positions in the files of a run, from which it can be resumed.
@@ -91,8 +91,8 @@ impl Files {
         Ok(Self {
             out: out.to_path_buf(),
             schedule,
-            fields_due: Due::default(),
-            profiles_due: Due::default(),
+            fields_due: OutputIntervals::default(),
+            profiles_due: OutputIntervals::default(),
             bodies: None,
             interfaces: Vec::new(),
             points: Vec::new(),
@@ -123,7 +123,7 @@ impl Files {
             numbers: [self.field_number, self.profile_number],
             written: self.written,
             collection: self.collection.clone(),
-            bytes: self.tables().map(Growing::bytes).collect(),
+            bytes: self.tables().map(GrowingTable::bytes).collect(),
         }
     }
 
@@ -132,11 +132,11 @@ impl Files {
     /// # Errors
     /// If something cannot be written.
     pub fn settle(&self) -> Result<(), OutputError> {
-        self.tables().try_for_each(Growing::settle)
+        self.tables().try_for_each(GrowingTable::settle)
     }
 
     /// All tables.
-    fn tables(&self) -> impl Iterator<Item = &Growing> {
+    fn tables(&self) -> impl Iterator<Item = &GrowingTable> {
         let probes = self.interfaces.iter().filter_map(|part| part.probes.as_ref());
         probes
             .chain(&self.points)
@@ -240,7 +240,7 @@ impl Files {
             .map(|(part, mesh)| (format!("probes/{}.csv", part.stem), table::probe_columns(mesh)))
             .collect();
         let (points, forces, springs) = (setup.points.clone(), setup.forces.clone(), setup.springs.clone());
-        all.extend(Sampled { points, forces, springs, unit: setup.force_unit }.tables());
+        all.extend(SampleSites { points, forces, springs, unit: setup.force_unit }.tables());
         all.extend(setup.energy_unit.map(|unit| ("energy.csv".into(), table::energy_columns(unit))));
         if !setup.eventful.is_empty() {
             let eventful = setup.eventful.iter().filter_map(|&i| setup.interfaces.get(i));
@@ -272,8 +272,8 @@ impl Files {
             let path = self.out.join(path);
             path.parent().map_or(Ok(()), atomic::create_dir)?;
             tables.push(match bytes.as_ref().and_then(|bytes| bytes.get(k)) {
-                Some(bytes) => Growing::reopen(path, *bytes)?,
-                None => Growing::create(path, column::header(&columns))?,
+                Some(bytes) => GrowingTable::reopen(path, *bytes)?,
+                None => GrowingTable::create(path, column::header(&columns))?,
             });
         }
         let mut tables = tables.into_iter();
@@ -331,8 +331,8 @@ impl Writer for Files {
     fn begin(&mut self, setup: &Setup) -> Result<(), OutputError> {
         check_probes(setup)?;
         self.setup = setup.clone();
-        self.fields_due = Due::new(self.schedule.fields, &setup.stages);
-        self.profiles_due = Due::new(self.schedule.profiles, &setup.stages);
+        self.fields_due = OutputIntervals::new(self.schedule.fields, &setup.stages);
+        self.profiles_due = OutputIntervals::new(self.schedule.profiles, &setup.stages);
         self.bodies = (!setup.mesh.cells.is_empty()).then(|| Bodies::new(&setup.mesh));
         self.collection.clear();
         (self.field_number, self.profile_number) = (0, 0);

@@ -62,7 +62,7 @@ impl Grid<'_> {
     /// The file.
     #[must_use]
     pub fn bytes(&self) -> Vec<u8> {
-        let variables = [of_axis(&self.x, 0), of_axis(&self.y, 1), self.values()];
+        let variables = [coordinate_variable(&self.x, 0), coordinate_variable(&self.y, 1), self.values()];
         let size = |v: &Variable<'_>| size_of_val(v.values);
         // The length of the header does not depend on the offsets in it.
         let mut begin = self.header(&variables, &[0; 3]).len();
@@ -116,7 +116,7 @@ impl Grid<'_> {
     }
 }
 
-fn of_axis<'a>(axis: &Axis<'a>, dimension: u32) -> Variable<'a> {
+fn coordinate_variable<'a>(axis: &Axis<'a>, dimension: u32) -> Variable<'a> {
     let attributes = vec![
         Attribute::Text("long_name", axis.meaning),
         Attribute::Text("units", axis.unit),

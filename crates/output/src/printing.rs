@@ -108,9 +108,9 @@ mod tests {
     use super::*;
 
     /// Accepts this number of bytes and is then full.
-    struct Full(usize, Vec<u8>);
+    struct FullWriter(usize, Vec<u8>);
 
-    impl Write for Full {
+    impl Write for FullWriter {
         fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
             let most = bytes.len().min(self.0 - self.1.len());
             self.1.extend(&bytes[..most]);
@@ -125,7 +125,7 @@ mod tests {
     #[test]
     fn a_full_stream_has_the_beginning_and_says_so_once() {
         let stream = Stream { lost: AtomicBool::new(false) };
-        let mut full = Full(5, Vec::new());
+        let mut full = FullWriter(5, Vec::new());
         assert!(stream.print(&mut full, format_args!("abc\n")).is_none());
         assert_eq!(
             stream.print(&mut full, format_args!("de\n")).map(|e| e.kind()),

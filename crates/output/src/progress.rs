@@ -32,7 +32,7 @@ const TOO_EARLY: f64 = 1e-4;
 
 /// Simulated state of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Now {
+pub struct RunState {
     /// Stage, if the scene has several.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub stage: Option<String>,
@@ -62,7 +62,7 @@ pub struct Record {
     pub fraction: f64,
     /// Simulated state.
     #[serde(flatten)]
-    pub now: Now,
+    pub now: RunState,
     /// Wall time of this run so far \[s\].
     pub seconds: f64,
     /// Wall time that the rest takes at the mean pace so far \[s\]; absent where it is unknown.
@@ -122,7 +122,7 @@ impl Progress {
     }
 
     /// Shows the completed part of the simulated time, with the current state.
-    pub fn show(&mut self, part: f64, now: impl Fn() -> Now) {
+    pub fn show(&mut self, part: f64, now: impl Fn() -> RunState) {
         let part = part.clamp(0.0, 1.0);
         let from = *self.from.get_or_insert_with(|| (part, Instant::now()));
         let left = || left(part, from);
@@ -156,7 +156,7 @@ impl Progress {
     }
 
     /// Writes the file and a line of JSON. Neither is a result, so that a run continues where they cannot be written.
-    fn record(&self, fraction: f64, now: Now, seconds_left: Option<f64>) {
+    fn record(&self, fraction: f64, now: RunState, seconds_left: Option<f64>) {
         let seconds = self.started.elapsed().as_secs_f64();
         let written = Timestamp::now().to_string();
         let record = Record { fraction, now, seconds, seconds_left, bytes: memory::now(), written };
@@ -207,7 +207,7 @@ fn passed(part: f64, shown: usize) -> Option<usize> {
 
 /// A state as a line, with the wall time that the rest takes.
 #[must_use]
-pub fn status(now: &Now, left: Option<f64>) -> String {
+pub fn status(now: &RunState, left: Option<f64>) -> String {
     let stage = now.stage.as_ref().map_or(String::new(), |stage| format!("{stage}: "));
     let rate = now.largest_rate.map_or(String::new(), |rate| format!(", largest rate {rate:.3e} m/s"));
     let counted = |number: Option<u64>, what: &str| match number {
@@ -252,7 +252,7 @@ mod tests {
     #[test]
     fn the_file_has_the_state_and_is_read_again() {
         let folder = tempfile::tempdir().unwrap();
-        let now = Now { time: 3.0, end: 4.0, step: 7, largest_rate: Some(2.0), ..Now::default() };
+        let now = RunState { time: 3.0, end: 4.0, step: 7, largest_rate: Some(2.0), ..RunState::default() };
         Progress::new(folder.path()).show(0.75, || now.clone());
         let text = std::fs::read(folder.path().join(FILE)).unwrap();
         let record: Record = serde_json::from_slice(&text).unwrap();

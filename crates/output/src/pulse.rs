@@ -13,14 +13,14 @@ const SILENCE: Duration = Duration::from_secs(30);
 const LOOK: Duration = Duration::from_secs(1);
 
 /// Last activity and time of its last printing.
-struct Last {
+struct LastActivity {
     words: String,
     printed: Instant,
 }
 
 /// Prints the last activity at intervals until it is dropped.
 pub struct Pulse {
-    last: Arc<Mutex<Last>>,
+    last: Arc<Mutex<LastActivity>>,
     looked: Instant,
     beating: Option<(Sender<()>, JoinHandle<()>)>,
 }
@@ -36,7 +36,7 @@ impl Pulse {
 
     fn every(silence: Duration, words: &str, print: impl Fn(&str, Duration) + Send + 'static) -> Self {
         let started = Instant::now();
-        let last = Arc::new(Mutex::new(Last { words: words.to_string(), printed: started }));
+        let last = Arc::new(Mutex::new(LastActivity { words: words.to_string(), printed: started }));
         let (ends, ended) = mpsc::channel::<()>();
         let shared = Arc::clone(&last);
         let beat = move || {
@@ -75,7 +75,7 @@ impl Pulse {
 }
 
 /// Locks the last activity. If the other thread panicked while writing, its text is still readable.
-fn held(last: &Mutex<Last>) -> MutexGuard<'_, Last> {
+fn held(last: &Mutex<LastActivity>) -> MutexGuard<'_, LastActivity> {
     last.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }
 

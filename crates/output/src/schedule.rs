@@ -42,7 +42,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// Tracks the intervals of each stage for which output has been written.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Due {
+pub(super) struct OutputIntervals {
     intervals: usize,
     /// Start and end of each stage \[s\].
     stages: Vec<(f64, f64)>,
@@ -50,7 +50,7 @@ pub(super) struct Due {
     passed: Vec<usize>,
 }
 
-impl Due {
+impl OutputIntervals {
     pub(super) fn new(intervals: usize, stages: &[(String, f64)]) -> Self {
         let mut start = 0.0;
         let mut spans = Vec::with_capacity(stages.len());

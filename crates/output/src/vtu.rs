@@ -37,12 +37,12 @@ pub struct Array<'a> {
     name: &'a str,
     components: usize,
     component_names: &'a [&'a str],
-    encoded: Encoded,
+    encoded: EncodedArray,
 }
 
 /// An array as encoded in the file.
 #[derive(Clone, Debug)]
-struct Encoded {
+struct EncodedArray {
     kind: &'static str,
     length: usize,
     text: String,
@@ -52,7 +52,7 @@ impl<'a> Array<'a> {
     /// A scalar per point or cell.
     #[must_use]
     pub fn scalar(name: &'a str, values: Values<'_>) -> Self {
-        Self { name, components: 1, component_names: &[], encoded: Encoded::new(values) }
+        Self { name, components: 1, component_names: &[], encoded: EncodedArray::new(values) }
     }
 
     /// A vector of three components.
@@ -62,7 +62,7 @@ impl<'a> Array<'a> {
             name,
             components: 3,
             component_names: &[],
-            encoded: Encoded::new(Values::F64(values.as_flattened())),
+            encoded: EncodedArray::new(Values::F64(values.as_flattened())),
         }
     }
 
@@ -74,7 +74,7 @@ impl<'a> Array<'a> {
             name,
             components: 6,
             component_names,
-            encoded: Encoded::new(Values::F64(values.as_flattened())),
+            encoded: EncodedArray::new(Values::F64(values.as_flattened())),
         }
     }
 
@@ -101,10 +101,10 @@ pub fn face_type(nodes: usize) -> u8 {
 /// Part of a file that does not change with time: points and cells, encoded once.
 #[derive(Clone, Debug)]
 pub struct Grid {
-    points: Encoded,
-    connectivity: Encoded,
-    offsets: Encoded,
-    types: Encoded,
+    points: EncodedArray,
+    connectivity: EncodedArray,
+    offsets: EncodedArray,
+    types: EncodedArray,
 }
 
 impl Grid {
@@ -122,10 +122,10 @@ impl Grid {
             .collect();
         let types: Vec<u8> = cells.iter().map(|(kind, _)| *kind).collect();
         Self {
-            points: Encoded::new(Values::F64(points.as_flattened())),
-            connectivity: Encoded::new(Values::I64(&connectivity)),
-            offsets: Encoded::new(Values::I64(&offsets)),
-            types: Encoded::new(Values::U8(&types)),
+            points: EncodedArray::new(Values::F64(points.as_flattened())),
+            connectivity: EncodedArray::new(Values::I64(&connectivity)),
+            offsets: EncodedArray::new(Values::I64(&offsets)),
+            types: EncodedArray::new(Values::U8(&types)),
         }
     }
 
@@ -155,7 +155,7 @@ impl Grid {
         );
         out.line("<UnstructuredGrid>");
         out.line("<FieldData>");
-        out.array("Name=\"TimeValue\" NumberOfTuples=\"1\"", &Encoded::new(Values::F64(&[time])));
+        out.array("Name=\"TimeValue\" NumberOfTuples=\"1\"", &EncodedArray::new(Values::F64(&[time])));
         out.line("</FieldData>");
         out.line(&format!("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">", self.points(), self.cells()));
         out.line("<Points>");
@@ -174,7 +174,7 @@ impl Grid {
     }
 }
 
-impl Encoded {
+impl EncodedArray {
     fn new(values: Values<'_>) -> Self {
         let (kind, length, text) = match values {
             Values::F64(v) => ("Float64", v.len(), encode(&little_endian(v, f64::to_le_bytes))),
@@ -226,7 +226,7 @@ impl Writer {
         self.head.push('\n');
     }
 
-    fn array(&mut self, attributes: &str, encoded: &Encoded) {
+    fn array(&mut self, attributes: &str, encoded: &EncodedArray) {
         let (kind, offset) = (encoded.kind, self.appended.len());
         self.line(&format!(
             "<DataArray type=\"{kind}\" {attributes} format=\"appended\" offset=\"{offset}\"/>"

@@ -12,7 +12,7 @@ pub trait Kind {
     /// The run at the end of a step.
     type Moment<'a>;
     /// All there is to know to resume the run.
-    type Stand;
+    type ResumeState;
 }
 
 /// Observes a run, and may end it.
@@ -43,7 +43,10 @@ pub trait Observer<K: Kind> {
     ///
     /// # Errors
     /// If something cannot be written.
-    fn pause(&mut self, _stand: &mut dyn FnMut() -> K::Stand) -> Result<Option<&'static str>, ObserveError> {
+    fn pause(
+        &mut self,
+        _stand: &mut dyn FnMut() -> K::ResumeState,
+    ) -> Result<Option<&'static str>, ObserveError> {
         Ok(None)
     }
 
@@ -101,7 +104,10 @@ impl<K: Kind> Observer<K> for Observers<'_, K> {
         self.0.iter_mut().try_for_each(|o| o.event(point))
     }
 
-    fn pause(&mut self, stand: &mut dyn FnMut() -> K::Stand) -> Result<Option<&'static str>, ObserveError> {
+    fn pause(
+        &mut self,
+        stand: &mut dyn FnMut() -> K::ResumeState,
+    ) -> Result<Option<&'static str>, ObserveError> {
         let mut reason = None;
         for observer in &mut self.0 {
             let own = observer.pause(stand)?;

@@ -1,6 +1,5 @@
 //! Checks of a scene before anything is built. All errors are collected.
 
-pub mod apart;
 mod bodies;
 mod conditions;
 mod corners;
@@ -13,6 +12,7 @@ mod faults;
 mod fields;
 mod forced;
 mod heat;
+pub mod incompatibility;
 mod inertia;
 mod interfaces;
 mod materials;

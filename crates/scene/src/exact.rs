@@ -7,19 +7,19 @@ use std::marker::PhantomData;
 
 /// Exactly `N` values.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Exactly<T, const N: usize>(pub [T; N]);
+pub struct ExactList<T, const N: usize>(pub [T; N]);
 
-impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exactly<T, N> {
+impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for ExactList<T, N> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct ListVisitor<T, const N: usize>(PhantomData<T>);
         impl<'de, T: Deserialize<'de>, const N: usize> Visitor<'de> for ListVisitor<T, N> {
-            type Value = Exactly<T, N>;
+            type Value = ExactList<T, N>;
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 write!(f, "an array of length {N}")
             }
 
-            fn visit_seq<A: SeqAccess<'de>>(self, mut entries: A) -> Result<Exactly<T, N>, A::Error> {
+            fn visit_seq<A: SeqAccess<'de>>(self, mut entries: A) -> Result<ExactList<T, N>, A::Error> {
                 let mut values = Vec::with_capacity(N);
                 while values.len() < N {
                     match entries.next_element()? {
@@ -30,7 +30,7 @@ impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exactly<T, N
                 let length = N + rest(&mut entries)?;
                 let all: Result<[T; N], _> = values.try_into();
                 match all {
-                    Ok(all) if length == N => Ok(Exactly(all)),
+                    Ok(all) if length == N => Ok(ExactList(all)),
                     _ => Err(de::Error::invalid_length(length, &self)),
                 }
             }
@@ -83,7 +83,7 @@ fn at<T, U>(value: Spanned<T>, change: impl FnOnce(T) -> U) -> Spanned<U> {
 pub fn list<'de, D: Deserializer<'de>, T: Deserialize<'de>, const N: usize>(
     from: D,
 ) -> Result<Spanned<[T; N]>, D::Error> {
-    Ok(at(Spanned::<Exactly<T, N>>::deserialize(from)?, |v| v.0))
+    Ok(at(Spanned::<ExactList<T, N>>::deserialize(from)?, |v| v.0))
 }
 
 /// Reads an optional list of `N` values.
@@ -97,7 +97,7 @@ pub fn optional<'de, D: Deserializer<'de>, T: Deserialize<'de>, const N: usize>(
 pub fn lists<'de, D: Deserializer<'de>, T: Deserialize<'de>, const N: usize, const M: usize>(
     from: D,
 ) -> Result<Spanned<[[T; N]; M]>, D::Error> {
-    Ok(at(Spanned::<Exactly<Exactly<T, N>, M>>::deserialize(from)?, |v| v.0.map(|x| x.0)))
+    Ok(at(Spanned::<ExactList<ExactList<T, N>, M>>::deserialize(from)?, |v| v.0.map(|x| x.0)))
 }
 
 /// Pairs with their position in the file.

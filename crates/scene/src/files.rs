@@ -67,7 +67,7 @@ fn doubt(
     (keys, dimension): (&[&str], Dimension),
     points: &[(f64, f64)],
 ) -> Option<Warning> {
-    let (message, help) = plausible::of_file(keys, dimension.si(), points.iter().map(|p| p.1))?;
+    let (message, help) = plausible::judge_file(keys, dimension.si(), points.iter().map(|p| p.1))?;
     let (column, name) = (&file.column, file.file.get_ref());
     Some(Warning::at(column.span(), format!("column `{}` of `{name}`: {message}", column.get_ref()), help))
 }
@@ -83,7 +83,7 @@ fn taken(
         points.iter_mut().for_each(|p| p.1 -= zero);
     }
     let Some(from) = &file.from else { return Ok(points) };
-    part(&points, from.get_ref().0, (duration, holds)).ok_or_else(|| {
+    part(&points, from.get_ref().0, duration, holds).ok_or_else(|| {
         let [first, last] = [points.first(), points.last()].map(|p| p.map_or(0.0, |p| p.0));
         Diagnostic::at(
             from.span(),

@@ -25,7 +25,7 @@ mod site;
 mod solver;
 mod stress;
 mod surface;
-mod tabled;
+mod time_series;
 mod trace;
 
 pub use super::here::here;
@@ -61,8 +61,8 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 pub use stress::*;
 pub use surface::*;
-pub(crate) use tabled::TableOver;
-pub use tabled::{TableFile, Tabled, part};
+pub(crate) use time_series::TableOver;
+pub use time_series::{TableFile, TimeSeries, part};
 pub use trace::{Trace, TraceFile};
 
 /// A whole scene.
@@ -240,11 +240,11 @@ pub struct Stage {
 }
 
 /// A table of motions or loads: its dimension goes with it.
-type TableMut<'a> = (&'a mut Tabled, Dimension);
+type TableMut<'a> = (&'a mut TimeSeries, Dimension);
 
 impl Condition {
     /// Tables of its motions and loads.
-    fn tables(&self) -> impl Iterator<Item = &Tabled> {
+    fn tables(&self) -> impl Iterator<Item = &TimeSeries> {
         let motions = [&self.x, &self.y, &self.z].into_iter().flatten();
         let motions = motions.filter_map(|motion| match motion.get_ref() {
             Motion::Table(table) => Some(table),
@@ -315,7 +315,7 @@ pub enum Motion {
     /// Moved from the present value at this rate.
     Rate(Pace),
     /// Piecewise linear: (time since the stage began \[s\], displacement \[m\]).
-    Table(Tabled),
+    Table(TimeSeries),
     /// Pulled as a whole by a spring whose other end moves at a rate.
     Spring {
         /// Stiffness \[N/m; N/m per metre of thickness in the plane\].
@@ -391,7 +391,7 @@ pub enum Loading {
     /// Ramped linearly from the present value to this one at the end of the stage \[Pa\].
     To(f64),
     /// Piecewise linear: (time since the stage began \[s\], Pa).
-    Table(Tabled),
+    Table(TimeSeries),
 }
 
 /// Time integration.
@@ -410,7 +410,7 @@ pub struct TimeControl {
     #[serde(default)]
     pub path: Path,
     /// Largest estimated error of slip per step \[m\].
-    #[schemars(extend("x-kinds" = kind::ITERATED, "x-default" = usual(defaults::SLIP_TOLERANCE).of("the largest prescribed travel")))]
+    #[schemars(extend("x-kinds" = kind::ITERATED, "x-default" = usual(defaults::SLIP_TOLERANCE).share_of("the largest prescribed travel")))]
     pub tolerance: Option<Spanned<Length>>,
     /// Largest estimated error of friction coefficients per step, 1e-9 to 1e-2 \[-\].
     #[schemars(extend("x-kinds" = kind::INTERFACES, "x-default" = usual(defaults::FRICTION_TOLERANCE).only("with a law of kind rate-and-state")))]
@@ -422,13 +422,13 @@ pub struct TimeControl {
     #[schemars(extend("x-kinds" = [Kind::Auto, Kind::Ruptures]))]
     pub handover: Option<Spanned<HandoverSpec>>,
     /// First step \[s\].
-    #[schemars(extend("x-kinds" = kind::INTERFACES, "x-default" = usual(defaults::FIRST_STEP).of("the stage")))]
+    #[schemars(extend("x-kinds" = kind::INTERFACES, "x-default" = usual(defaults::FIRST_STEP).share_of("the stage")))]
     pub first_step: Option<Spanned<Time>>,
     /// Largest step \[s\].
-    #[schemars(extend("x-kinds" = kind::INTERFACES, "x-default" = usual(defaults::LARGEST_STEP).of("the stage")))]
+    #[schemars(extend("x-kinds" = kind::INTERFACES, "x-default" = usual(defaults::LARGEST_STEP).share_of("the stage")))]
     pub max_step: Option<Spanned<Time>>,
     /// Smallest step, below which a run stops \[s\].
-    #[schemars(extend("x-kinds" = kind::INTERFACES, "x-default" = usual(defaults::SMALLEST_STEP).of("the stage").but(defaults::LEAST_STEP, "if no law weakens or depends on the rate, or with damping").of("it")))]
+    #[schemars(extend("x-kinds" = kind::INTERFACES, "x-default" = usual(defaults::SMALLEST_STEP).share_of("the stage").but(defaults::LEAST_STEP, "if no law weakens or depends on the rate, or with damping").share_of("it")))]
     pub min_step: Option<Spanned<Time>>,
     /// Slip rate at which a run stops with an [instability](#instabilities) \[m/s\].
     #[schemars(extend("x-kinds" = [Kind::Implicit, Kind::StaticExplicit], "x-instead" = "bodies with inertia follow an instability"))]
@@ -558,7 +558,7 @@ pub struct Output {
     #[serde(default)]
     pub seismograms: BTreeMap<String, Spanned<PointSpec>>,
     /// Time between rows of seismograms, stations, energies and moment rate \[s\].
-    #[schemars(extend("x-kinds" = [Kind::Explicit], "x-default" = usual(1.0 / defaults::WAVE_ROWS as f64).of("the run")))]
+    #[schemars(extend("x-kinds" = [Kind::Explicit], "x-default" = usual(1.0 / defaults::WAVE_ROWS as f64).share_of("the run")))]
     pub sampling: Option<Spanned<Time>>,
     /// Slip rate at which a point has ruptured; not below `above` of `[events]` \[m/s\].
     #[schemars(extend("x-kinds" = kind::FAULTS, "x-default" = usual(defaults::RUPTURED)))]
@@ -585,7 +585,7 @@ pub struct CadenceSpec {
     #[schemars(extend("x-default" = usual(defaults::DECADES)))]
     pub decades: Option<Spanned<f64>>,
     /// Slip.
-    #[schemars(extend("x-default" = usual(defaults::CADENCE_SLIP).of("the smallest L")))]
+    #[schemars(extend("x-default" = usual(defaults::CADENCE_SLIP).share_of("the smallest L")))]
     pub slip: Option<Spanned<Length>>,
     /// Longest time between two rows.
     #[schemars(extend("x-default" = usual(defaults::LONGEST).only("or 1/500 of a shorter run")))]

@@ -1,7 +1,7 @@
 //! Reading of motions, loadings and fluxes.
 
 use super::entry::Entry;
-use super::model::{Flux, Loading, Motion, Pace, TableFile, Tabled};
+use super::model::{Flux, Loading, Motion, Pace, TableFile, TimeSeries};
 use super::units::{self, Dimension, Length, Pressure, Velocity};
 use crate::shape::{Either, shaped};
 use schemars::JsonSchema;
@@ -124,12 +124,12 @@ pub(crate) enum TableForm<E> {
 }
 
 impl<Q> TableForm<Entry<Q>> {
-    fn tabled(self, value: impl Fn(Q) -> f64) -> Tabled {
+    fn tabled(self, value: impl Fn(Q) -> f64) -> TimeSeries {
         match self {
             Self::Pairs(pairs) => {
                 pairs.into_iter().map(|p| (p.time.0, value(p.value))).collect::<Vec<_>>().into()
             }
-            Self::File(file) => Tabled::in_file(file),
+            Self::File(file) => TimeSeries::in_file(file),
         }
     }
 }
@@ -196,7 +196,7 @@ impl<'de> Deserialize<'de> for SideSpring {
                 } else {
                     "such as `spring = 5e9`".into()
                 };
-                Err(E::custom(format!("expected {}, found \"{text}\": {instead}", Expected(&self))))
+                Err(E::custom(format!("expected {}, found \"{text}\": {instead}", Expectation(&self))))
             }
         }
         deserializer.deserialize_any(SpringVisitor)
@@ -204,9 +204,9 @@ impl<'de> Deserialize<'de> for SideSpring {
 }
 
 /// Formats what a visitor expects.
-struct Expected<'a, V>(&'a V);
+struct Expectation<'a, V>(&'a V);
 
-impl<'de, V: Visitor<'de>> fmt::Display for Expected<'_, V> {
+impl<'de, V: Visitor<'de>> fmt::Display for Expectation<'_, V> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.0.expecting(f)
     }
@@ -263,11 +263,12 @@ impl<'de> Deserialize<'de> for Loading {
 
 #[derive(serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct Stepped {
+#[schemars(rename = "Stepped")]
+struct StepTable {
     steps: TableForm<Entry<Velocity>>,
 }
 
-shaped!(Flux as Either<Velocity, Stepped>);
+shaped!(Flux as Either<Velocity, StepTable>);
 
 impl<'de> Deserialize<'de> for Flux {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -292,7 +293,7 @@ impl<'de> Deserialize<'de> for Flux {
             }
 
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Flux, A::Error> {
-                let given = Stepped::deserialize(MapAccessDeserializer::new(map))?;
+                let given = StepTable::deserialize(MapAccessDeserializer::new(map))?;
                 Ok(Flux::Steps(given.steps.tabled(|flux| flux.0)))
             }
         }

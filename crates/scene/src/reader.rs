@@ -29,7 +29,7 @@ pub fn read(text: &str, folder: &Path, laws: &Laws, columns: &mut Columns<'_>) -
     azimuth::rakes(&mut scene);
     let (mut errors, mut warnings) = check::check(&scene, laws);
     let (kind, stated) = (scene.kind(), scene.time.stepper.span());
-    judge(text, plausible::Known::of(&scene), (kind, stated), &mut errors, &mut warnings);
+    judge(text, plausible::SceneFacts::from_scene(&scene), (kind, stated), &mut errors, &mut warnings);
     warnings.extend(doubts);
     scene.warnings = warnings;
     if errors.is_empty() { Ok(scene) } else { Err(Diagnostics(errors)) }
@@ -110,20 +110,20 @@ pub fn read_sliders(text: &str) -> Result<SliderScene, Diagnostics> {
         toml::from_str(text).map_err(|e| Diagnostics(vec![explain::explain(&e, text)]))?;
     let mut errors = Vec::new();
     let kind = (Kind::Sliders, scene.kinematics.span());
-    judge(text, plausible::Known::SLIDERS, kind, &mut errors, &mut scene.warnings);
+    judge(text, plausible::SceneFacts::SLIDERS, kind, &mut errors, &mut scene.warnings);
     if errors.is_empty() { Ok(scene) } else { Err(Diagnostics(errors)) }
 }
 
 /// Adds what a walk through the text finds: keys that do not belong to the kind of run, which is stated here, and implausible values.
 fn judge(
     text: &str,
-    known: plausible::Known,
+    facts: plausible::SceneFacts,
     (kind, stated): (Kind, Range<usize>),
     errors: &mut Vec<Diagnostic>,
     warnings: &mut Vec<Warning>,
 ) {
     let Ok(document) = Document::parse(text) else { return };
     let tree = Tree::new();
-    keys::refuse((&tree, &document), kind, stated, errors);
-    plausible::judge((&tree, &document), known, errors, warnings);
+    keys::refuse(&tree, &document, kind, stated, errors);
+    plausible::judge(&tree, &document, facts, errors, warnings);
 }

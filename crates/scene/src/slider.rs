@@ -4,4 +4,4 @@ mod course;
 mod spec;
 
 pub use course::Course;
-pub use spec::{Load, OutputSpec, SliderScene, SliderSpec, SliderTime, SpringSpec, Which};
+pub use spec::{Load, OutputSpec, SliderScene, SliderSelection, SliderSpec, SliderTime, SpringSpec};

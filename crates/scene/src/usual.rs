@@ -7,16 +7,16 @@ use serde_json::{Value, json};
 /// Default of a key: a value, and others under some circumstances.
 #[derive(Clone, Debug, Serialize)]
 #[serde(transparent)]
-pub(crate) struct Usual(Vec<Value>);
+pub(crate) struct KeyDefault(Vec<Value>);
 
 /// A default.
-pub(crate) fn usual(value: impl Serialize) -> Usual {
-    Usual(vec![json!({ "value": value })])
+pub(crate) fn usual(value: impl Serialize) -> KeyDefault {
+    KeyDefault(vec![json!({ "value": value })])
 }
 
-impl Usual {
+impl KeyDefault {
     /// Makes the value a share of something.
-    pub fn of(mut self, what: &str) -> Self {
+    pub fn share_of(mut self, what: &str) -> Self {
         if let Some(case) = self.0.last_mut() {
             case["of"] = what.into();
         }

@@ -44,7 +44,7 @@ pub fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 fn at<const D: usize>(kind: ElementKind, formulation: Formulation, nu: f64) -> Result<Level, CaseError> {
     let material = Elastic::new(YOUNG, nu)?;
     let field = Waves::incompressible(&material, D);
-    let space = Idealisation::of_dimension(D);
+    let space = Idealisation::from_dimension(D);
     let n = match (D, kind.order()) {
         (2, 1) => 32,
         (2, _) => 16,
@@ -70,7 +70,7 @@ fn enter(
     let [first, .., last] = levels else { return Ok(()) };
     let growth = last.errors[0] / first.errors[0];
     let covers = [Capability::NearlyIncompressible, capability(kind)];
-    let space = Idealisation::of_dimension(kind.dimension());
+    let space = Idealisation::from_dimension(kind.dimension());
     let dilatation = formulation.dilatation(kind, space)?;
     let draft = ledger
         .claim(format!(

@@ -81,7 +81,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
             one(ledger, &mut plots, kind, variant, shape)?;
         }
         if is_serendipity(kind) {
-            let variant = (Idealisation::of_dimension(kind.dimension()), Formulation::Standard);
+            let variant = (Idealisation::from_dimension(kind.dimension()), Formulation::Standard);
             one(ledger, &mut plots, kind, variant, Shape::Crooked)?;
         }
     }

@@ -1,7 +1,7 @@
 //! A point that slides over the triangles of a pyramid, across each edge of each, and off its rim.
 
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
-use asperity_contact::measure::node_to_point::finite::Finite;
+use asperity_contact::measure::node_to_point::finite::NodeToPointMeasure;
 use asperity_contact::measure::{Geometry, Measure as _};
 use asperity_contact::search::surface::Surface;
 use asperity_contact::{Segment, SegmentKind, SlavePoint, SurfaceNode};
@@ -78,13 +78,13 @@ fn exact() -> f64 {
 }
 
 /// A measure with the slave at the start of a path.
-fn measure() -> Finite<3> {
+fn measure() -> NodeToPointMeasure<3> {
     let positions = nodes();
     let node =
         |(label, position): (usize, &[f64; 3])| SurfaceNode { position: *position, dof: 3 * label, label };
     let all: Vec<SurfaceNode<3>> = positions.iter().enumerate().map(node).collect();
     let slave = [SlavePoint { node: positions.len() - 1, area: 1.0 }];
-    Finite::new(&all, &slave, Surface::new(faces(), &positions)).0
+    NodeToPointMeasure::new(&all, &slave, Surface::new(faces(), &positions)).0
 }
 
 /// Gaps, and the limits of forward steps, along a path.

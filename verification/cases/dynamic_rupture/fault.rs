@@ -5,7 +5,7 @@ use super::reference::{Flash, Friction, Parameters};
 use crate::CaseError;
 use asperity_friction::evolution::ageing::Ageing;
 use asperity_friction::evolution::flash::{self, Weakening};
-use asperity_friction::inertial::{EachPoint, InertialFault};
+use asperity_friction::inertial::{InertialFault, InertialPoints};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slip_weakening::SlipWeakening;
 use asperity_friction::strength::{self, regularised::Regularised};
@@ -71,7 +71,7 @@ fn law(p: &Parameters, at: &[f64]) -> Result<Box<dyn InertialFault>, CaseError> 
                 let static_one = if x.abs() < half_length { mu_s } else { BARRIER };
                 SlipWeakening::new(static_one, mu_d, length, None)
             };
-            Box::new(EachPoint(at.iter().map(of).collect::<Result<Vec<_>, _>>()?))
+            Box::new(InertialPoints(at.iter().map(of).collect::<Result<Vec<_>, _>>()?))
         }
         Friction::RateAndState { a, more_a, b, length, flash, rate, .. } => {
             let a = |x: f64| a + more_a * (1.0 - inside(p.border, x));
@@ -79,7 +79,7 @@ fn law(p: &Parameters, at: &[f64]) -> Result<Box<dyn InertialFault>, CaseError> 
                 None => {
                     let of =
                         |x: &f64| Ok(RateLaw::new(form(a(*x))?, Ageing::new(b, length, p.v0)?, rate, None)?);
-                    Box::new(EachPoint(at.iter().map(of).collect::<Result<Vec<_>, CaseError>>()?))
+                    Box::new(InertialPoints(at.iter().map(of).collect::<Result<Vec<_>, CaseError>>()?))
                 }
                 Some(Flash { v_w, more_v_w, f_w }) => {
                     let of = |x: &f64| {
@@ -87,7 +87,7 @@ fn law(p: &Parameters, at: &[f64]) -> Result<Box<dyn InertialFault>, CaseError> 
                         let steady = Weakening { mu0: p.f0, a: a(*x), b, v_ref: p.v0, mu_w: f_w, v_w };
                         Ok(RateLaw::new(form(a(*x))?, flash::Flash::new(steady, length)?, rate, None)?)
                     };
-                    Box::new(EachPoint(at.iter().map(of).collect::<Result<Vec<_>, CaseError>>()?))
+                    Box::new(InertialPoints(at.iter().map(of).collect::<Result<Vec<_>, CaseError>>()?))
                 }
             }
         }

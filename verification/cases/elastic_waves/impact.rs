@@ -6,7 +6,7 @@ use crate::{Capability, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
 use asperity_friction::coulomb::Coulomb;
-use asperity_friction::inertial::EachPoint;
+use asperity_friction::inertial::InertialPoints;
 use asperity_mechanics::dynamics::{Fault, SplitPoint};
 
 /// Cells along a bar of 1 m.
@@ -42,7 +42,7 @@ fn collide() -> Result<Collision, CaseError> {
     let frictionless = Coulomb::new(0.0, None)?;
     problem.fault = Some(Fault {
         points: vec![point(0), point(1)],
-        law: Box::new(EachPoint(vec![frictionless; 2])),
+        law: Box::new(InertialPoints(vec![frictionless; 2])),
         normal: vec![0.0; 2],
         shear: vec![0.0; 2],
         rate: vec![0.0; 2],

@@ -8,7 +8,7 @@ use asperity_friction::Failure;
 use asperity_friction::component::Component;
 use asperity_friction::evolution::stateless::Stateless;
 use asperity_friction::evolution::{Evolution, ageing::Ageing, slip::Slip};
-use asperity_friction::law::{Drives, Law, Rated};
+use asperity_friction::law::{Drives, Law, RateDependent};
 use asperity_friction::point::{Point, Solver};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::strength::{Form, Parameters, bare::Bare, regularised::Regularised};

@@ -2,7 +2,7 @@
 
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_friction::evolution::{Evolution, ageing::Ageing, nagata::Nagata, prz::Prz, slip::Slip};
-use asperity_friction::law::{Drives, Law, Rated};
+use asperity_friction::law::{Drives, Law, RateDependent};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::strength::{Form, Parameters, bare::Bare, regularised::Regularised};
 

@@ -112,7 +112,7 @@ fn stepped<E: Evolution>(
     closed: impl Fn(f64) -> f64,
     formula: &str,
 ) -> Result<Vec<(f64, f64)>, CaseError> {
-    let (start, speed) = (e.steady(f64::ln(v1)), Speed::of_log(f64::ln(v2)));
+    let (start, speed) = (e.steady(f64::ln(v1)), Speed::from_log(f64::ln(v2)));
     let xs: Vec<f64> = (1..=60).map(|n| 0.1 * f64::from(n)).collect();
     let mut walking = start;
     let mut error: f64 = 0.0;

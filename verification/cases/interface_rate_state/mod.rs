@@ -9,7 +9,7 @@ use asperity_cycles::Thresholds;
 use asperity_cycles::slider::{self as cycles, Now, Problem, Rows};
 use asperity_friction::evolution::{ageing::Ageing, slip::Slip};
 use asperity_friction::rate::RateLaw;
-use asperity_friction::slider::{History, Slider, Sliding};
+use asperity_friction::slider::{History, Slider, SliderLaw};
 use asperity_friction::strength::{Parameters, regularised::Regularised};
 use asperity_ode::Method;
 use asperity_run::report::{Outcome, Stop};
@@ -337,7 +337,7 @@ fn word(kind: Kind) -> &'static str {
     }
 }
 
-fn law(kind: Kind) -> Result<Arc<dyn Sliding>, CaseError> {
+fn law(kind: Kind) -> Result<Arc<dyn SliderLaw>, CaseError> {
     let form = Regularised(Parameters::new(slider::MU0, A, slider::V_REF)?);
     Ok(match kind {
         Kind::Ageing => Arc::new(RateLaw::new(form, Ageing::new(B, LENGTH, slider::V_REF)?, LOAD, None)?),

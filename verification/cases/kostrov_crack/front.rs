@@ -1,7 +1,7 @@
 //! A law without friction coefficient: behind two fronts that run from the origin nothing resists, ahead of them nothing slips.
 
 use asperity_friction::Failure;
-use asperity_friction::inertial::{InertialFault, Push, Pushed};
+use asperity_friction::inertial::{InertialFault, PointBalance, Push};
 
 /// Both fronts, at ±v t. Its state is the time.
 #[derive(Debug)]
@@ -40,10 +40,10 @@ impl InertialFault for Front {
     }
 
     /// A point that the front has passed in part keeps the other part of the traction that holds it.
-    fn push(&self, pushes: &[Push], states: &mut [f64], answers: &mut [Pushed]) -> Result<(), Failure> {
+    fn push(&self, pushes: &[Push], states: &mut [f64], answers: &mut [PointBalance]) -> Result<(), Failure> {
         for (point, ((push, time), answer)) in pushes.iter().zip(states).zip(answers).enumerate() {
             let released = self.passed(point, *time) * push.trial;
-            *answer = Pushed { traction: push.trial - released, rate: released / push.impedance };
+            *answer = PointBalance { traction: push.trial - released, rate: released / push.impedance };
             *time += push.dt;
         }
         Ok(())

@@ -9,7 +9,7 @@ use crate::CaseError;
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::nodes_of_sides;
-use asperity_friction::inertial::EachPoint;
+use asperity_friction::inertial::InertialPoints;
 use asperity_friction::slip_weakening::SlipWeakening;
 use asperity_mechanics::Model;
 use asperity_mechanics::dynamics::{Fault, Problem, SplitPoint, Tie, dashpots};
@@ -111,7 +111,7 @@ fn fault(model: &Model<3>, p: &Parameters, span: &Span) -> Result<(Fault, Vec<[f
     shear.iter_mut().zip(&at).for_each(|(shear, at)| *shear = traction(p, *at, span.spacing));
     let fault = Fault {
         points,
-        law: Box::new(EachPoint(vec![law; n])),
+        law: Box::new(InertialPoints(vec![law; n])),
         normal: vec![p.normal; n],
         shear,
         rate: vec![0.0; 2 * n],

@@ -6,7 +6,7 @@ use asperity::kinds::sliders::Entry;
 use asperity_cycles::slider::{self as cycles, Problem};
 use asperity_friction::evolution::{ageing::Ageing, slip::Slip};
 use asperity_friction::rate::RateLaw;
-use asperity_friction::slider::{History, Slider, Sliding};
+use asperity_friction::slider::{History, Slider, SliderLaw};
 use asperity_friction::strength::{Parameters, bare::Bare, regularised::Regularised};
 use asperity_ode::{Counts, Method, Outcome};
 use rayon::prelude::*;
@@ -92,7 +92,7 @@ fn each_third(sets: Vec<Set>) -> Vec<Set> {
 }
 
 impl Set {
-    fn law(&self) -> Result<Arc<dyn Sliding>, CaseError> {
+    fn law(&self) -> Result<Arc<dyn SliderLaw>, CaseError> {
         let p = Parameters::new(MU0, self.a, V_REF)?;
         let (ageing, slip) = (Ageing::new(B, self.length, V_REF)?, Slip::new(B, self.length, V_REF)?);
         Ok(match (self.slip_law, self.bare) {

@@ -6,7 +6,7 @@ use asperity_cycles::slider::{Problem, critical_stiffness};
 use asperity_friction::component::Component;
 use asperity_friction::evolution::{Evolution, ageing::Ageing, nagata::Nagata, slip::Slip};
 use asperity_friction::rate::RateLaw;
-use asperity_friction::slider::{History, Sliding};
+use asperity_friction::slider::{History, SliderLaw};
 use asperity_friction::strength::{Parameters, cut_off::CutOff, regularised::Regularised};
 use nalgebra::{Complex, DMatrix};
 use std::sync::Arc;
@@ -192,14 +192,14 @@ fn cut_off(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// A law with these states and the a of the set.
-fn law<E: Evolution + 'static>(set: &Set, states: Vec<E>) -> Result<Arc<dyn Sliding>, CaseError> {
+fn law<E: Evolution + 'static>(set: &Set, states: Vec<E>) -> Result<Arc<dyn SliderLaw>, CaseError> {
     let form = Regularised(Parameters::new(slider::MU0, set.a, V_REF)?);
     let parts = states.into_iter().map(|e| Component::new(e, 0.0)).collect::<Result<Vec<_>, _>>()?;
     Ok(Arc::new(RateLaw::with_parts(form, parts, set.load, set.normal, None)?))
 }
 
 /// A law with its name.
-type Named = (&'static str, Arc<dyn Sliding>);
+type Named = (&'static str, Arc<dyn SliderLaw>);
 
 /// Laws with several states, given by their b and L \[-, m\], and Nagata's law, which remembers shear traction.
 fn laws(set: &Set) -> Result<Vec<Named>, CaseError> {

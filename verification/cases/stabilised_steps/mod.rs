@@ -1,7 +1,7 @@
 //! Linear diffusion by the stabilised explicit method: its stages, its evaluations, and an event within a long step.
 
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_ode::{Clock, Control, Finished, Method, Occurrence, Options, Problem, Sink, Step, integrate};
+use asperity_ode::{Clock, Control, Method, Occurrence, Options, Problem, Sink, Solution, Step, integrate};
 use std::f64::consts::PI;
 
 /// See the README.
@@ -122,7 +122,7 @@ impl Sink for Seen {
 }
 
 /// An integration until `end`, with steps of this length at most.
-fn integrated(rod: &Rod, end: f64, longest: Option<f64>, rtol: f64) -> (Finished, Seen, Cost) {
+fn integrated(rod: &Rod, end: f64, longest: Option<f64>, rtol: f64) -> (Solution, Seen, Cost) {
     let options = Options {
         method: Method::Rkc2,
         rtol,

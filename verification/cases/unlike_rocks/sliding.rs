@@ -5,7 +5,7 @@ use crate::{CaseError, Cost};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
 use asperity_friction::coulomb::Coulomb;
-use asperity_friction::inertial::EachPoint;
+use asperity_friction::inertial::InertialPoints;
 use asperity_mechanics::dynamics::{Fault, Problem, Pulse, Regularisation};
 
 /// The stiffer rock lies above. The units of length, time and density are the radius of the imposed traction, the time in which its shear
@@ -70,7 +70,7 @@ fn fault(problem: &Problem<2>, delay: Option<Regularisation>) -> Result<Fault, C
     let (traction, radius, rise) = PULSE;
     Ok(Fault {
         points,
-        law: Box::new(EachPoint(vec![Coulomb::new(MU, None)?; n])),
+        law: Box::new(InertialPoints(vec![Coulomb::new(MU, None)?; n])),
         normal: vec![NORMAL; n],
         shear: vec![SHEAR; n],
         rate: vec![RATE; n],

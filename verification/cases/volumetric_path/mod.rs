@@ -9,7 +9,7 @@ use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::nonlinear::{Kinematics, Material};
-use asperity_fem::term::{Instant, Limited, Linearized};
+use asperity_fem::term::{ForwardTerm, Instant, Linearized};
 
 /// See the README.
 pub const CASE: Case = Case {

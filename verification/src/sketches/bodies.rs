@@ -71,8 +71,8 @@ fn distorted(text: &str) -> Sketch {
 
 fn ring(inner: &str, outer: &str, pressure: &str) -> Sketch {
     let centre = (22.0, 10.0);
-    let mut corners = Sketch::arc(centre, 48.0, (0.0, 90.0));
-    corners.extend(Sketch::arc(centre, 24.0, (90.0, 0.0)));
+    let mut corners = Sketch::arc(centre, 48.0, 0.0, 90.0);
+    corners.extend(Sketch::arc(centre, 24.0, 90.0, 0.0));
     let spoke = |degrees: f64| {
         let (s, c) = degrees.to_radians().sin_cos();
         ((22.0 + 14.0 * c, 10.0 + 14.0 * s), (22.0 + 24.0 * c, 10.0 + 24.0 * s))
@@ -92,8 +92,8 @@ fn ring(inner: &str, outer: &str, pressure: &str) -> Sketch {
 }
 
 fn point_load() -> Sketch {
-    let mut rock = Sketch::arc((50.0, 46.0), 36.0, (180.0, 360.0));
-    rock.extend(Sketch::arc((50.0, 46.0), 7.0, (360.0, 180.0)));
+    let mut rock = Sketch::arc((50.0, 46.0), 36.0, 180.0, 360.0);
+    rock.extend(Sketch::arc((50.0, 46.0), 7.0, 360.0, 180.0));
     Sketch::new(64.0)
         .body(&rock, "")
         .arrow((50.0, 60.0), (50.0, 47.0), "P, or p on |x| < 1")
@@ -122,9 +122,9 @@ fn cantilever() -> Sketch {
         .block((12.0, 14.0), (84.0, 19.0), "")
         .held((12.0, 24.0), (12.0, 9.0))
         .arrow((84.0, 34.0), (84.0, 20.0), "P")
-        .line(&Sketch::arc((84.0, 16.5), 7.0, (-70.0, 70.0)))
+        .line(&Sketch::arc((84.0, 16.5), 7.0, -70.0, 70.0))
         .note((92.0, 16.5), "M")
-        .guide(&Sketch::arc((12.0, 39.5), 23.0, (-90.0, 60.0)))
+        .guide(&Sketch::arc((12.0, 39.5), 23.0, -90.0, 60.0))
         .note((40.0, 44.0), "rolled up by M L/(E I) = φ")
         .dimension((12.0, 6.0), (84.0, 6.0), "L")
 }
@@ -181,7 +181,7 @@ fn turning() -> Sketch {
         .load((16.0, 38.0), (36.0, 38.0), (0.0, 6.0), "")
         .load((36.0, 18.0), (16.0, 18.0), (0.0, -6.0), "")
         .body(&turned, "R σ Rᵀ")
-        .line(&Sketch::arc((70.0, 28.0), 19.0, (0.0, 75.0)))
+        .line(&Sketch::arc((70.0, 28.0), 19.0, 0.0, 75.0))
         .text((88.0, 45.0), "1 to 120°")
         .text((50.0, 4.0), "a full circle, step by step")
 }

@@ -91,13 +91,13 @@ fn pushed(friction: &str, text: &str) -> Sketch {
 }
 
 fn round(radius: &str, text: &str) -> Sketch {
-    let mut top = Sketch::arc((46.0, 62.0), 36.0, (242.0, 298.0));
+    let mut top = Sketch::arc((46.0, 62.0), 36.0, 242.0, 298.0);
     top.extend([(62.9, 46.0), (29.1, 46.0)]);
     Sketch::new(62.0)
         .block((10.0, 10.0), (90.0, 26.0), "")
         .held((10.0, 10.0), (90.0, 10.0))
         .body(&top, "")
-        .fault(&Sketch::arc((46.0, 62.0), 36.0, (262.0, 278.0)))
+        .fault(&Sketch::arc((46.0, 62.0), 36.0, 262.0, 278.0))
         .load((29.1, 46.0), (62.9, 46.0), (0.0, -5.0), "pressed")
         .arrow((64.0, 40.0), (78.0, 40.0), "")
         .note((79.0, 40.0), "drawn")
@@ -136,7 +136,7 @@ fn rotation() -> Sketch {
         .body(&[at(0.0, 0.0), at(36.0, 0.0), at(36.0, 16.0), at(0.0, 16.0)], "")
         .body(&[at(9.0, 16.0), at(27.0, 16.0), at(27.0, 32.0), at(9.0, 32.0)], "")
         .fault(&[at(9.0, 16.0), at(27.0, 16.0)])
-        .line(&Sketch::arc((40.0, 10.0), 46.0, (8.0, 62.0)))
+        .line(&Sketch::arc((40.0, 10.0), 46.0, 8.0, 62.0))
         .text((14.0, 12.0), "centre ×")
         .note((66.0, 54.0), "360°, 15° a step")
         .note((4.0, 58.0), "pressed 40 mm, sheared 10 mm, μ = 0.9")
@@ -227,13 +227,13 @@ fn crack() -> Sketch {
 }
 
 fn hertz(radius: &str, load: &str, ground: &str, shear: &str) -> Sketch {
-    let mut top = Sketch::arc((46.0, 86.0), 56.0, (240.0, 300.0));
+    let mut top = Sketch::arc((46.0, 86.0), 56.0, 240.0, 300.0);
     top.extend([(74.0, 50.0), (18.0, 50.0)]);
     let sketch = Sketch::new(66.0)
         .block((12.0, 8.0), (80.0, 30.0), ground)
         .held((12.0, 8.0), (80.0, 8.0))
         .body(&top, "")
-        .fault(&Sketch::arc((46.0, 86.0), 56.0, (264.0, 276.0)))
+        .fault(&Sketch::arc((46.0, 86.0), 56.0, 264.0, 276.0))
         .load((18.0, 50.0), (74.0, 50.0), (0.0, -5.0), load)
         .guide(&[(46.0, 24.0), (46.0, 50.0)])
         .text((60.0, 43.0), radius)
@@ -249,14 +249,14 @@ fn hertz(radius: &str, load: &str, ground: &str, shear: &str) -> Sketch {
 fn rings() -> Sketch {
     let centre = (20.0, 10.0);
     let quarter = |inner: f64, outer: f64| {
-        let mut corners = Sketch::arc(centre, outer, (0.0, 90.0));
-        corners.extend(Sketch::arc(centre, inner, (90.0, 0.0)));
+        let mut corners = Sketch::arc(centre, outer, 0.0, 90.0);
+        corners.extend(Sketch::arc(centre, inner, 90.0, 0.0));
         corners
     };
     let mut sketch = Sketch::new(70.0)
         .body(&quarter(31.0, 48.0), "")
         .body(&quarter(11.0, 31.0), "")
-        .fault(&Sketch::arc(centre, 31.0, (0.0, 90.0)))
+        .fault(&Sketch::arc(centre, 31.0, 0.0, 90.0))
         .rollers((31.0, 10.0), (68.0, 10.0))
         .rollers((20.0, 58.0), (20.0, 21.0));
     for degrees in [20.0_f64, 45.0, 70.0] {

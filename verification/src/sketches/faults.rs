@@ -269,7 +269,7 @@ fn bodies() -> Sketch {
         .text((26.0, 63.0), "free surface")
         .text((26.0, 17.0), "two faults")
         .block((54.0, 10.0), (94.0, 58.0), "")
-        .fault(&Sketch::arc((92.0, 58.0), 26.0, (180.0, 225.0)))
+        .fault(&Sketch::arc((92.0, 58.0), 26.0, 180.0, 225.0))
         .note((58.0, 17.0), "an arc, 90 to 45°")
         .text((50.0, 4.0), "also a crack, and pairs of blocks")
 }

@@ -65,7 +65,9 @@ fn names(text: &str) -> Vec<(usize, String)> {
             }
             if line.trim_start().starts_with("#[") {
                 skipped |= line.contains("serde(skip)");
-                let name = line.split_once("rename = \"").and_then(|(_, rest)| rest.split_once('"'));
+                // At the margin it is the name of the type in the schema.
+                let inside = line.starts_with(' ').then_some(line);
+                let name = inside.and_then(|line| line.split_once("rename = \"")?.1.split_once('"'));
                 renamed = name.map(|(name, _)| name.to_owned()).or(renamed);
             } else if !line.trim_start().starts_with("//") {
                 let named = field(line).into_iter().chain(variant(line).filter(|_| kebab));
@@ -109,6 +111,7 @@ mod tests {
     const SOURCE: &str = "\
 #[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = \"Rock\")]
 pub struct Body {
     /// The material: a name.
     pub material: String,
@@ -149,7 +152,7 @@ pub enum Kind {
         );
         assert_eq!(
             found("`type = { wide = { height = 1 } }`: material\n```\n`node-to-point`\n```\n"),
-            ["5", "20"]
+            ["6", "21"]
         );
     }
 }

@@ -9,6 +9,7 @@ mod graph;
 mod house;
 mod keys;
 mod lints;
+mod names;
 mod problem;
 mod readers;
 mod sentences;
@@ -32,6 +33,7 @@ pub fn check(root: &Path) -> Result<Vec<Problem>, Failure> {
         if file.path.ends_with(".rs") {
             found.extend(source::check(&file.path, &file.text));
             found.extend(docstrings::check(&file.path, &file.text));
+            found.extend(names::check(&file.path, &file.text));
         }
     }
     found.extend(house::check(&files));

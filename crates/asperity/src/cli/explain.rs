@@ -2,7 +2,7 @@
 
 use super::end::End;
 use asperity_output::printing::out;
-use asperity_plan::reading::scene::keys::{self, Found, Key, Row};
+use asperity_plan::reading::scene::keys::{self, Key, KeySearch, Row};
 use miette::miette;
 
 /// Longest line \[characters\].
@@ -12,11 +12,11 @@ pub const WIDTH: usize = 100;
 pub(super) fn print(key: Option<&str>) -> miette::Result<End> {
     match key.map(keys::find) {
         None => out(format_args!("{}", beginnings())),
-        Some(Found::Keys(keys)) => {
+        Some(KeySearch::Keys(keys)) => {
             let texts: Vec<String> = keys.iter().map(text).collect();
             out(format_args!("{}", texts.join("\n")));
         }
-        Some(Found::None(why)) => return Err(miette!("{why}")),
+        Some(KeySearch::None(why)) => return Err(miette!("{why}")),
     }
     Ok(End::Done)
 }

@@ -2,7 +2,7 @@
 
 use super::end::End;
 use super::status::{self, State};
-use asperity_output::plots::{Asked, Format, Sheet};
+use asperity_output::plots::{FigureRequest, Format, Sheet};
 use asperity_output::printing::{self, out};
 use asperity_output::words::time as words;
 use asperity_plan::reading::scene::near::suggest;
@@ -87,7 +87,7 @@ fn size(text: &str) -> Result<Size, String> {
     let ((width, own), (height, unit)) = read(width).zip(read(height)).ok_or_else(wrong)?;
     let unit = unit.ok_or_else(wrong)?;
     let size = [width * own.unwrap_or(unit), height * unit];
-    let [least, low] = Asked::SMALLEST;
+    let [least, low] = FigureRequest::SMALLEST;
     if !(size[0] >= least && size[1] >= low) {
         return Err(format!(
             "figures are at least {least} mm wide and {low} mm high: their texts are then as small as can be read"
@@ -160,8 +160,8 @@ fn sheet(folder: &Path) -> miette::Result<Sheet> {
 }
 
 /// Checks what is asked for against what there is.
-fn wanted(asked: &Redrawing, sheet: &Sheet) -> miette::Result<Asked> {
-    let dpi = asked.dpi.unwrap_or(Asked::DPI);
+fn wanted(asked: &Redrawing, sheet: &Sheet) -> miette::Result<FigureRequest> {
+    let dpi = asked.dpi.unwrap_or(FigureRequest::DPI);
     let [width, height] = asked.size.map_or(USUAL, |size| size.0);
     let pixels = (width / 25.4 * dpi) * (height / 25.4 * dpi);
     if pixels > PIXELS {
@@ -184,7 +184,7 @@ fn wanted(asked: &Redrawing, sheet: &Sheet) -> miette::Result<Asked> {
             formats.push(format);
         }
     }
-    Ok(Asked {
+    Ok(FigureRequest {
         names: names(asked, sheet)?,
         size: asked.size.map(|size| size.0),
         dpi,

@@ -8,7 +8,7 @@ use asperity_output::plots::MeshPicture;
 use asperity_plan::bodies::{self, AnyPlan};
 use asperity_plan::reading::diagnostic::{Diagnostics, report_set};
 use asperity_plan::reading::scene;
-use asperity_plan::reading::scene::settings::{self, Origin, Resolved, Setting};
+use asperity_plan::reading::scene::settings::{self, Origin, ResolvedText, Setting};
 use asperity_plan::reading::sniff::{self, Reader};
 use asperity_plan::shared::checks::Checks;
 use asperity_plan::shared::setup::Setups;
@@ -116,7 +116,7 @@ struct Text {
     /// Text of the file.
     file: String,
     /// Text with the settings.
-    resolved: Resolved,
+    resolved: ResolvedText,
     settings: Vec<Setting>,
 }
 

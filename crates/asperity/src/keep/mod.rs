@@ -7,7 +7,7 @@ pub use table::Table;
 use crate::checkpoint::{self, Pauses, ResumeError, Saved};
 use asperity_ode::Control;
 use asperity_output::OutputError;
-use asperity_output::progress::{Now, Progress};
+use asperity_output::progress::{Progress, RunState};
 use asperity_run::{Kind, ObserveError, Observer};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -26,7 +26,7 @@ pub struct Place<'a> {
 }
 
 /// State from which a run of a kind resumes.
-pub type Stand<O> = <<O as Outputs>::Kind as Kind>::Stand;
+pub type Stand<O> = <<O as Outputs>::Kind as Kind>::ResumeState;
 
 /// Outputs of one kind of run, and the state from which both resume.
 pub trait Outputs: Sized {
@@ -101,7 +101,7 @@ pub trait Outputs: Sized {
     fn times(&self, moment: &<Self::Kind as Kind>::Moment<'_>) -> [f64; 2];
 
     /// State for the display of progress.
-    fn now(&self, moment: &<Self::Kind as Kind>::Moment<'_>) -> Now;
+    fn now(&self, moment: &<Self::Kind as Kind>::Moment<'_>) -> RunState;
 
     /// True if the run draws figures at its end. A run that was begun without them does not.
     fn draws(&self) -> bool;

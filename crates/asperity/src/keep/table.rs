@@ -1,7 +1,7 @@
 //! Tables of a run that grow by whole rows.
 
 use asperity_output::column::{self, Column};
-use asperity_output::{Growing, OutputError, atomic};
+use asperity_output::{GrowingTable, OutputError, atomic};
 use asperity_run::Kind;
 use std::path::Path;
 
@@ -43,12 +43,14 @@ impl<'a, K: Kind, C> Table<'a, K, C> {
     ///
     /// # Errors
     /// If the file cannot be written, or is missing or shorter than it was.
-    pub fn open(&self, out: &Path, size: Option<u64>) -> Result<Growing, OutputError> {
+    pub fn open(&self, out: &Path, size: Option<u64>) -> Result<GrowingTable, OutputError> {
         let path = out.join(&self.path);
         path.parent().map_or(Ok(()), atomic::create_dir)?;
         match size {
-            Some(size) => Growing::reopen(path, size),
-            None => Growing::create(path, self.head.clone().unwrap_or_else(|| column::header(&self.columns))),
+            Some(size) => GrowingTable::reopen(path, size),
+            None => {
+                GrowingTable::create(path, self.head.clone().unwrap_or_else(|| column::header(&self.columns)))
+            }
         }
     }
 }

@@ -17,9 +17,9 @@ pub use stand::Stand;
 use crate::kinds::balance::balance;
 use crate::kinds::stop;
 use asperity_contact::{Course, PointFields, Status, Watch};
-use asperity_mechanics::step::{Accepted, Cut, Failure};
+use asperity_mechanics::step::{AcceptedStep, Cut, Failure};
 use asperity_mechanics::timing::{Figures, StepLength};
-use asperity_mechanics::{Assembled, LOADING, Mismatch, Stage};
+use asperity_mechanics::{AssembledProblem, LOADING, Mismatch, Stage};
 use asperity_output::Writer;
 use asperity_output::view::{InterfaceFields, Samples, StepRecord, StepView};
 use asperity_plan::bodies::{AnyPlan, Plan, restraint};
@@ -84,7 +84,7 @@ fn run_in<const D: usize>(
     from: Option<Stand>,
 ) -> Result<RunReport, RunError> {
     let clock = Clock::now();
-    let mut system = Assembled::new(&plan.problem)
+    let mut system = AssembledProblem::new(&plan.problem)
         .map_err(|reason| RunError::SetUp { stage: plan.problem.stages[0].name.clone(), reason })?;
     let phases = Phases { set_up: clock.elapsed().as_secs_f64(), ..Phases::default() };
     let (work, found) = (Work::default(), Found::default());
@@ -130,7 +130,7 @@ impl<const D: usize> Running<'_, D> {
     fn stage(
         &mut self,
         index: usize,
-        system: &mut Assembled<'_, D>,
+        system: &mut AssembledProblem<'_, D>,
         observer: &mut dyn Observer<Bodies>,
         from: Option<Stand>,
     ) -> Result<Option<Outcome>, RunError> {
@@ -149,7 +149,7 @@ impl<const D: usize> Running<'_, D> {
             let moment = self.moment(system);
             system.set_bound(here.length.bound(dt));
             system.set_inertia_bound(here.length.inertia_bound(dt));
-            let trial = system.step((dt, here.length.smallest()), &mut self.work.counts);
+            let trial = system.step(dt, here.length.smallest(), &mut self.work.counts);
             self.phases.steps += clock.elapsed().as_secs_f64();
             let ended = match trial {
                 Ok(accepted) => {
@@ -169,7 +169,7 @@ impl<const D: usize> Running<'_, D> {
     fn enter(
         &mut self,
         index: usize,
-        system: &mut Assembled<'_, D>,
+        system: &mut AssembledProblem<'_, D>,
         from: Option<Stand>,
     ) -> Result<InStage, RunError> {
         let stage = &self.plan.problem.stages[index];
@@ -186,7 +186,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Current state of the run.
-    fn stand(&self, here: &InStage, system: &mut Assembled<'_, D>) -> Stand {
+    fn stand(&self, here: &InStage, system: &mut AssembledProblem<'_, D>) -> Stand {
         Stand {
             stage: here.index,
             system: system.save(),
@@ -200,12 +200,12 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Values that events need, if the scene asks for events.
-    fn moment(&self, system: &Assembled<'_, D>) -> Option<Moment> {
+    fn moment(&self, system: &AssembledProblem<'_, D>) -> Option<Moment> {
         self.plan.events.as_ref().map(|events| Moment::of(self.plan, events, system))
     }
 
     /// Finds the events of a step that began at `before`. The run is complete after the number of events requested.
-    fn events(&mut self, before: Option<Moment>, system: &Assembled<'_, D>) -> Option<Outcome> {
+    fn events(&mut self, before: Option<Moment>, system: &AssembledProblem<'_, D>) -> Option<Outcome> {
         let (before, after) = (before?, self.moment(system)?);
         let events = self.events.as_mut()?;
         events.step(&before, &after);
@@ -217,9 +217,9 @@ impl<const D: usize> Running<'_, D> {
     fn accepted(
         &mut self,
         here: &mut InStage,
-        system: &mut Assembled<'_, D>,
+        system: &mut AssembledProblem<'_, D>,
         before: &[f64],
-        accepted: &Accepted,
+        accepted: &AcceptedStep,
     ) {
         system.set_time(here.length.snap(system.time()));
         let figures = Figures {
@@ -231,7 +231,7 @@ impl<const D: usize> Running<'_, D> {
             // solution.
             iterations: accepted.iterations.div_ceil(accepted.augmentations + 1),
         };
-        here.length.accepted((accepted.dt, accepted.cut), figures);
+        here.length.accepted(accepted.dt, accepted.cut, figures);
         self.record(here, system, accepted);
         if let Some(energy) = system.energy() {
             self.work.energy.note(&energy.energies());
@@ -241,7 +241,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Notes the worst of the stage so far; the last state of a stage is always judged.
-    fn worst(&mut self, system: &Assembled<'_, D>, last: bool) {
+    fn worst(&mut self, system: &AssembledProblem<'_, D>, last: bool) {
         let displacement = || system.displacement();
         self.found.worst.see(
             (&self.plan.problem, system.time()),
@@ -255,7 +255,7 @@ impl<const D: usize> Running<'_, D> {
     fn outruns(
         &self,
         here: &InStage,
-        system: &Assembled<'_, D>,
+        system: &AssembledProblem<'_, D>,
         before: &[f64],
         cut: Cut,
     ) -> Option<Outcome> {
@@ -270,7 +270,7 @@ impl<const D: usize> Running<'_, D> {
     fn rejected(
         &mut self,
         here: &mut InStage,
-        system: &Assembled<'_, D>,
+        system: &AssembledProblem<'_, D>,
         failure: &Failure,
         dt: f64,
     ) -> Option<Outcome> {
@@ -291,7 +291,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Description of a body that contact no longer holds, if there is one.
-    fn contact_lost(&self, stage: usize, system: &Assembled<'_, D>) -> Option<String> {
+    fn contact_lost(&self, stage: usize, system: &AssembledProblem<'_, D>) -> Option<String> {
         let problem = &self.plan.problem;
         if problem.mass.is_some() {
             return None;
@@ -310,7 +310,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Adds the results at the end of a stage.
-    fn end_of_stage(&mut self, stage: &Stage, system: &Assembled<'_, D>) {
+    fn end_of_stage(&mut self, stage: &Stage, system: &AssembledProblem<'_, D>) {
         let (plan, fields) = (self.plan, interface_fields(system));
         self.found.results.extend(report::results(stage, &fields, interface_names(plan)));
         let resolution = report::resolution(plan, stage, &fields);
@@ -324,7 +324,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Present values at the points, sets and springs of the scene.
-    fn samples(&self, stage: &Stage, system: &Assembled<'_, D>) -> Samples {
+    fn samples(&self, stage: &Stage, system: &AssembledProblem<'_, D>) -> Samples {
         let of = |f: &PointFields<D>| f.normal_traction.iter().zip(&f.area).map(|(f, a)| f * a).sum::<f64>();
         let normal = system.interfaces().iter().map(|i| of(i.points())).sum();
         let springs = shared::springs(&self.plan.problem.stages, stage, &system.springs(), normal);
@@ -332,7 +332,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Report of the run.
-    fn report(self, system: &Assembled<'_, D>, outcome: Outcome) -> RunReport {
+    fn report(self, system: &AssembledProblem<'_, D>, outcome: Outcome) -> RunReport {
         let Self { plan, mut work, found, events, phases } = self;
         system.add_counts(&mut work.counts);
         let planned = plan.problem.interfaces.iter().zip(system.interfaces());
@@ -384,7 +384,7 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// True if a law depends on slip rate and the largest rate exceeds the rate driven by the loads.
-    fn fast(&self, system: &Assembled<'_, D>) -> bool {
+    fn fast(&self, system: &AssembledProblem<'_, D>) -> bool {
         self.follows_rates() && self.beyond_loads(&system.slip_rates())
     }
 
@@ -407,7 +407,7 @@ impl<const D: usize> Running<'_, D> {
         self.plan.problem.interfaces.iter().any(|i| i.law.as_ref().is_some_and(|l| !l.has_elastic_domain()))
     }
 
-    fn record(&mut self, here: &InStage, system: &Assembled<'_, D>, accepted: &Accepted) {
+    fn record(&mut self, here: &InStage, system: &AssembledProblem<'_, D>, accepted: &AcceptedStep) {
         let end = self.plan.problem.stages[here.index].end;
         debug_assert!(system.time() <= end * (1.0 + f64::EPSILON) + f64::MIN_POSITIVE);
         let reason = || here.length.reason().to_string();
@@ -432,7 +432,7 @@ impl<const D: usize> Running<'_, D> {
         &mut self,
         index: usize,
         stage: &Stage,
-        system: &Assembled<'_, D>,
+        system: &AssembledProblem<'_, D>,
         observer: &mut dyn Observer<Bodies>,
         stopped: bool,
     ) -> Result<(), RunError> {
@@ -473,6 +473,6 @@ fn interface_names<const D: usize>(plan: &Plan<D>) -> impl Iterator<Item = Strin
 }
 
 /// Present state of the interfaces.
-fn interface_fields<const D: usize>(system: &Assembled<'_, D>) -> Vec<InterfaceFields> {
+fn interface_fields<const D: usize>(system: &AssembledProblem<'_, D>) -> Vec<InterfaceFields> {
     system.interfaces().iter().map(views::interface_fields).collect()
 }

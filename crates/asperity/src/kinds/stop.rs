@@ -2,7 +2,7 @@
 
 use asperity_contact::Interface;
 use asperity_fem::term::Objection;
-use asperity_mechanics::{Assembled, Failure, coordinates};
+use asperity_mechanics::{AssembledProblem, Failure, coordinates};
 use asperity_run::report::{Outcome, Stop};
 
 /// Remedies for an instability.
@@ -23,7 +23,7 @@ const SHOWN: f64 = 1e9;
 /// Outcome of a step that failed at its shortest length `dt` \[s\]. `free` describes a motion that nothing restrains, or why contact restrains it no longer; `fast` is true if slip is
 /// faster than the loads drive it.
 pub fn failed<const D: usize>(
-    system: &Assembled<'_, D>,
+    system: &AssembledProblem<'_, D>,
     stage: &str,
     failure: &Failure,
     dt: f64,
@@ -56,7 +56,7 @@ pub fn failed<const D: usize>(
 
 /// Outcome of a run whose iterations fail repeatedly because a penalty is far too large; `None` otherwise.
 pub fn stalled<const D: usize>(
-    system: &Assembled<'_, D>,
+    system: &AssembledProblem<'_, D>,
     stage: &str,
     failure: &Failure,
     (steps, rejected): (usize, usize),
@@ -80,7 +80,7 @@ pub fn stalled<const D: usize>(
 
 /// Outcome of a run whose slip error requires steps of `needed` \[s\], below the smallest allowed. `faster` is true if slip accelerates.
 pub fn exhausted<const D: usize>(
-    system: &Assembled<'_, D>,
+    system: &AssembledProblem<'_, D>,
     stage: &str,
     (needed, smallest): (f64, f64),
     faster: bool,
@@ -120,7 +120,12 @@ impl Met {
     }
 }
 
-fn unstable<const D: usize>(system: &Assembled<'_, D>, stage: String, met: Met, what: &str) -> Outcome {
+fn unstable<const D: usize>(
+    system: &AssembledProblem<'_, D>,
+    stage: String,
+    met: Met,
+    what: &str,
+) -> Outcome {
     if is_coarse(system, &met) {
         return coarse(system, stage, met, what);
     }
@@ -140,7 +145,7 @@ fn unstable<const D: usize>(system: &Assembled<'_, D>, stage: String, met: Met, 
 }
 
 /// Outcome of a step in which a point would slide whose cohesive zone is not resolved.
-fn coarse<const D: usize>(system: &Assembled<'_, D>, stage: String, met: Met, what: &str) -> Outcome {
+fn coarse<const D: usize>(system: &AssembledProblem<'_, D>, stage: String, met: Met, what: &str) -> Outcome {
     let remedy = system.resolved(&met.interface).map_or_else(String::new, |r| format!("; {}", r.limit));
     let reason = format!(
         "less than one point stands on the length over which friction falls {}: {what}{remedy}",
@@ -157,7 +162,7 @@ fn coarse<const D: usize>(system: &Assembled<'_, D>, stage: String, met: Met, wh
 
 /// True if the normal traction at a point is too large for the points to resolve its cohesive zone, and the scene does not allow this: the point
 /// would fail on its own, as an artefact of the mesh.
-fn is_coarse<const D: usize>(system: &Assembled<'_, D>, met: &Met) -> bool {
+fn is_coarse<const D: usize>(system: &AssembledProblem<'_, D>, met: &Met) -> bool {
     let most = system.resolved(&met.interface).and_then(|r| r.refused_beyond);
     let normal = |i: &Interface<D>| {
         let point = (0..i.points().normal_traction.len()).find(|&p| i.place(p) == met.position)?;
@@ -181,13 +186,13 @@ fn at<const D: usize>(interface: &Interface<D>, point: usize, slip_rate: f64) ->
 }
 
 /// Point that lost strength in the last failed trial.
-fn weakest<const D: usize>(system: &Assembled<'_, D>) -> Option<Met> {
+fn weakest<const D: usize>(system: &AssembledProblem<'_, D>) -> Option<Met> {
     let rate = |i: &Interface<D>, p: usize| i.points().slip_rate.get(p).map_or(0.0, |v| v.abs());
     system.interfaces().iter().find_map(|i| i.weakens().map(|p| at(i, p, rate(i, p))))
 }
 
 /// Point with the largest slip rate.
-fn fastest<const D: usize>(system: &Assembled<'_, D>) -> Option<Met> {
+fn fastest<const D: usize>(system: &AssembledProblem<'_, D>) -> Option<Met> {
     let each = system.interfaces().iter().filter_map(|i| i.fastest().map(|(p, rate)| at(i, p, rate)));
     each.reduce(|a, b| if b.slip_rate > a.slip_rate { b } else { a })
 }

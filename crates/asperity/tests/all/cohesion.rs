@@ -1,7 +1,7 @@
 //! Cohesion of interfaces and of faults between bodies with mass.
 
 use crate::common::{planned, simulate, varied};
-use asperity_mechanics::dynamics::{Explicit, Forced};
+use asperity_mechanics::dynamics::{Explicit, ForcedWeakening};
 use asperity_output::Recorder;
 use asperity_plan::bodies::AnyPlan as Bodies;
 use asperity_plan::dynamics;
@@ -246,7 +246,7 @@ fn forced_ruptures_arrive_when_the_benchmark_says() {
     // Friction falls linearly over the duration.
     let share = |time| fault.forced[plan.points.len() - 1].share(time);
     assert_eq!(share(1e9), 0.0);
-    assert_eq!(Forced { at: 2.0, duration: 0.5 }.share(2.25), 0.5);
+    assert_eq!(ForcedWeakening { at: 2.0, duration: 0.5 }.share(2.25), 0.5);
 }
 
 #[test]

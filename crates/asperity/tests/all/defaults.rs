@@ -3,7 +3,7 @@
 use crate::common::{coarse_sandwich, cycles, varied};
 use crate::dynamic;
 use crate::sister_checks::{MEDIUM, SLIDER};
-use asperity_plan::reading::scene::keys::{self, Documented};
+use asperity_plan::reading::scene::keys::{self, DocumentedDefault};
 use asperity_plan::reading::scene::kind::Kind;
 use asperity_plan::reading::scene::{self, settings};
 use asperity_plan::sliders::planner;
@@ -93,7 +93,7 @@ fn every_documented_default_is_that_of_the_plan() {
     });
     let scenes: Vec<_> = planned_scenes.collect();
     let (mut wrong, mut untried) = (Vec::new(), Vec::new());
-    for Documented { path, default, kinds } in keys::documented() {
+    for DocumentedDefault { path, default, kinds } in keys::documented() {
         let own = scenes.iter().filter(|(kind, ..)| kinds.contains(kind));
         let stated = |(kind, text, before): &(Kind, String, String)| {
             let setting = settings::Setting::read(&format!("{}={default}", path_in(&path, text)?)).ok()?;

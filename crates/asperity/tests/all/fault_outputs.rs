@@ -6,7 +6,7 @@ use crate::common::varied;
 use asperity::kinds::faults::{Files, Position, Report, sheet};
 use asperity_cycles::{FaultRun, Faults, Moment, Rupture, resume};
 use asperity_ode::Control;
-use asperity_output::plots::{Asked, EventPanel};
+use asperity_output::plots::{EventPanel, FigureRequest};
 use asperity_plan::faults::Plan;
 use asperity_plan::reading::scene;
 use asperity_plan::{ScenePlan, plan_scene};
@@ -188,8 +188,11 @@ fn files_stay_below_their_largest_size_and_the_run_says_so() {
     assert!(rows[rows.len() - 1][0] > 0.5 * run.at.seconds());
     // Plots are drawn from files of any length.
     let panel = EventPanel { title: String::new(), start: 0.0, end: 0.0, groups: Vec::new() };
-    let drawn =
-        sheet(&plan, &run, panel).draw(folder.path(), &folder.path().join("plots"), &Asked::default());
+    let drawn = sheet(&plan, &run, panel).draw(
+        folder.path(),
+        &folder.path().join("plots"),
+        &FigureRequest::default(),
+    );
     assert_eq!(drawn.unwrap().len(), 28);
 }
 

@@ -7,7 +7,7 @@ use asperity_plan::faults::Plan;
 use asperity_plan::reading::scene;
 use asperity_plan::{ScenePlan, plan_scene};
 use asperity_run::{ObserveError, Observer};
-use asperity_scene::check::apart::{APART, PROCESSES};
+use asperity_scene::check::incompatibility::{APART, PROCESSES};
 use asperity_vary::Change::{self, Add, With, Without};
 
 /// A fault below a free surface with a floor that fluid opens.

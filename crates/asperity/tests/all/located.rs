@@ -3,7 +3,7 @@
 
 use crate::common::varied;
 use asperity::kinds::faults::located::locate;
-use asperity_output::located::{Located, Plane, Spot, Tensor, cmtsolution, quakeml};
+use asperity_output::located::{Plane, SourceParameters, Spot, Tensor, cmtsolution, quakeml};
 use asperity_vary::Change::{Add, With, Without};
 
 const NDK: &str = include_str!("../catalogues/events.ndk");
@@ -34,9 +34,9 @@ fn nodal_planes_are_those_of_the_global_cmt_catalogue() {
         for found in tensor.planes() {
             // Angles of similar planes may differ much, but tensors may not: rounding to whole degrees is within 0.5
             // degrees, 0.009 rad, in each of three angles.
-            let rebuilt = Tensor::of_plane(&found, 1.0);
+            let rebuilt = Tensor::from_plane(&found, 1.0);
             for given in [plane(10), plane(13)] {
-                let off = off(&rebuilt, &Tensor::of_plane(&given, 1.0));
+                let off = off(&rebuilt, &Tensor::from_plane(&given, 1.0));
                 assert!(off < 0.03, "{}: {found:?} {given:?} {off}", event[0]);
             }
         }
@@ -44,14 +44,14 @@ fn nodal_planes_are_those_of_the_global_cmt_catalogue() {
 }
 
 /// The event of the example.
-fn iran() -> Located {
+fn iran() -> SourceParameters {
     let value = |name: &str| {
         let line = CMT.lines().find(|l| l.starts_with(name)).unwrap();
         line.split_whitespace().last().unwrap().parse::<f64>().unwrap()
     };
     let names = ["Mrr", "Mtt", "Mpp", "Mrt", "Mrp", "Mtp"];
     let tensor = Tensor(names.map(|name| value(name) / 1e7));
-    Located {
+    SourceParameters {
         time: "2003-12-26T01:56:52.4Z".into(),
         hypocentre: Spot { latitude: 29.0, longitude: 58.31, depth: 10e3 },
         centroid: Spot {
@@ -100,7 +100,7 @@ fn quakeml_says_that_events_are_simulated_and_gives_no_magnitude_without_a_lengt
     ] {
         assert!(text.contains(part), "{part} is not in\n{text}");
     }
-    let plane = Located { moment: None, magnitude: None, ..iran() };
+    let plane = SourceParameters { moment: None, magnitude: None, ..iran() };
     let text = String::from_utf8(quakeml(title, "id", &[plane]).unwrap()).unwrap();
     for part in ["<magnitude", "<momentTensor", "Mw", "<Mrr>"] {
         assert!(!text.contains(part), "{part} is in\n{text}");
@@ -109,12 +109,12 @@ fn quakeml_says_that_events_are_simulated_and_gives_no_magnitude_without_a_lengt
 }
 
 /// An event of a scene in which all points slip by the same amount, with the sign of `slip`.
-fn uniform(text: &str, slip: f64) -> Located {
+fn uniform(text: &str, slip: f64) -> SourceParameters {
     slipped(text, &[slip])
 }
 
 /// The same with all components of slip.
-fn slipped(text: &str, components: &[f64]) -> Located {
+fn slipped(text: &str, components: &[f64]) -> SourceParameters {
     use asperity_cycles::{Components, Rupture};
     use asperity_ode::Clock;
     use asperity_plan::{ScenePlan, plan_scene};
@@ -153,8 +153,8 @@ fn slipped(text: &str, components: &[f64]) -> Located {
     located
 }
 
-fn assert_plane(located: &Located, expected: Plane) {
-    let double = Tensor::of_plane(&expected, located.moment.unwrap());
+fn assert_plane(located: &SourceParameters, expected: Plane) {
+    let double = Tensor::from_plane(&expected, located.moment.unwrap());
     assert!(off(&located.tensor, &double) < 1e-7, "{:?} is not {expected:?}", located.planes);
 }
 

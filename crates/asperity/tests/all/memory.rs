@@ -2,7 +2,7 @@
 #![allow(clippy::disallowed_methods, clippy::print_stdout)]
 
 use crate::common::varied;
-use asperity_mechanics::solver::Prepared;
+use asperity_mechanics::solver::Analyses;
 use asperity_plan::bodies::{self, AnyPlan};
 use asperity_plan::reading::scene;
 use asperity_vary::Change::{Add, With};
@@ -81,7 +81,7 @@ fn a_plan_of_a_million_cells_neither_assembles_nor_analyses() {
     let blocks: Vec<_> = plan.problem.model.blocks.iter().map(|b| b.linear().unwrap()).collect();
     assert_eq!(plan.problem.model.mesh.blocks.iter().map(|b| b.len()).sum::<usize>(), 1_000_000);
     assert!(blocks.iter().all(|b| !b.is_made()));
-    assert!(matches!(plan.problem.solver.prepared, Prepared::Nothing), "{:?}", plan.problem.solver.method);
+    assert!(matches!(plan.problem.solver.prepared, Analyses::Nothing), "{:?}", plan.problem.solver.method);
     // 576 numbers a cell at least.
     assert!(plan.summary.memory_bytes > 576 * 8 * 1_000_000);
 }

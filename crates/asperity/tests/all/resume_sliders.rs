@@ -10,7 +10,7 @@ use asperity::keep::{Keeper, Place};
 use asperity::kinds::sliders::Outputs;
 use asperity_cycles::slider::{Problem, SliderRun, resume};
 use asperity_ode::{Method, Outcome};
-use asperity_output::plots::Asked;
+use asperity_output::plots::FigureRequest;
 use asperity_vary::Change::{self, Add, With, WithOrSame};
 use asperity_vary::SceneText;
 use serde_json::Value;
@@ -68,7 +68,7 @@ fn part(problem: &Problem, out: &Path, wall: Option<Duration>) -> Result<(Slider
     let ended = resume(problem, from, &mut keeper).map_err(|e| e.to_string())?;
     let interrupted = keeper.interrupted().is_some();
     let sheet = keeper.finish(!interrupted).complete().unwrap().sheet(problem, &[], ended.at.seconds());
-    sheet.draw(out, &out.join("plots"), &Asked::default()).unwrap();
+    sheet.draw(out, &out.join("plots"), &FigureRequest::default()).unwrap();
     if !interrupted {
         checkpoint::remove(out).unwrap();
     }

@@ -23,7 +23,7 @@ pub(crate) struct Multipliers {
 }
 
 impl Multipliers {
-    pub(crate) fn of(enforcement: &Enforcement, points: usize) -> Option<Self> {
+    pub(crate) fn from_enforcement(enforcement: &Enforcement, points: usize) -> Option<Self> {
         let moved = match *enforcement {
             Enforcement::Penalty => return None,
             Enforcement::Uzawa { tolerance, most } => Some((tolerance, most)),

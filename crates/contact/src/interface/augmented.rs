@@ -8,7 +8,7 @@ use asperity_fem::term::{Augmented, Refusal};
 
 /// Constraint that the present solution violates most.
 #[derive(Clone, Copy)]
-struct Worst {
+struct WorstViolation {
     /// Violation \[m\].
     value: f64,
     point: usize,
@@ -27,11 +27,11 @@ impl<const D: usize> Interface<D> {
 
     /// Largest change of the tractions from the multipliers in the last residual, as a length. It covers penetration, the gap
     /// over which a separating point is pulled, and the elastic part of a tangential increment. NaN counts as the largest.
-    fn worst(&self, multipliers: &Multipliers) -> Worst {
-        let mut worst = Worst { value: 0.0, point: 0, tangential: false };
+    fn worst(&self, multipliers: &Multipliers) -> WorstViolation {
+        let mut worst = WorstViolation { value: 0.0, point: 0, tangential: false };
         let mut take = |value: f64, point: usize, tangential: bool| {
             if value > worst.value || value.is_nan() {
-                worst = Worst { value, point, tangential };
+                worst = WorstViolation { value, point, tangential };
             }
         };
         for (p, (c, l)) in self.contact.trial.iter().zip(&multipliers.normal).enumerate() {

@@ -38,7 +38,7 @@ impl<const D: usize> Interface<D> {
             Course::Steady | Course::Drop => 0.0,
             Course::State { most, damped } => {
                 let (rate, contact) = (&shear.committed.rate, &self.contact.committed);
-                let spans = |p: usize| spanned((most, damped), [rate[p]; 2], contact[p].traction);
+                let spans = |p: usize| spanned(most, damped, [rate[p]; 2], contact[p].traction);
                 slips.map(|(p, slip)| slip / spans(p)).fold(0.0, f64::max)
             }
             Course::Branch { most, length } => slips
@@ -144,7 +144,7 @@ impl<const D: usize> Interface<D> {
                     |p: usize| shear.trial.regime[p] == Regime::Slip && softens(shear.points[p].d_trial);
                 let rates = |p: usize| [shear.committed.rate[p], shear.trial.rate[p]];
                 let normal = |p: usize| self.contact.trial[p].traction;
-                let most = |p: usize| spanned((most, damped), rates(p), normal(p));
+                let most = |p: usize| spanned(most, damped, rates(p), normal(p));
                 let p = farthest(&|p| slip(p) > most(p) || soft(p))?;
                 let reason =
                     format!("slips by {:.3e} m within a step, and the law weakens over less", slip(p));

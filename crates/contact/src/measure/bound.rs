@@ -1,6 +1,6 @@
 //! Distance that nodes may move before a search must be repeated.
 
-use super::saved::Proved;
+use super::saved::ValidityRange;
 use crate::vector::{dot, sub};
 
 /// Range of validity of a search: its result holds while no node has moved by `radius` or more from `x`.
@@ -11,7 +11,7 @@ pub(super) struct Bound<const D: usize> {
 }
 
 /// True if the saved range is empty or belongs to this number of nodes.
-pub(super) fn fits<const D: usize>(saved: &Proved, nodes: usize) -> bool {
+pub(super) fn fits<const D: usize>(saved: &ValidityRange, nodes: usize) -> bool {
     saved.positions.is_empty() || saved.positions.len() == nodes * D
 }
 
@@ -24,13 +24,13 @@ impl<const D: usize> Bound<D> {
     }
 
     /// Range as serialisable values.
-    pub(super) fn save(&self) -> Proved {
+    pub(super) fn save(&self) -> ValidityRange {
         let positions = self.x.iter().flatten().copied().collect();
-        Proved { positions, radius: self.radius.is_finite().then_some(self.radius) }
+        ValidityRange { positions, radius: self.radius.is_finite().then_some(self.radius) }
     }
 
     /// Restores the range from saved values.
-    pub(super) fn of(saved: &Proved) -> Self {
+    pub(super) fn restore(saved: &ValidityRange) -> Self {
         let x = saved.positions.as_chunks::<D>().0.to_vec();
         Self { x, radius: saved.radius.unwrap_or(f64::INFINITY) }
     }

@@ -39,7 +39,7 @@ struct Pair<const D: usize> {
 
 /// Measure with fixed pairing.
 #[derive(Clone, Debug)]
-pub struct Fixed<const D: usize> {
+pub struct FixedMeasure<const D: usize> {
     pairs: Vec<Pair<D>>,
     /// Interface nodes of all pairs. Each pair lists its slave nodes first.
     nodes: Vec<usize>,
@@ -52,7 +52,7 @@ pub struct Fixed<const D: usize> {
     collocated: bool,
 }
 
-impl<const D: usize> Fixed<D> {
+impl<const D: usize> FixedMeasure<D> {
     /// A measure without pairs yet, for slave points with these areas; `collocated` as in [`Measure::collocated`].
     pub(super) fn new(areas: Vec<f64>, collocated: bool) -> Self {
         Self {
@@ -104,7 +104,7 @@ impl<const D: usize> Fixed<D> {
             .iter()
             .map(|p| self.dofs[p.from..p.to].iter().flat_map(|&d| d..d + D).collect())
             .collect();
-        self.pattern = Pattern::of_blocks(blocks.iter().map(Vec::as_slice));
+        self.pattern = Pattern::from_blocks(blocks.iter().map(Vec::as_slice));
     }
 
     /// Number of paired points.
@@ -157,7 +157,7 @@ fn point_matrix<const D: usize>(
     m
 }
 
-impl<const D: usize> Measure<D> for Fixed<D> {
+impl<const D: usize> Measure<D> for FixedMeasure<D> {
     fn pattern(&self) -> &Pattern {
         &self.pattern
     }

@@ -10,24 +10,24 @@ pub enum MeasureState {
     /// Node-to-point, finite sliding.
     NodeToPoint {
         /// State of the slave points.
-        points: Vec<Tracked>,
+        points: Vec<PairingState>,
         /// Range in which the result of the last search holds.
-        proved: Proved,
+        proved: ValidityRange,
     },
     /// Mortar, finite sliding.
     Mortar {
         /// State of the slave points.
-        points: Vec<Facing>,
+        points: Vec<MortarPointState>,
         /// Slave and master facets that may overlap.
         pairs: Vec<[usize; 2]>,
         /// Range in which the result of the last search holds.
-        proved: Proved,
+        proved: ValidityRange,
     },
 }
 
 /// Position of a slave point on the master side.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Tracked {
+pub struct PairingState {
     /// Segment and natural coordinates of the closest point.
     pub anchor: Option<(usize, [f64; 2])>,
     /// True if the point is leaving its segment.
@@ -38,7 +38,7 @@ pub struct Tracked {
 
 /// State of a slave point of a mortar measure.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Facing {
+pub struct MortarPointState {
     /// Nodes of its block.
     pub nodes: Vec<usize>,
     /// Number of slave nodes among them.
@@ -51,7 +51,7 @@ pub struct Facing {
 
 /// Range of motion in which the result of a search holds.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Proved {
+pub struct ValidityRange {
     /// Positions of the nodes \[m\], one after another.
     pub positions: Vec<f64>,
     /// Distance that each node may move \[m\]; `None` if the result always holds.

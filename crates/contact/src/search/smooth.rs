@@ -36,7 +36,7 @@ const NEGLIGIBLE: f64 = 1e-12;
 
 /// Control points of all segments, as weights of nodes.
 #[derive(Clone, Debug)]
-pub(crate) struct Smooth {
+pub(crate) struct SmoothSurface {
     forms: Vec<Form>,
     /// Nodes on which each segment depends, its own first.
     support: Vec<usize>,
@@ -63,7 +63,7 @@ type Sum = Vec<(usize, f64)>;
 /// Vectors b - x_i at each corner of a segment, towards the next corner and, on faces, the previous one.
 type Handles = Vec<Vec<Sum>>;
 
-impl Smooth {
+impl SmoothSurface {
     /// Control points of `segments`, all first-order, on nodes at the reference positions.
     pub(crate) fn new<const D: usize>(
         name: &str,

@@ -2,7 +2,7 @@
 
 use super::patch::{Basis, Form, MOST_POINTS, Patch, evaluate};
 use super::project::{Outcome, Projection, foot, project_on};
-use super::smooth::Smooth;
+use super::smooth::SmoothSurface;
 use super::tree::{Aabb, Tree};
 use crate::error::ContactError;
 use crate::shape::corners;
@@ -31,7 +31,7 @@ pub struct Weights<const M: usize> {
 #[derive(Clone, Debug)]
 pub struct Surface<const D: usize> {
     segments: Vec<Segment>,
-    smooth: Option<Smooth>,
+    smooth: Option<SmoothSurface>,
     /// Control points of the smoothed segments at the configuration last set \[m\].
     controls: Vec<[f64; D]>,
     /// True for each node on the rim of the surface.
@@ -59,17 +59,17 @@ impl<const D: usize> Surface<D> {
         positions: &[[f64; D]],
         smoothing: Smoothing,
     ) -> Result<Self, ContactError> {
-        let smooth = Smooth::new(name, &segments, positions, smoothing)?;
+        let smooth = SmoothSurface::new(name, &segments, positions, smoothing)?;
         Ok(Self::build(segments, positions, Some(smooth)))
     }
 
-    fn build(segments: Vec<Segment>, positions: &[[f64; D]], smooth: Option<Smooth>) -> Self {
+    fn build(segments: Vec<Segment>, positions: &[[f64; D]], smooth: Option<SmoothSurface>) -> Self {
         let (rim, free) = if D == 2 {
             rim_of_lines(&segments, positions.len())
         } else {
             rim_of_faces(&segments, positions.len())
         };
-        let controls = vec![[0.0; D]; smooth.as_ref().map_or(0, Smooth::count)];
+        let controls = vec![[0.0; D]; smooth.as_ref().map_or(0, SmoothSurface::count)];
         let boxes = vec![Aabb::empty(); segments.len()];
         let tree = Tree::build(&[]);
         let mut surface = Self { segments, smooth, controls, rim, free, boxes, tree };

@@ -3,7 +3,7 @@
 use crate::common::curved::*;
 use crate::common::*;
 use asperity_contact::{Interface, InterfaceSpec, Status};
-use asperity_fem::term::{Limited, Linearized, Term};
+use asperity_fem::term::{ForwardTerm, Linearized, Term};
 use asperity_friction::law::Law;
 use std::sync::Arc;
 

@@ -4,7 +4,7 @@ use crate::common::*;
 use asperity_contact::{
     Enforcement, Interface, InterfaceSpec, MeasureKind, Segment, SegmentKind, Sliding, Status,
 };
-use asperity_fem::term::{Augmented, Limited, Linearized, Saved, Term};
+use asperity_fem::term::{Augmented, ForwardTerm, Linearized, Restorable, Term};
 use asperity_friction::law::Law;
 use asperity_friction::rate::RateLaw;
 use asperity_friction::strength::Parameters;

@@ -3,7 +3,7 @@
 use crate::common::*;
 use approx::assert_relative_eq;
 use asperity_contact::{Interface, InterfaceSpec, Segment, SegmentKind, Sliding, Status};
-use asperity_fem::term::{Limited, Linearized, Saved, Term};
+use asperity_fem::term::{ForwardTerm, Linearized, Restorable, Term};
 use asperity_friction::law::Law;
 use std::sync::Arc;
 

@@ -5,7 +5,7 @@ use crate::common::*;
 use asperity_contact::{
     Interface, InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, Sliding, Status, SurfaceNode,
 };
-use asperity_fem::term::{Linearized, Saved, Term};
+use asperity_fem::term::{Linearized, Restorable, Term};
 use asperity_friction::law::Law;
 use std::sync::Arc;
 

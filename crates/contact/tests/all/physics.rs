@@ -5,7 +5,7 @@ use approx::assert_relative_eq;
 use asperity_contact::{
     ContactError, Interface, InterfaceSpec, Segment, SegmentKind, Sliding, Smoothing, Status, TimeRule,
 };
-use asperity_fem::term::{Instant, Linearized, Saved, Term};
+use asperity_fem::term::{Instant, Linearized, Restorable, Term};
 
 /// Slave nodes, numbered from 2, on a horizontal master of one segment from (0, 0) to (4, 0) with outward normal +y.
 fn flat(slaves: &[f64], sliding: Sliding, friction: bool) -> InterfaceSpec<2> {

@@ -4,7 +4,7 @@
 use crate::common::curved::*;
 use crate::common::*;
 use approx::assert_relative_eq;
-use asperity_contact::measure::node_to_point::finite::Finite;
+use asperity_contact::measure::node_to_point::finite::NodeToPointMeasure;
 use asperity_contact::measure::{Geometry, Measure};
 use asperity_contact::search::project::Outcome;
 use asperity_contact::search::surface::Surface;
@@ -162,7 +162,7 @@ fn a_point_that_slid_off_the_end_and_returns_starts_anew() {
 fn followed<const D: usize>(spec: &InterfaceSpec<D>, always: bool) -> (Vec<Geometry<D>>, u32) {
     let positions: Vec<_> = spec.nodes.iter().map(|n| n.position).collect();
     let surface = Surface::new(spec.master.clone(), &positions);
-    let (mut measure, _) = Finite::new(&spec.nodes, &spec.slave, surface);
+    let (mut measure, _) = NodeToPointMeasure::new(&spec.nodes, &spec.slave, surface);
     let mut noise = Noise::new(17);
     let mut u = vec![[0.0; D]; positions.len()];
     let mut geometry = Geometry::new(spec.slave.len());

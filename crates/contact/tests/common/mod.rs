@@ -7,10 +7,10 @@ use asperity_contact::{
     Enforcement, Interface, InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, Sliding,
     SurfaceNode,
 };
-use asperity_fem::term::{Instant, Limited, Linearized, Term};
+use asperity_fem::term::{ForwardTerm, Instant, Linearized, Term};
 use asperity_friction::Failure;
 use asperity_friction::law::{
-    Increments, Law, Limit, LimitKind, Present, RateBounds, Rates, Regime, Responses, Trials,
+    Increments, Law, Limit, LimitKind, PresentStates, RateBounds, Rates, Regime, Responses, Trials,
 };
 use std::sync::Arc;
 
@@ -50,7 +50,7 @@ impl Law for Mu {
         }
         Ok(())
     }
-    fn rates(&self, p: Present<'_>, out: Rates<'_>) -> Result<(), Failure> {
+    fn rates(&self, p: PresentStates<'_>, out: Rates<'_>) -> Result<(), Failure> {
         for i in 0..p.normal.len() {
             let slips = p.regime[i] == Regime::Slip;
             out.along[i] = if slips { 0.0 } else { 1.0 };
@@ -59,7 +59,7 @@ impl Law for Mu {
         }
         Ok(())
     }
-    fn limit(&self, p: Present<'_>, s: Increments<'_>, _bounds: RateBounds) -> Option<Limit> {
+    fn limit(&self, p: PresentStates<'_>, s: Increments<'_>, _bounds: RateBounds) -> Option<Limit> {
         let mut best: Option<Limit> = None;
         for i in 0..p.normal.len() {
             if p.regime[i] == Regime::Slip {
@@ -81,27 +81,27 @@ impl Law for Mu {
         }
         best
     }
-    fn stands(&self, p: Present<'_>, k: usize) -> bool {
+    fn stands(&self, p: PresentStates<'_>, k: usize) -> bool {
         p.traction[k].abs() >= self.0 * p.normal[k] * (1.0 - 1e-9)
     }
 }
 
 /// Rate law mu = a asinh(V/(2 Vref) exp(mu0/a)), solved by bisection in V followed by Newton steps.
 #[derive(Debug)]
-pub struct Viscous {
+pub struct ViscousLaw {
     pub mu0: f64,
     pub a: f64,
     pub v_ref: f64,
 }
 
-impl Viscous {
+impl ViscousLaw {
     fn mu(&self, v: f64) -> (f64, f64) {
         let c = (self.mu0 / self.a).exp() / (2.0 * self.v_ref);
         (self.a * (c * v).asinh(), self.a * c / (1.0 + (c * v).powi(2)).sqrt())
     }
 }
 
-impl Law for Viscous {
+impl Law for ViscousLaw {
     fn name(&self) -> &'static str {
         "rate"
     }
@@ -143,7 +143,7 @@ impl Law for Viscous {
         }
         Ok(())
     }
-    fn rates(&self, p: Present<'_>, out: Rates<'_>) -> Result<(), Failure> {
+    fn rates(&self, p: PresentStates<'_>, out: Rates<'_>) -> Result<(), Failure> {
         for i in 0..p.normal.len() {
             let v = p.rate[i].max(p.rate_floor);
             let (mu, slope) = self.mu(v);
@@ -155,7 +155,7 @@ impl Law for Viscous {
         }
         Ok(())
     }
-    fn limit(&self, _p: Present<'_>, _s: Increments<'_>, _bounds: RateBounds) -> Option<Limit> {
+    fn limit(&self, _p: PresentStates<'_>, _s: Increments<'_>, _bounds: RateBounds) -> Option<Limit> {
         None
     }
 }
@@ -165,7 +165,7 @@ pub fn coulomb() -> Option<Arc<dyn Law>> {
 }
 
 pub fn viscous() -> Option<Arc<dyn Law>> {
-    Some(Arc::new(Viscous { mu0: 0.4, a: 0.05, v_ref: 0.1 }))
+    Some(Arc::new(ViscousLaw { mu0: 0.4, a: 0.05, v_ref: 0.1 }))
 }
 
 pub const AT: Instant = Instant { time: 1.0, dt: 0.1 };

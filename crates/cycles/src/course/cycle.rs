@@ -13,7 +13,7 @@ use super::run::NextStep;
 use super::waves::Dynamics;
 use crate::equations::Equations;
 use crate::problem::{Fault, Loading, Problem, RunError, Settings};
-use asperity_ode::{Clock, Control, Failure, Finished, Occurrence, Options, Outcome, Sink, Step};
+use asperity_ode::{Clock, Control, Failure, Occurrence, Options, Outcome, Sink, Solution, Step};
 use asperity_run::{ObserveError, Observer};
 
 /// Number of accepted steps after which the integration restarts. It costs one more evaluation of the rates in about 1500.
@@ -222,7 +222,7 @@ fn piece(
         options.first_step = Some(time);
     }
     let duration = Clock::new(end, 0.0).since(&run.at);
-    let Finished { outcome, at, state, counts } =
+    let Solution { outcome, at, state, counts } =
         asperity_ode::integrate(equations, run.at, &run.unknowns, duration, &options, &mut pieces);
     let Pieces { follow, next_step, next, outrun, .. } = pieces;
     if let Some(failure) = follow.failure {

@@ -50,7 +50,7 @@ pub struct Faults;
 impl Kind for Faults {
     type Setup = ();
     type Moment<'a> = Moment<'a>;
-    type Stand = FaultRun;
+    type ResumeState = FaultRun;
 }
 
 impl FaultRun {

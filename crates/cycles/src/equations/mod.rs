@@ -2,7 +2,7 @@
 //!
 //! Shear tractions change at the rate `τ̇ = A V + τ̇_load` and, where slip changes normal tractions, these change at
 //! `ḟ_n = B V + ḟ_load`. Each point is then a slider without springs, driven at the rate τ̇: see
-//! [`asperity_friction::fault`], and [`asperity_friction::turning`] where slip has two directions. The unknowns are m =
+//! [`asperity_friction::fault`], and [`asperity_friction::rake`] where slip has two directions. The unknowns are m =
 //! μ/a of all points, their states (point-major), their slip, f_n where slip changes it, and those of the processes. Shear
 //! tractions follow from m, so that no traction is a small difference of large numbers. Processes change tractions, their
 //! rates and the law in the order of their phases, see [`crate::problem::Process`].

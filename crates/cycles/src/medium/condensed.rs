@@ -12,7 +12,7 @@ use crate::operator::{Bearing, Forces, Matrix};
 use crate::problem::Loading;
 use crate::processes::Opening;
 use asperity_fem::FemError;
-use asperity_fem::condense::{Condensation, Condensed, Interior, Loaded, Remainder, Stiffness};
+use asperity_fem::condense::{Condensation, CondensedBody, Interior, LoadedBody, Remainder, Stiffness};
 use asperity_fem::dof::Channel;
 use asperity_fem::jump::{Jump, Jumps, ObliqueConstraint};
 use asperity_fem::multifrontal::{DirectError, Triangle};
@@ -218,7 +218,7 @@ enum Left {
     /// Condensed forces only.
     Alone(Remainder),
     /// With the factor, for displacements.
-    Kept(Box<Condensed>),
+    Kept(Box<CondensedBody>),
 }
 
 impl Left {
@@ -233,7 +233,7 @@ impl Left {
     ) -> Result<(Self, usize), FemError> {
         if !keep {
             let rows = retained.len() + channels.len();
-            let analysis = Loaded::analyse(body, retained, fixed, channels)?;
+            let analysis = LoadedBody::analyse(body, retained, fixed, channels)?;
             let eliminating = analysis.bytes(analysis.threads(memory)?);
             let bytes = eliminating.max(Triangle::bytes(rows) + PARTS * operator);
             admit(bytes, memory, rows)?;
@@ -243,7 +243,7 @@ impl Left {
         let bytes = analysis.bytes() + PARTS * operator;
         admit(bytes, memory, retained.len())?;
         let system: Vec<usize> = (0..retained.len()).collect();
-        let mut condensed = Condensed::new("bodies".into(), analysis.factor(memory)?, &system);
+        let mut condensed = CondensedBody::new("bodies".into(), analysis.factor(memory)?, &system);
         condensed.set_channels(channels);
         Ok((Self::Kept(Box::new(condensed)), bytes))
     }

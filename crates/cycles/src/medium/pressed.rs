@@ -7,7 +7,7 @@ use super::place::Place;
 use super::point::{Initial, Point};
 use super::refusal::Refusal;
 use asperity_fem::FemError;
-use asperity_fem::condense::{Condensation, Condensed, Stiffness};
+use asperity_fem::condense::{Condensation, CondensedBody, Stiffness};
 use asperity_fem::dof::Channel;
 use asperity_fem::jump::{Jump, Jumps, ObliqueConstraint};
 use asperity_fem::table::Table;
@@ -79,7 +79,7 @@ fn with_components<const D: usize, const C: usize>(
     fixed.dedup();
     let solve = || -> Result<Vec<f64>, FemError> {
         let reduction = Condensation::analyse(&body, &[], &fixed)?.factor(memory)?;
-        let mut condensed = Condensed::new("bodies".into(), reduction, &[]);
+        let mut condensed = CondensedBody::new("bodies".into(), reduction, &[]);
         condensed.set_channels(vec![Channel { amplitude: Table::constant(1.0), ..load.clone() }]);
         Ok(condensed.recover(&[], 0.0))
     };

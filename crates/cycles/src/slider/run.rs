@@ -46,7 +46,7 @@ pub struct Sliders;
 impl Kind for Sliders {
     type Setup = Problem;
     type Moment<'a> = Now<'a>;
-    type Stand = SliderRun;
+    type ResumeState = SliderRun;
 }
 
 /// Largest number of halvings of a step. It is needed where a slider passes through rest, since ln V is unbounded there.
@@ -199,7 +199,9 @@ fn running(piece: &Piece<'_>, at: Clock, unknowns: &[f64]) -> Option<(usize, f64
 
 /// The first slider whose friction has fallen to zero, by a form that has no value at rest.
 fn spent(problem: &Problem, unknowns: &[f64]) -> Option<usize> {
-    let stands = |(i, s): &(usize, &Slider)| !s.law.reverses() && problem.system.of(*i, unknowns)[0] < SPENT;
+    let stands = |(i, s): &(usize, &Slider)| {
+        !s.law.reverses() && problem.system.slider_unknowns(*i, unknowns)[0] < SPENT
+    };
     problem.system.sliders().iter().enumerate().find(stands).map(|(i, _)| i)
 }
 
@@ -357,7 +359,7 @@ impl Running<'_, '_> {
             slip,
             traction: condition.traction,
             friction: condition.friction,
-            states: system.of(i, unknowns)[1..=system.sliders()[i].law.states()].to_vec(),
+            states: system.slider_unknowns(i, unknowns)[1..=system.sliders()[i].law.states()].to_vec(),
         }
     }
 

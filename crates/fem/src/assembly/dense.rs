@@ -1,11 +1,11 @@
 //! A dense system, for condensed bodies.
 //!
-//! The sum of the constant terms is kept. Of the equations that no other term touches most are eliminated once ([`Eliminated`]);
+//! The sum of the constant terms is kept. Of the equations that no other term touches most are eliminated once ([`SchurComplement`]);
 //! only the remainder is factored in each iteration.
 
-use super::dense_factor::{Cholesky, DenseFactor, Lu, Refused, copied};
-use super::eliminated::{Eliminated, Entry, ROUNDING};
-use super::known::{Left, Symmetry};
+use super::dense_factor::{Cholesky, DenseFactor, Lu, PivotFailure, copied};
+use super::known::{RemainingEquations, Symmetry};
+use super::schur_complement::{Entry, ROUNDING, SchurComplement};
 use super::symmetric::SymmetricPart;
 use crate::dof::Equations;
 use crate::error::FemError;
@@ -31,10 +31,10 @@ pub(super) struct DenseStore {
     renewing: bool,
     /// True if it is symmetric to rounding; found when first needed.
     symmetric: Option<bool>,
-    changing: Changing,
-    eliminated: Option<Eliminated>,
+    changing: VariableTerms,
+    eliminated: Option<SchurComplement>,
     /// Equations left over in a run that is resumed, until the constant terms are there.
-    remembered: Option<Left>,
+    remembered: Option<RemainingEquations>,
     factor: Option<Factor>,
     /// Memory of the last factor.
     memory: Option<Mat<f64>>,
@@ -42,7 +42,7 @@ pub(super) struct DenseStore {
 
 /// Terms that are not constant.
 #[derive(Debug, Default)]
-struct Changing {
+struct VariableTerms {
     /// Entries of blocks that are not zero, in the order of the terms.
     entries: Vec<Entry>,
     /// Equations of all blocks, and the end of each block.
@@ -65,7 +65,7 @@ impl DenseStore {
             made_of: None,
             renewing: true,
             symmetric: None,
-            changing: Changing { touched: vec![false; n], ..Changing::default() },
+            changing: VariableTerms { touched: vec![false; n], ..VariableTerms::default() },
             eliminated: None,
             remembered: None,
             factor: None,
@@ -74,14 +74,14 @@ impl DenseStore {
     }
 
     /// Equations left over.
-    pub fn left(&self) -> Option<Left> {
+    pub fn left(&self) -> Option<RemainingEquations> {
         let (eliminated, made_of) = (self.eliminated.as_ref()?, self.made_of.as_ref()?);
         let constant = made_of.iter().map(Option::is_some).collect();
-        Some(Left { constant, equations: eliminated.rest().to_vec() })
+        Some(RemainingEquations { constant, equations: eliminated.rest().to_vec() })
     }
 
     /// Eliminates all but what was left over as soon as there is something to eliminate.
-    pub fn remember(&mut self, left: Left) {
+    pub fn remember(&mut self, left: RemainingEquations) {
         self.remembered = Some(left);
     }
 
@@ -94,7 +94,9 @@ impl DenseStore {
         self.renewing = self.made_of.as_ref() != Some(&constant);
         if self.renewing {
             // Other constant terms than those of the memory are eliminated as if there were none.
-            let same = |left: &Left| left.constant.iter().copied().eq(constant.iter().map(Option::is_some));
+            let same = |left: &RemainingEquations| {
+                left.constant.iter().copied().eq(constant.iter().map(Option::is_some))
+            };
             self.remembered = self.remembered.take().filter(same);
             self.made_of = Some(constant);
             self.constant.fill(0.0);
@@ -178,7 +180,7 @@ impl DenseStore {
         if let Some(left) = self.remembered.take() {
             let mut kept = vec![false; n];
             left.equations.iter().for_each(|&k| kept[k] = true);
-            self.eliminated = Eliminated::new(&self.constant, &kept);
+            self.eliminated = SchurComplement::new(&self.constant, &kept);
         }
         let pays = |kept: &[bool]| {
             let gone = kept.iter().filter(|&&k| !k).count();
@@ -200,7 +202,7 @@ impl DenseStore {
                 kept = both;
             }
         }
-        self.eliminated = if pays(&kept) { Eliminated::new(&self.constant, &kept) } else { None };
+        self.eliminated = if pays(&kept) { SchurComplement::new(&self.constant, &kept) } else { None };
         self.eliminated.is_some()
     }
 
@@ -231,14 +233,15 @@ impl DenseStore {
         }
         let diagonal = self.diagonal();
         let smallest = ROUNDING * (diagonal.len() as f64).sqrt();
-        let Refused { memory, equation, pivot } = match Cholesky::new(matrix, |k| smallest * diagonal[k]) {
+        let PivotFailure { memory, equation, pivot } = match Cholesky::new(matrix, |k| smallest * diagonal[k])
+        {
             Ok(factor) => return Ok((DenseFactor::Cholesky(factor), false)),
             Err(refused) => refused,
         };
         let matrix = self.matrix_in(Some(memory));
         // The sparse factorisation distinguishes a singular matrix from one with negative modes.
         let diagonal = diagonal[equation];
-        let why = SymmetricPart::of_dense(&matrix).factor().err();
+        let why = SymmetricPart::from_dense(&matrix).factor().err();
         match why.unwrap_or(DirectError::NotPositive(Pivot { equation, pivot, diagonal })) {
             DirectError::NotPositive(_) if symmetry == Symmetry::Symmetric => {
                 Ok((DenseFactor::Lu(Lu::new(matrix)), true))
@@ -260,7 +263,7 @@ impl DenseStore {
     }
 }
 
-impl Changing {
+impl VariableTerms {
     fn clear(&mut self) {
         self.entries.clear();
         self.equations.clear();

@@ -44,7 +44,7 @@ pub(super) struct Cholesky {
 
 /// A pivot that is not above its bound: the storage of the matrix, the equation of the pivot and its value, NaN if it is not
 /// positive.
-pub(super) struct Refused {
+pub(super) struct PivotFailure {
     pub memory: Mat<f64>,
     pub equation: usize,
     pub pivot: f64,
@@ -52,7 +52,7 @@ pub(super) struct Refused {
 
 impl Cholesky {
     /// Factors a matrix of which only the lower triangle is read; each pivot must exceed its bound.
-    pub fn new(mut matrix: Mat<f64>, bound: impl Fn(usize) -> f64) -> Result<Self, Refused> {
+    pub fn new(mut matrix: Mat<f64>, bound: impl Fn(usize) -> f64) -> Result<Self, PivotFailure> {
         let n = matrix.nrows();
         let mut memory =
             MemBuffer::new(llt::cholesky_in_place_scratch::<f64>(n, Par::Seq, Default::default()));
@@ -60,11 +60,11 @@ impl Cholesky {
         let outcome =
             llt::cholesky_in_place(matrix.as_mut(), Default::default(), Par::Seq, stack, Default::default());
         if let Err(LltError::NonPositivePivot { index: equation }) = outcome {
-            return Err(Refused { memory: matrix, equation, pivot: f64::NAN });
+            return Err(PivotFailure { memory: matrix, equation, pivot: f64::NAN });
         }
         let failed = (0..n).map(|k| (k, matrix[(k, k)].powi(2))).find(|&(k, pivot)| pivot <= bound(k));
         match failed {
-            Some((equation, pivot)) => Err(Refused { memory: matrix, equation, pivot }),
+            Some((equation, pivot)) => Err(PivotFailure { memory: matrix, equation, pivot }),
             None => Ok(Self { lower: matrix }),
         }
     }

@@ -14,13 +14,13 @@ use std::sync::Arc;
 
 /// Positions of the entries of the lower triangle of a system's matrix.
 #[derive(Clone, Debug)]
-pub struct Lower {
+pub struct LowerTriangle {
     equations: Equations,
     ids: Vec<PatternId>,
     pattern: SymbolicSparseColMat<usize>,
 }
 
-impl Lower {
+impl LowerTriangle {
     /// The pattern of the free equations of some terms.
     #[must_use]
     pub fn new(patterns: &[&Pattern], equations: &Equations) -> Self {
@@ -38,7 +38,8 @@ impl Lower {
     /// # Errors
     /// [`FemError::Direct`] if it cannot be ordered.
     pub fn analyse(self) -> Result<Analysis, FemError> {
-        let symbolic = Arc::new(multifrontal::Symbolic::new(self.pattern.as_ref(), Ordering::Automatic)?);
+        let symbolic =
+            Arc::new(multifrontal::SymbolicCholesky::new(self.pattern.as_ref(), Ordering::Automatic)?);
         Ok(Analysis { equations: self.equations, ids: self.ids, symbolic })
     }
 }
@@ -49,20 +50,20 @@ impl Lower {
 pub struct Analysis {
     equations: Equations,
     ids: Vec<PatternId>,
-    symbolic: Arc<multifrontal::Symbolic>,
+    symbolic: Arc<multifrontal::SymbolicCholesky>,
 }
 
 impl Analysis {
     /// Memory and costs of the factorisation.
     #[must_use]
-    pub fn symbolic(&self) -> &multifrontal::Symbolic {
+    pub fn symbolic(&self) -> &multifrontal::SymbolicCholesky {
         &self.symbolic
     }
 }
 
 #[derive(Debug)]
-enum Symbolic {
-    Cholesky(Arc<multifrontal::Symbolic>),
+enum SymbolicFactors {
+    Cholesky(Arc<multifrontal::SymbolicCholesky>),
     Lu(SymbolicLu<usize>),
 }
 
@@ -70,7 +71,7 @@ enum Symbolic {
 pub(super) struct SparseStore {
     ids: Vec<PatternId>,
     pub map: Option<ScatterMap>,
-    symbolic: Option<Symbolic>,
+    symbolic: Option<SymbolicFactors>,
     factor: Option<Factor>,
     /// The last Cholesky factor, whose storage is reused by the next.
     stale: Option<multifrontal::Cholesky>,
@@ -123,7 +124,7 @@ impl SparseStore {
         let part = if symmetry == Symmetry::General { Part::Whole } else { Part::Lower };
         let map = ScatterMap::new(patterns, equations, part);
         self.symbolic = Some(match symmetry {
-            Symmetry::General => Symbolic::Lu(map.analyse_lu()?),
+            Symmetry::General => SymbolicFactors::Lu(map.analyse_lu()?),
             Symmetry::Symmetric | Symmetry::Positive => {
                 let fits = |a: &&Analysis| a.equations == *equations && a.ids == ids(patterns);
                 let symbolic = match self.analysis.as_ref().filter(fits) {
@@ -131,7 +132,7 @@ impl SparseStore {
                     None => map.analyse_cholesky()?,
                 };
                 symbolic.admit(self.memory)?;
-                Symbolic::Cholesky(symbolic)
+                SymbolicFactors::Cholesky(symbolic)
             }
         });
         self.map = Some(map);
@@ -173,8 +174,8 @@ impl SparseStore {
             return Err(FemError::Factorisation("the pattern was not analysed".into()));
         };
         let factor = match symbolic {
-            Symbolic::Lu(symbolic) => map.lu(symbolic)?,
-            Symbolic::Cholesky(symbolic) => {
+            SymbolicFactors::Lu(symbolic) => map.lu(symbolic)?,
+            SymbolicFactors::Cholesky(symbolic) => {
                 let factor = match self.stale.take() {
                     Some(stale) => stale.refactor(map.values()),
                     None => multifrontal::Cholesky::new(symbolic.clone(), map.values()),

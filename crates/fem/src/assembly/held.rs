@@ -38,8 +38,8 @@ impl System {
     /// Lower triangle of the symmetric part of the matrix.
     fn lower(&self) -> Option<SymmetricPart> {
         match &self.store {
-            Store::Dense(store) => Some(SymmetricPart::of_dense(&store.matrix())),
-            Store::Sparse(store) => store.map.as_ref().map(|map| SymmetricPart::of_sparse(map.matrix())),
+            Store::Dense(store) => Some(SymmetricPart::from_dense(&store.matrix())),
+            Store::Sparse(store) => store.map.as_ref().map(|map| SymmetricPart::from_sparse(map.matrix())),
             Store::Iterative(_) => None,
         }
     }

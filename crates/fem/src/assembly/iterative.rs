@@ -49,7 +49,7 @@ pub struct Iterative {
 }
 
 /// A [`Solver`] with any number of components.
-trait Solves: Debug + Send {
+trait SystemSolver: Debug + Send {
     fn set(
         &mut self,
         patterns: &[&Pattern],
@@ -62,12 +62,12 @@ trait Solves: Debug + Send {
 }
 
 #[derive(Debug)]
-struct Kept<const D: usize, const K: usize> {
+struct StoredSolver<const D: usize, const K: usize> {
     modes: Vec<Block<D, K>>,
     solver: Option<Solver<D, K>>,
 }
 
-impl<const D: usize, const K: usize> Solves for Kept<D, K> {
+impl<const D: usize, const K: usize> SystemSolver for StoredSolver<D, K> {
     fn set(
         &mut self,
         patterns: &[&Pattern],
@@ -95,7 +95,7 @@ impl<const D: usize, const K: usize> Solves for Kept<D, K> {
 
 #[derive(Debug)]
 pub(super) struct IterativeStore {
-    solver: Box<dyn Solves>,
+    solver: Box<dyn SystemSolver>,
     tolerance: f64,
     most_iterations: usize,
 }
@@ -103,10 +103,10 @@ pub(super) struct IterativeStore {
 impl IterativeStore {
     pub fn new(iterative: Iterative) -> Self {
         let Iterative { near_null, tolerance, most_iterations } = iterative;
-        let solver: Box<dyn Solves> = match near_null {
-            NearNull::Antiplane(modes) => Box::new(Kept { modes, solver: None }),
-            NearNull::Plane(modes) => Box::new(Kept { modes, solver: None }),
-            NearNull::Spatial(modes) => Box::new(Kept { modes, solver: None }),
+        let solver: Box<dyn SystemSolver> = match near_null {
+            NearNull::Antiplane(modes) => Box::new(StoredSolver { modes, solver: None }),
+            NearNull::Plane(modes) => Box::new(StoredSolver { modes, solver: None }),
+            NearNull::Spatial(modes) => Box::new(StoredSolver { modes, solver: None }),
         };
         Self { solver, tolerance, most_iterations }
     }

@@ -15,7 +15,7 @@ pub enum Symmetry {
 
 /// Equations of a dense system left over by an elimination, and of which terms the others were eliminated.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Left {
+pub(super) struct RemainingEquations {
     /// True if each term is constant.
     pub constant: Vec<bool>,
     /// The equations, ascending.

@@ -3,7 +3,7 @@
 //! Factors and analyses follow from the next assembly. Two things do not: the scale of the last assembly, which decides what counts as
 //! rounding before the next, and the equations of a dense system that remained after eliminating the others.
 
-use super::known::Left;
+use super::known::RemainingEquations;
 use super::{Store, System};
 use crate::term::Linearized;
 use serde::{Deserialize, Serialize};
@@ -16,7 +16,7 @@ pub struct Memory {
     /// True if there is a factor that the next solve uses unchanged.
     pub(super) factored: bool,
     /// Remaining equations of a dense system, if others were eliminated.
-    pub(super) left: Option<Left>,
+    pub(super) left: Option<RemainingEquations>,
 }
 
 impl System {

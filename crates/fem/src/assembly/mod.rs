@@ -4,20 +4,20 @@
 mod dense;
 mod dense_factor;
 mod direct;
-mod eliminated;
 mod held;
 mod iterative;
 mod known;
 mod memory;
+mod schur_complement;
 mod symmetric;
 
 use crate::dof::Equations;
 use crate::error::FemError;
 use crate::multifrontal::{DirectError, Pivot};
-use crate::term::{Limited, Linearized, Pattern, PatternId};
+use crate::term::{ForwardTerm, Linearized, Pattern, PatternId};
 use dense::DenseStore;
 use direct::SparseStore;
-pub use direct::{Analysis, Lower};
+pub use direct::{Analysis, LowerTriangle};
 use iterative::IterativeStore;
 pub use iterative::{Iterative, NearNull};
 pub use known::Symmetry;
@@ -203,8 +203,8 @@ impl System {
     /// As [`System::factor`].
     pub fn factor_rate<E>(
         &mut self,
-        terms: &mut [&mut dyn Limited],
-        mut values_of: impl FnMut(&mut dyn Limited, &mut [f64]) -> Result<(), E>,
+        terms: &mut [&mut dyn ForwardTerm],
+        mut values_of: impl FnMut(&mut dyn ForwardTerm, &mut [f64]) -> Result<(), E>,
     ) -> Result<Result<bool, FemError>, E> {
         self.assemble(
             terms,

@@ -1,6 +1,6 @@
 //! The symmetric part of a matrix, and a check of its singularity.
 
-use crate::multifrontal::{Cholesky, DirectError, Pivot, Symbolic};
+use crate::multifrontal::{Cholesky, DirectError, Pivot, SymbolicCholesky};
 use crate::ordering::Ordering;
 use faer::Mat;
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
@@ -13,14 +13,14 @@ pub(super) struct SymmetricPart {
 }
 
 impl SymmetricPart {
-    pub fn of_dense(matrix: &Mat<f64>) -> Self {
+    pub fn from_dense(matrix: &Mat<f64>) -> Self {
         let n = matrix.nrows();
         let column =
             |col: usize| (col..n).map(move |row| (row, 0.5 * (matrix[(row, col)] + matrix[(col, row)])));
         Self::new(n, column)
     }
 
-    pub fn of_sparse(matrix: SparseColMatRef<'_, usize, f64>) -> Self {
+    pub fn from_sparse(matrix: SparseColMatRef<'_, usize, f64>) -> Self {
         let column = |col: usize| {
             let entries = matrix.row_idx_of_col(col).zip(matrix.val_of_col(col));
             entries.filter(move |(row, _)| *row >= col).map(move |(row, &value)| {
@@ -46,7 +46,7 @@ impl SymmetricPart {
 
     /// Factors the matrix.
     pub fn factor(&self) -> Result<Cholesky, DirectError> {
-        let symbolic = Symbolic::new(self.pattern.as_ref(), Ordering::Automatic)?;
+        let symbolic = SymbolicCholesky::new(self.pattern.as_ref(), Ordering::Automatic)?;
         Cholesky::new(Arc::new(symbolic), &self.values)
     }
 

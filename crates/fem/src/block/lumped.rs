@@ -31,9 +31,10 @@ pub fn admit(kind: ElementKind) -> Result<(), FemError> {
 
 /// Masses of the nodes of a cell, for a density \[kg/m³\]: \[kg, or kg/m of thickness\].
 #[must_use]
-pub fn of_cell<const D: usize>(
+pub fn cell_masses<const D: usize>(
     mesh: &Mesh<D>,
-    (block, cell): (usize, usize),
+    block: usize,
+    cell: usize,
     idealisation: Idealisation,
     density: f64,
 ) -> Vec<f64> {
@@ -52,7 +53,7 @@ pub fn of_cell<const D: usize>(
 ///
 /// # Errors
 /// [`FemError::LumpedMass`].
-pub fn of_mesh<const D: usize>(
+pub fn nodal_masses<const D: usize>(
     mesh: &Mesh<D>,
     idealisation: Idealisation,
     density: &[f64],
@@ -61,7 +62,7 @@ pub fn of_mesh<const D: usize>(
     for (block, (cells, density)) in mesh.blocks.iter().zip(density).enumerate() {
         admit(cells.kind)?;
         for cell in 0..cells.len() {
-            let own = of_cell(mesh, (block, cell), idealisation, *density);
+            let own = cell_masses(mesh, block, cell, idealisation, *density);
             cells.cell(cell).iter().zip(own).for_each(|(&node, mass)| masses[node] += mass);
         }
     }

@@ -13,7 +13,7 @@ use crate::error::FemError;
 use crate::kinematics::{Dilatation, Formulation, Idealisation};
 use crate::material::elastic::Elastic;
 use crate::mesh::{Cells, Mesh};
-use crate::term::{Blocks, Instant, Limited, Linearized, Pattern, Refusal, Term};
+use crate::term::{Blocks, ForwardTerm, Instant, Linearized, Pattern, Refusal, Term};
 pub(crate) use geometry::determinant;
 use geometry::{CHUNK, Geometry, Places};
 pub use norm::FieldValue;
@@ -274,7 +274,7 @@ impl<const D: usize> Linearized for LinearBlock<D> {
     }
 }
 
-impl<const D: usize> Limited for LinearBlock<D> {
+impl<const D: usize> ForwardTerm for LinearBlock<D> {
     fn rate(&mut self, _at: Instant, values: &mut [f64], _constant: &mut [f64]) -> Result<(), Refusal> {
         values.copy_from_slice(self.stiffness());
         Ok(())

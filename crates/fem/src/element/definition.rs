@@ -16,7 +16,7 @@ pub struct Face {
 
 /// An element in the meshes of another program.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Foreign<N: 'static> {
+pub struct ForeignElement<N: 'static> {
     /// Its numbers or names there.
     pub names: N,
     /// Position of each node, in the order of VTK, in the order of the other program; empty if both agree.
@@ -51,10 +51,10 @@ pub struct Definition {
     /// Cell type number of VTK; its order of nodes is used in this crate.
     pub vtk: u8,
     /// Type number of Gmsh.
-    pub gmsh: Foreign<i64>,
+    pub gmsh: ForeignElement<i64>,
     /// Number after the family in types of Abaqus (CPE, CPS and CAX in the plane, C3D in space), and types of shells, membranes and rigid
     /// faces.
-    pub abaqus: Foreign<(Option<&'static str>, &'static [&'static str])>,
+    pub abaqus: ForeignElement<(Option<&'static str>, &'static [&'static str])>,
     /// Corners of the faces S1, S2, ... of Abaqus.
     pub abaqus_faces: &'static [&'static [usize]],
 }

@@ -3,7 +3,7 @@
 //!
 //! Like [`super::quad8`], it contains all quadratic polynomials of the positions only if it is a parallelepiped.
 
-use super::definition::{Definition, Face, Foreign};
+use super::definition::{Definition, Face, ForeignElement};
 use super::face::FaceKind;
 use super::kind::ElementKind;
 use super::shape::Shape;
@@ -22,8 +22,8 @@ pub(super) const DEFINITION: Definition = Definition {
     quadrature: || quadrature::gauss(3, 3),
     mass_quadrature: || quadrature::gauss(3, 3),
     vtk: 25,
-    gmsh: Foreign { names: 17, order: super::hex27::GMSH.split_at(20).0 },
-    abaqus: Foreign { names: (Some("20"), &[]), order: &[] },
+    gmsh: ForeignElement { names: 17, order: super::hex27::GMSH.split_at(20).0 },
+    abaqus: ForeignElement { names: (Some("20"), &[]), order: &[] },
     abaqus_faces: super::hex8::DEFINITION.abaqus_faces,
 };
 

@@ -1,7 +1,7 @@
 //! Triquadratic hexahedron on [-1, 1]³: the nodes of [`super::hex20`], then the centres of the faces x-, x+, y-, y+, z-, z+,
 //! and the centre. Products of the one-dimensional quadratic Lagrange functions.
 
-use super::definition::{Definition, Face, Foreign};
+use super::definition::{Definition, Face, ForeignElement};
 use super::face::FaceKind;
 use super::kind::ElementKind;
 use super::quad9::lagrange;
@@ -25,8 +25,8 @@ pub(super) const DEFINITION: Definition = Definition {
     quadrature: || quadrature::gauss(3, 3),
     mass_quadrature: || quadrature::gauss(3, 3),
     vtk: 29,
-    gmsh: Foreign { names: 12, order: GMSH },
-    abaqus: Foreign {
+    gmsh: ForeignElement { names: 12, order: GMSH },
+    abaqus: ForeignElement {
         names: (Some("27"), &[]),
         order: &[
             0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 26, 24, 23, 25, 21, 22, 20,

@@ -1,6 +1,6 @@
 //! Trilinear hexahedron on [-1, 1]³.
 
-use super::definition::{Definition, Face, Foreign};
+use super::definition::{Definition, Face, ForeignElement};
 use super::face::FaceKind;
 use super::kind::ElementKind;
 use super::shape::Shape;
@@ -19,8 +19,8 @@ pub(super) const DEFINITION: Definition = Definition {
     quadrature: || quadrature::gauss(2, 3),
     mass_quadrature: || quadrature::gauss(2, 3),
     vtk: 12,
-    gmsh: Foreign { names: 5, order: &[] },
-    abaqus: Foreign { names: (Some("8"), &[]), order: &[] },
+    gmsh: ForeignElement { names: 5, order: &[] },
+    abaqus: ForeignElement { names: (Some("8"), &[]), order: &[] },
     abaqus_faces: &[&[0, 1, 2, 3], &[4, 7, 6, 5], &[0, 4, 5, 1], &[1, 5, 6, 2], &[2, 6, 7, 3], &[3, 7, 4, 0]],
 };
 

@@ -18,7 +18,7 @@ mod tri6;
 mod wedge15;
 mod wedge6;
 
-pub use definition::{Definition, Face, Foreign};
+pub use definition::{Definition, Face, ForeignElement};
 pub use face::FaceKind;
 pub use kind::ElementKind;
 pub use shape::{MOST_NODES, Shape};

@@ -1,6 +1,6 @@
 //! Bilinear quadrilateral on [-1, 1]².
 
-use super::definition::{Definition, Face, Foreign};
+use super::definition::{Definition, Face, ForeignElement};
 use super::face::FaceKind;
 use super::kind::ElementKind;
 use super::shape::Shape;
@@ -19,8 +19,8 @@ pub(super) const DEFINITION: Definition = Definition {
     quadrature: || quadrature::gauss(2, 2),
     mass_quadrature: || quadrature::gauss(2, 2),
     vtk: 9,
-    gmsh: Foreign { names: 3, order: &[] },
-    abaqus: Foreign {
+    gmsh: ForeignElement { names: 3, order: &[] },
+    abaqus: ForeignElement {
         names: (Some("4"), &["S4", "S4R", "S4R5", "R3D4", "SFM3D4", "SFM3D4R", "M3D4", "M3D4R"]),
         order: &[],
     },

@@ -4,7 +4,7 @@
 //! The space contains all quadratic polynomials of the natural coordinates, but those of the positions only if the element is a
 //! parallelogram (Arnold, Boffi, Falk 2002). On general quadrilaterals the order falls to that of quad4.
 
-use super::definition::{Definition, Face, Foreign};
+use super::definition::{Definition, Face, ForeignElement};
 use super::kind::ElementKind;
 use super::shape::Shape;
 use crate::quadrature;
@@ -22,8 +22,8 @@ pub(super) const DEFINITION: Definition = Definition {
     quadrature: || quadrature::gauss(3, 2),
     mass_quadrature: || quadrature::gauss(3, 2),
     vtk: 23,
-    gmsh: Foreign { names: 16, order: &[] },
-    abaqus: Foreign {
+    gmsh: ForeignElement { names: 16, order: &[] },
+    abaqus: ForeignElement {
         names: (Some("8"), &["S8R", "S8R5", "SFM3D8", "SFM3D8R", "M3D8", "M3D8R"]),
         order: &[],
     },

@@ -1,7 +1,7 @@
 //! Biquadratic quadrilateral on [-1, 1]²: corners, mid-nodes of edges 01, 12, 23, 30, centre. Products of the
 //! one-dimensional quadratic Lagrange functions.
 
-use super::definition::{Definition, Face, Foreign};
+use super::definition::{Definition, Face, ForeignElement};
 use super::face::FaceKind;
 use super::kind::ElementKind;
 use super::shape::Shape;
@@ -20,8 +20,8 @@ pub(super) const DEFINITION: Definition = Definition {
     quadrature: || quadrature::gauss(3, 2),
     mass_quadrature: || quadrature::gauss(3, 2),
     vtk: 28,
-    gmsh: Foreign { names: 10, order: &[] },
-    abaqus: Foreign { names: (None, &["S9R5", "M3D9", "M3D9R"]), order: &[] },
+    gmsh: ForeignElement { names: 10, order: &[] },
+    abaqus: ForeignElement { names: (None, &["S9R5", "M3D9", "M3D9R"]), order: &[] },
     abaqus_faces: super::quad4::DEFINITION.abaqus_faces,
 };
 

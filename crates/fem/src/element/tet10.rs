@@ -1,7 +1,7 @@
 //! Quadratic tetrahedron: corners, then mid-nodes of edges 01, 12, 20, 03, 13, 23. With volume coordinates λ, corners have
 //! λ(2λ-1) and mid-nodes 4 λ_i λ_j.
 
-use super::definition::{Definition, Face, Foreign};
+use super::definition::{Definition, Face, ForeignElement};
 use super::face::FaceKind;
 use super::kind::ElementKind;
 use super::shape::Shape;
@@ -20,8 +20,8 @@ pub(super) const DEFINITION: Definition = Definition {
     quadrature: quadrature::tetrahedron_4,
     mass_quadrature: quadrature::tetrahedron_14,
     vtk: 24,
-    gmsh: Foreign { names: 11, order: &[0, 1, 2, 3, 4, 5, 6, 7, 9, 8] },
-    abaqus: Foreign { names: (Some("10"), &[]), order: &[] },
+    gmsh: ForeignElement { names: 11, order: &[0, 1, 2, 3, 4, 5, 6, 7, 9, 8] },
+    abaqus: ForeignElement { names: (Some("10"), &[]), order: &[] },
     abaqus_faces: super::tet4::DEFINITION.abaqus_faces,
 };
 

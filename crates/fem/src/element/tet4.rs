@@ -1,6 +1,6 @@
 //! Linear tetrahedron on 0 ≤ ξ, η, ζ, ξ + η + ζ ≤ 1.
 
-use super::definition::{Definition, Face, Foreign};
+use super::definition::{Definition, Face, ForeignElement};
 use super::face::FaceKind;
 use super::kind::ElementKind;
 use super::shape::Shape;
@@ -19,8 +19,8 @@ pub(super) const DEFINITION: Definition = Definition {
     quadrature: quadrature::tetrahedron_1,
     mass_quadrature: quadrature::tetrahedron_4,
     vtk: 10,
-    gmsh: Foreign { names: 4, order: &[] },
-    abaqus: Foreign { names: (Some("4"), &[]), order: &[] },
+    gmsh: ForeignElement { names: 4, order: &[] },
+    abaqus: ForeignElement { names: (Some("4"), &[]), order: &[] },
     abaqus_faces: &[&[0, 1, 2], &[0, 3, 1], &[1, 3, 2], &[2, 3, 0]],
 };
 

@@ -1,6 +1,6 @@
 //! Linear triangle on 0 ≤ ξ, η, ξ + η ≤ 1.
 
-use super::definition::{Definition, Face, Foreign};
+use super::definition::{Definition, Face, ForeignElement};
 use super::face::FaceKind;
 use super::kind::ElementKind;
 use super::shape::Shape;
@@ -19,8 +19,11 @@ pub(super) const DEFINITION: Definition = Definition {
     quadrature: quadrature::triangle_1,
     mass_quadrature: quadrature::triangle_3,
     vtk: 5,
-    gmsh: Foreign { names: 2, order: &[] },
-    abaqus: Foreign { names: (Some("3"), &["STRI3", "S3", "S3R", "R3D3", "SFM3D3", "M3D3"]), order: &[] },
+    gmsh: ForeignElement { names: 2, order: &[] },
+    abaqus: ForeignElement {
+        names: (Some("3"), &["STRI3", "S3", "S3R", "R3D3", "SFM3D3", "M3D3"]),
+        order: &[],
+    },
     abaqus_faces: &[&[0, 1], &[1, 2], &[2, 0]],
 };
 

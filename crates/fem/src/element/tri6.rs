@@ -1,7 +1,7 @@
 //! Quadratic triangle: corners, then mid-nodes of edges 01, 12, 20. With area coordinates λ, corners have λ(2λ-1) and
 //! mid-nodes 4 λ_i λ_j.
 
-use super::definition::{Definition, Face, Foreign};
+use super::definition::{Definition, Face, ForeignElement};
 use super::face::FaceKind;
 use super::kind::ElementKind;
 use super::shape::Shape;
@@ -20,8 +20,8 @@ pub(super) const DEFINITION: Definition = Definition {
     quadrature: quadrature::triangle_3,
     mass_quadrature: quadrature::triangle_6,
     vtk: 22,
-    gmsh: Foreign { names: 9, order: &[] },
-    abaqus: Foreign { names: (Some("6"), &["STRI65", "SFM3D6", "M3D6"]), order: &[] },
+    gmsh: ForeignElement { names: 9, order: &[] },
+    abaqus: ForeignElement { names: (Some("6"), &["STRI65", "SFM3D6", "M3D6"]), order: &[] },
     abaqus_faces: super::tri3::DEFINITION.abaqus_faces,
 };
 

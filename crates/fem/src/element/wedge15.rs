@@ -5,7 +5,7 @@
 //! Like [`super::quad8`], it contains all quadratic polynomials of the positions only if it is an affine image of the
 //! reference.
 
-use super::definition::{Definition, Face, Foreign};
+use super::definition::{Definition, Face, ForeignElement};
 use super::face::FaceKind;
 use super::kind::ElementKind;
 use super::shape::Shape;
@@ -24,8 +24,8 @@ pub(super) const DEFINITION: Definition = Definition {
     quadrature: || quadrature::wedge(quadrature::triangle_6(), 3),
     mass_quadrature: || quadrature::wedge(quadrature::triangle_6(), 3),
     vtk: 26,
-    gmsh: Foreign { names: 18, order: &[0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11] },
-    abaqus: Foreign { names: (Some("15"), &[]), order: &[] },
+    gmsh: ForeignElement { names: 18, order: &[0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11] },
+    abaqus: ForeignElement { names: (Some("15"), &[]), order: &[] },
     abaqus_faces: &[&[0, 1, 2], &[3, 5, 4], &[0, 1, 4, 3], &[1, 2, 5, 4], &[2, 0, 3, 5]],
 };
 

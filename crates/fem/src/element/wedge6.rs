@@ -1,7 +1,7 @@
 //! Linear wedge (prism): the triangle ξ, η ≥ 0, ξ + η ≤ 1 times -1 ≤ ζ ≤ 1. Nodes 0, 1, 2 at the lower end run
 //! counter-clockwise seen from the upper one, nodes 3, 4, 5 lie above them: N = λ_i (1 ± ζ)/2.
 
-use super::definition::{Definition, Face, Foreign};
+use super::definition::{Definition, Face, ForeignElement};
 use super::face::FaceKind;
 use super::kind::ElementKind;
 use super::shape::Shape;
@@ -20,8 +20,8 @@ pub(super) const DEFINITION: Definition = Definition {
     quadrature: || quadrature::wedge(quadrature::triangle_3(), 2),
     mass_quadrature: || quadrature::wedge(quadrature::triangle_3(), 2),
     vtk: 13,
-    gmsh: Foreign { names: 6, order: &[] },
-    abaqus: Foreign { names: (Some("6"), &[]), order: &[] },
+    gmsh: ForeignElement { names: 6, order: &[] },
+    abaqus: ForeignElement { names: (Some("6"), &[]), order: &[] },
     abaqus_faces: super::wedge15::DEFINITION.abaqus_faces,
 };
 

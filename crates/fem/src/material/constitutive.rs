@@ -12,7 +12,7 @@ pub type Voigt = [f64; 6];
 pub type Moduli = [[f64; 6]; 6];
 
 /// An isotropic material whose next stress depends on the last one, on a history and on the strain increment.
-pub trait Constitutive: Sync {
+pub trait ConstitutiveLaw: Sync {
     /// True if the stress changes in time at constant strain.
     const RELAXES: bool;
 
@@ -114,7 +114,7 @@ pub fn elastic_energy(bulk: f64, shear: f64, stress: &Voigt) -> f64 {
     0.5 * pressure(stress).powi(2) / bulk + 0.25 * contract(&s, &s) / shear
 }
 
-impl Constitutive for Elastic {
+impl ConstitutiveLaw for Elastic {
     const RELAXES: bool = false;
 
     fn update(

@@ -5,7 +5,8 @@
 //! 3.4). The left side minus the right decreases monotonically, so the root is unique.
 
 use super::constitutive::{
-    Constitutive, Moduli, Voigt, contract, deviator, elastic_energy, elastic_increment, isotropic, pressure,
+    ConstitutiveLaw, Moduli, Voigt, contract, deviator, elastic_energy, elastic_increment, isotropic,
+    pressure,
 };
 use super::elastic::Elastic;
 use super::hardening::Hardening;
@@ -90,7 +91,7 @@ fn subtract_direction(c: &mut Moduli, factor: f64, s: &Voigt) {
     }
 }
 
-impl Constitutive for J2 {
+impl ConstitutiveLaw for J2 {
     const RELAXES: bool = false;
 
     fn scalars(&self) -> usize {

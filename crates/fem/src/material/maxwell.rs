@@ -3,7 +3,7 @@
 //! Each element obeys `ds/dt + s/τ = 2 G de/dt`, τ = η/G. Over a step at constant strain rate this has the exact solution `s =
 //! exp(-x) s_0 + 2 G φ(x) Δe`, x = dt/τ, φ(x) = (1 - exp(-x))/x, for steps of any length.
 
-use super::constitutive::{Constitutive, Moduli, Voigt, contract, deviator, isotropic, pressure};
+use super::constitutive::{ConstitutiveLaw, Moduli, Voigt, contract, deviator, isotropic, pressure};
 use super::elastic::Elastic;
 use crate::error::FemError;
 
@@ -105,7 +105,7 @@ impl Maxwell {
     }
 }
 
-impl Constitutive for Maxwell {
+impl ConstitutiveLaw for Maxwell {
     const RELAXES: bool = true;
 
     fn tensors(&self) -> usize {

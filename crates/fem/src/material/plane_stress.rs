@@ -3,7 +3,7 @@
 //! σ_zz increases monotonically with ε_zz (its slope lies between the bulk modulus and the elastic one for J2), so a Newton
 //! iteration inside a bracket always converges. The in-plane tangent is the condensed one, C - C_:z C_z:/C_zz.
 
-use super::constitutive::{Constitutive, Moduli, Voigt};
+use super::constitutive::{ConstitutiveLaw, Moduli, Voigt};
 use super::maxwell::MOST_ELEMENTS;
 
 /// Longest history of a material.
@@ -12,9 +12,9 @@ pub const MOST_HISTORY: usize = 6 * (MOST_ELEMENTS - 1);
 /// Number of halvings that exhaust the digits of a bracket.
 const MOST_ITERATIONS: usize = 80;
 
-/// As [`Constitutive::update`], with `strain[2]` such that σ_zz = 0; returns the strain used. The state must have σ_zz = 0 and
+/// As [`ConstitutiveLaw::update`], with `strain[2]` such that σ_zz = 0; returns the strain used. The state must have σ_zz = 0 and
 /// no shear across the plane.
-pub fn update<M: Constitutive>(
+pub fn update<M: ConstitutiveLaw>(
     material: &M,
     dt: f64,
     strain: &Voigt,

@@ -20,7 +20,7 @@ impl<'a> Displacements<'a> {
 
     /// Those of a node of C components.
     #[inline(always)]
-    pub(super) fn of<const C: usize>(&self, node: usize) -> [f64; C] {
+    pub(super) fn node<const C: usize>(&self, node: usize) -> [f64; C] {
         let u = self.u.as_chunks::<C>().0[node];
         match self.velocity.as_chunks::<C>().0.get(node) {
             Some(v) => std::array::from_fn(|c| u[c] + self.ahead * v[c]),

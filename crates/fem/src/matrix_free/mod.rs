@@ -21,7 +21,7 @@ mod stencil;
 mod tetrahedra;
 
 pub use displacements::Displacements;
-pub use stable::{Highest, highest_frequency};
+pub use stable::{HighestFrequency, highest_frequency};
 
 use crate::block::LinearBlock;
 use crate::mesh::Mesh;
@@ -61,12 +61,12 @@ impl MatrixFree {
         let mut pieces = Vec::new();
         let (mut cells, mut matrices) = (0, 0);
         for (k, (block, classes)) in blocks.iter().zip(classes).enumerate() {
-            let (Some(block), Some(classes)) = (block, classes) else { continue };
-            let shapes = Shapes::of(block, classes);
+            let (Some(block), Some((shape, first))) = (block, classes) else { continue };
+            let shapes = Shapes::from_block(block, shape, first);
             cells += mesh.blocks[k].len();
             matrices += shapes.matrices();
             let parts = partition::pieces(mesh, k, &regular);
-            let piece = |part: &Vec<usize>| Piece::new(mesh, k, (&shapes, &regular), part);
+            let piece = |part: &Vec<usize>| Piece::new(mesh, k, &shapes, &regular, part);
             let made: Vec<Piece> = parts.par_iter().map(piece).collect();
             pieces.extend(made);
         }
@@ -152,17 +152,17 @@ impl MatrixFree {
     /// Memory \[bytes\].
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.of_pieces() + self.stencils.bytes() + self.partial.len() * size_of::<f64>()
+        self.pieces_bytes() + self.stencils.bytes() + self.partial.len() * size_of::<f64>()
     }
 
     /// Bytes that an evaluation reads and writes besides displacements if each value moves once, forces once in and once out \[bytes\].
     #[must_use]
     pub fn moved(&self) -> usize {
-        self.of_pieces() + 2 * size_of::<f64>() * (self.partial.len() + self.stencils.forces())
+        self.pieces_bytes() + 2 * size_of::<f64>() * (self.partial.len() + self.stencils.forces())
     }
 
     /// Memory of the pieces without forces \[bytes\].
-    fn of_pieces(&self) -> usize {
+    fn pieces_bytes(&self) -> usize {
         self.pieces.iter().map(Piece::bytes).sum::<usize>() + self.starts.len() * size_of::<u32>()
     }
 }

@@ -73,7 +73,8 @@ impl Piece {
     pub fn new<const D: usize>(
         mesh: &Mesh<D>,
         k: usize,
-        (shapes, regular): (&Shapes, &[bool]),
+        shapes: &Shapes,
+        regular: &[bool],
         cells: &[usize],
     ) -> Self {
         let block = &mesh.blocks[k];
@@ -155,7 +156,7 @@ impl Piece {
             let cells = connectivity.as_chunks().0;
             let [u, forces] = &mut room.quads;
             u.clear();
-            u.extend(self.nodes.iter().map(|&node| tetrahedra::quad(all.of::<C>(node as usize))));
+            u.extend(self.nodes.iter().map(|&node| tetrahedra::quad(all.node::<C>(node as usize))));
             forces.clear();
             forces.resize(u.len(), [0.0; 4]);
             Arch::new().dispatch(Tetrahedra { cells, moduli: *moduli, gradients, u, forces });
@@ -164,7 +165,7 @@ impl Piece {
             return;
         }
         for (own, &node) in room.u.as_chunks_mut::<C>().0.iter_mut().zip(&self.nodes) {
-            *own = all.of(node as usize);
+            *own = all.node(node as usize);
         }
         let Room { u, forces, lanes, .. } = room;
         Arch::new().dispatch(Evaluation::<C> { piece: self, u, forces, lanes });
@@ -316,7 +317,7 @@ fn triangles<const C: usize>(
             if C == 1 {
                 simplex::antiplane::<2>(moduli.0, gradients, x, y);
             } else {
-                simplex::forces::<2>(moduli, gradients, x, y);
+                simplex::forces::<2>(moduli.0, moduli.1, gradients, x, y);
             }
         }
         for (cells, y) in cells.chunks(wide).zip(&y) {

@@ -97,7 +97,7 @@ pub(super) fn find<const D: usize>(
         let mut first = residue;
         while first < mesh.nodes.len() {
             let length = meetings.equal_from(first, period);
-            if length >= shortest && !meetings.of(first).is_empty() {
+            if length >= shortest && !meetings.at_node(first).is_empty() {
                 let row = *known.entry(meetings.key(first)).or_insert(shared.len());
                 if row == shared.len() {
                     shared.push((first, 0));
@@ -148,7 +148,7 @@ impl<'a, const D: usize> Meetings<'a, D> {
     }
 
     /// Cells at a node, ascending.
-    fn of(&self, node: usize) -> &[Meeting] {
+    fn at_node(&self, node: usize) -> &[Meeting] {
         &self.all[self.starts[node]..self.starts[node + 1]]
     }
 
@@ -170,7 +170,7 @@ impl<'a, const D: usize> Meetings<'a, D> {
 
     /// True if the rows of both nodes are equal.
     fn equal(&self, a: usize, b: usize) -> bool {
-        let (of_a, of_b) = (self.of(a), self.of(b));
+        let (of_a, of_b) = (self.at_node(a), self.at_node(b));
         let apart = b - a;
         let alike = |(m, n): (&Meeting, &Meeting)| {
             m.0 == n.0
@@ -186,13 +186,13 @@ impl<'a, const D: usize> Meetings<'a, D> {
             let kind = [m.0, self.shape(*m), m.2].map(i64::from);
             kind.into_iter().chain(self.nodes(*m).iter().map(move |&n| n as i64 - node as i64))
         };
-        self.of(node).iter().flat_map(of).collect()
+        self.at_node(node).iter().flat_map(of).collect()
     }
 
     /// Sums the rows of the cells at a node.
     fn row(&self, node: usize, components: usize, blocks: &[Option<&LinearBlock<D>>]) -> Vec<Neighbour> {
         let mut sums: BTreeMap<i64, [[f64; 3]; 3]> = BTreeMap::new();
-        for &(k, cell, own) in self.of(node) {
+        for &(k, cell, own) in self.at_node(node) {
             let Some(block) = blocks[k as usize] else { continue };
             let matrix = block.stiffness_of(&[cell as usize]);
             let nodes = self.nodes((k, cell, own));

@@ -67,7 +67,7 @@ pub(super) enum Shapes {
 
 impl Shapes {
     /// Stiffness of the cells of a block with these shapes and first cells of each shape.
-    pub fn of<const D: usize>(block: &LinearBlock<D>, (shape, first): (Vec<u32>, Vec<usize>)) -> Self {
+    pub fn from_block<const D: usize>(block: &LinearBlock<D>, shape: Vec<u32>, first: Vec<usize>) -> Self {
         if by_gradients(block.kind(), block.idealisation()) {
             let (shear, dilatation) = block.moduli_of_strain();
             return Self::Simplex { shear, dilatation };

@@ -25,7 +25,8 @@ type Lanes = [f64; WIDE];
 /// volumes; `x` and `y` are displacements and forces, degree of freedom by degree of freedom.
 #[inline(always)]
 pub(super) fn forces<const D: usize>(
-    (shear, dilatation): (f64, f64),
+    shear: f64,
+    dilatation: f64,
     gradients: &[Lanes],
     x: &[Lanes],
     y: &mut [Lanes],

@@ -14,7 +14,7 @@ const CHUNK: usize = 4096;
 
 /// Highest frequency of any cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Highest {
+pub struct HighestFrequency {
     /// ω \[rad/s\].
     pub frequency: f64,
     /// Block of cells.
@@ -33,8 +33,8 @@ pub fn highest_frequency<const D: usize>(
     mesh: &Mesh<D>,
     blocks: &[&LinearBlock<D>],
     density: &[f64],
-) -> Result<Highest, FemError> {
-    let mut highest = Highest { frequency: 0.0, block: 0, cell: 0, kept: 0 };
+) -> Result<HighestFrequency, FemError> {
+    let mut highest = HighestFrequency { frequency: 0.0, block: 0, cell: 0, kept: 0 };
     for (k, (block, density)) in blocks.iter().zip(density).enumerate() {
         lumped::admit(block.kind())?;
         let size = block.kind().nodes() * block.idealisation().components();
@@ -43,10 +43,10 @@ pub fn highest_frequency<const D: usize>(
         for cells in first.chunks(CHUNK) {
             let matrices = block.stiffness_of(cells);
             for (matrix, &cell) in matrices.chunks_exact(size * size).zip(cells) {
-                let mass = lumped::of_cell(mesh, (k, cell), block.idealisation(), *density);
+                let mass = lumped::cell_masses(mesh, k, cell, block.idealisation(), *density);
                 let above = highest.frequency * highest.frequency;
                 if let Some(square) = exceeds(matrix, &mass, above) {
-                    highest = Highest { frequency: square.sqrt(), block: k, cell, ..highest };
+                    highest = HighestFrequency { frequency: square.sqrt(), block: k, cell, ..highest };
                 }
             }
         }

@@ -157,7 +157,7 @@ fn products_do_not_depend_on_the_number_of_threads() {
 #[test]
 fn lumped_masses_sum_to_the_mass_and_are_positive_where_admitted() {
     let mesh = mesh::<2>(ElementKind::Quad9, 3, true);
-    let masses = lumped::of_mesh(&mesh, Idealisation::PlaneStrain, &[2700.0]).unwrap();
+    let masses = lumped::nodal_masses(&mesh, Idealisation::PlaneStrain, &[2700.0]).unwrap();
     assert!(masses.iter().all(|m| *m > 0.0));
     let refused = ElementKind::ALL.into_iter().filter(|k| lumped::admit(*k).is_err());
     let refused: Vec<&str> = refused.map(ElementKind::name).collect();
@@ -181,7 +181,7 @@ fn no_frequency_of_the_mesh_exceeds_that_of_its_cells() {
     let block =
         LinearBlock::new(&mesh, 0, &rock(), Idealisation::PlaneStrain, Formulation::Standard).unwrap();
     let highest = highest_frequency(&mesh, &[&block], &[2700.0]).unwrap().frequency;
-    let masses = lumped::of_mesh(&mesh, Idealisation::PlaneStrain, &[2700.0]).unwrap();
+    let masses = lumped::nodal_masses(&mesh, Idealisation::PlaneStrain, &[2700.0]).unwrap();
     let n = 2 * mesh.nodes.len();
     let mut product = MatrixFree::new(&mesh, 2, &[Some(&block)]);
     let k = nalgebra::DMatrix::from_columns(

@@ -75,14 +75,14 @@ impl Tetrahedra<'_> {
             for (g, lanes) in g.as_flattened_mut().iter_mut().zip(gradients) {
                 *g = S::as_simd_f64s(lanes).0[part];
             }
-            let forces = self.of_cells(simd, cells, &g);
+            let forces = self.cell_forces(simd, cells, &g);
             self.scatter(simd, cells, forces);
         }
     }
 
     /// Forces on the nodes of as many cells as a vector has numbers.
     #[inline(always)]
-    fn of_cells<S: Simd>(&self, simd: S, cells: &[[u16; 4]], g: &[[S::f64s; 3]; 3]) -> [[S::f64s; 3]; 4] {
+    fn cell_forces<S: Simd>(&self, simd: S, cells: &[[u16; 4]], g: &[[S::f64s; 3]; 3]) -> [[S::f64s; 3]; 4] {
         let none = simd.splat_f64s(0.0);
         let origin = self.gather(simd, cells, 0);
         let mut strain = [[none; 3]; 3];

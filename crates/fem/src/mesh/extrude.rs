@@ -44,7 +44,7 @@ const ENDS: [&str; 2] = ["back", "front"];
 
 /// An extruded mesh, with the map from plane nodes to its nodes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Extruded {
+pub struct ExtrudedMesh {
     /// The mesh. Side, cell and node sets keep their names; `back` and `front` are the ends at the smallest and largest z.
     pub mesh: Mesh<3>,
     /// New nodes of each plane node, by ascending z: one per layer coordinate and, for nodes with one half-way up a layer,
@@ -52,7 +52,7 @@ pub struct Extruded {
     pub columns: Vec<Vec<usize>>,
 }
 
-impl Extruded {
+impl ExtrudedMesh {
     /// The extruded pairs of a fault of the plane mesh: for each pair of the plane mesh, in its order, all pairs above it by
     /// ascending z. Tips become tip lines.
     #[must_use]
@@ -71,13 +71,13 @@ impl Extruded {
 ///
 /// # Errors
 /// See [`ExtrudeError`].
-pub fn extrude(mesh: &Mesh<2>, z: &[f64]) -> Result<Extruded, ExtrudeError> {
+pub fn extrude(mesh: &Mesh<2>, z: &[f64]) -> Result<ExtrudedMesh, ExtrudeError> {
     check_layers(z)?;
     if let Some(end) = ENDS.into_iter().find(|e| mesh.side_sets.contains_key(*e)) {
         return Err(ExtrudeError::Exists(end));
     }
     let templates: Vec<Template> =
-        mesh.blocks.iter().map(|b| Template::of(b.kind)).collect::<Result<_, _>>()?;
+        mesh.blocks.iter().map(|b| Template::from_plane(b.kind)).collect::<Result<_, _>>()?;
     let halfway = halfway(mesh, &templates)?;
     let columns = columns(&halfway, z.len());
     let mut out = Mesh::<3> { nodes: place(mesh, &columns, &halfway, z), ..Mesh::default() };
@@ -119,7 +119,7 @@ pub fn extrude(mesh: &Mesh<2>, z: &[f64]) -> Result<Extruded, ExtrudeError> {
         nodes.sort_unstable();
         out.node_sets.insert(name.clone(), nodes);
     }
-    Ok(Extruded { mesh: out, columns })
+    Ok(ExtrudedMesh { mesh: out, columns })
 }
 
 fn check_layers(z: &[f64]) -> Result<(), ExtrudeError> {
@@ -146,7 +146,7 @@ struct Template {
 
 impl Template {
     /// Matches the elements' natural coordinates: (ξ, η) are those of the plane element, ζ runs upwards.
-    fn of(plane: ElementKind) -> Result<Self, ExtrudeError> {
+    fn from_plane(plane: ElementKind) -> Result<Self, ExtrudeError> {
         let kind = match plane {
             ElementKind::Tri3 => ElementKind::Wedge6,
             ElementKind::Tri6 => ElementKind::Wedge15,

@@ -2,7 +2,7 @@
 
 pub mod abaqus;
 mod check;
-pub mod coarser;
+pub mod coarsening;
 pub mod curve;
 mod error;
 pub mod extrude;
@@ -20,7 +20,7 @@ pub mod triangles;
 
 pub use error::{GroupName, Holder, MeshError, Part, Place};
 pub use locate::{Location, locate};
-pub use raw::{GroupTag, Options, RawBlock, RawGroup, RawMesh, RawNode, RawSide, Shape, Unread};
+pub use raw::{GroupTag, Options, RawBlock, RawGroup, RawMesh, RawNode, RawSide, Shape, UnreadElements};
 
 use crate::element::{ElementKind, FaceKind};
 use std::collections::BTreeMap;
@@ -68,7 +68,7 @@ pub struct Side {
 
 /// Elements of a group that do not belong to the mesh.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct LeftOut {
+pub struct OmittedElements {
     /// Their type.
     pub kind: String,
     /// Number of them.
@@ -93,7 +93,7 @@ pub struct Mesh<const D: usize> {
     /// Named nodes, ascending.
     pub node_sets: BTreeMap<String, Vec<usize>>,
     /// Elements of a file that are left out, by the names of their groups.
-    pub left_out: BTreeMap<String, LeftOut>,
+    pub left_out: BTreeMap<String, OmittedElements>,
 }
 
 impl<const D: usize> Mesh<D> {

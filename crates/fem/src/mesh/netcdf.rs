@@ -272,7 +272,7 @@ struct File<'a> {
 impl<'a> File<'a> {
     fn read(bytes: &'a [u8]) -> Result<Self, NetcdfError> {
         if bytes.starts_with(HDF5) {
-            return Self::of_version_4(bytes).map_err(|reason| NetcdfError::Hdf5 { reason });
+            return Self::read_version_4(bytes).map_err(|reason| NetcdfError::Hdf5 { reason });
         }
         let mut header = Header { bytes, at: 0, wide: false };
         let magic = header.take(4, "the magic number")?;
@@ -295,7 +295,7 @@ impl<'a> File<'a> {
     }
 
     /// The parts of a file of version 4, or the reason why it cannot be read.
-    fn of_version_4(bytes: &'a [u8]) -> Result<Self, String> {
+    fn read_version_4(bytes: &'a [u8]) -> Result<Self, String> {
         let file = hdf5::open(bytes)?;
         let (dimensions, variables) = hdf5::parts(&file)?;
         let dimensions = dimensions.into_iter().map(|(name, length)| Dimension { name, length }).collect();

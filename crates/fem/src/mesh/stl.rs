@@ -49,13 +49,13 @@ fn shown(bytes: &[u8]) -> String {
 
 /// Nodes and triangles as they are found.
 #[derive(Default)]
-struct Welded {
+struct WeldedMesh {
     mesh: RawMesh,
     /// Node at each position, by its bits.
     at: BTreeMap<[u64; 3], u64>,
 }
 
-impl Welded {
+impl WeldedMesh {
     /// Adds a triangle to the last block.
     fn add(&mut self, corners: [[f64; 3]; 3], element: u64) {
         let nodes = corners.map(|x| self.node(x));
@@ -94,7 +94,7 @@ impl Welded {
 }
 
 fn binary(bytes: &[u8]) -> RawMesh {
-    let mut welded = Welded::default();
+    let mut welded = WeldedMesh::default();
     welded.begin("");
     for (k, facet) in bytes.chunks_exact(FACET).enumerate() {
         let number = |i: usize| {
@@ -110,7 +110,7 @@ fn binary(bytes: &[u8]) -> RawMesh {
 
 fn ascii(bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let text = String::from_utf8_lossy(bytes);
-    let mut welded = Welded::default();
+    let mut welded = WeldedMesh::default();
     let (mut corners, mut element, mut section) = (Vec::new(), 0, "the file".to_string());
     let mut last = 0;
     for (k, line) in text.lines().enumerate() {

@@ -3,7 +3,7 @@
 //! Large fronts are cut into tiles whose size depends only on the front, each computed by one thread: the bits do not depend on
 //! the number of threads.
 
-use super::kernel::{Break, Eliminate, Update};
+use super::kernel::{Breakdown, Elimination, Update};
 use faer::linalg::matmul::matmul;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
@@ -37,7 +37,7 @@ pub(super) fn eliminate(
     stride: usize,
     rows: usize,
     smallest: &[f64],
-) -> Result<(), Break> {
+) -> Result<(), Breakdown> {
     let columns = smallest.len();
     if columns <= SMALL {
         return few_columns(arch, values, stride, rows, smallest);
@@ -59,12 +59,12 @@ fn few_columns(
     stride: usize,
     rows: usize,
     smallest: &[f64],
-) -> Result<(), Break> {
+) -> Result<(), Breakdown> {
     let columns = smallest.len();
     if rows < SMALL_TILES {
-        return arch.dispatch(Eliminate { values, stride, rows, columns, smallest });
+        return arch.dispatch(Elimination { values, stride, rows, columns, smallest });
     }
-    arch.dispatch(Eliminate { values: &mut *values, stride, rows: columns, columns, smallest })?;
+    arch.dispatch(Elimination { values: &mut *values, stride, rows: columns, columns, smallest })?;
     let (pivots, rest) = view_mut(values, rows, columns, stride).split_at_row_mut(columns);
     let pivots = pivots.as_ref();
     row_tiles(rest).into_par_iter().with_max_len(1).for_each(|(_, tile)| {

@@ -11,7 +11,7 @@ const PIECE: usize = 64;
 const WORTH_RUNS: usize = 8;
 
 /// Contribution of a child: the lower triangle of a square, column by column.
-pub(super) struct Passed<'a> {
+pub(super) struct ContributionBlock<'a> {
     /// Row in the parent's front of each of the child's rows, ascending.
     places: &'a [u32],
     values: &'a [f64],
@@ -28,7 +28,7 @@ struct Run {
     place: usize,
 }
 
-impl<'a> Passed<'a> {
+impl<'a> ContributionBlock<'a> {
     pub fn new(places: &'a [u32], values: &'a [f64]) -> Self {
         let breaks = |pair: &[u32]| pair[1] != pair[0] + 1;
         let count = 1 + places.windows(2).filter(|pair| breaks(pair)).count();
@@ -75,7 +75,7 @@ impl<'a> Passed<'a> {
 
 /// Adds the contributions of `children` to columns of a front, of `height` rows each: the first column and the first row have
 /// the place `shift`. Each value receives them in the order of the children, whichever thread adds.
-pub(super) fn extend(children: &[Passed<'_>], target: &mut [f64], height: usize, shift: usize) {
+pub(super) fn extend(children: &[ContributionBlock<'_>], target: &mut [f64], height: usize, shift: usize) {
     let add = |columns: Range<usize>, piece: &mut [f64]| {
         children.iter().for_each(|child| child.add(columns.clone(), piece, height, shift));
     };
@@ -120,7 +120,8 @@ mod tests {
             (places, values)
         };
         let children = [child(&|p| p % 3 != 0), child(&|p| p % 50 != 7), child(&|p| p > 880)];
-        let passed: Vec<Passed<'_>> = children.iter().map(|(p, v)| Passed::new(p, v)).collect();
+        let passed: Vec<ContributionBlock<'_>> =
+            children.iter().map(|(p, v)| ContributionBlock::new(p, v)).collect();
         assert!(passed[0].runs.is_empty() && !passed[1].runs.is_empty());
         let (mut pivots, mut rest) = (vec![0.0; width * rows], vec![0.0; (rows - width).pow(2)]);
         assert!(pivots.len() < WORTH_PIECES && rest.len() >= WORTH_PIECES);

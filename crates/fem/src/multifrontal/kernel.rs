@@ -7,13 +7,13 @@
 use pulp::{Simd, WithSimd};
 
 /// Failure of an elimination: (column, its pivot).
-pub(super) type Break = (usize, f64);
+pub(super) type Breakdown = (usize, f64);
 
 /// Columns processed together.
 const COLUMNS: usize = 4;
 
 /// Eliminates all columns of a trapezoid stored column by column.
-pub(super) struct Eliminate<'a> {
+pub(super) struct Elimination<'a> {
     /// Entries; column j starts at j * `stride`.
     pub values: &'a mut [f64],
     /// Distance between columns.
@@ -50,8 +50,8 @@ struct Product<'a> {
     first: usize,
 }
 
-impl WithSimd for Eliminate<'_> {
-    type Output = Result<(), Break>;
+impl WithSimd for Elimination<'_> {
+    type Output = Result<(), Breakdown>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
@@ -181,7 +181,7 @@ fn finish<S: Simd>(
     stride: usize,
     rows: usize,
     smallest: &[f64],
-) -> Result<(), Break> {
+) -> Result<(), Breakdown> {
     for (c, &smallest) in smallest.iter().enumerate() {
         let (left, right) = target.split_at_mut(c * stride);
         let column = &mut right[c..rows];
@@ -230,7 +230,7 @@ fn scale_by<S: Simd>(simd: S, column: &mut [f64], scale: S::f64s) {
 
 /// Solves forwards with the columns of a front for one right-hand side: `x[..width] := L⁻¹ x[..width]`, and subtracts `L
 /// x[..width]` from the rows below. Limited by a single reading of L.
-pub(super) struct Forward<'a> {
+pub(super) struct ForwardSubstitution<'a> {
     /// The front, column by column, `rows` entries each.
     pub panel: &'a [f64],
     /// Rows of the front.
@@ -242,8 +242,8 @@ pub(super) struct Forward<'a> {
 }
 
 /// Solves backwards: `x[..width] := L⁻ᵀ (x[..width] - L' x[width..])`.
-pub(super) struct Backward<'a> {
-    /// As for [`Forward`].
+pub(super) struct BackwardSubstitution<'a> {
+    /// As for [`ForwardSubstitution`].
     pub panel: &'a [f64],
     /// Rows of the front.
     pub rows: usize,
@@ -259,7 +259,7 @@ fn columns_of<const C: usize>(panel: &[f64], rows: usize, j: usize, from: usize)
     std::array::from_fn(|c| &panel[(j + c) * rows + from..(j + c + 1) * rows])
 }
 
-impl WithSimd for Forward<'_> {
+impl WithSimd for ForwardSubstitution<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -312,7 +312,7 @@ fn forward_columns<S: Simd, const C: usize>(
     C
 }
 
-impl WithSimd for Backward<'_> {
+impl WithSimd for BackwardSubstitution<'_> {
     type Output = ();
 
     #[inline(always)]

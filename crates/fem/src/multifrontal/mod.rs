@@ -5,7 +5,7 @@
 //! fronts near the root are cut into tiles. The factorisation can also stop at a chosen Schur complement: this is static
 //! condensation without solving for hundreds of columns.
 //!
-//! [`Symbolic`] holds pattern, order and memory; [`Cholesky`] holds numbers.
+//! [`SymbolicCholesky`] holds pattern, order and memory; [`Cholesky`] holds numbers.
 
 mod dense;
 mod extend;
@@ -23,5 +23,5 @@ mod triangle;
 pub use crate::error::{DirectError, Pivot};
 pub use mode::{FreeMode, free_mode};
 pub use numeric::Cholesky;
-pub use symbolic::Symbolic;
+pub use symbolic::SymbolicCholesky;
 pub use triangle::Triangle;

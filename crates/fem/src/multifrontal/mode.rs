@@ -1,6 +1,6 @@
 //! Mode of a singular stiffness that meets no resistance, as a motion of a connected part.
 
-use super::{Cholesky, DirectError, Symbolic};
+use super::{Cholesky, DirectError, SymbolicCholesky};
 use crate::dof::Equations;
 use crate::ordering::Ordering;
 use faer::MatMut;
@@ -144,7 +144,7 @@ fn null_vector(
             shifted[k] += SHIFT * shifted[k].abs();
         }
     }
-    let symbolic = Arc::new(Symbolic::new(matrix.symbolic(), Ordering::Automatic)?);
+    let symbolic = Arc::new(SymbolicCholesky::new(matrix.symbolic(), Ordering::Automatic)?);
     let factor = Cholesky::new(symbolic, &shifted)?;
     let mut mode = vec![0.0; n];
     mode[equation] = 1.0;

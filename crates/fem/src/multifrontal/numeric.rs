@@ -3,8 +3,8 @@
 //! A front adds the matrix's values of its columns and the contributions of its children (extend-add) and eliminates its
 //! pivots. It passes on `-L L'` of its other rows plus the contributions of its children there (Duff, Reid 1983; Liu 1992).
 
-use super::extend::{Passed, extend};
-use super::symbolic::{Front, Symbolic};
+use super::extend::{ContributionBlock, extend};
+use super::symbolic::{Front, SymbolicCholesky};
 use super::tasks::{self, Slot, open, slots};
 use super::triangle::Triangle;
 use super::{DirectError, Pivot, dense};
@@ -28,7 +28,7 @@ const SUSPECT: f64 = 1e-8;
 /// Numeric Cholesky factorisation `P K P' = L L'`, or, with retained equations, its part up to their Schur complement.
 #[derive(Clone)]
 pub struct Cholesky {
-    pub(super) symbolic: Arc<Symbolic>,
+    pub(super) symbolic: Arc<SymbolicCholesky>,
     /// Values of each task's fronts.
     pub(super) values: Vec<Vec<f64>>,
     pub(super) arch: Arch,
@@ -78,7 +78,7 @@ fn zeros(len: usize) -> Result<Vec<f64>, DirectError> {
 
 /// Data shared by all fronts of one factorisation.
 struct Run<'a> {
-    symbolic: &'a Symbolic,
+    symbolic: &'a SymbolicCholesky,
     matrix: &'a [f64],
     arch: Arch,
     /// Smallest pivot relative to its diagonal entry.
@@ -91,7 +91,7 @@ struct Run<'a> {
     /// Smallest pivot relative to its diagonal entry, and its position.
     least: Mutex<(f64, usize)>,
     /// Contribution of each task.
-    passed: Vec<Slot<Result<Vec<f64>, DirectError>>>,
+    contributions: Vec<Slot<Result<Vec<f64>, DirectError>>>,
 }
 
 impl Cholesky {
@@ -99,7 +99,7 @@ impl Cholesky {
     ///
     /// # Errors
     /// [`DirectError::NotPositive`] and [`DirectError::Singular`] with the equation; [`DirectError::OutOfMemory`].
-    pub fn new(symbolic: Arc<Symbolic>, matrix: &[f64]) -> Result<Self, DirectError> {
+    pub fn new(symbolic: Arc<SymbolicCholesky>, matrix: &[f64]) -> Result<Self, DirectError> {
         let values = vec![Vec::new(); symbolic.tasks.len()];
         Self { symbolic, values, arch: Arch::new() }.refactor(matrix)
     }
@@ -130,7 +130,7 @@ impl Cholesky {
     ///
     /// # Errors
     /// As [`Cholesky::new`].
-    pub fn schur(symbolic: &Arc<Symbolic>, matrix: &[f64]) -> Result<Triangle, DirectError> {
+    pub fn schur(symbolic: &Arc<SymbolicCholesky>, matrix: &[f64]) -> Result<Triangle, DirectError> {
         let values = vec![Vec::new(); symbolic.tasks.len()];
         let run = Run { keep: false, ..Run::new(symbolic, matrix, Arch::new(), values) };
         run.all()?;
@@ -162,7 +162,7 @@ impl Cholesky {
 
     /// The underlying analysis.
     #[must_use]
-    pub fn symbolic(&self) -> &Arc<Symbolic> {
+    pub fn symbolic(&self) -> &Arc<SymbolicCholesky> {
         &self.symbolic
     }
 
@@ -194,7 +194,7 @@ enum Panels {
 
 impl Panels {
     /// Storage for the columns of a front, filled with zeros.
-    fn of(&mut self, front: &Front) -> &mut [f64] {
+    fn front(&mut self, front: &Front) -> &mut [f64] {
         let size = front.width * front.height;
         match self {
             Self::Kept(values) => &mut values[front.offset..][..size],
@@ -207,7 +207,7 @@ impl Panels {
 }
 
 impl<'a> Run<'a> {
-    fn new(symbolic: &'a Symbolic, matrix: &'a [f64], arch: Arch, values: Vec<Vec<f64>>) -> Self {
+    fn new(symbolic: &'a SymbolicCholesky, matrix: &'a [f64], arch: Arch, values: Vec<Vec<f64>>) -> Self {
         let eliminated = (symbolic.equations() - symbolic.retained()) as f64;
         Self {
             matrix,
@@ -217,7 +217,7 @@ impl<'a> Run<'a> {
             values: values.into_iter().map(Mutex::new).collect(),
             keep: true,
             least: Mutex::new((f64::INFINITY, 0)),
-            passed: slots(symbolic.tasks.len()),
+            contributions: slots(symbolic.tasks.len()),
             symbolic,
         }
     }
@@ -226,10 +226,10 @@ impl<'a> Run<'a> {
     fn all(&self) -> Result<(), DirectError> {
         tasks::upwards(self.symbolic, &|t| {
             let result = self.task(t);
-            *open(&self.passed[t]) = Some(result);
+            *open(&self.contributions[t]) = Some(result);
         });
         for &root in &self.symbolic.roots {
-            if let Some(Err(error)) = open(&self.passed[root]).take() {
+            if let Some(Err(error)) = open(&self.contributions[root]).take() {
                 return Err(error);
             }
         }
@@ -283,13 +283,13 @@ impl<'a> Run<'a> {
         let s = task.fronts.start;
         let mut children = Vec::with_capacity(task.children.len());
         for &child in &task.children {
-            let passed = open(&self.passed[child]).take();
-            children.push(passed.expect("a task runs after its children")?);
+            let contributions = open(&self.contributions[child]).take();
+            children.push(contributions.expect("a task runs after its children")?);
         }
         let front = self.symbolic.fronts[s];
         let mut own = self.pool.take(front.rest().pow(2))?;
         let borrowed: Vec<&[f64]> = children.iter().map(Vec::as_slice).collect();
-        self.front(s, panels.of(&front), &borrowed, &mut own)?;
+        self.front(s, panels.front(&front), &borrowed, &mut own)?;
         children.into_iter().for_each(|c| self.give(c));
         Ok(own)
     }
@@ -312,7 +312,7 @@ impl<'a> Run<'a> {
                 let child = self.symbolic.fronts[c as usize];
                 &theirs[child.stack.1..child.stack.1 + child.rest().pow(2)]
             }));
-            self.front(s, panels.of(&front), &list, own)?;
+            self.front(s, panels.front(&front), &list, own)?;
             borrowed = recycle(list);
         }
         let [even, odd] = stacks;
@@ -339,10 +339,11 @@ impl<'a> Run<'a> {
         }
         let smallest: Vec<f64> =
             (0..front.width).map(|k| self.smallest * panel[k * front.height + k].max(0.0)).collect();
-        let passed = symbolic.children[s].iter().zip(children);
-        let passed: Vec<Passed<'_>> =
-            passed.map(|(&child, from)| Passed::new(symbolic.places(child as usize), from)).collect();
-        extend(&passed, panel, front.height, 0);
+        let contributions = symbolic.children[s].iter().zip(children);
+        let contributions: Vec<ContributionBlock<'_>> = contributions
+            .map(|(&child, from)| ContributionBlock::new(symbolic.places(child as usize), from))
+            .collect();
+        extend(&contributions, panel, front.height, 0);
         if self.stops_at(s) {
             return Ok(());
         }
@@ -353,7 +354,7 @@ impl<'a> Run<'a> {
         if rest > 0 {
             let own = &mut own[..rest * rest];
             dense::update(self.arch, own, &panel[front.width..], front.height, rest, front.width);
-            extend(&passed, own, rest, front.width);
+            extend(&contributions, own, rest, front.width);
         }
         Ok(())
     }

@@ -4,15 +4,15 @@
 //! times the actual memory. The duration of a task is taken as its number of operations. Runs differ only in the speed of their
 //! threads.
 
-use super::symbolic::Symbolic;
+use super::symbolic::SymbolicCholesky;
 use super::tasks;
 use crate::ordering::NONE;
 use std::collections::BTreeSet;
 
 /// A running task: its end time, and its index, which decides between tasks that end together.
-type Running = BTreeSet<(u64, usize)>;
+type RunningTasks = BTreeSet<(u64, usize)>;
 
-impl Symbolic {
+impl SymbolicCholesky {
     /// Memory used by [`Cholesky::schur`](super::Cholesky::schur) with `threads` threads \[bytes\].
     #[must_use]
     pub fn bytes_of_schur(&self, threads: usize) -> usize {
@@ -42,7 +42,7 @@ enum Passes {
 }
 
 /// Largest number of values in use during the elimination with `threads` threads.
-fn values_of_schur(symbolic: &Symbolic, parent: &[usize], threads: usize, passes: Passes) -> usize {
+fn values_of_schur(symbolic: &SymbolicCholesky, parent: &[usize], threads: usize, passes: Passes) -> usize {
     let passed = |t: usize| match passes {
         Passes::All => symbolic.passed(t),
         Passes::Written => triangle(symbolic.passed(t)),
@@ -54,10 +54,10 @@ fn values_of_schur(symbolic: &Symbolic, parent: &[usize], threads: usize, passes
     let tasks = &symbolic.tasks;
     let mut left: Vec<usize> = tasks.iter().map(|t| t.children.len()).collect();
     let mut leaves = (0..tasks.len()).filter(|&t| tasks[t].children.is_empty());
-    let mut running = Running::new();
+    let mut running = RunningTasks::new();
     let (mut alive, mut most) = (0, 0);
     // A thread continues with the parent of the last child that ended, otherwise with the next leaf.
-    let mut begin = |t: usize, now: u64, running: &mut Running, alive: &mut usize| {
+    let mut begin = |t: usize, now: u64, running: &mut RunningTasks, alive: &mut usize| {
         *alive += passed(t) + beside(t);
         most = most.max(*alive);
         running.insert((now.saturating_add(symbolic.operations_of(t) as u64 + 1), t));

@@ -4,9 +4,9 @@
 //! the same places as its contribution to the matrix.
 
 use super::dense::{view, view_mut};
-use super::kernel::{Backward, Forward};
+use super::kernel::{BackwardSubstitution, ForwardSubstitution};
 use super::numeric::Cholesky;
-use super::symbolic::{Front, Symbolic};
+use super::symbolic::{Front, SymbolicCholesky};
 use super::tasks::{self, Slot, open, slots};
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
@@ -24,7 +24,7 @@ const SINGLE: usize = 3;
 /// Right-hand sides of a block on their way through the tree.
 struct Run<'a> {
     factor: &'a Cholesky,
-    symbolic: &'a Symbolic,
+    symbolic: &'a SymbolicCholesky,
     columns: usize,
     /// Rows of each task, column by column.
     rows: Vec<Mutex<Vec<f64>>>,
@@ -187,7 +187,7 @@ impl<'a> Run<'a> {
         let (width, rows) = (front.width, front.height);
         if self.columns <= SINGLE {
             for x in work.chunks_exact_mut(rows) {
-                self.factor.arch.dispatch(Forward { panel, rows, width, x });
+                self.factor.arch.dispatch(ForwardSubstitution { panel, rows, width, x });
             }
             return;
         }
@@ -252,7 +252,7 @@ impl<'a> Run<'a> {
         let (width, rows) = (front.width, front.height);
         if self.columns <= SINGLE {
             for x in work.chunks_exact_mut(rows) {
-                self.factor.arch.dispatch(Backward { panel, rows, width, x });
+                self.factor.arch.dispatch(BackwardSubstitution { panel, rows, width, x });
             }
             return;
         }

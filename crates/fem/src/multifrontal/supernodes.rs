@@ -1,7 +1,7 @@
 //! Fronts: vertices eliminated together, and their amalgamation.
 
 use super::tree::{Forest, postorder};
-use crate::ordering::{Compressed, NONE};
+use crate::ordering::{CompressedPattern, NONE};
 
 /// Allowed fraction of explicit zeros in a front, by its number of pivots: few large fronts are faster than many small ones.
 /// The form is CHOLMOD's (Chen, Davis, Hager, Rajamanickam 2008, table of `nrelax` and `zrelax`).
@@ -40,7 +40,7 @@ fn trapezoid(width: usize, height: usize) -> f64 {
 impl Supernodes {
     /// Finds fundamental fronts and merges children into parents as [`RELAXATION`] allows. The last `retained` vertices form
     /// one front, into which nothing is merged.
-    pub fn new(matrix: &Compressed, forest: &Forest, retained: usize) -> Self {
+    pub fn new(matrix: &CompressedPattern, forest: &Forest, retained: usize) -> Self {
         let (mut fronts, parent) = fundamental(matrix, forest, retained);
         let protected = if retained > 0 { fronts.len() - 1 } else { NONE };
         let mut merged = vec![false; fronts.len()];
@@ -80,7 +80,7 @@ impl Supernodes {
 }
 
 /// Chains of vertices whose columns differ only by the vertex itself, and the parent of each chain.
-fn fundamental(matrix: &Compressed, forest: &Forest, retained: usize) -> (Vec<Merging>, Vec<usize>) {
+fn fundamental(matrix: &CompressedPattern, forest: &Forest, retained: usize) -> (Vec<Merging>, Vec<usize>) {
     let n = forest.order.len();
     let inner = n - retained;
     let mut children = vec![0_u32; n];

@@ -3,7 +3,7 @@
 use super::DirectError;
 use super::supernodes::Supernodes;
 use super::tree::Forest;
-use crate::ordering::{Compressed, NONE, Ordering, compress, order};
+use crate::ordering::{CompressedPattern, NONE, Ordering, compress, order};
 use faer::sparse::SymbolicSparseColMatRef;
 use std::ops::Range;
 
@@ -25,7 +25,7 @@ pub(super) struct Front {
     pub height: usize,
     /// Start of its column values in the storage of its task (column by column, `height` rows each).
     pub offset: usize,
-    /// Start of its entries in [`Symbolic::relative`].
+    /// Start of its entries in [`SymbolicCholesky::relative`].
     pub relative: usize,
     /// Stack, of the two of a sequential task, that holds its contribution, and the position there.
     pub stack: (usize, usize),
@@ -76,7 +76,7 @@ pub(super) struct Task {
 /// Symbolic Cholesky factorisation of a pattern under a fill-reducing order. It serves any number of matrices with the same
 /// pattern.
 #[derive(Clone, Debug)]
-pub struct Symbolic {
+pub struct SymbolicCholesky {
     /// Equation at each position of the order of elimination.
     pub(super) order: Vec<u32>,
     pub(super) fronts: Vec<Front>,
@@ -95,7 +95,7 @@ pub struct Symbolic {
     bytes: usize,
 }
 
-impl Symbolic {
+impl SymbolicCholesky {
     /// Analyses a lower triangle with sorted rows.
     ///
     /// # Errors
@@ -108,7 +108,7 @@ impl Symbolic {
     /// the factorisation stops at their Schur complement.
     ///
     /// # Errors
-    /// As [`Symbolic::new`].
+    /// As [`SymbolicCholesky::new`].
     pub fn retaining(
         pattern: SymbolicSparseColMatRef<'_, usize>,
         ordering: Ordering,
@@ -128,7 +128,7 @@ impl Symbolic {
         let order = order(&matrix.graph, &last, ordering, &cost)?;
         let forest = Forest::new(&matrix, &order, kept);
         let supernodes = Supernodes::new(&matrix, &forest, kept);
-        let mut symbolic = Self::of_fronts(&matrix, &supernodes);
+        let mut symbolic = Self::from_fronts(&matrix, &supernodes);
         symbolic.retained = retained.len();
         symbolic.place_entries(pattern);
         symbolic.cut_tasks(&supernodes.parent);
@@ -136,7 +136,7 @@ impl Symbolic {
     }
 
     /// Fronts with their rows.
-    fn of_fronts(matrix: &Compressed, supernodes: &Supernodes) -> Self {
+    fn from_fronts(matrix: &CompressedPattern, supernodes: &Supernodes) -> Self {
         let count = supernodes.parent.len();
         let mut children = vec![Vec::new(); count];
         for (s, &p) in supernodes.parent.iter().enumerate().filter(|&(_, &p)| p != NONE) {
@@ -450,7 +450,7 @@ impl Symbolic {
 
 /// Positions of the vertices that each front passes on, ascending: neighbours of its vertices and the contributions of its
 /// children, beyond its own vertices.
-fn vertex_rows(matrix: &Compressed, supernodes: &Supernodes, children: &[Vec<u32>]) -> Vec<Vec<u32>> {
+fn vertex_rows(matrix: &CompressedPattern, supernodes: &Supernodes, children: &[Vec<u32>]) -> Vec<Vec<u32>> {
     let mut position = vec![0_u32; supernodes.order.len()];
     for (k, &v) in supernodes.order.iter().enumerate() {
         position[v] = k as u32;

@@ -3,7 +3,7 @@
 //! A task depends only on its inputs, and uses them in the order of its children, whichever thread computed them: results do
 //! not depend on the number of threads.
 
-use super::symbolic::Symbolic;
+use super::symbolic::SymbolicCholesky;
 use crate::ordering::NONE;
 use rayon::ScopeFifo;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -23,7 +23,7 @@ pub(super) fn slots<T>(count: usize) -> Vec<Slot<T>> {
 }
 
 /// Parent of each task, or `NONE`.
-pub(super) fn parents(symbolic: &Symbolic) -> Vec<usize> {
+pub(super) fn parents(symbolic: &SymbolicCholesky) -> Vec<usize> {
     let mut parent = vec![NONE; symbolic.tasks.len()];
     for (t, task) in symbolic.tasks.iter().enumerate() {
         for &child in &task.children {
@@ -34,7 +34,7 @@ pub(super) fn parents(symbolic: &Symbolic) -> Vec<usize> {
 }
 
 /// Calls `work` for every task after its children.
-pub(super) fn upwards(symbolic: &Symbolic, work: &(dyn Fn(usize) + Sync)) {
+pub(super) fn upwards(symbolic: &SymbolicCholesky, work: &(dyn Fn(usize) + Sync)) {
     let parent = parents(symbolic);
     let waiting: Vec<AtomicUsize> =
         symbolic.tasks.iter().map(|t| AtomicUsize::new(t.children.len())).collect();
@@ -64,7 +64,7 @@ pub(super) fn upwards(symbolic: &Symbolic, work: &(dyn Fn(usize) + Sync)) {
 }
 
 /// Calls `work` for every task before its children.
-pub(super) fn downwards(symbolic: &Symbolic, work: &(dyn Fn(usize) + Sync)) {
+pub(super) fn downwards(symbolic: &SymbolicCholesky, work: &(dyn Fn(usize) + Sync)) {
     if symbolic.tasks.len() == 1 {
         return work(0);
     }
@@ -76,7 +76,7 @@ pub(super) fn downwards(symbolic: &Symbolic, work: &(dyn Fn(usize) + Sync)) {
 }
 
 fn descend<'s>(
-    symbolic: &'s Symbolic,
+    symbolic: &'s SymbolicCholesky,
     work: &'s (dyn Fn(usize) + Sync),
     start: usize,
     scope: &ScopeFifo<'s>,

@@ -1,6 +1,6 @@
 //! Elimination tree and column counts of a graph under an order.
 
-use crate::ordering::{Compressed, NONE};
+use crate::ordering::{CompressedPattern, NONE};
 
 /// The elimination forest in postorder: vertices are renumbered by position.
 #[derive(Clone, Debug)]
@@ -18,7 +18,7 @@ pub(super) struct Forest {
 impl Forest {
     /// The forest of `matrix` eliminated in `order`. Its last `retained` vertices are kept together at the end. They form a
     /// chain, as if they were all coupled, because the remaining matrix there is dense.
-    pub fn new(matrix: &Compressed, order: &[usize], retained: usize) -> Self {
+    pub fn new(matrix: &CompressedPattern, order: &[usize], retained: usize) -> Self {
         let graph = &matrix.graph;
         let n = order.len();
         let inner = n - retained;
@@ -75,7 +75,7 @@ impl Forest {
 
     /// Equations of each column of the factor (Gilbert, Ng, Peyton 1994). The row subtree of i is the union of paths from its
     /// leaves to i; a leaf adds the row, and the least common ancestor of consecutive leaves removes one copy.
-    fn column_counts(&self, matrix: &Compressed) -> Vec<usize> {
+    fn column_counts(&self, matrix: &CompressedPattern) -> Vec<usize> {
         let n = self.order.len();
         let weight = |j: usize| matrix.weight(self.order[j]) as isize;
         let mut first = vec![NONE; n];
@@ -123,7 +123,7 @@ impl Forest {
     }
 
     /// Operations of the factorisation: the sum over equations of the squared length of their column.
-    pub fn operations(&self, matrix: &Compressed) -> f64 {
+    pub fn operations(&self, matrix: &CompressedPattern) -> f64 {
         let squares = |(k, &count): (usize, &usize)| -> f64 {
             let width = matrix.weight(self.order[k]);
             (0..width).map(|i| ((count - i) as f64).powi(2)).sum()

@@ -4,18 +4,18 @@ use super::body::Body;
 use super::cell::Scratch;
 use super::model::{Model, ModelError, with_material};
 use crate::element::ElementKind;
-use crate::material::constitutive::{Constitutive, Voigt, contract};
+use crate::material::constitutive::{ConstitutiveLaw, Voigt, contract};
 use crate::mesh::Mesh;
-use crate::term::{Instant, Linearized, Pattern, Refusal, Saved, Term};
+use crate::term::{Instant, Linearized, Pattern, Refusal, Restorable, Term};
 
 /// A quantity at the last accepted state and at the trial state.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Two {
+pub(super) struct StatePair {
     pub committed: Vec<f64>,
     pub trial: Vec<f64>,
 }
 
-impl Two {
+impl StatePair {
     pub fn zeros(n: usize) -> Self {
         Self { committed: vec![0.0; n], trial: vec![0.0; n] }
     }
@@ -35,9 +35,9 @@ pub struct Block<const D: usize> {
     pub(super) name: String,
     pub(super) body: Body<D>,
     /// Displacements in local numbering \[m\].
-    pub(super) u: Two,
+    pub(super) u: StatePair,
     /// History of all points.
-    pub(super) state: Two,
+    pub(super) state: StatePair,
     /// Forces of each cell, before summation.
     pub(super) forces: Vec<f64>,
     /// Zeros: the start of every step of a material without memory.
@@ -56,8 +56,8 @@ impl<const D: usize> Block<D> {
         let dofs = body.nodes.len() * body.frame.components;
         Ok(Self {
             name: format!("cells {block}"),
-            u: Two::zeros(dofs),
-            state: Two::zeros(cells * body.state_size()),
+            u: StatePair::zeros(dofs),
+            state: StatePair::zeros(cells * body.state_size()),
             forces: vec![0.0; cells * width],
             none: vec![0.0; if body.frame.layout.stride == 0 { dofs } else { 0 }],
             dt: 0.0,
@@ -124,7 +124,7 @@ impl<const D: usize> Block<D> {
     pub fn bytes(&self) -> usize {
         let body = &self.body;
         let lists = body.cells.connectivity.len() + body.nodes.len() + body.pattern.dofs().len();
-        let two = |of: &Two| of.committed.len() + of.trial.len();
+        let two = |of: &StatePair| of.committed.len() + of.trial.len();
         let values = [two(&self.u), two(&self.state), self.forces.len(), self.none.len()];
         (lists + values.iter().sum::<usize>() + body.volumes.len()) * std::mem::size_of::<f64>()
             + size_of_val(body.reference.as_slice())
@@ -172,7 +172,7 @@ impl<const D: usize> Block<D> {
         result.map_err(|reason| Refusal { term: self.name.clone(), reason })
     }
 
-    fn evaluate_with<M: Constitutive>(
+    fn evaluate_with<M: ConstitutiveLaw>(
         &self,
         material: &M,
         forces: &mut [f64],
@@ -180,7 +180,7 @@ impl<const D: usize> Block<D> {
     ) -> Result<(), String> {
         let body = &self.body;
         let sizes = (body.frame.width(), body.state_size());
-        body.chunks((forces, sizes.0), (state, sizes.1), |scratch, mut task| {
+        body.chunks(forces, sizes.0, state, sizes.1, |scratch, mut task| {
             for (cell, f, new) in task.cells() {
                 self.step(cell, scratch)?;
                 let (volumes, old) = (body.cell_volumes(cell), body.cell_state(cell, &self.state.committed));
@@ -273,10 +273,10 @@ impl<const D: usize> Linearized for Block<D> {
 }
 
 impl<const D: usize> Block<D> {
-    fn tangent_with<M: Constitutive>(&self, material: &M, values: &mut [f64]) {
+    fn tangent_with<M: ConstitutiveLaw>(&self, material: &M, values: &mut [f64]) {
         let body = &self.body;
         let width = body.frame.width();
-        body.chunks((values, width * width), (&mut [], 0), |scratch, mut task| {
+        body.chunks(values, width * width, &mut [], 0, |scratch, mut task| {
             for (cell, k, _) in task.cells() {
                 // The residual at this state has been evaluated: the motion is admissible.
                 if self.step(cell, scratch).is_err() {
@@ -291,7 +291,7 @@ impl<const D: usize> Block<D> {
     }
 }
 
-impl<const D: usize> Saved for Block<D> {
+impl<const D: usize> Restorable for Block<D> {
     /// Displacements, followed by the numbers kept at the quadrature points.
     type State = Vec<f64>;
 

@@ -1,6 +1,6 @@
 //! Constant data of a run: cells in local numbering, reference geometry, model; and the loop over chunks of cells.
 
-use super::cell::{Frame, Inverted, Scratch};
+use super::cell::{Frame, InvertedPoint, Scratch};
 use super::history::Layout;
 use super::model::{Kinematics, Material, Model, ModelError};
 use crate::error::FemError;
@@ -105,7 +105,7 @@ impl<const D: usize> Body<D> {
             reference: nodes.iter().map(relative).collect(),
             origin,
             volumes: Vec::new(),
-            pattern: Pattern::of_blocks(dofs.iter().map(Vec::as_slice)),
+            pattern: Pattern::from_blocks(dofs.iter().map(Vec::as_slice)),
             nodes,
             frame,
             model,
@@ -122,7 +122,7 @@ impl<const D: usize> Body<D> {
         let mut volumes = Vec::with_capacity(self.cells.len() * flat.points());
         for cell in 0..self.cells.len() {
             self.gather(cell, &none, &none, &mut scratch);
-            scratch.motion(&flat, &[]).map_err(|Inverted { determinant, .. }| FemError::Jacobian {
+            scratch.motion(&flat, &[]).map_err(|InvertedPoint { determinant, .. }| FemError::Jacobian {
                 block: self.block,
                 cell,
                 determinant,
@@ -172,8 +172,10 @@ impl<const D: usize> Body<D> {
     /// and returns the results in the order of the chunks.
     pub fn chunks<R: Send>(
         &self,
-        (out, size): (&mut [f64], usize),
-        (mut state, state_size): (&mut [f64], usize),
+        out: &mut [f64],
+        size: usize,
+        mut state: &mut [f64],
+        state_size: usize,
         work: impl Fn(&mut Scratch<D>, Task<'_, D>) -> R + Sync,
     ) -> Vec<R> {
         let mut tasks = Vec::with_capacity(self.cells.len().div_ceil(CHUNK));

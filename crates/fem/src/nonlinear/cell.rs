@@ -11,7 +11,7 @@
 use super::history::Layout;
 use super::motion::{Increment, Point};
 use super::tensor::{PLACE, Tensor, determinant, inverse, rotated};
-use crate::material::constitutive::{Constitutive, Moduli, Voigt, pressure};
+use crate::material::constitutive::{ConstitutiveLaw, Moduli, Voigt, pressure};
 use crate::material::plane_stress;
 
 /// Largest number of polynomials of the projected dilatation: 1, x, y, z.
@@ -71,7 +71,7 @@ impl Frame {
 
 /// A point of a cell whose Jacobian determinant is not positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Inverted {
+pub struct InvertedPoint {
     /// Quadrature point.
     pub point: usize,
     /// Determinant \[m^D\].
@@ -143,8 +143,8 @@ impl<const D: usize> Scratch<D> {
     /// Computes gradients and increments of all points from `base` to `end`; `volumes` are the reference volumes.
     ///
     /// # Errors
-    /// [`Inverted`] if a point has no volume at the middle or at the end of the step.
-    pub fn motion(&mut self, frame: &Frame, volumes: &[f64]) -> Result<(), Inverted> {
+    /// [`InvertedPoint`] if a point has no volume at the middle or at the end of the step.
+    pub fn motion(&mut self, frame: &Frame, volumes: &[f64]) -> Result<(), InvertedPoint> {
         for point in 0..frame.points() {
             if frame.finite {
                 self.finite_motion(frame, point)?;
@@ -195,7 +195,7 @@ impl<const D: usize> Scratch<D> {
         }
     }
 
-    fn small_motion(&mut self, frame: &Frame, point: usize) -> Result<(), Inverted> {
+    fn small_motion(&mut self, frame: &Frame, point: usize) -> Result<(), InvertedPoint> {
         let j = self.jacobian(frame, point, |a| self.reference[a]);
         let determinant = positive(determinant(&j), point)?;
         let radius =
@@ -219,7 +219,7 @@ impl<const D: usize> Scratch<D> {
         Ok(())
     }
 
-    fn finite_motion(&mut self, frame: &Frame, point: usize) -> Result<(), Inverted> {
+    fn finite_motion(&mut self, frame: &Frame, point: usize) -> Result<(), InvertedPoint> {
         let at = |a: usize| -> [f64; D] { std::array::from_fn(|i| self.reference[a][i] + self.end[a][i]) };
         // Computed from the increments: a difference of positions would lose the digits of small steps.
         let step = |a: usize| -> [f64; D] { std::array::from_fn(|i| self.end[a][i] - self.base[a][i]) };
@@ -296,7 +296,7 @@ impl<const D: usize> Scratch<D> {
     }
 
     /// Computes stress and history of all points after the step; `tangent` requests the sensitivities as well.
-    pub fn stresses<M: Constitutive>(
+    pub fn stresses<M: ConstitutiveLaw>(
         &mut self,
         frame: &Frame,
         material: &M,
@@ -337,14 +337,14 @@ impl<const D: usize> Scratch<D> {
     }
 
     /// Computes stresses and sensitivities after the step and keeps only these.
-    pub fn linearised<M: Constitutive>(&mut self, frame: &Frame, material: &M, dt: f64, old: &[f64]) {
+    pub fn linearised<M: ConstitutiveLaw>(&mut self, frame: &Frame, material: &M, dt: f64, old: &[f64]) {
         let mut unkept = std::mem::take(&mut self.unkept);
         self.stresses(frame, material, dt, old, &mut unkept, true);
         self.unkept = unkept;
     }
 
     /// Computes the forces by which stresses at rest change over `dt`, replacing `f`; there must be no motion.
-    pub fn relaxation<M: Constitutive>(
+    pub fn relaxation<M: ConstitutiveLaw>(
         &mut self,
         frame: &Frame,
         volumes: &[f64],
@@ -369,7 +369,7 @@ impl<const D: usize> Scratch<D> {
     }
 
     /// Computes the stress of the present state and the sensitivities of a forward step from it. There must be no motion.
-    pub fn forward<M: Constitutive>(&mut self, frame: &Frame, material: &M, dt: f64, old: &[f64]) {
+    pub fn forward<M: ConstitutiveLaw>(&mut self, frame: &Frame, material: &M, dt: f64, old: &[f64]) {
         let stride = frame.layout.stride;
         for point in 0..frame.points() {
             let mut state = frame.layout.read(&old[point * stride..(point + 1) * stride]);
@@ -550,6 +550,6 @@ fn circumference(frame: &Frame, radius: f64) -> f64 {
     if frame.axisymmetric { std::f64::consts::TAU * radius } else { 1.0 }
 }
 
-fn positive(determinant: f64, point: usize) -> Result<f64, Inverted> {
-    if determinant > 0.0 { Ok(determinant) } else { Err(Inverted { point, determinant }) }
+fn positive(determinant: f64, point: usize) -> Result<f64, InvertedPoint> {
+    if determinant > 0.0 { Ok(determinant) } else { Err(InvertedPoint { point, determinant }) }
 }

@@ -5,7 +5,7 @@
 
 use super::block::Block;
 use super::model::with_material;
-use crate::material::constitutive::{Constitutive, Voigt};
+use crate::material::constitutive::{ConstitutiveLaw, Voigt};
 
 impl<const D: usize> Block<D> {
     /// Elastic energy \[J, or J/m of thickness\].

@@ -7,12 +7,12 @@
 use super::block::{Block, size_of};
 use super::cell::Scratch;
 use super::model::with_material;
-use crate::material::constitutive::Constitutive;
-use crate::term::{Fraction, Instant, Limited, Refusal};
+use crate::material::constitutive::ConstitutiveLaw;
+use crate::term::{ForwardTerm, Fraction, Instant, Refusal};
 
 /// A limit found at a point.
 #[derive(Clone, Copy, Debug)]
-struct Found {
+struct PointLimit {
     value: f64,
     limit: &'static str,
     event: &'static str,
@@ -21,7 +21,7 @@ struct Found {
 }
 
 /// The smaller of two limits; the first if equal, so that the order of cells decides.
-fn smaller(a: Option<Found>, b: Option<Found>) -> Option<Found> {
+fn smaller(a: Option<PointLimit>, b: Option<PointLimit>) -> Option<PointLimit> {
     match (a, b) {
         (Some(a), Some(b)) => Some(if b.value < a.value { b } else { a }),
         (a, b) => a.or(b),
@@ -31,7 +31,7 @@ fn smaller(a: Option<Found>, b: Option<Found>) -> Option<Found> {
 impl<const D: usize> Block<D> {
     /// Computes the forward tangent of one cell from the committed state into `k`, and the forces by which its stresses change
     /// over `dt` at rest into `f`.
-    fn forward_cell<M: Constitutive>(
+    fn forward_cell<M: ConstitutiveLaw>(
         &self,
         material: &M,
         dt: f64,
@@ -56,7 +56,7 @@ impl<const D: usize> Block<D> {
     }
 
     /// Computes the rate tangents, and the force of each cell that does not depend on Δu.
-    fn rate_with<M: Constitutive>(
+    fn rate_with<M: ConstitutiveLaw>(
         &self,
         material: &M,
         dt: f64,
@@ -65,17 +65,17 @@ impl<const D: usize> Block<D> {
     ) -> Result<(), String> {
         let width = self.body.frame.width();
         self.body
-            .chunks((values, width * width), (forces, width), |scratch, mut task| {
+            .chunks(values, width * width, forces, width, |scratch, mut task| {
                 task.cells().try_for_each(|(cell, k, f)| self.forward_cell(material, dt, cell, scratch, k, f))
             })
             .into_iter()
             .collect()
     }
 
-    fn limit_with<M: Constitutive>(&self, material: &M) -> Option<Found> {
+    fn limit_with<M: ConstitutiveLaw>(&self, material: &M) -> Option<PointLimit> {
         let mut marks = vec![0.0; self.body.cells.len()];
         self.body
-            .chunks((&mut marks, 1), (&mut [], 0), |scratch, mut task| {
+            .chunks(&mut marks, 1, &mut [], 0, |scratch, mut task| {
                 let mut best = None;
                 for (cell, _, _) in task.cells() {
                     best = smaller(best, self.cell_limit(material, cell, scratch));
@@ -86,14 +86,14 @@ impl<const D: usize> Block<D> {
             .fold(None, smaller)
     }
 
-    fn cell_limit<M: Constitutive>(
+    fn cell_limit<M: ConstitutiveLaw>(
         &self,
         material: &M,
         cell: usize,
         scratch: &mut Scratch<D>,
-    ) -> Option<Found> {
+    ) -> Option<PointLimit> {
         let (body, limits) = (&self.body, &self.body.model.limits);
-        let found = |value, limit, event, point| Some(Found { value, limit, event, cell, point });
+        let found = |value, limit, event, point| Some(PointLimit { value, limit, event, cell, point });
         body.gather(cell, &self.u.committed, &self.u.trial, scratch);
         if let Err(bad) = scratch.motion(&body.frame, body.cell_volumes(cell)) {
             return found(HALF, "r2", "cell inside out", bad.point);
@@ -119,7 +119,7 @@ impl<const D: usize> Block<D> {
     }
 
     /// Fraction at which an elastic point starts to yield.
-    fn yields<M: Constitutive>(
+    fn yields<M: ConstitutiveLaw>(
         &self,
         material: &M,
         point: usize,
@@ -141,7 +141,7 @@ impl<const D: usize> Block<D> {
     /// Refines the fraction under finite deformation, where the strain of a fraction of the step is not that fraction of its
     /// strain. It repeats the closed form at the fraction found; each repetition contracts the error by the size of the strain
     /// increment.
-    fn refined<M: Constitutive>(&self, material: &M, found: Found) -> Found {
+    fn refined<M: ConstitutiveLaw>(&self, material: &M, found: PointLimit) -> PointLimit {
         let body = &self.body;
         let mut scratch = Scratch::new(&body.frame);
         let old = body.cell_state(found.cell, &self.state.committed);
@@ -159,7 +159,7 @@ impl<const D: usize> Block<D> {
                 break;
             }
         }
-        if value < 1.0 { Found { value, ..found } } else { found }
+        if value < 1.0 { PointLimit { value, ..found } } else { found }
     }
 
     /// Sets the trial displacements: the committed ones plus an increment of the system.
@@ -179,7 +179,7 @@ const HALF: f64 = 0.5;
 /// digits.
 const MOST_REFINEMENTS: usize = 8;
 
-impl<const D: usize> Limited for Block<D> {
+impl<const D: usize> ForwardTerm for Block<D> {
     fn rate(&mut self, at: Instant, values: &mut [f64], constant: &mut [f64]) -> Result<(), Refusal> {
         let mut forces = std::mem::take(&mut self.forces);
         let result =
@@ -197,7 +197,7 @@ impl<const D: usize> Limited for Block<D> {
             let found = self.limit_with(m)?;
             if found.limit == "r1" && self.body.frame.finite { self.refined(m, found) } else { found }
         });
-        let Found { value, limit, event, cell, point } = found;
+        let PointLimit { value, limit, event, cell, point } = found;
         Some(Fraction {
             value,
             cause: format!("{limit} {event}, {}, cell {cell}, point {point}", self.name),

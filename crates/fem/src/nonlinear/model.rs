@@ -3,7 +3,7 @@
 use crate::element::ElementKind;
 use crate::error::FemError;
 use crate::kinematics::{Dilatation, Formulation, Idealisation};
-use crate::material::constitutive::Constitutive;
+use crate::material::constitutive::ConstitutiveLaw;
 use crate::material::elastic::Elastic;
 use crate::material::j2::J2;
 use crate::material::maxwell::Maxwell;

@@ -1,9 +1,9 @@
 //! Fields of the committed state.
 
 use super::block::Block;
-use super::cell::{Inverted, Scratch};
+use super::cell::{InvertedPoint, Scratch};
 use super::model::{Material, with_material};
-use crate::material::constitutive::{Constitutive, Voigt};
+use crate::material::constitutive::{ConstitutiveLaw, Voigt};
 
 impl<const D: usize> Block<D> {
     /// Cauchy stress xx, yy, zz, xy, yz, zx at every quadrature point, cell by cell \[Pa\].
@@ -80,13 +80,13 @@ impl<const D: usize> Block<D> {
 
     /// Stress and current volume of every point. Under finite deformation σ = τ/J; with averaged dilatation J is that of the
     /// cell, as is the dilatation used for the stress.
-    fn stresses<M: Constitutive>(&self, material: &M) -> Vec<(Voigt, f64)> {
+    fn stresses<M: ConstitutiveLaw>(&self, material: &M) -> Vec<(Voigt, f64)> {
         let mut scratch = Scratch::new(&self.body.frame);
         (0..self.body.cells.len()).flat_map(|cell| self.cell_points(material, cell, &mut scratch)).collect()
     }
 
     /// The same for one cell.
-    fn cell_points<M: Constitutive>(
+    fn cell_points<M: ConstitutiveLaw>(
         &self,
         material: &M,
         cell: usize,
@@ -113,12 +113,12 @@ impl<const D: usize> Block<D> {
 
     /// Computes the stresses of a cell in the committed state by the cell's kernels. A committed state was evaluated and
     /// therefore has a volume; a restored one may be arbitrary.
-    fn cell_stresses<M: Constitutive>(
+    fn cell_stresses<M: ConstitutiveLaw>(
         &self,
         material: &M,
         cell: usize,
         scratch: &mut Scratch<D>,
-    ) -> Result<(), Inverted> {
+    ) -> Result<(), InvertedPoint> {
         let (body, frame) = (&self.body, &self.body.frame);
         let start = if self.none.is_empty() { &self.u.committed } else { &self.none };
         body.gather(cell, start, &self.u.committed, scratch);

@@ -5,7 +5,7 @@
 
 use super::block::Block;
 use super::model::{Material, with_material};
-use crate::material::constitutive::{Constitutive, Moduli, Voigt};
+use crate::material::constitutive::{ConstitutiveLaw, Moduli, Voigt};
 use crate::material::plane_stress;
 use crate::term::Refusal;
 
@@ -30,7 +30,7 @@ impl<const D: usize> Block<D> {
 
     fn viscous_forces(&self, before: &[f64], c: &Moduli, forces: &mut [f64]) -> Result<(), String> {
         let body = &self.body;
-        body.chunks((forces, body.frame.width()), (&mut [], 0), |scratch, mut task| {
+        body.chunks(forces, body.frame.width(), &mut [], 0, |scratch, mut task| {
             for (cell, f, _) in task.cells() {
                 let volumes = body.cell_volumes(cell);
                 body.gather(cell, before, &self.u.trial, scratch);

@@ -2,7 +2,7 @@
 
 use super::ScatterMap;
 use crate::error::FemError;
-use crate::multifrontal::{Cholesky, Symbolic};
+use crate::multifrontal::{Cholesky, SymbolicCholesky};
 use crate::ordering::Ordering;
 use faer::linalg::solvers::SolveCore;
 use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
@@ -15,15 +15,15 @@ impl ScatterMap {
     ///
     /// # Errors
     /// If memory does not suffice or the pattern is too large to be ordered.
-    pub fn analyse_cholesky(&self) -> Result<Arc<Symbolic>, FemError> {
-        Ok(Arc::new(Symbolic::new(self.symbolic(), Ordering::Automatic)?))
+    pub fn analyse_cholesky(&self) -> Result<Arc<SymbolicCholesky>, FemError> {
+        Ok(Arc::new(SymbolicCholesky::new(self.symbolic(), Ordering::Automatic)?))
     }
 
     /// Numeric Cholesky factorisation.
     ///
     /// # Errors
     /// [`FemError::Direct`] with the equation if the matrix is not positive definite.
-    pub fn cholesky(&self, symbolic: &Arc<Symbolic>) -> Result<Factor, FemError> {
+    pub fn cholesky(&self, symbolic: &Arc<SymbolicCholesky>) -> Result<Factor, FemError> {
         Ok(Factor::Cholesky(Cholesky::new(symbolic.clone(), self.values())?))
     }
 

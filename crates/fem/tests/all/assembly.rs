@@ -21,7 +21,7 @@ fn mesh(n: usize) -> Mesh<2> {
 
 fn block(mesh: &Mesh<2>) -> LinearBlock<2> {
     let material = Elastic::new(3e9, 0.2).unwrap();
-    LinearBlock::new(mesh, 0, &material, Idealisation::of_dimension(2), Formulation::Standard).unwrap()
+    LinearBlock::new(mesh, 0, &material, Idealisation::from_dimension(2), Formulation::Standard).unwrap()
 }
 
 fn clamped(mesh: &Mesh<2>) -> Equations {
@@ -37,7 +37,7 @@ struct Spring {
 
 impl Spring {
     fn new(dof: usize, stiffness: f64) -> Self {
-        Self { pattern: Pattern::of_blocks([[dof].as_slice()]), stiffness }
+        Self { pattern: Pattern::from_blocks([[dof].as_slice()]), stiffness }
     }
 }
 
@@ -169,7 +169,7 @@ struct Pairs {
 
 impl Pairs {
     fn new(pairs: &[[usize; 2]]) -> Self {
-        let pattern = Pattern::of_blocks(pairs.iter().map(<[usize; 2]>::as_slice));
+        let pattern = Pattern::from_blocks(pairs.iter().map(<[usize; 2]>::as_slice));
         Self { pattern, closed: vec![false; pairs.len()] }
     }
 }
@@ -237,7 +237,7 @@ fn what_nothing_but_a_closed_pair_holds_is_held_by_it_and_named_when_it_opens() 
     // A chain of springs between six degrees of freedom floats; a pair that couples its end to a held degree of freedom holds
     // it.
     let chain: Vec<[usize; 2]> = (1..6).map(|k| [k, k + 1]).collect();
-    let pattern = Pattern::of_blocks(chain.iter().map(<[usize; 2]>::as_slice));
+    let pattern = Pattern::from_blocks(chain.iter().map(<[usize; 2]>::as_slice));
     let mut links = Chain { pattern, values: [1e12, -1e12, -1e12, 1e12].repeat(chain.len()) };
     let mut contact = Pairs::new(&[[0, 1]]);
     let equations = || Constraints { fixed: vec![0], channels: Vec::new() }.equations(7);

@@ -1,7 +1,7 @@
 //! Static condensation compared with the equivalent dense formula.
 
 use asperity_fem::block::LinearBlock;
-use asperity_fem::condense::{Condensation, Condensed, Loaded, Reduction, Stiffness};
+use asperity_fem::condense::{Condensation, CondensedBody, LoadedBody, Reduction, Stiffness};
 use asperity_fem::dof::Channel;
 use asperity_fem::element::ElementKind;
 use asperity_fem::error::FemError;
@@ -29,7 +29,7 @@ fn body() -> Body {
         &mesh,
         0,
         &Elastic::new(3.0, 0.3).unwrap(),
-        Idealisation::of_dimension(2),
+        Idealisation::from_dimension(2),
         Formulation::Standard,
     )
     .unwrap();
@@ -107,7 +107,7 @@ fn loads_and_interior_are_those_of_the_whole_system() {
     let k = body.dense();
     let reduction = Reduction::new(&body.stiffness, &s.retained, &s.fixed).unwrap();
     let system: Vec<usize> = (3..3 + s.retained.len()).collect();
-    let mut term = Condensed::new("body".into(), reduction, &system);
+    let mut term = CondensedBody::new("body".into(), reduction, &system);
     let prescribed: Vec<(usize, f64)> = s.fixed.iter().map(|&d| (d, 0.01 * (d as f64).sin())).collect();
     let forces = vec![(s.interior[3], 0.2), (s.interior[20], -0.1), (s.retained[1], 0.3)];
     let amplitude = |slope| Table::new(vec![0.0, 10.0], vec![0.0, slope * 10.0]);
@@ -216,9 +216,9 @@ fn condensed_with_its_loads_a_body_is_what_its_factor_makes_of_it() {
         },
     ];
     let reduction = Reduction::new(&body.stiffness, &s.retained, &fixed).unwrap();
-    let mut factored = Condensed::new("body".into(), reduction, &s.retained);
+    let mut factored = CondensedBody::new("body".into(), reduction, &s.retained);
     factored.set_channels(channels.clone());
-    let loaded = Loaded::analyse(body.stiffness.clone(), &s.retained, &fixed, channels).unwrap();
+    let loaded = LoadedBody::analyse(body.stiffness.clone(), &s.retained, &fixed, channels).unwrap();
     let left = loaded.eliminate(usize::MAX).unwrap();
     let m = s.retained.len();
     let close = |a: &[f64], b: &[f64]| {
@@ -240,7 +240,7 @@ fn condensed_with_its_loads_a_body_is_what_its_factor_makes_of_it() {
 #[test]
 fn condensed_with_its_loads_a_body_that_nothing_holds_names_the_degree_of_freedom() {
     let body = body();
-    let loaded = Loaded::analyse(body.stiffness.clone(), &[], &[0, 1], Vec::new()).unwrap();
+    let loaded = LoadedBody::analyse(body.stiffness.clone(), &[], &[0, 1], Vec::new()).unwrap();
     let error = loaded.eliminate(usize::MAX).unwrap_err();
     assert!(matches!(error, FemError::Direct(DirectError::Singular(_))), "{error}");
     assert!(error.pivot().unwrap().equation < body.stiffness.dofs);

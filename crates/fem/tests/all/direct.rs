@@ -7,7 +7,7 @@ use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::mesh::Mesh;
 use asperity_fem::mesh::generate::{Block, Grading};
-use asperity_fem::multifrontal::{Cholesky, DirectError, Symbolic, free_mode};
+use asperity_fem::multifrontal::{Cholesky, DirectError, SymbolicCholesky, free_mode};
 use asperity_fem::ordering::Ordering;
 use asperity_fem::sparse::{Part, ScatterMap};
 use asperity_fem::term::{Linearized, Pattern};
@@ -21,7 +21,7 @@ const ORDERINGS: [Ordering; 4] =
     [Ordering::Automatic, Ordering::MinimumDegree, Ordering::NestedDissection, Ordering::Natural];
 
 /// A lower triangle: (column starts, rows, values).
-type Lower = (Vec<usize>, Vec<usize>, Vec<f64>);
+type LowerTriangle = (Vec<usize>, Vec<usize>, Vec<f64>);
 
 /// A diagonally dominant symmetric matrix with the given couplings.
 fn dominant(n: usize, edges: &[(usize, usize, f64)]) -> DMatrix<f64> {
@@ -35,7 +35,7 @@ fn dominant(n: usize, edges: &[(usize, usize, f64)]) -> DMatrix<f64> {
     a
 }
 
-fn lower(a: &DMatrix<f64>) -> Lower {
+fn lower(a: &DMatrix<f64>) -> LowerTriangle {
     let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
     for j in 0..a.ncols() {
         for i in (j..a.nrows()).filter(|&i| a[(i, j)] != 0.0) {
@@ -47,10 +47,10 @@ fn lower(a: &DMatrix<f64>) -> Lower {
     (starts, rows, values)
 }
 
-fn analyse(a: &Lower, ordering: Ordering, retained: &[usize]) -> Arc<Symbolic> {
+fn analyse(a: &LowerTriangle, ordering: Ordering, retained: &[usize]) -> Arc<SymbolicCholesky> {
     let n = a.0.len() - 1;
     let pattern = SymbolicSparseColMat::new_checked(n, n, a.0.clone(), None, a.1.clone());
-    Arc::new(Symbolic::retaining(pattern.as_ref(), ordering, retained).unwrap())
+    Arc::new(SymbolicCholesky::retaining(pattern.as_ref(), ordering, retained).unwrap())
 }
 
 fn right_hand_sides(n: usize, columns: usize) -> Mat<f64> {
@@ -135,7 +135,7 @@ fn block_of<const D: usize>(divisions: [usize; D], kind: ElementKind) -> (Mesh<D
         &mesh,
         0,
         &Elastic::new(2.0, 0.25).unwrap(),
-        Idealisation::of_dimension(D),
+        Idealisation::from_dimension(D),
         Formulation::Standard,
     )
     .unwrap();
@@ -202,12 +202,12 @@ fn refactoring_in_place_gives_the_bits_of_a_new_factor() {
 fn nested_dissection_is_taken_in_space_and_minimum_degree_in_the_plane() {
     let (mesh, cells) = block_of::<3>([14, 14, 14], ElementKind::Hex8);
     let (matrix, _) = assembled(&mesh, &cells, left(&mesh));
-    let stored = |o| Symbolic::new(matrix.symbolic(), o).unwrap().stored();
+    let stored = |o| SymbolicCholesky::new(matrix.symbolic(), o).unwrap().stored();
     assert_eq!(stored(Ordering::Automatic), stored(Ordering::NestedDissection));
     assert!(stored(Ordering::NestedDissection) < stored(Ordering::MinimumDegree));
     let (mesh, cells) = block_of::<2>([60, 60], ElementKind::Quad4);
     let (matrix, _) = assembled(&mesh, &cells, left(&mesh));
-    let stored = |o| Symbolic::new(matrix.symbolic(), o).unwrap().stored();
+    let stored = |o| SymbolicCholesky::new(matrix.symbolic(), o).unwrap().stored();
     assert_eq!(stored(Ordering::Automatic), stored(Ordering::MinimumDegree));
     assert!(stored(Ordering::MinimumDegree) < stored(Ordering::Natural));
 }
@@ -289,7 +289,7 @@ fn the_free_one_of_two_bodies_is_named() {
     mesh.nodes.extend(copy);
     let second: Vec<Vec<usize>> =
         cells.pattern().blocks().map(|b| b.iter().map(|d| d + 2 * count).collect()).collect();
-    let pattern = Pattern::of_blocks(cells.pattern().blocks().chain(second.iter().map(Vec::as_slice)));
+    let pattern = Pattern::from_blocks(cells.pattern().blocks().chain(second.iter().map(Vec::as_slice)));
     let fixed = (0..count).filter(|&n| mesh.nodes[n][0] == 0.0).flat_map(|n| [2 * n, 2 * n + 1]).collect();
     let equations = Constraints { fixed, channels: Vec::new() }.equations(mesh.nodes.len() * 2);
     let mut matrix = ScatterMap::new(&[&pattern], &equations, Part::Lower);
@@ -305,7 +305,7 @@ fn a_slender_held_body_is_not_taken_for_a_free_one() {
     let (mesh, cells) = block_of::<2>([400, 1], ElementKind::Quad4);
     let (matrix, _) = assembled(&mesh, &cells, left(&mesh));
     for ordering in ORDERINGS {
-        let symbolic = Arc::new(Symbolic::new(matrix.symbolic(), ordering).unwrap());
+        let symbolic = Arc::new(SymbolicCholesky::new(matrix.symbolic(), ordering).unwrap());
         assert!(Cholesky::new(symbolic, matrix.values()).is_ok(), "{ordering:?}");
     }
 }

@@ -2,7 +2,7 @@
 
 use asperity_fem::element::ElementKind;
 use asperity_fem::mesh::fault::{
-    FaultMesh, FaultMeshError, Faulted, Interpolation, Spacing, SpacingError, quality, scaled_jacobian,
+    FaultMesh, FaultMeshError, Interpolation, Spacing, SpacingError, SplitMesh, quality, scaled_jacobian,
 };
 use asperity_fem::mesh::split::Pair;
 use asperity_fem::mesh::{Mesh, Side, face_nodes, nodes_of_sides};
@@ -71,7 +71,7 @@ fn length(mesh: &Mesh<2>, sides: &[Side]) -> f64 {
 }
 
 /// Checks the properties of every fault mesh: it fills the box, conforms, and is open on the fault and nowhere else.
-pub fn check(input: &FaultMesh, made: &Faulted) {
+pub fn check(input: &FaultMesh, made: &SplitMesh) {
     let mesh = &made.mesh;
     let box_area = (input.max[0] - input.min[0]) * (input.max[1] - input.min[1]);
     let total: f64 = all_corners(mesh).map(|x| area(&x)).sum();
@@ -100,7 +100,7 @@ pub fn check(input: &FaultMesh, made: &Faulted) {
     check_fault(input, made);
 }
 
-fn check_fault(input: &FaultMesh, made: &Faulted) {
+fn check_fault(input: &FaultMesh, made: &SplitMesh) {
     let mesh = &made.mesh;
     let pairs = &made.fault.pairs;
     assert_eq!(pairs.len(), made.along.len());
@@ -265,7 +265,7 @@ fn a_trace_from_below_gives_the_same_mesh_with_its_pairs_reversed() {
     check(&down, &a);
     check(&up, &b);
     let places =
-        |m: &Faulted| -> Vec<[f64; 2]> { m.fault.pairs.iter().map(|p| m.mesh.nodes[p.minus]).collect() };
+        |m: &SplitMesh| -> Vec<[f64; 2]> { m.fault.pairs.iter().map(|p| m.mesh.nodes[p.minus]).collect() };
     let mut reversed = places(&b);
     reversed.reverse();
     for (x, y) in places(&a).iter().zip(&reversed) {
@@ -595,7 +595,7 @@ proptest! {
 }
 
 /// Nodes of the fault in the order of the trace.
-fn fault_nodes(made: &Faulted) -> Vec<[f64; 2]> {
+fn fault_nodes(made: &SplitMesh) -> Vec<[f64; 2]> {
     made.fault.pairs.iter().map(|p| made.mesh.nodes[p.minus]).collect()
 }
 

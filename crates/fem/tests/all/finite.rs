@@ -9,7 +9,7 @@ use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::material::hardening::Hardening;
 use asperity_fem::mesh::{Mesh, nodes_of_sides};
 use asperity_fem::nonlinear::{Block, Kinematics, Limits, Material, Model};
-use asperity_fem::term::{Instant, Limited, Linearized, Saved, Term};
+use asperity_fem::term::{ForwardTerm, Instant, Linearized, Restorable, Term};
 
 const UL: Kinematics = Kinematics::UpdatedLagrangian;
 const BULK: f64 = YOUNG / (3.0 * (1.0 - 2.0 * POISSON));
@@ -261,7 +261,7 @@ fn the_rate_tangent_is_the_one_of_the_virtual_velocity_form() {
     let state = &saved[24..];
     let tau: [f64; 6] = std::array::from_fn(|i| state[i]);
     let Material::J2(j2) = material else { unreachable!() };
-    let c = asperity_fem::material::constitutive::Constitutive::forward(&j2, 1.0, &tau, &state[6..7]);
+    let c = asperity_fem::material::constitutive::ConstitutiveLaw::forward(&j2, 1.0, &tau, &state[6..7]);
     let t = matrix(&tau);
     let delta = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 };
     let place = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];

@@ -27,7 +27,7 @@ struct Body<const D: usize> {
 fn body<const D: usize>(kind: ElementKind, divisions: [usize; D], grading: Grading, poisson: f64) -> Body<D> {
     let mesh = Block { min: [0.0; D], max: [1.0; D], divisions, grading: [grading; D], kind }.mesh().unwrap();
     let material = Elastic::new(2.5e9, poisson).unwrap();
-    let space = Idealisation::of_dimension(D);
+    let space = Idealisation::from_dimension(D);
     let block = LinearBlock::new(&mesh, 0, &material, space, Formulation::Standard).unwrap();
     let side = |name: &str| nodes_of_sides(&mesh, &mesh.side_sets[name]);
     let mut fixed: Vec<usize> = side("left").into_iter().flat_map(|n| n * D..(n + 1) * D).collect();
@@ -122,7 +122,7 @@ fn second_order_elements_and_tetrahedra_converge_to_the_direct_answer() {
 fn one_unknown_at_a_node_is_solved_too() {
     let (n, h) = (50, 1.0 / 50.0);
     let cells: Vec<[usize; 2]> = (0..n).map(|k| [k, k + 1]).collect();
-    let pattern = Pattern::of_blocks(cells.iter().map(|c| c.as_slice()));
+    let pattern = Pattern::from_blocks(cells.iter().map(|c| c.as_slice()));
     let values: Vec<f64> = cells.iter().flat_map(|_| [1.0 / h, -1.0 / h, -1.0 / h, 1.0 / h]).collect();
     let equations = Constraints { fixed: vec![0], channels: Vec::new() }.equations(n + 1);
     let solver =
@@ -206,7 +206,7 @@ fn new_values_in_the_same_pattern_are_solved_as_if_set_up_anew() {
         let exact: Vec<f64> = direct(&body, &b).iter().map(|x| 4.0 * x).collect();
         assert!(distance(&x, &exact) < 1e-10);
         assert!(solver.fits(&[&body.pattern]));
-        assert!(!solver.fits(&[&Pattern::of_blocks(body.pattern.blocks())]));
+        assert!(!solver.fits(&[&Pattern::from_blocks(body.pattern.blocks())]));
     }
 }
 
@@ -293,7 +293,7 @@ fn a_body_that_floats_is_refused() {
 
 #[test]
 fn single_degrees_of_freedom_are_refused() {
-    let pattern = Pattern::of_blocks([[0, 1, 2, 4].as_slice()]);
+    let pattern = Pattern::from_blocks([[0, 1, 2, 4].as_slice()]);
     let equations = Constraints::default().equations(6);
     let modes = near_null::spatial(&[[0.0; 3], [1.0, 0.0, 0.0]]);
     let error = Spatial::new(&[&pattern], &[&[1.0; 16]], &equations, modes, AMG).unwrap_err();

@@ -1,19 +1,19 @@
 //! Jumps as degrees of freedom compared with the equivalent split body.
 
 use asperity_fem::block::LinearBlock;
-use asperity_fem::condense::{Condensed, Reduction, Stiffness};
+use asperity_fem::condense::{CondensedBody, Reduction, Stiffness};
 use asperity_fem::dof::Channel;
 use asperity_fem::element::ElementKind;
 use asperity_fem::jump::{Jump, Jumps, ObliqueConstraint};
 use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::material::elastic::Elastic;
-use asperity_fem::mesh::fault::{FaultMesh, Faulted, Interpolation, Spacing};
+use asperity_fem::mesh::fault::{FaultMesh, Interpolation, Spacing, SplitMesh};
 use asperity_fem::mesh::nodes_of_sides;
 use asperity_fem::table::Table;
 use asperity_fem::term::Linearized;
 use nalgebra::{DMatrix, DVector};
 
-fn body(dip: f64) -> (Faulted, Stiffness) {
+fn body(dip: f64) -> (SplitMesh, Stiffness) {
     let (s, c) = dip.to_radians().sin_cos();
     let made = FaultMesh {
         trace: vec![[0.0, 0.0], [-2.0 * c, -2.0 * s]],
@@ -38,7 +38,7 @@ fn body(dip: f64) -> (Faulted, Stiffness) {
     (made, stiffness)
 }
 
-fn jumps(made: &Faulted, dip: f64) -> Jumps<2> {
+fn jumps(made: &SplitMesh, dip: f64) -> Jumps<2> {
     let (s, c) = dip.to_radians().sin_cos();
     // Axes along the fault upwards, and from minus (smaller x) to plus.
     let frame = [[c, s], [s, -c]];
@@ -99,7 +99,8 @@ fn condensed_jumps_answer_as_the_split_body_does() {
     fixed.extend(&openings);
     fixed.sort_unstable();
     let reduction = Reduction::new(&jumps.stiffness(&split), &retained, &fixed).unwrap();
-    let mut condensed = Condensed::new("body".into(), reduction, &(0..retained.len()).collect::<Vec<_>>());
+    let mut condensed =
+        CondensedBody::new("body".into(), reduction, &(0..retained.len()).collect::<Vec<_>>());
     let load = Channel {
         prescribed: held.iter().map(|&d| (d, 0.1 + d as f64 * 1e-3)).collect(),
         forces: vec![(2 * made.fault.pairs[1].plus, 0.3), (5, -0.2)],

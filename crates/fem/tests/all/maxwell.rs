@@ -6,11 +6,11 @@ use crate::lab::{
 };
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::{Formulation, Idealisation};
-use asperity_fem::material::constitutive::{Constitutive, Moduli, Voigt};
+use asperity_fem::material::constitutive::{ConstitutiveLaw, Moduli, Voigt};
 use asperity_fem::material::maxwell::{Branch, Maxwell};
 use asperity_fem::mesh::nodes_of_sides;
 use asperity_fem::nonlinear::{Block, Kinematics, Material, Model};
-use asperity_fem::term::{Instant, Limited, Linearized, Term};
+use asperity_fem::term::{ForwardTerm, Instant, Linearized, Term};
 
 const VISCOSITY: f64 = 1.7;
 const TIME: f64 = VISCOSITY / SHEAR;

@@ -6,14 +6,14 @@ use crate::lab::{
 };
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::{Formulation, Idealisation};
-use asperity_fem::material::constitutive::{Constitutive, Moduli, Voigt, contract, deviator};
+use asperity_fem::material::constitutive::{ConstitutiveLaw, Moduli, Voigt, contract, deviator};
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::material::hardening::Hardening;
 use asperity_fem::material::j2::J2;
 use asperity_fem::material::plane_stress;
 use asperity_fem::mesh::nodes_of_sides;
 use asperity_fem::nonlinear::{Block, Kinematics, Limits, Material, Model};
-use asperity_fem::term::{Instant, Limited, Linearized, Saved, Term};
+use asperity_fem::term::{ForwardTerm, Instant, Linearized, Restorable, Term};
 
 fn hardenings() -> Vec<Hardening> {
     vec![

@@ -4,7 +4,7 @@ use crate::lab::{AT, Noise, elastic, mesh, model, residual, standard_solid, swif
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::nonlinear::{Block, Kinematics, Limits, Material, Model};
-use asperity_fem::term::{Limited, Linearized, Pattern, Term};
+use asperity_fem::term::{ForwardTerm, Linearized, Pattern, Term};
 
 /// Rounding of an entry, which is a sum of some tens of products.
 const ROUNDING: f64 = 1e-13;

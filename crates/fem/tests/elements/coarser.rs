@@ -4,7 +4,7 @@ use super::common::{Field, conforms, material, solve};
 use asperity_fem::block::LinearBlock;
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::{Formulation, Idealisation};
-use asperity_fem::mesh::coarser::Coarser;
+use asperity_fem::mesh::coarsening::Coarsening;
 use asperity_fem::mesh::generate::Grid;
 use asperity_fem::mesh::{Mesh, face_nodes};
 
@@ -20,7 +20,7 @@ fn block<const D: usize>(side: [usize; 2], cells: usize, beyond: &[f64]) -> Mesh
     });
     let depth = 1.0 + side[0] as f64;
     let beyond = beyond.iter().map(|part| part * depth).collect();
-    Coarser { side, beyond }.mesh(&Grid { lines, kind }).unwrap()
+    Coarsening { side, beyond }.mesh(&Grid { lines, kind }).unwrap()
 }
 
 #[test]
@@ -51,7 +51,7 @@ fn joined_cells_are_symmetric_about_the_middle() {
     for cells in 9..=14 {
         let line = |n: usize, size: f64| (0..=n).map(|k| size * k as f64).collect::<Vec<f64>>();
         let grid = Grid { lines: [line(4, 1.0), line(cells, 0.1)], kind: ElementKind::Quad4 };
-        let mesh = Coarser { side: [0, 0], beyond: vec![1.0] }.mesh(&grid).unwrap();
+        let mesh = Coarsening { side: [0, 0], beyond: vec![1.0] }.mesh(&grid).unwrap();
         let width = 0.1 * cells as f64;
         let of = |x: &[f64; 2]| x.map(|c| (c * 1e6).round() as i64);
         let mut nodes: Vec<[i64; 2]> = mesh.nodes.iter().map(of).collect();
@@ -84,7 +84,7 @@ impl<const D: usize> Field<D> for Linear {
 /// The patch test: linear displacements are exact.
 fn patch<const D: usize>(mesh: &Mesh<D>) {
     let block =
-        LinearBlock::new(mesh, 0, &material(0.3), Idealisation::of_dimension(D), Formulation::Standard)
+        LinearBlock::new(mesh, 0, &material(0.3), Idealisation::from_dimension(D), Formulation::Standard)
             .unwrap();
     let u = solve(mesh, &block, &Linear);
     for (n, x) in mesh.nodes.iter().enumerate() {
@@ -105,7 +105,7 @@ fn cells_that_cannot_be_joined_are_refused() {
     let line = |n: usize, size: f64| (0..=n).map(|k| size * k as f64).collect::<Vec<f64>>();
     let grid = |kind| Grid { lines: [line(4, 1.0), line(9, 0.5), line(9, 0.5)], kind };
     let refused = |kind, beyond: &[f64]| {
-        Coarser { side: [0, 0], beyond: beyond.to_vec() }.mesh::<3>(&grid(kind)).unwrap_err().to_string()
+        Coarsening { side: [0, 0], beyond: beyond.to_vec() }.mesh::<3>(&grid(kind)).unwrap_err().to_string()
     };
     for (kind, beyond, part) in [
         (ElementKind::Hex20, vec![2.0], "cells of `hex20` cannot be joined"),
@@ -126,7 +126,7 @@ fn lines_meant_to_lie_at_a_distance_count_although_they_are_rounded() {
     // 3 x 0.1 is above 0.3, and 0.7 - 0.4 below it.
     let line = |n: usize, size: f64| (0..=n).map(|k| size * k as f64).collect::<Vec<f64>>();
     let grid = Grid { lines: [vec![0.0, 0.4, 0.7, 0.9], line(9, 0.05)], kind: ElementKind::Quad4 };
-    let mesh = Coarser { side: [0, 1], beyond: vec![0.9 - 0.4] }.mesh(&grid).unwrap();
+    let mesh = Coarsening { side: [0, 1], beyond: vec![0.9 - 0.4] }.mesh(&grid).unwrap();
     let ends: Vec<usize> = mesh.side_sets["left"].iter().flat_map(|s| face_nodes(&mesh, s)).collect();
     assert_eq!(ends.len(), 2 * 3);
 }
@@ -136,7 +136,7 @@ fn a_block_of_too_many_cells_is_refused_before_it_is_built() {
     let line = |n: usize| (0..=n).map(|k| k as f64).collect::<Vec<f64>>();
     let refused = |counts: [usize; 3], beyond| {
         let grid = Grid { lines: counts.map(line), kind: ElementKind::Hex8 };
-        Coarser { side: [0, 0], beyond: vec![beyond] }.mesh(&grid).unwrap_err().to_string()
+        Coarsening { side: [0, 0], beyond: vec![beyond] }.mesh(&grid).unwrap_err().to_string()
     };
     // One layer alone; and layers before the first joined one, of which each is admitted.
     for message in [refused([5, 4000, 4000], 3.0), refused([200, 400, 400], 190.0)] {

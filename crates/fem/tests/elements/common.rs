@@ -315,7 +315,7 @@ pub fn conforms<const D: usize>(mesh: &Mesh<D>) {
         assert_eq!(count, expected, "{} {face:?}", kind.name());
     }
     // All cells have the right orientation, and together they fill the block.
-    let space = Idealisation::of_dimension(D);
+    let space = Idealisation::from_dimension(D);
     let material = material(0.3);
     let elastic = LinearBlock::new(mesh, 0, &material, space, Formulation::Standard).unwrap();
     let force = elastic.body_force(mesh, &vec![1.0; D]).unwrap();

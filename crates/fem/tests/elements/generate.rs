@@ -151,12 +151,12 @@ fn a_bent_block_has_the_volume_between_its_sides() {
         if kind.dimension() == 2 {
             let mesh = bent::<2>(kind, cylinder(Profile::Parabola, 4.0));
             let block =
-                LinearBlock::new(&mesh, 0, &material, Idealisation::of_dimension(2), Formulation::Standard);
+                LinearBlock::new(&mesh, 0, &material, Idealisation::from_dimension(2), Formulation::Standard);
             check(volume(block.unwrap().body_force(&mesh, &[1.0; 2]).unwrap(), 2), 1.0, kind);
         } else {
             let mesh = bent::<3>(kind, cylinder(Profile::Parabola, 4.0));
             let block =
-                LinearBlock::new(&mesh, 0, &material, Idealisation::of_dimension(3), Formulation::Standard);
+                LinearBlock::new(&mesh, 0, &material, Idealisation::from_dimension(3), Formulation::Standard);
             check(volume(block.unwrap().body_force(&mesh, &[1.0; 3]).unwrap(), 3), 3.0, kind);
         }
     }

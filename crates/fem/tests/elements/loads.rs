@@ -8,7 +8,7 @@ use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::surface;
 
 fn block<const D: usize>(mesh: &asperity_fem::mesh::Mesh<D>) -> LinearBlock<D> {
-    LinearBlock::new(mesh, 0, &material(0.3), Idealisation::of_dimension(D), Formulation::Standard).unwrap()
+    LinearBlock::new(mesh, 0, &material(0.3), Idealisation::from_dimension(D), Formulation::Standard).unwrap()
 }
 
 fn sum(forces: &[(usize, f64)], components: usize, c: usize) -> f64 {

@@ -60,7 +60,7 @@ fn study(
     (shape, walls): (Shape, Walls),
     poisson: f64,
 ) -> [[f64; 2]; 2] {
-    let what = (Idealisation::of_dimension(kind.dimension()), formulation);
+    let what = (Idealisation::from_dimension(kind.dimension()), formulation);
     let levels = match (kind.dimension(), kind.order()) {
         (2, 1) => [16, 32],
         (2, _) => [8, 16],

@@ -29,7 +29,7 @@ fn quad8_misses_the_square_of_the_position_by_the_square_of_the_bilinear_part() 
 }
 
 fn orders_on<const D: usize>(kind: ElementKind, shape: Shape, levels: [usize; 2]) -> [f64; 2] {
-    let space = Idealisation::of_dimension(D);
+    let space = Idealisation::from_dimension(D);
     let m = material(0.3);
     let waves = Waves::general(&m, space);
     let e = levels.map(|n| {

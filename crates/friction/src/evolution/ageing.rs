@@ -2,9 +2,9 @@
 //!
 //! With a cut-off rate V2 (Okubo 1989) the contribution levels off at high rates: φ = b ln(1 + V2 θ/L).
 
-use super::definition::{Bound, Common, Defined, Definition, Front, Parameter, Unit, Variable};
+use super::definition::{Bound, Common, Definition, Front, Parameter, TableEvolution, Unit, Variable};
 use super::relaxation::decay;
-use super::state::{Evolution, Evolved, Rate, Speed};
+use super::state::{Evolution, Rate, Speed, StateUpdate};
 
 /// Below this x the series of x/(e^x - 1) - 1 is exact to rounding: its fifth term is x^7/604800 of the first. Above it, the
 /// closed form loses two digits at most.
@@ -57,7 +57,7 @@ impl Ageing {
     }
 }
 
-impl Defined for Ageing {
+impl TableEvolution for Ageing {
     const DEFINITION: Definition = Definition {
         name: "ageing",
         equation: "dθ/dt = 1 - Vθ/L",
@@ -83,13 +83,13 @@ impl Defined for Ageing {
 
 /// The exact step of ψ, with x = V Δt/L, from `(ψ_0, e^(ψ_0), Vref Δt/L)`: θ = θ_0 e^(-x) + Δt (1 - e^(-x))/x, a sum of
 /// positive parts.
-fn step(&(old, theta, time): &(f64, f64, f64), x: f64, steady: f64) -> Evolved {
+fn step(&(old, theta, time): &(f64, f64, f64), x: f64, steady: f64) -> StateUpdate {
     if time == 0.0 {
-        return Evolved { state: old, d_log_rate: 0.0, curvature: 0.0, d_state: 1.0 };
+        return StateUpdate { state: old, d_log_rate: 0.0, curvature: 0.0, d_state: 1.0 };
     }
     let (decay, share) = decay(x);
     if decay == 0.0 {
-        return Evolved { state: steady, d_log_rate: -1.0, curvature: 0.0, d_state: 0.0 };
+        return StateUpdate { state: steady, d_log_rate: -1.0, curvature: 0.0, d_state: 0.0 };
     }
     let (mean, slope) = mean_decay(x, decay, share);
     let (kept, fading) = (theta * decay, x * decay);
@@ -97,7 +97,7 @@ fn step(&(old, theta, time): &(f64, f64, f64), x: f64, steady: f64) -> Evolved {
     // d(mean)/dln x = e^(-x) - mean = mean * slope, and its derivative -x e^(-x) - (e^(-x) - mean).
     let first = (time * mean * slope - theta * fading) / sum;
     let second = (-time * (fading + mean * slope) - theta * (1.0 - x) * fading) / sum;
-    Evolved { state: sum.ln(), d_log_rate: first, curvature: second - first * first, d_state: kept / sum }
+    StateUpdate { state: sum.ln(), d_log_rate: first, curvature: second - first * first, d_state: kept / sum }
 }
 
 /// m = (1 - e^(-x))/x and d ln m/d ln x = x/(e^x - 1) - 1, which runs from 0 to -1.
@@ -161,7 +161,7 @@ impl Evolution for Ageing {
         (state, state.exp(), self.v_ref * dt / self.length)
     }
 
-    fn evolve(&self, start: &(f64, f64, f64), speed: Speed) -> Evolved {
+    fn evolve(&self, start: &(f64, f64, f64), speed: Speed) -> StateUpdate {
         step(start, speed.rate / self.v_ref * start.2, self.steady(speed.log))
     }
 

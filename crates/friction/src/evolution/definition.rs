@@ -125,7 +125,7 @@ pub struct Common {
 }
 
 /// An evolution of the table.
-pub trait Defined: Evolution {
+pub trait TableEvolution: Evolution {
     /// Its row of the table.
     const DEFINITION: Definition;
 

@@ -5,9 +5,11 @@
 //! φ_ss is that of the bare logarithm. It differs from that of the regularised strength by a e^(-2μ_ss/a) and exists for every
 //! rate. As a direct function of V, such weakening would be ill-posed; as the target of a state that evolves over L, it is not.
 
-use super::definition::{Bound, Common, Defined, Definition, Front, Parameter, Unit, Variable, needed};
-use super::relaxation::{self, Steady};
-use super::state::{Evolution, Evolved, Rate, Speed};
+use super::definition::{
+    Bound, Common, Definition, Front, Parameter, TableEvolution, Unit, Variable, needed,
+};
+use super::relaxation::{self, SteadyState};
+use super::state::{Evolution, Rate, Speed, StateUpdate};
 
 /// Exponent of the transition (Dunham et al. 2011).
 const POWER: f64 = 8.0;
@@ -51,7 +53,7 @@ struct Contacts {
     ambient: f64,
 }
 
-impl Defined for Flash {
+impl TableEvolution for Flash {
     const DEFINITION: Definition = Definition {
         name: "flash",
         equation: "slip law towards a steady state weakened by flash heating",
@@ -109,7 +111,7 @@ impl Flash {
     }
 
     /// φ_ss with its derivatives with respect to ln V.
-    fn towards(&self, log_rate: f64) -> Steady {
+    fn towards(&self, log_rate: f64) -> SteadyState {
         let p = &self.p;
         let y = log_rate - self.log_v_ref;
         // w = [1 + (V/V_w)⁸]^(-1/8) in logarithms: ln w = -ln(1 + e^u)/8, u = 8 ln(V/V_w).
@@ -121,7 +123,7 @@ impl Flash {
         let above = p.mu0 + (p.a - p.b) * y - p.mu_w;
         let slope = w * ((p.a - p.b) - q * above);
         let bend = w * (-2.0 * q * (p.a - p.b) + (q * q - POWER * q * (1.0 - q)) * above);
-        Steady { value: p.mu_w + above * w - p.mu0 - p.a * y, slope: slope - p.a, curvature: bend }
+        SteadyState { value: p.mu_w + above * w - p.mu0 - p.a * y, slope: slope - p.a, curvature: bend }
     }
 
     /// μ_ss(V) \[-\].
@@ -161,11 +163,11 @@ impl Evolution for Flash {
         (state, dt / self.length)
     }
 
-    fn evolve(&self, &(old, per_rate): &(f64, f64), speed: Speed) -> Evolved {
+    fn evolve(&self, &(old, per_rate): &(f64, f64), speed: Speed) -> StateUpdate {
         let x = speed.rate * per_rate;
         // At rest the target lies at -∞, and nothing moves towards it.
         if x == 0.0 {
-            return Evolved { state: old, d_log_rate: 0.0, curvature: 0.0, d_state: 1.0 };
+            return StateUpdate { state: old, d_log_rate: 0.0, curvature: 0.0, d_state: 1.0 };
         }
         relaxation::step(old, x, self.towards(speed.log))
     }

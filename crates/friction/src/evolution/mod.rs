@@ -29,7 +29,7 @@ macro_rules! each_evolution {
     };
 }
 
-pub use definition::{Bound, Common, Defined, Definition, Front, Parameter, Unit, Variable};
+pub use definition::{Bound, Common, Definition, Front, Parameter, TableEvolution, Unit, Variable};
 pub(crate) use state::AT_REST;
-pub use state::{Evolution, Evolved, Rate, Speed};
+pub use state::{Evolution, Rate, Speed, StateUpdate};
 pub use table::{Visit, definition, definitions, with};

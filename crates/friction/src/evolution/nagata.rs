@@ -7,8 +7,10 @@
 //! a few a, the slowed clock is the definition.
 
 use super::ageing::Ageing;
-use super::definition::{Bound, Common, Defined, Definition, Front, Parameter, Unit, Variable, needed};
-use super::state::{Evolution, Evolved, Rate, Speed};
+use super::definition::{
+    Bound, Common, Definition, Front, Parameter, TableEvolution, Unit, Variable, needed,
+};
+use super::state::{Evolution, Rate, Speed, StateUpdate};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,7 +34,7 @@ impl Nagata {
     }
 }
 
-impl Defined for Nagata {
+impl TableEvolution for Nagata {
     const DEFINITION: Definition = Definition {
         name: "nagata",
         equation: "ageing with a memory of shear traction; `b` > 0",
@@ -89,7 +91,7 @@ impl Evolution for Nagata {
         self.ageing.slowed(state, dt, self.c)
     }
 
-    fn evolve(&self, start: &Self::Start, speed: Speed) -> Evolved {
+    fn evolve(&self, start: &Self::Start, speed: Speed) -> StateUpdate {
         self.ageing.evolve(start, speed)
     }
 

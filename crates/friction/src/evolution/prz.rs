@@ -1,8 +1,8 @@
 //! Perrin, Rice & Zheng (1995): dθ/dt = 1 - (V θ/2L)², φ = b ψ with ψ = ln(Vref θ/2L). It heals like the ageing law, and
 //! weakens after a jump unlike either of the two classical laws. u = V θ/2L obeys du/dx = 1 - u² with x = V t/2L.
 
-use super::definition::{Common, Defined, Definition, Front, Variable};
-use super::state::{Evolution, Evolved, Rate, Speed};
+use super::definition::{Common, Definition, Front, TableEvolution, Variable};
+use super::state::{Evolution, Rate, Speed, StateUpdate};
 
 /// Below this x, four terms of the series of tanh x/x and of x/(sinh x cosh x) - 1 are exact to rounding.
 const SMALL: f64 = 1e-2;
@@ -38,7 +38,7 @@ impl Prz {
     }
 }
 
-impl Defined for Prz {
+impl TableEvolution for Prz {
     const DEFINITION: Definition = Definition {
         name: "prz",
         equation: "dθ/dt = 1 - (Vθ/2L)²",
@@ -104,10 +104,10 @@ impl Evolution for Prz {
         (state, state.exp(), self.v_ref * dt / self.double)
     }
 
-    fn evolve(&self, &(old, theta, time): &(f64, f64, f64), speed: Speed) -> Evolved {
+    fn evolve(&self, &(old, theta, time): &(f64, f64, f64), speed: Speed) -> StateUpdate {
         // u = (u_0 + tanh x)/(1 + u_0 tanh x), that is θ = (θ_0 + Δt h)/(1 + u_0 x h) with h = tanh x/x: positive parts.
         if time == 0.0 {
-            return Evolved { state: old, d_log_rate: 0.0, curvature: 0.0, d_state: 1.0 };
+            return StateUpdate { state: old, d_log_rate: 0.0, curvature: 0.0, d_state: 1.0 };
         }
         let ratio = speed.rate / self.v_ref;
         let x = ratio * time;
@@ -117,7 +117,12 @@ impl Evolution for Prz {
         let (top, product) = (theta + time * mean, ratio * theta * tangent);
         if product.is_infinite() {
             // The steady state is reached from any distance.
-            return Evolved { state: self.steady(speed.log), d_log_rate: -1.0, curvature: 0.0, d_state: 0.0 };
+            return StateUpdate {
+                state: self.steady(speed.log),
+                d_log_rate: -1.0,
+                curvature: 0.0,
+                d_state: 0.0,
+            };
         }
         let bottom = 1.0 + product;
         let (grown, shrunk) = (time * mean * slope / top, product * (2.0 + slope) / bottom);
@@ -131,7 +136,7 @@ impl Evolution for Prz {
             // ∂ln θ/∂ln θ_0 = θ_0 (1 - tanh²x)/(top · bottom).
             theta * (1.0 - tangent) * (1.0 + tangent) / (top * bottom)
         };
-        Evolved { state: top.ln() - bottom.ln(), d_log_rate: grown - shrunk, curvature, d_state }
+        StateUpdate { state: top.ln() - bottom.ln(), d_log_rate: grown - shrunk, curvature, d_state }
     }
 
     fn linear(&self, state: f64, log_rate: f64, dt: f64) -> (f64, f64) {

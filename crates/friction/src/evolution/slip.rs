@@ -1,8 +1,8 @@
 //! Slip law (Ruina 1983): dφ/dt = -(V/L)(φ + b ln(V/Vref)). The state variable is φ itself.
 
-use super::definition::{Common, Defined, Definition, Front, Variable};
-use super::relaxation::{self, Steady};
-use super::state::{Evolution, Evolved, Rate, Speed};
+use super::definition::{Common, Definition, Front, TableEvolution, Variable};
+use super::relaxation::{self, SteadyState};
+use super::state::{Evolution, Rate, Speed, StateUpdate};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,12 +25,12 @@ impl Slip {
         })
     }
 
-    fn towards(&self, log_rate: f64) -> Steady {
-        Steady { value: self.steady(log_rate), slope: -self.b, curvature: 0.0 }
+    fn towards(&self, log_rate: f64) -> SteadyState {
+        SteadyState { value: self.steady(log_rate), slope: -self.b, curvature: 0.0 }
     }
 }
 
-impl Defined for Slip {
+impl TableEvolution for Slip {
     const DEFINITION: Definition = Definition {
         name: "slip",
         equation: "dθ/dt = -(Vθ/L) ln(Vθ/L)",
@@ -80,7 +80,7 @@ impl Evolution for Slip {
         (state, dt / self.length)
     }
 
-    fn evolve(&self, &(old, per_rate): &(f64, f64), speed: Speed) -> Evolved {
+    fn evolve(&self, &(old, per_rate): &(f64, f64), speed: Speed) -> StateUpdate {
         relaxation::step(old, speed.rate * per_rate, self.towards(speed.log))
     }
 

@@ -5,7 +5,7 @@ pub(crate) const AT_REST: f64 = f64::MIN;
 
 /// State after a step at constant V, with its derivatives at fixed Δt.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Evolved {
+pub struct StateUpdate {
     /// State variable s.
     pub state: f64,
     /// ∂s/∂ln V.
@@ -39,7 +39,7 @@ pub struct Speed {
 impl Speed {
     /// Speed from ln |V|.
     #[must_use]
-    pub fn of_log(log: f64) -> Self {
+    pub fn from_log(log: f64) -> Self {
         Self { rate: log.exp(), log }
     }
 }
@@ -75,11 +75,11 @@ pub trait Evolution: Send + Sync + Clone + std::fmt::Debug {
     fn start(&self, state: f64, dt: f64) -> Self::Start;
 
     /// Exact step at constant V from a prepared state.
-    fn evolve(&self, start: &Self::Start, speed: Speed) -> Evolved;
+    fn evolve(&self, start: &Self::Start, speed: Speed) -> StateUpdate;
 
     /// Exact step of length `dt` \[s\] at constant ln V.
-    fn step(&self, state: f64, log_rate: f64, dt: f64) -> Evolved {
-        self.evolve(&self.start(state, dt), Speed::of_log(log_rate))
+    fn step(&self, state: f64, log_rate: f64, dt: f64) -> StateUpdate {
+        self.evolve(&self.start(state, dt), Speed::from_log(log_rate))
     }
 
     /// Linear change of φ over a step with slip increment Δλ: `constant + slope Δλ` (\[-\], \[1/m\]).

@@ -1,6 +1,6 @@
 //! No state: velocity-dependent friction.
 
-use super::state::{Evolution, Evolved, Rate, Speed};
+use super::state::{Evolution, Rate, Speed, StateUpdate};
 
 /// See the module. A law of this kind holds no component, so this evolution is never evaluated for a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,8 +33,8 @@ impl Evolution for Stateless {
 
     fn start(&self, _state: f64, _dt: f64) {}
 
-    fn evolve(&self, _start: &(), _speed: Speed) -> Evolved {
-        Evolved { state: 0.0, d_log_rate: 0.0, curvature: 0.0, d_state: 1.0 }
+    fn evolve(&self, _start: &(), _speed: Speed) -> StateUpdate {
+        StateUpdate { state: 0.0, d_log_rate: 0.0, curvature: 0.0, d_state: 1.0 }
     }
 
     fn linear(&self, _state: f64, _log_rate: f64, _dt: f64) -> (f64, f64) {

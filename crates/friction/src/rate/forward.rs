@@ -3,13 +3,13 @@
 use super::RateLaw;
 use crate::Failure;
 use crate::evolution::Evolution;
-use crate::law::{Increments, Limit, LimitKind, Present, RateBounds, Rates};
+use crate::law::{Increments, Limit, LimitKind, PresentStates, RateBounds, Rates};
 use crate::line::Line;
 use crate::point::Solver;
 use crate::strength::Form;
 
 /// The strength linearised in the slip increment: `μ f_n + constant + hardening Δλ`.
-struct Linearised {
+struct Linearisation {
     mu: f64,
     /// μ + f_n ∂μ/∂f_n.
     by_normal: f64,
@@ -21,7 +21,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
     /// μ and f_n ∂μ/∂f_n at the floor rate, for points at rest in forward steps.
     fn floor_coefficient(
         &self,
-        present: &Present<'_>,
+        present: &PresentStates<'_>,
         k: usize,
         solver: &mut Solver<'_, F, E>,
     ) -> (f64, f64) {
@@ -30,12 +30,17 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         (now.mu, now.d_normal)
     }
 
-    fn at_rest(present: &Present<'_>, k: usize) -> bool {
+    fn at_rest(present: &PresentStates<'_>, k: usize) -> bool {
         present.rate[k] < present.rate_floor
     }
 
     /// H, μ, and the constant of the linearised strength of one slipping point.
-    fn linearised(&self, present: &Present<'_>, k: usize, solver: &mut Solver<'_, F, E>) -> Linearised {
+    fn linearise(
+        &self,
+        present: &PresentStates<'_>,
+        k: usize,
+        solver: &mut Solver<'_, F, E>,
+    ) -> Linearisation {
         let log_rate = present.rate[k].ln();
         let now = solver.after(self.state(present.states, k), present.normal[k], 0.0, log_rate);
         let (mut phi_constant, mut phi_slope) = (0.0, 0.0);
@@ -45,7 +50,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
             phi_slope += slope;
         }
         let normal = present.normal[k];
-        Linearised {
+        Linearisation {
             mu: now.mu,
             by_normal: now.mu + now.d_normal,
             hardening: normal * (now.slope / (present.rate[k] * present.dt) + now.d_phi * phi_slope),
@@ -57,7 +62,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
     /// F_limit.
     fn start_of_slip(
         &self,
-        present: &Present<'_>,
+        present: &PresentStates<'_>,
         step: &Increments<'_>,
         k: usize,
         solver: &mut Solver<'_, F, E>,
@@ -74,7 +79,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
     }
 
     /// True if the strength of a slipping point is F_limit.
-    fn capped(&self, present: &Present<'_>, k: usize, solver: &mut Solver<'_, F, E>) -> bool {
+    fn capped(&self, present: &PresentStates<'_>, k: usize, solver: &mut Solver<'_, F, E>) -> bool {
         let states = self.state(present.states, k);
         let now = solver.after(states, present.normal[k], 0.0, present.rate[k].ln());
         now.mu * present.normal[k] >= self.limit
@@ -83,7 +88,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
     /// Limits r8 of a slipping point. The rate at the end of a fraction r of the step is nearly linear in r.
     fn rate_limits(
         &self,
-        present: &Present<'_>,
+        present: &PresentStates<'_>,
         step: &Increments<'_>,
         bounds: &RateBounds,
         k: usize,
@@ -115,14 +120,14 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         (fraction < 1.0).then_some((fraction, kind))
     }
 
-    pub(super) fn forward_rates(&self, present: &Present<'_>, out: Rates<'_>) -> Result<(), Failure> {
+    pub(super) fn forward_rates(&self, present: &PresentStates<'_>, out: Rates<'_>) -> Result<(), Failure> {
         let mut solver = self.solver().lifting();
         for k in 0..present.normal.len() {
             if Self::at_rest(present, k) {
                 (out.along[k], out.coupling[k], out.constant[k]) = (1.0, 0.0, 0.0);
                 continue;
             }
-            let l = self.linearised(present, k, &mut solver);
+            let l = self.linearise(present, k, &mut solver);
             if l.mu * present.normal[k] >= self.limit {
                 let missed = self.limit - present.traction[k];
                 (out.along[k], out.coupling[k], out.constant[k]) = (0.0, 0.0, missed);
@@ -147,7 +152,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
 
     pub(super) fn forward_limit(
         &self,
-        present: &Present<'_>,
+        present: &PresentStates<'_>,
         step: &Increments<'_>,
         bounds: &RateBounds,
     ) -> Option<Limit> {

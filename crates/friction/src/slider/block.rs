@@ -21,7 +21,7 @@ use super::number::{Dual, Number};
 use crate::Failure;
 use crate::component::Component;
 use crate::evolution::{Evolution, Speed};
-use crate::law::{Drives, Rated};
+use crate::law::{Drives, RateDependent};
 use crate::rate::RateLaw;
 use crate::strength::{Form, Sine, SlipRate};
 
@@ -77,7 +77,7 @@ pub struct Relaxation {
 }
 
 /// Interface of a law to a slider. One call treats one slider.
-pub trait Sliding: Rated {
+pub trait SliderLaw: RateDependent {
     /// Rates of change of the unknowns of a slider.
     fn equations(&self, forcing: &Forcing, unknowns: &[f64], rates: &mut [f64]);
 
@@ -255,7 +255,7 @@ const MOST_CORRECTIONS: usize = 60;
 /// Fraction of ln V that rounding may leave there.
 const SMALLEST_OFF: f64 = 1e-13;
 
-impl<F: Form, E: Evolution> Sliding for RateLaw<F, E> {
+impl<F: Form, E: Evolution> SliderLaw for RateLaw<F, E> {
     fn equations(&self, forcing: &Forcing, unknowns: &[f64], rates: &mut [f64]) {
         self.generic(forcing, forcing.pull, unknowns, rates);
     }
@@ -417,7 +417,7 @@ impl<F: Form, E: Evolution> Sliding for RateLaw<F, E> {
         let strength = self.form().at(log_rate, phi);
         let state = |(part, &s): (&Component<E>, &f64)| {
             let (slope, _) = part.evolution.phi_slopes(s);
-            let change = part.evolution.rate(s, Speed::of_log(log_rate));
+            let change = part.evolution.rate(s, Speed::from_log(log_rate));
             // The kept quantity changes by 1 + q C times the change at constant V, as in `generic`.
             let memory = part.shear_memory * slope;
             let rate = -change.d_state * (1.0 + strength.d_phi * memory);

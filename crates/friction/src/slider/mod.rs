@@ -6,7 +6,7 @@ mod history;
 mod line;
 mod number;
 
-pub use block::{Direction, Forcing, Relaxation, Response, Sliding};
+pub use block::{Direction, Forcing, Relaxation, Response, SliderLaw};
 pub use history::{History, Piece};
 pub use line::Line;
 
@@ -19,7 +19,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Slider {
     /// Friction.
-    pub law: Arc<dyn Sliding>,
+    pub law: Arc<dyn SliderLaw>,
     /// Stiffness k ≥ 0 to the load point \[Pa/m\].
     pub stiffness: f64,
     /// Radiation damping η ≥ 0 \[Pa s/m\].
@@ -142,12 +142,12 @@ impl System {
 
     /// Unknowns of one slider.
     #[must_use]
-    pub fn of<'a>(&self, slider: usize, unknowns: &'a [f64]) -> &'a [f64] {
+    pub fn slider_unknowns<'a>(&self, slider: usize, unknowns: &'a [f64]) -> &'a [f64] {
         &unknowns[self.starts[slider]..self.starts[slider + 1]]
     }
 
     /// Unknowns of one slider, mutable.
-    pub fn of_mut<'a>(&self, slider: usize, unknowns: &'a mut [f64]) -> &'a mut [f64] {
+    pub fn slider_unknowns_mut<'a>(&self, slider: usize, unknowns: &'a mut [f64]) -> &'a mut [f64] {
         &mut unknowns[self.starts[slider]..self.starts[slider + 1]]
     }
 
@@ -201,7 +201,7 @@ impl System {
     pub fn scales(&self) -> Vec<f64> {
         let mut scales = vec![1.0; self.size()];
         for (i, s) in self.sliders.iter().enumerate() {
-            self.of_mut(i, &mut scales)[1..=s.law.states()].fill(s.law.state_scale());
+            self.slider_unknowns_mut(i, &mut scales)[1..=s.law.states()].fill(s.law.state_scale());
         }
         scales
     }
@@ -214,7 +214,7 @@ impl System {
     pub fn start(&self, rates: &[f64], states: &[Vec<f64>]) -> Result<Vec<f64>, Failure> {
         let mut unknowns = vec![0.0; self.size()];
         for (i, slider) in self.sliders.iter().enumerate() {
-            let y = self.of_mut(i, &mut unknowns);
+            let y = self.slider_unknowns_mut(i, &mut unknowns);
             y[1..=states[i].len()].copy_from_slice(&states[i]);
             let rate = self.imposed[i].as_ref().map_or(rates[i], |h| h.piece(0.0).at(0.0).0);
             y[0] = slider.law.at_rate(rate, &states[i]).map_err(|f| f.at(i))?;
@@ -235,7 +235,7 @@ impl System {
     ) -> Result<(), Failure> {
         for (i, s) in self.sliders.iter().enumerate() {
             let (old, new) = (from.normals[i].at(time).0, to.normals[i].at(time).0);
-            let y = self.of_mut(i, unknowns);
+            let y = self.slider_unknowns_mut(i, unknowns);
             if let Some(rates) = from.imposed[i].as_ref().zip(to.imposed[i].as_ref()) {
                 let [before, after] = [rates.0, rates.1].map(|r| r.at(time).0);
                 if (old, before) != (new, after) {
@@ -299,7 +299,7 @@ impl Segment<'_> {
     fn rate(&self, i: usize, time: f64, unknowns: &[f64]) -> f64 {
         match &self.imposed[i] {
             Some(rate) => rate.at(time).0,
-            None => self.system.sliders[i].law.slip(self.system.of(i, unknowns)).0.rate,
+            None => self.system.sliders[i].law.slip(self.system.slider_unknowns(i, unknowns)).0.rate,
         }
     }
 
@@ -327,7 +327,11 @@ impl Segment<'_> {
         let (load, slips) = (self.load.at(time).0, self.linked(time, unknowns));
         for (i, slider) in self.system.sliders.iter().enumerate() {
             let forcing = self.forcing(i, time, load, |other| slips[other]);
-            slider.law.equations(&forcing, self.system.of(i, unknowns), self.system.of_mut(i, rates));
+            slider.law.equations(
+                &forcing,
+                self.system.slider_unknowns(i, unknowns),
+                self.system.slider_unknowns_mut(i, rates),
+            );
         }
     }
 
@@ -341,7 +345,11 @@ impl Segment<'_> {
     pub fn rates_of(&self, i: usize, time: f64, unknowns: &[f64], rates: &mut [f64]) {
         let forcing = self.forcing(i, time, self.load.at(time).0, |other| self.rate(other, time, unknowns));
         let law = &self.system.sliders[i].law;
-        law.equations(&forcing, self.system.of(i, unknowns), self.system.of_mut(i, rates));
+        law.equations(
+            &forcing,
+            self.system.slider_unknowns(i, unknowns),
+            self.system.slider_unknowns_mut(i, rates),
+        );
     }
 
     /// Their Jacobian, column-major.
@@ -358,7 +366,7 @@ impl Segment<'_> {
         let (mut slopes, mut by_pull) = ([0.0; MOST_UNKNOWNS], [0.0; MOST_UNKNOWNS]);
         for (i, slider) in self.system.sliders.iter().enumerate() {
             let forcing = self.forcing(i, time, load, |other| slips[other]);
-            let (y, first) = (self.system.of(i, unknowns), self.system.starts[i]);
+            let (y, first) = (self.system.slider_unknowns(i, unknowns), self.system.starts[i]);
             let n = y.len();
             for column in 0..n {
                 slider.law.gradient(&forcing, y, Direction::Unknown(column), &mut slopes[..n]);
@@ -371,7 +379,7 @@ impl Segment<'_> {
             }
             slider.law.gradient(&forcing, y, Direction::Pull, &mut by_pull[..n]);
             for &(other, stiffness) in &self.system.links[i] {
-                let theirs = self.system.of(other, unknowns);
+                let theirs = self.system.slider_unknowns(other, unknowns);
                 let slopes = &mut slopes[..theirs.len()];
                 if self.imposed[other].is_some() {
                     slopes.fill(0.0);
@@ -391,7 +399,7 @@ impl Segment<'_> {
     /// Slip rate and friction coefficient of a slider.
     #[must_use]
     pub fn slip(&self, i: usize, time: f64, unknowns: &[f64]) -> (Speed, f64) {
-        let (law, y) = (&self.system.sliders[i].law, self.system.of(i, unknowns));
+        let (law, y) = (&self.system.sliders[i].law, self.system.slider_unknowns(i, unknowns));
         let Some(piece) = &self.imposed[i] else { return law.slip(y) };
         let rate = piece.at(time).0;
         let m = law.at_rate(rate, &y[1..=law.states()]).unwrap_or(y[0]);
@@ -401,7 +409,7 @@ impl Segment<'_> {
     /// Condition of a slider.
     #[must_use]
     pub fn condition(&self, i: usize, time: f64, unknowns: &[f64]) -> Condition {
-        let (slider, y) = (&self.system.sliders[i], self.system.of(i, unknowns));
+        let (slider, y) = (&self.system.sliders[i], self.system.slider_unknowns(i, unknowns));
         let (speed, friction) = self.slip(i, time, unknowns);
         let normal = self.normals[i].at(time).0;
         let net = if slider.mass.is_some() { y[y.len() - 1] * normal * slider.law.scale() } else { 0.0 };
@@ -417,10 +425,10 @@ impl Segment<'_> {
     /// dV/dt of a slider over |V| \[1/s\]: positive where V increases.
     #[must_use]
     pub fn acceleration(&self, i: usize, unknowns: &[f64], rates: &[f64]) -> f64 {
-        let y = self.system.of(i, unknowns);
+        let y = self.system.slider_unknowns(i, unknowns);
         let mut slopes = [0.0; MOST_UNKNOWNS];
         let rate = self.system.sliders[i].law.slip_slopes(y, &mut slopes[..y.len()]);
-        let gained: f64 = slopes.iter().zip(self.system.of(i, rates)).map(|(a, b)| a * b).sum();
+        let gained: f64 = slopes.iter().zip(self.system.slider_unknowns(i, rates)).map(|(a, b)| a * b).sum();
         gained / rate.abs()
     }
 }

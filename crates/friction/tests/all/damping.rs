@@ -3,7 +3,7 @@
 use super::usual::usual;
 use asperity_friction::each_evolution;
 use asperity_friction::evolution::{Common, Evolution, stateless::Stateless};
-use asperity_friction::law::{Drives, Lag, Law, Rated, Regime, Responses, Trials};
+use asperity_friction::law::{Drives, Lag, Law, RateDependent, Regime, Responses, Trials};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::strength::{Parameters, regularised::Regularised};
 

@@ -5,9 +5,11 @@ use asperity_friction::component::Component;
 use asperity_friction::coulomb::Coulomb;
 use asperity_friction::each_evolution;
 use asperity_friction::evolution::flash::{Flash, Weakening};
-use asperity_friction::evolution::{Common, Defined, Evolution, ageing::Ageing, nagata::Nagata, slip::Slip};
+use asperity_friction::evolution::{
+    Common, Evolution, TableEvolution, ageing::Ageing, nagata::Nagata, slip::Slip,
+};
 use asperity_friction::law::{
-    Increments, Law, Limit, LimitKind, Present, RateBounds, Rates, Regime, Responses, Trials,
+    Increments, Law, Limit, LimitKind, PresentStates, RateBounds, Rates, Regime, Responses, Trials,
 };
 use asperity_friction::rate::RateLaw;
 use asperity_friction::strength::arrhenius::Arrhenius;
@@ -34,9 +36,9 @@ struct Start {
     dt: f64,
 }
 
-fn present<'a>(s: &'a Start, regime: &'a [Regime; 1], states: &'a [f64]) -> Present<'a> {
+fn present<'a>(s: &'a Start, regime: &'a [Regime; 1], states: &'a [f64]) -> PresentStates<'a> {
     use std::slice::from_ref;
-    Present {
+    PresentStates {
         points: &[0],
         normal: from_ref(&s.normal),
         traction: from_ref(&s.traction),
@@ -151,7 +153,7 @@ fn forward_and_implicit_steps_part_at_second_order_with_every_evolution() {
     let common = |b, length| Common { mu0: 0.6, a: 0.01, v_ref: V_REF, b, length };
     each_evolution!(Law => {
         let other = usual::<Law>(common(0.004, 8.0 * LENGTH));
-        let several = <Law as Defined>::DEFINITION.one_state.is_none();
+        let several = <Law as TableEvolution>::DEFINITION.one_state.is_none();
         agrees_to_second_order(&usual::<Law>(common(0.015, LENGTH)), several.then_some(&other));
     });
 }

@@ -6,9 +6,9 @@ use asperity_friction::coulomb::Coulomb;
 use asperity_friction::evolution::flash::{Flash, Weakening};
 use asperity_friction::evolution::nagata::Nagata;
 use asperity_friction::evolution::{
-    Common, Defined, Evolution, ageing::Ageing, slip::Slip, stateless::Stateless,
+    Common, Evolution, TableEvolution, ageing::Ageing, slip::Slip, stateless::Stateless,
 };
-use asperity_friction::law::{Lag, Law, Present, Rates, Regime, Responses, Trials};
+use asperity_friction::law::{Lag, Law, PresentStates, Rates, Regime, Responses, Trials};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::strength::arrhenius::Arrhenius;
 use asperity_friction::strength::cut_off::CutOff;
@@ -18,7 +18,7 @@ use proptest::prelude::*;
 
 /// Answer for one point.
 #[derive(Clone, Copy, Debug)]
-struct One {
+struct PointAnswer {
     traction: f64,
     slip: f64,
     rate: f64,
@@ -33,7 +33,7 @@ fn respond(
     stiffness: f64,
     dt: f64,
     lag: Option<(f64, f64)>,
-) -> Result<One, Failure> {
+) -> Result<PointAnswer, Failure> {
     let mut old = vec![0.0; law.states()];
     law.initial(&mut old);
     let (weight, offset) = ([lag.map_or(1.0, |l| l.0)], [lag.map_or(0.0, |l| l.1)]);
@@ -61,7 +61,7 @@ fn respond(
             states: &mut new,
         },
     )?;
-    Ok(One { traction: t[0], slip: s[0], rate: v[0], d_trial: dt_[0], d_normal: dn[0] })
+    Ok(PointAnswer { traction: t[0], slip: s[0], rate: v[0], d_trial: dt_[0], d_normal: dn[0] })
 }
 
 fn velocity_law(a: f64) -> RateLaw<Regularised, Stateless> {
@@ -135,9 +135,9 @@ fn laws_with_state() -> Vec<(String, Box<dyn Law>)> {
         let name = |kind: &str| format!("{kind}, alpha {alpha}");
         let common = Common { mu0: 0.6, a: 0.01, v_ref: 1e-6, b: 0.015, length: 1e-5 };
         each_evolution!(Law => {
-            let law = <Law as Defined>::DEFINITION.name;
+            let law = <Law as TableEvolution>::DEFINITION.name;
             add(&mut laws, &name(law), &[(usual::<Law>(common), alpha)]);
-            if <Law as Defined>::DEFINITION.is_plain() {
+            if <Law as TableEvolution>::DEFINITION.is_plain() {
                 let part = |b, length| usual::<Law>(Common { b, length, ..common });
                 let parts = [(part(0.01, 1e-5), alpha), (part(0.005, 1e-4), 0.0)];
                 add(&mut laws, &name(&format!("two {law}")), &parts);
@@ -315,7 +315,7 @@ fn the_rate_form_is_the_linear_part_of_the_point_return_at_steady_slip() {
     let traction = normal * mu[0];
     let (mut along, mut coupling, mut constant) = ([0.0], [0.0], [0.0]);
     law.rates(
-        Present {
+        PresentStates {
             points: &[0],
             normal: &[normal],
             traction: &[traction],

@@ -4,9 +4,9 @@ use asperity_friction::Failure;
 use asperity_friction::coulomb::Coulomb;
 use asperity_friction::evolution::ageing::Ageing;
 use asperity_friction::law::{
-    Increments, Law, LimitKind, Present, RateBounds, Rates, Regime, Responses, Taken, Trials,
+    Increments, Law, LimitKind, PresentStates, RateBounds, Rates, Regime, Responses, StepOutcome, Trials,
 };
-use asperity_friction::pointwise::Pointwise;
+use asperity_friction::pointwise::PointwiseLaw;
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slip_weakening::SlipWeakening;
 use asperity_friction::strength::{Parameters, bare::Bare, regularised::Regularised};
@@ -72,7 +72,7 @@ fn respond(law: &dyn Law, entries: &[usize], old: &[f64]) -> (Vec<Vec<f64>>, Vec
 
 /// Compares a law of all points with the laws of each, entry by entry.
 fn compare<L: Law + Clone + 'static>(laws: &[L]) {
-    let all = Pointwise::new(laws.to_vec()).unwrap();
+    let all = PointwiseLaw::new(laws.to_vec()).unwrap();
     let s = all.states();
     assert_eq!((s, all.has_elastic_domain()), (laws[0].states(), laws[0].has_elastic_domain()));
     let mut states = vec![f64::NAN; N * s];
@@ -101,9 +101,9 @@ fn compare<L: Law + Clone + 'static>(laws: &[L]) {
 }
 
 /// The rate form, its limits and the points that stand at their strength.
-fn forward<L: Law>(all: &Pointwise<L>, laws: &[L], old: &[f64]) {
+fn forward<L: Law>(all: &PointwiseLaw<L>, laws: &[L], old: &[f64]) {
     let s = all.states();
-    let of = |k: std::ops::Range<usize>| Present {
+    let of = |k: std::ops::Range<usize>| PresentStates {
         points: &POINTS[k.clone()],
         normal: &NORMAL[k.clone()],
         traction: &TRIAL[k.clone()],
@@ -145,9 +145,9 @@ fn forward<L: Law>(all: &Pointwise<L>, laws: &[L], old: &[f64]) {
 }
 
 /// Estimates of errors.
-fn errors<L: Law>(all: &Pointwise<L>, laws: &[L], old: &[f64], answers: &[Vec<f64>]) {
+fn errors<L: Law>(all: &PointwiseLaw<L>, laws: &[L], old: &[f64], answers: &[Vec<f64>]) {
     let s = all.states();
-    let of = |k: std::ops::Range<usize>| Taken {
+    let of = |k: std::ops::Range<usize>| StepOutcome {
         points: &POINTS[k.clone()],
         normal: &NORMAL[k.clone()],
         before: &RATE[k.clone()],
@@ -179,7 +179,7 @@ fn a_failure_names_the_entry_of_the_slices() {
         let form = Bare(Parameters::new(0.6, 0.01 + 0.001 * k as f64, 1e-6).unwrap());
         RateLaw::new(form, Ageing::new(0.01, 1e-5, 1e-6).unwrap(), 1e-6, None).unwrap()
     };
-    let law = Pointwise::new((0..N).map(bare).collect()).unwrap();
+    let law = PointwiseLaw::new((0..N).map(bare).collect()).unwrap();
     let mut states = [f64::NAN; N];
     law.initial(&mut states);
     let mut mu = [f64::NAN; N];
@@ -189,5 +189,5 @@ fn a_failure_names_the_entry_of_the_slices() {
 
 #[test]
 fn laws_need_points_and_one_number_of_states() {
-    assert!(Pointwise::<Coulomb>::new(Vec::new()).is_err());
+    assert!(PointwiseLaw::<Coulomb>::new(Vec::new()).is_err());
 }

@@ -4,11 +4,11 @@ use super::usual::usual;
 use asperity_friction::component::Component;
 use asperity_friction::each_evolution;
 use asperity_friction::evolution::{
-    Common, Defined, Definition, ageing::Ageing, definition, nagata::Nagata, slip::Slip,
+    Common, Definition, TableEvolution, ageing::Ageing, definition, nagata::Nagata, slip::Slip,
 };
-use asperity_friction::law::Rated;
+use asperity_friction::law::RateDependent;
 use asperity_friction::rate::RateLaw;
-use asperity_friction::slider::{History, Slider, Sliding, Spring, System};
+use asperity_friction::slider::{History, Slider, SliderLaw, Spring, System};
 use asperity_friction::strength::{Form, Parameters, bare::Bare, cut_off::CutOff, regularised::Regularised};
 use std::sync::Arc;
 
@@ -25,12 +25,12 @@ fn regularised() -> Regularised {
     Regularised(parameters())
 }
 
-fn named(name: &str) -> Arc<dyn Sliding> {
+fn named(name: &str) -> Arc<dyn SliderLaw> {
     laws().into_iter().find(|law| law.0 == name).unwrap().1
 }
 
 /// Every kind of law, by name.
-fn laws() -> Vec<(&'static str, Arc<dyn Sliding>)> {
+fn laws() -> Vec<(&'static str, Arc<dyn SliderLaw>)> {
     let ageing = || Ageing::new(B, L, V_REF).unwrap();
     let slip = |b, l| Slip::new(b, l, V_REF).unwrap();
     let memory = vec![Component::new(ageing(), 0.3).unwrap()];
@@ -39,7 +39,7 @@ fn laws() -> Vec<(&'static str, Arc<dyn Sliding>)> {
         Component::new(slip(0.003, 10.0 * L), 0.0).unwrap(),
     ];
     let cut = CutOff::new(parameters(), 1e-4).unwrap();
-    let mut laws: Vec<(&'static str, Arc<dyn Sliding>)> = vec![
+    let mut laws: Vec<(&'static str, Arc<dyn SliderLaw>)> = vec![
         ("bare", Arc::new(RateLaw::new(Bare(parameters()), ageing(), 1e-6, None).unwrap())),
         ("memory", Arc::new(RateLaw::with_parts(regularised(), memory, 1e-6, 5e6, None).unwrap())),
         ("two", Arc::new(RateLaw::with_parts(regularised(), two, 1e-6, 5e6, None).unwrap())),
@@ -48,12 +48,12 @@ fn laws() -> Vec<(&'static str, Arc<dyn Sliding>)> {
     let common = Common { mu0: 0.6, a: A, v_ref: V_REF, b: B, length: L };
     each_evolution!(Law => {
         let law = RateLaw::new(regularised(), usual::<Law>(common), 1e-6, None).unwrap();
-        laws.push((<Law as Defined>::DEFINITION.name, Arc::new(law)));
+        laws.push((<Law as TableEvolution>::DEFINITION.name, Arc::new(law)));
     });
     laws
 }
 
-fn slider(law: &Arc<dyn Sliding>, damping: f64, mass: Option<f64>) -> Slider {
+fn slider(law: &Arc<dyn SliderLaw>, damping: f64, mass: Option<f64>) -> Slider {
     let normal = History::sine(5e6, 5e5, 3.0, 0.1).unwrap();
     Slider { law: law.clone(), stiffness: 1.25e9, damping, mass, normal }
 }
@@ -73,7 +73,7 @@ fn unknowns(system: &System, rates: &[f64]) -> Vec<f64> {
     let mut y = system.start(rates, &states).unwrap();
     for i in 0..rates.len() {
         if system.sliders()[i].mass.is_some() {
-            *system.of_mut(i, &mut y).last_mut().unwrap() = 0.02;
+            *system.slider_unknowns_mut(i, &mut y).last_mut().unwrap() = 0.02;
         }
     }
     y
@@ -239,7 +239,7 @@ fn equations_agree_with_the_rated_law() {
         let drives =
             asperity_friction::law::Drives { traction: &traction, normal: &[5e6], damping: 5e6, near: None };
         let (mut rate, mut change) = ([0.0], [0.0]);
-        Rated::slip_rates(&*law, drives, &y[1..], &mut rate, &mut change).unwrap();
+        RateDependent::slip_rates(&*law, drives, &y[1..], &mut rate, &mut change).unwrap();
         approx::assert_relative_eq!(rate[0], 3e-3, max_relative = 1e-11);
         approx::assert_relative_eq!(change[0], dy[1], max_relative = 1e-10);
         assert!(!name.is_empty());
@@ -290,14 +290,14 @@ fn sliders_out_of_range_are_refused() {
 
 #[test]
 fn forms_without_a_value_at_rest_refuse_a_negative_strength() {
-    let steady = |law: &dyn Sliding, rate: f64| {
+    let steady = |law: &dyn SliderLaw, rate: f64| {
         let mut states = vec![0.0; law.states()];
         law.steady(rate.ln(), &mut states);
         states
     };
     let ageing = || Ageing::new(B, L, V_REF).unwrap();
     let slippery = || Parameters::new(0.02, A, V_REF).unwrap();
-    let laws: Vec<Arc<dyn Sliding>> = vec![
+    let laws: Vec<Arc<dyn SliderLaw>> = vec![
         Arc::new(RateLaw::new(Bare(slippery()), ageing(), V_REF, None).unwrap()),
         Arc::new(RateLaw::new(CutOff::new(slippery(), 1e-6).unwrap(), ageing(), V_REF, None).unwrap()),
     ];
@@ -309,7 +309,7 @@ fn forms_without_a_value_at_rest_refuse_a_negative_strength() {
         assert!(!law.reverses());
         assert!(law.slip(&[-1.0, 0.0]).0.rate.is_nan());
     }
-    let regular: Arc<dyn Sliding> =
+    let regular: Arc<dyn SliderLaw> =
         Arc::new(RateLaw::new(Regularised(slippery()), ageing(), V_REF, None).unwrap());
     assert!(regular.reverses());
     assert!(regular.at_rate(1.0, &steady(&*regular, 1.0)).unwrap() > 0.0);

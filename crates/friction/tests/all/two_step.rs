@@ -3,8 +3,8 @@
 use super::usual::usual;
 use asperity_friction::each_evolution;
 use asperity_friction::evolution::flash::{Flash, Weakening};
-use asperity_friction::evolution::{Common, Defined, Evolution, slip::Slip};
-use asperity_friction::law::{Lag, Law, Regime, Responses, Taken, Trials};
+use asperity_friction::evolution::{Common, Evolution, TableEvolution, slip::Slip};
+use asperity_friction::law::{Lag, Law, Regime, Responses, StepOutcome, Trials};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::strength::{Parameters, regularised::Regularised};
 
@@ -27,7 +27,7 @@ fn laws() -> Vec<Box<dyn Law>> {
     let mut laws: Vec<Box<dyn Law>> = Vec::new();
     each_evolution!(Kind => {
         // A state that remembers shear traction jumps at the start of each step, which is of first order: plans warn of it.
-        if <Kind as Defined>::DEFINITION.memory.is_none() {
+        if <Kind as TableEvolution>::DEFINITION.memory.is_none() {
             laws.push(Box::new(law(usual::<Kind>(common))));
         }
     });
@@ -36,7 +36,7 @@ fn laws() -> Vec<Box<dyn Law>> {
 }
 
 /// Answer for one point.
-struct One {
+struct PointAnswer {
     traction: f64,
     slip: f64,
     rate: f64,
@@ -45,7 +45,7 @@ struct One {
     states: Vec<f64>,
 }
 
-fn respond(law: &dyn Law, normal: f64, trial: f64, dt: f64, lag: (f64, f64), old: &[f64]) -> One {
+fn respond(law: &dyn Law, normal: f64, trial: f64, dt: f64, lag: (f64, f64), old: &[f64]) -> PointAnswer {
     let mut states = vec![0.0; law.states()];
     let [mut traction, mut slip, mut rate, mut d_trial, mut d_normal] = [[0.0]; 5];
     law.respond(
@@ -71,7 +71,7 @@ fn respond(law: &dyn Law, normal: f64, trial: f64, dt: f64, lag: (f64, f64), old
         },
     )
     .unwrap();
-    One {
+    PointAnswer {
         traction: traction[0],
         slip: slip[0],
         rate: rate[0],
@@ -96,7 +96,7 @@ fn march(law: &dyn Law, steps: usize) -> (Vec<f64>, f64) {
         let lag = past.map_or((1.0, 0.0), |slip: f64| (1.5, 0.5 * slip / dt));
         let one = respond(law, NORMAL, traction + STIFFNESS * load * dt, dt, lag, &states);
         let mut error = [f64::NAN];
-        let taken = Taken {
+        let outcome = StepOutcome {
             points: &[0],
             normal: &[NORMAL],
             before: &[before],
@@ -106,7 +106,7 @@ fn march(law: &dyn Law, steps: usize) -> (Vec<f64>, f64) {
             old: &states,
             new: &one.states,
         };
-        law.error(taken, &mut error);
+        law.error(outcome, &mut error);
         // The rate of the load jumps at the start, and V with it.
         if 10 * step > steps {
             largest = largest.max(error[0]);
@@ -136,7 +136,7 @@ fn steps_are_of_second_order_with_every_state() {
 #[test]
 fn steps_with_a_memory_of_shear_traction_are_of_first_order() {
     each_evolution!(Kind => {
-        if <Kind as Defined>::DEFINITION.memory.is_some() {
+        if <Kind as TableEvolution>::DEFINITION.memory.is_some() {
             let law = law(usual::<Kind>(Common { mu0: 0.6, a: A, v_ref: V_REF, b: B, length: L }));
             let runs = [400, 800, 1600].map(|steps| march(&law, steps).0);
             let order = (difference(&runs[0], &runs[1]) / difference(&runs[1], &runs[2])).log2();
@@ -170,7 +170,7 @@ fn nothing_is_missed_in_steady_sliding() {
             let mut error = [f64::NAN];
             let slip = [V_REF * dt];
             let rates = [V_REF];
-            let taken = Taken {
+            let outcome = StepOutcome {
                 points: &[0],
                 normal: &[NORMAL],
                 before: &rates,
@@ -180,7 +180,7 @@ fn nothing_is_missed_in_steady_sliding() {
                 old: &states,
                 new: &states,
             };
-            law.error(taken, &mut error);
+            law.error(outcome, &mut error);
             assert!(error[0] < 1e-12, "{} over {dt} s: {}", law.name(), error[0]);
         }
     }

@@ -4,7 +4,7 @@ use approx::{assert_abs_diff_eq, assert_relative_eq};
 use asperity_friction::Failure;
 use asperity_friction::coulomb::Coulomb;
 use asperity_friction::law::{
-    Increments, Lag, Law, Limit, LimitKind, Present, RateBounds, Rates, Regime, Responses, Trials,
+    Increments, Lag, Law, Limit, LimitKind, PresentStates, RateBounds, Rates, Regime, Responses, Trials,
 };
 use asperity_friction::slip_weakening::SlipWeakening;
 use asperity_friction::static_kinetic::StaticKinetic;
@@ -35,7 +35,7 @@ fn dropping() -> StaticKinetic {
 
 /// Answer for one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct One {
+struct PointAnswer {
     traction: f64,
     slip: f64,
     rate: f64,
@@ -50,7 +50,7 @@ fn respond_with(
     [normal, trial, stiffness]: [f64; 3],
     old: f64,
     lag: Option<(f64, f64)>,
-) -> Result<One, Failure> {
+) -> Result<PointAnswer, Failure> {
     let (mut t, mut s, mut v, mut g) = ([f64::NAN], [f64::NAN], [f64::NAN], [Regime::Stick]);
     let (mut by_trial, mut by_normal, mut new) = ([f64::NAN], [f64::NAN], [f64::NAN]);
     let (weight, offset) = ([lag.map_or(1.0, |l| l.0)], [lag.map_or(0.0, |l| l.1)]);
@@ -76,7 +76,7 @@ fn respond_with(
             states: &mut new,
         },
     )?;
-    Ok(One {
+    Ok(PointAnswer {
         traction: t[0],
         slip: s[0],
         rate: v[0],
@@ -87,12 +87,12 @@ fn respond_with(
     })
 }
 
-fn respond(law: &dyn Law, normal: f64, trial: f64, old: f64) -> One {
+fn respond(law: &dyn Law, normal: f64, trial: f64, old: f64) -> PointAnswer {
     respond_with(law, [normal, trial, STIFFNESS], old, None).unwrap()
 }
 
 /// Pulls the far end of the penalty spring to `reach` \[m\] in `steps` steps; returns tractions, slips and states after each.
-fn pull(law: &dyn Law, normal: f64, reach: f64, steps: u32) -> Vec<One> {
+fn pull(law: &dyn Law, normal: f64, reach: f64, steps: u32) -> Vec<PointAnswer> {
     let mut state = [f64::NAN];
     law.initial(&mut state);
     let (mut traction, mut path) = (0.0, Vec::new());
@@ -374,7 +374,7 @@ fn sticking_points_slip_at_cohesion_and_friction_unless_they_open_first() {
         let start = Start { normal: 4e6, traction: 1e6, state: 0.0, ..STICKING };
         let [normal, traction] = change;
         let step = Increments { normal: &[normal], traction: &[traction], slip: &[0.0] };
-        let present = Present { states: &[], ..present(&start, STIFFNESS) };
+        let present = PresentStates { states: &[], ..present(&start, STIFFNESS) };
         law.limit(present, step, BOUNDS).map(|limit: Limit| limit.fraction)
     };
     // 1 + 6 r = 2 + 0.5 · 4, and 1 + 2 r = 2 + 0.5 (4 - 3 r).
@@ -391,7 +391,7 @@ fn a_lag_shifts_the_rate_alone() {
         let plain = respond(law, NORMAL, 8e6, 0.0);
         let lagged = respond_with(law, [NORMAL, 8e6, STIFFNESS], 0.0, Some((1.5, 0.25))).unwrap();
         assert_relative_eq!(lagged.rate, 1.5 * plain.slip / DT - 0.25, max_relative = 1e-15);
-        assert_eq!(One { rate: plain.rate, ..lagged }, plain);
+        assert_eq!(PointAnswer { rate: plain.rate, ..lagged }, plain);
         let rest = respond_with(law, [NORMAL, 1e6, STIFFNESS], 0.0, Some((1.5, 0.25))).unwrap();
         assert_eq!(rest.rate, 0.0);
     }
@@ -444,8 +444,8 @@ const SLIDING: Start =
     Start { normal: NORMAL, traction: 5.5e6, rate: 1e-3, regime: Regime::Slip, state: 0.5 * D_C };
 const STICKING: Start = Start { normal: NORMAL, traction: 6e6, rate: 0.0, regime: Regime::Stick, state: 0.0 };
 
-fn present(s: &Start, stiffness: f64) -> Present<'_> {
-    Present {
+fn present(s: &Start, stiffness: f64) -> PresentStates<'_> {
+    PresentStates {
         points: &[0],
         normal: from_ref(&s.normal),
         traction: from_ref(&s.traction),

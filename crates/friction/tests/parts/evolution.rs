@@ -5,14 +5,14 @@ use super::usual::usual;
 use asperity_friction::each_evolution;
 use asperity_friction::evolution::flash::Flash;
 use asperity_friction::evolution::{
-    Common, Defined, Evolution, Speed, Variable, ageing::Ageing, nagata::Nagata, slip::Slip,
+    Common, Evolution, Speed, TableEvolution, Variable, ageing::Ageing, nagata::Nagata, slip::Slip,
 };
 
 /// Calls a function with every evolution of the table, and with values of its state variable to start from.
 macro_rules! with_every_evolution {
     ($check:ident, $of_log:expr, $of_phi:expr) => {
         each_evolution!(Law => {
-            let states: &[f64] = match <Law as Defined>::DEFINITION.variable {
+            let states: &[f64] = match <Law as TableEvolution>::DEFINITION.variable {
                 Variable::Logarithm { .. } => &$of_log,
                 Variable::Contribution { .. } => &$of_phi,
             };
@@ -92,7 +92,7 @@ fn the_rate_of_the_state_is_the_slope_of_its_exact_step_in_time() {
         for &state in states {
             for v in [1e-12, 1e-8, 1e-6, 1e-3, 0.1, 3.0] {
                 let z = f64::ln(v);
-                let r = e.rate(state, Speed::of_log(z));
+                let r = e.rate(state, Speed::from_log(z));
                 // Of the order of the shortest time scale.
                 let dt = 1e-3 / (v / LENGTH + r.rate.abs() + r.d_state.abs());
                 let rounding = 4.0 * f64::EPSILON * (1.0 + state.abs());
@@ -111,13 +111,13 @@ fn derivatives_of_the_rate_of_the_state_are_its_derivatives() {
         for &state in states {
             for v in rates() {
                 let z = v.ln();
-                let r = e.rate(state, Speed::of_log(z));
+                let r = e.rate(state, Speed::from_log(z));
                 let size = r.rate.abs() + r.d_log_rate.abs() + r.d_state.abs();
                 let rounding = f64::EPSILON * size * (4.0 + z.abs() + state.abs());
                 let what = || format!("{} from {state} at {v}: {r:?}", E::NAME);
-                let at = |h: f64| e.rate(state, Speed::of_log(z + h)).rate;
+                let at = |h: f64| e.rate(state, Speed::from_log(z + h)).rate;
                 by_rate.add(taylor(at, r.d_log_rate, 0.005, rounding), what);
-                let from = |h: f64| e.rate(state + h, Speed::of_log(z)).rate;
+                let from = |h: f64| e.rate(state + h, Speed::from_log(z)).rate;
                 by_state.add(taylor(from, r.d_state, 0.01, rounding), what);
             }
         }
@@ -137,7 +137,7 @@ fn steady_states_do_not_move() {
             let steady = e.steady(z);
             // To rounding of the logarithms.
             let rounding = 8.0 * f64::EPSILON * (2.0 + z.abs());
-            let r = e.rate(steady, Speed::of_log(z)).rate;
+            let r = e.rate(steady, Speed::from_log(z)).rate;
             assert!(r.abs() <= rounding * v / LENGTH, "{} {v}: {r:e}", E::NAME);
             for dt in [1e-3, 1.0, 1e9] {
                 let after = e.step(steady, z, dt).state;
@@ -197,7 +197,7 @@ fn extreme_rates_and_rest_leave_numbers() {
                     let (slope, bend) = e.phi_slopes(s.state);
                     assert!(e.phi(s.state).is_finite() && slope.is_finite() && bend.is_finite());
                 }
-                let r = e.rate(state, Speed::of_log(z));
+                let r = e.rate(state, Speed::from_log(z));
                 assert!(!(r.rate.is_nan() || r.d_log_rate.is_nan() || r.d_state.is_nan()), "{} {z}", E::NAME);
             }
         }

@@ -1,6 +1,6 @@
 //! Laws of the table with the usual parameters of their rows.
 
-use asperity_friction::evolution::{Common, Defined, Parameter};
+use asperity_friction::evolution::{Common, Parameter, TableEvolution};
 
 /// Value of the example of a parameter in SI.
 fn example(parameter: &Parameter) -> f64 {
@@ -14,7 +14,7 @@ fn example(parameter: &Parameter) -> f64 {
 }
 
 /// The law with these common parameters, without its optional ones.
-pub fn usual<E: Defined>(common: Common) -> E {
+pub fn usual<E: TableEvolution>(common: Common) -> E {
     let own = E::DEFINITION.parameters.iter().map(|p| (!p.optional).then(|| example(p)));
     E::build(&common, &own.collect::<Vec<_>>()).unwrap()
 }

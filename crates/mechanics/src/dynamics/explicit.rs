@@ -1,17 +1,17 @@
 //! Steps of explicit dynamics.
 
-use super::acting::{Acting, in_space};
-use super::between::{Between, Mobility};
 use super::budget::{Budget, Work};
-use super::fault::{Fault, FaultState, Unbalanced};
-use super::inelastic::{self, Inelastic};
+use super::fault::{BalanceFailure, Fault, FaultState};
+use super::inelastic_cells::{self, InelasticCells};
 use super::loads::Loads;
 use super::motion::Motion;
-use super::nodes::{Special, Specials};
+use super::nodes::{SpecialNode, SpecialNodes};
 use super::room::Room;
+use super::special_actions::{SpecialActions, in_space};
 use super::springs::Springs;
 use super::sums::Sums;
-use super::{Problem, Stable, stable, stored};
+use super::surroundings::{FaultSurroundings, Mobility};
+use super::{Problem, StableStep, stable, stored};
 use crate::{CellBlock, coordinates};
 use asperity_fem::block::lumped;
 use asperity_fem::dof::Constraints;
@@ -116,7 +116,7 @@ struct Works {
     absorbed: Work,
     loads: Work,
     released: Work,
-    inelastic: inelastic::Works,
+    inelastic: inelastic_cells::Works,
     /// uⁿ·K uⁿ of linear cells, twice their elastic energy.
     stored: f64,
 }
@@ -124,15 +124,15 @@ struct Works {
 /// Bodies and faults in steps of equal length.
 pub struct Explicit<'a, const D: usize> {
     problem: &'a Problem<D>,
-    stable: Stable,
+    stable: StableStep,
     product: MatrixFree,
-    inelastic: Inelastic<D>,
+    inelastic: InelasticCells<D>,
     components: usize,
     /// Lumped mass of each node \[kg\].
     mass: Vec<f64>,
     /// 1/mass; 0 at special nodes \[1/kg\].
     inverse: Vec<f64>,
-    special: Specials,
+    special: SpecialNodes,
     /// Special nodes of each point of the faults.
     pairs: Vec<[usize; 2]>,
     /// Mobilities of each point of the faults.
@@ -170,9 +170,9 @@ impl<'a, const D: usize> Explicit<'a, D> {
         let linear: Vec<_> = model.blocks.iter().map(CellBlock::linear).collect();
         let components = model.idealisation.components();
         let product = MatrixFree::new(&model.mesh, components, &linear);
-        let mass =
-            lumped::of_mesh(&model.mesh, model.idealisation, &problem.density).map_err(|e| e.to_string())?;
-        let inelastic = Inelastic::new(model, problem.viscosity > 0.0, problem.fault.is_some())?;
+        let mass = lumped::nodal_masses(&model.mesh, model.idealisation, &problem.density)
+            .map_err(|e| e.to_string())?;
+        let inelastic = InelasticCells::new(model, problem.viscosity > 0.0, problem.fault.is_some())?;
         let dofs = model.dofs();
         let velocity = if problem.velocity.is_empty() { vec![0.0; dofs] } else { problem.velocity.clone() };
         Ok(Self {
@@ -183,7 +183,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
             components,
             inverse: mass.iter().map(|m| 1.0 / m).collect(),
             mass,
-            special: Specials::default(),
+            special: SpecialNodes::default(),
             pairs: Vec::new(),
             mobilities: Vec::new(),
             tied: Vec::new(),
@@ -263,7 +263,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
     fn appoint(&mut self, stage: usize) {
         let (problem, components) = (self.problem, self.components);
         let of_stage = &problem.stages[stage];
-        let (springs, span) = (&of_stage.springs, (of_stage.start, of_stage.end));
+        let springs = &of_stage.springs;
         let of_fault = problem.fault.iter().flat_map(|f| {
             let tied = f.ties.iter().flat_map(|t| [t.minus, t.plus]);
             f.points.iter().flat_map(|p| [p.minus, p.plus]).chain(tied)
@@ -279,8 +279,9 @@ impl<'a, const D: usize> Explicit<'a, D> {
             found.ok().map(|k| &problem.absorbing[k])
         };
         self.inverse = self.mass.iter().map(|m| 1.0 / m).collect();
-        self.special =
-            Specials::new(of_fault, others, |node| Special::new(node, self.mass[node], dashpot(node)));
+        self.special = SpecialNodes::new(of_fault, others, |node| {
+            SpecialNode::new(node, self.mass[node], dashpot(node))
+        });
         for &dof in &self.constraints.fixed {
             let place = self.special.find(dof / components);
             self.special.all[place].prescribed[dof % components] = true;
@@ -292,7 +293,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
         // Every degree of freedom asked for belongs to one of the nodes.
         let find = |node: usize| self.special.find(node);
         self.loads = Loads::new(&self.constraints, |dof| (find(dof / components), dof % components));
-        self.springs = Springs::new(springs, span, |dof| {
+        self.springs = Springs::new(springs, of_stage.start, of_stage.end, |dof| {
             (find(dof / components), dof % components, self.mass[dof / components])
         });
         self.pairs =
@@ -341,7 +342,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
         self.product.evaluate(&Displacements { u: &self.u, velocity, ahead });
         let at = Instant { time: self.time, dt: self.dt };
         let refused = |r: Refusal| Halt::Refused { time: at.time, reason: r.to_string() };
-        self.inelastic.evaluate((&self.u, &self.velocity), at, ahead).map_err(refused)
+        self.inelastic.evaluate(&self.u, &self.velocity, at, ahead).map_err(refused)
     }
 
     /// Loads and prescribed displacements of the special nodes.
@@ -360,21 +361,21 @@ impl<'a, const D: usize> Explicit<'a, D> {
     /// Accelerations of the nodes of faults without the changes of tractions, with velocities and displacements there.
     fn free_accelerations(&self, room: &mut Room) {
         let Room { external, acceleration, before, displacement, .. } = room;
-        let acting = self.acting(external);
-        let of_node = of_nodes(&self.product, self.inelastic.forces(), self.components);
+        let actions = self.actions(external);
+        let of_node = nodal_forces(&self.product, self.inelastic.forces(), self.components);
         let (velocity, u, components) = (&self.velocity, &self.u, self.components);
         let all = acceleration.par_iter_mut().zip(before).zip(displacement).enumerate();
         all.with_min_len(NODES).for_each(|(place, ((acceleration, before), displacement))| {
-            let node = acting.nodes.all[place].node;
+            let node = actions.nodes.all[place].node;
             (*before, *displacement) = (vector(velocity, node, components), vector(u, node, components));
-            *acceleration = acting.acceleration(place, [&of_node(node), before, displacement]);
+            *acceleration = actions.acceleration(place, [&of_node(node), before, displacement]);
         });
     }
 
     /// Special nodes under these loads.
-    fn acting<'b>(&'b self, external: &'b [[f64; 3]]) -> Acting<'b> {
+    fn actions<'b>(&'b self, external: &'b [[f64; 3]]) -> SpecialActions<'b> {
         let (nodes, imposed, components) = (&self.special, &self.imposed[..], self.components);
-        Acting { nodes, external, imposed, components, dt: self.dt, kick: self.kick() }
+        SpecialActions { nodes, external, imposed, components, dt: self.dt, kick: self.kick() }
     }
 
     /// Balances the faults. The new state replaces the present one once the step is taken.
@@ -382,7 +383,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
         let Some(fault) = self.problem.fault.as_ref() else { return Ok(None) };
         let mut state = self.fault.clone();
         let (time, dt) = (self.time, self.dt);
-        let mut between = Between {
+        let mut surroundings = FaultSurroundings {
             nodes: &self.special.all,
             acceleration: &mut room.acceleration,
             velocity: &room.before,
@@ -396,20 +397,22 @@ impl<'a, const D: usize> Explicit<'a, D> {
             kick: self.kick(),
             first: self.steps == 0,
         };
-        match fault.balance(&mut between, &mut state) {
+        match fault.balance(&mut surroundings, &mut state) {
             Ok(()) => Ok(Some(state)),
-            Err(Unbalanced::Friction(f)) => Err(Halt::Friction { time, reason: self.placed(&f) }),
-            Err(Unbalanced::Tension(t)) => Err(Halt::Tension { time, point: t.point, traction: t.traction }),
+            Err(BalanceFailure::Friction(f)) => Err(Halt::Friction { time, reason: self.placed(&f) }),
+            Err(BalanceFailure::Tension(t)) => {
+                Err(Halt::Tension { time, point: t.point, traction: t.traction })
+            }
         }
     }
 
     /// Moves all nodes, and writes the velocities of the nodes of faults after.
     fn move_all(&mut self, room: &mut Room) -> Sums {
         let (mut u, mut velocity) = (std::mem::take(&mut self.u), std::mem::take(&mut self.velocity));
-        let acting = self.acting(&room.external);
-        let sides = acting.nodes.all.iter().zip(&room.before).zip(&room.acceleration);
+        let actions = self.actions(&room.external);
+        let sides = actions.nodes.all.iter().zip(&room.before).zip(&room.acceleration);
         for (after, ((s, before), acceleration)) in room.after.iter_mut().zip(sides) {
-            *after = acting.after(s, before, acceleration);
+            *after = actions.after(s, before, acceleration);
         }
         let motion = Motion {
             product: &self.product,
@@ -417,7 +420,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
             mass: &self.mass,
             inverse: &self.inverse,
             faulted: &room.acceleration,
-            acting,
+            actions,
         };
         let sums = motion.all(&mut u, &mut velocity);
         (self.u, self.velocity) = (u, velocity);
@@ -447,7 +450,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
             };
             let jumps: Vec<_> = self.pairs.iter().map(|&p| [jump(before, p), jump(after, p)]).collect();
             let apart: Vec<_> = self.pairs.iter().map(|&p| jump(displacement, p)).collect();
-            let [friction, released] = fault.record((self.time, self.dt), &jumps, &apart, &mut self.fault);
+            let [friction, released] = fault.record(self.time, self.dt, &jumps, &apart, &mut self.fault);
             add(&mut works.friction, friction);
             add(&mut works.released, released);
         }
@@ -531,7 +534,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
 
     /// Largest stable step, and the cell that sets it.
     #[must_use]
-    pub fn stable(&self) -> &Stable {
+    pub fn stable(&self) -> &StableStep {
         &self.stable
     }
 
@@ -621,7 +624,7 @@ fn vector(values: &[f64], node: usize, components: usize) -> [f64; 3] {
 }
 
 /// Internal forces on nodes, of linear cells and of others \[N\].
-fn of_nodes<'a>(
+fn nodal_forces<'a>(
     product: &'a MatrixFree,
     others: &'a [f64],
     components: usize,

@@ -4,13 +4,13 @@
 //! The normal traction is the closing one where it presses, otherwise none. Friction bounds the shear traction
 //! ([`asperity_friction::inertial`]). Tractions act in addition to the initial state, which is in balance: bodies feel the difference.
 
-use super::between::{Between, Mobility};
-use super::nodes::{Special, dot};
+use super::nodes::{SpecialNode, dot};
 use super::split::SplitPoint;
+use super::surroundings::{FaultSurroundings, Mobility};
 use super::ties::{self, Tie};
 use super::{Onset, Pulse};
 use asperity_friction::Failure;
-use asperity_friction::inertial::{InertialFault, Push, Pushed};
+use asperity_friction::inertial::{InertialFault, PointBalance, Push};
 use serde::{Deserialize, Serialize};
 
 /// Relaxation of the normal traction that friction feels, `dσ̂/dt = -(|V| + V*)/L (σ̂ - σ)`. Between unlike rocks slip at a friction that
@@ -43,7 +43,7 @@ pub struct Fault {
     /// Imposed tractions.
     pub pulses: Vec<Pulse>,
     /// Imposed weakening of friction; empty without, otherwise one for each point.
-    pub forced: Vec<Forced>,
+    pub forced: Vec<ForcedWeakening>,
     /// Friction and states at the start of faults that slip already; otherwise friction is the traction at the start.
     pub onset: Option<Onset>,
     /// Pairs of nodes that stay together.
@@ -52,14 +52,14 @@ pub struct Fault {
 
 /// Weakening of friction that is imposed on a point, whatever its slip.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Forced {
+pub struct ForcedWeakening {
     /// Time at which it begins \[s\]; infinite where it does not.
     pub at: f64,
     /// Time over which friction falls from its first value to its last \[s\].
     pub duration: f64,
 }
 
-impl Forced {
+impl ForcedWeakening {
     /// Share that is done at a time.
     #[must_use]
     pub fn share(&self, time: f64) -> f64 {
@@ -102,7 +102,7 @@ pub(super) struct Tension {
 
 /// Reason why a fault could not be balanced.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Unbalanced {
+pub(super) enum BalanceFailure {
     Friction(Failure),
     Tension(Tension),
 }
@@ -158,7 +158,7 @@ impl Fault {
                 }
             })
             .collect();
-        let mut answers = vec![Pushed { traction: 0.0, rate: 0.0 }; pushes.len()];
+        let mut answers = vec![PointBalance { traction: 0.0, rate: 0.0 }; pushes.len()];
         self.law.push(&pushes, &mut start.states, &mut answers)
     }
 
@@ -169,7 +169,7 @@ impl Fault {
     }
 
     /// Mobilities of the points between special nodes, of which `pairs` holds those of each point.
-    pub(super) fn mobilities(&self, nodes: &[Special], pairs: &[[usize; 2]]) -> Vec<Mobility> {
+    pub(super) fn mobilities(&self, nodes: &[SpecialNode], pairs: &[[usize; 2]]) -> Vec<Mobility> {
         let of = |(point, pair): (&SplitPoint, &[usize; 2])| Mobility::new(point, pair.map(|k| &nodes[k]));
         self.points.iter().zip(pairs).map(of).collect()
     }
@@ -189,33 +189,33 @@ impl Fault {
     /// Balances all points at tⁿ: adds the accelerations by the tractions and writes these into the state.
     pub(super) fn balance(
         &self,
-        between: &mut Between<'_>,
+        surroundings: &mut FaultSurroundings<'_>,
         state: &mut FaultState,
-    ) -> Result<(), Unbalanced> {
-        let loads = self.loads(between.time);
-        ties::hold(between, between.tied, between.components);
+    ) -> Result<(), BalanceFailure> {
+        let loads = self.loads(surroundings.time);
+        ties::hold(surroundings, surroundings.tied, surroundings.components);
         for point in 0..self.points.len() {
-            state.normal[point] = self.closing(between, point, state)?;
+            state.normal[point] = self.closing(surroundings, point, state)?;
         }
         let n = self.points.len();
-        if between.first && !self.law.has_elastic_domain() && self.onset.is_none() {
+        if surroundings.first && !self.law.has_elastic_domain() && self.onset.is_none() {
             for point in 0..n {
-                self.press(between, point, state);
+                self.press(surroundings, point, state);
             }
             return Ok(());
         }
-        self.relax(between.dt, state);
-        let (pushes, trials) = self.pushes(between, state, &loads);
-        let mut answers = vec![Pushed { traction: 0.0, rate: 0.0 }; pushes.len()];
-        self.law.push(&pushes, &mut state.states, &mut answers).map_err(Unbalanced::Friction)?;
+        self.relax(surroundings.dt, state);
+        let (pushes, trials) = self.pushes(surroundings, state, &loads);
+        let mut answers = vec![PointBalance { traction: 0.0, rate: 0.0 }; pushes.len()];
+        self.law.push(&pushes, &mut state.states, &mut answers).map_err(BalanceFailure::Friction)?;
         for (point, (push, answer)) in pushes.iter().zip(&answers).enumerate() {
             let p = &self.points[point];
             let share = if push.trial > 0.0 { answer.traction / push.trial } else { 0.0 };
-            self.press(between, point, state);
+            self.press(surroundings, point, state);
             let mut force = [0.0; 3];
             for (c, e) in p.along.iter().enumerate() {
                 let entry = c * n + point;
-                if between.mobilities[point].along[c].is_none() {
+                if surroundings.mobilities[point].along[c].is_none() {
                     // Conditions carry the traction: friction neither bounds it nor does it cause motion.
                     state.shear[entry] = self.loading(entry, &loads);
                     continue;
@@ -224,40 +224,40 @@ impl Fault {
                 let change = p.area * (state.shear[entry] - self.loading(entry, &loads));
                 force.iter_mut().zip(e).for_each(|(f, e)| *f -= change * e);
             }
-            between.push(between.pairs[point], &force);
+            surroundings.push(surroundings.pairs[point], &force);
         }
         Ok(())
     }
 
     /// Adds the accelerations by the change of the normal traction of a point.
-    fn press(&self, between: &mut Between<'_>, point: usize, state: &FaultState) {
+    fn press(&self, surroundings: &mut FaultSurroundings<'_>, point: usize, state: &FaultState) {
         let pressed = self.points[point].area * (state.normal[point] - self.normal[point]);
-        between.push(between.pairs[point], &self.points[point].normal.map(|n| pressed * n));
+        surroundings.push(surroundings.pairs[point], &self.points[point].normal.map(|n| pressed * n));
     }
 
     /// Normal traction that closes the gap by the end of the step, if it presses \[Pa\].
     fn closing(
         &self,
-        between: &Between<'_>,
+        surroundings: &FaultSurroundings<'_>,
         point: usize,
         state: &mut FaultState,
-    ) -> Result<f64, Unbalanced> {
+    ) -> Result<f64, BalanceFailure> {
         let p = &self.points[point];
-        let mobility = between.mobilities[point].normal;
-        let gap = p.gap + between.jump(between.displacement, point, &p.normal);
+        let mobility = surroundings.mobilities[point].normal;
+        let gap = p.gap + surroundings.jump(surroundings.displacement, point, &p.normal);
         state.gap[point] = gap;
         if mobility == 0.0 {
             // In antiplane motion nothing moves along the normal.
             return Ok(self.normal[point]);
         }
-        let velocity = between.jump(between.velocity, point, &p.normal);
-        let acceleration = between.jump(between.acceleration, point, &p.normal);
-        let (dt, kick) = (between.dt, between.kick);
+        let velocity = surroundings.jump(surroundings.velocity, point, &p.normal);
+        let acceleration = surroundings.jump(surroundings.acceleration, point, &p.normal);
+        let (dt, kick) = (surroundings.dt, surroundings.kick);
         let traction = self.normal[point] - (velocity + gap / dt + kick * acceleration) / (kick * mobility);
         if traction >= 0.0 {
             return Ok(traction);
         }
-        if self.opens { Ok(0.0) } else { Err(Unbalanced::Tension(Tension { point, traction })) }
+        if self.opens { Ok(0.0) } else { Err(BalanceFailure::Tension(Tension { point, traction })) }
     }
 
     /// Relaxes the normal traction that friction feels over a step at the last slip rates.
@@ -271,22 +271,28 @@ impl Fault {
     }
 
     /// Drives of the points, and their trial tractions by components \[Pa\].
-    fn pushes(&self, between: &Between<'_>, state: &FaultState, loads: &Loads) -> (Vec<Push>, Vec<f64>) {
+    fn pushes(
+        &self,
+        surroundings: &FaultSurroundings<'_>,
+        state: &FaultState,
+        loads: &Loads,
+    ) -> (Vec<Push>, Vec<f64>) {
         let n = self.points.len();
         // The first step of a rate law reaches the first half step alone: velocities and states pass half a step.
-        let first = between.first && !self.law.has_elastic_domain();
-        let reach = if self.law.has_elastic_domain() || first { between.kick } else { 0.5 * between.dt };
+        let first = surroundings.first && !self.law.has_elastic_domain();
+        let reach =
+            if self.law.has_elastic_domain() || first { surroundings.kick } else { 0.5 * surroundings.dt };
         let mut trials = vec![0.0; self.shear.len()];
         let pushes = (0..n).map(|point| {
             let p = &self.points[point];
             // A point that conditions hold in all directions of slip is not pushed, whatever its impedance.
             let mut impedance = 1.0;
             for (c, e) in p.along.iter().enumerate() {
-                let Some(mobility) = between.mobilities[point].along[c] else { continue };
+                let Some(mobility) = surroundings.mobilities[point].along[c] else { continue };
                 let entry = c * n + point;
                 impedance = 1.0 / (reach * mobility);
-                let rate = between.jump(between.velocity, point, e)
-                    + reach * between.jump(between.acceleration, point, e);
+                let rate = surroundings.jump(surroundings.velocity, point, e)
+                    + reach * surroundings.jump(surroundings.acceleration, point, e);
                 trials[entry] = self.loading(entry, loads) + impedance * rate;
             }
             let felt = if self.regularisation.is_some() { state.felt[point] } else { state.normal[point] };
@@ -296,7 +302,7 @@ impl Fault {
                 trial: self.size(&trials, point),
                 impedance,
                 near: self.size(&state.rate, point),
-                dt: if first { between.kick } else { between.dt },
+                dt: if first { surroundings.kick } else { surroundings.dt },
                 weakened: self.forced.get(point).map_or(0.0, |forced| forced.share(loads.time)),
             }
         });
@@ -308,7 +314,8 @@ impl Fault {
     /// relative to the minus side before and after \[m/s\], `displacement` the relative displacement at tⁿ \[m\].
     pub(super) fn record(
         &self,
-        (time, dt): (f64, f64),
+        time: f64,
+        dt: f64,
         jumps: &[[[f64; 3]; 2]],
         displacement: &[[f64; 3]],
         state: &mut FaultState,

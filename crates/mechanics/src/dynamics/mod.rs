@@ -15,12 +15,10 @@
 //! - [`Budget`] is the energy, whose parts close to rounding.
 
 mod absorbing;
-mod acting;
-mod between;
 mod budget;
 mod explicit;
 mod fault;
-mod inelastic;
+mod inelastic_cells;
 mod loads;
 mod motion;
 mod nodes;
@@ -28,22 +26,24 @@ mod onset;
 mod problem;
 mod pulse;
 mod room;
+mod special_actions;
 mod split;
 mod springs;
-mod stable;
+mod stable_step;
 mod stored;
 mod sums;
+mod surroundings;
 mod ties;
 
 pub use absorbing::{Dashpot, dashpots};
 pub use budget::Budget;
 pub use explicit::{Explicit, ExplicitState, Halt};
-pub use fault::{Fault, FaultState, Forced, Regularisation};
+pub use fault::{Fault, FaultState, ForcedWeakening, Regularisation};
 pub use onset::Onset;
 pub use problem::Problem;
 pub use pulse::Pulse;
 pub use split::SplitPoint;
-pub use stable::{Stable, stable};
+pub use stable_step::{StableStep, stable};
 pub use ties::Tie;
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Motion of the nodes over a step.
 
-use super::acting::Acting;
+use super::special_actions::SpecialActions;
 use super::sums::Sums;
 use asperity_fem::matrix_free::MatrixFree;
 use pulp::{Arch, Simd, WithSimd};
@@ -27,7 +27,7 @@ pub(super) struct Motion<'a> {
     /// 1/mass; 0 at special nodes \[1/kg\].
     pub inverse: &'a [f64],
     /// Loads and constraints of the special nodes.
-    pub acting: Acting<'a>,
+    pub actions: SpecialActions<'a>,
     /// Accelerations of the nodes of faults \[m/s²\].
     pub faulted: &'a [[f64; 3]],
 }
@@ -35,14 +35,14 @@ pub(super) struct Motion<'a> {
 impl Motion<'_> {
     /// Moves all nodes.
     pub fn all(&self, u: &mut [f64], velocity: &mut [f64]) -> Sums {
-        match self.acting.components {
-            1 => self.of::<1>(u, velocity),
-            2 => self.of::<2>(u, velocity),
-            _ => self.of::<3>(u, velocity),
+        match self.actions.components {
+            1 => self.advance::<1>(u, velocity),
+            2 => self.advance::<2>(u, velocity),
+            _ => self.advance::<3>(u, velocity),
         }
     }
 
-    fn of<const C: usize>(&self, u: &mut [f64], velocity: &mut [f64]) -> Sums {
+    fn advance<const C: usize>(&self, u: &mut [f64], velocity: &mut [f64]) -> Sums {
         let width = CHUNK * C;
         let chunks = u.par_chunks_mut(width).zip(velocity.par_chunks_mut(width));
         let task = |(k, (u, v))| Arch::new().dispatch(Task::<C> { motion: self, start: k * CHUNK, u, v });
@@ -79,9 +79,9 @@ impl Motion<'_> {
         sums: &mut Sums,
     ) {
         for place in places.iter().cloned().flatten() {
-            let own = self.acting.nodes.all[place].node - first;
+            let own = self.actions.nodes.all[place].node - first;
             let known = self.faulted.get(place);
-            self.acting.accelerate((place, known), (&force[own], &u[own], &mut v[own]), sums);
+            self.actions.accelerate(place, known, &force[own], &u[own], &mut v[own], sums);
         }
     }
 
@@ -96,7 +96,7 @@ impl Motion<'_> {
         sums: &mut Vectors<S>,
     ) -> (S::f64s, S::f64s) {
         let zero = simd.splat_f64s(0.0);
-        let Acting { kick, dt, .. } = self.acting;
+        let SpecialActions { kick, dt, .. } = self.actions;
         let back = simd.splat_f64s(if kick < dt { 1.0 } else { 0.0 });
         let kick = simd.mul_f64s(simd.splat_f64s(kick), inverse);
         let after = simd.sub_f64s(before, simd.mul_f64s(kick, force));
@@ -127,7 +127,7 @@ impl<const C: usize> WithSimd for Task<'_, '_, C> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Sums {
         let Self { motion, start, u, v } = self;
-        let nodes = motion.acting.nodes;
+        let nodes = motion.actions.nodes;
         let mut next = nodes.from(start);
         let (mut vectors, mut sums) = (Vectors::new(simd), Sums::default());
         let [mut forces, mut counted, mut inverse] = [[[0.0; C]; GROUP]; 3];
@@ -155,7 +155,7 @@ impl<const C: usize> WithSimd for Task<'_, '_, C> {
                 simd.partial_store_f64s(v_rest, v);
             }
             for special in places.into_iter().flatten().map(|place| &nodes.all[place]) {
-                motion.acting.put(special, &mut u.as_chunks_mut::<C>().0[special.node - first]);
+                motion.actions.put(special, &mut u.as_chunks_mut::<C>().0[special.node - first]);
             }
         }
         vectors.total(simd).plus(sums)

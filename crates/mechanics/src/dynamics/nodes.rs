@@ -7,16 +7,16 @@ use std::ops::Range;
 /// All special nodes: first those of faults, then the others, each by ascending nodes. Accelerations of the former are known
 /// before any node moves, since the tractions follow from them; the others move with the free nodes around them.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Specials {
+pub(super) struct SpecialNodes {
     /// Nodes.
-    pub all: Vec<Special>,
+    pub all: Vec<SpecialNode>,
     /// Number of those of faults.
     pub faulted: usize,
 }
 
-impl Specials {
+impl SpecialNodes {
     /// Nodes of faults and others, of which those of faults are left out.
-    pub fn new(faulted: Vec<usize>, others: Vec<usize>, special: impl Fn(usize) -> Special) -> Self {
+    pub fn new(faulted: Vec<usize>, others: Vec<usize>, special: impl Fn(usize) -> SpecialNode) -> Self {
         let ascending = |mut nodes: Vec<usize>| {
             nodes.sort_unstable();
             nodes.dedup();
@@ -40,7 +40,7 @@ impl Specials {
     /// Places of the first nodes from `node` on: of faults, and others.
     pub fn from(&self, node: usize) -> [usize; 2] {
         let (faulted, others) = self.all.split_at(self.faulted);
-        let before = |nodes: &[Special]| nodes.partition_point(|s| s.node < node);
+        let before = |nodes: &[SpecialNode]| nodes.partition_point(|s| s.node < node);
         [before(faulted), self.faulted + before(others)]
     }
 
@@ -58,7 +58,7 @@ impl Specials {
 
 /// A node at which more than internal forces act.
 #[derive(Clone, Debug)]
-pub(super) struct Special {
+pub(super) struct SpecialNode {
     /// Node of the mesh.
     pub node: usize,
     /// Lumped mass \[kg, or kg/m\].
@@ -71,7 +71,7 @@ pub(super) struct Special {
     pub inverse: [[f64; 3]; 3],
 }
 
-impl Special {
+impl SpecialNode {
     /// A node with its mass; nothing is prescribed yet.
     pub fn new(node: usize, mass: f64, dashpot: Option<&Dashpot>) -> Self {
         let damping = dashpot.map(|d| d.damping);

@@ -9,7 +9,7 @@ use asperity_fem::mesh::Mesh;
 use asperity_fem::mesh::generate::Grid;
 use asperity_fem::table::Table;
 use asperity_friction::coulomb::Coulomb;
-use asperity_friction::inertial::EachPoint;
+use asperity_friction::inertial::InertialPoints;
 
 const DENSITY: f64 = 2700.0;
 
@@ -131,7 +131,7 @@ fn impact(h: f64, gap: f64) -> Problem<2> {
     };
     let fault = Fault {
         points: vec![point(0), point(1)],
-        law: Box::new(EachPoint(vec![Coulomb::new(0.0, None).unwrap(); 2])),
+        law: Box::new(InertialPoints(vec![Coulomb::new(0.0, None).unwrap(); 2])),
         normal: vec![0.0; 2],
         shear: vec![0.0; 2],
         rate: vec![0.0; 2],
@@ -283,7 +283,7 @@ fn tied_bars_move_as_one() {
     let tie = |j: usize| Tie { minus: j * n + n - 1, plus: half + j * n };
     let fault = Fault {
         points: Vec::new(),
-        law: Box::new(EachPoint(Vec::<Coulomb>::new())),
+        law: Box::new(InertialPoints(Vec::<Coulomb>::new())),
         normal: Vec::new(),
         shear: Vec::new(),
         rate: Vec::new(),

@@ -1,6 +1,6 @@
 //! Energy budget of bodies with mass.
 
-use crate::{CellBlock, PlannedInterface, SpringNow};
+use crate::{CellBlock, PlannedInterface, SpringState};
 use asperity_contact::{Interface, PointFields};
 use asperity_fem::dof::Channel;
 use asperity_run::Energies;
@@ -65,7 +65,7 @@ impl Energy {
 
 /// Elastic energy of the bodies, and what plastic flow has dissipated \[J\].
 #[must_use]
-pub fn of_bodies<const D: usize>(blocks: &[CellBlock<D>], u: &[f64]) -> [f64; 2] {
+pub fn body_energy<const D: usize>(blocks: &[CellBlock<D>], u: &[f64]) -> [f64; 2] {
     let mut sum = [0.0; 2];
     for block in blocks {
         let [stored, lost] = match block {
@@ -89,7 +89,7 @@ pub fn viscous_rate<const D: usize>(blocks: &[CellBlock<D>]) -> f64 {
 
 /// Elastic energy of the penalties, `A (f_n²/2E_n + t²/2E_t)` at each point \[J\].
 #[must_use]
-pub fn of_contact<const D: usize>(planned: &[PlannedInterface], interfaces: &[Interface<D>]) -> f64 {
+pub fn contact_energy<const D: usize>(planned: &[PlannedInterface], interfaces: &[Interface<D>]) -> f64 {
     let half = |traction2: f64, penalty: f64| if penalty > 0.0 { 0.5 * traction2 / penalty } else { 0.0 };
     let of = |(planned, interface): (&PlannedInterface, &Interface<D>)| -> f64 {
         let f = interface.points();
@@ -127,20 +127,21 @@ pub fn by_friction<const D: usize>(before: &Shears<D>, interfaces: &[Interface<D
 
 /// Elastic energy of springs \[J\].
 #[must_use]
-pub fn of_springs(springs: &[SpringNow]) -> f64 {
+pub fn spring_energy(springs: &[SpringState]) -> f64 {
     springs.iter().map(|s| s.energy).sum()
 }
 
 /// Work of load points over a step: the mean of the forces before and after times their displacement \[J\].
 #[must_use]
-pub fn by_load_points(before: &[SpringNow], after: &[SpringNow]) -> f64 {
-    let work = |(a, b): (&SpringNow, &SpringNow)| 0.5 * (a.force + b.force) * (b.load_point - a.load_point);
+pub fn by_load_points(before: &[SpringState], after: &[SpringState]) -> f64 {
+    let work =
+        |(a, b): (&SpringState, &SpringState)| 0.5 * (a.force + b.force) * (b.load_point - a.load_point);
     before.iter().zip(after).map(work).sum()
 }
 
 /// Work of loads over a step from `time - dt` to `time` by the trapezoidal rule, with the displacement `moved` \[J\].
 #[must_use]
-pub fn by_loads(channels: &[Channel], (time, dt): (f64, f64), moved: &[f64]) -> f64 {
+pub fn by_loads(channels: &[Channel], time: f64, dt: f64, moved: &[f64]) -> f64 {
     let of = |channel: &Channel| {
         let mean = 0.5 * (channel.amplitude.value(time - dt) + channel.amplitude.value(time));
         mean * channel.forces.iter().map(|&(dof, force)| force * moved[dof]).sum::<f64>()

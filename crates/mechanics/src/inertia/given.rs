@@ -4,7 +4,7 @@ use asperity_fem::dof::Constraints;
 
 /// Writes the velocity \[m/s\] and the acceleration \[m/s²\] of the prescribed degrees of freedom at `time`, on the pieces of the
 /// tables that contain `during`.
-pub fn rates(constraints: &Constraints, (time, during): (f64, f64), v: &mut [f64], a: &mut [f64]) {
+pub fn rates(constraints: &Constraints, time: f64, during: f64, v: &mut [f64], a: &mut [f64]) {
     for &dof in &constraints.fixed {
         (v[dof], a[dof]) = (0.0, 0.0);
     }

@@ -9,10 +9,10 @@ mod term;
 pub use energy::Energy;
 pub use episode::{Episode, Handover};
 
-use crate::{CellBlock, Model, PlannedInterface, SpringNow};
+use crate::{CellBlock, Model, PlannedInterface, SpringState};
 use asperity_contact::Interface;
 use asperity_fem::dof::{Channel, Constraints};
-use asperity_fem::term::Limited;
+use asperity_fem::term::ForwardTerm;
 use asperity_fem::{FemError, mass};
 use energy::Shears;
 use episode::Regime;
@@ -66,7 +66,7 @@ pub struct View<'a, const D: usize> {
     /// Interfaces in their present state.
     pub interfaces: &'a [Interface<D>],
     /// Springs of load points.
-    pub springs: &'a [SpringNow],
+    pub springs: &'a [SpringState],
     /// Displacement \[m\].
     pub u: &'a [f64],
     /// Time \[s\].
@@ -75,7 +75,7 @@ pub struct View<'a, const D: usize> {
 
 /// Inertia of a system and its energy budget.
 #[derive(Debug)]
-pub struct Moving<const D: usize> {
+pub struct InertialSystem<const D: usize> {
     term: Inertia,
     energy: Energy,
     /// Loads of the present stage.
@@ -83,7 +83,7 @@ pub struct Moving<const D: usize> {
     /// Shear tractions before the step.
     shears: Shears<D>,
     /// Springs before the step.
-    springs: Vec<SpringNow>,
+    springs: Vec<SpringState>,
     handover: Option<Handover>,
     regime: Regime,
     /// Passages with inertia so far, the present one last.
@@ -93,7 +93,7 @@ pub struct Moving<const D: usize> {
     phase: Phase,
 }
 
-impl<const D: usize> Moving<D> {
+impl<const D: usize> InertialSystem<D> {
     /// Inertia of the bodies of a model.
     #[must_use]
     pub fn new(model: &Model<D>, given: &Mass) -> Self {
@@ -113,7 +113,7 @@ impl<const D: usize> Moving<D> {
     }
 
     /// Inertia as a term of the system; `None` while bodies pass through states of equilibrium.
-    pub fn term(&mut self) -> Option<&mut dyn Limited> {
+    pub fn term(&mut self) -> Option<&mut dyn ForwardTerm> {
         (!self.rests()).then_some(&mut self.term as _)
     }
 
@@ -154,12 +154,12 @@ impl<const D: usize> Moving<D> {
         } else {
             self.term.start(r, at.u, at.time)?
         };
-        let contact = energy::of_contact(at.planned, at.interfaces);
+        let contact = energy::contact_energy(at.planned, at.interfaces);
         self.viscous_rate = energy::viscous_rate(at.blocks);
         if self.phase == Phase::First {
-            let [strain, plastic] = energy::of_bodies(at.blocks, at.u);
+            let [strain, plastic] = energy::body_energy(at.blocks, at.u);
             let kinetic = self.kinetic();
-            let springs = energy::of_springs(at.springs);
+            let springs = energy::spring_energy(at.springs);
             let start = kinetic + strain + contact + springs;
             self.energy = Energy { kinetic, strain, contact, springs, plastic, start, ..Energy::default() };
         } else {
@@ -168,7 +168,7 @@ impl<const D: usize> Moving<D> {
             self.energy.friction += self.energy.contact - contact;
             self.energy.contact = contact;
             // New springs are stretched by what held their sets.
-            let springs = energy::of_springs(at.springs);
+            let springs = energy::spring_energy(at.springs);
             self.energy.motions += springs - self.energy.springs;
             self.energy.springs = springs;
         }
@@ -177,7 +177,7 @@ impl<const D: usize> Moving<D> {
     }
 
     /// Keeps what the budget needs of the state before a step.
-    pub fn note(&mut self, interfaces: &[Interface<D>], springs: Vec<SpringNow>) {
+    pub fn note(&mut self, interfaces: &[Interface<D>], springs: Vec<SpringState>) {
         (self.shears, self.springs) = (energy::shears(interfaces), springs);
     }
 
@@ -187,16 +187,16 @@ impl<const D: usize> Moving<D> {
             if self.rests() { self.term.settle_at_rest(total, at.u, dt) } else { self.term.settle(total) };
         let (viscous_rate, kinetic) = (energy::viscous_rate(at.blocks), self.kinetic());
         let energy = &mut self.energy;
-        [energy.strain, energy.plastic] = energy::of_bodies(at.blocks, at.u);
+        [energy.strain, energy.plastic] = energy::body_energy(at.blocks, at.u);
         energy.kinetic = kinetic;
-        energy.contact = energy::of_contact(at.planned, at.interfaces);
+        energy.contact = energy::contact_energy(at.planned, at.interfaces);
         energy.viscous += 0.5 * dt * (self.viscous_rate + viscous_rate);
         energy.friction += energy::by_friction(&self.shears, at.interfaces);
         energy.numerical += works.numerical;
         energy.handover -= works.unbalanced;
         energy.motions += works.motions + energy::by_load_points(&self.springs, at.springs);
-        energy.springs = energy::of_springs(at.springs);
-        energy.loads += energy::by_loads(&self.loads, (at.time, dt), self.term.moved());
+        energy.springs = energy::spring_energy(at.springs);
+        energy.loads += energy::by_loads(&self.loads, at.time, dt, self.term.moved());
         self.viscous_rate = viscous_rate;
         match (self.episodes.last_mut(), self.regime) {
             // Forces are out of balance where the first step to a state of equilibrium begins.

@@ -18,7 +18,7 @@ impl Scheme {
     /// Method of second order whose spectral radius falls monotonically from 1 at low to `radius` at high frequencies, 0 to 1
     /// (equations 17, 20 and 25 there). At radius 1 it is the trapezoidal rule, up to the time at which forces are balanced.
     #[must_use]
-    pub fn of_radius(radius: f64) -> Self {
+    pub fn from_radius(radius: f64) -> Self {
         let (mass, force) = ((2.0 * radius - 1.0) / (radius + 1.0), radius / (radius + 1.0));
         let lag = force - mass;
         Self { mass, force, beta: 0.25 * (1.0 + lag).powi(2), gamma: 0.5 + lag }
@@ -51,7 +51,7 @@ mod tests {
     #[test]
     fn amplitudes_fall_by_the_spectral_radius_at_high_frequencies() {
         for radius in [0.0, 0.5, 0.8, 1.0] {
-            let scheme = Scheme::of_radius(radius);
+            let scheme = Scheme::from_radius(radius);
             let mut state = [1.0, 0.3, -0.2];
             let sizes: Vec<f64> = (0..60)
                 .map(|_| {
@@ -68,7 +68,7 @@ mod tests {
     #[test]
     fn the_local_error_of_displacement_is_the_estimate() {
         for radius in [0.0, 0.5, 0.8, 1.0] {
-            let scheme = Scheme::of_radius(radius);
+            let scheme = Scheme::from_radius(radius);
             let shift = scheme.mass - scheme.force;
             // u = cos(wt) with the acceleration of the method at its shifted time.
             let w: f64 = 1e-3;

@@ -21,7 +21,7 @@ use asperity_fem::FemError;
 use asperity_fem::assembly::{Storage, Symmetry, System};
 use asperity_fem::dof::Constraints;
 use asperity_fem::mass::Mass;
-use asperity_fem::term::{Instant, Limited, Linearized, Objection, Pattern, Refusal, Term};
+use asperity_fem::term::{ForwardTerm, Instant, Linearized, Objection, Pattern, Refusal, Term};
 use serde::{Deserialize, Serialize};
 
 /// Displacement \[m\], velocity \[m/s\] and acceleration \[m/s²\] of all degrees of freedom.
@@ -93,7 +93,7 @@ impl Inertia {
         let now = Motion { u: zero.clone(), v, a: zero.clone() };
         Self {
             mass,
-            scheme: Scheme::of_radius(radius),
+            scheme: Scheme::from_radius(radius),
             constraints: Constraints::default(),
             groups: Vec::new(),
             pace: None,
@@ -133,7 +133,7 @@ impl Inertia {
     pub fn wake(&mut self, time: f64) -> f64 {
         let left_out = self.mass.times(&self.now.a).into_iter().fold(0.0, |most: f64, f| most.max(f.abs()));
         self.now.a.fill(0.0);
-        given::rates(&self.constraints, (time, time), &mut self.now.v, &mut self.now.a);
+        given::rates(&self.constraints, time, time, &mut self.now.v, &mut self.now.a);
         self.fastest = self.kinetic();
         self.reject();
         left_out
@@ -171,7 +171,7 @@ impl Inertia {
     pub fn start(&mut self, r: Vec<f64>, u: &[f64], time: f64) -> Result<f64, FemError> {
         let before = self.kinetic();
         self.now.u.copy_from_slice(u);
-        given::rates(&self.constraints, (time, time), &mut self.now.v, &mut self.now.a);
+        given::rates(&self.constraints, time, time, &mut self.now.v, &mut self.now.a);
         self.join();
         self.balance(&r)?;
         self.held = r;
@@ -314,8 +314,8 @@ impl Inertia {
             next.v[k] = v + dt * ((1.0 - gamma) * a + gamma * next.a[k]);
         }
         let (between, during) = (at.time - force * dt, at.time - 0.5 * dt);
-        given::rates(&self.constraints, (between, during), &mut next.v, &mut self.given);
-        given::rates(&self.constraints, (at.time, during), &mut next.v, &mut next.a);
+        given::rates(&self.constraints, between, during, &mut next.v, &mut self.given);
+        given::rates(&self.constraints, at.time, during, &mut next.v, &mut next.a);
     }
 
     /// Acceleration at the intermediate time.
@@ -426,7 +426,7 @@ impl Linearized for Inertia {
     }
 }
 
-impl Limited for Inertia {
+impl ForwardTerm for Inertia {
     fn rate(&mut self, _at: Instant, _values: &mut [f64], _constant: &mut [f64]) -> Result<(), Refusal> {
         Err(Refusal { term: self.name().into(), reason: "forward steps have no inertia".into() })
     }

@@ -18,7 +18,7 @@ pub(super) struct Anchor {
 impl Anchor {
     /// Places springs on the degrees of freedom `free`, for a matrix whose largest entry is `largest`.
     pub(super) fn new(free: &[usize], largest: f64) -> Self {
-        let pattern = Pattern::of_blocks(free.chunks(1));
+        let pattern = Pattern::from_blocks(free.chunks(1));
         Self { pattern, stiffness: STIFFNESS * largest }
     }
 }

@@ -4,7 +4,7 @@
 //! violation to 1/(1 + E k) of its size, with E the penalty and k the compliance of the bodies at the contact.
 
 use super::implicit::Implicit;
-use super::{Failure, Solved};
+use super::{Failure, SolutionFigures};
 use asperity_fem::term::{Augmented, Instant, Linearized};
 use asperity_run::Operations;
 
@@ -16,9 +16,9 @@ impl Implicit {
         u: &mut Vec<f64>,
         at: Instant,
         counts: &mut Operations,
-    ) -> Result<Solved, Failure> {
+    ) -> Result<SolutionFigures, Failure> {
         let (iterations, residual_ratio) = self.iterate(terms, u, at, counts)?;
-        let mut solved = Solved { iterations, residual_ratio, augmentations: 0 };
+        let mut solved = SolutionFigures { iterations, residual_ratio, augmentations: 0 };
         while let Some(worst) = most_violated(terms) {
             if solved.augmentations >= worst.most() {
                 return Err(Failure::Violated(worst.violated().to_string()));

@@ -10,7 +10,10 @@
 //! ([`super::anchor`]).
 
 use super::anchor::Anchor;
-use super::{Accepted, Balance, Before, Failure, Solved, State, StepperState, accurate, line, unopposed};
+use super::{
+    AcceptedStep, Balance, Failure, SolutionFigures, State, StepperState, SystemCounts, accurate, line,
+    unopposed,
+};
 use asperity_fem::FemError;
 use asperity_fem::assembly::{Symmetry, System};
 use asperity_fem::dof::Constraints;
@@ -158,7 +161,7 @@ impl Implicit {
         state: &mut State,
         dt: f64,
         counts: &mut Operations,
-    ) -> Result<Accepted, Failure> {
+    ) -> Result<AcceptedStep, Failure> {
         let at = Instant { time: state.time + dt, dt };
         let mut u = self.predict(state, dt);
         constraints.impose(at.time, &mut u);
@@ -169,7 +172,7 @@ impl Implicit {
             Ok((solved, accurate(terms, self.bound)?))
         });
         match stands {
-            Ok((Solved { iterations, residual_ratio, augmentations }, error)) => {
+            Ok((SolutionFigures { iterations, residual_ratio, augmentations }, error)) => {
                 for term in terms.iter_mut() {
                     term.accept();
                 }
@@ -178,14 +181,14 @@ impl Implicit {
                 state.u = u;
                 state.time = at.time;
                 let residuals = std::mem::take(&mut self.residuals);
-                Ok(Accepted {
+                Ok(AcceptedStep {
                     dt,
                     iterations,
                     augmentations,
                     residual_ratio,
                     residuals,
                     error,
-                    ..Accepted::default()
+                    ..AcceptedStep::default()
                 })
             }
             Err(why) => {
@@ -216,16 +219,16 @@ impl Implicit {
         at: Instant,
         drift: f64,
         counts: &mut Operations,
-    ) -> Result<Corrected, Failure> {
+    ) -> Result<Correction, Failure> {
         self.residuals.clear();
         prepare(terms, u)?;
         self.evaluate(terms, u, at, counts)?;
         let left = self.ratio(self.norm()?, u);
         if left <= drift {
-            return Ok(Corrected { iterations: 0, drift: left, residual_ratio: left });
+            return Ok(Correction { iterations: 0, drift: left, residual_ratio: left });
         }
         let (iterations, residual_ratio) = self.iterate(terms, u, at, counts)?;
-        Ok(Corrected { iterations, drift: left, residual_ratio })
+        Ok(Correction { iterations, drift: left, residual_ratio })
     }
 
     /// Iterates until forces are in balance and the pairing fits the positions.
@@ -429,7 +432,7 @@ impl Implicit {
         terms: &mut [&mut dyn Linearized],
         counts: &mut Operations,
     ) -> Result<Vec<f64>, FemError> {
-        let before = Before::of(&self.system);
+        let before = SystemCounts::from_system(&self.system);
         let mut rhs = self.system.equations().gather(&self.balance.r);
         rhs.iter_mut().for_each(|r| *r = -*r);
         let solved = self.system.factor_tangent(terms).and_then(|anew| {
@@ -467,7 +470,8 @@ impl Implicit {
         } else if taken || full.slope.abs() <= 0.5 * slope.abs() || slope < 0.0 && full.slope < 0.0 {
             1.0
         } else if slope < 0.0 {
-            line::root((0.0, slope), (1.0, full.slope), !trusted, |s| {
+            let (from, to) = (line::End { at: 0.0, slope }, line::End { at: 1.0, slope: full.slope });
+            line::root(from, to, !trusted, |s| {
                 self.trial(terms, &moved(u, along, s), along, at, counts).slope
             })
         } else if lower {
@@ -493,16 +497,16 @@ impl Implicit {
         at: Instant,
         counts: &mut Operations,
     ) -> f64 {
-        let mut from = (1.0, slope);
-        while STRIDE * from.0 * largest(along) <= self.extent {
-            let s = STRIDE * from.0;
+        let mut from = line::End { at: 1.0, slope };
+        while STRIDE * from.at * largest(along) <= self.extent {
+            let s = STRIDE * from.at;
             let g = self.trial(terms, &moved(u, along, s), along, at, counts).slope;
             if g.is_nan() || g >= 0.0 {
-                return line::root(from, (s, g), true, |s| {
+                return line::root(from, line::End { at: s, slope: g }, true, |s| {
                     self.trial(terms, &moved(u, along, s), along, at, counts).slope
                 });
             }
-            from = (s, g);
+            from = line::End { at: s, slope: g };
         }
         f64::INFINITY
     }
@@ -553,7 +557,7 @@ impl Implicit {
 }
 
 /// A state with its residual removed if that was large.
-pub(super) struct Corrected {
+pub(super) struct Correction {
     pub iterations: usize,
     /// Residual over the largest force before the correction \[-\].
     pub drift: f64,

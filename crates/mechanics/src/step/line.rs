@@ -10,14 +10,23 @@ const NEAR: f64 = 0.1;
 /// Most evaluations of one search. Every second one halves the interval, which is thus reduced to at most a thirtieth.
 const MOST: usize = 10;
 
+/// End of an interval of lengths.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct End {
+    /// Length \[-\].
+    pub at: f64,
+    /// g there.
+    pub slope: f64,
+}
+
 /// Finds a length at which `slope` is about zero, between `from` with a negative slope and `to` with one that is not negative
 /// (or is NaN, if the state cannot be evaluated). The trial points alternate between the middle of the interval and the zero of
 /// a line. The line is the chord or, once two points lie above zero, the line through those, which has the true slope beyond a
 /// kink. Without `sharp` only the chord is used. The search then ends some way beyond a steep kink, where all pairs that close
 /// together are closed.
 pub(super) fn root(
-    (mut from, mut below): (f64, f64),
-    (mut to, mut above): (f64, f64),
+    End { at: mut from, slope: mut below }: End,
+    End { at: mut to, slope: mut above }: End,
     sharp: bool,
     mut slope: impl FnMut(f64) -> f64,
 ) -> f64 {
@@ -54,6 +63,10 @@ pub(super) fn root(
 mod tests {
     use super::*;
 
+    fn end(at: f64, slope: f64) -> End {
+        End { at, slope }
+    }
+
     /// A soft spring that meets a stiff one at s = 0.01.
     fn kinked(s: f64) -> f64 {
         -1.0 + 0.5 * s + 1e6 * (s - 0.01).max(0.0)
@@ -62,7 +75,7 @@ mod tests {
     #[test]
     fn a_root_behind_a_kink_is_found_by_the_slope_beyond_it() {
         let mut count = 0;
-        let s = root((0.0, kinked(0.0)), (1.0, kinked(1.0)), true, |s| {
+        let s = root(end(0.0, kinked(0.0)), end(1.0, kinked(1.0)), true, |s| {
             count += 1;
             kinked(s)
         });
@@ -72,14 +85,14 @@ mod tests {
 
     #[test]
     fn a_search_that_is_not_sharp_ends_beyond_the_kink() {
-        let s = root((0.0, kinked(0.0)), (1.0, kinked(1.0)), false, kinked);
+        let s = root(end(0.0, kinked(0.0)), end(1.0, kinked(1.0)), false, kinked);
         assert!((0.02..0.05).contains(&s), "{s}");
     }
 
     #[test]
     fn a_straight_line_takes_one_evaluation() {
         let mut count = 0;
-        let s = root((0.0, -2.0), (1.0, 6.0), true, |s| {
+        let s = root(end(0.0, -2.0), end(1.0, 6.0), true, |s| {
             count += 1;
             8.0 * s - 2.0
         });
@@ -89,7 +102,7 @@ mod tests {
     #[test]
     fn states_that_cannot_be_evaluated_lie_beyond_the_root() {
         let g = |s: f64| if s > 0.4 { f64::NAN } else { s - 0.3 };
-        let s = root((0.0, g(0.0)), (1.0, g(1.0)), true, g);
+        let s = root(end(0.0, g(0.0)), end(1.0, g(1.0)), true, g);
         assert!((s - 0.3).abs() <= 0.03, "{s}");
     }
 }

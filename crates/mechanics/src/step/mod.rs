@@ -104,13 +104,13 @@ fn accurate<T: Term + ?Sized>(terms: &mut [&mut T], bound: f64) -> Result<f64, F
 
 /// Operations of a linear system before a step.
 #[derive(Clone, Copy)]
-struct Before {
+struct SystemCounts {
     indefinite: usize,
     iterations: usize,
 }
 
-impl Before {
-    fn of(system: &System) -> Self {
+impl SystemCounts {
+    fn from_system(system: &System) -> Self {
         Self { indefinite: system.indefinite, iterations: system.iterations }
     }
 
@@ -123,7 +123,7 @@ impl Before {
 
 /// Figures of a solution.
 #[derive(Clone, Copy, Debug)]
-struct Solved {
+struct SolutionFigures {
     iterations: usize,
     residual_ratio: f64,
     augmentations: usize,
@@ -131,7 +131,7 @@ struct Solved {
 
 /// Figures of an accepted step.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Accepted {
+pub struct AcceptedStep {
     /// Length actually taken \[s\].
     pub dt: f64,
     /// Newton iterations.

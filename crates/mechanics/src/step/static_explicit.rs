@@ -9,10 +9,10 @@
 //! the step is accepted.
 
 use super::implicit::Implicit;
-use super::{Accepted, Before, Cut, Failure, State, StepperState, accurate, unopposed};
+use super::{AcceptedStep, Cut, Failure, State, StepperState, SystemCounts, accurate, unopposed};
 use asperity_fem::assembly::{Symmetry, System};
 use asperity_fem::dof::Constraints;
-use asperity_fem::term::{Fraction, Instant, Limited, Linearized, Pattern};
+use asperity_fem::term::{ForwardTerm, Fraction, Instant, Linearized, Pattern};
 use asperity_run::Operations;
 
 /// Fractions this close to 1 do not bind. Events within 1e-9 of the step's end switch with it.
@@ -89,12 +89,12 @@ impl StaticExplicit {
     /// [`Failure`]; the terms have discarded the trial.
     pub fn step(
         &mut self,
-        terms: &mut [&mut dyn Limited],
+        terms: &mut [&mut dyn ForwardTerm],
         constraints: &Constraints,
         state: &mut State,
         dt: (f64, f64),
         counts: &mut Operations,
-    ) -> Result<Accepted, Failure> {
+    ) -> Result<AcceptedStep, Failure> {
         let result = self
             .foresee(terms, constraints, state, dt, counts)
             .and_then(|foreseen| self.correct(terms, constraints, state, foreseen, counts));
@@ -108,12 +108,12 @@ impl StaticExplicit {
     /// Accuracy does not shorten it below `smallest`.
     fn foresee(
         &mut self,
-        terms: &mut [&mut dyn Limited],
+        terms: &mut [&mut dyn ForwardTerm],
         constraints: &Constraints,
         state: &State,
         (wanted, smallest_step): (f64, f64),
         counts: &mut Operations,
-    ) -> Result<Foreseen, Failure> {
+    ) -> Result<Prediction, Failure> {
         for term in terms.iter_mut() {
             term.prepare(&state.u)?;
         }
@@ -125,7 +125,7 @@ impl StaticExplicit {
             let du = self.solve(terms, constraints, state, at, counts)?;
             left -= 1;
             if left == 0 {
-                return Ok(Foreseen { at, du, cut, cause });
+                return Ok(Prediction { at, du, cut, cause });
             }
             let mut switched = false;
             for term in terms.iter_mut() {
@@ -137,7 +137,7 @@ impl StaticExplicit {
             let limit = smallest(terms, &du, at).filter(|limit| limit.value < WHOLE);
             let shorter = limit.as_ref().map_or(dt, |limit| shortened(limit, dt, (wanted, smallest_step)));
             let Some(limit) = limit.filter(|_| shorter < dt * WHOLE) else {
-                return Ok(Foreseen { at, du, cut, cause });
+                return Ok(Prediction { at, du, cut, cause });
             };
             if shorter <= 0.0 || !shorter.is_finite() {
                 return Err(format!("the step vanishes: {}", limit.cause).into());
@@ -151,12 +151,12 @@ impl StaticExplicit {
     /// Lets the terms respond to the increment, and removes an imbalance above the allowed drift.
     fn correct(
         &mut self,
-        terms: &mut [&mut dyn Limited],
+        terms: &mut [&mut dyn ForwardTerm],
         constraints: &Constraints,
         state: &mut State,
-        Foreseen { at, du, cut, cause }: Foreseen,
+        Prediction { at, du, cut, cause }: Prediction,
         counts: &mut Operations,
-    ) -> Result<Accepted, Failure> {
+    ) -> Result<AcceptedStep, Failure> {
         let mut u: Vec<f64> = state.u.iter().zip(&du).map(|(u, du)| u + du).collect();
         constraints.impose(at.time, &mut u);
         let mut linearized: Vec<&mut dyn Linearized> =
@@ -167,7 +167,7 @@ impl StaticExplicit {
         self.left.clone_from(self.newton.residual());
         state.u = u;
         state.time = at.time;
-        Ok(Accepted {
+        Ok(AcceptedStep {
             dt: at.dt,
             iterations: corrected.iterations,
             residual_ratio: corrected.residual_ratio,
@@ -175,14 +175,14 @@ impl StaticExplicit {
             error,
             limited_by: cause,
             cut,
-            ..Accepted::default()
+            ..AcceptedStep::default()
         })
     }
 
     /// Solves `K Δu = ΔF - r` over the step `at`, with r the residual left by the previous step.
     fn solve(
         &mut self,
-        terms: &mut [&mut dyn Limited],
+        terms: &mut [&mut dyn ForwardTerm],
         constraints: &Constraints,
         state: &State,
         at: Instant,
@@ -191,7 +191,7 @@ impl StaticExplicit {
         let system = self.newton.system_mut();
         let mut du = prescribed_increment(constraints, state, at);
         let mut load = if self.left.is_empty() { vec![0.0; state.u.len()] } else { self.left.clone() };
-        let before = Before::of(system);
+        let before = SystemCounts::from_system(system);
         let factored = system.factor_rate(terms, |t, values| {
             t.rate(at, values, &mut load)?;
             add_product(t.pattern(), values, &du, &mut load);
@@ -214,7 +214,7 @@ impl StaticExplicit {
 }
 
 /// A predicted step to which the terms have not yet responded.
-struct Foreseen {
+struct Prediction {
     at: Instant,
     du: Vec<f64>,
     cut: Cut,
@@ -260,7 +260,7 @@ fn add_product(pattern: &Pattern, values: &[f64], du: &[f64], r: &mut [f64]) {
 }
 
 /// Smallest admissible fraction over all terms.
-fn smallest(terms: &mut [&mut dyn Limited], du: &[f64], at: Instant) -> Option<Fraction> {
+fn smallest(terms: &mut [&mut dyn ForwardTerm], du: &[f64], at: Instant) -> Option<Fraction> {
     let mut smallest: Option<Fraction> = None;
     for term in terms.iter_mut() {
         if let Some(limit) = term.limit(du, at)

@@ -2,10 +2,10 @@
 
 use super::implicit::Implicit;
 use super::static_explicit::StaticExplicit;
-use super::{Accepted, Failure, State, StepperState};
+use super::{AcceptedStep, Failure, State, StepperState};
 use asperity_fem::assembly::{Symmetry, System};
 use asperity_fem::dof::Constraints;
-use asperity_fem::term::{Limited, Linearized};
+use asperity_fem::term::{ForwardTerm, Linearized};
 use asperity_run::Operations;
 
 /// A stepper of either kind.
@@ -22,12 +22,12 @@ pub trait Stepper {
     /// [`Failure`]; the terms have discarded the trial.
     fn step(
         &mut self,
-        terms: &mut [&mut dyn Limited],
+        terms: &mut [&mut dyn ForwardTerm],
         constraints: &Constraints,
         state: &mut State,
         dt: (f64, f64),
         counts: &mut Operations,
-    ) -> Result<Accepted, Failure>;
+    ) -> Result<AcceptedStep, Failure>;
 
     /// Sets the largest error of friction coefficients with which a step is accepted \[-\].
     fn set_bound(&mut self, bound: f64);
@@ -58,12 +58,12 @@ impl Stepper for Implicit {
 
     fn step(
         &mut self,
-        terms: &mut [&mut dyn Limited],
+        terms: &mut [&mut dyn ForwardTerm],
         constraints: &Constraints,
         state: &mut State,
         (dt, _): (f64, f64),
         counts: &mut Operations,
-    ) -> Result<Accepted, Failure> {
+    ) -> Result<AcceptedStep, Failure> {
         let mut terms: Vec<&mut dyn Linearized> =
             terms.iter_mut().map(|term| &mut **term as &mut dyn Linearized).collect();
         Implicit::step(self, &mut terms, constraints, state, dt, counts)
@@ -100,12 +100,12 @@ impl Stepper for StaticExplicit {
 
     fn step(
         &mut self,
-        terms: &mut [&mut dyn Limited],
+        terms: &mut [&mut dyn ForwardTerm],
         constraints: &Constraints,
         state: &mut State,
         dt: (f64, f64),
         counts: &mut Operations,
-    ) -> Result<Accepted, Failure> {
+    ) -> Result<AcceptedStep, Failure> {
         StaticExplicit::step(self, terms, constraints, state, dt, counts)
     }
 

@@ -2,7 +2,7 @@
 
 use crate::CellBlock;
 use asperity_fem::dof::Constraints;
-use asperity_fem::term::Limited;
+use asperity_fem::term::ForwardTerm;
 use asperity_run::Operations;
 use serde::{Deserialize, Serialize};
 
@@ -26,7 +26,7 @@ pub trait Bodies<const D: usize> {
     fn load(&mut self, constraints: &Constraints, renewed: bool) -> Result<(), String>;
 
     /// Terms of the bodies in the system.
-    fn terms(&mut self) -> Vec<&mut dyn Limited>;
+    fn terms(&mut self) -> Vec<&mut dyn ForwardTerm>;
 
     /// Displacement of all degrees of freedom of the mesh, from those of the system and the time \[s\].
     fn displacement(&self, u: &[f64], time: f64) -> Vec<f64>;

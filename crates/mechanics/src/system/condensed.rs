@@ -1,19 +1,19 @@
 //! Bodies condensed onto the degrees of freedom of their interfaces.
 
 use super::bodies::{Bodies, BodiesState};
-use crate::solver::{self, Prepared};
+use crate::solver::{self, Analyses};
 use crate::{CellBlock, Problem, free};
 use asperity_fem::FemError;
-use asperity_fem::condense::{Analysis, Condensation, Condensed};
+use asperity_fem::condense::{Analysis, Condensation, CondensedBody};
 use asperity_fem::dof::{Channel, Constraints};
-use asperity_fem::term::Limited;
+use asperity_fem::term::ForwardTerm;
 use asperity_run::Operations;
 
 /// One term per body, on its retained degrees of freedom; none before the first stage.
 pub struct CondensedBodies<'a, const D: usize> {
     problem: &'a Problem<D>,
     retained: Vec<Vec<usize>>,
-    terms: Vec<Condensed>,
+    terms: Vec<CondensedBody>,
     factorisations: usize,
     solves: usize,
 }
@@ -43,8 +43,8 @@ impl<const D: usize> Bodies<D> for CondensedBodies<'_, D> {
         Ok(())
     }
 
-    fn terms(&mut self) -> Vec<&mut dyn Limited> {
-        self.terms.iter_mut().map(|b| b as &mut dyn Limited).collect()
+    fn terms(&mut self) -> Vec<&mut dyn ForwardTerm> {
+        self.terms.iter_mut().map(|b| b as &mut dyn ForwardTerm).collect()
     }
 
     fn displacement(&self, u: &[f64], time: f64) -> Vec<f64> {
@@ -78,11 +78,11 @@ fn condense<const D: usize>(
     problem: &Problem<D>,
     retained: &[Vec<usize>],
     constraints: &Constraints,
-) -> Result<Vec<Condensed>, String> {
+) -> Result<Vec<CondensedBody>, String> {
     let mut first = 0;
     let mut terms = Vec::new();
     let prepared = match &problem.solver.prepared {
-        Prepared::Bodies(analyses) if constraints.fixed == problem.stages[0].fixed => Some(analyses),
+        Analyses::Bodies(analyses) if constraints.fixed == problem.stages[0].fixed => Some(analyses),
         _ => None,
     };
     let mut left = problem.solver.memory;
@@ -106,7 +106,7 @@ fn condense<const D: usize>(
         left = left.saturating_sub(bytes);
         let system: Vec<usize> = (first..first + retained.len()).collect();
         first += retained.len();
-        terms.push(Condensed::new(format!("body `{}`", body.name), reduction, &system));
+        terms.push(CondensedBody::new(format!("body `{}`", body.name), reduction, &system));
     }
     Ok(terms)
 }

@@ -4,17 +4,17 @@ use super::bodies::{Bodies, BodiesState};
 use crate::{CellBlock, Model};
 use asperity_fem::dof::Constraints;
 use asperity_fem::loads::ExternalForces;
-use asperity_fem::term::{Limited, Saved as _};
+use asperity_fem::term::{ForwardTerm, Restorable as _};
 use asperity_run::Operations;
 
 /// Cell blocks and loads on all degrees of freedom.
-pub struct Full<const D: usize> {
+pub struct FullBodies<const D: usize> {
     dofs: usize,
     blocks: Vec<CellBlock<D>>,
     loads: ExternalForces,
 }
 
-impl<const D: usize> Full<D> {
+impl<const D: usize> FullBodies<D> {
     /// Takes the bodies of a model.
     #[must_use]
     pub fn new(model: &Model<D>) -> Self {
@@ -22,15 +22,15 @@ impl<const D: usize> Full<D> {
     }
 }
 
-impl<const D: usize> Bodies<D> for Full<D> {
+impl<const D: usize> Bodies<D> for FullBodies<D> {
     fn load(&mut self, constraints: &Constraints, _renewed: bool) -> Result<(), String> {
         let forces = constraints.channels.iter().map(|c| (c.forces.clone(), c.amplitude.clone()));
         self.loads = ExternalForces::new(forces.collect());
         Ok(())
     }
 
-    fn terms(&mut self) -> Vec<&mut dyn Limited> {
-        let loads = std::iter::once(&mut self.loads as &mut dyn Limited);
+    fn terms(&mut self) -> Vec<&mut dyn ForwardTerm> {
+        let loads = std::iter::once(&mut self.loads as &mut dyn ForwardTerm);
         self.blocks.iter_mut().map(CellBlock::limited).chain(loads).collect()
     }
 

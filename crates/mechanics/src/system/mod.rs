@@ -11,31 +11,31 @@ mod words;
 
 use self::bodies::Bodies;
 use self::condensed::CondensedBodies;
-use self::full::Full;
+use self::full::FullBodies;
 use self::numbering::Numbering;
 pub use self::saved::{Mismatch, SystemState};
 use self::springs::Springs;
-use super::samples::Beside;
-use super::solver::{self, Method, Prepared};
+use super::samples::ForeignLoads;
+use super::solver::{self, Analyses, Method};
 use super::step::implicit::Implicit;
 use super::step::static_explicit::StaticExplicit;
-use super::step::{Accepted, Failure, State, Stepper};
-use super::{CellBlock, Path, PlannedInterface, Problem, Resolved, Stage, declared};
-use crate::inertia::Moving;
-use crate::{Samples, SpringNow, SpringStart};
+use super::step::{AcceptedStep, Failure, State, Stepper};
+use super::{CellBlock, Path, PlannedInterface, Problem, Stage, ZoneResolution, declared};
+use crate::inertia::InertialSystem;
+use crate::{Samples, SpringStart, SpringState};
 use asperity_contact::{Interface, TimeRule};
 use asperity_fem::assembly::{Iterative, NearNull, Storage, System};
 use asperity_fem::dof::Constraints;
-use asperity_fem::term::Limited;
+use asperity_fem::term::ForwardTerm;
 use asperity_run::Operations;
 
 /// Terms, constraints, stepper and state of a problem.
-pub struct Assembled<'a, const D: usize> {
+pub struct AssembledProblem<'a, const D: usize> {
     problem: &'a Problem<D>,
     bodies: Box<dyn Bodies<D> + 'a>,
     interfaces: Vec<Interface<D>>,
     /// Inertia, if the bodies have mass.
-    moving: Option<Moving<D>>,
+    moving: Option<InertialSystem<D>>,
     numbering: Numbering,
     /// Constraints of the present stage, in system numbering.
     constraints: Constraints,
@@ -54,10 +54,10 @@ pub struct Assembled<'a, const D: usize> {
     /// Areas of the points of each interface at the start \[m², m in two dimensions\].
     areas: Vec<Vec<f64>>,
     /// Loads of the present stage on the nodes of each requested set that do not belong to the set.
-    beside: Vec<Beside>,
+    beside: Vec<ForeignLoads>,
 }
 
-impl<'a, const D: usize> Assembled<'a, D> {
+impl<'a, const D: usize> AssembledProblem<'a, D> {
     /// Builds interfaces and the numbering of the system.
     ///
     /// # Errors
@@ -70,7 +70,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
                 let numbering = Numbering::condensed(model, &retained);
                 (Box::new(CondensedBodies::new(problem, retained)), numbering)
             }
-            Path::Full => (Box::new(Full::new(model)), Numbering::full(model)),
+            Path::Full => (Box::new(FullBodies::new(model)), Numbering::full(model)),
         };
         let (mut interfaces, mut unknowns) = (Vec::new(), numbering.dofs);
         for planned in &problem.interfaces {
@@ -82,7 +82,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
             bodies,
             areas: interfaces.iter().map(|i| i.points().area.clone()).collect(),
             interfaces,
-            moving: problem.mass.as_ref().map(|mass| Moving::new(model, mass)),
+            moving: problem.mass.as_ref().map(|mass| InertialSystem::new(model, mass)),
             numbering,
             constraints: Constraints::default(),
             fixed: None,
@@ -142,7 +142,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
     }
 
     /// Degrees of freedom of the mesh that each spring pulls, with its present state.
-    fn pulled_by(&self) -> Vec<(Vec<usize>, SpringNow)> {
+    fn pulled_by(&self) -> Vec<(Vec<usize>, SpringState)> {
         self.pulled.iter().cloned().zip(self.springs()).collect()
     }
 
@@ -164,7 +164,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
 
     /// States of the springs of the present stage, in its order.
     #[must_use]
-    pub fn springs(&self) -> Vec<SpringNow> {
+    pub fn springs(&self) -> Vec<SpringState> {
         springs::now(self.springs.as_ref(), &self.state)
     }
 
@@ -202,7 +202,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
             Method::Dense => System::new(equations, Storage::Dense),
             Method::Sparse => {
                 let analysis = match &solver.prepared {
-                    Prepared::System(analysis) => Some(analysis.clone()),
+                    Analyses::System(analysis) => Some(analysis.clone()),
                     _ => None,
                 };
                 System::new(equations, Storage::Sparse).prepared(solver.memory, analysis)
@@ -214,7 +214,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
     ///
     /// # Errors
     /// [`Failure`], in which case nothing was committed.
-    pub fn step(&mut self, (dt, smallest): (f64, f64), counts: &mut Operations) -> Result<Accepted, Failure> {
+    pub fn step(&mut self, dt: f64, smallest: f64, counts: &mut Operations) -> Result<AcceptedStep, Failure> {
         self.start_moving(dt, counts)?;
         let Some(stepper) = &mut self.stepper else {
             return Err(Failure::Refused("no stage has begun".into()));
@@ -297,7 +297,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
 
     /// Resolution of the cohesive zone by the points of the interface of this name, if its friction weakens.
     #[must_use]
-    pub fn resolved(&self, interface: &str) -> Option<&Resolved> {
+    pub fn resolved(&self, interface: &str) -> Option<&ZoneResolution> {
         self.problem.interfaces.iter().find(|i| i.name == interface)?.resolved.as_ref()
     }
 
@@ -320,9 +320,9 @@ impl<'a, const D: usize> Assembled<'a, D> {
         if wanted.is_empty() {
             return Samples::default();
         }
-        let now = (self.displacement(), self.state.time);
-        let bodies = (self.blocks(), problem.initial_stress.as_slice());
-        let mut samples = wanted.values(&problem.model, bodies, (&now.0, now.1), &self.beside);
+        let (u, blocks) = (self.displacement(), self.blocks());
+        let mut samples =
+            wanted.values(&problem.model, blocks, &problem.initial_stress, &u, self.state.time, &self.beside);
         if let Some(moving) = self.moving.as_ref().filter(|_| !wanted.forces.is_empty()) {
             let inertial = moving.forces();
             for (force, set) in samples.forces.iter_mut().zip(&wanted.forces) {
@@ -348,12 +348,12 @@ fn terms<'t, const D: usize>(
     bodies: &'t mut (dyn Bodies<D> + '_),
     springs: &'t mut Option<Springs>,
     interfaces: &'t mut [Interface<D>],
-    moving: Option<&'t mut Moving<D>>,
-) -> Vec<&'t mut dyn Limited> {
+    moving: Option<&'t mut InertialSystem<D>>,
+) -> Vec<&'t mut dyn ForwardTerm> {
     let mut terms = bodies.terms();
-    terms.extend(springs.iter_mut().map(|s| s as &mut dyn Limited));
-    terms.extend(interfaces.iter_mut().map(|i| i as &mut dyn Limited));
-    terms.extend(moving.and_then(Moving::term));
+    terms.extend(springs.iter_mut().map(|s| s as &mut dyn ForwardTerm));
+    terms.extend(interfaces.iter_mut().map(|i| i as &mut dyn ForwardTerm));
+    terms.extend(moving.and_then(InertialSystem::term));
     terms
 }
 

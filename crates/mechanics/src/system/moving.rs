@@ -1,7 +1,7 @@
 //! Inertia of a system between its steps.
 
-use super::{Assembled, springs, terms};
-use crate::inertia::{Energy, Episode, Moving, View};
+use super::{AssembledProblem, springs, terms};
+use crate::inertia::{Energy, Episode, InertialSystem, View};
 use crate::step::{Balance, Failure};
 use asperity_fem::term::Instant;
 use asperity_run::Operations;
@@ -10,7 +10,7 @@ use asperity_run::Operations;
 /// surfaces slip by this share of what they do in the first step, which is far below the error of the step.
 const INSTANT: f64 = 1e-6;
 
-impl<const D: usize> Assembled<'_, D> {
+impl<const D: usize> AssembledProblem<'_, D> {
     /// Prepares bodies with mass for a step of length `dt`. Before the first step of a stage this finds their accelerations from
     /// the forces under the conditions of the stage.
     pub(super) fn start_moving(&mut self, dt: f64, counts: &mut Operations) -> Result<(), Failure> {
@@ -56,7 +56,7 @@ impl<const D: usize> Assembled<'_, D> {
     /// Passages with inertia so far.
     #[must_use]
     pub fn episodes(&self) -> &[Episode] {
-        self.moving.as_ref().map_or(&[], Moving::episodes)
+        self.moving.as_ref().map_or(&[], InertialSystem::episodes)
     }
 
     /// Energy budget of bodies with mass.

@@ -3,12 +3,12 @@
 
 use super::bodies::BodiesState;
 use super::springs::Springs;
-use super::{Assembled, terms};
-use crate::inertia::{MassState, Moving};
+use super::{AssembledProblem, terms};
+use crate::inertia::{InertialSystem, MassState};
 use crate::step::StepperState;
 use crate::{SpringStart, Stage};
 use asperity_contact::InterfaceState;
-use asperity_fem::term::{Linearized, Saved as _};
+use asperity_fem::term::{Linearized, Restorable as _};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -96,11 +96,11 @@ impl fmt::Display for Mismatch {
 
 impl std::error::Error for Mismatch {}
 
-impl<const D: usize> Assembled<'_, D> {
+impl<const D: usize> AssembledProblem<'_, D> {
     /// State between two steps of the present stage.
     #[must_use]
     pub fn save(&mut self) -> SystemState {
-        let interfaces = self.interfaces.iter().map(asperity_fem::term::Saved::save).collect();
+        let interfaces = self.interfaces.iter().map(asperity_fem::term::Restorable::save).collect();
         let stepper = match &self.stepper {
             Some(stepper) => {
                 let terms = terms(
@@ -121,7 +121,7 @@ impl<const D: usize> Assembled<'_, D> {
             bodies: self.bodies.save(),
             interfaces,
             stepper,
-            mass: self.moving.as_ref().map(Moving::save),
+            mass: self.moving.as_ref().map(InertialSystem::save),
             springs: self.springs.as_ref().map_or_else(Vec::new, Springs::starts),
         }
     }

@@ -6,22 +6,22 @@
 
 use super::numbering::Numbering;
 use crate::step::State;
-use crate::{Drawn, Spring, SpringNow, SpringStart, Stage};
-use asperity_fem::term::{Instant, Limited, Linearized, Pattern, Refusal, Term};
+use crate::{Spring, SpringStart, SpringState, Stage, Travel};
+use asperity_fem::term::{ForwardTerm, Instant, Linearized, Pattern, Refusal, Term};
 
 /// A spring with the degree of freedom of the system on which it acts.
 #[derive(Clone, Debug)]
-struct Attached {
+struct AttachedSpring {
     dof: usize,
     stiffness: f64,
-    drawn: Drawn,
+    drawn: Travel,
     start: SpringStart,
 }
 
 /// The springs of a stage.
 #[derive(Debug)]
 pub(super) struct Springs {
-    list: Vec<Attached>,
+    list: Vec<AttachedSpring>,
     pattern: Pattern,
     stiffness: Vec<f64>,
 }
@@ -29,22 +29,22 @@ pub(super) struct Springs {
 impl Springs {
     /// Attaches the springs of a stage; `None` without springs.
     pub fn new(stage: &Stage, numbering: &Numbering, starts: &[SpringStart]) -> Option<Self> {
-        let attached = |(spring, start): (&Spring, &SpringStart)| Attached {
+        let attached = |(spring, start): (&Spring, &SpringStart)| AttachedSpring {
             dof: numbering.number[spring.dofs[0]],
             stiffness: spring.stiffness,
-            drawn: spring.rate.drawn((stage.start, stage.end)),
+            drawn: spring.rate.drawn(stage.start, stage.end),
             start: *start,
         };
-        let list: Vec<Attached> = stage.springs.iter().zip(starts).map(attached).collect();
+        let list: Vec<AttachedSpring> = stage.springs.iter().zip(starts).map(attached).collect();
         let dofs: Vec<usize> = list.iter().map(|s| s.dof).collect();
         let stiffness = list.iter().map(|s| s.stiffness).collect();
-        let pattern = Pattern::of_blocks(dofs.chunks(1));
+        let pattern = Pattern::from_blocks(dofs.chunks(1));
         (!list.is_empty()).then_some(Self { list, pattern, stiffness })
     }
 
     /// States of the springs at displacements `u` of the system and time \[s\].
-    pub fn now(&self, u: &[f64], time: f64) -> impl Iterator<Item = SpringNow> {
-        self.list.iter().map(move |s| SpringNow::of(&s.start, s.stiffness, s.drawn.at(time), u[s.dof]))
+    pub fn now(&self, u: &[f64], time: f64) -> impl Iterator<Item = SpringState> {
+        self.list.iter().map(move |s| SpringState::new(&s.start, s.stiffness, s.drawn.at(time), u[s.dof]))
     }
 
     /// States at the start of the stage.
@@ -54,7 +54,7 @@ impl Springs {
 }
 
 /// Present states of the springs of a stage, if it has any, in its order.
-pub(super) fn now(springs: Option<&Springs>, state: &State) -> Vec<SpringNow> {
+pub(super) fn now(springs: Option<&Springs>, state: &State) -> Vec<SpringState> {
     springs.map_or_else(Vec::new, |springs| springs.now(&state.u, state.time).collect())
 }
 
@@ -62,15 +62,17 @@ pub(super) fn now(springs: Option<&Springs>, state: &State) -> Vec<SpringNow> {
 /// held its set, the sum of the `reactions` there.
 pub(super) fn starts(
     stage: &Stage,
-    before: &[(Vec<usize>, SpringNow)],
+    before: &[(Vec<usize>, SpringState)],
     reaction: impl Fn(usize) -> f64,
     u0: &[f64],
 ) -> Vec<SpringStart> {
     let start = |spring: &Spring| {
         let old = before.iter().find(|(dofs, _)| *dofs == spring.dofs).map(|(_, now)| now);
-        let new =
-            || SpringNow { force: spring.dofs.iter().map(|&d| reaction(d)).sum(), ..SpringNow::default() };
-        let SpringNow { force, load_point, .. } = old.copied().unwrap_or_else(new);
+        let new = || SpringState {
+            force: spring.dofs.iter().map(|&d| reaction(d)).sum(),
+            ..SpringState::default()
+        };
+        let SpringState { force, load_point, .. } = old.copied().unwrap_or_else(new);
         SpringStart { force, load_point, displacement: u0[spring.dofs[0]] }
     };
     stage.springs.iter().map(start).collect()
@@ -107,7 +109,7 @@ impl Linearized for Springs {
     }
 }
 
-impl Limited for Springs {
+impl ForwardTerm for Springs {
     fn rate(&mut self, at: Instant, values: &mut [f64], constant: &mut [f64]) -> Result<(), Refusal> {
         self.tangent(values);
         for spring in &self.list {

@@ -1,9 +1,9 @@
 //! Descriptions of failed steps.
 
-use super::Assembled;
+use super::AssembledProblem;
 use crate::{Failure, free};
 
-impl<const D: usize> Assembled<'_, D> {
+impl<const D: usize> AssembledProblem<'_, D> {
     /// Describes a failed step, with degrees of freedom given by body and position.
     #[must_use]
     pub fn in_words(&self, failure: &Failure) -> String {
@@ -22,9 +22,12 @@ impl<const D: usize> Assembled<'_, D> {
                 }
                 free::unsolved(&self.problem.model, error, |dof| self.node_of(dof))
             }
-            Failure::Adrift { dof } => self
-                .multiplier_in_words(*dof, &self.numbering.nodes)
-                .unwrap_or_else(|| free::adrift(&self.problem.model, self.node_of(*dof))),
+            Failure::Adrift { dof } => {
+                self.multiplier_in_words(*dof, &self.numbering.nodes).unwrap_or_else(|| {
+                    let (node, component) = self.node_of(*dof);
+                    free::adrift(&self.problem.model, node, component)
+                })
+            }
         }
     }
 

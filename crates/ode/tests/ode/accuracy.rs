@@ -4,8 +4,8 @@ use super::common::*;
 use asperity_ode::{Method, integrate};
 
 /// y0' = y0 y1, y1' = -2 t y1^2 with y0 = exp(arctan t), y1 = 1/(1 + t^2).
-fn bell() -> Given {
-    Given {
+fn bell() -> TestProblem {
+    TestProblem {
         zero: START,
         size: 2,
         events: 0,
@@ -94,7 +94,7 @@ fn radau5_is_of_order_five_with_dense_output_of_order_three() {
 #[test]
 fn implicit_methods_pass_a_fast_relaxation_in_few_steps() {
     // y' = -1e6 (y - cos t) - sin t with y = cos t after the start.
-    let relaxation = Given {
+    let relaxation = TestProblem {
         rates: |t, y, dy| dy[0] = -1e6 * (y[0] - t.cos()) - t.sin(),
         jacobian: |_, _, j| j[0] = -1e6,
         ..draining()
@@ -110,7 +110,7 @@ fn implicit_methods_pass_a_fast_relaxation_in_few_steps() {
 
 #[test]
 fn implicit_methods_follow_a_stiff_van_der_pol_oscillator() {
-    let stiff = Given {
+    let stiff = TestProblem {
         size: 2,
         rates: |_, y, dy| (dy[0], dy[1]) = (y[1], 1000.0 * (1.0 - y[0] * y[0]) * y[1] - y[0]),
         jacobian: |_, y, j| {
@@ -175,7 +175,7 @@ fn nothing_happens_in_no_time() {
 #[test]
 fn many_unknowns_are_integrated_like_two() {
     // Decays at ten rates.
-    let decays = Given {
+    let decays = TestProblem {
         zero: START,
         size: 10,
         events: 0,

@@ -19,7 +19,7 @@ fn a_clock_loses_nothing_when_its_zero_moves() {
 #[test]
 fn events_a_microsecond_apart_are_resolved_after_thirty_years() {
     let late = Clock::new(1e9, 0.0);
-    let fast = Given {
+    let fast = TestProblem {
         zero: late,
         size: 2,
         events: 1,

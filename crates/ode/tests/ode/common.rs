@@ -1,13 +1,13 @@
 //! Problems, and a sink that records the solution and checks its consistency.
 
-use asperity_ode::{Clock, Control, Finished, Method, Occurrence, Options, Outcome, Problem, Sink, Step};
+use asperity_ode::{Clock, Control, Method, Occurrence, Options, Outcome, Problem, Sink, Solution, Step};
 
 type Rates = fn(f64, &[f64], &mut [f64]);
 type Jacobian = fn(f64, &[f64], &mut [f64]);
 type Events = fn(f64, &[f64], &mut [f64]);
 
 /// A problem of functions of the time since `zero`.
-pub struct Given {
+pub struct TestProblem {
     pub zero: Clock,
     pub size: usize,
     pub events: usize,
@@ -16,7 +16,7 @@ pub struct Given {
     pub event: Events,
 }
 
-impl Problem for Given {
+impl Problem for TestProblem {
     fn size(&self) -> usize {
         self.size
     }
@@ -110,8 +110,8 @@ pub fn options(method: Method, tolerance: f64, n: usize) -> Options {
 
 pub fn no_events(_: f64, _: &[f64], _: &mut [f64]) {}
 
-pub fn oscillator() -> Given {
-    Given {
+pub fn oscillator() -> TestProblem {
+    TestProblem {
         zero: START,
         size: 2,
         events: 1,
@@ -122,8 +122,8 @@ pub fn oscillator() -> Given {
 }
 
 /// y' = 1 with three thresholds: two close together, and two at the same time.
-pub fn ramp() -> Given {
-    Given {
+pub fn ramp() -> TestProblem {
+    TestProblem {
         zero: START,
         size: 2,
         events: 5,
@@ -140,8 +140,8 @@ pub fn ramp() -> Given {
 }
 
 /// y' = -sqrt(y): y = (1 - t/2)^2, and no rates beyond t = 2.
-pub fn draining() -> Given {
-    Given {
+pub fn draining() -> TestProblem {
+    TestProblem {
         zero: START,
         size: 1,
         events: 0,
@@ -151,6 +151,6 @@ pub fn draining() -> Given {
     }
 }
 
-pub fn completed(finished: &Finished) {
+pub fn completed(finished: &Solution) {
     assert_eq!(finished.outcome, Outcome::Completed, "{finished:?}");
 }

@@ -60,7 +60,7 @@ fn events_in_one_step_are_found_in_order_of_time() {
 
 #[test]
 fn two_changes_of_one_function_within_a_step_are_found() {
-    let dip = Given { event: |t, _, g| g[0] = (t - 0.52) * (t - 0.52) - 1e-4, events: 1, ..ramp() };
+    let dip = TestProblem { event: |t, _, g| g[0] = (t - 0.52) * (t - 0.52) - 1e-4, events: 1, ..ramp() };
     for method in Method::ALL {
         let mut record = Record::new();
         let mut given = options(method, 1e-3, 2);
@@ -105,15 +105,15 @@ fn an_integration_goes_on_from_an_event_without_finding_it_again() {
 }
 
 /// y0' = 1 and y1' = 0.
-fn unit_ramp() -> Given {
-    Given { rates: |_, _, dy| (dy[0], dy[1]) = (1.0, 0.0), ..ramp() }
+fn unit_ramp() -> TestProblem {
+    TestProblem { rates: |_, _, dy| (dy[0], dy[1]) = (1.0, 0.0), ..ramp() }
 }
 
 #[test]
 fn an_event_at_the_end_or_just_before_it_is_found() {
     for method in Method::ALL {
         for place in [1.0, 1.0 - 1e-9, 1e-9] {
-            let given = Given { events: 1, event: |t, y, g| g[0] = t - y[1], ..unit_ramp() };
+            let given = TestProblem { events: 1, event: |t, y, g| g[0] = t - y[1], ..unit_ramp() };
             let mut record = Record::new();
             completed(&integrate(&given, START, &[0.0, place], 1.0, &options(method, 1e-6, 2), &mut record));
             assert_eq!(record.occurrences.len(), 1, "{} at {place}", method.name());

@@ -18,7 +18,7 @@ fn rates_that_are_not_finite_shorten_the_step() {
 
 #[test]
 fn where_no_step_has_finite_rates_the_last_good_state_is_returned() {
-    let wall = Given {
+    let wall = TestProblem {
         rates: |_, y, dy| dy[0] = if y[0] > 0.25 { -1.0 } else { f64::NAN },
         jacobian: |_, _, j| j[0] = 0.0,
         ..draining()

@@ -3,7 +3,7 @@
 //! Units are dyn cm, degrees, km and s. The first line is the hypocentre. The position of the centroid is the mean position of
 //! slip and its time the onset (zero shift). The half duration is half the time above the thresholds.
 
-use super::event::Located;
+use super::event::SourceParameters;
 use crate::decimals::{fixed, scientific};
 use jiff::tz::TimeZone;
 use std::fmt::Write as _;
@@ -13,7 +13,7 @@ const DYNE_CM: f64 = 1e7;
 
 /// The file; `None` if the moment is unknown because the length out of the plane is not declared.
 #[must_use]
-pub fn cmtsolution(title: &str, events: &[Located]) -> Option<String> {
+pub fn cmtsolution(title: &str, events: &[SourceParameters]) -> Option<String> {
     let mut text = String::new();
     for (k, event) in events.iter().enumerate() {
         let (spot, centroid, magnitude) = (&event.hypocentre, &event.centroid, event.magnitude?);

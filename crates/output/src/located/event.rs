@@ -18,7 +18,8 @@ pub struct Spot {
 
 /// Seismological parameters of an event.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct Located {
+#[schemars(rename = "Located")]
+pub struct SourceParameters {
     /// Time of the onset, UTC.
     pub time: String,
     /// Position of the onset.

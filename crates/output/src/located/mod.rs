@@ -7,7 +7,7 @@ mod quakeml;
 mod tensor;
 
 pub use cmtsolution::cmtsolution;
-pub use event::{Located, Spot, magnitude};
+pub use event::{SourceParameters, Spot, magnitude};
 pub use fsp::{Row, Segment, SourceModel};
 pub use quakeml::quakeml;
 pub use tensor::{Plane, Tensor};

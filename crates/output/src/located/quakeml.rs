@@ -1,6 +1,6 @@
 //! The catalogue as QuakeML 1.2, basic event description: https://quake.ethz.ch/quakeml.
 
-use super::event::{Located, Spot};
+use super::event::{SourceParameters, Spot};
 use super::tensor::{Plane, Tensor};
 use crate::decimals::shortest_scientific;
 use crate::vtu::admitted;
@@ -17,7 +17,7 @@ const SAID: &str = "Simulated event: no such earthquake has happened.";
 ///
 /// # Errors
 /// Only errors of the writer to memory.
-pub fn quakeml(title: &str, id: &str, events: &[Located]) -> io::Result<Vec<u8>> {
+pub fn quakeml(title: &str, id: &str, events: &[SourceParameters]) -> io::Result<Vec<u8>> {
     let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
     xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
     let root = xml.create_element("q:quakeml").with_attributes([
@@ -60,7 +60,7 @@ fn number(xml: &mut Xml, name: &str, value: f64) -> io::Result<()> {
     quantity(xml, name, &shortest_scientific(value))
 }
 
-fn event(xml: &mut Xml, title: &str, id: &str, located: &Located) -> io::Result<()> {
+fn event(xml: &mut Xml, title: &str, id: &str, located: &SourceParameters) -> io::Result<()> {
     let (origin_id, focal_id) = (format!("{id}/origin"), format!("{id}/focalMechanism"));
     let element = xml.create_element("event").with_attribute(("publicID", id));
     element.write_inner_content(|xml| {
@@ -108,7 +108,7 @@ fn origin(xml: &mut Xml, id: &str, time: &str, spot: &Spot) -> io::Result<()> {
     Ok(())
 }
 
-fn mechanism(xml: &mut Xml, id: &str, origin_id: &str, located: &Located) -> io::Result<()> {
+fn mechanism(xml: &mut Xml, id: &str, origin_id: &str, located: &SourceParameters) -> io::Result<()> {
     let element = xml.create_element("focalMechanism").with_attribute(("publicID", id));
     element.write_inner_content(|xml| {
         text(xml, "triggeringOriginID", origin_id)?;

@@ -26,19 +26,19 @@ pub struct Plane {
 impl Tensor {
     /// Tensor with these components in east, north, up.
     #[must_use]
-    pub fn of_east_north_up(m: &Matrix3<f64>) -> Self {
+    pub fn from_east_north_up(m: &Matrix3<f64>) -> Self {
         Self([m[(2, 2)], m[(1, 1)], m[(0, 0)], -m[(1, 2)], m[(0, 2)], -m[(0, 1)]])
     }
 
     /// Double couple of a plane with this moment \[N m\].
     #[must_use]
-    pub fn of_plane(plane: &Plane, moment: f64) -> Self {
+    pub fn from_plane(plane: &Plane, moment: f64) -> Self {
         let [normal, slip] = plane.vectors();
         let mut m = normal * slip.transpose() * moment;
         m += m.transpose();
         // Rotation from north, east, down to east, north, up.
         let turn = Matrix3::new(0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.0);
-        Self::of_east_north_up(&(turn * m * turn.transpose()))
+        Self::from_east_north_up(&(turn * m * turn.transpose()))
     }
 
     /// Components in north, east, down.
@@ -62,7 +62,7 @@ impl Tensor {
         let axis = |k: usize| Vector3::from(eigen.eigenvectors.column(k));
         let (tension, pressure) = (axis(eigen.eigenvalues.imax()), axis(eigen.eigenvalues.imin()));
         let (normal, slip) = ((tension + pressure).normalize(), (tension - pressure).normalize());
-        [Plane::of(&normal, &slip), Plane::of(&slip, &normal)]
+        [Plane::from_vectors(&normal, &slip), Plane::from_vectors(&slip, &normal)]
     }
 }
 
@@ -71,7 +71,7 @@ const HORIZONTAL: f64 = 1e-9;
 
 impl Plane {
     /// Plane of a normal and a slip vector in north, east, down.
-    fn of(normal: &Vector3<f64>, slip: &Vector3<f64>) -> Self {
+    fn from_vectors(normal: &Vector3<f64>, slip: &Vector3<f64>) -> Self {
         // The normal points up, from the foot wall to the hanging wall.
         let sign = if normal.z > 0.0 { -1.0 } else { 1.0 };
         let (n, d) = (normal * sign, slip * sign);
@@ -111,7 +111,7 @@ mod tests {
 
     #[test]
     fn tensors_of_known_mechanisms_are_those_of_the_textbook() {
-        let of = |strike, dip, rake| Tensor::of_plane(&Plane { strike, dip, rake }, 1.0);
+        let of = |strike, dip, rake| Tensor::from_plane(&Plane { strike, dip, rake }, 1.0);
         // A vertical left-lateral strike-slip fault that strikes north: Mxy = 1 in north and east, Mtp = -Mxy.
         assert!(differ(&of(0.0, 90.0, 0.0), &Tensor([0.0, 0.0, 0.0, 0.0, 0.0, -1.0])) < 1e-15);
         // A thrust that strikes north and dips at 45 degrees: up and down 1, east and west -1.
@@ -126,10 +126,10 @@ mod tests {
             for dip in [0.0, 1e-3, 30.0, 45.0, 89.999, 90.0] {
                 for rake in [-180.0, -90.0, -45.0, 0.0, 10.0, 90.0, 180.0] {
                     let plane = Plane { strike, dip, rake };
-                    let tensor = Tensor::of_plane(&plane, 3.0);
+                    let tensor = Tensor::from_plane(&plane, 3.0);
                     assert!((tensor.moment() - 3.0).abs() < 1e-13);
                     for found in tensor.planes() {
-                        let off = differ(&Tensor::of_plane(&found, 3.0), &tensor);
+                        let off = differ(&Tensor::from_plane(&found, 3.0), &tensor);
                         // A plane within 1e-9 of the horizontal gets the angles of a horizontal plane.
                         assert!(off < 1e-8, "{plane:?} {found:?} {off:e}");
                         assert!((0.0..360.0).contains(&found.strike) && (0.0..=90.0).contains(&found.dip));

@@ -69,7 +69,7 @@ mod tests {
     use crate::located::Plane;
 
     fn tensor(strike: f64, dip: f64, rake: f64) -> Tensor {
-        Tensor::of_plane(&Plane { strike, dip, rake }, 1.0)
+        Tensor::from_plane(&Plane { strike, dip, rake }, 1.0)
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::axes::Axis;
 use super::colour::{MARK, Rgb};
 use super::curves::{DECADES, REACH, is_spiky, thin};
 use super::figure::{Dash, Figure, Point};
-use super::framed::Framed;
+use super::framed_figure::FramedFigure;
 use super::legend::Entry;
 use super::paper::Paper;
 use super::style::Style;
@@ -90,7 +90,8 @@ impl Chart {
         if !points().any(|p| p.0 != first.0) {
             return None;
         }
-        let (x_unit, y_unit) = (self.x.1.units().of(largest(|p| p.0)), self.y.1.units().of(largest(|p| p.1)));
+        let (x_unit, y_unit) =
+            (self.x.1.units().choose(largest(|p| p.0)), self.y.1.units().choose(largest(|p| p.1)));
         let log = self.y.1 == Measure::Velocity && self.curves.iter().any(|c| spiky(&c.1));
         let up = |v: f64| if log { v.abs() } else { v } / y_unit.factor;
         let label = format!("{} [{}]", self.y.0, y_unit.name);
@@ -107,8 +108,8 @@ impl Chart {
             [(name, _)] if !name.is_empty() => (Vec::new(), format!("{}, {name}", self.y.0.to_lowercase())),
             _ => (self.entries(), self.y.0.to_lowercase()),
         };
-        let mut page = Framed::new(paper, (x, y), &entries);
-        let Framed { figure, frame, .. } = &mut page;
+        let mut page = FramedFigure::new(paper, x, y, &entries);
+        let FramedFigure { figure, frame, .. } = &mut page;
         title(figure, frame, &self.title, &part);
         frame.grid(figure);
         for (i, (_, curve)) in self.curves.iter().enumerate() {
@@ -140,12 +141,12 @@ impl Chart {
     /// Colour, dash and width of a curve.
     fn style(&self, curve: usize) -> (Rgb, Dash, f64) {
         if !self.pairs {
-            let style = Style::of(curve);
+            let style = Style::from_curve(curve);
             return (style.colour, style.dash, 1.8);
         }
         let reference = curve % 2 == 1;
         let dash: Dash = if reference { &[5.0, 3.0] } else { &[] };
-        (Style::of(curve / 2).colour, dash, if reference { 1.1 } else { 1.8 })
+        (Style::from_curve(curve / 2).colour, dash, if reference { 1.1 } else { 1.8 })
     }
 
     /// Legend entries of the first curves, with a note if there are more.

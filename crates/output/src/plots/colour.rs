@@ -74,7 +74,7 @@ fn between(value: f64) -> Rgb {
 }
 
 /// Colour of curve `i` of `n`. The palest end of the map is omitted because it is hard to see on white.
-pub(super) fn of_curve(i: usize, n: usize) -> Rgb {
+pub(super) fn curve_colour(i: usize, n: usize) -> Rgb {
     let last = n.saturating_sub(1).max(1) as f64;
     viridis(0.9 * i as f64 / last)
 }

@@ -2,9 +2,9 @@
 
 use super::super::Recorder;
 use super::axes::{Axis, Frame};
-use super::colour::{MARK, of_curve};
+use super::colour::{MARK, curve_colour};
 use super::figure::{Anchor, Dash, Figure, Point};
-use super::framed::Framed;
+use super::framed_figure::FramedFigure;
 use super::labels::position_labels;
 use super::legend::Entry;
 use super::paper::Paper;
@@ -54,7 +54,7 @@ struct Probe {
 
 impl Histories {
     /// Histories of an interface of this number; `None` without probes or steps.
-    pub(super) fn of(recorder: &Recorder, stem: &str, interface: usize) -> Option<Self> {
+    pub(super) fn from_recorder(recorder: &Recorder, stem: &str, interface: usize) -> Option<Self> {
         let points = &recorder.histories().get(interface)?.points;
         if points.is_empty() || recorder.times().is_empty() {
             return None;
@@ -193,7 +193,7 @@ impl Histories {
         let references = self.points.iter().filter_map(|p| (quantity.reference)(p).get(steps.clone()));
         let references: Vec<Vec<f64>> = references.map(|r| r.iter().map(near).collect()).collect();
         let references: Vec<&[f64]> = references.iter().map(Vec::as_slice).collect();
-        let (time, unit) = (TIME.of(end), quantity.units.of(largest(&series)));
+        let (time, unit) = (TIME.choose(end), quantity.units.choose(largest(&series)));
         let log = quantity.rate && is_spiky(times, &series);
         let values = series
             .iter()
@@ -206,12 +206,12 @@ impl Histories {
         let x = Axis::exact((from / time.factor, end / time.factor), format!("Time [{}]", time.name));
         let entry = |(i, p): (usize, &Probe)| Entry {
             name: p.label.clone(),
-            colour: of_curve(i, series.len()),
+            colour: curve_colour(i, series.len()),
             dash: &[],
         };
         let entries: Vec<Entry> = self.points.iter().enumerate().map(entry).collect();
-        let mut page = Framed::new(paper, (x, y), &entries);
-        let Framed { figure, frame, .. } = &mut page;
+        let mut page = FramedFigure::new(paper, x, y, &entries);
+        let FramedFigure { figure, frame, .. } = &mut page;
         title(figure, frame, &self.title, &self.name);
         frame.grid(figure);
         stage_marks(figure, frame, &self.stages, time);
@@ -220,7 +220,7 @@ impl Histories {
             for (i, values) in all.iter().enumerate() {
                 for piece in pieces(times, values) {
                     let line = piece.iter().map(|&(t, v)| frame.point(t / time.factor, up(v)));
-                    figure.dashed(thin(line.collect()), dash, width, of_curve(i, series.len()));
+                    figure.dashed(thin(line.collect()), dash, width, curve_colour(i, series.len()));
                 }
             }
         }
@@ -299,7 +299,7 @@ pub(super) fn thin(points: Vec<Point>) -> Vec<Point> {
     if points.len() <= 2 * COLUMNS {
         return points;
     }
-    let mut thinner = Thinner::new(points[0].0, points[points.len() - 1].0);
+    let mut thinner = CurveThinner::new(points[0].0, points[points.len() - 1].0);
     points.into_iter().for_each(|p| thinner.push(p));
     thinner.finish()
 }
@@ -309,14 +309,14 @@ const GROUP: usize = 4096;
 
 /// Thins a curve point by point.
 #[derive(Debug)]
-pub(super) struct Thinner {
+pub(super) struct CurveThinner {
     left: f64,
     width: f64,
     group: Vec<Point>,
     kept: Vec<Point>,
 }
 
-impl Thinner {
+impl CurveThinner {
     /// Thinner of a curve from `left` to `right`.
     pub(super) fn new(left: f64, right: f64) -> Self {
         Self { left, width: right - left, group: Vec::new(), kept: Vec::new() }

@@ -5,19 +5,19 @@
 //! rows.
 
 mod chosen;
-mod mapped;
+mod mapped_quantity;
 mod maps;
 mod portrait;
 
-pub use mapped::Mapped;
+pub use mapped_quantity::MappedQuantity;
 pub use portrait::Portrait;
 
 use super::super::OutputError;
 use super::axes::{Axis, Frame};
 use super::colour::{Rgb, viridis};
-use super::curves::{DECADES, Thinner};
+use super::curves::{CurveThinner, DECADES};
 use super::figure::{Figure, Point};
-use super::framed::{AT, BELOW, Framed, SIZE};
+use super::framed_figure::{AT, BELOW, FramedFigure, SIZE};
 use super::legend::Entry;
 use super::paper::Paper;
 use super::title::title;
@@ -37,7 +37,7 @@ pub struct Line {
     pub along: Vec<f64>,
     /// Quantities that it has profiles of, beside slip and slip rate.
     #[serde(default)]
-    pub mapped: Vec<Mapped>,
+    pub mapped: Vec<MappedQuantity>,
 }
 
 /// A table of a run.
@@ -131,13 +131,13 @@ const ROUNDING: f64 = 1e-6;
 /// Distance to the preceding contour, as a share of the axis, below which a contour is omitted: a pixel of a screen.
 const TOGETHER: f64 = 2e-3;
 
-type Drawn = Result<Option<Figure>, OutputError>;
+type FigureResult = Result<Option<Figure>, OutputError>;
 
 impl Cycles<'_> {
     /// All figures with their file names, and why others are missing.
     pub(super) fn figures(&self) -> (Vec<(String, Figure)>, Vec<OutputError>) {
         let (mut figures, mut failed) = (Vec::new(), Vec::new());
-        let mut add = |name: String, drawn: Drawn| match drawn {
+        let mut add = |name: String, drawn: FigureResult| match drawn {
             Ok(figure) => figures.extend(figure.map(|f| (name, f))),
             Err(why) => failed.push(why),
         };
@@ -145,11 +145,11 @@ impl Cycles<'_> {
         add("phase_portrait".into(), self.portrait());
         for (stem, line) in stems(self.lines.iter().map(|l| l.name.as_str())).iter().zip(&self.lines) {
             add(format!("{stem}_slip"), self.contours(line));
-            add(format!("{stem}_rate"), self.map(line, Mapped::Rate));
+            add(format!("{stem}_rate"), self.map(line, MappedQuantity::Rate));
             for &mapped in &line.mapped {
                 add(format!("{stem}_{}", mapped.stem()), self.map(line, mapped));
             }
-            if line.mapped.contains(&Mapped::Coupling) {
+            if line.mapped.contains(&MappedQuantity::Coupling) {
                 add(format!("{stem}_coupling_profiles"), self.coupling(line));
             }
         }
@@ -178,21 +178,21 @@ impl Cycles<'_> {
         Ok(ranges)
     }
 
-    fn largest_rate(&self) -> Drawn {
+    fn largest_rate(&self) -> FigureResult {
         let [times, rates, _] = self.ranges()?;
         if times.0 >= times.1 {
             return Ok(None);
         }
         let (first, last) = self.window.unwrap_or((times.0, times.1));
-        let time = TIME.of(last);
+        let time = TIME.choose(last);
         let label = format!("Time [{}]", time.name);
         let x = Axis::exact((first / time.factor, last / time.factor), label);
         let y = Axis::logarithmic(rates.over(1.0), DECADES, "Largest slip rate [m/s]".into());
-        let mut page = Framed::new(self.paper, (x, y), &[]);
-        let Framed { figure, frame, .. } = &mut page;
+        let mut page = FramedFigure::new(self.paper, x, y, &[]);
+        let FramedFigure { figure, frame, .. } = &mut page;
         title(figure, frame, &self.title, "largest slip rate");
         frame.grid(figure);
-        let mut curve = Thinner::new(frame.at.0, frame.at.0 + frame.size.0);
+        let mut curve = CurveThinner::new(frame.at.0, frame.at.0 + frame.size.0);
         self.rows.each(Table::Largest, &mut |row| {
             let point = frame.point(row[0] / time.factor, 10.0_f64.powf(row[1]));
             if point.0.is_finite() && point.1.is_finite() {
@@ -211,7 +211,7 @@ impl Cycles<'_> {
     /// Axis along a fault, downwards, and its unit \[m\].
     fn along(line: &Line) -> Option<(Axis, f64)> {
         let (first, last) = (*line.along.first()?, *line.along.last()?);
-        let unit = LENGTH.of(last.abs().max(first.abs()));
+        let unit = LENGTH.choose(last.abs().max(first.abs()));
         let range = (last / unit.factor, first / unit.factor);
         (last > first)
             .then(|| (Axis::exact(range, format!("Distance along the fault [{}]", unit.name)), unit.factor))
@@ -231,14 +231,14 @@ impl Cycles<'_> {
         })
     }
 
-    fn contours(&self, line: &Line) -> Drawn {
+    fn contours(&self, line: &Line) -> FigureResult {
         let Some((y, scale)) = Self::along(line) else { return Ok(None) };
         let mut range = Bounds::NONE;
         self.profiles(Table::Slip, line, &mut |_, slip| slip.iter().for_each(|&s| range.see(s)))?;
         if !range.any() {
             return Ok(None);
         }
-        let unit = LENGTH.of(range.0.abs().max(range.1.abs()));
+        let unit = LENGTH.choose(range.0.abs().max(range.1.abs()));
         let x = Axis::linear(range.over(unit.factor), 0.02, format!("Slip [{}]", unit.name));
         let multiples = self.multiples();
         let entries = [("between events, every", ASEISMIC, 0), ("in events, every", SEISMIC, 1)];
@@ -246,8 +246,8 @@ impl Cycles<'_> {
             let name = format!("{words} {}", self.interval(k, multiples[k]));
             Entry { name, colour, dash: &[] }
         });
-        let mut page = Framed::new(self.paper, (x, y), &entries);
-        let Framed { figure, frame, .. } = &mut page;
+        let mut page = FramedFigure::new(self.paper, x, y, &entries);
+        let FramedFigure { figure, frame, .. } = &mut page;
         title(figure, frame, &self.title, &format!("slip of {}", line.name));
         frame.grid(figure);
         let least = TOGETHER * unit.factor * (frame.x.range.1 - frame.x.range.0);
@@ -292,7 +292,7 @@ impl Cycles<'_> {
             return self.intervals[kind].clone();
         };
         let time = multiple * spacing[kind];
-        let unit = TIME.of(time);
+        let unit = TIME.choose(time);
         let value = format!("{:.3}", time / unit.factor);
         format!("{} {}", value.trim_end_matches('0').trim_end_matches('.'), unit.name)
     }
@@ -304,7 +304,7 @@ mod tests {
 
     /// Tables in memory.
     #[derive(Default)]
-    struct Kept {
+    struct MemoryTables {
         largest: Vec<Vec<f64>>,
         slip: Vec<Vec<f64>>,
         rate: Vec<Vec<f64>>,
@@ -312,7 +312,7 @@ mod tests {
         station: Vec<Vec<f64>>,
     }
 
-    impl Rows for Kept {
+    impl Rows for MemoryTables {
         fn each(&self, table: Table, look: &mut dyn FnMut(&[f64])) -> Result<(), OutputError> {
             let rows = match table {
                 Table::Largest => &self.largest,
@@ -330,8 +330,8 @@ mod tests {
         }
     }
 
-    fn kept() -> Kept {
-        Kept {
+    fn kept() -> MemoryTables {
+        MemoryTables {
             largest: vec![
                 vec![0.0, -9.0, 0.0, 3e7, 0.0],
                 vec![1e9, 0.5, 0.0, 2.5e7, 0.0],
@@ -348,14 +348,14 @@ mod tests {
         }
     }
 
-    fn sample(rows: &Kept) -> Cycles<'_> {
+    fn sample(rows: &MemoryTables) -> Cycles<'_> {
         Cycles {
             title: "t".into(),
             lines: vec![Line {
                 name: "main".into(),
                 columns: 1..4,
                 along: vec![0.0, 1e4, 4e4],
-                mapped: vec![Mapped::Theta, Mapped::Coupling],
+                mapped: vec![MappedQuantity::Theta, MappedQuantity::Coupling],
             }],
             rows,
             spacing: None,
@@ -396,7 +396,7 @@ mod tests {
     fn the_image_has_the_colours_of_the_rates_with_the_upper_end_on_top() {
         let kept = kept();
         let cycles = sample(&kept);
-        let figure = cycles.map(&cycles.lines[0], Mapped::Rate).unwrap().unwrap();
+        let figure = cycles.map(&cycles.lines[0], MappedQuantity::Rate).unwrap().unwrap();
         let image = figure.shapes.iter().find_map(|s| match s {
             super::super::figure::Shape::Image(image) => Some(image),
             _ => None,
@@ -410,7 +410,7 @@ mod tests {
 
     #[test]
     fn a_run_of_no_length_has_no_curves() {
-        let empty = Kept::default();
+        let empty = MemoryTables::default();
         assert!(sample(&empty).figures().0.is_empty());
     }
 
@@ -429,7 +429,7 @@ mod tests {
     fn coupling_has_the_colours_of_zero_to_one_and_its_profiles_their_names() {
         let kept = kept();
         let cycles = sample(&kept);
-        let map = cycles.map(&cycles.lines[0], Mapped::Coupling).unwrap().unwrap();
+        let map = cycles.map(&cycles.lines[0], MappedQuantity::Coupling).unwrap().unwrap();
         assert!(texts(&map).contains(&"Coupling [–], below 0 as 0"), "{:?}", texts(&map));
         let profiles = cycles.coupling(&cycles.lines[0]).unwrap().unwrap();
         assert!(["midway", "before"].iter().all(|name| texts(&profiles).contains(name)));

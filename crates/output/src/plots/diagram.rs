@@ -15,7 +15,8 @@ pub enum Scale {
 
 /// A setting that failed: drawn as a cross at the top of its diagram.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct Failed {
+#[schemars(rename = "Failed")]
+pub struct FailedSetting {
     /// Position on the horizontal axis.
     pub x: f64,
     /// Reason why it failed.
@@ -34,7 +35,7 @@ pub struct Series {
     /// True if points are marked.
     pub markers: bool,
     /// Settings that failed.
-    pub failed: Vec<Failed>,
+    pub failed: Vec<FailedSetting>,
 }
 
 impl Series {
@@ -56,7 +57,7 @@ impl Series {
     /// Adds a setting that failed.
     #[must_use]
     pub fn failed(mut self, x: f64, reason: impl Into<String>) -> Series {
-        self.failed.push(Failed { x, reason: reason.into() });
+        self.failed.push(FailedSetting { x, reason: reason.into() });
         self
     }
 }

@@ -33,13 +33,13 @@ const LEGEND_LINE: f64 = 20.0;
 const LEGEND_MARK: f64 = 34.0;
 
 /// A linear axis whose values are divided by a power of ten where they are very large or very small.
-struct Scaled {
+struct ScaledAxis {
     axis: Axis,
     factor: f64,
 }
 
-impl Scaled {
-    fn of(scale: Scale, values: &[f64], label: &str) -> Self {
+impl ScaledAxis {
+    fn from_values(scale: Scale, values: &[f64], label: &str) -> Self {
         if scale == Scale::Log {
             let axis = Axis::around(values.iter().copied(), MARGIN, label.to_owned());
             return Self { axis, factor: 1.0 };
@@ -63,13 +63,13 @@ struct Place {
 }
 
 impl Place {
-    fn of(diagram: &Diagram) -> Self {
+    fn from_diagram(diagram: &Diagram) -> Self {
         let points = shown(diagram);
         let failed = diagram.series.iter().flat_map(|s| &s.failed).map(|f| f.x);
         let places: Vec<f64> = points.iter().map(|p| p.0).chain(failed).collect();
         let heights: Vec<f64> = points.iter().map(|p| p.1).collect();
-        let x = Scaled::of(diagram.x_axis, &places, &diagram.x_label);
-        let y = Scaled::of(diagram.y_axis, &heights, &diagram.y_label);
+        let x = ScaledAxis::from_values(diagram.x_axis, &places, &diagram.x_label);
+        let y = ScaledAxis::from_values(diagram.y_axis, &heights, &diagram.y_label);
         let left = y.axis.widest_tick(SIZE.1) + 32.0;
         let top = if diagram.title.is_empty() { TOP.1 } else { TOP.0 };
         let frame = Frame { at: (left, top), size: SIZE, x: x.axis, y: y.axis };
@@ -98,10 +98,10 @@ impl Diagram {
 
 /// Lays out a diagram.
 fn figure(diagram: &Diagram) -> Figure {
-    let place = Place::of(diagram);
+    let place = Place::from_diagram(diagram);
     let frame = &place.frame;
     let width = frame.at.0 + SIZE.0 + RIGHT;
-    let legend = Legend::of(&diagram.series, width);
+    let legend = Legend::from_series(&diagram.series, width);
     let mut figure = Figure::new(width, frame.at.1 + SIZE.1 + BELOW + legend.height());
     if !diagram.title.is_empty() {
         title(&mut figure, frame, &diagram.title, "");
@@ -109,7 +109,7 @@ fn figure(diagram: &Diagram) -> Figure {
     frame.grid(&mut figure);
     diagram.slopes.iter().for_each(|slope| triangle(&mut figure, &place, slope));
     for (i, series) in diagram.series.iter().enumerate() {
-        curve(&mut figure, diagram, &place, series, Style::of(i));
+        curve(&mut figure, diagram, &place, series, Style::from_curve(i));
     }
     frame.draw(&mut figure);
     legend.draw(&mut figure, frame.at.1 + SIZE.1 + BELOW);
@@ -160,11 +160,11 @@ fn triangle(figure: &mut Figure, place: &Place, slope: &Slope) {
 
 /// Names of the curves in lines below the frame.
 struct Legend {
-    lines: Vec<Vec<Named>>,
+    lines: Vec<Vec<LegendName>>,
 }
 
 /// A name in the legend.
-struct Named {
+struct LegendName {
     left: f64,
     name: String,
     size: f64,
@@ -175,9 +175,9 @@ struct Named {
 
 impl Legend {
     /// The legend of the named curves, for a figure of this width.
-    fn of(series: &[Series], width: f64) -> Self {
+    fn from_series(series: &[Series], width: f64) -> Self {
         const LEFT: f64 = 16.0;
-        let (mut lines, mut left): (Vec<Vec<Named>>, f64) = (vec![Vec::new()], LEFT);
+        let (mut lines, mut left): (Vec<Vec<LegendName>>, f64) = (vec![Vec::new()], LEFT);
         for (i, one) in series.iter().enumerate().filter(|(_, s)| !s.name.is_empty()) {
             let (name, size) = fitting(&one.name, width - LEFT - LEGEND_MARK - 8.0, LEGEND_TEXT);
             let long = LEGEND_MARK + CHARACTER * size * name.chars().count() as f64 + 14.0;
@@ -185,7 +185,14 @@ impl Legend {
                 lines.push(Vec::new());
                 left = LEFT;
             }
-            let named = Named { left, name, size, style: Style::of(i), line: one.line, markers: one.markers };
+            let named = LegendName {
+                left,
+                name,
+                size,
+                style: Style::from_curve(i),
+                line: one.line,
+                markers: one.markers,
+            };
             if let Some(line) = lines.last_mut() {
                 line.push(named);
             }
@@ -207,7 +214,7 @@ impl Legend {
     }
 }
 
-impl Named {
+impl LegendName {
     fn draw(self, figure: &mut Figure, y: f64) {
         let (left, right) = (self.left, self.left + LEGEND_MARK - 8.0);
         if self.line {
@@ -253,7 +260,7 @@ mod tests {
         let levels = [(0.1, 1e-4), (0.2, 4e-4), (0.4, 16e-4)];
         let slope = Slope { order: 2.0, x: (0.1, 0.4), y: 5e-5 };
         let diagram = Diagram::xy("", "h", "e").log_log().series(Series::marked("", &levels)).slope(slope);
-        let place = Place::of(&diagram);
+        let place = Place::from_diagram(&diagram);
         let rise = |a: Point, b: Point| (b.1 - a.1) / (b.0 - a.0);
         let [start, _, end] = slope.corners().map(|p| place.point(p));
         let [first, .., last] = levels.map(|p| place.point(p));
@@ -283,8 +290,8 @@ mod tests {
 
     #[test]
     fn very_small_values_are_given_with_a_power_of_ten() {
-        let scaled = Scaled::of(Scale::Linear, &[2.0e-7, 4.0e-7], "drift [-]");
+        let scaled = ScaledAxis::from_values(Scale::Linear, &[2.0e-7, 4.0e-7], "drift [-]");
         assert_eq!(scaled.axis.label, "drift [-]  (× 10⁻⁹)");
-        assert_eq!(Scaled::of(Scale::Linear, &[0.1, 40.0], "x").factor, 1.0);
+        assert_eq!(ScaledAxis::from_values(Scale::Linear, &[0.1, 40.0], "x").factor, 1.0);
     }
 }

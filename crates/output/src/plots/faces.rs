@@ -9,7 +9,7 @@ pub(super) type Corner = Vec<usize>;
 
 /// Parts to draw, in drawing order.
 #[derive(Debug, Default)]
-pub(super) struct Visible {
+pub(super) struct VisibleParts {
     pub triangles: Vec<[Corner; 3]>,
     /// Lines of nodes along the boundary of a body.
     pub outline: Vec<Vec<usize>>,
@@ -32,10 +32,10 @@ const HEX: [&[usize]; 6] =
 const WEDGE: [&[usize]; 5] = [&[0, 2, 1], &[3, 4, 5], &[0, 1, 4, 3], &[1, 2, 5, 4], &[2, 0, 3, 5]];
 
 /// Collects the visible part of a mesh.
-pub(super) fn visible(mesh: &MeshView) -> Visible {
+pub(super) fn visible(mesh: &MeshView) -> VisibleParts {
     let faces = if mesh.dimension == 3 { upper_faces(mesh) } else { flat_cells(mesh) };
     let triangles = faces.iter().flat_map(Face::triangles).collect();
-    Visible { triangles, outline: outline(&faces) }
+    VisibleParts { triangles, outline: outline(&faces) }
 }
 
 impl Face {
@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn of_two_stacked_cubes_the_top_face_is_seen() {
+    fn the_top_face_of_two_stacked_cubes_is_seen() {
         let mesh = MeshView {
             nodes: cube(),
             cells: vec![(12, (0..8).collect()), (12, (4..12).collect())],
@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn of_two_stacked_wedges_the_upper_triangle_is_seen() {
+    fn the_upper_triangle_of_two_stacked_wedges_is_seen() {
         let layer = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z]];
         let mesh = MeshView {
             nodes: [0.0, 1.0, 2.0].into_iter().flat_map(layer).collect(),

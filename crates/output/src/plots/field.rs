@@ -4,7 +4,7 @@
 use super::super::view::MeshView;
 use super::axes::{Axis, Frame};
 use super::colour::{INK, PAPER, Rgb, viridis};
-use super::faces::{Corner, Visible, visible};
+use super::faces::{Corner, VisibleParts, visible};
 use super::figure::{Anchor, Figure, Image, Point};
 use super::units::{LENGTH, NUMBER, STRESS, Unit, Units, VELOCITY};
 use serde::{Deserialize, Serialize};
@@ -28,7 +28,7 @@ const FAR_ABOVE: f64 = 1.15;
 
 /// Values at the nodes of a mesh, to be drawn in colours.
 struct Field<'a> {
-    seen: &'a Seen,
+    visible: &'a VisibleMesh,
     values: &'a [f64],
     quantity: &'a str,
     units: Units,
@@ -36,7 +36,7 @@ struct Field<'a> {
 
 /// The visible part of a mesh.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Seen {
+pub struct VisibleMesh {
     /// Positions of the nodes on the page \[m\].
     places: Vec<Point>,
     triangles: Vec<[Corner; 3]>,
@@ -47,12 +47,12 @@ pub struct Seen {
     in_space: bool,
 }
 
-impl Seen {
+impl VisibleMesh {
     /// The visible part of a mesh whose nodes have moved, with the nodes of the mesh that it has; `None` if there is no face to
     /// draw or no finite position. With finite sliding or finite strain bodies are where they have moved.
     #[must_use]
-    pub fn of(mesh: &MeshView, displacement: &[[f64; 3]]) -> Option<(Self, Vec<usize>)> {
-        let Visible { triangles, outline } = visible(mesh);
+    pub fn from_mesh(mesh: &MeshView, displacement: &[[f64; 3]]) -> Option<(Self, Vec<usize>)> {
+        let VisibleParts { triangles, outline } = visible(mesh);
         let places = places(mesh, displacement);
         let mut nodes: Vec<usize> =
             triangles.iter().flatten().flatten().chain(outline.iter().flatten()).copied().collect();
@@ -60,14 +60,14 @@ impl Seen {
         nodes.dedup();
         let number = |node: &usize| nodes.binary_search(node).unwrap_or_default();
         let corner = |corner: &Corner| corner.iter().map(number).collect::<Corner>();
-        let seen = Self {
+        let visible = Self {
             places: nodes.iter().map(|&n| (places[n][0], places[n][1])).collect(),
             triangles: triangles.iter().map(|t| t.each_ref().map(corner)).collect(),
             outline: outline.iter().map(|line| line.iter().map(number).collect()).collect(),
             in_space: mesh.dimension == 3,
         };
-        seen.extent()?;
-        Some((seen, nodes))
+        visible.extent()?;
+        Some((visible, nodes))
     }
 
     /// The side of bodies in space that is seen, as the end of a title; empty in the plane.
@@ -87,7 +87,7 @@ impl Seen {
 
     /// An image of values over a frame, in the colours from zero to `hi`.
     pub(super) fn image(&self, frame: &Frame, values: &[f64], hi: f64) -> Image {
-        map(self, values, &Colours { unit: NUMBER.of(1.0), lo: 0.0, hi, above: None }, frame)
+        map(self, values, &Colours { unit: NUMBER.choose(1.0), lo: 0.0, hi, above: None }, frame)
     }
 
     /// Lower left and upper right corner.
@@ -104,24 +104,34 @@ impl Seen {
 }
 
 /// Draws the Mises stress at the nodes of a mesh \[Pa\]; a title is a scene and a part of it.
-pub(super) fn mises(title: Option<(&str, &str)>, seen: &Seen, values: &[f64], room: Point) -> Option<Figure> {
-    Field { seen, values, quantity: "Mises stress", units: STRESS }.draw(title, room)
+pub(super) fn mises(
+    title: Option<(&str, &str)>,
+    visible: &VisibleMesh,
+    values: &[f64],
+    room: Point,
+) -> Option<Figure> {
+    Field { visible, values, quantity: "Mises stress", units: STRESS }.draw(title, room)
 }
 
 /// Draws the magnitude of displacements \[m\]; `None` if there is no face to draw or no finite position.
 pub(super) fn displacement(mesh: &MeshView, displacement: &[[f64; 3]], room: Point) -> Option<Figure> {
-    let (seen, nodes) = Seen::of(mesh, displacement)?;
+    let (visible, nodes) = VisibleMesh::from_mesh(mesh, displacement)?;
     let size = |&node: &usize| {
         let [x, y, z] = displacement[node];
         x.hypot(y).hypot(z)
     };
     let values: Vec<f64> = nodes.iter().map(size).collect();
-    Field { seen: &seen, values: &values, quantity: "displacement", units: LENGTH }.draw(None, room)
+    Field { visible: &visible, values: &values, quantity: "displacement", units: LENGTH }.draw(None, room)
 }
 
 /// Draws the magnitude of velocities at the nodes of a mesh \[m/s\] at a time.
-pub(super) fn velocity(title: (&str, &str), seen: &Seen, velocity: &[f64], room: Point) -> Option<Figure> {
-    Field { seen, values: velocity, quantity: "Velocity", units: VELOCITY }.draw(Some(title), room)
+pub(super) fn velocity(
+    title: (&str, &str),
+    visible: &VisibleMesh,
+    velocity: &[f64],
+    room: Point,
+) -> Option<Figure> {
+    Field { visible, values: velocity, quantity: "Velocity", units: VELOCITY }.draw(Some(title), room)
 }
 
 /// Room around a map of a body: left and right of it, and above and below.
@@ -133,7 +143,7 @@ const AT: Point = (96.0, 40.0);
 fn around(at: Point, (lo, hi): (Point, Point), room: Point) -> (Frame, Unit) {
     let (width, height) = (hi.0 - lo.0, hi.1 - lo.1);
     let scale = (room.0 / width).min(room.1 / height);
-    let length = LENGTH.of([lo.0, lo.1, hi.0, hi.1].iter().fold(0.0, |most, v| most.max(v.abs())));
+    let length = LENGTH.choose([lo.0, lo.1, hi.0, hi.1].iter().fold(0.0, |most, v| most.max(v.abs())));
     let frame = Frame {
         at,
         size: (width * scale, height * scale),
@@ -145,18 +155,18 @@ fn around(at: Point, (lo, hi): (Point, Point), room: Point) -> (Frame, Unit) {
 
 impl Field<'_> {
     fn draw(&self, title: Option<(&str, &str)>, room: Point) -> Option<Figure> {
-        let seen = self.seen;
-        let (frame, length) = around(AT, seen.extent()?, room);
-        let colours = Colours::of(seen, self.values, self.units);
+        let visible = self.visible;
+        let (frame, length) = around(AT, visible.extent()?, room);
+        let colours = Colours::from_values(visible, self.values, self.units);
         let below = (frame.size.1 + 62.0).max(BAR + 20.0);
         let mut figure = Figure::new(frame.at.0 + frame.size.0.max(180.0) + 150.0, frame.at.1 + below);
         if let Some((scene, when)) = title {
-            super::title::title(&mut figure, &frame, scene, &format!("{when}{}", seen.side()));
+            super::title::title(&mut figure, &frame, scene, &format!("{when}{}", visible.side()));
         }
-        figure.image(map(seen, self.values, &colours, &frame));
-        for line in &seen.outline {
+        figure.image(map(visible, self.values, &colours, &frame));
+        for line in &visible.outline {
             let at = |&node: &usize| {
-                let (x, y) = seen.places[node];
+                let (x, y) = visible.places[node];
                 frame.point(x / length.factor, y / length.factor)
             };
             figure.line(line.iter().map(at).collect(), 1.0, INK);
@@ -192,14 +202,14 @@ pub(super) struct Colours {
 }
 
 impl Colours {
-    fn of(seen: &Seen, values: &[f64], units: Units) -> Self {
-        let mut nodes: Vec<usize> = seen.triangles.iter().flatten().flatten().copied().collect();
+    fn from_values(visible: &VisibleMesh, values: &[f64], units: Units) -> Self {
+        let mut nodes: Vec<usize> = visible.triangles.iter().flatten().flatten().copied().collect();
         nodes.sort_unstable();
         nodes.dedup();
         let mut sorted: Vec<f64> = nodes.iter().map(|&n| values[n]).filter(|v| v.is_finite()).collect();
         sorted.sort_by(f64::total_cmp);
         let (Some(&lo), Some(&most)) = (sorted.first(), sorted.last()) else {
-            return Self { unit: units.of(1.0), lo: 0.0, hi: 1.0, above: None };
+            return Self { unit: units.choose(1.0), lo: 0.0, hi: 1.0, above: None };
         };
         let covered = sorted[((sorted.len() - 1) as f64 * COVERED) as usize];
         let (hi, above) = if most > FAR_ABOVE * covered { (covered, Some(most)) } else { (most, None) };
@@ -207,7 +217,7 @@ impl Colours {
         let room =
             if hi - lo <= FLAT * hi.abs() { if hi == 0.0 { 1.0 } else { 0.1 * hi.abs() } } else { 0.0 };
         let least = if lo < 0.0 { lo - room } else { (lo - room).max(0.0) };
-        Self { unit: units.of(most.abs()), lo: least, hi: hi + room, above }
+        Self { unit: units.choose(most.abs()), lo: least, hi: hi + room, above }
     }
 
     fn colour(&self, value: f64) -> Rgb {
@@ -219,19 +229,19 @@ impl Colours {
 const FLAT: f64 = 1e-6;
 
 /// Renders the triangles into an image that covers the frame.
-fn map(seen: &Seen, values: &[f64], colours: &Colours, frame: &Frame) -> Image {
-    let (lo, hi) = seen.extent().unwrap_or(((0.0, 0.0), (1.0, 1.0)));
+fn map(visible: &VisibleMesh, values: &[f64], colours: &Colours, frame: &Frame) -> Image {
+    let (lo, hi) = visible.extent().unwrap_or(((0.0, 0.0), (1.0, 1.0)));
     let columns = (frame.size.0 * FINE).round().max(1.0) as usize;
     let rows = (frame.size.1 * FINE).round().max(1.0) as usize;
     let mut rgb = vec![PAPER; columns * rows];
     let corner = |nodes: &Corner| {
         let mean =
             |read: &dyn Fn(usize) -> f64| nodes.iter().map(|&n| read(n)).sum::<f64>() / nodes.len() as f64;
-        let x = (mean(&|n| seen.places[n].0) - lo.0) / (hi.0 - lo.0) * columns as f64;
-        let y = (hi.1 - mean(&|n| seen.places[n].1)) / (hi.1 - lo.1) * rows as f64;
+        let x = (mean(&|n| visible.places[n].0) - lo.0) / (hi.0 - lo.0) * columns as f64;
+        let y = (hi.1 - mean(&|n| visible.places[n].1)) / (hi.1 - lo.1) * rows as f64;
         (x, y, mean(&|n| values[n]))
     };
-    for triangle in &seen.triangles {
+    for triangle in &visible.triangles {
         fill(&mut rgb, columns, triangle.each_ref().map(corner), colours);
     }
     Image { at: frame.at, size: frame.size, columns, rgb }

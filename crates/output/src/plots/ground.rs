@@ -20,7 +20,7 @@ pub enum Coordinates {
 
 /// Quantity that a map shows in colours.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Shown {
+pub enum MapQuantity {
     /// Displacement of the surface out of the page, with arrows.
     Displacement,
     /// Change of Coulomb stress at a depth, given as text, without arrows.
@@ -34,7 +34,7 @@ pub enum Shown {
 /// would hide all others.
 const COVERED: f64 = 0.95;
 
-impl Shown {
+impl MapQuantity {
     fn title(&self) -> String {
         match self {
             Self::Displacement => "displacement of the surface".into(),
@@ -78,7 +78,7 @@ pub(super) struct GroundMap {
     /// Names and values of the coordinates, to the right and up.
     pub axes: [(String, Vec<f64>); 2],
     /// Quantity in colours.
-    pub shown: Shown,
+    pub shown: MapQuantity,
     /// Displacements to the right and up the page, row by row \[m\].
     pub horizontal: Vec<[f64; 2]>,
     /// Values in colours: displacements out of the page \[m\], or changes of stress \[Pa\].
@@ -111,7 +111,7 @@ impl GroundMap {
         let most = self.shown.most(&self.vertical);
         let longest = largest(self.horizontal.iter().map(|[x, y]| x.hypot(*y)));
         let most = if most > 0.0 { most } else { Some(longest).filter(|most| *most > 0.0)? };
-        let unit = self.shown.units().of(most);
+        let unit = self.shown.units().choose(most);
         let height = frame.size.1.max(190.0);
         let mut figure = Figure::new(AT.0 + frame.size.0.max(260.0) + ROOM, AT.1 + height + BELOW);
         title(&mut figure, &frame, &self.title, &self.shown.title());
@@ -140,8 +140,8 @@ impl GroundMap {
     fn unit(&self) -> Unit {
         let most = largest(self.axes.iter().flat_map(|axis| axis.1.iter().copied()));
         match self.coordinates {
-            Coordinates::Metres => LENGTH.of(most),
-            Coordinates::Degrees => Unit { name: "°", ..NUMBER.of(1.0) },
+            Coordinates::Metres => LENGTH.choose(most),
+            Coordinates::Degrees => Unit { name: "°", ..NUMBER.choose(1.0) },
         }
     }
 
@@ -201,7 +201,7 @@ impl GroundMap {
             }
         }
         let round = round_below(longest);
-        let unit = LENGTH.of(round);
+        let unit = LENGTH.choose(round);
         let y = frame.at.1 + frame.size.1 + 68.0;
         let end = frame.at.0 + round * scale;
         arrow(figure, (frame.at.0, y), (end, y));
@@ -260,7 +260,7 @@ mod tests {
         GroundMap {
             title: "t".into(),
             coordinates: Coordinates::Metres,
-            shown: Shown::Displacement,
+            shown: MapQuantity::Displacement,
             axes: [("x".into(), vec![0.0, 1e3, 2e3]), ("y".into(), vec![0.0, 1e3])],
             horizontal: vec![horizontal; 6],
             vertical,

@@ -20,7 +20,7 @@ pub(crate) fn position_labels(positions: impl Iterator<Item = [f64; 3]>) -> Vec<
     if axes.is_empty() {
         axes = vec![0, 1];
     }
-    let unit = units::LENGTH.of(largest);
+    let unit = units::LENGTH.choose(largest);
     let label = |p: &[f64; 3], digits: i32| {
         // Round to this number of digits of the largest coordinate.
         let fine = 10.0_f64.powi(digits - 1 - (largest / unit.factor).max(1.0).log10() as i32);

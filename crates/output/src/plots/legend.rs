@@ -27,7 +27,7 @@ const MOST_LINES: usize = 6;
 
 /// An entry in a line.
 #[derive(Clone, Debug)]
-struct Placed {
+struct PlacedEntry {
     left: f64,
     size: f64,
     entry: Entry,
@@ -36,12 +36,12 @@ struct Placed {
 /// Names of curves with samples of them, in lines.
 #[derive(Clone, Debug)]
 pub(super) struct Legend {
-    lines: Vec<Vec<Placed>>,
+    lines: Vec<Vec<PlacedEntry>>,
 }
 
 impl Legend {
     /// Legend of entries for a figure of this width.
-    pub(super) fn of(entries: &[Entry], width: f64) -> Self {
+    pub(super) fn from_entries(entries: &[Entry], width: f64) -> Self {
         let flowing = (0..=entries.len())
             .rev()
             .map(|kept| (kept, Self::with(entries, kept, width)))
@@ -68,8 +68,9 @@ impl Legend {
         if lefts[columns] - APART > width - ENDS {
             return None;
         }
-        let placed = |line: &[Entry]| -> Vec<Placed> {
-            let entry = |(entry, &left): (&Entry, &f64)| Placed { left, size: TEXT, entry: entry.clone() };
+        let placed = |line: &[Entry]| -> Vec<PlacedEntry> {
+            let entry =
+                |(entry, &left): (&Entry, &f64)| PlacedEntry { left, size: TEXT, entry: entry.clone() };
             line.iter().zip(&lefts).map(entry).collect()
         };
         Some(Self { lines: entries.chunks(columns).map(placed).collect() })
@@ -79,7 +80,7 @@ impl Legend {
     fn with(entries: &[Entry], kept: usize, width: f64) -> Self {
         let more = entries.len() - kept;
         let rest = Entry { name: format!("and {more} more"), colour: MARK, dash: &[1.0, 4.0] };
-        let (mut lines, mut left): (Vec<Vec<Placed>>, f64) = (Vec::new(), f64::INFINITY);
+        let (mut lines, mut left): (Vec<Vec<PlacedEntry>>, f64) = (Vec::new(), f64::INFINITY);
         for entry in entries[..kept].iter().chain((more > 0).then_some(&rest)) {
             let (name, size) = fitting(&entry.name, width - 2.0 * ENDS - SAMPLE.1, TEXT);
             let long = SAMPLE.1 + CHARACTER * size * name.chars().count() as f64;
@@ -87,7 +88,7 @@ impl Legend {
                 lines.push(Vec::new());
                 left = ENDS;
             }
-            let placed = Placed { left, size, entry: Entry { name, ..entry.clone() } };
+            let placed = PlacedEntry { left, size, entry: Entry { name, ..entry.clone() } };
             if let Some(line) = lines.last_mut() {
                 line.push(placed);
             }
@@ -105,7 +106,7 @@ impl Legend {
     pub(super) fn draw(self, figure: &mut Figure, top: f64) {
         for (k, line) in self.lines.into_iter().enumerate() {
             let y = top + LINE * (k as f64 + 0.4);
-            for Placed { left, size, entry } in line {
+            for PlacedEntry { left, size, entry } in line {
                 figure.dashed(vec![(left, y), (left + SAMPLE.0, y)], entry.dash, 2.2, entry.colour);
                 figure.text((left + SAMPLE.1, y), entry.name, size, Anchor::Start, INK);
             }
@@ -122,7 +123,7 @@ mod tests {
         let names =
             ["a", "a in steady state", "bbbbbb", "bbbbbb in steady state", "cc", "cc in steady state"];
         let entry = |name: &&str| Entry { name: (*name).into(), colour: INK, dash: &[] };
-        let legend = Legend::of(&names.iter().map(entry).collect::<Vec<_>>(), 540.0);
+        let legend = Legend::from_entries(&names.iter().map(entry).collect::<Vec<_>>(), 540.0);
         assert_eq!(legend.lines.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2, 2]);
         let lefts: Vec<Vec<f64>> =
             legend.lines.iter().map(|line| line.iter().map(|p| p.left).collect()).collect();
@@ -135,13 +136,14 @@ mod tests {
             let name = |k: usize| format!("{k} {}", "long ".repeat(k % 7));
             let entries: Vec<Entry> =
                 (0..count).map(|k| Entry { name: name(k), colour: INK, dash: &[] }).collect();
-            let legend = Legend::of(&entries, 540.0);
+            let legend = Legend::from_entries(&entries, 540.0);
             assert!(legend.lines.len() <= MOST_LINES);
             let shown: usize = legend.lines.iter().map(Vec::len).sum();
             assert!(shown == count || count == 60, "{shown} of {count}");
             for line in &legend.lines {
-                let end =
-                    |p: &Placed| p.left + SAMPLE.1 + CHARACTER * p.size * p.entry.name.chars().count() as f64;
+                let end = |p: &PlacedEntry| {
+                    p.left + SAMPLE.1 + CHARACTER * p.size * p.entry.name.chars().count() as f64
+                };
                 assert!(line.iter().all(|p| end(p) <= 540.0));
                 assert!(line.windows(2).all(|pair| end(&pair[0]) < pair[1].left));
             }

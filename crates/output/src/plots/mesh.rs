@@ -86,7 +86,7 @@ impl MeshPicture {
             return;
         }
         let largest = self.faces.iter().flatten().chain(&self.points).flatten();
-        let unit = LENGTH.of(largest.fold(0.0, |most, v| most.max(v.abs())));
+        let unit = LENGTH.choose(largest.fold(0.0, |most, v| most.max(v.abs())));
         for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
             let values = self.faces.iter().flatten().chain(&self.points).map(|x| x[axis]);
             let (lo, hi) = values.fold((f64::MAX, f64::MIN), |(lo, hi), v| (lo.min(v), hi.max(v)));
@@ -102,17 +102,22 @@ impl MeshPicture {
         let room = LEGEND - 60.0;
         let mut y = top;
         for (k, set) in self.sets.iter().enumerate() {
-            let style = Style::of(k);
+            let style = Style::from_curve(k);
             figure.line(vec![(left, y), (left + 34.0, y)], 4.0, style.colour);
             for (n, marker) in set.marks.iter().filter_map(|m| m.marker()).enumerate() {
-                Style::of(marker).marker_in(figure, (left + 8.0 + 12.0 * n as f64, y), 5.0, style.colour);
+                Style::from_curve(marker).marker_in(
+                    figure,
+                    (left + 8.0 + 12.0 * n as f64, y),
+                    5.0,
+                    style.colour,
+                );
             }
             let (text, size) = fitting(&set.label, room, TEXT);
             figure.text((left + 44.0, y), text, size, Anchor::Start, INK);
             y += LINE;
         }
         if !self.stations.is_empty() {
-            Style::of(4).marker_in(figure, (left + 17.0, y), 5.0, INK);
+            Style::from_curve(4).marker_in(figure, (left + 17.0, y), 5.0, INK);
             let text = format!("stations 1 to {}, in their order", self.stations.len());
             figure.text((left + 44.0, y), text, TEXT, Anchor::Start, INK);
             y += LINE;
@@ -127,7 +132,7 @@ impl MeshPicture {
         let mut x = left + 6.0;
         for (mark, word) in words.into_iter().filter(|(mark, _)| used(*mark)) {
             if let Some(marker) = mark.marker() {
-                Style::of(marker).marker_in(figure, (x, y + 6.0), 5.0, MARK);
+                Style::from_curve(marker).marker_in(figure, (x, y + 6.0), 5.0, MARK);
             }
             figure.text((x + 10.0, y + 6.0), word, TEXT, Anchor::Start, MARK);
             x += 30.0 + 7.5 * word.len() as f64;

@@ -15,7 +15,7 @@ mod energy;
 mod faces;
 mod field;
 mod figure;
-mod framed;
+mod framed_figure;
 mod ground;
 pub(crate) mod labels;
 mod legend;
@@ -29,7 +29,7 @@ mod rupture;
 mod sheet;
 mod sketch;
 mod springs;
-mod stretched;
+mod stretched_axis;
 mod style;
 mod svg;
 mod title;
@@ -38,17 +38,17 @@ mod width;
 
 pub use chart::{Chart, Measure};
 pub use curves::Histories;
-pub use cycles::{Line, Mapped, Portrait};
-pub use diagram::{Diagram, Failed, Scale, Series, Slope};
-pub use field::Seen;
-pub use ground::{Coordinates, Shown};
+pub use cycles::{Line, MappedQuantity, Portrait};
+pub use diagram::{Diagram, FailedSetting, Scale, Series, Slope};
+pub use field::VisibleMesh;
+pub use ground::{Coordinates, MapQuantity};
 pub use mesh::{Mark, MarkedSet, MeshPicture};
 pub use panel::{EventPanel, PanelEvent};
 pub use profile::Tractions;
 pub use rupture::{Line as RuptureLine, Shape as RuptureShape, Surface};
 pub use sheet::{
-    Asked, Curves, Fault, Format, Ground, InEvent, Mises, OfEvent, Plot, Points, Sheet, Still, Stills,
-    Through, Velocities, short,
+    Curves, EventFault, EventOnset, Fault, FaultCycles, FigureRequest, Format, Ground, Mises, Plot, Points,
+    Sheet, Still, Stills, Velocities, short,
 };
 pub use sketch::Sketch;
 pub use springs::curves as springs_curves;
@@ -67,7 +67,7 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// If a file cannot be written or a drawing fails.
 pub fn draw_all(folder: &Path, recorder: &Recorder) -> Result<Vec<PathBuf>, OutputError> {
-    sheet(recorder).draw(folder, folder, &Asked::default())
+    sheet(recorder).draw(folder, folder, &FigureRequest::default())
 }
 
 /// Draws curves of two quantities against each other into `folder` and returns the files in the order written.
@@ -88,7 +88,7 @@ pub fn field(recorder: &Recorder, stage: &str) -> Option<String> {
     let setup = recorder.setup();
     let end = recorder.stage_ends().iter().find(|end| end.name == stage)?;
     let bodies = end.bodies.as_ref()?;
-    let (seen, nodes) = Seen::of(&setup.mesh, &bodies.displacement)?;
+    let (seen, nodes) = VisibleMesh::from_mesh(&setup.mesh, &bodies.displacement)?;
     let values: Vec<f64> = nodes.iter().map(|&node| bodies.node_mises[node]).collect();
     Some(svg::paint(&field::mises(None, &seen, &values, field::SMALL)?))
 }
@@ -140,7 +140,10 @@ pub fn sheet(recorder: &Recorder) -> Sheet {
     let mut sheet = Sheet::new(&setup.title, span, false);
     let stage_names = stems(setup.stages.iter().map(|(name, _)| name.as_str()));
     for end in recorder.stage_ends() {
-        let seen = end.bodies.as_ref().and_then(|b| Some((b, Seen::of(&setup.mesh, &b.displacement)?)));
+        let seen = end
+            .bodies
+            .as_ref()
+            .and_then(|b| Some((b, VisibleMesh::from_mesh(&setup.mesh, &b.displacement)?)));
         if let (Some((bodies, (seen, nodes))), Some(stage)) = (seen, stage_names.get(end.stage)) {
             let mesh = sheet.mesh(seen);
             sheet.plots.push(Plot::Mises(Mises {
@@ -155,8 +158,8 @@ pub fn sheet(recorder: &Recorder) -> Sheet {
     }
     let names = stems(setup.interfaces.iter().map(|mesh| mesh.name.as_str()));
     for (i, (stem, mesh)) in names.iter().zip(&setup.interfaces).enumerate() {
-        sheet.plots.extend(Histories::of(recorder, stem, i).map(Plot::Histories));
-        let tractions = Tractions::of(&setup.title, stem, mesh, i, recorder.stage_ends());
+        sheet.plots.extend(Histories::from_recorder(recorder, stem, i).map(Plot::Histories));
+        let tractions = Tractions::from_ends(&setup.title, stem, mesh, i, recorder.stage_ends());
         sheet.plots.extend(tractions.map(Plot::Tractions));
     }
     sheet.plots.extend(energy::budget(recorder).map(Plot::Curves));

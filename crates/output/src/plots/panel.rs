@@ -3,7 +3,7 @@
 use super::axes::Axis;
 use super::ball::ball;
 use super::figure::Figure;
-use super::framed::Framed;
+use super::framed_figure::FramedFigure;
 use super::legend::Entry;
 use super::paper::Paper;
 use super::style::Style;
@@ -62,7 +62,7 @@ impl EventPanel {
         }
         let range = (hi - lo).max(LEAST);
         let lo = 0.5 * (lo + hi - range);
-        let time = TIME.of(self.end.abs());
+        let time = TIME.choose(self.end.abs());
         // A run often stops at an event, which needs room for its sign.
         let last = all().map(|event| event.onset).fold(self.start, f64::max);
         let end = self.end.max(last + BEYOND * (self.end - self.start));
@@ -73,18 +73,18 @@ impl EventPanel {
         let named = self.groups.iter().enumerate().filter(|(_, group)| several && !group.1.is_empty());
         let entry = |(k, group): (usize, &(String, _))| Entry {
             name: group.0.clone(),
-            colour: Style::of(k).colour,
+            colour: Style::from_curve(k).colour,
             dash: &[],
         };
         let entries: Vec<Entry> = named.map(entry).collect();
-        let mut page = Framed::new(paper, (x, y), &entries);
-        let Framed { figure, frame, .. } = &mut page;
+        let mut page = FramedFigure::new(paper, x, y, &entries);
+        let FramedFigure { figure, frame, .. } = &mut page;
         title(figure, frame, &self.title, "events");
         frame.grid(figure);
         let bottom = frame.at.1 + frame.size.1;
         let balls = all().count() <= BALLS;
         for (k, (_, events)) in self.groups.iter().enumerate() {
-            let style = Style::of(k);
+            let style = Style::from_curve(k);
             for event in events.iter().filter(|event| event.magnitude.is_finite()) {
                 let at = frame.point(event.onset / time.factor, event.magnitude);
                 figure.line(vec![(at.0, bottom), at], 1.2, style.colour);

@@ -10,7 +10,7 @@ pub(super) struct Paper {
 
 impl Paper {
     /// Paper of this size.
-    pub(super) fn of(whole: Option<Point>) -> Self {
+    pub(super) fn new(whole: Option<Point>) -> Self {
         Self { whole }
     }
 
@@ -39,7 +39,7 @@ mod tests {
     #[test]
     fn a_frame_takes_what_its_surroundings_leave() {
         assert_eq!(Paper::default().frame((560.0, 380.0), (96.0, 100.0)), (560.0, 380.0));
-        let paper = Paper::of(Some((600.0, 400.0)));
+        let paper = Paper::new(Some((600.0, 400.0)));
         assert_eq!(paper.frame((560.0, 380.0), (96.0, 100.0)), (504.0, 300.0));
         let filled = paper.filled(Figure::new(500.0, 300.0));
         assert_eq!((filled.width, filled.height), (600.0, 400.0));

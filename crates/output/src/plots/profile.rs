@@ -5,7 +5,7 @@ use super::super::view::InterfaceMesh;
 use super::axes::Axis;
 use super::colour::viridis;
 use super::figure::{Dash, Figure, Point};
-use super::framed::Framed;
+use super::framed_figure::FramedFigure;
 use super::legend::Entry;
 use super::paper::Paper;
 use super::title::title;
@@ -29,12 +29,12 @@ pub struct Tractions {
     axis: String,
     /// First and last coordinate \[m\].
     ends: (f64, f64),
-    stages: Vec<AtEnd>,
+    stages: Vec<EndProfile>,
 }
 
 /// Tractions at the end of a stage.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-struct AtEnd {
+struct EndProfile {
     /// Name of the stage.
     name: String,
     /// Its end \[s\].
@@ -53,7 +53,7 @@ struct AtEnd {
 impl Tractions {
     /// Tractions along the longest extent of an interface of this number, averaged across it by area. `None` if it is a point or no
     /// stage has ended.
-    pub(super) fn of(
+    pub(super) fn from_ends(
         scene: &str,
         stem: &str,
         mesh: &InterfaceMesh,
@@ -67,9 +67,9 @@ impl Tractions {
             let average = |values| averaged(&places, &mesh.areas, values).into_iter().unzip();
             let (along, normal) = average(&fields.mean_normal_traction);
             let (_, shear): (Vec<f64>, _) = average(&fields.mean_shear_traction);
-            Some(AtEnd { name: end.name.clone(), time: end.time, along, normal, shear })
+            Some(EndProfile { name: end.name.clone(), time: end.time, along, normal, shear })
         };
-        let stages: Vec<AtEnd> = ends.iter().filter_map(one).collect();
+        let stages: Vec<EndProfile> = ends.iter().filter_map(one).collect();
         (!stages.is_empty()).then(|| Self {
             file: format!("{stem}_tractions"),
             title: scene.into(),
@@ -94,14 +94,14 @@ impl Tractions {
         let values = || curves.iter().flat_map(|curve| curve.points.iter()).map(|p| p.1);
         let largest = values().map(f64::abs).filter(|v| v.is_finite()).fold(0.0, f64::max);
         let (lo, hi) = self.ends;
-        let (stress, length) = (STRESS.of(largest), LENGTH.of(lo.abs().max(hi.abs())));
+        let (stress, length) = (STRESS.choose(largest), LENGTH.choose(lo.abs().max(hi.abs())));
         let label = format!("{} [{}]", self.axis, length.name);
         let x = Axis::exact((lo / length.factor, hi / length.factor), label);
         let y =
             Axis::linear(values().map(|v| v / stress.factor), 0.05, format!("Traction [{}]", stress.name));
         let entries: Vec<Entry> = curves.iter().map(|curve| curve.entry.clone()).collect();
-        let mut page = Framed::new(paper, (x, y), &entries);
-        let Framed { figure, frame, .. } = &mut page;
+        let mut page = FramedFigure::new(paper, x, y, &entries);
+        let FramedFigure { figure, frame, .. } = &mut page;
         title(figure, frame, &self.title, &self.name);
         frame.grid(figure);
         for Curve { entry, points } in &curves {

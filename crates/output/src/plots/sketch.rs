@@ -249,7 +249,7 @@ impl Sketch {
 
     /// Corners of a part of a circle, for bodies and lines: angles in degrees from the x axis to the left.
     #[must_use]
-    pub fn arc((x, y): Point, radius: f64, (from, to): Point) -> Vec<Point> {
+    pub fn arc((x, y): Point, radius: f64, from: f64, to: f64) -> Vec<Point> {
         const STEPS: usize = 48;
         let angle = |k: usize| (from + (to - from) * k as f64 / STEPS as f64).to_radians();
         (0..=STEPS).map(|k| (x + radius * angle(k).cos(), y + radius * angle(k).sin())).collect()

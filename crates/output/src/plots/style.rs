@@ -56,7 +56,7 @@ pub(super) struct Style {
 
 impl Style {
     /// The style of a curve. Beyond [`STYLES`] curves colours come again with other dashes and markers.
-    pub(super) fn of(curve: usize) -> Self {
+    pub(super) fn from_curve(curve: usize) -> Self {
         let shape = curve + curve / STYLES;
         Self {
             colour: COLOURS[curve % STYLES],
@@ -130,7 +130,7 @@ mod tests {
 
     #[test]
     fn the_first_fifty_curves_have_different_styles_and_neighbours_different_dashes() {
-        let styles: Vec<Style> = (0..5 * STYLES).map(Style::of).collect();
+        let styles: Vec<Style> = (0..5 * STYLES).map(Style::from_curve).collect();
         for (i, one) in styles.iter().enumerate() {
             assert!(styles[..i].iter().all(|other| other != one), "{i}");
         }

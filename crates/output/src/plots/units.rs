@@ -13,7 +13,7 @@ pub(super) struct Units(&'static [(Unit, f64)]);
 
 impl Units {
     /// Unit for values up to `largest` (SI). For zero and non-finite values it is the unit for 1.
-    pub(super) fn of(self, largest: f64) -> Unit {
+    pub(super) fn choose(self, largest: f64) -> Unit {
         let largest = if largest.is_finite() && largest > 0.0 { largest } else { 1.0 };
         let fitting = self.0.iter().rev().find(|(_, from)| *from <= largest);
         fitting.unwrap_or(&self.0[0]).0
@@ -119,20 +119,20 @@ mod tests {
 
     #[test]
     fn units_keep_numbers_readable() {
-        assert_eq!(LENGTH.of(5e-5).name, "µm");
-        assert_eq!(LENGTH.of(0.07).name, "mm");
-        assert_eq!(VELOCITY.of(0.999e-6).name, "µm/s");
-        assert_eq!(STRESS.of(2.3e7).name, "MPa");
-        assert_eq!(TIME.of(59.66).name, "s");
-        assert_eq!(TIME.of(6.4e7).name, "yr");
+        assert_eq!(LENGTH.choose(5e-5).name, "µm");
+        assert_eq!(LENGTH.choose(0.07).name, "mm");
+        assert_eq!(VELOCITY.choose(0.999e-6).name, "µm/s");
+        assert_eq!(STRESS.choose(2.3e7).name, "MPa");
+        assert_eq!(TIME.choose(59.66).name, "s");
+        assert_eq!(TIME.choose(6.4e7).name, "yr");
     }
 
     #[test]
     fn what_has_no_size_still_has_a_unit() {
         for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert_eq!(LENGTH.of(value).name, "m");
-            assert_eq!(NUMBER.of(value).factor, 1.0);
+            assert_eq!(LENGTH.choose(value).name, "m");
+            assert_eq!(NUMBER.choose(value).factor, 1.0);
         }
-        assert_eq!(LENGTH.of(1e-30).name, "nm");
+        assert_eq!(LENGTH.choose(1e-30).name, "nm");
     }
 }

@@ -141,7 +141,7 @@ fn a_stopped_run_keeps_what_it_had() {
     let (_keep, out) = directory("stopped");
     let mut files = Files::create(&out, schedule()).unwrap();
     let full = setup(0);
-    let mut stopping = Stopping { files: &mut files, left: 30 };
+    let mut stopping = FailingWriter { files: &mut files, left: 30 };
     assert!(play(&full, 25, None, &mut stopping).is_err());
     assert_eq!(rows(&out.join("probes/fault.csv")).1.len(), 30);
     // One stage of two intervals and a fifth of the next.
@@ -151,12 +151,12 @@ fn a_stopped_run_keeps_what_it_had() {
 }
 
 /// Fails after a number of steps.
-struct Stopping<'a> {
+struct FailingWriter<'a> {
     files: &'a mut Files,
     left: usize,
 }
 
-impl Writer for Stopping<'_> {
+impl Writer for FailingWriter<'_> {
     fn begin(&mut self, setup: &Setup) -> Result<(), OutputError> {
         self.files.begin(setup)
     }
@@ -215,18 +215,18 @@ fn fields_that_do_not_fit_the_set_up_are_refused() {
     short.interfaces[0].areas.pop();
     short.interfaces[0].probes.pop();
     let mut recorder = Recorder::new();
-    let mut swapped = Swapped { inner: &mut recorder, announced: &short };
+    let mut swapped = SwappedSetup { inner: &mut recorder, announced: &short };
     let error = play(&full, 1, None, &mut swapped).unwrap_err();
     assert_eq!(error.to_string(), "gap of interface fault: 21 values where the set-up announced 20");
 }
 
 /// Announces a set-up that differs from the one played.
-struct Swapped<'a> {
+struct SwappedSetup<'a> {
     inner: &'a mut Recorder,
     announced: &'a Setup,
 }
 
-impl Writer for Swapped<'_> {
+impl Writer for SwappedSetup<'_> {
     fn begin(&mut self, _: &Setup) -> Result<(), OutputError> {
         self.inner.begin(self.announced)
     }
@@ -253,7 +253,7 @@ fn several_observers_share_one_recovery_of_the_bodies() {
         recovered.set(recovered.get() + 1);
         body_fields(&full.mesh, 1.0, None)
     };
-    let (mut a, mut b) = (Asking, Asking);
+    let (mut a, mut b) = (PromptWriter, PromptWriter);
     let record = view::StepRecord::default();
     let view = StepView {
         record: &record,
@@ -269,9 +269,9 @@ fn several_observers_share_one_recovery_of_the_bodies() {
     assert_eq!(recovered.get(), 1);
 }
 
-struct Asking;
+struct PromptWriter;
 
-impl Writer for Asking {
+impl Writer for PromptWriter {
     fn begin(&mut self, _: &Setup) -> Result<(), OutputError> {
         Ok(())
     }
@@ -287,7 +287,7 @@ fn times_of_outputs_are_those_at_which_they_appear() {
     let stages = [("a".to_string(), 1.0), ("b".to_string(), 5.0)];
     let schedule = FieldSchedule { fields: 2, profiles: 4 };
     assert_eq!(schedule.times(&stages), [0.25, 0.5, 0.75, 1.0, 2.0, 3.0, 4.0, 5.0]);
-    let mut due = schedule::Due::new(4, &stages);
+    let mut due = schedule::OutputIntervals::new(4, &stages);
     let ends = [(0.1, false), (0.25, false), (0.3, false), (0.8, false), (0.99, false), (1.0, true)];
     let taken = ends.map(|(time, ends_stage)| due.take(0, time, ends_stage));
     assert_eq!(taken, [false, true, false, true, false, true]);

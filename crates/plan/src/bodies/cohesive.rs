@@ -5,14 +5,14 @@ use super::PlannedInterface;
 use super::friction::Friction;
 use crate::doubts;
 use crate::reading::diagnostic::Diagnostic;
-use crate::reading::scene::model::{Interface, Scene, UnderResolved};
+use crate::reading::scene::model::{Interface, Scene, UnderResolution};
 use crate::shared::cohesive::enough;
 use crate::shared::model::{Body, Model};
 use crate::shared::resolution::{FEW, Ground, TOO_FEW, modulus, spacings};
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::Side;
 use asperity_fem::surface;
-use asperity_mechanics::{Resolved, Stage};
+use asperity_mechanics::{Stage, ZoneResolution};
 use asperity_run::Warning;
 
 /// Length of friction that weakens where it is shortest against the distance of points.
@@ -67,14 +67,14 @@ pub(super) fn resolved<const D: usize>(
     model: &Model<D>,
     (spec, friction): (&Interface, Option<&Friction>),
     sides: (&[(usize, f64)], &[Side]),
-) -> Option<Resolved> {
+) -> Option<ZoneResolution> {
     let law = spec.law.as_ref()?;
     let [zone, _] = shortest(model, (spec, friction), sides)?;
     let spacing = zone.spacing;
-    let allowed = spec.under_resolved.as_ref().map(|u| *u.get_ref()) == Some(UnderResolved::Allow);
+    let allowed = spec.under_resolved.as_ref().map(|u| *u.get_ref()) == Some(UnderResolution::Allow);
     let one = zone.length / spacing;
     let refused_beyond = (!allowed).then_some(one / TOO_FEW);
-    Some(Resolved { one, spacing, refused_beyond, limit: limit(one, spacing), place: law.span() })
+    Some(ZoneResolution { one, spacing, refused_beyond, limit: limit(one, spacing), place: law.span() })
 }
 
 /// Resolution limit and remedy, printed if a run stops because of it.
@@ -86,7 +86,7 @@ fn limit(one: f64, spacing: f64) -> String {
 }
 
 /// Remedy if the cohesive zone contains less than one point.
-fn remedy(resolved: &Resolved, normal: f64) -> String {
+fn remedy(resolved: &ZoneResolution, normal: f64) -> String {
     format!("{}; or `under_resolved = \"allow\"` at the interface", enough(resolved, normal))
 }
 
@@ -94,7 +94,7 @@ fn remedy(resolved: &Resolved, normal: f64) -> String {
 ///
 /// # Errors
 /// [`Diagnostic`] if there is less than one point and the scene does not allow it.
-pub fn check(resolved: &Resolved, interface: &str, mean: f64) -> Result<Option<Warning>, Diagnostic> {
+pub fn check(resolved: &ZoneResolution, interface: &str, mean: f64) -> Result<Option<Warning>, Diagnostic> {
     let points = resolved.one / mean;
     if mean <= 0.0 || points >= FEW {
         return Ok(None);

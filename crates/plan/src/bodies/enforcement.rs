@@ -2,17 +2,19 @@
 
 use crate::reading::scene::model::{Enforcement as Spec, EnforcementKind, Spanned};
 use crate::reading::scene::units::{Penalty, Penetration};
-use asperity_mechanics::Enforced;
+use asperity_mechanics::PlannedEnforcement;
 use asperity_scene::defaults;
 
 /// Enforcement for a slave body with this ratio of Young's modulus to element size \[Pa/m\] and this element size
 /// \[m\].
 #[must_use]
-pub fn enforced(spec: &Spec, young_per_size: f64, size: f64) -> Enforced {
+pub fn enforced(spec: &Spec, young_per_size: f64, size: f64) -> PlannedEnforcement {
     match *spec.kind.get_ref() {
-        EnforcementKind::Penalty => Enforced::Penalty,
-        EnforcementKind::AugmentedLagrangian => Enforced::AugmentedLagrangian { unit: young_per_size },
-        EnforcementKind::Uzawa => Enforced::Uzawa {
+        EnforcementKind::Penalty => PlannedEnforcement::Penalty,
+        EnforcementKind::AugmentedLagrangian => {
+            PlannedEnforcement::AugmentedLagrangian { unit: young_per_size }
+        }
+        EnforcementKind::Uzawa => PlannedEnforcement::Uzawa {
             // The scene check ensures that it is given.
             tolerance: spec.penetration.as_ref().map_or(0.0, |p| match *p.get_ref() {
                 Penetration::Value(value) => value,

@@ -71,7 +71,7 @@ impl Friction {
 
     /// The state θ of all points, or of each; empty if the law has none.
     pub fn thetas(&self) -> Vec<Theta> {
-        self.laws.iter().map(Theta::of).collect::<Option<_>>().unwrap_or_default()
+        self.laws.iter().map(Theta::from_law).collect::<Option<_>>().unwrap_or_default()
     }
 
     /// Builds the law.

@@ -4,11 +4,11 @@ use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Method as Asked, Scene, Spanned};
 use crate::shared::amounts::{memory, size};
 use crate::shared::model::{counts, forecast};
-use asperity_fem::assembly::{Lower, Symmetry};
+use asperity_fem::assembly::{LowerTriangle, Symmetry};
 use asperity_fem::dof::{Constraints, Equations};
 use asperity_fem::term::Pattern;
 use asperity_fem::{FemError, condense};
-use asperity_mechanics::solver::{Method, Prepared, Solver, local, moving_mortar, retained, symmetry};
+use asperity_mechanics::solver::{Analyses, Method, Solver, local, moving_mortar, retained, symmetry};
 use asperity_mechanics::{CellBlock, Model, Path, PlannedInterface, Spring, Stage, Stepping};
 use asperity_scene::defaults;
 
@@ -65,9 +65,9 @@ impl<const D: usize> Choice<'_, D> {
     }
 
     /// Memory for condensing the bodies onto `retained`, without the interface.
-    fn condensations(&self, retained: &[Vec<usize>]) -> Result<(Prepared, usize), Diagnostic> {
+    fn condensations(&self, retained: &[Vec<usize>]) -> Result<(Analyses, usize), Diagnostic> {
         if let Some(bytes) = self.counted(forecast::condensation) {
-            return Ok((Prepared::Nothing, bytes));
+            return Ok((Analyses::Nothing, bytes));
         }
         let mut analyses = Vec::new();
         let fixed = &self.stages[0].fixed;
@@ -81,7 +81,7 @@ impl<const D: usize> Choice<'_, D> {
             analyses.push(analysis.map_err(refused)?);
         }
         let bytes = analyses.iter().map(condense::Analysis::bytes).sum();
-        Ok((Prepared::Bodies(analyses), bytes))
+        Ok((Analyses::Bodies(analyses), bytes))
     }
 
     fn condensed(&self) -> Result<Solver, Diagnostic> {
@@ -128,13 +128,13 @@ impl<const D: usize> Choice<'_, D> {
         }
         let unsymmetric = self.unsymmetric();
         let (prepared, bytes) = match self.counted(forecast::factorisation) {
-            Some(bytes) => (Prepared::Nothing, bytes),
+            Some(bytes) => (Analyses::Nothing, bytes),
             None => {
                 let patterns: Vec<&Pattern> = self.model.blocks.iter().map(CellBlock::pattern).collect();
-                let analysis = Lower::new(&patterns, &self.equations()).analyse();
+                let analysis = LowerTriangle::new(&patterns, &self.equations()).analyse();
                 let analysis = analysis.map_err(|e| self.at_memory(e.to_string()))?;
                 let bytes = analysis.symbolic().bytes();
-                (Prepared::System(analysis), bytes)
+                (Analyses::System(analysis), bytes)
             }
         };
         let bytes = if unsymmetric.is_some() { UNSYMMETRIC } else { 1 } * bytes;
@@ -160,7 +160,7 @@ impl<const D: usize> Choice<'_, D> {
         constraints.equations(self.model.dofs())
     }
 
-    fn direct(&self, prepared: Prepared, bytes: usize) -> Solver {
+    fn direct(&self, prepared: Analyses, bytes: usize) -> Solver {
         let general =
             |s: &&Stage| symmetry(self.model, self.interfaces, self.stepping, s) == Symmetry::General;
         let count = self.stages.iter().filter(general).count();
@@ -177,7 +177,7 @@ impl<const D: usize> Choice<'_, D> {
         let once = self.interfaces.is_empty() && self.model.is_linear() && still;
         let often = if once { ", once for each set of supports" } else { "" };
         let operations = match &prepared {
-            Prepared::System(analysis) if !once => {
+            Analyses::System(analysis) if !once => {
                 let cholesky = analysis.symbolic().operations();
                 Some(if count > 0 { UNSYMMETRIC as f64 * cholesky } else { cholesky })
             }
@@ -238,7 +238,7 @@ impl<const D: usize> Choice<'_, D> {
         Ok(Solver {
             method: Method::Iterative { tolerance, most_iterations },
             memory: self.memory(),
-            prepared: Prepared::Nothing,
+            prepared: Analyses::Nothing,
             bytes,
             operations: None,
             why: format!(

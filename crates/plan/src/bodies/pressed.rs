@@ -9,7 +9,7 @@ use crate::shared::initial_stress;
 use crate::shared::model::{self, Body, Model};
 use asperity_fem::mesh::{Side, nodes_of_sides};
 use asperity_fem::surface;
-use asperity_mechanics::{Pressed, coordinates};
+use asperity_mechanics::{InitialTractions, coordinates};
 
 /// Largest relative difference of the nodal forces of both sides that count as balanced: rounding of stresses given in a scene.
 const BALANCED: f64 = 1e-6;
@@ -23,7 +23,7 @@ pub fn of<const D: usize>(
     model: &Model<D>,
     (name, spec): (&str, &Spec),
     slave: &[Side],
-) -> Result<Option<Pressed>, Diagnostic> {
+) -> Result<Option<InitialTractions>, Diagnostic> {
     let Some(key) = spec.initial_stress.as_ref().filter(|key| *key.get_ref()) else { return Ok(None) };
     let master = model::sides(model, &spec.master)?;
     let body = |set: &str| model.body_of(set).map(|b| &model.bodies[b]);
@@ -82,5 +82,5 @@ pub fn of<const D: usize>(
         (padded(at), padded(mean))
     });
     let reach = SHARE * model.element_size(own, slave);
-    Ok(Some(Pressed { points: points.collect(), reach }))
+    Ok(Some(InitialTractions { points: points.collect(), reach }))
 }

@@ -9,7 +9,7 @@ use asperity_contact::TimeRule;
 use asperity_fem::nonlinear::Material;
 use asperity_mechanics::solver::{Solver, retained as retained_by};
 use asperity_mechanics::{
-    CellBlock, Enforced, Measure, Model, Path, PlannedInterface, Stage, Stepping, interface_nodes,
+    CellBlock, Measure, Model, Path, PlannedEnforcement, PlannedInterface, Stage, Stepping, interface_nodes,
 };
 
 /// Summary of a plan, except for the findings about its initial state.
@@ -171,11 +171,11 @@ fn describe(stepping: &Stepping, limits: bool, slips: bool) -> String {
 fn enforced(interface: &PlannedInterface) -> String {
     let kind = if interface.law.as_ref().is_some_and(|l| l.bonded()) { "tied" } else { "contact" };
     match interface.enforced {
-        Enforced::Penalty => format!("penalty {kind}"),
-        Enforced::Uzawa { tolerance, most } => format!(
+        PlannedEnforcement::Penalty => format!("penalty {kind}"),
+        PlannedEnforcement::Uzawa { tolerance, most } => format!(
             "{kind} by Uzawa's method to a penetration of {tolerance:.2e} m in at most {most} augmentations a step"
         ),
-        Enforced::AugmentedLagrangian { .. } => {
+        PlannedEnforcement::AugmentedLagrangian { .. } => {
             format!("{kind} by {} multipliers as unknowns (augmented Lagrangian)", interface.unknowns)
         }
     }

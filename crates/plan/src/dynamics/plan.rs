@@ -5,7 +5,7 @@ use crate::shared::checks::Checks;
 use crate::shared::resolution::Resolution;
 use crate::shared::words::{length, time};
 use asperity_fem::mesh::Cells;
-use asperity_mechanics::dynamics::{Problem, Stable};
+use asperity_mechanics::dynamics::{Problem, StableStep};
 use asperity_output::view::MeshView;
 use asperity_run::Warning;
 use jiff::Timestamp;
@@ -41,7 +41,7 @@ pub struct Plan<const D: usize> {
     /// Problem to compute.
     pub problem: Problem<D>,
     /// Largest stable step and the cell that sets it.
-    pub stable: Stable,
+    pub stable: StableStep,
     /// Position of that cell \[m\].
     pub stiffest: [f64; D],
     /// Number of steps.

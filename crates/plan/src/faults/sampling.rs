@@ -3,15 +3,15 @@
 use super::bodies::BodiesView;
 use crate::shared::views;
 use asperity_cycles::{Moment, OPENING};
-use asperity_mechanics::{Beside, Model, SpringNow, SpringStart, Stage, StressField, Wanted};
-use asperity_output::Sampled;
+use asperity_mechanics::{ForeignLoads, Model, SampleRequest, SpringStart, SpringState, Stage, StressField};
+use asperity_output::SampleSites;
 use asperity_output::view::Samples;
 
 /// Points, sets and springs that are sampled, and the bodies that have their values.
 #[derive(Debug)]
 pub struct Sampling {
     /// Points, sets and springs.
-    pub sampled: Sampled,
+    pub sampled: SampleSites,
     /// Name of the stage in which faults slide.
     pub stage: String,
     /// Number of that stage.
@@ -35,11 +35,11 @@ pub(super) struct SampledBodies<const D: usize> {
     /// Initial stress of each body.
     pub initial_stress: Vec<Option<StressField>>,
     /// Points and sets.
-    pub wanted: Wanted,
+    pub wanted: SampleRequest,
     /// The stage in which faults slide.
     pub stage: Stage,
     /// Loads on the nodes of each set that do not belong to it.
-    pub beside: Vec<Beside>,
+    pub beside: Vec<ForeignLoads>,
     /// Displacements at its start \[m\].
     pub start: Vec<f64>,
     /// Springs at its start.
@@ -52,7 +52,7 @@ impl Sampling {
         areas: Vec<f64>,
         (unit, number): (&'static str, usize),
     ) -> Self {
-        let sampled = Sampled {
+        let sampled = SampleSites {
             points: bodies.wanted.points.iter().map(views::point_mark).collect(),
             forces: bodies.wanted.forces.iter().map(views::force_mark).collect(),
             springs: views::spring_marks(std::slice::from_ref(&bodies.stage)),
@@ -77,13 +77,12 @@ impl<const D: usize> Sample for SampledBodies<D> {
     fn at(&self, change: Vec<f64>, time: f64, normal: f64) -> Samples {
         let u: Vec<f64> = change.iter().zip(&self.start).map(|(change, start)| start + change).collect();
         let (model, stage) = (&self.model, &self.stage);
-        let values =
-            self.wanted.values(model, (&model.blocks, &self.initial_stress), (&u, time), &self.beside);
+        let values = self.wanted.values(model, &model.blocks, &self.initial_stress, &u, time, &self.beside);
         let spring = |(spring, start): (&asperity_mechanics::Spring, &SpringStart)| {
-            let drawn = spring.rate.drawn((stage.start, stage.end)).at(time);
-            SpringNow::of(start, spring.stiffness, drawn, u[spring.dofs[0]])
+            let drawn = spring.rate.drawn(stage.start, stage.end).at(time);
+            SpringState::new(start, spring.stiffness, drawn, u[spring.dofs[0]])
         };
-        let springs: Vec<SpringNow> = stage.springs.iter().zip(&self.springs).map(spring).collect();
+        let springs: Vec<SpringState> = stage.springs.iter().zip(&self.springs).map(spring).collect();
         let springs = views::springs(std::slice::from_ref(stage), stage, &springs, normal);
         views::samples(values, springs)
     }

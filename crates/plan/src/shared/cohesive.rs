@@ -6,12 +6,12 @@
 //! warns if the zone holds fewer than three.
 
 use crate::shared::resolution::{ENOUGH, FEW};
-use asperity_mechanics::Resolved;
+use asperity_mechanics::ZoneResolution;
 use asperity_run::Warning;
 
 /// Warning if the largest normal traction \[Pa\] at the end of a stage leaves too few points.
 #[must_use]
-pub fn warning(resolved: &Resolved, interface: &str, stage: &str, largest: f64) -> Option<Warning> {
+pub fn warning(resolved: &ZoneResolution, interface: &str, stage: &str, largest: f64) -> Option<Warning> {
     let points = resolved.one / largest;
     (largest > 0.0 && points < FEW).then(|| {
         Warning::at(
@@ -28,6 +28,6 @@ pub fn warning(resolved: &Resolved, interface: &str, stage: &str, largest: f64) 
 
 /// Advice on the spacing that gives three points.
 #[must_use]
-pub fn enough(resolved: &Resolved, normal: f64) -> String {
+pub fn enough(resolved: &ZoneResolution, normal: f64) -> String {
     format!("points {:.4e} m apart give three", resolved.spacing * resolved.one / normal / ENOUGH)
 }

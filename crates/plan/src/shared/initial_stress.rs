@@ -45,7 +45,7 @@ fn linear(spec: &VaryingStress) -> Option<StressField> {
         Axis::Z => 2,
     };
     let level = spec.level.as_ref()?.get_ref().0;
-    Some(StressField::new(in_full(&stress)?, in_full(&gradient)?, (axis, level)))
+    Some(StressField::new(in_full(&stress)?, in_full(&gradient)?, axis, level))
 }
 
 /// Vertical axis of a body, and its gravity \[m/s²\].
@@ -73,5 +73,5 @@ fn lithostatic(scene: &Scene, body: &Body, spec: &VaryingStress) -> Option<Stres
         })
     };
     let level = spec.level.as_ref()?.get_ref().0;
-    Some(StressField::new(of(-overburden), of(-density * acceleration), (axis, level)))
+    Some(StressField::new(of(-overburden), of(-density * acceleration), axis, level))
 }

@@ -16,7 +16,7 @@ use asperity_fem::dof::Channel;
 use asperity_fem::kinematics::Formulation;
 use asperity_fem::surface;
 use asperity_fem::table::Table;
-use asperity_mechanics::{self as mechanics, Rotation, Turning};
+use asperity_mechanics::{self as mechanics, RotatedSet, Rotation};
 pub use asperity_mechanics::{Spring, Stage};
 use shared::Shared;
 use std::collections::BTreeMap;
@@ -242,21 +242,21 @@ fn moved(motion: Motion) -> Option<mechanics::Motion> {
         Motion::To(value) => mechanics::Motion::To(value),
         Motion::Rate(rate) => mechanics::Motion::Rate(paced(&rate)),
         Motion::Table(points) => mechanics::Motion::Table(points.to_vec()),
-        // The displacement that a rotation adds to its start is given by [`Turning`].
+        // The displacement that a rotation adds to its start is given by [`RotatedSet`].
         Motion::Hold | Motion::Rotate(_) => mechanics::Motion::Hold,
         Motion::Free | Motion::Spring { .. } => return None,
     })
 }
 
 /// Rotating components, with the positions of their nodes.
-fn turning<const D: usize>(model: &Model<D>, motions: &[(Vec<usize>, Motion)]) -> Vec<Turning> {
+fn turning<const D: usize>(model: &Model<D>, motions: &[(Vec<usize>, Motion)]) -> Vec<RotatedSet> {
     let components = model.idealisation.components();
     let place = |dof: &usize| {
         let x = &model.mesh.nodes[dof / components];
         std::array::from_fn(|c| x.get(c).copied().unwrap_or(0.0))
     };
     let turned = |(dofs, motion): &(Vec<usize>, Motion)| match motion {
-        Motion::Rotate(rotation) => Some(Turning {
+        Motion::Rotate(rotation) => Some(RotatedSet {
             places: dofs.iter().map(place).collect(),
             dofs: dofs.clone(),
             components,

@@ -2,7 +2,7 @@
 //! and the hand-overs are in [`asperity_cycles`].
 
 use asperity_cycles::{Dynamics, Handover, Shaken, Start, Waves};
-use asperity_mechanics::dynamics::{Explicit, Onset, Problem, Stable};
+use asperity_mechanics::dynamics::{Explicit, Onset, Problem, StableStep};
 use asperity_ode::Control;
 
 /// Bodies with mass for ruptures, and when they are used.
@@ -29,7 +29,7 @@ pub struct Bodies<const D: usize> {
     /// Problem without the state at which a rupture begins.
     pub problem: Problem<D>,
     /// Largest stable step, and the cell that sets it.
-    pub stable: Stable,
+    pub stable: StableStep,
 }
 
 impl Ruptures {

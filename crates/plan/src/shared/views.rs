@@ -2,7 +2,7 @@
 
 use asperity_fem::kinematics::Idealisation;
 use asperity_mechanics as mechanics;
-use asperity_mechanics::{ForceSet, Model, Point, Spring, SpringNow, Stage};
+use asperity_mechanics::{ForceSet, Model, Point, Spring, SpringState, Stage};
 use asperity_output::view::{ForceMark, MeshView, PointMark, PointValues, Samples, SpringMark, SpringValues};
 
 /// Pads a vector to three components.
@@ -68,9 +68,14 @@ pub fn spring_marks(stages: &[Stage]) -> Vec<SpringMark> {
 
 /// Springs of a stage in the order of [`spring_marks`]; `normal` is the sum of the normal forces on all interfaces \[N; N/m\].
 #[must_use]
-pub fn springs(stages: &[Stage], stage: &Stage, now: &[SpringNow], normal: f64) -> Vec<Option<SpringValues>> {
+pub fn springs(
+    stages: &[Stage],
+    stage: &Stage,
+    now: &[SpringState],
+    normal: f64,
+) -> Vec<Option<SpringValues>> {
     let here: Vec<SpringMark> = stage.springs.iter().map(spring_mark).collect();
-    let values = |s: &SpringNow| SpringValues {
+    let values = |s: &SpringState| SpringValues {
         load_point: s.load_point,
         displacement: s.displacement,
         force: s.force,

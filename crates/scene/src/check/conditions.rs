@@ -2,10 +2,10 @@
 
 use super::course::Course;
 use super::interfaces::is_tied;
-use super::starts::Present;
+use super::starts::PresentLoads;
 use super::{AXES, Checker};
 use crate::diagnostic::Diagnostic;
-use crate::model::{Condition, Kinematics, Loading, Motion, Pace, RotationSpec, Spanned, Stage, Tabled};
+use crate::model::{Condition, Kinematics, Loading, Motion, Pace, RotationSpec, Spanned, Stage, TimeSeries};
 use crate::near::suggest;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -38,7 +38,7 @@ impl Kind {
 
 /// Prescribed components, carried from stage to stage.
 #[derive(Default)]
-struct Held {
+struct PrescribedComponents {
     entries: BTreeMap<(String, usize), Entry>,
     /// Displacement of each component that has been prescribed; `None` if unknown, as after a release.
     present: BTreeMap<(String, usize), Option<f64>>,
@@ -46,7 +46,7 @@ struct Held {
     told: Vec<(String, String, usize)>,
 }
 
-impl Held {
+impl PrescribedComponents {
     /// Displacement of a component at the start of a stage, if known.
     fn start(&self, entry: &Entry, first: bool) -> Option<f64> {
         let key = (entry.set.clone(), entry.axis);
@@ -93,7 +93,7 @@ impl Checker<'_> {
                 "add `[[stages]]` with a `duration`",
             );
         }
-        let (mut held, mut loaded) = (Held::default(), Present::default());
+        let (mut prescribed, mut loaded) = (PrescribedComponents::default(), PresentLoads::default());
         for (index, stage) in self.scene.stages.iter().enumerate() {
             self.stage(index, stage);
             let mut fresh = Vec::new();
@@ -102,16 +102,16 @@ impl Checker<'_> {
             }
             self.twice(stage, &fresh);
             for entry in &fresh {
-                let present = held.start(entry, index == 0);
-                self.begins(stage, (&entry.set, entry.axis, &entry.motion), &entry.place, present);
-                held.entries.insert((entry.set.clone(), entry.axis), entry.clone());
+                let present = prescribed.start(entry, index == 0);
+                self.begins(stage, &entry.set, entry.axis, &entry.motion, &entry.place, present);
+                prescribed.entries.insert((entry.set.clone(), entry.axis), entry.clone());
             }
             self.loads_begin(stage, &mut loaded);
             let duration = stage.duration.get_ref().0;
-            self.shared_nodes(stage, &fresh, &mut held, (index == 0, duration));
-            self.loads(stage, &held);
+            self.shared_nodes(stage, &fresh, &mut prescribed, (index == 0, duration));
+            self.loads(stage, &prescribed);
             self.absorbing(stage);
-            held.settle(index == 0, duration);
+            prescribed.settle(index == 0, duration);
         }
     }
 
@@ -320,7 +320,7 @@ impl Checker<'_> {
     }
 
     /// Checks that a table lies within its stage. Values past the end would be lost silently, or taken as reached.
-    fn table(&mut self, points: &Tabled, place: Range<usize>, stage: &Stage, kind: Kind) {
+    fn table(&mut self, points: &TimeSeries, place: Range<usize>, stage: &Stage, kind: Kind) {
         let duration = stage.duration.get_ref().0;
         if points.len() < 2 {
             self.error(
@@ -419,12 +419,12 @@ impl Checker<'_> {
         &mut self,
         stage: &Stage,
         fresh: &[Entry],
-        held: &mut Held,
+        prescribed: &mut PrescribedComponents,
         (first, duration): (bool, f64),
     ) {
         let mut found = Vec::new();
         for (i, entry) in fresh.iter().enumerate() {
-            for other in held.entries.values().filter(|o| self.share_component(entry, o)) {
+            for other in prescribed.entries.values().filter(|o| self.share_component(entry, o)) {
                 // If both entries of a pair are new in this stage, the pair is reported once, at the later entry.
                 let later = fresh[i + 1..].iter().any(|f| f.set == other.set && f.axis == other.axis);
                 let pair = (
@@ -432,15 +432,15 @@ impl Checker<'_> {
                     entry.set.clone().max(other.set.clone()),
                     entry.axis,
                 );
-                let (a, b) = held.courses(other, entry, (first, duration));
-                if !later && !a.agrees(&b, duration) && !held.told.contains(&pair) {
+                let (a, b) = prescribed.courses(other, entry, (first, duration));
+                if !later && !a.agrees(&b, duration) && !prescribed.told.contains(&pair) {
                     found.push((pair, entry, other.clone(), (a, b)));
                 }
             }
         }
         for (pair, entry, other, (a, b)) in found {
             let (set, axis, name) = (&entry.set, AXES[entry.axis], &stage.name);
-            held.told.push(pair);
+            prescribed.told.push(pair);
             let message = format!(
                 "`{}` and `{set}` share nodes and prescribe {axis} there differently in stage `{name}`",
                 other.set
@@ -470,7 +470,7 @@ impl Checker<'_> {
     }
 
     /// Reports loads on components with prescribed motion, which would have no effect.
-    fn loads(&mut self, stage: &Stage, held: &Held) {
+    fn loads(&mut self, stage: &Stage, prescribed: &PrescribedComponents) {
         for condition in &stage.conditions {
             let c = condition.get_ref();
             let Some(set) = &c.set else { continue };
@@ -484,7 +484,7 @@ impl Checker<'_> {
                 loaded.push((axis, "pressure", p.span()));
             }
             for (axis, what, place) in loaded {
-                let entry = held.entries.get(&(set.get_ref().clone(), axis));
+                let entry = prescribed.entries.get(&(set.get_ref().clone(), axis));
                 let Some(entry) = entry.filter(|e| e.motion != Motion::Free) else { continue };
                 let (set, axis) = (set.get_ref(), AXES[axis]);
                 let message = format!(

@@ -1,7 +1,7 @@
 //! Fluid that diffuses along faults.
 
 use super::Checker;
-use crate::model::{Diffusion, Fault, Kinematics, Profiled};
+use crate::model::{Diffusion, Fault, Kinematics, ParameterProfiles};
 
 impl Checker<'_> {
     pub(super) fn diffusion(&mut self, fault: &Fault) {
@@ -52,7 +52,7 @@ impl Checker<'_> {
                 let message = format!("`{key}` must be positive, found {found:?}");
                 self.error(place.clone(), message, format!("such as `{key} = {example}`"));
             }
-            for profile in profile.iter().flat_map(|Profiled(list)| list) {
+            for profile in profile.iter().flat_map(|ParameterProfiles(list)| list) {
                 self.profile(key, profile, Some(1.0));
             }
             let profiled = profile.and_then(|p| p.0.first()).map(|p| p.points.span());

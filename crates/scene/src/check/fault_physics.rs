@@ -47,7 +47,7 @@ impl Checker<'_> {
 
     /// Checks the source of the initial tractions: keys of the fault or an initial stress of its bodies.
     fn tractions_at_the_start(&mut self, fault: &Fault) {
-        let profile = |p: &Option<crate::model::Profiled>| {
+        let profile = |p: &Option<crate::model::ParameterProfiles>| {
             p.as_ref().and_then(|p| p.0.first()).map(|p| p.points.span())
         };
         let file = |f: &Option<crate::model::Field>| f.as_ref().map(|f| f.file.span());

@@ -5,7 +5,7 @@ use super::interfaces::RATED;
 use crate::law;
 use crate::model::{
     Along, Creep, CreepLoading, DampingSpec, EventSpec, Fault, Interface, Kinematics, Motion, Outside,
-    Profile, Profiled, SlipSpec, Spanned, Station, Stepper,
+    ParameterProfiles, Profile, SlipSpec, Spanned, Station, Stepper,
 };
 use crate::near::suggest;
 use crate::units::Angle;
@@ -35,7 +35,7 @@ impl Checker<'_> {
                     "shear" => fault.slides().then(|| fault.rate.get_ref().0.signum()),
                     _ => Some(1.0),
                 };
-                for profile in profile.iter().flat_map(|Profiled(list)| list) {
+                for profile in profile.iter().flat_map(|ParameterProfiles(list)| list) {
                     self.profile(name, profile, sense);
                 }
             }

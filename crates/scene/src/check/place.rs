@@ -9,9 +9,9 @@ use jiff::{SignedDuration, Timestamp};
 impl Checker<'_> {
     pub(super) fn place(&mut self) {
         let Some(place) = &self.scene.place else { return };
-        self.angle("latitude", &place.latitude, (-90.0, 90.0));
-        self.angle("longitude", &place.longitude, (-180.0, 360.0));
-        self.angle("strike", &place.strike, (0.0, 360.0));
+        self.angle("latitude", &place.latitude, -90.0, 90.0);
+        self.angle("longitude", &place.longitude, -180.0, 360.0);
+        self.angle("strike", &place.strike, 0.0, 360.0);
         if let Some(depth) = place.depth.as_ref().filter(|d| !d.get_ref().0.is_finite()) {
             self.error(depth.span(), "`depth` must be finite", "such as `depth = \"5 km\"`");
         }
@@ -99,7 +99,7 @@ impl Checker<'_> {
         }
     }
 
-    pub(super) fn angle(&mut self, name: &str, angle: &Spanned<Angle>, (least, most): (f64, f64)) {
+    pub(super) fn angle(&mut self, name: &str, angle: &Spanned<Angle>, least: f64, most: f64) {
         let degrees = angle.get_ref().0.to_degrees();
         // The conversion to radians and back is not exact.
         if !(degrees >= least - ROUNDING && degrees <= most + ROUNDING) {

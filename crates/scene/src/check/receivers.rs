@@ -38,8 +38,8 @@ impl Checker<'_> {
         }
         for (name, site) in &scene.output.sites {
             self.name("a site", name, site.span());
-            self.angle("latitude", &site.get_ref().latitude, (-90.0, 90.0));
-            self.angle("longitude", &site.get_ref().longitude, (-180.0, 360.0));
+            self.angle("latitude", &site.get_ref().latitude, -90.0, 90.0);
+            self.angle("longitude", &site.get_ref().longitude, -180.0, 360.0);
             if let Some(other) = scene.output.receivers.get(name) {
                 let message = format!("`{name}` is a site and a receiver");
                 self.conflict(

@@ -10,7 +10,7 @@ use std::ops::Range;
 const ROUNDING: f64 = 1e-9;
 
 /// Loads at the end of the stage before, by set and component; a pressure has the last.
-pub(super) type Present = BTreeMap<(String, usize), f64>;
+pub(super) type PresentLoads = BTreeMap<(String, usize), f64>;
 
 /// Component of a pressure.
 const PRESSURE: usize = 3;
@@ -48,7 +48,9 @@ impl Checker<'_> {
     pub(super) fn begins(
         &mut self,
         stage: &Stage,
-        (set, axis, motion): (&str, usize, &Motion),
+        set: &str,
+        axis: usize,
+        motion: &Motion,
         place: &Range<usize>,
         present: Option<f64>,
     ) {
@@ -96,7 +98,7 @@ impl Checker<'_> {
     }
 
     /// Checks that tables of loads begin with the loads at the end of the stage before, and takes up those at the end of this one.
-    pub(super) fn loads_begin(&mut self, stage: &Stage, present: &mut Present) {
+    pub(super) fn loads_begin(&mut self, stage: &Stage, present: &mut PresentLoads) {
         // A force that acts at once on bodies with mass has an impulse, and starts waves.
         let jumps = self.has_mass() || self.drives_faults(stage);
         for c in stage.conditions.iter().map(Spanned::get_ref) {

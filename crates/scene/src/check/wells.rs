@@ -1,7 +1,7 @@
 //! Fluid injected into faults.
 
 use super::Checker;
-use crate::model::{Fault, Flux, Injection, Kinematics, Spanned, Tabled};
+use crate::model::{Fault, Flux, Injection, Kinematics, Spanned, TimeSeries};
 use crate::units::{Length, Time};
 
 impl Checker<'_> {
@@ -114,7 +114,7 @@ impl Checker<'_> {
     }
 
     /// Checks that the times of a flux ascend from the start of the run on, and that something flows.
-    fn steps_of_flux(&mut self, place: &Spanned<Flux>, steps: &Tabled) {
+    fn steps_of_flux(&mut self, place: &Spanned<Flux>, steps: &TimeSeries) {
         let help = "pairs of time and the flux from then on, such as `steps = [[\"0 d\", \"1e-6 m/s\"], [\"10 d\", 0]]`";
         let finite = |step: &(f64, f64)| step.0.is_finite() && step.1.is_finite();
         if let Some(w) = steps.windows(2).find(|w| w[0].0 >= w[1].0) {

@@ -18,7 +18,7 @@ const LISTED: usize = 8;
 
 /// Result of a search.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Found {
+pub enum KeySearch {
     /// Keys with this path.
     Keys(Vec<Key>),
     /// No key; the message names what is near.
@@ -36,9 +36,9 @@ struct Place<'a> {
 /// Finds the keys with a path such as `faults.main.law.a`. Names may be left out, as in `faults.law.a`, and so may the
 /// beginning of the path, as in `law.a`.
 #[must_use]
-pub fn find(text: &str) -> Found {
+pub fn find(text: &str) -> KeySearch {
     let Some(path) = Path::read(text) else {
-        return Found::None(format!("`{text}` is no path of keys: write it like `faults.main.law.a`"));
+        return KeySearch::None(format!("`{text}` is no path of keys: write it like `faults.main.law.a`"));
     };
     let steps: Vec<&str> = path.0.iter().filter_map(name).collect();
     let tree = Tree::new();
@@ -55,9 +55,9 @@ pub fn find(text: &str) -> Found {
         places = all().into_iter().filter(|place| ends_with(&place.path, &steps)).collect();
     }
     if places.is_empty() {
-        return Found::None(unknown(text, &steps, &missed, &all()));
+        return KeySearch::None(unknown(text, &steps, &missed, &all()));
     }
-    Found::Keys(keys(&tree, places))
+    KeySearch::Keys(keys(&tree, places))
 }
 
 /// Checks that scenes have a key with this path, in which no name is left out. For each step, true if it is a name.
@@ -202,7 +202,7 @@ fn below<'a>(tree: &'a Tree, schema: &'a Value, path: &str, depth: usize) -> Vec
 
 /// A key with a default that holds in most scenes.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Documented {
+pub struct DocumentedDefault {
     /// Path, with `NAME` for names.
     pub path: String,
     /// Default as a scene gives it.
@@ -213,7 +213,7 @@ pub struct Documented {
 
 /// Keys with defaults.
 #[must_use]
-pub fn documented() -> Vec<Documented> {
+pub fn documented() -> Vec<DocumentedDefault> {
     let tree = Tree::new();
     let mut found = Vec::new();
     for (kind, all) in tree.kinds().zip([&OF_BODIES[..], &[Kind::Sliders]]) {
@@ -226,7 +226,7 @@ pub fn documented() -> Vec<Documented> {
             if kinds.is_empty() {
                 continue;
             }
-            found.push(Documented { path: place.path, default, kinds });
+            found.push(DocumentedDefault { path: place.path, default, kinds });
         }
     }
     found
@@ -305,15 +305,15 @@ mod tests {
 
     fn keys(text: &str) -> Vec<Key> {
         match find(text) {
-            Found::Keys(keys) => keys,
-            Found::None(why) => panic!("{text}: {why}"),
+            KeySearch::Keys(keys) => keys,
+            KeySearch::None(why) => panic!("{text}: {why}"),
         }
     }
 
     fn why(text: &str) -> String {
         match find(text) {
-            Found::Keys(keys) => panic!("{text}: {keys:?}"),
-            Found::None(why) => why,
+            KeySearch::Keys(keys) => panic!("{text}: {keys:?}"),
+            KeySearch::None(why) => why,
         }
     }
 

@@ -1,7 +1,7 @@
 //! Refusal of keys that do not belong to the kind of run of their scene, as their rows say.
 
 use super::tree::Tree;
-use super::visit::{Given, Visitor, visit};
+use super::visit::{GivenKey, Visitor, visit};
 use crate::diagnostic::Diagnostic;
 use crate::kind::{ALL, Kind, words};
 use serde_json::{Value as Schema, json};
@@ -10,21 +10,22 @@ use toml_edit::Document;
 
 /// Replaces what is said of keys that do not belong to a run of this kind, which the key at `stated` decides, by their refusal.
 pub(crate) fn refuse(
-    (tree, document): (&Tree, &Document<&str>),
+    tree: &Tree,
+    document: &Document<&str>,
     kind: Kind,
     stated: Range<usize>,
     errors: &mut Vec<Diagnostic>,
 ) {
-    let mut foreign = Foreign { kind, stated, errors: Vec::new(), below: Vec::new() };
+    let mut foreign = ForeignKeys { kind, stated, errors: Vec::new(), below: Vec::new() };
     visit(tree, document, kind == Kind::Sliders, &mut foreign);
-    let Foreign { errors: found, below, .. } = foreign;
+    let ForeignKeys { errors: found, below, .. } = foreign;
     let inside = |at: &Range<usize>| below.iter().any(|r| r.start <= at.start && at.end <= r.end);
     errors.retain(|error| error.span.is_empty() || !inside(&error.span));
     errors.extend(found);
     errors.sort_by_key(|e| (e.span.is_empty(), e.span.start));
 }
 
-struct Foreign {
+struct ForeignKeys {
     kind: Kind,
     stated: Range<usize>,
     errors: Vec<Diagnostic>,
@@ -32,8 +33,8 @@ struct Foreign {
     below: Vec<Range<usize>>,
 }
 
-impl<'s> Visitor<'s> for Foreign {
-    fn key(&mut self, given: &Given<'s, '_>) -> bool {
+impl<'s> Visitor<'s> for ForeignKeys {
+    fn key(&mut self, given: &GivenKey<'s, '_>) -> bool {
         let own = kinds(given.schema).filter(|kinds| !kinds.contains(&self.kind));
         let of_run = own.map(|kinds| {
             let stated = Some((self.stated.clone(), "the kind of run"));
@@ -59,7 +60,7 @@ impl<'s> Visitor<'s> for Foreign {
 type Contradiction = (String, String, Option<(Range<usize>, &'static str)>);
 
 /// A key of the same table whose value excludes the given one.
-fn beside(given: &Given<'_, '_>) -> Option<Contradiction> {
+fn beside(given: &GivenKey<'_, '_>) -> Option<Contradiction> {
     let (other, admitted) = with(given.schema)?;
     let value = given.table.get(&other)?;
     let found = value.as_str().filter(|found| !admitted.iter().any(|one| one == found))?;
@@ -100,7 +101,7 @@ mod tests {
     fn refused(kind: Kind, text: &str) -> Vec<(usize, String, String)> {
         let (tree, document) = (Tree::new(), Document::parse(text).unwrap());
         let mut errors = vec![Diagnostic::at(text.len()..text.len(), "said before", "")];
-        refuse((&tree, &document), kind, 0..1, &mut errors);
+        refuse(&tree, &document, kind, 0..1, &mut errors);
         let said =
             |e: Diagnostic| (text[..e.span.start].lines().count(), e.message, e.help.unwrap_or_default());
         errors.into_iter().filter(|e| e.message != "said before").map(said).collect()

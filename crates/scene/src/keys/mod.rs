@@ -8,7 +8,7 @@ mod tree;
 mod value;
 mod visit;
 
-pub use find::{Documented, Found, check, documented, find};
+pub use find::{DocumentedDefault, KeySearch, check, documented, find};
 pub(crate) use foreign::refuse;
 pub use path::{Path, Step, written};
 pub use row::{Key, Row, roots, row};

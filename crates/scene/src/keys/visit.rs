@@ -15,7 +15,7 @@ pub(crate) struct Step<'a> {
 }
 
 /// A key as a scene gives it.
-pub(crate) struct Given<'s, 't> {
+pub(crate) struct GivenKey<'s, 't> {
     /// Key.
     pub key: &'t str,
     /// Its position, and that of its value.
@@ -29,7 +29,7 @@ pub(crate) struct Given<'s, 't> {
 /// Receiver of what a walk meets.
 pub(crate) trait Visitor<'s> {
     /// A key of a table; false to pass over its value.
-    fn key(&mut self, _given: &Given<'s, '_>) -> bool {
+    fn key(&mut self, _given: &GivenKey<'s, '_>) -> bool {
         true
     }
 
@@ -60,7 +60,7 @@ impl<'s, V: Visitor<'s>> Walk<'s, '_, V> {
             let places = [table.key(key).and_then(toml_edit::Key::span), item.span()];
             let [place, value] = places.map(Option::unwrap_or_default);
             let visited = own.is_none_or(|schema| {
-                self.visitor.key(&Given { key, places: [place.clone(), value.clone()], schema, table })
+                self.visitor.key(&GivenKey { key, places: [place.clone(), value.clone()], schema, table })
             });
             if visited {
                 let (named, forms) = self.below(forms, key);

@@ -14,7 +14,7 @@ use std::ops::Range;
 const MOST_STATES: usize = 14;
 
 /// A value with its position.
-type Placed = (f64, Range<usize>);
+type PlacedValue = (f64, Range<usize>);
 
 /// Molar gas constant \[J/(mol K)\], exact in the SI since 2019.
 const GAS: f64 = 8.314_462_618_153_24;
@@ -96,7 +96,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn within(&mut self, name: &str, value: Placed, example: &str, bound: Bound) -> Option<f64> {
+    fn within(&mut self, name: &str, value: PlacedValue, example: &str, bound: Bound) -> Option<f64> {
         let (value, place) = value;
         let zero = matches!(bound, NotNegative | BelowReference) && value == 0.0;
         let admitted = value > 0.0 || zero || bound == Finite;
@@ -120,7 +120,7 @@ impl<'a> Reader<'a> {
         given: &Spanned<Several<Q>>,
         example: &str,
         bound: Bound,
-    ) -> Option<Vec<Placed>> {
+    ) -> Option<Vec<PlacedValue>> {
         let entries = &given.get_ref().0;
         if entries.is_empty() || entries.len() > MOST_STATES {
             let message = format!("`{name}` has {} entries", entries.len());
@@ -130,7 +130,7 @@ impl<'a> Reader<'a> {
         }
         let place = |own: Range<usize>| if own.is_empty() { given.span() } else { own };
         let placed = entries.iter().map(|e| (e.get_ref().si(), place(e.span())));
-        let read: Vec<Option<Placed>> = placed
+        let read: Vec<Option<PlacedValue>> = placed
             .map(|(v, place)| self.within(name, (v, place.clone()), example, bound).map(|v| (v, place)))
             .collect();
         read.into_iter().collect()
@@ -327,8 +327,8 @@ impl<'a> Reader<'a> {
         &mut self,
         (row, evolution): &(&EvolutionRow, Evolution),
         place: Range<usize>,
-        b: &[Placed],
-        alpha: &[Placed],
+        b: &[PlacedValue],
+        alpha: &[PlacedValue],
     ) -> Option<()> {
         let name = row.name;
         if let Some(why) = row.one_state.filter(|_| b.len() > 1) {

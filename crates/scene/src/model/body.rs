@@ -3,7 +3,7 @@
 use super::stress::InitialStress;
 use super::trace::Trace;
 use crate::defaults;
-use crate::exact::{self, Exactly};
+use crate::exact::{self, ExactList};
 use crate::kind::Kind;
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
@@ -434,7 +434,7 @@ impl<'de> Deserialize<'de> for SpacingSpec {
             }
 
             fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<SpacingSpec, A::Error> {
-                let pairs = Vec::<Exactly<Length, 2>>::deserialize(SeqAccessDeserializer::new(list))?;
+                let pairs = Vec::<ExactList<Length, 2>>::deserialize(SeqAccessDeserializer::new(list))?;
                 Ok(SpacingSpec::Graded(pairs.into_iter().map(|pair| pair.0).collect()))
             }
         }

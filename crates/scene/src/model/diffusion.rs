@@ -1,6 +1,6 @@
 //! Fluid that diffuses along a fault, as declared in a scene.
 
-use super::{Field, Flux, Profiled};
+use super::{Field, Flux, ParameterProfiles};
 use crate::spanned::Spanned;
 use crate::units::{Length, Permeability, Time, Viscosity};
 use crate::usual::usual;
@@ -32,7 +32,8 @@ pub struct Diffusion {
 }
 
 /// A parameter of the diffusion: its key, its constant value, its profile and its file.
-pub type Hydraulic<'a> = (&'static str, Option<(f64, Range<usize>)>, Option<&'a Profiled>, Option<&'a Field>);
+pub type Hydraulic<'a> =
+    (&'static str, Option<(f64, Range<usize>)>, Option<&'a ParameterProfiles>, Option<&'a Field>);
 
 impl Diffusion {
     /// Parameters that may vary along the fault.
@@ -53,9 +54,9 @@ impl Diffusion {
 #[serde(deny_unknown_fields)]
 pub struct DiffusionProfiles {
     /// Permeability \[m2\].
-    pub permeability: Option<Profiled>,
+    pub permeability: Option<ParameterProfiles>,
     /// Porosity times compressibility \[1/Pa\].
-    pub storage: Option<Profiled>,
+    pub storage: Option<ParameterProfiles>,
 }
 
 /// Parameters of the diffusion that files give at positions.

@@ -15,13 +15,13 @@ pub struct EventSpec {
     /// Slip rate above which an event begins; on faults and interfaces, that of the fastest point \[m/s\].
     pub above: Spanned<Velocity>,
     /// Slip rate below which an event ends \[m/s\].
-    #[schemars(extend("x-default" = usual(defaults::EVENT_ENDS).of("`above`")))]
+    #[schemars(extend("x-default" = usual(defaults::EVENT_ENDS).share_of("`above`")))]
     pub below: Option<Spanned<Velocity>>,
     /// Slip rate above which a slow event begins, which stays slower than `above` \[m/s\].
     #[schemars(extend("x-kinds" = kind::FAULT_CYCLES, "x-instead" = "a second run with a smaller `above` lists slow events"))]
     pub slow_above: Option<Spanned<Velocity>>,
     /// Slip rate below which a slow event ends \[m/s\].
-    #[schemars(extend("x-kinds" = kind::FAULT_CYCLES, "x-default" = usual(defaults::SLOW_EVENT_ENDS).of("`slow_above`")))]
+    #[schemars(extend("x-kinds" = kind::FAULT_CYCLES, "x-default" = usual(defaults::SLOW_EVENT_ENDS).share_of("`slow_above`")))]
     pub slow_below: Option<Spanned<Velocity>>,
     /// Number of events after which the run ends; with several sliders, events of the first by name.
     pub stop_after: Option<Spanned<usize>>,

@@ -86,8 +86,8 @@ pub struct Fault {
     #[schemars(extend("x-kinds" = kind::CYCLES, "x-instead" = "frictional heat is followed through cycles without mass only"))]
     pub heat: Option<Heat>,
     /// Treatment of less than one point per cohesive zone: `"refuse"` or `"allow"`.
-    #[schemars(extend("x-default" = usual(UnderResolved::default())))]
-    pub under_resolved: Option<Spanned<UnderResolved>>,
+    #[schemars(extend("x-default" = usual(UnderResolution::default())))]
+    pub under_resolved: Option<Spanned<UnderResolution>>,
     /// `false`: slip and loads do not change normal tractions.
     #[schemars(extend("x-kinds" = kind::CYCLES, "x-default" = usual(true), "x-instead" = "normal tractions follow from the momentum of both sides"))]
     pub normal_changes: Option<Spanned<bool>>,
@@ -178,7 +178,8 @@ impl Fault {
 /// Treatment of a fault whose points are farther apart than the length of the cohesive zone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum UnderResolved {
+#[schemars(rename = "UnderResolved")]
+pub enum UnderResolution {
     /// The scene is refused.
     #[default]
     Refuse,
@@ -202,24 +203,24 @@ pub enum SlipSpec {
 #[serde(deny_unknown_fields)]
 pub struct Profiles {
     /// Direct effect a \[-\].
-    pub a: Option<Profiled>,
+    pub a: Option<ParameterProfiles>,
     /// Evolution effect b \[-\]; laws with one state variable.
-    pub b: Option<Profiled>,
+    pub b: Option<ParameterProfiles>,
     /// Characteristic slip L \[m\]; laws with one state variable.
-    pub l: Option<Profiled>,
+    pub l: Option<ParameterProfiles>,
     /// Initial normal traction \[Pa\].
-    pub normal: Option<Profiled>,
+    pub normal: Option<ParameterProfiles>,
     /// Initial shear traction \[Pa\].
-    pub shear: Option<Profiled>,
+    pub shear: Option<ParameterProfiles>,
     /// Laws of slip: shear traction that a closed point carries at no normal traction \[Pa\].
     #[schemars(extend("x-kinds" = [Kind::Explicit]))]
-    pub cohesion: Option<Profiled>,
+    pub cohesion: Option<ParameterProfiles>,
 }
 
 impl Profiles {
     /// Profiles with the names of their parameters.
     #[must_use]
-    pub fn all(&self) -> [(&'static str, Option<&Profiled>); 6] {
+    pub fn all(&self) -> [(&'static str, Option<&ParameterProfiles>); 6] {
         [
             ("a", &self.a),
             ("b", &self.b),
@@ -234,26 +235,26 @@ impl Profiles {
 
 /// A parameter as one profile, or as the maximum of several.
 #[derive(Clone, Debug)]
-pub struct Profiled(pub Vec<Profile>);
+pub struct ParameterProfiles(pub Vec<Profile>);
 
-shaped!(Profiled as Either<Profile, Vec<Profile>>);
+shaped!(ParameterProfiles as Either<Profile, Vec<Profile>>);
 
-impl<'de> Deserialize<'de> for Profiled {
+impl<'de> Deserialize<'de> for ParameterProfiles {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct ProfiledVisitor;
         impl<'de> Visitor<'de> for ProfiledVisitor {
-            type Value = Profiled;
+            type Value = ParameterProfiles;
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 f.write_str("{ along = .., points = .. }, or a list of such profiles of which the largest value holds")
             }
 
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Profiled, A::Error> {
-                Profile::deserialize(MapAccessDeserializer::new(map)).map(|p| Profiled(vec![p]))
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<ParameterProfiles, A::Error> {
+                Profile::deserialize(MapAccessDeserializer::new(map)).map(|p| ParameterProfiles(vec![p]))
             }
 
-            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Profiled, A::Error> {
-                Deserialize::deserialize(SeqAccessDeserializer::new(list)).map(Profiled)
+            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<ParameterProfiles, A::Error> {
+                Deserialize::deserialize(SeqAccessDeserializer::new(list)).map(ParameterProfiles)
             }
         }
         deserializer.deserialize_any(ProfiledVisitor)

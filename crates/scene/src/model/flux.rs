@@ -1,6 +1,6 @@
 //! Flux of a well over time.
 
-use super::Tabled;
+use super::TimeSeries;
 
 /// Flux of a well \[m/s\].
 #[derive(Clone, Debug, PartialEq)]
@@ -8,5 +8,5 @@ pub enum Flux {
     /// Constant.
     Constant(f64),
     /// Times from which the flux has a value; constant in between.
-    Steps(Tabled),
+    Steps(TimeSeries),
 }

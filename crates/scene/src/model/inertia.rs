@@ -31,7 +31,7 @@ pub struct HandoverSpec {
     pub above: Option<Spanned<Velocity>>,
     /// Largest slip rate below which they return to equilibrium, once it has stayed there while a shear wave crosses the bodies
     /// and returns \[m/s\].
-    #[schemars(extend("x-default" = usual(defaults::HANDOVER_BELOW).of("`above`")))]
+    #[schemars(extend("x-default" = usual(defaults::HANDOVER_BELOW).share_of("`above`")))]
     pub below: Option<Spanned<Velocity>>,
     /// Largest kinetic energy with which they return, over the largest since they left; 1 is none \[-\].
     #[schemars(extend("x-default" = usual(defaults::HANDOVER_KINETIC)))]

@@ -1,6 +1,6 @@
 //! Interfaces as declared in a scene.
 
-use super::{DampingSpec, LawFields, LawSpec, UnderResolved};
+use super::{DampingSpec, LawFields, LawSpec, UnderResolution};
 use crate::spanned::Spanned;
 use crate::units::{Penalty, Penetration};
 use crate::usual::usual;
@@ -34,8 +34,8 @@ pub struct Interface {
     #[schemars(extend("x-kinds" = kind::ITERATED))]
     pub damping: Option<Spanned<DampingSpec>>,
     /// Treatment of points too far apart to resolve friction that weakens: `"refuse"` or `"allow"`.
-    #[schemars(extend("x-default" = usual(UnderResolved::default())))]
-    pub under_resolved: Option<Spanned<UnderResolved>>,
+    #[schemars(extend("x-default" = usual(UnderResolution::default())))]
+    pub under_resolved: Option<Spanned<UnderResolution>>,
     /// `true`: the interface starts with the tractions of the [initial stress](bodies.md) of its bodies.
     #[schemars(extend("x-default" = usual(false)))]
     pub initial_stress: Option<Spanned<bool>>,

@@ -1,6 +1,6 @@
 //! Rates of motions and of load points: constant, or by a table.
 
-use super::tabled::Tabled;
+use super::time_series::TimeSeries;
 
 /// A rate over a stage \[m/s\].
 #[derive(Clone, Debug, PartialEq)]
@@ -8,7 +8,7 @@ pub enum Pace {
     /// Constant.
     Steady(f64),
     /// Linear between its entries and constant beyond them; two entries at one time are a jump.
-    Table(Tabled),
+    Table(TimeSeries),
 }
 
 impl Pace {
@@ -42,7 +42,7 @@ impl Pace {
 
     /// The table, if it is one.
     #[must_use]
-    pub fn table(&self) -> Option<&Tabled> {
+    pub fn table(&self) -> Option<&TimeSeries> {
         match self {
             Self::Steady(_) => None,
             Self::Table(table) => Some(table),
@@ -50,7 +50,7 @@ impl Pace {
     }
 
     /// The table, if it is one, to be filled.
-    pub(super) fn table_mut(&mut self) -> Option<&mut Tabled> {
+    pub(super) fn table_mut(&mut self) -> Option<&mut TimeSeries> {
         match self {
             Self::Steady(_) => None,
             Self::Table(table) => Some(table),

@@ -1,6 +1,6 @@
 //! Traces of faults in the plane, in a scene or in a file.
 
-use crate::exact::Exactly;
+use crate::exact::ExactList;
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
 use crate::units::Length;
@@ -62,7 +62,7 @@ impl<'de> Deserialize<'de> for Trace {
             }
 
             fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Trace, A::Error> {
-                let vertices: Vec<Exactly<Length, 2>> =
+                let vertices: Vec<ExactList<Length, 2>> =
                     Deserialize::deserialize(SeqAccessDeserializer::new(list))?;
                 Ok(Trace { vertices: vertices.into_iter().map(|v| v.0).collect(), file: None })
             }

@@ -13,7 +13,7 @@ use asperity_run::Warning;
 use serde_json::Value as Schema;
 use std::collections::BTreeSet;
 use std::ops::Range;
-use table::{Quantity, Refused, quantity};
+use table::{Quantity, RefusalBound, quantity};
 use toml_edit::{Document, Value};
 
 /// Speed that shear waves exceed in no rock of the crust or the upper mantle \[m/s\] (PREM; Dziewonski & Anderson 1981).
@@ -21,7 +21,7 @@ const ANY_ROCK: f64 = 5e3;
 
 /// Facts about a scene beside its values.
 #[derive(Clone, Copy, Debug)]
-pub struct Known {
+pub struct SceneFacts {
     /// True for a scene of spring-sliders.
     pub sliders: bool,
     /// True if it has faults.
@@ -30,13 +30,13 @@ pub struct Known {
     pub waves: f64,
 }
 
-impl Known {
+impl SceneFacts {
     /// A scene of spring-sliders.
     pub const SLIDERS: Self = Self { sliders: true, faults: false, waves: ANY_ROCK };
 
     /// A scene of bodies or of faults.
     #[must_use]
-    pub fn of(scene: &Scene) -> Self {
+    pub fn from_scene(scene: &Scene) -> Self {
         let speed = |m: &crate::model::Material| {
             let shear = m.young.get_ref().0 / (2.0 * (1.0 + m.poisson.get_ref()));
             let speed = m.density.as_ref().map(|d| (shear / d.get_ref().0).sqrt());
@@ -50,13 +50,14 @@ impl Known {
 /// Adds what is implausible in the text of a scene, read along this tree of keys, to what is wrong with it and to what is doubtful. A value about which
 /// something has been said is left alone.
 pub(crate) fn judge(
-    (tree, document): (&Tree, &Document<&str>),
-    known: Known,
+    tree: &Tree,
+    document: &Document<&str>,
+    facts: SceneFacts,
     errors: &mut Vec<Diagnostic>,
     warnings: &mut Vec<Warning>,
 ) {
-    let mut judge = Judge { known, told: BTreeSet::new(), errors: Vec::new(), warnings: Vec::new() };
-    visit(tree, document, known.sliders, &mut judge);
+    let mut judge = Judge { facts, told: BTreeSet::new(), errors: Vec::new(), warnings: Vec::new() };
+    visit(tree, document, facts.sliders, &mut judge);
     let said = |at: &Range<usize>| {
         let meets = |other: &Range<usize>| other.start < at.end && at.start < other.end;
         errors.iter().any(|e| meets(&e.span))
@@ -74,7 +75,11 @@ pub(crate) fn judge(
 /// Doubt about the largest magnitude of the values that a key takes from a file, with a usual value as help; `unit` is
 /// the SI unit of the key, empty for a plain number.
 #[must_use]
-pub fn of_file(keys: &[&str], unit: &str, values: impl IntoIterator<Item = f64>) -> Option<(String, String)> {
+pub fn judge_file(
+    keys: &[&str],
+    unit: &str,
+    values: impl IntoIterator<Item = f64>,
+) -> Option<(String, String)> {
     let of = quantity(keys, Some(unit))?;
     let largest = values.into_iter().map(f64::abs).filter(|v| v.is_finite()).fold(0.0, f64::max);
     let [low, high] = of.usual;
@@ -90,7 +95,7 @@ pub fn of_file(keys: &[&str], unit: &str, values: impl IntoIterator<Item = f64>)
 }
 
 struct Judge {
-    known: Known,
+    facts: SceneFacts,
     /// Paths of which something has been said: of a list, only the first entry that is implausible.
     told: BTreeSet<String>,
     errors: Vec<Diagnostic>,
@@ -115,7 +120,7 @@ impl<'s> Visitor<'s> for Judge {
             },
             _ => return,
         };
-        let root = self.known.faults.then_some("faulted");
+        let root = self.facts.faults.then_some("faulted");
         let steps = path.iter().map(|s| if s.named { "" } else { s.key });
         let mut keys: Vec<&str> = root.into_iter().chain(steps).collect();
         // The value of a point of a profile is that of its parameter, in SI units.
@@ -134,9 +139,9 @@ impl Judge {
         let size = found.abs();
         let [low, high] = of.usual;
         let most = match of.refused {
-            Refused::Never => f64::INFINITY,
-            Refused::Waves => self.known.waves,
-            Refused::From(value) => value,
+            RefusalBound::Never => f64::INFINITY,
+            RefusalBound::Waves => self.facts.waves,
+            RefusalBound::From(value) => value,
         };
         if size == 0.0 || !size.is_finite() || (low..=high).contains(&size) && size < most {
             return;
@@ -157,7 +162,7 @@ impl Judge {
         let value = format!("`{path}` is {}{unit}", shown(found));
         if size >= most {
             let why = match of.refused {
-                Refused::Waves => {
+                RefusalBound::Waves => {
                     format!("{} reach the speed of shear waves, {most:.4e} m/s, in no rock", of.name)
                 }
                 _ => format!("{} stay below {}{unit}", of.name, shown(most)),
@@ -199,16 +204,16 @@ mod tests {
     use crate::units::Dimension;
 
     /// Refusals and warnings of a scene, with line and message.
-    fn said(text: &str, known: Known) -> Vec<(bool, usize, String)> {
+    fn said(text: &str, facts: SceneFacts) -> Vec<(bool, usize, String)> {
         let (mut errors, mut warnings) = (Vec::new(), Vec::new());
         let (tree, document) = (Tree::new(), Document::parse(text).unwrap());
-        judge((&tree, &document), known, &mut errors, &mut warnings);
+        judge(&tree, &document, facts, &mut errors, &mut warnings);
         let line = |at: &Range<usize>| text[..at.start].lines().count();
         let wrong = errors.iter().map(|e| (true, line(&e.span), e.message.clone()));
         wrong.chain(warnings.iter().map(|w| (false, line(&w.span), w.message.clone()))).collect()
     }
 
-    const FAULTS: Known = Known { sliders: false, faults: true, waves: 3464.0 };
+    const FAULTS: SceneFacts = SceneFacts { sliders: false, faults: true, waves: 3464.0 };
 
     #[test]
     fn every_dimension_has_a_row() {
@@ -222,7 +227,7 @@ mod tests {
         let last = |key: &'static str| key.rsplit('.').next().unwrap_or(key);
         for key in table::QUANTITIES.iter().flat_map(|q| q.keys).copied().map(last) {
             let found = crate::keys::find(key);
-            assert!(matches!(found, crate::keys::Found::Keys(_)), "{key}");
+            assert!(matches!(found, crate::keys::KeySearch::Keys(_)), "{key}");
         }
     }
 
@@ -272,13 +277,13 @@ mod tests {
 
     #[test]
     fn values_of_files_are_judged_by_their_largest() {
-        assert_eq!(of_file(&["pressure"], "Pa", [0.0, 5e6, f64::NAN]), None);
-        assert_eq!(of_file(&["fields", "a"], "", [0.0, 0.015]), None);
-        let (message, help) = of_file(&["pressure"], "Pa", [0.0, -5.0]).unwrap();
+        assert_eq!(judge_file(&["pressure"], "Pa", [0.0, 5e6, f64::NAN]), None);
+        assert_eq!(judge_file(&["fields", "a"], "", [0.0, 0.015]), None);
+        let (message, help) = judge_file(&["pressure"], "Pa", [0.0, -5.0]).unwrap();
         assert!(message.contains("its largest is 5 Pa, and tractions are 1000 to 2e10 Pa"), "{message}");
         assert!(help.contains("\"50 MPa\""), "{help}");
-        assert!(of_file(&["fields", "a"], "", [0.01, 15.0]).is_some());
-        assert!(of_file(&["fields", "l"], "m", [8.0, 40.0]).is_some());
+        assert!(judge_file(&["fields", "a"], "", [0.01, 15.0]).is_some());
+        assert!(judge_file(&["fields", "l"], "m", [8.0, 40.0]).is_some());
     }
 
     #[test]
@@ -291,7 +296,7 @@ mod tests {
             assert!(said(line, FAULTS).iter().all(|s| s.0) && !said(line, FAULTS).is_empty(), "{line}");
         }
         for line in ["sliders.A.start = 1e9", "load.rate = { mean = 1e4, amplitude = 0, period = 1 }"] {
-            assert!(said(line, Known::SLIDERS).iter().any(|s| s.0), "{line}");
+            assert!(said(line, SceneFacts::SLIDERS).iter().any(|s| s.0), "{line}");
         }
         for line in [
             "faults.main.normal = 50e6",

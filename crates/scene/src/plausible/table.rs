@@ -15,7 +15,7 @@ const EARTH: f64 = 2e7;
 
 /// A value from which a quantity is refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Refused {
+pub(super) enum RefusalBound {
     /// Never: it is only doubtful.
     Never,
     /// The speed of shear waves in the fastest rock of the scene.
@@ -36,7 +36,7 @@ pub(super) struct Quantity {
     /// Magnitudes that are plausible, beside zero.
     pub usual: [f64; 2],
     /// Magnitudes that are refused.
-    pub refused: Refused,
+    pub refused: RefusalBound,
     /// A usual value as it is written.
     pub example: &'static str,
 }
@@ -47,10 +47,10 @@ const fn row(
     usual: [f64; 2],
     example: &'static str,
 ) -> Quantity {
-    Quantity { name, unit, keys, usual, refused: Refused::Never, example }
+    Quantity { name, unit, keys, usual, refused: RefusalBound::Never, example }
 }
 
-const fn refused(row: Quantity, refused: Refused) -> Quantity {
+const fn refused(row: Quantity, refused: RefusalBound) -> Quantity {
     Quantity { refused, ..row }
 }
 
@@ -87,9 +87,12 @@ pub(super) const QUANTITIES: &[Quantity] = &[
             [0.0, SLOW],
             "\"1e-9 m/s\"",
         ),
-        Refused::Waves,
+        RefusalBound::Waves,
     ),
-    refused(row(("rates of sides", "m/s"), &["conditions.rate"], [0.0, 10.0], "\"1 mm/s\""), Refused::Waves),
+    refused(
+        row(("rates of sides", "m/s"), &["conditions.rate"], [0.0, 10.0], "\"1 mm/s\""),
+        RefusalBound::Waves,
+    ),
     refused(
         row(
             ("thresholds of slip rates", "m/s"),
@@ -97,15 +100,15 @@ pub(super) const QUANTITIES: &[Quantity] = &[
             [0.0, 1.0],
             "\"1 mm/s\"",
         ),
-        Refused::Waves,
+        RefusalBound::Waves,
     ),
     refused(
         row(("fluxes of fluid", "m/s"), &["injection.flux", "wells.flux"], [1e-12, 1e-2], "\"1e-7 m/s\""),
-        Refused::Waves,
+        RefusalBound::Waves,
     ),
     refused(
         row(("velocities of bodies", "m/s"), &["velocity"], [0.0, 500.0], "\"1 m/s\""),
-        Refused::From(1e5),
+        RefusalBound::From(1e5),
     ),
     row(("velocities", "m/s"), &[], [0.0, 100.0], "\"1 um/s\""),
     row(("densities of rock or metal", "kg/m3"), &[], [100.0, 30_000.0], "\"2700 kg/m^3\""),

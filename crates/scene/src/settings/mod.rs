@@ -5,7 +5,7 @@ mod origin;
 mod place;
 mod setting;
 
-pub use origin::{Origin, Resolved};
+pub use origin::{Origin, ResolvedText};
 pub use setting::Setting;
 
 use origin::Splice;
@@ -14,8 +14,8 @@ use origin::Splice;
 ///
 /// # Errors
 /// The first setting that cannot be written, with the reason.
-pub fn apply(text: &str, settings: &[Setting]) -> Result<Resolved, String> {
-    let mut resolved = Resolved::unchanged(text);
+pub fn apply(text: &str, settings: &[Setting]) -> Result<ResolvedText, String> {
+    let mut resolved = ResolvedText::unchanged(text);
     for (number, setting) in settings.iter().enumerate() {
         let edit = place::edit(resolved.text(), setting).map_err(|why| format!("--set {setting}: {why}"))?;
         resolved.splice(
@@ -32,7 +32,7 @@ mod tests {
 
     const SCENE: &str = "# a scene\nschema = 1\ntitle = \"t\" # here\nkinematics = \"plane-strain\"\n[bodies.A]\nmaterial = \"m\"\nmesh.block = { size = \"1 m\" }\n[faults.main]\nlaw = { kind = \"rate\" }\nnormal = \"50 MPa\" # much\n[output.probes]\nfault = 3\n[[stages]]\nduration = 1\n";
 
-    fn set(changes: &[&str]) -> Result<Resolved, String> {
+    fn set(changes: &[&str]) -> Result<ResolvedText, String> {
         let settings: Vec<Setting> = changes.iter().map(|change| Setting::read(change).unwrap()).collect();
         apply(SCENE, &settings)
     }

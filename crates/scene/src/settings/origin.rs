@@ -26,12 +26,12 @@ pub enum Origin {
 
 /// Text of a scene with its settings.
 #[derive(Clone, Debug)]
-pub struct Resolved {
+pub struct ResolvedText {
     text: String,
     splices: Vec<Splice>,
 }
 
-impl Resolved {
+impl ResolvedText {
     /// The text of a file without settings.
     #[must_use]
     pub fn unchanged(text: &str) -> Self {

@@ -1,7 +1,7 @@
 //! Reading of the course of a quantity over time: a constant, a table, or a sine.
 
 use crate::entry::Entry;
-use crate::model::{Spanned, Tabled};
+use crate::model::{Spanned, TimeSeries};
 use crate::motion::TableForm;
 use crate::shape::{Either, shaped};
 use crate::units::Time;
@@ -20,7 +20,7 @@ pub enum Course<Q> {
     /// Piecewise linear; two entries at the same time make a jump.
     Table(Vec<Spanned<Entry<Q>>>),
     /// The same in a file.
-    File(Tabled),
+    File(TimeSeries),
     /// Sine around a mean.
     Sine {
         /// Mean.
@@ -51,7 +51,7 @@ impl<Q> CourseTable<Q> {
             self.mean.is_some() || self.amplitude.is_some() || self.period.is_some() || self.start.is_some();
         match self.table {
             Some(TableForm::Pairs(table)) if !sine => Ok(Course::Table(table)),
-            Some(TableForm::File(file)) if !sine => Ok(Course::File(Tabled::in_file(file))),
+            Some(TableForm::File(file)) if !sine => Ok(Course::File(TimeSeries::in_file(file))),
             None if sine => Ok(Course::Sine {
                 mean: self.mean.ok_or_else(|| E::missing_field("mean"))?,
                 amplitude: self.amplitude.ok_or_else(|| E::missing_field("amplitude"))?,
@@ -67,12 +67,12 @@ impl<Q> CourseTable<Q> {
 
 impl<Q> Course<Q> {
     /// The table that a file has.
-    pub(super) fn in_file(&self) -> Option<&Tabled> {
+    pub(super) fn in_file(&self) -> Option<&TimeSeries> {
         if let Self::File(table) = self { Some(table) } else { None }
     }
 
     /// The same, to be filled.
-    pub(super) fn in_file_mut(&mut self) -> Option<&mut Tabled> {
+    pub(super) fn in_file_mut(&mut self) -> Option<&mut TimeSeries> {
         if let Self::File(table) = self { Some(table) } else { None }
     }
 }

@@ -145,7 +145,7 @@ pub struct OutputSpec {
     pub interval: Option<Spanned<Time>>,
     /// Histories: `false` for none, or a list of sliders.
     #[schemars(extend("x-default" = usual(true)))]
-    pub histories: Option<Which>,
+    pub histories: Option<SliderSelection>,
     /// `true`: the extremes of the slip rate are located and written even without `[events]`.
     #[schemars(extend("x-default" = usual(false)))]
     pub extremes: Option<Spanned<bool>>,
@@ -153,35 +153,35 @@ pub struct OutputSpec {
 
 /// All sliders, none, or those named.
 #[derive(Clone, Debug)]
-pub enum Which {
+pub enum SliderSelection {
     /// All or none.
     All(bool),
     /// Those named.
     Named(Vec<Spanned<String>>),
 }
 
-shaped!(Which as Either<bool, Vec<String>>);
+shaped!(SliderSelection as Either<bool, Vec<String>>);
 
-impl<'de> Deserialize<'de> for Which {
+impl<'de> Deserialize<'de> for SliderSelection {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct WhichVisitor;
         impl<'de> Visitor<'de> for WhichVisitor {
-            type Value = Which;
+            type Value = SliderSelection;
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 f.write_str("true, false, or a list of names such as [\"left\", \"right\"]")
             }
 
-            fn visit_bool<E: de::Error>(self, all: bool) -> Result<Which, E> {
-                Ok(Which::All(all))
+            fn visit_bool<E: de::Error>(self, all: bool) -> Result<SliderSelection, E> {
+                Ok(SliderSelection::All(all))
             }
 
-            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Which, A::Error> {
+            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<SliderSelection, A::Error> {
                 let mut names = Vec::new();
                 while let Some(name) = seq.next_element()? {
                     names.push(name);
                 }
-                Ok(Which::Named(names))
+                Ok(SliderSelection::Named(names))
             }
         }
         deserializer.deserialize_any(WhichVisitor)

@@ -14,7 +14,7 @@ use super::signals;
 use crate::checkpoint::Pauses;
 use crate::keep::{Keeper, Outputs as _, Place, Stand};
 use crate::report::Results;
-use asperity_output::plots::Asked;
+use asperity_output::plots::FigureRequest;
 use asperity_output::printing::{self, out};
 use asperity_plan::dynamics::AnyPlan;
 use asperity_plan::shared::model::forecast;
@@ -83,7 +83,7 @@ impl How<'_> {
         if let Some(sheet) = run.complete((&out, self.hash), outputs, &ended, &report)? {
             sheet.write(&out).into_diagnostic()?;
             if drawn {
-                sheet.draw(&out, &out.join("plots"), &Asked::default()).into_diagnostic()?;
+                sheet.draw(&out, &out.join("plots"), &FigureRequest::default()).into_diagnostic()?;
             }
         }
         let seconds = report.seconds_mut();

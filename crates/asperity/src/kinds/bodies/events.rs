@@ -2,7 +2,7 @@
 
 use asperity_contact::Interface;
 use asperity_cycles::{Components, Detector, Rupture, Values};
-use asperity_mechanics::Assembled;
+use asperity_mechanics::AssembledProblem;
 use asperity_ode::Clock;
 use asperity_plan::bodies::{EventPlan, Plan};
 use asperity_run::{ALL, Catalogue};
@@ -24,7 +24,7 @@ pub struct Moment {
 
 impl Moment {
     /// Present values. Without a law a point has no rate, so that frictionless stages have no events.
-    pub fn of<const D: usize>(plan: &Plan<D>, events: &EventPlan, system: &Assembled<'_, D>) -> Self {
+    pub fn of<const D: usize>(plan: &Plan<D>, events: &EventPlan, system: &AssembledProblem<'_, D>) -> Self {
         let own: Vec<(&Interface<D>, f64)> = events
             .interfaces
             .iter()

@@ -4,7 +4,7 @@ use super::stand::Stand;
 use crate::checkpoint::{self, ResumeError};
 use crate::keep::{self, Place};
 use asperity_ode::Control;
-use asperity_output::progress::Now;
+use asperity_output::progress::RunState;
 use asperity_output::view::{Setup, StepView};
 use asperity_output::{Column, FieldSchedule, Files, FilesState, Multi, OutputError, Recorder, Writer};
 use asperity_run::{Kind, ObserveError, Observer};
@@ -17,7 +17,7 @@ pub struct Bodies;
 impl Kind for Bodies {
     type Setup = Setup;
     type Moment<'a> = StepView<'a>;
-    type Stand = Stand;
+    type ResumeState = Stand;
 }
 
 /// Observer that keeps nothing and never interrupts a run.
@@ -131,10 +131,10 @@ impl keep::Outputs for Outputs {
         [view.record.time, view.end_time]
     }
 
-    fn now(&self, view: &StepView<'_>) -> Now {
+    fn now(&self, view: &StepView<'_>) -> RunState {
         let (record, [time, end]) = (view.record, self.times(view));
         let rates = view.interfaces.iter().flat_map(|interface| &interface.slip_rate);
-        Now {
+        RunState {
             stage: Some(view.stage.to_string()),
             time,
             end,

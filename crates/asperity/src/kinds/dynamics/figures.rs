@@ -4,7 +4,7 @@ use super::arrivals::Arrivals;
 use super::fields::Taken;
 use crate::kinds::faults::compass::Compass;
 use crate::kinds::faults::shape::shape;
-use asperity_output::plots::{Curves, Fault, Measure, Plot, Points, Seen, Sheet, Velocities, short};
+use asperity_output::plots::{Curves, Fault, Measure, Plot, Points, Sheet, Velocities, VisibleMesh, short};
 use asperity_output::table::ENERGIES;
 use asperity_plan::dynamics::Plan;
 use asperity_plan::faults::FaultView;
@@ -13,7 +13,7 @@ use asperity_plan::faults::FaultView;
 pub(super) fn sheet<const D: usize>(plan: &Plan<D>, end: f64, arrivals: &Arrivals, taken: &Taken) -> Sheet {
     let mut sheet = Sheet::new(&plan.title, (0.0, end), D == 3);
     sheet.plots.extend(curves(plan).into_iter().map(Plot::Curves));
-    if let Some((mesh, nodes)) = Seen::of(&plan.mesh, &[]) {
+    if let Some((mesh, nodes)) = VisibleMesh::from_mesh(&plan.mesh, &[]) {
         let most = taken.speeds.iter().flatten().copied().filter(|v| v.is_finite()).fold(0.0, f64::max);
         let seen = |speeds: &Vec<f64>| nodes.iter().map(|&node| seen(speeds[node], most)).collect();
         let frames = taken.times.iter().copied().zip(taken.speeds.iter().map(seen)).collect();

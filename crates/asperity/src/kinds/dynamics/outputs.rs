@@ -11,7 +11,7 @@ use asperity_ode::Control;
 use asperity_output::column;
 use asperity_output::decimals::shortest;
 use asperity_output::plots::Sheet;
-use asperity_output::progress::Now;
+use asperity_output::progress::RunState;
 use asperity_output::{OutputError, atomic};
 use asperity_plan::dynamics::Plan;
 use asperity_run::ObserveError;
@@ -106,15 +106,15 @@ impl<'a, const D: usize> keep::Outputs for Outputs<'a, D> {
         [now.time, self.plan.end()]
     }
 
-    fn now(&self, now: &Moment<'_>) -> Now {
+    fn now(&self, now: &Moment<'_>) -> RunState {
         let [time, end] = self.times(now);
-        Now {
+        RunState {
             time,
             end,
             step: now.step as u64,
             step_length: end / self.plan.steps as f64,
             largest_rate: now.fault.rate.iter().map(|rate| rate.abs()).reduce(f64::max),
-            ..Now::default()
+            ..RunState::default()
         }
     }
 

@@ -64,7 +64,7 @@ pub struct Dynamics;
 impl Kind for Dynamics {
     type Setup = ();
     type Moment<'a> = Moment<'a>;
-    type Stand = Stand;
+    type ResumeState = Stand;
 }
 
 /// State of a run between two steps.

@@ -8,7 +8,7 @@ use crate::kinds::faults::profile::{Profile, RATE, SLIP};
 use asperity_mechanics::dynamics::Budget;
 use asperity_output::Column;
 use asperity_output::decimals::{scientific, shortest};
-use asperity_output::{Growing, OutputError, seismogram, table};
+use asperity_output::{GrowingTable, OutputError, seismogram, table};
 use asperity_plan::dynamics::Plan;
 use asperity_plan::faults::PointView;
 use asperity_plan::faults::cadence::log_rate;
@@ -85,7 +85,7 @@ fn profiles<'a, const D: usize>(
 }
 
 /// The tables of a run, with their files.
-pub(super) struct Tables<'a>(Vec<(Table<'a>, Growing)>);
+pub(super) struct Tables<'a>(Vec<(Table<'a>, GrowingTable)>);
 
 impl<'a> Tables<'a> {
     /// Creates all tables in `out`.

@@ -5,7 +5,7 @@ use super::source_time::FOLDER;
 use super::surface_figures::{edges, of_event};
 use asperity_cycles::FaultRun;
 use asperity_output::decimals::shortest;
-use asperity_output::plots::{Coordinates, Curves, Ground, Measure, OfEvent, Plot, Points, Shown};
+use asperity_output::plots::{Coordinates, Curves, EventOnset, Ground, MapQuantity, Measure, Plot, Points};
 use asperity_plan::faults::{CoulombMap, Plan, SurfaceAxes};
 
 /// Column of x.
@@ -15,7 +15,7 @@ const X: usize = 0;
 pub(super) fn plots(plan: &Plan, run: &FaultRun) -> Vec<Plot> {
     let Some(map) = plan.coulomb.as_ref().and_then(|c| c.map.as_ref()) else { return Vec::new() };
     let events = run.events().iter().enumerate().take(plan.event_files);
-    let one = |event: OfEvent| match &map.axes {
+    let one = |event: EventOnset| match &map.axes {
         SurfaceAxes::Line(_) => Plot::Curves(profile(plan, event)),
         SurfaceAxes::Scene([z, x]) => {
             let axes = [("z".into(), z.clone()), ("x".into(), x.clone())];
@@ -37,7 +37,7 @@ fn table(number: usize) -> String {
     format!("{FOLDER}/{}", name(number))
 }
 
-fn profile(plan: &Plan, event: OfEvent) -> Curves {
+fn profile(plan: &Plan, event: EventOnset) -> Curves {
     let change = Points::Table { table: table(event.number), x: X, y: column(plan), size: false };
     Curves {
         file: stem(event.number),
@@ -54,7 +54,7 @@ fn profile(plan: &Plan, event: OfEvent) -> Curves {
 
 fn drawn(
     plan: &Plan,
-    (map, event): (&CoulombMap, OfEvent),
+    (map, event): (&CoulombMap, EventOnset),
     coordinates: Coordinates,
     axes: [(String, Vec<f64>); 2],
 ) -> Ground {
@@ -63,7 +63,7 @@ fn drawn(
         event,
         coordinates,
         axes,
-        shown: Shown::CoulombStress { depth: format!("{} km", shortest(map.depth / 1e3)) },
+        shown: MapQuantity::CoulombStress { depth: format!("{} km", shortest(map.depth / 1e3)) },
         table: table(event.number),
         colours: column(plan),
         arrows: None,

@@ -11,8 +11,8 @@ use super::{
 use crate::catalogue::slipped;
 use asperity_cycles::{FaultRun, Rupture};
 use asperity_output::plots::{
-    Curves, EventPanel, Fault, InEvent, Line, Mapped, Measure, Plot, Points, RuptureShape, Sheet, Through,
-    short, springs_curves,
+    Curves, EventFault, EventPanel, Fault, FaultCycles, Line, MappedQuantity, Measure, Plot, Points,
+    RuptureShape, Sheet, short, springs_curves,
 };
 use asperity_output::stems;
 use asperity_plan::faults::cadence::time;
@@ -38,7 +38,7 @@ pub fn sheet(plan: &Plan, run: &FaultRun, panel: EventPanel) -> Sheet {
     sheet
 }
 
-fn through(plan: &Plan, run: &FaultRun) -> Through {
+fn through(plan: &Plan, run: &FaultRun) -> FaultCycles {
     let line = |fault: &FaultView| {
         let along: Vec<f64> = plan.points[fault.points.clone()].iter().map(|p| p.along).collect();
         let ascends = along.windows(2).all(|w| w[0] < w[1]) && along.len() > 1;
@@ -47,7 +47,7 @@ fn through(plan: &Plan, run: &FaultRun) -> Through {
     };
     let events = run.events().iter().filter_map(|e| Some((e.onset.seconds(), e.end?.seconds())));
     let under_way = run.under_way().map(|e| (e.onset.seconds(), run.at.seconds()));
-    Through {
+    FaultCycles {
         lines: plan.faults.iter().filter_map(line).collect(),
         events: events.chain(under_way).collect(),
         intervals: plan.cadence.contours.map(time),
@@ -61,10 +61,10 @@ fn through(plan: &Plan, run: &FaultRun) -> Through {
 const CYCLES: usize = 4;
 
 /// Quantities with profiles along a fault.
-fn mapped(plan: &Plan, fault: &FaultView) -> Vec<Mapped> {
-    let state =
-        states::any(plan).then(|| if states::has_theta(plan, fault) { Mapped::Theta } else { Mapped::State });
-    state.into_iter().chain(locking::loaded(plan, fault).then_some(Mapped::Coupling)).collect()
+fn mapped(plan: &Plan, fault: &FaultView) -> Vec<MappedQuantity> {
+    let state = states::any(plan)
+        .then(|| if states::has_theta(plan, fault) { MappedQuantity::Theta } else { MappedQuantity::State });
+    state.into_iter().chain(locking::loaded(plan, fault).then_some(MappedQuantity::Coupling)).collect()
 }
 
 /// Share of the largest moment rate below which the end of a curve is left out: afterslip lasts far longer than the rupture.
@@ -112,7 +112,7 @@ fn hypocentre(plan: &Plan, fault: &FaultView, event: &Event<Rupture>) -> Option<
 }
 
 /// Faults in the events that have files.
-fn on_faults(plan: &Plan, run: &FaultRun, (names, shapes): (&[String], &[usize])) -> Vec<InEvent> {
+fn on_faults(plan: &Plan, run: &FaultRun, (names, shapes): (&[String], &[usize])) -> Vec<EventFault> {
     let mut all = Vec::new();
     for (number, event) in run.events().iter().enumerate().take(plan.event_files) {
         let largest = slipped(event, &(0..plan.points.len()));
@@ -128,7 +128,7 @@ fn on_faults(plan: &Plan, run: &FaultRun, (names, shapes): (&[String], &[usize])
             };
             let times = points().map(|p| reached(event, p)).collect();
             let slips: Vec<f64> = points().map(|p| event.details.slip.size(p)).collect();
-            all.push(InEvent {
+            all.push(EventFault {
                 stem: format!("{name}_event_{number:03}"),
                 event: of_event(number, event),
                 fault: Fault { name: fault.name.clone(), points: points(), shape, arrivals: shown(times) },

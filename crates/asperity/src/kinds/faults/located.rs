@@ -1,7 +1,7 @@
 //! Simulated events in the form of catalogue entries, for scenes with a geographic frame.
 
 use asperity_cycles::Rupture;
-use asperity_output::located::{Located, Tensor, magnitude};
+use asperity_output::located::{SourceParameters, Tensor, magnitude};
 use asperity_plan::faults::Plan;
 use asperity_plan::shared::place::Frame;
 use asperity_run::Event;
@@ -17,7 +17,7 @@ pub fn locate(
     frame: &Frame,
     event: &Event<Rupture>,
     points: &Range<usize>,
-) -> Result<Located, jiff::Error> {
+) -> Result<SourceParameters, jiff::Error> {
     let length = frame.length.unwrap_or(1.0);
     let (mut sum, mut centre, mut weight) = (Matrix3::zeros(), Vector3::zeros(), 0.0);
     for p in points.clone() {
@@ -29,10 +29,10 @@ pub fn locate(
         centre += Vector3::from(point.at) * (point.area * slip);
         weight += point.area * slip;
     }
-    let tensor = Tensor::of_east_north_up(&(frame.axes * sum * frame.axes.transpose()));
+    let tensor = Tensor::from_east_north_up(&(frame.axes * sum * frame.axes.transpose()));
     let moment = frame.length.map(|_| tensor.moment());
     let onset = frame.time(event.onset.seconds())?;
-    Ok(Located {
+    Ok(SourceParameters {
         time: onset.to_string(),
         hypocentre: frame.spot(&plan.points[event.details.hypocentre].at),
         centroid: frame.spot(&(centre / weight).into()),

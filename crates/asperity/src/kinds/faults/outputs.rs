@@ -8,7 +8,7 @@ use crate::keep::{self, Place};
 use asperity_cycles::{Balance, FaultRun, Faults, Moment};
 use asperity_ode::{Control, Outcome};
 use asperity_output::OutputError;
-use asperity_output::progress::Now;
+use asperity_output::progress::RunState;
 use asperity_plan::faults::Plan;
 use asperity_run::{ObserveError, Observer as _, Warning};
 use std::path::Path;
@@ -134,16 +134,16 @@ impl<'a> keep::Outputs for Outputs<'a> {
         [moment.at.seconds(), self.plan.problem.settings.end]
     }
 
-    fn now(&self, moment: &Moment<'_>) -> Now {
+    fn now(&self, moment: &Moment<'_>) -> RunState {
         let [time, end] = self.times(moment);
-        Now {
+        RunState {
             time,
             end,
             step: self.files.steps(),
             step_length: moment.dt,
             largest_rate: Some(moment.largest),
             events: Some(moment.events().len() as u64),
-            ..Now::default()
+            ..RunState::default()
         }
     }
 

@@ -16,7 +16,7 @@ use asperity_cycles::{
 use asperity_mechanics::coordinates;
 use asperity_ode::{Failure, Outcome as Finish};
 use asperity_output::decimals::fixed;
-use asperity_output::located::{Located, magnitude};
+use asperity_output::located::{SourceParameters, magnitude};
 use asperity_plan::faults::{FaultView, Plan};
 use asperity_plan::shared::checks::Checks;
 use asperity_plan::shared::outrun;
@@ -363,7 +363,7 @@ impl Report {
 
     /// Events as entries of seismological catalogues, in order of onset. With several faults, these are the events of each fault.
     #[must_use]
-    pub fn located(&self) -> Vec<Located> {
+    pub fn located(&self) -> Vec<SourceParameters> {
         let apart: Vec<&Entry> = self.faults.iter().flat_map(|f| &f.events).collect();
         let mut all = if self.faults.is_empty() { self.events.iter().collect() } else { apart };
         all.sort_by(|a, b| a.onset.total_cmp(&b.onset));

@@ -2,7 +2,7 @@
 
 use crate::keep;
 use asperity_cycles::{Faults, Moment};
-use asperity_output::{Growing, OutputError};
+use asperity_output::{GrowingTable, OutputError};
 use asperity_plan::faults::Plan;
 use asperity_plan::faults::cadence::{Cadence, Gauge, Reading};
 use std::path::Path;
@@ -40,7 +40,7 @@ pub(super) struct Ends<'a> {
 /// A table that grows by whole rows, with the gauge that decides when the next one is due.
 pub(super) struct Rows<'a> {
     table: Table<'a>,
-    file: Growing,
+    file: GrowingTable,
     gauge: Gauge,
 }
 

@@ -18,8 +18,8 @@ pub(super) fn tables(plan: &Plan) -> Vec<Table<'_>> {
         let row = move |now: &Moment<'_>, step: u64| {
             let mut rows = rows.lock().unwrap_or_else(PoisonError::into_inner);
             rows.of((now.at, step), || {
-                let when = (now.at.seconds(), sampling.number, step);
-                sampling.sampled.rows(when, &sampling.at(view, now))
+                let values = sampling.at(view, now);
+                sampling.sampled.rows(now.at.seconds(), sampling.number, step, &values)
             })[k]
                 .clone()
         };

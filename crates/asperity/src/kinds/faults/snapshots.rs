@@ -4,7 +4,7 @@ use super::fields::{self, Surface};
 use asperity_cycles::Moment;
 use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::fixed;
-use asperity_output::{Growing, OutputError, atomic};
+use asperity_output::{GrowingTable, OutputError, atomic};
 use asperity_plan::faults::Plan;
 use asperity_plan::faults::cadence::{Gauge, RATE_CHANGE, Reading, log_rate};
 use serde::{Deserialize, Serialize};
@@ -32,7 +32,7 @@ pub(super) struct Snapshots {
     folder: PathBuf,
     /// Surface of each fault.
     surfaces: Vec<Surface>,
-    list: Growing,
+    list: GrowingTable,
     taken: Taken,
 }
 
@@ -63,8 +63,8 @@ impl Snapshots {
         atomic::create_dir(&folder)?;
         let surfaces = plan.faults.iter().map(|fault| Surface::of(plan, fault)).collect();
         let list = match taken {
-            Some(taken) => Growing::reopen(out.join(LIST), taken.list)?,
-            None => Growing::create(out.join(LIST), column::header(&columns()))?,
+            Some(taken) => GrowingTable::reopen(out.join(LIST), taken.list)?,
+            None => GrowingTable::create(out.join(LIST), column::header(&columns()))?,
         };
         Ok(Some(Self { folder, surfaces, list, taken: taken.unwrap_or_default() }))
     }

@@ -9,7 +9,7 @@ use asperity_cycles::{Moment, Rupture};
 use asperity_ode::Clock;
 use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::scientific;
-use asperity_output::{Growing, OutputError, atomic};
+use asperity_output::{GrowingTable, OutputError, atomic};
 use asperity_plan::faults::Plan;
 use asperity_plan::faults::cadence::Gauge;
 use asperity_run::{ALL, Event};
@@ -43,7 +43,7 @@ pub(super) struct Written {
 #[derive(Debug)]
 pub(super) struct SourceTimes {
     folder: PathBuf,
-    file: Option<Growing>,
+    file: Option<GrowingTable>,
     written: Written,
 }
 
@@ -68,7 +68,7 @@ impl SourceTimes {
         let mut files = Self::create(out, plan)?;
         if let Some(gauge) = written.open {
             let path = files.folder.join(name(written.events - 1));
-            files.file = Some(Growing::reopen(path, gauge.bytes)?);
+            files.file = Some(GrowingTable::reopen(path, gauge.bytes)?);
         }
         Ok(Self { written, ..files })
     }
@@ -83,7 +83,7 @@ impl SourceTimes {
     /// # Errors
     /// If something could not be written.
     pub fn settle(&self) -> Result<(), OutputError> {
-        self.file.iter().try_for_each(Growing::settle)
+        self.file.iter().try_for_each(GrowingTable::settle)
     }
 
     /// Files with fewer rows than steps, as for [`asperity_plan::faults::cadence::warning`].
@@ -124,7 +124,7 @@ impl SourceTimes {
     fn begin(&mut self, plan: &Plan) -> Result<(), OutputError> {
         let head = column::header(&columns(plan));
         let path = self.folder.join(name(self.written.events - 1));
-        self.file = Some(Growing::create(path, head.as_bytes())?);
+        self.file = Some(GrowingTable::create(path, head.as_bytes())?);
         self.written.open = Some(Gauge::of(head.len() as u64));
         self.written.skipped = 0;
         Ok(())

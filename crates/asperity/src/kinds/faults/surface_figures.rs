@@ -3,7 +3,7 @@
 use super::source_time::FOLDER;
 use super::surface_tables::name;
 use asperity_cycles::{FaultRun, Rupture};
-use asperity_output::plots::{Coordinates, Curves, Ground, Measure, OfEvent, Plot, Points, Shown};
+use asperity_output::plots::{Coordinates, Curves, EventOnset, Ground, MapQuantity, Measure, Plot, Points};
 use asperity_plan::faults::{FaultView, Plan, SurfaceAxes};
 use asperity_run::Event;
 use std::collections::BTreeMap;
@@ -18,9 +18,9 @@ pub(super) fn plots(plan: &Plan, run: &FaultRun) -> Vec<Plot> {
     let Some(surface) = &plan.free_surface else { return Vec::new() };
     let events = run.events().iter().enumerate().take(plan.event_files);
     let edges = || plan.faults.iter().flat_map(|fault| edges(plan, &surface.axes, fault)).collect();
-    let map = |event: OfEvent, coordinates, axes, [right, up, out]: [usize; 3]| {
+    let map = |event: EventOnset, coordinates, axes, [right, up, out]: [usize; 3]| {
         let (file, table) = (stem(event.number), table(event.number));
-        let (shown, arrows) = (Shown::Displacement, Some([right, up]));
+        let (shown, arrows) = (MapQuantity::Displacement, Some([right, up]));
         Plot::Ground(Ground {
             file,
             event,
@@ -33,7 +33,7 @@ pub(super) fn plots(plan: &Plan, run: &FaultRun) -> Vec<Plot> {
             edges: edges(),
         })
     };
-    let one = |event: OfEvent| match &surface.axes {
+    let one = |event: EventOnset| match &surface.axes {
         SurfaceAxes::Line(_) => Plot::Curves(profile(plan, event)),
         SurfaceAxes::Scene([z, x]) => {
             let axes = [("z".into(), z.clone()), ("x".into(), x.clone())];
@@ -49,8 +49,8 @@ pub(super) fn plots(plan: &Plan, run: &FaultRun) -> Vec<Plot> {
 }
 
 /// An event as figures name it.
-pub(super) fn of_event(number: usize, event: &Event<Rupture>) -> OfEvent {
-    OfEvent { number, onset: event.onset.seconds() }
+pub(super) fn of_event(number: usize, event: &Event<Rupture>) -> EventOnset {
+    EventOnset { number, onset: event.onset.seconds() }
 }
 
 fn stem(number: usize) -> String {
@@ -62,7 +62,7 @@ fn table(number: usize) -> String {
 }
 
 /// Displacements along a line: those of each component that moves.
-fn profile(plan: &Plan, event: OfEvent) -> Curves {
+fn profile(plan: &Plan, event: EventOnset) -> Curves {
     let curve = |(axis, name): (usize, &str)| {
         let table = table(event.number);
         (name.to_string(), Points::Table { table, x: X, y: IN_SCENE + axis, size: false })

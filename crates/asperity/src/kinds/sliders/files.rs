@@ -8,7 +8,7 @@ use asperity_ode::Control;
 use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::{shortest, shortest_scientific};
 use asperity_output::plots::{Plot, Sheet};
-use asperity_output::{Growing, OutputError, atomic};
+use asperity_output::{GrowingTable, OutputError, atomic};
 use asperity_run::{ObserveError, Observer};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -24,7 +24,7 @@ pub struct Histories {
 /// Record of a slider.
 #[derive(Debug, Default)]
 struct Kept {
-    file: Option<Growing>,
+    file: Option<GrowingTable>,
     thin: Thin,
     trace: Trace,
 }
@@ -52,7 +52,7 @@ impl Histories {
     /// # Errors
     /// If a file cannot be written.
     pub fn create(out: &Path, problem: &Problem) -> Result<Self, OutputError> {
-        Self::of(out, problem, |path, header, _| Growing::create(path, header))
+        Self::of(out, problem, |path, header, _| GrowingTable::create(path, header))
     }
 
     /// Resumes the files at their recorded positions; later rows are cut off.
@@ -61,7 +61,7 @@ impl Histories {
     /// If a file is missing, shorter than it was, or cannot be written.
     pub fn resume(out: &Path, problem: &Problem, from: Positions) -> Result<Self, OutputError> {
         let bytes = |i: usize| from.sliders.get(i).and_then(|p| p.bytes).unwrap_or_default();
-        let mut resumed = Self::of(out, problem, |path, _, i| Growing::reopen(path, bytes(i)))?;
+        let mut resumed = Self::of(out, problem, |path, _, i| GrowingTable::reopen(path, bytes(i)))?;
         for (kept, Position { thin, trace, .. }) in resumed.sliders.iter_mut().zip(from.sliders) {
             (kept.thin, kept.trace) = (thin, trace);
         }
@@ -73,7 +73,7 @@ impl Histories {
     fn of(
         out: &Path,
         problem: &Problem,
-        open: impl Fn(PathBuf, &[u8], usize) -> Result<Growing, OutputError>,
+        open: impl Fn(PathBuf, &[u8], usize) -> Result<GrowingTable, OutputError>,
     ) -> Result<Self, OutputError> {
         atomic::writable_dir(out)?;
         let folder = out.join("history");
@@ -107,7 +107,7 @@ impl Histories {
     #[must_use]
     pub fn positions(&self) -> Positions {
         let of = |kept: &Kept| Position {
-            bytes: kept.file.as_ref().map(Growing::bytes),
+            bytes: kept.file.as_ref().map(GrowingTable::bytes),
             thin: kept.thin.clone(),
             trace: kept.trace.clone(),
         };
@@ -119,7 +119,7 @@ impl Histories {
     /// # Errors
     /// If something could not be written.
     pub fn settle(&self) -> Result<(), OutputError> {
-        self.sliders.iter().filter_map(|kept| kept.file.as_ref()).try_for_each(Growing::settle)
+        self.sliders.iter().filter_map(|kept| kept.file.as_ref()).try_for_each(GrowingTable::settle)
     }
 
     /// Keeps the data for plots.
@@ -220,7 +220,7 @@ impl Observer<Sliders> for Histories {
                 condition: now.conditions[i],
                 slip: now.slip[i],
                 load: now.load,
-                states: problem.system.of(i, now.unknowns)[1..=states].to_vec(),
+                states: problem.system.slider_unknowns(i, now.unknowns)[1..=states].to_vec(),
             };
             let until = (problem.end, problem.events.map(|thresholds| thresholds.on));
             for row in kept.thin.next(row, now.asked, problem.output.change, until).iter().flatten() {

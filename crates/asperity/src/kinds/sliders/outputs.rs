@@ -6,7 +6,7 @@ use crate::keep::{self, Place};
 use asperity_cycles::slider::{Now as Step, Problem, SliderRun, Sliders};
 use asperity_ode::Control;
 use asperity_output::OutputError;
-use asperity_output::progress::Now;
+use asperity_output::progress::RunState;
 use asperity_run::{ObserveError, Observer as _};
 use serde::{Deserialize, Serialize};
 
@@ -82,15 +82,15 @@ impl<'a> keep::Outputs for Outputs<'a> {
         [now.at.seconds(), self.problem.end]
     }
 
-    fn now(&self, now: &Step<'_>) -> Now {
+    fn now(&self, now: &Step<'_>) -> RunState {
         let [time, end] = self.times(now);
-        Now {
+        RunState {
             time,
             end,
             step: now.step as u64,
             step_length: now.dt,
             largest_rate: now.conditions.iter().map(|c| c.rate.abs()).reduce(f64::max),
-            ..Now::default()
+            ..RunState::default()
         }
     }
 

@@ -101,7 +101,7 @@ impl Report {
         };
         let segment = problem.system.segment(run.at.seconds());
         let last = problem.names.iter().zip(problem.system.sliders()).enumerate().map(|(i, (name, s))| {
-            let y = problem.system.of(i, &run.unknowns);
+            let y = problem.system.slider_unknowns(i, &run.unknowns);
             let (speed, friction) = segment.slip(i, run.at.seconds(), &run.unknowns);
             Final {
                 slider: name.clone(),

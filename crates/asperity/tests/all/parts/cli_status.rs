@@ -1,6 +1,6 @@
 use asperity::cli::begin::{LOCK, REPORT};
 use asperity::cli::status::*;
-use asperity_output::progress::{self, Now, Record};
+use asperity_output::progress::{self, Record, RunState};
 use jiff::Timestamp;
 use std::fs::File;
 use std::path::Path;
@@ -13,7 +13,7 @@ fn folder(status: &str) -> tempfile::TempDir {
     std::fs::write(folder.path().join(REPORT), report.to_string()).unwrap();
     let record = Record {
         fraction: 0.25,
-        now: Now { time: 1.0, end: 4.0, ..Now::default() },
+        now: RunState { time: 1.0, end: 4.0, ..RunState::default() },
         seconds: 3.0,
         seconds_left: Some(9.0),
         bytes: None,

@@ -1,4 +1,4 @@
-use asperity_fem::assembly::Lower;
+use asperity_fem::assembly::LowerTriangle;
 use asperity_fem::dof::Constraints;
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
@@ -17,7 +17,7 @@ fn analysed<const D: usize>(cells: [usize; D], kind: ElementKind) -> [f64; 2] {
     let pattern = Pattern::new(cells);
     let constraints = Constraints { fixed: Vec::new(), channels: Vec::new() };
     let equations = constraints.equations(mesh.nodes.len() * D);
-    let analysis = Lower::new(&[&pattern], &equations).analyse().unwrap();
+    let analysis = LowerTriangle::new(&[&pattern], &equations).analyse().unwrap();
     [WORD * analysis.symbolic().stored() as f64, analysis.symbolic().bytes() as f64]
 }
 

@@ -8,7 +8,7 @@ use super::cell::{Sums, integrate};
 use super::local::{Change, Traction};
 use super::overlap::{self, BOTH, Derivatives, NODES};
 use super::scalar::Dual;
-use super::state::{Cell, Finite, Point};
+use super::state::{Cell, MortarMeasure, Point};
 use crate::measure::Tractions;
 use crate::vector::{axpy, scaled};
 use std::sync::PoisonError;
@@ -29,22 +29,22 @@ struct Blocks<'a, const D: usize> {
 impl<const D: usize> Blocks<'_, D> {
     /// Block of a point of the piece, and the changes of its averaged distance.
     #[inline]
-    fn of(&mut self, point: &Point) -> (&mut [f64], &mut [[f64; D]]) {
+    fn point_block(&mut self, point: &Point) -> (&mut [f64], &mut [[f64; D]]) {
         let (at, size) = (point.at - self.start, point.nodes.len() * D);
         (&mut self.values[at..at + size * size], &mut self.slides[point.column..point.column + size])
     }
 }
 
-impl<const D: usize> Finite<D> {
+impl<const D: usize> MortarMeasure<D> {
     /// Writes the blocks of the pieces `from..to` of the work order.
-    pub(super) fn blocks(&self, (from, to): (usize, usize), tractions: &Tractions<'_>, values: &mut [f64]) {
+    pub(super) fn blocks(&self, from: usize, to: usize, tractions: &Tractions<'_>, values: &mut [f64]) {
         let start = |piece: usize| self.order.points(piece).first().map_or(0, |&p| self.points[p].at);
         if to - from > 1 {
             let middle = from + (to - from) / 2;
             let (left, right) = values.split_at_mut(start(middle) - start(from));
             rayon::join(
-                || self.blocks((from, middle), tractions, left),
-                || self.blocks((middle, to), tractions, right),
+                || self.blocks(from, middle, tractions, left),
+                || self.blocks(middle, to, tractions, right),
             );
             return;
         }
@@ -99,7 +99,7 @@ impl<const D: usize> Finite<D> {
         true
     }
 
-    /// Computes the derivatives of the weights of a cell in space, in the layout of [`Finite::slopes_of_lines`].
+    /// Computes the derivatives of the weights of a cell in space, in the layout of [`MortarMeasure::slopes_of_lines`].
     fn slopes_of_faces(&self, c: &Cell, out: &mut Derivatives) -> bool {
         let overlaps = self.in_space(c, |facets| {
             let mut raw = [[[[0.0; 3]; BOTH]; BOTH]; NODES];
@@ -141,7 +141,7 @@ impl<const D: usize> Finite<D> {
             }
             let (point, local) = (&self.points[p], &self.locals[p]);
             let places = &self.places[c.table + a * (s + m)..][..s + m];
-            let (block, slides) = blocks.of(point);
+            let (block, slides) = blocks.point_block(point);
             let size = slides.len();
             let force = local.force(&traction);
             let share = point.area.recip();
@@ -169,7 +169,7 @@ impl<const D: usize> Finite<D> {
     /// Adds to a point's block the motion of its nodes at fixed weights and the change of its averaged distance.
     fn point_tangent(&self, p: usize, traction: &Traction<'_>, blocks: &mut Blocks<'_, D>) {
         let (point, local) = (&self.points[p], &self.locals[p]);
-        let (block, slides) = blocks.of(point);
+        let (block, slides) = blocks.point_block(point);
         let size = slides.len();
         for (k, &node) in point.nodes.iter().enumerate() {
             let now = point.weights[k] / point.area;

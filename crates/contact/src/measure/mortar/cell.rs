@@ -24,7 +24,7 @@ const SLIVER: f64 = 1e-15;
 
 /// Data of a slave facet that do not depend on the configuration.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Frozen<'a, const D: usize> {
+pub(super) struct ReferenceFacet<'a, const D: usize> {
     pub kind: SegmentKind,
     pub weighting: &'a Weighting,
     /// Reference positions of the facet's nodes.
@@ -43,13 +43,13 @@ pub(super) struct Sums<T, const N: usize> {
 
 impl<T: Scalar, const N: usize> Sums<T, N> {
     pub(super) fn zero() -> Self {
-        Self { own: [[T::of(0.0); N]; N], other: [[T::of(0.0); N]; N] }
+        Self { own: [[T::constant(0.0); N]; N], other: [[T::constant(0.0); N]; N] }
     }
 }
 
 /// A pair of facets in the plane of the slave.
 struct Pair<'a, T, const D: usize, const N: usize> {
-    frozen: Frozen<'a, D>,
+    frozen: ReferenceFacet<'a, D>,
     slave: [[T; 2]; N],
     kind: SegmentKind,
     master: [[T; 2]; N],
@@ -58,7 +58,7 @@ struct Pair<'a, T, const D: usize, const N: usize> {
 /// Integrates the overlap of a slave facet at `x` with a master facet at `y`. Returns false if there is none. Sums that cannot
 /// be computed (a degenerate facet) are NaN.
 pub(super) fn integrate<T: Scalar, const D: usize, const N: usize>(
-    frozen: Frozen<'_, D>,
+    frozen: ReferenceFacet<'_, D>,
     x: &[[T; D]],
     kind: SegmentKind,
     y: &[[T; D]],
@@ -70,7 +70,8 @@ pub(super) fn integrate<T: Scalar, const D: usize, const N: usize>(
         let d: [T; D] = std::array::from_fn(|i| p[i] - origin[i]);
         std::array::from_fn(|m| inner(&d, &base[m]))
     };
-    let mut pair = Pair { frozen, slave: [[T::of(0.0); 2]; N], kind, master: [[T::of(0.0); 2]; N] };
+    let mut pair =
+        Pair { frozen, slave: [[T::constant(0.0); 2]; N], kind, master: [[T::constant(0.0); 2]; N] };
     pair.slave.iter_mut().zip(x).for_each(|(s, p)| *s = flat(p));
     pair.master.iter_mut().zip(y).for_each(|(s, p)| *s = flat(p));
     *sums = Sums::zero();
@@ -90,7 +91,7 @@ impl<T: Scalar, const D: usize, const N: usize> Pair<'_, T, D, N> {
         }
         for [t, w] in gauss {
             let y = from + (to - from).times(*t);
-            self.add([y, T::of(0.0)], (to - from).times(*w), sums);
+            self.add([y, T::constant(0.0)], (to - from).times(*w), sums);
         }
         true
     }
@@ -161,7 +162,7 @@ impl<T: Scalar, const D: usize, const N: usize> Pair<'_, T, D, N> {
         let flat = bases(s, xi, nodes, |k| self.slave[k]);
         let plane = if D == 2 { flat[0][0] } else { flat[0][0] * flat[1][1] - flat[0][1] * flat[1][0] };
         let reference = &self.frozen.reference;
-        let e = bases(s, xi, nodes, |k| reference[k].map(T::of));
+        let e = bases(s, xi, nodes, |k| reference[k].map(T::constant));
         let square = |a: &[T; D]| inner(a, a);
         let squared = if D == 2 {
             square(&e[0])
@@ -172,7 +173,7 @@ impl<T: Scalar, const D: usize, const N: usize> Pair<'_, T, D, N> {
         };
         let mut density = squared.sqrt() / plane;
         if self.frozen.axisymmetric {
-            let mut r = T::of(0.0);
+            let mut r = T::constant(0.0);
             for (k, x) in reference.iter().enumerate() {
                 r = r + value(s, k, xi).times(x[0]);
             }
@@ -196,7 +197,7 @@ fn bases<T: Scalar, const L: usize>(
     nodes: usize,
     x: impl Fn(usize) -> [T; L],
 ) -> [[T; L]; 2] {
-    let mut e = [[T::of(0.0); L]; 2];
+    let mut e = [[T::constant(0.0); L]; 2];
     for k in 0..nodes {
         let p = x(k);
         for (m, em) in e.iter_mut().enumerate() {
@@ -226,7 +227,7 @@ fn plane<T: Scalar, const D: usize>(kind: SegmentKind, x: &[[T; D]]) -> ([T; D],
     let unit = |a: [T; D]| over(a, inner(&a, &a).sqrt());
     let along = minus(&x[1], &x[0]);
     if D == 2 {
-        return (x[0], [unit(along), [T::of(0.0); D]]);
+        return (x[0], [unit(along), [T::constant(0.0); D]]);
     }
     let n = if matches!(kind, SegmentKind::Tri3 | SegmentKind::Tri6) {
         cross(&along, &minus(&x[2], &x[0]))
@@ -284,7 +285,7 @@ fn locate<T: Scalar, const D: usize>(kind: SegmentKind, x: &[[T; 2]], y: &[T; 2]
             off[i] = off[i] - p[i].times(s.value[k]);
         }
     }
-    std::array::from_fn(|m| T::of(xi[m]) + off[0].times(inverse[m][0]) + off[1].times(inverse[m][1]))
+    std::array::from_fn(|m| T::constant(xi[m]) + off[0].times(inverse[m][0]) + off[1].times(inverse[m][1]))
 }
 
 /// Convex parts of a facet, with corners in natural coordinates. A first-order facet is its own part. A second-order facet is
@@ -326,7 +327,7 @@ fn outline<T: Scalar, const N: usize>(kind: SegmentKind, x: &[[T; 2]; N], part: 
     }
     for xi in part {
         let s = shape(kind, *xi);
-        let mut p = [T::of(0.0); 2];
+        let mut p = [T::constant(0.0); 2];
         for (k, xk) in x.iter().enumerate().take(kind.nodes().min(MOST_NODES)) {
             for i in 0..2 {
                 p[i] = p[i] + xk[i].times(s.value[k]);

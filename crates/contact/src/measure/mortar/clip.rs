@@ -15,7 +15,7 @@ pub(super) struct Polygon<T> {
 
 impl<T: Scalar> Polygon<T> {
     pub(super) fn empty() -> Self {
-        Self { corners: 0, at: [[T::of(0.0); 2]; MOST_CORNERS] }
+        Self { corners: 0, at: [[T::constant(0.0); 2]; MOST_CORNERS] }
     }
 
     #[inline]
@@ -55,15 +55,15 @@ impl<T: Scalar> Polygon<T> {
     /// Centroid of the polygon's area.
     fn centroid(&self) -> [T; 2] {
         let o = self.at[0];
-        let mut whole = T::of(0.0);
-        let mut sum = [T::of(0.0); 2];
+        let mut whole = T::constant(0.0);
+        let mut sum = [T::constant(0.0); 2];
         for k in 2..self.corners {
             let (a, b) = (self.at[k - 1], self.at[k]);
             let double = twice_area(&o, &a, &b);
             whole = whole + double;
             (0..2).for_each(|i| sum[i] = sum[i] + double * (a[i] - o[i] + b[i] - o[i]));
         }
-        let share = T::of(1.0) / whole.times(3.0);
+        let share = T::constant(1.0) / whole.times(3.0);
         std::array::from_fn(|i| o[i] + sum[i] * share)
     }
 

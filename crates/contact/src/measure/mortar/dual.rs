@@ -10,7 +10,7 @@
 //! Wohlmuth, B. I. (2000), A mortar finite element method using dual spaces for the Lagrange multiplier, SIAM Journal on Numerical
 //! Analysis 38, 989-1012.
 
-use super::cell::{Frozen, Sums, integrate};
+use super::cell::{ReferenceFacet, Sums, integrate};
 use super::rule::Rule;
 use crate::shape::MOST_NODES;
 use nalgebra::DMatrix;
@@ -23,7 +23,7 @@ pub(super) type Part = (usize, Sums<f64, MOST_NODES>);
 
 /// Replaces the shape functions by their duals in the integrals of a facet at `x` with all its master facets, if it has duals.
 pub(super) fn dualise<const D: usize>(
-    frozen: Frozen<'_, D>,
+    frozen: ReferenceFacet<'_, D>,
     x: &[[f64; D]],
     rule: &Rule,
     parts: &mut [Part],
@@ -45,7 +45,7 @@ pub(super) fn dualise<const D: usize>(
 }
 
 /// Area of the whole facet, computed as its overlap with its own reverse side.
-fn area<const D: usize>(frozen: Frozen<'_, D>, x: &[[f64; D]], rule: &Rule) -> f64 {
+fn area<const D: usize>(frozen: ReferenceFacet<'_, D>, x: &[[f64; D]], rule: &Rule) -> f64 {
     let back: Vec<[f64; D]> = x.iter().rev().copied().collect();
     let mut sums = Sums::<f64, MOST_NODES>::zero();
     integrate(frozen, x, frozen.kind, &back, rule, &mut sums);

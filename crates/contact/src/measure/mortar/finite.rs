@@ -20,12 +20,12 @@ use super::local::{Change, Local};
 use super::order::{CHUNK, WorkOrder};
 use super::overlap::{self, NODES};
 use super::scalar::Dual;
-use super::sides::{Beside, Sides, node_at};
+use super::sides::{AdjacentFacet, Sides, node_at};
 use super::small::FACED;
-use super::state::{Cell, Finite, Point};
+use super::state::{Cell, MortarMeasure, Point};
 use crate::measure::bound::{Bound, fits};
 use crate::measure::fixed::fixed_frame;
-use crate::measure::saved::{Facing, MeasureState};
+use crate::measure::saved::{MeasureState, MortarPointState};
 use crate::measure::{Attachment, Exit, Geometry, Measure, Slides, Tractions};
 use crate::shape::shape;
 use crate::spec::{Segment, SlavePoint, SurfaceNode};
@@ -45,11 +45,11 @@ pub fn finite<const D: usize>(
     let x: Vec<[f64; D]> = nodes.iter().map(|n| n.position).collect();
     let sides = Sides::new(faces, slave, master, &x, axisymmetric);
     let dofs = nodes.iter().map(|n| n.dof).collect();
-    let (measure, examined) = Finite::<D>::new(sides, dofs, x);
+    let (measure, examined) = MortarMeasure::<D>::new(sides, dofs, x);
     (Box::new(measure), examined)
 }
 
-impl<const D: usize> Finite<D> {
+impl<const D: usize> MortarMeasure<D> {
     pub(super) fn new(sides: Sides<D>, dofs: Vec<usize>, reference: Vec<[f64; D]>) -> (Self, u64) {
         let n = sides.beside.len();
         let whole = sides.whole_areas(n);
@@ -149,7 +149,7 @@ impl<const D: usize> Finite<D> {
         }
     }
 
-    /// Computes the rows of a cell in space, in the layout of [`Finite::integrate_lines`].
+    /// Computes the rows of a cell in space, in the layout of [`MortarMeasure::integrate_lines`].
     fn integrate_faces(&self, c: &Cell, mine: &mut [f64]) {
         mine.fill(0.0);
         let facet = &self.sides.facets[c.facet];
@@ -294,9 +294,9 @@ impl<const D: usize> Finite<D> {
     }
 }
 
-impl<const D: usize> Finite<D> {
+impl<const D: usize> MortarMeasure<D> {
     /// True if all nodes of a pair of facets are in the blocks of the pair's points.
-    fn beside_blocks(&self, [facet, master]: &[usize; 2], points: &[Facing]) -> bool {
+    fn beside_blocks(&self, [facet, master]: &[usize; 2], points: &[MortarPointState]) -> bool {
         let (own, other) = (&self.sides.facets[*facet], &self.sides.master[*master]);
         let mut nodes = own.nodes.iter().chain(&other.nodes);
         nodes.all(|n| own.weighting.points.iter().all(|&p| points[p].nodes.contains(n)))
@@ -325,7 +325,7 @@ fn three<const D: usize>(x: [f64; D]) -> [f64; 3] {
 
 /// Components of the small-sliding frame's vectors in the base vectors of the first facet adjacent to point `p`.
 fn along<const D: usize>(sides: &Sides<D>, p: usize, x: &[[f64; D]]) -> [[f64; 2]; 2] {
-    let first: Beside = sides.beside[p][0];
+    let first: AdjacentFacet = sides.beside[p][0];
     let e = sides.bases(first, x);
     let normals = sides.normal_sum(p, x);
     let frame = fixed_frame(&scaled(&normals, -norm(&normals).recip()));
@@ -333,7 +333,7 @@ fn along<const D: usize>(sides: &Sides<D>, p: usize, x: &[[f64; D]]) -> [[f64; 2
     frame.map(|t| solve_tangential(D - 1, &metric, &[dot(&e[0], &t), dot(&e[1], &t)]))
 }
 
-impl<const D: usize> Measure<D> for Finite<D> {
+impl<const D: usize> Measure<D> for MortarMeasure<D> {
     fn pattern(&self) -> &Pattern {
         &self.pattern
     }
@@ -382,7 +382,7 @@ impl<const D: usize> Measure<D> for Finite<D> {
     }
 
     fn tangent(&self, _geometry: &Geometry<D>, tractions: Tractions<'_>, values: &mut [f64]) {
-        self.blocks((0, self.order.pieces()), &tractions, values);
+        self.blocks(0, self.order.pieces(), &tractions, values);
     }
 
     fn slides(&self, _geometry: &Geometry<D>, du: &[[f64; D]], out: &mut Slides) {
@@ -459,7 +459,7 @@ impl<const D: usize> Measure<D> for Finite<D> {
     }
 
     fn save(&self) -> MeasureState {
-        let facing = |point: &Point| Facing {
+        let facing = |point: &Point| MortarPointState {
             nodes: point.nodes.clone(),
             slaves: point.slaves,
             then: point.then.clone(),
@@ -475,7 +475,7 @@ impl<const D: usize> Measure<D> for Finite<D> {
     fn restore(&mut self, saved: &MeasureState) -> bool {
         let MeasureState::Mortar { points, pairs, proved } = saved else { return false };
         let (facets, masters) = (self.sides.facets.len(), self.sides.master.len());
-        let exist = |p: &Facing| {
+        let exist = |p: &MortarPointState| {
             p.nodes.iter().all(|&n| n < self.x.len())
                 && p.then.len() == p.nodes.len()
                 && p.slaves <= p.nodes.len()
@@ -494,7 +494,7 @@ impl<const D: usize> Measure<D> for Finite<D> {
             (point.slaves, point.anchored, point.fresh) = (saved.slaves, saved.anchored, false);
         }
         self.tabulate(&pairs.iter().map(|p| (p[0], p[1])).collect::<Vec<_>>());
-        self.bound = Bound::of(proved);
+        self.bound = Bound::restore(proved);
         true
     }
 }

@@ -278,9 +278,9 @@ impl<'a> Pair<'a> {
         put(&mut flat[..NODES], x);
         put(&mut flat[NODES..], master.x);
         let (s, m) = (x.len(), master.x.len());
-        let own = Polygon::of((0..s).map(|k| (flat[k], k)));
+        let own = Polygon::from_nodes((0..s).map(|k| (flat[k], k)));
         // The master runs in the opposite direction.
-        let other = Polygon::of((0..m).rev().map(|k| (flat[NODES + k], NODES + k)));
+        let other = Polygon::from_nodes((0..m).rev().map(|k| (flat[NODES + k], NODES + k)));
         if other.twice_area() <= 0.0 || own.apart(&other) {
             return None;
         }
@@ -525,7 +525,7 @@ fn add_other(to: &mut [f64; ALL], c: f64, by: &[f64; OWN_OTHER]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::mortar::cell::{Frozen, Sums, integrate};
+    use crate::measure::mortar::cell::{ReferenceFacet, Sums, integrate};
     use crate::measure::mortar::rule::Rules;
     use crate::measure::mortar::scalar::Dual;
     use crate::measure::mortar::weighting::Weighting;
@@ -556,7 +556,8 @@ mod tests {
         rule: &Rule,
     ) -> Option<Sums<Number, 4>> {
         let weighting = Weighting::new(slave.kind, Some);
-        let frozen = Frozen { kind: slave.kind, weighting: &weighting, reference, axisymmetric: false };
+        let frozen =
+            ReferenceFacet { kind: slave.kind, weighting: &weighting, reference, axisymmetric: false };
         let seeded = |x: &[[f64; 3]], first: usize| -> Vec<[Number; 3]> {
             let number = |k: usize, i: usize| {
                 let mut d = [0.0; 24];
@@ -589,7 +590,7 @@ mod tests {
             let rules = Rules::new();
             let of = |own: &[[f64; 3]], other: &[[f64; 3]]| {
                 let side = |x| Side { kind: SegmentKind::Quad4, x };
-                integrals(&Facets { slave: side(own), reference: own, master: side(other), rule: rules.of(3) })
+                integrals(&Facets { slave: side(own), reference: own, master: side(other), rule: rules.rule(3) })
             };
             let (first, second) = (of(&own, &other), of(&turned(&own), &turned(&other)));
             prop_assert_eq!(first.is_some(), second.is_some());
@@ -615,7 +616,7 @@ mod tests {
             let reference: Vec<[f64; 3]> =
                 own.iter().zip(noises.2.chunks(3)).map(|(x, n)| std::array::from_fn(|i| x[i] + n[i])).collect();
             let rules = Rules::new();
-            let rule = rules.of(points);
+            let rule = rules.rule(points);
             let (slave, master) = (Side { kind: kinds.0, x: &own }, Side { kind: kinds.1, x: &other });
             let expected = forward(slave, &reference, master, rule);
             let facets = Facets { slave, reference: &reference, master, rule };

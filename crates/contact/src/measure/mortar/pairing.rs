@@ -1,23 +1,23 @@
 //! Search for facets that may overlap in finite sliding, and the blocks that result.
 
 use super::order::CHUNK;
-use super::state::{Cell, Finite, Found, Scratch};
+use super::state::{Cell, MortarMeasure, Scratch, SearchResult};
 use asperity_fem::term::Pattern;
 use rayon::prelude::*;
 
-impl<const D: usize> Finite<D> {
+impl<const D: usize> MortarMeasure<D> {
     /// Recomputes the cells, and the blocks if the cells change.
     pub(super) fn pair(&mut self, examined: &mut u64) {
         self.sides.refit(&self.x);
         let facets = self.sides.facets.len();
         let mut found = std::mem::take(&mut self.found);
-        found.resize_with(facets.div_ceil(CHUNK), Found::default);
+        found.resize_with(facets.div_ceil(CHUNK), SearchResult::default);
         found.par_iter_mut().enumerate().for_each(|(k, found)| {
             found.pairs.clear();
             found.examined = 0;
             found.free = f64::INFINITY;
             for f in k * CHUNK..((k + 1) * CHUNK).min(facets) {
-                let Found { pairs, candidates, examined, free } = &mut *found;
+                let SearchResult { pairs, candidates, examined, free } = &mut *found;
                 *free = free.min(self.sides.candidates(f, &self.x, candidates, examined));
                 pairs.extend(candidates.iter().map(|&m| (f, m)));
             }
@@ -108,7 +108,7 @@ impl<const D: usize> Finite<D> {
             .map(|&p| &self.points[p])
             .map(|p| p.nodes.iter().flat_map(|&n| dofs[n]..dofs[n] + D).collect())
             .collect();
-        self.pattern = Pattern::of_blocks(blocks.iter().map(Vec::as_slice));
+        self.pattern = Pattern::from_blocks(blocks.iter().map(Vec::as_slice));
     }
 }
 
@@ -170,7 +170,7 @@ mod tests {
         let points: Vec<SlavePoint> = nodes.iter().map(|&node| SlavePoint { node, area: 1.0 }).collect();
         let sides = Sides::new(&slave, &points, master, &reference, false);
         let dofs = (0..reference.len()).map(|k| D * k).collect();
-        let (mut measure, _) = Finite::<D>::new(sides, dofs, reference.clone());
+        let (mut measure, _) = MortarMeasure::<D>::new(sides, dofs, reference.clone());
         let radius = measure.found.iter().fold(f64::INFINITY, |least, f| least.min(f.free));
         assert!(radius > 0.0 && radius.is_finite(), "{radius}");
         let known: Vec<(usize, usize)> = measure.cells.iter().map(|c| (c.facet, c.master)).collect();

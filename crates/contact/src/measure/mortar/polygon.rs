@@ -45,7 +45,7 @@ impl Polygon {
     }
 
     /// Makes a polygon from positions and nodes, in order.
-    pub(super) fn of(nodes: impl Iterator<Item = ([f64; 2], usize)>) -> Self {
+    pub(super) fn from_nodes(nodes: impl Iterator<Item = ([f64; 2], usize)>) -> Self {
         let mut out = Self::empty();
         nodes.for_each(|(at, v)| out.push(Corner { at, of: Crossing::None(v), line: [v; 2] }));
         for k in 0..out.corners {
@@ -197,7 +197,7 @@ mod tests {
     ];
 
     fn common(nodes: &[[f64; 2]; 8]) -> Polygon {
-        let part = |range: std::ops::Range<usize>| Polygon::of(range.map(|v| (nodes[v], v)));
+        let part = |range: std::ops::Range<usize>| Polygon::from_nodes(range.map(|v| (nodes[v], v)));
         part(0..4).clipped(&part(4..8), nodes)
     }
 

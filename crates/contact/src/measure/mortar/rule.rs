@@ -66,7 +66,7 @@ impl Rules {
 
     /// Rule of `n` points.
     #[inline]
-    pub(super) fn of(&self, n: usize) -> &Rule {
+    pub(super) fn rule(&self, n: usize) -> &Rule {
         &self.rules[n - 1]
     }
 }

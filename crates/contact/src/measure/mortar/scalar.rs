@@ -7,7 +7,7 @@ pub(super) trait Scalar:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
     /// Makes a constant.
-    fn of(value: f64) -> Self;
+    fn constant(value: f64) -> Self;
     /// Value of the number.
     fn value(&self) -> f64;
     /// Square root.
@@ -20,7 +20,7 @@ pub(super) trait Scalar:
 
 impl Scalar for f64 {
     #[inline]
-    fn of(value: f64) -> Self {
+    fn constant(value: f64) -> Self {
         value
     }
     #[inline]
@@ -107,7 +107,7 @@ impl<const M: usize> Neg for Dual<M> {
 
 impl<const M: usize> Scalar for Dual<M> {
     #[inline]
-    fn of(value: f64) -> Self {
+    fn constant(value: f64) -> Self {
         Self { v: value, d: [0.0; M] }
     }
     #[inline]

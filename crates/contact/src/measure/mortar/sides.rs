@@ -1,7 +1,7 @@
 //! The two surfaces of a mortar interface: facets with their weightings, averaged normals, and the search for facets that may
 //! overlap.
 
-use super::cell::Frozen;
+use super::cell::ReferenceFacet;
 use super::rule::{self, Rule, Rules};
 use super::weighting::Weighting;
 use crate::SegmentKind;
@@ -30,7 +30,7 @@ pub(super) struct Facet {
 
 /// A slave facet adjacent to a slave point: the facet and the local number of the point's node in it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Beside {
+pub(super) struct AdjacentFacet {
     pub facet: usize,
     pub local: usize,
 }
@@ -41,7 +41,7 @@ pub(super) struct Sides<const D: usize> {
     pub facets: Vec<Facet>,
     pub master: Vec<Segment>,
     /// Facets adjacent to each slave point.
-    pub beside: Vec<Vec<Beside>>,
+    pub beside: Vec<Vec<AdjacentFacet>>,
     pub axisymmetric: bool,
     reference: Vec<[f64; D]>,
     distortion: Vec<f64>,
@@ -71,7 +71,7 @@ impl<const D: usize> Sides<D> {
             }
             for (local, &n) in face.nodes.iter().enumerate() {
                 if let Some(p) = point_of[n] {
-                    beside[p].push(Beside { facet: facets.len(), local });
+                    beside[p].push(AdjacentFacet { facet: facets.len(), local });
                 }
             }
             let x: Vec<[f64; D]> = face.nodes.iter().map(|&n| positions[n]).collect();
@@ -96,9 +96,9 @@ impl<const D: usize> Sides<D> {
 
     /// Constant data of slave facet `f`.
     #[inline]
-    pub(super) fn frozen(&self, f: usize) -> Frozen<'_, D> {
+    pub(super) fn frozen(&self, f: usize) -> ReferenceFacet<'_, D> {
         let facet = &self.facets[f];
-        Frozen {
+        ReferenceFacet {
             kind: facet.kind,
             weighting: &facet.weighting,
             reference: &self.reference[facet.from..facet.from + facet.nodes.len()],
@@ -110,12 +110,12 @@ impl<const D: usize> Sides<D> {
     #[inline]
     pub(super) fn rule(&self, f: usize, m: usize) -> &Rule {
         let distortion = self.facets[f].distortion.max(self.distortion[m]);
-        self.rules.of(rule::points(self.facets[f].kind, self.master[m].kind, distortion))
+        self.rules.rule(rule::points(self.facets[f].kind, self.master[m].kind, distortion))
     }
 
     /// Base vectors of facet `b.facet` at the node of a slave point.
     #[inline]
-    pub(super) fn bases(&self, b: Beside, x: &[[f64; D]]) -> [[f64; D]; 2] {
+    pub(super) fn bases(&self, b: AdjacentFacet, x: &[[f64; D]]) -> [[f64; D]; 2] {
         let facet = &self.facets[b.facet];
         bases(facet.kind, &facet.nodes, x, node_at(facet.kind, b.local))
     }

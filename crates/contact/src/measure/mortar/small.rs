@@ -3,7 +3,7 @@
 use super::cell::{Sums, integrate};
 use super::dual::{Part, dualise};
 use super::sides::Sides;
-use crate::measure::fixed::Fixed;
+use crate::measure::fixed::FixedMeasure;
 use crate::spec::{Segment, SlavePoint, SurfaceNode};
 use crate::vector::{axpy, scaled, unit};
 use std::collections::BTreeMap;
@@ -29,7 +29,7 @@ pub fn small<const D: usize>(
     master: Vec<Segment>,
     axisymmetric: bool,
     fixed_normal: Option<[f64; D]>,
-) -> (Fixed<D>, u64) {
+) -> (FixedMeasure<D>, u64) {
     let x: Vec<[f64; D]> = nodes.iter().map(|n| n.position).collect();
     let sides = Sides::new(faces, slave, master, &x, axisymmetric);
     let mut examined = 0;
@@ -37,7 +37,7 @@ pub fn small<const D: usize>(
     let whole = sides.whole_areas(slave.len());
     let paired = |p: usize| rows[p].area > FACED * whole[p];
     let areas = (0..slave.len()).map(|p| if paired(p) { rows[p].area } else { 0.0 }).collect();
-    let mut measure = Fixed::new(areas, false);
+    let mut measure = FixedMeasure::new(areas, false);
     for (p, row) in rows.iter().enumerate().filter(|(p, _)| paired(*p)) {
         let normal = fixed_normal.unwrap_or_else(|| scaled(&sides.normal_sum(p, &x), -1.0));
         // A node that belongs to both sides (the tip of a split surface) acts with the difference of its weights.

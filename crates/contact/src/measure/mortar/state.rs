@@ -44,7 +44,7 @@ pub(super) struct Cell {
 
 /// Mortar measure of finite sliding.
 #[derive(Clone, Debug)]
-pub(super) struct Finite<const D: usize> {
+pub(super) struct MortarMeasure<const D: usize> {
     pub(super) sides: Sides<D>,
     pub(super) reference: Vec<[f64; D]>,
     pub(super) dofs: Vec<usize>,
@@ -64,7 +64,7 @@ pub(super) struct Finite<const D: usize> {
     /// Contributions to the tangent for each piece.
     pub(super) scratch: Vec<Scratch<D>>,
     /// Results of the search, in pieces of the slave facets.
-    pub(super) found: Vec<Found>,
+    pub(super) found: Vec<SearchResult>,
     /// Range in which the result of the last search holds.
     pub(super) bound: Bound<D>,
 }
@@ -88,7 +88,7 @@ impl<const D: usize> Clone for Scratch<D> {
 
 /// Result of the search for a piece of the slave facets.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Found {
+pub(super) struct SearchResult {
     /// Pairs of slave and master facets.
     pub(super) pairs: Vec<(usize, usize)>,
     /// Buffer for the candidates of one facet.

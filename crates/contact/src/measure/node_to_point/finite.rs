@@ -23,7 +23,7 @@ use super::kernel::{Columns, Friction, Kernel};
 use super::local::Local;
 use super::track::{CHUNK, Place, Point, track};
 use crate::measure::bound::{Bound, fits};
-use crate::measure::saved::{MeasureState, Tracked};
+use crate::measure::saved::{MeasureState, PairingState};
 use crate::measure::{Attachment, Exit, Geometry, Measure, Slides, Tractions};
 use crate::search::project::{BORDER, depth, margins};
 use crate::search::smooth::MOST_SUPPORT;
@@ -34,7 +34,7 @@ use asperity_fem::term::{Blocks, Pattern};
 
 /// Node-to-point measure of finite sliding.
 #[derive(Clone, Debug)]
-pub struct Finite<const D: usize> {
+pub struct NodeToPointMeasure<const D: usize> {
     surface: Surface<D>,
     reference: Vec<[f64; D]>,
     dofs: Vec<usize>,
@@ -54,7 +54,7 @@ pub struct Finite<const D: usize> {
     pattern: Pattern,
 }
 
-impl<const D: usize> Finite<D> {
+impl<const D: usize> NodeToPointMeasure<D> {
     /// Pairs the slave points on `surface` in the reference configuration. Also returns the number of projections made.
     #[must_use]
     pub fn new(nodes: &[SurfaceNode<D>], slave: &[SlavePoint], surface: Surface<D>) -> (Self, u64) {
@@ -316,7 +316,7 @@ impl<'a, const D: usize> View<'a, D> {
     }
 }
 
-impl<const D: usize> Measure<D> for Finite<D> {
+impl<const D: usize> Measure<D> for NodeToPointMeasure<D> {
     fn pattern(&self) -> &Pattern {
         &self.pattern
     }
@@ -474,7 +474,7 @@ impl<const D: usize> Measure<D> for Finite<D> {
     }
 
     fn save(&self) -> MeasureState {
-        let tracked = |point: &Point| Tracked {
+        let tracked = |point: &Point| PairingState {
             anchor: point.anchor.map(|a| (a.segment, a.xi)),
             leaving: point.leaving,
             block: point.key,
@@ -488,7 +488,7 @@ impl<const D: usize> Measure<D> for Finite<D> {
     fn restore(&mut self, saved: &MeasureState) -> bool {
         let MeasureState::NodeToPoint { points, proved } = saved else { return false };
         let segments = self.surface.segments().len();
-        let exist = |t: &Tracked| {
+        let exist = |t: &PairingState| {
             t.anchor.is_none_or(|a| a.0 < segments)
                 && t.block.is_none_or(|(a, b)| a < segments && b < segments)
         };
@@ -501,7 +501,7 @@ impl<const D: usize> Measure<D> for Finite<D> {
             (point.place, point.fresh) = (point.anchor, false);
             (point.leaving, point.key) = (saved.leaving, saved.block);
         }
-        self.bound = Bound::of(proved);
+        self.bound = Bound::restore(proved);
         self.build();
         true
     }

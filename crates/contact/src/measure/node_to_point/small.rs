@@ -1,6 +1,6 @@
 //! Small sliding: every slave node keeps the point of the master surface that is closest in the reference configuration.
 
-use crate::measure::fixed::Fixed;
+use crate::measure::fixed::FixedMeasure;
 use crate::search::project::{Outcome, Projection};
 use crate::search::smooth::MOST_SUPPORT;
 use crate::search::surface::{Surface, Weights};
@@ -19,9 +19,9 @@ pub fn small<const D: usize>(
     slave: &[SlavePoint],
     surface: &Surface<D>,
     fixed_normal: Option<[f64; D]>,
-) -> (Fixed<D>, u64) {
+) -> (FixedMeasure<D>, u64) {
     let positions: Vec<[f64; D]> = nodes.iter().map(|n| n.position).collect();
-    let mut measure = Fixed::new(slave.iter().map(|s| s.area).collect(), true);
+    let mut measure = FixedMeasure::new(slave.iter().map(|s| s.area).collect(), true);
     let mut projections = 0;
     for (point, s) in slave.iter().enumerate() {
         let x = positions[s.node];
@@ -35,7 +35,7 @@ pub fn small<const D: usize>(
 
 #[expect(clippy::too_many_arguments, reason = "called once, from the constructor")]
 fn pair<const D: usize>(
-    measure: &mut Fixed<D>,
+    measure: &mut FixedMeasure<D>,
     point: usize,
     slave: &SlavePoint,
     surface: &Surface<D>,

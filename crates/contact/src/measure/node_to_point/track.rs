@@ -70,7 +70,7 @@ impl Point {
 
 /// Result of tracking a range of points.
 #[derive(Clone, Copy)]
-struct Tracked {
+struct TrackingResult {
     radius: f64,
     projections: u64,
 }
@@ -88,14 +88,14 @@ pub(super) fn track<const D: usize>(
     found.radius
 }
 
-fn track_range<const D: usize>(surface: &Surface<D>, x: &[[f64; D]], points: &mut [Point]) -> Tracked {
+fn track_range<const D: usize>(surface: &Surface<D>, x: &[[f64; D]], points: &mut [Point]) -> TrackingResult {
     if points.len() > CHUNK {
         let middle = points.len().div_ceil(2).next_multiple_of(CHUNK);
         let (left, right) = points.split_at_mut(middle);
         let (a, b) = rayon::join(|| track_range(surface, x, left), || track_range(surface, x, right));
-        return Tracked { radius: a.radius.min(b.radius), projections: a.projections + b.projections };
+        return TrackingResult { radius: a.radius.min(b.radius), projections: a.projections + b.projections };
     }
-    let mut all = Tracked { radius: f64::INFINITY, projections: 0 };
+    let mut all = TrackingResult { radius: f64::INFINITY, projections: 0 };
     for point in points {
         let tracker = Tracker { surface, x, p: x[point.slave.node] };
         let (place, radius) = tracker.hold(point, &mut all.projections);

@@ -11,11 +11,11 @@ const FREE: f64 = 1e-12;
 
 /// See the module.
 #[derive(Clone, Debug)]
-pub struct Coarsest {
+pub struct CoarsestLevel {
     factor: Cholesky<f64, Dyn>,
 }
 
-impl Coarsest {
+impl CoarsestLevel {
     /// Factors the matrix.
     ///
     /// # Errors

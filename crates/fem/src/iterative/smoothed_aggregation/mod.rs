@@ -14,9 +14,9 @@ use super::vector::CHUNK;
 use crate::error::FemError;
 use aggregate::{NONE, Strength, aggregate};
 use chebyshev::{Scratch, Smoother};
-use coarsest::Coarsest;
+use coarsest::CoarsestLevel;
 use rayon::prelude::*;
-use tentative::Tentative;
+use tentative::TentativeProlongation;
 
 /// Largest number of unknowns of a level that is solved directly: its factorisation takes well below a tenth of a second.
 const DIRECT: usize = 600;
@@ -49,7 +49,7 @@ impl Default for Settings {
 pub(super) struct Level<const B: usize, const K: usize> {
     pub(super) matrix: BlockCsr<B, B>,
     smoother: Smoother<B>,
-    pub(super) tentative: Tentative<B, K>,
+    pub(super) tentative: TentativeProlongation<B, K>,
     pub(super) prolongation: BlockCsr<B, K>,
     restriction: BlockCsr<K, B>,
 }
@@ -60,7 +60,7 @@ pub struct Hierarchy<const D: usize, const K: usize> {
     pub(super) fine: Level<D, K>,
     pub(super) coarse: Vec<Level<K, K>>,
     coarsest_matrix: BlockCsr<K, K>,
-    coarsest: Coarsest,
+    coarsest: CoarsestLevel,
     settings: Settings,
 }
 
@@ -74,13 +74,13 @@ pub struct LevelSize {
 }
 
 /// Solver for the next level: load and answer.
-type Below<'a, const K: usize> = dyn FnMut(&[[f64; K]], &mut Vec<[f64; K]>) + 'a;
+type CoarseSolver<'a, const K: usize> = dyn FnMut(&[[f64; K]], &mut Vec<[f64; K]>) + 'a;
 
 impl<const B: usize, const K: usize> Level<B, K> {
     /// The level of a matrix with given aggregates, and the matrix of the next level.
     fn new(
         matrix: BlockCsr<B, B>,
-        tentative: Tentative<B, K>,
+        tentative: TentativeProlongation<B, K>,
         settings: &Settings,
     ) -> Result<(Self, BlockCsr<K, K>), FemError> {
         let smoother = Smoother::new(&matrix, settings.degree, settings.range)?;
@@ -92,7 +92,13 @@ impl<const B: usize, const K: usize> Level<B, K> {
     }
 
     /// One cycle for `A x = b` from zero; `below` solves on the next level.
-    fn cycle(&self, b: &[[f64; B]], x: &mut Vec<[f64; B]>, work: &mut Work<B, K>, below: &mut Below<'_, K>) {
+    fn cycle(
+        &self,
+        b: &[[f64; B]],
+        x: &mut Vec<[f64; B]>,
+        work: &mut Work<B, K>,
+        below: &mut CoarseSolver<'_, K>,
+    ) {
         self.smoother.smooth(&self.matrix, b, x, &mut work.scratch, true);
         self.matrix.residual(x, b, &mut work.residual);
         self.restriction.multiply(&work.residual, &mut work.load);
@@ -164,12 +170,12 @@ fn coarsen<const B: usize, const K: usize>(
     modes: &[Block<B, K>],
     active: &[bool],
     threshold: f64,
-) -> Option<Tentative<B, K>> {
+) -> Option<TentativeProlongation<B, K>> {
     let strength = Strength::new(matrix, threshold);
     let (aggregates, count) = aggregate(&strength, active);
     let nodes = aggregates.iter().filter(|&&a| a != NONE).count();
     (count > 0 && (count * K) as f64 <= POOR * (nodes * B) as f64)
-        .then(|| Tentative::new(&aggregates, count, modes))
+        .then(|| TentativeProlongation::new(&aggregates, count, modes))
 }
 
 impl<const D: usize, const K: usize> Hierarchy<D, K> {
@@ -198,7 +204,7 @@ impl<const D: usize, const K: usize> Hierarchy<D, K> {
             coarse.push(level);
             next = below;
         }
-        let coarsest = Coarsest::new(&next)?;
+        let coarsest = CoarsestLevel::new(&next)?;
         Ok(Self { fine, coarse, coarsest_matrix: next, coarsest, settings })
     }
 
@@ -214,7 +220,7 @@ impl<const D: usize, const K: usize> Hierarchy<D, K> {
             coarse.push(level);
             next = below;
         }
-        let coarsest = Coarsest::new(&next)?;
+        let coarsest = CoarsestLevel::new(&next)?;
         Ok(Self { fine, coarse, coarsest_matrix: next, coarsest, settings: self.settings })
     }
 
@@ -281,7 +287,7 @@ pub struct Cycle<'a, const D: usize, const K: usize> {
 
 fn descend<const K: usize>(
     levels: &[Level<K, K>],
-    coarsest: &Coarsest,
+    coarsest: &CoarsestLevel,
     work: &mut [Work<K, K>],
     b: &[[f64; K]],
     x: &mut Vec<[f64; K]>,

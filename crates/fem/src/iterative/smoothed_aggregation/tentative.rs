@@ -15,7 +15,7 @@ const CHUNK: usize = 64;
 
 /// See the module.
 #[derive(Clone, Debug)]
-pub struct Tentative<const B: usize, const K: usize> {
+pub struct TentativeProlongation<const B: usize, const K: usize> {
     /// T: one entry in the row of each node that has an aggregate.
     pub prolongation: BlockCsr<B, K>,
     /// The modes on the coarse nodes.
@@ -24,7 +24,7 @@ pub struct Tentative<const B: usize, const K: usize> {
     pub present: Vec<[bool; K]>,
 }
 
-impl<const B: usize, const K: usize> Tentative<B, K> {
+impl<const B: usize, const K: usize> TentativeProlongation<B, K> {
     /// Orthonormalises the modes of each aggregate.
     #[must_use]
     pub fn new(aggregate: &[u32], count: usize, modes: &[Block<B, K>]) -> Self {

@@ -2,7 +2,7 @@
 
 use super::lines::Keyword;
 use super::numbers::Instances;
-use super::scope::{Element, NodesOf, Of, Scope, SurfaceLine, Unread};
+use super::scope::{Element, ElementOrSet, NodesOf, Scope, SurfaceLine, UnreadElements};
 use super::sets::Name;
 use super::shapes;
 use crate::mesh::error::{MeshError, Place};
@@ -17,20 +17,20 @@ pub(super) fn mesh(mut file: Scope, instances: &Instances, last: &Keyword) -> Re
     if file.nodes.is_empty() {
         return Err(MeshError::MissingSection { section: "*NODE" });
     }
-    let found = Found::new(&file)?;
+    let index = ElementIndex::new(&file)?;
     // A set that serves a surface alone would only divide the cells further.
     let served: BTreeSet<String> = file
         .surfaces
         .iter()
         .filter_map(|line| match &line.of {
-            Of::Set(set) => Some(set.to_uppercase()),
-            Of::Element(_) => None,
+            ElementOrSet::Set(set) => Some(set.to_uppercase()),
+            ElementOrSet::Element(_) => None,
         })
         .collect();
-    let surfaces = surfaces(&mut file, &found)?;
+    let surfaces = surfaces(&mut file, &index)?;
     file.element_sets.hide(&served);
-    let (groups, memberships, unread) = groups(&mut file, &found, instances, last)?;
-    let node_sets = node_sets(&mut file, &found, last)?;
+    let (groups, memberships, unread) = groups(&mut file, &index, instances, last)?;
+    let node_sets = node_sets(&mut file, &index, last)?;
     let mut aliases = BTreeMap::new();
     let surfaces = named(surfaces.into_iter().collect(), &mut aliases);
     let node_sets = named(node_sets, &mut aliases);
@@ -49,7 +49,7 @@ pub(super) fn mesh(mut file: Scope, instances: &Instances, last: &Keyword) -> Re
 }
 
 /// Elements by their numbers.
-struct Found {
+struct ElementIndex {
     /// Numbers, ascending, each with its position.
     order: Vec<(u64, usize)>,
     /// Numbers of all elements, also of those that are not read, ascending.
@@ -58,7 +58,7 @@ struct Found {
     unread: Vec<(u64, usize)>,
 }
 
-impl Found {
+impl ElementIndex {
     fn new(file: &Scope) -> Result<Self, MeshError> {
         let mut order: Vec<(u64, usize)> =
             file.elements.iter().enumerate().map(|(e, x)| (x.tag, e)).collect();
@@ -82,10 +82,10 @@ impl Found {
     /// Position of an element that a set names; the type of one that is not read otherwise.
     fn position(&self, element: u64, set: &str) -> Result<Result<usize, usize>, MeshError> {
         let at = |list: &[(u64, usize)]| {
-            list.binary_search_by_key(&element, |o| o.0).ok().map(|found| list[found].1)
+            list.binary_search_by_key(&element, |o| o.0).ok().map(|index| list[index].1)
         };
         match (at(&self.order), at(&self.unread)) {
-            (Some(found), _) => Ok(Ok(found)),
+            (Some(index), _) => Ok(Ok(index)),
             (None, Some(kind)) => Ok(Err(kind)),
             (None, None) => {
                 let element = super::numbers::local(element);
@@ -96,13 +96,13 @@ impl Found {
 }
 
 /// Faces of all surfaces.
-fn surfaces(file: &mut Scope, found: &Found) -> Result<BTreeMap<Name, Vec<RawSide>>, MeshError> {
+fn surfaces(file: &mut Scope, index: &ElementIndex) -> Result<BTreeMap<Name, Vec<RawSide>>, MeshError> {
     let mut surfaces: BTreeMap<Name, Vec<RawSide>> = BTreeMap::new();
     for SurfaceLine { name, of, face, line, keyword } in std::mem::take(&mut file.surfaces) {
         let elements = match of {
-            Of::Element(element) => vec![element],
-            Of::Set(set) => {
-                let numbers = file.element_sets.numbers(&set, &found.tags, &keyword)?;
+            ElementOrSet::Element(element) => vec![element],
+            ElementOrSet::Set(set) => {
+                let numbers = file.element_sets.numbers(&set, &index.tags, &keyword)?;
                 numbers.ok_or_else(|| file.element_sets.unknown(&set, line, &keyword))?
             }
         };
@@ -111,7 +111,7 @@ fn surfaces(file: &mut Scope, found: &Found) -> Result<BTreeMap<Name, Vec<RawSid
         // Sides of shells and beams are no faces of cells.
         let Some(face) = face else { continue };
         for element in elements {
-            let Ok(at) = found.position(element, &set)? else { continue };
+            let Ok(at) = index.position(element, &set)? else { continue };
             let Some(local) = shapes::faces(file.elements[at].shape).get(face - 1) else {
                 let text = format!("S{face} of element {}", super::numbers::local(element));
                 return Err(keyword.syntax(line, "a face that the element has", &text));
@@ -124,7 +124,11 @@ fn surfaces(file: &mut Scope, found: &Found) -> Result<BTreeMap<Name, Vec<RawSid
 }
 
 /// Sets of nodes.
-fn node_sets(file: &mut Scope, found: &Found, last: &Keyword) -> Result<Vec<(Name, Vec<u64>)>, MeshError> {
+fn node_sets(
+    file: &mut Scope,
+    index: &ElementIndex,
+    last: &Keyword,
+) -> Result<Vec<(Name, Vec<u64>)>, MeshError> {
     let mut known: Vec<u64> = file.nodes.iter().map(|n| n.tag).collect();
     known.sort_unstable();
     let mut sets = Vec::new();
@@ -134,11 +138,11 @@ fn node_sets(file: &mut Scope, found: &Found, last: &Keyword) -> Result<Vec<(Nam
         }
     }
     for NodesOf { name, set, keyword } in std::mem::take(&mut file.nodes_of) {
-        let numbers = file.element_sets.numbers(&set, &found.tags, &keyword)?;
+        let numbers = file.element_sets.numbers(&set, &index.tags, &keyword)?;
         let numbers = numbers.ok_or_else(|| file.element_sets.unknown(&set, keyword.line, &keyword))?;
         let mut nodes = Vec::new();
         for element in numbers {
-            if let Ok(at) = found.position(element, &set)? {
+            if let Ok(at) = index.position(element, &set)? {
                 nodes.extend_from_slice(file.nodes_of(at));
             }
         }
@@ -151,18 +155,18 @@ fn node_sets(file: &mut Scope, found: &Found, last: &Keyword) -> Result<Vec<(Nam
 #[allow(clippy::type_complexity)]
 fn groups(
     file: &mut Scope,
-    found: &Found,
+    index: &ElementIndex,
     instances: &Instances,
     last: &Keyword,
-) -> Result<(Vec<(Name, RawGroup)>, Vec<Vec<usize>>, Vec<raw::Unread>), MeshError> {
+) -> Result<(Vec<(Name, RawGroup)>, Vec<Vec<usize>>, Vec<raw::UnreadElements>), MeshError> {
     let mut groups: Vec<(Name, RawGroup)> = Vec::new();
     let mut memberships = vec![Vec::new(); file.elements.len()];
-    let mut unread: Vec<raw::Unread> = file.unread.iter().map(of_type).collect();
+    let mut unread: Vec<raw::UnreadElements> = file.unread.iter().map(raw_unread).collect();
     let mut taken = BTreeSet::new();
     let mut member = |name: &Name, elements: Vec<u64>, groups: &mut Vec<(Name, RawGroup)>| {
         let mut of_dimension = [None; 4];
         for element in elements {
-            let at = match found.position(element, &name.own)? {
+            let at = match index.position(element, &name.own)? {
                 Ok(at) => at,
                 Err(kind) => {
                     let sets = &mut unread[kind].groups;
@@ -185,21 +189,21 @@ fn groups(
     for (k, instance) in
         (1u64..).zip(&instances.names).filter(|(_, name)| !taken.contains(&name.to_uppercase()))
     {
-        let from = found.tags.partition_point(|&tag| super::numbers::instance(tag) < k);
-        let own = found.tags[from..].iter().copied();
+        let from = index.tags.partition_point(|&tag| super::numbers::instance(tag) < k);
+        let own = index.tags[from..].iter().copied();
         let own = own.take_while(|&tag| super::numbers::instance(tag) == k).collect();
         member(&Name { own: instance.clone(), instance: None }, own, &mut groups)?;
     }
     for name in names {
-        let numbers = file.element_sets.numbers(&name.full(), &found.tags, last)?;
+        let numbers = file.element_sets.numbers(&name.full(), &index.tags, last)?;
         member(&name, numbers.unwrap_or_default(), &mut groups)?;
     }
     Ok((groups, memberships, unread))
 }
 
 /// Elements of a type that is not read, before their sets are known.
-fn of_type(unread: &Unread) -> raw::Unread {
-    raw::Unread {
+fn raw_unread(unread: &UnreadElements) -> raw::UnreadElements {
+    raw::UnreadElements {
         kind: unread.kind.clone(),
         dimension: shapes::dimension(&unread.kind),
         section: unread.keyword.name.clone(),

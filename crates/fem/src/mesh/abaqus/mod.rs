@@ -5,7 +5,7 @@
 mod finish;
 mod lines;
 mod numbers;
-mod placing;
+mod placement;
 mod scope;
 mod sets;
 mod shapes;
@@ -14,8 +14,8 @@ use super::error::MeshError;
 use super::raw::{RawMesh, RawNode, Shape};
 use lines::{Keyword, Line, Lines};
 use numbers::Instances;
-use placing::Placing;
-use scope::{Element, NodesOf, Of, Scope, SurfaceLine, Unread};
+use placement::Placement;
+use scope::{Element, ElementOrSet, NodesOf, Scope, SurfaceLine, UnreadElements};
 use sets::Name;
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -30,7 +30,7 @@ pub fn parse(bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let text = String::from_utf8_lossy(bytes);
     let mut reader = Reader {
         bytes: bytes.len(),
-        file: Scope::of_file(bytes.len()),
+        file: Scope::for_file(bytes.len()),
         parts: BTreeMap::new(),
         level: Level::File,
         instances: Instances::default(),
@@ -73,7 +73,7 @@ enum Level {
     /// A part, by its name in capitals.
     Part(String, Scope),
     /// An instance: its number, name and part, its own nodes and elements, and its position.
-    Instance { number: u64, name: String, part: Option<String>, own: Scope, placing: Placing },
+    Instance { number: u64, name: String, part: Option<String>, own: Scope, placement: Placement },
 }
 
 impl Level {
@@ -134,7 +134,7 @@ impl Reader {
             Data::ElementSet(name) => self.scope().element_sets.declare(&name, internal),
             Data::Unread(_) => {
                 let kind = keyword.need("TYPE", "TYPE=type")?.to_uppercase();
-                self.scope().unread.push(Unread { kind, keyword, tags: Vec::new() });
+                self.scope().unread.push(UnreadElements { kind, keyword, tags: Vec::new() });
             }
             _ => {}
         }
@@ -186,7 +186,7 @@ impl Reader {
         if self.parts.contains_key(&name) {
             return Err(self.keyword.unsupported("a part of this name stands in the file before"));
         }
-        self.level = Level::Part(name, Scope::of_file(self.bytes));
+        self.level = Level::Part(name, Scope::for_file(self.bytes));
         Ok(())
     }
 
@@ -209,8 +209,8 @@ impl Reader {
             }
         };
         let number = self.instances.add(&name, &keyword)?;
-        let (own, placing) = (Scope::of_file(self.bytes), Placing::default());
-        self.level = Level::Instance { number, name, part, own, placing };
+        let (own, placement) = (Scope::for_file(self.bytes), Placement::default());
+        self.level = Level::Instance { number, name, part, own, placement };
         self.data = Data::Instance;
         Ok(())
     }
@@ -222,10 +222,10 @@ impl Reader {
             Level::Part(name, scope) => {
                 self.parts.insert(name, scope);
             }
-            Level::Instance { number, name, part, own, placing } => {
+            Level::Instance { number, name, part, own, placement } => {
                 let part = part.and_then(|part| self.parts.get(&part));
                 for scope in part.into_iter().chain([&own]) {
-                    self.file.add(scope, (number, &name), (&placing, &self.keyword), self.bytes)?;
+                    self.file.add(scope, number, &name, &placement, &self.keyword, self.bytes)?;
                 }
             }
         }
@@ -243,13 +243,12 @@ impl Reader {
                 return Ok(only);
             }
         }
-        Ok(std::mem::replace(&mut self.file, Scope::of_file(self.bytes)))
+        Ok(std::mem::replace(&mut self.file, Scope::for_file(self.bytes)))
     }
 
     /// Handles a data line.
     fn data(&mut self, values: &[&str], line: usize) -> Result<(), MeshError> {
         let keyword = Rc::clone(&self.keyword);
-        let with = (line, &*keyword);
         match self.data.clone() {
             Data::Skipped => Ok(()),
             Data::Nodes(set) => self.node(values, line, set.as_deref()),
@@ -260,20 +259,20 @@ impl Reader {
             }
             Data::NodeSet(name) => {
                 let scope = self.level.scope(&mut self.file);
-                scope.node_sets.add_line(&name, values, with, &self.instances)
+                scope.node_sets.add_line(&name, values, line, &keyword, &self.instances)
             }
             // A weight follows.
             Data::NodeSurface(name) => {
                 let scope = self.level.scope(&mut self.file);
-                scope.node_sets.add_line(&name, &values[..1], with, &self.instances)
+                scope.node_sets.add_line(&name, &values[..1], line, &keyword, &self.instances)
             }
             Data::ElementSet(name) => {
                 let scope = self.level.scope(&mut self.file);
-                scope.element_sets.add_line(&name, values, with, &self.instances)
+                scope.element_sets.add_line(&name, values, line, &keyword, &self.instances)
             }
             Data::Surface(name) => self.surface(name, values, line),
             Data::Instance => match &mut self.level {
-                Level::Instance { placing, .. } => placing.line(values, line, &keyword),
+                Level::Instance { placement, .. } => placement.line(values, line, &keyword),
                 Level::File | Level::Part(..) => Ok(()),
             },
         }
@@ -353,8 +352,8 @@ impl Reader {
             return Err(keyword.syntax(line, expected, &values.join(", ")));
         }
         let of = match self.instances.number(values[0], line, &keyword)? {
-            Some(element) => Of::Element(element),
-            None => Of::Set(values[0].to_string()),
+            Some(element) => ElementOrSet::Element(element),
+            None => ElementOrSet::Set(values[0].to_string()),
         };
         let name = Name { own: name, instance: None };
         self.scope().surfaces.push(SurfaceLine { name, of, face: number, line, keyword });

@@ -38,7 +38,7 @@ impl Instances {
     }
 
     /// Number of the instance that a keyword names; 0 if it names none.
-    pub(super) fn of(&self, keyword: &Keyword) -> Result<u64, MeshError> {
+    pub(super) fn named_instance(&self, keyword: &Keyword) -> Result<u64, MeshError> {
         let Some(name) = keyword.value("INSTANCE") else { return Ok(0) };
         let found = self.by_name.get(&name.to_uppercase()).copied();
         found.ok_or_else(|| keyword.syntax(keyword.line, "the name of an instance before this line", name))
@@ -53,7 +53,7 @@ impl Instances {
     ) -> Result<Option<u64>, MeshError> {
         let digits = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
         if digits(text) {
-            return Ok(Some(within(self.of(keyword)?, keyword.number(text, line)?)));
+            return Ok(Some(within(self.named_instance(keyword)?, keyword.number(text, line)?)));
         }
         let Some((name, number)) = text.rsplit_once('.').filter(|(_, number)| digits(number)) else {
             return Ok(None);

@@ -2,7 +2,7 @@
 
 use super::lines::Keyword;
 use super::numbers;
-use super::placing::Placing;
+use super::placement::Placement;
 use super::sets::{Name, Sets};
 use crate::mesh::MeshError;
 use crate::mesh::raw::{RawNode, Shape};
@@ -18,7 +18,7 @@ pub(super) struct Element {
 
 /// Elements of a type that is not read.
 #[derive(Clone)]
-pub(super) struct Unread {
+pub(super) struct UnreadElements {
     /// Type.
     pub kind: String,
     pub keyword: Rc<Keyword>,
@@ -27,7 +27,7 @@ pub(super) struct Unread {
 
 /// An element, or a set of elements.
 #[derive(Clone)]
-pub(super) enum Of {
+pub(super) enum ElementOrSet {
     Element(u64),
     Set(String),
 }
@@ -36,7 +36,7 @@ pub(super) enum Of {
 #[derive(Clone)]
 pub(super) struct SurfaceLine {
     pub name: Name,
-    pub of: Of,
+    pub of: ElementOrSet,
     pub face: Option<usize>,
     pub line: usize,
     pub keyword: Rc<Keyword>,
@@ -60,7 +60,7 @@ pub(super) struct Scope {
     pub element_sets: Sets,
     pub nodes_of: Vec<NodesOf>,
     pub surfaces: Vec<SurfaceLine>,
-    pub unread: Vec<Unread>,
+    pub unread: Vec<UnreadElements>,
 }
 
 /// Numbers that copies of parts may hold for each byte of the file: far more than an assembly of many instances of a small part needs.
@@ -68,13 +68,13 @@ const COPIES_PER_BYTE: usize = 16;
 
 impl Scope {
     /// Nothing yet, in a file of this many bytes.
-    pub(super) fn of_file(bytes: usize) -> Self {
+    pub(super) fn for_file(bytes: usize) -> Self {
         Self {
             nodes: Vec::new(),
             elements: Vec::new(),
             connectivity: Vec::new(),
-            node_sets: Sets::of_file(bytes),
-            element_sets: Sets::of_file(bytes),
+            node_sets: Sets::for_file(bytes),
+            element_sets: Sets::for_file(bytes),
             nodes_of: Vec::new(),
             surfaces: Vec::new(),
             unread: Vec::new(),
@@ -91,8 +91,10 @@ impl Scope {
     pub(super) fn add(
         &mut self,
         part: &Self,
-        (number, instance): (u64, &str),
-        (placing, keyword): (&Placing, &Keyword),
+        number: u64,
+        instance: &str,
+        placement: &Placement,
+        keyword: &Keyword,
         bytes: usize,
     ) -> Result<(), MeshError> {
         let within = |tag: u64| numbers::within(number, tag);
@@ -100,13 +102,13 @@ impl Scope {
         if held + part.connectivity.len() > COPIES_PER_BYTE * bytes {
             return Err(keyword.unsupported("instances of parts grow beyond all measure of the file"));
         }
-        self.nodes.extend(part.nodes.iter().map(|n| RawNode { tag: within(n.tag), x: placing.of(n.x) }));
+        self.nodes.extend(part.nodes.iter().map(|n| RawNode { tag: within(n.tag), x: placement.apply(n.x) }));
         let first = self.connectivity.len();
         self.connectivity.extend(part.connectivity.iter().copied().map(within));
         let moved = |e: &Element| Element { tag: within(e.tag), first: first + e.first, ..*e };
         self.elements.extend(part.elements.iter().map(moved));
-        self.node_sets.copy(&part.node_sets, (number, instance), keyword)?;
-        self.element_sets.copy(&part.element_sets, (number, instance), keyword)?;
+        self.node_sets.copy(&part.node_sets, number, instance, keyword)?;
+        self.element_sets.copy(&part.element_sets, number, instance, keyword)?;
         let named = |name: &Name| Name { instance: Some(instance.to_string()), ..name.clone() };
         self.nodes_of.extend(part.nodes_of.iter().map(|of| NodesOf {
             name: named(&of.name),
@@ -116,12 +118,12 @@ impl Scope {
         self.surfaces.extend(part.surfaces.iter().map(|line| SurfaceLine {
             name: named(&line.name),
             of: match &line.of {
-                Of::Element(tag) => Of::Element(within(*tag)),
-                Of::Set(set) => Of::Set(format!("{instance}.{set}")),
+                ElementOrSet::Element(tag) => ElementOrSet::Element(within(*tag)),
+                ElementOrSet::Set(set) => ElementOrSet::Set(format!("{instance}.{set}")),
             },
             ..line.clone()
         }));
-        self.unread.extend(part.unread.iter().map(|unread| Unread {
+        self.unread.extend(part.unread.iter().map(|unread| UnreadElements {
             tags: unread.tags.iter().copied().map(within).collect(),
             ..unread.clone()
         }));

@@ -68,7 +68,7 @@ pub(super) struct Sets {
 
 impl Sets {
     /// No sets yet, for a file of this many bytes.
-    pub(super) fn of_file(bytes: usize) -> Self {
+    pub(super) fn for_file(bytes: usize) -> Self {
         Self { most: ENTRIES_PER_BYTE * bytes, ..Self::default() }
     }
 
@@ -92,7 +92,8 @@ impl Sets {
         &mut self,
         name: &str,
         values: &[&str],
-        (line, keyword): (usize, &Keyword),
+        line: usize,
+        keyword: &Keyword,
         instances: &Instances,
     ) -> Result<(), MeshError> {
         if keyword.has("GENERATE") {
@@ -103,7 +104,7 @@ impl Sets {
                 [first, last, step] if step > 0 => (first, last, step),
                 _ => return Err(keyword.syntax(line, "first, last, step", &values.join(","))),
             };
-            let of = instances.of(keyword)?;
+            let of = instances.named_instance(keyword)?;
             self.set(name).entries.insert(Entry::Range(first, last, step).within(of));
             return Ok(());
         }
@@ -133,7 +134,8 @@ impl Sets {
     pub(super) fn copy(
         &mut self,
         part: &Self,
-        (number, instance): (u64, &str),
+        number: u64,
+        instance: &str,
         keyword: &Keyword,
     ) -> Result<(), MeshError> {
         for set in part.sets.values() {

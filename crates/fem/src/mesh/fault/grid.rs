@@ -37,9 +37,9 @@ impl<'a> Grid<'a> {
         let first = rows.iter().position(|&y| y == places[0][1]).unwrap_or(0);
         let column = columns.iter().position(|&xi| xi == 0.0).unwrap_or(0);
         let mut corners = Vec::with_capacity(width * height);
-        for (j, (&eta, turning)) in rows.iter().zip(map.turning(rows)).enumerate() {
+        for (j, (&eta, (direction, length))) in rows.iter().zip(map.turning(rows)).enumerate() {
             for (i, &xi) in columns.iter().enumerate() {
-                let mut x = map.at(eta, turning, xi);
+                let mut x = map.at(eta, direction, length, xi);
                 // Exactly on the fault and on the sides, regardless of rounding in the map.
                 if i == column
                     && let Some(&place) = j.checked_sub(first).and_then(|k| places.get(k))

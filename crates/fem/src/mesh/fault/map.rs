@@ -96,7 +96,7 @@ impl<'a> Map<'a> {
     }
 
     /// Position of the column ξ on the row through (X(η), η) with its direction and turning length.
-    pub(super) fn at(&self, eta: f64, ([u, a], l): ([f64; 2], f64), xi: f64) -> [f64; 2] {
+    pub(super) fn at(&self, eta: f64, [u, a]: [f64; 2], l: f64, xi: f64) -> [f64; 2] {
         let turned = if l > 0.0 { l * (xi / l).tanh() } else { 0.0 };
         let side = usize::from(xi > 0.0);
         let t = (xi.abs() / self.widths[side]).min(1.0);

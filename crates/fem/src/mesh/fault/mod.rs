@@ -8,7 +8,7 @@
 
 mod check;
 mod curve;
-mod divided;
+mod divided_line;
 mod error;
 mod grid;
 mod layers;
@@ -20,7 +20,7 @@ mod stack;
 
 pub use super::spacing::{MOST_CELLS, Spacing, SpacingError};
 pub use curve::Departure;
-pub use divided::{Divided, divided};
+pub use divided_line::{DividedLine, divided};
 pub use error::{Dip, FaultMeshError};
 pub use quality::{Quality, quality, scaled_jacobian};
 pub use spec::{FaultMesh, Interpolation};
@@ -36,11 +36,11 @@ use spine::Spine;
 type Line = Vec<[f64; 2]>;
 
 /// A mesh before it is split, the shape of its cells, and the edges of its fault as nodes.
-type Unsplit = (Mesh<2>, Quality, Vec<Vec<usize>>);
+type UnsplitMesh = (Mesh<2>, Quality, Vec<Vec<usize>>);
 
 /// A mesh that is split along its fault.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Faulted {
+pub struct SplitMesh {
     /// The mesh, with the side sets left, right, bottom, top, fault.minus (the side of smaller x) and fault.plus.
     pub mesh: Mesh<2>,
     /// Pairs of nodes in the direction of the trace.
@@ -56,7 +56,7 @@ impl FaultMesh {
     ///
     /// # Errors
     /// See [`FaultMeshError`].
-    pub fn mesh(&self) -> Result<Faulted, FaultMeshError> {
+    pub fn mesh(&self) -> Result<SplitMesh, FaultMeshError> {
         let trace = check::trace(self)?;
         // The grid runs from the highest vertex down; distances along the fault keep the given direction.
         let downwards = trace[0][1] > trace[trace.len() - 1][1];
@@ -85,11 +85,16 @@ impl FaultMesh {
         if fault.pairs.len() > along.len() {
             along = with_middles(&along);
         }
-        Ok(Faulted { mesh, fault, along, quality })
+        Ok(SplitMesh { mesh, fault, along, quality })
     }
 
     /// The mesh before splitting, the shape of its cells, and the edges of the fault from its lower tip: the fault in a column.
-    fn grid(&self, vertices: Line, along: &[f64], places: &[[f64; 2]]) -> Result<Unsplit, FaultMeshError> {
+    fn grid(
+        &self,
+        vertices: Line,
+        along: &[f64],
+        places: &[[f64; 2]],
+    ) -> Result<UnsplitMesh, FaultMeshError> {
         let spine = Spine::new(vertices, [self.min[0], self.max[0]]);
         let map = Map::new(&spine, [self.min[0], self.max[0]]);
         let rows = self.rows(places)?;
@@ -106,7 +111,7 @@ impl FaultMesh {
         vertices: &[[f64; 2]],
         along: &[f64],
         places: &[[f64; 2]],
-    ) -> Result<Unsplit, FaultMeshError> {
+    ) -> Result<UnsplitMesh, FaultMeshError> {
         let layers = layers::Layers::new(self, vertices, places, smallest(along))?;
         let mesh = stack::mesh(self, &layers);
         let quality = quality(&mesh);

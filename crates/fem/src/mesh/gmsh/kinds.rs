@@ -3,7 +3,7 @@
 use super::scan::Scan;
 use crate::element::ElementKind;
 use crate::mesh::error::{MeshError, Place};
-use crate::mesh::raw::{Shape, Unread};
+use crate::mesh::raw::{Shape, UnreadElements};
 use std::collections::BTreeMap;
 
 /// A type of element.
@@ -12,12 +12,12 @@ pub(super) enum Kind {
     /// One that is read.
     Read(Shape),
     /// One that is known and not read.
-    Unread(Other),
+    Unread(UnreadKind),
 }
 
 /// A type that is not read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Other {
+pub(super) struct UnreadKind {
     number: i64,
     dimension: usize,
     nodes: usize,
@@ -25,7 +25,7 @@ pub(super) struct Other {
 }
 
 /// Types that are not read (Gmsh reference manual, "Low order elements" and "High-order elements").
-const OTHERS: [Other; 21] = [
+const OTHERS: [UnreadKind; 21] = [
     other(7, 3, 5, "pyramid"),
     other(13, 3, 18, "wedge"),
     other(14, 3, 14, "pyramid"),
@@ -49,11 +49,11 @@ const OTHERS: [Other; 21] = [
     other(93, 3, 125, "hexahedron"),
 ];
 
-const fn other(number: i64, dimension: usize, nodes: usize, name: &'static str) -> Other {
-    Other { number, dimension, nodes, name }
+const fn other(number: i64, dimension: usize, nodes: usize, name: &'static str) -> UnreadKind {
+    UnreadKind { number, dimension, nodes, name }
 }
 
-impl Other {
+impl UnreadKind {
     fn name(self) -> String {
         format!("{} ({} of {} nodes)", self.number, self.name, self.nodes)
     }
@@ -61,7 +61,7 @@ impl Other {
 
 impl Kind {
     /// The type of a number; `None` for one without meaning.
-    pub(super) fn of(number: i64) -> Option<Self> {
+    pub(super) fn from_number(number: i64) -> Option<Self> {
         let shape = match number {
             1 => Some(Shape::Line2),
             8 => Some(Shape::Line3),
@@ -107,7 +107,7 @@ pub(super) fn unknown(scan: &Scan<'_>, at: usize, element: u64, number: i64) -> 
 
 /// First place of each type that is not read.
 #[derive(Default)]
-pub(super) struct Places(BTreeMap<Other, (String, Place)>);
+pub(super) struct Places(BTreeMap<UnreadKind, (String, Place)>);
 
 impl Places {
     /// Notes where an element of this type stands.
@@ -118,9 +118,14 @@ impl Places {
     }
 
     /// Elements that are not read, with their numbers and the positions of their groups in the file.
-    pub(super) fn unread(&self, kind: Other, tags: &[u64], numbered: Vec<usize>) -> Option<Unread> {
+    pub(super) fn unread(
+        &self,
+        kind: UnreadKind,
+        tags: &[u64],
+        numbered: Vec<usize>,
+    ) -> Option<UnreadElements> {
         let (section, place) = self.0.get(&kind)?.clone();
-        Some(Unread {
+        Some(UnreadElements {
             kind: kind.name(),
             dimension: Some(kind.dimension),
             section,

@@ -121,7 +121,7 @@ fn number(scan: &mut Scan<'_>, what: &'static str) -> Result<u64, MeshError> {
 fn kind(scan: &mut Scan<'_>, element: Option<u64>, places: &mut Places) -> Result<Kind, MeshError> {
     let at = scan.position();
     let number_of_kind = scan.int("a type of element")?;
-    if let Some(kind) = Kind::of(number_of_kind) {
+    if let Some(kind) = Kind::from_number(number_of_kind) {
         places.note(scan, at, kind);
         return Ok(kind);
     }

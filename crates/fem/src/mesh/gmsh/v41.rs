@@ -190,7 +190,7 @@ fn block(scan: &mut Scan<'_>, places: &mut Places) -> Result<Block, MeshError> {
     let at = scan.position();
     let number = scan.int("a type of element")?;
     let count = scan.size("elements")?;
-    let Some(kind) = Kind::of(number) else {
+    let Some(kind) = Kind::from_number(number) else {
         let element = scan.size("the number of an element")?;
         return Err(kinds::unknown(scan, at, element, number));
     };

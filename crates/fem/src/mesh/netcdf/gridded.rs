@@ -15,7 +15,7 @@ pub struct Coordinate {
 
 /// Variable over one or two coordinates.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Gridded {
+pub struct GriddedVariable {
     /// Attribute `units`; empty without one.
     pub unit: String,
     /// Coordinates, the last of which varies fastest.
@@ -28,7 +28,7 @@ pub struct Gridded {
 ///
 /// # Errors
 /// [`NetcdfError`] with the name of the variable.
-pub fn variable(bytes: &[u8], name: &str) -> Result<Gridded, NetcdfError> {
+pub fn variable(bytes: &[u8], name: &str) -> Result<GriddedVariable, NetcdfError> {
     let file = File::read(bytes)?;
     let found = file.variables.iter().find(|v| v.name == name);
     let variable = found.ok_or_else(|| NetcdfError::NoVariable {
@@ -42,7 +42,11 @@ pub fn variable(bytes: &[u8], name: &str) -> Result<Gridded, NetcdfError> {
         Ok(Coordinate { name, unit, values })
     });
     let coordinates = coordinates.collect::<Result<_, _>>()?;
-    Ok(Gridded { unit: variable.text("units").to_string(), coordinates, values: file.values(variable)? })
+    Ok(GriddedVariable {
+        unit: variable.text("units").to_string(),
+        coordinates,
+        values: file.values(variable)?,
+    })
 }
 
 impl File<'_> {

@@ -5,7 +5,7 @@ use super::{Options, RawBlock, RawMesh, RawNode};
 use crate::element::ElementKind;
 use crate::mesh::check::{self, Sense};
 use crate::mesh::error::{Holder, MeshError, Part};
-use crate::mesh::{Cells, LeftOut, Mesh, nodes_of_sides};
+use crate::mesh::{Cells, Mesh, OmittedElements, nodes_of_sides};
 use std::collections::BTreeMap;
 
 /// Largest distance from the plane z = 0 over the extent of the mesh \[-\] that counts as rounding by the program that wrote
@@ -81,7 +81,7 @@ impl RawMesh {
         }
         mesh.cell_sets.values_mut().for_each(Vec::dedup);
         (mesh.side_sets, mesh.left_out) =
-            self.side_sets(&mesh, &connectivity, number, (&tags, &names), options)?;
+            self.side_sets(&mesh, &connectivity, number, &tags, &names, options)?;
         self.node_sets((&index, &of_mesh), &connectivity, &names, (&mut mesh, options))?;
         for (alias, name) in &self.aliases {
             copy(&mut mesh.cell_sets, name, alias);
@@ -325,7 +325,7 @@ impl RawMesh {
                         return Err(MeshError::Orphan { group: name.clone(), element, count });
                     }
                     let kind = block.shape.name().to_string();
-                    mesh.left_out.insert(name.clone(), LeftOut { kind, count, element, read: true });
+                    mesh.left_out.insert(name.clone(), OmittedElements { kind, count, element, read: true });
                 }
                 let set = sets.entry(name.clone()).or_default();
                 set.extend(elements().filter(|nodes| !lost(nodes)).flatten());

@@ -2,12 +2,12 @@
 
 mod build;
 mod groups;
-mod left_out;
+mod omitted_elements;
 mod options;
 mod shape;
 mod sides;
 
-pub use left_out::Unread;
+pub use omitted_elements::UnreadElements;
 pub use options::{GroupTag, Options};
 pub use shape::Shape;
 
@@ -82,7 +82,7 @@ pub struct RawMesh {
     /// True if an element in several groups is written once for each of them, under different numbers.
     pub repeats: bool,
     /// Elements of types that are not read.
-    pub unread: Vec<Unread>,
+    pub unread: Vec<UnreadElements>,
     /// Further names of sets: `instance.set`, and the name of the set.
     pub aliases: BTreeMap<String, String>,
     /// First numbers of instances but the first, for files that count each instance from one.

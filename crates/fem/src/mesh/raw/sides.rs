@@ -2,7 +2,7 @@
 
 use super::{Options, RawMesh};
 use crate::mesh::error::MeshError;
-use crate::mesh::{LeftOut, Mesh, Side};
+use crate::mesh::{Mesh, OmittedElements, Side};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
@@ -13,10 +13,10 @@ type Key = [usize; 4];
 pub(super) const UNUSED: usize = usize::MAX;
 
 /// Named faces, and elements of their groups that are faces of no cell.
-type Faces = (BTreeMap<String, Vec<Side>>, BTreeMap<String, LeftOut>);
+type Faces = (BTreeMap<String, Vec<Side>>, BTreeMap<String, OmittedElements>);
 
 /// A requested face.
-struct Wanted<'a> {
+struct FaceRequest<'a> {
     key: Key,
     /// Number of its corners.
     corners: usize,
@@ -34,7 +34,7 @@ struct Wanted<'a> {
     found: usize,
 }
 
-impl Wanted<'_> {
+impl FaceRequest<'_> {
     /// The first of its sets, for an error.
     fn group(&self) -> String {
         self.names.first().map_or_else(String::new, |n| (*n).to_string())
@@ -65,10 +65,11 @@ impl RawMesh {
         mesh: &Mesh<D>,
         connectivity: &[Vec<usize>],
         index: impl Fn(u64) -> usize,
-        (cells, names): (&[Vec<u64>], &[Vec<String>]),
+        cells: &[Vec<u64>],
+        names: &[Vec<String>],
         options: &Options,
     ) -> Result<Faces, MeshError> {
-        let mut wanted = self.grouped_faces::<D>(connectivity, names);
+        let mut requests = self.grouped_faces::<D>(connectivity, names);
         for (name, sides) in &self.surfaces {
             let names: Rc<[&str]> = Rc::new([name.as_str()]);
             for side in sides {
@@ -76,10 +77,10 @@ impl RawMesh {
                 let (key, corners) = (key(nodes.iter().copied()), nodes.len());
                 let (owner, names) = (Some(side.element), Rc::clone(&names));
                 let (element, kind) = (side.element, "face");
-                wanted.push(Wanted { key, corners, nodes, owner, element, kind, names, found: 0 });
+                requests.push(FaceRequest { key, corners, nodes, owner, element, kind, names, found: 0 });
             }
         }
-        wanted.sort_by_key(|w| (w.key, w.element));
+        requests.sort_by_key(|w| (w.key, w.element));
         let mut sets: BTreeMap<String, Vec<Side>> = BTreeMap::new();
         for (b, block) in mesh.blocks.iter().enumerate() {
             for (cell, &tag) in cells[b].iter().enumerate() {
@@ -87,14 +88,14 @@ impl RawMesh {
                 for (face, local) in block.kind.faces().iter().enumerate() {
                     let all: Vec<usize> = local.nodes.iter().map(|&a| nodes[a]).collect();
                     let side = Side { block: b, cell, face };
-                    collect(&mut wanted, &all, local.kind.corners(), tag, side, &mut sets)?;
+                    collect(&mut requests, &all, local.kind.corners(), tag, side, &mut sets)?;
                 }
             }
         }
         if !options.leave_out {
-            no_orphans(&wanted)?;
+            no_orphans(&requests)?;
         }
-        Ok((sets, left_out(&wanted)))
+        Ok((sets, left_out(&requests)))
     }
 
     /// Elements of the face groups.
@@ -102,8 +103,8 @@ impl RawMesh {
         &self,
         connectivity: &[Vec<usize>],
         names: &'a [Vec<String>],
-    ) -> Vec<Wanted<'a>> {
-        let mut wanted = Vec::new();
+    ) -> Vec<FaceRequest<'a>> {
+        let mut requests = Vec::new();
         for (block, connectivity) in self.blocks.iter().zip(connectivity) {
             if block.shape.dimension() + 1 != D || block.groups.is_empty() {
                 continue;
@@ -115,17 +116,26 @@ impl RawMesh {
                 let (key, names) = (key(nodes[..corners].iter().copied()), Rc::clone(&names));
                 let nodes = sorted(nodes.to_vec());
                 let kind = block.shape.name();
-                wanted.push(Wanted { key, corners, nodes, owner: None, element, kind, names, found: 0 });
+                requests.push(FaceRequest {
+                    key,
+                    corners,
+                    nodes,
+                    owner: None,
+                    element,
+                    kind,
+                    names,
+                    found: 0,
+                });
             }
         }
-        wanted
+        requests
     }
 }
 
 /// Adds a side once to each set that requests it. Faces of equal order must agree in all nodes: the two sides of a crack of one
 /// element share the corners but not the middle.
 fn collect(
-    wanted: &mut [Wanted<'_>],
+    requests: &mut [FaceRequest<'_>],
     all: &[usize],
     corners: usize,
     cell: u64,
@@ -133,8 +143,8 @@ fn collect(
     sets: &mut BTreeMap<String, Vec<Side>>,
 ) -> Result<(), MeshError> {
     let key = key(all[..corners].iter().copied());
-    let from = wanted.partition_point(|w| w.key < key);
-    let matching = wanted[from..].iter_mut().take_while(|w| w.key == key);
+    let from = requests.partition_point(|w| w.key < key);
+    let matching = requests[from..].iter_mut().take_while(|w| w.key == key);
     let mut nodes: Option<Vec<usize>> = None;
     for w in matching {
         let same_order = w.nodes.len() == all.len();
@@ -159,11 +169,11 @@ fn collect(
 }
 
 /// Elements of face groups that are faces of no cell.
-fn left_out(wanted: &[Wanted<'_>]) -> BTreeMap<String, LeftOut> {
-    let mut groups: BTreeMap<String, LeftOut> = BTreeMap::new();
-    for w in wanted.iter().filter(|w| w.found == 0) {
+fn left_out(requests: &[FaceRequest<'_>]) -> BTreeMap<String, OmittedElements> {
+    let mut groups: BTreeMap<String, OmittedElements> = BTreeMap::new();
+    for w in requests.iter().filter(|w| w.found == 0) {
         for name in w.names.iter() {
-            let new = LeftOut { kind: w.kind.to_string(), count: 0, element: w.element, read: true };
+            let new = OmittedElements { kind: w.kind.to_string(), count: 0, element: w.element, read: true };
             let left = groups.entry((*name).to_string()).or_insert(new);
             left.count += 1;
             left.element = left.element.min(w.element);
@@ -173,8 +183,8 @@ fn left_out(wanted: &[Wanted<'_>]) -> BTreeMap<String, LeftOut> {
 }
 
 /// Refuses face groups with elements that are faces of no cell; names the first.
-fn no_orphans(wanted: &[Wanted<'_>]) -> Result<(), MeshError> {
-    let lost = || wanted.iter().filter(|w| w.found == 0);
+fn no_orphans(requests: &[FaceRequest<'_>]) -> Result<(), MeshError> {
+    let lost = || requests.iter().filter(|w| w.found == 0);
     let Some(first) = lost().min_by_key(|w| w.element) else {
         return Ok(());
     };

@@ -2,7 +2,7 @@
 
 use super::SheetError;
 use super::edges::{Edge, edges};
-use super::scattered::Scattered;
+use super::scattered_samples::ScatteredSamples;
 use super::slopes::slopes;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Debug)]
 pub struct Depths {
     /// East, north and depth of the samples, and the triangles between them.
-    samples: Scattered,
+    samples: ScatteredSamples,
     slopes: Vec<[f64; 2]>,
 }
 
@@ -33,7 +33,7 @@ impl Depths {
     /// # Errors
     /// [`SheetError`] if the samples span no surface or contradict each other.
     pub fn new(samples: &[[f64; 3]]) -> Result<Self, SheetError> {
-        let samples = Scattered::new(samples)?;
+        let samples = ScatteredSamples::new(samples)?;
         let slopes = slopes(samples.samples(), samples.faces().values());
         Ok(Self { samples, slopes })
     }

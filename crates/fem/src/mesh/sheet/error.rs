@@ -1,6 +1,6 @@
 //! Errors of surfaces that are given by depths.
 
-use super::scattered::ScatterError;
+use super::scattered_samples::ScatterError;
 
 /// Reason why a surface given by depths cannot be divided into triangles. Positions are east and north of the origin.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

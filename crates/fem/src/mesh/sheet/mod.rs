@@ -8,13 +8,13 @@ mod contour;
 mod depths;
 mod edges;
 mod error;
-mod scattered;
+mod scattered_samples;
 mod slopes;
 mod text;
 
 pub use depths::Depths;
 pub use error::SheetError;
-pub use scattered::{ScatterError, Scattered};
+pub use scattered_samples::{ScatterError, ScatteredSamples};
 pub use text::rows;
 
 use contour::{Spot, Stop, Tracer, distance, lengths, middle, on};

@@ -13,18 +13,18 @@ pub(super) struct Copies {
 }
 
 impl Copies {
-    fn of(&self, node: usize, side: &Side) -> usize {
+    fn copy(&self, node: usize, side: &Side) -> usize {
         self.renamed.get(&(node, side.block, side.cell)).copied().unwrap_or(node)
     }
 }
 
 /// True if some node of the face has different copies on its two sides.
 pub(super) fn opens(copies: &Copies, face: &InnerFace) -> bool {
-    face.nodes[0].iter().any(|&n| copies.of(n, &face.sides[0]) != copies.of(n, &face.sides[1]))
+    face.nodes[0].iter().any(|&n| copies.copy(n, &face.sides[0]) != copies.copy(n, &face.sides[1]))
 }
 
 /// Cells at one node, as (block, cell).
-type Around = Vec<(usize, usize)>;
+type NodeCells = Vec<(usize, usize)>;
 
 /// Finds the fans around every node of the surfaces and numbers their copies: by ascending node, then by fan. The order of fans
 /// does not depend on the order of cells: first those that touch no plus side, then by the nodes of their cells.
@@ -34,7 +34,7 @@ pub(super) fn classify<const D: usize>(mesh: &Mesh<D>, surfaces: &[Vec<InnerFace
     let minus: BTreeSet<(usize, usize, usize)> = touched(surfaces, 0);
     let mut copies = Copies::default();
     for (node, around) in around(mesh, surfaces) {
-        let mut fans: Vec<(bool, Vec<usize>, Around)> = Vec::new();
+        let mut fans: Vec<(bool, Vec<usize>, NodeCells)> = Vec::new();
         for fan in fans_at(mesh, &cut, node, &around) {
             let on =
                 |set: &BTreeSet<(usize, usize, usize)>| fan.iter().any(|&(b, c)| set.contains(&(node, b, c)));
@@ -69,9 +69,9 @@ fn touched(surfaces: &[Vec<InnerFace>], side: usize) -> BTreeSet<(usize, usize, 
 }
 
 /// Cells around each node of the surfaces, by ascending node.
-fn around<const D: usize>(mesh: &Mesh<D>, surfaces: &[Vec<InnerFace>]) -> BTreeMap<usize, Around> {
-    let mut around: BTreeMap<usize, Around> =
-        surfaces.iter().flatten().flat_map(|f| &f.nodes[0]).map(|&n| (n, Around::new())).collect();
+fn around<const D: usize>(mesh: &Mesh<D>, surfaces: &[Vec<InnerFace>]) -> BTreeMap<usize, NodeCells> {
+    let mut around: BTreeMap<usize, NodeCells> =
+        surfaces.iter().flatten().flat_map(|f| &f.nodes[0]).map(|&n| (n, NodeCells::new())).collect();
     let mut marked = vec![false; mesh.nodes.len()];
     around.keys().for_each(|&n| marked[n] = true);
     for (block, cells) in mesh.blocks.iter().enumerate() {
@@ -89,7 +89,12 @@ fn around<const D: usize>(mesh: &Mesh<D>, surfaces: &[Vec<InnerFace>]) -> BTreeM
 }
 
 /// Groups the cells around a node: cells that share a face containing the node belong together, unless the face is cut.
-fn fans_at<const D: usize>(mesh: &Mesh<D>, cut: &BTreeSet<Key>, node: usize, around: &Around) -> Vec<Around> {
+fn fans_at<const D: usize>(
+    mesh: &Mesh<D>,
+    cut: &BTreeSet<Key>,
+    node: usize,
+    around: &NodeCells,
+) -> Vec<NodeCells> {
     let mut group: Vec<usize> = (0..around.len()).collect();
     let mut owner: BTreeMap<Key, usize> = BTreeMap::new();
     for (k, &(block, cell)) in around.iter().enumerate() {
@@ -105,7 +110,7 @@ fn fans_at<const D: usize>(mesh: &Mesh<D>, cut: &BTreeSet<Key>, node: usize, aro
             }
         }
     }
-    let mut fans: BTreeMap<usize, Around> = BTreeMap::new();
+    let mut fans: BTreeMap<usize, NodeCells> = BTreeMap::new();
     for (k, &cell) in around.iter().enumerate() {
         fans.entry(group[k]).or_default().push(cell);
     }

@@ -29,7 +29,7 @@ pub(super) fn orient<const D: usize>(
     let pieces = pieces(D, &ridges, &surface.name, faces)?;
     let mut normals = Vec::new();
     for piece in &pieces {
-        let mean = Mean::of(mesh, piece, faces);
+        let mean = Mean::from_faces(mesh, piece, faces);
         let reversed = match &surface.towards_plus {
             Some(direction) => mean.is_against(surface, direction, faces[piece[0]].index)?,
             None => mean.is_reversed(mesh, piece, faces),
@@ -153,7 +153,7 @@ struct Mean<const D: usize> {
 }
 
 impl<const D: usize> Mean<D> {
-    fn of(mesh: &Mesh<D>, piece: &[usize], faces: &[InnerFace]) -> Self {
+    fn from_faces(mesh: &Mesh<D>, piece: &[usize], faces: &[InnerFace]) -> Self {
         let (mut sum, mut area) = ([0.0; D], 0.0);
         for &k in piece {
             let a = area_vector(mesh, &faces[k]);

@@ -1,9 +1,9 @@
 //! Coupling along a line at chosen times.
 
-use super::{Cycles, Drawn, Line, Table};
+use super::{Cycles, FigureResult, Line, Table};
 use crate::plots::axes::Axis;
 use crate::plots::figure::Point;
-use crate::plots::framed::Framed;
+use crate::plots::framed_figure::FramedFigure;
 use crate::plots::legend::Entry;
 use crate::plots::style::Style;
 use crate::plots::title::title;
@@ -15,7 +15,7 @@ const MOST: f64 = 1.05;
 
 impl Cycles<'_> {
     /// The last profile of coupling up to each of the chosen times.
-    pub(super) fn coupling(&self, line: &Line) -> Drawn {
+    pub(super) fn coupling(&self, line: &Line) -> FigureResult {
         let Some((y, scale)) = Self::along(line) else { return Ok(None) };
         let mut found: Vec<Option<Vec<f64>>> = vec![None; self.chosen.len()];
         self.profiles(Table::Coupling, line, &mut |time, values| {
@@ -32,12 +32,12 @@ impl Cycles<'_> {
         let named = self.chosen.iter().zip(&found).enumerate().filter(|(_, (_, found))| found.is_some());
         let entry = |(k, ((name, _), _)): (usize, (&(String, f64), _))| Entry {
             name: name.clone(),
-            colour: Style::of(k).colour,
-            dash: Style::of(k).dash,
+            colour: Style::from_curve(k).colour,
+            dash: Style::from_curve(k).dash,
         };
         let entries: Vec<Entry> = named.map(entry).collect();
-        let mut page = Framed::new(self.paper, (x, y), &entries);
-        let Framed { figure, frame, .. } = &mut page;
+        let mut page = FramedFigure::new(self.paper, x, y, &entries);
+        let FramedFigure { figure, frame, .. } = &mut page;
         title(figure, frame, &self.title, &format!("coupling of {}", line.name));
         frame.grid(figure);
         let shown = |c: f64| (LEAST..=MOST).contains(&c);
@@ -46,7 +46,7 @@ impl Cycles<'_> {
                 profile.iter().flatten().copied().zip(line.along.iter().copied()).collect();
             for piece in points.split(|p| !shown(p.0)).filter(|piece| piece.len() > 1) {
                 let curve: Vec<Point> = piece.iter().map(|&(c, at)| frame.point(c, at / scale)).collect();
-                let style = Style::of(k);
+                let style = Style::from_curve(k);
                 figure.dashed(curve, style.dash, 1.8, style.colour);
             }
         }

@@ -1,11 +1,11 @@
 //! Images of profiles along a line over the rows of their table.
 
-use super::mapped::Mapped;
-use super::{Bounds, Cycles, Drawn, Line, Table};
+use super::mapped_quantity::MappedQuantity;
+use super::{Bounds, Cycles, FigureResult, Line, Table};
 use crate::plots::colour::viridis;
 use crate::plots::field::Bar;
 use crate::plots::figure::Image;
-use crate::plots::stretched::Stretched;
+use crate::plots::stretched_axis::StretchedAxis;
 use crate::plots::title::title;
 
 /// Largest number of columns and rows of pixels of an image.
@@ -15,7 +15,7 @@ const SHOWN: f64 = 14.0;
 /// Least difference between the ends of a range, for values that hardly vary.
 const APART: f64 = 1e-3;
 
-impl Mapped {
+impl MappedQuantity {
     fn table(self) -> Table {
         match self {
             Self::Rate => Table::Rate,
@@ -46,7 +46,7 @@ impl Mapped {
 impl Cycles<'_> {
     /// Image over distance and output rows. Rows are written by time and by change, so that events take as much room as the
     /// time between them; the axis has the times of rows.
-    pub(super) fn map(&self, line: &Line, mapped: Mapped) -> Drawn {
+    pub(super) fn map(&self, line: &Line, mapped: MappedQuantity) -> FigureResult {
         let Some((y, _)) = Self::along(line) else { return Ok(None) };
         let (mut times, mut seen) = (Vec::new(), Bounds::NONE);
         self.profiles(mapped.table(), line, &mut |time, values| {
@@ -58,7 +58,7 @@ impl Cycles<'_> {
             return Ok(None);
         }
         let (lo, hi) = mapped.range(seen);
-        let stretched = Stretched::new(&times, &self.events);
+        let stretched = StretchedAxis::new(&times, &self.events);
         let (mut figure, frame) = self.image_frame(stretched.axis(self.image_size().0), y);
         let (words, label) = mapped.words();
         title(&mut figure, &frame, &self.title, &format!("{words} of {}", line.name));

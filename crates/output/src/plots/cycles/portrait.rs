@@ -1,11 +1,11 @@
 //! Phase portrait: shear traction against slip rate.
 
-use super::{Cycles, Drawn, Table};
+use super::{Cycles, FigureResult, Table};
 use crate::OutputError;
 use crate::plots::axes::Axis;
 use crate::plots::curves::DECADES;
 use crate::plots::figure::Point;
-use crate::plots::framed::Framed;
+use crate::plots::framed_figure::FramedFigure;
 use crate::plots::legend::Entry;
 use crate::plots::style::Style;
 use crate::plots::title::title;
@@ -76,11 +76,11 @@ impl Cycles<'_> {
     }
 
     /// The portrait. Points that only creep have no curve: they would hide the cycles of the others.
-    pub(super) fn portrait(&self) -> Drawn {
+    pub(super) fn portrait(&self) -> FigureResult {
         let curves = self.phases()?;
         let all = || curves.iter().flat_map(|c| &c.1);
         let Some(largest) = all().map(|p| p.1.abs()).reduce(f64::max) else { return Ok(None) };
-        let unit = STRESS.of(largest);
+        let unit = STRESS.choose(largest);
         let of_means = self.stations.is_empty();
         let [rate, shear, what] = if of_means {
             ["Largest slip rate", "Mean shear traction", "means over all points"]
@@ -91,12 +91,12 @@ impl Cycles<'_> {
         let y = Axis::linear(all().map(|p| p.1 / unit.factor), 0.05, format!("{shear} [{}]", unit.name));
         let entry = |(k, (name, _)): (usize, &Curve)| Entry {
             name: name.clone(),
-            colour: Style::of(k).colour,
-            dash: Style::of(k).dash,
+            colour: Style::from_curve(k).colour,
+            dash: Style::from_curve(k).dash,
         };
         let named = curves.iter().enumerate().filter(|_| !of_means);
-        let mut page = Framed::new(self.paper, (x, y), &named.map(entry).collect::<Vec<_>>());
-        let Framed { figure, frame, .. } = &mut page;
+        let mut page = FramedFigure::new(self.paper, x, y, &named.map(entry).collect::<Vec<_>>());
+        let FramedFigure { figure, frame, .. } = &mut page;
         title(figure, frame, &self.title, &format!("phase portrait of {what}"));
         frame.grid(figure);
         for (k, (_, pairs)) in curves.iter().enumerate() {
@@ -108,7 +108,7 @@ impl Cycles<'_> {
                     curve.push((x, y));
                 }
             }
-            figure.dashed(curve, Style::of(k).dash, 1.2, Style::of(k).colour);
+            figure.dashed(curve, Style::from_curve(k).dash, 1.2, Style::from_curve(k).colour);
         }
         Ok(Some(page.finish()))
     }

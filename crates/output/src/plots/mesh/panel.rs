@@ -40,7 +40,7 @@ impl Panel {
     /// A panel at a point that shows a rectangle within `room`, at one scale in both directions.
     pub fn new(at: Point, (lo, hi): clip::Box, room: Point, view: View) -> Self {
         let scale = (room.0 / (hi.0 - lo.0)).min(room.1 / (hi.1 - lo.1));
-        let length = LENGTH.of([lo.0, lo.1, hi.0, hi.1].iter().fold(0.0, |most, v| most.max(v.abs())));
+        let length = LENGTH.choose([lo.0, lo.1, hi.0, hi.1].iter().fold(0.0, |most, v| most.max(v.abs())));
         let label = |axis: &str| format!("{axis} [{}]", length.name);
         let frame = Frame {
             at,
@@ -80,7 +80,7 @@ impl Panel {
             let surface = set.marks.contains(&Mark::Surface);
             let width = if surface && surfaces.is_multiple_of(2) { 7.0 } else { 3.0 };
             surfaces += usize::from(surface);
-            self.set(figure, set, (Style::of(k), width));
+            self.set(figure, set, (Style::from_curve(k), width));
         }
         for x in &picture.points {
             self.dot(figure, x, 1.0, EDGE);
@@ -96,7 +96,7 @@ impl Panel {
             let at = self.view.project(x);
             if clip::holds(&self.shown, at) {
                 let (x, y) = self.point(at);
-                Style::of(4).marker_in(figure, (x, y), 4.0, INK);
+                Style::from_curve(4).marker_in(figure, (x, y), 4.0, INK);
                 if numbered {
                     figure.text((x + 7.0, y), (k + 1).to_string(), 10.5, Anchor::Start, INK);
                 }
@@ -150,7 +150,7 @@ impl Panel {
     fn dot(&self, figure: &mut Figure, x: &[f64; 3], radius: f64, colour: Rgb) {
         let at = self.view.project(x);
         if clip::holds(&self.shown, at) {
-            Style::of(0).marker_in(figure, self.point(at), radius, colour);
+            Style::from_curve(0).marker_in(figure, self.point(at), radius, colour);
         }
     }
 
@@ -189,7 +189,8 @@ impl Panel {
             }
         }
         let markers: Vec<usize> = set.marks.iter().filter_map(|m| m.marker()).collect();
-        let mut draw = |marker: usize, at: Point| Style::of(marker).marker_in(figure, at, 5.0, style.colour);
+        let mut draw =
+            |marker: usize, at: Point| Style::from_curve(marker).marker_in(figure, at, 5.0, style.colour);
         if markers.is_empty() {
             return;
         }

@@ -51,7 +51,7 @@ fn front(
     paper: Paper,
 ) -> Option<Figure> {
     let (x, scale) = line.axis(false)?;
-    let unit = TIME.of(last);
+    let unit = TIME.choose(last);
     let y =
         Axis::linear([0.0, last / unit.factor].into_iter(), 0.05, format!("Rupture time [{}]", unit.name));
     let size = paper.frame(SIZE, (AT.0 + RIGHT, AT.1 + BELOW[0]));
@@ -77,11 +77,11 @@ fn contours(
     paper: Paper,
 ) -> Option<Figure> {
     let frame = surface.frame(AT, room(paper))?;
-    let unit = TIME.of(last);
+    let unit = TIME.choose(last);
     let mut figure =
         Figure::new(AT.0 + frame.size.0.max(200.0) + ROOM, AT.1 + frame.size.1.max(190.0) + BELOW[1]);
     title(&mut figure, &frame, scene, part);
-    figure.image(surface.image(&frame, arrivals, (0.0, last)));
+    figure.image(surface.image(&frame, arrivals, 0.0, last));
     let apart = fronts(&mut figure, &frame, surface, arrivals, last);
     mark(&mut figure, &frame, surface, hypocentre);
     frame.draw(&mut figure);
@@ -118,7 +118,7 @@ pub(super) fn fronts(
     arrivals: &[f64],
     last: f64,
 ) -> Option<String> {
-    let unit = TIME.of(last);
+    let unit = TIME.choose(last);
     let times = Axis::exact((0.0, last / unit.factor), String::new());
     let levels: Vec<(f64, String)> = times.ticks(CONTOURS).into_iter().filter(|t| t.0 > 0.0).collect();
     let onto = surface.onto(frame);
@@ -134,7 +134,7 @@ pub(super) fn fronts(
 mod tests {
     use super::super::tests::line;
     use super::*;
-    use crate::plots::figure::Shape as Drawn;
+    use crate::plots::figure::Shape as FigureShape;
 
     #[test]
     fn a_front_is_interrupted_where_nothing_ruptured() {
@@ -142,7 +142,7 @@ mod tests {
         fault.arrivals[5] = f64::NAN;
         let figure = arrivals("t", &fault, None, Paper::default()).unwrap();
         let curves = figure.shapes.iter().filter_map(|s| match s {
-            Drawn::Line { points, width, .. } if *width == 1.6 => Some(points.len()),
+            FigureShape::Line { points, width, .. } if *width == 1.6 => Some(points.len()),
             _ => None,
         });
         assert_eq!(curves.collect::<Vec<_>>(), [5, 35]);

@@ -93,7 +93,7 @@ fn room(paper: Paper) -> Point {
     paper.frame(SIZE, (AT.0 + ROOM, AT.1 + BELOW[1]))
 }
 
-type Drawn = Result<Option<Figure>, OutputError>;
+type FigureResult = Result<Option<Figure>, OutputError>;
 
 impl Ruptures<'_> {
     /// All figures with their file names.
@@ -130,7 +130,7 @@ impl Line {
     fn axis(&self, upright: bool) -> Option<(Axis, f64)> {
         let bounds = |low: fn(f64, f64) -> f64| self.along.iter().copied().reduce(low);
         let (lo, hi) = (bounds(f64::min)?, bounds(f64::max)?);
-        let unit = LENGTH.of(lo.abs().max(hi.abs()));
+        let unit = LENGTH.choose(lo.abs().max(hi.abs()));
         let (from, to) = if upright && self.down { (hi, lo) } else { (lo, hi) };
         let label = format!("{} [{}]", self.label, unit.name);
         (hi > lo).then(|| (Axis::exact((from / unit.factor, to / unit.factor), label), unit.factor))
@@ -142,9 +142,9 @@ mod tests {
     use super::*;
 
     /// Profiles in memory.
-    pub(super) struct Kept(pub Vec<(f64, Vec<f64>)>);
+    pub(super) struct MemoryProfiles(pub Vec<(f64, Vec<f64>)>);
 
-    impl Profiles for Kept {
+    impl Profiles for MemoryProfiles {
         fn each(&self, look: &mut dyn FnMut(f64, &[f64])) -> Result<(), OutputError> {
             self.0.iter().for_each(|(time, rates)| look(*time, rates));
             Ok(())
@@ -152,13 +152,13 @@ mod tests {
     }
 
     /// A pulse that leaves the origin at 1 km/s in both directions.
-    pub(super) fn pulse() -> Kept {
+    pub(super) fn pulse() -> MemoryProfiles {
         let rate = |time: f64, x: f64| if x.abs() < 1e3 * time { (x.abs() / 1e3 - time).exp() } else { 0.0 };
         let row = |k: u32| {
             let time = f64::from(k) * 0.1;
             (time, (-20..=20).map(|i| rate(time, f64::from(i) * 100.0)).collect())
         };
-        Kept((0..=20).map(row).collect())
+        MemoryProfiles((0..=20).map(row).collect())
     }
 
     pub(super) fn line() -> RupturedFault {
@@ -179,7 +179,7 @@ mod tests {
 
     #[test]
     fn a_run_without_profiles_and_without_rupture_has_no_figures() {
-        let kept = Kept(Vec::new());
+        let kept = MemoryProfiles(Vec::new());
         let fault = RupturedFault { arrivals: vec![f64::NAN; 41], ..line() };
         let ruptures =
             Ruptures { title: "t".into(), faults: vec![fault], rates: &kept, paper: Paper::default() };

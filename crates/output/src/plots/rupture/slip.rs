@@ -41,11 +41,11 @@ impl EventOnFault {
         let sizes: Vec<f64> = self.slip.iter().map(|s| s.abs()).collect();
         let most = sizes.iter().copied().reduce(f64::max).filter(|most| *most > 0.0)?;
         let frame = surface.frame(AT, room(paper))?;
-        let unit = LENGTH.of(most);
+        let unit = LENGTH.choose(most);
         let mut figure =
             Figure::new(AT.0 + frame.size.0.max(200.0) + ROOM, AT.1 + frame.size.1.max(190.0) + BELOW[1]);
         title(&mut figure, &frame, &self.title, &format!("slip of {}", self.fault.name));
-        figure.image(surface.image(&frame, &sizes, (0.0, most)));
+        figure.image(surface.image(&frame, &sizes, 0.0, most));
         let ruptured = &self.fault.arrivals;
         let apart = last(ruptured).and_then(|last| fronts(&mut figure, &frame, surface, ruptured, last));
         mark(&mut figure, &frame, surface, self.hypocentre);

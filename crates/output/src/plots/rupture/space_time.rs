@@ -1,6 +1,6 @@
 //! Slip rate of a line over time.
 
-use super::{AT, BELOW, Drawn, Line, ROOM, RupturedFault, Ruptures, SIZE, Shape};
+use super::{AT, BELOW, FigureResult, Line, ROOM, RupturedFault, Ruptures, SIZE, Shape};
 use crate::plots::axes::{Axis, Frame};
 use crate::plots::colour::viridis;
 use crate::plots::field::Bar;
@@ -17,7 +17,7 @@ pub(super) const AT_REST: f64 = 1e-9;
 
 impl Ruptures<'_> {
     /// Image of slip rates over distance and time; `None` for surfaces and where nothing slips.
-    pub(super) fn space_time(&self, fault: &RupturedFault) -> Drawn {
+    pub(super) fn space_time(&self, fault: &RupturedFault) -> FigureResult {
         let Shape::Line(line) = &fault.shape else { return Ok(None) };
         let (Some((count, first, last)), Some((y, _))) = (self.span()?, line.axis(true)) else {
             return Ok(None);
@@ -32,7 +32,7 @@ impl Ruptures<'_> {
             }
         })?;
         let Some((hi, most)) = covered(&fastest).filter(|(_, most)| *most > AT_REST) else { return Ok(None) };
-        let (time, unit) = (TIME.of(last), VELOCITY.of(most));
+        let (time, unit) = (TIME.choose(last), VELOCITY.choose(most));
         let x = Axis::exact((first / time.factor, last / time.factor), format!("Time [{}]", time.name));
         let size = self.paper.frame(SIZE, (AT.0 + ROOM, AT.1 + BELOW[0]));
         let frame = Frame { at: AT, size, x, y };

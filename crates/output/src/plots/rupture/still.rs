@@ -37,7 +37,7 @@ impl StillMap {
         let mut figure =
             Figure::new(AT.0 + frame.size.0.max(200.0) + ROOM, AT.1 + frame.size.1.max(190.0) + BELOW[0]);
         title(&mut figure, &frame, &self.title, &self.what);
-        figure.image(surface.image(&frame, values, (lo, hi)));
+        figure.image(surface.image(&frame, values, lo, hi));
         frame.draw(&mut figure);
         Bar { range: (lo, hi), above: None, label: self.label.clone() }.draw(&mut figure, &frame);
         Some(figure)

@@ -2,9 +2,9 @@
 
 use super::space_time::{AT_REST, covered};
 use super::strip::{self, Content, Strip};
-use super::{Drawn, Line, RupturedFault, Ruptures, Shape, Surface};
+use super::{FigureResult, Line, RupturedFault, Ruptures, Shape, Surface};
 use crate::plots::axes::Axis;
-use crate::plots::field::{Bar, Seen};
+use crate::plots::field::{Bar, VisibleMesh};
 use crate::plots::figure::{Figure, Point};
 use crate::plots::paper::Paper;
 use crate::plots::units::{TIME, VELOCITY};
@@ -23,14 +23,14 @@ const FEW: usize = 4;
 const DIGITS: usize = 2;
 
 /// Profiles at successive times.
-struct Chosen {
+struct SuccessiveProfiles {
     rows: Vec<(f64, Vec<f64>)>,
     most: f64,
 }
 
 impl Ruptures<'_> {
     /// Slip rates at successive times; `None` where nothing slips.
-    pub(super) fn successive(&self, fault: &RupturedFault) -> Drawn {
+    pub(super) fn successive(&self, fault: &RupturedFault) -> FigureResult {
         let Some((count, _, last)) = self.span()? else { return Ok(None) };
         let wanted = chosen(count, strip::most(self.paper, PANELS));
         let (mut row, mut rows, mut most) = (0, Vec::new(), 0.0_f64);
@@ -45,7 +45,7 @@ impl Ruptures<'_> {
         if most <= AT_REST {
             return Ok(None);
         }
-        let (part, shown) = (format!("slip rate of {}", fault.name), Chosen { rows, most });
+        let (part, shown) = (format!("slip rate of {}", fault.name), SuccessiveProfiles { rows, most });
         Ok(match &fault.shape {
             Shape::Line(line) => curves((&self.title, &part), line, (shown, last), self.paper),
             Shape::Surface(surface) => maps((&self.title, &part), surface, (shown, last), self.paper),
@@ -61,13 +61,18 @@ fn chosen(count: usize, panels: usize) -> Vec<usize> {
 
 /// A time as text, in the unit of the last one.
 pub(in crate::plots) fn moment(time: f64, last: f64) -> String {
-    let unit = TIME.of(last);
+    let unit = TIME.choose(last);
     format!("{:.DIGITS$} {}", time / unit.factor, unit.name)
 }
 
-fn curves(title: (&str, &str), line: &Line, (shown, last): (Chosen, f64), paper: Paper) -> Option<Figure> {
+fn curves(
+    title: (&str, &str),
+    line: &Line,
+    (shown, last): (SuccessiveProfiles, f64),
+    paper: Paper,
+) -> Option<Figure> {
     let (x, scale) = line.axis(false)?;
-    let unit = VELOCITY.of(shown.most);
+    let unit = VELOCITY.choose(shown.most);
     let y =
         Axis::linear([0.0, shown.most / unit.factor].into_iter(), 0.08, format!("Slip rate [{}]", unit.name));
     let order = line.order();
@@ -83,15 +88,15 @@ fn curves(title: (&str, &str), line: &Line, (shown, last): (Chosen, f64), paper:
 fn maps(
     title: (&str, &str),
     surface: &Surface,
-    (shown, last): (Chosen, f64),
+    (shown, last): (SuccessiveProfiles, f64),
     paper: Paper,
 ) -> Option<Figure> {
     let frame = surface.frame((0.0, 0.0), strip::panel(paper, shown.rows.len(), MAP, true))?;
     let all: Vec<f64> = shown.rows.iter().flat_map(|row| row.1.iter().copied()).collect();
     let (hi, most) = covered(&all)?;
-    let unit = VELOCITY.of(most);
+    let unit = VELOCITY.choose(most);
     let panel = |(time, rates): &(f64, Vec<f64>)| {
-        (moment(*time, last), Content::Map(surface.image(&frame, rates, (0.0, hi))))
+        (moment(*time, last), Content::Map(surface.image(&frame, rates, 0.0, hi)))
     };
     let panels = shown.rows.iter().map(panel).collect();
     let above = (most > hi).then(|| format!("max {:.1}", most / unit.factor));
@@ -103,7 +108,7 @@ fn maps(
 /// Velocities of bodies at successive times, in common colours; `None` where nothing moves or can be drawn.
 pub(in crate::plots) fn velocities(
     scene: &str,
-    shown: &Seen,
+    shown: &VisibleMesh,
     frames: &[(f64, Vec<f64>)],
     paper: Paper,
 ) -> Option<Figure> {
@@ -115,7 +120,7 @@ pub(in crate::plots) fn velocities(
     let panels = strip::most(paper, panels);
     let chosen: Vec<usize> = chosen(frames.len().max(2), panels);
     let frame = shown.frame(strip::panel(paper, chosen.len(), room, true))?;
-    let unit = VELOCITY.of(most);
+    let unit = VELOCITY.choose(most);
     let panel = |k: usize| {
         let (time, values) = &frames[k];
         (moment(*time, last), Content::Map(shown.image(&frame, values, hi)))

@@ -39,7 +39,7 @@ impl Surface {
             (1.0, "°")
         } else {
             let largest = [lo.0, lo.1, hi.0, hi.1].iter().fold(0.0_f64, |most, v| most.max(v.abs()));
-            let unit = LENGTH.of(largest);
+            let unit = LENGTH.choose(largest);
             (unit.factor, unit.name)
         };
         // A degree of longitude is shorter than one of latitude.
@@ -81,12 +81,12 @@ impl Surface {
 
     /// Image of values of the points over the frame, in the colours of a range, or of the faces, each in one colour: a mean over the
     /// faces around a point would hide their largest value.
-    pub(super) fn image(&self, frame: &Frame, values: &[f64], (lo, hi): (f64, f64)) -> Image {
+    pub(super) fn image(&self, frame: &Frame, values: &[f64], lo: f64, hi: f64) -> Image {
         let by_face = self.by_face(values);
         let columns = (frame.size.0 * FINE).round().max(1.0) as usize;
         let rows = (frame.size.1 * FINE).round().max(1.0) as usize;
         let mut rgb = vec![PAPER; columns * rows];
-        let colours = Colours { unit: NUMBER.of(1.0), lo, hi, above: None };
+        let colours = Colours { unit: NUMBER.choose(1.0), lo, hi, above: None };
         let (left, top) = frame.at;
         let onto = self.onto(frame);
         for (number, face) in self.faces.iter().enumerate() {
@@ -137,7 +137,7 @@ mod tests {
         assert_eq!(frame.size, (400.0, 100.0));
         assert_eq!(surface.onto(&frame)((0.0, 1e3)), (10.0, 20.0));
         // The upper side has the largest value, and the first row of the image is on top.
-        let image = surface.image(&frame, &[0.0, 0.0, 1.0, 1.0], (0.0, 1.0));
+        let image = surface.image(&frame, &[0.0, 0.0, 1.0, 1.0], 0.0, 1.0);
         let (first, last) = (image.rgb[image.columns / 2], image.rgb[image.rgb.len() - image.columns / 2]);
         assert!(first[0] > last[0] && last[2] > first[2], "{first:?} {last:?}");
     }
@@ -148,7 +148,7 @@ mod tests {
         let faces = vec![vec![0, 1, 2], vec![0, 2, 3]];
         let surface = Surface { places, faces, labels: ["x".into(), "y".into()], geographic: false };
         let frame = surface.frame((0.0, 0.0), (100.0, 100.0)).unwrap();
-        let image = surface.image(&frame, &[1.0, 0.0], (0.0, 1.0));
+        let image = surface.image(&frame, &[1.0, 0.0], 0.0, 1.0);
         let most = crate::plots::colour::viridis(1.0);
         // Half of the square lies below its diagonal.
         let share =

@@ -1,7 +1,7 @@
 //! Curves, from tables of a run or kept.
 
-use super::asked::Asked;
-use super::event::OfEvent;
+use super::event::EventOnset;
+use super::request::FigureRequest;
 use super::tables::Tables;
 use crate::plots::chart::{Chart, Measure};
 use crate::{OutputError, numbers};
@@ -21,7 +21,7 @@ pub struct Curves {
     /// Names and points of the curves.
     pub curves: Vec<(String, Points)>,
     /// The event that they are of; otherwise the curves are of a run through time.
-    pub event: Option<OfEvent>,
+    pub event: Option<EventOnset>,
     /// True if curves that are zero throughout are left out.
     pub without_zero: bool,
     /// Share of the largest value at whose last crossing a curve ends, if it ends before its last point.
@@ -84,7 +84,7 @@ impl Points {
     fn read(
         &self,
         tables: &Tables<'_>,
-        asked: &Asked,
+        request: &FigureRequest,
         through_time: bool,
     ) -> Result<Vec<(f64, f64)>, OutputError> {
         let mut points = Vec::new();
@@ -113,7 +113,7 @@ impl Points {
             Self::Kept { times, x, y } => {
                 let times = if times.is_empty() { x } else { times };
                 let all = times.iter().zip(x.iter().zip(y));
-                let shown = all.filter(|(time, _)| !through_time || asked.shows(**time));
+                let shown = all.filter(|(time, _)| !through_time || request.shows(**time));
                 points.extend(shown.map(|(_, (x, y))| (*x, *y)));
             }
         }
@@ -127,7 +127,7 @@ impl Curves {
         let through_time = self.event.is_none();
         let mut curves = Vec::new();
         for (name, points) in &self.curves {
-            let mut points = points.read(tables, tables.asked, through_time)?;
+            let mut points = points.read(tables, tables.request, through_time)?;
             if let Some(share) = self.until {
                 without_tail(&mut points, share);
             }
@@ -141,8 +141,8 @@ impl Curves {
     }
 
     /// First time shown \[s\].
-    pub(super) fn start(&self, asked: &Asked) -> f64 {
-        if self.event.is_none() { asked.start() } else { 0.0 }
+    pub(super) fn start(&self, request: &FigureRequest) -> f64 {
+        if self.event.is_none() { request.start() } else { 0.0 }
     }
 }
 

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// An event with figures of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct OfEvent {
+pub struct EventOnset {
     /// Number, from 0.
     pub number: usize,
     /// Onset \[s\].

@@ -1,22 +1,22 @@
 //! The figures of a run: what they need beside the tables of the run, kept in its output directory, and the drawing of them. A
 //! run draws its figures from what it has written, so that they can be drawn again without it.
 
-mod asked;
 mod curves;
 mod event;
+mod request;
 mod stills;
 mod tables;
 
-pub use asked::{Asked, Format};
 pub use curves::{Curves, Points};
-pub use event::OfEvent;
+pub use event::EventOnset;
+pub use request::{FigureRequest, Format};
 pub use stills::{Still, Stills};
 
 use super::curves::Histories;
 use super::cycles::{Cycles, Line, Portrait};
-use super::field::{self, Seen};
+use super::field::{self, VisibleMesh};
 use super::figure::Figure;
-use super::ground::{Coordinates, GroundMap, Shown};
+use super::ground::{Coordinates, GroundMap, MapQuantity};
 use super::panel::EventPanel;
 use super::paper::Paper;
 use super::profile::Tractions;
@@ -44,7 +44,7 @@ pub struct Sheet {
     /// Faults as figures show them, to which plots refer by number.
     pub shapes: Vec<Shape>,
     /// Visible parts of meshes, to which plots refer by number.
-    pub meshes: Vec<Seen>,
+    pub meshes: Vec<VisibleMesh>,
     /// Plots.
     pub plots: Vec<Plot>,
 }
@@ -55,9 +55,9 @@ pub enum Plot {
     /// Curves.
     Curves(Curves),
     /// Faults through earthquake cycles.
-    Cycles(Through),
+    Cycles(FaultCycles),
     /// A fault in an event.
-    Event(InEvent),
+    Event(EventFault),
     /// A fault in space at chosen times.
     Stills(Stills),
     /// Displacement of the ground over an event.
@@ -78,7 +78,7 @@ pub enum Plot {
 
 /// Faults through earthquake cycles, from the tables of the run.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Through {
+pub struct FaultCycles {
     /// Faults along lines.
     pub lines: Vec<Line>,
     /// Times of onset and end of the events \[s\].
@@ -112,11 +112,11 @@ pub struct Fault {
 
 /// A fault in an event.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct InEvent {
+pub struct EventFault {
     /// Stem of the file names.
     pub stem: String,
     /// The event.
-    pub event: OfEvent,
+    pub event: EventOnset,
     /// The fault with its rupture times since the onset.
     pub fault: Fault,
     /// Slip of its points, or of the faces of its surface \[m\].
@@ -133,7 +133,7 @@ pub struct Ground {
     /// Stem of the file names.
     pub file: String,
     /// The event.
-    pub event: OfEvent,
+    pub event: EventOnset,
     /// Unit of the coordinates.
     pub coordinates: Coordinates,
     /// Names and values of the coordinates, to the right and up.
@@ -141,7 +141,7 @@ pub struct Ground {
     /// Path of the table.
     pub table: String,
     /// Quantity in colours.
-    pub shown: Shown,
+    pub shown: MapQuantity,
     /// Column of the quantity in colours; of displacements, that out of the page.
     pub colours: usize,
     /// Columns of the displacements to the right and up the page, which are arrows.
@@ -184,7 +184,7 @@ pub fn short(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
-type Named = Vec<(String, Figure)>;
+type NamedFigures = Vec<(String, Figure)>;
 
 impl Sheet {
     /// Name of the file in the output directory.
@@ -262,7 +262,7 @@ impl Sheet {
     }
 
     /// Number of a visible part of a mesh, which is added unless it is there.
-    pub fn mesh(&mut self, mesh: Seen) -> usize {
+    pub fn mesh(&mut self, mesh: VisibleMesh) -> usize {
         let found = self.meshes.iter().position(|other| *other == mesh);
         found.unwrap_or_else(|| {
             self.meshes.push(mesh);
@@ -282,10 +282,10 @@ impl Sheet {
     /// Names of all figures whose tables can be read.
     #[must_use]
     pub fn names(&self, tables: &Path) -> Vec<String> {
-        let asked = Asked::default();
+        let request = FigureRequest::default();
         self.plots
             .iter()
-            .flat_map(|plot| self.figures(plot, tables, &asked).0)
+            .flat_map(|plot| self.figures(plot, tables, &request).0)
             .map(|figure| figure.0)
             .collect()
     }
@@ -294,8 +294,13 @@ impl Sheet {
     ///
     /// # Errors
     /// If a table cannot be read or a figure cannot be drawn or written.
-    pub fn draw(&self, tables: &Path, folder: &Path, asked: &Asked) -> Result<Vec<PathBuf>, OutputError> {
-        let (written, failed) = self.draw_what_can_be(tables, folder, asked)?;
+    pub fn draw(
+        &self,
+        tables: &Path,
+        folder: &Path,
+        request: &FigureRequest,
+    ) -> Result<Vec<PathBuf>, OutputError> {
+        let (written, failed) = self.draw_what_can_be(tables, folder, request)?;
         failed.into_iter().next().map_or(Ok(written), Err)
     }
 
@@ -308,12 +313,12 @@ impl Sheet {
         &self,
         tables: &Path,
         folder: &Path,
-        asked: &Asked,
+        request: &FigureRequest,
     ) -> Result<(Vec<PathBuf>, Vec<OutputError>), OutputError> {
         atomic::create_dir(folder)?;
         // Each plot has files of its own.
         let drawn: Vec<_> =
-            self.plots.par_iter().map(|plot| self.write_plot(plot, tables, folder, asked)).collect();
+            self.plots.par_iter().map(|plot| self.write_plot(plot, tables, folder, request)).collect();
         let (mut written, mut failed) = (Vec::new(), Vec::new());
         for drawn in drawn {
             let (files, missing) = drawn?;
@@ -329,15 +334,15 @@ impl Sheet {
         plot: &Plot,
         tables: &Path,
         folder: &Path,
-        asked: &Asked,
+        request: &FigureRequest,
     ) -> Result<(Vec<PathBuf>, Vec<OutputError>), OutputError> {
-        let (figures, failed) = self.figures(plot, tables, asked);
-        let (mut written, paper) = (Vec::new(), asked.paper());
-        for (name, figure) in figures.into_iter().filter(|(name, _)| asked.wants(name)) {
-            let figure = paper.filled(figure).scaled(asked.shrinks());
-            for format in &asked.formats {
+        let (figures, failed) = self.figures(plot, tables, request);
+        let (mut written, paper) = (Vec::new(), request.paper());
+        for (name, figure) in figures.into_iter().filter(|(name, _)| request.wants(name)) {
+            let figure = paper.filled(figure).scaled(request.shrinks());
+            for format in &request.formats {
                 let path = folder.join(format!("{name}.{}", format.ending()));
-                let bytes = format.paint(&figure, asked.dpi);
+                let bytes = format.paint(&figure, request.dpi);
                 let bytes = bytes.map_err(|reason| OutputError::Draw { path: path.clone(), reason })?;
                 atomic::write(&path, &bytes)?;
                 written.push(path);
@@ -347,51 +352,61 @@ impl Sheet {
     }
 
     /// Figures of a plot, and why others are missing.
-    fn figures(&self, plot: &Plot, folder: &Path, asked: &Asked) -> (Named, Vec<OutputError>) {
-        if plot.event().is_some_and(|event| !asked.takes(event)) {
+    fn figures(
+        &self,
+        plot: &Plot,
+        folder: &Path,
+        request: &FigureRequest,
+    ) -> (NamedFigures, Vec<OutputError>) {
+        if plot.event().is_some_and(|event| !request.takes(event)) {
             return (Vec::new(), Vec::new());
         }
-        let tables = Tables { folder, asked, in_space: self.in_space };
+        let tables = Tables { folder, request, in_space: self.in_space };
         if let Plot::Cycles(through) = plot {
-            return self.cycles(through, &tables, asked.paper());
+            return self.cycles(through, &tables, request.paper());
         }
-        match self.of_one_table(plot, &tables) {
+        match self.draw_one_table(plot, &tables) {
             Ok(figures) => (figures, Vec::new()),
             Err(why) => (Vec::new(), vec![why]),
         }
     }
 
     /// Figures of a plot that stands or falls with its tables.
-    fn of_one_table(&self, plot: &Plot, tables: &Tables<'_>) -> Result<Named, OutputError> {
-        let asked = tables.asked;
-        let paper = asked.paper();
+    fn draw_one_table(&self, plot: &Plot, tables: &Tables<'_>) -> Result<NamedFigures, OutputError> {
+        let request = tables.request;
+        let paper = request.paper();
         let one =
             |name: &str, figure: Option<Figure>| figure.map(|f| (name.to_string(), f)).into_iter().collect();
         Ok(match plot {
             Plot::Curves(curves) => {
                 let chart = curves.chart(tables)?;
-                one(&curves.file, chart.figure(paper, curves.start(asked)))
+                one(&curves.file, chart.figure(paper, curves.start(request)))
             }
             Plot::Cycles(_) => Vec::new(),
             Plot::Event(event) => self.in_event(event).figures(paper),
             Plot::Stills(stills) => self.stills(stills, tables, paper)?,
             Plot::Ground(ground) => one(&ground.file, self.ground(ground, tables)?.figure(paper)),
-            Plot::Panel(panel) => one("events", windowed(panel, asked).figure(paper)),
+            Plot::Panel(panel) => one("events", windowed(panel, request).figure(paper)),
             Plot::Ruptures(faults) => {
                 let faults = faults.iter().map(|f| self.fault(f)).collect();
                 Ruptures { title: self.title.clone(), faults, rates: tables, paper }.figures()?
             }
-            Plot::Velocities(shown) => self.velocities(shown, asked, paper),
-            Plot::Mises(shown) => one(&shown.file, self.mises(shown, asked, paper)),
-            Plot::Histories(histories) => histories.figures(paper, asked.window),
-            Plot::Tractions(tractions) => one(&tractions.file, tractions.figure(paper, asked.window)),
+            Plot::Velocities(shown) => self.velocities(shown, request, paper),
+            Plot::Mises(shown) => one(&shown.file, self.mises(shown, request, paper)),
+            Plot::Histories(histories) => histories.figures(paper, request.window),
+            Plot::Tractions(tractions) => one(&tractions.file, tractions.figure(paper, request.window)),
         })
     }
 
-    fn cycles(&self, through: &Through, tables: &Tables<'_>, paper: Paper) -> (Named, Vec<OutputError>) {
-        let Through { lines, events, intervals, spacing, chosen, stations } = through.clone();
-        let asked = tables.asked;
-        let events = match asked.window {
+    fn cycles(
+        &self,
+        through: &FaultCycles,
+        tables: &Tables<'_>,
+        paper: Paper,
+    ) -> (NamedFigures, Vec<OutputError>) {
+        let FaultCycles { lines, events, intervals, spacing, chosen, stations } = through.clone();
+        let request = tables.request;
+        let events = match request.window {
             Some((from, to)) => events.into_iter().filter(|e| e.1 >= from && e.0 <= to).collect(),
             None => events,
         };
@@ -402,9 +417,9 @@ impl Sheet {
             events,
             intervals,
             spacing,
-            chosen: chosen.into_iter().filter(|(_, time)| asked.shows(*time)).collect(),
+            chosen: chosen.into_iter().filter(|(_, time)| request.shows(*time)).collect(),
             stations,
-            window: asked.window,
+            window: request.window,
             paper,
         }
         .figures()
@@ -415,13 +430,13 @@ impl Sheet {
         RupturedFault { name, points, shape: self.shapes[shape].clone(), arrivals }
     }
 
-    fn in_event(&self, event: &InEvent) -> EventOnFault {
-        let (stem, title) = (event.stem.clone(), self.of_event(&event.event));
+    fn in_event(&self, event: &EventFault) -> EventOnFault {
+        let (stem, title) = (event.stem.clone(), self.event_title(&event.event));
         let (slip, hypocentre) = (event.slip.clone(), event.hypocentre);
         EventOnFault { stem, title, fault: self.fault(&event.fault), slip, hypocentre }
     }
 
-    fn of_event(&self, event: &OfEvent) -> String {
+    fn event_title(&self, event: &EventOnset) -> String {
         format!("{}, event {}", self.title, event.number + 1)
     }
 
@@ -438,28 +453,28 @@ impl Sheet {
             let reason = format!("it has {} rows, and the map {expected} positions", vertical.len());
             return Err(OutputError::Draw { path: tables.folder.join(&ground.table), reason });
         }
-        let title = self.of_event(&ground.event);
+        let title = self.event_title(&ground.event);
         Ok(GroundMap { title, coordinates, axes, shown, horizontal, vertical, edges })
     }
 
-    fn velocities(&self, shown: &Velocities, asked: &Asked, paper: Paper) -> Named {
+    fn velocities(&self, shown: &Velocities, request: &FigureRequest, paper: Paper) -> NamedFigures {
         let Some(mesh) = self.meshes.get(shown.mesh) else { return Vec::new() };
         let last = shown.frames.last().map_or(1.0, |frame| frame.0);
         let room = paper.frame(field::LARGE, field::MARGINS);
-        let within = || shown.frames.iter().enumerate().filter(|(_, frame)| asked.shows(frame.0));
+        let within = || shown.frames.iter().enumerate().filter(|(_, frame)| request.shows(frame.0));
         let one = |(k, (time, values)): (usize, &(f64, Vec<f64>))| {
             let when = format!("t = {}", rupture::moment(*time, last));
             Some((format!("velocity_{k}"), field::velocity((&self.title, &when), mesh, values, room)?))
         };
-        let mut figures: Named = within().filter_map(one).collect();
+        let mut figures: NamedFigures = within().filter_map(one).collect();
         let frames: Vec<(f64, Vec<f64>)> = within().map(|(_, frame)| frame.clone()).collect();
         let strip = rupture::velocities(&self.title, mesh, &frames, paper);
         figures.extend(strip.map(|figure| ("velocity_film".to_string(), figure)));
         figures
     }
 
-    fn mises(&self, shown: &Mises, asked: &Asked, paper: Paper) -> Option<Figure> {
-        let mesh = self.meshes.get(shown.mesh).filter(|_| asked.shows(shown.time))?;
+    fn mises(&self, shown: &Mises, request: &FigureRequest, paper: Paper) -> Option<Figure> {
+        let mesh = self.meshes.get(shown.mesh).filter(|_| request.shows(shown.time))?;
         let place = if shown.stopped { "last step in" } else { "end of" };
         let when = format!("{place} stage “{}”", shown.stage);
         let room = paper.frame(field::LARGE, field::MARGINS);
@@ -468,17 +483,17 @@ impl Sheet {
 }
 
 /// The events of a panel within the window.
-fn windowed(panel: &EventPanel, asked: &Asked) -> EventPanel {
-    let Some((start, end)) = asked.window else { return panel.clone() };
+fn windowed(panel: &EventPanel, request: &FigureRequest) -> EventPanel {
+    let Some((start, end)) = request.window else { return panel.clone() };
     let within = |(name, events): &(String, Vec<super::PanelEvent>)| {
-        (name.clone(), events.iter().filter(|e| asked.shows(e.onset)).copied().collect())
+        (name.clone(), events.iter().filter(|e| request.shows(e.onset)).copied().collect())
     };
     EventPanel { start, end, title: panel.title.clone(), groups: panel.groups.iter().map(within).collect() }
 }
 
 impl Plot {
     /// The event of a plot of a single event.
-    fn event(&self) -> Option<&OfEvent> {
+    fn event(&self) -> Option<&EventOnset> {
         match self {
             Self::Curves(curves) => curves.event.as_ref(),
             Self::Event(event) => Some(&event.event),
@@ -500,9 +515,9 @@ mod tests {
         assert_eq!(shape, sheet.shape(Shape::Line(along)));
         let fault = Fault { name: "f".into(), points: 0..2, shape, arrivals: vec![f64::NAN, 0.1 + 0.2] };
         let event = |number, onset| {
-            Plot::Event(InEvent {
+            Plot::Event(EventFault {
                 stem: format!("f_event_{number:03}"),
-                event: OfEvent { number, onset },
+                event: EventOnset { number, onset },
                 fault: fault.clone(),
                 slip: vec![1.0, f64::NAN],
                 hypocentre: None,
@@ -543,15 +558,15 @@ mod tests {
     #[test]
     fn figures_of_events_are_chosen_by_number_and_by_onset() {
         let folder = tempfile::tempdir().unwrap();
-        let drawn = |asked: Asked| {
-            let files = sheet().draw(folder.path(), folder.path(), &asked).unwrap();
+        let drawn = |request: FigureRequest| {
+            let files = sheet().draw(folder.path(), folder.path(), &request).unwrap();
             files.iter().map(|f| f.file_name().unwrap().to_str().unwrap().to_string()).collect::<Vec<_>>()
         };
-        let svg = Asked { formats: vec![Format::Svg], ..Asked::default() };
+        let svg = FigureRequest { formats: vec![Format::Svg], ..FigureRequest::default() };
         assert_eq!(drawn(svg.clone()), ["f_event_000_rupture_times.svg", "f_event_002_rupture_times.svg"]);
         let third = ["f_event_002_rupture_times.svg"];
-        assert_eq!(drawn(Asked { events: vec![3], ..svg.clone() }), third);
-        assert_eq!(drawn(Asked { window: Some((3.0, 9.0)), ..svg.clone() }), third);
-        assert_eq!(drawn(Asked { window: Some((3.0, 7.0)), ..svg }), Vec::<String>::new());
+        assert_eq!(drawn(FigureRequest { events: vec![3], ..svg.clone() }), third);
+        assert_eq!(drawn(FigureRequest { window: Some((3.0, 9.0)), ..svg.clone() }), third);
+        assert_eq!(drawn(FigureRequest { window: Some((3.0, 7.0)), ..svg }), Vec::<String>::new());
     }
 }

@@ -1,7 +1,7 @@
 //! Maps of a fault in space at chosen times, from the snapshots of a run.
 
 use super::tables::Tables;
-use super::{Named, Sheet};
+use super::{NamedFigures, Sheet};
 use crate::plots::paper::Paper;
 use crate::plots::rupture::{Shape, StillMap};
 use crate::words::time as time_text;
@@ -50,7 +50,7 @@ impl Sheet {
         stills: &Stills,
         tables: &Tables<'_>,
         paper: Paper,
-    ) -> Result<Named, OutputError> {
+    ) -> Result<NamedFigures, OutputError> {
         let Some(Shape::Surface(surface)) = self.shapes.get(stills.shape) else { return Ok(Vec::new()) };
         let mut found: Vec<Option<(usize, f64)>> = vec![None; stills.chosen.len()];
         tables.shown(&stills.list, &mut |row| {

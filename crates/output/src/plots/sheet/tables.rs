@@ -1,6 +1,6 @@
 //! Tables of a run, read row by row as often as a figure needs them; none is held in memory as a whole.
 
-use super::asked::Asked;
+use super::request::FigureRequest;
 use crate::plots::cycles::{Rows, Table};
 use crate::plots::rupture::Profiles;
 use crate::{OutputError, rows};
@@ -9,7 +9,7 @@ use std::path::Path;
 /// Tables in the output directory of a run, within the window asked for.
 pub(super) struct Tables<'a> {
     pub folder: &'a Path,
-    pub asked: &'a Asked,
+    pub request: &'a FigureRequest,
     /// True if faults are surfaces, which have no profiles.
     pub in_space: bool,
 }
@@ -18,7 +18,7 @@ impl Tables<'_> {
     /// Passes the rows of a table within the window to `look`; its first column is time.
     pub(super) fn shown(&self, table: &str, look: &mut dyn FnMut(&[f64])) -> Result<(), OutputError> {
         self.each(table, &mut |row| {
-            if self.asked.shows(row[0]) {
+            if self.request.shows(row[0]) {
                 look(row);
             }
         })
@@ -27,7 +27,7 @@ impl Tables<'_> {
     /// Passes the rows of the file of a station within the window to `look`.
     pub(super) fn station_shown(&self, path: &str, look: &mut dyn FnMut(&[f64])) -> Result<(), OutputError> {
         rows::spaced(&self.folder.join(path), &mut |row| {
-            if self.asked.shows(row[0]) {
+            if self.request.shows(row[0]) {
                 look(row);
             }
         })

@@ -22,7 +22,7 @@ pub(super) struct Arrays<'a> {
 }
 
 impl<'a> Arrays<'a> {
-    pub fn of(document: &'a Document<'a>) -> Result<Self, VtuError> {
+    pub fn read(document: &'a Document<'a>) -> Result<Self, VtuError> {
         let root = &document.root;
         let given = |name: &str, default: &'static str| root.attribute(name).unwrap_or(default).to_string();
         let refuse = |attribute, found, read| Err(VtuError::Storage { attribute, found, read });

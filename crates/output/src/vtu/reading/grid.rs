@@ -2,7 +2,7 @@
 
 /// Values of one name at points or in cells.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Named {
+pub struct NamedArray {
     /// Name.
     pub name: String,
     /// Number of components.
@@ -28,7 +28,7 @@ pub struct Grid {
     /// Cells.
     pub cells: Vec<Cell>,
     /// Arrays at points.
-    pub at_points: Vec<Named>,
+    pub at_points: Vec<NamedArray>,
     /// Arrays in cells.
-    pub in_cells: Vec<Named>,
+    pub in_cells: Vec<NamedArray>,
 }

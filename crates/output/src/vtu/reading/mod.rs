@@ -11,7 +11,7 @@ mod pieces;
 mod xml;
 
 pub use error::VtuError;
-pub use grid::{Cell, Grid, Named};
+pub use grid::{Cell, Grid, NamedArray};
 
 /// Grid of a file, with the arrays of this name alone.
 ///

@@ -2,7 +2,7 @@
 
 use super::array::Arrays;
 use super::error::VtuError;
-use super::grid::{Cell, Grid, Named};
+use super::grid::{Cell, Grid, NamedArray};
 use super::xml::{Document, Element};
 
 pub(super) fn grid(document: &Document<'_>, name: &str) -> Result<Grid, VtuError> {
@@ -14,7 +14,7 @@ pub(super) fn grid(document: &Document<'_>, name: &str) -> Result<Grid, VtuError
     if found != "UnstructuredGrid" {
         return Err(VtuError::DataSet { found: found.into() });
     }
-    let arrays = Arrays::of(document)?;
+    let arrays = Arrays::read(document)?;
     let data = root.first("UnstructuredGrid").ok_or_else(|| missing("`UnstructuredGrid`"))?;
     let pieces: Vec<&Element> = data.all("Piece").collect();
     if pieces.is_empty() {
@@ -70,18 +70,18 @@ fn named(
     arrays: &Arrays<'_>,
     piece: &Element,
     (holder, name, count): (&str, &str, usize),
-) -> Result<Option<Named>, VtuError> {
+) -> Result<Option<NamedArray>, VtuError> {
     let found = piece
         .first(holder)
         .and_then(|holder| holder.all("DataArray").find(|array| array.attribute("Name") == Some(name)));
     let Some(array) = found else { return Ok(None) };
     let components = array.attribute("NumberOfComponents").and_then(|n| n.trim().parse().ok()).unwrap_or(1);
     let values = arrays.numbers(array, product(count, components)?)?;
-    Ok(Some(Named { name: name.into(), components, values }))
+    Ok(Some(NamedArray { name: name.into(), components, values }))
 }
 
 /// Adds the array of a piece to that of the pieces before.
-fn join(all: &mut Vec<Named>, own: Option<Named>) -> Result<(), VtuError> {
+fn join(all: &mut Vec<NamedArray>, own: Option<NamedArray>) -> Result<(), VtuError> {
     match (all.first_mut(), own) {
         (Some(before), Some(own)) if before.components != own.components => Err(VtuError::Array {
             name: own.name,

@@ -4,7 +4,7 @@
 use crate::faults::planner::Placed;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, ForcedRupture};
-use asperity_mechanics::dynamics::Forced;
+use asperity_mechanics::dynamics::ForcedWeakening;
 
 /// Delay of the front near its end, over the time in which it would run that far at its first speed: that of the benchmarks.
 const DELAY: f64 = 0.081;
@@ -16,7 +16,7 @@ const DELAY: f64 = 0.081;
 pub(super) fn of<const D: usize>(
     named: &[(&String, &Spec)],
     placed: &[Placed<D>],
-) -> Result<Vec<Forced>, Diagnostic> {
+) -> Result<Vec<ForcedWeakening>, Diagnostic> {
     for (fault, (name, spec)) in named.iter().enumerate() {
         let Some(asked) = &spec.forced_rupture else { continue };
         let reached = |p: &Placed<D>| p.fault == fault && arrival(asked, &p.point.place.at).is_finite();
@@ -32,8 +32,10 @@ pub(super) fn of<const D: usize>(
         return Ok(Vec::new());
     }
     let at = |p: &Placed<D>| match &named[p.fault].1.forced_rupture {
-        Some(asked) => Forced { at: arrival(asked, &p.point.place.at), duration: asked.duration.get_ref().0 },
-        None => Forced { at: f64::INFINITY, duration: 1.0 },
+        Some(asked) => {
+            ForcedWeakening { at: arrival(asked, &p.point.place.at), duration: asked.duration.get_ref().0 }
+        }
+        None => ForcedWeakening { at: f64::INFINITY, duration: 1.0 },
     };
     Ok(placed.iter().map(at).collect())
 }

@@ -5,7 +5,7 @@ use crate::reading::scene::model::{Body, MeshSource, Scene, Spanned};
 use crate::shared::model::{self, Model};
 use asperity_fem::FemError;
 use asperity_fem::mesh::Side;
-use asperity_mechanics::dynamics::{self, Dashpot, Stable};
+use asperity_mechanics::dynamics::{self, Dashpot, StableStep};
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -41,7 +41,7 @@ pub(super) fn stable<const D: usize>(
     model: &Model<D>,
     density: &[f64],
     viscosity: f64,
-) -> Result<Stable, Diagnostic> {
+) -> Result<StableStep, Diagnostic> {
     dynamics::stable(model, density, viscosity).map_err(|error| {
         let FemError::LumpedMass { element } = error else {
             return Diagnostic::at(scene.time.stepper.span(), error.to_string(), "check the mesh");
@@ -72,7 +72,7 @@ fn place_of_element(body: &Body) -> Range<usize> {
 }
 
 /// Middle of the cell that sets the stable step \[m\].
-pub(super) fn middle<const D: usize>(model: &Model<D>, stable: &Stable) -> [f64; D] {
+pub(super) fn middle<const D: usize>(model: &Model<D>, stable: &StableStep) -> [f64; D] {
     let nodes = model.mesh.blocks[stable.highest.block].cell(stable.highest.cell);
     std::array::from_fn(|c| nodes.iter().map(|&n| model.mesh.nodes[n][c]).sum::<f64>() / nodes.len() as f64)
 }

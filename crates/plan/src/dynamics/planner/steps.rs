@@ -4,7 +4,7 @@ use super::super::plan::Cadence;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Scene;
 use asperity_mechanics::Stage;
-use asperity_mechanics::dynamics::Stable;
+use asperity_mechanics::dynamics::StableStep;
 use asperity_scene::defaults;
 
 /// Default rows, profiles and fields of a run.
@@ -38,7 +38,7 @@ pub(super) fn courant(scene: &Scene) -> f64 {
 ///
 /// # Errors
 /// [`Diagnostic`] where the scene asks for steps beyond the stable one, or for samples that do not fit the duration.
-pub(super) fn choose(scene: &Scene, stage: &Stage, stable: &Stable) -> Result<Counted, Diagnostic> {
+pub(super) fn choose(scene: &Scene, stage: &Stage, stable: &StableStep) -> Result<Counted, Diagnostic> {
     let duration = stage.end - stage.start;
     let longest = courant(scene) * stable.step;
     let samples = samples(scene, duration)?;
@@ -98,7 +98,7 @@ fn samples(scene: &Scene, duration: f64) -> Result<Option<usize>, Diagnostic> {
 }
 
 /// Refuses steps beyond the stable one.
-fn within(scene: &Scene, dt: f64, duration: f64, stable: &Stable) -> Result<(), Diagnostic> {
+fn within(scene: &Scene, dt: f64, duration: f64, stable: &StableStep) -> Result<(), Diagnostic> {
     if dt <= stable.step {
         return Ok(());
     }

@@ -3,7 +3,7 @@
 use super::placed::{Placed, at};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{
-    Along, Fault as Spec, LawSpec, Profile, Profiled, Scene, Spanned, Station,
+    Along, Fault as Spec, LawSpec, ParameterProfiles, Profile, Scene, Spanned, Station,
 };
 use asperity_cycles::medium::Place;
 use asperity_mechanics::coordinates;
@@ -115,7 +115,7 @@ pub(super) fn profiles<const D: usize>(
         return Ok(());
     }
     for (n, (key, list)) in lists(spec).into_iter().enumerate() {
-        let Some(Profiled(list)) = list else { continue };
+        let Some(ParameterProfiles(list)) = list else { continue };
         for profile in list {
             let Some((message, help)) = constant((name, key), profile, &free) else { continue };
             let others = scene.faults.iter().filter(|(other, _)| *other != name);
@@ -145,7 +145,7 @@ pub(super) fn profiles<const D: usize>(
 }
 
 /// Profiles of a fault with their keys.
-pub(super) fn lists(spec: &Spec) -> Vec<(&'static str, Option<&Profiled>)> {
+pub(super) fn lists(spec: &Spec) -> Vec<(&'static str, Option<&ParameterProfiles>)> {
     let hydraulic = ["permeability", "storage"].map(|key| {
         let given = spec.diffusion.iter().flat_map(|d| d.parameters()).find(|p| p.0 == key);
         (key, given.and_then(|p| p.2))

@@ -30,7 +30,7 @@ use asperity_cycles::{
 };
 use asperity_friction::Failure;
 use asperity_friction::fault::FaultLaw;
-use asperity_friction::turning::Turning;
+use asperity_friction::rake::VariableRake;
 use asperity_laws::{self as laws, Theta};
 use asperity_mechanics::coordinates;
 use asperity_ode::{Clock, Method};
@@ -109,7 +109,7 @@ pub(super) fn plan_of<const D: usize>(
     let at_law = |e: Failure| crate::shared::refused::refused(&named[placed[0].fault].1.law, &e);
     let turns = turns(scene);
     let law = friction(&named, &placed, at_law)?;
-    let mut law = if turns { Box::new(Turning::new(law)) } else { law };
+    let mut law = if turns { Box::new(VariableRake::new(law)) } else { law };
     let heat = heated::heat(scene, &placed, law.as_mut(), end);
     let modes = heat.as_ref().map_or(0, Heat::bytes);
     let pulses = pulses(&named, &placed, if turns { 2 } else { 1 })?;
@@ -437,7 +437,7 @@ pub(crate) fn views<const D: usize>(
             let place = &p.point.place;
             let (at, normal): ([f64; 3], [f64; 3]) = (in_space(&place.at), in_space(&place.normal));
             let slides = slides(p);
-            let (along, area, theta) = (place.along, place.area, Theta::of(&p.law));
+            let (along, area, theta) = (place.along, place.area, Theta::from_law(&p.law));
             let plate = creeps[p.fault].map(|creep| components(place, creep.rate.get_ref().0));
             let shear_modulus = p.medium.shear_modulus;
             PointView {

@@ -2,14 +2,14 @@
 
 use super::placed::{Placed, at};
 use crate::reading::diagnostic::Diagnostic;
-use crate::shared::field::{Bound, Field, Files, Parameter, Region, Spot};
-use asperity_scene::lengths::brief;
 use crate::reading::scene::model::{
-    Diffusion as Given, DiffusionEnds, Flux, Hydraulic, Profiled, Scene, Well, field_dimension,
+    Diffusion as Given, DiffusionEnds, Flux, Hydraulic, ParameterProfiles, Scene, Well, field_dimension,
 };
-use asperity_run::Warning;
+use crate::shared::field::{Bound, Field, Files, Parameter, Region, Spot};
 use asperity_cycles::diffusion::{Diffusion, Line, Source};
 use asperity_mechanics::coordinates;
+use asperity_run::Warning;
+use asperity_scene::lengths::brief;
 use std::ops::Range;
 
 /// Warnings and notes of a plan.
@@ -67,7 +67,7 @@ fn line<const D: usize>(
         // The scene check ensures that one of them is given.
         let constant = value.map_or(f64::NAN, |v| v.0);
         let of = |p: &Placed<D>| {
-            profile.map_or(constant, |Profiled(list)| {
+            profile.map_or(constant, |ParameterProfiles(list)| {
                 list.iter().map(|profile| at(profile, &p.point.place)).fold(f64::NEG_INFINITY, f64::max)
             })
         };

@@ -28,7 +28,7 @@ impl<const D: usize> Fields<D> {
         (name, spec, base): (&str, &Spec, &LawChoice),
         places: &[Place<D>],
     ) -> Result<Self, Diagnostic> {
-        let theta = Theta::of(base).is_some();
+        let theta = Theta::from_law(base).is_some();
         let name = format!("fault `{name}`");
         let spots: Vec<Spot<D>> = places.iter().map(spot).collect();
         let region = Region { scene, spots: &spots, name: &name };

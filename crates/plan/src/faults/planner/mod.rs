@@ -65,7 +65,7 @@ use asperity_cycles::medium::{Bodies, Conditions, Loads, Place, Point, Refusal, 
 use asperity_cycles::operator::{Form, Operator};
 use asperity_cycles::{Loading, deficit};
 use asperity_fem::table::Table;
-use asperity_mechanics::Drawn;
+use asperity_mechanics::Travel;
 use asperity_run::Warning;
 use assemble::{Around, Surrounded, plan_of, turns};
 use condensed::Condensed;
@@ -132,9 +132,9 @@ fn admit<const D: usize>(
 
 /// Loads on the bodies during a stage that starts from displacements `u0` \[m\]: changes since its start.
 fn loads(stage: &Stage, u0: &[f64], weight: Vec<(usize, f64)>) -> Loads {
-    let drawn = |s: &loading::Spring| match s.rate.drawn((stage.start, stage.end)) {
-        Drawn::Steady { rate, .. } => Table::new(vec![0.0, stage.end], vec![0.0, rate * stage.end]),
-        Drawn::Table(table) => table,
+    let drawn = |s: &loading::Spring| match s.rate.drawn(stage.start, stage.end) {
+        Travel::Steady { rate, .. } => Table::new(vec![0.0, stage.end], vec![0.0, rate * stage.end]),
+        Travel::Table(table) => table,
     };
     let spring =
         |s: &loading::Spring| Spring { dofs: s.dofs.clone(), stiffness: s.stiffness, drawn: drawn(s) };

@@ -5,7 +5,9 @@ use super::fields::PARAMETERS;
 use super::placed::{Placed, at};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::LawChoice;
-use crate::reading::scene::model::{Combine, Disc, Fault as Spec, Outside, PATCHED, Patch, Profiled};
+use crate::reading::scene::model::{
+    Combine, Disc, Fault as Spec, Outside, PATCHED, ParameterProfiles, Patch,
+};
 use asperity_cycles::medium::Place;
 use asperity_laws::{self as laws, Theta};
 use asperity_run::Warning;
@@ -49,7 +51,7 @@ impl Values {
     /// State variable of the point under its law, if a file gives it.
     pub fn state(&self, law: &LawChoice) -> Option<f64> {
         let given = self.state?;
-        Some(Theta::of(law).map_or(given, |theta| theta.variable(given)))
+        Some(Theta::from_law(law).map_or(given, |theta| theta.variable(given)))
     }
 }
 
@@ -60,7 +62,7 @@ pub(super) fn values<const D: usize>(
     (base, from_files): (&LawChoice, [Option<f64>; PARAMETERS]),
 ) -> Values {
     let all = &spec.profiles;
-    let of = |profile: &Option<Profiled>| profile.as_ref().map(|p| largest(p, place));
+    let of = |profile: &Option<ParameterProfiles>| profile.as_ref().map(|p| largest(p, place));
     let [a, b, l] = constants(base);
     let cohesion = base.value("cohesion", laws::known());
     let [file_a, file_b, file_l, file_normal, file_shear, file_rate, file_cohesion, state, a_minus_b] =
@@ -183,7 +185,7 @@ pub(super) fn covered<const D: usize>(
 }
 
 /// Largest value of some profiles at a point.
-fn largest<const D: usize>(profiles: &Profiled, place: &Place<D>) -> f64 {
+fn largest<const D: usize>(profiles: &ParameterProfiles, place: &Place<D>) -> f64 {
     profiles.0.iter().map(|p| at(p, place)).fold(f64::NEG_INFINITY, f64::max)
 }
 

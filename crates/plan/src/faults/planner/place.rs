@@ -167,7 +167,7 @@ pub(super) fn branches<const D: usize>(what: &str, at: &[f64; D], spec: &Spec) -
 /// Integral of the outward normal of the minus side times the shape function of each node.
 fn normals<const D: usize>(model: &Model<D>, sides: &[Side]) -> BTreeMap<usize, [f64; D]> {
     // One component per axis.
-    let idealisation = Idealisation::of_dimension(D);
+    let idealisation = Idealisation::from_dimension(D);
     let forces = surface::integrate(&model.mesh, sides, idealisation, |point, out| {
         out[..D].copy_from_slice(&point.normal);
     });

@@ -1,7 +1,7 @@
 //! Errors of a scene as shown to the user: the position in the file, a caret, and a suggested correction.
 
 use super::{Diagnostic, Diagnostics, line_column};
-use asperity_scene::settings::{Origin, Resolved, Setting};
+use asperity_scene::settings::{Origin, ResolvedText, Setting};
 use miette::{
     LabeledSpan, MietteError, MietteSpanContents, NamedSource, Report, SourceCode, SourceSpan, SpanContents,
 };
@@ -163,7 +163,7 @@ impl miette::Diagnostic for Many {
 /// The errors of the scene `text`, read from `file`, ready to be printed.
 #[must_use]
 pub fn report(file: &str, text: &str, errors: &Diagnostics) -> Report {
-    report_set(file, text, (&Resolved::unchanged(text), &[]), errors)
+    report_set(file, text, (&ResolvedText::unchanged(text), &[]), errors)
 }
 
 /// The errors of a scene with settings, ready to be printed: each is shown in the file with this text, or in the setting that
@@ -172,7 +172,7 @@ pub fn report(file: &str, text: &str, errors: &Diagnostics) -> Report {
 pub fn report_set(
     file: &str,
     text: &str,
-    (resolved, settings): (&Resolved, &[Setting]),
+    (resolved, settings): (&ResolvedText, &[Setting]),
     errors: &Diagnostics,
 ) -> Report {
     let source = Arc::new(Excerpts(NamedSource::new(file, text.to_string())));
@@ -197,7 +197,7 @@ fn in_setting(setting: &Setting, error: &Diagnostic) -> Placed {
 }
 
 /// An error in the file. Other positions that lie in settings are named in words.
-fn in_file((resolved, settings): (&Resolved, &[Setting]), error: &Diagnostic) -> Diagnostic {
+fn in_file((resolved, settings): (&ResolvedText, &[Setting]), error: &Diagnostic) -> Diagnostic {
     let mut placed = Diagnostic { also: Vec::new(), ..error.clone() };
     placed.span = resolved.range(&error.span).unwrap_or_default();
     for (span, words) in &error.also {

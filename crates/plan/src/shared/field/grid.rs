@@ -8,7 +8,7 @@ use crate::reading::columns::{Wrong, unit};
 use crate::reading::scene::model::FieldInterpolation;
 use crate::reading::scene::units::{self, Dimension};
 use asperity_fem::mesh::netcdf::NetcdfError;
-use asperity_fem::mesh::netcdf::gridded::{self, Coordinate, Gridded};
+use asperity_fem::mesh::netcdf::gridded::{self, Coordinate, GriddedVariable};
 use asperity_scene::near::suggest;
 
 /// Help for a grid that is not read.
@@ -133,7 +133,7 @@ fn plain(unit: &str) -> &str {
 }
 
 /// Place of a value of a grid in words.
-fn at(grid: &Gridded, k: usize) -> String {
+fn at(grid: &GriddedVariable, k: usize) -> String {
     let mut rest = k;
     let mut parts = Vec::new();
     for coordinate in grid.coordinates.iter().rev() {

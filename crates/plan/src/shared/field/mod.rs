@@ -122,7 +122,7 @@ impl<const D: usize> Field<D> {
         let values = spots.iter().filter_map(|spot| self.found(spot));
         let unit = self.dimension.map_or("", Dimension::si);
         let implausible =
-            plausible::of_file(&["faults", "fields", self.key], unit, values).map(|(message, help)| {
+            plausible::judge_file(&["faults", "fields", self.key], unit, values).map(|(message, help)| {
                 let message = format!("`{}` of {region} from `{}`: {message}", self.key, self.file);
                 Warning::at(self.span.clone(), message, help)
             });

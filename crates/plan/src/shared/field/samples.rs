@@ -1,6 +1,6 @@
 //! Values between the positions of a file.
 
-use asperity_fem::mesh::sheet::{ScatterError, Scattered};
+use asperity_fem::mesh::sheet::{ScatterError, ScatteredSamples};
 
 /// Distance beyond the ends of a line within which a position counts as on it, over its length: rounding.
 const ON_END: f64 = 1e-9;
@@ -18,7 +18,7 @@ pub enum Samples {
     /// Positions of a plane.
     Plane {
         /// The positions and values.
-        samples: Scattered,
+        samples: ScatteredSamples,
         /// True for values of the nearest position.
         nearest: bool,
     },
@@ -33,7 +33,7 @@ impl Samples {
         let rows = positions.iter().zip(values);
         if positions.iter().any(|x| x.len() == 2) {
             let samples: Vec<[f64; 3]> = rows.map(|(x, v)| [x[0], x[1], *v]).collect();
-            return Ok(Self::Plane { samples: Scattered::new(&samples)?, nearest });
+            return Ok(Self::Plane { samples: ScatteredSamples::new(&samples)?, nearest });
         }
         let mut points: Vec<(f64, f64)> = rows.map(|(x, v)| (x[0], *v)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -8,7 +8,7 @@ use super::samples::Samples;
 use crate::reading::columns::{Wrong, unit};
 use crate::reading::scene::model::FieldInterpolation;
 use crate::reading::scene::units::{self, Dimension};
-use asperity_output::vtu::reading::{self, Cell, Grid, Named, VtuError};
+use asperity_output::vtu::reading::{self, Cell, Grid, NamedArray, VtuError};
 use asperity_scene::near::suggest;
 
 /// Help for a file that is not read.
@@ -76,7 +76,7 @@ fn scattered<const D: usize>(
 }
 
 /// Values of an array in SI.
-fn scaled(array: &Named, asked: &Asked<'_>) -> Result<Vec<f64>, Wrong> {
+fn scaled(array: &NamedArray, asked: &Asked<'_>) -> Result<Vec<f64>, Wrong> {
     if array.components != 1 {
         let message = format!("its array `{}` has {} components", asked.name, array.components);
         return Err(Wrong::new(message, "an array of one component"));

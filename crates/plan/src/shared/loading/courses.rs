@@ -119,7 +119,7 @@ fn of_condition(c: &Condition) -> Vec<Prescribed> {
     let Some(set) = c.set.as_ref().map(Spanned::get_ref) else { return Vec::new() };
     let value = |points: &[(f64, f64)]| {
         let (times, values) = points.iter().copied().unzip();
-        Course::of(Table::new(times, values))
+        Course::from_table(Table::new(times, values))
     };
     let axes = ["x", "y", "z"].into_iter().zip([&c.x, &c.y, &c.z]);
     let motions = axes.filter_map(|(axis, motion)| {
@@ -127,7 +127,7 @@ fn of_condition(c: &Condition) -> Vec<Prescribed> {
         let course = match motion {
             Motion::Table(points) => value(points),
             Motion::Rate(Pace::Table(rates)) | Motion::Spring { rate: Pace::Table(rates), .. } => {
-                Course::of_rates(rates)
+                Course::from_rates(rates)
             }
             _ => return None,
         };

@@ -10,12 +10,12 @@ use crate::reading::scene::units::{self, Dimension, Length};
 use crate::reading::scene::unprintable::is_unprintable;
 use crate::reading::sniff::{self, Reader};
 use asperity_fem::element::ElementKind;
-use asperity_fem::mesh::coarser::{Coarser, CoarserError};
+use asperity_fem::mesh::coarsening::{Coarsening, CoarseningError};
 use asperity_fem::mesh::curve::{Curve, Profile, bend};
 use asperity_fem::mesh::extrude::{ExtrudeError, extrude};
 use asperity_fem::mesh::fault::{Departure, FaultMesh, FaultMeshError, Interpolation, Spacing};
 use asperity_fem::mesh::generate::{Block, Grading, Grid, SIDES, divisions_for};
-use asperity_fem::mesh::{GroupTag, LeftOut, Mesh, MeshError, Options, RawMesh, abaqus, gmsh};
+use asperity_fem::mesh::{GroupTag, Mesh, MeshError, OmittedElements, Options, RawMesh, abaqus, gmsh};
 use asperity_mechanics::Model;
 use scene::Spanned;
 use std::collections::BTreeSet;
@@ -183,9 +183,9 @@ fn coarser<const D: usize>(
 ) -> Result<Mesh<D>, Diagnostic> {
     let side = side::<D>(spec.from.get_ref(), spec.from.span())?;
     let beyond = spec.beyond.get_ref().iter().map(|x| x.0).collect();
-    Coarser { side, beyond }.mesh(grid).map_err(|e| {
+    Coarsening { side, beyond }.mesh(grid).map_err(|e| {
         let place = match e {
-            CoarserError::Element(_) => block.element.span(),
+            CoarseningError::Element(_) => block.element.span(),
             _ => spec.beyond.span(),
         };
         Diagnostic::body(name, place, e.to_string())
@@ -465,8 +465,8 @@ fn asked_of(scene: &scene::Scene, file: &str) -> Option<Vec<String>> {
 }
 
 /// Elements of a file that no mesh has, in words.
-pub(crate) fn in_words(left: &LeftOut) -> String {
-    let LeftOut { kind, count, element, read } = left;
+pub(crate) fn in_words(left: &OmittedElements) -> String {
+    let OmittedElements { kind, count, element, read } = left;
     let (elements, are, faces) =
         if *count == 1 { ("element", "is", "face") } else { ("elements", "are", "faces") };
     let first = if *count == 1 { "element" } else { "the first is element" };

@@ -5,19 +5,19 @@ use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{PointSpec, Scene, Spanned};
 use asperity_fem::mesh::locate;
 use asperity_mechanics::coordinates::in_words;
-use asperity_mechanics::{ForceSet, Point, Wanted};
+use asperity_mechanics::{ForceSet, Point, SampleRequest};
 
 /// Locates the points and sets of a scene.
 ///
 /// # Errors
 /// [`Diagnostic`] for a point outside its body or a set that does not exist.
-pub fn find<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Wanted, Diagnostic> {
+pub fn find<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<SampleRequest, Diagnostic> {
     let points = scene.output.points.iter().map(|(name, spec)| point(model, name, spec));
     let forces = scene.output.forces.iter().map(|(name, spec)| {
         let set = &spec.get_ref().set;
-        Ok::<_, Diagnostic>(ForceSet::new(model, (name, set.get_ref()), model::nodes(model, set)?))
+        Ok::<_, Diagnostic>(ForceSet::new(model, name, set.get_ref(), model::nodes(model, set)?))
     });
-    Ok(Wanted { points: points.collect::<Result<_, _>>()?, forces: forces.collect::<Result<_, _>>()? })
+    Ok(SampleRequest { points: points.collect::<Result<_, _>>()?, forces: forces.collect::<Result<_, _>>()? })
 }
 
 fn point<const D: usize>(
@@ -48,5 +48,5 @@ fn point<const D: usize>(
             format!("the body lies between {} and {}", in_words(&min), in_words(&max)),
         )
     })?;
-    Ok(Point::new(model, (name, &body.name), position, &found))
+    Ok(Point::new(model, name, &body.name, position, &found))
 }

@@ -19,7 +19,7 @@
 use super::{Coarsest, ENOUGH, FEW, Resolution, TOO_FEW};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::LawChoice;
-use crate::reading::scene::model::{Fault as Spec, UnderResolved};
+use crate::reading::scene::model::{Fault as Spec, UnderResolution};
 use crate::shared::model::Model;
 use crate::shared::words::length;
 use asperity_cycles::medium::Place;
@@ -187,7 +187,7 @@ pub(crate) fn check(found: &Resolution, spec: &Spec, in_space: bool) -> Result<O
         length(zone.length / ENOUGH)
     );
     let place = spec.law.span();
-    let allowed = spec.under_resolved.as_ref().map(|u| *u.get_ref()) == Some(UnderResolved::Allow);
+    let allowed = spec.under_resolved.as_ref().map(|u| *u.get_ref()) == Some(UnderResolution::Allow);
     if zone.points < TOO_FEW && !allowed {
         let message = format!("{message}, so that each fails independently: events are those of the mesh");
         let help = format!("{enough}; or `under_resolved = \"allow\"` at the fault");

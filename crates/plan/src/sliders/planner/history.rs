@@ -3,7 +3,7 @@
 use super::Planner;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::Entry;
-use crate::reading::scene::model::{Spanned, Tabled};
+use crate::reading::scene::model::{Spanned, TimeSeries};
 use crate::reading::scene::slider::Course;
 use crate::reading::scene::units::Pressure;
 use asperity_friction::slider::History;
@@ -66,7 +66,7 @@ impl Planner {
     }
 
     /// Checks that the times of a table in a file increase.
-    fn order_in_file(&mut self, table: &Tabled, place: Range<usize>, name: &str) -> Option<()> {
+    fn order_in_file(&mut self, table: &TimeSeries, place: Range<usize>, name: &str) -> Option<()> {
         if let Some(w) = table.windows(2).find(|w| w[1].0 < w[0].0) {
             let message =
                 format!("the times of `{name}` do not increase: {:?} s after {:?} s", w[1].0, w[0].0);

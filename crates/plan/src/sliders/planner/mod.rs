@@ -114,7 +114,7 @@ impl Planner {
             problem.most_events = spec.stop_after.as_ref().map(|n| *n.get_ref());
         }
         let mut plan = Plan::from(problem);
-        let theta = |law| laws::choose_sliding(law).ok().and_then(|law| Theta::of(&law));
+        let theta = |law| laws::choose_sliding(law).ok().and_then(|law| Theta::from_law(&law));
         plan.thetas = scene.sliders.values().map(|spec| theta(&spec.get_ref().law)).collect();
         plan.warnings.clone_from(&scene.warnings);
         if let (Some(limits), Some(spec)) = (plan.problem.events, &scene.events) {

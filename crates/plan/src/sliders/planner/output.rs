@@ -3,7 +3,7 @@
 use super::Planner;
 use crate::reading::scene::model::Spanned;
 use crate::reading::scene::near;
-use crate::reading::scene::slider::{OutputSpec, Which};
+use crate::reading::scene::slider::{OutputSpec, SliderSelection};
 use asperity_cycles::slider::Rows;
 use asperity_scene::defaults;
 
@@ -19,9 +19,9 @@ impl Planner {
         };
         let times = self.times(spec, end);
         let histories = match &spec.histories {
-            None | Some(Which::All(true)) => None,
-            Some(Which::All(false)) => Some(Vec::new()),
-            Some(Which::Named(list)) => {
+            None | Some(SliderSelection::All(true)) => None,
+            Some(SliderSelection::All(false)) => Some(Vec::new()),
+            Some(SliderSelection::Named(list)) => {
                 let place = |name: &Spanned<String>| {
                     let found = names.iter().position(|n| n == name.get_ref());
                     found.or_else(|| {

@@ -9,7 +9,7 @@ use crate::reading::scene::slider::{SliderScene, SliderSpec, SpringSpec};
 use crate::shared::refused::refused;
 use crate::sliders::Plan;
 use asperity_cycles::slider::stability;
-use asperity_friction::slider::{History, Slider, Sliding, Spring, System};
+use asperity_friction::slider::{History, Slider, SliderLaw, Spring, System};
 use asperity_laws as laws;
 use asperity_run::Warning;
 use std::sync::Arc;
@@ -76,7 +76,7 @@ impl Planner {
         }
     }
 
-    fn law(&mut self, spec: &Spanned<LawSpec>) -> Option<Arc<dyn Sliding>> {
+    fn law(&mut self, spec: &Spanned<LawSpec>) -> Option<Arc<dyn SliderLaw>> {
         let choice: LawChoice = match laws::choose_sliding(spec) {
             Ok(choice) => choice,
             Err(errors) => {

@@ -10,7 +10,7 @@ use crate::shared::model::meshes;
 use asperity_cycles::kernel::{Segment, Space};
 use asperity_cycles::medium::patches::Patches;
 use asperity_cycles::medium::{Place, unit};
-use asperity_fem::mesh::fault::{Departure, Divided, FaultMeshError, divided};
+use asperity_fem::mesh::fault::{Departure, DividedLine, FaultMeshError, divided};
 
 /// Cells of all faults.
 ///
@@ -78,7 +78,7 @@ fn cells(name: &str, line: &FaultLine) -> Result<(Vec<Cell>, Option<Departure>),
     let trace: Vec<[f64; 2]> = line.trace.get_ref().iter().map(|x| x.map(|c| c.0)).collect();
     let found =
         divided(&trace, meshes::interpolation(line.interpolation), &meshes::spacing(line.spacing.get_ref()));
-    let Divided { mut places, mut along, departure } = found.map_err(|e| {
+    let DividedLine { mut places, mut along, departure } = found.map_err(|e| {
         let doubled = matches!(e, FaultMeshError::Doubled { .. });
         let help = if doubled { "remove one of the two" } else { "see `line` of faults" };
         Diagnostic::at(line.trace.span(), format!("fault `{name}`: {e}"), help)

@@ -10,14 +10,14 @@ use std::ops::Deref;
 
 /// A value over time: pairs of time since the stage began \[s\] and value in SI units, linear in between.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Tabled {
+pub struct TimeSeries {
     /// The pairs; those of a file once it has been read.
     points: Vec<(f64, f64)>,
     /// The file that has them.
     file: Option<TableFile>,
 }
 
-impl Tabled {
+impl TimeSeries {
     /// A table that a file has.
     #[must_use]
     pub fn in_file(file: TableFile) -> Self {
@@ -36,13 +36,13 @@ impl Tabled {
     }
 }
 
-impl From<Vec<(f64, f64)>> for Tabled {
+impl From<Vec<(f64, f64)>> for TimeSeries {
     fn from(points: Vec<(f64, f64)>) -> Self {
         Self { points, file: None }
     }
 }
 
-impl Deref for Tabled {
+impl Deref for TimeSeries {
     type Target = [(f64, f64)];
 
     fn deref(&self) -> &Self::Target {
@@ -70,7 +70,7 @@ pub struct TableFile {
 /// A table that a file may fill.
 pub(crate) struct TableOver<'a> {
     /// The table.
-    pub table: &'a mut Tabled,
+    pub table: &'a mut TimeSeries,
     /// Dimension of its values.
     pub dimension: Dimension,
     /// Keys under which it stands, as the table of plausible values has them.
@@ -85,11 +85,7 @@ pub(crate) struct TableOver<'a> {
 /// `None` if it has no entry there. Of two entries at one time, a jump, the stage has that within it. Values that `hold` are those
 /// of the entry before, others linear in between.
 #[must_use]
-pub fn part(
-    points: &[(f64, f64)],
-    from: f64,
-    (duration, hold): (Option<f64>, bool),
-) -> Option<Vec<(f64, f64)>> {
+pub fn part(points: &[(f64, f64)], from: f64, duration: Option<f64>, hold: bool) -> Option<Vec<(f64, f64)>> {
     let end = duration.map_or(f64::INFINITY, |duration| from + duration);
     let begin = points.partition_point(|p| p.0 <= from);
     let stop = points.partition_point(|p| p.0 < end);
@@ -114,7 +110,7 @@ mod tests {
     #[test]
     fn parts_of_a_record_meet_where_stages_do() {
         let stages = [(0.0, 4.0), (4.0, 8.0), (12.0, 8.0)]
-            .map(|(from, t)| part(&RECORD, from, (Some(t), false)).unwrap());
+            .map(|(from, t)| part(&RECORD, from, Some(t), false).unwrap());
         assert_eq!(stages[0], [(0.0, 1.0), (4.0, 1.8)]);
         assert_eq!(stages[1], [(0.0, 1.8), (6.0, 3.0), (6.0, 5.0), (8.0, 5.0)]);
         assert_eq!(stages[2], [(0.0, 5.0), (8.0, 5.0)]);
@@ -122,20 +118,20 @@ mod tests {
 
     #[test]
     fn a_jump_at_a_joint_belongs_to_neither_stage() {
-        assert_eq!(part(&RECORD, 8.0, (Some(2.0), false)).unwrap(), [(0.0, 2.6), (2.0, 3.0)]);
-        assert_eq!(part(&RECORD, 10.0, (Some(5.0), false)).unwrap(), [(0.0, 5.0), (5.0, 5.0)]);
+        assert_eq!(part(&RECORD, 8.0, Some(2.0), false).unwrap(), [(0.0, 2.6), (2.0, 3.0)]);
+        assert_eq!(part(&RECORD, 10.0, Some(5.0), false).unwrap(), [(0.0, 5.0), (5.0, 5.0)]);
     }
 
     #[test]
     fn a_value_that_holds_is_that_of_the_entry_before() {
-        assert_eq!(part(&RECORD, 4.0, (None, true)).unwrap()[..2], [(0.0, 1.0), (6.0, 3.0)]);
+        assert_eq!(part(&RECORD, 4.0, None, true).unwrap()[..2], [(0.0, 1.0), (6.0, 3.0)]);
     }
 
     #[test]
     fn a_record_may_begin_late_or_end_early_within_its_stage() {
-        assert_eq!(part(&RECORD[1..], 5.0, (Some(2.0), false)), None);
-        assert_eq!(part(&RECORD, 15.0, (Some(50.0), false)).unwrap(), [(0.0, 5.0), (5.0, 5.0)]);
-        assert_eq!(part(&RECORD, 15.0, (None, false)).unwrap(), [(0.0, 5.0), (5.0, 5.0)]);
-        assert_eq!(part(&RECORD, 20.0, (Some(1.0), false)), None);
+        assert_eq!(part(&RECORD[1..], 5.0, Some(2.0), false), None);
+        assert_eq!(part(&RECORD, 15.0, Some(50.0), false).unwrap(), [(0.0, 5.0), (5.0, 5.0)]);
+        assert_eq!(part(&RECORD, 15.0, None, false).unwrap(), [(0.0, 5.0), (5.0, 5.0)]);
+        assert_eq!(part(&RECORD, 20.0, Some(1.0), false), None);
     }
 }

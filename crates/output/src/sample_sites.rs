@@ -7,7 +7,7 @@ use super::view::{ForceMark, PointMark, Samples, SpringMark};
 
 /// Points, sets and springs that are sampled.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Sampled {
+pub struct SampleSites {
     /// Points.
     pub points: Vec<PointMark>,
     /// Sets whose forces are sampled.
@@ -18,7 +18,7 @@ pub struct Sampled {
     pub unit: &'static str,
 }
 
-impl Sampled {
+impl SampleSites {
     /// Paths of the files below the folder of a run, with their columns: points, then forces, then springs.
     #[must_use]
     pub fn tables(&self) -> Vec<(String, Vec<Column>)> {
@@ -37,7 +37,7 @@ impl Sampled {
 
     /// Row of each file at a time \[s\] of a stage, after a number of steps.
     #[must_use]
-    pub fn rows(&self, (time, stage, step): (f64, usize, u64), samples: &Samples) -> Vec<String> {
+    pub fn rows(&self, time: f64, stage: usize, step: u64, samples: &Samples) -> Vec<String> {
         let when = || [format!("{time:.14e}"), stage.to_string(), step.to_string()].into_iter();
         let row = |values: &[f64]| line(when().chain(values.iter().map(|&v| number(v))));
         let points = samples.points.iter().map(|p| row(&point_values(p)));

@@ -2,7 +2,7 @@
 
 use super::super::paper::Paper;
 use super::super::{pdf, png, svg};
-use super::event::OfEvent;
+use super::event::EventOnset;
 use crate::plots::figure::Figure;
 
 /// Format of a figure.
@@ -38,7 +38,7 @@ impl Format {
 
 /// Figures that are wanted, and their form.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked {
+pub struct FigureRequest {
     /// Names of figures; all if there is none.
     pub names: Vec<String>,
     /// Width and height of figures \[mm\].
@@ -58,7 +58,7 @@ const UNITS: f64 = 96.0;
 /// Millimetres in an inch.
 const INCH: f64 = 25.4;
 
-impl Default for Asked {
+impl Default for FigureRequest {
     /// Figures as a run draws them.
     fn default() -> Self {
         Self {
@@ -72,7 +72,7 @@ impl Default for Asked {
     }
 }
 
-impl Asked {
+impl FigureRequest {
     /// Pixels per inch of the figures of a run.
     pub const DPI: f64 = 2.0 * UNITS;
     /// Smallest width and height \[mm\]: the narrowest column of journals, in which texts are as small as journals allow.
@@ -89,7 +89,7 @@ impl Asked {
     /// Paper on which texts have their size.
     pub(super) fn paper(&self) -> Paper {
         let units = UNITS / INCH / self.shrinks();
-        Paper::of(self.size.map(|[width, height]| (width * units, height * units)))
+        Paper::new(self.size.map(|[width, height]| (width * units, height * units)))
     }
 
     /// True if a figure of this name is wanted.
@@ -103,7 +103,7 @@ impl Asked {
     }
 
     /// True if the figures of an event are wanted.
-    pub(super) fn takes(&self, event: &OfEvent) -> bool {
+    pub(super) fn takes(&self, event: &EventOnset) -> bool {
         self.shows(event.onset) && (self.events.is_empty() || self.events.contains(&(event.number + 1)))
     }
 

@@ -5,14 +5,14 @@ use crate::mesh::error::MeshError;
 
 /// Placing of an instance.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Placing {
+pub(super) struct Placement {
     translation: [f64; 3],
     /// Two points of the axis, and the angle \[rad\].
     rotation: Option<([[f64; 3]; 2], f64)>,
     lines: usize,
 }
 
-impl Placing {
+impl Placement {
     /// Takes a data line: the first is the translation, the second the rotation.
     pub(super) fn line(&mut self, values: &[&str], line: usize, keyword: &Keyword) -> Result<(), MeshError> {
         let wrong = |expected| keyword.syntax(line, expected, &values.join(", "));
@@ -34,7 +34,7 @@ impl Placing {
     }
 
     /// Position of a point of the part; unchanged bits where the instance is not moved.
-    pub(super) fn of(&self, x: [f64; 3]) -> [f64; 3] {
+    pub(super) fn apply(&self, x: [f64; 3]) -> [f64; 3] {
         let moved: [f64; 3] = std::array::from_fn(|c| x[c] + self.translation[c]);
         let Some(([a, b], angle)) = &self.rotation else { return moved };
         let along: [f64; 3] = std::array::from_fn(|c| b[c] - a[c]);

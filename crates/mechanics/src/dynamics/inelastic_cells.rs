@@ -3,7 +3,7 @@
 use super::budget::Work;
 use crate::{CellBlock, Model};
 use asperity_fem::nonlinear::{Block, Material};
-use asperity_fem::term::{Instant, Refusal, Saved as _, Term as _};
+use asperity_fem::term::{Instant, Refusal, Restorable as _, Term as _};
 use serde::{Deserialize, Serialize};
 
 /// Works of the forces of these cells.
@@ -16,7 +16,7 @@ pub(super) struct Works {
 }
 
 /// Cells with a history. Without any, all vectors are empty.
-pub(super) struct Inelastic<const D: usize> {
+pub(super) struct InelasticCells<const D: usize> {
     blocks: Vec<Block<D>>,
     /// All forces \[N\].
     forces: Vec<f64>,
@@ -32,7 +32,7 @@ pub(super) struct Inelastic<const D: usize> {
     along: f64,
 }
 
-impl<const D: usize> Inelastic<D> {
+impl<const D: usize> InelasticCells<D> {
     /// Cells of a model. In `balance` the stress at the start moves nothing, as that of elastic cells beside faults, where it
     /// only determines tractions.
     ///
@@ -53,9 +53,7 @@ impl<const D: usize> Inelastic<D> {
         };
         if balance {
             let rest = zeros(true);
-            result
-                .evaluate((&rest, &rest), Instant { time: 0.0, dt: 0.0 }, 0.0)
-                .map_err(|r| r.to_string())?;
+            result.evaluate(&rest, &rest, Instant { time: 0.0, dt: 0.0 }, 0.0).map_err(|r| r.to_string())?;
             result.blocks.iter_mut().for_each(Block::reject);
             result.balanced = result.forces.clone();
         }
@@ -70,7 +68,8 @@ impl<const D: usize> Inelastic<D> {
     /// Computes the forces at displacements and the velocities before the step, with the relaxation time of viscosity \[s\].
     pub fn evaluate(
         &mut self,
-        (u, velocity): (&[f64], &[f64]),
+        u: &[f64],
+        velocity: &[f64],
         at: Instant,
         relaxation: f64,
     ) -> Result<(), Refusal> {

@@ -20,7 +20,7 @@ pub struct Rotation {
 
 /// Degrees of freedom on which a rotation acts.
 #[derive(Clone, Debug)]
-pub struct Turning {
+pub struct RotatedSet {
     /// Degrees of freedom of one component.
     pub dofs: Vec<usize>,
     /// Reference positions of their nodes \[m\].
@@ -39,9 +39,9 @@ fn parts(r: &[f64; 3], a: &[f64; 3]) -> ([f64; 3], [f64; 3]) {
     (across, turned)
 }
 
-impl Turning {
+impl RotatedSet {
     /// Channels of the motion from `start` to `end`, relative to the displacement `u0` at the start.
-    pub fn channels(&self, (start, end): (f64, f64), u0: &[f64]) -> [Channel; 2] {
+    pub fn channels(&self, start: f64, end: f64, u0: &[f64]) -> [Channel; 2] {
         let n = self.components;
         let place = |k: usize| -> [f64; 3] {
             let first = self.dofs[k] / n * n;
@@ -88,9 +88,9 @@ mod tests {
             Rotation { angle: 2.0 * std::f64::consts::PI / 3.0, about: [1.0, 2.0, 3.0], axis: [s; 3] };
         let u0 = [0.5, -1.0, 0.25];
         let turned: Vec<_> = (0..3)
-            .map(|c| Turning { dofs: vec![c], places: vec![[2.0, 4.0, 6.0]], components: 3, rotation })
+            .map(|c| RotatedSet { dofs: vec![c], places: vec![[2.0, 4.0, 6.0]], components: 3, rotation })
             .collect();
-        let mut channels: Vec<Channel> = turned.iter().flat_map(|t| t.channels((1.0, 3.0), &u0)).collect();
+        let mut channels: Vec<Channel> = turned.iter().flat_map(|t| t.channels(1.0, 3.0, &u0)).collect();
         channels.push(Channel {
             prescribed: u0.iter().copied().enumerate().collect(),
             forces: Vec::new(),

@@ -8,9 +8,9 @@ use std::collections::BTreeMap;
 
 /// Position of a sample.
 #[derive(Clone, Copy, Debug)]
-struct At([f64; 2]);
+struct SamplePosition([f64; 2]);
 
-impl HasPosition for At {
+impl HasPosition for SamplePosition {
     type Scalar = f64;
 
     fn position(&self) -> Point2<f64> {
@@ -42,8 +42,8 @@ const ON_BORDER: f64 = 1e-9;
 
 /// Samples of a plane with the Delaunay triangles between them, without flat ones at the border, which bridge its bays.
 #[derive(Debug)]
-pub struct Scattered {
-    triangulation: DelaunayTriangulation<At>,
+pub struct ScatteredSamples {
+    triangulation: DelaunayTriangulation<SamplePosition>,
     /// Distinct positions, with their values.
     samples: Vec<[f64; 3]>,
     /// Corners of the triangles by their number in the triangulation.
@@ -54,13 +54,13 @@ pub struct Scattered {
     middle: [f64; 2],
 }
 
-impl Scattered {
+impl ScatteredSamples {
     /// Triangles between samples, each with two coordinates and a value. Samples may be repeated.
     ///
     /// # Errors
     /// [`ScatterError`] if the samples span no surface or contradict each other.
     pub fn new(samples: &[[f64; 3]]) -> Result<Self, ScatterError> {
-        let mut triangulation: DelaunayTriangulation<At> = DelaunayTriangulation::new();
+        let mut triangulation: DelaunayTriangulation<SamplePosition> = DelaunayTriangulation::new();
         let mut kept: Vec<[f64; 3]> = Vec::new();
         for &[x, y, value] in samples {
             if let Some(vertex) = triangulation.locate_vertex(Point2::new(x, y)) {
@@ -71,10 +71,10 @@ impl Scattered {
                 continue;
             }
             let few = |_| ScatterError::Few { positions: kept.len() };
-            triangulation.insert(At([x, y])).map_err(few)?;
+            triangulation.insert(SamplePosition([x, y])).map_err(few)?;
             kept.push([x, y, value]);
         }
-        let corners = |face: FaceHandle<'_, InnerTag, At, (), (), ()>| {
+        let corners = |face: FaceHandle<'_, InnerTag, SamplePosition, (), (), ()>| {
             (face.index(), face.vertices().map(|vertex| vertex.index()))
         };
         let faces = trimmed(&kept, triangulation.inner_faces().map(corners).collect());
@@ -163,9 +163,9 @@ mod tests {
     use super::*;
 
     /// Corners and middle of a square of 2, with the value x + 10 y.
-    fn square() -> Scattered {
+    fn square() -> ScatteredSamples {
         let at = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0], [1.0, 1.0]];
-        Scattered::new(&at.map(|[x, y]| [x, y, x + 10.0 * y])).unwrap()
+        ScatteredSamples::new(&at.map(|[x, y]| [x, y, x + 10.0 * y])).unwrap()
     }
 
     #[test]
@@ -186,9 +186,10 @@ mod tests {
 
     #[test]
     fn samples_that_contradict_each_other_or_lie_on_a_line_are_refused() {
-        let twice = Scattered::new(&[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0], [0.0, 0.0, 2.0]]);
+        let twice =
+            ScatteredSamples::new(&[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0], [0.0, 0.0, 2.0]]);
         assert_eq!(twice.unwrap_err(), ScatterError::Twice { at: [0.0; 2], values: [1.0, 2.0] });
-        let line = Scattered::new(&[[0.0, 0.0, 1.0], [1.0, 1.0, 2.0], [2.0, 2.0, 3.0]]);
+        let line = ScatteredSamples::new(&[[0.0, 0.0, 1.0], [1.0, 1.0, 2.0], [2.0, 2.0, 3.0]]);
         assert_eq!(line.unwrap_err(), ScatterError::Few { positions: 3 });
     }
 }

@@ -27,7 +27,7 @@ const JOINED: usize = 3;
 
 /// Distances from a side of a block beyond which its cells become larger.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Coarser {
+pub struct Coarsening {
     /// Axis, and end of the axis, of the side at which the cells are those of the grid.
     pub side: [usize; 2],
     /// Distances from the side, ascending: beyond each of them three cells become one along every axis of the side \[m\].
@@ -36,7 +36,7 @@ pub struct Coarser {
 
 /// Reasons why cells cannot be joined.
 #[derive(Debug, thiserror::Error)]
-pub enum CoarserError {
+pub enum CoarseningError {
     /// Another element.
     #[error("cells of `{0}` cannot be joined: `quad4` and `hex8` can")]
     Element(&'static str),
@@ -81,53 +81,53 @@ pub enum CoarserError {
     Grid(#[from] FemError),
 }
 
-impl Coarser {
+impl Coarsening {
     /// The mesh of a grid whose cells are joined. Cells stay as they are where the joined ones would be longer than their
     /// distance from the side.
     ///
     /// # Errors
-    /// [`CoarserError`].
-    pub fn mesh<const D: usize>(&self, grid: &Grid<D>) -> Result<Mesh<D>, CoarserError> {
+    /// [`CoarseningError`].
+    pub fn mesh<const D: usize>(&self, grid: &Grid<D>) -> Result<Mesh<D>, CoarseningError> {
         if !matches!(grid.kind, ElementKind::Quad4 | ElementKind::Hex8) {
-            return Err(CoarserError::Element(grid.kind.name()));
+            return Err(CoarseningError::Element(grid.kind.name()));
         }
         if self.beyond.is_empty() {
-            return Err(CoarserError::Empty);
+            return Err(CoarseningError::Empty);
         }
         grid.check()?;
         if layer_of(&grid.lines, self.side[0]) > MOST_CELLS as f64 {
-            return Err(CoarserError::TooMany);
+            return Err(CoarseningError::TooMany);
         }
-        let mut built = Built::new(grid, self.side);
-        for join in self.joins(&built)? {
-            let cells = built.connectivity.len() / grid.kind.nodes();
-            if cells as f64 + layer_of(&built.lines, self.side[0]) > MOST_CELLS as f64 {
-                return Err(CoarserError::TooMany);
+        let mut stack = LayerStack::new(grid, self.side);
+        for join in self.joins(&stack)? {
+            let cells = stack.connectivity.len() / grid.kind.nodes();
+            if cells as f64 + layer_of(&stack.lines, self.side[0]) > MOST_CELLS as f64 {
+                return Err(CoarseningError::TooMany);
             }
-            built.layer(join)?;
+            stack.layer(join)?;
         }
-        let mut mesh = Mesh { nodes: built.nodes, ..Mesh::default() };
-        mesh.blocks.push(Cells { kind: grid.kind, connectivity: built.connectivity });
+        let mut mesh = Mesh { nodes: stack.nodes, ..Mesh::default() };
+        mesh.blocks.push(Cells { kind: grid.kind, connectivity: stack.connectivity });
         name_sides(&grid.lines, &mut mesh);
         Ok(mesh)
     }
 
     /// For each layer of cells, the axis along which it joins them and the distance that asks for it, if any.
-    fn joins<const D: usize>(&self, built: &Built<D>) -> Result<Vec<Option<Join>>, CoarserError> {
-        let layers = built.heights.len() - 1;
-        let depth = built.depth(layers);
+    fn joins<const D: usize>(&self, stack: &LayerStack<D>) -> Result<Vec<Option<Join>>, CoarseningError> {
+        let layers = stack.heights.len() - 1;
+        let depth = stack.depth(layers);
         let mut joins = vec![None; layers];
         let (mut next, mut last) = (0, 0.0);
         for &beyond in &self.beyond {
             if !(beyond.is_finite() && beyond > last) {
-                return Err(CoarserError::Distance(beyond));
+                return Err(CoarseningError::Distance(beyond));
             }
             last = beyond;
             // Decimal input: a line that is meant to lie at the distance may be rounded to below it.
             let first =
-                (next..layers).find(|&k| built.depth(k) >= beyond * (1.0 - ROUNDING)).unwrap_or(layers);
+                (next..layers).find(|&k| stack.depth(k) >= beyond * (1.0 - ROUNDING)).unwrap_or(layers);
             if layers - first < D - 1 {
-                return Err(CoarserError::Layers { beyond, layers: layers - first, needed: D - 1, depth });
+                return Err(CoarseningError::Layers { beyond, layers: layers - first, needed: D - 1, depth });
             }
             for (k, axis) in (0..D).filter(|&axis| axis != self.side[0]).enumerate() {
                 joins[first + k] = Some(Join { axis, beyond });
@@ -152,7 +152,7 @@ struct Join {
 }
 
 /// Layers built so far, from the side inwards.
-struct Built<const D: usize> {
+struct LayerStack<const D: usize> {
     side: [usize; 2],
     /// Positions of the layers along the axis of the side, from the side \[m\].
     heights: Vec<f64>,
@@ -166,7 +166,7 @@ struct Built<const D: usize> {
     connectivity: Vec<usize>,
 }
 
-impl<const D: usize> Built<D> {
+impl<const D: usize> LayerStack<D> {
     fn new(grid: &Grid<D>, side: [usize; 2]) -> Self {
         let [axis, end] = side;
         let mut heights = grid.lines[axis].clone();
@@ -175,7 +175,7 @@ impl<const D: usize> Built<D> {
         }
         let mut lines = grid.lines.clone();
         lines[axis] = vec![heights[0]];
-        let mut built = Self {
+        let mut stack = Self {
             side,
             heights,
             lines,
@@ -184,8 +184,8 @@ impl<const D: usize> Built<D> {
             nodes: Vec::new(),
             connectivity: Vec::new(),
         };
-        built.level = built.add(&built.lines.clone());
-        built
+        stack.level = stack.add(&stack.lines.clone());
+        stack
     }
 
     /// Distance of a level from the side \[m\].
@@ -205,7 +205,7 @@ impl<const D: usize> Built<D> {
     }
 
     /// Adds a layer of cells.
-    fn layer(&mut self, join: Option<Join>) -> Result<(), CoarserError> {
+    fn layer(&mut self, join: Option<Join>) -> Result<(), CoarseningError> {
         let (near, far) = (self.heights[self.layers], self.heights[self.layers + 1]);
         // Without a join the cells of any axis of the side may be taken as columns.
         let along = join.map_or(usize::from(self.side[0] == 0), |join| join.axis);
@@ -214,7 +214,7 @@ impl<const D: usize> Built<D> {
             Some(join) => {
                 let longest = self.depth(self.layers);
                 columns(&self.lines[along], longest)
-                    .ok_or(CoarserError::Long { beyond: join.beyond, axis: AXES[along] })?
+                    .ok_or(CoarseningError::Long { beyond: join.beyond, axis: AXES[along] })?
             }
         };
         let mut lines = self.lines.clone();

@@ -5,25 +5,29 @@ use crate::{CellBlock, Model};
 use asperity_fem::FemError;
 use asperity_fem::block::LinearBlock;
 use asperity_fem::kinematics::Formulation;
-use asperity_fem::matrix_free::{Highest, highest_frequency};
+use asperity_fem::matrix_free::{HighestFrequency, highest_frequency};
 
 /// The largest stable step, and the cell that sets it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stable {
+pub struct StableStep {
     /// Largest stable step Δt = 2/(ω √(1 + 2β)) \[s\].
     pub step: f64,
     /// Cell of the highest frequency.
-    pub highest: Highest,
+    pub highest: HighestFrequency,
 }
 
 /// Returns the largest stable step for densities of each block \[kg/m³\] and a viscosity β \[-\].
 ///
 /// # Errors
 /// [`FemError::LumpedMass`].
-pub fn stable<const D: usize>(model: &Model<D>, density: &[f64], viscosity: f64) -> Result<Stable, FemError> {
+pub fn stable<const D: usize>(
+    model: &Model<D>,
+    density: &[f64],
+    viscosity: f64,
+) -> Result<StableStep, FemError> {
     let elastic = elastic_blocks(model)?;
     let highest = highest_frequency(&model.mesh, &elastic.iter().collect::<Vec<_>>(), density)?;
-    Ok(Stable { step: 2.0 / (highest.frequency * (1.0 + 2.0 * viscosity).sqrt()), highest })
+    Ok(StableStep { step: 2.0 / (highest.frequency * (1.0 + 2.0 * viscosity).sqrt()), highest })
 }
 
 /// Elastic cells of every block; those of other materials respond to the first strain as these do.
@@ -47,7 +51,7 @@ fn elastic_blocks<const D: usize>(model: &Model<D>) -> Result<Vec<LinearBlock<D>
 impl<const D: usize> Problem<D> {
     /// Length of the steps of a stage: a whole number of them, each within the stable step \[s\].
     #[must_use]
-    pub fn step_of(&self, stage: usize, stable: &Stable) -> f64 {
+    pub fn step_of(&self, stage: usize, stable: &StableStep) -> f64 {
         let duration = self.stages[stage].end - self.stages[stage].start;
         duration / (duration / (self.courant * stable.step)).ceil().max(1.0)
     }

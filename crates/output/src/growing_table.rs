@@ -8,14 +8,14 @@ use std::path::{Path, PathBuf};
 
 /// A table that grows by whole rows.
 #[derive(Debug)]
-pub struct Growing {
+pub struct GrowingTable {
     path: PathBuf,
     file: fs::File,
     /// Bytes written so far.
     bytes: u64,
 }
 
-impl Growing {
+impl GrowingTable {
     /// Creates a table with its header.
     ///
     /// # Errors

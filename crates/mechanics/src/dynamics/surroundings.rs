@@ -1,14 +1,14 @@
 //! Surroundings of a fault in a step: its nodes and their motion.
 
-use super::nodes::{Special, dot};
+use super::nodes::{SpecialNode, dot};
 use super::split::SplitPoint;
 
 /// Mobility over that of free nodes below which a point is held: the square of the rounding of unit vectors is far below, absorbing sides far above.
 const HELD: f64 = 1e-12;
 
 /// Surroundings of the points of a fault: the special nodes of each, and the step.
-pub(super) struct Between<'a> {
-    pub nodes: &'a [Special],
+pub(super) struct FaultSurroundings<'a> {
+    pub nodes: &'a [SpecialNode],
     /// Accelerations without the change of tractions; the tractions add theirs \[m/s²\].
     pub acceleration: &'a mut [[f64; 3]],
     /// Velocities at the half step before \[m/s\].
@@ -31,7 +31,7 @@ pub(super) struct Between<'a> {
     pub first: bool,
 }
 
-impl Between<'_> {
+impl FaultSurroundings<'_> {
     /// Difference plus - minus of values at the nodes of a point, along a unit vector.
     pub fn jump(&self, values: &[[f64; 3]], point: usize, e: &[f64; 3]) -> f64 {
         let [minus, plus] = self.pairs[point];
@@ -58,7 +58,7 @@ pub(super) struct Mobility {
 
 impl Mobility {
     /// Mobility of a point between its special nodes.
-    pub fn new(point: &SplitPoint, pair: [&Special; 2]) -> Self {
+    pub fn new(point: &SplitPoint, pair: [&SpecialNode; 2]) -> Self {
         let of = |e: &[f64; 3]| point.area * (pair[0].along(e) + pair[1].along(e));
         let free: f64 = pair.iter().map(|s| point.area / s.mass).sum();
         let slides = |e: &[f64; 3]| Some(of(e)).filter(|mobility| *mobility > HELD * free);

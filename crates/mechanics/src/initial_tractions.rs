@@ -4,14 +4,14 @@ use asperity_contact::StartTraction;
 
 /// Initial tractions of the slave points of an interface.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Pressed {
+pub struct InitialTractions {
     /// Tractions of each point: at the node, and averaged over the area of the node \[Pa\].
     pub points: Vec<([f64; 3], [f64; 3])>,
     /// Gaps and overlaps up to this size are closed at the start \[m\].
     pub reach: f64,
 }
 
-impl Pressed {
+impl InitialTractions {
     /// Tractions in the form of the contact crate.
     #[must_use]
     pub fn starts<const D: usize>(&self) -> Vec<StartTraction<D>> {

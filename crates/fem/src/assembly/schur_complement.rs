@@ -18,7 +18,7 @@ pub(super) const ROUNDING: f64 = 16.0 * f64::EPSILON;
 pub(super) type Entry = (usize, usize, f64);
 
 #[derive(Debug)]
-pub(super) struct Eliminated {
+pub(super) struct SchurComplement {
     gone: Vec<usize>,
     rest: Vec<usize>,
     /// Position of each equation in `rest`, or [`Equations::FIXED`].
@@ -30,7 +30,7 @@ pub(super) struct Eliminated {
     schur: Mat<f64>,
 }
 
-impl Eliminated {
+impl SchurComplement {
     /// Keeps the equations of `kept` and eliminates the others; `None` if these are not positive definite by themselves.
     pub fn new(constant: &Mat<f64>, kept: &[bool]) -> Option<Self> {
         let (rest, gone): (Vec<usize>, Vec<usize>) = (0..kept.len()).partition(|&k| kept[k]);

@@ -4,7 +4,7 @@ use asperity_contact::Enforcement;
 
 /// Enforcement of the constraints of an interface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Enforced {
+pub enum PlannedEnforcement {
     /// Penalty.
     Penalty,
     /// Multipliers that are updated between solutions.
@@ -21,7 +21,7 @@ pub enum Enforced {
     },
 }
 
-impl Enforced {
+impl PlannedEnforcement {
     /// Number of unknowns in addition to the displacements, for `points` slave points with `tractions` tractions each.
     #[must_use]
     pub fn unknowns(self, points: usize, tractions: usize) -> usize {
@@ -46,10 +46,10 @@ mod tests {
     #[test]
     fn only_multipliers_that_are_unknowns_add_to_the_system() {
         let unit = 1e9;
-        assert_eq!(Enforced::Penalty.unknowns(7, 3), 0);
-        assert_eq!(Enforced::Uzawa { tolerance: 1e-9, most: 3 }.unknowns(7, 3), 0);
-        assert_eq!(Enforced::AugmentedLagrangian { unit }.unknowns(7, 3), 21);
-        let declared = Enforced::AugmentedLagrangian { unit }.declared(40);
+        assert_eq!(PlannedEnforcement::Penalty.unknowns(7, 3), 0);
+        assert_eq!(PlannedEnforcement::Uzawa { tolerance: 1e-9, most: 3 }.unknowns(7, 3), 0);
+        assert_eq!(PlannedEnforcement::AugmentedLagrangian { unit }.unknowns(7, 3), 21);
+        let declared = PlannedEnforcement::AugmentedLagrangian { unit }.declared(40);
         assert_eq!(declared, Enforcement::AugmentedLagrangian { first: 40, unit });
     }
 }

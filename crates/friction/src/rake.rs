@@ -21,7 +21,7 @@ const COMPONENTS: usize = 2;
 
 /// A law of points whose slip may turn; see the module.
 #[derive(Debug)]
-pub struct Turning {
+pub struct VariableRake {
     law: Box<dyn FaultLaw>,
     scratch: Mutex<Scratch>,
 }
@@ -39,7 +39,7 @@ struct Scratch {
     spare: Vec<f64>,
 }
 
-impl Turning {
+impl VariableRake {
     /// Slip that turns, with the friction of a law of slip along a line.
     #[must_use]
     pub fn new(law: Box<dyn FaultLaw>) -> Self {
@@ -56,7 +56,7 @@ fn size(x: f64, y: f64) -> f64 {
     (x * x + y * y).sqrt()
 }
 
-impl FaultLaw for Turning {
+impl FaultLaw for VariableRake {
     fn points(&self) -> usize {
         self.law.points()
     }
@@ -178,7 +178,7 @@ impl FaultLaw for Turning {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use super::Turning;
+    use super::VariableRake;
     use crate::evolution::ageing::Ageing;
     use crate::fault::{Drive, FaultLaw, Points};
     use crate::rate::RateLaw;
@@ -240,7 +240,7 @@ mod tests {
 
     #[test]
     fn slip_along_an_axis_is_that_of_the_law_of_a_line() {
-        let (law, turning) = (line(), Turning::new(line()));
+        let (law, turning) = (line(), VariableRake::new(line()));
         for axis in [0, 1] {
             let mut case = Case::new();
             case.m[(1 - axis) * N..(2 - axis) * N].fill(0.0);
@@ -263,7 +263,7 @@ mod tests {
 
     #[test]
     fn turned_axes_turn_the_rates() {
-        let turning = Turning::new(line());
+        let turning = VariableRake::new(line());
         let case = Case::new();
         let (sine, cosine) = 30f64.to_radians().sin_cos();
         let turned = |v: &[f64]| -> Vec<f64> {
@@ -284,7 +284,7 @@ mod tests {
     /// `f_n a m + η V` grows as the driving traction does: checked by differences along the rates.
     #[test]
     fn friction_and_damping_follow_the_traction_that_drives_in_both_components() {
-        let turning = Turning::new(line());
+        let turning = VariableRake::new(line());
         let case = Case::new();
         let [dm, ds, v] = case.rates(&turning);
         let resisting = |time: f64| -> Vec<f64> {
@@ -320,7 +320,7 @@ mod tests {
 
     #[test]
     fn a_point_without_friction_takes_up_any_direction() {
-        let turning = Turning::new(line());
+        let turning = VariableRake::new(line());
         let rates = |m: f64| {
             let mut case = Case::new();
             // An exact zero, and almost zero in an oblique direction.

@@ -3,7 +3,7 @@
 use super::{RateLaw, balance};
 use crate::Failure;
 use crate::evolution::{Evolution, Speed};
-use crate::law::{Drives, Rated};
+use crate::law::{Drives, RateDependent};
 use crate::point::{Point, Solver};
 use crate::strength::Form;
 
@@ -75,7 +75,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
     }
 }
 
-impl<F: Form, E: Evolution> Rated for RateLaw<F, E> {
+impl<F: Form, E: Evolution> RateDependent for RateLaw<F, E> {
     fn slip_rates(
         &self,
         drives: Drives<'_>,

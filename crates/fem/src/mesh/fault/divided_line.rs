@@ -7,7 +7,7 @@ use crate::mesh::spacing;
 
 /// A line divided into cells.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Divided {
+pub struct DividedLine {
     /// Ends of the cells in the order of the vertices, one more than there are cells \[m\].
     pub places: Vec<[f64; 2]>,
     /// Their distances from the first vertex, along the line \[m\].
@@ -24,7 +24,7 @@ pub fn divided(
     trace: &[[f64; 2]],
     interpolation: Interpolation,
     sizes: &Spacing,
-) -> Result<Divided, FaultMeshError> {
+) -> Result<DividedLine, FaultMeshError> {
     let bad = trace.iter().flatten().filter(|x| !x.is_finite()).count();
     if trace.len() < 2 || bad > 0 {
         return Err(FaultMeshError::Trace { vertices: trace.len(), bad });
@@ -34,9 +34,9 @@ pub fn divided(
     let curve = if interpolation == Interpolation::Polyline { None } else { Curve::through(trace) };
     let Some(curve) = curve else {
         let along = spacing::along(&check::distances(trace), sizes)?;
-        return Ok(Divided { places: check::places(trace, &along), along, departure: None });
+        return Ok(DividedLine { places: check::places(trace, &along), along, departure: None });
     };
     let along = spacing::along(curve.lengths(), sizes)?;
     let departure = Some(curve.departure());
-    Ok(Divided { places: curve.places(&along), along, departure })
+    Ok(DividedLine { places: curve.places(&along), along, departure })
 }

@@ -9,7 +9,7 @@ pub const PROCESSES: [&str; 6] = ["pulses", "injection", "diffusion", "heat", "o
 
 /// Two processes that cannot be together on a fault.
 #[derive(Clone, Copy, Debug)]
-pub struct Apart {
+pub struct Incompatibility {
     /// Key of one.
     pub one: &'static str,
     /// Key of the other.
@@ -21,26 +21,26 @@ pub struct Apart {
 }
 
 /// All pairs that cannot be together.
-pub const APART: [Apart; 4] = [
-    Apart {
+pub const APART: [Incompatibility; 4] = [
+    Incompatibility {
         one: "heat",
         other: "injection",
         reason: "heat of friction is not computed where fluid is injected",
         named: "the injection",
     },
-    Apart {
+    Incompatibility {
         one: "heat",
         other: "diffusion",
         reason: "heat of friction is not computed where fluid diffuses along a fault",
         named: "the diffusion",
     },
-    Apart {
+    Incompatibility {
         one: "diffusion",
         other: "injection",
         reason: "`injection` and `diffusion` describe the fluid of one fault: each has its own wells",
         named: "the injection",
     },
-    Apart {
+    Incompatibility {
         one: "heat",
         other: "opening",
         reason: "heat of friction is not computed on faults that open",
@@ -64,7 +64,7 @@ pub(super) fn process(fault: &Fault, key: &str) -> Option<Range<usize>> {
 impl Checker<'_> {
     /// Refuses processes that cannot be together.
     pub(super) fn processes_of(&mut self, fault: &Fault) {
-        for Apart { one, other, reason, named } in APART {
+        for Incompatibility { one, other, reason, named } in APART {
             if let [Some(place), Some(beside)] = [one, other].map(|key| process(fault, key)) {
                 let help = format!("remove `{one}` or `{other}`");
                 self.conflict(&place, reason, help, (&beside, named));

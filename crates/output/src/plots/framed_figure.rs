@@ -19,18 +19,18 @@ const LABEL: f64 = 30.0;
 const LEAST: f64 = 80.0;
 
 /// See the module.
-pub(super) struct Framed {
+pub(super) struct FramedFigure {
     pub figure: Figure,
     pub frame: Frame,
     legend: Legend,
 }
 
-impl Framed {
+impl FramedFigure {
     /// A frame with these axes.
-    pub(super) fn new(paper: Paper, (x, y): (Axis, Axis), entries: &[Entry]) -> Self {
+    pub(super) fn new(paper: Paper, x: Axis, y: Axis, entries: &[Entry]) -> Self {
         let usual = AT.0 + SIZE.0 + RIGHT;
         let width = paper.frame((usual, 0.0), (0.0, 0.0)).0;
-        let legend = Legend::of(entries, width);
+        let legend = Legend::from_entries(entries, width);
         let height = paper.frame(SIZE, (0.0, AT.1 + BELOW + legend.height())).1.max(LEAST);
         let left = AT.0.max(y.widest_tick(height) + LABEL);
         let right = RIGHT.max(0.5 * x.widest_tick(SIZE.0));
@@ -60,10 +60,10 @@ mod tests {
         let entry = |k: usize| Entry { name: format!("curve {k}"), colour: INK, dash: &[] };
         let entries: Vec<Entry> = (0..9).map(entry).collect();
         let long = "A quantity with a long name [10²¹ N m/s]".to_string();
-        for paper in [Paper::default(), Paper::of(Some((510.0, 326.0)))] {
+        for paper in [Paper::default(), Paper::new(Some((510.0, 326.0)))] {
             for range in [(0.0, 1.0), (-123_456.0, 123_456.0), (0.100_001, 0.100_002)] {
-                let axes = (Axis::exact(range, long.clone()), Axis::exact(range, long.clone()));
-                let figure = Framed::new(paper, axes, &entries).finish();
+                let [x, y] = [(), ()].map(|()| Axis::exact(range, long.clone()));
+                let figure = FramedFigure::new(paper, x, y, &entries).finish();
                 for shape in &figure.shapes {
                     let Shape::Text(text) = shape else { continue };
                     let wide = CHARACTER * text.size * text.text.chars().count() as f64;

@@ -27,7 +27,7 @@ const NUMBER: f64 = 12.0;
 const NUMBERS_APART: f64 = 0.03;
 
 /// Rows of a table along an axis, and the rows in which events begin and end.
-pub(super) struct Stretched {
+pub(super) struct StretchedAxis {
     /// Times of the rows, ascending \[s\].
     times: Vec<f64>,
     /// Positions of onset and end of each event along the axis.
@@ -35,7 +35,7 @@ pub(super) struct Stretched {
     unit: Unit,
 }
 
-impl Stretched {
+impl StretchedAxis {
     /// Axis of rows at these times \[s\], with the times of onset and end of events \[s\].
     pub(super) fn new(times: &[f64], events: &[(f64, f64)]) -> Self {
         let place = |time: f64| {
@@ -44,7 +44,7 @@ impl Stretched {
         };
         let events = events.iter().map(|&(onset, end)| (place(onset), place(end))).collect();
         let latest = times.iter().fold(0.0_f64, |most, t| most.max(t.abs()));
-        Self { times: times.to_vec(), events, unit: TIME.of(latest) }
+        Self { times: times.to_vec(), events, unit: TIME.choose(latest) }
     }
 
     /// The axis of a frame of this width, with the times of onsets, or of evenly spaced rows where there are few.
@@ -136,7 +136,7 @@ impl Stretched {
 
 /// A time since another \[s\], with its unit.
 fn since(time: f64) -> String {
-    let unit = TIME.of(time);
+    let unit = TIME.choose(time);
     let value = time / unit.factor;
     let decimals = (SINCE - 1 - value.log10().floor() as i32).clamp(0, SINCE) as usize;
     format!("+{value:.decimals$} {}", unit.name)
@@ -153,7 +153,7 @@ mod tests {
     fn ticks_of_a_narrow_frame_are_as_far_apart_as_their_labels_are_long() {
         let times: Vec<f64> = (0..100).map(f64::from).collect();
         for width in [200.0, 290.0, 420.0, 900.0] {
-            let axis = Stretched::new(&times, &[(30.0, 40.0), (55.0, 60.0)]).axis(width);
+            let axis = StretchedAxis::new(&times, &[(30.0, 40.0), (55.0, 60.0)]).axis(width);
             let apart = |pair: &[(f64, String)]| (pair[1].0 - pair[0].0) * width;
             assert!(axis.own.windows(2).all(|pair| apart(pair) >= LABEL - 1e-9), "{width}: {:?}", axis.own);
         }
@@ -164,7 +164,7 @@ mod tests {
         const YEAR: f64 = 31_557_600.0;
         let times: Vec<f64> = (0..100).map(|k| f64::from(k) * YEAR).collect();
         let onsets = [30.0, 31.0, 60.0].map(|k| (k * YEAR, (k + 2.0) * YEAR));
-        let axis = Stretched::new(&times, &onsets).axis(WIDTH);
+        let axis = StretchedAxis::new(&times, &onsets).axis(WIDTH);
         assert_eq!(axis.label, "Time [yr], stretched where slip rates change");
         let texts: Vec<&str> = axis.own.iter().map(|t| t.1.as_str()).collect();
         assert_eq!(texts, ["0.00", "17.00", "30.00", "60.00", "83.00"]);
@@ -174,8 +174,9 @@ mod tests {
     #[test]
     fn a_run_without_events_or_rows_has_an_axis() {
         // Four rows have four times, however many ticks would fit.
-        assert_eq!(Stretched::new(&[0.0, 1.0, 2.0, 3.0], &[]).axis(WIDTH).own.len(), 4);
-        let texts: Vec<String> = Stretched::new(&[], &[]).axis(WIDTH).own.into_iter().map(|t| t.1).collect();
+        assert_eq!(StretchedAxis::new(&[0.0, 1.0, 2.0, 3.0], &[]).axis(WIDTH).own.len(), 4);
+        let texts: Vec<String> =
+            StretchedAxis::new(&[], &[]).axis(WIDTH).own.into_iter().map(|t| t.1).collect();
         assert_eq!(texts, ["0"]);
     }
 
@@ -193,7 +194,7 @@ mod tests {
             .collect();
         let events = [(10.0, 1.0), (23.0, 3.9)].map(|(year, long)| (year * YEAR, year * YEAR + long));
         for events in [&events[..], &events[..1], &[]] {
-            let axis = Stretched::new(&times, events).axis(WIDTH);
+            let axis = StretchedAxis::new(&times, events).axis(WIDTH);
             let texts: Vec<&str> = axis.own.iter().map(|t| t.1.as_str()).collect();
             let mut once = texts.clone();
             once.sort_unstable();

@@ -2,12 +2,12 @@
 
 use super::options::Options;
 use crate::mesh::error::{MeshError, Place};
-use crate::mesh::{LeftOut, Mesh};
+use crate::mesh::{Mesh, OmittedElements};
 use std::collections::BTreeMap;
 
 /// Elements of a type that is not read.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Unread {
+pub struct UnreadElements {
     /// Type, as the format names it.
     pub kind: String,
     /// Dimension, if it is known: bodies are made of elements of the greatest, so that a body without them has a hole.
@@ -26,7 +26,7 @@ pub struct Unread {
     pub numbered: Vec<usize>,
 }
 
-impl Unread {
+impl UnreadElements {
     /// Names of the sets that have some of these elements.
     fn sets<'a>(&'a self, names: &'a [Vec<String>]) -> impl Iterator<Item = &'a String> {
         self.groups.keys().chain(self.numbered.iter().flat_map(|&g| &names[g]))
@@ -61,8 +61,8 @@ impl Unread {
     /// Takes note of elements that no body has.
     pub(super) fn leave_out<const D: usize>(&self, mesh: &mut Mesh<D>, names: &[Vec<String>]) {
         let mut note = |set: String, count: usize, element: u64| {
-            let new = LeftOut { kind: self.kind.clone(), count, element, read: false };
-            let all = mesh.left_out.entry(set).or_insert_with(|| LeftOut { count: 0, ..new.clone() });
+            let new = OmittedElements { kind: self.kind.clone(), count, element, read: false };
+            let all = mesh.left_out.entry(set).or_insert_with(|| OmittedElements { count: 0, ..new.clone() });
             all.count += new.count;
             all.element = all.element.min(new.element);
         };

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// Quantity along a line through time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Mapped {
+pub enum MappedQuantity {
     /// log10 of the slip rate \[m/s\].
     Rate,
     /// log10 of the state θ \[s\].
@@ -15,7 +15,7 @@ pub enum Mapped {
     Coupling,
 }
 
-impl Mapped {
+impl MappedQuantity {
     /// Last part of the file name.
     pub(super) fn stem(self) -> &'static str {
         match self {

@@ -7,7 +7,7 @@
 use super::{Stiffness, coupling, load, not_retained, number_in};
 use crate::dof::{Channel, Constraints, Equations};
 use crate::error::FemError;
-use crate::multifrontal::{Cholesky, DirectError, Symbolic, Triangle};
+use crate::multifrontal::{Cholesky, DirectError, SymbolicCholesky, Triangle};
 use crate::ordering::Ordering;
 use crate::sparse::lower_matrix;
 use crate::table::Table;
@@ -15,8 +15,8 @@ use std::sync::Arc;
 
 /// A body with its loads, analysed for condensation: its costs are known, but no numbers have been computed.
 #[derive(Debug)]
-pub struct Loaded {
-    symbolic: Arc<Symbolic>,
+pub struct LoadedBody {
+    symbolic: Arc<SymbolicCholesky>,
     /// Values of the lower triangle.
     values: Vec<f64>,
     /// Degree of freedom of each equation; loads come after them.
@@ -25,7 +25,7 @@ pub struct Loaded {
     amplitudes: Vec<Table>,
 }
 
-impl Loaded {
+impl LoadedBody {
     /// Orders and analyses `body` for condensation onto `retained` (sorted), with the loads of `channels`. `fixed` (sorted) are its prescribed
     /// degrees of freedom; those that are also retained are kept. The memory of `body` is freed before the analysis starts.
     ///
@@ -46,7 +46,7 @@ impl Loaded {
         last.extend(free.len()..free.len() + loads.len());
         let (lower, values) = lower_matrix(&body.pattern, &body.values, &number, free.len(), &loads);
         drop((body, number, columns, loads));
-        let symbolic = Arc::new(Symbolic::retaining(lower.as_ref(), Ordering::Automatic, &last)?);
+        let symbolic = Arc::new(SymbolicCholesky::retaining(lower.as_ref(), Ordering::Automatic, &last)?);
         let amplitudes = channels.into_iter().map(|c| c.amplitude).collect();
         Ok(Self { symbolic, values, free, retained: retained.len(), amplitudes })
     }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 /// Resolution of the zone in which friction loses its strength.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Resolved {
+pub struct ZoneResolution {
     /// Normal traction at which the length of the cohesive zone equals the largest distance between points \[Pa\].
     pub one: f64,
     /// Largest distance between points \[m\].

@@ -1,11 +1,11 @@
 //! Motion of the special nodes: what acts on them besides the forces of cells.
 
-use super::nodes::{Special, Specials};
+use super::nodes::{SpecialNode, SpecialNodes};
 use super::sums::Sums;
 
 /// Loads and constraints of the special nodes in a step.
-pub(super) struct Acting<'a> {
-    pub nodes: &'a Specials,
+pub(super) struct SpecialActions<'a> {
+    pub nodes: &'a SpecialNodes,
     /// Loads \[N\]; empty where nothing loads a special node.
     pub external: &'a [[f64; 3]],
     /// Displacements that conditions prescribe at the next step, of all degrees of freedom \[m\]; empty without such conditions.
@@ -18,7 +18,7 @@ pub(super) struct Acting<'a> {
     pub kick: f64,
 }
 
-impl Acting<'_> {
+impl SpecialActions<'_> {
     fn external(&self, place: usize) -> [f64; 3] {
         self.external.get(place).copied().unwrap_or_default()
     }
@@ -38,7 +38,7 @@ impl Acting<'_> {
     }
 
     /// Velocity half a step after \[m/s\].
-    pub fn after(&self, s: &Special, before: &[f64; 3], acceleration: &[f64; 3]) -> [f64; 3] {
+    pub fn after(&self, s: &SpecialNode, before: &[f64; 3], acceleration: &[f64; 3]) -> [f64; 3] {
         let time = |c: usize| if s.prescribed[c] { self.dt } else { self.kick };
         std::array::from_fn(|c| before[c] + time(c) * acceleration[c])
     }
@@ -48,8 +48,11 @@ impl Acting<'_> {
     #[inline]
     pub fn accelerate<const C: usize>(
         &self,
-        (place, known): (usize, Option<&[f64; 3]>),
-        (internal, u, v): (&[f64; C], &[f64; C], &mut [f64; C]),
+        place: usize,
+        known: Option<&[f64; 3]>,
+        internal: &[f64; C],
+        u: &[f64; C],
+        v: &mut [f64; C],
         sums: &mut Sums,
     ) {
         let s = &self.nodes.all[place];
@@ -79,7 +82,7 @@ impl Acting<'_> {
 
     /// Puts a special node where conditions prescribe it.
     #[inline]
-    pub fn put<const C: usize>(&self, s: &Special, u: &mut [f64; C]) {
+    pub fn put<const C: usize>(&self, s: &SpecialNode, u: &mut [f64; C]) {
         for c in (0..C).filter(|&c| s.prescribed[c]) {
             u[c] = self.imposed[s.node * C + c];
         }
