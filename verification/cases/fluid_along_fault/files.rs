@@ -57,6 +57,15 @@ impl Ran {
         self.rows.last().map_or((f64::NAN, &[]), |row| (row.0, &row.1))
     }
 
+    /// Imbalance of the energy budget in the report.
+    ///
+    /// # Errors
+    /// If the report cannot be read.
+    pub fn imbalance(&self) -> Result<f64, CaseError> {
+        let report: serde_json::Value = serde_json::from_str(&self.folder.text("out/report.json")?)?;
+        Ok(report["energy"]["imbalance"].as_f64().ok_or("no energy")?)
+    }
+
     /// Values of a column of all stations at a time \[s\], linear between rows.
     ///
     /// # Errors
