@@ -70,8 +70,8 @@ fn bandwidth(repeats: usize) -> f64 {
 
 fn row<const D: usize>(kind: ElementKind, n: usize, repeats: usize, bandwidth: f64) -> Result<(), String> {
     let problem = rock::<D>(kind, n).map_err(|e| e.to_string())?;
-    let mut run = Explicit::new(&problem)?;
-    run.begin_stage(0)?;
+    let mut run = Explicit::new(&problem).map_err(|e| e.to_string())?;
+    run.begin_stage(0).map_err(|e| e.to_string())?;
     let mut halt = None;
     let time = least(repeats, || halt = halt.take().or(run.step().err()));
     if let Some(halt) = halt {

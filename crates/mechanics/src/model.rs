@@ -56,7 +56,7 @@ impl<const D: usize> CellBlock<D> {
     }
 
     /// Block as a term of a forward step.
-    pub fn limited(&mut self) -> &mut dyn ForwardTerm {
+    pub fn forward_term(&mut self) -> &mut dyn ForwardTerm {
         match self {
             Self::Linear(block) => block.as_mut(),
             Self::Nonlinear(block) => block.as_mut(),

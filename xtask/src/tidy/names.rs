@@ -43,7 +43,7 @@ pub fn check(path: &str, text: &str) -> Vec<Problem> {
 }
 
 fn refused(line: &str) -> Option<String> {
-    let mut words = line.trim_start().split_whitespace();
+    let mut words = line.split_whitespace();
     let keyword = words.by_ref().find(|word| !is_modifier(word))?;
     let name: String = words.next()?.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
     if keyword == "fn" {

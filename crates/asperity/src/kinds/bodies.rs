@@ -19,7 +19,7 @@ use crate::kinds::stop;
 use asperity_contact::{Course, PointFields, Status, Watch};
 use asperity_mechanics::step::{AcceptedStep, Cut, Failure};
 use asperity_mechanics::timing::{Figures, StepLength};
-use asperity_mechanics::{AssembledProblem, LOADING, Mismatch, Stage};
+use asperity_mechanics::{AssembledProblem, LOADING, Mismatch, SetUpError, Stage};
 use asperity_output::Writer;
 use asperity_output::view::{InterfaceFields, Samples, StepRecord, StepView};
 use asperity_plan::bodies::{AnyPlan, Plan, restraint};
@@ -85,7 +85,7 @@ fn run_in<const D: usize>(
 ) -> Result<RunReport, RunError> {
     let clock = Clock::now();
     let mut system = AssembledProblem::new(&plan.problem)
-        .map_err(|reason| RunError::SetUp { stage: plan.problem.stages[0].name.clone(), reason })?;
+        .map_err(|e| RunError::SetUp { stage: plan.problem.stages[0].name.clone(), reason: e.to_string() })?;
     let phases = Phases { set_up: clock.elapsed().as_secs_f64(), ..Phases::default() };
     let (work, found) = (Work::default(), Found::default());
     let events = plan.events.as_ref().map(Events::new);
@@ -175,7 +175,7 @@ impl<const D: usize> Running<'_, D> {
         let stage = &self.plan.problem.stages[index];
         let length = StepLength::new(&self.plan.problem.control, stage, self.watches());
         let Some(from) = from else {
-            let told = |reason| RunError::SetUp { stage: stage.name.clone(), reason };
+            let told = |e: SetUpError| RunError::SetUp { stage: stage.name.clone(), reason: e.to_string() };
             system.begin_stage(stage).map_err(told)?;
             return Ok(InStage { index, length, rejected: 0, free: None });
         };

@@ -1,8 +1,7 @@
 //! A file name means one thing: columns of the same name have the same unit and sign in every kind of run.
 
-use crate::common::cycles;
 use crate::common::written::described;
-use crate::common::{coarse_sandwich, sliders, varied};
+use crate::common::{coarse_sandwich, cycles, sliders, varied};
 use asperity_vary::Change::With;
 use std::collections::BTreeMap;
 use std::fs;

@@ -12,6 +12,7 @@ use super::springs::Springs;
 use super::sums::Sums;
 use super::surroundings::{FaultSurroundings, Mobility};
 use super::{Problem, StableStep, stable, stored};
+use crate::error::SetUpError;
 use crate::{CellBlock, coordinates};
 use asperity_fem::block::lumped;
 use asperity_fem::dof::Constraints;
@@ -163,15 +164,14 @@ impl<'a, const D: usize> Explicit<'a, D> {
     /// Prepares masses and forces. A stage must begin before the first step.
     ///
     /// # Errors
-    /// A description if an element has no positive lumped masses or friction has no initial state.
-    pub fn new(problem: &'a Problem<D>) -> Result<Self, String> {
+    /// [`SetUpError`] if an element has no positive lumped masses or its forces at the start are not defined.
+    pub fn new(problem: &'a Problem<D>) -> Result<Self, SetUpError> {
         let model = &problem.model;
-        let stable = stable(model, &problem.density, problem.viscosity).map_err(|e| e.to_string())?;
+        let stable = stable(model, &problem.density, problem.viscosity)?;
         let linear: Vec<_> = model.blocks.iter().map(CellBlock::linear).collect();
         let components = model.idealisation.components();
         let product = MatrixFree::new(&model.mesh, components, &linear);
-        let mass = lumped::nodal_masses(&model.mesh, model.idealisation, &problem.density)
-            .map_err(|e| e.to_string())?;
+        let mass = lumped::nodal_masses(&model.mesh, model.idealisation, &problem.density)?;
         let inelastic = InelasticCells::new(model, problem.viscosity > 0.0, problem.fault.is_some())?;
         let dofs = model.dofs();
         let velocity = if problem.velocity.is_empty() { vec![0.0; dofs] } else { problem.velocity.clone() };
@@ -207,8 +207,8 @@ impl<'a, const D: usize> Explicit<'a, D> {
     /// Begins a stage: its conditions, loads and length of steps.
     ///
     /// # Errors
-    /// A description where friction has no initial state.
-    pub fn begin_stage(&mut self, stage: usize) -> Result<(), String> {
+    /// [`SetUpError::Friction`] where friction has no initial state.
+    pub fn begin_stage(&mut self, stage: usize) -> Result<(), SetUpError> {
         let problem = self.problem;
         self.dt = problem.step_of(stage, &self.stable);
         self.constraints = problem.stages[stage].constraints(&self.u);
@@ -216,13 +216,8 @@ impl<'a, const D: usize> Explicit<'a, D> {
         if self.steps == 0
             && let Some(fault) = &problem.fault
         {
-            self.fault = fault.start(self.dt).map_err(|failure| {
-                format!(
-                    "{}: no state of the law carries the tractions of the start at the slip rate of the start; its parameters, such as `a`, or `shear`, \
-                     `normal` and `rate` are the cause",
-                    self.placed(&failure)
-                )
-            })?;
+            let failed = |failure| SetUpError::Friction { failure: self.placed(&failure) };
+            self.fault = fault.start(self.dt).map_err(failed)?;
             if fault.onset.is_some() {
                 self.slide(fault);
             }

@@ -1,6 +1,7 @@
 //! Cells with a history: their forces, those of viscosity in them, and the powers of both.
 
 use super::budget::Work;
+use crate::error::SetUpError;
 use crate::{CellBlock, Model};
 use asperity_fem::nonlinear::{Block, Material};
 use asperity_fem::term::{Instant, Refusal, Restorable as _, Term as _};
@@ -37,8 +38,8 @@ impl<const D: usize> InelasticCells<D> {
     /// only determines tractions.
     ///
     /// # Errors
-    /// A description where the forces at the start are not defined.
-    pub fn new(model: &Model<D>, viscous: bool, balance: bool) -> Result<Self, String> {
+    /// [`SetUpError::Forces`] where the forces at the start are not defined.
+    pub fn new(model: &Model<D>, viscous: bool, balance: bool) -> Result<Self, SetUpError> {
         let blocks: Vec<_> = model.blocks.iter().filter_map(nonlinear).cloned().collect();
         let dofs = if blocks.is_empty() { 0 } else { model.dofs() };
         let zeros = |needed: bool| if needed { vec![0.0; dofs] } else { Vec::new() };
@@ -53,7 +54,7 @@ impl<const D: usize> InelasticCells<D> {
         };
         if balance {
             let rest = zeros(true);
-            result.evaluate(&rest, &rest, Instant { time: 0.0, dt: 0.0 }, 0.0).map_err(|r| r.to_string())?;
+            result.evaluate(&rest, &rest, Instant { time: 0.0, dt: 0.0 }, 0.0).map_err(SetUpError::Forces)?;
             result.blocks.iter_mut().for_each(Block::reject);
             result.balanced = result.forces.clone();
         }

@@ -1,6 +1,7 @@
 //! The bodies of a system during a run, condensed or not.
 
 use crate::CellBlock;
+use crate::error::SetUpError;
 use asperity_fem::dof::Constraints;
 use asperity_fem::term::ForwardTerm;
 use asperity_run::Operations;
@@ -23,7 +24,7 @@ pub trait Bodies<const D: usize> {
     ///
     /// # Errors
     /// A description if a body cannot be factorised.
-    fn load(&mut self, constraints: &Constraints, renewed: bool) -> Result<(), String>;
+    fn load(&mut self, constraints: &Constraints, renewed: bool) -> Result<(), SetUpError>;
 
     /// Terms of the bodies in the system.
     fn terms(&mut self) -> Vec<&mut dyn ForwardTerm>;

@@ -1,6 +1,7 @@
 //! Bodies condensed onto the degrees of freedom of their interfaces.
 
 use super::bodies::{Bodies, BodiesState};
+use crate::error::SetUpError;
 use crate::solver::{self, Analyses};
 use crate::{CellBlock, Problem, free};
 use asperity_fem::FemError;
@@ -31,7 +32,7 @@ impl<'a, const D: usize> CondensedBodies<'a, D> {
 }
 
 impl<const D: usize> Bodies<D> for CondensedBodies<'_, D> {
-    fn load(&mut self, constraints: &Constraints, renewed: bool) -> Result<(), String> {
+    fn load(&mut self, constraints: &Constraints, renewed: bool) -> Result<(), SetUpError> {
         if renewed {
             self.solves += self.solves();
             self.terms = condense(self.problem, &self.retained, constraints)?;
@@ -78,7 +79,7 @@ fn condense<const D: usize>(
     problem: &Problem<D>,
     retained: &[Vec<usize>],
     constraints: &Constraints,
-) -> Result<Vec<CondensedBody>, String> {
+) -> Result<Vec<CondensedBody>, SetUpError> {
     let mut first = 0;
     let mut terms = Vec::new();
     let prepared = match &problem.solver.prepared {
@@ -90,7 +91,8 @@ fn condense<const D: usize>(
         let told = |e: FemError| {
             let first = body.nodes.start;
             let place = |dof: usize| (first + dof / D, dof % D);
-            format!("body `{}`: {}", body.name, free::unsolved(&problem.model, &e, place))
+            let reason = free::unsolved(&problem.model, &e, place);
+            SetUpError::Body { body: body.name.clone(), reason }
         };
         let stiffness = problem.model.stiffness(body);
         let dofs = &body.dofs;

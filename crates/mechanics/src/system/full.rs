@@ -1,6 +1,7 @@
 //! Bodies with all their degrees of freedom in the system.
 
 use super::bodies::{Bodies, BodiesState};
+use crate::error::SetUpError;
 use crate::{CellBlock, Model};
 use asperity_fem::dof::Constraints;
 use asperity_fem::loads::ExternalForces;
@@ -23,7 +24,7 @@ impl<const D: usize> FullBodies<D> {
 }
 
 impl<const D: usize> Bodies<D> for FullBodies<D> {
-    fn load(&mut self, constraints: &Constraints, _renewed: bool) -> Result<(), String> {
+    fn load(&mut self, constraints: &Constraints, _renewed: bool) -> Result<(), SetUpError> {
         let forces = constraints.channels.iter().map(|c| (c.forces.clone(), c.amplitude.clone()));
         self.loads = ExternalForces::new(forces.collect());
         Ok(())
@@ -31,7 +32,7 @@ impl<const D: usize> Bodies<D> for FullBodies<D> {
 
     fn terms(&mut self) -> Vec<&mut dyn ForwardTerm> {
         let loads = std::iter::once(&mut self.loads as &mut dyn ForwardTerm);
-        self.blocks.iter_mut().map(CellBlock::limited).chain(loads).collect()
+        self.blocks.iter_mut().map(CellBlock::forward_term).chain(loads).collect()
     }
 
     fn displacement(&self, u: &[f64], _time: f64) -> Vec<f64> {

@@ -21,6 +21,7 @@ use super::step::implicit::Implicit;
 use super::step::static_explicit::StaticExplicit;
 use super::step::{AcceptedStep, Failure, State, Stepper};
 use super::{CellBlock, Path, PlannedInterface, Problem, Stage, ZoneResolution, declared};
+use crate::error::SetUpError;
 use crate::inertia::InertialSystem;
 use crate::{Samples, SpringStart, SpringState};
 use asperity_contact::{Interface, TimeRule};
@@ -61,8 +62,8 @@ impl<'a, const D: usize> AssembledProblem<'a, D> {
     /// Builds interfaces and the numbering of the system.
     ///
     /// # Errors
-    /// A description if an interface cannot be paired.
-    pub fn new(problem: &'a Problem<D>) -> Result<Self, String> {
+    /// [`SetUpError::Contact`] if an interface cannot be paired.
+    pub fn new(problem: &'a Problem<D>) -> Result<Self, SetUpError> {
         let model = &problem.model;
         let (bodies, numbering): (Box<dyn Bodies<D> + 'a>, _) = match problem.path {
             Path::Condensed => {
@@ -99,8 +100,8 @@ impl<'a, const D: usize> AssembledProblem<'a, D> {
     /// Applies the conditions of a stage. Bodies are factorised again only if the set of fixed degrees of freedom changes.
     ///
     /// # Errors
-    /// A description if a body cannot be factorised.
-    pub fn begin_stage(&mut self, stage: &Stage) -> Result<(), String> {
+    /// [`SetUpError`] if a body cannot be factorised.
+    pub fn begin_stage(&mut self, stage: &Stage) -> Result<(), SetUpError> {
         let start = self.fixed.is_none();
         let u0 = if start { vec![0.0; self.problem.model.dofs()] } else { self.displacement() };
         let springs = springs::starts(stage, &self.pulled_by(), self.reactions(), &u0);
@@ -108,7 +109,7 @@ impl<'a, const D: usize> AssembledProblem<'a, D> {
     }
 
     /// Applies the conditions of a stage from the displacements `u0` of the mesh and these states of its springs.
-    fn begin_from(&mut self, stage: &Stage, u0: Vec<f64>, springs: &[SpringStart]) -> Result<(), String> {
+    fn begin_from(&mut self, stage: &Stage, u0: Vec<f64>, springs: &[SpringStart]) -> Result<(), SetUpError> {
         let problem = self.problem;
         let constraints = stage.constraints(&u0);
         self.begin = u0;
@@ -168,7 +169,7 @@ impl<'a, const D: usize> AssembledProblem<'a, D> {
         springs::now(self.springs.as_ref(), &self.state)
     }
 
-    fn new_stepper(&self) -> Result<Box<dyn Stepper>, String> {
+    fn new_stepper(&self) -> Result<Box<dyn Stepper>, SetUpError> {
         let problem = self.problem;
         // In finite sliding and large deformation forces are computed from positions, which are of the size of the scene.
         let position = if problem.moves() { problem.model.scale } else { 0.0 };
@@ -185,7 +186,7 @@ impl<'a, const D: usize> AssembledProblem<'a, D> {
     }
 
     /// Empty system for the solution method of the problem.
-    fn linear_system(&self) -> Result<System, String> {
+    fn linear_system(&self) -> Result<System, SetUpError> {
         let equations = self.constraints.equations(self.state.u.len());
         let equations = match self.groups.is_empty() {
             true => equations,
@@ -196,7 +197,7 @@ impl<'a, const D: usize> AssembledProblem<'a, D> {
             Method::Iterative { tolerance, most_iterations } => {
                 let components = model.idealisation.components();
                 let near_null = NearNull::new(&model.mesh.nodes, components)
-                    .ok_or_else(|| format!("no rigid motions of {components} components"))?;
+                    .ok_or(SetUpError::RigidMotions { components })?;
                 System::iterative(equations, Iterative { near_null, tolerance, most_iterations })
             }
             Method::Dense => System::new(equations, Storage::Dense),
@@ -363,10 +364,10 @@ fn interface<const D: usize>(
     planned: &PlannedInterface,
     numbering: &Numbering,
     unknowns: usize,
-) -> Result<Interface<D>, String> {
+) -> Result<Interface<D>, SetUpError> {
     let (number, largest_rate) = (numbering.number.as_slice(), problem.largest_rate());
     let spec = declared::spec(&problem.model, &problem.stepping, planned, number, largest_rate, unknowns);
-    let mut interface = Interface::new(spec).map_err(|e| e.to_string())?;
+    let mut interface = Interface::new(spec)?;
     interface.set_watch(planned.watch);
     if let Some(damping) = planned.damping {
         interface.set_damping(damping);

@@ -146,7 +146,8 @@ impl<const D: usize> AssembledProblem<'_, D> {
         if found != expected {
             return Err(Mismatch::Springs { found, expected });
         }
-        self.begin_from(stage, saved.begin.clone(), &saved.springs).map_err(Mismatch::SetUp)?;
+        self.begin_from(stage, saved.begin.clone(), &saved.springs)
+            .map_err(|e| Mismatch::SetUp(e.to_string()))?;
         for ((interface, saved), planned) in
             self.interfaces.iter_mut().zip(&saved.interfaces).zip(&self.problem.interfaces)
         {

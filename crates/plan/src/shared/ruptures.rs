@@ -100,8 +100,8 @@ impl<const D: usize> Bodies<D> {
 impl<const D: usize> Waves for Bodies<D> {
     fn rupture(&mut self, start: &Start, see: &mut dyn FnMut(Shaken<'_>) -> Control) -> Result<(), String> {
         self.begin(start);
-        let mut explicit = Explicit::new(&self.problem)?;
-        explicit.begin_stage(0)?;
+        let mut explicit = Explicit::new(&self.problem).map_err(|e| e.to_string())?;
+        explicit.begin_stage(0).map_err(|e| e.to_string())?;
         let mut before = start.states.clone();
         loop {
             let time = explicit.time();

@@ -3,6 +3,7 @@
 use super::arrivals::Arrivals;
 use super::moment::{Before, Moment, size};
 use crate::kinds::worst::Worst;
+use asperity_mechanics::SetUpError;
 use asperity_mechanics::dynamics::{Budget, Explicit, ExplicitState, FaultState, Halt};
 use asperity_plan::dynamics::Plan;
 use asperity_run::{Kind, ObserveError, Observer, Warning};
@@ -99,8 +100,9 @@ pub fn run<const D: usize>(
     from: Option<Stand>,
 ) -> Result<Ended, RunError> {
     let clock = Instant::now();
-    let mut explicit = Explicit::new(&plan.problem).map_err(RunError::SetUp)?;
-    explicit.begin_stage(0).map_err(RunError::SetUp)?;
+    let failed = |e: SetUpError| RunError::SetUp(e.to_string());
+    let mut explicit = Explicit::new(&plan.problem).map_err(failed)?;
+    explicit.begin_stage(0).map_err(failed)?;
     if from.as_ref().is_some_and(|stand| !explicit.restore(&stand.state)) {
         return Err(RunError::Foreign);
     }

@@ -1,8 +1,7 @@
 //! Fields on faults in 3D as VTU files: states during a run and at its end, and slip and traction drop of each event.
 
-use super::locking;
-use super::pore;
 use super::states::has_theta;
+use super::{locking, pore};
 use asperity_cycles::heat::TEMPERATURE;
 use asperity_cycles::{Components, Layout, OPENING, Pressed};
 use asperity_output::vtu::{Array, Grid, Values, face_type};
