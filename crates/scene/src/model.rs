@@ -163,15 +163,17 @@ impl Scene {
                 TableOver { table, dimension, keys, duration, holds: false }
             })
         });
-        let fluxes = self.faults.values_mut().flat_map(Fault::fluxes_mut).filter_map(|flux| match flux {
-            Flux::Steps(table) => Some(TableOver {
-                table,
-                dimension: Dimension::Velocity,
-                keys: &["injection", "flux"],
-                duration: None,
-                holds: true,
-            }),
-            Flux::Constant(_) => None,
+        let fluxes = self.faults.values_mut().flat_map(|fault| {
+            fault.fluxes_mut().filter_map(|flux| match flux {
+                Flux::Steps(table) => Some(TableOver {
+                    table,
+                    dimension: Dimension::Velocity,
+                    keys: &["injection", "flux"],
+                    duration: None,
+                    holds: true,
+                }),
+                Flux::Constant(_) => None,
+            })
         });
         conditions.chain(fluxes)
     }
@@ -195,16 +197,18 @@ impl Scene {
         });
         let faults = self.faults.values().filter_map(|fault| Some(fault.triangles.as_ref()?.file()));
         let fields = self.faults.values().flat_map(|fault| fault.fields.all());
-        let hydraulic = self.faults.values().filter_map(|fault| fault.diffusion.as_ref());
-        let hydraulic = hydraulic.flat_map(Diffusion::parameters).map(|(key, .., field)| (key, field));
+        let hydraulic = self.faults.values().filter_map(|fault| Some(fault.diffusion.as_ref()?.parameters()));
+        let hydraulic = hydraulic.flatten().map(|(key, .., field)| (key, field));
         let of_laws = self.interfaces.values().flat_map(|interface| interface.fields.all());
         let fields = fields.chain(of_laws).chain(hydraulic).filter_map(|(_, field)| Some(&field?.file));
         let conditions = self.stages.iter().flat_map(|stage| &stage.conditions);
         let tables =
             conditions.flat_map(|c| c.get_ref().tables()).filter_map(|table| Some(&table.file()?.file));
-        let fluxes = self.faults.values().flat_map(Fault::fluxes).filter_map(|flux| match flux {
-            Flux::Steps(table) => Some(&table.file()?.file),
-            Flux::Constant(_) => None,
+        let fluxes = self.faults.values().flat_map(|fault| {
+            fault.fluxes().filter_map(|flux| match flux {
+                Flux::Steps(table) => Some(&table.file()?.file),
+                Flux::Constant(_) => None,
+            })
         });
         let tables = tables.chain(fluxes);
         let meshes = self.bodies.values().filter_map(|body| match &body.mesh {
