@@ -9,6 +9,9 @@ use asperity_plan::reading::scene::{self, settings};
 use asperity_plan::sliders::planner;
 use asperity_vary::Change::{Add, With, Without};
 
+/// Fluid along a fault.
+const FLUID: &str = r#"{ permeability = "1e-14 m^2", storage = 1e-9, viscosity = "1e-3 Pa s", wells = [{ at = "5 km", flux = "1e-9 m/s" }] }"#;
+
 /// Scenes by their kind of run, coarse so that their plans are quick. Keys of the stepper "auto" are those of others, but for
 /// its hand-over.
 fn scenes() -> Vec<(Kind, String)> {
@@ -20,7 +23,7 @@ fn scenes() -> Vec<(Kind, String)> {
         (Kind::Implicit, varied(&coarse, &massive)),
         (Kind::StaticExplicit, varied(&coarse, &forward)),
         (Kind::Cycles, cycles::SCENE.to_owned()),
-        (Kind::Medium, MEDIUM.to_owned()),
+        (Kind::Medium, varied(MEDIUM, &[Add("faults.main.diffusion", FLUID)])),
         (Kind::Explicit, dynamic::SCENE.to_owned()),
         (Kind::Sliders, SLIDER.to_owned()),
     ]
