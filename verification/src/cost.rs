@@ -36,7 +36,7 @@ impl Cost {
         self
     }
 
-    /// Adds every numeric field of a structure of counts that is not zero (such as the driver's `Counts`), under its name.
+    /// Adds every numeric field of a structure of counts that is not zero (such as `Counts` of a run), under its name.
     #[must_use]
     pub fn counts(mut self, counts: &impl Serialize) -> Cost {
         if let Ok(serde_json::Value::Object(fields)) = serde_json::to_value(counts) {

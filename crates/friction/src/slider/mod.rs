@@ -1,5 +1,5 @@
 //! Spring-sliders: one block or several, each on a spring to a load point and possibly on springs to others, quasi-static,
-//! radiation-damped or inertial. This module contains the equations; the driver integrates them in time.
+//! radiation-damped or inertial. This module contains the equations; `asperity-cycles` integrates them in time.
 
 mod block;
 mod history;
