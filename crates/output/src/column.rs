@@ -1,6 +1,6 @@
 //! Columns of tables: name, unit, sign and meaning. Headers, the text beside a run and the pages of the book follow from them.
 
-use crate::table::Rows;
+use crate::csv_rows::Rows;
 use std::collections::BTreeSet;
 
 /// Sense of positive values, in the words of the page "Signs in files".
@@ -102,7 +102,7 @@ impl Column {
 
     /// The column of a fault or another part of the scene, which its name says.
     #[must_use]
-    pub fn of(self, part: &str) -> Self {
+    pub fn for_part(self, part: &str) -> Self {
         Self { part: Some(part.into()), ..self }
     }
 
@@ -170,7 +170,7 @@ pub fn header(columns: &[Column]) -> String {
 /// Description of the columns of tables, given by their paths, as a table of text: files of a folder with the same columns share
 /// their rows.
 #[must_use]
-pub fn described(tables: &[(String, Vec<Column>)]) -> String {
+pub fn describe(tables: &[(String, Vec<Column>)]) -> String {
     let mut groups: Vec<(Vec<String>, Vec<String>)> = Vec::new();
     for (path, columns) in tables {
         let mut lines: Vec<String> = columns.iter().map(Column::line).collect();
@@ -223,7 +223,7 @@ mod tests {
     fn headers_have_names_units_parts_and_places() {
         let rate = || Column::new("rate", "m/s", Sign::Slip, "");
         let columns =
-            [time(), rate().of("main"), rate().at("(0, 1)"), Column::new("turns", "", Sign::None, "")];
+            [time(), rate().for_part("main"), rate().at("(0, 1)"), Column::new("turns", "", Sign::None, "")];
         assert_eq!(header(&columns), "time [s],rate of main [m/s],\"rate [m/s] at (0, 1)\",turns\n");
         let each = Column::each("each point", "m", Sign::Slip, "slip", ["0".into(), "2.5".into()]);
         assert_eq!(header(&[time(), each]), "time [s],0,2.5\n");
@@ -234,8 +234,8 @@ mod tests {
         let moved = || {
             vec![
                 time(),
-                Column::new("u", "m", Sign::Axis, "moved").of("a"),
-                Column::new("u", "m", Sign::Axis, "moved").of("b"),
+                Column::new("u", "m", Sign::Axis, "moved").for_part("a"),
+                Column::new("u", "m", Sign::Axis, "moved").for_part("b"),
             ]
         };
         let tables = [
@@ -247,6 +247,6 @@ mod tests {
             | `points/*.csv` | `time` | s | none | time of the row |\n\
             | `points/*.csv` | `u of *` | m | axis | moved |\n\
             | `e_*.csv` | `time` | s | none | time of the row |\n";
-        assert_eq!(described(&tables), expected);
+        assert_eq!(describe(&tables), expected);
     }
 }

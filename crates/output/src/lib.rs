@@ -3,7 +3,9 @@
 
 pub mod atomic;
 pub mod column;
+mod csv_rows;
 pub mod decimals;
+mod energies;
 mod error;
 pub mod files;
 pub mod grd;
@@ -33,6 +35,7 @@ pub mod vtu;
 pub mod words;
 
 pub use column::{Column, Sign};
+pub use energies::ENERGIES;
 pub use error::OutputError;
 pub use files::{Files, FilesState};
 pub use growing_table::GrowingTable;

@@ -1,6 +1,6 @@
 //! A run kept in memory: records of all steps, histories at points of the interfaces, and states at the ends of stages.
 
-use super::table::ENERGIES;
+use super::energies::ENERGIES;
 use super::view::{BodyFields, InterfaceFields, Samples, Setup, StepRecord, StepView, Writer};
 use crate::error::{OutputError, expect_length};
 use crate::numbers;

@@ -1,7 +1,9 @@
 //! CSV tables: profiles along an interface at one time, and histories at its probes.
 
 use super::column::{self, Column, Sign};
+use super::csv_rows::Rows;
 use super::decimals::{shortest, shortest_scientific};
+use super::energies::ENERGIES;
 use super::view::{InterfaceFields, InterfaceMesh, PointValues};
 use asperity_run::Energies;
 
@@ -196,24 +198,6 @@ pub(super) fn spring_columns(unit: &'static str) -> Vec<Column> {
     when().into_iter().chain(own).collect()
 }
 
-/// Energies in the order of the columns of files, in every kind of run.
-pub const ENERGIES: [&str; 14] = [
-    "kinetic",
-    "elastic",
-    "contact",
-    "springs",
-    "plastic",
-    "viscous",
-    "friction",
-    "numerical",
-    "absorbed",
-    "handover",
-    "start",
-    "loads",
-    "motions",
-    "released",
-];
-
 /// Columns of an energy budget in this unit.
 #[must_use]
 pub fn energy_columns(unit: &'static str) -> Vec<Column> {
@@ -233,7 +217,7 @@ pub fn energy_row(time: f64, stage: usize, step: usize, energies: &Energies) -> 
 /// Columns of the largest slip rates of interfaces.
 pub(super) fn rate_columns<'a>(names: impl Iterator<Item = &'a str>) -> Vec<Column> {
     let rate = |name: &str| {
-        Column::new("largest slip_rate", "m/s", Sign::Size, "largest slip rate of its points").of(name)
+        Column::new("largest slip_rate", "m/s", Sign::Size, "largest slip rate of its points").for_part(name)
     };
     when().into_iter().chain(names.map(rate)).collect()
 }
@@ -256,26 +240,4 @@ fn when() -> [Column; 3] {
     let stage = Column::new("stage", "", Sign::None, "number of the stage, from 0");
     let step = Column::new("step", "", Sign::None, "number of steps taken");
     [column::time(), stage, step]
-}
-
-/// CSV rows in memory.
-pub(crate) struct Rows(csv::Writer<Vec<u8>>);
-
-impl Default for Rows {
-    fn default() -> Self {
-        Self(csv::Writer::from_writer(Vec::new()))
-    }
-}
-
-impl Rows {
-    /// Adds a row.
-    pub fn push(&mut self, row: impl Iterator<Item = String>) {
-        self.0.write_record(row.map(String::into_bytes)).expect("writing to a Vec cannot fail");
-    }
-
-    /// All rows.
-    pub fn text(self) -> String {
-        let bytes = self.0.into_inner().expect("writing to a Vec cannot fail");
-        String::from_utf8(bytes).expect("rows are made of text")
-    }
 }

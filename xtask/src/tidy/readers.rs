@@ -70,8 +70,9 @@ fn leads_to(path: &[String], module: &str) -> bool {
         }
         [first, rest @ ..] => {
             let ours = first == "crate" || first.starts_with("asperity_");
+            let named = if rest.first().is_some_and(|s| s == "reading") { &rest[1..] } else { rest };
             first.strip_prefix("asperity_") == Some(module)
-                || ours && rest.iter().take(2).any(|s| s == module)
+                || ours && named.first().is_some_and(|s| s == module)
         }
         [] => false,
     }

@@ -34,7 +34,7 @@ pub(super) fn write(folder: &Path, title: &str, tables: &[(String, Vec<Column>)]
         text.push_str(
             "\n## Columns of tables\n\nThe chapter \"Signs in files\" explains the words of signs.\n\n",
         );
-        text.push_str(&column::described(&written));
+        text.push_str(&column::describe(&written));
     }
     atomic::write(&folder.join(README), text.as_bytes())
 }

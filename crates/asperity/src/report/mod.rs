@@ -1,4 +1,4 @@
-//! What reports of all kinds of run have in common, and how it is reached.
+//! Parts that reports of all kinds of run have in common, and how they are reached.
 
 mod samples;
 

@@ -3,7 +3,7 @@
 use super::chart::Measure;
 use super::sheet::{Curves, Points};
 use crate::Recorder;
-use crate::table::ENERGIES;
+use crate::energies::ENERGIES;
 
 /// Part that is not drawn: a constant.
 const START: &str = "start";

@@ -1,4 +1,4 @@
-//! What the plans of several kinds of run need.
+//! Parts that the plans of several kinds of run need.
 
 pub mod amounts;
 pub mod checks;

@@ -9,7 +9,7 @@ impl Checker<'_> {
         self.in_a_line(diffusion);
         self.hydraulic(diffusion);
         let viscosity = &diffusion.viscosity;
-        if !(viscosity.get_ref().0 > 0.0) {
+        if viscosity.get_ref().0 <= 0.0 {
             self.error(
                 viscosity.span(),
                 "`viscosity` must be positive",

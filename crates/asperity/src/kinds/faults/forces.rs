@@ -24,7 +24,7 @@ pub(super) fn table(plan: &Plan) -> Table<'_> {
             ),
             Column::new("normal_force", unit, Sign::Compression, "integral of the effective normal traction"),
         ]
-        .map(|column| column.of(&fault.name))
+        .map(|column| column.for_part(&fault.name))
     };
     let columns = [column::time()].into_iter().chain(plan.faults.iter().flat_map(of_fault)).collect();
     let row = |now: &Moment<'_>| {

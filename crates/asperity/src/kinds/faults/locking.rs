@@ -48,7 +48,7 @@ pub(super) fn table(plan: &Plan) -> Option<Table<'_>> {
             Column::new("coupling", "-", Sign::None, "mean coupling to the plates, weighted by G Vp dA"),
             Column::new("moment_deficit_rate", unit, Sign::None, "rate at which the moment deficit grows"),
         ]
-        .map(|column| column.of(&fault.name))
+        .map(|column| column.for_part(&fault.name))
     };
     let columns = [column::time()].into_iter().chain(faults(plan).flat_map(of_fault)).collect();
     let row = |now: &Moment<'_>| {

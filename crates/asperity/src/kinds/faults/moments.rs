@@ -27,7 +27,7 @@ pub(crate) fn columns(faults: &[FaultView], per_length: bool) -> Vec<Column> {
             ),
             Column::new("moment", sum, Sign::Size, "integral of G |s| dA over points that slide by friction"),
         ]
-        .map(|column| column.of(&fault.name))
+        .map(|column| column.for_part(&fault.name))
     };
     [column::time()].into_iter().chain(faults.iter().flat_map(of)).collect()
 }

@@ -10,11 +10,10 @@ use super::condensed::{self, Condensed};
 use super::held::Asked;
 use super::meshed::Meshed;
 use super::placed::Placed;
+use super::points::all_points;
 use super::pressing;
 use super::resolved::resolved;
-use super::{
-    all_points, asked, backslip, checks, coulomb, mirror, plates, receivers, sampled, sense, upright, weight,
-};
+use super::{asked, backslip, checks, coulomb, mirror, plates, receivers, sampled, sense, upright, weight};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Scene};
 use crate::shared::amounts;
@@ -103,7 +102,7 @@ impl<'s, const D: usize> Ground<'s, D> {
         Ok(Self { scene, model, pressing, stage, placed, points, resolution, checks, held, warnings, notes })
     }
 
-    /// What the condensation sees of the ground under these loads.
+    /// The ground under these loads, as the condensation sees it.
     fn asked<'a>(&'a self, loads: &'a Loads) -> Asked<'a, D> {
         Asked { scene: self.scene, model: &self.model, loads, points: &self.points }
     }

@@ -25,6 +25,7 @@ mod place;
 mod placed;
 mod plates;
 mod point;
+mod points;
 mod pressing;
 mod prestress;
 mod pulses;
@@ -46,23 +47,15 @@ pub(crate) use backslip::fastest as fastest_plates;
 pub(crate) use meshed::Meshed;
 pub use place::places;
 pub(crate) use placed::{Placed, in_space, slides};
+pub(crate) use points::all_points;
 pub(crate) use pulses::{doubts as pulse_doubts, pulses};
 pub(crate) use resolved::resolved;
 
 use super::plan::Plan;
 use crate::reading::diagnostic::Diagnostic;
-use crate::reading::scene::model::{Creep, Fault as Spec, Kinematics, Scene};
-use crate::shared::model::{self, Model, cuts, meshes};
-use crate::shared::resolution;
+use crate::reading::scene::model::{Kinematics, Scene};
 use crate::shared::setup::Setups;
-use apart::Spaced;
-use asperity_cycles::medium::Place;
 use asperity_cycles::operator::Form;
-use asperity_run::Warning;
-use fields::Fields;
-use medium::Media;
-use point::{Given, base_law, placed_at};
-use prestress::Prestress;
 
 /// Plans a scene whose stepper is "fault-ode".
 ///
@@ -105,78 +98,4 @@ fn plan_in<const D: usize>(scene: &Scene, form: (Form, &Setups)) -> Result<Plan,
         Some(medium) => rock::plan::<D>(scene, medium, form),
         None => between_bodies::plan::<D>(scene, form),
     }
-}
-
-/// Points of all faults, and notes on them.
-pub(crate) fn all_points<const D: usize>(
-    scene: &Scene,
-    model: &Model<D>,
-    warnings: &mut Vec<Warning>,
-) -> Result<(Vec<Placed<D>>, Vec<String>), Diagnostic> {
-    let mut placed: Vec<Placed<D>> = Vec::new();
-    apart::check(scene, &apart::faces::cells(scene, model)?, Spaced::Apart)?;
-    let mut notes = meshes::notes(scene)?;
-    notes.extend(cuts::notes(scene, &model.mesh));
-    notes.extend(meshes::left_out(model));
-    for (k, (name, spec)) in scene.faults.iter().enumerate() {
-        placed.extend(points_of(scene, model, (name, spec), k, (&mut *warnings, &mut notes))?);
-    }
-    for fault in &scene.faults {
-        notes.extend(bends::note(model, (fault.0, fault.1))?);
-    }
-    untouched::check(scene, model, &placed)?;
-    notes.extend(meet::join(scene, model, &mut placed)?);
-    Ok((placed, notes))
-}
-
-fn points_of<const D: usize>(
-    scene: &Scene,
-    model: &Model<D>,
-    (name, spec): (&str, &Spec),
-    fault: usize,
-    (warnings, notes): (&mut Vec<Warning>, &mut Vec<String>),
-) -> Result<Vec<Placed<D>>, Diagnostic> {
-    let base = base_law(spec)?;
-    let mut placed = Vec::new();
-    let media = Media::new(scene, model, spec)?;
-    let spacings = resolution::spacings(model, model::sides(model, &spec.minus)?);
-    let stress = Prestress::new(scene, (name, spec));
-    let weighs = scene.bodies.values().any(|b| b.gravity.is_some());
-    let (places, doubtful) = place::places(model, name, spec)?;
-    warnings.extend(doubtful);
-    let fields = Fields::read(scene, (name, spec, &base), &places)?;
-    for place in places {
-        let creep = spec.creep.as_ref().filter(|c| creeps(c, &place, CLOSE * model.scale));
-        let given = stress.as_ref().filter(|_| creep.is_none());
-        let given = Given {
-            medium: media.at(&place),
-            spacing: spacings.get(&place.minus).copied().unwrap_or_default(),
-            stress: given.map(|s| s.start(model, &place, weighs)).transpose()?,
-            // With backslip, what creeps does so with the plates, behind which it does not lag.
-            creep: creep.map(|c| if c.is_backslip() { 0.0 } else { c.rate.get_ref().0 }),
-            components: model.idealisation.components(),
-        };
-        placed.push(placed_at(spec, (fault, &base, &fields), place, given)?);
-    }
-    fields.describe(&placed, (warnings, notes));
-    asked::creep((name, spec), &placed)?;
-    asked::profiles(scene, (name, spec), &placed, warnings)?;
-    warnings.extend(patches::covered((name, spec), &placed)?);
-    Ok(placed)
-}
-
-/// Distance from the boundary of the creeping part within which a point counts as on it, relative to the size of the
-/// model: rounding.
-const CLOSE: f64 = 1e-12;
-
-/// True if slip is prescribed at a point; includes points within `close` \[m\] of the boundary.
-fn creeps<const D: usize>(creep: &Creep, place: &Place<D>, close: f64) -> bool {
-    if let Some(beyond) = &creep.beyond {
-        return place.along >= beyond.get_ref().0 - close;
-    }
-    let ranges = creep.outside.as_ref().map(|o| o.get_ref().ranges()).unwrap_or_default();
-    place.at.iter().zip(ranges).any(|(x, range)| {
-        let (from, to) = range.map_or((None, None), |r| (r.from, r.to));
-        from.is_some_and(|l| *x <= l.0 + close) || to.is_some_and(|l| *x >= l.0 - close)
-    })
 }
