@@ -1,7 +1,7 @@
 //! Columns of tables: name, unit, sign and meaning. Headers, the text beside a run and the pages of the book follow from them.
 
 use crate::csv_rows::Rows;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Sense of positive values, in the words of the page "Signs in files".
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -172,19 +172,24 @@ pub fn header(columns: &[Column]) -> String {
 #[must_use]
 pub fn describe(tables: &[(String, Vec<Column>)]) -> String {
     let mut groups: Vec<(Vec<String>, Vec<String>)> = Vec::new();
+    let mut known: BTreeMap<Vec<String>, usize> = BTreeMap::new();
     for (path, columns) in tables {
-        let mut lines: Vec<String> = columns.iter().map(Column::line).collect();
         let mut seen = BTreeSet::new();
+        let mut lines: Vec<String> = columns.iter().map(Column::line).collect();
         lines.retain(|line| seen.insert(line.clone()));
-        match groups.iter_mut().find(|group| group.1 == lines) {
-            Some(group) => group.0.push(path.clone()),
-            None => groups.push((vec![path.clone()], lines)),
-        }
+        let group = *known.entry(lines).or_insert_with_key(|lines| {
+            groups.push((Vec::new(), lines.clone()));
+            groups.len() - 1
+        });
+        groups[group].0.push(path.clone());
     }
     let mut text = String::from("| file | column | unit | sign | meaning |\n|---|---|---|---|---|\n");
+    let mut sizes: BTreeMap<&str, usize> = BTreeMap::new();
+    for folder in tables.iter().filter_map(|table| folder(&table.0)) {
+        *sizes.entry(folder).or_default() += 1;
+    }
     for (paths, lines) in &groups {
-        let all = tables.iter().map(|table| table.0.as_str());
-        let files = files(paths, &all.collect::<Vec<_>>());
+        let files = files(paths, &sizes);
         for line in lines {
             text.push_str(&format!("| {files} | {line} |\n"));
         }
@@ -192,26 +197,26 @@ pub fn describe(tables: &[(String, Vec<Column>)]) -> String {
     text
 }
 
-/// Names of these files, with `*` for those of a folder if there are no others in it.
-fn files(paths: &[String], all: &[&str]) -> String {
-    let folder = |path: &str| path.rsplit_once('/').map(|(folder, _)| format!("{folder}/"));
-    let mut names: Vec<String> = Vec::new();
-    for path in paths {
-        let own = folder(path).filter(|folder| {
-            let within = |path: &&str| path.starts_with(folder.as_str());
-            all.iter().filter(|p| within(p)).all(|p| paths.iter().any(|own| own == p))
-        });
-        let name = match own {
-            Some(folder) => {
-                let ending = path.rsplit_once('.').map_or(String::new(), |(_, ending)| format!(".{ending}"));
-                format!("`{folder}*{ending}`")
-            }
-            None => format!("`{path}`"),
-        };
-        if !names.contains(&name) {
-            names.push(name);
-        }
+/// Folder of a path.
+fn folder(path: &str) -> Option<&str> {
+    path.rsplit_once('/').map(|(folder, _)| folder)
+}
+
+/// Names of these files, with `*` for all files of a folder together; `sizes` has the number of files in each.
+fn files(paths: &[String], sizes: &BTreeMap<&str, usize>) -> String {
+    let mut own: BTreeMap<&str, usize> = BTreeMap::new();
+    for folder in paths.iter().filter_map(|path| folder(path)) {
+        *own.entry(folder).or_default() += 1;
     }
+    let name = |path: &String| match folder(path).filter(|folder| own.get(folder) == sizes.get(folder)) {
+        Some(folder) => {
+            let ending = path.rsplit_once('.').map_or(String::new(), |(_, ending)| format!(".{ending}"));
+            format!("`{folder}/*{ending}`")
+        }
+        None => format!("`{path}`"),
+    };
+    let mut names: Vec<String> = paths.iter().map(name).collect();
+    names.dedup();
     names.join(", ")
 }
 
@@ -231,22 +236,15 @@ mod tests {
 
     #[test]
     fn files_of_a_folder_with_the_same_columns_share_their_rows() {
-        let moved = || {
-            vec![
-                time(),
-                Column::new("u", "m", Sign::Axis, "moved").for_part("a"),
-                Column::new("u", "m", Sign::Axis, "moved").for_part("b"),
-            ]
-        };
-        let tables = [
-            ("points/a.csv".into(), moved()),
-            ("points/b.csv".into(), moved()),
-            ("e_*.csv".into(), vec![time()]),
-        ];
+        let part = |part| Column::new("u", "m", Sign::Axis, "moved").for_part(part);
+        let moved = || vec![time(), part("a"), part("b")];
+        let table = |path: &str, columns| (path.to_string(), columns);
+        let points = [table("points/a.csv", moved()), table("points/b.csv", moved())];
+        let of_events = [table("events/u_*.csv", moved()), table("events/v_*.csv", vec![time()])];
         let expected = "| file | column | unit | sign | meaning |\n|---|---|---|---|---|\n\
-            | `points/*.csv` | `time` | s | none | time of the row |\n\
-            | `points/*.csv` | `u of *` | m | axis | moved |\n\
-            | `e_*.csv` | `time` | s | none | time of the row |\n";
-        assert_eq!(describe(&tables), expected);
+            | `points/*.csv`, `events/u_*.csv` | `time` | s | none | time of the row |\n\
+            | `points/*.csv`, `events/u_*.csv` | `u of *` | m | axis | moved |\n\
+            | `events/v_*.csv` | `time` | s | none | time of the row |\n";
+        assert_eq!(describe(&[&points[..], &of_events].concat()), expected);
     }
 }
