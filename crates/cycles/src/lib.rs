@@ -23,7 +23,7 @@ pub use problem::{
     Components, Fault, Layout, Loading, PerPoint, Pressed, Problem, Processes, RunError, Settings, Thresholds,
 };
 pub use processes::{
-    BODIES, Below, Crack, Floor, Injection, OPENING, Opened, Opening, Pressure, Pulse, Used, Widest, deficit,
-    diffusion, heat,
+    BODIES, Below, Crack, FLUID_PRESSURE, Floor, Injection, OPENING, Opened, Opening, PorePressure, Pressure,
+    Pulse, Used, Widest, deficit, diffusion, heat,
 };
 pub use slider::ANY_ROCK;

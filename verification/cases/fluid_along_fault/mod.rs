@@ -203,7 +203,16 @@ fn against_injection(ledger: &mut Ledger) -> Result<(), CaseError> {
         .because("pressures differ by 1e-5 of their largest value while the fault slips, and slip grows with a power of the pressure; two hundred steps have errors of ln V of 1e-5 each")
         .cost(&diffused.cost)
         .record();
-    let pressure = Joined { sides: [LAYER; 2], well: 0.0, flux: FLUX }.pressure(0.0, LATE);
+    let line = Joined { sides: [LAYER; 2], well: 0.0, flux: FLUX };
+    ledger
+        .claim("pressure of `injection` after 100 d, error over the pressure at the well")
+        .value(error(&injected, &line))
+        .at_most(1e-6)
+        .evidence(Evidence::Exact, "p = q/(S sqrt(D)) sqrt(t) ierfc(|x|/sqrt(4 D t)) (Carslaw and Jaeger)")
+        .because("the table has seven digits, and times of its rows eleven")
+        .cost(&injected.cost)
+        .record();
+    let pressure = line.pressure(0.0, LATE);
     let [normal, other] = [&diffused, &injected].map(|ran| ran.at_stations("normal_stress", LATE));
     ledger
         .claim("normal traction at four stations after 99 d, cells of 20 m")

@@ -2,7 +2,7 @@
 
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_cycles::{Moment, Pressure};
+use asperity_cycles::{Moment, PorePressure as _, Pressure};
 use asperity_plan::faults::Plan;
 use asperity_vary::SceneText;
 
@@ -102,7 +102,8 @@ fn seen(plan: &Plan, share: f64) -> Result<Seen, CaseError> {
             out.least = out.least.min(now.normal(p));
         }
         if time > SPREAD && !(OFF..OFF + SPREAD).contains(&time) {
-            let fluid: f64 = plan.points.iter().enumerate().map(|(p, v)| v.area * pressure.at(p, time)).sum();
+            let felt = pressure.at(time, plan.points.len());
+            let fluid: f64 = plan.points.iter().zip(felt).map(|(view, p)| view.area * p).sum();
             let injected = share * FLUX * time.min(OFF);
             out.fluid = out.fluid.max((POROSITY * COMPRESSIBILITY * fluid / injected - 1.0).abs());
         }

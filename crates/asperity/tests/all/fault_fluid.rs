@@ -3,6 +3,7 @@
 
 use crate::common::varied;
 use asperity_cycles::Injection;
+use asperity_cycles::PorePressure as _;
 use asperity_cycles::diffusion::Diffusion;
 use asperity_plan::faults::Plan;
 use asperity_plan::reading::scene;
@@ -31,9 +32,7 @@ fn plan(text: &str) -> Plan {
 
 /// Pressures of all points at a time \[Pa\].
 fn pressures(plan: &Plan, time: f64) -> Vec<f64> {
-    let mut sum = vec![[0.0; 2]; plan.points.len()];
-    plan.problem.fault.processes.find::<Diffusion>().unwrap().add_to(time, f64::INFINITY, &mut sum);
-    sum.into_iter().map(|felt| felt[0]).collect()
+    plan.problem.fault.processes.find::<Diffusion>().unwrap().at(time, plan.points.len())
 }
 
 #[test]
@@ -129,6 +128,21 @@ fn what_is_doubtful_about_fluid_is_warned_of() {
         );
     }
     assert!(plan(SCENE).warnings.is_empty(), "{:?}", plan(SCENE).warnings);
+}
+
+#[test]
+fn what_is_doubtful_about_wells_is_warned_of_whatever_their_fluid_does() {
+    let injection =
+        r#"{ at = "8 km", flux = "1.25e-6 m/s", diffusivity = 0.1, porosity = 0.1, compressibility = 1e-8 }"#;
+    let text = varied(SCENE, &[Without("faults.main.diffusion"), Add("faults.main.injection", injection)]);
+    for (flux, words) in [
+        ("1e-4 m/s", "the run would end there"),
+        (r#"{ steps = [["500 d", 1e-6]] }"#, "begins after the end of the run"),
+    ] {
+        let plan = plan(&varied(&text, &[With("faults.main.injection.flux", flux)]));
+        assert!(plan.warnings.iter().any(|w| w.to_string().contains(words)), "{words}: {:?}", plan.warnings);
+    }
+    assert!(plan(&text).warnings.is_empty(), "{:?}", plan(&text).warnings);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::common::varied;
 use asperity::kinds::faults::Report;
-use asperity_cycles::{Balance, FaultRun, Layout, Moment, OPENING, Opening, Pressure};
+use asperity_cycles::{Balance, FaultRun, Layout, Moment, OPENING, Opening, PorePressure as _, Pressure};
 use asperity_ode::{Control, Outcome};
 use asperity_plan::faults::Plan;
 use asperity_plan::reading::scene;
@@ -58,9 +58,9 @@ fn followed(plan: &Plan) -> Found {
         opening.sheared(&by, &mut shear);
         fault.operator.normal(now.slip().all(), &mut press);
         opening.pressing(&by, &mut press);
+        let fluid = fault.processes.find::<Pressure>().map_or(vec![0.0; n], |f| f.at(time, n));
         for p in 0..n {
-            let fluid = fault.processes.find::<Pressure>().map_or(0.0, |f| f.at(p, time));
-            let pressed = fault.normal[p] + press[p] + normal_rate[p] * time - fluid;
+            let pressed = fault.normal[p] + press[p] + normal_rate[p] * time - fluid[p];
             let resists = friction(p, pressed.max(floor), now.unknowns[p], now.rate.component(0)[p]);
             along = along.max((first[p] + shear[p] + shear_rate[p] * time - resists).abs() / scale);
             let kept = if by[p] > 0.0 { pressed.abs() } else { (-pressed).max(0.0) };

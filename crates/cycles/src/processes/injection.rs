@@ -11,7 +11,8 @@
 //! flux adds the same function of the time since then, times the jump, and pressures of several wells add. At z = 0 the rate of
 //! pressure is infinite where the flux jumps: it varies as 1/√t, which is integrable.
 
-use crate::problem::{Acting, Host, Phase, Pressed, Process, Saved, Time, Tractions};
+use super::fluid::{ActingFluid, PorePressure};
+use crate::problem::{Acting, Host, Phase, Pressed, Process, Saved, Time};
 use std::f64::consts::PI;
 
 /// Injection of fluid at a flux that is constant between jumps.
@@ -102,32 +103,19 @@ impl Pressure {
         self.wells.iter().flat_map(|w| w.injection.jumps().map(|jump| jump.0))
     }
 
-    /// Pressure at a point \[Pa\].
+    /// True if a well is on the fault of a point.
     #[must_use]
-    pub fn at(&self, point: usize, time: f64) -> f64 {
-        self.felt(point, time, f64::INFINITY).0
+    pub fn reaches(&self, point: usize) -> bool {
+        self.wells.iter().any(|w| (w.first..w.first + w.distances.len()).contains(&point))
     }
+}
 
-    /// Pressure at a point \[Pa\] and its rate \[Pa/s\] before `until` \[s\]. An injection that begins or ends at
-    /// `until` is not seen.
-    #[must_use]
-    pub fn felt(&self, point: usize, time: f64, until: f64) -> (f64, f64) {
-        let of = |w: &Well| {
-            let distance = w.distances.get(point.checked_sub(w.first)?)?;
-            Some(w.injection.before(*distance, time, until))
-        };
-        self.wells.iter().filter_map(of).fold((0.0, 0.0), |(p, r), (value, rate)| (p + value, r + rate))
-    }
-
-    /// Subtracts the pressure from normal tractions \[Pa\], and its rate from theirs \[Pa/s\], in an integration that
-    /// ends at `until` \[s\]. An injection that begins or ends at `until` is not seen.
-    pub fn take_off(&self, time: f64, until: f64, normal: &mut [f64], rate: &mut [f64]) {
+impl PorePressure for Pressure {
+    fn add_to(&self, time: f64, until: f64, sum: &mut [[f64; 2]]) {
         for well in &self.wells {
-            let points = normal[well.first..].iter_mut().zip(&mut rate[well.first..]);
-            for ((normal, rate), distance) in points.zip(&well.distances) {
-                let (pressure, change) = well.injection.before(*distance, time, until);
-                *normal -= pressure;
-                *rate -= change;
+            for ([pressure, rate], distance) in sum[well.first..].iter_mut().zip(&well.distances) {
+                let (own, change) = well.injection.before(*distance, time, until);
+                (*pressure, *rate) = (*pressure + own, *rate + change);
             }
         }
     }
@@ -142,8 +130,8 @@ impl Process for Pressure {
         Phase::Fluid
     }
 
-    fn begin<'a>(&'a self, _: Host<'a>, _: Option<&Saved>) -> Box<dyn Acting + 'a> {
-        Box::new(self)
+    fn begin<'a>(&'a self, host: Host<'a>, _: Option<&Saved>) -> Box<dyn Acting + 'a> {
+        Box::new(ActingFluid::new(self, host.law.points()))
     }
 
     fn presses(&self) -> bool {
@@ -159,20 +147,7 @@ impl Process for Pressure {
     }
 
     fn fluid(&self, time: Time, _: &Pressed, sum: &mut [[f64; 2]]) {
-        for (p, [pressure, rise]) in sum.iter_mut().enumerate() {
-            let (own, rate) = self.felt(p, time.at, time.until);
-            (*pressure, *rise) = (*pressure + own, *rise + rate);
-        }
-    }
-}
-
-impl Acting for &Pressure {
-    fn act(&mut self, time: Time, on: &mut Tractions<'_>) -> Result<(), usize> {
-        match &mut on.rates {
-            Some(rates) => self.take_off(time.at, time.until, on.normal, rates.normal),
-            None => on.normal.iter_mut().enumerate().for_each(|(p, f)| *f -= self.at(p, time.at)),
-        }
-        Ok(())
+        self.add_to(time.at, time.until, sum);
     }
 }
 
@@ -263,7 +238,7 @@ mod tests {
         both.add(first.clone(), 0, vec![-100.0, 400.0]);
         both.add(second.clone(), 0, vec![-600.0, -100.0]);
         let expected = first.pressure(400.0, 3e6).0 + second.pressure(100.0, 3e6).0;
-        assert_eq!(both.at(1, 3e6), expected);
+        assert_eq!(both.at(3e6, 2)[1], expected);
         assert_eq!(both.jumps().collect::<Vec<_>>(), [0.0, END, 1e6]);
     }
 

@@ -3,6 +3,7 @@
 mod deficit;
 pub mod diffusion;
 mod floor;
+mod fluid;
 pub mod heat;
 mod injection;
 mod opening;
@@ -10,6 +11,7 @@ mod pulse;
 
 pub use deficit::deficit;
 pub use floor::{BODIES, Below, Floor, Used};
+pub use fluid::{FLUID_PRESSURE, PorePressure};
 pub use injection::{Injection, Pressure};
 pub use opening::{Crack, OPENING, Opened, Opening, Widest};
 pub use pulse::Pulse;

@@ -21,16 +21,9 @@ mod response;
 
 pub use chain::Line;
 
-use crate::problem::{Acting, Field, Host, Phase, Pressed, Process, Quantity, Saved, Time, Tractions};
+use super::fluid::{ActingFluid, PorePressure};
+use crate::problem::{Acting, Host, Phase, Pressed, Process, Saved, Time};
 use response::Response;
-
-/// Pressure of the fluid that diffuses.
-pub static FLUID_PRESSURE: Quantity = Quantity {
-    name: "fluid pressure",
-    unit: "Pa",
-    meaning: "pressure of the fluid from wells that diffuses along the fault",
-    over_events: None,
-};
 
 /// A well.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,15 +72,6 @@ impl Diffusion {
         self.wells.iter().any(|w| (w.first..w.first + w.points).contains(&point))
     }
 
-    /// Adds the pressures of all points \[Pa\] and their rates \[Pa/s\] before `until` \[s\]: a flux that changes then is not seen.
-    pub fn add_to(&self, time: f64, until: f64, sum: &mut [[f64; 2]]) {
-        for well in &self.wells {
-            let points = &mut sum[well.first..well.first + well.points];
-            let seen = well.jumps.iter().filter(|jump| jump.0 < until && jump.0 <= time);
-            seen.for_each(|(at, flux)| well.response.add(*flux, time - at, points));
-        }
-    }
-
     /// Description, for people.
     #[must_use]
     pub fn words(&self) -> String {
@@ -106,6 +90,16 @@ impl Diffusion {
     }
 }
 
+impl PorePressure for Diffusion {
+    fn add_to(&self, time: f64, until: f64, sum: &mut [[f64; 2]]) {
+        for well in &self.wells {
+            let points = &mut sum[well.first..well.first + well.points];
+            let seen = well.jumps.iter().filter(|jump| jump.0 < until && jump.0 <= time);
+            seen.for_each(|(at, flux)| well.response.add(*flux, time - at, points));
+        }
+    }
+}
+
 impl Process for Diffusion {
     fn name(&self) -> &'static str {
         "diffusion"
@@ -116,7 +110,7 @@ impl Process for Diffusion {
     }
 
     fn begin<'a>(&'a self, host: Host<'a>, _: Option<&Saved>) -> Box<dyn Acting + 'a> {
-        Box::new(Diffusing { diffusion: self, felt: vec![[0.0; 2]; host.law.points()] })
+        Box::new(ActingFluid::new(self, host.law.points()))
     }
 
     fn presses(&self) -> bool {
@@ -129,31 +123,6 @@ impl Process for Diffusion {
 
     fn fluid(&self, time: Time, _: &Pressed, sum: &mut [[f64; 2]]) {
         self.add_to(time.at, time.until, sum);
-    }
-}
-
-/// Fluid in an integration.
-#[derive(Debug)]
-struct Diffusing<'a> {
-    diffusion: &'a Diffusion,
-    /// Pressure of each point \[Pa\] and its rate \[Pa/s\].
-    felt: Vec<[f64; 2]>,
-}
-
-impl Acting for Diffusing<'_> {
-    fn act(&mut self, time: Time, on: &mut Tractions<'_>) -> Result<(), usize> {
-        self.felt.fill([0.0; 2]);
-        self.diffusion.add_to(time.at, time.until, &mut self.felt);
-        on.normal.iter_mut().zip(&self.felt).for_each(|(f, felt)| *f -= felt[0]);
-        if let Some(rates) = &mut on.rates {
-            rates.normal.iter_mut().zip(&self.felt).for_each(|(rate, felt)| *rate -= felt[1]);
-        }
-        Ok(())
-    }
-
-    fn fields(&self) -> Vec<Field> {
-        let values = self.felt.iter().map(|felt| felt[0]).collect();
-        vec![Field { quantity: &FLUID_PRESSURE, values }]
     }
 }
 

@@ -10,14 +10,12 @@ use super::cells::Cells;
 use super::placed::{Placed, components, in_space, slides};
 use super::pulses::{self, pulses};
 use super::{
-    asked, checks, diffusion, floor, heated, pressing, radiation, sense, start_doubts, steady, upright,
+    asked, checks, diffusion, floor, heated, injection, pressing, radiation, sense, start_doubts, steady,
+    upright,
 };
-use crate::doubts::Fluid;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::LawChoice;
-use crate::reading::scene::model::{
-    Creep, Fault as Spec, Flux, Injection as Well, Scene, SlipSpec, Station as Asking,
-};
+use crate::reading::scene::model::{Creep, Fault as Spec, Scene, SlipSpec, Station as Asking};
 use crate::shared::checks::{Checks, Cost, FaultCheck, rates};
 use crate::shared::resolution::Resolution;
 use crate::shared::{outrun, place, thresholds};
@@ -25,9 +23,7 @@ use asperity_cycles::diffusion::Diffusion;
 use asperity_cycles::heat::Heat;
 use asperity_cycles::medium::across;
 use asperity_cycles::operator::Operator;
-use asperity_cycles::{
-    Fault, Floor, Injection, Layout, Loading, Opening, Pressure, Problem, Processes, Pulse, Settings,
-};
+use asperity_cycles::{Fault, Floor, Layout, Loading, Opening, Problem, Processes, Pulse, Settings};
 use asperity_friction::Failure;
 use asperity_friction::fault::FaultLaw;
 use asperity_friction::rake::VariableRake;
@@ -114,6 +110,7 @@ pub(super) fn plan_of<const D: usize>(
     let modes = heat.as_ref().map_or(0, Heat::bytes);
     let pulses = pulses(&named, &placed, if turns { 2 } else { 1 })?;
     let (mut warnings, mut notes) = (around.warnings, around.notes);
+    let injection = injection::injection(scene, &placed, end, &mut warnings)?;
     let diffusion = diffusion::diffusion(scene, &placed, end, (&mut warnings, &mut notes))?;
     let responses = diffusion.as_ref().map_or(0, Diffusion::bytes);
     let fault = Fault {
@@ -123,7 +120,7 @@ pub(super) fn plan_of<const D: usize>(
         normal: placed.iter().map(|p| p.normal).collect(),
         processes: Processes::default()
             .and(pulses.into_iter().map(|(amplitude, rise)| Pulse { amplitude, rise }))
-            .and(pressure(scene, &placed)?)
+            .and(injection)
             .and(diffusion)
             .and(heat)
             .and(opening)
@@ -133,7 +130,6 @@ pub(super) fn plan_of<const D: usize>(
     let settings = settings(scene, &placed, end)?;
     pressing::rests(scene, (&placed, &fault), (&start, settings.thresholds.on))?;
     doubt(scene, (&placed, &fault), around.loading, &mut warnings)?;
-    warnings.extend(spread(scene, &placed, end));
     warnings.extend(steady::starts(scene, &placed, &fault, (&loading, end)));
     let (faults, points) = views(scene, cells, &placed, turns)?;
     let areas = placed.iter().map(|p| p.point.place.area).collect();
@@ -241,48 +237,6 @@ pub(super) fn geometry<const D: usize>(placed: &[Placed<D>]) -> (Vec<[f64; 3]>, 
     (places, areas, faults)
 }
 
-/// Pressure of the injected fluid.
-fn pressure<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Result<Option<Pressure>, Diagnostic> {
-    let mut pressure: Option<Pressure> = None;
-    for (fault, (name, spec)) in scene.faults.iter().enumerate() {
-        let Some(wells) = &spec.injection else { continue };
-        let points = placed.iter().filter(|p| p.fault == fault);
-        let along: Vec<f64> = points.map(|p| p.point.place.along).collect();
-        let (least, most) = along.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), s| (l.min(*s), m.max(*s)));
-        for well in &wells.0 {
-            let at = well.at.get_ref().0;
-            if !(least <= at && at <= most) {
-                return Err(Diagnostic::at(
-                    well.at.span(),
-                    format!("fault `{name}` does not slide at {at} m along it, where fluid is injected"),
-                    format!("it slides from {least} to {most} m"),
-                ));
-            }
-            let first = placed.partition_point(|p| p.fault < fault);
-            let distances = along.iter().map(|s| s - at).collect();
-            pressure.get_or_insert_default().add(injected(well), first, distances);
-        }
-    }
-    Ok(pressure)
-}
-
-/// Flow of a well: steps of its flux.
-fn injected(well: &Well) -> Injection {
-    let flux = match well.flux.get_ref() {
-        Flux::Steps(steps) => steps.to_vec(),
-        Flux::Constant(flux) => {
-            let end = well.until.as_ref().map(|t| (t.get_ref().0, 0.0));
-            std::iter::once((0.0, *flux)).chain(end).collect()
-        }
-    };
-    Injection {
-        flux,
-        diffusivity: *well.diffusivity.get_ref(),
-        porosity: *well.porosity.get_ref(),
-        compressibility: *well.compressibility.get_ref(),
-    }
-}
-
 /// Initial unknowns: every point slides at its initial rate.
 fn start<const D: usize>(placed: &[Placed<D>], fault: &Fault) -> Result<Vec<f64>, (usize, Failure)> {
     let layout = Layout::of(fault);
@@ -374,22 +328,6 @@ fn endless(scene: &Scene, loading: f64) -> Vec<Warning> {
         thresholds::slow(Some(events)).and_then(|t| crate::doubts::thresholds(events, t, fastest, true));
     // One warning per cause: the rate of the loads.
     usual.or(slow).into_iter().collect()
-}
-
-/// Warnings about fluid that has run beyond the ends of its fault before the run ends \[s\].
-fn spread<const D: usize>(scene: &Scene, placed: &[Placed<D>], end: f64) -> Vec<Warning> {
-    let of = |(k, (name, spec)): (usize, (&String, &Spec))| {
-        let wells = spec.injection.as_ref()?;
-        let along = placed.iter().filter(|p| p.fault == k).map(|p| p.point.place.along);
-        let ends = along.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], s| [l.min(s), h.max(s)]);
-        // One warning per fault: of the first well whose fluid has run too far.
-        wells.0.iter().find_map(|well| {
-            let at = well.at.get_ref().0;
-            let fluid = Fluid { at, ends, diffusivity: *well.diffusivity.get_ref(), duration: end };
-            crate::doubts::fluid(name, well.diffusivity.span(), fluid)
-        })
-    };
-    scene.faults.iter().enumerate().filter_map(of).collect()
 }
 
 /// Slip rate at which a point has ruptured \[m/s\]; events begin at the slip rate `on`.

@@ -11,7 +11,7 @@ use asperity_cycles::medium::{Bodies, Conditions, Initial, Mirror, Surroundings,
 use asperity_cycles::operator::{Form, Geometry, Operator, of_forces};
 use asperity_cycles::{Loading, Opening};
 use asperity_fem::condense::Stiffness;
-pub use asperity_run::report::Part;
+use asperity_run::report::Part;
 use serde::{Deserialize, Serialize};
 
 /// Condensed bodies.

@@ -1,16 +1,15 @@
 //! Fluid that diffuses along faults: hydraulic properties at their points, and wells.
 
 use super::placed::{Placed, at};
+use super::wells::{FluidReach, WellSpec};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{
-    Diffusion as Given, DiffusionEnds, Flux, Hydraulic, ParameterProfiles, Scene, Well, field_dimension,
+    Diffusion as Given, DiffusionEnds, Hydraulic, ParameterProfiles, Scene, Well, field_dimension,
 };
 use crate::shared::field::{Bound, Field, Files, Parameter, Region, Spot};
 use asperity_cycles::diffusion::{Diffusion, Line, Source};
-use asperity_mechanics::coordinates;
 use asperity_run::Warning;
 use asperity_scene::lengths::brief;
-use std::ops::Range;
 
 /// Warnings and notes of a plan.
 type Said<'a> = (&'a mut Vec<Warning>, &'a mut Vec<String>);
@@ -38,9 +37,14 @@ pub(super) fn diffusion<const D: usize>(
         let wells = wells.collect::<Result<Vec<_>, _>>()?;
         let own = all.get_or_insert_default();
         own.add(first, &line, &wells, end);
-        said.0.extend(idle((name, given), &wells, end));
+        let specs = given.wells.get_ref().iter().zip(&wells);
+        said.0.extend(specs.filter_map(|(spec, well)| WellSpec::from(spec).idle(name, &well.flux, end)));
         said.0.extend(narrow((name, given), &line, &wells, end));
-        said.0.extend(lifted((name, given), (&*own, &wells), (placed, first), end));
+        let steps = wells.iter().flat_map(|well| well.flux.iter().copied()).collect();
+        let help =
+            "check the units of `flux`, `permeability` and `storage`; or give the fault a `normal_floor`";
+        let reach = FluidReach { fault: name, place: given.wells.span(), help, pressure: &*own, steps, end };
+        said.0.extend(reach.lifted(placed, first));
     }
     Ok(all)
 }
@@ -92,23 +96,8 @@ fn spot<const D: usize>(placed: &Placed<D>) -> Spot<D> {
 
 /// A well with the steps of its flux, on the cells of its fault.
 fn source((name, well): (&str, &Well), line: &Line) -> Result<Source, Diagnostic> {
-    let at = well.at.get_ref().0;
-    let [low, high] = ends(line);
-    if !(low <= at && at <= high) {
-        return Err(Diagnostic::at(
-            well.at.span(),
-            format!("fault `{name}` does not slide at {at} m along it, where fluid is injected"),
-            format!("it slides from {low} to {high} m"),
-        ));
-    }
-    let flux = match well.flux.get_ref() {
-        Flux::Steps(steps) => steps.to_vec(),
-        Flux::Constant(flux) => {
-            let end = well.until.as_ref().map(|t| (t.get_ref().0, 0.0));
-            std::iter::once((0.0, *flux)).chain(end).collect()
-        }
-    };
-    Ok(Source { at, flux })
+    let spec = WellSpec::from(well);
+    Ok(Source { at: spec.within(name, ends(line))?, flux: spec.steps() })
 }
 
 /// Ends of the cells of a line \[m\]. Distances along a fault count from its upper end.
@@ -116,20 +105,6 @@ fn ends(line: &Line) -> [f64; 2] {
     let last = line.positions.len() - 1;
     let low = line.positions[0] - 0.5 * line.lengths[0];
     [low.max(0.0), line.positions[last] + 0.5 * line.lengths[last]]
-}
-
-/// Warning about a well that begins when the run has ended.
-fn idle((name, given): (&str, &Given), wells: &[Source], end: f64) -> Option<Warning> {
-    let late = |well: &Source| well.flux.iter().find(|step| step.1 != 0.0).is_some_and(|step| step.0 >= end);
-    let (_, well) = wells.iter().zip(given.wells.get_ref()).find(|(well, _)| late(well))?;
-    let at = brief(well.at.get_ref().0);
-    let message =
-        format!("the well at {at} of fault `{name}` begins after the end of the run, which is at {end:e} s");
-    Some(Warning::at(
-        well.flux.span(),
-        message,
-        "check the unit of its times, which count from the start of the run",
-    ))
 }
 
 /// Warning about a well whose fluid stays within its cell: pressure is that of the mean over the cell.
@@ -150,33 +125,5 @@ fn narrow((name, given): (&str, &Given), line: &Line, wells: &[Source], end: f64
             );
             Warning::at(spec.at.span(), message, "smaller cells; or check the units of `permeability`, `viscosity` and `storage`")
         })
-    })
-}
-
-/// Warning about a fault whose fluid takes all of its normal traction at the start, at a change of a flux or at the end.
-fn lifted<const D: usize>(
-    (name, given): (&str, &Given),
-    (fluid, wells): (&Diffusion, &[Source]),
-    (placed, first): (&[Placed<D>], usize),
-    end: f64,
-) -> Option<Warning> {
-    let times = wells.iter().flat_map(|well| well.flux.iter().map(|step| step.0)).filter(|t| *t < end);
-    let mut times: Vec<f64> = times.chain([end]).collect();
-    times.sort_by(f64::total_cmp);
-    let mut sum = vec![[0.0; 2]; placed.len()];
-    times.into_iter().find_map(|time| {
-        sum.fill([0.0; 2]);
-        fluid.add_to(time, f64::INFINITY, &mut sum);
-        let own = placed.iter().zip(&sum).skip(first).filter(|(p, _)| p.fault == placed[first].fault);
-        let (point, [pressure, _]) = own.filter(|(p, felt)| felt[0] > p.normal && p.floor.is_none()).max_by(
-            |(_, a), (_, b)| a[0].total_cmp(&b[0]),
-        )?;
-        let message = format!(
-            "after {time:e} s fluid presses with {pressure:.4e} Pa on fault `{name}` at {}, whose normal traction at the start is {:.4e} Pa: the run would end there",
-            coordinates::in_words(&point.point.place.at),
-            point.normal
-        );
-        let place: Range<usize> = given.wells.span();
-        Some(Warning::at(place, message, "check the units of `flux`, `permeability` and `storage`; or give the fault a `normal_floor`"))
     })
 }

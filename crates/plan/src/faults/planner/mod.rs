@@ -16,6 +16,7 @@ pub mod fields;
 mod floor;
 mod heated;
 mod held;
+mod injection;
 mod medium;
 mod meet;
 mod meshed;
@@ -40,6 +41,7 @@ mod steady;
 mod untouched;
 mod upright;
 mod weight;
+mod wells;
 
 pub(crate) use asked::nothing_slides;
 pub(crate) use assemble::views;

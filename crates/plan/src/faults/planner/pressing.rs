@@ -19,7 +19,7 @@ use asperity_fem::dof::Channel;
 use asperity_fem::table::Table;
 use asperity_mechanics::coordinates;
 use asperity_run::Warning;
-pub use asperity_run::report::Part;
+use asperity_run::report::Part;
 use std::collections::BTreeMap;
 
 /// Fraction of the largest normal traction below which a traction is rounding of the solution.
