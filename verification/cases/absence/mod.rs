@@ -10,6 +10,7 @@ use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use callgrind::Instructions;
 use rayon::prelude::*;
 use scenes::Declared;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use terms::Term;
 
@@ -57,8 +58,9 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         ledger.not_covered("results under another vector width", "this processor has no vectors of 512 bits");
     }
     let measured = runs.into_iter().collect::<Result<Vec<Measured>, CaseError>>()?;
-    measured.iter().for_each(|run| ledger.sheet(sheet(run)));
-    crates(ledger, &measured);
+    let names = crate_names(&measured);
+    measured.iter().for_each(|run| ledger.sheet(sheet(run, &names)));
+    crates(ledger, &measured, &names);
     Ok(())
 }
 
@@ -133,13 +135,13 @@ fn repeated(ledger: &mut Ledger, run: &Measured) {
 }
 
 /// The page of a scene: what it declares, what was built for it, and what ran.
-fn sheet(run: &Measured) -> Sheet {
+fn sheet(run: &Measured, names: &BTreeSet<&str>) -> Sheet {
     let declared = |term: &Term| if run.scene.terms.contains(term) { "yes" } else { "no" };
     let row = |term: &Term| {
         vec![term.name().to_owned(), declared(term).to_owned(), written(term.instructions(&run.instructions))]
     };
     let state = run.state.map_or("none".to_owned(), |bytes| format!("{bytes} bytes"));
-    let crates = CRATES.iter().map(|name| vec![(*name).to_owned(), written(of_crate(run, name))]);
+    let crates = names.iter().map(|name| vec![(*name).to_owned(), written(of_crate(run, name))]);
     let table = |title: &str, head: &[&str], rows: Vec<Vec<String>>| Table {
         title: title.to_owned(),
         head: head.iter().map(|&cell| cell.to_owned()).collect(),
@@ -156,8 +158,11 @@ fn sheet(run: &Measured) -> Sheet {
     }
 }
 
-const CRATES: [&str; 10] =
-    ["friction", "fem", "ode", "contact", "mechanics", "cycles", "laws", "scene", "output", "driver"];
+/// Names of the crates with instructions in any of these runs.
+fn crate_names(runs: &[Measured]) -> BTreeSet<&str> {
+    let paths = runs.iter().flat_map(|run| run.instructions.keys());
+    paths.filter_map(|path| path.split('/').nth(1)).collect()
+}
 
 /// Instructions in the files of a crate.
 fn of_crate(run: &Measured, name: &str) -> u64 {
@@ -166,10 +171,10 @@ fn of_crate(run: &Measured, name: &str) -> u64 {
 }
 
 /// Instructions in the files of each crate.
-fn crates(ledger: &mut Ledger, runs: &[Measured]) {
-    let head: Vec<&str> = ["scene"].into_iter().chain(CRATES).collect();
+fn crates(ledger: &mut Ledger, runs: &[Measured], names: &BTreeSet<&str>) {
+    let head: Vec<&str> = ["scene"].into_iter().chain(names.iter().copied()).collect();
     let row = |run: &Measured| {
-        let cells = CRATES.iter().map(|name| written(of_crate(run, name)));
+        let cells = names.iter().map(|name| written(of_crate(run, name)));
         std::iter::once(run.scene.name.to_owned()).chain(cells).collect::<Vec<String>>()
     };
     ledger.table("Instructions by crate", &head, runs.iter().map(row));

@@ -79,7 +79,7 @@ kinematics = "3d"
 young = "50 GPa"
 poisson = 0.25
 [bodies.block]
-mesh.block = { min = [0, 0, 0], max = [1, 1, 1], divisions = [10, 10, 10], element = "hex8" }
+mesh.block = { min = [0, 0, 0], max = [1, 1, 1], divisions = [10, 10, 8], element = "hex8" }
 material = "rock"
 [[stages]]
 name = "press"
@@ -101,7 +101,7 @@ fn coulomb() -> SceneText {
     let mut scene = SceneText::new(include_str!("../../../scenes/hertz.toml")).with("stages[1].steps", 2);
     for body in ["flat", "cylinder"] {
         for axis in 0..2 {
-            scene = scene.with(&format!("bodies.{body}.mesh.block.spacing[{axis}].size"), "0.4 mm");
+            scene = scene.with(&format!("bodies.{body}.mesh.block.spacing[{axis}].size"), "0.8 mm");
         }
     }
     scene

@@ -9,6 +9,7 @@ use super::waves::{Rock, line, mesh, nodes_on, problem, run as steps};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
+use asperity_fem::mesh::{Mesh, nodes_of_sides};
 use asperity_mechanics::dynamics::{Budget, Explicit, dashpots};
 use reference::{Parameters, Reference};
 
@@ -82,13 +83,21 @@ fn rupture_of(
     let rock = Rock { density: parameters.density, pressure: parameters.cp, shear: parameters.cs };
     let size = if kind == ElementKind::Quad9 { 2.0 * spacing } else { spacing };
     let [nx, ny] = extent.map(|l| (l / size).round() as usize);
-    let x = line(-extent[0], extent[0], 2 * nx);
+    // Where both halves of the fault are alike, one is computed.
+    let half = parameters.is_even();
+    let x = if half { line(0.0, extent[0], nx) } else { line(-extent[0], extent[0], 2 * nx) };
     let parts = [[x.clone(), line(-extent[1], 0.0, ny)], [x, line(0.0, extent[1], ny)]];
     let space = if parameters.antiplane { Idealisation::Antiplane } else { Idealisation::PlaneStrain };
     let mut problem = problem(mesh(&parts, kind)?, rock, space, end)?;
-    let sides = ["b0.left", "b0.right", "b0.bottom", "b1.left", "b1.right", "b1.top"];
-    let sides = sides.map(|s| problem.model.mesh.side_sets[s].clone()).concat();
+    let left = if half { &[][..] } else { &["b0.left", "b1.left"] };
+    let sides = left.iter().chain(&["b0.right", "b0.bottom", "b1.right", "b1.top"]);
+    let sides: Vec<_> = sides.flat_map(|&s| problem.model.mesh.side_sets[s].clone()).collect();
     problem.absorbing = dashpots(&problem.model, &problem.density, &sides);
+    if half && !parameters.antiplane {
+        // Displacement across the fault is odd along it.
+        let middle = ["b0.left", "b1.left"].map(|side| side_nodes(&problem.model.mesh, side)).concat();
+        problem.stages[0].fixed = middle.into_iter().map(|n| 2 * n + 1).collect();
+    }
     problem.courant = 0.8;
     problem.fault = Some(fault::between(&problem.model, parameters, spacing)?);
     let at: Vec<f64> = nodes_on(&problem.model, "b0.top").iter().map(|(_, x)| *x).collect();
@@ -106,6 +115,11 @@ fn rupture_of(
     let cost = cost.count("cells", last.product().cells() as f64).count("steps", last.steps() as f64);
     let budget = last.budget();
     Ok(Rupture { at, times, history, budget, cost })
+}
+
+/// Nodes of a side.
+fn side_nodes(mesh: &Mesh<2>, side: &str) -> Vec<usize> {
+    nodes_of_sides(mesh, &mesh.side_sets[side])
 }
 
 /// Notes where the slip rate has passed a front in the last step.

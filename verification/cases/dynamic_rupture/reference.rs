@@ -48,6 +48,11 @@ pub(super) struct Parameters {
 }
 
 impl Parameters {
+    /// True if both halves of the fault are alike.
+    pub fn is_even(&self) -> bool {
+        self.patches.iter().all(|[centre, ..]| *centre == 0.0)
+    }
+
     /// Radius within which traction is imposed \[m\]; 0 without.
     pub fn nucleated(&self) -> f64 {
         match &self.friction {

@@ -1,7 +1,8 @@
 //! Waves that meet an absorbing side at an angle.
 //!
 //! A strip guides a wave of one crest across it. It meets the ends of the strip at the angle whose tangent is k_y/k_x. Two packets
-//! run to both ends, and the energy left afterwards is that of the reflected waves.
+//! run from the middle to both ends, and the energy left afterwards is that of the reflected waves. Both halves are alike, so that
+//! one is computed.
 
 use super::super::waves::{Rock, line, mesh, problem, run};
 use crate::{Capability, CaseError, Cost, Evidence, Ledger, Plot, Series};
@@ -87,8 +88,8 @@ fn reflected(wave: Wave, degrees: f64, energy: &Value) -> Result<(f64, f64), Cas
     let k_x = k_y / degrees.to_radians().tan();
     let (width, speed) = (WIDTH / k_x, if wave == Wave::Pressure { ROCK.pressure } else { ROCK.shear });
     let half = 4.0 * width;
-    let n = (2.0 * half * ACROSS as f64).round() as usize;
-    let strip = mesh(&[[line(-half, half, n), line(0.0, 1.0, ACROSS)]], ElementKind::Quad9)?;
+    let n = (half * ACROSS as f64).round() as usize;
+    let strip = mesh(&[[line(0.0, half, n), line(0.0, 1.0, ACROSS)]], ElementKind::Quad9)?;
     let group = speed * degrees.to_radians().cos();
     let space = if wave == Wave::Shear { Idealisation::Antiplane } else { Idealisation::PlaneStrain };
     let mut problem = problem(strip, ROCK, space, 2.0 * half / group)?;
@@ -110,21 +111,29 @@ fn reflected(wave: Wave, degrees: f64, energy: &Value) -> Result<(f64, f64), Cas
             .flat_map(|[x, y]| [across(*x) * (k_y * y).sin(), -along(*x) * (k_y * y).cos()])
             .collect(),
     };
-    // Walls that no wave leaves through, and that reflect it into itself: for P waves frictionless and rigid, as the potential has no
-    // slope there; for SV waves free across and held along, as neither that displacement nor that traction is in the wave.
-    let held = match wave {
-        Wave::Shear => None,
-        Wave::InPlane => Some(0),
-        Wave::Pressure => Some(1),
-    };
-    if let Some(component) = held {
-        let wall = nodes.iter().enumerate().filter(|(_, x)| x[1] == 0.0 || x[1] == 1.0);
-        problem.stages[0].fixed = wall.map(|(n, _)| 2 * n + component).collect();
-    }
-    let ends = ["b0.left", "b0.right"].map(|s| problem.model.mesh.side_sets[s].clone()).concat();
-    problem.absorbing = dashpots(&problem.model, &problem.density, &ends);
+    problem.stages[0].fixed = fixed(wave, nodes);
+    let end = problem.model.mesh.side_sets["b0.right"].clone();
+    problem.absorbing = dashpots(&problem.model, &problem.density, &end);
     let budget = run(&problem, |_| ())?.budget();
     Ok(((budget.kinetic + budget.elastic) / budget.initial, mean(energy, wave, [k_x, k_y], width)))
+}
+
+/// Degrees of freedom held at the walls, which no wave leaves through and which reflect it into itself, and in the middle, where
+/// one of the two displacements is odd.
+///
+/// For P waves walls are frictionless and rigid, as the potential has no slope there. For SV waves they are free across and held
+/// along, as neither that displacement nor that traction is in the wave.
+fn fixed(wave: Wave, nodes: &[[f64; 2]]) -> Vec<usize> {
+    let [walls, middle] = match wave {
+        Wave::Shear => return Vec::new(),
+        Wave::InPlane => [0, 1],
+        Wave::Pressure => [1, 0],
+    };
+    let held = |on: &dyn Fn(&[f64; 2]) -> bool, component: usize| {
+        let on = nodes.iter().enumerate().filter(|(_, x)| on(x));
+        on.map(|(n, _)| 2 * n + component).collect::<Vec<usize>>()
+    };
+    [held(&|x| x[1] == 0.0 || x[1] == 1.0, walls), held(&|x| x[0] == 0.0, middle)].concat()
 }
 
 /// Mean of the reflected energy over the wavenumbers of a packet; those of its envelope are as wide as 1/width.

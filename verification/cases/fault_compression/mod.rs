@@ -7,7 +7,7 @@ use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_cycles::operator::Form;
 use asperity_plan::faults::{Plan, plan_with};
 use asperity_plan::reading::scene;
-use asperity_vary::bp1::{BP1, bp1};
+use asperity_vary::bp1::BP1;
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -33,12 +33,9 @@ fn plan(text: &str, form: Form) -> Result<Plan, CaseError> {
 }
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let fine = bp1(78.125).text()?;
     let dipping = fault_operator::through(30.0, 250.0);
     let mut rows = Vec::new();
-    for (name, text) in
-        [("BP1, 156 m", BP1), ("BP1, 78 m", fine.as_str()), ("dip 30, 250 m", dipping.as_str())]
-    {
+    for (name, text) in [("BP1, 156 m", BP1), ("dip 30, 250 m", dipping.as_str())] {
         let dense = plan(text, Form::Dense)?;
         let (compressed, cost) = Cost::of(|| plan(text, Form::Fitting));
         let compressed = compressed?;

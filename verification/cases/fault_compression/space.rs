@@ -8,7 +8,7 @@ use asperity_plan::faults::Plan;
 use asperity_vary::SceneText;
 
 /// Tolerances of the compression relative to each block.
-const TOLERANCES: [f64; 3] = [1e-3, 1e-5, 1e-7];
+const TOLERANCES: [f64; 2] = [1e-3, 1e-7];
 
 /// Runs all claims.
 pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
