@@ -425,3 +425,15 @@ pub(crate) fn views<const D: usize>(
     }
     Ok((faults, points))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{IN_SPACE, IN_THE_PLANE};
+    use asperity_scene::defaults;
+
+    #[test]
+    fn the_default_methods_are_those_of_the_rows_of_the_key() {
+        assert_eq!(IN_THE_PLANE.0.name(), defaults::METHOD);
+        assert_eq!(IN_SPACE.0.name(), defaults::METHOD_IN_SPACE);
+    }
+}
