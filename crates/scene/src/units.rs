@@ -327,13 +327,28 @@ pub(crate) fn si_value(text: &str) -> Option<f64> {
     shifted(number, unit.power).map(|v| v * unit.factor).filter(|v| v.is_finite())
 }
 
+/// Text that is no value of the expected dimension.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("expected {expected}, found \"{found}\" ({reason})")]
+pub struct UnitError {
+    /// What was expected, with an example.
+    pub expected: String,
+    /// The text.
+    pub found: String,
+    /// Reason why it is none.
+    pub reason: String,
+}
+
 /// Parses a text with a unit into its SI value.
 ///
 /// # Errors
-/// A message with the expected and the found.
-pub fn parse(text: &str, wanted: Dimension) -> Result<f64, String> {
+/// What was expected and found.
+pub fn parse(text: &str, wanted: Dimension) -> Result<f64, UnitError> {
     let (number, name) = split(text);
-    let refuse = |why: &str| Err(format!("expected {}, found \"{text}\" ({why})", wanted.expected()));
+    let refuse = |why: &str| {
+        let expected = wanted.expected().to_string();
+        Err(UnitError { expected, found: text.to_owned(), reason: why.to_owned() })
+    };
     if number.is_empty() {
         return refuse("no number");
     }

@@ -160,7 +160,8 @@ fn with_components<const D: usize, const C: usize>(
     }
     let mut channels = Vec::new();
     for channel in &constraints.channels {
-        channels.push(machine.channel(&jumps.channel(channel, &constraints.fixed).map_err(oblique)?)?);
+        let own = jumps.channel(channel, &constraints.fixed).map_err(oblique)?;
+        channels.push(machine.channel(&own).map_err(|e| e.to_string())?);
     }
     let creeping = held::creep((points, &slip), &fixed, &channels, (tangents, end), &frame)?;
     let supported: Vec<bool> = free.iter().map(|&k| C > 1 && is_fixed(slip[k] + C - 1)).collect();
@@ -182,7 +183,8 @@ fn with_components<const D: usize, const C: usize>(
     channels.extend(machine.pulls());
     let weighs = C > 1 && !loads.weight.is_empty();
     if weighs {
-        channels.push(machine.channel(&jumps.channel(&weight(loads), &constraints.fixed).map_err(oblique)?)?);
+        let own = jumps.channel(&weight(loads), &constraints.fixed).map_err(oblique)?;
+        channels.push(machine.channel(&own).map_err(|e| e.to_string())?);
     }
     let rows: Vec<usize> = free.iter().map(|&k| retained.partition_point(|&d| d < slip[k])).collect();
     let keeps = |k: usize, supported: bool| supported || !points[k].normal_changes;

@@ -7,7 +7,7 @@
 
 use asperity_fem::condense::Stiffness;
 use asperity_fem::dof::Channel;
-use asperity_fem::jump::{Jump, Jumps};
+use asperity_fem::jump::{Jump, Jumps, ObliqueConstraint};
 use asperity_fem::table::Table;
 use asperity_fem::term::Blocks;
 
@@ -70,9 +70,9 @@ impl<'a> Machine<'a> {
     /// A channel of forces and displacements with spring-loaded boundaries moving as one.
     ///
     /// # Errors
-    /// A message if a displacement of a spring-loaded boundary is prescribed.
-    pub fn channel(&self, channel: &Channel) -> Result<Channel, String> {
-        self.ties.channel(channel, &[]).map_err(|e| e.to_string())
+    /// [`ObliqueConstraint`] if a displacement of a spring-loaded boundary is prescribed.
+    pub fn channel(&self, channel: &Channel) -> Result<Channel, ObliqueConstraint> {
+        self.ties.channel(channel, &[])
     }
 
     /// Loads by the far ends of the springs.

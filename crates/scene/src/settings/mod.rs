@@ -6,18 +6,29 @@ mod place;
 mod setting;
 
 pub use origin::{Origin, ResolvedText};
-pub use setting::Setting;
+pub use setting::{Setting, SettingError};
 
 use origin::Splice;
+
+/// Setting that cannot be written into a scene.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("--set {setting}: {reason}")]
+pub struct EditError {
+    /// The setting, as it was given.
+    pub setting: String,
+    /// Reason.
+    pub reason: String,
+}
 
 /// Writes settings into the text of a scene, in their order.
 ///
 /// # Errors
 /// The first setting that cannot be written, with the reason.
-pub fn apply(text: &str, settings: &[Setting]) -> Result<ResolvedText, String> {
+pub fn apply(text: &str, settings: &[Setting]) -> Result<ResolvedText, EditError> {
     let mut resolved = ResolvedText::unchanged(text);
     for (number, setting) in settings.iter().enumerate() {
-        let edit = place::edit(resolved.text(), setting).map_err(|why| format!("--set {setting}: {why}"))?;
+        let edit = place::edit(resolved.text(), setting)
+            .map_err(|reason| EditError { setting: setting.to_string(), reason })?;
         resolved.splice(
             Splice { number, at: edit.at.start, removed: edit.at.len(), added: edit.text.len() },
             &edit.text,
@@ -32,7 +43,7 @@ mod tests {
 
     const SCENE: &str = "# a scene\nschema = 1\ntitle = \"t\" # here\nkinematics = \"plane-strain\"\n[bodies.A]\nmaterial = \"m\"\nmesh.block = { size = \"1 m\" }\n[faults.main]\nlaw = { kind = \"rate\" }\nnormal = \"50 MPa\" # much\n[output.probes]\nfault = 3\n[[stages]]\nduration = 1\n";
 
-    fn set(changes: &[&str]) -> Result<ResolvedText, String> {
+    fn set(changes: &[&str]) -> Result<ResolvedText, EditError> {
         let settings: Vec<Setting> = changes.iter().map(|change| Setting::read(change).unwrap()).collect();
         apply(SCENE, &settings)
     }
@@ -47,7 +58,7 @@ mod tests {
     }
 
     fn why(change: &str) -> String {
-        set(&[change]).unwrap_err()
+        set(&[change]).unwrap_err().to_string()
     }
 
     #[test]

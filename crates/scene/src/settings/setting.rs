@@ -4,6 +4,28 @@ use crate::keys::Path;
 use std::fmt;
 use toml_edit::Value;
 
+/// Text that is no setting.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum SettingError {
+    /// No `=`.
+    #[error("write a key and its value, such as `time.end=2 s`")]
+    NoValue,
+    /// Something else than a path of keys before it.
+    #[error("`{0}` is no path of keys: write it like `faults.main.law.a`")]
+    NoPath(String),
+    /// Nothing after it.
+    #[error("`{0}` has no value; an empty text is `\"\"`")]
+    Empty(Path),
+    /// A value that begins like one of TOML and is none.
+    #[error("the value of `{path}` cannot be read: {reason}")]
+    Value {
+        /// The key.
+        path: Path,
+        /// Reason of the reader.
+        reason: String,
+    },
+}
+
 /// A setting such as `faults.main.normal=25MPa`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setting {
@@ -19,20 +41,17 @@ impl Setting {
     ///
     /// # Errors
     /// The reason why it cannot be read.
-    pub fn read(text: &str) -> Result<Self, String> {
-        let (path, value) =
-            text.split_once('=').ok_or("write a key and its value, such as `time.end=2 s`")?;
-        let path = Path::read(path).ok_or_else(|| {
-            format!("`{}` is no path of keys: write it like `faults.main.law.a`", path.trim())
-        })?;
+    pub fn read(text: &str) -> Result<Self, SettingError> {
+        let (path, value) = text.split_once('=').ok_or(SettingError::NoValue)?;
+        let path = Path::read(path).ok_or_else(|| SettingError::NoPath(path.trim().to_owned()))?;
         let value = value.trim();
         if value.is_empty() {
-            return Err(format!("`{path}` has no value; an empty text is `\"\"`"));
+            return Err(SettingError::Empty(path));
         }
         let value = match value.parse::<Value>() {
             Ok(_) => value.to_string(),
             Err(error) if value.starts_with(['[', '{', '"', '\'']) => {
-                return Err(format!("the value of `{path}` cannot be read: {}", error.message()));
+                return Err(SettingError::Value { path, reason: error.message().to_owned() });
             }
             Err(_) => Value::from(value).to_string(),
         };
