@@ -82,11 +82,19 @@ impl Kind {
 /// Kinds in words: values of `stepper`, with what the scene consists of where that matters.
 #[must_use]
 pub fn words(kinds: &[Kind]) -> String {
-    let mut left = kinds.to_vec();
+    listed(kinds, WORDS)
+}
+
+/// A list of things by the names of groups of them, of which the first come first.
+pub(crate) fn listed<'a, T: Copy + PartialEq + 'a>(
+    things: &[T],
+    groups: impl IntoIterator<Item = (&'a [T], &'a str)>,
+) -> String {
+    let mut left = things.to_vec();
     let mut words = Vec::new();
-    for (those, word) in WORDS {
-        if those.iter().all(|kind| left.contains(kind)) {
-            left.retain(|kind| !those.contains(kind));
+    for (those, word) in groups {
+        if those.iter().all(|thing| left.contains(thing)) {
+            left.retain(|thing| !those.contains(thing));
             words.push(word);
         }
     }

@@ -12,6 +12,7 @@ pub mod files;
 mod here;
 pub mod keys;
 pub mod kind;
+mod kinematics;
 pub mod law;
 pub mod lengths;
 pub mod model;

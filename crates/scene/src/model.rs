@@ -32,6 +32,8 @@ pub use super::here::here;
 use super::units::{Angle, Dimension, Length, Memory, Time, Velocity};
 use crate::defaults;
 use crate::kind::{self, Kind};
+use crate::kinematics;
+pub use crate::kinematics::Kinematics;
 pub use crate::spanned::Spanned;
 use crate::usual::usual;
 use asperity_run::Warning;
@@ -83,7 +85,7 @@ pub struct Scene {
     #[serde(default)]
     pub bodies: BTreeMap<String, Body>,
     /// Homogeneous rock around faults, instead of bodies.
-    #[schemars(extend("x-kinds" = [Kind::Medium], "x-instead" = "waves run in bodies: a body with `mesh.fault` around the fault, and `absorbing = true` on its sides"))]
+    #[schemars(extend("x-kinematics" = kinematics::ROCK, "x-kinds" = [Kind::Medium], "x-instead" = "waves run in bodies: a body with `mesh.fault` around the fault, and `absorbing = true` on its sides"))]
     pub medium: Option<Medium>,
     /// Interfaces by name.
     #[schemars(extend("x-kinds" = kind::INTERFACES, "x-instead" = "surfaces slide as faults there: two sides with the same nodes, `[faults.NAME]` with `minus` and `plus`"))]
@@ -291,18 +293,24 @@ pub struct Condition {
     /// The set, `body.set`.
     pub set: Option<Spanned<String>>,
     /// Motion in x.
+    #[schemars(extend("x-kinematics" = kinematics::ALONG_XY, "x-otherwise" = "in antiplane motion bodies move along z alone"))]
     pub x: Option<Spanned<Motion>>,
     /// Motion in y.
+    #[schemars(extend("x-kinematics" = kinematics::ALONG_XY, "x-otherwise" = "in antiplane motion bodies move along z alone"))]
     pub y: Option<Spanned<Motion>>,
     /// Motion in z.
+    #[schemars(extend("x-kinematics" = kinematics::ALONG_Z, "x-otherwise" = "in the plane bodies move along x and y alone"))]
     pub z: Option<Spanned<Motion>>,
     /// Rotation of the set as a rigid body.
+    #[schemars(extend("x-kinematics" = kinematics::TURNING))]
     pub rotate: Option<Spanned<RotationSpec>>,
     /// `true`: no displacement normal to the side, which must be parallel to an axis.
+    #[schemars(extend("x-kinematics" = kinematics::ALONG_XY, "x-otherwise" = "a plane of symmetry is free along z; `z = 0` makes one of antisymmetry"))]
     pub symmetry: Option<Spanned<bool>>,
     /// Tractions, one per axis of motion.
     pub traction: Option<Spanned<Vec<Loading>>>,
     /// Pressure, positive into the body.
+    #[schemars(extend("x-kinematics" = kinematics::ALONG_XY, "x-otherwise" = "a load along z is `traction = [\"5 MPa\"]`"))]
     pub pressure: Option<Spanned<Loading>>,
     /// `true`: the side absorbs waves that leave the body.
     #[schemars(extend("x-kinds" = kind::WAVES))]
@@ -357,6 +365,7 @@ pub struct RotationSpec {
     /// A point of the axis \[m\].
     pub about: Spanned<Vec<Length>>,
     /// Direction of the axis, of any length; in two dimensions it is z and must not be given.
+    #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in two dimensions it is z"))]
     #[serde(default, deserialize_with = "crate::exact::optional")]
     pub axis: Option<Spanned<[f64; 3]>>,
 }
@@ -541,11 +550,11 @@ pub struct Output {
     pub receivers: BTreeMap<String, Spanned<Vec<Length>>>,
     /// In a half-space in space with `[place]`: `{ longitude = "-123.5 deg", latitude = "48.4 deg" }`: a receiver at the free
     /// surface.
-    #[schemars(extend("x-kinds" = [Kind::Medium], "x-instead" = "elsewhere, `receivers.NAME` has coordinates"))]
+    #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-kinds" = [Kind::Medium], "x-instead" = "elsewhere, `receivers.NAME` has coordinates"))]
     #[serde(default)]
     pub sites: BTreeMap<String, Spanned<Site>>,
     /// CSV file of such sites, with the columns `name`, `longitude` and `latitude` (or `lon` and `lat`) in degrees.
-    #[schemars(extend("x-kinds" = [Kind::Medium]))]
+    #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-kinds" = [Kind::Medium]))]
     pub site_file: Option<Spanned<String>>,
     /// In a half-space: `{ spacing = "2 km" }`: map of the displacement of the free surface over each event.
     #[schemars(extend("x-kinds" = [Kind::Medium]))]

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::files::{self, Columns};
-use crate::keys::{self, Tree};
+use crate::keys::{self, Run, Tree};
 use crate::kind::Kind;
 use crate::law::Laws;
 use crate::model::{Scene, Spanned};
@@ -10,7 +10,6 @@ use crate::slider::SliderScene;
 use crate::{azimuth, check, explain, near, plausible, unprintable};
 use asperity_run::Warning;
 use serde::Deserialize;
-use std::ops::Range;
 use std::path::Path;
 use toml_edit::Document;
 
@@ -28,8 +27,12 @@ pub fn read(text: &str, folder: &Path, laws: &Laws, columns: &mut Columns<'_>) -
     let doubts = files::fill(&mut scene, columns).map_err(|error| Diagnostics(vec![error]))?;
     azimuth::rakes(&mut scene);
     let (mut errors, mut warnings) = check::check(&scene, laws);
-    let (kind, stated) = (scene.kind(), scene.time.stepper.span());
-    judge(text, plausible::SceneFacts::from_scene(&scene), (kind, stated), &mut errors, &mut warnings);
+    let run = Run {
+        kind: scene.kind(),
+        stated: scene.time.stepper.span(),
+        kinematics: Some(*scene.kinematics.get_ref()),
+    };
+    judge(text, plausible::SceneFacts::from_scene(&scene), run, &mut errors, &mut warnings);
     warnings.extend(doubts);
     scene.warnings = warnings;
     if errors.is_empty() { Ok(scene) } else { Err(Diagnostics(errors)) }
@@ -109,21 +112,21 @@ pub fn read_sliders(text: &str) -> Result<SliderScene, Diagnostics> {
     let mut scene: SliderScene =
         toml::from_str(text).map_err(|e| Diagnostics(vec![explain::explain(&e, text)]))?;
     let mut errors = Vec::new();
-    let kind = (Kind::Sliders, scene.kinematics.span());
-    judge(text, plausible::SceneFacts::SLIDERS, kind, &mut errors, &mut scene.warnings);
+    let run = Run { kind: Kind::Sliders, stated: scene.kinematics.span(), kinematics: None };
+    judge(text, plausible::SceneFacts::SLIDERS, run, &mut errors, &mut scene.warnings);
     if errors.is_empty() { Ok(scene) } else { Err(Diagnostics(errors)) }
 }
 
-/// Adds what a walk through the text finds: keys that do not belong to the kind of run, which is stated here, and implausible values.
+/// Adds what a walk through the text finds: keys that do not belong to the run, and implausible values.
 fn judge(
     text: &str,
     facts: plausible::SceneFacts,
-    (kind, stated): (Kind, Range<usize>),
+    run: Run,
     errors: &mut Vec<Diagnostic>,
     warnings: &mut Vec<Warning>,
 ) {
     let Ok(document) = Document::parse(text) else { return };
     let tree = Tree::new();
-    keys::refuse(&tree, &document, kind, stated, errors);
+    keys::refuse(&tree, &document, run, errors);
     plausible::judge(&tree, &document, facts, errors, warnings);
 }

@@ -5,7 +5,7 @@ use super::interfaces::is_tied;
 use super::starts::PresentLoads;
 use super::{AXES, Checker};
 use crate::diagnostic::Diagnostic;
-use crate::model::{Condition, Kinematics, Loading, Motion, Pace, RotationSpec, Spanned, Stage, TimeSeries};
+use crate::model::{Condition, Loading, Motion, Pace, RotationSpec, Spanned, Stage, TimeSeries};
 use crate::near::suggest;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -202,7 +202,6 @@ impl Checker<'_> {
         for (axis, motion) in motions.into_iter().enumerate() {
             let Some(motion) = motion else { continue };
             if !self.motions().contains(&axis) {
-                self.no_motion(motion.span(), AXES[axis]);
                 continue;
             }
             match motion.get_ref() {
@@ -219,9 +218,9 @@ impl Checker<'_> {
         if let Some(rotate) = &c.rotate {
             self.rotation(set, rotate, fresh);
         }
-        if self.is_antiplane() {
-            self.in_plane(c);
-        } else if let (true, Some((_, axis, _)), Some(symmetry)) = (symmetric, side, &c.symmetry) {
+        if let (true, Some((_, axis, _)), Some(symmetry)) =
+            (symmetric && !self.is_antiplane(), side, &c.symmetry)
+        {
             let (motion, place) = (Motion::Fixed(0.0), symmetry.span());
             fresh.push(Entry { set: set.get_ref().clone(), axis, motion, place, symmetry: true });
         }
@@ -232,23 +231,8 @@ impl Checker<'_> {
     fn rotation(&mut self, set: &Spanned<String>, rotate: &Spanned<RotationSpec>, fresh: &mut Vec<Entry>) {
         let spec = rotate.get_ref();
         let plane = self.dimension() == 2;
-        if !matches!(*self.scene.kinematics.get_ref(), Kinematics::PlaneStrain | Kinematics::PlaneStress)
-            && plane
-        {
-            self.error(
-                rotate.span(),
-                format!("sets cannot turn in {}", self.idealisation()),
-                "rotations exist with \"plane-strain\", \"plane-stress\" and \"3d\"",
-            );
-            return;
-        }
         self.count(&spec.about, "about", &(0..self.dimension()).collect::<Vec<_>>());
         match (&spec.axis, plane) {
-            (Some(axis), true) => self.error(
-                axis.span(),
-                "`axis` of a rotation in a scene of two dimensions, where it is z",
-                "remove it, or use `kinematics = \"3d\"`",
-            ),
             (Some(axis), false) if !axis.get_ref().iter().map(|a| a * a).sum::<f64>().is_normal() => {
                 self.error(
                     axis.span(),
@@ -274,35 +258,6 @@ impl Checker<'_> {
         for axis in 0..self.dimension() {
             let (set, motion, place) = (set.get_ref().clone(), spec.motion(), rotate.span());
             fresh.push(Entry { set, axis, motion, place, symmetry: false });
-        }
-    }
-
-    fn no_motion(&mut self, place: Range<usize>, axis: &str) {
-        let (message, help) = match self.is_antiplane() {
-            true => (format!("`{axis}` in antiplane motion, where bodies move along z alone"), "remove it"),
-            false => {
-                (format!("`{axis}` in a scene of two dimensions"), "remove it, or use `kinematics = \"3d\"`")
-            }
-        };
-        self.error(place, message, help);
-    }
-
-    /// Refuses conditions that act in the plane and do not affect motion along z.
-    fn in_plane(&mut self, c: &Condition) {
-        let symmetry = c.symmetry.as_ref().filter(|s| *s.get_ref()).map(|s| ("symmetry", s.span()));
-        let pressure = c.pressure.as_ref().map(|p| ("pressure", p.span()));
-        for (what, place) in [symmetry, pressure].into_iter().flatten() {
-            let help = match what {
-                "symmetry" => {
-                    "a plane of symmetry is free along z: leave it out; `z = 0` makes one of antisymmetry"
-                }
-                _ => "a load along z is `traction = [\"5 MPa\"]`",
-            };
-            self.error(
-                place,
-                format!("`{what}` acts in the plane, but in antiplane motion bodies move along z alone"),
-                help,
-            );
         }
     }
 

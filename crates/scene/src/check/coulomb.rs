@@ -45,11 +45,6 @@ impl Checker<'_> {
                 "planes in three dimensions have a `strike`",
                 "such as `strike = \"30 deg\"`, clockwise from north or, without `[place]`, from x towards z",
             ),
-            Some(strike) if !in_space => self.error(
-                strike.span(),
-                "`strike` is for three dimensions",
-                "remove it: in the plane `dip` is the angle from x downwards",
-            ),
             Some(strike) => self.within("strike", strike, (-360.0, 360.0)),
             None => {}
         }

@@ -1,12 +1,11 @@
 //! Fluid that diffuses along faults.
 
 use super::Checker;
-use crate::model::{Diffusion, Fault, Kinematics, ParameterProfiles};
+use crate::model::{Diffusion, Fault, ParameterProfiles};
 
 impl Checker<'_> {
     pub(super) fn diffusion(&mut self, fault: &Fault) {
         let Some(diffusion) = &fault.diffusion else { return };
-        self.in_a_line(diffusion);
         self.hydraulic(diffusion);
         let viscosity = &diffusion.viscosity;
         if viscosity.get_ref().0 <= 0.0 {
@@ -29,17 +28,6 @@ impl Checker<'_> {
             if let Some(other) = wells[..k].iter().find(|other| other.at.get_ref() == well.at.get_ref()) {
                 self.at_one_position(&well.at, &other.at);
             }
-        }
-    }
-
-    fn in_a_line(&mut self, diffusion: &Diffusion) {
-        if *self.scene.kinematics.get_ref() == Kinematics::ThreeD {
-            self.conflict(
-                &diffusion.viscosity.span(),
-                "fluid diffuses along faults in the plane only",
-                "remove `diffusion`: its pressure is that of flow along one line",
-                (&self.scene.kinematics.span(), "the kinematics"),
-            );
         }
     }
 

@@ -126,15 +126,6 @@ impl Checker<'_> {
                 "add `slip = \"free\"` to the fault",
             );
         }
-        if self.is_antiplane()
-            && let Some(opening) = fault.opening.as_ref().filter(|o| *o.get_ref())
-        {
-            self.error(
-                opening.span(),
-                "no fault opens in antiplane motion, where bodies move out of the plane only",
-                "remove `opening`; faults open in `kinematics = \"plane-strain\"` and in \"3d\"",
-            );
-        }
     }
 
     /// Checks that the shear traction at the start is given, and that no weight presses the fault.

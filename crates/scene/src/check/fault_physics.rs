@@ -23,13 +23,7 @@ impl Checker<'_> {
         let Some(opening) = fault.opening.as_ref().filter(|o| *o.get_ref() && !self.has_waves()) else {
             return;
         };
-        if self.is_antiplane() {
-            self.error(
-                opening.span(),
-                "no fault opens in antiplane motion, where bodies move out of the plane only",
-                "remove `opening`; faults open in `kinematics = \"plane-strain\"` and in \"3d\"",
-            );
-        } else if let Some(stays) = fault.normal_changes.as_ref().filter(|c| !c.get_ref()) {
+        if let Some(stays) = fault.normal_changes.as_ref().filter(|c| !c.get_ref()) {
             self.conflict(
                 &opening.span(),
                 "`opening` contradicts `normal_changes = false`: a fault opens where its normal traction has gone",

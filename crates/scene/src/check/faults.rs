@@ -202,20 +202,8 @@ impl Checker<'_> {
                 "a fault in three dimensions has no `rake`",
                 "the direction in which plus slips past minus, such as `rake = [0, 0, 1]`; slip across it is held at zero, or with `slip = \"free\"` turns from there",
             ),
-            (Some(rake), false) => self.error(
-                rake.span(),
-                "`rake` is for three dimensions",
-                "remove it: in the plane there is one direction of slip",
-            ),
             (Some(rake), true) => self.direction(rake),
-            (None, false) => {}
-        }
-        if let Some(slip) = fault.slip.as_ref().filter(|_| !self.in_space()) {
-            self.error(
-                slip.span(),
-                "`slip` is for three dimensions",
-                "remove it: in the plane there is one direction of slip",
-            );
+            (_, false) => {}
         }
         if let Some(rake) = fault.creep.as_ref().and_then(|c| c.rake.as_ref()) {
             self.direction(rake);
@@ -233,7 +221,7 @@ impl Checker<'_> {
     /// Checks a direction of slip on the map, from which the rake follows.
     fn azimuth(&mut self, fault: &Fault, azimuth: &Spanned<Angle>) {
         let degrees = azimuth.get_ref().0.to_degrees();
-        if self.scene.place.is_none() || !self.in_space() {
+        if self.scene.place.is_none() {
             self.error(
                 azimuth.span(),
                 "`azimuth` is a direction on a map, which needs three dimensions and a `[place]`",
@@ -307,11 +295,6 @@ impl Checker<'_> {
                     ", or `outside = { y = { from = \"-40 km\" } }`; or `loading = \"backslip\"`, if what creeps is not part of the bodies"
                 ),
             ),
-            (Some(beyond), None) if self.in_space() => self.error(
-                beyond.span(),
-                "there is no distance along a fault in three dimensions",
-                "use `outside = { y = { from = \"-40 km\" }, z = { from = \"-50 km\", to = \"50 km\" } }`",
-            ),
             (Some(_), None) => {}
             (None, Some(outside)) => self.ranges("outside", outside),
         }
@@ -346,9 +329,6 @@ impl Checker<'_> {
                 format!("`{key}` has no range"),
                 format!("such as `{key} = {{ y = {{ from = \"-40 km\" }} }}`"),
             );
-        }
-        if !self.in_space() && ranges[2].is_some() {
-            self.error(given.span(), "there is no coordinate z in the plane", "give ranges of x and y");
         }
         for (axis, range) in ["x", "y", "z"].into_iter().zip(ranges) {
             let Some(range) = range else { continue };

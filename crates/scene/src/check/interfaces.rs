@@ -18,31 +18,6 @@ pub(super) const RATED: [&str; 2] = ["rate-and-state", "rate"];
 type Side = (String, usize, usize);
 
 impl Checker<'_> {
-    /// Refuses keys for the initial state of faults, which interfaces do not have.
-    fn keys_of_faults(&mut self, name: &str, interface: &Interface) {
-        let tractions = "loads press an interface, or the `initial_stress` of its bodies with `initial_stress = true` in the interface, which brings normal and \
-                         shear tractions";
-        let keys = [
-            ("normal", &interface.normal, tractions),
-            ("shear", &interface.shear, tractions),
-            ("rate", &interface.rate, "the state at the start is steady at `v_initial` of the law"),
-            (
-                "profiles",
-                &interface.profiles,
-                "`fields` take parameters of the law from files; parts with laws of their own are two sets, with an interface of each",
-            ),
-        ];
-        for (key, place, help) in keys {
-            if let Some(place) = place {
-                self.error(
-                    place.span(),
-                    format!("interface `{name}` has no `{key}`: it is a key of faults"),
-                    help,
-                );
-            }
-        }
-    }
-
     pub(super) fn interfaces(&mut self) {
         for (name, interface) in &self.scene.interfaces {
             self.name("an interface", name, interface.slave.span());
@@ -68,7 +43,6 @@ impl Checker<'_> {
                 ),
                 _ => {}
             }
-            self.keys_of_faults(name, interface);
             self.damping(name, interface);
             self.law_fields(name, interface);
             if let Some(key) = interface.under_resolved.as_ref().filter(|_| interface.law.is_none()) {

@@ -86,16 +86,6 @@ impl Checker<'_> {
         if scene.faults.is_empty() {
             self.error(medium.kind.span(), "a medium without a fault", "add `[faults.NAME]`");
         }
-        if !matches!(
-            scene.kinematics.get_ref(),
-            Kinematics::Antiplane | Kinematics::PlaneStrain | Kinematics::ThreeD
-        ) {
-            self.error(
-                scene.kinematics.span(),
-                format!("there is no medium in {}", self.idealisation()),
-                "\"antiplane\", \"plane-strain\" or \"3d\"",
-            );
-        }
     }
 
     fn line(&mut self, line: &FaultLine, medium: &Medium) {

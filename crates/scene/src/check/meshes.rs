@@ -48,12 +48,6 @@ impl Checker<'_> {
     /// Checks the coordinates of the layers of an extrusion.
     fn layers(&mut self, name: &str, body: &Body) {
         let Some(layers) = &body.extrude else { return };
-        if self.dimension() == 2 {
-            let message = format!("`extrude` makes the mesh of body `{name}` three-dimensional");
-            let kinematics = self.scene.kinematics.span();
-            let help = "remove it, or use `kinematics = \"3d\"`";
-            self.conflict(&layers.span(), message, help, (&kinematics, "the scene is plane"));
-        }
         if matches!(body.mesh, MeshSource::Block(_)) {
             let help = "remove `extrude`: `min` and `max` have three coordinates";
             self.error(

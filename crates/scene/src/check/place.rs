@@ -1,7 +1,7 @@
 //! Geographical position and time of the events of a scene.
 
 use super::Checker;
-use crate::model::{FaultTriangles, Kinematics, MediumKind, Place, Spanned};
+use crate::model::{FaultTriangles, MediumKind, Place, Spanned};
 use crate::units::Angle;
 use crate::upright::{Axes, cross, size};
 use jiff::{SignedDuration, Timestamp};
@@ -17,13 +17,7 @@ impl Checker<'_> {
         }
         if let Some(length) = &place.length {
             let value = length.get_ref().0;
-            if *self.scene.kinematics.get_ref() == Kinematics::ThreeD {
-                self.error(
-                    length.span(),
-                    "`length` is the length out of the plane, and the scene is one in space",
-                    "remove it",
-                );
-            } else if !(value > 0.0 && value.is_finite()) {
+            if !(value > 0.0 && value.is_finite()) {
                 self.error(length.span(), "`length` must be positive", "such as `length = \"100 km\"`");
             }
         }
@@ -33,21 +27,14 @@ impl Checker<'_> {
 
     /// Checks the directions in space: up, and the horizontal direction whose azimuth is `strike`.
     fn axes(&mut self, place: &Place) {
-        let in_space = *self.scene.kinematics.get_ref() == Kinematics::ThreeD;
         for (name, given) in [("up", &place.up), ("along", &place.along)] {
             let Some(given) = given else { continue };
             let size = given.get_ref().iter().map(|c| c * c).sum::<f64>();
-            if !in_space {
-                self.error(
-                    given.span(),
-                    format!("`{name}` is for three dimensions"),
-                    "remove it: in the plane y is up, and `strike` is the direction into the plane",
-                );
-            } else if !(size > 0.0 && size.is_finite()) {
+            if !(size > 0.0 && size.is_finite()) {
                 self.error(given.span(), format!("`{name}` has no direction"), "such as `[0, 1, 0]`");
             }
         }
-        if in_space {
+        if self.in_space() {
             self.level(place);
             self.upright(place);
         }

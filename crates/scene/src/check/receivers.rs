@@ -1,7 +1,7 @@
 //! Positions in a medium or in bodies whose motion is written.
 
 use super::{AXES, Checker};
-use crate::model::{Kinematics, MediumKind, Spanned};
+use crate::model::{MediumKind, Spanned};
 
 impl Checker<'_> {
     /// Checks the receivers of a scene.
@@ -24,7 +24,7 @@ impl Checker<'_> {
         let file = scene.output.site_file.as_ref().map(Spanned::span);
         let Some(first) = scene.output.sites.values().map(Spanned::span).next().or(file) else { return };
         let half = scene.medium.as_ref().is_some_and(|m| *m.kind.get_ref() == MediumKind::HalfSpace);
-        if !half || *scene.kinematics.get_ref() != Kinematics::ThreeD {
+        if !half {
             self.error(
                 first,
                 "sites lie at the free surface of a half-space in space",

@@ -1,7 +1,7 @@
 //! A map of the free surface.
 
 use super::Checker;
-use crate::model::{AngleExtent, Extent, Kinematics, MediumKind, Spanned, SurfaceSpec};
+use crate::model::{AngleExtent, Extent, MediumKind, Spanned, SurfaceSpec};
 
 impl Checker<'_> {
     /// Checks the map of the free surface of a scene.
@@ -45,18 +45,7 @@ impl Checker<'_> {
     /// Refuses axes that the scene does not have.
     fn axes_of(&mut self, spec: &SurfaceSpec) {
         let on_earth = [&spec.longitude, &spec.latitude].into_iter().flatten().next().map(Spanned::span);
-        if *self.scene.kinematics.get_ref() != Kinematics::ThreeD {
-            let further = spec.z.as_ref().map(Spanned::span).or(on_earth);
-            further.into_iter().for_each(|place| {
-                self.error(
-                    place,
-                    "in the plane a map is a line along x",
-                    "`x = { from = \"-50 km\", to = \"50 km\" }`",
-                );
-            });
-            return;
-        }
-        let Some(place) = on_earth else { return };
+        let Some(place) = on_earth.filter(|_| self.in_space()) else { return };
         let level = [&spec.x, &spec.z].into_iter().flatten().next().map(Spanned::span);
         if self.scene.place.is_none() {
             let help = "`[place]` with the origin and the axes of the map, or `x` and `z`";

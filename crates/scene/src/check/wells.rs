@@ -1,7 +1,7 @@
 //! Fluid injected into faults.
 
 use super::Checker;
-use crate::model::{Fault, Flux, Injection, Kinematics, Spanned, TimeSeries};
+use crate::model::{Fault, Flux, Injection, Spanned, TimeSeries};
 use crate::units::{Length, Time};
 
 impl Checker<'_> {
@@ -71,14 +71,6 @@ impl Checker<'_> {
                 injection.porosity.span(),
                 "`porosity` must lie between 0 and 1",
                 "such as `porosity = 0.1`",
-            );
-        }
-        if *self.scene.kinematics.get_ref() == Kinematics::ThreeD {
-            self.conflict(
-                &injection.at.span(),
-                "fluid is injected into faults in the plane only",
-                "its pressure is that of diffusion along one line",
-                (&self.scene.kinematics.span(), "the kinematics"),
             );
         }
     }

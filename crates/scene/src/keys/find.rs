@@ -2,7 +2,7 @@
 
 use super::path::{Path, Step};
 use super::row::{Key, Row, row_of};
-use super::tree::{Tree, properties};
+use super::tree::{Tree, properties, property};
 use super::{foreign, value};
 use crate::kind::{Kind, OF_BODIES};
 use crate::near::{nearest, suggest};
@@ -60,11 +60,16 @@ pub fn find(text: &str) -> KeySearch {
     KeySearch::Keys(keys(&tree, places))
 }
 
+/// Path of a key that scenes do not have.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct UnknownKey(String);
+
 /// Checks that scenes have a key with this path, in which no name is left out. For each step, true if it is a name.
 ///
 /// # Errors
-/// A message about the first step that does not exist.
-pub fn check(path: &Path, sliders: bool) -> Result<Vec<bool>, String> {
+/// The first step that does not exist, with what is near.
+pub fn check(path: &Path, sliders: bool) -> Result<Vec<bool>, UnknownKey> {
     let tree = Tree::new();
     let Some(kind) = tree.kinds().nth(usize::from(sliders)) else { return Ok(Vec::new()) };
     let mut reached = vec![(kind, false)];
@@ -81,7 +86,7 @@ pub fn check(path: &Path, sliders: bool) -> Result<Vec<bool>, String> {
         if next.is_empty() {
             let known = tables.iter().flat_map(|table| properties(table).map(|(key, _)| key)).collect();
             let of = Path(so_far).to_string();
-            return Err(Miss { depth: 0, of, known }.message(&[key]));
+            return Err(UnknownKey(Miss { depth: 0, of, known }.message(&[key])));
         }
         names.push(next.iter().any(|(_, named)| *named));
         so_far.push(step.clone());
@@ -92,11 +97,9 @@ pub fn check(path: &Path, sliders: bool) -> Result<Vec<bool>, String> {
 
 /// Values that a key of a table, or a name, may have; true for a name.
 fn strict<'a>(table: &'a Value, key: &str) -> Option<(&'a Value, bool)> {
-    let (own, named) = (&table["properties"][key], &table["additionalProperties"]);
-    match own.is_object() {
-        true => Some((own, false)),
-        false => named.is_object().then_some((named, true)),
-    }
+    let named = &table["additionalProperties"];
+    let own = property(table, key).map(|own| (own, false));
+    own.or_else(|| named.is_object().then_some((named, true)))
 }
 
 fn name(step: &Step) -> Option<&str> {
@@ -161,8 +164,7 @@ fn walk<'a>(tree: &'a Tree, kind: &'a Value, steps: &[&str]) -> Result<Vec<Place
 fn children<'a>(tree: &'a Tree, place: &Place<'a>, step: &str) -> Vec<Place<'a>> {
     let mut found = Vec::new();
     for table in tree.tables(place.schema) {
-        let own = &table["properties"][step];
-        if own.is_object() {
+        if let Some(own) = property(table, step) {
             let path = joined(&place.path, step);
             found.push(Place { path, table: Some((table, step.into())), schema: own });
         }

@@ -1,23 +1,29 @@
 //! Refusal of keys that do not belong to the kind of run of their scene, as their rows say.
 
-use super::tree::Tree;
+use super::tree::{self, Tree};
 use super::visit::{GivenKey, Visitor, visit};
 use crate::diagnostic::Diagnostic;
 use crate::kind::{ALL, Kind, words};
+use crate::kinematics::{self, Kinematics};
 use serde_json::{Value as Schema, json};
 use std::ops::Range;
 use toml_edit::Document;
 
-/// Replaces what is said of keys that do not belong to a run of this kind, which the key at `stated` decides, by their refusal.
-pub(crate) fn refuse(
-    tree: &Tree,
-    document: &Document<&str>,
-    kind: Kind,
-    stated: Range<usize>,
-    errors: &mut Vec<Diagnostic>,
-) {
-    let mut foreign = ForeignKeys { kind, stated, errors: Vec::new(), below: Vec::new() };
-    visit(tree, document, kind == Kind::Sliders, &mut foreign);
+/// What a scene is of, which decides on its keys.
+pub(crate) struct Run {
+    /// Kind of run.
+    pub kind: Kind,
+    /// Position of the key that decides it.
+    pub stated: Range<usize>,
+    /// Idealisation; `None` for spring-sliders.
+    pub kinematics: Option<Kinematics>,
+}
+
+/// Replaces what is said of keys that do not belong to this run by their refusal.
+pub(crate) fn refuse(tree: &Tree, document: &Document<&str>, run: Run, errors: &mut Vec<Diagnostic>) {
+    let sliders = run.kind == Kind::Sliders;
+    let mut foreign = ForeignKeys { tree, run, errors: Vec::new(), below: Vec::new() };
+    visit(tree, document, sliders, &mut foreign);
     let ForeignKeys { errors: found, below, .. } = foreign;
     let inside = |at: &Range<usize>| below.iter().any(|r| r.start <= at.start && at.end <= r.end);
     errors.retain(|error| error.span.is_empty() || !inside(&error.span));
@@ -25,34 +31,66 @@ pub(crate) fn refuse(
     errors.sort_by_key(|e| (e.span.is_empty(), e.span.start));
 }
 
-struct ForeignKeys {
-    kind: Kind,
-    stated: Range<usize>,
+struct ForeignKeys<'t> {
+    tree: &'t Tree,
+    run: Run,
     errors: Vec<Diagnostic>,
     /// Positions of the values of refused keys.
     below: Vec<Range<usize>>,
 }
 
-impl<'s> Visitor<'s> for ForeignKeys {
+impl<'s> Visitor<'s> for ForeignKeys<'_> {
     fn key(&mut self, given: &GivenKey<'s, '_>) -> bool {
-        let own = kinds(given.schema).filter(|kinds| !kinds.contains(&self.kind));
+        let [at, value] = &given.places;
+        let refusal = self.of_run(given).or_else(|| self.idealised(given)).or_else(|| self.elsewhere(given));
+        let Some(error) = refusal else { return true };
+        self.errors.push(error);
+        self.below.push(at.start..value.end.max(at.end));
+        false
+    }
+}
+
+impl ForeignKeys<'_> {
+    /// Refusal of a key of another kind of run, or of another choice beside it.
+    fn of_run(&self, given: &GivenKey<'_, '_>) -> Option<Diagnostic> {
+        let own = kinds(given.schema).filter(|kinds| !kinds.contains(&self.run.kind));
         let of_run = own.map(|kinds| {
-            let stated = Some((self.stated.clone(), "the kind of run"));
+            let stated = Some((self.run.stated.clone(), "the kind of run"));
             let wanted = words(&kinds);
             let stepper = if wanted.starts_with('"') { "the stepper " } else { "" };
-            (self.kind.name(), format!("{stepper}{wanted}"), stated)
+            (self.run.kind.name(), format!("{stepper}{wanted}"), stated)
         });
-        let Some((found, wanted, place)) = of_run.or_else(|| beside(given)) else { return true };
-        let (key, [at, value]) = (given.key, &given.places);
+        let (found, wanted, place) = of_run.or_else(|| beside(given))?;
+        let (key, [at, _]) = (given.key, &given.places);
         let instead = given.schema["x-instead"].as_str().map_or(String::new(), |text| format!("; {text}"));
         let message = format!("`{key}` has no meaning with {found}");
         let error = Diagnostic::at(at.clone(), message, format!("remove it: it is for {wanted}{instead}"));
-        self.errors.push(match place {
+        Some(match place {
             Some((place, what)) => error.and(place, what),
             None => error,
-        });
-        self.below.push(at.start..value.end.max(at.end));
-        false
+        })
+    }
+
+    /// Refusal of a key of faults at an interface.
+    fn elsewhere(&self, given: &GivenKey<'_, '_>) -> Option<Diagnostic> {
+        let row = &self.tree.definition(tree::owner(given.schema)?)["properties"][given.key];
+        let [at, value] = &given.places;
+        let place = if value.is_empty() { at } else { value };
+        let name = given.path.last().map_or("", |step| step.key);
+        let message = format!("interface `{name}` has no `{}`: it is a key of faults", given.key);
+        Some(Diagnostic::at(place.clone(), message, row["x-at-interfaces"].as_str().unwrap_or_default()))
+    }
+
+    /// Refusal of a key of other idealisations.
+    fn idealised(&self, given: &GivenKey<'_, '_>) -> Option<Diagnostic> {
+        let own = idealisations(given.schema)?;
+        self.run.kinematics.filter(|found| !own.contains(found))?;
+        let [at, value] = &given.places;
+        let place = if value.is_empty() { at } else { value };
+        let otherwise =
+            given.schema["x-otherwise"].as_str().map_or(String::new(), |text| format!(": {text}"));
+        let message = format!("`{}` is for {}", given.key, kinematics::words(&own));
+        Some(Diagnostic::at(place.clone(), message, format!("remove it{otherwise}")))
     }
 }
 
@@ -80,17 +118,26 @@ fn written(other: &str, values: &[String]) -> String {
     values.join(" or ")
 }
 
-/// Runs and choices for which a key is, in words; empty for all.
+/// Runs, choices and idealisations for which a key is, in words; empty for all.
 pub(super) fn scope(schema: &Schema) -> String {
     let kinds = kinds(schema).map(|kinds| words(&kinds));
     let with = with(schema).map(|(other, values)| written(&other, &values));
-    kinds.into_iter().chain(with).collect::<Vec<_>>().join(", with ")
+    let of_run = kinds.into_iter().chain(with).collect::<Vec<_>>().join(", with ");
+    let idealised = idealisations(schema).map(|all| kinematics::words(&all));
+    let parts = [of_run, idealised.unwrap_or_default()];
+    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", in ")
 }
 
 /// Kinds of run to which a key belongs; `None` for all.
 pub(super) fn kinds(schema: &Schema) -> Option<Vec<Kind>> {
     let listed = schema.get("x-kinds")?.as_array()?;
     Some(ALL.into_iter().filter(|kind| listed.contains(&json!(kind))).collect())
+}
+
+/// Idealisations to which a key belongs; `None` for all.
+fn idealisations(schema: &Schema) -> Option<Vec<Kinematics>> {
+    let listed = schema.get("x-kinematics")?.as_array()?;
+    Some(kinematics::ALL.into_iter().filter(|one| listed.contains(&json!(one))).collect())
 }
 
 #[cfg(test)]
@@ -101,7 +148,8 @@ mod tests {
     fn refused(kind: Kind, text: &str) -> Vec<(usize, String, String)> {
         let (tree, document) = (Tree::new(), Document::parse(text).unwrap());
         let mut errors = vec![Diagnostic::at(text.len()..text.len(), "said before", "")];
-        refuse(&tree, &document, kind, 0..1, &mut errors);
+        let run = Run { kind, stated: 0..1, kinematics: Some(Kinematics::Antiplane) };
+        refuse(&tree, &document, run, &mut errors);
         let said =
             |e: Diagnostic| (text[..e.span.start].lines().count(), e.message, e.help.unwrap_or_default());
         errors.into_iter().filter(|e| e.message != "said before").map(said).collect()
@@ -127,5 +175,22 @@ mod tests {
         assert_eq!(found.len(), 1);
         assert_eq!(found[0].1, "`tolerance` has no meaning with `method = \"direct\"`");
         assert_eq!(refused(Kind::Implicit, &law("iterative")), []);
+    }
+
+    #[test]
+    fn a_key_of_another_idealisation_is_refused_at_its_value() {
+        let found = refused(Kind::Medium, "\n[faults.main]\nrake = [0, 0, 1]\n");
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert_eq!((found[0].0, found[0].1.as_str()), (3, "`rake` is for three dimensions"));
+        assert_eq!(found[0].2, "remove it: in the plane there is one direction of slip");
+        assert_eq!(refused(Kind::Medium, "[place]\nlength = \"1 km\"\n"), []);
+    }
+
+    #[test]
+    fn a_key_of_faults_is_refused_at_an_interface() {
+        let found = refused(Kind::Implicit, "[interfaces.joint]\nrate = 1e-9\n");
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert_eq!(found[0].1, "interface `joint` has no `rate`: it is a key of faults");
+        assert_eq!(found[0].2, "the state at the start is steady at `v_initial` of the law");
     }
 }

@@ -8,8 +8,8 @@ mod tree;
 mod value;
 mod visit;
 
-pub use find::{DocumentedDefault, KeySearch, check, documented, find};
-pub(crate) use foreign::refuse;
+pub use find::{DocumentedDefault, KeySearch, UnknownKey, check, documented, find};
+pub(crate) use foreign::{Run, refuse};
 pub use path::{Path, Step, written};
 pub use row::{Key, Row, roots, row};
 pub(crate) use tree::Tree;

@@ -77,5 +77,17 @@ impl Tree {
 
 /// Keys of a table with fixed keys.
 pub(super) fn properties(table: &Value) -> impl Iterator<Item = (&str, &Value)> {
-    table["properties"].as_object().into_iter().flatten().map(|(key, value)| (key.as_str(), value))
+    let all = table["properties"].as_object().into_iter().flatten();
+    all.filter(|(_, value)| owner(value).is_none()).map(|(key, value)| (key.as_str(), value))
+}
+
+/// A key of a table with fixed keys, if it has this one.
+pub(super) fn property<'a>(table: &'a Value, key: &str) -> Option<&'a Value> {
+    let own = &table["properties"][key];
+    (own.is_object() && owner(own).is_none()).then_some(own)
+}
+
+/// Definition whose key stands in another table, where it is refused.
+pub(super) fn owner(schema: &Value) -> Option<&str> {
+    schema["x-of"].as_str()
 }

@@ -20,6 +20,8 @@ pub(crate) struct GivenKey<'s, 't> {
     pub key: &'t str,
     /// Its position, and that of its value.
     pub places: [Range<usize>; 2],
+    /// Path of the table that has it.
+    pub path: &'t [Step<'t>],
     /// Its schema, with its row.
     pub schema: &'s Schema,
     /// The table that has it.
@@ -60,7 +62,8 @@ impl<'s, V: Visitor<'s>> Walk<'s, '_, V> {
             let places = [table.key(key).and_then(toml_edit::Key::span), item.span()];
             let [place, value] = places.map(Option::unwrap_or_default);
             let visited = own.is_none_or(|schema| {
-                self.visitor.key(&GivenKey { key, places: [place.clone(), value.clone()], schema, table })
+                let places = [place.clone(), value.clone()];
+                self.visitor.key(&GivenKey { key, places, path, schema, table })
             });
             if visited {
                 let (named, forms) = self.below(forms, key);

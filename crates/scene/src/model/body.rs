@@ -5,6 +5,7 @@ use super::trace::Trace;
 use crate::defaults;
 use crate::exact::{self, ExactList};
 use crate::kind::Kind;
+use crate::kinematics;
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
 use crate::units::{Density, Length, Pressure, Velocity, Viscosity};
@@ -17,46 +18,6 @@ use serde::de::{
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
-
-/// Idealisations.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-pub enum Kinematics {
-    /// Two-dimensional, ε_zz = 0.
-    #[serde(rename = "plane-strain")]
-    PlaneStrain,
-    /// Two-dimensional, σ_zz = 0; a sheet of thickness 1 m.
-    #[serde(rename = "plane-stress")]
-    PlaneStress,
-    /// x is the radius and y the axis of revolution; quantities are for the full circle.
-    #[serde(rename = "axisymmetric")]
-    Axisymmetric,
-    /// Two-dimensional, with the single displacement u_z(x, y).
-    #[serde(rename = "antiplane")]
-    Antiplane,
-    /// Three-dimensional.
-    #[serde(rename = "3d")]
-    ThreeD,
-}
-
-impl Kinematics {
-    /// Dimension of the meshes.
-    #[must_use]
-    pub fn dimension(self) -> usize {
-        if self == Self::ThreeD { 3 } else { 2 }
-    }
-
-    /// Name in words.
-    #[must_use]
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::PlaneStrain => "plane strain",
-            Self::PlaneStress => "plane stress",
-            Self::Axisymmetric => "axial symmetry",
-            Self::Antiplane => "antiplane motion",
-            Self::ThreeD => "three dimensions",
-        }
-    }
-}
 
 /// An isotropic material: elastic, optionally plastic or viscous.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -140,6 +101,7 @@ pub struct Body {
     /// Source of the mesh: exactly one of the [kinds of mesh](meshes.md).
     pub mesh: MeshSource,
     /// Coordinates of the layers through which a plane mesh is extruded, in `"3d"` \[m\].
+    #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "it makes a mesh three-dimensional, for `kinematics = \"3d\"`"))]
     pub extrude: Option<Spanned<Vec<Length>>>,
     /// Name of a material, or a table of names by groups of cells: `{ lower = "a", upper = "b" }`.
     pub material: Spanned<MaterialChoice>,

@@ -6,6 +6,7 @@ use super::{
 };
 use crate::here::here;
 use crate::kind::{self, Kind};
+use crate::kinematics;
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
 use crate::units::{Angle, Damping, Length, Pressure, Time, Velocity};
@@ -30,17 +31,18 @@ pub struct Fault {
     #[serde(default = "absent")]
     pub plus: Spanned<String>,
     /// In the plane: the line of the fault.
-    #[schemars(extend("x-kinds" = [Kind::Medium], "x-instead" = "add `[medium]` and remove the bodies, or name the sides `minus` and `plus`"))]
+    #[schemars(extend("x-kinematics" = kinematics::PLANE, "x-otherwise" = "in space a fault is a `rectangle` or `triangles`", "x-kinds" = [Kind::Medium], "x-instead" = "add `[medium]` and remove the bodies, or name the sides `minus` and `plus`"))]
     pub line: Option<FaultLine>,
     /// In space: the rectangle of the fault.
-    #[schemars(extend("x-kinds" = [Kind::Medium], "x-instead" = "add `[medium]` and remove the bodies, or name the sides `minus` and `plus`"))]
+    #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in the plane a fault is a `line`", "x-kinds" = [Kind::Medium], "x-instead" = "add `[medium]` and remove the bodies, or name the sides `minus` and `plus`"))]
     pub rectangle: Option<FaultRectangle>,
     /// In space: a file with the triangles of the fault.
-    #[schemars(extend("x-kinds" = [Kind::Medium], "x-instead" = "add `[medium]` and remove the bodies, or name the sides `minus` and `plus`"))]
+    #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in the plane a fault is a `line`", "x-kinds" = [Kind::Medium], "x-instead" = "add `[medium]` and remove the bodies, or name the sides `minus` and `plus`"))]
     pub triangles: Option<FaultTriangles>,
     /// A [friction law](laws.md) of kind `"rate-and-state"` or `"rate"`; with `"explicit"` also one of slip.
     pub law: Spanned<LawSpec>,
     /// Values of `a`, `b`, `l`, `normal`, `shear` or `cohesion` along the fault.
+    #[schemars(extend("x-at-interfaces" = "`fields` take parameters of the law from files; parts with laws of their own are two sets, with an interface of each"))]
     #[serde(default)]
     pub profiles: Profiles,
     /// Values of parameters, tractions, slip rates or states at positions in files.
@@ -57,11 +59,14 @@ pub struct Fault {
     #[schemars(extend("x-kinds" = [Kind::Explicit], "x-instead" = "start events by `pulses` or a patch of `shear`"))]
     pub forced_rupture: Option<ForcedRupture>,
     /// Initial normal traction, compression positive; absent: given by the initial stress of the bodies \[Pa\].
+    #[schemars(extend("x-at-interfaces" = "loads press an interface, or the `initial_stress` of its bodies with `initial_stress = true` in the interface, which brings normal and shear tractions"))]
     pub normal: Option<Spanned<Pressure>>,
     /// Initial slip rate of all points; its sign is the sense of slip. Absent with laws of slip, whose faults start at rest \[m/s\].
+    #[schemars(extend("x-at-interfaces" = "the state at the start is steady at `v_initial` of the law"))]
     #[serde(default = "at_rest")]
     pub rate: Spanned<Velocity>,
     /// Initial shear traction, of the sign of `rate`; absent: that of the law's initial steady state \[Pa\].
+    #[schemars(extend("x-at-interfaces" = "loads press an interface, or the `initial_stress` of its bodies with `initial_stress = true` in the interface, which brings normal and shear tractions"))]
     pub shear: Option<Spanned<Pressure>>,
     /// Radiation damping η, or `"radiation"`; absent: none \[Pa s/m\].
     #[schemars(extend("x-kinds" = kind::FAULT_CYCLES, "x-instead" = "bodies with mass radiate the waves themselves"))]
@@ -69,18 +74,20 @@ pub struct Fault {
     /// Part of the fault that slips at an imposed rate.
     pub creep: Option<Creep>,
     /// In space: direction of slip `[x, y, z]`, of any length; only its component along the fault counts.
+    #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in the plane there is one direction of slip"))]
     #[serde(default, deserialize_with = "crate::exact::optional")]
     pub rake: Option<Spanned<[f64; 3]>>,
     /// In space with `[place]`, instead of `rake`: azimuth of the motion of the plus side past the minus side \[rad\].
+    #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in the plane there is one direction of slip"))]
     pub azimuth: Option<Spanned<Angle>>,
     /// In space: `"along-rake"`, or `"free"` for slip whose direction may turn.
-    #[schemars(extend("x-default" = usual(SlipSpec::default()).only("in space")))]
+    #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in the plane there is one direction of slip", "x-default" = usual(SlipSpec::default()).only("in space")))]
     pub slip: Option<Spanned<SlipSpec>>,
     /// Fluid injected at one position that diffuses along the fault, or a list of such wells.
-    #[schemars(extend("x-kinds" = kind::CYCLES, "x-instead" = "between bodies with mass, pressure acts through `normal`"))]
+    #[schemars(extend("x-kinematics" = kinematics::PLANE, "x-otherwise" = "its pressure is that of diffusion along one line", "x-kinds" = kind::CYCLES, "x-instead" = "between bodies with mass, pressure acts through `normal`"))]
     pub injection: Option<Injections>,
     /// Fluid from wells that diffuses along the fault, whose permeability and storage may vary.
-    #[schemars(extend("x-kinds" = kind::CYCLES, "x-instead" = "between bodies with mass, pressure acts through `normal`"))]
+    #[schemars(extend("x-kinematics" = kinematics::PLANE, "x-otherwise" = "its pressure is that of flow along one line", "x-kinds" = kind::CYCLES, "x-instead" = "between bodies with mass, pressure acts through `normal`"))]
     pub diffusion: Option<Diffusion>,
     /// Heat of friction, which may change friction and the pressure of pore fluid.
     #[schemars(extend("x-kinds" = kind::CYCLES, "x-instead" = "frictional heat is followed through cycles without mass only"))]
@@ -95,7 +102,7 @@ pub struct Fault {
     #[schemars(extend("x-kinds" = kind::CYCLES, "x-instead" = "between bodies with mass there is no friction where nothing presses"))]
     pub normal_floor: Option<Spanned<Pressure>>,
     /// `true`: the sides separate where there is no compression; needs `normal_floor`, but with mass none.
-    #[schemars(extend("x-kinds" = [Kind::Cycles, Kind::Explicit], "x-default" = usual(false)))]
+    #[schemars(extend("x-kinematics" = kinematics::ALONG_XY, "x-otherwise" = "in antiplane motion bodies move out of the plane only", "x-kinds" = [Kind::Cycles, Kind::Explicit], "x-default" = usual(false)))]
     pub opening: Option<Spanned<bool>>,
     /// Friction follows changes of the normal traction with a delay, `{ length = "1 mm", rate = "1 m/s" }`.
     #[schemars(extend("x-kinds" = [Kind::Explicit]))]
@@ -291,7 +298,7 @@ pub enum Along {
 #[serde(deny_unknown_fields)]
 pub struct Creep {
     /// Distance along a plane fault from its upper end beyond which the slip rate is imposed \[m\].
-    #[schemars(extend("x-kinds" = kind::BETWEEN_BODIES, "x-instead" = "let the fault end where the creep begins"))]
+    #[schemars(extend("x-kinematics" = kinematics::PLANE, "x-otherwise" = "there is no distance along a fault in space; `outside = { y = { from = \"-40 km\" } }` has coordinates", "x-kinds" = kind::BETWEEN_BODIES, "x-instead" = "let the fault end where the creep begins"))]
     pub beyond: Option<Spanned<Length>>,
     /// Ranges of coordinates outside which the slip rate is imposed.
     #[schemars(extend("x-kinds" = kind::BETWEEN_BODIES, "x-instead" = "let the fault end where the creep begins"))]
@@ -302,6 +309,7 @@ pub struct Creep {
     #[schemars(extend("x-default" = usual("slip").only("between bodies").but("backslip", "in a medium")))]
     pub loading: Option<Spanned<CreepLoading>>,
     /// Direction of the slip rate if the direction of slip may turn, of any length; absent: that of the fault.
+    #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in the plane there is one direction of slip"))]
     #[serde(default, deserialize_with = "crate::exact::optional")]
     pub rake: Option<Spanned<[f64; 3]>>,
 }
@@ -339,6 +347,7 @@ pub struct Outside {
     /// Range of y.
     pub y: Option<Extent>,
     /// Range of z.
+    #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "there is no coordinate z in the plane"))]
     pub z: Option<Extent>,
 }
 

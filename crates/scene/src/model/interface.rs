@@ -8,6 +8,7 @@ use crate::{defaults, kind};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
+use serde_json::{Value, json};
 
 /// A contact interface between two side sets.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -40,16 +41,20 @@ pub struct Interface {
     #[schemars(extend("x-default" = usual(false)))]
     pub initial_stress: Option<Spanned<bool>>,
     /// A key of faults; refused here.
-    #[schemars(skip)]
+    #[schemars(with = "Value", extend("not" = json!({}), "x-of" = "Fault"))]
+    #[serde(default)]
     pub normal: Option<Spanned<IgnoredAny>>,
     /// A key of faults; refused here.
-    #[schemars(skip)]
+    #[schemars(with = "Value", extend("not" = json!({}), "x-of" = "Fault"))]
+    #[serde(default)]
     pub shear: Option<Spanned<IgnoredAny>>,
     /// A key of faults; refused here.
-    #[schemars(skip)]
+    #[schemars(with = "Value", extend("not" = json!({}), "x-of" = "Fault"))]
+    #[serde(default)]
     pub rate: Option<Spanned<IgnoredAny>>,
     /// A key of faults; refused here.
-    #[schemars(skip)]
+    #[schemars(with = "Value", extend("not" = json!({}), "x-of" = "Fault"))]
+    #[serde(default)]
     pub profiles: Option<Spanned<IgnoredAny>>,
 }
 

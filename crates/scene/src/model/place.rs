@@ -1,5 +1,6 @@
 //! Geographical position and time of the events of a scene.
 
+use crate::kinematics;
 use crate::spanned::Spanned;
 use crate::units::{Angle, Length};
 use crate::usual::usual;
@@ -22,11 +23,14 @@ pub struct Place {
     /// Azimuth of the direction into the plane, with x to its right and y up; in space, azimuth of `along`.
     pub strike: Spanned<Angle>,
     /// In space: direction that points up; default against `gravity` of the bodies, else y, `[0, 1, 0]`.
+    #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in the plane y is up, and `strike` is the direction into the plane"))]
     #[serde(default, deserialize_with = "crate::exact::optional")]
     pub up: Option<Spanned<[f64; 3]>>,
     /// In space: horizontal direction with the azimuth `strike`; default with x to its right, `[0, 0, -1]` if y is up.
+    #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in the plane y is up, and `strike` is the direction into the plane"))]
     #[serde(default, deserialize_with = "crate::exact::optional")]
     pub along: Option<Spanned<[f64; 3]>>,
     /// In the plane: length of the fault out of the plane, for moments and magnitudes \[m\].
+    #[schemars(extend("x-kinematics" = kinematics::PLANE))]
     pub length: Option<Spanned<Length>>,
 }

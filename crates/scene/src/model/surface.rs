@@ -1,6 +1,7 @@
 //! A map of the free surface.
 
 use super::Extent;
+use crate::kinematics;
 use crate::spanned::Spanned;
 use crate::units::{Angle, Length};
 use schemars::JsonSchema;
@@ -15,10 +16,13 @@ pub struct SurfaceSpec {
     /// `{ from, to }` along x; default: the faults, and their greatest depth beyond them on either side.
     pub x: Option<Spanned<Extent>>,
     /// In space: the same along z.
+    #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in the plane a map is a line along x"))]
     pub z: Option<Spanned<Extent>>,
     /// In space, instead of `x` and `z`: range of longitude, such as `{ from = "134 deg", to = "136 deg" }`.
+    #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in the plane a map is a line along x"))]
     pub longitude: Option<Spanned<AngleExtent>>,
     /// Range of latitude.
+    #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in the plane a map is a line along x"))]
     pub latitude: Option<Spanned<AngleExtent>>,
 }
 

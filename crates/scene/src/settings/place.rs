@@ -80,7 +80,7 @@ fn absent(text: &str, chain: &[&Item], setting: &Setting) -> Result<(), String> 
         (Step::Index(_), None) => return Err(format!("`{so_far}` is no list")),
         (Step::Key(_), None) => {}
     }
-    let names = keys::check(&setting.path, is_slider(text))?;
+    let names = keys::check(&setting.path, is_slider(text)).map_err(|e| e.to_string())?;
     if steps[depth..].iter().any(|step| matches!(step, Step::Index(_))) {
         return Err("the file has no such list; write it into the file, or set it as a whole".into());
     }
