@@ -2,7 +2,7 @@
 #![allow(missing_docs)]
 
 use asperity::kinds;
-use asperity_output::Recorder;
+use asperity_output::bodies::Recorder;
 use asperity_plan::bodies;
 use asperity_plan::reading::scene;
 use criterion::{Criterion, criterion_group, criterion_main};

@@ -5,8 +5,9 @@ use super::written::Folder;
 use crate::{CaseError, Ledger};
 use asperity::kinds;
 use asperity_fem::mesh::Mesh;
-use asperity_output::view::MeshView;
-use asperity_output::{Recorder, plots};
+use asperity_output::bodies::Recorder;
+use asperity_output::bodies::view::MeshView;
+use asperity_output::figures;
 use asperity_plan::bodies;
 use asperity_plan::reading::scene::model::Scene;
 use std::path::Path;
@@ -48,7 +49,7 @@ pub fn displacement<const D: usize>(
     let vector =
         |u: &[f64]| std::array::from_fn(|c| c.checked_sub(first).and_then(|c| u.get(c)).map_or(0.0, |u| *u));
     let vectors: Vec<[f64; 3]> = u.chunks_exact(components).map(vector).collect();
-    let svg = plots::displacement(&view, &vectors).ok_or("the body has no face to draw")?;
+    let svg = figures::displacement(&view, &vectors).ok_or("the body has no face to draw")?;
     let caption =
         if moved { "Current configuration, computed by the case." } else { "Computed by the case." };
     ledger.picture(title, svg, caption);
@@ -73,7 +74,7 @@ pub fn mises(scene: &Scene, stage: &str) -> Result<String, CaseError> {
 pub fn recorded(record: &Recorder, stage: &str) -> Result<String, CaseError> {
     let named = record.stage_ends().iter().find(|end| stage.is_empty() || end.name == stage);
     let stage = &named.ok_or("the stage was not reached")?.name;
-    plots::field(record, stage).ok_or_else(|| "it has no bodies".into())
+    figures::field(record, stage).ok_or_else(|| "it has no bodies".into())
 }
 
 /// Draws the Mises stress at the end of a stage of a scene.

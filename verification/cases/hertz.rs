@@ -3,7 +3,7 @@
 use crate::{CaseError, Cost, Ledger, Plot, Series};
 use asperity::kinds;
 use asperity::kinds::bodies::RunReport;
-use asperity_output::Recorder;
+use asperity_output::bodies::Recorder;
 use asperity_plan::bodies;
 use asperity_plan::reading::scene as reader;
 use asperity_plan::reading::scene::model::{

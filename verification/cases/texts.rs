@@ -3,8 +3,8 @@
 use crate::{CaseError, Cost};
 use asperity::kinds;
 use asperity::kinds::bodies::RunReport;
-use asperity_output::Recorder;
-use asperity_output::view::InterfaceFields;
+use asperity_output::bodies::Recorder;
+use asperity_output::bodies::view::InterfaceFields;
 use asperity_plan::bodies;
 use asperity_plan::reading::scene;
 use asperity_run::report::Outcome;

@@ -8,7 +8,7 @@ use asperity::kinds::faults::{Files, Report};
 use asperity::{catalogue, kinds};
 use asperity_cycles::{Balance, FaultRun, Faults, Moment};
 use asperity_ode::{Control, Outcome};
-use asperity_output::located::{cmtsolution, quakeml};
+use asperity_output::formats::located::{cmtsolution, quakeml};
 use asperity_plan::dynamics::AnyPlan;
 use asperity_plan::faults::Plan;
 use asperity_plan::reading::scene;
@@ -231,7 +231,7 @@ pub fn bodies_beside(text: &str, folder: &Path) -> Result<(Folder, Cost), CaseEr
     let scene = scene::read_in(text, folder).map_err(|e| format!("{e}\nin\n{text}"))?;
     let plan = bodies::plan(&scene).map_err(|e| e.to_string())?;
     let folder = Folder::new()?;
-    let mut files = asperity_output::Files::create(folder.path(), plan.outputs())?;
+    let mut files = asperity_output::bodies::Files::create(folder.path(), plan.outputs())?;
     let (report, cost) = Cost::of(|| kinds::bodies::run(&plan, &mut files));
     let report = report?;
     std::fs::write(folder.path().join("report.json"), serde_json::to_string(&report)?)?;

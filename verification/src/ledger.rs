@@ -20,7 +20,7 @@ use crate::capability::Capability;
 use crate::claim::{Claim, Evidence, Judged, Norm, Test};
 use crate::cost::Cost;
 use crate::order::{Floor, Level, OrderTest, Plateau};
-use asperity_output::plots::Diagram;
+use asperity_output::figures::Diagram;
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::Debug;

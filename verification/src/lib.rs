@@ -29,7 +29,7 @@ pub mod supervise;
 #[path = "../cases/mod.rs"]
 pub mod cases;
 
-pub use asperity_output::plots::{Diagram as Plot, Scale as Axis, Series, Slope};
+pub use asperity_output::figures::{Diagram as Plot, Scale as Axis, Series, Slope};
 pub use capability::Capability;
 pub use case::{Case, CaseError};
 pub use claim::{Evidence, Verdict};

@@ -1,7 +1,7 @@
 //! Runs the verification suite and writes its report.
 
 use asperity::cli::{self, Arguments};
-use asperity_output::printing;
+use asperity_output::terminal::printing;
 use asperity_verification::case::{Case, Outcome};
 use asperity_verification::pool::{self, Limits};
 use asperity_verification::report::{self, history, junit, provenance::Provenance};

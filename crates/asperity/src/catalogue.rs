@@ -2,9 +2,9 @@
 
 use asperity_cycles::Rupture;
 use asperity_cycles::heat::TEMPERATURE;
-use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::shortest;
-use asperity_output::located::SourceParameters;
+use asperity_output::formats::located::SourceParameters;
+use asperity_output::tables::column::{self, Column, Sign};
 use asperity_output::{OutputError, atomic, stems};
 use asperity_run::{Event, SlipPoints};
 use schemars::JsonSchema;

@@ -1,7 +1,7 @@
 //! The `asperity` command.
 
 use asperity::cli;
-use asperity_output::printing;
+use asperity_output::terminal::printing;
 use clap::Parser;
 use std::fmt::Write;
 use std::process::ExitCode;

@@ -1,6 +1,6 @@
 //! Files that exist completely or not at all: written under a temporary name in the same directory, then renamed.
 
-use super::OutputError;
+use crate::OutputError;
 use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};

@@ -1,7 +1,7 @@
 //! Files of VTK as VTK and meshio write them: `verification/independent/field_files.py`.
 #![allow(clippy::disallowed_methods, clippy::unwrap_used)]
 
-use asperity_output::vtu::reading::{self, Grid};
+use asperity_output::fields::vtu::reading::{self, Grid};
 
 const FORMS: [&str; 8] = [
     "vtk_ascii",

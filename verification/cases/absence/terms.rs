@@ -99,7 +99,7 @@ impl Term {
             ],
             Self::Sliders => &["crates/cycles/src/slider/"],
             Self::Fluid => &["crates/cycles/src/processes/injection.rs"],
-            Self::Plots => &["crates/output/src/plots/png.rs", "crates/output/src/plots/svg.rs"],
+            Self::Plots => &["crates/output/src/figures/png.rs", "crates/output/src/figures/svg.rs"],
         }
     }
 

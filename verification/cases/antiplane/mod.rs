@@ -4,8 +4,8 @@ mod prestress;
 
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity::kinds;
-use asperity_output::Recorder;
-use asperity_output::view::Samples;
+use asperity_output::bodies::Recorder;
+use asperity_output::bodies::view::Samples;
 use asperity_plan::bodies;
 use asperity_plan::reading::scene;
 use asperity_run::report::Outcome;

@@ -4,7 +4,7 @@ use super::contact_hard::scenes::{Done, Pair, block};
 use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity::kinds;
-use asperity_output::Recorder;
+use asperity_output::bodies::Recorder;
 use asperity_plan::bodies;
 use asperity_plan::reading::scene;
 use asperity_vary::SceneText;

@@ -2,7 +2,7 @@
 
 use crate::cases::texts::simulate;
 use crate::{Capability, CaseError, Evidence, Ledger};
-use asperity_output::PointHistory;
+use asperity_output::bodies::PointHistory;
 use asperity_vary::SceneText;
 
 /// Penalty \[Pa/m\] and depth \[m\]: the traction where the blocks face each other is their product.

@@ -115,7 +115,7 @@ fn total_form(
         .record();
     let (before, after) = (done.contact("shear")?, done.contact("turn")?);
     let largest = before.normal_traction.iter().fold(0.0, |m: f64, t| m.max(*t));
-    let values = |f: &asperity_output::view::InterfaceFields| -> Vec<f64> {
+    let values = |f: &asperity_output::bodies::view::InterfaceFields| -> Vec<f64> {
         f.normal_traction.iter().chain(&f.shear_traction).map(|t| t / largest).collect()
     };
     let (now, then) = (values(after), values(before));

@@ -2,7 +2,7 @@
 
 use super::texts::{Done, simulate};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
-use asperity_output::view::StepRecord;
+use asperity_output::bodies::view::StepRecord;
 use asperity_vary::SceneText;
 
 /// See the README.

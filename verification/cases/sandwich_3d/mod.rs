@@ -37,7 +37,7 @@ fn difference(
     two: &Run,
     three: &Run,
     stage: &str,
-    field: fn(&asperity_output::view::InterfaceFields) -> &Vec<f64>,
+    field: fn(&asperity_output::bodies::view::InterfaceFields) -> &Vec<f64>,
 ) -> Result<f64, CaseError> {
     let (plane, solid) = (field(two.end(stage)?), field(three.end(stage)?));
     let largest = plane.iter().map(|v| v.abs()).fold(0.0, f64::max);

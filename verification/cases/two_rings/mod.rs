@@ -6,7 +6,7 @@ mod mesh;
 use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity::kinds;
-use asperity_output::Recorder;
+use asperity_output::bodies::Recorder;
 use asperity_plan::bodies;
 use asperity_plan::reading::scene as reader;
 use asperity_plan::reading::scene::model::{Measure, here};

@@ -3,7 +3,7 @@
 use super::page::number;
 use crate::claim::Claim;
 use crate::order::OrderTest;
-use asperity_output::plots::{Diagram, Series, Slope};
+use asperity_output::figures::{Diagram, Series, Slope};
 
 /// Distance of the triangle from the errors in decades: a fixed part and a fraction of their range.
 const APART: (f64, f64) = (0.08, 0.10);

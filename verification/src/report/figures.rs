@@ -3,7 +3,7 @@
 use super::page::{escape, number};
 use crate::claim::{Judged, Test};
 use crate::ledger::{Picture, Record};
-use asperity_output::plots::Diagram;
+use asperity_output::figures::Diagram;
 use std::fmt::Write as _;
 
 /// Largest number of convergence figures of a case that are shown unfolded.

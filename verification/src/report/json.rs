@@ -7,7 +7,7 @@ use crate::case::Outcome;
 use crate::claim::Judged;
 use crate::ledger::Table;
 use crate::suite::Summary;
-use asperity_output::plots::Diagram;
+use asperity_output::figures::Diagram;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Value, json};

@@ -4,7 +4,7 @@ use super::figures;
 use super::page::{Depth, escape, number, page, word};
 use super::provenance::Provenance;
 use crate::case::Outcome;
-use asperity_output::plots::{Diagram, Series};
+use asperity_output::figures::{Diagram, Series};
 
 /// Errors for which the cost is reported.
 const TARGETS: [f64; 3] = [1e-2, 1e-3, 1e-4];

@@ -1,6 +1,6 @@
 //! Sketches of body problems.
 
-use asperity_output::plots::Sketch;
+use asperity_output::figures::Sketch;
 
 pub(super) fn of(name: &str) -> Option<Sketch> {
     let sketch = match name {

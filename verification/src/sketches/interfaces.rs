@@ -1,6 +1,6 @@
 //! Sketches of interfaces with rate-and-state friction, and of the sandwich.
 
-use asperity_output::plots::Sketch;
+use asperity_output::figures::Sketch;
 
 pub(super) fn of(name: &str) -> Option<Sketch> {
     let sketch = match name {

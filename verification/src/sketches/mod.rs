@@ -6,7 +6,7 @@ mod faults;
 mod interfaces;
 mod sliders;
 
-use asperity_output::plots::Sketch;
+use asperity_output::figures::Sketch;
 
 /// The sketch of a case as SVG.
 pub fn of(name: &str) -> Option<String> {

@@ -1,6 +1,6 @@
 //! Sketches of friction laws and spring-sliders.
 
-use asperity_output::plots::Sketch;
+use asperity_output::figures::Sketch;
 
 pub(super) fn of(name: &str) -> Option<Sketch> {
     let sketch = match name {

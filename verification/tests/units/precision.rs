@@ -1,4 +1,4 @@
-use asperity_output::plots::Series;
+use asperity_output::figures::Series;
 use asperity_verification::report::precision::{Reached, cost_to_reach};
 
 #[test]

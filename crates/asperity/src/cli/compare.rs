@@ -2,7 +2,8 @@
 
 use super::difference;
 use super::end::End;
-use asperity_output::{plots, printing};
+use asperity_output::figures;
+use asperity_output::terminal::printing;
 use asperity_plan::reading::scene::near::suggest;
 use asperity_reference::benchmark::{self, Judgement, Reference, Submission, overlay};
 use clap::Args;
@@ -123,7 +124,7 @@ fn draw(asked: &Comparison, reference: &'static Reference, result: &Submission) 
     let usual =
         || Path::new("out/compare").join(reference.benchmark.split('/').collect::<Vec<_>>().join("-"));
     let folder = asked.out.clone().unwrap_or_else(usual);
-    plots::draw_charts(&folder, &charts).into_diagnostic()?;
+    figures::draw_charts(&folder, &charts).into_diagnostic()?;
     printing::out(format_args!("plots in {}\n", folder.display()));
     Ok(())
 }

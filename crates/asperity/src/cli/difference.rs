@@ -2,7 +2,7 @@
 
 use super::end::End;
 use super::inputs;
-use asperity_output::printing::out;
+use asperity_output::terminal::printing::out;
 use asperity_reference::difference::{Compared, Difference, Overlap, Table, compare};
 use std::collections::BTreeSet;
 use std::ffi::OsStr;

@@ -3,8 +3,8 @@
 use super::begin::{LOCK, PAGE, PLOTS, README, REPORT, RESERVE, SCENE};
 use super::inputs;
 use crate::checkpoint;
-use asperity_output::plots::Sheet;
-use asperity_output::progress;
+use asperity_output::figures::Sheet;
+use asperity_output::terminal::progress;
 use asperity_plan::shared::setup;
 use std::ffi::OsStr;
 use std::path::Path;

@@ -1,7 +1,7 @@
 //! The command `explain`: rows of the reference of keys.
 
 use super::end::End;
-use asperity_output::printing::out;
+use asperity_output::terminal::printing::out;
 use asperity_plan::reading::scene::keys::{self, Key, KeySearch, Row};
 use miette::miette;
 

@@ -4,7 +4,7 @@ use super::arguments::{Running, Set};
 use super::directory::Directory;
 use super::end::End;
 use super::read::Ready;
-use asperity_output::printing::{self, Form};
+use asperity_output::terminal::printing::{self, Form};
 use asperity_plan::shared::setup::Setups;
 use miette::{IntoDiagnostic, JSONReportHandler, WrapErr};
 use serde::Serialize;

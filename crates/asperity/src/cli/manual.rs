@@ -2,7 +2,7 @@
 
 use super::arguments::Arguments;
 use super::end::End;
-use asperity_output::printing::out;
+use asperity_output::terminal::printing::out;
 use clap::CommandFactory;
 use clap_complete::Shell;
 use clap_mangen::Man;

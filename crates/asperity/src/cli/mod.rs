@@ -30,7 +30,7 @@ pub mod signals;
 pub mod status;
 
 pub use arguments::{Arguments, Checking, Command, Running, Schema, Set};
-use asperity_output::{Pulse, printing};
+use asperity_output::terminal::{Pulse, printing};
 use asperity_plan::shared::setup::{Setups, When};
 use begin::Begin;
 pub use compare::Comparison;

@@ -1,7 +1,7 @@
 //! The command `new`: a commented scene to begin with.
 
 use super::end::End;
-use asperity_output::printing::out;
+use asperity_output::terminal::printing::out;
 use clap::ValueEnum;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use std::fs::File;

@@ -2,8 +2,8 @@
 
 use super::end::End;
 use super::status::{self, State};
-use asperity_output::plots::{FigureRequest, Format, Sheet};
-use asperity_output::printing::{self, out};
+use asperity_output::figures::{FigureRequest, Format, Sheet};
+use asperity_output::terminal::printing::{self, out};
 use asperity_output::words::time as words;
 use asperity_plan::reading::scene::near::suggest;
 use asperity_plan::reading::scene::units::Time;

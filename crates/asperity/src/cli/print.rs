@@ -1,7 +1,7 @@
 //! Output of the commands on standard output.
 
 use super::read::Planned;
-use asperity_output::printing::out;
+use asperity_output::terminal::printing::out;
 
 /// Prints the plan and its checks.
 pub(super) fn plan(plan: &Planned) {

@@ -4,7 +4,7 @@ use super::begin::Begin;
 use super::inputs::Inputs;
 use crate::{checkpoint, kinds};
 use asperity_cycles::slider::stability;
-use asperity_output::plots::MeshPicture;
+use asperity_output::figures::MeshPicture;
 use asperity_plan::bodies::{self, AnyPlan};
 use asperity_plan::reading::diagnostic::{Diagnostics, report_set};
 use asperity_plan::reading::scene;

@@ -2,7 +2,7 @@
 
 use super::begin::{README, REPORT};
 use super::entries;
-use asperity_output::column::{self, Column};
+use asperity_output::tables::column::{self, Column};
 use asperity_output::{OutputError, atomic};
 use std::ffi::OsStr;
 use std::fs;

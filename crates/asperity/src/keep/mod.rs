@@ -7,7 +7,7 @@ pub use table::Table;
 use crate::checkpoint::{self, Pauses, ResumeError, Saved};
 use asperity_ode::Control;
 use asperity_output::OutputError;
-use asperity_output::progress::{Progress, RunState};
+use asperity_output::terminal::progress::{Progress, RunState};
 use asperity_run::{Kind, ObserveError, Observer};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};

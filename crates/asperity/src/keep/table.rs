@@ -1,7 +1,8 @@
 //! Tables of a run that grow by whole rows.
 
-use asperity_output::column::{self, Column};
-use asperity_output::{GrowingTable, OutputError, atomic};
+use asperity_output::tables::GrowingTable;
+use asperity_output::tables::column::{self, Column};
+use asperity_output::{OutputError, atomic};
 use asperity_run::Kind;
 use std::path::Path;
 

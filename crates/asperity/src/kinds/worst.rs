@@ -6,7 +6,7 @@ use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::{Cells, MeshFace};
 use asperity_fem::nonlinear::Kinematics;
 use asperity_mechanics::{CellBlock, Model, Path, PlannedInterface, Problem};
-use asperity_output::view::InterfaceFields;
+use asperity_output::bodies::view::InterfaceFields;
 use asperity_run::Warning;
 use asperity_scene::lengths::brief;
 use nalgebra::{DMatrix, SymmetricEigen};

@@ -1,6 +1,6 @@
 //! Values at points, forces on sets and springs at the end of a stage.
 
-use asperity_output::view::{ForceMark, PointMark, PointValues, SpringMark, SpringValues};
+use asperity_output::bodies::view::{ForceMark, PointMark, PointValues, SpringMark, SpringValues};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,7 +1,7 @@
 //! Idealisations, formulations and materials end to end, against closed forms.
 
 use crate::common::{close, displacements, fields, planned, simulate, varied};
-use asperity_output::Recorder;
+use asperity_output::bodies::Recorder;
 use asperity_vary::Change::{Add, With, Without};
 
 const YOUNG: f64 = 10e9;

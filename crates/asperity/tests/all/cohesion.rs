@@ -2,7 +2,7 @@
 
 use crate::common::{planned, simulate, varied};
 use asperity_mechanics::dynamics::{Explicit, ForcedWeakening};
-use asperity_output::Recorder;
+use asperity_output::bodies::Recorder;
 use asperity_plan::bodies::AnyPlan as Bodies;
 use asperity_plan::dynamics;
 use asperity_plan::dynamics::AnyPlan;

@@ -2,7 +2,7 @@
 
 use crate::common::{planned, varied};
 use asperity::kinds;
-use asperity_output::Recorder;
+use asperity_output::bodies::Recorder;
 use asperity_run::report::Outcome;
 use asperity_vary::Change::With;
 

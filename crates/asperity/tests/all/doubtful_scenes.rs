@@ -5,7 +5,7 @@
 use crate::common::{SANDWICH, varied};
 use asperity::kinds;
 use asperity::kinds::bodies::RunReport;
-use asperity_output::Recorder;
+use asperity_output::bodies::Recorder;
 use asperity_plan::reading::scene;
 use asperity_plan::{ScenePlan, bodies};
 use asperity_run::report::{Outcome, Stop};

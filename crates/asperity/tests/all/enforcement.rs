@@ -3,7 +3,7 @@
 use crate::common::{close, displacements, fields, planned, simulate, varied};
 use asperity::kinds;
 use asperity::kinds::bodies::RunReport;
-use asperity_output::Recorder;
+use asperity_output::bodies::Recorder;
 use asperity_run::report::Outcome;
 use asperity_vary::Change::With;
 

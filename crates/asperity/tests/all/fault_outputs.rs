@@ -6,7 +6,7 @@ use crate::common::varied;
 use asperity::kinds::faults::{Files, Position, Report, sheet};
 use asperity_cycles::{FaultRun, Faults, Moment, Rupture, resume};
 use asperity_ode::Control;
-use asperity_output::plots::{EventPanel, FigureRequest};
+use asperity_output::figures::{EventPanel, FigureRequest};
 use asperity_plan::faults::Plan;
 use asperity_plan::reading::scene;
 use asperity_plan::{ScenePlan, plan_scene};

@@ -4,7 +4,7 @@
 use crate::common::{SANDWICH, plain_evolutions, planned};
 use asperity::kinds;
 use asperity::kinds::bodies::RunReport;
-use asperity_output::Recorder;
+use asperity_output::bodies::Recorder;
 use asperity_run::report::{Outcome, Stop};
 use asperity_vary::Change::{Add, With};
 use asperity_vary::{Change, SceneText};

@@ -1,8 +1,8 @@
 //! The sign of slip and shear traction in what observers see: the same for both measures, small and finite sliding, in the plane and in space.
 
 use asperity::kinds;
-use asperity_output::Recorder;
-use asperity_output::view::InterfaceFields;
+use asperity_output::bodies::Recorder;
+use asperity_output::bodies::view::InterfaceFields;
 use asperity_plan::bodies;
 use asperity_plan::reading::scene;
 

@@ -4,7 +4,7 @@
 use crate::common::{SANDWICH, varied};
 use asperity::kinds;
 use asperity::kinds::bodies::RunReport;
-use asperity_output::Recorder;
+use asperity_output::bodies::Recorder;
 use asperity_plan::bodies::{self, AnyPlan};
 use asperity_plan::reading::scene;
 use asperity_plan::sliders::planner;

@@ -3,7 +3,7 @@
 
 use crate::common::varied;
 use asperity::kinds::faults::located::locate;
-use asperity_output::located::{Plane, SourceParameters, Spot, Tensor, cmtsolution, quakeml};
+use asperity_output::formats::located::{Plane, SourceParameters, Spot, Tensor, cmtsolution, quakeml};
 use asperity_vary::Change::{Add, With, Without};
 
 const NDK: &str = include_str!("../catalogues/events.ndk");

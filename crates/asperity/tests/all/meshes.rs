@@ -1,7 +1,7 @@
 //! Bodies from mesh files and generators end to end, against closed forms.
 
 use crate::common::{close, displacements, fields, planned, simulate, varied};
-use asperity_output::Recorder;
+use asperity_output::bodies::Recorder;
 use asperity_vary::Change::{Add, With};
 
 /// Modulus of uniaxial strain over Young's modulus for a Poisson's ratio of a quarter.

@@ -10,7 +10,7 @@ use asperity::keep::{Keeper, Place};
 use asperity::kinds::sliders::Outputs;
 use asperity_cycles::slider::{Problem, SliderRun, resume};
 use asperity_ode::{Method, Outcome};
-use asperity_output::plots::FigureRequest;
+use asperity_output::figures::FigureRequest;
 use asperity_vary::Change::{self, Add, With, WithOrSame};
 use asperity_vary::SceneText;
 use serde_json::Value;

@@ -2,8 +2,8 @@
 
 use crate::common::{close, planned, simulate, varied};
 use asperity::kinds;
-use asperity_output::view::{PointValues, Samples};
-use asperity_output::{FieldSchedule, Files, Multi, Recorder, Writer};
+use asperity_output::bodies::view::{PointValues, Samples};
+use asperity_output::bodies::{FieldSchedule, Files, Multi, Recorder, Writer};
 use asperity_vary::Change::With;
 
 const YOUNG: f64 = 10e9;

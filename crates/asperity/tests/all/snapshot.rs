@@ -2,7 +2,7 @@
 
 use crate::common::{SANDWICH, varied};
 use asperity::kinds;
-use asperity_output::Recorder;
+use asperity_output::bodies::Recorder;
 use asperity_plan::bodies;
 use asperity_plan::reading::scene;
 use asperity_vary::Change::Add;

@@ -4,7 +4,7 @@
 use crate::common::{displacements, fields, planned, simulate};
 use asperity::kinds;
 use asperity::kinds::bodies::RunReport;
-use asperity_output::Recorder;
+use asperity_output::bodies::Recorder;
 use asperity_plan::bodies;
 use asperity_plan::reading::diagnostic::Diagnostic;
 use asperity_plan::reading::scene;

@@ -1,7 +1,7 @@
 //! A synthetic run in the shape of a sandwich: smooth fields without mechanics.
 
-use super::super::OutputError;
-use super::super::view::*;
+use crate::OutputError;
+use crate::bodies::view::*;
 
 pub(crate) const H: f64 = 2.5e-3;
 const STAGES: [(&str, f64); 2] = [("press", 9.66), ("shear", 59.66)];

@@ -1,9 +1,11 @@
 //! Files written by the observers.
 
-use super::super::*;
 use super::fake::{body_fields, fields_at, play, samples_at, setup};
+use crate::bodies::schedule::OutputIntervals;
+use crate::bodies::view::{BodyFields, InterfaceMesh, Samples, Setup, StepRecord, StepView};
+use crate::bodies::{FieldSchedule, Files, Multi, Recorder, Writer};
 use crate::error::expect_length;
-use crate::view::{BodyFields, InterfaceMesh, Setup, StepRecord, StepView};
+use crate::{OutputError, atomic, figures, labels, stems};
 use std::cell::Cell;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -40,7 +42,7 @@ fn a_run_leaves_fields_tables_and_plots_and_no_temporary_file() {
         let mut recorder = Recorder::new().with_bodies();
         let mut files = Files::create(&out, schedule()).unwrap();
         play(&setup(layers), 200, None, &mut Multi::new(vec![&mut recorder, &mut files])).unwrap();
-        assert_eq!(plots::draw_all(&out.join("plots"), &recorder).unwrap().len(), 14);
+        assert_eq!(figures::draw_all(&out.join("plots"), &recorder).unwrap().len(), 14);
         assert_eq!(names(&out), ["fields", "fields.pvd", "plots", "probes", "profiles"]);
         assert_eq!(names(&out.join("fields")).len(), 2 * 2 * 2);
         assert_eq!(names(&out.join("profiles")).len(), 20);
@@ -74,7 +76,7 @@ fn values_that_are_not_finite_or_all_the_same_do_not_stop_the_outputs() {
             let mut recorder = Recorder::new().with_bodies();
             let mut files = Files::create(dir.path(), schedule()).unwrap();
             play(&setup(0), steps, Some(spoil), &mut Multi::new(vec![&mut recorder, &mut files])).unwrap();
-            assert_eq!(plots::draw_all(dir.path(), &recorder).unwrap().len(), 14, "{spoil}");
+            assert_eq!(figures::draw_all(dir.path(), &recorder).unwrap().len(), 14, "{spoil}");
         }
     }
 }
@@ -86,10 +88,10 @@ fn a_run_without_interfaces_probes_or_steps_draws_what_there_is() {
     bare.interfaces[0].probes.clear();
     let mut recorder = Recorder::new();
     play(&bare, 2, None, &mut recorder).unwrap();
-    assert_eq!(plots::draw_all(dir.path(), &recorder).unwrap().len(), 2);
+    assert_eq!(figures::draw_all(dir.path(), &recorder).unwrap().len(), 2);
     let mut recorder = Recorder::new().with_bodies();
     recorder.begin(&Setup::default()).unwrap();
-    assert!(plots::draw_all(dir.path(), &recorder).unwrap().is_empty());
+    assert!(figures::draw_all(dir.path(), &recorder).unwrap().is_empty());
 }
 
 #[test]
@@ -254,14 +256,14 @@ fn several_observers_share_one_recovery_of_the_bodies() {
         body_fields(&full.mesh, 1.0, None)
     };
     let (mut a, mut b) = (PromptWriter, PromptWriter);
-    let record = view::StepRecord::default();
+    let record = StepRecord::default();
     let view = StepView {
         record: &record,
         stage: "press",
         ends_stage: true,
         end_time: 1.0,
         interfaces: &[],
-        samples: &view::Samples::default(),
+        samples: &Samples::default(),
         energy: None,
         fields: &fields,
     };
@@ -287,7 +289,7 @@ fn times_of_outputs_are_those_at_which_they_appear() {
     let stages = [("a".to_string(), 1.0), ("b".to_string(), 5.0)];
     let schedule = FieldSchedule { fields: 2, profiles: 4 };
     assert_eq!(schedule.times(&stages), [0.25, 0.5, 0.75, 1.0, 2.0, 3.0, 4.0, 5.0]);
-    let mut due = schedule::OutputIntervals::new(4, &stages);
+    let mut due = OutputIntervals::new(4, &stages);
     let ends = [(0.1, false), (0.25, false), (0.3, false), (0.8, false), (0.99, false), (1.0, true)];
     let taken = ends.map(|(time, ends_stage)| due.take(0, time, ends_stage));
     assert_eq!(taken, [false, true, false, true, false, true]);
@@ -313,14 +315,14 @@ fn names_of_interfaces_become_safe_and_different_file_names() {
 #[test]
 fn labels_name_the_coordinates_that_differ() {
     let plane = [[0.025, 0.0, 0.0], [0.025, 0.0125, 0.0]];
-    assert_eq!(plots::labels::position_labels(plane.into_iter()), ["y = 0 mm", "y = 12.5 mm"]);
+    assert_eq!(labels::position_labels(plane.into_iter()), ["y = 0 mm", "y = 12.5 mm"]);
     let layers = [[0.025, 0.0, 0.001], [0.025, 0.05, 0.002]];
-    assert_eq!(plots::labels::position_labels(layers.into_iter()), ["y = 0; z = 1 mm", "y = 50; z = 2 mm"]);
+    assert_eq!(labels::position_labels(layers.into_iter()), ["y = 0; z = 1 mm", "y = 50; z = 2 mm"]);
     let sevenths = [[0.0, 0.05 / 7.0, 0.0], [0.0, 0.05, 0.0]];
-    assert_eq!(plots::labels::position_labels(sevenths.into_iter()), ["y = 7.14 mm", "y = 50 mm"]);
+    assert_eq!(labels::position_labels(sevenths.into_iter()), ["y = 7.14 mm", "y = 50 mm"]);
     let close = [[0.0, 0.05, 0.0], [0.0, 0.050001, 0.0]];
-    assert_eq!(plots::labels::position_labels(close.into_iter()), ["y = 50 mm", "y = 50.001 mm"]);
-    assert_eq!(plots::labels::position_labels([[0.0; 3]].into_iter()), ["x = 0; y = 0 m"]);
+    assert_eq!(labels::position_labels(close.into_iter()), ["y = 50 mm", "y = 50.001 mm"]);
+    assert_eq!(labels::position_labels([[0.0; 3]].into_iter()), ["x = 0; y = 0 m"]);
 }
 
 #[test]
@@ -357,6 +359,6 @@ fn the_last_state_of_a_stage_in_which_a_run_stops_is_kept_and_drawn() {
     recorder.end(&view).unwrap();
     recorder.end(&view).unwrap();
     assert_eq!(recorder.stage_ends().iter().map(|end| end.time).collect::<Vec<_>>(), [20.0]);
-    let text = serde_json::to_string(&crate::plots::sheet(&recorder)).unwrap();
+    let text = serde_json::to_string(&crate::figures::sheet(&recorder)).unwrap();
     assert!(text.contains("\"stopped\":true"), "{text}");
 }

@@ -6,7 +6,7 @@ use crate::shared::checks::of_model::used;
 use crate::shared::model::{self, Model, bounds};
 use asperity_fem::element::ElementKind;
 use asperity_fem::mesh::{Mesh, Side, face_kind, face_nodes};
-use asperity_output::plots::{Mark, MarkedSet, MeshPicture};
+use asperity_output::figures::{Mark, MarkedSet, MeshPicture};
 use std::collections::BTreeMap;
 
 /// Picture of the bodies of a scene and of the sets that it uses; without bodies an empty one.

@@ -6,7 +6,7 @@ use crate::shared::loading::courses;
 use asperity_contact::TimeRule;
 use asperity_friction::law::RateBounds;
 use asperity_mechanics::{Control, Stage, Stepping, timing};
-use asperity_output::FieldSchedule;
+use asperity_output::bodies::FieldSchedule;
 use asperity_scene::defaults;
 
 /// Kind of laws with a state variable.

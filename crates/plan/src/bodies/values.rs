@@ -5,7 +5,7 @@ use super::start_gap::StartGap;
 use crate::shared::checks::Checks;
 use asperity_laws::Theta;
 use asperity_mechanics::{Mass, Problem};
-use asperity_output::FieldSchedule;
+use asperity_output::bodies::FieldSchedule;
 use asperity_run::Warning;
 use schemars::JsonSchema;
 use serde::Serialize;

@@ -6,7 +6,7 @@ use crate::shared::resolution::Resolution;
 use crate::shared::words::{length, time};
 use asperity_fem::mesh::Cells;
 use asperity_mechanics::dynamics::{Problem, StableStep};
-use asperity_output::view::MeshView;
+use asperity_output::bodies::view::MeshView;
 use asperity_run::Warning;
 use jiff::Timestamp;
 use std::fmt::Write as _;

@@ -25,7 +25,7 @@ const LEAST_PROFILES: f64 = 100.0;
 /// cent.
 const EXTREMUM: f64 = 2e-3;
 /// Least slip rate that is distinguished \[m/s\].
-pub const NO_RATE: f64 = asperity_output::seas::LEAST_RATE;
+pub const NO_RATE: f64 = asperity_output::formats::seas::LEAST_RATE;
 /// Largest number of doublings, after which a file counts as full; no file has so many rows.
 const MOST_DOUBLINGS: u32 = 60;
 

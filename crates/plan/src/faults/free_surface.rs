@@ -3,7 +3,7 @@
 use super::receivers::Receivers;
 use asperity_cycles::medium::patches::Patches;
 use asperity_fem::material::elastic::Elastic;
-use asperity_output::grd::Axis;
+use asperity_output::formats::grd::Axis;
 
 /// Positions on the free surface whose displacement is written for each event.
 #[derive(Clone, Debug)]

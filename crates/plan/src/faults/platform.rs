@@ -1,6 +1,6 @@
 //! Results in the files in which the SEAS community collects them: what their heads say, and their axes.
 
-use asperity_output::platform::Submission;
+use asperity_output::formats::platform::Submission;
 
 /// The files of a plan.
 #[derive(Clone, Debug, PartialEq)]

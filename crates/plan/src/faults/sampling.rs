@@ -4,8 +4,8 @@ use super::bodies::BodiesView;
 use crate::shared::views;
 use asperity_cycles::{Moment, OPENING};
 use asperity_mechanics::{ForeignLoads, Model, SampleRequest, SpringStart, SpringState, Stage, StressField};
-use asperity_output::SampleSites;
-use asperity_output::view::Samples;
+use asperity_output::bodies::SampleSites;
+use asperity_output::bodies::view::Samples;
 
 /// Points, sets and springs that are sampled, and the bodies that have their values.
 #[derive(Debug)]

@@ -3,7 +3,9 @@
 use asperity_fem::kinematics::Idealisation;
 use asperity_mechanics as mechanics;
 use asperity_mechanics::{ForceSet, Model, Point, Spring, SpringState, Stage};
-use asperity_output::view::{ForceMark, MeshView, PointMark, PointValues, Samples, SpringMark, SpringValues};
+use asperity_output::bodies::view::{
+    ForceMark, MeshView, PointMark, PointValues, Samples, SpringMark, SpringValues,
+};
 
 /// Pads a vector to three components.
 pub fn padded<const D: usize>(v: &[f64; D]) -> [f64; 3] {

@@ -2,7 +2,7 @@
 
 use super::reference::{Quantity, Reference};
 use super::submission::Submission;
-use asperity_output::plots::{Chart, Measure};
+use asperity_output::figures::{Chart, Measure};
 
 /// Units of quantities and coordinates: the measure of an axis, and the value of the unit in SI.
 const UNITS: [(&str, Measure, f64); 10] = [

@@ -5,8 +5,9 @@ use crate::cli::lines;
 use crate::keep::Keeper;
 use crate::kinds::bodies::{Outputs, RunError, RunReport, Stand};
 use crate::{catalogue, checkpoint, kinds};
-use asperity_output::plots::{self, Sheet};
-use asperity_output::{Column, FieldSchedule};
+use asperity_output::bodies::FieldSchedule;
+use asperity_output::figures::{self, Sheet};
+use asperity_output::tables::Column;
 use asperity_plan::bodies::AnyPlan;
 use miette::IntoDiagnostic;
 use std::path::Path;
@@ -61,6 +62,6 @@ impl Run for Bodies<'_> {
             lines::events(&events.all);
             catalogue::write(out, &events.all, &events.interfaces).into_diagnostic()?;
         }
-        Ok(outputs.recorder().as_ref().map(plots::sheet))
+        Ok(outputs.recorder().as_ref().map(figures::sheet))
     }
 }

@@ -7,9 +7,10 @@ use crate::keep::Keeper;
 use crate::kinds;
 use crate::kinds::faults::{Outputs, Report};
 use asperity_cycles::FaultRun;
-use asperity_output::plots::{EventPanel, PanelEvent, Sheet};
-use asperity_output::printing::out;
-use asperity_output::{Column, atomic};
+use asperity_output::atomic;
+use asperity_output::figures::{EventPanel, PanelEvent, Sheet};
+use asperity_output::tables::Column;
+use asperity_output::terminal::printing::out;
 use asperity_plan::faults::Plan;
 use asperity_plan::shared::ruptures::Ruptures;
 use asperity_run::report::Outcome;
@@ -112,9 +113,10 @@ fn write_located(path: &Path, plan: &Plan, report: &Report, hash: &str) -> miett
         return Ok(());
     }
     let events = report.located();
-    let document = asperity_output::located::quakeml(&plan.title, hash, &events).into_diagnostic()?;
+    let document =
+        asperity_output::formats::located::quakeml(&plan.title, hash, &events).into_diagnostic()?;
     atomic::write(&path.join("events.quakeml"), &document).into_diagnostic()?;
-    match asperity_output::located::cmtsolution(&plan.title, &events) {
+    match asperity_output::formats::located::cmtsolution(&plan.title, &events) {
         Some(text) => atomic::write(&path.join("CMTSOLUTION"), text.as_bytes()).into_diagnostic(),
         None => {
             let why = "moments need `length` in `[place]`, the length out of the plane";

@@ -2,8 +2,8 @@
 
 use crate::keep::{Keeper, Outputs, Stand};
 use crate::report::Results;
-use asperity_output::Column;
-use asperity_output::plots::Sheet;
+use asperity_output::figures::Sheet;
+use asperity_output::tables::Column;
 use std::path::Path;
 
 /// A planned run of one kind: its steps, its report and its files.

@@ -4,7 +4,8 @@ pub mod elements;
 
 use super::begin::{PAGE, SCENE};
 use super::entries;
-use asperity_output::{OutputError, atomic, progress};
+use asperity_output::terminal::progress;
+use asperity_output::{OutputError, atomic};
 use elements::{escape, folded, section, table, value};
 use serde_json::{Map, Value};
 use std::ffi::OsStr;

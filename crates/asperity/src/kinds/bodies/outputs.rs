@@ -4,9 +4,11 @@ use super::stand::Stand;
 use crate::checkpoint::{self, ResumeError};
 use crate::keep::{self, Place};
 use asperity_ode::Control;
-use asperity_output::progress::RunState;
-use asperity_output::view::{Setup, StepView};
-use asperity_output::{Column, FieldSchedule, Files, FilesState, Multi, OutputError, Recorder, Writer};
+use asperity_output::OutputError;
+use asperity_output::bodies::view::{Setup, StepView};
+use asperity_output::bodies::{FieldSchedule, Files, FilesState, Multi, Recorder, Writer};
+use asperity_output::tables::Column;
+use asperity_output::terminal::progress::RunState;
 use asperity_run::{Kind, ObserveError, Observer};
 use serde::{Deserialize, Serialize};
 

@@ -6,7 +6,7 @@ use crate::kinds::balance::InterfaceBalance;
 use crate::report::{ForceResult, PointResult, SpringResult, results as common};
 use asperity_cycles::{Rupture, Thresholds};
 use asperity_mechanics::{PlannedInterface, Stage};
-use asperity_output::view::{InterfaceFields, Samples, StepRecord};
+use asperity_output::bodies::view::{InterfaceFields, Samples, StepRecord};
 use asperity_plan::bodies::{EventPlan, Plan, Sites, Summary};
 use asperity_plan::shared::checks::Checks;
 use asperity_plan::shared::{cohesive, views};

@@ -6,7 +6,7 @@ use crate::kinds::worst::Worst;
 use crate::report::{ForceResult, PointResult, SpringResult};
 use asperity_mechanics::SystemState;
 use asperity_mechanics::timing::StepLengthState;
-use asperity_output::view::StepRecord;
+use asperity_output::bodies::view::StepRecord;
 use asperity_run::{Closure, Operations, Warning};
 use serde::{Deserialize, Serialize};
 

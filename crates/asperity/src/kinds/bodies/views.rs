@@ -4,7 +4,7 @@ use asperity_contact::{Interface, PointFields, Status};
 use asperity_fem::block::von_mises;
 use asperity_laws::Theta;
 use asperity_mechanics::{CellBlock, PlannedInterface};
-use asperity_output::view::{BodyFields, InterfaceFields, InterfaceMesh, LogTheta, Setup};
+use asperity_output::bodies::view::{BodyFields, InterfaceFields, InterfaceMesh, LogTheta, Setup};
 use asperity_plan::bodies::Plan;
 use asperity_plan::shared::views::{self, padded};
 use std::collections::BTreeMap;

@@ -1,7 +1,7 @@
 //! Rupture times: when the slip rate of each point first reaches a threshold.
 
 use super::moment::size;
-use asperity_output::column::{self, Column, Sign};
+use asperity_output::tables::column::{self, Column, Sign};
 use serde::{Deserialize, Serialize};
 
 /// Rupture times so far.

@@ -2,7 +2,7 @@
 
 use super::moment::Moment;
 use asperity_mechanics::dynamics::FaultState;
-use asperity_output::vtu::{Array, Grid, PvdEntry, Values, face_type, pvd};
+use asperity_output::fields::vtu::{Array, Grid, PvdEntry, Values, face_type, pvd};
 use asperity_output::{OutputError, atomic};
 use asperity_plan::dynamics::Plan;
 use asperity_plan::faults::FaultView;

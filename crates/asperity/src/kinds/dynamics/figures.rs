@@ -4,8 +4,8 @@ use super::arrivals::Arrivals;
 use super::fields::Taken;
 use crate::kinds::faults::compass::Compass;
 use crate::kinds::faults::shape::shape;
-use asperity_output::ENERGIES;
-use asperity_output::plots::{Curves, Fault, Measure, Plot, Points, Sheet, Velocities, VisibleMesh, short};
+use asperity_output::figures::{Curves, Fault, Measure, Plot, Points, Sheet, Velocities, VisibleMesh, short};
+use asperity_output::tables::energy::ENERGIES;
 use asperity_plan::dynamics::Plan;
 use asperity_plan::faults::FaultView;
 

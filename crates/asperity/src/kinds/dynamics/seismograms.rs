@@ -1,6 +1,6 @@
 //! Seismograms in the formats of seismology, made from their tables at the end of a run.
 
-use asperity_output::seismogram::{AXES, SHORTEST, Trace, channel, mini_seed, read, sac};
+use asperity_output::formats::seismogram::{AXES, SHORTEST, Trace, channel, mini_seed, read, sac};
 use asperity_output::{OutputError, atomic};
 use asperity_plan::dynamics::Plan;
 use std::io::Error;

@@ -3,7 +3,7 @@
 use super::moment::Moment;
 use super::rows::{Course, Table};
 use crate::kinds::faults::stations;
-use asperity_output::seas::{Head, Row};
+use asperity_output::formats::seas::{Head, Row};
 use asperity_plan::dynamics::Plan;
 use asperity_plan::faults::cadence::NO_RATE;
 

@@ -6,8 +6,10 @@ use super::{arrivals, stations};
 use crate::kinds::faults::moments;
 use crate::kinds::faults::profile::{Profile, RATE, SLIP};
 use asperity_mechanics::dynamics::Budget;
+use asperity_output::OutputError;
 use asperity_output::decimals::{scientific, shortest};
-use asperity_output::{Column, GrowingTable, OutputError, seismogram, table};
+use asperity_output::formats::seismogram;
+use asperity_output::tables::{Column, GrowingTable, energy};
 use asperity_plan::dynamics::Plan;
 use asperity_plan::faults::PointView;
 use asperity_plan::faults::cadence::log_rate;
@@ -46,9 +48,9 @@ pub fn tables<const D: usize>(plan: &Plan<D>) -> Vec<(String, Vec<Column>)> {
 
 /// Energy budget. There is one stage.
 fn energies<const D: usize>(plan: &Plan<D>) -> Table<'_> {
-    let columns = table::energy_columns(if plan.per_length { "J/m" } else { "J" });
+    let columns = energy::columns(if plan.per_length { "J/m" } else { "J" });
     let row = |now: &Moment<'_>| {
-        let row = |budget: &Budget| table::energy_row(now.time, 0, now.step, &budget.energies());
+        let row = |budget: &Budget| energy::row(now.time, 0, now.step, &budget.energies());
         now.budget.as_ref().map_or(String::new(), row)
     };
     Table::new("energy.csv", columns, Course::Rows, row)

@@ -1,7 +1,7 @@
 //! View of the surface of a fault in figures: with north up, with up up, or along its rake where no direction is known.
 
 use asperity_cycles::medium;
-use asperity_output::plots::Surface;
+use asperity_output::figures::Surface;
 use asperity_plan::faults::PointView;
 use asperity_plan::shared::place::Frame;
 use nalgebra::Vector3;

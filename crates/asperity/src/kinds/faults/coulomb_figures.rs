@@ -5,7 +5,7 @@ use super::source_time::FOLDER;
 use super::surface_figures::{edges, of_event};
 use asperity_cycles::FaultRun;
 use asperity_output::decimals::shortest;
-use asperity_output::plots::{Coordinates, Curves, EventOnset, Ground, MapQuantity, Measure, Plot, Points};
+use asperity_output::figures::{Coordinates, Curves, EventOnset, Ground, MapQuantity, Measure, Plot, Points};
 use asperity_plan::faults::{CoulombMap, Plan, SurfaceAxes};
 
 /// Column of x.

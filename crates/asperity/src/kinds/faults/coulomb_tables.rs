@@ -3,9 +3,9 @@
 use super::receiver_tables::on_earth;
 use super::source_time::FOLDER;
 use asperity_cycles::FaultRun;
-use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::{scientific, shortest};
-use asperity_output::grd::Grid;
+use asperity_output::formats::grd::Grid;
+use asperity_output::tables::column::{self, Column, Sign};
 use asperity_output::{OutputError, atomic};
 use asperity_plan::faults::{Change, Coulomb, CoulombMap, Plan};
 use asperity_plan::shared::place::Frame;

@@ -1,7 +1,7 @@
 //! Displacements of the bodies as VTU files.
 
 use asperity_cycles::{FaultRun, Layout, OPENING};
-use asperity_output::vtu::{Array, Grid, PvdEntry, pvd};
+use asperity_output::fields::vtu::{Array, Grid, PvdEntry, pvd};
 use asperity_output::{OutputError, atomic};
 use asperity_plan::faults::Plan;
 use std::path::Path;

@@ -3,8 +3,8 @@
 use super::fields::{Field, along};
 use super::source_time::FOLDER;
 use asperity_cycles::{FaultRun, Rupture};
-use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::{scientific, shortest};
+use asperity_output::tables::column::{self, Column, Sign};
 use asperity_output::{OutputError, atomic};
 use asperity_plan::faults::{FaultView, Plan};
 use asperity_run::Event;

@@ -4,7 +4,7 @@ use super::states::has_theta;
 use super::{locking, pore};
 use asperity_cycles::heat::TEMPERATURE;
 use asperity_cycles::{Components, Layout, OPENING, Pressed};
-use asperity_output::vtu::{Array, Grid, Values, face_type};
+use asperity_output::fields::vtu::{Array, Grid, Values, face_type};
 use asperity_output::{OutputError, atomic};
 use asperity_plan::faults::cadence::log_rate;
 use asperity_plan::faults::{FaultView, Outline, Plan};

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::catalogue::slipped;
 use asperity_cycles::{FaultRun, Rupture};
-use asperity_output::plots::{
+use asperity_output::figures::{
     Curves, EventFault, EventPanel, Fault, FaultCycles, Line, MappedQuantity, Measure, Plot, Points,
     RuptureShape, Sheet, short, springs_curves,
 };

@@ -14,7 +14,8 @@ use super::{
 use crate::checkpoint::{self, ResumeError};
 use asperity_cycles::{Faults, Moment};
 use asperity_ode::{Clock, Control};
-use asperity_output::{Column, OutputError, atomic};
+use asperity_output::tables::Column;
+use asperity_output::{OutputError, atomic};
 use asperity_plan::faults::Plan;
 use asperity_plan::faults::cadence::{Gauge, warning};
 use asperity_run::{ObserveError, Observer, Warning};

@@ -2,8 +2,8 @@
 
 use super::rows::{Course, Table, line};
 use asperity_cycles::Moment;
-use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::scientific;
+use asperity_output::tables::column::{self, Column, Sign};
 use asperity_plan::faults::{FaultView, Plan};
 
 /// Unit of forces: in the plane they are per metre of thickness.

@@ -7,8 +7,8 @@
 use super::profile::Profile;
 use super::rows::{Course, Table, line};
 use asperity_cycles::{Components, Moment};
-use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::scientific;
+use asperity_output::tables::column::{self, Column, Sign};
 use asperity_plan::faults::{FaultView, Plan};
 
 /// Profile of the coupling.

@@ -2,8 +2,8 @@
 
 use super::rows::{Course, Table, line};
 use asperity_cycles::{Components, Moment};
-use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::scientific;
+use asperity_output::tables::column::{self, Column, Sign};
 use asperity_plan::faults::{FaultView, Plan};
 
 /// Name of the table.

@@ -8,7 +8,7 @@ use crate::keep::{self, Place};
 use asperity_cycles::{Balance, FaultRun, Faults, Moment};
 use asperity_ode::{Control, Outcome};
 use asperity_output::OutputError;
-use asperity_output::progress::RunState;
+use asperity_output::terminal::progress::RunState;
 use asperity_plan::faults::Plan;
 use asperity_run::{ObserveError, Observer as _, Warning};
 use std::path::Path;

@@ -5,7 +5,7 @@ use super::event_tables::reached;
 use super::{moments, stations};
 use asperity_cycles::{FaultRun, Rupture};
 use asperity_output::decimals::scientific;
-use asperity_output::platform::{global, signed, table};
+use asperity_output::formats::platform::{global, signed, table};
 use asperity_output::{OutputError, atomic};
 use asperity_plan::faults::{Plan, Platform, PointView};
 use asperity_run::Event;

@@ -1,6 +1,6 @@
 //! Profiles along faults: a row for each time, and a column for each point.
 
-use asperity_output::column::{self, Column, Sign};
+use asperity_output::tables::column::{self, Column, Sign};
 
 /// A profile: its file, and the unit, sign and meaning of its values.
 pub(crate) struct Profile(pub &'static str, pub &'static str, pub Sign, pub &'static str);

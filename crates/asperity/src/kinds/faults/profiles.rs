@@ -5,8 +5,8 @@ use super::rows::{Course, Table, line};
 use super::{locking, pore, states};
 use asperity_cycles::heat::{Heat, TEMPERATURE};
 use asperity_cycles::{Moment, OPENING, Opening};
-use asperity_output::Sign;
 use asperity_output::decimals::{fixed, scientific};
+use asperity_output::tables::Sign;
 use asperity_plan::faults::Plan;
 use asperity_plan::faults::cadence::{RATE_CHANGE, log_rate};
 

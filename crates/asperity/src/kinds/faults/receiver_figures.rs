@@ -1,6 +1,6 @@
 //! Figures of the displacement of receivers through cycles.
 
-use asperity_output::plots::{Curves, Measure, Points};
+use asperity_output::figures::{Curves, Measure, Points};
 use asperity_plan::faults::{Plan, Receiver};
 
 /// Names of the axes.

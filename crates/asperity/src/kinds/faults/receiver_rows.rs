@@ -2,7 +2,7 @@
 
 use super::rows::{Course, Table};
 use asperity_cycles::Moment;
-use asperity_output::seismogram;
+use asperity_output::formats::seismogram;
 use asperity_plan::faults::Receivers;
 
 /// Tables of all receivers.

@@ -2,8 +2,8 @@
 
 use super::source_time::FOLDER;
 use asperity_cycles::{FaultRun, Rupture};
-use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::{scientific, shortest};
+use asperity_output::tables::column::{self, Column, Sign};
 use asperity_output::{OutputError, atomic};
 use asperity_plan::faults::Plan;
 use asperity_plan::shared::place::Frame;

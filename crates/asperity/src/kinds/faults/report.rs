@@ -16,7 +16,7 @@ use asperity_cycles::{
 use asperity_mechanics::coordinates;
 use asperity_ode::{Failure, Outcome as Finish};
 use asperity_output::decimals::fixed;
-use asperity_output::located::{SourceParameters, magnitude};
+use asperity_output::formats::located::{SourceParameters, magnitude};
 use asperity_plan::faults::{FaultView, Plan};
 use asperity_plan::shared::checks::Checks;
 use asperity_plan::shared::outrun;

@@ -2,7 +2,8 @@
 
 use crate::keep;
 use asperity_cycles::{Faults, Moment};
-use asperity_output::{GrowingTable, OutputError};
+use asperity_output::OutputError;
+use asperity_output::tables::GrowingTable;
 use asperity_plan::faults::Plan;
 use asperity_plan::faults::cadence::{Cadence, Gauge, Reading};
 use std::path::Path;

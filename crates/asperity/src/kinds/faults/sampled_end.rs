@@ -2,7 +2,7 @@
 
 use crate::report::{ForceResult, PointResult, SpringResult};
 use asperity_cycles::{FaultRun, Layout, OPENING, Pressed};
-use asperity_output::view::{ForceMark, PointMark, PointValues, SpringMark, SpringValues};
+use asperity_output::bodies::view::{ForceMark, PointMark, PointValues, SpringMark, SpringValues};
 use asperity_plan::faults::{Plan, Sampling};
 use asperity_plan::shared::words::length;
 

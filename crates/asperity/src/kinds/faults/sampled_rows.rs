@@ -3,7 +3,7 @@
 use super::rows::{Course, Table};
 use asperity_cycles::Moment;
 use asperity_ode::Clock;
-use asperity_output::Column;
+use asperity_output::tables::Column;
 use asperity_plan::faults::Plan;
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};

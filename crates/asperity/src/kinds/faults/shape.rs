@@ -1,7 +1,7 @@
 //! Faults as figures show them.
 
 use super::compass::{Compass, View};
-use asperity_output::plots::{RuptureLine, RuptureShape, Surface};
+use asperity_output::figures::{RuptureLine, RuptureShape, Surface};
 use asperity_plan::faults::{FaultView, Outline, PointView};
 
 /// Largest component of a unit vector across an axis: rounding.

@@ -2,9 +2,10 @@
 
 use super::fields::{self, Surface};
 use asperity_cycles::Moment;
-use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::fixed;
-use asperity_output::{GrowingTable, OutputError, atomic};
+use asperity_output::tables::GrowingTable;
+use asperity_output::tables::column::{self, Column, Sign};
+use asperity_output::{OutputError, atomic};
 use asperity_plan::faults::Plan;
 use asperity_plan::faults::cadence::{Gauge, RATE_CHANGE, Reading, log_rate};
 use serde::{Deserialize, Serialize};

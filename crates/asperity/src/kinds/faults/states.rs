@@ -2,7 +2,7 @@
 
 use super::profile::Profile;
 use asperity_cycles::Moment;
-use asperity_output::Sign;
+use asperity_output::tables::Sign;
 use asperity_plan::faults::{FaultView, Plan};
 
 /// Profile of the state.

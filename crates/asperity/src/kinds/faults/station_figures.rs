@@ -2,7 +2,7 @@
 
 use super::{states, stations};
 use asperity_cycles::FaultRun;
-use asperity_output::plots::{Curves, Measure, Points, Portrait};
+use asperity_output::figures::{Curves, Measure, Points, Portrait};
 use asperity_plan::faults::{FaultView, Plan, Station};
 use asperity_plan::shared::words::length;
 

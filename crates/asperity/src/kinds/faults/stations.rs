@@ -4,8 +4,8 @@ use super::pore;
 use super::rows::{Course, Table};
 use asperity_cycles::heat::TEMPERATURE;
 use asperity_cycles::{Moment, OPENING};
-use asperity_output::Column;
-use asperity_output::seas::{Head, Row};
+use asperity_output::formats::seas::{Head, Row};
+use asperity_output::tables::Column;
 use asperity_plan::faults::cadence::NO_RATE;
 use asperity_plan::faults::{FaultView, Plan, PointView, Station};
 

@@ -3,7 +3,7 @@
 use super::instants::instants;
 use super::{locking, snapshots, states};
 use asperity_cycles::FaultRun;
-use asperity_output::plots::{Plot, Still, Stills};
+use asperity_output::figures::{Plot, Still, Stills};
 use asperity_plan::faults::{FaultView, Plan};
 
 /// Largest number of events whose cycles have maps.

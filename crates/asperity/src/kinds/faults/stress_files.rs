@@ -2,7 +2,7 @@
 
 use super::source_time::FOLDER;
 use asperity_cycles::{FaultRun, OPENING};
-use asperity_output::vtu::{Array, Grid, Values};
+use asperity_output::fields::vtu::{Array, Grid, Values};
 use asperity_output::{OutputError, atomic};
 use asperity_plan::faults::{Change, Plan};
 use std::path::Path;

@@ -3,7 +3,7 @@
 use super::source_time::FOLDER;
 use super::surface_tables::name;
 use asperity_cycles::{FaultRun, Rupture};
-use asperity_output::plots::{Coordinates, Curves, EventOnset, Ground, MapQuantity, Measure, Plot, Points};
+use asperity_output::figures::{Coordinates, Curves, EventOnset, Ground, MapQuantity, Measure, Plot, Points};
 use asperity_plan::faults::{FaultView, Plan, SurfaceAxes};
 use asperity_run::Event;
 use std::collections::BTreeMap;

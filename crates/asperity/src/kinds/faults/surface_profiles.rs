@@ -3,8 +3,8 @@
 use super::profiles::SELDOM;
 use super::rows::{self, Table};
 use asperity_cycles::Moment;
-use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::scientific;
+use asperity_output::tables::column::{self, Column, Sign};
 use asperity_plan::faults::{Plan, Receivers};
 
 /// Names of the tables, by the axis of the displacement.

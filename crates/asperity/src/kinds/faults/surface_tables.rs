@@ -3,8 +3,9 @@
 use super::receiver_tables::{columns, values};
 use super::source_time::FOLDER;
 use asperity_cycles::FaultRun;
-use asperity_output::grd::Grid;
-use asperity_output::{OutputError, atomic, column};
+use asperity_output::formats::grd::Grid;
+use asperity_output::tables::column;
+use asperity_output::{OutputError, atomic};
 use asperity_plan::faults::{FreeSurface, Plan};
 use asperity_plan::shared::place::Frame;
 use nalgebra::Vector3;

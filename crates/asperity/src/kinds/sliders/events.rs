@@ -2,8 +2,8 @@
 
 use crate::catalogue::first_columns;
 use asperity_cycles::slider::{Edge, Slide, SliderRun};
-use asperity_output::column::{self, Column, Sign};
 use asperity_output::decimals::shortest_scientific;
+use asperity_output::tables::column::{self, Column, Sign};
 use asperity_run::Event;
 use schemars::JsonSchema;
 use serde::Serialize;

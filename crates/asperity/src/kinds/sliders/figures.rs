@@ -2,7 +2,7 @@
 
 use super::thin::Row;
 use asperity_laws::Theta;
-use asperity_output::plots::{Curves, Measure, Points};
+use asperity_output::figures::{Curves, Measure, Points};
 use serde::{Deserialize, Serialize};
 
 /// Data of a slider for plots.

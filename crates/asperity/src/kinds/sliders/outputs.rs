@@ -6,7 +6,7 @@ use crate::keep::{self, Place};
 use asperity_cycles::slider::{Now as Step, Problem, SliderRun, Sliders};
 use asperity_ode::Control;
 use asperity_output::OutputError;
-use asperity_output::progress::RunState;
+use asperity_output::terminal::progress::RunState;
 use asperity_run::{ObserveError, Observer as _};
 use serde::{Deserialize, Serialize};
 

@@ -1,6 +1,6 @@
 use asperity::cli::begin::{LOCK, REPORT};
 use asperity::cli::status::*;
-use asperity_output::progress::{self, Record, RunState};
+use asperity_output::terminal::progress::{self, Record, RunState};
 use jiff::Timestamp;
 use std::fs::File;
 use std::path::Path;

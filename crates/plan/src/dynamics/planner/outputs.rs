@@ -6,7 +6,7 @@ use crate::reading::scene::model::{PointSpec, Scene, Spanned};
 use crate::shared::model::{self, Model};
 use asperity_fem::mesh::locate;
 use asperity_mechanics::coordinates::in_words;
-use asperity_output::seismogram::SHORTEST;
+use asperity_output::formats::seismogram::SHORTEST;
 use jiff::Timestamp;
 
 /// Time zero of a scene that does not give it.

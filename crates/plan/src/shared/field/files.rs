@@ -5,7 +5,7 @@ use crate::reading::columns::file::{bytes, refused};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::sniff::{self, Reader};
 use asperity_fem::mesh::netcdf;
-use asperity_output::vtu::reading;
+use asperity_output::fields::vtu::reading;
 use asperity_scene::model::Spanned;
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -8,7 +8,7 @@ use super::samples::Samples;
 use crate::reading::columns::{Wrong, unit};
 use crate::reading::scene::model::FieldInterpolation;
 use crate::reading::scene::units::{self, Dimension};
-use asperity_output::vtu::reading::{self, Cell, Grid, NamedArray, VtuError};
+use asperity_output::fields::vtu::reading::{self, Cell, Grid, NamedArray, VtuError};
 use asperity_scene::near::suggest;
 
 /// Help for a file that is not read.

@@ -6,7 +6,7 @@ use super::super::placed::{Placed, in_space, slides};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Scene, Spanned, Station};
 use asperity_cycles::medium::across;
-use asperity_output::platform::Submission;
+use asperity_output::formats::platform::Submission;
 use nalgebra::Vector3;
 
 /// Difference of directions that count as the same: rounding.

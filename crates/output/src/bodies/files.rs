@@ -1,0 +1,514 @@
+//! Files written during the run, so that no results are lost if it stops: fields for ParaView, profiles and probes.
+//!
+//! ```text
+//! fields.pvd  fields/bodies_00001.vtu  fields/fault_00001.vtu  profiles/fault_001.csv  probes/fault.csv  points/tip.csv
+//! forces/left.csv  springs/block.top.y.csv
+//! ```
+
+use super::record::{check_interfaces, check_probes, check_samples};
+use super::sample_sites::SampleSites;
+use super::schedule::{FieldSchedule, OutputIntervals};
+use super::tables;
+use super::view::{
+    BodyFields, InterfaceFields, InterfaceMesh, MeshView, Setup, SpringValues, StepView, Writer,
+};
+use crate::atomic;
+use crate::error::{OutputError, expect_length};
+use crate::fields::vtu::{Array, Grid, PvdEntry, Values, pvd};
+use crate::names::stems;
+use crate::tables::GrowingTable;
+use crate::tables::column::{self, Column};
+use crate::tables::energy;
+use crate::tables::history::history_row;
+use serde::{Deserialize, Serialize};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Writes fields, profiles and probes into a directory during the run. Each file appears complete; tables of probes grow by whole
+/// rows.
+#[derive(Debug)]
+pub struct Files {
+    out: PathBuf,
+    schedule: FieldSchedule,
+    fields_due: OutputIntervals,
+    profiles_due: OutputIntervals,
+    bodies: Option<Bodies>,
+    interfaces: Vec<Part>,
+    points: Vec<GrowingTable>,
+    forces: Vec<GrowingTable>,
+    energy: Option<GrowingTable>,
+    springs: Vec<GrowingTable>,
+    /// Largest slip rates of the interfaces that are searched for events.
+    rates: Option<GrowingTable>,
+    collection: Vec<PvdEntry>,
+    field_number: usize,
+    /// Times of the last profiles and the last fields written \[s\].
+    written: [Option<f64>; 2],
+    profile_number: usize,
+    setup: Setup,
+    /// Position to resume from, until the run begins.
+    resumed: Option<FilesState>,
+}
+
+/// Constant data of the bodies.
+#[derive(Debug)]
+struct Bodies {
+    grid: Grid,
+    /// Body of each cell.
+    body: Vec<i64>,
+}
+
+/// Constant data of an interface.
+#[derive(Debug)]
+struct Part {
+    /// Stem of its file names.
+    stem: String,
+    grid: Grid,
+    /// Number of state variables of its law.
+    states: usize,
+    probes: Option<GrowingTable>,
+}
+
+/// Positions in the files of a run, from which it can be resumed.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct FilesState {
+    /// Number of intervals of each stage for which fields and profiles have been written.
+    passed: [Vec<usize>; 2],
+    /// Numbers of the last fields and the last profiles written.
+    numbers: [usize; 2],
+    /// Times of the last profiles and the last fields written \[s\].
+    written: [Option<f64>; 2],
+    collection: Vec<PvdEntry>,
+    /// Bytes of the tables: first those of probes, then of points, of forces, of springs, of the energy budget and of the largest
+    /// slip rates.
+    bytes: Vec<u64>,
+}
+
+impl Files {
+    /// Creates the directory and checks that it can be written to.
+    ///
+    /// # Errors
+    /// If the directory cannot be created or written to.
+    pub fn create(out: &Path, schedule: FieldSchedule) -> Result<Self, OutputError> {
+        atomic::writable_dir(out)?;
+        Ok(Self {
+            out: out.to_path_buf(),
+            schedule,
+            fields_due: OutputIntervals::default(),
+            profiles_due: OutputIntervals::default(),
+            bodies: None,
+            interfaces: Vec::new(),
+            points: Vec::new(),
+            forces: Vec::new(),
+            energy: None,
+            springs: Vec::new(),
+            rates: None,
+            collection: Vec::new(),
+            field_number: 0,
+            written: [None; 2],
+            profile_number: 0,
+            setup: Setup::default(),
+            resumed: None,
+        })
+    }
+
+    /// Resumes a run from these positions in its files. Output written after them is removed.
+    #[must_use]
+    pub fn resumed(self, from: FilesState) -> Self {
+        Self { resumed: Some(from), ..self }
+    }
+
+    /// Positions in the files.
+    #[must_use]
+    pub fn state(&self) -> FilesState {
+        FilesState {
+            passed: [self.fields_due.passed().to_vec(), self.profiles_due.passed().to_vec()],
+            numbers: [self.field_number, self.profile_number],
+            written: self.written,
+            collection: self.collection.clone(),
+            bytes: self.tables().map(GrowingTable::bytes).collect(),
+        }
+    }
+
+    /// Flushes all rows to disk.
+    ///
+    /// # Errors
+    /// If something cannot be written.
+    pub fn settle(&self) -> Result<(), OutputError> {
+        self.tables().try_for_each(GrowingTable::settle)
+    }
+
+    /// All tables.
+    fn tables(&self) -> impl Iterator<Item = &GrowingTable> {
+        let probes = self.interfaces.iter().filter_map(|part| part.probes.as_ref());
+        probes
+            .chain(&self.points)
+            .chain(&self.forces)
+            .chain(&self.springs)
+            .chain(&self.energy)
+            .chain(&self.rates)
+    }
+
+    /// Output directory.
+    #[must_use]
+    pub fn directory(&self) -> &Path {
+        &self.out
+    }
+
+    /// Data sets written so far.
+    #[must_use]
+    pub fn collection(&self) -> &[PvdEntry] {
+        &self.collection
+    }
+
+    fn write_fields(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
+        let Some(bodies) = &self.bodies else { return Ok(()) };
+        self.field_number += 1;
+        self.written[1] = Some(view.record.time);
+        let (number, time) = (self.field_number, view.record.time);
+        let mut entries = Vec::with_capacity(1 + self.interfaces.len());
+        let file = format!("fields/bodies_{number:05}.vtu");
+        let fields = (view.fields)();
+        check_bodies(&self.setup.mesh, &fields)?;
+        atomic::write(&self.out.join(&file), &bodies.file(time, &fields))?;
+        entries.push(PvdEntry { time, part: 0, name: "bodies".to_string(), file });
+        for (i, (part, fields)) in self.interfaces.iter().zip(view.interfaces).enumerate() {
+            let mesh = &self.setup.interfaces[i];
+            let file = format!("fields/{}_{number:05}.vtu", part.stem);
+            atomic::write(&self.out.join(&file), &part.file(time, fields))?;
+            entries.push(PvdEntry { time, part: i + 1, name: mesh.name.clone(), file });
+        }
+        self.collection.extend(entries);
+        atomic::write(&self.out.join("fields.pvd"), &pvd(&self.collection))
+    }
+
+    fn write_profiles(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
+        self.profile_number += 1;
+        self.written[0] = Some(view.record.time);
+        for ((part, mesh), fields) in self.interfaces.iter().zip(&self.setup.interfaces).zip(view.interfaces)
+        {
+            let path = self.out.join(format!("profiles/{}_{:03}.csv", part.stem, self.profile_number));
+            atomic::write(&path, tables::profile(view.record.time, mesh, fields).as_bytes())?;
+        }
+        Ok(())
+    }
+
+    fn write_probes(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
+        for ((part, mesh), fields) in
+            self.interfaces.iter_mut().zip(&self.setup.interfaces).zip(view.interfaces)
+        {
+            let Some(file) = &mut part.probes else { continue };
+            file.push(tables::probe_row(
+                view.record.time,
+                view.record.stage,
+                view.record.step,
+                mesh,
+                fields,
+            ))?;
+        }
+        Ok(())
+    }
+
+    fn write_samples(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
+        let row = |values: &[f64]| history_row(view.record.time, view.record.stage, view.record.step, values);
+        for (file, point) in self.points.iter_mut().zip(&view.samples.points) {
+            file.push(row(&tables::point_values(point)))?;
+        }
+        for (file, force) in self.forces.iter_mut().zip(&view.samples.forces) {
+            file.push(row(force))?;
+        }
+        if let (Some(file), Some(energy)) = (&mut self.energy, &view.energy) {
+            file.push(energy::row(view.record.time, view.record.stage, view.record.step, energy))?;
+        }
+        if let Some(file) = &mut self.rates {
+            let largest = |fields: &InterfaceFields| {
+                let sizes = fields.slip_rate.iter().map(|v| v.abs()).filter(|v| v.is_finite());
+                sizes.fold(0.0, f64::max)
+            };
+            let own = self.setup.eventful.iter().filter_map(|&i| view.interfaces.get(i));
+            file.push(row(&own.map(largest).collect::<Vec<_>>()))?;
+        }
+        for (file, spring) in self.springs.iter_mut().zip(&view.samples.springs) {
+            if let Some(spring) = spring {
+                let SpringValues { load_point, displacement, force, friction } = *spring;
+                file.push(row(&[load_point, displacement, force, friction]))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Tables that grow during the run, by their paths, with their columns: those of probes, then of points, of forces, of springs,
+    /// of the energy budget and of the largest slip rates.
+    fn growing(&self) -> Vec<(String, Vec<Column>)> {
+        let setup = &self.setup;
+        let probed =
+            self.interfaces.iter().zip(&setup.interfaces).filter(|(_, mesh)| !mesh.probes.is_empty());
+        let mut all: Vec<(String, Vec<Column>)> = probed
+            .map(|(part, mesh)| (format!("probes/{}.csv", part.stem), tables::probe_columns(mesh)))
+            .collect();
+        let (points, forces, springs) = (setup.points.clone(), setup.forces.clone(), setup.springs.clone());
+        all.extend(SampleSites { points, forces, springs, unit: setup.force_unit }.tables());
+        all.extend(setup.energy_unit.map(|unit| ("energy.csv".into(), energy::columns(unit))));
+        if !setup.eventful.is_empty() {
+            let eventful = setup.eventful.iter().filter_map(|&i| setup.interfaces.get(i));
+            let columns = tables::rate_columns(eventful.map(|mesh| mesh.name.as_str()));
+            all.push(("largest_rates.csv".into(), columns));
+        }
+        all
+    }
+
+    /// All tables with their columns, of this run.
+    #[must_use]
+    pub fn columns(&self) -> Vec<(String, Vec<Column>)> {
+        let profiles = self.interfaces.iter().zip(&self.setup.interfaces);
+        let profiles = profiles
+            .filter(|_| self.profile_number > 0)
+            .map(|(part, mesh)| (format!("profiles/{}_*.csv", part.stem), tables::profile_columns(mesh)));
+        self.growing().into_iter().chain(profiles).collect()
+    }
+
+    /// Creates the tables, or reopens them at these sizes in bytes.
+    fn begin_tables(&mut self, bytes: Option<Vec<u64>>) -> Result<(), OutputError> {
+        let all = self.growing();
+        if let Some(bytes) = bytes.as_ref().filter(|bytes| bytes.len() != all.len()) {
+            let what = "tables of the checkpoint".into();
+            return Err(OutputError::Shape { what, expected: all.len(), found: bytes.len() });
+        }
+        let mut tables = Vec::with_capacity(all.len());
+        for (k, (path, columns)) in all.into_iter().enumerate() {
+            let path = self.out.join(path);
+            path.parent().map_or(Ok(()), atomic::create_dir)?;
+            tables.push(match bytes.as_ref().and_then(|bytes| bytes.get(k)) {
+                Some(bytes) => GrowingTable::reopen(path, *bytes)?,
+                None => GrowingTable::create(path, column::header(&columns))?,
+            });
+        }
+        let mut tables = tables.into_iter();
+        for (part, mesh) in self.interfaces.iter_mut().zip(&self.setup.interfaces) {
+            part.probes = if mesh.probes.is_empty() { None } else { tables.next() };
+        }
+        self.points = tables.by_ref().take(self.setup.points.len()).collect();
+        self.forces = tables.by_ref().take(self.setup.forces.len()).collect();
+        self.springs = tables.by_ref().take(self.setup.springs.len()).collect();
+        self.energy = self.setup.energy_unit.and_then(|_| tables.next());
+        self.rates = tables.next();
+        Ok(())
+    }
+
+    /// Removes the files of an earlier run of these interfaces, so that they are not taken for output of this run.
+    fn remove_earlier(&self) -> Result<(), OutputError> {
+        self.remove_beyond([0; 2])?;
+        let mut once: Vec<PathBuf> =
+            self.interfaces.iter().map(|part| self.out.join(format!("probes/{}.csv", part.stem))).collect();
+        once.push(self.out.join("fields.pvd"));
+        once.iter().filter(|path| path.exists()).try_for_each(|path| remove(path))
+    }
+
+    /// Removes fields and profiles with numbers larger than these.
+    fn remove_beyond(&self, [fields, profiles]: [usize; 2]) -> Result<(), OutputError> {
+        let stems: Vec<&str> = self.interfaces.iter().map(|part| part.stem.as_str()).collect();
+        remove_numbered(&self.out.join("profiles"), &stems, ("csv", profiles))?;
+        let with_bodies: Vec<&str> = stems.iter().copied().chain(["bodies"]).collect();
+        remove_numbered(&self.out.join("fields"), &with_bodies, ("vtu", fields))
+    }
+
+    /// Restores the positions in the files, and removes output written after them. Returns the sizes of the tables.
+    fn reopen(&mut self, from: FilesState) -> Result<Vec<u64>, OutputError> {
+        let FilesState { passed: [fields, profiles], numbers, written, collection, bytes } = from;
+        self.fields_due = std::mem::take(&mut self.fields_due).from(fields);
+        self.profiles_due = std::mem::take(&mut self.profiles_due).from(profiles);
+        [self.field_number, self.profile_number] = numbers;
+        (self.written, self.collection) = (written, collection);
+        for PvdEntry { file, .. } in &self.collection {
+            let path = self.out.join(file);
+            fs::metadata(&path).map_err(|source| OutputError::Read { path, source })?;
+        }
+        self.remove_beyond(numbers)?;
+        let path = self.out.join("fields.pvd");
+        if !self.collection.is_empty() {
+            atomic::write(&path, &pvd(&self.collection))?;
+        } else if path.exists() {
+            remove(&path)?;
+        }
+        Ok(bytes)
+    }
+}
+
+impl Writer for Files {
+    fn begin(&mut self, setup: &Setup) -> Result<(), OutputError> {
+        check_probes(setup)?;
+        self.setup = setup.clone();
+        self.fields_due = OutputIntervals::new(self.schedule.fields, &setup.stages);
+        self.profiles_due = OutputIntervals::new(self.schedule.profiles, &setup.stages);
+        self.bodies = (!setup.mesh.cells.is_empty()).then(|| Bodies::new(&setup.mesh));
+        self.collection.clear();
+        (self.field_number, self.profile_number) = (0, 0);
+        self.written = [None; 2];
+        let stems = stems(setup.interfaces.iter().map(|mesh| mesh.name.as_str()));
+        let dimension = setup.mesh.dimension;
+        self.interfaces = stems
+            .into_iter()
+            .zip(&setup.interfaces)
+            .map(|(stem, mesh)| {
+                let (grid, states) = (interface_grid(mesh, dimension), mesh.states);
+                Part { stem, grid, states, probes: None }
+            })
+            .collect();
+        let bytes = match self.resumed.take() {
+            Some(from) => Some(self.reopen(from)?),
+            None => self.remove_earlier().map(|()| None)?,
+        };
+        let wanted = [
+            ("fields", self.schedule.fields > 0 && self.bodies.is_some()),
+            ("profiles", self.schedule.profiles > 0 && !setup.interfaces.is_empty()),
+        ];
+        for (folder, _) in wanted.iter().filter(|(_, wanted)| *wanted) {
+            atomic::create_dir(&self.out.join(folder))?;
+        }
+        self.begin_tables(bytes)
+    }
+
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
+        check_interfaces(&self.setup, view.interfaces)?;
+        check_samples(&self.setup, view.samples)?;
+        self.write_probes(view)?;
+        self.write_samples(view)?;
+        let (stage, time) = (view.record.stage, view.record.time);
+        if self.profiles_due.take(stage, time, view.ends_stage) {
+            self.write_profiles(view)?;
+        }
+        if self.fields_due.take(stage, time, view.ends_stage) {
+            self.write_fields(view)?;
+        }
+        Ok(())
+    }
+
+    /// Writes the last good state unless it has been written.
+    fn end(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
+        let now = Some(view.record.time);
+        if self.schedule.profiles > 0 && self.written[0] != now {
+            self.write_profiles(view)?;
+        }
+        if self.schedule.fields > 0 && self.written[1] != now {
+            self.write_fields(view)?;
+        }
+        Ok(())
+    }
+}
+
+impl Bodies {
+    fn new(mesh: &MeshView) -> Self {
+        Self {
+            grid: Grid::new(&mesh.nodes, &mesh.cells),
+            body: mesh.cell_body.iter().map(|&body| body as i64).collect(),
+        }
+    }
+
+    fn file(&self, time: f64, fields: &BodyFields) -> Vec<u8> {
+        let points = [
+            Array::vector("displacement", &fields.displacement),
+            Array::scalar("mises", Values::F64(&fields.node_mises)),
+        ];
+        let mut cells = vec![
+            Array::tensor("stress", &fields.cell_stress),
+            Array::scalar("mises", Values::F64(&fields.cell_mises)),
+            Array::scalar("body", Values::I64(&self.body)),
+        ];
+        if !fields.cell_plastic_strain.is_empty() {
+            cells.push(Array::scalar("plastic_strain", Values::F64(&fields.cell_plastic_strain)));
+        }
+        self.grid.file(time, &points, &cells)
+    }
+}
+
+impl Part {
+    fn file(&self, time: f64, fields: &InterfaceFields) -> Vec<u8> {
+        fn f64s(name: &'static str, values: &[f64]) -> Array<'static> {
+            Array::scalar(name, Values::F64(values))
+        }
+        let nodes = 0..fields.gap.len();
+        let gap: Vec<f64> = nodes.clone().map(|i| fields.written_gap(i)).collect();
+        let paired: Vec<u8> = nodes.clone().map(|i| u8::from(fields.paired(i))).collect();
+        let names: Vec<String> = (1..=self.states).map(|k| format!("state_{k}")).collect();
+        let states: Vec<Vec<f64>> =
+            (0..self.states).map(|k| nodes.clone().map(|i| fields.state(k, i)).collect()).collect();
+        let mut points = vec![
+            f64s("gap", &gap),
+            Array::scalar("paired", Values::U8(&paired)),
+            f64s("slip", &fields.slip),
+            f64s("relative_displacement", &fields.relative_displacement),
+            f64s("slip_rate", &fields.slip_rate),
+            f64s("normal_traction", &fields.normal_traction),
+            f64s("shear_traction", &fields.shear_traction),
+            f64s("mean_normal_traction", &fields.mean_normal_traction),
+            f64s("mean_shear_traction", &fields.mean_shear_traction),
+            f64s("friction", &fields.friction),
+            Array::scalar("status", Values::U8(&fields.status)),
+            f64s("area", &fields.area),
+        ];
+        if !fields.slip_vector.is_empty() {
+            points.push(Array::vector("slip_vector", &fields.slip_vector));
+            points.push(Array::vector("shear_traction_vector", &fields.shear_vector));
+        }
+        points.extend(names.iter().zip(&states).map(|(name, v)| Array::scalar(name, Values::F64(v))));
+        self.grid.file(time, &points, &[])
+    }
+}
+
+/// The slave side as VTK cells; vertices if it has no faces.
+fn interface_grid(mesh: &InterfaceMesh, dimension: usize) -> Grid {
+    // VTK cell types: 1 vertex, 3 line, 4 polyline, 5 triangle, 7 polygon, 9 quadrilateral.
+    let kind = |nodes: usize| match (dimension, nodes) {
+        (_, 1) => 1,
+        (_, 2) => 3,
+        (2, _) => 4,
+        (_, 3) => 5,
+        (_, 4) => 9,
+        _ => 7,
+    };
+    let cells: Vec<(u8, Vec<usize>)> = if mesh.faces.is_empty() {
+        (0..mesh.positions.len()).map(|node| (1, vec![node])).collect()
+    } else {
+        mesh.faces.iter().map(|face| (kind(face.len()), face.clone())).collect()
+    };
+    Grid::new(&mesh.positions, &cells)
+}
+
+fn check_bodies(mesh: &MeshView, fields: &BodyFields) -> Result<(), OutputError> {
+    let (nodes, cells) = (mesh.nodes.len(), mesh.cells.len());
+    expect_length("body of each cell", cells, mesh.cell_body.len())?;
+    expect_length("displacement of the nodes", nodes, fields.displacement.len())?;
+    expect_length("Mises stress of the nodes", nodes, fields.node_mises.len())?;
+    expect_length("stress of the cells", cells, fields.cell_stress.len())?;
+    expect_length("Mises stress of the cells", cells, fields.cell_mises.len())?;
+    match fields.cell_plastic_strain.len() {
+        0 => Ok(()),
+        found => expect_length("plastic strain of the cells", cells, found),
+    }
+}
+
+/// Removes only files `<stem>_<digits>.<extension>` of the given stems with a number larger than this.
+fn remove_numbered(dir: &Path, stems: &[&str], (extension, most): (&str, usize)) -> Result<(), OutputError> {
+    let Ok(entries) = fs::read_dir(dir) else { return Ok(()) };
+    for entry in entries {
+        let path = entry.map_err(|source| OutputError::write(dir, source))?.path();
+        let ours = path.extension().is_some_and(|found| found == extension)
+            && path
+                .file_stem()
+                .and_then(|stem| stem.to_str())
+                .and_then(|stem| stem.rsplit_once('_'))
+                .is_some_and(|(stem, digits)| {
+                    stems.contains(&stem)
+                        && digits.bytes().all(|byte| byte.is_ascii_digit())
+                        && digits.parse::<usize>().map_or(true, |number| number > most)
+                });
+        if ours {
+            remove(&path)?;
+        }
+    }
+    Ok(())
+}
+
+fn remove(path: &Path) -> Result<(), OutputError> {
+    fs::remove_file(path).map_err(|source| OutputError::write(path, source))
+}

@@ -1,0 +1,3 @@
+//! Fields for ParaView.
+
+pub mod vtu;
