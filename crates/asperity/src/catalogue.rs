@@ -5,7 +5,7 @@ use asperity_cycles::heat::TEMPERATURE;
 use asperity_output::decimals::shortest;
 use asperity_output::formats::located::SourceParameters;
 use asperity_output::tables::column::{self, Column, Sign};
-use asperity_output::{OutputError, atomic, stems};
+use asperity_output::{OutputError, OutputFile, atomic, stems};
 use asperity_run::{Event, SlipPoints};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -121,6 +121,16 @@ pub struct FaultEvents {
     pub under_way: Option<f64>,
 }
 
+/// The catalogue of all faults, interfaces or sliders.
+pub const FILE: OutputFile = OutputFile::new("events.csv", "catalogue of events").with_each_end();
+/// Catalogues of single faults or interfaces.
+pub const OF_ONE: OutputFile =
+    OutputFile::new("events_*.csv", "catalogue of the events of one fault or interface").with_each_end();
+/// The catalogue of slow events.
+pub const SLOW: OutputFile = OutputFile::new("slow_events.csv", "catalogue of slow events").with_each_end();
+/// All tables of a catalogue.
+pub const FILES: [OutputFile; 3] = [FILE, OF_ONE, SLOW];
+
 /// Value as text; empty where there is none.
 fn optional(value: Option<f64>) -> String {
     value.map(shortest).unwrap_or_default()
@@ -179,7 +189,7 @@ pub fn columns(events: &[Entry]) -> Vec<Column> {
 /// The tables of a catalogue with their columns.
 #[must_use]
 pub fn tables(events: &[Entry]) -> Vec<(String, Vec<Column>)> {
-    ["events.csv", "events_*.csv", "slow_events.csv"].map(|name| (name.into(), columns(events))).into()
+    FILES.map(|file| (file.path.into(), columns(events))).into()
 }
 
 /// Catalogue as CSV.
@@ -230,8 +240,8 @@ pub fn csv(events: &[Entry]) -> String {
 /// If a file cannot be written.
 pub fn write(path: &Path, all: &[Entry], apart: &[FaultEvents]) -> Result<(), OutputError> {
     let table = |name: &str, events: &[Entry]| atomic::write(&path.join(name), csv(events).as_bytes());
-    table("events.csv", all)?;
+    table(FILE.path, all)?;
     let names = stems(apart.iter().map(|f| f.surface.as_str()));
     let mut each = names.iter().zip(apart);
-    each.try_for_each(|(name, fault)| table(&format!("events_{name}.csv"), &fault.events))
+    each.try_for_each(|(name, fault)| table(&OF_ONE.named(name), &fault.events))
 }

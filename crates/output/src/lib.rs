@@ -13,6 +13,7 @@ mod labels;
 pub mod memory;
 mod names;
 mod numbers;
+mod output_file;
 pub mod tables;
 pub mod terminal;
 #[cfg(test)]
@@ -22,3 +23,4 @@ pub mod words;
 
 pub use error::OutputError;
 pub use names::stems;
+pub use output_file::OutputFile;

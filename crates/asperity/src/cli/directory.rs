@@ -9,6 +9,7 @@ use super::{full, json, readme};
 use crate::checkpoint;
 use crate::report::{Results, commit};
 use asperity_output::atomic;
+use asperity_output::fields::Field;
 use asperity_output::tables::Column;
 use asperity_plan::shared::model::forecast;
 use asperity_plan::shared::setup;
@@ -55,6 +56,7 @@ pub(super) struct Directory {
     setup: Vec<SetupPart>,
     /// Tables of the run, by their paths, with their columns.
     tables: Vec<(String, Vec<Column>)>,
+    fields: Vec<(String, Vec<Field>)>,
     room: Room,
     /// Lock held for the duration of the run.
     _lock: Option<Lock>,
@@ -90,8 +92,8 @@ impl Directory {
         };
         let path = path.to_path_buf();
         let (plan, meshes, setup) = Default::default();
-        let tables = Vec::new();
-        let mut directory = Self { path, begin, plan, meshes, setup, tables, room, _lock: lock };
+        let (tables, fields) = (Vec::new(), Vec::new());
+        let mut directory = Self { path, begin, plan, meshes, setup, tables, fields, room, _lock: lock };
         if let Err(error) = directory.open() {
             // A failure to clean up adds nothing to the error that is reported.
             let _ = directory.undo(&directory.room);
@@ -143,9 +145,9 @@ impl Directory {
         self.setup = setup;
     }
 
-    /// Takes the tables of the run with their columns, for the text about its files.
-    pub fn tabulates(&mut self, tables: Vec<(String, Vec<Column>)>) {
-        self.tables = tables;
+    /// Takes the tables of the run with their columns, and its fields, for the text about its files.
+    pub fn describes(&mut self, tables: Vec<(String, Vec<Column>)>, fields: Vec<(String, Vec<Field>)>) {
+        (self.tables, self.fields) = (tables, fields);
     }
 
     /// Takes the plan as printed, for the page of the run, and the hashes of the files from which it was made.
@@ -174,7 +176,7 @@ impl Directory {
 
     /// Writes what each file is. It is no result: a run continues where it cannot be written.
     fn describe(&self) {
-        let _ = readme::write(&self.path, &self.begin.title, &self.tables);
+        let _ = readme::write(&self.path, &self.begin.title, &self.tables, &self.fields);
     }
 
     /// Removes what the end of the part before has written about the run as it was then: its page, figures and catalogues. All of it is written again

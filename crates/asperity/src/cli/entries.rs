@@ -2,116 +2,124 @@
 
 use super::begin::{LOCK, PAGE, PLOTS, README, REPORT, RESERVE, SCENE};
 use super::inputs;
-use crate::checkpoint;
+use crate::{catalogue, checkpoint, kinds};
+use asperity_output::OutputFile;
 use asperity_output::figures::Sheet;
 use asperity_output::terminal::progress;
+use asperity_output::{bodies, fields};
 use asperity_plan::shared::setup;
 use std::ffi::OsStr;
 use std::path::Path;
+use std::sync::LazyLock;
 
 /// A file or a folder of a run.
+#[derive(Clone)]
 pub struct Entry {
     /// Name, with `*` for any text.
     pub name: &'static str,
     /// Extensions of the files in a folder; `None` for a file.
-    pub endings: Option<&'static [&'static str]>,
+    pub endings: Option<Vec<&'static str>>,
     /// Meaning, in words.
     pub meaning: &'static str,
     /// True if each end of a run writes it again as a whole.
     pub of_an_end: bool,
 }
 
-const fn file(name: &'static str, meaning: &'static str) -> Entry {
-    Entry { name, endings: None, meaning, of_an_end: false }
+/// Tables and fields of all kinds of run.
+fn of_kinds() -> impl Iterator<Item = OutputFile> {
+    let faults = kinds::faults::FILES.into_iter().chain(kinds::faults::PROFILES);
+    let others = bodies::FILES.into_iter().chain(kinds::dynamics::FILES).chain([kinds::sliders::HISTORIES]);
+    let fields = [fields::FILES, fields::COLLECTION];
+    fields.into_iter().chain(catalogue::FILES).chain(faults).chain(others)
 }
 
-const fn folder(name: &'static str, endings: &'static [&'static str], meaning: &'static str) -> Entry {
-    Entry { name, endings: Some(endings), meaning, of_an_end: false }
+/// All files and folders: those of no table or field, and those that follow from tables and fields.
+pub fn all() -> &'static [Entry] {
+    static ALL: LazyLock<Vec<Entry>> = LazyLock::new(|| {
+        let mut all: Vec<Entry> = OTHERS.into_iter().map(Entry::from).collect();
+        all.extend(FOLDERS.map(|(name, endings, meaning)| {
+            let of_an_end = name == PLOTS;
+            Entry { name, endings: Some(endings.to_vec()), meaning, of_an_end }
+        }));
+        for file in of_kinds() {
+            let mut entry = Entry::from(file);
+            match all.iter_mut().find(|known| known.name == entry.name) {
+                Some(known) => known
+                    .endings
+                    .iter_mut()
+                    .for_each(|own| own.extend(entry.endings.take().into_iter().flatten())),
+                None => all.push(entry),
+            }
+        }
+        all
+    });
+    &ALL
 }
 
-/// All files and folders. Files in the folder of inputs are those that the scene names.
-pub const ENTRIES: [Entry; 52] = [
-    file(PAGE, "plan, checks, pictures, costs and warnings in one page for browsers, without other files")
-        .of_an_end(),
-    file(REPORT, "status, results, counts, times, provenance: begin here"),
-    file(SCENE, "the scene as it was run, with the values of `--set`; it can be run from here"),
-    folder(inputs::FOLDER, &[], "copies of the files that the scene names: meshes, tables, traces"),
-    file(progress::FILE, "progress of the run; removed when it is complete"),
-    file(checkpoint::FILE, "state from which `--resume` continues the run, or extends a run of faults"),
-    file(LOCK, "held while a run writes to this directory"),
-    file("fields.pvd", "list of the files in `fields/` over time, for ParaView"),
-    file("bodies.pvd", "list of the displacements of bodies over each event and at the end, for ParaView"),
-    file("events.pvd", "list of the fields on faults over each event, for ParaView"),
-    file("events.csv", "catalogue of events").of_an_end(),
-    file("events_*.csv", "catalogue of the events of one fault or interface").of_an_end(),
-    file("slow_events.csv", "catalogue of slow events").of_an_end(),
-    folder(
+/// Folders of files of several kinds, with their extensions beside those of tables and fields. Files in the folder of inputs are
+/// those that the scene names.
+const FOLDERS: [(&str, &[&str], &str); 7] = [
+    (inputs::FOLDER, &[], "copies of the files that the scene names: meshes, tables, traces"),
+    (
         "events",
-        &["csv", "grd", "fsp", "vtu"],
+        &["grd", "fsp"],
         "single events: moment rate, rupture times, displacements, Coulomb stress (CSV), stresses of bodies (VTU), grids for GMT (netCDF), finite-fault models (FSP)",
     ),
-    folder("receivers", &["csv"], "motion of positions in rock or bodies over time (CSV)"),
-    file("events.json", "catalogue of events, with more of each").of_an_end(),
-    file("events.quakeml", "catalogue of events for seismological programs").of_an_end(),
-    file("CMTSOLUTION", "centroid moment tensors of the events").of_an_end(),
-    file("largest_rate.csv", "largest slip rate over time; its logarithm is -20 at rest"),
-    file("largest_rates.csv", "largest slip rate of each interface with events, at every step"),
-    file("slip_profiles.csv", "slip along a fault at intervals"),
-    file("rate_profiles.csv", "slip rate along a fault at intervals; logarithms are -20 at rest"),
-    file(
-        "state_profiles.csv",
-        "state of friction along a fault at intervals: log10 of its time in seconds, where the law has one",
-    ),
-    file(
-        "coupling_profiles.csv",
-        "coupling along a fault to the plates that load it, at intervals between events",
-    ),
-    file(
-        "locking.csv",
-        "mean coupling of faults to the plates that load them, and moment deficit rate, over time",
-    ),
-    file("opening_profiles.csv", "opening along a fault at intervals"),
-    file("temperature_profiles.csv", "temperature along a fault at intervals"),
-    file("pressure_profiles.csv", "pore pressure along a fault at intervals"),
-    file("surface_profiles_*.csv", "displacement of the free surface along a line at intervals"),
-    file("snapshots.csv", "state of a fault at chosen times"),
-    file("energy.csv", "energy budget over time"),
-    file("moment_rate.csv", "moment rate over time"),
-    file("fault_forces.csv", "shear and normal force of each fault over time"),
-    file("rupture_times.csv", "rupture time and largest slip rate of each point"),
-    folder("fields", &["vtu"], "bodies and surfaces at output times (VTU)"),
-    folder("profiles", &["csv"], "whole surfaces at output times (CSV)"),
-    folder("probes", &["csv"], "positions on surfaces, at every step (CSV)"),
-    folder("points", &["csv"], "positions in bodies, at every step (CSV)"),
-    folder("forces", &["csv"], "forces on sets, at every step (CSV)"),
-    folder("springs", &["csv"], "springs, at every step (CSV)"),
-    folder("history", &["csv"], "sliders over time (CSV)"),
-    folder(PLOTS, &["svg", "png", "pdf"], "figures (SVG, PNG, PDF)").of_an_end(),
-    file(Sheet::FILE, "what `asperity plot` needs beside the tables to draw the figures again").of_an_end(),
-    folder(
+    (PLOTS, &["svg", "png", "pdf"], "figures (SVG, PNG, PDF)"),
+    (
         setup::FOLDER,
         &["bin"],
         "set-up of faults that took long, which the next run of the same scene here reads; may be removed",
     ),
-    folder("stations", &[""], "stations on faults over time, in the format of the SEAS community"),
-    folder("platform", &["txt", "dat"], "results in the files of the platform of a community benchmark"),
-    folder(
-        "seismograms",
-        &["csv", "mseed", "sac"],
-        "velocity and displacement at positions (CSV, miniSEED, SAC)",
-    ),
-    file(README, "this text"),
-    file(".writable", "trial of writing, left by a run that was killed"),
-    file(RESERVE, "room kept for the report of a run whose disc is full, left by a run that was killed"),
-    file(".DS_Store", "left by a file manager"),
-    file("Thumbs.db", "left by a file manager"),
+    ("stations", &[""], "stations on faults over time, in the format of the SEAS community"),
+    ("platform", &["txt", "dat"], "results in the files of the platform of a community benchmark"),
+    ("seismograms", &["mseed", "sac"], "velocity and displacement at positions (CSV, miniSEED, SAC)"),
 ];
 
-impl Entry {
-    const fn of_an_end(self) -> Self {
-        Self { of_an_end: true, ..self }
-    }
+/// Files that are neither tables nor fields.
+const OTHERS: [OutputFile; 15] = [
+    OutputFile::new(
+        PAGE,
+        "plan, checks, pictures, costs and warnings in one page for browsers, without other files",
+    )
+    .with_each_end(),
+    OutputFile::new(REPORT, "status, results, counts, times, provenance: begin here"),
+    OutputFile::new(SCENE, "the scene as it was run, with the values of `--set`; it can be run from here"),
+    OutputFile::new(progress::FILE, "progress of the run; removed when it is complete"),
+    OutputFile::new(
+        checkpoint::FILE,
+        "state from which `--resume` continues the run, or extends a run of faults",
+    ),
+    OutputFile::new(LOCK, "held while a run writes to this directory"),
+    OutputFile::new("events.json", "catalogue of events, with more of each").with_each_end(),
+    OutputFile::new("events.quakeml", "catalogue of events for seismological programs").with_each_end(),
+    OutputFile::new("CMTSOLUTION", "centroid moment tensors of the events").with_each_end(),
+    OutputFile::new(Sheet::FILE, "what `asperity plot` needs beside the tables to draw the figures again")
+        .with_each_end(),
+    OutputFile::new(README, "this text"),
+    OutputFile::new(".writable", "trial of writing, left by a run that was killed"),
+    OutputFile::new(
+        RESERVE,
+        "room kept for the report of a run whose disc is full, left by a run that was killed",
+    ),
+    OutputFile::new(".DS_Store", "left by a file manager"),
+    OutputFile::new("Thumbs.db", "left by a file manager"),
+];
 
+impl From<OutputFile> for Entry {
+    fn from(file: OutputFile) -> Self {
+        let OutputFile { path, meaning, of_an_end } = file;
+        let (name, endings) = match path.split_once('/') {
+            Some((folder, name)) => {
+                (folder, Some(vec![name.rsplit_once('.').map_or("", |(_, ending)| ending)]))
+            }
+            None => (path, None),
+        };
+        Self { name, endings, meaning, of_an_end }
+    }
+}
+
+impl Entry {
     /// True if it has this name.
     fn fits(&self, name: &str) -> bool {
         match self.name.split_once('*') {
@@ -123,7 +131,7 @@ impl Entry {
     /// True if a file of this name may stand in this folder.
     pub(super) fn holds(&self, name: &OsStr) -> bool {
         let ending = Path::new(name).extension().unwrap_or_default();
-        self.endings.is_some_and(|endings| endings.iter().any(|e| ending == *e))
+        self.endings.as_ref().is_some_and(|endings| endings.iter().any(|e| ending == *e))
     }
 }
 
@@ -131,5 +139,5 @@ impl Entry {
 #[must_use]
 pub fn named(name: &OsStr) -> Option<&'static Entry> {
     let name = name.to_str()?;
-    ENTRIES.iter().find(|entry| entry.fits(name))
+    all().iter().find(|entry| entry.fits(name))
 }

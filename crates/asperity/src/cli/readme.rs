@@ -2,14 +2,21 @@
 
 use super::begin::{README, REPORT};
 use super::entries;
-use asperity_output::tables::column::{self, Column};
+use asperity_output::fields::Field;
+use asperity_output::tables::Column;
+use asperity_output::tables::describe::{Row, describe};
 use asperity_output::{OutputError, atomic};
 use std::ffi::OsStr;
 use std::fs;
 use std::path::Path;
 
-/// Writes the text about the files that exist, and about the columns of these tables among them.
-pub(super) fn write(folder: &Path, title: &str, tables: &[(String, Vec<Column>)]) -> Result<(), OutputError> {
+/// Writes the text about the files that exist, about the columns of these tables among them, and about these fields.
+pub(super) fn write(
+    folder: &Path,
+    title: &str,
+    tables: &[(String, Vec<Column>)],
+    fields: &[(String, Vec<Field>)],
+) -> Result<(), OutputError> {
     let mut names: Vec<String> = fs::read_dir(folder)
         .into_iter()
         .flatten()
@@ -28,15 +35,19 @@ pub(super) fn write(folder: &Path, title: &str, tables: &[(String, Vec<Column>)]
         "# {title}\n\nResults of a run of asperity {}, described in the chapter \"Files and columns\" of its book.\n\n{rows}",
         env!("CARGO_PKG_VERSION")
     );
-    let written: Vec<(String, Vec<Column>)> =
-        tables.iter().filter(|table| exists(folder, &table.0)).cloned().collect();
-    if !written.is_empty() {
-        text.push_str(
-            "\n## Columns of tables\n\nThe chapter \"Signs in files\" explains the words of signs.\n\n",
-        );
-        text.push_str(&column::describe(&written));
-    }
+    text.push_str(&section(folder, "Columns of tables", tables));
+    text.push_str(&section(folder, "Arrays of fields", fields));
     atomic::write(&folder.join(README), text.as_bytes())
+}
+
+/// Section about the parts of the files of these paths that exist; empty if none does.
+fn section<R: Row + Clone>(folder: &Path, title: &str, files: &[(String, Vec<R>)]) -> String {
+    let written: Vec<_> = files.iter().filter(|(path, _)| exists(folder, path)).cloned().collect();
+    if written.is_empty() {
+        return String::new();
+    }
+    let signs = "The chapter \"Signs in files\" explains the words of signs.";
+    format!("\n## {title}\n\n{signs}\n\n{}", describe(&written))
 }
 
 /// True if there is a file of this path below a folder, where `*` stands for any text in its name.

@@ -199,7 +199,7 @@ fn velocities_of_seismograms_are_the_rates_of_their_displacements_at_the_same_ti
 }
 
 /// A rupture on the plane between two blocks in space.
-const IN_SPACE: &str = r#"
+pub const IN_SPACE: &str = r#"
 schema = 1
 title = "a rupture in space"
 kinematics = "3d"

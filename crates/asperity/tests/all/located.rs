@@ -269,7 +269,7 @@ fn mechanisms_in_space_follow_the_directions_the_scene_gives() {
 }
 
 /// A vertical fault in a half-space that reaches the surface, y up, and slips to the right along z through one event.
-const STRIKE_SLIP: &str = r#"
+pub const STRIKE_SLIP: &str = r#"
 schema = 1
 title = "a strike-slip fault"
 kinematics = "3d"

@@ -1,49 +1,44 @@
-//! A file name means one thing: columns of the same name have the same unit and sign in every kind of run.
+//! A name means one thing: columns of the same file and name, and arrays of the same name, have the same unit, sign and
+//! number of components in every kind of run.
 
-use crate::common::written::described;
-use crate::common::{coarse_sandwich, cycles, sliders, varied};
-use asperity_vary::Change::With;
-use std::collections::BTreeMap;
-use std::fs;
-use std::process::Command;
+use crate::common::every_kind::{KINDS, files};
+use crate::common::written::Described;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// A rupture of bodies with mass: a file of columns that the others have too.
-const RUPTURE: &str = include_str!("../../../../scenes/tpv205-2d.toml");
+/// Units of one quantity in space, and per metre of thickness in the plane.
+const PER_LENGTH: [[&str; 2]; 4] = [["N", "N/m"], ["J", "J/m"], ["N m", "N"], ["N m/s", "N/s"]];
+
+/// Arrays that are vectors with mass, and magnitudes beside `NAME_vector` in other kinds: files of either are of use as they are.
+const VECTORS_WITH_MASS: [&str; 3] = ["shear_traction", "slip", "slip_rate"];
+
+fn same(one: &str, other: &str) -> bool {
+    one == other || PER_LENGTH.iter().any(|pair| pair.contains(&one) && pair.contains(&other))
+}
 
 #[test]
-fn columns_of_one_name_have_one_unit_and_one_sign_in_every_kind_of_run() {
-    let scenes = [
-        ("bodies", coarse_sandwich()),
-        ("faults", cycles::SCENE.to_string()),
-        ("sliders", sliders::CYCLE.to_string()),
-        ("dynamics", varied(RUPTURE, &[With("stages[0].duration", "0.2 s")])),
-    ];
-    let mut all: BTreeMap<(String, String), (&str, String, String)> = BTreeMap::new();
-    let mut shared = 0;
-    for (kind, scene) in scenes {
-        let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join("scene.toml"), scene).unwrap();
-        let mut run = Command::new(env!("CARGO_BIN_EXE_asperity"));
-        let run = run.args(["run", "scene.toml", "--no-plots"]).current_dir(folder.path()).output().unwrap();
-        assert!(run.status.success(), "{kind}: {}", String::from_utf8_lossy(&run.stderr));
-        let described = described(&folder.path().join("out/scene"));
-        assert!(!described.is_empty(), "{kind} describes no tables");
-        for column in described {
-            for file in column.files {
-                let own = (kind, column.unit.clone(), column.sign.clone());
-                let Some(first) = all.insert((file.clone(), column.column.clone()), own.clone()) else {
+fn columns_and_arrays_of_one_name_are_the_same_in_every_kind_of_run() {
+    let mut all: BTreeMap<(String, &str), (&str, &Described)> = BTreeMap::new();
+    let (mut shared, mut apart) = (0, BTreeSet::new());
+    for kind in KINDS {
+        for own in files(kind) {
+            // Files of fields bear the names of faults and interfaces.
+            let places = if own.array.is_some() { vec!["fields".to_owned()] } else { own.files.clone() };
+            for place in places {
+                let column = own.column.as_str();
+                let &mut (of, first) = all.entry((place.clone(), column)).or_insert((kind, own));
+                shared += usize::from(of != kind);
+                let components = |d: &Described| d.array.as_ref().map(|(components, _)| *components);
+                if components(own) != components(first) {
+                    apart.insert((column, of, kind));
                     continue;
-                };
-                shared += 1;
-                assert_eq!(
-                    (&first.1, &first.2),
-                    (&own.1, &own.2),
-                    "`{}` of {file}: {kind}, {}",
-                    column.column,
-                    first.0
+                }
+                assert!(
+                    same(&own.unit, &first.unit) && own.sign == first.sign,
+                    "`{column}` of {place}: {kind} {own:?}, {of} {first:?}"
                 );
             }
         }
     }
-    assert!(shared > 10, "only {shared} columns are of several kinds");
+    assert!(shared > 30, "only {shared} columns and arrays are of several kinds");
+    assert_eq!(apart, VECTORS_WITH_MASS.map(|name| (name, "bodies", "dynamics")).into());
 }

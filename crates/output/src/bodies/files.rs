@@ -8,13 +8,12 @@
 use super::record::{check_interfaces, check_probes, check_samples};
 use super::sample_sites::SampleSites;
 use super::schedule::{FieldSchedule, OutputIntervals};
-use super::tables;
-use super::view::{
-    BodyFields, InterfaceFields, InterfaceMesh, MeshView, Setup, SpringValues, StepView, Writer,
-};
+use super::view::{BodyFields, InterfaceFields, Setup, SpringValues, StepView, Writer};
+use super::{fields, tables};
 use crate::atomic;
-use crate::error::{OutputError, expect_length};
-use crate::fields::vtu::{Array, Grid, PvdEntry, Values, pvd};
+use crate::error::OutputError;
+use crate::fields::vtu::{PvdEntry, pvd};
+use crate::fields::{COLLECTION, Field, Series};
 use crate::names::stems;
 use crate::tables::GrowingTable;
 use crate::tables::column::{self, Column};
@@ -32,7 +31,8 @@ pub struct Files {
     schedule: FieldSchedule,
     fields_due: OutputIntervals,
     profiles_due: OutputIntervals,
-    bodies: Option<Bodies>,
+    /// Fields of the bodies, from the first ones on, which tell whether a material is plastic.
+    bodies: Option<Series<'static, BodyFields>>,
     interfaces: Vec<Part>,
     points: Vec<GrowingTable>,
     forces: Vec<GrowingTable>,
@@ -50,22 +50,12 @@ pub struct Files {
     resumed: Option<FilesState>,
 }
 
-/// Constant data of the bodies.
-#[derive(Debug)]
-struct Bodies {
-    grid: Grid,
-    /// Body of each cell.
-    body: Vec<i64>,
-}
-
 /// Constant data of an interface.
 #[derive(Debug)]
 struct Part {
     /// Stem of its file names.
     stem: String,
-    grid: Grid,
-    /// Number of state variables of its law.
-    states: usize,
+    fields: Series<'static, InterfaceFields>,
     probes: Option<GrowingTable>,
 }
 
@@ -162,24 +152,26 @@ impl Files {
     }
 
     fn write_fields(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
-        let Some(bodies) = &self.bodies else { return Ok(()) };
+        if self.setup.mesh.cells.is_empty() {
+            return Ok(());
+        }
         self.field_number += 1;
         self.written[1] = Some(view.record.time);
-        let (number, time) = (self.field_number, view.record.time);
+        let (number, time, mesh) = (self.field_number, view.record.time, &self.setup.mesh);
         let mut entries = Vec::with_capacity(1 + self.interfaces.len());
-        let file = format!("fields/bodies_{number:05}.vtu");
-        let fields = (view.fields)();
-        check_bodies(&self.setup.mesh, &fields)?;
-        atomic::write(&self.out.join(&file), &bodies.file(time, &fields))?;
-        entries.push(PvdEntry { time, part: 0, name: "bodies".to_string(), file });
-        for (i, (part, fields)) in self.interfaces.iter().zip(view.interfaces).enumerate() {
-            let mesh = &self.setup.interfaces[i];
-            let file = format!("fields/{}_{number:05}.vtu", part.stem);
-            atomic::write(&self.out.join(&file), &part.file(time, fields))?;
-            entries.push(PvdEntry { time, part: i + 1, name: mesh.name.clone(), file });
+        let shown = (view.fields)();
+        fields::check(mesh, &shown)?;
+        let plastic = !shown.cell_plastic_strain.is_empty();
+        let bodies = self.bodies.get_or_insert_with(|| fields::body_series(mesh, plastic));
+        bodies.write(&self.out, number, time, &shown)?;
+        entries.push(PvdEntry { time, part: 0, name: "bodies".to_string(), file: bodies.file(number) });
+        for (i, (part, shown)) in self.interfaces.iter().zip(view.interfaces).enumerate() {
+            let name = self.setup.interfaces[i].name.clone();
+            part.fields.write(&self.out, number, time, shown)?;
+            entries.push(PvdEntry { time, part: i + 1, name, file: part.fields.file(number) });
         }
         self.collection.extend(entries);
-        atomic::write(&self.out.join("fields.pvd"), &pvd(&self.collection))
+        atomic::write(&self.out.join(COLLECTION.path), &pvd(&self.collection))
     }
 
     fn write_profiles(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
@@ -187,7 +179,8 @@ impl Files {
         self.written[0] = Some(view.record.time);
         for ((part, mesh), fields) in self.interfaces.iter().zip(&self.setup.interfaces).zip(view.interfaces)
         {
-            let path = self.out.join(format!("profiles/{}_{:03}.csv", part.stem, self.profile_number));
+            let path =
+                self.out.join(tables::PROFILES.named(&format!("{}_{:03}", part.stem, self.profile_number)));
             atomic::write(&path, tables::profile(view.record.time, mesh, fields).as_bytes())?;
         }
         Ok(())
@@ -244,26 +237,35 @@ impl Files {
         let probed =
             self.interfaces.iter().zip(&setup.interfaces).filter(|(_, mesh)| !mesh.probes.is_empty());
         let mut all: Vec<(String, Vec<Column>)> = probed
-            .map(|(part, mesh)| (format!("probes/{}.csv", part.stem), tables::probe_columns(mesh)))
+            .map(|(part, mesh)| (tables::PROBES.named(&part.stem), tables::probe_columns(mesh)))
             .collect();
         let (points, forces, springs) = (setup.points.clone(), setup.forces.clone(), setup.springs.clone());
         all.extend(SampleSites { points, forces, springs, unit: setup.force_unit }.tables());
-        all.extend(setup.energy_unit.map(|unit| ("energy.csv".into(), energy::columns(unit))));
+        all.extend(setup.energy_unit.map(|unit| (energy::FILE.path.into(), energy::columns(unit))));
         if !setup.eventful.is_empty() {
             let eventful = setup.eventful.iter().filter_map(|&i| setup.interfaces.get(i));
             let columns = tables::rate_columns(eventful.map(|mesh| mesh.name.as_str()));
-            all.push(("largest_rates.csv".into(), columns));
+            all.push((tables::RATES.path.into(), columns));
         }
         all
     }
 
+    /// Fields of this run, by the paths of their files.
+    #[must_use]
+    pub fn fields(&self) -> Vec<(String, Vec<Field>)> {
+        // There are none of interfaces without those of bodies.
+        let Some(bodies) = &self.bodies else { return Vec::new() };
+        let interfaces = self.interfaces.iter().map(|part| part.fields.fields());
+        std::iter::once(bodies.fields()).chain(interfaces).collect()
+    }
+
     /// All tables with their columns, of this run.
     #[must_use]
-    pub fn columns(&self) -> Vec<(String, Vec<Column>)> {
+    pub fn described(&self) -> Vec<(String, Vec<Column>)> {
         let profiles = self.interfaces.iter().zip(&self.setup.interfaces);
-        let profiles = profiles
-            .filter(|_| self.profile_number > 0)
-            .map(|(part, mesh)| (format!("profiles/{}_*.csv", part.stem), tables::profile_columns(mesh)));
+        let profiles = profiles.filter(|_| self.profile_number > 0).map(|(part, mesh)| {
+            (tables::PROFILES.named(&format!("{}_*", part.stem)), tables::profile_columns(mesh))
+        });
         self.growing().into_iter().chain(profiles).collect()
     }
 
@@ -299,8 +301,8 @@ impl Files {
     fn remove_earlier(&self) -> Result<(), OutputError> {
         self.remove_beyond([0; 2])?;
         let mut once: Vec<PathBuf> =
-            self.interfaces.iter().map(|part| self.out.join(format!("probes/{}.csv", part.stem))).collect();
-        once.push(self.out.join("fields.pvd"));
+            self.interfaces.iter().map(|part| self.out.join(tables::PROBES.named(&part.stem))).collect();
+        once.push(self.out.join(COLLECTION.path));
         once.iter().filter(|path| path.exists()).try_for_each(|path| remove(path))
     }
 
@@ -324,7 +326,7 @@ impl Files {
             fs::metadata(&path).map_err(|source| OutputError::Read { path, source })?;
         }
         self.remove_beyond(numbers)?;
-        let path = self.out.join("fields.pvd");
+        let path = self.out.join(COLLECTION.path);
         if !self.collection.is_empty() {
             atomic::write(&path, &pvd(&self.collection))?;
         } else if path.exists() {
@@ -340,7 +342,7 @@ impl Writer for Files {
         self.setup = setup.clone();
         self.fields_due = OutputIntervals::new(self.schedule.fields, &setup.stages);
         self.profiles_due = OutputIntervals::new(self.schedule.profiles, &setup.stages);
-        self.bodies = (!setup.mesh.cells.is_empty()).then(|| Bodies::new(&setup.mesh));
+        self.bodies = None;
         self.collection.clear();
         (self.field_number, self.profile_number) = (0, 0);
         self.written = [None; 2];
@@ -350,8 +352,8 @@ impl Writer for Files {
             .into_iter()
             .zip(&setup.interfaces)
             .map(|(stem, mesh)| {
-                let (grid, states) = (interface_grid(mesh, dimension), mesh.states);
-                Part { stem, grid, states, probes: None }
+                let fields = fields::interface_series(&stem, mesh, dimension);
+                Part { stem, fields, probes: None }
             })
             .collect();
         let bytes = match self.resumed.take() {
@@ -359,7 +361,7 @@ impl Writer for Files {
             None => self.remove_earlier().map(|()| None)?,
         };
         let wanted = [
-            ("fields", self.schedule.fields > 0 && self.bodies.is_some()),
+            ("fields", self.schedule.fields > 0 && !setup.mesh.cells.is_empty()),
             ("profiles", self.schedule.profiles > 0 && !setup.interfaces.is_empty()),
         ];
         for (folder, _) in wanted.iter().filter(|(_, wanted)| *wanted) {
@@ -393,97 +395,6 @@ impl Writer for Files {
             self.write_fields(view)?;
         }
         Ok(())
-    }
-}
-
-impl Bodies {
-    fn new(mesh: &MeshView) -> Self {
-        Self {
-            grid: Grid::new(&mesh.nodes, &mesh.cells),
-            body: mesh.cell_body.iter().map(|&body| body as i64).collect(),
-        }
-    }
-
-    fn file(&self, time: f64, fields: &BodyFields) -> Vec<u8> {
-        let points = [
-            Array::vector("displacement", &fields.displacement),
-            Array::scalar("mises", Values::F64(&fields.node_mises)),
-        ];
-        let mut cells = vec![
-            Array::tensor("stress", &fields.cell_stress),
-            Array::scalar("mises", Values::F64(&fields.cell_mises)),
-            Array::scalar("body", Values::I64(&self.body)),
-        ];
-        if !fields.cell_plastic_strain.is_empty() {
-            cells.push(Array::scalar("plastic_strain", Values::F64(&fields.cell_plastic_strain)));
-        }
-        self.grid.file(time, &points, &cells)
-    }
-}
-
-impl Part {
-    fn file(&self, time: f64, fields: &InterfaceFields) -> Vec<u8> {
-        fn f64s(name: &'static str, values: &[f64]) -> Array<'static> {
-            Array::scalar(name, Values::F64(values))
-        }
-        let nodes = 0..fields.gap.len();
-        let gap: Vec<f64> = nodes.clone().map(|i| fields.written_gap(i)).collect();
-        let paired: Vec<u8> = nodes.clone().map(|i| u8::from(fields.paired(i))).collect();
-        let names: Vec<String> = (1..=self.states).map(|k| format!("state_{k}")).collect();
-        let states: Vec<Vec<f64>> =
-            (0..self.states).map(|k| nodes.clone().map(|i| fields.state(k, i)).collect()).collect();
-        let mut points = vec![
-            f64s("gap", &gap),
-            Array::scalar("paired", Values::U8(&paired)),
-            f64s("slip", &fields.slip),
-            f64s("relative_displacement", &fields.relative_displacement),
-            f64s("slip_rate", &fields.slip_rate),
-            f64s("normal_traction", &fields.normal_traction),
-            f64s("shear_traction", &fields.shear_traction),
-            f64s("mean_normal_traction", &fields.mean_normal_traction),
-            f64s("mean_shear_traction", &fields.mean_shear_traction),
-            f64s("friction", &fields.friction),
-            Array::scalar("status", Values::U8(&fields.status)),
-            f64s("area", &fields.area),
-        ];
-        if !fields.slip_vector.is_empty() {
-            points.push(Array::vector("slip_vector", &fields.slip_vector));
-            points.push(Array::vector("shear_traction_vector", &fields.shear_vector));
-        }
-        points.extend(names.iter().zip(&states).map(|(name, v)| Array::scalar(name, Values::F64(v))));
-        self.grid.file(time, &points, &[])
-    }
-}
-
-/// The slave side as VTK cells; vertices if it has no faces.
-fn interface_grid(mesh: &InterfaceMesh, dimension: usize) -> Grid {
-    // VTK cell types: 1 vertex, 3 line, 4 polyline, 5 triangle, 7 polygon, 9 quadrilateral.
-    let kind = |nodes: usize| match (dimension, nodes) {
-        (_, 1) => 1,
-        (_, 2) => 3,
-        (2, _) => 4,
-        (_, 3) => 5,
-        (_, 4) => 9,
-        _ => 7,
-    };
-    let cells: Vec<(u8, Vec<usize>)> = if mesh.faces.is_empty() {
-        (0..mesh.positions.len()).map(|node| (1, vec![node])).collect()
-    } else {
-        mesh.faces.iter().map(|face| (kind(face.len()), face.clone())).collect()
-    };
-    Grid::new(&mesh.positions, &cells)
-}
-
-fn check_bodies(mesh: &MeshView, fields: &BodyFields) -> Result<(), OutputError> {
-    let (nodes, cells) = (mesh.nodes.len(), mesh.cells.len());
-    expect_length("body of each cell", cells, mesh.cell_body.len())?;
-    expect_length("displacement of the nodes", nodes, fields.displacement.len())?;
-    expect_length("Mises stress of the nodes", nodes, fields.node_mises.len())?;
-    expect_length("stress of the cells", cells, fields.cell_stress.len())?;
-    expect_length("Mises stress of the cells", cells, fields.cell_mises.len())?;
-    match fields.cell_plastic_strain.len() {
-        0 => Ok(()),
-        found => expect_length("plastic strain of the cells", cells, found),
     }
 }
 

@@ -2,9 +2,18 @@
 
 use super::tables::{force_columns, point_columns, point_values, spring_columns};
 use super::view::{ForceMark, PointMark, Samples, SpringMark};
+use crate::OutputFile;
 use crate::names::stems;
 use crate::tables::Column;
 use crate::tables::history::number;
+
+/// Points of bodies.
+pub(super) const POINTS: OutputFile =
+    OutputFile::new("points/*.csv", "positions in bodies, at every step (CSV)");
+/// Forces on sets.
+pub(super) const FORCES: OutputFile = OutputFile::new("forces/*.csv", "forces on sets, at every step (CSV)");
+/// Springs.
+pub(super) const SPRINGS: OutputFile = OutputFile::new("springs/*.csv", "springs, at every step (CSV)");
 
 /// Points, sets and springs that are sampled.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -24,13 +33,13 @@ impl SampleSites {
     #[must_use]
     pub fn tables(&self) -> Vec<(String, Vec<Column>)> {
         let springs: Vec<String> = self.springs.iter().map(SpringMark::name).collect();
-        let all: [(&str, Vec<&str>, Vec<Column>); 3] = [
-            ("points", self.points.iter().map(|p| p.name.as_str()).collect(), point_columns()),
-            ("forces", self.forces.iter().map(|f| f.name.as_str()).collect(), force_columns(self.unit)),
-            ("springs", springs.iter().map(String::as_str).collect(), spring_columns(self.unit)),
+        let all: [(OutputFile, Vec<&str>, Vec<Column>); 3] = [
+            (POINTS, self.points.iter().map(|p| p.name.as_str()).collect(), point_columns()),
+            (FORCES, self.forces.iter().map(|f| f.name.as_str()).collect(), force_columns(self.unit)),
+            (SPRINGS, springs.iter().map(String::as_str).collect(), spring_columns(self.unit)),
         ];
-        let of = |(folder, names, columns): (&str, Vec<&str>, Vec<Column>)| {
-            let file = |stem: String| (format!("{folder}/{stem}.csv"), columns.clone());
+        let of = |(place, names, columns): (OutputFile, Vec<&str>, Vec<Column>)| {
+            let file = |stem: String| (place.named(&stem), columns.clone());
             stems(names.into_iter()).into_iter().map(file).collect::<Vec<_>>()
         };
         all.into_iter().flat_map(of).collect()

@@ -1,95 +1,50 @@
 //! CSV tables: profiles along an interface at one time, and histories at its probes.
 
+use super::quantity::{self, Quantity};
 use super::view::{InterfaceFields, InterfaceMesh, PointValues};
+use crate::OutputFile;
 use crate::tables::column::{self, Column, Sign};
 use crate::tables::csv_rows::Rows;
 use crate::tables::history::{history_row, number, when};
 
-/// A column of an interface table, and the function that reads its values.
-struct Field {
-    column: fn() -> Column,
-    read: fn(&InterfaceFields, usize) -> f64,
-}
+/// Profiles of interfaces.
+pub(super) const PROFILES: OutputFile =
+    OutputFile::new("profiles/*.csv", "whole surfaces at output times (CSV)");
+/// Probes of interfaces.
+pub(super) const PROBES: OutputFile =
+    OutputFile::new("probes/*.csv", "positions on surfaces, at every step (CSV)");
+/// Largest slip rates.
+pub(super) const RATES: OutputFile =
+    OutputFile::new("largest_rates.csv", "largest slip rate of each interface with events, at every step");
 
 /// Columns of a profile.
-const PROFILE: [Field; 11] = [
-    Field {
-        column: || Column::new("gap", "m", Sign::Apart, "normal gap, negative for penetration"),
-        read: InterfaceFields::written_gap,
-    },
-    Field {
-        column: || Column::new("normal_traction", "Pa", Sign::Compression, "normal traction"),
-        read: |f, i| f.normal_traction[i],
-    },
-    SHEAR_TRACTION,
-    RELATIVE_DISPLACEMENT,
-    SLIP,
-    SLIP_RATE,
-    FRICTION,
-    Field {
-        column: || {
-            Column::new(
-                "mean_normal_traction",
-                "Pa",
-                Sign::Compression,
-                "normal traction averaged around the node",
-            )
-        },
-        read: |f, i| f.mean_normal_traction[i],
-    },
-    Field {
-        column: || {
-            Column::new("mean_shear_traction", "Pa", Sign::Slip, "shear traction averaged around the node")
-        },
-        read: |f, i| f.mean_shear_traction[i],
-    },
-    Field {
-        column: || Column::new("status", "0 open 1 stick 2 slip", Sign::None, "state of contact"),
-        read: |f, i| f64::from(f.status[i]),
-    },
-    Field {
-        column: || Column::new("paired", "0 no 1 yes", Sign::None, "0 where the node has no partner"),
-        read: |f, i| f64::from(u8::from(f.paired(i))),
-    },
+const PROFILE: [&Quantity; 11] = [
+    &quantity::GAP,
+    &quantity::NORMAL_TRACTION,
+    &quantity::SHEAR_TRACTION,
+    &quantity::RELATIVE_DISPLACEMENT,
+    &quantity::SLIP,
+    &quantity::SLIP_RATE,
+    &quantity::FRICTION,
+    &quantity::MEAN_NORMAL_TRACTION,
+    &quantity::MEAN_SHEAR_TRACTION,
+    &quantity::STATUS,
+    &quantity::PAIRED,
 ];
 
 /// Columns of each probe.
-const PROBE: [Field; 6] = [
-    RELATIVE_DISPLACEMENT,
-    SLIP,
-    SLIP_RATE,
-    FRICTION,
-    Field {
-        column: || Column::new("normal_traction", "Pa", Sign::Compression, "normal traction"),
-        read: |f, i| f.normal_traction[i],
-    },
-    SHEAR_TRACTION,
+const PROBE: [&Quantity; 6] = [
+    &quantity::RELATIVE_DISPLACEMENT,
+    &quantity::SLIP,
+    &quantity::SLIP_RATE,
+    &quantity::FRICTION,
+    &quantity::NORMAL_TRACTION,
+    &quantity::SHEAR_TRACTION,
 ];
 
-const SHEAR_TRACTION: Field = Field {
-    column: || Column::new("shear_traction", "Pa", Sign::Slip, "shear traction"),
-    read: |f, i| f.shear_traction[i],
-};
-const RELATIVE_DISPLACEMENT: Field = Field {
-    column: || Column::new("relative_displacement", "m", Sign::Slip, "motion of the slave past the master"),
-    read: |f, i| f.relative_displacement[i],
-};
-const SLIP: Field = Field {
-    column: || Column::new("slip", "m", Sign::Slip, "plastic part of the relative displacement"),
-    read: |f, i| f.slip[i],
-};
-const SLIP_RATE: Field = Field {
-    column: || Column::new("slip_rate", "m/s", Sign::Slip, "rate of slip"),
-    read: |f, i| f.slip_rate[i],
-};
-const FRICTION: Field = Field {
-    column: || Column::new("friction", "-", Sign::Size, "shear over normal traction"),
-    read: |f, i| f.friction[i],
-};
-
 /// Columns of a table of an interface, with vectors in space, and states of its law.
-fn columns(fields: &[Field], mesh: &InterfaceMesh) -> Vec<Column> {
-    let mut columns: Vec<Column> = fields.iter().map(|field| (field.column)()).collect();
+fn columns(quantities: &[&Quantity], mesh: &InterfaceMesh) -> Vec<Column> {
+    let mut columns: Vec<Column> = quantities.iter().map(|quantity| quantity.column()).collect();
     if mesh.in_space {
         columns.extend(column::axes("slip", "m", Sign::Vector, "slip of the slave past the master"));
         columns.extend(column::axes(
@@ -99,14 +54,15 @@ fn columns(fields: &[Field], mesh: &InterfaceMesh) -> Vec<Column> {
             "shear traction of the slave side",
         ));
     }
-    let state = |k| Column::new(format!("state_{k}"), "", Sign::None, "state variable of the law");
-    columns.extend((1..=mesh.states).map(state));
+    columns.extend(
+        (1..=mesh.states).map(|k| Column::new(format!("state_{k}"), "", Sign::None, quantity::STATE)),
+    );
     columns
 }
 
 /// Values of these columns at a node.
-fn values(fields: &[Field], mesh: &InterfaceMesh, now: &InterfaceFields, node: usize) -> Vec<f64> {
-    let mut values: Vec<f64> = fields.iter().map(|field| (field.read)(now, node)).collect();
+fn values(quantities: &[&Quantity], mesh: &InterfaceMesh, now: &InterfaceFields, node: usize) -> Vec<f64> {
+    let mut values: Vec<f64> = quantities.iter().map(|quantity| (quantity.read)(now, node)).collect();
     if mesh.in_space {
         values.extend(now.slip_vector[node]);
         values.extend(now.shear_vector[node]);
@@ -118,8 +74,7 @@ fn values(fields: &[Field], mesh: &InterfaceMesh, now: &InterfaceFields, node: u
 /// Columns of a profile.
 pub(super) fn profile_columns(mesh: &InterfaceMesh) -> Vec<Column> {
     let node = Column::new("node", "", Sign::None, "number of the slave node");
-    let area = Column::new("area", "m2", Sign::Size, "tributary area");
-    let place = [column::time(), node].into_iter().chain(column::position()).chain([area]);
+    let place = [column::time(), node].into_iter().chain(column::position()).chain([quantity::AREA.column()]);
     place.chain(columns(&PROFILE, mesh)).collect()
 }
 

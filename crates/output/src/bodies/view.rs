@@ -115,6 +115,11 @@ pub struct InterfaceFields {
 }
 
 impl InterfaceFields {
+    /// Numbers of the nodes.
+    pub(super) fn nodes(&self) -> std::ops::Range<usize> {
+        0..self.gap.len()
+    }
+
     /// True if a node has a partner.
     #[must_use]
     pub fn paired(&self, node: usize) -> bool {

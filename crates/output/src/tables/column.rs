@@ -1,7 +1,7 @@
 //! Columns of tables: name, unit, sign and meaning. Headers, the text beside a run and the pages of the book follow from them.
 
 use super::csv_rows::Rows;
-use std::collections::{BTreeMap, BTreeSet};
+use super::describe::Row;
 
 /// Sense of positive values, in the words of the page "Signs in files".
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -122,9 +122,13 @@ impl Column {
             Heads::Alone(places) => places.clone(),
         }
     }
+}
 
-    /// The column where tables are described: one line for all parts and places.
-    fn line(&self) -> String {
+impl Row for Column {
+    const HEAD: &'static str = "column | unit | sign | meaning";
+    const TOGETHER: bool = true;
+
+    fn row(&self) -> String {
         let part = if self.part.is_some() { " of *" } else { "" };
         let name = match &self.heads {
             Heads::Alone(_) => self.name.clone(),
@@ -167,59 +171,6 @@ pub fn header(columns: &[Column]) -> String {
     rows.text()
 }
 
-/// Description of the columns of tables, given by their paths, as a table of text: files of a folder with the same columns share
-/// their rows.
-#[must_use]
-pub fn describe(tables: &[(String, Vec<Column>)]) -> String {
-    let mut groups: Vec<(Vec<String>, Vec<String>)> = Vec::new();
-    let mut known: BTreeMap<Vec<String>, usize> = BTreeMap::new();
-    for (path, columns) in tables {
-        let mut seen = BTreeSet::new();
-        let mut lines: Vec<String> = columns.iter().map(Column::line).collect();
-        lines.retain(|line| seen.insert(line.clone()));
-        let group = *known.entry(lines).or_insert_with_key(|lines| {
-            groups.push((Vec::new(), lines.clone()));
-            groups.len() - 1
-        });
-        groups[group].0.push(path.clone());
-    }
-    let mut text = String::from("| file | column | unit | sign | meaning |\n|---|---|---|---|---|\n");
-    let mut sizes: BTreeMap<&str, usize> = BTreeMap::new();
-    for folder in tables.iter().filter_map(|table| folder(&table.0)) {
-        *sizes.entry(folder).or_default() += 1;
-    }
-    for (paths, lines) in &groups {
-        let files = files(paths, &sizes);
-        for line in lines {
-            text.push_str(&format!("| {files} | {line} |\n"));
-        }
-    }
-    text
-}
-
-/// Folder of a path.
-fn folder(path: &str) -> Option<&str> {
-    path.rsplit_once('/').map(|(folder, _)| folder)
-}
-
-/// Names of these files, with `*` for all files of a folder together; `sizes` has the number of files in each.
-fn files(paths: &[String], sizes: &BTreeMap<&str, usize>) -> String {
-    let mut own: BTreeMap<&str, usize> = BTreeMap::new();
-    for folder in paths.iter().filter_map(|path| folder(path)) {
-        *own.entry(folder).or_default() += 1;
-    }
-    let name = |path: &String| match folder(path).filter(|folder| own.get(folder) == sizes.get(folder)) {
-        Some(folder) => {
-            let ending = path.rsplit_once('.').map_or(String::new(), |(_, ending)| format!(".{ending}"));
-            format!("`{folder}/*{ending}`")
-        }
-        None => format!("`{path}`"),
-    };
-    let mut names: Vec<String> = paths.iter().map(name).collect();
-    names.dedup();
-    names.join(", ")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -232,19 +183,5 @@ mod tests {
         assert_eq!(header(&columns), "time [s],rate of main [m/s],\"rate [m/s] at (0, 1)\",turns\n");
         let each = Column::each("each point", "m", Sign::Slip, "slip", ["0".into(), "2.5".into()]);
         assert_eq!(header(&[time(), each]), "time [s],0,2.5\n");
-    }
-
-    #[test]
-    fn files_of_a_folder_with_the_same_columns_share_their_rows() {
-        let part = |part| Column::new("u", "m", Sign::Axis, "moved").for_part(part);
-        let moved = || vec![time(), part("a"), part("b")];
-        let table = |path: &str, columns| (path.to_string(), columns);
-        let points = [table("points/a.csv", moved()), table("points/b.csv", moved())];
-        let of_events = [table("events/u_*.csv", moved()), table("events/v_*.csv", vec![time()])];
-        let expected = "| file | column | unit | sign | meaning |\n|---|---|---|---|---|\n\
-            | `points/*.csv`, `events/u_*.csv` | `time` | s | none | time of the row |\n\
-            | `points/*.csv`, `events/u_*.csv` | `u of *` | m | axis | moved |\n\
-            | `events/v_*.csv` | `time` | s | none | time of the row |\n";
-        assert_eq!(describe(&[&points[..], &of_events].concat()), expected);
     }
 }

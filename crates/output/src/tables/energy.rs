@@ -2,7 +2,11 @@
 
 use super::column::{Column, Sign};
 use super::history::{history_row, when};
+use crate::OutputFile;
 use asperity_run::Energies;
+
+/// The file of the table.
+pub const FILE: OutputFile = OutputFile::new("energy.csv", "energy budget over time");
 
 /// Energies in the order of the columns of files, in every kind of run.
 pub const ENERGIES: [&str; 14] = [

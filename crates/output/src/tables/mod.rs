@@ -2,6 +2,7 @@
 
 pub mod column;
 pub(crate) mod csv_rows;
+pub mod describe;
 pub mod energy;
 mod growing_table;
 pub(crate) mod history;

@@ -6,6 +6,7 @@ use crate::keep::Keeper;
 use crate::kinds::bodies::{Outputs, RunError, RunReport, Stand};
 use crate::{catalogue, checkpoint, kinds};
 use asperity_output::bodies::FieldSchedule;
+use asperity_output::fields::Field;
 use asperity_output::figures::{self, Sheet};
 use asperity_output::tables::Column;
 use asperity_plan::bodies::AnyPlan;
@@ -49,6 +50,10 @@ impl Run for Bodies<'_> {
     fn tables(&self, outputs: &Outputs, report: &RunReport) -> Vec<(String, Vec<Column>)> {
         let events = report.events.as_ref().map(|events| catalogue::tables(&events.all));
         outputs.tables().into_iter().chain(events.into_iter().flatten()).collect()
+    }
+
+    fn fields(&self, outputs: &Outputs) -> Vec<(String, Vec<Field>)> {
+        outputs.fields()
     }
 
     fn complete(

@@ -4,6 +4,7 @@ use super::run::{Run, Where};
 use crate::keep::Keeper;
 use crate::kinds::dynamics::{Ended, Outputs, Report, RunError, Stand};
 use crate::{checkpoint, kinds};
+use asperity_output::fields::Field;
 use asperity_output::figures::Sheet;
 use asperity_output::tables::Column;
 use asperity_plan::dynamics::Plan;
@@ -47,6 +48,10 @@ impl<'a, const D: usize> Run for Dynamics<'a, D> {
 
     fn tables(&self, _: &Self::Outputs, _: &Report) -> Vec<(String, Vec<Column>)> {
         kinds::dynamics::tables(self.0)
+    }
+
+    fn fields(&self, outputs: &Self::Outputs) -> Vec<(String, Vec<Field>)> {
+        outputs.fields()
     }
 
     fn complete(

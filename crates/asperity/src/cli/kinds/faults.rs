@@ -8,6 +8,7 @@ use crate::kinds;
 use crate::kinds::faults::{Outputs, Report};
 use asperity_cycles::FaultRun;
 use asperity_output::atomic;
+use asperity_output::fields::Field;
 use asperity_output::figures::{EventPanel, PanelEvent, Sheet};
 use asperity_output::tables::Column;
 use asperity_output::terminal::printing::out;
@@ -69,6 +70,10 @@ impl<'a> Run for Faults<'a> {
         kinds::faults::tables(self.plan).into_iter().chain(catalogue::tables(&report.events)).collect()
     }
 
+    fn fields(&self, _: &Self::Outputs) -> Vec<(String, Vec<Field>)> {
+        kinds::faults::arrays(self.plan)
+    }
+
     fn complete(
         &self,
         (path, hash): Where<'_>,
@@ -81,7 +86,7 @@ impl<'a> Run for Faults<'a> {
         catalogue::write(path, &report.events, &report.faults).into_diagnostic()?;
         if let Some(slow) = &report.slow_events {
             let text = catalogue::csv(slow);
-            atomic::write(&path.join("slow_events.csv"), text.as_bytes()).into_diagnostic()?;
+            atomic::write(&path.join(catalogue::SLOW.path), text.as_bytes()).into_diagnostic()?;
         }
         let events = json::pretty(&report.events).into_diagnostic()?;
         atomic::write(&path.join("events.json"), events.as_bytes()).into_diagnostic()?;

@@ -78,7 +78,7 @@ impl How<'_> {
         let taken = clock.elapsed().as_secs_f64();
         let clock = Instant::now();
         let drawn = self.drawn && keeper.outputs().draws();
-        directory.tabulates(run.tables(keeper.outputs(), &report));
+        directory.describes(run.tables(keeper.outputs(), &report), run.fields(keeper.outputs()));
         let outputs = keeper.finish(report.outcome().status() == Status::Completed);
         if let Some(sheet) = run.complete((&out, self.hash), outputs, &ended, &report)? {
             sheet.write(&out).into_diagnostic()?;

@@ -2,6 +2,7 @@
 
 use crate::keep::{Keeper, Outputs, Stand};
 use crate::report::Results;
+use asperity_output::fields::Field;
 use asperity_output::figures::Sheet;
 use asperity_output::tables::Column;
 use std::path::Path;
@@ -32,6 +33,11 @@ pub(super) trait Run {
 
     /// Tables that the run may have written, by their paths below its directory, with their columns. `*` in a path stands for any text.
     fn tables(&self, outputs: &Self::Outputs, report: &Self::Report) -> Vec<(String, Vec<Column>)>;
+
+    /// Fields that the run may have written, by the paths of their files. There are none by default.
+    fn fields(&self, _: &Self::Outputs) -> Vec<(String, Vec<Field>)> {
+        Vec::new()
+    }
 
     /// Writes the files of the end, and returns the figures.
     fn complete(

@@ -1,6 +1,7 @@
 //! Runs of spring-sliders.
 
 use super::run::{Run, Where};
+use crate::catalogue;
 use crate::cli::lines;
 use crate::keep::Keeper;
 use crate::kinds::sliders::{Histories, Outputs, Report, columns, csv};
@@ -51,7 +52,7 @@ impl<'a> Run for Sliders<'a> {
     }
 
     fn tables(&self, _: &Self::Outputs, report: &Report) -> Vec<(String, Vec<Column>)> {
-        let events = ("events.csv".into(), columns(&report.events));
+        let events = (catalogue::FILE.path.into(), columns(&report.events));
         Histories::tables(&self.0.problem).into_iter().chain([events]).collect()
     }
 
@@ -65,7 +66,8 @@ impl<'a> Run for Sliders<'a> {
         let histories = outputs.complete().into_diagnostic()?;
         if self.0.problem.events.is_some() {
             lines::events(&report.events);
-            atomic::write(&out.join("events.csv"), csv(&report.events).as_bytes()).into_diagnostic()?;
+            atomic::write(&out.join(catalogue::FILE.path), csv(&report.events).as_bytes())
+                .into_diagnostic()?;
         }
         Ok(Some(histories.sheet(&self.0.problem, &self.0.thetas, report.end)))
     }

@@ -1,8 +1,13 @@
 //! Rupture times: when the slip rate of each point first reaches a threshold.
 
 use super::moment::size;
+use asperity_output::OutputFile;
 use asperity_output::tables::column::{self, Column, Sign};
 use serde::{Deserialize, Serialize};
+
+/// The table at the end.
+pub(super) const FILE: OutputFile =
+    OutputFile::new("rupture_times.csv", "rupture time and largest slip rate of each point");
 
 /// Rupture times so far.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -2,7 +2,9 @@
 
 use super::moment::Moment;
 use asperity_mechanics::dynamics::FaultState;
-use asperity_output::fields::vtu::{Array, Grid, PvdEntry, Values, face_type, pvd};
+use asperity_output::fields::vtu::{Grid, PvdEntry, face_type, pvd};
+use asperity_output::fields::{COLLECTION, Data, FILES, Field, FieldTimes, Series};
+use asperity_output::tables::Sign;
 use asperity_output::{OutputError, atomic};
 use asperity_plan::dynamics::Plan;
 use asperity_plan::faults::FaultView;
@@ -18,11 +20,14 @@ pub struct Taken {
     pub speeds: Vec<Vec<f64>>,
 }
 
+/// Velocity \[m/s\] and displacement \[m\] of all nodes.
+type Motion = [Vec<[f64; 3]>; 2];
+
 /// Writes `fields/bodies_00000.vtu`, in space also `fields/FAULT_00000.vtu`, and so on.
-pub(super) struct Fields {
-    folder: PathBuf,
-    bodies: Grid,
-    faults: Vec<Grid>,
+pub(super) struct Fields<'a> {
+    out: PathBuf,
+    bodies: Series<'a, Motion>,
+    faults: Vec<Series<'a, FaultState>>,
     pub taken: Taken,
     drawn: bool,
 }
@@ -43,21 +48,54 @@ fn grid<const D: usize>(plan: &Plan<D>, fault: &FaultView) -> Grid {
     Grid::new(&places, &cells)
 }
 
-impl Fields {
+/// Fields of the bodies.
+fn of_bodies<const D: usize>(plan: &Plan<D>) -> Series<'_, Motion> {
+    let grid = || Grid::new(&plan.mesh.nodes, &plan.mesh.cells);
+    Series::new(FILES.named("bodies_*"), FieldTimes::Intervals, grid)
+        .with(Field::vector("velocity", "m/s", Sign::Axis, "velocity"), |[velocity, _]: &Motion| {
+            Data::from(velocity)
+        })
+        .with(Field::vector("displacement", "m", Sign::Axis, "displacement"), |[_, displacement]| {
+            Data::from(displacement)
+        })
+}
+
+/// Slip, slip rate and tractions on a fault in space.
+fn of_fault<'a, const D: usize>(plan: &'a Plan<D>, fault: &'a FaultView) -> Series<'a, FaultState> {
+    let mut series =
+        Series::new(FILES.named(&format!("{}_*", fault.name)), FieldTimes::Intervals, || grid(plan, fault));
+    let vectors: [(_, _, _, fn(&FaultState) -> &[f64]); 3] = [
+        ("slip", "m", "slip", |now| &now.slip),
+        ("slip_rate", "m/s", "slip rate", |now| &now.rate),
+        ("shear_traction", "Pa", "shear traction", |now| &now.shear),
+    ];
+    for (name, unit, meaning, of) in vectors {
+        let field = Field::vector(name, unit, Sign::Vector, meaning);
+        series = series.with(field, move |now| in_space(plan, fault, of(now)).into());
+    }
+    let normal = Field::scalar("normal_traction", "Pa", Sign::Compression, "normal traction");
+    series.with(normal, |now: &FaultState| Data::from(now.normal[fault.points.clone()].to_vec()))
+}
+
+impl<'a> Fields<'a> {
     /// Fields of a run in `out`, after those already taken.
     ///
     /// # Errors
     /// If the folder cannot be created.
     pub fn new<const D: usize>(
         out: &Path,
-        plan: &Plan<D>,
+        plan: &'a Plan<D>,
         taken: Taken,
         drawn: bool,
     ) -> Result<Self, OutputError> {
-        let folder = out.join("fields");
-        atomic::create_dir(&folder)?;
-        let faults = if D == 3 { plan.faults.iter().map(|f| grid(plan, f)).collect() } else { Vec::new() };
-        Ok(Self { folder, bodies: Grid::new(&plan.mesh.nodes, &plan.mesh.cells), faults, taken, drawn })
+        atomic::create_dir(&out.join("fields"))?;
+        let faults = plan.faults.iter().filter(|_| D == 3).map(|fault| of_fault(plan, fault)).collect();
+        Ok(Self { out: out.to_path_buf(), bodies: of_bodies(plan), faults, taken, drawn })
+    }
+
+    /// Fields by the paths of their files.
+    pub fn all(&self) -> Vec<(String, Vec<Field>)> {
+        std::iter::once(self.bodies.fields()).chain(self.faults.iter().map(Series::fields)).collect()
     }
 
     /// Writes the fields if they are due.
@@ -65,20 +103,16 @@ impl Fields {
     /// # Errors
     /// If a file cannot be written.
     pub fn step<const D: usize>(&mut self, plan: &Plan<D>, now: &Moment<'_>) -> Result<(), OutputError> {
-        let Some([velocity, displacement]) = &now.fields else { return Ok(()) };
-        let (number, velocity) = (self.taken.times.len(), vectors(velocity, &plan.axes));
-        let displacement = vectors(displacement, &plan.axes);
-        let arrays = [Array::vector("velocity", &velocity), Array::vector("displacement", &displacement)];
-        let bytes = self.bodies.file(now.time, &arrays, &[]);
-        atomic::write(&self.folder.join(name("bodies", number)), &bytes)?;
-        for (fault, grid) in plan.faults.iter().zip(&self.faults) {
-            let bytes = on_fault(plan, fault, grid, now);
-            atomic::write(&self.folder.join(name(&fault.name, number)), &bytes)?;
+        let Some(fields) = &now.fields else { return Ok(()) };
+        let (number, motion) = (self.taken.times.len(), fields.each_ref().map(|v| vectors(v, &plan.axes)));
+        self.bodies.write(&self.out, number, now.time, &motion)?;
+        for fault in &self.faults {
+            fault.write(&self.out, number, now.time, &now.fault)?;
         }
         self.taken.times.push(now.time);
         if self.drawn {
             let speed = |v: &[f64; 3]| v[0].hypot(v[1]).hypot(v[2]);
-            self.taken.speeds.push(velocity.iter().map(speed).collect());
+            self.taken.speeds.push(motion[0].iter().map(speed).collect());
         }
         Ok(())
     }
@@ -87,32 +121,19 @@ impl Fields {
     ///
     /// # Errors
     /// If the file cannot be written.
-    pub fn collect<const D: usize>(&self, out: &Path, plan: &Plan<D>) -> Result<(), OutputError> {
-        let names: Vec<&str> =
-            if D == 3 { plan.faults.iter().map(|f| f.name.as_str()).collect() } else { Vec::new() };
+    pub fn collect<const D: usize>(&self, plan: &Plan<D>) -> Result<(), OutputError> {
         let mut entries = Vec::new();
         for (number, &time) in self.taken.times.iter().enumerate() {
-            for (part, stem) in std::iter::once("bodies").chain(names.iter().copied()).enumerate() {
-                let file = format!("fields/{}", name(stem, number));
-                entries.push(PvdEntry { time, part, name: stem.to_string(), file });
+            let mut entry = |part, name: &str, file| {
+                entries.push(PvdEntry { time, part, name: name.to_string(), file });
+            };
+            entry(0, "bodies", self.bodies.file(number));
+            for (k, (fault, series)) in plan.faults.iter().zip(&self.faults).enumerate() {
+                entry(k + 1, &fault.name, series.file(number));
             }
         }
-        atomic::write(&out.join("fields.pvd"), &pvd(&entries))
+        atomic::write(&self.out.join(COLLECTION.path), &pvd(&entries))
     }
-}
-
-fn name(stem: &str, number: usize) -> String {
-    format!("{stem}_{number:05}.vtu")
-}
-
-/// Slip, slip rate and tractions on a fault in space.
-fn on_fault<const D: usize>(plan: &Plan<D>, fault: &FaultView, grid: &Grid, now: &Moment<'_>) -> Vec<u8> {
-    let FaultState { slip, rate, shear, normal, .. } = &*now.fault;
-    let vectors = [slip, rate, shear].map(|values| in_space(plan, fault, values));
-    let names = ["slip", "slip_rate", "shear_traction"];
-    let mut arrays: Vec<Array<'_>> = names.iter().zip(&vectors).map(|(n, v)| Array::vector(n, v)).collect();
-    arrays.push(Array::scalar("normal_traction", Values::F64(&normal[fault.points.clone()])));
-    grid.file(now.time, &arrays, &[])
 }
 
 fn in_space<const D: usize>(plan: &Plan<D>, fault: &FaultView, values: &[f64]) -> Vec<[f64; 3]> {

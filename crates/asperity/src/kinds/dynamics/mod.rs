@@ -17,4 +17,4 @@ pub use moment::Moment;
 pub use outputs::{Outputs, Saved};
 pub use report::Report;
 pub use run::{Dynamics, Ended, RunError, Stand, run};
-pub use tables::tables;
+pub use tables::{FILES, tables};

@@ -9,6 +9,7 @@ use crate::checkpoint::{self, ResumeError};
 use crate::keep::{self, Place};
 use asperity_ode::Control;
 use asperity_output::decimals::shortest;
+use asperity_output::fields::Field;
 use asperity_output::figures::Sheet;
 use asperity_output::tables::column;
 use asperity_output::terminal::progress::RunState;
@@ -38,21 +39,27 @@ impl checkpoint::Saved for Saved {
 pub struct Outputs<'a, const D: usize> {
     plan: &'a Plan<D>,
     tables: Tables<'a>,
-    fields: Fields,
+    fields: Fields<'a>,
     drawn: bool,
 }
 
 impl<const D: usize> Outputs<'_, D> {
+    /// Fields of the run, by the paths of their files.
+    #[must_use]
+    pub fn fields(&self) -> Vec<(String, Vec<Field>)> {
+        self.fields.all()
+    }
+
     /// Writes the files of the end of a run into `out`, and returns its figures.
     ///
     /// # Errors
     /// If a file cannot be written.
     pub fn complete(self, out: &Path, ended: &Ended) -> Result<Sheet, OutputError> {
         let plan = self.plan;
-        self.fields.collect(out, plan)?;
+        self.fields.collect(plan)?;
         seismograms::write(out, plan)?;
         if !plan.points.is_empty() {
-            atomic::write(&out.join("rupture_times.csv"), ruptures(plan, ended).as_bytes())?;
+            atomic::write(&out.join(arrivals::FILE.path), ruptures(plan, ended).as_bytes())?;
         }
         Ok(figures::sheet(plan, ended.time, &ended.arrivals, &self.fields.taken))
     }

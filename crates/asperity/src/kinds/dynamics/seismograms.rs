@@ -1,13 +1,17 @@
 //! Seismograms in the formats of seismology, made from their tables at the end of a run.
 
 use asperity_output::formats::seismogram::{AXES, SHORTEST, Trace, channel, mini_seed, read, sac};
-use asperity_output::{OutputError, atomic};
+use asperity_output::{OutputError, OutputFile, atomic};
 use asperity_plan::dynamics::Plan;
 use std::io::Error;
 use std::path::Path;
 
 /// Code of the network: the one for data that belong to none.
 const NETWORK: &str = "XX";
+
+/// Tables of the seismograms.
+pub(super) const FILE: OutputFile =
+    OutputFile::new("seismograms/*.csv", "velocity and displacement at positions");
 
 /// Writes `seismograms/STATION.mseed` and `seismograms/STATION.CHANNEL.sac` from the tables `seismograms/STATION.csv`.
 ///
@@ -16,7 +20,7 @@ const NETWORK: &str = "XX";
 pub(super) fn write<const D: usize>(out: &Path, plan: &Plan<D>) -> Result<(), OutputError> {
     let (folder, interval) = (out.join("seismograms"), plan.interval());
     for receiver in &plan.receivers {
-        let columns = read(&folder.join(format!("{}.csv", receiver.name)), plan.axes.len())?;
+        let columns = read(&out.join(FILE.named(&receiver.name)), plan.axes.len())?;
         let trace = |(samples, &axis): (Vec<f64>, &usize)| Trace {
             network: NETWORK.into(),
             station: receiver.name.clone(),

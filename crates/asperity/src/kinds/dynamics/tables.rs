@@ -2,14 +2,14 @@
 
 use super::moment::{Moment, size};
 use super::rows::{Course, Table};
-use super::{arrivals, stations};
+use super::{arrivals, seismograms, stations};
 use crate::kinds::faults::moments;
 use crate::kinds::faults::profile::{Profile, RATE, SLIP};
 use asperity_mechanics::dynamics::Budget;
-use asperity_output::OutputError;
 use asperity_output::decimals::{scientific, shortest};
 use asperity_output::formats::seismogram;
 use asperity_output::tables::{Column, GrowingTable, energy};
+use asperity_output::{OutputError, OutputFile};
 use asperity_plan::dynamics::Plan;
 use asperity_plan::faults::PointView;
 use asperity_plan::faults::cadence::log_rate;
@@ -18,6 +18,10 @@ use std::path::Path;
 
 /// Decimals of numbers in tables other than seismograms.
 const DECIMALS: usize = 9;
+
+/// Tables of runs of bodies with mass.
+pub const FILES: [OutputFile; 6] =
+    [energy::FILE, moments::FILE, RATE.0, SLIP.0, arrivals::FILE, seismograms::FILE];
 
 /// All tables of a plan.
 fn all<const D: usize>(plan: &Plan<D>) -> Vec<Table<'_>> {
@@ -34,7 +38,7 @@ fn all<const D: usize>(plan: &Plan<D>) -> Vec<Table<'_>> {
             let [velocity, displacement] = &now.received[k];
             seismogram::row(now.time, velocity, displacement)
         };
-        Table::new(format!("seismograms/{}.csv", receiver.name), columns.clone(), Course::Rows, row)
+        Table::new(seismograms::FILE.named(&receiver.name), columns.clone(), Course::Rows, row)
     }));
     all
 }
@@ -43,7 +47,7 @@ fn all<const D: usize>(plan: &Plan<D>) -> Vec<Table<'_>> {
 #[must_use]
 pub fn tables<const D: usize>(plan: &Plan<D>) -> Vec<(String, Vec<Column>)> {
     let growing = all(plan).into_iter().map(|table| (table.path, table.columns));
-    growing.chain([("rupture_times.csv".into(), arrivals::columns())]).collect()
+    growing.chain([(arrivals::FILE.path.into(), arrivals::columns())]).collect()
 }
 
 /// Energy budget. There is one stage.
@@ -53,7 +57,7 @@ fn energies<const D: usize>(plan: &Plan<D>) -> Table<'_> {
         let row = |budget: &Budget| energy::row(now.time, 0, now.step, &budget.energies());
         now.budget.as_ref().map_or(String::new(), row)
     };
-    Table::new("energy.csv", columns, Course::Rows, row)
+    Table::new(energy::FILE.path, columns, Course::Rows, row)
 }
 
 /// Moment rates and moments of faults.
@@ -62,7 +66,7 @@ fn moment_rates<const D: usize>(plan: &Plan<D>) -> Table<'_> {
         let (rates, sums) = (moments_of(plan, &now.fault.rate), moments_of(plan, &now.fault.slip));
         line(now.time, rates.into_iter().zip(sums).flat_map(|(rate, sum)| [rate, sum]))
     };
-    Table::new(moments::FILE, moments::columns(&plan.faults, plan.per_length), Course::Rows, row)
+    Table::new(moments::FILE.path, moments::columns(&plan.faults, plan.per_length), Course::Rows, row)
 }
 
 /// Profile of values `of` all points: with a sign in the plane, and of magnitudes of vectors.
@@ -82,7 +86,7 @@ fn profiles<'a, const D: usize>(
         }
         line(now.time, (0..points).map(|p| of(size(values, points, p))))
     };
-    Table::new(profile.0, columns, Course::Profiles, row)
+    Table::new(profile.0.path, columns, Course::Profiles, row)
 }
 
 /// The tables of a run, with their files.

@@ -6,10 +6,22 @@ use asperity_cycles::FaultRun;
 use asperity_output::decimals::{scientific, shortest};
 use asperity_output::formats::grd::Grid;
 use asperity_output::tables::column::{self, Column, Sign};
-use asperity_output::{OutputError, atomic};
+use asperity_output::{OutputError, OutputFile, atomic};
 use asperity_plan::faults::{Change, Coulomb, CoulombMap, Plan};
 use asperity_plan::shared::place::Frame;
 use std::path::Path;
+
+/// Changes of Coulomb stress on a map.
+pub(super) const MAP: OutputFile =
+    OutputFile::new("events/coulomb_*.csv", "map of the stress that each event causes");
+/// Changes at single positions.
+pub(super) const POINTS: OutputFile =
+    OutputFile::new("events/coulomb_points_*.csv", "stress at positions that each event causes");
+/// Changes on faults.
+pub(super) const FAULTS: OutputFile = OutputFile::new(
+    "events/coulomb_faults_*.csv",
+    "changes of Coulomb stress on faults that each event causes",
+);
 
 /// Columns of a position, with the name that heads them if there is one, and of what is there.
 fn columns(frame: Option<&Frame>, name: Option<Column>, with_stress: bool) -> Vec<Column> {
@@ -62,15 +74,14 @@ pub(super) fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), Outpu
     let Some(coulomb) = &plan.coulomb else { return Ok(()) };
     let events = &run.events()[..run.events().len().min(plan.event_files)];
     let slips: Vec<&[f64]> = events.iter().map(|event| event.details.slip.all()).collect();
-    let folder = out.join(FOLDER);
     if let Some(map) = &coulomb.map {
-        write_map(&folder, plan, (coulomb, map), &slips)?;
+        write_map(&out.join(FOLDER), plan, (coulomb, map), &slips)?;
     }
     if !coulomb.points.is_empty() {
-        write_points(&folder, plan, coulomb, &slips)?;
+        write_points(out, plan, coulomb, &slips)?;
     }
     if coulomb.on_faults {
-        write_faults(&folder, plan, coulomb, &slips)?;
+        write_faults(out, plan, coulomb, &slips)?;
     }
     Ok(())
 }
@@ -101,7 +112,7 @@ fn write_map(
     Ok(())
 }
 
-fn write_points(folder: &Path, plan: &Plan, coulomb: &Coulomb, slips: &[&[f64]]) -> Result<(), OutputError> {
+fn write_points(out: &Path, plan: &Plan, coulomb: &Coulomb, slips: &[&[f64]]) -> Result<(), OutputError> {
     let frame = plan.frame.as_ref();
     let positions: Vec<[f64; 3]> = coulomb.points.iter().map(|p| p.1).collect();
     let found = coulomb.at(&positions, slips);
@@ -112,12 +123,12 @@ fn write_points(folder: &Path, plan: &Plan, coulomb: &Coulomb, slips: &[&[f64]])
             let row = format!("{}{}{}", place(frame, at), numbers(stress), changed(change));
             text.push_str(&format!("{name},{row}\n"));
         }
-        atomic::write(&folder.join(format!("coulomb_points_{number:03}.csv")), text.as_bytes())?;
+        atomic::write(&out.join(POINTS.named(&format!("{number:03}"))), text.as_bytes())?;
     }
     Ok(())
 }
 
-fn write_faults(folder: &Path, plan: &Plan, coulomb: &Coulomb, slips: &[&[f64]]) -> Result<(), OutputError> {
+fn write_faults(out: &Path, plan: &Plan, coulomb: &Coulomb, slips: &[&[f64]]) -> Result<(), OutputError> {
     if slips.is_empty() {
         return Ok(());
     }
@@ -134,7 +145,7 @@ fn write_faults(folder: &Path, plan: &Plan, coulomb: &Coulomb, slips: &[&[f64]])
                 text.push_str(&format!("{},{row}\n", fault.name));
             }
         }
-        atomic::write(&folder.join(format!("coulomb_faults_{number:03}.csv")), text.as_bytes())?;
+        atomic::write(&out.join(FAULTS.named(&format!("{number:03}"))), text.as_bytes())?;
     }
     Ok(())
 }

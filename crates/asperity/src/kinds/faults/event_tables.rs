@@ -1,14 +1,17 @@
 //! Tables of the points of events: rupture times, largest slip rates, slip and stress drop.
 
-use super::fields::{Field, along};
-use super::source_time::FOLDER;
+use super::fields::{reached, scalars, turned};
 use asperity_cycles::{FaultRun, Rupture};
 use asperity_output::decimals::{scientific, shortest};
 use asperity_output::tables::column::{self, Column, Sign};
-use asperity_output::{OutputError, atomic};
+use asperity_output::{OutputError, OutputFile, atomic};
 use asperity_plan::faults::{FaultView, Plan};
 use asperity_run::Event;
 use std::path::Path;
+
+/// The tables of events.
+pub(super) const FILE: OutputFile =
+    OutputFile::new("events/rupture_times_*.csv", "rupture times, slip and stress drop of each event");
 
 /// Columns of the tables, with the angle of slip where it may turn.
 pub(super) fn columns(turns: bool) -> Vec<Column> {
@@ -36,23 +39,11 @@ pub(super) fn columns(turns: bool) -> Vec<Column> {
 /// # Errors
 /// If a file cannot be written.
 pub(super) fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), OutputError> {
-    let folder = out.join(FOLDER);
     for (number, event) in run.events().iter().enumerate().take(plan.event_files) {
-        let path = folder.join(format!("rupture_times_{number:03}.csv"));
+        let path = out.join(FILE.named(&format!("{number:03}")));
         atomic::write(&path, table(plan, event).as_bytes())?;
     }
     Ok(())
-}
-
-/// Time since the onset at which a point ruptured \[s\]; NaN where it did not.
-pub(super) fn reached(event: &Event<Rupture>, point: usize) -> f64 {
-    event.details.front.reached.get(point).copied().flatten().unwrap_or(f64::NAN)
-}
-
-/// Angle from the rake to the slip of a point, if slip may turn \[degrees\].
-pub(super) fn turned(event: &Event<Rupture>, point: usize) -> Option<f64> {
-    let slip = &event.details.slip;
-    (slip.components() > 1).then(|| slip.component(1)[point].atan2(slip.component(0)[point]).to_degrees())
 }
 
 fn table(plan: &Plan, event: &Event<Rupture>) -> String {
@@ -66,12 +57,8 @@ fn table(plan: &Plan, event: &Event<Rupture>) -> String {
 
 /// Rows of the points of a fault.
 fn rows(plan: &Plan, fault: &FaultView, event: &Event<Rupture>, text: &mut String) {
-    let scalars = |[first, _]: [Field; 2]| match first {
-        Field::Scalar(_, values) => values,
-        Field::Vector(..) => Vec::new(),
-    };
-    let slips = scalars(along(plan, fault, "slip", &event.details.slip));
-    let drops = scalars(along(plan, fault, "stress_drop", &event.details.drop));
+    let slips = scalars(fault, &event.details.slip);
+    let drops = scalars(fault, &event.details.drop);
     for ((point, slip), drop) in fault.points.clone().zip(slips).zip(drops) {
         let [x, y, z] = plan.points[point].at.map(shortest);
         let peak = event.details.front.peaks.get(point).copied().unwrap_or(f64::NAN);

@@ -1,123 +1,193 @@
-//! Fields on faults in 3D as VTU files: states during a run and at its end, and slip and traction drop of each event.
+//! Fields on faults in space: states during a run and at its end, and slip and traction drop of each event.
 
 use super::states::has_theta;
 use super::{locking, pore};
 use asperity_cycles::heat::TEMPERATURE;
-use asperity_cycles::{Components, Layout, OPENING, Pressed};
-use asperity_output::fields::vtu::{Array, Grid, Values, face_type};
-use asperity_output::{OutputError, atomic};
+use asperity_cycles::{Components, Layout, OPENING, Pressed, Rupture};
+use asperity_output::fields::vtu::{Grid, face_type};
+use asperity_output::fields::{Data, FILES, Field, FieldTimes, Series};
+use asperity_output::tables::Sign;
 use asperity_plan::faults::cadence::log_rate;
 use asperity_plan::faults::{FaultView, Outline, Plan};
-use rayon::prelude::*;
-use std::path::Path;
+use asperity_run::Event;
 
-/// Points and cells of a fault in a file.
-#[derive(Debug)]
-pub(super) struct Surface {
-    grid: Grid,
-    /// True if each cell has a value, and not each point.
-    by_cell: bool,
+/// State of all faults at a moment.
+pub(super) struct Present {
+    pub unknowns: Vec<f64>,
+    /// Slip rates \[m/s\].
+    pub rate: Vec<f64>,
+    pub pressed: Pressed,
 }
 
-impl Surface {
-    /// Surface of a fault: its triangles, or else faces between its points.
-    pub fn of(plan: &Plan, fault: &FaultView) -> Self {
-        let points = &plan.points[fault.points.clone()];
-        if let Some(Outline { nodes, corners }) = &fault.outline {
-            let cells: Vec<(u8, Vec<usize>)> = corners.iter().map(|c| (face_type(3), c.to_vec())).collect();
-            return Self { grid: Grid::new(nodes, &cells), by_cell: true };
-        }
-        let places: Vec<[f64; 3]> = points.iter().map(|p| p.at).collect();
-        let cells: Vec<(u8, Vec<usize>)> =
-            fault.faces.iter().map(|f| (face_type(f.len()), f.clone())).collect();
-        Self { grid: Grid::new(&places, &cells), by_cell: false }
+/// Surface of a fault: its triangles, or else faces between its points.
+fn surface(plan: &Plan, fault: &FaultView) -> Grid {
+    let points = &plan.points[fault.points.clone()];
+    if let Some(Outline { nodes, corners }) = &fault.outline {
+        let cells: Vec<(u8, Vec<usize>)> = corners.iter().map(|c| (face_type(3), c.to_vec())).collect();
+        return Grid::new(nodes, &cells);
+    }
+    let places: Vec<[f64; 3]> = points.iter().map(|p| p.at).collect();
+    let cells: Vec<(u8, Vec<usize>)> = fault.faces.iter().map(|f| (face_type(f.len()), f.clone())).collect();
+    Grid::new(&places, &cells)
+}
+
+/// Series of fields on a fault, read from states `S`.
+struct OnFault<'a, S> {
+    plan: &'a Plan,
+    fault: &'a FaultView,
+    series: Series<'a, S>,
+}
+
+impl<'a, S> OnFault<'a, S> {
+    fn new((plan, fault): (&'a Plan, &'a FaultView), path: String, times: FieldTimes) -> Self {
+        Self { plan, fault, series: Series::new(path, times, move || surface(plan, fault)) }
     }
 
-    /// Writes fields. Returns the size of the file \[bytes\].
-    ///
-    /// # Errors
-    /// If the file cannot be written.
-    pub fn put(&self, path: &Path, time: f64, fields: &[Field]) -> Result<u64, OutputError> {
-        let arrays: Vec<Array<'_>> = fields.par_iter().map(Field::array).collect();
-        let (points, cells) = if self.by_cell { (&[][..], &arrays[..]) } else { (&arrays[..], &[][..]) };
-        let bytes = self.grid.file(time, points, cells);
-        atomic::write(path, &bytes)?;
-        Ok(bytes.len() as u64)
+    /// The field where the fault has values.
+    fn placed(&self, field: Field) -> Field {
+        // A fault of triangles has a value for each of them.
+        if self.fault.outline.is_some() { field.in_cells() } else { field }
+    }
+
+    /// Adds the number at each point.
+    fn with(mut self, field: Field, value: impl Fn(&S, usize) -> f64 + Send + Sync + 'a) -> Self {
+        let (field, points) = (self.placed(field), self.fault.points.clone());
+        self.series = self
+            .series
+            .with(field, move |now| points.clone().map(|p| value(now, p)).collect::<Vec<f64>>().into());
+        self
+    }
+
+    /// Adds the vector in space at each point of values by components.
+    fn with_vectors(mut self, field: Field, values: impl Fn(&S) -> Vec<f64> + Send + Sync + 'a) -> Self {
+        let (field, plan, points) = (self.placed(field), self.plan, self.fault.points.clone());
+        self.series = self.series.with(field, move |now| {
+            let values = Components::new(values(now), plan.points.len());
+            points.clone().map(|p| plan.vector(&values, p)).collect::<Vec<_>>().into()
+        });
+        self
+    }
+
+    /// Adds values along `rake`, or magnitudes for vector slip; and the vectors in space as `NAME_vector`.
+    fn along(mut self, field: Field, values: impl Fn(&S) -> Vec<f64> + Clone + Send + Sync + 'a) -> Self {
+        let vector = Field::vector(format!("{}_vector", field.name), field.unit, Sign::Vector, field.meaning);
+        let (field, plan, fault, own) = (self.placed(field), self.plan, self.fault, values.clone());
+        self.series = self
+            .series
+            .with(field, move |now| scalars(fault, &Components::new(own(now), plan.points.len())).into());
+        self.with_vectors(vector, values)
     }
 }
 
-/// A field on a fault.
-pub(super) enum Field {
-    Scalar(String, Vec<f64>),
-    Vector(String, Vec<[f64; 3]>),
-}
-
-impl Field {
-    fn array(&self) -> Array<'_> {
-        match self {
-            Self::Scalar(name, values) => Array::scalar(name, Values::F64(values)),
-            Self::Vector(name, values) => Array::vector(name, values),
-        }
+/// Values along `rake` at the points of a fault, or magnitudes for vector slip.
+pub(super) fn scalars(fault: &FaultView, values: &Components<impl AsRef<[f64]>>) -> Vec<f64> {
+    if values.components() == 1 {
+        return values.all()[fault.points.clone()].to_vec();
     }
+    fault.points.clone().map(|p| values.size(p)).collect()
 }
 
-/// Values along `rake`, or magnitudes for vector slip; and the vectors in space as `NAME_vector`.
-pub(super) fn along(
-    plan: &Plan,
-    fault: &FaultView,
-    name: &'static str,
-    values: &Components<impl AsRef<[f64]>>,
-) -> [Field; 2] {
-    let points = || fault.points.clone();
-    let scalars = if values.components() == 1 {
-        values.all()[points()].to_vec()
-    } else {
-        points().map(|p| values.size(p)).collect()
-    };
-    let vectors = points().map(|p| plan.vector(values, p)).collect();
-    [Field::Scalar(name.into(), scalars), Field::Vector(format!("{name}_vector"), vectors)]
-}
-
-/// Slip \[m\], log10 of the slip rate \[m/s\], friction and normal traction \[Pa\], temperature and
-/// pore pressure where friction heats the fault, coupling where plates load it, and the state variables of the law, with log10 of
-/// θ \[s\] where it has one. `now` holds slip rates and normal tractions.
-pub(super) fn state(plan: &Plan, fault: &FaultView, y: &[f64], now: (&[f64], &Pressed)) -> Vec<Field> {
-    let layout = Layout::of(&plan.problem.fault);
+/// Shear tractions \[Pa\], by components.
+fn shear(plan: &Plan, now: &Present) -> Vec<f64> {
     let (law, n) = (&plan.problem.fault.law, plan.points.len());
-    let (rate, pressed) = now;
-    let normal = |p: usize| pressed.normal[p];
-    let shear: Vec<f64> = layout.m().map(|i| normal(i % n) * law.scale(i % n) * y[i]).collect();
-    let (rate, shear) = (Components::new(rate, n), Components::new(shear, n));
-    let speeds = fault.points.clone().map(|p| log_rate(rate.size(p))).collect();
-    let vectors = fault.points.clone().map(|p| plan.vector(&rate, p)).collect();
-    let mut fields = Vec::from(along(plan, fault, "slip", &layout.slip_of(y)));
-    fields.push(Field::Scalar("log10_slip_rate".into(), speeds));
-    fields.push(Field::Vector("slip_rate_vector".into(), vectors));
-    fields.extend(along(plan, fault, "shear_traction", &shear));
-    fields.push(Field::Scalar("normal_traction".into(), fault.points.clone().map(normal).collect()));
-    let of = |quantity| pressed.of(quantity)[fault.points.clone()].to_vec();
+    let traction = |i: usize| now.pressed.normal[i % n] * law.scale(i % n) * now.unknowns[i];
+    Layout::of(&plan.problem.fault).m().map(traction).collect()
+}
+
+/// States during the run: the temperature and the pore pressure where friction heats the fault, coupling where plates load it,
+/// and the state variables of the law, with log10 of θ where it has one.
+pub(super) fn states<'a>(plan: &'a Plan, fault: &'a FaultView) -> Series<'a, Present> {
+    state((plan, fault), FILES.named(&format!("{}_*", fault.name)), FieldTimes::Intervals)
+}
+
+/// The state at the end of the run.
+pub(super) fn last<'a>(plan: &'a Plan, fault: &'a FaultView) -> Series<'a, Present> {
+    state((plan, fault), FILES.named(&format!("{}_end", fault.name)), FieldTimes::End)
+}
+
+fn state<'a>(on: (&'a Plan, &'a FaultView), path: String, times: FieldTimes) -> Series<'a, Present> {
+    let (plan, fault) = on;
+    let (layout, n) = (Layout::of(&plan.problem.fault), plan.points.len());
+    let rate = Field::scalar("log10_slip_rate", "m/s", Sign::Log, "slip rate");
+    let rates = Field::vector("slip_rate_vector", "m/s", Sign::Vector, "slip rate");
+    let mut all = OnFault::new(on, path, times)
+        .along(Field::scalar("slip", "m", Sign::Slip, "slip"), move |now: &Present| {
+            layout.slip_of(&now.unknowns).all().to_vec()
+        })
+        .with(rate, move |now, p| log_rate(Components::new(&now.rate, n).size(p)))
+        .with_vectors(rates, |now| now.rate.clone())
+        .along(Field::scalar("shear_traction", "Pa", Sign::Slip, "shear traction"), |now| shear(plan, now))
+        .with(Field::scalar("normal_traction", "Pa", Sign::Compression, "normal traction"), |now, p| {
+            now.pressed.normal[p]
+        });
     if fault.normal.opens {
-        fields.push(Field::Scalar("opening".into(), of(&OPENING)));
+        all = all.with(opening(), |now, p| now.pressed.of(&OPENING)[p]);
     }
     if fault.heat.is_some() {
-        fields.push(Field::Scalar("temperature".into(), of(&TEMPERATURE)));
+        let field = Field::scalar("temperature", "K", Sign::None, "temperature");
+        all = all.with(field, |now, p| now.pressed.of(&TEMPERATURE)[p]);
     }
     if pore::changes(plan, fault.points.start) {
-        let values = fault.points.clone().map(|p| pore::at(pressed, p)).collect();
-        fields.push(Field::Scalar("pore_pressure".into(), values));
+        let field = Field::scalar("pore_pressure", "Pa", Sign::None, "pore pressure, in excess of the start");
+        all = all.with(field, |now, p| pore::at(&now.pressed, p));
     }
     if locking::loaded(plan, fault) {
-        let values = fault.points.clone().map(|p| locking::coupling(plan, &rate, p)).collect();
-        fields.push(Field::Scalar("coupling".into(), values));
+        let field = Field::scalar("coupling", "-", Sign::None, "coupling to the plates that load the fault");
+        all = all.with(field, move |now, p| locking::coupling(plan, &Components::new(&now.rate, n), p));
     }
-    let states = layout.states_of(y);
     if has_theta(plan, fault) {
-        let log = |p: usize| plan.points[p].theta.map_or(f64::NAN, |theta| theta.log10(states.at(p)[0]));
-        fields.push(Field::Scalar("log10_theta".into(), fault.points.clone().map(log).collect()));
+        let field = Field::scalar("log10_theta", "s", Sign::Log, "state θ of the law");
+        all = all.with(field, move |now, p| {
+            plan.points[p]
+                .theta
+                .map_or(f64::NAN, |theta| theta.log10(layout.states_of(&now.unknowns).at(p)[0]))
+        });
     }
-    for k in 0..law.states() {
-        let values = fault.points.clone().map(|p| states.at(p)[k]).collect();
-        fields.push(Field::Scalar(format!("state_{}", k + 1), values));
+    for k in 0..plan.problem.fault.law.states() {
+        let field = Field::scalar(format!("state_{}", k + 1), "", Sign::None, "state variable of the law");
+        all = all.with(field, move |now, p| layout.states_of(&now.unknowns).at(p)[k]);
     }
-    fields
+    all.series
+}
+
+fn opening() -> Field {
+    Field::scalar("opening", "m", Sign::Apart, "opening")
+}
+
+/// Fields that events leave: slip and drop, rupture times, largest slip rates and, if slip may turn, its angles from the rake.
+pub(super) fn events<'a>(plan: &'a Plan, fault: &'a FaultView) -> Series<'a, Event<Rupture>> {
+    let (path, points) = (FILES.named(&format!("{}_event_*", fault.name)), fault.points.clone());
+    let drop = Field::scalar("stress_drop", "Pa", Sign::Slip, "fall of the shear traction in the event");
+    let time =
+        Field::scalar("rupture_time", "s", Sign::None, "time since the onset at which the point ruptured");
+    let mut all = OnFault::new((plan, fault), path, FieldTimes::Events)
+        .along(Field::scalar("slip", "m", Sign::Slip, "slip"), |event: &Event<Rupture>| {
+            event.details.slip.all().to_vec()
+        })
+        .along(drop, |event| event.details.drop.all().to_vec())
+        .with(time, reached);
+    let peak = Field::scalar("largest_slip_rate", "m/s", Sign::Size, "largest slip rate in the event");
+    let peak = all.placed(peak);
+    all.series = all.series.with_some(peak, move |event| {
+        Some(Data::from(event.details.front.peaks.get(points.clone())?.to_vec()))
+    });
+    if plan.problem.fault.law.components() > 1 {
+        let field = Field::scalar("turned", "deg", Sign::None, "angle from the rake to the slip");
+        all = all.with(field, |event, p| turned(event, p).unwrap_or(f64::NAN));
+    }
+    if fault.normal.opens {
+        all = all.with(opening(), |event, p| event.details.change(&OPENING)[p]);
+    }
+    all.series
+}
+
+/// Time since the onset at which a point ruptured \[s\]; NaN where it did not.
+pub(super) fn reached(event: &Event<Rupture>, point: usize) -> f64 {
+    event.details.front.reached.get(point).copied().flatten().unwrap_or(f64::NAN)
+}
+
+/// Angle from the rake to the slip of a point, if slip may turn \[degrees\].
+pub(super) fn turned(event: &Event<Rupture>, point: usize) -> Option<f64> {
+    let slip = &event.details.slip;
+    (slip.components() > 1).then(|| slip.component(1)[point].atan2(slip.component(0)[point]).to_degrees())
 }

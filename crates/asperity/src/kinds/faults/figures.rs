@@ -1,7 +1,7 @@
 //! Figures of a run: what they need beside its tables.
 
 use super::compass::{Compass, View};
-use super::event_tables::reached;
+use super::fields::reached;
 use super::instants::instants;
 use super::shape::{at_corners, corners, shape};
 use super::surface_figures::{self, of_event};

@@ -8,18 +8,41 @@ use super::rows::{Ends, Rows, Table};
 use super::snapshots::Snapshots;
 use super::source_time::SourceTimes;
 use super::{
-    coulomb_tables, event_tables, forces, largest, locking, moments, profiles, receiver_rows,
-    receiver_tables, sampled_rows, snapshots, source_time, stations, surface_profiles,
+    collections, coulomb_tables, displacements, event_tables, fields, forces, largest, locking, moments,
+    profiles, receiver_rows, receiver_tables, sampled_rows, snapshots, source_time, stations, stress_files,
+    surface_profiles, surface_tables,
 };
 use crate::checkpoint::{self, ResumeError};
 use asperity_cycles::{Faults, Moment};
 use asperity_ode::{Clock, Control};
+use asperity_output::fields::Field;
 use asperity_output::tables::Column;
-use asperity_output::{OutputError, atomic};
+use asperity_output::{OutputError, OutputFile, atomic};
 use asperity_plan::faults::Plan;
 use asperity_plan::faults::cadence::{Gauge, warning};
 use asperity_run::{ObserveError, Observer, Warning};
 use std::path::Path;
+
+/// Tables and fields of runs of faults; those that other kinds have too are in their lists.
+pub const FILES: [OutputFile; 17] = [
+    collections::EVENTS,
+    displacements::COLLECTION,
+    largest::FILE,
+    moments::FILE,
+    forces::FILE,
+    locking::FILE,
+    surface_profiles::FILE,
+    receiver_rows::FILE,
+    snapshots::LIST,
+    source_time::FILE,
+    event_tables::FILE,
+    receiver_tables::FILE,
+    surface_tables::FILE,
+    coulomb_tables::MAP,
+    coulomb_tables::POINTS,
+    coulomb_tables::FAULTS,
+    stress_files::FILE,
+];
 
 /// All tables of a plan that grow during the run.
 fn all(plan: &Plan) -> Vec<Table<'_>> {
@@ -39,18 +62,37 @@ pub fn tables(plan: &Plan) -> Vec<(String, Vec<Column>)> {
     let frame = plan.frame.as_ref();
     let of_events = [
         (snapshots::LIST, snapshots::columns()),
-        ("events/moment_rate_*.csv", source_time::columns(plan)),
-        ("events/rupture_times_*.csv", event_tables::columns(plan.problem.fault.law.components() > 1)),
-        ("events/displacements_*.csv", receiver_tables::named(frame)),
-        ("events/surface_*.csv", receiver_tables::columns(frame)),
-        ("events/coulomb_points_*.csv", coulomb_tables::of_points(frame)),
-        ("events/coulomb_faults_*.csv", coulomb_tables::of_faults(frame)),
+        (source_time::FILE, source_time::columns(plan)),
+        (event_tables::FILE, event_tables::columns(plan.problem.fault.law.components() > 1)),
+        (receiver_tables::FILE, receiver_tables::named(frame)),
+        (surface_tables::FILE, receiver_tables::columns(frame)),
+        (coulomb_tables::POINTS, coulomb_tables::of_points(frame)),
+        (coulomb_tables::FAULTS, coulomb_tables::of_faults(frame)),
     ];
     // Its names are those of the other tables of Coulomb stress, but for what follows.
     let map = plan.coulomb.as_ref().and_then(|coulomb| coulomb.map.as_ref());
-    let map = map.map(|_| ("events/coulomb_*.csv", coulomb_tables::of_map(frame)));
+    let map = map.map(|_| (coulomb_tables::MAP, coulomb_tables::of_map(frame)));
     let growing = all(plan).into_iter().map(|table| (table.path, table.columns));
-    growing.chain(of_events.into_iter().chain(map).map(|(path, columns)| (path.into(), columns))).collect()
+    growing
+        .chain(of_events.into_iter().chain(map).map(|(file, columns)| (file.path.into(), columns)))
+        .collect()
+}
+
+/// Arrays of the fields of a run, by the paths of their files: of faults in space, of bodies, and of single events.
+#[must_use]
+pub fn arrays(plan: &Plan) -> Vec<(String, Vec<Field>)> {
+    let mut all = Vec::new();
+    if plan.in_space {
+        let of_fault = |fault| {
+            let (during, last) = (fields::states(plan, fault), fields::last(plan, fault));
+            [during.fields(), last.fields(), fields::events(plan, fault).fields()]
+        };
+        all.extend(plan.faults.iter().flat_map(of_fault));
+    }
+    let bodies = plan.bodies.as_ref();
+    all.extend(bodies.iter().flat_map(|view| displacements::series(view).map(|series| series.fields())));
+    all.extend(bodies.map(|view| stress_files::series(view).fields()));
+    all
 }
 
 /// See the module.
@@ -60,7 +102,7 @@ pub struct Files<'a> {
     /// End of the last step, and the number of steps taken.
     before: Option<Clock>,
     step: u64,
-    snapshots: Option<Snapshots>,
+    snapshots: Option<Snapshots<'a>>,
     events: SourceTimes,
 }
 

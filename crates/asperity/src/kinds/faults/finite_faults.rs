@@ -1,6 +1,6 @@
 //! Finite-fault models of events in FSP format, and the slip of plane faults as grids.
 
-use super::event_tables::reached;
+use super::fields::reached;
 use super::source_time::FOLDER;
 use crate::catalogue::{Entry, slipped};
 use asperity_cycles::{FaultRun, Rupture};

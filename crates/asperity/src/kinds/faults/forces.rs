@@ -2,9 +2,14 @@
 
 use super::rows::{Course, Table, line};
 use asperity_cycles::Moment;
+use asperity_output::OutputFile;
 use asperity_output::decimals::scientific;
 use asperity_output::tables::column::{self, Column, Sign};
 use asperity_plan::faults::{FaultView, Plan};
+
+/// The file of the table.
+pub(super) const FILE: OutputFile =
+    OutputFile::new("fault_forces.csv", "shear and normal force of each fault over time");
 
 /// Unit of forces: in the plane they are per metre of thickness.
 fn unit(plan: &Plan) -> &'static str {
@@ -31,7 +36,7 @@ pub(super) fn table(plan: &Plan) -> Table<'_> {
         let values = plan.faults.iter().flat_map(|fault| of(plan, fault, now));
         line(now.at.seconds(), values.map(|value| scientific(value, 9)))
     };
-    Table::new("fault_forces.csv", columns, Course::Largest, row)
+    Table::new(FILE.path, columns, Course::Largest, row)
 }
 
 /// Shear force along positive slip, with that of radiation damping, and effective normal force of a fault at a moment \[N; N/m\]. With vector slip the

@@ -2,10 +2,15 @@
 
 use super::rows::{Course, Table, line};
 use asperity_cycles::Moment;
+use asperity_output::OutputFile;
 use asperity_output::decimals::{fixed, scientific};
 use asperity_output::tables::column::{self, Column, Sign};
 use asperity_plan::faults::Plan;
 use asperity_plan::faults::cadence::log_rate;
+
+/// The file of the table.
+pub(super) const FILE: OutputFile =
+    OutputFile::new("largest_rate.csv", "largest slip rate over time; its logarithm is -20 at rest");
 
 /// Columns of the table. Means are weighted by area; for vector slip they are of the components along the rake.
 fn columns() -> Vec<Column> {
@@ -20,7 +25,7 @@ fn columns() -> Vec<Column> {
 
 /// The table.
 pub(super) fn table(plan: &Plan) -> Table<'_> {
-    Table::new("largest_rate.csv", columns(), Course::Largest, |now| row(plan, now))
+    Table::new(FILE.path, columns(), Course::Largest, |now| row(plan, now))
 }
 
 fn row(plan: &Plan, now: &Moment<'_>) -> String {

@@ -7,13 +7,27 @@
 use super::profile::Profile;
 use super::rows::{Course, Table, line};
 use asperity_cycles::{Components, Moment};
+use asperity_output::OutputFile;
 use asperity_output::decimals::scientific;
 use asperity_output::tables::column::{self, Column, Sign};
 use asperity_plan::faults::{FaultView, Plan};
 
 /// Profile of the coupling.
-pub(super) const PROFILES: Profile =
-    Profile("coupling_profiles.csv", "-", Sign::None, "coupling to the plates that load the fault");
+pub(super) const PROFILES: Profile = Profile(
+    OutputFile::new(
+        "coupling_profiles.csv",
+        "coupling along a fault to the plates that load it, at intervals between events",
+    ),
+    "-",
+    Sign::None,
+    "coupling to the plates that load the fault",
+);
+
+/// The table of means.
+pub(super) const FILE: OutputFile = OutputFile::new(
+    "locking.csv",
+    "mean coupling of faults to the plates that load them, and moment deficit rate, over time",
+);
 
 /// True if plates load any fault.
 pub(super) fn any(plan: &Plan) -> bool {
@@ -55,7 +69,7 @@ pub(super) fn table(plan: &Plan) -> Option<Table<'_>> {
         let values = faults(plan).flat_map(|fault| deficit(plan, fault, now));
         line(now.at.seconds(), values.map(|value| scientific(value, 9)))
     };
-    any(plan).then(|| Table::new("locking.csv", columns, Course::Largest, row))
+    any(plan).then(|| Table::new(FILE.path, columns, Course::Largest, row))
 }
 
 /// Mean coupling of a fault \[-\], and the rate of its moment deficit \[N m/s; N/s in the plane\].

@@ -2,16 +2,17 @@
 
 use super::rows::{Course, Table, line};
 use asperity_cycles::{Components, Moment};
+use asperity_output::OutputFile;
 use asperity_output::decimals::scientific;
 use asperity_output::tables::column::{self, Column, Sign};
 use asperity_plan::faults::{FaultView, Plan};
 
 /// Name of the table.
-pub(crate) const FILE: &str = "moment_rate.csv";
+pub(crate) const FILE: OutputFile = OutputFile::new("moment_rate.csv", "moment rate over time");
 
 /// The table.
 pub(super) fn table(plan: &Plan) -> Table<'_> {
-    Table::new(FILE, columns(&plan.faults, !plan.in_space), Course::Largest, |now| row(plan, now))
+    Table::new(FILE.path, columns(&plan.faults, !plan.in_space), Course::Largest, |now| row(plan, now))
 }
 
 /// Columns of the table, per metre of thickness or not.
@@ -23,9 +24,14 @@ pub(crate) fn columns(faults: &[FaultView], per_length: bool) -> Vec<Column> {
                 "moment_rate",
                 rate,
                 Sign::Size,
-                "integral of G |V| dA over points that slide by friction",
+                "integral of G times slip rate over points that slide by friction",
             ),
-            Column::new("moment", sum, Sign::Size, "integral of G |s| dA over points that slide by friction"),
+            Column::new(
+                "moment",
+                sum,
+                Sign::Size,
+                "integral of G times slip over points that slide by friction",
+            ),
         ]
         .map(|column| column.for_part(&fault.name))
     };

@@ -1,7 +1,8 @@
 //! Results in the files in which the SEAS community collects them: positions on and beside the fault, the whole fault through time, and
 //! rupture times of the first event. They are made at the end of a run from its own files.
 
-use super::event_tables::reached;
+use super::fields::reached;
+use super::{largest, receiver_rows};
 use super::{moments, stations};
 use asperity_cycles::{FaultRun, Rupture};
 use asperity_output::decimals::scientific;
@@ -38,11 +39,11 @@ pub(super) fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), Outpu
         put(&format!("{name}.txt"), platform.submission.on_fault(location), rows)?;
     }
     for ((name, location), receiver) in platform.receivers.iter().zip(&plan.receivers.all) {
-        let text = read(&out.join("receivers").join(format!("{}.csv", receiver.name)))?;
+        let text = read(&out.join(receiver_rows::FILE.named(&receiver.name)))?;
         let rows = table(&text, ',').filter_map(|row| off_fault(platform, &row)).collect();
         put(&format!("{name}.txt"), platform.submission.off_fault(location), rows)?;
     }
-    let (largest, rates) = (read(&out.join("largest_rate.csv"))?, read(&out.join(moments::FILE))?);
+    let (largest, rates) = (read(&out.join(largest::FILE.path))?, read(&out.join(moments::FILE.path))?);
     put("global.dat", platform.submission.global(), global(&largest, &rates))?;
     match run.events().first() {
         Some(event) => put("rupture.dat", platform.submission.rupture(), ruptured(platform, plan, event)),

@@ -5,6 +5,7 @@ use super::rows::{Course, Table, line};
 use super::{locking, pore, states};
 use asperity_cycles::heat::{Heat, TEMPERATURE};
 use asperity_cycles::{Moment, OPENING, Opening};
+use asperity_output::OutputFile;
 use asperity_output::decimals::{fixed, scientific};
 use asperity_output::tables::Sign;
 use asperity_plan::faults::Plan;
@@ -42,9 +43,28 @@ pub(super) fn tables(plan: &Plan) -> Vec<Table<'_>> {
     all
 }
 
-const OPEN: Profile = Profile("opening_profiles.csv", "m", Sign::Apart, "separation of the sides");
-const WARMTH: Profile = Profile("temperature_profiles.csv", "K", Sign::None, "temperature");
-const FLUID: Profile = Profile("pressure_profiles.csv", "Pa", Sign::None, "pore pressure");
+/// Files of profiles, those of bodies with mass among them.
+pub(crate) const FILES: [OutputFile; 7] =
+    [SLIP.0, RATE.0, states::PROFILES.0, locking::PROFILES.0, OPEN.0, WARMTH.0, FLUID.0];
+
+const OPEN: Profile = Profile(
+    OutputFile::new("opening_profiles.csv", "opening along a fault at intervals"),
+    "m",
+    Sign::Apart,
+    "separation of the sides",
+);
+const WARMTH: Profile = Profile(
+    OutputFile::new("temperature_profiles.csv", "temperature along a fault at intervals"),
+    "K",
+    Sign::None,
+    "temperature",
+);
+const FLUID: Profile = Profile(
+    OutputFile::new("pressure_profiles.csv", "pore pressure along a fault at intervals"),
+    "Pa",
+    Sign::None,
+    "pore pressure",
+);
 
 /// Profiles that do not depend on the change of the largest slip rate.
 pub(super) const SELDOM: Course = Course::Time { change: f64::INFINITY, between_events: false };
@@ -62,5 +82,5 @@ fn table<'a>(
 ) -> Table<'a> {
     let columns = profile.columns(plan.points.iter().map(|p| p.along.to_string()));
     let row = move |now: &Moment<'_>| line(now.at.seconds(), values(plan, now).into_iter().map(text));
-    Table::new(profile.0, columns, course, row)
+    Table::new(profile.0.path, columns, course, row)
 }

@@ -1,5 +1,6 @@
 //! Figures of the displacement of receivers through cycles.
 
+use super::receiver_rows;
 use asperity_output::figures::{Curves, Measure, Points};
 use asperity_plan::faults::{Plan, Receiver};
 
@@ -16,7 +17,7 @@ pub(super) fn displacements(plan: &Plan) -> Vec<Curves> {
         // Time and the velocities along all axes stand before.
         let column = 1 + receivers.axes.len() + k;
         let curve = |receiver: &Receiver| {
-            let table = format!("receivers/{}.csv", receiver.name);
+            let table = receiver_rows::FILE.named(&receiver.name);
             (receiver.name.clone(), Points::Table { table, x: 0, y: column, size: false })
         };
         Curves {

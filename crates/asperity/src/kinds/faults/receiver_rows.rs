@@ -2,8 +2,13 @@
 
 use super::rows::{Course, Table};
 use asperity_cycles::Moment;
+use asperity_output::OutputFile;
 use asperity_output::formats::seismogram;
 use asperity_plan::faults::Receivers;
+
+/// Files of the receivers.
+pub(super) const FILE: OutputFile =
+    OutputFile::new("receivers/*.csv", "motion of positions in rock or bodies over time (CSV)");
 
 /// Tables of all receivers.
 pub(super) fn tables(receivers: &Receivers) -> impl Iterator<Item = Table<'_>> {
@@ -15,6 +20,6 @@ pub(super) fn tables(receivers: &Receivers) -> impl Iterator<Item = Table<'_>> {
                 motion.map(|v| receivers.axes.iter().map(|&axis| v[axis]).collect::<Vec<f64>>());
             seismogram::row(now.at.seconds(), &velocity, &displacement)
         };
-        Table::new(format!("receivers/{}.csv", receiver.name), columns.clone(), Course::Largest, row)
+        Table::new(FILE.named(&receiver.name), columns.clone(), Course::Largest, row)
     })
 }

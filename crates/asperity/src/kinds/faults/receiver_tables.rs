@@ -1,15 +1,18 @@
 //! Tables of the displacements of receivers over each event.
 
-use super::source_time::FOLDER;
 use asperity_cycles::{FaultRun, Rupture};
 use asperity_output::decimals::{scientific, shortest};
 use asperity_output::tables::column::{self, Column, Sign};
-use asperity_output::{OutputError, atomic};
+use asperity_output::{OutputError, OutputFile, atomic};
 use asperity_plan::faults::Plan;
 use asperity_plan::shared::place::Frame;
 use asperity_run::Event;
 use nalgebra::Vector3;
 use std::path::Path;
+
+/// Displacements of receivers.
+pub(super) const FILE: OutputFile =
+    OutputFile::new("events/displacements_*.csv", "displacements of receivers that each event causes");
 
 /// Writes `events/displacements_000.csv` and so on for the first events: displacements of all receivers that slip in the event
 /// causes.
@@ -21,7 +24,7 @@ pub(super) fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), Outpu
         return Ok(());
     }
     for (number, event) in run.events().iter().enumerate().take(plan.event_files) {
-        let path = out.join(FOLDER).join(format!("displacements_{number:03}.csv"));
+        let path = out.join(FILE.named(&format!("{number:03}")));
         atomic::write(&path, table(plan, event).as_bytes())?;
     }
     Ok(())

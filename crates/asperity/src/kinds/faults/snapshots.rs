@@ -1,18 +1,19 @@
 //! Snapshots of the state of faults in 3D during a run, as VTU files.
 
-use super::fields::{self, Surface};
+use super::fields::{self, Present};
 use asperity_cycles::Moment;
 use asperity_output::decimals::fixed;
+use asperity_output::fields::Series;
 use asperity_output::tables::GrowingTable;
 use asperity_output::tables::column::{self, Column, Sign};
-use asperity_output::{OutputError, atomic};
+use asperity_output::{OutputError, OutputFile, atomic};
 use asperity_plan::faults::Plan;
 use asperity_plan::faults::cadence::{Gauge, RATE_CHANGE, Reading, log_rate};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
-/// Name of the list of snapshots.
-pub(super) const LIST: &str = "snapshots.csv";
+/// List of snapshots.
+pub(super) const LIST: OutputFile = OutputFile::new("snapshots.csv", "state of a fault at chosen times");
 /// Time between snapshots in an event over that between profiles; a rupture crosses a few kilometres in two seconds.
 const IN_EVENTS: f64 = 2.0;
 /// Size of all snapshots together over the largest size of a growing file.
@@ -28,11 +29,10 @@ pub(super) struct Taken {
 }
 
 /// Writes `fields/FAULT_00000.vtu` and so on.
-#[derive(Debug)]
-pub(super) struct Snapshots {
-    folder: PathBuf,
-    /// Surface of each fault.
-    surfaces: Vec<Surface>,
+pub(super) struct Snapshots<'a> {
+    out: PathBuf,
+    /// States of each fault.
+    states: Vec<Series<'a, Present>>,
     list: GrowingTable,
     taken: Taken,
 }
@@ -46,28 +46,22 @@ pub(super) fn columns() -> Vec<Column> {
     ]
 }
 
-/// Name of a snapshot file.
-pub(super) fn name(fault: &str, number: usize) -> String {
-    format!("{fault}_{number:05}.vtu")
-}
-
-impl Snapshots {
+impl<'a> Snapshots<'a> {
     /// Snapshots of a run, if its faults are surfaces in 3D; after those already taken, if any.
     ///
     /// # Errors
     /// If the folder or the list cannot be written.
-    pub fn open(out: &Path, plan: &Plan, taken: Option<Taken>) -> Result<Option<Self>, OutputError> {
+    pub fn open(out: &Path, plan: &'a Plan, taken: Option<Taken>) -> Result<Option<Self>, OutputError> {
         if !plan.in_space {
             return Ok(None);
         }
-        let folder = out.join("fields");
-        atomic::create_dir(&folder)?;
-        let surfaces = plan.faults.iter().map(|fault| Surface::of(plan, fault)).collect();
+        atomic::create_dir(&out.join("fields"))?;
+        let states = plan.faults.iter().map(|fault| fields::states(plan, fault)).collect();
         let list = match taken {
-            Some(taken) => GrowingTable::reopen(out.join(LIST), taken.list)?,
-            None => GrowingTable::create(out.join(LIST), column::header(&columns()))?,
+            Some(taken) => GrowingTable::reopen(out.join(LIST.path), taken.list)?,
+            None => GrowingTable::create(out.join(LIST.path), column::header(&columns()))?,
         };
-        Ok(Some(Self { folder, surfaces, list, taken: taken.unwrap_or_default() }))
+        Ok(Some(Self { out: out.to_path_buf(), states, list, taken: taken.unwrap_or_default() }))
     }
 
     /// Number and gauge of the snapshots taken.
@@ -96,9 +90,10 @@ impl Snapshots {
             return Ok(());
         }
         let number = self.taken.count;
-        for (fault, surface) in plan.faults.iter().zip(&self.surfaces) {
-            let state = fields::state(plan, fault, now.unknowns, (now.rate.all(), now.pressed));
-            let bytes = surface.put(&self.folder.join(name(&fault.name, number)), time, &state)?;
+        let (unknowns, rate) = (now.unknowns.to_vec(), now.rate.all().to_vec());
+        let present = Present { unknowns, rate, pressed: now.pressed.clone() };
+        for states in &self.states {
+            let bytes = states.write(&self.out, number, time, &present)?;
             self.taken.gauge.spend(bytes, FILES * plan.cadence.largest_file, time);
         }
         self.taken.count = number + 1;

@@ -10,7 +10,7 @@ use asperity_ode::Clock;
 use asperity_output::decimals::scientific;
 use asperity_output::tables::GrowingTable;
 use asperity_output::tables::column::{self, Column, Sign};
-use asperity_output::{OutputError, atomic};
+use asperity_output::{OutputError, OutputFile, atomic};
 use asperity_plan::faults::Plan;
 use asperity_plan::faults::cadence::Gauge;
 use asperity_run::{ALL, Event};
@@ -19,6 +19,8 @@ use std::path::{Path, PathBuf};
 
 /// Folder of the files of events.
 pub(super) const FOLDER: &str = "events";
+/// Moment rates of events.
+pub(super) const FILE: OutputFile = OutputFile::new("events/moment_rate_*.csv", "moment rate of each event");
 
 /// Name of the file of an event by its number.
 pub(super) fn name(number: usize) -> String {

@@ -2,12 +2,16 @@
 
 use super::profile::Profile;
 use asperity_cycles::Moment;
+use asperity_output::OutputFile;
 use asperity_output::tables::Sign;
 use asperity_plan::faults::{FaultView, Plan};
 
 /// Profile of the state.
 pub(super) const PROFILES: Profile = Profile(
-    "state_profiles.csv",
+    OutputFile::new(
+        "state_profiles.csv",
+        "state of friction along a fault at intervals: log10 of its time in seconds, where the law has one",
+    ),
     "",
     Sign::Log,
     "log10 of the state in seconds, or the first state of a law without it",

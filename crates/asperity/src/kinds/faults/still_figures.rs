@@ -24,7 +24,7 @@ pub(super) fn plots(plan: &Plan, run: &FaultRun, names: &[String], shapes: &[usi
             stem: stem.clone(),
             name: fault.name.clone(),
             snapshots: format!("fields/{}_", fault.name),
-            list: snapshots::LIST.into(),
+            list: snapshots::LIST.path.into(),
             shape,
             chosen: chosen.clone(),
             stills: stills(plan, fault),

@@ -1,11 +1,37 @@
 //! Stresses of bodies that the slip of each event causes, as VTU files.
 
-use super::source_time::FOLDER;
 use asperity_cycles::{FaultRun, OPENING};
-use asperity_output::fields::vtu::{Array, Grid, Values};
-use asperity_output::{OutputError, atomic};
-use asperity_plan::faults::{Change, Plan};
+use asperity_output::fields::vtu::Grid;
+use asperity_output::fields::{Field, FieldTimes, Series};
+use asperity_output::tables::Sign;
+use asperity_output::{OutputError, OutputFile};
+use asperity_plan::faults::{BodiesView, Change, Plan};
 use std::path::Path;
+
+/// Stresses of events.
+pub(super) const FILE: OutputFile =
+    OutputFile::new("events/stress_*.vtu", "stress of bodies that each event causes");
+
+/// Stress of a cell, and its change on the planes.
+type Stressed = ([f64; 6], Change);
+
+/// Stresses of the cells of bodies.
+pub(super) fn series(view: &BodiesView) -> Series<'_, Vec<Stressed>> {
+    // VTK's order of components is that of stresses here.
+    let stress = Field::tensor("stress", "Pa", Sign::Tension, "stress that the event causes").in_cells();
+    let mut series = Series::new(FILE.path, FieldTimes::Events, || Grid::new(&view.nodes, &view.cells))
+        .with(stress, |all: &Vec<Stressed>| all.iter().map(|(stress, _)| *stress).collect::<Vec<_>>().into());
+    let parts: [(_, _, _, fn(&Change) -> f64); 3] = [
+        ("shear_change", Sign::Driving, "change of the shear traction along the rake", |c| c.shear),
+        ("normal_change", Sign::Compression, "change of the normal traction", |c| c.normal),
+        ("coulomb_change", Sign::Driving, "change of Coulomb stress", |c| c.coulomb),
+    ];
+    for (name, sign, meaning, of) in parts {
+        let field = Field::scalar(name, "Pa", sign, meaning).in_cells();
+        series = series.with(field, move |all| all.iter().map(|(_, c)| of(c)).collect::<Vec<_>>().into());
+    }
+    series
+}
 
 /// Writes `events/stress_000.vtu` and so on for the first events: stress of each cell that slip and opening in the event
 /// cause, and its change on the planes.
@@ -14,22 +40,10 @@ use std::path::Path;
 /// If a file cannot be written.
 pub fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), OutputError> {
     let (Some(stresses), Some(view)) = (&plan.stresses, &plan.bodies) else { return Ok(()) };
-    let grid = Grid::new(&view.nodes, &view.cells);
-    let folder = out.join(FOLDER);
+    let series = series(view);
     for (number, event) in run.events().iter().enumerate().take(plan.event_files) {
         let jumps = [event.details.slip.all(), event.details.change(&OPENING)].concat();
-        let (stress, changes): (Vec<[f64; 6]>, Vec<Change>) = stresses.at(view, &jumps).into_iter().unzip();
-        let part = |of: fn(&Change) -> f64| changes.iter().map(of).collect::<Vec<f64>>();
-        let [shear, normal, coulomb] = [part(|c| c.shear), part(|c| c.normal), part(|c| c.coulomb)];
-        // VTK's order of components is that of stresses here.
-        let arrays = [
-            Array::tensor("stress", &stress),
-            Array::scalar("shear_change", Values::F64(&shear)),
-            Array::scalar("normal_change", Values::F64(&normal)),
-            Array::scalar("coulomb_change", Values::F64(&coulomb)),
-        ];
-        let bytes = grid.file(event.onset.seconds(), &[], &arrays);
-        atomic::write(&folder.join(format!("stress_{number:03}.vtu")), &bytes)?;
+        series.write(out, number, event.onset.seconds(), &stresses.at(view, &jumps))?;
     }
     Ok(())
 }

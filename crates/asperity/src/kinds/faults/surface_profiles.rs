@@ -3,13 +3,14 @@
 use super::profiles::SELDOM;
 use super::rows::{self, Table};
 use asperity_cycles::Moment;
+use asperity_output::OutputFile;
 use asperity_output::decimals::scientific;
 use asperity_output::tables::column::{self, Column, Sign};
 use asperity_plan::faults::{Plan, Receivers};
 
-/// Names of the tables, by the axis of the displacement.
-pub(super) const NAMES: [&str; 3] =
-    ["surface_profiles_x.csv", "surface_profiles_y.csv", "surface_profiles_z.csv"];
+/// The tables, with the axis of the displacement in their names.
+pub(super) const FILE: OutputFile =
+    OutputFile::new("surface_profiles_*.csv", "displacement of the free surface along a line at intervals");
 
 /// Positions that are followed through time.
 pub(super) fn followed(plan: &Plan) -> Option<&Receivers> {
@@ -27,7 +28,7 @@ pub(super) fn tables(plan: &Plan) -> impl Iterator<Item = Table<'_>> {
             let places = line.all.iter().map(|position| position.at[0].to_string());
             let moved =
                 Column::each("each position", "m", Sign::Axis, "displacement of the free surface", places);
-            Table::new(NAMES[axis], vec![column::time(), moved], SELDOM, row)
+            Table::new(FILE.named(["x", "y", "z"][axis]), vec![column::time(), moved], SELDOM, row)
         })
     })
 }

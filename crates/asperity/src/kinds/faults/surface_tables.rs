@@ -5,11 +5,15 @@ use super::source_time::FOLDER;
 use asperity_cycles::FaultRun;
 use asperity_output::formats::grd::Grid;
 use asperity_output::tables::column;
-use asperity_output::{OutputError, atomic};
+use asperity_output::{OutputError, OutputFile, atomic};
 use asperity_plan::faults::{FreeSurface, Plan};
 use asperity_plan::shared::place::Frame;
 use nalgebra::Vector3;
 use std::path::Path;
+
+/// Maps of the free surface.
+pub(super) const FILE: OutputFile =
+    OutputFile::new("events/surface_*.csv", "displacements of the free surface that each event causes");
 
 /// Name of the table of an event by its number.
 pub(super) fn name(number: usize) -> String {

@@ -9,10 +9,13 @@ use asperity_output::decimals::{shortest, shortest_scientific};
 use asperity_output::figures::{Plot, Sheet};
 use asperity_output::tables::GrowingTable;
 use asperity_output::tables::column::{self, Column, Sign};
-use asperity_output::{OutputError, atomic};
+use asperity_output::{OutputError, OutputFile, atomic};
 use asperity_run::{ObserveError, Observer};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
+
+/// Histories of sliders.
+pub const HISTORIES: OutputFile = OutputFile::new("history/*.csv", "sliders over time (CSV)");
 
 /// Writes `history/<slider>.csv`; each file grows by whole rows.
 #[derive(Debug)]
@@ -99,9 +102,7 @@ impl Histories {
         let stems = asperity_output::stems(problem.names.iter().map(String::as_str));
         let all = stems.iter().zip(problem.system.sliders()).enumerate();
         let written = all.filter(|(i, _)| problem.output.writes(*i));
-        written
-            .map(|(_, (stem, slider))| (format!("history/{stem}.csv"), columns(slider.law.states())))
-            .collect()
+        written.map(|(_, (stem, slider))| (HISTORIES.named(stem), columns(slider.law.states()))).collect()
     }
 
     /// Current positions in the histories.
@@ -154,7 +155,7 @@ impl Histories {
         let stems = asperity_output::stems(problem.names.iter().map(String::as_str));
         let mut sources = Vec::new();
         for (i, (kept, stem)) in self.sliders.iter().zip(&stems).enumerate() {
-            let table = kept.file.as_ref().map(|_| format!("history/{stem}.csv"));
+            let table = kept.file.as_ref().map(|_| HISTORIES.named(stem));
             if self.traced || table.is_some() {
                 let (name, states) = (problem.names[i].as_str(), problem.system.sliders()[i].law.states());
                 let theta = thetas.get(i).copied().flatten();

@@ -8,6 +8,6 @@ mod report;
 mod thin;
 
 pub use events::{Entry, Named, columns, csv};
-pub use files::{Histories, Positions};
+pub use files::{HISTORIES, Histories, Positions};
 pub use outputs::{Outputs, Saved};
 pub use report::Report;

@@ -1,6 +1,7 @@
 //! Runs of scenes given as text, with their results.
 
 pub mod cycles;
+pub mod every_kind;
 pub mod sliders;
 pub mod written;
 

@@ -16,7 +16,7 @@ pub struct Column {
     pub values: Vec<f64>,
 }
 
-/// A column as the text about the files of a run describes it.
+/// A column or an array as the text about the files of a run describes it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Described {
     /// Names of its files, where `*` stands for any text.
@@ -25,17 +25,24 @@ pub struct Described {
     pub column: String,
     pub unit: String,
     pub sign: String,
+    /// Number of components and place of an array.
+    pub array: Option<(usize, String)>,
 }
 
-/// Columns in the text about the files of a run.
+/// Columns and arrays in the text about the files of a run.
 pub fn described(out: &Path) -> Vec<Described> {
     let text = fs::read_to_string(out.join("README.md")).unwrap();
     let rows = text.lines().filter(|line| line.starts_with("| `"));
     rows.map(|row| {
         let cells: Vec<&str> = row.split('|').map(str::trim).collect();
-        let [_, files, column, unit, sign, ..] = cells[..] else { panic!("{row}") };
+        let [_, files, column, unit, sign, _, ref rest @ ..] = cells[..] else { panic!("{row}") };
+        let array = match rest {
+            [components, at, ..] => Some((components.parse().unwrap(), (*at).to_owned())),
+            _ => None,
+        };
         let files = files.split(", ").map(|file| file.trim_matches('`').to_owned()).collect();
-        Described { files, column: column.trim_matches('`').into(), unit: unit.into(), sign: sign.into() }
+        let column = column.trim_matches('`').into();
+        Described { files, column, unit: unit.into(), sign: sign.into(), array }
     })
     .collect()
 }

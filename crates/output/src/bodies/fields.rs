@@ -1,0 +1,112 @@
+//! Fields of bodies and interfaces.
+
+use super::quantity;
+use super::view::{BodyFields, InterfaceFields, InterfaceMesh, MeshView};
+use crate::error::{OutputError, expect_length};
+use crate::fields::vtu::Grid;
+use crate::fields::{Data, FILES, Field, FieldTimes, Series};
+use crate::tables::Sign;
+
+/// Fields of the bodies, of which some may be plastic.
+pub(super) fn body_series(mesh: &MeshView, plastic: bool) -> Series<'static, BodyFields> {
+    let grid = Grid::new(&mesh.nodes, &mesh.cells);
+    let body: Vec<i64> = mesh.cell_body.iter().map(|&body| body as i64).collect();
+    let mises = || Field::scalar("mises", "Pa", Sign::Size, "equivalent stress of von Mises");
+    let series = Series::new(FILES.named("bodies_*"), FieldTimes::Intervals, || grid)
+        .with(Field::vector("displacement", "m", Sign::Axis, "displacement"), |f: &BodyFields| {
+            Data::from(&f.displacement)
+        })
+        .with(mises(), |f| Data::from(&f.node_mises))
+        .with(Field::tensor("stress", "Pa", Sign::Tension, "stress").in_cells(), |f| {
+            Data::from(&f.cell_stress)
+        })
+        .with(mises().in_cells(), |f| Data::from(&f.cell_mises))
+        .with(Field::scalar("body", "", Sign::None, "number of the body, from 0").in_cells(), move |_| {
+            Data::from(body.clone())
+        });
+    if !plastic {
+        return series;
+    }
+    let strain = Field::scalar("plastic_strain", "-", Sign::Size, "equivalent plastic strain");
+    series.with(strain.in_cells(), |f| Data::from(&f.cell_plastic_strain))
+}
+
+/// Fields of an interface of this stem, between bodies of this dimension.
+pub(super) fn interface_series(
+    stem: &str,
+    mesh: &InterfaceMesh,
+    dimension: usize,
+) -> Series<'static, InterfaceFields> {
+    let grid = grid(mesh, dimension);
+    let mut series = Series::new(FILES.named(&format!("{stem}_*")), FieldTimes::Intervals, || grid);
+    for quantity in [
+        &quantity::GAP,
+        &quantity::PAIRED,
+        &quantity::SLIP,
+        &quantity::RELATIVE_DISPLACEMENT,
+        &quantity::SLIP_RATE,
+        &quantity::NORMAL_TRACTION,
+        &quantity::SHEAR_TRACTION,
+        &quantity::MEAN_NORMAL_TRACTION,
+        &quantity::MEAN_SHEAR_TRACTION,
+        &quantity::FRICTION,
+        &quantity::STATUS,
+        &quantity::AREA,
+    ] {
+        series = series.with(quantity.field(), |f| quantity.data(f));
+    }
+    if mesh.in_space {
+        series = series
+            .with(Field::vector("slip_vector", "m", Sign::Vector, "slip of the slave past the master"), |f| {
+                Data::from(&f.slip_vector)
+            })
+            .with(
+                Field::vector(
+                    "shear_traction_vector",
+                    "Pa",
+                    Sign::Vector,
+                    "shear traction of the slave side",
+                ),
+                |f| Data::from(&f.shear_vector),
+            );
+    }
+    for k in 0..mesh.states {
+        let field = Field::scalar(format!("state_{}", k + 1), "", Sign::None, quantity::STATE);
+        series =
+            series.with(field, move |f| Data::from(f.nodes().map(|i| f.state(k, i)).collect::<Vec<_>>()));
+    }
+    series
+}
+
+/// The slave side as VTK cells; vertices if it has no faces.
+fn grid(mesh: &InterfaceMesh, dimension: usize) -> Grid {
+    // VTK cell types: 1 vertex, 3 line, 4 polyline, 5 triangle, 7 polygon, 9 quadrilateral.
+    let kind = |nodes: usize| match (dimension, nodes) {
+        (_, 1) => 1,
+        (_, 2) => 3,
+        (2, _) => 4,
+        (_, 3) => 5,
+        (_, 4) => 9,
+        _ => 7,
+    };
+    let cells: Vec<(u8, Vec<usize>)> = if mesh.faces.is_empty() {
+        (0..mesh.positions.len()).map(|node| (1, vec![node])).collect()
+    } else {
+        mesh.faces.iter().map(|face| (kind(face.len()), face.clone())).collect()
+    };
+    Grid::new(&mesh.positions, &cells)
+}
+
+/// Checks that fields have a value for each node or cell.
+pub(super) fn check(mesh: &MeshView, fields: &BodyFields) -> Result<(), OutputError> {
+    let (nodes, cells) = (mesh.nodes.len(), mesh.cells.len());
+    expect_length("body of each cell", cells, mesh.cell_body.len())?;
+    expect_length("displacement of the nodes", nodes, fields.displacement.len())?;
+    expect_length("Mises stress of the nodes", nodes, fields.node_mises.len())?;
+    expect_length("stress of the cells", cells, fields.cell_stress.len())?;
+    expect_length("Mises stress of the cells", cells, fields.cell_mises.len())?;
+    match fields.cell_plastic_strain.len() {
+        0 => Ok(()),
+        found => expect_length("plastic strain of the cells", cells, found),
+    }
+}
