@@ -6,7 +6,7 @@ use asperity_output::decimals::shortest;
 use asperity_output::formats::located::SourceParameters;
 use asperity_output::tables::column::{self, Column, Sign};
 use asperity_output::{OutputError, OutputFile, atomic, stems};
-use asperity_run::{Event, SlipPoints};
+use asperity_run::{Event, EventHead, SlipPoints};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -100,6 +100,18 @@ impl Entry {
             located: None,
         }
     }
+
+    /// Head of the event, which catalogues of other kinds have, too.
+    fn head(&self) -> EventHead<'_> {
+        EventHead {
+            onset: self.onset,
+            duration: Some(self.duration),
+            interval: self.interval,
+            peak_rate: self.peak_rate,
+            stress_drop: Some(self.stress_drop),
+            surface: &self.surface,
+        }
+    }
 }
 
 /// Points that slipped in an event, among these.
@@ -136,28 +148,91 @@ fn optional(value: Option<f64>) -> String {
     value.map(shortest).unwrap_or_default()
 }
 
+/// A first column of every catalogue, and its cell.
+struct HeadColumn {
+    name: &'static str,
+    unit: &'static str,
+    sign: Sign,
+    meaning: &'static str,
+    /// Cell of an event, whose numbers other than times of the run are written like this.
+    cell: fn(&EventHead<'_>, fn(f64) -> String) -> String,
+}
+
+/// First columns of the catalogues of all kinds of run.
+const HEAD: [HeadColumn; 6] = [
+    HeadColumn {
+        name: "onset",
+        unit: "s",
+        sign: Sign::None,
+        meaning: "time of onset",
+        cell: |e, _| moment(e.onset),
+    },
+    HeadColumn {
+        name: "duration",
+        unit: "s",
+        sign: Sign::None,
+        meaning: "time until all points are slower than the rate that ends events",
+        cell: |e, number| e.duration.map(number).unwrap_or_default(),
+    },
+    HeadColumn {
+        name: "interval",
+        unit: "s",
+        sign: Sign::None,
+        meaning: "time since the onset of the event before",
+        cell: |e, number| e.interval.map(number).unwrap_or_default(),
+    },
+    HeadColumn {
+        name: "peak_rate",
+        unit: "m/s",
+        sign: Sign::Size,
+        meaning: "largest slip rate",
+        cell: |e, number| number(e.peak_rate),
+    },
+    HeadColumn {
+        name: "stress_drop",
+        unit: "Pa",
+        sign: Sign::Fall,
+        meaning: "drop of shear traction, weighted by slip",
+        cell: |e, number| e.stress_drop.map(number).unwrap_or_default(),
+    },
+    HeadColumn {
+        name: "surface",
+        unit: "",
+        sign: Sign::None,
+        meaning: "fault, interface or slider of the hypocentre",
+        cell: |e, _| quoted(e.surface),
+    },
+];
+
+/// A time of the run as text.
+fn moment(time: f64) -> String {
+    format!("{time:.14e}")
+}
+
+/// A name as a CSV field.
+fn quoted(name: &str) -> String {
+    if name.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", name.replace('"', "\"\""))
+    } else {
+        name.to_string()
+    }
+}
+
 /// First columns of every catalogue.
+pub fn head_columns() -> impl Iterator<Item = Column> {
+    HEAD.iter().map(|column| Column::new(column.name, column.unit, column.sign, column.meaning))
+}
+
+/// First cells of an event in every catalogue, with its numbers written like this.
 #[must_use]
-pub fn first_columns() -> [Column; 6] {
-    [
-        Column::new("onset", "s", Sign::None, "time of onset"),
-        Column::new(
-            "duration",
-            "s",
-            Sign::None,
-            "time until all points are slower than the rate that ends events",
-        ),
-        Column::new("interval", "s", Sign::None, "time since the onset of the event before"),
-        Column::new("peak_rate", "m/s", Sign::Size, "largest slip rate"),
-        Column::new("stress_drop", "Pa", Sign::Fall, "drop of shear traction, weighted by slip"),
-        Column::new("surface", "", Sign::None, "fault, interface or slider of the hypocentre"),
-    ]
+pub fn head_cells(event: &EventHead<'_>, number: fn(f64) -> String) -> String {
+    HEAD.iter().map(|column| (column.cell)(event, number)).collect::<Vec<_>>().join(",")
 }
 
 /// Columns of a catalogue of events; further ones where friction heats faults, scenes have a place on Earth or slip may turn.
 #[must_use]
 pub fn columns(events: &[Entry]) -> Vec<Column> {
-    let mut all = Vec::from(first_columns());
+    let mut all: Vec<Column> = head_columns().collect();
     all.push(Column::new("hypocentre_along", "m", Sign::None, "distance of the hypocentre along the fault"));
     all.extend(column::position());
     all.extend([
@@ -200,13 +275,8 @@ pub fn csv(events: &[Entry]) -> String {
     for e in events {
         let _ = write!(
             text,
-            "{:.14e},{},{},{},{},{},{},{},{},{},{},{},{},{:e},{},{},{}",
-            e.onset,
-            e.duration,
-            optional(e.interval),
-            e.peak_rate,
-            shortest(e.stress_drop),
-            e.surface,
+            "{},{},{},{},{},{},{},{},{:e},{},{},{}",
+            head_cells(&e.head(), shortest),
             e.hypocentre_along.map(shortest).unwrap_or_default(),
             shortest(e.hypocentre[0]),
             shortest(e.hypocentre[1]),

@@ -21,6 +21,23 @@ pub struct Event<D> {
     pub details: D,
 }
 
+/// Head of an event in a catalogue: numbers of every kind of source, before those of its kind alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EventHead<'a> {
+    /// Onset \[s\].
+    pub onset: f64,
+    /// Time from onset to end \[s\]; none while it lasts.
+    pub duration: Option<f64>,
+    /// Time since the onset of the previous event \[s\].
+    pub interval: Option<f64>,
+    /// Largest slip rate \[m/s\].
+    pub peak_rate: f64,
+    /// Drop of shear traction \[Pa\]; none while it lasts.
+    pub stress_drop: Option<f64>,
+    /// Fault, interface or slider.
+    pub surface: &'a str,
+}
+
 impl<D> Event<D> {
     /// Time from onset to end \[s\]; none while it lasts.
     #[must_use]

@@ -8,7 +8,7 @@ pub mod report;
 mod sites;
 mod warning;
 
-pub use catalogue::{ALL, Catalogue, Event};
+pub use catalogue::{ALL, Catalogue, Event, EventHead};
 pub use counts::{Counts, Integration, Operations};
 pub use energy::{Closure, Energies, EnergyTable, Part};
 pub use observer::{Kind, ObserveError, Observer, Observers};

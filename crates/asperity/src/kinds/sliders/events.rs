@@ -1,10 +1,10 @@
 //! Events of sliders, in the report and as CSV.
 
-use crate::catalogue::first_columns;
+use crate::catalogue::{head_cells, head_columns};
 use asperity_cycles::slider::{Edge, Slide, SliderRun};
 use asperity_output::decimals::shortest_scientific;
 use asperity_output::tables::column::{self, Column, Sign};
-use asperity_run::Event;
+use asperity_run::{Event, EventHead};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -70,6 +70,12 @@ impl Entry {
         run.catalogue.of(slider).iter().map(|event| Self::new(slider, event)).collect()
     }
 
+    /// Head of the event, which catalogues of other kinds have, too.
+    fn head<'a>(&self, surface: &'a str) -> EventHead<'a> {
+        let Self { onset, duration, interval, peak_rate, stress_drop, .. } = *self;
+        EventHead { onset, duration, interval, peak_rate, stress_drop, surface }
+    }
+
     fn new(slider: usize, event: &Event<Slide>) -> Self {
         let details = &event.details;
         Self {
@@ -92,7 +98,7 @@ impl Entry {
 #[must_use]
 pub fn columns(events: &[Named]) -> Vec<Column> {
     let states = events.iter().map(|e| e.entry.at_onset.states.len()).max().unwrap_or(0);
-    let mut all = Vec::from(first_columns());
+    let mut all: Vec<Column> = head_columns().collect();
     all.extend([
         Column::new("direction", "", Sign::Slip, "sign of the slip"),
         Column::new("slip", "m", Sign::Slip, "slip in the event"),
@@ -116,13 +122,8 @@ pub fn csv(events: &[Named]) -> String {
     for Named { surface, entry: e } in events {
         let _ = write!(
             text,
-            "{:.14e},{},{},{:e},{},{},{},{},{:e}",
-            e.onset,
-            known(e.duration),
-            known(e.interval),
-            e.peak_rate,
-            known(e.stress_drop),
-            quoted(surface),
+            "{},{},{},{:e}",
+            head_cells(&e.head(surface), shortest_scientific),
             e.direction,
             known(e.slip),
             e.least_rate
@@ -136,13 +137,4 @@ pub fn csv(events: &[Named]) -> String {
         text.push('\n');
     }
     text
-}
-
-/// A name as a CSV field.
-fn quoted(name: &str) -> String {
-    if name.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", name.replace('"', "\"\""))
-    } else {
-        name.to_string()
-    }
 }
