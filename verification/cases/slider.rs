@@ -2,7 +2,7 @@
 
 use crate::{Axis, CaseError, Plot};
 use asperity_cycles::Thresholds;
-use asperity_cycles::slider::{self, Now, Problem, SliderRun};
+use asperity_cycles::slider::{self, Problem, SliderRun, SliderState};
 use asperity_friction::evolution::{ageing::Ageing, slip::Slip};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider, SliderLaw, System};
@@ -197,7 +197,7 @@ pub fn finish(plan: &Problem) -> Result<SliderRun, CaseError> {
 /// If it fails.
 pub fn rates(plan: &Problem) -> Result<Vec<(f64, f64)>, CaseError> {
     let mut seen = Vec::new();
-    let mut look = |now: &Now<'_>| seen.push((now.at.seconds(), now.conditions[0].rate));
+    let mut look = |now: &SliderState<'_>| seen.push((now.at.seconds(), now.conditions[0].rate));
     match slider::run(plan, &mut look)?.outcome {
         Outcome::Failed { reason } => Err(reason.to_string().into()),
         Outcome::Completed | Outcome::Stopped => Ok(seen),
@@ -233,7 +233,7 @@ pub fn at_times(plan: &Problem, times: &[f64]) -> Result<Vec<(f64, f64)>, CaseEr
 /// If a run fails.
 pub fn largest_friction(plan: &Problem, after: f64) -> Result<f64, CaseError> {
     let mut seen: Vec<(f64, f64)> = Vec::new();
-    let mut look = |now: &Now<'_>| {
+    let mut look = |now: &SliderState<'_>| {
         if now.at.seconds() > after {
             seen.push((now.at.seconds(), now.conditions[0].friction));
         }

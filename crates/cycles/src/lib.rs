@@ -20,10 +20,11 @@ pub use course::{
 };
 pub use equations::Equations;
 pub use problem::{
-    Components, Fault, Layout, Loading, PerPoint, Pressed, Problem, Processes, RunError, Settings, Thresholds,
+    Components, Fault, Layout, Loading, PerPoint, PointTractions, Problem, Processes, RunError, Settings,
+    Thresholds,
 };
 pub use processes::{
-    BODIES, Below, Crack, FLUID_PRESSURE, Floor, Injection, OPENING, Opened, Opening, PorePressure, Pressure,
-    Pulse, Used, Widest, deficit, diffusion, heat,
+    BODIES, Crack, FLUID_PRESSURE, Floor, FloorRecord, FloorSummary, Injection, OPENING, Opening,
+    OpeningRecord, PorePressure, Pressure, Pulse, Widest, deficit, diffusion, heat,
 };
 pub use slider::ANY_ROCK;

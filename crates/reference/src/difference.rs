@@ -78,7 +78,7 @@ impl Overlap {
 
 /// Result of a comparison.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Compared {
+pub enum TableComparison {
     /// Columns that differ, empty for equal tables, and what was compared.
     Columns(Vec<Difference>, Overlap),
     /// Tables that cannot be compared, with the reason.
@@ -106,7 +106,7 @@ impl Table {
             let record = record.map_err(|error| error.to_string())?;
             Ok(record.iter().map(|entry| entry.trim().to_string()).collect())
         });
-        Self::of(names, records)
+        Self::from_rows(names, records)
     }
 
     fn blanks(bytes: &[u8]) -> Result<Self, String> {
@@ -122,10 +122,10 @@ impl Table {
             let wrong = || format!("line {} has {} entries, the first row {width}", number + 1, row.len());
             if row.len() == width { Ok(row) } else { Err(wrong()) }
         });
-        Self::of(names, rows)
+        Self::from_rows(names, rows)
     }
 
-    fn of(
+    fn from_rows(
         names: Vec<String>,
         rows: impl Iterator<Item = Result<Vec<String>, String>>,
     ) -> Result<Self, String> {
@@ -168,21 +168,21 @@ impl Column {
 
 /// Compares two tables. Where their rows are at other times, those of the first are interpolated to the times that both cover.
 #[must_use]
-pub fn compare(a: &Table, b: &Table) -> Compared {
+pub fn compare(a: &Table, b: &Table) -> TableComparison {
     if a.names != b.names {
-        return Compared::Other("their columns differ".into());
+        return TableComparison::Other("their columns differ".into());
     }
     let same = a.rows == b.rows && a.times() == b.times();
     let places: Vec<Option<Place>> = match (same, a.times(), b.times()) {
         (true, _, _) => (0..a.rows).map(|row| Some(Place::at(row))).collect(),
-        (false, Some(from), Some(to)) => (0..b.rows).map(|row| Place::of(from, to, row)).collect(),
-        _ => return Compared::Other(format!("they have {} and {} rows", a.rows, b.rows)),
+        (false, Some(from), Some(to)) => (0..b.rows).map(|row| Place::locate(from, to, row)).collect(),
+        _ => return TableComparison::Other(format!("they have {} and {} rows", a.rows, b.rows)),
     };
     let rows = places.iter().flatten().count();
     let [share, lacking] =
         if same { [1.0, 0.0] } else { shared(a.times().unwrap_or(&[]), b.times().unwrap_or(&[])) };
     let overlap = Overlap { rows, of: a.rows.max(b.rows), share, lacking, interpolated: !same };
-    Compared::Columns(differences(a, b, &places, same), overlap)
+    TableComparison::Columns(differences(a, b, &places, same), overlap)
 }
 
 /// Time that both cover, and time that one lacks, over the time that either covers.
@@ -217,7 +217,7 @@ impl Place {
 
     /// Place of a row of the second table; `None` outside the times of the first. Where both have several rows at a time, as where
     /// something jumps, the first belongs to the first, and so on.
-    fn of(from: &[f64], to: &[f64], row: usize) -> Option<Self> {
+    fn locate(from: &[f64], to: &[f64], row: usize) -> Option<Self> {
         let time = to[row];
         let after = from.partition_point(|t| *t < time);
         let equal = from.partition_point(|t| *t <= time) - after;

@@ -72,21 +72,21 @@ impl<D> Catalogue<D> {
 
     /// Events of a source, including an unfinished one.
     #[must_use]
-    pub fn of(&self, source: usize) -> &[Event<D>] {
+    pub fn events(&self, source: usize) -> &[Event<D>] {
         &self.sources[source]
     }
 
     /// Finished events of a source.
     #[must_use]
     pub fn ended(&self, source: usize) -> &[Event<D>] {
-        let events = self.of(source);
+        let events = self.events(source);
         &events[..events.len() - usize::from(self.under_way(source).is_some())]
     }
 
     /// The unfinished event of a source.
     #[must_use]
     pub fn under_way(&self, source: usize) -> Option<&Event<D>> {
-        self.of(source).last().filter(|event| event.end.is_none())
+        self.events(source).last().filter(|event| event.end.is_none())
     }
 
     /// Events of all sources in the order of onset, each with its source.
@@ -106,7 +106,7 @@ impl<D> Catalogue<D> {
 
     /// Begins an event of a source that has no unfinished one.
     pub fn begin(&mut self, source: usize, onset: Clock, peak: f64, details: D) {
-        let interval = self.of(source).last().map(|before| onset.since(&before.onset));
+        let interval = self.events(source).last().map(|before| onset.since(&before.onset));
         self.sources[source].push(Event { onset, interval, end: None, peak, details });
     }
 }

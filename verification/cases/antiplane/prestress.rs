@@ -101,7 +101,7 @@ stepper = "fault-ode"
 /// Normal and shear tractions of all points at the start \[Pa\].
 fn tractions(plan: &Plan) -> [Vec<f64>; 2] {
     let (fault, start) = (&plan.problem.fault, &plan.problem.start);
-    let layout = Layout::of(fault);
+    let layout = Layout::from_fault(fault);
     let mut rates = vec![0.0; plan.points.len()];
     fault.law.slip_rates(0, &start[layout.m()], &start[layout.states()], &mut rates);
     let shear = |p: usize| fault.normal[p] * fault.law.scale(p) * start[p] + fault.damping[p] * rates[p];

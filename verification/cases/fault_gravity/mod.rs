@@ -107,7 +107,7 @@ fn shear(plan: &Plan, point: usize, rates: &[f64]) -> f64 {
 /// Largest errors of f_n and of τ_0 over the largest f_n. The surface point has no τ_0 from gravity, since its normal traction is
 /// the floor.
 fn errors(plan: &Plan, exact: impl Fn(f64) -> [f64; 2]) -> [f64; 2] {
-    let layout = Layout::of(&plan.problem.fault);
+    let layout = Layout::from_fault(&plan.problem.fault);
     let mut rates = vec![0.0; plan.points.len()];
     plan.problem.fault.law.slip_rates(
         0,

@@ -103,7 +103,7 @@ fn slider(width: f64) -> Result<Slider, CaseError> {
     );
     let plan = slider_scene::plan(&text)?;
     let mut rows = Vec::new();
-    let run = cycles::run(&plan, &mut |now: &cycles::Now<'_>| {
+    let run = cycles::run(&plan, &mut |now: &cycles::SliderState<'_>| {
         rows.push((now.at.seconds(), now.conditions[0].rate));
     })?;
     let event = Entry::all(&run).pop().ok_or("the slider has no event")?;

@@ -38,7 +38,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 /// Tractions at the start, component by component \[Pa\].
 fn shear(plan: &Plan) -> Vec<f64> {
-    let (fault, layout) = (&plan.problem.fault, Layout::of(&plan.problem.fault));
+    let (fault, layout) = (&plan.problem.fault, Layout::from_fault(&plan.problem.fault));
     let m = &plan.problem.start[layout.m()];
     let n = plan.points.len();
     m.iter().enumerate().map(|(k, m)| fault.normal[k % n] * fault.law.scale(k % n) * m).collect()

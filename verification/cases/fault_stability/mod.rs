@@ -396,7 +396,7 @@ fn flow(variant: &Variant) -> Result<Vec<Flow>, CaseError> {
     let mut plan = variant.plan()?;
     plan.problem.settings.end = FOLLOWED * length() / RATE;
     let modes = modes::of(&plan, HIGHEST + 1)?;
-    let layout = Layout::of(&plan.problem.fault);
+    let layout = Layout::from_fault(&plan.problem.fault);
     let parts = [layout.m(), layout.states()];
     let end = |column: usize, sign: f64| -> Result<Vec<f64>, CaseError> {
         let mut start = plan.problem.start.clone();

@@ -3,7 +3,7 @@
 use super::slider::{self, Kind, Set};
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity::kinds::sliders::Entry;
-use asperity_cycles::slider::{self as cycles, Now};
+use asperity_cycles::slider::{self as cycles, SliderState};
 use asperity_friction::Failure;
 use asperity_friction::component::Component;
 use asperity_friction::evolution::stateless::Stateless;
@@ -176,7 +176,7 @@ fn net_force(ledger: &mut Ledger) -> Result<Row, CaseError> {
     plan.start = plan.system.start(&[set.load * 1e-3], &[states])?;
     plan.tolerance = 1e-11;
     let mut last = Vec::new();
-    let mut look = |now: &Now<'_>| last = now.unknowns.to_vec();
+    let mut look = |now: &SliderState<'_>| last = now.unknowns.to_vec();
     let (run, cost) = Cost::of(|| cycles::run(&plan, &mut look));
     run?;
     let segment = plan.system.segment(1.0);
@@ -340,7 +340,7 @@ fn durations(ledger: &mut Ledger) -> Result<Row, CaseError> {
     let naive = (tenth.onset + b) - tenth.onset;
     let mut plot = Plot::xy("Reference cycle", "time [s]", "V [m/s]").axes(Axis::Linear, Axis::Log);
     let mut curve = Vec::new();
-    let mut look = |now: &Now<'_>| curve.push((now.at.seconds(), now.conditions[0].rate));
+    let mut look = |now: &SliderState<'_>| curve.push((now.at.seconds(), now.conditions[0].rate));
     plan.tolerance = cycles::DEFAULT_TOLERANCE;
     plan.most_events = Some(3);
     cycles::run(&plan, &mut look)?;

@@ -66,8 +66,8 @@ fn ran(scene: SceneText) -> Result<Ran, CaseError> {
             let time = now.at.seconds();
             course.push([
                 now.slip().all()[0],
-                now.pressed.of(&TEMPERATURE)[0],
-                now.pressed.of(&PRESSURE)[0],
+                now.pressed.values(&TEMPERATURE)[0],
+                now.pressed.values(&PRESSURE)[0],
                 time,
             ]);
         }

@@ -6,7 +6,7 @@ use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Evidence, Floor, Ledger, Plot, Series};
 use asperity::kinds::sliders::Entry;
 use asperity_cycles::Thresholds;
-use asperity_cycles::slider::{self as cycles, Now, Problem, Rows};
+use asperity_cycles::slider::{self as cycles, Problem, Rows, SliderState};
 use asperity_friction::evolution::{ageing::Ageing, slip::Slip};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider, SliderLaw};
@@ -368,7 +368,7 @@ fn reference(kind: Kind, stiffness: f64, done: &Done) -> Result<Vec<f64>, CaseEr
     let mut plan = slack(kind, stiffness, History::table(table)?, from)?;
     plan.output = Rows { change: None, times, interval: None, histories: None };
     let mut friction = Vec::new();
-    let mut look = |now: &Now<'_>| {
+    let mut look = |now: &SliderState<'_>| {
         if now.asked {
             friction.push(now.conditions[0].friction);
         }

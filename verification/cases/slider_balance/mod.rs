@@ -4,7 +4,7 @@ use super::slider::{self, Kind, Set};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Series};
 use asperity::kinds::sliders::{Entry, Report};
 use asperity_cycles::Energy;
-use asperity_cycles::slider::{Now, Problem, SliderRun, run as integrate};
+use asperity_cycles::slider::{Problem, SliderRun, SliderState, run as integrate};
 use asperity_ode::Outcome;
 
 /// See the README.
@@ -40,7 +40,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 /// Runs a problem under an observer, which makes it keep an energy budget.
 fn observed(problem: &Problem) -> Result<(SliderRun, Energy, Cost), CaseError> {
-    let (run, cost) = Cost::of(|| integrate(problem, &mut |_: &Now<'_>| ()));
+    let (run, cost) = Cost::of(|| integrate(problem, &mut |_: &SliderState<'_>| ()));
     let run = run?;
     if let Outcome::Failed { reason } = &run.outcome {
         return Err(format!("failed at {:e} s: {reason}", run.at.seconds()).into());

@@ -3,7 +3,7 @@
 use super::slider::{self, Independent, Kind, Set};
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity::kinds::sliders::{Entry, Report};
-use asperity_cycles::slider::{self as cycles, Now};
+use asperity_cycles::slider::{self as cycles, SliderState};
 use asperity_ode::Method;
 
 /// See the README.
@@ -184,7 +184,7 @@ fn picture(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError
         slider::events(&mut plan, 3);
         plan.tolerance = cycles::DEFAULT_TOLERANCE;
         let mut curve = Vec::new();
-        let mut look = |now: &Now<'_>| curve.push((now.at.seconds(), now.conditions[0].rate));
+        let mut look = |now: &SliderState<'_>| curve.push((now.at.seconds(), now.conditions[0].rate));
         let run = cycles::run(&plan, &mut look)?;
         let recurrence = Entry::all(&run).last().and_then(|e| e.interval).ok_or("no recurrence")?;
         let scaled: Vec<(f64, f64)> = curve.iter().map(|(t, v)| (t / recurrence, *v)).collect();

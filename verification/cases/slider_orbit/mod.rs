@@ -4,7 +4,7 @@ use super::slider::{self, Independent, Set, V_REF};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity::kinds::sliders::{Entry, Report};
 use asperity_cycles::Thresholds;
-use asperity_cycles::slider::{self as cycles, Now, Problem};
+use asperity_cycles::slider::{self as cycles, Problem, SliderState};
 use asperity_friction::evolution::slip::Slip;
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::History;
@@ -72,7 +72,7 @@ fn orbit(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError> 
     let steady = slider::MU0;
     let first = conserved(&set, KICK, set.a * KICK);
     let (mut drift, mut curve): (f64, Vec<(f64, f64)>) = (0.0, Vec::new());
-    let mut look = |now: &Now<'_>| {
+    let mut look = |now: &SliderState<'_>| {
         let c = now.conditions[0];
         let (x, f) = (c.log_rate - set.load.ln(), c.friction - steady);
         drift = drift.max((conserved(&set, x, f) / first - 1.0).abs());
@@ -154,7 +154,7 @@ fn runs_away(set: &Set, kick: f64) -> Result<bool, CaseError> {
         let on = set.load * (level as f64).exp();
         plan.events = Some(Thresholds { on, off: 0.5 * on });
         let (mut turned, mut reached) = (false, None);
-        let mut look = |now: &Now<'_>| {
+        let mut look = |now: &SliderState<'_>| {
             turned |= now.conditions[0].log_rate < turning;
             if reached.is_none() && now.conditions[0].rate >= on * (1.0 - 1e-9) {
                 reached = Some(now.unknowns.to_vec());

@@ -10,7 +10,7 @@ use crate::{Capability, Case, CaseError, Evidence, Floor, Ledger, Plot, Series};
 use asperity::catalogue::Entry;
 use asperity::kinds::sliders::Entry as SliderEntry;
 use asperity_cycles::Rupture;
-use asperity_cycles::slider::{self as cycles, Now, Problem, Rows};
+use asperity_cycles::slider::{self as cycles, Problem, Rows, SliderState};
 use asperity_friction::evolution::ageing::Ageing;
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider};
@@ -173,7 +173,7 @@ fn reference(done: &Done) -> Result<Vec<f64>, CaseError> {
     let mut plan = one(SPRINGS[0], History::table(table)?, from)?;
     plan.output = Rows { change: None, times, interval: None, histories: None };
     let mut friction = Vec::new();
-    let mut look = |now: &Now<'_>| {
+    let mut look = |now: &SliderState<'_>| {
         if now.asked {
             friction.push(now.conditions[0].friction);
         }

@@ -90,7 +90,7 @@ fn results(folder: &Path, reference: &Reference) -> Result<String, CaseError> {
     for path in files {
         let name = path.file_name().and_then(|n| n.to_str()).unwrap_or_default();
         let result = Submission::read(&fs::read(&path)?, reference).map_err(|e| format!("{name}:{e}"))?;
-        let judgement = Judgement::of(reference, &result);
+        let judgement = Judgement::new(reference, &result);
         let (agree, all) = judgement.required();
         let says = |key: &str| result.says(key).unwrap_or_default().to_string();
         let _ = writeln!(

@@ -3,14 +3,17 @@
 use super::problem::Problem;
 
 /// Folders in which the rule holds.
-const FOLDERS: [&str; 9] = [
+const FOLDERS: [&str; 12] = [
     "crates/contact/",
+    "crates/cycles/",
     "crates/fem/",
     "crates/friction/",
     "crates/laws/",
     "crates/mechanics/",
     "crates/ode/",
     "crates/output/",
+    "crates/reference/",
+    "crates/run/",
     "crates/scene/",
     "crates/vary/",
 ];

@@ -15,7 +15,7 @@ pub(super) fn print(of: Option<&str>) -> miette::Result<End> {
         None => Citations::default(),
         Some(name) if Path::new(name).is_file() => Source::read(Path::new(name), &[])?.citations()?,
         Some(name) => {
-            let known = Citations::of_case(name).or_else(|| Citations::of_benchmark(name));
+            let known = Citations::from_case(name).or_else(|| Citations::from_benchmark(name));
             known.ok_or_else(|| unknown(name))?
         }
     };

@@ -108,7 +108,7 @@ fn judge(asked: &Comparison, reference: &'static Reference, path: &Path) -> miet
         Ok(result) => result,
         Err(defect) => return Ok(End::Unreadable(format!("{}:{defect}", path.display()))),
     };
-    let judgement = Judgement::of(reference, &result);
+    let judgement = Judgement::new(reference, &result);
     printing::out(format_args!("{}: {}\n\n{judgement}", reference.benchmark, path.display()));
     if !asked.no_plots {
         draw(asked, reference, &result)?;

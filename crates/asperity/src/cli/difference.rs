@@ -3,7 +3,7 @@
 use super::end::End;
 use super::inputs;
 use asperity_output::terminal::printing::out;
-use asperity_reference::difference::{Compared, Difference, Overlap, Table, compare};
+use asperity_reference::difference::{Difference, Overlap, Table, TableComparison, compare};
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::fs;
@@ -68,8 +68,8 @@ fn table(a: &Path, b: &Path, name: &Path, tolerance: f64) -> Result<Verdict, Str
     };
     let (a, b) = (read(a)?, read(b)?);
     let (columns, overlap) = match compare(&a, &b) {
-        Compared::Columns(columns, overlap) => (columns, overlap),
-        Compared::Other(why) => {
+        TableComparison::Columns(columns, overlap) => (columns, overlap),
+        TableComparison::Other(why) => {
             out(format_args!("{}: {why}, differs\n", name.display()));
             return Ok((false, 0));
         }

@@ -197,8 +197,8 @@ impl Source {
     pub fn citations(&self) -> miette::Result<Citations> {
         let citations = match &self.parsed {
             Parsed::Sliders(_) => scene::reader::read_sliders(self.text.resolved.text())
-                .and_then(|scene| cite::of_sliders(&scene)),
-            Parsed::Bodies(scene) => cite::of_scene(scene),
+                .and_then(|scene| cite::slider_citations(&scene)),
+            Parsed::Bodies(scene) => cite::scene_citations(scene),
         };
         citations.map_err(|errors| self.text.report(&errors))
     }

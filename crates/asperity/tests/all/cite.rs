@@ -3,7 +3,7 @@
 
 use crate::common::{SANDWICH, told, varied};
 use asperity_plan::reading::scene;
-use asperity_reference::cite::{Citations, of_scene, of_sliders, reference};
+use asperity_reference::cite::{Citations, reference, scene_citations, slider_citations};
 use asperity_vary::Change::{self, Add, With, Without};
 use biblatex::Bibliography;
 use std::path::{Path, PathBuf};
@@ -27,12 +27,15 @@ fn keys(citations: &Citations) -> Vec<&'static str> {
 
 fn of(text: &str, changes: &[Change<'_>]) -> Vec<&'static str> {
     let text = varied(text, changes);
-    keys(&of_scene(&scene::read(&text).unwrap_or_else(|e| panic!("{e}\n{text}"))).unwrap())
+    keys(&scene_citations(&scene::read(&text).unwrap_or_else(|e| panic!("{e}\n{text}"))).unwrap())
 }
 
 fn of_slider(changes: &[Change<'_>]) -> Vec<&'static str> {
     let text = varied(SLIDER, changes);
-    keys(&of_sliders(&scene::reader::read_sliders(&text).unwrap_or_else(|e| panic!("{e}\n{text}"))).unwrap())
+    keys(
+        &slider_citations(&scene::reader::read_sliders(&text).unwrap_or_else(|e| panic!("{e}\n{text}")))
+            .unwrap(),
+    )
 }
 
 /// Keys that a change adds, and those that it takes away.

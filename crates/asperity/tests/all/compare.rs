@@ -211,7 +211,7 @@ fn the_list_has_every_benchmark_and_the_template_asks_for_every_value() {
         let template = run(&["compare", "--template", "--benchmark", name]);
         let empty = Submission::read(template.as_bytes(), reference).unwrap();
         assert!(empty.rows.is_empty(), "{name}");
-        assert!(!Judgement::of(reference, &empty).agrees(), "{name}");
+        assert!(!Judgement::new(reference, &empty).agrees(), "{name}");
         let rows = template.lines().filter(|line| line.ends_with(',')).count();
         assert_eq!(rows, reference.quantities.iter().map(|q| q.places.len()).sum::<usize>(), "{name}");
     }
@@ -234,7 +234,7 @@ fn every_value_is_judged_by_its_own_tolerance() {
     for reference in benchmark::all() {
         for (share, agrees) in [(0.0, true), (0.99, true), (-0.99, true), (1.01, false), (-1.01, false)] {
             let result = moved(reference, share);
-            let judgement = Judgement::of(reference, &result);
+            let judgement = Judgement::new(reference, &result);
             assert_eq!(judgement.agrees(), agrees, "{} {share}", reference.benchmark);
             let expected = |verdict| match share.abs() {
                 0.0 => verdict == Verdict::Within,
@@ -255,7 +255,7 @@ fn the_entries_of_this_program_and_of_others_agree() {
             let path = entry.unwrap().path();
             let result = Submission::read(&std::fs::read(&path).unwrap(), reference)
                 .unwrap_or_else(|defect| panic!("{}:{defect}", path.display()));
-            let judgement = Judgement::of(reference, &result);
+            let judgement = Judgement::new(reference, &result);
             assert!(judgement.agrees(), "{}\n{judgement}", path.display());
             seen += 1;
         }

@@ -25,7 +25,7 @@ fn plan(text: &str) -> Plan {
 fn a_fault_without_heat_has_no_unknowns_of_heat() {
     let with = plan(SCENE);
     let without = plan(&varied(SCENE, &[Without("faults.main.heat")]));
-    let unknowns = |plan: &Plan| Layout::of(&plan.problem.fault).processes().len();
+    let unknowns = |plan: &Plan| Layout::from_fault(&plan.problem.fault).processes().len();
     assert_eq!((unknowns(&with), unknowns(&without)), (1, 0));
     assert_eq!(with.problem.start.len(), without.problem.start.len() + 1);
     assert!(without.problem.fault.processes.find::<asperity_cycles::heat::Heat>().is_none());

@@ -87,7 +87,7 @@ fn followed(plan: &Plan, floor: f64) -> (FaultRun, Report, f64) {
     let (shear_rate, normal_rate) = plan.problem.loading.rates(1.0, n, couples);
     let (law, damping) = (&plan.problem.fault.law, &plan.problem.fault.damping);
     let mut rate = vec![0.0; n];
-    let layout = asperity_cycles::Layout::of(&plan.problem.fault);
+    let layout = asperity_cycles::Layout::from_fault(&plan.problem.fault);
     law.slip_rates(0, &plan.problem.start[layout.m()], &plan.problem.start[layout.states()], &mut rate);
     let friction =
         |p: usize, pressed: f64, m: f64, v: f64| pressed.max(floor) * law.scale(p) * m + damping[p] * v;
@@ -212,7 +212,7 @@ fn an_initial_stress_resolves_onto_the_fault_as_on_mohrs_circle() {
     // The normal points 30 degrees up from x.
     let (sine, cosine) = 60f64.to_radians().sin_cos();
     let expected = [-(mean + half * cosine + shear * sine), -half * sine + shear * cosine];
-    let layout = asperity_cycles::Layout::of(&plan.problem.fault);
+    let layout = asperity_cycles::Layout::from_fault(&plan.problem.fault);
     let mut rate = vec![0.0; plan.points.len()];
     plan.problem.fault.law.slip_rates(
         0,

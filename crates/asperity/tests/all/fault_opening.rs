@@ -40,7 +40,7 @@ fn followed(plan: &Plan) -> Found {
     let (law, opening) = (&fault.law, fault.processes.find::<Opening>().unwrap());
     let floor = plan.faults[0].normal.floor.unwrap();
     let (shear_rate, normal_rate) = plan.problem.loading.rates(1.0, n, true);
-    let layout = Layout::of(fault);
+    let layout = Layout::from_fault(fault);
     let mut rate = vec![0.0; n];
     law.slip_rates(0, &plan.problem.start[layout.m()], &plan.problem.start[layout.states()], &mut rate);
     let friction = |p: usize, f: f64, m: f64, v: f64| f * law.scale(p) * m + fault.damping[p] * v;
@@ -144,16 +144,16 @@ fn sides_of_a_fault_lie_as_far_apart_as_it_is_open() {
     ));
     let found = followed(&plan);
     let end = plan.problem.fault.pressed(found.run.at, &found.run.unknowns);
-    let slip = &found.run.unknowns[Layout::of(&plan.problem.fault).slip()];
+    let slip = &found.run.unknowns[Layout::from_fault(&plan.problem.fault).slip()];
     let view = plan.bodies.as_ref().unwrap();
-    let moved = view.bodies.vectors(&[slip, end.of(&OPENING)].concat(), found.run.at.seconds());
-    let largest = slip.iter().chain(end.of(&OPENING)).fold(0.0_f64, |l, v| l.max(v.abs()));
-    assert!(end.of(&OPENING).iter().any(|o| *o > 0.01));
+    let moved = view.bodies.vectors(&[slip, end.values(&OPENING)].concat(), found.run.at.seconds());
+    let largest = slip.iter().chain(end.values(&OPENING)).fold(0.0_f64, |l, v| l.max(v.abs()));
+    assert!(end.values(&OPENING).iter().any(|o| *o > 0.01));
     for (p, (&[minus, plus], point)) in view.sides.iter().zip(&plan.points).enumerate() {
         for (c, (way, normal)) in point.slides.iter().zip(point.normal).enumerate() {
             let jump = moved[plus][c] - moved[minus][c];
             // Rounding of displacements.
-            let off = jump - slip[p] * way - end.of(&OPENING)[p] * normal;
+            let off = jump - slip[p] * way - end.values(&OPENING)[p] * normal;
             assert!(off.abs() < 1e-12 * largest, "{p} {c} {off:e}");
         }
     }

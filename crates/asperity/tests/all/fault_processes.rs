@@ -70,7 +70,7 @@ fn run(plan: &Plan, from: Option<(FaultRun, Sums)>) -> (FaultRun, Sums, f64, Opt
     };
     let mut kept = Kept { balance, first: None };
     let run = resume(&problem.fault, &problem.loading, begin, &problem.settings, &mut kept).unwrap();
-    let slip = &run.unknowns[asperity_cycles::Layout::of(&problem.fault).slip()];
+    let slip = &run.unknowns[asperity_cycles::Layout::from_fault(&problem.fault).slip()];
     let pressed = problem.fault.pressed(run.at, &run.unknowns);
     let imbalance = kept.balance.energy(slip, &pressed).imbalance();
     (run, kept.balance.sums(), imbalance, kept.first)

@@ -4,7 +4,7 @@ use crate::common::sliders::{CYCLE, history, plan, relative, written};
 use crate::common::varied;
 use asperity::kinds::sliders::{Entry, Report};
 use asperity_cycles::Thresholds;
-use asperity_cycles::slider::{DEFAULT_METHOD, Now, Problem, Rows, SliderRun, run};
+use asperity_cycles::slider::{DEFAULT_METHOD, Problem, Rows, SliderRun, SliderState, run};
 use asperity_friction::slider::{Condition, History, Slider, Spring, System};
 use asperity_laws as laws;
 use asperity_ode::{Control, Failure, Method, Outcome};
@@ -78,7 +78,7 @@ struct Row {
 
 fn watched(plan: &Problem) -> (SliderRun, Vec<Row>) {
     let mut rows = Vec::new();
-    let mut look = |now: &Now<'_>| {
+    let mut look = |now: &SliderState<'_>| {
         rows.push(Row {
             time: now.at.seconds(),
             dt: now.dt,
@@ -392,14 +392,14 @@ fn several_observers_see_the_same_rows_and_any_of_them_ends_the_run() {
     let (_, rows) = watched(&plan);
     let (mut first, mut second) = (0, Vec::new());
     {
-        let mut count = |_: &Now<'_>| first += 1;
-        let mut look = |now: &Now<'_>| second.push(now.at.seconds());
+        let mut count = |_: &SliderState<'_>| first += 1;
+        let mut look = |now: &SliderState<'_>| second.push(now.at.seconds());
         run(&plan, &mut Observers(vec![&mut count, &mut look])).unwrap();
     }
     assert_eq!(first, rows.len());
     assert_eq!(second, rows.iter().map(|row| row.time).collect::<Vec<_>>());
     let mut left = 5;
-    let mut stop = |_: &Now<'_>| {
+    let mut stop = |_: &SliderState<'_>| {
         left -= 1;
         if left == 0 { Control::Stop } else { Control::Go }
     };

@@ -3,7 +3,7 @@
 use crate::common::sliders::{CYCLE, history, plan, planned, relative, written};
 use crate::common::{plain_evolutions, varied};
 use asperity::kinds::sliders::{Entry, Named, csv};
-use asperity_cycles::slider::{Now, Stability, critical_stiffness, run};
+use asperity_cycles::slider::{SliderState, Stability, critical_stiffness, run};
 use asperity_ode::Method;
 use asperity_vary::Change::{Add, With, Without};
 use nalgebra::DMatrix;
@@ -67,7 +67,7 @@ fn the_mirrored_problem_has_the_mirrored_catalogue() {
 #[test]
 fn every_rise_through_the_threshold_is_an_event_whichever_way() {
     let mut rates = Vec::new();
-    let mut look = |now: &Now<'_>| rates.push(now.conditions[0].rate);
+    let mut look = |now: &SliderState<'_>| rates.push(now.conditions[0].rate);
     let found = Entry::all(&run(&plan(&reversing("")), &mut look).unwrap());
     for way in [1.0, -1.0] {
         // From below a tenth of the threshold to above it, seen at the steps.
@@ -172,7 +172,7 @@ fn rows_stand_at_the_times_asked_for_with_the_digits_of_the_method() {
 /// Largest error of ln V in rows of a run \[-\], against a run with a tolerance of 1e-12 that has rows at the same times.
 fn error(problem: &asperity_cycles::slider::Problem, asked: bool) -> f64 {
     let mut found = Vec::new();
-    let mut look = |now: &Now<'_>| {
+    let mut look = |now: &SliderState<'_>| {
         if now.asked == asked && now.at.seconds() > 0.0 {
             found.push((now.at.seconds(), now.conditions[0].rate));
         }
@@ -183,7 +183,7 @@ fn error(problem: &asperity_cycles::slider::Problem, asked: bool) -> f64 {
     exact.output.times = found.iter().map(|row| row.0).collect();
     exact.output.interval = None;
     let mut rates = Vec::new();
-    let mut look = |now: &Now<'_>| {
+    let mut look = |now: &SliderState<'_>| {
         if now.asked && now.at.seconds() > 0.0 {
             rates.push(now.conditions[0].rate);
         }

@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     problem.most_events = Some(10);
     problem.peaks = true;
     let found = run(&problem, &mut ())?;
-    for event in found.catalogue.of(0) {
+    for event in found.catalogue.events(0) {
         println!("{:.6} s, {:?}, {:e} m/s", event.onset.seconds(), event.interval, event.peak);
     }
     println!("{:?}, {} right-hand sides", found.outcome, found.counts.rates);

@@ -21,7 +21,8 @@
 use super::energy::{Energy, Mark};
 use super::moment::{Ends, Moment};
 use crate::problem::{
-    Account, Fault, Layout, Passage, Pressed, Problem, Process, Saved, Stretch, Time, Way, Working,
+    Account, Fault, Layout, Passage, PointTractions, Problem, Process, ProcessRecord, Stretch, Time, Way,
+    Working,
 };
 use asperity_ode::Clock;
 use rayon::prelude::*;
@@ -49,7 +50,7 @@ pub struct Sums {
     /// Sum of the initial tractions and those of the loads at that time, component by component \[Pa\].
     traction: Vec<f64>,
     /// Statistics of processes.
-    accounts: Vec<Saved>,
+    accounts: Vec<ProcessRecord>,
     /// Sum of the initial normal tractions and those of the loads, at the last change of the loads, where processes
     /// need it \[Pa\].
     pressing: Vec<f64>,
@@ -67,7 +68,7 @@ pub struct Balance<'a> {
     /// Current rates of the normal tractions of the loads \[Pa/s\].
     normal_rate: Vec<f64>,
     /// Tractions and values of processes at the start.
-    first: Pressed,
+    first: PointTractions,
     /// Statistics of processes.
     accounts: Vec<Box<dyn Account>>,
     /// Processes, where their energy needs rates.
@@ -82,7 +83,7 @@ impl<'a> Balance<'a> {
     #[must_use]
     pub fn new(problem: &'a Problem) -> Self {
         let fault = &problem.fault;
-        let (n, layout) = (problem.areas.len(), Layout::of(fault));
+        let (n, layout) = (problem.areas.len(), Layout::from_fault(fault));
         let mut rate = vec![0.0; layout.m().end];
         fault.law.slip_rates(0, &problem.start[layout.m()], &problem.start[layout.states()], &mut rate);
         let pressed = fault.pressed(Clock::new(0.0, 0.0), &problem.start);
@@ -104,7 +105,8 @@ impl<'a> Balance<'a> {
         breaks.push(problem.settings.end);
         let (n, fault) = (problem.areas.len(), &problem.fault);
         let scale = (0..n).map(|p| fault.law.scale(p)).collect();
-        let account = |process: &dyn Process| process.account(Saved::find(&sums.accounts, process.name()));
+        let account =
+            |process: &dyn Process| process.account(ProcessRecord::find(&sums.accounts, process.name()));
         let accounts = fault.processes.iter().filter_map(account).collect();
         let energetic = fault.processes.iter().any(|process| process.energetic().is_some());
         let mut balance = Self {
@@ -117,7 +119,7 @@ impl<'a> Balance<'a> {
             accounts,
             working: energetic.then(|| Working::new(fault, &[])),
             scale,
-            scratch: vec![0.0; Layout::of(fault).m().end],
+            scratch: vec![0.0; Layout::from_fault(fault).m().end],
         };
         balance.load();
         balance
@@ -150,7 +152,7 @@ impl<'a> Balance<'a> {
     }
 
     /// Energy budget at the end of a step, with the elastic energy of `slip` and of processes.
-    pub fn energy(&mut self, slip: &[f64], pressed: &Pressed) -> Energy {
+    pub fn energy(&mut self, slip: &[f64], pressed: &PointTractions) -> Energy {
         let Problem { fault, areas, .. } = self.problem;
         let processes = fault.processes.iter().filter_map(|process| process.energetic());
         let stored = processes.map(|process| process.stored([&self.first, pressed], slip, areas));
@@ -303,11 +305,11 @@ struct End<'a> {
     time: f64,
     unknowns: &'a [f64],
     rates: &'a [f64],
-    pressed: &'a Pressed,
+    pressed: &'a PointTractions,
     /// Pressure of fluid at each point \[Pa\], and its rate \[Pa/s\]; empty without processes.
     fluid: Vec<[f64; 2]>,
     /// Rates of normal tractions and of values of processes, where more than pressures at points changes them.
-    pressing: Option<Pressed>,
+    pressing: Option<PointTractions>,
 }
 
 impl End<'_> {

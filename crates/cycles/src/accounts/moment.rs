@@ -1,7 +1,7 @@
 //! State of a fault at the end of a step, for observers of a run.
 
 use super::rupture::Rupture;
-use crate::problem::{Components, Layout, PerPoint, Pressed, Quantity};
+use crate::problem::{Components, Layout, PerPoint, PointTractions, Quantity};
 use asperity_ode::Clock;
 use asperity_run::{ALL, Catalogue, Event};
 
@@ -21,7 +21,7 @@ pub struct Moment<'a> {
     /// Largest slip rate \[m/s\].
     pub largest: f64,
     /// Normal tractions, and what processes show.
-    pub pressed: &'a Pressed,
+    pub pressed: &'a PointTractions,
     /// Events so far.
     pub catalogue: &'a Catalogue<Rupture>,
     /// The step, if the method knows the rates at its ends; none at the start.
@@ -34,7 +34,7 @@ pub struct Ends<'a> {
     /// Unknowns at its start.
     pub start: &'a [f64],
     /// Normal tractions and what processes show at its start.
-    pub start_pressed: &'a Pressed,
+    pub start_pressed: &'a PointTractions,
     /// Rates of the unknowns at its start.
     pub start_rates: &'a [f64],
     /// Rates of the unknowns at its end.
@@ -101,6 +101,6 @@ impl<'a> Moment<'a> {
     /// A quantity of a process at a point, where one shows it.
     #[must_use]
     pub fn at(&self, quantity: &Quantity, point: usize) -> Option<f64> {
-        self.pressed.of(quantity).get(point).copied()
+        self.pressed.values(quantity).get(point).copied()
     }
 }

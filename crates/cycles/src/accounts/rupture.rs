@@ -243,7 +243,7 @@ mod tests {
     #[test]
     fn an_event_under_way_is_none_that_has_ended() {
         let (_, catalogue) = follow(&[(1.0, 2.0), (2.0, 0.01), (5.0, 3.0), (6.0, 0.5)]);
-        assert_eq!((catalogue.of(0).len(), catalogue.ended(0).len()), (2, 1));
+        assert_eq!((catalogue.events(0).len(), catalogue.ended(0).len()), (2, 1));
         let event = catalogue.under_way(0).unwrap();
         assert_eq!((event.interval, event.end), (Some(4.0), None));
     }

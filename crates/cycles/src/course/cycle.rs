@@ -6,7 +6,7 @@
 //! With [`Dynamics`] the integration ends where the fault slips fast, and restarts from the end of the rupture, which bodies
 //! with mass compute ([`super::episode`]).
 
-use super::episode::{Around, episode};
+use super::episode::{LoadedFault, episode};
 use super::fault_run::{FaultRun, Faults, Outrun};
 use super::follow::{End, Follow};
 use super::run::NextStep;
@@ -156,7 +156,7 @@ fn leg(
                 if let Some(dynamics) = dynamics.as_deref_mut() {
                     let areas = dynamics.areas;
                     let Settings { end, rupture_rate, fastest, .. } = *settings;
-                    let around = Around { equations, fault, loading, areas, end, rupture_rate, fastest };
+                    let around = LoadedFault { equations, fault, loading, areas, end, rupture_rate, fastest };
                     episode(around, dynamics, observer, run)?;
                 }
                 if run.outcome == Outcome::Completed && enough(run, settings) {

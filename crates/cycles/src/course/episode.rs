@@ -13,13 +13,13 @@ use super::follow::{Course, End, Follow};
 use super::settle::settled;
 use super::waves::{Dynamics, Episode, Handover, Shaken, Start};
 use crate::equations::Equations;
-use crate::problem::{Components, Fault, Layout, Loading, Pressed};
+use crate::problem::{Components, Fault, Layout, Loading, PointTractions};
 use asperity_ode::{Clock, Control, Failure, Outcome};
 use asperity_run::{ObserveError, Observer};
 
 /// A fault and its loading.
 #[derive(Clone, Copy)]
-pub(crate) struct Around<'a, 'f> {
+pub(crate) struct LoadedFault<'a, 'f> {
     pub equations: &'a Equations<'f>,
     pub fault: &'a Fault,
     pub loading: &'a Loading,
@@ -39,12 +39,12 @@ pub(crate) struct Around<'a, 'f> {
 /// # Errors
 /// If the observer fails.
 pub(crate) fn episode(
-    around: Around<'_, '_>,
+    around: LoadedFault<'_, '_>,
     dynamics: &mut Dynamics<'_>,
     observer: &mut dyn Observer<Faults>,
     run: &mut FaultRun,
 ) -> Result<(), ObserveError> {
-    let before = Before::of(around, run);
+    let before = RuptureStart::from_run(around, run);
     let (catalogue, detectors) = (&mut run.catalogue, &mut run.progress.detectors);
     let follow = Follow::new(
         (around.equations, around.fault),
@@ -76,19 +76,19 @@ pub(crate) fn episode(
 }
 
 /// The state at which a rupture begins.
-struct Before {
+struct RuptureStart {
     at: Clock,
     layout: Layout,
     unknowns: Vec<f64>,
-    pressed: Pressed,
+    pressed: PointTractions,
     start: Start,
     /// a f_n of all points \[Pa\].
     scale: Vec<f64>,
 }
 
-impl Before {
-    fn of(around: Around<'_, '_>, run: &FaultRun) -> Self {
-        let Around { equations, fault, .. } = around;
+impl RuptureStart {
+    fn from_run(around: LoadedFault<'_, '_>, run: &FaultRun) -> Self {
+        let LoadedFault { equations, fault, .. } = around;
         let (layout, unknowns) = (equations.layout(), run.unknowns.clone());
         let n = layout.points();
         let pressed = equations.pressed(run.at, &unknowns);
@@ -123,7 +123,7 @@ impl Before {
     }
 
     /// Energy that slip since the start has stored in the bodies, beside the work of the tractions at the start \[J\].
-    fn stored(&self, around: Around<'_, '_>, slip: &[f64]) -> f64 {
+    fn stored(&self, around: LoadedFault<'_, '_>, slip: &[f64]) -> f64 {
         let mut traction = vec![0.0; slip.len()];
         around.fault.operator.shear(slip, &mut traction);
         let of = |((s, t), area): ((&f64, &f64), &f64)| -0.5 * area * s * t;
@@ -131,8 +131,8 @@ impl Before {
     }
 
     /// Writes the unknowns after the rupture, in equilibrium with its slip, and the errors.
-    fn back(&self, around: Around<'_, '_>, last: &Last, record: &mut Episode, unknowns: &mut [f64]) {
-        let Around { fault, loading, .. } = around;
+    fn back(&self, around: LoadedFault<'_, '_>, last: &Last, record: &mut Episode, unknowns: &mut [f64]) {
+        let LoadedFault { fault, loading, .. } = around;
         let (l, n) = (self.layout, self.layout.points());
         let slip: Vec<f64> =
             last.unknowns[l.slip()].iter().zip(&self.unknowns[l.slip()]).map(|(b, a)| b - a).collect();
@@ -218,8 +218,8 @@ impl Course for Stride<'_> {
 
 /// Shows the steps of a rupture to observers, and ends it.
 struct Watch<'a, 'f> {
-    before: &'a Before,
-    around: Around<'a, 'f>,
+    before: &'a RuptureStart,
+    around: LoadedFault<'a, 'f>,
     follow: Follow<'a, 'f>,
     handover: Handover,
     last: Last,
@@ -235,7 +235,12 @@ struct Watch<'a, 'f> {
 }
 
 impl<'a, 'f> Watch<'a, 'f> {
-    fn new(before: &'a Before, follow: Follow<'a, 'f>, handover: Handover, around: Around<'a, 'f>) -> Self {
+    fn new(
+        before: &'a RuptureStart,
+        follow: Follow<'a, 'f>,
+        handover: Handover,
+        around: LoadedFault<'a, 'f>,
+    ) -> Self {
         let start = &before.start;
         let n = before.layout.points();
         let speed = Components::new(start.rate.as_slice(), n);

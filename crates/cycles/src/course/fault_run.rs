@@ -4,7 +4,7 @@ use super::run::Run;
 use super::waves::Episode;
 use crate::accounts::{Detector, Moment, Rupture};
 use crate::equations::Equations;
-use crate::problem::{Fault, Pressed, Saved, Thresholds};
+use crate::problem::{Fault, PointTractions, ProcessRecord, Thresholds};
 use asperity_run::{ALL, Event, Kind};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -16,7 +16,7 @@ pub struct Progress {
     pub(crate) detectors: Vec<Detector>,
     /// States that processes remember.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(crate) processes: Vec<Saved>,
+    pub(crate) processes: Vec<ProcessRecord>,
     /// Ruptures that bodies with mass computed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub episodes: Vec<Episode>,
@@ -104,7 +104,7 @@ impl FaultRun {
 
     /// Slip rates \[m/s\] and normal tractions at the time that the run has reached.
     #[must_use]
-    pub fn present(&self, fault: &Fault) -> (Vec<f64>, Pressed) {
+    pub fn present(&self, fault: &Fault) -> (Vec<f64>, PointTractions) {
         let mut equations = Equations::new(fault, Vec::new(), Vec::new());
         equations.remember(&self.progress.processes);
         let mut rate = vec![0.0; equations.layout().m().end];

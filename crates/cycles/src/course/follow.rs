@@ -3,7 +3,7 @@
 use super::fault_run::{Faults, Outrun};
 use crate::accounts::{Detector, Ends, Moment, Rupture, Stride, Values};
 use crate::equations::Equations;
-use crate::problem::{Components, Fault, Field, Pressed};
+use crate::problem::{Components, Fault, Field, PointTractions};
 use asperity_ode::{Clock, Control, Step};
 use asperity_run::{ALL, Catalogue, ObserveError, Observer};
 use std::ops::Range;
@@ -76,7 +76,7 @@ pub(crate) struct Follow<'a, 'f> {
     /// Largest slip rate at the end of the last step \[m/s\].
     pub largest: f64,
     /// Normal tractions and values of processes at the end of the last step.
-    pressed: Pressed,
+    pressed: PointTractions,
 }
 
 /// The fastest point, if its slip rate is beyond `most` \[m/s\] or no number.

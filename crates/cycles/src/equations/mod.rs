@@ -9,7 +9,9 @@
 
 mod first;
 
-use crate::problem::{Components, Fault, Layout, Pressed, Rates, Saved, Time, Tractions, Working};
+use crate::problem::{
+    Components, Fault, Layout, PointTractions, ProcessRecord, Rates, Time, Tractions, Working,
+};
 use asperity_friction::fault::Drive;
 use asperity_ode::{Clock, Problem};
 use std::cell::{Cell, RefCell};
@@ -51,7 +53,7 @@ impl<'a> Equations<'a> {
     /// The equations of `fault` under loads of these rates \[Pa/s\].
     #[must_use]
     pub fn new(fault: &'a Fault, shear_load: Vec<f64>, normal_load: Vec<f64>) -> Self {
-        let layout = Layout::of(fault);
+        let layout = Layout::from_fault(fault);
         let (n, vectors) = (layout.points(), layout.m().end);
         let pressed = fault.processes.iter().any(|process| process.presses());
         let changes = pressed || !layout.normal().is_empty();
@@ -90,12 +92,12 @@ impl<'a> Equations<'a> {
     }
 
     /// Begins from what processes remember.
-    pub(crate) fn remember(&mut self, saved: &[Saved]) {
+    pub(crate) fn remember(&mut self, saved: &[ProcessRecord]) {
         self.scratch.get_mut().working = Working::new(self.fault, saved);
     }
 
     /// Saves what processes remember.
-    pub(crate) fn save(&self) -> Vec<Saved> {
+    pub(crate) fn save(&self) -> Vec<ProcessRecord> {
         self.scratch.borrow().working.save()
     }
 
@@ -125,7 +127,7 @@ impl<'a> Equations<'a> {
     }
 
     /// Computes the normal tractions of the points and the values of processes at a moment.
-    pub fn pressed(&self, at: Clock, y: &[f64]) -> Pressed {
+    pub fn pressed(&self, at: Clock, y: &[f64]) -> PointTractions {
         let working = &mut self.scratch.borrow_mut().working;
         working.see(at, y);
         working.pressed(at, y)

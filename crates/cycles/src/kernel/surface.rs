@@ -90,7 +90,7 @@ fn risen(side: &Side, line: &Line, slip: &Vector3<f64>, factor: f64) -> Field {
         return Field::ZERO;
     }
     let (sign, lower, upper) = if t.z > 0.0 { (1.0, 0, 1) } else { (-1.0, 1, 0) };
-    let axes = Axes::of(&(t * sign));
+    let axes = Axes::from_side(&(t * sign));
     let v = Vector3::new(slip.y, -slip.x, 0.0);
     let part = |end: usize| axes.terms(&line.rays[end].from, line.rays[end].distance, &v);
     let (low, high) = (part(lower), part(upper));
@@ -125,7 +125,7 @@ struct Axes {
 
 impl Axes {
     /// Axes of a side with this unit vector, which rises. Any horizontal direction serves a vertical side.
-    fn of(t: &Vector3<f64>) -> Self {
+    fn from_side(t: &Vector3<f64>) -> Self {
         let (cos, sin) = (t.x.hypot(t.y), t.z);
         let ahead = if cos > 0.0 { Vector3::new(t.x / cos, t.y / cos, 0.0) } else { Vector3::x() };
         let across = Vector3::new(-ahead.y, ahead.x, 0.0);

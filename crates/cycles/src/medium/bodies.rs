@@ -26,7 +26,7 @@ impl<const C: usize> Jumping for Jumps<C> {
 
 /// A weighted sum of displacements, as it follows slip and loads.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Followed {
+pub struct DisplacementSum {
     /// Change per slip of each point, component by component \[-\].
     pub per_slip: Vec<f64>,
     /// Amplitude of each load, and the sum at its unit amplitude \[m\]. A slip that creep prescribes is one of them.
@@ -74,15 +74,15 @@ impl Bodies {
     /// Weighted sums of displacements as they follow slip of `tangents` components and loads, for weights of degrees of freedom,
     /// node * components + component. It takes half a solve for each sum, and one for each load.
     #[must_use]
-    pub fn followed(&self, sums: &[Vec<(usize, f64)>], tangents: usize) -> Vec<Followed> {
+    pub fn followed(&self, sums: &[Vec<(usize, f64)>], tangents: usize) -> Vec<DisplacementSum> {
         let slip = |weights: &Vec<(usize, f64)>| {
             // Ties are converted before the jumps, and their weights after them.
             let all = self.jumps.iter().rev().fold(weights.clone(), |weights, jumps| jumps.gather(&weights));
             let influence = self.interior.influence(&all);
             (0..tangents).flat_map(|c| self.rows.iter().map(move |r| r + c)).map(|r| influence[r]).collect()
         };
-        let followed = |weights| Followed { per_slip: slip(weights), loads: Vec::new() };
-        let mut all: Vec<Followed> = sums.iter().map(followed).collect();
+        let followed = |weights| DisplacementSum { per_slip: slip(weights), loads: Vec::new() };
+        let mut all: Vec<DisplacementSum> = sums.iter().map(followed).collect();
         for (amplitude, mut moved) in self.interior.loaded().filter(|(amplitude, _)| !amplitude.is_zero()) {
             self.jumps.iter().for_each(|jumps| jumps.displace(&mut moved));
             for (sum, weights) in all.iter_mut().zip(sums) {

@@ -198,8 +198,9 @@ fn with_components<const D: usize, const C: usize>(
     let across = if sides.both { C } else { 1 };
     let operator =
         Forces::operator_bytes(across, tangents, free.len()) + Opening::memory(opens, free.len(), tangents);
-    let (left, bytes) = Left::of(body, (&retained, &fixed), channels, (memory, operator), keep)
-        .map_err(|e| refused(&jumps, &e))?;
+    let (left, bytes) =
+        CondensedPart::condense(body, (&retained, &fixed), channels, (memory, operator), keep)
+            .map_err(|e| refused(&jumps, &e))?;
     let loads = Channels { all: left.channels(), creep, weighs };
     let (matrix, interior) = left.parted();
     let ties = machine.ties().clone();
@@ -216,17 +217,17 @@ fn weight(loads: &Loads) -> Channel {
 }
 
 /// Result of the elimination of the bodies.
-enum Left {
+enum CondensedPart {
     /// Condensed forces only.
     Alone(Remainder),
     /// With the factor, for displacements.
     Kept(Box<CondensedBody>),
 }
 
-impl Left {
+impl CondensedPart {
     /// Condenses a body onto the `retained` degrees of freedom, with others `fixed`; also the memory it takes
     /// \[bytes\]. The condensed matrix and the operator made from it exist side by side for a while.
-    fn of(
+    fn condense(
         body: Stiffness,
         (retained, fixed): (&[usize], &[usize]),
         channels: Vec<Channel>,

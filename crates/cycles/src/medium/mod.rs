@@ -14,12 +14,12 @@ mod pressed;
 mod refusal;
 mod stressed;
 
-pub use bodies::{Bodies, Followed};
+pub use bodies::{Bodies, DisplacementSum};
 pub use condensed::{Conditions, Surroundings, condense, least_bytes};
 pub use loads::Loads;
 pub use machine::Spring;
 pub use mirror::Mirror;
 pub use place::{Place, across, unit};
 pub use point::{Initial, Point};
-pub use pressed::{Pressed, Pressing, press};
+pub use pressed::{PressedBodies, Pressing, press};
 pub use refusal::Refusal;

@@ -6,8 +6,8 @@
 
 use crate::kernel::{Field, Rectangle, Segment, Space, Triangle};
 use crate::operator::{
-    Accuracy, Both, Checked, Dense, Division, Entry, Form, Geometry, Lattice, Operator, Planar, Toeplitz,
-    Tractions, dense,
+    Accuracy, Both, CheckedOperator, Dense, Division, Entry, Form, Geometry, Lattice, Operator, Planar,
+    Toeplitz, Tractions, dense,
 };
 use asperity_fem::material::elastic::Elastic;
 use nalgebra::{Matrix3, Vector3};
@@ -137,9 +137,9 @@ impl Patches {
     ) -> Box<dyn Operator> {
         match (self.storage(), form) {
             (Storage::Plane(tiles, lattice), Form::Fitting) => {
-                Box::new(of_plane(tiles, lattice, rock, slip.tangents))
+                Box::new(planar_operator(tiles, lattice, rock, slip.tangents))
             }
-            (Storage::Grid(tiles, lattice), Form::Fitting) => of_grid(tiles, lattice, rock, slip),
+            (Storage::Grid(tiles, lattice), Form::Fitting) => grid_operator(tiles, lattice, rock, slip),
             (Storage::Compressed, Form::Fitting) => self.compressed(rock, slip, geometry, self.tolerance()),
             (_, Form::Compressed { tolerance }) => self.compressed(rock, slip, geometry, tolerance),
             (_, Form::Dense | Form::Fitting) => dense(self.tractions(rock, slip)),
@@ -290,7 +290,7 @@ impl Patches {
             };
             [part(0), part(1), part(NORMAL)]
         };
-        Box::new(Checked::new(operator, &row))
+        Box::new(CheckedOperator::new(operator, &row))
     }
 }
 
@@ -458,7 +458,7 @@ fn in_whole_space(tiles: &[Tile]) -> bool {
 }
 
 /// Operator of a single grid in a whole-space.
-fn of_plane(tiles: &[Tile], lattice: &Lattice, rock: &Elastic, tangents: usize) -> Planar {
+fn planar_operator(tiles: &[Tile], lattice: &Lattice, rock: &Elastic, tangents: usize) -> Planar {
     let tile = |column: usize, row: usize| &tiles[lattice.points[row * lattice.columns + column]];
     Planar::new(lattice.clone(), tangents, |distance| {
         // The pair of cells at this distance that lies at ends of the grid.
@@ -471,7 +471,7 @@ fn of_plane(tiles: &[Tile], lattice: &Lattice, rock: &Elastic, tangents: usize) 
 }
 
 /// Operator of a single grid.
-fn of_grid(tiles: &[Tile], lattice: &Lattice, rock: &Elastic, slip: Slip<'_>) -> Box<dyn Operator> {
+fn grid_operator(tiles: &[Tile], lattice: &Lattice, rock: &Elastic, slip: Slip<'_>) -> Box<dyn Operator> {
     let part = |table: &[Pull], part: usize| -> Vec<f64> { table.iter().map(|pull| pull[part]).collect() };
     let coupled = |values: &Vec<f64>, shear: &[f64]| largest(values) > UNCOUPLED * largest(shear);
     let of = |component: usize| {

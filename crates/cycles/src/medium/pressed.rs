@@ -26,7 +26,7 @@ pub struct Pressing {
 
 /// State of bodies that are pressed.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Pressed {
+pub struct PressedBodies {
     /// Tractions on the points.
     pub tractions: Initial,
     /// Displacements \[m\], node by node.
@@ -46,7 +46,7 @@ pub fn press<const D: usize>(
     pressing: &Pressing,
     points: &[Point<D>],
     conditions: Conditions,
-) -> Result<Pressed, Refusal> {
+) -> Result<PressedBodies, Refusal> {
     match conditions.components {
         1 => with_components::<D, 1>(bodies, pressing, points, conditions, |_| [[1.0]]),
         2 => with_components::<D, 2>(bodies, pressing, points, conditions, in_plane),
@@ -60,7 +60,7 @@ fn with_components<const D: usize, const C: usize>(
     points: &[Point<D>],
     Conditions { tangents, memory, .. }: Conditions,
     frame: impl Fn(&Place<D>) -> [[f64; C]; C],
-) -> Result<Pressed, Refusal> {
+) -> Result<PressedBodies, Refusal> {
     let jump = |p: &Point<D>| held::jump(p, frame(&p.place), &pressing.fixed, |_| false);
     let list: Vec<Jump<C>> = points.iter().map(jump).collect();
     let first: Vec<usize> = list.iter().map(|j| j.plus).collect();
@@ -103,7 +103,7 @@ fn with_components<const D: usize, const C: usize>(
             [minus, plus].into_iter().for_each(|node| on_nodes[C * node + c] = both);
         }
     }
-    Ok(Pressed { tractions, displacement: unknowns, supports: on_nodes })
+    Ok(PressedBodies { tractions, displacement: unknowns, supports: on_nodes })
 }
 
 /// Internal forces less loads.

@@ -34,7 +34,7 @@ struct Task {
 
 /// A compressed matrix in the order of a tree.
 #[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Compressed {
+pub(super) struct CompressedMatrix {
     /// Number of rows.
     size: usize,
     blocks: Vec<Block>,
@@ -156,7 +156,7 @@ impl Part {
     }
 }
 
-impl Compressed {
+impl CompressedMatrix {
     /// Matrix of `size` rows with these blocks. If it is symmetric, blocks off the diagonal also stand for their transposes. If
     /// not, it may have any number of columns.
     pub fn new(size: usize, parts: Vec<Part>, symmetric: bool, precision: Precision) -> Self {

@@ -17,7 +17,7 @@ pub struct Errors {
 
 /// An operator and its errors.
 #[derive(Debug, Serialize, Deserialize)]
-pub struct Checked {
+pub struct CheckedOperator {
     operator: Box<dyn Operator>,
     errors: Errors,
 }
@@ -38,7 +38,7 @@ fn random(count: usize) -> Vec<f64> {
     (0..count).map(next).collect()
 }
 
-impl Checked {
+impl CheckedOperator {
     /// Compares an operator with exact rows. `row` gives the tractions at a point, component by component, and then the normal
     /// traction, per slip of each component of each point, in the order of slip.
     #[must_use]
@@ -75,7 +75,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-impl Operator for Checked {
+impl Operator for CheckedOperator {
     fn points(&self) -> usize {
         self.operator.points()
     }

@@ -16,7 +16,7 @@ const PROBES: usize = 6;
 
 /// Size and accuracy of a block.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Wanted {
+pub(super) struct BlockAccuracy {
     /// Numbers of rows and columns.
     pub size: [usize; 2],
     /// Error in Frobenius' norm over the norm of the block.
@@ -109,7 +109,7 @@ fn spread(rows: usize) -> Vec<usize> {
 }
 
 /// Factors a block of these entries; none if more columns than wanted are needed. A block of rounding has no columns.
-pub(super) fn crosses(entry: &dyn Fn(usize, usize) -> f64, wanted: Wanted) -> Option<LowRank> {
+pub(super) fn crosses(entry: &dyn Fn(usize, usize) -> f64, wanted: BlockAccuracy) -> Option<LowRank> {
     let [m, n] = wanted.size;
     let floor = wanted.rounding * ((m * n) as f64).sqrt();
     let (mut used_rows, mut used_columns) = (vec![false; m], vec![false; n]);
@@ -157,11 +157,11 @@ pub(super) fn crosses(entry: &dyn Fn(usize, usize) -> f64, wanted: Wanted) -> Op
 
 #[cfg(test)]
 mod tests {
-    use super::{Wanted, crosses};
+    use super::{BlockAccuracy, crosses};
     use nalgebra::DMatrix;
 
-    fn wanted(size: [usize; 2], tolerance: f64) -> Wanted {
-        Wanted { size, tolerance, rounding: 1e-15, most: 48 }
+    fn wanted(size: [usize; 2], tolerance: f64) -> BlockAccuracy {
+        BlockAccuracy { size, tolerance, rounding: 1e-15, most: 48 }
     }
 
     /// Error over the norm of a block, and the number of columns.
@@ -176,8 +176,8 @@ mod tests {
         for scale in [1.0, 1e-9] {
             let entry = |i: usize, j: usize| scale / (20.0 + i as f64 + j as f64).powi(3);
             for tolerance in [1e-3, 1e-6, 1e-9] {
-                let found =
-                    crosses(&entry, Wanted { rounding: 1e-30, ..wanted([80, 60], tolerance) }).unwrap();
+                let found = crosses(&entry, BlockAccuracy { rounding: 1e-30, ..wanted([80, 60], tolerance) })
+                    .unwrap();
                 let block = DMatrix::from_fn(80, 60, entry);
                 let off = (&found.left * found.right.transpose() - &block).norm() / block.norm();
                 assert!(off <= tolerance, "{off:e} above {tolerance:e}");

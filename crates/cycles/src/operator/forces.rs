@@ -194,7 +194,7 @@ impl Forces {
 
     /// Forces of these tractions of slip in one direction, row by row.
     #[cfg(test)]
-    pub(crate) fn of_tractions(shear: &[f64], normal: &[f64], areas: &[f64]) -> Self {
+    pub(crate) fn from_tractions(shear: &[f64], normal: &[f64], areas: &[f64]) -> Self {
         let n = areas.len();
         let mut values = vec![0.0; 4 * n * n];
         for (p, area) in areas.iter().enumerate() {

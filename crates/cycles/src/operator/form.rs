@@ -2,7 +2,7 @@
 
 use super::forces::Forces;
 use super::tractions::Tractions;
-use super::{Both, Checked, Dense, Geometry, Hierarchical, Operator, Tolerance};
+use super::{Both, CheckedOperator, Dense, Geometry, Hierarchical, Operator, Tolerance};
 
 /// Storage of an operator.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +31,7 @@ const ON_SURFACES: f64 = 1e-3;
 /// The operator of condensed bodies for points of this geometry, stored in this form. Their forces are freed once it is
 /// made.
 #[must_use]
-pub fn of_forces(forces: Forces, geometry: &Geometry<'_>, form: Form) -> Box<dyn Operator> {
+pub fn condensed_operator(forces: Forces, geometry: &Geometry<'_>, form: Form) -> Box<dyn Operator> {
     let usual = if geometry.surfaces { ON_SURFACES } else { ON_LINES };
     let tolerance = match form {
         Form::Fitting if forces.points() >= COMPRESSED_FROM => usual,
@@ -43,10 +43,10 @@ pub fn of_forces(forces: Forces, geometry: &Geometry<'_>, form: Form) -> Box<dyn
         Form::Compressed { tolerance } => tolerance,
     };
     if geometry.surfaces {
-        let operator = Hierarchical::of_forces(&forces, geometry, Tolerance::OfBlock(tolerance));
-        return Box::new(Checked::new(Box::new(operator), &|p| forces.row(p)));
+        let operator = Hierarchical::from_forces(&forces, geometry, Tolerance::OfBlock(tolerance));
+        return Box::new(CheckedOperator::new(Box::new(operator), &|p| forces.row(p)));
     }
-    Box::new(Hierarchical::of_forces(&forces, geometry, Tolerance::OfLargest(tolerance)))
+    Box::new(Hierarchical::from_forces(&forces, geometry, Tolerance::OfLargest(tolerance)))
 }
 
 /// The operator with all entries.

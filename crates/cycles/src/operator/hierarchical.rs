@@ -4,7 +4,7 @@
 //! by tributary areas. Of entries that are computed one by one, tractions are compressed.
 
 use super::Operator;
-use super::blocks::{Compressed, Content, Part, Precision, Sizes};
+use super::blocks::{CompressedMatrix, Content, Part, Precision, Sizes};
 use super::cluster::{Cluster, Tree};
 use super::forces::Forces;
 use super::low_rank::{GROUP, LowRank, low_rank};
@@ -42,7 +42,7 @@ struct Error {
 
 impl Error {
     /// In Frobenius' norm.
-    fn of(self, block: &DMatrix<f64>) -> f64 {
+    fn bound(self, block: &DMatrix<f64>) -> f64 {
         let entries = (block.len() as f64).sqrt() * self.entry;
         self.relative.map_or(entries, |relative| entries.max(relative * block.norm()))
     }
@@ -70,7 +70,7 @@ impl<E: Fn(usize, usize) -> f64 + Sync> Source<'_, E> {
         let block = DMatrix::from_fn(m, n, |i, j| self.entry(a.range.start + i, b.range.start + j));
         let tried = if far { MOST_RANK } else { MOST_RANK_NEAR };
         let most = (m * n / (m + n)).min(tried) / GROUP * GROUP;
-        let error = self.error.of(&block);
+        let error = self.error.bound(&block);
         low_rank(block, error, most)
     }
 
@@ -130,7 +130,7 @@ impl<E: Fn(usize, usize) -> f64 + Sync> Source<'_, E> {
 
 /// Vectors in the order of the tree.
 #[derive(Debug, Default)]
-struct Ordered {
+struct OrderedVectors {
     slip: Vec<f64>,
     force: Vec<f64>,
 }
@@ -170,12 +170,12 @@ pub struct Hierarchical {
     order: Vec<usize>,
     /// Inverse tributary areas, in the order of the tree.
     per_area: Vec<f64>,
-    shear: Compressed,
-    normal: Option<Compressed>,
+    shear: CompressedMatrix,
+    normal: Option<CompressedMatrix>,
     stiffness: Vec<f64>,
     tolerance: Tolerance,
     #[serde(skip)]
-    ordered: Mutex<Ordered>,
+    ordered: Mutex<OrderedVectors>,
     #[serde(skip)]
     arch: Arch,
 }
@@ -197,7 +197,7 @@ impl Hierarchical {
     /// Compresses the forces of condensed bodies, block by block. The largest force is that of shear along the first direction
     /// of slip. It is below the spectral norm of the matrix.
     #[must_use]
-    pub fn of_forces(forces: &Forces, geometry: &Geometry<'_>, tolerance: Tolerance) -> Self {
+    pub fn from_forces(forces: &Forces, geometry: &Geometry<'_>, tolerance: Tolerance) -> Self {
         let (n, components) = (forces.points(), forces.components());
         let tree = &Tree::new(geometry.places, geometry.faults);
         let areas = geometry.areas;
@@ -225,37 +225,37 @@ impl Hierarchical {
             shear.extend(shifted(parts(0, 1), [0, n]));
         }
         let precision = tolerance.precision();
-        let shear = Compressed::new(components * n, shear, true, precision);
+        let shear = CompressedMatrix::new(components * n, shear, true, precision);
         let pressing = (0..components).filter(|&c| forces.presses(c));
         let normal: Vec<Part> = pressing.flat_map(|c| shifted(parts(components, c), [0, c * n])).collect();
-        let normal = (!normal.is_empty()).then(|| Compressed::new(n, normal, false, precision));
+        let normal = (!normal.is_empty()).then(|| CompressedMatrix::new(n, normal, false, precision));
         let order = (0..components).flat_map(|c| tree.order.iter().map(move |p| c * n + p)).collect();
         let per_area: Vec<f64> = tree.order.iter().map(|&p| 1.0 / areas[p]).collect();
         let all = (order, per_area.repeat(components));
-        let operator = Self::of(shear, normal, all, forces.stiffness(), tolerance);
+        let operator = Self::from_matrices(shear, normal, all, forces.stiffness(), tolerance);
         Self { components, ..operator }
     }
 
     /// The operator of these matrices for slip in one direction, with the position in slip and the inverse area of each row.
-    fn of(
-        shear: Compressed,
-        normal: Option<Compressed>,
+    fn from_matrices(
+        shear: CompressedMatrix,
+        normal: Option<CompressedMatrix>,
         (order, per_area): (Vec<usize>, Vec<f64>),
         stiffness: Vec<f64>,
         tolerance: Tolerance,
     ) -> Self {
         let vector = || vec![0.0; order.len()];
-        let ordered = Mutex::new(Ordered { slip: vector(), force: vector() });
+        let ordered = Mutex::new(OrderedVectors { slip: vector(), force: vector() });
         let arch = Arch::new();
         Self { components: 1, order, per_area, shear, normal, stiffness, tolerance, ordered, arch }
     }
 
     /// Operator of tractions that are compressed with this tolerance relative to each block, in the order of the tree of these
     /// points.
-    pub(super) fn of_blocks(
+    pub(super) fn from_blocks(
         order: Vec<usize>,
-        shear: Compressed,
-        normal: Option<Compressed>,
+        shear: CompressedMatrix,
+        normal: Option<CompressedMatrix>,
         tolerance: f64,
     ) -> Self {
         let n = order.len();
@@ -266,25 +266,28 @@ impl Hierarchical {
             }
         }
         let per_area = vec![1.0; n];
-        Self::of(shear, normal, (order, per_area), stiffness, Tolerance::OfBlock(tolerance))
+        Self::from_matrices(shear, normal, (order, per_area), stiffness, Tolerance::OfBlock(tolerance))
     }
 
     /// The same operator with its tasks and working memory, which are not written.
     pub(super) fn restored(self) -> Self {
-        let (shear, normal) = (self.shear.restored(), self.normal.map(Compressed::restored));
+        let (shear, normal) = (self.shear.restored(), self.normal.map(CompressedMatrix::restored));
         let all = (self.order, self.per_area);
-        Self { components: self.components, ..Self::of(shear, normal, all, self.stiffness, self.tolerance) }
+        Self {
+            components: self.components,
+            ..Self::from_matrices(shear, normal, all, self.stiffness, self.tolerance)
+        }
     }
 
     /// Sizes of the matrices of shear and of normal forces.
     #[must_use]
     pub fn sizes(&self) -> Vec<Sizes> {
-        std::iter::once(&self.shear).chain(&self.normal).map(Compressed::sizes).collect()
+        std::iter::once(&self.shear).chain(&self.normal).map(CompressedMatrix::sizes).collect()
     }
 
-    fn tractions(&self, matrix: &Compressed, slip: &[f64], tractions: &mut [f64]) {
+    fn tractions(&self, matrix: &CompressedMatrix, slip: &[f64], tractions: &mut [f64]) {
         let mut ordered = self.ordered.lock().unwrap_or_else(PoisonError::into_inner);
-        let Ordered { slip: x, force } = &mut *ordered;
+        let OrderedVectors { slip: x, force } = &mut *ordered;
         let force = &mut force[..tractions.len()];
         for (x, &p) in x.iter_mut().zip(&self.order) {
             *x = slip[p];
@@ -394,8 +397,8 @@ mod tests {
             let faults = [0..first, first..self.places.len()];
             let (places, areas) = (&self.places, &self.areas);
             let geometry = Geometry { places, faults: &faults, areas, surfaces: false };
-            let forces = Forces::of_tractions(&self.shear, &self.normal, &self.areas);
-            Hierarchical::of_forces(&forces, &geometry, tolerance)
+            let forces = Forces::from_tractions(&self.shear, &self.normal, &self.areas);
+            Hierarchical::from_forces(&forces, &geometry, tolerance)
         }
     }
 

@@ -20,11 +20,11 @@ mod tractions;
 
 pub use blocks::Sizes;
 pub use both::Both;
-pub use checked::{Checked, Errors};
+pub use checked::{CheckedOperator, Errors};
 pub use dense::Dense;
 pub use forces::Forces;
 pub(crate) use forces::{Bearing, Matrix};
-pub use form::{Form, dense, of_forces};
+pub use form::{Form, condensed_operator, dense};
 pub use hierarchical::{Geometry, Hierarchical, Tolerance};
 pub use lattice::Lattice;
 pub use planar::Planar;

@@ -25,7 +25,7 @@ pub type Pulls = [f64; 3];
 
 /// Operator of a grid of equal cells in a whole-space.
 #[derive(Serialize, Deserialize)]
-#[serde(from = "Written")]
+#[serde(from = "PlanarParts")]
 pub struct Planar {
     lattice: Lattice,
     /// Transform of tractions, by pair of components: for each frequency along strike those down dip.
@@ -41,14 +41,14 @@ pub struct Planar {
 
 /// Parts of the operator as they are written.
 #[derive(Deserialize)]
-struct Written {
+struct PlanarParts {
     lattice: Lattice,
     spectra: Vec<Vec<f64>>,
     stiffness: Vec<f64>,
 }
 
-impl From<Written> for Planar {
-    fn from(Written { lattice, spectra, stiffness }: Written) -> Self {
+impl From<PlanarParts> for Planar {
+    fn from(PlanarParts { lattice, spectra, stiffness }: PlanarParts) -> Self {
         let (rows, columns) = (Rows::new(&lattice), Columns::new(&lattice));
         Self { lattice, spectra, stiffness, rows, columns, work: Mutex::default() }
     }
@@ -114,7 +114,7 @@ impl Planar {
             [along, across, second] => [sum(along, across), sum(across, second)].concat(),
             one => one.concat(),
         };
-        Written { lattice, spectra, stiffness }.into()
+        PlanarParts { lattice, spectra, stiffness }.into()
     }
 
     /// Transforms slip of all frequencies of a task down dip, multiplies and transforms back.

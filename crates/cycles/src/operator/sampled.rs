@@ -1,8 +1,8 @@
 //! Operators compressed from entries that are computed one by one, without the whole matrix.
 
-use super::blocks::{Compressed, Content, Part};
+use super::blocks::{CompressedMatrix, Content, Part};
 use super::cluster::{Cluster, Tree};
-use super::crosses::{Wanted, crosses};
+use super::crosses::{BlockAccuracy, crosses};
 use super::low_rank::GROUP;
 use super::{Geometry, Hierarchical, Tolerance};
 use rayon::prelude::*;
@@ -62,7 +62,7 @@ impl Division {
     #[must_use]
     pub fn operator(&self, shear: Entry<'_>, normal: Option<Entry<'_>>, accuracy: Accuracy) -> Hierarchical {
         let of = |entry| Filling { tree: &self.tree, entry, accuracy }.matrix(&self.pairs);
-        Hierarchical::of_blocks(self.tree.order.clone(), of(shear), normal.map(of), accuracy.tolerance)
+        Hierarchical::from_blocks(self.tree.order.clone(), of(shear), normal.map(of), accuracy.tolerance)
     }
 }
 
@@ -94,7 +94,7 @@ struct Filling<'a> {
 
 impl Filling<'_> {
     /// The matrix. Blocks are computed in parallel, each on one thread, and stored in the order of the division.
-    fn matrix(&self, pairs: &[(usize, usize, bool)]) -> Compressed {
+    fn matrix(&self, pairs: &[(usize, usize, bool)]) -> CompressedMatrix {
         let parts: Vec<Vec<Part>> = pairs
             .par_iter()
             .with_max_len(1)
@@ -102,7 +102,7 @@ impl Filling<'_> {
             .collect();
         let parts = parts.into_iter().flatten().collect();
         let precision = Tolerance::OfBlock(self.accuracy.tolerance).precision();
-        Compressed::new(self.tree.order.len(), parts, false, precision)
+        CompressedMatrix::new(self.tree.order.len(), parts, false, precision)
     }
 
     fn ranges(&self, a: usize, b: usize) -> (Range<usize>, Range<usize>) {
@@ -127,7 +127,7 @@ impl Filling<'_> {
         let Accuracy { tolerance, rounding } = self.accuracy;
         let most = (m * n / (m + n)).min(MOST_RANK) / GROUP * GROUP;
         let entry = |i: usize, j: usize| self.at(rows.start + i, columns.start + j);
-        if let Some(low) = crosses(&entry, Wanted { size: [m, n], tolerance, rounding, most }) {
+        if let Some(low) = crosses(&entry, BlockAccuracy { size: [m, n], tolerance, rounding, most }) {
             return vec![Part { rows, columns, content: Content::Low(low) }];
         }
         let clusters = &self.tree.clusters;

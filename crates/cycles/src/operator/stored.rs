@@ -1,6 +1,6 @@
 //! Operators as they are written and read: their kind, then their contents.
 
-use super::{Both, Checked, Dense, Hierarchical, Operator, Planar, Toeplitz};
+use super::{Both, CheckedOperator, Dense, Hierarchical, Operator, Planar, Toeplitz};
 use serde::de::Deserializer;
 use serde::ser::{Error as _, Serializer};
 use serde::{Deserialize, Serialize};
@@ -8,28 +8,28 @@ use std::any::Any;
 
 /// An operator that is written.
 #[derive(Serialize)]
-enum Written<'a> {
+enum OperatorKind<'a> {
     Dense(&'a Dense),
     Hierarchical(&'a Hierarchical),
     Toeplitz(&'a Toeplitz),
     Both(&'a Both),
-    Checked(&'a Checked),
+    Checked(&'a CheckedOperator),
     Planar(&'a Planar),
 }
 
-/// An operator that was read. Its kinds have the order of [`Written`].
+/// An operator that was read. Its kinds have the order of [`OperatorKind`].
 #[derive(Deserialize)]
 enum Read {
     Dense(Dense),
     Hierarchical(Hierarchical),
     Toeplitz(Toeplitz),
     Both(Both),
-    Checked(Checked),
+    Checked(CheckedOperator),
     Planar(Planar),
 }
 
-impl<'a> Written<'a> {
-    fn of(operator: &'a dyn Operator) -> Option<Self> {
+impl<'a> OperatorKind<'a> {
+    fn from_operator(operator: &'a dyn Operator) -> Option<Self> {
         let any: &dyn Any = operator;
         None.or_else(|| any.downcast_ref().map(Self::Dense))
             .or_else(|| any.downcast_ref().map(Self::Hierarchical))
@@ -42,7 +42,8 @@ impl<'a> Written<'a> {
 
 impl Serialize for dyn Operator {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let written = Written::of(self).ok_or_else(|| S::Error::custom("an operator of another kind"))?;
+        let written = OperatorKind::from_operator(self)
+            .ok_or_else(|| S::Error::custom("an operator of another kind"))?;
         written.serialize(serializer)
     }
 }
@@ -63,7 +64,8 @@ impl<'de> Deserialize<'de> for Box<dyn Operator> {
 #[cfg(test)]
 mod tests {
     use crate::operator::{
-        Both, Checked, Dense, Forces, Geometry, Hierarchical, Lattice, Operator, Planar, Toeplitz, Tolerance,
+        Both, CheckedOperator, Dense, Forces, Geometry, Hierarchical, Lattice, Operator, Planar, Toeplitz,
+        Tolerance,
     };
 
     const POINTS: usize = 300;
@@ -83,8 +85,8 @@ mod tests {
         let faults = std::slice::from_ref(&all);
         let geometry = Geometry { places: &places, faults, areas: &areas, surfaces: false };
         let dense = dense(1.0);
-        let forces = Forces::of_tractions(dense.matrix(), dense.normal_matrix().unwrap(), &areas);
-        Hierarchical::of_forces(&forces, &geometry, tolerance)
+        let forces = Forces::from_tractions(dense.matrix(), dense.normal_matrix().unwrap(), &areas);
+        Hierarchical::from_forces(&forces, &geometry, tolerance)
     }
 
     fn grid() -> Toeplitz {
@@ -108,8 +110,8 @@ mod tests {
         )
     }
 
-    fn checked() -> Checked {
-        Checked::new(Box::new(compressed(Tolerance::OfLargest(1e-9))), &|_| {
+    fn checked() -> CheckedOperator {
+        CheckedOperator::new(Box::new(compressed(Tolerance::OfLargest(1e-9))), &|_| {
             [vec![1.0; POINTS], Vec::new(), vec![0.5; POINTS]]
         })
     }

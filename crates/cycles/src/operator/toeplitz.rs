@@ -15,7 +15,7 @@ use std::sync::{Mutex, PoisonError};
 
 /// Operator of a grid of equal cells.
 #[derive(Serialize, Deserialize)]
-#[serde(from = "Written")]
+#[serde(from = "ToeplitzParts")]
 pub struct Toeplitz {
     lattice: Lattice,
     #[serde(skip)]
@@ -31,15 +31,15 @@ pub struct Toeplitz {
 
 /// Parts of the operator as they are written.
 #[derive(Deserialize)]
-struct Written {
+struct ToeplitzParts {
     lattice: Lattice,
     shear: Spectrum,
     normal: Option<Spectrum>,
     stiffness: Vec<f64>,
 }
 
-impl From<Written> for Toeplitz {
-    fn from(Written { lattice, shear, normal, stiffness }: Written) -> Self {
+impl From<ToeplitzParts> for Toeplitz {
+    fn from(ToeplitzParts { lattice, shear, normal, stiffness }: ToeplitzParts) -> Self {
         let (rows, arch, work) = (Rows::new(&lattice), Arch::new(), Mutex::default());
         Self { lattice, rows, shear, normal, stiffness, arch, work }
     }
@@ -81,7 +81,7 @@ impl Toeplitz {
         let spectrum = |table: &[f64]| Spectrum::new(&lattice, table, &rows);
         let (shear_spectrum, normal_spectrum) = (spectrum(shear), normal.map(spectrum));
         let stiffness = stiffness(&lattice, &[Some(shear), normal].map(|t| t.unwrap_or_default()));
-        Written { lattice, shear: shear_spectrum, normal: normal_spectrum, stiffness }.into()
+        ToeplitzParts { lattice, shear: shear_spectrum, normal: normal_spectrum, stiffness }.into()
     }
 
     fn product(&self, spectrum: &Spectrum, slip: &[f64], tractions: &mut [f64]) {

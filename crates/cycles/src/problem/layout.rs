@@ -19,7 +19,7 @@ pub struct Layout {
 impl Layout {
     /// The unknowns of `fault`.
     #[must_use]
-    pub fn of(fault: &Fault) -> Self {
+    pub fn from_fault(fault: &Fault) -> Self {
         Self {
             points: fault.law.points(),
             components: fault.law.components(),

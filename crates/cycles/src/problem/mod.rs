@@ -17,10 +17,10 @@ pub use error::RunError;
 pub use fault::Fault;
 pub use layout::Layout;
 pub use loading::Loading;
-pub use pressed::{Field, OverEvents, Pressed, Quantity};
+pub use pressed::{Field, OverEvents, PointTractions, Quantity};
 pub use process::{Account, Acting, Energetic, Host, Phase, Process, Processes};
 pub use settings::{Settings, Thresholds};
-pub use stage::{Now, Passage, Rates, Saved, Stretch, Time, Tractions};
+pub use stage::{FaultState, Passage, ProcessRecord, Rates, Stretch, Time, Tractions};
 pub(crate) use way::Way;
 pub use working::Working;
 

@@ -2,17 +2,17 @@
 
 /// Normal tractions of the points of a fault at a moment, and what its processes show.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Pressed {
+pub struct PointTractions {
     /// f_n as friction uses it \[Pa\].
     pub normal: Vec<f64>,
     /// Values of processes at all points.
     pub fields: Vec<Field>,
 }
 
-impl Pressed {
+impl PointTractions {
     /// Values of a quantity at all points; none if no process shows it.
     #[must_use]
-    pub fn of(&self, quantity: &Quantity) -> &[f64] {
+    pub fn values(&self, quantity: &Quantity) -> &[f64] {
         self.fields.iter().find(|f| f.quantity == quantity).map_or(&[], |f| &f.values)
     }
 }

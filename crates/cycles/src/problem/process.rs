@@ -4,8 +4,8 @@
 //! through an [`Acting`], which has its working memory and what it remembers of the past. Statistics of a run are its
 //! [`Account`]. Energy that does not follow from pressures at points is a capability apart, [`Energetic`].
 
-use super::pressed::{Field, Pressed};
-use super::stage::{Now, Passage, Saved, Stretch, Time, Tractions};
+use super::pressed::{Field, PointTractions};
+use super::stage::{FaultState, Passage, ProcessRecord, Stretch, Time, Tractions};
 use asperity_friction::fault::FaultLaw;
 use std::any::Any;
 use std::fmt::Debug;
@@ -34,7 +34,7 @@ pub trait Process: Any + Debug + Send + Sync {
     fn phase(&self) -> Phase;
 
     /// Begins to act on a fault, from a saved state if there is one.
-    fn begin<'a>(&'a self, host: Host<'a>, saved: Option<&Saved>) -> Box<dyn Acting + 'a>;
+    fn begin<'a>(&'a self, host: Host<'a>, saved: Option<&ProcessRecord>) -> Box<dyn Acting + 'a>;
 
     /// Number of its unknowns.
     fn unknowns(&self) -> usize {
@@ -72,7 +72,7 @@ pub trait Process: Any + Debug + Send + Sync {
     }
 
     /// Adds the pressures of its fluid \[Pa\] and their rates \[Pa/s\] at all points, for the energy budget.
-    fn fluid(&self, _time: Time, _pressed: &Pressed, _sum: &mut [[f64; 2]]) {}
+    fn fluid(&self, _time: Time, _pressed: &PointTractions, _sum: &mut [[f64; 2]]) {}
 
     /// Its effect on bodies, where this is more than pressures and imposed tractions on slip.
     fn energetic(&self) -> Option<&dyn Energetic> {
@@ -80,7 +80,7 @@ pub trait Process: Any + Debug + Send + Sync {
     }
 
     /// Its statistics in a run, from a saved state if there is one.
-    fn account(&self, _saved: Option<&Saved>) -> Option<Box<dyn Account>> {
+    fn account(&self, _saved: Option<&ProcessRecord>) -> Option<Box<dyn Account>> {
         None
     }
 }
@@ -88,7 +88,7 @@ pub trait Process: Any + Debug + Send + Sync {
 /// A process in an integration, with its working memory.
 pub trait Acting: Debug + Send + Sync {
     /// Sees a state of the fault, before slip rates are computed from it.
-    fn see(&mut self, _now: &Now<'_>) {}
+    fn see(&mut self, _now: &FaultState<'_>) {}
 
     /// The law in the state last seen, if the process changes it.
     fn law(&self) -> Option<&dyn FaultLaw> {
@@ -96,7 +96,7 @@ pub trait Acting: Debug + Send + Sync {
     }
 
     /// Writes the rates of its unknowns in the state last seen, given slip rates \[m/s\].
-    fn rates(&mut self, _now: &Now<'_>, _slip_rate: &[f64], _rates: &mut [f64]) {}
+    fn rates(&mut self, _now: &FaultState<'_>, _slip_rate: &[f64], _rates: &mut [f64]) {}
 
     /// Changes tractions and their rates.
     ///
@@ -125,10 +125,10 @@ pub trait Acting: Debug + Send + Sync {
     }
 
     /// Commits a step that ends in this state.
-    fn commit(&mut self, _now: &Now<'_>) {}
+    fn commit(&mut self, _now: &FaultState<'_>) {}
 
     /// Saves what it remembers.
-    fn save(&self) -> Option<Saved> {
+    fn save(&self) -> Option<ProcessRecord> {
         None
     }
 }
@@ -136,17 +136,17 @@ pub trait Acting: Debug + Send + Sync {
 /// Effect of a process on bodies, where it is more than pressures at points and imposed tractions.
 pub trait Energetic {
     /// Adds the normal tractions that it causes at the start \[Pa\].
-    fn first(&self, pressed: &Pressed, normal: &mut [f64]);
+    fn first(&self, pressed: &PointTractions, normal: &mut [f64]);
 
     /// Adds the shear tractions that its change between two states causes \[Pa\].
-    fn sheared(&self, between: [&Pressed; 2], shear: &mut [f64]);
+    fn sheared(&self, between: [&PointTractions; 2], shear: &mut [f64]);
 
     /// Work of fluid and loads on it over a step \[J; J per metre of thickness in the plane\].
     fn work(&self, over: &Stretch<'_>) -> f64;
 
     /// Elastic energy that it and its interaction with slip have stored from the first of two states on, given the slip
     /// \[m\] and the areas of points.
-    fn stored(&self, between: [&Pressed; 2], slip: &[f64], areas: &[f64]) -> f64;
+    fn stored(&self, between: [&PointTractions; 2], slip: &[f64], areas: &[f64]) -> f64;
 }
 
 /// Statistics of a process in a run.
@@ -155,7 +155,7 @@ pub trait Account: Any + Debug + Send + Sync {
     fn step(&mut self, step: &Passage<'_>);
 
     /// Saves it.
-    fn save(&self) -> Saved;
+    fn save(&self) -> ProcessRecord;
 }
 
 /// Parts of a fault that its processes depend on.

@@ -1,13 +1,13 @@
 //! Stages and steps as processes see them, and their saved states.
 
 use super::components::Components;
-use super::pressed::Pressed;
+use super::pressed::PointTractions;
 use asperity_ode::Clock;
 use serde::{Deserialize, Serialize};
 
 /// State of a fault, for one of its processes.
 #[derive(Clone, Copy, Debug)]
-pub struct Now<'a> {
+pub struct FaultState<'a> {
     /// Time.
     pub at: Clock,
     /// m, component by component.
@@ -57,9 +57,9 @@ pub struct Stretch<'a> {
     /// Areas of the points \[m²; m per metre of thickness\].
     pub areas: &'a [f64],
     /// Values of processes at both ends.
-    pub pressed: [&'a Pressed; 2],
+    pub pressed: [&'a PointTractions; 2],
     /// Their rates.
-    pub rates: [&'a Pressed; 2],
+    pub rates: [&'a PointTractions; 2],
     /// Pressure of fluid less the normal traction of loads at both ends \[Pa\], and its rate \[Pa/s\].
     pub parting: [&'a [[f64; 2]]; 2],
 }
@@ -74,9 +74,9 @@ pub struct Passage<'a> {
     /// Slip at its end \[m\].
     pub slip: Components<&'a [f64]>,
     /// Tractions at its end.
-    pub pressed: &'a Pressed,
+    pub pressed: &'a PointTractions,
     /// Slip and tractions at its start; none at the start of the run.
-    pub start: Option<(Components<&'a [f64]>, &'a Pressed)>,
+    pub start: Option<(Components<&'a [f64]>, &'a PointTractions)>,
     /// True if an event is under way.
     pub in_event: bool,
     /// True if an event ends in it.
@@ -85,7 +85,7 @@ pub struct Passage<'a> {
 
 /// Saved state of a process or of its account.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Saved {
+pub struct ProcessRecord {
     /// Name of the process.
     pub process: String,
     /// Time, where one is saved.
@@ -95,7 +95,7 @@ pub struct Saved {
     pub lists: Vec<Vec<f64>>,
 }
 
-impl Saved {
+impl ProcessRecord {
     /// State of lists of numbers.
     #[must_use]
     pub fn new<const N: usize>(process: &str, lists: [&[f64]; N]) -> Self {

@@ -2,9 +2,9 @@
 
 use super::fault::Fault;
 use super::layout::Layout;
-use super::pressed::{Field, Pressed};
+use super::pressed::{Field, PointTractions};
 use super::process::{Acting, Process};
-use super::stage::{Now, Rates, Saved, Time, Tractions};
+use super::stage::{FaultState, ProcessRecord, Rates, Time, Tractions};
 use asperity_friction::fault::FaultLaw;
 use asperity_ode::Clock;
 use std::ops::Range;
@@ -28,13 +28,13 @@ pub struct Working<'a> {
 impl<'a> Working<'a> {
     /// The processes of `fault`, from saved states where they remember.
     #[must_use]
-    pub fn new(fault: &'a Fault, saved: &[Saved]) -> Self {
-        let layout = Layout::of(fault);
+    pub fn new(fault: &'a Fault, saved: &[ProcessRecord]) -> Self {
+        let layout = Layout::from_fault(fault);
         let mut first = layout.processes().start;
         let begin = |process: &'a dyn Process| {
             let own = first..first + process.unknowns();
             first = own.end;
-            let acting = process.begin(fault.host(), Saved::find(saved, process.name()));
+            let acting = process.begin(fault.host(), ProcessRecord::find(saved, process.name()));
             Member { process, acting, own }
         };
         Self { fault, layout, all: fault.processes.iter().map(begin).collect() }
@@ -49,7 +49,7 @@ impl<'a> Working<'a> {
     /// Shows a state to all processes.
     pub fn see(&mut self, at: Clock, unknowns: &[f64]) {
         let now = self.now(at, unknowns);
-        self.all.iter_mut().for_each(|m| m.acting.see(&Now { own: &unknowns[m.own.clone()], ..now }));
+        self.all.iter_mut().for_each(|m| m.acting.see(&FaultState { own: &unknowns[m.own.clone()], ..now }));
     }
 
     /// The law in the state last seen.
@@ -68,7 +68,7 @@ impl<'a> Working<'a> {
     pub fn rates(&mut self, at: Clock, unknowns: &[f64], slip_rate: &[f64], rates: &mut [f64]) {
         let now = self.now(at, unknowns);
         for m in &mut self.all {
-            let now = Now { own: &unknowns[m.own.clone()], ..now };
+            let now = FaultState { own: &unknowns[m.own.clone()], ..now };
             m.acting.rates(&now, slip_rate, &mut rates[m.own.clone()]);
         }
     }
@@ -83,17 +83,17 @@ impl<'a> Working<'a> {
     }
 
     /// Normal tractions and values of processes in the state last seen, at a time.
-    pub fn pressed(&mut self, at: Clock, unknowns: &[f64]) -> Pressed {
+    pub fn pressed(&mut self, at: Clock, unknowns: &[f64]) -> PointTractions {
         let mut normal = self.fault.total(unknowns).to_vec();
         let time = Time { at: at.seconds(), until: f64::INFINITY };
         for m in &mut self.all {
             let _ = m.acting.act(time, &mut Tractions { normal: &mut normal, rates: None });
         }
-        Pressed { normal, fields: self.fields(|acting| acting.fields()) }
+        PointTractions { normal, fields: self.fields(|acting| acting.fields()) }
     }
 
     /// Rates of f_n as friction uses it \[Pa/s\] and of values of processes, given those of the unknowns.
-    pub fn pressing(&mut self, time: Time, unknowns: &[f64], rates: &[f64]) -> Pressed {
+    pub fn pressing(&mut self, time: Time, unknowns: &[f64], rates: &[f64]) -> PointTractions {
         let l = self.layout;
         let mut normal = self.fault.total(unknowns).to_vec();
         let mut rate = vec![0.0; normal.len()];
@@ -103,7 +103,7 @@ impl<'a> Working<'a> {
         let mut shear = vec![0.0; l.m().end];
         let by = Rates { slip: &rates[l.slip()], normal: &mut rate, shear: &mut shear };
         let _ = self.act(time, None, &mut Tractions { normal: &mut normal, rates: Some(by) });
-        Pressed { normal: rate, fields: self.fields(|acting| acting.field_rates()) }
+        PointTractions { normal: rate, fields: self.fields(|acting| acting.field_rates()) }
     }
 
     /// Largest bound of the rates of relaxation of processes \[1/s\].
@@ -121,12 +121,14 @@ impl<'a> Working<'a> {
     /// Commits a step that ends in this state.
     pub fn commit(&mut self, at: Clock, unknowns: &[f64]) {
         let now = self.now(at, unknowns);
-        self.all.iter_mut().for_each(|m| m.acting.commit(&Now { own: &unknowns[m.own.clone()], ..now }));
+        self.all
+            .iter_mut()
+            .for_each(|m| m.acting.commit(&FaultState { own: &unknowns[m.own.clone()], ..now }));
     }
 
     /// Saves what processes remember.
     #[must_use]
-    pub fn save(&self) -> Vec<Saved> {
+    pub fn save(&self) -> Vec<ProcessRecord> {
         self.all.iter().filter_map(|m| m.acting.save()).collect()
     }
 
@@ -135,13 +137,13 @@ impl<'a> Working<'a> {
         self.all.iter().flat_map(|m| of(m.acting.as_ref())).collect()
     }
 
-    fn now<'b>(&self, at: Clock, unknowns: &'b [f64]) -> Now<'b>
+    fn now<'b>(&self, at: Clock, unknowns: &'b [f64]) -> FaultState<'b>
     where
         'a: 'b,
     {
         let (l, fault) = (self.layout, self.fault);
         let (m, states) = (&unknowns[l.m()], &unknowns[l.states()]);
-        Now { at, m, states, normal: fault.total(unknowns), own: &[] }
+        FaultState { at, m, states, normal: fault.total(unknowns), own: &[] }
     }
 }
 
@@ -149,7 +151,7 @@ impl Fault {
     /// Computes the normal tractions of the points at a moment of a fault without memory, or at its start. If the state of a
     /// process does not converge, which makes the integration fail, the result is that of its last iterate.
     #[must_use]
-    pub fn pressed(&self, at: Clock, unknowns: &[f64]) -> Pressed {
+    pub fn pressed(&self, at: Clock, unknowns: &[f64]) -> PointTractions {
         let mut working = Working::new(self, &[]);
         working.see(at, unknowns);
         working.pressed(at, unknowns)
@@ -158,7 +160,7 @@ impl Fault {
     /// Normal tractions of the bodies \[Pa\], before any process.
     #[must_use]
     pub fn total<'a>(&'a self, unknowns: &'a [f64]) -> &'a [f64] {
-        let own = Layout::of(self).normal();
+        let own = Layout::from_fault(self).normal();
         if own.is_empty() { &self.normal } else { &unknowns[own] }
     }
 }

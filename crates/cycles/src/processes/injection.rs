@@ -12,7 +12,7 @@
 //! pressure is infinite where the flux jumps: it varies as 1/√t, which is integrable.
 
 use super::fluid::{ActingFluid, PorePressure};
-use crate::problem::{Acting, Host, Phase, Pressed, Process, Saved, Time};
+use crate::problem::{Acting, Host, Phase, PointTractions, Process, ProcessRecord, Time};
 use std::f64::consts::PI;
 
 /// Injection of fluid at a flux that is constant between jumps.
@@ -130,7 +130,7 @@ impl Process for Pressure {
         Phase::Fluid
     }
 
-    fn begin<'a>(&'a self, host: Host<'a>, _: Option<&Saved>) -> Box<dyn Acting + 'a> {
+    fn begin<'a>(&'a self, host: Host<'a>, _: Option<&ProcessRecord>) -> Box<dyn Acting + 'a> {
         Box::new(ActingFluid::new(self, host.law.points()))
     }
 
@@ -146,7 +146,7 @@ impl Process for Pressure {
         self.jumps().any(|t| t == time)
     }
 
-    fn fluid(&self, time: Time, _: &Pressed, sum: &mut [[f64; 2]]) {
+    fn fluid(&self, time: Time, _: &PointTractions, sum: &mut [[f64; 2]]) {
         self.add_to(time.at, time.until, sum);
     }
 }

@@ -10,10 +10,10 @@ mod opening;
 mod pulse;
 
 pub use deficit::deficit;
-pub use floor::{BODIES, Below, Floor, Used};
+pub use floor::{BODIES, Floor, FloorRecord, FloorSummary};
 pub use fluid::{FLUID_PRESSURE, PorePressure};
 pub use injection::{Injection, Pressure};
-pub use opening::{Crack, OPENING, Opened, Opening, Widest};
+pub use opening::{Crack, OPENING, Opening, OpeningRecord, Widest};
 pub use pulse::Pulse;
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Shear tractions imposed on faults that grow smoothly and stay, such as those that start the event of BP7.
 
-use crate::problem::{Acting, Host, Phase, Process, Saved, Time, Tractions};
+use crate::problem::{Acting, Host, Phase, Process, ProcessRecord, Time, Tractions};
 use asperity_fem::table::smooth_step;
 
 /// Traction `Δτ(x, t) = amplitude(x) G(t)` with the smooth step G, see [`smooth_step`].
@@ -31,7 +31,7 @@ impl Process for Pulse {
         Phase::Load
     }
 
-    fn begin<'a>(&'a self, _: Host<'a>, _: Option<&Saved>) -> Box<dyn Acting + 'a> {
+    fn begin<'a>(&'a self, _: Host<'a>, _: Option<&ProcessRecord>) -> Box<dyn Acting + 'a> {
         Box::new(self)
     }
 

@@ -14,6 +14,6 @@ pub mod stability;
 pub use budget::Budget;
 pub use problem::{ANY_ROCK, DEFAULT_METHOD, DEFAULT_TOLERANCE, MOST_STEPS, Problem, RESTART};
 pub use rows::{DEFAULT_CHANGE, Rows};
-pub use run::{Now, SliderRun, Sliders, resume, run};
+pub use run::{SliderRun, SliderState, Sliders, resume, run};
 pub use slide::{Edge, Slide};
 pub use stability::{Stability, critical_stiffness};

@@ -8,7 +8,7 @@ use super::equations::{EventKind, Piece, Uneventful, kinds};
 use super::problem::Problem;
 use super::rows::Due;
 use super::slide::{self, Detectors, Edge, Slide};
-use super::springs::{Slips, Travelled};
+use super::springs::{Slips, SpringTravel};
 use crate::course::{NextStep, Outrun, Run, outrun};
 use crate::problem::{Components, RunError};
 use asperity_friction::slider::{Condition, Slider};
@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 
 /// State of the sliders at an instant.
 #[derive(Clone, Debug)]
-pub struct Now<'a> {
+pub struct SliderState<'a> {
     /// Problem that is integrated.
     pub problem: &'a Problem,
     /// Time.
@@ -45,7 +45,7 @@ pub struct Sliders;
 
 impl Kind for Sliders {
     type Setup = Problem;
-    type Moment<'a> = Now<'a>;
+    type Moment<'a> = SliderState<'a>;
     type ResumeState = SliderRun;
 }
 
@@ -77,7 +77,7 @@ pub struct Progress {
     detectors: Detectors,
     /// Number of breaks of the prescribed histories passed.
     passed: usize,
-    travelled: Travelled,
+    travelled: SpringTravel,
     /// Times of the remaining rows.
     due: Due,
     /// Number of unresolved steps in a row.
@@ -98,7 +98,7 @@ impl SliderRun {
             outrun: None,
             detectors: Detectors::new(sliders),
             passed: 0,
-            travelled: Travelled::nowhere(sliders),
+            travelled: SpringTravel::nowhere(sliders),
             due: Due::default(),
             unresolved: 0,
         };
@@ -467,7 +467,17 @@ impl Running<'_, '_> {
         let (load, conditions) = self.look(at, unknowns);
         let slip = self.slips.slip(self.piece, at, load, &conditions);
         let step = usize::try_from(self.state.run.counts.steps + self.state.steps).unwrap_or(usize::MAX);
-        let now = Now { problem, at, dt, step, unknowns, conditions: &conditions, slip: &slip, load, asked };
+        let now = SliderState {
+            problem,
+            at,
+            dt,
+            step,
+            unknowns,
+            conditions: &conditions,
+            slip: &slip,
+            load,
+            asked,
+        };
         match self.state.observer.step(&now) {
             Ok(control) => self.state.ended |= control == Control::Stop,
             Err(failure) => self.state.failure = Some(failure),

@@ -20,12 +20,12 @@ pub(crate) struct Slips {
     equations: Vec<Option<usize>>,
     /// Tractions at time 0 \[Pa\].
     first: Vec<f64>,
-    travelled: Travelled,
+    travelled: SpringTravel,
 }
 
 /// State of the prescribed histories at the beginning of the current piece.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Travelled {
+pub(crate) struct SpringTravel {
     /// Displacement of the load point \[m\].
     load: f64,
     /// Slip of the sliders whose rate is imposed \[m\].
@@ -34,7 +34,7 @@ pub(crate) struct Travelled {
     entered: Clock,
 }
 
-impl Travelled {
+impl SpringTravel {
     /// State of this many sliders at time 0.
     pub fn nowhere(sliders: usize) -> Self {
         Self { load: 0.0, imposed: vec![0.0; sliders], entered: Clock::new(0.0, 0.0) }
@@ -42,7 +42,7 @@ impl Travelled {
 }
 
 impl Slips {
-    pub fn new(problem: &Problem, travelled: Travelled) -> Result<Self, RunError> {
+    pub fn new(problem: &Problem, travelled: SpringTravel) -> Result<Self, RunError> {
         let system = &problem.system;
         let n = problem.names.len();
         let mut count = 0;
@@ -87,20 +87,20 @@ impl Slips {
     pub fn leave(&mut self, piece: &Piece<'_>, at: Clock) {
         let load = self.load_at(piece, at);
         let imposed = (0..self.equations.len()).map(|i| self.imposed_at(piece, i, at)).collect();
-        self.travelled = Travelled { load, imposed, ..self.travelled };
+        self.travelled = SpringTravel { load, imposed, ..self.travelled };
     }
 
-    pub fn travelled(&self) -> &Travelled {
+    pub fn travelled(&self) -> &SpringTravel {
         &self.travelled
     }
 
     pub fn load_at(&self, piece: &Piece<'_>, at: Clock) -> f64 {
-        let Travelled { load, entered, .. } = &self.travelled;
+        let SpringTravel { load, entered, .. } = &self.travelled;
         load + piece.segment.load().integral(entered.seconds(), at.since(entered))
     }
 
     fn imposed_at(&self, piece: &Piece<'_>, i: usize, at: Clock) -> f64 {
-        let Travelled { imposed, entered, .. } = &self.travelled;
+        let SpringTravel { imposed, entered, .. } = &self.travelled;
         let since =
             |rate: &asperity_friction::slider::Piece| rate.integral(entered.seconds(), at.since(entered));
         imposed[i] + piece.segment.imposed(i).map_or(0.0, since)

@@ -265,7 +265,7 @@ impl Plan {
         if self.creeping > 0 {
             line("physics", format!("{} points creep at a prescribed rate", self.creeping));
         }
-        let uncoupled = Layout::of(&self.problem.fault).normal().is_empty();
+        let uncoupled = Layout::from_fault(&self.problem.fault).normal().is_empty();
         let chosen = |f: &FaultView| !f.normal.changes || f.normal.floor.is_some();
         if uncoupled && !self.faults.iter().any(chosen) {
             line("physics", "slip leaves normal tractions as they are".into());

@@ -63,7 +63,12 @@ impl Sampling {
 
     /// Values at a moment.
     pub fn at(&self, view: &BodiesView, now: &Moment<'_>) -> Samples {
-        self.values(view, [now.slip().all(), now.pressed.of(&OPENING)], now.at.seconds(), &now.pressed.normal)
+        self.values(
+            view,
+            [now.slip().all(), now.pressed.values(&OPENING)],
+            now.at.seconds(),
+            &now.pressed.normal,
+        )
     }
 
     /// Values under this slip and opening of the points \[m\] at a time \[s\], with these normal tractions \[Pa\].

@@ -34,7 +34,7 @@ impl Verdict {
 
 /// A quantity of a result with its verdict.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Judged<'a> {
+pub struct QuantityVerdict<'a> {
     /// Quantity.
     pub quantity: &'a Quantity,
     /// Number of values given.
@@ -45,7 +45,7 @@ pub struct Judged<'a> {
     pub verdict: Verdict,
 }
 
-impl Judged<'_> {
+impl QuantityVerdict<'_> {
     /// Largest difference over tolerance.
     #[must_use]
     pub fn ratio(&self) -> Option<f64> {
@@ -84,13 +84,13 @@ pub struct Judgement<'a> {
     /// Benchmark.
     pub reference: &'a Reference,
     /// Quantities in the order of the reference.
-    pub rows: Vec<Judged<'a>>,
+    pub rows: Vec<QuantityVerdict<'a>>,
 }
 
 impl<'a> Judgement<'a> {
     /// Judges a result.
     #[must_use]
-    pub fn of(reference: &'a Reference, result: &Submission) -> Self {
+    pub fn new(reference: &'a Reference, result: &Submission) -> Self {
         Self { reference, rows: reference.quantities.iter().map(|q| judged(q, result)).collect() }
     }
 
@@ -111,11 +111,11 @@ impl<'a> Judgement<'a> {
     /// Largest difference over tolerance of all values.
     #[must_use]
     pub fn largest(&self) -> Option<f64> {
-        self.rows.iter().filter_map(Judged::ratio).max_by(f64::total_cmp)
+        self.rows.iter().filter_map(QuantityVerdict::ratio).max_by(f64::total_cmp)
     }
 }
 
-fn judged<'a>(quantity: &'a Quantity, result: &Submission) -> Judged<'a> {
+fn judged<'a>(quantity: &'a Quantity, result: &Submission) -> QuantityVerdict<'a> {
     let values = || quantity.places.iter().filter_map(|p| Some((result.value(quantity, p.at)?, *p)));
     let given = values().count();
     let worst = values().max_by(|a, b| ratio(a.0, &a.1).total_cmp(&ratio(b.0, &b.1)));
@@ -127,5 +127,5 @@ fn judged<'a>(quantity: &'a Quantity, result: &Submission) -> Judged<'a> {
         Some(_) if within => Verdict::Within,
         Some(_) => Verdict::Agrees,
     };
-    Judged { quantity, given, worst, verdict }
+    QuantityVerdict { quantity, given, worst, verdict }
 }

@@ -9,7 +9,7 @@ pub mod reference;
 pub mod submission;
 mod table;
 
-pub use judgement::{Judged, Judgement, Verdict};
+pub use judgement::{Judgement, QuantityVerdict, Verdict};
 pub use reference::{Along, Place, Quantity, Reference};
 pub use submission::{Defect, Row, Submission};
 

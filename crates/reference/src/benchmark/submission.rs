@@ -68,7 +68,7 @@ impl<'a> Field<'a> {
     }
 
     /// Fields of a line, without the spaces around them.
-    fn of(line: usize, text: &'a str) -> Vec<Self> {
+    fn split(line: usize, text: &'a str) -> Vec<Self> {
         let mut column = 1;
         let field = |text: &'a str| {
             let blank = text.chars().take_while(|c| c.is_whitespace()).count();
@@ -97,11 +97,11 @@ impl Submission {
                 found.remark(remark);
             } else if text.trim().is_empty() {
             } else if head {
-                if let Some(row) = row(&Field::of(line, text), reference)? {
+                if let Some(row) = row(&Field::split(line, text), reference)? {
                     found.add(row, reference)?;
                 }
             } else {
-                read_head(&Field::of(line, text))?;
+                read_head(&Field::split(line, text))?;
                 head = true;
             }
         }

@@ -1,6 +1,6 @@
 //! A judgement as text.
 
-use super::judgement::{Judged, Judgement};
+use super::judgement::{Judgement, QuantityVerdict};
 use std::fmt;
 
 /// Heads of the columns.
@@ -33,7 +33,7 @@ fn write_row(f: &mut fmt::Formatter<'_>, row: [String; 8], widths: [usize; 8]) -
 }
 
 /// Cells of a quantity; of several values the one farthest from its reference.
-fn cells(row: &Judged<'_>) -> [String; 8] {
+fn cells(row: &QuantityVerdict<'_>) -> [String; 8] {
     let quantity = row.quantity;
     let unit = |unit: &str| if unit == "1" { String::new() } else { format!(" [{unit}]") };
     let name = format!("{}{}", quantity.name, unit(&quantity.unit));

@@ -9,7 +9,7 @@ pub mod titles;
 
 pub use cases::{keys, names};
 pub use references::{Reference, reference, references};
-pub use scene::{of_scene, of_sliders};
+pub use scene::{scene_citations, slider_citations};
 
 use std::fmt::Write as _;
 
@@ -39,7 +39,7 @@ impl Default for Citations {
 impl Citations {
     /// Citations of a verification case; `None` if there is no such case.
     #[must_use]
-    pub fn of_case(name: &str) -> Option<Self> {
+    pub fn from_case(name: &str) -> Option<Self> {
         let mut citations = Self::default();
         for key in keys(name)? {
             citations.add(key, format!("literature of the case {name}"));
@@ -49,7 +49,7 @@ impl Citations {
 
     /// Citations of a benchmark; `None` if there is no such benchmark.
     #[must_use]
-    pub fn of_benchmark(name: &str) -> Option<Self> {
+    pub fn from_benchmark(name: &str) -> Option<Self> {
         let mut citations = Self::default();
         for key in benchmarks::keys(name)? {
             citations.add(key, format!("the benchmark {name}"));

@@ -51,7 +51,7 @@ pub const KEYS: [&str; 33] = [
 ///
 /// # Errors
 /// A law that is not complete.
-pub fn of_scene(scene: &Scene) -> Result<Citations, Diagnostics> {
+pub fn scene_citations(scene: &Scene) -> Result<Citations, Diagnostics> {
     let mut citations = Citations::default();
     titles::add(&mut citations, &scene.title);
     for (name, interface) in &scene.interfaces {
@@ -85,7 +85,7 @@ pub fn of_scene(scene: &Scene) -> Result<Citations, Diagnostics> {
 ///
 /// # Errors
 /// A law that is not complete.
-pub fn of_sliders(scene: &SliderScene) -> Result<Citations, Diagnostics> {
+pub fn slider_citations(scene: &SliderScene) -> Result<Citations, Diagnostics> {
     let mut citations = Citations::default();
     titles::add(&mut citations, &scene.title);
     for (name, slider) in &scene.sliders {

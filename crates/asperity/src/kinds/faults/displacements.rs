@@ -46,9 +46,9 @@ pub fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), OutputError>
             view.bodies.vectors(&[event.details.slip.all(), event.details.change(&OPENING)].concat(), 0.0);
         put(&of_events, k, event.onset.seconds(), displacement)?;
     }
-    let slip = &run.unknowns[Layout::of(&plan.problem.fault).slip()];
+    let slip = &run.unknowns[Layout::from_fault(&plan.problem.fault).slip()];
     let pressed = plan.problem.fault.pressed(run.at, &run.unknowns);
     let end = run.at.seconds();
-    put(&last, 0, end, view.bodies.vectors(&view.jumps([slip, pressed.of(&OPENING)], end), end))?;
+    put(&last, 0, end, view.bodies.vectors(&view.jumps([slip, pressed.values(&OPENING)], end), end))?;
     atomic::write(&out.join(COLLECTION.path), &pvd(&entries))
 }

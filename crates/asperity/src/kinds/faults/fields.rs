@@ -3,7 +3,7 @@
 use super::states::has_theta;
 use super::{locking, pore};
 use asperity_cycles::heat::TEMPERATURE;
-use asperity_cycles::{Components, Layout, OPENING, Pressed, Rupture};
+use asperity_cycles::{Components, Layout, OPENING, PointTractions, Rupture};
 use asperity_output::fields::vtu::{Grid, face_type};
 use asperity_output::fields::{Data, FILES, Field, FieldTimes, Series};
 use asperity_output::tables::Sign;
@@ -16,7 +16,7 @@ pub(super) struct Present {
     pub unknowns: Vec<f64>,
     /// Slip rates \[m/s\].
     pub rate: Vec<f64>,
-    pub pressed: Pressed,
+    pub pressed: PointTractions,
 }
 
 /// Surface of a fault: its triangles, or else faces between its points.
@@ -91,7 +91,7 @@ pub(super) fn scalars(fault: &FaultView, values: &Components<impl AsRef<[f64]>>)
 fn shear(plan: &Plan, now: &Present) -> Vec<f64> {
     let (law, n) = (&plan.problem.fault.law, plan.points.len());
     let traction = |i: usize| now.pressed.normal[i % n] * law.scale(i % n) * now.unknowns[i];
-    Layout::of(&plan.problem.fault).m().map(traction).collect()
+    Layout::from_fault(&plan.problem.fault).m().map(traction).collect()
 }
 
 /// States during the run: the temperature and the pore pressure where friction heats the fault, coupling where plates load it,
@@ -107,7 +107,7 @@ pub(super) fn last<'a>(plan: &'a Plan, fault: &'a FaultView) -> Series<'a, Prese
 
 fn state<'a>(on: (&'a Plan, &'a FaultView), path: String, times: FieldTimes) -> Series<'a, Present> {
     let (plan, fault) = on;
-    let (layout, n) = (Layout::of(&plan.problem.fault), plan.points.len());
+    let (layout, n) = (Layout::from_fault(&plan.problem.fault), plan.points.len());
     let rate = Field::scalar("log10_slip_rate", "m/s", Sign::Log, "slip rate");
     let rates = Field::vector("slip_rate_vector", "m/s", Sign::Vector, "slip rate");
     let mut all = OnFault::new(on, path, times)
@@ -121,11 +121,11 @@ fn state<'a>(on: (&'a Plan, &'a FaultView), path: String, times: FieldTimes) -> 
             now.pressed.normal[p]
         });
     if fault.normal.opens {
-        all = all.with(opening(), |now, p| now.pressed.of(&OPENING)[p]);
+        all = all.with(opening(), |now, p| now.pressed.values(&OPENING)[p]);
     }
     if fault.heat.is_some() {
         let field = Field::scalar("temperature", "K", Sign::None, "temperature");
-        all = all.with(field, |now, p| now.pressed.of(&TEMPERATURE)[p]);
+        all = all.with(field, |now, p| now.pressed.values(&TEMPERATURE)[p]);
     }
     if pore::changes(plan, fault.points.start) {
         let field = Field::scalar("pore_pressure", "Pa", Sign::None, "pore pressure, in excess of the start");

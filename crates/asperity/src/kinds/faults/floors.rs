@@ -1,6 +1,6 @@
 //! Use of the floors of normal traction in a run.
 
-use asperity_cycles::Used;
+use asperity_cycles::FloorRecord;
 use asperity_plan::faults::Plan;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -30,12 +30,12 @@ pub struct FloorUse {
 
 /// Use of the floors of all faults.
 #[must_use]
-pub fn uses(plan: &Plan, used: Option<&Used>) -> Vec<FloorUse> {
+pub fn uses(plan: &Plan, used: Option<&FloorRecord>) -> Vec<FloorUse> {
     let Some(used) = used else { return Vec::new() };
     let with_floor = plan.faults.iter().filter_map(|f| Some((f, f.normal.floor?)));
     with_floor
         .map(|(fault, floor)| {
-            let below = used.of(fault.points.clone(), &plan.problem.areas);
+            let below = used.summary(fault.points.clone(), &plan.problem.areas);
             FloorUse {
                 fault: fault.name.clone(),
                 floor,

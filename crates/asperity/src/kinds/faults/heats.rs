@@ -1,6 +1,6 @@
 //! Heat of faults during a run.
 
-use asperity_cycles::heat::Warmed;
+use asperity_cycles::heat::HeatRecord;
 use asperity_plan::faults::{HeatView, Plan};
 use asperity_plan::shared::words::time;
 use asperity_run::Warning;
@@ -32,11 +32,11 @@ pub struct HeatedFault {
 
 /// Heat of all faults that have some, and warnings of melting.
 #[must_use]
-pub fn heats(plan: &Plan, warmed: Option<&Warmed>) -> (Vec<HeatedFault>, Vec<Warning>) {
+pub fn heats(plan: &Plan, warmed: Option<&HeatRecord>) -> (Vec<HeatedFault>, Vec<Warning>) {
     let (mut all, mut warnings) = (Vec::new(), Vec::new());
     for fault in &plan.faults {
         let (Some(heat), Some(warmed)) = (&fault.heat, warmed) else { continue };
-        let warmest = warmed.of(fault.points.clone(), heat.melting.unwrap_or(f64::INFINITY));
+        let warmest = warmed.summary(fault.points.clone(), heat.melting.unwrap_or(f64::INFINITY));
         let found = HeatedFault {
             fault: fault.name.clone(),
             ambient: heat.layer.ambient,

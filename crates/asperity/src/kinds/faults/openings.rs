@@ -1,6 +1,6 @@
 //! Opening of faults during a run.
 
-use asperity_cycles::Opened;
+use asperity_cycles::OpeningRecord;
 use asperity_plan::faults::Plan;
 use asperity_plan::shared::words::time;
 use schemars::JsonSchema;
@@ -31,11 +31,11 @@ pub struct OpenedFault {
 
 /// Openings of all faults that may open; `end` holds the openings at the end \[m\].
 #[must_use]
-pub fn openings(plan: &Plan, opened: Option<&Opened>, end: &[f64]) -> Vec<OpenedFault> {
+pub fn openings(plan: &Plan, opened: Option<&OpeningRecord>, end: &[f64]) -> Vec<OpenedFault> {
     let Some(opened) = opened else { return Vec::new() };
     let with = plan.faults.iter().filter(|f| f.normal.opens);
     with.map(|fault| {
-        let widest = opened.of(fault.points.clone());
+        let widest = opened.summary(fault.points.clone());
         let now = fault.points.clone().map(|p| (p, end.get(p).copied().unwrap_or(0.0)));
         OpenedFault {
             fault: fault.name.clone(),

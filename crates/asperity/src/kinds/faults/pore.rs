@@ -2,7 +2,7 @@
 
 use asperity_cycles::diffusion::Diffusion;
 use asperity_cycles::heat::{Heat, PRESSURE};
-use asperity_cycles::{FLUID_PRESSURE, Pressed, Pressure};
+use asperity_cycles::{FLUID_PRESSURE, PointTractions, Pressure};
 use asperity_plan::faults::Plan;
 
 /// True if it changes at a point and is shown there.
@@ -22,6 +22,6 @@ pub(super) fn any(plan: &Plan) -> bool {
 }
 
 /// Pressure of a point \[Pa\], of all sources together.
-pub(super) fn at(pressed: &Pressed, point: usize) -> f64 {
-    [&PRESSURE, &FLUID_PRESSURE].into_iter().filter_map(|quantity| pressed.of(quantity).get(point)).sum()
+pub(super) fn at(pressed: &PointTractions, point: usize) -> f64 {
+    [&PRESSURE, &FLUID_PRESSURE].into_iter().filter_map(|quantity| pressed.values(quantity).get(point)).sum()
 }

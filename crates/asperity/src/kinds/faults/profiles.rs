@@ -24,10 +24,10 @@ pub(super) fn tables(plan: &Plan) -> Vec<Table<'_>> {
         table(plan, RATE, OFTEN, |_, now| now.rate.component(0).to_vec(), |v| fixed(log_rate(v), 3)),
     ];
     if processes.find::<Opening>().is_some() {
-        all.push(table(plan, OPEN, SELDOM, |_, now| now.pressed.of(&OPENING).to_vec(), six));
+        all.push(table(plan, OPEN, SELDOM, |_, now| now.pressed.values(&OPENING).to_vec(), six));
     }
     if heat.is_some() {
-        all.push(table(plan, WARMTH, SELDOM, |_, now| now.pressed.of(&TEMPERATURE).to_vec(), six));
+        all.push(table(plan, WARMTH, SELDOM, |_, now| now.pressed.values(&TEMPERATURE).to_vec(), six));
     }
     if pore::any(plan) {
         let values: Values = |plan, now| (0..plan.points.len()).map(|p| pore::at(now.pressed, p)).collect();

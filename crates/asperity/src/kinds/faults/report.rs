@@ -307,7 +307,7 @@ impl Report {
             }
         };
         let events = run.events();
-        let slip = &run.unknowns[Layout::of(&plan.problem.fault).slip()];
+        let slip = &run.unknowns[Layout::from_fault(&plan.problem.fault).slip()];
         let pressed = plan.problem.fault.pressed(run.at, &run.unknowns);
         let End { points, forces, springs } = End::of(plan, run, &pressed);
         let energy = EnergyTable::new(unit(plan), &balance.energy(slip, &pressed).energies());
@@ -330,7 +330,7 @@ impl Report {
             resolution: plan.resolution.clone(),
             checks: plan.checks.of_any_machine(),
             floors: uses(plan, balance.account()),
-            openings: openings(plan, balance.account(), pressed.of(&OPENING)),
+            openings: openings(plan, balance.account(), pressed.values(&OPENING)),
             heat,
             compression: Compression::of(plan.problem.fault.operator.as_ref()),
             method: plan.problem.settings.method.name().to_string(),

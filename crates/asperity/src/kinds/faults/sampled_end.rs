@@ -1,7 +1,7 @@
 //! Values of the bodies around faults at the end of a run, for its report.
 
 use crate::report::{ForceResult, PointResult, SpringResult};
-use asperity_cycles::{FaultRun, Layout, OPENING, Pressed};
+use asperity_cycles::{FaultRun, Layout, OPENING, PointTractions};
 use asperity_output::bodies::view::{ForceMark, PointMark, PointValues, SpringMark, SpringValues};
 use asperity_plan::faults::{Plan, Sampling};
 use asperity_plan::shared::words::length;
@@ -16,10 +16,11 @@ pub(super) struct End {
 
 impl End {
     /// Values of a run of a plan; none where the plan samples none.
-    pub fn of(plan: &Plan, run: &FaultRun, pressed: &Pressed) -> Self {
+    pub fn of(plan: &Plan, run: &FaultRun, pressed: &PointTractions) -> Self {
         let (Some(sampling), Some(view)) = (&plan.sampling, &plan.bodies) else { return Self::default() };
-        let slip = &run.unknowns[Layout::of(&plan.problem.fault).slip()];
-        let values = sampling.values(view, [slip, pressed.of(&OPENING)], run.at.seconds(), &pressed.normal);
+        let slip = &run.unknowns[Layout::from_fault(&plan.problem.fault).slip()];
+        let values =
+            sampling.values(view, [slip, pressed.values(&OPENING)], run.at.seconds(), &pressed.normal);
         let Sampling { sampled, stage, .. } = sampling;
         let (stage, unit) = (stage.clone(), sampled.unit.to_string());
         let point = |(point, values): (&PointMark, PointValues)| PointResult {

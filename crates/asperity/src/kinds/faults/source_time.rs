@@ -103,7 +103,7 @@ impl SourceTimes {
     pub fn step(&mut self, plan: &Plan, now: &Moment<'_>) -> Result<(), OutputError> {
         let here = (now.at, moments::rate(plan, now));
         let before = self.written.last.replace(here).unwrap_or(here);
-        let events = now.catalogue.of(ALL);
+        let events = now.catalogue.events(ALL);
         let between = |at: &Clock| interpolated(at, before, here);
         if let Some(event) = events.get(self.written.events) {
             self.written.events += 1;

@@ -67,7 +67,7 @@ impl Entry {
     /// Events of one slider.
     #[must_use]
     pub fn of(run: &SliderRun, slider: usize) -> Vec<Self> {
-        run.catalogue.of(slider).iter().map(|event| Self::new(slider, event)).collect()
+        run.catalogue.events(slider).iter().map(|event| Self::new(slider, event)).collect()
     }
 
     /// Head of the event, which catalogues of other kinds have, too.

@@ -2,7 +2,7 @@
 
 use super::figures::{self, Source, Trace};
 use super::thin::{Row, Thin};
-use asperity_cycles::slider::{Now, Problem, Sliders};
+use asperity_cycles::slider::{Problem, SliderState, Sliders};
 use asperity_laws::Theta;
 use asperity_ode::Control;
 use asperity_output::decimals::{shortest, shortest_scientific};
@@ -209,7 +209,7 @@ impl Kept {
 }
 
 impl Observer<Sliders> for Histories {
-    fn step(&mut self, now: &Now<'_>) -> Result<Control, ObserveError> {
+    fn step(&mut self, now: &SliderState<'_>) -> Result<Control, ObserveError> {
         let (problem, time) = (now.problem, now.at.seconds());
         for (i, kept) in self.sliders.iter_mut().enumerate() {
             if kept.file.is_none() && !self.traced {

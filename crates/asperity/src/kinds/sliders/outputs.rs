@@ -3,7 +3,7 @@
 use super::files::{Histories, Positions};
 use crate::checkpoint::{self, ResumeError};
 use crate::keep::{self, Place};
-use asperity_cycles::slider::{Now as Step, Problem, SliderRun, Sliders};
+use asperity_cycles::slider::{Problem, SliderRun, SliderState as Step, Sliders};
 use asperity_ode::Control;
 use asperity_output::OutputError;
 use asperity_output::terminal::progress::RunState;

@@ -6,8 +6,8 @@ fn table(text: &str) -> Table {
 
 fn columns(a: &str, b: &str) -> (Vec<Difference>, Overlap) {
     match compare(&table(a), &table(b)) {
-        Compared::Columns(columns, overlap) => (columns, overlap),
-        Compared::Other(why) => panic!("{why}"),
+        TableComparison::Columns(columns, overlap) => (columns, overlap),
+        TableComparison::Other(why) => panic!("{why}"),
     }
 }
 
@@ -31,8 +31,8 @@ fn rows_at_other_times_are_interpolated() {
     let (found, _) = columns("time [s],v\n0,0\n2,4\n", "time [s],v\n0,0\n1,3\n");
     assert_eq!(found[0].largest, 1.0);
     let other = compare(&table("x,v\n0,0\n"), &table("x,v\n0,0\n1,0\n"));
-    assert_eq!(other, Compared::Other("they have 1 and 2 rows".into()));
-    assert!(matches!(compare(&table("x\n0\n"), &table("y\n0\n")), Compared::Other(_)));
+    assert_eq!(other, TableComparison::Other("they have 1 and 2 rows".into()));
+    assert!(matches!(compare(&table("x\n0\n"), &table("y\n0\n")), TableComparison::Other(_)));
 }
 
 #[test]

@@ -22,7 +22,7 @@ mod response;
 pub use chain::Line;
 
 use super::fluid::{ActingFluid, PorePressure};
-use crate::problem::{Acting, Host, Phase, Pressed, Process, Saved, Time};
+use crate::problem::{Acting, Host, Phase, PointTractions, Process, ProcessRecord, Time};
 use response::Response;
 
 /// A well.
@@ -109,7 +109,7 @@ impl Process for Diffusion {
         Phase::Fluid
     }
 
-    fn begin<'a>(&'a self, host: Host<'a>, _: Option<&Saved>) -> Box<dyn Acting + 'a> {
+    fn begin<'a>(&'a self, host: Host<'a>, _: Option<&ProcessRecord>) -> Box<dyn Acting + 'a> {
         Box::new(ActingFluid::new(self, host.law.points()))
     }
 
@@ -121,7 +121,7 @@ impl Process for Diffusion {
         self.wells.iter().flat_map(|well| well.jumps.iter().map(|jump| jump.0)).collect()
     }
 
-    fn fluid(&self, time: Time, _: &Pressed, sum: &mut [[f64; 2]]) {
+    fn fluid(&self, time: Time, _: &PointTractions, sum: &mut [[f64; 2]]) {
         self.add_to(time.at, time.until, sum);
     }
 }

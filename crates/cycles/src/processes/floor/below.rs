@@ -1,6 +1,6 @@
 //! Use of the floors of normal traction during a run.
 
-use crate::problem::{Account, Components, Passage, Quantity, Saved};
+use crate::problem::{Account, Components, Passage, ProcessRecord, Quantity};
 use std::ops::Range;
 
 /// Normal tractions of the bodies, less the pressure of fluid, before the floor.
@@ -13,7 +13,7 @@ pub static BODIES: Quantity = Quantity {
 
 /// Use of the floors so far, point by point.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Used {
+pub struct FloorRecord {
     /// Floors \[Pa\]; minus infinity where there is none.
     least: Vec<f64>,
     /// Time below the floor \[s\].
@@ -32,10 +32,10 @@ pub struct Used {
     duration: f64,
 }
 
-impl Used {
+impl FloorRecord {
     /// Use of these floors, from a saved state if there is one.
     #[must_use]
-    pub(super) fn new(least: Vec<f64>, saved: Option<&Saved>) -> Self {
+    pub(super) fn new(least: Vec<f64>, saved: Option<&ProcessRecord>) -> Self {
         let Some(saved) = saved else { return Self { least, ..Self::default() } };
         let [time, slip, below, whole] = [0, 1, 2, 3].map(|k| saved.list(k).to_vec());
         let [events, now, duration] = [0, 1, 2].map(|k| saved.list(4).get(k).copied().unwrap_or(0.0));
@@ -44,13 +44,13 @@ impl Used {
 
     /// Use of the floor at these points; `areas` holds the tributary areas of all points.
     #[must_use]
-    pub fn of(&self, points: Range<usize>, areas: &[f64]) -> Below {
+    pub fn summary(&self, points: Range<usize>, areas: &[f64]) -> FloorSummary {
         let of = |list: &[f64], p: usize| list.get(p).copied().unwrap_or(0.0);
         let points = || points.clone();
         let longest = points().max_by(|&a, &b| of(&self.time, a).total_cmp(&of(&self.time, b)));
         let over = |list: &[f64]| points().map(|p| of(list, p) * areas[p]).sum::<f64>();
         let share = |part: f64, whole: f64| if whole > 0.0 { part / whole } else { 0.0 };
-        Below {
+        FloorSummary {
             points: points().filter(|&p| of(&self.time, p) > 0.0).count(),
             longest,
             time_share: share(longest.map_or(0.0, |p| of(&self.time, p)), self.duration),
@@ -61,7 +61,7 @@ impl Used {
     }
 }
 
-impl Account for Used {
+impl Account for FloorRecord {
     fn step(&mut self, step: &Passage<'_>) {
         let Some((start, before)) = step.start else { return };
         let n = self.least.len();
@@ -71,7 +71,7 @@ impl Account for Used {
         self.duration += step.length;
         let by: Vec<f64> = step.slip.all().iter().zip(start.all()).map(|(b, a)| b - a).collect();
         let by = Components::new(by, n);
-        let ends = [before, step.pressed].map(|pressed| pressed.of(&BODIES));
+        let ends = [before, step.pressed].map(|pressed| pressed.values(&BODIES));
         let mut any = false;
         for p in 0..n {
             let least = self.least[p];
@@ -96,15 +96,15 @@ impl Account for Used {
         }
     }
 
-    fn save(&self) -> Saved {
+    fn save(&self) -> ProcessRecord {
         let rest = [self.events as f64, f64::from(u8::from(self.now)), self.duration];
-        Saved::new("floor", [&self.time, &self.slip, &self.below, &self.whole, &rest])
+        ProcessRecord::new("floor", [&self.time, &self.slip, &self.below, &self.whole, &rest])
     }
 }
 
 /// Use of the floor at a set of points.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Below {
+pub struct FloorSummary {
     /// Number of points that were ever below it.
     pub points: usize,
     /// The point that was below it longest.

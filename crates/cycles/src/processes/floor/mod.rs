@@ -8,9 +8,9 @@
 
 mod below;
 
-pub use below::{BODIES, Below, Used};
+pub use below::{BODIES, FloorRecord, FloorSummary};
 
-use crate::problem::{Account, Acting, Field, Host, Phase, Process, Saved, Time, Tractions};
+use crate::problem::{Account, Acting, Field, Host, Phase, Process, ProcessRecord, Time, Tractions};
 
 /// The floors of the points \[Pa\]; minus infinity where there is none.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,7 +50,7 @@ impl Process for Floor {
         Phase::Floor
     }
 
-    fn begin<'a>(&'a self, _: Host<'a>, _: Option<&Saved>) -> Box<dyn Acting + 'a> {
+    fn begin<'a>(&'a self, _: Host<'a>, _: Option<&ProcessRecord>) -> Box<dyn Acting + 'a> {
         Box::new(Holding { floor: self, bodies: Vec::new() })
     }
 
@@ -62,8 +62,8 @@ impl Process for Floor {
         self.at(point)
     }
 
-    fn account(&self, saved: Option<&Saved>) -> Option<Box<dyn Account>> {
-        Some(Box::new(Used::new(self.least.clone(), saved)))
+    fn account(&self, saved: Option<&ProcessRecord>) -> Option<Box<dyn Account>> {
+        Some(Box::new(FloorRecord::new(self.least.clone(), saved)))
     }
 }
 

@@ -3,13 +3,13 @@
 use super::memory::{Memory, Surface, Windows};
 use super::quantities::{PRESSURE, PRESSURE_RATE, TEMPERATURE};
 use super::zones::Heat;
-use crate::problem::{Acting, Field, Host, Now, Rates, Saved, Time, Tractions};
+use crate::problem::{Acting, FaultState, Field, Host, ProcessRecord, Rates, Time, Tractions};
 use asperity_friction::fault::FaultLaw;
 use asperity_ode::Clock;
 
 /// The memory of heat with its working memory, and the law at the present temperatures.
 #[derive(Debug)]
-pub(super) struct Heated<'a> {
+pub(super) struct HeatedFriction<'a> {
     heat: &'a Heat,
     host: Host<'a>,
     memory: Memory,
@@ -23,9 +23,9 @@ pub(super) struct Heated<'a> {
     law: Option<Box<dyn FaultLaw>>,
 }
 
-impl<'a> Heated<'a> {
+impl<'a> HeatedFriction<'a> {
     /// Heat of a fault with a saved memory, or at its ambient temperature.
-    pub fn new(heat: &'a Heat, host: Host<'a>, saved: Option<&Saved>) -> Self {
+    pub fn new(heat: &'a Heat, host: Host<'a>, saved: Option<&ProcessRecord>) -> Self {
         let zeros = vec![0.0; heat.points()];
         let fresh = || Memory::new(heat, Clock::new(0.0, 0.0), &zeros);
         Self {
@@ -48,7 +48,7 @@ impl<'a> Heated<'a> {
     }
 
     /// Computes the heating `q = f_n a m·V` at these slip rates \[m/s\].
-    fn heating(&mut self, now: &Now<'_>, rate: &[f64]) {
+    fn heating(&mut self, now: &FaultState<'_>, rate: &[f64]) {
         let law = self.law.as_deref().unwrap_or(self.host.law);
         let n = law.points();
         for (q, p) in self.flux.iter_mut().zip(self.heat.heated()) {
@@ -71,9 +71,9 @@ impl<'a> Heated<'a> {
     }
 }
 
-impl Acting for Heated<'_> {
+impl Acting for HeatedFriction<'_> {
     /// Computes temperatures and pressures and their rates, and sets the law to these temperatures.
-    fn see(&mut self, now: &Now<'_>) {
+    fn see(&mut self, now: &FaultState<'_>) {
         self.memory.enter(now.own);
         self.memory.open(self.heat, now.at, &mut self.windows);
         self.memory.values(self.heat, (now.own, None), &self.windows, &mut self.surface);
@@ -92,7 +92,7 @@ impl Acting for Heated<'_> {
     }
 
     /// Writes the heating of the heated points.
-    fn rates(&mut self, now: &Now<'_>, slip_rate: &[f64], rates: &mut [f64]) {
+    fn rates(&mut self, now: &FaultState<'_>, slip_rate: &[f64], rates: &mut [f64]) {
         self.heating(now, slip_rate);
         self.memory.begin(now.at, &self.flux);
         rates.copy_from_slice(&self.flux);
@@ -118,12 +118,12 @@ impl Acting for Heated<'_> {
         true
     }
 
-    fn commit(&mut self, now: &Now<'_>) {
+    fn commit(&mut self, now: &FaultState<'_>) {
         self.see(now);
         self.memory.commit(self.heat, now.at, now.own, &self.flux);
     }
 
-    fn save(&self) -> Option<Saved> {
+    fn save(&self) -> Option<ProcessRecord> {
         Some(self.memory.save())
     }
 }

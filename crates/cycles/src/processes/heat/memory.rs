@@ -14,7 +14,7 @@
 
 use super::modes::{Course, Window};
 use super::zones::{Heat, Zone};
-use crate::problem::Saved;
+use crate::problem::ProcessRecord;
 use asperity_ode::Clock;
 
 /// Heat received up to the start of a step.
@@ -76,16 +76,16 @@ impl Memory {
     }
 
     /// The memory of a saved state.
-    pub(super) fn read(saved: &Saved) -> Self {
+    pub(super) fn read(saved: &ProcessRecord) -> Self {
         let [received, flux, modes] = [0, 1, 2].map(|k| saved.list(k).to_vec());
         let at = saved.at.unwrap_or(Clock::new(0.0, 0.0));
         Self { at, fresh: saved.at.is_none(), received, flux, modes }
     }
 
     /// Saves it; its time only where the heating at that time is known.
-    pub(super) fn save(&self) -> Saved {
+    pub(super) fn save(&self) -> ProcessRecord {
         let at = (!self.fresh).then_some(self.at);
-        Saved { at, ..Saved::new("heat", [&self.received, &self.flux, &self.modes]) }
+        ProcessRecord { at, ..ProcessRecord::new("heat", [&self.received, &self.flux, &self.modes]) }
     }
 
     /// Course of the heating of a heated point that now has the heat `received` \[J/m²\] and, if this is known, is heated by
@@ -135,7 +135,7 @@ impl Memory {
                 let k = zone.first + i;
                 let course = self.course(k, windows.length, received[k], flux.map(|flux| flux[k]));
                 let value = |window: &Window, modes: &[f64]| window.value(modes, &course);
-                let [warmer, pressure] = zone.centre(sums, self.of(zone, i), value);
+                let [warmer, pressure] = zone.centre(sums, self.modes(zone, i), value);
                 out.temperature[p] = zone.layer.ambient + warmer;
                 out.pressure[p] = pressure;
             }
@@ -155,13 +155,14 @@ impl Memory {
                 let k = zone.first + i;
                 let course = self.course(k, windows.length, received[k], Some(flux[k]));
                 let rate = |window: &Window, modes: &[f64]| window.rate(modes, &course);
-                [out.temperature_rate[p], out.pressure_rate[p]] = zone.centre(sums, self.of(zone, i), rate);
+                [out.temperature_rate[p], out.pressure_rate[p]] =
+                    zone.centre(sums, self.modes(zone, i), rate);
             }
         }
     }
 
     /// Modes of a point of a zone.
-    fn of(&self, zone: &Zone, i: usize) -> &[f64] {
+    fn modes(&self, zone: &Zone, i: usize) -> &[f64] {
         &self.modes[zone.modes + i * zone.stride()..][..zone.stride()]
     }
 

@@ -26,11 +26,11 @@ mod zones;
 pub use memory::{Memory, Surface, Windows};
 pub use modes::Modes;
 pub use quantities::{PRESSURE, TEMPERATURE};
-pub use warmed::{Warmed, Warmest};
+pub use warmed::{HeatRecord, Warmest};
 pub use zones::{Heat, Layer, Pressurisation, Zone};
 
-use crate::problem::{Account, Acting, Host, Phase, Pressed, Process, Saved, Time};
-use heated::Heated;
+use crate::problem::{Account, Acting, Host, Phase, PointTractions, Process, ProcessRecord, Time};
+use heated::HeatedFriction;
 use quantities::PRESSURE_RATE;
 
 impl Process for Heat {
@@ -42,8 +42,8 @@ impl Process for Heat {
         Phase::Heat
     }
 
-    fn begin<'a>(&'a self, host: Host<'a>, saved: Option<&Saved>) -> Box<dyn Acting + 'a> {
-        Box::new(Heated::new(self, host, saved))
+    fn begin<'a>(&'a self, host: Host<'a>, saved: Option<&ProcessRecord>) -> Box<dyn Acting + 'a> {
+        Box::new(HeatedFriction::new(self, host, saved))
     }
 
     fn unknowns(&self) -> usize {
@@ -58,14 +58,14 @@ impl Process for Heat {
         self.pressurises()
     }
 
-    fn fluid(&self, _: Time, pressed: &Pressed, sum: &mut [[f64; 2]]) {
-        let (pressures, rates) = (pressed.of(&PRESSURE), pressed.of(&PRESSURE_RATE));
+    fn fluid(&self, _: Time, pressed: &PointTractions, sum: &mut [[f64; 2]]) {
+        let (pressures, rates) = (pressed.values(&PRESSURE), pressed.values(&PRESSURE_RATE));
         for ([pressure, rise], (own, rate)) in sum.iter_mut().zip(pressures.iter().zip(rates)) {
             (*pressure, *rise) = (*pressure + own, *rise + rate);
         }
     }
 
-    fn account(&self, saved: Option<&Saved>) -> Option<Box<dyn Account>> {
-        Some(Box::new(Warmed::new(saved)))
+    fn account(&self, saved: Option<&ProcessRecord>) -> Option<Box<dyn Account>> {
+        Some(Box::new(HeatRecord::new(saved)))
     }
 }

@@ -1,12 +1,12 @@
 //! Largest temperatures and pore pressures during a run.
 
 use super::quantities::{PRESSURE, TEMPERATURE};
-use crate::problem::{Account, Passage, Saved};
+use crate::problem::{Account, Passage, ProcessRecord};
 use std::ops::Range;
 
 /// Largest temperatures and pressures so far, point by point; no values without heat.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Warmed {
+pub struct HeatRecord {
     /// Largest temperature \[K\]; 0 at points that are not heated.
     temperature: Vec<f64>,
     /// Time of it \[s\].
@@ -15,10 +15,10 @@ pub struct Warmed {
     pressure: Vec<f64>,
 }
 
-impl Warmed {
+impl HeatRecord {
     /// Statistics from a saved state, if there is one.
     #[must_use]
-    pub(super) fn new(saved: Option<&Saved>) -> Self {
+    pub(super) fn new(saved: Option<&ProcessRecord>) -> Self {
         let [temperature, when, pressure] =
             [0, 1, 2].map(|k| saved.map_or_else(Vec::new, |saved| saved.list(k).to_vec()));
         Self { temperature, when, pressure }
@@ -26,7 +26,7 @@ impl Warmed {
 
     /// Summary for these points, with the number of those that exceeded a temperature \[K\].
     #[must_use]
-    pub fn of(&self, points: Range<usize>, limit: f64) -> Warmest {
+    pub fn summary(&self, points: Range<usize>, limit: f64) -> Warmest {
         let of = |list: &[f64], p: usize| list.get(p).copied().unwrap_or(0.0);
         let point =
             points.clone().max_by(|&a, &b| of(&self.temperature, a).total_cmp(&of(&self.temperature, b)));
@@ -40,9 +40,10 @@ impl Warmed {
     }
 }
 
-impl Account for Warmed {
+impl Account for HeatRecord {
     fn step(&mut self, step: &Passage<'_>) {
-        let [temperatures, pressures] = [&TEMPERATURE, &PRESSURE].map(|quantity| step.pressed.of(quantity));
+        let [temperatures, pressures] =
+            [&TEMPERATURE, &PRESSURE].map(|quantity| step.pressed.values(quantity));
         for list in [&mut self.temperature, &mut self.when, &mut self.pressure] {
             list.resize(temperatures.len(), 0.0);
         }
@@ -54,8 +55,8 @@ impl Account for Warmed {
         }
     }
 
-    fn save(&self) -> Saved {
-        Saved::new("heat", [&self.temperature, &self.when, &self.pressure])
+    fn save(&self) -> ProcessRecord {
+        ProcessRecord::new("heat", [&self.temperature, &self.when, &self.pressure])
     }
 }
 

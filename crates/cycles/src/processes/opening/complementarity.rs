@@ -231,7 +231,7 @@ impl Opening {
     }
 
     /// Openings of all points \[m\], and their last rates unless `rate` is empty.
-    pub fn of(&self, crack: &Crack, by: &mut [f64], rate: &mut [f64]) {
+    pub fn evaluate(&self, crack: &Crack, by: &mut [f64], rate: &mut [f64]) {
         by.fill(0.0);
         rate.fill(0.0);
         for (i, &k) in crack.open.iter().enumerate() {
@@ -295,7 +295,7 @@ mod tests {
         let mut pressed = alone.to_vec();
         opening.solve(crack, &mut pressed).unwrap();
         let mut by = vec![0.0; alone.len()];
-        opening.of(crack, &mut by, &mut vec![0.0; alone.len()]);
+        opening.evaluate(crack, &mut by, &mut vec![0.0; alone.len()]);
         (pressed, by)
     }
 
@@ -368,7 +368,7 @@ mod tests {
             alone(time + step).iter().zip(alone(time - step)).map(|(b, a)| (b - a) / (2.0 * step)).collect();
         let (mut shear, mut by, mut rate) = (vec![0.0; 50], vec![0.0; 50], vec![0.0; 50]);
         opening.rates(&mut now.3, &mut normal, &mut shear);
-        opening.of(&now.3, &mut by, &mut rate);
+        opening.evaluate(&now.3, &mut by, &mut rate);
         for p in 0..50 {
             let slope = |a: &[f64], b: &[f64]| (b[p] - a[p]) / (2.0 * step);
             // Finite differences of numbers of order one over a step of 1e-6.

@@ -4,10 +4,11 @@ mod complementarity;
 mod opened;
 
 pub use complementarity::{Crack, Opening};
-pub use opened::{OPENING, Opened, Widest};
+pub use opened::{OPENING, OpeningRecord, Widest};
 
 use crate::problem::{
-    Account, Acting, Energetic, Field, Host, Phase, Pressed, Process, Saved, Stretch, Time, Tractions, Way,
+    Account, Acting, Energetic, Field, Host, Phase, PointTractions, Process, ProcessRecord, Stretch, Time,
+    Tractions, Way,
 };
 
 impl Process for Opening {
@@ -19,7 +20,7 @@ impl Process for Opening {
         Phase::Opening
     }
 
-    fn begin<'a>(&'a self, host: Host<'a>, _: Option<&Saved>) -> Box<dyn Acting + 'a> {
+    fn begin<'a>(&'a self, host: Host<'a>, _: Option<&ProcessRecord>) -> Box<dyn Acting + 'a> {
         Box::new(Parting { opening: self, points: host.law.points(), crack: Crack::default() })
     }
 
@@ -31,24 +32,24 @@ impl Process for Opening {
         Some(self)
     }
 
-    fn account(&self, saved: Option<&Saved>) -> Option<Box<dyn Account>> {
-        Some(Box::new(Opened::new(self.points(), saved)))
+    fn account(&self, saved: Option<&ProcessRecord>) -> Option<Box<dyn Account>> {
+        Some(Box::new(OpeningRecord::new(self.points(), saved)))
     }
 }
 
 impl Energetic for Opening {
-    fn first(&self, pressed: &Pressed, normal: &mut [f64]) {
-        self.pressing(pressed.of(&OPENING), normal);
+    fn first(&self, pressed: &PointTractions, normal: &mut [f64]) {
+        self.pressing(pressed.values(&OPENING), normal);
     }
 
-    fn sheared(&self, between: [&Pressed; 2], shear: &mut [f64]) {
+    fn sheared(&self, between: [&PointTractions; 2], shear: &mut [f64]) {
         Opening::sheared(self, &parted(between), shear);
     }
 
     fn work(&self, over: &Stretch<'_>) -> f64 {
         let h = over.length;
-        let [before, after] = over.pressed.map(|pressed| pressed.of(&OPENING));
-        let [first, last] = over.rates.map(|rates| rates.of(&OPENING));
+        let [before, after] = over.pressed.map(|pressed| pressed.values(&OPENING));
+        let [first, last] = over.rates.map(|rates| rates.values(&OPENING));
         let work = |&p: &usize| {
             let way = Way { by: after[p] - before[p], rates: [h * first[p], h * last[p]] };
             let [start, end] = over.parting.map(|end| [end[p][0], h * end[p][1]]);
@@ -57,7 +58,7 @@ impl Energetic for Opening {
         self.points().iter().map(work).sum()
     }
 
-    fn stored(&self, between: [&Pressed; 2], slip: &[f64], areas: &[f64]) -> f64 {
+    fn stored(&self, between: [&PointTractions; 2], slip: &[f64], areas: &[f64]) -> f64 {
         let apart = parted(between);
         let (mut normal, mut shear) = (vec![0.0; areas.len()], vec![0.0; slip.len()]);
         self.pressing(&apart, &mut normal);
@@ -70,8 +71,8 @@ impl Energetic for Opening {
 }
 
 /// Change of the openings between two states \[m\].
-fn parted(between: [&Pressed; 2]) -> Vec<f64> {
-    let [first, last] = between.map(|pressed| pressed.of(&OPENING));
+fn parted(between: [&PointTractions; 2]) -> Vec<f64> {
+    let [first, last] = between.map(|pressed| pressed.values(&OPENING));
     last.iter().zip(first).map(|(b, a)| b - a).collect()
 }
 
@@ -95,13 +96,13 @@ impl Acting for Parting<'_> {
 
     fn fields(&self) -> Vec<Field> {
         let mut values = vec![0.0; self.points];
-        self.opening.of(&self.crack, &mut values, &mut []);
+        self.opening.evaluate(&self.crack, &mut values, &mut []);
         vec![Field { quantity: &OPENING, values }]
     }
 
     fn field_rates(&self) -> Vec<Field> {
         let mut values = vec![0.0; self.points];
-        self.opening.of(&self.crack, &mut vec![0.0; self.points], &mut values);
+        self.opening.evaluate(&self.crack, &mut vec![0.0; self.points], &mut values);
         vec![Field { quantity: &OPENING, values }]
     }
 }

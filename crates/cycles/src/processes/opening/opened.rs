@@ -1,6 +1,6 @@
 //! Statistics of openings in a run.
 
-use crate::problem::{Account, OverEvents, Passage, Quantity, Saved};
+use crate::problem::{Account, OverEvents, Passage, ProcessRecord, Quantity};
 use std::ops::Range;
 
 /// Opening of points.
@@ -13,7 +13,7 @@ pub static OPENING: Quantity = Quantity {
 
 /// Openings so far, point by point.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Opened {
+pub struct OpeningRecord {
     /// Points that may open.
     points: Vec<usize>,
     /// Time open \[s\].
@@ -26,10 +26,10 @@ pub struct Opened {
     duration: f64,
 }
 
-impl Opened {
+impl OpeningRecord {
     /// Statistics of these points, from a saved state if there is one.
     #[must_use]
-    pub(super) fn new(points: &[usize], saved: Option<&Saved>) -> Self {
+    pub(super) fn new(points: &[usize], saved: Option<&ProcessRecord>) -> Self {
         let list = |k: usize| saved.map_or_else(Vec::new, |saved| saved.list(k).to_vec());
         let duration = list(3).first().copied().unwrap_or(0.0);
         Self { points: points.to_vec(), time: list(0), largest: list(1), when: list(2), duration }
@@ -37,7 +37,7 @@ impl Opened {
 
     /// Summary for these points.
     #[must_use]
-    pub fn of(&self, points: Range<usize>) -> Widest {
+    pub fn summary(&self, points: Range<usize>) -> Widest {
         let of = |list: &[f64], p: usize| list.get(p).copied().unwrap_or(0.0);
         let points = || points.clone();
         let point = points().max_by(|&a, &b| of(&self.largest, a).total_cmp(&of(&self.largest, b)));
@@ -52,15 +52,15 @@ impl Opened {
     }
 }
 
-impl Account for Opened {
+impl Account for OpeningRecord {
     /// Adds an accepted step. A point that is open at one end of it counts as open for half of it.
     fn step(&mut self, step: &Passage<'_>) {
-        let opening = step.pressed.of(&OPENING);
+        let opening = step.pressed.values(&OPENING);
         for list in [&mut self.time, &mut self.largest, &mut self.when] {
             list.resize(opening.len(), 0.0);
         }
         self.duration += step.length;
-        let before = step.start.map_or(opening, |(_, pressed)| pressed.of(&OPENING));
+        let before = step.start.map_or(opening, |(_, pressed)| pressed.values(&OPENING));
         for &p in &self.points {
             let ends = [before[p], opening[p]];
             let open = ends.iter().filter(|o| **o > 0.0).count();
@@ -71,8 +71,8 @@ impl Account for Opened {
         }
     }
 
-    fn save(&self) -> Saved {
-        Saved::new("opening", [&self.time, &self.largest, &self.when, &[self.duration]])
+    fn save(&self) -> ProcessRecord {
+        ProcessRecord::new("opening", [&self.time, &self.largest, &self.when, &[self.duration]])
     }
 }
 

@@ -239,7 +239,7 @@ pub(super) fn geometry<const D: usize>(placed: &[Placed<D>]) -> (Vec<[f64; 3]>, 
 
 /// Initial unknowns: every point slides at its initial rate.
 fn start<const D: usize>(placed: &[Placed<D>], fault: &Fault) -> Result<Vec<f64>, (usize, Failure)> {
-    let layout = Layout::of(fault);
+    let layout = Layout::from_fault(fault);
     let n = fault.law.states();
     let mut y = vec![0.0; layout.size()];
     if !layout.normal().is_empty() {

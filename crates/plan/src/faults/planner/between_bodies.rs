@@ -25,7 +25,7 @@ use crate::shared::model::{self, Model, forecast, locking};
 use crate::shared::resolution::Resolution;
 use crate::shared::setup::Setups;
 use asperity_cycles::medium::{
-    Bodies, Conditions, Loads, Mirror, Point, Pressed, Refusal, Spring, least_bytes,
+    Bodies, Conditions, Loads, Mirror, Point, PressedBodies, Refusal, Spring, least_bytes,
 };
 use asperity_cycles::operator::{Form, Operator};
 use asperity_cycles::{Loading, deficit};
@@ -120,7 +120,7 @@ impl<'s, const D: usize> Ground<'s, D> {
         mut self,
         conditions: &Conditions,
         points: PartedPoints<D>,
-        pressed: Option<&Pressed>,
+        pressed: Option<&PressedBodies>,
         mut condensed: Condensed,
     ) -> Result<Plan, Diagnostic> {
         let PartedPoints { sliding: mut placed, creeping, free } = points;
@@ -197,7 +197,7 @@ impl Loaded {
         ground: &Ground<'_, D>,
         bodies: &Stiffness,
         setups: (&Setups, &Option<String>),
-    ) -> Result<Option<Pressed>, Diagnostic> {
+    ) -> Result<Option<PressedBodies>, Diagnostic> {
         let Some(pressing) = &ground.pressing else { return Ok(None) };
         let faults: Vec<usize> = ground.placed.iter().map(|p| p.fault).collect();
         let asked = ground.asked(&self.loads);

@@ -8,7 +8,7 @@ use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Scene};
 use crate::shared::setup::{Key, Setups};
 use asperity_cycles::medium::{Bodies, Conditions, Initial, Mirror, Surroundings, condense};
-use asperity_cycles::operator::{Form, Geometry, Operator, of_forces};
+use asperity_cycles::operator::{Form, Geometry, Operator, condensed_operator};
 use asperity_cycles::{Loading, Opening};
 use asperity_fem::condense::Stiffness;
 use asperity_run::report::Part;
@@ -57,7 +57,7 @@ pub(super) fn of<const D: usize>(
         let surroundings = surroundings.map_err(|e| asked.error(&e))?;
         let Surroundings { forces, opening, loading, creep, weight, bytes, mirrored, bodies } = surroundings;
         let with_plates = forces.shear_along(&rates);
-        let operator = of_forces(forces, &geometry, form);
+        let operator = condensed_operator(forces, &geometry, form);
         Ok(Condensed { operator, opening, loading, creep, with_plates, weight, bytes, mirrored, bodies })
     };
     if conditions.keep {

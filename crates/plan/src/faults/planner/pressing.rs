@@ -13,7 +13,7 @@ use crate::reading::scene::model::{Fault as Spec, Scene, Stage as StageSpec};
 use crate::shared::loading::Stage;
 use crate::shared::setup::Setups;
 use asperity_cycles::Fault;
-use asperity_cycles::medium::{Conditions, Pressed, Pressing, press};
+use asperity_cycles::medium::{Conditions, PressedBodies, Pressing, press};
 use asperity_fem::condense::Stiffness;
 use asperity_fem::dof::Channel;
 use asperity_fem::table::Table;
@@ -38,7 +38,7 @@ pub(super) fn solve<const D: usize>(
     faults: &[usize],
     (bodies, conditions): (&Stiffness, Conditions),
     (setups, stiffness): (&Setups, &Option<String>),
-) -> Result<Pressed, Diagnostic> {
+) -> Result<PressedBodies, Diagnostic> {
     let names: Vec<&String> = asked.scene.faults.keys().collect();
     let slides = |fault: &usize| stage.frictionless.contains(names[*fault]);
     let pressing = Pressing {
@@ -79,7 +79,7 @@ fn load(stage: &Stage, dofs: usize) -> Channel {
 /// [`Diagnostic`] if a point is not pressed.
 pub(super) fn start<const D: usize>(
     scene: &Scene,
-    pressed: &Pressed,
+    pressed: &PressedBodies,
     free: &[usize],
     placed: &mut [Placed<D>],
 ) -> Result<Vec<String>, Diagnostic> {
@@ -169,7 +169,7 @@ pub(super) fn rests<const D: usize>(
     (placed, fault): (&[Placed<D>], &Fault),
     (unknowns, above): (&[f64], f64),
 ) -> Result<(), Diagnostic> {
-    let layout = asperity_cycles::Layout::of(fault);
+    let layout = asperity_cycles::Layout::from_fault(fault);
     let pressed = placed.iter().any(|p| p.pressed_shear.is_some());
     let Some(stage) = check::pressing::stage(scene).filter(|_| pressed) else { return Ok(()) };
     let mut rate = vec![0.0; layout.m().len()];

@@ -5,7 +5,7 @@ use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Scene, Spanned};
 use crate::reading::scene::units::Length;
 use crate::shared::model::{Model, bounds};
-use asperity_cycles::medium::{Bodies, Followed, Point};
+use asperity_cycles::medium::{Bodies, DisplacementSum, Point};
 use asperity_fem::mesh::{Location, locate};
 use asperity_mechanics::coordinates::in_words;
 
@@ -37,14 +37,14 @@ pub(super) fn of<const D: usize>(
     let sums: Vec<Shares> = shares.iter().flat_map(|s| (0..components).map(move |c| row(s, c))).collect();
     let axes: Vec<usize> = (0..components).map(|c| model.idealisation.axis(c)).collect();
     let followed = bodies.followed(&sums, tangents);
-    let receiver = |(given, followed): (&Given<'_>, &[Followed])| receiver(*given, followed, &axes);
+    let receiver = |(given, followed): (&Given<'_>, &[DisplacementSum])| receiver(*given, followed, &axes);
     let all = given.iter().zip(followed.chunks_exact(components)).map(receiver).collect();
     Ok(Receivers { all, rates: rates.to_vec(), axes })
 }
 
 /// A receiver from what each component of its displacement follows.
-fn receiver((name, given): Given<'_>, followed: &[Followed], axes: &[usize]) -> Receiver {
-    let vector = |of: &dyn Fn(&Followed) -> f64| {
+fn receiver((name, given): Given<'_>, followed: &[DisplacementSum], axes: &[usize]) -> Receiver {
+    let vector = |of: &dyn Fn(&DisplacementSum) -> f64| {
         let mut vector = [0.0; 3];
         axes.iter().zip(followed).for_each(|(&axis, f)| vector[axis] = of(f));
         vector

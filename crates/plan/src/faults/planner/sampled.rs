@@ -6,7 +6,7 @@ use crate::reading::scene::model::{Scene, Stepper};
 use crate::shared::loading::{Spring, Stage};
 use crate::shared::model::samples;
 use crate::shared::{initial_stress, model, views};
-use asperity_cycles::medium::Pressed;
+use asperity_cycles::medium::PressedBodies;
 use asperity_fem::dof::Channel;
 use asperity_fem::table::Table;
 use asperity_mechanics::SpringStart;
@@ -26,7 +26,7 @@ pub(super) fn asked(scene: &Scene, stage: &Stage) -> bool {
 pub(super) fn of<const D: usize>(
     scene: &Scene,
     stage: &Stage,
-    pressed: Option<&Pressed>,
+    pressed: Option<&PressedBodies>,
     areas: Vec<f64>,
 ) -> Result<Option<Sampling>, Diagnostic> {
     if !asked(scene, stage) {
