@@ -159,7 +159,7 @@ struct HeadColumn {
 }
 
 /// First columns of the catalogues of all kinds of run.
-const HEAD: [HeadColumn; 6] = [
+const HEAD: [HeadColumn; 7] = [
     HeadColumn {
         name: "onset",
         unit: "s",
@@ -201,6 +201,13 @@ const HEAD: [HeadColumn; 6] = [
         sign: Sign::None,
         meaning: "fault, interface or slider of the hypocentre",
         cell: |e, _| quoted(e.surface),
+    },
+    HeadColumn {
+        name: "end",
+        unit: "s",
+        sign: Sign::None,
+        meaning: "time at which the duration ends",
+        cell: |e, _| e.duration.map(|duration| moment(e.onset + duration)).unwrap_or_default(),
     },
 ];
 

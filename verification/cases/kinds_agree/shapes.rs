@@ -15,8 +15,15 @@ const TABLES: [&str; 6] = [
 ];
 
 /// First columns of every catalogue.
-const CATALOGUE: [&str; 6] =
-    ["onset [s]", "duration [s]", "interval [s]", "peak_rate [m/s]", "stress_drop [Pa]", "surface"];
+const CATALOGUE: [&str; 7] = [
+    "onset [s]",
+    "duration [s]",
+    "interval [s]",
+    "peak_rate [m/s]",
+    "stress_drop [Pa]",
+    "surface",
+    "end [s]",
+];
 
 pub(super) fn claims(ledger: &mut Ledger, all: &[Ran]) -> Result<(), CaseError> {
     tables(ledger, all)?;
@@ -43,7 +50,10 @@ fn catalogues(ledger: &mut Ledger, all: &[Ran]) -> Result<(), CaseError> {
     if heads.len() < 2 {
         return Err("fewer than two kinds of run write events.csv".into());
     }
-    let differ = heads.iter().filter(|head| !head.iter().map(String::as_str).take(6).eq(CATALOGUE)).count();
+    let differ = heads
+        .iter()
+        .filter(|head| !head.iter().map(String::as_str).take(CATALOGUE.len()).eq(CATALOGUE))
+        .count();
     counted(ledger, "catalogues whose first columns are others", differ);
     Ok(())
 }
