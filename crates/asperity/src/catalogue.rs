@@ -148,6 +148,9 @@ fn optional(value: Option<f64>) -> String {
     value.map(shortest).unwrap_or_default()
 }
 
+/// Writer of a number.
+type NumberText = fn(f64) -> String;
+
 /// A first column of every catalogue, and its cell.
 struct HeadColumn {
     name: &'static str,
@@ -155,7 +158,7 @@ struct HeadColumn {
     sign: Sign,
     meaning: &'static str,
     /// Cell of an event, whose numbers other than times of the run are written like this.
-    cell: fn(&EventHead<'_>, fn(f64) -> String) -> String,
+    cell: fn(&EventHead<'_>, NumberText) -> String,
 }
 
 /// First columns of the catalogues of all kinds of run.
@@ -232,7 +235,7 @@ pub fn head_columns() -> impl Iterator<Item = Column> {
 
 /// First cells of an event in every catalogue, with its numbers written like this.
 #[must_use]
-pub fn head_cells(event: &EventHead<'_>, number: fn(f64) -> String) -> String {
+pub fn head_cells(event: &EventHead<'_>, number: NumberText) -> String {
     HEAD.iter().map(|column| (column.cell)(event, number)).collect::<Vec<_>>().join(",")
 }
 

@@ -48,7 +48,7 @@ use Kinematics::{Antiplane, Axisymmetric, PlaneStrain, PlaneStress, ThreeD};
 
 /// All idealisations.
 pub(crate) const ALL: [Kinematics; 5] = [PlaneStrain, PlaneStress, Axisymmetric, Antiplane, ThreeD];
-/// That of three dimensions.
+/// The idealisation of three dimensions.
 pub(crate) const SPACE: &[Kinematics] = &[ThreeD];
 /// Those of two dimensions.
 pub(crate) const PLANE: &[Kinematics] = &[PlaneStrain, PlaneStress, Axisymmetric, Antiplane];

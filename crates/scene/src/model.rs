@@ -85,7 +85,7 @@ pub struct Scene {
     #[serde(default)]
     pub bodies: BTreeMap<String, Body>,
     /// Homogeneous rock around faults, instead of bodies.
-    #[schemars(extend("x-kinematics" = kinematics::ROCK, "x-kinds" = [Kind::Medium], "x-instead" = "waves run in bodies: a body with `mesh.fault` around the fault, and `absorbing = true` on its sides"))]
+    #[schemars(extend("x-kinematics" = kinematics::ROCK, "x-otherwise" = "elsewhere rock is a body", "x-kinds" = [Kind::Medium], "x-instead" = "waves run in bodies: a body with `mesh.fault` around the fault, and `absorbing = true` on its sides"))]
     pub medium: Option<Medium>,
     /// Interfaces by name.
     #[schemars(extend("x-kinds" = kind::INTERFACES, "x-instead" = "surfaces slide as faults there: two sides with the same nodes, `[faults.NAME]` with `minus` and `plus`"))]
@@ -550,11 +550,11 @@ pub struct Output {
     pub receivers: BTreeMap<String, Spanned<Vec<Length>>>,
     /// In a half-space in space with `[place]`: `{ longitude = "-123.5 deg", latitude = "48.4 deg" }`: a receiver at the free
     /// surface.
-    #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-kinds" = [Kind::Medium], "x-instead" = "elsewhere, `receivers.NAME` has coordinates"))]
+    #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "elsewhere, `receivers.NAME` has coordinates", "x-kinds" = [Kind::Medium], "x-instead" = "elsewhere, `receivers.NAME` has coordinates"))]
     #[serde(default)]
     pub sites: BTreeMap<String, Spanned<Site>>,
     /// CSV file of such sites, with the columns `name`, `longitude` and `latitude` (or `lon` and `lat`) in degrees.
-    #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-kinds" = [Kind::Medium]))]
+    #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "elsewhere, `receivers.NAME` has coordinates", "x-kinds" = [Kind::Medium]))]
     pub site_file: Option<Spanned<String>>,
     /// In a half-space: `{ spacing = "2 km" }`: map of the displacement of the free surface over each event.
     #[schemars(extend("x-kinds" = [Kind::Medium]))]

@@ -331,7 +331,7 @@ pub(crate) fn si_value(text: &str) -> Option<f64> {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("expected {expected}, found \"{found}\" ({reason})")]
 pub struct UnitError {
-    /// What was expected, with an example.
+    /// Expected value, with an example.
     pub expected: String,
     /// The text.
     pub found: String,
@@ -342,7 +342,7 @@ pub struct UnitError {
 /// Parses a text with a unit into its SI value.
 ///
 /// # Errors
-/// What was expected and found.
+/// Text without a value of the expected dimension.
 pub fn parse(text: &str, wanted: Dimension) -> Result<f64, UnitError> {
     let (number, name) = split(text);
     let refuse = |why: &str| {

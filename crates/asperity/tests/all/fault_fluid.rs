@@ -162,5 +162,5 @@ fn fluid_along_faults_in_space_is_refused() {
         ],
     );
     let told = plan_in(&text, Path::new(".")).unwrap_err();
-    assert!(told.contains("`diffusion` is for two dimensions"), "{told}");
+    assert!(told.contains("`diffusion` has no meaning in three dimensions"), "{told}");
 }

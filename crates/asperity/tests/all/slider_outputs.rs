@@ -115,15 +115,16 @@ fn events_as_csv_have_a_field_for_each_column() {
     let text = csv(&events);
     let mut lines = text.lines();
     let head: Vec<&str> = lines.next().unwrap().split(',').collect();
-    assert_eq!(head.len(), 15);
+    assert_eq!(head.len(), 16);
     for (line, Named { entry: e, .. }) in lines.zip(&events) {
         assert_eq!(line.matches("\"a, \"\"b\"\"\"").count(), 1, "{line}");
         // The name has a comma of its own.
         let fields: Vec<Option<f64>> = line.split(',').map(|v| v.parse().ok()).collect();
         assert_eq!(fields.len(), head.len() + 1);
-        assert_eq!((fields[2], fields[4], fields[8]), (e.interval, e.stress_drop, e.slip));
-        assert_eq!(fields[7], Some(1.0));
-        assert_eq!(fields[15], Some(e.at_end.as_ref().unwrap().states[0]));
+        assert_eq!((fields[2], fields[4], fields[9]), (e.interval, e.stress_drop, e.slip));
+        assert!(relative(fields[7].unwrap(), e.onset + e.duration.unwrap()) < 1e-14, "{line}");
+        assert_eq!(fields[8], Some(1.0));
+        assert_eq!(fields[16], Some(e.at_end.as_ref().unwrap().states[0]));
     }
     assert_eq!(text.lines().count(), 11);
 }

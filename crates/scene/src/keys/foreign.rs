@@ -9,7 +9,7 @@ use serde_json::{Value as Schema, json};
 use std::ops::Range;
 use toml_edit::Document;
 
-/// What a scene is of, which decides on its keys.
+/// Properties of a scene that decide on its keys.
 pub(crate) struct Run {
     /// Kind of run.
     pub kind: Kind,
@@ -42,7 +42,8 @@ struct ForeignKeys<'t> {
 impl<'s> Visitor<'s> for ForeignKeys<'_> {
     fn key(&mut self, given: &GivenKey<'s, '_>) -> bool {
         let [at, value] = &given.places;
-        let refusal = self.of_run(given).or_else(|| self.idealised(given)).or_else(|| self.elsewhere(given));
+        let refusal =
+            self.other_kind(given).or_else(|| self.idealised(given)).or_else(|| self.elsewhere(given));
         let Some(error) = refusal else { return true };
         self.errors.push(error);
         self.below.push(at.start..value.end.max(at.end));
@@ -52,7 +53,7 @@ impl<'s> Visitor<'s> for ForeignKeys<'_> {
 
 impl ForeignKeys<'_> {
     /// Refusal of a key of another kind of run, or of another choice beside it.
-    fn of_run(&self, given: &GivenKey<'_, '_>) -> Option<Diagnostic> {
+    fn other_kind(&self, given: &GivenKey<'_, '_>) -> Option<Diagnostic> {
         let own = kinds(given.schema).filter(|kinds| !kinds.contains(&self.run.kind));
         let of_run = own.map(|kinds| {
             let stated = Some((self.run.stated.clone(), "the kind of run"));
@@ -84,13 +85,14 @@ impl ForeignKeys<'_> {
     /// Refusal of a key of other idealisations.
     fn idealised(&self, given: &GivenKey<'_, '_>) -> Option<Diagnostic> {
         let own = idealisations(given.schema)?;
-        self.run.kinematics.filter(|found| !own.contains(found))?;
+        let found = self.run.kinematics.filter(|found| !own.contains(found))?;
         let [at, value] = &given.places;
         let place = if value.is_empty() { at } else { value };
         let otherwise =
-            given.schema["x-otherwise"].as_str().map_or(String::new(), |text| format!(": {text}"));
-        let message = format!("`{}` is for {}", given.key, kinematics::words(&own));
-        Some(Diagnostic::at(place.clone(), message, format!("remove it{otherwise}")))
+            given.schema["x-otherwise"].as_str().map_or(String::new(), |text| format!("; {text}"));
+        let message = format!("`{}` has no meaning in {}", given.key, found.words());
+        let help = format!("remove it: it is for {}{otherwise}", kinematics::words(&own));
+        Some(Diagnostic::at(place.clone(), message, help))
     }
 }
 
@@ -181,8 +183,11 @@ mod tests {
     fn a_key_of_another_idealisation_is_refused_at_its_value() {
         let found = refused(Kind::Medium, "\n[faults.main]\nrake = [0, 0, 1]\n");
         assert_eq!(found.len(), 1, "{found:?}");
-        assert_eq!((found[0].0, found[0].1.as_str()), (3, "`rake` is for three dimensions"));
-        assert_eq!(found[0].2, "remove it: in the plane there is one direction of slip");
+        assert_eq!((found[0].0, found[0].1.as_str()), (3, "`rake` has no meaning in antiplane motion"));
+        assert_eq!(
+            found[0].2,
+            "remove it: it is for three dimensions; in the plane there is one direction of slip"
+        );
         assert_eq!(refused(Kind::Medium, "[place]\nlength = \"1 km\"\n"), []);
     }
 

@@ -60,18 +60,20 @@ fn of_bodies<const D: usize>(plan: &Plan<D>) -> Series<'_, Motion> {
         })
 }
 
+/// Values of a state of the fault.
+type Values = fn(&FaultState) -> &[f64];
+
 /// Slip, slip rate and tractions on a fault in space.
 fn of_fault<'a, const D: usize>(plan: &'a Plan<D>, fault: &'a FaultView) -> Series<'a, FaultState> {
     let mut series =
         Series::new(FILES.named(&format!("{}_*", fault.name)), FieldTimes::Intervals, || grid(plan, fault));
-    let vectors: [(_, _, _, fn(&FaultState) -> &[f64]); 3] = [
-        ("slip", "m", "slip", |now| &now.slip),
-        ("slip_rate", "m/s", "slip rate", |now| &now.rate),
-        ("shear_traction", "Pa", "shear traction", |now| &now.shear),
+    let vectors: [(Field, Values); 3] = [
+        (Field::vector("slip", "m", Sign::Vector, "slip"), |now| &now.slip),
+        (Field::vector("slip_rate", "m/s", Sign::Vector, "slip rate"), |now| &now.rate),
+        (Field::vector("shear_traction", "Pa", Sign::Vector, "shear traction"), |now| &now.shear),
     ];
-    for (name, unit, meaning, of) in vectors {
-        let field = Field::vector(name, unit, Sign::Vector, meaning);
-        series = series.with(field, move |now| in_space(plan, fault, of(now)).into());
+    for (field, values) in vectors {
+        series = series.with(field, move |now| in_space(plan, fault, values(now)).into());
     }
     let normal = Field::scalar("normal_traction", "Pa", Sign::Compression, "normal traction");
     series.with(normal, |now: &FaultState| Data::from(now.normal[fault.points.clone()].to_vec()))

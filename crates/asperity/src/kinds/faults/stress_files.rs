@@ -15,20 +15,23 @@ pub(super) const FILE: OutputFile =
 /// Stress of a cell, and its change on the planes.
 type Stressed = ([f64; 6], Change);
 
+/// A part of a change.
+type Part = fn(&Change) -> f64;
+
 /// Stresses of the cells of bodies.
 pub(super) fn series(view: &BodiesView) -> Series<'_, Vec<Stressed>> {
     // VTK's order of components is that of stresses here.
     let stress = Field::tensor("stress", "Pa", Sign::Tension, "stress that the event causes").in_cells();
     let mut series = Series::new(FILE.path, FieldTimes::Events, || Grid::new(&view.nodes, &view.cells))
         .with(stress, |all: &Vec<Stressed>| all.iter().map(|(stress, _)| *stress).collect::<Vec<_>>().into());
-    let parts: [(_, _, _, fn(&Change) -> f64); 3] = [
-        ("shear_change", Sign::Driving, "change of the shear traction along the rake", |c| c.shear),
-        ("normal_change", Sign::Compression, "change of the normal traction", |c| c.normal),
-        ("coulomb_change", Sign::Driving, "change of Coulomb stress", |c| c.coulomb),
+    let change = |name, sign, meaning| Field::scalar(name, "Pa", sign, meaning).in_cells();
+    let parts: [(Field, Part); 3] = [
+        (change("shear_change", Sign::Driving, "change of the shear traction along the rake"), |c| c.shear),
+        (change("normal_change", Sign::Compression, "change of the normal traction"), |c| c.normal),
+        (change("coulomb_change", Sign::Driving, "change of Coulomb stress"), |c| c.coulomb),
     ];
-    for (name, sign, meaning, of) in parts {
-        let field = Field::scalar(name, "Pa", sign, meaning).in_cells();
-        series = series.with(field, move |all| all.iter().map(|(_, c)| of(c)).collect::<Vec<_>>().into());
+    for (field, part) in parts {
+        series = series.with(field, move |all| all.iter().map(|(_, c)| part(c)).collect::<Vec<_>>().into());
     }
     series
 }
