@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 pub struct CoulombSpec {
     /// Effective friction coefficient of the planes, that of the rock less the share of pore pressure \[-\].
     pub friction: Spanned<f64>,
-    /// In space: azimuth of their strike, to whose right they dip; without `[place]` from x towards z \[rad\].
+    /// Azimuth of their strike, to whose right they dip; without `[place]` from x towards z \[rad\].
     #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in the plane `dip` is the angle from x downwards"))]
     pub strike: Option<Spanned<Angle>>,
     /// Dip, from 0 to 90 degrees; in the plane to 180 degrees, from x downwards \[rad\].

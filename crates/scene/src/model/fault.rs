@@ -30,13 +30,13 @@ pub struct Fault {
     #[schemars(extend("x-kinds" = kind::BETWEEN_BODIES, "x-instead" = "a fault in a medium is a `line` in the plane, a `rectangle` or `triangles` in space"))]
     #[serde(default = "absent")]
     pub plus: Spanned<String>,
-    /// In the plane: the line of the fault.
+    /// The line of the fault.
     #[schemars(extend("x-kinematics" = kinematics::PLANE, "x-otherwise" = "in space a fault is a `rectangle` or `triangles`", "x-kinds" = [Kind::Medium], "x-instead" = "add `[medium]` and remove the bodies, or name the sides `minus` and `plus`"))]
     pub line: Option<FaultLine>,
-    /// In space: the rectangle of the fault.
+    /// The rectangle of the fault.
     #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in the plane a fault is a `line`", "x-kinds" = [Kind::Medium], "x-instead" = "add `[medium]` and remove the bodies, or name the sides `minus` and `plus`"))]
     pub rectangle: Option<FaultRectangle>,
-    /// In space: a file with the triangles of the fault.
+    /// A file with the triangles of the fault.
     #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in the plane a fault is a `line`", "x-kinds" = [Kind::Medium], "x-instead" = "add `[medium]` and remove the bodies, or name the sides `minus` and `plus`"))]
     pub triangles: Option<FaultTriangles>,
     /// A [friction law](laws.md) of kind `"rate-and-state"` or `"rate"`; with `"explicit"` also one of slip.
@@ -73,14 +73,14 @@ pub struct Fault {
     pub damping: Option<Spanned<DampingSpec>>,
     /// Part of the fault that slips at an imposed rate.
     pub creep: Option<Creep>,
-    /// In space: direction of slip `[x, y, z]`, of any length; only its component along the fault counts.
+    /// Direction of slip `[x, y, z]`, of any length; only its component along the fault counts.
     #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in the plane there is one direction of slip"))]
     #[serde(default, deserialize_with = "crate::exact::optional")]
     pub rake: Option<Spanned<[f64; 3]>>,
-    /// In space with `[place]`, instead of `rake`: azimuth of the motion of the plus side past the minus side \[rad\].
+    /// With `[place]`, instead of `rake`: azimuth of the motion of the plus side past the minus side \[rad\].
     #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in the plane there is one direction of slip"))]
     pub azimuth: Option<Spanned<Angle>>,
-    /// In space: `"along-rake"`, or `"free"` for slip whose direction may turn.
+    /// `"along-rake"`, or `"free"` for slip whose direction may turn.
     #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in the plane there is one direction of slip", "x-default" = usual(SlipSpec::default()).only("in space")))]
     pub slip: Option<Spanned<SlipSpec>>,
     /// Fluid injected at one position that diffuses along the fault, or a list of such wells.

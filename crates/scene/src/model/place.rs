@@ -22,15 +22,15 @@ pub struct Place {
     pub depth: Option<Spanned<Length>>,
     /// Azimuth of the direction into the plane, with x to its right and y up; in space, azimuth of `along`.
     pub strike: Spanned<Angle>,
-    /// In space: direction that points up; default against `gravity` of the bodies, else y, `[0, 1, 0]`.
+    /// Direction that points up; default against `gravity` of the bodies, else y, `[0, 1, 0]`.
     #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in the plane y is up, and `strike` is the direction into the plane"))]
     #[serde(default, deserialize_with = "crate::exact::optional")]
     pub up: Option<Spanned<[f64; 3]>>,
-    /// In space: horizontal direction with the azimuth `strike`; default with x to its right, `[0, 0, -1]` if y is up.
+    /// Horizontal direction with the azimuth `strike`; default with x to its right, `[0, 0, -1]` if y is up.
     #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in the plane y is up, and `strike` is the direction into the plane"))]
     #[serde(default, deserialize_with = "crate::exact::optional")]
     pub along: Option<Spanned<[f64; 3]>>,
-    /// In the plane: length of the fault out of the plane, for moments and magnitudes \[m\].
+    /// Length of the fault out of the plane, for moments and magnitudes \[m\].
     #[schemars(extend("x-kinematics" = kinematics::PLANE))]
     pub length: Option<Spanned<Length>>,
 }

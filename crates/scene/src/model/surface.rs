@@ -15,7 +15,7 @@ pub struct SurfaceSpec {
     pub spacing: Spanned<Length>,
     /// `{ from, to }` along x; default: the faults, and their greatest depth beyond them on either side.
     pub x: Option<Spanned<Extent>>,
-    /// In space: the same along z.
+    /// `{ from, to }` along z; default as along x.
     #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in the plane a map is a line along x"))]
     pub z: Option<Spanned<Extent>>,
     /// In space, instead of `x` and `z`: range of longitude, such as `{ from = "134 deg", to = "136 deg" }`.
