@@ -20,12 +20,9 @@ use asperity_friction::Failure;
 use asperity_friction::law::{Law, RateBounds};
 use std::sync::Arc;
 
-/// Gaps up to this share of the scene's size count as closed with f_n = 0. It is far above the rounding of positions (1e-16 of
-/// the size) and far below any elastic displacement that matters.
-const CLOSURE: f64 = 1e-12;
-
 /// Rounding of relative positions as a share of the scene's size. A gap or slip is a difference of averages over some tens of
-/// positions.
+/// positions. Gaps up to it count as closed with f_n = 0. The tangent of such a point is that of a pressed one, so that
+/// Newton's method would cross a wider range of gaps only by many small steps.
 const TOUCH: f64 = 1e-14;
 
 /// Tangential motion of all points, as components in the carried frame.
@@ -121,7 +118,7 @@ impl<const D: usize> Interface<D> {
         let (enforcement, each) = (spec.enforcement, if spec.law.is_some() { D } else { 1 });
         let touch = [spec.normal_penalty, spec.tangential_penalty].map(|e| TOUCH * spec.scale * e);
         let mut interface = Self {
-            penalty: Penalty { stiffness: spec.normal_penalty, closure: CLOSURE * spec.scale },
+            penalty: Penalty { stiffness: spec.normal_penalty, closure: TOUCH * spec.scale },
             tangential_penalty: spec.tangential_penalty,
             multipliers: Multipliers::from_enforcement(&spec.enforcement, n),
             unknowns: None,

@@ -156,6 +156,27 @@ fn a_law_that_remembers_normal_traction_lifts_off_and_closes_again() {
     }
 }
 
+/// Sides that part at once leave gaps of rounding, at which the tangent and the traction of a point do not agree.
+#[test]
+fn a_whole_side_lifts_off_under_finite_sliding() {
+    for (measure, alpha) in [("node-to-point", "0.3"), ("mortar", "0.5")] {
+        let scene = varied(
+            LIFTED,
+            &[
+                WithOrSame("time.stepper", "static-explicit"),
+                WithOrSame("interfaces.c.sliding", "finite"),
+                WithOrSame("interfaces.c.measure", measure),
+                With("interfaces.c.law.alpha", alpha),
+                With("bodies.lower.mesh.block.size", r#""5 mm""#),
+                With("bodies.upper.mesh.block.size", r#""5 mm""#),
+                With("stages[1].duration", "20"),
+            ],
+        );
+        let found = tractions(&scene);
+        assert_eq!(found[2], [0.0; 2], "{measure}: {found:?}");
+    }
+}
+
 #[test]
 fn sides_beside_each_other_are_refused_in_every_measure() {
     for measure in ["mortar", "node-to-point"] {
