@@ -12,7 +12,7 @@ use asperity_plan::bodies;
 use asperity_plan::reading::scene::model::Scene;
 use std::path::Path;
 
-/// Every so many of these points that single markers can be told apart.
+/// Every so many of these points that single markers can be distinguished.
 pub fn apart(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     const MARKERS: usize = 30;
     points.iter().step_by(points.len().div_ceil(MARKERS).max(1)).copied().collect()

@@ -252,7 +252,7 @@ fn difference(values: &[f64], references: &[f64], norm: Norm) -> Result<f64, Str
         return Err("no value was given".into());
     }
     if values.len() != references.len() {
-        return Err(format!("{} values stand against {} references", values.len(), references.len()));
+        return Err(format!("{} values are compared with {} references", values.len(), references.len()));
     }
     if references.iter().any(|r| !r.is_finite()) {
         return Err("a reference is not finite".into());
@@ -301,7 +301,7 @@ pub struct Claim {
     pub quantity: String,
     /// Unit of values, references, errors and bounds.
     pub unit: String,
-    /// Norm in words, if it is not the default.
+    /// Norm as text, if it is not the default.
     pub norm: String,
     /// Test of the claim.
     pub test: Test,

@@ -231,7 +231,7 @@ macro_rules! common_setters {
             self
         }
 
-        /// Norm or selection in words, such as "largest over the eight probes".
+        /// Norm or selection as text, such as "largest over the eight probes".
         pub fn norm(mut self, text: impl Into<String>) -> Self {
             self.common.norm = text.into();
             self

@@ -110,7 +110,7 @@ impl OrderTest {
             ));
         }
         if above.len() < 2 {
-            return Err("fewer than two levels stand above the plateau".into());
+            return Err("fewer than two levels lie above the plateau".into());
         }
         Ok(slope(&self.fitted()))
     }

@@ -11,7 +11,7 @@ use std::process::{Command, ExitStatus};
 pub struct Lost {
     /// Name of the case.
     pub case: String,
-    /// End of the process, in words.
+    /// End of the process, as text.
     pub how: String,
 }
 

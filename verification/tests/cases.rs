@@ -16,7 +16,7 @@ fn every_folder_is_in_the_list_and_the_list_names_folders() {
         .collect();
     let names: BTreeSet<String> = cases::ALL.iter().map(|case| case.name.to_owned()).collect();
     assert_eq!(names, folders);
-    assert_eq!(names.len(), cases::ALL.len(), "a name stands twice in the list");
+    assert_eq!(names.len(), cases::ALL.len(), "a name is twice in the list");
 }
 
 #[test]

@@ -257,7 +257,7 @@ pub trait Augmented {
     /// Makes the forces of the last residual the multipliers of the next; [`Term::reject`] takes that back.
     fn augment(&mut self);
 
-    /// The largest violation in words, for a step that gives up.
+    /// The largest violation as text, for a step that gives up.
     fn violated(&self) -> Refusal;
 }
 

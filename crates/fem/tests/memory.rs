@@ -154,7 +154,7 @@ fn lists_that_refer_to_each_other_stay_within_bounds() {
     }
 }
 
-/// Beginnings of files up to a false count; `#` stands for it in text, `@` for its eight bytes and `%` for its four.
+/// Beginnings of files up to a false count; `#` represents it in text, `@` for its eight bytes and `%` for its four.
 const LIES: [&str; 15] = [
     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n#\n",
     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n0\n$EndNodes\n$Elements\n#\n",

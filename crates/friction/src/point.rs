@@ -172,7 +172,7 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
         self.pace = pace;
     }
 
-    /// Strength after a step of length `dt` at ln V from the states `old` as the law keeps them; [`AT_REST`] stands for zero V.
+    /// Strength after a step of length `dt` at ln V from the states `old` as the law keeps them; [`AT_REST`] represents zero V.
     pub(crate) fn after(&mut self, old: &[f64], normal: f64, dt: f64, log_rate: f64) -> PresentStrength {
         self.prepare(old, normal, dt);
         // Only the strength is needed: neither spring nor drive.

@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Deserializer};
 
-/// Reads numbers; `null` stands for infinity.
+/// Reads numbers; `null` represents infinity.
 pub(crate) fn or_infinite<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Error> {
     filled(from, f64::INFINITY)
 }
 
-/// Reads numbers; `null` stands for NaN.
+/// Reads numbers; `null` represents NaN.
 pub(crate) fn or_nan<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Error> {
     filled(from, f64::NAN)
 }

@@ -12,7 +12,7 @@ pub struct OutputFile {
 }
 
 impl OutputFile {
-    /// A file that a run writes as it goes on.
+    /// A file that a run writes as it proceeds.
     #[must_use]
     pub const fn new(path: &'static str, meaning: &'static str) -> Self {
         Self { path, meaning, of_an_end: false }

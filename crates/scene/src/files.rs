@@ -1,4 +1,4 @@
-//! Numbers of a scene that stand in files of columns.
+//! Numbers of a scene that are in files of columns.
 
 use crate::defaults::TIME_COLUMN;
 use crate::diagnostic::Diagnostic;
@@ -22,7 +22,7 @@ pub struct Column<'a> {
 /// Reader of files: numbers of the columns of a file, in SI units and in their order.
 pub type Columns<'a> = dyn FnMut(&Spanned<String>, &[Column<'_>]) -> Result<Vec<Vec<f64>>, Diagnostic> + 'a;
 
-/// Fills the tables and traces of a scene whose numbers stand in files.
+/// Fills the tables and traces of a scene whose numbers are in files.
 ///
 /// Returns warnings of implausible values.
 ///
@@ -40,7 +40,7 @@ pub(super) fn fill(scene: &mut Scene, columns: &mut Columns<'_>) -> Result<Vec<W
     Ok(doubts)
 }
 
-/// Fills tables whose numbers stand in files. Returns warnings of implausible values.
+/// Fills tables whose numbers are in files. Returns warnings of implausible values.
 pub(super) fn fill_tables<'a>(
     tables: impl Iterator<Item = TableOver<'a>>,
     columns: &mut Columns<'_>,

@@ -79,7 +79,7 @@ impl Kind {
     }
 }
 
-/// Kinds in words: values of `stepper`, with what the scene consists of where that matters.
+/// Kinds as text: values of `stepper`, with what the scene consists of where that matters.
 #[must_use]
 pub fn words(kinds: &[Kind]) -> String {
     listed(kinds, WORDS)

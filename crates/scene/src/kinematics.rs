@@ -31,7 +31,7 @@ impl Kinematics {
         if self == Self::ThreeD { 3 } else { 2 }
     }
 
-    /// Name in words.
+    /// Name as text.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -61,11 +61,11 @@ pub(crate) const TURNING: &[Kinematics] = &[PlaneStrain, PlaneStress, ThreeD];
 /// Those of homogeneous rock without bodies.
 pub(crate) const ROCK: &[Kinematics] = &[PlaneStrain, Antiplane, ThreeD];
 
-/// Groups of idealisations in words.
+/// Groups of idealisations as text.
 const WORDS: [(&[Kinematics], &str); 2] =
     [(PLANE, "two dimensions"), (&[PlaneStrain, PlaneStress, Axisymmetric], "motion in the plane")];
 
-/// Idealisations in words.
+/// Idealisations as text.
 pub(crate) fn words(idealisations: &[Kinematics]) -> String {
     let single = ALL.map(|one| ([one], one.words()));
     let single = single.iter().map(|(one, word)| (&one[..], *word));

@@ -171,7 +171,7 @@ impl<'de> Deserialize<'de> for SideSpring {
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 f.write_str(
-                    "a number of N/m without quotes, the stiffness of a spring that draws the whole side (in the plane Pa: \
+                    "a number of N/m without quotes, the stiffness of a spring that loads the whole side (in the plane Pa: \
                      per metre of thickness)",
                 )
             }

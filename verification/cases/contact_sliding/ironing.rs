@@ -59,7 +59,7 @@ const VARIANTS: [Variant; 4] = [
 ];
 
 pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let mut plot = Plot::xy("ironing: force that draws the die", "travel [m]", "F_x [kN/m]");
+    let mut plot = Plot::xy("ironing: force that pulls the die", "travel [m]", "F_x [kN/m]");
     let (mut rows, mut flat) = (Vec::new(), 0.0);
     for v in &VARIANTS {
         let done = simulate_in(&SceneText::new(SCENE).changed(v.changes).text()?, "contact_sliding")?;

@@ -155,7 +155,7 @@ fn first_yield(ledger: &mut Ledger) -> Result<(), CaseError> {
         .levels(&levels)
         .expected(1.0)
         .within(0.1)
-        .finest(4.4e-3, "the first point stands 0.1127 h = 0.18 mm inside, where stresses are 2 x 0.18/100 smaller, plus a quarter of that")
+        .finest(4.4e-3, "the first point lies 0.1127 h = 0.18 mm inside, where stresses are 2 x 0.18/100 smaller, plus a quarter of that")
         .evidence(Evidence::Exact, "0.1037503 GPa: Lame with the Mises condition at r = a")
         .because("yield is judged at quadrature points, whose distance from the surface is proportional to h")
         .covers(&[Capability::Plasticity, Capability::BodyLimits])
@@ -306,8 +306,8 @@ fn meshes(ledger: &mut Ledger) -> Result<(), CaseError> {
             .or_better()
             .finest(bound, "n cells along the radius: 4 (h/b)^2 for quad4 near the limit load; the same for quad9 of four times the size")
             .evidence(Evidence::OtherCode, SOURCE)
-            .because("strains of the exact solution bend at the front: order 2 for any element, with a factor that depends on where in a cell the front stands")
-            .why_not_tighter("where the front stands in a cell decides the factor")
+            .because("strains of the exact solution bend at the front: order 2 for any element, with a factor that depends on where in a cell the front lies")
+            .why_not_tighter("where the front lies in a cell decides the factor")
             .cost(&last)
             .record();
         plot = plot.series(Series::marked(name, &work));

@@ -87,7 +87,7 @@ fn drawn(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (omega, end) = (2.0_f64.sqrt(), 4.0);
     let found: Vec<f64> = side.iter().map(|(n, _)| last.displacement()[2 * n]).collect();
     ledger
-        .claim("displacements of the nodes of a side of soft cells that a spring draws")
+        .claim("displacements of the nodes of a side of soft cells that a spring pulls")
         .unit("m")
         .values(&found)
         .equals_each(&[end - (omega * end).sin() / omega; 3])

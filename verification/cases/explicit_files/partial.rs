@@ -1,6 +1,6 @@
 //! A fault of which a part ruptures: what tables and the report derive from slip and slip rates at its points.
 //!
-//! An imposed traction fades along the fault. Points of the middle stand for a cell, and those at the ends for half of one. The
+//! An imposed traction fades along the fault. Points of the middle represent a cell, and those at the ends for half of one. The
 //! table of slip rates has a row at each step, so that all numbers follow from rows.
 
 use crate::cases::written::{Table, Waves};

@@ -18,7 +18,7 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     curved(ledger)
 }
 
-/// The plane fault, loaded by sides and creep, and by backslip, in this sense of slip.
+/// The plane fault, loaded by sides and creep, and by backslip, in this direction of slip.
 fn both(sense: &str) -> Result<[Plan; 2], CaseError> {
     let scene = SceneText::new(PLANE)
         .with("events.stop_after", "3")

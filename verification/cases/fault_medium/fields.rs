@@ -23,7 +23,7 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     bits(ledger)
 }
 
-/// Plan of a scene beside whose text these files stand.
+/// Plan of a scene beside whose text these files lie.
 fn planned(text: &str, files: &[(&str, &str)]) -> Result<Plan, CaseError> {
     let folder = Folder::new()?;
     for (name, content) in files {
@@ -33,7 +33,7 @@ fn planned(text: &str, files: &[(&str, &str)]) -> Result<Plan, CaseError> {
     Ok(plan_with(&scene, Form::Dense).map_err(|e| e.to_string())?)
 }
 
-/// A rectangle that dips towards x by 30 degrees, whose normal tractions stand in `normal.csv`.
+/// A rectangle that dips towards x by 30 degrees, whose normal tractions are in `normal.csv`.
 pub(super) fn dipping() -> String {
     let fault = format!(
         "rake = [0, 0, 1]\nfields.normal = {{ file = \"normal.csv\" }}\nrectangle = {{ from = [0.0, 0.0, {WIDTH:?}], to = [0.0, 0.0, 0.0], dip = \"30 deg\", width = {WIDTH:?}, size = 1000.0 }}"

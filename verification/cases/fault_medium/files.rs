@@ -54,7 +54,7 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     on_a_map(ledger)
 }
 
-/// Plan of a scene beside whose text these files stand.
+/// Plan of a scene beside whose text these files lie.
 fn beside(text: &str, files: &[(&str, &[u8])]) -> Result<Plan, CaseError> {
     let folder = Folder::new()?;
     std::fs::create_dir(folder.path().join("surfaces"))?;

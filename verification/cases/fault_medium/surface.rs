@@ -7,7 +7,7 @@ use crate::{CaseError, Evidence, Ledger};
 
 /// Shear modulus of the rock of [`scene`] \[Pa\].
 const SHEAR: f64 = 32e9;
-/// Width of the fault in the plane \[m\], and the length of the rectangle that stands for it.
+/// Width of the fault in the plane \[m\], and the length of the rectangle that represents it.
 const WIDTH: f64 = 2e3;
 const LENGTH: f64 = 2e8;
 

@@ -236,10 +236,10 @@ fn order(ledger: &mut Ledger) -> Result<(), CaseError> {
             .levels(&levels)
             .expected(1.0)
             .within(0.25)
-            .because("four places of the edge stand for all, and orders are fitted to three meshes")
+            .because("four places of the edge represent all, and orders are fitted to three meshes")
             .finest(0.00625, "0.25 h/a with h = a/40: the end cell of a root, see the README")
             .why_not_tighter(
-                "four places stand for all, and one of them has three times the error of the others",
+                "four places represent all, and one of them has three times the error of the others",
             )
             .evidence(Evidence::Exact, "Hertz at the load of the run")
             .covers(&[Capability::Hertz])

@@ -24,7 +24,7 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     initial(ledger)
 }
 
-/// Runs a scene beside which these files stand.
+/// Runs a scene beside which these files lie.
 fn simulate(scene: &SceneText, files: &[(&str, &[u8])]) -> Result<Done, CaseError> {
     let folder = Folder::new()?;
     for (name, bytes) in files {

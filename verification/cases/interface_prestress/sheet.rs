@@ -1,4 +1,4 @@
-//! A sheet in plane stress that stands under its weight.
+//! A sheet in plane stress that carries its weight.
 
 use super::super::texts::simulate_in;
 use super::FOLDER;
@@ -31,7 +31,7 @@ pub fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     let largest = 2700.0 * 9.81 * 8.0;
     let through = stress.iter().map(|s| s[2].abs()).fold(0.0, f64::max);
     ledger
-        .claim("stress through the thickness of a sheet that stands under its weight, over the largest vertical stress")
+        .claim("stress through the thickness of a sheet that carries its weight, over the largest vertical stress")
         .value(through / largest)
         .at_most(1e-12)
         .evidence(Evidence::Exact, "plane stress")

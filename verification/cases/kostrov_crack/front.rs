@@ -10,7 +10,7 @@ pub(super) struct Front {
     pub at: Vec<f64>,
     /// v \[m/s\].
     pub speed: f64,
-    /// Length along the crack that a point stands for \[m\].
+    /// Length along the crack that a point represents \[m\].
     pub spacing: f64,
 }
 

@@ -192,7 +192,7 @@ fn backwards(ledger: &mut Ledger, forwards: &Folder, s: &Steady) -> Result<(), C
         .claim("two blocks that slide steadily in the plane: steps taken one way, less those the other way")
         .count(taken.abs_diff(steps(&files)?), 0)
         .evidence(Evidence::Exact, "the scene and its mirror image")
-        .because("estimates of errors do not depend on the sense of slip")
+        .because("estimates of errors do not depend on the direction of slip")
         .covers(&[Capability::Implicit, Capability::VelocityFriction])
         .cost(&cost)
         .record();

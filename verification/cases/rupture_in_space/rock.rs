@@ -125,7 +125,7 @@ fn fault(model: &Model<3>, p: &Parameters, span: &Span) -> Result<(Fault, Vec<[f
     Ok((fault, at))
 }
 
-/// Initial traction. A node on the border of the square stands for cells on both sides, and has their mean.
+/// Initial traction. A node on the border of the square represents cells on both sides, and has their mean.
 fn traction(p: &Parameters, at: [f64; 2], spacing: f64) -> f64 {
     let [half, high] = p.square;
     let share: f64 = at.iter().map(|v| (0.5 + (half - v.abs()) / spacing).clamp(0.0, 1.0)).product();

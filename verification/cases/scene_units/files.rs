@@ -1,4 +1,4 @@
-//! Numbers of a scene that stand in files of columns.
+//! Numbers of a scene that are in files of columns.
 
 use super::{HEAD, square};
 use crate::cases::seas;

@@ -15,7 +15,7 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// Sense of fault slip.
+/// Direction of fault slip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Sense {
     /// The hanging wall moves up.
@@ -43,7 +43,7 @@ impl Sense {
     }
 }
 
-/// A dip in degrees and a sense of slip.
+/// A dip in degrees and a direction of slip.
 pub type Faulting = (f64, Sense);
 
 /// Name of the problem in the second implementation.

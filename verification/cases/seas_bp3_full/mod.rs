@@ -206,7 +206,7 @@ pub fn vertical(ledger: &mut Ledger, size: f64, cycles: &Cycles) -> Result<(), C
     Ok(())
 }
 
-/// Claim that a vertical fault with the opposite sense of slip is its mirror image.
+/// Claim that a vertical fault with the opposite direction of slip is its mirror image.
 fn mirrored(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut onsets = Vec::new();
     for sense in [Sense::Thrust, Sense::Normal] {

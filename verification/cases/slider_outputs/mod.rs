@@ -230,7 +230,7 @@ fn cycles(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError>
         .equals_each(&[most, least, most, least])
         .absolute(1e-8)
         .evidence(Evidence::OtherCode, slider::SOURCE)
-        .because("rows stand on the extremes, which are found to second order; a tolerance of 1e-10 over some hundred steps")
+        .because("rows lie on the extremes, which are found to second order; a tolerance of 1e-10 over some hundred steps")
         .why_not_tighter("all errors of one sign would give that")
         .cost(&cost)
         .record();
@@ -330,7 +330,7 @@ fn holds(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError> 
             .equals_each(&expected)
             .absolute(2e-6)
             .evidence(Evidence::OtherCode, slider::SOURCE)
-            .because("rows stand within 0.01 of ln V of each other; beside the peak friction is lower by kappa/2 (d ln V)^2, with kappa = 0.025, over the pace of ln V in V/L, near one")
+            .because("rows lie within 0.01 of ln V of each other; beside the peak friction is lower by kappa/2 (d ln V)^2, with kappa = 0.025, over the pace of ln V in V/L, near one")
             .why_not_tighter("where rows fall beside the peak is chance")
             .cost(&cost)
             .record();
@@ -437,7 +437,7 @@ fn stiffness(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// A slider that one with an imposed rate draws by a spring: what the spring carries is friction and damping.
+/// A slider that one with an imposed rate loads through a spring: what the spring carries is friction and damping.
 fn drawn(ledger: &mut Ledger) -> Result<(), CaseError> {
     const SPRING: f64 = 1e9;
     for (order, names) in [("first", ["puller", "block"]), ("last", ["block", "puller"])] {

@@ -135,7 +135,7 @@ fn draw(ledger: &mut Ledger, name: &str, curves: &[Curve]) {
             plot = plot.series(series);
         }
         ledger.plot(plot.caption(
-            "Tolerances from 1e-3 to 1e-12; a failed setting stands at the tolerance it was given.",
+            "Tolerances from 1e-3 to 1e-12; a failed setting is shown at the tolerance it was given.",
         ));
     }
     let rows = curves.iter().flat_map(|c| {

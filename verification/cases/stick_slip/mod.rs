@@ -1,4 +1,4 @@
-//! Stick-slip of interfaces that springs draw, with radiation damping.
+//! Stick-slip of spring-loaded interfaces, with radiation damping.
 
 pub(super) mod exponential;
 

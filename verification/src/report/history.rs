@@ -246,7 +246,7 @@ fn apart(before: f64, now: f64) -> bool {
 pub fn whole(releases: &[Release], outcomes: &[Outcome], run: &Provenance) -> String {
     let mut body = String::from("<h1>History</h1>\n");
     let Some(last) = releases.last() else {
-        body += "<p>No release stands in <code>verification/history</code> yet.</p>\n";
+        body += "<p><code>verification/history</code> has no release yet.</p>\n";
         return page("History", Depth::Top, run, &body);
     };
     let changes = changes(last, outcomes);

@@ -51,7 +51,7 @@ pub fn number(value: f64) -> String {
     format!("{value:.3e}")
 }
 
-/// A time in words: seconds, minutes or hours.
+/// A time as text: seconds, minutes or hours.
 pub fn time(seconds: f64) -> String {
     match seconds {
         s if s < 1.0 => format!("{s:.2} s"),

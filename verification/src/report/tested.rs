@@ -38,12 +38,12 @@ const GROUPS: [(Capability, &[&str]); 3] = [
     (Capability::Interop, &["interop/", "crates/asperity/tests/all/mesh"]),
 ];
 
-/// A file with the names of its tests in words.
+/// A file with the names of its tests as text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Tested {
     /// Path in the repository.
     pub path: String,
-    /// Names of the tests in words.
+    /// Names of the tests as text.
     pub tests: Vec<String>,
 }
 
@@ -99,7 +99,7 @@ fn group(capability: Capability, starts: &[&str], paths: &[(String, PathBuf)]) -
     Group { capability, files: chosen.filter_map(tested).collect() }
 }
 
-/// Names of the tests of a Rust file, in words.
+/// Names of the tests of a Rust file, as text.
 pub fn tests(text: &str) -> Vec<String> {
     let name = |part: &str| {
         let (_, rest) = part.split_once("fn ")?;
@@ -108,7 +108,7 @@ pub fn tests(text: &str) -> Vec<String> {
     text.split("#[test]").skip(1).filter_map(name).collect()
 }
 
-/// Names of the checks of a Python file, in words.
+/// Names of the checks of a Python file, as text.
 pub fn checks(text: &str) -> Vec<String> {
     let names = text.lines().filter_map(|line| line.strip_prefix("def check_"));
     names.filter_map(|rest| rest.split('(').next()).map(|name| format!("check of {}", words(name))).collect()

@@ -55,7 +55,7 @@ fn strike_slip(length: &str, weak: &str, depth: &str) -> Sketch {
     if weak.is_empty() { sketch } else { sketch.dimension((45.0, 47.0), (45.0, 64.0), weak) }
 }
 
-/// Two blocks, one of which is pushed against the other, which a spring then draws down.
+/// Two blocks, one of which is pushed against the other, which a spring then pulls down.
 fn pressed() -> Sketch {
     Sketch::new(72.0)
         .block((20.0, 10.0), (50.0, 60.0), "")

@@ -20,13 +20,13 @@ pub const VARIABLE: &str = "PLANTED";
 pub struct Together {
     /// Text of each changed file.
     texts: BTreeMap<String, String>,
-    /// Lines of each file in which a defect stands.
+    /// Lines of each file in which a defect is.
     lines: Vec<Lines>,
     /// Names of the defects that are in none of the files.
     pub alone: BTreeSet<String>,
 }
 
-/// Lines in which a defect stands, from 1.
+/// Lines in which a defect is, from 1.
 struct Lines {
     file: String,
     lines: Range<usize>,

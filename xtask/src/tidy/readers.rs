@@ -41,7 +41,7 @@ const ROWS: [Row; 2] = [
     },
 ];
 
-/// Modules of the crate of scenes that everyone may name: defaults, and lengths in words.
+/// Modules of the crate of scenes that everyone may name: defaults, and lengths as text.
 const OPEN: [&str; 2] = ["defaults", "lengths"];
 
 /// Finds files that refer to modules outside their layer.

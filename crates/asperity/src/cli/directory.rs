@@ -257,7 +257,7 @@ impl Directory {
 
     fn undo(&self, room: &Room) -> std::io::Result<()> {
         match room {
-            // Where there is no room for it, the report that stands there stays.
+            // Where there is no room for it, the report that is there stays.
             Room::Kept(Some(report)) => {
                 return atomic::write(&self.path.join(REPORT), report).map_err(std::io::Error::other);
             }
@@ -303,7 +303,7 @@ const MOST_LINKS: usize = 40;
 /// Digits of a hash by which shortened names differ.
 const DIGITS: usize = 8;
 
-/// The directory that a path stands for: where it is a symbolic link, also one to nothing yet, that to which it leads.
+/// The directory that a path represents: where it is a symbolic link, also one to nothing yet, that to which it leads.
 fn target(path: &Path) -> std::io::Result<PathBuf> {
     // The end of `link/` would hide the link.
     let mut path: PathBuf = path.components().collect();
@@ -372,7 +372,7 @@ fn remove_files(path: &Path) -> std::io::Result<()> {
 
 /// Moves a directory to `<name>.previous`. A directory of that name is kept as `<name>.previous.older` as long as the move may be undone.
 fn move_away(path: &Path) -> miette::Result<Room> {
-    // The name of `.` is that of the directory it stands for.
+    // The name of `.` is that of the directory it represents.
     let path = fs::canonicalize(path).into_diagnostic()?;
     let Some(name) = path.file_name() else {
         return Err(miette!("{} cannot be moved: choose another directory with --out", path.display()));

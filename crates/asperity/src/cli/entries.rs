@@ -19,7 +19,7 @@ pub struct Entry {
     pub name: &'static str,
     /// Extensions of the files in a folder; `None` for a file.
     pub endings: Option<Vec<&'static str>>,
-    /// Meaning, in words.
+    /// Meaning, as text.
     pub meaning: &'static str,
     /// True if each end of a run writes it again as a whole.
     pub of_an_end: bool,

@@ -57,7 +57,7 @@ impl Inputs {
         self.files.iter().map(hash).collect()
     }
 
-    /// Copies the files into an output directory, unless they stand there already. They must have these hashes.
+    /// Copies the files into an output directory, unless they are there already. They must have these hashes.
     ///
     /// # Errors
     /// If a file has changed since, or cannot be read or written.

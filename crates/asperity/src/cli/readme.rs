@@ -50,7 +50,7 @@ fn section<R: Row + Clone>(folder: &Path, title: &str, files: &[(String, Vec<R>)
     format!("\n## {title}\n\n{signs}\n\n{}", describe(&written))
 }
 
-/// True if there is a file of this path below a folder, where `*` stands for any text in its name.
+/// True if there is a file of this path below a folder, where `*` is any text in its name.
 fn exists(folder: &Path, path: &str) -> bool {
     let Some((begin, end)) = path.split_once('*') else { return folder.join(path).exists() };
     let (inner, begin) = begin.rsplit_once('/').unwrap_or(("", begin));

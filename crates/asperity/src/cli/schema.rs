@@ -22,7 +22,7 @@ pub fn schema() -> Value {
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "report.json of asperity",
-        "description": "Numbers are in SI units; a number that is infinite or is none stands as null.",
+        "description": "Numbers are in SI units; a number that is infinite or is none is null.",
         "oneOf": kinds,
         "$defs": generator.take_definitions(true),
     })

@@ -170,7 +170,7 @@ pub fn text(known: &Known) -> String {
         let left = record.seconds_left.filter(|_| known.state == State::Running);
         text += &format!("  {:.1} %: {}\n", 100.0 * record.fraction, line(&record.now, left));
         if let (State::Running, Some(age)) = (known.state, known.age) {
-            text += &format!("  last sign of life {} ago\n", about(age));
+            text += &format!("  last update {} ago\n", about(age));
         }
         if let Some(bytes) = record.bytes {
             text += &format!("  memory: {:.0} MB\n", bytes as f64 / 1e6);

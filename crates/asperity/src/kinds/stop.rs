@@ -67,7 +67,7 @@ pub fn stalled<const D: usize>(
     }
     let blamed = system.blamed()?;
     let reason = format!(
-        "{rejected} trials of steps failed, beside {steps} that stand: {blamed}. The last of them: {}",
+        "{rejected} trials of steps failed, beside {steps} that were accepted: {blamed}. The last of them: {}",
         system.in_words(failure)
     );
     Some(Outcome::Stopped {
@@ -148,7 +148,7 @@ fn unstable<const D: usize>(
 fn coarse<const D: usize>(system: &AssembledProblem<'_, D>, stage: String, met: Met, what: &str) -> Outcome {
     let remedy = system.resolved(&met.interface).map_or_else(String::new, |r| format!("; {}", r.limit));
     let reason = format!(
-        "less than one point stands on the length over which friction falls {}: {what}{remedy}",
+        "less than one point lies on the length over which friction falls {}: {what}{remedy}",
         met.words::<D>()
     );
     let Met { interface, position, .. } = met;

@@ -1,6 +1,6 @@
 //! Documents are correct: their scenes are accepted, and their commands print what is shown below them.
 //!
-//! A `console` block has commands after `$ `, each followed by its output. A line of three points stands for any number
+//! A `console` block has commands after `$ `, each followed by its output. A line of three points represents any number
 //! of lines. Lines of progress and times are left out. Counts may differ by a twentieth and results by 1e-4, as on
 //! another processor.
 

@@ -155,7 +155,7 @@ fn a_run_that_is_interrupted_and_resumed_leaves_the_files_of_one_left_alone() {
 
 #[test]
 fn a_fault_that_may_not_open_stops_the_run_where_its_sides_part() {
-    // A load draws the right side away.
+    // A load pulls the right side away.
     let pulled = [
         Without("faults.main.pulses"),
         With("faults.main.normal", "1 MPa"),
@@ -292,7 +292,7 @@ fn the_first_row_has_the_slip_rate_of_the_scene() {
     let still = crate::resume::folder(&varied(SCENE, &[Without("faults.main.patches")]));
     assert!(run(still.path(), "out", &["--no-plots"]).status.success());
     let station = fs::read_to_string(still.path().join("out/stations/main_000")).unwrap();
-    assert!(station.contains("# least_slip_rate=1e-20 m/s, which stands for rest\n"), "{station}");
+    assert!(station.contains("# least_slip_rate=1e-20 m/s, which means rest\n"), "{station}");
     assert_eq!(first(&station, ' ')[2], -20.0);
 }
 

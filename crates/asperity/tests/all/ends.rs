@@ -79,7 +79,7 @@ pub fn start(folder: &Path, out: &str, arguments: &[&str], most: Option<u64>) ->
     command.current_dir(folder).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
-/// Waits until a checkpoint stands beside a table of at least this size.
+/// Waits until a checkpoint lies beside a table of at least this size.
 pub fn under_way(child: &mut Child, out: &Path, table: &str, size: u64) {
     let begin = Instant::now();
     let large = || fs::metadata(out.join(table)).map_or(0, |data| data.len()) >= size;

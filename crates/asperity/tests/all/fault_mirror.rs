@@ -54,7 +54,7 @@ fn planned(changes: &[Change<'_>]) -> Plan {
     }
 }
 
-/// True if one side stands for both.
+/// True if one side represents both.
 fn mirrored(plan: &Plan) -> bool {
     plan.notes.iter().any(|note| note.contains("one side is condensed for both"))
 }

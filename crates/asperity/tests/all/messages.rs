@@ -8,7 +8,7 @@
 //! ```
 //!
 //! The message begins with line and column of its position in the changed scene, and with those of related positions;
-//! `-` stands for no position. A change is `path = value`, `list += value`, `path` with `without` before it, or `path`
+//! `-` represents no position. A change is `path = value`, `list += value`, `path` with `without` before it, or `path`
 //! renamed `name`. An entry may show a whole text instead. With `UPDATE_MESSAGES` set in the environment, the test
 //! writes the current messages; read the difference before you commit it.
 

@@ -1,4 +1,4 @@
-//! Sets that springs draw, against closed forms.
+//! Sets that springs load, against closed forms.
 
 use crate::common::{close, coarse_sandwich, displacements, simulate, varied};
 use asperity::kinds::bodies::RunReport;

@@ -284,7 +284,7 @@ struct Pieces<'a, 'f> {
 }
 
 impl Pieces<'_, '_> {
-    /// True if the fault slips so fast that bodies with mass go on.
+    /// True if the fault slips so fast that bodies with mass continue.
     fn ruptures(&self) -> bool {
         self.above.is_some_and(|above| self.follow.largest >= above)
     }

@@ -73,7 +73,7 @@ pub trait Waves {
     /// Computes a rupture from its start. Each step is shown to `see`, which ends the rupture.
     ///
     /// # Errors
-    /// The reason why the steps cannot go on.
+    /// The reason why the steps cannot continue.
     fn rupture(&mut self, start: &Start, see: &mut dyn FnMut(Shaken<'_>) -> Control) -> Result<(), String>;
 }
 

@@ -6,7 +6,7 @@ use asperity_fem::FemError;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Refusal {
     /// A spring moves both sides of a point as one.
-    #[error("a spring draws both sides of point {point} as one")]
+    #[error("a spring moves both sides of point {point} as one")]
     Drawn {
         /// The point.
         point: usize,

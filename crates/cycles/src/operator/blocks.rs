@@ -18,7 +18,7 @@ struct Block {
     columns: Range<usize>,
     /// Number of columns of its two factors; none if it is dense.
     rank: Option<usize>,
-    /// True if its transpose stands for a block below the diagonal.
+    /// True if its transpose represents a block below the diagonal.
     mirrored: bool,
     values: Range<usize>,
 }
@@ -157,7 +157,7 @@ impl Part {
 }
 
 impl CompressedMatrix {
-    /// Matrix of `size` rows with these blocks. If it is symmetric, blocks off the diagonal also stand for their transposes. If
+    /// Matrix of `size` rows with these blocks. If it is symmetric, blocks off the diagonal also represent their transposes. If
     /// not, it may have any number of columns.
     pub fn new(size: usize, parts: Vec<Part>, symmetric: bool, precision: Precision) -> Self {
         let mut all = Self {

@@ -1,7 +1,7 @@
 //! Blocks of low rank from some of their entries.
 //!
 //! Crosses through the largest entry of a row of the remainder are taken one by one (M. Bebendorf, S. Rjasanow, Computing 70
-//! (2003) 1), so that a block of m rows and n columns of rank r costs r (m + n) entries. The size of the last cross stands for
+//! (2003) 1), so that a block of m rows and n columns of rank r costs r (m + n) entries. The size of the last cross represents
 //! that of the remainder. That fails where a block falls into parts which crosses do not connect, such as those of two
 //! directions of slip or of rows that vanish. The remainder in further rows is therefore compared with the block before the
 //! search ends, and the worst of them is the next cross.

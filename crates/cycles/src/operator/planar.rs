@@ -87,7 +87,7 @@ const FREQUENCIES: usize = 8;
 const WORTH_TASKS: usize = if cfg!(test) { 500 } else { 5_000 };
 
 /// Memory moved by transforms for each component of slip of a cell \[bytes\]. Half of it are rows, columns and their transforms,
-/// each written and read; the rest stands for operations, of which the bench `fault/grid` has the time.
+/// each written and read; the rest represents operations, of which the bench `fault/grid` has the time.
 const MOVED: usize = 400;
 
 impl Planar {

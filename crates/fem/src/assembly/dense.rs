@@ -161,7 +161,7 @@ impl DenseStore {
         candidates.first().copied()
     }
 
-    /// True if LU had to stand in for Cholesky.
+    /// True if LU had to replace Cholesky.
     pub fn factor(&mut self, symmetry: Symmetry) -> Result<bool, FemError> {
         if self.eliminate()
             && let Some(factor) = self.factor_rest(symmetry)
@@ -224,7 +224,7 @@ impl DenseStore {
         factor.ok().map(DenseFactor::Cholesky)
     }
 
-    /// Factors the whole matrix; the second says whether LU had to stand in for Cholesky.
+    /// Factors the whole matrix; the second says whether LU had to replace Cholesky.
     fn factor_whole(&mut self, symmetry: Symmetry) -> Result<(DenseFactor, bool), FemError> {
         let memory = self.memory.take();
         let matrix = self.matrix_in(memory);

@@ -40,7 +40,7 @@ pub struct Definition {
     pub nodes: &'static [[f64; 3]],
     /// Faces.
     pub faces: &'static [Face],
-    /// Order of nodes that reverses a plane element: the same corners, traversed in the other sense.
+    /// Order of nodes that reverses a plane element: the same corners, traversed in the other direction.
     pub reversed: &'static [usize],
     /// Shape functions and their natural derivatives.
     pub shape: fn([f64; 3]) -> Shape,

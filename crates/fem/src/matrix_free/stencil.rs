@@ -49,7 +49,7 @@ struct Term {
     stiffness: [f64; 3],
 }
 
-/// Terms of a row, by the components that they act on: bit c of the number of a set stands for component c. In cells with right angles
+/// Terms of a row, by the components that they act on: bit c of the number of a set represents component c. In cells with right angles
 /// most displacements act on one or two components. A loop for each set costs more than it saves in the plane, where one set serves.
 #[derive(Clone, Debug)]
 struct Row {
@@ -344,7 +344,7 @@ fn product<S: Simd, const C: usize, const V: usize>(
     sums
 }
 
-/// Adds the terms whose components are those that bits of `WHICH` stand for.
+/// Adds the terms whose components are those that bits of `WHICH` represent.
 #[inline(always)]
 fn add<S: Simd, const C: usize, const V: usize, const WHICH: usize>(
     simd: S,

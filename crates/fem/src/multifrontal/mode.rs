@@ -49,7 +49,7 @@ impl<const D: usize> fmt::Display for FreeMode<D> {
 }
 
 impl<const D: usize> FreeMode<D> {
-    /// Free motion of the part, in words.
+    /// Free motion of the part, as text.
     #[must_use]
     pub fn motion(&self) -> String {
         if self.deformation > RIGID {

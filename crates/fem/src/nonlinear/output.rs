@@ -65,7 +65,7 @@ impl<const D: usize> Block<D> {
     }
 
     /// Nodal forces of the stresses of a cell, in the order of its degrees of freedom \[N, or N/m of thickness\].
-    // Never inlined where blocks with and without a history are told apart: both would share the instructions at their ends, which
+    // Never inlined where blocks with and without a history are distinguished: both would share the instructions at their ends, which
     // count for this file.
     #[inline(never)]
     #[must_use]

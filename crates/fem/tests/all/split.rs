@@ -101,7 +101,7 @@ fn check_sides<const D: usize>(mesh: &Mesh<D>, fault: &Fault) {
             assert!(pairs.contains(&pair), "{pair:?} in {pairs:?}");
             used.insert(pair);
         }
-        // Opposite directions: the corners run in the other sense.
+        // Opposite directions: the corners run in the other direction.
         let xa: Vec<[f64; D]> = a.iter().map(|&n| mesh.nodes[n]).collect();
         let mut xb: Vec<[f64; D]> = b.iter().map(|&n| mesh.nodes[n]).collect();
         let corners = if D == 2 {

@@ -15,7 +15,7 @@ mod state;
 pub mod stateless;
 mod table;
 
-/// Evaluates an expression once for each evolution of the table; the given name stands for its type.
+/// Evaluates an expression once for each evolution of the table; the given name represents its type.
 #[macro_export]
 macro_rules! each_evolution {
     ($law:ident => $do:expr) => {

@@ -30,7 +30,7 @@ const NODES: usize = 256;
 /// displacement alone may hold so much more than the balance counts.
 const GROWTH: f64 = 10.0;
 
-/// Reason why a run cannot go on. The state is that of the last good step.
+/// Reason why a run cannot continue. The state is that of the last good step.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Halt {
     /// Friction has no answer.

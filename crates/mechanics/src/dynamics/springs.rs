@@ -1,4 +1,4 @@
-//! Springs that draw sets of bodies with mass.
+//! Springs that load sets of bodies with mass.
 //!
 //! A spring acts on the mean displacement of its set, weighted with the masses of its nodes, and its force is shared by them
 //! in the same way. Bodies without mass keep such a set straight; with mass only its mean is drawn.

@@ -35,7 +35,7 @@ pub struct Field {
     pub name: String,
     /// Unit; empty without one.
     pub unit: &'static str,
-    /// Sense of positive values.
+    /// Direction of positive values.
     pub sign: Sign,
     /// Meaning.
     pub meaning: &'static str,

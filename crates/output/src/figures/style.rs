@@ -111,7 +111,7 @@ mod tests {
         [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
     }
 
-    /// Least distance in CIELAB at which colours of lines are told apart without holding them side by side: several just
+    /// Least distance in CIELAB at which colours of lines are distinguished without holding them side by side: several just
     /// noticeable differences, each of about 2.3.
     const APART: f64 = 15.0;
 

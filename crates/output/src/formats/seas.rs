@@ -3,7 +3,7 @@
 use crate::decimals::{fixed, scientific};
 use crate::tables::{Column, Sign};
 
-/// Least slip rate in files of stations \[m/s\], which stands for rest: the benchmarks in 3D treat it as zero.
+/// Least slip rate in files of stations \[m/s\], which means rest: the benchmarks in 3D treat it as zero.
 pub const LEAST_RATE: f64 = 1e-20;
 
 /// Contents of the header of a file.
@@ -90,7 +90,7 @@ impl Head<'_> {
         let mut head = format!(
             "# problem={title}\n# code=asperity\n# code_version={version}\n# tributary_area={area:.6e} {unit}\n# location= {location}\n",
         );
-        head.push_str(&format!("# least_slip_rate={LEAST_RATE:e} m/s, which stands for rest\n"));
+        head.push_str(&format!("# least_slip_rate={LEAST_RATE:e} m/s, which means rest\n"));
         if let Some([two, three]) = &self.directions {
             head.push_str(&format!("# directions: 2 is along {two:?}, 3 along {three:?}\n"));
         }

@@ -3,7 +3,7 @@
 use super::csv_rows::Rows;
 use super::describe::Row;
 
-/// Sense of positive values, in the words of the page "Signs in files".
+/// Direction of positive values, in the words of the page "Signs in files".
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sign {
     /// Along positive slip; a magnitude where slip has no direction.
@@ -63,7 +63,7 @@ pub struct Column {
     pub name: String,
     /// Unit; empty without one.
     pub unit: &'static str,
-    /// Sense of positive values.
+    /// Direction of positive values.
     pub sign: Sign,
     /// Meaning; empty if the name says it.
     pub meaning: &'static str,

@@ -86,7 +86,7 @@ fn driven<const D: usize>(
     Ok(Driven { bodies: [body_name(&spec.slave), body_name(&spec.master)], normal, area, rubs })
 }
 
-/// Lengths of friction that weakens, and the distance of points, where the fewest points stand on the cohesive zone.
+/// Lengths of friction that weakens, and the distance of points, where the fewest points lie on the cohesive zone.
 fn weakening<const D: usize>(
     model: &Model<D>,
     interface: (&Spec, Option<&Friction>),

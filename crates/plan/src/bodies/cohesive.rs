@@ -100,7 +100,7 @@ pub fn check(resolved: &ZoneResolution, interface: &str, mean: f64) -> Result<Op
         return Ok(None);
     }
     let message = format!(
-        "loads press interface `{interface}` with {:.4} MPa on average, where {points:.2} points, {:.4e} m apart, stand on the cohesive zone",
+        "loads press interface `{interface}` with {:.4} MPa on average, where {points:.2} points, {:.4e} m apart, lie on the cohesive zone",
         mean / 1e6,
         resolved.spacing
     );

@@ -123,7 +123,7 @@ impl<const D: usize> Plan<D> {
             line("physics", format!("{locked} points of the faults are locked"));
         }
         if !self.problem.absorbing.is_empty() {
-            line("physics", format!("{} nodes of sides that absorb waves", self.problem.absorbing.len()));
+            line("physics", format!("{} nodes of absorbing sides", self.problem.absorbing.len()));
         }
         line("stepper", self.steps_in_words());
         line("stepper", self.stable_in_words());

@@ -318,7 +318,7 @@ impl Plan {
         text
     }
 
-    /// Outputs of the run, in words.
+    /// Outputs of the run, as text.
     fn outputs(&self) -> Vec<String> {
         let mut all = vec![self.cadence.words(), of_events(self.event_files)];
         if !self.receivers.all.is_empty() {

@@ -1,4 +1,4 @@
-//! Values of the bodies around faults through time: at points, on sets, and of the springs that draw sides.
+//! Values of the bodies around faults through time: at points, on sets, and of the springs that load sides.
 
 use super::bodies::BodiesView;
 use crate::shared::views;

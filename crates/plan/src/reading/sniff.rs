@@ -176,7 +176,7 @@ fn of_text(text: &str) -> Option<Kind> {
 }
 
 impl Kind {
-    /// Name of the kind, in words.
+    /// Name of the kind, as text.
     fn words(self) -> &'static str {
         match self {
             Self::Empty => "it is empty",
@@ -228,7 +228,7 @@ impl Reader {
         match self {
             Self::Gmsh => kind == Kind::Gmsh,
             Self::Abaqus => kind == Kind::Abaqus,
-            // One that is cut is not told from other bytes.
+            // One that is cut cannot be told from other bytes.
             Self::Stl => matches!(kind, Kind::Stl | Kind::Binary),
             Self::Depths => matches!(kind, Kind::Netcdf | Kind::Hdf5),
             Self::Fields => matches!(kind, Kind::Netcdf | Kind::Hdf5 | Kind::Xml),

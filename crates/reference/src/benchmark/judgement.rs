@@ -19,7 +19,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// The verdict in words.
+    /// The verdict as text.
     #[must_use]
     pub const fn words(self) -> &'static str {
         match self {

@@ -105,7 +105,7 @@ impl Reference {
         told(!self.quantities.iter().any(|q| q.required), "no quantity is required".into());
         for (i, quantity) in self.quantities.iter().enumerate() {
             let name = &quantity.name;
-            told(self.quantities[..i].iter().any(|q| q.name == *name), format!("{name} stands twice"));
+            told(self.quantities[..i].iter().any(|q| q.name == *name), format!("{name} is listed twice"));
             told(quantity.places.is_empty(), format!("{name} has no values"));
             let one = quantity.along.is_none();
             told(one && quantity.places.len() != 1, format!("{name} has no coordinate"));

@@ -61,7 +61,7 @@ impl Course {
         }
     }
 
-    /// Description in words, with units.
+    /// Description as text, with units.
     pub fn words(&self) -> String {
         match self {
             Self::Known(points) => match points[..] {

@@ -255,7 +255,7 @@ impl Checker<'_> {
         self.count(at, "at", &(0..self.dimension()).collect::<Vec<_>>());
     }
 
-    /// Reports sides that absorb waves and are prescribed or loaded as well. Between ruptures an absorbing side may be.
+    /// Reports absorbing sides and are prescribed or loaded as well. Between ruptures an absorbing side may be.
     pub(super) fn absorbing(&mut self, stage: &Stage) {
         if self.has_ruptures() {
             return;

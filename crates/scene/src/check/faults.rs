@@ -68,7 +68,7 @@ impl Checker<'_> {
                 if self.has_waves() {
                     self.error(
                         motion.span(),
-                        "a spring draws sides of bodies without mass",
+                        "a spring loads sides of bodies without mass",
                         "prescribe the motion itself, such as `{ rate = \"1 um/s\" }`",
                     );
                 }
@@ -151,7 +151,7 @@ impl Checker<'_> {
             self.error(
                 place,
                 "`rate` must not be zero",
-                "such as `rate = \"1e-9 m/s\"`; its sign is the sense of slip",
+                "such as `rate = \"1e-9 m/s\"`; its sign is the direction of slip",
             );
         } else if rate != 0.0 && self.has_waves() && !Self::needs_rate(fault) {
             self.error(

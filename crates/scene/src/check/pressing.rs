@@ -70,7 +70,7 @@ impl Checker<'_> {
                 self.error(
                     motion.span(),
                     format!(
-                        "a spring draws a side in stage `{}`, in which faults do not slide yet",
+                        "a spring loads a side in stage `{}`, in which faults do not slide yet",
                         pressing.name
                     ),
                     "hold the side there: the spring of the next stage takes over the force",

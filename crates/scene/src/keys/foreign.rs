@@ -120,7 +120,7 @@ fn written(other: &str, values: &[String]) -> String {
     values.join(" or ")
 }
 
-/// Runs, choices and idealisations for which a key is, in words; empty for all.
+/// Runs, choices and idealisations for which a key is, as text; empty for all.
 pub(super) fn scope(schema: &Schema) -> String {
     let kinds = kinds(schema).map(|kinds| words(&kinds));
     let with = with(schema).map(|(other, values)| written(&other, &values));

@@ -16,7 +16,7 @@ pub struct Row {
     pub text: String,
     /// Default in one line; empty if it has none.
     pub default: String,
-    /// Kinds of run and choices beside it for which it is, in words; empty for all.
+    /// Kinds of run and choices beside it for which it is, as text; empty for all.
     pub kinds: String,
     /// True if the table must have this key.
     pub needed: bool,

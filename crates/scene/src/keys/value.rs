@@ -1,4 +1,4 @@
-//! Values that a key takes, in words.
+//! Values that a key takes, as text.
 
 use super::tree::Tree;
 use serde_json::Value;

@@ -61,7 +61,7 @@ pub struct Fault {
     /// Initial normal traction, compression positive; absent: given by the initial stress of the bodies \[Pa\].
     #[schemars(extend("x-at-interfaces" = "loads press an interface, or the `initial_stress` of its bodies with `initial_stress = true` in the interface, which brings normal and shear tractions"))]
     pub normal: Option<Spanned<Pressure>>,
-    /// Initial slip rate of all points; its sign is the sense of slip. Absent with laws of slip, whose faults start at rest \[m/s\].
+    /// Initial slip rate of all points; its sign is the direction of slip. Absent with laws of slip, whose faults start at rest \[m/s\].
     #[schemars(extend("x-at-interfaces" = "the state at the start is steady at `v_initial` of the law"))]
     #[serde(default = "at_rest")]
     pub rate: Spanned<Velocity>,

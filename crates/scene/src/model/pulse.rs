@@ -9,7 +9,7 @@ use serde::Deserialize;
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Pulse {
-    /// Shear traction at the centre in the end, added to that of the fault along its sense of slip, the sign of `rate` \[Pa\].
+    /// Shear traction at the centre in the end, added to that of the fault along its direction of slip, the sign of `rate` \[Pa\].
     pub traction: Spanned<Pressure>,
     /// Centre \[m\].
     pub centre: Spanned<Vec<Length>>,

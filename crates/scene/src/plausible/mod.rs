@@ -181,7 +181,7 @@ fn lists_number(form: &Schema) -> bool {
 }
 
 impl Quantity {
-    /// Usual values, in words.
+    /// Usual values, as text.
     fn are(&self) -> String {
         let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
         let (name, [low, high]) = (self.name, self.usual);

@@ -7,7 +7,7 @@ use crate::code::mask::is_name;
 pub struct Binding {
     /// The name, or `None` for a glob import.
     pub name: Option<String>,
-    /// The path it stands for.
+    /// The path it represents.
     pub path: Vec<String>,
     /// True for a re-export, which is not itself a use of the name.
     pub public: bool,

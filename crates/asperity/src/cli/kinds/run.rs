@@ -31,7 +31,7 @@ pub(super) trait Run {
     /// Report of the run.
     fn report(&self, ended: &mut Self::Ended, keeper: &mut Keeper<Self::Outputs>) -> Self::Report;
 
-    /// Tables that the run may have written, by their paths below its directory, with their columns. `*` in a path stands for any text.
+    /// Tables that the run may have written, by their paths below its directory, with their columns. `*` in a path represents any text.
     fn tables(&self, outputs: &Self::Outputs, report: &Self::Report) -> Vec<(String, Vec<Column>)>;
 
     /// Fields that the run may have written, by the paths of their files. There are none by default.

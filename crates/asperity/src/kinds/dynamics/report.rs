@@ -176,7 +176,7 @@ fn outcome<const D: usize>(plan: &Plan<D>, ended: &Ended) -> Outcome {
     }
 }
 
-/// Name of the fault of a point, and its position in words.
+/// Name of the fault of a point, and its position as text.
 fn at_point<const D: usize>(plan: &Plan<D>, point: usize) -> (&str, String) {
     let fault = plan.faults.iter().find(|f| f.points.contains(&point)).map_or("", |f| f.name.as_str());
     (fault, coordinates::in_words(&plan.points[point].at))

@@ -39,7 +39,7 @@ pub struct Ended {
     pub budget: Budget,
     /// Faults then.
     pub fault: FaultState,
-    /// Reason why the run could not go on, if it could not.
+    /// Reason why the run could not continue, if it could not.
     pub halt: Option<Halt>,
     /// Reason why the run was interrupted, if it was.
     pub interrupted: Option<&'static str>,

@@ -279,7 +279,7 @@ fn in_a_line(number: usize, e: &Entry) -> String {
     )
 }
 
-/// A rupture with mass and the errors of its hand-overs, in words.
+/// A rupture with mass and the errors of its hand-overs, as text.
 fn passage(rupture: &Episode) -> String {
     let Episode { begin, end, steps, radiation, unbalanced, unbalanced_drop, kinetic, .. } = rupture;
     format!(

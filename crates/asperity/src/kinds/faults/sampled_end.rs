@@ -50,7 +50,7 @@ impl End {
     }
 }
 
-/// State of a spring in words.
+/// State of a spring as text.
 pub(super) fn in_words(SpringResult { spring, values, unit, .. }: &SpringResult) -> String {
     format!(
         "spring `{}`: load point at {}, force {:.6e} {unit}, macroscopic friction {:.4}",

@@ -12,7 +12,7 @@ use std::sync::LazyLock;
 /// Kinds of run, in the order of the pages.
 pub const KINDS: [&str; 4] = ["bodies", "faults", "dynamics", "sliders"];
 
-/// A plastic block with mass, which a spring draws along a plane.
+/// A plastic block with mass, which a spring pulls along a plane.
 const DRAWN: &str = r#"schema = 1
 title = "a block drawn along a plane by a spring"
 kinematics = "plane-strain"

@@ -19,7 +19,7 @@ pub struct Column {
 /// A column or an array as the text about the files of a run describes it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Described {
-    /// Names of its files, where `*` stands for any text.
+    /// Names of its files, where `*` is any text.
     pub files: Vec<String>,
     /// Name, with `*` for parts of the scene; `each point` where the table has a column for each point.
     pub column: String,

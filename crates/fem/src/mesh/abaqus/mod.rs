@@ -184,7 +184,7 @@ impl Reader {
         self.leave()?;
         let name = self.keyword.need("NAME", "NAME=name")?.to_uppercase();
         if self.parts.contains_key(&name) {
-            return Err(self.keyword.unsupported("a part of this name stands in the file before"));
+            return Err(self.keyword.unsupported("the file has a part of this name before"));
         }
         self.level = Level::Part(name, Scope::for_file(self.bytes));
         Ok(())

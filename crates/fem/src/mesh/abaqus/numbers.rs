@@ -31,7 +31,7 @@ impl Instances {
             return Err(keyword.unsupported("so many instances are not read"));
         }
         if self.by_name.insert(name.to_uppercase(), next).is_some() {
-            return Err(keyword.unsupported("an instance of this name stands in the file before"));
+            return Err(keyword.unsupported("the file has an instance of this name before"));
         }
         self.names.push(name.to_string());
         Ok(next)

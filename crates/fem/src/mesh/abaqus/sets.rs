@@ -172,7 +172,7 @@ impl Sets {
         }
     }
 
-    /// Numbers in a set, ascending; `known` are all existing numbers, ascending. A range stands for the existing numbers in it.
+    /// Numbers in a set, ascending; `known` are all existing numbers, ascending. A range represents the existing numbers in it.
     pub(super) fn numbers(
         &mut self,
         name: &str,

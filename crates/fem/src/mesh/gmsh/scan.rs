@@ -74,7 +74,7 @@ impl<'a> Scan<'a> {
     pub(super) fn once(&self, again: bool) -> Result<(), MeshError> {
         if again {
             let (section, place) = (self.section_name(), self.place());
-            let reason = "the section stands twice in the file";
+            let reason = "the file has the section twice";
             return Err(MeshError::Unsupported { section, place, reason });
         }
         Ok(())

@@ -67,7 +67,7 @@ impl Shape {
         }
     }
 
-    /// The order of nodes that reverses a plane shape: the same corners, traversed in the other sense.
+    /// The order of nodes that reverses a plane shape: the same corners, traversed in the other direction.
     #[must_use]
     pub fn reversed(self) -> &'static [usize] {
         self.element().map_or(&[], |element| element.definition().reversed)

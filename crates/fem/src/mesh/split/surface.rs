@@ -178,7 +178,7 @@ fn inner<const D: usize>(
     Ok(inner)
 }
 
-/// True if two lists of the same corners run in the same sense.
+/// True if two lists of the same corners run in the same direction.
 fn same_direction(a: &[usize], b: &[usize]) -> bool {
     let n = a.len();
     let Some(shift) = b.iter().position(|&node| node == a[0]) else { return false };

@@ -5,7 +5,7 @@
 pub enum Mark {
     /// A displacement is held.
     Held,
-    /// It moves, or a spring draws it.
+    /// It moves, or a spring loads it.
     Moved,
     /// Tractions or a pressure act on it.
     Loaded,
@@ -16,7 +16,7 @@ pub enum Mark {
 }
 
 impl Mark {
-    /// Style whose marker stands for it: square, triangle, diamond, circle.
+    /// Style whose marker represents it: square, triangle, diamond, circle.
     pub(super) fn marker(self) -> Option<usize> {
         match self {
             Self::Held => Some(1),

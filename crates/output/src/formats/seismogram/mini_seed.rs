@@ -114,7 +114,7 @@ fn rate(interval: f64) -> (i16, i16) {
         rest = 1.0 / part;
     }
     if last.0 == 0.0 {
-        // Slower than one sample per longest period; the exact rate stands in blockette 100.
+        // Slower than one sample per longest period; the exact rate is in blockette 100.
         return (1, -(MOST as i16));
     }
     (last.0 as i16, if last.1 > 1.0 { -(last.1 as i16) } else { 1 })

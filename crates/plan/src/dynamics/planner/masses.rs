@@ -1,4 +1,4 @@
-//! Densities, the stable step, and sides that absorb waves.
+//! Densities, the stable step, and absorbing sides.
 
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Body, MeshSource, Scene, Spanned};
@@ -77,7 +77,7 @@ pub(super) fn middle<const D: usize>(model: &Model<D>, stable: &StableStep) -> [
     std::array::from_fn(|c| nodes.iter().map(|&n| model.mesh.nodes[n][c]).sum::<f64>() / nodes.len() as f64)
 }
 
-/// Dashpots of the sides that absorb waves.
+/// Dashpots of the absorbing sides.
 ///
 /// # Errors
 /// [`Diagnostic`] for a set that does not exist.

@@ -88,7 +88,7 @@ fn components<const D: usize>(model: &Model<D>) -> usize {
 }
 
 /// The stage of a rupture: bodies move relative to their state at its start. What the loads prescribe stays as it is, but for
-/// sides that absorb waves.
+/// absorbing sides.
 fn stage(quiet: &Stage, absorbing: &[Dashpot], (duration, components): (f64, usize)) -> Stage {
     let absorbs = |dof: &usize| absorbing.binary_search_by_key(&(dof / components), |d| d.node).is_ok();
     Stage {

@@ -174,7 +174,7 @@ fn named(scene: &Scene) -> Vec<(&String, &Spec)> {
 struct Loaded {
     conditions: Conditions,
     loads: Loads,
-    /// Mirror of the bodies, if one side may stand for both.
+    /// Mirror of the bodies, if one side may represent both.
     mirror: Option<Mirror>,
 }
 
@@ -207,7 +207,7 @@ impl Loaded {
     }
 }
 
-/// Note on bodies of which one stands for both.
+/// Note on bodies of which one represents both.
 const MIRRORED: &str =
     "the bodies and their loads are antisymmetric about the fault: one side is condensed for both";
 

@@ -169,10 +169,10 @@ impl<const D: usize> Asked<'_, D> {
 /// Error for a spring that loads both sides of a fault.
 fn drawn<const D: usize>(place: &Place<D>) -> Told {
     let message = format!(
-        "a spring draws both sides of a fault as one at {}, which could not slip there",
+        "a spring moves both sides of a fault as one at {}, which could not slip there",
         coordinates::in_words(&place.at)
     );
-    Told { message, help: Some("let it draw a side that ends at the fault".into()), place: Where::Spring }
+    Told { message, help: Some("let it load a side that ends at the fault".into()), place: Where::Spring }
 }
 
 /// Error for conditions that prescribe the motion of both sides of a point in the direction of slip.

@@ -207,7 +207,7 @@ pub(super) fn unused_rates<const D: usize>(scene: &Scene, placed: &[Placed<D>]) 
         };
         (!same && !spec.rate.span().is_empty()).then(|| {
             let message = format!(
-                "`rate` of fault `{name}` is not used but for its sense: it is pressed and sheared before, and slips as friction then lets it"
+                "`rate` of fault `{name}` is not used but for its sign: it is pressed and sheared before, and slips as friction then lets it"
             );
             let help = "`v_initial` of the law sets the states at the start; give `rate` the same size, or `shear` to start from `rate`";
             Warning::at(spec.rate.span(), message, help)

@@ -65,7 +65,7 @@ pub(super) fn at_rest(fault: &Fault) -> Vec<Pushed> {
     (0..fault.normal.len()).map(of).collect()
 }
 
-/// Sense of slip of a point: that of its slip rate, or of its shear traction where it starts at rest.
+/// Direction of slip of a point: that of its slip rate, or of its shear traction where it starts at rest.
 fn sense<const D: usize>(placed: &Placed<D>) -> f64 {
     let of = if placed.rate == 0.0 { placed.shear.unwrap_or_default() } else { placed.rate };
     of.signum()

@@ -11,7 +11,7 @@ use asperity_fem::dof::Channel;
 use asperity_fem::table::Table;
 use asperity_mechanics::SpringStart;
 
-/// True if values of the bodies are sampled: at points, on sets, or of springs that draw sides. Bodies that have mass in ruptures move
+/// True if values of the bodies are sampled: at points, on sets, or of springs that load sides. Bodies that have mass in ruptures move
 /// otherwise there.
 pub(super) fn asked(scene: &Scene, stage: &Stage) -> bool {
     let output = &scene.output;

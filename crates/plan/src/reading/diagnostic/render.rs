@@ -196,7 +196,7 @@ fn in_setting(setting: &Setting, error: &Diagnostic) -> Placed {
     Placed { error: Diagnostic { span: setting.given(), also: Vec::new(), ..error.clone() }, source }
 }
 
-/// An error in the file. Other positions that lie in settings are named in words.
+/// An error in the file. Other positions that lie in settings are named as text.
 fn in_file((resolved, settings): (&ResolvedText, &[Setting]), error: &Diagnostic) -> Diagnostic {
     let mut placed = Diagnostic { also: Vec::new(), ..error.clone() };
     placed.span = resolved.range(&error.span).unwrap_or_default();

@@ -54,7 +54,7 @@ pub fn of_bodies(operations: f64) -> f64 {
     OBSERVED + ITERATIONS * operations / OPERATIONS
 }
 
-/// Time in words, to two digits.
+/// Time as text, to two digits.
 #[must_use]
 pub fn words(seconds: f64) -> String {
     let units = [("s", 1.0), ("ms", 1e3), ("us", 1e6)];

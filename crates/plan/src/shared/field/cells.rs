@@ -82,7 +82,7 @@ impl Cells {
         self.values.len()
     }
 
-    /// Interpolation in words.
+    /// Interpolation as text.
     #[must_use]
     pub fn words(&self) -> &'static str {
         let lines = self.simplices.iter().all(|s| s.nodes.len() == 2);

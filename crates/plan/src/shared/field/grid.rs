@@ -132,7 +132,7 @@ fn plain(unit: &str) -> &str {
     }
 }
 
-/// Place of a value of a grid in words.
+/// Place of a value of a grid as text.
 fn at(grid: &GriddedVariable, k: usize) -> String {
     let mut rest = k;
     let mut parts = Vec::new();

@@ -82,7 +82,7 @@ impl Lattice {
         Some(both.into_iter().filter(|(share, _)| *share > 0.0).collect())
     }
 
-    /// Interpolation in words.
+    /// Interpolation as text.
     #[must_use]
     pub fn words(&self) -> &'static str {
         match (self.nearest, self.axes.len()) {

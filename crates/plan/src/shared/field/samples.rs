@@ -68,7 +68,7 @@ impl Samples {
         }
     }
 
-    /// Interpolation in words.
+    /// Interpolation as text.
     #[must_use]
     pub fn words(&self) -> &'static str {
         match self {

@@ -30,7 +30,7 @@ pub(super) fn field<const D: usize>(
         (Some(array), None) => (array, false),
         (None, Some(array)) => (array, true),
         _ => {
-            let message = format!("its array `{}` stands at points and in cells", asked.name);
+            let message = format!("its array `{}` is given at points and in cells", asked.name);
             return Err(Wrong::new(message, "one of them under another name"));
         }
     };

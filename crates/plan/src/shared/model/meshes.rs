@@ -464,7 +464,7 @@ fn asked_of(scene: &scene::Scene, file: &str) -> Option<Vec<String>> {
     Some(all)
 }
 
-/// Elements of a file that no mesh has, in words.
+/// Elements of a file that no mesh has, as text.
 pub(crate) fn in_words(left: &OmittedElements) -> String {
     let OmittedElements { kind, count, element, read } = left;
     let (elements, are, faces) =

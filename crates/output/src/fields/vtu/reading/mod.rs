@@ -1,6 +1,6 @@
 //! Reads points, cells and arrays of unstructured grids of VTK in XML (`.vtu`).
 //!
-//! Arrays stand in the file as text, in base64, or raw at its end, plain or compressed by zlib. The layout is that of VTK's
+//! Arrays are in the file as text, in base64, or raw at its end, plain or compressed by zlib. The layout is that of VTK's
 //! `vtkXMLDataParser`.
 
 mod array;

@@ -70,7 +70,7 @@ fn tree(bytes: &[u8], cut: bool) -> Result<Element, VtuError> {
         match reader.read_event().map_err(|e| damaged(e.to_string()))? {
             Event::Start(start) if open.len() > DEEPEST => {
                 let name = start.name().as_ref().to_string();
-                return Err(damaged(format!("`{name}` stands within {DEEPEST} others")));
+                return Err(damaged(format!("`{name}` lies within {DEEPEST} others")));
             }
             Event::Start(start) => open.push(element(&start).map_err(damaged)?),
             Event::Empty(start) => {

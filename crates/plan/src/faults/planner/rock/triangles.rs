@@ -72,7 +72,7 @@ pub(super) fn cells<const D: usize>(
     Ok(Meshed { tiles, cut, notes })
 }
 
-/// Note on the sense of slip of a fault that is given by depths, whose plus side is the upper one.
+/// Note on the direction of slip of a fault that is given by depths, whose plus side is the upper one.
 fn sense<const D: usize>(name: &str, places: &[Place<D>]) -> String {
     // y points up.
     let up: f64 = places.iter().map(|place| place.rake[1] * place.area).sum();
