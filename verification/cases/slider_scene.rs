@@ -2,7 +2,7 @@
 
 use crate::CaseError;
 use crate::cases::written::Folder;
-use asperity::kinds::sliders::{Histories, Named, csv};
+use asperity::kinds::sliders::{Histories, NamedEvent, csv};
 use asperity_cycles::slider::{self as cycles, Problem};
 use asperity_ode::Outcome;
 use asperity_plan::sliders::{Plan, planner};
@@ -75,5 +75,5 @@ pub fn files(plan: &Problem) -> Result<[Vec<Vec<f64>>; 2], CaseError> {
     }
     histories.finish()?;
     let history = folder.text("history/block.csv")?;
-    Ok([table(&history, 0), events(&csv(&Named::all(&run, &plan.names)))?])
+    Ok([table(&history, 0), events(&csv(&NamedEvent::all(&run, &plan.names)))?])
 }

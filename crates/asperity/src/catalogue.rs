@@ -67,7 +67,7 @@ const SLIPPED: f64 = 0.01;
 impl Entry {
     /// Entry of an event on some ground, restricted to these points.
     #[must_use]
-    pub fn of(ground: &dyn SlipPoints, event: &Event<Rupture>, points: &Range<usize>) -> Self {
+    pub fn from_event(ground: &dyn SlipPoints, event: &Event<Rupture>, points: &Range<usize>) -> Self {
         let slip = |p: usize| event.details.slip.size(p);
         let slipped = slipped(event, points);
         let over = |value: &dyn Fn(usize) -> f64| {

@@ -321,7 +321,7 @@ fn durations(ledger: &mut Ledger) -> Result<Row, CaseError> {
     slider::events(&mut plan, 10);
     let (run, cost) = Cost::of(|| slider::finish(&plan));
     let run = run?;
-    let events = Entry::of(&run, 0);
+    let events = Entry::from_slider(&run, 0);
     let (third, tenth) = (&events[2], &events[9]);
     let (Some(a), Some(b)) = (third.duration, tenth.duration) else {
         return Err("an event has no end".into());

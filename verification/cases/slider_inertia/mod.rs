@@ -131,7 +131,7 @@ fn events_within(
     most_steps: usize,
 ) -> Result<Option<(Vec<Entry>, Counts)>, CaseError> {
     let run = cycles::run(&set.plan(method, tolerance, most_steps)?, &mut ())?;
-    let events: Vec<Entry> = Entry::of(&run, 0);
+    let events: Vec<Entry> = Entry::from_slider(&run, 0);
     let whole = !matches!(run.outcome, Outcome::Failed { .. }) && events.len() == EVENTS;
     Ok(whole.then_some((events, run.counts)))
 }

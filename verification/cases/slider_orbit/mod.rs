@@ -93,7 +93,7 @@ fn orbit(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError> 
     // At the extremes f = -(b-a) G, so that H = -a e^(-(b-a) G/a).
     let depth = set.a / (set.b - set.a) * (set.a / -first).ln();
     let extremes = [bisect(0.0, 10.0, |x| bowl(x) - depth), bisect(-10.0, 0.0, |x| bowl(x) - depth)];
-    let events: Vec<_> = Entry::of(&run, 0).into_iter().filter(|e| e.duration.is_some()).collect();
+    let events: Vec<_> = Entry::from_slider(&run, 0).into_iter().filter(|e| e.duration.is_some()).collect();
     let last = events.last().ok_or("no orbit was closed")?;
     let found = [(last.peak_rate / set.load).ln(), (last.least_rate / set.load).ln()];
     ledger

@@ -138,7 +138,7 @@ fn coupled(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError
     let run = run?;
     let cost = cost.counts(&Report::new(&plan, &run).counts);
     for (i, expected) in expected.iter().enumerate() {
-        let found: Vec<f64> = Entry::of(&run, i).into_iter().map(|e| e.onset).collect();
+        let found: Vec<f64> = Entry::from_slider(&run, i).into_iter().map(|e| e.onset).collect();
         let title = format!("two coupled sliders, slider {}", i + 1);
         times(ledger, &title, &found, expected, &[Capability::CoupledSliders], &cost);
     }
@@ -154,13 +154,16 @@ fn twins(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut single = Set { stiffness: 0.8e9, ..slider::MILD }.plan(Kind::Slip, 1.5, 1e6)?;
     slider::events(&mut single, 4);
     let alone = slider::finish(&single)?;
-    let pairs = Entry::of(&both, 0).into_iter().zip(Entry::of(&both, 1)).zip(Entry::of(&alone, 0));
+    let pairs = Entry::from_slider(&both, 0)
+        .into_iter()
+        .zip(Entry::from_slider(&both, 1))
+        .zip(Entry::from_slider(&alone, 0));
     let error = pairs
         .map(|((a, b), one)| (a.onset / one.onset - 1.0).abs().max((b.onset / one.onset - 1.0).abs()))
         .fold(0.0, f64::max);
     ledger
         .claim("two equal sliders against one: times of four events")
-        .value(if Entry::of(&both, 1).len() == 4 { error } else { f64::NAN })
+        .value(if Entry::from_slider(&both, 1).len() == 4 { error } else { f64::NAN })
         .at_most(1e-10)
         .evidence(Evidence::Exact, "the coupling of equal sliders carries no traction")
         .because(

@@ -72,7 +72,7 @@ fn setting(plan: &Problem, events: usize) -> Result<Result<(Entry, f64, f64), St
     if let Outcome::Failed { reason } = run.outcome {
         return Ok(Err(reason.to_string()));
     }
-    let found: Vec<Entry> = Entry::of(&run, 0);
+    let found: Vec<Entry> = Entry::from_slider(&run, 0);
     Ok(match found.get(events - 1) {
         Some(event) => Ok(((*event).clone(), wall, slider::work(&run.counts, plan.start.len()))),
         None => Err(format!("{} events instead of {events}", found.len())),
@@ -89,7 +89,7 @@ fn cycle(
     let (method, tolerance) = slider::method(set);
     let reference = plan(set, kind, events, method, tolerance)?;
     let reference = slider::finish(&Problem { most_steps: cycles::MOST_STEPS, ..reference })?;
-    let last = Entry::of(&reference, 0).pop().ok_or("no event")?;
+    let last = Entry::from_slider(&reference, 0).pop().ok_or("no event")?;
     let recurrence = last.interval.ok_or("one event only")?;
     let mut curves = Vec::new();
     for method in Method::ALL {
@@ -223,9 +223,10 @@ fn defaults(ledger: &mut Ledger) -> Result<(), CaseError> {
         let (run, cost) = Cost::of(|| slider::finish(&loose));
         let run = run?;
         let cost = cost.counts(&Report::new(&loose, &run).counts);
-        let (Some(a), Some(b)) =
-            (Entry::of(&run, 0).into_iter().nth(3), Entry::of(&reference, 0).into_iter().nth(3))
-        else {
+        let (Some(a), Some(b)) = (
+            Entry::from_slider(&run, 0).into_iter().nth(3),
+            Entry::from_slider(&reference, 0).into_iter().nth(3),
+        ) else {
             return Err(format!("{name}: less than four events").into());
         };
         let recurrence = b.interval.ok_or("one event only")?;

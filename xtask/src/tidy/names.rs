@@ -3,7 +3,8 @@
 use super::problem::Problem;
 
 /// Folders in which the rule holds.
-const FOLDERS: [&str; 12] = [
+const FOLDERS: [&str; 14] = [
+    "crates/asperity/",
     "crates/contact/",
     "crates/cycles/",
     "crates/fem/",
@@ -12,6 +13,7 @@ const FOLDERS: [&str; 12] = [
     "crates/mechanics/",
     "crates/ode/",
     "crates/output/",
+    "crates/plan/",
     "crates/reference/",
     "crates/run/",
     "crates/scene/",

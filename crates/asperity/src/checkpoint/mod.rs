@@ -31,7 +31,7 @@ pub const FILE: &str = "checkpoint";
 const KIND: &str = "asperity checkpoint of ";
 
 /// State of a run of one kind, as its checkpoints have it.
-pub trait Saved: Serialize + DeserializeOwned {
+pub trait SavedState: Serialize + DeserializeOwned {
     /// Kind of run, in the plural.
     const OF: &'static str;
     /// Version of the contents.
@@ -52,7 +52,7 @@ struct Contents<S> {
 ///
 /// # Errors
 /// If the file cannot be written.
-pub fn write<S: Saved>(out: &Path, physics: &str, state: &S) -> Result<(), OutputError> {
+pub fn write<S: SavedState>(out: &Path, physics: &str, state: &S) -> Result<(), OutputError> {
     let path = out.join(FILE);
     let contents = Contents { physics: physics.into(), state };
     let contents = serde_json::to_string(&contents).map_err(|e| OutputError::write(&path, e.into()))?;
@@ -65,7 +65,7 @@ pub fn write<S: Saved>(out: &Path, physics: &str, state: &S) -> Result<(), Outpu
 ///
 /// # Errors
 /// If it is damaged, has another version, or belongs to a scene whose hash is not `physics`.
-pub fn read<S: Saved>(out: &Path, physics: &str) -> Result<Option<S>, ResumeError> {
+pub fn read<S: SavedState>(out: &Path, physics: &str) -> Result<Option<S>, ResumeError> {
     let path = out.join(FILE);
     let bytes = match fs::read(&path) {
         Ok(bytes) => bytes,
@@ -79,7 +79,7 @@ pub fn read<S: Saved>(out: &Path, physics: &str) -> Result<Option<S>, ResumeErro
 ///
 /// # Errors
 /// See [`read`].
-pub fn parse<S: Saved>(bytes: Vec<u8>, path: &Path, physics: &str) -> Result<S, ResumeError> {
+pub fn parse<S: SavedState>(bytes: Vec<u8>, path: &Path, physics: &str) -> Result<S, ResumeError> {
     let path = path.to_path_buf();
     let damaged = |reason: &str| ResumeError::Damaged { path: path.clone(), reason: reason.into() };
     let text = String::from_utf8(bytes).map_err(|_| damaged("it is no text"))?;

@@ -21,6 +21,6 @@ pub fn hash<'a>(
 
 /// Hash of a scene of bodies: everything except its title.
 #[must_use]
-pub fn of_bodies<'a>(text: &str, meshes: impl Iterator<Item = &'a str>) -> String {
+pub fn hash_of_bodies<'a>(text: &str, meshes: impl Iterator<Item = &'a str>) -> String {
     hash(text, |scene| drop(scene.remove("title")), meshes)
 }

@@ -2,7 +2,7 @@
 
 use super::arguments::Checking;
 use super::end::End;
-use super::read::{Planned, Ready, Source};
+use super::read::{Ready, RunPlan, Source};
 use super::{json, lines, print};
 use asperity_output::figures::{MeshPicture, draw_mesh};
 use asperity_output::terminal::printing::{err, out};
@@ -16,7 +16,7 @@ use std::path::Path;
 
 /// Checks as printed by `--json`, in SI units.
 #[derive(Serialize)]
-struct Checked<'a> {
+struct CheckReport<'a> {
     /// Kind of run.
     kind: Kind,
     /// SHA-256 of the scene file.
@@ -69,7 +69,7 @@ fn draw(file: &Path, picture: Option<MeshPicture>, ready: &Ready) -> miette::Res
     };
     let plan = &ready.plan;
     picture.stations = plan.checks().faults.iter().flat_map(|f| &f.stations).map(|s| s.at).collect();
-    if let Planned::Faults(plan) = plan
+    if let RunPlan::Faults(plan) = plan
         && picture.faces.is_empty()
     {
         picture.points = plan.points.iter().map(|p| p.at).collect();
@@ -83,7 +83,7 @@ fn draw(file: &Path, picture: Option<MeshPicture>, ready: &Ready) -> miette::Res
 
 fn print_json(ready: &Ready) -> miette::Result<()> {
     let plan = &ready.plan;
-    let checked = Checked {
+    let checked = CheckReport {
         kind: plan.kind(),
         scene_sha256: &ready.hash,
         version: env!("CARGO_PKG_VERSION"),

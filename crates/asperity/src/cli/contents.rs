@@ -14,7 +14,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Files and folders in a directory that the end of a run has written about its state then.
-pub(super) fn of_an_end(path: &Path) -> std::io::Result<Vec<PathBuf>> {
+pub(super) fn end_files(path: &Path) -> std::io::Result<Vec<PathBuf>> {
     let of_an_end = |name: &OsStr| entries::named(name).is_some_and(|entry| entry.of_an_end);
     let entries = fs::read_dir(path)?.map(|entry| Ok(entry?.path()));
     let entries = entries.filter(|entry: &std::io::Result<PathBuf>| {
@@ -115,7 +115,7 @@ pub(super) struct Contents {
 
 impl Contents {
     /// Contents of `path`.
-    pub fn of(path: &Path) -> miette::Result<Self> {
+    pub fn read(path: &Path) -> miette::Result<Self> {
         if path.exists() && !path.is_dir() {
             return Err(miette!("{} is a file, not an output directory", path.display()));
         }

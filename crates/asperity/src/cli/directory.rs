@@ -71,12 +71,12 @@ impl Directory {
     pub fn claim(path: &Path, begin: Begin) -> miette::Result<Self> {
         // A link stays in place: the directory of the run is its target.
         let path = &target(path).into_diagnostic()?;
-        Contents::of(path)?.refuse(path, &begin)?;
+        Contents::read(path)?.refuse(path, &begin)?;
         let made = topmost_missing(path);
         atomic::create_dir(path).into_diagnostic()?;
-        let lock = Lock::of(path)?;
+        let lock = Lock::acquire(path)?;
         // Repeat the check, now that no other run can change the directory.
-        let contents = Contents::of(path)?;
+        let contents = Contents::read(path)?;
         contents.refuse(path, &begin)?;
         let room = match (contents, made) {
             (_, Some(made)) => Room::Made(made),
@@ -106,7 +106,7 @@ impl Directory {
     fn open(&mut self) -> miette::Result<()> {
         if let Room::Moved(previous, _) = &self.room {
             atomic::create_dir(&self.path).into_diagnostic()?;
-            self._lock = Lock::of(&self.path)?;
+            self._lock = Lock::acquire(&self.path)?;
             // It is read again if it fits the scene as it is now.
             move_setup(previous, &self.path).into_diagnostic()?;
         }
@@ -182,7 +182,7 @@ impl Directory {
     /// Removes what the end of the part before has written about the run as it was then: its page, figures and catalogues. All of it is written again
     /// at the end.
     fn hide(&self) -> miette::Result<()> {
-        let ends = contents::of_an_end(&self.path).into_diagnostic()?;
+        let ends = contents::end_files(&self.path).into_diagnostic()?;
         ends.iter().try_for_each(|path| {
             let removed = if path.is_dir() { fs::remove_dir_all(path) } else { fs::remove_file(path) };
             removed.into_diagnostic().wrap_err_with(|| format!("cannot remove {}", path.display()))

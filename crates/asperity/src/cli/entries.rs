@@ -26,7 +26,7 @@ pub struct Entry {
 }
 
 /// Tables and fields of all kinds of run.
-fn of_kinds() -> impl Iterator<Item = OutputFile> {
+fn kind_files() -> impl Iterator<Item = OutputFile> {
     let faults = kinds::faults::FILES.into_iter().chain(kinds::faults::PROFILES);
     let others = bodies::FILES.into_iter().chain(kinds::dynamics::FILES).chain([kinds::sliders::HISTORIES]);
     let fields = [fields::FILES, fields::COLLECTION];
@@ -41,7 +41,7 @@ pub fn all() -> &'static [Entry] {
             let of_an_end = name == PLOTS;
             Entry { name, endings: Some(endings.to_vec()), meaning, of_an_end }
         }));
-        for file in of_kinds() {
+        for file in kind_files() {
             let mut entry = Entry::from(file);
             match all.iter_mut().find(|known| known.name == entry.name) {
                 Some(known) => known

@@ -28,7 +28,7 @@ impl Inputs {
     ///
     /// # Errors
     /// If a position does not hold the name.
-    pub fn of(text: &str, folder: &Path, named: &[(Range<usize>, &str)]) -> miette::Result<Self> {
+    pub fn from_scene(text: &str, folder: &Path, named: &[(Range<usize>, &str)]) -> miette::Result<Self> {
         let (mut names, mut taken) = (BTreeMap::new(), BTreeSet::new());
         for (_, file) in named {
             names.entry(*file).or_insert_with(|| copy_name(file, &mut taken));

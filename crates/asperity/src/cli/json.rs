@@ -7,15 +7,15 @@ use std::io::{self, Write};
 /// Value as indented text.
 pub fn pretty(value: &impl Serialize) -> serde_json::Result<String> {
     let mut text = Vec::new();
-    value.serialize(&mut Serializer::with_formatter(&mut text, Unsigned::default()))?;
+    value.serialize(&mut Serializer::with_formatter(&mut text, UnsignedZeroFormatter::default()))?;
     String::from_utf8(text).map_err(serde::ser::Error::custom)
 }
 
 /// The pretty formatter, except that zero has no sign.
 #[derive(Default)]
-struct Unsigned(PrettyFormatter<'static>);
+struct UnsignedZeroFormatter(PrettyFormatter<'static>);
 
-impl Formatter for Unsigned {
+impl Formatter for UnsignedZeroFormatter {
     fn write_f64<W: ?Sized + Write>(&mut self, to: &mut W, value: f64) -> io::Result<()> {
         // Adding zero turns -0 into 0.
         self.0.write_f64(to, value + 0.0)

@@ -15,7 +15,7 @@ impl Lock {
     ///
     /// # Errors
     /// If another run holds the lock, or the file cannot be written.
-    pub fn of(path: &Path) -> miette::Result<Option<Self>> {
+    pub fn acquire(path: &Path) -> miette::Result<Option<Self>> {
         let name = path.join(LOCK);
         let file = File::options().create(true).append(true).read(true).open(&name);
         let mut file = file.into_diagnostic().wrap_err_with(|| format!("cannot write {}", name.display()))?;

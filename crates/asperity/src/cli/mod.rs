@@ -88,7 +88,7 @@ fn begin_run(running: &Running) -> miette::Result<End> {
     let begin = Begin { resume: pauses.resume, force: *force, ..source.begin(scene) };
     if begin.resume
         && let Some(meshes) = source.meshes_of_whole()
-        && Contents::of(&out)?.is_complete(&begin.hash, &meshes)
+        && Contents::read(&out)?.is_complete(&begin.hash, &meshes)
     {
         printing::out(format_args!("the run in {} is complete: nothing to resume\n", out.display()));
         return Ok(End::Done);

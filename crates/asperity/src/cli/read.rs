@@ -25,7 +25,7 @@ use std::path::Path;
 use std::time::Instant;
 
 /// Plan of a scene, by kind.
-pub(super) enum Planned {
+pub(super) enum RunPlan {
     /// Deformable bodies.
     Bodies(Box<AnyPlan>),
     /// Spring-sliders.
@@ -36,7 +36,7 @@ pub(super) enum Planned {
     Dynamic(Box<dynamics::AnyPlan>),
 }
 
-impl Planned {
+impl RunPlan {
     /// Checks of the plan.
     pub fn checks(&self) -> &Checks {
         match self {
@@ -90,7 +90,7 @@ impl Planned {
 
 /// A plan with the identity of its input.
 pub(super) struct Ready {
-    pub plan: Planned,
+    pub plan: RunPlan,
     /// SHA-256 of the scene as it is kept.
     pub hash: String,
     /// Hash that a checkpoint must have to be resumed.
@@ -104,7 +104,7 @@ pub(super) struct Ready {
 /// A scene that has been read and checked but not planned. Planning may take long.
 pub(super) struct Source {
     text: Text,
-    parsed: Parsed,
+    parsed: SceneContent,
     inputs: Inputs,
     clock: Instant,
 }
@@ -141,7 +141,7 @@ impl Text {
 }
 
 /// Content of a scene file.
-enum Parsed {
+enum SceneContent {
     /// Spring-sliders; they are planned at once because this costs nothing.
     Sliders(Box<sliders::Plan>),
     /// Bodies, with or without faults.
@@ -161,12 +161,12 @@ impl Source {
         let (parsed, inputs) = if scene::reader::is_slider(read) {
             let (plan, files) = planner::read_in(read, folder).map_err(|errors| told(&errors))?;
             let named: Vec<_> = files.iter().map(|file| (file.span(), file.get_ref().as_str())).collect();
-            (Parsed::Sliders(Box::new(plan)), Inputs::of(read, folder, &named)?)
+            (SceneContent::Sliders(Box::new(plan)), Inputs::from_scene(read, folder, &named)?)
         } else {
             let parsed = scene::read_in(read, folder).map_err(|errors| told(&errors))?;
             let named: Vec<_> = parsed.files().map(|file| (file.span(), file.get_ref().as_str())).collect();
-            let inputs = Inputs::of(read, folder, &named)?;
-            (Parsed::Bodies(Box::new(parsed)), inputs)
+            let inputs = Inputs::from_scene(read, folder, &named)?;
+            (SceneContent::Bodies(Box::new(parsed)), inputs)
         };
         Ok(Self { text, parsed, inputs, clock })
     }
@@ -175,19 +175,21 @@ impl Source {
     /// scene has such faults or a file cannot be read.
     pub fn meshes_of_whole(&self) -> Option<BTreeMap<String, String>> {
         match &self.parsed {
-            Parsed::Sliders(_) => self.inputs.hashes().ok(),
-            Parsed::Bodies(scene) if scene.faults.is_empty() || has_mass(scene) => self.inputs.hashes().ok(),
-            Parsed::Bodies(_) => None,
+            SceneContent::Sliders(_) => self.inputs.hashes().ok(),
+            SceneContent::Bodies(scene) if scene.faults.is_empty() || has_mass(scene) => {
+                self.inputs.hashes().ok()
+            }
+            SceneContent::Bodies(_) => None,
         }
     }
 
     /// Input of a run of this scene, read from `path`.
     pub fn begin(&self, path: &Path) -> Begin {
         let (kind, title) = match &self.parsed {
-            Parsed::Sliders(plan) => (Kind::Sliders, &plan.problem.title),
-            Parsed::Bodies(scene) if has_mass(scene) => (Kind::Dynamics, &scene.title),
-            Parsed::Bodies(scene) if scene.faults.is_empty() => (Kind::Bodies, &scene.title),
-            Parsed::Bodies(scene) => (Kind::Faults, &scene.title),
+            SceneContent::Sliders(plan) => (Kind::Sliders, &plan.problem.title),
+            SceneContent::Bodies(scene) if has_mass(scene) => (Kind::Dynamics, &scene.title),
+            SceneContent::Bodies(scene) if scene.faults.is_empty() => (Kind::Bodies, &scene.title),
+            SceneContent::Bodies(scene) => (Kind::Faults, &scene.title),
         };
         let set = self.text.settings.iter().map(ToString::to_string).collect();
         Begin::now(kind, path, title, self.inputs.clone(), set)
@@ -196,16 +198,16 @@ impl Source {
     /// Citations of the scene.
     pub fn citations(&self) -> miette::Result<Citations> {
         let citations = match &self.parsed {
-            Parsed::Sliders(_) => scene::reader::read_sliders(self.text.resolved.text())
+            SceneContent::Sliders(_) => scene::reader::read_sliders(self.text.resolved.text())
                 .and_then(|scene| cite::slider_citations(&scene)),
-            Parsed::Bodies(scene) => cite::scene_citations(scene),
+            SceneContent::Bodies(scene) => cite::scene_citations(scene),
         };
         citations.map_err(|errors| self.text.report(&errors))
     }
 
     /// Picture of the meshes of the scene; `None` for spring-sliders, which have none.
     pub fn picture(&self) -> miette::Result<Option<MeshPicture>> {
-        let Parsed::Bodies(scene) = &self.parsed else { return Ok(None) };
+        let SceneContent::Bodies(scene) = &self.parsed else { return Ok(None) };
         let picture = bodies::picture(scene);
         picture.map(Some).map_err(|error| self.text.report(&Diagnostics::from(error)))
     }
@@ -214,13 +216,13 @@ impl Source {
     pub fn plan(self, setups: &Setups) -> miette::Result<Ready> {
         let Self { text, parsed, inputs, clock } = self;
         let mut plan = match parsed {
-            Parsed::Sliders(plan) => Planned::Sliders(plan),
-            Parsed::Bodies(scene) => {
+            SceneContent::Sliders(plan) => RunPlan::Sliders(plan),
+            SceneContent::Bodies(scene) => {
                 // A mesh file that cannot be read is reported by the plan, which knows the position in the scene.
                 match asperity_plan::plan_beside(&scene, setups) {
-                    Ok(ScenePlan::Bodies(plan)) => Planned::Bodies(plan),
-                    Ok(ScenePlan::Faults(plan)) => Planned::Faults(plan),
-                    Ok(ScenePlan::Dynamic(plan)) => Planned::Dynamic(plan),
+                    Ok(ScenePlan::Bodies(plan)) => RunPlan::Bodies(plan),
+                    Ok(ScenePlan::Faults(plan)) => RunPlan::Faults(plan),
+                    Ok(ScenePlan::Dynamic(plan)) => RunPlan::Dynamic(plan),
                     Err(error) => {
                         return Err(text.report(&Diagnostics::from(error)));
                     }
@@ -233,9 +235,9 @@ impl Source {
         let (text, meshes) = (&inputs.text, inputs.hashes()?);
         let hashes = meshes.values().map(String::as_str);
         let physics = match &plan {
-            Planned::Faults(_) => kinds::faults::physics(text, hashes),
-            Planned::Bodies(_) | Planned::Sliders(_) | Planned::Dynamic(_) => {
-                checkpoint::scene::of_bodies(text, hashes)
+            RunPlan::Faults(_) => kinds::faults::physics(text, hashes),
+            RunPlan::Bodies(_) | RunPlan::Sliders(_) | RunPlan::Dynamic(_) => {
+                checkpoint::scene::hash_of_bodies(text, hashes)
             }
         };
         let hash = sha256([text]);

@@ -13,11 +13,11 @@ use serde_json::{Value, json};
 pub fn schema() -> Value {
     let mut generator = SchemaSettings::draft2020_12().for_serialize().into_generator();
     let kinds = [
-        of::<RunReport>(&mut generator, Some(RunReport::KIND)),
-        of::<kinds::faults::Report>(&mut generator, Some(kinds::faults::Report::KIND)),
-        of::<kinds::sliders::Report>(&mut generator, Some(kinds::sliders::Report::KIND)),
-        of::<kinds::dynamics::Report>(&mut generator, Some(kinds::dynamics::Report::KIND)),
-        of::<Sketch>(&mut generator, None),
+        report_schema::<RunReport>(&mut generator, Some(RunReport::KIND)),
+        report_schema::<kinds::faults::Report>(&mut generator, Some(kinds::faults::Report::KIND)),
+        report_schema::<kinds::sliders::Report>(&mut generator, Some(kinds::sliders::Report::KIND)),
+        report_schema::<kinds::dynamics::Report>(&mut generator, Some(kinds::dynamics::Report::KIND)),
+        report_schema::<Sketch>(&mut generator, None),
     ];
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
@@ -29,7 +29,7 @@ pub fn schema() -> Value {
 }
 
 /// Schema of the report of one kind of run; it allows no other keys than those it names.
-fn of<R: JsonSchema>(generator: &mut SchemaGenerator, kind: Option<Kind>) -> Schema {
+fn report_schema<R: JsonSchema>(generator: &mut SchemaGenerator, kind: Option<Kind>) -> Schema {
     let mut schema = Report::<R>::json_schema(generator);
     if let Some(Value::Object(properties)) = schema.get_mut("properties") {
         properties.insert("schema".into(), json!({ "const": SCHEMA }));

@@ -50,7 +50,7 @@ pub enum State {
 
 /// Facts about the run in a directory.
 #[derive(Serialize)]
-pub struct Known {
+pub struct RunStatus {
     /// State of the run.
     pub state: State,
     title: String,
@@ -89,7 +89,7 @@ pub(super) fn print(folder: &Path, as_json: bool) -> miette::Result<End> {
 }
 
 /// Words with the advice for a run that can be resumed.
-fn after(known: &Known, words: &str) -> String {
+fn after(known: &RunStatus, words: &str) -> String {
     let advice = if known.resumable { "; its command with --resume continues it" } else { "" };
     format!("{words}{advice}")
 }
@@ -108,7 +108,7 @@ fn word(state: State) -> &'static str {
 ///
 /// # Errors
 /// If the directory holds no report that can be read.
-pub fn known(folder: &Path) -> miette::Result<Known> {
+pub fn known(folder: &Path) -> miette::Result<RunStatus> {
     let path = folder.join(REPORT);
     let bytes = std::fs::read(&path)
         .into_diagnostic()
@@ -127,7 +127,7 @@ pub fn known(folder: &Path) -> miette::Result<Known> {
     let within = report.outcome.as_object().into_iter().flat_map(|o| o.values());
     let reason = within.filter_map(|o| o["reason"].as_str()).next().map(str::to_string);
     let age = record.as_ref().and_then(|r| age(&r.written));
-    Ok(Known {
+    Ok(RunStatus {
         state,
         title: report.title,
         kind: report.kind,
@@ -158,7 +158,7 @@ fn age(written: &str) -> Option<f64> {
 
 /// Text for people.
 #[must_use]
-pub fn text(known: &Known) -> String {
+pub fn text(known: &RunStatus) -> String {
     let mut text = format!("  {} ({})\n", known.title, known.kind);
     let origin = [("scene", &known.scene), ("begun", &known.started), ("reason", &known.reason)];
     for (name, value) in origin {

@@ -4,7 +4,7 @@ mod table;
 
 pub use table::Table;
 
-use crate::checkpoint::{self, Pauses, ResumeError, Saved};
+use crate::checkpoint::{self, Pauses, ResumeError, SavedState};
 use asperity_ode::Control;
 use asperity_output::OutputError;
 use asperity_output::terminal::progress::{Progress, RunState};
@@ -26,7 +26,7 @@ pub struct Place<'a> {
 }
 
 /// State from which a run of a kind resumes.
-pub type Stand<O> = <<O as Outputs>::Kind as Kind>::ResumeState;
+pub type ResumeState<O> = <<O as Outputs>::Kind as Kind>::ResumeState;
 
 /// Outputs of one kind of run, and the state from which both resume.
 pub trait Outputs: Sized {
@@ -35,7 +35,7 @@ pub trait Outputs: Sized {
     /// Plan of the run, by reference.
     type Plan;
     /// State of the run and of its outputs in a checkpoint.
-    type Saved: Saved;
+    type Checkpoint: SavedState;
 
     /// Creates the outputs of a run that begins.
     ///
@@ -50,8 +50,8 @@ pub trait Outputs: Sized {
     fn reopen(
         plan: Self::Plan,
         place: &Place<'_>,
-        saved: Self::Saved,
-    ) -> Result<Option<(Self, Stand<Self>)>, ResumeError>;
+        saved: Self::Checkpoint,
+    ) -> Result<Option<(Self, ResumeState<Self>)>, ResumeError>;
 
     /// Sees the run before its first step.
     ///
@@ -90,10 +90,10 @@ pub trait Outputs: Sized {
     fn settle(&self) -> Result<(), OutputError>;
 
     /// State to be saved where the run may be interrupted, if a checkpoint is due.
-    fn saved(&mut self, stand: &mut dyn FnMut() -> Stand<Self>, due: bool) -> Option<Self::Saved>;
+    fn saved(&mut self, stand: &mut dyn FnMut() -> ResumeState<Self>, due: bool) -> Option<Self::Checkpoint>;
 
     /// State to be saved if the run is interrupted at this step. `None`, as usual, where it is interrupted only between steps.
-    fn restart(&self, _moment: &<Self::Kind as Kind>::Moment<'_>) -> Option<Self::Saved> {
+    fn restart(&self, _moment: &<Self::Kind as Kind>::Moment<'_>) -> Option<Self::Checkpoint> {
         None
     }
 
@@ -136,7 +136,7 @@ impl<O: Outputs> Keeper<O> {
     ///
     /// # Errors
     /// If the checkpoint is damaged or of another scene, or a file cannot be read or written.
-    pub fn resume(plan: O::Plan, place: Place<'_>) -> Result<Option<(Self, Stand<O>)>, ResumeError> {
+    pub fn resume(plan: O::Plan, place: Place<'_>) -> Result<Option<(Self, ResumeState<O>)>, ResumeError> {
         let Some(saved) = checkpoint::read(place.out, place.physics)? else { return Ok(None) };
         let reopened = O::reopen(plan, &place, saved)?;
         Ok(reopened.map(|(outputs, stand)| (Self::new(place, outputs), stand)))
@@ -182,12 +182,12 @@ impl<O: Outputs> Keeper<O> {
     ///
     /// # Errors
     /// If something cannot be written.
-    pub fn save(&mut self, saved: &O::Saved) -> Result<(), OutputError> {
+    pub fn save(&mut self, saved: &O::Checkpoint) -> Result<(), OutputError> {
         self.save_since(Instant::now(), saved)
     }
 
     /// Writes a checkpoint whose state was copied from the instant `begun` on, which counts as its cost.
-    fn save_since(&mut self, begun: Instant, saved: &O::Saved) -> Result<(), OutputError> {
+    fn save_since(&mut self, begun: Instant, saved: &O::Checkpoint) -> Result<(), OutputError> {
         self.outputs.settle()?;
         checkpoint::write(&self.out, &self.physics, saved)?;
         self.written = (Instant::now(), begun.elapsed());
@@ -224,7 +224,10 @@ impl<O: Outputs> Observer<O::Kind> for Keeper<O> {
         self.outputs.event(point)
     }
 
-    fn pause(&mut self, stand: &mut dyn FnMut() -> Stand<O>) -> Result<Option<&'static str>, ObserveError> {
+    fn pause(
+        &mut self,
+        stand: &mut dyn FnMut() -> ResumeState<O>,
+    ) -> Result<Option<&'static str>, ObserveError> {
         let moved = std::mem::replace(&mut self.moved, true);
         self.interrupted = self.pauses.reason(moved);
         let due = self.interrupted.is_some() || moved && self.pauses.are_due(self.written);

@@ -9,10 +9,10 @@ mod stand;
 pub mod text;
 mod views;
 
-pub use outputs::{Bodies, Outputs, Saved};
+pub use outputs::{Bodies, Checkpoint, Outputs};
 pub use passages::Passage;
 pub use report::{InterfaceResult, RunReport, mean};
-pub use stand::Stand;
+pub use stand::ResumeState;
 
 use crate::kinds::balance::balance;
 use crate::kinds::stop;
@@ -28,7 +28,7 @@ use asperity_run::report::{Outcome, Phases};
 use asperity_run::{Counts, ObserveError, Observer, Warning};
 use events::{Events, Moment};
 use outputs::Unkept;
-use stand::{Found, Said, Work};
+use stand::{RunWarning, StageResults, Work};
 use std::time::Instant as Clock;
 
 /// Rounding of relative positions as a share of the size of the scene: gaps are differences of averages over some tens of
@@ -70,7 +70,7 @@ pub fn run(plan: &AnyPlan, writer: &mut dyn Writer) -> Result<RunReport, RunErro
 pub fn run_kept(
     plan: &AnyPlan,
     observer: &mut dyn Observer<Bodies>,
-    from: Option<Stand>,
+    from: Option<ResumeState>,
 ) -> Result<RunReport, RunError> {
     match plan {
         AnyPlan::Two(plan) => run_in(plan, observer, from),
@@ -81,13 +81,13 @@ pub fn run_kept(
 fn run_in<const D: usize>(
     plan: &Plan<D>,
     observer: &mut dyn Observer<Bodies>,
-    from: Option<Stand>,
+    from: Option<ResumeState>,
 ) -> Result<RunReport, RunError> {
     let clock = Clock::now();
     let mut system = AssembledProblem::new(&plan.problem)
         .map_err(|e| RunError::SetUp { stage: plan.problem.stages[0].name.clone(), reason: e.to_string() })?;
     let phases = Phases { set_up: clock.elapsed().as_secs_f64(), ..Phases::default() };
-    let (work, found) = (Work::default(), Found::default());
+    let (work, found) = (Work::default(), StageResults::default());
     let events = plan.events.as_ref().map(Events::new);
     let mut run = Running { plan, work, found, events, phases };
     observer.begin(&views::setup(plan, system.areas()))?;
@@ -109,14 +109,14 @@ fn run_in<const D: usize>(
 struct Running<'a, const D: usize> {
     plan: &'a Plan<D>,
     work: Work,
-    found: Found,
+    found: StageResults,
     /// Events of interfaces, if the scene asks for them.
     events: Option<Events>,
     phases: Phases,
 }
 
 /// State of a run within a stage.
-struct InStage {
+struct StageState {
     index: usize,
     length: StepLength,
     /// Number of rejected trials since the last accepted step.
@@ -132,7 +132,7 @@ impl<const D: usize> Running<'_, D> {
         index: usize,
         system: &mut AssembledProblem<'_, D>,
         observer: &mut dyn Observer<Bodies>,
-        from: Option<Stand>,
+        from: Option<ResumeState>,
     ) -> Result<Option<Outcome>, RunError> {
         let stage = &self.plan.problem.stages[index];
         let clock = Clock::now();
@@ -170,24 +170,24 @@ impl<const D: usize> Running<'_, D> {
         &mut self,
         index: usize,
         system: &mut AssembledProblem<'_, D>,
-        from: Option<Stand>,
-    ) -> Result<InStage, RunError> {
+        from: Option<ResumeState>,
+    ) -> Result<StageState, RunError> {
         let stage = &self.plan.problem.stages[index];
         let length = StepLength::new(&self.plan.problem.control, stage, self.watches());
         let Some(from) = from else {
             let told = |e: SetUpError| RunError::SetUp { stage: stage.name.clone(), reason: e.to_string() };
             system.begin_stage(stage).map_err(told)?;
-            return Ok(InStage { index, length, rejected: 0, free: None });
+            return Ok(StageState { index, length, rejected: 0, free: None });
         };
         system.restore(stage, &from.system)?;
         (self.work, self.found, self.events) = (from.work, from.found, from.events);
         let length = length.restored(&from.length);
-        Ok(InStage { index, length, rejected: from.rejected, free: from.free })
+        Ok(StageState { index, length, rejected: from.rejected, free: from.free })
     }
 
     /// Current state of the run.
-    fn stand(&self, here: &InStage, system: &mut AssembledProblem<'_, D>) -> Stand {
-        Stand {
+    fn stand(&self, here: &StageState, system: &mut AssembledProblem<'_, D>) -> ResumeState {
+        ResumeState {
             stage: here.index,
             system: system.save(),
             length: here.length.save(),
@@ -201,7 +201,7 @@ impl<const D: usize> Running<'_, D> {
 
     /// Values that events need, if the scene asks for events.
     fn moment(&self, system: &AssembledProblem<'_, D>) -> Option<Moment> {
-        self.plan.events.as_ref().map(|events| Moment::of(self.plan, events, system))
+        self.plan.events.as_ref().map(|events| Moment::from_system(self.plan, events, system))
     }
 
     /// Finds the events of a step that began at `before`. The run is complete after the number of events requested.
@@ -216,7 +216,7 @@ impl<const D: usize> Running<'_, D> {
     /// Records an accepted step; `before` holds the slip rates before it.
     fn accepted(
         &mut self,
-        here: &mut InStage,
+        here: &mut StageState,
         system: &mut AssembledProblem<'_, D>,
         before: &[f64],
         accepted: &AcceptedStep,
@@ -254,7 +254,7 @@ impl<const D: usize> Running<'_, D> {
     /// Outcome of a run whose slip the steps can no longer follow; `None` if they can.
     fn outruns(
         &self,
-        here: &InStage,
+        here: &StageState,
         system: &AssembledProblem<'_, D>,
         before: &[f64],
         cut: Cut,
@@ -269,7 +269,7 @@ impl<const D: usize> Running<'_, D> {
     /// Records a failed trial of length `dt` \[s\]. Returns the outcome if the run cannot continue.
     fn rejected(
         &mut self,
-        here: &mut InStage,
+        here: &mut StageState,
         system: &AssembledProblem<'_, D>,
         failure: &Failure,
         dt: f64,
@@ -320,7 +320,7 @@ impl<const D: usize> Running<'_, D> {
         self.found.springs.extend(report::springs(plan, stage, &samples));
         self.worst(system, true);
         let doubts = std::mem::take(&mut self.found.worst).warnings(&plan.problem, &stage.name);
-        self.found.warnings.extend(resolution.into_iter().chain(doubts).map(Said::from));
+        self.found.warnings.extend(resolution.into_iter().chain(doubts).map(RunWarning::from));
     }
 
     /// Present values at the points, sets and springs of the scene.
@@ -337,7 +337,7 @@ impl<const D: usize> Running<'_, D> {
         system.add_counts(&mut work.counts);
         let planned = plan.problem.interfaces.iter().zip(system.interfaces());
         let balance = planned.map(|(p, i)| balance(&p.name, i, plan.problem.model.scale)).collect();
-        let Found { results, points, forces, springs, warnings, .. } = found;
+        let StageResults { results, points, forces, springs, warnings, .. } = found;
         let mut warnings: Vec<Warning> = warnings.into_iter().map(Warning::from).collect();
         // With inertia bodies may meet and part within a stage.
         if plan.problem.mass.is_none() {
@@ -351,7 +351,7 @@ impl<const D: usize> Running<'_, D> {
                 "take shorter steps, a `spectral_radius` of 0.5 or less, or a softer penalty",
             )
         }));
-        let passages = passages::of(system.episodes());
+        let passages = passages::from_episodes(system.episodes());
         warnings.extend(passages::doubts(&passages));
         let events = plan.events.as_ref().zip(events);
         let events = events.map(|(plan, e)| report::Events::new(plan, &e.catalogue, system.areas()));
@@ -407,7 +407,7 @@ impl<const D: usize> Running<'_, D> {
         self.plan.problem.interfaces.iter().any(|i| i.law.as_ref().is_some_and(|l| !l.has_elastic_domain()))
     }
 
-    fn record(&mut self, here: &InStage, system: &AssembledProblem<'_, D>, accepted: &AcceptedStep) {
+    fn record(&mut self, here: &StageState, system: &AssembledProblem<'_, D>, accepted: &AcceptedStep) {
         let end = self.plan.problem.stages[here.index].end;
         debug_assert!(system.time() <= end * (1.0 + f64::EPSILON) + f64::MIN_POSITIVE);
         let reason = || here.length.reason().to_string();

@@ -105,14 +105,14 @@ pub fn exhausted<const D: usize>(
 }
 
 /// Location of an instability.
-struct Met {
+struct InstabilityPoint {
     interface: String,
     position: [f64; 3],
     /// Slip rate in the rejected state \[m/s\].
     slip_rate: f64,
 }
 
-impl Met {
+impl InstabilityPoint {
     /// Description of position and slip rate.
     fn words<const D: usize>(&self) -> String {
         let place = std::array::from_fn(|c| (self.position[c] * SHOWN).round() / SHOWN);
@@ -123,7 +123,7 @@ impl Met {
 fn unstable<const D: usize>(
     system: &AssembledProblem<'_, D>,
     stage: String,
-    met: Met,
+    met: InstabilityPoint,
     what: &str,
 ) -> Outcome {
     if is_coarse(system, &met) {
@@ -135,7 +135,7 @@ fn unstable<const D: usize>(
         "instability {}: {what}; {REMEDY}. Events are followed with {damping}inertia: `stepper = \"auto\"`, or `inertia = true` in `[time]`",
         met.words::<D>()
     );
-    let Met { interface, position, slip_rate } = met;
+    let InstabilityPoint { interface, position, slip_rate } = met;
     Outcome::Stopped {
         stage: Some(stage),
         time,
@@ -145,13 +145,18 @@ fn unstable<const D: usize>(
 }
 
 /// Outcome of a step in which a point would slide whose cohesive zone is not resolved.
-fn coarse<const D: usize>(system: &AssembledProblem<'_, D>, stage: String, met: Met, what: &str) -> Outcome {
+fn coarse<const D: usize>(
+    system: &AssembledProblem<'_, D>,
+    stage: String,
+    met: InstabilityPoint,
+    what: &str,
+) -> Outcome {
     let remedy = system.resolved(&met.interface).map_or_else(String::new, |r| format!("; {}", r.limit));
     let reason = format!(
         "less than one point lies on the length over which friction falls {}: {what}{remedy}",
         met.words::<D>()
     );
-    let Met { interface, position, .. } = met;
+    let InstabilityPoint { interface, position, .. } = met;
     Outcome::Stopped {
         stage: Some(stage),
         time: system.time(),
@@ -162,7 +167,7 @@ fn coarse<const D: usize>(system: &AssembledProblem<'_, D>, stage: String, met: 
 
 /// True if the normal traction at a point is too large for the points to resolve its cohesive zone, and the scene does not allow this: the point
 /// would fail on its own, as an artefact of the mesh.
-fn is_coarse<const D: usize>(system: &AssembledProblem<'_, D>, met: &Met) -> bool {
+fn is_coarse<const D: usize>(system: &AssembledProblem<'_, D>, met: &InstabilityPoint) -> bool {
     let most = system.resolved(&met.interface).and_then(|r| r.refused_beyond);
     let normal = |i: &Interface<D>| {
         let point = (0..i.points().normal_traction.len()).find(|&p| i.place(p) == met.position)?;
@@ -173,12 +178,16 @@ fn is_coarse<const D: usize>(system: &AssembledProblem<'_, D>, met: &Met) -> boo
     most.zip(normal).is_some_and(|(most, normal)| normal > most)
 }
 
-fn found(objection: &Objection) -> Met {
-    Met { interface: objection.term.clone(), position: objection.position, slip_rate: objection.rate }
+fn found(objection: &Objection) -> InstabilityPoint {
+    InstabilityPoint {
+        interface: objection.term.clone(),
+        position: objection.position,
+        slip_rate: objection.rate,
+    }
 }
 
-fn at<const D: usize>(interface: &Interface<D>, point: usize, slip_rate: f64) -> Met {
-    Met {
+fn at<const D: usize>(interface: &Interface<D>, point: usize, slip_rate: f64) -> InstabilityPoint {
+    InstabilityPoint {
         interface: asperity_fem::term::Term::name(interface).to_string(),
         position: interface.place(point),
         slip_rate,
@@ -186,13 +195,13 @@ fn at<const D: usize>(interface: &Interface<D>, point: usize, slip_rate: f64) ->
 }
 
 /// Point that lost strength in the last failed trial.
-fn weakest<const D: usize>(system: &AssembledProblem<'_, D>) -> Option<Met> {
+fn weakest<const D: usize>(system: &AssembledProblem<'_, D>) -> Option<InstabilityPoint> {
     let rate = |i: &Interface<D>, p: usize| i.points().slip_rate.get(p).map_or(0.0, |v| v.abs());
     system.interfaces().iter().find_map(|i| i.weakens().map(|p| at(i, p, rate(i, p))))
 }
 
 /// Point with the largest slip rate.
-fn fastest<const D: usize>(system: &AssembledProblem<'_, D>) -> Option<Met> {
+fn fastest<const D: usize>(system: &AssembledProblem<'_, D>) -> Option<InstabilityPoint> {
     let each = system.interfaces().iter().filter_map(|i| i.fastest().map(|(p, rate)| at(i, p, rate)));
     each.reduce(|a, b| if b.slip_rate > a.slip_rate { b } else { a })
 }

@@ -85,7 +85,7 @@ impl Worst {
         self.bodies.resize(model.bodies.len(), Default::default());
         for (body, (worst, at)) in model.bodies.iter().zip(&mut self.bodies) {
             for block in body.blocks.clone() {
-                let now = of_block(model, block, u);
+                let now = largest_in_block(model, block, u);
                 if now.strain > worst.strain {
                     (worst.strain, at[0]) = (now.strain, time);
                 }
@@ -102,18 +102,23 @@ impl Worst {
         let model = &problem.model;
         let interfaces = problem.interfaces.iter().zip(&self.slid);
         let dragged = interfaces.filter_map(|(i, slid)| dragged(model, i, stage, *slid));
-        self.of_bodies(model, stage).chain(dragged).collect()
+        self.body_warnings(model, stage).chain(dragged).collect()
     }
 
     /// Warnings about the bodies in a stage.
-    pub fn of_bodies<const D: usize>(&self, model: &Model<D>, stage: &str) -> impl Iterator<Item = Warning> {
+    pub fn body_warnings<const D: usize>(
+        &self,
+        model: &Model<D>,
+        stage: &str,
+    ) -> impl Iterator<Item = Warning> {
         let bodies = model.bodies.iter().zip(&self.bodies);
-        bodies
-            .filter_map(move |(b, (worst, at))| of_body(&b.name, stage, (*worst, *at), b.elastic[0].young()))
+        bodies.filter_map(move |(b, (worst, at))| {
+            body_warning(&b.name, stage, (*worst, *at), b.elastic[0].young())
+        })
     }
 }
 
-fn of_body(body: &str, stage: &str, (largest, at): (Largest, [f64; 2]), young: f64) -> Option<Warning> {
+fn body_warning(body: &str, stage: &str, (largest, at): (Largest, [f64; 2]), young: f64) -> Option<Warning> {
     let help = format!("add `strain = \"finite\"` to body `{body}`, or check the loads and the units");
     if largest.strain > SMALL_STRAIN {
         let message = format!(
@@ -137,7 +142,7 @@ fn of_body(body: &str, stage: &str, (largest, at): (Largest, [f64; 2]), young: f
 
 /// Largest strain and rotation in the cells of a block, at their centres and between these and their corners, about where stresses are
 /// computed; zero if the block accounts for large deformation, and in cells that leave no doubt.
-pub fn of_block<const D: usize>(model: &Model<D>, block: usize, u: &[f64]) -> Largest {
+pub fn largest_in_block<const D: usize>(model: &Model<D>, block: usize, u: &[f64]) -> Largest {
     let followed = matches!(&model.blocks.get(block), Some(CellBlock::Nonlinear(b)) if b.model().kinematics == Kinematics::UpdatedLagrangian);
     // Antiplane motion has one component, and its equation is linear for slopes of any size.
     if followed || model.idealisation == Idealisation::Antiplane {

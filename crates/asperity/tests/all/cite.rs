@@ -25,12 +25,12 @@ fn keys(citations: &Citations) -> Vec<&'static str> {
     citations.list().iter().map(|c| c.key).collect()
 }
 
-fn of(text: &str, changes: &[Change<'_>]) -> Vec<&'static str> {
+fn scene_keys(text: &str, changes: &[Change<'_>]) -> Vec<&'static str> {
     let text = varied(text, changes);
     keys(&scene_citations(&scene::read(&text).unwrap_or_else(|e| panic!("{e}\n{text}"))).unwrap())
 }
 
-fn of_slider(changes: &[Change<'_>]) -> Vec<&'static str> {
+fn slider_keys(changes: &[Change<'_>]) -> Vec<&'static str> {
     let text = varied(SLIDER, changes);
     keys(
         &slider_citations(&scene::reader::read_sliders(&text).unwrap_or_else(|e| panic!("{e}\n{text}")))
@@ -47,25 +47,31 @@ fn differences(before: &[&'static str], after: &[&'static str]) -> (Vec<&'static
 
 #[test]
 fn the_sandwich_cites_its_law_its_contact_and_itself() {
-    assert_eq!(of(SANDWICH, &[]), ["asperity", "asperity-sandwich-v1", "xing2002b", "rice1996", "xing2002"]);
+    assert_eq!(
+        scene_keys(SANDWICH, &[]),
+        ["asperity", "asperity-sandwich-v1", "xing2002b", "rice1996", "xing2002"]
+    );
 }
 
 #[test]
 fn each_evolution_of_a_slider_cites_those_who_proposed_it() {
     let evolution = "sliders.block.law.evolution";
-    assert!(of_slider(&[]).contains(&"dieterich1979"));
+    assert!(slider_keys(&[]).contains(&"dieterich1979"));
     for (name, source) in [("slip", "ruina1983"), ("prz", "perrin1995")] {
-        let (more, less) = differences(&of_slider(&[]), &of_slider(&[With(evolution, name)]));
+        let (more, less) = differences(&slider_keys(&[]), &slider_keys(&[With(evolution, name)]));
         assert_eq!((more, less), (vec![source], vec!["dieterich1979"]), "{name}");
     }
-    let nagata = of_slider(&[With(evolution, "nagata"), Add("sliders.block.law.c", "1.0")]);
-    assert_eq!(differences(&of_slider(&[]), &nagata).0, ["nagata2012"]);
-    let flash = of_slider(&[
+    let nagata = slider_keys(&[With(evolution, "nagata"), Add("sliders.block.law.c", "1.0")]);
+    assert_eq!(differences(&slider_keys(&[]), &nagata).0, ["nagata2012"]);
+    let flash = slider_keys(&[
         With(evolution, "flash"),
         Add("sliders.block.law.mu_w", "0.1"),
         Add("sliders.block.law.v_w", "0.1 m/s"),
     ]);
-    assert_eq!(differences(&of_slider(&[]), &flash).0, ["rice2006", "beeler2008", "noda2009", "dunham2011"]);
+    assert_eq!(
+        differences(&slider_keys(&[]), &flash).0,
+        ["rice2006", "beeler2008", "noda2009", "dunham2011"]
+    );
 }
 
 #[test]
@@ -80,7 +86,7 @@ fn each_choice_of_a_slider_cites_its_source() {
         (&[With("sliders.block.law.form", "bare")], "", Some("rice1996")),
         (&[Without("sliders.block.damping")], "", Some("rice1993")),
     ] {
-        let (added, removed) = differences(&of_slider(&[]), &of_slider(changes));
+        let (added, removed) = differences(&slider_keys(&[]), &slider_keys(changes));
         let expected: Vec<&str> = Some(more).filter(|m| !m.is_empty()).into_iter().collect();
         assert_eq!(added, expected, "{changes:?}");
         assert_eq!(removed, less.into_iter().collect::<Vec<_>>(), "{changes:?}");
@@ -89,7 +95,7 @@ fn each_choice_of_a_slider_cites_its_source() {
 
 #[test]
 fn each_choice_of_contact_cites_its_source() {
-    let of = |changes: &[Change<'_>]| of(HERTZ, changes);
+    let of = |changes: &[Change<'_>]| scene_keys(HERTZ, changes);
     let usual = of(&[]);
     for key in ["puso2004", "puso2004b", "wohlmuth2000"] {
         assert!(usual.contains(&key), "{key}");
@@ -110,9 +116,9 @@ fn each_choice_of_contact_cites_its_source() {
 
 #[test]
 fn a_benchmark_is_known_by_its_title_alone() {
-    let usual = of(BP1, &[]);
+    let usual = scene_keys(BP1, &[]);
     assert!(usual.contains(&"erickson2020"), "{usual:?}");
-    let (more, less) = differences(&usual, &of(BP1, &[With("title", "a fault of mine")]));
+    let (more, less) = differences(&usual, &scene_keys(BP1, &[With("title", "a fault of mine")]));
     assert_eq!((more, less), (vec![], vec!["asperity-seas-bp1-quick-v1", "erickson2020"]));
 }
 

@@ -10,7 +10,7 @@ use asperity_plan::reading::scene;
 use asperity_vary::Change::{Add, With, WithOrSame};
 
 /// A block on a plate, pressed and then pushed along it until all of it slides, in the plane or in space.
-struct Pushed<'a> {
+struct PushedBlock<'a> {
     in_space: bool,
     measure: &'a str,
     enforcement: &'a str,
@@ -18,7 +18,7 @@ struct Pushed<'a> {
     law: &'a str,
 }
 
-impl Pushed<'_> {
+impl PushedBlock<'_> {
     fn text(&self) -> String {
         let Self { in_space, measure, enforcement, stepper, law } = self;
         let [kinematics, element, z] =
@@ -106,18 +106,18 @@ fn a_sliding_block_carries_cohesion_times_area_and_friction_times_force() {
         ("node-to-point", PENALTY, "static-explicit", COULOMB),
         ("mortar", PENALTY, "static-explicit", WEAKENING),
     ] {
-        Pushed { in_space: false, measure, enforcement, stepper, law }.assert_holds((1.5, 0.3));
+        PushedBlock { in_space: false, measure, enforcement, stepper, law }.assert_holds((1.5, 0.3));
     }
     for (measure, stepper, law) in
         [("mortar", "implicit", WEAKENING), ("node-to-point", "static-explicit", COULOMB)]
     {
-        Pushed { in_space: true, measure, enforcement: PENALTY, stepper, law }.assert_holds((1.5, 0.3));
+        PushedBlock { in_space: true, measure, enforcement: PENALTY, stepper, law }.assert_holds((1.5, 0.3));
     }
 }
 
 #[test]
 fn a_field_of_cohesion_reaches_the_points_of_an_interface() {
-    let pushed = Pushed {
+    let pushed = PushedBlock {
         in_space: false,
         measure: "node-to-point",
         enforcement: PENALTY,

@@ -3,7 +3,7 @@
 #![allow(clippy::disallowed_methods)]
 
 use crate::common::every_kind::{KINDS, files};
-use crate::common::written::{Described, fits};
+use crate::common::written::{ColumnDescription, fits};
 use asperity::cli::entries;
 use std::fs;
 use std::path::Path;
@@ -56,18 +56,18 @@ fn shown((column, array): &(&str, &Option<(usize, String)>), units: &[&str]) -> 
 }
 
 /// Each file with what a kind of run says of it.
-fn by_file(kind: &str) -> impl Iterator<Item = (&'static str, &'static Described)> {
+fn by_file(kind: &str) -> impl Iterator<Item = (&'static str, &'static ColumnDescription)> {
     files(kind).iter().flat_map(|d| d.files.iter().map(move |file| (file.as_str(), d)))
 }
 
 /// Rows of a kind of run on the page of outputs.
 fn columns(kind: &str) -> String {
-    let whole = |(file, parts): (&'static str, Vec<&Described>)| {
+    let whole = |(file, parts): (&'static str, Vec<&ColumnDescription>)| {
         let columns = grouped(parts.iter().map(|d| ((d.column.as_str(), &d.array), d.unit.as_str())));
         let columns: Vec<String> = columns.iter().map(|(column, units)| shown(column, units)).collect();
         (columns.join(", "), file.to_owned())
     };
-    let mut files: Vec<(&'static str, Vec<&Described>)> = grouped(by_file(kind));
+    let mut files: Vec<(&'static str, Vec<&ColumnDescription>)> = grouped(by_file(kind));
     files.sort_by_key(|(file, _)| *file);
     let rows = grouped(files.into_iter().map(whole));
     let rows: String =

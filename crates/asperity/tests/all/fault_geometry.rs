@@ -139,7 +139,11 @@ fn borders(grid: &Grid) -> [(&'static str, Vec<Vec<usize>>); 2] {
 }
 
 /// A scene of the plane split along these lines, with a fault of the same properties on each.
-fn of_lines(kinematics: &str, lines: &[(&str, Vec<Vec<usize>>)], more: &str) -> Result<Plan, Diagnostic> {
+fn plan_of_lines(
+    kinematics: &str,
+    lines: &[(&str, Vec<Vec<usize>>)],
+    more: &str,
+) -> Result<Plan, Diagnostic> {
     let grid = plane();
     let mut faces: Vec<_> = borders(&grid).to_vec();
     faces.extend(lines.iter().cloned());
@@ -229,9 +233,9 @@ fn onsets(plan: &Plan) -> Vec<f64> {
 fn segments_that_meet_end_to_end_are_one_fault() {
     let grid = plane();
     for kinematics in ["antiplane", "plane-strain"] {
-        let whole = of_lines(kinematics, &[("fault", upright(&grid, 0..48))], "").unwrap();
+        let whole = plan_of_lines(kinematics, &[("fault", upright(&grid, 0..48))], "").unwrap();
         let lines = [("lower", upright(&grid, 0..20)), ("upper", upright(&grid, 20..48))];
-        let parts = of_lines(kinematics, &lines, "").unwrap();
+        let parts = plan_of_lines(kinematics, &lines, "").unwrap();
         same(&whole, &parts);
         let met = |note: &&String| note.contains("`lower` and `upper` meet: the point at (0, -14000) m");
         assert_eq!(parts.notes.iter().filter(met).count(), 1, "{:?}", parts.notes);
@@ -243,7 +247,7 @@ fn segments_that_meet_end_to_end_are_one_fault() {
         let turned = upright(&grid, 20..48).into_iter().map(|e| vec![e[1], e[0]]).collect();
         same(
             &whole,
-            &of_lines(kinematics, &[("lower", upright(&grid, 0..20)), ("upper", turned)], "").unwrap(),
+            &plan_of_lines(kinematics, &[("lower", upright(&grid, 0..20)), ("upper", turned)], "").unwrap(),
         );
     }
 }
@@ -305,25 +309,25 @@ fn faces_of_two_faults_and_branches_are_refused_with_words() {
     let grid = plane();
     let lines = [("lower", upright(&grid, 0..20)), ("upper", upright(&grid, 20..48))];
     let again = format!("[faults.more]\nminus = \"B.upper.minus\"\nplus = \"B.upper.plus\"\n{LAW}");
-    let error = of_lines("antiplane", &lines, &again).unwrap_err();
+    let error = plan_of_lines("antiplane", &lines, &again).unwrap_err();
     assert!(error.message.contains("faults `more` and `upper` both have the face at (0, "), "{error}");
     assert!(error.help.unwrap().contains("a face belongs to one fault") && !error.span.is_empty());
     let turned = format!("[faults.more]\nminus = \"B.upper.plus\"\nplus = \"B.upper.minus\"\n{LAW}");
-    assert!(of_lines("antiplane", &lines, &turned).unwrap_err().message.contains("both have the face"));
+    assert!(plan_of_lines("antiplane", &lines, &turned).unwrap_err().message.contains("both have the face"));
     // A branch to the right at 12 km.
     let branch: Vec<Vec<usize>> =
         (6..10).map(|i| vec![grid.node(&[i, 24]), grid.node(&[i + 1, 24])]).collect();
-    let error =
-        of_lines("antiplane", &[("main", upright(&grid, 0..48)), ("splay", branch.clone())], "").unwrap_err();
+    let error = plan_of_lines("antiplane", &[("main", upright(&grid, 0..48)), ("splay", branch.clone())], "")
+        .unwrap_err();
     assert!(error.message.contains("branch") && error.message.contains("(0, -12000) m"), "{error}");
     assert!(error.message.contains("more than two sides meet there") && !error.span.is_empty(), "{error}");
     // In one set.
     let both = [upright(&grid, 0..48), branch.clone()].concat();
-    let error = of_lines("antiplane", &[("main", both)], "").map(|_| ()).unwrap_err();
+    let error = plan_of_lines("antiplane", &[("main", both)], "").map(|_| ()).unwrap_err();
     assert!(error.message.contains("branch"), "{error}");
     // One cell away, it is a separate fault.
     let apart =
-        of_lines("antiplane", &[("main", upright(&grid, 0..48)), ("splay", branch[1..].to_vec())], "")
+        plan_of_lines("antiplane", &[("main", upright(&grid, 0..48)), ("splay", branch[1..].to_vec())], "")
             .unwrap();
     assert_eq!(apart.faults.len(), 2);
     assert!(apart.notes.iter().all(|note| !note.contains("meet")), "{:?}", apart.notes);

@@ -22,7 +22,7 @@ fn planned(text: &str) -> Plan {
 }
 
 /// Results of a run.
-struct Found {
+struct RunResults {
     run: FaultRun,
     report: Report,
     /// Largest imbalance of tractions along and across the fault, relative to the largest initial f_n.
@@ -35,7 +35,7 @@ struct Found {
 /// Follows a run whose loads have constant rates. Tractions follow from slip and openings through the operators. Along
 /// the fault they must equal friction; across it, less the pore pressure, they must equal f_n, or vanish where the fault
 /// is open.
-fn followed(plan: &Plan) -> Found {
+fn followed(plan: &Plan) -> RunResults {
     let (n, fault) = (plan.points.len(), &plan.problem.fault);
     let (law, opening) = (&fault.law, fault.processes.find::<Opening>().unwrap());
     let floor = plan.faults[0].normal.floor.unwrap();
@@ -72,10 +72,10 @@ fn followed(plan: &Plan) -> Found {
     };
     let out = plan.problem.run(&plan.problem.settings, &mut look).unwrap();
     let report = Report::new(plan, &out, &mut balance);
-    Found { run: out, report, along, across, most }
+    RunResults { run: out, report, along, across, most }
 }
 
-impl Found {
+impl RunResults {
     /// Asserts that tractions and energies balance. Errors of ln V are within the tolerance in the mean over all
     /// unknowns, four per point, and add up over the steps like a random walk. They change friction by a (`direct` at
     /// most) times as much, and f_n by as much of itself.

@@ -23,7 +23,7 @@ fn plan(text: &str) -> Plan {
 }
 
 /// Writes the files of a run and remembers the largest rates of all steps: of the fastest point, then of each station.
-struct Seen<'a> {
+struct RateWatch<'a> {
     files: Files<'a>,
     stations: Vec<usize>,
     largest: Vec<f64>,
@@ -31,7 +31,7 @@ struct Seen<'a> {
     sizes: Vec<usize>,
 }
 
-impl Observer<Faults> for Seen<'_> {
+impl Observer<Faults> for RateWatch<'_> {
     fn step(&mut self, moment: &Moment<'_>) -> Result<Control, ObserveError> {
         self.steps += 1;
         let rates = std::iter::once(moment.largest).chain(self.stations.iter().map(|&p| moment.speed(p)));
@@ -46,11 +46,11 @@ impl Observer<Faults> for Seen<'_> {
     }
 }
 
-fn run<'a>(plan: &'a Plan, out: &Path) -> (Seen<'a>, FaultRun) {
+fn run<'a>(plan: &'a Plan, out: &Path) -> (RateWatch<'a>, FaultRun) {
     let stations: Vec<usize> = plan.faults[0].stations.iter().map(|s| s.1).collect();
     let largest = vec![0.0; stations.len() + 1];
     let files = Files::create(out, plan).unwrap();
-    let mut seen = Seen { files, stations, largest, steps: 0, sizes: Vec::new() };
+    let mut seen = RateWatch { files, stations, largest, steps: 0, sizes: Vec::new() };
     let (problem, begin) = (&plan.problem, plan.begin());
     let run = resume(&problem.fault, &problem.loading, begin, &problem.settings, &mut seen).unwrap();
     (seen, run)

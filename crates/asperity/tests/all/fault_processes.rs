@@ -43,12 +43,12 @@ fn with(keys: &[&str]) -> String {
 }
 
 /// Follows the energy of a run, and keeps its state at the first pause.
-struct Kept<'a> {
+struct EnergyWatch<'a> {
     balance: Balance<'a>,
     first: Option<String>,
 }
 
-impl Observer<Faults> for Kept<'_> {
+impl Observer<Faults> for EnergyWatch<'_> {
     fn step(&mut self, now: &Moment<'_>) -> Result<Control, ObserveError> {
         self.balance.step(now);
         Ok(Control::Go)
@@ -68,7 +68,7 @@ fn run(plan: &Plan, from: Option<(FaultRun, Sums)>) -> (FaultRun, Sums, f64, Opt
         Some((run, sums)) => (run, Balance::resume(problem, sums)),
         None => (plan.begin(), Balance::new(problem)),
     };
-    let mut kept = Kept { balance, first: None };
+    let mut kept = EnergyWatch { balance, first: None };
     let run = resume(&problem.fault, &problem.loading, begin, &problem.settings, &mut kept).unwrap();
     let slip = &run.unknowns[asperity_cycles::Layout::from_fault(&problem.fault).slip()];
     let pressed = problem.fault.pressed(run.at, &run.unknowns);

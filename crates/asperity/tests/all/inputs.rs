@@ -167,7 +167,7 @@ fn copies_keep_their_names_when_a_scene_names_copies() {
     };
     let (_, at) = named(text);
     let names = [at("x/m.msh", 0), at("y/m.msh", 0), at("x/m.msh", 20), at("m-2.msh", 0)];
-    let kept = Inputs::of(text, Path::new(""), &names).unwrap();
+    let kept = Inputs::from_scene(text, Path::new(""), &names).unwrap();
     let expected =
         "a = \"inputs/m.msh\"\nb = \"inputs/m-2.msh\"\nc = \"inputs/m.msh\"\nd = \"inputs/m-2-2.msh\"\n";
     assert_eq!(kept.text, expected);
@@ -176,7 +176,7 @@ fn copies_keep_their_names_when_a_scene_names_copies() {
     );
     let names =
         [at("inputs/m.msh", 0), at("inputs/m-2.msh", 0), at("inputs/m.msh", 30), at("inputs/m-2-2.msh", 0)];
-    assert_eq!(Inputs::of(expected, Path::new(""), &names).unwrap().text, expected);
+    assert_eq!(Inputs::from_scene(expected, Path::new(""), &names).unwrap().text, expected);
     // A position that holds something else.
-    assert!(Inputs::of(text, Path::new(""), &[(0..3, "x/m.msh")]).is_err());
+    assert!(Inputs::from_scene(text, Path::new(""), &[(0..3, "x/m.msh")]).is_err());
 }

@@ -217,7 +217,7 @@ fn files_of_the_platform_do_not_change_when_the_scene_turns() {
 }
 
 /// A fault of triangles that slips at once.
-fn of_triangles() -> SceneText {
+fn triangle_scene() -> SceneText {
     let page = include_str!("../../../../docs/src/messages/triangles.md");
     let base = page.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
     SceneText::new(base)
@@ -228,7 +228,7 @@ fn of_triangles() -> SceneText {
 
 #[test]
 fn a_fault_of_triangles_writes_fields_in_its_triangles_and_resumes() {
-    let scene = of_triangles().with("stages[0].duration", "2000 yr").text().unwrap();
+    let scene = triangle_scene().with("stages[0].duration", "2000 yr").text().unwrap();
     let here = folder(&scene);
     let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/meshes");
     fs::copy(meshes.join("fault.stl"), here.path().join("fault.stl")).unwrap();
@@ -259,7 +259,7 @@ fn the_plus_side_of_triangles_is_the_hanging_wall_however_the_file_orients_them(
             file += "endfacet\n";
         }
         fs::write(here.path().join("fault.stl"), file + "endsolid s\n").unwrap();
-        let scene = of_triangles().text().unwrap();
+        let scene = triangle_scene().text().unwrap();
         match plan_scene(&scene::read_in(&scene, here.path()).unwrap()).unwrap() {
             ScenePlan::Faults(plan) => *plan,
             ScenePlan::Bodies(_) | ScenePlan::Dynamic(_) => panic!("the scene has faults"),

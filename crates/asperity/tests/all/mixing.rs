@@ -24,7 +24,7 @@ fn refused(folder: &Path, out: &str, arguments: &[&str], parts: &[&str]) {
 }
 
 #[test]
-fn of_two_runs_in_one_directory_the_second_is_refused_with_the_process_of_the_first() {
+fn the_second_run_in_one_directory_is_refused_with_the_process_of_the_first() {
     for (kind, scene, table) in kinds() {
         let folder = folder(&scene);
         let folder = folder.path();

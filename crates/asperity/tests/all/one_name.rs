@@ -2,7 +2,7 @@
 //! number of components in every kind of run.
 
 use crate::common::every_kind::{KINDS, files};
-use crate::common::written::Described;
+use crate::common::written::ColumnDescription;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Units of one quantity in space, and per metre of thickness in the plane.
@@ -17,7 +17,7 @@ fn same(one: &str, other: &str) -> bool {
 
 #[test]
 fn columns_and_arrays_of_one_name_are_the_same_in_every_kind_of_run() {
-    let mut all: BTreeMap<(String, &str), (&str, &Described)> = BTreeMap::new();
+    let mut all: BTreeMap<(String, &str), (&str, &ColumnDescription)> = BTreeMap::new();
     let (mut shared, mut apart) = (0, BTreeSet::new());
     for kind in KINDS {
         for own in files(kind) {
@@ -27,7 +27,7 @@ fn columns_and_arrays_of_one_name_are_the_same_in_every_kind_of_run() {
                 let column = own.column.as_str();
                 let &mut (of, first) = all.entry((place.clone(), column)).or_insert((kind, own));
                 shared += usize::from(of != kind);
-                let components = |d: &Described| d.array.as_ref().map(|(components, _)| *components);
+                let components = |d: &ColumnDescription| d.array.as_ref().map(|(components, _)| *components);
                 if components(own) != components(first) {
                     apart.insert((column, of, kind));
                     continue;

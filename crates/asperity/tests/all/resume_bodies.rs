@@ -6,7 +6,7 @@ use crate::common::{planned, told};
 use crate::resume::{assert_same, files, folder, run, text};
 use asperity::checkpoint::{self, Pauses};
 use asperity::keep::{Keeper, Place};
-use asperity::kinds::bodies::{Bodies, Outputs, RunError, RunReport, Stand, run_kept};
+use asperity::kinds::bodies::{Bodies, Outputs, ResumeState, RunError, RunReport, run_kept};
 use asperity_ode::Control;
 use asperity_output::bodies::view::{Setup, StepView};
 use asperity_output::bodies::{FieldSchedule, Recorder};
@@ -172,13 +172,13 @@ const SPACE: [Change<'_>; 12] = [
 ];
 
 /// Interrupts a run before its trial number `left`.
-struct Interrupted {
+struct Interruption {
     kept: Keeper<Outputs>,
     stop: Arc<AtomicBool>,
     left: usize,
 }
 
-impl Observer<Bodies> for Interrupted {
+impl Observer<Bodies> for Interruption {
     fn begin(&mut self, setup: &Setup) -> Result<(), ObserveError> {
         self.kept.begin(setup)
     }
@@ -187,7 +187,10 @@ impl Observer<Bodies> for Interrupted {
         self.kept.step(view)
     }
 
-    fn pause(&mut self, stand: &mut dyn FnMut() -> Stand) -> Result<Option<&'static str>, ObserveError> {
+    fn pause(
+        &mut self,
+        stand: &mut dyn FnMut() -> ResumeState,
+    ) -> Result<Option<&'static str>, ObserveError> {
         self.stop.store(self.left == 0, Ordering::Relaxed);
         self.left = self.left.saturating_sub(1);
         self.kept.pause(stand)
@@ -214,7 +217,7 @@ fn resumed(plan: &AnyPlan, out: &Path, trials: usize) -> Result<(RunReport, Reco
         Some((kept, stand)) => (kept, Some(stand)),
         None => (Keeper::begin(schedule, place).unwrap(), None),
     };
-    let mut keeper = Interrupted { kept, stop, left: trials };
+    let mut keeper = Interruption { kept, stop, left: trials };
     let report = run_kept(plan, &mut keeper, from)?;
     let completed = report.outcome == Outcome::Completed;
     if completed {

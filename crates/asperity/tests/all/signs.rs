@@ -118,10 +118,10 @@ fn jump(columns: &[Column]) -> Option<Column> {
 }
 
 /// Agreement of the columns of all files, by file and column.
-type Said = BTreeMap<(String, String), f64>;
+type SignAgreement = BTreeMap<(String, String), f64>;
 
-fn read(out: &Path, section: &str, motion: &Motion) -> Said {
-    let (rules, mut all, described) = (rules(section), Said::new(), described(out));
+fn read(out: &Path, section: &str, motion: &Motion) -> SignAgreement {
+    let (rules, mut all, described) = (rules(section), SignAgreement::new(), described(out));
     for path in files(out) {
         let name = path.strip_prefix(out).unwrap().to_string_lossy().into_owned();
         let mut columns = if name.ends_with(".vtu") {
@@ -197,7 +197,7 @@ fn unit(axis: usize, size: f64) -> [f64; 3] {
 const TANGENT: [f64; 3] = [0.0, 1.0, 0.0];
 
 /// Asserts that these columns showed the sense of motion.
-fn told(all: &Said, form: &str, columns: &[&str]) {
+fn told(all: &SignAgreement, form: &str, columns: &[&str]) {
     for column in columns {
         let told = all.iter().any(|((file, name), said)| fits(file, form) && name == column && *said > 0.0);
         assert!(told, "`{column}` of {form} does not tell");

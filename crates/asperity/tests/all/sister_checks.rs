@@ -62,7 +62,7 @@ above = "1 mm/s"
 const KINDS: [&str; 5] =
     ["bodies in contact", "faults in rock", "faults between bodies", "bodies with mass", "spring-sliders"];
 
-fn of_kind(kind: &str) -> SceneText {
+fn scene_of_kind(kind: &str) -> SceneText {
     let aged = r#"{ kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, a = 0.01, b = 0.02, l = "10 um", v_ref = "1 um/s", v_initial = "1 um/s" }"#;
     match kind {
         "bodies in contact" => SceneText::new(SANDWICH).changed(&[
@@ -215,8 +215,8 @@ fn every_kind_of_run_has_the_doubts_that_the_page_says_and_no_cell_is_empty() {
 fn every_doubt_is_raised_in_each_of_its_kinds_and_not_without_its_cause() {
     let mut wrong = Vec::new();
     for (doubt, kind, change, part) in TRIALS {
-        let base = of_kind(kind).text().unwrap();
-        let changed = of_kind(kind).changed(&[*change]).text().unwrap();
+        let base = scene_of_kind(kind).text().unwrap();
+        let changed = scene_of_kind(kind).changed(&[*change]).text().unwrap();
         let (before, after) = (said(&base), said(&changed));
         if before.iter().any(|s| s.contains(part)) || !after.iter().any(|s| s.contains(part)) {
             wrong.push(format!("{doubt}, {kind}:\n  before {before:#?}\n  after {after:#?}"));
@@ -227,7 +227,7 @@ fn every_doubt_is_raised_in_each_of_its_kinds_and_not_without_its_cause() {
 
 /// Scenes whose slip outruns shear waves, by their kind of run, and what is said of where and of a remedy.
 fn runaways() -> Vec<(&'static str, String, [&'static str; 2])> {
-    let of = |kind, changes: &[Change<'_>]| of_kind(kind).changed(changes).text().unwrap();
+    let of = |kind, changes: &[Change<'_>]| scene_of_kind(kind).changed(changes).text().unwrap();
     // A drop of stress of more than half the shear modulus.
     let torn = [
         With("faults.main.normal", "60 GPa"),

@@ -537,7 +537,7 @@ fn inertial_sliders_come_to_rest_and_start_again() {
             plan.most_steps = 100_000;
             let run = run(&plan, &mut ()).unwrap();
             assert_eq!(run.outcome, Outcome::Stopped, "{law} {method}: {:?}", run.counts);
-            Entry::of(&run, 0).into_iter().nth(2).unwrap().interval.unwrap()
+            Entry::from_slider(&run, 0).into_iter().nth(2).unwrap().interval.unwrap()
         };
         // Radau's method and that of the library share nothing but the equations.
         let reference = last("radau5", 1e-10);

@@ -2,7 +2,7 @@
 
 use crate::common::sliders::{CYCLE, history, plan, planned, relative, written};
 use crate::common::{plain_evolutions, varied};
-use asperity::kinds::sliders::{Entry, Named, csv};
+use asperity::kinds::sliders::{Entry, NamedEvent, csv};
 use asperity_cycles::slider::{SliderState, Stability, critical_stiffness, run};
 use asperity_ode::Method;
 use asperity_vary::Change::{Add, With, Without};
@@ -111,12 +111,12 @@ fn stress_drop_and_states_of_events_are_those_of_spring_and_law() {
 #[test]
 fn events_as_csv_have_a_field_for_each_column() {
     let plan = plan(CYCLE);
-    let events = Named::all(&run(&plan, &mut ()).unwrap(), &["a, \"b\"".to_string()]);
+    let events = NamedEvent::all(&run(&plan, &mut ()).unwrap(), &["a, \"b\"".to_string()]);
     let text = csv(&events);
     let mut lines = text.lines();
     let head: Vec<&str> = lines.next().unwrap().split(',').collect();
     assert_eq!(head.len(), 16);
-    for (line, Named { entry: e, .. }) in lines.zip(&events) {
+    for (line, NamedEvent { entry: e, .. }) in lines.zip(&events) {
         assert_eq!(line.matches("\"a, \"\"b\"\"\"").count(), 1, "{line}");
         // The name has a comma of its own.
         let fields: Vec<Option<f64>> = line.split(',').map(|v| v.parse().ok()).collect();

@@ -32,7 +32,7 @@ forces.right = {{ set = "B.right" }}
     )
 }
 
-fn of_stage<'a>(report: &'a RunReport, stage: &str) -> &'a SpringResult {
+fn spring_in_stage<'a>(report: &'a RunReport, stage: &str) -> &'a SpringResult {
     report.springs.iter().find(|s| s.stage == stage).unwrap()
 }
 
@@ -46,7 +46,7 @@ conditions = [{ set = "B.left", x = 0 }, { set = "B.bottom", y = 0 }, { set = "B
 "#;
     for stepper in ["implicit", "static-explicit"] {
         let (report, record) = simulate(&sheet(stages, stepper));
-        let spring = of_stage(&report, "draw");
+        let spring = spring_in_stage(&report, "draw");
         assert_eq!((spring.spring.name().as_str(), spring.unit.as_str()), ("B.right.x", "N"));
         let force = SPRING * SHEET / (SPRING + SHEET) * 2e-3;
         close(spring.values.force, force, 1e-10);
@@ -91,7 +91,7 @@ fn nothing_jumps_when_a_spring_takes_over_or_changes() {
             ("stiffen", 1e-3, further),
             ("go on", 1e-3, further),
         ] {
-            let SpringResult { values, .. } = of_stage(&report, name);
+            let SpringResult { values, .. } = spring_in_stage(&report, name);
             assert!((values.load_point - way).abs() < 1e-15, "{name}: {values:?}");
             close(values.displacement, 1e-3 + moved, 1e-9);
             close(values.force, SHEET * (1e-3 + moved), 1e-9);
@@ -117,7 +117,8 @@ fn a_set_on_a_spring_moves_as_one_on_both_paths_and_its_load_cell_reads_the_fric
         };
         let (condensed, record) = simulate(&scene);
         let (full, _) = simulate(&varied(&scene, &[Add("time.path", "full")]));
-        let (one, other) = (&of_stage(&condensed, "shear").values, &of_stage(&full, "shear").values);
+        let (one, other) =
+            (&spring_in_stage(&condensed, "shear").values, &spring_in_stage(&full, "shear").values);
         // Forward steps leave 1e-5 of the largest force.
         let tolerance = if forward { 1e-4 } else { 1e-9 };
         close(one.force, other.force, tolerance);

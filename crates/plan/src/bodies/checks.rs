@@ -5,7 +5,7 @@ use super::cohesive::{self, Shortest, pressed};
 use super::friction::Friction;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Interface as Spec, Scene};
-use crate::shared::checks::of_model::{self, Driven, body_name, field_bytes, machines};
+use crate::shared::checks::of_model::{self, DrivenSurface, body_name, field_bytes, machines};
 use crate::shared::checks::{Checks, Cost, InterfaceCheck, MachineCheck, WeakeningCheck, rates};
 use crate::shared::loading::Stage;
 use crate::shared::model::{self, Model};
@@ -22,15 +22,15 @@ const VALUES: [usize; 2] = [3 + 1, 6 + 2];
 ///
 /// # Errors
 /// [`Diagnostic`] at a set without faces.
-pub(super) fn of<const D: usize>(
+pub(super) fn collect<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     (interfaces, frictions): (&[PlannedInterface], &[Option<Friction>]),
     stages: &[Stage],
     (memory_bytes, solver): (usize, &Solver),
 ) -> Result<Checks, Diagnostic> {
-    let mut checks = of_model::of(scene, model)?;
-    let surfaces: Vec<Driven> =
+    let mut checks = of_model::checks(scene, model)?;
+    let surfaces: Vec<DrivenSurface> =
         interfaces.iter().map(|i| driven(scene, model, i)).collect::<Result<_, _>>()?;
     let machines = stages.last().map_or_else(Vec::new, |stage| machines(stage, &surfaces));
     for (k, planned) in interfaces.iter().enumerate() {
@@ -52,7 +52,7 @@ pub(super) fn of<const D: usize>(
     checks.cost = Cost {
         memory_bytes: Some(memory_bytes),
         steps: stages.iter().map(|s| s.steps).sum(),
-        step_seconds: solver.operations.map(rates::of_bodies),
+        step_seconds: solver.operations.map(rates::body_step),
         fields: Some(fields),
         field_bytes: Some(field_bytes(model, VALUES)),
         profiles: Some(
@@ -68,7 +68,7 @@ fn driven<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     planned: &PlannedInterface,
-) -> Result<Driven, Diagnostic> {
+) -> Result<DrivenSurface, Diagnostic> {
     let spec = &scene.interfaces[&planned.name];
     let rubs = planned.law.as_ref().is_some_and(|law| !law.bonded());
     let sides = model::sides(model, &spec.slave)?;
@@ -83,7 +83,7 @@ fn driven<const D: usize>(
     }
     let size = surface::length(&sum);
     let normal = if size > 0.0 { sum.map(|c| c / size) } else { sum };
-    Ok(Driven { bodies: [body_name(&spec.slave), body_name(&spec.master)], normal, area, rubs })
+    Ok(DrivenSurface { bodies: [body_name(&spec.slave), body_name(&spec.master)], normal, area, rubs })
 }
 
 /// Lengths of friction that weakens, and the distance of points, where the fewest points lie on the cohesive zone.

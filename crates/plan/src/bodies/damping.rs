@@ -15,7 +15,7 @@ const SAME: f64 = 1e-9;
 ///
 /// # Errors
 /// [`Diagnostic`] if it is that of the bodies, and a density is missing or impedances differ along a side.
-pub fn of<const D: usize>(
+pub fn radiation<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     (name, spec): (&str, &Interface),

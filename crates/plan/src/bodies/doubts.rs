@@ -1,7 +1,7 @@
 //! Warnings about a scene whose bodies have been built and whose stages have been resolved.
 
 use super::friction::Friction;
-use super::penalty::{self, Softer};
+use super::penalty::{self, SofterCells};
 use super::{PlannedInterface, StartGap, Stepping, coarse, cohesive, damping, overlaps, start_gaps};
 use crate::doubts as shared;
 use crate::reading::diagnostic::Diagnostic;
@@ -20,7 +20,7 @@ const BOUNDS_NOTHING: f64 = 0.1;
 ///
 /// # Errors
 /// [`Diagnostic`] for sides that are certainly wrong.
-pub fn of<const D: usize>(
+pub fn gaps_and_warnings<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     (interfaces, frictions): (&[PlannedInterface], &[Option<Friction>]),
@@ -33,7 +33,7 @@ pub fn of<const D: usize>(
     let events = scene.events.as_ref();
     // Stages before the last press bodies.
     let loading = stages.last().map_or(0.0, Stage::largest_rate);
-    doubts.extend(events.and_then(|e| shared::thresholds(e, thresholds::of(Some(e)), loading, false)));
+    doubts.extend(events.and_then(|e| shared::thresholds(e, thresholds::from_spec(Some(e)), loading, false)));
     for (planned, friction) in interfaces.iter().zip(frictions) {
         let spec = &scene.interfaces[&planned.name];
         let sides = model::sides(model, &spec.slave)?;
@@ -42,7 +42,8 @@ pub fn of<const D: usize>(
             let h = model.element_size(body, sides);
             let bonded = planned.law.as_ref().is_some_and(|l| l.bonded());
             let facing = model.body_of(spec.master.get_ref()).map_or(body, |b| &model.bodies[b]);
-            let softer = Softer::of(model, (body, sides), (facing, model::sides(model, &spec.master)?));
+            let softer =
+                SofterCells::from_sides(model, (body, sides), (facing, model::sides(model, &spec.master)?));
             doubts.extend(penalty::doubts(&planned.name, &spec.enforcement, &softer));
             measured.0.overlap_traction = overlaps::traction(model, &measured, (spec, planned), &softer);
             let start = &measured.0;

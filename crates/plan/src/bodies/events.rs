@@ -30,7 +30,7 @@ pub struct EventPlan {
 ///
 /// # Errors
 /// [`Diagnostic`] if no interface can have events.
-pub fn of<const D: usize>(
+pub fn plan<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     interfaces: &[PlannedInterface],
@@ -59,7 +59,7 @@ pub fn of<const D: usize>(
         }));
     }
     let stop_after = asked.stop_after.as_ref().map(|n| *n.get_ref());
-    let thresholds = thresholds::of(Some(asked));
+    let thresholds = thresholds::from_spec(Some(asked));
     Ok(Some(EventPlan { thresholds, stop_after, interfaces: own, points, ground }))
 }
 

@@ -11,7 +11,11 @@ use asperity_scene::defaults;
 ///
 /// # Errors
 /// [`Diagnostic`] for a material without density, and for loads as fast as the slip rate at which bodies gain inertia.
-pub fn of<const D: usize>(scene: &Scene, model: &Model<D>, loading: f64) -> Result<Option<Mass>, Diagnostic> {
+pub fn mass<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    loading: f64,
+) -> Result<Option<Mass>, Diagnostic> {
     let Some(settings) = scene.inertia() else { return Ok(None) };
     let mut density = vec![0.0; model.mesh.blocks.len()];
     let mut velocity = vec![0.0; model.dofs()];
@@ -37,7 +41,7 @@ pub fn of<const D: usize>(scene: &Scene, model: &Model<D>, loading: f64) -> Resu
     }
     let handover = match *scene.time.stepper.get_ref() {
         Stepper::Auto => {
-            let handover::Bounds { above, below, kinetic } = handover::of(scene, loading)?;
+            let handover::Bounds { above, below, kinetic } = handover::bounds(scene, loading)?;
             let wait = 2.0 * model.scale / impedance::slowest(model, &density);
             Some(Handover { above, below, kinetic, wait })
         }

@@ -2,7 +2,7 @@
 
 use super::enforcement::{enforced, in_pascal_per_metre};
 use super::friction::Friction;
-use super::penalty::{self, Softer};
+use super::penalty::{self, SofterCells};
 use super::{PlannedInterface, cohesive, damping, pressed, watch};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Interface as InterfaceSpec, Measure, Scene, Sliding};
@@ -48,12 +48,12 @@ pub fn plan<const D: usize>(
             "an interface lies between two sides that can separate; `split` in a mesh makes them",
         ));
     }
-    let damping = damping::of(scene, model, (name, spec), (slave_sides, master_sides))?;
+    let damping = damping::radiation(scene, model, (name, spec), (slave_sides, master_sides))?;
     let friction = Friction::choose(scene, model, (name, spec), &slave)?;
     let (law, watch) = match spec.law.as_ref().zip(friction.as_ref()) {
         Some((law, friction)) => {
             let sides = (slave_sides, master_sides);
-            let watch = watch::of(scene, model, friction.laws(), (sides, damping), loading)?;
+            let watch = watch::limits(scene, model, friction.laws(), (sides, damping), loading)?;
             (Some(friction.build(law)?), watch)
         }
         None => (None, Watch::default()),
@@ -62,7 +62,7 @@ pub fn plan<const D: usize>(
     let young_per_size = model.young_per_size(body, slave_sides);
     let enforced = enforced(&spec.enforcement, young_per_size, model.element_size(body, slave_sides));
     let facing = model.body_of(spec.master.get_ref()).map_or(body, |b| &model.bodies[b]);
-    let softer = Softer::of(model, (body, slave_sides), (facing, master_sides));
+    let softer = SofterCells::from_sides(model, (body, slave_sides), (facing, master_sides));
     penalty::check(name, spec, &softer)?;
     let planned = PlannedInterface {
         name: name.to_string(),
@@ -86,7 +86,7 @@ pub fn plan<const D: usize>(
         law,
         damping,
         blamed: penalty::blamed(name, &spec.enforcement, &softer),
-        pressed: pressed::of(scene, model, (name, spec), slave_sides)?,
+        pressed: pressed::initial_tractions(scene, model, (name, spec), slave_sides)?,
         watch: Watch { coarse_beyond: resolved.as_ref().and_then(|r| r.refused_beyond), ..watch },
         resolved,
         probes: scene.output.probes.get(name).map_or(0, |p| *p.get_ref()),

@@ -7,8 +7,8 @@
 //! `p = max(-g - s, 0)/(1/E_n + h/E)` and p̄ its mean over the area, s follows by bisection. A uniform overlap g of held blocks
 //! gives `E g/H`, as it should.
 
-use super::penalty::Softer;
-use super::start_gaps::{Measured, thickness};
+use super::penalty::SofterCells;
+use super::start_gaps::{MeasuredGaps, thickness};
 use super::{PlannedInterface, SHARE, StartGap};
 use crate::reading::scene::model::{EnforcementKind, Interface as Spec, Measure};
 use crate::shared::loading::Stage;
@@ -28,9 +28,9 @@ const HALVINGS: usize = 60;
 /// Estimate of the largest normal traction without load \[Pa\].
 pub fn traction<const D: usize>(
     model: &Model<D>,
-    (start, points): &Measured,
+    (start, points): &MeasuredGaps,
     (spec, planned): (&Spec, &PlannedInterface),
-    softer: &Softer,
+    softer: &SofterCells,
 ) -> f64 {
     let most = -start.gap[0];
     if most <= 0.0 {
@@ -67,7 +67,7 @@ fn depth<const D: usize>(model: &Model<D>, planned: &PlannedInterface) -> f64 {
 /// Warning about overlaps that press more than the scene may mean; slave cells have size `h`.
 pub fn doubt(
     (start, spec, planned): (&StartGap, &Spec, &PlannedInterface),
-    (softer, h): (&Softer, f64),
+    (softer, h): (&SofterCells, f64),
     (stages, load): (&[Stage], Option<f64>),
 ) -> Option<Warning> {
     let [least, largest] = start.gap;

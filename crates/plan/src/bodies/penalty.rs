@@ -31,7 +31,7 @@ const MOST_ROUNDING: f64 = 1e-6;
 
 /// The softer row of cells on the two sides of an interface.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Softer {
+pub struct SofterCells {
     /// Body of these cells.
     pub body: String,
     /// E/h of the slave over that of these cells.
@@ -44,10 +44,10 @@ pub struct Softer {
     pub extent: f64,
 }
 
-impl Softer {
+impl SofterCells {
     /// Softer row of cells of the slave and the master body.
     #[must_use]
-    pub fn of<const D: usize>(
+    pub fn from_sides<const D: usize>(
         model: &Model<D>,
         slave: (&Body<D>, &[Side]),
         master: (&Body<D>, &[Side]),
@@ -94,7 +94,7 @@ impl Softer {
 }
 
 /// A penalty given in a scene, with its value.
-struct Given<'a> {
+struct PenaltyValue<'a> {
     interface: &'a str,
     key: &'static str,
     kind: EnforcementKind,
@@ -103,9 +103,9 @@ struct Given<'a> {
     value: f64,
 }
 
-impl<'a> Given<'a> {
+impl<'a> PenaltyValue<'a> {
     /// Penalties of an interface.
-    fn of(name: &'a str, spec: &'a Enforcement, softer: &Softer) -> Vec<Self> {
+    fn from_enforcement(name: &'a str, spec: &'a Enforcement, softer: &SofterCells) -> Vec<Self> {
         let keys = [("normal", Some(&spec.normal)), ("tangential", spec.tangential.as_ref())];
         let slave = softer.young_per_size * softer.contrast;
         let given = |(key, penalty): (&'static str, Option<&'a Spanned<Penalty>>)| {
@@ -116,7 +116,7 @@ impl<'a> Given<'a> {
         keys.into_iter().filter_map(given).collect()
     }
 
-    fn words(&self, softer: &Softer) -> String {
+    fn words(&self, softer: &SofterCells) -> String {
         format!(
             "the {} penalty of interface `{}` is {:.3e} Pa/m, {:.1e} E/h of {}",
             self.key,
@@ -136,8 +136,8 @@ impl<'a> Given<'a> {
 ///
 /// # Errors
 /// [`Diagnostic`] at the penalty.
-pub fn check(name: &str, spec: &InterfaceSpec, softer: &Softer) -> Result<(), Diagnostic> {
-    let beyond = |given: &Given<'_>| {
+pub fn check(name: &str, spec: &InterfaceSpec, softer: &SofterCells) -> Result<(), Diagnostic> {
+    let beyond = |given: &PenaltyValue<'_>| {
         let error = softer.factor(given.value) * f64::EPSILON * softer.extent;
         (error > MOST_ROUNDING).then(|| {
             Diagnostic::at(
@@ -151,13 +151,16 @@ pub fn check(name: &str, spec: &InterfaceSpec, softer: &Softer) -> Result<(), Di
             )
         })
     };
-    Given::of(name, &spec.enforcement, softer).iter().find_map(beyond).map_or(Ok(()), Err)
+    PenaltyValue::from_enforcement(name, &spec.enforcement, softer)
+        .iter()
+        .find_map(beyond)
+        .map_or(Ok(()), Err)
 }
 
 /// Warnings about penalties far from the stiffness of the softer side.
 #[must_use]
-pub fn doubts(name: &str, spec: &Enforcement, softer: &Softer) -> Vec<Warning> {
-    let doubt = |given: &Given<'_>| {
+pub fn doubts(name: &str, spec: &Enforcement, softer: &SofterCells) -> Vec<Warning> {
+    let doubt = |given: &PenaltyValue<'_>| {
         let k = softer.factor(given.value);
         let what = if k < SOFT {
             format!("it yields like a layer of {} of the material", brief(softer.size / k))
@@ -169,13 +172,13 @@ pub fn doubts(name: &str, spec: &Enforcement, softer: &Softer) -> Vec<Warning> {
         let message = format!("{}: {what}", given.words(softer));
         Some(Warning::at(given.penalty.span(), message, softer.help(given.key, given.kind)))
     };
-    Given::of(name, spec, softer).iter().filter_map(doubt).collect()
+    PenaltyValue::from_enforcement(name, spec, softer).iter().filter_map(doubt).collect()
 }
 
 /// Description of the largest penalty if it is large enough to impair convergence; for runs that stop.
 #[must_use]
-pub fn blamed(name: &str, spec: &Enforcement, softer: &Softer) -> Option<String> {
-    let given = Given::of(name, spec, softer);
+pub fn blamed(name: &str, spec: &Enforcement, softer: &SofterCells) -> Option<String> {
+    let given = PenaltyValue::from_enforcement(name, spec, softer);
     let largest = given.iter().rev().max_by(|a, b| a.value.total_cmp(&b.value))?;
     (softer.factor(largest.value) > STIFF)
         .then(|| format!("{}; {}", largest.words(softer), softer.help(largest.key, largest.kind)))

@@ -15,12 +15,12 @@ use std::collections::BTreeMap;
 /// [`Diagnostic`] with the position in the scene.
 pub fn picture(scene: &Scene) -> Result<MeshPicture, Diagnostic> {
     match scene.kinematics.get_ref().dimension() {
-        2 => of::<2>(scene),
-        _ => of::<3>(scene),
+        2 => mesh_picture::<2>(scene),
+        _ => mesh_picture::<3>(scene),
     }
 }
 
-fn of<const D: usize>(scene: &Scene) -> Result<MeshPicture, Diagnostic> {
+fn mesh_picture<const D: usize>(scene: &Scene) -> Result<MeshPicture, Diagnostic> {
     let (title, in_space) = (scene.title.clone(), D == 3);
     if scene.bodies.is_empty() {
         return Ok(MeshPicture { title, in_space, ..MeshPicture::default() });

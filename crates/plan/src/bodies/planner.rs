@@ -36,7 +36,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         planned.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
     let path = path::choose(scene, &model, (&interfaces, &stages))?;
     let control = stepping::control(scene, &stages);
-    let mass = inertia::of(scene, &model, loading)?;
+    let mass = inertia::mass(scene, &model, loading)?;
     let mut remarks = match mass {
         None => restraint::check(scene, &model, &stages, &interfaces)?,
         // Without inertia for the time being, bodies must be held.
@@ -44,17 +44,20 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         // Mass alone resists the motion of bodies that nothing holds.
         Some(_) => Vec::new(),
     };
-    remarks.extend(sizes::of_files(scene, &model));
-    let (followed, passed_over) = courses::of(scene);
+    remarks.extend(sizes::file_extents(scene, &model));
+    let (followed, passed_over) = courses::remarks_and_warnings(scene);
     remarks.extend(followed);
     remarks.extend(cuts::notes(scene, &model.mesh));
     remarks.extend(meshes::left_out(&model));
     remarks.extend(frictions.iter().flatten().flat_map(|f| f.notes.iter().cloned()));
-    let (start_gaps, doubts) = doubts::of(scene, &model, (&interfaces, &frictions), &stages, &stepping)?;
-    let (balance, unbalanced) = start_balance::of(scene, &model, (&interfaces, &stages), &stepping)?;
+    let (start_gaps, doubts) =
+        doubts::gaps_and_warnings(scene, &model, (&interfaces, &frictions), &stages, &stepping)?;
+    let (balance, unbalanced) =
+        start_balance::remarks_and_warning(scene, &model, (&interfaces, &stages), &stepping)?;
     remarks.extend(balance);
     let solver = linear_solver::choose(scene, &model, &interfaces, &stages, path, &stepping)?;
-    let mut summary = summary::of(scene, &model, (&interfaces, &stages), path, &stepping, &solver, remarks);
+    let mut summary =
+        summary::summarise(scene, &model, (&interfaces, &stages), path, &stepping, &solver, remarks);
     forecast::fits(scene, summary.memory_bytes)?;
     summary.start_gaps = start_gaps;
     if let Some(mass) = &mass {
@@ -63,11 +66,11 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     let of_files = frictions.iter().flatten().flat_map(|f| f.warnings.iter().cloned());
     let doubts = doubts.into_iter().chain(unbalanced).chain(of_files).chain(passed_over);
     crate::doubts::add(&mut summary.warnings, doubts);
-    let initial_stress = model.bodies.iter().map(|b| initial_stress::of_body(scene, &b.name)).collect();
+    let initial_stress = model.bodies.iter().map(|b| initial_stress::body_field(scene, &b.name)).collect();
     let samples = samples::find(scene, &model)?;
     let checks =
-        checks::of(scene, &model, (&interfaces, &frictions), &stages, (summary.memory_bytes, &solver))?;
-    let events = events::of(scene, &model, &interfaces)?;
+        checks::collect(scene, &model, (&interfaces, &frictions), &stages, (summary.memory_bytes, &solver))?;
+    let events = events::plan(scene, &model, &interfaces)?;
     let thetas = frictions.iter().map(|f| f.as_ref().map_or_else(Vec::new, Friction::thetas)).collect();
     Ok(Plan {
         title: scene.title.clone(),

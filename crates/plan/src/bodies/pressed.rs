@@ -18,7 +18,7 @@ const BALANCED: f64 = 1e-6;
 ///
 /// # Errors
 /// [`Diagnostic`] if a body has no initial stress, or if both bodies exert different tractions.
-pub fn of<const D: usize>(
+pub fn initial_tractions<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     (name, spec): (&str, &Spec),
@@ -31,7 +31,7 @@ pub fn of<const D: usize>(
         return Ok(None);
     };
     let field = |body: &Body<D>| {
-        initial_stress::of_body(scene, &body.name).ok_or_else(|| {
+        initial_stress::body_field(scene, &body.name).ok_or_else(|| {
             let message = format!(
                 "interface `{name}` starts with an initial stress, and body `{}` has none",
                 body.name

@@ -26,7 +26,7 @@ const ROUNDING: f64 = 1e-9;
 const HELD: f64 = 1e-9;
 
 /// Unbalanced force of the bodies.
-struct Left<const D: usize> {
+struct UnbalancedForce<const D: usize> {
     /// Sum of the unbalanced forces over the largest stress times a face of the size of the body \[-\].
     share: f64,
     /// Largest unbalanced force \[N; N/m\], with its node and axis.
@@ -45,7 +45,7 @@ struct Start {
 ///
 /// # Errors
 /// [`Diagnostic`] for an interface that cannot be built.
-pub fn of<const D: usize>(
+pub fn remarks_and_warning<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     (interfaces, stages): (&[PlannedInterface], &[Stage]),
@@ -58,7 +58,7 @@ pub fn of<const D: usize>(
         return Ok((Vec::new(), None));
     }
     let mut remarks = Vec::new();
-    let mut r = of_bodies(model, stage);
+    let mut r = unbalanced_forces(model, stage);
     let mut slips = false;
     for planned in interfaces {
         if let Some(start) = pressed(scene, model, stepping, (planned, stage), &mut r)? {
@@ -66,7 +66,7 @@ pub fn of<const D: usize>(
             remarks.push(start.remark);
         }
     }
-    let left = of_free(model, stage, &r, stress);
+    let left = largest_unbalance(model, stage, &r, stress);
     if left.share <= ROUNDING {
         let until = if slips { " until friction gives way" } else { "" };
         remarks.push(format!(
@@ -97,7 +97,7 @@ fn unit<const D: usize>(model: &Model<D>) -> &'static str {
 }
 
 /// Internal minus external forces of the bodies at zero displacement and time zero.
-fn of_bodies<const D: usize>(model: &Model<D>, stage: &Stage) -> Vec<f64> {
+fn unbalanced_forces<const D: usize>(model: &Model<D>, stage: &Stage) -> Vec<f64> {
     let (mut r, u) = (vec![0.0; model.dofs()], vec![0.0; model.dofs()]);
     for channel in &stage.constraints(&u).channels {
         let amplitude = channel.amplitude.value(stage.start);
@@ -197,7 +197,7 @@ fn slipping(law: &dyn Law, (points, borne, old): (&[usize], &[(f64, f64)], &[f64
 
 /// Largest component of the initial stress at any node \[Pa\].
 fn largest_stress<const D: usize>(scene: &Scene, model: &Model<D>) -> f64 {
-    let fields = model.bodies.iter().filter_map(|b| Some((b, initial_stress::of_body(scene, &b.name)?)));
+    let fields = model.bodies.iter().filter_map(|b| Some((b, initial_stress::body_field(scene, &b.name)?)));
     fields
         .flat_map(|(b, field)| model.mesh.nodes[b.nodes.clone()].iter().map(move |x| field.at(x)))
         .flat_map(|s| s.into_iter().map(f64::abs))
@@ -205,9 +205,14 @@ fn largest_stress<const D: usize>(scene: &Scene, model: &Model<D>) -> f64 {
 }
 
 /// Unbalanced force at free degrees of freedom, for the body where it is largest.
-fn of_free<const D: usize>(model: &Model<D>, stage: &Stage, r: &[f64], stress: f64) -> Left<D> {
+fn largest_unbalance<const D: usize>(
+    model: &Model<D>,
+    stage: &Stage,
+    r: &[f64],
+    stress: f64,
+) -> UnbalancedForce<D> {
     let components = model.idealisation.components();
-    let mut left = Left { share: 0.0, largest: (0.0, 0, 0) };
+    let mut left = UnbalancedForce { share: 0.0, largest: (0.0, 0, 0) };
     for body in &model.bodies {
         let free = body.dofs.clone().filter(|d| stage.fixed.binary_search(d).is_err());
         let (mut sum, mut largest) = (0.0, (0.0, body.nodes.start, 0));
@@ -219,7 +224,7 @@ fn of_free<const D: usize>(model: &Model<D>, stage: &Stage, r: &[f64], stress: f
         }
         let share = sum / (stress * face(model, body.nodes.clone()));
         if share > left.share {
-            left = Left { share, largest };
+            left = UnbalancedForce { share, largest };
         }
     }
     left

@@ -18,7 +18,7 @@ const ROUNDING: f64 = 1e-12;
 const REACH: f64 = 3.0;
 
 /// Initial gaps of an interface, with gap \[m\] and area of each facing point.
-pub type Measured = (StartGap, Vec<(f64, f64)>);
+pub type MeasuredGaps = (StartGap, Vec<(f64, f64)>);
 
 /// Measures the initial gaps of an interface.
 ///
@@ -29,7 +29,7 @@ pub fn measure<const D: usize>(
     stepping: &Stepping,
     planned: &PlannedInterface,
     (spec, sides): (&Spec, &[Side]),
-) -> Result<Measured, Diagnostic> {
+) -> Result<MeasuredGaps, Diagnostic> {
     let number: Vec<usize> = (0..model.dofs()).collect();
     let mut declared = declared::spec(model, stepping, planned, &number, 0.0, 0);
     // Positions of the sides depend neither on the law nor on the enforcement.

@@ -4,7 +4,7 @@ use super::Summary;
 use super::path::{finite, full_because};
 use crate::reading::scene::model::{Formulation, Kinematics, Scene};
 use crate::shared::amounts;
-use crate::shared::held::Held;
+use crate::shared::held::ModelMemory;
 use asperity_contact::TimeRule;
 use asperity_fem::nonlinear::Material;
 use asperity_mechanics::solver::{Solver, retained as retained_by};
@@ -13,7 +13,7 @@ use asperity_mechanics::{
 };
 
 /// Summary of a plan, except for the findings about its initial state.
-pub fn of<const D: usize>(
+pub fn summarise<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     (interfaces, stages): (&[PlannedInterface], &[Stage]),
@@ -77,7 +77,7 @@ pub fn of<const D: usize>(
         dofs: model.dofs(),
         system_dofs: system_dofs + unknowns,
         state_bytes: (!interfaces.is_empty()).then_some(state_bytes),
-        memory_bytes: Held::by(model).with_systems(solver.bytes, path == Path::Condensed),
+        memory_bytes: ModelMemory::new(model).with_systems(solver.bytes, path == Path::Condensed),
     }
 }
 

@@ -22,7 +22,7 @@ const UNIQUE: f64 = 0.5;
 ///
 /// # Errors
 /// [`Diagnostic`] if a body has no material.
-pub fn of<const D: usize>(
+pub fn limits<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     laws: &[LawChoice],

@@ -11,7 +11,7 @@ mod unlike;
 pub use damping::damping;
 pub use fluid::{Fluid, fluid};
 pub use nucleation::nucleation;
-pub use pulse::{Pushed, pulse};
+pub use pulse::{PulsePoint, pulse};
 pub use thresholds::thresholds;
 pub use unlike::unlike;
 

@@ -12,7 +12,7 @@ const STILL: f64 = 1e-3;
 
 /// A point on which a pulse acts, at the start.
 #[derive(Clone, Copy, Debug)]
-pub struct Pushed {
+pub struct PulsePoint {
     /// Amplitude of the pulse \[Pa\].
     pub amplitude: f64,
     /// Normal traction \[Pa\].
@@ -28,9 +28,9 @@ pub struct Pushed {
 /// A warning for a pulse that hardly changes slip rates, that brings no point to its strength, that no friction holds, or that acts on
 /// hardly any point.
 #[must_use]
-pub fn pulse(asked: &Asked, points: impl Iterator<Item = Pushed> + Clone) -> Option<Warning> {
+pub fn pulse(asked: &Asked, points: impl Iterator<Item = PulsePoint> + Clone) -> Option<Warning> {
     let points = points.filter(|p| p.amplitude != 0.0);
-    let over = |scale: &dyn Fn(&Pushed) -> Option<f64>| {
+    let over = |scale: &dyn Fn(&PulsePoint) -> Option<f64>| {
         let all = points.clone().filter_map(|p| Some(p.amplitude.abs() / scale(&p)?));
         all.reduce(f64::max)
     };

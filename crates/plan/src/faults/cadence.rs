@@ -50,7 +50,7 @@ pub struct Cadence {
 
 /// Limits given in the scene; the others have defaults.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Asked {
+pub struct CadenceLimits {
     /// Change of log10 of the slip rate; see [`Cadence`].
     pub decades: Option<f64>,
     /// Slip \[m\].
@@ -67,7 +67,7 @@ pub struct Asked {
 
 impl Cadence {
     /// Limits for a run of duration `end` \[s\] whose events begin at the slip rate `on` \[m/s\]; `length` is the smallest characteristic slip \[m\].
-    pub fn new(asked: Asked, end: f64, on: f64, length: Option<f64>) -> Self {
+    pub fn new(asked: CadenceLimits, end: f64, on: f64, length: Option<f64>) -> Self {
         let between = BETWEEN.min(end / LEAST_PROFILES);
         Self {
             decades: asked.decades.unwrap_or(defaults::DECADES),
@@ -163,7 +163,7 @@ pub struct Gauge {
 
 impl Gauge {
     /// Gauge of a file of this size without rows.
-    pub fn of(bytes: u64) -> Self {
+    pub fn from_size(bytes: u64) -> Self {
         Self { bytes, ..Self::default() }
     }
 

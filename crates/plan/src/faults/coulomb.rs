@@ -30,7 +30,7 @@ pub struct Change {
 
 impl Change {
     /// Change under these tractions with an effective friction coefficient.
-    pub(super) fn of([shear, normal]: [f64; 2], friction: f64) -> Self {
+    pub(super) fn from_tractions([shear, normal]: [f64; 2], friction: f64) -> Self {
         Self { shear, normal, coulomb: shear - friction * normal }
     }
 }
@@ -46,7 +46,7 @@ impl ReceiverPlane {
             zx * n[0] + yz * n[1] + zz * n[2],
         ];
         let along = |v: &[f64; 3]| traction.iter().zip(v).map(|(t, v)| t * v).sum::<f64>();
-        Change::of([along(&self.slip), -along(n)], self.friction)
+        Change::from_tractions([along(&self.slip), -along(n)], self.friction)
     }
 }
 
@@ -114,7 +114,11 @@ impl Coulomb {
         let operator = self.patches.operator(&self.rock, slip, (&geometry, Form::Fitting));
         let of = |slip: &&[f64]| {
             let [shear, normal] = tractions(operator.as_ref(), slip);
-            shear.into_iter().zip(normal).map(|(s, f)| Change::of([s, f], self.plane.friction)).collect()
+            shear
+                .into_iter()
+                .zip(normal)
+                .map(|(s, f)| Change::from_tractions([s, f], self.plane.friction))
+                .collect()
         };
         slips.iter().map(of).collect()
     }

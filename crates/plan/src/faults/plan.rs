@@ -196,7 +196,7 @@ pub struct Plan {
 }
 
 /// Description of the files of events.
-fn of_events(most: usize) -> String {
+fn describe_events(most: usize) -> String {
     match most {
         0 => "no files of single events".into(),
         1 => "files of the first event in `events`".into(),
@@ -205,7 +205,7 @@ fn of_events(most: usize) -> String {
 }
 
 /// Description of a pulse.
-fn of_pulse(pulse: &Pulse) -> String {
+fn describe_pulse(pulse: &Pulse) -> String {
     let points = pulse.amplitude.iter().filter(|a| **a != 0.0).count();
     let most = pulse.amplitude.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
     let (mega, rise) = (most / 1e6, pulse.rise);
@@ -280,7 +280,7 @@ impl Plan {
             );
         }
         processes.each::<Diffusion>().for_each(|fluid| line("physics", fluid.words()));
-        processes.each::<Pulse>().for_each(|pulse| line("physics", of_pulse(pulse)));
+        processes.each::<Pulse>().for_each(|pulse| line("physics", describe_pulse(pulse)));
         for fault in &self.faults {
             if let Some(heat) = &fault.heat {
                 line("physics", heat.words(&fault.name));
@@ -320,7 +320,7 @@ impl Plan {
 
     /// Outputs of the run, as text.
     fn outputs(&self) -> Vec<String> {
-        let mut all = vec![self.cadence.words(), of_events(self.event_files)];
+        let mut all = vec![self.cadence.words(), describe_events(self.event_files)];
         if !self.receivers.all.is_empty() {
             let place = if self.dofs > 0 { "bodies" } else { "rock, which move with the plates" };
             all.push(format!("{} receivers in the {place}", self.receivers.all.len()));

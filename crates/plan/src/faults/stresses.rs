@@ -5,12 +5,12 @@ use super::coulomb::{Change, ReceiverPlane};
 use asperity_mechanics::Model;
 
 /// Cells that have stresses.
-trait Stressed: Send + Sync + std::fmt::Debug {
+trait CellStresses: Send + Sync + std::fmt::Debug {
     /// Stress of each cell under displacements of all nodes \[m\], in the order of the cells of the bodies \[Pa\].
     fn stresses(&self, displacement: &[f64]) -> Vec<[f64; 6]>;
 }
 
-impl<const D: usize> Stressed for Model<D> {
+impl<const D: usize> CellStresses for Model<D> {
     fn stresses(&self, displacement: &[f64]) -> Vec<[f64; 6]> {
         let blocks = self.bodies.iter().flat_map(|body| &self.blocks[body.blocks.clone()]);
         let linear = blocks.filter_map(|block| block.linear());
@@ -23,7 +23,7 @@ impl<const D: usize> Stressed for Model<D> {
 pub struct BodyStresses {
     /// Direction of the planes.
     pub plane: ReceiverPlane,
-    cells: Box<dyn Stressed>,
+    cells: Box<dyn CellStresses>,
 }
 
 impl BodyStresses {

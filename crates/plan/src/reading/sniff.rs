@@ -109,11 +109,11 @@ pub(crate) fn kind(bytes: &[u8]) -> Option<Kind> {
     }
     // A text may be cut within a character.
     match std::str::from_utf8(start) {
-        Ok(text) => of_text(text),
-        Err(error) if error.error_len().is_none() => of_text(&String::from_utf8_lossy(start)),
+        Ok(text) => kind_of_text(text),
+        Err(error) if error.error_len().is_none() => kind_of_text(&String::from_utf8_lossy(start)),
         Err(_) if half_are_zero(start) => Some(Kind::Utf16),
         Err(_) if start.contains(&0) => Some(Kind::Binary),
-        Err(_) => of_text(&String::from_utf8_lossy(start)).or(Some(Kind::OtherCoding)),
+        Err(_) => kind_of_text(&String::from_utf8_lossy(start)).or(Some(Kind::OtherCoding)),
     }
 }
 
@@ -132,7 +132,7 @@ fn half_are_zero(bytes: &[u8]) -> bool {
 }
 
 /// Kind of a text, by its first lines.
-fn of_text(text: &str) -> Option<Kind> {
+fn kind_of_text(text: &str) -> Option<Kind> {
     let text = text.trim_start_matches('\u{feff}').trim_start();
     let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
     let first = lines.next().unwrap_or_default();

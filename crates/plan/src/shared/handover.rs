@@ -22,7 +22,7 @@ pub struct Bounds {
 ///
 /// # Errors
 /// [`Diagnostic`] for loads as fast as the slip rate at which bodies gain inertia, and for one at which they lose it again.
-pub fn of(scene: &Scene, loading: f64) -> Result<Bounds, Diagnostic> {
+pub fn bounds(scene: &Scene, loading: f64) -> Result<Bounds, Diagnostic> {
     let (place, spec) = match &scene.time.handover {
         Some(given) => (given.span(), given.get_ref().clone()),
         None => (scene.time.stepper.span(), HandoverSpec::default()),

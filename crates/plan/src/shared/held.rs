@@ -20,7 +20,7 @@ const NUMBER: usize = 8;
 
 /// Memory of a model during a run \[bytes\].
 #[derive(Clone, Copy, Debug)]
-pub struct Held {
+pub struct ModelMemory {
     /// The mesh.
     mesh: usize,
     /// Matrices of linear cells, with their degrees of freedom.
@@ -33,10 +33,10 @@ pub struct Held {
     tangents: usize,
 }
 
-impl Held {
+impl ModelMemory {
     /// Memory of a model, whose cells need not have matrices yet.
     #[must_use]
-    pub fn by<const D: usize>(model: &Model<D>) -> Self {
+    pub fn new<const D: usize>(model: &Model<D>) -> Self {
         let counts = counts(&model.mesh);
         let of = |bytes: &dyn Fn(&Counts) -> f64, linear: bool| -> usize {
             let blocks = counts.iter().zip(&model.blocks);

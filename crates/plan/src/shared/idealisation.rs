@@ -4,7 +4,7 @@ use crate::reading::scene::model::Kinematics;
 use asperity_fem::kinematics::Idealisation;
 
 /// Idealisation for these kinematics.
-pub(crate) fn of(kinematics: Kinematics) -> Idealisation {
+pub(crate) fn from_kinematics(kinematics: Kinematics) -> Idealisation {
     match kinematics {
         Kinematics::PlaneStrain => Idealisation::PlaneStrain,
         Kinematics::PlaneStress => Idealisation::PlaneStress,

@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 
 /// Impedance Z = √(G ρ) from the shear modulus \[Pa\] and the density \[kg/m³\]; in Pa s/m.
 #[must_use]
-pub fn of(shear: f64, density: f64) -> f64 {
+pub fn shear_impedance(shear: f64, density: f64) -> f64 {
     (shear * density).sqrt()
 }
 
@@ -66,7 +66,7 @@ pub fn behind<const D: usize>(
     usual: Option<f64>,
 ) -> Result<Vec<Option<f64>>, Diagnostic> {
     let all = materials(scene, model, sides)?;
-    Ok(all.into_iter().map(|(shear, density)| density.or(usual).map(|d| of(shear, d))).collect())
+    Ok(all.into_iter().map(|(shear, density)| density.or(usual).map(|d| shear_impedance(shear, d))).collect())
 }
 
 /// Smallest speed of shear waves in the bodies of a model with these densities of its blocks \[kg/m³\]; in m/s.

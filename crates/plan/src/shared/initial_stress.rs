@@ -6,7 +6,7 @@ use asperity_mechanics::StressField;
 
 /// Initial stress of a body, if it has one that is complete.
 #[must_use]
-pub fn of_body(scene: &Scene, name: &str) -> Option<StressField> {
+pub fn body_field(scene: &Scene, name: &str) -> Option<StressField> {
     let body = scene.bodies.get(name)?;
     match body.initial_stress.as_ref()?.get_ref() {
         InitialStress::Uniform(_) => uniform(body).map(StressField::uniform),
@@ -50,7 +50,7 @@ fn linear(spec: &VaryingStress) -> Option<StressField> {
 
 /// Vertical axis of a body, and its gravity \[m/s²\].
 pub(crate) fn vertical(scene: &Scene, body: &Body) -> Option<(usize, f64)> {
-    let space = idealisation::of(*scene.kinematics.get_ref());
+    let space = idealisation::from_kinematics(*scene.kinematics.get_ref());
     let gravity = body.gravity.as_ref()?.get_ref();
     let (component, acceleration) = gravity.iter().enumerate().find(|(_, g)| **g != 0.0)?;
     Some((space.axis(component), *acceleration))

@@ -18,7 +18,7 @@ use asperity_fem::surface;
 use asperity_fem::table::Table;
 use asperity_mechanics::{self as mechanics, RotatedSet, Rotation};
 pub use asperity_mechanics::{Spring, Stage};
-use shared::Shared;
+use shared::PrescriptionHistory;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -35,7 +35,7 @@ pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Sta
     };
     let mut held: BTreeMap<(String, usize), Motion> = BTreeMap::new();
     let mut loads: BTreeMap<(String, usize), Loading> = BTreeMap::new();
-    let mut shared = Shared::default();
+    let mut shared = PrescriptionHistory::default();
     let mut start = 0.0;
     let mut stages = Vec::new();
     let pressing = pressing::stage(scene).map(|stage| &stage.name);
@@ -53,7 +53,7 @@ pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Sta
             stiff::refuse(model, condition)?;
         }
         if !presses {
-            jumps::of_stage(scene, spec, (&before, &present), &loads)?;
+            jumps::refuse(scene, spec, (&before, &present), &loads)?;
         }
         shared.stage(model, spec, &held)?;
         let (springs, motions) = apart(motions::<D>(model, &held));
@@ -110,7 +110,7 @@ const PRESSURE: usize = 3;
 fn take_up<const D: usize>(
     model: &Model<D>,
     condition: &Spanned<Condition>,
-    (held, shared): (&mut BTreeMap<(String, usize), Motion>, &mut Shared),
+    (held, shared): (&mut BTreeMap<(String, usize), Motion>, &mut PrescriptionHistory),
     loads: &mut BTreeMap<(String, usize), Loading>,
 ) -> Result<(), Diagnostic> {
     let c = condition.get_ref();
@@ -197,7 +197,7 @@ fn motions<'a, const D: usize>(
     let mut result = Vec::new();
     for (key, motion) in held.iter().filter(|(_, m)| **m != Motion::Free) {
         let mut dofs = Vec::new();
-        for node in sets::of_name(model, &key.0).unwrap_or_default() {
+        for node in sets::find_nodes(model, &key.0).unwrap_or_default() {
             let dof = model.dof(node, key.1);
             if !taken[dof] {
                 taken[dof] = true;
@@ -210,10 +210,10 @@ fn motions<'a, const D: usize>(
 }
 
 /// Degrees of freedom that have a motion.
-type Moved = (Vec<usize>, Motion);
+type MovedDofs = (Vec<usize>, Motion);
 
 /// Springs, and motions without springs. A spring of which another set has all nodes pulls nothing.
-fn apart(all: Vec<(&(String, usize), Vec<usize>, Motion)>) -> (Vec<Spring>, Vec<Moved>) {
+fn apart(all: Vec<(&(String, usize), Vec<usize>, Motion)>) -> (Vec<Spring>, Vec<MovedDofs>) {
     let (mut springs, mut motions) = (Vec::new(), Vec::new());
     for ((set, axis), dofs, motion) in all {
         match motion {
@@ -294,7 +294,7 @@ fn load_channel<const D: usize>(
 fn body_loads<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Channel>, Diagnostic> {
     let mut channels: Vec<Channel> = weights(scene, model)?.into_iter().map(|w| steady(w, 1.0)).collect();
     for body in &model.bodies {
-        let stress = initial_stress::of_body(scene, &body.name);
+        let stress = initial_stress::body_field(scene, &body.name);
         for block in body.blocks.clone() {
             if let (Some(stress), Some(linear)) = (&stress, model.blocks[block].linear()) {
                 channels.push(steady(linear.initial_stress_field(|x| stress.at(x)), -1.0));

@@ -18,7 +18,7 @@ pub fn slow(events: Option<&EventSpec>) -> Option<Thresholds> {
 
 /// Slip rates that begin and end events.
 #[must_use]
-pub fn of(events: Option<&EventSpec>) -> Thresholds {
+pub fn from_spec(events: Option<&EventSpec>) -> Thresholds {
     let on = events.map_or(BEGINS, |e| e.above.get_ref().0);
     let off = events.and_then(|e| e.below.as_ref()).map_or(defaults::EVENT_ENDS * on, |b| b.get_ref().0);
     Thresholds { on, off }

@@ -27,7 +27,7 @@ impl From<Problem> for Plan {
         };
         let sliders = problem.names.iter().zip(against(&problem)).filter_map(of).collect();
         let thetas = vec![None; problem.names.len()];
-        let step_seconds = Some(rates::of_sliders(problem.method, problem.names.len()));
+        let step_seconds = Some(rates::slider_step(problem.method, problem.names.len()));
         let cost = Cost { step_seconds, ..Cost::default() };
         Self { problem, warnings: Vec::new(), checks: Checks { sliders, cost, ..Checks::default() }, thetas }
     }

@@ -3,7 +3,7 @@
 use super::run::{Run, Where};
 use crate::cli::lines;
 use crate::keep::Keeper;
-use crate::kinds::bodies::{Outputs, RunError, RunReport, Stand};
+use crate::kinds::bodies::{Outputs, ResumeState, RunError, RunReport};
 use crate::{catalogue, checkpoint, kinds};
 use asperity_output::bodies::FieldSchedule;
 use asperity_output::fields::Field;
@@ -18,14 +18,14 @@ pub(super) struct Bodies<'a>(pub &'a AnyPlan);
 
 impl Run for Bodies<'_> {
     type Outputs = Outputs;
-    type Ended = RunReport;
+    type FinalState = RunReport;
     type Report = RunReport;
 
     fn plan(&self) -> FieldSchedule {
         self.0.outputs()
     }
 
-    fn reached(stand: &Stand) -> (f64, u64) {
+    fn reached(stand: &ResumeState) -> (f64, u64) {
         (stand.time(), stand.steps() as u64)
     }
 
@@ -33,7 +33,7 @@ impl Run for Bodies<'_> {
         &mut self,
         out: &Path,
         keeper: &mut Keeper<Outputs>,
-        from: Option<Stand>,
+        from: Option<ResumeState>,
     ) -> miette::Result<RunReport> {
         match kinds::bodies::run_kept(self.0, keeper, from) {
             Err(RunError::Foreign(why)) => Err(checkpoint::foreign(out, &why.to_string())).into_diagnostic(),

@@ -2,7 +2,7 @@
 
 use super::run::{Run, Where};
 use crate::keep::Keeper;
-use crate::kinds::dynamics::{Ended, Outputs, Report, RunError, Stand};
+use crate::kinds::dynamics::{FinalState, Outputs, Report, ResumeState, RunError};
 use crate::{checkpoint, kinds};
 use asperity_output::fields::Field;
 use asperity_output::figures::Sheet;
@@ -16,14 +16,14 @@ pub(super) struct Dynamics<'a, const D: usize>(pub &'a Plan<D>);
 
 impl<'a, const D: usize> Run for Dynamics<'a, D> {
     type Outputs = Outputs<'a, D>;
-    type Ended = Ended;
+    type FinalState = FinalState;
     type Report = Report;
 
     fn plan(&self) -> &'a Plan<D> {
         self.0
     }
 
-    fn reached(stand: &Stand) -> (f64, u64) {
+    fn reached(stand: &ResumeState) -> (f64, u64) {
         (stand.state.time(), stand.state.steps() as u64)
     }
 
@@ -31,8 +31,8 @@ impl<'a, const D: usize> Run for Dynamics<'a, D> {
         &mut self,
         out: &Path,
         keeper: &mut Keeper<Self::Outputs>,
-        from: Option<Stand>,
-    ) -> miette::Result<Ended> {
+        from: Option<ResumeState>,
+    ) -> miette::Result<FinalState> {
         match kinds::dynamics::run(self.0, keeper, from) {
             Err(RunError::Foreign) => {
                 Err(checkpoint::foreign(out, "its unknowns differ from those of this scene"))
@@ -42,7 +42,7 @@ impl<'a, const D: usize> Run for Dynamics<'a, D> {
         }
     }
 
-    fn report(&self, ended: &mut Ended, _: &mut Keeper<Self::Outputs>) -> Report {
+    fn report(&self, ended: &mut FinalState, _: &mut Keeper<Self::Outputs>) -> Report {
         Report::new(self.0, ended)
     }
 
@@ -58,7 +58,7 @@ impl<'a, const D: usize> Run for Dynamics<'a, D> {
         &self,
         (out, _): Where<'_>,
         outputs: Self::Outputs,
-        ended: &Ended,
+        ended: &FinalState,
         _: &Report,
     ) -> miette::Result<Option<Sheet>> {
         outputs.complete(out, ended).map(Some).into_diagnostic()

@@ -26,7 +26,7 @@ pub(super) struct Faults<'a> {
 
 impl<'a> Run for Faults<'a> {
     type Outputs = Outputs<'a>;
-    type Ended = FaultRun;
+    type FinalState = FaultRun;
     type Report = Report;
 
     fn plan(&self) -> &'a Plan {

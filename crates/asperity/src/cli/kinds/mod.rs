@@ -9,10 +9,10 @@ mod sliders;
 use super::directory::Directory;
 use super::end::End;
 use super::pausing::Pausing;
-use super::read::{Planned, Ready};
+use super::read::{Ready, RunPlan};
 use super::signals;
 use crate::checkpoint::Pauses;
-use crate::keep::{Keeper, Outputs as _, Place, Stand};
+use crate::keep::{Keeper, Outputs as _, Place, ResumeState};
 use crate::report::Results;
 use asperity_output::figures::FigureRequest;
 use asperity_output::terminal::printing::{self, out};
@@ -41,13 +41,13 @@ pub(super) fn run(
     let how = How { hash, physics, seconds: *seconds, drawn, pausing };
     let planned = plan.warnings().to_vec();
     match plan {
-        Planned::Bodies(plan) => how.run(Bodies(plan), &planned, directory),
-        Planned::Sliders(plan) => how.run(Sliders(plan), &planned, directory),
-        Planned::Faults(plan) => {
+        RunPlan::Bodies(plan) => how.run(Bodies(plan), &planned, directory),
+        RunPlan::Sliders(plan) => how.run(Sliders(plan), &planned, directory),
+        RunPlan::Faults(plan) => {
             let ruptures = plan.ruptures.take();
             how.run(Faults { plan, ruptures }, &planned, directory)
         }
-        Planned::Dynamic(plan) => match plan.as_ref() {
+        RunPlan::Dynamic(plan) => match plan.as_ref() {
             AnyPlan::Two(plan) => how.run(Dynamics(plan), &planned, directory),
             AnyPlan::Three(plan) => how.run(Dynamics(plan), &planned, directory),
         },
@@ -97,7 +97,7 @@ impl How<'_> {
     }
 
     /// Begins a run, or resumes the one in the directory.
-    fn keeper<R: Run>(&self, run: &R, path: &Path) -> miette::Result<Kept<R::Outputs>> {
+    fn keeper<R: Run>(&self, run: &R, path: &Path) -> miette::Result<RunStart<R::Outputs>> {
         let stop = signals::watched().into_diagnostic()?;
         let Pausing { resume, wall_time: wall, checkpoint_every: every } = *self.pausing;
         let pauses = Pauses { every, wall, stop, begun: Instant::now() };
@@ -120,7 +120,7 @@ impl How<'_> {
 }
 
 /// A keeper, with the state from which its run resumes, if it does.
-type Kept<O> = (Keeper<O>, Option<Stand<O>>);
+type RunStart<O> = (Keeper<O>, Option<ResumeState<O>>);
 
 /// Prints the results, the warnings that the plan did not have, the peak memory and the output directory.
 fn printed(report: &impl Results, planned: &[Warning], directory: &Directory) {

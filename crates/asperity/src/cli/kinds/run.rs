@@ -1,6 +1,6 @@
 //! Kinds of run as the path from a plan to a report sees them.
 
-use crate::keep::{Keeper, Outputs, Stand};
+use crate::keep::{Keeper, Outputs, ResumeState};
 use crate::report::Results;
 use asperity_output::fields::Field;
 use asperity_output::figures::Sheet;
@@ -11,25 +11,25 @@ use std::path::Path;
 pub(super) trait Run {
     type Outputs: Outputs;
     /// State at the end.
-    type Ended;
+    type FinalState;
     type Report: Results;
 
     /// The plan, as the outputs refer to it.
     fn plan(&self) -> <Self::Outputs as Outputs>::Plan;
 
     /// Time \[s\] and number of steps of a state.
-    fn reached(stand: &Stand<Self::Outputs>) -> (f64, u64);
+    fn reached(stand: &ResumeState<Self::Outputs>) -> (f64, u64);
 
     /// Takes the steps, from the start or from a saved state.
     fn run(
         &mut self,
         out: &Path,
         keeper: &mut Keeper<Self::Outputs>,
-        from: Option<Stand<Self::Outputs>>,
-    ) -> miette::Result<Self::Ended>;
+        from: Option<ResumeState<Self::Outputs>>,
+    ) -> miette::Result<Self::FinalState>;
 
     /// Report of the run.
-    fn report(&self, ended: &mut Self::Ended, keeper: &mut Keeper<Self::Outputs>) -> Self::Report;
+    fn report(&self, ended: &mut Self::FinalState, keeper: &mut Keeper<Self::Outputs>) -> Self::Report;
 
     /// Tables that the run may have written, by their paths below its directory, with their columns. `*` in a path represents any text.
     fn tables(&self, outputs: &Self::Outputs, report: &Self::Report) -> Vec<(String, Vec<Column>)>;
@@ -44,7 +44,7 @@ pub(super) trait Run {
         &self,
         place: Where<'_>,
         outputs: Self::Outputs,
-        ended: &Self::Ended,
+        ended: &Self::FinalState,
         report: &Self::Report,
     ) -> miette::Result<Option<Sheet>>;
 }

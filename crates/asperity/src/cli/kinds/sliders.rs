@@ -19,7 +19,7 @@ pub(super) struct Sliders<'a>(pub &'a Plan);
 
 impl<'a> Run for Sliders<'a> {
     type Outputs = Outputs<'a>;
-    type Ended = SliderRun;
+    type FinalState = SliderRun;
     type Report = Report;
 
     fn plan(&self) -> &'a Problem {

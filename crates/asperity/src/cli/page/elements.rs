@@ -28,8 +28,8 @@ pub fn escape(text: &str) -> String {
 /// A value as HTML: objects as tables of two columns, lists of objects as tables, other lists in one line.
 pub fn value(value: &Value) -> String {
     match value {
-        Value::Object(object) => of_object(object),
-        Value::Array(list) if list.iter().any(Value::is_object) => of_rows(list),
+        Value::Object(object) => object_table(object),
+        Value::Array(list) if list.iter().any(Value::is_object) => row_table(list),
         Value::Array(list) => list.iter().map(scalar).collect::<Vec<_>>().join(", "),
         other => scalar(other),
     }
@@ -74,7 +74,7 @@ fn without_zeros(digits: &str) -> &str {
     if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { digits }
 }
 
-fn of_object(object: &Map<String, Value>) -> String {
+fn object_table(object: &Map<String, Value>) -> String {
     let mut html = String::from("<table>");
     for (key, value) in object {
         // Writing to a String cannot fail.
@@ -89,7 +89,7 @@ fn cell(value: &Value) -> String {
 }
 
 /// A table with a column for each key that some row has.
-fn of_rows(rows: &[Value]) -> String {
+fn row_table(rows: &[Value]) -> String {
     let mut keys: Vec<&String> = Vec::new();
     for key in rows.iter().filter_map(Value::as_object).flat_map(Map::keys) {
         if !keys.contains(&key) {

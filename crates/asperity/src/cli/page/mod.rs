@@ -138,18 +138,18 @@ fn cell(field: &str) -> String {
 
 /// Energy budget, with its unit.
 fn energy(report: &Value) -> String {
-    ["energy", "balance"].into_iter().map(|key| of_key(report, key)).collect()
+    ["energy", "balance"].into_iter().map(|key| value_at(report, key)).collect()
 }
 
 /// Counts, which do not differ from run to run, and times and memory, which do.
 fn costs(report: &Value) -> String {
     // What differs from run to run is one line.
-    let run: String = of_key(report, "run").lines().collect();
-    format!("{}\n{RUN}{run}", of_key(report, "counts"))
+    let run: String = value_at(report, "run").lines().collect();
+    format!("{}\n{RUN}{run}", value_at(report, "counts"))
 }
 
 /// Value of a key of a report; nothing where it is absent or empty.
-fn of_key(report: &Value, key: &str) -> String {
+fn value_at(report: &Value, key: &str) -> String {
     let found = &report[key];
     let empty = found.as_array().is_some_and(Vec::is_empty) || found.as_object().is_some_and(Map::is_empty);
     if found.is_null() || empty { String::new() } else { value(found) }

@@ -24,7 +24,11 @@ pub struct Moment {
 
 impl Moment {
     /// Present values. Without a law a point has no rate, so that frictionless stages have no events.
-    pub fn of<const D: usize>(plan: &Plan<D>, events: &EventPlan, system: &AssembledProblem<'_, D>) -> Self {
+    pub fn from_system<const D: usize>(
+        plan: &Plan<D>,
+        events: &EventPlan,
+        system: &AssembledProblem<'_, D>,
+    ) -> Self {
         let own: Vec<(&Interface<D>, f64)> = events
             .interfaces
             .iter()

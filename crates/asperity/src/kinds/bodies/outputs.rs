@@ -1,6 +1,6 @@
 //! Outputs of a run of bodies: its files and the data for its figures.
 
-use super::stand::Stand;
+use super::stand::ResumeState;
 use crate::checkpoint::{self, ResumeError};
 use crate::keep::{self, Place};
 use asperity_ode::Control;
@@ -20,7 +20,7 @@ pub struct Bodies;
 impl Kind for Bodies {
     type Setup = Setup;
     type Moment<'a> = StepView<'a>;
-    type ResumeState = Stand;
+    type ResumeState = ResumeState;
 }
 
 /// Observer that keeps nothing and never interrupts a run.
@@ -43,16 +43,16 @@ impl Observer<Bodies> for Unkept<'_> {
 
 /// Everything needed to resume a run of bodies.
 #[derive(Serialize, Deserialize)]
-pub struct Saved {
+pub struct Checkpoint {
     /// State of the run.
-    stand: Stand,
+    stand: ResumeState,
     /// Positions in the output files.
     files: FilesState,
     /// Data for the plots at the end, if there are any.
     recorder: Option<Recorder>,
 }
 
-impl checkpoint::Saved for Saved {
+impl checkpoint::SavedState for Checkpoint {
     const OF: &'static str = "bodies";
     const VERSION: &'static str = "4";
 }
@@ -93,7 +93,7 @@ impl Outputs {
 impl keep::Outputs for Outputs {
     type Kind = Bodies;
     type Plan = FieldSchedule;
-    type Saved = Saved;
+    type Checkpoint = Checkpoint;
 
     fn create(schedule: FieldSchedule, place: &Place<'_>) -> Result<Self, OutputError> {
         let recorder = place.drawn.then(|| Recorder::new().with_bodies());
@@ -104,8 +104,8 @@ impl keep::Outputs for Outputs {
     fn reopen(
         schedule: FieldSchedule,
         place: &Place<'_>,
-        Saved { stand, files, recorder }: Saved,
-    ) -> Result<Option<(Self, Stand)>, ResumeError> {
+        Checkpoint { stand, files, recorder }: Checkpoint,
+    ) -> Result<Option<(Self, ResumeState)>, ResumeError> {
         let files = Files::create(place.out, schedule)?.resumed(files);
         let recorder = recorder.filter(|_| place.drawn);
         Ok(Some((Self { files, recorder, resumed: true }, stand)))
@@ -132,8 +132,8 @@ impl keep::Outputs for Outputs {
         self.files.settle()
     }
 
-    fn saved(&mut self, stand: &mut dyn FnMut() -> Stand, due: bool) -> Option<Saved> {
-        due.then(|| Saved { stand: stand(), files: self.files.state(), recorder: self.recorder.clone() })
+    fn saved(&mut self, stand: &mut dyn FnMut() -> ResumeState, due: bool) -> Option<Checkpoint> {
+        due.then(|| Checkpoint { stand: stand(), files: self.files.state(), recorder: self.recorder.clone() })
     }
 
     fn times(&self, view: &StepView<'_>) -> [f64; 2] {

@@ -24,7 +24,7 @@ pub struct Passage {
 }
 
 /// Passages of a run.
-pub(crate) fn of(episodes: &[Episode]) -> Vec<Passage> {
+pub(crate) fn from_episodes(episodes: &[Episode]) -> Vec<Passage> {
     let of = |e: &Episode| Passage {
         begin: e.begin,
         end: e.end,

@@ -61,7 +61,7 @@ impl Events {
         let areas = plan.interfaces.iter().flat_map(|&i| areas[i].iter().copied()).collect();
         let sites = Sites { plan, areas };
         let entries = |source: usize, points: &Range<usize>| {
-            catalogue.ended(source).iter().map(|event| Entry::of(&sites, event, points)).collect()
+            catalogue.ended(source).iter().map(|event| Entry::from_event(&sites, event, points)).collect()
         };
         let under_way = |source: usize| catalogue.under_way(source).map(|e| e.onset.seconds());
         let of_interface = |(points, source): (&Range<usize>, usize)| FaultEvents {

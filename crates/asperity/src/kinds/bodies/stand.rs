@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 /// State of a run of bodies.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Stand {
+pub struct ResumeState {
     /// Number of the stage, from 0.
     pub(super) stage: usize,
     pub(super) system: SystemState,
@@ -22,7 +22,7 @@ pub struct Stand {
     /// Description of an unrestrained motion found in the first of these trials.
     pub(super) free: Option<String>,
     pub(super) work: Work,
-    pub(super) found: Found,
+    pub(super) found: StageResults,
     /// Events of interfaces, if the scene asks for them.
     pub(super) events: Option<Events>,
 }
@@ -41,12 +41,12 @@ pub(super) struct Work {
 
 /// Results of the completed stages.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(super) struct Found {
+pub(super) struct StageResults {
     pub results: Vec<InterfaceResult>,
     pub points: Vec<PointResult>,
     pub forces: Vec<ForceResult>,
     pub springs: Vec<SpringResult>,
-    pub warnings: Vec<Said>,
+    pub warnings: Vec<RunWarning>,
     /// The worst states of the stage that runs.
     #[serde(default)]
     pub worst: Worst,
@@ -54,24 +54,24 @@ pub(super) struct Found {
 
 /// A warning about a run as a whole, without position in the scene file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Said {
+pub(super) struct RunWarning {
     message: String,
     help: Option<String>,
 }
 
-impl From<Warning> for Said {
+impl From<Warning> for RunWarning {
     fn from(warning: Warning) -> Self {
         Self { message: warning.message, help: warning.help }
     }
 }
 
-impl From<Said> for Warning {
-    fn from(said: Said) -> Self {
+impl From<RunWarning> for Warning {
+    fn from(said: RunWarning) -> Self {
         Self { message: said.message, help: said.help, place: None, span: 0..0 }
     }
 }
 
-impl Stand {
+impl ResumeState {
     /// Number of accepted steps.
     #[must_use]
     pub fn steps(&self) -> usize {

@@ -8,11 +8,11 @@ impl RunReport {
     /// Summary to be read at the end of the run.
     #[must_use]
     pub fn text(&self) -> String {
-        of(self)
+        summary(self)
     }
 }
 
-fn of(report: &RunReport) -> String {
+fn summary(report: &RunReport) -> String {
     let mut text = String::from("results\n");
     for r in &report.results {
         text.push_str(&format!(

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 /// Fields written so far.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Taken {
+pub struct WrittenFields {
     /// Times \[s\].
     pub times: Vec<f64>,
     /// Magnitude of the velocity of each node at each of them \[m/s\]; empty if nothing is drawn.
@@ -28,7 +28,7 @@ pub(super) struct Fields<'a> {
     out: PathBuf,
     bodies: Series<'a, Motion>,
     faults: Vec<Series<'a, FaultState>>,
-    pub taken: Taken,
+    pub taken: WrittenFields,
     drawn: bool,
 }
 
@@ -49,7 +49,7 @@ fn grid<const D: usize>(plan: &Plan<D>, fault: &FaultView) -> Grid {
 }
 
 /// Fields of the bodies.
-fn of_bodies<const D: usize>(plan: &Plan<D>) -> Series<'_, Motion> {
+fn body_fields<const D: usize>(plan: &Plan<D>) -> Series<'_, Motion> {
     let grid = || Grid::new(&plan.mesh.nodes, &plan.mesh.cells);
     Series::new(FILES.named("bodies_*"), FieldTimes::Intervals, grid)
         .with(Field::vector("velocity", "m/s", Sign::Axis, "velocity"), |[velocity, _]: &Motion| {
@@ -64,7 +64,7 @@ fn of_bodies<const D: usize>(plan: &Plan<D>) -> Series<'_, Motion> {
 type Values = fn(&FaultState) -> &[f64];
 
 /// Slip, slip rate and tractions on a fault in space.
-fn of_fault<'a, const D: usize>(plan: &'a Plan<D>, fault: &'a FaultView) -> Series<'a, FaultState> {
+fn fault_fields<'a, const D: usize>(plan: &'a Plan<D>, fault: &'a FaultView) -> Series<'a, FaultState> {
     let mut series =
         Series::new(FILES.named(&format!("{}_*", fault.name)), FieldTimes::Intervals, || grid(plan, fault));
     let vectors: [(Field, Values); 3] = [
@@ -87,12 +87,12 @@ impl<'a> Fields<'a> {
     pub fn new<const D: usize>(
         out: &Path,
         plan: &'a Plan<D>,
-        taken: Taken,
+        taken: WrittenFields,
         drawn: bool,
     ) -> Result<Self, OutputError> {
         atomic::create_dir(&out.join("fields"))?;
-        let faults = plan.faults.iter().filter(|_| D == 3).map(|fault| of_fault(plan, fault)).collect();
-        Ok(Self { out: out.to_path_buf(), bodies: of_bodies(plan), faults, taken, drawn })
+        let faults = plan.faults.iter().filter(|_| D == 3).map(|fault| fault_fields(plan, fault)).collect();
+        Ok(Self { out: out.to_path_buf(), bodies: body_fields(plan), faults, taken, drawn })
     }
 
     /// Fields by the paths of their files.

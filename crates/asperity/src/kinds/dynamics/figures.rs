@@ -1,7 +1,7 @@
 //! Figures of a run: what they need beside its tables.
 
 use super::arrivals::Arrivals;
-use super::fields::Taken;
+use super::fields::WrittenFields;
 use crate::kinds::faults::compass::Compass;
 use crate::kinds::faults::shape::shape;
 use asperity_output::figures::{Curves, Fault, Measure, Plot, Points, Sheet, Velocities, VisibleMesh, short};
@@ -10,7 +10,12 @@ use asperity_plan::dynamics::Plan;
 use asperity_plan::faults::FaultView;
 
 /// Figures of a run up to a time \[s\].
-pub(super) fn sheet<const D: usize>(plan: &Plan<D>, end: f64, arrivals: &Arrivals, taken: &Taken) -> Sheet {
+pub(super) fn sheet<const D: usize>(
+    plan: &Plan<D>,
+    end: f64,
+    arrivals: &Arrivals,
+    taken: &WrittenFields,
+) -> Sheet {
     let mut sheet = Sheet::new(&plan.title, (0.0, end), D == 3);
     sheet.plots.extend(curves(plan).into_iter().map(Plot::Curves));
     if let Some((mesh, nodes)) = VisibleMesh::from_mesh(&plan.mesh, &[]) {

@@ -14,7 +14,7 @@ mod stations;
 mod tables;
 
 pub use moment::Moment;
-pub use outputs::{Outputs, Saved};
+pub use outputs::{Checkpoint, Outputs};
 pub use report::Report;
-pub use run::{Dynamics, Ended, RunError, Stand, run};
+pub use run::{Dynamics, FinalState, ResumeState, RunError, run};
 pub use tables::{FILES, tables};

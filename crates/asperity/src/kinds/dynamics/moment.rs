@@ -21,7 +21,7 @@ pub struct Moment<'a> {
 }
 
 /// Part of the state before a step that outputs need.
-pub(super) struct Before {
+pub(super) struct StepStart {
     step: usize,
     time: f64,
     received: Vec<[Vec<f64>; 2]>,
@@ -35,7 +35,7 @@ fn at(receiver: &Receiver, values: &[f64], components: usize) -> Vec<f64> {
     (0..components).map(of).collect()
 }
 
-impl Before {
+impl StepStart {
     /// Keeps what outputs of the step that comes need.
     pub fn new<const D: usize>(plan: &Plan<D>, explicit: &Explicit<'_, D>) -> Self {
         let (step, components) = (explicit.steps(), plan.axes.len());

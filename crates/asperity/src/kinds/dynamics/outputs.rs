@@ -1,10 +1,10 @@
 //! Outputs of a run of bodies with mass: tables, and fields with the data for figures.
 
-use super::fields::{Fields, Taken};
+use super::fields::{Fields, WrittenFields};
 use super::moment::Moment;
-use super::run::{Dynamics, Stand};
+use super::run::{Dynamics, ResumeState};
 use super::tables::Tables;
-use super::{Ended, arrivals, figures, seismograms};
+use super::{FinalState, arrivals, figures, seismograms};
 use crate::checkpoint::{self, ResumeError};
 use crate::keep::{self, Place};
 use asperity_ode::Control;
@@ -22,15 +22,15 @@ use std::path::Path;
 
 /// Everything needed to resume a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Saved {
-    stand: Stand,
+pub struct Checkpoint {
+    stand: ResumeState,
     /// Sizes of the tables \[bytes\], by their paths.
     sizes: BTreeMap<String, u64>,
-    taken: Taken,
+    taken: WrittenFields,
     drawn: bool,
 }
 
-impl checkpoint::Saved for Saved {
+impl checkpoint::SavedState for Checkpoint {
     const OF: &'static str = "bodies with mass";
     const VERSION: &'static str = "3";
 }
@@ -54,7 +54,7 @@ impl<const D: usize> Outputs<'_, D> {
     ///
     /// # Errors
     /// If a file cannot be written.
-    pub fn complete(self, out: &Path, ended: &Ended) -> Result<Sheet, OutputError> {
+    pub fn complete(self, out: &Path, ended: &FinalState) -> Result<Sheet, OutputError> {
         let plan = self.plan;
         self.fields.collect(plan)?;
         seismograms::write(out, plan)?;
@@ -68,20 +68,20 @@ impl<const D: usize> Outputs<'_, D> {
 impl<'a, const D: usize> keep::Outputs for Outputs<'a, D> {
     type Kind = Dynamics;
     type Plan = &'a Plan<D>;
-    type Saved = Saved;
+    type Checkpoint = Checkpoint;
 
     fn create(plan: &'a Plan<D>, place: &Place<'_>) -> Result<Self, OutputError> {
         let (out, drawn) = (place.out, place.drawn);
         atomic::writable_dir(out)?;
         let tables = Tables::create(out, plan)?;
-        Ok(Self { plan, tables, fields: Fields::new(out, plan, Taken::default(), drawn)?, drawn })
+        Ok(Self { plan, tables, fields: Fields::new(out, plan, WrittenFields::default(), drawn)?, drawn })
     }
 
     fn reopen(
         plan: &'a Plan<D>,
         place: &Place<'_>,
-        Saved { stand, sizes, taken, drawn }: Saved,
-    ) -> Result<Option<(Self, Stand)>, ResumeError> {
+        Checkpoint { stand, sizes, taken, drawn }: Checkpoint,
+    ) -> Result<Option<(Self, ResumeState)>, ResumeError> {
         let out = place.out;
         let tables = Tables::reopen(out, plan, &sizes)?.filter(|_| stand.fits(plan));
         let Some(tables) = tables else { return Err(checkpoint::other_files(out)) };
@@ -100,8 +100,8 @@ impl<'a, const D: usize> keep::Outputs for Outputs<'a, D> {
         self.tables.settle()
     }
 
-    fn saved(&mut self, stand: &mut dyn FnMut() -> Stand, due: bool) -> Option<Saved> {
-        due.then(|| Saved {
+    fn saved(&mut self, stand: &mut dyn FnMut() -> ResumeState, due: bool) -> Option<Checkpoint> {
+        due.then(|| Checkpoint {
             stand: stand(),
             sizes: self.tables.sizes(),
             taken: self.fields.taken.clone(),
@@ -131,7 +131,7 @@ impl<'a, const D: usize> keep::Outputs for Outputs<'a, D> {
 }
 
 /// Table of rupture times; NaN for points that did not rupture.
-fn ruptures<const D: usize>(plan: &Plan<D>, ended: &Ended) -> String {
+fn ruptures<const D: usize>(plan: &Plan<D>, ended: &FinalState) -> String {
     let mut text = column::header(&arrivals::columns());
     for fault in &plan.faults {
         for p in fault.points.clone() {

@@ -1,7 +1,7 @@
 //! Report of a run of bodies with mass, `report.json`.
 
 use super::moment::size;
-use super::run::Ended;
+use super::run::FinalState;
 use super::tables::moments_of;
 use crate::report::results;
 use asperity_mechanics::coordinates;
@@ -95,7 +95,7 @@ results!(Report, Kind::Dynamics);
 impl Report {
     /// Report of a run of a plan.
     #[must_use]
-    pub fn new<const D: usize>(plan: &Plan<D>, ended: &Ended) -> Self {
+    pub fn new<const D: usize>(plan: &Plan<D>, ended: &FinalState) -> Self {
         let energy = EnergyTable::new(if plan.per_length { "J/m" } else { "J" }, &ended.budget.energies());
         let doubt =
             energy.doubt("the steps are too long for it", "take a smaller `courant`, or more `viscosity`");
@@ -156,7 +156,7 @@ impl Report {
     }
 }
 
-fn outcome<const D: usize>(plan: &Plan<D>, ended: &Ended) -> Outcome {
+fn outcome<const D: usize>(plan: &Plan<D>, ended: &FinalState) -> Outcome {
     let time = ended.time;
     if let Some(halt) = &ended.halt {
         let kind = match halt {
@@ -204,7 +204,7 @@ fn why<const D: usize>(plan: &Plan<D>, halt: &Halt, time: f64) -> String {
 fn rupture<const D: usize>(
     plan: &Plan<D>,
     (number, fault): (usize, &FaultView),
-    ended: &Ended,
+    ended: &FinalState,
 ) -> FaultRupture {
     let arrivals = &ended.arrivals;
     let points = fault.points.clone();

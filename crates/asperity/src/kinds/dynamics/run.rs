@@ -1,7 +1,7 @@
 //! The loop over the steps of a run.
 
 use super::arrivals::Arrivals;
-use super::moment::{Before, Moment, size};
+use super::moment::{Moment, StepStart, size};
 use crate::kinds::worst::Worst;
 use asperity_mechanics::SetUpError;
 use asperity_mechanics::dynamics::{Budget, Explicit, ExplicitState, FaultState, Halt};
@@ -26,7 +26,7 @@ pub enum RunError {
 
 /// State at the end of a run.
 #[derive(Clone, Debug)]
-pub struct Ended {
+pub struct FinalState {
     /// Steps taken.
     pub steps: usize,
     /// Those of them before the run was resumed.
@@ -65,12 +65,12 @@ pub struct Dynamics;
 impl Kind for Dynamics {
     type Setup = ();
     type Moment<'a> = Moment<'a>;
-    type ResumeState = Stand;
+    type ResumeState = ResumeState;
 }
 
 /// State of a run between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Stand {
+pub struct ResumeState {
     /// State of bodies and faults.
     pub state: ExplicitState,
     /// Rupture times so far.
@@ -79,7 +79,7 @@ pub struct Stand {
     worst: Worst,
 }
 
-impl Stand {
+impl ResumeState {
     /// True if the faults of the plan have as many points.
     pub(super) fn fits<const D: usize>(&self, plan: &Plan<D>) -> bool {
         self.arrivals.times.len() == plan.points.len()
@@ -97,8 +97,8 @@ const JUDGED: usize = 64;
 pub fn run<const D: usize>(
     plan: &Plan<D>,
     observer: &mut dyn Observer<Dynamics>,
-    from: Option<Stand>,
-) -> Result<Ended, RunError> {
+    from: Option<ResumeState>,
+) -> Result<FinalState, RunError> {
     let clock = Instant::now();
     let failed = |e: SetUpError| RunError::SetUp(e.to_string());
     let mut explicit = Explicit::new(&plan.problem).map_err(failed)?;
@@ -115,12 +115,13 @@ pub fn run<const D: usize>(
     observer.begin(&())?;
     let (mut halt, mut interrupted, mut back) = (None, None, None);
     while explicit.steps() <= plan.steps {
-        let mut stand = || Stand { state: explicit.save(), arrivals: arrivals.clone(), worst: worst.clone() };
+        let mut stand =
+            || ResumeState { state: explicit.save(), arrivals: arrivals.clone(), worst: worst.clone() };
         interrupted = observer.pause(&mut stand)?;
         if interrupted.is_some() {
             break;
         }
-        let before = Before::new(plan, &explicit);
+        let before = StepStart::new(plan, &explicit);
         let last = explicit.fault().clone();
         halt = explicit.step().err();
         if halt.is_some() {
@@ -147,6 +148,7 @@ pub fn run<const D: usize>(
     let (steps, budget) = (explicit.steps(), explicit.budget());
     let time = if back.is_some() { (explicit.time() - 2.0 * plan.dt).max(0.0) } else { budget.time };
     let fault = back.unwrap_or_else(|| explicit.fault().clone());
-    let doubts = plan.problem.stages.iter().flat_map(|stage| worst.of_bodies(model, &stage.name)).collect();
-    Ok(Ended { steps, earlier, set_up, time, budget, fault, halt, interrupted, arrivals, doubts })
+    let doubts =
+        plan.problem.stages.iter().flat_map(|stage| worst.body_warnings(model, &stage.name)).collect();
+    Ok(FinalState { steps, earlier, set_up, time, budget, fault, halt, interrupted, arrivals, doubts })
 }

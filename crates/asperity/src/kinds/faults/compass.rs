@@ -32,7 +32,7 @@ pub(crate) enum View<'a> {
 
 impl<'a> View<'a> {
     /// View of a fault. A surface of triangles that dips gently is seen from above; planes are seen along their normals.
-    pub fn of(points: &[PointView], compass: &Compass<'a>, triangles: bool) -> Self {
+    pub fn from_points(points: &[PointView], compass: &Compass<'a>, triangles: bool) -> Self {
         let sum: Vector3<f64> = points.iter().map(|p| p.area * Vector3::from(p.normal)).sum();
         let normal = sum.try_normalize(0.0).unwrap_or_else(Vector3::z);
         let across = (0..3).find(|&c| points.iter().all(|p| p.normal[c].abs() > 1.0 - STRAIGHT));

@@ -19,7 +19,7 @@ pub struct Compression {
 
 impl Compression {
     /// Errors of an operator, where they have been found.
-    pub(super) fn of(operator: &dyn Operator) -> Option<Self> {
+    pub(super) fn from_operator(operator: &dyn Operator) -> Option<Self> {
         let Errors { points, random, uniform } = operator.errors()?;
         Some(Self { bytes: operator.bytes(), points, random, uniform })
     }

@@ -2,7 +2,7 @@
 
 use super::coulomb_tables::{column, name};
 use super::source_time::FOLDER;
-use super::surface_figures::{edges, of_event};
+use super::surface_figures::{edges, event_onset};
 use asperity_cycles::FaultRun;
 use asperity_output::decimals::shortest;
 use asperity_output::figures::{Coordinates, Curves, EventOnset, Ground, MapQuantity, Measure, Plot, Points};
@@ -26,7 +26,7 @@ pub(super) fn plots(plan: &Plan, run: &FaultRun) -> Vec<Plot> {
             Plot::Ground(drawn(plan, (map, event), Coordinates::Degrees, axes))
         }
     };
-    events.map(|(number, event)| one(of_event(number, event))).collect()
+    events.map(|(number, event)| one(event_onset(number, event))).collect()
 }
 
 fn stem(number: usize) -> String {

@@ -41,17 +41,17 @@ fn columns(frame: Option<&Frame>, name: Option<Column>, with_stress: bool) -> Ve
 }
 
 /// Columns of maps.
-pub(super) fn of_map(frame: Option<&Frame>) -> Vec<Column> {
+pub(super) fn map_columns(frame: Option<&Frame>) -> Vec<Column> {
     columns(frame, None, true)
 }
 
 /// Columns of named positions.
-pub(super) fn of_points(frame: Option<&Frame>) -> Vec<Column> {
+pub(super) fn point_columns(frame: Option<&Frame>) -> Vec<Column> {
     columns(frame, Some(Column::new("name", "", Sign::None, "name of the position")), true)
 }
 
 /// Columns of cells of faults.
-pub(super) fn of_faults(frame: Option<&Frame>) -> Vec<Column> {
+pub(super) fn fault_columns(frame: Option<&Frame>) -> Vec<Column> {
     columns(frame, Some(Column::new("fault", "", Sign::None, "fault of the cell")), false)
 }
 
@@ -62,7 +62,7 @@ pub(super) fn name(number: usize) -> String {
 
 /// Number of the column of the change in the tables of maps, which is the last.
 pub(super) fn column(plan: &Plan) -> usize {
-    of_map(plan.frame.as_ref()).len() - 1
+    map_columns(plan.frame.as_ref()).len() - 1
 }
 
 /// Writes `events/coulomb_000.csv` and so on for the first events, in space also their grids,
@@ -95,7 +95,7 @@ fn write_map(
     let frame = plan.frame.as_ref();
     let found = coulomb.at(&map.positions, slips);
     for number in 0..slips.len() {
-        let mut text = column::header(&of_map(frame));
+        let mut text = column::header(&map_columns(frame));
         for (at, all) in map.positions.iter().zip(&found) {
             let (stress, change) = &all[number];
             text.push_str(&format!("{}{}{}\n", place(frame, at), numbers(stress), changed(change)));
@@ -117,7 +117,7 @@ fn write_points(out: &Path, plan: &Plan, coulomb: &Coulomb, slips: &[&[f64]]) ->
     let positions: Vec<[f64; 3]> = coulomb.points.iter().map(|p| p.1).collect();
     let found = coulomb.at(&positions, slips);
     for number in 0..slips.len() {
-        let mut text = column::header(&of_points(frame));
+        let mut text = column::header(&point_columns(frame));
         for ((name, at), all) in coulomb.points.iter().zip(&found) {
             let (stress, change) = &all[number];
             let row = format!("{}{}{}", place(frame, at), numbers(stress), changed(change));
@@ -138,7 +138,7 @@ fn write_faults(out: &Path, plan: &Plan, coulomb: &Coulomb, slips: &[&[f64]]) ->
     let faults: Vec<_> = plan.faults.iter().map(|f| f.points.clone()).collect();
     let found = coulomb.on_cells(slips, &places, (&areas, &faults));
     for (number, changes) in found.iter().enumerate() {
-        let mut text = column::header(&of_faults(frame));
+        let mut text = column::header(&fault_columns(frame));
         for fault in &plan.faults {
             for point in fault.points.clone() {
                 let row = format!("{}{}", place(frame, &places[point]), changed(&changes[point]));

@@ -4,7 +4,7 @@ use super::compass::{Compass, View};
 use super::fields::reached;
 use super::instants::instants;
 use super::shape::{at_corners, corners, shape};
-use super::surface_figures::{self, of_event};
+use super::surface_figures::{self, event_onset};
 use super::{
     coulomb_figures, locking, receiver_figures, source_time, states, station_figures, still_figures,
 };
@@ -81,7 +81,7 @@ fn moment_rates(plan: &Plan, run: &FaultRun) -> Vec<Curves> {
             x: ("Time since onset".into(), Measure::Time),
             y: ("Moment rate".into(), measure),
             curves: vec![("all faults".into(), Points::Table { table, x: 0, y: 1, size: false })],
-            event: Some(of_event(number, event)),
+            event: Some(event_onset(number, event)),
             without_zero: false,
             until: Some(TAIL),
             pairs: false,
@@ -107,7 +107,7 @@ fn compass(plan: &Plan) -> Compass<'_> {
 fn hypocentre(plan: &Plan, fault: &FaultView, event: &Event<Rupture>) -> Option<(f64, f64)> {
     let point = event.details.hypocentre;
     let views = &plan.points[fault.points.clone()];
-    let view = || View::of(views, &compass(plan), fault.outline.is_some());
+    let view = || View::from_points(views, &compass(plan), fault.outline.is_some());
     (plan.in_space && fault.points.contains(&point)).then(|| view().place(&plan.points[point].at))
 }
 
@@ -130,7 +130,7 @@ fn on_faults(plan: &Plan, run: &FaultRun, (names, shapes): (&[String], &[usize])
             let slips: Vec<f64> = points().map(|p| event.details.slip.size(p)).collect();
             all.push(EventFault {
                 stem: format!("{name}_event_{number:03}"),
-                event: of_event(number, event),
+                event: event_onset(number, event),
                 fault: Fault { name: fault.name.clone(), points: points(), shape, arrivals: shown(times) },
                 // Each triangle has its own, so that a map has the largest one.
                 slip: slips.into_iter().map(short).collect(),

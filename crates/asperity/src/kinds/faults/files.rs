@@ -66,12 +66,12 @@ pub fn tables(plan: &Plan) -> Vec<(String, Vec<Column>)> {
         (event_tables::FILE, event_tables::columns(plan.problem.fault.law.components() > 1)),
         (receiver_tables::FILE, receiver_tables::named(frame)),
         (surface_tables::FILE, receiver_tables::columns(frame)),
-        (coulomb_tables::POINTS, coulomb_tables::of_points(frame)),
-        (coulomb_tables::FAULTS, coulomb_tables::of_faults(frame)),
+        (coulomb_tables::POINTS, coulomb_tables::point_columns(frame)),
+        (coulomb_tables::FAULTS, coulomb_tables::fault_columns(frame)),
     ];
     // Its names are those of the other tables of Coulomb stress, but for what follows.
     let map = plan.coulomb.as_ref().and_then(|coulomb| coulomb.map.as_ref());
-    let map = map.map(|_| (coulomb_tables::MAP, coulomb_tables::of_map(frame)));
+    let map = map.map(|_| (coulomb_tables::MAP, coulomb_tables::map_columns(frame)));
     let growing = all(plan).into_iter().map(|table| (table.path, table.columns));
     growing
         .chain(of_events.into_iter().chain(map).map(|(file, columns)| (file.path.into(), columns)))

@@ -71,7 +71,7 @@ struct Plane {
 }
 
 impl Plane {
-    fn of(normal: Vector3<f64>) -> Self {
+    fn from_normal(normal: Vector3<f64>) -> Self {
         let strike = Vector3::z().cross(&normal).try_normalize(f64::EPSILON).unwrap_or_else(Vector3::y);
         Self { normal, strike, up_dip: normal.cross(&strike) }
     }
@@ -88,7 +88,7 @@ fn mean_plane((plan, frame): (&Plan, &Frame), fault: &FaultView) -> Plane {
     let points = &plan.points[fault.points.clone()];
     let sum: Vector3<f64> = points.iter().map(|p| frame.axes * Vector3::from(p.normal) * p.area).sum();
     let normal = sum.try_normalize(f64::EPSILON).unwrap_or_else(Vector3::z);
-    Plane::of(if normal.z < -f64::EPSILON { -normal } else { normal })
+    Plane::from_normal(if normal.z < -f64::EPSILON { -normal } else { normal })
 }
 
 /// Slip of the hanging wall along strike and up dip at a point, on its own plane \[m\].
@@ -96,7 +96,7 @@ fn slip_at((plan, frame): (&Plan, &Frame), event: &Event<Rupture>, mean: &Plane,
     let normal = frame.axes * Vector3::from(plan.points[point].normal);
     let slip = frame.axes * Vector3::from(plan.vector(&event.details.slip, point));
     let side = if normal.dot(&mean.normal) < 0.0 { -1.0 } else { 1.0 };
-    let plane = Plane::of(side * normal);
+    let plane = Plane::from_normal(side * normal);
     [side * slip.dot(&plane.strike), side * slip.dot(&plane.up_dip)]
 }
 

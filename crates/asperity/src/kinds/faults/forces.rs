@@ -33,7 +33,7 @@ pub(super) fn table(plan: &Plan) -> Table<'_> {
     };
     let columns = [column::time()].into_iter().chain(plan.faults.iter().flat_map(of_fault)).collect();
     let row = |now: &Moment<'_>| {
-        let values = plan.faults.iter().flat_map(|fault| of(plan, fault, now));
+        let values = plan.faults.iter().flat_map(|fault| fault_forces(plan, fault, now));
         line(now.at.seconds(), values.map(|value| scientific(value, 9)))
     };
     Table::new(FILE.path, columns, Course::Largest, row)
@@ -41,7 +41,7 @@ pub(super) fn table(plan: &Plan) -> Table<'_> {
 
 /// Shear force along positive slip, with that of radiation damping, and effective normal force of a fault at a moment \[N; N/m\]. With vector slip the
 /// shear force is its component along the rake.
-fn of(plan: &Plan, fault: &FaultView, now: &Moment<'_>) -> [f64; 2] {
+fn fault_forces(plan: &Plan, fault: &FaultView, now: &Moment<'_>) -> [f64; 2] {
     let problem = &plan.problem.fault;
     let (m, rate) = (now.m(), now.rate);
     let (mut shear, mut pressed) = (0.0, 0.0);

@@ -63,5 +63,5 @@ pub use outputs::Outputs;
 pub use position::Position;
 pub(crate) use profiles::FILES as PROFILES;
 pub use report::Report;
-pub use saved::{Saved, Stand};
+pub use saved::{Checkpoint, StoredRun};
 pub use stress_files::write as write_stresses;

@@ -39,17 +39,17 @@ pub(crate) fn columns(faults: &[FaultView], per_length: bool) -> Vec<Column> {
 }
 
 /// ∫ G |v| dA of each fault, of slip or of slip rates v.
-fn of(plan: &Plan, values: &Components<&[f64]>) -> Vec<f64> {
+fn fault_moments(plan: &Plan, values: &Components<&[f64]>) -> Vec<f64> {
     let at = |p: usize| plan.points[p].shear_modulus * plan.points[p].area * values.size(p);
     plan.faults.iter().map(|f| f.points.clone().map(at).sum()).collect()
 }
 
 /// Moment rate of all faults together \[N m/s; N/s in the plane\].
 pub(super) fn rate(plan: &Plan, now: &Moment<'_>) -> f64 {
-    of(plan, &now.rate).iter().sum()
+    fault_moments(plan, &now.rate).iter().sum()
 }
 
 fn row(plan: &Plan, now: &Moment<'_>) -> String {
-    let both = of(plan, &now.rate).into_iter().zip(of(plan, &now.slip()));
+    let both = fault_moments(plan, &now.rate).into_iter().zip(fault_moments(plan, &now.slip()));
     line(now.at.seconds(), both.flat_map(|(rate, sum)| [scientific(rate, 9), scientific(sum, 9)]))
 }

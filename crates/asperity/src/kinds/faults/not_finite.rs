@@ -7,7 +7,7 @@ use asperity_plan::faults::Plan;
 pub(super) fn place(plan: &Plan, unknowns: &[f64]) -> Option<String> {
     let (operator, points) = (&plan.problem.fault.operator, plan.points.len());
     if let Some(at) = unknowns.iter().position(|v| !v.is_finite()) {
-        return Some(format!("the state at {} is {}", of_point(plan, at % points)?, unknowns[at]));
+        return Some(format!("the state at {} is {}", describe_point(plan, at % points)?, unknowns[at]));
     }
     let slip = vec![1.0; points * operator.components()];
     let mut shear = vec![0.0; slip.len()];
@@ -17,14 +17,14 @@ pub(super) fn place(plan: &Plan, unknowns: &[f64]) -> Option<String> {
         operator.normal(&slip, &mut normal);
     }
     let at = shear.iter().chain(&normal).position(|v| !v.is_finite())?;
-    let point = of_point(plan, at % points)?;
+    let point = describe_point(plan, at % points)?;
     Some(format!(
         "the tractions that slip causes at {point} are not finite: cells of faults lie on each other there"
     ))
 }
 
 /// Fault and position of a point.
-fn of_point(plan: &Plan, point: usize) -> Option<String> {
+fn describe_point(plan: &Plan, point: usize) -> Option<String> {
     let view = plan.points.get(point)?;
     let fault = plan.faults.iter().find(|f| f.points.contains(&point))?;
     Some(format!("the point of fault `{}` at {}", fault.name, coordinates::in_words(&view.at)))

@@ -2,7 +2,7 @@
 
 use super::files::Files;
 use super::identity;
-use super::saved::{Saved, Stand};
+use super::saved::{Checkpoint, StoredRun};
 use crate::checkpoint::{self, FILE, ResumeError};
 use crate::keep::{self, Place};
 use asperity_cycles::{Balance, FaultRun, Faults, Moment};
@@ -14,31 +14,31 @@ use asperity_run::{ObserveError, Observer as _, Warning};
 use std::path::Path;
 
 /// State at the last restart, if there was one.
-type Before = Option<Box<Stand>>;
+type LastRestart = Option<Box<StoredRun>>;
 
 /// See the module.
 pub struct Outputs<'a> {
     plan: &'a Plan,
     files: Files<'a>,
     balance: Balance<'a>,
-    before: Before,
+    before: LastRestart,
     drawn: bool,
 }
 
 impl<'a> Outputs<'a> {
     /// State of a run.
-    fn stand(&self, run: FaultRun) -> Stand {
-        Stand { run, files: self.files.position(), sums: self.balance.sums() }
+    fn stand(&self, run: FaultRun) -> StoredRun {
+        StoredRun { run, files: self.files.position(), sums: self.balance.sums() }
     }
 
-    fn saving(&self, last: Stand, before: Before) -> Saved {
+    fn saving(&self, last: StoredRun, before: LastRestart) -> Checkpoint {
         let loads = identity::loads(self.plan, last.run.at.seconds());
-        Saved { end: self.plan.problem.settings.end, loads, last, before }
+        Checkpoint { end: self.plan.problem.settings.end, loads, last, before }
     }
 
     /// State of a run that has ended as planned. It can be resumed to a later end.
     #[must_use]
-    pub fn ended(&self, run: &FaultRun) -> Saved {
+    pub fn ended(&self, run: &FaultRun) -> Checkpoint {
         let before = self.before.clone().filter(|_| run.outcome == Outcome::Completed);
         self.saving(self.stand(run.clone()), before)
     }
@@ -57,7 +57,7 @@ impl<'a> Outputs<'a> {
 
 /// State to resume from, and the last restart state before it, even if the end or the number of events is now larger. `None` if the run is to be
 /// extended and never restarted before its end.
-fn from(out: &Path, plan: &Plan, read: Saved) -> Result<Option<(Stand, Before)>, ResumeError> {
+fn from(out: &Path, plan: &Plan, read: Checkpoint) -> Result<Option<(StoredRun, LastRestart)>, ResumeError> {
     let (path, end) = (out.join(FILE), plan.problem.settings.end);
     let run = &read.last.run;
     let (at, events) = (run.at.seconds(), run.events().len());
@@ -72,7 +72,7 @@ fn from(out: &Path, plan: &Plan, read: Saved) -> Result<Option<(Stand, Before)>,
         return Ok(Some((read.last, before)));
     }
     if end > read.end {
-        return Ok(read.before.map(|before| (Stand::clone(&before), Some(before))));
+        return Ok(read.before.map(|before| (StoredRun::clone(&before), Some(before))));
     }
     Ok(Some((read.last, read.before)))
 }
@@ -80,7 +80,7 @@ fn from(out: &Path, plan: &Plan, read: Saved) -> Result<Option<(Stand, Before)>,
 impl<'a> keep::Outputs for Outputs<'a> {
     type Kind = Faults;
     type Plan = &'a Plan;
-    type Saved = Saved;
+    type Checkpoint = Checkpoint;
 
     fn create(plan: &'a Plan, place: &Place<'_>) -> Result<Self, OutputError> {
         let files = Files::create(place.out, plan)?;
@@ -91,7 +91,7 @@ impl<'a> keep::Outputs for Outputs<'a> {
     fn reopen(
         plan: &'a Plan,
         place: &Place<'_>,
-        saved: Saved,
+        saved: Checkpoint,
     ) -> Result<Option<(Self, FaultRun)>, ResumeError> {
         let (out, drawn) = (place.out, place.drawn);
         if saved.last.run.unknowns.len() != plan.problem.start.len() {
@@ -118,16 +118,16 @@ impl<'a> keep::Outputs for Outputs<'a> {
         self.files.settle()
     }
 
-    fn saved(&mut self, stand: &mut dyn FnMut() -> FaultRun, due: bool) -> Option<Saved> {
+    fn saved(&mut self, stand: &mut dyn FnMut() -> FaultRun, due: bool) -> Option<Checkpoint> {
         let now = self.stand(stand());
         self.before = Some(Box::new(now.clone()));
         due.then(|| self.saving(now, None))
     }
 
     /// A run that is interrupted within a rupture resumes at the start of the rupture.
-    fn restart(&self, moment: &Moment<'_>) -> Option<Saved> {
+    fn restart(&self, moment: &Moment<'_>) -> Option<Checkpoint> {
         moment.step.as_ref().and_then(|step| step.waves)?;
-        Some(self.saving(Stand::clone(self.before.as_ref()?), None))
+        Some(self.saving(StoredRun::clone(self.before.as_ref()?), None))
     }
 
     fn times(&self, moment: &Moment<'_>) -> [f64; 2] {

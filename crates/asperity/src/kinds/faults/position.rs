@@ -1,7 +1,7 @@
 //! Positions in the output files, from which a run is resumed.
 
-use super::snapshots::Taken;
-use super::source_time::Written;
+use super::snapshots::SnapshotState;
+use super::source_time::SourceTimeState;
 use asperity_ode::Clock;
 use asperity_plan::faults::cadence::Gauge;
 use serde::{Deserialize, Serialize};
@@ -17,7 +17,7 @@ pub struct Position {
     /// Number of steps taken.
     pub(super) step: u64,
     /// Snapshots, in 3D.
-    pub(super) snapshots: Option<Taken>,
+    pub(super) snapshots: Option<SnapshotState>,
     /// Files of the moment rates of events.
-    pub(super) events: Written,
+    pub(super) events: SourceTimeState,
 }

@@ -32,10 +32,10 @@ use std::ops::Range;
 
 /// Entry of an event, restricted to these points of all faults or of one.
 fn entry(plan: &Plan, event: &Event<Rupture>, points: &Range<usize>) -> Entry {
-    let entry = Entry::of(plan, event, points);
+    let entry = Entry::from_event(plan, event, points);
     let own = slipped(event, points);
     let turned =
-        (plan.problem.fault.law.components() > 1).then(|| Turned::new(plan, &event.details.slip, &own));
+        (plan.problem.fault.law.components() > 1).then(|| VectorSlip::new(plan, &event.details.slip, &own));
     let moment = turned.as_ref().map_or(entry.moment, |t| t.moment);
     // In the plane moments are per length, which only a place may give.
     let width = if plan.in_space { Some(1.0) } else { plan.frame.as_ref().and_then(|f| f.length) };
@@ -72,13 +72,13 @@ fn slow_events(plan: &Plan, run: &FaultRun) -> Option<Vec<Entry>> {
 }
 
 /// Moment and direction of vector slip.
-struct Turned {
+struct VectorSlip {
     moment: f64,
     direction: [f64; 3],
     angle: f64,
 }
 
-impl Turned {
+impl VectorSlip {
     fn new(plan: &Plan, slip: &Components<Vec<f64>>, slipped: &[usize]) -> Self {
         let (mut tensor, mut mean, mut parts) = (Matrix3::zeros(), Vector3::zeros(), [0.0; 2]);
         for &p in slipped {
@@ -309,7 +309,7 @@ impl Report {
         let events = run.events();
         let slip = &run.unknowns[Layout::from_fault(&plan.problem.fault).slip()];
         let pressed = plan.problem.fault.pressed(run.at, &run.unknowns);
-        let End { points, forces, springs } = End::of(plan, run, &pressed);
+        let End { points, forces, springs } = End::from_run(plan, run, &pressed);
         let energy = EnergyTable::new(unit(plan), &balance.energy(slip, &pressed).energies());
         let unbalanced =
             energy.doubt("the steps are too long for it", "take a smaller `log_rate_tolerance` in `[time]`");
@@ -328,11 +328,11 @@ impl Report {
             outcome,
             warnings: plan.warnings.iter().cloned().chain(molten).chain(unbalanced).collect(),
             resolution: plan.resolution.clone(),
-            checks: plan.checks.of_any_machine(),
+            checks: plan.checks.without_memory(),
             floors: uses(plan, balance.account()),
             openings: openings(plan, balance.account(), pressed.values(&OPENING)),
             heat,
-            compression: Compression::of(plan.problem.fault.operator.as_ref()),
+            compression: Compression::from_operator(plan.problem.fault.operator.as_ref()),
             method: plan.problem.settings.method.name().to_string(),
             tolerance: plan.problem.settings.tolerance,
             end: run.at.seconds(),

@@ -52,7 +52,7 @@ impl<'a> Rows<'a> {
     /// If the file cannot be written, or is missing or shorter than it was.
     pub fn open(out: &Path, table: Table<'a>, from: Option<Gauge>) -> Result<Self, OutputError> {
         let file = table.open(out, from.map(|gauge| gauge.bytes))?;
-        let gauge = from.unwrap_or_else(|| Gauge::of(file.bytes()));
+        let gauge = from.unwrap_or_else(|| Gauge::from_size(file.bytes()));
         Ok(Self { table, file, gauge })
     }
 

@@ -16,7 +16,7 @@ pub(super) struct End {
 
 impl End {
     /// Values of a run of a plan; none where the plan samples none.
-    pub fn of(plan: &Plan, run: &FaultRun, pressed: &PointTractions) -> Self {
+    pub fn from_run(plan: &Plan, run: &FaultRun, pressed: &PointTractions) -> Self {
         let (Some(sampling), Some(view)) = (&plan.sampling, &plan.bodies) else { return Self::default() };
         let slip = &run.unknowns[Layout::from_fault(&plan.problem.fault).slip()];
         let values =

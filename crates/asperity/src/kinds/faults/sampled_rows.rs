@@ -11,13 +11,13 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Tables of the values of bodies; all follow the largest slip rate. The bodies are solved for once a moment.
 pub(super) fn tables(plan: &Plan) -> Vec<Table<'_>> {
     let (Some(sampling), Some(view)) = (&plan.sampling, &plan.bodies) else { return Vec::new() };
-    let rows = Arc::new(Mutex::new(Lately::default()));
+    let rows = Arc::new(Mutex::new(RecentRows::default()));
     let all = sampling.sampled.tables().into_iter().enumerate();
     let table = |(k, (path, columns)): (usize, (String, Vec<Column>))| {
         let rows = Arc::clone(&rows);
         let row = move |now: &Moment<'_>, step: u64| {
             let mut rows = rows.lock().unwrap_or_else(PoisonError::into_inner);
-            rows.of((now.at, step), || {
+            rows.at_moment((now.at, step), || {
                 let values = sampling.at(view, now);
                 sampling.sampled.rows(now.at.seconds(), sampling.number, step, &values)
             })[k]
@@ -30,11 +30,11 @@ pub(super) fn tables(plan: &Plan) -> Vec<Table<'_>> {
 
 /// Rows of all tables at the two moments sampled last.
 #[derive(Default)]
-struct Lately(VecDeque<((Clock, u64), Vec<String>)>);
+struct RecentRows(VecDeque<((Clock, u64), Vec<String>)>);
 
-impl Lately {
+impl RecentRows {
     /// Rows at a moment, computed if they are not known.
-    fn of(&mut self, when: (Clock, u64), rows: impl FnOnce() -> Vec<String>) -> &[String] {
+    fn at_moment(&mut self, when: (Clock, u64), rows: impl FnOnce() -> Vec<String>) -> &[String] {
         let known = self.0.iter().position(|(at, _)| *at == when);
         let k = known.unwrap_or_else(|| {
             self.0.truncate(1);

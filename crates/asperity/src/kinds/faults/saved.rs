@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// State of a run with its output files.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Stand {
+pub struct StoredRun {
     /// State, clock, step length, events and counts.
     pub run: FaultRun,
     /// Positions in the output files.
@@ -18,19 +18,19 @@ pub struct Stand {
 
 /// Everything needed to resume a run, even to a later end or to more events.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Saved {
+pub struct Checkpoint {
     /// Planned end of the run \[s\].
     pub end: f64,
     /// Identity of the loads so far; see [`super::identity::loads`].
     pub loads: Vec<[f64; 3]>,
     /// State of the run.
-    pub last: Stand,
+    pub last: StoredRun,
     /// State at the last restart, stored once the run has reached its end time. The step to the end is cut short there, so an extended run resumes
     /// from this state instead.
-    pub before: Option<Box<Stand>>,
+    pub before: Option<Box<StoredRun>>,
 }
 
-impl checkpoint::Saved for Saved {
+impl checkpoint::SavedState for Checkpoint {
     const OF: &'static str = "faults";
     const VERSION: &'static str = "6";
     const ALLOWED: &'static str = "the duration of the last stage, `stop_after` or `[place]`";

@@ -15,7 +15,7 @@ pub(crate) fn shape(
     compass: &Compass<'_>,
 ) -> RuptureShape {
     if in_space {
-        let view = View::of(points, compass, false);
+        let view = View::from_points(points, compass, false);
         return RuptureShape::Surface(view.surface(points.iter().map(|p| &p.at), fault.faces.clone()));
     }
     let along = |axis: usize| points.iter().all(|p| p.normal[1 - axis].abs() > 1.0 - STRAIGHT);
@@ -30,7 +30,7 @@ pub(crate) fn shape(
 /// Corners of triangles, as figures show them.
 pub(crate) fn corners(outline: &Outline, points: &[PointView], compass: &Compass<'_>) -> Surface {
     let faces = outline.corners.iter().map(|corners| corners.to_vec()).collect();
-    View::of(points, compass, true).surface(outline.nodes.iter(), faces)
+    View::from_points(points, compass, true).surface(outline.nodes.iter(), faces)
 }
 
 /// Values at the corners of triangles: means of the finite values of the triangles around them.

@@ -21,7 +21,7 @@ const FILES: u64 = 10;
 
 /// Number of snapshots taken, and the gauge that decides when the next is due.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(super) struct Taken {
+pub(super) struct SnapshotState {
     count: usize,
     pub gauge: Gauge,
     /// Size of the list \[bytes\].
@@ -34,7 +34,7 @@ pub(super) struct Snapshots<'a> {
     /// States of each fault.
     states: Vec<Series<'a, Present>>,
     list: GrowingTable,
-    taken: Taken,
+    taken: SnapshotState,
 }
 
 /// Columns of the list of snapshots.
@@ -51,7 +51,11 @@ impl<'a> Snapshots<'a> {
     ///
     /// # Errors
     /// If the folder or the list cannot be written.
-    pub fn open(out: &Path, plan: &'a Plan, taken: Option<Taken>) -> Result<Option<Self>, OutputError> {
+    pub fn open(
+        out: &Path,
+        plan: &'a Plan,
+        taken: Option<SnapshotState>,
+    ) -> Result<Option<Self>, OutputError> {
         if !plan.in_space {
             return Ok(None);
         }
@@ -65,8 +69,8 @@ impl<'a> Snapshots<'a> {
     }
 
     /// Number and gauge of the snapshots taken.
-    pub fn taken(&self) -> Taken {
-        Taken { list: self.list.bytes(), ..self.taken }
+    pub fn taken(&self) -> SnapshotState {
+        SnapshotState { list: self.list.bytes(), ..self.taken }
     }
 
     /// Waits until the list is on the disc.

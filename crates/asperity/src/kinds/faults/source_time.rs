@@ -29,7 +29,7 @@ pub(super) fn name(number: usize) -> String {
 
 /// Files written so far, and the state of the last one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(super) struct Written {
+pub(super) struct SourceTimeState {
     /// Number of events seen.
     events: usize,
     /// Gauge of the last file, while its event lasts.
@@ -47,7 +47,7 @@ pub(super) struct Written {
 pub(super) struct SourceTimes {
     folder: PathBuf,
     file: Option<GrowingTable>,
-    written: Written,
+    written: SourceTimeState,
 }
 
 impl SourceTimes {
@@ -60,14 +60,14 @@ impl SourceTimes {
         if plan.event_files > 0 {
             atomic::create_dir(&folder)?;
         }
-        Ok(Self { folder, file: None, written: Written::default() })
+        Ok(Self { folder, file: None, written: SourceTimeState::default() })
     }
 
     /// Resumes after what has been written.
     ///
     /// # Errors
     /// If a file is missing or shorter than it was.
-    pub fn resume(out: &Path, plan: &Plan, written: Written) -> Result<Self, ResumeError> {
+    pub fn resume(out: &Path, plan: &Plan, written: SourceTimeState) -> Result<Self, ResumeError> {
         let mut files = Self::create(out, plan)?;
         if let Some(gauge) = written.open {
             let path = files.folder.join(name(written.events - 1));
@@ -77,7 +77,7 @@ impl SourceTimes {
     }
 
     /// Files written so far.
-    pub fn written(&self) -> Written {
+    pub fn written(&self) -> SourceTimeState {
         self.written
     }
 
@@ -128,7 +128,7 @@ impl SourceTimes {
         let head = column::header(&columns(plan));
         let path = self.folder.join(name(self.written.events - 1));
         self.file = Some(GrowingTable::create(path, head.as_bytes())?);
-        self.written.open = Some(Gauge::of(head.len() as u64));
+        self.written.open = Some(Gauge::from_size(head.len() as u64));
         self.written.skipped = 0;
         Ok(())
     }

@@ -12,14 +12,14 @@ const MOST: usize = 5;
 const MPA: f64 = 1e6;
 
 /// A station: its fault, its name in figures, the path of its file and its point.
-struct Named<'a> {
+struct NamedStation<'a> {
     fault: &'a FaultView,
     name: String,
     path: String,
     point: usize,
 }
 
-fn named(plan: &Plan) -> Vec<Named<'_>> {
+fn named(plan: &Plan) -> Vec<NamedStation<'_>> {
     let all = plan.faults.iter().flat_map(|fault| fault.stations.iter().map(move |station| (fault, station)));
     let several = plan.faults.iter().filter(|fault| !fault.stations.is_empty()).count() > 1;
     all.zip(stations::all(plan))
@@ -31,7 +31,7 @@ fn named(plan: &Plan) -> Vec<Named<'_>> {
                 }
             };
             let name = if several { format!("{}, {place}", fault.name) } else { place };
-            Named { fault, name, path: format!("stations/{}", path), point: *point }
+            NamedStation { fault, name, path: format!("stations/{}", path), point: *point }
         })
         .collect()
 }
@@ -58,7 +58,7 @@ pub(super) fn portraits(plan: &Plan, run: &FaultRun) -> Vec<Portrait> {
     };
     let turns = plan.problem.fault.law.components() > 1;
     let (rate, shear) = if turns { (vec![3, 4], vec![5, 6]) } else { (vec![2], vec![3]) };
-    let of = |station: Named<'_>| Portrait {
+    let of = |station: NamedStation<'_>| Portrait {
         name: station.name,
         path: station.path,
         rate: rate.clone(),

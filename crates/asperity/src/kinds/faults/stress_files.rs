@@ -13,17 +13,19 @@ pub(super) const FILE: OutputFile =
     OutputFile::new("events/stress_*.vtu", "stress of bodies that each event causes");
 
 /// Stress of a cell, and its change on the planes.
-type Stressed = ([f64; 6], Change);
+type CellStress = ([f64; 6], Change);
 
 /// A part of a change.
 type Part = fn(&Change) -> f64;
 
 /// Stresses of the cells of bodies.
-pub(super) fn series(view: &BodiesView) -> Series<'_, Vec<Stressed>> {
+pub(super) fn series(view: &BodiesView) -> Series<'_, Vec<CellStress>> {
     // VTK's order of components is that of stresses here.
     let stress = Field::tensor("stress", "Pa", Sign::Tension, "stress that the event causes").in_cells();
     let mut series = Series::new(FILE.path, FieldTimes::Events, || Grid::new(&view.nodes, &view.cells))
-        .with(stress, |all: &Vec<Stressed>| all.iter().map(|(stress, _)| *stress).collect::<Vec<_>>().into());
+        .with(stress, |all: &Vec<CellStress>| {
+            all.iter().map(|(stress, _)| *stress).collect::<Vec<_>>().into()
+        });
     let change = |name, sign, meaning| Field::scalar(name, "Pa", sign, meaning).in_cells();
     let parts: [(Field, Part); 3] = [
         (change("shear_change", Sign::Driving, "change of the shear traction along the rake"), |c| c.shear),

@@ -45,11 +45,11 @@ pub(super) fn plots(plan: &Plan, run: &FaultRun) -> Vec<Plot> {
             map(event, Coordinates::Degrees, axes, [ON_EARTH, ON_EARTH + 1, ON_EARTH + 2])
         }
     };
-    events.map(|(number, event)| one(of_event(number, event))).collect()
+    events.map(|(number, event)| one(event_onset(number, event))).collect()
 }
 
 /// An event as figures name it.
-pub(super) fn of_event(number: usize, event: &Event<Rupture>) -> EventOnset {
+pub(super) fn event_onset(number: usize, event: &Event<Rupture>) -> EventOnset {
     EventOnset { number, onset: event.onset.seconds() }
 }
 

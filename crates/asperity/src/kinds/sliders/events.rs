@@ -40,7 +40,8 @@ pub struct Entry {
 
 /// An event with the name of its slider.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct Named {
+#[schemars(rename = "Named")]
+pub struct NamedEvent {
     /// Slider.
     pub surface: String,
     /// Event.
@@ -48,7 +49,7 @@ pub struct Named {
     pub entry: Entry,
 }
 
-impl Named {
+impl NamedEvent {
     /// Events of all sliders in order of onset.
     #[must_use]
     pub fn all(run: &SliderRun, names: &[String]) -> Vec<Self> {
@@ -66,7 +67,7 @@ impl Entry {
 
     /// Events of one slider.
     #[must_use]
-    pub fn of(run: &SliderRun, slider: usize) -> Vec<Self> {
+    pub fn from_slider(run: &SliderRun, slider: usize) -> Vec<Self> {
         run.catalogue.events(slider).iter().map(|event| Self::new(slider, event)).collect()
     }
 
@@ -96,7 +97,7 @@ impl Entry {
 
 /// Columns of the events of sliders.
 #[must_use]
-pub fn columns(events: &[Named]) -> Vec<Column> {
+pub fn columns(events: &[NamedEvent]) -> Vec<Column> {
     let states = events.iter().map(|e| e.entry.at_onset.states.len()).max().unwrap_or(0);
     let mut all: Vec<Column> = head_columns().collect();
     all.extend([
@@ -115,11 +116,11 @@ pub fn columns(events: &[Named]) -> Vec<Column> {
 
 /// Events as CSV; unknown values are empty.
 #[must_use]
-pub fn csv(events: &[Named]) -> String {
+pub fn csv(events: &[NamedEvent]) -> String {
     let states = events.iter().map(|e| e.entry.at_onset.states.len()).max().unwrap_or(0);
     let mut text = column::header(&columns(events));
     let known = |value: Option<f64>| value.map(shortest_scientific).unwrap_or_default();
-    for Named { surface, entry: e } in events {
+    for NamedEvent { surface, entry: e } in events {
         let _ = write!(
             text,
             "{},{},{},{:e}",

@@ -20,14 +20,14 @@ pub const HISTORIES: OutputFile = OutputFile::new("history/*.csv", "sliders over
 /// Writes `history/<slider>.csv`; each file grows by whole rows.
 #[derive(Debug)]
 pub struct Histories {
-    sliders: Vec<Kept>,
+    sliders: Vec<SliderRecord>,
     /// True if plots will be drawn.
     traced: bool,
 }
 
 /// Record of a slider.
 #[derive(Debug, Default)]
-struct Kept {
+struct SliderRecord {
     file: Option<GrowingTable>,
     thin: Thin,
     trace: Trace,
@@ -56,7 +56,7 @@ impl Histories {
     /// # Errors
     /// If a file cannot be written.
     pub fn create(out: &Path, problem: &Problem) -> Result<Self, OutputError> {
-        Self::of(out, problem, |path, header, _| GrowingTable::create(path, header))
+        Self::with_files(out, problem, |path, header, _| GrowingTable::create(path, header))
     }
 
     /// Resumes the files at their recorded positions; later rows are cut off.
@@ -65,7 +65,7 @@ impl Histories {
     /// If a file is missing, shorter than it was, or cannot be written.
     pub fn resume(out: &Path, problem: &Problem, from: Positions) -> Result<Self, OutputError> {
         let bytes = |i: usize| from.sliders.get(i).and_then(|p| p.bytes).unwrap_or_default();
-        let mut resumed = Self::of(out, problem, |path, _, i| GrowingTable::reopen(path, bytes(i)))?;
+        let mut resumed = Self::with_files(out, problem, |path, _, i| GrowingTable::reopen(path, bytes(i)))?;
         for (kept, Position { thin, trace, .. }) in resumed.sliders.iter_mut().zip(from.sliders) {
             (kept.thin, kept.trace) = (thin, trace);
         }
@@ -74,7 +74,7 @@ impl Histories {
     }
 
     /// Histories with files from `open`, which takes the path, the header and the number of the slider.
-    fn of(
+    fn with_files(
         out: &Path,
         problem: &Problem,
         open: impl Fn(PathBuf, &[u8], usize) -> Result<GrowingTable, OutputError>,
@@ -91,7 +91,7 @@ impl Histories {
             } else {
                 None
             };
-            sliders.push(Kept { file, ..Kept::default() });
+            sliders.push(SliderRecord { file, ..SliderRecord::default() });
         }
         Ok(Self { sliders, traced: false })
     }
@@ -108,7 +108,7 @@ impl Histories {
     /// Current positions in the histories.
     #[must_use]
     pub fn positions(&self) -> Positions {
-        let of = |kept: &Kept| Position {
+        let of = |kept: &SliderRecord| Position {
             bytes: kept.file.as_ref().map(GrowingTable::bytes),
             thin: kept.thin.clone(),
             trace: kept.trace.clone(),
@@ -186,7 +186,7 @@ fn columns(states: usize) -> Vec<Column> {
     all
 }
 
-impl Kept {
+impl SliderRecord {
     fn add(&mut self, row: &Row, traced: bool) -> Result<(), OutputError> {
         // Figures read the table where there is one.
         if traced && self.file.is_none() {

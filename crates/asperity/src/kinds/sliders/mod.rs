@@ -7,7 +7,7 @@ mod outputs;
 mod report;
 mod thin;
 
-pub use events::{Entry, Named, columns, csv};
+pub use events::{Entry, NamedEvent, columns, csv};
 pub use files::{HISTORIES, Histories, Positions};
-pub use outputs::{Outputs, Saved};
+pub use outputs::{Checkpoint, Outputs};
 pub use report::Report;

@@ -12,12 +12,12 @@ use serde::{Deserialize, Serialize};
 
 /// Everything needed to resume a run of spring-sliders.
 #[derive(Serialize, Deserialize)]
-pub struct Saved {
+pub struct Checkpoint {
     run: SliderRun,
     histories: Positions,
 }
 
-impl checkpoint::Saved for Saved {
+impl checkpoint::SavedState for Checkpoint {
     const OF: &'static str = "spring-sliders";
     const VERSION: &'static str = "4";
 }
@@ -43,7 +43,7 @@ impl Outputs<'_> {
 impl<'a> keep::Outputs for Outputs<'a> {
     type Kind = Sliders;
     type Plan = &'a Problem;
-    type Saved = Saved;
+    type Checkpoint = Checkpoint;
 
     fn create(problem: &'a Problem, place: &Place<'_>) -> Result<Self, OutputError> {
         let histories = Histories::create(place.out, problem)?;
@@ -53,7 +53,7 @@ impl<'a> keep::Outputs for Outputs<'a> {
     fn reopen(
         problem: &'a Problem,
         place: &Place<'_>,
-        Saved { run, histories }: Saved,
+        Checkpoint { run, histories }: Checkpoint,
     ) -> Result<Option<(Self, SliderRun)>, ResumeError> {
         if run.unknowns.len() != problem.start.len() {
             return Err(checkpoint::foreign(place.out, "its unknowns differ from those of this scene"));
@@ -74,8 +74,8 @@ impl<'a> keep::Outputs for Outputs<'a> {
         self.histories.settle()
     }
 
-    fn saved(&mut self, stand: &mut dyn FnMut() -> SliderRun, due: bool) -> Option<Saved> {
-        due.then(|| Saved { run: stand(), histories: self.histories.positions() })
+    fn saved(&mut self, stand: &mut dyn FnMut() -> SliderRun, due: bool) -> Option<Checkpoint> {
+        due.then(|| Checkpoint { run: stand(), histories: self.histories.positions() })
     }
 
     fn times(&self, now: &Step<'_>) -> [f64; 2] {

@@ -1,6 +1,6 @@
 //! Report of a run of spring-sliders, `report.json`.
 
-use super::events::Named;
+use super::events::NamedEvent;
 use crate::report::results;
 use asperity_cycles::slider::{Problem, SliderRun};
 use asperity_cycles::{Outrun, Thresholds};
@@ -62,7 +62,7 @@ pub struct Report {
     /// Sliders at the end.
     pub last: Vec<Final>,
     /// Events.
-    pub events: Vec<Named>,
+    pub events: Vec<NamedEvent>,
     /// Energy budget \[J/m²\], summed over the sliders; absent if the run was not observed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy: Option<EnergyTable>,
@@ -126,7 +126,7 @@ impl Report {
             outcome,
             end: run.at.seconds(),
             last: last.collect(),
-            events: Named::all(run, &problem.names),
+            events: NamedEvent::all(run, &problem.names),
             energy,
             counts: counts(&run.counts),
             seconds: Phases::default(),
@@ -137,7 +137,7 @@ impl Report {
     #[must_use]
     pub fn text(&self) -> String {
         let mut text = String::from("results\n");
-        for Named { surface, entry: e } in &self.events {
+        for NamedEvent { surface, entry: e } in &self.events {
             let told =
                 |value: Option<f64>, unit: &str| value.map_or("-".into(), |v| format!("{v:.6} {unit}"));
             let _ = writeln!(

@@ -1,6 +1,6 @@
 //! Runs of every kind, which together leave the files that tables and fields describe.
 
-use super::written::{Described, described};
+use super::written::{ColumnDescription, described};
 use super::{cycles, sliders, varied};
 use crate::{dynamic, located};
 use asperity_vary::Change::{Add, With};
@@ -48,14 +48,14 @@ probes.joint = 3
 "#;
 
 /// Columns and arrays of runs of a kind, as the runs describe them.
-pub fn files(kind: &str) -> &'static [Described] {
-    static ALL: LazyLock<BTreeMap<&str, Vec<Described>>> = LazyLock::new(|| {
+pub fn files(kind: &str) -> &'static [ColumnDescription] {
+    static ALL: LazyLock<BTreeMap<&str, Vec<ColumnDescription>>> = LazyLock::new(|| {
         KINDS.into_iter().map(|kind| (kind, scenes(kind).iter().flat_map(|s| run(s)).collect())).collect()
     });
     &ALL[kind]
 }
 
-fn run(scene: &str) -> Vec<Described> {
+fn run(scene: &str) -> Vec<ColumnDescription> {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("scene.toml"), scene).unwrap();
     let mut run = Command::new(env!("CARGO_BIN_EXE_asperity"));

@@ -18,7 +18,7 @@ pub struct Column {
 
 /// A column or an array as the text about the files of a run describes it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Described {
+pub struct ColumnDescription {
     /// Names of its files, where `*` is any text.
     pub files: Vec<String>,
     /// Name, with `*` for parts of the scene; `each point` where the table has a column for each point.
@@ -30,7 +30,7 @@ pub struct Described {
 }
 
 /// Columns and arrays in the text about the files of a run.
-pub fn described(out: &Path) -> Vec<Described> {
+pub fn described(out: &Path) -> Vec<ColumnDescription> {
     let text = fs::read_to_string(out.join("README.md")).unwrap();
     let rows = text.lines().filter(|line| line.starts_with("| `"));
     rows.map(|row| {
@@ -42,7 +42,7 @@ pub fn described(out: &Path) -> Vec<Described> {
         };
         let files = files.split(", ").map(|file| file.trim_matches('`').to_owned()).collect();
         let column = column.trim_matches('`').into();
-        Described { files, column, unit: unit.into(), sign: sign.into(), array }
+        ColumnDescription { files, column, unit: unit.into(), sign: sign.into(), array }
     })
     .collect()
 }

@@ -97,7 +97,7 @@ fn a_file_becomes_coarser_and_never_passes_its_size() {
 
 #[test]
 fn slow_slip_makes_profiles_as_far_apart_as_its_slip() {
-    let of = |on: f64| Cadence::new(Asked::default(), 3000.0 * YEAR, on, Some(8e-3));
+    let of = |on: f64| Cadence::new(CadenceLimits::default(), 3000.0 * YEAR, on, Some(8e-3));
     assert_eq!(of(1e-3).contours, [5.0 * YEAR, 1.0]);
     assert!((of(1e-8).contours[1] - 1e5).abs() < 1e-3);
     assert_eq!(of(1e-3).contours.map(time), ["5 yr", "1 s"]);

@@ -5,7 +5,7 @@ use asperity_cycles::{Components, FaultRun, NextStep, Rupture, Sums, Thresholds}
 use asperity_run::ALL;
 use std::fs;
 
-fn sample() -> Saved {
+fn sample() -> Checkpoint {
     let thresholds = Thresholds { on: 1e-3, off: 1e-4 };
     let mut run = FaultRun::new(vec![0.1 + 0.2, -0.0, 5e-324, 1.797e308], &[0..2, 2..4], thresholds);
     // A time with a carry, which a single number cannot hold.
@@ -18,9 +18,9 @@ fn sample() -> Saved {
         ..Rupture::default()
     };
     run.catalogue.begin(ALL, run.at, 2.5, details);
-    let last = Stand { run, files: Position::default(), sums: Sums::default() };
+    let last = StoredRun { run, files: Position::default(), sums: Sums::default() };
     let before = Some(Box::new(last.clone()));
-    Saved { end: 1.0 / 9.0, loads: vec![[0.1, 0.2, 0.3]], last, before }
+    Checkpoint { end: 1.0 / 9.0, loads: vec![[0.1, 0.2, 0.3]], last, before }
 }
 
 #[test]
@@ -28,9 +28,9 @@ fn what_is_read_is_what_was_written_to_the_last_bit() {
     let folder = tempfile::tempdir().unwrap();
     let written = sample();
     write(folder.path(), "s", &written).unwrap();
-    let read = read::<Saved>(folder.path(), "s").unwrap().unwrap();
+    let read = read::<Checkpoint>(folder.path(), "s").unwrap().unwrap();
     assert_eq!(read, written);
-    let bits = |c: &Saved| c.last.run.unknowns.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+    let bits = |c: &Checkpoint| c.last.run.unknowns.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
     assert_eq!(bits(&read), bits(&written));
     assert_eq!(format!("{:?}", read.last.run.at), format!("{:?}", written.last.run.at));
 }
@@ -38,7 +38,7 @@ fn what_is_read_is_what_was_written_to_the_last_bit() {
 #[test]
 fn no_checkpoint_is_no_error_and_can_be_removed() {
     let folder = tempfile::tempdir().unwrap();
-    assert!(read::<Saved>(folder.path(), "s").unwrap().is_none());
+    assert!(read::<Checkpoint>(folder.path(), "s").unwrap().is_none());
     remove(folder.path()).unwrap();
 }
 
@@ -48,12 +48,12 @@ fn every_changed_byte_is_noticed() {
     write(folder.path(), "s", &sample()).unwrap();
     let path = folder.path().join(FILE);
     let bytes = fs::read(&path).unwrap();
-    assert!(parse::<Saved>(bytes.clone(), &path, "s").is_ok());
+    assert!(parse::<Checkpoint>(bytes.clone(), &path, "s").is_ok());
     for k in 0..bytes.len() {
         let mut changed = bytes.clone();
         changed[k] ^= 1;
-        assert!(parse::<Saved>(changed, &path, "s").is_err(), "byte {k}");
-        assert!(parse::<Saved>(bytes[..k].to_vec(), &path, "s").is_err(), "cut at {k}");
+        assert!(parse::<Checkpoint>(changed, &path, "s").is_err(), "byte {k}");
+        assert!(parse::<Checkpoint>(bytes[..k].to_vec(), &path, "s").is_err(), "cut at {k}");
     }
 }
 
@@ -61,11 +61,11 @@ fn every_changed_byte_is_noticed() {
 fn another_version_and_another_scene_are_told_apart_from_damage() {
     let folder = tempfile::tempdir().unwrap();
     write(folder.path(), "s", &sample()).unwrap();
-    assert!(matches!(read::<Saved>(folder.path(), "t"), Err(ResumeError::Scene { .. })));
+    assert!(matches!(read::<Checkpoint>(folder.path(), "t"), Err(ResumeError::Scene { .. })));
     let path = folder.path().join(FILE);
     let text = fs::read_to_string(&path).unwrap();
     let (before, after) = text.split_once("version 6").unwrap();
     fs::write(&path, format!("{before}version 99{after}")).unwrap();
-    let error = read::<Saved>(folder.path(), "s").unwrap_err();
+    let error = read::<Checkpoint>(folder.path(), "s").unwrap_err();
     assert!(error.to_string().contains("has version 99"), "{error}");
 }

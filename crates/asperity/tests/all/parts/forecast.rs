@@ -44,14 +44,14 @@ fn bodies_in_explicit_steps_are_counted_without_matrices() {
     let text =
         std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/tpv5.toml")).unwrap();
     let scene = asperity_plan::reading::scene::read(&text).unwrap();
-    assert_eq!(Built::of(&scene), Built::Vectors);
+    assert_eq!(BuiltParts::from_scene(&scene), BuiltParts::Vectors);
     // Two blocks of 9 x 18 x 36 km in cells of 100 m.
     let block =
         || Counts { kind: ElementKind::Hex8, cells: 90.0 * 180.0 * 360.0, nodes: 91.0 * 181.0 * 361.0 };
-    let bytes = |built: Built| built.bytes(&[block(), block()], Idealisation::ThreeD) as f64;
+    let bytes = |built: BuiltParts| built.bytes(&[block(), block()], Idealisation::ThreeD) as f64;
     // A run with cells of 200 m takes 0.9 kB a cell.
-    assert!((bytes(Built::Vectors) / 10.5e9 - 1.0).abs() < 0.05, "{}", bytes(Built::Vectors));
+    assert!((bytes(BuiltParts::Vectors) / 10.5e9 - 1.0).abs() < 0.05, "{}", bytes(BuiltParts::Vectors));
     // A cell condensed onto a fault has a matrix of 24 x 24 numbers and a copy.
-    assert!(bytes(Built::Cells) > 2.0 * 8.0 * 24.0 * 24.0 * 11_664_000.0);
-    assert!(bytes(Built::Systems) > bytes(Built::Cells) / 2.0);
+    assert!(bytes(BuiltParts::Cells) > 2.0 * 8.0 * 24.0 * 24.0 * 11_664_000.0);
+    assert!(bytes(BuiltParts::Systems) > bytes(BuiltParts::Cells) / 2.0);
 }

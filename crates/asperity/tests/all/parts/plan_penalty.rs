@@ -13,8 +13,8 @@ fn spec(factor: f64) -> Enforcement {
     }
 }
 
-fn softer(contrast: f64) -> Softer {
-    Softer { body: "clay".into(), contrast, young_per_size: 1e12, size: 1e-2, extent: 100.0 }
+fn softer(contrast: f64) -> SofterCells {
+    SofterCells { body: "clay".into(), contrast, young_per_size: 1e12, size: 1e-2, extent: 100.0 }
 }
 
 fn told(factor: f64, contrast: f64) -> Vec<Warning> {

@@ -1,7 +1,7 @@
 //! Settings of runs with waves that are probably not intended.
 
-use crate::doubts::{self as shared, Pushed};
-use crate::faults::planner::{Placed, pulse_doubts};
+use crate::doubts::{self as shared, PulsePoint};
+use crate::faults::planner::{PlacedPoint, pulse_doubts};
 use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::{Fault as Spec, Scene};
 use asperity_laws as laws;
@@ -21,7 +21,7 @@ const TINY: f64 = 1e-4;
 /// Warns of very many steps, of faults that slip as a whole at once, and of faults that nothing moves.
 pub(super) fn check<const D: usize>(
     scene: &Scene,
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
     stage: &Stage,
     (steps, dt): (usize, f64),
 ) -> Vec<Warning> {
@@ -35,7 +35,7 @@ pub(super) fn check<const D: usize>(
     }
     let mut pushed = stage.is_loaded() || !stage.motions.is_empty() || stage.has_loads();
     for (k, (name, spec)) in scene.faults.iter().enumerate() {
-        let own: Vec<&Placed<D>> = placed.iter().filter(|p| p.fault == k).collect();
+        let own: Vec<&PlacedPoint<D>> = placed.iter().filter(|p| p.fault == k).collect();
         let Some(above) = own.iter().map(|p| above(p)).sum::<Option<usize>>() else {
             pushed = true;
             continue;
@@ -57,8 +57,8 @@ pub(super) fn check<const D: usize>(
 }
 
 /// Warnings about faults between unlike rocks whose friction follows the normal traction at once.
-pub(super) fn unlike<const D: usize>(scene: &Scene, placed: &[Placed<D>], delays: bool) -> Vec<Warning> {
-    let remembers = |p: &Placed<D>| match &p.law {
+pub(super) fn unlike<const D: usize>(scene: &Scene, placed: &[PlacedPoint<D>], delays: bool) -> Vec<Warning> {
+    let remembers = |p: &PlacedPoint<D>| match &p.law {
         LawChoice::RateAndState { states, .. } => states.iter().any(|s| s.alpha > 0.0),
         _ => false,
     };
@@ -75,12 +75,12 @@ pub(super) fn unlike<const D: usize>(scene: &Scene, placed: &[Placed<D>], delays
 /// Doubts about the pulses of a run of this duration \[s\].
 pub(super) fn pulses<const D: usize>(
     scene: &Scene,
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
     fault: &Fault,
     duration: f64,
 ) -> Vec<Warning> {
     let named: Vec<(&String, &Spec)> = scene.faults.iter().collect();
-    let of = |p: &Placed<D>| {
+    let of = |p: &PlacedPoint<D>| {
         let (direct, missing, length) = match &p.law {
             LawChoice::Rate { strength, .. } => (Some(strength.a * p.normal), None, None),
             LawChoice::RateAndState { strength, states, .. } => {
@@ -93,9 +93,9 @@ pub(super) fn pulses<const D: usize>(
             }
         };
         let begins = length.map(|l| p.rate.abs() * duration / l);
-        Pushed { amplitude: 0.0, normal: p.normal, direct, missing, begins }
+        PulsePoint { amplitude: 0.0, normal: p.normal, direct, missing, begins }
     };
-    let pushed: Vec<Pushed> = placed.iter().map(of).collect();
+    let pushed: Vec<PulsePoint> = placed.iter().map(of).collect();
     pulse_doubts(&named, fault.pulses.iter().map(|p| p.amplitude.as_slice()), &pushed)
 }
 
@@ -109,7 +109,7 @@ fn at_once((name, spec): (&String, &Spec), above: usize, points: usize) -> Warni
 }
 
 /// Warning about a shear traction that hardly loads a fault: a unit that was left out.
-fn tiny<const D: usize>((name, spec): (&String, &Spec), own: &[&Placed<D>]) -> Option<Warning> {
+fn tiny<const D: usize>((name, spec): (&String, &Spec), own: &[&PlacedPoint<D>]) -> Option<Warning> {
     let given = spec.shear.as_ref()?;
     let traction = given.get_ref().0.abs();
     let least = own.iter().map(|p| p.normal).reduce(f64::min)?;
@@ -124,7 +124,7 @@ fn tiny<const D: usize>((name, spec): (&String, &Spec), own: &[&Placed<D>]) -> O
 
 /// One if a point starts above its strength; `None` for laws that slip at every traction. The first parameter of laws with an elastic
 /// domain is the coefficient at rest.
-fn above<const D: usize>(p: &Placed<D>) -> Option<usize> {
+fn above<const D: usize>(p: &PlacedPoint<D>) -> Option<usize> {
     let LawChoice::Yielding { own, .. } = &p.law else { return None };
     let cohesion = p.law.value("cohesion", laws::known()).unwrap_or_default();
     let strength = own.first()? * p.normal + cohesion;

@@ -1,7 +1,7 @@
 //! Faults between bodies with mass: their points, laws, initial tractions and pulses.
 
 use super::forced;
-use crate::faults::planner::{Placed, in_space, pulses, slides};
+use crate::faults::planner::{PlacedPoint, in_space, pulses, slides};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::{Fault as Spec, Scene};
@@ -14,14 +14,14 @@ use asperity_mechanics::dynamics::{Fault, Pulse, Regularisation, SplitPoint, Tie
 ///
 /// # Errors
 /// [`Diagnostic`] where the law cannot be built, or a pulse acts nowhere.
-pub(super) fn of<const D: usize>(
+pub(super) fn assemble<const D: usize>(
     scene: &Scene,
-    placed: &[Placed<D>],
-    locked: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
+    locked: &[PlacedPoint<D>],
 ) -> Result<Option<Fault>, Diagnostic> {
     let named: Vec<(&String, &Spec)> = scene.faults.iter().collect();
     let (Some(first), Some((_, any))) = (placed.first(), named.first()) else { return Ok(None) };
-    let spec = |p: &Placed<D>| named[p.fault].1;
+    let spec = |p: &PlacedPoint<D>| named[p.fault].1;
     if let Some(other) = placed.iter().find(|p| !same_kind(&first.law, &p.law)) {
         return Err(Diagnostic::at(
             spec(other).law.span(),
@@ -54,14 +54,14 @@ pub(super) fn of<const D: usize>(
             .into_iter()
             .map(|(amplitude, rise)| Pulse { amplitude, rise })
             .collect(),
-        forced: forced::of(&named, placed)?,
+        forced: forced::weakening(&named, placed)?,
         onset: None,
         ties: locked.iter().map(tie).collect(),
     }))
 }
 
 /// Shear traction that follows from the slip rate and the state of a point that has both \[Pa\].
-fn follows<const D: usize>(placed: &Placed<D>) -> Option<f64> {
+fn follows<const D: usize>(placed: &PlacedPoint<D>) -> Option<f64> {
     let (state, rate) = (placed.state?, placed.rate);
     let law = laws::build_fault(&placed.law, &[]).ok()??;
     let m = law.at_rate(0, rate, &[state]).ok()?;
@@ -69,12 +69,14 @@ fn follows<const D: usize>(placed: &Placed<D>) -> Option<f64> {
 }
 
 /// Points that creep or are locked, and those that slide.
-pub(super) fn apart<const D: usize>(placed: Vec<Placed<D>>) -> (Vec<Placed<D>>, Vec<Placed<D>>) {
+pub(super) fn apart<const D: usize>(
+    placed: Vec<PlacedPoint<D>>,
+) -> (Vec<PlacedPoint<D>>, Vec<PlacedPoint<D>>) {
     placed.into_iter().partition(|p| p.point.creep.is_some())
 }
 
 /// The nodes of a point that does not slide, as a pair that stays together.
-fn tie<const D: usize>(placed: &Placed<D>) -> Tie {
+fn tie<const D: usize>(placed: &PlacedPoint<D>) -> Tie {
     Tie { minus: placed.point.place.minus, plus: placed.point.place.plus }
 }
 
@@ -89,8 +91,8 @@ fn same_kind(a: &LawChoice, b: &LawChoice) -> bool {
 /// Values of the first component of all points; other components are zero.
 fn first_of<const D: usize>(
     components: usize,
-    placed: &[Placed<D>],
-    value: impl Fn(&Placed<D>) -> f64,
+    placed: &[PlacedPoint<D>],
+    value: impl Fn(&PlacedPoint<D>) -> f64,
 ) -> Vec<f64> {
     let mut all = vec![0.0; components * placed.len()];
     all.iter_mut().zip(placed).for_each(|(all, p)| *all = value(p));
@@ -99,7 +101,7 @@ fn first_of<const D: usize>(
 
 /// A pair of nodes with its directions. In antiplane motion the one component of vectors stands first, and nothing moves along the
 /// normal.
-fn point<const D: usize>(placed: &Placed<D>) -> SplitPoint {
+fn point<const D: usize>(placed: &PlacedPoint<D>) -> SplitPoint {
     let place = &placed.point.place;
     let (normal, along) = match placed.components {
         1 => ([0.0, 0.0, 1.0], vec![[1.0, 0.0, 0.0]]),

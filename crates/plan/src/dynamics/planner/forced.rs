@@ -1,7 +1,7 @@
 //! Ruptures that are forced to begin, as in the benchmarks TPV22 to TPV36 of the SCEC/USGS Spontaneous Rupture Code Verification Project
 //! (Harris, R. A. et al. (2018), Seismol. Res. Lett. 89, 1146-1162).
 
-use crate::faults::planner::Placed;
+use crate::faults::planner::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, ForcedRupture};
 use asperity_mechanics::dynamics::ForcedWeakening;
@@ -13,13 +13,13 @@ const DELAY: f64 = 0.081;
 ///
 /// # Errors
 /// [`Diagnostic`] where a front reaches no point that slides.
-pub(super) fn of<const D: usize>(
+pub(super) fn weakening<const D: usize>(
     named: &[(&String, &Spec)],
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
 ) -> Result<Vec<ForcedWeakening>, Diagnostic> {
     for (fault, (name, spec)) in named.iter().enumerate() {
         let Some(asked) = &spec.forced_rupture else { continue };
-        let reached = |p: &Placed<D>| p.fault == fault && arrival(asked, &p.point.place.at).is_finite();
+        let reached = |p: &PlacedPoint<D>| p.fault == fault && arrival(asked, &p.point.place.at).is_finite();
         if !placed.iter().any(reached) {
             return Err(Diagnostic::at(
                 asked.centre.span(),
@@ -31,7 +31,7 @@ pub(super) fn of<const D: usize>(
     if named.iter().all(|(_, spec)| spec.forced_rupture.is_none()) {
         return Ok(Vec::new());
     }
-    let at = |p: &Placed<D>| match &named[p.fault].1.forced_rupture {
+    let at = |p: &PlacedPoint<D>| match &named[p.fault].1.forced_rupture {
         Some(asked) => {
             ForcedWeakening { at: arrival(asked, &p.point.place.at), duration: asked.duration.get_ref().0 }
         }

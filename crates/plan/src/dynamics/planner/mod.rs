@@ -11,12 +11,12 @@ mod steps;
 pub use rupture::ruptures;
 
 use super::plan::{AnyPlan, Plan};
-use crate::faults::planner::{self as of_faults, Meshed};
+use crate::faults::planner::{self as of_faults, FaultFaces};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Kinematics, Scene};
 use crate::shared::checks::of_model::{self, field_bytes};
 use crate::shared::checks::{Cost, rates};
-use crate::shared::held::Held;
+use crate::shared::held::ModelMemory;
 use crate::shared::loading::courses;
 use crate::shared::model::{self, Model, counts, cuts, forecast, locking, meshes};
 use crate::shared::{loading, outrun, views};
@@ -76,17 +76,17 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     crate::doubts::add(&mut warnings, doubts::check(scene, &placed, &stages[0], steps));
     warnings.extend(courses::passed_over(&scene.stages[0], counted.dt, courses::WAVES));
     let resolution = of_faults::resolved(scene, &placed, &mut warnings)?;
-    let (faults, points) = of_faults::views(scene, &Meshed { model: &model }, &placed, D == 3)?;
+    let (faults, points) = of_faults::views(scene, &FaultFaces { model: &model }, &placed, D == 3)?;
     let receivers = outputs::receivers(scene, &model)?;
     notes.extend(outputs::notes(scene, counted.cadence.rows as f64 * counted.dt));
-    let memory_bytes = Held::by(&model).in_steps(stable.highest.kept, model.dofs());
+    let memory_bytes = ModelMemory::new(&model).in_steps(stable.highest.kept, model.dofs());
     forecast::fits(scene, memory_bytes)?;
-    let mut checks = of_model::of(scene, &model)?;
+    let mut checks = of_model::checks(scene, &model)?;
     let prescribed = of_faults::checks::counted(scene, &locked);
     checks.faults = of_faults::checks::faults(scene, (&placed, &prescribed), &faults, &resolution);
     checks.cost = cost(&model, &counted, points.len(), memory_bytes);
     let idealisation = model.idealisation;
-    let fault = faults::of(scene, &placed, &locked)?;
+    let fault = faults::assemble(scene, &placed, &locked)?;
     warnings.extend(doubts::unlike(scene, &placed, true));
     if let Some(fault) = &fault {
         let duration = counted.steps as f64 * counted.dt;
@@ -134,7 +134,7 @@ const VALUES: [usize; 2] = [6, 0];
 /// Cost of a run with these steps.
 fn cost<const D: usize>(
     model: &Model<D>,
-    counted: &steps::Counted,
+    counted: &steps::StepChoice,
     points: usize,
     memory_bytes: usize,
 ) -> Cost {
@@ -145,7 +145,7 @@ fn cost<const D: usize>(
     Cost {
         memory_bytes: Some(memory_bytes),
         steps: Some(counted.steps),
-        step_seconds: Some(rates::of_waves(dofs, points)),
+        step_seconds: Some(rates::wave_step(dofs, points)),
         fields: times(counted.cadence.fields),
         field_bytes: Some(field_bytes(model, VALUES)),
         profiles: times(counted.cadence.profiles),

@@ -3,7 +3,7 @@
 use super::faults::apart;
 use super::{doubts, faults, masses, steps};
 use crate::faults::Plan as Cycles;
-use crate::faults::planner::{self as of_faults, Placed, in_space};
+use crate::faults::planner::{self as of_faults, PlacedPoint, in_space};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::Scene;
@@ -33,7 +33,7 @@ pub fn ruptures(scene: &Scene, cycles: &Cycles) -> Result<(Ruptures, Vec<Warning
             (AnyBodies::Three(Box::new(bodies)), quiet, loading, doubts)
         }
     };
-    let handover::Bounds { above, below, kinetic } = handover::of(scene, loading)?;
+    let handover::Bounds { above, below, kinetic } = handover::bounds(scene, loading)?;
     Ok((Ruptures { handover: Handover { above, below, quiet, kinetic }, bodies }, doubts))
 }
 
@@ -61,7 +61,7 @@ fn bodies<const D: usize>(
             "report this with the scene",
         ));
     }
-    let fault = faults::of(scene, &placed, &creeping)?;
+    let fault = faults::assemble(scene, &placed, &creeping)?;
     let absorbing = masses::absorbing(scene, &model, &density)?;
     let courant = steps::courant(scene);
     let duration = STEPS * courant * stable.step;
@@ -99,14 +99,14 @@ fn stage(quiet: &Stage, absorbing: &[Dashpot], (duration, components): (f64, usi
 }
 
 /// Extent of what slides: the diagonal of the box around its points \[m\].
-fn extent<const D: usize>(placed: &[Placed<D>]) -> f64 {
+fn extent<const D: usize>(placed: &[PlacedPoint<D>]) -> f64 {
     let places: Vec<[f64; D]> = placed.iter().map(|p| p.point.place.at).collect();
     let (least, most) = model::bounds(&places);
     least.iter().zip(&most).map(|(a, b)| (b - a).powi(2)).sum::<f64>().sqrt()
 }
 
 /// Refuses laws whose states remember tractions: steps with mass keep them in another form.
-fn without_memory<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Result<(), Diagnostic> {
+fn without_memory<const D: usize>(scene: &Scene, placed: &[PlacedPoint<D>]) -> Result<(), Diagnostic> {
     for p in placed {
         let LawChoice::RateAndState { evolution, states, .. } = &p.law else { continue };
         let row = asperity_laws::known().evolutions.iter().find(|e| e.name == evolution.name);

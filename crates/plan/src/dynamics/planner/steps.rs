@@ -14,7 +14,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// Steps of a run.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Counted {
+pub(super) struct StepChoice {
     pub steps: usize,
     pub dt: f64,
     /// Step over the stable one, just so large that the number of steps does not exceed its own.
@@ -38,7 +38,7 @@ pub(super) fn courant(scene: &Scene) -> f64 {
 ///
 /// # Errors
 /// [`Diagnostic`] where the scene asks for steps beyond the stable one, or for samples that do not fit the duration.
-pub(super) fn choose(scene: &Scene, stage: &Stage, stable: &StableStep) -> Result<Counted, Diagnostic> {
+pub(super) fn choose(scene: &Scene, stage: &Stage, stable: &StableStep) -> Result<StepChoice, Diagnostic> {
     let duration = stage.end - stage.start;
     let longest = courant(scene) * stable.step;
     let samples = samples(scene, duration)?;
@@ -71,7 +71,7 @@ pub(super) fn choose(scene: &Scene, stage: &Stage, stable: &StableStep) -> Resul
         }
     };
     let dt = duration / steps as f64;
-    Ok(Counted {
+    Ok(StepChoice {
         why,
         steps,
         dt,

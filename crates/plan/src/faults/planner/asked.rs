@@ -1,6 +1,6 @@
 //! Errors and warnings about creep, profiles, stations and other requests of a scene that its faults cannot satisfy.
 
-use super::placed::{Placed, at};
+use super::placed::{PlacedPoint, at};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{
     Along, Fault as Spec, LawSpec, ParameterProfiles, Profile, Scene, Spanned, Station,
@@ -33,7 +33,7 @@ pub(super) fn extent<'a, const D: usize>(places: impl Iterator<Item = &'a Place<
 /// [`Diagnostic`] at the boundary of the creep.
 pub(super) fn creep<const D: usize>(
     (name, spec): (&str, &Spec),
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
 ) -> Result<(), Diagnostic> {
     let bordered = spec.creep.as_ref().filter(|creep| creep.has_border());
     let Some(creep) = bordered.filter(|_| placed.iter().all(|p| p.point.creep.is_none())) else {
@@ -54,7 +54,7 @@ pub(super) fn creep<const D: usize>(
 /// [`Diagnostic`] at the key.
 pub(super) fn opens<const D: usize>(
     faults: &[(&String, &Spec)],
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
     points: &[usize],
 ) -> Result<(), Diagnostic> {
     for (k, (name, spec)) in faults.iter().enumerate() {
@@ -75,7 +75,7 @@ pub(super) fn opens<const D: usize>(
 /// Error for faults without any point that is free to slide.
 pub(crate) fn nothing_slides<const D: usize>(
     faults: &[(&String, &Spec)],
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
 ) -> Diagnostic {
     let of = |k: usize| placed.iter().filter(move |p| p.fault == k).map(|p| &p.point.place);
     let mut all = faults.iter().enumerate().filter_map(|(k, f)| Some((f.0, of(k), f.1.creep.as_ref()?)));
@@ -106,7 +106,7 @@ pub(crate) fn nothing_slides<const D: usize>(
 pub(super) fn profiles<const D: usize>(
     scene: &Scene,
     (name, spec): (&str, &Spec),
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
     warnings: &mut Vec<Warning>,
 ) -> Result<(), Diagnostic> {
     let free: Vec<&Place<D>> =
@@ -201,7 +201,7 @@ fn constant<const D: usize>(
 pub(super) fn station<const D: usize>(
     name: &str,
     asked: &Spanned<Station>,
-    (placed, point): (&[Placed<D>], usize),
+    (placed, point): (&[PlacedPoint<D>], usize),
     size: f64,
 ) -> Result<(), Diagnostic> {
     let place = &placed[point].point.place;

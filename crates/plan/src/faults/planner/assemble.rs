@@ -7,7 +7,7 @@ use super::super::receivers::Receivers;
 use super::super::sampling::Sampling;
 use super::super::stresses::BodyStresses;
 use super::cells::Cells;
-use super::placed::{Placed, components, in_space, slides};
+use super::placed::{PlacedPoint, components, in_space, slides};
 use super::pulses::{self, pulses};
 use super::{
     asked, checks, diffusion, floor, heated, injection, pressing, radiation, sense, start_doubts, steady,
@@ -48,8 +48,8 @@ const IN_SPACE: (Method, f64) = (Method::Stabilised, defaults::LOG_RATE_IN_SPACE
 const MOST_STEPS: usize = 20_000_000;
 
 /// Points of faults that slide freely, and what acts on them.
-pub(super) struct Surrounded<const D: usize> {
-    pub placed: Vec<Placed<D>>,
+pub(super) struct SlidingFaults<const D: usize> {
+    pub placed: Vec<PlacedPoint<D>>,
     pub operator: Box<dyn Operator>,
     pub opening: Option<Opening>,
     pub loading: Loading,
@@ -57,7 +57,7 @@ pub(super) struct Surrounded<const D: usize> {
 }
 
 /// Description of the surroundings of faults for the output.
-pub(super) struct Around {
+pub(super) struct SurroundingsView {
     pub medium: &'static str,
     pub dofs: usize,
     pub creeping: usize,
@@ -85,7 +85,11 @@ pub(super) fn turns(scene: &Scene) -> bool {
 }
 
 /// Refusal of the law or the start of a point, with its place.
-fn at_point<const D: usize>(named: &[(&String, &Spec)], point: &Placed<D>, failure: &Failure) -> Diagnostic {
+fn at_point<const D: usize>(
+    named: &[(&String, &Spec)],
+    point: &PlacedPoint<D>,
+    failure: &Failure,
+) -> Diagnostic {
     let (name, spec) = named[point.fault];
     let error = crate::shared::refused::refused(&spec.law, failure);
     let at = coordinates::in_words(&point.point.place.at);
@@ -96,11 +100,11 @@ fn at_point<const D: usize>(named: &[(&String, &Spec)], point: &Placed<D>, failu
 /// Plan of faults from their points and surroundings.
 pub(super) fn plan_of<const D: usize>(
     scene: &Scene,
-    surrounded: Surrounded<D>,
-    around: Around,
+    surrounded: SlidingFaults<D>,
+    around: SurroundingsView,
     cells: &dyn Cells<D>,
 ) -> Result<Plan, Diagnostic> {
-    let Surrounded { placed, operator, opening, loading, end } = surrounded;
+    let SlidingFaults { placed, operator, opening, loading, end } = surrounded;
     let named: Vec<(&String, &Spec)> = scene.faults.iter().collect();
     let at_law = |e: Failure| crate::shared::refused::refused(&named[placed[0].fault].1.law, &e);
     let turns = turns(scene);
@@ -140,7 +144,7 @@ pub(super) fn plan_of<const D: usize>(
     let memory_bytes = around.memory_bytes + modes + responses;
     checks.cost = Cost {
         memory_bytes: Some(memory_bytes),
-        step_seconds: Some(rates::of_faults(settings.method, placed.len(), fault.operator.moved() + modes)),
+        step_seconds: Some(rates::fault_step(settings.method, placed.len(), fault.operator.moved() + modes)),
         largest_file: Some(cadence.largest_file),
         ..Cost::default()
     };
@@ -165,7 +169,7 @@ pub(super) fn plan_of<const D: usize>(
         bodies: around.bodies,
         sampling: around.sampling,
         stresses: around.stresses,
-        frame: place::of(scene, D == 3)?,
+        frame: place::frame(scene, D == 3)?,
         in_space: D == 3,
         kinematics: scene.kinematics.get_ref().words(),
         resolution: around.resolution,
@@ -178,7 +182,7 @@ pub(super) fn plan_of<const D: usize>(
 /// Adds doubts of the start of faults, of their pulses and their damping under loads of this rate \[m/s\].
 fn doubt<const D: usize>(
     scene: &Scene,
-    (placed, fault): (&[Placed<D>], &Fault),
+    (placed, fault): (&[PlacedPoint<D>], &Fault),
     rate: f64,
     warnings: &mut Vec<Warning>,
 ) -> Result<(), Diagnostic> {
@@ -197,7 +201,7 @@ fn doubt<const D: usize>(
 fn add_loads<const D: usize>(
     checks: &mut [FaultCheck],
     scene: &Scene,
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
     (loading, end, machines): (&Loading, f64, &[Option<f64>]),
 ) {
     for (k, (check, spec)) in checks.iter_mut().zip(scene.faults.values()).enumerate() {
@@ -211,11 +215,11 @@ fn add_loads<const D: usize>(
 /// Laws of all points, which are of one kind.
 fn friction<const D: usize>(
     faults: &[(&String, &Spec)],
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
     at_law: impl Fn(Failure) -> Diagnostic,
 ) -> Result<Box<dyn FaultLaw>, Diagnostic> {
     let (first, rest) = (&placed[0], &placed[1..]);
-    let spec = |p: &Placed<D>| &faults[p.fault].1.law;
+    let spec = |p: &PlacedPoint<D>| &faults[p.fault].1.law;
     if let Some(other) = rest.iter().find(|p| !first.law.same_kind(&p.law)) {
         return Err(Diagnostic::at(
             spec(other).span(),
@@ -228,7 +232,9 @@ fn friction<const D: usize>(
 }
 
 /// Positions and areas of points, and the points of each fault that has some.
-pub(super) fn geometry<const D: usize>(placed: &[Placed<D>]) -> (Vec<[f64; 3]>, Vec<f64>, Vec<Range<usize>>) {
+pub(super) fn geometry<const D: usize>(
+    placed: &[PlacedPoint<D>],
+) -> (Vec<[f64; 3]>, Vec<f64>, Vec<Range<usize>>) {
     let places = placed.iter().map(|p| in_space(&p.point.place.at)).collect();
     let areas = placed.iter().map(|p| p.point.place.area).collect();
     let last = placed.last().map_or(0, |p| p.fault);
@@ -238,7 +244,7 @@ pub(super) fn geometry<const D: usize>(placed: &[Placed<D>]) -> (Vec<[f64; 3]>, 
 }
 
 /// Initial unknowns: every point slides at its initial rate.
-fn start<const D: usize>(placed: &[Placed<D>], fault: &Fault) -> Result<Vec<f64>, (usize, Failure)> {
+fn start<const D: usize>(placed: &[PlacedPoint<D>], fault: &Fault) -> Result<Vec<f64>, (usize, Failure)> {
     let layout = Layout::from_fault(fault);
     let n = fault.law.states();
     let mut y = vec![0.0; layout.size()];
@@ -302,10 +308,14 @@ fn integrator<const D: usize>(scene: &Scene) -> Result<(Method, f64), Diagnostic
     Ok((heated::method(scene, method)?, tolerance.unwrap_or(default)))
 }
 
-fn settings<const D: usize>(scene: &Scene, placed: &[Placed<D>], end: f64) -> Result<Settings, Diagnostic> {
+fn settings<const D: usize>(
+    scene: &Scene,
+    placed: &[PlacedPoint<D>],
+    end: f64,
+) -> Result<Settings, Diagnostic> {
     let (method, tolerance) = integrator::<D>(scene)?;
     let events = scene.events.as_ref();
-    let thresholds = thresholds::of(events);
+    let thresholds = thresholds::from_spec(events);
     Ok(Settings {
         method,
         tolerance,
@@ -323,7 +333,7 @@ fn endless(scene: &Scene, loading: f64) -> Vec<Warning> {
     let Some(events) = scene.events.as_ref() else { return Vec::new() };
     let creeps = scene.faults.values().filter_map(|f| f.creep.as_ref());
     let fastest = creeps.map(|c| c.rate.get_ref().0.abs()).fold(loading, f64::max);
-    let usual = crate::doubts::thresholds(events, thresholds::of(Some(events)), fastest, false);
+    let usual = crate::doubts::thresholds(events, thresholds::from_spec(Some(events)), fastest, false);
     let slow =
         thresholds::slow(Some(events)).and_then(|t| crate::doubts::thresholds(events, t, fastest, true));
     // One warning per cause: the rate of the loads.
@@ -347,10 +357,10 @@ fn rupture_rate(scene: &Scene, on: f64) -> Result<f64, Diagnostic> {
 /// Cadence of the output.
 fn cadence(scene: &Scene, fault: &Fault, end: f64) -> Cadence {
     let lengths = (0..fault.law.points()).filter_map(|p| fault.law.length(p));
-    let on = thresholds::of(scene.events.as_ref()).on;
+    let on = thresholds::from_spec(scene.events.as_ref()).on;
     let output = &scene.output;
     let asked = output.cadence.as_ref().map(|c| c.get_ref());
-    let asked = cadence::Asked {
+    let asked = cadence::CadenceLimits {
         decades: asked.and_then(|c| c.decades.as_ref()).map(|d| *d.get_ref()),
         slip: asked.and_then(|c| c.slip.as_ref()).map(|s| s.get_ref().0),
         longest: asked.and_then(|c| c.longest.as_ref()).map(|t| t.get_ref().0),
@@ -365,7 +375,7 @@ fn cadence(scene: &Scene, fault: &Fault, end: f64) -> Cadence {
 pub(crate) fn views<const D: usize>(
     scene: &Scene,
     cells: &dyn Cells<D>,
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
     turns: bool,
 ) -> Result<(Vec<FaultView>, Vec<PointView>), Diagnostic> {
     let creeps: Vec<Option<&Creep>> = scene.faults.values().map(|spec| spec.creep.as_ref()).collect();

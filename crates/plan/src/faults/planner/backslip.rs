@@ -1,6 +1,6 @@
 //! Loading by backslip: the points of a fault lag behind plates that move steadily.
 
-use super::placed::{Placed, components};
+use super::placed::{PlacedPoint, components};
 use crate::reading::scene::model::{Creep, Fault as Spec, Scene};
 use asperity_cycles::Loading;
 use asperity_cycles::operator::Operator;
@@ -14,19 +14,19 @@ const DRIVES: f64 = 0.01;
 const NOTHING: f64 = 1e-6;
 
 /// Creep that loads a fault by backslip.
-pub(crate) fn of<'a>(scene: &Scene, spec: &'a Spec) -> Option<&'a Creep> {
+pub(crate) fn creep<'a>(scene: &Scene, spec: &'a Spec) -> Option<&'a Creep> {
     spec.creep.as_ref().filter(|creep| scene.medium.is_some() || creep.is_backslip())
 }
 
 /// Largest rate of plates behind which faults lag \[m/s\].
 pub(crate) fn fastest(scene: &Scene) -> f64 {
-    let rates = scene.faults.values().filter_map(|spec| of(scene, spec)).map(|c| c.rate.get_ref().0.abs());
+    let rates = scene.faults.values().filter_map(|spec| creep(scene, spec)).map(|c| c.rate.get_ref().0.abs());
     rates.fold(0.0, f64::max)
 }
 
 /// Rates of the plates at all points, component by component \[m/s\]: zero on faults without backslip.
-pub(super) fn plates<const D: usize>(scene: &Scene, placed: &[Placed<D>], tangents: usize) -> Vec<f64> {
-    let creeps: Vec<Option<&Creep>> = scene.faults.values().map(|spec| of(scene, spec)).collect();
+pub(super) fn plates<const D: usize>(scene: &Scene, placed: &[PlacedPoint<D>], tangents: usize) -> Vec<f64> {
+    let creeps: Vec<Option<&Creep>> = scene.faults.values().map(|spec| creep(scene, spec)).collect();
     let rates = placed
         .iter()
         .map(|p| creeps[p.fault].map_or([0.0; 2], |c| components(&p.point.place, c.rate.get_ref().0)));
@@ -36,7 +36,7 @@ pub(super) fn plates<const D: usize>(scene: &Scene, placed: &[Placed<D>], tangen
 
 /// Notes on the load of faults by backslip.
 pub(super) fn notes(scene: &Scene) -> Vec<String> {
-    let loaded = scene.faults.iter().filter_map(|(name, spec)| Some((name, of(scene, spec)?)));
+    let loaded = scene.faults.iter().filter_map(|(name, spec)| Some((name, creep(scene, spec)?)));
     let note = |(name, creep): (&String, &Creep)| {
         format!(
             "fault `{name}` is loaded by backslip at {:e} m/s: tractions follow slip less the motion of the plates, so that normal tractions return where slip has caught up",
@@ -50,14 +50,14 @@ pub(super) fn notes(scene: &Scene) -> Vec<String> {
 /// the loads without backslip, `deficit` those of backslip.
 pub(super) fn doubts<const D: usize>(
     scene: &Scene,
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
     operator: &dyn Operator,
     ([sides, deficit], end): ([&Loading; 2], f64),
 ) -> Option<Warning> {
     let means = [sides, deficit].map(|load| load.mean(end, placed.len()));
     let mut faults = scene.faults.iter().enumerate();
     faults.find_map(|(k, (name, spec))| {
-        let creep = of(scene, spec)?;
+        let creep = creep(scene, spec)?;
         let own = || (0..placed.len()).filter(|&p| placed[p].fault == k);
         let force = |rates: &[f64]| own().map(|p| placed[p].point.place.area * rates[p]).sum::<f64>();
         let [by_sides, by_deficit] = [force(&means[0]), force(&means[1])];

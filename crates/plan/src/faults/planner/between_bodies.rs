@@ -5,11 +5,11 @@ use super::super::bodies::BodiesView;
 use super::super::plan::Plan;
 use super::super::receivers::Receivers;
 use super::super::stresses::BodyStresses;
-use super::assemble::{Around, Surrounded, plan_of, turns};
-use super::condensed::{self, Condensed};
-use super::held::Asked;
-use super::meshed::Meshed;
-use super::placed::Placed;
+use super::assemble::{SlidingFaults, SurroundingsView, plan_of, turns};
+use super::condensed::{self, CondensedBodies};
+use super::held::CondensationInput;
+use super::meshed::FaultFaces;
+use super::placed::PlacedPoint;
 use super::points::all_points;
 use super::pressing;
 use super::resolved::resolved;
@@ -19,7 +19,7 @@ use crate::reading::scene::model::{Fault as Spec, Scene};
 use crate::shared::amounts;
 use crate::shared::checks::Checks;
 use crate::shared::checks::of_model::{self, machines};
-use crate::shared::held::Held;
+use crate::shared::held::ModelMemory;
 use crate::shared::loading::{self, Stage};
 use crate::shared::model::{self, Model, forecast, locking};
 use crate::shared::resolution::Resolution;
@@ -43,14 +43,14 @@ pub(super) fn plan<const D: usize>(
     (form, setups): (Form, &Setups),
 ) -> Result<Plan, Diagnostic> {
     let mut ground = Ground::<D>::read(scene)?;
-    let mut loaded = Loaded::new(&ground)?;
+    let mut loaded = GroundLoads::new(&ground)?;
     let bodies = ground.model.take_stiffness();
-    let inputs = setups.hash(|key| condensed::of_stiffness(key, &bodies));
+    let inputs = setups.hash(|key| condensed::hash_stiffness(key, &bodies));
     let pressed = loaded.press(&ground, &bodies, (setups, &inputs))?;
     let points = ground.part();
     let how = (loaded.conditions, loaded.mirror.as_ref(), form);
     let asked = ground.asked(&loaded.loads);
-    let condensed = condensed::of((asked, &points.sliding), bodies, how, (setups, inputs))?;
+    let condensed = condensed::condense_bodies((asked, &points.sliding), bodies, how, (setups, inputs))?;
     ground.plan(&loaded.conditions, points, pressed.as_ref(), condensed)
 }
 
@@ -63,21 +63,21 @@ struct Ground<'s, const D: usize> {
     /// The stage of the run.
     stage: Stage,
     /// Points of all faults, until they are parted into those that slide and those that creep.
-    placed: Vec<Placed<D>>,
+    placed: Vec<PlacedPoint<D>>,
     /// The same as the condensation takes them.
     points: Vec<Point<D>>,
     /// Resolution of friction, where the normal tractions are known before the bodies are condensed.
     resolution: Option<Vec<Resolution>>,
     checks: Checks,
-    held: Held,
+    held: ModelMemory,
     warnings: Vec<Warning>,
     notes: Vec<String>,
 }
 
 /// Points that slide by their law, in their order among all points, and points that creep.
 struct PartedPoints<const D: usize> {
-    sliding: Vec<Placed<D>>,
-    creeping: Vec<Placed<D>>,
+    sliding: Vec<PlacedPoint<D>>,
+    creeping: Vec<PlacedPoint<D>>,
     /// Numbers of those that slide among all points.
     free: Vec<usize>,
 }
@@ -97,14 +97,14 @@ impl<'s, const D: usize> Ground<'s, D> {
         // If weight or a stage before presses the bodies, normal tractions are known only once their equations are solved.
         let known = stage.weight.is_empty() && pressing.is_none();
         let resolution = known.then(|| resolved(scene, &placed, &mut warnings)).transpose()?;
-        let (checks, held) = (of_model::of(scene, &model)?, Held::by(&model));
+        let (checks, held) = (of_model::checks(scene, &model)?, ModelMemory::new(&model));
         warnings.extend(upright::held_above(scene, &model));
         Ok(Self { scene, model, pressing, stage, placed, points, resolution, checks, held, warnings, notes })
     }
 
     /// The ground under these loads, as the condensation sees it.
-    fn asked<'a>(&'a self, loads: &'a Loads) -> Asked<'a, D> {
-        Asked { scene: self.scene, model: &self.model, loads, points: &self.points }
+    fn asked<'a>(&'a self, loads: &'a Loads) -> CondensationInput<'a, D> {
+        CondensationInput { scene: self.scene, model: &self.model, loads, points: &self.points }
     }
 
     /// Parts the points into those that slide and those that creep.
@@ -121,7 +121,7 @@ impl<'s, const D: usize> Ground<'s, D> {
         conditions: &Conditions,
         points: PartedPoints<D>,
         pressed: Option<&PressedBodies>,
-        mut condensed: Condensed,
+        mut condensed: CondensedBodies,
     ) -> Result<Plan, Diagnostic> {
         let PartedPoints { sliding: mut placed, creeping, free } = points;
         let (scene, tangents) = (self.scene, conditions.tangents);
@@ -143,13 +143,13 @@ impl<'s, const D: usize> Ground<'s, D> {
         asked::opens(&named(scene), &placed, opening.as_ref().map_or(&[], |o| o.points()))?;
         let sides = placed.iter().map(|p| [p.point.place.minus, p.point.place.plus]).collect();
         let areas = placed.iter().map(|p| p.point.place.area).collect();
-        let around = Around {
+        let around = SurroundingsView {
             medium: "condensed onto the faults",
             dofs: self.model.dofs(),
             creeping: creeping.len(),
             memory_bytes: self.held.with_faults(bytes),
             bodies: bodies.map(|bodies| BodiesView::new((bodies, plates), &self.model, sides, shown(scene))),
-            sampling: sampled::of::<D>(scene, stage, pressed, areas)?,
+            sampling: sampled::plan::<D>(scene, stage, pressed, areas)?,
             stresses: stresses::<D>(scene)?,
             resolution,
             warnings: self.warnings,
@@ -159,9 +159,9 @@ impl<'s, const D: usize> Ground<'s, D> {
             loading: stage.largest_rate().max(backslip::fastest(scene)),
             checks: self.checks,
         };
-        let Driven { operator, loading, .. } = driven;
-        let surrounded = Surrounded { operator, placed, opening, loading, end: stage.end };
-        Ok(Plan { receivers, ..plan_of(scene, surrounded, around, &Meshed { model: &self.model })? })
+        let DrivenFaults { operator, loading, .. } = driven;
+        let surrounded = SlidingFaults { operator, placed, opening, loading, end: stage.end };
+        Ok(Plan { receivers, ..plan_of(scene, surrounded, around, &FaultFaces { model: &self.model })? })
     }
 }
 
@@ -171,14 +171,14 @@ fn named(scene: &Scene) -> Vec<(&String, &Spec)> {
 }
 
 /// Loads on the ground, and how its bodies are condensed.
-struct Loaded {
+struct GroundLoads {
     conditions: Conditions,
     loads: Loads,
     /// Mirror of the bodies, if one side may represent both.
     mirror: Option<Mirror>,
 }
 
-impl Loaded {
+impl GroundLoads {
     /// Loads before anything presses the bodies.
     fn new<const D: usize>(ground: &Ground<'_, D>) -> Result<Self, Diagnostic> {
         let stage = &ground.stage;
@@ -186,7 +186,7 @@ impl Loaded {
         // Weight acts while the bodies are pressed, or else before the start.
         let weight = if ground.pressing.is_none() { stage.weight.clone() } else { Vec::new() };
         let loads = loads(stage, &vec![0.0; ground.model.dofs()], weight);
-        let mirror = if conditions.keep { None } else { mirror::of(&ground.model, &ground.points) };
+        let mirror = if conditions.keep { None } else { mirror::find(&ground.model, &ground.points) };
         admit(ground.asked(&loads), conditions, mirror.is_some())?;
         Ok(Self { conditions, loads, mirror })
     }
@@ -230,7 +230,7 @@ fn parted(mut stages: Vec<Stage>) -> Option<(Option<Stage>, Stage)> {
 /// Refuses faults with so many points that the condensed matrix alone exceeds the memory, before the cell matrices are computed.
 /// In a mirror, motions across the faults are no unknowns.
 fn admit<const D: usize>(
-    asked: Asked<'_, D>,
+    asked: CondensationInput<'_, D>,
     conditions: Conditions,
     mirrored: bool,
 ) -> Result<(), Diagnostic> {
@@ -287,7 +287,7 @@ fn receivers<const D: usize>(
     lag: (&[f64], usize),
 ) -> Result<Receivers, Diagnostic> {
     match bodies.filter(|_| !scene.output.receivers.is_empty()) {
-        Some(bodies) => receivers::of(scene, around, bodies, lag),
+        Some(bodies) => receivers::plan(scene, around, bodies, lag),
         None => Ok(Receivers::default()),
     }
 }
@@ -301,7 +301,7 @@ fn stresses<const D: usize>(scene: &Scene) -> Result<Option<BodyStresses>, Diagn
 }
 
 /// Operator of faults between bodies, and what loads them.
-struct Driven {
+struct DrivenFaults {
     operator: Box<dyn Operator>,
     loading: Loading,
     warnings: Vec<Warning>,
@@ -312,11 +312,11 @@ struct Driven {
 fn driven<const D: usize>(
     scene: &Scene,
     (model, stage): (&Model<D>, &Stage),
-    (placed, creeping): (&[Placed<D>], &[Placed<D>]),
-    (condensed, plates): (Condensed, &[f64]),
-) -> Driven {
+    (placed, creeping): (&[PlacedPoint<D>], &[PlacedPoint<D>]),
+    (condensed, plates): (CondensedBodies, &[f64]),
+) -> DrivenFaults {
     let of_sides = plates::check(scene, (model, stage), (placed, creeping), &condensed);
-    let Condensed { operator, mut loading, .. } = condensed;
+    let CondensedBodies { operator, mut loading, .. } = condensed;
     let mut of_backslip = None;
     if plates.iter().any(|rate| *rate != 0.0) {
         let deficit = deficit(operator.as_ref(), plates, stage.end);
@@ -329,5 +329,5 @@ fn driven<const D: usize>(
         warnings.extend(of_backslip.or(of_sides));
     }
     warnings.extend(weight::hangs(scene, model, stage));
-    Driven { operator, loading, warnings }
+    DrivenFaults { operator, loading, warnings }
 }

@@ -1,17 +1,17 @@
 //! Cells of faults, as needed by the output.
 
 use super::super::plan::{CellGrid, Outline};
-use super::placed::Placed;
+use super::placed::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Fault as Spec;
 
 /// Cells of faults, whose corners or centres are their points.
 pub(crate) trait Cells<const D: usize> {
     /// Largest extent of the cells at a point \[m\].
-    fn size(&self, spec: &Spec, point: &Placed<D>) -> Result<f64, Diagnostic>;
+    fn size(&self, spec: &Spec, point: &PlacedPoint<D>) -> Result<f64, Diagnostic>;
 
     /// Faces between points that slide freely, by their numbers within the fault.
-    fn faces(&self, fault: (usize, &Spec), placed: &[Placed<D>]) -> Result<Vec<Vec<usize>>, Diagnostic>;
+    fn faces(&self, fault: (usize, &Spec), placed: &[PlacedPoint<D>]) -> Result<Vec<Vec<usize>>, Diagnostic>;
 
     /// Outlines of the cells of a fault, if fields are drawn in them.
     fn outline(&self, _fault: usize) -> Option<Outline> {

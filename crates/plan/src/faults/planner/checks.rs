@@ -2,28 +2,28 @@
 
 use super::asked::lists;
 use super::patches::weight;
-use super::placed::{Placed, along};
+use super::placed::{PlacedPoint, along};
 use crate::faults::{FaultView, Station};
 use crate::reading::scene::model::{Fault as Spec, Patch, Profile, Scene};
-use crate::shared::checks::of_model::{Driven, body_name};
+use crate::shared::checks::of_model::{DrivenSurface, body_name};
 use crate::shared::checks::{FaultCheck, MachineCheck, PatchCheck, ProfileCheck, StationCheck};
 use crate::shared::resolution::{Ground, Resolution, critical_slope};
 
 /// Number of points of each fault.
-pub(crate) fn counted<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Vec<usize> {
+pub(crate) fn counted<const D: usize>(scene: &Scene, placed: &[PlacedPoint<D>]) -> Vec<usize> {
     (0..scene.faults.len()).map(|k| placed.iter().filter(|p| p.fault == k).count()).collect()
 }
 
 /// Checks of the faults of a scene from their sliding points, the numbers of their other points, and their stations.
 pub(crate) fn faults<const D: usize>(
     scene: &Scene,
-    (placed, prescribed): (&[Placed<D>], &[usize]),
+    (placed, prescribed): (&[PlacedPoint<D>], &[usize]),
     views: &[FaultView],
     resolution: &[Resolution],
 ) -> Vec<FaultCheck> {
     let of = |(k, (name, spec)): (usize, (&String, &Spec))| {
-        let own: Vec<&Placed<D>> = placed.iter().filter(|p| p.fault == k).collect();
-        let weak: Vec<&Placed<D>> = own.iter().copied().filter(|p| weakens(p)).collect();
+        let own: Vec<&PlacedPoint<D>> = placed.iter().filter(|p| p.fault == k).collect();
+        let weak: Vec<&PlacedPoint<D>> = own.iter().copied().filter(|p| weakens(p)).collect();
         FaultCheck {
             fault: name.clone(),
             points: own.len(),
@@ -44,7 +44,7 @@ pub(crate) fn faults<const D: usize>(
     scene.faults.iter().enumerate().map(of).collect()
 }
 
-fn area<const D: usize>(points: &[&Placed<D>]) -> f64 {
+fn area<const D: usize>(points: &[&PlacedPoint<D>]) -> f64 {
     points.iter().map(|p| p.point.place.area).sum()
 }
 
@@ -56,13 +56,13 @@ fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
 }
 
 /// True if friction at a point weakens with slip.
-pub(super) fn weakens<const D: usize>(p: &Placed<D>) -> bool {
+pub(super) fn weakens<const D: usize>(p: &PlacedPoint<D>) -> bool {
     let ground = Ground { law: &p.law, normal: p.pressed(), modulus: p.medium.stiffness, in_space: D == 3 };
     ground.lengths().is_some()
 }
 
 /// Points of the profiles of a fault.
-fn profiles<const D: usize>(spec: &Spec, own: &[&Placed<D>]) -> Vec<ProfileCheck> {
+fn profiles<const D: usize>(spec: &Spec, own: &[&PlacedPoint<D>]) -> Vec<ProfileCheck> {
     let of = |key: &str, profile: &Profile| {
         let points = profile.points.get_ref();
         let ends = points.first().map_or(0.0, |p| p.0.0)..=points.last().map_or(0.0, |p| p.0.0);
@@ -75,7 +75,7 @@ fn profiles<const D: usize>(spec: &Spec, own: &[&Placed<D>]) -> Vec<ProfileCheck
     given.map(|(key, profile)| of(key, profile)).collect()
 }
 
-fn covers<const D: usize>(patch: &Patch, own: &[&Placed<D>]) -> PatchCheck {
+fn covers<const D: usize>(patch: &Patch, own: &[&PlacedPoint<D>]) -> PatchCheck {
     let weights = || own.iter().map(|p| weight(patch, &p.point.place));
     PatchCheck {
         points: weights().filter(|w| *w == 1.0).count(),
@@ -83,7 +83,7 @@ fn covers<const D: usize>(patch: &Patch, own: &[&Placed<D>]) -> PatchCheck {
     }
 }
 
-fn stations<const D: usize>(view: &FaultView, placed: &[Placed<D>]) -> Vec<StationCheck> {
+fn stations<const D: usize>(view: &FaultView, placed: &[PlacedPoint<D>]) -> Vec<StationCheck> {
     let of = |(station, point): &(Station, usize)| {
         let place = &placed[*point].point.place;
         let at: [f64; 3] = std::array::from_fn(|c| place.at.get(c).copied().unwrap_or(0.0));
@@ -100,7 +100,7 @@ fn stations<const D: usize>(view: &FaultView, placed: &[Placed<D>]) -> Vec<Stati
 }
 
 /// The faults as surfaces that springs may drive: without sides no spring does.
-pub(super) fn surfaces<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Vec<Driven> {
+pub(super) fn surfaces<const D: usize>(scene: &Scene, placed: &[PlacedPoint<D>]) -> Vec<DrivenSurface> {
     let of = |(k, spec): (usize, &Spec)| {
         let own = || placed.iter().filter(|p| p.fault == k).map(|p| &p.point.place);
         let mut sum = [0.0; 3];
@@ -109,7 +109,7 @@ pub(super) fn surfaces<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> V
             own().for_each(|p| sum.iter_mut().zip(&p.normal).for_each(|(s, n)| *s += p.area * n));
         }
         let size = sum.iter().map(|c| c * c).sum::<f64>().sqrt();
-        Driven {
+        DrivenSurface {
             bodies: [body_name(&spec.minus), body_name(&spec.plus)],
             normal: if size > 0.0 { sum.map(|c| c / size) } else { sum },
             area: own().map(|p| p.area).sum(),
@@ -120,10 +120,14 @@ pub(super) fn surfaces<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> V
 }
 
 /// The springs that drive a fault against the critical stiffness of its points, in the mean over their area.
-pub(super) fn machine<const D: usize>(stiffness: f64, fault: usize, placed: &[Placed<D>]) -> MachineCheck {
+pub(super) fn machine<const D: usize>(
+    stiffness: f64,
+    fault: usize,
+    placed: &[PlacedPoint<D>],
+) -> MachineCheck {
     let own = || placed.iter().filter(|p| p.fault == fault);
     let area: f64 = own().map(|p| p.point.place.area).sum();
-    let mean = |of: &dyn Fn(&Placed<D>) -> Option<f64>| -> Option<f64> {
+    let mean = |of: &dyn Fn(&PlacedPoint<D>) -> Option<f64>| -> Option<f64> {
         let parts: Option<f64> = own().map(|p| Some(p.point.place.area * of(p)?)).sum();
         Some(parts? / area).filter(|mean| *mean > 0.0)
     };

@@ -2,8 +2,8 @@
 //! run where they took long.
 
 use super::assemble::geometry;
-use super::held::Asked;
-use super::placed::Placed;
+use super::held::CondensationInput;
+use super::placed::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Scene};
 use crate::shared::setup::{Key, Setups};
@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 
 /// Condensed bodies.
 #[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Condensed {
+pub(super) struct CondensedBodies {
     /// Tractions that slip causes.
     pub operator: Box<dyn Operator>,
     /// Tractions that openings cause, where points may open.
@@ -43,22 +43,32 @@ pub(super) struct Condensed {
 ///
 /// # Errors
 /// [`Diagnostic`] if they cannot be condensed.
-pub(super) fn of<const D: usize>(
-    (asked, placed): (Asked<'_, D>, &[Placed<D>]),
+pub(super) fn condense_bodies<const D: usize>(
+    (asked, placed): (CondensationInput<'_, D>, &[PlacedPoint<D>]),
     bodies: Stiffness,
     (conditions, mirror, form): (Conditions, Option<&Mirror>, Form),
     (setups, inputs): (&Setups, Option<String>),
-) -> Result<Condensed, Diagnostic> {
+) -> Result<CondensedBodies, Diagnostic> {
     let (places, areas, faults) = geometry(placed);
     let geometry = Geometry { places: &places, faults: &faults, areas: &areas, surfaces: D == 3 };
     let rates = rates(asked.scene, placed);
-    let make = || -> Result<Condensed, Diagnostic> {
+    let make = || -> Result<CondensedBodies, Diagnostic> {
         let surroundings = condense(bodies, asked.loads, asked.points, conditions, mirror);
         let surroundings = surroundings.map_err(|e| asked.error(&e))?;
         let Surroundings { forces, opening, loading, creep, weight, bytes, mirrored, bodies } = surroundings;
         let with_plates = forces.shear_along(&rates);
         let operator = condensed_operator(forces, &geometry, form);
-        Ok(Condensed { operator, opening, loading, creep, with_plates, weight, bytes, mirrored, bodies })
+        Ok(CondensedBodies {
+            operator,
+            opening,
+            loading,
+            creep,
+            with_plates,
+            weight,
+            bytes,
+            mirrored,
+            bodies,
+        })
     };
     if conditions.keep {
         return make();
@@ -74,14 +84,14 @@ pub(super) fn of<const D: usize>(
 }
 
 /// Rate at which the fault of each point creeps \[m/s\].
-fn rates<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Vec<f64> {
+fn rates<const D: usize>(scene: &Scene, placed: &[PlacedPoint<D>]) -> Vec<f64> {
     let rate = |spec: &Spec| spec.creep.as_ref().map_or(0.0, |c| c.rate.get_ref().0);
     let of_faults: Vec<f64> = scene.faults.values().map(rate).collect();
     placed.iter().map(|p| of_faults[p.fault]).collect()
 }
 
 /// Adds the stiffness of bodies to a hash.
-pub(super) fn of_stiffness(key: Key, bodies: &Stiffness) -> Key {
+pub(super) fn hash_stiffness(key: Key, bodies: &Stiffness) -> Key {
     let blocks = bodies.pattern.blocks().map(<[usize]>::len);
     let pattern = key.counts(bodies.pattern.dofs().iter().copied()).counts(blocks);
     pattern.numbers(&bodies.values).value(&bodies.dofs)

@@ -46,7 +46,7 @@ fn exact(angle: f64) -> (f64, f64) {
 /// Directions east, north and up in the axes of the scene, as columns. Without a place on Earth x points to the north and z to
 /// the east, as maps show them.
 fn directions(scene: &Scene) -> Result<Matrix3<f64>, Diagnostic> {
-    let Some(frame) = place::of(scene, true)? else {
+    let Some(frame) = place::frame(scene, true)? else {
         return Ok(Matrix3::from_columns(&[Vector3::z(), Vector3::x(), Vector3::y()]));
     };
     Ok(frame.axes.transpose())

@@ -29,7 +29,7 @@ pub(super) fn partners<const D: usize>(
     if alone.is_empty() {
         return Ok(());
     }
-    let faces: Vec<Face<D>> = minus.iter().flat_map(|side| Face::of(model, side)).collect();
+    let faces: Vec<Face<D>> = minus.iter().flat_map(|side| Face::from_side(model, side)).collect();
     let close = TOGETHER * model.scale;
     let x = |n: &usize| &model.mesh.nodes[*n];
     let covered: Vec<&usize> = alone.iter().filter(|n| faces.iter().any(|f| f.holds(x(n), close))).collect();
@@ -92,7 +92,7 @@ fn dot<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
 
 impl<const D: usize> Face<D> {
     /// Parts of a side.
-    fn of(model: &Model<D>, side: &Side) -> Vec<Self> {
+    fn from_side(model: &Model<D>, side: &Side) -> Vec<Self> {
         let MeshFace { kind, nodes } = MeshFace::new(&model.mesh, side);
         let parts: &[&[usize]] = match kind.corners() {
             2 => &[&[0, 1]],

@@ -1,6 +1,6 @@
 //! Fluid that diffuses along faults: hydraulic properties at their points, and wells.
 
-use super::placed::{Placed, at};
+use super::placed::{PlacedPoint, at};
 use super::wells::{FluidReach, WellSpec};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{
@@ -12,7 +12,7 @@ use asperity_run::Warning;
 use asperity_scene::lengths::brief;
 
 /// Warnings and notes of a plan.
-type Said<'a> = (&'a mut Vec<Warning>, &'a mut Vec<String>);
+type PlanMessages<'a> = (&'a mut Vec<Warning>, &'a mut Vec<String>);
 
 /// Fluid along all faults in a run that ends at `end` \[s\].
 ///
@@ -20,9 +20,9 @@ type Said<'a> = (&'a mut Vec<Warning>, &'a mut Vec<String>);
 /// [`Diagnostic`] at a well beyond its fault, or at a file that cannot be used.
 pub(super) fn diffusion<const D: usize>(
     scene: &Scene,
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
     end: f64,
-    said: Said<'_>,
+    said: PlanMessages<'_>,
 ) -> Result<Option<Diffusion>, Diagnostic> {
     let mut all: Option<Diffusion> = None;
     for (k, (name, spec)) in scene.faults.iter().enumerate() {
@@ -53,8 +53,8 @@ pub(super) fn diffusion<const D: usize>(
 fn line<const D: usize>(
     scene: &Scene,
     (name, given): (&str, &Given),
-    points: &[Placed<D>],
-    (warnings, notes): Said<'_>,
+    points: &[PlacedPoint<D>],
+    (warnings, notes): PlanMessages<'_>,
 ) -> Result<Line, Diagnostic> {
     let region = format!("fault `{name}`");
     let spots: Vec<Spot<D>> = points.iter().map(spot).collect();
@@ -70,7 +70,7 @@ fn line<const D: usize>(
         }
         // The scene check ensures that one of them is given.
         let constant = value.map_or(f64::NAN, |v| v.0);
-        let of = |p: &Placed<D>| {
+        let of = |p: &PlacedPoint<D>| {
             profile.map_or(constant, |ParameterProfiles(list)| {
                 list.iter().map(|profile| at(profile, &p.point.place)).fold(f64::NEG_INFINITY, f64::max)
             })
@@ -89,7 +89,7 @@ fn line<const D: usize>(
     })
 }
 
-fn spot<const D: usize>(placed: &Placed<D>) -> Spot<D> {
+fn spot<const D: usize>(placed: &PlacedPoint<D>) -> Spot<D> {
     let place = &placed.point.place;
     Spot { at: place.at, along: Some(place.along) }
 }

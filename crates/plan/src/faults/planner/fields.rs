@@ -1,6 +1,6 @@
 //! Parameters of a fault from files, at its points.
 
-use super::placed::Placed;
+use super::placed::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::{Fault as Spec, Scene, field_dimension};
@@ -65,7 +65,11 @@ impl<const D: usize> Fields<D> {
     }
 
     /// Adds warnings of files that reach too far, and notes on what they give to the points that slide.
-    pub fn describe(&self, placed: &[Placed<D>], (warnings, notes): (&mut Vec<Warning>, &mut Vec<String>)) {
+    pub fn describe(
+        &self,
+        placed: &[PlacedPoint<D>],
+        (warnings, notes): (&mut Vec<Warning>, &mut Vec<String>),
+    ) {
         let sliding = placed.iter().filter(|p| p.point.creep.is_none());
         let spots: Vec<Spot<D>> = sliding.map(|p| spot(&p.point.place)).collect();
         for field in self.all.iter().flatten() {

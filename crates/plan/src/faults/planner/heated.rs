@@ -1,7 +1,7 @@
 //! Frictional heat of faults.
 
 use super::super::plan::HeatView;
-use super::placed::Placed;
+use super::placed::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::{Fault as Spec, Heat as Given, Scene};
@@ -39,7 +39,7 @@ fn layer(given: &Given, law: &LawChoice) -> Layer {
 /// Heat of all faults in a run that ends at `end` \[s\]; the contacts of laws weaken where the scene says so.
 pub(super) fn heat<const D: usize>(
     scene: &Scene,
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
     law: &mut dyn FaultLaw,
     end: f64,
 ) -> Option<Heat> {
@@ -61,7 +61,7 @@ pub(super) fn heat<const D: usize>(
 }
 
 /// Heat of a fault, as needed by the output.
-pub(super) fn view<const D: usize>(spec: &Spec, placed: &[Placed<D>]) -> Option<HeatView> {
+pub(super) fn view<const D: usize>(spec: &Spec, placed: &[PlacedPoint<D>]) -> Option<HeatView> {
     let given = spec.heat.as_ref()?;
     Some(HeatView {
         layer: layer(given, &placed.first()?.law),

@@ -10,7 +10,7 @@ use std::ops::Range;
 
 /// Points that the bodies are condensed onto, and the loads on the bodies.
 #[derive(Clone, Copy)]
-pub(super) struct Asked<'a, const D: usize> {
+pub(super) struct CondensationInput<'a, const D: usize> {
     pub scene: &'a Scene,
     pub model: &'a Model<D>,
     pub loads: &'a Loads,
@@ -18,7 +18,7 @@ pub(super) struct Asked<'a, const D: usize> {
 }
 
 /// A refusal as text.
-struct Told {
+struct RefusalText {
     /// Description of the error.
     message: String,
     /// Remedy; `None` if the message contains it.
@@ -40,10 +40,10 @@ enum Where {
     Spring,
 }
 
-impl<const D: usize> Asked<'_, D> {
+impl<const D: usize> CondensationInput<'_, D> {
     /// A refusal as an error of the plan, at the condition that causes it.
     pub fn error(&self, refusal: &Refusal) -> Diagnostic {
-        let Told { message, help, place } = self.told(refusal);
+        let RefusalText { message, help, place } = self.told(refusal);
         let found = match place {
             Where::Conditions(nodes, component) => self.condition(nodes, component),
             _ => None,
@@ -55,7 +55,7 @@ impl<const D: usize> Asked<'_, D> {
         Diagnostic { message, help, span, also: Vec::new() }
     }
 
-    fn told(&self, refusal: &Refusal) -> Told {
+    fn told(&self, refusal: &Refusal) -> RefusalText {
         match refusal {
             Refusal::Drawn { point } => drawn(&self.points[*point].place),
             Refusal::Oblique { dof } => self.oblique(*dof),
@@ -65,7 +65,9 @@ impl<const D: usize> Asked<'_, D> {
             }
             Refusal::Memory { needed, allowed, points } => self.too_much(*points, [*needed, *allowed]),
             Refusal::Loose { dof, jumps } => self.loose(*dof, *jumps),
-            Refusal::Other(message) => Told { message: message.clone(), help: None, place: Where::Sides },
+            Refusal::Other(message) => {
+                RefusalText { message: message.clone(), help: None, place: Where::Sides }
+            }
         }
     }
 
@@ -104,7 +106,7 @@ impl<const D: usize> Asked<'_, D> {
     }
 
     /// Error for a condensation that needs more memory than is allowed.
-    fn too_much(&self, points: usize, [needed, allowed]: [usize; 2]) -> Told {
+    fn too_much(&self, points: usize, [needed, allowed]: [usize; 2]) -> RefusalText {
         let dofs = self.model.dofs();
         let message = format!(
             "condensing {dofs} degrees of freedom onto {points} points of the faults needs about {}, and {} are allowed",
@@ -112,11 +114,11 @@ impl<const D: usize> Asked<'_, D> {
             amounts::size(allowed)
         );
         let help = "raise `memory` in `[solver]` where the machine has it, or take coarser cells on the faults or away from them";
-        Told { message, help: Some(help.into()), place: Where::Memory }
+        RefusalText { message, help: Some(help.into()), place: Where::Memory }
     }
 
     /// Error for a body that can move without resistance.
-    fn loose(&self, dof: usize, jumps: bool) -> Told {
+    fn loose(&self, dof: usize, jumps: bool) -> RefusalText {
         let node = dof / self.model.idealisation.components();
         let component = if jumps { "slips or opens there" } else { "can move there" };
         let body = self.model.bodies.iter().find(|b| b.dofs.contains(&dof)).map_or("", |b| b.name.as_str());
@@ -125,17 +127,17 @@ impl<const D: usize> Asked<'_, D> {
             coordinates::in_words(&self.model.mesh.nodes[node])
         );
         let help = Some("prescribe motions of sides that hold each side of a fault".into());
-        Told { message, help, place: Where::Body(body.into()) }
+        RefusalText { message, help, place: Where::Body(body.into()) }
     }
 
     /// Error for a condition that cannot be expressed in the local axes of a displacement jump; `dof` is the degree of freedom concerned.
-    fn oblique(&self, dof: usize) -> Told {
+    fn oblique(&self, dof: usize) -> RefusalText {
         let count = self.model.idealisation.components();
         let (node, component) = (dof / count, dof % count);
         let of_node = |p: &&Point<D>| p.place.minus == node || p.place.plus == node;
         let Some(point) = self.points.iter().find(of_node) else {
             let message = format!("a condition on degree of freedom {dof} does not agree with a fault");
-            return Told { message, help: None, place: Where::Sides };
+            return RefusalText { message, help: None, place: Where::Sides };
         };
         let nodes = [point.place.minus, point.place.plus];
         let axis = ["x", "y", "z"][self.model.idealisation.axis(component)];
@@ -162,22 +164,26 @@ impl<const D: usize> Asked<'_, D> {
                 ),
             )
         };
-        Told { message, help: Some(help), place: Where::Conditions(nodes, component) }
+        RefusalText { message, help: Some(help), place: Where::Conditions(nodes, component) }
     }
 }
 
 /// Error for a spring that loads both sides of a fault.
-fn drawn<const D: usize>(place: &Place<D>) -> Told {
+fn drawn<const D: usize>(place: &Place<D>) -> RefusalText {
     let message = format!(
         "a spring moves both sides of a fault as one at {}, which could not slip there",
         coordinates::in_words(&place.at)
     );
-    Told { message, help: Some("let it load a side that ends at the fault".into()), place: Where::Spring }
+    RefusalText {
+        message,
+        help: Some("let it load a side that ends at the fault".into()),
+        place: Where::Spring,
+    }
 }
 
 /// Error for conditions that prescribe the motion of both sides of a point in the direction of slip.
-fn along_slip<const D: usize>(place: &Place<D>, component: usize) -> Told {
-    Told {
+fn along_slip<const D: usize>(place: &Place<D>, component: usize) -> RefusalText {
+    RefusalText {
         message: format!(
             "conditions prescribe the motion of both sides of a fault along its slip at {}, where it is to slide",
             coordinates::in_words(&place.at)
@@ -194,7 +200,7 @@ fn moved<const D: usize>(
     component: usize,
     rate: Option<f64>,
     [way, time]: [f64; 2],
-) -> Told {
+) -> RefusalText {
     let at = coordinates::in_words(&place.at);
     let (message, help) = match rate {
         Some(rate) => (
@@ -211,5 +217,9 @@ fn moved<const D: usize>(
             "a fault does not open: prescribe the same motion along its normal on both sides, or leave that component out on one of them",
         ),
     };
-    Told { message, help: Some(help.into()), place: Where::Conditions([place.minus, place.plus], component) }
+    RefusalText {
+        message,
+        help: Some(help.into()),
+        place: Where::Conditions([place.minus, place.plus], component),
+    }
 }

@@ -1,6 +1,6 @@
 //! Fluid injected into faults, whose pressure has a closed form.
 
-use super::placed::Placed;
+use super::placed::PlacedPoint;
 use super::wells::{FluidReach, WellSpec};
 use crate::doubts::Fluid;
 use crate::reading::diagnostic::Diagnostic;
@@ -14,7 +14,7 @@ use asperity_run::Warning;
 /// [`Diagnostic`] at a well beyond what slides of its fault.
 pub(super) fn injection<const D: usize>(
     scene: &Scene,
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
     end: f64,
     warnings: &mut Vec<Warning>,
 ) -> Result<Option<Pressure>, Diagnostic> {

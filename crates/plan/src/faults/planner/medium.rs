@@ -93,7 +93,7 @@ fn shares<const D: usize>(
         let elastic = &body.elastic[block - body.blocks.start];
         let shear = elastic.shear();
         let stiffness = resolution::modulus(model.idealisation, shear, elastic.poisson());
-        let impedance = material.density.as_ref().map(|d| impedance::of(shear, d.get_ref().0));
+        let impedance = material.density.as_ref().map(|d| impedance::shear_impedance(shear, d.get_ref().0));
         for (node, area) in surface::areas(&model.mesh, &sides, model.idealisation) {
             let none = Share { area: 0.0, shear: 0.0, stiffness: 0.0, impedance: Some(0.0) };
             let sum = all.entry(node).or_insert(none);

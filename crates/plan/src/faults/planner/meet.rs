@@ -4,7 +4,7 @@
 //! its normal their mean, as if the segments were one fault.
 
 use super::place::{branches, directions};
-use super::placed::Placed;
+use super::placed::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Scene};
 use crate::shared::model::{self, Model};
@@ -20,7 +20,7 @@ use std::collections::BTreeMap;
 pub(super) fn join<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
-    placed: &mut Vec<Placed<D>>,
+    placed: &mut Vec<PlacedPoint<D>>,
 ) -> Result<Vec<String>, Diagnostic> {
     let faults: Vec<(&String, &Spec)> = scene.faults.iter().collect();
     distinct(model, &faults, placed)?;
@@ -66,7 +66,7 @@ pub(super) fn join<const D: usize>(
 /// Adds the area of point `b` of another fault, at the same two nodes, to point `a`.
 fn absorb<const D: usize>(
     faults: &[(&String, &Spec)],
-    placed: &mut [Placed<D>],
+    placed: &mut [PlacedPoint<D>],
     a: usize,
     b: usize,
 ) -> Result<(), Diagnostic> {
@@ -89,7 +89,7 @@ fn absorb<const D: usize>(
 fn distinct<const D: usize>(
     model: &Model<D>,
     faults: &[(&String, &Spec)],
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
 ) -> Result<(), Diagnostic> {
     let mut owner: BTreeMap<Vec<[usize; 2]>, usize> = BTreeMap::new();
     for (k, &(name, spec)) in faults.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! Faces of faults between bodies.
 
 use super::cells::Cells;
-use super::placed::Placed;
+use super::placed::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Fault as Spec;
 use crate::shared::model::{self, Model};
@@ -9,12 +9,12 @@ use asperity_fem::mesh::{Side, face_nodes};
 use std::collections::BTreeMap;
 
 /// Faces of the bodies at faults.
-pub(crate) struct Meshed<'a, const D: usize> {
+pub(crate) struct FaultFaces<'a, const D: usize> {
     pub model: &'a Model<D>,
 }
 
-impl<const D: usize> Cells<D> for Meshed<'_, D> {
-    fn size(&self, spec: &Spec, point: &Placed<D>) -> Result<f64, Diagnostic> {
+impl<const D: usize> Cells<D> for FaultFaces<'_, D> {
+    fn size(&self, spec: &Spec, point: &PlacedPoint<D>) -> Result<f64, Diagnostic> {
         let Self { model } = self;
         let mut size = 0.0_f64;
         for side in model::sides(model, &spec.minus)? {
@@ -32,7 +32,11 @@ impl<const D: usize> Cells<D> for Meshed<'_, D> {
         Ok(size)
     }
 
-    fn faces(&self, (_, spec): (usize, &Spec), placed: &[Placed<D>]) -> Result<Vec<Vec<usize>>, Diagnostic> {
+    fn faces(
+        &self,
+        (_, spec): (usize, &Spec),
+        placed: &[PlacedPoint<D>],
+    ) -> Result<Vec<Vec<usize>>, Diagnostic> {
         let Self { model } = self;
         let points = placed.iter().enumerate().map(|(p, placed)| (placed.point.place.minus, p));
         let points: BTreeMap<usize, usize> = points.collect();

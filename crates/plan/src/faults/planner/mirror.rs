@@ -10,7 +10,7 @@ const SAME: f64 = 1e-9;
 
 /// The mirror in the plane of the faults that maps the nodes of the bodies onto each other, if there is one. The plane is normal to
 /// an axis, and the nodes on it are those of the faults. Whether rocks and loads are the same in the mirror remains to be seen.
-pub(super) fn of<const D: usize>(model: &Model<D>, points: &[Point<D>]) -> Option<Mirror> {
+pub(super) fn find<const D: usize>(model: &Model<D>, points: &[Point<D>]) -> Option<Mirror> {
     if model.idealisation.components() != 3 {
         return None;
     }

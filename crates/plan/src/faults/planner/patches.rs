@@ -2,7 +2,7 @@
 
 use super::asked::extent;
 use super::fields::PARAMETERS;
-use super::placed::{Placed, at};
+use super::placed::{PlacedPoint, at};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::{
@@ -154,7 +154,7 @@ pub(super) fn fit(spec: &Spec, law: &LawChoice) -> Result<(), Diagnostic> {
 /// [`Diagnostic`] at the patch.
 pub(super) fn covered<const D: usize>(
     (name, spec): (&str, &Spec),
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
 ) -> Result<Vec<Warning>, Diagnostic> {
     let mut warnings = Vec::new();
     let free: Vec<&Place<D>> =

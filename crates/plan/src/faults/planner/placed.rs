@@ -1,14 +1,14 @@
 //! A point of a fault during planning.
 
 use super::medium::Medium;
-use super::prestress::Resolved;
+use super::prestress::ResolvedTractions;
 use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::{Along, Profile};
 use crate::shared::field::samples::between;
 use asperity_cycles::medium::{Place, Point, across};
 
 /// A point with its fault and its law.
-pub(crate) struct Placed<const D: usize> {
+pub(crate) struct PlacedPoint<const D: usize> {
     pub point: Point<D>,
     pub fault: usize,
     /// Normal traction at the start \[Pa\].
@@ -29,7 +29,7 @@ pub(crate) struct Placed<const D: usize> {
     /// Initial state variable, if a file gives it: the shear traction follows from it and the slip rate.
     pub state: Option<f64>,
     /// Initial tractions from the stress in the bodies.
-    pub prestress: Resolved,
+    pub prestress: ResolvedTractions,
     pub law: LawChoice,
     /// Creep rate, if any \[m/s\].
     pub creep: Option<f64>,
@@ -37,14 +37,14 @@ pub(crate) struct Placed<const D: usize> {
     pub components: usize,
 }
 
-impl<const D: usize> Placed<D> {
+impl<const D: usize> PlacedPoint<D> {
     /// Recomputes the creep components after the directions of the point have changed.
     pub fn redirect(&mut self) {
         self.point.creep = self.creep.map(|rate| components(&self.point.place, rate));
     }
 }
 
-impl<const D: usize> Placed<D> {
+impl<const D: usize> PlacedPoint<D> {
     /// Initial f_n as used by friction \[Pa\].
     pub fn pressed(&self) -> f64 {
         self.floor.map_or(self.normal, |floor| self.normal.max(floor))
@@ -70,7 +70,7 @@ pub(super) fn at<const D: usize>(profile: &Profile, place: &Place<D>) -> f64 {
 
 /// Direction of motion of the plus side for positive slip: out of the plane, along the fault in the plane, or along the
 /// rake.
-pub(crate) fn slides<const D: usize>(placed: &Placed<D>) -> [f64; 3] {
+pub(crate) fn slides<const D: usize>(placed: &PlacedPoint<D>) -> [f64; 3] {
     let normal = in_space(&placed.point.place.normal);
     match placed.components {
         1 => [0.0, 0.0, 1.0],

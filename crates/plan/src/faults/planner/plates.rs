@@ -5,8 +5,8 @@
 //! of all other points at the creep rate would cause. Consistent plates have `F_w + F_c + F_s = 0`. Otherwise the sides move past each other at
 //! `-F_w/(F_c + F_s)` times the creep rate.
 
-use super::condensed::Condensed;
-use super::placed::{Placed, slides};
+use super::condensed::CondensedBodies;
+use super::placed::{PlacedPoint, slides};
 use crate::reading::scene::model::{Creep, Fault as Spec, Scene};
 use crate::shared::loading::Stage;
 use crate::shared::model::Model;
@@ -23,14 +23,14 @@ const PARALLEL: f64 = 1e-9;
 pub(super) fn check<const D: usize>(
     scene: &Scene,
     (model, stage): (&Model<D>, &Stage),
-    (placed, creeping): (&[Placed<D>], &[Placed<D>]),
-    condensed: &Condensed,
+    (placed, creeping): (&[PlacedPoint<D>], &[PlacedPoint<D>]),
+    condensed: &CondensedBodies,
 ) -> Option<Warning> {
     let creep = condensed.creep.as_ref()?;
     let total = condensed.loading.mean(stage.end, placed.len());
     let sides: Vec<f64> = total.iter().zip(creep).map(|(all, creep)| all - creep).collect();
     if !stage.has_loads() && judged(scene, model, placed, creeping) {
-        return of_plates(scene, placed, (&sides, creep), &condensed.with_plates);
+        return plate_warning(scene, placed, (&sides, creep), &condensed.with_plates);
     }
     let faults = scene.faults.iter().enumerate();
     faults.filter_map(|(k, fault)| against(fault, k, placed, (&sides, creep))).next()
@@ -40,14 +40,14 @@ pub(super) fn check<const D: usize>(
 fn judged<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
-    placed: &[Placed<D>],
-    creeping: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
+    creeping: &[PlacedPoint<D>],
 ) -> bool {
     let all = || placed.iter().chain(creeping);
     let Some(first) = all().next() else { return false };
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>().abs();
     let along = slides(first);
-    let parallel = |p: &Placed<D>| {
+    let parallel = |p: &PlacedPoint<D>| {
         dot(&p.point.place.normal, &first.point.place.normal) > 1.0 - PARALLEL
             && dot(&slides(p), &along) > 1.0 - PARALLEL
     };
@@ -56,21 +56,21 @@ fn judged<const D: usize>(
         let body = model.bodies.iter().position(|b| b.nodes.contains(&node));
         body.map(|b| (b, of(&model.bodies[b].parts)))
     };
-    let cut = |p: &Placed<D>| part(p.point.place.minus) != part(p.point.place.plus);
-    let one_way = |p: &Placed<D>| p.point.creep.is_none_or(|c| c[0] != 0.0 && c[1] == 0.0);
+    let cut = |p: &PlacedPoint<D>| part(p.point.place.minus) != part(p.point.place.plus);
+    let one_way = |p: &PlacedPoint<D>| p.point.creep.is_none_or(|c| c[0] != 0.0 && c[1] == 0.0);
     let drags = |f: &Spec| f.creep.as_ref().is_some_and(|c| !c.is_backslip());
     scene.faults.values().all(drags) && all().all(|p| parallel(p) && one_way(p) && cut(p))
 }
 
 /// Integral over the areas of the points of the traction along slip.
-fn force<const D: usize>(placed: &[Placed<D>], tractions: &[f64]) -> f64 {
+fn force<const D: usize>(placed: &[PlacedPoint<D>], tractions: &[f64]) -> f64 {
     placed.iter().zip(tractions).map(|(p, t)| p.point.place.area * t).sum()
 }
 
 /// Warning about sides that do not move at the creep rate of the faults between them.
-fn of_plates<const D: usize>(
+fn plate_warning<const D: usize>(
     scene: &Scene,
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
     (sides, creep): (&[f64], &[f64]),
     exerted: &[f64],
 ) -> Option<Warning> {
@@ -108,7 +108,7 @@ fn of_plates<const D: usize>(
 fn against<const D: usize>(
     (name, spec): (&String, &Spec),
     fault: usize,
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
     (sides, creep): (&[f64], &[f64]),
 ) -> Option<Warning> {
     let own = |tractions: &[f64]| -> [f64; 2] {

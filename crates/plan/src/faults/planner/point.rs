@@ -2,8 +2,8 @@
 
 use super::fields::Fields;
 use super::medium::Medium;
-use super::placed::{Placed, components};
-use super::prestress::Resolved;
+use super::placed::{PlacedPoint, components};
+use super::prestress::ResolvedTractions;
 use super::{asked, floor, patches};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::LawChoice;
@@ -13,12 +13,12 @@ use asperity_laws as laws;
 use asperity_mechanics::coordinates;
 
 /// Surroundings of a point.
-pub(super) struct Given {
+pub(super) struct PointSurroundings {
     pub medium: Medium,
     /// Distance to the farthest neighbour \[m\].
     pub spacing: f64,
     /// Tractions of the initial stress of bodies.
-    pub stress: Option<Resolved>,
+    pub stress: Option<ResolvedTractions>,
     /// Creep rate \[m/s\].
     pub creep: Option<f64>,
     /// Number of components of displacement.
@@ -30,15 +30,15 @@ pub(super) fn placed_at<const D: usize>(
     spec: &Spec,
     (fault, base, fields): (usize, &LawChoice, &Fields<D>),
     place: Place<D>,
-    given: Given,
-) -> Result<Placed<D>, Diagnostic> {
+    given: PointSurroundings,
+) -> Result<PlacedPoint<D>, Diagnostic> {
     let choice = floor::choice(spec);
     // Where the fault creeps, parameters are not used.
     let from_files = if given.creep.is_some() { Default::default() } else { fields.at(&place)? };
     let values = patches::values(spec, &place, (base, from_files));
     let law = values.law(base);
     different(spec, &place, &law)?;
-    Ok(Placed {
+    Ok(PlacedPoint {
         fault,
         medium: given.medium,
         damping: damping(spec, &given.medium)?,

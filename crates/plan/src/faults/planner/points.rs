@@ -1,10 +1,10 @@
 //! Points of all faults between bodies, with the laws, the starts and the creep that the scene gives them.
 
-use super::apart::{self, Spaced};
+use super::apart::{self, Spacing};
 use super::fields::Fields;
 use super::medium::Media;
-use super::placed::Placed;
-use super::point::{Given, base_law, placed_at};
+use super::placed::PlacedPoint;
+use super::point::{PointSurroundings, base_law, placed_at};
 use super::prestress::Prestress;
 use super::{asked, bends, meet, patches, place, untouched};
 use crate::reading::diagnostic::Diagnostic;
@@ -19,9 +19,9 @@ pub(crate) fn all_points<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     warnings: &mut Vec<Warning>,
-) -> Result<(Vec<Placed<D>>, Vec<String>), Diagnostic> {
-    let mut placed: Vec<Placed<D>> = Vec::new();
-    apart::check(scene, &apart::faces::cells(scene, model)?, Spaced::Apart)?;
+) -> Result<(Vec<PlacedPoint<D>>, Vec<String>), Diagnostic> {
+    let mut placed: Vec<PlacedPoint<D>> = Vec::new();
+    apart::check(scene, &apart::faces::cells(scene, model)?, Spacing::Apart)?;
     let mut notes = meshes::notes(scene)?;
     notes.extend(cuts::notes(scene, &model.mesh));
     notes.extend(meshes::left_out(model));
@@ -42,7 +42,7 @@ fn points_of<const D: usize>(
     (name, spec): (&str, &Spec),
     fault: usize,
     (warnings, notes): (&mut Vec<Warning>, &mut Vec<String>),
-) -> Result<Vec<Placed<D>>, Diagnostic> {
+) -> Result<Vec<PlacedPoint<D>>, Diagnostic> {
     let base = base_law(spec)?;
     let mut placed = Vec::new();
     let media = Media::new(scene, model, spec)?;
@@ -55,7 +55,7 @@ fn points_of<const D: usize>(
     for place in places {
         let creep = spec.creep.as_ref().filter(|c| creeps(c, &place, CLOSE * model.scale));
         let given = stress.as_ref().filter(|_| creep.is_none());
-        let given = Given {
+        let given = PointSurroundings {
             medium: media.at(&place),
             spacing: spacings.get(&place.minus).copied().unwrap_or_default(),
             stress: given.map(|s| s.start(model, &place, weighs)).transpose()?,

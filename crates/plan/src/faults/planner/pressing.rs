@@ -4,8 +4,8 @@
 //! without friction. f_n and τ at the end are those with which the faults begin to slide; states of friction are those of steady slip
 //! at `v_initial`, or at `rate`. What the stage holds stays held, or is drawn by a spring that takes over the force.
 
-use super::held::Asked;
-use super::placed::Placed;
+use super::held::CondensationInput;
+use super::placed::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::check;
 use crate::reading::scene::law::LawChoice;
@@ -33,7 +33,7 @@ const MOST: f64 = 0.1;
 /// # Errors
 /// [`Diagnostic`] if nothing holds the bodies, or if supports do not agree with the faults.
 pub(super) fn solve<const D: usize>(
-    asked: Asked<'_, D>,
+    asked: CondensationInput<'_, D>,
     stage: &Stage,
     faults: &[usize],
     (bodies, conditions): (&Stiffness, Conditions),
@@ -81,7 +81,7 @@ pub(super) fn start<const D: usize>(
     scene: &Scene,
     pressed: &PressedBodies,
     free: &[usize],
-    placed: &mut [Placed<D>],
+    placed: &mut [PlacedPoint<D>],
 ) -> Result<Vec<String>, Diagnostic> {
     let Some(stage) = check::pressing::stage(scene) else { return Ok(Vec::new()) };
     let (tractions, count) = (&pressed.tractions, pressed.tractions.normal.len());
@@ -108,7 +108,7 @@ pub(super) fn start<const D: usize>(
         .collect())
 }
 
-fn not_pressed<const D: usize>(scene: &Scene, stage: &StageSpec, point: &Placed<D>) -> Diagnostic {
+fn not_pressed<const D: usize>(scene: &Scene, stage: &StageSpec, point: &PlacedPoint<D>) -> Diagnostic {
     let name = scene.faults.keys().nth(point.fault).map_or("", String::as_str);
     let at = coordinates::in_words(&point.point.place.at);
     Diagnostic::at(
@@ -121,7 +121,7 @@ fn not_pressed<const D: usize>(scene: &Scene, stage: &StageSpec, point: &Placed<
     )
 }
 
-fn crushed<const D: usize>(scene: &Scene, stage: &StageSpec, point: &Placed<D>) -> Diagnostic {
+fn crushed<const D: usize>(scene: &Scene, stage: &StageSpec, point: &PlacedPoint<D>) -> Diagnostic {
     let name = scene.faults.keys().nth(point.fault).map_or("", String::as_str);
     let (normal, share) = (point.normal, point.normal / point.medium.stiffness);
     Diagnostic::at(
@@ -138,7 +138,7 @@ fn crushed<const D: usize>(scene: &Scene, stage: &StageSpec, point: &Placed<D>) 
 fn words<'a, const D: usize>(
     stage: &StageSpec,
     (name, spec): (&str, &Spec),
-    points: impl Iterator<Item = &'a Placed<D>> + Clone,
+    points: impl Iterator<Item = &'a PlacedPoint<D>> + Clone,
 ) -> String {
     let range = |values: &mut dyn Iterator<Item = f64>| {
         let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(v), h.max(v)]);
@@ -166,7 +166,7 @@ fn words<'a, const D: usize>(
 /// [`Diagnostic`] at the stage that presses, if a point slips at `above` \[m/s\] or faster at the start.
 pub(super) fn rests<const D: usize>(
     scene: &Scene,
-    (placed, fault): (&[Placed<D>], &Fault),
+    (placed, fault): (&[PlacedPoint<D>], &Fault),
     (unknowns, above): (&[f64], f64),
 ) -> Result<(), Diagnostic> {
     let layout = asperity_cycles::Layout::from_fault(fault);
@@ -197,7 +197,7 @@ pub(super) fn rests<const D: usize>(
 
 /// Warnings about slip rates at the start of faults that have been pressed: these follow from friction, whose states are those of
 /// `v_initial`, and of `rate` only the sense counts.
-pub(super) fn unused_rates<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Vec<Warning> {
+pub(super) fn unused_rates<const D: usize>(scene: &Scene, placed: &[PlacedPoint<D>]) -> Vec<Warning> {
     let of = |(k, (name, spec)): (usize, (&String, &Spec))| {
         let pressed = placed.iter().find(|p| p.fault == k && p.pressed_shear.is_some())?;
         let same = match &pressed.law {

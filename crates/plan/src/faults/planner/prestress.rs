@@ -31,7 +31,7 @@ pub struct Prestress<'a> {
 
 /// Tractions at a point \[Pa\].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Resolved {
+pub struct ResolvedTractions {
     /// f_n, if the stress has in-plane components.
     pub normal: Option<f64>,
     /// τ_0.
@@ -59,7 +59,7 @@ impl<'a> Prestress<'a> {
         model: &Model<D>,
         place: &Place<D>,
         weighs: bool,
-    ) -> Result<Resolved, Diagnostic> {
+    ) -> Result<ResolvedTractions, Diagnostic> {
         let found = self.at(model, place)?;
         if !weighs {
             self.admit(place, &found)?;
@@ -71,7 +71,11 @@ impl<'a> Prestress<'a> {
     ///
     /// # Errors
     /// [`Diagnostic`] if both sides are not in balance.
-    fn at<const D: usize>(&self, model: &Model<D>, place: &Place<D>) -> Result<Resolved, Diagnostic> {
+    fn at<const D: usize>(
+        &self,
+        model: &Model<D>,
+        place: &Place<D>,
+    ) -> Result<ResolvedTractions, Diagnostic> {
         let n = in_space(&place.normal);
         let slides = match model.idealisation.components() {
             1 => [0.0, 0.0, 1.0],
@@ -91,7 +95,7 @@ impl<'a> Prestress<'a> {
         }
         let across = if D == 3 { dot(&minus, &across(&n, &slides)) } else { 0.0 };
         let normal = self.presses.then_some(-dot(&minus, &n));
-        Ok(Resolved { normal, shear: dot(&minus, &slides), across })
+        Ok(ResolvedTractions { normal, shear: dot(&minus, &slides), across })
     }
 
     /// Refuses tractions at a point under which the fault would not slip as requested, if they are due to the initial
@@ -99,7 +103,7 @@ impl<'a> Prestress<'a> {
     ///
     /// # Errors
     /// [`Diagnostic`] if the fault is not pressed, or if friction would not resist its motion.
-    fn admit<const D: usize>(&self, place: &Place<D>, found: &Resolved) -> Result<(), Diagnostic> {
+    fn admit<const D: usize>(&self, place: &Place<D>, found: &ResolvedTractions) -> Result<(), Diagnostic> {
         let refuse = |what: String, help: &str| {
             let message = format!(
                 "the initial stress {what} fault `{}` at {}",
@@ -139,7 +143,7 @@ pub(super) fn against(spec: &Spec, shear: f64) -> bool {
 }
 
 /// True if vector slip would not start along the rake.
-pub(super) fn strays(spec: &Spec, found: &Resolved) -> bool {
+pub(super) fn strays(spec: &Spec, found: &ResolvedTractions) -> bool {
     let free = spec.slip.as_ref().is_some_and(|s| *s.get_ref() == SlipSpec::Free);
     free && found.across.abs() > ALONG * found.shear.abs()
 }

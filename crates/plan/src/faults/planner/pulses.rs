@@ -1,7 +1,7 @@
 //! Shear tractions that are imposed on faults.
 
-use super::placed::Placed;
-use crate::doubts::Pushed;
+use super::placed::PlacedPoint;
+use crate::doubts::PulsePoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Pulse as Asked};
 use asperity_cycles::Fault;
@@ -13,14 +13,14 @@ use asperity_run::Warning;
 /// [`Diagnostic`] where a pulse acts on no point that slides.
 pub(crate) fn pulses<const D: usize>(
     named: &[(&String, &Spec)],
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
     components: usize,
 ) -> Result<Vec<(Vec<f64>, f64)>, Diagnostic> {
     let mut all = Vec::new();
     for (fault, (name, spec)) in named.iter().enumerate() {
         for asked in &spec.pulses {
             let traction = asked.traction.get_ref().0;
-            let at = |p: &Placed<D>| {
+            let at = |p: &PlacedPoint<D>| {
                 if p.fault == fault { traction * sense(p) * shape(asked, &p.point.place.at) } else { 0.0 }
             };
             let mut amplitude = vec![0.0; components * placed.len()];
@@ -42,19 +42,22 @@ pub(crate) fn pulses<const D: usize>(
 pub(crate) fn doubts<'a>(
     named: &[(&String, &Spec)],
     amplitudes: impl Iterator<Item = &'a [f64]>,
-    pushed: &[Pushed],
+    pushed: &[PulsePoint],
 ) -> Vec<Warning> {
     let asked = named.iter().flat_map(|(_, spec)| &spec.pulses);
     let doubt = |(asked, amplitude): (&Asked, &[f64])| {
         let points = amplitude.iter().enumerate();
-        crate::doubts::pulse(asked, points.map(|(i, a)| Pushed { amplitude: *a, ..pushed[i % pushed.len()] }))
+        crate::doubts::pulse(
+            asked,
+            points.map(|(i, a)| PulsePoint { amplitude: *a, ..pushed[i % pushed.len()] }),
+        )
     };
     asked.zip(amplitudes).filter_map(doubt).collect()
 }
 
 /// State of the points of faults in equilibrium, as far as it counts for pulses.
-pub(super) fn at_rest(fault: &Fault) -> Vec<Pushed> {
-    let of = |p: usize| Pushed {
+pub(super) fn at_rest(fault: &Fault) -> Vec<PulsePoint> {
+    let of = |p: usize| PulsePoint {
         amplitude: 0.0,
         normal: fault.normal[p],
         direct: Some(fault.law.scale(p) * fault.normal[p]),
@@ -66,7 +69,7 @@ pub(super) fn at_rest(fault: &Fault) -> Vec<Pushed> {
 }
 
 /// Direction of slip of a point: that of its slip rate, or of its shear traction where it starts at rest.
-fn sense<const D: usize>(placed: &Placed<D>) -> f64 {
+fn sense<const D: usize>(placed: &PlacedPoint<D>) -> f64 {
     let of = if placed.rate == 0.0 { placed.shear.unwrap_or_default() } else { placed.rate };
     of.signum()
 }

@@ -1,12 +1,12 @@
 //! Damping that is far from that of radiation, or missing where friction weakens.
 
 use super::checks::weakens;
-use super::placed::Placed;
+use super::placed::PlacedPoint;
 use crate::reading::scene::model::{DampingSpec, Fault as Spec, Scene, Stepper};
 use asperity_run::Warning;
 
 /// Warnings about damping that no rock has, and about damping that is missing.
-pub(super) fn doubts<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Vec<Warning> {
+pub(super) fn doubts<const D: usize>(scene: &Scene, placed: &[PlacedPoint<D>]) -> Vec<Warning> {
     let of = |(k, (name, spec)): (usize, (&String, &Spec))| {
         let given = spec.damping.as_ref()?;
         let DampingSpec::Value(value) = *given.get_ref() else { return None };
@@ -18,7 +18,7 @@ pub(super) fn doubts<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Vec
 }
 
 /// A warning for each fault in equilibrium whose friction weakens at points without damping. With inertia, bodies radiate waves by themselves.
-fn missing<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Vec<Warning> {
+fn missing<const D: usize>(scene: &Scene, placed: &[PlacedPoint<D>]) -> Vec<Warning> {
     if *scene.time.stepper.get_ref() != Stepper::FaultOde {
         return Vec::new();
     }

@@ -13,7 +13,7 @@ use asperity_mechanics::coordinates::in_words;
 const NO_SHARE: f64 = 1e-9;
 
 /// A position of a scene.
-type Given<'a> = (&'a String, &'a Spanned<Vec<Length>>);
+type NamedPosition<'a> = (&'a String, &'a Spanned<Vec<Length>>);
 
 /// Nodes of the cell around a position, with their shares in its displacement.
 type Shares = Vec<(usize, f64)>;
@@ -22,13 +22,13 @@ type Shares = Vec<(usize, f64)>;
 ///
 /// # Errors
 /// [`Diagnostic`] at a receiver outside the bodies or on a fault, or one beside faults that may open.
-pub(super) fn of<const D: usize>(
+pub(super) fn plan<const D: usize>(
     scene: &Scene,
     (model, points): (&Model<D>, &[Point<D>]),
     bodies: &Bodies,
     (rates, tangents): (&[f64], usize),
 ) -> Result<Receivers, Diagnostic> {
-    let given: Vec<Given<'_>> = scene.output.receivers.iter().collect();
+    let given: Vec<NamedPosition<'_>> = scene.output.receivers.iter().collect();
     let shares = given.iter().map(|given| shares(*given, model, points)).collect::<Result<Vec<_>, _>>()?;
     let components = model.idealisation.components();
     let row = |shares: &Shares, c: usize| {
@@ -37,13 +37,14 @@ pub(super) fn of<const D: usize>(
     let sums: Vec<Shares> = shares.iter().flat_map(|s| (0..components).map(move |c| row(s, c))).collect();
     let axes: Vec<usize> = (0..components).map(|c| model.idealisation.axis(c)).collect();
     let followed = bodies.followed(&sums, tangents);
-    let receiver = |(given, followed): (&Given<'_>, &[DisplacementSum])| receiver(*given, followed, &axes);
+    let receiver =
+        |(given, followed): (&NamedPosition<'_>, &[DisplacementSum])| receiver(*given, followed, &axes);
     let all = given.iter().zip(followed.chunks_exact(components)).map(receiver).collect();
     Ok(Receivers { all, rates: rates.to_vec(), axes })
 }
 
 /// A receiver from what each component of its displacement follows.
-fn receiver((name, given): Given<'_>, followed: &[DisplacementSum], axes: &[usize]) -> Receiver {
+fn receiver((name, given): NamedPosition<'_>, followed: &[DisplacementSum], axes: &[usize]) -> Receiver {
     let vector = |of: &dyn Fn(&DisplacementSum) -> f64| {
         let mut vector = [0.0; 3];
         axes.iter().zip(followed).for_each(|(&axis, f)| vector[axis] = of(f));
@@ -62,7 +63,7 @@ fn receiver((name, given): Given<'_>, followed: &[DisplacementSum], axes: &[usiz
 
 /// Shares of nodes in the displacement of a position.
 fn shares<const D: usize>(
-    (name, given): Given<'_>,
+    (name, given): NamedPosition<'_>,
     model: &Model<D>,
     points: &[Point<D>],
 ) -> Result<Shares, Diagnostic> {

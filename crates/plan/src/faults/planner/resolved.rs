@@ -1,7 +1,7 @@
 //! Resolution of all faults of a scene.
 
 use super::floor;
-use super::placed::Placed;
+use super::placed::PlacedPoint;
 use crate::doubts;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Scene;
@@ -11,7 +11,7 @@ use asperity_run::Warning;
 use resolution::Ground;
 
 /// Largest distance along an axis between the ends of some points with their cells \[m\].
-fn extent<'a, const D: usize>(points: impl Iterator<Item = &'a Placed<D>> + Clone) -> f64 {
+fn extent<'a, const D: usize>(points: impl Iterator<Item = &'a PlacedPoint<D>> + Clone) -> f64 {
     let along = |c: usize| {
         let x = points.clone().map(|p| p.point.place.at[c]);
         let [low, high] = x.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], x| [l.min(x), h.max(x)]);
@@ -24,7 +24,7 @@ fn extent<'a, const D: usize>(points: impl Iterator<Item = &'a Placed<D>> + Clon
 /// Resolution of each fault on which friction weakens.
 pub(crate) fn resolved<const D: usize>(
     scene: &Scene,
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
     warnings: &mut Vec<Warning>,
 ) -> Result<Vec<Resolution>, Diagnostic> {
     let mut all = Vec::new();
@@ -37,7 +37,7 @@ pub(crate) fn resolved<const D: usize>(
             let (law, modulus) = (&p.law, p.medium.stiffness);
             (&p.point.place, Ground { law, normal: p.pressed(), modulus, in_space: D == 3 }, p.spacing)
         });
-        if let Some(found) = resolution::of_points(name, with_ground) {
+        if let Some(found) = resolution::from_points(name, with_ground) {
             warnings.extend(resolution::check(&found, spec, D == 3)?);
             let (length, extent) = (found.nucleation.length, extent(points()));
             let surface = format!("fault `{name}`");

@@ -23,7 +23,7 @@ pub(super) fn asked(scene: &Scene, stage: &Stage) -> bool {
 ///
 /// # Errors
 /// [`Diagnostic`] for a point outside its body or a set that does not exist.
-pub(super) fn of<const D: usize>(
+pub(super) fn plan<const D: usize>(
     scene: &Scene,
     stage: &Stage,
     pressed: Option<&PressedBodies>,
@@ -35,7 +35,7 @@ pub(super) fn of<const D: usize>(
     // The blocks of the model of the plan have become its stiffness.
     let model = model::build::<D>(scene)?;
     let wanted = samples::find(scene, &model)?;
-    let initial_stress = model.bodies.iter().map(|b| initial_stress::of_body(scene, &b.name)).collect();
+    let initial_stress = model.bodies.iter().map(|b| initial_stress::body_field(scene, &b.name)).collect();
     let unit = if views::per_length(model.idealisation) { "N/m" } else { "N" };
     let start = pressed.map_or_else(|| vec![0.0; model.dofs()], |p| p.displacement.clone());
     let spring = |spring: &Spring| {

@@ -1,6 +1,6 @@
 //! Direction in which loads and creep drive faults, compared with the direction in which they should slip.
 
-use super::placed::{Placed, slides};
+use super::placed::{PlacedPoint, slides};
 use crate::reading::scene::model::{Fault as Spec, Scene};
 use asperity_cycles::Loading;
 use asperity_run::Warning;
@@ -12,14 +12,14 @@ const ROUNDING: f64 = 1e-9;
 /// the creeping ones.
 pub(super) fn check<const D: usize>(
     scene: &Scene,
-    (placed, creeping): (&[Placed<D>], &[Placed<D>]),
+    (placed, creeping): (&[PlacedPoint<D>], &[PlacedPoint<D>]),
     loading: &Loading,
     end: f64,
 ) -> Vec<Warning> {
     let mut warnings = Vec::new();
     for (k, (name, spec)) in scene.faults.iter().enumerate() {
         let sense = spec.rate.get_ref().0.signum();
-        let against = |p: &&Placed<D>| p.fault == k && p.point.creep.is_some_and(|c| c[0] * sense < 0.0);
+        let against = |p: &&PlacedPoint<D>| p.fault == k && p.point.creep.is_some_and(|c| c[0] * sense < 0.0);
         if let Some(creep) = spec.creep.as_ref().filter(|_| creeping.iter().any(|p| against(&p))) {
             warnings.push(Warning::at(
                 creep.rate.span(),
@@ -34,7 +34,7 @@ pub(super) fn check<const D: usize>(
 
 /// Mean rate of shear traction of a fault when loads first act on it before `end` \[s\]; `None` if they do not shear it \[Pa/s\].
 pub(super) fn first_rate<const D: usize>(
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
     fault: usize,
     loading: &Loading,
     end: f64,
@@ -59,7 +59,7 @@ pub(super) fn first_rate<const D: usize>(
 /// Warning about a fault that loads drive against `rate` when they first act on it.
 fn driven<const D: usize>(
     (name, spec): (&str, &Spec),
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
     fault: usize,
     loading: &Loading,
     end: f64,

@@ -1,6 +1,6 @@
 //! Initial tractions compared with friction at the initial slip rate.
 
-use super::placed::Placed;
+use super::placed::PlacedPoint;
 use crate::reading::scene::model::{Fault as Spec, Scene, Spanned};
 use asperity_cycles::Fault;
 use asperity_friction::fault::FaultLaw;
@@ -37,7 +37,7 @@ fn source<'a>(scene: &'a Scene, spec: &'a Spec) -> (&'static str, Range<usize>) 
 
 /// Friction at the start of a point with a given shear traction or state.
 fn friction<const D: usize>(
-    point: &Placed<D>,
+    point: &PlacedPoint<D>,
     law: &dyn FaultLaw,
     (p, damping): (usize, f64),
 ) -> Option<f64> {
@@ -49,7 +49,7 @@ fn friction<const D: usize>(
 }
 
 /// A warning for each fault whose initial friction is far from that of steady slip at `rate`.
-pub(super) fn check<const D: usize>(scene: &Scene, placed: &[Placed<D>], fault: &Fault) -> Vec<Warning> {
+pub(super) fn check<const D: usize>(scene: &Scene, placed: &[PlacedPoint<D>], fault: &Fault) -> Vec<Warning> {
     let law: &dyn FaultLaw = fault.law.as_ref();
     let mut states = vec![0.0; law.states()];
     let mut worst: Vec<Option<(f64, f64, f64, String)>> = vec![None; scene.faults.len()];

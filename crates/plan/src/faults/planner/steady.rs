@@ -1,7 +1,7 @@
 //! Faults that start in equilibrium.
 
 use super::checks::weakens;
-use super::placed::Placed;
+use super::placed::PlacedPoint;
 use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::Scene;
 use asperity_cycles::{Fault, Loading};
@@ -11,7 +11,7 @@ use asperity_run::Warning;
 const BALANCED: f64 = 1e-4;
 
 /// True if a point has the state of steady slip at its initial rate, so that it stays so as long as its traction does.
-fn is_steady<const D: usize>(point: &Placed<D>) -> bool {
+fn is_steady<const D: usize>(point: &PlacedPoint<D>) -> bool {
     let steady = match &point.law {
         LawChoice::RateAndState { v_initial, .. } => *v_initial == point.rate.abs(),
         _ => true,
@@ -20,7 +20,12 @@ fn is_steady<const D: usize>(point: &Placed<D>) -> bool {
 }
 
 /// True if slip at the initial rates takes up what the loads add, `A V + τ̇_load = 0`.
-fn is_balanced<const D: usize>(placed: &[Placed<D>], fault: &Fault, loading: &Loading, end: f64) -> bool {
+fn is_balanced<const D: usize>(
+    placed: &[PlacedPoint<D>],
+    fault: &Fault,
+    loading: &Loading,
+    end: f64,
+) -> bool {
     let (mut loads, _) = loading.rates(0.5 * first(loading, end), placed.len(), false);
     let (mut rates, mut elastic) = (vec![0.0; loads.len()], vec![0.0; loads.len()]);
     rates.iter_mut().zip(placed).for_each(|(rate, point)| *rate = point.rate);
@@ -39,7 +44,7 @@ fn first(loading: &Loading, end: f64) -> f64 {
 /// A warning for faults that weaken somewhere and start in equilibrium with their loads. It is unstable, and only rounding ends it.
 pub(super) fn starts<const D: usize>(
     scene: &Scene,
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
     fault: &Fault,
     (loading, end): (&Loading, f64),
 ) -> Option<Warning> {

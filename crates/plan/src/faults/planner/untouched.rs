@@ -3,7 +3,7 @@
 //! Sides of a fault that creeps or is locked may be held: that is how slip at depth is driven. A set that meets the fault in
 //! an edge or a node alone belongs to another side of a body.
 
-use super::placed::Placed;
+use super::placed::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Condition, Motion, Scene, Spanned};
 use crate::shared::model::{self, Model};
@@ -18,7 +18,7 @@ use std::ops::Range;
 pub(super) fn check<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
 ) -> Result<(), Diagnostic> {
     let sliding = placed.iter().filter(|p| p.point.creep.is_none());
     let sliding: BTreeSet<usize> = sliding.flat_map(|p| [p.point.place.minus, p.point.place.plus]).collect();

@@ -1,6 +1,6 @@
 //! Doubts about the direction up of a scene with a place on Earth.
 
-use super::placed::{Placed, in_space};
+use super::placed::{PlacedPoint, in_space};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Scene, Spanned};
 use crate::shared::model::Model;
@@ -28,10 +28,10 @@ fn place(scene: &Scene) -> Option<Range<usize>> {
 /// [`Diagnostic`] at the epoch.
 pub(super) fn above_ground<const D: usize>(
     scene: &Scene,
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
 ) -> Result<Option<Warning>, Diagnostic> {
-    let (Some(span), Some(frame)) = (place(scene), place::of(scene, D == 3)?) else { return Ok(None) };
-    let height = |p: &Placed<D>| frame.height(&in_space(&p.point.place.at));
+    let (Some(span), Some(frame)) = (place(scene), place::frame(scene, D == 3)?) else { return Ok(None) };
+    let height = |p: &PlacedPoint<D>| frame.height(&in_space(&p.point.place.at));
     let highest = placed.iter().map(|p| (height(p), p.fault)).reduce(|a, b| if b.0 > a.0 { b } else { a });
     let found = highest.filter(|(height, _)| *height > HIGHEST);
     let name = |fault: usize| scene.faults.keys().nth(fault).map_or("", String::as_str);

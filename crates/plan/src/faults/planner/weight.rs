@@ -7,8 +7,8 @@
 //! carries no weight.
 
 use super::cover::TOGETHER;
-use super::placed::Placed;
-use super::prestress::{Resolved, against, strays};
+use super::placed::PlacedPoint;
+use super::prestress::{ResolvedTractions, against, strays};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Scene, Spanned};
 use crate::shared::loading::Stage;
@@ -38,7 +38,7 @@ pub(super) fn press<const D: usize>(
     scene: &Scene,
     (model, stage): (&Model<D>, &Stage),
     weight: Option<&Initial>,
-    placed: &mut [Placed<D>],
+    placed: &mut [PlacedPoint<D>],
 ) -> Result<Vec<String>, Diagnostic> {
     let Some(weight) = weight else { return Ok(Vec::new()) };
     add(scene, weight, placed).map_err(|e| match hangs(scene, model, stage) {
@@ -55,7 +55,7 @@ pub(super) fn press<const D: usize>(
 fn add<const D: usize>(
     scene: &Scene,
     weight: &Initial,
-    placed: &mut [Placed<D>],
+    placed: &mut [PlacedPoint<D>],
 ) -> Result<Vec<String>, Diagnostic> {
     let faults: Vec<(&String, &Spec)> = scene.faults.iter().collect();
     let count = placed.len();
@@ -64,9 +64,9 @@ fn add<const D: usize>(
         let second = weight.shear.get(count + k).copied().unwrap_or(0.0);
         let stress = point.prestress;
         let (shear, across) = (stress.shear + weight.shear[k], stress.across + second);
-        point.prestress = Resolved { normal: Some(point.normal), shear, across };
+        point.prestress = ResolvedTractions { normal: Some(point.normal), shear, across };
     }
-    let most = |point: &Placed<D>| point.normal.abs().max(point.prestress.shear.abs());
+    let most = |point: &PlacedPoint<D>| point.normal.abs().max(point.prestress.shear.abs());
     let small = NOTHING * placed.iter().map(most).fold(0.0, f64::max);
     for point in placed.iter_mut() {
         let (name, spec) = faults[point.fault];
@@ -86,7 +86,7 @@ fn given(spec: &Spec) -> bool {
 fn start_at<const D: usize>(
     scene: &Scene,
     (name, spec): (&str, &Spec),
-    point: &mut Placed<D>,
+    point: &mut PlacedPoint<D>,
     small: f64,
 ) -> Result<(), Diagnostic> {
     let refuse = |what: String, help: &str| {
@@ -139,7 +139,7 @@ fn start_at<const D: usize>(
 fn words<'a, const D: usize>(
     name: &str,
     given: bool,
-    points: impl Iterator<Item = &'a Placed<D>> + Clone,
+    points: impl Iterator<Item = &'a PlacedPoint<D>> + Clone,
 ) -> String {
     let range = |values: &mut dyn Iterator<Item = f64>| {
         let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(v), h.max(v)]);

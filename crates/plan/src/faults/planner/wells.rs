@@ -1,6 +1,6 @@
 //! Wells on faults: what flows from them, and doubts that all fluid shares.
 
-use super::placed::Placed;
+use super::placed::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Flux, Injection, Spanned, Well};
 use crate::reading::scene::units::{Length, Time};
@@ -86,7 +86,7 @@ pub(super) struct FluidReach<'a> {
 impl FluidReach<'_> {
     /// Warning about a fault, whose first point is `first`, if its fluid takes all of its normal traction at a change of a flux or at
     /// the end.
-    pub fn lifted<const D: usize>(self, placed: &[Placed<D>], first: usize) -> Option<Warning> {
+    pub fn lifted<const D: usize>(self, placed: &[PlacedPoint<D>], first: usize) -> Option<Warning> {
         let times = self.steps.iter().map(|step| step.0).filter(|t| *t < self.end);
         let mut times: Vec<f64> = times.chain([self.end]).collect();
         times.sort_by(f64::total_cmp);

@@ -93,20 +93,20 @@ impl SourceCode for Excerpts {
 
 /// One error with the text that it refers to.
 #[derive(Debug)]
-struct Placed {
+struct LocatedDiagnostic {
     error: Diagnostic,
     source: Arc<Excerpts>,
 }
 
-impl fmt::Display for Placed {
+impl fmt::Display for LocatedDiagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.error.message)
     }
 }
 
-impl std::error::Error for Placed {}
+impl std::error::Error for LocatedDiagnostic {}
 
-impl miette::Diagnostic for Placed {
+impl miette::Diagnostic for LocatedDiagnostic {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         self.error.help.as_ref().map(|h| Box::new(h) as Box<dyn fmt::Display>)
     }
@@ -129,7 +129,7 @@ impl miette::Diagnostic for Placed {
     }
 }
 
-impl Placed {
+impl LocatedDiagnostic {
     /// Start and length of the first line of a position. A caret under the first line of a long table is enough.
     fn first_line(&self, span: &Range<usize>) -> (usize, usize) {
         let text = self.source.text().get(span.clone()).unwrap_or_default();
@@ -143,7 +143,7 @@ impl Placed {
 #[derive(Debug)]
 struct Many {
     file: String,
-    errors: Vec<Placed>,
+    errors: Vec<LocatedDiagnostic>,
 }
 
 impl fmt::Display for Many {
@@ -178,9 +178,9 @@ pub fn report_set(
     let source = Arc::new(Excerpts(NamedSource::new(file, text.to_string())));
     let place = |error: &Diagnostic| match resolved.origin(error.span.start) {
         Origin::Setting(number) if !error.span.is_empty() => in_setting(&settings[number], error),
-        _ => Placed { error: in_file((resolved, settings), error), source: Arc::clone(&source) },
+        _ => LocatedDiagnostic { error: in_file((resolved, settings), error), source: Arc::clone(&source) },
     };
-    let mut placed: Vec<Placed> = errors.0.iter().map(place).collect();
+    let mut placed: Vec<LocatedDiagnostic> = errors.0.iter().map(place).collect();
     match (placed.len(), placed.pop()) {
         (1, Some(only)) => Report::new(only),
         (_, last) => {
@@ -191,9 +191,12 @@ pub fn report_set(
 }
 
 /// An error in the value of a setting.
-fn in_setting(setting: &Setting, error: &Diagnostic) -> Placed {
+fn in_setting(setting: &Setting, error: &Diagnostic) -> LocatedDiagnostic {
     let source = Arc::new(Excerpts(NamedSource::new("--set", setting.to_string())));
-    Placed { error: Diagnostic { span: setting.given(), also: Vec::new(), ..error.clone() }, source }
+    LocatedDiagnostic {
+        error: Diagnostic { span: setting.given(), also: Vec::new(), ..error.clone() },
+        source,
+    }
 }
 
 /// An error in the file. Other positions that lie in settings are named as text.

@@ -40,7 +40,7 @@ pub struct Checks {
 impl Checks {
     /// The checks without the memory, which depends on the number of threads where faults are condensed.
     #[must_use]
-    pub fn of_any_machine(&self) -> Self {
+    pub fn without_memory(&self) -> Self {
         Self { cost: Cost { memory_bytes: None, ..self.cost }, ..self.clone() }
     }
 }

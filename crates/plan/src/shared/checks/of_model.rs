@@ -15,13 +15,13 @@ use std::collections::{BTreeMap, BTreeSet};
 ///
 /// # Errors
 /// [`Diagnostic`] at a set without faces.
-pub(crate) fn of<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Checks, Diagnostic> {
+pub(crate) fn checks<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Checks, Diagnostic> {
     let in_space = D == 3 || model.idealisation == Idealisation::Axisymmetric;
-    let bodies = model.bodies.iter().map(|body| of_body(model, body)).collect();
+    let bodies = model.bodies.iter().map(|body| body_check(model, body)).collect();
     Ok(Checks { in_space, bodies, sets: sets(scene, model)?, ..Checks::default() })
 }
 
-fn of_body<const D: usize>(model: &Model<D>, body: &Body<D>) -> BodyCheck {
+fn body_check<const D: usize>(model: &Model<D>, body: &Body<D>) -> BodyCheck {
     let (from, to) = bounds(&model.mesh.nodes[body.nodes.clone()]);
     BodyCheck {
         body: body.name.clone(),
@@ -134,7 +134,7 @@ pub(crate) fn field_bytes<const D: usize>(model: &Model<D>, [nodal, cellwise]: [
 }
 
 /// A surface that springs may drive.
-pub(crate) struct Driven {
+pub(crate) struct DrivenSurface {
     /// Bodies on both sides.
     pub bodies: [String; 2],
     /// Mean unit normal; zero where all axes of motion lie in the surface.
@@ -147,7 +147,7 @@ pub(crate) struct Driven {
 
 /// Stiffness of the springs of a stage over the area of the surfaces that they drive, for each surface \[Pa/m\]. A spring drives the surfaces with friction
 /// of its body together, if it pulls along them rather than across. Springs on both sides act one behind the other.
-pub(crate) fn machines(stage: &Stage, surfaces: &[Driven]) -> Vec<Option<f64>> {
+pub(crate) fn machines(stage: &Stage, surfaces: &[DrivenSurface]) -> Vec<Option<f64>> {
     let of_body = |body: &str, normal: &[f64; 3]| {
         let along = |axis: usize| normal[axis].powi(2) < 0.5;
         let own = |set: &str| set.split('.').next() == Some(body);
@@ -157,7 +157,7 @@ pub(crate) fn machines(stage: &Stage, surfaces: &[Driven]) -> Vec<Option<f64>> {
         let area: f64 = driven.map(|s| s.area).sum();
         (stiffness > 0.0 && area > 0.0).then(|| stiffness / area)
     };
-    let of = |surface: &Driven| {
+    let of = |surface: &DrivenSurface| {
         let [a, b] = &surface.bodies;
         let both = [Some(a), Some(b).filter(|b| *b != a)].into_iter().flatten();
         let compliances: Vec<f64> =

@@ -32,25 +32,25 @@ fn evaluations(method: Method) -> f64 {
 
 /// Time of a step of faults whose operator and diffusion move so many bytes \[s\].
 #[must_use]
-pub fn of_faults(method: Method, points: usize, bytes: usize) -> f64 {
+pub fn fault_step(method: Method, points: usize, bytes: usize) -> f64 {
     OBSERVED + evaluations(method) * (bytes as f64 / READ + points as f64 * POINT)
 }
 
 /// Time of a step of spring-sliders \[s\].
 #[must_use]
-pub fn of_sliders(method: Method, sliders: usize) -> f64 {
+pub fn slider_step(method: Method, sliders: usize) -> f64 {
     OBSERVED + evaluations(method) * sliders as f64 * SLIDER
 }
 
 /// Time of an explicit step of bodies with this sum of degrees of freedom over cells, and points on faults \[s\].
 #[must_use]
-pub fn of_waves(dofs_of_cells: usize, points: usize) -> f64 {
+pub fn wave_step(dofs_of_cells: usize, points: usize) -> f64 {
     OBSERVED + dofs_of_cells as f64 * FORCE + points as f64 * RETURN
 }
 
 /// Time of an implicit step whose system takes so many operations to factor \[s\].
 #[must_use]
-pub fn of_bodies(operations: f64) -> f64 {
+pub fn body_step(operations: f64) -> f64 {
     OBSERVED + ITERATIONS * operations / OPERATIONS
 }
 

@@ -35,7 +35,7 @@ pub(super) enum Source {
 }
 
 /// Name and units that a scene gives for a field.
-pub(super) struct Asked<'a> {
+pub(super) struct FieldRequest<'a> {
     /// Name of the column, variable or array.
     pub name: &'a str,
     pub parameter: &'a Parameter,
@@ -48,7 +48,7 @@ pub(super) struct Asked<'a> {
 /// Start of the names of lists that hold decimal logarithms of values in SI, such as this program writes.
 const LOGARITHM: &str = "log10_";
 
-impl Asked<'_> {
+impl FieldRequest<'_> {
     /// True if the values are decimal logarithms.
     fn logarithmic(&self) -> bool {
         self.name.starts_with(LOGARITHM)
@@ -72,7 +72,7 @@ impl Asked<'_> {
 /// Refuses values out of bounds. `row` names the place of a value, `what` its list.
 pub(super) fn checked(
     values: &[f64],
-    asked: &Asked<'_>,
+    asked: &FieldRequest<'_>,
     (what, row): (&str, &dyn Fn(usize) -> String),
 ) -> Result<(), Wrong> {
     let (name, parameter) = (asked.name, asked.parameter);
@@ -97,7 +97,10 @@ pub(super) fn checked(
 }
 
 /// Coordinates by their names in the scene and in the file: those that the scene names, or all that the file has.
-pub(super) fn coordinates_of<'a>(asked: &'a Asked<'_>, names: &[&'a str]) -> Vec<(&'static str, &'a str)> {
+pub(super) fn coordinates_of<'a>(
+    asked: &'a FieldRequest<'_>,
+    names: &[&'a str],
+) -> Vec<(&'static str, &'a str)> {
     let mut named: Vec<(&'static str, &str)> =
         asked.given.coordinates.named().map(|(key, name)| (key, name.get_ref().as_str())).collect();
     if named.is_empty() {

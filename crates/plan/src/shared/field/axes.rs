@@ -88,7 +88,7 @@ impl<const D: usize> Axes<D> {
         lists: Lists,
         row: &dyn Fn(usize) -> String,
     ) -> Result<(Self, Vec<Vec<f64>>), Wrong> {
-        let (mut all, rows) = Self::of_rows(region, names, lists, row)?;
+        let (mut all, rows) = Self::from_rows(region, names, lists, row)?;
         if names.len() < 3 {
             return Ok((all, rows));
         }
@@ -102,7 +102,7 @@ impl<const D: usize> Axes<D> {
     ///
     /// # Errors
     /// [`Wrong`] for coordinates that do not fit the scene.
-    pub fn of_rows(
+    pub fn from_rows(
         region: &Region<'_, D>,
         names: &[&'static str],
         mut lists: Lists,
@@ -127,7 +127,7 @@ impl<const D: usize> Axes<D> {
     ///
     /// # Errors
     /// [`Wrong`] for coordinates that do not fit the scene.
-    pub fn of_grid(region: &Region<'_, D>, names: &[&'static str], lists: &Lists) -> Result<Self, Wrong> {
+    pub fn from_grid(region: &Region<'_, D>, names: &[&'static str], lists: &Lists) -> Result<Self, Wrong> {
         let mut all = Self::named(region, names)?;
         if names.contains(&"longitude") {
             all.degrees = Some(framed::<D>(region.scene)?.map());
@@ -253,7 +253,7 @@ fn down<const D: usize>(scene: &Scene) -> Result<Axis<D>, Wrong> {
 
 /// Geographic frame of the scene.
 fn framed<const D: usize>(scene: &Scene) -> Result<Frame, Wrong> {
-    let frame = place::of(scene, D == 3).map_err(|e| unplaced(e.to_string()))?;
+    let frame = place::frame(scene, D == 3).map_err(|e| unplaced(e.to_string()))?;
     frame.ok_or_else(|| unplaced("its longitudes need a `[place]`".into()))
 }
 

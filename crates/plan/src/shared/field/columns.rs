@@ -1,6 +1,6 @@
 //! Fields in columns of text.
 
-use super::asked::{Asked, Source, checked, coordinates_of};
+use super::asked::{FieldRequest, Source, checked, coordinates_of};
 use super::axes::Axes;
 use super::region::Region;
 use super::samples::Samples;
@@ -12,7 +12,7 @@ use crate::reading::scene::units::Dimension;
 pub(super) fn field<const D: usize>(
     region: &Region<'_, D>,
     columns: &Columns,
-    asked: &Asked<'_>,
+    asked: &FieldRequest<'_>,
 ) -> Result<(Axes<D>, Source), Wrong> {
     let known: Vec<&str> = columns.names().collect();
     let (mut names, mut lists) = (Vec::new(), Vec::new());

@@ -1,6 +1,6 @@
 //! Fields on grids in netCDF.
 
-use super::asked::{Asked, Source, checked};
+use super::asked::{FieldRequest, Source, checked};
 use super::axes::{Axes, Lists};
 use super::lattice::Lattice;
 use super::region::Region;
@@ -18,7 +18,7 @@ const FORM: &str = "a grid has a variable over one or two coordinates, such as `
 pub(super) fn field<const D: usize>(
     region: &Region<'_, D>,
     bytes: &[u8],
-    asked: &Asked<'_>,
+    asked: &FieldRequest<'_>,
 ) -> Result<(Axes<D>, Source), Wrong> {
     let grid = gridded::variable(bytes, asked.name).map_err(|error| match &error {
         NetcdfError::NoVariable { name, names } => {
@@ -49,7 +49,7 @@ pub(super) fn field<const D: usize>(
         axes.swap(0, 1);
     }
     let (names, lists): (Vec<&'static str>, Lists) = axes.into_iter().unzip();
-    let all = Axes::of_grid(region, &names, &lists)?;
+    let all = Axes::from_grid(region, &names, &lists)?;
     let nearest = asked.interpolation == Some(FieldInterpolation::Nearest);
     Ok((all, Source::Lattice(Lattice::new(&lists, &names, values, nearest)?)))
 }
@@ -60,7 +60,7 @@ fn order(name: &str) -> usize {
 }
 
 /// Coordinate of the scene that one of a grid means: by its name in the scene, its unit or its own name.
-fn meaning(coordinate: &Coordinate, asked: &Asked<'_>) -> Result<&'static str, Wrong> {
+fn meaning(coordinate: &Coordinate, asked: &FieldRequest<'_>) -> Result<&'static str, Wrong> {
     let name = coordinate.name.as_str();
     let mut named = asked.given.coordinates.named().peekable();
     let all = named.peek().is_some();
@@ -87,7 +87,7 @@ fn meaning(coordinate: &Coordinate, asked: &Asked<'_>) -> Result<&'static str, W
 }
 
 /// Values of a coordinate: metres, and degrees of longitude and latitude.
-fn scaled(coordinate: &Coordinate, asked: &Asked<'_>) -> Result<Vec<f64>, Wrong> {
+fn scaled(coordinate: &Coordinate, asked: &FieldRequest<'_>) -> Result<Vec<f64>, Wrong> {
     let Coordinate { name, unit, values } = coordinate;
     if matches!(meaning(coordinate, asked)?, "longitude" | "latitude") {
         return Ok(values.clone());

@@ -20,7 +20,7 @@ use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Field as Given;
 use crate::reading::scene::plausible;
 use crate::reading::scene::units::Dimension;
-use asked::{Asked, Source};
+use asked::{FieldRequest, Source};
 use asperity_mechanics::coordinates;
 use asperity_run::Warning;
 use axes::Axes;
@@ -53,7 +53,7 @@ impl<const D: usize> Field<D> {
         region: &Region<'_, D>,
         (given, parameter): (&Given, &Parameter),
     ) -> Result<Self, Diagnostic> {
-        let asked = Asked {
+        let asked = FieldRequest {
             name: given.column.as_ref().map_or(parameter.key, |c| c.get_ref().as_str()),
             parameter,
             unit: given.unit.as_ref().map(|u| u.get_ref().as_str()),

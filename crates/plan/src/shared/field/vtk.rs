@@ -1,6 +1,6 @@
 //! Fields in files of VTK.
 
-use super::asked::{Asked, Source, checked, coordinates_of};
+use super::asked::{FieldRequest, Source, checked, coordinates_of};
 use super::axes::{Axes, Lists};
 use super::cells::{Cells, Rule, Simplex};
 use super::region::Region;
@@ -18,7 +18,7 @@ const FORM: &str = "an unstructured grid of lines, triangles, quadrilaterals or 
 pub(super) fn field<const D: usize>(
     region: &Region<'_, D>,
     bytes: &[u8],
-    asked: &Asked<'_>,
+    asked: &FieldRequest<'_>,
 ) -> Result<(Axes<D>, Source), Wrong> {
     let grid = reading::read(bytes, asked.name).map_err(|error| match &error {
         VtuError::NoArray { name, names } => {
@@ -54,7 +54,7 @@ pub(super) fn field<const D: usize>(
         (false, Some(FieldInterpolation::Nearest)) => Rule::Corner,
         (false, _) => Rule::Linear,
     };
-    let (axes, positions) = Axes::of_rows(region, &names, lists, &point)?;
+    let (axes, positions) = Axes::from_rows(region, &names, lists, &point)?;
     flat(&simplices, &positions)?;
     Ok((axes, Source::Cells(Cells::new(&positions, simplices, values, rule))))
 }
@@ -64,7 +64,7 @@ fn scattered<const D: usize>(
     region: &Region<'_, D>,
     (names, lists): (&[&'static str], Lists),
     values: &[f64],
-    (asked, by_cell): (&Asked<'_>, bool),
+    (asked, by_cell): (&FieldRequest<'_>, bool),
 ) -> Result<(Axes<D>, Source), Wrong> {
     if by_cell {
         return Err(Wrong::new("its cells are points or none", "values at points, or cells with an extent"));
@@ -76,7 +76,7 @@ fn scattered<const D: usize>(
 }
 
 /// Values of an array in SI.
-fn scaled(array: &NamedArray, asked: &Asked<'_>) -> Result<Vec<f64>, Wrong> {
+fn scaled(array: &NamedArray, asked: &FieldRequest<'_>) -> Result<Vec<f64>, Wrong> {
     if array.components != 1 {
         let message = format!("its array `{}` has {} components", asked.name, array.components);
         return Err(Wrong::new(message, "an array of one component"));
@@ -105,7 +105,7 @@ fn size_of(
 /// Names of the coordinates and their values: metres, and radians of longitude and latitude.
 fn coordinates(
     grid: &Grid,
-    asked: &Asked<'_>,
+    asked: &FieldRequest<'_>,
     dimensions: usize,
 ) -> Result<(Vec<&'static str>, Lists), Wrong> {
     let flat = dimensions == 2 && grid.points.iter().all(|x| x[2] == 0.0);

@@ -17,7 +17,7 @@ const MANY: usize = 10_000;
 const COARSER: f64 = 10.0;
 
 /// A table of a stage.
-struct Prescribed {
+struct PrescribedTable {
     /// Component and set that it prescribes, such as "x of `block.top`".
     what: String,
     /// True for displacements and their rates.
@@ -32,7 +32,7 @@ pub fn tolerance(scene: &Scene) -> f64 {
 }
 
 /// Remarks on the tables of the stages of a scene, and warnings.
-pub fn of(scene: &Scene) -> (Vec<String>, Vec<Warning>) {
+pub fn remarks_and_warnings(scene: &Scene) -> (Vec<String>, Vec<Warning>) {
     let (mut remarks, mut warnings) = (Vec::new(), Vec::new());
     let tolerance = tolerance(scene);
     for stage in &scene.stages {
@@ -55,7 +55,7 @@ pub fn of(scene: &Scene) -> (Vec<String>, Vec<Warning>) {
 pub fn passed_over(stage: &Stage, dt: f64, tolerance: f64) -> Vec<Warning> {
     let duration = stage.duration.get_ref().0;
     let steps = (duration / dt).round();
-    let doubt = |Prescribed { what, moves, course, place }: Prescribed| {
+    let doubt = |PrescribedTable { what, moves, course, place }: PrescribedTable| {
         let (off, time) = departure(&course.moves, dt)?;
         let whole = range(course.moves.values());
         (off > tolerance * whole).then(|| {
@@ -73,7 +73,7 @@ pub fn passed_over(stage: &Stage, dt: f64, tolerance: f64) -> Vec<Warning> {
 }
 
 /// Numbers of the corners within a stage and of all entries of its tables.
-fn counted(stage: &Stage, tables: &[Prescribed], tolerance: f64) -> (usize, usize) {
+fn counted(stage: &Stage, tables: &[PrescribedTable], tolerance: f64) -> (usize, usize) {
     let duration = stage.duration.get_ref().0;
     let within = |course: &Course| {
         let times = course.corners(tolerance).into_iter().map(|k| course.times[k]);
@@ -84,7 +84,7 @@ fn counted(stage: &Stage, tables: &[Prescribed], tolerance: f64) -> (usize, usiz
 }
 
 /// Remark on the entries at which adaptive steps end.
-fn corners(stage: &Stage, tables: &[Prescribed], tolerance: f64) -> Option<String> {
+fn corners(stage: &Stage, tables: &[PrescribedTable], tolerance: f64) -> Option<String> {
     let (corners, entries) = counted(stage, tables, tolerance);
     let (name, entries) = (&stage.name, format!("the {entries} entries of its tables"));
     (corners > 0).then(|| {
@@ -95,7 +95,7 @@ fn corners(stage: &Stage, tables: &[Prescribed], tolerance: f64) -> Option<Strin
 }
 
 /// Warning about very many steps.
-fn many(stage: &Stage, tables: &[Prescribed], tolerance: f64) -> Option<Warning> {
+fn many(stage: &Stage, tables: &[PrescribedTable], tolerance: f64) -> Option<Warning> {
     let (corners, _) = counted(stage, tables, tolerance);
     let longest = tables.iter().max_by_key(|table| table.course.times.len())?;
     (corners > MANY).then(|| {
@@ -111,11 +111,11 @@ fn many(stage: &Stage, tables: &[Prescribed], tolerance: f64) -> Option<Warning>
 }
 
 /// Tables of the conditions of a stage, with times since its start.
-fn prescribed(stage: &Stage) -> Vec<Prescribed> {
-    stage.conditions.iter().map(Spanned::get_ref).flat_map(of_condition).collect()
+fn prescribed(stage: &Stage) -> Vec<PrescribedTable> {
+    stage.conditions.iter().map(Spanned::get_ref).flat_map(condition_tables).collect()
 }
 
-fn of_condition(c: &Condition) -> Vec<Prescribed> {
+fn condition_tables(c: &Condition) -> Vec<PrescribedTable> {
     let Some(set) = c.set.as_ref().map(Spanned::get_ref) else { return Vec::new() };
     let value = |points: &[(f64, f64)]| {
         let (times, values) = points.iter().copied().unzip();
@@ -131,14 +131,19 @@ fn of_condition(c: &Condition) -> Vec<Prescribed> {
             }
             _ => return None,
         };
-        Some(Prescribed { what: format!("{axis} of `{set}`"), moves: true, course, place })
+        Some(PrescribedTable { what: format!("{axis} of `{set}`"), moves: true, course, place })
     });
     let tractions =
         c.traction.iter().flat_map(|t| t.get_ref().iter().map(|load| ("traction", load, t.span())));
     let pressures = c.pressure.iter().map(|p| ("pressure", p.get_ref(), p.span()));
     let loads = tractions.chain(pressures).filter_map(|(what, load, place)| {
         let Loading::Table(points) = load else { return None };
-        Some(Prescribed { what: format!("{what} of `{set}`"), moves: false, course: value(points), place })
+        Some(PrescribedTable {
+            what: format!("{what} of `{set}`"),
+            moves: false,
+            course: value(points),
+            place,
+        })
     });
     motions.chain(loads).collect()
 }

@@ -6,18 +6,18 @@ use crate::reading::scene::model::{Condition, Loading, Motion, Scene, Spanned, S
 use std::collections::BTreeMap;
 
 /// Prescriptions by set and axis.
-type Of<T> = BTreeMap<(String, usize), T>;
+type Prescriptions<T> = BTreeMap<(String, usize), T>;
 
 /// Refuses loads and releases in a stage with faults that change a force abruptly. `held` and `present` are the motions and load values at the end of
 /// the previous stage.
 ///
 /// # Errors
 /// [`Diagnostic`] at the condition.
-pub(super) fn of_stage(
+pub(super) fn refuse(
     scene: &Scene,
     stage: &Stage,
-    (held, present): (&Of<Motion>, &Of<f64>),
-    loads: &Of<Loading>,
+    (held, present): (&Prescriptions<Motion>, &Prescriptions<f64>),
+    loads: &Prescriptions<Loading>,
 ) -> Result<(), Diagnostic> {
     if scene.faults.is_empty() || *scene.time.stepper.get_ref() == Stepper::Explicit {
         return Ok(());

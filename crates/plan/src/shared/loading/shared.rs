@@ -13,7 +13,7 @@ pub(super) type Key = (String, usize);
 
 /// Prescriptions from stage to stage, with their positions in the scene.
 #[derive(Default)]
-pub(super) struct Shared {
+pub(super) struct PrescriptionHistory {
     /// Positions in the scene of the motions in force.
     pub places: BTreeMap<Key, Range<usize>>,
     /// Displacement of each component ever prescribed; `None` once it has been free.
@@ -21,7 +21,7 @@ pub(super) struct Shared {
     stages: usize,
 }
 
-impl Shared {
+impl PrescriptionHistory {
     /// Checks the motions of a stage and advances them to its end.
     pub fn stage<const D: usize>(
         &mut self,
@@ -77,7 +77,7 @@ fn pairs<'a, const D: usize>(
     let mut owners: Vec<Option<&Key>> = vec![None; model.dofs()];
     let mut pairs = BTreeSet::new();
     for (key, _) in held.iter().filter(|(_, m)| **m != Motion::Free) {
-        for node in sets::of_name(model, &key.0).unwrap_or_default() {
+        for node in sets::find_nodes(model, &key.0).unwrap_or_default() {
             match &mut owners[model.dof(node, key.1)] {
                 Some(owner) => {
                     pairs.insert((*owner, key));

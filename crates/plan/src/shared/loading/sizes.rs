@@ -13,7 +13,7 @@ use std::ops::Range;
 const NO_MOTION: f64 = 1e-6;
 
 /// Descriptions of the extents of bodies read from files.
-pub fn of_files<const D: usize>(scene: &Scene, model: &Model<D>) -> Vec<String> {
+pub fn file_extents<const D: usize>(scene: &Scene, model: &Model<D>) -> Vec<String> {
     let line = |body: &Body<D>| {
         let (_, unit) = file(&scene.bodies[&body.name].mesh)?;
         let (min, max) = bounds(&model.mesh.nodes[body.nodes.clone()]);

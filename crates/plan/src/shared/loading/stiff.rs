@@ -17,7 +17,7 @@ pub(super) fn refuse<const D: usize>(
     condition: &Spanned<Condition>,
 ) -> Result<(), Diagnostic> {
     let c = condition.get_ref();
-    let most = STIFFEST * of_bodies(model);
+    let most = STIFFEST * body_stiffness(model);
     for (axis, motion) in ["x", "y", "z"].into_iter().zip([&c.x, &c.y, &c.z]) {
         let Some(motion) = motion else { continue };
         if let Motion::Spring { stiffness, .. } = motion.get_ref()
@@ -38,7 +38,7 @@ pub(super) fn refuse<const D: usize>(
 
 /// Stiffness of the bodies in order of magnitude: the largest Young's modulus, in space times the largest extent \[N/m; N/m per metre of
 /// thickness in the plane\].
-fn of_bodies<const D: usize>(model: &Model<D>) -> f64 {
+fn body_stiffness<const D: usize>(model: &Model<D>) -> f64 {
     let young = model.bodies.iter().flat_map(|body| &body.elastic).map(|e| e.young()).fold(0.0, f64::max);
     let (least, most) = bounds(&model.mesh.nodes);
     let extents = most.iter().zip(&least).map(|(most, least)| most - least);

@@ -146,7 +146,7 @@ fn grid(name: &str, body: &Body) -> Option<Grid> {
 /// # Errors
 /// [`Diagnostic`] at the block with the most nodes, with the counts, the need and the limit.
 pub fn admit(scene: &Scene) -> Result<(), Diagnostic> {
-    let idealisation = idealisation::of(*scene.kinematics.get_ref());
+    let idealisation = idealisation::from_kinematics(*scene.kinematics.get_ref());
     let components = idealisation.components();
     let grids: Vec<Grid> = grids(scene).collect();
     let Some(largest) = grids.iter().max_by(|a, b| a.counts.nodes.total_cmp(&b.counts.nodes)) else {
@@ -155,7 +155,8 @@ pub fn admit(scene: &Scene) -> Result<(), Diagnostic> {
     let counts: Vec<Counts> = grids.iter().map(|g| g.counts.clone()).collect();
     let within = |error: Diagnostic| Diagnostic { span: largest.place.clone(), ..error };
     machine(scene, &counts).map_err(within)?;
-    let direct = Built::of(scene) == Built::Systems && scene.solver.method() != Method::Iterative;
+    let direct =
+        BuiltParts::from_scene(scene) == BuiltParts::Systems && scene.solver.method() != Method::Iterative;
     if direct && !may_iterate(scene) {
         let factor: f64 = SURE * grids.iter().map(|g| g.factor_bytes([false; 6], components)).sum::<f64>();
         let allowed = amounts::memory(scene);
@@ -204,7 +205,7 @@ impl Grid {
 /// Bytes of a symmetric factorisation of all bodies; `None` if some are not blocks.
 #[must_use]
 pub fn factorisation(scene: &Scene) -> Option<usize> {
-    let components = idealisation::of(*scene.kinematics.get_ref()).components();
+    let components = idealisation::from_kinematics(*scene.kinematics.get_ref()).components();
     let grids: Vec<Grid> = grids(scene).collect();
     let bytes = grids.iter().map(|g| g.bytes([false; 6], components)).sum::<f64>();
     (grids.len() == scene.bodies.len()).then_some(bytes as usize)
@@ -214,7 +215,7 @@ pub fn factorisation(scene: &Scene) -> Option<usize> {
 /// of blocks.
 #[must_use]
 pub fn condensation(scene: &Scene) -> Option<usize> {
-    let components = idealisation::of(*scene.kinematics.get_ref()).components();
+    let components = idealisation::from_kinematics(*scene.kinematics.get_ref()).components();
     let sets = || scene.interfaces.values().flat_map(|i| [i.slave.get_ref(), i.master.get_ref()]);
     let mut known = 0;
     let mut bytes = 0.0;
@@ -278,7 +279,7 @@ pub fn in_steps(mesh: usize, dofs: usize) -> usize {
 
 /// Parts of the bodies that a run builds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Built {
+pub enum BuiltParts {
     /// Vectors, for explicit steps.
     Vectors,
     /// Matrices of the cells, condensed onto faults.
@@ -287,10 +288,10 @@ pub enum Built {
     Systems,
 }
 
-impl Built {
+impl BuiltParts {
     /// Parts that the run of a scene builds.
     #[must_use]
-    pub fn of(scene: &Scene) -> Self {
+    pub fn from_scene(scene: &Scene) -> Self {
         if *scene.time.stepper.get_ref() == Stepper::Explicit {
             Self::Vectors
         } else if scene.faults.is_empty() {
@@ -329,7 +330,8 @@ impl Built {
 /// # Errors
 /// [`Diagnostic`] at the entry that sets the size.
 pub fn machine(scene: &Scene, counts: &[Counts]) -> Result<(), Diagnostic> {
-    let (built, idealisation) = (Built::of(scene), idealisation::of(*scene.kinematics.get_ref()));
+    let (built, idealisation) =
+        (BuiltParts::from_scene(scene), idealisation::from_kinematics(*scene.kinematics.get_ref()));
     let needed = built.bytes(counts, idealisation);
     match available() {
         Some((there, what)) if needed > there => Err(Diagnostic::at(

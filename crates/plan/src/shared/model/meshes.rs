@@ -25,7 +25,7 @@ use std::ops::Range;
 ///
 /// # Errors
 /// [`Diagnostic`] at the position in the scene. For a file that cannot be read it gives the name and the error.
-pub fn of_body<const D: usize>(
+pub fn body_mesh<const D: usize>(
     scene: &scene::Scene,
     name: &str,
     body: &scene::Body,

@@ -32,7 +32,7 @@ pub use sets::{nodes, sides};
 /// # Errors
 /// [`Diagnostic`] naming the body whose mesh or material is not admissible.
 pub fn build<const D: usize>(scene: &scene::Scene) -> Result<Model<D>, Diagnostic> {
-    let idealisation = idealisation::of(*scene.kinematics.get_ref());
+    let idealisation = idealisation::from_kinematics(*scene.kinematics.get_ref());
     idealisation
         .check_dimension(D)
         .map_err(|e| Diagnostic::at(scene.kinematics.span(), e.to_string(), "see `kinematics`"))?;
@@ -41,7 +41,7 @@ pub fn build<const D: usize>(scene: &scene::Scene) -> Result<Model<D>, Diagnosti
     let mut mesh = Mesh::<D>::default();
     let mut parts = Vec::new();
     for (name, body) in &scene.bodies {
-        let part = numbered(scene, body, meshes::of_body::<D>(scene, name, body)?);
+        let part = numbered(scene, body, meshes::body_mesh::<D>(scene, name, body)?);
         let even =
             matches!(&body.mesh, scene::MeshSource::Block(b) if b.spacing.is_none() && b.coarser.is_none());
         let size = even.then(|| cell_size(&part, 0, 0));
@@ -175,7 +175,7 @@ fn cell_block<const D: usize>(
     let mut term = nonlinear::Block::new(mesh, block, model)
         .map_err(|e| Diagnostic::body(name, place, e.to_string()))?
         .named(format!("body `{name}`, cells {block}"));
-    if let (Some(stress), Some(given)) = (initial_stress::of_body(scene, name), &body.initial_stress) {
+    if let (Some(stress), Some(given)) = (initial_stress::body_field(scene, name), &body.initial_stress) {
         let everywhere = mesh.blocks[block].connectivity.iter().map(|&n| stress.at(&mesh.nodes[n]));
         let borne = everywhere.map(|s| admissible(&s, &term.model().material)).find(Result::is_err);
         borne

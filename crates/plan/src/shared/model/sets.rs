@@ -38,14 +38,14 @@ pub fn sides<'a, const D: usize>(
 /// [`Diagnostic`] if the set does not exist, with the existing sets.
 pub fn nodes<const D: usize>(model: &Model<D>, set: &Spanned<String>) -> Result<Vec<usize>, Diagnostic> {
     whole(model, set)?;
-    of_name(model, set.get_ref()).ok_or_else(|| {
+    find_nodes(model, set.get_ref()).ok_or_else(|| {
         let (faces, nodes) = (model.mesh.side_sets.keys(), model.mesh.node_sets.keys());
         unknown(model, set, suggest(set.get_ref(), "sets", faces.chain(nodes).map(String::as_str)))
     })
 }
 
 /// Nodes of a set of faces or, if there is none of this name, of nodes.
-pub(crate) fn of_name<const D: usize>(model: &Model<D>, name: &str) -> Option<Vec<usize>> {
+pub(crate) fn find_nodes<const D: usize>(model: &Model<D>, name: &str) -> Option<Vec<usize>> {
     let of_faces = model.mesh.side_sets.get(name).map(|sides| nodes_of_sides(&model.mesh, sides));
     of_faces.or_else(|| model.mesh.node_sets.get(name).cloned())
 }

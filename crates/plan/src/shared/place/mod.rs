@@ -16,7 +16,7 @@ use jiff::Timestamp;
 ///
 /// # Errors
 /// [`Diagnostic`] at the epoch.
-pub(crate) fn of(scene: &Scene, in_space: bool) -> Result<Option<Frame>, Diagnostic> {
+pub(crate) fn frame(scene: &Scene, in_space: bool) -> Result<Option<Frame>, Diagnostic> {
     let Some(place) = &scene.place else { return Ok(None) };
     let wrong = |e: jiff::Error| {
         Diagnostic::at(place.epoch.span(), e.to_string(), "such as \"2000-01-01T00:00:00Z\"")

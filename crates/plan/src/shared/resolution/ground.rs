@@ -130,7 +130,7 @@ pub fn links(kind: FaceKind) -> Vec<(usize, usize)> {
 
 /// Resolution of a fault from its freely sliding points and their spacing; `None` if friction weakens nowhere.
 #[must_use]
-pub fn of_points<'a, const D: usize>(
+pub fn from_points<'a, const D: usize>(
     fault: &str,
     points: impl Iterator<Item = (&'a Place<D>, Ground<'a>, f64)>,
 ) -> Option<Resolution> {

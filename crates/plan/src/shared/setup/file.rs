@@ -48,7 +48,7 @@ impl Identity<'_> {
 
 /// Reason why a file is not used.
 #[derive(Debug, thiserror::Error)]
-pub enum Unused {
+pub enum UnusedReason {
     /// There is none.
     #[error("there is none")]
     Absent,
@@ -69,27 +69,27 @@ pub enum Unused {
     Inputs,
 }
 
-impl From<io::Error> for Unused {
+impl From<io::Error> for UnusedReason {
     fn from(error: io::Error) -> Self {
         if error.kind() == ErrorKind::NotFound { Self::Absent } else { Self::Unread(error) }
     }
 }
 
 /// Stream whose bytes are summed up.
-struct Summed<S> {
+struct HashedStream<S> {
     stream: S,
     sum: Sha256,
     /// First error of the stream, of which postcard says nothing.
     failed: Option<io::Error>,
 }
 
-impl<S> Summed<S> {
+impl<S> HashedStream<S> {
     fn new(stream: S) -> Self {
         Self { stream, sum: Sha256::new(), failed: None }
     }
 }
 
-impl<S: Write> Write for Summed<S> {
+impl<S: Write> Write for HashedStream<S> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let written = self.stream.write(bytes);
         match &written {
@@ -116,12 +116,12 @@ pub fn write<T: Serialize>(
     let mut bytes = 0;
     atomic::stream(path, |file| {
         // Sums are taken of whole buffers.
-        let mut to = BufWriter::with_capacity(1 << 20, Summed::new(&mut *file));
+        let mut to = BufWriter::with_capacity(1 << 20, HashedStream::new(&mut *file));
         let Identity { inputs, program, .. } = identity;
         write!(to, "{}\n{inputs}\n{program}\n", identity.first_line())?;
         let written = postcard::to_io(&(seconds, part), &mut to).map(|_| ());
         let flushed = to.flush();
-        let Summed { sum, failed, .. } = to.into_parts().0;
+        let HashedStream { sum, failed, .. } = to.into_parts().0;
         failed.map_or(Ok(()), Err)?;
         flushed?;
         written.map_err(io::Error::other)?;
@@ -135,28 +135,31 @@ pub fn write<T: Serialize>(
 /// Reads a part, with the wall time that computing it took \[s\] and the size of the file \[bytes\].
 ///
 /// # Errors
-/// [`Unused`], with the reason why the file may not be used.
-pub fn read<T: DeserializeOwned>(path: &Path, identity: &Identity<'_>) -> Result<(T, f64, u64), Unused> {
+/// [`UnusedReason`], with the reason why the file may not be used.
+pub fn read<T: DeserializeOwned>(
+    path: &Path,
+    identity: &Identity<'_>,
+) -> Result<(T, f64, u64), UnusedReason> {
     let mut file = File::open(path)?;
     let bytes = file.metadata()?.len();
     let contents = bytes.checked_sub(SUM).ok_or_else(|| damaged("it is shorter than its sum"))?;
     checked(&mut file, contents)?;
     file.rewind()?;
     let mut from = BufReader::with_capacity(1 << 20, file.take(contents));
-    let mut line = || -> Result<String, Unused> {
+    let mut line = || -> Result<String, UnusedReason> {
         let mut line = String::new();
         from.by_ref().take(LINE).read_line(&mut line)?;
         Ok(line.trim_end_matches('\n').to_string())
     };
     let (first, inputs, program) = (line()?, line()?, line()?);
     if first != identity.first_line() {
-        return Err(Unused::Format);
+        return Err(UnusedReason::Format);
     }
     if program != identity.program {
-        return Err(Unused::Program);
+        return Err(UnusedReason::Program);
     }
     if inputs != identity.inputs {
-        return Err(Unused::Inputs);
+        return Err(UnusedReason::Inputs);
     }
     let mut piece = [0; PIECE];
     let read = postcard::from_io::<(f64, T), _>((&mut from, &mut piece));
@@ -168,7 +171,7 @@ pub fn read<T: DeserializeOwned>(path: &Path, identity: &Identity<'_>) -> Result
 }
 
 /// Checks the sum of the first bytes against what follows them.
-fn checked(file: &mut File, contents: u64) -> Result<(), Unused> {
+fn checked(file: &mut File, contents: u64) -> Result<(), UnusedReason> {
     let mut sum = Sha256::new();
     let mut buffer = vec![0; 1 << 20];
     let mut first = file.take(contents);
@@ -197,6 +200,6 @@ pub fn sum_of(path: &Path) -> io::Result<String> {
     Ok(hexadecimal(sum))
 }
 
-fn damaged(reason: &str) -> Unused {
-    Unused::Damaged(reason.to_string())
+fn damaged(reason: &str) -> UnusedReason {
+    UnusedReason::Damaged(reason.to_string())
 }

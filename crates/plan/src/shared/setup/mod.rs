@@ -12,7 +12,7 @@ pub use key::Key;
 use asperity_output::atomic;
 use asperity_run::report::{Part, SetupPart, Use};
 use clap::ValueEnum;
-use file::{Identity, Unused};
+use file::{Identity, UnusedReason};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::cell::{OnceCell, RefCell};
@@ -119,7 +119,7 @@ impl Setups {
                 self.keep(part, Use::Read, inputs, (bytes, seconds));
                 Some(read)
             }
-            Err(Unused::Absent) => None,
+            Err(UnusedReason::Absent) => None,
             Err(reason) => {
                 let path = path.display();
                 let warning = format!("the set-up in {path} is not used, and computed again: {reason}");

@@ -1,12 +1,12 @@
 //! Cells of faults as segments or plane polygons, with the parts of their borders that are ends of the fault.
 
-use super::distance::{At, edges_of};
+use super::distance::{Position, edges_of};
 
 /// A cell of a fault.
 pub(crate) struct Cell {
     pub fault: usize,
     /// Ends of a segment, or corners of a plane convex polygon, one after another \[m\].
-    pub corners: Vec<At>,
+    pub corners: Vec<Position>,
     /// Numbers of the corners within the fault: neighbours have some in common.
     pub vertices: Vec<usize>,
     /// True for the ends of a segment, or for the edges of a polygon, that no other cell of the fault has.
@@ -22,14 +22,14 @@ const TOGETHER: f64 = 1e-3;
 
 impl Cell {
     /// Mean position of the corners.
-    pub fn centre(&self) -> At {
-        self.corners.iter().sum::<At>() / self.corners.len() as f64
+    pub fn centre(&self) -> Position {
+        self.corners.iter().sum::<Position>() / self.corners.len() as f64
     }
 
     /// Least and largest coordinates.
-    pub fn bounds(&self) -> [At; 2] {
-        let low = self.corners.iter().fold(At::repeat(f64::INFINITY), |low, x| low.inf(x));
-        [low, self.corners.iter().fold(At::repeat(f64::NEG_INFINITY), |high, x| high.sup(x))]
+    pub fn bounds(&self) -> [Position; 2] {
+        let low = self.corners.iter().fold(Position::repeat(f64::INFINITY), |low, x| low.inf(x));
+        [low, self.corners.iter().fold(Position::repeat(f64::NEG_INFINITY), |high, x| high.sup(x))]
     }
 
     /// Distance within which positions of two cells coincide \[m\].
@@ -39,9 +39,9 @@ impl Cell {
 
     /// True if another cell lies beyond an end or edge of the fault, at a position of this cell: on the outer side of the plane that is there
     /// normal to the cell.
-    pub fn ends_before(&self, other: &Self, at: &At) -> bool {
+    pub fn ends_before(&self, other: &Self, at: &Position) -> bool {
         let close = self.together(other);
-        let outside = |outwards: At, from: At| {
+        let outside = |outwards: Position, from: Position| {
             let outwards = outwards.normalize();
             other.corners.iter().all(|x| (x - from).dot(&outwards) >= -close)
         };
@@ -71,7 +71,7 @@ impl Cell {
     /// Angle between two cells of one fault that have an end or an edge in common \[rad\]; flat where they continue each other.
     pub fn angle(&self, other: &Self, common: &[[usize; 2]]) -> Option<f64> {
         let away = |cell: &Self, own: &dyn Fn(&[usize; 2]) -> usize| {
-            let apex: Vec<At> = common.iter().map(|pair| cell.corners[own(pair)]).collect();
+            let apex: Vec<Position> = common.iter().map(|pair| cell.corners[own(pair)]).collect();
             let rest = cell.centre() - apex[0];
             match apex[..] {
                 [_] => Some(rest),
@@ -88,7 +88,7 @@ impl Cell {
     }
 
     /// Edge of a triangle opposite to one of its corners.
-    pub fn opposite(&self, corner: usize) -> Option<[At; 2]> {
+    pub fn opposite(&self, corner: usize) -> Option<[Position; 2]> {
         let [a, b, c] = self.corners[..] else { return None };
         Some([[b, c], [c, a], [a, b]][corner])
     }

@@ -3,16 +3,16 @@
 use nalgebra::Vector3;
 
 /// A position \[m\].
-pub(super) type At = Vector3<f64>;
+pub(super) type Position = Vector3<f64>;
 
 /// Two positions at which two cells are closest \[m\].
-pub(super) type Nearest = [At; 2];
+pub(super) type Nearest = [Position; 2];
 
 /// Share of a squared length below which it is rounding.
 const ROUNDING: f64 = 1e-24;
 
 /// Positions at which two cells are closest; each has two corners or more.
-pub(super) fn nearest(a: &[At], b: &[At]) -> Nearest {
+pub(super) fn nearest(a: &[Position], b: &[Position]) -> Nearest {
     let edges = edges_of(a).flat_map(|one| edges_of(b).map(move |other| between_segments(&one, &other)));
     let above = a.iter().filter_map(|x| Some([*x, foot(x, b)?]));
     let below = b.iter().filter_map(|x| Some([foot(x, a)?, *x]));
@@ -23,13 +23,13 @@ pub(super) fn nearest(a: &[At], b: &[At]) -> Nearest {
 }
 
 /// Edges of a cell: one of a segment, as many as corners of a polygon.
-pub(super) fn edges_of(cell: &[At]) -> impl Iterator<Item = [At; 2]> {
+pub(super) fn edges_of(cell: &[Position]) -> impl Iterator<Item = [Position; 2]> {
     let count = if cell.len() == 2 { 1 } else { cell.len() };
     (0..count).map(|k| [cell[k], cell[(k + 1) % cell.len()]])
 }
 
 /// Closest positions of two segments (C. Ericson, "Real-Time Collision Detection", 2005, section 5.1.9).
-fn between_segments([p, p1]: &[At; 2], [q, q1]: &[At; 2]) -> Nearest {
+fn between_segments([p, p1]: &[Position; 2], [q, q1]: &[Position; 2]) -> Nearest {
     let (d1, d2, r) = (p1 - p, q1 - q, p - q);
     let (a, e, f) = (d1.norm_squared(), d2.norm_squared(), d2.dot(&r));
     let (b, c) = (d1.dot(&d2), d1.dot(&r));
@@ -49,7 +49,7 @@ fn between_segments([p, p1]: &[At; 2], [q, q1]: &[At; 2]) -> Nearest {
 }
 
 /// Normal of a polygon, not normalised; `None` for a segment.
-fn normal(cell: &[At]) -> Option<At> {
+fn normal(cell: &[Position]) -> Option<Position> {
     match cell {
         [a, b, c] => Some((b - a).cross(&(c - a))),
         [a, b, c, d, ..] => Some((c - a).cross(&(d - b))),
@@ -58,15 +58,15 @@ fn normal(cell: &[At]) -> Option<At> {
 }
 
 /// Foot of a position on a polygon, if it lies inside.
-fn foot(x: &At, cell: &[At]) -> Option<At> {
+fn foot(x: &Position, cell: &[Position]) -> Option<Position> {
     let n = normal(cell)?;
     let foot = x - n * ((x - cell[0]).dot(&n) / n.norm_squared());
-    let inside = |[a, b]: [At; 2]| (b - a).cross(&(foot - a)).dot(&n) >= 0.0;
+    let inside = |[a, b]: [Position; 2]| (b - a).cross(&(foot - a)).dot(&n) >= 0.0;
     edges_of(cell).all(inside).then_some(foot)
 }
 
 /// A position at which an edge of one cell passes through a polygon.
-fn pierced(a: &[At], b: &[At]) -> Option<At> {
+fn pierced(a: &[Position], b: &[Position]) -> Option<Position> {
     let n = normal(b)?;
     edges_of(a).find_map(|[p, q]| {
         let [from, to] = [p, q].map(|x| (x - b[0]).dot(&n));
@@ -79,11 +79,11 @@ fn pierced(a: &[At], b: &[At]) -> Option<At> {
 mod tests {
     use super::*;
 
-    fn at(x: f64, y: f64, z: f64) -> At {
+    fn at(x: f64, y: f64, z: f64) -> Position {
         Vector3::new(x, y, z)
     }
 
-    fn distance(a: &[At], b: &[At]) -> f64 {
+    fn distance(a: &[Position], b: &[Position]) -> f64 {
         let [p, q] = nearest(a, b);
         (p - q).norm()
     }

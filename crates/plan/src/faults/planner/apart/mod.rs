@@ -11,7 +11,7 @@ use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Scene};
 use asperity_mechanics::coordinates;
 use cell::Cell;
-use distance::{At, Nearest, nearest};
+use distance::{Nearest, Position, nearest};
 use std::f64::consts::PI;
 
 /// Distance of two cells of different faults, relative to the width of either, below which slip that is uniform over cells does not resolve the
@@ -25,7 +25,7 @@ const SHARPEST: f64 = 29.0 / 180.0 * PI;
 
 /// Least distances of cells.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Spaced {
+pub(super) enum Spacing {
     /// Slip is uniform over cells in homogeneous rock.
     ByCells,
     /// The mesh of bodies resolves what lies between faults; they do not cross.
@@ -43,7 +43,7 @@ enum Fault {
 ///
 /// # Errors
 /// [`Diagnostic`] at the second of two faults, or at the fault.
-pub(super) fn check(scene: &Scene, cells: &[Cell], spaced: Spaced) -> Result<(), Diagnostic> {
+pub(super) fn check(scene: &Scene, cells: &[Cell], spaced: Spacing) -> Result<(), Diagnostic> {
     let faults: Vec<(&String, &Spec)> = scene.faults.iter().collect();
     let refuse = |[a, b]: [usize; 2], why: Fault| {
         let [a, b] = if cells[a].fault <= cells[b].fault { [a, b] } else { [b, a] };
@@ -52,17 +52,17 @@ pub(super) fn check(scene: &Scene, cells: &[Cell], spaced: Spaced) -> Result<(),
     let (mut joints, mut doubtful) = (Vec::new(), Vec::new());
     for pair in candidates(cells) {
         let [a, b] = pair.map(|k| &cells[k]);
-        if spaced == Spaced::ByCells && a.fault == b.fault {
+        if spaced == Spacing::ByCells && a.fault == b.fault {
             match within(a, b) {
                 None => continue,
                 Some(why) => return Err(refuse(pair, why)),
             }
         }
         match between(a, b, spaced) {
-            Met::Clear => {}
-            Met::Joint(at) => joints.push(([a.fault, b.fault], at)),
-            Met::Near(near) => doubtful.push((pair, near)),
-            Met::Touches => return Err(refuse(pair, Fault::Touches)),
+            Meeting::Clear => {}
+            Meeting::Joint(at) => joints.push(([a.fault, b.fault], at)),
+            Meeting::Near(near) => doubtful.push((pair, near)),
+            Meeting::Touches => return Err(refuse(pair, Fault::Touches)),
         }
     }
     let joined = |pair: [usize; 2], near: &Nearest| {
@@ -84,7 +84,7 @@ fn length([p, q]: &Nearest) -> f64 {
 
 /// Pairs of cells whose boxes, wider by the distance that they keep, overlap: a sweep along the axis along which the cells extend farthest.
 fn candidates(cells: &[Cell]) -> impl Iterator<Item = [usize; 2]> {
-    let bounds: Vec<[At; 2]> = cells.iter().map(bounds).collect();
+    let bounds: Vec<[Position; 2]> = cells.iter().map(bounds).collect();
     let extent = |axis: usize| {
         let high = bounds.iter().map(|b| b[1][axis]).fold(f64::NEG_INFINITY, f64::max);
         high - bounds.iter().map(|b| b[0][axis]).fold(f64::INFINITY, f64::min)
@@ -109,8 +109,8 @@ fn candidates(cells: &[Cell]) -> impl Iterator<Item = [usize; 2]> {
 }
 
 /// Box around a cell and the distance that others keep from it.
-fn bounds(cell: &Cell) -> [At; 2] {
-    let margin = At::repeat(CLOSEST * cell.width);
+fn bounds(cell: &Cell) -> [Position; 2] {
+    let margin = Position::repeat(CLOSEST * cell.width);
     let [low, high] = cell.bounds();
     [low - margin, high + margin]
 }
@@ -128,7 +128,7 @@ fn within(a: &Cell, b: &Cell) -> Option<Fault> {
     // Triangles around a corner: the edges opposite to it do not meet the other triangle.
     let [one, two] = common[0];
     let edges = [(a.opposite(one), b), (b.opposite(two), a)];
-    let meets = |(edge, cell): (Option<[At; 2]>, &Cell)| {
+    let meets = |(edge, cell): (Option<[Position; 2]>, &Cell)| {
         edge.is_some_and(|edge| length(&nearest(&edge, &cell.corners)) <= a.together(b))
     };
     edges.into_iter().any(meets).then_some(Fault::Touches)
@@ -157,29 +157,33 @@ fn far(a: &Cell, b: &Cell) -> Option<Fault> {
 }
 
 /// Finds out whether and how two cells of different faults meet.
-enum Met {
+enum Meeting {
     Clear,
     /// End to end, or edge to edge, at this position.
-    Joint(At),
+    Joint(Position),
     Near(Nearest),
     Touches,
 }
 
-fn between(a: &Cell, b: &Cell, spaced: Spaced) -> Met {
+fn between(a: &Cell, b: &Cell, spaced: Spacing) -> Meeting {
     let near = nearest(&a.corners, &b.corners);
     let distance = length(&near);
     let close = distance <= a.together(b);
-    if spaced == Spaced::Apart {
-        let shared = |x: &At| b.corners.iter().any(|y| (x - y).norm() <= a.together(b));
+    if spaced == Spacing::Apart {
+        let shared = |x: &Position| b.corners.iter().any(|y| (x - y).norm() <= a.together(b));
         let same = a.fault == b.fault && !a.common(b).is_empty();
-        return if close && !same && !a.corners.iter().any(shared) { Met::Touches } else { Met::Clear };
+        return if close && !same && !a.corners.iter().any(shared) {
+            Meeting::Touches
+        } else {
+            Meeting::Clear
+        };
     }
     let ends = [a.ends_before(b, &near[0]), b.ends_before(a, &near[1])];
     if close {
-        return if ends == [true; 2] { Met::Joint(near[0]) } else { Met::Touches };
+        return if ends == [true; 2] { Meeting::Joint(near[0]) } else { Meeting::Touches };
     }
     let clear = [a, b].into_iter().zip(ends).all(|(cell, ends)| ends || distance >= CLOSEST * cell.width);
-    if clear { Met::Clear } else { Met::Near(near) }
+    if clear { Meeting::Clear } else { Meeting::Near(near) }
 }
 
 fn refused([a, b]: [(&String, &Spec); 2], cells: [&Cell; 2], why: &Fault) -> Diagnostic {

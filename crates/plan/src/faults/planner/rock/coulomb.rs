@@ -2,7 +2,7 @@
 
 use super::super::super::coulomb::{Coulomb, CoulombMap};
 use super::super::coulomb::plane;
-use super::super::placed::Placed;
+use super::super::placed::PlacedPoint;
 use super::free_surface;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{CoulombSpec, Scene, Spanned};
@@ -15,10 +15,10 @@ use asperity_fem::material::elastic::Elastic;
 /// # Errors
 /// [`Diagnostic`] at a map with too many positions, a position on the edge of a cell, or directions that the place does not
 /// admit.
-pub(super) fn of<const D: usize>(
+pub(super) fn plan<const D: usize>(
     scene: &Scene,
     (patches, rock): (&Patches, &Elastic),
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
 ) -> Result<Option<Coulomb>, Diagnostic> {
     let Some(spec) = scene.output.coulomb.as_ref().map(|given| given.get_ref()) else { return Ok(None) };
     let plane = plane::<D>(scene, spec)?;

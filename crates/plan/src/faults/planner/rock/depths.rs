@@ -20,7 +20,7 @@ pub(super) fn triangles(
     (name, spec): (&str, &DepthTriangles),
     bytes: &[u8],
 ) -> Result<(Triangles, String), Diagnostic> {
-    let Some(frame) = place::of(scene, true)? else {
+    let Some(frame) = place::frame(scene, true)? else {
         return Err(Diagnostic::at(spec.file.span(), "depths on a map need a `[place]`", PLACE));
     };
     let refuse = |error: SheetError| refused(spec, &error);

@@ -2,7 +2,7 @@
 
 use super::super::super::free_surface::{FreeSurface, SurfaceAxes};
 use super::super::super::receivers::{Receiver, Receivers};
-use super::super::placed::{Placed, in_space};
+use super::super::placed::{PlacedPoint, in_space};
 use super::receivers;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{AngleExtent, Extent, Scene, Spanned, SurfaceSpec};
@@ -30,10 +30,10 @@ const LEVEL: f64 = 1e-9;
 ///
 /// # Errors
 /// [`Diagnostic`] at a map with too many positions, or that the axes of the place do not admit.
-pub(super) fn of<const D: usize>(
+pub(super) fn plan<const D: usize>(
     scene: &Scene,
     (patches, rock): (&Patches, &Elastic),
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
     (lag, notes): ((&[f64], usize), &mut Vec<String>),
 ) -> Result<Option<FreeSurface>, Diagnostic> {
     let Some(map) = &scene.output.surface else { return Ok(None) };
@@ -58,7 +58,7 @@ pub(super) fn of<const D: usize>(
 fn through<const D: usize>(
     scene: &Scene,
     (patches, rock): (&Patches, &Elastic),
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
     (positions, (rates, tangents)): (&[[f64; 3]], (&[f64], usize)),
 ) -> Result<Receivers, String> {
     let left_out = |why: String| format!("no profiles of the surface through time: {why}");
@@ -85,10 +85,10 @@ fn through<const D: usize>(
 pub(super) fn positions<const D: usize>(
     scene: &Scene,
     map: &Spanned<SurfaceSpec>,
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
 ) -> Result<(SurfaceAxes, Vec<[f64; 3]>), Diagnostic> {
     let spec = map.get_ref();
-    let frame = place::of(scene, D == 3)?;
+    let frame = place::frame(scene, D == 3)?;
     let around = [0, 2].map(|axis| around(placed, axis, spec.spacing.get_ref().0));
     let given = |extent: &Option<Spanned<Extent>>| extent.as_ref().and_then(|e| ends(e.get_ref()));
     let [x, z] = [(&spec.x, 0), (&spec.z, 1)].map(|(extent, k)| given(extent).unwrap_or(around[k]));
@@ -117,8 +117,8 @@ fn ends(extent: &Extent) -> Option<[f64; 2]> {
 
 /// Range of a coordinate around the faults, with their greatest depth beyond them. Its ends are odd multiples of half the
 /// spacing, so that no position lies on a fault through the origin.
-fn around<const D: usize>(placed: &[Placed<D>], axis: usize, spacing: f64) -> [f64; 2] {
-    let at = |p: &Placed<D>| in_space(&p.point.place.at);
+fn around<const D: usize>(placed: &[PlacedPoint<D>], axis: usize, spacing: f64) -> [f64; 2] {
+    let at = |p: &PlacedPoint<D>| in_space(&p.point.place.at);
     let depth = placed.iter().map(|p| -at(p)[1]).fold(0.0, f64::max);
     let low = placed.iter().map(|p| at(p)[axis]).fold(f64::INFINITY, f64::min) - depth;
     let high = placed.iter().map(|p| at(p)[axis]).fold(f64::NEG_INFINITY, f64::max) + depth;

@@ -17,7 +17,7 @@ use asperity_fem::mesh::fault::{Departure, DividedLine, FaultMeshError, divided}
 /// # Errors
 /// [`Diagnostic`] at the line that cannot be divided, or that leaves the rock.
 pub(super) fn tiling<const D: usize>(scene: &Scene, space: Space) -> Result<Tiling<D>, Diagnostic> {
-    let antiplane = idealisation::of(*scene.kinematics.get_ref()).components() == 1;
+    let antiplane = idealisation::from_kinematics(*scene.kinematics.get_ref()).components() == 1;
     let (mut all, mut faults, mut notes) = (Vec::new(), Vec::new(), Vec::new());
     for (name, spec) in &scene.faults {
         let Some(line) = &spec.line else { continue };

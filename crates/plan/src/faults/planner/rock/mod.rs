@@ -14,12 +14,12 @@ mod tiling;
 mod triangles;
 
 use super::super::plan::Plan;
-use super::apart::{self, Spaced};
-use super::assemble::{Around, Surrounded, geometry, plan_of, turns};
+use super::apart::{self, Spacing};
+use super::assemble::{SlidingFaults, SurroundingsView, geometry, plan_of, turns};
 use super::fields::Fields;
 use super::medium::Medium;
-use super::placed::Placed;
-use super::point::{Given, base_law, placed_at};
+use super::placed::PlacedPoint;
+use super::point::{PointSurroundings, base_law, placed_at};
 use super::resolved::resolved;
 use super::{asked, backslip, patches, sense};
 use crate::reading::diagnostic::Diagnostic;
@@ -53,7 +53,7 @@ pub(super) fn plan<const D: usize>(
     let tiling = tiling::<D>(scene, rock)?;
     let mut warnings = scene.warnings.clone();
     let mut notes = backslip::notes(scene);
-    apart::check(scene, &outlines::cells(&tiling), Spaced::ByCells)?;
+    apart::check(scene, &outlines::cells(&tiling), Spacing::ByCells)?;
     let placed = placed(scene, rock, &elastic, &tiling, (&mut warnings, &mut notes))?;
     let resolution = resolved(scene, &placed, &mut warnings)?;
     warnings.extend(triangles::tiny(scene, &tiling, &resolution));
@@ -71,15 +71,15 @@ pub(super) fn plan<const D: usize>(
     let plates = backslip::plates(scene, &placed, slip.tangents);
     let loading = deficit(operator.as_ref(), &plates, end);
     let lag = ((&plates[..], slip.tangents), &mut notes);
-    let free_surface = free_surface::of(scene, (&tiling.patches, &elastic), &placed, lag)?;
+    let free_surface = free_surface::plan(scene, (&tiling.patches, &elastic), &placed, lag)?;
     let receivers =
-        receivers::of(scene, (&tiling.patches, &elastic), &placed, ((plates, slip.tangents), &mut notes))?;
-    let coulomb = coulomb::of(scene, (&tiling.patches, &elastic), &placed)?;
-    let platform = platform::of(scene, &placed)?;
+        receivers::plan(scene, (&tiling.patches, &elastic), &placed, ((plates, slip.tangents), &mut notes))?;
+    let coulomb = coulomb::plan(scene, (&tiling.patches, &elastic), &placed)?;
+    let platform = platform::plan(scene, &placed)?;
     warnings.extend(sense::check(scene, (&placed, &[]), &loading, end));
     warnings.extend(unloaded(scene));
     notes.extend(tiling.notes.iter().cloned().chain([tiling.patches.reason()]));
-    let around = Around {
+    let around = SurroundingsView {
         medium: match rock.kind.get_ref() {
             MediumKind::HalfSpace => "homogeneous half-space without bodies",
             MediumKind::WholeSpace => "homogeneous whole-space without bodies",
@@ -98,7 +98,7 @@ pub(super) fn plan<const D: usize>(
         loading: 0.0,
         checks: Checks { in_space: D == 3, ..Checks::default() },
     };
-    let surrounded = Surrounded { placed, operator, opening: None, loading, end };
+    let surrounded = SlidingFaults { placed, operator, opening: None, loading, end };
     Ok(Plan { receivers, free_surface, coulomb, platform, ..plan_of(scene, surrounded, around, &tiling)? })
 }
 
@@ -143,8 +143,8 @@ fn placed<const D: usize>(
     elastic: &Elastic,
     tiling: &Tiling<D>,
     (warnings, notes): (&mut Vec<Warning>, &mut Vec<String>),
-) -> Result<Vec<Placed<D>>, Diagnostic> {
-    let idealisation = idealisation::of(*scene.kinematics.get_ref());
+) -> Result<Vec<PlacedPoint<D>>, Diagnostic> {
+    let idealisation = idealisation::from_kinematics(*scene.kinematics.get_ref());
     let density = scene.materials.get(rock.material.get_ref()).and_then(|m| m.density.as_ref());
     let medium = Medium {
         shear_modulus: elastic.shear(),
@@ -162,10 +162,10 @@ fn placed<const D: usize>(
         let cells = cut.places.iter().zip(&cut.sizes);
         let of = |(place, &spacing): (&Place<D>, &f64)| {
             let components = idealisation.components();
-            let given = Given { medium, spacing, stress: None, creep: None, components };
+            let given = PointSurroundings { medium, spacing, stress: None, creep: None, components };
             placed_at(spec, (fault, &base, &fields), place.clone(), given)
         };
-        let placed: Vec<Placed<D>> = cells.map(of).collect::<Result<_, _>>()?;
+        let placed: Vec<PlacedPoint<D>> = cells.map(of).collect::<Result<_, _>>()?;
         fields.describe(&placed, (warnings, notes));
         asked::profiles(scene, (name, spec), &placed, warnings)?;
         warnings.extend(patches::covered((name, spec), &placed)?);

@@ -2,7 +2,7 @@
 
 use super::super::super::platform::Platform;
 use super::super::assemble::turns;
-use super::super::placed::{Placed, in_space, slides};
+use super::super::placed::{PlacedPoint, in_space, slides};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Scene, Spanned, Station};
 use asperity_cycles::medium::across;
@@ -19,9 +19,9 @@ const KM: f64 = 1e3;
 ///
 /// # Errors
 /// [`Diagnostic`] at a fault that is no vertical plane, at slip that is not along strike, or at positions that have the same name.
-pub(super) fn of<const D: usize>(
+pub(super) fn plan<const D: usize>(
     scene: &Scene,
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
 ) -> Result<Option<Platform>, Diagnostic> {
     let Some(asked) = &scene.output.platform else { return Ok(None) };
     let spec = asked.get_ref();

@@ -1,8 +1,8 @@
 //! Positions in homogeneous rock whose motion is written.
 
 use super::super::super::receivers::{Receiver, Receivers};
-use super::super::placed::{Placed, in_space, slides};
-use super::sites::{self, Given};
+use super::super::placed::{PlacedPoint, in_space, slides};
+use super::sites::{self, ReceiverPosition};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Scene};
 use crate::reading::scene::units::Length;
@@ -21,10 +21,10 @@ const ON_PLANE: f64 = 1e-9;
 ///
 /// # Errors
 /// [`Diagnostic`] at a receiver that has no motion, or at a site that is not on the map.
-pub(super) fn of<const D: usize>(
+pub(super) fn plan<const D: usize>(
     scene: &Scene,
     (patches, rock): (&Patches, &Elastic),
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
     (lag, notes): ((Vec<f64>, usize), &mut Vec<String>),
 ) -> Result<Receivers, Diagnostic> {
     let (rates, tangents) = lag;
@@ -32,7 +32,7 @@ pub(super) fn of<const D: usize>(
         let at: [f64; 3] = std::array::from_fn(|c| spec.get_ref().get(c).map_or(0.0, |x: &Length| x.0));
         (name.clone(), spec.span(), at)
     });
-    let all: Vec<Given> = given.chain(sites::of(scene, D == 3)?).collect();
+    let all: Vec<ReceiverPosition> = given.chain(sites::positions(scene, D == 3)?).collect();
     let relative = bent(scene, placed);
     if let Some(why) = relative.as_ref().filter(|_| !all.is_empty()) {
         notes.push(relative_to_plates("receivers move", why));
@@ -51,7 +51,7 @@ pub(super) fn of<const D: usize>(
             ));
         }
         let plates = if relative.is_some() { Ok([0.0; 3]) } else { plates(scene, placed, &at) };
-        let plates = plates.map_err(|Between(fault)| {
+        let plates = plates.map_err(|FaultPlane(fault)| {
             let message =
                 format!("receiver `{name}` lies on the plane of fault `{fault}`, whose sides move apart");
             Diagnostic::at(span, message, "a position on one of its sides")
@@ -63,18 +63,18 @@ pub(super) fn of<const D: usize>(
 
 /// Axes along which points move.
 pub(super) fn axes(scene: &Scene) -> Vec<usize> {
-    match idealisation::of(*scene.kinematics.get_ref()).components() {
+    match idealisation::from_kinematics(*scene.kinematics.get_ref()).components() {
         1 => vec![2],
         components => (0..components).collect(),
     }
 }
 
 /// A fault on whose plane a position lies.
-pub(super) struct Between<'a>(&'a str);
+pub(super) struct FaultPlane<'a>(&'a str);
 
 /// Reason why the plates of a scene do not move as rigid blocks: a fault with creep that is not plane, or two that are not parallel. Slip at the
 /// rate of creep on all of them then deforms the blocks, and motion of receivers is that of slip less the creep.
-pub(super) fn bent<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Option<String> {
+pub(super) fn bent<const D: usize>(scene: &Scene, placed: &[PlacedPoint<D>]) -> Option<String> {
     let mut first: Option<(&String, [f64; 3])> = None;
     for (fault, (name, _)) in scene.faults.iter().enumerate().filter(|(_, (_, spec))| spec.creep.is_some()) {
         let normals = placed.iter().filter(|p| p.fault == fault).map(|p| in_space(&p.point.place.normal));
@@ -111,12 +111,12 @@ fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
 /// At a position on the plane of a fault.
 pub(super) fn plates<'a, const D: usize>(
     scene: &'a Scene,
-    placed: &[Placed<D>],
+    placed: &[PlacedPoint<D>],
     at: &[f64; 3],
-) -> Result<[f64; 3], Between<'a>> {
+) -> Result<[f64; 3], FaultPlane<'a>> {
     let mut plates = [0.0; 3];
     for (fault, entry) in scene.faults.iter().enumerate() {
-        let own: Vec<&Placed<D>> = placed.iter().filter(|p| p.fault == fault).collect();
+        let own: Vec<&PlacedPoint<D>> = placed.iter().filter(|p| p.fault == fault).collect();
         let moved = beside(at, entry, &own)?;
         plates.iter_mut().zip(moved).for_each(|(sum, v)| *sum += v);
     }
@@ -127,8 +127,8 @@ pub(super) fn plates<'a, const D: usize>(
 fn beside<'a, const D: usize>(
     at: &[f64; 3],
     (fault, spec): (&'a String, &'a Spec),
-    own: &[&Placed<D>],
-) -> Result<[f64; 3], Between<'a>> {
+    own: &[&PlacedPoint<D>],
+) -> Result<[f64; 3], FaultPlane<'a>> {
     let Some(creep) = spec.creep.as_ref() else { return Ok([0.0; 3]) };
     let Some(first) = own.first() else { return Ok([0.0; 3]) };
     let normal: [f64; 3] = in_space(&first.point.place.normal);
@@ -136,7 +136,7 @@ fn beside<'a, const D: usize>(
     let apart: [f64; 3] = std::array::from_fn(|c| at[c] - from[c]);
     let distance = dot(&apart, &normal);
     if distance.abs() <= ON_PLANE * dot(&apart, &apart).sqrt() {
-        return Err(Between(fault));
+        return Err(FaultPlane(fault));
     }
     // Creep in space has a direction of its own.
     let along = if D == 3 { in_space(&first.point.place.creeps) } else { slides(first) };

@@ -22,8 +22,8 @@ pub(super) fn cells<const D: usize>(
     rectangle: &FaultRectangle,
     space: Space,
     (first, number): (usize, usize),
-) -> Result<Divided<D>, Diagnostic> {
-    let grid = Grid::of(rectangle);
+) -> Result<DividedRectangle<D>, Diagnostic> {
+    let grid = Grid::from_rectangle(rectangle);
     let mut tiles = Vec::with_capacity(grid.count());
     let mut places = Vec::with_capacity(grid.count());
     for k in 0..grid.count() {
@@ -39,7 +39,7 @@ pub(super) fn cells<const D: usize>(
     }
     let sizes = vec![grid.cell[0].max(grid.cell[1]); grid.count()];
     let points = (first..first + tiles.len()).collect();
-    Ok(Divided {
+    Ok(DividedRectangle {
         tiles,
         grid: Lattice { columns: grid.columns, rows: grid.rows, points },
         cut: Cut {
@@ -56,7 +56,7 @@ pub(super) fn cells<const D: usize>(
 }
 
 /// A rectangle divided into cells.
-pub(super) struct Divided<const D: usize> {
+pub(super) struct DividedRectangle<const D: usize> {
     pub tiles: Vec<Tile>,
     pub grid: Lattice,
     pub cut: Cut<D>,
@@ -79,7 +79,7 @@ struct Grid {
 }
 
 impl Grid {
-    fn of(spec: &FaultRectangle) -> Self {
+    fn from_rectangle(spec: &FaultRectangle) -> Self {
         let [from, to] = [&spec.from, &spec.to].map(|end| end.get_ref().map(|x| x.0));
         let (x, z) = (to[0] - from[0], to[2] - from[2]);
         let length = x.hypot(z);

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// Name, place in the scene, and position of a receiver \[m\].
-pub(super) type Given = (String, Range<usize>, [f64; 3]);
+pub(super) type ReceiverPosition = (String, Range<usize>, [f64; 3]);
 
 /// Farthest position from the origin that is projected: lengths are 1 % too large there \[m\].
 const FARTHEST: f64 = 900e3;
@@ -20,8 +20,8 @@ const FARTHEST: f64 = 900e3;
 ///
 /// # Errors
 /// [`Diagnostic`] at a site that is far from the origin, or at a file that cannot be read.
-pub(super) fn of(scene: &Scene, in_space: bool) -> Result<Vec<Given>, Diagnostic> {
-    let Some(frame) = place::of(scene, in_space)? else { return Ok(Vec::new()) };
+pub(super) fn positions(scene: &Scene, in_space: bool) -> Result<Vec<ReceiverPosition>, Diagnostic> {
+    let Some(frame) = place::frame(scene, in_space)? else { return Ok(Vec::new()) };
     let mut all = Vec::new();
     for (name, site) in &scene.output.sites {
         let [longitude, latitude] =
@@ -69,7 +69,12 @@ fn degrees(columns: &Columns, [long, short]: [&str; 2]) -> Result<Vec<f64>, Wron
 }
 
 /// Receiver in the free surface y = 0 at a longitude and latitude \[rad\].
-fn given(frame: &Frame, name: &str, span: Range<usize>, at: [f64; 2]) -> Result<Given, Diagnostic> {
+fn given(
+    frame: &Frame,
+    name: &str,
+    span: Range<usize>,
+    at: [f64; 2],
+) -> Result<ReceiverPosition, Diagnostic> {
     let [longitude, latitude] = at.map(f64::to_degrees);
     let near = |x: &[f64; 2]| x[0].hypot(x[1]) < FARTHEST;
     let Some(offset) = frame.map().metres(longitude, latitude).filter(near) else {

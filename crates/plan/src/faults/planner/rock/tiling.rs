@@ -2,7 +2,7 @@
 
 use super::super::super::plan::{CellGrid, Outline};
 use super::super::cells::Cells;
-use super::super::placed::Placed;
+use super::super::placed::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Fault as Spec;
 use asperity_cycles::kernel::Space;
@@ -41,11 +41,11 @@ pub(super) fn in_dimension<const A: usize, const B: usize>(v: &[f64; A]) -> [f64
 }
 
 impl<const D: usize> Cells<D> for Tiling<D> {
-    fn size(&self, _: &Spec, point: &Placed<D>) -> Result<f64, Diagnostic> {
+    fn size(&self, _: &Spec, point: &PlacedPoint<D>) -> Result<f64, Diagnostic> {
         Ok(point.spacing)
     }
 
-    fn faces(&self, (fault, _): (usize, &Spec), _: &[Placed<D>]) -> Result<Vec<Vec<usize>>, Diagnostic> {
+    fn faces(&self, (fault, _): (usize, &Spec), _: &[PlacedPoint<D>]) -> Result<Vec<Vec<usize>>, Diagnostic> {
         Ok(self.faults[fault].faces.clone())
     }
 

@@ -17,7 +17,7 @@ use asperity_mechanics::coordinates;
 use asperity_run::Warning;
 
 /// A surface of triangles.
-pub(super) struct Meshed<const D: usize> {
+pub(super) struct MeshedSurface<const D: usize> {
     pub tiles: Vec<Tile>,
     pub cut: Cut<D>,
     pub notes: Vec<String>,
@@ -33,7 +33,7 @@ pub(super) fn cells<const D: usize>(
     surface: &FaultTriangles,
     space: Space,
     first: usize,
-) -> Result<Meshed<D>, Diagnostic> {
+) -> Result<MeshedSurface<D>, Diagnostic> {
     let mut notes = Vec::new();
     let mut mesh = surfaces::triangles(scene, surface, |spec, bytes| {
         let (mesh, note) = depths::triangles(scene, (name, spec), bytes)?;
@@ -69,7 +69,7 @@ pub(super) fn cells<const D: usize>(
     }
     let outline = Some(Outline { nodes: mesh.nodes, corners: mesh.corners });
     let cut = Cut { places, sizes, widths, faces: Vec::new(), outline, grid: None, ends: Vec::new() };
-    Ok(Meshed { tiles, cut, notes })
+    Ok(MeshedSurface { tiles, cut, notes })
 }
 
 /// Note on the direction of slip of a fault that is given by depths, whose plus side is the upper one.
