@@ -17,15 +17,15 @@ pub fn stiffness(case: &str) -> Result<ScatterMap, String> {
     let (dimension, size) = case.split_once(':').ok_or_else(wrong)?;
     let size: f64 = size.parse().map_err(|_| wrong())?;
     match dimension {
-        "2d" => Ok(of_block::<2>(ElementKind::Quad4, (size / 2.0).sqrt())),
-        "3d" => Ok(of_block::<3>(ElementKind::Hex8, (size / 3.0).cbrt())),
+        "2d" => Ok(block_stiffness::<2>(ElementKind::Quad4, (size / 2.0).sqrt())),
+        "3d" => Ok(block_stiffness::<3>(ElementKind::Hex8, (size / 3.0).cbrt())),
         _ => Err(wrong()),
     }
 }
 
 /// Stiffness of a block with `divisions` elements (rounded) along each axis, so that as many node layers are free along
 /// the first.
-fn of_block<const D: usize>(kind: ElementKind, divisions: f64) -> ScatterMap {
+fn block_stiffness<const D: usize>(kind: ElementKind, divisions: f64) -> ScatterMap {
     let divisions = divisions.round() as usize;
     let block = Block {
         min: [0.0; D],

@@ -136,7 +136,7 @@ pub struct Body<const D: usize> {
 }
 
 /// A solved body.
-pub struct Solved {
+pub struct Solution {
     /// Displacement \[m\].
     pub u: Vec<f64>,
     /// Cost of the solution: unknowns, factorisations, solves.
@@ -221,7 +221,7 @@ impl<const D: usize> Body<D> {
     }
 
     /// Solves.
-    pub fn solve(&self) -> Result<Solved, CaseError> {
+    pub fn solve(&self) -> Result<Solution, CaseError> {
         let n = self.mesh.nodes.len() * self.components();
         let mut u = vec![0.0; n];
         self.prescribed.iter().for_each(|(&dof, &value)| u[dof] = value);
@@ -242,7 +242,7 @@ impl<const D: usize> Body<D> {
             .count("unknowns", x.len() as f64)
             .count("factorisations", system.factorisations as f64)
             .count("solves", system.solves as f64);
-        Ok(Solved { u, work, unknowns: x.len() })
+        Ok(Solution { u, work, unknowns: x.len() })
     }
 
     /// Nodal values of a field.
@@ -300,7 +300,7 @@ pub fn level<const D: usize>(
     field: &dyn Field<D>,
     build: impl Fn(ElementKind, Formulation) -> Result<Body<D>, CaseError>,
 ) -> Result<Level, CaseError> {
-    let (solved, cost) = Cost::of(|| {
+    let (solved, cost) = Cost::measure(|| {
         let body = build(kind, formulation)?;
         let solved = body.solve()?;
         Ok::<_, CaseError>((body, solved))

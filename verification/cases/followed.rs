@@ -31,7 +31,7 @@ impl Observer<Faults> for Look<'_> {
 }
 
 /// A run with its report.
-pub struct Followed {
+pub struct CycleRun {
     /// The run.
     pub run: FaultRun,
     /// Balances and events of the run.
@@ -41,7 +41,7 @@ pub struct Followed {
     kept: Option<FaultRun>,
 }
 
-impl Followed {
+impl CycleRun {
     /// Runs a plan from its start until the required events have ended.
     ///
     /// # Errors
@@ -53,7 +53,7 @@ impl Followed {
     /// The same run with another tolerance of ln V.
     ///
     /// # Errors
-    /// As [`Followed::new`].
+    /// As [`CycleRun::new`].
     pub fn with(plan: &Plan, tolerance: f64) -> Result<Self, CaseError> {
         let settings = Settings { tolerance, ..plan.problem.settings };
         Self::from(plan, settings, plan.problem.begin())
@@ -62,7 +62,7 @@ impl Followed {
     fn from(plan: &Plan, settings: Settings, start: FaultRun) -> Result<Self, CaseError> {
         let mut look = Look { balance: Balance::new(&plan.problem), wait: 3, kept: None };
         let (run, cost) =
-            Cost::of(|| resume(&plan.problem.fault, &plan.problem.loading, start, &settings, &mut look));
+            Cost::measure(|| resume(&plan.problem.fault, &plan.problem.loading, start, &settings, &mut look));
         let run = run?;
         if run.outcome != Outcome::Stopped {
             return Err(format!("the run did not end with its events: {:?}", run.outcome).into());

@@ -120,7 +120,7 @@ pub fn pressed_by(mut scene: Scene, set: &str, depth: f64) -> Scene {
 }
 
 /// A completed run.
-pub struct Done {
+pub struct HertzRun {
     /// Report.
     pub report: RunReport,
     /// Recorded fields.
@@ -130,9 +130,9 @@ pub struct Done {
 }
 
 /// Runs a scene to completion.
-pub fn simulate(scene: &Scene) -> Result<Done, CaseError> {
+pub fn simulate(scene: &Scene) -> Result<HertzRun, CaseError> {
     let mut record = Recorder::new();
-    let (report, cost) = Cost::of(|| -> Result<RunReport, CaseError> {
+    let (report, cost) = Cost::measure(|| -> Result<RunReport, CaseError> {
         let plan = bodies::plan(scene).map_err(|e| e.to_string())?;
         Ok(kinds::bodies::run(&plan, &mut record)?)
     });
@@ -141,7 +141,7 @@ pub fn simulate(scene: &Scene) -> Result<Done, CaseError> {
         return Err(format!("stopped: {reason}").into());
     }
     let cost = cost.counts(&report.counts);
-    Ok(Done { report, record, cost })
+    Ok(HertzRun { report, record, cost })
 }
 
 /// Tractions along the slave side at the end of a stage in SI units, sorted by a coordinate, usually x.
@@ -162,7 +162,7 @@ pub struct Tractions {
     pub status: Vec<u8>,
 }
 
-impl Done {
+impl HertzRun {
     /// Tractions at the end of a stage.
     pub fn tractions(&self, stage: &str) -> Result<Tractions, CaseError> {
         self.tractions_by(stage, |x| x[0])

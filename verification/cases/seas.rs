@@ -95,7 +95,7 @@ pub fn plan(text: &str) -> Result<Plan, CaseError> {
 }
 
 /// Results of a run.
-pub struct Found {
+pub struct CycleResults {
     /// Onsets of events \[yr\].
     pub onsets: Vec<f64>,
     /// The events.
@@ -116,12 +116,12 @@ pub fn found(
     plan: &Plan,
     settings: &Settings,
     mut look: impl FnMut(&Moment<'_>),
-) -> Result<Found, CaseError> {
+) -> Result<CycleResults, CaseError> {
     let mut watch = |now: &Moment<'_>| {
         look(now);
         Control::Go
     };
-    let (out, cost) = Cost::of(|| plan.problem.run(settings, &mut watch));
+    let (out, cost) = Cost::measure(|| plan.problem.run(settings, &mut watch));
     results(plan, settings, &out?, cost)
 }
 
@@ -132,7 +132,7 @@ pub fn found(
 pub fn found_with_mass(
     plan: &mut Plan,
     mut look: impl FnMut(&Moment<'_>),
-) -> Result<(Found, Vec<Episode>), CaseError> {
+) -> Result<(CycleResults, Vec<Episode>), CaseError> {
     let mut ruptures = plan.ruptures.take().ok_or("the scene has no ruptures with mass")?;
     let (problem, settings) = (&plan.problem, &plan.problem.settings);
     let mut watch = |now: &Moment<'_>| {
@@ -143,15 +143,16 @@ pub fn found_with_mass(
     let start = FaultRun::new(problem.start.clone(), std::slice::from_ref(&all), settings.thresholds);
     let mut dynamics = ruptures.dynamics(&problem.areas);
     let faults = (&problem.fault, &problem.loading);
-    let (out, cost) =
-        Cost::of(|| asperity_cycles::resume_with(faults, start, settings, Some(&mut dynamics), &mut watch));
+    let (out, cost) = Cost::measure(|| {
+        asperity_cycles::resume_with(faults, start, settings, Some(&mut dynamics), &mut watch)
+    });
     let out = out?;
     let episodes = out.progress.episodes.clone();
     let cost = cost.count("steps with mass", episodes.iter().map(|e| e.steps).sum::<usize>() as f64);
     Ok((results(plan, settings, &out, cost)?, episodes))
 }
 
-fn results(plan: &Plan, settings: &Settings, out: &FaultRun, cost: Cost) -> Result<Found, CaseError> {
+fn results(plan: &Plan, settings: &Settings, out: &FaultRun, cost: Cost) -> Result<CycleResults, CaseError> {
     let events = out.events().to_vec();
     if let Outcome::Failed { reason } = &out.outcome {
         return Err(reason.to_string().into());
@@ -161,7 +162,7 @@ fn results(plan: &Plan, settings: &Settings, out: &FaultRun, cost: Cost) -> Resu
     }
     let cost =
         cost.count("steps", out.counts.steps as f64).count("right-hand sides", out.counts.rates as f64);
-    Ok(Found {
+    Ok(CycleResults {
         onsets: events.iter().map(|e| e.onset.seconds() / YEAR).collect(),
         events,
         cost: cost.count("points", plan.points.len() as f64),

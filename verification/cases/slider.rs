@@ -276,7 +276,7 @@ impl Independent {
     ///
     /// # Errors
     /// If they are not JSON.
-    pub fn of_laws() -> Result<Self, CaseError> {
+    pub fn read_laws() -> Result<Self, CaseError> {
         Ok(Self(serde_json::from_str(include_str!("../independent/slider_laws.json"))?))
     }
 

@@ -11,7 +11,7 @@ use asperity_run::report::Outcome;
 use std::path::Path;
 
 /// A run that may have ended early.
-pub struct Done {
+pub struct BodyRun {
     /// Scene.
     pub scene: String,
     /// Report.
@@ -26,7 +26,7 @@ pub struct Done {
 ///
 /// # Errors
 /// If the scene is rejected or cannot be set up.
-pub fn attempt(text: &str) -> Result<Done, CaseError> {
+pub fn attempt(text: &str) -> Result<BodyRun, CaseError> {
     attempt_in(text, "")
 }
 
@@ -34,22 +34,22 @@ pub fn attempt(text: &str) -> Result<Done, CaseError> {
 ///
 /// # Errors
 /// If the scene is rejected or cannot be set up.
-pub fn attempt_in(text: &str, folder: &str) -> Result<Done, CaseError> {
+pub fn attempt_in(text: &str, folder: &str) -> Result<BodyRun, CaseError> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(folder);
     let scene = scene::read_in(text, &folder).map_err(|e| format!("{e}\nin\n{text}"))?;
     let plan = bodies::plan(&scene).map_err(|e| e.to_string())?;
     let mut record = Recorder::new().at_all_nodes().with_bodies();
-    let (report, cost) = Cost::of(|| kinds::bodies::run(&plan, &mut record));
+    let (report, cost) = Cost::measure(|| kinds::bodies::run(&plan, &mut record));
     let report = report?;
     let cost = cost.counts(&report.counts);
-    Ok(Done { scene: text.to_owned(), report, record, cost })
+    Ok(BodyRun { scene: text.to_owned(), report, record, cost })
 }
 
 /// Runs a scene to its end.
 ///
 /// # Errors
 /// If the scene is rejected or the run stops.
-pub fn simulate(text: &str) -> Result<Done, CaseError> {
+pub fn simulate(text: &str) -> Result<BodyRun, CaseError> {
     simulate_in(text, "")
 }
 
@@ -57,7 +57,7 @@ pub fn simulate(text: &str) -> Result<Done, CaseError> {
 ///
 /// # Errors
 /// If the scene is rejected or the run stops.
-pub fn simulate_in(text: &str, folder: &str) -> Result<Done, CaseError> {
+pub fn simulate_in(text: &str, folder: &str) -> Result<BodyRun, CaseError> {
     let done = attempt_in(text, folder)?;
     match &done.report.outcome {
         Outcome::Completed => Ok(done),
@@ -69,7 +69,7 @@ pub fn simulate_in(text: &str, folder: &str) -> Result<Done, CaseError> {
     }
 }
 
-impl Done {
+impl BodyRun {
     /// Force on a set of the scene after each step \[N, N/m in the plane\].
     pub fn force(&self, name: &str) -> Result<Vec<[f64; 3]>, CaseError> {
         let marks = &self.record.setup().forces;

@@ -70,7 +70,7 @@ impl Folder {
     /// # Errors
     /// If the file cannot be read.
     pub fn table(&self, name: &str) -> Result<Table, CaseError> {
-        Table::of(&self.text(name)?).ok_or_else(|| format!("{name} has no head").into())
+        Table::parse(&self.text(name)?).ok_or_else(|| format!("{name} has no head").into())
     }
 }
 
@@ -88,7 +88,7 @@ pub struct Table {
 }
 
 impl Table {
-    fn of(text: &str) -> Option<Self> {
+    fn parse(text: &str) -> Option<Self> {
         let mut lines = text.lines().filter(|line| !line.starts_with('#'));
         let head = lines.next()?;
         let by = if head.contains(',') { ',' } else { ' ' };
@@ -141,7 +141,7 @@ impl Table {
 }
 
 /// A run of faults and its files.
-pub struct Written {
+pub struct WrittenRun {
     /// Plan of the scene.
     pub plan: Plan,
     /// Report of the run.
@@ -162,14 +162,14 @@ impl Observer<Faults> for Both<'_> {
     }
 }
 
-impl Written {
+impl WrittenRun {
     /// Runs a scene with faults to its end and writes the files that the command `run` writes.
     ///
     /// # Errors
     /// If the scene is refused, the run fails, or a file cannot be written.
-    pub fn of(text: &str) -> Result<Self, CaseError> {
+    pub fn from_text(text: &str) -> Result<Self, CaseError> {
         let (plan, files) = (seas::plan(text)?, Folder::new()?);
-        let (found, cost) = Cost::of(|| followed(&plan, files.path()));
+        let (found, cost) = Cost::measure(|| followed(&plan, files.path()));
         let (run, report) = found?;
         catalogues(files.path(), &plan, &report)?;
         kinds::faults::write_fields(files.path(), &plan, &run)?;
@@ -232,7 +232,7 @@ pub fn bodies_beside(text: &str, folder: &Path) -> Result<(Folder, Cost), CaseEr
     let plan = bodies::plan(&scene).map_err(|e| e.to_string())?;
     let folder = Folder::new()?;
     let mut files = asperity_output::bodies::Files::create(folder.path(), plan.outputs())?;
-    let (report, cost) = Cost::of(|| kinds::bodies::run(&plan, &mut files));
+    let (report, cost) = Cost::measure(|| kinds::bodies::run(&plan, &mut files));
     let report = report?;
     std::fs::write(folder.path().join("report.json"), serde_json::to_string(&report)?)?;
     match report.outcome {
@@ -256,14 +256,14 @@ impl Waves {
     ///
     /// # Errors
     /// If the scene is refused, the run stops, or a file cannot be written.
-    pub fn of(text: &str) -> Result<Self, CaseError> {
+    pub fn from_text(text: &str) -> Result<Self, CaseError> {
         Self::limited(text, None)
     }
 
     /// The same, interrupted after each step and resumed.
     ///
     /// # Errors
-    /// As [`Waves::of`].
+    /// As [`Waves::from_text`].
     pub fn in_parts(text: &str) -> Result<Self, CaseError> {
         Self::limited(text, Some(Duration::ZERO))
     }
@@ -271,7 +271,7 @@ impl Waves {
     fn limited(text: &str, wall: Option<Duration>) -> Result<Self, CaseError> {
         let scene = scene::read(text).map_err(|e| format!("{e}\nin\n{text}"))?;
         let (plan, files) = (dynamics::plan(&scene).map_err(|e| e.to_string())?, Folder::new()?);
-        let (report, cost) = Cost::of(|| match &plan {
+        let (report, cost) = Cost::measure(|| match &plan {
             AnyPlan::Two(plan) => shaken(plan, files.path(), wall),
             AnyPlan::Three(plan) => shaken(plan, files.path(), wall),
         });

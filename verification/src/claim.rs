@@ -73,7 +73,7 @@ pub enum Norm {
 }
 
 impl Norm {
-    fn of(self, values: impl Iterator<Item = f64>) -> f64 {
+    fn evaluate(self, values: impl Iterator<Item = f64>) -> f64 {
         match self {
             // Keep a NaN: `f64::max` would drop it.
             Norm::Largest => values.fold(0.0, |m, v| if v.is_nan() || v.abs() > m { v.abs() } else { m }),
@@ -148,7 +148,7 @@ pub enum Test {
 
 /// The size of an error against its bound.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct Measured {
+pub struct Measurement {
     /// The error.
     pub error: f64,
     /// The bound.
@@ -157,9 +157,9 @@ pub struct Measured {
     pub ratio: f64,
 }
 
-impl Measured {
-    fn new(error: f64, bound: f64) -> Measured {
-        Measured { error, bound, ratio: error / bound }
+impl Measurement {
+    fn new(error: f64, bound: f64) -> Measurement {
+        Measurement { error, bound, ratio: error / bound }
     }
 }
 
@@ -168,7 +168,7 @@ impl Test {
     ///
     /// # Errors
     /// A sentence saying what is not finite, not positive, or does not fit.
-    pub fn measure(&self) -> Result<Measured, String> {
+    pub fn measure(&self) -> Result<Measurement, String> {
         match self {
             Test::Absolute { values, references, norm, bound } => {
                 let error = difference(values, references, *norm)?;
@@ -176,20 +176,20 @@ impl Test {
             }
             Test::Relative { values, references, norm, bound } => {
                 let error = difference(values, references, *norm)?;
-                let scale = norm.of(references.iter().copied());
+                let scale = norm.evaluate(references.iter().copied());
                 if scale == 0.0 {
                     return Err("a relative error needs a reference that is not zero".into());
                 }
                 judged(error / scale, *bound)
             }
             Test::AtMost { value, bound } => {
-                judged(*value, *bound).map(|m| Measured { ratio: m.ratio.max(0.0), ..m })
+                judged(*value, *bound).map(|m| Measurement { ratio: m.ratio.max(0.0), ..m })
             }
             Test::AtLeast { value, bound } => {
                 let m = judged(*value, *bound)?;
                 // The ratio approaches 1 as the value approaches the limit; for values at or below zero it is infinite.
                 let ratio = if *value > 0.0 { bound / value } else { f64::INFINITY };
-                Ok(Measured { ratio, ..m })
+                Ok(Measurement { ratio, ..m })
             }
             Test::Order(order) => {
                 let observed = order.observed()?;
@@ -197,7 +197,7 @@ impl Test {
             }
             Test::Count { value, expected } => {
                 let error = value.abs_diff(*expected) as f64;
-                Ok(Measured { error, bound: 0.0, ratio: if error == 0.0 { 0.0 } else { f64::INFINITY } })
+                Ok(Measurement { error, bound: 0.0, ratio: if error == 0.0 { 0.0 } else { f64::INFINITY } })
             }
             Test::NotRun { error } => Err(error.clone()),
             Test::NotCovered { reason } => Err(reason.clone()),
@@ -213,7 +213,7 @@ impl Test {
         match &mut moved {
             Test::Absolute { values, references, bound, .. } => push(values, references, bounds * *bound),
             Test::Relative { values, references, norm, bound } => {
-                let scale = norm.of(references.iter().copied());
+                let scale = norm.evaluate(references.iter().copied());
                 push(values, references, bounds * *bound * scale);
             }
             Test::AtMost { value, bound } => *value = value.max(0.0) + bounds * *bound,
@@ -233,7 +233,7 @@ impl Test {
                 Some(*bound)
             }
             Test::Relative { references, norm, bound, .. } => {
-                Some(bound * norm.of(references.iter().copied()))
+                Some(bound * norm.evaluate(references.iter().copied()))
             }
             Test::Order(_) | Test::Count { .. } | Test::NotRun { .. } | Test::NotCovered { .. } => None,
         }
@@ -257,17 +257,17 @@ fn difference(values: &[f64], references: &[f64], norm: Norm) -> Result<f64, Str
     if references.iter().any(|r| !r.is_finite()) {
         return Err("a reference is not finite".into());
     }
-    Ok(norm.of(values.iter().zip(references).map(|(v, r)| v - r)))
+    Ok(norm.evaluate(values.iter().zip(references).map(|(v, r)| v - r)))
 }
 
-fn judged(error: f64, bound: f64) -> Result<Measured, String> {
+fn judged(error: f64, bound: f64) -> Result<Measurement, String> {
     if !(bound.is_finite() && bound > 0.0) {
         return Err(format!("the bound {bound} is not a positive number"));
     }
     if !error.is_finite() {
         return Err(format!("the error is {error}"));
     }
-    Ok(Measured::new(error, bound))
+    Ok(Measurement::new(error, bound))
 }
 
 /// The outcome of a claim.
@@ -323,12 +323,12 @@ pub struct Claim {
 
 /// A judged claim.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct Judged {
+pub struct JudgedClaim {
     /// The claim.
     #[serde(flatten)]
     pub claim: Claim,
     /// Error and bound, if they could be measured.
-    pub measured: Option<Measured>,
+    pub measured: Option<Measurement>,
     /// The outcome.
     pub verdict: Verdict,
     /// The remark on the bound.
@@ -339,20 +339,20 @@ pub struct Judged {
 
 impl Claim {
     /// Judges the claim and, if it holds, its negative control.
-    pub fn judge(self) -> Judged {
+    pub fn judge(self) -> JudgedClaim {
         if let Test::NotCovered { reason } = &self.test {
             let verdict = Verdict::NotCovered(reason.clone());
-            return Judged { claim: self, measured: None, verdict, mark: None, problem: None };
+            return JudgedClaim { claim: self, measured: None, verdict, mark: None, problem: None };
         }
         let measured = self.test.measure();
         let problem = self.problem(&measured);
         let verdict = if problem.is_none() { Verdict::Holds } else { Verdict::Disagrees };
         let measured = measured.ok();
         let mark = measured.and_then(|m| self.mark(&m));
-        Judged { claim: self, measured, verdict, mark, problem }
+        JudgedClaim { claim: self, measured, verdict, mark, problem }
     }
 
-    fn problem(&self, measured: &Result<Measured, String>) -> Option<String> {
+    fn problem(&self, measured: &Result<Measurement, String>) -> Option<String> {
         let measured = match measured {
             Ok(measured) => measured,
             Err(why) => return Some(why.clone()),
@@ -394,7 +394,7 @@ impl Claim {
         }
     }
 
-    fn mark(&self, measured: &Measured) -> Option<Mark> {
+    fn mark(&self, measured: &Measurement) -> Option<Mark> {
         // A count has no room, and an order that lies close to the expected one is no looser claim.
         if matches!(self.test, Test::Count { .. } | Test::Order(_)) || measured.ratio > 1.0 {
             return None;

@@ -17,7 +17,7 @@ pub struct Cost {
 
 impl Cost {
     /// Runs `work`, measuring its wall time.
-    pub fn of<T>(work: impl FnOnce() -> T) -> (T, Cost) {
+    pub fn measure<T>(work: impl FnOnce() -> T) -> (T, Cost) {
         let start = Instant::now();
         let result = work();
         let cost = Cost { wall: Some(start.elapsed().as_secs_f64()), ..Cost::default() };

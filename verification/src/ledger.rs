@@ -17,7 +17,7 @@
 //! ```
 
 use crate::capability::Capability;
-use crate::claim::{Claim, Evidence, Judged, Norm, Test};
+use crate::claim::{Claim, Evidence, JudgedClaim, Norm, Test};
 use crate::cost::Cost;
 use crate::order::{Floor, Level, OrderTest, Plateau};
 use asperity_output::figures::Diagram;
@@ -62,7 +62,7 @@ pub struct Sheet {
 #[derive(Debug, Default)]
 pub struct Record {
     /// Judged claims, in order.
-    pub claims: Vec<Judged>,
+    pub claims: Vec<JudgedClaim>,
     /// Drawings.
     pub pictures: Vec<Picture>,
     /// Plots.
@@ -147,7 +147,7 @@ impl Ledger {
     }
 
     /// The claims recorded so far.
-    pub fn claims(&self) -> &[Judged] {
+    pub fn claims(&self) -> &[JudgedClaim] {
         &self.record.claims
     }
 

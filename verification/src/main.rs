@@ -131,7 +131,7 @@ fn run(chosen: &[&Case], options: &Options, path: &Path, width: usize) -> io::Re
 
 fn suite(options: &Options, state: &Path) -> Result<Summary, Box<dyn Error>> {
     let start = Instant::now();
-    let chosen = Selection { full: options.full, glob: options.case.clone() }.of(cases::ALL)?;
+    let chosen = Selection { full: options.full, glob: options.case.clone() }.select(cases::ALL)?;
     if options.full {
         let forecast = history::forecast(&history::releases(&history::folder()), &chosen);
         printing::out(format_args!("{} cases: {forecast}\n", chosen.len()));
@@ -147,7 +147,7 @@ fn suite(options: &Options, state: &Path) -> Result<Summary, Box<dyn Error>> {
     if let Some(tag) = &options.keep {
         report::keep(&history::folder().join(format!("{tag}.json")), tag, &outcomes, &run)?;
     }
-    let summary = Summary::of_all(&outcomes);
+    let summary = Summary::from_outcomes(&outcomes);
     printing::out(format_args!("\n"));
     printing::out(format_args!("report: {}\n", options.out.join("index.html").display()));
     if !summary.remarks().is_empty() {
@@ -171,7 +171,7 @@ fn suite(options: &Options, state: &Path) -> Result<Summary, Box<dyn Error>> {
 }
 
 fn print_row(outcome: &Outcome, width: usize) {
-    let s = Summary::of(&outcome.record.claims);
+    let s = Summary::from_claims(&outcome.record.claims);
     printing::out(format_args!(
         "{:width$} {:>6} {:>9} {:>12} {:>7} {:>5} {:>7.2} s\n",
         outcome.case.name, s.hold, s.disagree, s.not_covered, s.slack_unexplained, s.thin, outcome.wall

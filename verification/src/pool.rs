@@ -39,7 +39,7 @@ impl Limits {
 
     /// Limit of the wall time of a case \[s\]. A case without a record is held to the longest of all. `pace` is that of
     /// [`Limits::pace`].
-    pub fn of(&self, case: &str, pace: f64) -> Option<f64> {
+    pub fn limit(&self, case: &str, pace: f64) -> Option<f64> {
         let longest = || self.recorded.values().copied().reduce(f64::max);
         let recorded = self.recorded.get(case).copied().or_else(longest)?;
         Some(FACTOR * pace * recorded.max(self.shortest))
@@ -61,7 +61,7 @@ enum Message {
 }
 
 /// State shared by the threads.
-struct Shared {
+struct PoolState {
     cases: Vec<Case>,
     next: AtomicUsize,
     given_up: Vec<AtomicBool>,
@@ -80,7 +80,7 @@ pub fn execute(
     mut running: impl FnMut(&[&str]) -> io::Result<()>,
     mut done: impl FnMut(&Outcome),
 ) -> io::Result<Vec<Outcome>> {
-    let shared = Arc::new(Shared {
+    let shared = Arc::new(PoolState {
         cases: cases.iter().map(|case| **case).collect(),
         next: AtomicUsize::new(0),
         given_up: cases.iter().map(|_| AtomicBool::new(false)).collect(),
@@ -113,7 +113,7 @@ pub fn execute(
 /// Takes a message, if one comes in time.
 fn take(
     receiver: &Receiver<Message>,
-    shared: &Shared,
+    shared: &PoolState,
     begun: &mut BTreeMap<usize, Instant>,
     waiting: &mut BTreeMap<usize, Outcome>,
 ) {
@@ -132,7 +132,7 @@ fn take(
 /// Running cases that are beyond their limits.
 fn beyond(cases: &[&Case], limits: &Limits, pace: f64, begun: &BTreeMap<usize, Instant>) -> Vec<usize> {
     let late = |k: usize, start: &Instant| {
-        limits.of(cases[k].name, pace).is_some_and(|limit| start.elapsed().as_secs_f64() > limit)
+        limits.limit(cases[k].name, pace).is_some_and(|limit| start.elapsed().as_secs_f64() > limit)
     };
     begun.iter().filter(|&(&k, start)| late(k, start)).map(|(&k, _)| k).collect()
 }
@@ -144,7 +144,7 @@ fn overrun(spent: f64) -> String {
 }
 
 /// Starts a thread that runs cases until there are no more, or until its case was given up.
-fn start(shared: &Arc<Shared>, sender: &Sender<Message>) -> io::Result<()> {
+fn start(shared: &Arc<PoolState>, sender: &Sender<Message>) -> io::Result<()> {
     let (shared, sender) = (Arc::clone(shared), sender.clone());
     let work = move || {
         loop {

@@ -1,7 +1,7 @@
 //! Selection of cases, and the outcome of the suite.
 
 use crate::case::{Case, Outcome};
-use crate::claim::{Judged, Mark, Verdict};
+use crate::claim::{JudgedClaim, Mark, Verdict};
 use crate::glob;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -43,7 +43,7 @@ impl Selection {
     ///
     /// # Errors
     /// If no case is selected.
-    pub fn of<'a>(&self, cases: &'a [Case]) -> Result<Vec<&'a Case>, SelectionError> {
+    pub fn select<'a>(&self, cases: &'a [Case]) -> Result<Vec<&'a Case>, SelectionError> {
         if cases.is_empty() {
             return Err(SelectionError::NoCases);
         }
@@ -83,7 +83,7 @@ pub struct Summary {
 
 impl Summary {
     /// Counts claims.
-    pub fn of<'a>(claims: impl IntoIterator<Item = &'a Judged>) -> Summary {
+    pub fn from_claims<'a>(claims: impl IntoIterator<Item = &'a JudgedClaim>) -> Summary {
         let mut summary = Summary::default();
         for claim in claims {
             match claim.verdict {
@@ -101,8 +101,8 @@ impl Summary {
     }
 
     /// Counts the claims of all outcomes.
-    pub fn of_all(outcomes: &[Outcome]) -> Summary {
-        Summary::of(outcomes.iter().flat_map(|outcome| &outcome.record.claims))
+    pub fn from_outcomes(outcomes: &[Outcome]) -> Summary {
+        Summary::from_claims(outcomes.iter().flat_map(|outcome| &outcome.record.claims))
     }
 
     /// Remarks on slack and thin bounds, in a sentence; empty if there are none.

@@ -8,7 +8,7 @@ use std::process::{Command, ExitStatus};
 
 /// A case that ended the process, and how.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Lost {
+pub struct LostCase {
     /// Name of the case.
     pub case: String,
     /// End of the process, as text.
@@ -23,7 +23,7 @@ pub struct State {
     /// True once the report is written.
     pub ended: bool,
     /// Cases that are not to be run, since they ended an earlier process.
-    pub lost: Vec<Lost>,
+    pub lost: Vec<LostCase>,
 }
 
 impl State {
@@ -54,7 +54,7 @@ pub fn supervise(
     mut suite: impl FnMut() -> Command,
     mut alone: impl FnMut(&str) -> Command,
 ) -> io::Result<ExitStatus> {
-    let mut lost: Vec<Lost> = Vec::new();
+    let mut lost: Vec<LostCase> = Vec::new();
     loop {
         State { lost: lost.clone(), ..State::default() }.write(path)?;
         let status = suite().status()?;
@@ -64,7 +64,7 @@ pub fn supervise(
         }
         let guilty = guilty(path, &state.running, &mut alone)?;
         lost.extend(
-            guilty.into_iter().map(|case| Lost { case, how: format!("the process ended: {status}") }),
+            guilty.into_iter().map(|case| LostCase { case, how: format!("the process ended: {status}") }),
         );
     }
 }

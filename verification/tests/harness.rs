@@ -2,25 +2,25 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use asperity_verification::case::Outcome;
-use asperity_verification::claim::{CONTROL_BOUNDS, Judged, Mark};
+use asperity_verification::claim::{CONTROL_BOUNDS, JudgedClaim, Mark};
 use asperity_verification::ledger::{Draft, OrderDraft};
 use asperity_verification::pool::{self, Limits};
 use asperity_verification::report::{self, coverage, json, junit, page, provenance::Provenance};
 use asperity_verification::suite::{Selection, SelectionError, Summary};
-use asperity_verification::supervise::{Lost, State, supervise};
+use asperity_verification::supervise::{LostCase, State, supervise};
 use asperity_verification::{
     Capability, Case, CaseError, Cost, Evidence, Floor, Ledger, Plot, Series, Verdict,
 };
 use std::path::Path;
 
-fn judge(write: impl FnOnce(Draft<'_>) -> Draft<'_>) -> Judged {
+fn judge(write: impl FnOnce(Draft<'_>) -> Draft<'_>) -> JudgedClaim {
     let mut ledger = Ledger::new(&[Capability::PlaneStrain]);
     let draft = ledger.claim("q").evidence(Evidence::Exact, "formula").because("rounding");
     write(draft).record();
     ledger.claims()[0].clone()
 }
 
-fn judge_order(write: impl FnOnce(OrderDraft<'_>) -> OrderDraft<'_>) -> (Judged, Judged) {
+fn judge_order(write: impl FnOnce(OrderDraft<'_>) -> OrderDraft<'_>) -> (JudgedClaim, JudgedClaim) {
     let mut ledger = Ledger::new(&[]);
     let draft = ledger.order("q").evidence(Evidence::Exact, "formula").because("theory");
     write(draft).record();
@@ -36,7 +36,7 @@ fn second_order(draft: OrderDraft<'_>) -> OrderDraft<'_> {
 }
 
 /// One claim of each kind that holds.
-fn holding() -> Vec<(&'static str, Judged)> {
+fn holding() -> Vec<(&'static str, JudgedClaim)> {
     vec![
         ("absolute", judge(|d| d.value(1.05).equals(1.0).absolute(0.1))),
         ("absolute, below", judge(|d| d.value(0.95).equals(1.0).absolute(0.1))),
@@ -197,7 +197,7 @@ fn case(run: fn(&mut Ledger) -> Result<(), CaseError>) -> Case {
 }
 
 fn good(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let (value, cost) = Cost::of(|| 1.05);
+    let (value, cost) = Cost::measure(|| 1.05);
     let cost = cost.count("solves", 3).counts(&serde_json::json!({ "steps": 4, "rejected": 0, "name": "x" }));
     let draft =
         ledger.claim("first <quantity>").unit("MPa").value(value).equals(1.0).absolute(0.1).cost(&cost);
@@ -218,7 +218,7 @@ fn good(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-fn only_claim(outcome: &Outcome) -> &Judged {
+fn only_claim(outcome: &Outcome) -> &JudgedClaim {
     assert_eq!(outcome.record.claims.len(), 1);
     &outcome.record.claims[0]
 }
@@ -231,7 +231,7 @@ fn a_case_that_fails_panics_or_says_nothing_disagrees() {
     assert_eq!(only_claim(&silent).verdict, Verdict::Disagrees);
     let panicking = case(|_| panic!("index {}", 3)).execute();
     assert_eq!(only_claim(&panicking).problem.as_deref(), Some("panicked: index 3"));
-    assert!(!Summary::of_all(&[failing, silent, panicking]).passes());
+    assert!(!Summary::from_outcomes(&[failing, silent, panicking]).passes());
 }
 
 #[test]
@@ -241,13 +241,13 @@ fn a_case_that_fails_late_keeps_what_it_claimed() {
         Err("later".into())
     })
     .execute();
-    let summary = Summary::of(&outcome.record.claims);
+    let summary = Summary::from_claims(&outcome.record.claims);
     assert_eq!((summary.hold, summary.disagree, summary.not_covered), (4, 1, 1));
 }
 
 #[test]
 fn the_last_line_counts_claims() {
-    let summary = Summary::of_all(&[case(good).execute()]);
+    let summary = Summary::from_outcomes(&[case(good).execute()]);
     assert_eq!(summary.to_string(), "claims: 4 hold, 0 disagree, 1 not covered");
     assert!(summary.passes());
     assert!(!Summary::default().passes(), "no claim is no success");
@@ -257,7 +257,7 @@ fn the_last_line_counts_claims() {
 fn an_empty_selection_is_an_error() {
     let long = Case { quick: false, ..case(good) };
     let choose = |glob: &str, full, cases: &[Case]| {
-        Selection { full, glob: Some(glob.to_owned()) }.of(cases).map(|chosen| chosen.len())
+        Selection { full, glob: Some(glob.to_owned()) }.select(cases).map(|chosen| chosen.len())
     };
     assert_eq!(choose("*", false, &[]), Err(SelectionError::NoCases));
     assert!(matches!(choose("x*", true, &[long]), Err(SelectionError::NoMatch { .. })));
@@ -310,15 +310,15 @@ fn round(value: &mut serde_json::Value) {
 }
 
 /// Folder of the report of a synthetic case, removed when dropped.
-struct Written(std::path::PathBuf);
+struct ReportFolder(std::path::PathBuf);
 
-impl Written {
-    fn new(name: &str) -> Written {
+impl ReportFolder {
+    fn new(name: &str) -> ReportFolder {
         let folder = std::env::temp_dir().join(format!("asperity-harness-{name}-{}", std::process::id()));
         std::fs::create_dir_all(folder.join("cases")).unwrap();
         std::fs::write(folder.join("cases/old.html"), "old").unwrap();
         report::write(&folder, &[case(good).execute()], &Provenance::gather(false, false, 1.0)).unwrap();
-        Written(folder)
+        ReportFolder(folder)
     }
 
     fn text(&self, file: &str) -> String {
@@ -326,7 +326,7 @@ impl Written {
     }
 }
 
-impl Drop for Written {
+impl Drop for ReportFolder {
     fn drop(&mut self) {
         let _ = std::fs::remove_dir_all(&self.0);
     }
@@ -346,7 +346,7 @@ const PAGES: [&str; 9] = [
 
 #[test]
 fn pages_show_claims_and_escape_text() {
-    let written = Written::new("texts");
+    let written = ReportFolder::new("texts");
     let index = written.text("index.html");
     assert!(index.contains("claims: 4 hold, 0 disagree, 1 not covered") && index.contains("A &lt;case&gt;"));
     let page = written.text("cases/synthetic.html");
@@ -368,7 +368,7 @@ fn pages_show_claims_and_escape_text() {
 
 #[test]
 fn pages_need_no_network() {
-    let written = Written::new("network");
+    let written = ReportFolder::new("network");
     for file in PAGES {
         let page = written.text(file);
         for name in ["http://www.w3.org/2000/svg", "http://www.w3.org/1998/Math/MathML"] {
@@ -383,7 +383,7 @@ fn pages_need_no_network() {
 
 #[test]
 fn every_page_is_stamped() {
-    let written = Written::new("stamp");
+    let written = ReportFolder::new("stamp");
     for file in PAGES {
         let page = written.text(file);
         for fact in ["command", "machine", "compiler", "threads", "date"] {
@@ -394,7 +394,7 @@ fn every_page_is_stamped() {
 
 #[test]
 fn links_between_pages_lead_to_files_and_anchors() {
-    let written = Written::new("links");
+    let written = ReportFolder::new("links");
     for file in PAGES {
         let page = written.text(file);
         let folder = Path::new(file).parent().unwrap();
@@ -527,7 +527,7 @@ fn numbers_are_printed_with_four_digits() {
 
 #[test]
 fn a_report_replaces_the_pages_of_an_earlier_one() {
-    let written = Written::new("replaces");
+    let written = ReportFolder::new("replaces");
     assert!(!written.0.join("cases/old.html").exists());
     for file in PAGES.into_iter().chain(["report.json", "cases/synthetic.json"]) {
         assert!(written.text(file).len() > 100, "{file}");
@@ -570,7 +570,7 @@ fn a_case_that_hangs_disagrees_by_its_name_and_the_others_run() {
     for jobs in [1, 2] {
         let outcomes = execute(&cases, jobs, &limits, |_| ());
         let disagree: Vec<usize> =
-            outcomes.iter().map(|outcome| Summary::of(&outcome.record.claims).disagree).collect();
+            outcomes.iter().map(|outcome| Summary::from_claims(&outcome.record.claims).disagree).collect();
         assert_eq!(disagree, [0, 1, 0]);
         let problem = only_claim(&outcomes[1]).problem.as_deref().unwrap();
         assert!(problem.contains("10 times its recorded time"), "{problem}");
@@ -580,10 +580,10 @@ fn a_case_that_hangs_disagrees_by_its_name_and_the_others_run() {
 #[test]
 fn limits_follow_the_pace_of_the_run_and_the_longest_case_where_there_is_no_record() {
     let limits = Limits { recorded: [("a".to_owned(), 30.0), ("b".to_owned(), 2.0)].into(), shortest: 6.0 };
-    assert_eq!(limits.of("a", 1.0), Some(300.0));
-    assert_eq!(limits.of("b", 1.5), Some(90.0));
-    assert_eq!(limits.of("new", 1.0), Some(300.0));
-    assert_eq!(Limits::default().of("a", 1.0), None);
+    assert_eq!(limits.limit("a", 1.0), Some(300.0));
+    assert_eq!(limits.limit("b", 1.5), Some(90.0));
+    assert_eq!(limits.limit("new", 1.0), Some(300.0));
+    assert_eq!(Limits::default().limit("a", 1.0), None);
     let ended = |wall| Outcome { wall, ..Case { name: "b", ..case(good) }.execute() };
     assert_eq!(limits.pace([&ended(5.0)]), 2.5);
     assert_eq!(limits.pace([&ended(1.0)]), 1.0);
@@ -600,14 +600,14 @@ fn killed(state: &Path, running: &str) -> std::process::Command {
 
 #[test]
 fn a_case_that_ends_its_process_is_left_out_and_named() {
-    let folder = Written::new("crash");
+    let folder = ReportFolder::new("crash");
     let state = folder.0.join("state.json");
     let alone = |_: &str| std::process::Command::new("true");
     let end = supervise(&state, || killed(&state, r#"["a"]"#), alone).unwrap();
     assert!(end.success());
     let State { lost, ended, .. } = State::read(&state).unwrap();
     let how = "the process ended: signal: 9 (SIGKILL)".to_owned();
-    assert_eq!((lost, ended), (vec![Lost { case: "a".into(), how: how.clone() }], true));
+    assert_eq!((lost, ended), (vec![LostCase { case: "a".into(), how: how.clone() }], true));
 
     // Of two that ran side by side, the one that also ends a process of its own.
     let alone = |case: &str| match case {
@@ -619,5 +619,5 @@ fn a_case_that_ends_its_process_is_left_out_and_named() {
         }
     };
     supervise(&state, || killed(&state, r#"["a","b"]"#), alone).unwrap();
-    assert_eq!(State::read(&state).unwrap().lost, [Lost { case: "b".into(), how }]);
+    assert_eq!(State::read(&state).unwrap().lost, [LostCase { case: "b".into(), how }]);
 }

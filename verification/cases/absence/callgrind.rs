@@ -76,7 +76,7 @@ fn read(text: &str) -> Instructions {
     let (mut file, mut function, mut called, mut is_call) = (None, "", "", false);
     for line in text.lines() {
         if let Some(path) = ["fl=", "fi=", "fe="].iter().find_map(|key| line.strip_prefix(key)) {
-            file = of_workspace(path);
+            file = workspace_path(path);
         } else if let Some(name) = line.strip_prefix("fn=") {
             function = name;
         } else if let Some(name) = line.strip_prefix("cfn=") {
@@ -106,7 +106,7 @@ fn read(text: &str) -> Instructions {
 }
 
 /// Path of a file of the workspace's crates, relative to its root.
-fn of_workspace(path: &str) -> Option<&str> {
+fn workspace_path(path: &str) -> Option<&str> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent()?.to_str()?;
     path.strip_prefix(root)?.strip_prefix('/').or(Some(path)).filter(|p| p.starts_with("crates/"))
 }

@@ -9,7 +9,7 @@ use crate::ledger::{Sheet, Table};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use callgrind::Instructions;
 use rayon::prelude::*;
-use scenes::Declared;
+use scenes::TermScene;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use terms::Term;
@@ -26,8 +26,8 @@ pub const CASE: Case = Case {
 const SOURCE: &str = "what is not declared is not computed";
 
 /// Measured run of a scene.
-struct Measured {
-    scene: Declared,
+struct MeasuredRun {
+    scene: TermScene,
     instructions: Instructions,
     state: Option<u64>,
     differing: Vec<PathBuf>,
@@ -44,7 +44,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         return Ok(());
     }
     let folder = Folder::new()?;
-    let runs: Vec<Result<Measured, CaseError>> = scenes
+    let runs: Vec<Result<MeasuredRun, CaseError>> = scenes
         .into_par_iter()
         .enumerate()
         .map(|(i, scene)| measure(scene, &folder.path().join(i.to_string())))
@@ -57,19 +57,19 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     if !callgrind::narrows_vectors() {
         ledger.not_covered("results under another vector width", "this processor has no vectors of 512 bits");
     }
-    let measured = runs.into_iter().collect::<Result<Vec<Measured>, CaseError>>()?;
+    let measured = runs.into_iter().collect::<Result<Vec<MeasuredRun>, CaseError>>()?;
     let names = crate_names(&measured);
     measured.iter().for_each(|run| ledger.sheet(sheet(run, &names)));
     crates(ledger, &measured, &names);
     Ok(())
 }
 
-fn measure(scene: Declared, folder: &Path) -> Result<Measured, CaseError> {
-    let (instructions, cost) = Cost::of(|| callgrind::run(&scene.text, folder));
+fn measure(scene: TermScene, folder: &Path) -> Result<MeasuredRun, CaseError> {
+    let (instructions, cost) = Cost::measure(|| callgrind::run(&scene.text, folder));
     let instructions = instructions.map_err(|e| format!("{}: {e}", scene.name))?;
     let state = state_bytes(folder.join("out/report.json"))?;
     let differing = callgrind::differing_from_native(folder)?;
-    Ok(Measured { scene, instructions, state, differing, cost })
+    Ok(MeasuredRun { scene, instructions, state, differing, cost })
 }
 
 /// Bytes of friction state in a report; none where bodies do not touch.
@@ -78,7 +78,7 @@ fn state_bytes(report: PathBuf) -> Result<Option<u64>, CaseError> {
     Ok(report["plan"]["state_bytes"].as_u64())
 }
 
-fn claims(ledger: &mut Ledger, run: &Measured) {
+fn claims(ledger: &mut Ledger, run: &MeasuredRun) {
     let name = run.scene.name;
     let (declared, absent): (Vec<Term>, Vec<Term>) =
         Term::ALL.iter().partition(|t| run.scene.terms.contains(t));
@@ -117,7 +117,7 @@ fn claims(ledger: &mut Ledger, run: &Measured) {
 }
 
 /// Results do not depend on threads, nor on the width of vectors.
-fn repeated(ledger: &mut Ledger, run: &Measured) {
+fn repeated(ledger: &mut Ledger, run: &MeasuredRun) {
     for path in &run.differing {
         ledger.note(format!("{}: {} differs from that under callgrind", run.scene.name, path.display()));
     }
@@ -135,13 +135,13 @@ fn repeated(ledger: &mut Ledger, run: &Measured) {
 }
 
 /// The page of a scene: what it declares, what was built for it, and what ran.
-fn sheet(run: &Measured, names: &BTreeSet<&str>) -> Sheet {
+fn sheet(run: &MeasuredRun, names: &BTreeSet<&str>) -> Sheet {
     let declared = |term: &Term| if run.scene.terms.contains(term) { "yes" } else { "no" };
     let row = |term: &Term| {
         vec![term.name().to_owned(), declared(term).to_owned(), written(term.instructions(&run.instructions))]
     };
     let state = run.state.map_or("none".to_owned(), |bytes| format!("{bytes} bytes"));
-    let crates = names.iter().map(|name| vec![(*name).to_owned(), written(of_crate(run, name))]);
+    let crates = names.iter().map(|name| vec![(*name).to_owned(), written(crate_instructions(run, name))]);
     let table = |title: &str, head: &[&str], rows: Vec<Vec<String>>| Table {
         title: title.to_owned(),
         head: head.iter().map(|&cell| cell.to_owned()).collect(),
@@ -159,22 +159,22 @@ fn sheet(run: &Measured, names: &BTreeSet<&str>) -> Sheet {
 }
 
 /// Names of the crates with instructions in any of these runs.
-fn crate_names(runs: &[Measured]) -> BTreeSet<&str> {
+fn crate_names(runs: &[MeasuredRun]) -> BTreeSet<&str> {
     let paths = runs.iter().flat_map(|run| run.instructions.keys());
     paths.filter_map(|path| path.split('/').nth(1)).collect()
 }
 
 /// Instructions in the files of a crate.
-fn of_crate(run: &Measured, name: &str) -> u64 {
+fn crate_instructions(run: &MeasuredRun, name: &str) -> u64 {
     let prefix = format!("crates/{name}/");
     run.instructions.iter().filter(|(path, _)| path.starts_with(&prefix)).map(|(_, count)| count).sum()
 }
 
 /// Instructions in the files of each crate.
-fn crates(ledger: &mut Ledger, runs: &[Measured], names: &BTreeSet<&str>) {
+fn crates(ledger: &mut Ledger, runs: &[MeasuredRun], names: &BTreeSet<&str>) {
     let head: Vec<&str> = ["scene"].into_iter().chain(names.iter().copied()).collect();
-    let row = |run: &Measured| {
-        let cells = names.iter().map(|name| written(of_crate(run, name)));
+    let row = |run: &MeasuredRun| {
+        let cells = names.iter().map(|name| written(crate_instructions(run, name)));
         std::iter::once(run.scene.name.to_owned()).chain(cells).collect::<Vec<String>>()
     };
     ledger.table("Instructions by crate", &head, runs.iter().map(row));

@@ -5,7 +5,7 @@ use crate::CaseError;
 use asperity_vary::SceneText;
 
 /// A scene that declares certain terms.
-pub struct Declared {
+pub struct TermScene {
     /// Name on the page.
     pub name: &'static str,
     /// Text of the scene.
@@ -20,7 +20,7 @@ pub struct Declared {
 const STATE: u64 = 16;
 
 /// All scenes of the case.
-pub fn all() -> Result<Vec<Declared>, CaseError> {
+pub fn all() -> Result<Vec<TermScene>, CaseError> {
     let contact: &[Term] = &[Bodies, Contact, Mortar];
     let friction: &[Term] = &[Bodies, Contact, Mortar, Friction];
     let rate: &[Term] = &[Bodies, Contact, Friction];
@@ -49,8 +49,8 @@ fn declared(
     scene: SceneText,
     terms: &'static [Term],
     state: Option<u64>,
-) -> Result<Declared, CaseError> {
-    Ok(Declared { name, text: scene.text()?, terms, state })
+) -> Result<TermScene, CaseError> {
+    Ok(TermScene { name, text: scene.text()?, terms, state })
 }
 
 fn elastic() -> SceneText {

@@ -35,7 +35,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 /// Runs a scene and returns its last samples.
 fn simulate(text: &str) -> Result<(Samples, Cost), CaseError> {
-    let (result, cost) = Cost::of(|| {
+    let (result, cost) = Cost::measure(|| {
         let scene = scene::read(text).map_err(|e| e.to_string())?;
         let plan = bodies::plan(&scene).map_err(|e| e.to_string())?;
         let mut record = Recorder::new();

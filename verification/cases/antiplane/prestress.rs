@@ -115,7 +115,7 @@ fn resolved(ledger: &mut Ledger, dip: f64) -> Result<(), CaseError> {
     let [xx, yy, xy] = PRESSED;
     let pressed = -(xx * x * x + yy * y * y + 2.0 * xy * x * y);
     let all = format!("{xx:?}, {yy:?}, -50e6, {xy:?}, {YZ:?}, {ZX:?}");
-    let (of_two, cost) = Cost::of(|| fault(dip, &format!("{YZ:?}, {ZX:?}"), "normal = \"50 MPa\""));
+    let (of_two, cost) = Cost::measure(|| fault(dip, &format!("{YZ:?}, {ZX:?}"), "normal = \"50 MPa\""));
     let ([_, shear], [normal, same]) = (tractions(&of_two?), tractions(&fault(dip, &all, "")?));
     for (what, found, exact) in [
         ("tau_0 of an initial stress given by yz and zx", shear, exact),

@@ -1,6 +1,6 @@
 //! A plate dragged over a rigid plane: the tangential displacements of Code_Aster's SSNV128.
 
-use super::texts::{Done, simulate};
+use super::texts::{BodyRun, simulate};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_vary::SceneText;
 
@@ -94,11 +94,11 @@ fn variant(n: usize, element: &str, measure: &str) -> Result<String, CaseError> 
 }
 
 /// Tangential displacements at the points \[um\].
-fn moved(done: &Done) -> Result<Vec<f64>, CaseError> {
+fn moved(done: &BodyRun) -> Result<Vec<f64>, CaseError> {
     POINTS.iter().map(|p| Ok(done.displacement(p)?[0] * 1e6)).collect()
 }
 
-fn row(name: &str, values: &[f64], reference: &[f64], done: &Done) -> [String; 5] {
+fn row(name: &str, values: &[f64], reference: &[f64], done: &BodyRun) -> [String; 5] {
     let text: Vec<String> = values.iter().map(|v| format!("{v:.3}")).collect();
     let error = values.iter().zip(reference).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     [

@@ -103,7 +103,7 @@ fn element<const D: usize>(ledger: &mut Ledger, kind: ElementKind, lower: [f64; 
     let mut covers: Vec<Capability> = vec![capability(kind)];
     covers.extend(if D == 2 { &CASE.covers[..4] } else { &CASE.covers[4..] });
     let count = variants(kind).count();
-    let (worst, cost) = Cost::of(|| {
+    let (worst, cost) = Cost::measure(|| {
         variants(kind).try_fold(0.0_f64, |worst, variant| {
             Ok::<_, CaseError>(worst.max(patch(kind, &material, variant, lower)?))
         })
@@ -120,7 +120,7 @@ fn element<const D: usize>(ledger: &mut Ledger, kind: ElementKind, lower: [f64; 
         .cost(&cost.count("patches", count as f64))
         .record();
     for (n, patch) in [(1, "a single element"), (2, "two elements an axis")] {
-        let (found, cost) = Cost::of(|| {
+        let (found, cost) = Cost::measure(|| {
             variants(kind).map(|v| spectrum(kind, &material, v, n, lower)).collect::<Result<Vec<_>, _>>()
         });
         let found = found?;

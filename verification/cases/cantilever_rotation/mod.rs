@@ -61,9 +61,9 @@ fn node_at(body: &Body<2>, place: [f64; 2]) -> usize {
 }
 
 /// Root moment over E I phi, height of the beam's midpoint over the diameter, the curve of moment against rotation, and the work.
-type Rolled = (f64, f64, Vec<(f64, f64)>, Work);
+type BendingResults = (f64, f64, Vec<(f64, f64)>, Work);
 
-fn roll(thickness: f64, cells: usize, steps: usize) -> Result<Rolled, CaseError> {
+fn roll(thickness: f64, cells: usize, steps: usize) -> Result<BendingResults, CaseError> {
     let mut body = beam(thickness, cells, true)?;
     let ends = body::side(&body.mesh, "right")?;
     let root = body::side(&body.mesh, "left")?;
@@ -92,7 +92,7 @@ fn rolled_up(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (mut levels, mut last, mut rest) = (Vec::new(), Cost::default(), Vec::new());
     let mut shape = (f64::NAN, f64::NAN);
     for thickness in [0.08, 0.04, 0.02] {
-        let (outcome, cost) = Cost::of(|| roll(thickness, CELLS, STEPS));
+        let (outcome, cost) = Cost::measure(|| roll(thickness, CELLS, STEPS));
         let (ratio, height, curve, work) = outcome?;
         let strain = TAU * thickness;
         levels.push((thickness, (ratio - 1.0).abs()));
@@ -229,7 +229,7 @@ fn forced(ledger: &mut Ledger) -> Result<(), CaseError> {
         .evidence(Evidence::SemiAnalytic, "Bisshopp and Drucker 1945, four digits as they are quoted")
         .because("the digits of the table")
         .record();
-    let (outcome, cost) = Cost::of(|| bend(thickness, 80, &alphas, 0.125));
+    let (outcome, cost) = Cost::measure(|| bend(thickness, 80, &alphas, 0.125));
     let (found, middle, body) = outcome?;
     let cost = cost.counts(&body.work);
     drawn::displacement(ledger, "Bent by P L^2/(E I) = 10", &body.mesh, &body.u, true)?;
@@ -259,7 +259,7 @@ fn thickness(ledger: &mut Ledger) -> Result<(), CaseError> {
     let exact = elastica(10.0);
     let (mut levels, mut last) = (Vec::new(), Cost::default());
     for thickness in [0.1, 0.05, 0.025] {
-        let (outcome, cost) = Cost::of(|| bend(thickness, 64, &[10.0], 0.125));
+        let (outcome, cost) = Cost::measure(|| bend(thickness, 64, &[10.0], 0.125));
         let (found, _, body) = outcome?;
         levels.push((thickness, (found[0][0] - exact[0]).hypot(found[0][1] - exact[1])));
         last = cost.counts(&body.work);
@@ -281,7 +281,7 @@ fn thickness(ledger: &mut Ledger) -> Result<(), CaseError> {
 fn refinement(ledger: &mut Ledger) -> Result<(), CaseError> {
     let thickness = 0.025;
     let tip = |cells: usize, step: f64| -> Result<([f64; 2], Cost), CaseError> {
-        let (outcome, cost) = Cost::of(|| bend(thickness, cells, &[10.0], step));
+        let (outcome, cost) = Cost::measure(|| bend(thickness, cells, &[10.0], step));
         let (found, _, body) = outcome?;
         Ok((found[0], cost.counts(&body.work)))
     };

@@ -165,7 +165,7 @@ impl Law {
     }
 
     /// Contribution of the state to friction: of a state variable in output form, or in steady state at a rate.
-    fn of_state(self, state: Option<f64>, rate: f64) -> f64 {
+    fn state_friction(self, state: Option<f64>, rate: f64) -> f64 {
         match (self, state) {
             (Self::Ageing, Some(psi)) => B * psi,
             (Self::Slip, Some(friction)) => friction,
@@ -177,7 +177,8 @@ impl Law {
     /// Shear traction \[Pa\] of a point that slides at a rate \[m/s\] under a normal traction \[Pa\], with the given state or in
     /// steady state.
     pub fn strength(self, normal: f64, rate: f64, state: Option<f64>) -> f64 {
-        let friction = A * (rate / (2.0 * V_REF) * ((MU + self.of_state(state, rate)) / A).exp()).asinh();
+        let friction =
+            A * (rate / (2.0 * V_REF) * ((MU + self.state_friction(state, rate)) / A).exp()).asinh();
         match self {
             Self::Coulomb | Self::Kinetic | Self::Weakening => MU * normal,
             Self::Capped => (MU * normal).min(CAP),

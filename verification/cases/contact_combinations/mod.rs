@@ -51,7 +51,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
             }));
         }
     }
-    claims(ledger, Table::of(&cells)?);
+    claims(ledger, Table::from_cells(&cells)?);
     closing(ledger)
 }
 
@@ -112,7 +112,7 @@ pub fn everything(ledger: &mut Ledger, kinematics: &[Kinematics]) -> Result<(), 
         let scene = scene::read(&cell.text()?).map_err(|error| error.to_string())?;
         drawn::stage(ledger, "One of the runs", &scene, "draw")?;
     }
-    claims(ledger, Table::of(&cells)?);
+    claims(ledger, Table::from_cells(&cells)?);
     Ok(())
 }
 

@@ -49,7 +49,7 @@ impl Table {
     ///
     /// # Errors
     /// If a run cannot be set up after its plan was accepted.
-    pub fn of(cells: &[Cell]) -> Result<Self, CaseError> {
+    pub fn from_cells(cells: &[Cell]) -> Result<Self, CaseError> {
         let done = AtomicUsize::new(0);
         let both = |cell: &Cell| {
             let ends =

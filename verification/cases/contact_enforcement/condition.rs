@@ -12,7 +12,7 @@ use asperity_plan::reading::scene::model::{EnforcementKind, Measure};
 use nalgebra::DMatrix;
 
 /// Condition number, in the 2-norm, of the tangent in stick on the matching mesh. Uzawa's method has that of the penalty method.
-pub fn of(kind: EnforcementKind, factor: f64) -> Result<f64, CaseError> {
+pub fn number(kind: EnforcementKind, factor: f64) -> Result<f64, CaseError> {
     let (scene, _) = super::scene(kind, factor, Measure::NodeToPoint, 4)?;
     let AnyPlan::Two(plan) = bodies::plan(&scene).map_err(|e| e.to_string())? else {
         return Err("the scene is not plane".into());

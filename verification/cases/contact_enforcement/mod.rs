@@ -68,7 +68,7 @@ impl Exact {
 }
 
 /// Results of a run.
-struct Found {
+struct EnforcementRun {
     report: RunReport,
     cost: Cost,
     /// Largest relative errors against the constrained problem: pressure, shear traction, slip.
@@ -122,11 +122,16 @@ fn scene(
     Ok((scene, exact))
 }
 
-fn run_one(kind: EnforcementKind, factor: f64, measure: Measure, lower: usize) -> Result<Found, CaseError> {
+fn run_one(
+    kind: EnforcementKind,
+    factor: f64,
+    measure: Measure,
+    lower: usize,
+) -> Result<EnforcementRun, CaseError> {
     let (scene, springs) = scene(kind, factor, measure, lower)?;
     let plan = bodies::plan(&scene).map_err(|e| e.to_string())?;
     let mut record = Recorder::new();
-    let (report, cost) = Cost::of(|| kinds::bodies::run(&plan, &mut record));
+    let (report, cost) = Cost::measure(|| kinds::bodies::run(&plan, &mut record));
     let report = report?;
     if let Outcome::Stopped { reason, .. } = &report.outcome {
         return Err(format!("stopped: {reason}").into());
@@ -147,7 +152,7 @@ fn run_one(kind: EnforcementKind, factor: f64, measure: Measure, lower: usize) -
         ]
     };
     let (press, last) = report.steps.first().zip(report.steps.last()).ok_or("no step")?;
-    Ok(Found {
+    Ok(EnforcementRun {
         errors: against(&rigid),
         springs: against(&springs),
         penetration: report.steps.iter().map(|s| s.penetration).fold(0.0, f64::max),
@@ -200,13 +205,18 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     conditions(ledger)
 }
 
-fn points(found: &[(f64, Found)]) -> Vec<(f64, f64)> {
+fn points(found: &[(f64, EnforcementRun)]) -> Vec<(f64, f64)> {
     found.iter().map(|(f, one)| (*f, one.errors[0].max(1e-16))).collect()
 }
 
-fn row(name: &str, factor: f64, kind: EnforcementKind, one: &Found) -> Result<[String; 9], CaseError> {
+fn row(
+    name: &str,
+    factor: f64,
+    kind: EnforcementKind,
+    one: &EnforcementRun,
+) -> Result<[String; 9], CaseError> {
     let [p, t, s] = one.errors.map(|e| format!("{e:.1e}"));
-    let condition = condition::of(kind, factor)?;
+    let condition = condition::number(kind, factor)?;
     Ok([
         name.to_string(),
         format!("{factor:e}"),
@@ -220,7 +230,7 @@ fn row(name: &str, factor: f64, kind: EnforcementKind, one: &Found) -> Result<[S
     ])
 }
 
-fn claim(ledger: &mut Ledger, kind: EnforcementKind, name: &str, found: &[(f64, Found)]) {
+fn claim(ledger: &mut Ledger, kind: EnforcementKind, name: &str, found: &[(f64, EnforcementRun)]) {
     match kind {
         EnforcementKind::Penalty => penalty(ledger, name, found),
         EnforcementKind::Uzawa => uzawa(ledger, name, found),
@@ -233,7 +243,7 @@ fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |a: f64, b| if b > a || b.is_nan() { b } else { a })
 }
 
-fn penalty(ledger: &mut Ledger, name: &str, found: &[(f64, Found)]) {
+fn penalty(ledger: &mut Ledger, name: &str, found: &[(f64, EnforcementRun)]) {
     for (factor, one) in found {
         ledger
             .claim(format!("pressure, shear traction and slip with the springs of {factor:e} E/h, {name}"))
@@ -282,7 +292,7 @@ fn penalty(ledger: &mut Ledger, name: &str, found: &[(f64, Found)]) {
         .record();
 }
 
-fn uzawa(ledger: &mut Ledger, name: &str, found: &[(f64, Found)]) {
+fn uzawa(ledger: &mut Ledger, name: &str, found: &[(f64, EnforcementRun)]) {
     let tolerance = TOLERANCE / 4.0;
     ledger
         .claim(format!(
@@ -343,7 +353,7 @@ fn uzawa(ledger: &mut Ledger, name: &str, found: &[(f64, Found)]) {
     }
 }
 
-fn unknowns(ledger: &mut Ledger, name: &str, found: &[(f64, Found)]) {
+fn unknowns(ledger: &mut Ledger, name: &str, found: &[(f64, EnforcementRun)]) {
     ledger
         .claim(format!("penetration with multipliers as unknowns, the largest over eight decades, {name}"))
         .unit("m")
@@ -392,7 +402,7 @@ fn conditions(ledger: &mut Ledger) -> Result<(), CaseError> {
         let mut points = Vec::new();
         for decade in DECADES {
             let factor = 10f64.powi(decade);
-            points.push((factor, condition::of(kind, factor)?));
+            points.push((factor, condition::number(kind, factor)?));
         }
         if kind == EnforcementKind::Penalty {
             let stiff: Vec<(f64, f64)> = points.iter().filter(|p| p.0 >= 1e3).copied().collect();

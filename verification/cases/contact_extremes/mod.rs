@@ -1,6 +1,6 @@
 //! Extreme meshes, ties, and changes that must not affect results: units, node numbers, the order of bodies.
 
-use super::contact_hard::scenes::{Done, Pair, block};
+use super::contact_hard::scenes::{HardContactRun, Pair, block};
 use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity::kinds;
@@ -49,7 +49,7 @@ const MEASURES: [&str; 2] = ["node-to-point", "mortar"];
 fn same(
     ledger: &mut Ledger,
     what: &str,
-    one: &Done,
+    one: &HardContactRun,
     (setting, other): (&str, &[f64]),
     why: &str,
 ) -> Result<(), CaseError> {
@@ -103,7 +103,7 @@ fn invariance(ledger: &mut Ledger) -> Result<(), CaseError> {
             .renamed("bodies.lower", "x_lower")
             .with("interfaces.contact.master", "x_lower.top")
             .with("stages[0].conditions[0].set", "x_lower.bottom");
-        let swapped = Done::of(&renamed.text()?)?;
+        let swapped = HardContactRun::from_text(&renamed.text()?)?;
         same(
             ledger,
             &format!("bodies in the other order, {measure}"),

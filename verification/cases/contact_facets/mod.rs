@@ -29,7 +29,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut levels = Vec::new();
     let mut plain = None;
     for cells in CELLS {
-        let way = Way::of(cells, &[])?;
+        let way = Way::new(cells, &[])?;
         rows.push(way.row("node-to-point", cells));
         levels.push((1.0 / cells as f64, way.swing()));
         if cells == COMPARED {
@@ -38,7 +38,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     }
     let mut tetrahedra = Vec::new();
     for cells in CELLS {
-        let way = Way::of(cells, &TETRAHEDRA)?;
+        let way = Way::new(cells, &TETRAHEDRA)?;
         rows.push(way.row("node-to-point, tet4", cells));
         tetrahedra.push((1.0 / cells as f64, way.swing()));
     }
@@ -67,7 +67,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         .covers(&[Capability::PenaltyContact3d, Capability::Coulomb])
         .record();
     let plain = plain.ok_or("nothing to compare with")?;
-    let smoothed = Way::of(COMPARED, &[Add("interfaces.contact.smoothing", "cubic")])?;
+    let smoothed = Way::new(COMPARED, &[Add("interfaces.contact.smoothing", "cubic")])?;
     ledger
         .claim("distance of friction from its mean along the way, smoothed faces over plain ones on the same mesh")
         .value(smoothed.swing() / plain.swing())
@@ -79,9 +79,9 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         .cost(&smoothed.cost)
         .record();
     rows.push(smoothed.row("smoothed", COMPARED));
-    rows.push(Way::of(COMPARED, &[MORTAR])?.row("mortar", COMPARED));
+    rows.push(Way::new(COMPARED, &[MORTAR])?.row("mortar", COMPARED));
     let both = [&[MORTAR][..], &TETRAHEDRA].concat();
-    rows.push(Way::of(COMPARED, &both)?.row("mortar, tet4", COMPARED));
+    rows.push(Way::new(COMPARED, &both)?.row("mortar, tet4", COMPARED));
     let head = [
         "measure",
         "cells",
@@ -111,7 +111,7 @@ struct Way {
 }
 
 impl Way {
-    fn of(cells: usize, changes: &[Change<'_>]) -> Result<Self, CaseError> {
+    fn new(cells: usize, changes: &[Change<'_>]) -> Result<Self, CaseError> {
         let flat = format!("[{}, {}, {}]", 3 * cells / 2, cells / 3, 3 * cells / 2);
         let round = format!("[{cells}, {}, {cells}]", cells / 2);
         let scene = SceneText::new(include_str!("scene.toml"))

@@ -4,7 +4,7 @@ pub mod scenes;
 
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_vary::SceneText;
-use scenes::{Done, Pair, block};
+use scenes::{HardContactRun, Pair, block};
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -42,7 +42,7 @@ fn sheared(share: f64, poisson: f64, measure: &str, sliding: &str) -> Result<Str
 }
 
 /// Claims the iterations of a single step.
-fn iterations(ledger: &mut Ledger, what: &str, done: &Done, bound: f64) {
+fn iterations(ledger: &mut Ledger, what: &str, done: &HardContactRun, bound: f64) {
     ledger
         .claim(format!("most Newton iterations of a step, {what}"))
         .value(done.most_iterations())
@@ -59,7 +59,7 @@ fn iterations(ledger: &mut Ledger, what: &str, done: &Done, bound: f64) {
 fn edge_of_slip(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (share, named) in [(1.0 - 1e-9, "a billionth below"), (1.0, "exactly at")] {
         for (measure, sliding) in [("node-to-point", "small"), ("mortar", "small")] {
-            let done = Done::of(&sheared(share, 0.0, measure, sliding)?)?;
+            let done = HardContactRun::from_text(&sheared(share, 0.0, measure, sliding)?)?;
             let what = format!("{named} the limit of friction everywhere, {measure}");
             let end = done.end()?;
             ledger
@@ -78,7 +78,7 @@ fn edge_of_slip(ledger: &mut Ledger) -> Result<(), CaseError> {
             iterations(ledger, &what, &done, 10.0);
         }
         for sliding in ["small", "finite"] {
-            let done = Done::of(&sheared(share, 0.3, "mortar", sliding)?)?;
+            let done = HardContactRun::from_text(&sheared(share, 0.3, "mortar", sliding)?)?;
             iterations(
                 ledger,
                 &format!("{named} the limit after uneven pressing, mortar, {sliding} sliding"),
@@ -93,7 +93,7 @@ fn edge_of_slip(ledger: &mut Ledger) -> Result<(), CaseError> {
 /// Beyond the limit load there is no solution: the run stops there, reports what slides, and keeps the last good state.
 fn limit_load(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (share, poisson) in [(1.0 + 1e-9, 0.0), (1.1, 0.0), (1.1, 0.3)] {
-        let done = Done::of(&sheared(share, poisson, "node-to-point", "small")?)?;
+        let done = HardContactRun::from_text(&sheared(share, poisson, "node-to-point", "small")?)?;
         let (time, reason) = done.stopped()?;
         ledger
             .claim(format!("shear over friction in the last good state, load to {share}, Poisson's ratio {poisson}"))

@@ -96,14 +96,14 @@ impl Pair {
     }
 
     /// Runs the scene.
-    pub fn run(&self) -> Result<Done, CaseError> {
-        Done::of(&self.text())
+    pub fn run(&self) -> Result<HardContactRun, CaseError> {
+        HardContactRun::from_text(&self.text())
     }
 }
 
 /// A run, completed or stopped.
 #[derive(Debug)]
-pub struct Done {
+pub struct HardContactRun {
     /// Text of the scene.
     pub scene: String,
     /// Report.
@@ -114,13 +114,13 @@ pub struct Done {
     pub cost: Cost,
 }
 
-impl Done {
+impl HardContactRun {
     /// Runs the scene in `text`.
-    pub fn of(text: &str) -> Result<Self, CaseError> {
+    pub fn from_text(text: &str) -> Result<Self, CaseError> {
         let scene = scene::read(text).map_err(|e| format!("{e}\n{text}"))?;
         let plan = bodies::plan(&scene).map_err(|e| e.to_string())?;
         let mut record = Recorder::new().with_bodies().at_all_nodes();
-        let (report, cost) = Cost::of(|| kinds::bodies::run(&plan, &mut record));
+        let (report, cost) = Cost::measure(|| kinds::bodies::run(&plan, &mut record));
         let report = report?;
         let cost = cost.counts(&report.counts);
         Ok(Self { scene: text.to_owned(), report, record, cost })

@@ -36,7 +36,7 @@ impl Change {
     }
 
     /// A position or displacement in the transformed scene.
-    pub fn of(&self, x: [f64; 3]) -> [f64; 3] {
+    pub fn transform(&self, x: [f64; 3]) -> [f64; 3] {
         self.q.map(|row| self.size * row.iter().zip(x).map(|(q, x)| q * x).sum::<f64>())
     }
 
@@ -111,7 +111,7 @@ impl Grid {
         writeln!(text, "{side} 1 \"bottom\"\n{side} 2 \"top\"\n{body} 3 \"all\"\n$EndPhysicalNames\n$Nodes")?;
         writeln!(text, "{}", (nx + 1) * (ny + 1) * (nz + 1))?;
         for (k, j, i) in walk([nz + 1, ny + 1, nx + 1]) {
-            let [x, y, z] = change.of(self.place([i, j, k]));
+            let [x, y, z] = change.transform(self.place([i, j, k]));
             writeln!(text, "{} {x:?} {y:?} {z:?}", self.number([i, j, k]))?;
         }
         let mut cells: Vec<(usize, usize, Vec<[usize; 3]>)> = Vec::new();

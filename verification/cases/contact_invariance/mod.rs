@@ -2,7 +2,7 @@
 
 pub mod bodies;
 
-use super::texts::{Done, simulate_in};
+use super::texts::{BodyRun, simulate_in};
 use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_vary::Change::{self as Vary, Add, With};
@@ -43,7 +43,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         let [same, changes @ ..] = Change::all(space);
         for measure in MEASURES {
             for enforcement in ENFORCEMENTS {
-                let reference = Found::of(space, measure, enforcement.1, &same)?;
+                let reference = ComparableRun::new(space, measure, enforcement.1, &same)?;
                 if !space && enforcement == ENFORCEMENTS[0] {
                     let svg = drawn::recorded(&reference.done.record, "drag")?;
                     ledger.picture(
@@ -53,7 +53,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
                     );
                 }
                 for change in &changes {
-                    let found = Found::of(space, measure, enforcement.1, change)?;
+                    let found = ComparableRun::new(space, measure, enforcement.1, change)?;
                     let where_ = if space { "in space" } else { "in the plane" };
                     ledger
                         .claim(format!(
@@ -80,15 +80,15 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Results of a run in the axes and units of the original scene.
-struct Found {
-    done: Done,
+struct ComparableRun {
+    done: BodyRun,
     normal: Vec<f64>,
     shear: Vec<f64>,
     forces: Vec<f64>,
 }
 
-impl Found {
-    fn of(
+impl ComparableRun {
+    fn new(
         space: bool,
         (name, measure, sliding): (&str, &[Vary<'_>], &str),
         enforcement: &str,
@@ -134,7 +134,7 @@ fn scene(
 ) -> Result<String, CaseError> {
     let axes = if space { "xyz" } else { "xy" };
     let motion = |v: [f64; 3]| {
-        let each = axes.chars().zip(change.of(v)).map(|(a, v)| format!("{a} = {{ to = {v:?} }}"));
+        let each = axes.chars().zip(change.transform(v)).map(|(a, v)| format!("{a} = {{ to = {v:?} }}"));
         each.collect::<Vec<_>>().join(", ")
     };
     let held = axes.chars().map(|a| format!("{a} = 0")).collect::<Vec<_>>().join(", ");

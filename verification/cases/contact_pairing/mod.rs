@@ -88,14 +88,14 @@ fn measure() -> NodeToPointMeasure<3> {
 }
 
 /// Gaps, and the limits of forward steps, along a path.
-struct Followed {
+struct PathRecord {
     gaps: Vec<f64>,
     /// Exits from triangles: differences in angle from the edges, in faces.
     exits: Vec<f64>,
 }
 
 /// Turns the slave about the axis.
-fn around(backwards: bool) -> Followed {
+fn around(backwards: bool) -> PathRecord {
     let mut measure = measure();
     let (mut geometry, start) = (Geometry::new(1), path(0.0, RADIUS));
     let (mut gaps, mut exits) = (Vec::new(), Vec::new());
@@ -125,7 +125,7 @@ fn around(backwards: bool) -> Followed {
         measure.commit(&geometry, &mut |_, _| ());
         before = moved;
     }
-    Followed { gaps, exits }
+    PathRecord { gaps, exits }
 }
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {

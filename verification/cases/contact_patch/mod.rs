@@ -39,7 +39,7 @@ fn patch(ledger: &mut Ledger, element: &str, covers: &[Capability]) -> Result<()
     if element == "quad9" {
         drawn::stage(ledger, "Pressed blocks of quad9", &scene, "press")?;
     }
-    let (run, cost) = Cost::of(|| sandwich::simulate(&scene));
+    let (run, cost) = Cost::measure(|| sandwich::simulate(&scene));
     let run = run?;
     let modulus = YOUNG / (1.0 - POISSON * POISSON);
     let exact = U_X / (50e-3 / modulus + h * 1e-3 / (100.0 * YOUNG));

@@ -51,7 +51,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// A completed run and the exact pressure of its scene.
-struct Done {
+struct PatchRun {
     report: RunReport,
     record: Recorder,
     exact: f64,
@@ -83,22 +83,22 @@ fn base(
     Ok(scene)
 }
 
-fn simulate(scene: &Scene, exact: f64) -> Result<Done, CaseError> {
+fn simulate(scene: &Scene, exact: f64) -> Result<PatchRun, CaseError> {
     let plan = bodies::plan(scene).map_err(|e| e.to_string())?;
     let mut record = Recorder::new().with_bodies();
-    let (report, cost) = Cost::of(|| kinds::bodies::run(&plan, &mut record));
+    let (report, cost) = Cost::measure(|| kinds::bodies::run(&plan, &mut record));
     let report = report?;
     match &report.outcome {
         Outcome::Completed => {
             let cost = cost.counts(&report.counts);
-            Ok(Done { report, record, exact, cost })
+            Ok(PatchRun { report, record, exact, cost })
         }
         Outcome::Stopped { reason, .. } => Err(format!("stopped: {reason}").into()),
         Outcome::Interrupted { .. } => Err("interrupted".into()),
     }
 }
 
-impl Done {
+impl PatchRun {
     fn tractions(&self) -> Result<Vec<f64>, CaseError> {
         let end = self.record.stage_end("press").ok_or("the stage was not reached")?;
         Ok(end.interfaces[0].normal_traction.clone())
@@ -131,7 +131,7 @@ impl Done {
 }
 
 /// Claims the nodal tractions and the equilibrium of a mortar run.
-fn passes(ledger: &mut Ledger, what: &str, done: &Done, covers: &[Capability]) -> Result<(), CaseError> {
+fn passes(ledger: &mut Ledger, what: &str, done: &PatchRun, covers: &[Capability]) -> Result<(), CaseError> {
     let tractions = done.tractions()?;
     ledger
         .claim(format!("traction of every slave node, mortar, {what}"))

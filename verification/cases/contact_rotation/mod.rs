@@ -1,6 +1,6 @@
 //! A pressed and sheared pair rotated as a whole: its contact forces rotate with it.
 
-use super::texts::{Done, simulate};
+use super::texts::{BodyRun, simulate};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_vary::Change::{self, Add, With};
 use asperity_vary::SceneText;
@@ -80,7 +80,7 @@ fn size(v: [f64; 3]) -> f64 {
 }
 
 /// Largest |F - R F0|/|F0| over the steps of the rotation by `angle` \[rad\].
-fn deviation(done: &Done, axis: [f64; 3], angle: f64) -> Result<f64, CaseError> {
+fn deviation(done: &BodyRun, axis: [f64; 3], angle: f64) -> Result<f64, CaseError> {
     let forces = done.force("contact")?;
     let first = done.steps_until("shear")?;
     let (start, times) = (forces[first - 1], done.record.times());
@@ -95,7 +95,7 @@ fn deviation(done: &Done, axis: [f64; 3], angle: f64) -> Result<f64, CaseError> 
 fn total_form(
     ledger: &mut Ledger,
     what: &str,
-    done: &Done,
+    done: &BodyRun,
     axis: [f64; 3],
     capability: Capability,
 ) -> Result<[String; 4], CaseError> {

@@ -51,7 +51,7 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 fn hoop(
     ledger: &mut Ledger,
     name: &str,
-    done: &crate::cases::texts::Done,
+    done: &crate::cases::texts::BodyRun,
     radial: f64,
     capability: Capability,
 ) -> Result<(), CaseError> {

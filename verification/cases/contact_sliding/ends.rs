@@ -1,7 +1,7 @@
 //! Sliding over segments, past the end of the master, and back.
 
 use super::{MEASURES, with_friction};
-use crate::cases::texts::{Done, simulate, work};
+use crate::cases::texts::{BodyRun, simulate, work};
 use crate::{Capability, CaseError, Evidence, Ledger};
 use asperity_vary::Change::{self, Add, With};
 use asperity_vary::SceneText;
@@ -86,7 +86,7 @@ struct Cycle {
 }
 
 impl Cycle {
-    fn second(done: &Done) -> Result<Cycle, CaseError> {
+    fn second(done: &BodyRun) -> Result<Cycle, CaseError> {
         let from = done.steps_until("back")? - 1;
         let force: Vec<f64> = done.force("top")?[from..].iter().map(|f| f[0]).collect();
         let place = |t: &f64| TRAVEL * (1.0 - (t - 4.0).abs());
@@ -104,8 +104,8 @@ impl Cycle {
 fn returns(
     ledger: &mut Ledger,
     name: &str,
-    smooth: &Done,
-    rough: &Done,
+    smooth: &BodyRun,
+    rough: &BodyRun,
     capability: Capability,
 ) -> Result<(), CaseError> {
     for (done, friction, first) in [(smooth, "without friction", "press"), (rough, "with friction", "back")] {

@@ -1,6 +1,6 @@
 //! A round die drawn over a soft slab: oscillation of the force with facets, smoothed facets, arcs and mortar.
 
-use crate::cases::texts::{Done, simulate_in, work};
+use crate::cases::texts::{BodyRun, simulate_in, work};
 use crate::{Capability, CaseError, Evidence, Ledger, Plot, Series};
 use asperity_vary::Change::{self, Add, With};
 use asperity_vary::SceneText;
@@ -63,7 +63,7 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (mut rows, mut flat) = (Vec::new(), 0.0);
     for v in &VARIANTS {
         let done = simulate_in(&SceneText::new(SCENE).changed(v.changes).text()?, "contact_sliding")?;
-        let steady = Steady::of(&done)?;
+        let steady = Steady::from_run(&done)?;
         match v.bound {
             None => flat = steady.oscillation,
             Some((bound, because)) => oscillates_less(ledger, v, &steady, (bound, because), flat, &done),
@@ -107,7 +107,7 @@ fn oscillates_less(
     steady: &Steady,
     bound: (f64, &str),
     flat: f64,
-    done: &Done,
+    done: &BodyRun,
 ) {
     ledger
         .claim(format!("peak to peak of the drawing force over its mean, {}", v.name))
@@ -143,7 +143,7 @@ struct Steady {
 }
 
 impl Steady {
-    fn of(done: &Done) -> Result<Steady, CaseError> {
+    fn from_run(done: &BodyRun) -> Result<Steady, CaseError> {
         let (times, forces) = (done.record.times(), done.force("die")?);
         let first = times.iter().take_while(|&&t| t < STEADY).count();
         let x: Vec<f64> = forces[first..].iter().map(|f| f[0]).collect();

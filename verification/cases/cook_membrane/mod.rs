@@ -136,7 +136,7 @@ fn tip(
     n: usize,
 ) -> Result<([f64; 2], Cost), CaseError> {
     let material = Elastic::new(variant.young, variant.poisson)?;
-    let (result, cost) = Cost::of(|| {
+    let (result, cost) = Cost::measure(|| {
         let mesh = bodies::straight(bodies::unit_block(kind, [n; 2])?, |x| {
             [48.0 * x[0], 44.0 * x[0] + x[1] * (44.0 - 28.0 * x[0])]
         });

@@ -1,6 +1,6 @@
 //! Two blocks sheared back and forth under Coulomb friction: force, hysteresis loop, dissipated energy.
 
-use super::texts::{Done, simulate, work};
+use super::texts::{BodyRun, simulate, work};
 use crate::{Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
 use asperity_vary::Change::{self, Add, With};
 use asperity_vary::SceneText;
@@ -73,7 +73,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut rows = Vec::new();
     for (name, changes, covers) in variants {
         let done = simulate(&SceneText::new(SCENE).changed(&changes).text()?)?;
-        let run = Loop::of(&done)?;
+        let run = Loop::from_run(&done)?;
         run.force(ledger, name, covers, &done);
         // In 3D the records hold magnitudes only.
         if !covers.contains(&Capability::PenaltyContact3d) {
@@ -106,7 +106,7 @@ struct Loop {
 }
 
 impl Loop {
-    fn of(done: &Done) -> Result<Loop, CaseError> {
+    fn from_run(done: &BodyRun) -> Result<Loop, CaseError> {
         let from = done.steps_until("press")? - 1;
         let times = done.record.times()[from..].to_vec();
         let way = |t: &f64| match t - 1.0 {
@@ -134,7 +134,7 @@ impl Loop {
             .collect()
     }
 
-    fn force(&self, ledger: &mut Ledger, name: &str, covers: &[Capability], done: &Done) {
+    fn force(&self, ledger: &mut Ledger, name: &str, covers: &[Capability], done: &BodyRun) {
         ledger
             .claim(format!("shear force through two cycles, {name}"))
             .unit("N")
@@ -155,7 +155,7 @@ impl Loop {
         ledger: &mut Ledger,
         name: &str,
         covers: &[Capability],
-        done: &Done,
+        done: &BodyRun,
     ) -> Result<(), CaseError> {
         let put = work(&self.force, &self.way);
         let until = |stage: f64| self.times.iter().take_while(|&&t| t <= stage + 1e-9).count();

@@ -105,7 +105,7 @@ fn rupture_of(
     let mut before = vec![0.0; at.len()];
     let watched = at.iter().position(|x| (x - 4500.0).abs() < 0.1 * spacing).unwrap_or(0);
     let mut history = Vec::new();
-    let (result, cost) = Cost::of(|| {
+    let (result, cost) = Cost::measure(|| {
         steps(&problem, |run| {
             pass(run, &mut before, &mut times);
             history.push((run.time() - run.dt(), run.fault().rate[watched].abs()));

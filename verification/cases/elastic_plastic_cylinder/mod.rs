@@ -134,7 +134,7 @@ fn first_yield(ledger: &mut Ledger) -> Result<(), CaseError> {
     for n in [8, 16, 32, 64] {
         let mut body = Shape::Slice.body(ElementKind::Quad9, n, false)?;
         let load = body::unit_pressure(&body.mesh, "left", Idealisation::Axisymmetric)?;
-        let (step, c) = Cost::of(|| body.forward(&[], &scaled(&load, 0.2), 1.0));
+        let (step, c) = Cost::measure(|| body.forward(&[], &scaled(&load, 0.2), 1.0));
         let found = 0.2 * step?.fraction;
         let first = body::points(&body.mesh, Idealisation::Axisymmetric)[0][0];
         levels.push(((OUTER - INNER) / n as f64, (found / exact - 1.0).abs()));
@@ -165,7 +165,7 @@ fn first_yield(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 fn displacements(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let (outcome, cost) = Cost::of(|| pressed(Shape::Slice, ElementKind::Quad9, 64, 10));
+    let (outcome, cost) = Cost::measure(|| pressed(Shape::Slice, ElementKind::Quad9, 64, 10));
     let (slice, body) = outcome?;
     let cost = cost.counts(&body.work);
     let lame = hill(REFERENCE[0].0);
@@ -183,7 +183,7 @@ fn displacements(ledger: &mut Ledger) -> Result<(), CaseError> {
         .cost(&cost)
         .record();
     judge(ledger, "slice of 64 quad9, 10 load steps of 0.002 GPa each", &slice, 5e-5, &cost);
-    let (outcome, cost) = Cost::of(|| pressed(Shape::Ring, ElementKind::Quad9, 16, 10));
+    let (outcome, cost) = Cost::measure(|| pressed(Shape::Ring, ElementKind::Quad9, 16, 10));
     let (ring, ring_body) = outcome?;
     let cost = cost.counts(&ring_body.work);
     judge(ledger, "quarter ring of 16 x 16 quad9, 10 load steps of 0.002 GPa each", &ring, 2e-4, &cost);
@@ -290,7 +290,7 @@ fn meshes(ledger: &mut Ledger) -> Result<(), CaseError> {
     {
         let (mut levels, mut work, mut last) = (Vec::new(), Vec::new(), Cost::default());
         for n in sizes {
-            let (outcome, cost) = Cost::of(|| pressed(Shape::Ring, kind, n, 10));
+            let (outcome, cost) = Cost::measure(|| pressed(Shape::Ring, kind, n, 10));
             let (found, body) = outcome?;
             let error = (found[4] / REFERENCE[4].1 - 1.0).abs();
             levels.push((1.0 / n as f64, error));
@@ -321,7 +321,7 @@ fn load_steps(ledger: &mut Ledger) -> Result<(), CaseError> {
     let reference = pressed(Shape::Slice, ElementKind::Quad9, n, 256)?.0[4];
     let (mut levels, mut last) = (Vec::new(), Cost::default());
     for steps in [1, 2, 4, 8, 16] {
-        let (outcome, cost) = Cost::of(|| pressed(Shape::Slice, ElementKind::Quad9, n, steps));
+        let (outcome, cost) = Cost::measure(|| pressed(Shape::Slice, ElementKind::Quad9, n, steps));
         let (found, body) = outcome?;
         levels.push((1.0 / steps as f64, (found[4] / reference - 1.0).abs()));
         last = cost.counts(&body.work);
@@ -375,7 +375,7 @@ fn limit_load(ledger: &mut Ledger) -> Result<(), CaseError> {
     ] {
         let (mut levels, mut last) = (Vec::new(), Cost::default());
         for n in sizes {
-            let (outcome, cost) = Cost::of(|| limit(Shape::Slice, kind, n));
+            let (outcome, cost) = Cost::measure(|| limit(Shape::Slice, kind, n));
             let (found, work) = outcome?;
             levels.push((1.0 / n as f64, (found / exact - 1.0).abs()));
             last = cost.counts(&work);
@@ -393,7 +393,7 @@ fn limit_load(ledger: &mut Ledger) -> Result<(), CaseError> {
             .cost(&last)
             .record();
     }
-    let (outcome, cost) = Cost::of(|| limit(Shape::Ring, ElementKind::Quad9, 8));
+    let (outcome, cost) = Cost::measure(|| limit(Shape::Ring, ElementKind::Quad9, 8));
     let (ring, work) = outcome?;
     ledger
         .claim("limit load, quarter ring of 8 x 8 quad9")

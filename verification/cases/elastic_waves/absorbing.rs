@@ -41,7 +41,7 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
         let mut found = Vec::new();
         for degrees in ANGLES {
             let ((left, reference), cost) = {
-                let (result, cost) = Cost::of(|| reflected(wave, degrees, energy));
+                let (result, cost) = Cost::measure(|| reflected(wave, degrees, energy));
                 (result?, cost)
             };
             found.push((degrees, left));

@@ -68,7 +68,7 @@ fn collide() -> Result<Collision, CaseError> {
 }
 
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let (collision, cost) = Cost::of(collide);
+    let (collision, cost) = Cost::measure(collide);
     let Collision { history, after, missing, overlap } = collision?;
     let step = history[1].0 - history[0].0;
     let impulse: f64 = history.iter().map(|(_, f)| f * step).sum();

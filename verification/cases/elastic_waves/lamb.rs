@@ -114,7 +114,7 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     let reference = Reference::read()?;
     let (mut levels, mut last) = (Vec::new(), (Vec::new(), Cost::default()));
     for n in [80, 160, 320] {
-        let (found, cost) = Cost::of(|| simulate(&reference, n));
+        let (found, cost) = Cost::measure(|| simulate(&reference, n));
         let found = found?;
         levels.push((EXTENT / n as f64, error(&reference, &found)));
         last = (found, cost.count("cells", (n * n) as f64));

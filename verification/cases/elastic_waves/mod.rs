@@ -51,7 +51,7 @@ fn stand(n: usize) -> Result<Standing, CaseError> {
     let mut problem = problem(bar, BAR, Idealisation::PlaneStress, 2.5 * PI / omega)?;
     let shape: Vec<f64> = problem.model.mesh.nodes.iter().map(|x| (k * x[0]).cos()).collect();
     problem.velocity = shape.iter().flat_map(|s| [*s, 0.0]).collect();
-    let (result, cost) = Cost::of(|| steps(&problem, |_| ()));
+    let (result, cost) = Cost::measure(|| steps(&problem, |_| ()));
     let last = result?;
     let budget = last.budget();
     // The mode of the lumped bar is the cosine at its nodes; the scheme advances it by phases ν with sin(ν/2) = c Δt/h sin(k h/2).

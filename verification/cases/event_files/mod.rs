@@ -1,6 +1,6 @@
 //! Events in the seismological formats QuakeML and CMTSOLUTION, with moment tensors and geographic locations.
 
-use crate::cases::written::Written;
+use crate::cases::written::WrittenRun;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_vary::SceneText;
 
@@ -124,7 +124,7 @@ struct Worst {
 }
 
 impl Worst {
-    fn add(&mut self, mechanism: &Mechanism, done: &Written) -> Result<(), CaseError> {
+    fn add(&mut self, mechanism: &Mechanism, done: &WrittenRun) -> Result<(), CaseError> {
         let events = done.files.table("events.csv")?;
         let moment = ROCK * AREA * events.only("mean_slip")?;
         let (xml, cmt) = (done.files.text("events.quakeml")?, done.files.text("CMTSOLUTION")?);
@@ -163,10 +163,10 @@ impl Worst {
 }
 
 /// A claim: its quantity, unit, value, bound, source and reason.
-type Stated = (&'static str, &'static str, f64, f64, &'static str, &'static str);
+type ClaimRow = (&'static str, &'static str, f64, f64, &'static str, &'static str);
 
 impl Worst {
-    fn claims(&self) -> [Stated; 8] {
+    fn claims(&self) -> [ClaimRow; 8] {
         let couple = "Aki and Richards: the double couple of strike, dip and rake, with Mrr = Mzz, Mtt = Mxx, Mpp = Myy, Mrt = Mxz, Mrp = -Myz, Mtp = -Mxy";
         [
             (
@@ -240,7 +240,7 @@ impl Worst {
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (mut worst, mut last) = (Worst::default(), None);
     for mechanism in &MECHANISMS {
-        let done = Written::of(&mechanism.scene()?)?;
+        let done = WrittenRun::from_text(&mechanism.scene()?)?;
         worst.add(mechanism, &done)?;
         last = Some(done.cost);
     }

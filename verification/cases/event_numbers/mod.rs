@@ -3,7 +3,7 @@
 mod history;
 mod slow;
 
-use crate::cases::written::Written;
+use crate::cases::written::WrittenRun;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use history::Histories;
 
@@ -52,7 +52,7 @@ const SERIES: &str =
 
 /// A pair of blocks that slips uniformly, beside a pair that creeps.
 fn pairs(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let done = Written::of(include_str!("pairs.toml"))?;
+    let done = WrittenRun::from_text(include_str!("pairs.toml"))?;
     let events = done.files.table("events.csv")?;
     let of = |name: &str| events.only(name);
     let [slip, duration, moment] = [of("mean_slip")?, of("duration")?, of("moment")?];
@@ -126,7 +126,7 @@ fn pairs(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Claims hypocentre and slip of the uniform event.
-fn nucleates(ledger: &mut Ledger, done: &Written) -> Result<(), CaseError> {
+fn nucleates(ledger: &mut Ledger, done: &WrittenRun) -> Result<(), CaseError> {
     let events = done.files.table("events.csv")?;
     let on_its_fault = events.words("surface")? == ["rupture"] && events.only("y")? >= -3e3 - 1e-6;
     ledger
@@ -154,7 +154,7 @@ fn nucleates(ledger: &mut Ledger, done: &Written) -> Result<(), CaseError> {
 
 /// Blocks that slide steadily at 1 m/s, after 1 mm/s.
 fn stable(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let done = Written::of(include_str!("stable.toml"))?;
+    let done = WrittenRun::from_text(include_str!("stable.toml"))?;
     let rows = done.files.table("stations/main_dp000")?;
     let (times, slips) = (rows.column("t")?, rows.column("slip")?);
     let (time, slip) = times.iter().zip(&slips).next_back().ok_or("no row")?;
@@ -209,7 +209,7 @@ struct Sums {
 }
 
 impl Sums {
-    fn of(histories: &Histories, from: f64, to: f64) -> Self {
+    fn from_histories(histories: &Histories, from: f64, to: f64) -> Self {
         let slips: Vec<f64> = (0..POINTS).map(|k| histories.slipped(k, from, to)).collect();
         let largest = slips.iter().copied().fold(0.0, f64::max);
         let (mut area, mut potency, mut work) = (0.0, 0.0, 0.0);
@@ -229,11 +229,11 @@ impl Sums {
 
 /// Claims of an event with non-uniform slip.
 fn rupture(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let done = Written::of(include_str!("rupture.toml"))?;
+    let done = WrittenRun::from_text(include_str!("rupture.toml"))?;
     let events = done.files.table("events.csv")?;
     let of = |name: &str| events.only(name);
     let (from, to) = (of("onset")?, of("onset")? + of("duration")?);
-    let sums = Sums::of(&Histories::read(&done.files, &done.files.names("stations")?)?, from, to);
+    let sums = Sums::from_histories(&Histories::read(&done.files, &done.files.names("stations")?)?, from, to);
     let cubics = "files of stations at all points, with cubics between rows; nodal areas of cells of 250 m";
     let digits = "the catalogue has 15 digits of the onset: half of 1e-5 s at 1 mm/s is 5e-9 m of 2 m; the slip of rows has ten digits";
     let between = "polynomials through four and through six rows differ by 3e-7 at the onset, where tractions fall fast";
@@ -274,7 +274,7 @@ fn rupture(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Claims that the event lies between its thresholds, and its largest slip rate.
-fn rates(ledger: &mut Ledger, done: &Written, (from, to): (f64, f64)) -> Result<(), CaseError> {
+fn rates(ledger: &mut Ledger, done: &WrittenRun, (from, to): (f64, f64)) -> Result<(), CaseError> {
     let events = done.files.table("events.csv")?;
     let histories = Histories::read(&done.files, &done.files.names("stations")?)?;
     let fastest = |time: f64| (0..POINTS).map(|k| histories.rate(k, time)).fold(0.0, f64::max);
@@ -307,7 +307,7 @@ fn rates(ledger: &mut Ledger, done: &Written, (from, to): (f64, f64)) -> Result<
 const UPPER: f64 = 1e3;
 
 /// Claims slip of the points, and its centroid in the report and in the file for seismologists.
-fn centroid(ledger: &mut Ledger, done: &Written, (from, to): (f64, f64)) -> Result<(), CaseError> {
+fn centroid(ledger: &mut Ledger, done: &WrittenRun, (from, to): (f64, f64)) -> Result<(), CaseError> {
     let slips = done.files.table("events/rupture_times_000.csv")?.column("slip")?;
     let histories = Histories::read(&done.files, &done.files.names("stations")?)?;
     let largest = slips.iter().copied().fold(0.0, f64::max);
@@ -360,7 +360,7 @@ fn integral<'a>(rows: impl Iterator<Item = &'a [f64; 2]>) -> f64 {
 }
 
 /// Claims moment rates: of the event, and through the run.
-fn moment_rates(ledger: &mut Ledger, done: &Written, sums: &Sums, end: f64) -> Result<(), CaseError> {
+fn moment_rates(ledger: &mut Ledger, done: &WrittenRun, sums: &Sums, end: f64) -> Result<(), CaseError> {
     let rows = done.files.table("events/moment_rate_000.csv")?.numbers();
     let rows: Vec<[f64; 2]> = rows.iter().map(|row| [row[0], row[1]]).collect();
     let (whole, half) = (integral(rows.iter()), integral(rows.iter().step_by(2)));
@@ -414,7 +414,7 @@ fn moment_rates(ledger: &mut Ledger, done: &Written, sums: &Sums, end: f64) -> R
 const RUPTURED: f64 = 0.1;
 
 /// Claims the rupture times and the largest slip rates of the points.
-fn rupture_times(ledger: &mut Ledger, done: &Written, (from, to): (f64, f64)) -> Result<(), CaseError> {
+fn rupture_times(ledger: &mut Ledger, done: &WrittenRun, (from, to): (f64, f64)) -> Result<(), CaseError> {
     let table = done.files.table("events/rupture_times_000.csv")?;
     let names = done.files.names("stations")?;
     let histories = Histories::read(&done.files, &names)?;

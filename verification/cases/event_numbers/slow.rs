@@ -1,7 +1,7 @@
 //! Slow events of a pair of blocks without a state, whose sides move faster at times, beside a pair that creeps.
 
 use super::spring;
-use crate::cases::written::Written;
+use crate::cases::written::WrittenRun;
 use crate::{CaseError, Evidence, Ledger};
 
 /// Normal traction \[Pa\], and the friction `mu0 + a ln(V/v_ref)`.
@@ -61,7 +61,7 @@ fn takes([from, to]: [f64; 2], load: f64) -> f64 {
 
 /// Claims the slow events.
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let done = Written::of(&scene())?;
+    let done = WrittenRun::from_text(&scene())?;
     let table = done.files.table("slow_events.csv")?;
     let fast = done.files.table("events.csv")?.column("onset")?;
     let of_drawn = table.words("surface")?.iter().filter(|name| **name == "drawn").count();

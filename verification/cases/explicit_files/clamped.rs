@@ -56,7 +56,7 @@ fn excess(t: f64) -> f64 {
 }
 
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let run = Waves::of(&scene())?;
+    let run = Waves::from_text(&scene())?;
     let table = run.files.table("stations/f_000")?;
     let times = table.column("t")?;
     let rate = |t: f64| 2.0 * excess(t).max(0.0);

@@ -68,7 +68,7 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
 fn front(ledger: &mut Ledger) -> Result<(), CaseError> {
     let times: Vec<f64> = (0..COLUMNS).map(|k| FIRST + APART * STEP * k as f64).collect();
     let tractions: Vec<f64> = times.iter().map(|t| 0.5 * RUPTURED / growth(*t, 1.0)).collect();
-    let run = Waves::of(&scene(&tractions, CELLS, END)?)?;
+    let run = Waves::from_text(&scene(&tractions, CELLS, END)?)?;
     let table = run.files.table("rupture_times.csv")?;
     // Two points for each column.
     let exact: Vec<f64> = times.iter().flat_map(|t| [*t; 2]).collect();
@@ -116,7 +116,7 @@ fn error(run: &Waves) -> Result<f64, CaseError> {
 }
 
 fn order(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let runs = LEVELS.map(|cells| Waves::of(&scene(&[TRACTION], cells, END)?)).into_iter();
+    let runs = LEVELS.map(|cells| Waves::from_text(&scene(&[TRACTION], cells, END)?)).into_iter();
     let runs = runs.collect::<Result<Vec<_>, CaseError>>()?;
     let mut levels = Vec::new();
     for (cells, run) in LEVELS.iter().zip(&runs) {
@@ -143,7 +143,7 @@ fn order(ledger: &mut Ledger) -> Result<(), CaseError> {
 /// Energies of a run that is resumed at every step.
 fn energy(ledger: &mut Ledger) -> Result<(), CaseError> {
     let text = scene(&[TRACTION], LEVELS[1], END)?;
-    let (whole, parts) = (Waves::of(&text)?, Waves::in_parts(&text)?);
+    let (whole, parts) = (Waves::from_text(&text)?, Waves::in_parts(&text)?);
     for file in ["energy.csv", "moment_rate.csv", "rupture_times.csv", "slip_profiles.csv"] {
         let (one, other) = (whole.files.text(file)?, parts.files.text(file)?);
         let differing = one.lines().zip(other.lines()).filter(|(a, b)| a != b).count();

@@ -59,7 +59,7 @@ fn felt(t: f64, decay: f64) -> f64 {
 }
 
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let run = Waves::of(&scene())?;
+    let run = Waves::from_text(&scene())?;
     let table = run.files.table("stations/f_000")?;
     let decay = (2.0 * (SHEAR - MU * NORMAL) + RATE) / LENGTH;
     let rows: Vec<(f64, f64)> = table

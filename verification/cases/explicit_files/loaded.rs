@@ -82,7 +82,7 @@ fn drawn(ledger: &mut Ledger) -> Result<(), CaseError> {
     let dofs = side.iter().map(|(n, _)| 2 * n).collect();
     let spring = Spring { set: "block.right".into(), axis: 0, dofs, stiffness: 1.0, rate: Pace::Steady(1.0) };
     problem.stages[0].springs.push(spring);
-    let (last, cost) = Cost::of(|| run(&problem, |_| ()));
+    let (last, cost) = Cost::measure(|| run(&problem, |_| ()));
     let last = last?;
     let (omega, end) = (2.0_f64.sqrt(), 4.0);
     let found: Vec<f64> = side.iter().map(|(n, _)| last.displacement()[2 * n]).collect();
@@ -101,7 +101,7 @@ fn drawn(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 fn ramped(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let run = Waves::of(RAMPED)?;
+    let run = Waves::from_text(RAMPED)?;
     station(ledger, &run)?;
     header(ledger, &run)?;
     velocities(ledger, &run)?;

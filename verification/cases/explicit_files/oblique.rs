@@ -63,7 +63,7 @@ fn scene() -> Result<String, CaseError> {
 }
 
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let run = Waves::of(&scene()?)?;
+    let run = Waves::from_text(&scene()?)?;
     let table = run.files.table("moment_rate.csv")?;
     let times = table.column("time")?;
     // The modulus is 1, and the area 2.

@@ -92,7 +92,7 @@ impl Points {
 }
 
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let run = Waves::of(&scene(1.0))?;
+    let run = Waves::from_text(&scene(1.0))?;
     backwards(ledger, &run)?;
     let times = run.files.table("rupture_times.csv")?;
     let points = Points::read(&run, &times)?;
@@ -121,7 +121,7 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 /// Slip the other way: its profiles keep its sign, and nothing else changes.
 fn backwards(ledger: &mut Ledger, forwards: &Waves) -> Result<(), CaseError> {
-    let run = Waves::of(&scene(-1.0))?;
+    let run = Waves::from_text(&scene(-1.0))?;
     for (file, sign) in [
         ("rate_profiles.csv", 1.0),
         ("slip_profiles.csv", -1.0),

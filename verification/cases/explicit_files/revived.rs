@@ -72,7 +72,7 @@ fn rate(t: f64) -> f64 {
 }
 
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let run = Waves::of(&scene())?;
+    let run = Waves::from_text(&scene())?;
     let rows = run.files.table("rate_profiles.csv")?.numbers();
     let peak = (0..=4000).map(|k| rate(END * f64::from(k) / 4000.0)).fold(0.0, f64::max);
     // (k h)²/24 (1 - C²) is the lag of a wave over its way, whose part of the slip rate changes by its slope within it.

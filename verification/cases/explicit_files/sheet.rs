@@ -38,7 +38,7 @@ fn scene() -> String {
 }
 
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let run = Waves::of(&scene())?;
+    let run = Waves::from_text(&scene())?;
     let table = run.files.table("energy.csv")?;
     let speed = (1.0 / (1.0 - POISSON * POISSON)).sqrt();
     let wavenumber = TAU / speed * LENGTH / CELLS as f64;

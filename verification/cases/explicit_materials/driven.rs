@@ -65,7 +65,7 @@ fn measured() -> Result<([(f64, f64); 2], Cost), CaseError> {
             }
         }
     };
-    let (result, cost) = Cost::of(|| run(&problem, watch));
+    let (result, cost) = Cost::measure(|| run(&problem, watch));
     let steps = result?.steps() as f64;
     let of = |[c, s]: [f64; 2]| (c.hypot(s), c.atan2(s));
     Ok((sums.map(of), cost.count("steps", steps)))

@@ -73,7 +73,7 @@ fn push(wave: &Wave, cells: u32) -> Result<Bar, CaseError> {
         .with_or_same("bodies.bar.mesh.block.divisions[0]", cells)
         .with("stages[0].conditions[0].x", motion);
     let problem = problem(scene)?;
-    let (result, cost) = Cost::of(|| run(&problem, |_| ()));
+    let (result, cost) = Cost::measure(|| run(&problem, |_| ()));
     let last = result?;
     let cost = cost.count("cells", f64::from(cells)).count("steps", last.steps() as f64);
     let time = last.time() - 0.5 * last.dt();

@@ -40,7 +40,8 @@ fn stand(cells: u32) -> Result<Standing, CaseError> {
         problem(SceneText::new(SCENE).with_or_same("bodies.bar.mesh.block.divisions[0]", cells))?;
     problem.velocity = problem.model.mesh.nodes.iter().map(|x| (K * x[0]).cos()).collect();
     let mut history = Vec::new();
-    let (result, cost) = Cost::of(|| run(&problem, |run| history.push((run.time(), run.displacement()[0]))));
+    let (result, cost) =
+        Cost::measure(|| run(&problem, |run| history.push((run.time(), run.displacement()[0]))));
     let last = result?;
     let cost = cost.count("cells", f64::from(cells)).count("steps", last.steps() as f64);
     let off = history.iter().map(|(t, u)| (u - exact(*t)).abs()).fold(0.0, f64::max);

@@ -62,7 +62,7 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
         let budget = run.budget();
         energies.push(Energies { time, stored, work: budget.elastic, kinetic: budget.kinetic });
     };
-    let (result, cost) = Cost::of(|| run(&problem, watch));
+    let (result, cost) = Cost::measure(|| run(&problem, watch));
     let last = result?;
     let cost = cost.count("steps", last.steps() as f64);
     // The strain of a bar that spins is of the size ρ ω² l²/E, l half its length.

@@ -1,6 +1,6 @@
 //! Balances of a fault through earthquake cycles: energy, slip, and a restarted run.
 
-use crate::cases::followed::Followed;
+use crate::cases::followed::CycleRun;
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 
@@ -18,13 +18,13 @@ const TOLERANCES: [f64; 2] = [1e-4, 1e-6];
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let plan = seas::plan(include_str!("scene.toml"))?;
-    let [coarse, fine] = [Followed::with(&plan, TOLERANCES[0])?, Followed::with(&plan, TOLERANCES[1])?];
+    let [coarse, fine] = [CycleRun::with(&plan, TOLERANCES[0])?, CycleRun::with(&plan, TOLERANCES[1])?];
     energy(ledger, &coarse, &fine);
     slip(ledger, &fine)?;
     coarse.restarted(ledger, &plan, TOLERANCES[0])
 }
 
-fn energy(ledger: &mut Ledger, coarse: &Followed, fine: &Followed) {
+fn energy(ledger: &mut Ledger, coarse: &CycleRun, fine: &CycleRun) {
     let from = "work of loads on slip = elastic energy + work of friction + radiated energy";
     for (found, tolerance) in [coarse, fine].into_iter().zip(TOLERANCES) {
         ledger
@@ -42,7 +42,7 @@ fn energy(ledger: &mut Ledger, coarse: &Followed, fine: &Followed) {
     }
 }
 
-fn slip(ledger: &mut Ledger, found: &Followed) -> Result<(), CaseError> {
+fn slip(ledger: &mut Ledger, found: &CycleRun) -> Result<(), CaseError> {
     let last = found.report.cycles.last().ok_or("the run has no cycle")?;
     let closure = last.closure().ok_or("the loads drive no steady slip")?;
     ledger

@@ -143,7 +143,7 @@ fn statics(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut levels = [Vec::new(), Vec::new()];
     let mut last = None;
     for size in [1000.0, 500.0, 250.0] {
-        let (result, cost) = Cost::of(|| statics_of(size));
+        let (result, cost) = Cost::measure(|| statics_of(size));
         let tractions = result?;
         for (levels, error) in levels.iter_mut().zip(errors(&tractions)) {
             levels.push((size, error));

@@ -1,8 +1,8 @@
 //! Loads by backslip between bodies: a plane fault against sides and creep, and normal tractions of a curved one.
 
-use crate::cases::followed::Followed;
+use crate::cases::followed::CycleRun;
 use crate::cases::seas;
-use crate::cases::written::Written;
+use crate::cases::written::WrittenRun;
 use crate::{Capability, CaseError, Evidence, Ledger};
 use asperity_plan::faults::Plan;
 use asperity_vary::SceneText;
@@ -49,7 +49,7 @@ fn plane(ledger: &mut Ledger) -> Result<(), CaseError> {
     let plans = both("")?;
     let loads = plans.each_ref().map(|plan| plan.problem.loading.clone());
     let [moved, held] = plans;
-    let [moved, held] = [Followed::with(&moved, TOLERANCE)?, Followed::with(&held, TOLERANCE)?];
+    let [moved, held] = [CycleRun::with(&moved, TOLERANCE)?, CycleRun::with(&held, TOLERANCE)?];
     ledger
         .claim("backslip of a plane fault against sides and creep, both senses of slip: loads, largest difference over the largest")
         .value(worst)
@@ -60,7 +60,7 @@ fn plane(ledger: &mut Ledger) -> Result<(), CaseError> {
         .covers(&[Capability::FaultCycles, Capability::Antiplane])
         .cost(&held.cost)
         .record();
-    let third = |found: &Followed| found.onsets().get(2).map(|t| t / seas::YEAR).ok_or("no third event");
+    let third = |found: &CycleRun| found.onsets().get(2).map(|t| t / seas::YEAR).ok_or("no third event");
     ledger
         .claim("onset of the third event by backslip against sides and creep")
         .unit("yr")
@@ -154,7 +154,7 @@ fn beside(ledger: &mut Ledger) -> Result<(), CaseError> {
         ("moving sides", locked("", PLATES), 0.0),
         ("backslip, with the motion of the plates added", locked(&backslip, 0.0), 0.5 * PLATES),
     ] {
-        let done = Written::of(&text)?;
+        let done = WrittenRun::from_text(&text)?;
         let mut worst = [0.0_f64; 3];
         for (k, x) in PLACES.into_iter().enumerate() {
             let last = |table: &str, name: &str| -> Result<[f64; 2], CaseError> {
@@ -237,7 +237,7 @@ stop_after = {EVENTS}
 
 /// Largest change of normal traction of any point from the end of the third event to that of the last, over that at the start, and the
 /// events of the run.
-fn drift(plan: &Plan) -> Result<(f64, seas::Found), CaseError> {
+fn drift(plan: &Plan) -> Result<(f64, seas::CycleResults), CaseError> {
     let mut ends: Vec<Vec<f64>> = Vec::new();
     let found = seas::found(plan, &plan.problem.settings, |now| {
         if now.events().len() > ends.len() {

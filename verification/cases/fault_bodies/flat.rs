@@ -88,7 +88,7 @@ pub fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         for cells in LEVELS {
             let sides = r#"{ set = "crust.left", x = 0, y = 0 }, { set = "crust.right", x = 0, y = 0 }"#;
             let (plan, cost) =
-                Cost::of(|| bent("plane-strain", &parts(dip, cells, "quad9", ["", ""]), sides));
+                Cost::measure(|| bent("plane-strain", &parts(dip, cells, "quad9", ["", ""]), sides));
             for (list, error) in levels.iter_mut().zip(errors(&plan?, dip)) {
                 list.push((LENGTH / cells as f64, error));
             }
@@ -126,6 +126,6 @@ fn in_space(ledger: &mut Ledger) -> Result<(), CaseError> {
     let plane = bent("plane-strain", &parts(dip, cells, "quad4", ["", ""]), &on(&far, "x = 0, y = 0"))?;
     let parts = parts(dip, cells, "quad4", ["extrude = [0, 1e3]", "rake = [-1, 0, 0]"]);
     let conditions = on(&far, "x = 0, y = 0, z = 0") + &on(&["back", "front"], "z = 0");
-    let (solid, cost) = Cost::of(|| bent("3d", &parts, &conditions));
+    let (solid, cost) = Cost::measure(|| bent("3d", &parts, &conditions));
     drawn(ledger, "on a fault of dip 5 drawn", "plane-strain", (&plane, &solid?), &cost)
 }

@@ -107,7 +107,7 @@ const MEAN: f64 = 16e9;
 
 /// A crack between two media.
 fn interface(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let ((mixed, even), cost) = Cost::of(|| (joined(MODULI[0], MODULI[1]), joined(MEAN, MEAN)));
+    let ((mixed, even), cost) = Cost::measure(|| (joined(MODULI[0], MODULI[1]), joined(MEAN, MEAN)));
     let (mixed, even) = (mixed?, even?);
     let (s, mean) = (matrix(&mixed, false), matrix(&even, false));
     ledger
@@ -236,7 +236,7 @@ fn parallel(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut levels = [Vec::new(), Vec::new()];
     let mut last = None;
     for size in [2000.0, 1000.0, 500.0] {
-        let (plan, cost) = Cost::of(|| slabs(size));
+        let (plan, cost) = Cost::measure(|| slabs(size));
         for (list, error) in levels.iter_mut().zip(interaction(&plan?)) {
             list.push((size, error));
         }
@@ -473,7 +473,7 @@ fn arc_of(ledger: &mut Ledger, segments: Option<usize>, which: &str) -> Result<(
     let mut levels = [Vec::new(), Vec::new()];
     let mut last = None;
     for cells in [16, 32, 64] {
-        let (plan, cost) = Cost::of(|| curved(cells, segments));
+        let (plan, cost) = Cost::measure(|| curved(cells, segments));
         let (plan, size) = (plan?, RADIUS * FRAC_PI_4 / cells as f64);
         if cells == 64 && segments.is_none() {
             overlay(ledger, &plan);
@@ -521,7 +521,7 @@ fn arc_in_space(ledger: &mut Ledger) -> Result<(), CaseError> {
         let plane = bent(kinematics, &arc_parts(DRAWN, "", ""), &on(&far, held))?;
         let parts = arc_parts(DRAWN, "extrude = [0, 1e3]", &format!("rake = {rake}"));
         let conditions = on(&far, "x = 0, y = 0, z = 0") + &on(&["back", "front"], faces);
-        let (solid, cost) = Cost::of(|| bent("3d", &parts, &conditions));
+        let (solid, cost) = Cost::measure(|| bent("3d", &parts, &conditions));
         drawn(ledger, "on an arc drawn", kinematics, (&plane, &solid?), &cost)?;
     }
     Ok(())

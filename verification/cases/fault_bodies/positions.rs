@@ -103,7 +103,7 @@ fn stresses(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (normal, down) = ([-sine, cosine], [-cosine, -sine]);
     let (mut levels, mut last) = ([Vec::new(), Vec::new()], None);
     for size in [2000.0, 1000.0, 500.0] {
-        let (plan, cost) = Cost::of(|| halves("plane-strain", size, 0.0, &output));
+        let (plan, cost) = Cost::measure(|| halves("plane-strain", size, 0.0, &output));
         let plan = plan?;
         let (view, stresses) = plan.bodies.as_ref().zip(plan.stresses.as_ref()).ok_or("no stresses")?;
         let (mut worst, mut largest) = ([0.0_f64; 2], [0.0_f64; 2]);
@@ -153,7 +153,7 @@ fn strike_slip([x, y]: [f64; 2]) -> f64 {
 fn displacements(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (mut levels, mut last) = (Vec::new(), None);
     for size in [2000.0, 1000.0, 500.0] {
-        let (plan, cost) = Cost::of(|| halves("antiplane", size, 0.0, &receivers()));
+        let (plan, cost) = Cost::measure(|| halves("antiplane", size, 0.0, &receivers()));
         let plan = plan?;
         let slips = slips(&plan);
         let errors = plan.receivers.all.iter().zip(PLACES).map(|(receiver, at)| {

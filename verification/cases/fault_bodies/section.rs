@@ -1,6 +1,6 @@
 //! A section across a subduction zone between bodies of one rock, against the half-space without bodies.
 
-use crate::cases::seas::{self, Found};
+use crate::cases::seas::{self, CycleResults};
 use crate::cases::written::Folder;
 use crate::{Capability, CaseError, Evidence, Ledger};
 use asperity_cycles::operator::Form;
@@ -57,7 +57,7 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let follow = |plan: &Plan| seas::found(plan, &plan.problem.settings, |_| {});
     let (found, wanted) = (follow(&bodies)?, follow(&medium)?);
     // The first interval depends on the start.
-    let interval = |found: &Found| found.onsets[2] - found.onsets[1];
+    let interval = |found: &CycleResults| found.onsets[2] - found.onsets[1];
     ledger
         .claim("a section across a subduction zone, both bodies of one rock: interval of its events")
         .unit("yr")

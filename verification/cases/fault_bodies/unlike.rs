@@ -71,7 +71,7 @@ fn errors(plan: &Plan) -> ([f64; 2], [Vec<(f64, f64)>; 2]) {
 /// Claims on tractions of smooth slip.
 pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let coarse = errors(&plan(CELLS[0])?).0;
-    let (fine, cost) = Cost::of(|| plan(CELLS[1]));
+    let (fine, cost) = Cost::measure(|| plan(CELLS[1]));
     let (fine, drawn) = errors(&fine?);
     for (k, name) in ["shear", "normal"].into_iter().enumerate() {
         ledger

@@ -37,7 +37,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut rows = Vec::new();
     for (name, text) in [("BP1, 156 m", BP1), ("dip 30, 250 m", dipping.as_str())] {
         let dense = plan(text, Form::Dense)?;
-        let (compressed, cost) = Cost::of(|| plan(text, Form::Fitting));
+        let (compressed, cost) = Cost::measure(|| plan(text, Form::Fitting));
         let compressed = compressed?;
         products(ledger, name, &dense, &compressed, &cost);
         rows.push([
@@ -174,7 +174,7 @@ fn all_entries(ledger: &mut Ledger, name: &str, text: &str) -> Result<(), CaseEr
     let force = |t: &[f64], p: usize| t[p] * dense.points[p].area;
     let largest = (0..n).map(|p| force(&tractions(&dense, &unit(p), false), p).abs()).fold(0.0, f64::max);
     for tolerance in TOLERANCES {
-        let (compressed, cost) = Cost::of(|| plan(text, Form::Compressed { tolerance }));
+        let (compressed, cost) = Cost::measure(|| plan(text, Form::Compressed { tolerance }));
         let compressed = compressed?;
         for &normal in kinds {
             let mut sum = 0.0;

@@ -125,7 +125,7 @@ fn entries(ledger: &mut Ledger, example: &Example) -> Result<(), CaseError> {
     let wanted = units.concat();
     let mut rows = Vec::new();
     for tolerance in TOLERANCES {
-        let (compressed, cost) = Cost::of(|| plan(Form::Compressed { tolerance }));
+        let (compressed, cost) = Cost::measure(|| plan(Form::Compressed { tolerance }));
         let compressed = compressed?;
         let (found, of_uniform) = all(&compressed);
         rows.push([

@@ -127,10 +127,10 @@ bodies = true
 }
 
 /// Bodies, slip of all points \[m\] and displacements of all nodes \[m\].
-type Displaced<'a> = (&'a BodiesView, Vec<f64>, Vec<[f64; 3]>);
+type DisplacedBodies<'a> = (&'a BodiesView, Vec<f64>, Vec<[f64; 3]>);
 
 /// Displacements of all nodes under the slip of the problem, and that slip.
-fn displaced(plan: &Plan) -> Result<Displaced<'_>, CaseError> {
+fn displaced(plan: &Plan) -> Result<DisplacedBodies<'_>, CaseError> {
     let view = plan.bodies.as_ref().ok_or("the plan has not kept its bodies")?;
     let values: Vec<f64> = plan.points.iter().map(|p| slip(-p.at[1], p.at[2])).collect();
     let displacement = view.bodies.vectors(&values, 0.0);
@@ -188,7 +188,7 @@ fn overlay(ledger: &mut Ledger, view: &BodiesView, displacement: &[[f64; 3]]) {
 fn surface(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (mut levels, mut last) = (Vec::new(), None);
     for size in [2e3, 1e3, 0.5e3] {
-        let (found, cost) = Cost::of(|| plan(size, 4e3, [30e9; 2]));
+        let (found, cost) = Cost::measure(|| plan(size, 4e3, [30e9; 2]));
         let plan = found?;
         let (view, _, displacement) = displaced(&plan)?;
         // Nodes of the coarser mesh, at the fault and away from it.
@@ -229,7 +229,7 @@ fn contact(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut last = None;
     for size in [1.5e3, 1e3, 0.75e3] {
         let moduli = [10e9, 40e9];
-        let (found, cost) = Cost::of(|| plan(size, 3e3, moduli));
+        let (found, cost) = Cost::measure(|| plan(size, 3e3, moduli));
         let plan = found?;
         let (view, values, displacement) = displaced(&plan)?;
         let (mut jump, mut opening) = (0.0_f64, 0.0_f64);

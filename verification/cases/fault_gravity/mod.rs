@@ -144,7 +144,7 @@ fn overlay(ledger: &mut Ledger, plan: &Plan, case: &Dipping) {
 fn planes(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (dip, poisson) in [(60.0, 0.25), (30.0, 0.35), (45.0, 0.2), (75.0, 0.3)] {
         let case = Dipping { dip, poisson, element: "quad9", size: 1000.0, body: WEIGHS, before: "" };
-        let (plan, cost) = Cost::of(|| case.plan());
+        let (plan, cost) = Cost::measure(|| case.plan());
         let plan = plan?;
         if dip == 60.0 {
             overlay(ledger, &plan, &case);
@@ -157,7 +157,7 @@ name = "press"
 duration = "1 s"
 conditions = [{ set = "crust.left", x = 0 }, { set = "crust.right", x = 0 }, { set = "crust.bottom", y = 0 }]"#;
     let case = Dipping { dip: 60.0, poisson: 0.25, element: "quad9", size: 1000.0, body: WEIGHS, before };
-    let (plan, cost) = Cost::of(|| case.plan());
+    let (plan, cost) = Cost::measure(|| case.plan());
     let found = errors(&plan?, |z| case.exact(z));
     exact(ledger, "dip 60, nu 0.25, which acts in a stage of its own", &found, &cost);
     Ok(())
@@ -188,7 +188,7 @@ fn first_order(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut total = None;
     for size in [2000.0, 1000.0, 500.0, 250.0] {
         let case = Dipping { dip: 60.0, poisson: 0.25, element: "quad4", size, body: WEIGHS, before: "" };
-        let (plan, cost) = Cost::of(|| case.plan());
+        let (plan, cost) = Cost::measure(|| case.plan());
         let [normal, _] = errors(&plan?, |z| case.exact(z));
         levels.push((size, normal));
         total = Some(cost);
@@ -215,7 +215,7 @@ fn first_order(ledger: &mut Ledger) -> Result<(), CaseError> {
 fn with_stress(ledger: &mut Ledger) -> Result<(), CaseError> {
     let body = "gravity = [0, -9.81]\ninitial_stress = [\"-10 MPa\", \"-30 MPa\", \"0 MPa\"]";
     let case = Dipping { dip: 60.0, poisson: 0.25, element: "quad9", size: 1000.0, body, before: "" };
-    let (plan, cost) = Cost::of(|| case.plan());
+    let (plan, cost) = Cost::measure(|| case.plan());
     let plan = plan?;
     // On a plane of dip 60 degrees: f_n = 30/4 + 3/4 10, and τ is half the difference times sin 120.
     let stress = [15e6, -10e6 * 120f64.to_radians().sin()];
@@ -286,7 +286,7 @@ stepper = "fault-ode"
         held("L", "left"),
         held("R", "right"),
     );
-    let (plan, cost) = Cost::of(|| seas::plan(&text));
+    let (plan, cost) = Cost::measure(|| seas::plan(&text));
     let plan = plan?;
     let largest = plan.problem.fault.normal.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
     let off = plan.points.iter().zip(&plan.problem.fault.normal).map(|(point, normal)| {

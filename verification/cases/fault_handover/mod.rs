@@ -1,6 +1,6 @@
 //! Ruptures handed over to bodies with mass and back, where radiation damping is exact.
 
-use crate::cases::seas::{self, Found, YEAR};
+use crate::cases::seas::{self, CycleResults, YEAR};
 use crate::cases::slider_scene;
 use crate::{Axis, Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
 use asperity::kinds::sliders::Entry;
@@ -49,7 +49,7 @@ fn stiffness(width: f64) -> f64 {
 
 /// A run of slabs.
 struct Slabs {
-    found: Found,
+    found: CycleResults,
     episodes: Vec<Episode>,
     /// Imbalance of the energy budget at the end over its largest part.
     imbalance: f64,
@@ -81,7 +81,7 @@ fn slabs(scene: SceneText, width: f64) -> Result<Slabs, CaseError> {
 }
 
 /// Interval between the second and the third event \[yr\].
-fn interval(found: &Found) -> f64 {
+fn interval(found: &CycleResults) -> f64 {
     found.events[2].interval.unwrap_or(f64::NAN) / YEAR
 }
 

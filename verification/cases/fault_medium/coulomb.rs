@@ -1,10 +1,10 @@
 //! Changes of Coulomb stress over an event: at positions in space, and on a line and on another fault in the plane.
 
 use super::SHEAR_MODULUS;
-use super::receivers::{DIP, hanging, of_one_cell_with, one_cell, scene};
+use super::receivers::{DIP, hanging, one_cell, one_cell_event_with, scene};
 use crate::cases::dislocation::{self, Stress};
 use crate::cases::seas;
-use crate::cases::written::Written;
+use crate::cases::written::WrittenRun;
 use crate::{CaseError, Evidence, Ledger};
 use asperity_plan::faults::PointView;
 use nalgebra::Complex;
@@ -46,7 +46,7 @@ fn asked(wanted: &Reference, [strike, dip, rake]: [f64; 3]) -> String {
 
 /// Changes at positions in space over an event of one cell.
 fn in_space(ledger: &mut Ledger, wanted: &Reference) -> Result<(), CaseError> {
-    let (done, slip) = of_one_cell_with(&asked(wanted, wanted.planes[0]))?;
+    let (done, slip) = one_cell_event_with(&asked(wanted, wanted.planes[0]))?;
     let slip = hanging(&done) * slip;
     let table = done.files.table("events/coulomb_points_000.csv")?;
     let names = ["shear_change", "normal_change", "coulomb_change"].map(|name| table.column(name));
@@ -108,7 +108,7 @@ fn in_space(ledger: &mut Ledger, wanted: &Reference) -> Result<(), CaseError> {
 fn resolved(
     ledger: &mut Ledger,
     place: &str,
-    (done, name): (&Written, &str),
+    (done, name): (&WrittenRun, &str),
     [normal, slip]: [[f64; 3]; 2],
 ) -> Result<(), CaseError> {
     let table = done.files.table(name)?;
@@ -182,7 +182,7 @@ fn cells() -> Vec<Cell> {
 }
 
 /// A run with an event of one dipping cell beside another fault.
-fn beside_another() -> Result<Written, CaseError> {
+fn beside_another() -> Result<WrittenRun, CaseError> {
     let [_, lower] = cells()[0];
     let spacing = ((OTHER[1][0] - OTHER[0][0]).hypot(OTHER[1][1])) / CELLS as f64;
     let rest = format!(
@@ -192,7 +192,7 @@ fn beside_another() -> Result<Written, CaseError> {
          [output]\ncoulomb = {{ friction = {FRICTION:?}, dip = \"120 deg\", rake = \"90 deg\", depth = {DEPTH:?}, map = {{ spacing = 1e3, x = {{ from = -5200.0, to = 8800.0 }} }} }}\n\
          [events]\nabove = \"1e-3 m/s\"\nstop_after = 1\n"
     );
-    Written::of(&scene("plane-strain", "a = 0.010, b = 0.015, l = \"4 mm\"", "1000 yr", &rest))
+    WrittenRun::from_text(&scene("plane-strain", "a = 0.010, b = 0.015, l = \"4 mm\"", "1000 yr", &rest))
 }
 
 /// Changes along a line, and on both faults.
@@ -243,7 +243,7 @@ fn in_the_plane(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Stress across the plane, which has no strain.
-fn across_the_plane(ledger: &mut Ledger, done: &Written) -> Result<(), CaseError> {
+fn across_the_plane(ledger: &mut Ledger, done: &WrittenRun) -> Result<(), CaseError> {
     let table = done.files.table("events/coulomb_000.csv")?;
     let [xx, yy, zz] = ["stress_xx", "stress_yy", "stress_zz"].map(|name| table.column(name));
     let (xx, yy, zz) = (xx?, yy?, zz?);

@@ -32,7 +32,7 @@ pub(super) const LINEAR: f64 = 0.089;
 
 /// Runs the claims on surfaces given by depths.
 pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let (plan, cost) = Cost::of(planned);
+    let (plan, cost) = Cost::measure(planned);
     let plan = plan?;
     let outline = plan.faults[0].outline.as_ref().ok_or("the fault has no triangles")?;
     // x is across the trench and z along it.
@@ -67,7 +67,7 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 /// A surface given by a netCDF grid, and by the same numbers as text.
 fn grid(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (plans, cost) =
-        Cost::of(|| Ok::<_, CaseError>([on_grid("interface.grd")?, on_grid("interface.txt")?]));
+        Cost::measure(|| Ok::<_, CaseError>([on_grid("interface.grd")?, on_grid("interface.txt")?]));
     let [grid, text] = plans?;
     let outlines =
         [&grid, &text].map(|plan| plan.faults[0].outline.as_ref().ok_or("the fault has no triangles"));

@@ -77,7 +77,7 @@ fn scattered(ledger: &mut Ledger) -> Result<(), CaseError> {
         [part(std::f64::consts::SQRT_2), part(3_f64.sqrt())]
     }));
     let file = normal(&shares, linear)?;
-    let (plan, cost) = Cost::of(|| planned(&dipping(), &[("normal.csv", &file)]));
+    let (plan, cost) = Cost::measure(|| planned(&dipping(), &[("normal.csv", &file)]));
     ledger
         .claim("normal tractions from a linear field at 203 scattered positions of a dipping rectangle: largest error over the largest value")
         .value(off(&plan?, linear))
@@ -101,7 +101,7 @@ fn smooth(ledger: &mut Ledger) -> Result<(), CaseError> {
         let shares: Vec<[f64; 2]> =
             (0..=count).flat_map(|i| (0..=count).map(move |j| [i, j])).map(|ij| ij.map(part)).collect();
         let file = normal(&shares, wave)?;
-        let (plan, cost) = Cost::of(|| planned(&dipping(), &[("normal.csv", &file)]));
+        let (plan, cost) = Cost::measure(|| planned(&dipping(), &[("normal.csv", &file)]));
         levels.push((WIDTH / f64::from(count), off(&plan?, wave)));
         spent = Some(cost);
     }
@@ -141,7 +141,7 @@ fn on_a_map(ledger: &mut Ledger) -> Result<(), CaseError> {
     std::fs::write(folder.path().join("surfaces/nankai-style.txt"), SURFACE)?;
     std::fs::write(folder.path().join("depths.csv"), file)?;
     let read = || scene::read_in(&coarse, folder.path()).map_err(|e| e.to_string());
-    let (plan, cost) = Cost::of(|| plan_with(&read()?, Form::Dense).map_err(|e| e.to_string()));
+    let (plan, cost) = Cost::measure(|| plan_with(&read()?, Form::Dense).map_err(|e| e.to_string()));
     let plan = plan?;
     // x is across the trench and z along it.
     let off = plan.points.iter().zip(&plan.problem.fault.normal).map(|(point, found)| {

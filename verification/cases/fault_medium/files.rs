@@ -38,7 +38,7 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     ];
     for (what, name, field, bytes, source) in rows {
         let text = SceneText::new(&dipping()).with("faults.main.fields", field).text()?;
-        let (plan, cost) = Cost::of(|| beside(&text, &[(name, bytes)]));
+        let (plan, cost) = Cost::measure(|| beside(&text, &[(name, bytes)]));
         ledger
             .claim(format!(
                 "normal tractions of a dipping rectangle from {what}: largest error over the largest value"
@@ -75,7 +75,7 @@ fn on_a_map(ledger: &mut Ledger) -> Result<(), CaseError> {
         .add("faults.interface.fields", "{ normal = { file = \"map.grd\" } }")
         .text()?;
     let files: [(&str, &[u8]); 2] = [("map.grd", MAP), ("surfaces/nankai-style.txt", SURFACE.as_bytes())];
-    let (plan, cost) = Cost::of(|| beside(&text, &files));
+    let (plan, cost) = Cost::measure(|| beside(&text, &files));
     let plan = plan?;
     let off = plan.points.iter().zip(&plan.problem.fault.normal);
     let off = off.map(|(point, found)| (1e-6 * found - depth(1e-3 * point.at[0], 1e-3 * point.at[2])).abs());

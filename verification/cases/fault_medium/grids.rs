@@ -1,7 +1,7 @@
 //! Grids in the classic netCDF format, and the finite-fault model, of an event of several cells: values by their coordinates.
 
 use super::receivers::{DIP, STRIKE, rectangle, scene};
-use crate::cases::written::{Table, Written};
+use crate::cases::written::{Table, WrittenRun};
 use crate::{Capability, CaseError, Evidence, Ledger};
 
 /// Length and width of the fault, and the size of its cells \[m\].
@@ -86,7 +86,7 @@ impl Rest<'_> {
 }
 
 impl Grid {
-    fn read(done: &Written, name: &str) -> Result<Self, CaseError> {
+    fn read(done: &WrittenRun, name: &str) -> Result<Self, CaseError> {
         let bytes = std::fs::read(done.files.path().join("events").join(name))?;
         let mut rest = Rest(&bytes, &bytes);
         if rest.take(4)? != b"CDF\x01" {
@@ -137,7 +137,8 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
          longitude = \"20 deg\"\nstrike = \"{STRIKE} deg\"\nup = [0, 1, 0]\nalong = [0, 0, -1]\n"
     );
     let weakening = "a = 0.010, b = 0.015, l = \"4 mm\"";
-    let done = Written::of(&scene("3d", weakening, "1000 yr", &(rectangle(1.1e-9, SIZES) + &more)))?;
+    let done =
+        WrittenRun::from_text(&scene("3d", weakening, "1000 yr", &(rectangle(1.1e-9, SIZES) + &more)))?;
     maps(ledger, &done)?;
     let table = done.files.table("events/rupture_times_000.csv")?;
     slips(ledger, &done, &table)?;
@@ -146,7 +147,7 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Maps of the surface, whose first coordinate is z.
-fn maps(ledger: &mut Ledger, done: &Written) -> Result<(), CaseError> {
+fn maps(ledger: &mut Ledger, done: &WrittenRun) -> Result<(), CaseError> {
     let table = done.files.table("events/surface_000.csv")?;
     let (xs, zs) = (table.column("x")?, table.column("z")?);
     for component in ["east", "north", "up"] {
@@ -170,7 +171,7 @@ fn maps(ledger: &mut Ledger, done: &Written) -> Result<(), CaseError> {
 }
 
 /// Slip over distances along strike, which is -z, and down dip.
-fn slips(ledger: &mut Ledger, done: &Written, table: &Table) -> Result<(), CaseError> {
+fn slips(ledger: &mut Ledger, done: &WrittenRun, table: &Table) -> Result<(), CaseError> {
     let grid = Grid::read(done, "slip_000_main.grd")?;
     let cosine = DIP.to_radians().cos();
     let places = table.column("x")?.into_iter().zip(table.column("z")?);
@@ -201,7 +202,7 @@ fn slips(ledger: &mut Ledger, done: &Written, table: &Table) -> Result<(), CaseE
 }
 
 /// Depths, slip and moments of the subfaults, whose positions are the middles of their upper edges.
-fn subfaults(ledger: &mut Ledger, done: &Written, table: &Table) -> Result<(), CaseError> {
+fn subfaults(ledger: &mut Ledger, done: &WrittenRun, table: &Table) -> Result<(), CaseError> {
     let text = done.files.text("events/finite_fault_000.fsp")?;
     let lines = text.lines().filter(|line| !line.starts_with('%') && !line.trim().is_empty());
     let rows = lines.map(|line| line.split_whitespace().map(str::parse).collect::<Result<Vec<f64>, _>>());
@@ -229,7 +230,7 @@ fn subfaults(ledger: &mut Ledger, done: &Written, table: &Table) -> Result<(), C
 }
 
 /// Hypocentre on the fault, from its first end and its upper edge.
-fn hypocentre(ledger: &mut Ledger, done: &Written) -> Result<(), CaseError> {
+fn hypocentre(ledger: &mut Ledger, done: &WrittenRun) -> Result<(), CaseError> {
     let text = done.files.text("events/finite_fault_000.fsp")?;
     let entry = |name: &str| -> Result<f64, CaseError> {
         let after = text.split(&format!("{name} = ")).nth(1).ok_or_else(|| format!("no {name}"))?;

@@ -1,7 +1,7 @@
 //! Coupling of a fault to the plates that load it: locked above, creeping under constant stress below.
 
 use super::receivers::{PLATES_RAKE, RAKE, STABLE, direction, rectangle, scene};
-use crate::cases::written::Written;
+use crate::cases::written::WrittenRun;
 use crate::{CaseError, Evidence, Ledger, Plot, Series};
 use asperity_vary::SceneText;
 use std::f64::consts::FRAC_PI_2;
@@ -56,7 +56,7 @@ fn creeps(depth: f64) -> f64 {
 }
 
 /// The last row of a table of numbers.
-fn last(done: &Written, name: &str) -> Result<Vec<f64>, CaseError> {
+fn last(done: &WrittenRun, name: &str) -> Result<Vec<f64>, CaseError> {
     Ok(done.files.table(name)?.numbers().pop().ok_or("no row")?)
 }
 
@@ -72,7 +72,7 @@ fn ends(ledger: &mut Ledger) -> Result<(), CaseError> {
             "steady creep is kept to the tolerance of 1e-5 of ln V",
         ),
     ] {
-        let done = Written::of(&fault(rate, 500.0, "1 yr", ""))?;
+        let done = WrittenRun::from_text(&fault(rate, 500.0, "1 yr", ""))?;
         let rows = done.files.table("coupling_profiles.csv")?.numbers();
         let values = rows.iter().flat_map(|row| &row[1..]);
         let profiles = values.map(|c| (c - coupling).abs()).fold(0.0, f64::max);
@@ -103,7 +103,7 @@ fn oblique(ledger: &mut Ledger) -> Result<(), CaseError> {
             .add("faults.main.slip", "free")
             .add("faults.main.creep.rake", format!("{:?}", direction(rake)))
             .text()?;
-        let done = Written::of(&text)?;
+        let done = WrittenRun::from_text(&text)?;
         let found = *done.files.table("locking.csv")?.column("coupling of main")?.first().ok_or("no row")?;
         ledger
             .claim(format!("coupling at the start of a fault in space that slides {what} its plates"))
@@ -134,7 +134,7 @@ fn partly(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut figure = Plot::xy("Coupling below a locked part", "depth [km]", "coupling [-]");
     for cells in [50_u32, 100, 200] {
         let size = DEEPEST / f64::from(cells);
-        let done = Written::of(&fault(PLATES, size, "300 yr", &parts))?;
+        let done = WrittenRun::from_text(&fault(PLATES, size, "300 yr", &parts))?;
         let deficit = last(&done, "locking.csv")?[2];
         levels.push((size, (deficit / wanted - 1.0).abs()));
         if cells == 50 {
@@ -166,7 +166,7 @@ fn partly(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Coupling away from the ends of the creeping part.
-fn profile(ledger: &mut Ledger, done: &Written) -> Result<(), CaseError> {
+fn profile(ledger: &mut Ledger, done: &WrittenRun) -> Result<(), CaseError> {
     let row = last(done, "coupling_profiles.csv")?;
     let away = |z: f64| (z - LOCKED).abs() > 1e3 && z < DEEPEST - 1e3;
     let errors = done.plan.points.iter().zip(&row[1..]).filter(|(p, _)| away(p.along));
@@ -184,7 +184,7 @@ fn profile(ledger: &mut Ledger, done: &Written) -> Result<(), CaseError> {
 }
 
 /// Rates of moment and of moment deficit against the moment rate of the plates.
-fn balance(ledger: &mut Ledger, done: &Written) -> Result<(), CaseError> {
+fn balance(ledger: &mut Ledger, done: &WrittenRun) -> Result<(), CaseError> {
     let plates = SHEAR_MODULUS * PLATES * DEEPEST;
     let rates = done.files.table("moment_rate.csv")?.column("moment_rate of main")?;
     let deficits = done.files.table("locking.csv")?.column("moment_deficit_rate of main")?;

@@ -121,7 +121,7 @@ fn dislocations(dip: f64, cells: usize) -> [DMatrix<f64>; 2] {
 fn dipping(ledger: &mut Ledger) -> Result<(), CaseError> {
     let cells = 40;
     for dip in [90.0, 60.0, 10.0, 5.0, 2.0] {
-        let (plan, cost) = Cost::of(|| seas::plan(&line("plane-strain", dip, f64::from(cells))));
+        let (plan, cost) = Cost::measure(|| seas::plan(&line("plane-strain", dip, f64::from(cells))));
         let plan = plan?;
         let wanted = dislocations(dip, cells as usize);
         let mut worst = difference(&matrix(&plan, false), &wanted[0]);
@@ -162,7 +162,7 @@ fn long_rectangles(ledger: &mut Ledger) -> Result<(), CaseError> {
         let mut worst = [0.0_f64; 2];
         let mut spent = None;
         for (rake, kinematics) in [([0.0, 0.0, 1.0], "antiplane"), ([-c, s, 0.0], "plane-strain")] {
-            let (found, cost) = Cost::of(|| seas::plan(&column(dip, length, rake, rows)));
+            let (found, cost) = Cost::measure(|| seas::plan(&column(dip, length, rake, rows)));
             let found = found?;
             let plane = seas::plan(&line(kinematics, dip, rows as f64))?;
             let slip: Vec<f64> = (0..rows).map(|k| (1.0 + k as f64).sqrt()).collect();
@@ -240,7 +240,7 @@ fn cracks(ledger: &mut Ledger) -> Result<(), CaseError> {
         let mut levels = Vec::new();
         let mut spent = None;
         for cells in [20, 40, 80, 160] {
-            let (plan, cost) = Cost::of(|| cracked(kinematics, kind, cells));
+            let (plan, cost) = Cost::measure(|| cracked(kinematics, kind, cells));
             let plan = plan?;
             let slip = slip(&plan)?;
             let found: f64 = plan.points.iter().zip(slip.iter()).map(|(p, s)| p.area * s).sum();
@@ -291,7 +291,7 @@ fn disc(ledger: &mut Ledger) -> Result<(), CaseError> {
             -A,
             2.0 * A
         );
-        let (plan, cost) = Cost::of(|| seas::plan(&still("3d", "whole-space", &geometry)));
+        let (plan, cost) = Cost::measure(|| seas::plan(&still("3d", "whole-space", &geometry)));
         let plan = plan?;
         let n = plan.points.len();
         let inside: Vec<usize> =
@@ -341,7 +341,7 @@ fn disc(ledger: &mut Ledger) -> Result<(), CaseError> {
 /// Plans of a scene with the operator of a grid and with a dense one, and the cost of the first.
 fn both_forms(text: &str) -> Result<([Plan; 2], Cost), CaseError> {
     let scene = scene::read(text).map_err(|e| e.to_string())?;
-    let (fast, cost) = Cost::of(|| plan_with(&scene, Form::Fitting));
+    let (fast, cost) = Cost::measure(|| plan_with(&scene, Form::Fitting));
     let plans = [fast, plan_with(&scene, Form::Dense)];
     let [fast, dense] = plans.map(|p| p.map_err(|e| e.to_string()));
     let (fast, dense) = (fast?, dense?);
@@ -400,7 +400,7 @@ fn grid(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Runs BP1 in the half-space with cells of this size \[m\] up to some event.
-fn bp1(size: f64, events: usize) -> Result<(seas::Found, Vec<(f64, f64)>), CaseError> {
+fn bp1(size: f64, events: usize) -> Result<(seas::CycleResults, Vec<(f64, f64)>), CaseError> {
     let text = SceneText::new(include_str!("../../../scenes/bp1-half-space.toml"))
         .with("faults.main.line.spacing", format!("{size} m"))
         .text()?;

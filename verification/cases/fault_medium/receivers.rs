@@ -1,7 +1,7 @@
 //! Motion of receivers in the rock: between events beside locked faults, beside faults that creep, and over an event.
 
 use crate::cases::okada::Rectangle;
-use crate::cases::written::{Table, Written};
+use crate::cases::written::{Table, WrittenRun};
 use crate::{CaseError, Evidence, Ledger};
 use asperity_vary::SceneText;
 use std::f64::consts::PI;
@@ -63,13 +63,13 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// A vertical fault in antiplane motion that slides at this rate, with receivers at the surface.
-fn antiplane(rate: f64) -> Result<Written, CaseError> {
+fn antiplane(rate: f64) -> Result<WrittenRun, CaseError> {
     let at = DISTANCES.map(|(name, x)| format!("receivers.{name} = [{x:?}, 0.0]\n")).concat();
     let line = format!(
         "line = {{ trace = [[0.0, 0.0], [0.0, {:?}]], spacing = 500.0 }}\nrate = {rate:e}\n[output]\nsurface = {{ spacing = \"3 km\", x = {{ from = \"-31.5 km\", to = \"31.5 km\" }} }}\n{at}",
         -WIDTH
     );
-    Written::of(&scene("antiplane", STABLE, "1 yr", &line))
+    WrittenRun::from_text(&scene("antiplane", STABLE, "1 yr", &line))
 }
 
 /// Receivers at the surface and their distances from the fault \[m\].
@@ -102,7 +102,7 @@ fn locked(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Displacement of the surface through time beside a locked fault.
-fn profiles(ledger: &mut Ledger, done: &Written) -> Result<(), CaseError> {
+fn profiles(ledger: &mut Ledger, done: &WrittenRun) -> Result<(), CaseError> {
     let table = done.files.table("surface_profiles_z.csv")?;
     let (times, mut worst) = (table.column("time")?, 0.0_f64);
     let positions: Vec<f64> = table.head().iter().skip(1).map(|x| x.parse()).collect::<Result<_, _>>()?;
@@ -203,7 +203,7 @@ pub(super) fn okada(slip: f64, rake: f64, [length, width]: [f64; 2], [x, z]: [f6
 }
 
 /// 1 if the hanging wall is the plus side, -1 if it is the minus side.
-pub(super) fn hanging(done: &Written) -> f64 {
+pub(super) fn hanging(done: &WrittenRun) -> f64 {
     done.plan.points[0].normal[1].signum()
 }
 
@@ -216,7 +216,7 @@ fn in_space(ledger: &mut Ledger) -> Result<(), CaseError> {
         .add("faults.main.creep.rake", format!("{:?}", direction(PLATES_RAKE)))
         .text()?;
     for (text, rake, plates) in [(along, RAKE, ""), (oblique, PLATES_RAKE, ", plates oblique to its rake")] {
-        let done = Written::of(&text)?;
+        let done = WrittenRun::from_text(&text)?;
         let worst = beside_locked(&done, rake)?;
         ledger
             .claim(format!("velocity of the surface beside a locked dipping fault in space{plates}, over the rate of the plates, largest error"))
@@ -232,7 +232,7 @@ fn in_space(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Largest error of the velocities of the receivers, whose plates move at a rake \[degrees\], over the rate of the plates.
-fn beside_locked(done: &Written, rake: f64) -> Result<f64, CaseError> {
+fn beside_locked(done: &WrittenRun, rake: f64) -> Result<f64, CaseError> {
     let (side, way, mut worst) = (hanging(done), direction(rake), 0.0_f64);
     for (name, [x, z]) in PLACES {
         let table = done.files.table(&format!("receivers/{name}.csv"))?;
@@ -251,15 +251,15 @@ fn beside_locked(done: &Written, rake: f64) -> Result<f64, CaseError> {
 pub(super) const SIZE: [f64; 2] = [2e3, 2e3];
 
 /// An event of one cell in space, and its slip \[m\].
-pub(super) fn of_one_cell() -> Result<(Written, f64), CaseError> {
-    of_one_cell_with(
+pub(super) fn one_cell_event() -> Result<(WrittenRun, f64), CaseError> {
+    one_cell_event_with(
         "surface = { spacing = 1e3, x = { from = -6300.0, to = 8100.0 }, z = { from = -7e3, to = 5500.0 } }\n",
     )
 }
 
 /// Such an event with further outputs, and its slip \[m\].
-pub(super) fn of_one_cell_with(output: &str) -> Result<(Written, f64), CaseError> {
-    let done = Written::of(&one_cell(output))?;
+pub(super) fn one_cell_event_with(output: &str) -> Result<(WrittenRun, f64), CaseError> {
+    let done = WrittenRun::from_text(&one_cell(output))?;
     let slip = done.files.table("events/rupture_times_000.csv")?.only("slip")?;
     Ok((done, slip))
 }
@@ -281,7 +281,7 @@ fn turned_event(ledger: &mut Ledger) -> Result<(), CaseError> {
         .add("faults.main.slip", "free")
         .add("faults.main.creep.rake", format!("{:?}", direction(PLATES_RAKE)))
         .text()?;
-    let done = Written::of(&text)?;
+    let done = WrittenRun::from_text(&text)?;
     let points = done.files.table("events/rupture_times_000.csv")?;
     let (slip, turned) = (points.only("slip")?, points.only("turned")?);
     let table = done.files.table("events/displacements_000.csv")?;
@@ -312,7 +312,7 @@ fn turned_event(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 /// Displacement over an event of one cell.
 fn event(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let ((done, slip), size) = (of_one_cell()?, SIZE);
+    let ((done, slip), size) = (one_cell_event()?, SIZE);
     let table = done.files.table("events/displacements_000.csv")?;
     let [right, along] = [(STRIKE + 90.0).to_radians(), STRIKE.to_radians()];
     let columns = ["east", "north", "up"].map(|name| table.column(name));

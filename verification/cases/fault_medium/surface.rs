@@ -1,8 +1,8 @@
 //! Displacement of the free surface over an event of one cell, and the finite-fault model of the event.
 
-use super::receivers::{DIP, RAKE, RATIO, SIZE, STRIKE, hanging, of_one_cell, okada, scene};
+use super::receivers::{DIP, RAKE, RATIO, SIZE, STRIKE, hanging, okada, one_cell_event, scene};
 use crate::cases::okada::Rectangle;
-use crate::cases::written::Written;
+use crate::cases::written::WrittenRun;
 use crate::{CaseError, Evidence, Ledger};
 
 /// Shear modulus of the rock of [`scene`] \[Pa\].
@@ -13,14 +13,14 @@ const LENGTH: f64 = 2e8;
 
 /// See the module.
 pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let (done, slip) = of_one_cell()?;
+    let (done, slip) = one_cell_event()?;
     map(ledger, &done, slip)?;
     model(ledger, &done, SHEAR * SIZE[0] * SIZE[1] * slip)?;
     in_the_plane(ledger)
 }
 
 /// Map of the surface over an event with this slip of one cell \[m\].
-fn map(ledger: &mut Ledger, done: &Written, slip: f64) -> Result<(), CaseError> {
+fn map(ledger: &mut Ledger, done: &WrittenRun, slip: f64) -> Result<(), CaseError> {
     let table = done.files.table("events/surface_000.csv")?;
     let [right, along] = [(STRIKE + 90.0).to_radians(), STRIKE.to_radians()];
     let (xs, zs) = (table.column("x")?, table.column("z")?);
@@ -53,7 +53,7 @@ fn entry(text: &str, name: &str) -> Result<f64, CaseError> {
 }
 
 /// Finite-fault model of an event of one cell with this moment \[N m\].
-fn model(ledger: &mut Ledger, done: &Written, moment: f64) -> Result<(), CaseError> {
+fn model(ledger: &mut Ledger, done: &WrittenRun, moment: f64) -> Result<(), CaseError> {
     let text = done.files.text("events/finite_fault_000.fsp")?;
     let row = text.lines().find(|line| !line.starts_with('%')).ok_or("the model has no row")?;
     let row: Vec<f64> = row.split_whitespace().map(str::parse).collect::<Result<_, _>>()?;
@@ -96,7 +96,7 @@ fn in_the_plane(ledger: &mut Ledger) -> Result<(), CaseError> {
         -WIDTH * sine
     );
     let weakening = "a = 0.010, b = 0.015, l = \"4 mm\"";
-    let done = Written::of(&scene("plane-strain", weakening, "1000 yr", &rest))?;
+    let done = WrittenRun::from_text(&scene("plane-strain", weakening, "1000 yr", &rest))?;
     let slip = done.files.table("events/rupture_times_000.csv")?.only("slip")?;
     let table = done.files.table("events/surface_000.csv")?;
     let source = Rectangle {

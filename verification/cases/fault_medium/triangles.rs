@@ -128,7 +128,7 @@ fn halves(ledger: &mut Ledger) -> Result<(), CaseError> {
         );
         let whole = planned(&two(dip, &rectangle), &[], Form::Dense)?;
         let (halves, cost) =
-            Cost::of(|| planned(&two(dip, FROM_FILE), &halved(dip, CELLS, (SIZE, TOP)), Form::Dense));
+            Cost::measure(|| planned(&two(dip, FROM_FILE), &halved(dip, CELLS, (SIZE, TOP)), Form::Dense));
         let halves = halves?;
         let pairs = [(felt(&whole, 1), felt(&halves, 2)), (displaced(&whole, 1), displaced(&halves, 2))];
         for (worst, (wanted, found)) in worst.iter_mut().zip(pairs) {
@@ -283,7 +283,7 @@ fn disc(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut levels = Vec::new();
     let mut spent = None;
     for count in [4, 6, 9, 13] {
-        let (plan, cost) = Cost::of(|| planned(&text, &rings(count), Form::Dense));
+        let (plan, cost) = Cost::measure(|| planned(&text, &rings(count), Form::Dense));
         let plan = plan?;
         let slip = slip(&plan)?;
         let found: f64 = plan.points.iter().zip(slip.iter()).map(|(p, s)| p.area * s).sum();

@@ -55,7 +55,7 @@ fn apart(ledger: &mut Ledger) -> Result<(), CaseError> {
         ("3d", "hex8", "rake = [0, 1, 1]"),
         ("3d", "hex27", "rake = [0, 1, 1]\nslip = \"free\""),
     ] {
-        let (opening, cost) = Cost::of(|| parted(kinematics, element, slip));
+        let (opening, cost) = Cost::measure(|| parted(kinematics, element, slip));
         let (least, most) = opening?;
         // Less the elongation at which the fault opens, from the stiffness of both blocks.
         let exact = 1.0 - PRESSED * 2.0 * A / YOUNG;
@@ -181,7 +181,7 @@ fn pull(time: f64) -> f64 {
 }
 
 /// Results of a plate.
-struct Pulled {
+struct PlateRun {
     /// Positions of the points relative to the middle of the fault \[m\].
     at: Vec<f64>,
     opening: Vec<f64>,
@@ -197,7 +197,7 @@ struct Pulled {
     cost: Cost,
 }
 
-fn pulled(plan: &Plan) -> Result<Pulled, CaseError> {
+fn pulled(plan: &Plan) -> Result<PlateRun, CaseError> {
     let at: Vec<f64> = plan.points.iter().map(|p| p.along - 2.0 * A).collect();
     let n = at.len();
     let middle = (0..n).min_by(|&i, &j| at[i].abs().total_cmp(&at[j].abs())).ok_or("no points")?;
@@ -214,7 +214,7 @@ fn pulled(plan: &Plan) -> Result<Pulled, CaseError> {
         shear = [if shear[0].is_nan() { friction } else { shear[0] }, friction];
         Control::Go
     };
-    let (out, cost) = Cost::of(|| plan.problem.run(&plan.problem.settings, &mut look));
+    let (out, cost) = Cost::measure(|| plan.problem.run(&plan.problem.settings, &mut look));
     let out = out?;
     if out.outcome != Outcome::Completed {
         return Err(format!("{:?}", out.outcome).into());
@@ -222,10 +222,10 @@ fn pulled(plan: &Plan) -> Result<Pulled, CaseError> {
     let energy = Report::new(plan, &out, &mut balance).energy;
     let cost = cost.count("points", n as f64).count("steps", out.counts.steps as f64);
     let (work, imbalance) = (energy.part("opening"), energy.imbalance);
-    Ok(Pulled { at, opening, slip, fall: shear[0] - shear[1], fronts, work, imbalance, cost })
+    Ok(PlateRun { at, opening, slip, fall: shear[0] - shear[1], fronts, work, imbalance, cost })
 }
 
-impl Pulled {
+impl PlateRun {
     /// Error in the middle and largest error, both over the exact value in the middle.
     fn errors(&self, found: &[f64], peak: f64, shape: impl Fn(f64) -> f64) -> [f64; 2] {
         let mut nearest = (f64::INFINITY, 0.0);
@@ -389,7 +389,7 @@ fn events(text: &str, floor: f64, opens: bool) -> Result<Shallow, CaseError> {
         balance.step(now);
         Control::Go
     };
-    let (out, cost) = Cost::of(|| plan.problem.run(&plan.problem.settings, &mut look));
+    let (out, cost) = Cost::measure(|| plan.problem.run(&plan.problem.settings, &mut look));
     let out = out?;
     let report = Report::new(&plan, &out, &mut balance);
     if report.events.len() < 3 {

@@ -1,7 +1,7 @@
 //! Two blocks whose normal traction follows ramps: time open, and time and slip below the floor.
 
 use super::{A, PRESSED, YOUNG, block};
-use crate::cases::written::Written;
+use crate::cases::written::WrittenRun;
 use crate::{Capability, CaseError, Evidence, Ledger};
 use asperity_run::report::Outcome;
 
@@ -82,7 +82,7 @@ fn open(ledger: &mut Ledger) -> Result<(), CaseError> {
         ),
     ] {
         let peak = if end > 0.0 { END } else { top[0] };
-        let done = Written::of(&blocks(A, &fault, [&table(&corners, STEP), "0"], ""))?;
+        let done = WrittenRun::from_text(&blocks(A, &fault, [&table(&corners, STEP), "0"], ""))?;
         if done.report.outcome != Outcome::Completed {
             return Err(format!("{:?}", done.report.outcome).into());
         }
@@ -167,7 +167,7 @@ fn below(ledger: &mut Ledger) -> Result<(), CaseError> {
     }
     let events = "[events]\nabove = \"2 mm/s\"\nbelow = \"1.5 mm/s\"";
     let text = blocks(SHORT, &fault, [&table(&corners, LONG), &table(&drawn, LONG)], events);
-    let done = Written::of(&text)?;
+    let done = WrittenRun::from_text(&text)?;
     if done.report.outcome != Outcome::Completed {
         return Err(format!("{:?}", done.report.outcome).into());
     }

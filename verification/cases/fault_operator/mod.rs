@@ -118,7 +118,7 @@ struct Slip {
 }
 
 fn slip(plan: &Plan) -> Result<Slip, CaseError> {
-    let (found, cost) = Cost::of(|| -> Result<(DVector<f64>, f64), CaseError> {
+    let (found, cost) = Cost::measure(|| -> Result<(DVector<f64>, f64), CaseError> {
         let n = plan.points.len();
         let shear = matrix(plan, false);
         let slip = shear.lu().solve(&DVector::repeat(n, -1.0)).ok_or("the operator is singular")?;
@@ -251,7 +251,7 @@ pub(crate) fn through(dip: f64, size: f64) -> String {
 /// Claims that plates in rigid motion along a uniformly slipping fault are free of stress.
 fn plates(ledger: &mut Ledger) -> Result<(), CaseError> {
     for dip in [90.0, 60.0, 30.0] {
-        let (plan, cost) = Cost::of(|| seas::plan(&through(dip, SIZE)));
+        let (plan, cost) = Cost::measure(|| seas::plan(&through(dip, SIZE)));
         let plan = plan?;
         let n = plan.points.len();
         let couples = plan.problem.fault.operator.couples_normal();
@@ -371,7 +371,7 @@ const REFERENCE: &str = "edge dislocations below a free surface by complex poten
 /// Dipping faults below a free surface against dislocations.
 fn surface(ledger: &mut Ledger) -> Result<(), CaseError> {
     for dip in [90.0, 60.0, 30.0] {
-        let (plan, cost) = Cost::of(|| seas::plan(&through(dip, SIZE)));
+        let (plan, cost) = Cost::measure(|| seas::plan(&through(dip, SIZE)));
         let plan = plan?;
         if dip < 45.0 {
             overlay(ledger, &plan, dip, slips()[1]);
@@ -400,7 +400,7 @@ fn surface(ledger: &mut Ledger) -> Result<(), CaseError> {
         let mut levels = Vec::new();
         let mut total = None;
         for size in [2000.0, 1000.0, SIZE] {
-            let (plan, cost) = Cost::of(|| seas::plan(&through(dip, size)));
+            let (plan, cost) = Cost::measure(|| seas::plan(&through(dip, size)));
             levels.push((size, errors(&plan?, dip, slip)[0]));
             total = Some(cost);
         }

@@ -2,7 +2,7 @@
 
 use super::ROUNDING;
 use crate::cases::seas;
-use crate::cases::written::Written;
+use crate::cases::written::WrittenRun;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity::kinds::faults::Report;
 use asperity_cycles::{Balance, Moment, Rupture};
@@ -30,7 +30,7 @@ pub(in crate::cases) fn pressed(duration: &str) -> SceneText {
 }
 
 /// A run, and its last state: sums of f_n, of tau, and of tau without the lower end of the face \[N/m\].
-struct Done {
+struct BlockRun {
     plan: Plan,
     report: Report,
     forces: [f64; 3],
@@ -38,7 +38,7 @@ struct Done {
     cost: Cost,
 }
 
-fn done(scene: SceneText, number: usize) -> Result<Done, CaseError> {
+fn done(scene: SceneText, number: usize) -> Result<BlockRun, CaseError> {
     let mut plan = seas::plan(&scene.text()?)?;
     plan.problem.settings.most_events = Some(number);
     let mut balance = Balance::new(&plan.problem);
@@ -58,12 +58,12 @@ fn done(scene: SceneText, number: usize) -> Result<Done, CaseError> {
         forces = [over(&|p| now.normal(p)), over(&drive), over(&above)];
         Control::Go
     };
-    let (run, cost) = Cost::of(|| plan.problem.run(&plan.problem.settings, &mut watch));
+    let (run, cost) = Cost::measure(|| plan.problem.run(&plan.problem.settings, &mut watch));
     let run = run?;
     let report = Report::new(&plan, &run, &mut balance);
     let events = run.events().to_vec();
     drop(balance);
-    Ok(Done { plan, report, forces, events, cost })
+    Ok(BlockRun { plan, report, forces, events, cost })
 }
 
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -77,7 +77,7 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
 /// Tractions, displacement and force before anything slips.
 fn at_start(ledger: &mut Ledger) -> Result<(), CaseError> {
     // The load point moves by 1e-15 m.
-    let Done { plan, report, cost, .. } = done(pressed("1e-9 s"), 1)?;
+    let BlockRun { plan, report, cost, .. } = done(pressed("1e-9 s"), 1)?;
     let [young, poisson] = ELASTIC;
     let normal = young * PUSH / ((1.0 - poisson * poisson) * WIDTH);
     let off = plan.problem.fault.normal.iter().map(|f| (f / normal - 1.0).abs()).fold(0.0, f64::max);
@@ -109,7 +109,7 @@ fn takes_over(ledger: &mut Ledger) -> Result<(), CaseError> {
         .without("stages[0].frictionless")
         .with("stages[0].conditions[3].y", r#"{ to = "-2 um" }"#)
         .text()?;
-    let done = Written::of(&text)?;
+    let done = WrittenRun::from_text(&text)?;
     let first = |table: &str, name: &str| -> Result<f64, CaseError> {
         Ok(*done.files.table(table)?.column(name)?.first().ok_or("no row")?)
     };
@@ -134,7 +134,7 @@ fn balance(ledger: &mut Ledger) -> Result<(), CaseError> {
     for frictionless in [true, false] {
         let scene = pressed("4000 s");
         let scene = if frictionless { scene } else { scene.without("stages[0].frictionless") };
-        let Done { report, forces: [normal, shear, above], cost, .. } = done(scene, 1)?;
+        let BlockRun { report, forces: [normal, shear, above], cost, .. } = done(scene, 1)?;
         let spring = report.springs[0].values;
         let errors = [
             report.forces[0].value[0] / normal - 1.0,
@@ -161,7 +161,7 @@ fn balance(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 /// Forces of the fault in its table against those on the side that presses and of the spring, in every row.
 fn through(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let done = Written::of(&pressed("4000 s").with("events.stop_after", "1").text()?)?;
+    let done = WrittenRun::from_text(&pressed("4000 s").with("events.stop_after", "1").text()?)?;
     let column = |table: &str, name: &str| done.files.table(table)?.column(name);
     let fault = |name: &str| column("fault_forces.csv", name);
     let side = "forces/pressing.csv";
@@ -190,7 +190,7 @@ fn through(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 /// Three events against those under given tractions.
 fn events(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let Done { events, cost, .. } = done(pressed("4000 s"), 3)?;
+    let BlockRun { events, cost, .. } = done(pressed("4000 s"), 3)?;
     let given = SceneText::new(SCENE)
         .with("faults.face.law.l", "10 um")
         .with("stages[0].conditions[3].y.spring", "2e9")

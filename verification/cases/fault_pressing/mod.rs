@@ -87,7 +87,7 @@ stepper = "fault-ode"
         half * c,
         -half * s,
     );
-    let (plan, cost) = Cost::of(|| seas::plan(&text));
+    let (plan, cost) = Cost::measure(|| seas::plan(&text));
     let plan = plan?;
     let normal = right * s * s + top * c * c;
     // The plus side is driven along the stress vector σn, in the direction of positive slip.
@@ -170,7 +170,7 @@ stepper = "fault-ode"
         sides("east"),
         -pressure,
     );
-    let (plan, cost) = Cost::of(|| seas::plan(&text));
+    let (plan, cost) = Cost::measure(|| seas::plan(&text));
     let plan = plan?;
     let (found, n) = (shear(&plan), plan.points.len());
     let off = |p: usize| {

@@ -33,7 +33,7 @@ fn plan(sides: f64, rest: &str) -> Result<Plan, CaseError> {
 /// Claims loads and tractions of mirrored bodies. With a receiver both are condensed.
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (sides, what) in [(0.0, "creep alone"), (PLATES, "creep and sides")] {
-        let (plans, cost) = Cost::of(|| {
+        let (plans, cost) = Cost::measure(|| {
             Ok::<_, CaseError>([
                 plan(sides, "")?,
                 plan(sides, "[output]\nreceivers.r = [1500.0, -700.0, 300.0]\n")?,

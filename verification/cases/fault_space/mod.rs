@@ -130,7 +130,7 @@ fn slab(ledger: &mut Ledger) -> Result<(), CaseError> {
             conditions: &(far("x = 0, y = 0, z = 0") + &on(&["back", "front"], faces)),
             ..plane
         };
-        let (plans, cost) = Cost::of(|| Ok::<_, CaseError>((plane.plan()?, solid.plan()?)));
+        let (plans, cost) = Cost::measure(|| Ok::<_, CaseError>((plane.plan()?, solid.plan()?)));
         let (plane, solid) = plans?;
         let motion = format!("{kinematics} motion between two media");
         against_plane(ledger, &motion, (&plane, &solid), &cost);
@@ -179,7 +179,7 @@ fn both_directions(ledger: &mut Ledger) -> Result<(), CaseError> {
         .plan()
     };
     // The normal is along x, so that the second direction, normal x rake, is -y.
-    let (plans, cost) = Cost::of(|| -> Result<_, CaseError> {
+    let (plans, cost) = Cost::measure(|| -> Result<_, CaseError> {
         Ok([
             with("rake = [0, 0, 1]\nslip = \"free\"")?,
             with("rake = [0, 0, 1]")?,
@@ -288,7 +288,7 @@ fn error(ledger: &mut Ledger, part: f64, joined: bool) -> Result<(f64, Cost), Ca
     // Farther out the box has too few layers.
     let most = if joined { 6.0 * WIDTH } else { 0.0 };
     let beyond: Vec<f64> = [4.0 * size, 16.0 * size].into_iter().filter(|&x| x < most).collect();
-    let (plan, cost) = Cost::of(|| quarter(4.0 * WIDTH, size, 14.0 * WIDTH, &beyond));
+    let (plan, cost) = Cost::measure(|| quarter(4.0 * WIDTH, size, 14.0 * WIDTH, &beyond));
     let plan = plan?;
     let slip: Vec<f64> = plan
         .points
@@ -361,7 +361,7 @@ fn crack(size: f64) -> Result<f64, CaseError> {
 
 /// The circular shear crack.
 fn penny(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let (errors, cost) = Cost::of(|| {
+    let (errors, cost) = Cost::measure(|| {
         [4.0, 8.0, 16.0].into_iter().map(|parts| crack(1.0 / parts)).collect::<Result<Vec<_>, _>>()
     });
     let errors = errors?;

@@ -18,7 +18,7 @@ fn lengths(check: &FaultCheck) -> Result<[[f64; 2]; 2], CaseError> {
 }
 
 /// A benchmark with the lengths in its description.
-struct Published {
+struct PublishedLengths {
     name: &'static str,
     scene: &'static str,
     /// Process zone and nucleation length \[m\].
@@ -29,15 +29,15 @@ struct Published {
     digits: f64,
 }
 
-const PUBLISHED: [Published; 2] = [
-    Published {
+const PUBLISHED: [PublishedLengths; 2] = [
+    PublishedLengths {
         name: "BP1",
         scene: include_str!("../../../scenes/bp1.toml"),
         lengths: [340.0, 2e3],
         spacing: 78.125,
         digits: 0.025,
     },
-    Published {
+    PublishedLengths {
         name: "BP7",
         scene: include_str!("../../../scenes/bp7.toml"),
         lengths: [64.0, 280.0],
@@ -49,10 +49,10 @@ const PUBLISHED: [Published; 2] = [
 /// Claims about the checks that `asperity check` prints.
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     for published in &PUBLISHED {
-        of_benchmark(ledger, published)?;
+        benchmark_lengths(ledger, published)?;
     }
     let slip = Variant { evolution: "slip", ..FIRST };
-    let (checked, cost) = Cost::of(|| only(slip.plan()?));
+    let (checked, cost) = Cost::measure(|| only(slip.plan()?));
     let checked = checked?;
     let [_, [nucleation, _]] = lengths(&checked)?;
     ledger
@@ -83,9 +83,9 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-fn of_benchmark(ledger: &mut Ledger, published: &Published) -> Result<(), CaseError> {
-    let Published { name, scene, lengths: [zone, nucleation], spacing, digits } = published;
-    let (checked, cost) = Cost::of(|| only(seas::plan(scene)?));
+fn benchmark_lengths(ledger: &mut Ledger, published: &PublishedLengths) -> Result<(), CaseError> {
+    let PublishedLengths { name, scene, lengths: [zone, nucleation], spacing, digits } = published;
+    let (checked, cost) = Cost::measure(|| only(seas::plan(scene)?));
     let [[zone_found, zone_points], [nucleation_found, nucleation_points]] = lengths(&checked?)?;
     ledger
         .claim(format!("process zone and nucleation length of {name} in the checks of the plan"))

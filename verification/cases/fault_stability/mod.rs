@@ -178,7 +178,7 @@ fn scale(plan: &Plan, part: usize) -> f64 {
 /// Largest error of growth rates over V/L of these modes.
 fn errors(variant: &Variant, which: &[usize]) -> Result<(f64, f64, Vec<[f64; 6]>), CaseError> {
     let plan = variant.plan()?;
-    let found = modes::of(&plan, HIGHEST + 1)?;
+    let found = modes::softest(&plan, HIGHEST + 1)?;
     let (mut worst, mut beside, mut rows) = (0.0_f64, 0.0_f64, Vec::new());
     for &n in which {
         let (roots, rest) = linearised(&plan, &found[n]);
@@ -219,7 +219,7 @@ fn orders(ledger: &mut Ledger) -> Result<(), CaseError> {
         ("quad9", Sides::Plane, "plane strain", 4.0),
     ] {
         let mut levels = Vec::new();
-        let (result, cost) = Cost::of(|| -> Result<(), CaseError> {
+        let (result, cost) = Cost::measure(|| -> Result<(), CaseError> {
             for size in [125.0, 62.5, 31.25] {
                 let (worst, ..) = errors(&Variant { size, element, sides, ..FIRST }, which(sides))?;
                 levels.push((size, worst));
@@ -263,7 +263,7 @@ fn variants(ledger: &mut Ledger) -> Result<(), CaseError> {
         ("slip law, damped", Variant { evolution: "slip", damping, ..FIRST }),
         ("ageing law, one face free", Variant { sides: Sides::OneFree, ..FIRST }),
     ] {
-        let (result, cost) = Cost::of(|| errors(&variant, which(variant.sides)));
+        let (result, cost) = Cost::measure(|| errors(&variant, which(variant.sides)));
         let (worst, beside, rows) = result?;
         let curve = |column: usize| rows.iter().map(|row| (row[0], row[column])).collect::<Vec<_>>();
         diagram = diagram
@@ -305,9 +305,9 @@ fn variants(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 /// At the critical wavelength perturbations neither grow nor decay, and oscillate at sqrt(K V w/A).
 fn critical(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let (result, cost) = Cost::of(|| -> Result<_, CaseError> {
+    let (result, cost) = Cost::measure(|| -> Result<_, CaseError> {
         let plan = FIRST.plan()?;
-        let found = modes::of(&plan, HIGHEST + 1)?;
+        let found = modes::softest(&plan, HIGHEST + 1)?;
         let roots: Vec<_> = (0..=HIGHEST).map(|n| linearised(&plan, &found[n]).0).collect();
         let purity = (1..=HIGHEST).map(|n| found[n].cosine(&plan, n)).fold(f64::INFINITY, f64::min);
         Ok((roots, purity))
@@ -348,7 +348,7 @@ fn critical(ledger: &mut Ledger) -> Result<(), CaseError> {
 fn in_time(ledger: &mut Ledger) -> Result<(), CaseError> {
     for evolution in ["ageing", "slip"] {
         let variant = Variant { evolution, ..FIRST };
-        let (result, cost) = Cost::of(|| flow(&variant));
+        let (result, cost) = Cost::measure(|| flow(&variant));
         let found = result?;
         let worst = |pick: fn(&Flow) -> f64| found.iter().map(pick).fold(0.0, f64::max);
         ledger
@@ -395,7 +395,7 @@ struct Flow {
 fn flow(variant: &Variant) -> Result<Vec<Flow>, CaseError> {
     let mut plan = variant.plan()?;
     plan.problem.settings.end = FOLLOWED * length() / RATE;
-    let modes = modes::of(&plan, HIGHEST + 1)?;
+    let modes = modes::softest(&plan, HIGHEST + 1)?;
     let layout = Layout::from_fault(&plan.problem.fault);
     let parts = [layout.m(), layout.states()];
     let end = |column: usize, sign: f64| -> Result<Vec<f64>, CaseError> {

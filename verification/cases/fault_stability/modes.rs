@@ -30,7 +30,7 @@ impl Mode {
 }
 
 /// The `count` softest modes, softest first.
-pub fn of(plan: &Plan, count: usize) -> Result<Vec<Mode>, CaseError> {
+pub fn softest(plan: &Plan, count: usize) -> Result<Vec<Mode>, CaseError> {
     let n = plan.points.len();
     let (mut unit, mut column) = (vec![0.0; n], vec![0.0; n]);
     let root: Vec<f64> = plan.points.iter().map(|p| p.area.sqrt()).collect();

@@ -4,12 +4,12 @@ mod reference;
 mod rows;
 mod surface;
 
-use crate::cases::followed::Followed;
+use crate::cases::followed::CycleRun;
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_plan::faults::Plan;
 use asperity_vary::SceneText;
-use reference::{Fault, Slid};
+use reference::{Fault, SlipEvent};
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -59,11 +59,11 @@ fn lines(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (sine, cosine) = 30f64.to_radians().sin_cos();
     let (axis, turned) = ([0.0, 1.0], [sine, cosine]);
     let along = scene(axis, axis, false, 2)?;
-    let held = Followed::new(&seas::plan(&along)?)?;
+    let held = CycleRun::new(&seas::plan(&along)?)?;
     for (name, direction) in [("along z", axis), ("at 30 degrees from z", turned)] {
         let turning = scene(direction, direction, true, 2)?;
         let plan = seas::plan(&turning)?;
-        let free = Followed::new(&plan)?;
+        let free = CycleRun::new(&plan)?;
         let slip = &free.events()[1].details.slip;
         let [with, across] = [0, 1].map(|c| slip.component(c));
         let across = across.iter().fold(0.0_f64, |l, v| l.max(v.abs())) / with[0].abs();
@@ -98,7 +98,7 @@ const INDEPENDENT: &str =
 /// Blocks driven at 60 degrees from the initial traction.
 fn turning(ledger: &mut Ledger) -> Result<(), CaseError> {
     let plan = seas::plan(SCENE)?;
-    let found = Followed::new(&plan)?;
+    let found = CycleRun::new(&plan)?;
     let expected = Fault::slider(&plan, 60f64.to_radians(), 2.0 * HALF).events(found.events().len())?;
     let onsets: Vec<f64> = expected.iter().map(|e| e.onset).collect();
     ledger
@@ -116,7 +116,12 @@ fn turning(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Claims the slip vectors of the events.
-fn vectors(ledger: &mut Ledger, plan: &Plan, found: &Followed, expected: &[Slid]) -> Result<(), CaseError> {
+fn vectors(
+    ledger: &mut Ledger,
+    plan: &Plan,
+    found: &CycleRun,
+    expected: &[SlipEvent],
+) -> Result<(), CaseError> {
     let area: f64 = plan.points.iter().map(|p| p.area).sum();
     let (mut slips, mut angles, mut rows) = (0.0_f64, 0.0_f64, Vec::new());
     for (k, (event, expected)) in found.events().iter().zip(expected).enumerate() {
@@ -193,7 +198,7 @@ fn vectors(ledger: &mut Ledger, plan: &Plan, found: &Followed, expected: &[Slid]
 }
 
 /// Claims energy, moment, and a run resumed from a restart.
-fn balances(ledger: &mut Ledger, plan: &Plan, found: &Followed) -> Result<(), CaseError> {
+fn balances(ledger: &mut Ledger, plan: &Plan, found: &CycleRun) -> Result<(), CaseError> {
     energy(ledger, "five events while slip turns", found);
     let last = found.report.events.last().ok_or("no event")?;
     let area: f64 = plan.points.iter().map(|p| p.area).sum();
@@ -212,9 +217,9 @@ fn balances(ledger: &mut Ledger, plan: &Plan, found: &Followed) -> Result<(), Ca
 }
 
 /// Time during which the fastest point is above the rate of onset.
-fn above(ledger: &mut Ledger, found: &Followed, expected: &[Slid]) {
+fn above(ledger: &mut Ledger, found: &CycleRun, expected: &[SlipEvent]) {
     let times: Vec<f64> = found.events().iter().map(|e| e.details.above).collect();
-    let exact: Vec<f64> = expected.iter().map(Slid::above).collect();
+    let exact: Vec<f64> = expected.iter().map(SlipEvent::above).collect();
     ledger
         .claim("two events where a varies and slip turns, time above the rate of onset")
         .unit("s")
@@ -239,9 +244,9 @@ fn varied(ledger: &mut Ledger) -> Result<(), CaseError> {
         .add("faults.main.profiles", "{ a = { along = \"y\", points = [[0, 0.008], [1e3, 0.012]] } }")
         .with("events.stop_after", VARIED);
     let plan = seas::plan(&scene.text()?)?;
-    let found = Followed::new(&plan)?;
+    let found = CycleRun::new(&plan)?;
     let a = |p: usize| 0.008 + 4e-6 * plan.points[p].at[1];
-    let expected = Fault::of(&plan, a).events(VARIED)?;
+    let expected = Fault::from_plan(&plan, a).events(VARIED)?;
     let onsets: Vec<f64> = expected.iter().map(|e| e.onset).collect();
     let n = plan.points.len();
     let (mut slips, mut least, mut most) = (0.0_f64, f64::INFINITY, 0.0_f64);
@@ -299,7 +304,7 @@ fn varied(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Claims the energy balance.
-fn energy(ledger: &mut Ledger, name: &str, found: &Followed) {
+fn energy(ledger: &mut Ledger, name: &str, found: &CycleRun) {
     ledger
         .claim(format!("imbalance of energy over its largest part, {name}"))
         .value(found.report.energy.imbalance)

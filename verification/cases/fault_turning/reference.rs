@@ -47,7 +47,7 @@ pub struct Fault<'a> {
 }
 
 /// An event.
-pub struct Slid {
+pub struct SlipEvent {
     /// Onset \[s\].
     pub onset: f64,
     /// Slip of all points, along the first axis and then across it \[m\].
@@ -56,7 +56,7 @@ pub struct Slid {
     pub passed: Vec<f64>,
 }
 
-impl Slid {
+impl SlipEvent {
     /// Time during which the fastest point is above the rate of onset \[s\].
     pub fn above(&self) -> f64 {
         self.passed.as_chunks::<2>().0.iter().map(|[up, down]| down - up).sum()
@@ -79,7 +79,7 @@ impl<'a> Fault<'a> {
     }
 
     /// The points of a plan with its operator, loads and thresholds; `a` gives a of each point.
-    pub fn of(plan: &'a Plan, a: impl Fn(usize) -> f64) -> Self {
+    pub fn from_plan(plan: &'a Plan, a: impl Fn(usize) -> f64) -> Self {
         let n = plan.points.len();
         let pull = plan.problem.loading.rates(1.0, n, false).0;
         Self::new(plan, Elastic::Body(plan.problem.fault.operator.as_ref(), pull), (0..n).map(a).collect())
@@ -140,7 +140,7 @@ impl<'a> Fault<'a> {
     ///
     /// # Errors
     /// If there are fewer events.
-    pub fn events(&self, most: usize) -> Result<Vec<Slid>, CaseError> {
+    pub fn events(&self, most: usize) -> Result<Vec<SlipEvent>, CaseError> {
         let n = self.a.len();
         let options = Options {
             method: Method::Dop853,
@@ -152,7 +152,7 @@ impl<'a> Fault<'a> {
             largest_step: None,
             most_steps: 10_000_000,
         };
-        let mut found = Found { most, points: n, open: None, events: Vec::new() };
+        let mut found = EventRecorder { most, points: n, open: None, events: Vec::new() };
         let start = [vec![0.0; 2 * n], vec![(V0 / STEADY).ln(); n]].concat();
         let end = 1e4 * crate::cases::seas::YEAR;
         let out = integrate(self, Clock::new(0.0, 0.0), &start, end, &options, &mut found);
@@ -200,15 +200,15 @@ impl Problem for Fault<'_> {
     }
 }
 
-struct Found {
+struct EventRecorder {
     most: usize,
     points: usize,
     /// Slip at onset \[m\] of an event in progress, and the times at which it passed the rate of onset \[s\].
     open: Option<(Vec<f64>, Vec<f64>)>,
-    events: Vec<Slid>,
+    events: Vec<SlipEvent>,
 }
 
-impl Sink for Found {
+impl Sink for EventRecorder {
     fn accepted(&mut self, _: &Step<'_>) -> Control {
         Control::Go
     }
@@ -225,7 +225,7 @@ impl Sink for Found {
             (1, false, Some((before, passed))) => {
                 let onset = passed.first().copied().unwrap_or(f64::NAN);
                 let slip = slip.iter().zip(before).map(|(s, b)| s - b).collect();
-                self.events.push(Slid { onset, slip, passed });
+                self.events.push(SlipEvent { onset, slip, passed });
             }
             (_, _, open) => self.open = open,
         }

@@ -1,7 +1,7 @@
 //! Numbers of events while slip turns, against the rows of stations at all points.
 
 use super::scene;
-use crate::cases::written::Written;
+use crate::cases::written::WrittenRun;
 use crate::{Capability, CaseError, Evidence, Ledger};
 use asperity_vary::SceneText;
 
@@ -30,7 +30,7 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     let text = SceneText::new(&scene([-sine, cosine], [0.0, 1.0], true, EVENTS)?)
         .with("time.log_rate_tolerance", "1e-10")
         .add("output", format!("{{ stations.main = [{}] }}", at.join(", ")));
-    let done = Written::of(&text.text()?)?;
+    let done = WrittenRun::from_text(&text.text()?)?;
     let stations: Vec<Rates> = done
         .files
         .names("stations")?

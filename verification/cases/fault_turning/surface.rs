@@ -137,7 +137,7 @@ pub(super) fn gaussian(ledger: &mut Ledger) -> Result<(), CaseError> {
     for dip in [90.0, 60.0] {
         let (mut levels, mut last) = (Vec::new(), None);
         for size in [WIDTH, 0.7 * WIDTH, 0.5 * WIDTH] {
-            let (found, cost) = Cost::of(|| plan(dip, size));
+            let (found, cost) = Cost::measure(|| plan(dip, size));
             let plan = found?;
             let [shear, normal] = errors(&plan);
             levels.push((size, shear));

@@ -79,7 +79,7 @@ impl Law {
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     for space in [false, true] {
         for (contact, changes) in CONTACTS {
-            let mut found = Found::default();
+            let mut found = ClosedFormRatios::default();
             for law in &LAWS {
                 for growth in GROWTHS {
                     let scene =
@@ -135,13 +135,13 @@ fn blocks(space: bool, growth: f64) -> SceneText {
 
 /// Values over their closed forms, of all laws and growths.
 #[derive(Default)]
-struct Found {
+struct ClosedFormRatios {
     times: Vec<f64>,
     slips: Vec<f64>,
     cost: Cost,
 }
 
-fn measure(found: &mut Found, scene: SceneText, law: &Law, growth: f64) -> Result<(), CaseError> {
+fn measure(found: &mut ClosedFormRatios, scene: SceneText, law: &Law, growth: f64) -> Result<(), CaseError> {
     let done = texts::simulate(&scene.text()?)?;
     let mut sheared = done.report.steps.iter().filter(|s| s.stage == 1).peekable();
     let start = sheared.peek().map(|s| s.time - s.dt).ok_or("no step was taken")?;
@@ -153,7 +153,7 @@ fn measure(found: &mut Found, scene: SceneText, law: &Law, growth: f64) -> Resul
     Ok(())
 }
 
-fn claims(ledger: &mut Ledger, name: &str, found: &Found) {
+fn claims(ledger: &mut Ledger, name: &str, found: &ClosedFormRatios) {
     let whole = |values: &[f64]| vec![1.0; values.len()];
     ledger
         .claim(format!("times at which the points begin to slip over their closed form, {name}"))

@@ -145,7 +145,7 @@ fn strip(ledger: &mut Ledger, material: &Elastic) -> Result<(), CaseError> {
         };
         bodies::claim(ledger, &format!("pressure on a strip, {}", kind.name()), &levels, &orders);
         let n = 32;
-        let (solved, cost) = Cost::of(|| {
+        let (solved, cost) = Cost::measure(|| {
             let body: Body<2> = build(kind, n)?;
             let solved = body.solve()?;
             Ok::<_, CaseError>((body.at(&solved.u, [0.0, 0.0])[1], solved.work))
@@ -181,7 +181,7 @@ fn disc(ledger: &mut Ledger, material: &Elastic) -> Result<(), CaseError> {
         let mut points = Vec::new();
         let mut last = Cost::default();
         for n in if kind.order() == 1 { [16, 32, 64] } else { [8, 16, 32] } {
-            let (solved, cost) = Cost::of(|| {
+            let (solved, cost) = Cost::measure(|| {
                 let mesh = bodies::mapped(bodies::unit_block(kind, [n; 2])?, |x| x.map(|x| SIZE * x));
                 let body = Body::new(mesh, material, Idealisation::Axisymmetric, Formulation::Standard)?;
                 let body = body

@@ -24,7 +24,7 @@ impl Side {
 }
 
 /// Two half-lines that meet at x = 0, and a well of constant flux in the left one.
-pub struct Joined {
+pub struct JoinedHalfLines {
     /// Left and right half-line.
     pub sides: [Side; 2],
     /// Distance of the well from where they meet \[m\].
@@ -33,7 +33,7 @@ pub struct Joined {
     pub flux: f64,
 }
 
-impl Joined {
+impl JoinedHalfLines {
     /// Pressure \[Pa\] at x \[m\] and time t \[s\]: that of the well, and of its image beyond the contrast.
     pub fn pressure(&self, x: f64, t: f64) -> f64 {
         let [left, right] = self.sides;

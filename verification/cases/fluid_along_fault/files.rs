@@ -13,7 +13,7 @@ const CODES: [i32; 2] = [0, 3];
 const MOST: u64 = 1000;
 
 /// A run and its table of pressures.
-pub struct Ran {
+pub struct FluidRun {
     /// Positions of the points along the fault \[m\].
     pub positions: Vec<f64>,
     /// Times \[s\] and pressures \[Pa\].
@@ -30,16 +30,16 @@ fn asperity(file: &Path, out: &Path, more: &[&str], codes: &[i32]) -> Result<Out
     programs::finished(&mut command, codes)
 }
 
-impl Ran {
+impl FluidRun {
     /// Runs a scene to its end; one with `injection` has no table of pressures.
     ///
     /// # Errors
     /// If the run fails, or a table cannot be read.
-    pub fn of(scene: &SceneText) -> Result<Self, CaseError> {
+    pub fn from_scene(scene: &SceneText) -> Result<Self, CaseError> {
         let folder = Folder::new()?;
         let file = folder.path().join("scene.toml");
         std::fs::write(&file, scene.clone().text()?)?;
-        let (done, cost) = Cost::of(|| asperity(&file, &folder.path().join("out"), &[], &CODES[..1]));
+        let (done, cost) = Cost::measure(|| asperity(&file, &folder.path().join("out"), &[], &CODES[..1]));
         done?;
         let (mut positions, mut rows) = (Vec::new(), Vec::new());
         if folder.path().join("out/pressure_profiles.csv").exists() {

@@ -5,8 +5,8 @@ mod files;
 
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_vary::SceneText;
-use exact::{Joined, Side};
-use files::Ran;
+use exact::{JoinedHalfLines, Side};
+use files::FluidRun;
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -51,7 +51,7 @@ fn cells(size: f64) -> SceneText {
 }
 
 /// Largest error of a line over the largest pressure, in the last row of the table.
-fn error(ran: &Ran, line: &Joined) -> f64 {
+fn error(ran: &FluidRun, line: &JoinedHalfLines) -> f64 {
     let (time, found) = ran.last();
     let exact: Vec<f64> = ran.positions.iter().map(|x| line.pressure(x - WELL, time)).collect();
     let most = exact.iter().fold(0.0, |m: f64, p| m.max(*p));
@@ -66,10 +66,10 @@ fn estimate(size: f64, time: f64) -> f64 {
 
 /// Claims the pressure of a well in a uniform fault.
 fn uniform(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let line = Joined { sides: [LAYER; 2], well: 0.0, flux: FLUX };
+    let line = JoinedHalfLines { sides: [LAYER; 2], well: 0.0, flux: FLUX };
     let (mut errors, mut finest) = (Vec::new(), None);
     for size in [160.0, 80.0, 40.0, 20.0] {
-        let ran = Ran::of(&cells(size))?;
+        let ran = FluidRun::from_scene(&cells(size))?;
         errors.push((size, error(&ran, &line)));
         finest = Some(ran);
     }
@@ -93,12 +93,12 @@ fn uniform(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 /// Claims the pressure on cells of unequal lengths.
 fn graded(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let line = Joined { sides: [LAYER; 2], well: 0.0, flux: FLUX };
+    let line = JoinedHalfLines { sides: [LAYER; 2], well: 0.0, flux: FLUX };
     let (mut errors, mut last) = (Vec::new(), None);
     for size in [20.0, 10.0, 5.0] {
         let spacing =
             format!("[[\"0 km\", \"{0} m\"], [\"8 km\", \"{size} m\"], [\"16 km\", \"{0} m\"]]", 8.0 * size);
-        let ran = Ran::of(&halves(scene()).with("faults.main.line.spacing", spacing))?;
+        let ran = FluidRun::from_scene(&halves(scene()).with("faults.main.line.spacing", spacing))?;
         errors.push((size, error(&ran, &line)));
         last = Some(ran);
     }
@@ -150,12 +150,12 @@ fn sides(scene: SceneText, [left, right]: [Side; 2]) -> SceneText {
 /// Claims the pressure of wells at a contrast of permeability and storage, and beside it.
 fn contrast(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (name, well) in [("at the contrast", 0.0), ("1 km beside it", 1e3)] {
-        let line = Joined { sides: [LAYER, TIGHT], well, flux: FLUX };
+        let line = JoinedHalfLines { sides: [LAYER, TIGHT], well, flux: FLUX };
         let (mut errors, mut last) = (Vec::new(), None);
         for size in [80.0, 40.0, 20.0] {
             let scene = sides(cells(size), line.sides);
             let scene = scene.with_or_same("faults.main.diffusion.wells[0].at", format!("{} m", WELL - well));
-            let ran = Ran::of(&scene)?;
+            let ran = FluidRun::from_scene(&scene)?;
             errors.push((size, error(&ran, &line)));
             last = Some(ran);
         }
@@ -188,7 +188,7 @@ fn against_injection(ledger: &mut Ledger) -> Result<(), CaseError> {
     let size = 20.0;
     let well = "{ at = \"8 km\", flux = \"1.25e-6 m/s\", diffusivity = 0.1, porosity = 0.1, compressibility = 1e-8 }";
     let injection = cells(size).without("faults.main.diffusion").add("faults.main.injection", well);
-    let [diffused, injected] = [Ran::of(&cells(size))?, Ran::of(&injection)?];
+    let [diffused, injected] = [FluidRun::from_scene(&cells(size))?, FluidRun::from_scene(&injection)?];
     let [slips, others] = [&diffused, &injected].map(|ran| ran.at_stations("slip", LATE));
     let (slips, others) = (slips?, others?);
     let most = others.iter().fold(0.0, |m: f64, s| m.max(*s));
@@ -203,7 +203,7 @@ fn against_injection(ledger: &mut Ledger) -> Result<(), CaseError> {
         .because("pressures differ by 1e-5 of their largest value while the fault slips, and slip grows with a power of the pressure; two hundred steps have errors of ln V of 1e-5 each")
         .cost(&diffused.cost)
         .record();
-    let line = Joined { sides: [LAYER; 2], well: 0.0, flux: FLUX };
+    let line = JoinedHalfLines { sides: [LAYER; 2], well: 0.0, flux: FLUX };
     ledger
         .claim("pressure of `injection` after 100 d, error over the pressure at the well")
         .value(error(&injected, &line))
@@ -240,7 +240,7 @@ fn closed(ledger: &mut Ledger) -> Result<(), CaseError> {
         .add("faults.main.diffusion.profiles.permeability", profile)
         .with("faults.main.diffusion.wells", wells)
         .with("output.stations.main", "[\"0.5 km\"]");
-    let ran = Ran::of(&scene)?;
+    let ran = FluidRun::from_scene(&scene)?;
     let day = 86400.0;
     let injected = |t: f64| {
         let first =
@@ -272,7 +272,7 @@ fn drained(ledger: &mut Ledger) -> Result<(), CaseError> {
         .add("faults.main.diffusion.ends", "drained")
         .with("faults.main.diffusion.wells[0]", "{ at = \"7.123 km\", flux = \"2e-8 m/s\" }")
         .with("stages[0].duration", "2000 yr");
-    let ran = Ran::of(&scene)?;
+    let ran = FluidRun::from_scene(&scene)?;
     // Resistance from the upper end to a place.
     let to = |x: f64| x.min(WELL) / LAYER.mobility + (x - WELL).max(0.0) / TIGHT.mobility;
     let (whole, at) = (to(2.0 * WELL), 7123.0);
@@ -295,7 +295,7 @@ fn drained(ledger: &mut Ledger) -> Result<(), CaseError> {
 /// Claims the energy budget of a fault under fluxes that jump.
 fn energy(ledger: &mut Ledger) -> Result<(), CaseError> {
     let flux = "{ steps = [[\"0 d\", 1.25e-6], [\"70 d\", 2e-6], [\"85 d\", 0]] }";
-    let ran = Ran::of(&scene().with("faults.main.diffusion.wells[0].flux", flux))?;
+    let ran = FluidRun::from_scene(&scene().with("faults.main.diffusion.wells[0].flux", flux))?;
     ledger
         .claim("imbalance of the energy budget over its largest part, under a flux that jumps three times")
         .norm("report.json")
@@ -314,7 +314,7 @@ fn energy(ledger: &mut Ledger) -> Result<(), CaseError> {
 fn in_parts(ledger: &mut Ledger) -> Result<(), CaseError> {
     let scene = cells(80.0).add("time.log_rate_tolerance", "1e-11");
     let ((interruptions, differing), cost) = {
-        let (found, cost) = Cost::of(|| files::in_parts(&scene));
+        let (found, cost) = Cost::measure(|| files::in_parts(&scene));
         (found?, cost)
     };
     ledger

@@ -84,7 +84,7 @@ fn driven(
 ) -> Result<(Run, Body<2>), CaseError> {
     let (mut body, path) = square(kinematics, limits, carry)?;
     let mut run = Run::default();
-    let (outcome, cost) = Cost::of(|| -> Result<(), CaseError> {
+    let (outcome, cost) = Cost::measure(|| -> Result<(), CaseError> {
         let mut done = 0.0;
         while done < 1.0 - 1e-12 {
             let part = (1.0 / steps as f64).min(1.0 - done);

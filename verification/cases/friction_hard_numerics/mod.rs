@@ -177,7 +177,7 @@ fn net_force(ledger: &mut Ledger) -> Result<Row, CaseError> {
     plan.tolerance = 1e-11;
     let mut last = Vec::new();
     let mut look = |now: &SliderState<'_>| last = now.unknowns.to_vec();
-    let (run, cost) = Cost::of(|| cycles::run(&plan, &mut look));
+    let (run, cost) = Cost::measure(|| cycles::run(&plan, &mut look));
     run?;
     let segment = plan.system.segment(1.0);
     let condition = segment.condition(0, 2000.0, &last);
@@ -319,7 +319,7 @@ fn swallowed(ledger: &mut Ledger) -> Result<Row, CaseError> {
 fn durations(ledger: &mut Ledger) -> Result<Row, CaseError> {
     let mut plan = slider::REFERENCE.plan(Kind::Ageing, 1.5, 1e12)?;
     slider::events(&mut plan, 10);
-    let (run, cost) = Cost::of(|| slider::finish(&plan));
+    let (run, cost) = Cost::measure(|| slider::finish(&plan));
     let run = run?;
     let events = Entry::from_slider(&run, 0);
     let (third, tenth) = (&events[2], &events[9]);

@@ -76,7 +76,7 @@ fn steady(
     law: impl Fn(&[f64]) -> Result<Vec<f64>, CaseError>,
 ) -> Result<(), CaseError> {
     let rates = rates();
-    let (found, cost) = Cost::of(|| law(&rates));
+    let (found, cost) = Cost::measure(|| law(&rates));
     let expected: Vec<f64> = rates.iter().map(|&v| formula(effects, v)).collect();
     ledger
         .claim(format!("steady traction, {name}, 1e-20 to 1e4 m/s"))
@@ -98,7 +98,7 @@ fn parting(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (a, b) = (0.02, 0.005);
     let rates: Vec<f64> = (0..=260).map(|n| 10f64.powf(-30.0 + 0.1 * f64::from(n))).collect();
     let form = Regularised(Parameters::new(MU0, a, V_REF)?);
-    let (found, cost) = Cost::of(|| tractions(form, Slip::new(b, LENGTH, V_REF)?, &rates));
+    let (found, cost) = Cost::measure(|| tractions(form, Slip::new(b, LENGTH, V_REF)?, &rates));
     let found = found?;
     let bare: Vec<f64> = rates.iter().map(|&v| formula((a, b), v)).collect();
     let expected: Vec<f64> = bare
@@ -156,7 +156,7 @@ fn inverse(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (a, b) = (0.01, 0.015);
     let rates = rates();
     let damping = 5e6;
-    let (worst, cost) = Cost::of(|| -> Result<f64, CaseError> {
+    let (worst, cost) = Cost::measure(|| -> Result<f64, CaseError> {
         let mut worst: f64 = 0.0;
         for &v in &rates {
             let form = Regularised(Parameters::new(MU0, a, V_REF)?);

@@ -142,7 +142,7 @@ fn stepped<E: Evolution>(
         most_steps: 100_000,
     };
     let mut keep = Keep(Vec::new());
-    let (end, cost) = Cost::of(|| {
+    let (end, cost) = Cost::measure(|| {
         asperity_ode::integrate(
             &problem,
             Clock::new(0.0, 0.0),
@@ -178,7 +178,7 @@ fn slide_hold_slide(ledger: &mut Ledger) -> Result<(), CaseError> {
         let holds = reference.numbers(name, "hold_s")?;
         let expected = reference.numbers(name, "peak_minus_steady_mu")?;
         let (found, cost) =
-            Cost::of(|| holds.iter().map(|&t| healing(&set, kind, t)).collect::<Result<Vec<_>, _>>());
+            Cost::measure(|| holds.iter().map(|&t| healing(&set, kind, t)).collect::<Result<Vec<_>, _>>());
         let found = found?;
         let law = if kind == Kind::Ageing { "ageing law" } else { "slip law" };
         ledger

@@ -1,6 +1,6 @@
 //! A bar pushed over a frictional foundation: slip front, displacement, hysteresis loop.
 
-use super::texts::{Done, simulate, work};
+use super::texts::{BodyRun, simulate, work};
 use crate::{Capability, Case, CaseError, Evidence, Floor, Ledger, Plot, Series};
 use asperity_vary::SceneText;
 
@@ -49,7 +49,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
                 .with_or_same("bodies.base.mesh.block.divisions", format!("[{n}, 1]"))
                 .with_or_same("interfaces.contact.measure", name);
             let done = simulate(&scene.text()?)?;
-            let profile = Profile::of(&done)?;
+            let profile = Profile::from_run(&done)?;
             levels.push((LENGTH / n as f64, profile.error()));
             rows.push([
                 format!("{}", LENGTH / n as f64),
@@ -92,7 +92,7 @@ struct Profile {
 }
 
 impl Profile {
-    fn of(done: &Done) -> Result<Profile, CaseError> {
+    fn from_run(done: &BodyRun) -> Result<Profile, CaseError> {
         let fields = done.contact("push")?;
         let places: Vec<f64> = done.record.setup().interfaces[0].positions.iter().map(|p| p[0]).collect();
         let end = done.record.stage_end("push").ok_or("the stage was not reached")?;
@@ -129,7 +129,7 @@ impl Profile {
         name: &str,
         levels: &[(f64, f64)],
         capability: Capability,
-        done: &Done,
+        done: &BodyRun,
     ) {
         let covers = [capability, Capability::Coulomb, Capability::PlaneStress];
         ledger

@@ -94,7 +94,7 @@ fn measured_by(mut scene: Scene, measure: Measure) -> Result<Scene, CaseError> {
 }
 
 /// A completed run.
-struct Done {
+struct CrackRun {
     /// Signed distance of each point from the middle along the crack \[m\].
     along: Vec<f64>,
     areas: Vec<f64>,
@@ -103,9 +103,9 @@ struct Done {
     cost: Cost,
 }
 
-fn simulate(scene: &Scene) -> Result<Done, CaseError> {
+fn simulate(scene: &Scene) -> Result<CrackRun, CaseError> {
     let mut record = Recorder::new();
-    let (report, cost) = Cost::of(|| {
+    let (report, cost) = Cost::measure(|| {
         let plan = bodies::plan(scene).map_err(|e| e.to_string())?;
         kinds::bodies::run(&plan, &mut record).map_err(|e| e.to_string())
     });
@@ -118,10 +118,10 @@ fn simulate(scene: &Scene) -> Result<Done, CaseError> {
     let areas = crack.areas.clone();
     let fields = record.stage_ends().last().ok_or("no stage ended")?.interfaces[0].clone();
     let cost = cost.counts(&report.counts).count("unknowns", report.plan.dofs as f64);
-    Ok(Done { along, areas, fields, report, cost })
+    Ok(CrackRun { along, areas, fields, report, cost })
 }
 
-impl Done {
+impl CrackRun {
     /// Absolute slip \[m\].
     fn slip(&self) -> Vec<f64> {
         self.fields.slip.iter().map(|s| s.abs()).collect()
@@ -265,7 +265,7 @@ fn graded(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 const HEAD: [&str; 6] = ["cells", "unknowns", "middle", "profile (L2)", "K_II", "wall [s]"];
 
-fn row(what: &str, done: &Done) -> Result<Vec<String>, CaseError> {
+fn row(what: &str, done: &CrackRun) -> Result<Vec<String>, CaseError> {
     let e = exact();
     let k = done.k().ok_or("too few points near the tip")?;
     Ok(vec![
@@ -278,7 +278,7 @@ fn row(what: &str, done: &Done) -> Result<Vec<String>, CaseError> {
     ])
 }
 
-fn slips(ledger: &mut Ledger, name: &str, done: &Done) {
+fn slips(ledger: &mut Ledger, name: &str, done: &CrackRun) {
     let e = exact();
     ledger
         .claim(format!("slip in the middle, graded, {name}"))
@@ -324,7 +324,7 @@ fn slips(ledger: &mut Ledger, name: &str, done: &Done) {
         .record();
 }
 
-fn tractions(ledger: &mut Ledger, name: &str, done: &Done) {
+fn tractions(ledger: &mut Ledger, name: &str, done: &CrackRun) {
     let e = exact();
     let ratio = done.fields.shear_traction.iter().zip(&done.fields.normal_traction);
     let ratio: Vec<f64> = ratio.map(|(t, n)| t.abs() / n / (PI / 6.0).tan()).collect();
@@ -357,7 +357,7 @@ fn tractions(ledger: &mut Ledger, name: &str, done: &Done) {
 }
 
 /// Claims that action equals reaction.
-fn balance(ledger: &mut Ledger, done: &Done) {
+fn balance(ledger: &mut Ledger, done: &CrackRun) {
     let balance = &done.report.balance[0];
     ledger
         .claim("sum of all contact forces and moments, relative, graded, mortar")
@@ -465,7 +465,7 @@ fn penalties(ledger: &mut Ledger) -> Result<(), CaseError> {
 /// The crack under pressure.
 fn opened(ledger: &mut Ledger) -> Result<(), CaseError> {
     let height = compliance() * PRESSURE;
-    let gap = |done: &Done| done.fields.gap[done.at(0.0)];
+    let gap = |done: &CrackRun| done.fields.gap[done.at(0.0)];
     let (mut levels, mut cost) = (Vec::new(), Cost::default());
     for (n, growth) in LEVELS {
         let done = simulate(&uniform(pressurised()?, n, growth, 100.0)?)?;

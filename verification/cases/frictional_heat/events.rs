@@ -49,14 +49,14 @@ fn variants() -> [(&'static str, &'static str, SceneText); 4] {
 }
 
 /// The report of a run; slip, temperature, pressure and time in its event; and its cost.
-struct Ran {
+struct HeatRun {
     report: Report,
     course: Vec<[f64; 4]>,
     cost: Cost,
 }
 
 /// Runs a scene to the end of its first event.
-fn ran(scene: SceneText) -> Result<Ran, CaseError> {
+fn ran(scene: SceneText) -> Result<HeatRun, CaseError> {
     let plan = seas::plan(&scene.text()?)?;
     let mut balance = Balance::new(&plan.problem);
     let mut course = Vec::new();
@@ -73,14 +73,14 @@ fn ran(scene: SceneText) -> Result<Ran, CaseError> {
         }
         Control::Go
     };
-    let (run, cost) = Cost::of(|| plan.problem.run(&plan.problem.settings, &mut watch));
+    let (run, cost) = Cost::measure(|| plan.problem.run(&plan.problem.settings, &mut watch));
     let run = run?;
     if let Outcome::Failed { reason } = &run.outcome {
         return Err(reason.to_string().into());
     }
     let cost = cost.count("steps", run.counts.steps as f64);
     let report = Report::new(&plan, &run, &mut balance);
-    Ok(Ran { report, course, cost })
+    Ok(HeatRun { report, course, cost })
 }
 
 /// Values of the first event with their names in the file of the independent program, and units.

@@ -45,7 +45,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 /// Claims the density of heat at the centre of a zone, at times over fifteen decades.
 fn densities(ledger: &mut Ledger) {
     let (width, longest) = (LAYER.width(), 3e10);
-    let (modes, cost) = Cost::of(|| Modes::new(width, LAYER.diffusivity, longest));
+    let (modes, cost) = Cost::measure(|| Modes::new(width, LAYER.diffusivity, longest));
     let exact = |s: f64| 1.0 / (2.0 * PI * (width * width + 2.0 * LAYER.diffusivity * s)).sqrt();
     let times = (0..=300).map(|k| 1e-5 * (longest / 1e-5_f64).powf(f64::from(k) / 300.0));
     let error = |s: f64| (modes.density(s) / exact(s) - 1.0).abs();
@@ -76,7 +76,7 @@ fn constant_flux(ledger: &mut Ledger) -> Result<(), CaseError> {
     let half_space = |time: f64| flux / LAYER.capacity * (time / (PI * LAYER.diffusivity)).sqrt();
     let (mut worst, mut last) = (0.0_f64, 0.0);
     let end = 1e6;
-    let (steps, cost) = Cost::of(|| {
+    let (steps, cost) = Cost::measure(|| {
         heated(LAYER, &|_, _| flux, (end, Steps::Error(1.0)), &mut |time, surface| {
             last = surface.temperature[0] - LAYER.ambient;
             worst = worst.max((last / zone(time) - 1.0).abs());
@@ -117,7 +117,7 @@ fn adiabatic(ledger: &mut Ledger) -> Result<(), CaseError> {
     let decay = layer.capacity * layer.thickness / (FRICTION * fluid.coefficient);
     let end = 4.0 * decay / RATE;
     let mut worst = 0.0_f64;
-    let (steps, cost) = Cost::of(|| {
+    let (steps, cost) = Cost::measure(|| {
         let heating = |_: f64, pressure: f64| FRICTION * (NORMAL - pressure) * RATE;
         heated(layer, &heating, (end, Steps::Error(1e-3)), &mut |time, surface| {
             let exact = (-RATE * time / decay).exp();
@@ -159,7 +159,7 @@ fn plane(ledger: &mut Ledger) -> Result<(), CaseError> {
         let heating = |_: f64, pressure: f64| FRICTION * (NORMAL - pressure) * RATE;
         let mut last = 0.0;
         curve.clear();
-        let (steps, cost) = Cost::of(|| {
+        let (steps, cost) = Cost::measure(|| {
             let end = FAR * length / RATE;
             heated(layer, &heating, (end, Steps::Error(1e-4)), &mut |time, surface| {
                 last = 1.0 - surface.pressure[0] / NORMAL;
@@ -215,7 +215,7 @@ fn order(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (mut levels, mut spent) = ([Vec::new(), Vec::new()], None);
     for count in [8, 16, 32] {
         let mut last = [0.0; 2];
-        let (steps, cost) = Cost::of(|| {
+        let (steps, cost) = Cost::measure(|| {
             let heating = |time: f64, _: f64| flux * (time / tau).exp();
             heated(LAYER, &heating, (end, Steps::Equal(count)), &mut |_, surface| {
                 last = [surface.temperature[0] - LAYER.ambient, surface.pressure[0]];

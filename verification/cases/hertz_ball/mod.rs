@@ -1,6 +1,6 @@
 //! A ball on a flat in three dimensions, pressed and sheared to partial slip.
 
-use super::hertz::{self, Done, Hertz, Tractions, compliance};
+use super::hertz::{self, Hertz, HertzRun, Tractions, compliance};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_plan::reading::scene::model::{Measure, Sliding};
 
@@ -33,7 +33,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         ("node-to-point", Measure::NodeToPoint, Capability::PenaltyContact3d, [CLAIMED].as_slice()),
     ] {
         for &size in sizes {
-            let ball = Ball::of(size, measure)?;
+            let ball = Ball::new(size, measure)?;
             rows.push(ball.row(name, size));
             if measure == Measure::Mortar {
                 pressures.push((size, ball.pressure_error()));
@@ -83,7 +83,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 struct Ball {
-    done: Done,
+    done: HertzRun,
     pressed: Tractions,
     sheared: Tractions,
     /// Exact contact at the end of pressing.
@@ -93,7 +93,7 @@ struct Ball {
 }
 
 impl Ball {
-    fn of(size: f64, measure: Measure) -> Result<Self, CaseError> {
+    fn new(size: f64, measure: Measure) -> Result<Self, CaseError> {
         let scene = hertz::refined(hertz::read(include_str!("scene.toml"))?, SIZE / size);
         let done = hertz::simulate(&hertz::measured(scene, measure, Sliding::Small))?;
         let radius = |x: [f64; 3]| x[0].hypot(x[2]);

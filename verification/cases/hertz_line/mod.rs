@@ -1,6 +1,6 @@
 //! Hertzian line contact: load, half-width, peak and profile of the pressure.
 
-use super::hertz::{self, Done, Hertz, Tractions, compliance};
+use super::hertz::{self, Hertz, HertzRun, Tractions, compliance};
 use crate::{Capability, Case, CaseError, Evidence, Floor, Ledger};
 use asperity_plan::reading::scene::model::{Measure, MeshSource, Scene, Sliding};
 
@@ -34,14 +34,14 @@ fn contact(load: f64) -> Hertz {
 }
 
 /// A run with its tractions and the Hertz contact under its load.
-struct Pressed {
-    done: Done,
+struct PressedCylinder {
+    done: HertzRun,
     at: Tractions,
     exact: Hertz,
 }
 
-impl Pressed {
-    fn of(scene: &Scene) -> Result<Self, CaseError> {
+impl PressedCylinder {
+    fn from_scene(scene: &Scene) -> Result<Self, CaseError> {
         let done = hertz::simulate(scene)?;
         let at = done.tractions("press")?;
         let exact = contact(at.load[1]);
@@ -71,7 +71,7 @@ fn table(ledger: &mut Ledger) -> Result<(), CaseError> {
                     continue;
                 }
                 let scene = hertz::measured(hertz::with_element(scene(n)?, element), measure, Sliding::Small);
-                let r = Pressed::of(&scene)?;
+                let r = PressedCylinder::from_scene(&scene)?;
                 let percent = |e: f64| format!("{:.2}", 100.0 * e);
                 rows.push([
                     name.to_string(),
@@ -126,7 +126,7 @@ fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     ];
     let mut pressed = Vec::new();
     for (what, scene) in runs {
-        let r = Pressed::of(&scene)?;
+        let r = PressedCylinder::from_scene(&scene)?;
         let capability =
             if what.starts_with("mortar") { Capability::Mortar } else { Capability::PenaltyContact2d };
         profile(ledger, what, &r, capability);
@@ -140,7 +140,7 @@ fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-fn load(ledger: &mut Ledger, r: &Pressed) {
+fn load(ledger: &mut Ledger, r: &PressedCylinder) {
     ledger
         .claim("load at the approach of 18.6 micrometres, mortar, n = 20")
         .unit("N/mm")
@@ -168,7 +168,7 @@ fn load(ledger: &mut Ledger, r: &Pressed) {
         .record();
 }
 
-fn profile(ledger: &mut Ledger, what: &str, r: &Pressed, capability: Capability) {
+fn profile(ledger: &mut Ledger, what: &str, r: &PressedCylinder, capability: Capability) {
     let fit = r.at.ellipse(r.exact.a);
     let covers = [Capability::Hertz, capability];
     let hertz = "Hertz at the load of the run";
@@ -224,7 +224,7 @@ fn order(ledger: &mut Ledger) -> Result<(), CaseError> {
                 let a = 1.0 + 0.25 * f64::from(k) / n;
                 let approach = approach(a);
                 let scene = hertz::measured(scene(n)?, measure, Sliding::Small);
-                let r = Pressed::of(&hertz::pressed_by(scene, "cylinder.top", approach))?;
+                let r = PressedCylinder::from_scene(&hertz::pressed_by(scene, "cylinder.top", approach))?;
                 sum += r.l2(&r.at.p).powi(2);
             }
             levels.push((1.0 / n, (0.25 * sum).sqrt()));
@@ -251,7 +251,7 @@ fn order(ledger: &mut Ledger) -> Result<(), CaseError> {
 /// Peak pressure against the penalty, compared with that of the stiffest penalty.
 fn penalty(ledger: &mut Ledger) -> Result<(), CaseError> {
     let peak = |factor: f64| -> Result<f64, CaseError> {
-        Ok(Pressed::of(&hertz::stiffened(scene(10.0)?, factor / 100.0))?.peak())
+        Ok(PressedCylinder::from_scene(&hertz::stiffened(scene(10.0)?, factor / 100.0))?.peak())
     };
     let hard = peak(1e4)?;
     let mut levels = Vec::new();
@@ -284,7 +284,7 @@ fn large_blocks(ledger: &mut Ledger) -> Result<(), CaseError> {
             corner.get_mut().iter_mut().for_each(|x| x.0 *= 4.0);
         }
     }
-    let r = Pressed::of(&scene)?;
+    let r = PressedCylinder::from_scene(&scene)?;
     ledger
         .claim("largest pressure, mortar, n = 20, blocks four times as large")
         .unit("MPa")

@@ -1,6 +1,6 @@
 //! Impact of two equal bars.
 
-use super::texts::{Done, simulate};
+use super::texts::{BodyRun, simulate};
 use crate::{Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
 use asperity_vary::SceneText;
 
@@ -46,12 +46,12 @@ fn scene(n: usize, radius: f64) -> SceneText {
 
 /// Pressure of the contact over time.
 struct Impact {
-    done: Done,
+    done: BodyRun,
     pressure: Vec<f64>,
 }
 
 impl Impact {
-    fn of(text: &str) -> Result<Impact, CaseError> {
+    fn from_text(text: &str) -> Result<Impact, CaseError> {
         let done = simulate(text)?;
         let points = &done.record.histories()[0].points;
         let mean = |k: usize| {
@@ -94,7 +94,8 @@ impl Impact {
 }
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let runs = LEVELS.iter().map(|&n| Impact::of(&scene(n, 0.5).text()?)).collect::<Result<Vec<_>, _>>()?;
+    let runs =
+        LEVELS.iter().map(|&n| Impact::from_text(&scene(n, 0.5).text()?)).collect::<Result<Vec<_>, _>>()?;
     let levels: Vec<(f64, f64)> =
         LEVELS.iter().zip(&runs).map(|(n, r)| (0.1 / *n as f64, 1.0 - r.impulse() / MOMENTUM)).collect();
     let shipped = &runs[2];
@@ -105,7 +106,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         rows.push(row(*n, 0.5, run));
     }
     for radius in [0.3, 0.8, 1.0] {
-        rows.push(row(100, radius, &Impact::of(&scene(100, radius).text()?)?));
+        rows.push(row(100, radius, &Impact::from_text(&scene(100, radius).text()?)?));
     }
     ledger.table(
         "meshes and spectral radii",

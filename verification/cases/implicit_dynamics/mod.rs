@@ -8,7 +8,7 @@ mod spinning;
 mod tied;
 mod vibration;
 
-use super::texts::Done;
+use super::texts::BodyRun;
 use crate::{Capability, Case, CaseError, Ledger};
 
 /// See the README.
@@ -39,11 +39,11 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Largest energy that the budget of a run misses, over its largest part.
-fn imbalance(done: &Done) -> f64 {
+fn imbalance(done: &BodyRun) -> f64 {
     done.report.energy.as_ref().map_or(f64::NAN, |energy| energy.imbalance)
 }
 
 /// Displacement along x of a point of the scene after each step [m].
-fn along_x(done: &Done, point: usize) -> Vec<f64> {
+fn along_x(done: &BodyRun, point: usize) -> Vec<f64> {
     done.record.samples().iter().map(|s| s.points[point].displacement[0]).collect()
 }

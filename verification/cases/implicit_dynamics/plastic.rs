@@ -1,7 +1,7 @@
 //! Elastic precursor and plastic front in uniaxial strain.
 
 use super::super::plastic_wave::Wave;
-use super::super::texts::{Done, simulate};
+use super::super::texts::{BodyRun, simulate};
 use super::imbalance;
 use crate::{Capability, CaseError, Evidence, Ledger, Plot, Series};
 
@@ -15,7 +15,7 @@ const HEIGHT: f64 = 0.5e-3;
 const COVERS: [Capability; 3] = [Capability::Inertia, Capability::Plasticity, Capability::PlaneStrain];
 
 /// Compression at a point over time [Pa].
-fn compression(done: &Done, point: usize) -> Vec<(f64, f64)> {
+fn compression(done: &BodyRun, point: usize) -> Vec<(f64, f64)> {
     let samples = done.record.samples().iter().map(|s| -s.points[point].stress[0]);
     done.record.times().iter().copied().zip(samples).collect()
 }
@@ -58,7 +58,7 @@ pub fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 fn fronts(
     ledger: &mut Ledger,
-    done: &Done,
+    done: &BodyRun,
     wave: &Wave,
     curves: &[Vec<(f64, f64)>; 2],
 ) -> Result<(), CaseError> {
@@ -88,7 +88,7 @@ fn fronts(
     Ok(())
 }
 
-fn stresses(ledger: &mut Ledger, done: &Done, wave: &Wave, curves: &[Vec<(f64, f64)>; 2]) {
+fn stresses(ledger: &mut Ledger, done: &BodyRun, wave: &Wave, curves: &[Vec<(f64, f64)>; 2]) {
     let (early, late) = (PLACES[1] / wave.elastic, PLACES[1] / wave.plastic);
     let third = (late - early) / 3.0;
     let values = [

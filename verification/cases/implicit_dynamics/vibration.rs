@@ -1,6 +1,6 @@
 //! One cell, held on one side, as an oscillator of known frequency.
 
-use super::super::texts::{Done, simulate};
+use super::super::texts::{BodyRun, simulate};
 use super::{along_x, imbalance};
 use crate::{Capability, CaseError, Evidence, Floor, Ledger};
 use asperity_vary::SceneText;
@@ -32,7 +32,7 @@ fn scene(radius: f64) -> SceneText {
 }
 
 /// Largest difference of displacements from `exact`, over the amplitude.
-fn error(done: &Done, exact: impl Fn(usize, f64) -> f64) -> f64 {
+fn error(done: &BodyRun, exact: impl Fn(usize, f64) -> f64) -> f64 {
     let rows = done.record.times().iter().zip(along_x(done, 0)).enumerate();
     rows.map(|(k, (t, u))| (u - exact(k, *t)).abs() / AMPLITUDE).fold(0.0, f64::max)
 }

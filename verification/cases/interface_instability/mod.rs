@@ -1,7 +1,7 @@
 //! A rigid block on a spring, modelled by bodies and interfaces: onset of instability of quasi-static equilibrium, and its time.
 
 use super::slider;
-use super::texts::{Done, attempt, simulate};
+use super::texts::{BodyRun, attempt, simulate};
 use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity::kinds::sliders::Entry;
@@ -89,13 +89,13 @@ impl System {
 }
 
 /// Final mean normal and shear traction of the fault \[Pa\].
-fn tractions(done: &Done) -> Result<[f64; 2], CaseError> {
+fn tractions(done: &BodyRun) -> Result<[f64; 2], CaseError> {
     let last = done.report.results.iter().rfind(|r| r.interface == "fault").ok_or("no results")?;
     Ok([last.mean_normal_traction, last.mean_shear_traction.abs()])
 }
 
 /// Time from the start of shear to the instability at which a run stopped \[s\]; none if it completed.
-fn onset(done: &Done) -> Result<Option<f64>, CaseError> {
+fn onset(done: &BodyRun) -> Result<Option<f64>, CaseError> {
     match &done.report.outcome {
         Outcome::Completed => Ok(None),
         Outcome::Stopped { time, kind: Stop::Instability { .. }, .. } => Ok(Some(time - PRESSED)),

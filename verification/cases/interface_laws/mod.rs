@@ -4,7 +4,7 @@ mod radiating;
 mod reversing;
 mod varying;
 
-use super::texts::{self, Done};
+use super::texts::{self, BodyRun};
 use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_vary::SceneText;
@@ -110,7 +110,7 @@ fn scene(law: &str, course: &[Vertex], (stepper, measure): (&str, &str)) -> Resu
 
 /// Largest errors of normal traction and shear traction over the largest normal traction, and of the traction of the spring that
 /// corresponds to the slip.
-fn errors(done: &Done, course: &[Vertex]) -> [f64; 3] {
+fn errors(done: &BodyRun, course: &[Vertex]) -> [f64; 3] {
     let timed = timed(course);
     let mut errors = [0.0_f64; 3];
     for (k, &time) in done.record.times().iter().enumerate().filter(|(_, t)| **t > PRESSED) {
@@ -140,7 +140,7 @@ fn follows(
     law: &str,
     course: &[Vertex],
     formula: &str,
-) -> Result<Vec<Done>, CaseError> {
+) -> Result<Vec<BodyRun>, CaseError> {
     let mut all = Vec::new();
     let mut largest = Vec::new();
     for run in RUNS {
@@ -246,7 +246,7 @@ fn slip_weakening(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Frictional work above the residual strength per area \[J/m²\].
-fn fracture(done: &Done) -> Result<f64, CaseError> {
+fn fracture(done: &BodyRun) -> Result<f64, CaseError> {
     let work: f64 = done.dissipated().iter().sum();
     let path: f64 = done.record.histories()[0].points[0].slip.windows(2).map(|s| (s[1] - s[0]).abs()).sum();
     Ok(work / WIDTH - MU_K * NORMAL * path)
@@ -309,7 +309,7 @@ fn static_kinetic(ledger: &mut Ledger) -> Result<(), CaseError> {
 const LEGS: [(f64, f64); 5] = [(1.0, 0.0), (101.0, 200e-6), (111.0, 200e-6), (211.0, 300e-6), (311.0, 0.0)];
 
 /// Largest error of a corner's traction over f_n.
-fn corners(done: &Done, rest: f64, slide: f64) -> f64 {
+fn corners(done: &BodyRun, rest: f64, slide: f64) -> f64 {
     let mut largest = 0.0_f64;
     for point in &done.record.histories()[0].points {
         let reach = if point.position[0] < 0.5 * WIDTH { 1.0 } else { 0.5 };
@@ -365,7 +365,7 @@ fn begins() -> Vec<f64> {
 }
 
 /// Runs the column dragged under a rate-dependent law.
-fn dragged(law: &str, (stepper, measure): (&str, &str)) -> Result<Done, CaseError> {
+fn dragged(law: &str, (stepper, measure): (&str, &str)) -> Result<BodyRun, CaseError> {
     let mut scene = SceneText::new(SCENE)
         .add("interfaces.fault.law", law)
         .add("interfaces.fault.measure", measure)
@@ -399,7 +399,7 @@ struct Row {
     last: bool,
 }
 
-fn rows(done: &Done) -> Vec<Row> {
+fn rows(done: &BodyRun) -> Vec<Row> {
     let (begins, times) = (begins(), done.record.times());
     let mut rows = Vec::new();
     for point in &done.record.histories()[0].points {
@@ -419,7 +419,7 @@ fn rows(done: &Done) -> Vec<Row> {
 }
 
 /// Results of a law with both steppers and measures.
-struct Capped {
+struct CapResults {
     /// Shear tractions at the ends of the stages over f_n.
     ends: Vec<f64>,
     /// Largest errors while the cap is active: of traction over the cap, and of the slip rate over the load rate.
@@ -431,7 +431,7 @@ struct Capped {
     cost: Cost,
 }
 
-fn capped(law: &str, cap: f64, holds: impl Fn(&Row) -> Option<bool>) -> Result<Capped, CaseError> {
+fn capped(law: &str, cap: f64, holds: impl Fn(&Row) -> Option<bool>) -> Result<CapResults, CaseError> {
     let (mut ends, mut errors, mut held, mut wrong) = (Vec::new(), [Vec::new(), Vec::new()], 0, 0);
     let mut cost = None;
     for run in RUNS {
@@ -457,11 +457,11 @@ fn capped(law: &str, cap: f64, holds: impl Fn(&Row) -> Option<bool>) -> Result<C
         errors.iter_mut().zip(largest).for_each(|(all, error)| all.push(error));
         cost.get_or_insert(done.cost);
     }
-    Ok(Capped { ends, errors, held, wrong, cost: cost.ok_or("nothing was run")? })
+    Ok(CapResults { ends, errors, held, wrong, cost: cost.ok_or("nothing was run")? })
 }
 
 /// Claims on a law with a cap.
-fn under_cap(ledger: &mut Ledger, name: &str, found: &Capped, ends: [f64; 3], released: &str) {
+fn under_cap(ledger: &mut Ledger, name: &str, found: &CapResults, ends: [f64; 3], released: &str) {
     let [tractions, rates] = &found.errors;
     for (what, errors, bound, because) in [
         ("traction over the cap", tractions, 1e-15, "rounding of one product"),

@@ -4,7 +4,7 @@
 //! The classical Runge-Kutta method with short steps integrates it.
 
 use super::{COMPLIANCE, NORMAL, SCENE, SPACE};
-use crate::cases::texts::{self, Done};
+use crate::cases::texts::{self, BodyRun};
 use crate::{Capability, CaseError, Evidence, Ledger};
 use asperity_vary::SceneText;
 use std::f64::consts::TAU;
@@ -94,7 +94,7 @@ fn table(axis: usize, turns: bool) -> String {
     format!("{{ table = [{}] }}", (0..=n).map(row).collect::<Vec<_>>().join(", "))
 }
 
-fn plane(steps: usize) -> Result<Done, CaseError> {
+fn plane(steps: usize) -> Result<BodyRun, CaseError> {
     let scene = SceneText::new(SCENE)
         .add("interfaces.fault.law", law(false))
         .add("interfaces.fault.measure", "node-to-point")
@@ -110,7 +110,7 @@ fn plane(steps: usize) -> Result<Done, CaseError> {
     texts::simulate(&scene.text()?)
 }
 
-fn space(steps: usize) -> Result<Done, CaseError> {
+fn space(steps: usize) -> Result<BodyRun, CaseError> {
     let scene = SceneText::new(SPACE)
         .with("interfaces.fault.law", law(true))
         .add("interfaces.fault.measure", "node-to-point")
@@ -129,7 +129,7 @@ fn space(steps: usize) -> Result<Done, CaseError> {
 
 /// Largest errors over the largest values: of slip and of the slip rate in the plane, of the slip rate and of the slip at the end
 /// in space.
-fn errors(done: &Done, exact: &[State], steps: usize, turns: bool) -> Result<[f64; 2], CaseError> {
+fn errors(done: &BodyRun, exact: &[State], steps: usize, turns: bool) -> Result<[f64; 2], CaseError> {
     let skip = exact.len() / steps;
     let times = done.record.times();
     let first = times.len() - steps;

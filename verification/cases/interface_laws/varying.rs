@@ -1,7 +1,7 @@
 //! Laws whose parameters vary along the interface, from files.
 
 use super::{MU0, NORMAL, PRESSED, RUNS, SCENE, SPACE};
-use crate::cases::texts::{self, Done};
+use crate::cases::texts::{self, BodyRun};
 use crate::cases::written::Folder;
 use crate::{Capability, CaseError, Evidence, Ledger};
 use asperity_vary::SceneText;
@@ -25,7 +25,7 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Runs a scene beside which these files lie.
-fn simulate(scene: &SceneText, files: &[(&str, &[u8])]) -> Result<Done, CaseError> {
+fn simulate(scene: &SceneText, files: &[(&str, &[u8])]) -> Result<BodyRun, CaseError> {
     let folder = Folder::new()?;
     for (name, bytes) in files {
         std::fs::write(folder.path().join(name), bytes)?;
@@ -52,7 +52,7 @@ fn column(law: &str, fields: &str, (stepper, measure): (&str, &str)) -> SceneTex
 }
 
 /// Shear traction along the motion, normal traction \[Pa\] and position \[m\] of each point at the end of a stage.
-fn points(done: &Done, stage: &str) -> Result<Vec<[f64; 3]>, CaseError> {
+fn points(done: &BodyRun, stage: &str) -> Result<Vec<[f64; 3]>, CaseError> {
     let last = done.steps_until(stage)? - 1;
     let points = done.record.histories()[0].points.iter();
     Ok(points.map(|p| [-p.shear_traction[last], p.normal_traction[last], p.position[0]]).collect())
@@ -176,7 +176,7 @@ fn parameters(initial: [f64; 2]) -> String {
 }
 
 /// The column with friction of rate and state, whose parameters come from one file.
-fn of_rate_and_state(evolution: &str, run: (&str, &str)) -> SceneText {
+fn rate_and_state_column(evolution: &str, run: (&str, &str)) -> SceneText {
     let law = format!(
         "{{ kind = \"rate-and-state\", evolution = \"{evolution}\", mu0 = {MU0}, a = 0.5, b = 0.5, l = 1, v_ref = {:e}, v_initial = 1 }}",
         RATES[0]
@@ -191,7 +191,7 @@ fn steady(ledger: &mut Ledger) -> Result<(), CaseError> {
     for evolution in ["ageing", "slip"] {
         let (mut wrong, mut cost) = (Vec::new(), None);
         for run in RUNS {
-            let scene = of_rate_and_state(evolution, run)
+            let scene = rate_and_state_column(evolution, run)
                 .push("stages", stage("slow", "700 s", &format!("{{ rate = {:e} }}", RATES[0])))
                 .push("stages", stage("fast", "6 s", &format!("{{ rate = {:e} }}", RATES[1])));
             let done = simulate(&scene, &[("friction.csv", file.as_bytes())])?;
@@ -225,7 +225,7 @@ fn initial(ledger: &mut Ledger) -> Result<(), CaseError> {
     let file = parameters(rates);
     let (mut wrong, mut cost) = (Vec::new(), None);
     for run in RUNS {
-        let done = simulate(&of_rate_and_state("ageing", run), &[("friction.csv", file.as_bytes())])?;
+        let done = simulate(&rate_and_state_column("ageing", run), &[("friction.csv", file.as_bytes())])?;
         let fields = done.contact("release")?;
         let positions = &done.record.setup().interfaces[0].positions;
         let found = fields.states.first().ok_or("the law has no state")?;

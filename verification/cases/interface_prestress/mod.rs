@@ -3,7 +3,7 @@
 mod parted;
 mod sheet;
 
-use super::texts::{Done, simulate_in};
+use super::texts::{BodyRun, simulate_in};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_vary::Change::{self, Add, With};
 use asperity_vary::SceneText;
@@ -114,7 +114,7 @@ struct Rest {
     moved: f64,
     /// Largest slip \[m\].
     slipped: f64,
-    done: Done,
+    done: BodyRun,
 }
 
 fn rest(text: &str) -> Result<Rest, CaseError> {

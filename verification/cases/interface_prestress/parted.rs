@@ -54,7 +54,7 @@ pub fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Largest error of the normal tractions through time over the pressure at the start.
-fn error(done: &super::Done, exact: impl Fn(f64) -> f64) -> f64 {
+fn error(done: &super::BodyRun, exact: impl Fn(f64) -> f64) -> f64 {
     let mut most = 0.0_f64;
     for (k, time) in done.record.times().iter().enumerate() {
         for point in &done.record.histories()[0].points {
@@ -103,7 +103,7 @@ fn parted(ledger: &mut Ledger, (name, changes, bound): (&str, &[Change<'_>], f64
 }
 
 /// Steps that end where blocks part and where they meet again.
-fn ends(ledger: &mut Ledger, done: &super::Done) {
+fn ends(ledger: &mut Ledger, done: &super::BodyRun) {
     let share = PRESSURE * (BLOCKS + PENALTY) / LIFT;
     let exact = [share, 2.0 - share];
     let nearest = |wanted: &f64| {

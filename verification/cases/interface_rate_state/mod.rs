@@ -1,7 +1,7 @@
 //! Rate-and-state friction of an interface: a column that slides on a base and obeys the equations of a slider on a spring.
 
 use super::slider::{self, Kind};
-use super::texts::{self, Done};
+use super::texts::{self, BodyRun};
 use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Evidence, Floor, Ledger, Plot, Series};
 use asperity::kinds::sliders::Entry;
@@ -358,7 +358,7 @@ fn slack(kind: Kind, stiffness: f64, load: History, end: f64) -> Result<Problem,
 }
 
 /// Friction of the slider at the times of a run since the law began to act.
-fn reference(kind: Kind, stiffness: f64, done: &Done) -> Result<Vec<f64>, CaseError> {
+fn reference(kind: Kind, stiffness: f64, done: &BodyRun) -> Result<Vec<f64>, CaseError> {
     let times: Vec<f64> = done.record.times().iter().map(|t| t - PRESSED).filter(|&t| t > 0.0).collect();
     let (mut table, mut from) = (Vec::new(), 0.0);
     for (end, rate) in STAGES {
@@ -388,12 +388,12 @@ fn by_slider(kind: Kind, stiffness: f64) -> Result<f64, CaseError> {
 }
 
 /// Largest difference of friction from that of the slider over all points and steps under the law.
-fn error(done: &Done, reference: &[f64]) -> f64 {
+fn error(done: &BodyRun, reference: &[f64]) -> f64 {
     error_since(0.0, done, reference)
 }
 
 /// The same difference after a given time of the run \[s\].
-fn error_since(time: f64, done: &Done, reference: &[f64]) -> f64 {
+fn error_since(time: f64, done: &BodyRun, reference: &[f64]) -> f64 {
     let times = done.record.times();
     let before = (times.len() - reference.len()).max(times.iter().take_while(|&&t| t <= time).count());
     let reference = &reference[before + reference.len() - times.len()..];

@@ -77,7 +77,7 @@ fn elastic(ledger: &mut Ledger) -> Result<(), CaseError> {
         let (mut levels, mut last) = (Vec::new(), Cost::default());
         let mut closed = (0.0_f64, 0.0_f64);
         for steps in [50, 100, 200, 400] {
-            let (outcome, cost) = Cost::of(|| sheared(hypoelastic()?, gamma, steps));
+            let (outcome, cost) = Cost::measure(|| sheared(hypoelastic()?, gamma, steps));
             let (found, trace, work) = outcome?;
             let d = gamma / steps as f64;
             levels.push((d, distance(found, exact)));
@@ -136,7 +136,7 @@ fn perfect(ledger: &mut Ledger) -> Result<(), CaseError> {
     let gamma = 0.5;
     let (mut levels, mut last) = (Vec::new(), Cost::default());
     for steps in [200, 400, 800, 1600] {
-        let (outcome, cost) = Cost::of(|| sheared(plastic(0.0)?, gamma, steps));
+        let (outcome, cost) = Cost::measure(|| sheared(plastic(0.0)?, gamma, steps));
         let (found, _, work) = outcome?;
         levels.push((gamma / steps as f64, distance(found, exact_perfect(gamma)) / RHO));
         last = cost.counts(&work);
@@ -158,7 +158,7 @@ fn perfect(ledger: &mut Ledger) -> Result<(), CaseError> {
         .cost(&last)
         .record();
     let (gamma, steps) = (8.0, 1600);
-    let (outcome, cost) = Cost::of(|| sheared(plastic(0.0)?, gamma, steps));
+    let (outcome, cost) = Cost::measure(|| sheared(plastic(0.0)?, gamma, steps));
     let (found, _, work) = outcome?;
     let cost = cost.counts(&work);
     let d = gamma / steps as f64;
@@ -270,7 +270,7 @@ fn hardening(ledger: &mut Ledger) -> Result<(), CaseError> {
     let exact = integrated(modulus, gamma)?;
     let (mut levels, mut last) = (Vec::new(), Cost::default());
     for steps in [200, 400, 800, 1600] {
-        let (outcome, cost) = Cost::of(|| sheared(plastic(modulus)?, gamma, steps));
+        let (outcome, cost) = Cost::measure(|| sheared(plastic(modulus)?, gamma, steps));
         let (found, _, work) = outcome?;
         levels.push((gamma / steps as f64, distance(found, exact) / exact[0].hypot(exact[1])));
         last = cost.counts(&work);

@@ -4,7 +4,7 @@ mod scenes;
 mod shapes;
 
 use crate::cases::slider_scene;
-use crate::cases::written::{self, Folder, Waves, Written};
+use crate::cases::written::{self, Folder, Waves, WrittenRun};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity::kinds;
 use scenes::{AREA, DAMPING, DURATION, HEIGHT, LAW, MODULUS, NORMAL, SHEAR, STEPS, TOLERANCE};
@@ -23,7 +23,7 @@ pub const CASE: Case = Case {
 const NOT_RETURNED: f64 = 1e-2;
 
 /// Files and report of a run.
-struct Ran {
+struct KindRun {
     kind: &'static str,
     files: Folder,
     report: Value,
@@ -92,38 +92,38 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     shapes::claims(ledger, &all)
 }
 
-fn cycles() -> Result<Ran, CaseError> {
-    let Written { report, files, cost, .. } = Written::of(&scenes::cycles(start()))?;
-    Ok(Ran { kind: "cycles", files, report: serde_json::to_value(report)?, cost })
+fn cycles() -> Result<KindRun, CaseError> {
+    let WrittenRun { report, files, cost, .. } = WrittenRun::from_text(&scenes::cycles(start()))?;
+    Ok(KindRun { kind: "cycles", files, report: serde_json::to_value(report)?, cost })
 }
 
-fn mass() -> Result<Ran, CaseError> {
-    let Waves { report, files, cost } = Waves::of(&scenes::mass(start()))?;
-    Ok(Ran { kind: "bodies with mass", files, report: serde_json::to_value(report)?, cost })
+fn mass() -> Result<KindRun, CaseError> {
+    let Waves { report, files, cost } = Waves::from_text(&scenes::mass(start()))?;
+    Ok(KindRun { kind: "bodies with mass", files, report: serde_json::to_value(report)?, cost })
 }
 
-fn interface() -> Result<Ran, CaseError> {
+fn interface() -> Result<KindRun, CaseError> {
     let (files, cost) = written::bodies(&scenes::interface(false))?;
     let report = serde_json::from_str(&files.text("report.json")?)?;
-    Ok(Ran { kind: "an interface", files, report, cost })
+    Ok(KindRun { kind: "an interface", files, report, cost })
 }
 
 /// The interface between bodies with inertia, whose files have energies.
-fn inertia() -> Result<Ran, CaseError> {
+fn inertia() -> Result<KindRun, CaseError> {
     let (files, cost) = written::bodies(&scenes::interface(true))?;
     let report = serde_json::from_str(&files.text("report.json")?)?;
-    Ok(Ran { kind: "an interface of bodies with inertia", files, report, cost })
+    Ok(KindRun { kind: "an interface of bodies with inertia", files, report, cost })
 }
 
-fn block(rate: f64) -> Result<Ran, CaseError> {
+fn block(rate: f64) -> Result<KindRun, CaseError> {
     let (problem, files) = (slider_scene::plan(&scenes::block(rate))?, Folder::new()?);
     let mut histories = kinds::sliders::Histories::create(files.path(), &problem)?;
-    let (run, cost) = Cost::of(|| asperity_cycles::slider::run(&problem, &mut histories));
+    let (run, cost) = Cost::measure(|| asperity_cycles::slider::run(&problem, &mut histories));
     let run = run?;
     histories.finish()?;
     let report = kinds::sliders::Report::new(&problem, &run);
     std::fs::write(files.path().join("events.csv"), kinds::sliders::csv(&report.events))?;
-    Ok(Ran { kind: "a slider", files, report: serde_json::to_value(report)?, cost })
+    Ok(KindRun { kind: "a slider", files, report: serde_json::to_value(report)?, cost })
 }
 
 /// The last number of a column of a table.
@@ -132,7 +132,7 @@ fn last(files: &Folder, file: &str, column: &str) -> Result<f64, CaseError> {
 }
 
 /// Slip, slip rates, friction and displacement at the end.
-fn values(ledger: &mut Ledger, all: &[Ran; 4], exact: &Exact) -> Result<(), CaseError> {
+fn values(ledger: &mut Ledger, all: &[KindRun; 4], exact: &Exact) -> Result<(), CaseError> {
     let [cycles, mass, interface, block] = all;
     // Backward Euler takes the rate at the end of each step.
     let euler = exact.falls / STEPS as f64;
@@ -185,7 +185,7 @@ fn values(ledger: &mut Ledger, all: &[Ran; 4], exact: &Exact) -> Result<(), Case
 
 fn claim(
     ledger: &mut Ledger,
-    ran: &Ran,
+    ran: &KindRun,
     (name, found): (&str, f64),
     value: f64,
     (bound, because): (f64, &str),
@@ -206,10 +206,10 @@ fn claim(
 /// Works per area at the end.
 fn energies(
     ledger: &mut Ledger,
-    [cycles, mass, _, block]: &[Ran; 4],
+    [cycles, mass, _, block]: &[KindRun; 4],
     exact: &Exact,
 ) -> Result<(), CaseError> {
-    let of = |ran: &Ran, group: &str, part: &str, area: f64| {
+    let of = |ran: &KindRun, group: &str, part: &str, area: f64| {
         let value = ran.report["energy"][group][part].as_f64();
         Ok::<f64, CaseError>(value.ok_or_else(|| format!("no energy {group}/{part}"))? / area)
     };

@@ -1,6 +1,6 @@
 //! Columns of files, and types of values in reports, of which kinds of run have the same name.
 
-use super::Ran;
+use super::KindRun;
 use crate::{Capability, CaseError, Evidence, Ledger};
 use serde_json::Value;
 
@@ -25,13 +25,13 @@ const CATALOGUE: [&str; 7] = [
     "end [s]",
 ];
 
-pub(super) fn claims(ledger: &mut Ledger, all: &[Ran]) -> Result<(), CaseError> {
+pub(super) fn claims(ledger: &mut Ledger, all: &[KindRun]) -> Result<(), CaseError> {
     tables(ledger, all)?;
     catalogues(ledger, all)?;
     reports(ledger, all)
 }
 
-fn tables(ledger: &mut Ledger, all: &[Ran]) -> Result<(), CaseError> {
+fn tables(ledger: &mut Ledger, all: &[KindRun]) -> Result<(), CaseError> {
     for table in TABLES {
         let heads: Vec<Vec<String>> =
             all.iter().filter_map(|ran| Some(ran.files.table(table).ok()?.head().to_vec())).collect();
@@ -44,7 +44,7 @@ fn tables(ledger: &mut Ledger, all: &[Ran]) -> Result<(), CaseError> {
     Ok(())
 }
 
-fn catalogues(ledger: &mut Ledger, all: &[Ran]) -> Result<(), CaseError> {
+fn catalogues(ledger: &mut Ledger, all: &[KindRun]) -> Result<(), CaseError> {
     let heads: Vec<Vec<String>> =
         all.iter().filter_map(|ran| Some(ran.files.table("events.csv").ok()?.head().to_vec())).collect();
     if heads.len() < 2 {
@@ -58,7 +58,7 @@ fn catalogues(ledger: &mut Ledger, all: &[Ran]) -> Result<(), CaseError> {
     Ok(())
 }
 
-fn reports(ledger: &mut Ledger, all: &[Ran]) -> Result<(), CaseError> {
+fn reports(ledger: &mut Ledger, all: &[KindRun]) -> Result<(), CaseError> {
     let mut differ = Vec::new();
     for (k, one) in all.iter().enumerate() {
         for other in &all[..k] {

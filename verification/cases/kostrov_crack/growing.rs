@@ -95,7 +95,7 @@ pub(super) fn grow(mode: Mode, spacing: f64) -> Result<Crack, CaseError> {
             slips.push((time, run.fault().slip.clone()));
         }
     };
-    let (result, cost) = Cost::of(|| steps(&problem, watch));
+    let (result, cost) = Cost::measure(|| steps(&problem, watch));
     let last = result?;
     let cost = cost.count("cells", last.product().cells() as f64).count("steps", last.steps() as f64);
     Ok(Crack { at, slips, cost })

@@ -44,7 +44,7 @@ fn circle(ledger: &mut Ledger) -> Result<(), CaseError> {
         let options = body::model(material, Idealisation::PlaneStrain, Kinematics::UpdatedLagrangian);
         let mut body = Body::new(mesh, options, &[])?;
         body.block.prestress(|_, _| start)?;
-        let (worst, cost) = Cost::of(|| -> Result<f64, CaseError> {
+        let (worst, cost) = Cost::measure(|| -> Result<f64, CaseError> {
             let mut worst = 0.0_f64;
             for k in 1..=(360.0 / degrees) as usize {
                 let angle = (degrees * k as f64).to_radians();
@@ -145,7 +145,7 @@ fn strip(steps: usize, carry: bool) -> Result<(f64, Body<2>, Cost), CaseError> {
     body.implicit(&held, &[], 1.0, 1e-14, None)?;
     let start = body.block.stress_at_points();
     let angle = FRAC_PI_2 / steps as f64;
-    let (outcome, cost) = Cost::of(|| -> Result<(), CaseError> {
+    let (outcome, cost) = Cost::measure(|| -> Result<(), CaseError> {
         for k in 0..steps {
             let increments = body::moved(&body.mesh, &grips, |[x, y]| {
                 let place = [x * (1.0 + STRETCH), y];

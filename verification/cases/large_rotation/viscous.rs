@@ -80,7 +80,7 @@ fn solid(ledger: &mut Ledger, degrees: f64) -> Result<(), CaseError> {
     let start = body.block.stress_at_points()[0];
     let mean = (start[0] + start[1] + start[2]) / 3.0;
     let steps = (ANGLE / degrees) as usize;
-    let (outcome, cost) = Cost::of(|| -> Result<f64, CaseError> {
+    let (outcome, cost) = Cost::measure(|| -> Result<f64, CaseError> {
         let mut worst = 0.0_f64;
         for k in 1..=steps {
             let r = rotation((degrees * k as f64).to_radians());

@@ -114,7 +114,7 @@ fn strains(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (what, material, rate, end, shear) in cases {
         let (mut found, mut pressures, mut last) = (Vec::new(), Vec::new(), Cost::default());
         for steps in [1, 7, 100] {
-            let (outcome, cost) = Cost::of(|| driven(material()?, jump, rate, end, steps));
+            let (outcome, cost) = Cost::measure(|| driven(material()?, jump, rate, end, steps));
             let ([s, p], work) = outcome?;
             found.push(s);
             pressures.push(p);
@@ -180,7 +180,7 @@ fn creep(ledger: &mut Ledger) -> Result<(), CaseError> {
     let exact = 0.05 / SHEAR + 0.05 * end / VISCOSITY;
     let (mut found, mut last) = (Vec::new(), Cost::default());
     for steps in [1, 7, 100] {
-        let (outcome, cost) = Cost::of(|| crept(fluid()?, end, steps));
+        let (outcome, cost) = Cost::measure(|| crept(fluid()?, end, steps));
         let (u, work) = outcome?;
         found.push(u);
         last = cost.counts(&work);
@@ -203,7 +203,7 @@ fn creep(ledger: &mut Ledger) -> Result<(), CaseError> {
     let exact = 0.05 * (1.0 / soft - (1.0 / soft - 1.0 / stiff) * (-end / retarded).exp());
     let (mut levels, mut last) = (Vec::new(), Cost::default());
     for steps in [4, 8, 16, 32] {
-        let (outcome, cost) = Cost::of(|| crept(solid()?, end, steps));
+        let (outcome, cost) = Cost::measure(|| crept(solid()?, end, steps));
         let (u, work) = outcome?;
         levels.push((1.0 / steps as f64, (u / exact - 1.0).abs()));
         last = cost.counts(&work);
@@ -261,7 +261,7 @@ fn cylinder(ledger: &mut Ledger) -> Result<(), CaseError> {
     let exact = [exact_cylinder(INNER, end), exact_cylinder(OUTER, end)];
     let (mut levels, mut work, mut last) = (Vec::new(), Vec::new(), Cost::default());
     for steps in [2, 4, 8, 16] {
-        let (outcome, cost) = Cost::of(|| pressed(32, end, steps));
+        let (outcome, cost) = Cost::measure(|| pressed(32, end, steps));
         let (found, body) = outcome?;
         let error = (found[0] - exact[0]).hypot(found[1] - exact[1]) / exact[0];
         levels.push((1.0 / steps as f64, error));
@@ -283,7 +283,7 @@ fn cylinder(ledger: &mut Ledger) -> Result<(), CaseError> {
         .why_not_tighter("the part that relaxes has nearly done so at the end")
         .cost(&last)
         .record();
-    let (outcome, cost) = Cost::of(|| pressed(32, 0.0, 1));
+    let (outcome, cost) = Cost::measure(|| pressed(32, 0.0, 1));
     let (found, body) = outcome?;
     ledger
         .claim("displacements of the cylinder at the moment of loading")

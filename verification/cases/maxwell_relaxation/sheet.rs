@@ -92,7 +92,7 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
             let exact = exact(sides, END);
             let start = self::exact(sides, 0.0)[0];
             for steps in STEPS {
-                let (outcome, cost) = Cost::of(|| relaxed(sides, steps, forward));
+                let (outcome, cost) = Cost::measure(|| relaxed(sides, steps, forward));
                 let (found, work) = outcome?;
                 let error = (found[0] - exact[0]).hypot(found[1] - exact[1]) / start;
                 levels.push(((steps as f64).recip(), error));

@@ -48,7 +48,7 @@ const PRESSURE: f64 = 7.0;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (name, dimension, endings) in FILES {
-        let mut found = Found::default();
+        let mut found = FormatResults::default();
         for ending in endings {
             let file = format!("{name}{ending}");
             bar(&mut found, &file, dimension).map_err(|error| format!("{file}: {error}"))?;
@@ -63,7 +63,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 /// Values over the exact ones, in all formats of a mesh.
 #[derive(Default)]
-struct Found {
+struct FormatResults {
     /// Displacements and stresses at points of the drawn bar.
     drawn: Vec<f64>,
     /// Forces that hold the bar against its weight.
@@ -73,7 +73,7 @@ struct Found {
     cost: Cost,
 }
 
-fn claims(ledger: &mut Ledger, name: &str, found: &Found) {
+fn claims(ledger: &mut Ledger, name: &str, found: &FormatResults) {
     let whole = |values: &[f64]| vec![1.0; values.len()];
     ledger
         .claim(format!("{name}: displacement and stress of a drawn bar over the exact ones"))
@@ -98,7 +98,7 @@ fn claims(ledger: &mut Ledger, name: &str, found: &Found) {
 }
 
 /// A bar from a file, drawn along x; and hanging from its low side by its weight.
-fn bar(found: &mut Found, file: &str, dimension: usize) -> Result<(), CaseError> {
+fn bar(found: &mut FormatResults, file: &str, dimension: usize) -> Result<(), CaseError> {
     let format = if file.ends_with(".inp") { ("abaqus", "elsets") } else { ("gmsh", "groups") };
     let still = if dimension == 3 { ", z = 0" } else { "" };
     let low = format!("{{ set = \"bar.low\", x = 0, y = 0{still} }}");

@@ -1,6 +1,6 @@
 //! Quadratic convergence of Newton's method, which needs the exact tangent.
 
-use super::texts::{Done, simulate};
+use super::texts::{BodyRun, simulate};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_output::bodies::view::StepRecord;
 use asperity_vary::SceneText;
@@ -57,7 +57,7 @@ fn constant(step: &StepRecord) -> Option<f64> {
         .next_back()
 }
 
-fn claims(ledger: &mut Ledger, case: &Nonlinear, median: f64, steps: usize, done: &Done) {
+fn claims(ledger: &mut Ledger, case: &Nonlinear, median: f64, steps: usize, done: &BodyRun) {
     ledger
         .claim(format!("{}: residual over the square of that before", case.name))
         .norm("median over the steps, of the last iteration above rounding")

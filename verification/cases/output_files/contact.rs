@@ -3,7 +3,7 @@
 //! Nothing moves along y, so that an initial stress alone presses the blocks. Slip is uniform, and a spring or a motion draws the
 //! upper block, which is the slave: everything has a closed form once the start is forgotten.
 
-use super::{OfFiles, Wanted};
+use super::{ExpectedNumber, FileClaims};
 use crate::cases::written::{self, Folder};
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity_vary::SceneText;
@@ -116,7 +116,7 @@ fn plane(ledger: &mut Ledger) -> Result<(), CaseError> {
     let way = rate * DURATION;
     let s = Steady::new(way, rate, w / SPRING);
     // The normal of the master points up, and the first tangent along -x.
-    let wanted: [Wanted<'_>; 22] = [
+    let wanted: [ExpectedNumber<'_>; 22] = [
         ("probes/joint.csv", "relative_displacement", -s.relative),
         ("probes/joint.csv", "slip", -s.slip),
         ("probes/joint.csv", "slip_rate", -rate),
@@ -141,14 +141,14 @@ fn plane(ledger: &mut Ledger) -> Result<(), CaseError> {
         ("forces/top.csv", "force_x", s.shear * w),
     ];
     all(ledger, (&files, &cost), "in the plane", &wanted)?;
-    let spring: [Wanted<'_>; 4] = [
+    let spring: [ExpectedNumber<'_>; 4] = [
         ("springs/upper_top_x.csv", "load_point", way),
         ("springs/upper_top_x.csv", "displacement", s.top),
         ("springs/upper_top_x.csv", "force", s.shear * w),
         ("springs/upper_top_x.csv", "friction", s.shear / NORMAL),
     ];
     all(ledger, (&files, &cost), "in the plane", &spring)?;
-    let fields: [Wanted<'_>; 8] = [
+    let fields: [ExpectedNumber<'_>; 8] = [
         ("fields/joint_*.vtu", "slip", -s.slip),
         ("fields/joint_*.vtu", "relative_displacement", -s.relative),
         ("fields/joint_*.vtu", "slip_rate", -rate),
@@ -196,7 +196,7 @@ fn backwards(ledger: &mut Ledger, forwards: &Folder, s: &Steady) -> Result<(), C
         .covers(&[Capability::Implicit, Capability::VelocityFriction])
         .cost(&cost)
         .record();
-    let wanted: [Wanted<'_>; 4] = [
+    let wanted: [ExpectedNumber<'_>; 4] = [
         ("probes/joint.csv", "slip", s.slip),
         ("probes/joint.csv", "friction", s.shear / NORMAL),
         ("springs/upper_top_x.csv", "force", -s.shear * WIDTHS[0]),
@@ -218,7 +218,7 @@ fn space(ledger: &mut Ledger) -> Result<(), CaseError> {
     let along = [x / rate, z / rate];
     let s = Steady::new(rate * DURATION, rate, 0.0);
     let mises = NORMAL.hypot(3.0_f64.sqrt() * s.shear);
-    let wanted: [Wanted<'_>; 19] = [
+    let wanted: [ExpectedNumber<'_>; 19] = [
         ("points/middle.csv", "mises", mises),
         ("fields/bodies_*.vtu", "mises", mises),
         ("probes/joint.csv", "relative_displacement", s.relative),
@@ -329,9 +329,9 @@ fn all(
     ledger: &mut Ledger,
     run: (&Folder, &Cost),
     space: &str,
-    wanted: &[Wanted<'_>],
+    wanted: &[ExpectedNumber<'_>],
 ) -> Result<(), CaseError> {
-    let of_files = OfFiles {
+    let claims = FileClaims {
         title: &format!("two blocks that slide steadily {space}"),
         bound: 1e-8,
         source: "friction of the law at the rate of the load; blocks, penalty and spring bend under it",
@@ -339,5 +339,5 @@ fn all(
         slack: "the last of ten digits may be off by any part of a half",
         covers: &[Capability::Outputs, Capability::VelocityFriction],
     };
-    of_files.claim(ledger, run, wanted)
+    claims.claim(ledger, run, wanted)
 }

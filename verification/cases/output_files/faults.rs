@@ -6,8 +6,8 @@
 //! the stiffness of the blocks, 0.4 mm, and slips by 10 mm. What it lags behind the load tells of the start.
 
 use super::vtu::Fields;
-use super::{OfFiles, Wanted};
-use crate::cases::written::{Folder, Written};
+use super::{ExpectedNumber, FileClaims};
+use crate::cases::written::{Folder, WrittenRun};
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity_vary::SceneText;
 
@@ -114,9 +114,9 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 fn plane(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let done = Written::of(&scene(false))?;
+    let done = WrittenRun::from_text(&scene(false))?;
     let (slip, shear) = (RATE * DURATION, strength());
-    let wanted: [Wanted<'_>; 18] = [
+    let wanted: [ExpectedNumber<'_>; 18] = [
         ("stations/main_", "t", DURATION),
         ("stations/main_", "slip", slip),
         ("stations/main_", "slip_rate", RATE.log10()),
@@ -140,14 +140,14 @@ fn plane(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 fn space(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let done = Written::of(&scene(true))?;
+    let done = WrittenRun::from_text(&scene(true))?;
     let (way, shear) = (RATE * DURATION, strength());
     let (along, across) = (ANGLE.cos(), ANGLE.sin());
     let soft = 1.0 / MODULI[0] + 1.0 / MODULI[1];
     // Direction 2 is the rake, z; direction 3 is n x rake, -y.
     let slip = [way * along - shear * (along - 1.0) * soft, (way - shear * soft) * across];
     let size = slip[0].hypot(slip[1]);
-    let wanted: [Wanted<'_>; 19] = [
+    let wanted: [ExpectedNumber<'_>; 19] = [
         ("stations/main_", "slip_2", slip[0]),
         ("stations/main_", "slip_3", slip[1]),
         ("stations/main_", "slip_rate_2", (RATE * along).log10()),
@@ -177,7 +177,7 @@ fn two_states(ledger: &mut Ledger) -> Result<(), CaseError> {
     let law = format!(
         "{{ kind = \"rate-and-state\", evolution = \"slip\", mu0 = {mu0:?}, a = {a:?}, b = {STATES:?}, l = [{l:e}, {l:e}], v_ref = {v0:e}, v_initial = {RATE:e} }}"
     );
-    let done = Written::of(&SceneText::new(&scene(true)).with("faults.main.law", law).text()?)?;
+    let done = WrittenRun::from_text(&SceneText::new(&scene(true)).with("faults.main.law", law).text()?)?;
     let names = done.files.names("fields")?;
     let name = names.iter().rfind(|name| name.starts_with("main_")).ok_or("no fields")?;
     let fields = Fields::read(&done.files.text(&format!("fields/{name}"))?)?;
@@ -199,7 +199,7 @@ fn two_states(ledger: &mut Ledger) -> Result<(), CaseError> {
     let law = format!(
         "{{ kind = \"rate-and-state\", evolution = \"slip\", mu0 = {mu0:?}, a = {a:?}, b = {STATES:?}, l = [{l:e}, {l:e}], v_ref = {v0:e}, v_initial = {RATE:e} }}"
     );
-    let done = Written::of(&plane.with("faults.main.law", law).text()?)?;
+    let done = WrittenRun::from_text(&plane.with("faults.main.law", law).text()?)?;
     let row = done.files.table("state_profiles.csv")?.numbers().pop().ok_or("no row")?;
     ledger
         .claim("a fault that slides steadily out of the plane with two states: its first state at all points of the profiles, at the end")
@@ -245,7 +245,7 @@ fn deficit(ledger: &mut Ledger) -> Result<(), CaseError> {
         .with("stages[0].conditions", format!("[{held}]"))
         .with("stages[0].duration", 1e-3)
         .text()?;
-    let done = Written::of(&text)?;
+    let done = WrittenRun::from_text(&text)?;
     // Areas of the points are a half, one and a half.
     let areas = [0.5, 1.0, 0.5];
     let coupling = [RATE, RATE, SLOW].map(|rate| 1.0 - rate / PLATES);
@@ -303,7 +303,7 @@ fn snapshots(ledger: &mut Ledger) -> Result<(), CaseError> {
         )
         .with("stages[0].duration", 1e-3)
         .text()?;
-    let done = Written::of(&text)?;
+    let done = WrittenRun::from_text(&text)?;
     let first = *done.files.table("snapshots.csv")?.column("log10 slip_rate")?.first().ok_or("no row")?;
     ledger
         .claim(
@@ -323,7 +323,7 @@ fn snapshots(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 /// Displacements of the bodies at the end, which move rigidly as tractions do not change.
 fn moved(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let done = Written::of(&SceneText::new(&scene(false)).add("output.bodies", true).text()?)?;
+    let done = WrittenRun::from_text(&SceneText::new(&scene(false)).add("output.bodies", true).text()?)?;
     let fields = Fields::read(&done.files.text("fields/bodies_end.vtu")?)?;
     let along = |name: &str, c: usize| -> Result<Vec<f64>, CaseError> {
         Ok(fields.array(name)?.values.chunks_exact(3).map(|v| v[c]).collect())
@@ -352,9 +352,9 @@ fn all(
     ledger: &mut Ledger,
     run: (&Folder, &Cost),
     space: &str,
-    wanted: &[Wanted<'_>],
+    wanted: &[ExpectedNumber<'_>],
 ) -> Result<(), CaseError> {
-    let of_files = OfFiles {
+    let claims = FileClaims {
         title: &format!("a fault that slides steadily {space}"),
         bound: 5e-7,
         source: "friction of the law at the rate of the load; the blocks bend under it, and slip lags by what they bend since the start",
@@ -362,5 +362,5 @@ fn all(
         slack: "most files have ten digits",
         covers: &[Capability::Outputs, Capability::FaultCycles],
     };
-    of_files.claim(ledger, run, wanted)
+    claims.claim(ledger, run, wanted)
 }

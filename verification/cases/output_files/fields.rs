@@ -126,7 +126,7 @@ fn point(files: &Folder, space: usize) -> Result<f64, CaseError> {
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     let vtk: Value = serde_json::from_str(VTK)?;
     let mut worst = [0.0_f64; 3];
-    let (done, cost) = Cost::of(|| -> Result<(), CaseError> {
+    let (done, cost) = Cost::measure(|| -> Result<(), CaseError> {
         for (element, space) in ELEMENTS {
             let (files, _) = written::bodies(&scene(element, space))?;
             let last = files.names("fields")?.pop().ok_or("no field file")?;

@@ -7,7 +7,7 @@ mod mixed;
 mod states;
 pub(super) mod vtu;
 
-use crate::cases::written::{Folder, Written};
+use crate::cases::written::{Folder, WrittenRun};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use vtu::Fields;
 
@@ -52,7 +52,7 @@ fn state(normal: f64) -> f64 {
 
 /// Claims about the first rows of stations.
 fn stations(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let done = Written::of(include_str!("station.toml"))?;
+    let done = WrittenRun::from_text(include_str!("station.toml"))?;
     let normal = |along: f64| 40e6 + 2e6 * along;
     for (name, unit, expected, source, because) in [
         (
@@ -100,10 +100,10 @@ fn stations(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// A number in a file, and its value in closed form.
-type Wanted<'a> = (&'a str, &'a str, f64);
+type ExpectedNumber<'a> = (&'a str, &'a str, f64);
 
 /// Claims about the last numbers in the files of a run.
-struct OfFiles<'a> {
+struct FileClaims<'a> {
     /// The problem.
     title: &'a str,
     /// Largest relative error.
@@ -115,12 +115,12 @@ struct OfFiles<'a> {
     covers: &'a [Capability],
 }
 
-impl OfFiles<'_> {
+impl FileClaims<'_> {
     fn claim(
         &self,
         ledger: &mut Ledger,
         (files, cost): (&Folder, &Cost),
-        wanted: &[Wanted<'_>],
+        wanted: &[ExpectedNumber<'_>],
     ) -> Result<(), CaseError> {
         for &(file, column, value) in wanted {
             ledger

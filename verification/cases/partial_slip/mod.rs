@@ -1,6 +1,6 @@
 //! Cattaneo-Mindlin problem: a pressed line contact under shear, which sticks in the middle and slips at its edges.
 
-use super::hertz::{self, Done, Hertz, Tractions, compliance};
+use super::hertz::{self, Hertz, HertzRun, Tractions, compliance};
 use crate::{Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
 use asperity_plan::reading::scene::model::{Measure, Motion, Scene, Sliding, here};
 
@@ -23,7 +23,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (name, measure) in MEASURES {
         let mut levels = Vec::new();
         for n in [5.0, 10.0, 20.0, 40.0] {
-            let r = Sheared::of(&scene(n, measure)?, "shear")?;
+            let r = ShearedContact::from_scene(&scene(n, measure)?, "shear")?;
             levels.push((1.0 / n, r.error()));
             rows.push(r.row(name, n));
             if n == N {
@@ -72,16 +72,16 @@ fn along_x(mut at: Tractions) -> Tractions {
     at
 }
 
-struct Sheared {
-    done: Done,
+struct ShearedContact {
+    done: HertzRun,
     at: Tractions,
     exact: Hertz,
     /// Half-width of the stick zone \[m\].
     c: f64,
 }
 
-impl Sheared {
-    fn of(scene: &Scene, stage: &str) -> Result<Self, CaseError> {
+impl ShearedContact {
+    fn from_scene(scene: &Scene, stage: &str) -> Result<Self, CaseError> {
         let done = hertz::simulate(scene)?;
         let at = along_x(done.tractions(stage)?);
         let exact = Hertz::line(at.load[1], 0.1, compliance([(210e9, 0.3); 2]));
@@ -116,7 +116,7 @@ impl Sheared {
     }
 }
 
-fn claims(ledger: &mut Ledger, name: &str, r: &Sheared) {
+fn claims(ledger: &mut Ledger, name: &str, r: &ShearedContact) {
     let covers = [Capability::Hertz, Capability::Coulomb];
     ledger
         .claim(format!("tangential load at 4 micrometres, {name}, n = 20"))
@@ -167,7 +167,7 @@ fn claims(ledger: &mut Ledger, name: &str, r: &Sheared) {
 }
 
 /// Plots shear tractions with those of Cattaneo and Mindlin and the friction limit.
-fn overlay(ledger: &mut Ledger, runs: &[(&str, Sheared)]) {
+fn overlay(ledger: &mut Ledger, runs: &[(&str, ShearedContact)]) {
     let mut plot = Plot::xy("Shear traction over Cattaneo and Mindlin", "x/a [-]", "q/(mu p0) [-]");
     for (name, r) in runs {
         let scale = MU * r.exact.p0;
@@ -190,10 +190,10 @@ fn overlay(ledger: &mut Ledger, runs: &[(&str, Sheared)]) {
 
 /// Runs of one, four and forty steps: while the load grows, slip is monotonic and the solution does not depend on the steps.
 fn steps(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let run = |steps: usize| -> Result<Sheared, CaseError> {
+    let run = |steps: usize| -> Result<ShearedContact, CaseError> {
         let mut scene = scene(10.0, Measure::Mortar)?;
         scene.stages[1].steps = Some(here(steps));
-        Sheared::of(&scene, "shear")
+        ShearedContact::from_scene(&scene, "shear")
     };
     let (one, many) = (run(1)?, run(40)?);
     ledger

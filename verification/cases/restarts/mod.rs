@@ -7,7 +7,7 @@ use super::programs;
 use super::written::Folder;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use rayon::prelude::*;
-use scenes::Interrupted;
+use scenes::InterruptedScene;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
@@ -59,7 +59,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Runs a scene without interruption, and then one step at a time.
-fn in_parts(scene: &Interrupted, folder: &Path) -> Result<Parts, CaseError> {
+fn in_parts(scene: &InterruptedScene, folder: &Path) -> Result<Parts, CaseError> {
     std::fs::create_dir_all(folder)?;
     let (file, whole, parts) = (folder.join("scene.toml"), folder.join("whole"), folder.join("parts"));
     std::fs::write(&file, &scene.text)?;
@@ -68,7 +68,7 @@ fn in_parts(scene: &Interrupted, folder: &Path) -> Result<Parts, CaseError> {
         command.args(["run", "--no-plots"]).args(more).arg(&file).arg("--out").arg(out);
         programs::finished(&mut command, codes).map_err(|e| format!("{}: {e}", scene.name).into())
     };
-    let (done, cost) = Cost::of(|| part(&whole, &[], &[COMPLETED]));
+    let (done, cost) = Cost::measure(|| part(&whole, &[], &[COMPLETED]));
     done?;
     let mut interruptions = 0;
     let next = ["--resume", "--wall-time", "0 s"];

@@ -6,7 +6,7 @@ use asperity_vary::Change::{self, Add, With, Without};
 use asperity_vary::SceneText;
 
 /// A scene that is run with interruptions.
-pub struct Interrupted {
+pub struct InterruptedScene {
     /// Name on the report page.
     pub name: &'static str,
     /// Text.
@@ -41,7 +41,7 @@ const FINITE: [Change<'_>; 2] = [Add("bodies.slab.strain", "finite"), Add("bodie
 ///
 /// # Errors
 /// If a variation changes nothing.
-pub fn all() -> Result<Vec<Interrupted>, CaseError> {
+pub fn all() -> Result<Vec<InterruptedScene>, CaseError> {
     let fluid = SceneText::new(include_str!("../../../scenes/fault-opening.toml"))
         .with("bodies.crust.mesh.fault.spacing", "500 m");
     let turning = SceneText::new(include_str!("../fault_turning/scene.toml")).with("events.stop_after", 4);
@@ -65,8 +65,8 @@ pub fn all() -> Result<Vec<Interrupted>, CaseError> {
     ])
 }
 
-fn named(name: &'static str, scene: SceneText) -> Result<Interrupted, CaseError> {
-    Ok(Interrupted { name, text: scene.text()? })
+fn named(name: &'static str, scene: SceneText) -> Result<InterruptedScene, CaseError> {
+    Ok(InterruptedScene { name, text: scene.text()? })
 }
 
 fn die(changes: &[&[Change<'_>]]) -> SceneText {

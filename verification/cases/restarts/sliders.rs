@@ -56,7 +56,7 @@ pub fn run() -> Result<Vec<Parts>, CaseError> {
 fn in_parts(name: &'static str, problem: &Problem) -> Result<Parts, CaseError> {
     let folder = Folder::new()?;
     let [whole, parts] = ["whole", "parts"].map(|name| folder.path().join(name));
-    let (_, cost) = Cost::of(|| part(problem, &whole, None));
+    let (_, cost) = Cost::measure(|| part(problem, &whole, None));
     let mut interruptions = 0;
     while part(problem, &parts, Some(Duration::ZERO))? {
         interruptions += 1;

@@ -33,11 +33,11 @@ pub(crate) fn follow(
     stations: &[Station],
 ) -> Result<Rupture, CaseError> {
     let n = at.len();
-    let grid = Grid::of(&at);
+    let grid = Grid::from_points(&at);
     let watched: Vec<_> = stations.iter().map(|s| grid.shares(s.at)).collect();
     let mut times = [vec![f64::NAN; n], vec![f64::NAN; n]];
     let (mut before, mut histories) = (vec![0.0; n], Vec::new());
-    let (result, cost) = Cost::of(|| {
+    let (result, cost) = Cost::measure(|| {
         steps(problem, |run| {
             pass(run, &mut before, &mut times);
             let state = run.fault();
@@ -78,7 +78,7 @@ struct Grid {
 const SAME: f64 = 1e-3;
 
 impl Grid {
-    fn of(at: &[[f64; 2]]) -> Self {
+    fn from_points(at: &[[f64; 2]]) -> Self {
         let line = |axis: usize| {
             let mut values: Vec<f64> = at.iter().map(|a| a[axis]).collect();
             values.sort_by(f64::total_cmp);
@@ -115,7 +115,7 @@ const OUTSIDE: f64 = 2000.0;
 
 /// Rupture times at places \[s\]; NaN where one does not rupture.
 pub(crate) fn times_at(found: &Rupture, front: usize, places: &[[f64; 2]]) -> Vec<f64> {
-    let grid = Grid::of(&found.at);
+    let grid = Grid::from_points(&found.at);
     let of = |at: &[f64; 2]| grid.shares(*at).iter().map(|(k, w)| w * found.times[front][*k]).sum();
     places.iter().map(of).collect()
 }

@@ -26,7 +26,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let two = sandwich::simulate(&plane)?;
     let solid = sandwich::layer(plane, 4.0 * SIZE, "hex8");
     let scene = sandwich::imposed(solid, two.record.times());
-    let (three, cost) = Cost::of(|| sandwich::simulate(&scene));
+    let (three, cost) = Cost::measure(|| sandwich::simulate(&scene));
     let three = three?;
     layer(ledger, &two, &three, &cost.counts(&three.report.counts))?;
     threads(ledger)

@@ -61,7 +61,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 fn exact(ledger: &mut Ledger) -> Result<(), CaseError> {
     for h in SIZES {
         let scene = sandwich::press_only(sandwich::no_overhang(sandwich::size(sandwich::base()?, h)));
-        let (run, cost) = Cost::of(|| sandwich::simulate(&scene));
+        let (run, cost) = Cost::measure(|| sandwich::simulate(&scene));
         let run = run?;
         // Two blocks of 25 mm in series with the penalty spring of stiffness 100 E/h per area.
         let modulus = YOUNG / (1.0 - POISSON * POISSON);
@@ -90,7 +90,7 @@ fn converging(ledger: &mut Ledger, variant: &Variant) -> Result<(), CaseError> {
     let mut middle = Vec::new();
     for (h, reference) in SIZES.into_iter().zip(variant.table) {
         let scene = sandwich::press_only(sandwich::size((variant.build)(sandwich::base()?), h));
-        let (run, cost) = Cost::of(|| sandwich::simulate(&scene));
+        let (run, cost) = Cost::measure(|| sandwich::simulate(&scene));
         let run = run?;
         let mean = run.mean_normal("press")?;
         let mid = run.end("press")?.normal_traction[run.node_at(25e-3)?] * 1e-6;
@@ -152,7 +152,7 @@ fn frictional(ledger: &mut Ledger) -> Result<(), CaseError> {
         let mut scene = sandwich::frictional(sandwich::size(sandwich::base()?, h));
         scene.stages.truncate(1);
         scene.stages[0].steps = Some(asperity_plan::reading::scene::model::here(10));
-        let (run, cost) = Cost::of(|| sandwich::simulate(&scene));
+        let (run, cost) = Cost::measure(|| sandwich::simulate(&scene));
         let run = run?;
         let cost = cost.counts(&run.report.counts);
         ledger

@@ -42,7 +42,8 @@ fn refine_in_time(ledger: &mut Ledger) -> Result<Run, CaseError> {
     let mut histories = Vec::new();
     let mut finest = None;
     for steps in [400, 800, 1600, 3200] {
-        let (run, cost) = Cost::of(|| sandwich::simulate(&sandwich::equal_steps(sandwich::base()?, steps)));
+        let (run, cost) =
+            Cost::measure(|| sandwich::simulate(&sandwich::equal_steps(sandwich::base()?, steps)));
         let run = run?;
         histories.push(nodes(&run)?.into_iter().flat_map(|n| run.slip_at(n, &times)).collect::<Vec<f64>>());
         finest = Some((run, cost));

@@ -1,6 +1,6 @@
 //! Stick-slip of a laboratory block pulled by a machine of finite stiffness.
 
-use crate::cases::seas::{self, Found};
+use crate::cases::seas::{self, CycleResults};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_cycles::operator::Dense;
 use asperity_cycles::{Loading, Rupture, run as integrate};
@@ -68,7 +68,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     one_slider(ledger)
 }
 
-fn onsets(ledger: &mut Ledger, what: &str, found: &Found, reference: &[f64]) {
+fn onsets(ledger: &mut Ledger, what: &str, found: &CycleResults, reference: &[f64]) {
     let here: Vec<f64> = found.events.iter().take(reference.len()).map(|e| e.onset.seconds()).collect();
     ledger
         .claim(format!("onsets of the first events, {what}"))
@@ -120,7 +120,7 @@ fn stick_slip(ledger: &mut Ledger, size: f64, elements: u64) -> Result<(), CaseE
 }
 
 /// Claim that slip from onset to onset equals the displacement of the machine.
-fn budget(ledger: &mut Ledger, what: &str, found: &Found, at_onset: &[f64]) {
+fn budget(ledger: &mut Ledger, what: &str, found: &CycleResults, at_onset: &[f64]) {
     let (first, last) = (1, at_onset.len() - 1);
     let time = found.events[last].onset.since(&found.events[first].onset);
     ledger
@@ -137,7 +137,7 @@ fn budget(ledger: &mut Ledger, what: &str, found: &Found, at_onset: &[f64]) {
 }
 
 /// Claims that each event nucleates at an end, crosses the face and lowers the force.
-fn rupture(ledger: &mut Ledger, what: &str, plan: &Plan, found: &Found) {
+fn rupture(ledger: &mut Ledger, what: &str, plan: &Plan, found: &CycleResults) {
     let from_end = |e: &Event<Rupture>| {
         let y = plan.points[e.details.hypocentre].at[1];
         y.min(FACE - y)

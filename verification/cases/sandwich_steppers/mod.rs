@@ -77,7 +77,7 @@ struct Setting {
 }
 
 fn measure(scene: &Scene, step: f64, reference: &Reference) -> Result<(Setting, Run, Cost), CaseError> {
-    let (run, cost) = Cost::of(|| sandwich::simulate(scene));
+    let (run, cost) = Cost::measure(|| sandwich::simulate(scene));
     let run = run?;
     let error = reference.error(&run)?;
     let wall = run.report.seconds.steps;
@@ -261,7 +261,7 @@ fn paths(ledger: &mut Ledger) -> Result<(), CaseError> {
     let slips = |path: Path| -> Result<_, CaseError> {
         let mut scene = sandwich::equal_steps(base()?, 50);
         scene.time.path = path;
-        let (run, cost) = Cost::of(|| sandwich::simulate(&scene));
+        let (run, cost) = Cost::measure(|| sandwich::simulate(&scene));
         let run = run?;
         let cost = cost.counts(&run.report.counts);
         Ok((run.end("shear")?.slip.clone(), cost, run.report.plan.path.clone()))

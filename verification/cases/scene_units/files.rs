@@ -82,7 +82,7 @@ fn traces(ledger: &mut Ledger) -> Result<(), CaseError> {
     let beside = Folder::new()?;
     std::fs::write(beside.path().join("trace.csv"), "x [km],y [km]\n0,0\n1.3,-7.1\n4,-12\n")?;
     let one = places(&seas::plan(&inline)?);
-    let (other, cost) = Cost::of(|| -> Result<_, CaseError> {
+    let (other, cost) = Cost::measure(|| -> Result<_, CaseError> {
         let scene = scene::read_in(&from_file, beside.path()).map_err(|e| e.to_string())?;
         Ok(places(&plan(&scene).map_err(|e| e.to_string())?))
     });

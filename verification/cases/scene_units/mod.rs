@@ -2,7 +2,7 @@
 
 mod files;
 
-use crate::cases::written::{self, Folder, Written};
+use crate::cases::written::{self, Folder, WrittenRun};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_vary::SceneText;
 use std::fmt::Write as _;
@@ -96,7 +96,7 @@ fn times(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Quantity of a square to compare.
-enum Asked {
+enum SquareQuantity {
     /// Displacement of its left side \[m\].
     Moves,
     /// Rate of its left side \[m/s\], for a year.
@@ -107,7 +107,7 @@ enum Asked {
 
 /// A square for each unit of length, of velocity and of pressure.
 fn amounts(ledger: &mut Ledger) -> Result<(), CaseError> {
-    use Asked::{Drifts, Moves, Pressed};
+    use SquareQuantity::{Drifts, Moves, Pressed};
     let units = [
         (Moves, "nm", 1e-9),
         (Moves, "um", 1e-6),
@@ -232,8 +232,8 @@ fn notations(ledger: &mut Ledger) -> Result<(), CaseError> {
     let in_si =
         IN_SI.iter().fold(SceneText::new(IN_UNITS), |scene, (path, value)| scene.with_or_same(path, value));
     let in_si = in_si.text()?;
-    let (both, cost) = Cost::of(|| -> Result<_, CaseError> {
-        Ok([lines(&Written::of(IN_UNITS)?.files)?, lines(&Written::of(&in_si)?.files)?])
+    let (both, cost) = Cost::measure(|| -> Result<_, CaseError> {
+        Ok([lines(&WrittenRun::from_text(IN_UNITS)?.files)?, lines(&WrittenRun::from_text(&in_si)?.files)?])
     });
     let [units, si] = both?;
     let differ = units.iter().zip(&si).filter(|(a, b)| a != b).count() + units.len().abs_diff(si.len());

@@ -1,6 +1,6 @@
 //! The SEAS benchmark BP1-QD: its first three events.
 
-use crate::cases::seas::{self, CONVERGED, Found};
+use crate::cases::seas::{self, CONVERGED, CycleResults};
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_cycles::Moment;
 use asperity_ode::Method;
@@ -34,7 +34,7 @@ fn found(
     method: Method,
     tolerance: f64,
     look: impl FnMut(&Moment<'_>),
-) -> Result<Found, CaseError> {
+) -> Result<CycleResults, CaseError> {
     let mut settings = plan.problem.settings;
     (settings.method, settings.tolerance) = (method, tolerance);
     seas::found(plan, &settings, look)
@@ -144,7 +144,7 @@ fn screws(depth: f64) -> f64 {
 fn half_space(ledger: &mut Ledger, plan: &Plan) {
     let slip: Vec<f64> = plan.points.iter().map(|p| long_slip(-p.at[1])).collect();
     let mut found = vec![0.0; slip.len()];
-    let ((), cost) = Cost::of(|| plan.problem.fault.operator.shear(&slip, &mut found));
+    let ((), cost) = Cost::measure(|| plan.problem.fault.operator.shear(&slip, &mut found));
     let expected: Vec<f64> = plan.points.iter().map(|p| screws(-p.at[1])).collect();
     let largest = expected.iter().fold(0.0_f64, |m, t| m.max(t.abs()));
     let worst = expected.iter().zip(&found).fold(0.0_f64, |m, (e, f)| m.max((e - f).abs()));
@@ -185,7 +185,7 @@ fn overlay(ledger: &mut Ledger, onsets: &[f64], rates: &[(f64, f64)]) -> Result<
     Ok(())
 }
 
-fn first_event(ledger: &mut Ledger, found: &Found, size: &str, bound: f64, because: &str) {
+fn first_event(ledger: &mut Ledger, found: &CycleResults, size: &str, bound: f64, because: &str) {
     ledger
         .claim(format!("onset of the first event, cells of {size}"))
         .unit("yr")
@@ -201,7 +201,7 @@ fn first_event(ledger: &mut Ledger, found: &Found, size: &str, bound: f64, becau
         .record();
 }
 
-fn later_events(ledger: &mut Ledger, found: &Found) {
+fn later_events(ledger: &mut Ledger, found: &CycleResults) {
     let intervals: Vec<f64> = found.onsets.windows(2).map(|w| w[1] - w[0]).collect();
     ledger
         .claim("first two intervals, cells of 78 m")
@@ -245,10 +245,10 @@ fn later_events(ledger: &mut Ledger, found: &Found) {
 }
 
 /// Errors of the default beside other methods at the same tolerance; the case `seas_bp1_methods` has all methods.
-fn methods(ledger: &mut Ledger, plan: &Plan, default: &Found) -> Result<(), CaseError> {
+fn methods(ledger: &mut Ledger, plan: &Plan, default: &CycleResults) -> Result<(), CaseError> {
     let reference = found(plan, Method::Dop853, 1e-8, |_| {})?;
     let exact = reference.onsets[EVENTS - 1];
-    let error = |run: &Found| (run.onsets[EVENTS - 1] - exact).abs();
+    let error = |run: &CycleResults| (run.onsets[EVENTS - 1] - exact).abs();
     ledger
         .claim("onset of the third event by the default method and tolerance, error")
         .unit("yr")
@@ -282,7 +282,7 @@ fn far_field(ledger: &mut Ledger) -> Result<(), CaseError> {
         plan.problem.settings.most_events = Some(2);
         runs.push(found(&plan, plan.problem.settings.method, FAR_TOLERANCE, |_| {})?);
     }
-    let interval = |run: &Found| run.onsets[1] - run.onsets[0];
+    let interval = |run: &CycleResults| run.onsets[1] - run.onsets[0];
     let (far, near) = (&runs[0], &runs[1]);
     for (name, a, b) in [
         ("the onset of the first event", far.onsets[0], near.onsets[0]),

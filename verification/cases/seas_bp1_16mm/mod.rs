@@ -1,7 +1,7 @@
 //! BP1 with a characteristic slip distance of 16 mm: two events of each law against their limit in cell size and tolerance.
 
 use crate::cases::drawn;
-use crate::cases::seas::{self, Found};
+use crate::cases::seas::{self, CycleResults};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_vary::SceneText;
 use asperity_vary::bp1::{AT_CREEP, BP1, SIZE, sized};
@@ -60,7 +60,7 @@ pub fn text(law: &Law, size: f64) -> Result<String, CaseError> {
 }
 
 /// The first two events with cells of this size \[m\].
-fn found(law: &Law, size: f64) -> Result<Found, CaseError> {
+fn found(law: &Law, size: f64) -> Result<CycleResults, CaseError> {
     let plan = seas::plan(&text(law, size)?)?;
     let mut settings = plan.problem.settings;
     settings.most_events = Some(2);
@@ -86,7 +86,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-fn events(ledger: &mut Ledger, law: &Law, found: &Found) {
+fn events(ledger: &mut Ledger, law: &Law, found: &CycleResults) {
     let name = law.name;
     ledger
         .claim(format!("onsets of the first two events, {name} law, cells of 156 m"))
@@ -115,9 +115,9 @@ fn events(ledger: &mut Ledger, law: &Law, found: &Found) {
 }
 
 /// Claim that errors decrease with cell size.
-fn falls(ledger: &mut Ledger, law: &Law, fine: &Found) -> Result<(), CaseError> {
+fn falls(ledger: &mut Ledger, law: &Law, fine: &CycleResults) -> Result<(), CaseError> {
     let coarse = found(law, 312.5)?;
-    let off = |f: &Found| (f.onsets[0] - law.onsets[0]).abs();
+    let off = |f: &CycleResults| (f.onsets[0] - law.onsets[0]).abs();
     ledger
         .claim("error of the first onset with cells of 312 m over that with 156 m, ageing law")
         .value(off(&coarse) / off(fine))

@@ -1,6 +1,6 @@
 //! BP1 with inertia in its ruptures, next to BP1 with radiation damping.
 
-use crate::cases::seas::{self, Found};
+use crate::cases::seas::{self, CycleResults};
 use crate::{Axis, Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
 use asperity_cycles::{Balance, Episode, Moment};
 use asperity_plan::faults::Plan;
@@ -35,7 +35,7 @@ const LOCKED: f64 = 15e3;
 
 /// A run of two events.
 struct Cycles {
-    found: Found,
+    found: CycleResults,
     episodes: Vec<Episode>,
     /// Time of the front after the onset of the first event, by depth \[s, m\].
     front: Vec<(f64, f64)>,

@@ -1,6 +1,6 @@
 //! The SEAS benchmark BP1-QD over its full duration.
 
-use crate::cases::seas::{self, CONVERGED, Found};
+use crate::cases::seas::{self, CONVERGED, CycleResults};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_ode::Method;
 use asperity_plan::faults::Plan;
@@ -97,12 +97,12 @@ const COARSE: f64 = 150.0;
 /// Index of the event from which on intervals are steady.
 const STEADY: usize = 5;
 
-fn mean_interval(found: &Found) -> f64 {
+fn mean_interval(found: &CycleResults) -> f64 {
     let steady = &found.onsets[STEADY..];
     (steady[steady.len() - 1] - steady[0]) / (steady.len() - 1) as f64
 }
 
-fn peak(found: &Found) -> f64 {
+fn peak(found: &CycleResults) -> f64 {
     found.events[STEADY..].iter().map(|e| e.peak).sum::<f64>() / (found.events.len() - STEADY) as f64
 }
 
@@ -121,7 +121,7 @@ pub const HEAD: [&str; 10] = [
 ];
 
 /// Table row of a run.
-pub fn row(size: f64, plan: &Plan, found: &Found) -> [String; 10] {
+pub fn row(size: f64, plan: &Plan, found: &CycleResults) -> [String; 10] {
     [
         format!("{size:.1}"),
         plan.points.len().to_string(),
@@ -138,7 +138,7 @@ pub fn row(size: f64, plan: &Plan, found: &Found) -> [String; 10] {
 
 /// Claims of a run with cells of `size` \[m\]; `share` is the relative error allowed for the first event. At 156 m the
 /// case `seas_bp1` has that claim.
-pub fn cycle(ledger: &mut Ledger, size: f64, share: f64, found: &Found) {
+pub fn cycle(ledger: &mut Ledger, size: f64, share: f64, found: &CycleResults) {
     if size < COARSE {
         first(ledger, size, share, found);
     }
@@ -162,7 +162,7 @@ pub fn cycle(ledger: &mut Ledger, size: f64, share: f64, found: &Found) {
         .record();
 }
 
-fn first(ledger: &mut Ledger, size: f64, share: f64, found: &Found) {
+fn first(ledger: &mut Ledger, size: f64, share: f64, found: &CycleResults) {
     ledger
         .claim(format!("onset of the first event, cells of {size} m"))
         .unit("yr")
@@ -177,7 +177,7 @@ fn first(ledger: &mut Ledger, size: f64, share: f64, found: &Found) {
         .record();
 }
 
-fn steady(ledger: &mut Ledger, size: f64, found: &Found) {
+fn steady(ledger: &mut Ledger, size: f64, found: &CycleResults) {
     ledger
         .claim(format!("mean interval from the sixth event on, cells of {size} m"))
         .unit("yr")

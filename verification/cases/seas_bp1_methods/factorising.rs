@@ -14,12 +14,12 @@ const LIMIT: f64 = 60.0;
 const SLOWER: f64 = 5.0;
 
 /// The equations with a Jacobian by finite differences.
-struct Differenced<'a>(Equations<'a>);
+struct DifferencedEquations<'a>(Equations<'a>);
 
 /// Step of a finite difference: half of the digits of unknowns of the order of a hundred.
 const DIFFERENCE: f64 = 1e-6;
 
-impl Problem for Differenced<'_> {
+impl Problem for DifferencedEquations<'_> {
     fn size(&self) -> usize {
         self.0.size()
     }
@@ -76,15 +76,15 @@ impl Sink for Follow<'_, '_> {
 }
 
 /// Errors of a method along the run, with its trace.
-struct Reached {
+struct MethodTrace {
     row: [String; 9],
     trace: Vec<(f64, f64)>,
     rates: u64,
 }
 
-fn reach(plan: &Plan, method: Method, limit: f64) -> Reached {
+fn reach(plan: &Plan, method: Method, limit: f64) -> MethodTrace {
     let (shear, normal) = plan.problem.loading.rates(1.0, plan.points.len(), false);
-    let problem = Differenced(Equations::new(&plan.problem.fault, shear.clone(), normal.clone()));
+    let problem = DifferencedEquations(Equations::new(&plan.problem.fault, shear.clone(), normal.clone()));
     let watched = Equations::new(&plan.problem.fault, shear, normal);
     let mut sink = Follow {
         equations: &watched,
@@ -119,7 +119,7 @@ fn reach(plan: &Plan, method: Method, limit: f64) -> Reached {
         format!("{wall:.2}"),
         String::new(),
     ];
-    Reached { row, trace: sink.trace, rates: out.counts.rates }
+    MethodTrace { row, trace: sink.trace, rates: out.counts.rates }
 }
 
 /// Compares the default and the methods that factorise, at the default's tolerance and on the same cells.

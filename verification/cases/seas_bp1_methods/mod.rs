@@ -198,7 +198,7 @@ fn judge(ledger: &mut Ledger, plan: &Plan, curves: &[Curve], exact: &Setting) ->
             curves.iter().map(|c| (c.name, needed(c, exact, mark))).collect();
         let least = found.iter().filter_map(|(_, s)| s.map(|s| s.rates)).min();
         let least = least.ok_or("no method keeps a mark")?;
-        rows.extend(found.iter().map(|(name, setting)| of_mark(mark, name, *setting, least)));
+        rows.extend(found.iter().map(|(name, setting)| mark_row(mark, name, *setting, least)));
         let own = found.iter().find(|(name, _)| *name == default).and_then(|(_, s)| *s);
         let own = own.ok_or("the default does not keep a mark")?;
         ledger
@@ -225,7 +225,7 @@ fn judge(ledger: &mut Ledger, plan: &Plan, curves: &[Curve], exact: &Setting) ->
 }
 
 /// A row of the table of marks, and its setting.
-fn of_mark<'a>(
+fn mark_row<'a>(
     mark: f64,
     name: &str,
     setting: Option<&'a Setting>,

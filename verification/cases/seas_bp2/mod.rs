@@ -1,6 +1,6 @@
 //! The SEAS benchmark BP2-QD over its full duration: large and small events alternate.
 
-use crate::cases::seas::{self, Found, YEAR};
+use crate::cases::seas::{self, CycleResults, YEAR};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_cycles::Rupture;
 use asperity_plan::faults::Plan;
@@ -57,7 +57,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Claim that small events have at most half the slip of large ones.
-fn smaller(ledger: &mut Ledger, plan: &Plan, found: &Found, large: &[bool]) {
+fn smaller(ledger: &mut Ledger, plan: &Plan, found: &CycleResults, large: &[bool]) {
     let potency = |e: &Event<Rupture>| {
         plan.points.iter().zip(e.details.slip.component(0)).map(|(p, s)| p.area * s.abs()).sum::<f64>()
     };

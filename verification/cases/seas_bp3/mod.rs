@@ -1,6 +1,6 @@
 //! The SEAS benchmark BP3-QD: dipping faults in plane strain.
 
-use crate::cases::seas::{self, Found};
+use crate::cases::seas::{self, CycleResults};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_cycles::Moment;
 use asperity_plan::faults::Plan;
@@ -100,7 +100,7 @@ pub fn plan(faulting: Faulting, size: f64, far: f64) -> Result<Plan, CaseError> 
     seas::plan(&text(faulting, size, far)?)
 }
 
-fn found(plan: &Plan, events: usize, look: impl FnMut(&Moment<'_>)) -> Result<Found, CaseError> {
+fn found(plan: &Plan, events: usize, look: impl FnMut(&Moment<'_>)) -> Result<CycleResults, CaseError> {
     let mut settings = plan.problem.settings;
     settings.most_events = Some(events);
     seas::found(plan, &settings, look)
@@ -184,7 +184,12 @@ fn dipping(ledger: &mut Ledger, dip: f64, onset: f64, spread: f64) -> Result<(),
 ///
 /// # Errors
 /// If the second implementation has no such run.
-pub fn first(ledger: &mut Ledger, faulting: Faulting, size: f64, found: &Found) -> Result<(), CaseError> {
+pub fn first(
+    ledger: &mut Ledger,
+    faulting: Faulting,
+    size: f64,
+    found: &CycleResults,
+) -> Result<(), CaseError> {
     let (dip, sense) = faulting;
     ledger
         .claim(format!("onset of the first event against boundary elements of 39 m, dip {dip}, {}, cells of {size} m", sense.name()))

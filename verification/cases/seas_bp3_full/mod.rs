@@ -1,6 +1,6 @@
 //! The SEAS benchmark BP3-QD over its full duration: three dips, thrusts and normal faults.
 
-use crate::cases::seas::{self, Found};
+use crate::cases::seas::{self, CycleResults};
 use crate::cases::seas_bp3::{self, CODES, FAR, Faulting, PERIOD, Sense, THEIRS, normal_change, plan};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 
@@ -31,7 +31,7 @@ const STEADY: usize = 5;
 /// A run and its largest relative change of normal traction.
 pub struct Cycles {
     /// Events, steps and cost.
-    pub found: Found,
+    pub found: CycleResults,
     normal: f64,
     points: usize,
 }
@@ -89,7 +89,7 @@ fn name((dip, sense): Faulting) -> String {
     if dip == 90.0 { format!("dip {dip}") } else { format!("dip {dip}, {}", sense.name()) }
 }
 
-fn intervals(found: &Found) -> Vec<f64> {
+fn intervals(found: &CycleResults) -> Vec<f64> {
     found.onsets.windows(2).map(|w| w[1] - w[0]).collect()
 }
 

@@ -1,6 +1,6 @@
 //! The SEAS benchmark BP5-QD in the half-space: intervals between events against other boundary elements of the same cells.
 
-use crate::cases::seas::{self, Found};
+use crate::cases::seas::{self, CycleResults};
 use crate::{Axis, Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
 use asperity_plan::faults::Plan;
 use asperity_vary::SceneText;
@@ -58,7 +58,7 @@ fn with_published_seed(size: &str) -> Result<Plan, CaseError> {
 ///
 /// # Errors
 /// If the run fails.
-pub fn events(plan: &Plan) -> Result<(Found, Vec<(f64, f64)>), CaseError> {
+pub fn events(plan: &Plan) -> Result<(CycleResults, Vec<(f64, f64)>), CaseError> {
     let mut settings = plan.problem.settings;
     settings.most_events = Some(EVENTS);
     let mut rates = Vec::new();
@@ -68,12 +68,12 @@ pub fn events(plan: &Plan) -> Result<(Found, Vec<(f64, f64)>), CaseError> {
 
 /// Interval between the last two events \[yr\].
 #[must_use]
-pub fn interval(found: &Found) -> f64 {
+pub fn interval(found: &CycleResults) -> f64 {
     found.onsets[EVENTS - 1] - found.onsets[EVENTS - 2]
 }
 
 /// Claims the interval of a run with cells of this size \[yr\].
-pub fn claim(ledger: &mut Ledger, size: &str, found: &Found, published: f64) {
+pub fn claim(ledger: &mut Ledger, size: &str, found: &CycleResults, published: f64) {
     ledger
         .claim(format!("interval between events, cells of {size}"))
         .unit("yr")

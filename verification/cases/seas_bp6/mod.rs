@@ -53,7 +53,7 @@ fn half(scene: &str, size: f64) -> Result<Plan, CaseError> {
 
 /// Results of a run.
 #[derive(Default)]
-struct Seen {
+struct InjectionResults {
     /// Slip of all points when the injection ends and at the end of the run \[m\].
     slip: [Vec<f64>; 2],
     /// Largest slip rate \[m/s\].
@@ -69,7 +69,7 @@ struct Seen {
     cost: Cost,
 }
 
-impl Seen {
+impl InjectionResults {
     /// Slip at distance `along` the fault, when the injection ends (0) or at the end of the run (1) \[m\].
     fn at(&self, plan: &Plan, moment: usize, along: f64) -> f64 {
         let slip = &self.slip[moment];
@@ -86,8 +86,8 @@ impl Seen {
 }
 
 /// Runs a plan whose fault takes `share` of the injected fluid.
-fn seen(plan: &Plan, share: f64) -> Result<Seen, CaseError> {
-    let mut out = Seen { least: f64::INFINITY, ..Seen::default() };
+fn seen(plan: &Plan, share: f64) -> Result<InjectionResults, CaseError> {
+    let mut out = InjectionResults { least: f64::INFINITY, ..InjectionResults::default() };
     let pressure = plan.problem.fault.processes.find::<Pressure>().ok_or("the scene injects nothing")?;
     let mut exerted = vec![0.0; plan.points.len()];
     let found = seas::found(plan, &plan.problem.settings, |now| {
@@ -138,7 +138,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 /// A plan of the lower half and its results.
 struct Level {
     plan: Plan,
-    seen: Seen,
+    seen: InjectionResults,
 }
 
 /// Compares cells of 400, 200 and 100 m with 50 m, and claims results of those of 100 m.

@@ -1,6 +1,6 @@
 //! The SEAS benchmark BP7-QD in a whole space: an event started by an imposed traction, and those that repeat it.
 
-use crate::cases::seas::{self, Found, IN_SPACE, SpaceEvent, YEAR, independent_in_space};
+use crate::cases::seas::{self, CycleResults, IN_SPACE, SpaceEvent, YEAR, independent_in_space};
 use crate::{Axis, Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
 use asperity_cycles::{Balance, Moment};
 use asperity_plan::faults::Plan;
@@ -29,7 +29,7 @@ const SEEN: f64 = 3.0;
 const PLACES: [[f64; 2]; 5] = [[-10.0, -10.0], [-50.0, -50.0], [-10.0, 90.0], [90.0, -10.0], [-10.0, 290.0]];
 /// A run up to its third event.
 struct Run {
-    found: Found,
+    found: CycleResults,
     /// Largest slip rate of each event \[m/s\].
     largest: Vec<f64>,
     /// Slip along the rake at the end of each event at [`PLACES`] \[m\].

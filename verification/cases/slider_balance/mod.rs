@@ -40,7 +40,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 /// Runs a problem under an observer, which makes it keep an energy budget.
 fn observed(problem: &Problem) -> Result<(SliderRun, Energy, Cost), CaseError> {
-    let (run, cost) = Cost::of(|| integrate(problem, &mut |_: &SliderState<'_>| ()));
+    let (run, cost) = Cost::measure(|| integrate(problem, &mut |_: &SliderState<'_>| ()));
     let run = run?;
     if let Outcome::Failed { reason } = &run.outcome {
         return Err(format!("failed at {:e} s: {reason}", run.at.seconds()).into());

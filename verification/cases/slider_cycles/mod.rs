@@ -47,7 +47,7 @@ fn cycle(
     let mut plan = set.plan(kind, 1.5, 1e12)?;
     slider::events(&mut plan, number);
     (plan.method, plan.tolerance) = (method, tolerance);
-    let (run, cost) = Cost::of(|| slider::finish(&plan));
+    let (run, cost) = Cost::measure(|| slider::finish(&plan));
     let run = run?;
     let cost = cost.counts(&Report::new(&plan, &run).counts);
     Ok((Entry::all(&run), cost))

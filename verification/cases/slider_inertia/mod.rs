@@ -157,7 +157,7 @@ fn independent(ledger: &mut Ledger) -> Result<(), CaseError> {
             mass: number(&entry["M"])?,
             load: number(&entry["load"])?,
         };
-        let (found, cost) = Cost::of(|| events(&set, cycles::DEFAULT_METHOD, cycles::DEFAULT_TOLERANCE));
+        let (found, cost) = Cost::measure(|| events(&set, cycles::DEFAULT_METHOD, cycles::DEFAULT_TOLERANCE));
         let (found, _) = found?.ok_or("an independent set does not come to its end")?;
         let given = entry["events"].as_array().ok_or("no events")?;
         let mut ratios = Vec::new();
@@ -217,7 +217,7 @@ fn errors(set: &Set) -> Result<Errors, CaseError> {
 
 /// Claims that all sets complete, and that the default agrees with a method of another kind.
 pub fn agree(ledger: &mut Ledger, sets: &[Set]) -> Result<(), CaseError> {
-    let (errors, cost) = Cost::of(|| -> Vec<Result<Errors, String>> {
+    let (errors, cost) = Cost::measure(|| -> Vec<Result<Errors, String>> {
         sets.par_iter().map(|set| errors(set).map_err(|e| e.to_string())).collect()
     });
     let (mut unfinished, mut interval, mut peak) = (0, 0.0_f64, 0.0_f64);

@@ -36,7 +36,7 @@ const SOURCE: &str =
     "verification/independent/slider_laws.py: Taylor series of order 20 (heyoka) and scipy's DOP853 agree";
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let reference = Independent::of_laws()?;
+    let reference = Independent::read_laws()?;
     for state in STATES {
         velocity_steps(ledger, state)?;
     }
@@ -262,7 +262,7 @@ fn closed(course: &[(f64, f64)], state: State, form: Form, hot: bool) -> Vec<f64
 /// Claims on friction through velocity steps, with each form of the strength, at two temperatures.
 fn velocity_steps(ledger: &mut Ledger, state: State) -> Result<(), CaseError> {
     let (mut found, mut expected) = (Vec::new(), Vec::new());
-    let (done, cost) = Cost::of(|| -> Result<(), CaseError> {
+    let (done, cost) = Cost::measure(|| -> Result<(), CaseError> {
         for course in [&SLOW[..], &FAST] {
             for form in FORMS {
                 for hot in [false, true] {
@@ -373,7 +373,7 @@ fn cycles(
     );
     let scene =
         on_spring("[load]\nrate = \"1 um/s\"", (name, own), (stiffness, "start = \"1.5 um/s\""), &rest);
-    let (read, cost) = Cost::of(|| files(&plan(&scene)?));
+    let (read, cost) = Cost::measure(|| files(&plan(&scene)?));
     let [_, events] = read?;
     let found: Vec<f64> = events.iter().map(|e| e[1]).collect();
     let recurrence = expected[expected.len() - 1] - expected[expected.len() - 2];
@@ -417,7 +417,7 @@ fn hold(ledger: &mut Ledger, reference: &Independent, law: (&str, &str)) -> Resu
         "[load]\nrate = { table = [[\"0 s\", \"0 m/s\"], [\"100 s\", \"0 m/s\"], [\"100 s\", \"1 um/s\"]] }";
     let rest = format!("[time]\nend = \"200 s\"\ntolerance = 1e-13\n[output]\ntimes = {times:?}");
     let scene = on_spring(load, law, (5.0 * CRITICAL, "start = \"1 um/s\""), &rest);
-    let (read, cost) = Cost::of(|| files(&plan(&scene)?));
+    let (read, cost) = Cost::measure(|| files(&plan(&scene)?));
     let [rows, _] = read?;
     let at = |time: &f64, column: usize| {
         rows.iter().find(|row| row[TIME] == *time).map_or(f64::NAN, |row| row[column])

@@ -77,7 +77,7 @@ fn step(ledger: &mut Ledger, reference: &Independent, alpha: f64, name: &str) ->
     let normal = History::table(vec![(STEP, 5e6), (STEP, 5.5e6)])?;
     let times = reference.numbers(name, "t_s")?;
     let late: Vec<f64> = times.iter().filter(|t| **t > 0.0).map(|t| STEP + t).collect();
-    let (found, cost) = Cost::of(|| slider::at_times(&plan(alpha, normal)?, &late));
+    let (found, cost) = Cost::measure(|| slider::at_times(&plan(alpha, normal)?, &late));
     let (v, mu) = (reference.numbers(name, "v")?, reference.numbers(name, "mu")?);
     let title = format!("step of the normal traction by 10 %, alpha = {alpha}");
     compare(ledger, &title, &found?, (&v[1..], &mu[1..]), &cost);
@@ -114,7 +114,7 @@ fn oscillation(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseE
     let name = "normal_oscillation";
     let normal = History::sine(5e6, 5e5, 5.0, 0.0)?;
     let times = reference.numbers(name, "t_s")?;
-    let (found, cost) = Cost::of(|| slider::at_times(&plan(0.2, normal)?, &times));
+    let (found, cost) = Cost::measure(|| slider::at_times(&plan(0.2, normal)?, &times));
     let (v, mu) = (reference.numbers(name, "v")?, reference.numbers(name, "mu")?);
     let end = times.iter().copied().fold(0.0, f64::max);
     let curve = slider::rates(&Problem { end, ..plan(0.2, History::sine(5e6, 5e5, 5.0, 0.0)?)? })?;
@@ -137,7 +137,7 @@ fn unloading(ledger: &mut Ledger) -> Result<(), CaseError> {
         // The memory of normal traction drives ln theta to 600 and mu/a to 1000: a tolerance below 1e-12 would be below
         // rounding.
         let plan = Problem { end: 12.0, tolerance: 1e-9, ..plan(alpha, normal)? };
-        let (run, cost) = Cost::of(|| slider::finish(&plan));
+        let (run, cost) = Cost::measure(|| slider::finish(&plan));
         let run = run?;
         let condition = plan.system.segment(11.5).condition(0, 12.0, &run.unknowns);
         let held = condition.friction * least;

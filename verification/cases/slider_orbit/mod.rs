@@ -78,7 +78,7 @@ fn orbit(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError> 
         drift = drift.max((conserved(&set, x, f) / first - 1.0).abs());
         curve.push((x, f * 1e3));
     };
-    let (run, cost) = Cost::of(|| cycles::run(&plan, &mut look));
+    let (run, cost) = Cost::measure(|| cycles::run(&plan, &mut look));
     let run = run?;
     let cost = cost.counts(&Report::new(&plan, &run).counts);
     ledger
@@ -190,7 +190,7 @@ fn thresholds(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseEr
     let set = base();
     // At k = k_c the separatrix is H = 0: b (x - 1) + (b - a) e^-x = 0.
     let exact = bisect(0.0, 1.0, |x| set.b * (x - 1.0) + (set.b - set.a) * (-x).exp());
-    let (found, cost) = Cost::of(|| threshold(&set.at(1.0), exact, 0.1));
+    let (found, cost) = Cost::measure(|| threshold(&set.at(1.0), exact, 0.1));
     ledger
         .claim("run-away threshold ln(V/V_load) of a kick, k = k_c")
         .value(found?)
@@ -203,7 +203,7 @@ fn thresholds(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseEr
         .record();
     for ratio in [1.1, 1.5, 2.0] {
         let expected = reference.number("runaway_threshold", &format!("ln_v_over_v_load_k_{ratio}_k_c"))?;
-        let (found, cost) = Cost::of(|| threshold(&set.at(ratio), expected, 0.1));
+        let (found, cost) = Cost::measure(|| threshold(&set.at(ratio), expected, 0.1));
         ledger
             .claim(format!("run-away threshold ln(V/V_load) of a kick, k = {ratio} k_c"))
             .value(found?)
@@ -217,7 +217,7 @@ fn thresholds(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseEr
     }
     // For large kicks the motion of the load point is negligible, and the threshold is k/k_c.
     for ratio in [6.0, 9.0, 12.0] {
-        let (found, cost) = Cost::of(|| threshold(&set.at(ratio), ratio, 0.1));
+        let (found, cost) = Cost::measure(|| threshold(&set.at(ratio), ratio, 0.1));
         ledger
             .claim(format!("run-away threshold ln(V/V_load) of a kick, k = {ratio} k_c, against k/k_c"))
             .value(found?)

@@ -80,7 +80,7 @@ fn imposed(evolution: &str, b: f64, (time, after): (f64, bool)) -> [f64; 3] {
 fn velocity_steps(ledger: &mut Ledger) -> Result<(), CaseError> {
     let course = "rate = { table = [[\"0 s\", \"1 um/s\"], [\"20 s\", \"1 um/s\"], [\"20 s\", \"10 um/s\"], [\"30 s\", \"10 um/s\"], [\"30 s\", \"0.1 um/s\"]] }";
     let (mut missed, mut slips, mut frictions, mut states) = (0, 0.0_f64, 0.0_f64, 0.0_f64);
-    let (done, cost) = Cost::of(|| -> Result<(), CaseError> {
+    let (done, cost) = Cost::measure(|| -> Result<(), CaseError> {
         for (evolution, b) in [("ageing", 0.015), ("ageing", -0.005), ("slip", 0.015), ("slip", -0.005)] {
             let law = law(evolution, &b.to_string(), "l = \"10 um\"");
             let rest = "[time]\nend = \"200 s\"\ntolerance = 1e-11\n[output]\ninterval = \"0.3 s\"";
@@ -147,7 +147,7 @@ fn finals(ledger: &mut Ledger) -> Result<(), CaseError> {
     let course = "rate = { table = [[\"0 s\", \"1 um/s\"], [\"20 s\", \"1 um/s\"], [\"20 s\", \"10 um/s\"], [\"30 s\", \"10 um/s\"], [\"30 s\", \"0.1 um/s\"]] }";
     let b = 0.015;
     let (mut found, mut exact) = (Vec::new(), Vec::new());
-    let (done, cost) = Cost::of(|| -> Result<(), CaseError> {
+    let (done, cost) = Cost::measure(|| -> Result<(), CaseError> {
         for evolution in ["ageing", "slip"] {
             let law = law(evolution, "0.015", "l = \"10 um\"");
             let plan = plan(&text("", course, &law, "[time]\nend = \"60 s\"\ntolerance = 1e-11"))?;
@@ -199,7 +199,7 @@ const SPRING: [f64; 3] = [1.25e9, 5e6, 1e-6];
 fn cycles(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError> {
     let mut plan = plan(SHIPPED)?;
     plan.tolerance = 1e-10;
-    let (read, cost) = Cost::of(|| files(&plan));
+    let (read, cost) = Cost::measure(|| files(&plan));
     let [rows, events] = read?;
     let expected = reference.numbers("mild_ageing", "crossings_s")?;
     let recurrence = reference.number("mild_ageing", "last_interval_s")?;
@@ -277,7 +277,7 @@ fn backwards(ledger: &mut Ledger) -> Result<(), CaseError> {
     let scene = SceneText::new(SHIPPED).add("time.tolerance", "1e-10");
     let back = scene.clone().with("load.rate", "-1 um/s").with("sliders.block.start", "-1.5 um/s");
     let forth = files(&plan(&scene.text()?)?)?[1].clone();
-    let (back, cost) = Cost::of(|| files(&plan(&back.text()?)?));
+    let (back, cost) = Cost::measure(|| files(&plan(&back.text()?)?));
     let back = &back?[1];
     let [stiffness, _, load] = SPRING;
     let lost = |e: &[f64]| stiffness * (e[EVENT_SLIP].abs() - load * e[DURATION]);
@@ -323,7 +323,7 @@ fn holds(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError> 
         let (times, expected) =
             (reference.numbers(&name, "hold_s")?, reference.numbers(&name, "peak_minus_steady_mu")?);
         let (found, cost) =
-            Cost::of(|| times.iter().map(|&t| healed(evolution, t)).collect::<Result<Vec<_>, _>>());
+            Cost::measure(|| times.iter().map(|&t| healed(evolution, t)).collect::<Result<Vec<_>, _>>());
         ledger
             .claim(format!("slide-hold-slide, {evolution} law: largest friction of the history above steady after holds of 1 s to 1e4 s"))
             .values(&found?)
@@ -354,7 +354,7 @@ fn healed(evolution: &str, hold: f64) -> Result<f64, CaseError> {
 fn strengthening(ledger: &mut Ledger) -> Result<(), CaseError> {
     let load =
         "[load]\nrate = { table = [[\"0 s\", \"1 um/s\"], [\"10 s\", \"1 um/s\"], [\"10 s\", \"10 um/s\"]] }";
-    let (found, cost) = Cost::of(|| -> Result<Vec<f64>, CaseError> {
+    let (found, cost) = Cost::measure(|| -> Result<Vec<f64>, CaseError> {
         let mut last = Vec::new();
         for evolution in definitions().into_iter().filter(|row| row.is_plain()) {
             let law = law(evolution.name, "-0.005", "l = \"10 um\"");
@@ -452,7 +452,7 @@ fn drawn(ledger: &mut Ledger) -> Result<(), CaseError> {
             names[0],
             names[1],
         );
-        let (rows, cost) = Cost::of(|| files(&plan(&scene)?));
+        let (rows, cost) = Cost::measure(|| files(&plan(&scene)?));
         let [rows, _] = rows?;
         let traction = |row: &[f64]| NORMAL * row[FRICTION] + 4e6 * row[RATE];
         let first = traction(rows.first().ok_or("no rows")?);
@@ -485,7 +485,7 @@ fn between_steps(ledger: &mut Ledger) -> Result<(), CaseError> {
     };
     let [reference, _] = files(&problem(Method::Radau5, 1e-13)?)?;
     for method in [Method::Tsit5, Method::Dop853, Method::Radau5, Method::Switching] {
-        let (rows, cost) = Cost::of(|| files(&problem(method, LOOSE)?));
+        let (rows, cost) = Cost::measure(|| files(&problem(method, LOOSE)?));
         let [rows, _] = rows?;
         let apart = rows.iter().zip(&reference).map(|(row, exact)| (row[RATE] / exact[RATE]).ln().abs());
         ledger

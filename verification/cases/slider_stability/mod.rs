@@ -93,7 +93,7 @@ fn sweep(
     kind: Kind,
     bound: (f64, &str),
 ) -> Result<(), CaseError> {
-    let (result, cost) = Cost::of(|| -> Result<_, CaseError> {
+    let (result, cost) = Cost::measure(|| -> Result<_, CaseError> {
         let mut largest: f64 = 0.0;
         let mut growth = Vec::new();
         for ratio in RATIOS {
@@ -163,7 +163,7 @@ fn cut_off(ledger: &mut Ledger) -> Result<(), CaseError> {
     let base = Set { damping: 0.0, ..slider::MILD };
     let (v1, v2) = (3e-6, 2e-6);
     let (a, b) = (base.a * v1 / (base.load + v1), base.b * v2 / (base.load + v2));
-    let (result, cost) = Cost::of(|| -> Result<f64, CaseError> {
+    let (result, cost) = Cost::measure(|| -> Result<f64, CaseError> {
         let mut largest: f64 = 0.0;
         for ratio in RATIOS {
             let stiffness = ratio * base.normal * (b - a).abs() / base.length;
@@ -199,10 +199,10 @@ fn law<E: Evolution + 'static>(set: &Set, states: Vec<E>) -> Result<Arc<dyn Slid
 }
 
 /// A law with its name.
-type Named = (&'static str, Arc<dyn SliderLaw>);
+type NamedLaw = (&'static str, Arc<dyn SliderLaw>);
 
 /// Laws with several states, given by their b and L \[-, m\], and Nagata's law, which remembers shear traction.
-fn laws(set: &Set) -> Result<Vec<Named>, CaseError> {
+fn laws(set: &Set) -> Result<Vec<NamedLaw>, CaseError> {
     let slips = |list: &[(f64, f64)]| {
         list.iter().map(|&(b, l)| Slip::new(b, l, V_REF)).collect::<Result<Vec<_>, _>>()
     };
@@ -228,7 +228,7 @@ fn critical(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mass = 0.005 * base.normal * base.length / (base.load * base.load);
     let sets = [base, Set { damping: 1e10, ..base }, Set { damping: 1e10, mass: Some(mass), ..base }];
     let (mut wrong, mut marginal, mut rows) = (0, 0.0_f64, Vec::new());
-    let (done, cost) = Cost::of(|| -> Result<(), CaseError> {
+    let (done, cost) = Cost::measure(|| -> Result<(), CaseError> {
         for set in sets {
             for (name, law) in laws(&set)? {
                 let k = critical_stiffness(&set.slider(law.clone()), set.load, set.normal);

@@ -62,7 +62,7 @@ fn two_states(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseEr
     let mut plan = slider::plan(set.slider(law), History::Constant(set.load), set.load, 1.5, 1e9)?;
     let expected = reference.numbers("two_state_slip", "crossings_s")?;
     slider::events(&mut plan, expected.len());
-    let (run, cost) = Cost::of(|| slider::finish(&plan));
+    let (run, cost) = Cost::measure(|| slider::finish(&plan));
     let run = run?;
     let cost = cost.counts(&Report::new(&plan, &run).counts);
     let onsets: Vec<(f64, f64)> = expected.iter().map(|t| (*t, slider::EVENT)).collect();
@@ -82,7 +82,7 @@ fn neutral(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError
     let law = set.law(Kind::Ageing)?;
     let plan = slider::plan(set.slider(law), History::Constant(1e-5), 1e-6, 1.0, 1.0)?;
     let at = reference.numbers("cut_off_neutral", "t_s")?;
-    let (found, cost) = Cost::of(|| slider::at_times(&plan, &at));
+    let (found, cost) = Cost::measure(|| slider::at_times(&plan, &at));
     let found = found?;
     let logs: Vec<f64> = found.iter().map(|f| f.0.ln()).collect();
     let expected: Vec<f64> = reference.numbers("cut_off_neutral", "v")?.iter().map(|v| v.ln()).collect();
@@ -134,7 +134,7 @@ fn coupled(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError
         reference.numbers("coupled_two", "crossings_2_s")?,
     ];
     slider::events(&mut plan, expected[0].len() + 1);
-    let (run, cost) = Cost::of(|| slider::finish(&plan));
+    let (run, cost) = Cost::measure(|| slider::finish(&plan));
     let run = run?;
     let cost = cost.counts(&Report::new(&plan, &run).counts);
     for (i, expected) in expected.iter().enumerate() {
@@ -149,7 +149,7 @@ fn coupled(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError
 fn twins(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut plan = pair([1.5, 1.5], Kind::Slip)?;
     slider::events(&mut plan, 4);
-    let (run, cost) = Cost::of(|| slider::finish(&plan));
+    let (run, cost) = Cost::measure(|| slider::finish(&plan));
     let both = run?;
     let mut single = Set { stiffness: 0.8e9, ..slider::MILD }.plan(Kind::Slip, 1.5, 1e6)?;
     slider::events(&mut single, 4);

@@ -220,7 +220,7 @@ fn defaults(ledger: &mut Ledger) -> Result<(), CaseError> {
         let reference = slider::finish(&tight)?;
         let fresh = Problem::new(tight.system.clone(), tight.start.clone(), tight.end);
         let loose = Problem { events: tight.events, most_events: tight.most_events, peaks: true, ..fresh };
-        let (run, cost) = Cost::of(|| slider::finish(&loose));
+        let (run, cost) = Cost::measure(|| slider::finish(&loose));
         let run = run?;
         let cost = cost.counts(&Report::new(&loose, &run).counts);
         let (Some(a), Some(b)) = (

@@ -93,14 +93,14 @@ impl Problem for Rod {
 
 /// Steps of an integration, and its first event.
 #[derive(Default)]
-struct Seen {
+struct StepRecorder {
     lengths: Vec<f64>,
     /// Largest difference of states in the middle of whole steps from the cubic through their ends.
     off: f64,
     event: Option<(f64, Vec<f64>)>,
 }
 
-impl Sink for Seen {
+impl Sink for StepRecorder {
     fn accepted(&mut self, step: &Step<'_>) -> Control {
         let mut y = vec![0.0; N];
         step.at(0.5, &mut y);
@@ -122,7 +122,7 @@ impl Sink for Seen {
 }
 
 /// An integration until `end`, with steps of this length at most.
-fn integrated(rod: &Rod, end: f64, longest: Option<f64>, rtol: f64) -> (Solution, Seen, Cost) {
+fn integrated(rod: &Rod, end: f64, longest: Option<f64>, rtol: f64) -> (Solution, StepRecorder, Cost) {
     let options = Options {
         method: Method::Rkc2,
         rtol,
@@ -133,8 +133,9 @@ fn integrated(rod: &Rod, end: f64, longest: Option<f64>, rtol: f64) -> (Solution
         most_steps: 100_000,
     };
     let start: Vec<f64> = rod.units.iter().enumerate().map(|(i, unit)| mode(i) / unit).collect();
-    let mut seen = Seen::default();
-    let (done, cost) = Cost::of(|| integrate(rod, Clock::new(0.0, 0.0), &start, end, &options, &mut seen));
+    let mut seen = StepRecorder::default();
+    let (done, cost) =
+        Cost::measure(|| integrate(rod, Clock::new(0.0, 0.0), &start, end, &options, &mut seen));
     let cost = cost.count("steps", done.counts.steps as f64).count("rates", done.counts.rates as f64);
     (done, seen, cost)
 }

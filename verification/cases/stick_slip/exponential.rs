@@ -1,6 +1,6 @@
 //! An event of an interface whose slip rate grows and falls exponentially, as shear traction follows ramps.
 
-use super::texts::{self, Done};
+use super::texts::{self, BodyRun};
 use super::{COLUMN, NORMAL, PRESSED, WIDTH};
 use crate::{Capability, CaseError, Evidence, Ledger};
 use asperity::catalogue::Entry;
@@ -202,7 +202,7 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Claims where the event is.
-fn on_its_interface(ledger: &mut Ledger, done: &Done, event: &Entry) -> Result<(), CaseError> {
+fn on_its_interface(ledger: &mut Ledger, done: &BodyRun, event: &Entry) -> Result<(), CaseError> {
     let [x, y, _] = event.hypocentre;
     let apart = &done.report.events.as_ref().ok_or("the scene has no events")?.interfaces;
     let counts = apart.iter().map(|of| {

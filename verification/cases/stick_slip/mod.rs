@@ -2,7 +2,7 @@
 
 pub(super) mod exponential;
 
-use super::texts::{self, Done};
+use super::texts::{self, BodyRun};
 use super::{fault_pressing, seas, slider as sliders};
 use crate::cases::drawn;
 use crate::ledger::Draft;
@@ -163,7 +163,7 @@ fn in_time(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Friction of the slider at the times of a run since the law began to act.
-fn reference(done: &Done) -> Result<Vec<f64>, CaseError> {
+fn reference(done: &BodyRun) -> Result<Vec<f64>, CaseError> {
     let times: Vec<f64> = done.record.times().iter().map(|t| t - PRESSED).filter(|&t| t > 0.0).collect();
     let (mut table, mut from) = (Vec::new(), 0.0);
     for (end, rate) in STAGES {
@@ -183,7 +183,7 @@ fn reference(done: &Done) -> Result<Vec<f64>, CaseError> {
 }
 
 /// Largest difference of friction from that of the slider over all points and steps under the law.
-fn error(done: &Done, reference: &[f64]) -> f64 {
+fn error(done: &BodyRun, reference: &[f64]) -> f64 {
     let before = done.record.times().len() - reference.len();
     let points = &done.record.histories()[0].points;
     let each = points.iter().flat_map(|p| p.friction[before..].iter().zip(reference));
@@ -191,7 +191,7 @@ fn error(done: &Done, reference: &[f64]) -> f64 {
 }
 
 /// Events of all interfaces of a run.
-pub(super) fn events(done: &Done) -> Result<&[Entry], CaseError> {
+pub(super) fn events(done: &BodyRun) -> Result<&[Entry], CaseError> {
     Ok(&done.report.events.as_ref().ok_or("the scene has no events")?.all)
 }
 
@@ -234,7 +234,7 @@ pub(super) struct Bounds {
 pub(super) fn against_slider(
     ledger: &mut Ledger,
     of_what: &str,
-    (done, wanted, bounds): (&Done, &[SliderEntry], Bounds),
+    (done, wanted, bounds): (&BodyRun, &[SliderEntry], Bounds),
     finish: impl for<'a> Fn(Draft<'a>) -> Draft<'a>,
 ) -> Result<(), CaseError> {
     let found = events(done)?;
@@ -293,7 +293,7 @@ fn as_fault(scene: SceneText, number: usize) -> Result<[f64; 3], CaseError> {
 }
 
 /// First onset since the end of pressing \[s\], last interval \[s\] and stress drop \[Pa\] of a run.
-fn cycle(done: &Done) -> Result<[f64; 3], CaseError> {
+fn cycle(done: &BodyRun) -> Result<[f64; 3], CaseError> {
     let all = events(done)?;
     let (first, last) = all.first().zip(all.last()).ok_or("there was no event")?;
     Ok([first.onset - BLOCK_PRESSED, last.interval.ok_or("there was one event")?, last.stress_drop])
@@ -332,7 +332,12 @@ fn block(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Claims that intervals and stress drops are those of the fault.
-fn against(ledger: &mut Ledger, what: &str, (found, wanted, bound): ([f64; 3], [f64; 3], f64), done: &Done) {
+fn against(
+    ledger: &mut Ledger,
+    what: &str,
+    (found, wanted, bound): ([f64; 3], [f64; 3], f64),
+    done: &BodyRun,
+) {
     ledger
         .claim(format!("first onset over that of the fault, last interval and stress drop likewise, multipliers, {what}"))
         .values(&found.iter().zip(wanted).map(|(a, b)| a / b).collect::<Vec<f64>>())

@@ -2,7 +2,7 @@
 
 use super::slider;
 use super::stick_slip::{self, WIDTH};
-use super::texts::{self, Done};
+use super::texts::{self, BodyRun};
 use crate::{Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
 use asperity::kinds::sliders::Entry as SliderEntry;
 use asperity_cycles::slider as cycles;
@@ -75,13 +75,13 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Times and friction of the first point.
-fn friction(done: &Done) -> Vec<(f64, f64)> {
+fn friction(done: &BodyRun) -> Vec<(f64, f64)> {
     let points = &done.record.histories()[0].points;
     let first = points.first().map_or(&[][..], |p| &p.friction);
     done.record.times().iter().copied().zip(first.iter().copied()).collect()
 }
 
-fn events(ledger: &mut Ledger, done: &Done, wanted: &[SliderEntry]) -> Result<(), CaseError> {
+fn events(ledger: &mut Ledger, done: &BodyRun, wanted: &[SliderEntry]) -> Result<(), CaseError> {
     let bounds = stick_slip::Bounds { onset: 2e-4, slip: 5e-4, drop: 1e-4, peak: 3e-4 };
     stick_slip::against_slider(ledger, "the column's events with inertia", (done, wanted, bounds), |claim| {
         claim
@@ -93,7 +93,7 @@ fn events(ledger: &mut Ledger, done: &Done, wanted: &[SliderEntry]) -> Result<()
 }
 
 /// Slip with inertia over that with damping, in the limit cycle.
-fn overshoot(ledger: &mut Ledger, done: &Done, wanted: &[SliderEntry]) -> Result<(), CaseError> {
+fn overshoot(ledger: &mut Ledger, done: &BodyRun, wanted: &[SliderEntry]) -> Result<(), CaseError> {
     let last = |events: &[SliderEntry]| events.last().and_then(|e| e.slip).ok_or("no event");
     let damped = last(&slider(DAMPING, None)?)?;
     let found = stick_slip::events(done)?.last().ok_or("no event")?.mean_slip;
@@ -111,7 +111,7 @@ fn overshoot(ledger: &mut Ledger, done: &Done, wanted: &[SliderEntry]) -> Result
 }
 
 /// Errors of the hand-over, and how little they matter.
-fn handover(ledger: &mut Ledger, done: &Done) -> Result<(), CaseError> {
+fn handover(ledger: &mut Ledger, done: &BodyRun) -> Result<(), CaseError> {
     let mut last = Vec::new();
     for (above, below) in [("10 mm/s", "1 mm/s"), ("0.1 mm/s", "10 um/s")] {
         let other = texts::simulate(&scene(above, below).text()?)?;
@@ -155,7 +155,7 @@ fn handover(ledger: &mut Ledger, done: &Done) -> Result<(), CaseError> {
 /// Claims on the energy that is lost in returns, and on the budget: their bounds, the source of the first, and the reasons of both.
 pub(super) fn energies(
     ledger: &mut Ledger,
-    done: &Done,
+    done: &BodyRun,
     bounds: [f64; 2],
     [source, lost, missing]: [&str; 3],
 ) {

@@ -1,7 +1,7 @@
 //! Five events of the laboratory block with inertia, beside the same block with radiation damping.
 
 use super::stick_slip_inertia::energies;
-use super::texts::{self, Done};
+use super::texts::{self, BodyRun};
 use super::{slider, stick_slip};
 use crate::{Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
 use asperity::catalogue::Entry;
@@ -42,7 +42,7 @@ const MAIN: f64 = 1e-4;
 const SLIDERS: &str = "two sliders with the law of the blocks, one with damping, the other with mass, Radau IIA of order 5 at 1e-10";
 
 /// The main events of a run.
-fn main_events(done: &Done) -> Result<Vec<&Entry>, CaseError> {
+fn main_events(done: &BodyRun) -> Result<Vec<&Entry>, CaseError> {
     Ok(stick_slip::events(done)?.iter().filter(|e| e.mean_slip > MAIN).collect())
 }
 
@@ -99,7 +99,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-fn alike(ledger: &mut Ledger, done: &Done, events: &[&Entry]) {
+fn alike(ledger: &mut Ledger, done: &BodyRun, events: &[&Entry]) {
     let intervals: Vec<f64> = events.windows(2).skip(1).map(|e| e[1].onset - e[0].onset).collect();
     let (least, most) = intervals.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), &t| (l.min(t), m.max(t)));
     ledger
@@ -129,7 +129,7 @@ const FACES: f64 = 0.1;
 
 /// Mean normal traction of the faces in an event after `time`, between its values at the largest and the least force of the spring
 /// \[Pa\].
-fn normal(done: &Done, time: f64) -> f64 {
+fn normal(done: &BodyRun, time: f64) -> f64 {
     let springs = done.record.samples().iter().map(|s| s.springs.first().copied().flatten());
     let later = done.record.times().iter().zip(springs).filter(|(t, _)| **t > time);
     let all: Vec<(f64, f64)> =
@@ -141,7 +141,7 @@ fn normal(done: &Done, time: f64) -> f64 {
 
 fn compared(
     ledger: &mut Ledger,
-    (done, quiet): (&Done, &Done),
+    (done, quiet): (&BodyRun, &BodyRun),
     with: &[&Entry],
     without: &[&Entry],
 ) -> Result<(), CaseError> {
@@ -179,8 +179,8 @@ fn compared(
 }
 
 /// Macroscopic friction against displacement of the load point, with and without inertia.
-fn drawn(ledger: &mut Ledger, done: &Done, quiet: &Done) {
-    let curve = |run: &Done| {
+fn drawn(ledger: &mut Ledger, done: &BodyRun, quiet: &BodyRun) {
+    let curve = |run: &BodyRun| {
         let springs = run.record.samples().iter().filter_map(|s| s.springs.first().copied().flatten());
         stick_slip::thinned(springs.map(|s| (1e3 * s.load_point.abs(), s.friction)))
     };

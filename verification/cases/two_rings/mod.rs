@@ -56,7 +56,7 @@ fn simulate(measure: Measure, order: usize, fine: usize, exact: &Rings) -> Resul
     scene.folder = folder.clone();
     scene.interfaces.get_mut("contact").ok_or("the scene has no contact")?.measure = here(measure);
     let mut record = Recorder::new().with_bodies();
-    let (report, cost) = Cost::of(|| {
+    let (report, cost) = Cost::measure(|| {
         let plan = bodies::plan(&scene).map_err(|e| e.to_string())?;
         kinds::bodies::run(&plan, &mut record).map_err(|e| e.to_string())
     });
@@ -113,7 +113,7 @@ fn pressure(record: &Recorder, traction: &[f64], exact: &Rings, end: f64) -> f64
 const SERIES: &str = "Michell series of two terms a ring, the penalty included";
 
 /// An expected order and its reason.
-type Claimed = Option<(f64, &'static str)>;
+type ExpectedOrder = Option<(f64, &'static str)>;
 
 /// A study: measure, order of the elements, finenesses, expected orders of displacement and pressure with their reasons.
 struct Study {
@@ -121,9 +121,9 @@ struct Study {
     measure: Measure,
     order: usize,
     fine: &'static [usize],
-    displacement: Claimed,
+    displacement: ExpectedOrder,
     /// None if the pressure does not converge.
-    pressure: Claimed,
+    pressure: ExpectedOrder,
 }
 
 const STUDIES: [Study; 3] = [
@@ -224,7 +224,7 @@ fn beside(ledger: &mut Ledger, finest: &[Errors]) {
 fn claim(ledger: &mut Ledger, study: &Study, errors: &[(f64, Errors)]) {
     let cost = errors.last().map(|(_, e)| e.cost.clone()).unwrap_or_default();
     type Pick = fn(&Errors) -> f64;
-    let quantities: [(&str, Pick, Claimed); 2] = [
+    let quantities: [(&str, Pick, ExpectedOrder); 2] = [
         ("displacement", |e| e.displacement, study.displacement),
         ("pressure", |e| e.pressure, study.pressure),
     ];

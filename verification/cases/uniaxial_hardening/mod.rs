@@ -100,14 +100,14 @@ impl Bar {
 }
 
 /// Result of [`stretched`].
-type Stretched = (Vec<Vec<[f64; 2]>>, f64, Work);
+type StretchResult = (Vec<Vec<[f64; 2]>>, f64, Work);
 
 /// A function that runs one idealisation.
-type Run<'a> = Box<dyn Fn() -> Result<Stretched, CaseError> + 'a>;
+type Run<'a> = Box<dyn Fn() -> Result<StretchResult, CaseError> + 'a>;
 
 /// Takes a box through axial strains. Returns axial stress and plastic strain at every point after each strain, and the
 /// largest of the other stress components.
-fn stretched<const D: usize>(mesh: Mesh<D>, options: Model, axis: usize) -> Result<Stretched, CaseError> {
+fn stretched<const D: usize>(mesh: Mesh<D>, options: Model, axis: usize) -> Result<StretchResult, CaseError> {
     let planes = &["left", "bottom", "back"][..D];
     let end = body::side(&mesh, ["right", "top"][axis])?;
     let mut held = Vec::new();
@@ -154,7 +154,7 @@ fn small(ledger: &mut Ledger, Curve { name, law, exact }: &Curve) -> Result<(), 
         ),
     ];
     for (what, run) in runs {
-        let (outcome, cost) = Cost::of(&run);
+        let (outcome, cost) = Cost::measure(&run);
         let (found, others, work) = outcome?;
         let mut bar = Bar::new(*exact);
         let (mut stress, mut plastic) = (0.0_f64, 0.0_f64);
@@ -237,7 +237,7 @@ fn large(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (mut levels, mut last) = (Vec::new(), Cost::default());
     let sizes = [10, 20, 40, 80];
     for steps in sizes {
-        let (outcome, cost) = Cost::of(|| pulled(lambda, steps));
+        let (outcome, cost) = Cost::measure(|| pulled(lambda, steps));
         let (force, body) = outcome?;
         levels.push((1.0 / steps as f64, (force / exact - 1.0).abs()));
         last = cost.counts(&body.work);

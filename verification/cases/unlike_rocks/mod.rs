@@ -3,7 +3,7 @@
 mod sliding;
 
 use crate::{Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
-use sliding::{DELAY, Slipped, slip};
+use sliding::{DELAY, SlipRun, slip};
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -48,7 +48,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Without delay the shortest waves of the mesh grow fastest.
-fn diverges(ledger: &mut Ledger, runs: &[Slipped]) {
+fn diverges(ledger: &mut Ledger, runs: &[SlipRun]) {
     let [.., coarse, fine] = runs else { return };
     ledger
         .claim("slip between unlike rocks, friction without delay: factor by which half the spacing raises the largest change of the slip rate")
@@ -62,7 +62,7 @@ fn diverges(ledger: &mut Ledger, runs: &[Slipped]) {
 }
 
 /// Root mean square difference from the finest run at common nodes, over the largest change there.
-fn difference(run: &Slipped, finest: &Slipped) -> f64 {
+fn difference(run: &SlipRun, finest: &SlipRun) -> f64 {
     let skip = (run.spacing / finest.spacing).round() as usize;
     let pairs = run.changes.iter().zip(finest.changes.iter().step_by(skip));
     let squares: Vec<f64> =
@@ -70,7 +70,7 @@ fn difference(run: &Slipped, finest: &Slipped) -> f64 {
     (squares.iter().sum::<f64>() / squares.len() as f64).sqrt() / finest.largest()
 }
 
-fn converges(ledger: &mut Ledger, runs: &[Slipped]) {
+fn converges(ledger: &mut Ledger, runs: &[SlipRun]) {
     let [others @ .., finest] = runs else { return };
     let levels: Vec<(f64, f64)> = others.iter().map(|r| (r.spacing, difference(r, finest))).collect();
     ledger

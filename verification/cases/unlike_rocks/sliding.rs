@@ -36,7 +36,7 @@ const PULSE: (f64, f64, f64) = (1e-8, 1.0, 1.0);
 pub(super) const DELAY: Regularisation = Regularisation { length: 2e-4, rate: 1e-3 };
 
 /// Result of a run.
-pub(super) struct Slipped {
+pub(super) struct SlipRun {
     /// Spacing of nodes.
     pub spacing: f64,
     /// Position, and change of the slip rate over the imposed traction over ρ c_s.
@@ -84,18 +84,18 @@ fn fault(problem: &Problem<2>, delay: Option<Regularisation>) -> Result<Fault, C
 }
 
 /// Runs both rocks to the end.
-pub(super) fn slip(spacing: f64, delay: Option<Regularisation>) -> Result<Slipped, CaseError> {
+pub(super) fn slip(spacing: f64, delay: Option<Regularisation>) -> Result<SlipRun, CaseError> {
     let problem = rocks(spacing, delay)?;
-    let (result, cost) = Cost::of(|| steps(&problem, |_| ()));
+    let (result, cost) = Cost::measure(|| steps(&problem, |_| ()));
     let last = result?;
     let cost = cost.count("cells", last.product().cells() as f64).count("steps", last.steps() as f64);
     let at = nodes_on(&problem.model, "b0.top");
     let change = |v: &f64| (v - RATE) * STIFF.density * STIFF.shear / PULSE.0;
     let changes = at.iter().zip(&last.fault().rate).map(|((_, x), v)| (*x, change(v))).collect();
-    Ok(Slipped { spacing, changes, cost })
+    Ok(SlipRun { spacing, changes, cost })
 }
 
-impl Slipped {
+impl SlipRun {
     /// Largest change of the slip rate.
     pub fn largest(&self) -> f64 {
         self.changes.iter().map(|(_, v)| v.abs()).fold(0.0, f64::max)

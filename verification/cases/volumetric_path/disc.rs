@@ -140,7 +140,7 @@ fn loaded(ledger: &mut Ledger) -> Result<(), CaseError> {
     )?;
     let (mut levels, mut last) = (Vec::new(), Cost::default());
     for steps in [20, 40, 80, 160] {
-        let (outcome, cost) = Cost::of(|| stretch(steps, true));
+        let (outcome, cost) = Cost::measure(|| stretch(steps, true));
         let (found, work) = outcome?;
         levels.push(((steps as f64).recip(), (found - exact).abs()));
         last = cost.counts(&work);

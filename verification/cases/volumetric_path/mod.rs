@@ -81,7 +81,7 @@ fn study(
 ) -> Result<f64, CaseError> {
     let (mut levels, mut last, mut value) = (Vec::new(), Cost::default(), f64::NAN);
     for steps in [10, 20, 40, 80] {
-        let (outcome, cost) = Cost::of(|| run(steps));
+        let (outcome, cost) = Cost::measure(|| run(steps));
         let (found, work) = outcome?;
         levels.push((1.0 / steps as f64, (found / exact - 1.0).abs()));
         (last, value) = (cost.counts(&work), found);

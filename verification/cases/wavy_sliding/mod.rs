@@ -1,7 +1,7 @@
 //! A block slides by three wavelengths along a wavy fault, in implicit and static-explicit steps.
 
 use super::contact_invariance::bodies::{Change, Grid, Side};
-use super::texts::{Done, simulate_in};
+use super::texts::{BodyRun, simulate_in};
 use crate::cases::drawn;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_vary::Change::{self as Vary, With, Without};
@@ -58,7 +58,7 @@ fn compare(ledger: &mut Ledger, folder: &Path) -> Result<(), CaseError> {
         ("mortar, ageing law, one wavelength", vec![MORTAR, AGEING, ONE_WAVE[0], ONE_WAVE[1]]),
     );
     for (name, changes) in [one, other, third] {
-        let run = |stepper: &[Vary<'_>]| -> Result<Done, CaseError> {
+        let run = |stepper: &[Vary<'_>]| -> Result<BodyRun, CaseError> {
             let scene = SceneText::new(include_str!("scene.toml")).changed(&changes).changed(stepper);
             simulate_in(&scene.text()?, &folder.to_string_lossy()).map_err(|e| format!("{name}: {e}").into())
         };
@@ -78,8 +78,8 @@ fn compare(ledger: &mut Ledger, folder: &Path) -> Result<(), CaseError> {
     Ok(())
 }
 
-fn claims(ledger: &mut Ledger, name: &str, implicit: &Done, forward: &Done) -> Result<(), CaseError> {
-    let force = |done: &Done| done.report.forces.last().map(|f| f.value).ok_or("no force is reported");
+fn claims(ledger: &mut Ledger, name: &str, implicit: &BodyRun, forward: &BodyRun) -> Result<(), CaseError> {
+    let force = |done: &BodyRun| done.report.forces.last().map(|f| f.value).ok_or("no force is reported");
     let (a, b) = (force(implicit)?, force(forward)?);
     let size = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     ledger
@@ -104,7 +104,7 @@ fn claims(ledger: &mut Ledger, name: &str, implicit: &Done, forward: &Done) -> R
     Ok(())
 }
 
-fn law(ledger: &mut Ledger, name: &str, done: &Done) -> Result<(), CaseError> {
+fn law(ledger: &mut Ledger, name: &str, done: &BodyRun) -> Result<(), CaseError> {
     let end = &done.record.stage_end("slide").ok_or("the run has no end")?.interfaces[0];
     let closed = || (0..end.gap.len()).filter(|&k| end.status[k] == 2);
     let largest = closed().map(|k| MU * end.normal_traction[k]).fold(0.0, f64::max);
@@ -125,7 +125,7 @@ fn law(ledger: &mut Ledger, name: &str, done: &Done) -> Result<(), CaseError> {
 
 /// The same motion of the block along the base, as motion of the block and as motion of both in opposite directions.
 fn frames(ledger: &mut Ledger, folder: &Path) -> Result<(), CaseError> {
-    let run = |conditions: &str| -> Result<(Done, Vec<[f64; 3]>), CaseError> {
+    let run = |conditions: &str| -> Result<(BodyRun, Vec<[f64; 3]>), CaseError> {
         let scene = SceneText::new(include_str!("scene.toml"))
             .with("stages[1].conditions", conditions)
             .add("stages[1].steps", 200)

@@ -2,7 +2,7 @@
 
 use super::entry::Entry;
 use super::independent::Results;
-use super::parts::{Made, PER_PASCAL, Words, interpolated, reference};
+use super::parts::{ComputedBenchmark, PER_PASCAL, Words, interpolated, reference};
 use super::rounded::digits;
 use crate::CaseError;
 use crate::cases::fault_bend;
@@ -13,7 +13,7 @@ const QUADRATURE: f64 = 1e-6;
 /// Cell size of this program's entry \[m\].
 const SIZE: f64 = 125.0;
 
-pub fn make() -> Result<Made, CaseError> {
+pub fn make() -> Result<ComputedBenchmark, CaseError> {
     let rows = Results::read(include_str!("../../independent/bend.json"))?
         .at("distance above the bend [m], shear [Pa], normal [Pa]")?
         .rows()?;
@@ -50,7 +50,7 @@ pub fn make() -> Result<Made, CaseError> {
     )
     .with("shear", column(1))
     .with("normal", column(2));
-    Ok(Made { reference, entries: vec![here(&places)?, dislocations] })
+    Ok(ComputedBenchmark { reference, entries: vec![here(&places)?, dislocations] })
 }
 
 fn here(places: &[f64]) -> Result<Entry, CaseError> {

@@ -3,7 +3,7 @@
 use super::entry::Entry;
 use super::independent::Results;
 use super::limit::{self, Limit};
-use super::parts::{Made, PER_PASCAL, Words, interpolated, optional, reference};
+use super::parts::{ComputedBenchmark, PER_PASCAL, Words, interpolated, optional, reference};
 use super::rounded::digits;
 use crate::CaseError;
 use crate::cases::sandwich_state::{block, small_block};
@@ -27,7 +27,7 @@ const THREE_SOFT: &str =
 struct Runs(Vec<Results>);
 
 impl Runs {
-    fn of(length: f64) -> Result<Self, CaseError> {
+    fn read(length: f64) -> Result<Self, CaseError> {
         let all = Results::read(include_str!("../../independent/sandwich_state.json"))?.list()?;
         let mut runs = Vec::new();
         for run in all {
@@ -49,10 +49,11 @@ impl Runs {
     }
 }
 
-pub fn make() -> Result<Made, CaseError> {
-    let (stiff, soft) = (Runs::of(LENGTHS[0])?, Runs::of(LENGTHS[1])?);
-    let one =
-        |words: Words, values: Vec<f64>, tolerance: f64| words.one(Limit::of(&values).place(None, tolerance));
+pub fn make() -> Result<ComputedBenchmark, CaseError> {
+    let (stiff, soft) = (Runs::read(LENGTHS[0])?, Runs::read(LENGTHS[1])?);
+    let one = |words: Words, values: Vec<f64>, tolerance: f64| {
+        words.one(Limit::from_values(&values).place(None, tolerance))
+    };
     let quantities = vec![
         one(
             Words {
@@ -102,7 +103,7 @@ pub fn make() -> Result<Made, CaseError> {
         )),
     ];
     let reference = reference("sandwich-state/v1", "stick-slip of a laboratory block", quantities);
-    Ok(Made { reference, entries: vec![here()?, independent(&stiff, &soft)?] })
+    Ok(ComputedBenchmark { reference, entries: vec![here()?, independent(&stiff, &soft)?] })
 }
 
 fn shear(
@@ -111,7 +112,8 @@ fn shear(
     runs: &Runs,
     source: &'static str,
 ) -> Result<Quantity, CaseError> {
-    let limits = SHARES.iter().enumerate().map(|(k, share)| Ok((*share, Limit::of(&runs.shear(k)?))));
+    let limits =
+        SHARES.iter().enumerate().map(|(k, share)| Ok((*share, Limit::from_values(&runs.shear(k)?))));
     let places = limit::places(&limits.collect::<Result<Vec<_>, CaseError>>()?, 0.05);
     let because =
         "the coarsest of the three meshes errs by 0.03 MPa, twice as much for a soft machine near an event";

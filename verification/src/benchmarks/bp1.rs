@@ -3,7 +3,7 @@
 use super::entry::Entry;
 use super::independent::Results;
 use super::limit::{self, Limit};
-use super::parts::{Made, Words, interpolated, reference};
+use super::parts::{ComputedBenchmark, Words, interpolated, reference};
 use crate::CaseError;
 use crate::cases::seas;
 use asperity_reference::benchmark::Quantity;
@@ -27,12 +27,12 @@ const QDYN: [f64; 3] = [197.162, 196.509, 196.400];
 
 const FOUR: &str = "limit of boundary elements (cycles.py) with cells of 156, 78, 39 and 19.5 m";
 
-pub fn make() -> Result<Made, CaseError> {
+pub fn make() -> Result<ComputedBenchmark, CaseError> {
     let runs = Results::read(include_str!("../../independent/bp1_histories.json"))?.list()?;
     let reference = reference("seas-bp1-quick/v1", "the first three events of BP1-QD", quantities(&runs)?);
     let last = runs.last().ok_or("no runs")?;
     let entries = vec![here(&last.at("times [yr]")?.numbers()?)?, independent(last)?];
-    Ok(Made { reference, entries })
+    Ok(ComputedBenchmark { reference, entries })
 }
 
 /// Summary of a run: onsets, intervals, largest rates of the last two events, and duration of the last one above 1 mm/s.
@@ -84,14 +84,15 @@ fn quantities(runs: &[Results]) -> Result<Vec<Quantity>, CaseError> {
     for (i, (name, meaning, unit, tolerance, because)) in WORDS.into_iter().enumerate() {
         let values: Vec<f64> = summaries.iter().map(|s| s[i].1).collect();
         let (limit, source) = match name {
-            "first_onset" => (Limit::of(&values).beside(Limit::of(&QDYN)), BESIDE),
-            _ => (Limit::of(&values), FOUR),
+            "first_onset" => (Limit::from_values(&values).beside(Limit::from_values(&QDYN)), BESIDE),
+            _ => (Limit::from_values(&values), FOUR),
         };
         all.push(Words { name, meaning, unit, source, because }.one(limit.place(None, tolerance)));
     }
     let times = runs.last().ok_or("no runs")?.at("times [yr]")?.numbers()?;
     for (j, (_, name, meaning)) in DEPTHS.into_iter().enumerate() {
-        let limits = times.iter().enumerate().map(|(k, time)| Ok((*time, Limit::of(&rates(runs, k, j)?))));
+        let limits =
+            times.iter().enumerate().map(|(k, time)| Ok((*time, Limit::from_values(&rates(runs, k, j)?))));
         let places = limit::places(&limits.collect::<Result<Vec<_>, CaseError>>()?, 0.02);
         let because = "0.02 is 5 % of the slip rate, where 0.1 yr of an onset change it by 3 % four years after an event";
         all.push(Words { name, meaning, unit: "1", source: FOUR, because }.along("Time", "yr", places));

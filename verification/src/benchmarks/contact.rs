@@ -2,7 +2,7 @@
 
 use super::entry::Entry;
 use super::independent::Results;
-use super::parts::{Made, Words, exact, interpolated, reference};
+use super::parts::{ComputedBenchmark, Words, exact, interpolated, reference};
 use crate::CaseError;
 use crate::cases::hertz::{self, Hertz, Tractions, compliance};
 use asperity_plan::reading::scene::model::{Motion, Scene, here};
@@ -31,7 +31,7 @@ fn cattaneo(x: f64, c: f64) -> f64 {
     ellipse(x) - c * ellipse(x / c)
 }
 
-pub fn hertz() -> Result<Made, CaseError> {
+pub fn hertz() -> Result<ComputedBenchmark, CaseError> {
     let quantities = vec![
         Words {
             name: "peak_pressure",
@@ -52,7 +52,7 @@ pub fn hertz() -> Result<Made, CaseError> {
         pressures(),
     ];
     let reference = reference("hertz/v1", "line contact of a cylinder on a flat", quantities);
-    Ok(Made { reference, entries: vec![pressed()?, boundary_elements_pressed()?] })
+    Ok(ComputedBenchmark { reference, entries: vec![pressed()?, boundary_elements_pressed()?] })
 }
 
 /// Tolerance of nodal pressures: end cells have an error of the root of twice their length over a.
@@ -72,7 +72,7 @@ fn pressures() -> Quantity {
     .along("Distance from the middle over a", "1", PRESSURES.iter().map(place).collect())
 }
 
-pub fn partial_slip() -> Result<Made, CaseError> {
+pub fn partial_slip() -> Result<ComputedBenchmark, CaseError> {
     let (c, back) = (0.5f64.sqrt(), 0.75f64.sqrt());
     let along = |name, meaning, places: &[f64], value: &dyn Fn(f64) -> f64| {
         Words { name, meaning, unit: "1", source: HALF_SPACES, because: SHEAR_BECAUSE }.along(
@@ -103,7 +103,7 @@ pub fn partial_slip() -> Result<Made, CaseError> {
     ];
     let reference =
         reference("partial-slip/v1", "partial slip of a line contact, and its reversal", quantities);
-    Ok(Made { reference, entries: vec![sheared()?, boundary_elements_sheared()?] })
+    Ok(ComputedBenchmark { reference, entries: vec![sheared()?, boundary_elements_sheared()?] })
 }
 
 /// Tolerance of nodal shear tractions.

@@ -48,7 +48,7 @@ impl Limit {
     /// The uncertainty of an extrapolation is the size of its correction or, if larger, its change from the extrapolation one
     /// mesh coarser. Values with a decreasing oscillation have their limit between the last two; the uncertainty is twice their
     /// difference. For other values it is the larger of the last two differences.
-    pub fn of(values: &[f64]) -> Self {
+    pub fn from_values(values: &[f64]) -> Self {
         let n = values.len();
         let last = values[n - 1];
         let Some(value) = extrapolated(&values[n - 3..]) else {

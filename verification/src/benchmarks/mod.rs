@@ -17,14 +17,14 @@ mod sandwich;
 
 use crate::CaseError;
 pub use entry::Entry;
-pub use parts::Made;
+pub use parts::ComputedBenchmark;
 
 /// A benchmark and the function that computes it.
 pub struct Maker {
     /// Name with version.
     pub name: &'static str,
     /// Computes the benchmark; runs scenes for about a minute.
-    pub make: fn() -> Result<Made, CaseError>,
+    pub make: fn() -> Result<ComputedBenchmark, CaseError>,
 }
 
 /// All benchmarks.

@@ -12,7 +12,7 @@ const VALUES: [&str; 2] = ["<!-- values -->\n", "<!-- end of values -->\n"];
 const RESULTS: [&str; 2] = ["<!-- results -->\n", "<!-- end of results -->\n"];
 
 /// A derived file and its expected contents.
-pub struct Derived {
+pub struct DerivedFile {
     /// Path.
     pub path: PathBuf,
     /// Text.
@@ -23,15 +23,15 @@ pub struct Derived {
 ///
 /// # Errors
 /// If a file cannot be read.
-pub fn derived(folder: &Path) -> Result<Vec<Derived>, CaseError> {
+pub fn derived(folder: &Path) -> Result<Vec<DerivedFile>, CaseError> {
     let reference: Reference = serde_json::from_str(&read(&folder.join("reference.json"))?)?;
     let page = folder.join("README.md");
     let text = replaced(&read(&page)?, VALUES, &values(&reference))?;
     let text = replaced(&text, RESULTS, &results(folder, &reference)?)?;
     Ok(vec![
-        Derived { path: folder.join("reference.csv"), text: reference.csv() },
-        Derived { path: folder.join("template.csv"), text: reference.template() },
-        Derived { path: page, text },
+        DerivedFile { path: folder.join("reference.csv"), text: reference.csv() },
+        DerivedFile { path: folder.join("template.csv"), text: reference.template() },
+        DerivedFile { path: page, text },
     ])
 }
 

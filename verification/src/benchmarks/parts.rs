@@ -14,7 +14,7 @@ pub const PER_PASCAL: f64 = 1e-6;
 pub const MICROMETRE: f64 = 1e-6;
 
 /// A computed benchmark.
-pub struct Made {
+pub struct ComputedBenchmark {
     /// Reference values.
     pub reference: Reference,
     /// Results stored with them.

@@ -3,7 +3,9 @@
 use super::entry::Entry;
 use super::independent::Results;
 use super::limit::{self, Limit};
-use super::parts::{MICROMETRE, Made, PER_PASCAL, Words, exact, interpolated, optional, reference};
+use super::parts::{
+    ComputedBenchmark, MICROMETRE, PER_PASCAL, Words, exact, interpolated, optional, reference,
+};
 use crate::CaseError;
 use crate::cases::sandwich::{self, PRESSED, Run, V_LOAD};
 use asperity::kinds::bodies::mean;
@@ -25,7 +27,7 @@ const SIZE: f64 = 0.3125;
 const SLIP_BECAUSE: &str = "cells of 2.5 mm err by up to 0.015 um; no less than three times the uncertainty";
 const FOUR: &str = "limit of scikit-fem and scipy on cells of 2.5, 1.25, 0.625 and 0.3125 mm";
 
-pub fn make() -> Result<Made, CaseError> {
+pub fn make() -> Result<ComputedBenchmark, CaseError> {
     let histories = Results::read(include_str!("../../independent/sandwich_histories.json"))?;
     let results = Results::read(include_str!("../../independent/results.json"))?;
     let reference = reference(
@@ -34,7 +36,7 @@ pub fn make() -> Result<Made, CaseError> {
         quantities(&results, &histories)?,
     );
     let entries = vec![here(&moved(&histories)?)?, independent(&results, &histories)?];
-    Ok(Made { reference, entries })
+    Ok(ComputedBenchmark { reference, entries })
 }
 
 /// Displacements of the upper edge at which histories are given \[um\].
@@ -61,7 +63,7 @@ fn shears(histories: &Results) -> Result<Vec<Vec<f64>>, CaseError> {
 fn quantities(results: &Results, histories: &Results) -> Result<Vec<Quantity>, CaseError> {
     let ways = moved(histories)?;
     let along = |words: Words, values: &dyn Fn(usize) -> Vec<f64>, tolerance: f64| {
-        let limits = ways.iter().enumerate().map(|(k, way)| (*way, Limit::of(&values(k))));
+        let limits = ways.iter().enumerate().map(|(k, way)| (*way, Limit::from_values(&values(k))));
         let places = limit::places(&limits.collect::<Vec<_>>(), tolerance);
         words.along("Way of the upper edge", "um", places)
     };
@@ -73,7 +75,7 @@ fn quantities(results: &Results, histories: &Results) -> Result<Vec<Quantity>, C
             source: FOUR,
             because: "cells of 2.5 mm err by 0.027 MPa",
         }
-        .one(Limit::of(&pressed(results, "base")?).place(None, 0.03)),
+        .one(Limit::from_values(&pressed(results, "base")?).place(None, 0.03)),
     ];
     let slips = slips(histories)?;
     for (j, (_, name, meaning)) in HEIGHTS.into_iter().enumerate() {
@@ -107,7 +109,7 @@ fn quantities(results: &Results, histories: &Results) -> Result<Vec<Quantity>, C
             source: FOUR,
             because: "cells of 2.5 mm err by 0.012 MPa",
         }
-        .one(Limit::of(&pressed(results, "w_A_50_mm")?).place(None, 0.015)),
+        .one(Limit::from_values(&pressed(results, "w_A_50_mm")?).place(None, 0.015)),
     ));
     all.push(optional(no_overhang()));
     Ok(all)

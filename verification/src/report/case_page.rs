@@ -26,22 +26,24 @@ pub struct Context<'a> {
 /// The page.
 pub fn whole(outcome: &Outcome, context: Context<'_>) -> String {
     let record = &outcome.record;
-    let ids = ids::of(&record.claims);
+    let ids = ids::unique(&record.claims);
     let mut body = links(outcome, context);
     let (heading, text) = split(outcome.case.readme);
     let _ = writeln!(body, "<h1>{}</h1>", escape(heading));
-    body += &claims::summary(&Summary::of(&record.claims), Depth::Below);
+    body += &claims::summary(&Summary::from_claims(&record.claims), Depth::Below);
     body += &contents(outcome, context);
-    let sketch = crate::sketches::of(outcome.case.name);
+    let sketch = crate::sketches::draw(outcome.case.name);
     let sketch = sketch.map(|svg| figures::figure("sketch", "The problem", &svg, "")).unwrap_or_default();
-    body += &figures::side_by_side(&(sketch + &fields::of(outcome.case.name) + &figures::of_case(record)));
+    body += &figures::side_by_side(
+        &(sketch + &fields::pictures(outcome.case.name) + &figures::case_figures(record)),
+    );
     let _ = writeln!(body, "<article>\n{}</article>", mathml::html_of(text));
     let _ = writeln!(
         body,
         "<h2 id=\"all-claims\">Claims</h2>\n{}",
         claims::all(&record.claims, &ids, &before(outcome, context.releases))
     );
-    body += &figures::of_orders(&record.claims, &ids);
+    body += &figures::order_figures(&record.claims, &ids);
     body += &costs(outcome);
     record.tables.iter().for_each(|table| body += &tables::free(table));
     body += &sheets::links(outcome.case.name, &record.sheets);
@@ -115,7 +117,7 @@ fn costs(outcome: &Outcome) -> String {
 
 /// Error and bound of each claim at the last release, where they differ from the current ones.
 fn before(outcome: &Outcome, releases: &[Release]) -> Vec<String> {
-    let ids = ids::of(&outcome.record.claims);
+    let ids = ids::unique(&outcome.record.claims);
     let last = releases.last().and_then(|r| Some((&r.tag, r.cases.get(outcome.case.name)?)));
     let Some((tag, kept)) = last else { return vec![String::new(); ids.len()] };
     let show = |value: Option<f64>| value.map_or("–".to_owned(), number);

@@ -1,7 +1,7 @@
 //! Claims as blocks of a page: the comparison on top, reasons and sources folded.
 
 use super::page::{Depth, escape, number, word};
-use crate::claim::{Evidence, Judged, Mark, Test, Verdict};
+use crate::claim::{Evidence, JudgedClaim, Mark, Test, Verdict};
 use crate::suite::Summary;
 use std::fmt::Write as _;
 
@@ -22,11 +22,11 @@ pub fn summary(summary: &Summary, depth: Depth) -> String {
 }
 
 /// All claims of a case with their permalinks and a remark on each claim's values at the last release.
-pub fn all(claims: &[Judged], ids: &[String], before: &[String]) -> String {
+pub fn all(claims: &[JudgedClaim], ids: &[String], before: &[String]) -> String {
     claims.iter().zip(ids).zip(before).map(|((judged, id), before)| one(judged, id, before)).collect()
 }
 
-fn one(judged: &Judged, id: &str, before: &str) -> String {
+fn one(judged: &JudgedClaim, id: &str, before: &str) -> String {
     let claim = &judged.claim;
     let state = match judged.verdict {
         Verdict::Holds => "holds",
@@ -49,7 +49,7 @@ fn one(judged: &Judged, id: &str, before: &str) -> String {
     )
 }
 
-fn verdict(judged: &Judged) -> String {
+fn verdict(judged: &JudgedClaim) -> String {
     match &judged.verdict {
         Verdict::Holds => "<p class=\"good\">holds</p>".to_owned(),
         Verdict::Disagrees => {
@@ -64,7 +64,7 @@ fn entry(name: &str, value: &str) -> String {
     if value.is_empty() { String::new() } else { format!("<div><dt>{name}</dt><dd>{value}</dd></div>\n") }
 }
 
-fn numbers(judged: &Judged, id: &str) -> String {
+fn numbers(judged: &JudgedClaim, id: &str) -> String {
     let claim = &judged.claim;
     let mut list = values(judged, id);
     if let Some(m) = &judged.measured {
@@ -105,7 +105,7 @@ fn bar(ratio: f64, mark: Option<Mark>) -> String {
     )
 }
 
-fn values(judged: &Judged, id: &str) -> String {
+fn values(judged: &JudgedClaim, id: &str) -> String {
     let unit = escape(&judged.claim.unit);
     let with_unit = |value: f64| format!("{} {unit}", number(value));
     match &judged.claim.test {
@@ -140,7 +140,7 @@ fn list(values: &[f64], unit: &str) -> String {
 }
 
 /// Reasons, sources and costs, folded.
-fn details(judged: &Judged, before: &str) -> String {
+fn details(judged: &JudgedClaim, before: &str) -> String {
     let claim = &judged.claim;
     let uncertainty = if claim.uncertainty > 0.0 {
         format!("{} {}", number(claim.uncertainty), escape(&claim.unit))
@@ -176,7 +176,7 @@ fn levels(test: &Test) -> String {
     lines.join("<br>")
 }
 
-fn covers(judged: &Judged) -> String {
+fn covers(judged: &JudgedClaim) -> String {
     let link = |c: &crate::Capability| {
         let title = c.title();
         format!("<a href=\"../coverage.html#{}\">{}</a>", super::ids::slug(title), escape(title))
@@ -184,7 +184,7 @@ fn covers(judged: &Judged) -> String {
     judged.claim.covers.iter().map(link).collect::<Vec<_>>().join(", ")
 }
 
-fn cost(judged: &Judged) -> String {
+fn cost(judged: &JudgedClaim) -> String {
     let cost = &judged.claim.cost;
     let wall = cost.wall.map(|wall| format!("{} s", number(wall)));
     let words = |name: &str| name.split('_').collect::<Vec<_>>().join(" ");

@@ -110,7 +110,7 @@ pub const WITHOUT: [(&str, &str); 7] = [
 ];
 
 /// Pictures of a case, or the reason why one cannot be drawn.
-pub fn of(case: &str) -> String {
+pub fn pictures(case: &str) -> String {
     let fields = FIELDS.iter().filter(|(name, ..)| *name == case);
     let fields = fields.map(|(_, scene, stage)| one(scene, draw(scene, stage)));
     let plots = PLOTS.iter().filter(|(name, ..)| *name == case);

@@ -1,7 +1,7 @@
 //! Figures of a page, drawn by the product's plots, each with a title and a caption.
 
 use super::page::{escape, number};
-use crate::claim::{Judged, Test};
+use crate::claim::{JudgedClaim, Test};
 use crate::ledger::{Picture, Record};
 use asperity_output::figures::Diagram;
 use std::fmt::Write as _;
@@ -47,7 +47,7 @@ fn caption(diagram: &Diagram) -> String {
 }
 
 /// Pictures and diagrams of a case.
-pub fn of_case(record: &Record) -> String {
+pub fn case_figures(record: &Record) -> String {
     let pictures = record.pictures.iter().map(picture);
     let diagrams = record.plots.iter().map(diagram);
     pictures.chain(diagrams).collect()
@@ -59,8 +59,8 @@ pub fn picture(picture: &Picture) -> String {
 }
 
 /// A convergence figure for each claim on an order; folded if there are many.
-pub fn of_orders(claims: &[Judged], ids: &[String]) -> String {
-    let one = |(judged, id): (&Judged, &String)| {
+pub fn order_figures(claims: &[JudgedClaim], ids: &[String]) -> String {
+    let one = |(judged, id): (&JudgedClaim, &String)| {
         let Test::Order(order) = &judged.claim.test else { return None };
         let diagram = super::convergence::diagram(&judged.claim, order);
         let title = format!("<a href=\"#{id}\">{}</a>", escape(&judged.claim.quantity));

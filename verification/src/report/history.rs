@@ -58,7 +58,12 @@ fn short(value: f64) -> f64 {
 
 impl Release {
     /// History file of a run. Cases that did not run keep the entries of an earlier file of the same release.
-    pub fn of(tag: &str, outcomes: &[Outcome], run: &Provenance, earlier: Option<Release>) -> Release {
+    pub fn from_outcomes(
+        tag: &str,
+        outcomes: &[Outcome],
+        run: &Provenance,
+        earlier: Option<Release>,
+    ) -> Release {
         let mut cases = earlier.map(|release| release.cases).unwrap_or_default();
         cases.extend(outcomes.iter().map(|outcome| (outcome.case.name.to_owned(), kept(outcome))));
         Release {
@@ -99,13 +104,13 @@ impl Release {
 
 fn kept(outcome: &Outcome) -> KeptCase {
     let claims = &outcome.record.claims;
-    let pair = |judged: &crate::claim::Judged| {
-        let of = |pick: fn(&crate::claim::Measured) -> f64| {
+    let pair = |judged: &crate::claim::JudgedClaim| {
+        let of = |pick: fn(&crate::claim::Measurement) -> f64| {
             judged.measured.as_ref().map(pick).filter(|v| v.is_finite()).map(short)
         };
         (of(|m| m.error), of(|m| m.bound))
     };
-    let pairs = ids::of(claims).into_iter().zip(claims.iter().map(pair)).collect();
+    let pairs = ids::unique(claims).into_iter().zip(claims.iter().map(pair)).collect();
     KeptCase { wall: short(outcome.wall), claims: pairs }
 }
 

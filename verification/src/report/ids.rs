@@ -1,15 +1,15 @@
 //! Names of claims that do not change between runs: their permalinks and their keys in the history.
 
-use crate::claim::Judged;
+use crate::claim::JudgedClaim;
 use std::collections::BTreeMap;
 
 /// Maximum length of a name, without the number appended to a repeated one.
 pub const LONGEST: usize = 72;
 
 /// Unique names of the claims of a case.
-pub fn of(claims: &[Judged]) -> Vec<String> {
+pub fn unique(claims: &[JudgedClaim]) -> Vec<String> {
     let mut seen: BTreeMap<String, usize> = BTreeMap::new();
-    let name = |judged: &Judged| {
+    let name = |judged: &JudgedClaim| {
         let slug = slug(&judged.claim.quantity);
         let times = seen.entry(slug.clone()).or_insert(0);
         *times += 1;

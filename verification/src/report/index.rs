@@ -6,13 +6,13 @@ use super::provenance::Provenance;
 use super::subjects::{self, Subject};
 use super::{claims, ids};
 use crate::case::Outcome;
-use crate::claim::{Judged, Mark, Verdict};
+use crate::claim::{JudgedClaim, Mark, Verdict};
 use crate::suite::Summary;
 use serde_json::json;
 
 /// The page.
 pub fn whole(outcomes: &[Outcome], releases: &[Release], run: &Provenance) -> String {
-    let summary = Summary::of_all(outcomes);
+    let summary = Summary::from_outcomes(outcomes);
     let subjects = subjects::all();
     let mut body = String::from("<h1>asperity: verification</h1>\n");
     body += &claims::summary(&summary, Depth::Top);
@@ -84,7 +84,7 @@ fn group(subject: &Subject, outcomes: &[Outcome]) -> String {
 
 fn row(outcome: &Outcome) -> String {
     let claims = &outcome.record.claims;
-    let summary = Summary::of(claims);
+    let summary = Summary::from_claims(claims);
     let state = if summary.disagree > 0 {
         format!("<b class=\"bad\">{} disagree</b>", summary.disagree)
     } else {
@@ -115,7 +115,7 @@ fn states(outcome: &Outcome, summary: &Summary) -> String {
     states.iter().filter(|(_, is)| *is).map(|(name, _)| *name).collect::<Vec<_>>().join(" ")
 }
 
-fn worst(claims: &[Judged]) -> Option<f64> {
+fn worst(claims: &[JudgedClaim]) -> Option<f64> {
     claims.iter().filter_map(|judged| judged.measured.map(|m| m.ratio)).max_by(f64::total_cmp)
 }
 
@@ -124,7 +124,7 @@ fn searched(outcomes: &[Outcome]) -> String {
     let mut found = Vec::new();
     for outcome in outcomes {
         let claims = &outcome.record.claims;
-        for (judged, id) in claims.iter().zip(ids::of(claims)) {
+        for (judged, id) in claims.iter().zip(ids::unique(claims)) {
             let state = match (&judged.verdict, judged.mark) {
                 (Verdict::Disagrees, _) => "disagrees",
                 (_, Some(Mark::Thin)) => "near",

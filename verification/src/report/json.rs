@@ -4,7 +4,7 @@
 use super::ids;
 use super::provenance::Provenance;
 use crate::case::Outcome;
-use crate::claim::Judged;
+use crate::claim::JudgedClaim;
 use crate::ledger::Table;
 use crate::suite::Summary;
 use asperity_output::figures::Diagram;
@@ -50,7 +50,7 @@ pub struct ClaimReport<'a> {
     pub id: String,
     /// The judged claim.
     #[serde(flatten)]
-    pub judged: &'a Judged,
+    pub judged: &'a JudgedClaim,
 }
 
 /// Values that depend on the machine.
@@ -83,7 +83,7 @@ pub fn report<'a>(outcomes: &'a [Outcome], run: &'a Provenance) -> Report<'a> {
     let walls = outcomes.iter().map(|outcome| (outcome.case.name, walls(outcome))).collect();
     Report {
         schema: SCHEMA,
-        summary: Summary::of_all(outcomes),
+        summary: Summary::from_outcomes(outcomes),
         cases: outcomes.iter().map(case).collect(),
         run: Run { provenance: run, walls },
     }
@@ -92,11 +92,11 @@ pub fn report<'a>(outcomes: &'a [Outcome], run: &'a Provenance) -> Report<'a> {
 /// A case of the report.
 pub fn case(outcome: &Outcome) -> CaseReport<'_> {
     let claims = &outcome.record.claims;
-    let named = ids::of(claims).into_iter().zip(claims);
+    let named = ids::unique(claims).into_iter().zip(claims);
     CaseReport {
         name: outcome.case.name,
         quick: outcome.case.quick,
-        summary: Summary::of(claims),
+        summary: Summary::from_claims(claims),
         claims: named.map(|(id, judged)| ClaimReport { id, judged }).collect(),
     }
 }

@@ -2,13 +2,13 @@
 
 use super::page::escape;
 use crate::case::Outcome;
-use crate::claim::{Judged, Verdict};
+use crate::claim::{JudgedClaim, Verdict};
 use crate::suite::Summary;
 use std::fmt::Write as _;
 
 /// The document.
 pub fn document(outcomes: &[Outcome]) -> String {
-    let summary = Summary::of_all(outcomes);
+    let summary = Summary::from_outcomes(outcomes);
     let wall: f64 = outcomes.iter().map(|outcome| outcome.wall).sum();
     let mut out = format!(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"asperity verification\" {}>\n",
@@ -17,7 +17,7 @@ pub fn document(outcomes: &[Outcome]) -> String {
     for outcome in outcomes {
         let claims = &outcome.record.claims;
         let name = outcome.case.name;
-        let counts = counts(&Summary::of(claims), outcome.wall);
+        let counts = counts(&Summary::from_claims(claims), outcome.wall);
         let _ = writeln!(out, "  <testsuite name=\"{name}\" {counts}>");
         claims.iter().for_each(|judged| out += &one(name, judged));
         out += "  </testsuite>\n";
@@ -33,7 +33,7 @@ fn counts(summary: &Summary, wall: f64) -> String {
     )
 }
 
-fn one(case: &str, judged: &Judged) -> String {
+fn one(case: &str, judged: &JudgedClaim) -> String {
     let wall = judged.claim.cost.wall.unwrap_or(0.0);
     let head = format!(
         "    <testcase classname=\"{case}\" name=\"{}\" time=\"{wall:.3}\"",

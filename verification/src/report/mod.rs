@@ -90,7 +90,7 @@ pub fn write(folder: &Path, outcomes: &[Outcome], run: &Provenance) -> Result<()
 /// If it cannot be written.
 pub fn keep(path: &Path, tag: &str, outcomes: &[Outcome], run: &Provenance) -> Result<(), ReportError> {
     let earlier = fs::read_to_string(path).ok().and_then(|text| serde_json::from_str(&text).ok());
-    put(path, &history::Release::of(tag, outcomes, run, earlier).text()?)
+    put(path, &history::Release::from_outcomes(tag, outcomes, run, earlier).text()?)
 }
 
 fn text(value: &impl Serialize) -> Result<String, ReportError> {

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 /// A claim that disagrees under a defect.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-pub struct Noticed {
+pub struct FailedClaim {
     /// Case.
     pub case: String,
     /// Quantity.
@@ -26,7 +26,7 @@ pub struct Result {
     #[serde(default)]
     pub status: String,
     /// Claims that disagree.
-    pub noticed: Vec<Noticed>,
+    pub noticed: Vec<FailedClaim>,
 }
 
 /// Description of a defect.

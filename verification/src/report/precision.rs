@@ -11,7 +11,7 @@ const TARGETS: [f64; 3] = [1e-2, 1e-3, 1e-4];
 
 /// The cost of an error along a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Reached {
+pub enum CostToReach {
     /// Between measured points, interpolated on logarithms.
     At(f64),
     /// The cheapest run is already more accurate and has this cost.
@@ -21,13 +21,13 @@ pub enum Reached {
 }
 
 /// Smallest cost to reach an error along the curve, in the order of its points.
-pub fn cost_to_reach(series: &Series, target: f64) -> Reached {
+pub fn cost_to_reach(series: &Series, target: f64) -> CostToReach {
     let usable = |p: &&(f64, f64)| p.0 > 0.0 && p.1 > 0.0 && p.0.is_finite() && p.1.is_finite();
     let points: Vec<(f64, f64)> = series.points.iter().filter(usable).copied().collect();
     let cheapest = points.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1));
     match cheapest {
-        None => return Reached::Never,
-        Some((error, cost)) if error <= target => return Reached::Below(cost),
+        None => return CostToReach::Never,
+        Some((error, cost)) if error <= target => return CostToReach::Below(cost),
         Some(_) => {}
     }
     let crossing = |pair: &[(f64, f64)]| {
@@ -37,7 +37,7 @@ pub fn cost_to_reach(series: &Series, target: f64) -> Reached {
         inside.then(|| w0 * (w1 / w0).powf(part))
     };
     let least = points.windows(2).filter_map(crossing).min_by(f64::total_cmp);
-    least.map_or(Reached::Never, Reached::At)
+    least.map_or(CostToReach::Never, CostToReach::At)
 }
 
 /// True if errors are relative: their label has no unit except [-].
@@ -61,11 +61,11 @@ pub fn table(diagram: &Diagram) -> String {
     )
 }
 
-fn cell(reached: Reached) -> String {
+fn cell(reached: CostToReach) -> String {
     let text = match reached {
-        Reached::At(cost) => number(cost),
-        Reached::Below(cost) => format!("≤ {}", number(cost)),
-        Reached::Never => "–".to_owned(),
+        CostToReach::At(cost) => number(cost),
+        CostToReach::Below(cost) => format!("≤ {}", number(cost)),
+        CostToReach::Never => "–".to_owned(),
     };
     format!("<td class=\"number\">{text}</td>")
 }

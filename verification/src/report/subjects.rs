@@ -17,11 +17,11 @@ pub struct Subject {
 
 /// All subjects in the order of the chapter.
 pub fn all() -> Vec<Subject> {
-    of(CHAPTER)
+    parse(CHAPTER)
 }
 
 /// Subjects of a chapter in Markdown: the headings of its lists of cases.
-pub fn of(chapter: &str) -> Vec<Subject> {
+pub fn parse(chapter: &str) -> Vec<Subject> {
     let (mut found, mut heading) = (Vec::new(), "");
     for line in chapter.lines() {
         if let Some(title) = line.strip_prefix("### ") {

@@ -40,7 +40,7 @@ const GROUPS: [(Capability, &[&str]); 3] = [
 
 /// A file with the names of its tests as text.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Tested {
+pub struct TestFile {
     /// Path in the repository.
     pub path: String,
     /// Names of the tests as text.
@@ -53,7 +53,7 @@ pub struct Group {
     /// The capability.
     pub capability: Capability,
     /// Files with tests.
-    pub files: Vec<Tested>,
+    pub files: Vec<TestFile>,
 }
 
 impl Group {
@@ -94,7 +94,7 @@ fn group(capability: Capability, starts: &[&str], paths: &[(String, PathBuf)]) -
     let tested = |(name, path): &(String, PathBuf)| {
         let text = std::fs::read_to_string(path).unwrap_or_default();
         let tests = if name.ends_with(".py") { checks(&text) } else { tests(&text) };
-        (!tests.is_empty()).then(|| Tested { path: name.clone(), tests })
+        (!tests.is_empty()).then(|| TestFile { path: name.clone(), tests })
     };
     Group { capability, files: chosen.filter_map(tested).collect() }
 }

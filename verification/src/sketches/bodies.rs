@@ -2,7 +2,7 @@
 
 use asperity_output::figures::Sketch;
 
-pub(super) fn of(name: &str) -> Option<Sketch> {
+pub(super) fn draw(name: &str) -> Option<Sketch> {
     let sketch = match name {
         "antiplane" => antiplane(),
         "bodies_patch" => distorted("u = A x on the boundary"),

@@ -2,7 +2,7 @@
 
 use asperity_output::figures::Sketch;
 
-pub(super) fn of(name: &str) -> Option<Sketch> {
+pub(super) fn draw(name: &str) -> Option<Sketch> {
     let sketch = match name {
         "block_dragged" => dragged(),
         "contact_combinations" | "contact_combinations_all" | "contact_combinations_space" => die(),

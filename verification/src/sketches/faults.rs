@@ -2,7 +2,7 @@
 
 use asperity_output::figures::Sketch;
 
-pub(super) fn of(name: &str) -> Option<Sketch> {
+pub(super) fn draw(name: &str) -> Option<Sketch> {
     let sketch = match name {
         "seas_bp1" | "seas_bp1_fd" | "seas_bp1_full" | "seas_bp1_25m" | "seas_bp1_methods" => {
             strike_slip("8 mm", "16", "40 km")

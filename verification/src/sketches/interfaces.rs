@@ -2,7 +2,7 @@
 
 use asperity_output::figures::Sketch;
 
-pub(super) fn of(name: &str) -> Option<Sketch> {
+pub(super) fn draw(name: &str) -> Option<Sketch> {
     let sketch = match name {
         "sandwich_pressed" => sandwich("0.00966 mm", "", "no friction, or μ(V)"),
         "sandwich_sheared" | "sandwich_steppers" => sandwich("0.00966 mm", "1 µm/s, to 0.05 mm", "μ(V)"),

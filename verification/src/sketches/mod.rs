@@ -9,8 +9,8 @@ mod sliders;
 use asperity_output::figures::Sketch;
 
 /// The sketch of a case as SVG.
-pub fn of(name: &str) -> Option<String> {
+pub fn draw(name: &str) -> Option<String> {
     let subjects: [fn(&str) -> Option<Sketch>; 5] =
-        [bodies::of, contact::of, interfaces::of, sliders::of, faults::of];
+        [bodies::draw, contact::draw, interfaces::draw, sliders::draw, faults::draw];
     subjects.iter().find_map(|subject| subject(name)).map(|sketch| sketch.svg())
 }

@@ -2,7 +2,7 @@
 
 use asperity_output::figures::Sketch;
 
-pub(super) fn of(name: &str) -> Option<Sketch> {
+pub(super) fn draw(name: &str) -> Option<Sketch> {
     let sketch = match name {
         "friction_steady_state" => forced("V = 1e−20 to 1e4 m/s", "steady: state and rate do not change"),
         "friction_velocity_steps" => forced("V₁, then V₂; held; again", "rigid or a stiff spring"),

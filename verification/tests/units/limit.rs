@@ -3,7 +3,7 @@ use asperity_verification::benchmarks::limit::*;
 #[test]
 fn a_sequence_of_one_order_is_extrapolated_to_its_limit() {
     let values: Vec<f64> = (0..4).map(|k| 3.0 + 0.1 * 0.25f64.powi(k)).collect();
-    let limit = Limit::of(&values);
+    let limit = Limit::from_values(&values);
     assert!((limit.value - 3.0).abs() < 1e-12, "{limit:?}");
     assert!((limit.uncertainty - 0.1 * 0.25f64.powi(3)).abs() < 1e-12, "{limit:?}");
 }
@@ -13,7 +13,7 @@ fn a_sequence_that_turns_or_hardly_shrinks_is_not() {
     for (values, uncertainty) in
         [([1.0, 2.0, 1.25], 1.0), ([1.0, 2.0, 2.875], 1.0), ([1.0, 2.0, 1.875], 0.25)]
     {
-        let limit = Limit::of(&values);
+        let limit = Limit::from_values(&values);
         assert_eq!(limit.value, values[2]);
         assert_eq!(limit.uncertainty, uncertainty);
     }

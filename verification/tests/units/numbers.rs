@@ -7,7 +7,7 @@ fn names(cell: &str) -> Vec<String> {
 }
 
 /// Files and columns of the tables of signs in the book, with the kind of run.
-fn of_the_book() -> Vec<(&'static str, String, String)> {
+fn book_columns() -> Vec<(&'static str, String, String)> {
     let text = include_str!("../../../docs/src/signs.md");
     let (mut kind, mut all) = ("", Vec::new());
     for line in text.lines() {
@@ -37,7 +37,7 @@ fn of_the_book() -> Vec<(&'static str, String, String)> {
 fn every_column_of_the_tables_of_signs_is_a_number() {
     let numbers = numbers::all().unwrap();
     // Each row names several files, and not all have each of its columns.
-    for (kind, file, column) in of_the_book() {
+    for (kind, file, column) in book_columns() {
         let known = numbers.iter().any(|n| n.kind == kind && glob::matches(&column, &n.name));
         let of_file = numbers.iter().any(|n| n.kind == kind && n.file == file);
         assert!(known && of_file, "{kind}: {file}: {column}");

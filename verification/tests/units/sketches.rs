@@ -18,7 +18,7 @@ const WITHOUT: [&str; 13] = [
 #[test]
 fn every_case_of_one_problem_has_a_sketch_with_finite_places() {
     for case in asperity_verification::cases::ALL {
-        match asperity_verification::sketches::of(case.name) {
+        match asperity_verification::sketches::draw(case.name) {
             Some(svg) => assert!(!svg.contains("NaN") && !svg.contains("inf\""), "{}", case.name),
             None => assert!(WITHOUT.contains(&case.name), "{} has no sketch", case.name),
         }

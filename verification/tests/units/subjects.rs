@@ -1,8 +1,8 @@
-use asperity_verification::report::subjects::{all, of, subject};
+use asperity_verification::report::subjects::{all, parse, subject};
 
 #[test]
 fn subjects_are_the_headings_of_the_lists() {
-    let found = of("### Bodies\n<!-- cases a b -->\n| x |\n### Faults\n\n<!-- cases c -->\n");
+    let found = parse("### Bodies\n<!-- cases a b -->\n| x |\n### Faults\n\n<!-- cases c -->\n");
     assert_eq!(found[0].names, ["a", "b"]);
     assert_eq!(subject(&found, "c"), "Faults");
     assert_eq!(subject(&found, "d"), "Other");

@@ -124,11 +124,11 @@ impl<'a> Workshop<'a> {
     /// Makes defects in one build, and returns those that have to be made alone.
     fn make_together<'d>(&self, defects: &[&'d Defect]) -> Result<Vec<&'d Defect>, Failure> {
         let tree = self.place.join("tree");
-        let sound = Together::of(&tree, defects, defects.iter().map(|d| d.name.clone()).collect())?;
+        let sound = Together::new(&tree, defects, defects.iter().map(|d| d.name.clone()).collect())?;
         let mut alone = BTreeSet::new();
         loop {
             announce(&format!("defects: {} in one build", defects.len() - alone.len()));
-            let together = Together::of(&tree, defects, alone)?;
+            let together = Together::new(&tree, defects, alone)?;
             together.write(&tree)?;
             let built = build(&self.place).arg("--message-format=short").stderr(Stdio::piped()).output();
             sound.write(&tree)?;

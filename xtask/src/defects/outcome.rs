@@ -24,7 +24,7 @@ pub enum Status {
 
 /// A claim that failed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Noticed {
+pub struct FailedClaim {
     /// Name of the case.
     pub case: String,
     /// Quantity of the claim.
@@ -49,7 +49,7 @@ pub struct Outcome {
     /// Cases that ran; empty for all quick cases.
     pub cases: Vec<String>,
     /// Claims that failed.
-    pub noticed: Vec<Noticed>,
+    pub noticed: Vec<FailedClaim>,
     /// Tests that failed; `None` if they were not run.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tests: Option<Vec<String>>,
@@ -129,7 +129,7 @@ impl Outcome {
         let mut cases: Vec<&str> = self.noticed.iter().map(|n| n.case.as_str()).collect();
         cases.dedup();
         for case in cases {
-            let of: Vec<&Noticed> = self.noticed.iter().filter(|n| n.case == case).collect();
+            let of: Vec<&FailedClaim> = self.noticed.iter().filter(|n| n.case == case).collect();
             let margin = of.iter().filter_map(|n| n.margin).fold(0.0, f64::max);
             parts.push(format!("{case}: {} ({margin:.1e})", of.len()));
         }
@@ -138,7 +138,7 @@ impl Outcome {
 }
 
 /// Failed claims of a report.
-fn disagreeing(report: &Value) -> Vec<Noticed> {
+fn disagreeing(report: &Value) -> Vec<FailedClaim> {
     let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
     let mut found = Vec::new();
     for case in list(&report["cases"]) {
@@ -147,7 +147,7 @@ fn disagreeing(report: &Value) -> Vec<Noticed> {
                 (Some(error), Some(bound)) if bound > 0.0 => Some(error / bound),
                 _ => None,
             };
-            found.push(Noticed {
+            found.push(FailedClaim {
                 case: case["name"].as_str().unwrap_or_default().to_owned(),
                 claim: claim["quantity"].as_str().unwrap_or_default().to_owned(),
                 margin,

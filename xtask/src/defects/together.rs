@@ -42,7 +42,7 @@ struct Within<'a> {
 
 impl Together {
     /// The sources of a sound tree with these defects, but for those that stand `alone`.
-    pub fn of(tree: &Path, defects: &[&Defect], alone: BTreeSet<String>) -> Result<Self, Failure> {
+    pub fn new(tree: &Path, defects: &[&Defect], alone: BTreeSet<String>) -> Result<Self, Failure> {
         let mut together = Self { alone, ..Self::default() };
         let files: BTreeSet<&str> =
             defects.iter().flat_map(|d| &d.change).map(|change| change.file.as_str()).collect();

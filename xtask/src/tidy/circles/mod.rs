@@ -43,7 +43,7 @@ fn circles(files: &[File]) -> (Vec<Circle>, Vec<Circle>) {
         let names = paths::names(&without_tests(&file.text));
         crates.entry(root).or_default().push((name, Module { path: module_path(name), names }));
     }
-    let found = crates.into_iter().map(|(folder, modules)| of_crate(folder, modules));
+    let found = crates.into_iter().map(|(folder, modules)| crate_circles(folder, modules));
     let (of_files, of_folders): (Vec<_>, Vec<_>) = found.unzip();
     (of_files.concat(), of_folders.concat())
 }
@@ -71,7 +71,7 @@ fn module_path(name: &str) -> Vec<String> {
 }
 
 /// Cycles of the files of a crate, and those of its folders.
-fn of_crate(folder: &str, modules: Vec<(&str, Module)>) -> (Vec<Circle>, Vec<Circle>) {
+fn crate_circles(folder: &str, modules: Vec<(&str, Module)>) -> (Vec<Circle>, Vec<Circle>) {
     let (files, modules): (Vec<&str>, Vec<Module>) = modules.into_iter().unzip();
     let paths: Vec<Vec<String>> = modules.iter().map(|module| module.path.clone()).collect();
     let edges = Crate::new(modules).edges();
