@@ -97,11 +97,10 @@ fn measure<const D: usize>(kind: ElementKind, n: usize, pools: &[rayon::ThreadPo
     println!("{} {} cells, {} equations", kind.name(), cells, equations.free.len());
     let bandwidth = least[0].map(|t| Triad::BYTES / t);
     println!("  triad {:.1} / {:.1} GB/s", bandwidth[0] / 1e9, bandwidth[1] / 1e9);
-    for (row, map) in maps.iter().enumerate() {
+    for (map, (name, time)) in maps.iter().zip(["lower triangle", "whole"].into_iter().zip(&least[1..])) {
         // Values and index lists are read once; stored entries are zeroed, read and written.
         let bytes = values + map.bytes() as f64 + (3 * 8 * map.stored()) as f64;
-        let name = ["lower triangle", "whole"][row];
-        show(name, least[1 + row], cells, bytes, bandwidth);
+        show(name, *time, cells, bytes, bandwidth);
     }
     let bytes = values + blocks.bytes() as f64 + (2 * 8 * D * D * rows.values.len()) as f64;
     show("node blocks", least[3], cells, bytes, bandwidth);

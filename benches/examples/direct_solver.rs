@@ -126,17 +126,22 @@ fn own(case: &str, matrix: &ScatterMap, threads: usize, runs: usize) -> Result<(
     Ok(())
 }
 
-fn library(case: &str, matrix: &ScatterMap, threads: usize, runs: usize) -> Result<(), String> {
-    let n = matrix.order();
-    let par = if threads > 1 { Par::rayon(threads) } else { Par::Seq };
-    // The same ordering for both, since the numeric part is compared.
+/// Order in which asperity eliminates the unknowns of a matrix.
+fn permutation(matrix: &ScatterMap) -> Result<faer::perm::Perm<usize>, String> {
     let order: Vec<usize> = SymbolicCholesky::new(matrix.symbolic(), Ordering::Automatic)
         .map_err(|e| e.to_string())?
         .order()
         .collect();
-    let mut inverse = vec![0; n];
+    let mut inverse = vec![0; order.len()];
     order.iter().enumerate().for_each(|(k, &e)| inverse[e] = k);
-    let permutation = faer::perm::Perm::new_checked(order.into(), inverse.into(), n);
+    Ok(faer::perm::Perm::new_checked(order.into(), inverse.into(), matrix.order()))
+}
+
+fn library(case: &str, matrix: &ScatterMap, threads: usize, runs: usize) -> Result<(), String> {
+    let n = matrix.order();
+    let par = if threads > 1 { Par::rayon(threads) } else { Par::Seq };
+    // The same ordering for both, since the numeric part is compared.
+    let permutation = permutation(matrix)?;
     let mut times = [Least { wall: f64::INFINITY, processors: f64::INFINITY }; 5];
     let (mut residual, mut stored) = (0.0, 0);
     for _ in 0..runs {

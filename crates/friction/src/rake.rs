@@ -56,6 +56,15 @@ fn size(x: f64, y: f64) -> f64 {
     (x * x + y * y).sqrt()
 }
 
+/// Rates of both components of m, which grows along its direction and turns towards the pull: m ω, with V/m in the resistance, which has a
+/// limit where both vanish.
+#[inline]
+fn turned([c, d]: [f64; 2], pull: [f64; 2], grown: f64, resistance: f64) -> (f64, f64) {
+    let across = c * pull[1] - d * pull[0];
+    let turned = across / resistance;
+    (grown * c - turned * d, grown * d + turned * c)
+}
+
 impl FaultLaw for VariableRake {
     fn points(&self) -> usize {
         self.law.points()
@@ -106,26 +115,16 @@ impl FaultLaw for VariableRake {
         let (dx, dy) = dm.split_at_mut(n);
         self.law.rates(first, Drive { shear_rate: &along[..n], ..drive }, &sizes[..n], states, dx, ds);
         self.law.slip_rates(first, &sizes[..n], states, &mut speed[..n]);
-        let count = self.law.states();
         for k in 0..n {
             let s = sizes[k];
             if s > 0.0 {
-                let (c, d) = (x[k] / s, y[k] / s);
-                let across = c * pull_y[k] - d * pull_x[k];
-                // m ω, with V/m, which has a limit where both vanish.
-                let scale = drive.normal[k] * self.law.scale(first + k);
-                let turned = across / (scale + drive.damping[k] * speed[k] / s);
-                let grown = dx[k];
-                (dx[k], dy[k]) = (grown * c - turned * d, grown * d + turned * c);
+                let resistance =
+                    drive.normal[k] * self.law.scale(first + k) + drive.damping[k] * speed[k] / s;
+                (dx[k], dy[k]) = turned([x[k] / s, y[k] / s], [pull_x[k], pull_y[k]], dx[k], resistance);
             } else {
-                let one = Drive {
-                    normal: &drive.normal[k..=k],
-                    normal_rate: drive.normal_rate.map(|r| &r[k..=k]),
-                    shear_rate: &pull_y[k..=k],
-                    damping: &drive.damping[k..=k],
-                };
-                let states = &states[k * count..(k + 1) * count];
-                self.law.rates(first + k, one, &[0.0], states, &mut dy[k..=k], spare);
+                let drive = Drive { shear_rate: &pull_y[k..=k], ..drive.slice(k..k + 1) };
+                let states = &states[k * spare.len()..][..spare.len()];
+                self.law.rates(first + k, drive, &[0.0], states, &mut dy[k..=k], spare);
             }
         }
     }

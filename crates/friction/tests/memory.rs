@@ -250,40 +250,59 @@ fn runge_kutta(mut y: [f64; 2], end: f64, steps: u32, f: impl Fn(f64, [f64; 2]) 
     y
 }
 
+/// Stiffness \[Pa/m\] of a soft spring, and the slip rates \[m/s\] of its load and at the start.
+const STIFFNESS: f64 = 2e11;
+const PULL: f64 = 2e-6;
+const START: f64 = 3e-7;
+/// End of the course \[s\].
+const END: f64 = 30.0;
+/// Amplitude of f_n over f_ref, and its angular frequency \[1/s\].
+const SWELL: f64 = 0.3;
+const OMEGA: f64 = 0.5;
+
+/// f_n \[Pa\].
+fn swelling(t: f64) -> f64 {
+    REFERENCE * (1.0 + SWELL * (OMEGA * t).sin())
+}
+
+/// d ln f_n/dt \[1/s\].
+fn log_slope(t: f64) -> f64 {
+    SWELL * OMEGA * (OMEGA * t).cos() / (1.0 + SWELL * (OMEGA * t).sin())
+}
+
+/// Shear traction at the end of implicit steps of a point that starts with this friction and these states.
+fn stepped<E: Evolution>(law: &RateLaw<Bare, E>, friction: f64, states: &[f64], steps: u32) -> f64 {
+    let dt = END / f64::from(steps);
+    let (mut traction, mut states) = (REFERENCE * friction, states.to_vec());
+    for n in 1..=steps {
+        let trial = traction + STIFFNESS * PULL * dt;
+        let f_n = swelling(f64::from(n) * dt);
+        let (after, rate, new) = implicit(law, f_n, trial, STIFFNESS, dt, &states).expect(E::NAME);
+        // The kept quantity gives the strength at the end of the step.
+        let strength = f_n * mu(law, f_n, rate, &new);
+        assert!((strength - after).abs() <= 1e-11 * after, "{}: {strength} {after}", E::NAME);
+        (traction, states) = (after, new);
+    }
+    traction
+}
+
 /// A point on a soft spring, whose load rate changes, while f_n oscillates: dτ/dt = k (V_0 - V) and dφ/dt = evolution - c
 /// dμ/dt - α d ln f_n/dt, with V from the bare logarithm. Implicit steps converge to it at first order.
 fn first_order<E: Evolution>(e: &E, alpha: f64, equation: impl Fn(f64, f64) -> f64) {
-    let (stiffness, pull, start) = (2e11, 2e-6, 3e-7);
-    let (end, swell, omega) = (30.0, 0.3, 0.5);
-    let normal = |t: f64| REFERENCE * (1.0 + swell * (omega * t).sin());
-    let log_slope = |t: f64| swell * omega * (omega * t).cos() / (1.0 + swell * (omega * t).sin());
-    let law = bare(&[(e.clone(), alpha)], start);
+    let law = bare(&[(e.clone(), alpha)], START);
     let states = initial(&law);
-    let friction = mu(&law, REFERENCE, start, &states);
+    let friction = mu(&law, REFERENCE, START, &states);
     let c = e.shear_memory();
     // φ from the strength, independent of the quantity that the law keeps.
-    let phi = friction - 0.6 - A * f64::ln(start / V_REF);
-    let [expected, _] = runge_kutta([REFERENCE * friction, phi], end, 30_000, |t, [traction, phi]| {
-        let mu = traction / normal(t);
+    let phi = friction - 0.6 - A * f64::ln(START / V_REF);
+    let [expected, _] = runge_kutta([REFERENCE * friction, phi], END, 30_000, |t, [traction, phi]| {
+        let mu = traction / swelling(t);
         let rate = V_REF * ((mu - 0.6 - phi) / A).exp();
-        let d_traction = stiffness * (pull - rate);
-        let d_mu = d_traction / normal(t) - mu * log_slope(t);
+        let d_traction = STIFFNESS * (PULL - rate);
+        let d_mu = d_traction / swelling(t) - mu * log_slope(t);
         [d_traction, equation(phi, rate) - c * d_mu - alpha * log_slope(t)]
     });
-    let error = |steps: u32| {
-        let dt = end / f64::from(steps);
-        let (mut traction, mut states) = (REFERENCE * friction, states.clone());
-        for n in 1..=steps {
-            let trial = traction + stiffness * pull * dt;
-            let f_n = normal(f64::from(n) * dt);
-            let (after, rate, new) = implicit(&law, f_n, trial, stiffness, dt, &states).expect(E::NAME);
-            // The kept quantity gives the strength at the end of the step.
-            let strength = f_n * mu(&law, f_n, rate, &new);
-            assert!((strength - after).abs() <= 1e-11 * after, "{}: {strength} {after}", E::NAME);
-            (traction, states) = (after, new);
-        }
-        (traction - expected).abs()
-    };
+    let error = |steps: u32| (stepped(&law, friction, &states, steps) - expected).abs();
     let (coarse, fine) = (error(6000), error(12_000));
     let order = (coarse / fine).log2();
     assert!((order - 1.0).abs() < 0.1, "{}: order {order}, {coarse} {fine} of {expected}", E::NAME);

@@ -10,7 +10,7 @@ use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::{Mesh, nodes_of_sides};
-use asperity_mechanics::dynamics::{Budget, Explicit, dashpots};
+use asperity_mechanics::dynamics::{Budget, Explicit, Problem, dashpots};
 use reference::{Parameters, Reference};
 
 /// See the README.
@@ -73,13 +73,13 @@ fn rupture(parameters: &Parameters, spacing: f64) -> Result<Rupture, CaseError> 
     rupture_of(ElementKind::Quad9, parameters, spacing, WHOLE)
 }
 
-/// Runs a problem on quad4 or quad9 with nodes this far apart.
-fn rupture_of(
+/// A problem on quad4 or quad9 with nodes this far apart.
+fn fault_between_rocks(
     kind: ElementKind,
     parameters: &Parameters,
     spacing: f64,
     Span { extent, end }: Span,
-) -> Result<Rupture, CaseError> {
+) -> Result<Problem<2>, CaseError> {
     let rock = Rock { density: parameters.density, pressure: parameters.cp, shear: parameters.cs };
     let size = if kind == ElementKind::Quad9 { 2.0 * spacing } else { spacing };
     let [nx, ny] = extent.map(|l| (l / size).round() as usize);
@@ -100,6 +100,17 @@ fn rupture_of(
     }
     problem.courant = 0.8;
     problem.fault = Some(fault::between(&problem.model, parameters, spacing)?);
+    Ok(problem)
+}
+
+/// Runs a problem on quad4 or quad9 with nodes this far apart.
+fn rupture_of(
+    kind: ElementKind,
+    parameters: &Parameters,
+    spacing: f64,
+    span: Span,
+) -> Result<Rupture, CaseError> {
+    let problem = fault_between_rocks(kind, parameters, spacing, span)?;
     let at: Vec<f64> = nodes_on(&problem.model, "b0.top").iter().map(|(_, x)| *x).collect();
     let mut times = [vec![f64::NAN; at.len()], vec![f64::NAN; at.len()]];
     let mut before = vec![0.0; at.len()];

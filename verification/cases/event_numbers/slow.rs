@@ -1,7 +1,7 @@
 //! Slow events of a pair of blocks without a state, whose sides move faster at times, beside a pair that creeps.
 
 use super::spring;
-use crate::cases::written::WrittenRun;
+use crate::cases::written::{Table, WrittenRun};
 use crate::{CaseError, Evidence, Ledger};
 
 /// Normal traction \[Pa\], and the friction `mu0 + a ln(V/v_ref)`.
@@ -59,10 +59,8 @@ fn takes([from, to]: [f64; 2], load: f64) -> f64 {
     A * NORMAL / (spring() * load) * ((load / from - 1.0) / (load / to - 1.0)).ln()
 }
 
-/// Claims the slow events.
-pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let done = WrittenRun::from_text(&scene())?;
-    let table = done.files.table("slow_events.csv")?;
+/// Claims the numbers of events.
+fn counts(ledger: &mut Ledger, done: &WrittenRun, table: &Table) -> Result<(), CaseError> {
     let fast = done.files.table("events.csv")?.column("onset")?;
     let of_drawn = table.words("surface")?.iter().filter(|name| **name == "drawn").count();
     let off = [fast.len().abs_diff(1), table.numbers().len().abs_diff(2), of_drawn.abs_diff(2)];
@@ -73,6 +71,14 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
         .because("a count")
         .cost(&done.cost)
         .record();
+    Ok(())
+}
+
+/// Claims the slow events.
+pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let done = WrittenRun::from_text(&scene())?;
+    let table = done.files.table("slow_events.csv")?;
+    counts(ledger, &done, &table)?;
     let (mut onsets, mut ends, mut found, mut wanted) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let of = |name: &str| table.column(name);
     let (durations, slips, drops) = (of("duration")?, of("mean_slip")?, of("stress_drop")?);

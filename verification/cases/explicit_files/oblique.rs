@@ -103,16 +103,21 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     vectors(ledger, &run, lag)
 }
 
-/// Vectors of slip and slip rate at the station, and in the fields while the wave passes.
-fn vectors(ledger: &mut Ledger, run: &Waves, lag: f64) -> Result<(), CaseError> {
-    let time = END * PASSING as f64 / FIELDS as f64;
+/// Exact slip and slip rate at the station, along y and z.
+fn exact(time: f64) -> [[f64; 2]; 2] {
     let n = 4000;
     let middle = |k: i32| time * (f64::from(k) + 0.5) / f64::from(n);
     let along: f64 = (0..n).map(|k| 2.0 * TRACTION * growth(middle(k), 1.0) * time / f64::from(n)).sum();
-    let (slip, rate) = (
+    [
         [along, 2.0 * motion(time - LENGTH)],
         [2.0 * TRACTION * growth(time, 1.0), 2.0 * velocity(time - LENGTH)],
-    );
+    ]
+}
+
+/// Vectors of slip and slip rate at the station, and in the fields while the wave passes.
+fn vectors(ledger: &mut Ledger, run: &Waves, lag: f64) -> Result<(), CaseError> {
+    let time = END * PASSING as f64 / FIELDS as f64;
+    let [slip, rate] = exact(time);
     let fields = Fields::read(&run.files.text(&format!("fields/f_{PASSING:05}.vtu"))?)?;
     // The last point, along y and z.
     let last = |name: &str| -> Result<[f64; 2], CaseError> {

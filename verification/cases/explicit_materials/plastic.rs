@@ -66,13 +66,16 @@ struct Bar {
     cost: Cost,
 }
 
-fn push(wave: &Wave, cells: u32) -> Result<Bar, CaseError> {
+fn scene(cells: u32) -> SceneText {
     let rising = (0..=POINTS).map(|k| RISE * f64::from(k) / f64::from(POINTS));
     let motion = table(rising.chain([END]).map(|t| (t, end_displacement(t))));
-    let scene = SceneText::new(SCENE)
+    SceneText::new(SCENE)
         .with_or_same("bodies.bar.mesh.block.divisions[0]", cells)
-        .with("stages[0].conditions[0].x", motion);
-    let problem = problem(scene)?;
+        .with("stages[0].conditions[0].x", motion)
+}
+
+fn push(wave: &Wave, cells: u32) -> Result<Bar, CaseError> {
+    let problem = problem(scene(cells))?;
     let (result, cost) = Cost::measure(|| run(&problem, |_| ()));
     let last = result?;
     let cost = cost.count("cells", f64::from(cells)).count("steps", last.steps() as f64);

@@ -30,39 +30,74 @@ fn momentum(nodes: &[[f64; 2]], mass: &[f64], run: &Explicit<'_, 2>) -> f64 {
     nodes.iter().zip(mass).enumerate().map(of).sum()
 }
 
-pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let mut problem = problem(SceneText::new(SCENE))?;
-    problem.velocity = problem.model.mesh.nodes.iter().flat_map(|[x, y]| [-SPIN * y, SPIN * x]).collect();
-    let nodes = problem.model.mesh.nodes.clone();
-    // Lumped masses of quad4: a quarter of each cell.
-    let share = |x: f64, end: f64| if x.abs() == end { 0.5 } else { 1.0 };
-    let mass: Vec<f64> = nodes.iter().map(|[x, y]| share(*x, HALF[0]) * share(*y, HALF[1])).collect();
-    let (mut initial, mut drift, mut angle, mut before) = (None, 0.0_f64, 0.0, None);
-    let mut energies = Vec::new();
-    let at = |x: f64, y: f64| nodes.iter().position(|n| *n == [x, y]).ok_or("no corner");
-    let [long, high] = HALF;
-    let corners = [at(-long, -high)?, at(long, -high)?, at(-long, high)?];
-    let mut shear: f64 = 0.0;
-    let watch = |run: &mut Explicit<'_, 2>| {
-        let now = momentum(&nodes, &mass, run);
-        let start = *initial.get_or_insert(now);
-        drift = drift.max((now / start - 1.0).abs());
-        let place = |n: usize| [0, 1].map(|c| nodes[n][c] + run.displacement()[2 * n + c]);
-        let [first, along, up] = corners.map(place);
+/// Measures of a bar that spins.
+struct Spin {
+    /// Positions of the nodes at the start \[m\].
+    nodes: Vec<[f64; 2]>,
+    /// Lumped masses over that of a cell.
+    mass: Vec<f64>,
+    /// Nodes at the lower left, the lower right and the upper left corner.
+    corners: [usize; 3],
+    /// Angular momentum in the first step.
+    initial: Option<f64>,
+    /// Largest relative change of the angular momentum.
+    drift: f64,
+    /// Direction of the lower side in the last step \[rad\].
+    direction: Option<f64>,
+    /// Angle through which the lower side has turned \[rad\].
+    angle: f64,
+    /// Largest change of the right angle between two sides \[rad\].
+    shear: f64,
+    energies: Vec<Energies>,
+}
+
+impl Spin {
+    fn new(nodes: Vec<[f64; 2]>) -> Result<Self, CaseError> {
+        // Lumped masses of quad4: a quarter of each cell.
+        let share = |x: f64, end: f64| if x.abs() == end { 0.5 } else { 1.0 };
+        let mass = nodes.iter().map(|[x, y]| share(*x, HALF[0]) * share(*y, HALF[1])).collect();
+        let at = |x: f64, y: f64| nodes.iter().position(|n| *n == [x, y]).ok_or("no corner");
+        let [long, high] = HALF;
+        let corners = [at(-long, -high)?, at(long, -high)?, at(-long, high)?];
+        Ok(Self {
+            nodes,
+            mass,
+            corners,
+            initial: None,
+            drift: 0.0,
+            direction: None,
+            angle: 0.0,
+            shear: 0.0,
+            energies: Vec::new(),
+        })
+    }
+
+    /// Measures the bar after a step.
+    fn see(&mut self, run: &Explicit<'_, 2>) {
+        let now = momentum(&self.nodes, &self.mass, run);
+        let start = *self.initial.get_or_insert(now);
+        self.drift = self.drift.max((now / start - 1.0).abs());
+        let place = |n: usize| [0, 1].map(|c| self.nodes[n][c] + run.displacement()[2 * n + c]);
+        let [first, along, up] = self.corners.map(place);
         let side = |to: [f64; 2]| (to[1] - first[1]).atan2(to[0] - first[0]);
         let direction = side(along);
         let right = side(up) - direction - 0.25 * TAU;
-        shear = shear.max((right - TAU * (right / TAU).round()).abs());
-        if let Some(before) = before {
+        self.shear = self.shear.max((right - TAU * (right / TAU).round()).abs());
+        if let Some(before) = self.direction.replace(direction) {
             let turn: f64 = direction - before;
-            angle += turn - TAU * (turn / TAU).round();
+            self.angle += turn - TAU * (turn / TAU).round();
         }
-        before = Some(direction);
         let (time, stored) = (run.time() - run.dt(), run.nonlinear()[0].strain_energy());
         let budget = run.budget();
-        energies.push(Energies { time, stored, work: budget.elastic, kinetic: budget.kinetic });
-    };
-    let (result, cost) = Cost::measure(|| run(&problem, watch));
+        self.energies.push(Energies { time, stored, work: budget.elastic, kinetic: budget.kinetic });
+    }
+}
+
+pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let mut problem = problem(SceneText::new(SCENE))?;
+    problem.velocity = problem.model.mesh.nodes.iter().flat_map(|[x, y]| [-SPIN * y, SPIN * x]).collect();
+    let mut spin = Spin::new(problem.model.mesh.nodes.clone())?;
+    let (result, cost) = Cost::measure(|| run(&problem, |run: &mut Explicit<'_, 2>| spin.see(run)));
     let last = result?;
     let cost = cost.count("steps", last.steps() as f64);
     // The strain of a bar that spins is of the size ρ ω² l²/E, l half its length.
@@ -70,7 +105,7 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     ledger
         .claim("bar that spins freely: drift of its angular momentum over two turns")
         .norm("largest relative change")
-        .value(drift)
+        .value(spin.drift)
         .at_most(1e-14)
         .evidence(
             Evidence::Exact,
@@ -84,7 +119,7 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     ledger
         .claim("bar that spins freely: angle through which a side turns in 6 s")
         .unit("rad")
-        .value(angle)
+        .value(spin.angle)
         .equals(SPIN * elapsed)
         .absolute(4.0 * strain * SPIN * elapsed)
         .evidence(Evidence::Exact, "ω t of a rigid bar")
@@ -95,14 +130,14 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     ledger
         .claim("bar that spins freely: largest change of its right angles")
         .unit("rad")
-        .value(shear)
+        .value(spin.shear)
         .at_most(0.2 * strain)
         .evidence(Evidence::Exact, "centrifugal forces stretch the bar and do not shear it")
         .because("sides bend by the strain times the square of width over length, 1/16, three times that where it starts at once; a stress that did not turn with the bar would shear it by a strain a radian")
         .covers(&COVERS)
         .cost(&cost)
         .record();
-    stored(ledger, &energies, strain, &cost);
+    stored(ledger, &spin.energies, strain, &cost);
     Ok(())
 }
 

@@ -281,6 +281,50 @@ fn contact(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
+/// Displacements of the nodes of bodies \[m\].
+struct Displacements<'a> {
+    values: &'a [[f64; 3]],
+    /// Nodes by position \[mm\]: two on the fault.
+    nodes: BTreeMap<[i64; 3], Vec<usize>>,
+    /// Size of the cells \[m\].
+    size: f64,
+}
+
+impl<'a> Displacements<'a> {
+    fn new(places: &[[f64; 3]], values: &'a [[f64; 3]], size: f64) -> Self {
+        let mut nodes: BTreeMap<[i64; 3], Vec<usize>> = BTreeMap::new();
+        for (n, x) in places.iter().enumerate() {
+            nodes.entry(Self::key(x)).or_default().push(n);
+        }
+        Self { values, nodes, size }
+    }
+
+    fn key(x: &[f64; 3]) -> [i64; 3] {
+        x.map(|c| (c * 1e3).round() as i64)
+    }
+
+    /// Displacement of a node off the fault.
+    fn at(&self, x: &[f64; 3]) -> Result<[f64; 3], CaseError> {
+        let node = self.nodes.get(&Self::key(x)).and_then(|nodes| nodes.first());
+        Ok(node.map(|n| self.values[*n]).ok_or("no cell beside the fault")?)
+    }
+
+    /// Shear strain along z at the centre of a face of the fault on its side minus (0) or plus (1). Its corners are pairs of nodes.
+    fn shear(&self, corners: &[[usize; 2]], places: &[[f64; 3]], side: usize) -> Result<f64, CaseError> {
+        let sign = [-1.0, 1.0][side];
+        let (mut by_x, mut by_z) = (0.0, 0.0);
+        let beside = |x: &[f64; 3], cells: f64| self.at(&[sign * cells * self.size, x[1], x[2]]);
+        let middle = places.iter().map(|x| x[2]).sum::<f64>() / 4.0;
+        for (corner, x) in corners.iter().zip(places) {
+            let (u, v, w) = (self.values[corner[side]], beside(x, 1.0)?, beside(x, 2.0)?);
+            // One-sided differences of second order, averaged over four corners.
+            by_x += sign * (4.0 * v[2] - 3.0 * u[2] - w[2]) / (8.0 * self.size);
+            by_z += (x[2] - middle).signum() * u[0] / (2.0 * self.size);
+        }
+        Ok(by_x + by_z)
+    }
+}
+
 /// Shear tractions along z at the centres of fault faces in the inner part of the slip area: from the cells of minus and plus,
 /// and from the operator.
 fn tractions(
@@ -290,11 +334,7 @@ fn tractions(
     size: f64,
     moduli: [f64; 2],
 ) -> Result<Vec<[f64; 3]>, CaseError> {
-    let key = |x: &[f64; 3]| x.map(|c| (c * 1e3).round() as i64);
-    let mut at: BTreeMap<[i64; 3], Vec<usize>> = BTreeMap::new();
-    for (n, x) in view.nodes.iter().enumerate() {
-        at.entry(key(x)).or_default().push(n);
-    }
+    let bodies = Displacements::new(&view.nodes, displacement, size);
     let points: BTreeMap<usize, usize> = view.sides.iter().enumerate().map(|(p, s)| (s[0], p)).collect();
     let values: Vec<f64> = plan.points.iter().map(|p| slip(-p.at[1], p.at[2])).collect();
     let mut shear = vec![0.0; values.len()];
@@ -308,23 +348,9 @@ fn tractions(
         if places.iter().any(|x| x[1] > -1.4e3 || x[1] < RIM - REACH || x[2] > REACH - RIM) {
             continue;
         }
-        let side = |k: usize, sign: f64| -> Result<f64, CaseError> {
-            let (mut by_x, mut by_z) = (0.0, 0.0);
-            let beside = |x: &[f64; 3], cells: f64| {
-                let nodes = at.get(&key(&[sign * cells * size, x[1], x[2]]));
-                nodes.and_then(|n| n.first()).map(|n| displacement[*n]).ok_or("no cell beside the fault")
-            };
-            let middle = places.iter().map(|x| x[2]).sum::<f64>() / 4.0;
-            for (corner, x) in corners.iter().zip(&places) {
-                let (u, v, w) = (displacement[corner[k]], beside(x, 1.0)?, beside(x, 2.0)?);
-                // One-sided differences of second order, averaged over four corners.
-                by_x += sign * (4.0 * v[2] - 3.0 * u[2] - w[2]) / (8.0 * size);
-                by_z += (x[2] - middle).signum() * u[0] / (2.0 * size);
-            }
-            Ok(moduli[k] * (by_x + by_z))
-        };
+        let [minus, plus] = [0, 1].map(|k| bodies.shear(&corners, &places, k));
         let operator = corners.iter().map(|c| shear[points[&c[0]]]).sum::<f64>() / 4.0;
-        found.push([side(0, -1.0)?, side(1, 1.0)?, operator]);
+        found.push([moduli[0] * minus?, moduli[1] * plus?, operator]);
     }
     Ok(found)
 }

@@ -195,32 +195,41 @@ fn beside_another() -> Result<WrittenRun, CaseError> {
     WrittenRun::from_text(&scene("plane-strain", "a = 0.010, b = 0.015, l = \"4 mm\"", "1000 yr", &rest))
 }
 
+/// Largest error of the changes in a table of an event with this number of rows, and the largest change. They are on a plane with this
+/// normal and direction of slip, or else on the cells of both faults.
+fn errors(
+    done: &WrittenRun,
+    (name, rows): (&str, usize),
+    plane: Option<[[f64; 2]; 2]>,
+) -> Result<[f64; 2], CaseError> {
+    let slips = done.files.table("events/rupture_times_000.csv")?.column("slip")?;
+    let (cells, points) = (cells(), &done.plan.points);
+    let table = done.files.table(&format!("events/{name}"))?;
+    let (xs, ys) = (table.column("x")?, table.column("y")?);
+    let [mut worst, mut largest] = [0.0_f64; 2];
+    for (c, column) in ["shear_change", "normal_change", "coulomb_change"].into_iter().enumerate() {
+        for (k, found) in table.column(column)?.into_iter().enumerate() {
+            let of = |v: [f64; 3]| [v[0], v[1]];
+            let [normal, along] = plane.unwrap_or_else(|| [of(points[k].normal), of(points[k].slides)]);
+            let [shear, pressing] =
+                <[f64; 2]>::from(stress([xs[k], ys[k]], &cells, points, &slips).on(along, normal));
+            let wanted = [shear, pressing, shear - FRICTION * pressing][c];
+            worst = worst.max((found - wanted).abs());
+            largest = largest.max(wanted.abs());
+        }
+    }
+    Ok([if xs.len() == rows { worst } else { f64::NAN }, largest])
+}
+
 /// Changes along a line, and on both faults.
 fn in_the_plane(ledger: &mut Ledger) -> Result<(), CaseError> {
     let done = beside_another()?;
-    let slips = done.files.table("events/rupture_times_000.csv")?.column("slip")?;
-    let (cells, points) = (cells(), &done.plan.points);
-    let columns = ["shear_change", "normal_change", "coulomb_change"];
-    let changes = |[shear, normal]: [f64; 2]| [shear, normal, shear - FRICTION * normal];
     let (sine, cosine) = FRAC_PI_3.sin_cos();
     // A plane that falls to the left by 60 degrees, whose upper side moves up.
     let (normal, up) = ([-sine, cosine], [cosine, sine]);
     for (name, rows) in [("coulomb_000.csv", 15), ("coulomb_faults_000.csv", 1 + CELLS)] {
-        let table = done.files.table(&format!("events/{name}"))?;
-        let (xs, ys) = (table.column("x")?, table.column("y")?);
-        let (mut worst, mut largest) = (if xs.len() == rows { 0.0_f64 } else { f64::NAN }, 0.0_f64);
         let on_faults = rows == 1 + CELLS;
-        for (c, column) in columns.into_iter().enumerate() {
-            for (k, found) in table.column(column)?.into_iter().enumerate() {
-                let stress = stress([xs[k], ys[k]], &cells, points, &slips);
-                let of = |v: [f64; 3]| [v[0], v[1]];
-                let (t, n) =
-                    if on_faults { (of(points[k].slides), of(points[k].normal)) } else { (up, normal) };
-                let wanted = changes(stress.on(t, n).into())[c];
-                worst = worst.max((found - wanted).abs());
-                largest = largest.max(wanted.abs());
-            }
-        }
+        let [worst, largest] = errors(&done, (name, rows), (!on_faults).then_some([normal, up]))?;
         let place = if on_faults { "on both faults" } else { "along a line at a depth" };
         ledger
             .claim(format!("changes of shear, normal traction and Coulomb stress {place} over an event in plane strain: largest error over the largest"))

@@ -153,6 +153,18 @@ fn column(dip: f64, length: f64, rake: [f64; 3], cells: usize) -> String {
     still("3d", "half-space", &geometry)
 }
 
+/// Changes of the shear or normal tractions of a plan with slip.
+fn changes(plan: &Plan, slip: &[f64], normal: bool) -> Vec<f64> {
+    let mut out = vec![0.0; slip.len()];
+    let operator = &plan.problem.fault.operator;
+    if normal {
+        operator.normal(slip, &mut out)
+    } else {
+        operator.shear(slip, &mut out)
+    }
+    out
+}
+
 /// Compares slip that is uniform along long rectangles with slip in the plane.
 fn long_rectangles(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (rows, columns) = (5, 401);
@@ -170,20 +182,10 @@ fn long_rectangles(ledger: &mut Ledger) -> Result<(), CaseError> {
             let middle = |values: &[f64]| -> Vec<f64> {
                 (0..rows).map(|row| values[row * columns + columns / 2]).collect()
             };
-            let of = |plan: &Plan, slip: &[f64], normal: bool| {
-                let mut out = vec![0.0; slip.len()];
-                let operator = &plan.problem.fault.operator;
-                if normal {
-                    operator.normal(slip, &mut out)
-                } else {
-                    operator.shear(slip, &mut out)
-                }
-                out
-            };
-            let wanted = [false, true].map(|normal| of(&plane, &slip, normal));
+            let wanted = [false, true].map(|normal| changes(&plane, &slip, normal));
             let scale = wanted[0].iter().fold(0.0_f64, |m, v| m.max(v.abs()));
             for normal in [false, true] {
-                let found = middle(&of(&found, &long, normal));
+                let found = middle(&changes(&found, &long, normal));
                 let off = found.iter().zip(&wanted[usize::from(normal)]);
                 let off = off.fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / scale;
                 worst[usize::from(normal)] = worst[usize::from(normal)].max(off);

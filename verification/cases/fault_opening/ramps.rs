@@ -149,6 +149,24 @@ const LONG: f64 = 5.0;
 /// Friction of the blocks: so little that they hardly lag behind their load.
 const FRICTION: f64 = 1e-3;
 
+/// Times \[s\] and ways \[m\] of the load at the corners of its course.
+fn course() -> Vec<[f64; 2]> {
+    let mut drawn = vec![[0.0, 0.0]];
+    for t in FAST.into_iter().flatten().chain([END]) {
+        let [before, so_far] = drawn[drawn.len() - 1];
+        let rate = RATES[usize::from(drawn.len() % 2 == 0)];
+        drawn.push([t, so_far + rate * (t - before)]);
+    }
+    drawn
+}
+
+/// Time \[s\] and slip \[m\] below the floor, which a fault passes at the way `at` of its opening.
+fn below_floor(corners: &[[f64; 2]; 4], at: f64) -> [f64; 2] {
+    let (from, to) = (passed([corners[0], corners[1]], at), passed([corners[1], corners[2]], at));
+    let faster = (FAST[0][1] - FAST[0][0]) * (RATES[1] - RATES[0]);
+    [to - from, RATES[0] * (to - from) + faster]
+}
+
 /// Blocks that slide past each other, faster at times, while normal traction falls below its floor and rises again.
 fn below(ledger: &mut Ledger) -> Result<(), CaseError> {
     let fault = format!(
@@ -159,12 +177,7 @@ fn below(ledger: &mut Ledger) -> Result<(), CaseError> {
     let compliance = 2.0 * SHORT / YOUNG;
     let way = (PRESSES[0] - PRESSES[1]) * compliance;
     let corners = [[0.0, 0.0], [40.0, way], [60.0, 0.0], [END, 0.0]];
-    let mut drawn = vec![[0.0, 0.0]];
-    for t in FAST.into_iter().flatten().chain([END]) {
-        let [before, so_far] = drawn[drawn.len() - 1];
-        let rate = RATES[usize::from(drawn.len() % 2 == 0)];
-        drawn.push([t, so_far + rate * (t - before)]);
-    }
+    let drawn = course();
     let events = "[events]\nabove = \"2 mm/s\"\nbelow = \"1.5 mm/s\"";
     let text = blocks(SHORT, &fault, [&table(&corners, LONG), &table(&drawn, LONG)], events);
     let done = WrittenRun::from_text(&text)?;
@@ -172,11 +185,8 @@ fn below(ledger: &mut Ledger) -> Result<(), CaseError> {
         return Err(format!("{:?}", done.report.outcome).into());
     }
     let found = done.report.floors.first().ok_or("no floor")?;
-    let at = (PRESSES[0] - FLOOR) * compliance;
-    let (from, to) = (passed([corners[0], corners[1]], at), passed([corners[1], corners[2]], at));
-    let faster = (FAST[0][1] - FAST[0][0]) * (RATES[1] - RATES[0]);
-    let slip = RATES[0] * (to - from) + faster;
-    let shares = [(to - from) / END, slip / drawn[drawn.len() - 1][1]];
+    let [time, slip] = below_floor(&corners, (PRESSES[0] - FLOOR) * compliance);
+    let shares = [time / END, slip / drawn[drawn.len() - 1][1]];
     let ramps = "ramps: f_n = f_0 - E u/(2 l), and slip at the rate of the load, which is three times as fast for a while";
     let mirrored = "both blocks are equal, so that slip changes no normal traction, which is linear within steps: rounding";
     let rounding =

@@ -158,14 +158,19 @@ fn strip(steps: usize, carry: bool) -> Result<(f64, Body<2>, Cost), CaseError> {
     });
     outcome?;
     let found = body.block.stress_at_points();
+    let cost = cost.counts(&body.work);
+    Ok((turned_error(&start, &found), body, cost))
+}
+
+/// Largest error of stresses after a turn by 90 degrees over the largest stress.
+fn turned_error(start: &[[f64; 6]], found: &[[f64; 6]]) -> f64 {
     let (mut error, mut scale) = (0.0_f64, 0.0_f64);
-    for (found, start) in found.iter().zip(&start) {
+    for (found, start) in found.iter().zip(start) {
         let exact = body::turned_stress(FRAC_PI_2, start);
         error = error.max(body::largest_difference(&[*found], &exact));
         scale = exact.iter().fold(scale, |m, s| m.max(s.abs()));
     }
-    let cost = cost.counts(&body.work);
-    Ok((error / scale, body, cost))
+    error / scale
 }
 
 fn turning(ledger: &mut Ledger, carry: bool) -> Result<(), CaseError> {

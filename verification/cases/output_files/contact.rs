@@ -34,24 +34,29 @@ fn strength(rate: f64) -> f64 {
     NORMAL * a * (0.5 * rate / v0 * (mu0 / a).exp()).asinh()
 }
 
+/// A position as text.
+fn position(space: bool, [x, y, z]: [f64; 3]) -> String {
+    if space { format!("[{x:?}, {y:?}, {z:?}]") } else { format!("[{x:?}, {y:?}]") }
+}
+
+/// A block between two heights.
+fn block(space: bool, name: &str, [from, to]: [f64; 2]) -> String {
+    let [w, d] = WIDTHS;
+    let (min, max) = (position(space, [0.0, from, 0.0]), position(space, [w, to, d]));
+    let (divisions, element) = if space { ("[2, 1, 1]", "hex8") } else { ("[2, 1]", "quad4") };
+    let stress = if space { "[0, -5e6, 0, 0, 0, 0]" } else { "[0, -5e6, 0]" };
+    format!(
+        "[bodies.{name}]\nmaterial = \"{name}\"\ninitial_stress = {stress}\n\
+         mesh.block = {{ min = {min}, max = {max}, divisions = {divisions}, element = \"{element}\" }}\n\
+         [materials.{name}]\npoisson = 0.25\nyoung = {:?}\n",
+        2.5 * MODULI[usize::from(name == "lower")]
+    )
+}
+
 pub(super) fn scene(space: bool, [x, z]: [f64; 2]) -> String {
     let [w, d] = WIDTHS;
     let [upper, lower] = HEIGHTS;
     let [mu0, a, v0] = LAW;
-    let corner = |x: f64, y: f64, z: f64| {
-        if space { format!("[{x:?}, {y:?}, {z:?}]") } else { format!("[{x:?}, {y:?}]") }
-    };
-    let body = |name: &str, [from, to]: [f64; 2]| {
-        let (min, max) = (corner(0.0, from, 0.0), corner(w, to, d));
-        let (divisions, element) = if space { ("[2, 1, 1]", "hex8") } else { ("[2, 1]", "quad4") };
-        let stress = if space { "[0, -5e6, 0, 0, 0, 0]" } else { "[0, -5e6, 0]" };
-        format!(
-            "[bodies.{name}]\nmaterial = \"{name}\"\ninitial_stress = {stress}\n\
-             mesh.block = {{ min = {min}, max = {max}, divisions = {divisions}, element = \"{element}\" }}\n\
-             [materials.{name}]\npoisson = 0.25\nyoung = {:?}\n",
-            2.5 * MODULI[usize::from(name == "lower")]
-        )
-    };
     let held = |set: &str| format!("{{ set = \"{set}\", y = 0 }}, ");
     let ends = ["upper.left", "upper.right", "upper.top", "lower.left", "lower.right"];
     let faces = ["upper.back", "upper.front", "lower.back", "lower.front"];
@@ -72,9 +77,9 @@ pub(super) fn scene(space: bool, [x, z]: [f64; 2]) -> String {
          [output]\nprobes.joint = 2\nprofiles = 1\nfields = 1\n\
          points.middle = {{ body = \"upper\", at = {} }}\nforces.top = {{ set = \"upper.top\" }}\n",
         if space { "3d" } else { "plane-strain" },
-        body("upper", [lower, lower + upper]),
-        body("lower", [0.0, lower]),
-        corner(0.5 * w, lower + 0.5 * upper, 0.5 * d),
+        block(space, "upper", [lower, lower + upper]),
+        block(space, "lower", [0.0, lower]),
+        position(space, [0.5 * w, lower + 0.5 * upper, 0.5 * d]),
     )
 }
 

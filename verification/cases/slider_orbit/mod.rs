@@ -61,6 +61,12 @@ fn bisect(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
     0.5 * (low + high)
 }
 
+/// Extremes of ln(V/V_load) on the orbit with a conserved quantity H: there f = -(b-a) G, so that H = -a e^(-(b-a) G/a).
+fn extremes(set: &Set, conserved: f64) -> [f64; 2] {
+    let depth = set.a / (set.b - set.a) * (set.a / -conserved).ln();
+    [bisect(0.0, 10.0, |x| bowl(x) - depth), bisect(-10.0, 0.0, |x| bowl(x) - depth)]
+}
+
 fn orbit(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError> {
     let set = base().at(1.0);
     let mut plan = plan(&set, slider::MU0, KICK, 2000.0)?;
@@ -90,16 +96,13 @@ fn orbit(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError> 
         .why_not_tighter("dense output is an order below the steps")
         .cost(&cost)
         .record();
-    // At the extremes f = -(b-a) G, so that H = -a e^(-(b-a) G/a).
-    let depth = set.a / (set.b - set.a) * (set.a / -first).ln();
-    let extremes = [bisect(0.0, 10.0, |x| bowl(x) - depth), bisect(-10.0, 0.0, |x| bowl(x) - depth)];
     let events: Vec<_> = Entry::from_slider(&run, 0).into_iter().filter(|e| e.duration.is_some()).collect();
     let last = events.last().ok_or("no orbit was closed")?;
     let found = [(last.peak_rate / set.load).ln(), (last.least_rate / set.load).ln()];
     ledger
         .claim("extremes of ln(V/V_load) on the closed orbit")
         .values(&found)
-        .equals_each(&extremes)
+        .equals_each(&extremes(&set, first))
         .absolute(1e-9)
         .evidence(Evidence::Exact, "roots of e^-x - 1 + x = (a/(b-a)) ln(a/-H)")
         .because("the orbit is as good as the conserved quantity; extremes are found as events")

@@ -1,7 +1,7 @@
 //! Normal tractions of faults: floors, constant tractions, initial stress, and the spacing of points relative to the
 //! lengths of friction.
 
-use crate::common::varied;
+use crate::common::{first_resistance, resistance, varied};
 use asperity::kinds::faults::Report;
 use asperity_cycles::{Balance, FaultRun, Moment};
 use asperity_ode::{Control, Outcome};
@@ -85,14 +85,7 @@ fn followed(plan: &Plan, floor: f64) -> (FaultRun, Report, f64) {
     let n = plan.points.len();
     let couples = plan.problem.fault.operator.couples_normal();
     let (shear_rate, normal_rate) = plan.problem.loading.rates(1.0, n, couples);
-    let (law, damping) = (&plan.problem.fault.law, &plan.problem.fault.damping);
-    let mut rate = vec![0.0; n];
-    let layout = asperity_cycles::Layout::from_fault(&plan.problem.fault);
-    law.slip_rates(0, &plan.problem.start[layout.m()], &plan.problem.start[layout.states()], &mut rate);
-    let friction =
-        |p: usize, pressed: f64, m: f64, v: f64| pressed.max(floor) * law.scale(p) * m + damping[p] * v;
-    let first: Vec<f64> =
-        (0..n).map(|p| friction(p, plan.problem.fault.normal[p], plan.problem.start[p], rate[p])).collect();
+    let first = first_resistance(&plan.problem, floor);
     let scale = plan.problem.fault.normal.iter().fold(0.0_f64, |l, f| l.max(*f));
     let (mut shear, mut press, mut worst) = (vec![0.0; n], vec![0.0; n], 0.0_f64);
     let mut balance = Balance::new(&plan.problem);
@@ -104,9 +97,12 @@ fn followed(plan: &Plan, floor: f64) -> (FaultRun, Report, f64) {
         }
         let time = now.at.seconds();
         for p in 0..n {
-            let load = if couples { normal_rate[p] * time } else { 0.0 };
-            let pressed = plan.problem.fault.normal[p] + press[p] + load;
-            let resisting = friction(p, pressed, now.unknowns[p], now.rate.component(0)[p]);
+            let mut pressed = plan.problem.fault.normal[p] + press[p];
+            if couples {
+                pressed += normal_rate[p] * time;
+            }
+            let slips = [now.unknowns[p], now.rate.component(0)[p]];
+            let resisting = resistance(&plan.problem.fault, p, pressed.max(floor), slips);
             worst = worst.max((first[p] + shear[p] + shear_rate[p] * time - resisting).abs() / scale);
             // Error of f_n in outputs, which is an unknown itself: a does not make it smaller.
             let shown = now.normal(p) - pressed.max(floor);

@@ -1,8 +1,10 @@
 //! Faults that open: tractions balance, the energy budget closes, and faults that never open have unchanged results.
 
-use crate::common::varied;
+use crate::common::{first_resistance, resistance, varied};
 use asperity::kinds::faults::Report;
-use asperity_cycles::{Balance, FaultRun, Layout, Moment, OPENING, Opening, PorePressure as _, Pressure};
+use asperity_cycles::{
+    Balance, Fault, FaultRun, Layout, Moment, OPENING, Opening, PorePressure as _, Pressure,
+};
 use asperity_ode::{Control, Outcome};
 use asperity_plan::faults::Plan;
 use asperity_plan::reading::scene;
@@ -32,39 +34,44 @@ struct RunResults {
     most: usize,
 }
 
+/// Changes of the shear tractions of a fault and its effective normal tractions, from slip, openings, fluid and loads of constant rates.
+fn tractions(fault: &Fault, now: &Moment<'_>, by: &[f64], loads: &[Vec<f64>; 2]) -> [Vec<f64>; 2] {
+    let opening = fault.processes.find::<Opening>().unwrap();
+    let (time, n) = (now.at.seconds(), by.len());
+    let [mut shear, mut press] = [(); 2].map(|()| vec![0.0; n]);
+    fault.operator.shear(now.slip().all(), &mut shear);
+    opening.sheared(by, &mut shear);
+    fault.operator.normal(now.slip().all(), &mut press);
+    opening.pressing(by, &mut press);
+    let fluid = fault.processes.find::<Pressure>().map_or(vec![0.0; n], |f| f.at(time, n));
+    for p in 0..n {
+        shear[p] += loads[0][p] * time;
+        press[p] += fault.normal[p] + loads[1][p] * time - fluid[p];
+    }
+    [shear, press]
+}
+
 /// Follows a run whose loads have constant rates. Tractions follow from slip and openings through the operators. Along
 /// the fault they must equal friction; across it, less the pore pressure, they must equal f_n, or vanish where the fault
 /// is open.
 fn followed(plan: &Plan) -> RunResults {
     let (n, fault) = (plan.points.len(), &plan.problem.fault);
-    let (law, opening) = (&fault.law, fault.processes.find::<Opening>().unwrap());
     let floor = plan.faults[0].normal.floor.unwrap();
-    let (shear_rate, normal_rate) = plan.problem.loading.rates(1.0, n, true);
-    let layout = Layout::from_fault(fault);
-    let mut rate = vec![0.0; n];
-    law.slip_rates(0, &plan.problem.start[layout.m()], &plan.problem.start[layout.states()], &mut rate);
-    let friction = |p: usize, f: f64, m: f64, v: f64| f * law.scale(p) * m + fault.damping[p] * v;
-    let first: Vec<f64> =
-        (0..n).map(|p| friction(p, fault.normal[p], plan.problem.start[p], rate[p])).collect();
+    let loads: [Vec<f64>; 2] = plan.problem.loading.rates(1.0, n, true).into();
+    let first = first_resistance(&plan.problem, 0.0);
     let scale = fault.normal.iter().fold(0.0_f64, |l, f| l.max(*f));
     let (mut along, mut across, mut most) = (0.0_f64, 0.0_f64, 0);
     let mut balance = Balance::new(&plan.problem);
     let mut look = |now: &Moment<'_>| {
         balance.step(now);
-        let time = now.at.seconds();
         let by: Vec<f64> = (0..n).map(|p| now.at(&OPENING, p).unwrap()).collect();
-        let (mut shear, mut press) = (vec![0.0; n], vec![0.0; n]);
-        fault.operator.shear(now.slip().all(), &mut shear);
-        opening.sheared(&by, &mut shear);
-        fault.operator.normal(now.slip().all(), &mut press);
-        opening.pressing(&by, &mut press);
-        let fluid = fault.processes.find::<Pressure>().map_or(vec![0.0; n], |f| f.at(time, n));
+        let [shear, pressed] = tractions(fault, now, &by, &loads);
         for p in 0..n {
-            let pressed = fault.normal[p] + press[p] + normal_rate[p] * time - fluid[p];
-            let resists = friction(p, pressed.max(floor), now.unknowns[p], now.rate.component(0)[p]);
-            along = along.max((first[p] + shear[p] + shear_rate[p] * time - resists).abs() / scale);
-            let kept = if by[p] > 0.0 { pressed.abs() } else { (-pressed).max(0.0) };
-            across = across.max(kept / scale).max((now.normal(p) - pressed.max(floor)).abs() / scale);
+            let slips = [now.unknowns[p], now.rate.component(0)[p]];
+            let resists = resistance(fault, p, pressed[p].max(floor), slips);
+            along = along.max((first[p] + shear[p] - resists).abs() / scale);
+            let kept = if by[p] > 0.0 { pressed[p].abs() } else { (-pressed[p]).max(0.0) };
+            across = across.max(kept / scale).max((now.normal(p) - pressed[p].max(floor)).abs() / scale);
             assert!(by[p] >= 0.0);
         }
         most = most.max(by.iter().filter(|o| **o > 0.0).count());

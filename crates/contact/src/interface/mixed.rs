@@ -181,9 +181,9 @@ impl<const D: usize> Interface<D> {
     /// Writes the equations of a closed point.
     fn closed_rows(&self, unknowns: &Unknowns, p: usize, n: usize, gradients: &[f64], block: &mut [f64]) {
         let size = n + unknowns.each;
-        let (e_n, e_t, s) = (self.penalty.stiffness, self.tangential_penalty, unknowns.unit);
-        let (w, ws) = (unknowns.weights[p], unknowns.weights[p] * s);
-        let c = w * self.scales(p, s).1;
+        let s = unknowns.unit;
+        let ws = unknowns.weights[p] * s;
+        let c = unknowns.weights[p] * self.scales(p, s).1;
         let (gap, slides) = gradients.split_at(n);
         for (to, g) in block[n * size..].iter_mut().zip(gap) {
             *to = -ws * g;
@@ -201,13 +201,13 @@ impl<const D: usize> Interface<D> {
                 let same = f64::from(u8::from(l == m));
                 let y = point.ratio * same + (point.d_trial - point.ratio) * eta[m] * eta[l];
                 for (to, d) in row.iter_mut().zip(&slides[l * n..(l + 1) * n]) {
-                    *to += c * e_t * y * d;
+                    *to += c * self.tangential_penalty * y * d;
                 }
                 row[n + 1 + l] = c * s * (y - same) - REGULAR * ws * same;
             }
             let coupling = c * point.d_normal * eta[m];
             for (to, g) in row.iter_mut().zip(gap) {
-                *to -= coupling * e_n * g;
+                *to -= coupling * self.penalty.stiffness * g;
             }
             row[n] = coupling * s;
         }

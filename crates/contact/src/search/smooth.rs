@@ -359,6 +359,12 @@ fn planes<const D: usize>(
         .collect()
 }
 
+/// Row of the fit of a quadratic function without constant at a distance `d`, times its weight 1/|d|, and that weight.
+fn quadratic_row<const D: usize>(d: &[f64; D], basis: &[[f64; D]; 2]) -> ([f64; 5], f64) {
+    let (a, b, w) = (dot(d, &basis[0]), dot(d, &basis[1]), norm(d).recip());
+    ([w * a, w * b, 0.5 * w * a * a, w * a * b, 0.5 * w * b * b], w)
+}
+
 /// Tangent plane of node `i` from the nodes of the surrounding segments, by least squares with weights 1/distance.
 fn plane<const D: usize>(
     i: usize,
@@ -382,11 +388,7 @@ fn plane<const D: usize>(
     let basis = [unit(&e), cross(&n, &unit(&e))];
     let size =
         nodes.iter().map(|&j| norm(&sub(&positions[j], &positions[i]))).sum::<f64>() / nodes.len() as f64;
-    let row = |j: usize| {
-        let d = scaled(&sub(&positions[j], &positions[i]), size.recip());
-        let (a, b, w) = (dot(&d, &basis[0]), dot(&d, &basis[1]), norm(&d).recip());
-        ([w * a, w * b, 0.5 * w * a * a, w * a * b, 0.5 * w * b * b], w)
-    };
+    let row = |j: usize| quadratic_row(&scaled(&sub(&positions[j], &positions[i]), size.recip()), &basis);
     for columns in [5, 2] {
         if nodes.len() < columns {
             continue;

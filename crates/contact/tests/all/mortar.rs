@@ -58,6 +58,20 @@ fn line_side(a: f64, b: f64, y: f64, n: usize, order: usize, up: bool, seed: u64
     Side { x, faces }
 }
 
+/// Adds the nodes in the middles of a facet's sides. Neighbours share them.
+fn add_middles(nodes: &mut Vec<usize>, x: &mut Vec<[f64; 3]>) {
+    let corners = nodes.len();
+    for k in 0..corners {
+        let (p, q) = (x[nodes[k]], x[nodes[(k + 1) % corners]]);
+        let middle = std::array::from_fn(|m| 0.5 * (p[m] + q[m]));
+        let found = x.iter().position(|y| *y == middle);
+        nodes.push(found.unwrap_or_else(|| {
+            x.push(middle);
+            x.len() - 1
+        }));
+    }
+}
+
 /// A unit square of n x n facets at height z, with outward normal +z if `up`. Its nodes are displaced by `noise` in the plane;
 /// those on the rim stay on it.
 fn square_side(kind: SegmentKind, n: usize, z: f64, up: bool, noise: f64, seed: u64) -> Side<3> {
@@ -86,17 +100,8 @@ fn square_side(kind: SegmentKind, n: usize, z: f64, up: bool, noise: f64, seed: 
                 if !up {
                     nodes.reverse();
                 }
-                let corners = nodes.len();
                 if matches!(kind, SegmentKind::Tri6 | SegmentKind::Quad9) {
-                    for k in 0..corners {
-                        let (p, q) = (x[nodes[k]], x[nodes[(k + 1) % corners]]);
-                        let middle = [0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1]), z];
-                        let found = x.iter().position(|y| *y == middle);
-                        nodes.push(found.unwrap_or_else(|| {
-                            x.push(middle);
-                            x.len() - 1
-                        }));
-                    }
+                    add_middles(&mut nodes, &mut x);
                 }
                 if kind == SegmentKind::Quad9 {
                     let c: [f64; 3] =

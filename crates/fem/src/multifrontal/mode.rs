@@ -168,6 +168,18 @@ fn null_vector(
     Ok((mode, energy / scale))
 }
 
+/// Component c of the product of the unit vector along an axis with r.
+fn rotated(axis: usize, r: &[f64; 3], c: usize) -> f64 {
+    let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+    if c == u {
+        -r[v]
+    } else if c == v {
+        r[u]
+    } else {
+        0.0
+    }
+}
+
 /// Fits `t + w x (x - centre)`.
 fn fit_rigid<const D: usize>(
     moving: Vec<usize>,
@@ -195,15 +207,7 @@ fn fit_rigid<const D: usize>(
             b[row] = displacement(node, c);
             a[(row, c)] = 1.0;
             for (j, &axis) in axes.iter().enumerate() {
-                // (e_axis x r)_c
-                let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-                a[(row, D + j)] = if c == u {
-                    -r[v] / extent
-                } else if c == v {
-                    r[u] / extent
-                } else {
-                    0.0
-                };
+                a[(row, D + j)] = rotated(axis, &r, c) / extent;
             }
         }
     }

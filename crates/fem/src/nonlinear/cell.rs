@@ -468,13 +468,18 @@ impl<const D: usize> Scratch<D> {
     }
 
     fn add_point(&mut self, frame: &Frame, point: usize, v: f64) {
-        let (nodes, components, width) = (frame.nodes, frame.components, frame.width());
+        let (nodes, components) = (frame.nodes, frame.components);
         let (s, psi) = (&self.sensitivity[point], &self.psi[point]);
         let gradients = &self.gradients[point * nodes..(point + 1) * nodes];
         let hoops = &self.hoop[point * nodes..(point + 1) * nodes];
         let stress = self.stress[point].map(|s| s * v);
         for (b, (g, &hoop)) in gradients.iter().zip(hoops).enumerate() {
-            let turned: [f64; 3] = std::array::from_fn(|i| (0..D).map(|j| stress[PLACE[i][j]] * g[j]).sum());
+            // The gradients of the forces move with the cell: -∂N_a/∂x_k τ∇N_b is added as a column of dτ.
+            let moving: [f64; 3] = if frame.finite {
+                std::array::from_fn(|i| (0..D).map(|j| stress[PLACE[i][j]] * g[j]).sum())
+            } else {
+                [0.0; 3]
+            };
             for k in 0..components {
                 let column = b * components + k;
                 let first = if k == 0 { hoop } else { 0.0 };
@@ -491,9 +496,7 @@ impl<const D: usize> Scratch<D> {
                     coupling.pressure.iter_mut().zip(psi).for_each(|(c, psi)| *c += v * psi * p);
                 }
                 let d = d.map(|d| v * d);
-                let out = &mut self.columns[column * width..(column + 1) * width];
-                // The gradients of the forces move with the cell: -∂N_a/∂x_k τ∇N_b is added as a column of dτ.
-                let moving = if frame.finite { turned } else { [0.0; 3] };
+                let out = &mut self.columns[column * frame.width()..][..frame.width()];
                 match components {
                     1 => add_column::<D, 1>(out, frame.row, k, gradients, &d, &moving),
                     2 => add_column::<D, 2>(out, frame.row, k, gradients, &d, &moving),

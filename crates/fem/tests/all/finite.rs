@@ -6,6 +6,7 @@ use crate::lab::{
 };
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::{Formulation, Idealisation};
+use asperity_fem::material::constitutive::{ConstitutiveLaw, Moduli, Voigt};
 use asperity_fem::material::hardening::Hardening;
 use asperity_fem::mesh::{Mesh, nodes_of_sides};
 use asperity_fem::nonlinear::{Block, Kinematics, Limits, Material, Model};
@@ -235,6 +236,28 @@ fn a_change_of_volume_tells_the_kirchhoff_rate_from_the_cauchy_rate() {
     assert!((block.thickness_strain_at_points().unwrap()[3] - thickness).abs() < 1e-5);
 }
 
+/// Modulus Σ_ijkl of the virtual velocity form, from the moduli of the material and the stress.
+fn velocity_modulus(c: &Moduli, tau: &Voigt, [i, j, k, l]: [usize; 4]) -> f64 {
+    let t = matrix(tau);
+    let delta = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 };
+    let place = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
+    c[place[i][j]][place[k][l]]
+        + 0.5
+            * (t[(j, l)] * delta(i, k)
+                - t[(i, k)] * delta(j, l)
+                - t[(i, l)] * delta(j, k)
+                - t[(j, k)] * delta(i, l))
+}
+
+/// Velocities L x of all nodes at their displaced positions.
+fn affine(mesh: &Mesh<3>, u: &[f64], l: &nalgebra::Matrix3<f64>) -> Vec<f64> {
+    let velocity = |(n, x): (usize, &[f64; 3])| {
+        let v = l * nalgebra::Vector3::from_fn(|c, _| x[c] + u[3 * n + c]);
+        [v.x, v.y, v.z]
+    };
+    mesh.nodes.iter().enumerate().flat_map(velocity).collect()
+}
+
 #[test]
 fn the_rate_tangent_is_the_one_of_the_virtual_velocity_form() {
     // One cell, uniform stress and plastic flow: K_ai,bk = V ∂N_a/∂x_j Σ_ijkl ∂N_b/∂x_l. It is probed by affine velocities L:
@@ -257,42 +280,20 @@ fn the_rate_tangent_is_the_one_of_the_virtual_velocity_form() {
     assert!(
         (0..24).all(|i| (0..24).all(|j| (values[24 * i + j] - values[24 * j + i]).abs() < 1e-14 * largest))
     );
-    let saved = block.save();
-    let state = &saved[24..];
+    let state = block.save()[24..].to_vec();
     let tau: [f64; 6] = std::array::from_fn(|i| state[i]);
     let Material::J2(j2) = material else { unreachable!() };
-    let c = asperity_fem::material::constitutive::ConstitutiveLaw::forward(&j2, 1.0, &tau, &state[6..7]);
-    let t = matrix(&tau);
-    let delta = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 };
-    let place = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
-    let sigma = |i: usize, j: usize, k: usize, l: usize| {
-        c[place[i][j]][place[k][l]]
-            + 0.5
-                * (t[(j, l)] * delta(i, k)
-                    - t[(i, k)] * delta(j, l)
-                    - t[(i, l)] * delta(j, k)
-                    - t[(j, k)] * delta(i, l))
-    };
+    let c = ConstitutiveLaw::forward(&j2, 1.0, &tau, &state[6..7]);
     let mut noise = Noise::new(8);
     for _ in 0..5 {
         let mut gradient = || nalgebra::Matrix3::from_fn(|_, _| noise.next());
         let (l, m) = (gradient(), gradient());
-        let velocity = |l: &nalgebra::Matrix3<f64>| -> Vec<f64> {
-            mesh.nodes
-                .iter()
-                .enumerate()
-                .flat_map(|(n, x)| {
-                    let v = l * nalgebra::Vector3::from_fn(|c, _| x[c] + u[3 * n + c]);
-                    [v.x, v.y, v.z]
-                })
-                .collect()
-        };
-        let force = product(&block.pattern().clone(), &values, &velocity(&l));
-        let work: f64 = force.iter().zip(velocity(&m)).map(|(f, v)| f * v).sum();
+        let force = product(&block.pattern().clone(), &values, &affine(&mesh, &u, &l));
+        let work: f64 = force.iter().zip(affine(&mesh, &u, &m)).map(|(f, v)| f * v).sum();
         let mut exact = 0.0;
         for (i, j) in (0..9).map(|k| (k / 3, k % 3)) {
             for (k, n) in (0..9).map(|k| (k / 3, k % 3)) {
-                exact += m[(i, j)] * sigma(i, j, k, n) * l[(k, n)];
+                exact += m[(i, j)] * velocity_modulus(&c, &tau, [i, j, k, n]) * l[(k, n)];
             }
         }
         assert!((work - exact).abs() < 1e-13 * largest, "{work} {exact}");

@@ -82,21 +82,40 @@ fn energy_is_that_of_the_split_body() {
     }
 }
 
+/// A linear combination of displacements, and its value.
+type Constraint = (Vec<(usize, f64)>, f64);
+
+/// Displacements of a body under forces with constraints, followed by their Lagrange multipliers.
+fn constrained(body: &Stiffness, constraints: &[Constraint], forces: &[(usize, f64)]) -> DVector<f64> {
+    let (n, m) = (body.dofs, constraints.len());
+    let mut full = DMatrix::zeros(n + m, n + m);
+    full.view_mut((0, 0), (n, n)).copy_from(&dense(body));
+    let mut rhs = DVector::zeros(n + m);
+    for &(d, f) in forces {
+        rhs[d] += f;
+    }
+    for (r, (row, value)) in constraints.iter().enumerate() {
+        rhs[n + r] = *value;
+        for &(d, v) in row {
+            full[(n + r, d)] += v;
+            full[(d, n + r)] += v;
+        }
+    }
+    full.lu().solve(&rhs).unwrap()
+}
+
 /// Condensed jumps: the forces on them and the displacement of the whole body, for given jumps without opening, must be those
 /// of the split body with the same jumps by Lagrange multipliers.
 #[test]
 fn condensed_jumps_answer_as_the_split_body_does() {
-    let dip = 60.0;
-    let (made, split) = body(dip);
-    let jumps = jumps(&made, dip);
+    let (made, split) = body(60.0);
+    let jumps = jumps(&made, 60.0);
     let bottom = nodes_of_sides(&made.mesh, &made.mesh.side_sets["bottom"]);
     let held: Vec<usize> = bottom.iter().flat_map(|&n| [2 * n, 2 * n + 1]).collect();
-    let slips: Vec<usize> = jumps.list().iter().map(|j| j.plus).collect();
-    let openings: Vec<usize> = slips.iter().map(|d| d + 1).collect();
-    let mut retained = slips.clone();
+    let mut retained: Vec<usize> = jumps.list().iter().map(|j| j.plus).collect();
     retained.sort_unstable();
     let mut fixed: Vec<usize> = jumps.fixed(&held).unwrap();
-    fixed.extend(&openings);
+    fixed.extend(jumps.list().iter().map(|j| j.plus + 1));
     fixed.sort_unstable();
     let reduction = Reduction::new(&jumps.stiffness(&split), &retained, &fixed).unwrap();
     let mut condensed =
@@ -112,7 +131,7 @@ fn condensed_jumps_answer_as_the_split_body_does() {
     jumps.displacement(&mut u);
     // The split body with multipliers on the jumps and on the supports.
     let n = split.dofs;
-    let rows: Vec<(Vec<(usize, f64)>, f64)> = held
+    let rows: Vec<Constraint> = held
         .iter()
         .zip(&load.prescribed)
         .map(|(&d, p)| (vec![(d, 1.0)], p.1))
@@ -124,21 +143,7 @@ fn condensed_jumps_answer_as_the_split_body_does() {
             })
         }))
         .collect();
-    let m = rows.len();
-    let mut full = DMatrix::zeros(n + m, n + m);
-    full.view_mut((0, 0), (n, n)).copy_from(&dense(&split));
-    let mut rhs = DVector::zeros(n + m);
-    for &(d, f) in &load.forces {
-        rhs[d] += f;
-    }
-    for (r, (row, value)) in rows.iter().enumerate() {
-        rhs[n + r] = *value;
-        for &(d, v) in row {
-            full[(n + r, d)] += v;
-            full[(d, n + r)] += v;
-        }
-    }
-    let exact = full.lu().solve(&rhs).unwrap();
+    let exact = constrained(&split, &rows, &load.forces);
     for d in 0..n {
         approx::assert_relative_eq!(u[d], exact[d], epsilon = 1e-12 * exact.amax());
     }

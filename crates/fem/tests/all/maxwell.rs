@@ -2,7 +2,7 @@
 
 use crate::lab::{
     AT, Noise, POISSON, SHEAR, YOUNG, assert_derivative, elastic, field, mesh, model, product, residual,
-    standard_solid, tangent,
+    solved, standard_solid, tangent,
 };
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::{Formulation, Idealisation};
@@ -167,20 +167,9 @@ fn creep(steps: usize, forward: bool) -> f64 {
             block.tangent(&mut values);
             r.iter_mut().zip(&load).for_each(|(r, f)| *r -= f);
         }
-        let mut matrix = nalgebra::DMatrix::zeros(9, 9);
-        for j in 0..9 {
-            let mut unit = vec![0.0; 9];
-            unit[j] = 1.0;
-            matrix.set_column(
-                j,
-                &nalgebra::DVector::from_vec(product(&block.pattern().clone(), &values, &unit)),
-            );
-        }
         let rhs = nalgebra::DVector::from_iterator(free.len(), free.iter().map(|&d| -r[d]));
-        let x = matrix.select_rows(&free).select_columns(&free).lu().solve(&rhs).unwrap();
-        let mut du = vec![0.0; 9];
-        free.iter().zip(x.iter()).for_each(|(&d, x)| du[d] = *x);
-        u.iter_mut().zip(&du).for_each(|(u, d)| *u += d);
+        let x = solved(block.pattern(), &values, (9, &free), &rhs);
+        free.iter().zip(x.iter()).for_each(|(&d, x)| u[d] += x);
         block.residual(&u, at, &mut [0.0; 9]).unwrap();
         block.accept();
     }

@@ -2,7 +2,7 @@
 
 use crate::lab::{
     AT, Noise, POISSON, SHEAR, YIELD, YOUNG, assert_derivative, elastic, field, j2, linear_j2, mesh, mises,
-    model, newton, product, residual, size, swift_j2,
+    model, newton, product, residual, size, solved, swift_j2,
 };
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::{Formulation, Idealisation};
@@ -346,8 +346,8 @@ fn a_forward_step_scaled_by_r1_ends_on_the_yield_surface() {
 /// Drives the top of a square by forward steps of equal size; returns the largest unbalanced force at the end.
 fn forward(steps: usize, carry: bool) -> f64 {
     let mesh = mesh::<2>(ElementKind::Quad4, [0.0; 2], [1.0; 2], [3, 3], 0.2);
-    let options = model(swift_j2(), Idealisation::PlaneStrain, Kinematics::Small);
-    let mut block = Block::new(&mesh, 0, options).unwrap();
+    let mut block =
+        Block::new(&mesh, 0, model(swift_j2(), Idealisation::PlaneStrain, Kinematics::Small)).unwrap();
     let n = mesh.nodes.len() * 2;
     let top = nodes_of_sides(&mesh, &mesh.side_sets["top"]);
     let bottom = nodes_of_sides(&mesh, &mesh.side_sets["bottom"]);
@@ -360,26 +360,16 @@ fn forward(steps: usize, carry: bool) -> f64 {
     newton(&mut block, &mut u, &start, &vec![0.0; n], 1e-15);
     block.accept();
     let at = Instant { time: 1.0, dt: 0.04 / steps as f64 };
-    let pattern = block.pattern().clone();
     let mut left = vec![0.0; n];
     for _ in 0..steps {
-        let mut values = vec![0.0; pattern.values()];
+        let mut values = vec![0.0; block.pattern().values()];
         let mut constant = vec![0.0; n];
         block.rate(at, &mut values, &mut constant).unwrap();
         let mut du = vec![0.0; n];
         held.iter().for_each(|(d, v)| du[*d] = v * at.dt);
-        let known = product(&pattern, &values, &du);
-        let mut k = nalgebra::DMatrix::zeros(n, n);
-        for (j, &d) in free.iter().enumerate() {
-            let mut unit = vec![0.0; n];
-            unit[d] = 1.0;
-            let column = product(&pattern, &values, &unit);
-            free.iter().enumerate().for_each(|(i, &e)| k[(i, j)] = column[e]);
-        }
-        let size = free.len();
-        let rhs =
-            nalgebra::DVector::from_fn(size, |i, _| -constant[free[i]] - known[free[i]] - left[free[i]]);
-        let x = k.view((0, 0), (size, size)).into_owned().lu().solve(&rhs).unwrap();
+        let known = product(block.pattern(), &values, &du);
+        let rhs = free.iter().map(|&d| -constant[d] - known[d] - left[d]).collect::<Vec<_>>();
+        let x = solved(block.pattern(), &values, (n, &free), &rhs.into());
         free.iter().zip(x.iter()).for_each(|(&d, x)| du[d] = *x);
         u.iter_mut().zip(&du).for_each(|(u, d)| *u += d);
         let r = residual(&mut block, &u);

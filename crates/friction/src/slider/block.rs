@@ -159,6 +159,44 @@ pub trait SliderLaw: RateDependent {
     fn line(&self) -> Option<Line>;
 }
 
+/// Slip of a slider, with the derivatives of V.
+struct Slide<N> {
+    m: N,
+    v: SlipRate,
+    /// V.
+    rate: N,
+    /// ∂V/∂m.
+    by_m: N,
+    /// ∂V/∂φ.
+    by_phi: N,
+}
+
+impl<N: Number> Slide<N> {
+    /// A memory of |μ| as one of μ.
+    #[inline]
+    fn signed(&self, memory: f64) -> f64 {
+        memory.copysign(self.m.value())
+    }
+
+    /// Rate of a state at constant f_n, but for what it remembers of dm/dt, and ∂φ/∂s.
+    #[inline]
+    fn state_rate<E: Evolution>(&self, part: &Component<E>, s: N, a: f64) -> (N, N) {
+        let e = &part.evolution;
+        let r = e.rate(s.value(), Speed { rate: self.v.rate.abs(), log: self.v.log });
+        // ∂/∂V from ∂/∂ln V, which vanishes with V.
+        let by_rate = || if self.v.rate == 0.0 { 0.0 } else { r.d_log_rate / self.v.rate };
+        let change = self.rate.lift2(s, r.rate, || (by_rate(), r.d_state));
+        let (slope, bend) = e.phi_slopes(s.value());
+        let slope = s.lift(slope, || bend);
+        if part.shear_memory == 0.0 {
+            return (change, slope);
+        }
+        // |μ| is remembered. ∂μ/∂φ = -a (∂V/∂φ)/(∂V/∂m): the kept quantity changes by 1 + c ∂|μ|/∂φ times the change at constant V.
+        let softening = (self.by_phi / self.by_m).times(-a * self.signed(part.shear_memory)) * slope;
+        (change * (N::constant(1.0) + softening), slope)
+    }
+}
+
 impl<F: Form, E: Evolution> RateLaw<F, E> {
     /// φ and V at the unknowns.
     #[inline]
@@ -186,41 +224,40 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         (phi.lift(m, || -v.d_phi / v.d_m), v)
     }
 
-    fn generic<N: Number>(&self, f: &Forcing, pull: N, y: &[N], dy: &mut [N]) {
-        let (a, n, phi) = (self.form().scale(), self.parts().len(), self.sum(y));
+    /// Slip at the unknowns, or where V is imposed.
+    #[inline]
+    fn slide<N: Number>(&self, f: &Forcing, y: &[N]) -> Slide<N> {
+        let phi = self.sum(y);
         let (m, v) = match f.imposed {
             Some((rate, _)) => self.held(rate, phi),
             None => (y[0], self.form().slip_rate(y[0].value(), phi.value())),
         };
-        let rate = m.lift2(phi, v.rate, || (v.d_m, v.d_phi));
-        let by_m = m.lift2(phi, v.d_m, || (v.d_mm, v.d_m_phi));
-        let by_phi = m.lift2(phi, v.d_phi, || (v.d_m_phi, v.d_phi_phi));
-        let speed = Speed { rate: v.rate.abs(), log: v.log };
+        Slide {
+            m,
+            v,
+            rate: m.lift2(phi, v.rate, || (v.d_m, v.d_phi)),
+            by_m: m.lift2(phi, v.d_m, || (v.d_mm, v.d_m_phi)),
+            by_phi: m.lift2(phi, v.d_phi, || (v.d_m_phi, v.d_phi_phi)),
+        }
+    }
+
+    fn generic<N: Number>(&self, f: &Forcing, pull: N, y: &[N], dy: &mut [N]) {
+        let (a, n) = (self.form().scale(), self.parts().len());
+        let slide = self.slide(f, y);
         let relative = if f.normal_rate == 0.0 { 0.0 } else { f.normal_rate / f.normal };
         // A and C of the module's equations.
         let (mut ageing, mut memory) = (N::constant(0.0), N::constant(0.0));
         for ((part, &s), ds) in self.parts().iter().zip(&y[1..]).zip(&mut dy[1..]) {
-            let e = &part.evolution;
-            let r = e.rate(s.value(), speed);
-            // ∂/∂V from ∂/∂ln V, which vanishes with V.
-            let by_rate = || if v.rate == 0.0 { 0.0 } else { r.d_log_rate / v.rate };
-            let mut change = rate.lift2(s, r.rate, || (by_rate(), r.d_state));
-            let (slope, bend) = e.phi_slopes(s.value());
-            let slope = s.lift(slope, || bend);
+            let (change, slope) = slide.state_rate(part, s, a);
             if part.shear_memory != 0.0 {
-                // |μ| is remembered. ∂μ/∂φ = -a (∂V/∂φ)/(∂V/∂m): the kept quantity changes by 1 + c ∂|μ|/∂φ times the change at
-                // constant V.
-                let c = part.shear_memory.copysign(m.value());
-                let softening = (by_phi / by_m).times(-a * c) * slope;
-                change = change * (N::constant(1.0) + softening);
-                memory = memory + slope.times(c);
+                memory = memory + slope.times(slide.signed(part.shear_memory));
             }
-            change = change - N::constant(part.normal_memory * relative);
+            let change = change - N::constant(part.normal_memory * relative);
             ageing = ageing + slope * change;
             *ds = change;
         }
-        let (along, drift) = (by_m - (by_phi * memory).times(a), by_phi * ageing);
-        let gained = pull - rate.times(f.stiffness) - m.times(f.normal_rate * a);
+        let (along, drift) = (slide.by_m - (slide.by_phi * memory).times(a), slide.by_phi * ageing);
+        let gained = pull - slide.rate.times(f.stiffness) - slide.m.times(f.normal_rate * a);
         let strength = f.normal * a;
         match (f.imposed, f.mass) {
             (Some((_, acceleration)), _) => dy[0] = (N::constant(acceleration) - drift) / along,
@@ -238,7 +275,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         }
         for (part, ds) in self.parts().iter().zip(1..) {
             if part.shear_memory != 0.0 {
-                dy[ds] = dy[ds] - dy[0].times(a * part.shear_memory.copysign(m.value()));
+                dy[ds] = dy[ds] - dy[0].times(a * slide.signed(part.shear_memory));
             }
         }
         if f.imposed.is_some() {

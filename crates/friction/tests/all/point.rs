@@ -33,6 +33,23 @@ fn left_over<F: Form, E: Evolution>(form: &F, evolution: &E, p: &Point, state: f
     balance.max(law).max(clock)
 }
 
+/// Solution from the state that is steady at a rate, and its residual.
+fn solve_from<F: Form, E: Evolution>(
+    form: &F,
+    evolution: &E,
+    p: &Point,
+    log_rate: f64,
+) -> (Result<Solution, Failure>, f64) {
+    let state = evolution.steady(log_rate);
+    let answer = solve(form, evolution, p, state);
+    let rest = answer.as_ref().map_or(0.0, |s| left_over(form, evolution, p, state, s));
+    (answer, rest)
+}
+
+fn ten(x: f64) -> f64 {
+    10f64.powf(x)
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(20_000))]
 
@@ -49,24 +66,15 @@ proptest! {
         log_initial in -30.0f64..4.0,
         ageing in any::<bool>(),
     ) {
-        let ten = |x: f64| 10f64.powf(x);
         let form = form(ten(log_a));
         let (normal, dt) = (ten(log_normal), ten(log_dt));
         let (b, length) = (ten(log_b), ten(log_length));
         let initial = ten(log_initial).ln();
         let p = Point { normal, drive: share * normal, spring: ten(log_stiffness) * dt, dt, guess: None };
         let (answer, rest) = if ageing {
-            let e = Ageing::new(b, length, V_REF).unwrap();
-            let state = e.steady(initial);
-            let answer = solve(&form, &e, &p, state);
-            let rest = answer.as_ref().map_or(0.0, |s| left_over(&form, &e, &p, state, s));
-            (answer, rest)
+            solve_from(&form, &Ageing::new(b, length, V_REF).unwrap(), &p, initial)
         } else {
-            let e = Slip::new(b, length, V_REF).unwrap();
-            let state = e.steady(initial);
-            let answer = solve(&form, &e, &p, state);
-            let rest = answer.as_ref().map_or(0.0, |s| left_over(&form, &e, &p, state, s));
-            (answer, rest)
+            solve_from(&form, &Slip::new(b, length, V_REF).unwrap(), &p, initial)
         };
         match answer {
             Ok(s) => {

@@ -424,7 +424,6 @@ impl<'a, const D: usize> Explicit<'a, D> {
 
     /// Adds the works of the step, and writes the energy at tⁿ.
     fn account(&mut self, room: &Room, sums: &Sums, fault: Option<FaultState>) {
-        let Room { before, after, displacement, .. } = room;
         let (half, first) = (0.5 * self.dt, self.steps == 0);
         let kinetic = 0.5 * sums.kinetic;
         let works = &mut self.works;
@@ -440,11 +439,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
         add(&mut works.inelastic.viscous, viscous);
         if let (Some(state), Some(fault)) = (fault, &self.problem.fault) {
             self.fault = state;
-            let jump = |values: &[[f64; 3]], [minus, plus]: [usize; 2]| -> [f64; 3] {
-                std::array::from_fn(|c| values[plus][c] - values[minus][c])
-            };
-            let jumps: Vec<_> = self.pairs.iter().map(|&p| [jump(before, p), jump(after, p)]).collect();
-            let apart: Vec<_> = self.pairs.iter().map(|&p| jump(displacement, p)).collect();
+            let (jumps, apart) = (room.velocity_jumps(&self.pairs), room.jumps(&self.pairs));
             let [friction, released] = fault.record(self.time, self.dt, &jumps, &apart, &mut self.fault);
             add(&mut works.friction, friction);
             add(&mut works.released, released);

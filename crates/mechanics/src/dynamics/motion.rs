@@ -85,6 +85,32 @@ impl Motion<'_> {
         }
     }
 
+    /// Moves degrees of freedom with these forces, masses and inverse masses.
+    #[inline(always)]
+    fn group<S: Simd>(
+        &self,
+        simd: S,
+        (u, v): (&mut [f64], &mut [f64]),
+        [forces, counted, inverse]: [&[f64]; 3],
+        sums: &mut Vectors<S>,
+    ) {
+        let (f, f_rest) = S::as_simd_f64s(forces);
+        let (m, m_rest) = S::as_simd_f64s(counted);
+        let (i, i_rest) = S::as_simd_f64s(inverse);
+        let ((u, u_rest), (v, v_rest)) = (S::as_mut_simd_f64s(u), S::as_mut_simd_f64s(v));
+        for (((u, v), f), (m, i)) in u.iter_mut().zip(v).zip(f).zip(m.iter().zip(i)) {
+            (*u, *v) = self.vector(simd, (*u, *v), *f, (*m, *i), sums);
+        }
+        if !u_rest.is_empty() {
+            let part = |values: &[f64]| simd.partial_load_f64s(values);
+            let masses = (part(m_rest), part(i_rest));
+            let moved = (part(u_rest), part(v_rest));
+            let (u, v) = self.vector(simd, moved, part(f_rest), masses, sums);
+            simd.partial_store_f64s(u_rest, u);
+            simd.partial_store_f64s(v_rest, v);
+        }
+    }
+
     /// Moves as many degrees of freedom as a vector has; returns their displacements and velocities.
     #[inline(always)]
     fn vector<S: Simd>(
@@ -139,21 +165,8 @@ impl<const C: usize> WithSimd for Task<'_, '_, C> {
             motion.masses(first, &mut counted[..length], &mut inverse[..length]);
             let (own_u, own_v) = (u.as_chunks::<C>().0, v.as_chunks_mut::<C>().0);
             motion.special((first, &places), (&forces[..length], own_u, own_v), &mut sums);
-            let (f, f_rest) = S::as_simd_f64s(forces[..length].as_flattened());
-            let (m, m_rest) = S::as_simd_f64s(counted[..length].as_flattened());
-            let (i, i_rest) = S::as_simd_f64s(inverse[..length].as_flattened());
-            let ((u_whole, u_rest), (v, v_rest)) = (S::as_mut_simd_f64s(u), S::as_mut_simd_f64s(v));
-            for (((u, v), f), (m, i)) in u_whole.iter_mut().zip(v).zip(f).zip(m.iter().zip(i)) {
-                (*u, *v) = motion.vector(simd, (*u, *v), *f, (*m, *i), &mut vectors);
-            }
-            if !u_rest.is_empty() {
-                let part = |values: &[f64]| simd.partial_load_f64s(values);
-                let masses = (part(m_rest), part(i_rest));
-                let moved = (part(u_rest), part(v_rest));
-                let (u, v) = motion.vector(simd, moved, part(f_rest), masses, &mut vectors);
-                simd.partial_store_f64s(u_rest, u);
-                simd.partial_store_f64s(v_rest, v);
-            }
+            let own = [&forces, &counted, &inverse].map(|values| values[..length].as_flattened());
+            motion.group(simd, (u, v), own, &mut vectors);
             for special in places.into_iter().flatten().map(|place| &nodes.all[place]) {
                 motion.actions.put(special, &mut u.as_chunks_mut::<C>().0[special.node - first]);
             }

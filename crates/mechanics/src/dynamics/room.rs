@@ -25,4 +25,18 @@ impl Room {
         external.clear();
         external.resize(loaded, [0.0; 3]);
     }
+
+    /// Jumps of the velocities half a step before and after, from the first node of each pair to the second.
+    pub fn velocity_jumps(&self, pairs: &[[usize; 2]]) -> Vec<[[f64; 3]; 2]> {
+        pairs.iter().map(|&pair| [jump(&self.before, pair), jump(&self.after, pair)]).collect()
+    }
+
+    /// Jumps of the displacements.
+    pub fn jumps(&self, pairs: &[[usize; 2]]) -> Vec<[f64; 3]> {
+        pairs.iter().map(|&pair| jump(&self.displacement, pair)).collect()
+    }
+}
+
+fn jump(values: &[[f64; 3]], [minus, plus]: [usize; 2]) -> [f64; 3] {
+    std::array::from_fn(|c| values[plus][c] - values[minus][c])
 }

@@ -131,6 +131,27 @@ const ROUNDING: f64 = 1e-6;
 /// Distance to the preceding contour, as a share of the axis, below which a contour is omitted: a pixel of a screen.
 const TOGETHER: f64 = 2e-3;
 
+/// Contours of slip that are drawn, and the last of them.
+struct Contours {
+    curves: Vec<Vec<Point>>,
+    slip: Vec<f64>,
+    time: f64,
+}
+
+impl Contours {
+    const NONE: Self = Self { curves: Vec::new(), slip: Vec::new(), time: f64::NEG_INFINITY };
+
+    /// Makes a profile the last contour, and returns true, if it follows the one before by this time and somewhere by this slip.
+    fn accept(&mut self, time: f64, slip: &[f64], [spacing, least]: [f64; 2]) -> bool {
+        let apart = self.slip.is_empty() || self.slip.iter().zip(slip).any(|(a, b)| (a - b).abs() >= least);
+        let accepted = apart && time - self.time >= spacing;
+        if accepted {
+            (self.slip, self.time) = (slip.to_vec(), time);
+        }
+        accepted
+    }
+}
+
 type FigureResult = Result<Option<Figure>, OutputError>;
 
 impl Cycles<'_> {
@@ -242,30 +263,29 @@ impl Cycles<'_> {
         let x = Axis::linear(range.over(unit.factor), 0.02, format!("Slip [{}]", unit.name));
         let multiples = self.multiples();
         let entries = [("between events, every", ASEISMIC, 0), ("in events, every", SEISMIC, 1)];
-        let entries = entries.map(|(words, colour, k)| {
-            let name = format!("{words} {}", self.interval(k, multiples[k]));
-            Entry { name, colour, dash: &[] }
+        let entries = entries.map(|(words, colour, k)| Entry {
+            name: format!("{words} {}", self.interval(k, multiples[k])),
+            colour,
+            dash: &[],
         });
         let mut page = FramedFigure::new(self.paper, x, y, &entries);
         let FramedFigure { figure, frame, .. } = &mut page;
         title(figure, frame, &self.title, &format!("slip of {}", line.name));
         frame.grid(figure);
         let least = TOGETHER * unit.factor * (frame.x.range.1 - frame.x.range.0);
-        let mut kept: [(Vec<Vec<Point>>, Vec<f64>, f64); 2] =
-            std::array::from_fn(|_| (Vec::new(), Vec::new(), f64::NEG_INFINITY));
+        let mut contours = [Contours::NONE; 2];
         self.profiles(Table::Slip, line, &mut |time, slip| {
             let k = usize::from(self.in_event(time));
-            let (curves, last, drawn) = &mut kept[k];
-            let apart = last.is_empty() || last.iter().zip(slip).any(|(a, b)| (a - b).abs() >= least);
             let spacing = self.spacing.map_or(0.0, |all| all[k] * multiples[k] * (1.0 - ROUNDING));
-            if apart && time - *drawn >= if multiples[k] > 1.0 { spacing } else { 0.0 } {
-                (*last, *drawn) = (slip.to_vec(), time);
+            let spacing = if multiples[k] > 1.0 { spacing } else { 0.0 };
+            if contours[k].accept(time, slip, [spacing, least]) {
                 let points = slip.iter().zip(&line.along);
-                curves.push(points.map(|(s, a)| frame.point(s / unit.factor, a / scale)).collect());
+                let curve = points.map(|(s, a)| frame.point(s / unit.factor, a / scale)).collect();
+                contours[k].curves.push(curve);
             }
         })?;
         // Slip between events is drawn over slip during events, which would hide it.
-        let [between, within] = kept.map(|(curves, ..)| curves);
+        let [between, within] = contours.map(|contours| contours.curves);
         for (curves, colour, width) in [(within, SEISMIC, 0.6), (between, ASEISMIC, 0.9)] {
             curves.into_iter().for_each(|curve| figure.line(curve, width, colour));
         }

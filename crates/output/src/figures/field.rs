@@ -8,6 +8,7 @@ use super::figure::{Anchor, Figure, Image, Point};
 use crate::bodies::view::MeshView;
 use crate::units::{LENGTH, NUMBER, STRESS, Unit, Units, VELOCITY};
 use serde::{Deserialize, Serialize};
+use std::ops::RangeInclusive;
 
 /// Largest width and height of the map in a plot of a run.
 pub(super) const LARGE: Point = (420.0, 360.0);
@@ -247,37 +248,45 @@ fn map(visible: &VisibleMesh, values: &[f64], colours: &Colours, frame: &Frame) 
     Image { at: frame.at, size: frame.size, columns, rgb }
 }
 
+/// The rows or columns, of so many, that a triangle with these coordinates of its corners may cover.
+fn span(corners: [f64; 3], most: usize) -> (usize, usize) {
+    let [u, v, w] = corners;
+    (u.min(v).min(w).floor().max(0.0) as usize, (u.max(v).max(w).ceil().max(0.0) as usize).min(most))
+}
+
+/// Barycentric coordinates of the second and third corner at a position; `twice` is twice the area of the triangle.
+fn barycentric([a, b, c]: [(f64, f64, f64); 3], twice: f64, [x, y]: [f64; 2]) -> [f64; 2] {
+    [
+        ((x - a.0) * (c.1 - a.1) - (c.0 - a.0) * (y - a.1)) / twice,
+        ((b.0 - a.0) * (y - a.1) - (x - a.0) * (b.1 - a.1)) / twice,
+    ]
+}
+
 /// Fills one triangle with corners (column, row, value), interpolating linearly.
 pub(super) fn fill(rgb: &mut [Rgb], columns: usize, [a, b, c]: [(f64, f64, f64); 3], colours: &Colours) {
     let twice = (b.0 - a.0) * (c.1 - a.1) - (c.0 - a.0) * (b.1 - a.1);
     if twice == 0.0 || !twice.is_finite() {
         return;
     }
-    let rows = rgb.len() / columns;
-    let span = |u: f64, v: f64, w: f64, most: usize| {
-        (u.min(v).min(w).floor().max(0.0) as usize, (u.max(v).max(w).ceil().max(0.0) as usize).min(most))
-    };
-    let (left, right) = span(a.0, b.0, c.0, columns);
-    let (top, bottom) = span(a.1, b.1, c.1, rows);
+    let (left, right) = span([a.0, b.0, c.0], columns);
+    let (top, bottom) = span([a.1, b.1, c.1], rgb.len() / columns);
     // Barycentric coordinates and value change by constant increments from column to column.
     let (du, dv) = ((c.1 - a.1) / twice, -(b.1 - a.1) / twice);
-    let dw = du * (b.2 - a.2) + dv * (c.2 - a.2);
+    let growth = du * (b.2 - a.2) + dv * (c.2 - a.2);
     for row in top..bottom {
-        let (x, y) = (left as f64 + 0.5, row as f64 + 0.5);
-        let u = ((x - a.0) * (c.1 - a.1) - (c.0 - a.0) * (y - a.1)) / twice;
-        let v = ((b.0 - a.0) * (y - a.1) - (x - a.0) * (b.1 - a.1)) / twice;
+        let [u, v] = barycentric([a, b, c], twice, [left as f64 + 0.5, row as f64 + 0.5]);
+        let coordinates = [(u, du), (v, dv), (1.0 - u - v, -du - dv)];
+        let Some(within) = inside(coordinates, right.saturating_sub(left)) else { continue };
         let value = a.2 + u * (b.2 - a.2) + v * (c.2 - a.2);
-        let sides = [(u, du), (v, dv), (1.0 - u - v, -du - dv)];
-        let Some((from, to)) = inside(sides, right.saturating_sub(left)) else { continue };
-        let pixels = &mut rgb[row * columns + left + from..=row * columns + left + to];
-        for (k, pixel) in pixels.iter_mut().enumerate() {
-            *pixel = colours.colour(value + (from + k) as f64 * dw);
+        let first = row * columns + left;
+        for k in within {
+            rgb[first + k] = colours.colour(value + k as f64 * growth);
         }
     }
 }
 
-/// First and last k of `n` steps for which all `start + k growth` are positive, within the tolerance [`ON_EDGE`].
-fn inside(sides: [(f64, f64); 3], n: usize) -> Option<(usize, usize)> {
+/// The k of `n` steps for which all `start + k growth` are positive, within the tolerance [`ON_EDGE`].
+fn inside(sides: [(f64, f64); 3], n: usize) -> Option<RangeInclusive<usize>> {
     let (mut lo, mut hi) = (0.0_f64, n as f64 - 1.0);
     for (start, growth) in sides {
         let at = -(start + ON_EDGE) / growth;
@@ -289,7 +298,7 @@ fn inside(sides: [(f64, f64); 3], n: usize) -> Option<(usize, usize)> {
             return None;
         }
     }
-    (lo <= hi).then_some((lo as usize, hi as usize))
+    (lo <= hi).then_some(lo as usize..=hi as usize)
 }
 
 /// Tolerance of the inside test, so that despite rounding a pixel on a shared edge is filled by one of its triangles.

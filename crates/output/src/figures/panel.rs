@@ -50,6 +50,18 @@ const BEYOND: f64 = 0.04;
 const LEAST: f64 = 1.0;
 
 impl EventPanel {
+    /// Legend entries. One group needs no name: the title says what it is.
+    fn entries(&self) -> Vec<Entry> {
+        let several = self.groups.iter().filter(|group| !group.1.is_empty()).count() > 1;
+        let named = self.groups.iter().enumerate().filter(|(_, group)| several && !group.1.is_empty());
+        let entry = |(k, group): (usize, &(String, _))| Entry {
+            name: group.0.clone(),
+            colour: Style::from_curve(k).colour,
+            dash: &[],
+        };
+        named.map(entry).collect()
+    }
+
     /// The figure; `None` without events.
     pub(super) fn figure(&self, paper: Paper) -> Option<Figure> {
         let all = || self.groups.iter().flat_map(|group| &group.1);
@@ -68,16 +80,7 @@ impl EventPanel {
         let end = self.end.max(last + BEYOND * (self.end - self.start));
         let x = Axis::exact((self.start / time.factor, end / time.factor), format!("Time [{}]", time.name));
         let y = Axis::exact((lo - MARGIN * range, lo + (1.0 + MARGIN) * range), "Moment magnitude".into());
-        // One group needs no name: the title says what it is.
-        let several = self.groups.iter().filter(|group| !group.1.is_empty()).count() > 1;
-        let named = self.groups.iter().enumerate().filter(|(_, group)| several && !group.1.is_empty());
-        let entry = |(k, group): (usize, &(String, _))| Entry {
-            name: group.0.clone(),
-            colour: Style::from_curve(k).colour,
-            dash: &[],
-        };
-        let entries: Vec<Entry> = named.map(entry).collect();
-        let mut page = FramedFigure::new(paper, x, y, &entries);
+        let mut page = FramedFigure::new(paper, x, y, &self.entries());
         let FramedFigure { figure, frame, .. } = &mut page;
         title(figure, frame, &self.title, "events");
         frame.grid(figure);

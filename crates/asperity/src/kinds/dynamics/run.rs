@@ -145,10 +145,18 @@ pub fn run<const D: usize>(
     if back.is_none() {
         worst.judge((model, explicit.time()), explicit.displacement());
     }
-    let (steps, budget) = (explicit.steps(), explicit.budget());
+    let budget = explicit.budget();
     let time = if back.is_some() { (explicit.time() - 2.0 * plan.dt).max(0.0) } else { budget.time };
-    let fault = back.unwrap_or_else(|| explicit.fault().clone());
-    let doubts =
-        plan.problem.stages.iter().flat_map(|stage| worst.body_warnings(model, &stage.name)).collect();
-    Ok(FinalState { steps, earlier, set_up, time, budget, fault, halt, interrupted, arrivals, doubts })
+    Ok(FinalState {
+        steps: explicit.steps(),
+        earlier,
+        set_up,
+        time,
+        budget,
+        fault: back.unwrap_or_else(|| explicit.fault().clone()),
+        halt,
+        interrupted,
+        arrivals,
+        doubts: plan.problem.stages.iter().flat_map(|s| worst.body_warnings(model, &s.name)).collect(),
+    })
 }

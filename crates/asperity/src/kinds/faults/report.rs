@@ -290,22 +290,25 @@ fn passage(rupture: &Episode) -> String {
     )
 }
 
+fn outcome(plan: &Plan, run: &FaultRun) -> Outcome {
+    match &run.outcome {
+        Finish::Completed | Finish::Stopped => Outcome::Completed,
+        Finish::Failed { reason } => {
+            let (time, reason) = (run.at.seconds(), why(plan, run, reason));
+            let kind = run.progress.outrun.map_or(Stop::Integration, |o| Stop::Outrun {
+                surface: plan.source(o.point),
+                position: plan.points[o.point].at,
+                slip_rate: o.rate,
+            });
+            Outcome::Stopped { stage: None, time, reason, kind }
+        }
+    }
+}
+
 impl Report {
     /// Report of a run of a plan.
     #[must_use]
     pub fn new(plan: &Plan, run: &FaultRun, balance: &mut Balance<'_>) -> Self {
-        let outcome = match &run.outcome {
-            Finish::Completed | Finish::Stopped => Outcome::Completed,
-            Finish::Failed { reason } => {
-                let (time, reason) = (run.at.seconds(), why(plan, run, reason));
-                let kind = run.progress.outrun.map_or(Stop::Integration, |o| Stop::Outrun {
-                    surface: plan.source(o.point),
-                    position: plan.points[o.point].at,
-                    slip_rate: o.rate,
-                });
-                Outcome::Stopped { stage: None, time, reason, kind }
-            }
-        };
         let events = run.events();
         let slip = &run.unknowns[Layout::from_fault(&plan.problem.fault).slip()];
         let pressed = plan.problem.fault.pressed(run.at, &run.unknowns);
@@ -325,7 +328,7 @@ impl Report {
         };
         let (heat, molten) = heats(plan, balance.account());
         Self {
-            outcome,
+            outcome: outcome(plan, run),
             warnings: plan.warnings.iter().cloned().chain(molten).chain(unbalanced).collect(),
             resolution: plan.resolution.clone(),
             checks: plan.checks.without_memory(),

@@ -7,6 +7,7 @@ pub mod written;
 
 use asperity::kinds;
 use asperity::kinds::bodies::RunReport;
+use asperity_cycles::{Fault, Layout, Problem};
 use asperity_friction::evolution::definitions;
 use asperity_output::bodies::Recorder;
 use asperity_output::bodies::view::BodyFields;
@@ -77,4 +78,19 @@ pub fn displacements(record: &Recorder, at: impl Fn(&[f64; 3]) -> bool) -> Vec<(
 #[track_caller]
 pub fn close(found: f64, exact: f64, tolerance: f64) {
     assert!((found - exact).abs() <= tolerance * exact.abs(), "{found:e} is not {exact:e}");
+}
+
+/// Traction that friction and radiation damping hold at a point of a fault, under an effective normal traction.
+pub fn resistance(fault: &Fault, point: usize, normal: f64, [m, rate]: [f64; 2]) -> f64 {
+    normal * fault.law.scale(point) * m + fault.damping[point] * rate
+}
+
+/// Resistance of all points at the start, where normal tractions have a floor.
+pub fn first_resistance(problem: &Problem, floor: f64) -> Vec<f64> {
+    let (fault, start) = (&problem.fault, &problem.start);
+    let layout = Layout::from_fault(fault);
+    let mut rate = vec![0.0; fault.normal.len()];
+    fault.law.slip_rates(0, &start[layout.m()], &start[layout.states()], &mut rate);
+    let at = |p: usize| resistance(fault, p, fault.normal[p].max(floor), [start[p], rate[p]]);
+    (0..rate.len()).map(at).collect()
 }

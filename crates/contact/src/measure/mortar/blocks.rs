@@ -132,37 +132,25 @@ impl<const D: usize> MortarMeasure<D> {
         let (facet, master) = (&self.sides.facets[c.facet], &self.sides.master[c.master]);
         let (s, m) = (facet.nodes.len(), master.nodes.len());
         let (own, other) = self.gather(c);
-        // Slots of the slave's nodes, followed by those of the master.
-        let slots = || (0..s).chain(NODES..NODES + m);
         for (a, &p) in facet.weighting.points.iter().enumerate() {
             let traction = traction_of(tractions, p);
             if !traction.normal.closed || self.order.piece(p) != blocks.piece {
                 continue;
             }
-            let (point, local) = (&self.points[p], &self.locals[p]);
+            let local = &self.locals[p];
+            let arm = |slot: usize| {
+                if slot >= NODES {
+                    return other[slot - NODES];
+                }
+                // Distance from the mean, since the slave's weights change the area too.
+                let mut arm = own[slot];
+                axpy(&mut arm, -1.0, &local.d);
+                arm
+            };
             let places = &self.places[c.table + a * (s + m)..][..s + m];
-            let (block, slides) = blocks.point_block(point);
-            let size = slides.len();
-            let force = local.force(&traction);
-            let share = point.area.recip();
-            for (k, &place) in slots().zip(places) {
-                let sign = if k < NODES { 1.0 } else { -1.0 };
-                // Weight times distance from the mean, since the slave's weights change the area too.
-                let mut arm = if k < NODES { own[k] } else { other[k - NODES] };
-                if k < NODES {
-                    axpy(&mut arm, -1.0, &local.d);
-                }
-                let rows = &mut block[place * D * size..(place * D + D) * size];
-                for (j, &column) in slots().zip(places) {
-                    let dw: [f64; D] = std::array::from_fn(|l| sign * slopes[a][k][j][l]);
-                    for (row, f) in rows.chunks_exact_mut(size).zip(&force) {
-                        axpy_at(row, column * D, -f, &dw);
-                    }
-                    for (slide, dw) in slides[column * D..column * D + D].iter_mut().zip(&dw) {
-                        axpy(slide, share * dw, &arm);
-                    }
-                }
-            }
+            // Slots of the slave's nodes, followed by those of the master.
+            let nodes = (0..s).chain(NODES..NODES + m).zip(places.iter().copied());
+            add_weight_changes(&self.points[p], &slopes[a], &local.force(&traction), nodes, arm, blocks);
         }
     }
 
@@ -190,6 +178,36 @@ impl<const D: usize> MortarMeasure<D> {
         for (k, &w) in point.weights.iter().enumerate().filter(|(_, w)| **w != 0.0) {
             for (i, row) in block[k * D * size..(k + 1) * D * size].chunks_exact_mut(size).enumerate() {
                 row.iter_mut().zip(slides.iter()).for_each(|(r, df)| *r -= w * df[i]);
+            }
+        }
+    }
+}
+
+/// Adds the changes of a point's weights to its block. `nodes` are the slots of a cell's nodes with their places in the block; `arm`
+/// is the lever of the weight of a slot in the averaged distance.
+#[inline]
+fn add_weight_changes<const D: usize>(
+    point: &Point,
+    slopes: &[[[f64; 3]; BOTH]; BOTH],
+    force: &[f64; D],
+    nodes: impl Iterator<Item = (usize, usize)> + Clone,
+    arm: impl Fn(usize) -> [f64; D],
+    blocks: &mut Blocks<'_, D>,
+) {
+    let (block, slides) = blocks.point_block(point);
+    let size = slides.len();
+    let share = point.area.recip();
+    for (k, place) in nodes.clone() {
+        let sign = if k < NODES { 1.0 } else { -1.0 };
+        let arm = arm(k);
+        let rows = &mut block[place * D * size..(place * D + D) * size];
+        for (j, column) in nodes.clone() {
+            let dw: [f64; D] = std::array::from_fn(|l| sign * slopes[k][j][l]);
+            for (row, f) in rows.chunks_exact_mut(size).zip(force) {
+                axpy_at(row, column * D, -f, &dw);
+            }
+            for (slide, dw) in slides[column * D..column * D + D].iter_mut().zip(&dw) {
+                axpy(slide, share * dw, &arm);
             }
         }
     }

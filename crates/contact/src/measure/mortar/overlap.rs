@@ -251,28 +251,41 @@ struct Point {
     plane: f64,
 }
 
+/// Product of two sides of a triangle, or of the diagonals of a quadrilateral.
+fn normal_product(kind: SegmentKind, x: &[[f64; 3]]) -> [f64; 3] {
+    if kind == SegmentKind::Tri3 {
+        cross(&sub(&x[1], &x[0]), &sub(&x[2], &x[0]))
+    } else {
+        cross(&sub(&x[2], &x[0]), &sub(&x[3], &x[1]))
+    }
+}
+
+/// Base of the plane with this normal, the first vector along a side.
+fn plane_base(side: &[f64; 3], normal: &[f64; 3]) -> [[f64; 3]; 2] {
+    let mut first = *side;
+    axpy(&mut first, -dot(normal, side), normal);
+    let first = unit(&first);
+    [first, cross(normal, &first)]
+}
+
+/// Coordinates of a vector in a base.
+fn coordinates(d: &[f64; 3], base: &[[f64; 3]; 2]) -> [f64; 2] {
+    [dot(d, &base[0]), dot(d, &base[1])]
+}
+
 impl<'a> Pair<'a> {
     /// Projects a pair of facets; `None` if they do not overlap.
     fn new(facets: &Facets<'a>) -> Option<Self> {
         let Facets { slave, reference, master, .. } = *facets;
         let x = slave.x;
-        let product = if slave.kind == SegmentKind::Tri3 {
-            cross(&sub(&x[1], &x[0]), &sub(&x[2], &x[0]))
-        } else {
-            cross(&sub(&x[2], &x[0]), &sub(&x[3], &x[1]))
-        };
+        let product = normal_product(slave.kind, x);
         let length = norm(&product);
         let normal = scaled(&product, length.recip());
-        let mut first = sub(&x[1], &x[0]);
-        let off = dot(&normal, &first);
-        axpy(&mut first, -off, &normal);
-        let first = unit(&first);
-        let base = [first, cross(&normal, &first)];
+        let base = plane_base(&sub(&x[1], &x[0]), &normal);
         let mut flat = [[0.0; 2]; BOTH];
         let put = |to: &mut [[f64; 2]], from: &[[f64; 3]]| {
             for (f, p) in to.iter_mut().zip(from) {
-                let d = sub(p, &x[0]);
-                *f = [dot(&d, &base[0]), dot(&d, &base[1])];
+                *f = coordinates(&sub(p, &x[0]), &base);
             }
         };
         put(&mut flat[..NODES], x);

@@ -157,6 +157,18 @@ impl<const D: usize> Sides<D> {
         self.tree.refit(&self.boxes);
     }
 
+    /// Distance of a position from the nearest node of the master; none if it has no facets.
+    fn distance(&self, from: &[f64; D], x: &[[f64; D]]) -> Option<f64> {
+        let (_, squared) = self.tree.nearest(from, |m| {
+            let squares = self.master[m].nodes.iter().map(|&k| {
+                let d = sub(&x[k], from);
+                dot(&d, &d)
+            });
+            Some(squares.fold(f64::INFINITY, f64::min))
+        })?;
+        Some(squared.sqrt())
+    }
+
     /// Finds the master facets that may overlap slave facet `f` at `x`, ascending. They face it, and their distance along its
     /// normal is at most that of the master node nearest to its middle plus its own size. Of several layers of a master the
     /// nearest thus counts.
@@ -176,15 +188,8 @@ impl<const D: usize> Sides<D> {
         facet.nodes.iter().for_each(|&k| axpy(&mut middle, share, &x[k]));
         let mut own = box_of(&facet.nodes, x);
         let size = norm(&sub(&own.max, &own.min));
-        let nearest = self.tree.nearest(&middle, |m| {
-            let squares = self.master[m].nodes.iter().map(|&k| {
-                let d = sub(&x[k], &middle);
-                dot(&d, &d)
-            });
-            Some(squares.fold(f64::INFINITY, f64::min))
-        });
-        let Some((_, squared)) = nearest else { return f64::INFINITY };
-        let length = squared.sqrt() + size;
+        let Some(distance) = self.distance(&middle, x) else { return f64::INFINITY };
+        let length = distance + size;
         let reach = scaled(&n, length);
         let mut grown = own;
         for &k in &facet.nodes {

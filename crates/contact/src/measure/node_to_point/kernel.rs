@@ -67,6 +67,15 @@ pub(super) struct Friction<'a, const D: usize> {
     pub frame: &'a [[f64; D]; 2],
 }
 
+/// Products m_ml v_l of a symmetric matrix, given by its entries 11, 12 and 22, with two vectors.
+#[inline]
+fn both<const D: usize>(m: [f64; 3], v: &[[f64; D]; 2]) -> [[f64; D]; 2] {
+    let mut out = [scaled(&v[0], m[0]), scaled(&v[0], m[1])];
+    axpy(&mut out[0], m[1], &v[1]);
+    axpy(&mut out[1], m[2], &v[1]);
+    out
+}
+
 impl<const D: usize> Kernel<D> {
     pub(super) fn new(
         here: &Local<D>,
@@ -77,12 +86,6 @@ impl<const D: usize> Kernel<D> {
         let n = here.n;
         let a = inverse::<D>(&here.corrected_metric(gap));
         let c = inverse::<D>(&here.metric());
-        let both = |m: [f64; 3], v: &[[f64; D]; 2]| -> [[f64; D]; 2] {
-            let mut out = [scaled(&v[0], m[0]), scaled(&v[0], m[1])];
-            axpy(&mut out[0], m[1], &v[1]);
-            axpy(&mut out[1], m[2], &v[1]);
-            out
-        };
         let dual = both(c, &here.e);
         let b: [f64; 3] = std::array::from_fn(|k| dot(&n, &here.curvature[k]));
         let bend = both(b, &dual);

@@ -155,6 +155,26 @@ pub fn assert_taylor<const D: usize>(block: &mut Block<D>, u: &[f64], seed: u64,
     }
 }
 
+/// Solution of K x = rhs on the free of so many degrees of freedom.
+pub fn solved(
+    pattern: &Pattern,
+    values: &[f64],
+    (size, free): (usize, &[usize]),
+    rhs: &DVector<f64>,
+) -> DVector<f64> {
+    let mut k = DMatrix::zeros(size, size);
+    let mut at = 0;
+    for dofs in pattern.blocks() {
+        for &i in dofs {
+            for &j in dofs {
+                k[(i, j)] += values[at];
+                at += 1;
+            }
+        }
+    }
+    k.select_rows(free).select_columns(free).lu().solve(rhs).unwrap()
+}
+
 /// Solves r(u) = load with the degrees of freedom `held` prescribed, from the linear prediction; returns the residual norms on
 /// the free ones.
 pub fn newton<const D: usize>(
@@ -179,22 +199,12 @@ pub fn newton<const D: usize>(
             }
         }
         let values = tangent(block);
-        let mut k = DMatrix::zeros(u.len(), u.len());
-        let mut at = 0;
-        for dofs in block.pattern().blocks() {
-            for &i in dofs {
-                for &j in dofs {
-                    k[(i, j)] += values[at];
-                    at += 1;
-                }
-            }
-        }
         if iteration == 0 {
             let known = product(&block.pattern().clone(), &values, &jump);
             free.iter().enumerate().for_each(|(i, &d)| rhs[i] -= known[d]);
             u.iter_mut().zip(&jump).for_each(|(u, j)| *u += j);
         }
-        let x = k.select_rows(&free).select_columns(&free).lu().solve(&rhs).unwrap();
+        let x = solved(block.pattern(), &values, (u.len(), &free), &rhs);
         for (&d, x) in free.iter().zip(x.iter()) {
             u[d] += x;
         }

@@ -38,8 +38,12 @@ impl Ruptures<'_> {
         let frame = Frame { at: AT, size, x, y };
         let mut figure = Figure::new(AT.0 + size.0 + ROOM, AT.1 + size.1 + BELOW[0]);
         title(&mut figure, &frame, &self.title, &format!("slip rate of {}", fault.name));
-        let rgb = fastest.iter().map(|rate| viridis(rate / hi)).collect();
-        figure.image(Image { at: frame.at, size: frame.size, columns, rgb });
+        figure.image(Image {
+            at: frame.at,
+            size: frame.size,
+            columns,
+            rgb: fastest.iter().map(|rate| viridis(rate / hi)).collect(),
+        });
         frame.draw(&mut figure);
         let above = (most > hi).then(|| format!("max {:.1}", most / unit.factor));
         Bar { range: (0.0, hi / unit.factor), above, label: format!("Slip rate [{}]", unit.name) }
