@@ -2,3 +2,4 @@
 
 pub mod mask;
 pub mod regions;
+pub mod tokens;

@@ -9,6 +9,7 @@ mod graph;
 mod house;
 mod keys;
 mod lints;
+mod locals;
 mod names;
 mod problem;
 mod readers;
@@ -34,6 +35,7 @@ pub fn check(root: &Path) -> Result<Vec<Problem>, Failure> {
             found.extend(source::check(&file.path, &file.text));
             found.extend(docstrings::check(&file.path, &file.text));
             found.extend(names::check(&file.path, &file.text));
+            found.extend(locals::check(&file.path, &file.text));
         }
     }
     found.extend(house::check(&files));

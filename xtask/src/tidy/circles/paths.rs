@@ -1,6 +1,7 @@
 //! Names in a source: those its `use` declarations import, and the paths in its code.
 
 use crate::code::mask::is_name;
+use crate::code::tokens::tokens;
 
 /// A name that a `use` declaration imports into its module.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,7 +30,8 @@ const ITEMS: [&str; 9] = ["fn", "struct", "enum", "trait", "const", "static", "t
 
 /// Reads masked code.
 pub fn names(code: &[char]) -> Names {
-    let tokens = tokens(code);
+    // Without the `!` of a macro definition, the name of the macro follows its keyword.
+    let tokens: Vec<String> = tokens(code).into_iter().map(|token| token.text).filter(|t| t != "!").collect();
     let mut names = Names::default();
     let mut at = 0;
     while at < tokens.len() {
@@ -43,7 +45,7 @@ pub fn names(code: &[char]) -> Names {
             at = end;
         } else {
             if ITEMS.contains(&tokens[at].as_str()) {
-                names.items.push(next.trim_start_matches('!').to_owned());
+                names.items.push(next.to_owned());
             }
             at += 1;
         }
@@ -53,24 +55,6 @@ pub fn names(code: &[char]) -> Names {
 
 fn is_word(token: &str) -> bool {
     token.starts_with(is_name)
-}
-
-/// Tokens: words, double colons and single characters. The `!` of a macro definition is dropped.
-fn tokens(code: &[char]) -> Vec<String> {
-    let mut found = Vec::new();
-    let mut at = 0;
-    while at < code.len() {
-        let length = match code[at] {
-            c if is_name(c) => code[at..].iter().take_while(|&&c| is_name(c)).count(),
-            ':' if code.get(at + 1) == Some(&':') => 2,
-            _ => 1,
-        };
-        if !code[at].is_whitespace() && code[at] != '!' {
-            found.push(code[at..at + length].iter().collect());
-        }
-        at += length;
-    }
-    found
 }
 
 /// The path that begins at a word, and the token after it.
