@@ -157,7 +157,7 @@ fn suite(options: &Options, state: &Path) -> Result<Summary, Box<dyn Error>> {
     let unknown: Vec<String> = read.iter().flat_map(|number| number.unknown(&outcomes)).collect();
     if !unknown.is_empty() {
         return Err(
-            format!("verification/numbers.toml: no claim is called\n  {}", unknown.join("\n  ")).into()
+            format!("verification/numbers.toml: no claim has the name\n  {}", unknown.join("\n  ")).into()
         );
     }
     let without = read.iter().filter(|number| number.held(&outcomes).is_empty()).count();

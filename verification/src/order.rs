@@ -88,7 +88,10 @@ impl OrderTest {
     /// If the levels are too few, not refined or not positive.
     pub fn observed(&self) -> Result<f64, String> {
         if self.levels.len() < FITTED_LEVELS {
-            return Err(format!("an order needs {FITTED_LEVELS} levels, here are {}", self.levels.len()));
+            return Err(format!(
+                "an order needs {FITTED_LEVELS} levels, and {} are given",
+                self.levels.len()
+            ));
         }
         if self
             .levels
@@ -100,7 +103,7 @@ impl OrderTest {
         if let Some(bad) =
             self.levels.iter().find(|l| !(l.size > 0.0 && l.size.is_finite() && l.error.is_finite()))
         {
-            return Err(format!("the level {} has the error {}", bad.size, bad.error));
+            return Err(format!("the error on level {} is {}", bad.size, bad.error));
         }
         let above = self.above();
         if let Some(bad) = above.iter().find(|l| l.error <= 0.0) {
@@ -110,7 +113,7 @@ impl OrderTest {
             ));
         }
         if above.len() < 2 {
-            return Err("fewer than two levels lie above the plateau".into());
+            return Err("fewer than two levels are above the plateau".into());
         }
         Ok(slope(&self.fitted()))
     }

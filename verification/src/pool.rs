@@ -139,7 +139,7 @@ fn beyond(cases: &[&Case], limits: &Limits, pace: f64, begun: &BTreeMap<usize, I
 
 fn overrun(spent: f64) -> String {
     format!(
-        "given up after {spent:.0} s, {FACTOR} times its recorded time at the pace of this run: does it hang?"
+        "given up after {spent:.0} s, {FACTOR} times its recorded time at the pace of this run: it may hang"
     )
 }
 

@@ -23,7 +23,7 @@ pub fn problems(text: &str) -> Vec<String> {
     }
     for (heading, body) in sections {
         if body.iter().all(|line| line.trim().is_empty()) {
-            found.push(format!("there is nothing under `## {heading}`"));
+            found.push(format!("the section `## {heading}` is empty"));
         }
     }
     found

@@ -1,9 +1,5 @@
 //! Chores of the workspace: they start commands and read result files, and contain no physics.
-#![allow(
-    clippy::print_stdout,
-    clippy::print_stderr,
-    reason = "a program speaks through its standard streams"
-)]
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program prints to its standard streams")]
 
 mod benchmarks;
 mod code;

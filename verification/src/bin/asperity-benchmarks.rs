@@ -1,10 +1,6 @@
 //! Writes the benchmarks for other programs: reference values, the entries of this program and of the independent ones, and the
 //! tables of their pages.
-#![allow(
-    clippy::print_stdout,
-    clippy::print_stderr,
-    reason = "a program speaks through its standard streams"
-)]
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program prints to its standard streams")]
 
 use asperity_verification::CaseError;
 use asperity_verification::benchmarks::{self, Maker, pages};

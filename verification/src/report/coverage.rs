@@ -49,7 +49,7 @@ fn cell(outcomes: &[Outcome], capability: Capability, kind: Evidence) -> Cell {
 /// The page of the matrix. Tests are evidence where no case can make a claim.
 pub fn whole(outcomes: &[Outcome], (groups, numbers): (&[Group], &[Number]), run: &Provenance) -> String {
     let mut body = format!(
-        "<h1>Coverage</h1>\n<p>Number of {} that hold, by {} and kind of evidence, and the cases they stand in. \
+        "<h1>Coverage</h1>\n<p>Number of {} that hold, by {} and kind of evidence, and the cases that make them. \
          Capabilities without a number have no evidence in this run.</p>\n",
         word("claim", "claims", Depth::Top),
         word("capability", "capability", Depth::Top)

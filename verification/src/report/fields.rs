@@ -98,10 +98,7 @@ pub const WITHOUT: [(&str, &str); 7] = [
         "absence",
         "instructions and bytes of runs are counted here; the fields of these scenes are on the pages of their cases",
     ),
-    (
-        "output_files",
-        "files are compared number by number; the fields they hold are on the pages of other cases",
-    ),
+    ("output_files", "files are compared number by number; their fields are on the pages of other cases"),
     ("kinds_agree", "runs of four kinds are compared at their ends, where slip and stress are uniform"),
     ("contact_pairing", "the partner of a single point is followed, and no field is computed"),
     ("explicit_files", "files are compared number by number; waves are on the pages of other cases"),

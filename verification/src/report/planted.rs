@@ -122,7 +122,7 @@ pub fn whole(defects: &Defects, run: &Provenance) -> String {
         word("margin", "margin", Depth::Top),
     );
     if defects.results.is_empty() {
-        body += "<p>No results are at hand: <code>cargo xtask defects</code> makes them.</p>\n";
+        body += "<p>There are no results yet: run <code>cargo xtask defects</code>.</p>\n";
     } else {
         body += &matrix(defects);
     }

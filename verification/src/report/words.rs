@@ -24,7 +24,7 @@ pub const WORDS: [(&str, &str, &str); 25] = [
     (
         "error",
         "error",
-        "The distance of the value from the reference, in the norm that the claim names. Of a relative bound it is divided by the size of the reference.",
+        "The distance of the value from the reference, in the norm that the claim names. For a relative bound it is divided by the size of the reference.",
     ),
     (
         "bound",
@@ -91,12 +91,12 @@ pub const WORDS: [(&str, &str, &str); 25] = [
     (
         "defect",
         "planted defect",
-        "A plausible mistake that is made on purpose in a copy of the sources. A claim should then disagree; one that nobody notices shows what the suite lacks.",
+        "A plausible mistake that is made on purpose in a copy of the sources. A claim should then disagree; a defect that no claim detects shows what the suite does not test.",
     ),
     (
         "margin",
         "margin",
-        "Error over bound of a claim that notices a planted defect: how clearly it is noticed.",
+        "Error over bound of a claim that detects a planted defect: how clearly it is detected.",
     ),
 ];
 

@@ -33,13 +33,13 @@ fn outcomes(files: &[File]) -> Vec<Problem> {
     for file in files {
         let name = file.path.strip_prefix(FOLDER).and_then(|p| p.strip_prefix('/')?.strip_suffix(".toml"));
         match name.map(|name| results.get(name)) {
-            // A run takes minutes, so that a defect may represent a while before it has one.
+            // A run takes minutes, so that a defect may have none for a while.
             Some(None) => {
-                let message = "it has not been made yet: run `cargo xtask defects`";
+                let message = "it has not been run yet: run `cargo xtask defects`";
                 found.push(Problem { warning: true, ..Problem::new(&file.path, 0, message) });
             }
             Some(Some(outcome)) if !outcome.is_noticed() => {
-                found.push(Problem::new(&file.path, 0, "no claim has noticed it: add one"));
+                found.push(Problem::new(&file.path, 0, "no claim detects it: add one"));
             }
             _ => {}
         }

@@ -23,7 +23,7 @@ fn leads_outside(path: &str, text: &str) -> Vec<Problem> {
     let mut found = Vec::new();
     for (number, line) in text.lines().enumerate() {
         if let Some(name) = names.iter().find(|name| line.contains(name.as_str())) {
-            found.push(Problem::new(path, number + 1, format!("the path {name} leads outside the product")));
+            found.push(Problem::new(path, number + 1, format!("the path {name} is outside the workspace")));
         }
     }
     found
@@ -35,7 +35,7 @@ fn unmerged(path: &str, text: &str) -> Vec<Problem> {
     let lines = text.lines().enumerate();
     let marked = lines.filter(|(_, line)| marks.iter().any(|mark| line.starts_with(mark.as_str())));
     marked
-        .map(|(number, _)| Problem::new(path, number + 1, "the mark of a merge that was not resolved"))
+        .map(|(number, _)| Problem::new(path, number + 1, "a conflict of a merge that was not resolved"))
         .collect()
 }
 
@@ -49,7 +49,7 @@ fn line_ends(path: &str, text: &str) -> Vec<Problem> {
         }
     }
     if !text.is_empty() && !text.ends_with('\n') {
-        found.push(Problem::new(path, text.lines().count(), "the last line does not end"));
+        found.push(Problem::new(path, text.lines().count(), "the last line has no line end"));
     }
     found
 }
