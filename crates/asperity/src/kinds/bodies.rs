@@ -31,10 +31,6 @@ use outputs::Unkept;
 use stand::{RunWarning, StageResults, Work};
 use std::time::Instant as Clock;
 
-/// Rounding of relative positions as a share of the size of the scene: gaps are differences of averages over some tens of
-/// positions.
-const TOUCH: f64 = 1e-14;
-
 /// Reason why a run could not be completed.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
@@ -302,7 +298,7 @@ impl<const D: usize> Running<'_, D> {
                 return false;
             };
             // A point that touches without traction, but for the rounding of its gap, holds nothing.
-            let rounding = TOUCH * problem.model.scale * planned.normal_penalty;
+            let rounding = doubts::rounding(planned, problem.model.scale);
             let shear: f64 = of.shear[point].iter().map(|t| t * t).sum();
             of.status[point] != Status::Open && of.normal_traction[point].abs().max(shear.sqrt()) > rounding
         };
@@ -341,7 +337,8 @@ impl<const D: usize> Running<'_, D> {
         let mut warnings: Vec<Warning> = warnings.into_iter().map(Warning::from).collect();
         // With inertia bodies may meet and part within a stage.
         if plan.problem.mass.is_none() {
-            warnings.extend(doubts::never_closed(&results));
+            let problem = &plan.problem;
+            warnings.extend(doubts::never_pressed(&problem.interfaces, problem.model.scale, &results));
         }
         let unit = shared::energy_unit(plan.problem.model.idealisation);
         let energy = system.energy().map(|energy| work.energy.table(unit, &energy.energies()));

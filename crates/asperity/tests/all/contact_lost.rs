@@ -4,7 +4,7 @@ use crate::common::{planned, varied};
 use asperity::kinds;
 use asperity_output::bodies::Recorder;
 use asperity_run::report::Outcome;
-use asperity_vary::Change::With;
+use asperity_vary::Change::{Add, With};
 
 /// A block between two others, which the first stage may press or carry off.
 const DOUBLE_SHEAR: &str = r#"
@@ -71,14 +71,34 @@ fn outcome(text: &str) -> Outcome {
 
 #[test]
 fn a_step_without_solution_names_the_body_that_contact_has_let_go() {
-    // The outer blocks move to one side, and nothing presses the middle one.
-    let Outcome::Stopped { reason, .. } = outcome(DOUBLE_SHEAR) else { panic!("it runs") };
+    // The outer blocks move away from the middle one, which a load then pushes along.
+    let text = varied(
+        DOUBLE_SHEAR,
+        &[
+            With("stages[0].conditions[0].x.to", "\"-0.066 mm\""),
+            Add("stages[2].conditions", r#"{ set = "middle.top", traction = ["1 kPa", 0] }"#),
+        ],
+    );
+    let Outcome::Stopped { reason, .. } = outcome(&text) else { panic!("it runs") };
     assert!(reason.contains("the likely cause: body `middle` is free in"), "{reason}");
     assert!(
         reason
             .contains("`one` presses nothing at 11 of 11 points, `other` presses nothing at 11 of 11 points"),
         "{reason}"
     );
+}
+
+#[test]
+fn interfaces_that_nothing_presses_are_warned_of() {
+    // The outer blocks move to one side. The left one takes the middle one along, and the right one leaves it.
+    let report = kinds::bodies::run(&planned(DOUBLE_SHEAR), &mut Recorder::new()).unwrap();
+    let found: Vec<&str> = report.warnings.iter().map(|w| w.message.as_str()).collect();
+    for name in ["one", "other"] {
+        let own = |m: &&str| {
+            m.starts_with(&format!("interface `{name}` ")) && m.contains("at the end of every stage")
+        };
+        assert!(found.iter().any(|m| own(&m)), "{name}: {found:?}");
+    }
 }
 
 #[test]

@@ -1,24 +1,47 @@
 //! Warnings about the results of a run of bodies.
 
 use super::report::InterfaceResult;
+use asperity_mechanics::PlannedInterface;
 use asperity_run::Warning;
 
-/// Warnings about interfaces that were open at the end of every stage.
+/// Rounding of relative positions as a share of the size of the scene: gaps are differences of averages over some tens of
+/// positions.
+const TOUCH: f64 = 1e-14;
+
+/// Traction of a point that touches without load \[Pa\]: its penalty times the rounding of its gap in a scene of this size \[m\].
 #[must_use]
-pub fn never_closed(results: &[InterfaceResult]) -> Vec<Warning> {
-    let mut names: Vec<&str> = results.iter().map(|r| r.interface.as_str()).collect();
-    names.sort_unstable();
-    names.dedup();
-    let open = |name: &&str| {
-        let mut own = results.iter().filter(|r| r.interface == *name);
-        own.all(|r| r.status[1] + r.status[2] == 0)
-    };
-    let told = |name: &str| {
-        Warning::at(
+pub fn rounding(interface: &PlannedInterface, scale: f64) -> f64 {
+    TOUCH * scale * interface.normal_penalty
+}
+
+/// Warnings about interfaces that transmitted nothing at the end of any stage, in a scene of size `scale` \[m\].
+#[must_use]
+pub fn never_pressed(
+    interfaces: &[PlannedInterface],
+    scale: f64,
+    results: &[InterfaceResult],
+) -> Vec<Warning> {
+    let doubt = |interface: &PlannedInterface| {
+        let own = || results.iter().filter(|r| r.interface == interface.name);
+        let floor = rounding(interface, scale);
+        let idle =
+            |r: &InterfaceResult| r.mean_normal_traction.abs().max(r.mean_shear_traction.abs()) <= floor;
+        // Tractions of a bond may cancel.
+        let bonded = interface.law.as_ref().is_some_and(|law| law.bonded());
+        let what = if own().all(|r| r.status[1] + r.status[2] == 0) {
+            "was open at the end of every stage and transmitted nothing"
+        } else if !bonded && own().all(idle) {
+            "was pressed by nothing at the end of every stage: its sides touch without traction"
+        } else {
+            return None;
+        };
+        Some(Warning::at(
             0..0,
-            format!("interface `{name}` was open at the end of every stage and transmitted nothing"),
+            format!("interface `{}` {what}", interface.name),
             "is the gap at the start right, and do the bodies move towards each other?",
-        )
+        ))
     };
-    names.into_iter().filter(open).map(told).collect()
+    let mut sorted: Vec<_> = interfaces.iter().collect();
+    sorted.sort_unstable_by_key(|interface| &interface.name);
+    sorted.into_iter().filter_map(doubt).collect()
 }
