@@ -7,6 +7,7 @@ use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Interface as Spec, Scene};
 use crate::shared::checks::of_model::{self, DrivenSurface, body_name, field_bytes, machines};
 use crate::shared::checks::{Checks, Cost, InterfaceCheck, MachineCheck, WeakeningCheck, rates};
+use crate::shared::entry::Entry;
 use crate::shared::loading::Stage;
 use crate::shared::model::{self, Model};
 use crate::shared::resolution::{Coarsest, critical_slope};
@@ -36,7 +37,8 @@ pub(super) fn collect<const D: usize>(
     for (k, planned) in interfaces.iter().enumerate() {
         let spec = &scene.interfaces[&planned.name];
         let friction = frictions[k].as_ref();
-        let normal = pressed(scene, model, stages, (&planned.name, spec)).filter(|normal| *normal > 0.0);
+        let normal =
+            pressed(scene, model, stages, Entry::new(&planned.name, spec)).filter(|normal| *normal > 0.0);
         let sides = model::sides(model, &spec.slave)?;
         checks.interfaces.push(InterfaceCheck {
             interface: planned.name.clone(),

@@ -7,6 +7,7 @@ use crate::doubts;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Interface, Scene, UnderResolution};
 use crate::shared::cohesive::enough;
+use crate::shared::entry::Entry;
 use crate::shared::model::{Body, Model};
 use crate::shared::resolution::{FEW, Ground, TOO_FEW, modulus, spacings};
 use asperity_fem::kinematics::Idealisation;
@@ -139,7 +140,7 @@ pub fn pressed<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     stages: &[Stage],
-    (name, spec): (&str, &Interface),
+    Entry { name, spec }: Entry<'_, Interface>,
 ) -> Option<f64> {
     let touched = |body: &str| {
         let of = |set: &str| set.split('.').next() == Some(body);

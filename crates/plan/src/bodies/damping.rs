@@ -3,6 +3,7 @@
 use crate::doubts;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{DampingSpec, Interface, Scene, Spanned};
+use crate::shared::entry::Entry;
 use crate::shared::impedance;
 use crate::shared::model::Model;
 use asperity_fem::mesh::Side;
@@ -18,7 +19,7 @@ const SAME: f64 = 1e-9;
 pub fn radiation<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
-    (name, spec): (&str, &Interface),
+    Entry { name, spec }: Entry<'_, Interface>,
     (slave, master): (&[Side], &[Side]),
 ) -> Result<Option<f64>, Diagnostic> {
     let Some(given) = &spec.damping else { return Ok(None) };
@@ -53,7 +54,7 @@ pub fn radiation<const D: usize>(
 pub fn doubt<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
-    (name, spec): (&str, &Interface),
+    Entry { name, spec }: Entry<'_, Interface>,
     (slave, master): (&[Side], &[Side]),
 ) -> Result<Option<Warning>, Diagnostic> {
     let Some(given) = &spec.damping else { return Ok(None) };

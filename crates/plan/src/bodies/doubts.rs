@@ -6,6 +6,7 @@ use super::{PlannedInterface, StartGap, Stepping, coarse, cohesive, damping, ove
 use crate::doubts as shared;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Interface, Scene};
+use crate::shared::entry::Entry;
 use crate::shared::loading::{Stage, sizes};
 use crate::shared::model::{self, Model, locking};
 use crate::shared::thresholds;
@@ -36,6 +37,7 @@ pub fn gaps_and_warnings<const D: usize>(
     doubts.extend(events.and_then(|e| shared::thresholds(e, thresholds::from_spec(Some(e)), loading, false)));
     for (planned, friction) in interfaces.iter().zip(frictions) {
         let spec = &scene.interfaces[&planned.name];
+        let own = Entry::new(&planned.name, spec);
         let sides = model::sides(model, &spec.slave)?;
         let mut measured = start_gaps::measure(model, stepping, planned, (spec, sides))?;
         if let Some(body) = model.body_of(spec.slave.get_ref()).map(|b| &model.bodies[b]) {
@@ -48,7 +50,7 @@ pub fn gaps_and_warnings<const D: usize>(
             measured.0.overlap_traction = overlaps::traction(model, &measured, (spec, planned), &softer);
             let start = &measured.0;
             doubts.extend(start_gaps::doubts(start, (spec, bonded), (stages, scene.inertia().is_some()), h));
-            let load = cohesive::pressed(scene, model, stages, (&planned.name, spec));
+            let load = cohesive::pressed(scene, model, stages, own);
             doubts.extend(overlaps::doubt((start, spec, planned), (&softer, h), (stages, load)));
         }
         doubts.extend(coarse::doubts(&model.mesh.nodes, planned, spec));
@@ -56,9 +58,9 @@ pub fn gaps_and_warnings<const D: usize>(
         starts.push(measured.0);
         doubts.extend(resolution(scene, model, stages, planned)?);
         let facing = (sides, model::sides(model, &spec.master)?);
-        doubts.extend(damping::doubt(scene, model, (planned.name.as_str(), spec), facing)?);
+        doubts.extend(damping::doubt(scene, model, own, facing)?);
+        let pressed = cohesive::pressed(scene, model, stages, own);
         let own = (spec, friction.as_ref());
-        let pressed = cohesive::pressed(scene, model, stages, (planned.name.as_str(), spec));
         doubts.extend(pressed.and_then(|mean| cohesive::nucleation(model, own, (planned, sides), mean)));
     }
     Ok((starts, doubts))
@@ -92,7 +94,7 @@ fn resolution<const D: usize>(
             Warning::at(key.span(), message, "remove it")
         }));
     };
-    let known = cohesive::pressed(scene, model, stages, (name, spec));
+    let known = cohesive::pressed(scene, model, stages, Entry::new(name, spec));
     known.map_or(Ok(None), |mean| cohesive::check(resolved, name, mean))
 }
 

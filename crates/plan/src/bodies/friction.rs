@@ -3,6 +3,7 @@
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::{self, LawChoice};
 use crate::reading::scene::model::{Interface, LawFields, LawSpec, Scene, Spanned, field_dimension};
+use crate::shared::entry::Entry;
 use crate::shared::field::{Bound, Field, Files, Parameter, Region, Spot};
 use crate::shared::model::Model;
 use crate::shared::refused::refused;
@@ -31,7 +32,7 @@ impl Friction {
     pub fn choose<const D: usize>(
         scene: &Scene,
         model: &Model<D>,
-        (name, spec): (&str, &Interface),
+        Entry { name, spec }: Entry<'_, Interface>,
         slave: &[(usize, f64)],
     ) -> Result<Option<Self>, Diagnostic> {
         let Some(given) = &spec.law else { return Ok(None) };

@@ -2,6 +2,7 @@
 
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Scene, Stepper};
+use crate::shared::entry::Entry;
 use crate::shared::model::{self, Model};
 use crate::shared::{handover, impedance};
 use asperity_mechanics::{Handover, Mass};
@@ -22,7 +23,7 @@ pub fn mass<const D: usize>(
     for body in &model.bodies {
         let spec = &scene.bodies[&body.name];
         for block in body.blocks.clone() {
-            let (name, material) = model::material(&model.mesh, scene, (&body.name, spec), block)?;
+            let (name, material) = model::material(&model.mesh, scene, Entry::new(&body.name, spec), block)?;
             let stated = material.density.as_ref().map(|d| d.get_ref().0);
             density[block] = stated.ok_or_else(|| {
                 let message =

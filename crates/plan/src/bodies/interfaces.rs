@@ -6,6 +6,7 @@ use super::penalty::{self, SofterCells};
 use super::{PlannedInterface, cohesive, damping, pressed, watch};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Interface as InterfaceSpec, Measure, Scene, Sliding};
+use crate::shared::entry::Entry;
 use crate::shared::model::{self, Model};
 use asperity_contact::{self as contact, Watch};
 use asperity_fem::mesh::{MeshFace, Side, face_kind, nodes_of_sides};
@@ -21,7 +22,7 @@ const NO_AREA: f64 = 1e-12;
 pub fn plan<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
-    (name, spec): (&str, &InterfaceSpec),
+    Entry { name, spec }: Entry<'_, InterfaceSpec>,
     loading: f64,
 ) -> Result<(PlannedInterface, Option<Friction>), Diagnostic> {
     if model.idealisation.components() != D {
@@ -48,8 +49,8 @@ pub fn plan<const D: usize>(
             "an interface lies between two sides that can separate; `split` in a mesh makes them",
         ));
     }
-    let damping = damping::radiation(scene, model, (name, spec), (slave_sides, master_sides))?;
-    let friction = Friction::choose(scene, model, (name, spec), &slave)?;
+    let damping = damping::radiation(scene, model, Entry::new(name, spec), (slave_sides, master_sides))?;
+    let friction = Friction::choose(scene, model, Entry::new(name, spec), &slave)?;
     let (law, watch) = match spec.law.as_ref().zip(friction.as_ref()) {
         Some((law, friction)) => {
             let sides = (slave_sides, master_sides);
@@ -86,7 +87,7 @@ pub fn plan<const D: usize>(
         law,
         damping,
         blamed: penalty::blamed(name, &spec.enforcement, &softer),
-        pressed: pressed::initial_tractions(scene, model, (name, spec), slave_sides)?,
+        pressed: pressed::initial_tractions(scene, model, Entry::new(name, spec), slave_sides)?,
         watch: Watch { coarse_beyond: resolved.as_ref().and_then(|r| r.refused_beyond), ..watch },
         resolved,
         probes: scene.output.probes.get(name).map_or(0, |p| *p.get_ref()),

@@ -8,6 +8,7 @@ use super::{
 };
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Scene;
+use crate::shared::entry::Entry;
 use crate::shared::initial_stress;
 use crate::shared::loading::{self, Stage, courses, sizes};
 use crate::shared::model::{self, cuts, forecast, meshes, samples};
@@ -31,7 +32,8 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     let stages = loading::stages(scene, &model)?;
     let stepping = stepping::choose(scene)?;
     let loading = stages.iter().map(Stage::largest_rate).fold(0.0, f64::max);
-    let planned = scene.interfaces.iter().map(|i| interfaces::plan(scene, &model, (i.0, i.1), loading));
+    let planned =
+        scene.interfaces.iter().map(|i| interfaces::plan(scene, &model, Entry::new(i.0, i.1), loading));
     let (interfaces, frictions): (Vec<_>, Vec<_>) =
         planned.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
     let path = path::choose(scene, &model, (&interfaces, &stages))?;

@@ -5,6 +5,7 @@
 use super::SHARE;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Interface as Spec, Scene};
+use crate::shared::entry::Entry;
 use crate::shared::initial_stress;
 use crate::shared::model::{self, Body, Model};
 use asperity_fem::mesh::{Side, nodes_of_sides};
@@ -21,7 +22,7 @@ const BALANCED: f64 = 1e-6;
 pub fn initial_tractions<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
-    (name, spec): (&str, &Spec),
+    Entry { name, spec }: Entry<'_, Spec>,
     slave: &[Side],
 ) -> Result<Option<InitialTractions>, Diagnostic> {
     let Some(key) = spec.initial_stress.as_ref().filter(|key| *key.get_ref()) else { return Ok(None) };

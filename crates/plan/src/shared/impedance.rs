@@ -2,6 +2,7 @@
 
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Scene;
+use crate::shared::entry::Entry;
 use crate::shared::model::{self, Model};
 use asperity_fem::mesh::Side;
 use asperity_mechanics::Body;
@@ -34,7 +35,7 @@ fn materials<const D: usize>(
     for block in blocks {
         let Some(body) = model.bodies.iter().find(|b| b.blocks.contains(&block)) else { continue };
         let (_, material) =
-            model::material(&model.mesh, scene, (&body.name, &scene.bodies[&body.name]), block)?;
+            model::material(&model.mesh, scene, Entry::new(&body.name, &scene.bodies[&body.name]), block)?;
         let shear = body.elastic[block - body.blocks.start].shear();
         all.push((shear, material.density.as_ref().map(|d| d.get_ref().0)));
     }

@@ -9,6 +9,7 @@ mod stiff;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::check::pressing;
 use crate::reading::scene::model::{Condition, Loading, Material, Motion, Pace, Scene, Spanned};
+use crate::shared::entry::Entry;
 use crate::shared::initial_stress;
 use crate::shared::model::{self, Model, bounds, sets};
 use asperity_fem::block::LinearBlock;
@@ -311,7 +312,7 @@ fn weights<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Vec<(u
         let spec = &scene.bodies[&body.name];
         let Some(gravity) = &spec.gravity else { continue };
         for (k, block) in body.blocks.clone().enumerate() {
-            let (name, material) = model::material(&model.mesh, scene, (&body.name, spec), block)?;
+            let (name, material) = model::material(&model.mesh, scene, Entry::new(&body.name, spec), block)?;
             let density = density_of(name, material, gravity.span())?;
             let force: Vec<f64> = gravity.get_ref().iter().map(|g| density * g).collect();
             // Weight does not depend on stiffness; for nonlinear blocks it is computed with a linear one.

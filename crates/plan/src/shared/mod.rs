@@ -3,6 +3,7 @@
 pub mod amounts;
 pub mod checks;
 pub mod cohesive;
+pub mod entry;
 pub mod field;
 pub mod handover;
 pub mod held;

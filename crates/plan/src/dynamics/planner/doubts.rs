@@ -4,6 +4,7 @@ use crate::doubts::{self as shared, PulsePoint};
 use crate::faults::planner::{PlacedPoint, pulse_doubts};
 use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::{Fault as Spec, Scene};
+use crate::shared::entry::Entry;
 use asperity_laws as laws;
 use asperity_mechanics::Stage;
 use asperity_mechanics::dynamics::Fault;
@@ -42,9 +43,9 @@ pub(super) fn check<const D: usize>(
         };
         pushed |= above > 0 || !spec.pulses.is_empty() || spec.forced_rupture.is_some();
         if above as f64 > MOST * own.len() as f64 {
-            all.push(at_once((name, spec), above, own.len()));
+            all.push(at_once(Entry::new(name, spec), above, own.len()));
         }
-        all.extend(tiny((name, spec), &own));
+        all.extend(tiny(Entry::new(name, spec), &own));
     }
     if let (false, Some((_, first))) = (pushed, scene.faults.first_key_value()) {
         all.push(Warning::at(
@@ -79,7 +80,7 @@ pub(super) fn pulses<const D: usize>(
     fault: &Fault,
     duration: f64,
 ) -> Vec<Warning> {
-    let named: Vec<(&String, &Spec)> = scene.faults.iter().collect();
+    let named = Entry::all(&scene.faults);
     let of = |p: &PlacedPoint<D>| {
         let (direct, missing, length) = match &p.law {
             LawChoice::Rate { strength, .. } => (Some(strength.a * p.normal), None, None),
@@ -99,7 +100,7 @@ pub(super) fn pulses<const D: usize>(
     pulse_doubts(&named, fault.pulses.iter().map(|p| p.amplitude.as_slice()), &pushed)
 }
 
-fn at_once((name, spec): (&String, &Spec), above: usize, points: usize) -> Warning {
+fn at_once(Entry { name, spec }: Entry<'_, Spec>, above: usize, points: usize) -> Warning {
     let place = spec.shear.as_ref().map_or_else(|| spec.law.span(), |s| s.span());
     Warning::at(
         place,
@@ -109,7 +110,7 @@ fn at_once((name, spec): (&String, &Spec), above: usize, points: usize) -> Warni
 }
 
 /// Warning about a shear traction that hardly loads a fault: a unit that was left out.
-fn tiny<const D: usize>((name, spec): (&String, &Spec), own: &[&PlacedPoint<D>]) -> Option<Warning> {
+fn tiny<const D: usize>(Entry { name, spec }: Entry<'_, Spec>, own: &[&PlacedPoint<D>]) -> Option<Warning> {
     let given = spec.shear.as_ref()?;
     let traction = given.get_ref().0.abs();
     let least = own.iter().map(|p| p.normal).reduce(f64::min)?;

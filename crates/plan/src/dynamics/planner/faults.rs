@@ -4,7 +4,8 @@ use super::forced;
 use crate::faults::planner::{PlacedPoint, in_space, pulses, slides};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::LawChoice;
-use crate::reading::scene::model::{Fault as Spec, Scene};
+use crate::reading::scene::model::Scene;
+use crate::shared::entry::Entry;
 use crate::shared::refused::refused;
 use asperity_cycles::medium::across;
 use asperity_laws as laws;
@@ -19,9 +20,11 @@ pub(super) fn assemble<const D: usize>(
     placed: &[PlacedPoint<D>],
     locked: &[PlacedPoint<D>],
 ) -> Result<Option<Fault>, Diagnostic> {
-    let named: Vec<(&String, &Spec)> = scene.faults.iter().collect();
-    let (Some(first), Some((_, any))) = (placed.first(), named.first()) else { return Ok(None) };
-    let spec = |p: &PlacedPoint<D>| named[p.fault].1;
+    let named = Entry::all(&scene.faults);
+    let (Some(first), Some(Entry { spec: any, .. })) = (placed.first(), named.first()) else {
+        return Ok(None);
+    };
+    let spec = |p: &PlacedPoint<D>| named[p.fault].spec;
     if let Some(other) = placed.iter().find(|p| !same_kind(&first.law, &p.law)) {
         return Err(Diagnostic::at(
             spec(other).law.span(),

@@ -4,6 +4,7 @@
 use crate::faults::planner::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, ForcedRupture};
+use crate::shared::entry::Entry;
 use asperity_mechanics::dynamics::ForcedWeakening;
 
 /// Delay of the front near its end, over the time in which it would run that far at its first speed: that of the benchmarks.
@@ -14,10 +15,10 @@ const DELAY: f64 = 0.081;
 /// # Errors
 /// [`Diagnostic`] where a front reaches no point that slides.
 pub(super) fn weakening<const D: usize>(
-    named: &[(&String, &Spec)],
+    named: &[Entry<'_, Spec>],
     placed: &[PlacedPoint<D>],
 ) -> Result<Vec<ForcedWeakening>, Diagnostic> {
-    for (fault, (name, spec)) in named.iter().enumerate() {
+    for (fault, Entry { name, spec }) in named.iter().enumerate() {
         let Some(asked) = &spec.forced_rupture else { continue };
         let reached = |p: &PlacedPoint<D>| p.fault == fault && arrival(asked, &p.point.place.at).is_finite();
         if !placed.iter().any(reached) {
@@ -28,10 +29,10 @@ pub(super) fn weakening<const D: usize>(
             ));
         }
     }
-    if named.iter().all(|(_, spec)| spec.forced_rupture.is_none()) {
+    if named.iter().all(|fault| fault.spec.forced_rupture.is_none()) {
         return Ok(Vec::new());
     }
-    let at = |p: &PlacedPoint<D>| match &named[p.fault].1.forced_rupture {
+    let at = |p: &PlacedPoint<D>| match &named[p.fault].spec.forced_rupture {
         Some(asked) => {
             ForcedWeakening { at: arrival(asked, &p.point.place.at), duration: asked.duration.get_ref().0 }
         }

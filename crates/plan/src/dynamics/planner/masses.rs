@@ -2,6 +2,7 @@
 
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Body, MeshSource, Scene, Spanned};
+use crate::shared::entry::Entry;
 use crate::shared::model::{self, Model};
 use asperity_fem::FemError;
 use asperity_fem::mesh::Side;
@@ -18,7 +19,7 @@ pub(super) fn densities<const D: usize>(scene: &Scene, model: &Model<D>) -> Resu
     for body in &model.bodies {
         let spec = &scene.bodies[&body.name];
         for block in body.blocks.clone() {
-            let (name, material) = model::material(&model.mesh, scene, (&body.name, spec), block)?;
+            let (name, material) = model::material(&model.mesh, scene, Entry::new(&body.name, spec), block)?;
             let density = material.density.as_ref().map(|d| d.get_ref().0);
             all[block] = density.ok_or_else(|| {
                 Diagnostic::at(

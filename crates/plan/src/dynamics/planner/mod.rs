@@ -16,6 +16,7 @@ use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Kinematics, Scene};
 use crate::shared::checks::of_model::{self, field_bytes};
 use crate::shared::checks::{Cost, rates};
+use crate::shared::entry::Entry;
 use crate::shared::held::ModelMemory;
 use crate::shared::loading::courses;
 use crate::shared::model::{self, Model, counts, cuts, forecast, locking, meshes};
@@ -69,8 +70,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         faults::apart(all)
     };
     if placed.is_empty() && !locked.is_empty() {
-        let named: Vec<_> = scene.faults.iter().collect();
-        return Err(of_faults::nothing_slides(&named, &locked));
+        return Err(of_faults::nothing_slides(&Entry::all(&scene.faults), &locked));
     }
     let steps = (counted.steps, counted.dt);
     crate::doubts::add(&mut warnings, doubts::check(scene, &placed, &stages[0], steps));

@@ -5,6 +5,7 @@ use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{
     Along, Fault as Spec, LawSpec, ParameterProfiles, Profile, Scene, Spanned, Station,
 };
+use crate::shared::entry::Entry;
 use asperity_cycles::medium::Place;
 use asperity_mechanics::coordinates;
 use asperity_run::Warning;
@@ -32,7 +33,7 @@ pub(super) fn extent<'a, const D: usize>(places: impl Iterator<Item = &'a Place<
 /// # Errors
 /// [`Diagnostic`] at the boundary of the creep.
 pub(super) fn creep<const D: usize>(
-    (name, spec): (&str, &Spec),
+    Entry { name, spec }: Entry<'_, Spec>,
     placed: &[PlacedPoint<D>],
 ) -> Result<(), Diagnostic> {
     let bordered = spec.creep.as_ref().filter(|creep| creep.has_border());
@@ -53,11 +54,11 @@ pub(super) fn creep<const D: usize>(
 /// # Errors
 /// [`Diagnostic`] at the key.
 pub(super) fn opens<const D: usize>(
-    faults: &[(&String, &Spec)],
+    faults: &[Entry<'_, Spec>],
     placed: &[PlacedPoint<D>],
     points: &[usize],
 ) -> Result<(), Diagnostic> {
-    for (k, (name, spec)) in faults.iter().enumerate() {
+    for (k, Entry { name, spec }) in faults.iter().enumerate() {
         let Some(opening) = spec.opening.as_ref().filter(|o| *o.get_ref()) else { continue };
         if !points.iter().any(|&p| placed[p].fault == k) {
             return Err(Diagnostic::at(
@@ -74,14 +75,15 @@ pub(super) fn opens<const D: usize>(
 
 /// Error for faults without any point that is free to slide.
 pub(crate) fn nothing_slides<const D: usize>(
-    faults: &[(&String, &Spec)],
+    faults: &[Entry<'_, Spec>],
     placed: &[PlacedPoint<D>],
 ) -> Diagnostic {
     let of = |k: usize| placed.iter().filter(move |p| p.fault == k).map(|p| &p.point.place);
-    let mut all = faults.iter().enumerate().filter_map(|(k, f)| Some((f.0, of(k), f.1.creep.as_ref()?)));
+    let mut all =
+        faults.iter().enumerate().filter_map(|(k, f)| Some((f.name, of(k), f.spec.creep.as_ref()?)));
     let Some((name, places, creep)) = all.next() else {
         return Diagnostic::at(
-            faults.first().map_or(0..0, |f| f.1.span()),
+            faults.first().map_or(0..0, |f| f.spec.span()),
             "no point of the faults is free to slide",
             "`minus` and `plus` are two sides that can separate",
         );
@@ -105,7 +107,7 @@ pub(crate) fn nothing_slides<const D: usize>(
 /// [`Diagnostic`] at the profile.
 pub(super) fn profiles<const D: usize>(
     scene: &Scene,
-    (name, spec): (&str, &Spec),
+    Entry { name, spec }: Entry<'_, Spec>,
     placed: &[PlacedPoint<D>],
     warnings: &mut Vec<Warning>,
 ) -> Result<(), Diagnostic> {

@@ -17,6 +17,7 @@ use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::{Creep, Fault as Spec, Scene, SlipSpec, Station as Asking};
 use crate::shared::checks::{Checks, Cost, FaultCheck, rates};
+use crate::shared::entry::Entry;
 use crate::shared::resolution::Resolution;
 use crate::shared::{outrun, place, thresholds};
 use asperity_cycles::diffusion::Diffusion;
@@ -86,11 +87,11 @@ pub(super) fn turns(scene: &Scene) -> bool {
 
 /// Refusal of the law or the start of a point, with its place.
 fn at_point<const D: usize>(
-    named: &[(&String, &Spec)],
+    named: &[Entry<'_, Spec>],
     point: &PlacedPoint<D>,
     failure: &Failure,
 ) -> Diagnostic {
-    let (name, spec) = named[point.fault];
+    let Entry { name, spec } = named[point.fault];
     let error = crate::shared::refused::refused(&spec.law, failure);
     let at = coordinates::in_words(&point.point.place.at);
     let place = failure.point().map_or_else(String::new, |_| format!("; it is on fault `{name}` at {at}"));
@@ -105,8 +106,8 @@ pub(super) fn plan_of<const D: usize>(
     cells: &dyn Cells<D>,
 ) -> Result<Plan, Diagnostic> {
     let SlidingFaults { placed, operator, opening, loading, end } = surrounded;
-    let named: Vec<(&String, &Spec)> = scene.faults.iter().collect();
-    let at_law = |e: Failure| crate::shared::refused::refused(&named[placed[0].fault].1.law, &e);
+    let named = Entry::all(&scene.faults);
+    let at_law = |e: Failure| crate::shared::refused::refused(&named[placed[0].fault].spec.law, &e);
     let turns = turns(scene);
     let law = friction(&named, &placed, at_law)?;
     let mut law = if turns { Box::new(VariableRake::new(law)) } else { law };
@@ -186,7 +187,7 @@ fn doubt<const D: usize>(
     rate: f64,
     warnings: &mut Vec<Warning>,
 ) -> Result<(), Diagnostic> {
-    let named: Vec<(&String, &Spec)> = scene.faults.iter().collect();
+    let named = Entry::all(&scene.faults);
     warnings.extend(pressing::unused_rates(scene, placed));
     crate::doubts::add(warnings, start_doubts::check(scene, placed, fault));
     warnings.extend(upright::above_ground(scene, placed)?);
@@ -214,12 +215,12 @@ fn add_loads<const D: usize>(
 
 /// Laws of all points, which are of one kind.
 fn friction<const D: usize>(
-    faults: &[(&String, &Spec)],
+    faults: &[Entry<'_, Spec>],
     placed: &[PlacedPoint<D>],
     at_law: impl Fn(Failure) -> Diagnostic,
 ) -> Result<Box<dyn FaultLaw>, Diagnostic> {
     let (first, rest) = (&placed[0], &placed[1..]);
-    let spec = |p: &PlacedPoint<D>| &faults[p.fault].1.law;
+    let spec = |p: &PlacedPoint<D>| &faults[p.fault].spec.law;
     if let Some(other) = rest.iter().find(|p| !first.law.same_kind(&p.law)) {
         return Err(Diagnostic::at(
             spec(other).span(),

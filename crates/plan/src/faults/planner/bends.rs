@@ -2,6 +2,7 @@
 
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Fault as Spec;
+use crate::shared::entry::Entry;
 use crate::shared::model::{self, Model};
 use asperity_fem::mesh::{MeshFace, Side, face_nodes};
 use asperity_mechanics::coordinates;
@@ -17,7 +18,7 @@ const NOTED: f64 = 2.0;
 /// [`Diagnostic`] for a missing set.
 pub(super) fn note<const D: usize>(
     model: &Model<D>,
-    (name, spec): (&str, &Spec),
+    Entry { name, spec }: Entry<'_, Spec>,
 ) -> Result<Option<String>, Diagnostic> {
     // In antiplane motion the direction of slip is the same everywhere.
     if model.idealisation.components() == 1 {

@@ -15,10 +15,11 @@ use super::pressing;
 use super::resolved::resolved;
 use super::{asked, backslip, checks, coulomb, mirror, plates, receivers, sampled, sense, upright, weight};
 use crate::reading::diagnostic::Diagnostic;
-use crate::reading::scene::model::{Fault as Spec, Scene};
+use crate::reading::scene::model::Scene;
 use crate::shared::amounts;
 use crate::shared::checks::Checks;
 use crate::shared::checks::of_model::{self, machines};
+use crate::shared::entry::Entry;
 use crate::shared::held::ModelMemory;
 use crate::shared::loading::{self, Stage};
 use crate::shared::model::{self, Model, forecast, locking};
@@ -92,7 +93,7 @@ impl<'s, const D: usize> Ground<'s, D> {
         let (placed, notes) = all_points(scene, &model, &mut warnings)?;
         let points: Vec<Point<D>> = placed.iter().map(|p| p.point.clone()).collect();
         if points.iter().all(|p| p.creep.is_some()) {
-            return Err(asked::nothing_slides(&named(scene), &placed));
+            return Err(asked::nothing_slides(&Entry::all(&scene.faults), &placed));
         }
         // If weight or a stage before presses the bodies, normal tractions are known only once their equations are solved.
         let known = stage.weight.is_empty() && pressing.is_none();
@@ -140,7 +141,7 @@ impl<'s, const D: usize> Ground<'s, D> {
             self.notes.extend(pressing::start(scene, pressed, &free, &mut placed)?);
         }
         let resolution = self.resolution.map_or_else(|| resolved(scene, &placed, &mut self.warnings), Ok)?;
-        asked::opens(&named(scene), &placed, opening.as_ref().map_or(&[], |o| o.points()))?;
+        asked::opens(&Entry::all(&scene.faults), &placed, opening.as_ref().map_or(&[], |o| o.points()))?;
         let sides = placed.iter().map(|p| [p.point.place.minus, p.point.place.plus]).collect();
         let areas = placed.iter().map(|p| p.point.place.area).collect();
         let around = SurroundingsView {
@@ -163,11 +164,6 @@ impl<'s, const D: usize> Ground<'s, D> {
         let surrounded = SlidingFaults { operator, placed, opening, loading, end: stage.end };
         Ok(Plan { receivers, ..plan_of(scene, surrounded, around, &FaultFaces { model: &self.model })? })
     }
-}
-
-/// Names and tables of all faults of a scene.
-fn named(scene: &Scene) -> Vec<(&String, &Spec)> {
-    scene.faults.iter().collect()
 }
 
 /// Loads on the ground, and how its bodies are condensed.

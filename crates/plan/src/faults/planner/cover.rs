@@ -2,6 +2,7 @@
 
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Fault as Spec;
+use crate::shared::entry::Entry;
 use crate::shared::model::Model;
 use asperity_fem::mesh::{MeshFace, Side, face_nodes};
 use asperity_mechanics::coordinates;
@@ -22,7 +23,7 @@ const RISE: f64 = 0.1;
 /// [`Diagnostic`] at the plus side, with the first position and the number of such nodes.
 pub(super) fn partners<const D: usize>(
     model: &Model<D>,
-    (name, spec): (&str, &Spec),
+    Entry { name, spec }: Entry<'_, Spec>,
     minus: &[Side],
     alone: &[usize],
 ) -> Result<(), Diagnostic> {
@@ -49,7 +50,7 @@ pub(super) fn partners<const D: usize>(
 /// Warning if the nodes of the two sides agree but their faces do not: between the nodes the sides then gap and overlap.
 pub(super) fn same_faces<const D: usize>(
     model: &Model<D>,
-    (name, spec): (&str, &Spec),
+    Entry { name, spec }: Entry<'_, Spec>,
     (minus, plus): (&[Side], &[Side]),
     partner: impl Fn(usize) -> Option<usize>,
 ) -> Option<Warning> {

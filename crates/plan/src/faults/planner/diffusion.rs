@@ -6,6 +6,7 @@ use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{
     Diffusion as Given, DiffusionEnds, Hydraulic, ParameterProfiles, Scene, Well, field_dimension,
 };
+use crate::shared::entry::Entry;
 use crate::shared::field::{Bound, Field, Files, Parameter, Region, Spot};
 use asperity_cycles::diffusion::{Diffusion, Line, Source};
 use asperity_run::Warning;
@@ -32,14 +33,14 @@ pub(super) fn diffusion<const D: usize>(
         if points.is_empty() {
             continue;
         }
-        let line = line(scene, (name, given), points, (&mut *said.0, &mut *said.1))?;
-        let wells = given.wells.get_ref().iter().map(|well| source((name, well), &line));
+        let line = line(scene, Entry::new(name, given), points, (&mut *said.0, &mut *said.1))?;
+        let wells = given.wells.get_ref().iter().map(|well| source(Entry::new(name, well), &line));
         let wells = wells.collect::<Result<Vec<_>, _>>()?;
         let own = all.get_or_insert_default();
         own.add(first, &line, &wells, end);
         let specs = given.wells.get_ref().iter().zip(&wells);
         said.0.extend(specs.filter_map(|(spec, well)| WellSpec::from(spec).idle(name, &well.flux, end)));
-        said.0.extend(narrow((name, given), &line, &wells, end));
+        said.0.extend(narrow(Entry::new(name, given), &line, &wells, end));
         let steps = wells.iter().flat_map(|well| well.flux.iter().copied()).collect();
         let help =
             "check the units of `flux`, `permeability` and `storage`; or give the fault a `normal_floor`";
@@ -52,7 +53,7 @@ pub(super) fn diffusion<const D: usize>(
 /// Hydraulic properties of the points of a fault.
 fn line<const D: usize>(
     scene: &Scene,
-    (name, given): (&str, &Given),
+    Entry { name, spec: given }: Entry<'_, Given>,
     points: &[PlacedPoint<D>],
     (warnings, notes): PlanMessages<'_>,
 ) -> Result<Line, Diagnostic> {
@@ -95,7 +96,7 @@ fn spot<const D: usize>(placed: &PlacedPoint<D>) -> Spot<D> {
 }
 
 /// A well with the steps of its flux, on the cells of its fault.
-fn source((name, well): (&str, &Well), line: &Line) -> Result<Source, Diagnostic> {
+fn source(Entry { name, spec: well }: Entry<'_, Well>, line: &Line) -> Result<Source, Diagnostic> {
     let spec = WellSpec::from(well);
     Ok(Source { at: spec.within(name, ends(line))?, flux: spec.steps() })
 }
@@ -108,7 +109,12 @@ fn ends(line: &Line) -> [f64; 2] {
 }
 
 /// Warning about a well whose fluid stays within its cell: pressure is that of the mean over the cell.
-fn narrow((name, given): (&str, &Given), line: &Line, wells: &[Source], end: f64) -> Option<Warning> {
+fn narrow(
+    Entry { name, spec: given }: Entry<'_, Given>,
+    line: &Line,
+    wells: &[Source],
+    end: f64,
+) -> Option<Warning> {
     let mut all = wells.iter().zip(given.wells.get_ref());
     all.find_map(|(well, spec)| {
         let begin = well.flux.iter().find(|step| step.1 != 0.0).filter(|step| step.0 < end)?.0;

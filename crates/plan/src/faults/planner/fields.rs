@@ -4,6 +4,7 @@ use super::placed::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::{Fault as Spec, Scene, field_dimension};
+use crate::shared::entry::Entry;
 use crate::shared::field::{Bound, Field, Files, Parameter, Region, Spot};
 use asperity_cycles::medium::Place;
 use asperity_laws::Theta;
@@ -25,7 +26,8 @@ impl<const D: usize> Fields<D> {
     /// [`Diagnostic`] at the name of a file that cannot be used.
     pub fn read(
         scene: &Scene,
-        (name, spec, base): (&str, &Spec, &LawChoice),
+        Entry { name, spec }: Entry<'_, Spec>,
+        base: &LawChoice,
         places: &[Place<D>],
     ) -> Result<Self, Diagnostic> {
         let theta = Theta::from_law(base).is_some();

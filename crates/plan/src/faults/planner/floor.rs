@@ -3,6 +3,7 @@
 use super::super::normal::NormalChoice;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Scene, Spanned};
+use crate::shared::entry::Entry;
 use asperity_mechanics::coordinates;
 use asperity_run::Warning;
 
@@ -20,7 +21,7 @@ pub(super) fn choice(spec: &Spec) -> NormalChoice {
 /// # Errors
 /// [`Diagnostic`] at the weight of a body, at an initial stress, or at the fault.
 pub(super) fn pressed<const D: usize>(
-    (name, spec): (&str, &Spec),
+    Entry { name, spec }: Entry<'_, Spec>,
     scene: &Scene,
     points: impl Iterator<Item = (f64, [f64; D])>,
 ) -> Result<(), Diagnostic> {

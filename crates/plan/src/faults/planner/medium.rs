@@ -7,6 +7,7 @@
 
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Scene};
+use crate::shared::entry::Entry;
 use crate::shared::impedance::{self, radiated};
 use crate::shared::model::{self, Model};
 use crate::shared::resolution;
@@ -89,7 +90,7 @@ fn shares<const D: usize>(
     for (block, sides) in by_block {
         let Some(body) = model.bodies.iter().find(|b| b.blocks.contains(&block)) else { continue };
         let (_, material) =
-            model::material(&model.mesh, scene, (&body.name, &scene.bodies[&body.name]), block)?;
+            model::material(&model.mesh, scene, Entry::new(&body.name, &scene.bodies[&body.name]), block)?;
         let elastic = &body.elastic[block - body.blocks.start];
         let shear = elastic.shear();
         let stiffness = resolution::modulus(model.idealisation, shear, elastic.poisson());

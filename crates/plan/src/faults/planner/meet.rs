@@ -7,6 +7,7 @@ use super::place::{branches, directions};
 use super::placed::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Scene};
+use crate::shared::entry::Entry;
 use crate::shared::model::{self, Model};
 use asperity_cycles::medium::unit;
 use asperity_fem::mesh::face_nodes;
@@ -22,7 +23,7 @@ pub(super) fn join<const D: usize>(
     model: &Model<D>,
     placed: &mut Vec<PlacedPoint<D>>,
 ) -> Result<Vec<String>, Diagnostic> {
-    let faults: Vec<(&String, &Spec)> = scene.faults.iter().collect();
+    let faults = Entry::all(&scene.faults);
     distinct(model, &faults, placed)?;
     let mut owner: BTreeMap<usize, usize> = BTreeMap::new();
     let mut shared: Vec<(usize, usize)> = Vec::new();
@@ -34,12 +35,12 @@ pub(super) fn join<const D: usize>(
             [a, b] => {
                 let other = a.or(b).map_or(p.fault, |o| placed[o].fault);
                 let (this, other) = (faults[p.fault], faults[other]);
-                let what = if this.0 == other.0 {
-                    format!("fault `{}` branches", this.0)
+                let what = if this.name == other.name {
+                    format!("fault `{}` branches", this.name)
                 } else {
-                    format!("faults `{}` and `{}` branch", other.0, this.0)
+                    format!("faults `{}` and `{}` branch", other.name, this.name)
                 };
-                return Err(branches(&what, &p.point.place.at, this.1));
+                return Err(branches(&what, &p.point.place.at, this.spec));
             }
         }
     }
@@ -56,7 +57,7 @@ pub(super) fn join<const D: usize>(
         shared.binary_search_by_key(&(k - 1), |s| s.1).is_err()
     });
     let words = |((a, b), (count, at)): ((usize, usize), (usize, String))| {
-        let (a, b) = (faults[a].0, faults[b].0);
+        let (a, b) = (faults[a].name, faults[b].name);
         let points = if count == 1 { "the point".to_string() } else { format!("{count} points, the first") };
         format!("faults `{a}` and `{b}` meet: {points} at {at} belong to `{a}`, with its law and start")
     };
@@ -65,7 +66,7 @@ pub(super) fn join<const D: usize>(
 
 /// Adds the area of point `b` of another fault, at the same two nodes, to point `a`.
 fn absorb<const D: usize>(
-    faults: &[(&String, &Spec)],
+    faults: &[Entry<'_, Spec>],
     placed: &mut [PlacedPoint<D>],
     a: usize,
     b: usize,
@@ -79,8 +80,7 @@ fn absorb<const D: usize>(
         std::array::from_fn(|c| place.area * place.normal[c] + sense * other.area * other.normal[c]);
     place.area += other.area;
     place.normal = unit(sum);
-    let (name, spec) = faults[owner.fault];
-    [place.rake, place.creeps] = directions((name, spec), &place.at, &place.normal)?;
+    [place.rake, place.creeps] = directions(faults[owner.fault], &place.at, &place.normal)?;
     owner.redirect();
     Ok(())
 }
@@ -88,11 +88,11 @@ fn absorb<const D: usize>(
 /// Refuses faults with a face in common, because friction there would be ambiguous.
 fn distinct<const D: usize>(
     model: &Model<D>,
-    faults: &[(&String, &Spec)],
+    faults: &[Entry<'_, Spec>],
     placed: &[PlacedPoint<D>],
 ) -> Result<(), Diagnostic> {
     let mut owner: BTreeMap<Vec<[usize; 2]>, usize> = BTreeMap::new();
-    for (k, &(name, spec)) in faults.iter().enumerate() {
+    for (k, &Entry { name, spec }) in faults.iter().enumerate() {
         let own = placed.iter().filter(|p| p.fault == k).map(|p| &p.point.place);
         let plus: BTreeMap<usize, usize> = own.map(|p| (p.minus, p.plus)).collect();
         for side in model::sides(model, &spec.minus)? {
@@ -106,7 +106,7 @@ fn distinct<const D: usize>(
             let mut key: Vec<[usize; 2]> = nodes.into_iter().map(pair).collect();
             key.sort_unstable();
             let Some(before) = owner.insert(key, k).filter(|&before| before != k) else { continue };
-            let other = faults[before].0;
+            let other = faults[before].name;
             return Err(Diagnostic::at(
                 spec.minus.span(),
                 format!("faults `{other}` and `{name}` both have the face at {at}"),

@@ -8,6 +8,7 @@ use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::{
     Combine, Disc, Fault as Spec, Outside, PATCHED, ParameterProfiles, Patch,
 };
+use crate::shared::entry::Entry;
 use asperity_cycles::medium::Place;
 use asperity_laws::{self as laws, Theta};
 use asperity_run::Warning;
@@ -153,7 +154,7 @@ pub(super) fn fit(spec: &Spec, law: &LawChoice) -> Result<(), Diagnostic> {
 /// # Errors
 /// [`Diagnostic`] at the patch.
 pub(super) fn covered<const D: usize>(
-    (name, spec): (&str, &Spec),
+    Entry { name, spec }: Entry<'_, Spec>,
     placed: &[PlacedPoint<D>],
 ) -> Result<Vec<Warning>, Diagnostic> {
     let mut warnings = Vec::new();

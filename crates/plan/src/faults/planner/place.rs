@@ -3,6 +3,7 @@
 use super::cover::{self, TOGETHER};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Spanned};
+use crate::shared::entry::Entry;
 use crate::shared::model::{self, Model};
 use asperity_cycles::medium::{Place, unit};
 use asperity_fem::kinematics::Idealisation;
@@ -18,9 +19,9 @@ use std::collections::{BTreeMap, BTreeSet};
 /// [`Diagnostic`] if the sides do not match node by node, if more than two sides meet, or if a point has no area.
 pub fn places<const D: usize>(
     model: &Model<D>,
-    name: &str,
-    spec: &Spec,
+    fault: Entry<'_, Spec>,
 ) -> Result<(Vec<Place<D>>, Option<Warning>), Diagnostic> {
+    let Entry { name, spec } = fault;
     let (minus, plus) = (model::sides(model, &spec.minus)?, model::sides(model, &spec.plus)?);
     let (pairs, doubtful) = pairs(model, name, spec, minus, plus)?;
     let no_areas =
@@ -43,7 +44,7 @@ pub fn places<const D: usize>(
         }
         let normal = unit(normals[&minus]);
         let at = model.mesh.nodes[minus];
-        let [rake, creeps] = directions((name, spec), &at, &normal)?;
+        let [rake, creeps] = directions(fault, &at, &normal)?;
         places.push(Place {
             minus,
             plus,
@@ -64,7 +65,7 @@ pub fn places<const D: usize>(
 /// # Errors
 /// [`Diagnostic`] for a rake normal to the fault.
 pub(super) fn directions<const D: usize>(
-    (name, spec): (&str, &Spec),
+    Entry { name, spec }: Entry<'_, Spec>,
     at: &[f64; D],
     normal: &[f64; D],
 ) -> Result<[[f64; D]; 2], Diagnostic> {
@@ -140,8 +141,9 @@ fn pairs<const D: usize>(
     }
     let mut alone: Vec<usize> = on_plus.into_iter().filter(|p| !taken.contains(p)).collect();
     alone.sort_by(|a, b| by(0)(a, b).then(a.cmp(b)));
-    cover::partners(model, (name, spec), minus, &alone)?;
-    let doubtful = cover::same_faces(model, (name, spec), (minus, plus), |m| partner.get(&m).copied());
+    cover::partners(model, Entry::new(name, spec), minus, &alone)?;
+    let doubtful =
+        cover::same_faces(model, Entry::new(name, spec), (minus, plus), |m| partner.get(&m).copied());
     let pairs: Pairs = partner.into_iter().filter(|(m, p)| m != p).collect();
     if pairs.is_empty() {
         return Err(Diagnostic::at(

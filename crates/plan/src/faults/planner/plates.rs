@@ -8,6 +8,7 @@
 use super::condensed::CondensedBodies;
 use super::placed::{PlacedPoint, slides};
 use crate::reading::scene::model::{Creep, Fault as Spec, Scene};
+use crate::shared::entry::Entry;
 use crate::shared::loading::Stage;
 use crate::shared::model::Model;
 use asperity_run::Warning;
@@ -32,8 +33,8 @@ pub(super) fn check<const D: usize>(
     if !stage.has_loads() && judged(scene, model, placed, creeping) {
         return plate_warning(scene, placed, (&sides, creep), &condensed.with_plates);
     }
-    let faults = scene.faults.iter().enumerate();
-    faults.filter_map(|(k, fault)| against(fault, k, placed, (&sides, creep))).next()
+    let faults = Entry::all(&scene.faults);
+    faults.iter().enumerate().filter_map(|(k, fault)| against(*fault, k, placed, (&sides, creep))).next()
 }
 
 /// True if the faults are plane and parallel, slip in one direction, creep, and cut right through the bodies.
@@ -74,14 +75,14 @@ fn plate_warning<const D: usize>(
     (sides, creep): (&[f64], &[f64]),
     exerted: &[f64],
 ) -> Option<Warning> {
-    let faults: Vec<(&String, &Spec)> = scene.faults.iter().collect();
+    let faults = Entry::all(&scene.faults);
     let (by_sides, by_slip) = (force(placed, sides), force(placed, exerted));
     let by_creep = force(placed, creep) + by_slip;
     let most = by_sides.abs().max(by_creep.abs());
     if most <= NOTHING * by_slip.abs() || (by_sides + by_creep).abs() <= AGREES * most {
         return None;
     }
-    let (name, spec) = faults[placed.first()?.fault];
+    let Entry { name, spec } = faults[placed.first()?.fault];
     let Creep { rate, .. } = spec.creep.as_ref()?;
     let creeps = rate.get_ref().0;
     let moves = -by_sides / by_creep * creeps;
@@ -106,7 +107,7 @@ fn plate_warning<const D: usize>(
 /// Warning about a fault that the sides of the bodies drive against `rate` while creep drives it more strongly along
 /// `rate`.
 fn against<const D: usize>(
-    (name, spec): (&String, &Spec),
+    Entry { name, spec }: Entry<'_, Spec>,
     fault: usize,
     placed: &[PlacedPoint<D>],
     (sides, creep): (&[f64], &[f64]),

@@ -9,6 +9,7 @@ use super::prestress::Prestress;
 use super::{asked, bends, meet, patches, place, untouched};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Creep, Fault as Spec, Scene};
+use crate::shared::entry::Entry;
 use crate::shared::model::{self, Model, cuts, meshes};
 use crate::shared::resolution;
 use asperity_cycles::medium::Place;
@@ -25,11 +26,12 @@ pub(crate) fn all_points<const D: usize>(
     let mut notes = meshes::notes(scene)?;
     notes.extend(cuts::notes(scene, &model.mesh));
     notes.extend(meshes::left_out(model));
-    for (k, (name, spec)) in scene.faults.iter().enumerate() {
-        placed.extend(points_of(scene, model, (name, spec), k, (&mut *warnings, &mut notes))?);
+    let faults = Entry::all(&scene.faults);
+    for (k, fault) in faults.iter().enumerate() {
+        placed.extend(points_of(scene, model, *fault, k, (&mut *warnings, &mut notes))?);
     }
-    for fault in &scene.faults {
-        notes.extend(bends::note(model, (fault.0, fault.1))?);
+    for fault in faults {
+        notes.extend(bends::note(model, fault)?);
     }
     untouched::check(scene, model, &placed)?;
     notes.extend(meet::join(scene, model, &mut placed)?);
@@ -39,19 +41,20 @@ pub(crate) fn all_points<const D: usize>(
 fn points_of<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
-    (name, spec): (&str, &Spec),
+    own: Entry<'_, Spec>,
     fault: usize,
     (warnings, notes): (&mut Vec<Warning>, &mut Vec<String>),
 ) -> Result<Vec<PlacedPoint<D>>, Diagnostic> {
+    let spec = own.spec;
     let base = base_law(spec)?;
     let mut placed = Vec::new();
     let media = Media::new(scene, model, spec)?;
     let spacings = resolution::spacings(model, model::sides(model, &spec.minus)?);
-    let stress = Prestress::new(scene, (name, spec));
+    let stress = Prestress::new(scene, own);
     let weighs = scene.bodies.values().any(|b| b.gravity.is_some());
-    let (places, doubtful) = place::places(model, name, spec)?;
+    let (places, doubtful) = place::places(model, own)?;
     warnings.extend(doubtful);
-    let fields = Fields::read(scene, (name, spec, &base), &places)?;
+    let fields = Fields::read(scene, own, &base, &places)?;
     for place in places {
         let creep = spec.creep.as_ref().filter(|c| creeps(c, &place, CLOSE * model.scale));
         let given = stress.as_ref().filter(|_| creep.is_none());
@@ -66,9 +69,9 @@ fn points_of<const D: usize>(
         placed.push(placed_at(spec, (fault, &base, &fields), place, given)?);
     }
     fields.describe(&placed, (warnings, notes));
-    asked::creep((name, spec), &placed)?;
-    asked::profiles(scene, (name, spec), &placed, warnings)?;
-    warnings.extend(patches::covered((name, spec), &placed)?);
+    asked::creep(own, &placed)?;
+    asked::profiles(scene, own, &placed, warnings)?;
+    warnings.extend(patches::covered(own, &placed)?);
     Ok(placed)
 }
 

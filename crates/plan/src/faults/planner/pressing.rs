@@ -10,6 +10,7 @@ use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::check;
 use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::{Fault as Spec, Scene, Stage as StageSpec};
+use crate::shared::entry::Entry;
 use crate::shared::loading::Stage;
 use crate::shared::setup::Setups;
 use asperity_cycles::Fault;
@@ -104,7 +105,7 @@ pub(super) fn start<const D: usize>(
     }
     let named = scene.faults.iter().enumerate();
     Ok(named
-        .map(|(k, (name, spec))| words(stage, (name, spec), placed.iter().filter(|p| p.fault == k)))
+        .map(|(k, (name, spec))| words(stage, Entry::new(name, spec), placed.iter().filter(|p| p.fault == k)))
         .collect())
 }
 
@@ -137,7 +138,7 @@ fn crushed<const D: usize>(scene: &Scene, stage: &StageSpec, point: &PlacedPoint
 /// Description of the tractions of a fault.
 fn words<'a, const D: usize>(
     stage: &StageSpec,
-    (name, spec): (&str, &Spec),
+    Entry { name, spec }: Entry<'_, Spec>,
     points: impl Iterator<Item = &'a PlacedPoint<D>> + Clone,
 ) -> String {
     let range = |values: &mut dyn Iterator<Item = f64>| {

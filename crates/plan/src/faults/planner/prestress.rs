@@ -6,6 +6,7 @@
 
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Body, Fault as Spec, Scene, SlipSpec};
+use crate::shared::entry::Entry;
 use crate::shared::initial_stress;
 use crate::shared::model::Model;
 use asperity_cycles::medium::{Place, across};
@@ -42,7 +43,7 @@ pub struct ResolvedTractions {
 
 impl<'a> Prestress<'a> {
     /// Initial stress at a fault, if a body beside it has one.
-    pub fn new(scene: &'a Scene, (name, spec): (&'a str, &'a Spec)) -> Option<Self> {
+    pub fn new(scene: &'a Scene, Entry { name, spec }: Entry<'a, Spec>) -> Option<Self> {
         let bodies = [&spec.minus, &spec.plus].map(|side| scene.body_of(side));
         let given = bodies.iter().flatten().find_map(|b| b.initial_stress.as_ref())?;
         let stress = |body: &Option<&Body>| body.and_then(initial_stress::uniform).unwrap_or([0.0; 6]);

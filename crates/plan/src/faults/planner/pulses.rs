@@ -4,6 +4,7 @@ use super::placed::PlacedPoint;
 use crate::doubts::PulsePoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Pulse as Asked};
+use crate::shared::entry::Entry;
 use asperity_cycles::Fault;
 use asperity_run::Warning;
 
@@ -12,12 +13,12 @@ use asperity_run::Warning;
 /// # Errors
 /// [`Diagnostic`] where a pulse acts on no point that slides.
 pub(crate) fn pulses<const D: usize>(
-    named: &[(&String, &Spec)],
+    named: &[Entry<'_, Spec>],
     placed: &[PlacedPoint<D>],
     components: usize,
 ) -> Result<Vec<(Vec<f64>, f64)>, Diagnostic> {
     let mut all = Vec::new();
-    for (fault, (name, spec)) in named.iter().enumerate() {
+    for (fault, Entry { name, spec }) in named.iter().enumerate() {
         for asked in &spec.pulses {
             let traction = asked.traction.get_ref().0;
             let at = |p: &PlacedPoint<D>| {
@@ -40,11 +41,11 @@ pub(crate) fn pulses<const D: usize>(
 
 /// Doubts about each pulse, given all points; `pushed` has what counts of a point beside the amplitude.
 pub(crate) fn doubts<'a>(
-    named: &[(&String, &Spec)],
+    named: &[Entry<'_, Spec>],
     amplitudes: impl Iterator<Item = &'a [f64]>,
     pushed: &[PulsePoint],
 ) -> Vec<Warning> {
-    let asked = named.iter().flat_map(|(_, spec)| &spec.pulses);
+    let asked = named.iter().flat_map(|fault| &fault.spec.pulses);
     let doubt = |(asked, amplitude): (&Asked, &[f64])| {
         let points = amplitude.iter().enumerate();
         crate::doubts::pulse(

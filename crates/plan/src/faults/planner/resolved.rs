@@ -5,6 +5,7 @@ use super::placed::PlacedPoint;
 use crate::doubts;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Scene;
+use crate::shared::entry::Entry;
 use crate::shared::resolution;
 use crate::shared::resolution::Resolution;
 use asperity_run::Warning;
@@ -31,7 +32,7 @@ pub(crate) fn resolved<const D: usize>(
     for (fault, (name, spec)) in scene.faults.iter().enumerate() {
         let points = || placed.iter().filter(|p| p.fault == fault && p.point.creep.is_none());
         let weighs = scene.bodies.values().any(|b| b.gravity.is_some());
-        floor::pressed((name, spec), scene, points().map(|p| (p.normal, p.point.place.at)))?;
+        floor::pressed(Entry::new(name, spec), scene, points().map(|p| (p.normal, p.point.place.at)))?;
         warnings.extend(floor::above_start(name, spec, weighs, points().map(|p| p.normal)));
         let with_ground = points().map(|p| {
             let (law, modulus) = (&p.law, p.medium.stiffness);

@@ -2,6 +2,7 @@
 
 use super::placed::{PlacedPoint, slides};
 use crate::reading::scene::model::{Fault as Spec, Scene};
+use crate::shared::entry::Entry;
 use asperity_cycles::Loading;
 use asperity_run::Warning;
 
@@ -27,7 +28,7 @@ pub(super) fn check<const D: usize>(
                 "creep and `rate` have one sign where the fault is driven one way",
             ));
         }
-        warnings.extend(driven((name, spec), placed, k, loading, end));
+        warnings.extend(driven(Entry::new(name, spec), placed, k, loading, end));
     }
     warnings
 }
@@ -58,7 +59,7 @@ pub(super) fn first_rate<const D: usize>(
 
 /// Warning about a fault that loads drive against `rate` when they first act on it.
 fn driven<const D: usize>(
-    (name, spec): (&str, &Spec),
+    Entry { name, spec }: Entry<'_, Spec>,
     placed: &[PlacedPoint<D>],
     fault: usize,
     loading: &Loading,

@@ -11,6 +11,7 @@ use super::placed::PlacedPoint;
 use super::prestress::{ResolvedTractions, against, strays};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Scene, Spanned};
+use crate::shared::entry::Entry;
 use crate::shared::loading::Stage;
 use crate::shared::model::Model;
 use asperity_cycles::medium::Initial;
@@ -57,7 +58,7 @@ fn add<const D: usize>(
     weight: &Initial,
     placed: &mut [PlacedPoint<D>],
 ) -> Result<Vec<String>, Diagnostic> {
-    let faults: Vec<(&String, &Spec)> = scene.faults.iter().collect();
+    let faults = Entry::all(&scene.faults);
     let count = placed.len();
     for (k, point) in placed.iter_mut().enumerate() {
         point.normal += weight.normal[k];
@@ -69,12 +70,11 @@ fn add<const D: usize>(
     let most = |point: &PlacedPoint<D>| point.normal.abs().max(point.prestress.shear.abs());
     let small = NOTHING * placed.iter().map(most).fold(0.0, f64::max);
     for point in placed.iter_mut() {
-        let (name, spec) = faults[point.fault];
-        start_at(scene, (name, spec), point, small)?;
+        start_at(scene, faults[point.fault], point, small)?;
     }
     let own = |k: usize| placed.iter().filter(move |p| p.fault == k);
     let told = faults.iter().enumerate().filter(|(k, _)| own(*k).next().is_some());
-    Ok(told.map(|(k, (name, spec))| words(name, given(spec), own(k))).collect())
+    Ok(told.map(|(k, Entry { name, spec })| words(name, given(spec), own(k))).collect())
 }
 
 /// True if the initial shear traction is given.
@@ -85,7 +85,7 @@ fn given(spec: &Spec) -> bool {
 /// Initial tractions of a point; values below `small` \[Pa\] are rounding.
 fn start_at<const D: usize>(
     scene: &Scene,
-    (name, spec): (&str, &Spec),
+    Entry { name, spec }: Entry<'_, Spec>,
     point: &mut PlacedPoint<D>,
     small: f64,
 ) -> Result<(), Diagnostic> {

@@ -10,6 +10,7 @@ use super::unlocked::remedy;
 use super::{Model, material};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Formulation, Material, Scene};
+use crate::shared::entry::Entry;
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
 use asperity_run::Warning;
@@ -37,7 +38,7 @@ pub fn doubts<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<War
         let b_bar = spec.formulation.as_ref().is_some_and(|f| *f.get_ref() == Formulation::BBar);
         for block in body.blocks.clone() {
             let kind = model.mesh.blocks[block].kind;
-            let (name, of) = material(&model.mesh, scene, (body.name.as_str(), spec), block)?;
+            let (name, of) = material(&model.mesh, scene, Entry::new(&body.name, spec), block)?;
             let Some((place, why)) = cause(of, kind).filter(|_| !b_bar && kind.order() == 1) else {
                 continue;
             };

@@ -15,6 +15,7 @@ use self::forecast::Counts;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model as scene;
 use crate::reading::scene::near::suggest;
+use crate::shared::entry::Entry;
 use crate::shared::{idealisation, initial_stress};
 use asperity_fem::block::{LinearBlock, von_mises};
 use asperity_fem::kinematics::{Formulation, Idealisation};
@@ -47,32 +48,26 @@ pub fn build<const D: usize>(scene: &scene::Scene) -> Result<Model<D>, Diagnosti
         let size = even.then(|| cell_size(&part, 0, 0));
         let (nodes, blocks) = (mesh.nodes.len(), mesh.blocks.len());
         mesh.append(part, name);
-        parts.push((name, body, (nodes..mesh.nodes.len(), blocks..mesh.blocks.len()), size));
+        parts.push((Entry::new(name, body), (nodes..mesh.nodes.len(), blocks..mesh.blocks.len()), size));
     }
     forecast::machine(scene, &counts(&mesh))?;
     let mut model =
         Model { scale: diagonal(&mesh.nodes), mesh, blocks: Vec::new(), bodies: Vec::new(), idealisation };
-    for (name, body, (nodes, blocks), size) in parts {
+    for (body, (nodes, blocks), size) in parts {
         let mut elastic = Vec::new();
         for block in blocks.clone() {
-            let (_, described) = self::material(&model.mesh, scene, (name, body), block)?;
+            let (_, described) = self::material(&model.mesh, scene, body, block)?;
             elastic.push(materials::elastic(described)?);
-            model.blocks.push(cell_block(
-                (scene, &model.mesh),
-                block,
-                (name, body),
-                described,
-                idealisation,
-            )?);
+            model.blocks.push(cell_block((scene, &model.mesh), block, body, described, idealisation)?);
         }
         let parts = connected(&model.mesh, nodes.clone(), blocks.clone());
         let linear = model.blocks[blocks.clone()].iter().all(|b| b.linear().is_some());
-        let nonlinear = match (linear, body.is_finite()) {
+        let nonlinear = match (linear, body.spec.is_finite()) {
             (true, _) => None,
             (false, true) => Some("large deformation is followed"),
             (false, false) => Some("its material is not elastic"),
         };
-        let (name, components) = (name.to_string(), idealisation.components());
+        let (name, components) = (body.name.to_string(), idealisation.components());
         let dofs = nodes.start * components..nodes.end * components;
         model.bodies.push(Body { name, nodes, blocks, elastic, size, parts, nonlinear, dofs });
     }
@@ -93,7 +88,7 @@ fn numbered<const D: usize>(scene: &scene::Scene, body: &scene::Body, mesh: Mesh
 pub fn material<'a, const D: usize>(
     mesh: &Mesh<D>,
     scene: &'a scene::Scene,
-    (name, body): (&str, &'a scene::Body),
+    Entry { name, spec: body }: Entry<'a, scene::Body>,
     block: usize,
 ) -> Result<(&'a str, &'a scene::Material), Diagnostic> {
     let prefix = format!("{name}.");
@@ -146,14 +141,14 @@ pub fn counts<const D: usize>(mesh: &Mesh<D>) -> Vec<Counts> {
 fn cell_block<const D: usize>(
     (scene, mesh): (&scene::Scene, &Mesh<D>),
     block: usize,
-    (name, body): (&str, &scene::Body),
+    Entry { name, spec: body }: Entry<'_, scene::Body>,
     material: &scene::Material,
     idealisation: Idealisation,
 ) -> Result<CellBlock<D>, Diagnostic> {
     let place = body.formulation.as_ref().map_or_else(|| body.material.span(), scene::Spanned::span);
     let dilates = !matches!(idealisation, Idealisation::PlaneStress | Idealisation::Antiplane);
     if dilates {
-        unlocked::admit(scene, (name, body), mesh.blocks[block].kind)?;
+        unlocked::admit(scene, Entry::new(name, body), mesh.blocks[block].kind)?;
     }
     let formulation = match body.formulation.as_ref().map(|f| *f.get_ref()) {
         Some(scene::Formulation::BBar) => Formulation::BBar,

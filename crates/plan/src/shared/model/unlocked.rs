@@ -2,13 +2,18 @@
 
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Body, Formulation, Interface, Measure, Scene, Sliding, Spanned, Stepper};
+use crate::shared::entry::Entry;
 use asperity_fem::element::ElementKind;
 
 /// Refuses B-bar for elements on which it has no effect.
 ///
 /// # Errors
 /// [`Diagnostic`] with what does not lock in their place.
-pub fn admit(scene: &Scene, (name, body): (&str, &Body), kind: ElementKind) -> Result<(), Diagnostic> {
+pub fn admit(
+    scene: &Scene,
+    Entry { name, spec: body }: Entry<'_, Body>,
+    kind: ElementKind,
+) -> Result<(), Diagnostic> {
     let why = match kind {
         ElementKind::Tri3 | ElementKind::Tet4 => {
             "its dilatation is constant in a cell already, so that projecting it changes nothing"

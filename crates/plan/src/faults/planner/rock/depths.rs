@@ -2,6 +2,7 @@
 
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{DepthTriangles, Scene};
+use crate::shared::entry::Entry;
 use crate::shared::model::surfaces;
 use crate::shared::place;
 use asperity_fem::mesh::netcdf;
@@ -17,7 +18,7 @@ const FARTHEST: f64 = 900e3;
 /// [`Diagnostic`] at the file or the depths, if the surface is not one sheet there.
 pub(super) fn triangles(
     scene: &Scene,
-    (name, spec): (&str, &DepthTriangles),
+    Entry { name, spec }: Entry<'_, DepthTriangles>,
     bytes: &[u8],
 ) -> Result<(Triangles, String), Diagnostic> {
     let Some(frame) = place::frame(scene, true)? else {

@@ -5,6 +5,7 @@ use super::super::place::directions;
 use super::tiling::{Cut, Tiling, buried, in_dimension};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, FaultLine, Scene};
+use crate::shared::entry::Entry;
 use crate::shared::idealisation;
 use crate::shared::model::meshes;
 use asperity_cycles::kernel::{Segment, Space};
@@ -31,8 +32,8 @@ pub(super) fn tiling<const D: usize>(scene: &Scene, space: Space) -> Result<Tili
             buried(space, name, [segment.middle()[1], cell.length()], line.trace.span())?;
             segments.push(segment);
         }
-        let places = cells.iter().zip(&segments).enumerate();
-        let places = places.map(|(k, (cell, segment))| place((name, spec), all.len() + k, cell, segment));
+        let (fault, places) = (Entry::new(name, spec), cells.iter().zip(&segments).enumerate());
+        let places = places.map(|(k, (cell, segment))| place(fault, all.len() + k, cell, segment));
         let sizes: Vec<f64> = cells.iter().map(Cell::length).collect();
         faults.push(Cut {
             places: places.collect::<Result<_, _>>()?,
@@ -97,7 +98,7 @@ fn cells(name: &str, line: &FaultLine) -> Result<(Vec<Cell>, Option<Departure>),
 
 /// Point at the centre of a cell.
 fn place<const D: usize>(
-    fault: (&str, &Spec),
+    fault: Entry<'_, Spec>,
     number: usize,
     cell: &Cell,
     segment: &Segment,

@@ -25,6 +25,7 @@ use super::{asked, backslip, patches, sense};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Medium as Rock, MediumKind, Scene, Spanned};
 use crate::shared::checks::Checks;
+use crate::shared::entry::Entry;
 use crate::shared::model::{forecast, materials};
 use crate::shared::setup::Setups;
 use crate::shared::{amounts, held, idealisation, resolution};
@@ -155,20 +156,20 @@ fn placed<const D: usize>(
         waves: density.map(|d| (elastic.shear() / d.get_ref().0).sqrt()),
     };
     let mut all = Vec::new();
-    for (fault, (name, spec)) in scene.faults.iter().enumerate() {
-        let base = base_law(spec)?;
+    for (fault, own) in Entry::all(&scene.faults).into_iter().enumerate() {
+        let base = base_law(own.spec)?;
         let cut = &tiling.faults[fault];
-        let fields = Fields::read(scene, (name, spec, &base), &cut.places)?;
+        let fields = Fields::read(scene, own, &base, &cut.places)?;
         let cells = cut.places.iter().zip(&cut.sizes);
         let of = |(place, &spacing): (&Place<D>, &f64)| {
             let components = idealisation.components();
             let given = PointSurroundings { medium, spacing, stress: None, creep: None, components };
-            placed_at(spec, (fault, &base, &fields), place.clone(), given)
+            placed_at(own.spec, (fault, &base, &fields), place.clone(), given)
         };
         let placed: Vec<PlacedPoint<D>> = cells.map(of).collect::<Result<_, _>>()?;
         fields.describe(&placed, (warnings, notes));
-        asked::profiles(scene, (name, spec), &placed, warnings)?;
-        warnings.extend(patches::covered((name, spec), &placed)?);
+        asked::profiles(scene, own, &placed, warnings)?;
+        warnings.extend(patches::covered(own, &placed)?);
         all.extend(placed);
     }
     Ok(all)

@@ -6,6 +6,7 @@ use super::super::placed::in_space;
 use super::tiling::{Cut, buried, in_dimension};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, FaultRectangle};
+use crate::shared::entry::Entry;
 use asperity_cycles::kernel::{Placement, Rectangle, Space};
 use asperity_cycles::medium::patches::{Shape, Tile, from_kernel, to_kernel};
 use asperity_cycles::medium::{Place, across, unit};
@@ -18,7 +19,7 @@ use std::f64::consts::FRAC_PI_2;
 /// # Errors
 /// [`Diagnostic`] at a rectangle that leaves the rock.
 pub(super) fn cells<const D: usize>(
-    (name, spec): (&str, &Spec),
+    Entry { name, spec }: Entry<'_, Spec>,
     rectangle: &FaultRectangle,
     space: Space,
     (first, number): (usize, usize),
@@ -33,7 +34,7 @@ pub(super) fn cells<const D: usize>(
             Diagnostic::at(rectangle.from.span(), format!("fault `{name}`: {e}"), help)
         })?;
         buried(space, name, [grid.centre(cell)[1], grid.cell[1]], rectangle.from.span())?;
-        let place = place::<D>((name, spec), first + k, &grid, (cell, &patch))?;
+        let place = place::<D>(Entry::new(name, spec), first + k, &grid, (cell, &patch))?;
         tiles.push(tile(&place, patch, (number, cell)));
         places.push(place);
     }
@@ -149,7 +150,7 @@ impl Grid {
 
 /// Point at the centre of a cell.
 fn place<const D: usize>(
-    fault: (&str, &Spec),
+    fault: Entry<'_, Spec>,
     number: usize,
     grid: &Grid,
     (cell, patch): ([usize; 2], &Rectangle),

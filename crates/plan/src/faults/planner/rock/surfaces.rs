@@ -4,6 +4,7 @@ use super::tiling::Tiling;
 use super::{rectangles, triangles};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Scene;
+use crate::shared::entry::Entry;
 use asperity_cycles::kernel::Space;
 use asperity_cycles::medium::patches::Patches;
 
@@ -17,14 +18,14 @@ pub(super) fn tiling<const D: usize>(scene: &Scene, space: Space) -> Result<Tili
     for (name, spec) in &scene.faults {
         if let Some(rectangle) = &spec.rectangle {
             let numbers = (tiles.len(), grids.len());
-            let found = rectangles::cells((name, spec), rectangle, space, numbers)?;
+            let found = rectangles::cells(Entry::new(name, spec), rectangle, space, numbers)?;
             tiles.extend(found.tiles);
             grids.push(found.grid);
             faults.push(found.cut);
             notes.push(found.note);
         }
         if let Some(surface) = &spec.triangles {
-            let found = triangles::cells(scene, (name, spec), surface, space, tiles.len())?;
+            let found = triangles::cells(scene, Entry::new(name, spec), surface, space, tiles.len())?;
             tiles.extend(found.tiles);
             faults.push(found.cut);
             notes.extend(found.notes);

@@ -7,6 +7,7 @@ use super::depths;
 use super::tiling::{Cut, Tiling, buried, in_dimension};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, FaultTriangles, Scene};
+use crate::shared::entry::Entry;
 use crate::shared::model::surfaces;
 use crate::shared::resolution::Resolution;
 use asperity_cycles::kernel::{KernelError, Space, Triangle};
@@ -29,14 +30,14 @@ pub(super) struct MeshedSurface<const D: usize> {
 /// [`Diagnostic`] at a file that cannot be read, or whose triangles form no fault in the rock.
 pub(super) fn cells<const D: usize>(
     scene: &Scene,
-    (name, spec): (&str, &Spec),
+    Entry { name, spec }: Entry<'_, Spec>,
     surface: &FaultTriangles,
     space: Space,
     first: usize,
 ) -> Result<MeshedSurface<D>, Diagnostic> {
     let mut notes = Vec::new();
     let mut mesh = surfaces::triangles(scene, surface, |spec, bytes| {
-        let (mesh, note) = depths::triangles(scene, (name, spec), bytes)?;
+        let (mesh, note) = depths::triangles(scene, Entry::new(name, spec), bytes)?;
         notes.push(note);
         Ok(mesh)
     })?;
@@ -52,7 +53,7 @@ pub(super) fn cells<const D: usize>(
         let at = from_kernel(&triangle.centre());
         buried(space, name, [at[1], size], surface.file().span())?;
         let normal = unit(in_dimension(&from_kernel(&triangle.frame().column(2).into())));
-        let [rake, creeps] = directions((name, spec), &in_dimension(&at), &normal)?;
+        let [rake, creeps] = directions(Entry::new(name, spec), &in_dimension(&at), &normal)?;
         let number = first + k;
         let (at, area) = (in_dimension(&at), triangle.area());
         let place: Place<D> =
