@@ -302,7 +302,7 @@ impl<const D: usize> Running<'_, D> {
             let shear: f64 = of.shear[point].iter().map(|t| t * t).sum();
             of.status[point] != Status::Open && of.normal_traction[point].abs().max(shear.sqrt()) > rounding
         };
-        restraint::lost((&problem.model, &problem.stages[stage]), &problem.interfaces, &closed)
+        restraint::lost(&problem.model, &problem.stages[stage], &problem.interfaces, &closed)
     }
 
     /// Adds the results at the end of a stage.

@@ -1,17 +1,16 @@
 //! Checks of a plan of bodies and interfaces.
 
 use super::PlannedInterface;
+use super::assembly::Assembly;
 use super::cohesive::{self, Shortest, pressed};
 use super::friction::Friction;
+use super::surfaces::SurfacePair;
 use crate::reading::diagnostic::Diagnostic;
-use crate::reading::scene::model::{Interface as Spec, Scene};
+use crate::reading::scene::model::Scene;
 use crate::shared::checks::of_model::{self, DrivenSurface, body_name, field_bytes, machines};
 use crate::shared::checks::{Checks, Cost, InterfaceCheck, MachineCheck, WeakeningCheck, rates};
-use crate::shared::entry::Entry;
-use crate::shared::loading::Stage;
 use crate::shared::model::{self, Model};
 use crate::shared::resolution::{Coarsest, critical_slope};
-use asperity_fem::mesh::Side;
 use asperity_fem::surface;
 use asperity_mechanics::solver::Solver;
 use asperity_scene::defaults;
@@ -24,29 +23,29 @@ const VALUES: [usize; 2] = [3 + 1, 6 + 2];
 /// # Errors
 /// [`Diagnostic`] at a set without faces.
 pub(super) fn collect<const D: usize>(
-    scene: &Scene,
-    model: &Model<D>,
-    (interfaces, frictions): (&[PlannedInterface], &[Option<Friction>]),
-    stages: &[Stage],
-    (memory_bytes, solver): (usize, &Solver),
+    assembly: &Assembly<'_, D>,
+    memory_bytes: usize,
+    solver: &Solver,
 ) -> Result<Checks, Diagnostic> {
+    let Assembly { scene, model, stages, interfaces, frictions, .. } = assembly;
     let mut checks = of_model::checks(scene, model)?;
-    let surfaces: Vec<DrivenSurface> =
+    let driven: Vec<DrivenSurface> =
         interfaces.iter().map(|i| driven(scene, model, i)).collect::<Result<_, _>>()?;
-    let machines = stages.last().map_or_else(Vec::new, |stage| machines(stage, &surfaces));
+    let machines = stages.last().map_or_else(Vec::new, |stage| machines(stage, &driven));
     for (k, planned) in interfaces.iter().enumerate() {
-        let spec = &scene.interfaces[&planned.name];
+        let own = assembly.entry(planned);
         let friction = frictions[k].as_ref();
-        let normal =
-            pressed(scene, model, stages, Entry::new(&planned.name, spec)).filter(|normal| *normal > 0.0);
-        let sides = model::sides(model, &spec.slave)?;
+        let normal = pressed(scene, model, stages, own).filter(|normal| *normal > 0.0);
+        let surfaces = SurfacePair::find(model, own)?;
+        let nodes: Vec<usize> = planned.slave.iter().map(|point| point.0).collect();
+        let shortest = cohesive::shortest(model, &surfaces, &nodes, friction);
         checks.interfaces.push(InterfaceCheck {
             interface: planned.name.clone(),
             points: planned.slave.len(),
             faces: [planned.slave_faces.len(), planned.master_faces.len()],
-            area: surfaces[k].area,
+            area: driven[k].area,
             damping: planned.damping,
-            weakening: weakening(model, (spec, friction), (&planned.slave, sides), normal),
+            weakening: shortest.map(|both| weakening(model, both, normal)),
             machine: machines.get(k).copied().flatten().map(|k| machine(k, friction, normal)),
         });
     }
@@ -89,27 +88,21 @@ fn driven<const D: usize>(
 }
 
 /// Lengths of friction that weakens, and the distance of points, where the fewest points lie on the cohesive zone.
-fn weakening<const D: usize>(
-    model: &Model<D>,
-    interface: (&Spec, Option<&Friction>),
-    sides: (&[(usize, f64)], &[Side]),
-    normal: Option<f64>,
-) -> Option<WeakeningCheck> {
-    let both = cohesive::shortest(model, interface, sides)?;
+fn weakening<const D: usize>(model: &Model<D>, both: [Shortest; 2], normal: Option<f64>) -> WeakeningCheck {
     let at = |node: usize| std::array::from_fn(|c| model.mesh.nodes[node].get(c).copied().unwrap_or(0.0));
     let under = |s: Shortest| {
         let length = s.length / normal?;
         Some(Coarsest { length, spacing: s.spacing, points: length / s.spacing, at: at(s.node), along: 0.0 })
     };
     let [zone, nucleation] = both;
-    Some(WeakeningCheck {
+    WeakeningCheck {
         spacing: zone.spacing,
         at: at(zone.node),
         one_point: both.map(|s| s.length / s.spacing),
         normal,
         cohesive_zone: under(zone),
         nucleation: under(nucleation),
-    })
+    }
 }
 
 /// The springs of an interface and the largest critical stiffness of its points.

@@ -3,6 +3,7 @@
 
 use super::PlannedInterface;
 use super::friction::Friction;
+use super::surfaces::{BodySurface, SurfacePair};
 use crate::doubts;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Interface, Scene, UnderResolution};
@@ -27,25 +28,26 @@ pub(super) struct Shortest {
     pub node: usize,
 }
 
-/// Cohesive zone and nucleation length of an interface; `None` if its friction does not weaken with slip.
+/// Cohesive zone and nucleation length of an interface with slave points at these nodes, ascending; `None` if its friction does not
+/// weaken with slip.
 pub(super) fn shortest<const D: usize>(
     model: &Model<D>,
-    (spec, friction): (&Interface, Option<&Friction>),
-    (slave, sides): (&[(usize, f64)], &[Side]),
+    surfaces: &SurfacePair<'_, D>,
+    nodes: &[usize],
+    friction: Option<&Friction>,
 ) -> Option<[Shortest; 2]> {
     let friction = friction?;
-    let of_side = |set| {
-        let body = &model.bodies[model.body_of(set)?];
-        let elastic = body.elastic.first()?;
+    let of_side = |surface: &BodySurface<'_, D>| {
+        let elastic = surface.body.elastic.first()?;
         Some(modulus(model.idealisation, elastic.shear(), elastic.poisson()))
     };
-    let (a, b) = (of_side(spec.slave.get_ref())?, of_side(spec.master.get_ref())?);
+    let (a, b) = (of_side(&surfaces.slave)?, of_side(&surfaces.master)?);
     let modulus = 2.0 * a * b / (a + b);
     let of = |law| Ground { law, normal: 1.0, modulus, in_space: D == 3 }.lengths();
     let mut found: Option<[Shortest; 2]> = None;
-    for (node, spacing) in spacings(model, sides) {
+    for (node, spacing) in spacings(model, surfaces.slave.sides) {
         // The tip of a split surface is no point of the interface, but a neighbour of points.
-        let point = slave.binary_search_by_key(&node, |s| s.0).ok();
+        let point = nodes.binary_search(&node).ok();
         let law = if friction.is_uniform() { Some(friction.at(0)) } else { point.map(|p| friction.at(p)) };
         let Some(lengths) = law.and_then(of) else { continue };
         let here = lengths.map(|length| Shortest { length, spacing, node });
@@ -63,14 +65,9 @@ impl Shortest {
     }
 }
 
-/// Resolution of an interface whose friction weakens with slip.
-pub(super) fn resolved<const D: usize>(
-    model: &Model<D>,
-    (spec, friction): (&Interface, Option<&Friction>),
-    sides: (&[(usize, f64)], &[Side]),
-) -> Option<ZoneResolution> {
+/// Resolution of the cohesive zone of an interface.
+pub(super) fn resolved(spec: &Interface, zone: &Shortest) -> Option<ZoneResolution> {
     let law = spec.law.as_ref()?;
-    let [zone, _] = shortest(model, (spec, friction), sides)?;
     let spacing = zone.spacing;
     let allowed = spec.under_resolved.as_ref().map(|u| *u.get_ref()) == Some(UnderResolution::Allow);
     let one = zone.length / spacing;
@@ -113,22 +110,18 @@ pub fn check(resolved: &ZoneResolution, interface: &str, mean: f64) -> Result<Op
     Ok(Some(Warning::at(resolved.place.clone(), message, enough(resolved, mean))))
 }
 
-/// Warning about an interface under a mean normal traction \[Pa\] that is shorter than slip needs to nucleate.
+/// Warning about an interface that is shorter than the length \[m\] over which slip nucleates on it.
 pub fn nucleation<const D: usize>(
     model: &Model<D>,
-    (spec, friction): (&Interface, Option<&Friction>),
-    (planned, sides): (&PlannedInterface, &[Side]),
-    mean: f64,
+    planned: &PlannedInterface,
+    spec: &Interface,
+    length: f64,
 ) -> Option<Warning> {
-    let [_, nucleation] = shortest(model, (spec, friction), (&planned.slave, sides))?;
     let places: Vec<[f64; D]> = planned.slave.iter().map(|(node, _)| model.mesh.nodes[*node]).collect();
     let (least, most) = crate::shared::model::bounds(&places);
     let extent = least.iter().zip(&most).map(|(a, b)| (b - a).powi(2)).sum::<f64>().sqrt();
     let place = spec.law.as_ref()?.span();
-    if mean <= 0.0 {
-        return None;
-    }
-    doubts::nucleation(&format!("interface `{}`", planned.name), place, nucleation.length / mean, extent)
+    doubts::nucleation(&format!("interface `{}`", planned.name), place, length, extent)
 }
 
 /// Sine of the angle below which a surface counts as flat and two directions count as equal: rounding of coordinates.

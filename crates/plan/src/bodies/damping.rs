@@ -1,12 +1,12 @@
 //! Radiation damping of interfaces.
 
+use super::surfaces::{BodySurface, SurfacePair};
 use crate::doubts;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{DampingSpec, Interface, Scene, Spanned};
 use crate::shared::entry::Entry;
 use crate::shared::impedance;
 use crate::shared::model::Model;
-use asperity_fem::mesh::Side;
 use asperity_run::Warning;
 
 /// Relative difference of impedances along a side that is rounding.
@@ -20,14 +20,14 @@ pub fn radiation<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     Entry { name, spec }: Entry<'_, Interface>,
-    (slave, master): (&[Side], &[Side]),
+    surfaces: &SurfacePair<'_, D>,
 ) -> Result<Option<f64>, Diagnostic> {
     let Some(given) = &spec.damping else { return Ok(None) };
     if let DampingSpec::Value(value) = *given.get_ref() {
         return Ok(Some(value));
     }
-    let of_side = |sides, set: &Spanned<String>| {
-        let all = impedance::behind(scene, model, sides, None)?;
+    let of_side = |surface: &BodySurface<'_, D>, set: &Spanned<String>| {
+        let all = impedance::behind(scene, model, surface.sides, None)?;
         one(&all).map_err(|why| {
             let (message, help) = match why {
                 Why::NoDensity => (
@@ -44,7 +44,8 @@ pub fn radiation<const D: usize>(
             Diagnostic::at(given.span(), message, help)
         })
     };
-    Ok(Some(impedance::radiated(of_side(slave, &spec.slave)?, of_side(master, &spec.master)?)))
+    let of_slave = of_side(&surfaces.slave, &spec.slave)?;
+    Ok(Some(impedance::radiated(of_slave, of_side(&surfaces.master, &spec.master)?)))
 }
 
 /// Warning about a damping that is far from what the bodies radiate.
@@ -55,11 +56,12 @@ pub fn doubt<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     Entry { name, spec }: Entry<'_, Interface>,
-    (slave, master): (&[Side], &[Side]),
+    surfaces: &SurfacePair<'_, D>,
 ) -> Result<Option<Warning>, Diagnostic> {
     let Some(given) = &spec.damping else { return Ok(None) };
     let DampingSpec::Value(value) = *given.get_ref() else { return Ok(None) };
-    let [of_slave, of_master] = [slave, master].map(|side| impedance::behind(scene, model, side, None));
+    let SurfacePair { slave, master } = surfaces;
+    let [of_slave, of_master] = [slave, master].map(|s| impedance::behind(scene, model, s.sides, None));
     let (of_slave, of_master) = (of_slave?, of_master?);
     let pairs = of_slave.iter().flat_map(|a| of_master.iter().map(move |b| (*a).zip(*b)));
     let radiated: Vec<Option<f64>> = pairs.map(|pair| pair.map(|(a, b)| impedance::radiated(a, b))).collect();

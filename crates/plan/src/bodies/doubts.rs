@@ -1,14 +1,17 @@
 //! Warnings about a scene whose bodies have been built and whose stages have been resolved.
 
+use super::assembly::Assembly;
 use super::friction::Friction;
 use super::penalty::{self, SofterCells};
-use super::{PlannedInterface, StartGap, Stepping, coarse, cohesive, damping, overlaps, start_gaps};
+use super::start_gaps::{self, StartContact};
+use super::surfaces::SurfacePair;
+use super::{PlannedInterface, StartGap, coarse, cohesive, damping, overlaps};
 use crate::doubts as shared;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Interface, Scene};
 use crate::shared::entry::Entry;
 use crate::shared::loading::{Stage, sizes};
-use crate::shared::model::{self, Model, locking};
+use crate::shared::model::locking;
 use crate::shared::thresholds;
 use asperity_friction::evolution;
 use asperity_run::Warning;
@@ -22,12 +25,9 @@ const BOUNDS_NOTHING: f64 = 0.1;
 /// # Errors
 /// [`Diagnostic`] for sides that are certainly wrong.
 pub fn gaps_and_warnings<const D: usize>(
-    scene: &Scene,
-    model: &Model<D>,
-    (interfaces, frictions): (&[PlannedInterface], &[Option<Friction>]),
-    stages: &[Stage],
-    stepping: &Stepping,
+    assembly: &Assembly<'_, D>,
 ) -> Result<(Vec<StartGap>, Vec<Warning>), Diagnostic> {
+    let Assembly { scene, model, stages, interfaces, frictions, .. } = assembly;
     let (mut starts, mut doubts) = (Vec::new(), sizes::doubts(scene, model, stages));
     doubts.extend(locking::doubts(scene, model)?);
     doubts.extend(tolerance(scene, stages));
@@ -36,34 +36,43 @@ pub fn gaps_and_warnings<const D: usize>(
     let loading = stages.last().map_or(0.0, Stage::largest_rate);
     doubts.extend(events.and_then(|e| shared::thresholds(e, thresholds::from_spec(Some(e)), loading, false)));
     for (planned, friction) in interfaces.iter().zip(frictions) {
-        let spec = &scene.interfaces[&planned.name];
-        let own = Entry::new(&planned.name, spec);
-        let sides = model::sides(model, &spec.slave)?;
-        let mut measured = start_gaps::measure(model, stepping, planned, (spec, sides))?;
-        if let Some(body) = model.body_of(spec.slave.get_ref()).map(|b| &model.bodies[b]) {
-            let h = model.element_size(body, sides);
-            let bonded = planned.law.as_ref().is_some_and(|l| l.bonded());
-            let facing = model.body_of(spec.master.get_ref()).map_or(body, |b| &model.bodies[b]);
-            let softer =
-                SofterCells::from_sides(model, (body, sides), (facing, model::sides(model, &spec.master)?));
-            doubts.extend(penalty::doubts(&planned.name, &spec.enforcement, &softer));
-            measured.0.overlap_traction = overlaps::traction(model, &measured, (spec, planned), &softer);
-            let start = &measured.0;
-            doubts.extend(start_gaps::doubts(start, (spec, bonded), (stages, scene.inertia().is_some()), h));
-            let load = cohesive::pressed(scene, model, stages, own);
-            doubts.extend(overlaps::doubt((start, spec, planned), (&softer, h), (stages, load)));
-        }
-        doubts.extend(coarse::doubts(&model.mesh.nodes, planned, spec));
-        doubts.extend(first_order(&planned.name, spec));
-        starts.push(measured.0);
-        doubts.extend(resolution(scene, model, stages, planned)?);
-        let facing = (sides, model::sides(model, &spec.master)?);
-        doubts.extend(damping::doubt(scene, model, own, facing)?);
-        let pressed = cohesive::pressed(scene, model, stages, own);
-        let own = (spec, friction.as_ref());
-        doubts.extend(pressed.and_then(|mean| cohesive::nucleation(model, own, (planned, sides), mean)));
+        starts.push(of_interface(assembly, planned, friction.as_ref(), &mut doubts)?);
     }
     Ok((starts, doubts))
+}
+
+/// Position of the sides of an interface before the first step. Adds warnings about it.
+fn of_interface<const D: usize>(
+    assembly: &Assembly<'_, D>,
+    planned: &PlannedInterface,
+    friction: Option<&Friction>,
+    doubts: &mut Vec<Warning>,
+) -> Result<StartGap, Diagnostic> {
+    let Assembly { scene, model, stages, .. } = assembly;
+    let own = assembly.entry(planned);
+    let Entry { name, spec } = own;
+    let surfaces = SurfacePair::find(model, own)?;
+    let mut measured = start_gaps::measure(assembly, planned, surfaces.slave.sides)?;
+    let softer = SofterCells::from_sides(model, &surfaces);
+    doubts.extend(penalty::doubts(name, &spec.enforcement, &softer));
+    measured.start.overlap_traction = overlaps::traction(model, &measured, planned, &softer);
+    let size = surfaces.slave.cell_size(model);
+    let contact = StartContact { spec, planned, start: &measured.start, size };
+    doubts.extend(start_gaps::doubts(&contact, stages, scene.inertia().is_some()));
+    let load = cohesive::pressed(scene, model, stages, own);
+    doubts.extend(overlaps::doubt(&contact, &softer, stages, load));
+    doubts.extend(coarse::doubts(&model.mesh.nodes, planned, spec));
+    doubts.extend(first_order(name, spec));
+    doubts.extend(resolution(own, planned, load)?);
+    doubts.extend(damping::doubt(scene, model, own, &surfaces)?);
+    if let Some(mean) = load.filter(|mean| *mean > 0.0) {
+        let nodes: Vec<usize> = planned.slave.iter().map(|point| point.0).collect();
+        let shortest = cohesive::shortest(model, &surfaces, &nodes, friction);
+        doubts.extend(shortest.and_then(|[_, nucleation]| {
+            cohesive::nucleation(model, planned, spec, nucleation.length / mean)
+        }));
+    }
+    Ok(measured.start)
 }
 
 /// Warning about an evolution law whose steps are first order, while the error estimate assumes second order.
@@ -79,22 +88,19 @@ fn first_order(name: &str, spec: &Interface) -> Option<Warning> {
     Some(Warning::at(evolution.span(), message, help))
 }
 
-/// Warning about too few points for friction under the normal traction that follows from the loads, and about a key
-/// without effect.
-fn resolution<const D: usize>(
-    scene: &Scene,
-    model: &Model<D>,
-    stages: &[Stage],
+/// Warning about too few points for friction under the normal traction that follows from the loads, if it is known \[Pa\], and about
+/// a key without effect.
+fn resolution(
+    Entry { name, spec }: Entry<'_, Interface>,
     planned: &PlannedInterface,
+    known: Option<f64>,
 ) -> Result<Option<Warning>, Diagnostic> {
-    let (name, spec) = (planned.name.as_str(), &scene.interfaces[&planned.name]);
     let Some(resolved) = &planned.resolved else {
         return Ok(spec.under_resolved.as_ref().map(|key| {
             let message = format!("`under_resolved` of interface `{name}` decides nothing: its friction does not weaken with slip");
             Warning::at(key.span(), message, "remove it")
         }));
     };
-    let known = cohesive::pressed(scene, model, stages, Entry::new(name, spec));
     known.map_or(Ok(None), |mean| cohesive::check(resolved, name, mean))
 }
 

@@ -33,7 +33,7 @@ impl Friction {
         scene: &Scene,
         model: &Model<D>,
         Entry { name, spec }: Entry<'_, Interface>,
-        slave: &[(usize, f64)],
+        nodes: &[usize],
     ) -> Result<Option<Self>, Diagnostic> {
         let Some(given) = &spec.law else { return Ok(None) };
         let base = chosen(given)?;
@@ -41,7 +41,7 @@ impl Friction {
             return Ok(Some(Self { laws: vec![base], notes: Vec::new(), warnings: Vec::new() }));
         }
         let spots: Vec<Spot<D>> =
-            slave.iter().map(|s| Spot { at: model.mesh.nodes[s.0], along: None }).collect();
+            nodes.iter().map(|&n| Spot { at: model.mesh.nodes[n], along: None }).collect();
         let name = format!("interface `{name}`");
         let region = Region { scene, spots: &spots, name: &name };
         let fields = read(&region, &spec.fields, &base)?;

@@ -3,13 +3,15 @@
 use super::enforcement::{enforced, in_pascal_per_metre};
 use super::friction::Friction;
 use super::penalty::{self, SofterCells};
-use super::{PlannedInterface, cohesive, damping, pressed, watch};
+use super::surfaces::SurfacePair;
+use super::watch::{self, Resistance};
+use super::{PlannedInterface, cohesive, damping, pressed};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Interface as InterfaceSpec, Measure, Scene, Sliding};
 use crate::shared::entry::Entry;
-use crate::shared::model::{self, Model};
+use crate::shared::model::Model;
 use asperity_contact::{self as contact, Watch};
-use asperity_fem::mesh::{MeshFace, Side, face_kind, nodes_of_sides};
+use asperity_fem::mesh::{Side, face_kind, nodes_of_sides};
 use asperity_mechanics::{self as mechanics, coordinates};
 
 /// Fraction of the largest tributary area of an interface below which an area is zero to within rounding.
@@ -22,9 +24,10 @@ const NO_AREA: f64 = 1e-12;
 pub fn plan<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
-    Entry { name, spec }: Entry<'_, InterfaceSpec>,
+    own: Entry<'_, InterfaceSpec>,
     loading: f64,
 ) -> Result<(PlannedInterface, Option<Friction>), Diagnostic> {
+    let Entry { name, spec } = own;
     if model.idealisation.components() != D {
         return Err(Diagnostic::at(
             spec.slave.span(),
@@ -33,15 +36,9 @@ pub fn plan<const D: usize>(
              bodies as `kinematics = \"spring-slider\"`; in antiplane motion bodies have conditions on their sets",
         ));
     }
-    let slave_sides = model::sides(model, &spec.slave)?;
-    let master_sides = model::sides(model, &spec.master)?;
-    let body = model.body_of(spec.slave.get_ref()).map(|b| &model.bodies[b]);
-    let body = body.ok_or_else(|| {
-        let help = "sets of bodies are named `body.set`";
-        Diagnostic::at(spec.slave.span(), format!("interface `{name}`: the slave side has no body"), help)
-    })?;
-    check_faces(model, spec, slave_sides, master_sides)?;
-    let slave = slave_points(model, name, spec, slave_sides, master_sides)?;
+    let surfaces = SurfacePair::find(model, own)?;
+    check_faces(model, spec, &surfaces)?;
+    let slave = slave_points(model, own, &surfaces)?;
     if slave.is_empty() {
         return Err(Diagnostic::at(
             spec.master.span(),
@@ -49,29 +46,30 @@ pub fn plan<const D: usize>(
             "an interface lies between two sides that can separate; `split` in a mesh makes them",
         ));
     }
-    let damping = damping::radiation(scene, model, Entry::new(name, spec), (slave_sides, master_sides))?;
-    let friction = Friction::choose(scene, model, Entry::new(name, spec), &slave)?;
+    let nodes: Vec<usize> = slave.iter().map(|point| point.0).collect();
+    let damping = damping::radiation(scene, model, own, &surfaces)?;
+    let friction = Friction::choose(scene, model, own, &nodes)?;
     let (law, watch) = match spec.law.as_ref().zip(friction.as_ref()) {
         Some((law, friction)) => {
-            let sides = (slave_sides, master_sides);
-            let watch = watch::limits(scene, model, friction.laws(), (sides, damping), loading)?;
+            let resistance = Resistance { laws: friction.laws(), damping };
+            let watch = watch::limits(scene, model, &surfaces, resistance, loading)?;
             (Some(friction.build(law)?), watch)
         }
         None => (None, Watch::default()),
     };
-    let resolved = cohesive::resolved(model, (spec, friction.as_ref()), (&slave, slave_sides));
-    let young_per_size = model.young_per_size(body, slave_sides);
-    let enforced = enforced(&spec.enforcement, young_per_size, model.element_size(body, slave_sides));
-    let facing = model.body_of(spec.master.get_ref()).map_or(body, |b| &model.bodies[b]);
-    let softer = SofterCells::from_sides(model, (body, slave_sides), (facing, master_sides));
+    let shortest = cohesive::shortest(model, &surfaces, &nodes, friction.as_ref());
+    let resolved = shortest.and_then(|[zone, _]| cohesive::resolved(spec, &zone));
+    let young_per_size = surfaces.slave.young_per_size(model);
+    let enforced = enforced(&spec.enforcement, young_per_size, surfaces.slave.cell_size(model));
+    let softer = SofterCells::from_sides(model, &surfaces);
     penalty::check(name, spec, &softer)?;
     let planned = PlannedInterface {
         name: name.to_string(),
         enforced,
         unknowns: enforced.unknowns(slave.len(), if law.is_some() { D } else { 1 }),
         slave,
-        slave_faces: slave_sides.iter().map(|s| MeshFace::new(&model.mesh, s)).collect(),
-        master_faces: master_sides.iter().map(|s| MeshFace::new(&model.mesh, s)).collect(),
+        slave_faces: surfaces.slave.faces(model),
+        master_faces: surfaces.master.faces(model),
         measure: match spec.measure.get_ref() {
             Measure::NodeToPoint => mechanics::Measure::NodeToPoint,
             Measure::Mortar => mechanics::Measure::Mortar,
@@ -87,7 +85,7 @@ pub fn plan<const D: usize>(
         law,
         damping,
         blamed: penalty::blamed(name, &spec.enforcement, &softer),
-        pressed: pressed::initial_tractions(scene, model, Entry::new(name, spec), slave_sides)?,
+        pressed: pressed::initial_tractions(scene, model, own, &surfaces)?,
         watch: Watch { coarse_beyond: resolved.as_ref().and_then(|r| r.refused_beyond), ..watch },
         resolved,
         probes: scene.output.probes.get(name).map_or(0, |p| *p.get_ref()),
@@ -98,11 +96,10 @@ pub fn plan<const D: usize>(
 /// Slave points of an interface, ascending, with their tributary areas.
 fn slave_points<const D: usize>(
     model: &Model<D>,
-    name: &str,
-    spec: &InterfaceSpec,
-    slave: &[Side],
-    master: &[Side],
+    Entry { name, spec }: Entry<'_, InterfaceSpec>,
+    surfaces: &SurfacePair<'_, D>,
 ) -> Result<Vec<(usize, f64)>, Diagnostic> {
+    let [slave, master] = [&surfaces.slave, &surfaces.master].map(|surface| surface.sides);
     // The tip of a split surface lies on both sides, which cannot separate there.
     let master_nodes = nodes_of_sides(&model.mesh, master);
     let nodes =
@@ -145,9 +142,9 @@ fn instead(spec: &InterfaceSpec, other: &str) -> String {
 fn check_faces<const D: usize>(
     model: &Model<D>,
     spec: &InterfaceSpec,
-    slave: &[Side],
-    master: &[Side],
+    surfaces: &SurfacePair<'_, D>,
 ) -> Result<(), Diagnostic> {
+    let [slave, master] = [&surfaces.slave, &surfaces.master].map(|surface| surface.sides);
     let linear = |side: &Side| face_kind(&model.mesh, side).first_order();
     if let Some(smoothing) = &spec.smoothing
         && let Some(side) = master.iter().find(|s| !linear(s))

@@ -1,5 +1,6 @@
 //! Choice of the linear solver. It depends on the scene alone, so that neither the choice nor the results depend on the machine.
 
+use super::assembly::Assembly;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Method as Asked, Scene, Spanned};
 use crate::shared::amounts::{memory, size};
@@ -24,14 +25,8 @@ const UNSYMMETRIC: usize = 2;
 ///
 /// # Errors
 /// [`Diagnostic`] if the method cannot be used for the scene, or takes more memory than is allowed.
-pub fn choose<const D: usize>(
-    scene: &Scene,
-    model: &Model<D>,
-    interfaces: &[PlannedInterface],
-    stages: &[Stage],
-    path: Path,
-    stepping: &Stepping,
-) -> Result<Solver, Diagnostic> {
+pub fn choose<const D: usize>(assembly: &Assembly<'_, D>, path: Path) -> Result<Solver, Diagnostic> {
+    let Assembly { scene, model, interfaces, stages, stepping, .. } = assembly;
     let choice = Choice { scene, model, interfaces, stages, stepping };
     match path {
         Path::Condensed => choice.condensed(),

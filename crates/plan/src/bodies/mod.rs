@@ -1,5 +1,6 @@
 //! Plans of runs, as data, and their construction from scenes.
 
+mod assembly;
 mod checks;
 mod coarse;
 mod cohesive;
@@ -24,6 +25,7 @@ mod start_gaps;
 mod stepping;
 mod stress_level;
 mod summary;
+mod surfaces;
 mod values;
 mod watch;
 

@@ -8,13 +8,13 @@
 //! gives `E g/H`, as it should.
 
 use super::penalty::SofterCells;
-use super::start_gaps::{MeasuredGaps, thickness};
-use super::{PlannedInterface, SHARE, StartGap};
-use crate::reading::scene::model::{EnforcementKind, Interface as Spec, Measure};
+use super::start_gaps::{MeasuredGaps, StartContact, thickness};
+use super::{PlannedInterface, SHARE};
+use crate::reading::scene::model::{Interface as Spec, Measure};
 use crate::shared::loading::Stage;
 use crate::shared::model::Model;
 use asperity_fem::mesh::MeshFace;
-use asperity_mechanics::bounds;
+use asperity_mechanics::{PlannedEnforcement, bounds};
 use asperity_run::Warning;
 use asperity_scene::lengths::brief;
 
@@ -28,20 +28,20 @@ const HALVINGS: usize = 60;
 /// Estimate of the largest normal traction without load \[Pa\].
 pub fn traction<const D: usize>(
     model: &Model<D>,
-    (start, points): &MeasuredGaps,
-    (spec, planned): (&Spec, &PlannedInterface),
+    measured: &MeasuredGaps,
+    planned: &PlannedInterface,
     softer: &SofterCells,
 ) -> f64 {
-    let most = -start.gap[0];
+    let (most, points) = (-measured.start.gap[0], &measured.facing);
     if most <= 0.0 {
         return 0.0;
     }
     let young = softer.young_per_size * softer.size;
-    let exact = *spec.enforcement.kind.get_ref() == EnforcementKind::AugmentedLagrangian;
+    let exact = matches!(planned.enforced, PlannedEnforcement::AugmentedLagrangian { .. });
     let local = softer.young_per_size.recip() + if exact { 0.0 } else { planned.normal_penalty.recip() };
     let common = depth(model, planned) / young;
-    let area: f64 = points.iter().map(|p| p.1).sum();
-    let mean = |s: f64| points.iter().map(|(g, a)| (-g - s).max(0.0) / local * a).sum::<f64>() / area;
+    let area: f64 = points.iter().map(|p| p.area).sum();
+    let mean = |s: f64| points.iter().map(|p| (-p.gap - s).max(0.0) / local * p.area).sum::<f64>() / area;
     let (mut low, mut high) = (0.0, most);
     for _ in 0..HALVINGS {
         let s = 0.5 * (low + high);
@@ -64,16 +64,17 @@ fn depth<const D: usize>(model: &Model<D>, planned: &PlannedInterface) -> f64 {
     [&planned.slave_faces, &planned.master_faces].into_iter().filter_map(of).sum()
 }
 
-/// Warning about overlaps that press more than the scene may mean; slave cells have size `h`.
+/// Warning about overlaps that press more than the scene may mean; `load` is the normal traction of the loads, if it is known \[Pa\].
 pub fn doubt(
-    (start, spec, planned): (&StartGap, &Spec, &PlannedInterface),
-    (softer, h): (&SofterCells, f64),
-    (stages, load): (&[Stage], Option<f64>),
+    contact: &StartContact<'_>,
+    softer: &SofterCells,
+    stages: &[Stage],
+    load: Option<f64>,
 ) -> Option<Warning> {
+    let StartContact { spec, planned, start, size } = *contact;
     let [least, largest] = start.gap;
-    let bonded = planned.law.as_ref().is_some_and(|l| l.bonded());
     // A larger overlap is warned of as one of the bodies.
-    if least >= 0.0 || bonded || least < -SHARE * h {
+    if least >= 0.0 || contact.is_bonded() || least < -SHARE * size {
         return None;
     }
     let young = softer.young_per_size * softer.size;

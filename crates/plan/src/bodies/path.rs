@@ -1,5 +1,6 @@
 //! Choice between the condensed and the full system.
 
+use super::assembly::Assembly;
 use super::{Path, PlannedInterface};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Method, Path as PathChoice, Scene};
@@ -10,11 +11,8 @@ use asperity_mechanics::{Model, Stage, solver};
 ///
 /// # Errors
 /// [`Diagnostic`] if the scene requests one that cannot be used.
-pub fn choose<const D: usize>(
-    scene: &Scene,
-    model: &Model<D>,
-    (interfaces, stages): (&[PlannedInterface], &[Stage]),
-) -> Result<Path, Diagnostic> {
+pub fn choose<const D: usize>(assembly: &Assembly<'_, D>) -> Result<Path, Diagnostic> {
+    let Assembly { scene, model, interfaces, stages, .. } = assembly;
     let refuse = |message: String| {
         let help = "use `path = \"auto\"` or `path = \"full\"`";
         Err(Diagnostic::at(scene.time.stepper.span(), message, help))

@@ -5,11 +5,11 @@
 //! have an error of E_n eps X = k eps (X/h) E.
 
 use super::enforcement::in_pascal_per_metre;
+use super::surfaces::SurfacePair;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Enforcement, EnforcementKind, Interface as InterfaceSpec, Spanned};
 use crate::reading::scene::units::Penalty;
-use crate::shared::model::{Body, Model};
-use asperity_fem::mesh::Side;
+use crate::shared::model::Model;
 use asperity_run::Warning;
 use asperity_scene::lengths::brief;
 
@@ -45,20 +45,16 @@ pub struct SofterCells {
 }
 
 impl SofterCells {
-    /// Softer row of cells of the slave and the master body.
+    /// Softer row of cells of the slave and the master surface.
     #[must_use]
-    pub fn from_sides<const D: usize>(
-        model: &Model<D>,
-        slave: (&Body<D>, &[Side]),
-        master: (&Body<D>, &[Side]),
-    ) -> Self {
-        let stiffness = |(body, sides): (&Body<D>, &[Side])| model.young_per_size(body, sides);
-        let [own, other] = [stiffness(slave), stiffness(master)];
-        let (body, sides) = if other < own { master } else { slave };
-        let size = model.element_size(body, sides);
+    pub(super) fn from_sides<const D: usize>(model: &Model<D>, surfaces: &SurfacePair<'_, D>) -> Self {
+        let SurfacePair { slave, master } = surfaces;
+        let [own, other] = [slave, master].map(|surface| surface.young_per_size(model));
+        let softer = if other < own { master } else { slave };
+        let size = softer.cell_size(model);
         let young_per_size = own.min(other);
         Self {
-            body: body.name.clone(),
+            body: softer.body.name.clone(),
             contrast: own / young_per_size,
             young_per_size,
             size,

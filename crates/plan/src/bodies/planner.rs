@@ -1,18 +1,19 @@
 //! Turns a scene into a plan. All decisions about the model and the method are made here; later code does not refer to
 //! the scene.
 
+use super::assembly::Assembly;
 use super::friction::Friction;
 use super::{
-    AnyPlan, Plan, checks, doubts, events, inertia, interfaces, linear_solver, path, restraint,
-    start_balance, stepping, stress_level, summary,
+    AnyPlan, Plan, StartGap, checks, doubts, events, inertia, linear_solver, path, restraint, start_balance,
+    stepping, summary,
 };
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Scene;
-use crate::shared::entry::Entry;
 use crate::shared::initial_stress;
-use crate::shared::loading::{self, Stage, courses, sizes};
-use crate::shared::model::{self, cuts, forecast, meshes, samples};
+use crate::shared::loading::{courses, sizes};
+use crate::shared::model::{cuts, forecast, meshes, samples};
 use asperity_mechanics::{Mass, Problem};
+use asperity_run::Warning;
 use asperity_scene::defaults;
 
 /// Plans a scene of bodies and interfaces.
@@ -27,53 +28,25 @@ pub fn plan(scene: &Scene) -> Result<AnyPlan, Diagnostic> {
 }
 
 fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
-    let model = model::build::<D>(scene)?;
-    stress_level::check(scene, &model)?;
-    let stages = loading::stages(scene, &model)?;
-    let stepping = stepping::choose(scene)?;
-    let loading = stages.iter().map(Stage::largest_rate).fold(0.0, f64::max);
-    let planned =
-        scene.interfaces.iter().map(|i| interfaces::plan(scene, &model, Entry::new(i.0, i.1), loading));
-    let (interfaces, frictions): (Vec<_>, Vec<_>) =
-        planned.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
-    let path = path::choose(scene, &model, (&interfaces, &stages))?;
-    let control = stepping::control(scene, &stages);
-    let mass = inertia::mass(scene, &model, loading)?;
-    let mut remarks = match mass {
-        None => restraint::check(scene, &model, &stages, &interfaces)?,
-        // Without inertia for the time being, bodies must be held.
-        Some(Mass { handover: Some(_), .. }) => restraint::check(scene, &model, &stages, &interfaces)?,
-        // Mass alone resists the motion of bodies that nothing holds.
-        Some(_) => Vec::new(),
-    };
-    remarks.extend(sizes::file_extents(scene, &model));
-    let (followed, passed_over) = courses::remarks_and_warnings(scene);
-    remarks.extend(followed);
-    remarks.extend(cuts::notes(scene, &model.mesh));
-    remarks.extend(meshes::left_out(&model));
-    remarks.extend(frictions.iter().flatten().flat_map(|f| f.notes.iter().cloned()));
-    let (start_gaps, doubts) =
-        doubts::gaps_and_warnings(scene, &model, (&interfaces, &frictions), &stages, &stepping)?;
-    let (balance, unbalanced) =
-        start_balance::remarks_and_warning(scene, &model, (&interfaces, &stages), &stepping)?;
-    remarks.extend(balance);
-    let solver = linear_solver::choose(scene, &model, &interfaces, &stages, path, &stepping)?;
-    let mut summary =
-        summary::summarise(scene, &model, (&interfaces, &stages), path, &stepping, &solver, remarks);
+    let assembly = Assembly::<D>::read(scene)?;
+    let path = path::choose(&assembly)?;
+    let mass = inertia::mass(scene, &assembly.model, assembly.largest_rate())?;
+    let Findings { remarks, start_gaps, doubts } = Findings::new(&assembly, mass.as_ref())?;
+    let solver = linear_solver::choose(&assembly, path)?;
+    let mut summary = summary::summarise(&assembly, path, &solver, remarks);
     forecast::fits(scene, summary.memory_bytes)?;
     summary.start_gaps = start_gaps;
     if let Some(mass) = &mass {
         summary.add_inertia(mass);
     }
-    let of_files = frictions.iter().flatten().flat_map(|f| f.warnings.iter().cloned());
-    let doubts = doubts.into_iter().chain(unbalanced).chain(of_files).chain(passed_over);
     crate::doubts::add(&mut summary.warnings, doubts);
-    let initial_stress = model.bodies.iter().map(|b| initial_stress::body_field(scene, &b.name)).collect();
-    let samples = samples::find(scene, &model)?;
-    let checks =
-        checks::collect(scene, &model, (&interfaces, &frictions), &stages, (summary.memory_bytes, &solver))?;
-    let events = events::plan(scene, &model, &interfaces)?;
+    let samples = samples::find(scene, &assembly.model)?;
+    let checks = checks::collect(&assembly, summary.memory_bytes, &solver)?;
+    let events = events::plan(scene, &assembly.model, &assembly.interfaces)?;
+    let control = stepping::control(scene, &assembly.stages);
+    let Assembly { model, stages, stepping, interfaces, frictions, .. } = assembly;
     let thetas = frictions.iter().map(|f| f.as_ref().map_or_else(Vec::new, Friction::thetas)).collect();
+    let initial_stress = model.bodies.iter().map(|b| initial_stress::body_field(scene, &b.name)).collect();
     Ok(Plan {
         title: scene.title.clone(),
         problem: Problem {
@@ -95,4 +68,37 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         summary,
         checks,
     })
+}
+
+/// Findings about bodies before the first step.
+struct Findings {
+    remarks: Vec<String>,
+    /// Positions of the sides of the interfaces.
+    start_gaps: Vec<StartGap>,
+    doubts: Vec<Warning>,
+}
+
+impl Findings {
+    fn new<const D: usize>(assembly: &Assembly<'_, D>, mass: Option<&Mass>) -> Result<Self, Diagnostic> {
+        let Assembly { scene, model, stages, interfaces, .. } = assembly;
+        let mut remarks = match mass {
+            // Mass alone resists the motion of bodies that nothing holds.
+            Some(Mass { handover: None, .. }) => Vec::new(),
+            // Without inertia, be it for the time being, bodies must be held.
+            _ => restraint::check(scene, model, stages, interfaces)?,
+        };
+        remarks.extend(sizes::file_extents(scene, model));
+        let (followed, passed_over) = courses::remarks_and_warnings(scene);
+        remarks.extend(followed);
+        remarks.extend(cuts::notes(scene, &model.mesh));
+        remarks.extend(meshes::left_out(model));
+        remarks.extend(assembly.laws().flat_map(|f| f.notes.iter().cloned()));
+        let (start_gaps, mut doubts) = doubts::gaps_and_warnings(assembly)?;
+        let (balance, unbalanced) = start_balance::remarks_and_warning(assembly)?;
+        remarks.extend(balance);
+        doubts.extend(unbalanced);
+        doubts.extend(assembly.laws().flat_map(|f| f.warnings.iter().cloned()));
+        doubts.extend(passed_over);
+        Ok(Self { remarks, start_gaps, doubts })
+    }
 }

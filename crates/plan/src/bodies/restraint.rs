@@ -63,7 +63,8 @@ fn names<const D: usize>(model: &Model<D>, loose: &Motion) -> String {
 
 /// Likely cause of a step without solution: a body that contact held and holds no longer; `None` if all are held.
 pub fn lost<const D: usize>(
-    (model, stage): (&Model<D>, &Stage),
+    model: &Model<D>,
+    stage: &Stage,
     interfaces: &[PlannedInterface],
     closed: &dyn Fn(usize, usize) -> bool,
 ) -> Option<String> {

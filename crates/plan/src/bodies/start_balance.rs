@@ -1,10 +1,11 @@
 //! Imbalance of initial stress, weight, loads and interfaces at the start.
 
-use super::{PlannedInterface, Stepping};
+use super::PlannedInterface;
+use super::assembly::Assembly;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Scene;
 use crate::shared::initial_stress;
-use asperity_contact::{Enforcement, Interface};
+use asperity_contact::{Enforcement, Interface, PointFields};
 use asperity_friction::law::{Law, Regime, Responses, Trials};
 use asperity_mechanics::coordinates::in_words;
 use asperity_mechanics::{CellBlock, Model, Stage, declared};
@@ -33,6 +34,18 @@ struct UnbalancedForce<const D: usize> {
     largest: (f64, usize, usize),
 }
 
+impl<const D: usize> UnbalancedForce<D> {
+    fn in_words(&self, model: &Model<D>) -> String {
+        let (_, node, axis) = self.largest;
+        format!(
+            "initial stress, weight, loads at the start and interfaces are out of balance by {:.1e} of the stress, most at {} along {}",
+            self.share,
+            in_words(&model.mesh.nodes[node]),
+            ["x", "y", "z"][axis]
+        )
+    }
+}
+
 /// Initial state of an interface.
 struct Start {
     /// Description for the plan.
@@ -46,11 +59,9 @@ struct Start {
 /// # Errors
 /// [`Diagnostic`] for an interface that cannot be built.
 pub fn remarks_and_warning<const D: usize>(
-    scene: &Scene,
-    model: &Model<D>,
-    (interfaces, stages): (&[PlannedInterface], &[Stage]),
-    stepping: &Stepping,
+    assembly: &Assembly<'_, D>,
 ) -> Result<(Vec<String>, Option<Warning>), Diagnostic> {
+    let Assembly { scene, model, stages, .. } = assembly;
     let given = scene.bodies.values().find_map(|b| b.initial_stress.as_ref());
     let (Some(given), Some(stage)) = (given, stages.first()) else { return Ok((Vec::new(), None)) };
     let stress = largest_stress(scene, model);
@@ -60,8 +71,8 @@ pub fn remarks_and_warning<const D: usize>(
     let mut remarks = Vec::new();
     let mut r = unbalanced_forces(model, stage);
     let mut slips = false;
-    for planned in interfaces {
-        if let Some(start) = pressed(scene, model, stepping, (planned, stage), &mut r)? {
+    for planned in &assembly.interfaces {
+        if let Some(start) = pressed(assembly, planned, stage, &mut r)? {
             slips |= start.slips;
             remarks.push(start.remark);
         }
@@ -74,19 +85,16 @@ pub fn remarks_and_warning<const D: usize>(
         ));
         return Ok((remarks, None));
     }
-    let (force, node, axis) = left.largest;
-    let told = format!(
-        "initial stress, weight, loads at the start and interfaces are out of balance by {:.1e} of the stress, most at {} along {}",
-        left.share,
-        in_words(&model.mesh.nodes[node]),
-        ["x", "y", "z"][axis]
-    );
+    let told = left.in_words(model);
     if left.share <= SETTLES {
         remarks.push(told);
         return Ok((remarks, None));
     }
-    let message =
-        format!("{told}, by {force:.3e} {}: bodies move in the first step until they are", unit(model));
+    let message = format!(
+        "{told}, by {:.3e} {}: bodies move in the first step until they are",
+        left.largest.0,
+        unit(model)
+    );
     let bare = scene.interfaces.values().any(|i| i.initial_stress.is_none());
     let help = if bare { format!("{BEARS}; {BALANCES}") } else { BALANCES.into() };
     Ok((remarks, Some(Warning::at(given.span(), message, help))))
@@ -121,49 +129,61 @@ fn unbalanced_forces<const D: usize>(model: &Model<D>, stage: &Stage) -> Vec<f64
 
 /// Adds the forces of an interface that the initial stress presses, and describes its tractions.
 fn pressed<const D: usize>(
-    scene: &Scene,
-    model: &Model<D>,
-    stepping: &Stepping,
-    (planned, stage): (&PlannedInterface, &Stage),
+    assembly: &Assembly<'_, D>,
+    planned: &PlannedInterface,
+    stage: &Stage,
     r: &mut [f64],
 ) -> Result<Option<Start>, Diagnostic> {
+    let Assembly { scene, model, stepping, .. } = assembly;
     let Some(pressed) = &planned.pressed else { return Ok(None) };
-    let name = &planned.name;
     let number: Vec<usize> = (0..model.dofs()).collect();
     let mut declared = declared::spec(model, stepping, planned, &number, 0.0, 0);
     declared.enforcement = Enforcement::Penalty;
-    if stage.frictionless.contains(name) {
+    if stage.frictionless.contains(&planned.name) {
         declared.law = None;
     }
     let law = declared.law.clone();
     let mut built = Interface::new(declared).map_err(|e| {
-        Diagnostic::at(scene.interfaces[name].slave.span(), e.to_string(), "see `slave` and `master`")
+        let slave = &scene.interfaces[&planned.name].slave;
+        Diagnostic::at(slave.span(), e.to_string(), "see `slave` and `master`")
     })?;
     built.press(&pressed.starts(), pressed.reach);
     built.exert(r);
-    let points = built.points();
-    let bears: Vec<usize> = (0..points.gap.len()).filter(|&p| points.normal_traction[p] > 0.0).collect();
-    let shear = |p: usize| points.shear[p].iter().map(|t| t * t).sum::<f64>().sqrt();
-    let borne: Vec<(f64, f64)> = bears.iter().map(|&p| (points.normal_traction[p], shear(p))).collect();
-    if borne.is_empty() {
-        let remark = format!("interface `{name}`: the initial stress does not press it");
-        return Ok(Some(Start { remark, slips: false }));
+    Ok(Some(Start::from_points(planned, law.as_deref(), built.points())))
+}
+
+impl Start {
+    /// State of an interface from the tractions at its points, under a law if there is friction.
+    fn from_points<const D: usize>(
+        planned: &PlannedInterface,
+        law: Option<&dyn Law>,
+        points: &PointFields<D>,
+    ) -> Self {
+        let name = &planned.name;
+        let bears: Vec<usize> = (0..points.gap.len()).filter(|&p| points.normal_traction[p] > 0.0).collect();
+        let shear = |p: usize| points.shear[p].iter().map(|t| t * t).sum::<f64>().sqrt();
+        let borne: Vec<(f64, f64)> = bears.iter().map(|&p| (points.normal_traction[p], shear(p))).collect();
+        if borne.is_empty() {
+            let remark = format!("interface `{name}`: the initial stress does not press it");
+            return Self { remark, slips: false };
+        }
+        let (least, most) =
+            borne.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), (f, _)| (a.min(*f), b.max(*f)));
+        let ratio = borne.iter().map(|(f, t)| t / f).fold(0.0, f64::max);
+        let mut remark = format!(
+            "interface `{name}`: the initial stress presses {} of {} points with {least:.4e} to {most:.4e} Pa, and shears them by up to {ratio:.4} of that",
+            borne.len(),
+            points.gap.len()
+        );
+        let slips = law.map_or(0, |law| {
+            let states = initial(law, &bears, points.gap.len());
+            slipping(law, (&bears, &borne, &states), planned.tangential_penalty)
+        });
+        if slips > 0 {
+            remark += &format!("; friction does not hold {slips} of them, which slip at once");
+        }
+        Self { remark, slips: slips > 0 }
     }
-    let (least, most) = borne.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), (f, _)| (a.min(*f), b.max(*f)));
-    let ratio = borne.iter().map(|(f, t)| t / f).fold(0.0, f64::max);
-    let mut remark = format!(
-        "interface `{name}`: the initial stress presses {} of {} points with {least:.4e} to {most:.4e} Pa, and shears them by up to {ratio:.4} of that",
-        borne.len(),
-        points.gap.len()
-    );
-    let slips = law.map_or(0, |law| {
-        let states = initial(law.as_ref(), &bears, points.gap.len());
-        slipping(law.as_ref(), (&bears, &borne, &states), planned.tangential_penalty)
-    });
-    if slips > 0 {
-        remark += &format!("; friction does not hold {slips} of them, which slip at once");
-    }
-    Ok(Some(Start { remark, slips: slips > 0 }))
 }
 
 /// Initial states of some of the points of an interface.

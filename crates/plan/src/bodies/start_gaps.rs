@@ -1,8 +1,10 @@
 //! Initial gaps, overlaps and facing area of the sides of the interfaces, measured as the contact measures them.
 
-use super::{PlannedInterface, SHARE, StartGap, Stepping};
+use super::assembly::Assembly;
+use super::{PlannedInterface, SHARE, StartGap};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Interface as Spec;
+use crate::shared::entry::Entry;
 use asperity_contact::{Enforcement, Interface, PointFields};
 use asperity_fem::mesh::{MeshFace, Side};
 use asperity_fem::surface;
@@ -17,19 +19,47 @@ const ROUNDING: f64 = 1e-12;
 /// Distance by which two sides can approach, over the prescribed motion. Both sides may move, and a squeezed body bulges by less than it is squeezed.
 const REACH: f64 = 3.0;
 
-/// Initial gaps of an interface, with gap \[m\] and area of each facing point.
-pub type MeasuredGaps = (StartGap, Vec<(f64, f64)>);
+/// Initial gaps of an interface, with those of its points that face the master.
+pub struct MeasuredGaps {
+    pub start: StartGap,
+    pub facing: Vec<FacingPoint>,
+}
+
+/// A point that faces the master.
+pub struct FacingPoint {
+    /// Gap \[m\].
+    pub gap: f64,
+    pub area: f64,
+}
+
+/// An interface before the first step.
+#[derive(Clone, Copy)]
+pub struct StartContact<'a> {
+    pub spec: &'a Spec,
+    pub planned: &'a PlannedInterface,
+    pub start: &'a StartGap,
+    /// Size of the slave cells \[m\].
+    pub size: f64,
+}
+
+impl StartContact<'_> {
+    /// True if a bonded law keeps gaps as they are.
+    pub fn is_bonded(&self) -> bool {
+        self.planned.law.as_ref().is_some_and(|law| law.bonded())
+    }
+}
 
 /// Measures the initial gaps of an interface.
 ///
 /// # Errors
 /// [`Diagnostic`] at the slave if the sides can never touch, or are the wrong ones.
 pub fn measure<const D: usize>(
-    model: &Model<D>,
-    stepping: &Stepping,
+    assembly: &Assembly<'_, D>,
     planned: &PlannedInterface,
-    (spec, sides): (&Spec, &[Side]),
+    slave: &[Side],
 ) -> Result<MeasuredGaps, Diagnostic> {
+    let Assembly { model, stepping, .. } = assembly;
+    let Entry { spec, .. } = assembly.entry(planned);
     let number: Vec<usize> = (0..model.dofs()).collect();
     let mut declared = declared::spec(model, stepping, planned, &number, 0.0, 0);
     // Positions of the sides depend neither on the law nor on the enforcement.
@@ -48,7 +78,7 @@ pub fn measure<const D: usize>(
         points: planned.slave.len(),
         unpaired: built.unpaired(),
         gap: [f64::INFINITY, f64::NEG_INFINITY],
-        slave_area: surface::areas(&model.mesh, sides, model.idealisation).values().sum(),
+        slave_area: surface::areas(&model.mesh, slave, model.idealisation).values().sum(),
         area_unit: if model.idealisation.weight(&[0.0; D]) == 1.0 && D == 2 { "m" } else { "m^2" },
         ..StartGap::default()
     };
@@ -56,14 +86,14 @@ pub fn measure<const D: usize>(
     for (p, (node, _)) in planned.slave.iter().enumerate() {
         if points.gap[p].is_finite() && looks_at(&normals[node], points, p) {
             start.facing += 1;
-            facing.push((points.gap[p], points.area[p]));
+            facing.push(FacingPoint { gap: points.gap[p], area: points.area[p] });
             start.gap = [start.gap[0].min(points.gap[p]), start.gap[1].max(points.gap[p])];
             start.facing_area += points.area[p];
         }
     }
     let rounding = ROUNDING * model.scale;
     start.gap = start.gap.map(|g| if start.facing == 0 || g.abs() <= rounding { 0.0 } else { g });
-    refuse(model, planned, spec, &start, points).map_or(Ok((start, facing)), Err)
+    refuse(model, planned, spec, &start, points).map_or(Ok(MeasuredGaps { start, facing }), Err)
 }
 
 /// True if the slave side at a point and the master face each other.
@@ -132,17 +162,12 @@ pub(super) fn thickness<const D: usize>(model: &Model<D>, body: usize, n: &[f64;
     (0..D).map(|c| n[c].abs() * (max[c] - min[c])).sum()
 }
 
-/// Warning about the initial gaps of an interface whose slave cells have size `h`; a bonded interface keeps its gaps. Bodies
-/// that `fly` with inertia may close any gap.
-pub fn doubts(
-    start: &StartGap,
-    (spec, bonded): (&Spec, bool),
-    (stages, fly): (&[Stage], bool),
-    h: f64,
-) -> Option<Warning> {
+/// Warning about the initial gaps of an interface; a bonded one keeps its gaps. Bodies that `fly` with inertia may close any gap.
+pub fn doubts(contact: &StartContact<'_>, stages: &[Stage], fly: bool) -> Option<Warning> {
+    let StartContact { spec, start, size: h, .. } = *contact;
     let [least, largest] = start.gap;
     let name = &start.interface;
-    if bonded {
+    if contact.is_bonded() {
         let (farthest, what) = if -least > largest { (-least, "an overlap") } else { (largest, "a gap") };
         return (farthest > SHARE * h).then(|| {
             let message = format!("interface `{name}` is tied across {what} of up to {}", brief(farthest));

@@ -1,6 +1,7 @@
 //! Text of the plan.
 
 use super::Summary;
+use super::assembly::Assembly;
 use super::path::{finite, full_because};
 use crate::reading::scene::model::{Formulation, Kinematics, Scene};
 use crate::shared::amounts;
@@ -14,14 +15,12 @@ use asperity_mechanics::{
 
 /// Summary of a plan, except for the findings about its initial state.
 pub fn summarise<const D: usize>(
-    scene: &Scene,
-    model: &Model<D>,
-    (interfaces, stages): (&[PlannedInterface], &[Stage]),
+    assembly: &Assembly<'_, D>,
     path: Path,
-    stepping: &Stepping,
     solver: &Solver,
     remarks: Vec<String>,
 ) -> Summary {
+    let Assembly { scene, model, stages, stepping, interfaces, .. } = assembly;
     let mut physics = bodies_in_words(scene, model);
     let mut state_bytes = 0;
     let (mut retained, mut unknowns) = (0, 0);

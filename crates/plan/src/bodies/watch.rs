@@ -1,5 +1,6 @@
 //! Limits on the steps of an interface, derived from its law, the adjacent bodies and the loads.
 
+use super::surfaces::SurfacePair;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::{Evolution, LawChoice, State};
 use crate::reading::scene::model::Scene;
@@ -18,17 +19,27 @@ const ZETA: f64 = 0.1;
 /// Largest slip of a step over L, in units of a/b. Up to about a L/b the equations of a step have a unique solution.
 const UNIQUE: f64 = 0.5;
 
-/// Limits on the steps of an interface between these faces, with one law or laws of its points; `loading` is the largest prescribed rate \[m/s\].
+/// What resists slip on an interface.
+#[derive(Clone, Copy)]
+pub struct Resistance<'a> {
+    /// Law of all points, or laws of each.
+    pub laws: &'a [LawChoice],
+    /// Radiation damping, if there is some \[Pa s/m\].
+    pub damping: Option<f64>,
+}
+
+/// Limits on the steps of an interface between these surfaces; `loading` is the largest prescribed rate \[m/s\].
 ///
 /// # Errors
 /// [`Diagnostic`] if a body has no material.
 pub fn limits<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
-    laws: &[LawChoice],
-    ((slave, master), damping): ((&[Side], &[Side]), Option<f64>),
+    surfaces: &SurfacePair<'_, D>,
+    Resistance { laws, damping }: Resistance<'_>,
     loading: f64,
 ) -> Result<Watch, Diagnostic> {
+    let [slave, master] = [&surfaces.slave, &surfaces.master].map(|surface| surface.sides);
     let speeds = [slave, master].map(|side| impedance::speeds(scene, model, side));
     let [of_slave, of_master] = speeds;
     let bound = outrun::bound(of_slave?.into_iter().chain(of_master?));
