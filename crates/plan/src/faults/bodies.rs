@@ -20,11 +20,19 @@ pub struct BodiesView {
     pub cells: Vec<(u8, Vec<usize>)>,
 }
 
+/// Freely sliding points, which may lag behind plates.
+pub(super) struct LaggingPoints {
+    /// Nodes on the minus and the plus side of each.
+    pub sides: Vec<[usize; 2]>,
+    /// Rates of the plates, component by component \[m/s\]: zero without backslip.
+    pub plates: Vec<f64>,
+}
+
 impl BodiesView {
     pub(super) fn new<const D: usize>(
-        (bodies, plates): (Bodies, Vec<f64>),
+        bodies: Bodies,
         model: &Model<D>,
-        sides: Vec<[usize; 2]>,
+        LaggingPoints { sides, plates }: LaggingPoints,
         shown: bool,
     ) -> Self {
         let blocks = model.bodies.iter().flat_map(|body| &model.mesh.blocks[body.blocks.clone()]);

@@ -50,7 +50,8 @@ impl Sampling {
     pub(super) fn new<const D: usize>(
         bodies: SampledBodies<D>,
         areas: Vec<f64>,
-        (unit, number): (&'static str, usize),
+        unit: &'static str,
+        number: usize,
     ) -> Self {
         let sampled = SampleSites {
             points: bodies.wanted.points.iter().map(views::point_mark).collect(),

@@ -1,5 +1,6 @@
 //! Settings of runs with waves that are probably not intended.
 
+use super::steps::StepChoice;
 use crate::doubts::{self as shared, PulsePoint};
 use crate::faults::planner::{PlacedPoint, pulse_doubts};
 use crate::reading::scene::law::LawChoice;
@@ -24,10 +25,10 @@ pub(super) fn check<const D: usize>(
     scene: &Scene,
     placed: &[PlacedPoint<D>],
     stage: &Stage,
-    (steps, dt): (usize, f64),
+    StepChoice { steps, dt, .. }: &StepChoice,
 ) -> Vec<Warning> {
     let mut all = Vec::new();
-    if steps > MANY {
+    if *steps > MANY {
         all.push(Warning::at(
             scene.stages[0].duration.span(),
             format!("the stage takes {steps} steps of {dt:.3e} s"),

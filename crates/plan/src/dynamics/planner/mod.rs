@@ -11,18 +11,19 @@ mod steps;
 pub use rupture::ruptures;
 
 use super::plan::{AnyPlan, Plan};
-use crate::faults::planner::{self as of_faults, FaultFaces};
+use crate::faults::planner::{self as of_faults, FaultFaces, PlacedPoint, Remarks};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Kinematics, Scene};
 use crate::shared::checks::of_model::{self, field_bytes};
 use crate::shared::checks::{Cost, rates};
 use crate::shared::entry::Entry;
 use crate::shared::held::ModelMemory;
-use crate::shared::loading::courses;
+use crate::shared::loading::{Stage, courses};
 use crate::shared::model::{self, Model, counts, cuts, forecast, locking, meshes};
 use crate::shared::{loading, outrun, views};
-use asperity_mechanics::dynamics::Problem;
+use asperity_mechanics::dynamics::{Problem, StableStep};
 use asperity_scene::defaults;
+use steps::StepChoice;
 
 /// Plans a scene whose stepper is "explicit".
 ///
@@ -49,48 +50,72 @@ fn admit(scene: &Scene) -> Result<(), Diagnostic> {
     ))
 }
 
+/// Steps of bodies with mass, and what they follow from.
+struct StepPlan {
+    /// Density of each block of cells \[kg/m³\].
+    density: Vec<f64>,
+    viscosity: f64,
+    stable: StableStep,
+    counted: StepChoice,
+}
+
+impl StepPlan {
+    fn choose<const D: usize>(scene: &Scene, model: &Model<D>, stage: &Stage) -> Result<Self, Diagnostic> {
+        let density = masses::densities(scene, model)?;
+        let viscosity = steps::viscosity(scene);
+        let stable = masses::stable(scene, model, &density, viscosity)?;
+        let counted = steps::choose(scene, stage, &stable)?;
+        Ok(Self { density, viscosity, stable, counted })
+    }
+}
+
+/// Points of faults that slide, and those that are locked or creep.
+struct SplitPoints<const D: usize> {
+    sliding: Vec<PlacedPoint<D>>,
+    locked: Vec<PlacedPoint<D>>,
+}
+
+impl<const D: usize> SplitPoints<D> {
+    fn find(scene: &Scene, model: &Model<D>, remarks: &mut Remarks) -> Result<Self, Diagnostic> {
+        if scene.faults.is_empty() {
+            remarks.notes.extend(meshes::notes(scene)?);
+            remarks.notes.extend(cuts::notes(scene, &model.mesh));
+            remarks.notes.extend(meshes::left_out(model));
+            return Ok(Self { sliding: Vec::new(), locked: Vec::new() });
+        }
+        let (locked, sliding) = faults::apart(of_faults::all_points(scene, model, remarks)?);
+        if sliding.is_empty() && !locked.is_empty() {
+            return Err(of_faults::nothing_slides(&Entry::all(&scene.faults), &locked));
+        }
+        Ok(Self { sliding, locked })
+    }
+}
+
 fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     admit(scene)?;
     let model = model::build::<D>(scene)?;
     let stages = loading::stages(scene, &model)?;
-    let mut warnings = scene.warnings.clone();
-    warnings.extend(locking::doubts(scene, &model)?);
-    let mut notes = meshes::notes(scene)?;
-    notes.extend(cuts::notes(scene, &model.mesh));
-    notes.extend(meshes::left_out(&model));
-    let density = masses::densities(scene, &model)?;
-    let viscosity = steps::viscosity(scene);
-    let stable = masses::stable(scene, &model, &density, viscosity)?;
-    let counted = steps::choose(scene, &stages[0], &stable)?;
-    let (locked, placed) = if scene.faults.is_empty() {
-        (Vec::new(), Vec::new())
-    } else {
-        let (all, more) = of_faults::all_points(scene, &model, &mut warnings)?;
-        notes = more;
-        faults::apart(all)
-    };
-    if placed.is_empty() && !locked.is_empty() {
-        return Err(of_faults::nothing_slides(&Entry::all(&scene.faults), &locked));
-    }
-    let steps = (counted.steps, counted.dt);
-    crate::doubts::add(&mut warnings, doubts::check(scene, &placed, &stages[0], steps));
-    warnings.extend(courses::passed_over(&scene.stages[0], counted.dt, courses::WAVES));
-    let resolution = of_faults::resolved(scene, &placed, &mut warnings)?;
-    let (faults, points) = of_faults::views(scene, &FaultFaces { model: &model }, &placed, D == 3)?;
+    let mut remarks = Remarks { warnings: scene.warnings.clone(), notes: Vec::new() };
+    remarks.warnings.extend(locking::doubts(scene, &model)?);
+    let StepPlan { density, viscosity, stable, counted } = StepPlan::choose(scene, &model, &stages[0])?;
+    let SplitPoints { sliding, locked } = SplitPoints::find(scene, &model, &mut remarks)?;
+    crate::doubts::add(&mut remarks.warnings, doubts::check(scene, &sliding, &stages[0], &counted));
+    remarks.warnings.extend(courses::passed_over(&scene.stages[0], counted.dt, courses::WAVES));
+    let resolution = of_faults::resolved(scene, &sliding, &mut remarks.warnings)?;
+    let (faults, points) = of_faults::views(scene, &FaultFaces { model: &model }, &sliding, D == 3)?;
     let receivers = outputs::receivers(scene, &model)?;
-    notes.extend(outputs::notes(scene, counted.cadence.rows as f64 * counted.dt));
+    remarks.notes.extend(outputs::notes(scene, counted.cadence.rows as f64 * counted.dt));
     let memory_bytes = ModelMemory::new(&model).in_steps(stable.highest.kept, model.dofs());
     forecast::fits(scene, memory_bytes)?;
     let mut checks = of_model::checks(scene, &model)?;
-    let prescribed = of_faults::checks::counted(scene, &locked);
-    checks.faults = of_faults::checks::faults(scene, (&placed, &prescribed), &faults, &resolution);
+    checks.faults = of_faults::checks::faults(scene, &sliding, &faults, &resolution);
+    of_faults::checks::prescribe(&mut checks.faults, &of_faults::checks::counted(scene, &locked));
     checks.cost = cost(&model, &counted, points.len(), memory_bytes);
-    let idealisation = model.idealisation;
-    let fault = faults::assemble(scene, &placed, &locked)?;
-    warnings.extend(doubts::unlike(scene, &placed, true));
+    let fault = faults::assemble(scene, &sliding, &locked)?;
+    remarks.warnings.extend(doubts::unlike(scene, &sliding, true));
     if let Some(fault) = &fault {
         let duration = counted.steps as f64 * counted.dt;
-        crate::doubts::add(&mut warnings, doubts::pulses(scene, &placed, fault, duration));
+        crate::doubts::add(&mut remarks.warnings, doubts::pulses(scene, &sliding, fault, duration));
     }
     Ok(Plan {
         title: scene.title.clone(),
@@ -103,16 +128,16 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         points,
         resolution,
         rupture_rate: scene.output.rupture_rate.as_ref().map_or(defaults::RUPTURED, |v| v.get_ref().0),
-        fastest: outrun::bound(placed.iter().map(|p| p.medium.waves)),
+        fastest: outrun::bound(sliding.iter().map(|p| p.medium.waves)),
         receivers,
         epoch: outputs::epoch(scene)?,
         mesh: views::mesh_view(&model, false),
-        axes: (0..idealisation.components()).map(|c| idealisation.axis(c)).collect(),
-        per_length: views::per_length(idealisation),
+        axes: (0..model.idealisation.components()).map(|c| model.idealisation.axis(c)).collect(),
+        per_length: views::per_length(model.idealisation),
         kinematics: scene.kinematics.get_ref().words(),
         memory_bytes,
-        warnings,
-        notes,
+        warnings: remarks.warnings,
+        notes: remarks.notes,
         checks,
         problem: Problem {
             courant: counted.courant,
@@ -132,12 +157,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
 const VALUES: [usize; 2] = [6, 0];
 
 /// Cost of a run with these steps.
-fn cost<const D: usize>(
-    model: &Model<D>,
-    counted: &steps::StepChoice,
-    points: usize,
-    memory_bytes: usize,
-) -> Cost {
+fn cost<const D: usize>(model: &Model<D>, counted: &StepChoice, points: usize, memory_bytes: usize) -> Cost {
     let components = model.idealisation.components();
     let dofs = counts(&model.mesh).iter().map(|c| c.cells as usize * c.kind.nodes() * components).sum();
 

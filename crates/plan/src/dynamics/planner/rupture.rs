@@ -3,7 +3,7 @@
 use super::faults::apart;
 use super::{doubts, faults, masses, steps};
 use crate::faults::Plan as Cycles;
-use crate::faults::planner::{self as of_faults, PlacedPoint, in_space};
+use crate::faults::planner::{self as of_faults, PlacedPoint, Remarks, in_space};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::Scene;
@@ -48,7 +48,7 @@ fn bodies<const D: usize>(
     let viscosity = steps::viscosity(scene);
     let stable = masses::stable(scene, &model, &density, viscosity)?;
     // The plan of the cycles has the warnings.
-    let (placed, _) = of_faults::all_points(scene, &model, &mut Vec::new())?;
+    let placed = of_faults::all_points(scene, &model, &mut Remarks::default())?;
     let (creeping, placed) = apart(placed);
     let quiet = 2.0 * extent(&placed) / impedance::slowest(&model, &density);
     without_memory(scene, &placed)?;

@@ -196,37 +196,38 @@ fn constant<const D: usize>(
     Some((message, "check the unit and the sign of its positions, or give one value instead of the profile"))
 }
 
-/// Refuses a station farther than `size` \[m\] from the nearest sliding point, which is number `point` of `placed`.
-///
-/// # Errors
-/// [`Diagnostic`] at the station.
+/// Distance of a station from a point \[m\].
+pub(super) fn distance<const D: usize>(station: &Station, place: &Place<D>) -> f64 {
+    match station {
+        Station::Along(s) => (place.along - s).abs(),
+        Station::At(x) => x.iter().zip(&place.at).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt(),
+    }
+}
+
+/// Error for a station that lies off the sliding points of its fault, of which number `point` is the nearest.
 pub(super) fn station<const D: usize>(
     name: &str,
     asked: &Spanned<Station>,
-    (placed, point): (&[PlacedPoint<D>], usize),
-    size: f64,
-) -> Result<(), Diagnostic> {
+    placed: &[PlacedPoint<D>],
+    point: usize,
+) -> Diagnostic {
     let place = &placed[point].point.place;
-    let (off, wanted, found) = match asked.get_ref() {
-        Station::Along(s) => ((place.along - s).abs(), format!("{s} m along"), format!("{} m", place.along)),
+    let (wanted, found) = match asked.get_ref() {
+        Station::Along(s) => (format!("{s} m along"), format!("{} m", place.along)),
         Station::At(x) => {
-            let squares = x.iter().zip(&place.at).map(|(a, b)| (a - b).powi(2));
             let coordinates: Vec<String> = x.iter().map(f64::to_string).collect();
-            let wanted = format!("({}) m on", coordinates.join(", "));
-            (squares.sum::<f64>().sqrt(), wanted, coordinates::in_words(&place.at))
+            (format!("({}) m on", coordinates.join(", ")), coordinates::in_words(&place.at))
         }
     };
-    if off <= size {
-        return Ok(());
-    }
+    let off = distance(asked.get_ref(), place);
     let extent = extent(placed.iter().map(|p| &p.point.place));
-    Err(Diagnostic::at(
+    Diagnostic::at(
         asked.span(),
         format!(
             "the station at {wanted} fault `{name}` lies off its sliding points, which lie {extent}: the nearest one is at {found}, {off} m away"
         ),
         "a position on the part of the fault that slides freely",
-    ))
+    )
 }
 
 /// Error for a body that cannot contain a fault.

@@ -7,8 +7,10 @@ use super::super::receivers::Receivers;
 use super::super::sampling::Sampling;
 use super::super::stresses::BodyStresses;
 use super::cells::Cells;
+use super::history::LoadHistory;
 use super::placed::{PlacedPoint, components, in_space, slides};
 use super::pulses::{self, pulses};
+use super::remarks::Remarks;
 use super::{
     asked, checks, diffusion, floor, heated, injection, pressing, radiation, sense, start_doubts, steady,
     upright,
@@ -18,6 +20,7 @@ use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::{Creep, Fault as Spec, Scene, SlipSpec, Station as Asking};
 use crate::shared::checks::{Checks, Cost, FaultCheck, rates};
 use crate::shared::entry::Entry;
+use crate::shared::refused::refused;
 use crate::shared::resolution::Resolution;
 use crate::shared::{outrun, place, thresholds};
 use asperity_cycles::diffusion::Diffusion;
@@ -67,8 +70,7 @@ pub(super) struct SurroundingsView {
     pub sampling: Option<Sampling>,
     pub stresses: Option<BodyStresses>,
     pub resolution: Vec<Resolution>,
-    pub warnings: Vec<Warning>,
-    pub notes: Vec<String>,
+    pub remarks: Remarks,
     /// Checks of the bodies.
     pub checks: Checks,
     /// Number of points of each fault that do not slide by their law.
@@ -92,10 +94,56 @@ fn at_point<const D: usize>(
     failure: &Failure,
 ) -> Diagnostic {
     let Entry { name, spec } = named[point.fault];
-    let error = crate::shared::refused::refused(&spec.law, failure);
+    let error = refused(&spec.law, failure);
     let at = coordinates::in_words(&point.point.place.at);
     let place = failure.point().map_or_else(String::new, |_| format!("; it is on fault `{name}` at {at}"));
     Diagnostic { message: format!("{}{place}", error.message), ..error }
+}
+
+/// Faults with all that acts on them, at their start.
+struct FaultSystem<const D: usize> {
+    placed: Vec<PlacedPoint<D>>,
+    problem: Problem,
+    /// Memory of the modes of heat \[bytes\].
+    heat_bytes: usize,
+    /// Memory of the responses to wells \[bytes\].
+    diffusion_bytes: usize,
+}
+
+impl<const D: usize> FaultSystem<D> {
+    /// Adds remarks on its processes.
+    fn new(scene: &Scene, surrounded: SlidingFaults<D>, remarks: &mut Remarks) -> Result<Self, Diagnostic> {
+        let SlidingFaults { placed, operator, opening, loading, end } = surrounded;
+        let named = Entry::all(&scene.faults);
+        let mut law = friction(&named, &placed)?;
+        if turns(scene) {
+            law = Box::new(VariableRake::new(law));
+        }
+        let heat = heated::heat(scene, &placed, law.as_mut(), end);
+        let heat_bytes = heat.as_ref().map_or(0, Heat::bytes);
+        let pulses = pulses(&named, &placed, if turns(scene) { 2 } else { 1 })?;
+        let injection = injection::injection(scene, &placed, end, &mut remarks.warnings)?;
+        let diffusion = diffusion::diffusion(scene, &placed, end, remarks)?;
+        let diffusion_bytes = diffusion.as_ref().map_or(0, Diffusion::bytes);
+        let fault = Fault {
+            operator,
+            law,
+            damping: placed.iter().map(|p| p.damping).collect(),
+            normal: placed.iter().map(|p| p.normal).collect(),
+            processes: Processes::default()
+                .and(pulses.into_iter().map(|(amplitude, rise)| Pulse { amplitude, rise }))
+                .and(injection)
+                .and(diffusion)
+                .and(heat)
+                .and(opening)
+                .and(Floor::new(placed.iter().map(|p| p.floor))),
+        };
+        let start = start(&placed, &fault).map_err(|(p, failure)| at_point(&named, &placed[p], &failure))?;
+        let settings = settings(scene, &placed, end)?;
+        let areas = placed.iter().map(|p| p.point.place.area).collect();
+        let problem = Problem { fault, areas, loading, start, settings };
+        Ok(Self { placed, problem, heat_bytes, diffusion_bytes })
+    }
 }
 
 /// Plan of faults from their points and surroundings.
@@ -105,47 +153,23 @@ pub(super) fn plan_of<const D: usize>(
     around: SurroundingsView,
     cells: &dyn Cells<D>,
 ) -> Result<Plan, Diagnostic> {
-    let SlidingFaults { placed, operator, opening, loading, end } = surrounded;
-    let named = Entry::all(&scene.faults);
-    let at_law = |e: Failure| crate::shared::refused::refused(&named[placed[0].fault].spec.law, &e);
-    let turns = turns(scene);
-    let law = friction(&named, &placed, at_law)?;
-    let mut law = if turns { Box::new(VariableRake::new(law)) } else { law };
-    let heat = heated::heat(scene, &placed, law.as_mut(), end);
-    let modes = heat.as_ref().map_or(0, Heat::bytes);
-    let pulses = pulses(&named, &placed, if turns { 2 } else { 1 })?;
-    let (mut warnings, mut notes) = (around.warnings, around.notes);
-    let injection = injection::injection(scene, &placed, end, &mut warnings)?;
-    let diffusion = diffusion::diffusion(scene, &placed, end, (&mut warnings, &mut notes))?;
-    let responses = diffusion.as_ref().map_or(0, Diffusion::bytes);
-    let fault = Fault {
-        operator,
-        law,
-        damping: placed.iter().map(|p| p.damping).collect(),
-        normal: placed.iter().map(|p| p.normal).collect(),
-        processes: Processes::default()
-            .and(pulses.into_iter().map(|(amplitude, rise)| Pulse { amplitude, rise }))
-            .and(injection)
-            .and(diffusion)
-            .and(heat)
-            .and(opening)
-            .and(Floor::new(placed.iter().map(|p| p.floor))),
-    };
-    let start = start(&placed, &fault).map_err(|(p, failure)| at_point(&named, &placed[p], &failure))?;
-    let settings = settings(scene, &placed, end)?;
-    pressing::rests(scene, (&placed, &fault), (&start, settings.thresholds.on))?;
-    doubt(scene, (&placed, &fault), around.loading, &mut warnings)?;
-    warnings.extend(steady::starts(scene, &placed, &fault, (&loading, end)));
-    let (faults, points) = views(scene, cells, &placed, turns)?;
-    let areas = placed.iter().map(|p| p.point.place.area).collect();
-    let cadence = cadence(scene, &fault, end);
+    let mut remarks = around.remarks;
+    let system = FaultSystem::new(scene, surrounded, &mut remarks)?;
+    let FaultSystem { placed, problem, .. } = &system;
+    pressing::rests(scene, placed, problem)?;
+    doubt(scene, &system, around.loading, &mut remarks.warnings)?;
+    remarks.warnings.extend(steady::starts(scene, placed, problem));
+    let (faults, points) = views(scene, cells, placed, turns(scene))?;
+    let cadence = cadence(scene, &problem.fault, problem.settings.end);
     let mut checks = around.checks;
-    checks.faults = checks::faults(scene, (&placed, &around.prescribed), &faults, &around.resolution);
-    add_loads(&mut checks.faults, scene, &placed, (&loading, end, &around.machines));
-    let memory_bytes = around.memory_bytes + modes + responses;
+    checks.faults = checks::faults(scene, placed, &faults, &around.resolution);
+    checks::prescribe(&mut checks.faults, &around.prescribed);
+    add_loads(&mut checks.faults, scene, &system, &around.machines);
+    let memory_bytes = around.memory_bytes + system.heat_bytes + system.diffusion_bytes;
+    let moved = problem.fault.operator.moved() + system.heat_bytes;
     checks.cost = Cost {
         memory_bytes: Some(memory_bytes),
-        step_seconds: Some(rates::fault_step(settings.method, placed.len(), fault.operator.moved() + modes)),
+        step_seconds: Some(rates::fault_step(problem.settings.method, placed.len(), moved)),
         largest_file: Some(cadence.largest_file),
         ..Cost::default()
     };
@@ -155,7 +179,7 @@ pub(super) fn plan_of<const D: usize>(
         points,
         cadence,
         event_files: scene.output.event_files.as_ref().map_or(defaults::EVENT_FILES, |n| *n.get_ref()),
-        problem: Problem { fault, areas, loading, start, settings },
+        problem: system.problem,
         ruptures: None,
         receivers: Receivers::default(),
         free_surface: None,
@@ -174,8 +198,8 @@ pub(super) fn plan_of<const D: usize>(
         in_space: D == 3,
         kinematics: scene.kinematics.get_ref().words(),
         resolution: around.resolution,
-        warnings,
-        notes,
+        warnings: remarks.warnings,
+        notes: remarks.notes,
         checks,
     })
 }
@@ -183,7 +207,7 @@ pub(super) fn plan_of<const D: usize>(
 /// Adds doubts of the start of faults, of their pulses and their damping under loads of this rate \[m/s\].
 fn doubt<const D: usize>(
     scene: &Scene,
-    (placed, fault): (&[PlacedPoint<D>], &Fault),
+    FaultSystem { placed, problem: Problem { fault, .. }, .. }: &FaultSystem<D>,
     rate: f64,
     warnings: &mut Vec<Warning>,
 ) -> Result<(), Diagnostic> {
@@ -202,12 +226,13 @@ fn doubt<const D: usize>(
 fn add_loads<const D: usize>(
     checks: &mut [FaultCheck],
     scene: &Scene,
-    placed: &[PlacedPoint<D>],
-    (loading, end, machines): (&Loading, f64, &[Option<f64>]),
+    FaultSystem { placed, problem, .. }: &FaultSystem<D>,
+    machines: &[Option<f64>],
 ) {
+    let history = LoadHistory { loading: &problem.loading, end: problem.settings.end };
     for (k, (check, spec)) in checks.iter_mut().zip(scene.faults.values()).enumerate() {
         let sense = spec.rate.get_ref().0.signum();
-        check.loading = sense::first_rate(placed, k, loading, end).map(|rate| rate * sense);
+        check.loading = sense::first_rate(placed, k, history).map(|rate| rate * sense);
         let springs = machines.get(k).copied().flatten();
         check.machine = springs.map(|stiffness| checks::machine(stiffness, k, placed));
     }
@@ -217,7 +242,6 @@ fn add_loads<const D: usize>(
 fn friction<const D: usize>(
     faults: &[Entry<'_, Spec>],
     placed: &[PlacedPoint<D>],
-    at_law: impl Fn(Failure) -> Diagnostic,
 ) -> Result<Box<dyn FaultLaw>, Diagnostic> {
     let (first, rest) = (&placed[0], &placed[1..]);
     let spec = |p: &PlacedPoint<D>| &faults[p.fault].spec.law;
@@ -229,7 +253,8 @@ fn friction<const D: usize>(
         ));
     }
     let choices: Vec<LawChoice> = rest.iter().map(|p| p.law.clone()).collect();
-    laws::build_fault(&first.law, &choices).map_err(at_law)?.ok_or_else(|| asked::another_law(spec(first)))
+    let law = laws::build_fault(&first.law, &choices).map_err(|e| refused(spec(first), &e))?;
+    law.ok_or_else(|| asked::another_law(spec(first)))
 }
 
 /// Positions and areas of points, and the points of each fault that has some.
@@ -380,43 +405,25 @@ pub(crate) fn views<const D: usize>(
     turns: bool,
 ) -> Result<(Vec<FaultView>, Vec<PointView>), Diagnostic> {
     let creeps: Vec<Option<&Creep>> = scene.faults.values().map(|spec| spec.creep.as_ref()).collect();
-    let points: Vec<PointView> = placed
-        .iter()
-        .map(|p| {
-            let place = &p.point.place;
-            let (at, normal): ([f64; 3], [f64; 3]) = (in_space(&place.at), in_space(&place.normal));
-            let slides = slides(p);
-            let (along, area, theta) = (place.along, place.area, Theta::from_law(&p.law));
-            let plate = creeps[p.fault].map(|creep| components(place, creep.rate.get_ref().0));
-            let shear_modulus = p.medium.shear_modulus;
-            PointView {
-                at,
-                along,
-                normal,
-                slides,
-                across: turns.then(|| across(&normal, &slides)),
-                area,
-                shear_modulus,
-                theta,
-                plate: plate.filter(|rate| rate[0] != 0.0 || turns && rate[1] != 0.0),
-            }
-        })
-        .collect();
+    let points: Vec<PointView> = placed.iter().map(|p| point_view(p, creeps[p.fault], turns)).collect();
     let mut faults = Vec::new();
     for (k, (name, spec)) in scene.faults.iter().enumerate() {
         let first = placed.partition_point(|p| p.fault < k);
         let last = placed.partition_point(|p| p.fault <= k);
         let asked = scene.output.stations.get(name);
-        let off = |p: usize, s: &Asking| match s {
-            Asking::Along(s) => (points[p].along - s).abs(),
-            Asking::At(at) => at.iter().zip(&points[p].at).map(|(a, b)| (a - b).powi(2)).sum(),
+        let off = |p: &PointView, s: &Asking| match s {
+            Asking::Along(s) => (p.along - s).abs(),
+            Asking::At(at) => at.iter().zip(&p.at).map(|(a, b)| (a - b).powi(2)).sum(),
         };
-        let nearest = |s: &Asking| (first..last).min_by(|&a, &b| off(a, s).total_cmp(&off(b, s)));
+        let nearest =
+            |s: &Asking| (first..last).min_by(|&a, &b| off(&points[a], s).total_cmp(&off(&points[b], s)));
         let mut stations = Vec::new();
         for asked in asked.iter().flat_map(|a| a.get_ref()) {
             let Some(point) = nearest(asked.get_ref()) else { continue };
             let size = cells.size(spec, &placed[point])?;
-            asked::station(name, asked, (&placed[first..last], point - first), size)?;
+            if asked::distance(asked.get_ref(), &placed[point].point.place) > size {
+                return Err(asked::station(name, asked, &placed[first..last], point - first));
+            }
             let station = match asked.get_ref() {
                 Asking::Along(s) => Station::Along(*s),
                 Asking::At(at) => Station::At(at.clone()),
@@ -435,6 +442,24 @@ pub(crate) fn views<const D: usize>(
         });
     }
     Ok((faults, points))
+}
+
+/// A point, as needed by the output, of a fault that creeps beyond it where `creep` is given.
+fn point_view<const D: usize>(p: &PlacedPoint<D>, creep: Option<&Creep>, turns: bool) -> PointView {
+    let place = &p.point.place;
+    let (normal, slides) = (in_space(&place.normal), slides(p));
+    let plate = creep.map(|creep| components(place, creep.rate.get_ref().0));
+    PointView {
+        at: in_space(&place.at),
+        along: place.along,
+        normal,
+        slides,
+        across: turns.then(|| across(&normal, &slides)),
+        area: place.area,
+        shear_modulus: p.medium.shear_modulus,
+        theta: Theta::from_law(&p.law),
+        plate: plate.filter(|rate| rate[0] != 0.0 || turns && rate[1] != 0.0),
+    }
 }
 
 #[cfg(test)]

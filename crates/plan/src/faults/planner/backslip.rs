@@ -1,8 +1,8 @@
 //! Loading by backslip: the points of a fault lag behind plates that move steadily.
 
+use super::history::LoadHistory;
 use super::placed::{PlacedPoint, components};
 use crate::reading::scene::model::{Creep, Fault as Spec, Scene};
-use asperity_cycles::Loading;
 use asperity_cycles::operator::Operator;
 use asperity_run::Warning;
 
@@ -24,14 +24,27 @@ pub(crate) fn fastest(scene: &Scene) -> f64 {
     rates.fold(0.0, f64::max)
 }
 
-/// Rates of the plates at all points, component by component \[m/s\]: zero on faults without backslip.
-pub(super) fn plates<const D: usize>(scene: &Scene, placed: &[PlacedPoint<D>], tangents: usize) -> Vec<f64> {
+/// Rates of the plates behind which points lag.
+pub(super) struct PlateRates {
+    /// Rates at all points, component by component \[m/s\]: zero on faults without backslip.
+    pub rates: Vec<f64>,
+    /// Number of components of slip.
+    pub tangents: usize,
+}
+
+/// Rates of the plates at all points.
+pub(super) fn plates<const D: usize>(
+    scene: &Scene,
+    placed: &[PlacedPoint<D>],
+    tangents: usize,
+) -> PlateRates {
     let creeps: Vec<Option<&Creep>> = scene.faults.values().map(|spec| creep(scene, spec)).collect();
     let rates = placed
         .iter()
         .map(|p| creeps[p.fault].map_or([0.0; 2], |c| components(&p.point.place, c.rate.get_ref().0)));
     let rates: Vec<[f64; 2]> = rates.collect();
-    (0..tangents).flat_map(|c| rates.iter().map(move |r| r[c])).collect()
+    let rates = (0..tangents).flat_map(|c| rates.iter().map(move |r| r[c])).collect();
+    PlateRates { rates, tangents }
 }
 
 /// Notes on the load of faults by backslip.
@@ -52,9 +65,9 @@ pub(super) fn doubts<const D: usize>(
     scene: &Scene,
     placed: &[PlacedPoint<D>],
     operator: &dyn Operator,
-    ([sides, deficit], end): ([&Loading; 2], f64),
+    [sides, deficit]: [LoadHistory<'_>; 2],
 ) -> Option<Warning> {
-    let means = [sides, deficit].map(|load| load.mean(end, placed.len()));
+    let means = [sides, deficit].map(|load| load.loading.mean(load.end, placed.len()));
     let mut faults = scene.faults.iter().enumerate();
     faults.find_map(|(k, (name, spec))| {
         let creep = creep(scene, spec)?;

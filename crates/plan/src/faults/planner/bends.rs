@@ -31,19 +31,23 @@ pub(super) fn note<const D: usize>(
             around.entry(node).or_default().push(normal);
         }
     }
-    let pairs = around.iter().flat_map(|(&node, normals)| {
+    let bends = around.iter().flat_map(|(&node, normals)| {
         let pairs = normals.iter().enumerate().flat_map(|(k, a)| normals[..k].iter().map(|b| [*a, *b]));
-        pairs.map(move |pair| (pair, model.mesh.nodes[node]))
+        pairs.map(move |normals| Bend { normals, at: model.mesh.nodes[node] })
     });
-    Ok(sharpest(name, pairs))
+    Ok(sharpest(name, bends))
 }
 
-/// Note on the sharpest of some bends: normals of neighbouring cells, and their common position.
-pub(super) fn sharpest<const D: usize>(
-    name: &str,
-    pairs: impl Iterator<Item = ([[f64; 3]; 2], [f64; D])>,
-) -> Option<String> {
-    let bends = pairs.map(|([a, b], at)| (angle(&a, &b), at));
+/// Two neighbouring cells.
+pub(super) struct Bend<const D: usize> {
+    pub normals: [[f64; 3]; 2],
+    /// Their common position \[m\].
+    pub at: [f64; D],
+}
+
+/// Note on the sharpest of some bends.
+pub(super) fn sharpest<const D: usize>(name: &str, bends: impl Iterator<Item = Bend<D>>) -> Option<String> {
+    let bends = bends.map(|Bend { normals: [a, b], at }| (angle(&a, &b), at));
     let (angle, at) = bends.reduce(|most, bend| if bend.0 > most.0 { bend } else { most })?;
     (angle >= NOTED).then(|| {
         format!(

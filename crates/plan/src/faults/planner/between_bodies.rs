@@ -1,19 +1,25 @@
 //! Faults between bodies, planned in phases: the ground with the points of its faults, the loads on it, its bodies pressed, its bodies
 //! condensed onto the points that slide, and the plan.
 
-use super::super::bodies::BodiesView;
+use super::super::bodies::{BodiesView, LaggingPoints};
 use super::super::plan::Plan;
 use super::super::receivers::Receivers;
+use super::super::sampling::Sampling;
 use super::super::stresses::BodyStresses;
 use super::assemble::{SlidingFaults, SurroundingsView, plan_of, turns};
-use super::condensed::{self, CondensedBodies};
+use super::backslip::{self, PlateRates};
+use super::condensed::{self, Condensation, CondensedBodies, HashedStiffness};
 use super::held::CondensationInput;
+use super::history::LoadHistory;
+use super::loaded::LoadedBodies;
 use super::meshed::FaultFaces;
-use super::placed::PlacedPoint;
+use super::operator::OperatorSource;
+use super::placed::{FaultPoints, PlacedPoint};
 use super::points::all_points;
 use super::pressing;
+use super::remarks::Remarks;
 use super::resolved::resolved;
-use super::{asked, backslip, checks, coulomb, mirror, plates, receivers, sampled, sense, upright, weight};
+use super::{asked, checks, coulomb, mirror, plates, receivers, sampled, sense, upright, weight};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Scene;
 use crate::shared::amounts;
@@ -24,13 +30,11 @@ use crate::shared::held::ModelMemory;
 use crate::shared::loading::{self, Stage};
 use crate::shared::model::{self, Model, forecast, locking};
 use crate::shared::resolution::Resolution;
-use crate::shared::setup::Setups;
 use asperity_cycles::medium::{
-    Bodies, Conditions, Loads, Mirror, Point, PressedBodies, Refusal, Spring, least_bytes,
+    Bodies, Conditions, Initial, Loads, Mirror, Point, PressedBodies, Refusal, Spring, least_bytes,
 };
-use asperity_cycles::operator::{Form, Operator};
+use asperity_cycles::operator::Operator;
 use asperity_cycles::{Loading, deficit};
-use asperity_fem::condense::Stiffness;
 use asperity_fem::table::Table;
 use asperity_mechanics::Travel;
 use asperity_run::Warning;
@@ -39,20 +43,15 @@ use asperity_run::Warning;
 ///
 /// # Errors
 /// [`Diagnostic`] with the place in the scene.
-pub(super) fn plan<const D: usize>(
-    scene: &Scene,
-    (form, setups): (Form, &Setups),
-) -> Result<Plan, Diagnostic> {
+pub(super) fn plan<const D: usize>(scene: &Scene, source: OperatorSource<'_>) -> Result<Plan, Diagnostic> {
     let mut ground = Ground::<D>::read(scene)?;
     let mut loaded = GroundLoads::new(&ground)?;
-    let bodies = ground.model.take_stiffness();
-    let inputs = setups.hash(|key| condensed::hash_stiffness(key, &bodies));
-    let pressed = loaded.press(&ground, &bodies, (setups, &inputs))?;
+    let bodies = HashedStiffness::new(ground.model.take_stiffness(), source.setups);
+    let pressed = loaded.press(&ground, &bodies, source)?;
     let points = ground.part();
-    let how = (loaded.conditions, loaded.mirror.as_ref(), form);
     let asked = ground.asked(&loaded.loads);
-    let condensed = condensed::condense_bodies((asked, &points.sliding), bodies, how, (setups, inputs))?;
-    ground.plan(&loaded.conditions, points, pressed.as_ref(), condensed)
+    let condensed = condensed::condense_bodies(asked, &points.sliding, bodies, loaded.condensation(source))?;
+    ground.plan(&loaded, points, pressed.as_ref(), condensed)
 }
 
 /// The bodies of a scene with the stages of its run, and the points of its faults.
@@ -71,8 +70,7 @@ struct Ground<'s, const D: usize> {
     resolution: Option<Vec<Resolution>>,
     checks: Checks,
     held: ModelMemory,
-    warnings: Vec<Warning>,
-    notes: Vec<String>,
+    remarks: Remarks,
 }
 
 /// Points that slide by their law, in their order among all points, and points that creep.
@@ -83,24 +81,30 @@ struct PartedPoints<const D: usize> {
     free: Vec<usize>,
 }
 
+impl<const D: usize> PartedPoints<D> {
+    fn all(&self) -> FaultPoints<'_, D> {
+        FaultPoints { sliding: &self.sliding, creeping: &self.creeping }
+    }
+}
+
 impl<'s, const D: usize> Ground<'s, D> {
     fn read(scene: &'s Scene) -> Result<Self, Diagnostic> {
         let model = linear::<D>(scene)?;
         let (pressing, stage) =
             parted(loading::stages(scene, &model)?).ok_or_else(|| asked::stages(scene))?;
-        let mut warnings = scene.warnings.clone();
-        warnings.extend(locking::doubts(scene, &model)?);
-        let (placed, notes) = all_points(scene, &model, &mut warnings)?;
+        let mut remarks = Remarks { warnings: scene.warnings.clone(), notes: Vec::new() };
+        remarks.warnings.extend(locking::doubts(scene, &model)?);
+        let placed = all_points(scene, &model, &mut remarks)?;
         let points: Vec<Point<D>> = placed.iter().map(|p| p.point.clone()).collect();
         if points.iter().all(|p| p.creep.is_some()) {
             return Err(asked::nothing_slides(&Entry::all(&scene.faults), &placed));
         }
         // If weight or a stage before presses the bodies, normal tractions are known only once their equations are solved.
         let known = stage.weight.is_empty() && pressing.is_none();
-        let resolution = known.then(|| resolved(scene, &placed, &mut warnings)).transpose()?;
+        let resolution = known.then(|| resolved(scene, &placed, &mut remarks.warnings)).transpose()?;
         let (checks, held) = (of_model::checks(scene, &model)?, ModelMemory::new(&model));
-        warnings.extend(upright::held_above(scene, &model));
-        Ok(Self { scene, model, pressing, stage, placed, points, resolution, checks, held, warnings, notes })
+        remarks.warnings.extend(upright::held_above(scene, &model));
+        Ok(Self { scene, model, pressing, stage, placed, points, resolution, checks, held, remarks })
     }
 
     /// The ground under these loads, as the condensation sees it.
@@ -119,51 +123,101 @@ impl<'s, const D: usize> Ground<'s, D> {
     /// The plan, from the bodies condensed onto the points that slide.
     fn plan(
         mut self,
-        conditions: &Conditions,
-        points: PartedPoints<D>,
+        loaded: &GroundLoads,
+        mut points: PartedPoints<D>,
         pressed: Option<&PressedBodies>,
         mut condensed: CondensedBodies,
     ) -> Result<Plan, Diagnostic> {
-        let PartedPoints { sliding: mut placed, creeping, free } = points;
-        let (scene, tangents) = (self.scene, conditions.tangents);
-        self.notes.extend(condensed.mirrored.then(|| MIRRORED.to_string()));
-        let plates = backslip::plates(scene, &placed, tangents);
-        let (opening, weight) = (condensed.opening.take(), condensed.weight.take());
-        let (bytes, bodies) = (condensed.bytes, condensed.bodies.take());
-        let receivers = receivers(scene, (&self.model, &self.points), bodies.as_ref(), (&plates, tangents))?;
-        let stage = &self.stage;
-        let bodies = bodies.filter(|_| displaced(scene, stage));
-        let driven = driven(scene, (&self.model, stage), (&placed, &creeping), (condensed, &plates));
-        self.warnings.extend(driven.warnings);
-        self.notes.extend(backslip::notes(scene));
-        self.notes.extend(weight::press(scene, (&self.model, stage), weight.as_ref(), &mut placed)?);
-        if let Some(pressed) = pressed {
-            self.notes.extend(pressing::start(scene, pressed, &free, &mut placed)?);
-        }
-        let resolution = self.resolution.map_or_else(|| resolved(scene, &placed, &mut self.warnings), Ok)?;
-        asked::opens(&Entry::all(&scene.faults), &placed, opening.as_ref().map_or(&[], |o| o.points()))?;
-        let sides = placed.iter().map(|p| [p.point.place.minus, p.point.place.plus]).collect();
-        let areas = placed.iter().map(|p| p.point.place.area).collect();
+        let scene = self.scene;
+        self.remarks.notes.extend(condensed.mirrored.then(|| MIRRORED.to_string()));
+        let plates = backslip::plates(scene, &points.sliding, loaded.conditions.tangents);
+        let initial = InitialLoads { weight: condensed.weight.take(), pressed };
+        let bodies = condensed.bodies.take();
+        let receivers = self.receivers(&loaded.loads, bodies.as_ref(), &plates)?;
+        let (opening, bytes) = (condensed.opening.take(), condensed.bytes);
+        let driven = driven(scene, self.loaded_bodies(), points.all(), condensed, &plates);
+        self.remarks.warnings.extend(driven.warnings);
+        self.remarks.notes.extend(backslip::notes(scene));
+        self.load(&initial, &mut points)?;
+        let PartedPoints { sliding, creeping, .. } = points;
+        let known = self.resolution.take();
+        let resolution = known.map_or_else(|| resolved(scene, &sliding, &mut self.remarks.warnings), Ok)?;
+        asked::opens(&Entry::all(&scene.faults), &sliding, opening.as_ref().map_or(&[], |o| o.points()))?;
         let around = SurroundingsView {
             medium: "condensed onto the faults",
             dofs: self.model.dofs(),
             creeping: creeping.len(),
             memory_bytes: self.held.with_faults(bytes),
-            bodies: bodies.map(|bodies| BodiesView::new((bodies, plates), &self.model, sides, shown(scene))),
-            sampling: sampled::plan::<D>(scene, stage, pressed, areas)?,
+            bodies: self.view(bodies, &sliding, plates.rates),
+            sampling: self.sampling(pressed, &sliding)?,
             stresses: stresses::<D>(scene)?,
             resolution,
-            warnings: self.warnings,
-            notes: self.notes,
             prescribed: checks::counted(scene, &creeping),
-            machines: machines(stage, &checks::surfaces(scene, &placed)),
-            loading: stage.largest_rate().max(backslip::fastest(scene)),
+            machines: machines(&self.stage, &checks::surfaces(scene, &sliding)),
+            loading: self.stage.largest_rate().max(backslip::fastest(scene)),
+            remarks: self.remarks,
             checks: self.checks,
         };
         let DrivenFaults { operator, loading, .. } = driven;
-        let surrounded = SlidingFaults { operator, placed, opening, loading, end: stage.end };
+        let surrounded = SlidingFaults { placed: sliding, operator, opening, loading, end: self.stage.end };
         Ok(Plan { receivers, ..plan_of(scene, surrounded, around, &FaultFaces { model: &self.model })? })
     }
+
+    fn loaded_bodies(&self) -> LoadedBodies<'_, D> {
+        LoadedBodies { model: &self.model, stage: &self.stage }
+    }
+
+    /// Positions in the bodies whose motion is written.
+    fn receivers(
+        &self,
+        loads: &Loads,
+        bodies: Option<&Bodies>,
+        plates: &PlateRates,
+    ) -> Result<Receivers, Diagnostic> {
+        match bodies.filter(|_| !self.scene.output.receivers.is_empty()) {
+            Some(bodies) => receivers::plan(self.asked(loads), bodies, plates),
+            None => Ok(Receivers::default()),
+        }
+    }
+
+    /// Adds what presses and shears the points before the run to their initial tractions.
+    fn load(&mut self, initial: &InitialLoads<'_>, points: &mut PartedPoints<D>) -> Result<(), Diagnostic> {
+        let PartedPoints { sliding, free, .. } = points;
+        let pressed = weight::press(self.scene, self.loaded_bodies(), initial.weight.as_ref(), sliding)?;
+        self.remarks.notes.extend(pressed);
+        if let Some(pressed) = initial.pressed {
+            self.remarks.notes.extend(pressing::start(self.scene, pressed, free, sliding)?);
+        }
+        Ok(())
+    }
+
+    /// The bodies as the output needs them, if displacements of all of them are needed.
+    fn view(
+        &self,
+        bodies: Option<Bodies>,
+        sliding: &[PlacedPoint<D>],
+        plates: Vec<f64>,
+    ) -> Option<BodiesView> {
+        let bodies = bodies.filter(|_| displaced(self.scene, &self.stage))?;
+        let sides = sliding.iter().map(|p| [p.point.place.minus, p.point.place.plus]).collect();
+        Some(BodiesView::new(bodies, &self.model, LaggingPoints { sides, plates }, shown(self.scene)))
+    }
+
+    /// Points, sets and springs of the bodies that are sampled.
+    fn sampling(
+        &self,
+        pressed: Option<&PressedBodies>,
+        sliding: &[PlacedPoint<D>],
+    ) -> Result<Option<Sampling>, Diagnostic> {
+        let areas = sliding.iter().map(|p| p.point.place.area).collect();
+        sampled::plan::<D>(self.scene, &self.stage, pressed, areas)
+    }
+}
+
+/// What presses and shears the points of faults before the run.
+struct InitialLoads<'a> {
+    weight: Option<Initial>,
+    pressed: Option<&'a PressedBodies>,
 }
 
 /// Loads on the ground, and how its bodies are condensed.
@@ -187,17 +241,22 @@ impl GroundLoads {
         Ok(Self { conditions, loads, mirror })
     }
 
+    /// How the bodies are condensed, with an operator from this source.
+    fn condensation<'a>(&'a self, source: OperatorSource<'a>) -> Condensation<'a> {
+        Condensation { conditions: self.conditions, mirror: self.mirror.as_ref(), source }
+    }
+
     /// Presses the bodies, if a stage does so, and takes the loads of the run from there on.
     fn press<const D: usize>(
         &mut self,
         ground: &Ground<'_, D>,
-        bodies: &Stiffness,
-        setups: (&Setups, &Option<String>),
+        bodies: &HashedStiffness,
+        source: OperatorSource<'_>,
     ) -> Result<Option<PressedBodies>, Diagnostic> {
         let Some(pressing) = &ground.pressing else { return Ok(None) };
         let faults: Vec<usize> = ground.placed.iter().map(|p| p.fault).collect();
         let asked = ground.asked(&self.loads);
-        let pressed = pressing::solve(asked, pressing, &faults, (bodies, self.conditions), setups)?;
+        let pressed = pressing::solve(asked, pressing, &faults, bodies, self.condensation(source))?;
         self.loads = loads(&ground.stage, &pressed.displacement, Vec::new());
         Ok(Some(pressed))
     }
@@ -275,19 +334,6 @@ fn shown(scene: &Scene) -> bool {
     scene.output.bodies.as_ref().is_some_and(|b| *b.get_ref())
 }
 
-/// Positions in the bodies whose motion is written.
-fn receivers<const D: usize>(
-    scene: &Scene,
-    around: (&Model<D>, &[Point<D>]),
-    bodies: Option<&Bodies>,
-    lag: (&[f64], usize),
-) -> Result<Receivers, Diagnostic> {
-    match bodies.filter(|_| !scene.output.receivers.is_empty()) {
-        Some(bodies) => receivers::plan(scene, around, bodies, lag),
-        None => Ok(Receivers::default()),
-    }
-}
-
 /// Planes on which stresses of the bodies are resolved, if the scene asks for changes of Coulomb stress.
 fn stresses<const D: usize>(scene: &Scene) -> Result<Option<BodyStresses>, Diagnostic> {
     let Some(spec) = &scene.output.coulomb else { return Ok(None) };
@@ -303,27 +349,29 @@ struct DrivenFaults {
     warnings: Vec<Warning>,
 }
 
-/// Operator and loads of faults in their surroundings, with warnings about loads and creep; points either slide or creep, and
-/// those that slide may lag behind plates with these rates \[m/s\].
+/// Operator and loads of faults in their surroundings, with warnings about loads and creep; points that slide may lag behind plates.
 fn driven<const D: usize>(
     scene: &Scene,
-    (model, stage): (&Model<D>, &Stage),
-    (placed, creeping): (&[PlacedPoint<D>], &[PlacedPoint<D>]),
-    (condensed, plates): (CondensedBodies, &[f64]),
+    bodies: LoadedBodies<'_, D>,
+    points: FaultPoints<'_, D>,
+    condensed: CondensedBodies,
+    plates: &PlateRates,
 ) -> DrivenFaults {
-    let of_sides = plates::check(scene, (model, stage), (placed, creeping), &condensed);
+    let of_sides = plates::check(scene, bodies, points, &condensed);
     let CondensedBodies { operator, mut loading, .. } = condensed;
+    let end = bodies.stage.end;
     let mut of_backslip = None;
-    if plates.iter().any(|rate| *rate != 0.0) {
-        let deficit = deficit(operator.as_ref(), plates, stage.end);
-        of_backslip = backslip::doubts(scene, placed, operator.as_ref(), ([&loading, &deficit], stage.end));
+    if plates.rates.iter().any(|rate| *rate != 0.0) {
+        let deficit = deficit(operator.as_ref(), &plates.rates, end);
+        let histories = [&loading, &deficit].map(|loading| LoadHistory { loading, end });
+        of_backslip = backslip::doubts(scene, points.sliding, operator.as_ref(), histories);
         loading.append(deficit);
     }
-    let mut warnings = sense::check(scene, (placed, creeping), &loading, stage.end);
+    let mut warnings = sense::check(scene, points, LoadHistory { loading: &loading, end });
     if warnings.is_empty() {
         // One warning per cause.
         warnings.extend(of_backslip.or(of_sides));
     }
-    warnings.extend(weight::hangs(scene, model, stage));
+    warnings.extend(weight::hangs(scene, bodies));
     DrivenFaults { operator, loading, warnings }
 }

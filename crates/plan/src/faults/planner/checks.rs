@@ -14,10 +14,10 @@ pub(crate) fn counted<const D: usize>(scene: &Scene, placed: &[PlacedPoint<D>]) 
     (0..scene.faults.len()).map(|k| placed.iter().filter(|p| p.fault == k).count()).collect()
 }
 
-/// Checks of the faults of a scene from their sliding points, the numbers of their other points, and their stations.
+/// Checks of the faults of a scene from their sliding points and their stations.
 pub(crate) fn faults<const D: usize>(
     scene: &Scene,
-    (placed, prescribed): (&[PlacedPoint<D>], &[usize]),
+    placed: &[PlacedPoint<D>],
     views: &[FaultView],
     resolution: &[Resolution],
 ) -> Vec<FaultCheck> {
@@ -27,7 +27,7 @@ pub(crate) fn faults<const D: usize>(
         FaultCheck {
             fault: name.clone(),
             points: own.len(),
-            prescribed: prescribed.get(k).copied().unwrap_or_default(),
+            prescribed: 0,
             area: area(&own),
             weakening_points: weak.len(),
             weakening_area: area(&weak),
@@ -42,6 +42,11 @@ pub(crate) fn faults<const D: usize>(
         }
     };
     scene.faults.iter().enumerate().map(of).collect()
+}
+
+/// Adds the number of points that do not slide by their law to the checks of each fault.
+pub(crate) fn prescribe(checks: &mut [FaultCheck], counts: &[usize]) {
+    checks.iter_mut().zip(counts).for_each(|(check, count)| check.prescribed = *count);
 }
 
 fn area<const D: usize>(points: &[&PlacedPoint<D>]) -> f64 {

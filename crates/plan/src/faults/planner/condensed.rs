@@ -3,12 +3,13 @@
 
 use super::assemble::geometry;
 use super::held::CondensationInput;
+use super::operator::OperatorSource;
 use super::placed::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Scene};
 use crate::shared::setup::{Key, Setups};
 use asperity_cycles::medium::{Bodies, Conditions, Initial, Mirror, Surroundings, condense};
-use asperity_cycles::operator::{Form, Geometry, Operator, condensed_operator};
+use asperity_cycles::operator::{Forces, Geometry, Operator, condensed_operator};
 use asperity_cycles::{Loading, Opening};
 use asperity_fem::condense::Stiffness;
 use asperity_run::report::Part;
@@ -39,48 +40,73 @@ pub(super) struct CondensedBodies {
     pub bodies: Option<Bodies>,
 }
 
-/// Bodies condensed onto the points that slide freely, `placed`. `inputs` is the hash of their stiffness.
+/// Stiffness of bodies, with its hash where set-ups are kept.
+pub(super) struct HashedStiffness {
+    pub stiffness: Stiffness,
+    pub hash: Option<String>,
+}
+
+impl HashedStiffness {
+    pub fn new(stiffness: Stiffness, setups: &Setups) -> Self {
+        let hash = setups.hash(|key| of_stiffness(key, &stiffness));
+        Self { stiffness, hash }
+    }
+}
+
+/// How bodies are condensed.
+#[derive(Clone, Copy)]
+pub(super) struct Condensation<'a> {
+    pub conditions: Conditions,
+    /// Mirror of the bodies, if one side stands for both.
+    pub mirror: Option<&'a Mirror>,
+    pub source: OperatorSource<'a>,
+}
+
+/// Bodies condensed onto the points that slide freely, `placed`.
 ///
 /// # Errors
 /// [`Diagnostic`] if they cannot be condensed.
 pub(super) fn condense_bodies<const D: usize>(
-    (asked, placed): (CondensationInput<'_, D>, &[PlacedPoint<D>]),
-    bodies: Stiffness,
-    (conditions, mirror, form): (Conditions, Option<&Mirror>, Form),
-    (setups, inputs): (&Setups, Option<String>),
+    asked: CondensationInput<'_, D>,
+    placed: &[PlacedPoint<D>],
+    bodies: HashedStiffness,
+    how: Condensation<'_>,
 ) -> Result<CondensedBodies, Diagnostic> {
+    let Condensation { conditions, mirror, source: OperatorSource { form, setups } } = how;
     let (places, areas, faults) = geometry(placed);
     let geometry = Geometry { places: &places, faults: &faults, areas: &areas, surfaces: D == 3 };
     let rates = rates(asked.scene, placed);
+    let stiffness = bodies.stiffness;
     let make = || -> Result<CondensedBodies, Diagnostic> {
-        let surroundings = condense(bodies, asked.loads, asked.points, conditions, mirror);
+        let surroundings = condense(stiffness, asked.loads, asked.points, conditions, mirror);
         let surroundings = surroundings.map_err(|e| asked.error(&e))?;
-        let Surroundings { forces, opening, loading, creep, weight, bytes, mirrored, bodies } = surroundings;
-        let with_plates = forces.shear_along(&rates);
-        let operator = condensed_operator(forces, &geometry, form);
-        Ok(CondensedBodies {
-            operator,
-            opening,
-            loading,
-            creep,
-            with_plates,
-            weight,
-            bytes,
-            mirrored,
-            bodies,
-        })
+        Ok(CondensedBodies::new(surroundings, &rates, |forces| condensed_operator(forces, &geometry, form)))
     };
     if conditions.keep {
         return make();
     }
-    let inputs = inputs.and_then(|stiffness| {
+    let inputs = bodies.hash.and_then(|hash| {
         setups.hash(|key| {
-            let of_bodies = key.value(&stiffness).value(asked.loads).value(&asked.points);
+            let of_bodies = key.value(&hash).value(asked.loads).value(&asked.points);
             let shape = (conditions.components, conditions.tangents, form);
             of_bodies.value(&shape).value(&mirror).value(&geometry).value(&rates)
         })
     });
     setups.part(Part::Operator, inputs, make)
+}
+
+impl CondensedBodies {
+    /// What surrounds faults that creep at these rates \[m/s\], with an operator made of its forces.
+    fn new(
+        surroundings: Surroundings,
+        rates: &[f64],
+        operator: impl FnOnce(Forces) -> Box<dyn Operator>,
+    ) -> Self {
+        let Surroundings { forces, opening, loading, creep, weight, bytes, mirrored, bodies } = surroundings;
+        let with_plates = forces.shear_along(rates);
+        let operator = operator(forces);
+        Self { operator, opening, loading, creep, with_plates, weight, bytes, mirrored, bodies }
+    }
 }
 
 /// Rate at which the fault of each point creeps \[m/s\].
@@ -91,7 +117,7 @@ fn rates<const D: usize>(scene: &Scene, placed: &[PlacedPoint<D>]) -> Vec<f64> {
 }
 
 /// Adds the stiffness of bodies to a hash.
-pub(super) fn hash_stiffness(key: Key, bodies: &Stiffness) -> Key {
+fn hash_stiffness(key: Key, bodies: &Stiffness) -> Key {
     let blocks = bodies.pattern.blocks().map(<[usize]>::len);
     let pattern = key.counts(bodies.pattern.dofs().iter().copied()).counts(blocks);
     pattern.numbers(&bodies.values).value(&bodies.dofs)

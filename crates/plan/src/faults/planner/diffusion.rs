@@ -1,6 +1,7 @@
 //! Fluid that diffuses along faults: hydraulic properties at their points, and wells.
 
 use super::placed::{PlacedPoint, at};
+use super::remarks::Remarks;
 use super::wells::{FluidReach, WellSpec};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{
@@ -12,9 +13,6 @@ use asperity_cycles::diffusion::{Diffusion, Line, Source};
 use asperity_run::Warning;
 use asperity_scene::lengths::brief;
 
-/// Warnings and notes of a plan.
-type PlanMessages<'a> = (&'a mut Vec<Warning>, &'a mut Vec<String>);
-
 /// Fluid along all faults in a run that ends at `end` \[s\].
 ///
 /// # Errors
@@ -23,7 +21,7 @@ pub(super) fn diffusion<const D: usize>(
     scene: &Scene,
     placed: &[PlacedPoint<D>],
     end: f64,
-    said: PlanMessages<'_>,
+    remarks: &mut Remarks,
 ) -> Result<Option<Diffusion>, Diagnostic> {
     let mut all: Option<Diffusion> = None;
     for (k, (name, spec)) in scene.faults.iter().enumerate() {
@@ -33,19 +31,19 @@ pub(super) fn diffusion<const D: usize>(
         if points.is_empty() {
             continue;
         }
-        let line = line(scene, Entry::new(name, given), points, (&mut *said.0, &mut *said.1))?;
+        let line = line(scene, Entry::new(name, given), points, remarks)?;
         let wells = given.wells.get_ref().iter().map(|well| source(Entry::new(name, well), &line));
         let wells = wells.collect::<Result<Vec<_>, _>>()?;
         let own = all.get_or_insert_default();
         own.add(first, &line, &wells, end);
-        let specs = given.wells.get_ref().iter().zip(&wells);
-        said.0.extend(specs.filter_map(|(spec, well)| WellSpec::from(spec).idle(name, &well.flux, end)));
-        said.0.extend(narrow(Entry::new(name, given), &line, &wells, end));
+        let idle = given.wells.get_ref().iter().filter_map(|well| WellSpec::from(well).idle(name, end));
+        remarks.warnings.extend(idle);
+        remarks.warnings.extend(narrow(Entry::new(name, given), &line, &wells, end));
         let steps = wells.iter().flat_map(|well| well.flux.iter().copied()).collect();
         let help =
             "check the units of `flux`, `permeability` and `storage`; or give the fault a `normal_floor`";
         let reach = FluidReach { fault: name, place: given.wells.span(), help, pressure: &*own, steps, end };
-        said.0.extend(reach.lifted(placed, first));
+        remarks.warnings.extend(reach.lifted(placed, first));
     }
     Ok(all)
 }
@@ -55,7 +53,7 @@ fn line<const D: usize>(
     scene: &Scene,
     Entry { name, spec: given }: Entry<'_, Given>,
     points: &[PlacedPoint<D>],
-    (warnings, notes): PlanMessages<'_>,
+    remarks: &mut Remarks,
 ) -> Result<Line, Diagnostic> {
     let region = format!("fault `{name}`");
     let spots: Vec<Spot<D>> = points.iter().map(spot).collect();
@@ -65,8 +63,8 @@ fn line<const D: usize>(
             let parameter = Parameter { key, dimension: field_dimension(key), bound: Bound::Positive };
             let all = Region { scene, spots: &spots, name: &region };
             let field = Field::read(&mut files, &all, (field, &parameter))?;
-            warnings.extend(field.doubts(&region, &spots));
-            notes.push(field.note(&region, spots.iter()));
+            remarks.warnings.extend(field.doubts(&region, &spots));
+            remarks.notes.push(field.note(&region, spots.iter()));
             return spots.iter().map(|spot| field.at(&region, spot)).collect();
         }
         // The scene check ensures that one of them is given.

@@ -1,6 +1,7 @@
 //! Parameters of a fault from files, at its points.
 
 use super::placed::PlacedPoint;
+use super::remarks::Remarks;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::{Fault as Spec, Scene, field_dimension};
@@ -8,7 +9,6 @@ use crate::shared::entry::Entry;
 use crate::shared::field::{Bound, Field, Files, Parameter, Region, Spot};
 use asperity_cycles::medium::Place;
 use asperity_laws::Theta;
-use asperity_run::Warning;
 
 /// Number of parameters that files may give.
 pub(super) const PARAMETERS: usize = 9;
@@ -67,16 +67,12 @@ impl<const D: usize> Fields<D> {
     }
 
     /// Adds warnings of files that reach too far, and notes on what they give to the points that slide.
-    pub fn describe(
-        &self,
-        placed: &[PlacedPoint<D>],
-        (warnings, notes): (&mut Vec<Warning>, &mut Vec<String>),
-    ) {
+    pub fn describe(&self, placed: &[PlacedPoint<D>], remarks: &mut Remarks) {
         let sliding = placed.iter().filter(|p| p.point.creep.is_none());
         let spots: Vec<Spot<D>> = sliding.map(|p| spot(&p.point.place)).collect();
         for field in self.all.iter().flatten() {
-            warnings.extend(field.doubts(&self.region, &spots));
-            notes.push(field.note(&self.region, spots.iter()));
+            remarks.warnings.extend(field.doubts(&self.region, &spots));
+            remarks.notes.push(field.note(&self.region, spots.iter()));
         }
     }
 }

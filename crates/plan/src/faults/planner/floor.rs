@@ -1,6 +1,7 @@
 //! Choices for the normal tractions of a fault.
 
 use super::super::normal::NormalChoice;
+use super::placed::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Scene, Spanned};
 use crate::shared::entry::Entry;
@@ -23,13 +24,13 @@ pub(super) fn choice(spec: &Spec) -> NormalChoice {
 pub(super) fn pressed<const D: usize>(
     Entry { name, spec }: Entry<'_, Spec>,
     scene: &Scene,
-    points: impl Iterator<Item = (f64, [f64; D])>,
+    points: &[&PlacedPoint<D>],
 ) -> Result<(), Diagnostic> {
-    let all: Vec<(f64, [f64; D])> = points.collect();
-    let Some(most) = all.iter().max_by(|a, b| a.0.total_cmp(&b.0)).filter(|most| most.0 < 0.0) else {
+    let most = points.iter().max_by(|a, b| a.normal.total_cmp(&b.normal));
+    let Some(most) = most.filter(|most| most.normal < 0.0) else {
         return Ok(());
     };
-    let least = all.iter().map(|p| p.0).fold(0.0, f64::min);
+    let least = points.iter().map(|p| p.normal).fold(0.0, f64::min);
     let mut bodies = scene.bodies.values();
     let weight = bodies.clone().find_map(|b| b.gravity.as_ref()).map(Spanned::span);
     let stress = bodies.find_map(|b| b.initial_stress.as_ref()).map(Spanned::span);
@@ -47,9 +48,9 @@ pub(super) fn pressed<const D: usize>(
         place,
         format!(
             "fault `{name}` is in tension at the start at all of its {} points, by {:.4} MPa at {} to {:.4} MPa: its sides would part at once",
-            all.len(),
-            -most.0 / 1e6,
-            coordinates::in_words(&most.1),
+            points.len(),
+            -most.normal / 1e6,
+            coordinates::in_words(&most.point.place.at),
             -least / 1e6
         ),
         help,

@@ -30,7 +30,7 @@ pub(super) fn injection<const D: usize>(
             let spec = WellSpec::from(well);
             let at = spec.within(name, ends)?;
             let injection = injected(well, spec.steps());
-            warnings.extend(spec.idle(name, &injection.flux, end));
+            warnings.extend(spec.idle(name, end));
             steps.extend(injection.flux.iter().copied());
             all.get_or_insert_default().add(injection, first, along.iter().map(|s| s - at).collect());
         }

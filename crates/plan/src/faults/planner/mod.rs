@@ -16,11 +16,14 @@ pub mod fields;
 mod floor;
 mod heated;
 mod held;
+mod history;
 mod injection;
+mod loaded;
 mod medium;
 mod meet;
 mod meshed;
 mod mirror;
+mod operator;
 pub mod patches;
 mod place;
 mod placed;
@@ -32,6 +35,7 @@ mod prestress;
 mod pulses;
 mod radiation;
 mod receivers;
+mod remarks;
 mod resolved;
 mod rock;
 mod sampled;
@@ -51,6 +55,7 @@ pub use place::places;
 pub(crate) use placed::{PlacedPoint, in_space, slides};
 pub(crate) use points::all_points;
 pub(crate) use pulses::{doubts as pulse_doubts, pulses};
+pub(crate) use remarks::Remarks;
 pub(crate) use resolved::resolved;
 
 use super::plan::Plan;
@@ -58,6 +63,7 @@ use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Kinematics, Scene};
 use crate::shared::setup::Setups;
 use asperity_cycles::operator::Form;
+use operator::OperatorSource;
 
 /// Plans a scene whose stepper is "fault-ode".
 ///
@@ -72,7 +78,7 @@ pub fn plan(scene: &Scene) -> Result<Plan, Diagnostic> {
 /// # Errors
 /// [`Diagnostic`] with the place in the scene.
 pub fn plan_beside(scene: &Scene, setups: &Setups) -> Result<Plan, Diagnostic> {
-    plan_of_kind(scene, (Form::Fitting, setups))
+    plan_of_kind(scene, OperatorSource { form: Form::Fitting, setups })
 }
 
 /// Plans such a scene with the operator in the given form.
@@ -80,13 +86,13 @@ pub fn plan_beside(scene: &Scene, setups: &Setups) -> Result<Plan, Diagnostic> {
 /// # Errors
 /// [`Diagnostic`] with the place in the scene.
 pub fn plan_with(scene: &Scene, form: Form) -> Result<Plan, Diagnostic> {
-    plan_of_kind(scene, (form, &Setups::none()))
+    plan_of_kind(scene, OperatorSource { form, setups: &Setups::none() })
 }
 
-fn plan_of_kind(scene: &Scene, form: (Form, &Setups)) -> Result<Plan, Diagnostic> {
+fn plan_of_kind(scene: &Scene, source: OperatorSource<'_>) -> Result<Plan, Diagnostic> {
     match scene.kinematics.get_ref() {
-        Kinematics::Antiplane | Kinematics::PlaneStrain => plan_in::<2>(scene, form),
-        Kinematics::ThreeD => plan_in::<3>(scene, form),
+        Kinematics::Antiplane | Kinematics::PlaneStrain => plan_in::<2>(scene, source),
+        Kinematics::ThreeD => plan_in::<3>(scene, source),
         other => Err(Diagnostic::at(
             scene.kinematics.span(),
             format!("faults in {} are not integrated yet", other.words()),
@@ -95,9 +101,9 @@ fn plan_of_kind(scene: &Scene, form: (Form, &Setups)) -> Result<Plan, Diagnostic
     }
 }
 
-fn plan_in<const D: usize>(scene: &Scene, form: (Form, &Setups)) -> Result<Plan, Diagnostic> {
+fn plan_in<const D: usize>(scene: &Scene, source: OperatorSource<'_>) -> Result<Plan, Diagnostic> {
     match &scene.medium {
-        Some(medium) => rock::plan::<D>(scene, medium, form),
-        None => between_bodies::plan::<D>(scene, form),
+        Some(medium) => rock::plan::<D>(scene, medium, source),
+        None => between_bodies::plan::<D>(scene, source),
     }
 }

@@ -60,43 +60,56 @@ impl Values {
 pub(super) fn values<const D: usize>(
     spec: &Spec,
     place: &Place<D>,
-    (base, from_files): (&LawChoice, [Option<f64>; PARAMETERS]),
+    base: &LawChoice,
+    from_files: [Option<f64>; PARAMETERS],
 ) -> Values {
-    let all = &spec.profiles;
-    let of = |profile: &Option<ParameterProfiles>| profile.as_ref().map(|p| largest(p, place));
-    let [a, b, l] = constants(base);
-    let cohesion = base.value("cohesion", laws::known());
-    let [file_a, file_b, file_l, file_normal, file_shear, file_rate, file_cohesion, state, a_minus_b] =
-        from_files;
-    let a = file_a.or(of(&all.a)).or(a);
-    let file_b = file_b.or(a_minus_b.and_then(|difference| Some(a? - difference)));
-    let mut values = [
-        a,
-        file_b.or(of(&all.b)).or(b),
-        file_l.or(of(&all.l)).or(l),
-        file_normal.or(of(&all.normal)).or(spec.normal.as_ref().map(|n| n.get_ref().0)),
-        file_shear.or(of(&all.shear)).or(spec.shear.as_ref().map(|s| s.get_ref().0)),
-        Some(file_rate.unwrap_or(spec.rate.get_ref().0)),
-        file_cohesion.or(of(&all.cohesion)).or(cohesion),
-    ];
+    let (profiled, uniform) = (profiled(spec, place), uniform(spec, base));
+    let mut values: Patched = std::array::from_fn(|k| from_files[k].or(profiled[k]).or(uniform[k]));
+    let [_, file_b, .., state, a_minus_b] = from_files;
+    let [a, b, ..] = &mut values;
+    if let (None, Some(a), Some(difference)) = (file_b, *a, a_minus_b) {
+        *b = Some(a - difference);
+    }
     for patch in &spec.patches {
-        let weight = weight(patch, place);
-        if weight == 0.0 {
-            continue;
-        }
-        for (value, own) in values.iter_mut().zip(patch.values()) {
-            let (Some(before), Some((own, _))) = (*value, own) else { continue };
-            let inside = match patch.combine.as_ref().map(|c| *c.get_ref()) {
-                None | Some(Combine::Replace) => own,
-                Some(Combine::Largest) => own.max(before),
-                Some(Combine::Smallest) => own.min(before),
-            };
-            // Inside, the value is that of the patch to the last digit.
-            *value = Some(if weight == 1.0 { inside } else { before + weight * (inside - before) });
-        }
+        lay(patch, weight(patch, place), &mut values);
     }
     let [a, b, l, normal, shear, rate, cohesion] = values;
     Values { a, b, l, cohesion, normal, shear, rate: rate.unwrap_or(spec.rate.get_ref().0), state }
+}
+
+/// Parameters that patches may change, in the order of their keys; the first of those from files.
+type Patched = [Option<f64>; PATCHED.len()];
+
+/// Parameters that profiles give at a point.
+fn profiled<const D: usize>(spec: &Spec, place: &Place<D>) -> Patched {
+    let all = &spec.profiles;
+    let given = [&all.a, &all.b, &all.l, &all.normal, &all.shear, &None, &all.cohesion];
+    given.map(|profile| profile.as_ref().map(|p| largest(p, place)))
+}
+
+/// Parameters that are the same all over a fault.
+fn uniform(spec: &Spec, base: &LawChoice) -> Patched {
+    let [a, b, l] = constants(base);
+    let normal = spec.normal.as_ref().map(|n| n.get_ref().0);
+    let shear = spec.shear.as_ref().map(|s| s.get_ref().0);
+    [a, b, l, normal, shear, Some(spec.rate.get_ref().0), base.value("cohesion", laws::known())]
+}
+
+/// Changes parameters at a point where a patch has this weight.
+fn lay(patch: &Patch, weight: f64, values: &mut Patched) {
+    if weight == 0.0 {
+        return;
+    }
+    for (value, own) in values.iter_mut().zip(patch.values()) {
+        let (Some(before), Some((own, _))) = (*value, own) else { continue };
+        let inside = match patch.combine.as_ref().map(|c| *c.get_ref()) {
+            None | Some(Combine::Replace) => own,
+            Some(Combine::Largest) => own.max(before),
+            Some(Combine::Smallest) => own.min(before),
+        };
+        // Inside, the value is that of the patch to the last digit.
+        *value = Some(if weight == 1.0 { inside } else { before + weight * (inside - before) });
+    }
 }
 
 /// Constants a, b and L of a law, as far as it has them once.

@@ -37,6 +37,13 @@ pub(crate) struct PlacedPoint<const D: usize> {
     pub components: usize,
 }
 
+/// Points of faults that slide by their law, and those that creep.
+#[derive(Clone, Copy)]
+pub(super) struct FaultPoints<'a, const D: usize> {
+    pub sliding: &'a [PlacedPoint<D>],
+    pub creeping: &'a [PlacedPoint<D>],
+}
+
 impl<const D: usize> PlacedPoint<D> {
     /// Recomputes the creep components after the directions of the point have changed.
     pub fn redirect(&mut self) {

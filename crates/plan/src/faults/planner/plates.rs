@@ -6,10 +6,10 @@
 //! `-F_w/(F_c + F_s)` times the creep rate.
 
 use super::condensed::CondensedBodies;
-use super::placed::{PlacedPoint, slides};
+use super::loaded::LoadedBodies;
+use super::placed::{FaultPoints, PlacedPoint, slides};
 use crate::reading::scene::model::{Creep, Fault as Spec, Scene};
 use crate::shared::entry::Entry;
-use crate::shared::loading::Stage;
 use crate::shared::model::Model;
 use asperity_run::Warning;
 
@@ -23,14 +23,15 @@ const PARALLEL: f64 = 1e-9;
 /// Warning about sides that move against the slip of a fault, or not at its creep rate.
 pub(super) fn check<const D: usize>(
     scene: &Scene,
-    (model, stage): (&Model<D>, &Stage),
-    (placed, creeping): (&[PlacedPoint<D>], &[PlacedPoint<D>]),
+    bodies: LoadedBodies<'_, D>,
+    points: FaultPoints<'_, D>,
     condensed: &CondensedBodies,
 ) -> Option<Warning> {
+    let (stage, placed) = (bodies.stage, points.sliding);
     let creep = condensed.creep.as_ref()?;
     let total = condensed.loading.mean(stage.end, placed.len());
     let sides: Vec<f64> = total.iter().zip(creep).map(|(all, creep)| all - creep).collect();
-    if !stage.has_loads() && judged(scene, model, placed, creeping) {
+    if !stage.has_loads() && judged(scene, bodies.model, points) {
         return plate_warning(scene, placed, (&sides, creep), &condensed.with_plates);
     }
     let faults = Entry::all(&scene.faults);
@@ -38,13 +39,8 @@ pub(super) fn check<const D: usize>(
 }
 
 /// True if the faults are plane and parallel, slip in one direction, creep, and cut right through the bodies.
-fn judged<const D: usize>(
-    scene: &Scene,
-    model: &Model<D>,
-    placed: &[PlacedPoint<D>],
-    creeping: &[PlacedPoint<D>],
-) -> bool {
-    let all = || placed.iter().chain(creeping);
+fn judged<const D: usize>(scene: &Scene, model: &Model<D>, points: FaultPoints<'_, D>) -> bool {
+    let all = || points.sliding.iter().chain(points.creeping);
     let Some(first) = all().next() else { return false };
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>().abs();
     let along = slides(first);

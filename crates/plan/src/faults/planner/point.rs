@@ -25,21 +25,31 @@ pub(super) struct PointSurroundings {
     pub components: usize,
 }
 
+/// What a fault gives to its points.
+pub(super) struct FaultParameters<'a, const D: usize> {
+    /// Number of the fault.
+    pub fault: usize,
+    pub spec: &'a Spec,
+    /// Law, some of whose parameters may vary along the fault.
+    pub base: LawChoice,
+    /// Parameters from files.
+    pub fields: Fields<D>,
+}
+
 /// A point of a fault with its law and initial tractions.
 pub(super) fn placed_at<const D: usize>(
-    spec: &Spec,
-    (fault, base, fields): (usize, &LawChoice, &Fields<D>),
+    FaultParameters { fault, spec, base, fields }: &FaultParameters<'_, D>,
     place: Place<D>,
     given: PointSurroundings,
 ) -> Result<PlacedPoint<D>, Diagnostic> {
     let choice = floor::choice(spec);
     // Where the fault creeps, parameters are not used.
     let from_files = if given.creep.is_some() { Default::default() } else { fields.at(&place)? };
-    let values = patches::values(spec, &place, (base, from_files));
+    let values = patches::values(spec, &place, base, from_files);
     let law = values.law(base);
     different(spec, &place, &law)?;
     Ok(PlacedPoint {
-        fault,
+        fault: *fault,
         medium: given.medium,
         damping: damping(spec, &given.medium)?,
         // The scene check ensures that one of them is given; where the fault creeps, neither is needed.

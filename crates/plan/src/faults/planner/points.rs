@@ -4,8 +4,9 @@ use super::apart::{self, Spacing};
 use super::fields::Fields;
 use super::medium::Media;
 use super::placed::PlacedPoint;
-use super::point::{PointSurroundings, base_law, placed_at};
+use super::point::{FaultParameters, PointSurroundings, base_law, placed_at};
 use super::prestress::Prestress;
+use super::remarks::Remarks;
 use super::{asked, bends, meet, patches, place, untouched};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Creep, Fault as Spec, Scene};
@@ -13,29 +14,31 @@ use crate::shared::entry::Entry;
 use crate::shared::model::{self, Model, cuts, meshes};
 use crate::shared::resolution;
 use asperity_cycles::medium::Place;
-use asperity_run::Warning;
 
-/// Points of all faults, and notes on them.
+/// Points of all faults.
+///
+/// # Errors
+/// [`Diagnostic`] at a fault whose points cannot be made.
 pub(crate) fn all_points<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
-    warnings: &mut Vec<Warning>,
-) -> Result<(Vec<PlacedPoint<D>>, Vec<String>), Diagnostic> {
+    remarks: &mut Remarks,
+) -> Result<Vec<PlacedPoint<D>>, Diagnostic> {
     let mut placed: Vec<PlacedPoint<D>> = Vec::new();
     apart::check(scene, &apart::faces::cells(scene, model)?, Spacing::Apart)?;
-    let mut notes = meshes::notes(scene)?;
-    notes.extend(cuts::notes(scene, &model.mesh));
-    notes.extend(meshes::left_out(model));
+    remarks.notes.extend(meshes::notes(scene)?);
+    remarks.notes.extend(cuts::notes(scene, &model.mesh));
+    remarks.notes.extend(meshes::left_out(model));
     let faults = Entry::all(&scene.faults);
     for (k, fault) in faults.iter().enumerate() {
-        placed.extend(points_of(scene, model, *fault, k, (&mut *warnings, &mut notes))?);
+        placed.extend(points_of(scene, model, *fault, k, remarks)?);
     }
     for fault in faults {
-        notes.extend(bends::note(model, fault)?);
+        remarks.notes.extend(bends::note(model, fault)?);
     }
     untouched::check(scene, model, &placed)?;
-    notes.extend(meet::join(scene, model, &mut placed)?);
-    Ok((placed, notes))
+    remarks.notes.extend(meet::join(scene, model, &mut placed)?);
+    Ok(placed)
 }
 
 fn points_of<const D: usize>(
@@ -43,7 +46,7 @@ fn points_of<const D: usize>(
     model: &Model<D>,
     own: Entry<'_, Spec>,
     fault: usize,
-    (warnings, notes): (&mut Vec<Warning>, &mut Vec<String>),
+    remarks: &mut Remarks,
 ) -> Result<Vec<PlacedPoint<D>>, Diagnostic> {
     let spec = own.spec;
     let base = base_law(spec)?;
@@ -53,8 +56,9 @@ fn points_of<const D: usize>(
     let stress = Prestress::new(scene, own);
     let weighs = scene.bodies.values().any(|b| b.gravity.is_some());
     let (places, doubtful) = place::places(model, own)?;
-    warnings.extend(doubtful);
+    remarks.warnings.extend(doubtful);
     let fields = Fields::read(scene, own, &base, &places)?;
+    let parameters = FaultParameters { fault, spec, base, fields };
     for place in places {
         let creep = spec.creep.as_ref().filter(|c| creeps(c, &place, CLOSE * model.scale));
         let given = stress.as_ref().filter(|_| creep.is_none());
@@ -66,12 +70,12 @@ fn points_of<const D: usize>(
             creep: creep.map(|c| if c.is_backslip() { 0.0 } else { c.rate.get_ref().0 }),
             components: model.idealisation.components(),
         };
-        placed.push(placed_at(spec, (fault, &base, &fields), place, given)?);
+        placed.push(placed_at(&parameters, place, given)?);
     }
-    fields.describe(&placed, (warnings, notes));
+    parameters.fields.describe(&placed, remarks);
     asked::creep(own, &placed)?;
-    asked::profiles(scene, own, &placed, warnings)?;
-    warnings.extend(patches::covered(own, &placed)?);
+    asked::profiles(scene, own, &placed, &mut remarks.warnings)?;
+    remarks.warnings.extend(patches::covered(own, &placed)?);
     Ok(placed)
 }
 

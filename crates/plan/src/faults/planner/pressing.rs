@@ -4,6 +4,7 @@
 //! without friction. f_n and τ at the end are those with which the faults begin to slide; states of friction are those of steady slip
 //! at `v_initial`, or at `rate`. What the stage holds stays held, or is drawn by a spring that takes over the force.
 
+use super::condensed::{Condensation, HashedStiffness};
 use super::held::CondensationInput;
 use super::placed::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
@@ -12,10 +13,8 @@ use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::{Fault as Spec, Scene, Stage as StageSpec};
 use crate::shared::entry::Entry;
 use crate::shared::loading::Stage;
-use crate::shared::setup::Setups;
-use asperity_cycles::Fault;
-use asperity_cycles::medium::{Conditions, PressedBodies, Pressing, press};
-use asperity_fem::condense::Stiffness;
+use asperity_cycles::Problem;
+use asperity_cycles::medium::{PressedBodies, Pressing, press};
 use asperity_fem::dof::Channel;
 use asperity_fem::table::Table;
 use asperity_mechanics::coordinates;
@@ -29,7 +28,7 @@ const NOTHING: f64 = 1e-9;
 /// Largest f_n over the stiffness of the rock: beyond it strains are not small.
 const MOST: f64 = 0.1;
 
-/// The bodies at the end of the stage that presses them; `stiffness` is the hash of theirs.
+/// The bodies at the end of the stage that presses them.
 ///
 /// # Errors
 /// [`Diagnostic`] if nothing holds the bodies, or if supports do not agree with the faults.
@@ -37,8 +36,8 @@ pub(super) fn solve<const D: usize>(
     asked: CondensationInput<'_, D>,
     stage: &Stage,
     faults: &[usize],
-    (bodies, conditions): (&Stiffness, Conditions),
-    (setups, stiffness): (&Setups, &Option<String>),
+    bodies: &HashedStiffness,
+    Condensation { conditions, source, .. }: Condensation<'_>,
 ) -> Result<PressedBodies, Diagnostic> {
     let names: Vec<&String> = asked.scene.faults.keys().collect();
     let slides = |fault: &usize| stage.frictionless.contains(names[*fault]);
@@ -47,11 +46,12 @@ pub(super) fn solve<const D: usize>(
         load: load(stage, asked.model.dofs()),
         slides: faults.iter().map(slides).collect(),
     };
-    let inputs = stiffness.as_ref().and_then(|stiffness| {
+    let setups = source.setups;
+    let inputs = bodies.hash.as_ref().and_then(|hash| {
         let shape = (conditions.components, conditions.tangents);
-        setups.hash(|key| key.value(stiffness).value(&pressing).value(&asked.points).value(&shape))
+        setups.hash(|key| key.value(hash).value(&pressing).value(&asked.points).value(&shape))
     });
-    let press = || press(bodies, &pressing, asked.points, conditions).map_err(|e| asked.error(&e));
+    let press = || press(&bodies.stiffness, &pressing, asked.points, conditions).map_err(|e| asked.error(&e));
     setups.part(Part::Pressing, inputs, press)
 }
 
@@ -164,11 +164,11 @@ fn words<'a, const D: usize>(
 /// Refuses a fault that has been joined and that friction would let slip as fast as in an event from the start.
 ///
 /// # Errors
-/// [`Diagnostic`] at the stage that presses, if a point slips at `above` \[m/s\] or faster at the start.
+/// [`Diagnostic`] at the stage that presses, if a point slips as fast as events begin, or faster, at the start.
 pub(super) fn rests<const D: usize>(
     scene: &Scene,
-    (placed, fault): (&[PlacedPoint<D>], &Fault),
-    (unknowns, above): (&[f64], f64),
+    placed: &[PlacedPoint<D>],
+    Problem { fault, start: unknowns, settings, .. }: &Problem,
 ) -> Result<(), Diagnostic> {
     let layout = asperity_cycles::Layout::from_fault(fault);
     let pressed = placed.iter().any(|p| p.pressed_shear.is_some());
@@ -178,7 +178,9 @@ pub(super) fn rests<const D: usize>(
     let n = placed.len();
     let speed = |p: usize| rate[p].hypot(rate.get(n + p).copied().unwrap_or(0.0));
     let fast = (0..n).max_by(|&a, &b| speed(a).total_cmp(&speed(b)));
-    let Some(p) = fast.filter(|&p| speed(p) >= above || !speed(p).is_finite()) else { return Ok(()) };
+    let Some(p) = fast.filter(|&p| speed(p) >= settings.thresholds.on || !speed(p).is_finite()) else {
+        return Ok(());
+    };
     let name = scene.faults.keys().nth(placed[p].fault).map_or("", String::as_str);
     let [first, second] = placed[p].pressed_shear.unwrap_or_default();
     Err(Diagnostic::at(

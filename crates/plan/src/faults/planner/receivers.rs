@@ -1,8 +1,10 @@
 //! Positions in bodies whose motion is written: their weights in the displacements of the condensed bodies.
 
 use super::super::receivers::{Receiver, Receivers};
+use super::backslip::PlateRates;
+use super::held::Asked;
 use crate::reading::diagnostic::Diagnostic;
-use crate::reading::scene::model::{Scene, Spanned};
+use crate::reading::scene::model::Spanned;
 use crate::reading::scene::units::Length;
 use crate::shared::model::{Model, bounds};
 use asperity_cycles::medium::{Bodies, DisplacementSum, Point};
@@ -18,15 +20,14 @@ type NamedPosition<'a> = (&'a String, &'a Spanned<Vec<Length>>);
 /// Nodes of the cell around a position, with their shares in its displacement.
 type Shares = Vec<(usize, f64)>;
 
-/// Receivers of a scene between bodies, whose points lag behind plates with these rates \[m/s\], component by component.
+/// Receivers of a scene between bodies, whose points lag behind plates with these rates.
 ///
 /// # Errors
 /// [`Diagnostic`] at a receiver outside the bodies or on a fault, or one beside faults that may open.
 pub(super) fn plan<const D: usize>(
-    scene: &Scene,
-    (model, points): (&Model<D>, &[Point<D>]),
+    Asked { scene, model, points, .. }: Asked<'_, D>,
     bodies: &Bodies,
-    (rates, tangents): (&[f64], usize),
+    plates: &PlateRates,
 ) -> Result<Receivers, Diagnostic> {
     let given: Vec<NamedPosition<'_>> = scene.output.receivers.iter().collect();
     let shares = given.iter().map(|given| shares(*given, model, points)).collect::<Result<Vec<_>, _>>()?;
@@ -36,11 +37,11 @@ pub(super) fn plan<const D: usize>(
     };
     let sums: Vec<Shares> = shares.iter().flat_map(|s| (0..components).map(move |c| row(s, c))).collect();
     let axes: Vec<usize> = (0..components).map(|c| model.idealisation.axis(c)).collect();
-    let followed = bodies.followed(&sums, tangents);
+    let followed = bodies.followed(&sums, plates.tangents);
     let receiver =
         |(given, followed): (&NamedPosition<'_>, &[DisplacementSum])| receiver(*given, followed, &axes);
     let all = given.iter().zip(followed.chunks_exact(components)).map(receiver).collect();
-    Ok(Receivers { all, rates: rates.to_vec(), axes })
+    Ok(Receivers { all, rates: plates.rates.clone(), axes })
 }
 
 /// A receiver from what each component of its displacement follows.

@@ -9,7 +9,7 @@ use crate::shared::entry::Entry;
 use crate::shared::resolution;
 use crate::shared::resolution::Resolution;
 use asperity_run::Warning;
-use resolution::Ground;
+use resolution::{Ground, GroundPoint};
 
 /// Largest distance along an axis between the ends of some points with their cells \[m\].
 fn extent<'a, const D: usize>(points: impl Iterator<Item = &'a PlacedPoint<D>> + Clone) -> f64 {
@@ -32,11 +32,12 @@ pub(crate) fn resolved<const D: usize>(
     for (fault, (name, spec)) in scene.faults.iter().enumerate() {
         let points = || placed.iter().filter(|p| p.fault == fault && p.point.creep.is_none());
         let weighs = scene.bodies.values().any(|b| b.gravity.is_some());
-        floor::pressed(Entry::new(name, spec), scene, points().map(|p| (p.normal, p.point.place.at)))?;
+        floor::pressed(Entry::new(name, spec), scene, &points().collect::<Vec<_>>())?;
         warnings.extend(floor::above_start(name, spec, weighs, points().map(|p| p.normal)));
         let with_ground = points().map(|p| {
             let (law, modulus) = (&p.law, p.medium.stiffness);
-            (&p.point.place, Ground { law, normal: p.pressed(), modulus, in_space: D == 3 }, p.spacing)
+            let ground = Ground { law, normal: p.pressed(), modulus, in_space: D == 3 };
+            GroundPoint { place: &p.point.place, ground, spacing: p.spacing }
         });
         if let Some(found) = resolution::from_points(name, with_ground) {
             warnings.extend(resolution::check(&found, spec, D == 3)?);

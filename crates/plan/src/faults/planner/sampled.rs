@@ -55,5 +55,5 @@ pub(super) fn plan<const D: usize>(
     let bodies =
         SampledBodies { model, initial_stress, wanted, stage: stage.clone(), beside, start, springs };
     let number = scene.stages.iter().position(|s| s.name == stage.name).unwrap_or(0);
-    Ok(Some(Sampling::new(bodies, areas, (unit, number))))
+    Ok(Some(Sampling::new(bodies, areas, unit, number)))
 }

@@ -1,44 +1,41 @@
 //! Direction in which loads and creep drive faults, compared with the direction in which they should slip.
 
-use super::placed::{PlacedPoint, slides};
+use super::history::LoadHistory;
+use super::placed::{FaultPoints, PlacedPoint, slides};
 use crate::reading::scene::model::{Fault as Spec, Scene};
 use crate::shared::entry::Entry;
-use asperity_cycles::Loading;
 use asperity_run::Warning;
 
 /// Fraction of the magnitude of its terms below which a sum is rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Warnings about creep against `rate`, and about loads that drive a fault against it until `end` \[s\]. `placed` are the sliding points, `creeping`
-/// the creeping ones.
+/// Warnings about creep against `rate`, and about loads that drive a fault against it.
 pub(super) fn check<const D: usize>(
     scene: &Scene,
-    (placed, creeping): (&[PlacedPoint<D>], &[PlacedPoint<D>]),
-    loading: &Loading,
-    end: f64,
+    points: FaultPoints<'_, D>,
+    history: LoadHistory<'_>,
 ) -> Vec<Warning> {
     let mut warnings = Vec::new();
     for (k, (name, spec)) in scene.faults.iter().enumerate() {
         let sense = spec.rate.get_ref().0.signum();
         let against = |p: &&PlacedPoint<D>| p.fault == k && p.point.creep.is_some_and(|c| c[0] * sense < 0.0);
-        if let Some(creep) = spec.creep.as_ref().filter(|_| creeping.iter().any(|p| against(&p))) {
+        if let Some(creep) = spec.creep.as_ref().filter(|_| points.creeping.iter().any(|p| against(&p))) {
             warnings.push(Warning::at(
                 creep.rate.span(),
                 format!("fault `{name}` creeps against its `rate`"),
                 "creep and `rate` have one sign where the fault is driven one way",
             ));
         }
-        warnings.extend(driven(Entry::new(name, spec), placed, k, loading, end));
+        warnings.extend(driven(Entry::new(name, spec), points.sliding, k, history));
     }
     warnings
 }
 
-/// Mean rate of shear traction of a fault when loads first act on it before `end` \[s\]; `None` if they do not shear it \[Pa/s\].
+/// Mean rate of shear traction of a fault when loads first act on it; `None` if they do not shear it before the run ends \[Pa/s\].
 pub(super) fn first_rate<const D: usize>(
     placed: &[PlacedPoint<D>],
     fault: usize,
-    loading: &Loading,
-    end: f64,
+    LoadHistory { loading, end }: LoadHistory<'_>,
 ) -> Option<f64> {
     let mut ends = loading.breaks(0.0, end);
     ends.push(end);
@@ -62,10 +59,9 @@ fn driven<const D: usize>(
     Entry { name, spec }: Entry<'_, Spec>,
     placed: &[PlacedPoint<D>],
     fault: usize,
-    loading: &Loading,
-    end: f64,
+    history: LoadHistory<'_>,
 ) -> Option<Warning> {
-    let rate = first_rate(placed, fault, loading, end)?;
+    let rate = first_rate(placed, fault, history)?;
     let sense = spec.rate.get_ref().0.signum();
     if rate * sense > 0.0 {
         return None;

@@ -4,7 +4,7 @@ use super::checks::weakens;
 use super::placed::PlacedPoint;
 use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::Scene;
-use asperity_cycles::{Fault, Loading};
+use asperity_cycles::{Fault, Loading, Problem};
 use asperity_run::Warning;
 
 /// Largest rate of traction, over that of the loads, at which a start counts as an equilibrium. Compressed operators leave about 1e-6 of it.
@@ -45,12 +45,12 @@ fn first(loading: &Loading, end: f64) -> f64 {
 pub(super) fn starts<const D: usize>(
     scene: &Scene,
     placed: &[PlacedPoint<D>],
-    fault: &Fault,
-    (loading, end): (&Loading, f64),
+    problem: &Problem,
 ) -> Option<Warning> {
+    let Problem { fault, loading, settings, .. } = problem;
     let spec = scene.faults.values().nth(placed.iter().find(|p| weakens(p))?.fault)?;
     let disturbed = fault.processes.disturb() || !placed.iter().all(is_steady);
-    (!disturbed && is_balanced(placed, fault, loading, end)).then(|| {
+    (!disturbed && is_balanced(placed, fault, loading, settings.end)).then(|| {
         Warning::at(
             spec.rate.span(),
             "the faults of this scene start in steady slip that takes up all that the loads add: nothing changes, and rounding decides when the first event comes",

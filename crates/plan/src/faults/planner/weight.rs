@@ -7,13 +7,12 @@
 //! carries no weight.
 
 use super::cover::TOGETHER;
+use super::loaded::LoadedBodies;
 use super::placed::PlacedPoint;
 use super::prestress::{ResolvedTractions, against, strays};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Scene, Spanned};
 use crate::shared::entry::Entry;
-use crate::shared::loading::Stage;
-use crate::shared::model::Model;
 use asperity_cycles::medium::Initial;
 use asperity_mechanics::coordinates;
 use asperity_run::Warning;
@@ -37,12 +36,12 @@ fn gravity(scene: &Scene) -> Option<&Spanned<Vec<f64>>> {
 /// [`Diagnostic`] if a fault is not pressed, or if friction would not resist its motion.
 pub(super) fn press<const D: usize>(
     scene: &Scene,
-    (model, stage): (&Model<D>, &Stage),
+    bodies: LoadedBodies<'_, D>,
     weight: Option<&Initial>,
     placed: &mut [PlacedPoint<D>],
 ) -> Result<Vec<String>, Diagnostic> {
     let Some(weight) = weight else { return Ok(Vec::new()) };
-    add(scene, weight, placed).map_err(|e| match hangs(scene, model, stage) {
+    add(scene, weight, placed).map_err(|e| match hangs(scene, bodies) {
         // If bodies hang from their sides, which is hardly intended, this is the likely cause of the error.
         Some(Warning { message, help, .. }) => {
             let carry = help.map(|help| format!("{message}. To carry them, {help}"));
@@ -164,7 +163,10 @@ fn words<'a, const D: usize>(
 }
 
 /// Warning if nothing supports the bodies from below.
-pub(super) fn hangs<const D: usize>(scene: &Scene, model: &Model<D>, stage: &Stage) -> Option<Warning> {
+pub(super) fn hangs<const D: usize>(
+    scene: &Scene,
+    LoadedBodies { model, stage }: LoadedBodies<'_, D>,
+) -> Option<Warning> {
     let given = gravity(scene)?;
     let acceleration = given.get_ref();
     let depth = |x: &[f64; D]| x.iter().zip(acceleration).map(|(x, g)| x * g).sum::<f64>();

@@ -59,8 +59,8 @@ impl WellSpec<'_> {
     }
 
     /// Warning about a well that begins when the run has ended.
-    pub fn idle(&self, fault: &str, steps: &[(f64, f64)], end: f64) -> Option<Warning> {
-        let begin = steps.iter().find(|step| step.1 != 0.0)?.0;
+    pub fn idle(&self, fault: &str, end: f64) -> Option<Warning> {
+        let begin = self.steps().into_iter().find(|step| step.1 != 0.0)?.0;
         let at = brief(self.at.get_ref().0);
         let message = format!(
             "the well at {at} of fault `{fault}` begins after the end of the run, which is at {end:e} s"

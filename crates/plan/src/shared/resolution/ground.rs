@@ -128,14 +128,24 @@ pub fn links(kind: FaceKind) -> Vec<(usize, usize)> {
     halves.chain(middle).collect()
 }
 
-/// Resolution of a fault from its freely sliding points and their spacing; `None` if friction weakens nowhere.
+/// A freely sliding point of a fault.
+pub struct GroundPoint<'a, const D: usize> {
+    /// Its position.
+    pub place: &'a Place<D>,
+    /// Friction and rock there.
+    pub ground: Ground<'a>,
+    /// Distance to the farthest neighbour \[m\].
+    pub spacing: f64,
+}
+
+/// Resolution of a fault from its freely sliding points; `None` if friction weakens nowhere.
 #[must_use]
 pub fn from_points<'a, const D: usize>(
     fault: &str,
-    points: impl Iterator<Item = (&'a Place<D>, Ground<'a>, f64)>,
+    points: impl Iterator<Item = GroundPoint<'a, D>>,
 ) -> Option<Resolution> {
     let mut worst: [Option<Coarsest>; 2] = [None; 2];
-    for (place, ground, spacing) in points {
+    for GroundPoint { place, ground, spacing } in points {
         let Some(lengths) = ground.lengths() else { continue };
         for (worst, length) in worst.iter_mut().zip(lengths) {
             let here = Coarsest {

@@ -5,7 +5,7 @@ mod ground;
 
 pub use critical::critical_slope;
 pub(crate) use ground::check;
-pub use ground::{Ground, from_points, links, modulus, spacings};
+pub use ground::{Ground, GroundPoint, from_points, links, modulus, spacings};
 
 use crate::shared::words::length;
 use schemars::JsonSchema;

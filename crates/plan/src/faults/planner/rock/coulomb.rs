@@ -3,12 +3,11 @@
 use super::super::super::coulomb::{Coulomb, CoulombMap};
 use super::super::coulomb::plane;
 use super::super::placed::PlacedPoint;
+use super::dislocations::Dislocations;
 use super::free_surface;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{CoulombSpec, Scene, Spanned};
 use crate::reading::scene::units::Length;
-use asperity_cycles::medium::patches::Patches;
-use asperity_fem::material::elastic::Elastic;
 
 /// Positions of a scene with the direction of their planes, if it asks for changes of Coulomb stress.
 ///
@@ -17,10 +16,11 @@ use asperity_fem::material::elastic::Elastic;
 /// admit.
 pub(super) fn plan<const D: usize>(
     scene: &Scene,
-    (patches, rock): (&Patches, &Elastic),
+    dislocations: Dislocations<'_>,
     placed: &[PlacedPoint<D>],
 ) -> Result<Option<Coulomb>, Diagnostic> {
     let Some(spec) = scene.output.coulomb.as_ref().map(|given| given.get_ref()) else { return Ok(None) };
+    let Dislocations { patches, rock } = dislocations;
     let plane = plane::<D>(scene, spec)?;
     let depth = spec.depth.as_ref().map_or(0.0, |d| d.get_ref().0);
     let map = spec.map.as_ref().map(|map| {
@@ -31,7 +31,7 @@ pub(super) fn plan<const D: usize>(
     Ok(Some(Coulomb {
         plane,
         map: map.transpose()?,
-        points: points(spec, patches, rock)?,
+        points: points(spec, dislocations)?,
         on_faults: scene.faults.len() > 1,
         patches: patches.clone(),
         rock: *rock,
@@ -40,8 +40,7 @@ pub(super) fn plan<const D: usize>(
 
 fn points(
     spec: &CoulombSpec,
-    patches: &Patches,
-    rock: &Elastic,
+    Dislocations { patches, rock }: Dislocations<'_>,
 ) -> Result<Vec<(String, [f64; 3])>, Diagnostic> {
     let of = |(name, given): (&String, &Spanned<Vec<Length>>)| {
         let at = std::array::from_fn(|c| given.get_ref().get(c).map_or(0.0, |x: &Length| x.0));

@@ -3,13 +3,12 @@
 use super::super::super::free_surface::{FreeSurface, SurfaceAxes};
 use super::super::super::receivers::{Receiver, Receivers};
 use super::super::placed::{PlacedPoint, in_space};
+use super::dislocations::{Dislocations, LaggingFaults};
 use super::receivers;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{AngleExtent, Extent, Scene, Spanned, SurfaceSpec};
 use crate::shared::place;
 use crate::shared::place::Frame;
-use asperity_cycles::medium::patches::Patches;
-use asperity_fem::material::elastic::Elastic;
 
 /// Largest number of positions: more than a figure shows, and each needs the closed form of every cell.
 const MOST: usize = 100_000;
@@ -32,22 +31,23 @@ const LEVEL: f64 = 1e-9;
 /// [`Diagnostic`] at a map with too many positions, or that the axes of the place do not admit.
 pub(super) fn plan<const D: usize>(
     scene: &Scene,
-    (patches, rock): (&Patches, &Elastic),
-    placed: &[PlacedPoint<D>],
-    (lag, notes): ((&[f64], usize), &mut Vec<String>),
+    dislocations: Dislocations<'_>,
+    faults: LaggingFaults<'_, D>,
+    notes: &mut Vec<String>,
 ) -> Result<Option<FreeSurface>, Diagnostic> {
     let Some(map) = &scene.output.surface else { return Ok(None) };
-    let (axes, positions) = positions(scene, map, placed)?;
+    let (axes, positions) = positions(scene, map, faults.placed)?;
     let through = if D == 3 {
         None
     } else {
-        through(scene, (patches, rock), placed, (&positions, lag)).map_err(|why| notes.push(why)).ok()
+        through(scene, dislocations, faults, &positions).map_err(|why| notes.push(why)).ok()
     };
     if through.is_some()
-        && let Some(why) = receivers::bent(scene, placed)
+        && let Some(why) = receivers::bent(scene, faults.placed)
     {
         notes.push(receivers::relative_to_plates("profiles of the surface through time show motion", &why));
     }
+    let Dislocations { patches, rock } = dislocations;
     Ok(Some(FreeSurface { positions, axes, patches: patches.clone(), rock: *rock, through }))
 }
 
@@ -57,25 +57,25 @@ pub(super) fn plan<const D: usize>(
 /// The reason why they are not followed.
 fn through<const D: usize>(
     scene: &Scene,
-    (patches, rock): (&Patches, &Elastic),
-    placed: &[PlacedPoint<D>],
-    (positions, (rates, tangents)): (&[[f64; 3]], (&[f64], usize)),
+    Dislocations { patches, rock }: Dislocations<'_>,
+    LaggingFaults { placed, plates: lag }: LaggingFaults<'_, D>,
+    positions: &[[f64; 3]],
 ) -> Result<Receivers, String> {
     let left_out = |why: String| format!("no profiles of the surface through time: {why}");
-    if positions.len() * rates.len() > MOST_WEIGHTS {
+    if positions.len() * lag.rates.len() > MOST_WEIGHTS {
         return Err(left_out(format!("{} positions are too many; a larger `spacing`", positions.len())));
     }
     let relative = receivers::bent(scene, placed).is_some();
     let one = |at: &[f64; 3]| {
         let plates = if relative { Ok([0.0; 3]) } else { receivers::plates(scene, placed, at) };
         let per_slip =
-            (0..tangents).flat_map(|component| patches.displacements(at, component, rock)).collect();
+            (0..lag.tangents).flat_map(|component| patches.displacements(at, component, rock)).collect();
         // As on the edge of a cell, displacements are not defined between plates.
         let plates = plates.unwrap_or([f64::NAN; 3]);
         Receiver { name: String::new(), at: *at, per_slip, plates, loads: Vec::new() }
     };
     let all = positions.iter().map(one).collect();
-    Ok(Receivers { all, rates: rates.to_vec(), axes: receivers::axes(scene) })
+    Ok(Receivers { all, rates: lag.rates.clone(), axes: receivers::axes(scene) })
 }
 
 /// Coordinates and positions of a map at y = 0.

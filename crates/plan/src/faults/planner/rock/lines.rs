@@ -1,6 +1,6 @@
 //! Faults in the plane, divided into straight cells.
 
-use super::super::bends;
+use super::super::bends::{self, Bend};
 use super::super::place::directions;
 use super::tiling::{Cut, Tiling, buried, in_dimension};
 use crate::reading::diagnostic::Diagnostic;
@@ -45,9 +45,10 @@ pub(super) fn tiling<const D: usize>(scene: &Scene, space: Space) -> Result<Tili
             ends: cells.iter().map(|cell| cell.ends).collect(),
         });
         if !antiplane {
-            let turns = segments.windows(2).zip(&cells);
-            let turns =
-                turns.map(|(w, cell)| ([&w[0], &w[1]].map(|s| in_dimension(&s.normal())), cell.ends[0]));
+            let turns = segments.windows(2).zip(&cells).map(|(w, cell)| Bend {
+                normals: [&w[0], &w[1]].map(|s| in_dimension(&s.normal())),
+                at: cell.ends[0],
+            });
             notes.extend(bends::sharpest(name, turns));
         }
         all.extend(segments);

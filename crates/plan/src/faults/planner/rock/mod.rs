@@ -2,6 +2,7 @@
 
 mod coulomb;
 mod depths;
+mod dislocations;
 mod free_surface;
 mod lines;
 mod outlines;
@@ -13,30 +14,39 @@ mod surfaces;
 mod tiling;
 mod triangles;
 
+use super::super::coulomb::Coulomb;
+use super::super::free_surface::FreeSurface;
 use super::super::plan::Plan;
+use super::super::platform::Platform;
+use super::super::receivers::Receivers;
 use super::apart::{self, Spacing};
 use super::assemble::{SlidingFaults, SurroundingsView, geometry, plan_of, turns};
+use super::backslip::{self, PlateRates};
 use super::fields::Fields;
+use super::history::LoadHistory;
 use super::medium::Medium;
-use super::placed::PlacedPoint;
-use super::point::{PointSurroundings, base_law, placed_at};
+use super::operator::OperatorSource;
+use super::placed::{FaultPoints, PlacedPoint};
+use super::point::{FaultParameters, PointSurroundings, base_law, placed_at};
+use super::remarks::Remarks;
 use super::resolved::resolved;
-use super::{asked, backslip, patches, sense};
+use super::{asked, patches, sense};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Medium as Rock, MediumKind, Scene, Spanned};
 use crate::shared::checks::Checks;
 use crate::shared::entry::Entry;
 use crate::shared::model::{forecast, materials};
-use crate::shared::setup::Setups;
+use crate::shared::resolution::Resolution;
 use crate::shared::{amounts, held, idealisation, resolution};
 use asperity_cycles::deficit;
 use asperity_cycles::kernel::Space;
 use asperity_cycles::medium::Place;
 use asperity_cycles::medium::patches::{Patches, Slip};
-use asperity_cycles::operator::{Form, Geometry};
+use asperity_cycles::operator::{Geometry, Operator};
 use asperity_fem::material::elastic::Elastic;
 use asperity_run::Warning;
 pub use asperity_run::report::Part;
+use dislocations::{Dislocations, LaggingFaults};
 use tiling::Tiling;
 
 /// Plans faults in homogeneous rock.
@@ -46,40 +56,20 @@ use tiling::Tiling;
 pub(super) fn plan<const D: usize>(
     scene: &Scene,
     rock: &Rock,
-    (form, setups): (Form, &Setups),
+    source: OperatorSource<'_>,
 ) -> Result<Plan, Diagnostic> {
     let [stage] = scene.stages.as_slice() else { return Err(asked::stages(scene)) };
     let end = stage.duration.get_ref().0;
-    let elastic = elastic(scene, rock)?;
-    let tiling = tiling::<D>(scene, rock)?;
-    let mut warnings = scene.warnings.clone();
-    let mut notes = backslip::notes(scene);
-    apart::check(scene, &outlines::cells(&tiling), Spacing::ByCells)?;
-    let placed = placed(scene, rock, &elastic, &tiling, (&mut warnings, &mut notes))?;
-    let resolution = resolved(scene, &placed, &mut warnings)?;
-    warnings.extend(triangles::tiny(scene, &tiling, &resolution));
-    let slip = Slip {
-        tangents: if turns(scene) { 2 } else { 1 },
-        changes: &placed.iter().map(|p| p.point.normal_changes).collect::<Vec<bool>>(),
-    };
-    let (places, areas, faults) = geometry(&placed);
-    let geometry = Geometry { places: &places, faults: &faults, areas: &areas, surfaces: D == 3 };
-    let memory = admit(scene, &tiling.patches, slip, &geometry)?;
-    let inputs = setups
-        .hash(|key| key.value(&tiling.patches).value(&elastic).value(&slip).value(&geometry).value(&form));
-    let operator = || Ok(tiling.patches.operator(&elastic, slip, (&geometry, form)));
-    let operator = setups.part::<_, Diagnostic>(Part::Operator, inputs, operator)?;
-    let plates = backslip::plates(scene, &placed, slip.tangents);
-    let loading = deficit(operator.as_ref(), &plates, end);
-    let lag = ((&plates[..], slip.tangents), &mut notes);
-    let free_surface = free_surface::plan(scene, (&tiling.patches, &elastic), &placed, lag)?;
-    let receivers =
-        receivers::plan(scene, (&tiling.patches, &elastic), &placed, ((plates, slip.tangents), &mut notes))?;
-    let coulomb = coulomb::plan(scene, (&tiling.patches, &elastic), &placed)?;
-    let platform = platform::plan(scene, &placed)?;
-    warnings.extend(sense::check(scene, (&placed, &[]), &loading, end));
-    warnings.extend(unloaded(scene));
-    notes.extend(tiling.notes.iter().cloned().chain([tiling.patches.reason()]));
+    let mut ground = Ground::<D>::read(scene, rock)?;
+    let HeldOperator { operator, memory_bytes } = ground.operator(source)?;
+    let plates = backslip::plates(scene, &ground.placed, tangents(scene));
+    let loading = deficit(operator.as_ref(), &plates.rates, end);
+    let outputs = ground.outputs(&plates)?;
+    let Ground { tiling, placed, resolution, mut remarks, .. } = ground;
+    let points = FaultPoints { sliding: &placed, creeping: &[] };
+    remarks.warnings.extend(sense::check(scene, points, LoadHistory { loading: &loading, end }));
+    remarks.warnings.extend(unloaded(scene));
+    remarks.notes.extend(tiling.notes.iter().cloned().chain([tiling.patches.reason()]));
     let around = SurroundingsView {
         medium: match rock.kind.get_ref() {
             MediumKind::HalfSpace => "homogeneous half-space without bodies",
@@ -87,20 +77,94 @@ pub(super) fn plan<const D: usize>(
         },
         dofs: 0,
         creeping: 0,
-        memory_bytes: held::without_bodies(memory),
+        memory_bytes: held::without_bodies(memory_bytes),
         bodies: None,
         sampling: None,
         stresses: None,
         resolution,
-        warnings,
-        notes,
+        remarks,
         prescribed: Vec::new(),
         machines: Vec::new(),
         loading: 0.0,
         checks: Checks { in_space: D == 3, ..Checks::default() },
     };
     let surrounded = SlidingFaults { placed, operator, opening: None, loading, end };
-    Ok(Plan { receivers, free_surface, coulomb, platform, ..plan_of(scene, surrounded, around, &tiling)? })
+    let plan = plan_of(scene, surrounded, around, &tiling)?;
+    let RockOutputs { receivers, free_surface, coulomb, platform } = outputs;
+    Ok(Plan { receivers, free_surface, coulomb, platform, ..plan })
+}
+
+/// Rock with the cells of the faults of a scene, and the points at the centres of these.
+struct Ground<'s, const D: usize> {
+    scene: &'s Scene,
+    elastic: Elastic,
+    tiling: Tiling<D>,
+    placed: Vec<PlacedPoint<D>>,
+    resolution: Vec<Resolution>,
+    remarks: Remarks,
+}
+
+/// An operator, with the memory that it takes while it is made.
+struct HeldOperator {
+    operator: Box<dyn Operator>,
+    memory_bytes: usize,
+}
+
+/// What is written beside faults in rock.
+struct RockOutputs {
+    receivers: Receivers,
+    free_surface: Option<FreeSurface>,
+    coulomb: Option<Coulomb>,
+    platform: Option<Platform>,
+}
+
+impl<'s, const D: usize> Ground<'s, D> {
+    fn read(scene: &'s Scene, rock: &Rock) -> Result<Self, Diagnostic> {
+        let elastic = elastic(scene, rock)?;
+        let tiling = tiling::<D>(scene, rock)?;
+        let mut remarks = Remarks { warnings: scene.warnings.clone(), notes: backslip::notes(scene) };
+        apart::check(scene, &outlines::cells(&tiling), Spacing::ByCells)?;
+        let placed = placed(scene, rock, &elastic, &tiling, &mut remarks)?;
+        let resolution = resolved(scene, &placed, &mut remarks.warnings)?;
+        remarks.warnings.extend(triangles::tiny(scene, &tiling, &resolution));
+        Ok(Self { scene, elastic, tiling, placed, resolution, remarks })
+    }
+
+    /// Operator of the slip of all cells.
+    fn operator(&self, source: OperatorSource<'_>) -> Result<HeldOperator, Diagnostic> {
+        let Self { elastic, tiling: Tiling { patches, .. }, .. } = self;
+        let slip = Slip {
+            tangents: tangents(self.scene),
+            changes: &self.placed.iter().map(|p| p.point.normal_changes).collect::<Vec<bool>>(),
+        };
+        let (places, areas, faults) = geometry(&self.placed);
+        let geometry = Geometry { places: &places, faults: &faults, areas: &areas, surfaces: D == 3 };
+        let memory_bytes = admit(self.scene, patches, slip, &geometry)?;
+        let OperatorSource { form, setups } = source;
+        let inputs =
+            setups.hash(|key| key.value(patches).value(elastic).value(&slip).value(&geometry).value(&form));
+        let operator = || Ok(patches.operator(elastic, slip, (&geometry, form)));
+        let operator = setups.part::<_, Diagnostic>(Part::Operator, inputs, operator)?;
+        Ok(HeldOperator { operator, memory_bytes })
+    }
+
+    /// What is written beside the faults, which lag behind plates.
+    fn outputs(&mut self, plates: &PlateRates) -> Result<RockOutputs, Diagnostic> {
+        let Self { scene, elastic, tiling, placed, remarks, .. } = self;
+        let dislocations = Dislocations { patches: &tiling.patches, rock: elastic };
+        let faults = LaggingFaults { placed: placed.as_slice(), plates };
+        Ok(RockOutputs {
+            free_surface: free_surface::plan(scene, dislocations, faults, &mut remarks.notes)?,
+            receivers: receivers::plan(scene, dislocations, faults, &mut remarks.notes)?,
+            coulomb: coulomb::plan(scene, dislocations, placed)?,
+            platform: platform::plan(scene, placed)?,
+        })
+    }
+}
+
+/// Number of components of slip of faults in a scene.
+fn tangents(scene: &Scene) -> usize {
+    if turns(scene) { 2 } else { 1 }
 }
 
 /// Warning if nothing changes the tractions of the faults but their own slip.
@@ -143,7 +207,7 @@ fn placed<const D: usize>(
     rock: &Rock,
     elastic: &Elastic,
     tiling: &Tiling<D>,
-    (warnings, notes): (&mut Vec<Warning>, &mut Vec<String>),
+    remarks: &mut Remarks,
 ) -> Result<Vec<PlacedPoint<D>>, Diagnostic> {
     let idealisation = idealisation::from_kinematics(*scene.kinematics.get_ref());
     let density = scene.materials.get(rock.material.get_ref()).and_then(|m| m.density.as_ref());
@@ -160,16 +224,17 @@ fn placed<const D: usize>(
         let base = base_law(own.spec)?;
         let cut = &tiling.faults[fault];
         let fields = Fields::read(scene, own, &base, &cut.places)?;
+        let parameters = FaultParameters { fault, spec: own.spec, base, fields };
         let cells = cut.places.iter().zip(&cut.sizes);
         let of = |(place, &spacing): (&Place<D>, &f64)| {
             let components = idealisation.components();
             let given = PointSurroundings { medium, spacing, stress: None, creep: None, components };
-            placed_at(own.spec, (fault, &base, &fields), place.clone(), given)
+            placed_at(&parameters, place.clone(), given)
         };
         let placed: Vec<PlacedPoint<D>> = cells.map(of).collect::<Result<_, _>>()?;
-        fields.describe(&placed, (warnings, notes));
-        asked::profiles(scene, own, &placed, warnings)?;
-        warnings.extend(patches::covered(own, &placed)?);
+        parameters.fields.describe(&placed, remarks);
+        asked::profiles(scene, own, &placed, &mut remarks.warnings)?;
+        remarks.warnings.extend(patches::covered(own, &placed)?);
         all.extend(placed);
     }
     Ok(all)

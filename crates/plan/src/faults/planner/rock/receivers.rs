@@ -2,13 +2,12 @@
 
 use super::super::super::receivers::{Receiver, Receivers};
 use super::super::placed::{PlacedPoint, in_space, slides};
+use super::dislocations::{Dislocations, LaggingFaults};
 use super::sites::{self, ReceiverPosition};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Scene};
 use crate::reading::scene::units::Length;
 use crate::shared::idealisation;
-use asperity_cycles::medium::patches::Patches;
-use asperity_fem::material::elastic::Elastic;
 
 /// Difference of unit normals beyond which a fault is not plane: rounding of the directions of its cells.
 const PLANE: f64 = 1e-9;
@@ -17,17 +16,16 @@ const PLANE: f64 = 1e-9;
 /// rounding.
 const ON_PLANE: f64 = 1e-9;
 
-/// Receivers of a scene, with the rates of the plates at all points, component by component.
+/// Receivers of a scene, with the rates of the plates at all points.
 ///
 /// # Errors
 /// [`Diagnostic`] at a receiver that has no motion, or at a site that is not on the map.
 pub(super) fn plan<const D: usize>(
     scene: &Scene,
-    (patches, rock): (&Patches, &Elastic),
-    placed: &[PlacedPoint<D>],
-    (lag, notes): ((Vec<f64>, usize), &mut Vec<String>),
+    Dislocations { patches, rock }: Dislocations<'_>,
+    LaggingFaults { placed, plates: lag }: LaggingFaults<'_, D>,
+    notes: &mut Vec<String>,
 ) -> Result<Receivers, Diagnostic> {
-    let (rates, tangents) = lag;
     let given = scene.output.receivers.iter().map(|(name, spec)| {
         let at: [f64; 3] = std::array::from_fn(|c| spec.get_ref().get(c).map_or(0.0, |x: &Length| x.0));
         (name.clone(), spec.span(), at)
@@ -37,10 +35,10 @@ pub(super) fn plan<const D: usize>(
     if let Some(why) = relative.as_ref().filter(|_| !all.is_empty()) {
         notes.push(relative_to_plates("receivers move", why));
     }
-    let mut receivers = Receivers { all: Vec::new(), rates, axes: axes(scene) };
+    let mut receivers = Receivers { all: Vec::new(), rates: lag.rates.clone(), axes: axes(scene) };
     for (name, span, at) in all {
         let per_slip: Vec<[f64; 3]> =
-            (0..tangents).flat_map(|component| patches.displacements(&at, component, rock)).collect();
+            (0..lag.tangents).flat_map(|component| patches.displacements(&at, component, rock)).collect();
         if !per_slip.iter().flatten().all(|u| u.is_finite()) {
             return Err(Diagnostic::at(
                 span,

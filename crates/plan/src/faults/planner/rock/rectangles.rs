@@ -14,7 +14,14 @@ use asperity_cycles::operator::Lattice;
 use asperity_scene::defaults;
 use std::f64::consts::FRAC_PI_2;
 
-/// Cells of a fault, with their grid, which has this number. `first` is the number of the first cell.
+/// Numbers from which those of a fault count.
+#[derive(Clone, Copy)]
+pub(super) struct FirstNumbers {
+    pub cell: usize,
+    pub grid: usize,
+}
+
+/// Cells of a fault, with their grid.
 ///
 /// # Errors
 /// [`Diagnostic`] at a rectangle that leaves the rock.
@@ -22,7 +29,7 @@ pub(super) fn cells<const D: usize>(
     Entry { name, spec }: Entry<'_, Spec>,
     rectangle: &FaultRectangle,
     space: Space,
-    (first, number): (usize, usize),
+    first: FirstNumbers,
 ) -> Result<DividedRectangle<D>, Diagnostic> {
     let grid = Grid::from_rectangle(rectangle);
     let mut tiles = Vec::with_capacity(grid.count());
@@ -34,12 +41,12 @@ pub(super) fn cells<const D: usize>(
             Diagnostic::at(rectangle.from.span(), format!("fault `{name}`: {e}"), help)
         })?;
         buried(space, name, [grid.centre(cell)[1], grid.cell[1]], rectangle.from.span())?;
-        let place = place::<D>(Entry::new(name, spec), first + k, &grid, (cell, &patch))?;
-        tiles.push(tile(&place, patch, (number, cell)));
+        let place = place::<D>(Entry::new(name, spec), first.cell + k, &grid, (cell, &patch))?;
+        tiles.push(tile(&place, patch, (first.grid, cell)));
         places.push(place);
     }
     let sizes = vec![grid.cell[0].max(grid.cell[1]); grid.count()];
-    let points = (first..first + tiles.len()).collect();
+    let points = (first.cell..first.cell + tiles.len()).collect();
     Ok(DividedRectangle {
         tiles,
         grid: Lattice { columns: grid.columns, rows: grid.rows, points },

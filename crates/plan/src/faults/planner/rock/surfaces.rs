@@ -1,5 +1,6 @@
 //! Faults in space, divided into rectangles and triangles.
 
+use super::rectangles::FirstNumbers;
 use super::tiling::Tiling;
 use super::{rectangles, triangles};
 use crate::reading::diagnostic::Diagnostic;
@@ -17,8 +18,8 @@ pub(super) fn tiling<const D: usize>(scene: &Scene, space: Space) -> Result<Tili
     let (mut faults, mut notes) = (Vec::new(), Vec::new());
     for (name, spec) in &scene.faults {
         if let Some(rectangle) = &spec.rectangle {
-            let numbers = (tiles.len(), grids.len());
-            let found = rectangles::cells(Entry::new(name, spec), rectangle, space, numbers)?;
+            let first = FirstNumbers { cell: tiles.len(), grid: grids.len() };
+            let found = rectangles::cells(Entry::new(name, spec), rectangle, space, first)?;
             tiles.extend(found.tiles);
             grids.push(found.grid);
             faults.push(found.cut);

@@ -1,0 +1,12 @@
+//! Warnings and notes of a plan.
+
+use asperity_run::Warning;
+
+/// What a plan says about a scene.
+#[derive(Debug, Default)]
+pub(crate) struct Remarks {
+    /// Settings that are probably not intended.
+    pub warnings: Vec<Warning>,
+    /// Decisions of the plan.
+    pub notes: Vec<String>,
+}
