@@ -6,7 +6,7 @@ use crate::{checkpoint, kinds};
 use asperity_cycles::slider::stability;
 use asperity_output::figures::MeshPicture;
 use asperity_plan::bodies::{self, AnyPlan};
-use asperity_plan::reading::diagnostic::{Diagnostics, report_set};
+use asperity_plan::reading::diagnostic::{Diagnostics, TextSettings, report_set};
 use asperity_plan::reading::scene;
 use asperity_plan::reading::scene::settings::{self, Origin, ResolvedText, Setting};
 use asperity_plan::reading::sniff::{self, Reader};
@@ -123,7 +123,8 @@ struct Text {
 impl Text {
     /// Errors as they are printed.
     fn report(&self, errors: &Diagnostics) -> miette::Report {
-        report_set(&self.name, &self.file, (&self.resolved, &self.settings), errors)
+        let shown = TextSettings { resolved: &self.resolved, settings: &self.settings };
+        report_set(&self.name, &self.file, shown, errors)
     }
 
     /// Gives a warning its line and column in the file, or names the setting that it is about.

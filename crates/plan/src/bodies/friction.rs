@@ -117,7 +117,7 @@ fn read<const D: usize>(
             Some(law::Bound::Positive) | None => Bound::Positive,
         };
         let parameter = Parameter { key, dimension: field_dimension(key), bound };
-        fields.push((key, Field::read(&mut files, region, (given, &parameter))?));
+        fields.push((key, Field::read(&mut files, region, given, &parameter)?));
     }
     Ok(fields)
 }

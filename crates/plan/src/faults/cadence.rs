@@ -229,9 +229,19 @@ impl Gauge {
     }
 }
 
+/// A file with its gauge.
+#[derive(Clone, Debug)]
+pub struct GaugedFile {
+    /// Name of the file.
+    pub name: String,
+    /// What has been written to it.
+    pub gauge: Gauge,
+}
+
 /// Warning about files that have exceeded half of their largest size.
-pub fn warning(files: &[(String, Gauge)], largest: u64) -> Option<Warning> {
-    let coarse = || files.iter().filter_map(|(name, g)| Some((g.coarse_since?, name, g)));
+pub fn warning(files: &[GaugedFile], largest: u64) -> Option<Warning> {
+    let coarse =
+        || files.iter().filter_map(|GaugedFile { name, gauge }| Some((gauge.coarse_since?, name, gauge)));
     let (since, name, _) = coarse().min_by(|a, b| a.0.total_cmp(&b.0))?;
     let most = coarse().map(|(_, _, g)| g.doublings).max().unwrap_or_default();
     let full = coarse().filter(|(_, _, g)| g.full).count();

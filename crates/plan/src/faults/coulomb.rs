@@ -4,7 +4,6 @@ use super::free_surface::SurfaceAxes;
 use asperity_cycles::medium::patches::{Patches, Slip};
 use asperity_cycles::operator::{Form, Geometry, Operator};
 use asperity_fem::material::elastic::Elastic;
-use std::ops::Range;
 
 /// Planes of one direction on which stress is resolved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -100,18 +99,11 @@ impl Coulomb {
 
     /// Changes on the cells of the faults along their rakes, event by event. Slip changes the normal tractions of all of them
     /// here, whatever their friction uses.
-    pub fn on_cells(
-        &self,
-        slips: &[&[f64]],
-        places: &[[f64; 3]],
-        (areas, faults): (&[f64], &[Range<usize>]),
-    ) -> Vec<Vec<Change>> {
-        let n = places.len();
+    pub fn on_cells(&self, slips: &[&[f64]], geometry: &Geometry<'_>) -> Vec<Vec<Change>> {
+        let n = geometry.places.len();
         let tangents = slips.iter().map(|slip| slip.len() / n.max(1)).max().unwrap_or(1);
-        let surfaces = matches!(self.patches, Patches::Space { .. });
-        let geometry = Geometry { places, faults, areas, surfaces };
         let slip = Slip { tangents, changes: &vec![true; n] };
-        let operator = self.patches.operator(&self.rock, slip, (&geometry, Form::Fitting));
+        let operator = self.patches.operator(&self.rock, slip, (geometry, Form::Fitting));
         let of = |slip: &&[f64]| {
             let [shear, normal] = tractions(operator.as_ref(), slip);
             shear

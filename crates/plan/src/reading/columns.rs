@@ -114,7 +114,7 @@ impl Columns {
     ) -> Result<Vec<f64>, Wrong> {
         let column = self.find(name)?;
         let own = self.heads[column].unit.as_deref();
-        let unit = unit::chosen(("column", name), own, stated, dimension)?;
+        let unit = unit::chosen(unit::FilePart::new("column", name), own, stated, dimension)?;
         let cell = |(line, cells): &(u64, Vec<String>)| {
             let cell = cells[column].as_str();
             let number = cell.parse::<f64>().ok().filter(|v| v.is_finite());

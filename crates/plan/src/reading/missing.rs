@@ -7,8 +7,16 @@ use std::path::Path;
 /// Largest number of files that a message lists: a line of them.
 const MOST: usize = 6;
 
+/// Files of one kind.
+#[derive(Clone, Copy)]
+pub(crate) struct FileKind {
+    /// The kind in words, in the plural.
+    pub what: &'static str,
+    pub extensions: &'static [&'static str],
+}
+
 /// Reason why a file cannot be read, and help: what lies where it is looked for, or what keeps it from being read.
-pub(crate) fn unread(path: &Path, error: &io::Error, kind: (&str, &[&str])) -> (String, String) {
+pub(crate) fn unread(path: &Path, error: &io::Error, kind: FileKind) -> (String, String) {
     let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
     if path.is_dir() {
         let help = format!("{} is a folder: name a file in it", whole.display());
@@ -25,7 +33,7 @@ pub(crate) fn unread(path: &Path, error: &io::Error, kind: (&str, &[&str])) -> (
 }
 
 /// Path of a missing file, and the files of its kind found there instead.
-fn looked_for(path: &Path, (what, extensions): (&str, &[&str])) -> String {
+fn looked_for(path: &Path, FileKind { what, extensions }: FileKind) -> String {
     let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
     let told =
         format!("looked for {}; paths are relative to the folder of the scene. There", whole.display());

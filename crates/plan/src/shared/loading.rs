@@ -19,6 +19,7 @@ use asperity_fem::surface;
 use asperity_fem::table::Table;
 use asperity_mechanics::{self as mechanics, RotatedSet, Rotation};
 pub use asperity_mechanics::{Spring, Stage};
+use jumps::StageStart;
 use shared::PrescriptionHistory;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -54,7 +55,8 @@ pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Sta
             stiff::refuse(model, condition)?;
         }
         if !presses {
-            jumps::refuse(scene, spec, (&before, &present), &loads)?;
+            let before = StageStart { held: &before, present: &present };
+            jumps::refuse(scene, spec, before, &loads)?;
         }
         shared.stage(model, spec, &held)?;
         let (springs, motions) = apart(motions::<D>(model, &held));

@@ -9,9 +9,9 @@ pub fn bound(speeds: impl IntoIterator<Item = Option<f64>>) -> f64 {
     speeds.into_iter().map(|speed| speed.unwrap_or(ANY_ROCK)).reduce(f64::min).unwrap_or(ANY_ROCK)
 }
 
-/// Reason for the end of a run in which a surface slipped faster than the bound: where and when, and the remedy.
+/// Reason for the end of a run in which a surface slipped faster than the bound, `most` \[m/s\]: where and when, and the remedy.
 #[must_use]
-pub fn reason(surface: &str, place: &str, after: f64, (rate, most): (f64, f64), radiates: bool) -> String {
+pub fn reason(surface: &str, place: &str, after: f64, [rate, most]: [f64; 2], radiates: bool) -> String {
     let remedy = if radiates {
         "check the units of `damping` (in Pa s/m, G/(2 c_s), some 5e6 in rock), of rates and of tractions"
     } else {

@@ -188,7 +188,7 @@ fn why<const D: usize>(plan: &Plan<D>, halt: &Halt, time: f64) -> String {
         Halt::Outrun { point, rate } => {
             let (fault, place) = at_point(plan, *point);
             let place = format!("point {point}, {place}");
-            outrun::reason(&format!("fault `{fault}`"), &place, time, (*rate, plan.fastest), true)
+            outrun::reason(&format!("fault `{fault}`"), &place, time, [*rate, plan.fastest], true)
         }
         Halt::Tension { point, traction, .. } => {
             let (fault, place) = at_point(plan, *point);

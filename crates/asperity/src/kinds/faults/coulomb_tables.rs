@@ -3,6 +3,8 @@
 use super::receiver_tables::on_earth;
 use super::source_time::FOLDER;
 use asperity_cycles::FaultRun;
+use asperity_cycles::medium::patches::Patches;
+use asperity_cycles::operator::Geometry;
 use asperity_output::decimals::{scientific, shortest};
 use asperity_output::formats::grd::Grid;
 use asperity_output::tables::column::{self, Column, Sign};
@@ -136,7 +138,9 @@ fn write_faults(out: &Path, plan: &Plan, coulomb: &Coulomb, slips: &[&[f64]]) ->
     let places: Vec<[f64; 3]> = plan.points.iter().map(|p| p.at).collect();
     let areas: Vec<f64> = plan.points.iter().map(|p| p.area).collect();
     let faults: Vec<_> = plan.faults.iter().map(|f| f.points.clone()).collect();
-    let found = coulomb.on_cells(slips, &places, (&areas, &faults));
+    let surfaces = matches!(coulomb.patches, Patches::Space { .. });
+    let geometry = Geometry { places: &places, faults: &faults, areas: &areas, surfaces };
+    let found = coulomb.on_cells(slips, &geometry);
     for (number, changes) in found.iter().enumerate() {
         let mut text = column::header(&fault_columns(frame));
         for fault in &plan.faults {

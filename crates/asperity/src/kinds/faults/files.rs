@@ -19,7 +19,7 @@ use asperity_output::fields::Field;
 use asperity_output::tables::Column;
 use asperity_output::{OutputError, OutputFile, atomic};
 use asperity_plan::faults::Plan;
-use asperity_plan::faults::cadence::{Gauge, warning};
+use asperity_plan::faults::cadence::{Gauge, GaugedFile, warning};
 use asperity_run::{ObserveError, Observer, Warning};
 use std::path::Path;
 
@@ -181,6 +181,8 @@ impl<'a> Files<'a> {
         let mut files: Vec<(String, Gauge)> = self.tables.iter().map(Rows::position).collect();
         files.extend(self.snapshots.as_ref().map(|s| ("fields".to_string(), s.taken().gauge)));
         files.extend(self.events.coarse());
+        let files: Vec<GaugedFile> =
+            files.into_iter().map(|(name, gauge)| GaugedFile { name, gauge }).collect();
         warning(&files, self.plan.cadence.largest_file)
     }
 }

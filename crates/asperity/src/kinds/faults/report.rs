@@ -217,7 +217,7 @@ fn why(plan: &Plan, run: &FaultRun, failure: &Failure) -> String {
     if let Some(Outrun { point, rate }) = run.progress.outrun {
         let fault = plan.source(point);
         let place = format!("point {point}, {}", coordinates::in_words(&plan.points[point].at));
-        let rates = (rate, plan.problem.settings.fastest);
+        let rates = [rate, plan.problem.settings.fastest];
         let radiates = plan.problem.fault.damping[point] > 0.0;
         return outrun::reason(&format!("fault `{fault}`"), &place, run.at.seconds(), rates, radiates);
     }

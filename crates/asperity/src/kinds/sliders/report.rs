@@ -79,7 +79,7 @@ results!(Report, Kind::Sliders);
 fn outran(problem: &Problem, Outrun { point, rate }: Outrun, time: f64) -> Outcome {
     let (name, slider) = (problem.names[point].clone(), &problem.system.sliders()[point]);
     let bounded = slider.damping > 0.0 || slider.mass.is_some();
-    let reason = outrun::reason(&format!("`{name}`"), "its point", time, (rate, problem.fastest), bounded);
+    let reason = outrun::reason(&format!("`{name}`"), "its point", time, [rate, problem.fastest], bounded);
     let kind = Stop::Outrun { surface: name, position: [0.0; 3], slip_rate: rate };
     Outcome::Stopped { stage: None, time, reason, kind }
 }

@@ -90,9 +90,15 @@ fn a_file_becomes_coarser_and_never_passes_its_size() {
     let found = rows(&history, &mut gauge, 100);
     assert!(gauge.bytes <= CADENCE.largest_file && gauge.doublings > 2, "{gauge:?}");
     assert_eq!(gauge.bytes, 100 * found.len() as u64);
-    let warning = warning(&[("a".into(), gauge)], CADENCE.largest_file).unwrap();
+    let warning = warning(&[GaugedFile { name: "a".into(), gauge }], CADENCE.largest_file).unwrap();
     assert!(warning.message.contains("`a` first"), "{warning}");
-    assert!(asperity_plan::faults::cadence::warning(&[("a".into(), Gauge::default())], 1).is_none());
+    assert!(
+        asperity_plan::faults::cadence::warning(
+            &[GaugedFile { name: "a".into(), gauge: Gauge::default() }],
+            1
+        )
+        .is_none()
+    );
 }
 
 #[test]

@@ -16,17 +16,22 @@ pub(super) const TOGETHER: f64 = 1e-9;
 /// Distance from the plane through the corners of a face within which a point lies on it, relative to its size: the rise of an arc of 45 degrees.
 const RISE: f64 = 0.1;
 
+/// The two sides of a fault between bodies.
+#[derive(Clone, Copy)]
+pub(super) struct FaultSides<'a, const D: usize> {
+    pub model: &'a Model<D>,
+    pub fault: Entry<'a, Spec>,
+    pub minus: &'a [Side],
+    pub plus: &'a [Side],
+}
+
 /// Refuses nodes of the plus side that lie on faces of the minus side but not at a node, because nothing would tie them to the other side. Where the
 /// plus side extends beyond the minus side it is free, as given in the scene.
 ///
 /// # Errors
 /// [`Diagnostic`] at the plus side, with the first position and the number of such nodes.
-pub(super) fn partners<const D: usize>(
-    model: &Model<D>,
-    Entry { name, spec }: Entry<'_, Spec>,
-    minus: &[Side],
-    alone: &[usize],
-) -> Result<(), Diagnostic> {
+pub(super) fn partners<const D: usize>(sides: &FaultSides<'_, D>, alone: &[usize]) -> Result<(), Diagnostic> {
+    let FaultSides { model, fault: Entry { name, spec }, minus, .. } = *sides;
     if alone.is_empty() {
         return Ok(());
     }
@@ -49,11 +54,10 @@ pub(super) fn partners<const D: usize>(
 
 /// Warning if the nodes of the two sides agree but their faces do not: between the nodes the sides then gap and overlap.
 pub(super) fn same_faces<const D: usize>(
-    model: &Model<D>,
-    Entry { name, spec }: Entry<'_, Spec>,
-    (minus, plus): (&[Side], &[Side]),
+    sides: &FaultSides<'_, D>,
     partner: impl Fn(usize) -> Option<usize>,
 ) -> Option<Warning> {
+    let FaultSides { model, fault: Entry { name, spec }, minus, plus } = *sides;
     let sorted = |mut nodes: Vec<usize>| {
         nodes.sort_unstable();
         nodes

@@ -62,7 +62,7 @@ fn line<const D: usize>(
         if let Some(field) = field {
             let parameter = Parameter { key, dimension: field_dimension(key), bound: Bound::Positive };
             let all = Region { scene, spots: &spots, name: &region };
-            let field = Field::read(&mut files, &all, (field, &parameter))?;
+            let field = Field::read(&mut files, &all, field, &parameter)?;
             remarks.warnings.extend(field.doubts(&region, &spots));
             remarks.notes.push(field.note(&region, spots.iter()));
             return spots.iter().map(|spot| field.at(&region, spot)).collect();

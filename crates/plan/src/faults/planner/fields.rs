@@ -49,7 +49,7 @@ impl<const D: usize> Fields<D> {
                     _ => Bound::Positive,
                 },
             };
-            *slot = Some(Field::read(&mut files, &region, (given, &parameter))?);
+            *slot = Some(Field::read(&mut files, &region, given, &parameter)?);
         }
         Ok(Self { all, region: name })
     }

@@ -1,6 +1,6 @@
 //! Points of a fault: pairs of nodes, one on each side, at the same position.
 
-use super::cover::{self, TOGETHER};
+use super::cover::{self, FaultSides, TOGETHER};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Spanned};
 use crate::shared::entry::Entry;
@@ -23,7 +23,7 @@ pub fn places<const D: usize>(
 ) -> Result<(Vec<Place<D>>, Option<Warning>), Diagnostic> {
     let Entry { name, spec } = fault;
     let (minus, plus) = (model::sides(model, &spec.minus)?, model::sides(model, &spec.plus)?);
-    let (pairs, doubtful) = pairs(model, name, spec, minus, plus)?;
+    let (pairs, doubtful) = pairs(&FaultSides { model, fault, minus, plus })?;
     let no_areas =
         |e: FemError| Diagnostic::at(spec.minus.span(), format!("fault `{name}`: {e}"), WITH_AREAS);
     let areas = model.tributary_areas(minus).map_err(no_areas)?;
@@ -100,50 +100,31 @@ fn along_rake<const D: usize>(rake: &[f64; 3], normal: &[f64; D]) -> Option<[f64
 /// Pairs of nodes of both sides at the same position, without tips, where both sides are one node.
 type Pairs = Vec<(usize, usize)>;
 
-fn pairs<const D: usize>(
-    model: &Model<D>,
-    name: &str,
-    spec: &Spec,
-    minus: &[Side],
-    plus: &[Side],
-) -> Result<(Pairs, Option<Warning>), Diagnostic> {
-    let close = TOGETHER * model.scale;
-    let nodes = |sides: &[Side]| nodes_of_sides(&model.mesh, sides);
-    let (on_minus, mut on_plus) = (nodes(minus), nodes(plus));
-    let x = |n: &usize| model.mesh.nodes[*n];
-    let by = |axis: usize| move |a: &usize, b: &usize| x(a)[axis].total_cmp(&x(b)[axis]);
-    // Sorted along the longest side of their box, so that candidates lie in a narrow band: on a plane fault all nodes may share a
-    // coordinate.
-    let (least, most) = model::bounds(&on_plus.iter().map(x).collect::<Vec<_>>());
-    let axis = (0..D).fold(0, |best, c| if most[c] - least[c] > most[best] - least[best] { c } else { best });
-    on_plus.sort_by(by(axis));
+fn pairs<const D: usize>(sides: &FaultSides<'_, D>) -> Result<(Pairs, Option<Warning>), Diagnostic> {
+    let Entry { name, spec } = sides.fault;
+    let nodes = |side: &[Side]| nodes_of_sides(&sides.model.mesh, side);
+    let on_plus = SortedNodes::new(sides.model, nodes(sides.plus));
     let mut partner: BTreeMap<usize, usize> = BTreeMap::new();
     let mut taken = BTreeSet::new();
-    for m in &on_minus {
-        let from = on_plus.partition_point(|p| x(p)[axis] < x(m)[axis] - close);
-        let candidates = on_plus[from..].iter().take_while(|p| x(p)[axis] <= x(m)[axis] + close);
-        let near = candidates.filter(|p| (0..D).all(|c| (x(p)[c] - x(m)[c]).abs() <= close));
-        let near: Vec<usize> = near.copied().collect();
-        match near.as_slice() {
-            [p] if taken.insert(*p) => partner.insert(*m, *p),
+    for m in nodes(sides.minus) {
+        let at = &sides.model.mesh.nodes[m];
+        match on_plus.near(at).as_slice() {
+            [p] if taken.insert(*p) => partner.insert(m, *p),
             [] => {
                 return Err(Diagnostic::at(
                     spec.plus.span(),
                     format!(
                         "the sides of fault `{name}` do not lie on each other: the node of the minus side at {} has none on the plus side",
-                        coordinates::in_words(&x(m))
+                        coordinates::in_words(at)
                     ),
                     "both sides need the same nodes, as splitting a mesh along a surface makes them",
                 ));
             }
-            _ => return Err(branches(&format!("fault `{name}` branches"), &x(m), spec)),
+            _ => return Err(branches(&format!("fault `{name}` branches"), at, spec)),
         };
     }
-    let mut alone: Vec<usize> = on_plus.into_iter().filter(|p| !taken.contains(p)).collect();
-    alone.sort_by(|a, b| by(0)(a, b).then(a.cmp(b)));
-    cover::partners(model, Entry::new(name, spec), minus, &alone)?;
-    let doubtful =
-        cover::same_faces(model, Entry::new(name, spec), (minus, plus), |m| partner.get(&m).copied());
+    cover::partners(sides, &on_plus.without(&taken))?;
+    let doubtful = cover::same_faces(sides, |m| partner.get(&m).copied());
     let pairs: Pairs = partner.into_iter().filter(|(m, p)| m != p).collect();
     if pairs.is_empty() {
         return Err(Diagnostic::at(
@@ -154,6 +135,43 @@ fn pairs<const D: usize>(
         ));
     }
     Ok((pairs, doubtful))
+}
+
+/// Nodes of a side, sorted along the longest side of their box, so that those near a position lie in a narrow band: on a plane
+/// fault all nodes may share a coordinate.
+struct SortedNodes<'m, const D: usize> {
+    model: &'m Model<D>,
+    nodes: Vec<usize>,
+    axis: usize,
+}
+
+impl<'m, const D: usize> SortedNodes<'m, D> {
+    fn new(model: &'m Model<D>, mut nodes: Vec<usize>) -> Self {
+        let x = |n: &usize| model.mesh.nodes[*n];
+        let (least, most) = model::bounds(&nodes.iter().map(x).collect::<Vec<_>>());
+        let extent = |c: usize| most[c] - least[c];
+        let axis = (0..D).fold(0, |best, c| if extent(c) > extent(best) { c } else { best });
+        nodes.sort_by(|a, b| x(a)[axis].total_cmp(&x(b)[axis]));
+        Self { model, nodes, axis }
+    }
+
+    /// Nodes at a position.
+    fn near(&self, at: &[f64; D]) -> Vec<usize> {
+        let Self { model, nodes, axis } = self;
+        let close = TOGETHER * model.scale;
+        let x = |n: &usize| &model.mesh.nodes[*n];
+        let from = nodes.partition_point(|p| x(p)[*axis] < at[*axis] - close);
+        let candidates = nodes[from..].iter().take_while(|p| x(p)[*axis] <= at[*axis] + close);
+        candidates.filter(|p| (0..D).all(|c| (x(p)[c] - at[c]).abs() <= close)).copied().collect()
+    }
+
+    /// Those that are not taken, in the order of their first coordinates.
+    fn without(&self, taken: &BTreeSet<usize>) -> Vec<usize> {
+        let x = |n: &usize| self.model.mesh.nodes[*n][0];
+        let mut rest: Vec<usize> = self.nodes.iter().copied().filter(|n| !taken.contains(n)).collect();
+        rest.sort_by(|a, b| x(a).total_cmp(&x(b)).then(a.cmp(b)));
+        rest
+    }
 }
 
 /// Error for a position where more than two sides meet.

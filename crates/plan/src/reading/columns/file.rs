@@ -2,21 +2,21 @@
 
 use super::{Columns, Wrong};
 use crate::reading::diagnostic::Diagnostic;
-use crate::reading::missing::unread;
+use crate::reading::missing::{FileKind, unread};
 use crate::reading::sniff::{self, Reader};
 use asperity_scene::files::Column;
 use asperity_scene::model::Spanned;
 use std::path::Path;
 
-/// Extensions of files of columns.
-const TABLES: [&str; 2] = ["csv", "txt"];
+/// Files of columns.
+const TABLES: FileKind = FileKind { what: "files of columns", extensions: &["csv", "txt"] };
 
 /// Columns of a file in a folder.
 ///
 /// # Errors
 /// [`Diagnostic`] at the name of the file.
 pub(crate) fn read(folder: &Path, file: &Spanned<String>) -> Result<Columns, Diagnostic> {
-    let bytes = bytes(folder, file, ("files of columns", &TABLES))?;
+    let bytes = bytes(folder, file, TABLES)?;
     if let Some(wrong) = sniff::other(&bytes, Reader::Columns) {
         return Err(refused(file, file.span(), wrong));
     }
@@ -27,11 +27,7 @@ pub(crate) fn read(folder: &Path, file: &Spanned<String>) -> Result<Columns, Dia
 ///
 /// # Errors
 /// [`Diagnostic`] at the name of the file.
-pub(crate) fn bytes(
-    folder: &Path,
-    file: &Spanned<String>,
-    kind: (&str, &[&str]),
-) -> Result<Vec<u8>, Diagnostic> {
+pub(crate) fn bytes(folder: &Path, file: &Spanned<String>, kind: FileKind) -> Result<Vec<u8>, Diagnostic> {
     let (name, path) = (file.get_ref(), folder.join(file.get_ref()));
     std::fs::read(&path).map_err(|e| {
         let (message, help) = unread(&path, &e, kind);

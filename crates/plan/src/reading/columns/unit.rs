@@ -3,12 +3,26 @@
 use crate::reading::wrong::Wrong;
 use asperity_scene::units::{self, Dimension};
 
+/// Part of a file that has a unit.
+#[derive(Clone, Copy)]
+pub(crate) struct FilePart<'a> {
+    /// What it is, such as a column.
+    pub kind: &'a str,
+    pub name: &'a str,
+}
+
+impl<'a> FilePart<'a> {
+    pub(crate) fn new(kind: &'a str, name: &'a str) -> Self {
+        Self { kind, name }
+    }
+}
+
 /// Unit of numbers of this dimension: that of the file, or the stated one where the file has none.
 ///
 /// # Errors
-/// [`Wrong`] for a unit that is missing, of another dimension, or not the stated one. `what` is such as `("column", "x")`.
+/// [`Wrong`] for a unit that is missing, of another dimension, or not the stated one.
 pub(crate) fn chosen<'a>(
-    (what, name): (&str, &str),
+    FilePart { kind: what, name }: FilePart<'_>,
     own: Option<&'a str>,
     stated: Option<&'a str>,
     dimension: Option<Dimension>,

@@ -3,4 +3,4 @@
 pub mod render;
 
 pub use asperity_scene::diagnostic::{Diagnostic, Diagnostics, line_column};
-pub use render::{report, report_set};
+pub use render::{TextSettings, report, report_set};

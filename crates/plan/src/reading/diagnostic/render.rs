@@ -163,22 +163,27 @@ impl miette::Diagnostic for Many {
 /// The errors of the scene `text`, read from `file`, ready to be printed.
 #[must_use]
 pub fn report(file: &str, text: &str, errors: &Diagnostics) -> Report {
-    report_set(file, text, (&ResolvedText::unchanged(text), &[]), errors)
+    let resolved = &ResolvedText::unchanged(text);
+    report_set(file, text, TextSettings { resolved, settings: &[] }, errors)
+}
+
+/// Text of a scene with the settings in it.
+#[derive(Clone, Copy)]
+pub struct TextSettings<'a> {
+    /// The text with its settings.
+    pub resolved: &'a ResolvedText,
+    /// Those, in their order.
+    pub settings: &'a [Setting],
 }
 
 /// The errors of a scene with settings, ready to be printed: each is shown in the file with this text, or in the setting that
 /// caused it.
 #[must_use]
-pub fn report_set(
-    file: &str,
-    text: &str,
-    (resolved, settings): (&ResolvedText, &[Setting]),
-    errors: &Diagnostics,
-) -> Report {
+pub fn report_set(file: &str, text: &str, shown: TextSettings<'_>, errors: &Diagnostics) -> Report {
     let source = Arc::new(Excerpts(NamedSource::new(file, text.to_string())));
-    let place = |error: &Diagnostic| match resolved.origin(error.span.start) {
-        Origin::Setting(number) if !error.span.is_empty() => in_setting(&settings[number], error),
-        _ => LocatedDiagnostic { error: in_file((resolved, settings), error), source: Arc::clone(&source) },
+    let place = |error: &Diagnostic| match shown.resolved.origin(error.span.start) {
+        Origin::Setting(number) if !error.span.is_empty() => in_setting(&shown.settings[number], error),
+        _ => LocatedDiagnostic { error: in_file(shown, error), source: Arc::clone(&source) },
     };
     let mut placed: Vec<LocatedDiagnostic> = errors.0.iter().map(place).collect();
     match (placed.len(), placed.pop()) {
@@ -200,7 +205,7 @@ fn in_setting(setting: &Setting, error: &Diagnostic) -> LocatedDiagnostic {
 }
 
 /// An error in the file. Other positions that lie in settings are named as text.
-fn in_file((resolved, settings): (&ResolvedText, &[Setting]), error: &Diagnostic) -> Diagnostic {
+fn in_file(TextSettings { resolved, settings }: TextSettings<'_>, error: &Diagnostic) -> Diagnostic {
     let mut placed = Diagnostic { also: Vec::new(), ..error.clone() };
     placed.span = resolved.range(&error.span).unwrap_or_default();
     for (span, words) in &error.also {

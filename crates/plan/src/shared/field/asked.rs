@@ -73,7 +73,8 @@ impl FieldRequest<'_> {
 pub(super) fn checked(
     values: &[f64],
     asked: &FieldRequest<'_>,
-    (what, row): (&str, &dyn Fn(usize) -> String),
+    what: &str,
+    row: &dyn Fn(usize) -> String,
 ) -> Result<(), Wrong> {
     let (name, parameter) = (asked.name, asked.parameter);
     let (bad, must): (&dyn Fn(f64) -> bool, &str) = match parameter.bound {

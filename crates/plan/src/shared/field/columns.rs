@@ -27,7 +27,7 @@ pub(super) fn field<const D: usize>(
     let line = |row: usize| format!("line {}", columns.line(row));
     let (axes, positions) = Axes::scattered(region, &names, lists, &line)?;
     let values = asked.plain(columns.numbers_in(asked.name, asked.dimension(), asked.unit)?);
-    checked(&values, asked, ("column", &line))?;
+    checked(&values, asked, "column", &line)?;
     let nearest = asked.interpolation == Some(FieldInterpolation::Nearest);
     let samples = Samples::new(&positions, &values, nearest).map_err(|why| axes.explain(&why))?;
     Ok((axes, Source::Samples(samples)))

@@ -3,6 +3,7 @@
 use crate::reading::columns::Columns;
 use crate::reading::columns::file::{bytes, refused};
 use crate::reading::diagnostic::Diagnostic;
+use crate::reading::missing::FileKind;
 use crate::reading::sniff::{self, Reader};
 use asperity_fem::mesh::netcdf;
 use asperity_output::fields::vtu::reading;
@@ -10,8 +11,8 @@ use asperity_scene::model::Spanned;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Extensions of files of fields.
-const KINDS: [&str; 5] = ["csv", "txt", "grd", "nc", "vtu"];
+/// Files of fields.
+const KINDS: FileKind = FileKind { what: "files of values", extensions: &["csv", "txt", "grd", "nc", "vtu"] };
 
 /// Files that have been read, by name.
 #[derive(Default)]
@@ -32,7 +33,7 @@ impl Files {
     pub(super) fn content(&mut self, folder: &Path, file: &Spanned<String>) -> Result<&Content, Diagnostic> {
         let name = file.get_ref();
         if !self.0.contains_key(name) {
-            let bytes = bytes(folder, file, ("files of values", &KINDS))?;
+            let bytes = bytes(folder, file, KINDS)?;
             if let Some(wrong) = sniff::other(&bytes, Reader::Fields) {
                 return Err(refused(file, file.span(), wrong));
             }

@@ -4,6 +4,7 @@ use super::asked::{FieldRequest, Source, checked};
 use super::axes::{Axes, Lists};
 use super::lattice::Lattice;
 use super::region::Region;
+use crate::reading::columns::unit::FilePart;
 use crate::reading::columns::{Wrong, unit};
 use crate::reading::scene::model::FieldInterpolation;
 use crate::reading::scene::units::{self, Dimension};
@@ -41,7 +42,7 @@ pub(super) fn field<const D: usize>(
     }
     let mut values = asked.plain(grid.values.iter().map(|v| v * factor).collect());
     let place = |k: usize| at(&grid, k);
-    checked(&values, asked, ("variable", &place))?;
+    checked(&values, asked, "variable", &place)?;
     if axes.len() == 2 && order(axes[0].0) > order(axes[1].0) {
         let [rows, columns] = [axes[0].1.len(), axes[1].1.len()];
         let turned = |k: usize| values[(k % rows) * columns + k / rows];
@@ -105,7 +106,7 @@ fn size_of(
     dimension: Option<Dimension>,
 ) -> Result<f64, Wrong> {
     let own = plain(own.trim());
-    let found = unit::chosen((what, name), Some(own), stated, dimension).map_err(|wrong| {
+    let found = unit::chosen(FilePart::new(what, name), Some(own), stated, dimension).map_err(|wrong| {
         if !own.is_empty() {
             return wrong;
         }

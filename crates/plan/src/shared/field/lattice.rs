@@ -70,9 +70,9 @@ impl Lattice {
     /// Neighbours along an axis with their shares, none of which is zero.
     fn shares(&self, axis: &[(f64, usize)], x: f64) -> Option<Vec<(f64, usize)>> {
         if self.nearest {
-            return Some(vec![(1.0, nearest(axis, x)?)]);
+            return Some(vec![(1.0, axis[nearest(axis.len(), |k| axis[k].0, x)?].1)]);
         }
-        if !within(axis, x) {
+        if !within([axis[0].0, axis[axis.len() - 1].0], x) {
             return None;
         }
         let k = axis.partition_point(|node| node.0 <= x).clamp(1, axis.len() - 1);

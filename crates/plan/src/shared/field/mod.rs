@@ -51,7 +51,8 @@ impl<const D: usize> Field<D> {
     pub fn read(
         files: &mut Files,
         region: &Region<'_, D>,
-        (given, parameter): (&Given, &Parameter),
+        given: &Given,
+        parameter: &Parameter,
     ) -> Result<Self, Diagnostic> {
         let asked = FieldRequest {
             name: given.column.as_ref().map_or(parameter.key, |c| c.get_ref().as_str()),

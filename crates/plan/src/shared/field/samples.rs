@@ -61,8 +61,13 @@ impl Samples {
     #[must_use]
     pub fn at(&self, x: &[f64]) -> Option<f64> {
         match self {
-            Self::Line { points, nearest: false } => within(points, x[0]).then(|| linear(points, x[0])),
-            Self::Line { points, nearest: true } => nearest(points, x[0]),
+            Self::Line { points, nearest: false } => {
+                let ends = [points[0].0, points[points.len() - 1].0];
+                within(ends, x[0]).then(|| linear(points, x[0]))
+            }
+            Self::Line { points, nearest: true } => {
+                nearest(points.len(), |k| points[k].0, x[0]).map(|k| points[k].1)
+            }
             Self::Plane { samples, nearest: false } => samples.linear([x[0], x[1]]),
             Self::Plane { samples, nearest: true } => samples.nearest([x[0], x[1]]),
         }
@@ -95,8 +100,7 @@ pub(crate) fn between(count: usize, node: impl Fn(usize) -> (f64, f64), x: f64) 
 }
 
 /// True if a position lies between the first and the last.
-pub(super) fn within<T>(points: &[(f64, T)], x: f64) -> bool {
-    let (first, last) = (points[0].0, points[points.len() - 1].0);
+pub(super) fn within([first, last]: [f64; 2], x: f64) -> bool {
     let close = ON_END * (last - first);
     first - close <= x && x <= last + close
 }
@@ -105,11 +109,10 @@ fn linear(points: &[(f64, f64)], x: f64) -> f64 {
     between(points.len(), |k| points[k], x)
 }
 
-/// Value of the nearest position; `None` beyond an end, if it is farther away than its neighbour is.
-pub(super) fn nearest<T: Copy>(points: &[(f64, T)], x: f64) -> Option<T> {
-    let n = points.len();
-    let k = (0..n).min_by(|&i, &j| (points[i].0 - x).abs().total_cmp(&(points[j].0 - x).abs()))?;
-    let next = if k + 1 < n { k + 1 } else { k - 1 };
-    let near = (points[k].0 - x).abs() <= (points[next].0 - points[k].0).abs();
-    (within(points, x) || near).then_some(points[k].1)
+/// The nearest of `count` positions that ascend; `None` beyond an end, if it is farther away than its neighbour is.
+pub(super) fn nearest(count: usize, at: impl Fn(usize) -> f64, x: f64) -> Option<usize> {
+    let k = (0..count).min_by(|&i, &j| (at(i) - x).abs().total_cmp(&(at(j) - x).abs()))?;
+    let next = if k + 1 < count { k + 1 } else { k - 1 };
+    let near = (at(k) - x).abs() <= (at(next) - at(k)).abs();
+    (within([at(0), at(count - 1)], x) || near).then_some(k)
 }

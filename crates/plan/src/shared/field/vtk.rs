@@ -5,6 +5,7 @@ use super::axes::{Axes, Lists};
 use super::cells::{Cells, Rule, Simplex};
 use super::region::Region;
 use super::samples::Samples;
+use crate::reading::columns::unit::FilePart;
 use crate::reading::columns::{Wrong, unit};
 use crate::reading::scene::model::FieldInterpolation;
 use crate::reading::scene::units::{self, Dimension};
@@ -36,7 +37,7 @@ pub(super) fn field<const D: usize>(
     };
     let values = scaled(array, asked)?;
     let what = if by_cell { "cell" } else { "point" };
-    checked(&values, asked, ("array", &|k| format!("{what} {k}")))?;
+    checked(&values, asked, "array", &|k| format!("{what} {k}"))?;
     let simplices = simplices(&grid.cells)?;
     let (names, lists) = coordinates(&grid, asked, D)?;
     let point = |k: usize| format!("point {k}");
@@ -81,17 +82,18 @@ fn scaled(array: &NamedArray, asked: &FieldRequest<'_>) -> Result<Vec<f64>, Wron
         let message = format!("its array `{}` has {} components", asked.name, array.components);
         return Err(Wrong::new(message, "an array of one component"));
     }
-    let factor = size_of(("array", asked.name, "unit"), asked.unit, asked.dimension())?;
+    let factor = size_of(FilePart::new("array", asked.name), "unit", asked.unit, asked.dimension())?;
     Ok(asked.plain(array.values.iter().map(|v| v * factor).collect()))
 }
 
 /// Size of a unit that the scene states, in SI.
 fn size_of(
-    (what, name, key): (&str, &str, &str),
+    part: FilePart<'_>,
+    key: &str,
     stated: Option<&str>,
     dimension: Option<Dimension>,
 ) -> Result<f64, Wrong> {
-    let found = unit::chosen((what, name), None, stated, dimension).map_err(|wrong| {
+    let found = unit::chosen(part, None, stated, dimension).map_err(|wrong| {
         let si = dimension.map_or("1", Dimension::si);
         Wrong {
             help: format!("files of VTK have no units: such as `{key} = \"{si}\"` in the scene"),
@@ -111,7 +113,8 @@ fn coordinates(
     let flat = dimensions == 2 && grid.points.iter().all(|x| x[2] == 0.0);
     let own = if flat { &["x", "y"][..] } else { &["x", "y", "z"] };
     let factor = || {
-        size_of(("coordinate", "Points", "coordinate_unit"), asked.coordinate_unit, Some(Dimension::Length))
+        let points = FilePart::new("coordinate", "Points");
+        size_of(points, "coordinate_unit", asked.coordinate_unit, Some(Dimension::Length))
     };
     let (mut names, mut lists) = (Vec::new(), Vec::new());
     for (name, in_file) in coordinates_of(asked, own) {

@@ -8,15 +8,22 @@ use std::collections::BTreeMap;
 /// Prescriptions by set and axis.
 type Prescriptions<T> = BTreeMap<(String, usize), T>;
 
-/// Refuses loads and releases in a stage with faults that change a force abruptly. `held` and `present` are the motions and load values at the end of
-/// the previous stage.
+/// What holds and loads bodies at the end of the previous stage.
+#[derive(Clone, Copy)]
+pub(super) struct StageStart<'a> {
+    pub held: &'a Prescriptions<Motion>,
+    /// Values of the loads.
+    pub present: &'a Prescriptions<f64>,
+}
+
+/// Refuses loads and releases in a stage with faults that change a force abruptly.
 ///
 /// # Errors
 /// [`Diagnostic`] at the condition.
 pub(super) fn refuse(
     scene: &Scene,
     stage: &Stage,
-    (held, present): (&Prescriptions<Motion>, &Prescriptions<f64>),
+    StageStart { held, present }: StageStart<'_>,
     loads: &Prescriptions<Loading>,
 ) -> Result<(), Diagnostic> {
     if scene.faults.is_empty() || *scene.time.stepper.get_ref() == Stepper::Explicit {

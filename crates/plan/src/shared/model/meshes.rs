@@ -3,7 +3,7 @@
 use super::cuts::{self, Cuts};
 use crate::reading::columns::Wrong;
 use crate::reading::diagnostic::Diagnostic;
-use crate::reading::missing::unread;
+use crate::reading::missing::{FileKind, unread};
 use crate::reading::scene::model as scene;
 use crate::reading::scene::near::suggest;
 use crate::reading::scene::units::{self, Dimension, Length};
@@ -500,7 +500,7 @@ pub(super) fn bytes(
 ) -> Result<Vec<u8>, Diagnostic> {
     let (name, path) = (file.get_ref(), scene.folder.join(file.get_ref()));
     let bytes = std::fs::read(&path).map_err(|e| {
-        let (message, help) = unread(&path, &e, ("mesh files", &MESHES));
+        let (message, help) = unread(&path, &e, MESHES);
         Diagnostic::at(file.span(), format!("the mesh file `{name}` cannot be read: {message}"), help)
     })?;
     match sniff::other(&bytes, reader) {
@@ -511,5 +511,5 @@ pub(super) fn bytes(
     }
 }
 
-/// Extensions of mesh files.
-const MESHES: [&str; 3] = ["msh", "inp", "stl"];
+/// Mesh files.
+const MESHES: FileKind = FileKind { what: "mesh files", extensions: &["msh", "inp", "stl"] };

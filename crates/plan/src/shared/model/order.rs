@@ -12,22 +12,15 @@ const BITS: u32 = 21;
 /// The same mesh with nodes, and cells of each block, in the order of Morton's curve (Morton 1966): by the bits of all
 /// coordinates, the highest of each axis first. Nodes at the same position stay in their order.
 pub fn along_curve<const D: usize>(mesh: Mesh<D>) -> Mesh<D> {
-    let (least, most) = bounds(&mesh.nodes);
-    let extent = (0..D).map(|c| most[c] - least[c]).fold(0.0, f64::max);
-    let scale = f64::from((1_u32 << BITS) - 1) / extent;
-    let key = |x: &[f64; D]| {
-        let whole: [u64; D] = std::array::from_fn(|c| ((x[c] - least[c]) * scale) as u64);
-        let bits = (0..BITS).rev().flat_map(|bit| whole.iter().map(move |w| w >> bit & 1));
-        bits.fold(0, |key: u64, bit| key << 1 | bit)
-    };
-    let (nodes, number) = sorted(mesh.nodes.len(), |n| key(&mesh.nodes[n]));
+    let curve = Curve::through(&mesh.nodes);
+    let (nodes, number) = sorted(mesh.nodes.len(), |n| curve.key(&mesh.nodes[n]));
     let mut cells = Vec::new();
     let blocks = mesh.blocks.iter().map(|block| {
         let centre = |cell: usize| -> [f64; D] {
             let own = block.cell(cell);
             std::array::from_fn(|c| own.iter().map(|&n| mesh.nodes[n][c]).sum::<f64>() / own.len() as f64)
         };
-        let (order, moved) = sorted(block.len(), |cell| key(&centre(cell)));
+        let (order, moved) = sorted(block.len(), |cell| curve.key(&centre(cell)));
         cells.push(moved);
         let connectivity =
             order.iter().flat_map(|&cell| block.cell(cell).iter().map(|&n| number[n])).collect();
@@ -48,6 +41,28 @@ pub fn along_curve<const D: usize>(mesh: Mesh<D>) -> Mesh<D> {
         cell_sets: mesh.cell_sets,
         node_sets: mesh.node_sets.into_iter().map(named).collect(),
         left_out: mesh.left_out,
+    }
+}
+
+/// Morton's curve through a box.
+struct Curve<const D: usize> {
+    least: [f64; D],
+    /// Number of steps of a coordinate per length \[1/m\].
+    scale: f64,
+}
+
+impl<const D: usize> Curve<D> {
+    fn through(nodes: &[[f64; D]]) -> Self {
+        let (least, most) = bounds(nodes);
+        let extent = (0..D).map(|c| most[c] - least[c]).fold(0.0, f64::max);
+        Self { least, scale: f64::from((1_u32 << BITS) - 1) / extent }
+    }
+
+    /// Distance of a position along the curve.
+    fn key(&self, x: &[f64; D]) -> u64 {
+        let whole: [u64; D] = std::array::from_fn(|c| ((x[c] - self.least[c]) * self.scale) as u64);
+        let bits = (0..BITS).rev().flat_map(|bit| whole.iter().map(move |w| w >> bit & 1));
+        bits.fold(0, |key: u64, bit| key << 1 | bit)
     }
 }
 

@@ -111,7 +111,8 @@ impl<S: Write> Write for HashedStream<S> {
 pub fn write<T: Serialize>(
     path: &Path,
     identity: &Identity<'_>,
-    (seconds, part): (f64, &T),
+    seconds: f64,
+    part: &T,
 ) -> Result<u64, OutputError> {
     let mut bytes = 0;
     atomic::stream(path, |file| {

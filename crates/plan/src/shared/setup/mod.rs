@@ -137,7 +137,7 @@ impl Setups {
         };
         let identity = Identity { part: part.name(), inputs, program };
         let made = path.parent().map_or(Ok(()), atomic::create_dir).and_then(|()| {
-            let bytes = file::write(path, &identity, (seconds, made))?;
+            let bytes = file::write(path, &identity, seconds, made)?;
             self.keep(part, Use::Written, inputs, (bytes, seconds));
             Ok(())
         });

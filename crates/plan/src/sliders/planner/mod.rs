@@ -15,7 +15,7 @@ use crate::reading::scene::reader;
 use crate::reading::scene::slider::SliderScene;
 use crate::sliders::Plan;
 use asperity_cycles::slider::{Problem, Rows};
-use asperity_friction::slider::{History, Slider, System};
+use asperity_friction::slider::{History, Slider, Spring, System};
 use asperity_laws::{self as laws, Theta};
 use asperity_scene::defaults;
 use digits::unresolved;
@@ -46,6 +46,13 @@ pub fn read_in(text: &str, folder: &Path) -> Result<(Plan, Vec<Spanned<String>>)
     }
 }
 
+/// Parts of a system of sliders; none where they have errors.
+struct Parts {
+    load: Option<History>,
+    sliders: Vec<Option<Slider>>,
+    springs: Vec<Option<Spring>>,
+}
+
 /// Turns a scene into a plan and collects errors.
 #[derive(Default)]
 struct Planner {
@@ -71,30 +78,16 @@ impl Planner {
         if scene.sliders.is_empty() {
             return self.error(0..0, "the scene has no slider", "add a table `[sliders.NAME]`");
         }
-        // If slip rates are imposed and no spring leads to a load point, none is needed.
-        let specs = || scene.sliders.values().map(|s| s.get_ref());
-        let driven = specs().any(|s| s.rate.is_some()) && specs().all(|s| s.stiffness.is_none());
-        let load = match &scene.load {
-            Some(load) => self.course(&load.rate, |v| v.0, "rate"),
-            None if driven => Some(History::Constant(0.0)),
-            None => self.error(0..0, "the scene has no load point", "add a table `[load]` with its `rate`"),
-        };
         let names: Vec<String> = scene.sliders.keys().cloned().collect();
-        let sliders: Vec<Option<Slider>> = scene.sliders.values().map(|s| self.slider(s.get_ref())).collect();
-        let springs: Vec<_> = scene.springs.iter().map(|s| self.spring(s.get_ref(), &names)).collect();
+        let parts = self.parts(scene, &names);
         let settings = self.settings(&scene.time);
         let events = scene.events.as_ref().map(|e| self.events(e));
-        let rates: Vec<_> = specs().map(|s| self.imposed(s)).collect();
+        let rates: Vec<_> = scene.sliders.values().map(|s| self.imposed(s.get_ref())).collect();
         let output = match (&scene.output, settings.end) {
             (Some(spec), Some(end)) => self.output(spec, &names, end),
             _ => Some(Rows::default()),
         };
-        let (load, sliders) = (load?, sliders.into_iter().collect::<Option<Vec<_>>>()?);
-        let springs = springs.into_iter().collect::<Option<Vec<_>>>()?;
-        let system = match System::new(sliders, springs, load) {
-            Ok(system) => system,
-            Err(failure) => return self.error(0..0, failure.to_string(), "change that value"),
-        };
+        let system = self.join(parts)?;
         let system = self.impose(system, rates.into_iter().collect::<Option<Vec<_>>>()?)?;
         self.held(scene, &system, &names)?;
         let start = self.start(scene, &system)?;
@@ -125,6 +118,30 @@ impl Planner {
         self.runaways(scene, &mut plan);
         unresolved(scene, &mut plan);
         Some(plan)
+    }
+
+    /// The parts of a system, as far as they have no errors.
+    fn parts(&mut self, scene: &SliderScene, names: &[String]) -> Parts {
+        // If slip rates are imposed and no spring leads to a load point, none is needed.
+        let specs = || scene.sliders.values().map(|s| s.get_ref());
+        let driven = specs().any(|s| s.rate.is_some()) && specs().all(|s| s.stiffness.is_none());
+        let load = match &scene.load {
+            Some(load) => self.course(&load.rate, |v| v.0, "rate"),
+            None if driven => Some(History::Constant(0.0)),
+            None => self.error(0..0, "the scene has no load point", "add a table `[load]` with its `rate`"),
+        };
+        let sliders = scene.sliders.values().map(|s| self.slider(s.get_ref())).collect();
+        let springs = scene.springs.iter().map(|s| self.spring(s.get_ref(), names)).collect();
+        Parts { load, sliders, springs }
+    }
+
+    /// The system of parts that have no errors.
+    fn join(&mut self, Parts { load, sliders, springs }: Parts) -> Option<System> {
+        let (load, sliders) = (load?, sliders.into_iter().collect::<Option<Vec<_>>>()?);
+        match System::new(sliders, springs.into_iter().collect::<Option<Vec<_>>>()?, load) {
+            Ok(system) => Some(system),
+            Err(failure) => self.error(0..0, failure.to_string(), "change that value"),
+        }
     }
 
     /// A count that must be at least one.

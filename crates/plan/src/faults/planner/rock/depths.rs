@@ -4,7 +4,7 @@ use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{DepthTriangles, Scene};
 use crate::shared::entry::Entry;
 use crate::shared::model::surfaces;
-use crate::shared::place;
+use crate::shared::place::{self, Frame};
 use asperity_fem::mesh::netcdf;
 use asperity_fem::mesh::sheet::{self, Depths, Sheet, SheetError};
 use asperity_fem::mesh::triangles::Triangles;
@@ -26,16 +26,9 @@ pub(super) fn triangles(
     };
     let refuse = |error: SheetError| refused(spec, &error);
     let unit = surfaces::unit(Some(&spec.unit))?;
-    let (map, mut samples) = (frame.map(), Vec::new());
     let mut rows = rows(spec, bytes)?;
     let heights = turn_heights(&mut rows);
-    for [longitude, latitude, depth] in rows {
-        let near = |x: &[f64; 2]| x[0].hypot(x[1]) < FARTHEST;
-        let at = map.metres(longitude, latitude).filter(near);
-        let [x, y] = at.ok_or_else(|| far(spec, [longitude, latitude]))?;
-        samples.push([x, y, depth * unit]);
-    }
-    let depths = Depths::new(&samples).map_err(refuse)?;
+    let depths = Depths::new(&samples(spec, &frame, rows, unit)?).map_err(refuse)?;
     let [top, bottom, size] = [&spec.top, &spec.bottom, &spec.size].map(|length| length.get_ref().0);
     let sheet = sheet::triangles(&depths, [top, bottom], size).map_err(refuse)?;
     let note = format!(
@@ -53,6 +46,23 @@ pub(super) fn triangles(
     let nodes = nodes.into_iter().map(|[x, y, up]| frame.position([x, y], -up)).collect();
     let elements = (1..=count as u64).collect();
     Ok((Triangles { nodes, corners, elements, pieces: vec![(0..count).collect()], turned: 0 }, note))
+}
+
+/// Positions on the map and depths \[m\], from longitudes, latitudes and depths in this unit \[m\].
+fn samples(
+    spec: &DepthTriangles,
+    frame: &Frame,
+    rows: Vec<[f64; 3]>,
+    unit: f64,
+) -> Result<Vec<[f64; 3]>, Diagnostic> {
+    let map = frame.map();
+    let sample = |[longitude, latitude, depth]: [f64; 3]| {
+        let near = |x: &[f64; 2]| x[0].hypot(x[1]) < FARTHEST;
+        let at = map.metres(longitude, latitude).filter(near);
+        let [x, y] = at.ok_or_else(|| far(spec, [longitude, latitude]))?;
+        Ok([x, y, depth * unit])
+    };
+    rows.into_iter().map(sample).collect()
 }
 
 /// Longitudes, latitudes and depths of a file: a grid in netCDF, or text. Positions without a depth are left out.

@@ -35,55 +35,16 @@ pub(super) fn plan<const D: usize>(
             "one scene for each benchmark",
         ));
     };
-    let normal = Vector3::from(in_space(&first.point.place.normal));
-    let plane =
-        placed.iter().all(|p| (Vector3::from(in_space(&p.point.place.normal)) - normal).norm() < SAME);
-    if D != 3 || !plane || normal.y.abs() > SAME {
-        return Err(Diagnostic::at(
-            asked.span(),
-            "the files of the platform are those of a vertical plane in space",
-            "remove `platform`; `stations` have the format of benchmarks in the plane",
-        ));
-    }
-    let down = -Vector3::y();
-    let along = down.cross(&normal);
-    let rake = Vector3::from(slides(first));
-    let aside = Vector3::from(across(&normal.into(), &rake.into()));
-    let signs = [rake.dot(&along), aside.dot(&down)];
-    if signs.iter().any(|sign| (sign.abs() - 1.0).abs() > SAME) {
-        return Err(Diagnostic::at(
-            asked.span(),
-            "the files of the platform have slip along strike and down, and `rake` is neither",
-            "a `rake` along strike, with `slip = \"free\"` where slip may turn",
-        ));
-    }
-    let axes = [normal, along, down];
-    let on_fault = |[_, strike, depth]: [f64; 3]| {
-        let name = format!("fltst_strk{}dp{}", km(strike), km(depth));
-        let location = format!("on fault, {} km along strike, {} km depth", strike / KM, depth / KM);
-        (name, location)
-    };
-    let off_fault = |[off, strike, depth]: [f64; 3]| {
-        let name = format!("blkst_strk{}fn{}dp{}", km(strike), km(off), km(depth));
-        let [off, strike, depth] = [off, strike, depth].map(|x| x / KM);
-        (name, format!("off fault, {strike} km along strike, {off} km away from the fault, {depth} km depth"))
-    };
-    // Adding zero turns -0 into 0.
-    let seen = |at: &[f64]| {
-        let at = Vector3::from_fn(|c, _| at.get(c).copied().unwrap_or(0.0));
-        axes.map(|axis| axis.dot(&at) + 0.0)
-    };
-    let mut stations = Vec::new();
-    for station in scene.output.stations.values().flat_map(|all| all.get_ref()) {
-        if let Station::At(at) = station.get_ref() {
-            stations.push(on_fault(seen(at)));
-        }
-    }
+    let axes = FaultAxes::find(asked, placed, first)?;
+    let signs = axes.signs(asked, first)?;
+    let at = scene.output.stations.values().flat_map(|all| all.get_ref());
+    let at = at.filter_map(|station| if let Station::At(at) = station.get_ref() { Some(at) } else { None });
+    let stations: Vec<Named> = at.map(|at| on_fault(axes.coordinates(at))).collect();
     let receivers = scene.output.receivers.values().map(|at| {
         let at: Vec<f64> = at.get_ref().iter().map(|x| x.0).collect();
-        off_fault(seen(&at))
+        off_fault(axes.coordinates(&at))
     });
-    let receivers: Vec<(String, String)> = receivers.collect();
+    let receivers: Vec<Named> = receivers.collect();
     distinct(asked, stations.iter().chain(&receivers).map(|named| named.0.as_str()))?;
     let spacing = placed.iter().map(|p| p.spacing).fold(0.0, f64::max);
     let submission = Submission {
@@ -93,9 +54,82 @@ pub(super) fn plan<const D: usize>(
         date: spec.date.as_ref().map(|date| date.get_ref().clone()),
         element_size: format!("{spacing} m"),
     };
-    let axes = axes.map(Into::into);
+    let axes = axes.0.map(Into::into);
     let signs = signs.map(f64::signum);
     Ok(Some(Platform { submission, axes, turns: turns(scene), signs, stations, receivers }))
+}
+
+/// Name of a file, and the position in words.
+type Named = (String, String);
+
+/// Axes of a vertical plane: its normal, along strike, and down.
+struct FaultAxes([Vector3<f64>; 3]);
+
+impl FaultAxes {
+    /// Axes of a fault with this first point.
+    ///
+    /// # Errors
+    /// [`Diagnostic`] at a fault that is no vertical plane.
+    fn find<const D: usize, T>(
+        asked: &Spanned<T>,
+        placed: &[PlacedPoint<D>],
+        first: &PlacedPoint<D>,
+    ) -> Result<Self, Diagnostic> {
+        let normal = Vector3::from(in_space(&first.point.place.normal));
+        let plane =
+            placed.iter().all(|p| (Vector3::from(in_space(&p.point.place.normal)) - normal).norm() < SAME);
+        if D != 3 || !plane || normal.y.abs() > SAME {
+            return Err(Diagnostic::at(
+                asked.span(),
+                "the files of the platform are those of a vertical plane in space",
+                "remove `platform`; `stations` have the format of benchmarks in the plane",
+            ));
+        }
+        let down = -Vector3::y();
+        Ok(Self([normal, down.cross(&normal), down]))
+    }
+
+    /// Components of both directions of slip along strike and down.
+    ///
+    /// # Errors
+    /// [`Diagnostic`] at slip that is not along strike.
+    fn signs<const D: usize, T>(
+        &self,
+        asked: &Spanned<T>,
+        first: &PlacedPoint<D>,
+    ) -> Result<[f64; 2], Diagnostic> {
+        let Self([normal, along, down]) = self;
+        let rake = Vector3::from(slides(first));
+        let aside = Vector3::from(across(&(*normal).into(), &rake.into()));
+        let signs = [rake.dot(along), aside.dot(down)];
+        if signs.iter().any(|sign| (sign.abs() - 1.0).abs() > SAME) {
+            return Err(Diagnostic::at(
+                asked.span(),
+                "the files of the platform have slip along strike and down, and `rake` is neither",
+                "a `rake` along strike, with `slip = \"free\"` where slip may turn",
+            ));
+        }
+        Ok(signs)
+    }
+
+    /// Distance off the fault, along strike, and depth \[m\].
+    fn coordinates(&self, at: &[f64]) -> [f64; 3] {
+        let at = Vector3::from_fn(|c, _| at.get(c).copied().unwrap_or(0.0));
+        // Adding zero turns -0 into 0.
+        self.0.map(|axis| axis.dot(&at) + 0.0)
+    }
+}
+
+fn on_fault([_, strike, depth]: [f64; 3]) -> Named {
+    let name = format!("fltst_strk{}dp{}", km(strike), km(depth));
+    let location = format!("on fault, {} km along strike, {} km depth", strike / KM, depth / KM);
+    (name, location)
+}
+
+fn off_fault([off, strike, depth]: [f64; 3]) -> Named {
+    let name = format!("blkst_strk{}fn{}dp{}", km(strike), km(off), km(depth));
+    let [off, strike, depth] = [off, strike, depth].map(|x| x / KM);
+    (name, format!("off fault, {strike} km along strike, {off} km away from the fault, {depth} km depth"))
 }
 
 /// Whole kilometres with a sign and two digits, as in the names of the benchmarks.

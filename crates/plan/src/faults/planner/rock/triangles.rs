@@ -30,11 +30,12 @@ pub(super) struct MeshedSurface<const D: usize> {
 /// [`Diagnostic`] at a file that cannot be read, or whose triangles form no fault in the rock.
 pub(super) fn cells<const D: usize>(
     scene: &Scene,
-    Entry { name, spec }: Entry<'_, Spec>,
+    fault: Entry<'_, Spec>,
     surface: &FaultTriangles,
     space: Space,
     first: usize,
 ) -> Result<MeshedSurface<D>, Diagnostic> {
+    let name = fault.name;
     let mut notes = Vec::new();
     let mut mesh = surfaces::triangles(scene, surface, |spec, bytes| {
         let (mesh, note) = depths::triangles(scene, Entry::new(name, spec), bytes)?;
@@ -43,34 +44,47 @@ pub(super) fn cells<const D: usize>(
     })?;
     let sides = face_up(&mut mesh);
     let count = mesh.corners.len();
-    let (mut tiles, mut places) = (Vec::with_capacity(count), Vec::with_capacity(count));
-    let (mut sizes, mut widths) = (Vec::with_capacity(count), Vec::with_capacity(count));
+    let mut tiles = Vec::with_capacity(count);
+    let mut cut = Cut {
+        places: Vec::with_capacity(count),
+        sizes: Vec::with_capacity(count),
+        widths: Vec::with_capacity(count),
+        faces: Vec::new(),
+        outline: None,
+        grid: None,
+        ends: Vec::new(),
+    };
     for k in 0..count {
         let corners = mesh.positions(k);
-        let refuse = |e: KernelError| refused(surface, mesh.elements[k], &corners, e);
-        let triangle = Triangle::new(space, corners.map(|x| to_kernel(&x).into())).map_err(refuse)?;
+        let triangle = Triangle::new(space, corners.map(|x| to_kernel(&x).into()))
+            .map_err(|error| refused(surface, mesh.elements[k], &corners, error))?;
         let (size, width) = extents(&corners, triangle.area());
-        let at = from_kernel(&triangle.centre());
-        buried(space, name, [at[1], size], surface.file().span())?;
-        let normal = unit(in_dimension(&from_kernel(&triangle.frame().column(2).into())));
-        let [rake, creeps] = directions(Entry::new(name, spec), &in_dimension(&at), &normal)?;
-        let number = first + k;
-        let (at, area) = (in_dimension(&at), triangle.area());
-        let place: Place<D> =
-            Place { minus: number, plus: number, at, area, normal, rake, creeps, along: 0.0 };
+        buried(space, name, [from_kernel(&triangle.centre())[1], size], surface.file().span())?;
+        let place = place(fault, first + k, &triangle)?;
         tiles.push(tile(&place, triangle));
-        places.push(place);
-        sizes.push(size);
-        widths.push(width);
+        cut.places.push(place);
+        cut.sizes.push(size);
+        cut.widths.push(width);
     }
-    notes.push(words(name, &mesh, &sizes));
+    notes.push(words(name, &mesh, &cut.sizes));
     notes.extend(sides.words(name, mesh.turned));
     if matches!(surface, FaultTriangles::Depths(_)) {
-        notes.push(sense(name, &places));
+        notes.push(sense(name, &cut.places));
     }
-    let outline = Some(Outline { nodes: mesh.nodes, corners: mesh.corners });
-    let cut = Cut { places, sizes, widths, faces: Vec::new(), outline, grid: None, ends: Vec::new() };
+    cut.outline = Some(Outline { nodes: mesh.nodes, corners: mesh.corners });
     Ok(MeshedSurface { tiles, cut, notes })
+}
+
+/// Point at the centre of a triangle.
+fn place<const D: usize>(
+    fault: Entry<'_, Spec>,
+    number: usize,
+    triangle: &Triangle,
+) -> Result<Place<D>, Diagnostic> {
+    let (at, area) = (in_dimension(&from_kernel(&triangle.centre())), triangle.area());
+    let normal = unit(in_dimension(&from_kernel(&triangle.frame().column(2).into())));
+    let [rake, creeps] = directions(fault, &at, &normal)?;
+    Ok(Place { minus: number, plus: number, at, area, normal, rake, creeps, along: 0.0 })
 }
 
 /// Note on the direction of slip of a fault that is given by depths, whose plus side is the upper one.
