@@ -36,13 +36,13 @@ pub fn gaps_and_warnings<const D: usize>(
     let loading = stages.last().map_or(0.0, Stage::largest_rate);
     doubts.extend(events.and_then(|e| shared::thresholds(e, thresholds::from_spec(Some(e)), loading, false)));
     for (planned, friction) in interfaces.iter().zip(frictions) {
-        starts.push(of_interface(assembly, planned, friction.as_ref(), &mut doubts)?);
+        starts.push(examine(assembly, planned, friction.as_ref(), &mut doubts)?);
     }
     Ok((starts, doubts))
 }
 
 /// Position of the sides of an interface before the first step. Adds warnings about it.
-fn of_interface<const D: usize>(
+fn examine<const D: usize>(
     assembly: &Assembly<'_, D>,
     planned: &PlannedInterface,
     friction: Option<&Friction>,

@@ -37,7 +37,7 @@ pub fn initial_tractions<const D: usize>(
     };
     let (here, there) = (stress(&surfaces.slave)?, stress(&surfaces.master)?);
     let slave = StressedSurface::new(model, &surfaces.slave, here);
-    if let Some(Unlike { dof, by_slave: a, by_master: b }) = slave.unlike(&there) {
+    if let Some(Mismatch { dof, by_slave: a, by_master: b }) = slave.mismatch(&there) {
         let at = coordinates::in_words(&model.mesh.nodes[dof / D]);
         return Err(Diagnostic::at(
             key.span(),
@@ -59,7 +59,7 @@ pub fn initial_tractions<const D: usize>(
 type NodalValues = Vec<(usize, f64)>;
 
 /// A force on a degree of freedom that is not the same by the stresses of both bodies.
-struct Unlike {
+struct Mismatch {
     dof: usize,
     by_slave: f64,
     by_master: f64,
@@ -81,12 +81,12 @@ impl<'m, const D: usize> StressedSurface<'m, D> {
     }
 
     /// First force that another stress would exert otherwise.
-    fn unlike(&self, other: &StressField) -> Option<Unlike> {
+    fn mismatch(&self, other: &StressField) -> Option<Mismatch> {
         let beyond = forces(self.model, self.surface, other);
         let largest = self.forces.iter().chain(&beyond).map(|(_, f)| f.abs()).fold(0.0, f64::max);
         let mut both = self.forces.iter().zip(&beyond);
         let found = both.find(|(a, b)| (a.1 - b.1).abs() > BALANCED * largest);
-        found.map(|(a, b)| Unlike { dof: a.0, by_slave: a.1, by_master: b.1 })
+        found.map(|(a, b)| Mismatch { dof: a.0, by_slave: a.1, by_master: b.1 })
     }
 
     /// Tractions at its nodes and their means over the areas of these; of nodes that both sides share there are none.

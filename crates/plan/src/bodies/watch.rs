@@ -19,7 +19,7 @@ const ZETA: f64 = 0.1;
 /// Largest slip of a step over L, in units of a/b. Up to about a L/b the equations of a step have a unique solution.
 const UNIQUE: f64 = 0.5;
 
-/// What resists slip on an interface.
+/// Resistance to slip on an interface.
 #[derive(Clone, Copy)]
 pub struct Resistance<'a> {
     /// Law of all points, or laws of each.

@@ -234,7 +234,7 @@ impl Gauge {
 pub struct GaugedFile {
     /// Name of the file.
     pub name: String,
-    /// What has been written to it.
+    /// Its bytes and the distance of its rows.
     pub gauge: Gauge,
 }
 

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 pub struct Entry<'s, T> {
     /// Name in the scene.
     pub name: &'s str,
-    /// What the scene gives under it.
+    /// Table of keys.
     pub spec: &'s T,
 }
 

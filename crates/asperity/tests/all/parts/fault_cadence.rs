@@ -92,13 +92,8 @@ fn a_file_becomes_coarser_and_never_passes_its_size() {
     assert_eq!(gauge.bytes, 100 * found.len() as u64);
     let warning = warning(&[GaugedFile { name: "a".into(), gauge }], CADENCE.largest_file).unwrap();
     assert!(warning.message.contains("`a` first"), "{warning}");
-    assert!(
-        asperity_plan::faults::cadence::warning(
-            &[GaugedFile { name: "a".into(), gauge: Gauge::default() }],
-            1
-        )
-        .is_none()
-    );
+    let empty = GaugedFile { name: "a".into(), gauge: Gauge::default() };
+    assert!(asperity_plan::faults::cadence::warning(&[empty], 1).is_none());
 }
 
 #[test]

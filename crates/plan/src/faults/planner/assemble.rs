@@ -87,6 +87,11 @@ pub(super) fn turns(scene: &Scene) -> bool {
     scene.faults.values().any(free)
 }
 
+/// Number of components of slip.
+pub(super) fn tangents(scene: &Scene) -> usize {
+    if turns(scene) { 2 } else { 1 }
+}
+
 /// Refusal of the law or the start of a point, with its place.
 fn at_point<const D: usize>(
     named: &[Entry<'_, Spec>],
@@ -121,7 +126,7 @@ impl<const D: usize> FaultSystem<D> {
         }
         let heat = heated::heat(scene, &placed, law.as_mut(), end);
         let heat_bytes = heat.as_ref().map_or(0, Heat::bytes);
-        let pulses = pulses(&named, &placed, if turns(scene) { 2 } else { 1 })?;
+        let pulses = pulses(&named, &placed, tangents(scene))?;
         let injection = injection::injection(scene, &placed, end, &mut remarks.warnings)?;
         let diffusion = diffusion::diffusion(scene, &placed, end, remarks)?;
         let diffusion_bytes = diffusion.as_ref().map_or(0, Diffusion::bytes);
@@ -140,8 +145,13 @@ impl<const D: usize> FaultSystem<D> {
         };
         let start = start(&placed, &fault).map_err(|(p, failure)| at_point(&named, &placed[p], &failure))?;
         let settings = settings(scene, &placed, end)?;
-        let areas = placed.iter().map(|p| p.point.place.area).collect();
-        let problem = Problem { fault, areas, loading, start, settings };
+        let problem = Problem {
+            fault,
+            areas: placed.iter().map(|p| p.point.place.area).collect(),
+            loading,
+            start,
+            settings,
+        };
         Ok(Self { placed, problem, heat_bytes, diffusion_bytes })
     }
 }
@@ -436,7 +446,7 @@ pub(crate) fn views<const D: usize>(
             normal: floor::choice(spec),
             heat: heated::view(spec, &placed[first..last]),
             stations,
-            faces: cells.faces((k, spec), &placed[first..last])?,
+            faces: cells.faces(k, spec, &placed[first..last])?,
             outline: cells.outline(k),
             grid: cells.grid(k),
         });

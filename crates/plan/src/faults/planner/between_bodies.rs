@@ -6,7 +6,7 @@ use super::super::plan::Plan;
 use super::super::receivers::Receivers;
 use super::super::sampling::Sampling;
 use super::super::stresses::BodyStresses;
-use super::assemble::{SlidingFaults, SurroundingsView, plan_of, turns};
+use super::assemble::{SlidingFaults, SurroundingsView, plan_of, tangents};
 use super::backslip::{self, PlateRates};
 use super::condensed::{self, Condensation, CondensedBodies, HashedStiffness};
 use super::held::CondensationInput;
@@ -214,7 +214,7 @@ impl<'s, const D: usize> Ground<'s, D> {
     }
 }
 
-/// What presses and shears the points of faults before the run.
+/// Loads that press and shear the points of faults before the run.
 struct InitialLoads<'a> {
     weight: Option<Initial>,
     pressed: Option<&'a PressedBodies>,
@@ -241,7 +241,7 @@ impl GroundLoads {
         Ok(Self { conditions, loads, mirror })
     }
 
-    /// How the bodies are condensed, with an operator from this source.
+    /// Choices for condensing the bodies, with an operator from this source.
     fn condensation<'a>(&'a self, source: OperatorSource<'a>) -> Condensation<'a> {
         Condensation { conditions: self.conditions, mirror: self.mirror.as_ref(), source }
     }
@@ -320,8 +320,7 @@ fn loads(stage: &Stage, u0: &[f64], weight: Vec<(usize, f64)>) -> Loads {
 /// Settings for the condensation of the bodies of a scene.
 fn conditions(scene: &Scene, stage: &Stage, components: usize) -> Conditions {
     let keep = displaced(scene, stage) || !scene.output.receivers.is_empty();
-    let tangents = if turns(scene) { 2 } else { 1 };
-    Conditions { components, tangents, memory: amounts::memory(scene), keep }
+    Conditions { components, tangents: tangents(scene), memory: amounts::memory(scene), keep }
 }
 
 /// True if displacements of whole bodies are needed during the run or at its end.

@@ -11,7 +11,12 @@ pub(crate) trait Cells<const D: usize> {
     fn size(&self, spec: &Spec, point: &PlacedPoint<D>) -> Result<f64, Diagnostic>;
 
     /// Faces between points that slide freely, by their numbers within the fault.
-    fn faces(&self, fault: (usize, &Spec), placed: &[PlacedPoint<D>]) -> Result<Vec<Vec<usize>>, Diagnostic>;
+    fn faces(
+        &self,
+        fault: usize,
+        spec: &Spec,
+        placed: &[PlacedPoint<D>],
+    ) -> Result<Vec<Vec<usize>>, Diagnostic>;
 
     /// Outlines of the cells of a fault, if fields are drawn in them.
     fn outline(&self, _fault: usize) -> Option<Outline> {

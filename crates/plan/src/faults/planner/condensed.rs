@@ -53,7 +53,7 @@ impl HashedStiffness {
     }
 }
 
-/// How bodies are condensed.
+/// Choices for condensing bodies.
 #[derive(Clone, Copy)]
 pub(super) struct Condensation<'a> {
     pub conditions: Conditions,
@@ -96,7 +96,7 @@ pub(super) fn condense_bodies<const D: usize>(
 }
 
 impl CondensedBodies {
-    /// What surrounds faults that creep at these rates \[m/s\], with an operator made of its forces.
+    /// Surroundings of faults that creep at these rates \[m/s\], with an operator made of their forces.
     fn new(
         surroundings: Surroundings,
         rates: &[f64],

@@ -32,11 +32,7 @@ impl<const D: usize> Cells<D> for FaultFaces<'_, D> {
         Ok(size)
     }
 
-    fn faces(
-        &self,
-        (_, spec): (usize, &Spec),
-        placed: &[PlacedPoint<D>],
-    ) -> Result<Vec<Vec<usize>>, Diagnostic> {
+    fn faces(&self, _: usize, spec: &Spec, placed: &[PlacedPoint<D>]) -> Result<Vec<Vec<usize>>, Diagnostic> {
         let Self { model } = self;
         let points = placed.iter().enumerate().map(|(p, placed)| (placed.point.place.minus, p));
         let points: BTreeMap<usize, usize> = points.collect();

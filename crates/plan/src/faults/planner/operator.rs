@@ -1,4 +1,4 @@
-//! Where operators come from.
+//! Source of operators.
 
 use crate::shared::setup::Setups;
 use asperity_cycles::operator::Form;

@@ -64,7 +64,7 @@ pub(super) fn values<const D: usize>(
     from_files: [Option<f64>; PARAMETERS],
 ) -> Values {
     let (profiled, uniform) = (profiled(spec, place), uniform(spec, base));
-    let mut values: Patched = std::array::from_fn(|k| from_files[k].or(profiled[k]).or(uniform[k]));
+    let mut values: PatchedValues = std::array::from_fn(|k| from_files[k].or(profiled[k]).or(uniform[k]));
     let [_, file_b, .., state, a_minus_b] = from_files;
     let [a, b, ..] = &mut values;
     if let (None, Some(a), Some(difference)) = (file_b, *a, a_minus_b) {
@@ -78,17 +78,17 @@ pub(super) fn values<const D: usize>(
 }
 
 /// Parameters that patches may change, in the order of their keys; the first of those from files.
-type Patched = [Option<f64>; PATCHED.len()];
+type PatchedValues = [Option<f64>; PATCHED.len()];
 
 /// Parameters that profiles give at a point.
-fn profiled<const D: usize>(spec: &Spec, place: &Place<D>) -> Patched {
+fn profiled<const D: usize>(spec: &Spec, place: &Place<D>) -> PatchedValues {
     let all = &spec.profiles;
     let given = [&all.a, &all.b, &all.l, &all.normal, &all.shear, &None, &all.cohesion];
     given.map(|profile| profile.as_ref().map(|p| largest(p, place)))
 }
 
 /// Parameters that are the same all over a fault.
-fn uniform(spec: &Spec, base: &LawChoice) -> Patched {
+fn uniform(spec: &Spec, base: &LawChoice) -> PatchedValues {
     let [a, b, l] = constants(base);
     let normal = spec.normal.as_ref().map(|n| n.get_ref().0);
     let shear = spec.shear.as_ref().map(|s| s.get_ref().0);
@@ -96,7 +96,7 @@ fn uniform(spec: &Spec, base: &LawChoice) -> Patched {
 }
 
 /// Changes parameters at a point where a patch has this weight.
-fn lay(patch: &Patch, weight: f64, values: &mut Patched) {
+fn lay(patch: &Patch, weight: f64, values: &mut PatchedValues) {
     if weight == 0.0 {
         return;
     }

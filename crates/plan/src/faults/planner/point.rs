@@ -25,7 +25,7 @@ pub(super) struct PointSurroundings {
     pub components: usize,
 }
 
-/// What a fault gives to its points.
+/// Parameters that a fault gives to its points.
 pub(super) struct FaultParameters<'a, const D: usize> {
     /// Number of the fault.
     pub fault: usize,

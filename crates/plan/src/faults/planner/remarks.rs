@@ -2,7 +2,7 @@
 
 use asperity_run::Warning;
 
-/// What a plan says about a scene.
+/// Remarks of a plan about a scene.
 #[derive(Debug, Default)]
 pub(crate) struct Remarks {
     /// Settings that are probably not intended.

@@ -6,7 +6,7 @@ use asperity_scene::units::{self, Dimension};
 /// Part of a file that has a unit.
 #[derive(Clone, Copy)]
 pub(crate) struct FilePart<'a> {
-    /// What it is, such as a column.
+    /// Kind, such as a column.
     pub kind: &'a str,
     pub name: &'a str,
 }

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 /// Prescriptions by set and axis.
 type Prescriptions<T> = BTreeMap<(String, usize), T>;
 
-/// What holds and loads bodies at the end of the previous stage.
+/// Motions and loads at the end of the previous stage.
 #[derive(Clone, Copy)]
 pub(super) struct StageStart<'a> {
     pub held: &'a Prescriptions<Motion>,

@@ -32,7 +32,8 @@ pub(super) fn tiling<const D: usize>(scene: &Scene, space: Space) -> Result<Tili
             buried(space, name, [segment.middle()[1], cell.length()], line.trace.span())?;
             segments.push(segment);
         }
-        let (fault, places) = (Entry::new(name, spec), cells.iter().zip(&segments).enumerate());
+        let fault = Entry::new(name, spec);
+        let places = cells.iter().zip(&segments).enumerate();
         let places = places.map(|(k, (cell, segment))| place(fault, all.len() + k, cell, segment));
         let sizes: Vec<f64> = cells.iter().map(Cell::length).collect();
         faults.push(Cut {

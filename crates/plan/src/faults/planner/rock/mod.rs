@@ -20,7 +20,7 @@ use super::super::plan::Plan;
 use super::super::platform::Platform;
 use super::super::receivers::Receivers;
 use super::apart::{self, Spacing};
-use super::assemble::{SlidingFaults, SurroundingsView, geometry, plan_of, turns};
+use super::assemble::{SlidingFaults, SurroundingsView, geometry, plan_of, tangents};
 use super::backslip::{self, PlateRates};
 use super::fields::Fields;
 use super::history::LoadHistory;
@@ -90,8 +90,13 @@ pub(super) fn plan<const D: usize>(
     };
     let surrounded = SlidingFaults { placed, operator, opening: None, loading, end };
     let plan = plan_of(scene, surrounded, around, &tiling)?;
-    let RockOutputs { receivers, free_surface, coulomb, platform } = outputs;
-    Ok(Plan { receivers, free_surface, coulomb, platform, ..plan })
+    Ok(Plan {
+        receivers: outputs.receivers,
+        free_surface: outputs.free_surface,
+        coulomb: outputs.coulomb,
+        platform: outputs.platform,
+        ..plan
+    })
 }
 
 /// Rock with the cells of the faults of a scene, and the points at the centres of these.
@@ -110,7 +115,7 @@ struct HeldOperator {
     memory_bytes: usize,
 }
 
-/// What is written beside faults in rock.
+/// Outputs beside those of faults in rock.
 struct RockOutputs {
     receivers: Receivers,
     free_surface: Option<FreeSurface>,
@@ -148,7 +153,7 @@ impl<'s, const D: usize> Ground<'s, D> {
         Ok(HeldOperator { operator, memory_bytes })
     }
 
-    /// What is written beside the faults, which lag behind plates.
+    /// Outputs beside those of the faults, which lag behind plates.
     fn outputs(&mut self, plates: &PlateRates) -> Result<RockOutputs, Diagnostic> {
         let Self { scene, elastic, tiling, placed, remarks, .. } = self;
         let dislocations = Dislocations { patches: &tiling.patches, rock: elastic };
@@ -160,11 +165,6 @@ impl<'s, const D: usize> Ground<'s, D> {
             platform: platform::plan(scene, placed)?,
         })
     }
-}
-
-/// Number of components of slip of faults in a scene.
-fn tangents(scene: &Scene) -> usize {
-    if turns(scene) { 2 } else { 1 }
 }
 
 /// Warning if nothing changes the tractions of the faults but their own slip.

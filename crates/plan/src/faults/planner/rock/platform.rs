@@ -39,12 +39,12 @@ pub(super) fn plan<const D: usize>(
     let signs = axes.signs(asked, first)?;
     let at = scene.output.stations.values().flat_map(|all| all.get_ref());
     let at = at.filter_map(|station| if let Station::At(at) = station.get_ref() { Some(at) } else { None });
-    let stations: Vec<Named> = at.map(|at| on_fault(axes.coordinates(at))).collect();
+    let stations: Vec<NamedFile> = at.map(|at| on_fault(axes.coordinates(at))).collect();
     let receivers = scene.output.receivers.values().map(|at| {
         let at: Vec<f64> = at.get_ref().iter().map(|x| x.0).collect();
         off_fault(axes.coordinates(&at))
     });
-    let receivers: Vec<Named> = receivers.collect();
+    let receivers: Vec<NamedFile> = receivers.collect();
     distinct(asked, stations.iter().chain(&receivers).map(|named| named.0.as_str()))?;
     let spacing = placed.iter().map(|p| p.spacing).fold(0.0, f64::max);
     let submission = Submission {
@@ -60,7 +60,7 @@ pub(super) fn plan<const D: usize>(
 }
 
 /// Name of a file, and the position in words.
-type Named = (String, String);
+type NamedFile = (String, String);
 
 /// Axes of a vertical plane: its normal, along strike, and down.
 struct FaultAxes([Vector3<f64>; 3]);
@@ -120,13 +120,13 @@ impl FaultAxes {
     }
 }
 
-fn on_fault([_, strike, depth]: [f64; 3]) -> Named {
+fn on_fault([_, strike, depth]: [f64; 3]) -> NamedFile {
     let name = format!("fltst_strk{}dp{}", km(strike), km(depth));
     let location = format!("on fault, {} km along strike, {} km depth", strike / KM, depth / KM);
     (name, location)
 }
 
-fn off_fault([off, strike, depth]: [f64; 3]) -> Named {
+fn off_fault([off, strike, depth]: [f64; 3]) -> NamedFile {
     let name = format!("blkst_strk{}fn{}dp{}", km(strike), km(off), km(depth));
     let [off, strike, depth] = [off, strike, depth].map(|x| x / KM);
     (name, format!("off fault, {strike} km along strike, {off} km away from the fault, {depth} km depth"))

@@ -45,7 +45,7 @@ impl<const D: usize> Cells<D> for Tiling<D> {
         Ok(point.spacing)
     }
 
-    fn faces(&self, (fault, _): (usize, &Spec), _: &[PlacedPoint<D>]) -> Result<Vec<Vec<usize>>, Diagnostic> {
+    fn faces(&self, fault: usize, _: &Spec, _: &[PlacedPoint<D>]) -> Result<Vec<Vec<usize>>, Diagnostic> {
         Ok(self.faults[fault].faces.clone())
     }
 
