@@ -2,16 +2,15 @@
 //! run where they took long.
 
 use super::assemble::geometry;
+use super::condensation::{Condensation, HashedStiffness};
 use super::held::CondensationInput;
 use super::operator::OperatorSource;
 use super::placed::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Scene};
-use crate::shared::setup::{Key, Setups};
-use asperity_cycles::medium::{Bodies, Conditions, Initial, Mirror, Surroundings, condense};
+use asperity_cycles::medium::{Bodies, Initial, Surroundings, condense};
 use asperity_cycles::operator::{Forces, Geometry, Operator, condensed_operator};
 use asperity_cycles::{Loading, Opening};
-use asperity_fem::condense::Stiffness;
 use asperity_run::report::Part;
 use serde::{Deserialize, Serialize};
 
@@ -38,28 +37,6 @@ pub(super) struct CondensedBodies {
     /// The bodies with their factor, where displacements are asked for; they are not kept beside a run.
     #[serde(skip)]
     pub bodies: Option<Bodies>,
-}
-
-/// Stiffness of bodies, with its hash where set-ups are kept.
-pub(super) struct HashedStiffness {
-    pub stiffness: Stiffness,
-    pub hash: Option<String>,
-}
-
-impl HashedStiffness {
-    pub fn new(stiffness: Stiffness, setups: &Setups) -> Self {
-        let hash = setups.hash(|key| of_stiffness(key, &stiffness));
-        Self { stiffness, hash }
-    }
-}
-
-/// Choices for condensing bodies.
-#[derive(Clone, Copy)]
-pub(super) struct Condensation<'a> {
-    pub conditions: Conditions,
-    /// Mirror of the bodies, if one side stands for both.
-    pub mirror: Option<&'a Mirror>,
-    pub source: OperatorSource<'a>,
 }
 
 /// Bodies condensed onto the points that slide freely, `placed`.
@@ -114,11 +91,4 @@ fn rates<const D: usize>(scene: &Scene, placed: &[PlacedPoint<D>]) -> Vec<f64> {
     let rate = |spec: &Spec| spec.creep.as_ref().map_or(0.0, |c| c.rate.get_ref().0);
     let of_faults: Vec<f64> = scene.faults.values().map(rate).collect();
     placed.iter().map(|p| of_faults[p.fault]).collect()
-}
-
-/// Adds the stiffness of bodies to a hash.
-fn hash_stiffness(key: Key, bodies: &Stiffness) -> Key {
-    let blocks = bodies.pattern.blocks().map(<[usize]>::len);
-    let pattern = key.counts(bodies.pattern.dofs().iter().copied()).counts(blocks);
-    pattern.numbers(&bodies.values).value(&bodies.dofs)
 }

@@ -8,6 +8,7 @@ mod bends;
 mod between_bodies;
 mod cells;
 pub(crate) mod checks;
+mod condensation;
 mod condensed;
 mod coulomb;
 pub mod cover;

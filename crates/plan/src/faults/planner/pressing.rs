@@ -4,7 +4,7 @@
 //! without friction. f_n and τ at the end are those with which the faults begin to slide; states of friction are those of steady slip
 //! at `v_initial`, or at `rate`. What the stage holds stays held, or is drawn by a spring that takes over the force.
 
-use super::condensed::{Condensation, HashedStiffness};
+use super::condensation::{Condensation, HashedStiffness};
 use super::held::CondensationInput;
 use super::placed::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;

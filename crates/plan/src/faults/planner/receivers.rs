@@ -2,7 +2,7 @@
 
 use super::super::receivers::{Receiver, Receivers};
 use super::backslip::PlateRates;
-use super::held::Asked;
+use super::held::CondensationInput;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Spanned;
 use crate::reading::scene::units::Length;
@@ -25,7 +25,7 @@ type Shares = Vec<(usize, f64)>;
 /// # Errors
 /// [`Diagnostic`] at a receiver outside the bodies or on a fault, or one beside faults that may open.
 pub(super) fn plan<const D: usize>(
-    Asked { scene, model, points, .. }: Asked<'_, D>,
+    CondensationInput { scene, model, points, .. }: CondensationInput<'_, D>,
     bodies: &Bodies,
     plates: &PlateRates,
 ) -> Result<Receivers, Diagnostic> {
