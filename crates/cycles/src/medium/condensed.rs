@@ -1,7 +1,7 @@
 //! Bodies condensed onto the jumps of their faults: the tractions that slip and loads cause.
 
 use super::bodies::Bodies;
-use super::held;
+use super::held::{self, PointJumps};
 use super::loads::Loads;
 use super::machine::Machine;
 use super::mirror::Mirror;
@@ -14,7 +14,7 @@ use crate::processes::Opening;
 use asperity_fem::FemError;
 use asperity_fem::condense::{Condensation, CondensedBody, Interior, LoadedBody, Remainder, Stiffness};
 use asperity_fem::dof::Channel;
-use asperity_fem::jump::{Jump, Jumps, ObliqueConstraint};
+use asperity_fem::jump::{Jumps, ObliqueConstraint};
 use asperity_fem::multifrontal::{DirectError, Triangle};
 use asperity_fem::table::Table;
 
@@ -110,110 +110,183 @@ pub(super) fn in_space<const D: usize>(place: &Place<D>) -> [[f64; 3]; 3] {
     [s, across(&n, &s), n]
 }
 
-/// Components of a jump that are retained, relative to the first: slip along the tangents, and between both sides the opening,
-/// which is the last.
-fn kept<const C: usize>(tangents: usize, sides: Sides) -> impl Iterator<Item = usize> {
-    (0..C).filter(move |&c| c < tangents || (sides.both && c == C - 1))
-}
-
-/// Components held at zero: in space, slip across the rake where its direction is fixed.
-fn held<const C: usize>(tangents: usize) -> impl Iterator<Item = usize> {
-    tangents..C.saturating_sub(1).max(tangents)
-}
-
 fn with_components<const D: usize, const C: usize>(
     bodies: Stiffness,
     loads: &Loads,
     points: &[Point<D>],
-    (Conditions { tangents, memory, keep, .. }, sides): (Conditions, Sides),
+    (conditions, sides): (Conditions, Sides),
     frame: impl Fn(&Place<D>) -> [[f64; C]; C],
 ) -> Result<Surroundings, Refusal> {
-    let (constraints, end) = (&loads.constraints, loads.end);
-    let machine = Machine::new(&loads.springs);
+    let (machine, tangents) = (Machine::new(&loads.springs), conditions.tangents);
     let drawn = |node: usize| (C * node..C * (node + 1)).any(|d| machine.draws(d));
     let both = |p: &Point<D>| drawn(p.place.minus) && drawn(p.place.plus);
     if let Some(point) = points.iter().position(both) {
         return Err(Refusal::Drawn { point });
     }
-    let jump = |p: &Point<D>| held::jump(p, frame(&p.place), &constraints.fixed, drawn);
-    let list: Vec<Jump<C>> = points.iter().map(jump).collect();
-    // The opening is the last component; where it may change normal tractions it is retained, at zero.
-    let slip: Vec<usize> = list.iter().map(|j| j.plus).collect();
-    let jumps = Jumps::new(list);
-    let across = jumps.stiffness(&bodies);
+    let at = PointJumps::new(points, tangents, frame, &loads.constraints.fixed, drawn);
+    let free = (0..points.len()).filter(|&k| points[k].creep.is_none()).collect();
+    let fault = CondensedFault { at, sides, free };
+    let across = fault.at.jumps.stiffness(&bodies);
     drop(bodies);
-    let body = machine.stiffness(across);
-    let oblique = |e: ObliqueConstraint| Refusal::Oblique { dof: e.plus };
-    let free: Vec<usize> = (0..points.len()).filter(|&k| points[k].creep.is_none()).collect();
-    let mut retained: Vec<usize> = free
-        .iter()
-        .flat_map(|&k| kept::<C>(tangents, sides).map(move |c| (k, c)))
-        .map(|(k, c)| slip[k] + c)
-        .collect();
-    retained.sort_unstable();
-    let mut fixed = jumps.fixed(&constraints.fixed).map_err(oblique)?;
-    let is_fixed = |dof: usize| fixed.binary_search(&dof).is_ok();
-    let along_slip = |&k: &usize| (0..tangents).find(|c| is_fixed(slip[k] + c)).map(|c| (k, c));
-    if let Some((k, c)) = free.iter().find_map(along_slip) {
-        let component = held::most(&frame(&points[k].place)[c]);
-        return Err(Refusal::AlongSlip { point: k, component });
+    fault.condense(machine.stiffness(across), loads, &machine, conditions)
+}
+
+/// Points of faults onto whose jumps bodies are condensed.
+struct CondensedFault<'a, const D: usize, const C: usize> {
+    at: PointJumps<'a, D, C>,
+    sides: Sides,
+    /// Points that slide freely.
+    free: Vec<usize>,
+}
+
+/// Conditions and loads on bodies and jumps.
+struct Boundary {
+    /// Degrees of freedom that are held or prescribed, sorted.
+    fixed: Vec<usize>,
+    channels: Vec<Channel>,
+    /// Number of the channel of creep.
+    creep: Option<usize>,
+    /// True if the last channel is the weight of the bodies.
+    weighs: bool,
+    /// True for each free point between whose sides supports hold the opening.
+    supported: Vec<bool>,
+}
+
+impl<const D: usize, const C: usize> CondensedFault<'_, D, C> {
+    /// Condenses a body that has the stiffness of jumps and springs.
+    fn condense(
+        self,
+        body: Stiffness,
+        loads: &Loads,
+        machine: &Machine<'_>,
+        conditions: Conditions,
+    ) -> Result<Surroundings, Refusal> {
+        let (sides, tangents) = (self.sides, conditions.tangents);
+        let boundary = self.boundary(loads, machine)?;
+        let retained = self.retained();
+        let bearings = self.bearings(&boundary.supported);
+        let limits = Limits { memory: conditions.memory, operator: self.operator_bytes(&bearings) };
+        let dofs = (retained.as_slice(), boundary.fixed.as_slice());
+        let (left, bytes) = CondensedPart::condense(body, dofs, boundary.channels, limits, conditions.keep)
+            .map_err(|e| refused(&self.at.jumps, &e))?;
+        let loads = Channels { all: left.channels(), creep: boundary.creep, weighs: boundary.weighs };
+        let (matrix, interior) = left.parted();
+        let rows = self.rows(&retained);
+        let bodies = interior
+            .map(|interior| Bodies::new(interior, self.at.jumps, machine.ties().clone(), rows.clone()));
+        let forces = Forces {
+            matrix,
+            share: sides.share,
+            rows,
+            bearings,
+            tangents,
+            presses: Vec::new(),
+            across: false,
+        };
+        let found = if sides.both { tractions::<C>(forces, loads) } else { tractions::<1>(forces, loads) };
+        Ok(Surroundings { bytes, bodies, mirrored: !sides.both, ..found })
     }
-    let mut channels = Vec::new();
-    for channel in &constraints.channels {
-        let own = jumps.channel(channel, &constraints.fixed).map_err(oblique)?;
-        channels.push(machine.channel(&own).map_err(|e| e.to_string())?);
+
+    /// Degrees of freedom that are retained: slip of free points along the tangents, and between both sides the opening, which is
+    /// the last component; where it may change normal tractions it is retained, at zero.
+    fn retained(&self) -> Vec<usize> {
+        let kept = |c: &usize| *c < self.at.tangents || (self.sides.both && *c == C - 1);
+        let of_point = |&k: &usize| (0..C).filter(kept).map(move |c| self.at.first[k] + c);
+        let mut retained: Vec<usize> = self.free.iter().flat_map(of_point).collect();
+        retained.sort_unstable();
+        retained
     }
-    let creeping = held::creep((points, &slip), &fixed, &channels, (tangents, end), &frame)?;
-    let supported: Vec<bool> = free.iter().map(|&k| C > 1 && is_fixed(slip[k] + C - 1)).collect();
-    for (point, &dof) in points.iter().zip(&slip) {
-        if point.creep.is_some() {
-            fixed.extend(dof..dof + if sides.both { C } else { C - 1 });
-        } else {
-            fixed.extend(held::<C>(tangents).map(|c| dof + c));
+
+    /// Row of the first retained component of each free point.
+    fn rows(&self, retained: &[usize]) -> Vec<usize> {
+        self.free.iter().map(|&k| retained.partition_point(|&d| d < self.at.first[k])).collect()
+    }
+
+    fn boundary(&self, loads: &Loads, machine: &Machine<'_>) -> Result<Boundary, Refusal> {
+        let (constraints, end) = (&loads.constraints, loads.end);
+        let PointJumps { jumps, first, .. } = &self.at;
+        let oblique = |e: ObliqueConstraint| Refusal::Oblique { dof: e.plus };
+        let on_jumps = |channel: &Channel| {
+            let own = jumps.channel(channel, &constraints.fixed).map_err(oblique)?;
+            machine.channel(&own).map_err(|e| Refusal::Other(e.to_string()))
+        };
+        let mut fixed = jumps.fixed(&constraints.fixed).map_err(oblique)?;
+        self.free_along_slip(&fixed)?;
+        let mut channels = constraints.channels.iter().map(on_jumps).collect::<Result<Vec<_>, _>>()?;
+        let creeping = held::creep(&self.at, &fixed, &channels, end)?;
+        let opening_held = |&k: &usize| C > 1 && fixed.binary_search(&(first[k] + C - 1)).is_ok();
+        let supported = self.free.iter().map(opening_held).collect();
+        fixed.extend(self.held());
+        fixed.extend(machine.tied());
+        fixed.sort_unstable();
+        fixed.dedup();
+        let creep = (!creeping.is_empty()).then_some(channels.len());
+        if creep.is_some() {
+            let amplitude = Table::new(vec![0.0, end], vec![0.0, end]);
+            channels.push(Channel { prescribed: creeping, forces: Vec::new(), amplitude });
         }
+        channels.extend(machine.pulls());
+        let weighs = C > 1 && !loads.weight.is_empty();
+        if weighs {
+            channels.push(on_jumps(&weight(loads))?);
+        }
+        Ok(Boundary { fixed, channels, creep, weighs, supported })
     }
-    fixed.extend(machine.tied());
-    fixed.sort_unstable();
-    fixed.dedup();
-    let creep = (!creeping.is_empty()).then_some(channels.len());
-    if creep.is_some() {
-        let amplitude = Table::new(vec![0.0, end], vec![0.0, end]);
-        channels.push(Channel { prescribed: creeping, forces: Vec::new(), amplitude });
+
+    /// Refuses conditions that hold the slip of a free point.
+    fn free_along_slip(&self, fixed: &[usize]) -> Result<(), Refusal> {
+        let PointJumps { first, frames, tangents, .. } = &self.at;
+        for &point in &self.free {
+            if let Some(c) = (0..*tangents).find(|c| fixed.binary_search(&(first[point] + c)).is_ok()) {
+                return Err(Refusal::AlongSlip { point, component: held::most(&frames[point][c]) });
+            }
+        }
+        Ok(())
     }
-    channels.extend(machine.pulls());
-    let weighs = C > 1 && !loads.weight.is_empty();
-    if weighs {
-        let own = jumps.channel(&weight(loads), &constraints.fixed).map_err(oblique)?;
-        channels.push(machine.channel(&own).map_err(|e| e.to_string())?);
+
+    /// Degrees of freedom of jumps that are prescribed, those of creeping points, or held at zero: in space, slip across the rake
+    /// where its direction is fixed.
+    fn held(&self) -> impl Iterator<Item = usize> {
+        let tangents = self.at.tangents;
+        self.at.points.iter().zip(&self.at.first).flat_map(move |(point, &dof)| {
+            let held = if point.creep.is_none() {
+                tangents..C.saturating_sub(1).max(tangents)
+            } else {
+                0..if self.sides.both { C } else { C - 1 }
+            };
+            held.map(move |c| dof + c)
+        })
     }
-    let rows: Vec<usize> = free.iter().map(|&k| retained.partition_point(|&d| d < slip[k])).collect();
-    let keeps = |k: usize, supported: bool| supported || !points[k].normal_changes;
-    let bearing = |(&k, &s): (&usize, &bool)| Bearing {
-        area: points[k].place.area,
-        keeps: keeps(k, s),
-        opens: points[k].opens && !keeps(k, s),
-    };
-    let bearings: Vec<Bearing> = free.iter().zip(&supported).map(bearing).collect();
-    let opens = bearings.iter().filter(|b| b.opens).count();
-    let across = if sides.both { C } else { 1 };
-    let operator =
-        Forces::operator_bytes(across, tangents, free.len()) + Opening::memory(opens, free.len(), tangents);
-    let (left, bytes) =
-        CondensedPart::condense(body, (&retained, &fixed), channels, (memory, operator), keep)
-            .map_err(|e| refused(&jumps, &e))?;
-    let loads = Channels { all: left.channels(), creep, weighs };
-    let (matrix, interior) = left.parted();
-    let ties = machine.ties().clone();
-    let bodies = interior.map(|interior| Bodies::new(interior, jumps, ties, rows.clone()));
-    let share = sides.share;
-    let forces = Forces { matrix, share, rows, bearings, tangents, presses: Vec::new(), across: false };
-    let found = if sides.both { tractions::<C>(forces, loads) } else { tractions::<1>(forces, loads) };
-    Ok(Surroundings { bytes, bodies, mirrored: !sides.both, ..found })
+
+    /// What the free points bear, of which these are supported.
+    fn bearings(&self, supported: &[bool]) -> Vec<Bearing> {
+        let bearing = |(&k, &supported): (&usize, &bool)| {
+            let point = &self.at.points[k];
+            let keeps = supported || !point.normal_changes;
+            Bearing { area: point.place.area, keeps, opens: point.opens && !keeps }
+        };
+        self.free.iter().zip(supported).map(bearing).collect()
+    }
+
+    /// Memory of the forces between jumps \[bytes\].
+    fn operator_bytes(&self, bearings: &[Bearing]) -> usize {
+        let (tangents, points) = (self.at.tangents, self.free.len());
+        let opens = bearings.iter().filter(|b| b.opens).count();
+        let across = if self.sides.both { C } else { 1 };
+        Forces::operator_bytes(across, tangents, points) + Opening::memory(opens, points, tangents)
+    }
 }
 
 /// Load of the weight of the bodies. Its effect is part of the initial state, so its amplitude is zero during the run.
 fn weight(loads: &Loads) -> Channel {
     Channel { prescribed: Vec::new(), forces: loads.weight.clone(), amplitude: Table::constant(0.0) }
+}
+
+/// Memory that a condensation may use, and that of the operator made from it \[bytes\].
+#[derive(Clone, Copy)]
+struct Limits {
+    memory: usize,
+    operator: usize,
 }
 
 /// Result of the elimination of the bodies.
@@ -231,7 +304,7 @@ impl CondensedPart {
         body: Stiffness,
         (retained, fixed): (&[usize], &[usize]),
         channels: Vec<Channel>,
-        (memory, operator): (usize, usize),
+        Limits { memory, operator }: Limits,
         keep: bool,
     ) -> Result<(Self, usize), FemError> {
         if !keep {
@@ -309,49 +382,63 @@ struct Channels {
 /// with the opposite force, and a force that holds the sides apart is a compression.
 fn tractions<const C: usize>(mut forces: Forces, channels: Channels) -> Surroundings {
     let Channels { mut all, creep, weighs } = channels;
-    let Forces { rows, bearings, tangents, .. } = &forces;
-    let (n, tangents) = (rows.len(), *tangents);
-    let largest = |m: &[f64]| m.iter().fold(0.0, |l: f64, v| l.max(v.abs()));
-    let over_area = |forces: &[f64], component: usize| -> Vec<f64> {
-        let per_force = |b: &Bearing| b.per_force(component == tangents);
-        rows.iter().zip(bearings).map(|(&r, b)| per_force(b) * forces[r + component]).collect()
-    };
-    let shear_of = |forces: &[f64]| (0..tangents).flat_map(|c| over_area(forces, c)).collect::<Vec<f64>>();
-    let weight = all.pop_if(|_| weighs).map(|(_, forces)| Initial {
-        shear: shear_of(&forces),
-        normal: rows.iter().zip(bearings).map(|(&r, b)| forces[r + tangents] / b.area).collect(),
+    let tangents = forces.tangents;
+    let weight = all.pop_if(|_| weighs).map(|(_, held)| Initial {
+        shear: shear(&forces, &held),
+        normal: forces.rows.iter().zip(&forces.bearings).map(|(&r, b)| held[r + tangents] / b.area).collect(),
     });
-    let creep = creep.map(|c| shear_of(&all[c].1));
-    // Loads may change normal tractions where slip does not.
-    let shear_load = all.iter().map(|(_, f)| largest(&shear_of(f))).fold(0.0, f64::max);
-    let loaded = C > 1 && all.iter().any(|(_, f)| largest(&over_area(f, tangents)) > UNCOUPLED * shear_load);
-    let along: Vec<f64> = (0..tangents).map(|c| forces.largest(c, c)).collect();
-    let presses = |c: usize| C > 1 && (loaded || forces.largest(tangents, c) > UNCOUPLED * along[c]);
-    let presses = (0..tangents).map(presses).collect();
-    let least = UNCOUPLED * along[0];
+    let creep = creep.map(|c| shear(&forces, &all[c].1));
+    let presses = presses::<C>(&forces, &all);
+    let least = UNCOUPLED * forces.largest(0, 0);
     let across = tangents > 1 && (forces.largest(0, 1) > least || forces.largest(1, 0) > least);
-    let opens: Vec<usize> = (0..n).filter(|&p| C > 1 && bearings[p].opens).collect();
-    let normal = |&p: &usize| forces.caused(tangents, (tangents, p)).collect();
-    let shear = |&p: &usize| (0..tangents).flat_map(|c| forces.caused(c, (tangents, p))).collect();
-    let columns = [opens.iter().map(normal).collect(), opens.iter().map(shear).collect()];
-    let opening = opening(opens, bearings, columns);
+    let opening = if C > 1 { opening(&forces) } else { None };
     let mut loading = Loading::new(tangents);
-    for (amplitude, forces) in all {
-        let change = if C == 1 { Vec::new() } else { over_area(&forces, tangents) };
-        loading.add(amplitude, shear_of(&forces), change);
+    for (amplitude, held) in all {
+        let change = if C == 1 { Vec::new() } else { over_area(&forces, &held, tangents) };
+        loading.add(amplitude, shear(&forces, &held), change);
     }
     (forces.presses, forces.across) = (presses, across);
     Surroundings { forces, opening, loading, creep, weight, bytes: 0, mirrored: false, bodies: None }
 }
 
-/// Effect of the openings of these points, if any, from the normal and shear tractions of all points that each opening
-/// causes.
-fn opening(points: Vec<usize>, bearings: &[Bearing], [normal, shear]: [Vec<Vec<f64>>; 2]) -> Option<Opening> {
+/// Tractions of a component at all points that forces on the retained degrees of freedom hold.
+fn over_area(Forces { rows, bearings, tangents, .. }: &Forces, held: &[f64], component: usize) -> Vec<f64> {
+    let per_force = |b: &Bearing| b.per_force(component == *tangents);
+    rows.iter().zip(bearings).map(|(&r, b)| per_force(b) * held[r + component]).collect()
+}
+
+/// Shear tractions of these forces, component by component.
+fn shear(forces: &Forces, held: &[f64]) -> Vec<f64> {
+    (0..forces.tangents).flat_map(|c| over_area(forces, held, c)).collect()
+}
+
+/// Largest magnitude.
+fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
+    values.into_iter().fold(0.0, |l: f64, v| l.max(v.abs()))
+}
+
+/// True for the components of slip that change normal tractions; for all where loads do, which may change them where slip does not.
+fn presses<const C: usize>(forces: &Forces, loads: &[(Table, Vec<f64>)]) -> Vec<bool> {
+    let tangents = forces.tangents;
+    let shear_load = loads.iter().map(|(_, held)| largest(&shear(forces, held))).fold(0.0, f64::max);
+    let changes = |held: &[f64]| largest(&over_area(forces, held, tangents)) > UNCOUPLED * shear_load;
+    let loaded = C > 1 && loads.iter().any(|(_, held)| changes(held));
+    let slip = |c: usize| forces.largest(tangents, c) > UNCOUPLED * forces.largest(c, c);
+    (0..tangents).map(|c| C > 1 && (loaded || slip(c))).collect()
+}
+
+/// Effect of the openings of points that may open, if any may.
+fn opening(forces: &Forces) -> Option<Opening> {
+    let Forces { bearings, tangents, .. } = forces;
+    let points: Vec<usize> = (0..bearings.len()).filter(|&p| bearings[p].opens).collect();
     if points.is_empty() {
         return None;
     }
-    let largest = |columns: &[Vec<f64>]| columns.iter().flatten().fold(0.0_f64, |l, v| l.max(v.abs()));
-    let shears = largest(&shear) > UNCOUPLED * largest(&normal);
+    let caused = |c: usize, p: usize| forces.caused(c, (*tangents, p));
+    let normal: Vec<Vec<f64>> = points.iter().map(|&p| caused(*tangents, p).collect()).collect();
+    let shear: Vec<Vec<f64>> =
+        points.iter().map(|&p| (0..*tangents).flat_map(|c| caused(c, p)).collect()).collect();
+    let shears = largest(shear.iter().flatten()) > UNCOUPLED * largest(normal.iter().flatten());
     let areas = points.iter().map(|&p| bearings[p].area).collect();
     Some(Opening::new(points, areas, normal, shears.then_some(shear)))
 }

@@ -2,14 +2,14 @@
 //! joined, or free to slide past each other without friction.
 
 use super::condensed::{Conditions, in_plane, in_space, refused};
-use super::held;
+use super::held::PointJumps;
 use super::place::Place;
 use super::point::{Initial, Point};
 use super::refusal::Refusal;
 use asperity_fem::FemError;
 use asperity_fem::condense::{Condensation, CondensedBody, Stiffness};
 use asperity_fem::dof::Channel;
-use asperity_fem::jump::{Jump, Jumps, ObliqueConstraint};
+use asperity_fem::jump::ObliqueConstraint;
 use asperity_fem::table::Table;
 use serde::{Deserialize, Serialize};
 
@@ -61,49 +61,57 @@ fn with_components<const D: usize, const C: usize>(
     Conditions { tangents, memory, .. }: Conditions,
     frame: impl Fn(&Place<D>) -> [[f64; C]; C],
 ) -> Result<PressedBodies, Refusal> {
-    let jump = |p: &Point<D>| held::jump(p, frame(&p.place), &pressing.fixed, |_| false);
-    let list: Vec<Jump<C>> = points.iter().map(jump).collect();
-    let first: Vec<usize> = list.iter().map(|j| j.plus).collect();
-    let jumps = Jumps::new(list);
+    let at = PointJumps::new(points, tangents, frame, &pressing.fixed, |_| false);
+    let jumps = &at.jumps;
     let body = jumps.stiffness(bodies);
     let oblique = |e: ObliqueConstraint| Refusal::Oblique { dof: e.plus };
     let supports = jumps.fixed(&pressing.fixed).map_err(oblique)?;
     let load = jumps.channel(&pressing.load, &pressing.fixed).map_err(oblique)?;
     // The opening is the last component.
-    let joined = first.iter().zip(&pressing.slides).flat_map(|(&dof, &slides)| {
+    let joined = at.first.iter().zip(&pressing.slides).flat_map(|(&dof, &slides)| {
         let from = if slides { C - 1 } else { 0 };
         dof + from..dof + C
     });
     let mut fixed: Vec<usize> = supports.iter().copied().chain(joined).collect();
     fixed.sort_unstable();
     fixed.dedup();
-    let solve = || -> Result<Vec<f64>, FemError> {
-        let reduction = Condensation::analyse(&body, &[], &fixed)?.factor(memory)?;
-        let mut condensed = CondensedBody::new("bodies".into(), reduction, &[]);
-        condensed.set_channels(vec![Channel { amplitude: Table::constant(1.0), ..load.clone() }]);
-        Ok(condensed.recover(&[], 0.0))
-    };
-    let mut unknowns = solve().map_err(|e| refused(&jumps, &e))?;
-    let on_jumps = unbalanced(&body, &unknowns, &load);
-    // The bodies drive slip with the opposite of the force that holds it; one that holds the sides apart is a compression.
-    let pairs = || points.iter().map(|p| p.place.area).zip(&first);
+    let mut displacement = solve(&body, &fixed, &load, memory).map_err(|e| refused(jumps, &e))?;
+    let tractions = tractions(&at, &supports, &unbalanced(&body, &displacement, &load));
+    jumps.displacement(&mut displacement);
+    let mut supports = unbalanced(bodies, &displacement, &pressing.load);
+    for Place { minus, plus, .. } in points.iter().map(|p| &p.place) {
+        for c in 0..C {
+            let both = supports[C * minus + c] + supports[C * plus + c];
+            [minus, plus].into_iter().for_each(|node| supports[C * node + c] = both);
+        }
+    }
+    Ok(PressedBodies { tractions, displacement, supports })
+}
+
+/// Displacements, and jumps in their place, in equilibrium with a load.
+fn solve(body: &Stiffness, fixed: &[usize], load: &Channel, memory: usize) -> Result<Vec<f64>, FemError> {
+    let reduction = Condensation::analyse(body, &[], fixed)?.factor(memory)?;
+    let mut condensed = CondensedBody::new("bodies".into(), reduction, &[]);
+    condensed.set_channels(vec![Channel { amplitude: Table::constant(1.0), ..load.clone() }]);
+    Ok(condensed.recover(&[], 0.0))
+}
+
+/// Tractions of forces that hold the jumps; zero across points whose opening supports hold. The bodies drive slip with the opposite
+/// of the force that holds it; one that holds the sides apart is a compression.
+fn tractions<const D: usize, const C: usize>(
+    PointJumps { points, first, tangents, .. }: &PointJumps<'_, D, C>,
+    supports: &[usize],
+    forces: &[f64],
+) -> Initial {
+    let pairs = || points.iter().map(|p| p.place.area).zip(first);
     let along = |c: usize| pairs().map(move |(area, dof)| (dof + c, -area));
-    let shear = (0..tangents).flat_map(along).map(|(dof, area)| on_jumps[dof] / area).collect();
+    let shear = (0..*tangents).flat_map(along).map(|(dof, area)| forces[dof] / area).collect();
     let across = |(area, dof): (f64, &usize)| {
         let opening = dof + C - 1;
         let keeps = C == 1 || supports.binary_search(&opening).is_ok();
-        if keeps { 0.0 } else { on_jumps[opening] / area }
+        if keeps { 0.0 } else { forces[opening] / area }
     };
-    let tractions = Initial { shear, normal: pairs().map(across).collect() };
-    jumps.displacement(&mut unknowns);
-    let mut on_nodes = unbalanced(bodies, &unknowns, &pressing.load);
-    for Place { minus, plus, .. } in points.iter().map(|p| &p.place) {
-        for c in 0..C {
-            let both = on_nodes[C * minus + c] + on_nodes[C * plus + c];
-            [minus, plus].into_iter().for_each(|node| on_nodes[C * node + c] = both);
-        }
-    }
-    Ok(PressedBodies { tractions, displacement: unknowns, supports: on_nodes })
+    Initial { shear, normal: pairs().map(across).collect() }
 }
 
 /// Internal forces less loads.

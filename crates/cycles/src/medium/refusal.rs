@@ -62,12 +62,6 @@ pub enum Refusal {
     Other(String),
 }
 
-impl From<String> for Refusal {
-    fn from(message: String) -> Self {
-        Self::Other(message)
-    }
-}
-
 impl From<FemError> for Refusal {
     fn from(error: FemError) -> Self {
         Self::Other(error.to_string())
