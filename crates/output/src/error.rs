@@ -2,6 +2,34 @@
 
 use std::path::{Path, PathBuf};
 
+/// Reason why a figure could not be drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum PaintError {
+    /// The embedded font, for PNG.
+    #[error("the embedded font is not readable")]
+    Font,
+    /// The embedded font, for PDF.
+    #[error(transparent)]
+    Face(#[from] ttf_parser::FaceParsingError),
+    /// The part of the font that a figure uses.
+    #[error(transparent)]
+    Subset(#[from] subsetter::Error),
+    /// The plotting library.
+    #[error(transparent)]
+    Plotters(#[from] Box<dyn std::error::Error + Send + Sync>),
+    /// A table that cannot be read.
+    #[error(transparent)]
+    Table(#[from] csv::Error),
+    /// A table with other rows than the map that it belongs to.
+    #[error("it has {found} rows, and the map {expected} positions")]
+    Rows {
+        /// Number of its rows.
+        found: usize,
+        /// Positions of the map.
+        expected: usize,
+    },
+}
+
 /// Reason why an output could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
@@ -46,8 +74,8 @@ pub enum OutputError {
     Draw {
         /// The plot.
         path: PathBuf,
-        /// Message of the plotting library.
-        reason: String,
+        /// Reason.
+        reason: PaintError,
     },
     /// The fields of a step do not have the announced lengths.
     #[error("{what}: {found} values where the set-up announced {expected}")]

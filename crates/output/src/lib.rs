@@ -21,6 +21,6 @@ mod tests;
 mod units;
 pub mod words;
 
-pub use error::OutputError;
+pub use error::{OutputError, PaintError};
 pub use names::stems;
 pub use output_file::OutputFile;

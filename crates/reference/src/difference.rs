@@ -11,6 +11,27 @@ pub struct Table {
     pub rows: usize,
 }
 
+/// Reason why a text is no table.
+#[derive(Debug, thiserror::Error)]
+pub enum TableError {
+    /// Text that is no CSV.
+    #[error(transparent)]
+    Csv(#[from] csv::Error),
+    /// Bytes that are no text.
+    #[error(transparent)]
+    Text(#[from] std::str::Utf8Error),
+    /// A row with another number of entries than the first.
+    #[error("line {line} has {entries} entries, the first row {width}")]
+    Row {
+        /// Number of the line, from 1.
+        line: usize,
+        /// Its entries.
+        entries: usize,
+        /// Entries of the first row.
+        width: usize,
+    },
+}
+
 /// Entries of a column.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Column {
@@ -90,7 +111,7 @@ impl Table {
     ///
     /// # Errors
     /// The first line that is not a row of the table.
-    pub fn read(bytes: &[u8]) -> Result<Self, String> {
+    pub fn read(bytes: &[u8]) -> Result<Self, TableError> {
         let first = bytes.split(|byte| *byte == b'\n').find(|line| !is_remark(line)).unwrap_or_default();
         if first.contains(&b',') || !first.trim_ascii().contains(&b' ') {
             Self::csv(bytes)
@@ -99,18 +120,16 @@ impl Table {
         }
     }
 
-    fn csv(bytes: &[u8]) -> Result<Self, String> {
+    fn csv(bytes: &[u8]) -> Result<Self, TableError> {
         let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(bytes);
-        let names = reader.headers().map_err(|error| error.to_string())?.iter().map(str::to_string).collect();
-        let records = reader.records().map(|record| {
-            let record = record.map_err(|error| error.to_string())?;
-            Ok(record.iter().map(|entry| entry.trim().to_string()).collect())
-        });
+        let names = reader.headers()?.iter().map(str::to_string).collect();
+        let records =
+            reader.records().map(|record| Ok(record?.iter().map(|entry| entry.trim().to_string()).collect()));
         Self::from_rows(names, records)
     }
 
-    fn blanks(bytes: &[u8]) -> Result<Self, String> {
-        let text = std::str::from_utf8(bytes).map_err(|error| error.to_string())?;
+    fn blanks(bytes: &[u8]) -> Result<Self, TableError> {
+        let text = std::str::from_utf8(bytes)?;
         let cells = |line: &str| line.split_whitespace().map(str::to_string).collect::<Vec<_>>();
         let mut lines = text.lines().enumerate().filter(|(_, line)| !is_remark(line.as_bytes())).peekable();
         let first = lines.peek().map(|(_, line)| cells(line)).unwrap_or_default();
@@ -119,16 +138,16 @@ impl Table {
         let names = if headed { first } else { (1..=width).map(|k| format!("column {k}")).collect() };
         let rows = lines.skip(usize::from(headed)).map(|(number, line)| {
             let row = cells(line);
-            let wrong = || format!("line {} has {} entries, the first row {width}", number + 1, row.len());
-            if row.len() == width { Ok(row) } else { Err(wrong()) }
+            let entries = row.len();
+            if entries == width { Ok(row) } else { Err(TableError::Row { line: number + 1, entries, width }) }
         });
         Self::from_rows(names, rows)
     }
 
     fn from_rows(
         names: Vec<String>,
-        rows: impl Iterator<Item = Result<Vec<String>, String>>,
-    ) -> Result<Self, String> {
+        rows: impl Iterator<Item = Result<Vec<String>, TableError>>,
+    ) -> Result<Self, TableError> {
         let mut texts = vec![Vec::new(); names.len()];
         for row in rows {
             for (column, entry) in texts.iter_mut().zip(row?) {

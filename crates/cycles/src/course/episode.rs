@@ -68,7 +68,7 @@ pub(crate) fn episode(
         run.outcome = Outcome::Failed { reason: Failure::Ends };
         run.progress.outrun = outrun;
     } else if let Err(reason) = done {
-        run.outcome = Outcome::Failed { reason: Failure::Solver(reason) };
+        run.outcome = Outcome::Failed { reason: Failure::Solver(reason.to_string()) };
     } else if halted {
         run.outcome = Outcome::Stopped;
     }

@@ -12,4 +12,4 @@ pub use cycle::{RESTART, resume, resume_with, run};
 pub use fault_run::{FaultRun, Faults, Outrun};
 pub(crate) use follow::outrun;
 pub use run::{NextStep, Run};
-pub use waves::{Dynamics, Episode, Handover, Shaken, Start, Waves};
+pub use waves::{Dynamics, Episode, Handover, Shaken, Start, Waves, WavesError};

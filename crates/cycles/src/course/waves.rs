@@ -6,6 +6,7 @@
 use asperity_ode::Control;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::error::Error;
 
 /// Slip rates between which faults pass to bodies with mass and back.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,13 +69,20 @@ pub struct Shaken<'a> {
     pub energy: &'a mut dyn FnMut() -> f64,
 }
 
+/// Error of bodies with mass.
+pub type WavesError = Box<dyn Error + Send + Sync>;
+
 /// Bodies with mass around the faults.
 pub trait Waves {
     /// Computes a rupture from its start. Each step is shown to `see`, which ends the rupture.
     ///
     /// # Errors
     /// The reason why the steps cannot continue.
-    fn rupture(&mut self, start: &Start, see: &mut dyn FnMut(Shaken<'_>) -> Control) -> Result<(), String>;
+    fn rupture(
+        &mut self,
+        start: &Start,
+        see: &mut dyn FnMut(Shaken<'_>) -> Control,
+    ) -> Result<(), WavesError>;
 }
 
 /// A rupture computed by bodies with mass, and the errors of the hand-overs at its ends.

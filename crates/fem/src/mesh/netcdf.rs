@@ -7,8 +7,9 @@
 pub mod gridded;
 mod hdf5;
 
-use netcdf_reader::NcFile;
+pub use hdf5::Hdf5Error;
 
+use netcdf_reader::NcFile;
 use thiserror::Error;
 
 /// Problem of a netCDF file.
@@ -17,8 +18,8 @@ pub enum NetcdfError {
     /// A file of the version 4, which is HDF5, that cannot be read.
     #[error("it is netCDF-4 (HDF5), and damaged or of a kind that is not read: {reason}")]
     Hdf5 {
-        /// Reason of the library.
-        reason: String,
+        /// Reason.
+        reason: Hdf5Error,
     },
     /// A version of the classic format that is not read.
     #[error("it has version {version} of the classic netCDF format, and versions 1 and 2 are read")]
@@ -294,8 +295,8 @@ impl<'a> File<'a> {
         Ok(Self { bytes, dimensions, variables, hdf5: None })
     }
 
-    /// The parts of a file of version 4, or the reason why it cannot be read.
-    fn read_version_4(bytes: &'a [u8]) -> Result<Self, String> {
+    /// The parts of a file of version 4.
+    fn read_version_4(bytes: &'a [u8]) -> Result<Self, Hdf5Error> {
         let file = hdf5::open(bytes)?;
         let (dimensions, variables) = hdf5::parts(&file)?;
         let dimensions = dimensions.into_iter().map(|(name, length)| Dimension { name, length }).collect();

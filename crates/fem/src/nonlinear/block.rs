@@ -1,7 +1,7 @@
 //! The block as a term: residual, consistent tangent, history.
 
 use super::body::Body;
-use super::cell::Scratch;
+use super::cell::{CellError, Scratch};
 use super::model::{Model, ModelError, with_material};
 use crate::element::ElementKind;
 use crate::material::constitutive::{ConstitutiveLaw, Voigt, contract};
@@ -169,7 +169,11 @@ impl<const D: usize> Block<D> {
             with_material!(&self.body.model.material, m => self.evaluate_with(m, &mut forces, &mut state));
         self.forces = forces;
         self.state.trial = state;
-        result.map_err(|reason| Refusal { term: self.name.clone(), reason })
+        result.map_err(|error| self.refusal(&error))
+    }
+
+    pub(super) fn refusal(&self, error: &CellError) -> Refusal {
+        Refusal { term: self.name.clone(), reason: error.to_string() }
     }
 
     fn evaluate_with<M: ConstitutiveLaw>(
@@ -177,7 +181,7 @@ impl<const D: usize> Block<D> {
         material: &M,
         forces: &mut [f64],
         state: &mut [f64],
-    ) -> Result<(), String> {
+    ) -> Result<(), CellError> {
         let body = &self.body;
         let sizes = (body.frame.width(), body.state_size());
         body.chunks(forces, sizes.0, state, sizes.1, |scratch, mut task| {
@@ -187,7 +191,7 @@ impl<const D: usize> Block<D> {
                 scratch.stresses(&body.frame, material, self.dt, old, new, false);
                 scratch.forces(&body.frame, volumes, f);
                 if f.iter().any(|f| !f.is_finite()) {
-                    return Err(format!("cell {cell}: the forces are not finite"));
+                    return Err(CellError::Forces { cell });
                 }
             }
             Ok(())
@@ -197,17 +201,12 @@ impl<const D: usize> Block<D> {
     }
 
     /// Computes the motion of a cell over the step; refused if the cell is inverted.
-    pub(super) fn step(&self, cell: usize, scratch: &mut Scratch<D>) -> Result<(), String> {
+    pub(super) fn step(&self, cell: usize, scratch: &mut Scratch<D>) -> Result<(), CellError> {
         let body = &self.body;
         body.gather(cell, self.start(), &self.u.trial, scratch);
-        scratch.motion(&body.frame, body.cell_volumes(cell)).map_err(|bad| {
-            let at: Vec<String> = body.middle(cell).iter().map(|x| format!("{x:.4e}")).collect();
-            format!(
-                "cell {cell}, about ({}) m, turns inside out: Jacobian determinant {:e} at its point {}",
-                at.join(", "),
-                bad.determinant,
-                bad.point
-            )
+        scratch.motion(&body.frame, body.cell_volumes(cell)).map_err(|inverted| {
+            let middle: Vec<String> = body.middle(cell).iter().map(|x| format!("{x:.4e}")).collect();
+            CellError::Inverted { cell, middle: middle.join(", "), inverted }
         })?;
         if !body.frame.finite {
             return Ok(());
@@ -216,9 +215,7 @@ impl<const D: usize> Block<D> {
         for (point, increment) in scratch.increments.iter().enumerate() {
             let size = size_of(&increment.strain);
             if size > most || !size.is_finite() {
-                return Err(format!(
-                    "cell {cell}: strain increment {size:.3} at its point {point} (at most {most} in a step)"
-                ));
+                return Err(CellError::Increment { cell, point, size, most });
             }
         }
         Ok(())

@@ -78,6 +78,55 @@ pub struct InvertedPoint {
     pub determinant: f64,
 }
 
+/// Cell whose forces are not defined at a trial state.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum CellError {
+    /// No volume at a point at the middle or at the end of a step.
+    #[error(
+        "cell {cell}, about ({middle}) m, turns inside out: Jacobian determinant {:e} at its point {}",
+        .inverted.determinant,
+        .inverted.point
+    )]
+    Inverted {
+        /// The cell.
+        cell: usize,
+        /// Coordinates of its middle.
+        middle: String,
+        /// The point.
+        inverted: InvertedPoint,
+    },
+    /// No volume in the motion of a relaxation time.
+    #[error("cell {cell} turns inside out")]
+    InvertedByViscosity {
+        /// The cell.
+        cell: usize,
+    },
+    /// No volume before a forward step.
+    #[error("cell {cell} is inside out")]
+    InvertedBefore {
+        /// The cell.
+        cell: usize,
+    },
+    /// A strain increment beyond the limit.
+    #[error("cell {cell}: strain increment {size:.3} at its point {point} (at most {most} in a step)")]
+    Increment {
+        /// The cell.
+        cell: usize,
+        /// The point.
+        point: usize,
+        /// Size of the increment \[-\].
+        size: f64,
+        /// Limit \[-\].
+        most: f64,
+    },
+    /// Forces that are not numbers.
+    #[error("cell {cell}: the forces are not finite")]
+    Forces {
+        /// The cell.
+        cell: usize,
+    },
+}
+
 /// Working memory for the cells of one task.
 #[derive(Clone, Debug)]
 pub struct Scratch<const D: usize> {

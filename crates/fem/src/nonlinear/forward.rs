@@ -5,7 +5,7 @@
 //! a step of length zero, with the continuum moduli.
 
 use super::block::{Block, size_of};
-use super::cell::Scratch;
+use super::cell::{CellError, Scratch};
 use super::model::with_material;
 use crate::material::constitutive::ConstitutiveLaw;
 use crate::term::{ForwardTerm, Fraction, Instant, Refusal};
@@ -39,12 +39,12 @@ impl<const D: usize> Block<D> {
         scratch: &mut Scratch<D>,
         k: &mut [f64],
         f: &mut [f64],
-    ) -> Result<(), String> {
+    ) -> Result<(), CellError> {
         let body = &self.body;
         let (frame, volumes) = (&body.frame, body.cell_volumes(cell));
         let old = body.cell_state(cell, &self.state.committed);
         body.gather(cell, &self.u.committed, &self.u.committed, scratch);
-        scratch.motion(frame, volumes).map_err(|_| format!("cell {cell} is inside out"))?;
+        scratch.motion(frame, volumes).map_err(|_| CellError::InvertedBefore { cell })?;
         scratch.forward(frame, material, dt, old);
         scratch.tangent(frame, volumes, k);
         if M::RELAXES {
@@ -62,7 +62,7 @@ impl<const D: usize> Block<D> {
         dt: f64,
         values: &mut [f64],
         forces: &mut [f64],
-    ) -> Result<(), String> {
+    ) -> Result<(), CellError> {
         let width = self.body.frame.width();
         self.body
             .chunks(values, width * width, forces, width, |scratch, mut task| {
@@ -167,10 +167,6 @@ impl<const D: usize> Block<D> {
         self.take(du);
         self.u.trial.iter_mut().zip(&self.u.committed).for_each(|(t, c)| *t += c);
     }
-
-    fn refusal(&self, reason: String) -> Refusal {
-        Refusal { term: self.name.clone(), reason }
-    }
 }
 
 /// Fraction tried next of an increment that inverts a cell.
@@ -185,7 +181,7 @@ impl<const D: usize> ForwardTerm for Block<D> {
         let result =
             with_material!(&self.body.model.material, m => self.rate_with(m, at.dt, values, &mut forces));
         self.forces = forces;
-        result.map_err(|reason| self.refusal(reason))?;
+        result.map_err(|error| self.refusal(&error))?;
         self.scatter(&self.forces, constant);
         Ok(())
     }

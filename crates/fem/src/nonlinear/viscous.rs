@@ -4,6 +4,7 @@
 //! motion costs nothing, and the forces exert no torque.
 
 use super::block::Block;
+use super::cell::CellError;
 use super::model::{Material, with_material};
 use crate::material::constitutive::{ConstitutiveLaw, Moduli, Voigt};
 use crate::material::plane_stress;
@@ -23,18 +24,18 @@ impl<const D: usize> Block<D> {
         let mut forces = std::mem::take(&mut self.forces);
         let result = self.viscous_forces(&before, &c, &mut forces);
         self.forces = forces;
-        result.map_err(|reason| Refusal { term: self.name.clone(), reason })?;
+        result.map_err(|error| self.refusal(&error))?;
         self.scatter(&self.forces, r);
         Ok(())
     }
 
-    fn viscous_forces(&self, before: &[f64], c: &Moduli, forces: &mut [f64]) -> Result<(), String> {
+    fn viscous_forces(&self, before: &[f64], c: &Moduli, forces: &mut [f64]) -> Result<(), CellError> {
         let body = &self.body;
         body.chunks(forces, body.frame.width(), &mut [], 0, |scratch, mut task| {
             for (cell, f, _) in task.cells() {
                 let volumes = body.cell_volumes(cell);
                 body.gather(cell, before, &self.u.trial, scratch);
-                scratch.motion(&body.frame, volumes).map_err(|_| format!("cell {cell} turns inside out"))?;
+                scratch.motion(&body.frame, volumes).map_err(|_| CellError::InvertedByViscosity { cell })?;
                 for (stress, increment) in scratch.stress.iter_mut().zip(&scratch.increments) {
                     *stress = product(c, &increment.strain);
                 }

@@ -296,11 +296,10 @@ impl Implicit {
             let direction = self.direction(terms, counts)?;
             return Err(self.adrift(terms, u, &direction, at, counts));
         }
-        Err(format!(
+        Err(Failure::Refused(format!(
             "Newton's method did not converge in {MOST_ITERATIONS} iterations: residual over the largest force is {:.2e}",
             self.norm()? / self.scale()
-        )
-        .into())
+        )))
     }
 
     /// Returns to the iterate with the least residual.
@@ -311,7 +310,7 @@ impl Implicit {
         progress: &mut Progress,
         at: Instant,
         counts: &mut Operations,
-    ) -> Result<(), String> {
+    ) -> Result<(), Failure> {
         u.copy_from_slice(&progress.best_u);
         progress.moved = f64::INFINITY;
         self.evaluate(terms, u, at, counts)
@@ -340,7 +339,7 @@ impl Implicit {
         u: &[f64],
         at: Instant,
         counts: &mut Operations,
-    ) -> Result<bool, String> {
+    ) -> Result<bool, Failure> {
         let patterns = |terms: &[&mut dyn Linearized]| -> Vec<PatternId> {
             terms.iter().map(|t| t.pattern().id()).collect()
         };
@@ -359,13 +358,13 @@ impl Implicit {
         u: &[f64],
         at: Instant,
         counts: &mut Operations,
-    ) -> Result<(), String> {
-        self.balance.evaluate(terms, u, at, counts).map_err(|e| e.to_string())
+    ) -> Result<(), Failure> {
+        Ok(self.balance.evaluate(terms, u, at, counts)?)
     }
 
-    fn norm(&self) -> Result<f64, String> {
+    fn norm(&self) -> Result<f64, Failure> {
         let norm = self.balance.largest_residual(self.system.equations());
-        if norm.is_finite() { Ok(norm) } else { Err("the residual is not finite".into()) }
+        if norm.is_finite() { Ok(norm) } else { Err(Failure::Refused("the residual is not finite".into())) }
     }
 
     /// Rounding of the forces at `u` \[N\].
@@ -414,7 +413,7 @@ impl Implicit {
         counts: &mut Operations,
     ) -> Failure {
         if let Err(why) = self.evaluate(terms, u, at, counts) {
-            return why.into();
+            return why;
         }
         match self.solve(terms, counts) {
             Err(error) if error.is_singular() => Failure::Unsolved { error, always: false },
@@ -459,7 +458,7 @@ impl Implicit {
         trusted: bool,
         at: Instant,
         counts: &mut Operations,
-    ) -> Result<f64, String> {
+    ) -> Result<f64, Failure> {
         let along = &direction.along;
         let (start, slope) = (self.norm()?, work(&self.balance.r, along));
         let full = self.trial(terms, &moved(u, along, 1.0), along, at, counts);
@@ -519,7 +518,7 @@ impl Implicit {
         along: &[f64],
         at: Instant,
         counts: &mut Operations,
-    ) -> Result<f64, String> {
+    ) -> Result<f64, Failure> {
         let start = self.norm()?;
         let mut best: Option<(f64, f64)> = None;
         let mut length = 1.0;
@@ -533,8 +532,8 @@ impl Implicit {
                 break;
             }
         }
-        let (_, length) = best.ok_or("the residual is not finite along the search direction")?;
-        Ok(length)
+        let endless = || Failure::Refused("the residual is not finite along the search direction".into());
+        best.map(|(_, length)| length).ok_or_else(endless)
     }
 
     /// Residual at `u` and its work along a direction; NaN if a term refuses the state.
@@ -619,8 +618,8 @@ impl Progress {
 }
 
 /// Lets the terms search and update their pairing at `u`.
-fn prepare(terms: &mut [&mut dyn Linearized], u: &[f64]) -> Result<(), String> {
-    terms.iter_mut().try_for_each(|term| term.prepare(u)).map_err(|e| e.to_string())
+fn prepare(terms: &mut [&mut dyn Linearized], u: &[f64]) -> Result<(), Failure> {
+    Ok(terms.iter_mut().try_for_each(|term| term.prepare(u))?)
 }
 
 /// Largest displacement in magnitude.

@@ -140,7 +140,7 @@ impl StaticExplicit {
                 return Ok(Prediction { at, du, cut, cause });
             };
             if shorter <= 0.0 || !shorter.is_finite() {
-                return Err(format!("the step vanishes: {}", limit.cause).into());
+                return Err(Failure::Refused(format!("the step vanishes: {}", limit.cause)));
             }
             dt = shorter;
             cut = if limit.bounds_accuracy() { Cut::Accuracy } else { Cut::Event };

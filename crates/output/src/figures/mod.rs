@@ -46,7 +46,7 @@ pub use profile::Tractions;
 pub use rupture::{Line as RuptureLine, Shape as RuptureShape, Surface};
 pub use sheet::{
     Curves, EventFault, EventOnset, Fault, FaultCycles, FigureRequest, Format, Ground, Mises, Plot, Points,
-    Sheet, Still, Stills, Velocities, short,
+    Sheet, SheetError, Still, Stills, Velocities, short,
 };
 pub use sketch::Sketch;
 pub use springs::curves as springs_curves;

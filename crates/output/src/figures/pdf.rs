@@ -3,6 +3,7 @@
 use super::colour::{PAPER, Rgb};
 use super::figure::{Anchor, Dash, Figure, Image, Point, Shape, Text};
 use super::png::FONT;
+use crate::error::PaintError;
 use crate::fields::vtu::deflate;
 use pdf_writer::types::{CidFontType, FontFlags, LineCapStyle, LineJoinStyle, SystemInfo, UnicodeCmap};
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, Str};
@@ -39,9 +40,9 @@ const IMAGES: i32 = 10;
 /// Contents of a PDF file.
 ///
 /// # Errors
-/// Message if the font cannot be read.
-pub(super) fn paint(figure: &Figure) -> Result<Vec<u8>, String> {
-    let face = Face::parse(FONT, 0).map_err(|error| error.to_string())?;
+/// If the font cannot be read.
+pub(super) fn paint(figure: &Figure) -> Result<Vec<u8>, PaintError> {
+    let face = Face::parse(FONT, 0)?;
     let mut page =
         Page { face, glyphs: GlyphRemapper::new(), used: BTreeMap::new(), content: Content::new() };
     // Figures have y down.
@@ -145,7 +146,7 @@ impl Page {
         self.content.x_object(Name(name(number).as_bytes())).restore_state();
     }
 
-    fn file(self, figure: &Figure, images: &[&Image]) -> Result<Vec<u8>, String> {
+    fn file(self, figure: &Figure, images: &[&Image]) -> Result<Vec<u8>, PaintError> {
         let mut pdf = Pdf::new();
         pdf.catalog(CATALOG).pages(PAGES);
         pdf.pages(PAGES).kids([PAGE]).count(1);
@@ -177,8 +178,8 @@ impl Page {
     }
 
     /// The glyphs used, with their widths and characters.
-    fn font(&self, pdf: &mut Pdf) -> Result<(), String> {
-        let subset = subsetter::subset(FONT, 0, &self.glyphs).map_err(|error| error.to_string())?;
+    fn font(&self, pdf: &mut Pdf) -> Result<(), PaintError> {
+        let subset = subsetter::subset(FONT, 0, &self.glyphs)?;
         pdf.type0_font(TYPE0)
             .base_font(BASE)
             .encoding_predefined(Name(b"Identity-H"))

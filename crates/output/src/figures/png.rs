@@ -3,11 +3,13 @@
 
 use super::colour::{PAPER, Rgb};
 use super::figure::{Anchor, Figure, Image, Point, Shape, Text, dashes};
+use crate::error::PaintError;
 use crate::fields::vtu::deflate;
 use plotters::backend::{BitMapBackend, DrawingBackend};
 use plotters::prelude::{FontTransform, IntoDrawingArea, Polygon, RGBColor, TextStyle};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontFamily, FontStyle, IntoFont, register_font};
+use std::error::Error;
 use std::sync::OnceLock;
 
 /// DejaVu Sans 2.37; its licence is in the same folder.
@@ -22,8 +24,8 @@ const HANGS: f64 = 0.21;
 /// Contents of a PNG file with `scale` pixels per unit of the figure.
 ///
 /// # Errors
-/// Message of the plotting library.
-pub(super) fn paint(figure: &Figure, scale: f64) -> Result<Vec<u8>, String> {
+/// If the font cannot be read, or the plotting library fails.
+pub(super) fn paint(figure: &Figure, scale: f64) -> Result<Vec<u8>, PaintError> {
     font_ready()?;
     let (columns, rows) = ((figure.width * scale).ceil() as usize, (figure.height * scale).ceil() as usize);
     let mut pixels: Vec<Rgb> = vec![PAPER; columns * rows];
@@ -38,8 +40,7 @@ pub(super) fn paint(figure: &Figure, scale: f64) -> Result<Vec<u8>, String> {
             Shape::Image(image) => blit(&mut pixels, columns, image, scale),
             Shape::Area { .. } | Shape::Text(_) => {
                 let bytes = pixels.as_flattened_mut();
-                plotted(BitMapBackend::with_buffer(bytes, (columns as u32, rows as u32)), shape, scale)
-                    .map_err(|error| error.to_string())?;
+                plotted(BitMapBackend::with_buffer(bytes, (columns as u32, rows as u32)), shape, scale)?;
             }
         }
     }
@@ -47,14 +48,18 @@ pub(super) fn paint(figure: &Figure, scale: f64) -> Result<Vec<u8>, String> {
 }
 
 /// Registers the font once.
-fn font_ready() -> Result<(), String> {
+fn font_ready() -> Result<(), PaintError> {
     static READY: OnceLock<bool> = OnceLock::new();
     let ready = READY.get_or_init(|| register_font("sans-serif", FontStyle::Normal, FONT).is_ok());
-    if *ready { Ok(()) } else { Err("the embedded font is not readable".to_string()) }
+    if *ready { Ok(()) } else { Err(PaintError::Font) }
 }
 
 /// Draws an area or a text with plotters.
-fn plotted<B: DrawingBackend>(backend: B, shape: &Shape, scale: f64) -> Result<(), Box<dyn std::error::Error>>
+fn plotted<B: DrawingBackend>(
+    backend: B,
+    shape: &Shape,
+    scale: f64,
+) -> Result<(), Box<dyn Error + Send + Sync>>
 where
     B::ErrorType: 'static,
 {

@@ -10,7 +10,7 @@ use std::path::Path;
 /// # Errors
 /// If the table cannot be read.
 pub fn each(path: &Path, look: &mut dyn FnMut(&[f64])) -> Result<(), OutputError> {
-    let failed = |e: csv::Error| OutputError::Draw { path: path.to_path_buf(), reason: e.to_string() };
+    let failed = |e: csv::Error| OutputError::Draw { path: path.to_path_buf(), reason: e.into() };
     let mut reader = csv::ReaderBuilder::new().flexible(true).from_path(path).map_err(failed)?;
     let width = reader.headers().map_err(failed)?.len();
     let (mut record, mut row) = (csv::StringRecord::new(), Vec::with_capacity(width));

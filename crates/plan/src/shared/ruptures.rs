@@ -1,7 +1,7 @@
 //! Ruptures of faults through cycles, computed by bodies with mass. The computation is in [`asperity_mechanics::dynamics`],
 //! and the hand-overs are in [`asperity_cycles`].
 
-use asperity_cycles::{Dynamics, Handover, Shaken, Start, Waves};
+use asperity_cycles::{Dynamics, Handover, Shaken, Start, Waves, WavesError};
 use asperity_mechanics::dynamics::{Explicit, Onset, Problem, StableStep};
 use asperity_ode::Control;
 
@@ -98,14 +98,18 @@ impl<const D: usize> Bodies<D> {
 }
 
 impl<const D: usize> Waves for Bodies<D> {
-    fn rupture(&mut self, start: &Start, see: &mut dyn FnMut(Shaken<'_>) -> Control) -> Result<(), String> {
+    fn rupture(
+        &mut self,
+        start: &Start,
+        see: &mut dyn FnMut(Shaken<'_>) -> Control,
+    ) -> Result<(), WavesError> {
         self.begin(start);
-        let mut explicit = Explicit::new(&self.problem).map_err(|e| e.to_string())?;
-        explicit.begin_stage(0).map_err(|e| e.to_string())?;
+        let mut explicit = Explicit::new(&self.problem)?;
+        explicit.begin_stage(0)?;
         let mut before = start.states.clone();
         loop {
             let time = explicit.time();
-            explicit.step().map_err(|halt| halt.to_string())?;
+            explicit.step()?;
             let fault = explicit.fault().clone();
             // States live at half steps; the first step begins at the start itself.
             let states: Vec<f64> = if time > 0.0 {

@@ -6,6 +6,7 @@ mod place;
 mod setting;
 
 pub use origin::{Origin, ResolvedText};
+pub use place::EditProblem;
 pub use setting::{Setting, SettingError};
 
 use origin::Splice;
@@ -17,7 +18,7 @@ pub struct EditError {
     /// The setting, as it was given.
     pub setting: String,
     /// Reason.
-    pub reason: String,
+    pub reason: EditProblem,
 }
 
 /// Writes settings into the text of a scene, in their order.

@@ -87,5 +87,5 @@ fn stations_and_models_of_finite_faults_are_tables() {
     assert_eq!((station.names, station.rows), (vec!["t".to_string(), "slip_rate".to_string()], 2));
     let model = table("% LAT LON\n  1.0   2.0\n\n% SEGMENT\n  3.0   4.0\n");
     assert_eq!(model.columns, [Column::Numbers(vec![1.0, 3.0]), Column::Numbers(vec![2.0, 4.0])]);
-    assert!(Table::read(b"t slip\n0 1\n2\n").unwrap_err().contains("line 3 has 1 entries"));
+    assert!(Table::read(b"t slip\n0 1\n2\n").unwrap_err().to_string().contains("line 3 has 1 entries"));
 }

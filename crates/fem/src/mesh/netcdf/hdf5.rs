@@ -1,11 +1,36 @@
 //! Files of netCDF-4, which are HDF5, by the library netcdf-reader.
 
-use netcdf_reader::{Error, NcAttrValue, NcFile, NcOpenOptions, NcType};
+use netcdf_reader::{NcAttrValue, NcFile, NcOpenOptions, NcType};
 
 /// Most values of a variable that are read, those of a plate of 80 by 80 degrees at 0.02 degrees: small files may announce any number.
 const MOST_VALUES: usize = 1 << 24;
 /// Size of a value \[bytes\].
 const VALUE: usize = 8;
+
+/// Problem of a file of version 4.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Hdf5Error {
+    /// A file that the library cannot read.
+    #[error("{reason}")]
+    Library {
+        /// Reason of the library in one line.
+        reason: String,
+    },
+    /// More values than are read.
+    #[error("variable `{variable}` has {count} values, and up to {MOST_VALUES} are read")]
+    Values {
+        /// The variable.
+        variable: String,
+        /// Number of its values.
+        count: usize,
+    },
+}
+
+impl From<netcdf_reader::Error> for Hdf5Error {
+    fn from(error: netcdf_reader::Error) -> Self {
+        Self::Library { reason: error.to_string().replace('\n', " ") }
+    }
+}
 
 /// Name, text and numbers of an attribute.
 pub(super) type Attribute = (String, String, Vec<f64>);
@@ -23,15 +48,10 @@ pub(super) struct Variable {
 /// Opens a file.
 ///
 /// # Errors
-/// Reason of the library.
-pub(super) fn open(bytes: &[u8]) -> Result<NcFile, String> {
+/// [`Hdf5Error::Library`].
+pub(super) fn open(bytes: &[u8]) -> Result<NcFile, Hdf5Error> {
     let options = NcOpenOptions { max_read_bytes: VALUE * MOST_VALUES, ..NcOpenOptions::default() };
-    NcFile::from_bytes_with_options(bytes, options).map_err(|e| reason(&e))
-}
-
-/// Reason of the library in one line.
-fn reason(error: &Error) -> String {
-    error.to_string().replace('\n', " ")
+    Ok(NcFile::from_bytes_with_options(bytes, options)?)
 }
 
 /// Dimensions by name with their sizes, and variables of a file.
@@ -40,13 +60,13 @@ type Parts = (Vec<(String, usize)>, Vec<Variable>);
 /// Names and lengths of the dimensions, and the variables, of the first group.
 ///
 /// # Errors
-/// Reason of the library.
-pub(super) fn parts(file: &NcFile) -> Result<Parts, String> {
-    let all = file.dimensions().map_err(|e| reason(&e))?;
+/// [`Hdf5Error::Library`].
+pub(super) fn parts(file: &NcFile) -> Result<Parts, Hdf5Error> {
+    let all = file.dimensions()?;
     let length = |size: u64| usize::try_from(size).unwrap_or(usize::MAX);
     let dimensions: Vec<(String, usize)> = all.iter().map(|d| (d.name.clone(), length(d.size))).collect();
     let mut variables = Vec::new();
-    for variable in file.variables().map_err(|e| reason(&e))? {
+    for variable in file.variables()? {
         let of = |name: &str| dimensions.iter().position(|own| own.0 == name);
         let own: Option<Vec<usize>> = variable.dimensions().iter().map(|d| of(&d.name)).collect();
         // A variable over dimensions that have no names is no grid.
@@ -65,13 +85,12 @@ fn attribute(name: &str, value: &NcAttrValue) -> Attribute {
 /// Values of a variable as the file has them, in the order in which the last dimension varies fastest.
 ///
 /// # Errors
-/// Reason of the library, also for more values than are read.
-pub(super) fn values(file: &NcFile, name: &str, count: usize) -> Result<Vec<f64>, String> {
+/// [`Hdf5Error`].
+pub(super) fn values(file: &NcFile, name: &str, count: usize) -> Result<Vec<f64>, Hdf5Error> {
     if count > MOST_VALUES {
-        return Err(format!("variable `{name}` has {count} values, and up to {MOST_VALUES} are read"));
+        return Err(Hdf5Error::Values { variable: name.into(), count });
     }
-    let values = file.read_variable_as_f64(name).map_err(|e| reason(&e))?;
-    Ok(values.iter().copied().collect())
+    Ok(file.read_variable_as_f64(name)?.iter().copied().collect())
 }
 
 #[cfg(test)]

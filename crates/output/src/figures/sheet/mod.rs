@@ -21,7 +21,7 @@ use super::panel::EventPanel;
 use super::paper::Paper;
 use super::profile::Tractions;
 use super::rupture::{self, EventOnFault, RupturedFault, Ruptures, Shape};
-use crate::{OutputError, atomic, json, numbers};
+use crate::{OutputError, PaintError, atomic, json, numbers};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -30,6 +30,20 @@ use tables::Tables;
 
 /// Version of what is kept.
 const VERSION: u32 = 1;
+
+/// Reason why a text is no sheet that this version reads.
+#[derive(Debug, thiserror::Error)]
+pub enum SheetError {
+    /// Text that is none.
+    #[error(transparent)]
+    Json(#[from] serde_json::Error),
+    /// Another version.
+    #[error("it has version {0}, and this program reads version {VERSION}")]
+    Version(u32),
+    /// Plots of parts that it lacks.
+    #[error("it refers to parts that it does not have")]
+    Incomplete,
+}
 
 /// Data that the figures of a run need beside its tables.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -210,18 +224,18 @@ impl Sheet {
     /// Reads a sheet.
     ///
     /// # Errors
-    /// The reason why the text is no sheet that this version reads.
-    pub fn parse(text: &str) -> Result<Self, String> {
+    /// [`SheetError`].
+    pub fn parse(text: &str) -> Result<Self, SheetError> {
         #[derive(Deserialize)]
         struct Head {
             version: u32,
         }
-        let head: Head = serde_json::from_str(text).map_err(|e| e.to_string())?;
+        let head: Head = serde_json::from_str(text)?;
         if head.version != VERSION {
-            return Err(format!("it has version {}, and this program reads version {VERSION}", head.version));
+            return Err(SheetError::Version(head.version));
         }
-        let sheet: Self = serde_json::from_str(text).map_err(|e| e.to_string())?;
-        if sheet.is_whole() { Ok(sheet) } else { Err("it refers to parts that it does not have".into()) }
+        let sheet: Self = serde_json::from_str(text)?;
+        if sheet.is_whole() { Ok(sheet) } else { Err(SheetError::Incomplete) }
     }
 
     /// True if all parts that plots refer to are there.
@@ -450,7 +464,7 @@ impl Sheet {
         let Ground { coordinates, axes, shown, edges, .. } = ground.clone();
         let expected = axes[0].1.len() * axes[1].1.len();
         if vertical.len() != expected {
-            let reason = format!("it has {} rows, and the map {expected} positions", vertical.len());
+            let reason = PaintError::Rows { found: vertical.len(), expected };
             return Err(OutputError::Draw { path: tables.folder.join(&ground.table), reason });
         }
         let title = self.event_title(&ground.event);
@@ -527,7 +541,7 @@ mod tests {
         sheet
     }
 
-    fn read(folder: &Path) -> Result<Sheet, String> {
+    fn read(folder: &Path) -> Result<Sheet, SheetError> {
         Sheet::parse(&std::fs::read_to_string(folder.join(Sheet::FILE)).unwrap())
     }
 
@@ -546,7 +560,7 @@ mod tests {
         let mut broken = sheet();
         broken.shapes.clear();
         broken.write(folder.path()).unwrap();
-        assert!(read(folder.path()).unwrap_err().contains("does not have"));
+        assert!(matches!(read(folder.path()), Err(SheetError::Incomplete)));
         let mut broken = sheet();
         if let Plot::Event(event) = &mut broken.plots[0] {
             event.slip.pop();

@@ -3,6 +3,7 @@
 use super::super::paper::Paper;
 use super::super::{pdf, png, svg};
 use super::event::EventOnset;
+use crate::error::PaintError;
 use crate::figures::figure::Figure;
 
 /// Format of a figure.
@@ -27,7 +28,7 @@ impl Format {
         }
     }
 
-    pub(in crate::figures) fn paint(self, figure: &Figure, dpi: f64) -> Result<Vec<u8>, String> {
+    pub(in crate::figures) fn paint(self, figure: &Figure, dpi: f64) -> Result<Vec<u8>, PaintError> {
         match self {
             Self::Svg => Ok(svg::paint(figure).into_bytes()),
             Self::Png => png::paint(figure, dpi / UNITS),

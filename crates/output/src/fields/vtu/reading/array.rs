@@ -1,7 +1,7 @@
 //! Numbers of a `DataArray`.
 
 use super::binary::{Source, Storage};
-use super::error::VtuError;
+use super::error::{ArrayError, VtuError};
 use super::xml::{Document, Element};
 use std::cell::Cell;
 
@@ -53,14 +53,14 @@ impl<'a> Arrays<'a> {
         if values.len() == count {
             return Ok(values);
         }
-        let why = format!("it has {} values, and {count} are needed", values.len());
+        let why = ArrayError::Count { found: values.len(), needed: count };
         Err(VtuError::Array { name, why })
     }
 
-    fn values(&self, element: &Element, count: usize) -> Result<Vec<f64>, String> {
+    fn values(&self, element: &Element, count: usize) -> Result<Vec<f64>, ArrayError> {
         let kind = element.attribute("type").unwrap_or_default();
-        let (size, number) = number(kind).ok_or_else(|| format!("its type `{kind}` is no number of VTK"))?;
-        let wanted = count.checked_mul(size).ok_or("it is too long")?;
+        let (size, number) = number(kind).ok_or_else(|| ArrayError::Type(kind.into()))?;
+        let wanted = count.checked_mul(size).ok_or(ArrayError::Long)?;
         let source = match element.attribute("format").unwrap_or("ascii") {
             "ascii" => return ascii(&element.text),
             "binary" => {
@@ -68,32 +68,30 @@ impl<'a> Arrays<'a> {
                     .unpacked(Source::Base64(&squeezed(&element.text), Vec::new()), (size, number, wanted));
             }
             "appended" => self.appended(element)?,
-            other => return Err(format!("its format `{other}` is not `ascii`, `binary` or `appended`")),
+            other => return Err(ArrayError::Format(other.into())),
         };
         self.unpacked(source, (size, number, wanted))
     }
 
-    fn appended(&self, element: &Element) -> Result<Source<'_>, String> {
+    fn appended(&self, element: &Element) -> Result<Source<'_>, ArrayError> {
         let offset = element.attribute("offset").unwrap_or_default();
         let rest = offset.trim().parse().ok().and_then(|at: usize| self.document.appended.get(at..));
-        let rest = rest.ok_or_else(|| format!("its offset `{offset}` lies beyond the appended data"))?;
+        let rest = rest.ok_or_else(|| ArrayError::Offset(offset.into()))?;
         Ok(if self.document.in_base64 { Source::Base64(rest, Vec::new()) } else { Source::Raw(rest) })
     }
 
     /// Refuses numbers that take far more memory than their packed form makes likely, before they take it.
-    fn admit(&self, count: usize, packed: usize) -> Result<(), String> {
+    fn admit(&self, count: usize, packed: usize) -> Result<(), ArrayError> {
         let needed = count.saturating_mul(size_of::<f64>());
         let beyond = needed.saturating_sub(packed.saturating_mul(RATIO));
         let Some(left) = self.spare.get().checked_sub(beyond) else {
-            return Err(format!(
-                "it announces {count} values in {packed} bytes, more than {RATIO} to one, as damaged files do"
-            ));
+            return Err(ArrayError::Announced { count, packed, ratio: RATIO });
         };
         self.spare.set(left);
         Ok(())
     }
 
-    fn unpacked(&self, source: Source<'_>, (size, number, wanted): Layout) -> Result<Vec<f64>, String> {
+    fn unpacked(&self, source: Source<'_>, (size, number, wanted): Layout) -> Result<Vec<f64>, ArrayError> {
         let bytes = self.storage.bytes(source, wanted, |packed| self.admit(wanted / size, packed))?;
         let little = |chunk: &[u8]| {
             let mut padded = [0; 8];
@@ -130,8 +128,8 @@ fn number(kind: &str) -> Option<(usize, Number)> {
     })
 }
 
-fn ascii(text: &str) -> Result<Vec<f64>, String> {
-    let number = |word: &str| word.parse::<f64>().map_err(|_| format!("`{word}` is not a number"));
+fn ascii(text: &str) -> Result<Vec<f64>, ArrayError> {
+    let number = |word: &str| word.parse::<f64>().map_err(|_| ArrayError::Word(word.into()));
     text.split_ascii_whitespace().map(number).collect()
 }
 

@@ -10,7 +10,7 @@ mod grid;
 mod pieces;
 mod xml;
 
-pub use error::VtuError;
+pub use error::{ArrayError, VtuError};
 pub use grid::{Cell, Grid, NamedArray};
 
 /// Grid of a file, with the arrays of this name alone.

@@ -1,7 +1,7 @@
 //! Pieces of an unstructured grid, joined.
 
 use super::array::Arrays;
-use super::error::VtuError;
+use super::error::{ArrayError, VtuError};
 use super::grid::{Cell, Grid, NamedArray};
 use super::xml::{Document, Element};
 
@@ -85,10 +85,7 @@ fn join(all: &mut Vec<NamedArray>, own: Option<NamedArray>) -> Result<(), VtuErr
     match (all.first_mut(), own) {
         (Some(before), Some(own)) if before.components != own.components => Err(VtuError::Array {
             name: own.name,
-            why: format!(
-                "it has {} components in one piece and {} in another",
-                before.components, own.components
-            ),
+            why: ArrayError::Components { first: before.components, other: own.components },
         }),
         (Some(before), Some(own)) => {
             before.values.extend(own.values);
@@ -107,8 +104,7 @@ fn complete(whole: &Grid) -> Result<(), VtuError> {
     let rows = [(&whole.at_points, whole.points.len()), (&whole.in_cells, whole.cells.len())];
     for (arrays, count) in rows {
         if let Some(array) = arrays.iter().find(|a| Some(a.values.len()) != count.checked_mul(a.components)) {
-            let why = "some of the pieces of the file lack it".into();
-            return Err(VtuError::Array { name: array.name.clone(), why });
+            return Err(VtuError::Array { name: array.name.clone(), why: ArrayError::Lacking });
         }
     }
     Ok(())
@@ -120,10 +116,7 @@ fn points_of(arrays: &Arrays<'_>, piece: &Element, count: usize) -> Result<Vec<[
     let values = arrays.numbers(array, product(count, 3)?)?;
     let points: Vec<[f64; 3]> = values.as_chunks::<3>().0.to_vec();
     match points.iter().position(|x| x.iter().any(|c| !c.is_finite())) {
-        Some(k) => {
-            let why = format!("point {k} has a coordinate that is not finite");
-            Err(VtuError::Array { name: "Points".into(), why })
-        }
+        Some(k) => Err(VtuError::Array { name: "Points".into(), why: ArrayError::Coordinate(k) }),
         None => Ok(points),
     }
 }
@@ -145,26 +138,24 @@ fn cells_of(
     let offsets = arrays.numbers(array("offsets")?, count)?;
     let kinds = arrays.numbers(array("types")?, count)?;
     let length = offsets.last().copied().unwrap_or_default();
-    let wrong = |name: &str, why: String| VtuError::Array { name: name.into(), why };
+    let wrong = |name: &str, why| VtuError::Array { name: name.into(), why };
     let mut ends = Vec::with_capacity(offsets.len());
     for &end in &offsets {
         let before = ends.last().copied().unwrap_or(0);
         let whole = (end >= before as f64 && end.fract() == 0.0 && end <= length).then_some(end as usize);
-        ends.push(
-            whole.ok_or_else(|| wrong("offsets", format!("{end} after {before} is no end of a cell")))?,
-        );
+        ends.push(whole.ok_or_else(|| wrong("offsets", ArrayError::CellEnd { end, before }))?);
     }
     let nodes = arrays.numbers(array("connectivity")?, ends.last().copied().unwrap_or(0))?;
     let number = |&n: &f64| {
         let whole = (n >= 0.0 && n.fract() == 0.0 && n < points as f64).then_some(n as usize);
-        whole.ok_or_else(|| wrong("connectivity", format!("{n} is not one of {points} points")))
+        whole.ok_or_else(|| wrong("connectivity", ArrayError::Point { number: n, points }))
     };
     let nodes: Vec<usize> = nodes.iter().map(number).collect::<Result<_, _>>()?;
     let mut from = 0;
     let mut all = Vec::with_capacity(ends.len());
     for (end, kind) in ends.into_iter().zip(kinds) {
         let kind = (kind.fract() == 0.0 && (0.0..=255.0).contains(&kind)).then_some(kind as u8);
-        let kind = kind.ok_or_else(|| wrong("types", "it has a number that is no type of cell".into()))?;
+        let kind = kind.ok_or_else(|| wrong("types", ArrayError::CellType))?;
         all.push(Cell { kind, points: nodes[from..end].to_vec() });
         from = end;
     }

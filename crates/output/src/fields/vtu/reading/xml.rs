@@ -72,9 +72,9 @@ fn tree(bytes: &[u8], cut: bool) -> Result<Element, VtuError> {
                 let name = start.name().as_ref().to_string();
                 return Err(damaged(format!("`{name}` lies within {DEEPEST} others")));
             }
-            Event::Start(start) => open.push(element(&start).map_err(damaged)?),
+            Event::Start(start) => open.push(element(&start, byte)?),
             Event::Empty(start) => {
-                let inner = element(&start).map_err(damaged)?;
+                let inner = element(&start, byte)?;
                 if let Some(outer) = open.last_mut() {
                     outer.inner.push(inner);
                 }
@@ -112,11 +112,12 @@ fn close(open: &mut Vec<Element>) {
     }
 }
 
-fn element(start: &BytesStart<'_>) -> Result<Element, String> {
+/// Element that begins at a byte.
+fn element(start: &BytesStart<'_>, byte: usize) -> Result<Element, VtuError> {
     let mut attributes = Vec::new();
     for attribute in start.attributes() {
-        let attribute = attribute.map_err(|e| e.to_string())?;
-        let value = unescape(&attribute.value).map_err(|e| e.to_string())?;
+        let attribute = attribute.map_err(|e| VtuError::Xml { byte, why: e.to_string() })?;
+        let value = unescape(&attribute.value).map_err(|e| VtuError::Xml { byte, why: e.to_string() })?;
         attributes.push((attribute.key.as_ref().to_string(), value.into_owned()));
     }
     Ok(Element { name: start.name().as_ref().to_string(), attributes, ..Element::default() })
