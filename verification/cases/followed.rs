@@ -2,7 +2,7 @@
 
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity::kinds::faults::Report;
-use asperity_cycles::{Balance, FaultRun, Faults, Moment, Rupture, Settings, resume};
+use asperity_cycles::{Balance, FaultRun, Faults, Moment, Rupture, Settings};
 use asperity_ode::{Control, Outcome};
 use asperity_plan::faults::Plan;
 use asperity_run::{Event, ObserveError, Observer};
@@ -61,8 +61,7 @@ impl CycleRun {
 
     fn from(plan: &Plan, settings: Settings, start: FaultRun) -> Result<Self, CaseError> {
         let mut look = Look { balance: Balance::new(&plan.problem), wait: 3, kept: None };
-        let (run, cost) =
-            Cost::measure(|| resume(&plan.problem.fault, &plan.problem.loading, start, &settings, &mut look));
+        let (run, cost) = Cost::measure(|| plan.problem.resume(start, &settings, None, &mut look));
         let run = run?;
         if run.outcome != Outcome::Stopped {
             return Err(format!("the run did not end with its events: {:?}", run.outcome).into());

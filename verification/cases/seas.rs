@@ -142,10 +142,7 @@ pub fn found_with_mass(
     let all = 0..plan.points.len();
     let start = FaultRun::new(problem.start.clone(), std::slice::from_ref(&all), settings.thresholds);
     let mut dynamics = ruptures.dynamics(&problem.areas);
-    let faults = (&problem.fault, &problem.loading);
-    let (out, cost) = Cost::measure(|| {
-        asperity_cycles::resume_with(faults, start, settings, Some(&mut dynamics), &mut watch)
-    });
+    let (out, cost) = Cost::measure(|| problem.resume(start, settings, Some(&mut dynamics), &mut watch));
     let out = out?;
     let episodes = out.progress.episodes.clone();
     let cost = cost.count("steps with mass", episodes.iter().map(|e| e.steps).sum::<usize>() as f64);

@@ -187,7 +187,7 @@ fn followed(plan: &Plan, out: &Path) -> Result<(FaultRun, Report), CaseError> {
     let mut both = Both(Files::create(out, plan)?, Balance::new(problem));
     // As the command does, keeps a catalogue of all faults and one for each.
     let start = plan.begin();
-    let run = asperity_cycles::resume(&problem.fault, &problem.loading, start, &problem.settings, &mut both)?;
+    let run = problem.resume(start, &problem.settings, None, &mut both)?;
     if let Outcome::Failed { reason } = &run.outcome {
         return Err(reason.to_string().into());
     }

@@ -16,7 +16,7 @@ pub use accounts::{
 };
 pub use course::{
     Dynamics, Episode, FaultRun, Faults, Handover, NextStep, Outrun, RESTART, Run, Shaken, Start, Waves,
-    WavesError, resume, resume_with, run,
+    WavesError, run,
 };
 pub use equations::Equations;
 pub use problem::{

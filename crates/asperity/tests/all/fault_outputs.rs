@@ -4,7 +4,7 @@
 use crate::common::cycles::SCENE;
 use crate::common::varied;
 use asperity::kinds::faults::{Files, Position, Report, sheet};
-use asperity_cycles::{FaultRun, Faults, Moment, Rupture, resume};
+use asperity_cycles::{FaultRun, Faults, Moment, Rupture};
 use asperity_ode::Control;
 use asperity_output::figures::{EventPanel, FigureRequest};
 use asperity_plan::faults::Plan;
@@ -52,7 +52,7 @@ fn run<'a>(plan: &'a Plan, out: &Path) -> (RateWatch<'a>, FaultRun) {
     let files = Files::create(out, plan).unwrap();
     let mut seen = RateWatch { files, stations, largest, steps: 0, sizes: Vec::new() };
     let (problem, begin) = (&plan.problem, plan.begin());
-    let run = resume(&problem.fault, &problem.loading, begin, &problem.settings, &mut seen).unwrap();
+    let run = problem.resume(begin, &problem.settings, None, &mut seen).unwrap();
     (seen, run)
 }
 

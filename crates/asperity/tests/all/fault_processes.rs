@@ -1,7 +1,7 @@
 //! Processes of faults in pairs: each runs with each other and resumes, unless a table says why both cannot be together.
 
 use crate::common::varied;
-use asperity_cycles::{Balance, FaultRun, Faults, Moment, Sums, resume};
+use asperity_cycles::{Balance, FaultRun, Faults, Moment, Sums};
 use asperity_ode::{Control, Outcome};
 use asperity_plan::faults::Plan;
 use asperity_plan::reading::scene;
@@ -69,7 +69,7 @@ fn run(plan: &Plan, from: Option<(FaultRun, Sums)>) -> (FaultRun, Sums, f64, Opt
         None => (plan.begin(), Balance::new(problem)),
     };
     let mut kept = EnergyWatch { balance, first: None };
-    let run = resume(&problem.fault, &problem.loading, begin, &problem.settings, &mut kept).unwrap();
+    let run = problem.resume(begin, &problem.settings, None, &mut kept).unwrap();
     let slip = &run.unknowns[asperity_cycles::Layout::from_fault(&problem.fault).slip()];
     let pressed = problem.fault.pressed(run.at, &run.unknowns);
     let imbalance = kept.balance.energy(slip, &pressed).imbalance();

@@ -59,6 +59,10 @@ impl Rupture {
 /// Values of all points at an instant.
 #[derive(Clone, Copy, Debug)]
 pub struct Values<'a> {
+    /// Time.
+    pub at: Clock,
+    /// The fastest point.
+    pub fastest: usize,
     /// Slip \[m\].
     pub slip: Components<&'a [f64]>,
     /// Shear traction \[Pa\].
@@ -130,14 +134,15 @@ impl Detector {
         }
     }
 
-    /// Records a crossing at `at` in the events of this source; `fastest` is the fastest point at that time.
+    /// Records a crossing in the events of this source, with the values there.
     pub fn pass(
         &mut self,
-        (catalogue, source): (&mut Catalogue<Rupture>, usize),
+        catalogue: &mut Catalogue<Rupture>,
+        source: usize,
         crossing: Crossing,
-        (at, fastest): (Clock, usize),
         values: Values<'_>,
     ) {
+        let Values { at, fastest, .. } = values;
         match (crossing, catalogue.open(source), &mut self.under_way) {
             (Crossing::Begins, _, under_way) => {
                 let details = Rupture { hypocentre: fastest, ..Rupture::default() };
@@ -157,7 +162,7 @@ impl Detector {
             (Crossing::Rises, Some(_), Some(onset)) => onset.since = Some(at),
             (Crossing::Ends, Some(event), under_way @ Some(_)) => {
                 if let Some(onset) = under_way.take() {
-                    end(event, at, &onset, values);
+                    end(event, &onset, values);
                 }
             }
             (_, None, _) | (_, _, None) => {}
@@ -165,9 +170,9 @@ impl Detector {
     }
 }
 
-fn end(event: &mut Event<Rupture>, at: Clock, onset: &Onset, values: Values<'_>) {
+fn end(event: &mut Event<Rupture>, onset: &Onset, values: Values<'_>) {
     let change = |new: &[f64], old: &[f64]| new.iter().zip(old).map(|(b, a)| b - a).collect();
-    event.end = Some(at);
+    event.end = Some(values.at);
     event.details.slip = Components::new(change(values.slip.all(), &onset.slip), values.slip.points());
     event.details.drop = Components::new(change(&onset.shear, values.shear.all()), values.shear.points());
     event.details.changes = changing(values.fields)
@@ -210,11 +215,13 @@ mod tests {
             while let Some(crossing) = detector.crossing(*largest) {
                 found.push(crossing);
                 let values = Values {
+                    at: Clock::new(0.0, *time),
+                    fastest: 0,
                     slip: Components::new(std::slice::from_ref(time), 1),
                     shear: Components::new(&[0.0], 1),
                     fields: &[],
                 };
-                detector.pass((&mut catalogue, 0), crossing, (Clock::new(0.0, *time), 0), values);
+                detector.pass(&mut catalogue, 0, crossing, values);
             }
             if let Some(event) = catalogue.open(0) {
                 event.peak = event.peak.max(*largest);

@@ -8,7 +8,7 @@
 
 use super::episode::{LoadedFault, episode};
 use super::fault_run::{FaultRun, Faults, Outrun};
-use super::follow::{End, Follow};
+use super::follow::{End, Events, Follow, State};
 use super::run::NextStep;
 use super::waves::Dynamics;
 use crate::equations::Equations;
@@ -35,29 +35,12 @@ pub fn run(
 ) -> Result<FaultRun, RunError> {
     let points = 0..fault.law.points();
     let run = FaultRun::new(unknowns, std::slice::from_ref(&points), settings.thresholds);
-    resume(fault, loading, run, settings, observer)
+    resume(fault, loading, run, settings, None, observer)
 }
 
-/// Resumes a run, see [`Observer::pause`]. A run that had ended is returned unchanged.
-///
-/// # Errors
-/// If the observer fails.
-pub fn resume(
+fn resume(
     fault: &Fault,
     loading: &Loading,
-    run: FaultRun,
-    settings: &Settings,
-    observer: &mut dyn Observer<Faults>,
-) -> Result<FaultRun, RunError> {
-    resume_with((fault, loading), run, settings, None, observer)
-}
-
-/// Resumes a run in which bodies with mass compute the ruptures, if `dynamics` are given.
-///
-/// # Errors
-/// If the observer fails.
-pub fn resume_with(
-    (fault, loading): (&Fault, &Loading),
     mut run: FaultRun,
     settings: &Settings,
     mut dynamics: Option<&mut Dynamics<'_>>,
@@ -77,7 +60,8 @@ pub fn resume_with(
         let (shear, normal) = loading.rates(within, fault.law.points(), fault.operator.couples_normal());
         let mut equations = Equations::new(fault, shear, normal).until(end);
         equations.remember(&std::mem::take(&mut run.progress.processes));
-        leg((&equations, (fault, loading)), end, settings, dynamics.as_deref_mut(), observer, &mut run)?;
+        let leg = Leg { equations: &equations, loading, end, settings };
+        leg.integrate(dynamics.as_deref_mut(), observer, &mut run)?;
     }
     Ok(run)
 }
@@ -102,6 +86,21 @@ impl Problem {
     ) -> Result<FaultRun, RunError> {
         run(&self.fault, &self.loading, self.start.clone(), settings, observer)
     }
+
+    /// Resumes a run, see [`Observer::pause`], in which bodies with mass compute the ruptures if `dynamics` are given. A run that
+    /// had ended is returned unchanged.
+    ///
+    /// # Errors
+    /// If the observer fails.
+    pub fn resume(
+        &self,
+        run: FaultRun,
+        settings: &Settings,
+        dynamics: Option<&mut Dynamics<'_>>,
+        observer: &mut dyn Observer<Faults>,
+    ) -> Result<FaultRun, RunError> {
+        resume(&self.fault, &self.loading, run, settings, dynamics, observer)
+    }
 }
 
 /// True if the requested number of events has ended.
@@ -120,57 +119,139 @@ fn breaks(fault: &Fault, loading: &Loading, end: f64) -> Vec<f64> {
     times
 }
 
-/// Integrates between two changes of the loading, from restart to restart.
-fn leg(
-    (equations, (fault, loading)): (&Equations<'_>, (&Fault, &Loading)),
+/// A part of a run between two changes of its loading.
+struct Leg<'a, 'f> {
+    equations: &'a Equations<'f>,
+    loading: &'a Loading,
+    /// Its end \[s\].
     end: f64,
-    settings: &Settings,
-    mut dynamics: Option<&mut Dynamics<'_>>,
-    observer: &mut dyn Observer<Faults>,
-    run: &mut FaultRun,
-) -> Result<(), ObserveError> {
-    let mut options = Options {
-        method: settings.method,
-        rtol: ROUNDING,
-        atol: equations.tolerances(settings.tolerance),
-        first_step: None,
-        begin_stiff: false,
-        largest_step: None,
-        most_steps: settings.most_steps,
-    };
-    let above = dynamics.as_ref().map(|d| d.handover.above);
-    loop {
-        let taken = usize::try_from(run.counts.steps).unwrap_or(usize::MAX);
-        options.first_step = run.next_step.and_then(|next| next.length);
-        options.most_steps = settings.most_steps.saturating_sub(taken);
-        match piece(equations, fault, end, (settings, &options, above), observer, run)? {
-            Next::End => return Ok(()),
-            Next::Restart => run.outcome = Outcome::Completed,
-            Next::Rupture => {
-                run.outcome = Outcome::Completed;
-                // A run that is interrupted within the rupture resumes here.
-                if observer.pause(&mut || run.clone())?.is_some() {
-                    run.outcome = Outcome::Stopped;
-                    return Ok(());
-                }
-                if let Some(dynamics) = dynamics.as_deref_mut() {
-                    let areas = dynamics.areas;
-                    let Settings { end, rupture_rate, fastest, .. } = *settings;
-                    let around = LoadedFault { equations, fault, loading, areas, end, rupture_rate, fastest };
-                    episode(around, dynamics, observer, run)?;
-                }
-                if run.outcome == Outcome::Completed && enough(run, settings) {
-                    run.outcome = Outcome::Stopped;
-                }
-                if run.outcome != Outcome::Completed || Clock::new(end, 0.0).since(&run.at) <= 0.0 {
-                    return Ok(());
+    settings: &'a Settings,
+}
+
+impl Leg<'_, '_> {
+    /// Integrates from restart to restart.
+    fn integrate(
+        &self,
+        mut dynamics: Option<&mut Dynamics<'_>>,
+        observer: &mut dyn Observer<Faults>,
+        run: &mut FaultRun,
+    ) -> Result<(), ObserveError> {
+        let mut options = Options {
+            method: self.settings.method,
+            rtol: ROUNDING,
+            atol: self.equations.tolerances(self.settings.tolerance),
+            first_step: None,
+            begin_stiff: false,
+            largest_step: None,
+            most_steps: self.settings.most_steps,
+        };
+        let above = dynamics.as_ref().map(|d| d.handover.above);
+        loop {
+            let taken = usize::try_from(run.counts.steps).unwrap_or(usize::MAX);
+            options.first_step = run.next_step.and_then(|next| next.length);
+            options.most_steps = self.settings.most_steps.saturating_sub(taken);
+            match self.piece(options.clone(), above, observer, run)? {
+                Next::End => return Ok(()),
+                Next::Restart => run.outcome = Outcome::Completed,
+                Next::Rupture => {
+                    run.outcome = Outcome::Completed;
+                    // A run that is interrupted within the rupture resumes here.
+                    if observer.pause(&mut || run.clone())?.is_some() {
+                        run.outcome = Outcome::Stopped;
+                        return Ok(());
+                    }
+                    if let Some(dynamics) = dynamics.as_deref_mut() {
+                        let (equations, loading, areas) = (self.equations, self.loading, dynamics.areas);
+                        let Settings { end, rupture_rate, fastest, .. } = *self.settings;
+                        let around = LoadedFault { equations, loading, areas, end, rupture_rate, fastest };
+                        episode(around, dynamics, observer, run)?;
+                    }
+                    if run.outcome == Outcome::Completed && enough(run, self.settings) {
+                        run.outcome = Outcome::Stopped;
+                    }
+                    if run.outcome != Outcome::Completed || Clock::new(self.end, 0.0).since(&run.at) <= 0.0 {
+                        return Ok(());
+                    }
                 }
             }
+            if observer.pause(&mut || run.clone())?.is_some() {
+                run.outcome = Outcome::Stopped;
+                return Ok(());
+            }
         }
-        if observer.pause(&mut || run.clone())?.is_some() {
+    }
+
+    /// Integrates until the next restart, the next rupture with a slip rate of `above`, or the end.
+    fn piece(
+        &self,
+        mut options: Options,
+        above: Option<f64>,
+        observer: &mut dyn Observer<Faults>,
+        run: &mut FaultRun,
+    ) -> Result<Next, ObserveError> {
+        let Settings { rupture_rate, fastest, .. } = *self.settings;
+        let first = run.counts.steps == 0 && run.progress.episodes.is_empty();
+        let events =
+            Events { catalogue: &mut run.catalogue, detectors: &mut run.progress.detectors, rupture_rate };
+        let state = State { at: run.at, unknowns: &run.unknowns };
+        let follow = Follow::new(self.equations, observer, state, events);
+        let mut pieces =
+            Pieces { follow, above, fastest, steps: 0, next_step: None, next: Next::End, outrun: None };
+        if first && pieces.follow.begin(run.at, &run.unknowns) == Control::Stop {
             run.outcome = Outcome::Stopped;
-            return Ok(());
+            return pieces.follow.failure.map_or(Ok(Next::End), Err);
         }
+        if pieces.ruptures() {
+            return Ok(Next::Rupture);
+        }
+        self.first_instants(&mut run.at, &mut run.unknowns, &mut options);
+        let duration = Clock::new(self.end, 0.0).since(&run.at);
+        let Solution { outcome, at, state, counts } =
+            asperity_ode::integrate(self.equations, run.at, &run.unknowns, duration, &options, &mut pieces);
+        let Pieces { follow, next_step, next, outrun, .. } = pieces;
+        if let Some(failure) = follow.failure {
+            return Err(failure);
+        }
+        run.next_step = next_step;
+        (run.outcome, run.at, run.unknowns) = (outcome, at, state);
+        run.counts += counts;
+        run.progress.processes = self.equations.save();
+        if let Some((at, unknowns, outrun)) = outrun {
+            (run.outcome, run.at, run.unknowns) = (Outcome::Failed { reason: Failure::Ends }, at, unknowns);
+            run.progress.outrun = Some(outrun);
+            return Ok(Next::End);
+        }
+        Ok(self.next(run, next))
+    }
+
+    /// Advances over the first instants after a break, if a process is sudden there.
+    fn first_instants(&self, at: &mut Clock, unknowns: &mut [f64], options: &mut Options) {
+        let duration = Clock::new(self.end, 0.0).since(at);
+        if let Some(time) = self.equations.first_instants(*at, unknowns, &options.atol, duration) {
+            *at = at.later(time).rebased();
+            // Rates vary with the square root of the time since the break, so that they are smooth only over times
+            // comparable to it.
+            options.first_step = Some(time);
+        }
+    }
+
+    /// Continuation after the outcome of an integration that a sink with this one may have ended.
+    fn next(&self, run: &mut FaultRun, next: Next) -> Next {
+        let over = enough(run, self.settings);
+        match &mut run.outcome {
+            // Exactly the end, so that no remainder needs another step.
+            Outcome::Completed => (run.at, run.next_step) = (Clock::new(self.end, 0.0), None),
+            Outcome::Failed { reason } => {
+                if let Failure::TooManySteps { most } = reason {
+                    *most = self.settings.most_steps;
+                }
+                let opens = self.equations.refused().or_else(|| nearly_open(self.equations, run));
+                run.progress.opens = opens;
+            }
+            Outcome::Stopped if !over => return next,
+            Outcome::Stopped => {}
+        }
+        Next::End
     }
 }
 
@@ -185,80 +266,13 @@ enum Next {
     Rupture,
 }
 
-/// Integrates until the next restart, the next rupture with a slip rate of `above`, or the end.
-fn piece(
-    equations: &Equations<'_>,
-    fault: &Fault,
-    end: f64,
-    (settings, options, above): (&Settings, &Options, Option<f64>),
-    observer: &mut dyn Observer<Faults>,
-    run: &mut FaultRun,
-) -> Result<Next, ObserveError> {
-    let first = run.counts.steps == 0 && run.progress.episodes.is_empty();
-    let (catalogue, detectors) = (&mut run.catalogue, &mut run.progress.detectors);
-    let follow = Follow::new(
-        (equations, fault),
-        observer,
-        (run.at, &run.unknowns),
-        (catalogue, detectors),
-        settings.rupture_rate,
-    );
-    let fastest = settings.fastest;
-    let mut pieces =
-        Pieces { follow, above, fastest, steps: 0, next_step: None, next: Next::End, outrun: None };
-    if first && pieces.follow.begin(run.at, &run.unknowns) == Control::Stop {
-        run.outcome = Outcome::Stopped;
-        return pieces.follow.failure.map_or(Ok(Next::End), Err);
-    }
-    if pieces.ruptures() {
-        return Ok(Next::Rupture);
-    }
-    let duration = Clock::new(end, 0.0).since(&run.at);
-    let mut options = options.clone();
-    if let Some(time) = equations.first_instants(run.at, &mut run.unknowns, &options.atol, duration) {
-        run.at = run.at.later(time).rebased();
-        // Rates vary with the square root of the time since the break, so that they are smooth only over times
-        // comparable to it.
-        options.first_step = Some(time);
-    }
-    let duration = Clock::new(end, 0.0).since(&run.at);
-    let Solution { outcome, at, state, counts } =
-        asperity_ode::integrate(equations, run.at, &run.unknowns, duration, &options, &mut pieces);
-    let Pieces { follow, next_step, next, outrun, .. } = pieces;
-    if let Some(failure) = follow.failure {
-        return Err(failure);
-    }
-    run.next_step = next_step;
-    (run.outcome, run.at, run.unknowns) = (outcome, at, state);
-    run.counts += counts;
-    run.progress.processes = equations.save();
-    if let Some((at, unknowns, outrun)) = outrun {
-        (run.outcome, run.at, run.unknowns) = (Outcome::Failed { reason: Failure::Ends }, at, unknowns);
-        run.progress.outrun = Some(outrun);
-        return Ok(Next::End);
-    }
-    let over = enough(run, settings);
-    match &mut run.outcome {
-        // Exactly the end, so that no remainder needs another step.
-        Outcome::Completed => (run.at, run.next_step) = (Clock::new(end, 0.0), None),
-        Outcome::Failed { reason } => {
-            if let Failure::TooManySteps { most } = reason {
-                *most = settings.most_steps;
-            }
-            run.progress.opens = equations.refused().or_else(|| nearly_open(equations, fault, run));
-        }
-        Outcome::Stopped if !over => return Ok(next),
-        Outcome::Stopped => {}
-    }
-    Ok(Next::End)
-}
-
 /// Share of the initial f_n below which a point is about to open. The rate of friction grows as 1/f_n there, and steps
 /// become vanishingly short before f_n reaches zero.
 const NEARLY_OPEN: f64 = 1e-3;
 
 /// The point that is about to open, if any.
-fn nearly_open(equations: &Equations<'_>, fault: &Fault, run: &FaultRun) -> Option<usize> {
+fn nearly_open(equations: &Equations<'_>, run: &FaultRun) -> Option<usize> {
+    let fault = equations.fault();
     let pressed = equations.pressed(run.at, &run.unknowns);
     let share = |p: usize| pressed.normal[p] / fault.normal[p];
     let opens = |p: &usize| fault.processes.least(*p).is_infinite();

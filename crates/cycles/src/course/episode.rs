@@ -9,7 +9,7 @@
 //! error, and is recorded.
 
 use super::fault_run::{FaultRun, Faults, Outrun};
-use super::follow::{Course, End, Follow};
+use super::follow::{Course, End, Events, Follow, State};
 use super::settle::settled;
 use super::waves::{Dynamics, Episode, Handover, Shaken, Start};
 use crate::equations::Equations;
@@ -21,7 +21,6 @@ use asperity_run::{ObserveError, Observer};
 #[derive(Clone, Copy)]
 pub(crate) struct LoadedFault<'a, 'f> {
     pub equations: &'a Equations<'f>,
-    pub fault: &'a Fault,
     pub loading: &'a Loading,
     /// Tributary areas of the points \[m²; m per metre of thickness\].
     pub areas: &'a [f64],
@@ -45,14 +44,13 @@ pub(crate) fn episode(
     run: &mut FaultRun,
 ) -> Result<(), ObserveError> {
     let before = RuptureStart::from_run(around, run);
-    let (catalogue, detectors) = (&mut run.catalogue, &mut run.progress.detectors);
-    let follow = Follow::new(
-        (around.equations, around.fault),
-        observer,
-        (run.at, &run.unknowns),
-        (catalogue, detectors),
-        around.rupture_rate,
-    );
+    let events = Events {
+        catalogue: &mut run.catalogue,
+        detectors: &mut run.progress.detectors,
+        rupture_rate: around.rupture_rate,
+    };
+    let state = State { at: run.at, unknowns: &run.unknowns };
+    let follow = Follow::new(around.equations, observer, state, events);
     let mut watch = Watch::new(&before, follow, dynamics.handover, around);
     let done = dynamics.waves.rupture(&before.start, &mut |shaken| watch.see(shaken));
     let Watch { follow, last, mut record, halted, outrun, .. } = watch;
@@ -88,7 +86,7 @@ struct RuptureStart {
 
 impl RuptureStart {
     fn from_run(around: LoadedFault<'_, '_>, run: &FaultRun) -> Self {
-        let LoadedFault { equations, fault, .. } = around;
+        let (equations, fault) = (around.equations, around.equations.fault());
         let (layout, unknowns) = (equations.layout(), run.unknowns.clone());
         let n = layout.points();
         let pressed = equations.pressed(run.at, &unknowns);
@@ -125,14 +123,14 @@ impl RuptureStart {
     /// Energy that slip since the start has stored in the bodies, beside the work of the tractions at the start \[J\].
     fn stored(&self, around: LoadedFault<'_, '_>, slip: &[f64]) -> f64 {
         let mut traction = vec![0.0; slip.len()];
-        around.fault.operator.shear(slip, &mut traction);
+        around.equations.fault().operator.shear(slip, &mut traction);
         let of = |((s, t), area): ((&f64, &f64), &f64)| -0.5 * area * s * t;
         slip.iter().zip(&traction).zip(around.areas.iter().cycle()).map(of).sum()
     }
 
     /// Writes the unknowns after the rupture, in equilibrium with its slip, and the errors.
     fn back(&self, around: LoadedFault<'_, '_>, last: &Last, record: &mut Episode, unknowns: &mut [f64]) {
-        let LoadedFault { fault, loading, .. } = around;
+        let (fault, loading) = (around.equations.fault(), around.loading);
         let (l, n) = (self.layout, self.layout.points());
         let slip: Vec<f64> =
             last.unknowns[l.slip()].iter().zip(&self.unknowns[l.slip()]).map(|(b, a)| b - a).collect();
@@ -244,7 +242,7 @@ impl<'a, 'f> Watch<'a, 'f> {
         let start = &before.start;
         let n = before.layout.points();
         let speed = Components::new(start.rate.as_slice(), n);
-        let radiated = |p: usize| around.fault.damping[p] * speed.size(p) / before.scale[p];
+        let radiated = |p: usize| around.equations.fault().damping[p] * speed.size(p) / before.scale[p];
         let record = Episode {
             begin: before.at.seconds(),
             rate: follow.largest,
@@ -267,7 +265,7 @@ impl<'a, 'f> Watch<'a, 'f> {
         if self.outrun.is_some() {
             return Control::Stop;
         }
-        let unknowns = self.before.unknowns(self.around.fault, &shaken);
+        let unknowns = self.before.unknowns(self.around.equations.fault(), &shaken);
         let over = self.over(&shaken);
         let control = self.pass(shaken, unknowns, over);
         if control == Control::Stop {
@@ -308,11 +306,8 @@ impl<'a, 'f> Watch<'a, 'f> {
             unknowns: [old, &unknowns],
             rate: [rate, shaken.rate],
         };
-        let mut rates: Vec<f64> = unknowns.iter().zip(old).map(|(b, a)| (b - a) / dt).collect();
-        let slip = before.layout.slip();
-        let mut start_rates = rates.clone();
-        start_rates[slip.clone()].copy_from_slice(rate);
-        rates[slip].copy_from_slice(shaken.rate);
+        let mean: Vec<f64> = unknowns.iter().zip(old).map(|(b, a)| (b - a) / dt).collect();
+        let rates = [rate, shaken.rate].map(|rate| with_slip(&mean, before.layout, rate));
         let (energy, record) = (shaken.energy, &mut self.record);
         let mut waves = |ended: bool| {
             if !(ended || over) {
@@ -323,13 +318,25 @@ impl<'a, 'f> Watch<'a, 'f> {
             record.radiated = total;
             more
         };
-        let end = End { at, unknowns: &unknowns, rate: shaken.rate, rates: Some([&start_rates, &rates]) };
+        let end = End {
+            at,
+            unknowns: &unknowns,
+            rate: shaken.rate,
+            rates: Some(rates.each_ref().map(Vec::as_slice)),
+        };
         let control = self.follow.pass(&stride, end, Some(&mut waves));
         self.record.steps += 1;
         let (time, rate, shear) = (shaken.time, shaken.rate.to_vec(), shaken.shear.to_vec());
         self.last = Last { time, unknowns, rate, shear };
         control
     }
+}
+
+/// Rates of unknowns with these slip rates.
+fn with_slip(rates: &[f64], layout: Layout, slip: &[f64]) -> Vec<f64> {
+    let mut rates = rates.to_vec();
+    rates[layout.slip()].copy_from_slice(slip);
+    rates
 }
 
 fn add(sum: &mut [f64], part: &[f64]) {

@@ -3,7 +3,7 @@
 use super::fault_run::{Faults, Outrun};
 use crate::accounts::{Detector, Ends, Moment, Rupture, Stride, Values};
 use crate::equations::Equations;
-use crate::problem::{Components, Fault, Field, PointTractions};
+use crate::problem::{Components, Field, PointTractions};
 use asperity_ode::{Clock, Control, Step};
 use asperity_run::{ALL, Catalogue, ObserveError, Observer};
 use std::ops::Range;
@@ -56,20 +56,34 @@ pub(crate) struct End<'a> {
     pub rates: Option<[&'a [f64]; 2]>,
 }
 
+/// State of a run.
+pub(crate) struct State<'a> {
+    /// Time.
+    pub at: Clock,
+    /// Unknowns.
+    pub unknowns: &'a [f64],
+}
+
+/// Events of a run, and what finds them.
+pub(crate) struct Events<'a> {
+    /// The events.
+    pub catalogue: &'a mut Catalogue<Rupture>,
+    /// Detectors of the sources.
+    pub detectors: &'a mut [Detector],
+    /// Slip rate at which a point has ruptured \[m/s\].
+    pub rupture_rate: f64,
+}
+
 /// See the module.
 pub(crate) struct Follow<'a, 'f> {
     equations: &'a Equations<'f>,
-    fault: &'a Fault,
     observer: &'a mut dyn Observer<Faults>,
     /// Failure of the observer.
     pub failure: Option<ObserveError>,
-    catalogue: &'a mut Catalogue<Rupture>,
-    detectors: &'a mut [Detector],
+    events: Events<'a>,
     rate: Vec<f64>,
     /// Slip rates at the end of the last step \[m/s\].
     before: Vec<f64>,
-    /// Slip rate at which a point has ruptured \[m/s\].
-    rupture_rate: f64,
     shear: Vec<f64>,
     /// Unknowns within a step.
     between: Vec<f64>,
@@ -90,13 +104,12 @@ pub(crate) fn outrun<V: AsRef<[f64]>>(rate: Components<V>, most: f64) -> Option<
 const MOST_HALVINGS: usize = 60;
 
 impl<'a, 'f> Follow<'a, 'f> {
-    /// Follows a run from the state that it has reached, with its catalogue and its detectors.
+    /// Follows a run from the state that it has reached.
     pub fn new(
-        (equations, fault): (&'a Equations<'f>, &'a Fault),
+        equations: &'a Equations<'f>,
         observer: &'a mut dyn Observer<Faults>,
-        (at, unknowns): (Clock, &[f64]),
-        (catalogue, detectors): (&'a mut Catalogue<Rupture>, &'a mut [Detector]),
-        rupture_rate: f64,
+        State { at, unknowns }: State<'_>,
+        events: Events<'a>,
     ) -> Self {
         let vectors = equations.layout().m().end;
         let pressed = equations.pressed(at, unknowns);
@@ -104,14 +117,11 @@ impl<'a, 'f> Follow<'a, 'f> {
         equations.slip_rates(at, unknowns, &mut rate);
         let mut follow = Self {
             equations,
-            fault,
             observer,
             failure: None,
-            catalogue,
-            detectors,
+            events,
             before: rate.clone(),
             rate,
-            rupture_rate,
             shear: vec![0.0; vectors],
             between: unknowns.to_vec(),
             largest: 0.0,
@@ -133,7 +143,7 @@ impl<'a, 'f> Follow<'a, 'f> {
 
     /// Number of finished events of all faults together.
     pub fn events(&self) -> usize {
-        self.catalogue.ended(ALL).len()
+        self.events.catalogue.ended(ALL).len()
     }
 
     fn all(&self) -> Range<usize> {
@@ -161,7 +171,7 @@ impl<'a, 'f> Follow<'a, 'f> {
     fn report(&mut self, at: Clock, dt: f64, unknowns: &[f64], step: Option<Ends<'_>>) -> Control {
         let layout = self.equations.layout();
         let rate = Components::new(self.rate.as_slice(), layout.points());
-        let (largest, catalogue, pressed) = (self.largest, &*self.catalogue, &self.pressed);
+        let (largest, catalogue, pressed) = (self.largest, &*self.events.catalogue, &self.pressed);
         let moment = Moment { at, dt, unknowns, layout, rate, largest, pressed, catalogue, step };
         self.observer.step(&moment).unwrap_or_else(|failure| {
             self.failure = Some(failure);
@@ -197,7 +207,7 @@ impl<'a, 'f> Follow<'a, 'f> {
         let pressed = self.equations.pressed(at, &self.between);
         for (i, shear) in self.shear.iter_mut().enumerate() {
             let p = i % layout.points();
-            *shear = pressed.normal[p] * self.fault.law.scale(p) * self.between[i];
+            *shear = pressed.normal[p] * self.equations.fault().law.scale(p) * self.between[i];
         }
         (at, self.fastest(&self.rate, among).0, pressed.fields)
     }
@@ -207,15 +217,16 @@ impl<'a, 'f> Follow<'a, 'f> {
     fn detect(&mut self, course: &dyn Course, largest: &[f64]) {
         for (source, &largest) in largest.iter().enumerate() {
             self.note_peak(source, largest);
-            while let Some(crossing) = self.detectors[source].crossing(largest) {
-                let (passed, points) =
-                    (self.detectors[source].passed(crossing), self.detectors[source].points());
+            while let Some(crossing) = self.events.detectors[source].crossing(largest) {
+                let detector = &self.events.detectors[source];
+                let (passed, points) = (detector.passed(crossing), detector.points());
                 let (at, fastest, fields) = self.locate(course, passed, points);
                 let layout = self.equations.layout();
                 let slip = layout.slip_of(&self.between);
                 let shear = Components::new(self.shear.as_slice(), layout.points());
-                let values = Values { slip, shear, fields: &fields };
-                self.detectors[source].pass((self.catalogue, source), crossing, (at, fastest), values);
+                let values = Values { at, fastest, slip, shear, fields: &fields };
+                let Events { catalogue, detectors, .. } = &mut self.events;
+                detectors[source].pass(catalogue, source, crossing, values);
                 self.note_peak(source, largest);
             }
         }
@@ -223,8 +234,9 @@ impl<'a, 'f> Follow<'a, 'f> {
 
     /// Records the largest values of processes in the unfinished events.
     fn note_processes(&mut self) {
-        for (source, detector) in self.detectors.iter().enumerate() {
-            if let Some(event) = self.catalogue.open(source) {
+        let Events { catalogue, detectors, .. } = &mut self.events;
+        for (source, detector) in detectors.iter().enumerate() {
+            if let Some(event) = catalogue.open(source) {
                 event.details.note(&self.pressed.fields, &detector.points());
             }
         }
@@ -233,14 +245,14 @@ impl<'a, 'f> Follow<'a, 'f> {
     /// Records rupture times and largest slip rates of the points in the unfinished event of all faults, if there is one.
     fn note_front(&mut self, course: &dyn Course, end: &[f64]) {
         let points = self.equations.layout().points();
-        let Some(event) = self.catalogue.open(ALL) else { return };
+        let Some(event) = self.events.catalogue.open(ALL) else { return };
         let rates = [self.before.as_slice(), end].map(|rate| Components::new(rate, points));
         let (start, length) = (course.start().since(&event.onset), course.length());
-        event.details.front.see(Stride { start, length, rates }, self.rupture_rate);
+        event.details.front.see(Stride { start, length, rates }, self.events.rupture_rate);
     }
 
     fn note_peak(&mut self, source: usize, largest: f64) {
-        if let Some(event) = self.catalogue.open(source) {
+        if let Some(event) = self.events.catalogue.open(source) {
             event.peak = event.peak.max(largest);
         }
     }
@@ -253,7 +265,8 @@ impl<'a, 'f> Follow<'a, 'f> {
         end: End<'_>,
         waves: Option<&mut dyn FnMut(bool) -> f64>,
     ) -> Control {
-        let largest: Vec<f64> = self.detectors.iter().map(|d| self.fastest(end.rate, d.points()).1).collect();
+        let detectors = self.events.detectors.iter();
+        let largest: Vec<f64> = detectors.map(|d| self.fastest(end.rate, d.points()).1).collect();
         let events = self.events();
         self.detect(course, &largest);
         self.note_front(course, end.rate);

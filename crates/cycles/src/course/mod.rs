@@ -8,7 +8,7 @@ mod run;
 mod settle;
 mod waves;
 
-pub use cycle::{RESTART, resume, resume_with, run};
+pub use cycle::{RESTART, run};
 pub use fault_run::{FaultRun, Faults, Outrun};
 pub(crate) use follow::outrun;
 pub use run::{NextStep, Run};

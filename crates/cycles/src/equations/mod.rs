@@ -86,6 +86,11 @@ impl<'a> Equations<'a> {
         Self { until: end, ..self }
     }
 
+    /// The fault.
+    pub(crate) fn fault(&self) -> &'a Fault {
+        self.fault
+    }
+
     /// Rates of the shear tractions of the loads \[Pa/s\].
     pub(crate) fn loading(&self) -> &[f64] {
         &self.shear_load

@@ -46,9 +46,7 @@ impl<'a> Run for Faults<'a> {
         let problem = &self.plan.problem;
         let mut dynamics = self.ruptures.as_mut().map(|r| r.dynamics(&problem.areas));
         let from = from.unwrap_or_else(|| self.plan.begin());
-        let faults = (&problem.fault, &problem.loading);
-        let run = asperity_cycles::resume_with(faults, from, &problem.settings, dynamics.as_mut(), keeper)
-            .into_diagnostic()?;
+        let run = problem.resume(from, &problem.settings, dynamics.as_mut(), keeper).into_diagnostic()?;
         let failed = matches!(run.outcome, asperity_ode::Outcome::Failed { .. });
         if !failed && keeper.interrupted().is_none() {
             let ended = keeper.outputs().ended(&run);

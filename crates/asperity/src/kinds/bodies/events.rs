@@ -98,7 +98,7 @@ impl Events {
             let (from, (fastest, to)) = (before.fastest(points.clone()).1, after.fastest(points));
             note_peak(&mut self.catalogue, source, to);
             while let Some(crossing) = detector.crossing(to) {
-                let share = Share::new(detector.passed(crossing).0, (from, to));
+                let share = Share::new(detector.passed(crossing).0, from, to);
                 let at = Clock::new(before.time, share.time * (after.time - before.time));
                 let n = after.rate.len();
                 let between = |a: &[f64], b: &[f64], s: f64| -> Vec<f64> {
@@ -107,11 +107,13 @@ impl Events {
                 let slip = between(&before.slip, &after.slip, share.slip);
                 let shear = between(&before.shear, &after.shear, share.time);
                 let values = Values {
+                    at,
+                    fastest,
                     slip: Components::new(&slip, n),
                     shear: Components::new(&shear, n),
                     fields: &[],
                 };
-                detector.pass((&mut self.catalogue, source), crossing, (at, fastest), values);
+                detector.pass(&mut self.catalogue, source, crossing, values);
                 note_peak(&mut self.catalogue, source, to);
             }
         }
@@ -135,7 +137,7 @@ pub struct Share {
 
 impl Share {
     /// Shares where the rate, which goes from one value to another, is `passed`.
-    pub fn new(passed: f64, (from, to): (f64, f64)) -> Self {
+    pub fn new(passed: f64, from: f64, to: f64) -> Self {
         let (change, part) = ((to / from).ln(), (passed / from).ln());
         let time = part / change;
         if !(time > 0.0 && time < 1.0) {

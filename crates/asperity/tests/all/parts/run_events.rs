@@ -42,10 +42,9 @@ fn an_event_is_located_within_steps() {
 
 #[test]
 fn a_threshold_outside_a_step_is_passed_at_its_end() {
-    for (passed, rates, expected) in [(1.0, (2.0, 3.0), 0.0), (1.0, (0.1, 0.5), 1.0), (1.0, (0.0, 2.0), 1.0)]
-    {
-        let share = Share::new(passed, rates);
-        assert_eq!((share.time, share.slip), (expected, expected), "{rates:?}");
+    for (from, to, expected) in [(2.0, 3.0, 0.0), (0.1, 0.5, 1.0), (0.0, 2.0, 1.0)] {
+        let share = Share::new(1.0, from, to);
+        assert_eq!((share.time, share.slip), (expected, expected), "{from} {to}");
     }
 }
 
