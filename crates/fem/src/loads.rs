@@ -1,26 +1,27 @@
 //! External forces as a term: patterns times amplitudes.
 
+use crate::dof::Channel;
 use crate::table::Table;
 use crate::term::{ForwardTerm, Instant, Linearized, Pattern, Refusal, Term};
 
 /// Nodal forces that vary in time.
 #[derive(Clone, Debug, Default)]
 pub struct ExternalForces {
-    channels: Vec<(Vec<(usize, f64)>, Table)>,
+    channels: Vec<Channel>,
     pattern: Pattern,
 }
 
 impl ExternalForces {
-    /// Forces at unit amplitude, with their amplitudes.
+    /// The forces of these channels.
     #[must_use]
-    pub fn new(channels: Vec<(Vec<(usize, f64)>, Table)>) -> Self {
+    pub fn new(channels: Vec<Channel>) -> Self {
         Self { channels, pattern: Pattern::default() }
     }
 
     fn subtract(&self, amplitude: impl Fn(&Table) -> f64, r: &mut [f64]) {
-        for (forces, table) in &self.channels {
-            let alpha = amplitude(table);
-            for &(dof, force) in forces {
+        for channel in &self.channels {
+            let alpha = amplitude(&channel.amplitude);
+            for &(dof, force) in &channel.forces {
                 r[dof] -= alpha * force;
             }
         }

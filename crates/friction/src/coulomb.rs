@@ -5,7 +5,7 @@ use crate::Failure;
 use crate::evolution::{Bound, Parameter, Unit};
 use crate::kind::{COHESION, Kind, TableLaw, values};
 use crate::law::{Increments, Law, Limit, PresentStates, RateBounds, Rates, Regime, Responses, Trials};
-use crate::yielding::{Cone, all_finite, answer, at_strength, cap, first_exit, strength};
+use crate::yielding::{Cone, ConeStrength, all_finite, answer, at_strength, cap, first_exit, strength};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,7 +36,7 @@ impl Coulomb {
     }
 
     /// Strength F̄ and ∂F̄/∂f_n.
-    pub(crate) fn strength(&self, normal: f64) -> (f64, f64) {
+    pub(crate) fn strength(&self, normal: f64) -> ConeStrength {
         strength(Cone { mu: self.mu, cohesion: self.cohesion }, normal, self.limit)
     }
 }
@@ -129,14 +129,14 @@ impl Law for Coulomb {
         for k in 0..t.trial.len() {
             all_finite(k, t.normal[k], t.trial[k], &[])?;
             let strength = self.strength(t.normal[k]);
-            answer(&t, k, strength.0, strength, &mut out);
+            answer(&t, k, strength.value, strength, &mut out);
         }
         Ok(())
     }
 
     fn rates(&self, present: PresentStates<'_>, out: Rates<'_>) -> Result<(), Failure> {
         for k in 0..present.normal.len() {
-            let (strength, slope) = self.strength(present.normal[k]);
+            let ConeStrength { value: strength, slope } = self.strength(present.normal[k]);
             (out.along[k], out.coupling[k], out.constant[k]) = match present.regime[k] {
                 Regime::Stick => (1.0, 0.0, 0.0),
                 Regime::Slip => (0.0, slope, strength - present.traction[k]),
@@ -150,7 +150,7 @@ impl Law for Coulomb {
     }
 
     fn stands(&self, present: PresentStates<'_>, k: usize) -> bool {
-        at_strength(&present, k, self.strength(present.normal[k]).0)
+        at_strength(&present, k, self.strength(present.normal[k]).value)
     }
 }
 

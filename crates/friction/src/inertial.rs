@@ -164,7 +164,7 @@ const MOST: usize = 15;
 impl Inertial for Coulomb {
     fn push(&self, push: &Push, _states: &mut [f64]) -> Result<PointBalance, Failure> {
         finite(push)?;
-        Ok(held(push, pressed(push, self.strength(push.normal).0)))
+        Ok(held(push, pressed(push, self.strength(push.normal).value)))
     }
 }
 

@@ -111,14 +111,23 @@ pub fn build(name: &str, own: &[f64], cap: Option<f64>) -> Result<Arc<dyn Law>, 
     Err(Failure::Parameter { name: "kind", value: f64::NAN, admissible: "a kind of the table" })
 }
 
-/// Builds a law of this name with values of its own at each point, and a largest shear traction \[Pa\] of each; see [`TableLaw::build`].
+/// Values of a law at a point.
+#[derive(Clone, Copy, Debug)]
+pub struct PointValues<'a> {
+    /// Values of its own.
+    pub own: &'a [f64],
+    /// Largest shear traction \[Pa\].
+    pub cap: Option<f64>,
+}
+
+/// Builds a law of this name with these values at each point; see [`TableLaw::build`].
 ///
 /// # Errors
 /// [`Failure::Parameter`], also where the table has no such name, and without points.
-pub fn build_each(name: &str, points: &[(&[f64], Option<f64>)]) -> Result<Arc<dyn Law>, Failure> {
+pub fn build_each(name: &str, points: &[PointValues<'_>]) -> Result<Arc<dyn Law>, Failure> {
     each_kind!(Row => {
         if <Row as TableLaw>::KIND.name == name {
-            let laws = points.iter().map(|(own, cap)| <Row as TableLaw>::build(own, *cap));
+            let laws = points.iter().map(|point| <Row as TableLaw>::build(point.own, point.cap));
             return Ok(Arc::new(PointwiseLaw::new(laws.collect::<Result<_, _>>()?)?));
         }
     });

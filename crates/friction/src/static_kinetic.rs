@@ -12,7 +12,7 @@ use crate::Failure;
 use crate::evolution::{Bound, Parameter, Unit};
 use crate::kind::{Kind, Order, TableLaw, Weakening, values};
 use crate::law::{Increments, Law, Limit, PresentStates, RateBounds, Rates, Regime, Responses, Trials};
-use crate::yielding::{Cone, all_finite, answer, at_strength, cap, first_exit, strength};
+use crate::yielding::{Cone, ConeStrength, all_finite, answer, at_strength, cap, first_exit, strength};
 
 /// The state variable of a point that slips.
 const SLIPPING: f64 = 1.0;
@@ -47,7 +47,7 @@ impl StaticKinetic {
 
     /// Strength in a state, and of a point that slips \[Pa\].
     pub(crate) fn strengths(&self, state: f64, normal: f64) -> (f64, f64) {
-        (self.strength(self.mu(state), normal).0, self.strength(self.mu_k, normal).0)
+        (self.strength(self.mu(state), normal).value, self.strength(self.mu_k, normal).value)
     }
 
     /// State of a point that slips, or rests.
@@ -55,8 +55,8 @@ impl StaticKinetic {
         if slips { SLIPPING } else { RESTING }
     }
 
-    /// Strength F̄ and ∂F̄/∂f_n at a friction coefficient.
-    fn strength(&self, mu: f64, normal: f64) -> (f64, f64) {
+    /// Strength at a friction coefficient.
+    fn strength(&self, mu: f64, normal: f64) -> ConeStrength {
         strength(Cone { mu, cohesion: 0.0 }, normal, self.limit)
     }
 }
@@ -137,7 +137,7 @@ impl Law for StaticKinetic {
             let normal = t.normal[k];
             all_finite(k, normal, t.trial[k], &[old])?;
             // The kinetic strength does not exceed the one just reached: the slip is not negative.
-            let held = self.strength(self.mu(old), normal).0;
+            let held = self.strength(self.mu(old), normal).value;
             let stick = answer(&t, k, held, self.strength(self.mu_k, normal), &mut out);
             out.states[k] = if stick { RESTING } else { SLIPPING };
         }
@@ -152,7 +152,7 @@ impl Law for StaticKinetic {
             (out.along[k], out.coupling[k], out.constant[k]) = match present.regime[k] {
                 Regime::Stick => (1.0, 0.0, 0.0),
                 Regime::Slip => {
-                    let (strength, slope) = self.strength(self.mu_k, normal);
+                    let ConeStrength { value: strength, slope } = self.strength(self.mu_k, normal);
                     (0.0, slope, strength - traction)
                 }
             };
@@ -165,6 +165,6 @@ impl Law for StaticKinetic {
     }
 
     fn stands(&self, present: PresentStates<'_>, k: usize) -> bool {
-        at_strength(&present, k, self.strength(self.mu(present.states[k]), present.normal[k]).0)
+        at_strength(&present, k, self.strength(self.mu(present.states[k]), present.normal[k]).value)
     }
 }

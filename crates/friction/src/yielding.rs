@@ -32,11 +32,21 @@ pub(crate) struct Cone {
     pub cohesion: f64,
 }
 
-/// Strength F̄ = min(c + μ f_n, F_limit) \[Pa\] and ∂F̄/∂f_n \[-\].
+/// Strength of a cone that is cut off.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ConeStrength {
+    /// F̄ \[Pa\].
+    pub value: f64,
+    /// ∂F̄/∂f_n \[-\].
+    pub slope: f64,
+}
+
+/// Strength F̄ = min(c + μ f_n, F_limit).
 #[inline]
-pub(crate) fn strength(cone: Cone, normal: f64, cap: f64) -> (f64, f64) {
+pub(crate) fn strength(cone: Cone, normal: f64, cap: f64) -> ConeStrength {
     let value = cone.cohesion + cone.mu * normal;
-    if value <= cap { (value, cone.mu) } else { (cap, 0.0) }
+    let (value, slope) = if value <= cap { (value, cone.mu) } else { (cap, 0.0) };
+    ConeStrength { value, slope }
 }
 
 /// Refuses a point with inputs that are not finite.
@@ -50,16 +60,16 @@ pub(crate) fn all_finite(point: usize, normal: f64, trial: f64, others: &[f64]) 
 }
 
 /// The implicit answer of point k where the strength does not depend on slip: a trial up to `held` \[Pa\] sticks; one above slips
-/// at the strength and slope of `sliding` \[Pa, -\]. The caller updates the states; the answer shows if the point sticks.
+/// at its strength. The caller updates the states; the answer shows if the point sticks.
 #[inline]
 pub(crate) fn answer(
     t: &Trials<'_>,
     k: usize,
     held: f64,
-    sliding: (f64, f64),
+    sliding: ConeStrength,
     out: &mut Responses<'_>,
 ) -> bool {
-    let (trial, (strength, slope)) = (t.trial[k], sliding);
+    let (trial, ConeStrength { value: strength, slope }) = (t.trial[k], sliding);
     let stick = trial <= held;
     out.regime[k] = if stick { Regime::Stick } else { Regime::Slip };
     out.traction[k] = if stick { trial } else { strength };

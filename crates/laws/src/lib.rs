@@ -12,7 +12,7 @@ use asperity_friction::evolution::{
 };
 use asperity_friction::fault::{FaultLaw, Points};
 use asperity_friction::inertial::{self, Inertial, InertialFault};
-use asperity_friction::kind::{self, Kind, Order, TableLaw};
+use asperity_friction::kind::{self, Kind, Order, PointValues, TableLaw};
 use asperity_friction::law::Law;
 use asperity_friction::pointwise::PointwiseLaw;
 use asperity_friction::rate::RateLaw;
@@ -111,7 +111,7 @@ pub fn build_each(first: &LawChoice, rest: &[LawChoice]) -> Result<Arc<dyn Law>,
     if let LawChoice::Yielding { kind, .. } = first {
         let own = |choice| match choice {
             &LawChoice::Yielding { kind: of, ref own, f_limit } if of == *kind => {
-                Some((own.as_slice(), f_limit))
+                Some(PointValues { own, cap: f_limit })
             }
             _ => None,
         };

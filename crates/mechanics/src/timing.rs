@@ -1,7 +1,7 @@
 //! Choice of the length of the next step.
 
 use super::pieces::{Piece, Pieces};
-use super::step::Cut;
+use super::step::{Cut, StepLengths};
 use super::{Control, Stage};
 use serde::{Deserialize, Serialize};
 
@@ -224,10 +224,10 @@ impl StepLength {
         self.dt = (basis * factor).max(self.smallest).min(self.largest);
     }
 
-    /// Length required by the error of slip after the last step, and the smallest allowed length if that is longer \[s\].
+    /// Length required by the error of slip after the last step, and the smallest allowed length if that is longer.
     #[must_use]
-    pub fn exhausted(&self) -> Option<(f64, f64)> {
-        self.needed.map(|needed| (needed, self.smallest))
+    pub fn exhausted(&self) -> Option<StepLengths> {
+        self.needed.map(|needed| StepLengths { wanted: needed, least: self.smallest })
     }
 
     /// State kept between steps.

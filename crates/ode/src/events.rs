@@ -1,7 +1,7 @@
 //! Changes of sign of the event functions within a step.
 
 use super::problem::System;
-use super::root::root;
+use super::root::{Point, root};
 use super::stepper::Stepper;
 
 /// Fraction of the step at which a function that begins at zero takes its sign.
@@ -123,11 +123,11 @@ impl Watch {
     /// Fraction of the step at which a function first changes sign; infinite if it does not.
     fn first_change(&mut self, system: &System<'_>, stepper: &dyn Stepper, event: usize) -> f64 {
         let (start, middle, end) = (self.start[event], self.middle[event], self.end[event]);
-        let mut begin = (0.0, start);
+        let mut begin = Point { x: 0.0, value: start };
         let nothing = self.fresh && start.abs() <= AT_ZERO * middle.abs().max(end.abs());
         if nothing || self.functions[event].side == 0.0 {
-            begin = (EARLY, self.value(system, stepper, event, EARLY));
-            self.functions[event].side = first_sign(&[begin.1, middle, end]);
+            begin = Point { x: EARLY, value: self.value(system, stepper, event, EARLY) };
+            self.functions[event].side = first_sign(&[begin.value, middle, end]);
         }
         let side = self.functions[event].side;
         let Some(mut ends) = self.changed(system, stepper, event, side) else {
@@ -139,31 +139,31 @@ impl Watch {
         if let Some(left) = self.functions[event].left {
             // Rounding may leave a function on its old side where it fired. Only a change seen after it was on the new side
             // counts.
-            if ends.1.abs() <= LEFT_ZERO * left {
+            if ends.value.abs() <= LEFT_ZERO * left {
                 // The residual may have been noise, and large where the function itself is soon small: its weight decreases each
                 // step.
                 self.functions[event].left = Some(left / LEFT_ZERO);
                 return f64::INFINITY;
             }
-            begin = (EARLY, self.value(system, stepper, event, EARLY));
-            if begin.1 * side <= 0.0 && middle * side > 0.0 && ends.0 > 0.5 {
-                begin = (0.5, middle);
+            begin = Point { x: EARLY, value: self.value(system, stepper, event, EARLY) };
+            if begin.value * side <= 0.0 && middle * side > 0.0 && ends.x > 0.5 {
+                begin = Point { x: 0.5, value: middle };
             }
-            if begin.1 * side <= 0.0 {
+            if begin.value * side <= 0.0 {
                 self.functions[event].side = -side;
                 self.functions[event].left = None;
                 return f64::INFINITY;
             }
         }
-        if begin.1 * side < 0.0 {
-            begin.1 = 0.0;
+        if begin.value * side < 0.0 {
+            begin.value = 0.0;
         }
-        if ends.0 > 0.5 && begin.0 < 0.5 && middle * side > 0.0 {
+        if ends.x > 0.5 && begin.x < 0.5 && middle * side > 0.0 {
             let exact = self.value(system, stepper, event, 0.5);
             if exact * side > 0.0 {
-                begin = (0.5, exact);
+                begin = Point { x: 0.5, value: exact };
             } else {
-                ends = (0.5, exact);
+                ends = Point { x: 0.5, value: exact };
             }
         }
         root(|x| self.value(system, stepper, event, x), begin, ends)
@@ -176,17 +176,17 @@ impl Watch {
         stepper: &dyn Stepper,
         event: usize,
         side: f64,
-    ) -> Option<(f64, f64)> {
+    ) -> Option<Point> {
         let (start, middle, end) = (self.start[event], self.middle[event], self.end[event]);
         let beyond = |value: f64| value * side < 0.0;
         if beyond(middle) {
             let exact = self.value(system, stepper, event, 0.5);
             if beyond(exact) {
-                return Some((0.5, exact));
+                return Some(Point { x: 0.5, value: exact });
             }
         }
         if beyond(end) || (end == 0.0 && side != 0.0) {
-            return Some((1.0, end));
+            return Some(Point { x: 1.0, value: end });
         }
         // Both ends and the middle are on one side: two changes between them would show in the parabola.
         let (slope, bend) = (4.0 * middle - 3.0 * start - end, 2.0 * (start + end) - 4.0 * middle);
@@ -195,7 +195,7 @@ impl Watch {
         if place > 0.0 && place < 1.0 && height * side < NEAR * start.abs().max(end.abs()) {
             let exact = self.value(system, stepper, event, place);
             if beyond(exact) {
-                return Some((place, exact));
+                return Some(Point { x: place, value: exact });
             }
         }
         None

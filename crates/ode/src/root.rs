@@ -5,12 +5,19 @@ const MOST: usize = 120;
 /// Ratio of the bracket's width to its position at which it cannot be narrowed further.
 const WIDTH: f64 = 2.0 * f64::EPSILON;
 
-/// End of the last bracket on the side of `b`, for `f(a)` and `f(b)` of different sign (`fa` may be 0).
+/// A position and the value of a function there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Point {
+    pub x: f64,
+    pub value: f64,
+}
+
+/// End of the last bracket on the side of `b`, for values of `f` at `a` and `b` of different sign (that at `a` may be 0).
 ///
 /// The bracket is narrowed by the method of I. F. D. Oliveira and R. H. C. Takahashi (ITP), ACM Transactions on Mathematical
 /// Software 47 (2020) 5: slower than bisection by at most one evaluation, and superlinear for smooth functions.
-pub(super) fn root(mut f: impl FnMut(f64) -> f64, a: (f64, f64), b: (f64, f64)) -> f64 {
-    let ((mut a, mut fa), (mut b, mut fb)) = (a, b);
+pub(super) fn root(mut f: impl FnMut(f64) -> f64, a: Point, b: Point) -> f64 {
+    let (Point { x: mut a, value: mut fa }, Point { x: mut b, value: mut fb }) = (a, b);
     let first = b - a;
     let truncation = 0.2 / first;
     // Half of the narrowest useful bracket.

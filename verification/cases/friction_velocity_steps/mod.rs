@@ -220,7 +220,7 @@ fn slide_hold_slide(ledger: &mut Ledger) -> Result<(), CaseError> {
 fn healing(set: &Set, kind: Kind, hold: f64) -> Result<f64, CaseError> {
     let begin = 1.0;
     let (stop, go) = (begin, begin + hold);
-    let load = History::table(vec![(stop, set.load), (stop, 0.0), (go, 0.0), (go, set.load)])?;
+    let load = History::table(vec![[stop, set.load], [stop, 0.0], [go, 0.0], [go, set.load]])?;
     let plan = slider::plan(set.slider(set.law(kind)?), load, set.load, 1.0, go + 200.0)?;
     Ok(slider::largest_friction(&plan, go)? - slider::MU0)
 }

@@ -22,9 +22,9 @@ impl Point<'_> {
         let (mut surface, memory) = (Surface::new(1), self.memory.borrow());
         let windows = &mut *self.windows.borrow_mut();
         memory.open(self.heat, at, windows);
-        memory.values(self.heat, (y, None), windows, &mut surface);
+        memory.values(self.heat, y, None, windows, &mut surface);
         let first = (self.heating)(at.seconds(), surface.pressure[0]);
-        memory.values(self.heat, (y, Some(&[first])), windows, &mut surface);
+        memory.values(self.heat, y, Some(&[first]), windows, &mut surface);
         let heating = (self.heating)(at.seconds(), surface.pressure[0]);
         (surface, heating)
     }

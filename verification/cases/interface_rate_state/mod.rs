@@ -362,7 +362,7 @@ fn reference(kind: Kind, stiffness: f64, done: &BodyRun) -> Result<Vec<f64>, Cas
     let times: Vec<f64> = done.record.times().iter().map(|t| t - PRESSED).filter(|&t| t > 0.0).collect();
     let (mut table, mut from) = (Vec::new(), 0.0);
     for (end, rate) in STAGES {
-        table.extend([(from, rate), (end, rate)]);
+        table.extend([[from, rate], [end, rate]]);
         from = end;
     }
     let mut plan = slack(kind, stiffness, History::table(table)?, from)?;

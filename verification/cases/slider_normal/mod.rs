@@ -74,7 +74,7 @@ fn compare(ledger: &mut Ledger, title: &str, found: &[(f64, f64)], (v, mu): (&[f
 fn step(ledger: &mut Ledger, reference: &Independent, alpha: f64, name: &str) -> Result<(), CaseError> {
     // Steady sliding is a solution until the step, where the reference begins. Values just after the step are read a
     // nanosecond later, when ln V has moved by 1e-10.
-    let normal = History::table(vec![(STEP, 5e6), (STEP, 5.5e6)])?;
+    let normal = History::table(vec![[STEP, 5e6], [STEP, 5.5e6]])?;
     let times = reference.numbers(name, "t_s")?;
     let late: Vec<f64> = times.iter().filter(|t| **t > 0.0).map(|t| STEP + t).collect();
     let (found, cost) = Cost::measure(|| slider::at_times(&plan(alpha, normal)?, &late));
@@ -91,7 +91,7 @@ fn jump(ledger: &mut Ledger) -> Result<(), CaseError> {
     let part = Component::new(Ageing::new(0.015, 1e-5, V_REF)?, alpha)?;
     let law = Arc::new(RateLaw::with_parts(form, vec![part], 1e-6, f1, None)?);
     let set = Set { damping: 0.0, ..slider::MILD }.at(2.0);
-    let block = Slider { normal: History::table(vec![(STEP, f1), (STEP, f2)])?, ..set.slider(law) };
+    let block = Slider { normal: History::table(vec![[STEP, f1], [STEP, f2]])?, ..set.slider(law) };
     let plan = slider::plan(block, History::Constant(set.load), set.load, 1.0, 2.0)?;
     let (before, after) = (plan.system.segment(0.5), plan.system.segment(1.5));
     let mut unknowns = plan.start.clone();
@@ -133,7 +133,7 @@ fn oscillation(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseE
 fn unloading(ledger: &mut Ledger) -> Result<(), CaseError> {
     let least = 1e-6;
     for alpha in [0.0, 0.3] {
-        let normal = History::table(vec![(1.0, 5e6), (11.0, least)])?;
+        let normal = History::table(vec![[1.0, 5e6], [11.0, least]])?;
         // The memory of normal traction drives ln theta to 600 and mu/a to 1000: a tolerance below 1e-12 would be below
         // rounding.
         let plan = Problem { end: 12.0, tolerance: 1e-9, ..plan(alpha, normal)? };

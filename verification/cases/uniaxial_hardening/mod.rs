@@ -41,7 +41,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         },
         Curve {
             name: "table",
-            law: Hardening::table(&[(0.0, YIELD), (0.01, 0.03), (0.04, 0.035)])?,
+            law: Hardening::table(&[[0.0, YIELD], [0.01, 0.03], [0.04, 0.035]])?,
             exact: |e| (YIELD + e).min(0.03 + (e - 0.01) / 6.0).min(0.035),
         },
     ];

@@ -39,7 +39,7 @@ fn caption(diagram: &Diagram) -> String {
         }
     }
     let all = || diagram.series.iter().flat_map(|s| &s.points);
-    let left_out = all().filter(|&&p| !diagram.drawable(p)).count();
+    let left_out = all().filter(|&&(x, y)| !diagram.drawable(x, y)).count();
     if left_out > 0 {
         let _ = write!(caption, "<br>{left_out} points cannot be drawn on these axes.");
     }

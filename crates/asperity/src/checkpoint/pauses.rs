@@ -22,11 +22,9 @@ pub struct Pauses {
 }
 
 impl Pauses {
-    /// True if the next checkpoint is due; `written` holds the instant of the last one and the time that writing it
-    /// took.
+    /// True if the next checkpoint is due, for the instant of the last one and the time that writing it took.
     #[must_use]
-    pub fn are_due(&self, written: (Instant, Duration)) -> bool {
-        let (at, cost) = written;
+    pub fn are_due(&self, at: Instant, cost: Duration) -> bool {
         at.elapsed() >= self.every.max(cost * SHARE)
     }
 

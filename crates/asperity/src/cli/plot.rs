@@ -214,11 +214,11 @@ fn names(asked: &Redrawing, sheet: &Sheet) -> miette::Result<Vec<String>> {
 }
 
 /// Times shown.
-fn window(asked: &Redrawing, sheet: &Sheet) -> miette::Result<Option<(f64, f64)>> {
+fn window(asked: &Redrawing, sheet: &Sheet) -> miette::Result<Option<[f64; 2]>> {
     if asked.from.is_none() && asked.to.is_none() {
         return Ok(None);
     }
-    let (start, end) = sheet.span;
+    let [start, end] = sheet.span;
     let (from, to) = (asked.from.unwrap_or(start), asked.to.unwrap_or(end));
     // A time written with few digits may lie behind the end.
     let beyond = |time: f64| !(start..=end * (1.0 + ROUNDED)).contains(&time);
@@ -239,7 +239,7 @@ fn window(asked: &Redrawing, sheet: &Sheet) -> miette::Result<Option<(f64, f64)>
             words(to)
         ));
     }
-    Ok(Some((from, to)))
+    Ok(Some([from, to]))
 }
 
 /// Relative difference of a time from the end of a run that counts as rounding of what a person wrote.

@@ -230,7 +230,7 @@ impl<O: Outputs> Observer<O::Kind> for Keeper<O> {
     ) -> Result<Option<&'static str>, ObserveError> {
         let moved = std::mem::replace(&mut self.moved, true);
         self.interrupted = self.pauses.reason(moved);
-        let due = self.interrupted.is_some() || moved && self.pauses.are_due(self.written);
+        let due = self.interrupted.is_some() || moved && self.pauses.are_due(self.written.0, self.written.1);
         let begun = Instant::now();
         if let Some(saved) = self.outputs.saved(stand, due) {
             self.save_since(begun, &saved)?;

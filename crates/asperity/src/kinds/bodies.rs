@@ -15,7 +15,7 @@ pub use report::{InterfaceResult, RunReport, mean};
 pub use stand::ResumeState;
 
 use crate::kinds::balance::balance;
-use crate::kinds::stop;
+use crate::kinds::stop::{self, Trials};
 use asperity_contact::{Course, PointFields, Status, Watch};
 use asperity_mechanics::step::{AcceptedStep, Cut, Failure};
 use asperity_mechanics::timing::{Figures, StepLength};
@@ -240,7 +240,8 @@ impl<const D: usize> Running<'_, D> {
     fn worst(&mut self, system: &AssembledProblem<'_, D>, last: bool) {
         let displacement = || system.displacement();
         self.found.worst.see(
-            (&self.plan.problem, system.time()),
+            &self.plan.problem,
+            system.time(),
             &interface_fields(system),
             &displacement,
             last,
@@ -276,8 +277,8 @@ impl<const D: usize> Running<'_, D> {
             here.free = system.free_motion();
         }
         let name = &self.plan.problem.stages[here.index].name;
-        let tried = (self.work.steps.len(), self.work.rejected);
-        stop::stalled(system, name, failure, tried).or_else(|| {
+        let trials = Trials { steps: self.work.steps.len(), rejected: self.work.rejected };
+        stop::stalled(system, name, failure, trials).or_else(|| {
             let over = failure.always() || !here.length.halve(dt);
             over.then(|| {
                 let cause = here.free.take().or_else(|| self.contact_lost(here.index, system));

@@ -2,6 +2,7 @@
 
 use asperity_contact::Interface;
 use asperity_fem::term::Objection;
+use asperity_mechanics::step::StepLengths;
 use asperity_mechanics::{AssembledProblem, Failure, coordinates};
 use asperity_run::report::{Outcome, Stop};
 
@@ -54,12 +55,20 @@ pub fn failed<const D: usize>(
     Outcome::Stopped { stage: Some(stage), time, reason, kind: Stop::NotConverged }
 }
 
+/// Numbers of steps that stand, and of trials that were rejected.
+pub struct Trials {
+    /// Steps.
+    pub steps: usize,
+    /// Rejected trials.
+    pub rejected: usize,
+}
+
 /// Outcome of a run whose iterations fail repeatedly because a penalty is far too large; `None` otherwise.
 pub fn stalled<const D: usize>(
     system: &AssembledProblem<'_, D>,
     stage: &str,
     failure: &Failure,
-    (steps, rejected): (usize, usize),
+    Trials { steps, rejected }: Trials,
 ) -> Option<Outcome> {
     let by_accuracy = matches!(failure, Failure::Inaccurate { .. } | Failure::Objected(_));
     if by_accuracy || rejected < STALLED || steps > SELDOM * rejected {
@@ -78,11 +87,11 @@ pub fn stalled<const D: usize>(
     })
 }
 
-/// Outcome of a run whose slip error requires steps of `needed` \[s\], below the smallest allowed. `faster` is true if slip accelerates.
+/// Outcome of a run whose slip error requires steps below the smallest allowed. `faster` is true if slip accelerates.
 pub fn exhausted<const D: usize>(
     system: &AssembledProblem<'_, D>,
     stage: &str,
-    (needed, smallest): (f64, f64),
+    StepLengths { wanted: needed, least: smallest }: StepLengths,
     faster: bool,
 ) -> Outcome {
     let stage = stage.to_string();

@@ -54,7 +54,8 @@ impl Worst {
     /// which costs a solution where bodies are condensed: then slip and tractions tell whether it is worth it.
     pub fn see<const D: usize>(
         &mut self,
-        (problem, time): (&Problem<D>, f64),
+        problem: &Problem<D>,
+        time: f64,
         fields: &[InterfaceFields],
         displacement: &dyn Fn() -> Vec<f64>,
         last: bool,
@@ -77,11 +78,11 @@ impl Worst {
             return;
         }
         self.judged = [self.judged[0].max(size), self.judged[1].max(traction)];
-        self.judge((&problem.model, time), &u.unwrap_or_else(displacement));
+        self.judge(&problem.model, time, &u.unwrap_or_else(displacement));
     }
 
     /// Sees displacements of a model \[m\] at a time \[s\].
-    pub fn judge<const D: usize>(&mut self, (model, time): (&Model<D>, f64), u: &[f64]) {
+    pub fn judge<const D: usize>(&mut self, model: &Model<D>, time: f64, u: &[f64]) {
         self.bodies.resize(model.bodies.len(), Default::default());
         for (body, (worst, at)) in model.bodies.iter().zip(&mut self.bodies) {
             for block in body.blocks.clone() {

@@ -15,6 +15,7 @@ use crate::measure::{Attachment, Exit, Geometry, Measure, NormalPoint, ShearPoin
 use crate::spec::SurfaceNode;
 use crate::vector::{axpy, dot, scaled, sub, unit};
 use asperity_fem::term::Pattern;
+use asperity_fem::vector::tangent;
 
 /// Constants of a paired point.
 #[derive(Clone, Debug)]
@@ -66,22 +67,13 @@ impl<const D: usize> FixedMeasure<D> {
         }
     }
 
-    /// Pairs slave point `point` (ascending from call to call) through the nodes and weights of either side. `apart` is
-    /// `Σ_k s_k X_k`.
-    pub(super) fn pair(
-        &mut self,
-        point: usize,
-        slave: &[(usize, f64)],
-        master: &[(usize, f64)],
-        normal: [f64; D],
-        apart: &[f64; D],
-    ) {
+    /// Pairs slave point `point` (ascending from call to call) through these nodes, those of the slave before those of the master.
+    /// `apart` is `Σ_k s_k X_k`.
+    pub(super) fn pair(&mut self, point: usize, through: &[Attachment], normal: [f64; D], apart: &[f64; D]) {
         let from = self.nodes.len();
-        let split = from + slave.len();
-        for &(node, weight) in slave.iter().chain(master) {
-            self.nodes.push(node);
-            self.signs.push(weight);
-        }
+        let split = from + through.iter().filter(|a| a.slave).count();
+        self.nodes.extend(through.iter().map(|a| a.node));
+        self.signs.extend(through.iter().map(|a| a.weight));
         self.pairs.push(Pair {
             point,
             from,
@@ -117,12 +109,10 @@ impl<const D: usize> FixedMeasure<D> {
 /// Frame of a fixed normal. In two dimensions it is `(-n_y, n_x)`. In three, e_1 is the x axis (the y axis if n is within about
 /// 25 degrees of x) projected onto the plane, and e_2 is `n × e_1`, so that neighbouring points have the same signs.
 pub(super) fn fixed_frame<const D: usize>(n: &[f64; D]) -> [[f64; D]; 2] {
-    let mut e1 = [0.0; D];
     if D == 2 {
-        e1[0] = -n[1];
-        e1[1] = n[0];
-        return [e1, [0.0; D]];
+        return [tangent(n), [0.0; D]];
     }
+    let mut e1 = [0.0; D];
     let axis = usize::from(n[0].abs() > 0.9);
     e1[axis] = 1.0;
     axpy(&mut e1, -n[axis], n);

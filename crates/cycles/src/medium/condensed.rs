@@ -8,7 +8,7 @@ use super::mirror::Mirror;
 use super::place::{Place, across};
 use super::point::{Initial, Point};
 use super::refusal::Refusal;
-use crate::operator::{Bearing, Forces, Matrix};
+use crate::operator::{Bearing, Forces, Matrix, PointComponent};
 use crate::problem::Loading;
 use crate::processes::Opening;
 use asperity_fem::FemError;
@@ -17,6 +17,7 @@ use asperity_fem::dof::Channel;
 use asperity_fem::jump::{Jumps, ObliqueConstraint};
 use asperity_fem::multifrontal::{DirectError, Triangle};
 use asperity_fem::table::Table;
+use asperity_fem::vector::tangent;
 
 /// Condensed bodies.
 #[derive(Debug)]
@@ -99,8 +100,8 @@ pub fn condense<const D: usize>(
 
 /// Axes of a jump in the plane: along slip, and from minus to plus.
 pub(super) fn in_plane<const D: usize>(place: &Place<D>) -> [[f64; 2]; 2] {
-    let n = &place.normal;
-    [[-n[1], n[0]], [n[0], n[1]]]
+    let n = [place.normal[0], place.normal[1]];
+    [tangent(&n), n]
 }
 
 /// Axes of a jump in space: along the rake, across it, and from minus to plus.
@@ -434,7 +435,7 @@ fn opening(forces: &Forces) -> Option<Opening> {
     if points.is_empty() {
         return None;
     }
-    let caused = |c: usize, p: usize| forces.caused(c, (*tangents, p));
+    let caused = |c: usize, p: usize| forces.caused(c, PointComponent::new(*tangents, p));
     let normal: Vec<Vec<f64>> = points.iter().map(|&p| caused(*tangents, p).collect()).collect();
     let shear: Vec<Vec<f64>> =
         points.iter().map(|&p| (0..*tangents).flat_map(|c| caused(c, p)).collect()).collect();

@@ -32,7 +32,7 @@ impl Patches {
     /// [`Self::displacements`].
     #[must_use]
     pub fn caused(&self, positions: &[[f64; 3]], slips: &[&[f64]], rock: &Elastic) -> Vec<Vec<[f64; 3]>> {
-        summed(positions, (slips, self.count()), |at, component| self.displacements(at, component, rock))
+        summed(positions, slips, self.count(), |at, component| self.displacements(at, component, rock))
     }
 }
 
@@ -40,7 +40,8 @@ impl Patches {
 /// unit slip of each patch in a component.
 pub(super) fn summed<const N: usize>(
     positions: &[[f64; 3]],
-    (slips, count): (&[&[f64]], usize),
+    slips: &[&[f64]],
+    count: usize,
     per_slip: impl Fn(&[f64; 3], usize) -> Vec<[f64; N]> + Sync,
 ) -> Vec<Vec<[f64; N]>> {
     let tangents = slips.iter().map(|slip| slip.len() / count.max(1)).max().unwrap_or(0);

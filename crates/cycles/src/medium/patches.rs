@@ -133,7 +133,8 @@ impl Patches {
         &self,
         rock: &Elastic,
         slip: Slip<'_>,
-        (geometry, form): (&Geometry<'_>, Form),
+        geometry: &Geometry<'_>,
+        form: Form,
     ) -> Box<dyn Operator> {
         match (self.storage(), form) {
             (Storage::Plane(tiles, lattice), Form::Fitting) => {

@@ -38,7 +38,7 @@ impl Patches {
     /// [`Self::stresses`].
     #[must_use]
     pub fn stressed(&self, positions: &[[f64; 3]], slips: &[&[f64]], rock: &Elastic) -> Vec<Vec<Stress>> {
-        summed(positions, (slips, self.count()), |at, component| self.stresses(at, component, rock))
+        summed(positions, slips, self.count(), |at, component| self.stresses(at, component, rock))
     }
 }
 

@@ -65,6 +65,23 @@ pub struct Forces {
     pub(crate) across: bool,
 }
 
+/// A component of a point: of slip along a tangent, or after those of the opening.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PointComponent {
+    /// The component.
+    pub component: usize,
+    /// The point.
+    pub point: usize,
+}
+
+impl PointComponent {
+    /// This component of this point.
+    #[must_use]
+    pub fn new(component: usize, point: usize) -> Self {
+        Self { component, point }
+    }
+}
+
 impl Forces {
     /// Number of points.
     #[must_use]
@@ -94,23 +111,25 @@ impl Forces {
     /// those of slip is the normal traction, compression positive.
     #[must_use]
     #[inline]
-    pub fn traction(&self, (component, p): (usize, usize), (slip, q): (usize, usize)) -> f64 {
-        let force = self.matrix.at(self.rows[p] + component, self.rows[q] + slip);
-        self.bearings[p].per_force(component == self.tangents) * (self.share * force)
+    pub fn traction(&self, at: PointComponent, slip: PointComponent) -> f64 {
+        let row = |of: PointComponent| self.rows[of.point] + of.component;
+        let force = self.matrix.at(row(at), row(slip));
+        self.bearings[at.point].per_force(at.component == self.tangents) * (self.share * force)
     }
 
     /// Tractions of all points along a component, caused by slip of a point along a component.
     pub(crate) fn caused(
         &self,
         component: usize,
-        slip: (usize, usize),
+        slip: PointComponent,
     ) -> impl Iterator<Item = f64> + use<'_> {
-        (0..self.points()).map(move |p| self.traction((component, p), slip))
+        (0..self.points()).map(move |p| self.traction(PointComponent::new(component, p), slip))
     }
 
     /// Largest magnitude of tractions along a component caused by slip along a component.
     pub(crate) fn largest(&self, component: usize, slip: usize) -> f64 {
-        let of = |q: usize| self.caused(component, (slip, q)).fold(0.0_f64, |l, v| l.max(v.abs()));
+        let caused = |q: usize| self.caused(component, PointComponent::new(slip, q));
+        let of = |q: usize| caused(q).fold(0.0_f64, |l, v| l.max(v.abs()));
         (0..self.points()).into_par_iter().map(of).reduce(|| 0.0, f64::max)
     }
 
@@ -119,7 +138,8 @@ impl Forces {
     pub fn largest_force(&self) -> f64 {
         let area = |p: usize| self.bearings[p].area;
         let of = |q: usize| {
-            let forces = self.caused(0, (0, q)).enumerate().map(|(p, v)| (v * area(p)).abs());
+            let forces =
+                self.caused(0, PointComponent::new(0, q)).enumerate().map(|(p, v)| (v * area(p)).abs());
             forces.fold(0.0, f64::max)
         };
         (0..self.points()).into_par_iter().map(of).reduce(|| 0.0, f64::max)
@@ -128,7 +148,8 @@ impl Forces {
     /// Shear tractions along the first component caused by slip along it.
     #[must_use]
     pub fn shear_along(&self, slip: &[f64]) -> Vec<f64> {
-        let of = |p: usize| (0..slip.len()).map(|q| self.traction((0, p), (0, q)) * slip[q]).sum();
+        let first = |point: usize| PointComponent::new(0, point);
+        let of = |p: usize| (0..slip.len()).map(|q| self.traction(first(p), first(q)) * slip[q]).sum();
         (0..self.points()).into_par_iter().map(of).collect()
     }
 
@@ -137,12 +158,12 @@ impl Forces {
     pub fn stiffness(&self) -> Vec<f64> {
         let n = self.points();
         let of = |k: usize| {
-            let slip = (k / n, k % n);
+            let slip = PointComponent::new(k / n, k % n);
             let sum =
                 |sum: f64, component: usize| self.caused(component, slip).fold(sum, |sum, v| sum + v.abs());
-            let along = sum(0.0, slip.0);
-            let pressed = if self.presses[slip.0] { sum(along, self.tangents) } else { along };
-            if self.across { pressed + sum(0.0, 1 - slip.0) } else { pressed }
+            let along = sum(0.0, slip.component);
+            let pressed = if self.presses[slip.component] { sum(along, self.tangents) } else { along };
+            if self.across { pressed + sum(0.0, 1 - slip.component) } else { pressed }
         };
         (0..self.tangents * n).into_par_iter().map(of).collect()
     }
@@ -158,7 +179,9 @@ impl Forces {
         };
         let of = |component: usize| {
             let entry = |k: usize| match (component, k / n) {
-                (component, slip) if loads(component, slip) => self.traction((component, p), (slip, k % n)),
+                (component, slip) if loads(component, slip) => {
+                    self.traction(PointComponent::new(component, p), PointComponent::new(slip, k % n))
+                }
                 _ => 0.0,
             };
             (0..tangents * n).map(entry).collect::<Vec<f64>>()
@@ -172,7 +195,8 @@ impl Forces {
     pub fn dense(&self) -> Tractions {
         let n = self.points();
         let part = |component: usize, slip: usize| -> Vec<f64> {
-            let row = |p: usize| (0..n).map(move |q| self.traction((component, p), (slip, q)));
+            let at = PointComponent::new;
+            let row = |p: usize| (0..n).map(move |q| self.traction(at(component, p), at(slip, q)));
             (0..n).flat_map(row).collect()
         };
         let normal = |slip: usize| self.presses[slip].then(|| part(self.tangents, slip));

@@ -6,7 +6,7 @@
 use super::Operator;
 use super::blocks::{CompressedMatrix, Content, Part, Precision, Sizes};
 use super::cluster::{Cluster, Tree};
-use super::forces::Forces;
+use super::forces::{Forces, PointComponent};
 use super::low_rank::{GROUP, LowRank, low_rank};
 use nalgebra::DMatrix;
 use pulp::Arch;
@@ -207,7 +207,8 @@ impl Hierarchical {
         };
         let error = Error { entry: of_largest * forces.largest_force() / n as f64, relative };
         let force = |component: usize, slip: usize| {
-            move |p: usize, q: usize| forces.traction((component, p), (slip, q)) * areas[p]
+            let at = PointComponent::new;
+            move |p: usize, q: usize| forces.traction(at(component, p), at(slip, q)) * areas[p]
         };
         let parts = |component: usize, slip: usize| {
             let force = force(component, slip);

@@ -262,7 +262,7 @@ impl Operator for Planar {
         for (component, shear) in shear.chunks_exact_mut(points).enumerate() {
             let (of_frequency, first) = (components * 2 * rows, component * 2 * rows);
             let parts = Parts { values: tractions, of_frequency, first };
-            self.rows.back(lattice, &parts, (&mut transformed[..rows * frequencies], padded), shear);
+            self.rows.back(lattice, &parts, &mut transformed[..rows * frequencies], padded, shear);
         }
     }
 

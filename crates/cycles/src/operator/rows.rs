@@ -85,7 +85,8 @@ impl Rows {
         &self,
         lattice: &Lattice,
         parts: &Parts<'_>,
-        (transformed, rows): (&mut [C], &mut [f64]),
+        transformed: &mut [C],
+        rows: &mut [f64],
         values: &mut [f64],
     ) {
         let (padded, frequencies, all) = (self.padded(), self.frequencies(), lattice.rows);

@@ -92,7 +92,7 @@ impl Toeplitz {
         self.rows.transform(lattice, slip, rows, transformed);
         spectrum.times(all, self.arch, transformed, [of_slip, of_tractions]);
         let parts = Parts { values: of_tractions, of_frequency: 2 * all, first: 0 };
-        self.rows.back(lattice, &parts, (transformed, rows), tractions);
+        self.rows.back(lattice, &parts, transformed, rows, tractions);
     }
 }
 

@@ -511,7 +511,7 @@ impl Running<'_, '_> {
 
     fn begins(&mut self, slider: usize, at: Clock, rate: f64, edge: Edge) {
         let run = &mut self.state.run;
-        run.progress.detectors.begin(&mut run.catalogue, slider, (at, rate), edge);
+        run.progress.detectors.begin(&mut run.catalogue, slider, at, rate, edge);
     }
 
     fn ends(&mut self, slider: usize, at: Clock, edge: Edge) {

@@ -72,7 +72,8 @@ impl Detectors {
         &mut self,
         events: &mut Catalogue<Slide>,
         slider: usize,
-        (at, rate): (Clock, f64),
+        at: Clock,
+        rate: f64,
         edge: Edge,
     ) {
         let direction = if rate < 0.0 { -1 } else { 1 };

@@ -65,8 +65,8 @@ impl Hardening {
     ///
     /// # Errors
     /// [`FemError::Material`] with the first entry that violates one of these.
-    pub fn table(entries: &[(f64, f64)]) -> Result<Self, FemError> {
-        let Some(&(first, stress)) = entries.first() else {
+    pub fn table(entries: &[[f64; 2]]) -> Result<Self, FemError> {
+        let Some(&[first, stress]) = entries.first() else {
             return Err(FemError::Material {
                 name: "entries of the hardening table",
                 value: 0.0,
@@ -76,7 +76,7 @@ impl Hardening {
         admit(first == 0.0, "first plastic strain of the hardening table", first, "0")?;
         positive("yield stress", stress, "0 < Y, finite")?;
         for pair in entries.windows(2) {
-            let ((e0, y0), (e1, y1)) = (pair[0], pair[1]);
+            let ([e0, y0], [e1, y1]) = (pair[0], pair[1]);
             admit(e1 > e0, "plastic strain of the hardening table", e1, "finite and above the one before")?;
             admit(
                 y1 >= y0,
@@ -85,7 +85,7 @@ impl Hardening {
                 "finite and not below the one before",
             )?;
         }
-        let (strains, stresses) = entries.iter().copied().unzip();
+        let (strains, stresses) = entries.iter().map(|&[strain, stress]| (strain, stress)).unzip();
         Ok(Self(Form::Table { strains, stresses }))
     }
 
@@ -146,7 +146,7 @@ mod tests {
 
     #[test]
     fn slopes_are_the_derivatives_of_yield_stresses() {
-        let table = Hardening::table(&[(0.0, 2.0), (0.1, 3.0), (0.3, 3.5)]).unwrap();
+        let table = Hardening::table(&[[0.0, 2.0], [0.1, 3.0], [0.3, 3.5]]).unwrap();
         let forms = [
             Hardening::perfect(2.0).unwrap(),
             Hardening::linear(2.0, 7.0).unwrap(),
@@ -166,7 +166,7 @@ mod tests {
 
     #[test]
     fn plastic_work_is_the_integral_of_the_yield_stress() {
-        let table = Hardening::table(&[(0.0, 2.0), (0.1, 3.0), (0.3, 3.5)]).unwrap();
+        let table = Hardening::table(&[[0.0, 2.0], [0.1, 3.0], [0.3, 3.5]]).unwrap();
         let forms = [Hardening::linear(2.0, 7.0).unwrap(), Hardening::swift(2.0, 0.01, 0.3).unwrap(), table];
         for form in &forms {
             assert_eq!(form.work(0.0), 0.0);
@@ -180,11 +180,11 @@ mod tests {
 
     #[test]
     fn a_table_is_exact_at_its_entries_and_constant_beyond() {
-        let table = Hardening::table(&[(0.0, 2.0), (0.1, 3.0), (0.3, 3.5)]).unwrap();
+        let table = Hardening::table(&[[0.0, 2.0], [0.1, 3.0], [0.3, 3.5]]).unwrap();
         for (e, y) in [(0.0, 2.0), (0.05, 2.5), (0.1, 3.0), (0.2, 3.25), (0.3, 3.5), (9.0, 3.5)] {
             approx::assert_relative_eq!(table.at(e).stress, y, max_relative = 1e-15);
         }
-        assert_eq!(Hardening::table(&[(0.0, 2.0)]).unwrap().at(1.0), Yield { stress: 2.0, slope: 0.0 });
+        assert_eq!(Hardening::table(&[[0.0, 2.0]]).unwrap().at(1.0), Yield { stress: 2.0, slope: 0.0 });
     }
 
     #[test]
@@ -208,8 +208,8 @@ mod tests {
         refused(Hardening::swift(1.0, 0.0, 0.2), "0 < e_0");
         refused(Hardening::swift(1.0, 0.1, 1.2), "0 <= n <= 1");
         refused(Hardening::table(&[]), "at least one");
-        refused(Hardening::table(&[(0.1, 1.0)]), "first plastic strain");
-        refused(Hardening::table(&[(0.0, 1.0), (0.0, 2.0)]), "above the one before");
-        refused(Hardening::table(&[(0.0, 1.0), (0.1, 0.9)]), "not below the one before");
+        refused(Hardening::table(&[[0.1, 1.0]]), "first plastic strain");
+        refused(Hardening::table(&[[0.0, 1.0], [0.0, 2.0]]), "above the one before");
+        refused(Hardening::table(&[[0.0, 1.0], [0.1, 0.9]]), "not below the one before");
     }
 }

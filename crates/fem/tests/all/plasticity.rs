@@ -20,7 +20,7 @@ fn hardenings() -> Vec<Hardening> {
         Hardening::perfect(YIELD).unwrap(),
         Hardening::linear(YIELD, 0.3).unwrap(),
         Hardening::swift(YIELD, 0.002, 0.3).unwrap(),
-        Hardening::table(&[(0.0, YIELD), (0.01, 0.03), (0.04, 0.035)]).unwrap(),
+        Hardening::table(&[[0.0, YIELD], [0.01, 0.03], [0.04, 0.035]]).unwrap(),
     ]
 }
 

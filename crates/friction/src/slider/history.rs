@@ -9,7 +9,7 @@ pub enum History {
     /// A constant value.
     Constant(f64),
     /// Piecewise linear through (time \[s\], value), constant before and after; two entries at the same time are a jump.
-    Table(Vec<(f64, f64)>),
+    Table(Vec<[f64; 2]>),
     /// mean + amplitude sin(2π (t - start)/period).
     Sine {
         /// Mean.
@@ -28,19 +28,19 @@ impl History {
     ///
     /// # Errors
     /// [`Failure::Parameter`] with the first time that is out of order.
-    pub fn table(entries: Vec<(f64, f64)>) -> Result<Self, Failure> {
+    pub fn table(entries: Vec<[f64; 2]>) -> Result<Self, Failure> {
         let refused = |value: f64, admissible| Err(Failure::Parameter { name: "table", value, admissible });
         if entries.is_empty() {
             return refused(0.0, "at least one entry");
         }
-        if let Some(&(time, value)) = entries.iter().find(|(t, v)| !(t.is_finite() && v.is_finite())) {
+        if let Some(&[time, value]) = entries.iter().find(|[t, v]| !(t.is_finite() && v.is_finite())) {
             return refused(if time.is_finite() { value } else { time }, "finite times and values");
         }
-        if let Some(w) = entries.windows(2).find(|w| w[1].0 < w[0].0) {
-            return refused(w[1].0, "times that do not decrease");
+        if let Some(w) = entries.windows(2).find(|w| w[1][0] < w[0][0]) {
+            return refused(w[1][0], "times that do not decrease");
         }
-        if let Some(w) = entries.windows(3).find(|w| w[2].0 == w[0].0) {
-            return refused(w[2].0, "at most two entries at one time");
+        if let Some(w) = entries.windows(3).find(|w| w[2][0] == w[0][0]) {
+            return refused(w[2][0], "at most two entries at one time");
         }
         Ok(Self::Table(entries))
     }
@@ -63,7 +63,7 @@ impl History {
     pub fn breaks(&self) -> Vec<f64> {
         match self {
             Self::Table(entries) => {
-                let mut times: Vec<f64> = entries.iter().map(|e| e.0).collect();
+                let mut times: Vec<f64> = entries.iter().map(|e| e[0]).collect();
                 times.dedup();
                 times
             }
@@ -80,12 +80,12 @@ impl History {
                 Piece::Sine { mean, amplitude, frequency: TAU / period, start }
             }
             Self::Table(entries) => {
-                let after = entries.partition_point(|e| e.0 <= within);
-                let constant = |e: (f64, f64)| Piece::Line { from: e.0, value: e.1, slope: 0.0 };
+                let after = entries.partition_point(|e| e[0] <= within);
+                let constant = |[from, value]: [f64; 2]| Piece::Line { from, value, slope: 0.0 };
                 match (after.checked_sub(1).map(|i| entries[i]), entries.get(after)) {
                     (None, Some(&first)) => constant(first),
                     (Some(last), None) => constant(last),
-                    (Some((t0, v0)), Some(&(t1, v1))) => {
+                    (Some([t0, v0]), Some(&[t1, v1])) => {
                         Piece::Line { from: t0, value: v0, slope: (v1 - v0) / (t1 - t0) }
                     }
                     // A table has an entry.
@@ -100,7 +100,7 @@ impl History {
     pub fn least(&self) -> f64 {
         match self {
             Self::Constant(value) => *value,
-            Self::Table(entries) => entries.iter().map(|e| e.1).fold(f64::INFINITY, f64::min),
+            Self::Table(entries) => entries.iter().map(|e| e[1]).fold(f64::INFINITY, f64::min),
             Self::Sine { mean, amplitude, .. } => mean - amplitude.abs(),
         }
     }

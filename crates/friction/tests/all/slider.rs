@@ -158,7 +158,7 @@ fn tractions_stay_in_balance() {
 fn a_step_of_normal_traction_keeps_what_cannot_jump() {
     for (name, law) in laws() {
         for mass in [None, Some(3e3)] {
-            let normal = History::table(vec![(0.0, 5e6), (1.0, 5e6), (1.0, 5.5e6), (2.0, 5.5e6)]).unwrap();
+            let normal = History::table(vec![[0.0, 5e6], [1.0, 5e6], [1.0, 5.5e6], [2.0, 5.5e6]]).unwrap();
             let block = Slider { normal, ..slider(&law, 5e6, mass) };
             let system = System::new(vec![block], vec![], History::Constant(1e-6)).unwrap();
             let (before, after) = (system.segment(0.5), system.segment(1.5));
@@ -248,7 +248,7 @@ fn equations_agree_with_the_rated_law() {
 
 #[test]
 fn histories_have_their_values_slopes_and_integrals() {
-    let ramp = History::table(vec![(1.0, 2.0), (3.0, 6.0), (3.0, 1.0)]).unwrap();
+    let ramp = History::table(vec![[1.0, 2.0], [3.0, 6.0], [3.0, 1.0]]).unwrap();
     assert_eq!(ramp.breaks(), [1.0, 3.0]);
     assert_eq!(ramp.piece(0.0).at(0.5), (2.0, 0.0));
     assert_eq!(ramp.piece(2.0).at(2.5), (5.0, 2.0));
@@ -264,7 +264,7 @@ fn histories_have_their_values_slopes_and_integrals() {
         3.0 + 4.0 / std::f64::consts::PI,
         max_relative = 1e-14
     );
-    assert!(History::table(vec![(1.0, 0.0), (0.0, 1.0)]).is_err());
+    assert!(History::table(vec![[1.0, 0.0], [0.0, 1.0]]).is_err());
     assert!(History::table(vec![]).is_err());
     assert!(History::sine(0.0, 1.0, 0.0, 0.0).is_err());
 }

@@ -26,6 +26,15 @@ pub struct State {
     pub time: f64,
 }
 
+/// Length of a step that is wanted, and the least to which accuracy may shorten it \[s\].
+#[derive(Clone, Copy, Debug)]
+pub struct StepLengths {
+    /// The wanted length.
+    pub wanted: f64,
+    /// The least.
+    pub least: f64,
+}
+
 /// Reason why a trial step failed. Nothing was committed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Failure {

@@ -9,7 +9,9 @@
 //! the step is accepted.
 
 use super::implicit::Implicit;
-use super::{AcceptedStep, Cut, Failure, State, StepperState, SystemCounts, accurate, unopposed};
+use super::{
+    AcceptedStep, Cut, Failure, State, StepLengths, StepperState, SystemCounts, accurate, unopposed,
+};
 use asperity_fem::assembly::{Symmetry, System};
 use asperity_fem::dof::Constraints;
 use asperity_fem::term::{ForwardTerm, Fraction, Instant, Linearized, Pattern};
@@ -83,7 +85,7 @@ impl StaticExplicit {
         self.newton.restore(saved, terms)
     }
 
-    /// Takes a step of at most `dt.0`. If accuracy requires less than `dt.1`, the step has that length.
+    /// Takes a step of at most the wanted length. If accuracy requires less than the least, the step has that length.
     ///
     /// # Errors
     /// [`Failure`]; the terms have discarded the trial.
@@ -92,11 +94,11 @@ impl StaticExplicit {
         terms: &mut [&mut dyn ForwardTerm],
         constraints: &Constraints,
         state: &mut State,
-        dt: (f64, f64),
+        length: StepLengths,
         counts: &mut Operations,
     ) -> Result<AcceptedStep, Failure> {
         let result = self
-            .foresee(terms, constraints, state, dt, counts)
+            .foresee(terms, constraints, state, length, counts)
             .and_then(|foreseen| self.correct(terms, constraints, state, foreseen, counts));
         for term in terms.iter_mut() {
             if result.is_ok() { term.accept() } else { term.reject() }
@@ -104,20 +106,20 @@ impl StaticExplicit {
         result
     }
 
-    /// Predicts the increment of a step of at most `wanted` by the rate tangent, and the length left by the R-minimum rule.
-    /// Accuracy does not shorten it below `smallest`.
+    /// Predicts the increment of a step of at most the wanted length by the rate tangent, and the length left by the R-minimum rule.
+    /// Accuracy does not shorten it below the least.
     fn foresee(
         &mut self,
         terms: &mut [&mut dyn ForwardTerm],
         constraints: &Constraints,
         state: &State,
-        (wanted, smallest_step): (f64, f64),
+        length: StepLengths,
         counts: &mut Operations,
     ) -> Result<Prediction, Failure> {
         for term in terms.iter_mut() {
             term.prepare(&state.u)?;
         }
-        let mut dt = wanted;
+        let mut dt = length.wanted;
         let (mut cause, mut cut) = (None, Cut::Nothing);
         let mut left = MOST_SOLVES;
         loop {
@@ -135,7 +137,7 @@ impl StaticExplicit {
                 continue;
             }
             let limit = smallest(terms, &du, at).filter(|limit| limit.value < WHOLE);
-            let shorter = limit.as_ref().map_or(dt, |limit| shortened(limit, dt, (wanted, smallest_step)));
+            let shorter = limit.as_ref().map_or(dt, |limit| shortened(limit, dt, length));
             let Some(limit) = limit.filter(|_| shorter < dt * WHOLE) else {
                 return Ok(Prediction { at, du, cut, cause });
             };
@@ -223,10 +225,10 @@ struct Prediction {
 
 /// Length that a limit leaves of a step of length `dt`, when `wanted` was requested and accuracy may require no less than
 /// `smallest`.
-fn shortened(limit: &Fraction, dt: f64, (wanted, smallest): (f64, f64)) -> f64 {
+fn shortened(limit: &Fraction, dt: f64, StepLengths { wanted, least }: StepLengths) -> f64 {
     let length = dt * limit.value;
     let length = match limit.limit {
-        "r8" => (SOFT * length).max(smallest),
+        "r8" => (SOFT * length).max(least),
         _ if limit.bounds_accuracy() => length,
         _ => length.max(LEAST * wanted),
     };

@@ -2,7 +2,7 @@
 
 use super::implicit::Implicit;
 use super::static_explicit::StaticExplicit;
-use super::{AcceptedStep, Failure, State, StepperState};
+use super::{AcceptedStep, Failure, State, StepLengths, StepperState};
 use asperity_fem::assembly::{Symmetry, System};
 use asperity_fem::dof::Constraints;
 use asperity_fem::term::{ForwardTerm, Linearized};
@@ -16,7 +16,7 @@ pub trait Stepper {
     /// Forgets the rate of the last step, which no longer holds.
     fn forget(&mut self);
 
-    /// Tries a step of length `dt.0`. A forward step may be shorter, but for accuracy no shorter than `dt.1`.
+    /// Tries a step of the wanted length. A forward step may be shorter, but for accuracy no shorter than the least.
     ///
     /// # Errors
     /// [`Failure`]; the terms have discarded the trial.
@@ -25,7 +25,7 @@ pub trait Stepper {
         terms: &mut [&mut dyn ForwardTerm],
         constraints: &Constraints,
         state: &mut State,
-        dt: (f64, f64),
+        length: StepLengths,
         counts: &mut Operations,
     ) -> Result<AcceptedStep, Failure>;
 
@@ -61,12 +61,12 @@ impl Stepper for Implicit {
         terms: &mut [&mut dyn ForwardTerm],
         constraints: &Constraints,
         state: &mut State,
-        (dt, _): (f64, f64),
+        length: StepLengths,
         counts: &mut Operations,
     ) -> Result<AcceptedStep, Failure> {
         let mut terms: Vec<&mut dyn Linearized> =
             terms.iter_mut().map(|term| &mut **term as &mut dyn Linearized).collect();
-        Implicit::step(self, &mut terms, constraints, state, dt, counts)
+        Implicit::step(self, &mut terms, constraints, state, length.wanted, counts)
     }
 
     fn set_bound(&mut self, bound: f64) {
@@ -103,10 +103,10 @@ impl Stepper for StaticExplicit {
         terms: &mut [&mut dyn ForwardTerm],
         constraints: &Constraints,
         state: &mut State,
-        dt: (f64, f64),
+        length: StepLengths,
         counts: &mut Operations,
     ) -> Result<AcceptedStep, Failure> {
-        StaticExplicit::step(self, terms, constraints, state, dt, counts)
+        StaticExplicit::step(self, terms, constraints, state, length, counts)
     }
 
     fn set_bound(&mut self, bound: f64) {

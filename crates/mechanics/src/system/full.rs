@@ -25,8 +25,7 @@ impl<const D: usize> FullBodies<D> {
 
 impl<const D: usize> Bodies<D> for FullBodies<D> {
     fn load(&mut self, constraints: &Constraints, _renewed: bool) -> Result<(), SetUpError> {
-        let forces = constraints.channels.iter().map(|c| (c.forces.clone(), c.amplitude.clone()));
-        self.loads = ExternalForces::new(forces.collect());
+        self.loads = ExternalForces::new(constraints.channels.clone());
         Ok(())
     }
 

@@ -19,7 +19,7 @@ use super::samples::ForeignLoads;
 use super::solver::{self, Analyses, Method};
 use super::step::implicit::Implicit;
 use super::step::static_explicit::StaticExplicit;
-use super::step::{AcceptedStep, Failure, State, Stepper};
+use super::step::{AcceptedStep, Failure, State, StepLengths, Stepper};
 use super::{CellBlock, Path, PlannedInterface, Problem, Stage, ZoneResolution, declared};
 use crate::error::SetUpError;
 use crate::inertia::InertialSystem;
@@ -104,7 +104,7 @@ impl<'a, const D: usize> AssembledProblem<'a, D> {
     pub fn begin_stage(&mut self, stage: &Stage) -> Result<(), SetUpError> {
         let start = self.fixed.is_none();
         let u0 = if start { vec![0.0; self.problem.model.dofs()] } else { self.displacement() };
-        let springs = springs::starts(stage, &self.pulled_by(), self.reactions(), &u0);
+        let springs = springs::starts(stage, &self.pulled, &self.springs(), self.reactions(), &u0);
         self.begin_from(stage, u0, &springs)
     }
 
@@ -222,8 +222,8 @@ impl<'a, const D: usize> AssembledProblem<'a, D> {
         };
         let mut terms =
             terms(self.bodies.as_mut(), &mut self.springs, &mut self.interfaces, self.moving.as_mut());
-        let accepted =
-            stepper.step(&mut terms, &self.constraints, &mut self.state, (dt, smallest), counts)?;
+        let length = StepLengths { wanted: dt, least: smallest };
+        let accepted = stepper.step(&mut terms, &self.constraints, &mut self.state, length, counts)?;
         self.settle(accepted.dt);
         self.hand_over();
         Ok(accepted)

@@ -58,16 +58,17 @@ pub(super) fn now(springs: Option<&Springs>, state: &State) -> Vec<SpringState> 
     springs.map_or_else(Vec::new, |springs| springs.now(&state.u, state.time).collect())
 }
 
-/// States of the springs of a stage at its start: those that were attached before carry on. A new spring carries the force that
+/// States of the springs of a stage at its start: those that were attached before, to these sets, carry on. A new spring carries the force that
 /// held its set, the sum of the `reactions` there.
 pub(super) fn starts(
     stage: &Stage,
-    before: &[(Vec<usize>, SpringState)],
+    sets: &[Vec<usize>],
+    before: &[SpringState],
     reaction: impl Fn(usize) -> f64,
     u0: &[f64],
 ) -> Vec<SpringStart> {
     let start = |spring: &Spring| {
-        let old = before.iter().find(|(dofs, _)| *dofs == spring.dofs).map(|(_, now)| now);
+        let old = sets.iter().zip(before).find(|(dofs, _)| **dofs == spring.dofs).map(|(_, now)| now);
         let new = || SpringState {
             force: spring.dofs.iter().map(|&d| reaction(d)).sum(),
             ..SpringState::default()
@@ -139,7 +140,7 @@ mod tests {
             ..Stage::free("draw", 3.0)
         };
         let numbering = Numbering { number: (0..6).collect(), nodes: (0..6).collect(), dofs: 6 };
-        let starts = starts(&stage, &[], |dof| dof as f64, &[0.0, 0.3, 0.0, 0.1, 0.1, 0.0]);
+        let starts = starts(&stage, &[], &[], |dof| dof as f64, &[0.0, 0.3, 0.0, 0.1, 0.1, 0.0]);
         Springs::new(&stage, &numbering, &starts).unwrap()
     }
 

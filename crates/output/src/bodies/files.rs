@@ -340,8 +340,9 @@ impl Writer for Files {
     fn begin(&mut self, setup: &Setup) -> Result<(), OutputError> {
         check_probes(setup)?;
         self.setup = setup.clone();
-        self.fields_due = OutputIntervals::new(self.schedule.fields, &setup.stages);
-        self.profiles_due = OutputIntervals::new(self.schedule.profiles, &setup.stages);
+        let ends: Vec<f64> = setup.stages.iter().map(|(_, end)| *end).collect();
+        self.fields_due = OutputIntervals::new(self.schedule.fields, &ends);
+        self.profiles_due = OutputIntervals::new(self.schedule.profiles, &ends);
         self.bodies = None;
         self.collection.clear();
         (self.field_number, self.profile_number) = (0, 0);

@@ -16,13 +16,13 @@ impl Default for FieldSchedule {
 }
 
 impl FieldSchedule {
-    /// Due times, ascending and without repetition \[s\]. Where steps end at them, outputs have these times; otherwise they follow at
+    /// Due times of stages with these ends, ascending and without repetition \[s\]. Where steps end at them, outputs have these times; otherwise they follow at
     /// the first step past each.
     #[must_use]
-    pub fn times(&self, stages: &[(String, f64)]) -> Vec<f64> {
+    pub fn times(&self, ends: &[f64]) -> Vec<f64> {
         let mut times = Vec::new();
         let mut start = 0.0;
-        for (_, end) in stages {
+        for end in ends {
             for n in [self.fields, self.profiles] {
                 times.extend(
                     (1..=n).map(|k| if k == n { *end } else { start + (end - start) * k as f64 / n as f64 }),
@@ -51,13 +51,10 @@ pub(crate) struct OutputIntervals {
 }
 
 impl OutputIntervals {
-    pub(crate) fn new(intervals: usize, stages: &[(String, f64)]) -> Self {
-        let mut start = 0.0;
-        let mut spans = Vec::with_capacity(stages.len());
-        for (_, end) in stages {
-            spans.push((start, *end));
-            start = *end;
-        }
+    /// Intervals of stages with these ends \[s\].
+    pub(crate) fn new(intervals: usize, ends: &[f64]) -> Self {
+        let starts = std::iter::once(0.0).chain(ends.iter().copied());
+        let spans: Vec<(f64, f64)> = starts.zip(ends.iter().copied()).collect();
         Self { intervals, passed: vec![0; spans.len()], stages: spans }
     }
 

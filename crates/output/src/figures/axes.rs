@@ -39,8 +39,8 @@ impl Axis {
     }
 
     /// Linear axis with exactly this range.
-    pub(super) fn exact(range: (f64, f64), label: String) -> Self {
-        Self { range, log: false, label, own: Vec::new() }
+    pub(super) fn exact(range: [f64; 2], label: String) -> Self {
+        Self { range: range.into(), log: false, label, own: Vec::new() }
     }
 
     /// Logarithmic axis over whole decades around the positive values, at most `decades` below the top.
@@ -49,6 +49,14 @@ impl Axis {
         let hi = hi.log10().ceil();
         let lo = lo.log10().floor().max(hi - decades).min(hi - 1.0);
         Self { range: (lo, hi), log: true, label, own: Vec::new() }
+    }
+
+    /// An axis of a quantity over time: logarithmic over at most `decades`, if they are given, otherwise linear.
+    pub(super) fn over_time(values: impl Iterator<Item = f64>, decades: Option<f64>, label: String) -> Self {
+        match decades {
+            Some(decades) => Self::logarithmic(values, decades, label),
+            None => Self::linear(values, 0.08, label),
+        }
     }
 
     /// A logarithmic axis around the positive values, with a margin that is a fraction of their range.
@@ -121,7 +129,7 @@ fn logarithmic_ticks((lo, hi): (f64, f64), about: usize) -> Vec<(f64, String)> {
     if let Some(ticks) = sets.into_iter().map(of).find(|ticks| ticks.len() >= 3) {
         return ticks;
     }
-    let linear = Axis::exact((10.0_f64.powf(lo), 10.0_f64.powf(hi)), String::new());
+    let linear = Axis::exact([10.0_f64.powf(lo), 10.0_f64.powf(hi)], String::new());
     let (start, end) = linear.range;
     let ticks = linear.ticks(about.min(4)).into_iter();
     ticks.map(|(part, text)| (place((start + part * (end - start)).log10()), text)).collect()
@@ -269,9 +277,9 @@ mod tests {
 
     #[test]
     fn ticks_are_round_numbers_inside_the_range() {
-        assert_eq!(texts(&Axis::exact((0.0, 59.66), String::new())), ["0", "10", "20", "30", "40", "50"]);
+        assert_eq!(texts(&Axis::exact([0.0, 59.66], String::new())), ["0", "10", "20", "30", "40", "50"]);
         assert_eq!(
-            texts(&Axis::exact((-0.25, 1.0), String::new())),
+            texts(&Axis::exact([-0.25, 1.0], String::new())),
             ["−0.25", "0.00", "0.25", "0.50", "0.75", "1.00"]
         );
         let axis = Axis::logarithmic([1e-3, 2.0, 0.0].into_iter(), 14.0, String::new());
@@ -281,7 +289,7 @@ mod tests {
     #[test]
     fn an_axis_with_room_for_few_ticks_has_two() {
         let texts: Vec<String> =
-            Axis::exact((-9.0, 9.0), String::new()).ticks(1).into_iter().map(|tick| tick.1).collect();
+            Axis::exact([-9.0, 9.0], String::new()).ticks(1).into_iter().map(|tick| tick.1).collect();
         assert_eq!(texts, ["−5", "0", "5"]);
     }
 
@@ -314,7 +322,7 @@ mod tests {
 
     #[test]
     fn an_axis_that_falls_has_the_ticks_of_one_that_rises_at_the_other_end() {
-        let falling = Axis::exact((40.0, 0.0), String::new());
+        let falling = Axis::exact([40.0, 0.0], String::new());
         let ticks = falling.ticks(4);
         assert_eq!(ticks.iter().map(|t| t.1.as_str()).collect::<Vec<_>>(), ["0", "10", "20", "30", "40"]);
         assert_eq!((ticks[0].0, ticks[4].0), (1.0, 0.0));
@@ -330,7 +338,7 @@ mod tests {
 
     #[test]
     fn values_stand_in_proportion_to_the_range() {
-        let axis = Axis::exact((-10.0, 60.0), String::new());
+        let axis = Axis::exact([-10.0, 60.0], String::new());
         assert_eq!((axis.place(-10.0), axis.place(25.0), axis.place(60.0)), (0.0, 0.5, 1.0));
         let axis = Axis::logarithmic([1.0, 100.0].into_iter(), 14.0, String::new());
         assert_eq!((axis.place(0.0), axis.place(10.0)), (0.0, 0.5));

@@ -2,7 +2,7 @@
 
 use super::axes::Axis;
 use super::colour::{MARK, Rgb};
-use super::curves::{REACH, is_spiky, thin, value_axis};
+use super::curves::{DECADES, REACH, is_spiky, thin};
 use super::figure::{Dash, Figure, Point};
 use super::framed_figure::FramedFigure;
 use super::legend::Entry;
@@ -80,19 +80,14 @@ impl Chart {
         if self.pairs { self.near().drawn(paper, start) } else { self.drawn(paper, start) }
     }
 
-    /// True if curves extend along the horizontal axis. A run that has not passed its start has no time axis, and loads that do not move no
-    /// axis of displacement.
-    fn moves(&self) -> bool {
-        let along = || self.curves.iter().flat_map(|c| c.1.iter()).map(|p| p.0);
-        along().next().is_some_and(|first| along().any(|x| x != first))
-    }
-
     fn drawn(&self, paper: Paper, start: f64) -> Option<Figure> {
         let points = || self.curves.iter().flat_map(|c| c.1.iter());
+        let first = points().next()?;
         let largest = |pick: fn(&Point) -> f64| {
             points().map(|p| pick(p).abs()).filter(|v| v.is_finite()).fold(0.0, f64::max)
         };
-        if !self.moves() {
+        // A run that has not passed its start has no time axis, and loads that do not move no axis of displacement.
+        if !points().any(|p| p.0 != first.0) {
             return None;
         }
         let (x_unit, y_unit) =
@@ -100,10 +95,10 @@ impl Chart {
         let log = self.y.1 == Measure::Velocity && self.curves.iter().any(|c| spiky(&c.1));
         let up = |v: f64| if log { v.abs() } else { v } / y_unit.factor;
         let label = format!("{} [{}]", self.y.0, y_unit.name);
-        let y = value_axis(points().map(|p| up(p.1)), log, label);
+        let y = Axis::over_time(points().map(|p| up(p.1)), log.then_some(DECADES), label);
         let label = format!("{} [{}]", self.x.0, x_unit.name);
         let x = match self.x.1 {
-            Measure::Time => Axis::exact((start / x_unit.factor, largest(|p| p.0) / x_unit.factor), label),
+            Measure::Time => Axis::exact([start / x_unit.factor, largest(|p| p.0) / x_unit.factor], label),
             _ => Axis::linear(points().map(|p| p.0 / x_unit.factor), 0.0, label),
         };
         // A single curve is named in the title.

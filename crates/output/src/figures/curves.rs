@@ -91,8 +91,8 @@ impl Histories {
     }
 
     /// Figures with their names, of the steps from the first time to the last.
-    pub(super) fn figures(&self, paper: Paper, window: Option<(f64, f64)>) -> Vec<(String, Figure)> {
-        let (from, to) = window.unwrap_or((0.0, f64::INFINITY));
+    pub(super) fn figures(&self, paper: Paper, window: Option<[f64; 2]>) -> Vec<(String, Figure)> {
+        let [from, to] = window.unwrap_or([0.0, f64::INFINITY]);
         let first = self.times.partition_point(|t| *t < from);
         let last = self.times.partition_point(|t| *t <= to).max(first);
         let one = |quantity: &Quantity| {
@@ -176,31 +176,7 @@ pub(super) const DECADES: f64 = 14.0;
 /// Columns into which a curve is thinned, keeping the extremes of each: twice the resolution of a screen.
 const COLUMNS: usize = 2000;
 
-/// An axis of values, logarithmic or linear.
-pub(super) fn value_axis(values: impl Iterator<Item = f64>, log: bool, label: String) -> Axis {
-    if log { Axis::logarithmic(values, DECADES, label) } else { Axis::linear(values, 0.08, label) }
-}
-
 impl Histories {
-    /// References of a quantity in a range of steps, only near the values that they are of.
-    fn references(&self, quantity: &Quantity, steps: &Range<usize>, series: &[&[f64]]) -> Vec<Vec<f64>> {
-        let own = series.iter().flat_map(|s| s.iter()).copied().filter(|v| v.is_finite());
-        let (lo, hi) = own.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)));
-        let near = |v: &f64| if (lo - REACH..=hi + REACH).contains(v) { *v } else { f64::NAN };
-        let all = self.points.iter().filter_map(|p| (quantity.reference)(p).get(steps.clone()));
-        all.map(|r| r.iter().map(near).collect()).collect()
-    }
-
-    /// Legend entries of the points.
-    fn entries(&self) -> Vec<Entry> {
-        let entry = |(i, p): (usize, &Probe)| Entry {
-            name: p.label.clone(),
-            colour: curve_colour(i, self.points.len()),
-            dash: &[],
-        };
-        self.points.iter().enumerate().map(entry).collect()
-    }
-
     /// A quantity of the steps in a range; the axis begins at a time \[s\]. `None` without steps.
     fn figure(
         &self,
@@ -211,7 +187,7 @@ impl Histories {
         let times = &self.times[steps.clone()];
         let &end = times.last().filter(|end| **end > from)?;
         let series: Vec<&[f64]> = self.points.iter().map(|p| &(quantity.read)(p)[steps.clone()]).collect();
-        let references = self.references(quantity, &steps, &series);
+        let references = self.references(quantity, &series, &steps);
         let references: Vec<&[f64]> = references.iter().map(Vec::as_slice).collect();
         let (time, unit) = (TIME.choose(end), quantity.units.choose(largest(&series)));
         let log = quantity.rate && is_spiky(times, &series);
@@ -221,8 +197,8 @@ impl Histories {
             .flat_map(|s| s.iter())
             .map(|v| if log { v.abs() } else { *v } / unit.factor);
         let label = format!("{} [{}]", quantity.name, unit.name);
-        let y = value_axis(values, log, label);
-        let x = Axis::exact((from / time.factor, end / time.factor), format!("Time [{}]", time.name));
+        let y = Axis::over_time(values, log.then_some(DECADES), label);
+        let x = Axis::exact([from / time.factor, end / time.factor], format!("Time [{}]", time.name));
         let mut page = FramedFigure::new(paper, x, y, &self.entries());
         let FramedFigure { figure, frame, .. } = &mut page;
         title(figure, frame, &self.title, &self.name);
@@ -238,6 +214,25 @@ impl Histories {
             }
         }
         Some(page.finish())
+    }
+
+    /// Legend of the points.
+    fn entries(&self) -> Vec<Entry> {
+        let entry = |(i, p): (usize, &Probe)| Entry {
+            name: p.label.clone(),
+            colour: curve_colour(i, self.points.len()),
+            dash: &[],
+        };
+        self.points.iter().enumerate().map(entry).collect()
+    }
+
+    /// References of a quantity in a range of steps, where they are near the series.
+    fn references(&self, quantity: &Quantity, series: &[&[f64]], steps: &Range<usize>) -> Vec<Vec<f64>> {
+        let own = series.iter().flat_map(|s| s.iter()).copied().filter(|v| v.is_finite());
+        let (lo, hi) = own.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)));
+        let near = |v: &f64| if (lo - REACH..=hi + REACH).contains(v) { *v } else { f64::NAN };
+        let references = self.points.iter().filter_map(|p| (quantity.reference)(p).get(steps.clone()));
+        references.map(|r| r.iter().map(near).collect()).collect()
     }
 }
 

@@ -79,7 +79,7 @@ pub(super) struct Cycles<'a> {
     /// Tables of the run.
     pub rows: &'a dyn Rows,
     /// Times of onset and end of the events \[s\].
-    pub events: Vec<(f64, f64)>,
+    pub events: Vec<[f64; 2]>,
     /// Time between slip contours, between events and during events, as text.
     pub intervals: [String; 2],
     /// The same in seconds, where it is known.
@@ -89,7 +89,7 @@ pub(super) struct Cycles<'a> {
     /// Stations of the phase portrait, all of which slip in events; without any it is of means.
     pub stations: Vec<Portrait>,
     /// First and last time shown \[s\]; all if there is none.
-    pub window: Option<(f64, f64)>,
+    pub window: Option<[f64; 2]>,
     /// Size of the figures.
     pub(super) paper: Paper,
 }
@@ -130,27 +130,6 @@ const MOST_CONTOURS: f64 = 60.0;
 const ROUNDING: f64 = 1e-6;
 /// Distance to the preceding contour, as a share of the axis, below which a contour is omitted: a pixel of a screen.
 const TOGETHER: f64 = 2e-3;
-
-/// Contours of slip that are drawn, and the last of them.
-struct Contours {
-    curves: Vec<Vec<Point>>,
-    slip: Vec<f64>,
-    time: f64,
-}
-
-impl Contours {
-    const NONE: Self = Self { curves: Vec::new(), slip: Vec::new(), time: f64::NEG_INFINITY };
-
-    /// Makes a profile the last contour, and returns true, if it follows the one before by this time and somewhere by this slip.
-    fn accept(&mut self, time: f64, slip: &[f64], [spacing, least]: [f64; 2]) -> bool {
-        let apart = self.slip.is_empty() || self.slip.iter().zip(slip).any(|(a, b)| (a - b).abs() >= least);
-        let accepted = apart && time - self.time >= spacing;
-        if accepted {
-            (self.slip, self.time) = (slip.to_vec(), time);
-        }
-        accepted
-    }
-}
 
 type FigureResult = Result<Option<Figure>, OutputError>;
 
@@ -204,10 +183,10 @@ impl Cycles<'_> {
         if times.0 >= times.1 {
             return Ok(None);
         }
-        let (first, last) = self.window.unwrap_or((times.0, times.1));
+        let [first, last] = self.window.unwrap_or([times.0, times.1]);
         let time = TIME.choose(last);
         let label = format!("Time [{}]", time.name);
-        let x = Axis::exact((first / time.factor, last / time.factor), label);
+        let x = Axis::exact([first / time.factor, last / time.factor], label);
         let y = Axis::logarithmic(rates.over(1.0), DECADES, "Largest slip rate [m/s]".into());
         let mut page = FramedFigure::new(self.paper, x, y, &[]);
         let FramedFigure { figure, frame, .. } = &mut page;
@@ -225,15 +204,15 @@ impl Cycles<'_> {
     }
 
     fn in_event(&self, time: f64) -> bool {
-        let k = self.events.partition_point(|e| e.0 <= time);
-        k > 0 && time <= self.events[k - 1].1
+        let k = self.events.partition_point(|e| e[0] <= time);
+        k > 0 && time <= self.events[k - 1][1]
     }
 
     /// Axis along a fault, downwards, and its unit \[m\].
     fn along(line: &Line) -> Option<(Axis, f64)> {
         let (first, last) = (*line.along.first()?, *line.along.last()?);
         let unit = LENGTH.choose(last.abs().max(first.abs()));
-        let range = (last / unit.factor, first / unit.factor);
+        let range = [last / unit.factor, first / unit.factor];
         (last > first)
             .then(|| (Axis::exact(range, format!("Distance along the fault [{}]", unit.name)), unit.factor))
     }
@@ -263,41 +242,54 @@ impl Cycles<'_> {
         let x = Axis::linear(range.over(unit.factor), 0.02, format!("Slip [{}]", unit.name));
         let multiples = self.multiples();
         let entries = [("between events, every", ASEISMIC, 0), ("in events, every", SEISMIC, 1)];
-        let entries = entries.map(|(words, colour, k)| Entry {
-            name: format!("{words} {}", self.interval(k, multiples[k])),
-            colour,
-            dash: &[],
+        let entries = entries.map(|(words, colour, k)| {
+            let name = format!("{words} {}", self.interval(k, multiples[k]));
+            Entry { name, colour, dash: &[] }
         });
         let mut page = FramedFigure::new(self.paper, x, y, &entries);
         let FramedFigure { figure, frame, .. } = &mut page;
         title(figure, frame, &self.title, &format!("slip of {}", line.name));
         frame.grid(figure);
         let least = TOGETHER * unit.factor * (frame.x.range.1 - frame.x.range.0);
-        let mut contours = [Contours::NONE; 2];
-        self.profiles(Table::Slip, line, &mut |time, slip| {
-            let k = usize::from(self.in_event(time));
-            let spacing = self.spacing.map_or(0.0, |all| all[k] * multiples[k] * (1.0 - ROUNDING));
-            let spacing = if multiples[k] > 1.0 { spacing } else { 0.0 };
-            if contours[k].accept(time, slip, [spacing, least]) {
-                let points = slip.iter().zip(&line.along);
-                let curve = points.map(|(s, a)| frame.point(s / unit.factor, a / scale)).collect();
-                contours[k].curves.push(curve);
-            }
-        })?;
         // Slip between events is drawn over slip during events, which would hide it.
-        let [between, within] = contours.map(|contours| contours.curves);
+        let [between, within] = self.contour_curves(line, least, multiples, &|slip, along| {
+            frame.point(slip / unit.factor, along / scale)
+        })?;
         for (curves, colour, width) in [(within, SEISMIC, 0.6), (between, ASEISMIC, 0.9)] {
             curves.into_iter().for_each(|curve| figure.line(curve, width, colour));
         }
         Ok(Some(page.finish()))
     }
 
+    /// Contours between events and in them that are `least` of slip and multiples of the times between profiles apart.
+    fn contour_curves(
+        &self,
+        line: &Line,
+        least: f64,
+        multiples: [f64; 2],
+        place: &dyn Fn(f64, f64) -> Point,
+    ) -> Result<[Vec<Vec<Point>>; 2], OutputError> {
+        let mut curves = [Vec::new(), Vec::new()];
+        let mut last: [(Vec<f64>, f64); 2] = std::array::from_fn(|_| (Vec::new(), f64::NEG_INFINITY));
+        self.profiles(Table::Slip, line, &mut |time, slip| {
+            let k = usize::from(self.in_event(time));
+            let (before, drawn) = &mut last[k];
+            let apart = before.is_empty() || before.iter().zip(slip).any(|(a, b)| (a - b).abs() >= least);
+            let spacing = self.spacing.map_or(0.0, |all| all[k] * multiples[k] * (1.0 - ROUNDING));
+            if apart && time - *drawn >= if multiples[k] > 1.0 { spacing } else { 0.0 } {
+                (*before, *drawn) = (slip.to_vec(), time);
+                curves[k].push(slip.iter().zip(&line.along).map(|(s, a)| place(*s, *a)).collect());
+            }
+        })?;
+        Ok(curves)
+    }
+
     /// Multiples of the times between profiles at which contours are drawn, between events and in them: 1, 2, 5, 10 and so on.
     fn multiples(&self) -> [f64; 2] {
         let Some(spacing) = self.spacing else { return [1.0; 2] };
         let longest = |spans: &mut dyn Iterator<Item = f64>| spans.fold(0.0_f64, f64::max);
-        let within = longest(&mut self.events.iter().map(|e| e.1 - e.0));
-        let between = longest(&mut self.events.windows(2).map(|w| w[1].0 - w[0].1));
+        let within = longest(&mut self.events.iter().map(|e| e[1] - e[0]));
+        let between = longest(&mut self.events.windows(2).map(|w| w[1][0] - w[0][1]));
         let of = |time: f64, spacing: f64| {
             let powers = (0..12).map(|k| 10.0_f64.powi(k));
             let mut all = powers.flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * power));
@@ -381,7 +373,7 @@ mod tests {
             spacing: None,
             chosen: vec![("midway".into(), 0.6e9), ("before".into(), 0.89e9)],
             stations: Vec::new(),
-            events: vec![(0.9e9, 1.1e9)],
+            events: vec![[0.9e9, 1.1e9]],
             intervals: ["2.5 d".into(), "3 min".into()],
             window: None,
             paper: Paper::default(),

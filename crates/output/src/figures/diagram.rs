@@ -165,7 +165,7 @@ impl Diagram {
 
     /// True if a point can be drawn on these axes.
     #[must_use]
-    pub fn drawable(&self, (x, y): (f64, f64)) -> bool {
+    pub fn drawable(&self, x: f64, y: f64) -> bool {
         let fits = |scale: Scale, v: f64| v.is_finite() && (scale == Scale::Linear || v > 0.0);
         fits(self.x_axis, x) && fits(self.y_axis, y)
     }

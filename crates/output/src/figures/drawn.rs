@@ -85,7 +85,7 @@ impl Place {
 fn shown(diagram: &Diagram) -> Vec<Point> {
     let corners = diagram.slopes.iter().flat_map(Slope::corners);
     let points = diagram.series.iter().flat_map(|s| s.points.iter().copied());
-    points.chain(corners).filter(|&p| diagram.drawable(p)).collect()
+    points.chain(corners).filter(|&(x, y)| diagram.drawable(x, y)).collect()
 }
 
 impl Diagram {
@@ -118,7 +118,7 @@ fn figure(diagram: &Diagram) -> Figure {
 
 fn curve(figure: &mut Figure, diagram: &Diagram, place: &Place, series: &Series, style: Style) {
     if series.line {
-        for piece in series.points.split(|&p| !diagram.drawable(p)).filter(|piece| piece.len() > 1) {
+        for piece in series.points.split(|&(x, y)| !diagram.drawable(x, y)).filter(|piece| piece.len() > 1) {
             let line: Vec<Point> = piece.iter().map(|&p| place.point(p)).collect();
             // Columns are those of a curve that runs one way.
             let one_way = line.windows(2).all(|pair| pair[0].0 <= pair[1].0);
@@ -126,7 +126,7 @@ fn curve(figure: &mut Figure, diagram: &Diagram, place: &Place, series: &Series,
         }
     }
     if series.markers {
-        for &point in series.points.iter().filter(|&&p| diagram.drawable(p)) {
+        for &point in series.points.iter().filter(|&&(x, y)| diagram.drawable(x, y)) {
             style.mark(figure, place.point(point), RADIUS);
         }
     }

@@ -8,7 +8,6 @@ use super::figure::{Anchor, Figure, Image, Point};
 use crate::bodies::view::MeshView;
 use crate::units::{LENGTH, NUMBER, STRESS, Unit, Units, VELOCITY};
 use serde::{Deserialize, Serialize};
-use std::ops::RangeInclusive;
 
 /// Largest width and height of the map in a plot of a run.
 pub(super) const LARGE: Point = (420.0, 360.0);
@@ -104,9 +103,18 @@ impl VisibleMesh {
     }
 }
 
-/// Draws the Mises stress at the nodes of a mesh \[Pa\]; a title is a scene and a part of it.
+/// Title of a map.
+#[derive(Clone, Copy)]
+pub(super) struct MapTitle<'a> {
+    /// Title of the scene.
+    pub scene: &'a str,
+    /// Time, in words.
+    pub when: &'a str,
+}
+
+/// Draws the Mises stress at the nodes of a mesh \[Pa\].
 pub(super) fn mises(
-    title: Option<(&str, &str)>,
+    title: Option<MapTitle<'_>>,
     visible: &VisibleMesh,
     values: &[f64],
     room: Point,
@@ -127,7 +135,7 @@ pub(super) fn displacement(mesh: &MeshView, displacement: &[[f64; 3]], room: Poi
 
 /// Draws the magnitude of velocities at the nodes of a mesh \[m/s\] at a time.
 pub(super) fn velocity(
-    title: (&str, &str),
+    title: MapTitle<'_>,
     visible: &VisibleMesh,
     velocity: &[f64],
     room: Point,
@@ -148,20 +156,20 @@ fn around(at: Point, (lo, hi): (Point, Point), room: Point) -> (Frame, Unit) {
     let frame = Frame {
         at,
         size: (width * scale, height * scale),
-        x: Axis::exact((lo.0 / length.factor, hi.0 / length.factor), format!("x [{}]", length.name)),
-        y: Axis::exact((lo.1 / length.factor, hi.1 / length.factor), format!("y [{}]", length.name)),
+        x: Axis::exact([lo.0 / length.factor, hi.0 / length.factor], format!("x [{}]", length.name)),
+        y: Axis::exact([lo.1 / length.factor, hi.1 / length.factor], format!("y [{}]", length.name)),
     };
     (frame, length)
 }
 
 impl Field<'_> {
-    fn draw(&self, title: Option<(&str, &str)>, room: Point) -> Option<Figure> {
+    fn draw(&self, title: Option<MapTitle<'_>>, room: Point) -> Option<Figure> {
         let visible = self.visible;
         let (frame, length) = around(AT, visible.extent()?, room);
         let colours = Colours::from_values(visible, self.values, self.units);
         let below = (frame.size.1 + 62.0).max(BAR + 20.0);
         let mut figure = Figure::new(frame.at.0 + frame.size.0.max(180.0) + 150.0, frame.at.1 + below);
-        if let Some((scene, when)) = title {
+        if let Some(MapTitle { scene, when }) = title {
             super::title::title(&mut figure, &frame, scene, &format!("{when}{}", visible.side()));
         }
         figure.image(map(visible, self.values, &colours, &frame));
@@ -240,7 +248,7 @@ fn map(visible: &VisibleMesh, values: &[f64], colours: &Colours, frame: &Frame) 
             |read: &dyn Fn(usize) -> f64| nodes.iter().map(|&n| read(n)).sum::<f64>() / nodes.len() as f64;
         let x = (mean(&|n| visible.places[n].0) - lo.0) / (hi.0 - lo.0) * columns as f64;
         let y = (hi.1 - mean(&|n| visible.places[n].1)) / (hi.1 - lo.1) * rows as f64;
-        (x, y, mean(&|n| values[n]))
+        Vertex { x, y, value: mean(&|n| values[n]) }
     };
     for triangle in &visible.triangles {
         fill(&mut rgb, columns, triangle.each_ref().map(corner), colours);
@@ -248,45 +256,78 @@ fn map(visible: &VisibleMesh, values: &[f64], colours: &Colours, frame: &Frame) 
     Image { at: frame.at, size: frame.size, columns, rgb }
 }
 
-/// The rows or columns, of so many, that a triangle with these coordinates of its corners may cover.
-fn span(corners: [f64; 3], most: usize) -> (usize, usize) {
-    let [u, v, w] = corners;
-    (u.min(v).min(w).floor().max(0.0) as usize, (u.max(v).max(w).ceil().max(0.0) as usize).min(most))
+/// Corner of a triangle in an image.
+#[derive(Clone, Copy)]
+pub(super) struct Vertex {
+    /// Distance from the left in columns.
+    pub x: f64,
+    /// Distance from the top in rows.
+    pub y: f64,
+    pub value: f64,
 }
 
-/// Barycentric coordinates of the second and third corner at a position; `twice` is twice the area of the triangle.
-fn barycentric([a, b, c]: [(f64, f64, f64); 3], twice: f64, [x, y]: [f64; 2]) -> [f64; 2] {
-    [
-        ((x - a.0) * (c.1 - a.1) - (c.0 - a.0) * (y - a.1)) / twice,
-        ((b.0 - a.0) * (y - a.1) - (x - a.0) * (b.1 - a.1)) / twice,
-    ]
-}
-
-/// Fills one triangle with corners (column, row, value), interpolating linearly.
-pub(super) fn fill(rgb: &mut [Rgb], columns: usize, [a, b, c]: [(f64, f64, f64); 3], colours: &Colours) {
-    let twice = (b.0 - a.0) * (c.1 - a.1) - (c.0 - a.0) * (b.1 - a.1);
-    if twice == 0.0 || !twice.is_finite() {
+/// Fills one triangle, interpolating linearly.
+pub(super) fn fill(rgb: &mut [Rgb], columns: usize, corners: [Vertex; 3], colours: &Colours) {
+    let triangle = Triangle::new(corners);
+    if triangle.twice == 0.0 || !triangle.twice.is_finite() {
         return;
     }
-    let (left, right) = span([a.0, b.0, c.0], columns);
-    let (top, bottom) = span([a.1, b.1, c.1], rgb.len() / columns);
+    let (left, right) = covered(corners.map(|c| c.x), columns);
+    let (top, bottom) = covered(corners.map(|c| c.y), rgb.len() / columns);
     // Barycentric coordinates and value change by constant increments from column to column.
-    let (du, dv) = ((c.1 - a.1) / twice, -(b.1 - a.1) / twice);
-    let growth = du * (b.2 - a.2) + dv * (c.2 - a.2);
+    let [du, dv] = triangle.growth();
+    let dw = du * triangle.rises[0] + dv * triangle.rises[1];
     for row in top..bottom {
-        let [u, v] = barycentric([a, b, c], twice, [left as f64 + 0.5, row as f64 + 0.5]);
-        let coordinates = [(u, du), (v, dv), (1.0 - u - v, -du - dv)];
-        let Some(within) = inside(coordinates, right.saturating_sub(left)) else { continue };
-        let value = a.2 + u * (b.2 - a.2) + v * (c.2 - a.2);
-        let first = row * columns + left;
-        for k in within {
-            rgb[first + k] = colours.colour(value + k as f64 * growth);
+        let [u, v] = triangle.coordinates(left as f64 + 0.5, row as f64 + 0.5);
+        let value = corners[0].value + u * triangle.rises[0] + v * triangle.rises[1];
+        let sides = [(u, du), (v, dv), (1.0 - u - v, -du - dv)];
+        let Some((from, to)) = inside(sides, right.saturating_sub(left)) else { continue };
+        let pixels = &mut rgb[row * columns + left + from..=row * columns + left + to];
+        for (k, pixel) in pixels.iter_mut().enumerate() {
+            *pixel = colours.colour(value + (from + k) as f64 * dw);
         }
     }
 }
 
-/// The k of `n` steps for which all `start + k growth` are positive, within the tolerance [`ON_EDGE`].
-fn inside(sides: [(f64, f64); 3], n: usize) -> Option<RangeInclusive<usize>> {
+/// First pixel that the corners of a triangle cover along an axis, and the one after the last, of so many.
+fn covered([u, v, w]: [f64; 3], most: usize) -> (usize, usize) {
+    (u.min(v).min(w).floor().max(0.0) as usize, (u.max(v).max(w).ceil().max(0.0) as usize).min(most))
+}
+
+/// Triangle with the barycentric coordinates of its second and third corner.
+struct Triangle {
+    first: Vertex,
+    /// Sides from the first corner to the others.
+    sides: [[f64; 2]; 2],
+    /// Changes of the value along them.
+    rises: [f64; 2],
+    /// Twice its area.
+    twice: f64,
+}
+
+impl Triangle {
+    fn new([a, b, c]: [Vertex; 3]) -> Self {
+        let sides = [[b.x - a.x, b.y - a.y], [c.x - a.x, c.y - a.y]];
+        let twice = sides[0][0] * sides[1][1] - sides[1][0] * sides[0][1];
+        Self { first: a, sides, rises: [b.value - a.value, c.value - a.value], twice }
+    }
+
+    /// Coordinates at a position.
+    fn coordinates(&self, x: f64, y: f64) -> [f64; 2] {
+        let Self { first, sides: [b, c], twice, .. } = self;
+        let (x, y) = (x - first.x, y - first.y);
+        [(x * c[1] - c[0] * y) / twice, (b[0] * y - x * b[1]) / twice]
+    }
+
+    /// Change of the coordinates from column to column.
+    fn growth(&self) -> [f64; 2] {
+        let [b, c] = self.sides;
+        [c[1] / self.twice, -b[1] / self.twice]
+    }
+}
+
+/// First and last k of `n` steps for which all `start + k growth` are positive, within the tolerance [`ON_EDGE`].
+fn inside(sides: [(f64, f64); 3], n: usize) -> Option<(usize, usize)> {
     let (mut lo, mut hi) = (0.0_f64, n as f64 - 1.0);
     for (start, growth) in sides {
         let at = -(start + ON_EDGE) / growth;
@@ -298,7 +339,7 @@ fn inside(sides: [(f64, f64); 3], n: usize) -> Option<RangeInclusive<usize>> {
             return None;
         }
     }
-    (lo <= hi).then_some(lo as usize..=hi as usize)
+    (lo <= hi).then_some((lo as usize, hi as usize))
 }
 
 /// Tolerance of the inside test, so that despite rounding a pixel on a shared edge is filled by one of its triangles.
@@ -323,7 +364,7 @@ impl Bar {
     pub(super) fn draw_in(&self, figure: &mut Figure, frame: &Frame, colours: fn(f64) -> Rgb) {
         let (left, top) = (frame.at.0 + frame.size.0 + 20.0, frame.at.1);
         let (width, height) = (18.0, frame.size.1.max(BAR));
-        let axis = Axis::exact(self.range, String::new());
+        let axis = Axis::exact(self.range.into(), String::new());
         let head = if self.above.is_some() { 16.0 } else { 0.0 };
         let body = height - head;
         let rgb = (0..256).rev().map(|i| colours(f64::from(i) / 255.0)).collect();

@@ -61,7 +61,7 @@ mod tests {
         let entries: Vec<Entry> = (0..9).map(entry).collect();
         let long = "A quantity with a long name [10²¹ N m/s]".to_string();
         for paper in [Paper::default(), Paper::new(Some((510.0, 326.0)))] {
-            for range in [(0.0, 1.0), (-123_456.0, 123_456.0), (0.100_001, 0.100_002)] {
+            for range in [[0.0, 1.0], [-123_456.0, 123_456.0], [0.100_001, 0.100_002]] {
                 let [x, y] = [(), ()].map(|()| Axis::exact(range, long.clone()));
                 let figure = FramedFigure::new(paper, x, y, &entries).finish();
                 for shape in &figure.shapes {

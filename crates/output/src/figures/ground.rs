@@ -157,7 +157,7 @@ impl GroundMap {
         let unit = self.unit();
         let axis = |(from, to): (f64, f64), k: usize| {
             let label = format!("{} [{}]", self.axes[k].0, unit.name);
-            Axis::exact((from / unit.factor, to / unit.factor), label)
+            Axis::exact([from / unit.factor, to / unit.factor], label)
         };
         let size = ((right - left) * narrow * scale, (high - low) * scale);
         Some(Frame { at: AT, size, x: axis((left, right), 0), y: axis((low, high), 1) })

@@ -135,7 +135,7 @@ const PIXELS: f64 = 2.0;
 #[must_use]
 pub fn sheet(recorder: &Recorder) -> Sheet {
     let setup = recorder.setup();
-    let span = (0.0, recorder.times().last().copied().unwrap_or(0.0));
+    let span = [0.0, recorder.times().last().copied().unwrap_or(0.0)];
     let mut sheet = Sheet::new(&setup.title, span, false);
     let stage_names = stems(setup.stages.iter().map(|(name, _)| name.as_str()));
     for end in recorder.stage_ends() {

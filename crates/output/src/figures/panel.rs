@@ -50,36 +50,16 @@ const BEYOND: f64 = 0.04;
 const LEAST: f64 = 1.0;
 
 impl EventPanel {
-    /// Legend entries. One group needs no name: the title says what it is.
-    fn entries(&self) -> Vec<Entry> {
-        let several = self.groups.iter().filter(|group| !group.1.is_empty()).count() > 1;
-        let named = self.groups.iter().enumerate().filter(|(_, group)| several && !group.1.is_empty());
-        let entry = |(k, group): (usize, &(String, _))| Entry {
-            name: group.0.clone(),
-            colour: Style::from_curve(k).colour,
-            dash: &[],
-        };
-        named.map(entry).collect()
-    }
-
     /// The figure; `None` without events.
     pub(super) fn figure(&self, paper: Paper) -> Option<Figure> {
         let all = || self.groups.iter().flat_map(|group| &group.1);
-        let (lo, hi) = all()
-            .map(|event| event.magnitude)
-            .filter(|m| m.is_finite())
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), m| (lo.min(m), hi.max(m)));
-        if lo > hi || self.end <= self.start {
-            return None;
-        }
-        let range = (hi - lo).max(LEAST);
-        let lo = 0.5 * (lo + hi - range);
+        let (lo, range) = self.magnitudes().filter(|_| self.end > self.start)?;
         let time = TIME.choose(self.end.abs());
         // A run often stops at an event, which needs room for its sign.
         let last = all().map(|event| event.onset).fold(self.start, f64::max);
         let end = self.end.max(last + BEYOND * (self.end - self.start));
-        let x = Axis::exact((self.start / time.factor, end / time.factor), format!("Time [{}]", time.name));
-        let y = Axis::exact((lo - MARGIN * range, lo + (1.0 + MARGIN) * range), "Moment magnitude".into());
+        let x = Axis::exact([self.start / time.factor, end / time.factor], format!("Time [{}]", time.name));
+        let y = Axis::exact([lo - MARGIN * range, lo + (1.0 + MARGIN) * range], "Moment magnitude".into());
         let mut page = FramedFigure::new(paper, x, y, &self.entries());
         let FramedFigure { figure, frame, .. } = &mut page;
         title(figure, frame, &self.title, "events");
@@ -102,6 +82,31 @@ impl EventPanel {
             }
         }
         Some(page.finish())
+    }
+
+    /// Least magnitude of the frame, and the range of magnitudes from there; `None` without magnitudes.
+    fn magnitudes(&self) -> Option<(f64, f64)> {
+        let (lo, hi) = self
+            .groups
+            .iter()
+            .flat_map(|group| &group.1)
+            .map(|event| event.magnitude)
+            .filter(|m| m.is_finite())
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), m| (lo.min(m), hi.max(m)));
+        let range = (hi - lo).max(LEAST);
+        (lo <= hi).then(|| (0.5 * (lo + hi - range), range))
+    }
+
+    /// Legend of the groups. One group needs no name: the title says what it is.
+    fn entries(&self) -> Vec<Entry> {
+        let several = self.groups.iter().filter(|group| !group.1.is_empty()).count() > 1;
+        let named = self.groups.iter().enumerate().filter(|(_, group)| several && !group.1.is_empty());
+        let entry = |(k, group): (usize, &(String, _))| Entry {
+            name: group.0.clone(),
+            colour: Style::from_curve(k).colour,
+            dash: &[],
+        };
+        named.map(entry).collect()
     }
 }
 

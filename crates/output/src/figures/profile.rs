@@ -81,11 +81,11 @@ impl Tractions {
     }
 
     /// Normal (solid) and shear traction (dashed) at the ends of stages within a window of time; `None` if there are none.
-    pub(super) fn figure(&self, paper: Paper, window: Option<(f64, f64)>) -> Option<Figure> {
+    pub(super) fn figure(&self, paper: Paper, window: Option<[f64; 2]>) -> Option<Figure> {
         let curves: Vec<Curve> = self
             .curves()
             .into_iter()
-            .filter(|(time, _)| window.is_none_or(|(a, b)| a <= *time && *time <= b))
+            .filter(|(time, _)| window.is_none_or(|[a, b]| a <= *time && *time <= b))
             .map(|c| c.1)
             .collect();
         if curves.is_empty() {
@@ -96,7 +96,7 @@ impl Tractions {
         let (lo, hi) = self.ends;
         let (stress, length) = (STRESS.choose(largest), LENGTH.choose(lo.abs().max(hi.abs())));
         let label = format!("{} [{}]", self.axis, length.name);
-        let x = Axis::exact((lo / length.factor, hi / length.factor), label);
+        let x = Axis::exact([lo / length.factor, hi / length.factor], label);
         let y =
             Axis::linear(values().map(|v| v / stress.factor), 0.05, format!("Traction [{}]", stress.name));
         let entries: Vec<Entry> = curves.iter().map(|curve| curve.entry.clone()).collect();

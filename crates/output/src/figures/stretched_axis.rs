@@ -31,18 +31,18 @@ pub(super) struct StretchedAxis {
     /// Times of the rows, ascending \[s\].
     times: Vec<f64>,
     /// Positions of onset and end of each event along the axis.
-    events: Vec<(f64, f64)>,
+    events: Vec<[f64; 2]>,
     unit: Unit,
 }
 
 impl StretchedAxis {
     /// Axis of rows at these times \[s\], with the times of onset and end of events \[s\].
-    pub(super) fn new(times: &[f64], events: &[(f64, f64)]) -> Self {
+    pub(super) fn new(times: &[f64], events: &[[f64; 2]]) -> Self {
         let place = |time: f64| {
             let row = times.partition_point(|&t| t < time);
             row as f64 / times.len().max(1) as f64
         };
-        let events = events.iter().map(|&(onset, end)| (place(onset), place(end))).collect();
+        let events = events.iter().map(|times| times.map(place)).collect();
         let latest = times.iter().fold(0.0_f64, |most, t| most.max(t.abs()));
         Self { times: times.to_vec(), events, unit: TIME.choose(latest) }
     }
@@ -52,7 +52,7 @@ impl StretchedAxis {
         let apart = APART.max(LABEL / width);
         let mut at: Vec<f64> = Vec::new();
         let even = (0..EVEN).map(|k| k as f64 / EVEN as f64);
-        for place in self.events.iter().map(|e| e.0).chain([0.0]).chain(even) {
+        for place in self.events.iter().map(|e| e[0]).chain([0.0]).chain(even) {
             if place < 1.0 && at.iter().all(|other| (other - place).abs() >= apart) {
                 at.push(place);
             }
@@ -61,7 +61,7 @@ impl StretchedAxis {
         let ticks = self.texts(&at);
         let since = if ticks.iter().any(|tick| tick.1.starts_with('+')) { "; + since the last" } else { "" };
         let label = format!("Time [{}], stretched where slip rates change{since}", self.unit.name);
-        Axis { own: ticks, ..Axis::exact((0.0, 1.0), label) }
+        Axis { own: ticks, ..Axis::exact([0.0, 1.0], label) }
     }
 
     /// Ticks at ascending positions with their times. A time that would read as the one before is given as the time since
@@ -109,7 +109,7 @@ impl StretchedAxis {
     pub(super) fn mark(&self, figure: &mut Figure, frame: &Frame) {
         let ((left, top), (width, height)) = (frame.at, frame.size);
         let mut last = f64::NEG_INFINITY;
-        for (number, &(onset, end)) in self.events.iter().enumerate() {
+        for (number, &[onset, end]) in self.events.iter().enumerate() {
             for place in [onset, end] {
                 let x = left + place * width;
                 for (colour, width) in OVER.into_iter().zip(WIDTHS) {
@@ -153,7 +153,7 @@ mod tests {
     fn ticks_of_a_narrow_frame_are_as_far_apart_as_their_labels_are_long() {
         let times: Vec<f64> = (0..100).map(f64::from).collect();
         for width in [200.0, 290.0, 420.0, 900.0] {
-            let axis = StretchedAxis::new(&times, &[(30.0, 40.0), (55.0, 60.0)]).axis(width);
+            let axis = StretchedAxis::new(&times, &[[30.0, 40.0], [55.0, 60.0]]).axis(width);
             let apart = |pair: &[(f64, String)]| (pair[1].0 - pair[0].0) * width;
             assert!(axis.own.windows(2).all(|pair| apart(pair) >= LABEL - 1e-9), "{width}: {:?}", axis.own);
         }
@@ -163,7 +163,7 @@ mod tests {
     fn ticks_have_the_times_of_onsets_and_lie_apart() {
         const YEAR: f64 = 31_557_600.0;
         let times: Vec<f64> = (0..100).map(|k| f64::from(k) * YEAR).collect();
-        let onsets = [30.0, 31.0, 60.0].map(|k| (k * YEAR, (k + 2.0) * YEAR));
+        let onsets = [30.0, 31.0, 60.0].map(|k| [k * YEAR, (k + 2.0) * YEAR]);
         let axis = StretchedAxis::new(&times, &onsets).axis(WIDTH);
         assert_eq!(axis.label, "Time [yr], stretched where slip rates change");
         let texts: Vec<&str> = axis.own.iter().map(|t| t.1.as_str()).collect();
@@ -192,7 +192,7 @@ mod tests {
             .chain(years(12))
             .chain(event(23.0))
             .collect();
-        let events = [(10.0, 1.0), (23.0, 3.9)].map(|(year, long)| (year * YEAR, year * YEAR + long));
+        let events = [(10.0, 1.0), (23.0, 3.9)].map(|(year, long)| [year * YEAR, year * YEAR + long]);
         for events in [&events[..], &events[..1], &[]] {
             let axis = StretchedAxis::new(&times, events).axis(WIDTH);
             let texts: Vec<&str> = axis.own.iter().map(|t| t.1.as_str()).collect();

@@ -286,10 +286,10 @@ impl Writer for PromptWriter {
 
 #[test]
 fn times_of_outputs_are_those_at_which_they_appear() {
-    let stages = [("a".to_string(), 1.0), ("b".to_string(), 5.0)];
+    let ends = [1.0, 5.0];
     let schedule = FieldSchedule { fields: 2, profiles: 4 };
-    assert_eq!(schedule.times(&stages), [0.25, 0.5, 0.75, 1.0, 2.0, 3.0, 4.0, 5.0]);
-    let mut due = OutputIntervals::new(4, &stages);
+    assert_eq!(schedule.times(&ends), [0.25, 0.5, 0.75, 1.0, 2.0, 3.0, 4.0, 5.0]);
+    let mut due = OutputIntervals::new(4, &ends);
     let ends = [(0.1, false), (0.25, false), (0.3, false), (0.8, false), (0.99, false), (1.0, true)];
     let taken = ends.map(|(time, ends_stage)| due.take(0, time, ends_stage));
     assert_eq!(taken, [false, true, false, true, false, true]);

@@ -95,6 +95,6 @@ pub fn control(scene: &Scene, stages: &[Stage]) -> Control {
 fn outputs(scene: &Scene, stages: &[Stage]) -> Vec<f64> {
     let number = |asked: &Option<Spanned<usize>>| asked.as_ref().map_or(0, |n| *n.get_ref());
     let (fields, profiles) = (number(&scene.output.fields), number(&scene.output.profiles));
-    let ends: Vec<(String, f64)> = stages.iter().map(|stage| (stage.name.clone(), stage.end)).collect();
+    let ends: Vec<f64> = stages.iter().map(|stage| stage.end).collect();
     FieldSchedule { fields, profiles }.times(&ends)
 }

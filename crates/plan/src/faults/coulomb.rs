@@ -103,7 +103,7 @@ impl Coulomb {
         let n = geometry.places.len();
         let tangents = slips.iter().map(|slip| slip.len() / n.max(1)).max().unwrap_or(1);
         let slip = Slip { tangents, changes: &vec![true; n] };
-        let operator = self.patches.operator(&self.rock, slip, (geometry, Form::Fitting));
+        let operator = self.patches.operator(&self.rock, slip, geometry, Form::Fitting);
         let of = |slip: &&[f64]| {
             let [shear, normal] = tractions(operator.as_ref(), slip);
             shear

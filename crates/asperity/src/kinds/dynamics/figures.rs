@@ -16,7 +16,7 @@ pub(super) fn sheet<const D: usize>(
     arrivals: &Arrivals,
     taken: &WrittenFields,
 ) -> Sheet {
-    let mut sheet = Sheet::new(&plan.title, (0.0, end), D == 3);
+    let mut sheet = Sheet::new(&plan.title, [0.0, end], D == 3);
     sheet.plots.extend(curves(plan).into_iter().map(Plot::Curves));
     if let Some((mesh, nodes)) = VisibleMesh::from_mesh(&plan.mesh, &[]) {
         let most = taken.speeds.iter().flatten().copied().filter(|v| v.is_finite()).fold(0.0, f64::max);

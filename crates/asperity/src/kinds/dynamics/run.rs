@@ -138,12 +138,12 @@ pub fn run<const D: usize>(
         }
         observer.step(&moment)?;
         if explicit.steps().is_multiple_of(JUDGED) {
-            worst.judge((model, explicit.time()), explicit.displacement());
+            worst.judge(model, explicit.time(), explicit.displacement());
         }
     }
     // A step that outran waves is not kept: what is known after it is the state at its start.
     if back.is_none() {
-        worst.judge((model, explicit.time()), explicit.displacement());
+        worst.judge(model, explicit.time(), explicit.displacement());
     }
     let budget = explicit.budget();
     let time = if back.is_some() { (explicit.time() - 2.0 * plan.dt).max(0.0) } else { budget.time };

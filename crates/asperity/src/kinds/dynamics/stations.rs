@@ -14,7 +14,7 @@ pub(super) fn tables<const D: usize>(plan: &Plan<D>) -> Vec<Table<'_>> {
         for (name, (asked, point)) in stations::names(fault).into_iter().zip(&fault.stations) {
             let view = &plan.points[*point];
             let location = stations::location(fault, asked, view);
-            let plain = stations::plain(&plan.title, (&location, view), D == 3);
+            let plain = stations::plain(&plan.title, &location, view, D == 3);
             let head = Head { opens: opens(plan), ..plain };
             let row = |now: &Moment<'_>| row(plan, now, *point);
             let table = Table::new(format!("stations/{name}"), head.columns(), Course::Rows, row);

@@ -22,7 +22,7 @@ use asperity_run::Event;
 /// Figures of a run with a panel of its events.
 #[must_use]
 pub fn sheet(plan: &Plan, run: &FaultRun, panel: EventPanel) -> Sheet {
-    let mut sheet = Sheet::new(&plan.title, (0.0, run.at.seconds()), plan.in_space);
+    let mut sheet = Sheet::new(&plan.title, [0.0, run.at.seconds()], plan.in_space);
     sheet.plots.push(Plot::Cycles(through(plan, run)));
     sheet.plots.extend(moment_rates(plan, run).into_iter().map(Plot::Curves));
     sheet.plots.extend(springs(plan).map(Plot::Curves));
@@ -45,8 +45,8 @@ fn through(plan: &Plan, run: &FaultRun) -> FaultCycles {
         let (name, columns) = (fault.name.clone(), fault.points.clone());
         ascends.then(|| Line { name, columns, along, mapped: mapped(plan, fault) })
     };
-    let events = run.events().iter().filter_map(|e| Some((e.onset.seconds(), e.end?.seconds())));
-    let under_way = run.under_way().map(|e| (e.onset.seconds(), run.at.seconds()));
+    let events = run.events().iter().filter_map(|e| Some([e.onset.seconds(), e.end?.seconds()]));
+    let under_way = run.under_way().map(|e| [e.onset.seconds(), run.at.seconds()]);
     FaultCycles {
         lines: plan.faults.iter().filter_map(line).collect(),
         events: events.chain(under_way).collect(),

@@ -59,7 +59,7 @@ pub(crate) fn location(fault: &FaultView, asked: &Station, view: &PointView) -> 
 }
 
 /// Head of the file of a station at a point, of a fault that neither opens nor heats.
-pub(crate) fn plain<'a>(title: &'a str, (location, view): (&'a str, &PointView), in_space: bool) -> Head<'a> {
+pub(crate) fn plain<'a>(title: &'a str, location: &'a str, view: &PointView, in_space: bool) -> Head<'a> {
     Head {
         title,
         version: env!("CARGO_PKG_VERSION"),
@@ -78,7 +78,7 @@ fn head<'a>(plan: &'a Plan, location: &'a str, point: usize) -> Head<'a> {
         opens: opens(plan, point),
         heats: plan.heat_at(point).is_some(),
         pressurises: pore::changes(plan, point),
-        ..plain(&plan.title, (location, &plan.points[point]), plan.in_space)
+        ..plain(&plan.title, location, &plan.points[point], plan.in_space)
     }
 }
 

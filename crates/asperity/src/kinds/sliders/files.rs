@@ -162,7 +162,7 @@ impl Histories {
                 sources.push(Source { name, rows: table.ok_or(&kept.trace), states, theta });
             }
         }
-        let mut sheet = Sheet::new(&problem.title, (0.0, end), false);
+        let mut sheet = Sheet::new(&problem.title, [0.0, end], false);
         sheet.plots = figures::curves(&problem.title, &sources).into_iter().map(Plot::Curves).collect();
         sheet
     }
@@ -224,8 +224,8 @@ impl Observer<Sliders> for Histories {
                 load: now.load,
                 states: problem.system.slider_unknowns(i, now.unknowns)[1..=states].to_vec(),
             };
-            let until = (problem.end, problem.events.map(|thresholds| thresholds.on));
-            for row in kept.thin.next(row, now.asked, problem.output.change, until).iter().flatten() {
+            let (change, fast) = (problem.output.change, problem.events.map(|thresholds| thresholds.on));
+            for row in kept.thin.next(row, now.asked, change, problem.end, fast).iter().flatten() {
                 kept.add(row, self.traced)?;
             }
         }

@@ -100,7 +100,8 @@ impl Thin {
         row: Row,
         asked: bool,
         change: Option<f64>,
-        (end, fast): (f64, Option<f64>),
+        end: f64,
+        fast: Option<f64>,
     ) -> [Option<Row>; 2] {
         let Some(change) = change else { return [None, asked.then_some(row)] };
         let peaked = fast.is_some_and(|fast| self.course.peaked(row.condition.rate.abs(), fast));

@@ -493,7 +493,7 @@ impl<const D: usize> Measure<D> for MortarMeasure<D> {
             point.weights = vec![0.0; saved.nodes.len()];
             (point.slaves, point.anchored, point.fresh) = (saved.slaves, saved.anchored, false);
         }
-        self.tabulate(&pairs.iter().map(|p| (p[0], p[1])).collect::<Vec<_>>());
+        self.tabulate(pairs);
         self.bound = Bound::restore(proved);
         true
     }

@@ -2,6 +2,7 @@
 
 use crate::measure::{NormalPoint, ShearPoint};
 use crate::vector::{add, axpy, cross, dot, norm, scaled, unit};
+use asperity_fem::vector::tangent;
 
 /// Normal, frame and averaged distances of a point.
 #[derive(Clone, Copy, Debug)]
@@ -56,7 +57,7 @@ impl<const D: usize> Local<D> {
         let n = scaled(normals, -length.recip());
         let [e, second] = material;
         if D == 2 {
-            let frame = [quarter(&n), [0.0; D]];
+            let frame = [tangent(&n), [0.0; D]];
             return Self { n, length, e, second, projected: 1.0, frame, d, v };
         }
         let e = add(&e, &cross(&second, &n));
@@ -83,7 +84,7 @@ impl<const D: usize> Local<D> {
         axpy(&mut dn, -out_of_plane, &self.n);
         out.n = dn;
         if D == 2 {
-            out.frame[0] = quarter(&dn);
+            out.frame[0] = tangent(&dn);
             return;
         }
         let along = dot(&self.n, &self.e);
@@ -123,12 +124,4 @@ impl<const D: usize> Local<D> {
         }
         df
     }
-}
-
-/// Vector `(-n_y, n_x)`.
-fn quarter<const D: usize>(n: &[f64; D]) -> [f64; D] {
-    let mut a = [0.0; D];
-    a[0] = -n[1];
-    a[1] = n[0];
-    a
 }

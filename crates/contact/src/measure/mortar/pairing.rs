@@ -19,7 +19,7 @@ impl<const D: usize> MortarMeasure<D> {
             for f in k * CHUNK..((k + 1) * CHUNK).min(facets) {
                 let SearchResult { pairs, candidates, examined, free } = &mut *found;
                 *free = free.min(self.sides.candidates(f, &self.x, candidates, examined));
-                pairs.extend(candidates.iter().map(|&m| (f, m)));
+                pairs.extend(candidates.iter().map(|&m| [f, m]));
             }
         });
         *examined += found.iter().map(|f| f.examined).sum::<u64>();
@@ -27,13 +27,13 @@ impl<const D: usize> MortarMeasure<D> {
         let pairs = || found.iter().flat_map(|f| f.pairs.iter().copied());
         // Sides that do not face each other have no pairs at first, but blocks all the same.
         let tabulated = !self.first.is_empty();
-        if !(tabulated && pairs().eq(self.cells.iter().map(|c| (c.facet, c.master)))) {
+        if !(tabulated && pairs().eq(self.cells.iter().map(|c| [c.facet, c.master]))) {
             self.rebuild(&pairs().collect::<Vec<_>>());
         }
         self.found = found;
     }
 
-    fn rebuild(&mut self, pairs: &[(usize, usize)]) {
+    fn rebuild(&mut self, pairs: &[[usize; 2]]) {
         for p in 0..self.points.len() {
             let mut slaves: Vec<usize> =
                 self.sides.beside[p].iter().flat_map(|b| self.sides.facets[b.facet].nodes.clone()).collect();
@@ -44,8 +44,8 @@ impl<const D: usize> MortarMeasure<D> {
             let kept: Vec<(usize, f64)> = kept.map(|(&n, &w)| (n, w)).collect();
             let beside = &self.sides.beside[p];
             let from = beside.iter().flat_map(|b| {
-                let first = pairs.partition_point(|c| c.0 < b.facet);
-                pairs[first..].iter().take_while(|c| c.0 == b.facet).map(|c| c.1)
+                let first = pairs.partition_point(|c| c[0] < b.facet);
+                pairs[first..].iter().take_while(|c| c[0] == b.facet).map(|c| c[1])
             });
             let mut masters: Vec<usize> =
                 from.flat_map(|m| self.sides.master[m].nodes.iter().copied()).collect();
@@ -68,11 +68,11 @@ impl<const D: usize> MortarMeasure<D> {
     }
 
     /// Computes the positions of the cells' nodes in the blocks, and the pattern.
-    pub(super) fn tabulate(&mut self, pairs: &[(usize, usize)]) {
+    pub(super) fn tabulate(&mut self, pairs: &[[usize; 2]]) {
         self.cells.clear();
         self.places.clear();
         self.first.clear();
-        for &(facet, master) in pairs {
+        for &[facet, master] in pairs {
             self.first.resize(facet + 1, self.cells.len());
             self.cells.push(Cell { facet, master, table: self.places.len() });
             let (own, other) = (&self.sides.facets[facet], &self.sides.master[master]);
@@ -173,7 +173,7 @@ mod tests {
         let (mut measure, _) = MortarMeasure::<D>::new(sides, dofs, reference.clone());
         let radius = measure.found.iter().fold(f64::INFINITY, |least, f| least.min(f.free));
         assert!(radius > 0.0 && radius.is_finite(), "{radius}");
-        let known: Vec<(usize, usize)> = measure.cells.iter().map(|c| (c.facet, c.master)).collect();
+        let known: Vec<[usize; 2]> = measure.cells.iter().map(|c| [c.facet, c.master]).collect();
         assert!(!known.is_empty());
         // Move every node to the surface of its cube.
         let by = 0.999 * radius / (D as f64).sqrt();
@@ -187,7 +187,7 @@ mod tests {
             let mut sums = Sums::<f64, MOST_NODES>::zero();
             let (frozen, rule) = (measure.sides.frozen(c.facet), measure.sides.rule(c.facet, c.master));
             let overlap = integrate(frozen, &own, master.kind, &at(&master.nodes), rule, &mut sums);
-            assert!(!overlap || known.contains(&(c.facet, c.master)), "{:?}", (c.facet, c.master));
+            assert!(!overlap || known.contains(&[c.facet, c.master]), "{:?}", [c.facet, c.master]);
         }
     }
 

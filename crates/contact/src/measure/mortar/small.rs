@@ -3,6 +3,7 @@
 use super::cell::{Sums, integrate};
 use super::dual::{Part, dualise};
 use super::sides::Sides;
+use crate::measure::Attachment;
 use crate::measure::fixed::FixedMeasure;
 use crate::spec::{Segment, SlavePoint, SurfaceNode};
 use crate::vector::{axpy, scaled, unit};
@@ -45,13 +46,16 @@ pub fn small<const D: usize>(
         let mut other = row.master.clone();
         own.iter_mut().for_each(|(n, w)| *w -= other.remove(n).unwrap_or(0.0));
         let share = row.area.recip();
-        let list = |weights: &BTreeMap<usize, f64>, c: f64| -> Vec<(usize, f64)> {
-            weights.iter().filter(|(_, w)| **w != 0.0).map(|(&n, w)| (n, c * w)).collect()
+        let attachments = |(weights, slave): (&BTreeMap<usize, f64>, bool)| -> Vec<Attachment> {
+            let c = if slave { share } else { -share };
+            let some = weights.iter().filter(|(_, w)| **w != 0.0);
+            some.map(|(&node, w)| Attachment { node, weight: c * w, slave }).collect()
         };
-        let (own, other) = (list(&own, share), list(&other, -share));
+        let through: Vec<Attachment> =
+            [(&own, true), (&other, false)].into_iter().flat_map(attachments).collect();
         let mut apart = [0.0; D];
-        own.iter().chain(&other).for_each(|&(n, w)| axpy(&mut apart, w, &x[n]));
-        measure.pair(p, &own, &other, unit(&normal), &apart);
+        through.iter().for_each(|a| axpy(&mut apart, a.weight, &x[a.node]));
+        measure.pair(p, &through, unit(&normal), &apart);
     }
     measure.finish(nodes);
     (measure, examined)

@@ -90,7 +90,7 @@ impl<const D: usize> Clone for Scratch<D> {
 #[derive(Clone, Debug, Default)]
 pub(super) struct SearchResult {
     /// Pairs of slave and master facets.
-    pub(super) pairs: Vec<(usize, usize)>,
+    pub(super) pairs: Vec<[usize; 2]>,
     /// Buffer for the candidates of one facet.
     pub(super) candidates: Vec<usize>,
     /// Number of pairs examined.

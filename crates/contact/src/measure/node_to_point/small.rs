@@ -1,5 +1,6 @@
 //! Small sliding: every slave node keeps the point of the master surface that is closest in the reference configuration.
 
+use crate::measure::Attachment;
 use crate::measure::fixed::FixedMeasure;
 use crate::search::project::{Outcome, Projection};
 use crate::search::smooth::MOST_SUPPORT;
@@ -56,6 +57,9 @@ fn pair<const D: usize>(
     let normal = fixed_normal.map_or(own, |n| unit(&n));
     // A point on a corner acts on that corner alone. The other weights are exact zeros and are left out of the pattern.
     let support = surface.support(segment).iter().zip(weights.value);
-    let master: Vec<(usize, f64)> = support.filter(|(_, n)| *n != 0.0).map(|(&k, n)| (k, -n)).collect();
-    measure.pair(point, &[(slave.node, 1.0)], &master, normal, &apart);
+    let master = support.filter(|(_, n)| *n != 0.0);
+    let master = master.map(|(&node, n)| Attachment { node, weight: -n, slave: false });
+    let own = Attachment { node: slave.node, weight: 1.0, slave: true };
+    let through: Vec<Attachment> = std::iter::once(own).chain(master).collect();
+    measure.pair(point, &through, normal, &apart);
 }

@@ -76,14 +76,14 @@ impl Acting for HeatedFriction<'_> {
     fn see(&mut self, now: &FaultState<'_>) {
         self.memory.enter(now.own);
         self.memory.open(self.heat, now.at, &mut self.windows);
-        self.memory.values(self.heat, (now.own, None), &self.windows, &mut self.surface);
+        self.memory.values(self.heat, now.own, None, &self.windows, &mut self.surface);
         self.warm();
         let mut rate = std::mem::take(&mut self.rate);
         self.law.as_deref().unwrap_or(self.host.law).slip_rates(0, now.m, now.states, &mut rate);
         self.heating(now, &rate);
         self.rate = rate;
-        self.memory.values(self.heat, (now.own, Some(&self.flux)), &self.windows, &mut self.surface);
-        self.memory.rates(self.heat, (now.own, &self.flux), &self.windows, &mut self.surface);
+        self.memory.values(self.heat, now.own, Some(&self.flux), &self.windows, &mut self.surface);
+        self.memory.rates(self.heat, now.own, &self.flux, &self.windows, &mut self.surface);
         self.warm();
     }
 

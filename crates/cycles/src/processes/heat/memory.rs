@@ -126,7 +126,8 @@ impl Memory {
     pub fn values(
         &self,
         heat: &Heat,
-        (received, flux): (&[f64], Option<&[f64]>),
+        received: &[f64],
+        flux: Option<&[f64]>,
         windows: &Windows,
         out: &mut Surface,
     ) {
@@ -143,13 +144,7 @@ impl Memory {
     }
 
     /// Computes their rates.
-    pub fn rates(
-        &self,
-        heat: &Heat,
-        (received, flux): (&[f64], &[f64]),
-        windows: &Windows,
-        out: &mut Surface,
-    ) {
+    pub fn rates(&self, heat: &Heat, received: &[f64], flux: &[f64], windows: &Windows, out: &mut Surface) {
         for (zone, sums) in heat.zones.iter().zip(&windows.sums) {
             for (i, p) in zone.points().enumerate() {
                 let k = zone.first + i;

@@ -8,8 +8,11 @@ use std::collections::BTreeMap;
 const FLAT: f64 = -0.707;
 
 /// Triangles without those at the border whose angle opposite to it is flat, again and again until none is left.
-pub(super) fn trimmed(samples: &[[f64; 3]], faces: Vec<(usize, [usize; 3])>) -> BTreeMap<usize, [usize; 3]> {
-    let mut kept: BTreeMap<usize, [usize; 3]> = faces.into_iter().collect();
+pub(super) fn trimmed(
+    samples: &[[f64; 3]],
+    faces: BTreeMap<usize, [usize; 3]>,
+) -> BTreeMap<usize, [usize; 3]> {
+    let mut kept = faces;
     let mut beside: BTreeMap<Edge, Vec<usize>> = BTreeMap::new();
     for (&face, corners) in &kept {
         for edge in edges(corners) {

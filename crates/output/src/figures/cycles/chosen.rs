@@ -28,7 +28,7 @@ impl Cycles<'_> {
         if found.iter().flatten().next().is_none() {
             return Ok(None);
         }
-        let x = Axis::exact((LEAST, MOST), format!("Coupling [–], shown from {LEAST}").replace('-', "−"));
+        let x = Axis::exact([LEAST, MOST], format!("Coupling [–], shown from {LEAST}").replace('-', "−"));
         let named = self.chosen.iter().zip(&found).enumerate().filter(|(_, (_, found))| found.is_some());
         let entry = |(k, ((name, _), _)): (usize, (&(String, f64), _))| Entry {
             name: name.clone(),

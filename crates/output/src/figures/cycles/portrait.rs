@@ -57,7 +57,7 @@ impl Cycles<'_> {
         for station in self.stations.iter().take(MOST_STATIONS) {
             let mut pairs = Vec::new();
             self.rows.station(&station.path, &mut |row| {
-                if self.window.is_none_or(|(from, to)| from <= row[0] && row[0] <= to) {
+                if self.window.is_none_or(|[from, to]| from <= row[0] && row[0] <= to) {
                     pairs.extend(station.pair(row));
                 }
             })?;

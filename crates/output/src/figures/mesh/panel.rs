@@ -45,8 +45,8 @@ impl Panel {
         let frame = Frame {
             at,
             size: ((hi.0 - lo.0) * scale, (hi.1 - lo.1) * scale),
-            x: Axis::exact((lo.0 / length.factor, hi.0 / length.factor), label("x")),
-            y: Axis::exact((lo.1 / length.factor, hi.1 / length.factor), label("y")),
+            x: Axis::exact([lo.0 / length.factor, hi.0 / length.factor], label("x")),
+            y: Axis::exact([lo.1 / length.factor, hi.1 / length.factor], label("y")),
         };
         Self { frame, unit: length.factor, shown: (lo, hi), view }
     }

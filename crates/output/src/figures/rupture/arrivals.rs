@@ -119,7 +119,7 @@ pub(super) fn fronts(
     last: f64,
 ) -> Option<String> {
     let unit = TIME.choose(last);
-    let times = Axis::exact((0.0, last / unit.factor), String::new());
+    let times = Axis::exact([0.0, last / unit.factor], String::new());
     let levels: Vec<(f64, String)> = times.ticks(CONTOURS).into_iter().filter(|t| t.0 > 0.0).collect();
     let onto = surface.onto(frame);
     for (share, _) in &levels {

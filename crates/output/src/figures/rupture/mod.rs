@@ -133,7 +133,7 @@ impl Line {
         let unit = LENGTH.choose(lo.abs().max(hi.abs()));
         let (from, to) = if upright && self.down { (hi, lo) } else { (lo, hi) };
         let label = format!("{} [{}]", self.label, unit.name);
-        (hi > lo).then(|| (Axis::exact((from / unit.factor, to / unit.factor), label), unit.factor))
+        (hi > lo).then(|| (Axis::exact([from / unit.factor, to / unit.factor], label), unit.factor))
     }
 }
 

@@ -1,6 +1,7 @@
 //! Slip rate of a line over time.
 
 use super::{AT, BELOW, FigureResult, Line, ROOM, RupturedFault, Ruptures, SIZE, Shape};
+use crate::OutputError;
 use crate::figures::axes::{Axis, Frame};
 use crate::figures::colour::viridis;
 use crate::figures::field::Bar;
@@ -22,18 +23,12 @@ impl Ruptures<'_> {
         let (Some((count, first, last)), Some((y, _))) = (self.span()?, line.axis(true)) else {
             return Ok(None);
         };
-        let (columns, nearest) = (count.min(PIXELS.0), nearest(line));
-        let mut fastest = vec![0.0_f64; columns * nearest.len()];
-        self.rates.each(&mut |time, rates| {
-            let column = ((time - first) / (last - first) * columns as f64) as usize;
-            for (k, &point) in nearest.iter().enumerate() {
-                let shown = &mut fastest[k * columns + column.min(columns - 1)];
-                *shown = shown.max(rates[fault.points.start + point].abs());
-            }
-        })?;
+        let columns = count.min(PIXELS.0);
+        let points: Vec<usize> = nearest(line).iter().map(|point| fault.points.start + point).collect();
+        let fastest = self.fastest(&points, columns, [first, last])?;
         let Some((hi, most)) = covered(&fastest).filter(|(_, most)| *most > AT_REST) else { return Ok(None) };
         let (time, unit) = (TIME.choose(last), VELOCITY.choose(most));
-        let x = Axis::exact((first / time.factor, last / time.factor), format!("Time [{}]", time.name));
+        let x = Axis::exact([first / time.factor, last / time.factor], format!("Time [{}]", time.name));
         let size = self.paper.frame(SIZE, (AT.0 + ROOM, AT.1 + BELOW[0]));
         let frame = Frame { at: AT, size, x, y };
         let mut figure = Figure::new(AT.0 + size.0 + ROOM, AT.1 + size.1 + BELOW[0]);
@@ -49,6 +44,24 @@ impl Ruptures<'_> {
         Bar { range: (0.0, hi / unit.factor), above, label: format!("Slip rate [{}]", unit.name) }
             .draw(&mut figure, &frame);
         Ok(Some(figure))
+    }
+
+    /// Largest slip rates of these points over the times of each column between the first time and the last, row by row.
+    fn fastest(
+        &self,
+        points: &[usize],
+        columns: usize,
+        [first, last]: [f64; 2],
+    ) -> Result<Vec<f64>, OutputError> {
+        let mut fastest = vec![0.0_f64; columns * points.len()];
+        self.rates.each(&mut |time, rates| {
+            let column = ((time - first) / (last - first) * columns as f64) as usize;
+            for (k, &point) in points.iter().enumerate() {
+                let shown = &mut fastest[k * columns + column.min(columns - 1)];
+                *shown = shown.max(rates[point].abs());
+            }
+        })?;
+        Ok(fastest)
     }
 }
 

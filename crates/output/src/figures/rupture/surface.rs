@@ -2,7 +2,7 @@
 
 use crate::figures::axes::{Axis, Frame};
 use crate::figures::colour::PAPER;
-use crate::figures::field::{Colours, FINE, fill};
+use crate::figures::field::{Colours, FINE, Vertex, fill};
 use crate::figures::figure::{Image, Point};
 use crate::units::{LENGTH, NUMBER};
 use serde::{Deserialize, Serialize};
@@ -47,7 +47,7 @@ impl Surface {
         let (width, height) = ((hi.0 - lo.0) * narrow, hi.1 - lo.1);
         let scale = (room.0 / width).min(room.1 / height);
         let axis = |from: f64, to: f64, name: &str| {
-            Axis::exact((from / factor, to / factor), format!("{name} [{unit}]"))
+            Axis::exact([from / factor, to / factor], format!("{name} [{unit}]"))
         };
         let (x, y) = (axis(lo.0, hi.0, &self.labels[0]), axis(lo.1, hi.1, &self.labels[1]));
         Some(Frame { at, size: (width * scale, height * scale), x, y })
@@ -94,7 +94,9 @@ impl Surface {
                 let place = (mean(nodes, &|p| self.places[p].0), mean(nodes, &|p| self.places[p].1));
                 let value = if by_face { values[number] } else { mean(nodes, &|p| values[p]) };
                 let (x, y) = onto(place);
-                ((x - left) / frame.size.0 * columns as f64, (y - top) / frame.size.1 * rows as f64, value)
+                let (x, y) =
+                    ((x - left) / frame.size.0 * columns as f64, (y - top) / frame.size.1 * rows as f64);
+                Vertex { x, y, value }
             };
             for triangle in parts(face) {
                 fill(&mut rgb, columns, triangle.each_ref().map(at), &colours);

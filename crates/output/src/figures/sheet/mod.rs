@@ -14,7 +14,7 @@ pub use stills::{Still, Stills};
 
 use super::curves::Histories;
 use super::cycles::{Cycles, Line, Portrait};
-use super::field::{self, VisibleMesh};
+use super::field::{self, MapTitle, VisibleMesh};
 use super::figure::Figure;
 use super::ground::{Coordinates, GroundMap, MapQuantity};
 use super::panel::EventPanel;
@@ -52,7 +52,7 @@ pub struct Sheet {
     /// Title of the scene.
     pub title: String,
     /// Times of the start and the end of the run \[s\].
-    pub span: (f64, f64),
+    pub span: [f64; 2],
     /// True if faults are surfaces.
     pub in_space: bool,
     /// Faults as figures show them, to which plots refer by number.
@@ -96,7 +96,7 @@ pub struct FaultCycles {
     /// Faults along lines.
     pub lines: Vec<Line>,
     /// Times of onset and end of the events \[s\].
-    pub events: Vec<(f64, f64)>,
+    pub events: Vec<[f64; 2]>,
     /// Time between slip contours, between events and during events, as text.
     pub intervals: [String; 2],
     /// The same in seconds.
@@ -206,7 +206,7 @@ impl Sheet {
 
     /// A sheet without plots of a run over a span of time \[s\].
     #[must_use]
-    pub fn new(title: &str, span: (f64, f64), in_space: bool) -> Self {
+    pub fn new(title: &str, span: [f64; 2], in_space: bool) -> Self {
         let (shapes, meshes, plots) = (Vec::new(), Vec::new(), Vec::new());
         Self { version: VERSION, title: title.into(), span, in_space, shapes, meshes, plots }
     }
@@ -421,7 +421,7 @@ impl Sheet {
         let FaultCycles { lines, events, intervals, spacing, chosen, stations } = through.clone();
         let request = tables.request;
         let events = match request.window {
-            Some((from, to)) => events.into_iter().filter(|e| e.1 >= from && e.0 <= to).collect(),
+            Some([from, to]) => events.into_iter().filter(|e| e[1] >= from && e[0] <= to).collect(),
             None => events,
         };
         Cycles {
@@ -478,7 +478,8 @@ impl Sheet {
         let within = || shown.frames.iter().enumerate().filter(|(_, frame)| request.shows(frame.0));
         let one = |(k, (time, values)): (usize, &(f64, Vec<f64>))| {
             let when = format!("t = {}", rupture::moment(*time, last));
-            Some((format!("velocity_{k}"), field::velocity((&self.title, &when), mesh, values, room)?))
+            let title = MapTitle { scene: &self.title, when: &when };
+            Some((format!("velocity_{k}"), field::velocity(title, mesh, values, room)?))
         };
         let mut figures: NamedFigures = within().filter_map(one).collect();
         let frames: Vec<(f64, Vec<f64>)> = within().map(|(_, frame)| frame.clone()).collect();
@@ -492,13 +493,13 @@ impl Sheet {
         let place = if shown.stopped { "last step in" } else { "end of" };
         let when = format!("{place} stage “{}”", shown.stage);
         let room = paper.frame(field::LARGE, field::MARGINS);
-        field::mises(Some((&self.title, &when)), mesh, &shown.values, room)
+        field::mises(Some(MapTitle { scene: &self.title, when: &when }), mesh, &shown.values, room)
     }
 }
 
 /// The events of a panel within the window.
 fn windowed(panel: &EventPanel, request: &FigureRequest) -> EventPanel {
-    let Some((start, end)) = request.window else { return panel.clone() };
+    let Some([start, end]) = request.window else { return panel.clone() };
     let within = |(name, events): &(String, Vec<super::PanelEvent>)| {
         (name.clone(), events.iter().filter(|e| request.shows(e.onset)).copied().collect())
     };
@@ -523,7 +524,7 @@ mod tests {
     use super::*;
 
     fn sheet() -> Sheet {
-        let mut sheet = Sheet::new("t", (0.0, 9.0), false);
+        let mut sheet = Sheet::new("t", [0.0, 9.0], false);
         let along = Along { label: "x".into(), along: vec![0.0, 1.0], down: false };
         let shape = sheet.shape(Shape::Line(along.clone()));
         assert_eq!(shape, sheet.shape(Shape::Line(along)));
@@ -580,7 +581,7 @@ mod tests {
         assert_eq!(drawn(svg.clone()), ["f_event_000_rupture_times.svg", "f_event_002_rupture_times.svg"]);
         let third = ["f_event_002_rupture_times.svg"];
         assert_eq!(drawn(FigureRequest { events: vec![3], ..svg.clone() }), third);
-        assert_eq!(drawn(FigureRequest { window: Some((3.0, 9.0)), ..svg.clone() }), third);
-        assert_eq!(drawn(FigureRequest { window: Some((3.0, 7.0)), ..svg }), Vec::<String>::new());
+        assert_eq!(drawn(FigureRequest { window: Some([3.0, 9.0]), ..svg.clone() }), third);
+        assert_eq!(drawn(FigureRequest { window: Some([3.0, 7.0]), ..svg }), Vec::<String>::new());
     }
 }

@@ -49,7 +49,7 @@ pub struct FigureRequest {
     /// Formats.
     pub formats: Vec<Format>,
     /// First and last time shown \[s\].
-    pub window: Option<(f64, f64)>,
+    pub window: Option<[f64; 2]>,
     /// Numbers of the events, from 1, whose own figures are wanted; all if there is none.
     pub events: Vec<usize>,
 }
@@ -100,7 +100,7 @@ impl FigureRequest {
 
     /// True if a time lies in the window.
     pub(super) fn shows(&self, time: f64) -> bool {
-        self.window.is_none_or(|(from, to)| from <= time && time <= to)
+        self.window.is_none_or(|[from, to]| from <= time && time <= to)
     }
 
     /// True if the figures of an event are wanted.
@@ -110,6 +110,6 @@ impl FigureRequest {
 
     /// First time shown \[s\].
     pub(super) fn start(&self) -> f64 {
-        self.window.map_or(0.0, |window| window.0)
+        self.window.map_or(0.0, |[from, _]| from)
     }
 }

@@ -6,6 +6,7 @@ use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::{Along, Profile};
 use crate::shared::field::samples::between;
 use asperity_cycles::medium::{Place, Point, across};
+use asperity_fem::vector::tangent;
 
 /// A point with its fault and its law.
 pub(crate) struct PlacedPoint<const D: usize> {
@@ -81,7 +82,7 @@ pub(crate) fn slides<const D: usize>(placed: &PlacedPoint<D>) -> [f64; 3] {
     let normal = in_space(&placed.point.place.normal);
     match placed.components {
         1 => [0.0, 0.0, 1.0],
-        2 => [-normal[1], normal[0], 0.0],
+        2 => tangent(&normal),
         _ => in_space(&placed.point.place.rake),
     }
 }

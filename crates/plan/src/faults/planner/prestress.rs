@@ -10,6 +10,7 @@ use crate::shared::entry::Entry;
 use crate::shared::initial_stress;
 use crate::shared::model::Model;
 use asperity_cycles::medium::{Place, across};
+use asperity_fem::vector::tangent;
 use asperity_mechanics::coordinates;
 use std::ops::Range;
 
@@ -80,7 +81,7 @@ impl<'a> Prestress<'a> {
         let n = in_space(&place.normal);
         let slides = match model.idealisation.components() {
             1 => [0.0, 0.0, 1.0],
-            2 => [-n[1], n[0], 0.0],
+            2 => tangent(&n),
             _ => in_space(&place.rake),
         };
         let [minus, plus] = self.sides.map(|s| traction(&s, &n));

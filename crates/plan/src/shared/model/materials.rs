@@ -130,7 +130,7 @@ fn hardening(spec: &scene::Plasticity) -> Result<Hardening, FemError> {
         }
         scene::Hardening::Table => {
             let entries = spec.table.as_ref().map_or(&[][..], |t| t.get_ref());
-            Hardening::table(&entries.iter().map(|(e, y)| (*e, y.0)).collect::<Vec<_>>())
+            Hardening::table(&entries.iter().map(|(e, y)| [*e, y.0]).collect::<Vec<_>>())
         }
     }
 }

@@ -21,11 +21,11 @@ impl Planner {
             Course::Table(table) => {
                 self.order(table, course.span(), name)?;
                 let entries = table.iter().map(Spanned::get_ref);
-                History::table(entries.map(|e| (e.time.0, si(&e.value))).collect())
+                History::table(entries.map(|e| [e.time.0, si(&e.value)]).collect())
             }
             Course::File(table) => {
                 self.order_in_file(table, course.span(), name)?;
-                History::table(table.to_vec())
+                History::table(table.iter().map(|&(time, value)| [time, value]).collect())
             }
             Course::Sine { mean, amplitude, period, start } => {
                 let length = self.positive("period", period.get_ref().0, period.span(), "\"20 s\"")?;

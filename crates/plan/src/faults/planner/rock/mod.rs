@@ -148,7 +148,7 @@ impl<'s, const D: usize> Ground<'s, D> {
         let OperatorSource { form, setups } = source;
         let inputs =
             setups.hash(|key| key.value(patches).value(elastic).value(&slip).value(&geometry).value(&form));
-        let operator = || Ok(patches.operator(elastic, slip, (&geometry, form)));
+        let operator = || Ok(patches.operator(elastic, slip, &geometry, form));
         let operator = setups.part::<_, Diagnostic>(Part::Operator, inputs, operator)?;
         Ok(HeldOperator { operator, memory_bytes })
     }
