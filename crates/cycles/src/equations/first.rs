@@ -1,6 +1,7 @@
 //! The first instants after a process begins or ends to change tractions at an infinite rate.
 
 use super::Equations;
+use crate::problem::{PointTractions, Working};
 use asperity_friction::fault::Drive;
 use asperity_ode::Clock;
 
@@ -34,36 +35,49 @@ impl Equations<'_> {
         }
         let working = &mut self.scratch.borrow_mut().working;
         let before = working.pressed(at, y);
-        let normal = &before.normal;
-        let mut change = |time: f64| working.pressed(at.later(time), y);
-        let less = |after: &[f64], before: &[f64]| -> Vec<f64> {
-            after.iter().zip(before).map(|(b, a)| b - a).collect()
-        };
-        let mut after = change(time);
-        for _ in 0..QUARTERINGS {
-            if after.normal.iter().zip(normal).all(|(b, a)| (b - a).abs() <= GENTLE * a) {
-                break;
-            }
-            time *= 0.25;
-            after = change(time);
-        }
-        let changes = less(&after.normal, normal);
-        let (m, states) = (l.m(), l.states());
-        let (zeros, still_shear, mut shear) = (vec![0.0; l.points()], vec![0.0; m.end], vec![0.0; m.end]);
+        let (time, after) = gentle(working, at, y, &before.normal, time);
+        let changes: Vec<f64> = after.normal.iter().zip(&before.normal).map(|(b, a)| b - a).collect();
+        let mut shear = vec![0.0; l.m().end];
         for energetic in self.fault.processes.iter().filter_map(|process| process.energetic()) {
             energetic.sheared([&before, &after], &mut shear);
         }
-        let mut moved = vec![0.0; states.end];
-        let mut still = vec![0.0; states.end];
-        for (rate, shear, out) in [(&changes, &shear, &mut moved), (&zeros, &still_shear, &mut still)] {
-            let drive =
-                Drive { normal, normal_rate: Some(rate), shear_rate: shear, damping: &self.fault.damping };
-            let (dm, ds) = out.split_at_mut(m.end);
-            self.fault.law.rates(0, drive, &y[m.clone()], &y[states.clone()], dm, ds);
-        }
+        let moved = self.response(y, &before.normal, &changes, &shear);
+        let still = self.response(y, &before.normal, &vec![0.0; l.points()], &vec![0.0; l.m().end]);
         for ((y, moved), still) in y.iter_mut().zip(&moved).zip(&still) {
             *y += moved - still;
         }
         Some(time)
     }
+
+    /// Rates of m and the states under these rates of f_n and of shear traction.
+    fn response(&self, y: &[f64], normal: &[f64], rate: &[f64], shear: &[f64]) -> Vec<f64> {
+        let (m, states) = (self.layout.m(), self.layout.states());
+        let mut out = vec![0.0; states.end];
+        let drive =
+            Drive { normal, normal_rate: Some(rate), shear_rate: shear, damping: &self.fault.damping };
+        let (dm, ds) = out.split_at_mut(m.end);
+        self.fault.law.rates(0, drive, &y[m], &y[states], dm, ds);
+        out
+    }
+}
+
+/// Time of at most `most` after `at` over which f_n changes little from `normal`, and the processes after it.
+fn gentle(
+    working: &mut Working<'_>,
+    at: Clock,
+    y: &[f64],
+    normal: &[f64],
+    most: f64,
+) -> (f64, PointTractions) {
+    let mut time = most;
+    let mut change = |time: f64| working.pressed(at.later(time), y);
+    let mut after = change(time);
+    for _ in 0..QUARTERINGS {
+        if after.normal.iter().zip(normal).all(|(b, a)| (b - a).abs() <= GENTLE * a) {
+            break;
+        }
+        time *= 0.25;
+        after = change(time);
+    }
+    (time, after)
 }

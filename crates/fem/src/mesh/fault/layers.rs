@@ -62,24 +62,30 @@ impl Layers {
         tips(input, places)?;
         let flattest = spine.slopes.iter().map(|p| 1.0 / p.hypot(1.0)).fold(0.0, f64::max);
         let thickness = input.thickness.unwrap_or(smallest) / flattest;
-        let heights = |side: fn(&FaultMesh, f64) -> f64| -> Vec<f64> {
-            lines.iter().map(|[_, y]| side(input, *y)).collect()
-        };
         let largest = lines.iter().map(|[_, y]| (input.max[1] - y).max(y - input.min[1])).fold(0.0, f64::max);
         if let Some(value) = input.thickness.filter(|&t| t > largest) {
             let admissible = "at most the distance from the fault to the top or the bottom of the box";
             return Err(FaultMeshError::Value { name: "thickness", value, admissible });
         }
-        let above = distances(&heights(|input, y| input.max[1] - y), thickness, input.growth)?;
-        let below = distances(&heights(|input, y| y - input.min[1]), thickness, input.growth)?;
-        let cells: usize = above.iter().chain(&below).map(|d| d.len() - 1).sum();
-        if cells > MOST_CELLS {
-            return Err(SpacingError::TooMany { most: MOST_CELLS }.into());
-        }
+        let [above, below] = rows(input, &lines, thickness)?;
         let columns = lines.iter().zip(above).zip(below);
         let columns = columns.map(|((&[x, line], above), below)| Column { x, line, above, below });
         Ok(Self { columns: columns.collect(), first, falls })
     }
+}
+
+/// Distances of rows above and below the places of columns, next to which cells have this thickness.
+fn rows(input: &FaultMesh, lines: &Line, thickness: f64) -> Result<[Vec<Vec<f64>>; 2], FaultMeshError> {
+    let side = |height: &dyn Fn(f64) -> f64| {
+        let heights: Vec<f64> = lines.iter().map(|[_, y]| height(*y)).collect();
+        distances(&heights, thickness, input.growth)
+    };
+    let (above, below) = (side(&|y| input.max[1] - y)?, side(&|y| y - input.min[1])?);
+    let cells: usize = above.iter().chain(&below).map(|d| d.len() - 1).sum();
+    if cells > MOST_CELLS {
+        return Err(SpacingError::TooMany { most: MOST_CELLS }.into());
+    }
+    Ok([above, below])
 }
 
 /// Refuses tips just below the top or above the bottom of the box; `places` ascend.
