@@ -5,6 +5,7 @@ use asperity_cycles::heat::TEMPERATURE;
 use asperity_output::decimals::shortest;
 use asperity_output::formats::located::SourceParameters;
 use asperity_output::tables::column::{self, Column, Sign};
+use asperity_output::tables::describe::FileParts;
 use asperity_output::{OutputError, OutputFile, atomic, stems};
 use asperity_run::{Event, EventHead, SlipPoints};
 use schemars::JsonSchema;
@@ -273,8 +274,8 @@ pub fn columns(events: &[Entry]) -> Vec<Column> {
 
 /// The tables of a catalogue with their columns.
 #[must_use]
-pub fn tables(events: &[Entry]) -> Vec<(String, Vec<Column>)> {
-    FILES.map(|file| (file.path.into(), columns(events))).into()
+pub fn tables(events: &[Entry]) -> Vec<FileParts<Column>> {
+    FILES.map(|file| FileParts::new(file.path, columns(events))).into()
 }
 
 /// Catalogue as CSV.

@@ -60,20 +60,19 @@ impl Table {
         Self { times, values, function: Function::Linear, bends: Vec::new() }
     }
 
-    /// The integral from the first time on of a rate through `(time, rate)`, linear in between. Times do not decrease; two entries
+    /// The integral from the first time on of a rate with these values at times, linear in between. Times do not decrease; two values
     /// at one time are a jump of the rate.
     #[must_use]
-    pub fn from_rates(rates: &[(f64, f64)]) -> Self {
-        let (mut times, mut values, mut bends) = (Vec::new(), Vec::new(), Vec::new());
-        times.extend(rates.first().map(|first| first.0));
-        values.extend(rates.first().map(|_| 0.0));
-        let mut sum = 0.0;
-        for pair in rates.windows(2).filter(|pair| pair[1].0 > pair[0].0) {
-            let (run, mean) = (pair[1].0 - pair[0].0, 0.5 * (pair[0].1 + pair[1].1));
+    pub fn from_rates(at: &[f64], rates: &[f64]) -> Self {
+        let mut times: Vec<f64> = at.first().copied().into_iter().collect();
+        let mut values = vec![0.0; times.len()];
+        let (mut bends, mut sum) = (Vec::new(), 0.0);
+        for (t, rate) in at.windows(2).zip(rates.windows(2)).filter(|(t, _)| t[1] > t[0]) {
+            let (run, mean) = (t[1] - t[0], 0.5 * (rate[0] + rate[1]));
             sum += mean * run;
-            times.push(pair[1].0);
+            times.push(t[1]);
             values.push(sum);
-            bends.push((pair[1].1 - pair[0].1) / run);
+            bends.push((rate[1] - rate[0]) / run);
         }
         if bends.iter().all(|&bend| bend == 0.0) {
             bends.clear();
@@ -233,14 +232,14 @@ mod tests {
 
     #[test]
     fn the_integral_of_a_rate_is_exact_within_ramps_and_over_jumps() {
-        let table = Table::from_rates(&[(1.0, 2.0), (3.0, 2.0), (3.0, -1.0), (5.0, 3.0)]);
+        let table = Table::from_rates(&[1.0, 3.0, 3.0, 5.0], &[2.0, 2.0, -1.0, 3.0]);
         // 2 (t - 1), then 4 - s + s², with s = t - 3.
         for (time, value, rate) in [(2.0, 2.0, 2.0), (3.5, 3.75, 0.0), (4.0, 4.0, 1.0)] {
             approx::assert_relative_eq!(table.value(time), value, max_relative = 1e-15);
             approx::assert_abs_diff_eq!(table.slope(time), rate, epsilon = 1e-15);
         }
         assert_eq!((table.value(5.0), table.derivatives(5.0, 4.5)), (6.0, [3.0, 2.0]));
-        assert!(Table::from_rates(&[(0.0, 2.0), (1.0, 2.0), (1.0, 5.0), (2.0, 5.0)]).bends.is_empty());
+        assert!(Table::from_rates(&[0.0, 1.0, 1.0, 2.0], &[2.0, 2.0, 5.0, 5.0]).bends.is_empty());
     }
 
     #[test]

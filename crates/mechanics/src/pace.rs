@@ -22,24 +22,26 @@ impl Pace {
         }
     }
 
-    /// Points of a rate by a table at times of the run, over a whole stage; `None` for a constant one.
-    pub(crate) fn points(&self, start: f64, end: f64) -> Option<Vec<(f64, f64)>> {
+    /// Times of the run, over a whole stage, and rates by a table at them; `None` for a constant one.
+    pub(crate) fn points(&self, start: f64, end: f64) -> Option<(Vec<f64>, Vec<f64>)> {
         let Self::Table(points) = self else { return None };
-        let mut all: Vec<(f64, f64)> = points.iter().map(|p| (start + p.0, p.1)).collect();
-        if let Some(&(_, rate)) = all.first().filter(|p| p.0 > start) {
-            all.insert(0, (start, rate));
+        let (mut times, mut rates): (Vec<f64>, Vec<f64>) = points.iter().map(|p| (start + p.0, p.1)).unzip();
+        if times.first().is_some_and(|&first| first > start) {
+            times.insert(0, start);
+            rates.insert(0, rates[0]);
         }
-        if let Some(&(_, rate)) = all.last().filter(|p| p.0 < end) {
-            all.push((end, rate));
+        if times.last().is_some_and(|&last| last < end) {
+            times.push(end);
+            rates.extend(rates.last().copied());
         }
-        Some(all)
+        Some((times, rates))
     }
 
     /// Displacement of what moves at this rate during a stage.
     #[must_use]
     pub fn drawn(&self, start: f64, end: f64) -> Travel {
         match (self, self.points(start, end)) {
-            (Self::Table(_), Some(points)) => Travel::Table(Table::from_rates(&points)),
+            (Self::Table(_), Some((times, rates))) => Travel::Table(Table::from_rates(&times, &rates)),
             (Self::Steady(rate), _) => Travel::Steady { rate: *rate, start },
             (Self::Table(_), None) => Travel::Steady { rate: 0.0, start },
         }

@@ -44,11 +44,11 @@ impl Course {
         Self { times: moves.times().to_vec(), values: moves.values().to_vec(), moves }
     }
 
-    /// Course of a rate through these points.
+    /// Course of a rate with these values at times.
     #[must_use]
-    pub fn from_rates(points: &[(f64, f64)]) -> Self {
-        let (times, values) = points.iter().copied().unzip();
-        Self { times, values, moves: Table::from_rates(points) }
+    pub fn from_rates(times: Vec<f64>, values: Vec<f64>) -> Self {
+        let moves = Table::from_rates(&times, &values);
+        Self { times, values, moves }
     }
 
     /// Indices of its corners, from whose chords entries depart by at most `tolerance` of the range.
@@ -152,7 +152,8 @@ impl Stage {
     /// Courses of the tables of motions and load points.
     fn moved(&self) -> impl Iterator<Item = Course> {
         let (start, end) = (self.start, self.end);
-        let paced = move |pace: &Pace| pace.points(start, end).map(|points| Course::from_rates(&points));
+        let paced =
+            move |pace: &Pace| pace.points(start, end).map(|(times, rates)| Course::from_rates(times, rates));
         let motion = move |(_, motion): &(Vec<usize>, Motion)| match motion {
             Motion::Table(points) => Some(Course::from_table(self.table(points))),
             Motion::Rate(pace) => paced(pace),

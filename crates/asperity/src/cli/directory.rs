@@ -11,6 +11,7 @@ use crate::report::{Results, commit};
 use asperity_output::atomic;
 use asperity_output::fields::Field;
 use asperity_output::tables::Column;
+use asperity_output::tables::describe::FileParts;
 use asperity_plan::shared::model::forecast;
 use asperity_plan::shared::setup;
 use asperity_plan::shared::sha256::sha256;
@@ -55,8 +56,8 @@ pub(super) struct Directory {
     /// Parts of the set-up that were read or kept.
     setup: Vec<SetupPart>,
     /// Tables of the run, by their paths, with their columns.
-    tables: Vec<(String, Vec<Column>)>,
-    fields: Vec<(String, Vec<Field>)>,
+    tables: Vec<FileParts<Column>>,
+    fields: Vec<FileParts<Field>>,
     room: Room,
     /// Lock held for the duration of the run.
     _lock: Option<Lock>,
@@ -146,7 +147,7 @@ impl Directory {
     }
 
     /// Takes the tables of the run with their columns, and its fields, for the text about its files.
-    pub fn describes(&mut self, tables: Vec<(String, Vec<Column>)>, fields: Vec<(String, Vec<Field>)>) {
+    pub fn describes(&mut self, tables: Vec<FileParts<Column>>, fields: Vec<FileParts<Field>>) {
         (self.tables, self.fields) = (tables, fields);
     }
 

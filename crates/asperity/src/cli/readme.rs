@@ -4,7 +4,7 @@ use super::begin::{README, REPORT};
 use super::entries;
 use asperity_output::fields::Field;
 use asperity_output::tables::Column;
-use asperity_output::tables::describe::{Row, describe};
+use asperity_output::tables::describe::{FileParts, Row, describe};
 use asperity_output::{OutputError, atomic};
 use std::ffi::OsStr;
 use std::fs;
@@ -14,8 +14,8 @@ use std::path::Path;
 pub(super) fn write(
     folder: &Path,
     title: &str,
-    tables: &[(String, Vec<Column>)],
-    fields: &[(String, Vec<Field>)],
+    tables: &[FileParts<Column>],
+    fields: &[FileParts<Field>],
 ) -> Result<(), OutputError> {
     let mut names: Vec<String> = fs::read_dir(folder)
         .into_iter()
@@ -41,8 +41,8 @@ pub(super) fn write(
 }
 
 /// Section about the parts of the files of these paths that exist; empty if none does.
-fn section<R: Row + Clone>(folder: &Path, title: &str, files: &[(String, Vec<R>)]) -> String {
-    let written: Vec<_> = files.iter().filter(|(path, _)| exists(folder, path)).cloned().collect();
+fn section<R: Row + Clone>(folder: &Path, title: &str, files: &[FileParts<R>]) -> String {
+    let written: Vec<_> = files.iter().filter(|file| exists(folder, &file.path)).cloned().collect();
     if written.is_empty() {
         return String::new();
     }

@@ -17,6 +17,7 @@ use crate::fields::{COLLECTION, Field, Series};
 use crate::names::stems;
 use crate::tables::GrowingTable;
 use crate::tables::column::{self, Column};
+use crate::tables::describe::FileParts;
 use crate::tables::energy;
 use crate::tables::history::history_row;
 use serde::{Deserialize, Serialize};
@@ -232,27 +233,27 @@ impl Files {
 
     /// Tables that grow during the run, by their paths, with their columns: those of probes, then of points, of forces, of springs,
     /// of the energy budget and of the largest slip rates.
-    fn growing(&self) -> Vec<(String, Vec<Column>)> {
+    fn growing(&self) -> Vec<FileParts<Column>> {
         let setup = &self.setup;
         let probed =
             self.interfaces.iter().zip(&setup.interfaces).filter(|(_, mesh)| !mesh.probes.is_empty());
-        let mut all: Vec<(String, Vec<Column>)> = probed
-            .map(|(part, mesh)| (tables::PROBES.named(&part.stem), tables::probe_columns(mesh)))
+        let mut all: Vec<FileParts<Column>> = probed
+            .map(|(part, mesh)| FileParts::new(tables::PROBES.named(&part.stem), tables::probe_columns(mesh)))
             .collect();
         let (points, forces, springs) = (setup.points.clone(), setup.forces.clone(), setup.springs.clone());
         all.extend(SampleSites { points, forces, springs, unit: setup.force_unit }.tables());
-        all.extend(setup.energy_unit.map(|unit| (energy::FILE.path.into(), energy::columns(unit))));
+        all.extend(setup.energy_unit.map(|unit| FileParts::new(energy::FILE.path, energy::columns(unit))));
         if !setup.eventful.is_empty() {
             let eventful = setup.eventful.iter().filter_map(|&i| setup.interfaces.get(i));
             let columns = tables::rate_columns(eventful.map(|mesh| mesh.name.as_str()));
-            all.push((tables::RATES.path.into(), columns));
+            all.push(FileParts::new(tables::RATES.path, columns));
         }
         all
     }
 
     /// Fields of this run, by the paths of their files.
     #[must_use]
-    pub fn fields(&self) -> Vec<(String, Vec<Field>)> {
+    pub fn fields(&self) -> Vec<FileParts<Field>> {
         // There are none of interfaces without those of bodies.
         let Some(bodies) = &self.bodies else { return Vec::new() };
         let interfaces = self.interfaces.iter().map(|part| part.fields.fields());
@@ -261,10 +262,11 @@ impl Files {
 
     /// All tables with their columns, of this run.
     #[must_use]
-    pub fn described(&self) -> Vec<(String, Vec<Column>)> {
+    pub fn described(&self) -> Vec<FileParts<Column>> {
         let profiles = self.interfaces.iter().zip(&self.setup.interfaces);
         let profiles = profiles.filter(|_| self.profile_number > 0).map(|(part, mesh)| {
-            (tables::PROFILES.named(&format!("{}_*", part.stem)), tables::profile_columns(mesh))
+            let path = tables::PROFILES.named(&format!("{}_*", part.stem));
+            FileParts::new(path, tables::profile_columns(mesh))
         });
         self.growing().into_iter().chain(profiles).collect()
     }
@@ -277,12 +279,12 @@ impl Files {
             return Err(OutputError::Shape { what, expected: all.len(), found: bytes.len() });
         }
         let mut tables = Vec::with_capacity(all.len());
-        for (k, (path, columns)) in all.into_iter().enumerate() {
-            let path = self.out.join(path);
+        for (k, table) in all.into_iter().enumerate() {
+            let path = self.out.join(table.path);
             path.parent().map_or(Ok(()), atomic::create_dir)?;
             tables.push(match bytes.as_ref().and_then(|bytes| bytes.get(k)) {
                 Some(bytes) => GrowingTable::reopen(path, *bytes)?,
-                None => GrowingTable::create(path, column::header(&columns))?,
+                None => GrowingTable::create(path, column::header(&table.parts))?,
             });
         }
         let mut tables = tables.into_iter();

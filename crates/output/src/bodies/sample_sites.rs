@@ -5,6 +5,7 @@ use super::view::{ForceMark, PointMark, Samples, SpringMark};
 use crate::OutputFile;
 use crate::names::stems;
 use crate::tables::Column;
+use crate::tables::describe::FileParts;
 use crate::tables::history::number;
 
 /// Points of bodies.
@@ -31,7 +32,7 @@ pub struct SampleSites {
 impl SampleSites {
     /// Paths of the files below the folder of a run, with their columns: points, then forces, then springs.
     #[must_use]
-    pub fn tables(&self) -> Vec<(String, Vec<Column>)> {
+    pub fn tables(&self) -> Vec<FileParts<Column>> {
         let springs: Vec<String> = self.springs.iter().map(SpringMark::name).collect();
         let all: [(OutputFile, Vec<&str>, Vec<Column>); 3] = [
             (POINTS, self.points.iter().map(|p| p.name.as_str()).collect(), point_columns()),
@@ -39,7 +40,7 @@ impl SampleSites {
             (SPRINGS, springs.iter().map(String::as_str).collect(), spring_columns(self.unit)),
         ];
         let of = |(place, names, columns): (OutputFile, Vec<&str>, Vec<Column>)| {
-            let file = |stem: String| (place.named(&stem), columns.clone());
+            let file = |stem: String| FileParts::new(place.named(&stem), columns.clone());
             stems(names.into_iter()).into_iter().map(file).collect::<Vec<_>>()
         };
         all.into_iter().flat_map(of).collect()

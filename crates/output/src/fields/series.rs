@@ -2,6 +2,7 @@
 
 use super::field::{Data, Field};
 use super::vtu::{Array, Grid};
+use crate::tables::describe::FileParts;
 use crate::{OutputError, atomic};
 use rayon::prelude::*;
 use std::path::Path;
@@ -67,8 +68,8 @@ impl<'a, S> Series<'a, S> {
 
     /// Path of its files with their fields, in the order of their arrays.
     #[must_use]
-    pub fn fields(&self) -> (String, Vec<Field>) {
-        (self.path.clone(), self.fields.iter().map(|(field, _)| field.clone()).collect())
+    pub fn fields(&self) -> FileParts<Field> {
+        FileParts::new(&self.path, self.fields.iter().map(|(field, _)| field.clone()).collect())
     }
 
     /// Path below the output directory of the file with this number.

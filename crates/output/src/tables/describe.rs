@@ -13,13 +13,29 @@ pub trait Row {
     fn row(&self) -> String;
 }
 
-/// Description of the parts of files, given by their paths, as a table of text: files of a folder with the same parts share their
+/// Parts of a file, such as its columns.
+#[derive(Clone, Debug)]
+pub struct FileParts<R> {
+    /// Path below the folder of a run; `*` in it stands for any text.
+    pub path: String,
+    /// The parts.
+    pub parts: Vec<R>,
+}
+
+impl<R> FileParts<R> {
+    /// Parts of the file of this path.
+    pub fn new(path: impl Into<String>, parts: Vec<R>) -> Self {
+        Self { path: path.into(), parts }
+    }
+}
+
+/// Description of the parts of files as a table of text: files of a folder with the same parts share their
 /// rows.
 #[must_use]
-pub fn describe<R: Row>(all: &[(String, Vec<R>)]) -> String {
+pub fn describe<R: Row>(all: &[FileParts<R>]) -> String {
     let mut groups: Vec<(Vec<String>, Vec<String>)> = Vec::new();
     let mut known: BTreeMap<Vec<String>, usize> = BTreeMap::new();
-    for (path, parts) in all {
+    for FileParts { path, parts } in all {
         let mut seen = BTreeSet::new();
         let mut lines: Vec<String> = parts.iter().map(Row::row).collect();
         lines.retain(|line| seen.insert(line.clone()));
@@ -32,7 +48,7 @@ pub fn describe<R: Row>(all: &[(String, Vec<R>)]) -> String {
     let rule = "---|".repeat(R::HEAD.split('|').count());
     let mut text = format!("| file | {} |\n|---|{rule}\n", R::HEAD);
     let mut sizes: BTreeMap<&str, usize> = BTreeMap::new();
-    for folder in all.iter().filter_map(|(path, _)| folder(path)).filter(|_| R::TOGETHER) {
+    for folder in all.iter().filter_map(|file| folder(&file.path)).filter(|_| R::TOGETHER) {
         *sizes.entry(folder).or_default() += 1;
     }
     for (paths, lines) in &groups {
@@ -70,13 +86,13 @@ fn files(paths: &[String], sizes: &BTreeMap<&str, usize>) -> String {
 #[cfg(test)]
 mod tests {
     use super::super::column::{Column, Sign, time};
-    use super::describe;
+    use super::{FileParts, describe};
 
     #[test]
     fn files_of_a_folder_with_the_same_columns_share_their_rows() {
         let part = |part| Column::new("u", "m", Sign::Axis, "moved").for_part(part);
         let moved = || vec![time(), part("a"), part("b")];
-        let table = |path: &str, columns| (path.to_string(), columns);
+        let table = |path: &str, columns| FileParts::new(path, columns);
         let points = [table("points/a.csv", moved()), table("points/b.csv", moved())];
         let of_events = [table("events/u_*.csv", moved()), table("events/v_*.csv", vec![time()])];
         let expected = "| file | column | unit | sign | meaning |\n|---|---|---|---|---|\n\

@@ -9,6 +9,7 @@ use asperity_output::bodies::FieldSchedule;
 use asperity_output::fields::Field;
 use asperity_output::figures::{self, Sheet};
 use asperity_output::tables::Column;
+use asperity_output::tables::describe::FileParts;
 use asperity_plan::bodies::AnyPlan;
 use miette::IntoDiagnostic;
 use std::path::Path;
@@ -47,12 +48,12 @@ impl Run for Bodies<'_> {
         report
     }
 
-    fn tables(&self, outputs: &Outputs, report: &RunReport) -> Vec<(String, Vec<Column>)> {
+    fn tables(&self, outputs: &Outputs, report: &RunReport) -> Vec<FileParts<Column>> {
         let events = report.events.as_ref().map(|events| catalogue::tables(&events.all));
         outputs.tables().into_iter().chain(events.into_iter().flatten()).collect()
     }
 
-    fn fields(&self, outputs: &Outputs) -> Vec<(String, Vec<Field>)> {
+    fn fields(&self, outputs: &Outputs) -> Vec<FileParts<Field>> {
         outputs.fields()
     }
 

@@ -7,6 +7,7 @@ use crate::{checkpoint, kinds};
 use asperity_output::fields::Field;
 use asperity_output::figures::Sheet;
 use asperity_output::tables::Column;
+use asperity_output::tables::describe::FileParts;
 use asperity_plan::dynamics::Plan;
 use miette::IntoDiagnostic;
 use std::path::Path;
@@ -46,11 +47,11 @@ impl<'a, const D: usize> Run for Dynamics<'a, D> {
         Report::new(self.0, ended)
     }
 
-    fn tables(&self, _: &Self::Outputs, _: &Report) -> Vec<(String, Vec<Column>)> {
+    fn tables(&self, _: &Self::Outputs, _: &Report) -> Vec<FileParts<Column>> {
         kinds::dynamics::tables(self.0)
     }
 
-    fn fields(&self, outputs: &Self::Outputs) -> Vec<(String, Vec<Field>)> {
+    fn fields(&self, outputs: &Self::Outputs) -> Vec<FileParts<Field>> {
         outputs.fields()
     }
 

@@ -11,6 +11,7 @@ use asperity_output::atomic;
 use asperity_output::fields::Field;
 use asperity_output::figures::{EventPanel, PanelEvent, Sheet};
 use asperity_output::tables::Column;
+use asperity_output::tables::describe::FileParts;
 use asperity_output::terminal::printing::out;
 use asperity_plan::faults::Plan;
 use asperity_plan::shared::ruptures::Ruptures;
@@ -64,11 +65,11 @@ impl<'a> Run for Faults<'a> {
         report
     }
 
-    fn tables(&self, _: &Self::Outputs, report: &Report) -> Vec<(String, Vec<Column>)> {
+    fn tables(&self, _: &Self::Outputs, report: &Report) -> Vec<FileParts<Column>> {
         kinds::faults::tables(self.plan).into_iter().chain(catalogue::tables(&report.events)).collect()
     }
 
-    fn fields(&self, _: &Self::Outputs) -> Vec<(String, Vec<Field>)> {
+    fn fields(&self, _: &Self::Outputs) -> Vec<FileParts<Field>> {
         kinds::faults::arrays(self.plan)
     }
 

@@ -5,6 +5,7 @@ use crate::report::Results;
 use asperity_output::fields::Field;
 use asperity_output::figures::Sheet;
 use asperity_output::tables::Column;
+use asperity_output::tables::describe::FileParts;
 use std::path::Path;
 
 /// A planned run of one kind: its steps, its report and its files.
@@ -32,10 +33,10 @@ pub(super) trait Run {
     fn report(&self, ended: &mut Self::FinalState, keeper: &mut Keeper<Self::Outputs>) -> Self::Report;
 
     /// Tables that the run may have written, by their paths below its directory, with their columns. `*` in a path represents any text.
-    fn tables(&self, outputs: &Self::Outputs, report: &Self::Report) -> Vec<(String, Vec<Column>)>;
+    fn tables(&self, outputs: &Self::Outputs, report: &Self::Report) -> Vec<FileParts<Column>>;
 
     /// Fields that the run may have written, by the paths of their files. There are none by default.
-    fn fields(&self, _: &Self::Outputs) -> Vec<(String, Vec<Field>)> {
+    fn fields(&self, _: &Self::Outputs) -> Vec<FileParts<Field>> {
         Vec::new()
     }
 

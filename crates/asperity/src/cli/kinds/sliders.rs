@@ -9,6 +9,7 @@ use asperity_cycles::slider::{Problem, SliderRun, resume};
 use asperity_output::atomic;
 use asperity_output::figures::Sheet;
 use asperity_output::tables::Column;
+use asperity_output::tables::describe::FileParts;
 use asperity_plan::sliders::Plan;
 use asperity_run::report::Outcome;
 use miette::IntoDiagnostic;
@@ -51,8 +52,8 @@ impl<'a> Run for Sliders<'a> {
         report
     }
 
-    fn tables(&self, _: &Self::Outputs, report: &Report) -> Vec<(String, Vec<Column>)> {
-        let events = (catalogue::FILE.path.into(), columns(&report.events));
+    fn tables(&self, _: &Self::Outputs, report: &Report) -> Vec<FileParts<Column>> {
+        let events = FileParts::new(catalogue::FILE.path, columns(&report.events));
         Histories::tables(&self.0.problem).into_iter().chain([events]).collect()
     }
 

@@ -9,6 +9,7 @@ use asperity_output::bodies::view::{Setup, StepView};
 use asperity_output::bodies::{FieldSchedule, Files, FilesState, Multi, Recorder, Writer};
 use asperity_output::fields::Field;
 use asperity_output::tables::Column;
+use asperity_output::tables::describe::FileParts;
 use asperity_output::terminal::progress::RunState;
 use asperity_run::{Kind, ObserveError, Observer};
 use serde::{Deserialize, Serialize};
@@ -73,13 +74,13 @@ impl Outputs {
 
     /// Tables of the run, by their paths, with their columns.
     #[must_use]
-    pub fn tables(&self) -> Vec<(String, Vec<Column>)> {
+    pub fn tables(&self) -> Vec<FileParts<Column>> {
         self.files.described()
     }
 
     /// Fields of the run, by the paths of their files.
     #[must_use]
-    pub fn fields(&self) -> Vec<(String, Vec<Field>)> {
+    pub fn fields(&self) -> Vec<FileParts<Field>> {
         self.files.fields()
     }
 

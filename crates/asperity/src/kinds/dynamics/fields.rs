@@ -5,6 +5,7 @@ use asperity_mechanics::dynamics::FaultState;
 use asperity_output::fields::vtu::{Grid, PvdEntry, face_type, pvd};
 use asperity_output::fields::{COLLECTION, Data, FILES, Field, FieldTimes, Series};
 use asperity_output::tables::Sign;
+use asperity_output::tables::describe::FileParts;
 use asperity_output::{OutputError, atomic};
 use asperity_plan::dynamics::Plan;
 use asperity_plan::faults::FaultView;
@@ -96,7 +97,7 @@ impl<'a> Fields<'a> {
     }
 
     /// Fields by the paths of their files.
-    pub fn all(&self) -> Vec<(String, Vec<Field>)> {
+    pub fn all(&self) -> Vec<FileParts<Field>> {
         std::iter::once(self.bodies.fields()).chain(self.faults.iter().map(Series::fields)).collect()
     }
 

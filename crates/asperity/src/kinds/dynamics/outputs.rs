@@ -12,6 +12,7 @@ use asperity_output::decimals::shortest;
 use asperity_output::fields::Field;
 use asperity_output::figures::Sheet;
 use asperity_output::tables::column;
+use asperity_output::tables::describe::FileParts;
 use asperity_output::terminal::progress::RunState;
 use asperity_output::{OutputError, atomic};
 use asperity_plan::dynamics::Plan;
@@ -46,7 +47,7 @@ pub struct Outputs<'a, const D: usize> {
 impl<const D: usize> Outputs<'_, D> {
     /// Fields of the run, by the paths of their files.
     #[must_use]
-    pub fn fields(&self) -> Vec<(String, Vec<Field>)> {
+    pub fn fields(&self) -> Vec<FileParts<Field>> {
         self.fields.all()
     }
 

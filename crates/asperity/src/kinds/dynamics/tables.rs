@@ -8,6 +8,7 @@ use crate::kinds::faults::profile::{Profile, RATE, SLIP};
 use asperity_mechanics::dynamics::Budget;
 use asperity_output::decimals::{scientific, shortest};
 use asperity_output::formats::seismogram;
+use asperity_output::tables::describe::FileParts;
 use asperity_output::tables::{Column, GrowingTable, energy};
 use asperity_output::{OutputError, OutputFile};
 use asperity_plan::dynamics::Plan;
@@ -45,9 +46,9 @@ fn all<const D: usize>(plan: &Plan<D>) -> Vec<Table<'_>> {
 
 /// Tables of a run, by their paths, with their columns.
 #[must_use]
-pub fn tables<const D: usize>(plan: &Plan<D>) -> Vec<(String, Vec<Column>)> {
-    let growing = all(plan).into_iter().map(|table| (table.path, table.columns));
-    growing.chain([(arrivals::FILE.path.into(), arrivals::columns())]).collect()
+pub fn tables<const D: usize>(plan: &Plan<D>) -> Vec<FileParts<Column>> {
+    let growing = all(plan).into_iter().map(|table| FileParts::new(table.path, table.columns));
+    growing.chain([FileParts::new(arrivals::FILE.path, arrivals::columns())]).collect()
 }
 
 /// Energy budget. There is one stage.

@@ -149,5 +149,5 @@ fn springs(plan: &Plan) -> Option<Curves> {
     // Time, stage, step, load point, displacement, force and friction.
     let points = |path: &str| Points::Table { table: path.into(), x: 3, y: 6, size: true };
     let all = sampling.sampled.springs.iter().zip(&tables[first..]);
-    Some(springs_curves(&plan.title, all.map(|(spring, (path, _))| (spring.name(), points(path))).collect()))
+    Some(springs_curves(&plan.title, all.map(|(spring, file)| (spring.name(), points(&file.path))).collect()))
 }

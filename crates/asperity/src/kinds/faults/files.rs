@@ -17,6 +17,7 @@ use asperity_cycles::{Faults, Moment};
 use asperity_ode::{Clock, Control};
 use asperity_output::fields::Field;
 use asperity_output::tables::Column;
+use asperity_output::tables::describe::FileParts;
 use asperity_output::{OutputError, OutputFile, atomic};
 use asperity_plan::faults::Plan;
 use asperity_plan::faults::cadence::{Gauge, GaugedFile, warning};
@@ -58,7 +59,7 @@ fn all(plan: &Plan) -> Vec<Table<'_>> {
 
 /// Tables of a run, by their paths, with their columns: those that grow, and those of single events.
 #[must_use]
-pub fn tables(plan: &Plan) -> Vec<(String, Vec<Column>)> {
+pub fn tables(plan: &Plan) -> Vec<FileParts<Column>> {
     let frame = plan.frame.as_ref();
     let of_events = [
         (snapshots::LIST, snapshots::columns()),
@@ -72,15 +73,15 @@ pub fn tables(plan: &Plan) -> Vec<(String, Vec<Column>)> {
     // Its names are those of the other tables of Coulomb stress, but for what follows.
     let map = plan.coulomb.as_ref().and_then(|coulomb| coulomb.map.as_ref());
     let map = map.map(|_| (coulomb_tables::MAP, coulomb_tables::map_columns(frame)));
-    let growing = all(plan).into_iter().map(|table| (table.path, table.columns));
+    let growing = all(plan).into_iter().map(|table| FileParts::new(table.path, table.columns));
     growing
-        .chain(of_events.into_iter().chain(map).map(|(file, columns)| (file.path.into(), columns)))
+        .chain(of_events.into_iter().chain(map).map(|(file, columns)| FileParts::new(file.path, columns)))
         .collect()
 }
 
 /// Arrays of the fields of a run, by the paths of their files: of faults in space, of bodies, and of single events.
 #[must_use]
-pub fn arrays(plan: &Plan) -> Vec<(String, Vec<Field>)> {
+pub fn arrays(plan: &Plan) -> Vec<FileParts<Field>> {
     let mut all = Vec::new();
     if plan.in_space {
         let of_fault = |fault| {

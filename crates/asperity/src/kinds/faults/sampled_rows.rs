@@ -4,6 +4,7 @@ use super::rows::{Course, Table};
 use asperity_cycles::Moment;
 use asperity_ode::Clock;
 use asperity_output::tables::Column;
+use asperity_output::tables::describe::FileParts;
 use asperity_plan::faults::Plan;
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -13,7 +14,7 @@ pub(super) fn tables(plan: &Plan) -> Vec<Table<'_>> {
     let (Some(sampling), Some(view)) = (&plan.sampling, &plan.bodies) else { return Vec::new() };
     let rows = Arc::new(Mutex::new(RecentRows::default()));
     let all = sampling.sampled.tables().into_iter().enumerate();
-    let table = |(k, (path, columns)): (usize, (String, Vec<Column>))| {
+    let table = |(k, file): (usize, FileParts<Column>)| {
         let rows = Arc::clone(&rows);
         let row = move |now: &Moment<'_>, step: u64| {
             let mut rows = rows.lock().unwrap_or_else(PoisonError::into_inner);
@@ -23,7 +24,13 @@ pub(super) fn tables(plan: &Plan) -> Vec<Table<'_>> {
             })[k]
                 .clone()
         };
-        Table { path, columns, head: None, course: Course::Largest, row: Box::new(row) }
+        Table {
+            path: file.path,
+            columns: file.parts,
+            head: None,
+            course: Course::Largest,
+            row: Box::new(row),
+        }
     };
     all.map(table).collect()
 }

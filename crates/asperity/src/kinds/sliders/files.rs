@@ -9,6 +9,7 @@ use asperity_output::decimals::{shortest, shortest_scientific};
 use asperity_output::figures::{Plot, Sheet};
 use asperity_output::tables::GrowingTable;
 use asperity_output::tables::column::{self, Column, Sign};
+use asperity_output::tables::describe::FileParts;
 use asperity_output::{OutputError, OutputFile, atomic};
 use asperity_run::{ObserveError, Observer};
 use serde::{Deserialize, Serialize};
@@ -98,11 +99,13 @@ impl Histories {
 
     /// Tables with their columns.
     #[must_use]
-    pub fn tables(problem: &Problem) -> Vec<(String, Vec<Column>)> {
+    pub fn tables(problem: &Problem) -> Vec<FileParts<Column>> {
         let stems = asperity_output::stems(problem.names.iter().map(String::as_str));
         let all = stems.iter().zip(problem.system.sliders()).enumerate();
         let written = all.filter(|(i, _)| problem.output.writes(*i));
-        written.map(|(_, (stem, slider))| (HISTORIES.named(stem), columns(slider.law.states()))).collect()
+        written
+            .map(|(_, (stem, slider))| FileParts::new(HISTORIES.named(stem), columns(slider.law.states())))
+            .collect()
     }
 
     /// Current positions in the histories.

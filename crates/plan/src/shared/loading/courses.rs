@@ -127,7 +127,8 @@ fn condition_tables(c: &Condition) -> Vec<PrescribedTable> {
         let course = match motion {
             Motion::Table(points) => value(points),
             Motion::Rate(Pace::Table(rates)) | Motion::Spring { rate: Pace::Table(rates), .. } => {
-                Course::from_rates(rates)
+                let (times, rates) = rates.iter().copied().unzip();
+                Course::from_rates(times, rates)
             }
             _ => return None,
         };
