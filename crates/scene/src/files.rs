@@ -2,7 +2,7 @@
 
 use crate::defaults::TIME_COLUMN;
 use crate::diagnostic::Diagnostic;
-use crate::model::{Scene, Spanned, TableFile, TableOver, part};
+use crate::model::{Scene, Spanned, TableFile, TableOver, TimeSeries};
 use crate::plausible;
 use crate::units::{Dimension, Length};
 use asperity_run::Warning;
@@ -77,13 +77,14 @@ fn taken(
     file: &TableFile,
     mut points: Vec<(f64, f64)>,
     (duration, holds): (Option<f64>, bool),
-) -> Result<Vec<(f64, f64)>, Diagnostic> {
+) -> Result<TimeSeries, Diagnostic> {
     let tare = file.tare.as_ref().is_some_and(|tare| *tare.get_ref());
     if let Some(&(_, zero)) = points.first().filter(|_| tare) {
         points.iter_mut().for_each(|p| p.1 -= zero);
     }
+    let points = TimeSeries::from(points);
     let Some(from) = &file.from else { return Ok(points) };
-    part(&points, from.get_ref().0, duration, holds).ok_or_else(|| {
+    points.part(from.get_ref().0, duration, holds).ok_or_else(|| {
         let [first, last] = [points.first(), points.last()].map(|p| p.map_or(0.0, |p| p.0));
         Diagnostic::at(
             from.span(),

@@ -64,7 +64,7 @@ use std::path::PathBuf;
 pub use stress::*;
 pub use surface::*;
 pub(crate) use time_series::TableOver;
-pub use time_series::{TableFile, TimeSeries, part};
+pub use time_series::{TableFile, TimeSeries};
 pub use trace::{Trace, TraceFile};
 
 /// A whole scene.

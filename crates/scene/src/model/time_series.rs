@@ -30,9 +30,31 @@ impl TimeSeries {
         self.file.as_ref()
     }
 
-    /// Sets the pairs that have been read from the file.
-    pub fn fill(&mut self, points: Vec<(f64, f64)>) {
-        self.points = points;
+    /// Sets the pairs to those that have been read from the file.
+    pub fn fill(&mut self, read: Self) {
+        self.points = read.points;
+    }
+
+    /// The part over a stage that begins at the time `from`, with times since then, up to its `duration` if it is known; `None` if
+    /// there is no entry in it. Of two entries at one time, a jump, the stage has that within it. Values that `hold` are those of
+    /// the entry before, others linear in between.
+    #[must_use]
+    pub fn part(&self, from: f64, duration: Option<f64>, hold: bool) -> Option<Self> {
+        let points = &self.points;
+        let end = duration.map_or(f64::INFINITY, |duration| from + duration);
+        let begin = points.partition_point(|p| p.0 <= from);
+        let stop = points.partition_point(|p| p.0 < end);
+        let last = points.last().filter(|last| from < last.0)?;
+        let between = |k: usize, t: f64| {
+            let ((t0, v0), (t1, v1)) = (points[k - 1], points[k]);
+            if hold { v0 } else { v0 + (v1 - v0) * ((t - t0) / (t1 - t0)) }
+        };
+        let first = (begin > 0).then(|| (0.0, between(begin, from)));
+        let inside = points[begin..stop].iter().map(|&(t, v)| (t - from, v));
+        let cut =
+            duration.filter(|_| end <= last.0 && stop > 0).map(|duration| (duration, between(stop, end)));
+        let all: Vec<(f64, f64)> = first.into_iter().chain(inside).chain(cut).collect();
+        (!all.is_empty()).then(|| all.into())
     }
 }
 
@@ -81,31 +103,15 @@ pub(crate) struct TableOver<'a> {
     pub holds: bool,
 }
 
-/// The part of a table over a stage that begins at the time `from`, with times since then, up to its `duration` if it is known;
-/// `None` if it has no entry there. Of two entries at one time, a jump, the stage has that within it. Values that `hold` are those
-/// of the entry before, others linear in between.
-#[must_use]
-pub fn part(points: &[(f64, f64)], from: f64, duration: Option<f64>, hold: bool) -> Option<Vec<(f64, f64)>> {
-    let end = duration.map_or(f64::INFINITY, |duration| from + duration);
-    let begin = points.partition_point(|p| p.0 <= from);
-    let stop = points.partition_point(|p| p.0 < end);
-    let last = points.last().filter(|last| from < last.0)?;
-    let between = |k: usize, t: f64| {
-        let ((t0, v0), (t1, v1)) = (points[k - 1], points[k]);
-        if hold { v0 } else { v0 + (v1 - v0) * ((t - t0) / (t1 - t0)) }
-    };
-    let first = (begin > 0).then(|| (0.0, between(begin, from)));
-    let inside = points[begin..stop].iter().map(|&(t, v)| (t - from, v));
-    let cut = duration.filter(|_| end <= last.0 && stop > 0).map(|duration| (duration, between(stop, end)));
-    let all: Vec<(f64, f64)> = first.into_iter().chain(inside).chain(cut).collect();
-    (!all.is_empty()).then_some(all)
-}
-
 #[cfg(test)]
 mod tests {
-    use super::part;
+    use super::TimeSeries;
 
     const RECORD: [(f64, f64); 4] = [(0.0, 1.0), (10.0, 3.0), (10.0, 5.0), (20.0, 5.0)];
+
+    fn part(record: &[(f64, f64)], from: f64, duration: Option<f64>, hold: bool) -> Option<Vec<(f64, f64)>> {
+        TimeSeries::from(record.to_vec()).part(from, duration, hold).map(|part| part.to_vec())
+    }
 
     #[test]
     fn parts_of_a_record_meet_where_stages_do() {
