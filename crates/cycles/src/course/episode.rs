@@ -298,15 +298,14 @@ impl<'a, 'f> Watch<'a, 'f> {
     fn pass(&mut self, shaken: Shaken<'_>, unknowns: Vec<f64>, over: bool) -> Control {
         let (before, around) = (self.before, self.around);
         let Last { time, unknowns: old, rate, .. } = &self.last;
-        let dt = shaken.time - time;
         let at = before.at.later(shaken.time);
         let stride = Stride {
             start: before.at.later(*time),
-            length: dt,
+            length: shaken.time - time,
             unknowns: [old, &unknowns],
             rate: [rate, shaken.rate],
         };
-        let mean: Vec<f64> = unknowns.iter().zip(old).map(|(b, a)| (b - a) / dt).collect();
+        let mean: Vec<f64> = unknowns.iter().zip(old).map(|(b, a)| (b - a) / stride.length).collect();
         let rates = [rate, shaken.rate].map(|rate| with_slip(&mean, before.layout, rate));
         let (energy, record) = (shaken.energy, &mut self.record);
         let mut waves = |ended: bool| {

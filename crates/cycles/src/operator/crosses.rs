@@ -55,6 +55,20 @@ impl Crosses<'_> {
         column
     }
 
+    /// Adds the cross of a row of the remainder and the column of its largest entry. Returns its norm, zero for a row of rounding;
+    /// none if there is no room for it.
+    fn cross(&mut self, i: usize, used_columns: &mut [bool], rounding: f64, room: usize) -> Option<f64> {
+        let row = self.row(i);
+        let pivot = largest(&row, used_columns).filter(|&j| row[j].abs() > rounding);
+        let Some(j) = pivot else { return Some(0.0) };
+        if self.left.len() == room {
+            return None;
+        }
+        used_columns[j] = true;
+        let column: Vec<f64> = self.column(j).iter().map(|v| v / row[j]).collect();
+        Some(self.add(column, row))
+    }
+
     /// Adds the cross of a column, divided by the pivot, and a row. Returns its norm.
     fn add(&mut self, column: Vec<f64>, row: Vec<f64>) -> f64 {
         let norm = (dot(&column, &column) * dot(&row, &row)).sqrt();
@@ -120,19 +134,7 @@ pub(super) fn crosses(entry: &dyn Fn(usize, usize) -> f64, wanted: BlockAccuracy
     let room = (2 * wanted.most).min(m).min(n);
     loop {
         used_rows[next] = true;
-        let row = all.row(next);
-        let pivot = largest(&row, &used_columns).filter(|&j| row[j].abs() > wanted.rounding);
-        let size = match pivot {
-            Some(j) => {
-                if all.left.len() == room {
-                    return None;
-                }
-                used_columns[j] = true;
-                let column: Vec<f64> = all.column(j).iter().map(|v| v / row[j]).collect();
-                all.add(column, row)
-            }
-            None => 0.0,
-        };
+        let size = all.cross(next, &mut used_columns, wanted.rounding, room)?;
         let allowed = (CROSSES * wanted.tolerance * all.norm()).max(floor);
         let follow = all.left.last().and_then(|column| largest(column, &used_rows));
         next = match follow {

@@ -193,6 +193,21 @@ pub struct Geometry<'a> {
     pub surfaces: bool,
 }
 
+/// Parts of the matrix of a force between points, which is `symmetric` but for rounding.
+fn parts(
+    tree: &Tree,
+    force: impl Fn(usize, usize) -> f64 + Sync,
+    symmetric: bool,
+    error: Error,
+) -> Vec<Part> {
+    if symmetric {
+        // Two entries that are equal by symmetry differ by the rounding of areas.
+        let entry = |p: usize, q: usize| 0.5 * (force(p, q) + force(q, p));
+        return Source { tree, entry, symmetric, error }.parts();
+    }
+    Source { tree, entry: force, symmetric, error }.parts()
+}
+
 impl Hierarchical {
     /// Compresses the forces of condensed bodies, block by block. The largest force is that of shear along the first direction
     /// of slip. It is below the spectral norm of the matrix.
@@ -206,18 +221,10 @@ impl Hierarchical {
             Tolerance::OfBlock(tolerance) => (ROUNDING, Some(tolerance)),
         };
         let error = Error { entry: of_largest * forces.largest_force() / n as f64, relative };
-        let force = |component: usize, slip: usize| {
-            let at = PointComponent::new;
-            move |p: usize, q: usize| forces.traction(at(component, p), at(slip, q)) * areas[p]
-        };
         let parts = |component: usize, slip: usize| {
-            let force = force(component, slip);
-            if component == slip {
-                // Two entries that are equal by symmetry differ by the rounding of areas.
-                let entry = |p: usize, q: usize| 0.5 * (force(p, q) + force(q, p));
-                return Source { tree, entry, symmetric: true, error }.parts();
-            }
-            Source { tree, entry: force, symmetric: false, error }.parts()
+            let at = PointComponent::new;
+            let force = |p: usize, q: usize| forces.traction(at(component, p), at(slip, q)) * areas[p];
+            parts(tree, force, component == slip, error)
         };
         let shifted = |parts: Vec<Part>, by: [usize; 2]| parts.into_iter().map(move |p| p.shifted(by));
         let mut shear: Vec<Part> =

@@ -21,6 +21,22 @@ struct Row {
     master: BTreeMap<usize, f64>,
 }
 
+impl Row {
+    /// Nodes through which the point acts. One that belongs to both sides (the tip of a split surface) acts with the difference of
+    /// its weights.
+    fn through(&self) -> Vec<Attachment> {
+        let (mut own, mut other) = (self.slave.clone(), self.master.clone());
+        own.iter_mut().for_each(|(n, w)| *w -= other.remove(n).unwrap_or(0.0));
+        let share = self.area.recip();
+        let attachments = |(weights, slave): (&BTreeMap<usize, f64>, bool)| -> Vec<Attachment> {
+            let c = if slave { share } else { -share };
+            let some = weights.iter().filter(|(_, w)| **w != 0.0);
+            some.map(|(&node, w)| Attachment { node, weight: c * w, slave }).collect()
+        };
+        [(&own, true), (&other, false)].into_iter().flat_map(attachments).collect()
+    }
+}
+
 /// Integrates the overlaps in the reference configuration. Also returns the number of facet pairs examined.
 #[must_use]
 pub fn small<const D: usize>(
@@ -41,18 +57,7 @@ pub fn small<const D: usize>(
     let mut measure = FixedMeasure::new(areas, false);
     for (p, row) in rows.iter().enumerate().filter(|(p, _)| paired(*p)) {
         let normal = fixed_normal.unwrap_or_else(|| scaled(&sides.normal_sum(p, &x), -1.0));
-        // A node that belongs to both sides (the tip of a split surface) acts with the difference of its weights.
-        let mut own = row.slave.clone();
-        let mut other = row.master.clone();
-        own.iter_mut().for_each(|(n, w)| *w -= other.remove(n).unwrap_or(0.0));
-        let share = row.area.recip();
-        let attachments = |(weights, slave): (&BTreeMap<usize, f64>, bool)| -> Vec<Attachment> {
-            let c = if slave { share } else { -share };
-            let some = weights.iter().filter(|(_, w)| **w != 0.0);
-            some.map(|(&node, w)| Attachment { node, weight: c * w, slave }).collect()
-        };
-        let through: Vec<Attachment> =
-            [(&own, true), (&other, false)].into_iter().flat_map(attachments).collect();
+        let through = row.through();
         let mut apart = [0.0; D];
         through.iter().for_each(|a| axpy(&mut apart, a.weight, &x[a.node]));
         measure.pair(p, &through, unit(&normal), &apart);
