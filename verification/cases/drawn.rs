@@ -7,6 +7,7 @@ use asperity::kinds;
 use asperity_fem::mesh::Mesh;
 use asperity_output::bodies::Recorder;
 use asperity_output::bodies::view::MeshView;
+use asperity_output::fields::vtu::Cell;
 use asperity_output::figures;
 use asperity_plan::bodies;
 use asperity_plan::reading::scene::model::Scene;
@@ -33,7 +34,7 @@ pub fn displacement<const D: usize>(
     let mut cells = Vec::new();
     for block in &mesh.blocks {
         let nodes = block.connectivity.chunks_exact(block.kind.nodes());
-        cells.extend(nodes.map(|cell| (block.kind.vtk_type(), cell.to_vec())));
+        cells.extend(nodes.map(|cell| Cell::new(block.kind.vtk_type(), cell.to_vec())));
     }
     let view = MeshView {
         nodes: mesh.nodes.iter().map(|x| std::array::from_fn(|c| x.get(c).copied().unwrap_or(0.0))).collect(),

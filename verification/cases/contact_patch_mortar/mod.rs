@@ -7,6 +7,7 @@ use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity::kinds;
 use asperity::kinds::bodies::RunReport;
 use asperity_output::bodies::Recorder;
+use asperity_output::fields::vtu::Cell;
 use asperity_plan::bodies;
 use asperity_plan::reading::scene as reader;
 use asperity_plan::reading::scene::model::{
@@ -112,7 +113,7 @@ impl PatchRun {
         let (stiff, coupling) = (1.0 - POISSON, POISSON);
         let modulus = YOUNG / ((1.0 + POISSON) * (1.0 - 2.0 * POISSON));
         let mut stress = Vec::new();
-        for (_, cell) in &mesh.cells {
+        for Cell { points: cell, .. } in &mesh.cells {
             let (a, c) = (mesh.nodes[cell[0]], mesh.nodes[cell[2]]);
             let size = [c[0] - a[0], c[1] - a[1]];
             let root = (1.0_f64 / 3.0).sqrt();

@@ -60,9 +60,9 @@ fn hoop(
     let mesh = &done.record.setup().mesh;
     let ring = mesh.bodies.iter().position(|b| b == "ring").ok_or("the scene has no ring")?;
     let mut sum = 0.0;
-    for (((_, cell), body), s) in mesh.cells.iter().zip(&mesh.cell_body).zip(stress) {
+    for ((cell, body), s) in mesh.cells.iter().zip(&mesh.cell_body).zip(stress) {
         if *body == ring {
-            let x: Vec<[f64; 3]> = cell.iter().map(|&n| mesh.nodes[n]).collect();
+            let x: Vec<[f64; 3]> = cell.points.iter().map(|&n| mesh.nodes[n]).collect();
             let (d, e) = ([x[2][0] - x[0][0], x[2][1] - x[0][1]], [x[3][0] - x[1][0], x[3][1] - x[1][1]]);
             sum += s[2] * 0.5 * (d[0] * e[1] - d[1] * e[0]).abs();
         }

@@ -81,8 +81,8 @@ fn displacement(record: &Recorder, u: &[[f64; 3]], exact: &Rings) -> f64 {
     let mesh = &record.setup().mesh;
     let inner = mesh.bodies.iter().position(|b| b == "inner").unwrap_or(0);
     let mut ring = vec![None; mesh.nodes.len()];
-    for ((_, cell), body) in mesh.cells.iter().zip(&mesh.cell_body) {
-        cell.iter().for_each(|&n| ring[n] = Some(usize::from(*body != inner)));
+    for (cell, body) in mesh.cells.iter().zip(&mesh.cell_body) {
+        cell.points.iter().for_each(|&n| ring[n] = Some(usize::from(*body != inner)));
     }
     let (mut error, mut whole) = (0.0, 0.0);
     for ((x, u), ring) in mesh.nodes.iter().zip(u).zip(&ring) {

@@ -62,7 +62,7 @@ fn the_blocks_of_a_file_have_their_own_materials() {
             close(u[1], lower + upper, 1e-9);
         }
         assert!(fields(&record).cell_stress.iter().all(|s| (s[1] / -3e6 - 1.0).abs() < 1e-9));
-        let kinds: Vec<u8> = record.setup().mesh.cells.iter().map(|c| c.0).collect();
+        let kinds: Vec<u8> = record.setup().mesh.cells.iter().map(|c| c.kind).collect();
         assert!(kinds.contains(&9) && kinds.contains(&5) == (file == "mixed.msh"));
         assert!(record.setup().mesh.cell_body.iter().all(|b| *b == 0));
     }

@@ -3,7 +3,7 @@
 use super::quantity;
 use super::view::{BodyFields, InterfaceFields, InterfaceMesh, MeshView};
 use crate::error::{OutputError, expect_length};
-use crate::fields::vtu::Grid;
+use crate::fields::vtu::{Cell, Grid};
 use crate::fields::{Data, FILES, Field, FieldTimes, Series};
 use crate::tables::Sign;
 
@@ -89,10 +89,10 @@ fn grid(mesh: &InterfaceMesh, dimension: usize) -> Grid {
         (_, 4) => 9,
         _ => 7,
     };
-    let cells: Vec<(u8, Vec<usize>)> = if mesh.faces.is_empty() {
-        (0..mesh.positions.len()).map(|node| (1, vec![node])).collect()
+    let cells: Vec<Cell> = if mesh.faces.is_empty() {
+        (0..mesh.positions.len()).map(|node| Cell::new(1, vec![node])).collect()
     } else {
-        mesh.faces.iter().map(|face| (kind(face.len()), face.clone())).collect()
+        mesh.faces.iter().map(|face| Cell::new(kind(face.len()), face.clone())).collect()
     };
     Grid::new(&mesh.positions, &cells)
 }

@@ -1,6 +1,7 @@
 //! Views of a run for its writers: plain slices that do not depend on the dimension of the scene. Vectors are padded to three
 //! components, so that the same writers and plots serve all dimensions.
 
+use crate::fields::vtu::Cell;
 use crate::numbers;
 use asperity_run::Energies;
 use schemars::JsonSchema;
@@ -11,8 +12,8 @@ use serde::{Deserialize, Serialize};
 pub struct MeshView {
     /// Node positions \[m\].
     pub nodes: Vec<[f64; 3]>,
-    /// Cells: VTK cell type, and node numbers in VTK order.
-    pub cells: Vec<(u8, Vec<usize>)>,
+    /// Cells.
+    pub cells: Vec<Cell>,
     /// Body of each cell, as an index into `bodies`.
     pub cell_body: Vec<usize>,
     /// Names of the bodies.

@@ -4,9 +4,11 @@
 //! block if partial else 0, compressed size of each block]` is little-endian u64, base64-encoded separately. The zlib streams of
 //! all blocks follow, concatenated and base64-encoded together. Offsets count characters after `_`.
 
+mod cell;
 pub mod reading;
 mod single;
 
+pub use cell::Cell;
 pub use single::array;
 
 use base64::Engine;
@@ -108,19 +110,19 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Encodes node positions \[m\] and cells (VTK type, node numbers in VTK order).
+    /// Encodes node positions \[m\] and cells.
     #[must_use]
-    pub fn new(points: &[[f64; 3]], cells: &[(u8, Vec<usize>)]) -> Self {
-        let connectivity: Vec<i64> = cells.iter().flat_map(|(_, nodes)| nodes).map(|&n| n as i64).collect();
+    pub fn new(points: &[[f64; 3]], cells: &[Cell]) -> Self {
+        let connectivity: Vec<i64> = cells.iter().flat_map(|cell| &cell.points).map(|&n| n as i64).collect();
         let mut end = 0;
         let offsets: Vec<i64> = cells
             .iter()
-            .map(|(_, nodes)| {
-                end += nodes.len() as i64;
+            .map(|cell| {
+                end += cell.points.len() as i64;
                 end
             })
             .collect();
-        let types: Vec<u8> = cells.iter().map(|(kind, _)| *kind).collect();
+        let types: Vec<u8> = cells.iter().map(|cell| cell.kind).collect();
         Self {
             points: EncodedArray::new(Values::F64(points.as_flattened())),
             connectivity: EncodedArray::new(Values::I64(&connectivity)),
@@ -358,7 +360,7 @@ mod tests {
         // 4096 points are exactly three blocks of positions; 5000 leave a partial block.
         for n in [4096, 5000] {
             let points: Vec<[f64; 3]> = (0..n).map(|i| [i as f64, 0.5 * i as f64, -1.0]).collect();
-            let cells: Vec<(u8, Vec<usize>)> = (0..n - 1).map(|i| (3, vec![i, i + 1])).collect();
+            let cells: Vec<Cell> = (0..n - 1).map(|i| Cell::new(3, vec![i, i + 1])).collect();
             let status: Vec<u8> = (0..n).map(|i| (i % 3) as u8).collect();
             let stress = vec![[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]; n - 1];
             let grid = Grid::new(&points, &cells);

@@ -2,6 +2,7 @@
 //! z = +∞ in three.
 
 use crate::bodies::view::MeshView;
+use crate::fields::vtu::Cell;
 use std::collections::BTreeMap;
 
 /// A corner of a triangle as the mean of some nodes: a single node, or the centre of a face.
@@ -61,7 +62,7 @@ fn flat_cells(mesh: &MeshView) -> Vec<Face> {
         (0..corners).flat_map(|i| [nodes[i], nodes[corners + i]]).collect()
     };
     let cells = mesh.cells.iter().zip(&mesh.cell_body);
-    let face = |((kind, nodes), &body): (&(u8, Vec<usize>), &usize)| {
+    let face = |(Cell { kind, points: nodes }, &body): (&Cell, &usize)| {
         let (ring, centre) = match kind {
             5 | 9 => (nodes.clone(), None),
             22 => (ring(nodes, 3), None),
@@ -77,7 +78,7 @@ fn flat_cells(mesh: &MeshView) -> Vec<Face> {
 /// Outer faces whose normal has a positive z component, from the lowest to the highest.
 fn upper_faces(mesh: &MeshView) -> Vec<Face> {
     let mut outer: BTreeMap<Vec<usize>, Option<Face>> = BTreeMap::new();
-    for ((kind, nodes), &body) in mesh.cells.iter().zip(&mesh.cell_body) {
+    for (Cell { kind, points: nodes }, &body) in mesh.cells.iter().zip(&mesh.cell_body) {
         let corners: &[&[usize]] = match kind {
             10 | 24 => &TET,
             12 | 25 | 29 => &HEX,
@@ -163,7 +164,7 @@ mod tests {
     fn the_top_face_of_two_stacked_cubes_is_seen() {
         let mesh = MeshView {
             nodes: cube(),
-            cells: vec![(12, (0..8).collect()), (12, (4..12).collect())],
+            cells: vec![Cell::new(12, (0..8).collect()), Cell::new(12, (4..12).collect())],
             cell_body: vec![0, 0],
             bodies: vec!["A".into()],
             dimension: 3,
@@ -181,7 +182,7 @@ mod tests {
         let layer = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z]];
         let mesh = MeshView {
             nodes: [0.0, 1.0, 2.0].into_iter().flat_map(layer).collect(),
-            cells: vec![(13, (0..6).collect()), (13, (3..9).collect())],
+            cells: vec![Cell::new(13, (0..6).collect()), Cell::new(13, (3..9).collect())],
             cell_body: vec![0, 0],
             bodies: vec!["A".into()],
             dimension: 3,
@@ -217,7 +218,7 @@ mod tests {
         for (kind, nodes, expected) in cases {
             let mesh = MeshView {
                 nodes: nodes.iter().map(|[x, y]| [*x, *y, 0.0]).collect(),
-                cells: vec![(kind, (0..nodes.len()).collect())],
+                cells: vec![Cell::new(kind, (0..nodes.len()).collect())],
                 cell_body: vec![0],
                 bodies: vec!["A".into()],
                 dimension: 2,

@@ -2,6 +2,7 @@
 
 use crate::OutputError;
 use crate::bodies::view::*;
+use crate::fields::vtu::Cell;
 
 pub(crate) const H: f64 = 2.5e-3;
 const STAGES: [(&str, f64); 2] = [("press", 9.66), ("shear", 59.66)];
@@ -23,11 +24,11 @@ fn block(mesh: &mut MeshView, body: usize, min: [f64; 2], max: [f64; 2], layers:
         for i in 0..n[0] {
             let ring = |k| [at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k), at(i, j + 1, k)];
             if layers == 0 {
-                mesh.cells.push((9, ring(0).to_vec()));
+                mesh.cells.push(Cell::new(9, ring(0).to_vec()));
                 mesh.cell_body.push(body);
             }
             for k in 0..layers {
-                mesh.cells.push((12, [ring(k), ring(k + 1)].concat()));
+                mesh.cells.push(Cell::new(12, [ring(k), ring(k + 1)].concat()));
                 mesh.cell_body.push(body);
             }
         }
@@ -133,7 +134,7 @@ pub(crate) fn body_fields(mesh: &MeshView, time: f64, spoil: Option<f64>) -> Bod
     let centre = |nodes: &Vec<usize>| -> [f64; 3] {
         std::array::from_fn(|c| nodes.iter().map(|&n| mesh.nodes[n][c]).sum::<f64>() / nodes.len() as f64)
     };
-    let cell_mises: Vec<f64> = mesh.cells.iter().map(|(_, nodes)| mises(&centre(nodes))).collect();
+    let cell_mises: Vec<f64> = mesh.cells.iter().map(|cell| mises(&centre(&cell.points))).collect();
     BodyFields {
         displacement: mesh.nodes.iter().map(|p| [1e-3 * p[0], -1e-4 * p[1], 0.0]).collect(),
         cell_stress: cell_mises.iter().map(|&m| [-m, 0.0, 0.0, 0.0, 0.0, 0.0]).collect(),

@@ -2,6 +2,7 @@
 
 use crate::shared::model::Model;
 use asperity_cycles::medium::Bodies;
+use asperity_output::fields::vtu::Cell;
 
 /// Bodies around faults, as needed by the output.
 #[derive(Debug)]
@@ -16,8 +17,8 @@ pub struct BodiesView {
     plates: Vec<f64>,
     /// True if their displacements are written.
     pub shown: bool,
-    /// VTK cell type and nodes of each cell.
-    pub cells: Vec<(u8, Vec<usize>)>,
+    /// Cells.
+    pub cells: Vec<Cell>,
 }
 
 /// Freely sliding points, which may lag behind plates.
@@ -38,7 +39,7 @@ impl BodiesView {
         let blocks = model.bodies.iter().flat_map(|body| &model.mesh.blocks[body.blocks.clone()]);
         let cells = blocks.flat_map(|block| {
             let cells = block.connectivity.chunks_exact(block.kind.nodes());
-            cells.map(|cell| (block.kind.vtk_type(), cell.to_vec()))
+            cells.map(|cell| Cell::new(block.kind.vtk_type(), cell.to_vec()))
         });
         let place = |x: &[f64; D]| std::array::from_fn(|c| x.get(c).copied().unwrap_or(0.0));
         Self {
@@ -54,7 +55,7 @@ impl BodiesView {
     /// Mean position of the nodes of each cell, in the order of the cells of the bodies \[m\].
     #[must_use]
     pub fn middles(&self) -> Vec<[f64; 3]> {
-        let middle = |(_, nodes): &(u8, Vec<usize>)| {
+        let middle = |Cell { points: nodes, .. }: &Cell| {
             let sum = |c: usize| nodes.iter().map(|&n| self.nodes[n][c]).sum::<f64>();
             std::array::from_fn(|c| sum(c) / nodes.len() as f64)
         };

@@ -6,6 +6,7 @@ use asperity_mechanics::{ForceSet, Model, Point, Spring, SpringState, Stage};
 use asperity_output::bodies::view::{
     ForceMark, MeshView, PointMark, PointValues, Samples, SpringMark, SpringValues,
 };
+use asperity_output::fields::vtu::Cell;
 
 /// Pads a vector to three components.
 pub fn padded<const D: usize>(v: &[f64; D]) -> [f64; 3] {
@@ -21,7 +22,7 @@ pub fn mesh_view<const D: usize>(model: &Model<D>, moves: bool) -> MeshView {
     for (index, body) in model.bodies.iter().enumerate() {
         for block in &mesh.blocks[body.blocks.clone()] {
             for cell in block.connectivity.chunks_exact(block.kind.nodes()) {
-                cells.push((block.kind.vtk_type(), cell.to_vec()));
+                cells.push(Cell::new(block.kind.vtk_type(), cell.to_vec()));
                 cell_body.push(index);
             }
         }

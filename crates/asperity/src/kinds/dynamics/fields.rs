@@ -2,7 +2,7 @@
 
 use super::moment::Moment;
 use asperity_mechanics::dynamics::FaultState;
-use asperity_output::fields::vtu::{Grid, PvdEntry, face_type, pvd};
+use asperity_output::fields::vtu::{Cell, Grid, PvdEntry, face_type, pvd};
 use asperity_output::fields::{COLLECTION, Data, FILES, Field, FieldTimes, Series};
 use asperity_output::tables::Sign;
 use asperity_output::tables::describe::FileParts;
@@ -45,7 +45,7 @@ fn vectors(values: &[f64], axes: &[usize]) -> Vec<[f64; 3]> {
 
 fn grid<const D: usize>(plan: &Plan<D>, fault: &FaultView) -> Grid {
     let places: Vec<[f64; 3]> = plan.points[fault.points.clone()].iter().map(|p| p.at).collect();
-    let cells: Vec<(u8, Vec<usize>)> = fault.faces.iter().map(|f| (face_type(f.len()), f.clone())).collect();
+    let cells: Vec<Cell> = fault.faces.iter().map(|f| Cell::new(face_type(f.len()), f.clone())).collect();
     Grid::new(&places, &cells)
 }
 

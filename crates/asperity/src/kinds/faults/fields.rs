@@ -4,7 +4,7 @@ use super::states::has_theta;
 use super::{locking, pore};
 use asperity_cycles::heat::TEMPERATURE;
 use asperity_cycles::{Components, Layout, OPENING, PointTractions, Rupture};
-use asperity_output::fields::vtu::{Grid, face_type};
+use asperity_output::fields::vtu::{Cell, Grid, face_type};
 use asperity_output::fields::{Data, FILES, Field, FieldTimes, Series};
 use asperity_output::tables::Sign;
 use asperity_plan::faults::cadence::log_rate;
@@ -23,11 +23,11 @@ pub(super) struct Present {
 fn surface(plan: &Plan, fault: &FaultView) -> Grid {
     let points = &plan.points[fault.points.clone()];
     if let Some(Outline { nodes, corners }) = &fault.outline {
-        let cells: Vec<(u8, Vec<usize>)> = corners.iter().map(|c| (face_type(3), c.to_vec())).collect();
+        let cells: Vec<Cell> = corners.iter().map(|c| Cell::new(face_type(3), c.to_vec())).collect();
         return Grid::new(nodes, &cells);
     }
     let places: Vec<[f64; 3]> = points.iter().map(|p| p.at).collect();
-    let cells: Vec<(u8, Vec<usize>)> = fault.faces.iter().map(|f| (face_type(f.len()), f.clone())).collect();
+    let cells: Vec<Cell> = fault.faces.iter().map(|f| Cell::new(face_type(f.len()), f.clone())).collect();
     Grid::new(&places, &cells)
 }
 

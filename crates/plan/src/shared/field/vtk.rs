@@ -9,7 +9,8 @@ use crate::reading::columns::unit::FilePart;
 use crate::reading::columns::{Wrong, unit};
 use crate::reading::scene::model::FieldInterpolation;
 use crate::reading::scene::units::{self, Dimension};
-use asperity_output::fields::vtu::reading::{self, Cell, Grid, NamedArray, VtuError};
+use asperity_output::fields::vtu::Cell;
+use asperity_output::fields::vtu::reading::{self, Grid, NamedArray, VtuError};
 use asperity_scene::near::suggest;
 
 /// Help for a file that is not read.

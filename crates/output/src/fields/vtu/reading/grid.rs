@@ -1,5 +1,7 @@
 //! Unstructured grid of VTK.
 
+use crate::fields::vtu::cell::Cell;
+
 /// Values of one name at points or in cells.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedArray {
@@ -9,15 +11,6 @@ pub struct NamedArray {
     pub components: usize,
     /// Values, one point or cell after the other.
     pub values: Vec<f64>,
-}
-
-/// Cell with its type of VTK and its points.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Cell {
-    /// Type of VTK.
-    pub kind: u8,
-    /// Points in VTK's order.
-    pub points: Vec<usize>,
 }
 
 /// Unstructured grid with its arrays. Those of one name in all pieces are joined.

@@ -11,7 +11,7 @@ mod pieces;
 mod xml;
 
 pub use error::{ArrayError, VtuError};
-pub use grid::{Cell, Grid, NamedArray};
+pub use grid::{Grid, NamedArray};
 
 /// Grid of a file, with the arrays of this name alone.
 ///

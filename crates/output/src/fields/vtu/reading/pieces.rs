@@ -2,8 +2,9 @@
 
 use super::array::Arrays;
 use super::error::{ArrayError, VtuError};
-use super::grid::{Cell, Grid, NamedArray};
+use super::grid::{Grid, NamedArray};
 use super::xml::{Document, Element};
+use crate::fields::vtu::cell::Cell;
 
 pub(super) fn grid(document: &Document<'_>, name: &str) -> Result<Grid, VtuError> {
     let root = &document.root;
