@@ -56,6 +56,7 @@ pub fn failed<const D: usize>(
 }
 
 /// Numbers of steps that stand, and of trials that were rejected.
+#[derive(Clone, Copy, Debug)]
 pub struct Trials {
     /// Steps.
     pub steps: usize,

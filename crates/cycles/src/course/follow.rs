@@ -57,6 +57,7 @@ pub(crate) struct End<'a> {
 }
 
 /// State of a run.
+#[derive(Clone, Copy)]
 pub(crate) struct State<'a> {
     /// Time.
     pub at: Clock,

@@ -390,8 +390,10 @@ fn tractions<const C: usize>(mut forces: Forces, channels: Channels) -> Surround
     });
     let creep = creep.map(|c| shear(&forces, &all[c].1));
     let presses = presses::<C>(&forces, &all);
-    let least = UNCOUPLED * forces.largest(0, 0);
-    let across = tangents > 1 && (forces.largest(0, 1) > least || forces.largest(1, 0) > least);
+    let across = tangents > 1 && {
+        let least = UNCOUPLED * forces.largest(0, 0);
+        forces.largest(0, 1) > least || forces.largest(1, 0) > least
+    };
     let opening = if C > 1 { opening(&forces) } else { None };
     let mut loading = Loading::new(tangents);
     for (amplitude, held) in all {

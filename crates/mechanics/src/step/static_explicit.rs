@@ -106,8 +106,8 @@ impl StaticExplicit {
         result
     }
 
-    /// Predicts the increment of a step of at most the wanted length by the rate tangent, and the length left by the R-minimum rule.
-    /// Accuracy does not shorten it below the least.
+    /// Predicts the increment of a step of at most the wanted length by the rate tangent, and the length left by the R-minimum
+    /// rule. Accuracy does not shorten it below the least.
     fn foresee(
         &mut self,
         terms: &mut [&mut dyn ForwardTerm],

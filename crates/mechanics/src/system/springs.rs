@@ -58,8 +58,8 @@ pub(super) fn now(springs: Option<&Springs>, state: &State) -> Vec<SpringState> 
     springs.map_or_else(Vec::new, |springs| springs.now(&state.u, state.time).collect())
 }
 
-/// States of the springs of a stage at its start: those that were attached before, to these sets, carry on. A new spring carries the force that
-/// held its set, the sum of the `reactions` there.
+/// States of the springs of a stage at its start: those that were attached before, to these sets, carry on. A new spring carries
+/// the force that held its set, the sum of the `reactions` there.
 pub(super) fn starts(
     stage: &Stage,
     sets: &[Vec<usize>],

@@ -16,8 +16,8 @@ impl Default for FieldSchedule {
 }
 
 impl FieldSchedule {
-    /// Due times of stages with these ends, ascending and without repetition \[s\]. Where steps end at them, outputs have these times; otherwise they follow at
-    /// the first step past each.
+    /// Due times of stages with these ends, ascending and without repetition \[s\]. Where steps end at them, outputs have these
+    /// times; otherwise they follow at the first step past each.
     #[must_use]
     pub fn times(&self, ends: &[f64]) -> Vec<f64> {
         let mut times = Vec::new();

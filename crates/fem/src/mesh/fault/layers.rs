@@ -75,7 +75,7 @@ impl Layers {
 }
 
 /// Distances of rows above and below the places of columns, next to which cells have this thickness.
-fn rows(input: &FaultMesh, lines: &Line, thickness: f64) -> Result<[Vec<Vec<f64>>; 2], FaultMeshError> {
+fn rows(input: &FaultMesh, lines: &[[f64; 2]], thickness: f64) -> Result<[Vec<Vec<f64>>; 2], FaultMeshError> {
     let side = |height: &dyn Fn(f64) -> f64| {
         let heights: Vec<f64> = lines.iter().map(|[_, y]| height(*y)).collect();
         distances(&heights, thickness, input.growth)

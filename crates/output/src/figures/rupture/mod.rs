@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 pub(super) use slip::EventOnFault;
 use std::ops::Range;
 pub(super) use still::StillMap;
-pub(super) use successive::{moment, velocities};
+pub(super) use successive::{VelocityFrame, moment, velocities};
 
 /// Points of a fault as a figure shows them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

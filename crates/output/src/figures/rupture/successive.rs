@@ -105,15 +105,22 @@ fn maps(
     Some(Strip { title, axes: (frame.x, frame.y), size: frame.size, panels, bar }.draw())
 }
 
+/// Velocities at the nodes of a mesh at a time.
+#[derive(Clone, Copy)]
+pub(in crate::figures) struct VelocityFrame<'a> {
+    pub time: f64,
+    pub values: &'a [f64],
+}
+
 /// Velocities of bodies at successive times, in common colours; `None` where nothing moves or can be drawn.
 pub(in crate::figures) fn velocities(
     scene: &str,
     shown: &VisibleMesh,
-    frames: &[(f64, Vec<f64>)],
+    frames: &[VelocityFrame<'_>],
     paper: Paper,
 ) -> Option<Figure> {
-    let last = frames.last()?.0;
-    let all: Vec<f64> = frames.iter().flat_map(|frame| frame.1.iter().copied()).collect();
+    let last = frames.last()?.time;
+    let all: Vec<f64> = frames.iter().flat_map(|frame| frame.values.iter().copied()).collect();
     let (hi, most) = covered(&all)?;
     let upright = shown.frame(MAP).is_some_and(|frame| frame.size.0 < frame.size.1);
     let (room, panels) = if upright { (TALL, FEW) } else { (MAP, PANELS) };
@@ -122,8 +129,8 @@ pub(in crate::figures) fn velocities(
     let frame = shown.frame(strip::panel(paper, chosen.len(), room, true))?;
     let unit = VELOCITY.choose(most);
     let panel = |k: usize| {
-        let (time, values) = &frames[k];
-        (moment(*time, last), Content::Map(shown.image(&frame, values, hi)))
+        let VelocityFrame { time, values } = frames[k];
+        (moment(time, last), Content::Map(shown.image(&frame, values, hi)))
     };
     let panels = chosen.into_iter().map(|k| panel(k.min(frames.len() - 1))).collect();
     let above = (most > hi).then(|| format!("max {:.1}", most / unit.factor));

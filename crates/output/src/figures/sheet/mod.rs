@@ -20,7 +20,7 @@ use super::ground::{Coordinates, GroundMap, MapQuantity};
 use super::panel::EventPanel;
 use super::paper::Paper;
 use super::profile::Tractions;
-use super::rupture::{self, EventOnFault, RupturedFault, Ruptures, Shape};
+use super::rupture::{self, EventOnFault, RupturedFault, Ruptures, Shape, VelocityFrame};
 use crate::{OutputError, PaintError, atomic, json, numbers};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -482,7 +482,8 @@ impl Sheet {
             Some((format!("velocity_{k}"), field::velocity(title, mesh, values, room)?))
         };
         let mut figures: NamedFigures = within().filter_map(one).collect();
-        let frames: Vec<(f64, Vec<f64>)> = within().map(|(_, frame)| frame.clone()).collect();
+        let frames: Vec<VelocityFrame<'_>> =
+            within().map(|(_, (time, values))| VelocityFrame { time: *time, values }).collect();
         let strip = rupture::velocities(&self.title, mesh, &frames, paper);
         figures.extend(strip.map(|figure| ("velocity_film".to_string(), figure)));
         figures
