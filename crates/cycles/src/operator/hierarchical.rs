@@ -222,8 +222,9 @@ impl Hierarchical {
         };
         let error = Error { entry: of_largest * forces.largest_force() / n as f64, relative };
         let parts = |component: usize, slip: usize| {
-            let at = PointComponent::new;
-            let force = |p: usize, q: usize| forces.traction(at(component, p), at(slip, q)) * areas[p];
+            let force = |p: usize, q: usize| {
+                forces.traction(PointComponent::new(component, p), PointComponent::new(slip, q)) * areas[p]
+            };
             parts(tree, force, component == slip, error)
         };
         let shifted = |parts: Vec<Part>, by: [usize; 2]| parts.into_iter().map(move |p| p.shifted(by));
@@ -239,8 +240,8 @@ impl Hierarchical {
         let normal = (!normal.is_empty()).then(|| CompressedMatrix::new(n, normal, false, precision));
         let order = (0..components).flat_map(|c| tree.order.iter().map(move |p| c * n + p)).collect();
         let per_area: Vec<f64> = tree.order.iter().map(|&p| 1.0 / areas[p]).collect();
-        let all = (order, per_area.repeat(components));
-        let operator = Self::from_matrices(shear, normal, all, forces.stiffness(), tolerance);
+        let per_area = per_area.repeat(components);
+        let operator = Self::from_matrices(shear, normal, (order, per_area), forces.stiffness(), tolerance);
         Self { components, ..operator }
     }
 

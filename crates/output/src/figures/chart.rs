@@ -82,12 +82,10 @@ impl Chart {
 
     fn drawn(&self, paper: Paper, start: f64) -> Option<Figure> {
         let points = || self.curves.iter().flat_map(|c| c.1.iter());
-        let first = points().next()?;
         let largest = |pick: fn(&Point) -> f64| {
             points().map(|p| pick(p).abs()).filter(|v| v.is_finite()).fold(0.0, f64::max)
         };
-        // A run that has not passed its start has no time axis, and loads that do not move no axis of displacement.
-        if !points().any(|p| p.0 != first.0) {
+        if !self.moves() {
             return None;
         }
         let (x_unit, y_unit) =
@@ -121,6 +119,13 @@ impl Chart {
             }
         }
         Some(page.finish())
+    }
+
+    /// True if something changes along the horizontal axis: a run that has not passed its start has no time axis, and loads that do
+    /// not move no axis of displacement.
+    fn moves(&self) -> bool {
+        let mut along = self.curves.iter().flat_map(|c| &c.1).map(|p| p.0);
+        along.next().is_some_and(|first| along.any(|x| x != first))
     }
 
     /// The curves, with references only near the values that they are of.
