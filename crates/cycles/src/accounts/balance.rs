@@ -243,37 +243,41 @@ impl<'a> Balance<'a> {
         ends: &[End<'_>; 2],
         among: Range<usize>,
     ) -> [f64; 3] {
-        let (h, end) = (moment.dt, moment.at.seconds());
-        let (fault, layout) = (&self.problem.fault, moment.layout);
-        let (slips, points) = (layout.slip().start, layout.points());
-        let after = end - self.sums.since;
+        let (h, after) = (moment.dt, moment.at.seconds() - self.sums.since);
+        let (slips, points) = (moment.layout.slip().start, moment.layout.points());
         let mut works = [0.0; 3];
         for i in among {
-            let p = i % points;
-            let area = self.problem.areas[p];
-            // Friction a m f_n, and its rate times the length of the step.
-            let friction = |of: &End<'_>| {
-                let [normal, change] = of.normal(fault, layout, p);
-                let (m, rate) = (of.unknowns[i], of.rates[i]);
-                [self.scale[p] * normal * m, self.scale[p] * h * (normal * rate + change * m)]
-            };
+            let area = self.problem.areas[i % points];
             let way = Way {
                 by: moment.unknowns[slips + i] - step.start[slips + i],
                 rates: [h * step.start_rates[slips + i], h * step.end_rates[slips + i]],
             };
-            let [first, last] = [friction(&ends[0]), friction(&ends[1])];
-            let (traction, rate) = (self.sums.traction[i], self.rate[i]);
-            let load = |t: f64| {
-                let [imposed, growth] = fault.processes.imposed(i, self.sums.since + t);
-                [traction + t * rate + imposed, h * (rate + growth)]
-            };
+            let [first, last] = [&ends[0], &ends[1]].map(|end| self.friction(moment, end, i));
             works[0] += area * way.work(first, last);
-            works[1] += area * way.work(load(after - h), load(after));
+            works[1] += area * way.work(self.driving(i, after - h, h), self.driving(i, after, h));
             if step.waves.is_none() {
-                works[2] += area * fault.damping[p] * way.square() / h;
+                works[2] += area * self.problem.fault.damping[i % points] * way.square() / h;
             }
         }
         works
+    }
+
+    /// Friction a m f_n of a component of a point at an end of a step, and its rate times the length of the step \[Pa\].
+    #[inline]
+    fn friction(&self, moment: &Moment<'_>, end: &End<'_>, i: usize) -> [f64; 2] {
+        let p = i % moment.layout.points();
+        let [normal, change] = end.normal(&self.problem.fault, moment.layout, p);
+        let (m, rate) = (end.unknowns[i], end.rates[i]);
+        [self.scale[p] * normal * m, self.scale[p] * moment.dt * (normal * rate + change * m)]
+    }
+
+    /// Load of a component of a point at a time after the start of the sums \[s\], and its rate times the length `h` of the step
+    /// \[Pa\].
+    #[inline]
+    fn driving(&self, i: usize, after: f64, h: f64) -> [f64; 2] {
+        let [imposed, growth] = self.problem.fault.processes.imposed(i, self.sums.since + after);
+        let (traction, rate) = (self.sums.traction[i], self.rate[i]);
+        [traction + after * rate + imposed, h * (rate + growth)]
     }
 
     /// Work done on processes over a step.

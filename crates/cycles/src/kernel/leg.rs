@@ -45,10 +45,15 @@ impl Corner {
         beyond(self.r, self.eta, self.xi, self.q)
     }
 
+    /// R + d~ \[m\].
+    pub fn r_d(&self) -> Jet {
+        self.r + self.d
+    }
+
     /// I3 \[-\] and I4 \[-\].
     pub fn i3_i4(&self) -> [Jet; 2] {
         let (c, s) = (self.cos, self.sin);
-        let (r_eta, r_d) = (self.r_eta(), self.r + self.d);
+        let (r_eta, r_d) = (self.r_eta(), self.r_d());
         let k = (self.eta * (c / (1.0 + s)) + self.q) / r_eta;
         let depth = (self.d / r_d - r_d.ln()) * (1.0 / (1.0 + s));
         let i3 = depth + k.squared() * q_of(k * c);

@@ -87,58 +87,53 @@ impl Functions {
 
     /// u_B.
     pub fn b(&self, slip: [f64; 3], constants: Constants) -> Triple {
-        let Corner { xi, eta, q, r, d, cos, sin } = self.corner;
+        let Corner { xi, eta, q, r, cos, sin, .. } = self.corner;
         let (x11, y11, theta) = (self.x11, self.y11, self.theta);
-        let free = (1.0 - constants.alpha) / constants.alpha;
+        let free = (1.0 - constants.alpha) / constants.alpha * sin;
         let [i3, i4] = self.corner.i3_i4();
-        let (r_d, q2) = (r + d, q.squared());
+        let (r_d, q2) = (self.corner.r_d(), q.squared());
         let flat = xi / r_d;
         weighted(slip, |kind| match kind {
             0 => {
                 let (i1, i2) = (-(flat * cos + i4 * sin), r_d.ln() + i3 * sin);
-                [
-                    -(xi * q * y11 + theta + i1 * (free * sin)),
-                    self.y / r_d * (free * sin) - q / r,
-                    q2 * y11 - i2 * (free * sin),
-                ]
+                [-(xi * q * y11 + theta + i1 * free), self.y / r_d * free - q / r, q2 * y11 - i2 * free]
             }
             1 => {
-                let both = free * sin * cos;
-                [i3 * both - q / r, -(eta * q * x11 + theta + flat * both), q2 * x11 + i4 * both]
+                let free = free * cos;
+                [i3 * free - q / r, -(eta * q * x11 + theta + flat * free), q2 * x11 + i4 * free]
             }
             _ => {
-                let square = free * sin * sin;
-                let last = q * (eta * x11 + xi * y11) - theta - i4 * square;
-                [q2 * y11 - i3 * square, q2 * x11 + flat * square, last]
+                let free = free * sin;
+                let last = q * (eta * x11 + xi * y11) - theta - i4 * free;
+                [q2 * y11 - i3 * free, q2 * x11 + flat * free, last]
             }
         })
     }
 
     /// u_C, which the displacement has times z.
-    pub fn c(&self, slip: [f64; 3], constants: Constants) -> Triple {
+    pub fn c(&self, slip: [f64; 3], Constants { alpha }: Constants) -> Triple {
         let Corner { xi, eta, q, r, d, cos, sin } = self.corner;
-        let (y, z, x11, y11) = (self.y, self.z, self.x11, self.y11);
-        let (alpha, rest) = (constants.alpha, 1.0 - constants.alpha);
+        let (rest, x11, y11) = (1.0 - alpha, self.x11, self.y11);
         let (x32, y32) = (cubic(r, xi, x11, self.turned[0]), cubic(r, eta, y11, self.turned[1]));
-        let (one, depth, q2) = (r.recip(), d + z, q.squared());
+        let (one, depth, q2) = (r.recip(), d + self.z, q.squared());
         let third = one * one.squared();
-        let z32 = third * sin - (q * cos - z) * y32;
+        let z32 = third * sin - (q * cos - self.z) * y32;
         let near = depth * (x11 - q2 * x32);
         weighted(slip, |kind| match kind {
             0 => [
                 xi * (y11 * (rest * cos) - q * z32 * alpha),
                 (one * cos + q * y11 * (2.0 * sin)) * rest - depth * q * third * alpha,
-                q * y11 * (rest * cos) - (depth * eta * third - z * y11 + xi.squared() * z32) * alpha,
+                q * y11 * (rest * cos) - (depth * eta * third - self.z * y11 + xi.squared() * z32) * alpha,
             ],
             1 => [
                 one * (rest * cos) - q * y11 * sin - depth * q * third * alpha,
-                y * x11 * rest - depth * eta * q * x32 * alpha,
+                self.y * x11 * rest - depth * eta * q * x32 * alpha,
                 -(d * x11 + xi * y11 * sin + near * alpha),
             ],
             _ => [
-                -((one * sin + q * y11 * cos) * rest + (z * y11 - q2 * z32) * alpha),
+                -((one * sin + q * y11 * cos) * rest + (self.z * y11 - q2 * z32) * alpha),
                 xi * y11 * (2.0 * rest * sin) + d * x11 - near * alpha,
-                (y * x11 + xi * y11 * cos) * rest + q * (depth * eta * x32 + xi * z32) * alpha,
+                (self.y * x11 + xi * y11 * cos) * rest + q * (depth * eta * x32 + xi * z32) * alpha,
             ],
         })
     }

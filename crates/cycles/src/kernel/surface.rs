@@ -59,24 +59,30 @@ pub(super) fn field(
 
 /// 4π u_C of a side and its gradient with respect to the mirrored point.
 fn depth(side: &Side, line: &Line, w: &Vector3<f64>, sinking: f64, alpha: f64) -> Field {
+    let (t, along) = (side.along, weighted_by_depth(side, line, w));
+    let (ring, flat) = (2.0 * sinking, (2.0 - 2.0 * alpha) * w.z);
+    let mut u = t.cross(&line.gradient) * -ring - line.gradient * flat - along.displacement * (2.0 * alpha);
+    let mut gradient =
+        t.cross_matrix() * line.hessian * -ring - line.hessian * flat - along.gradient * (2.0 * alpha);
+    let add = 2.0 * (2.0 - alpha);
+    u.z = -(u.z + add * w.dot(&line.gradient));
+    gradient.set_row(2, &-(gradient.row(2) + (line.hessian * w).transpose() * add));
+    Field { displacement: u, gradient }
+}
+
+/// ∇(w·∇F) of a side and its gradient, where F is the integral of depth over distance.
+fn weighted_by_depth(side: &Side, line: &Line, w: &Vector3<f64>) -> Field {
     let (t, [a, b]) = (side.along, &line.rays);
     let (slope, pull) = (t.z, line.hessian * w);
-    let draw = w.dot(&line.gradient);
     // Height of the foot of the perpendicular from the mirrored point.
     let foot = side.ends[0].z + slope * t.dot(&a.from);
     let ends = b.bend * w - a.bend * w;
     let bends = b.bend_along(w) - a.bend_along(w);
-    // ∇(w·∇F) and its gradient.
-    let first = t * (slope * draw) + pull * foot + ends * slope;
-    let tp = t * pull.transpose();
-    let second = (tp + tp.transpose() + bends) * slope + line.hessian_along(w) * foot;
-    let (ring, flat) = (2.0 * sinking, (2.0 - 2.0 * alpha) * w.z);
-    let mut u = t.cross(&line.gradient) * -ring - line.gradient * flat - first * (2.0 * alpha);
-    let mut gradient = t.cross_matrix() * line.hessian * -ring - line.hessian * flat - second * (2.0 * alpha);
-    let add = 2.0 * (2.0 - alpha);
-    u.z = -(u.z + add * draw);
-    gradient.set_row(2, &-(gradient.row(2) + pull.transpose() * add));
-    Field { displacement: u, gradient }
+    let outer = t * pull.transpose();
+    Field {
+        displacement: t * (slope * w.dot(&line.gradient)) + pull * foot + ends * slope,
+        gradient: (outer + outer.transpose() + bends) * slope + line.hessian_along(w) * foot,
+    }
 }
 
 /// Rise of a side over its length that rounding of its ends may cause. The term of such a side is rounding, too, and is left

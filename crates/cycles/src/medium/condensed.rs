@@ -259,7 +259,7 @@ impl<const D: usize, const C: usize> CondensedFault<'_, D, C> {
         })
     }
 
-    /// What the free points bear, of which these are supported.
+    /// Tractions that the free points bear; `supported` says which of them hold without their neighbours.
     fn bearings(&self, supported: &[bool]) -> Vec<Bearing> {
         let bearing = |(&k, &supported): (&usize, &bool)| {
             let point = &self.at.points[k];

@@ -100,30 +100,38 @@ fn no_net_force_acts_around_an_end() {
     }
 }
 
+/// A segment with its slip and opening \[m\].
+struct Slipping {
+    ends: [[f64; 2]; 2],
+    patch: Segment,
+    slip: [f64; 2],
+}
+
+impl Slipping {
+    /// Work of its stress on the slip of another in plane strain, and in antiplane motion.
+    fn work_on(&self, other: &Self) -> [f64; 2] {
+        let [a, b] = other.ends;
+        let ([tx, tz], [nx, nz], [s, o]) = (other.patch.tangent(), other.patch.normal(), other.slip);
+        let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+        let mut sum = [0.0; 2];
+        for (x, weight) in &gauss(24) {
+            let at = [a[0] + (b[0] - a[0]) * x, a[1] + (b[1] - a[1]) * x];
+            let [xx, zz, xz] = self.patch.edge(at, self.slip, &rock(POISSON)).stress;
+            let jump = [s * tx + o * nx, s * tz + o * nz];
+            sum[0] += weight * length * ((xx * nx + xz * nz) * jump[0] + (xz * nx + zz * nz) * jump[1]);
+            let [x, z] = self.patch.screw(at, self.slip[0]).gradient;
+            sum[1] += weight * length * (x * nx + z * nz) * s;
+        }
+        sum
+    }
+}
+
 #[test]
 fn the_work_of_one_slip_on_another_is_mutual() {
-    let rule = gauss(24);
     for space in SPACES {
-        let ends = [ENDS, [[2.0, -3.0], [2.4, -1.1]]];
-        let patches = ends.map(|ends| Segment::new(space, ends).unwrap());
-        let slips = [[0.4, -0.7], [0.8, 0.5]];
-        let work = |source: usize, receiver: usize| -> [f64; 2] {
-            let ([a, b], patch) = (ends[receiver], patches[receiver]);
-            let ([tx, tz], [nx, nz], [s, o]) = (patch.tangent(), patch.normal(), slips[receiver]);
-            let length = (b[0] - a[0]).hypot(b[1] - a[1]);
-            let mut sum = [0.0; 2];
-            for (x, weight) in &rule {
-                let at = [a[0] + (b[0] - a[0]) * x, a[1] + (b[1] - a[1]) * x];
-                let [xx, zz, xz] = patches[source].edge(at, slips[source], &rock(POISSON)).stress;
-                let traction = [xx * nx + xz * nz, xz * nx + zz * nz];
-                let jump = [s * tx + o * nx, s * tz + o * nz];
-                let [x, z] = patches[source].screw(at, slips[source][0]).gradient;
-                sum[0] += weight * length * (traction[0] * jump[0] + traction[1] * jump[1]);
-                sum[1] += weight * length * (x * nx + z * nz) * s;
-            }
-            sum
-        };
-        let (one, two) = (work(0, 1), work(1, 0));
+        let slip = |ends, slip| Slipping { ends, patch: Segment::new(space, ends).unwrap(), slip };
+        let sides = [slip(ENDS, [0.4, -0.7]), slip([[2.0, -3.0], [2.4, -1.1]], [0.8, 0.5])];
+        let (one, two) = (sides[0].work_on(&sides[1]), sides[1].work_on(&sides[0]));
         assert!((0..2).all(|k| (one[k] - two[k]).abs() < 1e-10 * one[k].abs()), "{one:?} {two:?}");
     }
 }
