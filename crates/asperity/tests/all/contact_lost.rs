@@ -4,7 +4,7 @@ use crate::common::{planned, varied};
 use asperity::kinds;
 use asperity_output::bodies::Recorder;
 use asperity_run::report::Outcome;
-use asperity_vary::Change::{Add, With};
+use asperity_vary::Change::{Push, With, Without};
 
 /// A block between two others, which the first stage may press or carry off.
 const DOUBLE_SHEAR: &str = r#"
@@ -71,21 +71,21 @@ fn outcome(text: &str) -> Outcome {
 
 #[test]
 fn a_step_without_solution_names_the_body_that_contact_has_let_go() {
-    // The outer blocks move away from the middle one, which a load then pushes along.
+    // The left block leaves the middle one, which a load then pulls away. There is no right one.
     let text = varied(
         DOUBLE_SHEAR,
         &[
+            Without("bodies.right"),
+            Without("interfaces.other"),
+            Without("stages[0].conditions[3]"),
+            Without("stages[0].conditions[1]"),
             With("stages[0].conditions[0].x.to", "\"-0.066 mm\""),
-            Add("stages[2].conditions", r#"{ set = "middle.top", traction = ["1 kPa", 0] }"#),
+            Push("stages[2].conditions", r#"{ set = "middle.top", traction = ["1 kPa", 0] }"#),
         ],
     );
     let Outcome::Stopped { reason, .. } = outcome(&text) else { panic!("it runs") };
     assert!(reason.contains("the likely cause: body `middle` is free in"), "{reason}");
-    assert!(
-        reason
-            .contains("`one` presses nothing at 11 of 11 points, `other` presses nothing at 11 of 11 points"),
-        "{reason}"
-    );
+    assert!(reason.contains("`one` presses nothing at 11 of 11 points"), "{reason}");
 }
 
 #[test]
