@@ -23,6 +23,8 @@ pub struct Entry {
     pub interval: Option<f64>,
     /// Duration: time until all points are slower than the rate that ends events \[s\].
     pub duration: f64,
+    /// End: onset plus duration \[s\].
+    pub end: f64,
     /// Part of the duration in which the fastest point was faster than the rate that begins events \[s\], as defined by the SEAS community.
     pub duration_above: f64,
     /// Largest slip rate \[m/s\].
@@ -83,6 +85,7 @@ impl Entry {
             onset: event.onset.seconds(),
             interval: event.interval,
             duration: event.duration().unwrap_or(f64::NAN),
+            end: event.end_time().unwrap_or(f64::NAN),
             duration_above: event.details.above,
             peak_rate: event.peak,
             surface: ground.source(event.details.hypocentre),
@@ -107,6 +110,7 @@ impl Entry {
         EventHead {
             onset: self.onset,
             duration: Some(self.duration),
+            end: Some(self.end),
             interval: self.interval,
             peak_rate: self.peak_rate,
             stress_drop: Some(self.stress_drop),
@@ -211,7 +215,7 @@ const HEAD: [HeadColumn; 7] = [
         unit: "s",
         sign: Sign::None,
         meaning: "time at which the duration ends",
-        cell: |e, _| e.duration.map(|duration| moment(e.onset + duration)).unwrap_or_default(),
+        cell: |e, _| e.end.map(moment).unwrap_or_default(),
     },
 ];
 

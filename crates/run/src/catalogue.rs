@@ -28,6 +28,8 @@ pub struct EventHead<'a> {
     pub onset: f64,
     /// Time from onset to end \[s\]; none while it lasts.
     pub duration: Option<f64>,
+    /// Time of the end \[s\]; none while it lasts.
+    pub end: Option<f64>,
     /// Time since the onset of the previous event \[s\].
     pub interval: Option<f64>,
     /// Largest slip rate \[m/s\].
@@ -43,6 +45,12 @@ impl<D> Event<D> {
     #[must_use]
     pub fn duration(&self) -> Option<f64> {
         self.end.map(|end| end.since(&self.onset))
+    }
+
+    /// Time of its end \[s\], the sum of onset and duration as files show them; none while it lasts.
+    #[must_use]
+    pub fn end_time(&self) -> Option<f64> {
+        self.duration().map(|duration| self.onset.seconds() + duration)
     }
 }
 

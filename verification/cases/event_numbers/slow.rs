@@ -107,11 +107,15 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
         .why_not_tighter("errors of steps add up by chance")
         .cost(&done.cost)
         .record();
+    let reported = serde_json::to_value(&done.report)?;
+    let entries = reported["slow_events"].as_array().ok_or("no slow events in the report")?;
+    let in_report = entries.iter().map(|e| e["end"].as_f64().ok_or("a slow event without an end"));
+    let in_report = in_report.collect::<Result<Vec<f64>, _>>()?;
     ledger
-        .claim("the slow events: ends")
+        .claim("the slow events: ends, in the table and in the report")
         .unit("s")
-        .values(&of("end")?)
-        .equals_each(&ends)
+        .values(&[of("end")?, in_report].concat())
+        .equals_each(&ends.repeat(2))
         .absolute(2e-5)
         .evidence(Evidence::Exact, "the same curve, towards the rate of the plates")
         .because("as for the onsets")

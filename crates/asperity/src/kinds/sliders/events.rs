@@ -24,6 +24,8 @@ pub struct Entry {
     pub interval: Option<f64>,
     /// Time from onset to end; unknown if the run ended first \[s\].
     pub duration: Option<f64>,
+    /// End: onset plus duration; unknown if the run ended first \[s\].
+    pub end: Option<f64>,
     /// Slip from onset to end; negative for negative slip rates \[m\].
     pub slip: Option<f64>,
     /// Largest |V| at the steps, or exact if extremes are located \[m/s\].
@@ -73,8 +75,8 @@ impl Entry {
 
     /// Head of the event, which catalogues of other kinds have, too.
     fn head<'a>(&self, surface: &'a str) -> EventHead<'a> {
-        let Self { onset, duration, interval, peak_rate, stress_drop, .. } = *self;
-        EventHead { onset, duration, interval, peak_rate, stress_drop, surface }
+        let Self { onset, duration, end, interval, peak_rate, stress_drop, .. } = *self;
+        EventHead { onset, duration, end, interval, peak_rate, stress_drop, surface }
     }
 
     fn new(slider: usize, event: &Event<Slide>) -> Self {
@@ -85,6 +87,7 @@ impl Entry {
             onset: event.onset.seconds(),
             interval: event.interval,
             duration: event.duration(),
+            end: event.end_time(),
             slip: details.slip(),
             peak_rate: event.peak,
             least_rate: details.least_rate,
