@@ -123,15 +123,7 @@ impl Scene {
     /// Kind of its run.
     #[must_use]
     pub fn kind(&self) -> Kind {
-        match *self.time.stepper.get_ref() {
-            Stepper::Implicit => Kind::Implicit,
-            Stepper::StaticExplicit => Kind::StaticExplicit,
-            Stepper::Explicit => Kind::Explicit,
-            Stepper::FaultOde if self.medium.is_some() => Kind::Medium,
-            Stepper::FaultOde => Kind::Cycles,
-            Stepper::Auto if self.faults.is_empty() => Kind::Auto,
-            Stepper::Auto => Kind::Ruptures,
-        }
+        self.time.stepper.get_ref().kind(self.medium.is_some(), !self.faults.is_empty())
     }
 
     /// Settings of inertia; `None` if the bodies move through states of equilibrium alone.
@@ -489,6 +481,21 @@ pub enum Stepper {
     Explicit,
     /// Through states of equilibrium while surfaces slip slowly, with inertia while they slip fast.
     Auto,
+}
+
+impl Stepper {
+    /// Kind of run of a scene with this stepper, with or without a medium and faults.
+    pub(crate) fn kind(self, medium: bool, faults: bool) -> Kind {
+        match self {
+            Self::Implicit => Kind::Implicit,
+            Self::StaticExplicit => Kind::StaticExplicit,
+            Self::Explicit => Kind::Explicit,
+            Self::FaultOde if medium => Kind::Medium,
+            Self::FaultOde => Kind::Cycles,
+            Self::Auto if faults => Kind::Ruptures,
+            Self::Auto => Kind::Auto,
+        }
+    }
 }
 
 /// Rules of the implicit stepper for the slip rate.

@@ -5,11 +5,13 @@ use crate::files::{self, Columns};
 use crate::keys::{self, Run, Tree};
 use crate::kind::Kind;
 use crate::law::Laws;
-use crate::model::{Scene, Spanned};
+use crate::model::{Kinematics, Scene, Spanned, Stepper};
 use crate::slider::SliderScene;
 use crate::{azimuth, check, explain, near, plausible, unprintable};
 use asperity_run::Warning;
 use serde::Deserialize;
+use serde::de::IgnoredAny;
+use std::collections::BTreeMap;
 use std::path::Path;
 use toml_edit::Document;
 
@@ -22,7 +24,7 @@ pub fn read(text: &str, folder: &Path, laws: &Laws, columns: &mut Columns<'_>) -
     if let Some(error) = unprintable::find(text) {
         return Err(Diagnostics(vec![error]));
     }
-    let mut scene: Scene = toml::from_str(text).map_err(|e| Diagnostics(vec![explain::explain(&e, text)]))?;
+    let mut scene: Scene = toml::from_str(text).map_err(|e| reject(&e, text))?;
     scene.folder = folder.to_path_buf();
     let doubts = files::fill(&mut scene, columns).map_err(|error| Diagnostics(vec![error]))?;
     azimuth::rakes(&mut scene);
@@ -38,6 +40,39 @@ pub fn read(text: &str, folder: &Path, laws: &Laws, columns: &mut Columns<'_>) -
     if errors.is_empty() { Ok(scene) } else { Err(Diagnostics(errors)) }
 }
 
+/// Keys of a scene of bodies that decide on its other keys.
+#[derive(Deserialize)]
+struct DecidingKeys {
+    kinematics: Spanned<Kinematics>,
+    time: DecidingTime,
+    medium: Option<IgnoredAny>,
+    #[serde(default)]
+    faults: BTreeMap<String, IgnoredAny>,
+}
+
+/// The stepper in the table of time integration.
+#[derive(Deserialize)]
+struct DecidingTime {
+    stepper: Spanned<Stepper>,
+}
+
+/// Explains an error of the reader in a scene of bodies. Where it lies within a key that the run does not have, the refusal of the
+/// key comes instead: nobody should complete what is to be removed.
+fn reject(error: &toml::de::Error, text: &str) -> Diagnostics {
+    let error = explain::explain(error, text);
+    let mut errors = vec![error.clone()];
+    if let (Ok(keys), Ok(document)) = (toml::from_str::<DecidingKeys>(text), Document::parse(text)) {
+        let stepper = &keys.time.stepper;
+        let run = Run {
+            kind: stepper.get_ref().kind(keys.medium.is_some(), !keys.faults.is_empty()),
+            stated: stepper.span(),
+            kinematics: Some(*keys.kinematics.get_ref()),
+        };
+        keys::refuse(&Tree::new(), &document, run, &mut errors);
+    }
+    if errors.contains(&error) { Diagnostics(vec![error]) } else { Diagnostics(errors) }
+}
+
 /// Known kinematics.
 const KINEMATICS: [&str; 6] =
     ["plane-strain", "plane-stress", "axisymmetric", "antiplane", "3d", "spring-slider"];
@@ -46,7 +81,7 @@ const KINEMATICS: [&str; 6] =
 #[derive(Deserialize)]
 struct Head {
     kinematics: Option<Spanned<toml::Value>>,
-    sliders: Option<serde::de::IgnoredAny>,
+    sliders: Option<IgnoredAny>,
 }
 
 impl Head {
@@ -129,4 +164,35 @@ fn judge(
     let tree = Tree::new();
     keys::refuse(&tree, &document, run, errors);
     plausible::judge(&tree, &document, facts, errors, warnings);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Messages about a scene with a fault that the reader does not accept.
+    fn rejected(kinematics: &str, fault: &str) -> Vec<String> {
+        let text = format!(
+            "schema = 1\ntitle = \"t\"\nkinematics = \"{kinematics}\"\n[time]\nstepper = \"fault-ode\"\n[faults.main]\n{fault}\n"
+        );
+        let Diagnostics(all) = reject(&toml::from_str::<Scene>(&text).unwrap_err(), &text);
+        all.into_iter().map(|error| error.message).collect()
+    }
+
+    #[test]
+    fn a_key_that_the_run_does_not_have_is_refused_before_its_table_is_found_incomplete() {
+        let forms =
+            ["injection = { flux = 1 }", "injection = [{ flux = 1 }]", "[faults.main.injection]\nflux = 1"];
+        for wells in forms {
+            assert_eq!(rejected("3d", wells), ["`injection` has no meaning in three dimensions"], "{wells}");
+            assert_eq!(rejected("antiplane", wells), ["the key `at` is missing"], "{wells}");
+        }
+    }
+
+    #[test]
+    fn an_error_beside_a_key_that_the_run_does_not_have_comes_first() {
+        let whole =
+            "injection = { at = 0, flux = 1e-6, diffusivity = 0.1, porosity = 0.1, compressibility = 1e-8 }";
+        assert_eq!(rejected("3d", &format!("norma = 1e6\n{whole}")), ["there is no key `norma` here"]);
+    }
 }

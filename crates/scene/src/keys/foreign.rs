@@ -46,7 +46,9 @@ impl<'s> Visitor<'s> for ForeignKeys<'_> {
             self.other_kind(given).or_else(|| self.idealised(given)).or_else(|| self.elsewhere(given));
         let Some(error) = refusal else { return true };
         self.errors.push(error);
-        self.below.push(at.start..value.end.max(at.end));
+        // The value of a header begins before its key.
+        let start = if value.is_empty() { at.start } else { at.start.min(value.start) };
+        self.below.push(start..value.end.max(at.end));
         false
     }
 }
