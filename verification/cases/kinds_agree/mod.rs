@@ -1,4 +1,4 @@
-//! The same fault through cycles, with mass and as an interface, and the same block as a slider.
+//! The same fault through cycles, with mass and as an interface, in the plane and in space, and the same block as a slider.
 
 mod scenes;
 mod shapes;
@@ -7,7 +7,7 @@ use crate::cases::slider_scene;
 use crate::cases::written::{self, Folder, Waves, WrittenRun};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity::kinds;
-use scenes::{AREA, DAMPING, DURATION, HEIGHT, LAW, MODULUS, NORMAL, SHEAR, STEPS, TOLERANCE};
+use scenes::{AREA, DAMPING, DURATION, HEIGHT, Idealisation, LAW, MODULUS, NORMAL, SHEAR, STEPS, TOLERANCE};
 use serde_json::Value;
 
 /// See the README.
@@ -82,35 +82,45 @@ impl Exact {
 }
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let exact = Exact::new();
-    let all = [cycles()?, mass()?, interface()?, block(start())?];
-    values(ledger, &all, &exact)?;
-    energies(ledger, &all, &exact)?;
-    let with_inertia = inertia()?;
-    let [cycles, mass, interface, block] = all;
-    let all = [cycles, mass, interface, block, with_inertia];
-    shapes::claims(ledger, &all)
+    let (exact, block) = (Exact::new(), block(start())?);
+    let [plane, space] = [faults(Idealisation::Plane)?, faults(Idealisation::Space)?];
+    for (all, idealised) in [(&plane, Idealisation::Plane), (&space, Idealisation::Space)] {
+        values(ledger, all, idealised, &exact)?;
+        energies(ledger, all, &exact)?;
+    }
+    profiles(ledger, &plane, &exact)?;
+    slider(ledger, &block, &exact)?;
+    let [cycles, mass, interface] = plane;
+    shapes::claims(ledger, &[cycles, mass, interface, block, inertia()?])?;
+    shapes::in_space(ledger, &space)
 }
 
-fn cycles() -> Result<KindRun, CaseError> {
-    let WrittenRun { report, files, cost, .. } = WrittenRun::from_text(&scenes::cycles(start()))?;
-    Ok(KindRun { kind: "cycles", files, report: serde_json::to_value(report)?, cost })
+/// The fault through cycles, between bodies with mass, and as an interface.
+fn faults(idealised: Idealisation) -> Result<[KindRun; 3], CaseError> {
+    Ok([cycles(idealised)?, mass(idealised)?, interface(idealised)?])
 }
 
-fn mass() -> Result<KindRun, CaseError> {
-    let Waves { report, files, cost } = Waves::from_text(&scenes::mass(start()))?;
-    Ok(KindRun { kind: "bodies with mass", files, report: serde_json::to_value(report)?, cost })
+fn cycles(idealised: Idealisation) -> Result<KindRun, CaseError> {
+    let WrittenRun { report, files, cost, .. } = WrittenRun::from_text(&scenes::cycles(idealised, start()))?;
+    let kind = idealised.choose("cycles", "cycles in space");
+    Ok(KindRun { kind, files, report: serde_json::to_value(report)?, cost })
 }
 
-fn interface() -> Result<KindRun, CaseError> {
-    let (files, cost) = written::bodies(&scenes::interface(false))?;
+fn mass(idealised: Idealisation) -> Result<KindRun, CaseError> {
+    let Waves { report, files, cost } = Waves::from_text(&scenes::mass(idealised, start()))?;
+    let kind = idealised.choose("bodies with mass", "bodies with mass in space");
+    Ok(KindRun { kind, files, report: serde_json::to_value(report)?, cost })
+}
+
+fn interface(idealised: Idealisation) -> Result<KindRun, CaseError> {
+    let (files, cost) = written::bodies(&scenes::interface(idealised, false))?;
     let report = serde_json::from_str(&files.text("report.json")?)?;
-    Ok(KindRun { kind: "an interface", files, report, cost })
+    Ok(KindRun { kind: idealised.choose("an interface", "an interface in space"), files, report, cost })
 }
 
 /// The interface between bodies with inertia, whose files have energies.
 fn inertia() -> Result<KindRun, CaseError> {
-    let (files, cost) = written::bodies(&scenes::interface(true))?;
+    let (files, cost) = written::bodies(&scenes::interface(Idealisation::Plane, true))?;
     let report = serde_json::from_str(&files.text("report.json")?)?;
     Ok(KindRun { kind: "an interface of bodies with inertia", files, report, cost })
 }
@@ -131,55 +141,73 @@ fn last(files: &Folder, file: &str, column: &str) -> Result<f64, CaseError> {
     Ok(*files.table(file)?.column(column)?.last().ok_or("a table without rows")?)
 }
 
-/// Slip, slip rates, friction and displacement at the end.
-fn values(ledger: &mut Ledger, all: &[KindRun; 4], exact: &Exact) -> Result<(), CaseError> {
-    let [cycles, mass, interface, block] = all;
+/// Reason of bounds of integrators with error control.
+const STEPWISE: &str = "errors of ln V per step";
+/// Bound of what such integrators find.
+const TIGHT: (f64, &str) = (100.0 * TOLERANCE, STEPWISE);
+/// Bound of what bodies with mass find.
+const WAVES: (f64, &str) =
+    (NOT_RETURNED, "no wave has returned from the far sides, where the spring takes 2 c_s T/H of eta V");
+const MEGA: f64 = 1e6;
+
+/// Slip, slip rates, friction and displacement of a fault at the end.
+fn values(
+    ledger: &mut Ledger,
+    [cycles, mass, interface]: &[KindRun; 3],
+    idealised: Idealisation,
+    exact: &Exact,
+) -> Result<(), CaseError> {
+    let station = idealised.choose("stations/main_dp000", "stations/main_000");
+    let [slip, rate, shear] =
+        idealised.choose(["slip", "slip_rate", "shear_stress"], ["slip_2", "slip_rate_2", "shear_stress_2"]);
     // Backward Euler takes the rate at the end of each step.
     let euler = exact.falls / STEPS as f64;
     let of_steps = "Euler's rate is that at the end of a step, and falls by as much within one";
-    let of_tolerance = "errors of ln V per step";
-    let of_waves = "no wave has returned from the far sides, where the spring takes 2 c_s T/H of eta V";
-    let station = "stations/main_dp000";
-    let probes = "probes/main.csv";
-    let slips = [
-        (cycles, station, "slip", exact.slip, 100.0 * TOLERANCE, of_tolerance),
-        (mass, station, "slip", exact.slip, NOT_RETURNED, of_waves),
-        (interface, probes, "slip [m] at x = 1; y = 0 m", exact.slip, euler, of_steps),
-        (block, "history/main.csv", "slip", exact.slip, 100.0 * TOLERANCE, of_tolerance),
-        (interface, probes, "slip_rate [m/s] at x = 1; y = 0 m", exact.rate, 2.0 * euler, of_steps),
-        (block, "history/main.csv", "slip_rate", exact.rate, 100.0 * TOLERANCE, of_tolerance),
-        (interface, probes, "friction [-] at x = 1; y = 0 m", exact.friction, euler, of_steps),
-        (block, "history/main.csv", "friction", exact.friction, 100.0 * TOLERANCE, of_tolerance),
+    let (once, twice) = ((euler, of_steps), (2.0 * euler, of_steps));
+    let (probes, tip) = ("probes/main.csv", "points/tip.csv");
+    let all = [
+        (cycles, station, slip, exact.slip, TIGHT),
+        (mass, station, slip, exact.slip, WAVES),
+        (interface, probes, "slip", exact.slip, once),
+        (interface, probes, "slip_rate", exact.rate, twice),
+        (interface, probes, "friction", exact.friction, once),
         // The upper layer moves against x, and its middle half as far as its lower side.
-        (cycles, "points/tip.csv", "displacement_x", -0.25 * exact.slip, 100.0 * TOLERANCE, of_tolerance),
-        (interface, "points/tip.csv", "displacement_x", -0.25 * exact.slip, euler, of_steps),
+        (cycles, tip, "displacement_x", -0.25 * exact.slip, TIGHT),
+        (interface, tip, "displacement_x", -0.25 * exact.slip, once),
+        (cycles, station, rate, exact.rate.log10(), TIGHT),
+        (cycles, station, shear, exact.friction * NORMAL / MEGA, TIGHT),
+        (mass, station, shear, exact.friction * NORMAL / MEGA, WAVES),
     ];
-    for (ran, file, column, value, bound, because) in slips {
-        let (name, found) = (column.split(" [").next().unwrap_or(column), last(&ran.files, file, column)?);
-        claim(ledger, ran, (&format!("{name} in {file}"), found), value, (bound, because));
+    for (ran, file, column, value, bound) in all {
+        let found = last(&ran.files, file, column)?;
+        claim(ledger, ran, (&format!("{column} in {file}"), found), value, bound);
     }
-    let mega = 1e6;
-    let logs = [
-        (cycles, "slip_rate", exact.rate.log10(), 100.0 * TOLERANCE, of_tolerance),
-        (cycles, "shear_stress", exact.friction * NORMAL / mega, 100.0 * TOLERANCE, of_tolerance),
-        (mass, "shear_stress", exact.friction * NORMAL / mega, NOT_RETURNED, of_waves),
-    ];
-    for (ran, column, value, bound, because) in logs {
-        let found = last(&ran.files, station, column)?;
-        claim(ledger, ran, (&format!("{column} in {station}"), found), value, (bound, because));
-    }
-    let found = last(&cycles.files, "rate_profiles.csv", "1")?;
-    claim(
-        ledger,
-        cycles,
-        ("rate_profiles.csv", found),
-        exact.rate.log10(),
-        (5e-4, "three decimals are written"),
-    );
-    let found = last(&mass.files, "rate_profiles.csv", "1")?;
+    Ok(())
+}
+
+/// Slip rates in profiles, which runs in the plane write.
+fn profiles(ledger: &mut Ledger, [cycles, mass, _]: &[KindRun; 3], exact: &Exact) -> Result<(), CaseError> {
     let ringing =
         "columns of cells ring after the start, by less than a tenth of the slip rate: log10(1.1)/1.6";
-    claim(ledger, mass, ("rate_profiles.csv", found), exact.rate.log10(), (3e-2, ringing));
+    for (ran, bound) in [(cycles, (5e-4, "three decimals are written")), (mass, (3e-2, ringing))] {
+        let found = last(&ran.files, "rate_profiles.csv", "1")?;
+        claim(ledger, ran, ("rate_profiles.csv", found), exact.rate.log10(), bound);
+    }
+    Ok(())
+}
+
+/// Values and energies of the slider at the end.
+fn slider(ledger: &mut Ledger, block: &KindRun, exact: &Exact) -> Result<(), CaseError> {
+    let file = "history/main.csv";
+    for (column, value) in [("slip", exact.slip), ("slip_rate", exact.rate), ("friction", exact.friction)] {
+        let found = last(&block.files, file, column)?;
+        claim(ledger, block, (&format!("{column} in {file}"), found), value, TIGHT);
+    }
+    for (name, part, work) in
+        [("work of friction", "friction", exact.works[0]), ("radiated energy", "radiated", exact.works[1])]
+    {
+        claim(ledger, block, (name, energy(block, "lost", part)?), work, TIGHT);
+    }
     Ok(())
 }
 
@@ -203,27 +231,23 @@ fn claim(
         .record();
 }
 
-/// Works per area at the end.
-fn energies(
-    ledger: &mut Ledger,
-    [cycles, mass, _, block]: &[KindRun; 4],
-    exact: &Exact,
-) -> Result<(), CaseError> {
-    let of = |ran: &KindRun, group: &str, part: &str, area: f64| {
-        let value = ran.report["energy"][group][part].as_f64();
-        Ok::<f64, CaseError>(value.ok_or_else(|| format!("no energy {group}/{part}"))? / area)
-    };
-    let tight = (100.0 * TOLERANCE, "errors of ln V per step");
+/// A part of the energy at the end.
+fn energy(ran: &KindRun, group: &str, part: &str) -> Result<f64, CaseError> {
+    let value = ran.report["energy"][group][part].as_f64();
+    Ok(value.ok_or_else(|| format!("no energy {group}/{part}"))?)
+}
+
+/// Works of a fault per area at the end.
+fn energies(ledger: &mut Ledger, [cycles, mass, _]: &[KindRun; 3], exact: &Exact) -> Result<(), CaseError> {
+    let of = |ran: &KindRun, group: &str, part: &str| Ok::<f64, CaseError>(energy(ran, group, part)? / AREA);
     let waves = (NOT_RETURNED, "slip without the stiffness of the layers");
-    for (ran, area, bound) in [(cycles, AREA, tight), (mass, AREA, waves), (block, 1.0, tight)] {
-        claim(ledger, ran, ("work of friction", of(ran, "lost", "friction", area)?), exact.works[0], bound);
+    for (ran, bound) in [(cycles, TIGHT), (mass, waves)] {
+        claim(ledger, ran, ("work of friction", of(ran, "lost", "friction")?), exact.works[0], bound);
     }
-    for (ran, area) in [(cycles, AREA), (block, 1.0)] {
-        claim(ledger, ran, ("radiated energy", of(ran, "lost", "radiated", area)?), exact.works[1], tight);
-    }
+    claim(ledger, cycles, ("radiated energy", of(cycles, "lost", "radiated")?), exact.works[1], TIGHT);
     // What is radiated is kinetic and elastic energy of the waves, of which damping takes a little.
     let parts = [("kept", "kinetic"), ("kept", "elastic"), ("lost", "viscous")];
-    let sum = parts.iter().map(|(group, part)| of(mass, group, part, AREA)).sum::<Result<f64, _>>()?;
+    let sum = parts.iter().map(|(group, part)| of(mass, group, part)).sum::<Result<f64, _>>()?;
     let twice = (2.0 * NOT_RETURNED, "twice the bound of slip, since energy is quadratic in slip rates");
     claim(ledger, mass, ("energy of the waves", sum), exact.works[1], twice);
     Ok(())

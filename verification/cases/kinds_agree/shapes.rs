@@ -4,7 +4,7 @@ use super::KindRun;
 use crate::{Capability, CaseError, Evidence, Ledger};
 use serde_json::Value;
 
-/// Tables that at least two of these runs write.
+/// Tables that at least two of the runs in the plane write.
 const TABLES: [&str; 6] = [
     "rate_profiles.csv",
     "slip_profiles.csv",
@@ -13,6 +13,9 @@ const TABLES: [&str; 6] = [
     "points/tip.csv",
     "energy.csv",
 ];
+
+/// Tables that at least two of the runs in space write.
+const IN_SPACE: [&str; 3] = ["moment_rate.csv", "stations/main_000", "points/tip.csv"];
 
 /// First columns of every catalogue.
 const CATALOGUE: [&str; 7] = [
@@ -26,20 +29,26 @@ const CATALOGUE: [&str; 7] = [
 ];
 
 pub(super) fn claims(ledger: &mut Ledger, all: &[KindRun]) -> Result<(), CaseError> {
-    tables(ledger, all)?;
+    tables(ledger, all, "", &TABLES)?;
     catalogues(ledger, all)?;
-    reports(ledger, all)
+    reports(ledger, all, "")
 }
 
-fn tables(ledger: &mut Ledger, all: &[KindRun]) -> Result<(), CaseError> {
-    for table in TABLES {
+/// Claims of the runs in space, of which one has a catalogue.
+pub(super) fn in_space(ledger: &mut Ledger, all: &[KindRun]) -> Result<(), CaseError> {
+    tables(ledger, all, " in space", &IN_SPACE)?;
+    reports(ledger, all, " in space")
+}
+
+fn tables(ledger: &mut Ledger, all: &[KindRun], place: &str, names: &[&str]) -> Result<(), CaseError> {
+    for table in names {
         let heads: Vec<Vec<String>> =
             all.iter().filter_map(|ran| Some(ran.files.table(table).ok()?.head().to_vec())).collect();
         if heads.len() < 2 {
-            return Err(format!("{} kinds of run write {table}", heads.len()).into());
+            return Err(format!("{} kinds of run{place} write {table}", heads.len()).into());
         }
         let differ = heads.windows(2).filter(|pair| pair[0] != pair[1]).count();
-        counted(ledger, &format!("kinds of run whose {table} has other columns or units"), differ);
+        counted(ledger, &format!("kinds of run{place} whose {table} has other columns or units"), differ);
     }
     Ok(())
 }
@@ -58,7 +67,7 @@ fn catalogues(ledger: &mut Ledger, all: &[KindRun]) -> Result<(), CaseError> {
     Ok(())
 }
 
-fn reports(ledger: &mut Ledger, all: &[KindRun]) -> Result<(), CaseError> {
+fn reports(ledger: &mut Ledger, all: &[KindRun], place: &str) -> Result<(), CaseError> {
     let mut differ = Vec::new();
     for (k, one) in all.iter().enumerate() {
         for other in &all[..k] {
@@ -68,10 +77,10 @@ fn reports(ledger: &mut Ledger, all: &[KindRun]) -> Result<(), CaseError> {
     differ.sort();
     differ.dedup();
     let names = if differ.is_empty() { String::new() } else { format!(": {}", differ.join(", ")) };
-    counted(ledger, &format!("keys of reports whose values have several types{names}"), differ.len());
+    counted(ledger, &format!("keys of reports{place} whose values have several types{names}"), differ.len());
     for key in ["counts", "warnings", "checks", "outcome"] {
         let without = all.iter().filter(|ran| ran.report[key].is_null()).count();
-        counted(ledger, &format!("kinds of run whose report has no `{key}`"), without);
+        counted(ledger, &format!("kinds of run{place} whose report has no `{key}`"), without);
     }
     Ok(())
 }
