@@ -47,6 +47,46 @@ above = "0.1 um/s"
 probes.joint = 3
 "#;
 
+/// A fault in a half-space that has an event, beside one that creeps.
+const TWO_FAULTS: &str = r#"schema = 1
+title = "two faults in a half-space"
+kinematics = "plane-strain"
+[materials.rock]
+young = "80 GPa"
+poisson = 0.25
+density = 2670
+[medium]
+kind = "half-space"
+material = "rock"
+[faults.main]
+line = { trace = [[0, 0], [1200, -1600]], spacing = 2000 }
+law = { kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, a = 0.010, b = 0.015, l = "4 mm", v_ref = "1 um/s", v_initial = "1e-9 m/s" }
+normal = "50 MPa"
+under_resolved = "allow"
+damping = "radiation"
+creep = { rate = 1e-9 }
+rate = 1.1e-9
+[faults.other]
+line = { trace = [[6000, 0], [3600, -3200]], spacing = 1000 }
+law = { kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, a = 0.020, b = 0.015, l = "8 mm", v_ref = "1 um/s", v_initial = "1e-9 m/s" }
+normal = "50 MPa"
+under_resolved = "allow"
+damping = "radiation"
+rate = 1e-12
+[[stages]]
+name = "still"
+duration = "1000 yr"
+[time]
+stepper = "fault-ode"
+[events]
+above = "1e-3 m/s"
+slow_above = "1e-8 m/s"
+stop_after = 1
+[output]
+coulomb = { friction = 0.4, dip = "120 deg", rake = "90 deg" }
+surface = { spacing = "2 km" }
+"#;
+
 /// Columns and arrays of runs of a kind, as the runs describe them.
 pub fn files(kind: &str) -> &'static [ColumnDescription] {
     static ALL: LazyLock<BTreeMap<&str, Vec<ColumnDescription>>> = LazyLock::new(|| {
@@ -73,11 +113,21 @@ fn scenes(kind: &str) -> Vec<String> {
             vec![interface("plane-strain", 1, 1e-3, true), interface("3d", 1, 1e-3, true), DRAWN.to_owned()]
         }
         "faults" => vec![
-            fault("antiplane", 2, 1.0, None),
+            varied(
+                &fault("antiplane", 2, 1.0, None),
+                &[Add("output.coulomb", r#"{ friction = 0.4, dip = "90 deg", rake = "0 deg" }"#)],
+            ),
             varied(cycles::SCENE, &[With("events.stop_after", "1")]),
             include_str!("../../../../../scenes/fault-opening.toml").to_owned(),
             include_str!("../../../../../scenes/thermal-pressurisation.toml").to_owned(),
-            fault("3d", 1, 1.0, Some(([0.0, 0.5, 0.5], "free"))),
+            varied(
+                &fault("3d", 1, 1.0, Some(([0.0, 0.5, 0.5], "free"))),
+                &[
+                    With("stages[0].conditions[1].y", "{ spring = 1e15, rate = 0.5e-9 }"),
+                    Add("output.points", r#"{ inside = { body = "B", at = [1500, 1000, 1000] } }"#),
+                    Add("output.forces", r#"{ pushed = { set = "B.right" } }"#),
+                ],
+            ),
             varied(
                 located::STRIKE_SLIP,
                 &[
@@ -88,6 +138,7 @@ fn scenes(kind: &str) -> Vec<String> {
                     ),
                 ],
             ),
+            TWO_FAULTS.to_owned(),
         ],
         "dynamics" => vec![
             varied(dynamic::SCENE, &[With("stages[0].duration", "0.2 s")]),
