@@ -1,7 +1,7 @@
 //! Scenes of one slider as texts, run as the program runs them, and their output files.
 
 use crate::CaseError;
-use crate::cases::written::Folder;
+use crate::cases::run_files::Folder;
 use asperity::kinds::sliders::{Histories, NamedEvent, csv};
 use asperity_cycles::slider::{self as cycles, Problem};
 use asperity_ode::Outcome;

@@ -3,7 +3,7 @@
 use asperity_cycles::Rupture;
 use asperity_cycles::heat::TEMPERATURE;
 use asperity_output::decimals::shortest;
-use asperity_output::formats::located::SourceParameters;
+use asperity_output::formats::catalogues::SourceParameters;
 use asperity_output::tables::column::{self, Column, Sign};
 use asperity_output::tables::describe::FileParts;
 use asperity_output::{OutputError, OutputFile, atomic, stems};

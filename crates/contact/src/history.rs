@@ -1,7 +1,7 @@
 //! Committed history of an interface as serialisable values.
 
 use crate::interface::Interface;
-use crate::measure::saved::MeasureState;
+use crate::measure::measure_state::MeasureState;
 use crate::observe::Work;
 use crate::shear::Shear;
 use asperity_fem::term::{Restorable, Term as _};

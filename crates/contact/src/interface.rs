@@ -1,8 +1,8 @@
 //! An interface: measure, enforcement and friction law combined into a term of the system.
 
 mod augmented;
+mod event_limits;
 mod mixed;
-mod watched;
 
 use crate::average::Averaging;
 use crate::build::{build_measure, check};

@@ -3,8 +3,8 @@
 
 mod cell_size;
 mod choices;
+pub mod contact_spec;
 pub mod coordinates;
-pub mod declared;
 pub mod dynamics;
 mod enforcement;
 mod error;

@@ -6,7 +6,7 @@
 use super::dop853_table as table;
 use super::dop853_table::{DENSE, ERROR_FIFTH, ERROR_THIRD, EXTENDED, NODES, STAGES, WEIGHTS};
 use super::explicit::{Control, combine};
-use super::own::{Formula, Span, Trial};
+use super::one_step::{Formula, Span, Trial};
 use super::problem::System;
 use std::cell::{Cell, RefCell};
 

@@ -11,7 +11,7 @@ mod explicit;
 mod lu;
 mod matrices;
 mod method;
-mod own;
+mod one_step;
 mod pair;
 mod problem;
 mod radau5;
@@ -33,7 +33,7 @@ pub use report::{Control, Counts, Failure, Occurrence, Outcome, Solution};
 pub use sink::{Sink, Step};
 
 use drive::Integration;
-use own::OneStep;
+use one_step::OneStep;
 use problem::System;
 use std::cell::Cell;
 use stepper::Stepper;

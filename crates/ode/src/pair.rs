@@ -1,7 +1,7 @@
 //! Two methods of which one takes the steps: a usual one where accuracy limits them, a stiff one where stability does. A
 //! [`Criterion`] chooses between them; a method that takes over restarts.
 
-use super::own::{Formula, Span, Trial};
+use super::one_step::{Formula, Span, Trial};
 use super::problem::System;
 use super::report::Counts;
 

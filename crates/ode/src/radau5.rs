@@ -4,7 +4,7 @@
 //! are separated into a real and a complex one; the error estimate is of order 3 and filtered by the real matrix.
 
 use super::matrices::Matrices;
-use super::own::{Formula, Span, Trial};
+use super::one_step::{Formula, Span, Trial};
 use super::problem::System;
 use super::radau5_table::{COMPLEX_IMAGINARY, COMPLEX_REAL, DENSE, ERROR, FROM, INTO, NODES, REAL};
 use super::report::Counts;

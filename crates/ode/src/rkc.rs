@@ -6,7 +6,7 @@
 //! Hermite's cubic.
 
 use super::explicit::Control;
-use super::own::{Formula, Span, Trial};
+use super::one_step::{Formula, Span, Trial};
 use super::problem::System;
 use super::tasks::each;
 

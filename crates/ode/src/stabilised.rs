@@ -6,7 +6,7 @@
 //! takes fewer steps. The spectral radius decides: the usual method resumes where the step of the stabilised one would be stable in
 //! it.
 
-use super::own::Span;
+use super::one_step::Span;
 use super::pair::{Criterion, Pair};
 use super::problem::System;
 use super::rkc::Rkc2;

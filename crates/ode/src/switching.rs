@@ -6,7 +6,7 @@
 //! (1996), section IV.2). The explicit method resumes where the step of the implicit one would be stable in it.
 
 use super::dop853::Dop853;
-use super::own::Span;
+use super::one_step::Span;
 use super::pair::{Criterion, Pair};
 use super::problem::System;
 use super::radau5::Radau5;

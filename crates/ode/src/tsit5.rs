@@ -4,7 +4,7 @@
 //! Mathematics with Applications 62 (2011) 770-775.
 
 use super::explicit::{Control, combine};
-use super::own::{Formula, Span, Trial};
+use super::one_step::{Formula, Span, Trial};
 use super::problem::System;
 
 /// Stages; the last is the rate at the end of the step.

@@ -1,7 +1,7 @@
 //! Directions of slip that are given by their azimuth on the map.
 
+use crate::axes::{Axes, cross, size};
 use crate::model::{Kinematics, Scene, Spanned};
-use crate::upright::{Axes, cross, size};
 
 /// Sets the rakes of faults whose `azimuth` is given: the horizontal direction with this azimuth in the axes of the scene.
 pub(crate) fn rakes(scene: &mut Scene) {

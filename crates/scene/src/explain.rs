@@ -1,6 +1,6 @@
 //! Translation of errors of the TOML reader into terms of a scene.
 
-use super::near::suggest;
+use super::suggestions::suggest;
 use crate::diagnostic::Diagnostic;
 use std::ops::Range;
 

@@ -3,7 +3,7 @@
 use crate::defaults::TIME_COLUMN;
 use crate::diagnostic::Diagnostic;
 use crate::model::{Scene, Spanned, TableFile, TableOver, TimeSeries};
-use crate::plausible;
+use crate::plausibility;
 use crate::units::{Dimension, Length};
 use asperity_run::Warning;
 use std::ops::Range;
@@ -67,7 +67,7 @@ fn doubt(
     (keys, dimension): (&[&str], Dimension),
     points: &[(f64, f64)],
 ) -> Option<Warning> {
-    let (message, help) = plausible::judge_file(keys, dimension.si(), points.iter().map(|p| p.1))?;
+    let (message, help) = plausibility::judge_file(keys, dimension.si(), points.iter().map(|p| p.1))?;
     let (column, name) = (&file.column, file.file.get_ref());
     Some(Warning::at(column.span(), format!("column `{}` of `{name}`: {message}", column.get_ref()), help))
 }

@@ -1,17 +1,17 @@
 //! The friction law chosen by a scene, complete and with parameters in range.
 
 mod choice;
-mod given;
+mod parameters;
 mod reader;
 mod table;
 mod vary;
 
 pub use choice::{Evolution, Form, Heat, LawChoice, State, Strength};
-pub use given::given;
+pub use parameters::given;
 pub use table::{Bound, EvolutionRow, KindRow, Laws, OrderRow, ParameterRow};
 
 use super::model::{LawSpec, Spanned};
-use super::near;
+use super::suggestions;
 use crate::diagnostic::Diagnostic;
 use choice::FORMS;
 use reader::Reader;
@@ -71,7 +71,7 @@ fn choose_with(spec: &Spanned<LawSpec>, laws: &Laws, negative_b: bool) -> Result
         return Err(vec![Diagnostic::at(
             kind.span(),
             format!("there is no law of kind `{}`", kind.get_ref()),
-            near::suggest(kind.get_ref(), "kinds", kinds()),
+            suggestions::suggest(kind.get_ref(), "kinds", kinds()),
         )]);
     };
     let mut errors = foreign(law, name, laws);

@@ -1,15 +1,18 @@
 #![doc = include_str!("../README.md")]
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+pub mod axes;
 mod azimuth;
 pub mod check;
+mod code_value;
+pub mod control_characters;
 pub mod defaults;
 pub mod diagnostic;
 mod entry;
-mod exact;
+mod exact_list;
 mod explain;
 pub mod files;
-mod here;
+mod key_default;
 pub mod keys;
 pub mod kind;
 mod kinematics;
@@ -18,20 +21,17 @@ pub mod lengths;
 pub mod model;
 mod motion;
 pub mod names;
-pub mod near;
-pub mod plausible;
+pub mod plausibility;
 pub mod reader;
 pub mod schema;
 pub mod settings;
-mod several;
 mod shape;
 pub mod slider;
 mod spanned;
+mod state_values;
+pub mod suggestions;
 mod title;
 pub mod units;
-pub mod unprintable;
-pub mod upright;
-mod usual;
 pub mod warning;
 
 pub use entry::Entry;

@@ -10,7 +10,7 @@ mod event;
 mod fault;
 mod field;
 mod flux;
-mod forced;
+mod forced_rupture;
 mod heat;
 mod inertia;
 mod interface;
@@ -28,14 +28,14 @@ mod surface;
 mod time_series;
 mod trace;
 
-pub use super::here::here;
+pub use super::code_value::here;
 use super::units::{Angle, Dimension, Length, Memory, Time, Velocity};
 use crate::defaults;
+use crate::key_default::usual;
 use crate::kind::{self, Kind};
 use crate::kinematics;
 pub use crate::kinematics::Kinematics;
 pub use crate::spanned::Spanned;
-use crate::usual::usual;
 use asperity_run::Warning;
 pub use body::*;
 pub use coulomb::*;
@@ -44,7 +44,7 @@ pub use event::EventSpec;
 pub use fault::*;
 pub use field::*;
 pub use flux::Flux;
-pub use forced::ForcedRupture;
+pub use forced_rupture::ForcedRupture;
 pub use heat::*;
 pub use inertia::*;
 pub use interface::*;
@@ -358,7 +358,7 @@ pub struct RotationSpec {
     pub about: Spanned<Vec<Length>>,
     /// Direction of the axis, of any length; in two dimensions it is z and must not be given.
     #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in two dimensions it is z"))]
-    #[serde(default, deserialize_with = "crate::exact::optional")]
+    #[serde(default, deserialize_with = "crate::exact_list::optional")]
     pub axis: Option<Spanned<[f64; 3]>>,
 }
 

@@ -7,7 +7,7 @@ use crate::kind::Kind;
 use crate::law::Laws;
 use crate::model::{Kinematics, Scene, Spanned, Stepper};
 use crate::slider::SliderScene;
-use crate::{azimuth, check, explain, near, plausible, unprintable};
+use crate::{azimuth, check, control_characters, explain, plausibility, suggestions};
 use asperity_run::Warning;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -21,7 +21,7 @@ use toml_edit::Document;
 /// # Errors
 /// All errors of the checks, or the first error of the text or of a file.
 pub fn read(text: &str, folder: &Path, laws: &Laws, columns: &mut Columns<'_>) -> Result<Scene, Diagnostics> {
-    if let Some(error) = unprintable::find(text) {
+    if let Some(error) = control_characters::find(text) {
         return Err(Diagnostics(vec![error]));
     }
     let mut scene: Scene = toml::from_str(text).map_err(|e| reject(&e, text))?;
@@ -34,7 +34,7 @@ pub fn read(text: &str, folder: &Path, laws: &Laws, columns: &mut Columns<'_>) -
         stated: scene.time.stepper.span(),
         kinematics: Some(*scene.kinematics.get_ref()),
     };
-    judge(text, plausible::SceneFacts::from_scene(&scene), run, &mut errors, &mut warnings);
+    judge(text, plausibility::SceneFacts::from_scene(&scene), run, &mut errors, &mut warnings);
     warnings.extend(doubts);
     scene.warnings = warnings;
     if errors.is_empty() { Ok(scene) } else { Err(Diagnostics(errors)) }
@@ -110,7 +110,7 @@ impl Head {
             let message = format!("the scene has sliders, but its kinematics is \"{name}\"");
             Diagnostic::at(place, message, help)
         } else {
-            let help = near::suggest(name, "kinematics", KINEMATICS);
+            let help = suggestions::suggest(name, "kinematics", KINEMATICS);
             Diagnostic::at(place, format!("there is no kinematics `{name}`"), help)
         })
     }
@@ -141,21 +141,21 @@ pub fn read_sliders(text: &str) -> Result<SliderScene, Diagnostics> {
     if let Some(error) = toml::from_str::<Head>(text).ok().and_then(|head| head.error()) {
         return Err(Diagnostics(vec![error]));
     }
-    if let Some(error) = unprintable::find(text) {
+    if let Some(error) = control_characters::find(text) {
         return Err(Diagnostics(vec![error]));
     }
     let mut scene: SliderScene =
         toml::from_str(text).map_err(|e| Diagnostics(vec![explain::explain(&e, text)]))?;
     let mut errors = Vec::new();
     let run = Run { kind: Kind::Sliders, stated: scene.kinematics.span(), kinematics: None };
-    judge(text, plausible::SceneFacts::SLIDERS, run, &mut errors, &mut scene.warnings);
+    judge(text, plausibility::SceneFacts::SLIDERS, run, &mut errors, &mut scene.warnings);
     if errors.is_empty() { Ok(scene) } else { Err(Diagnostics(errors)) }
 }
 
 /// Adds what a walk through the text finds: keys that do not belong to the run, and implausible values.
 fn judge(
     text: &str,
-    facts: plausible::SceneFacts,
+    facts: plausibility::SceneFacts,
     run: Run,
     errors: &mut Vec<Diagnostic>,
     warnings: &mut Vec<Warning>,
@@ -163,7 +163,7 @@ fn judge(
     let Ok(document) = Document::parse(text) else { return };
     let tree = Tree::new();
     keys::refuse(&tree, &document, run, errors);
-    plausible::judge(&tree, &document, facts, errors, warnings);
+    plausibility::judge(&tree, &document, facts, errors, warnings);
 }
 
 #[cfg(test)]

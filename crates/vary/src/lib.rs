@@ -1,9 +1,9 @@
 #![doc = include_str!("../README.md")]
 
 pub mod bp1;
+mod equality;
 mod error;
 mod path;
-mod same;
 
 pub use error::VaryError;
 
@@ -112,7 +112,7 @@ impl SceneText {
 fn set(scene: &mut Item, path: &str, value: &str, may_be_same: bool) -> Result<(), VaryError> {
     let item = Path::new(path)?.find(scene)?;
     let mut value = parsed(path, value)?;
-    if !may_be_same && same::same(item, &value) {
+    if !may_be_same && equality::same(item, &value) {
         return Err(VaryError::Same { path: path.to_owned() });
     }
     let Item::Value(old) = item else { return replace(scene, path, value) };

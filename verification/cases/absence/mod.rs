@@ -4,7 +4,7 @@ mod callgrind;
 mod scenes;
 mod terms;
 
-use super::written::Folder;
+use super::run_files::Folder;
 use crate::ledger::{Sheet, Table};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use callgrind::Instructions;

@@ -5,7 +5,7 @@ mod locking;
 
 use super::bodies::{self, Body, Field, Level, Orders, Shape};
 use super::bodies_patch::{capability, variants};
-use crate::cases::drawn;
+use crate::cases::body_plots;
 use crate::{Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::{Dilatation, Formulation, Idealisation};
@@ -91,7 +91,13 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mesh = bodies::distorted(ElementKind::Quad9, 16, Shape::Crooked, [0.0; 2])?;
     let body = Body::new(mesh, &material, Idealisation::PlaneStrain, Formulation::Standard)?;
     let body = body.hold_all(&field).weigh(&field);
-    drawn::displacement(ledger, "Plane strain, quad9, crooked mesh", &body.mesh, &body.solve()?.u, false)?;
+    body_plots::displacement(
+        ledger,
+        "Plane strain, quad9, crooked mesh",
+        &body.mesh,
+        &body.solve()?.u,
+        false,
+    )?;
     locking::run(ledger)
 }
 

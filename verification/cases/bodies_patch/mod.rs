@@ -1,7 +1,7 @@
 //! Patch test and zero-energy modes of every element, idealisation and formulation.
 
 use super::bodies::{self, Body, Field, Shape};
-use crate::cases::drawn;
+use crate::cases::body_plots;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_fem::block::{FieldValue, LinearBlock};
 use asperity_fem::element::ElementKind;
@@ -95,7 +95,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let field = Linear::new(Idealisation::PlaneStrain, &material);
     let mesh = bodies::distorted(ElementKind::Quad9, 3, Shape::Crooked, [0.5, -0.3])?;
     let body = Body::new(mesh, &material, Idealisation::PlaneStrain, Formulation::Standard)?.hold_all(&field);
-    drawn::displacement(ledger, "Linear field, quad9", &body.mesh, &body.solve()?.u, false)
+    body_plots::displacement(ledger, "Linear field, quad9", &body.mesh, &body.solve()?.u, false)
 }
 
 fn element<const D: usize>(ledger: &mut Ledger, kind: ElementKind, lower: [f64; D]) -> Result<(), CaseError> {

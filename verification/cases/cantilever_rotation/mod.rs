@@ -1,7 +1,7 @@
 //! A slender beam rolled up by rotation of its end section, and bent by a dead load.
 
 use super::body::{self, Body, Entry, Work};
-use crate::cases::drawn;
+use crate::cases::body_plots;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
@@ -232,7 +232,7 @@ fn forced(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (outcome, cost) = Cost::measure(|| bend(thickness, 80, &alphas, 0.125));
     let (found, middle, body) = outcome?;
     let cost = cost.counts(&body.work);
-    drawn::displacement(ledger, "Bent by P L^2/(E I) = 10", &body.mesh, &body.u, true)?;
+    body_plots::displacement(ledger, "Bent by P L^2/(E I) = 10", &body.mesh, &body.u, true)?;
     for ((alpha, exact), found) in alphas.into_iter().zip(exact).zip(&found) {
         for (what, i) in [("deflection", 0), ("shortening", 1)] {
             ledger

@@ -4,7 +4,7 @@ pub mod cell;
 mod table;
 
 use super::texts::simulate;
-use crate::cases::drawn;
+use crate::cases::body_plots;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_plan::reading::scene;
 use asperity_vary::SceneText;
@@ -110,7 +110,7 @@ pub fn everything(ledger: &mut Ledger, kinematics: &[Kinematics]) -> Result<(), 
     }
     if let Some(cell) = cells.iter().find(|cell| cell.face == Face::Round) {
         let scene = scene::read(&cell.text()?).map_err(|error| error.to_string())?;
-        drawn::stage(ledger, "One of the runs", &scene, "draw")?;
+        body_plots::stage(ledger, "One of the runs", &scene, "draw")?;
     }
     claims(ledger, Table::from_cells(&cells)?);
     Ok(())

@@ -1,7 +1,7 @@
 //! Extreme meshes, ties, and changes that must not affect results: units, node numbers, the order of bodies.
 
 use super::contact_hard::scenes::{HardContactRun, Pair, block};
-use crate::cases::drawn;
+use crate::cases::body_plots;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity::kinds;
 use asperity_output::bodies::Recorder;
@@ -74,7 +74,7 @@ fn same(
 fn invariance(ledger: &mut Ledger) -> Result<(), CaseError> {
     for measure in MEASURES {
         let si = pushed(measure, 1.0, 1.0).run()?;
-        let svg = drawn::recorded(&si.record, "")?;
+        let svg = body_plots::recorded(&si.record, "")?;
         ledger.picture(
             format!("Blocks pushed together, {measure}"),
             svg,

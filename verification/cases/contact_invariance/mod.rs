@@ -3,7 +3,7 @@
 pub mod bodies;
 
 use super::texts::{BodyRun, simulate_in};
-use crate::cases::drawn;
+use crate::cases::body_plots;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_vary::Change::{self as Vary, Add, With};
 use asperity_vary::SceneText;
@@ -45,7 +45,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
             for enforcement in ENFORCEMENTS {
                 let reference = ComparableRun::new(space, measure, enforcement.1, &same)?;
                 if !space && enforcement == ENFORCEMENTS[0] {
-                    let svg = drawn::recorded(&reference.done.record, "drag")?;
+                    let svg = body_plots::recorded(&reference.done.record, "drag")?;
                     ledger.picture(
                         format!("Dragged, {}", measure.0),
                         svg,

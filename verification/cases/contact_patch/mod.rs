@@ -1,7 +1,7 @@
 //! Contact patch test on matching meshes: a uniform pressure passes through the interface with every element.
 
 use super::sandwich::{self, POISSON, U_X, YOUNG};
-use crate::cases::drawn;
+use crate::cases::body_plots;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 
 /// See the README.
@@ -37,7 +37,7 @@ fn patch(ledger: &mut Ledger, element: &str, covers: &[Capability]) -> Result<()
     };
     let scene = sandwich::press_only(scene);
     if element == "quad9" {
-        drawn::stage(ledger, "Pressed blocks of quad9", &scene, "press")?;
+        body_plots::stage(ledger, "Pressed blocks of quad9", &scene, "press")?;
     }
     let (run, cost) = Cost::measure(|| sandwich::simulate(&scene));
     let run = run?;

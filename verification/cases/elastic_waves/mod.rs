@@ -4,7 +4,7 @@ mod absorbing;
 mod impact;
 mod lamb;
 
-use super::drawn;
+use super::body_plots;
 use super::waves::{Rock, line, mesh, problem, run as steps};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_fem::element::ElementKind;
@@ -114,5 +114,5 @@ fn standing(ledger: &mut Ledger) -> Result<(), CaseError> {
         .cost(&finest.cost)
         .record();
     let bar = mesh(&[[line(0.0, 1.0, 20), line(0.0, 0.05, 1)]], ElementKind::Quad4)?;
-    drawn::displacement(ledger, "Standing wave in a bar of 20 cells", &bar, &first.displacement, false)
+    body_plots::displacement(ledger, "Standing wave in a bar of 20 cells", &bar, &first.displacement, false)
 }

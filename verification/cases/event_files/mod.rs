@@ -1,6 +1,6 @@
 //! Events in the seismological formats QuakeML and CMTSOLUTION, with moment tensors and geographic locations.
 
-use crate::cases::written::WrittenRun;
+use crate::cases::run_files::WrittenRun;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_vary::SceneText;
 

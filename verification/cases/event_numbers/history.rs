@@ -1,7 +1,7 @@
 //! Histories of stations between their rows.
 
 use crate::CaseError;
-use crate::cases::written::Folder;
+use crate::cases::run_files::Folder;
 
 /// Rows that the interpolating polynomial passes through, half of them on either side.
 const AROUND: usize = 6;

@@ -3,7 +3,7 @@
 mod history;
 mod slow;
 
-use crate::cases::written::WrittenRun;
+use crate::cases::run_files::WrittenRun;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use history::Histories;
 

@@ -1,7 +1,7 @@
 //! Slow events of a pair of blocks without a state, whose sides move faster at times, beside a pair that creeps.
 
 use super::spring;
-use crate::cases::written::{Table, WrittenRun};
+use crate::cases::run_files::{Table, WrittenRun};
 use crate::{CaseError, Evidence, Ledger};
 
 /// Normal traction \[Pa\], and the friction `mu0 + a ln(V/v_ref)`.

@@ -5,7 +5,7 @@
 //! friction, or S where that holds the fault.
 
 use super::{growth, last};
-use crate::cases::written::Waves;
+use crate::cases::run_files::Waves;
 use crate::{Capability, CaseError, Evidence, Ledger, Plot, Series};
 use std::f64::consts::TAU;
 

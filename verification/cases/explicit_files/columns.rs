@@ -4,7 +4,7 @@
 //! twice the imposed traction, V = 2 A G(t), where friction holds the traction at the start.
 
 use super::{growth, last};
-use crate::cases::written::Waves;
+use crate::cases::run_files::Waves;
 use crate::{Capability, CaseError, Evidence, Ledger};
 use std::fmt::Write as _;
 

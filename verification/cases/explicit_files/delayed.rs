@@ -3,7 +3,7 @@
 //! Friction is so low that the slip rate V hardly changes. With r = (V + V*)/L the normal traction that friction feels is
 //! σ̂ = σ₀ + ∫ σ'(s) (1 - e^(-r (t - s))) ds.
 
-use crate::cases::written::Waves;
+use crate::cases::run_files::Waves;
 use crate::{Capability, CaseError, Evidence, Ledger};
 use std::f64::consts::PI;
 

@@ -2,8 +2,8 @@
 
 use super::last;
 use crate::cases::output_files::vtu::Fields;
+use crate::cases::run_files::Waves;
 use crate::cases::waves::run;
-use crate::cases::written::Waves;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity_mechanics::{Pace, Spring};
 use asperity_plan::dynamics;

@@ -5,7 +5,7 @@
 
 use super::growth;
 use crate::cases::output_files::vtu::Fields;
-use crate::cases::written::Waves;
+use crate::cases::run_files::Waves;
 use crate::{Capability, CaseError, Evidence, Ledger};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;

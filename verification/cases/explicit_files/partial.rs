@@ -3,7 +3,7 @@
 //! An imposed traction fades along the fault. Points of the middle represent a cell, and those at the ends for half of one. The
 //! table of slip rates has a row at each step, so that all numbers follow from rows.
 
-use crate::cases::written::{Table, Waves};
+use crate::cases::run_files::{Table, Waves};
 use crate::{Capability, CaseError, Evidence, Ledger};
 use serde_json::Value;
 

@@ -6,7 +6,7 @@
 //! g(t) = f(t - 2). Friction is the strength where the fault slides, and what the load and the waves leave where it is at rest.
 
 use super::{growth, last};
-use crate::cases::written::Waves;
+use crate::cases::run_files::Waves;
 use crate::{Capability, CaseError, Evidence, Ledger, Plot, Series};
 
 /// Cells along a column.

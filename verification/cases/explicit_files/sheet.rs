@@ -3,7 +3,7 @@
 //! In plane stress the modulus of such a wave is E/(1 - ν²), and c² = E/(ρ (1 - ν²)). The energy of the wave is ∫ s²/(ρ c) dt.
 
 use super::last;
-use crate::cases::written::Waves;
+use crate::cases::run_files::Waves;
 use crate::{Capability, CaseError, Evidence, Ledger};
 use std::f64::consts::TAU;
 

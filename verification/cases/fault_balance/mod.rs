@@ -1,6 +1,6 @@
 //! Balances of a fault through earthquake cycles: energy, slip, and a restarted run.
 
-use crate::cases::followed::CycleRun;
+use crate::cases::cycle_run::CycleRun;
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 

@@ -1,8 +1,8 @@
 //! Loads by backslip between bodies: a plane fault against sides and creep, and normal tractions of a curved one.
 
-use crate::cases::followed::CycleRun;
+use crate::cases::cycle_run::CycleRun;
+use crate::cases::run_files::WrittenRun;
 use crate::cases::seas;
-use crate::cases::written::WrittenRun;
 use crate::{Capability, CaseError, Evidence, Ledger};
 use asperity_plan::faults::Plan;
 use asperity_vary::SceneText;

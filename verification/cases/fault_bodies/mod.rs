@@ -7,7 +7,7 @@ mod section;
 mod unlike;
 
 use crate::cases::fault_operator::matrix;
-use crate::cases::{dislocation, drawn, seas};
+use crate::cases::{body_plots, dislocation, seas};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_plan::faults::Plan;
 use asperity_vary::SceneText;
@@ -454,9 +454,9 @@ fn overlay(ledger: &mut Ledger, plan: &Plan) {
     ledger.plot(
         Plot::xy("Tractions of slip on the arc", "angle from the surface [degrees]", "traction [MPa]")
             .series(Series::line("shear, dislocations", &at(&|p| arc_tractions(angle(p)).0)))
-            .series(Series::points("shear, this code", &drawn::apart(&at(&|p| shear[p]))))
+            .series(Series::points("shear, this code", &body_plots::apart(&at(&|p| shear[p]))))
             .series(Series::line("normal, dislocations", &at(&|p| arc_tractions(angle(p)).1)))
-            .series(Series::points("normal, this code", &drawn::apart(&at(&|p| normal[p])))),
+            .series(Series::points("normal, this code", &body_plots::apart(&at(&|p| normal[p])))),
     );
 }
 

@@ -1,7 +1,7 @@
 //! A section across a subduction zone between bodies of one rock, against the half-space without bodies.
 
+use crate::cases::run_files::Folder;
 use crate::cases::seas::{self, CycleResults};
-use crate::cases::written::Folder;
 use crate::{Capability, CaseError, Evidence, Ledger};
 use asperity_cycles::operator::Form;
 use asperity_plan::faults::{Plan, plan_with};

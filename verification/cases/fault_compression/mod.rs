@@ -2,7 +2,7 @@
 
 mod space;
 
-use crate::cases::{drawn, fault_operator, seas};
+use crate::cases::{body_plots, fault_operator, seas};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_cycles::operator::Form;
 use asperity_plan::faults::{Plan, plan_with};
@@ -93,7 +93,7 @@ fn overlay(ledger: &mut Ledger, name: &str, plan: &Plan, [dense, compressed]: [&
             "traction [MPa]",
         )
         .series(Series::line("dense", &at(dense)))
-        .series(Series::points("compressed", &drawn::apart(&at(compressed)))),
+        .series(Series::points("compressed", &body_plots::apart(&at(compressed)))),
     );
 }
 

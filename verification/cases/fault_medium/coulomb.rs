@@ -3,8 +3,8 @@
 use super::SHEAR_MODULUS;
 use super::receivers::{DIP, hanging, one_cell, one_cell_event_with, scene};
 use crate::cases::dislocation::{self, Stress};
+use crate::cases::run_files::WrittenRun;
 use crate::cases::seas;
-use crate::cases::written::WrittenRun;
 use crate::{CaseError, Evidence, Ledger};
 use asperity_plan::faults::PointView;
 use nalgebra::Complex;

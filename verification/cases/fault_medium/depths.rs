@@ -1,6 +1,6 @@
 //! A plate interface that is given by longitudes, latitudes and depths.
 
-use crate::cases::written::Folder;
+use crate::cases::run_files::Folder;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity_cycles::operator::Form;
 use asperity_plan::faults::{Plan, plan_with};

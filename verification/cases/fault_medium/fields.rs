@@ -1,8 +1,8 @@
 //! Parameters of faults from files of columns.
 
 use super::{WIDTH, still};
+use crate::cases::run_files::Folder;
 use crate::cases::seas;
-use crate::cases::written::Folder;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity_cycles::operator::Form;
 use asperity_plan::faults::{Plan, plan_with};

@@ -2,7 +2,7 @@
 
 use super::depths::depth;
 use super::fields::{MEGATHRUST, SURFACE, dipping, off};
-use crate::cases::written::Folder;
+use crate::cases::run_files::Folder;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity_cycles::operator::Form;
 use asperity_plan::faults::{Plan, plan_with};

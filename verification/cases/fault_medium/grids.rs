@@ -1,7 +1,7 @@
 //! Grids in the classic netCDF format, and the finite-fault model, of an event of several cells: values by their coordinates.
 
 use super::receivers::{DIP, STRIKE, rectangle, scene};
-use crate::cases::written::{Table, WrittenRun};
+use crate::cases::run_files::{Table, WrittenRun};
 use crate::{Capability, CaseError, Evidence, Ledger};
 
 /// Length and width of the fault, and the size of its cells \[m\].

@@ -1,7 +1,7 @@
 //! Coupling of a fault to the plates that load it: locked above, creeping under constant stress below.
 
 use super::receivers::{PLATES_RAKE, RAKE, STABLE, direction, rectangle, scene};
-use crate::cases::written::WrittenRun;
+use crate::cases::run_files::WrittenRun;
 use crate::{CaseError, Evidence, Ledger, Plot, Series};
 use asperity_vary::SceneText;
 use std::f64::consts::FRAC_PI_2;

@@ -11,7 +11,7 @@ mod surface;
 pub mod triangles;
 
 use crate::cases::fault_operator::matrix;
-use crate::cases::{dislocation, drawn, seas};
+use crate::cases::{body_plots, dislocation, seas};
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_cycles::operator::Form;
 use asperity_plan::faults::{Plan, plan_with};
@@ -254,7 +254,7 @@ fn cracks(ledger: &mut Ledger) -> Result<(), CaseError> {
                 let curve: Vec<_> = curve.map(|x| (x, (1.0 - x * x).max(0.0).sqrt())).collect();
                 figure = figure
                     .series(Series::line("closed form", &curve))
-                    .series(Series::points("20 cells", &drawn::apart(&found.collect::<Vec<_>>())));
+                    .series(Series::points("20 cells", &body_plots::apart(&found.collect::<Vec<_>>())));
             }
         }
         let cost = spent.ok_or("no level")?;

@@ -1,7 +1,7 @@
 //! Motion of receivers in the rock: between events beside locked faults, beside faults that creep, and over an event.
 
 use crate::cases::okada::Rectangle;
-use crate::cases::written::{Table, WrittenRun};
+use crate::cases::run_files::{Table, WrittenRun};
 use crate::{CaseError, Evidence, Ledger};
 use asperity_vary::SceneText;
 use std::f64::consts::PI;

@@ -2,7 +2,7 @@
 
 use super::receivers::{DIP, RAKE, RATIO, SIZE, STRIKE, hanging, okada, one_cell_event, scene};
 use crate::cases::okada::Rectangle;
-use crate::cases::written::WrittenRun;
+use crate::cases::run_files::WrittenRun;
 use crate::{CaseError, Evidence, Ledger};
 
 /// Shear modulus of the rock of [`scene`] \[Pa\].

@@ -1,8 +1,8 @@
 //! Faults that are surfaces of triangles: tractions of rectangles in triangles, and a circular crack.
 
 use super::{A, POISSON, SHEAR_MODULUS, slip, still};
+use crate::cases::run_files::Folder;
 use crate::cases::seas;
-use crate::cases::written::Folder;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity_cycles::operator::Form;
 use asperity_plan::faults::{Plan, plan_with};

@@ -1,7 +1,7 @@
 //! Two blocks whose normal traction follows ramps: time open, and time and slip below the floor.
 
 use super::{A, PRESSED, YOUNG, block};
-use crate::cases::written::WrittenRun;
+use crate::cases::run_files::WrittenRun;
 use crate::{Capability, CaseError, Evidence, Ledger};
 use asperity_run::report::Outcome;
 

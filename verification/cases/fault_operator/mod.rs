@@ -1,6 +1,6 @@
 //! Tractions caused by slip in plane strain: a crack, a fault that slips uniformly, and dipping faults below a free surface.
 
-use crate::cases::{dislocation, drawn, seas};
+use crate::cases::{body_plots, dislocation, seas};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_plan::faults::Plan;
 use dislocation::Stress;
@@ -197,7 +197,7 @@ fn crack(ledger: &mut Ledger) -> Result<(), CaseError> {
             "slip over that in the middle [-]",
         )
         .series(Series::line("closed form", &curve(2)))
-        .series(Series::points("graded cells", &drawn::apart(&curve(1)))),
+        .series(Series::points("graded cells", &body_plots::apart(&curve(1)))),
     );
     let cells = "cells from a/1000 at the tips to a/10";
     ledger
@@ -360,9 +360,9 @@ fn overlay(ledger: &mut Ledger, plan: &Plan, dip: f64, (name, slip): Slips) {
             "traction [MPa]",
         )
         .series(Series::line("shear, dislocations", &at(&|k| exact[k].0)))
-        .series(Series::points("shear, this code", &drawn::apart(&at(&|k| found[0][points[k]]))))
+        .series(Series::points("shear, this code", &body_plots::apart(&at(&|k| found[0][points[k]]))))
         .series(Series::line("normal, dislocations", &at(&|k| exact[k].1)))
-        .series(Series::points("normal, this code", &drawn::apart(&at(&|k| found[1][points[k]])))),
+        .series(Series::points("normal, this code", &body_plots::apart(&at(&|k| found[1][points[k]])))),
     );
 }
 

@@ -1,8 +1,8 @@
 //! The block of `sandwich_state`, pressed by a stage.
 
 use super::ROUNDING;
+use crate::cases::run_files::WrittenRun;
 use crate::cases::seas;
-use crate::cases::written::WrittenRun;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity::kinds::faults::Report;
 use asperity_cycles::{Balance, Moment, Rupture};

@@ -4,7 +4,7 @@ mod reference;
 mod rows;
 mod surface;
 
-use crate::cases::followed::CycleRun;
+use crate::cases::cycle_run::CycleRun;
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_plan::faults::Plan;

@@ -1,7 +1,7 @@
 //! Numbers of events while slip turns, against the rows of stations at all points.
 
 use super::scene;
-use crate::cases::written::WrittenRun;
+use crate::cases::run_files::WrittenRun;
 use crate::{Capability, CaseError, Evidence, Ledger};
 use asperity_vary::SceneText;
 

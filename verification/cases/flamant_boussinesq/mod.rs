@@ -4,7 +4,7 @@ mod fields;
 
 use super::bodies::{self, Body, Field, Level, Orders};
 use super::bodies_patch::capability;
-use crate::cases::drawn;
+use crate::cases::body_plots;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::{Formulation, Idealisation};
@@ -78,7 +78,7 @@ fn points(ledger: &mut Ledger, material: &Elastic) -> Result<(), CaseError> {
     let body =
         Body::new(annulus(Quad9, [16, 32], PI)?, material, Idealisation::PlaneStrain, Formulation::Standard)?;
     let body = body.pull(&["left"], &flamant).hold(&["right"], &flamant);
-    drawn::displacement(ledger, "Line force on a half-plane", &body.mesh, &body.solve()?.u, false)
+    body_plots::displacement(ledger, "Line force on a half-plane", &body.mesh, &body.solve()?.u, false)
 }
 
 fn study(

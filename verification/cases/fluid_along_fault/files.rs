@@ -1,7 +1,7 @@
 //! Runs of the program `asperity`, and the files that they write.
 
 use crate::cases::programs;
-use crate::cases::written::Folder;
+use crate::cases::run_files::Folder;
 use crate::{CaseError, Cost};
 use asperity_vary::SceneText;
 use std::path::Path;

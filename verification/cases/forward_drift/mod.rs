@@ -1,7 +1,7 @@
 //! Forward steps on an elasto-plastic path: accuracy of yield events and order of the drift.
 
 use super::body::{self, Body, Entry};
-use crate::cases::drawn;
+use crate::cases::body_plots;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_fem::block::von_mises;
 use asperity_fem::element::ElementKind;
@@ -160,7 +160,7 @@ fn equal_steps(ledger: &mut Ledger, carry: bool) -> Result<Vec<(f64, f64)>, Case
 
 fn events(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (run, body) = driven(Kinematics::Small, Limits::default(), false, 50)?;
-    drawn::displacement(ledger, "The square at the end of its path", &body.mesh, &body.u, true)?;
+    body_plots::displacement(ledger, "The square at the end of its path", &body.mesh, &body.u, true)?;
     ledger
         .claim("steps that end with a point at yield, 36 points, all of them in plastic flow at the end")
         .count(run.yields.min(run.plastic), POINTS)

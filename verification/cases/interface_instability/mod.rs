@@ -2,7 +2,7 @@
 
 use super::slider;
 use super::texts::{BodyRun, attempt, simulate};
-use crate::cases::drawn;
+use crate::cases::body_plots;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity::kinds::sliders::Entry;
 use asperity_cycles::Thresholds;
@@ -75,7 +75,7 @@ impl System {
         let done = simulate(&scene(PROBE, "{ kind = \"coulomb\", mu = 1e3 }", 100.0, &[])?)?;
         ledger.picture(
             "The block held by a spring",
-            drawn::recorded(&done.record, "")?,
+            body_plots::recorded(&done.record, "")?,
             "Mises stress after the first stage.",
         );
         let [normal, shear] = tractions(&done)?;

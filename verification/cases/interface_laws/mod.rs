@@ -5,7 +5,7 @@ mod reversing;
 mod varying;
 
 use super::texts::{self, BodyRun};
-use crate::cases::drawn;
+use crate::cases::body_plots;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_vary::SceneText;
 
@@ -147,7 +147,11 @@ fn follows(
         let done = texts::simulate(&scene(law, course, run)?)?;
         largest.extend(errors(&done, course));
         if law.contains("coulomb") && all.is_empty() {
-            ledger.picture(title, drawn::recorded(&done.record, "")?, "Mises stress after the first stage.");
+            ledger.picture(
+                title,
+                body_plots::recorded(&done.record, "")?,
+                "Mises stress after the first stage.",
+            );
         }
         all.push(done);
     }

@@ -1,8 +1,8 @@
 //! Laws whose parameters vary along the interface, from files.
 
 use super::{MU0, NORMAL, PRESSED, RUNS, SCENE, SPACE};
+use crate::cases::run_files::Folder;
 use crate::cases::texts::{self, BodyRun};
-use crate::cases::written::Folder;
 use crate::{Capability, CaseError, Evidence, Ledger};
 use asperity_vary::SceneText;
 use std::fmt::Write as _;

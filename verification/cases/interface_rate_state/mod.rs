@@ -2,7 +2,7 @@
 
 use super::slider::{self, Kind};
 use super::texts::{self, BodyRun};
-use crate::cases::drawn;
+use crate::cases::body_plots;
 use crate::{Capability, Case, CaseError, Evidence, Floor, Ledger, Plot, Series};
 use asperity::kinds::sliders::Entry;
 use asperity_cycles::Thresholds;
@@ -83,7 +83,7 @@ fn in_time(ledger: &mut Ledger, space: &str, scene: &str) -> Result<(), CaseErro
                     let title = format!("{} law {space}", word(kind));
                     ledger.picture(
                         title,
-                        drawn::recorded(&done.record, "")?,
+                        body_plots::recorded(&done.record, "")?,
                         "Mises stress after the first stage.",
                     );
                 }

@@ -1,7 +1,7 @@
 //! Simple shear under the Jaumann rate: the oscillation, and how plasticity ends it.
 
 use super::body::{self, Body, Work};
-use crate::cases::drawn;
+use crate::cases::body_plots;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
@@ -296,7 +296,7 @@ fn hardening(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 fn plot(ledger: &mut Ledger) -> Result<(), CaseError> {
     let body = sheared_body(hypoelastic()?, 1.0, 20)?;
-    drawn::displacement(ledger, "Simple shear, gamma = 1", &body.mesh, &body.u, true)?;
+    body_plots::displacement(ledger, "Simple shear, gamma = 1", &body.mesh, &body.u, true)?;
     let gammas: Vec<f64> = (1..=60).map(|k| 0.1 * f64::from(k)).collect();
     let computed =
         |material: &dyn Fn() -> Result<Material, CaseError>| -> Result<Vec<(f64, f64)>, CaseError> {

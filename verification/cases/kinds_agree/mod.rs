@@ -3,8 +3,8 @@
 mod scenes;
 mod shapes;
 
+use crate::cases::run_files::{self, Folder, Waves, WrittenRun};
 use crate::cases::slider_scene;
-use crate::cases::written::{self, Folder, Waves, WrittenRun};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity::kinds;
 use scenes::{AREA, DAMPING, DURATION, HEIGHT, Idealisation, LAW, MODULUS, NORMAL, SHEAR, STEPS, TOLERANCE};
@@ -113,14 +113,14 @@ fn mass(idealised: Idealisation) -> Result<KindRun, CaseError> {
 }
 
 fn interface(idealised: Idealisation) -> Result<KindRun, CaseError> {
-    let (files, cost) = written::bodies(&scenes::interface(idealised, false))?;
+    let (files, cost) = run_files::bodies(&scenes::interface(idealised, false))?;
     let report = serde_json::from_str(&files.text("report.json")?)?;
     Ok(KindRun { kind: idealised.choose("an interface", "an interface in space"), files, report, cost })
 }
 
 /// The interface between bodies with inertia, whose files have energies.
 fn inertia() -> Result<KindRun, CaseError> {
-    let (files, cost) = written::bodies(&scenes::interface(Idealisation::Plane, true))?;
+    let (files, cost) = run_files::bodies(&scenes::interface(Idealisation::Plane, true))?;
     let report = serde_json::from_str(&files.text("report.json")?)?;
     Ok(KindRun { kind: "an interface of bodies with inertia", files, report, cost })
 }

@@ -4,7 +4,7 @@ mod prestress;
 
 use super::bodies::{self, Body, Field, Level, Orders};
 use super::bodies_patch::capability;
-use crate::cases::drawn;
+use crate::cases::body_plots;
 use crate::{Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
 use asperity_fem::block::FieldValue;
 use asperity_fem::element::ElementKind;
@@ -136,7 +136,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let material = Elastic::new(YOUNG, POISSON)?;
     let body = pressed(Body::new(mesh, &material, Idealisation::PlaneStrain, Formulation::Standard)?);
     let body = body.fix("bottom", 1, 0.0).fix("top", 0, 0.0);
-    drawn::displacement(ledger, "Cylinder in plane strain", &body.mesh, &body.solve()?.u, false)?;
+    body_plots::displacement(ledger, "Cylinder in plane strain", &body.mesh, &body.solve()?.u, false)?;
     prestress::claims(ledger)
 }
 

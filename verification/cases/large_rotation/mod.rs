@@ -3,7 +3,7 @@
 mod viscous;
 
 use super::body::{self, Body};
-use crate::cases::drawn;
+use crate::cases::body_plots;
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
@@ -178,7 +178,7 @@ fn turning(ledger: &mut Ledger, carry: bool) -> Result<(), CaseError> {
     for steps in [90, 180, 360, 720] {
         let (error, body, cost) = strip(steps, carry)?;
         if carry && steps == 90 {
-            drawn::displacement(ledger, "Strip turned by 90 degrees", &body.mesh, &body.u, true)?;
+            body_plots::displacement(ledger, "Strip turned by 90 degrees", &body.mesh, &body.u, true)?;
         }
         levels.push((90.0 / steps as f64, error));
         last = cost;

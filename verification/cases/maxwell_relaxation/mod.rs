@@ -3,7 +3,7 @@
 mod sheet;
 
 use super::body::{self, Body, Entry, Work};
-use crate::cases::drawn;
+use crate::cases::body_plots;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Floor, Ledger, Plot, Series};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
@@ -268,7 +268,7 @@ fn cylinder(ledger: &mut Ledger) -> Result<(), CaseError> {
         work.push((error, cost.wall.unwrap_or(f64::NAN)));
         last = cost.counts(&body.work);
         if steps == 16 {
-            drawn::displacement(ledger, "Slice of the cylinder at the end", &body.mesh, &body.u, false)?;
+            body_plots::displacement(ledger, "Slice of the cylinder at the end", &body.mesh, &body.u, false)?;
         }
     }
     ledger

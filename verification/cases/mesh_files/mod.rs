@@ -1,8 +1,8 @@
 //! Meshes from files of Gmsh and Abaqus: a bar under tension, its weight, and pressures on numbered faces.
 
+use super::run_files::Folder;
 use super::texts;
-use super::written::Folder;
-use crate::cases::drawn;
+use crate::cases::body_plots;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_vary::SceneText;
 use std::path::PathBuf;
@@ -112,7 +112,7 @@ fn bar(found: &mut FormatResults, file: &str, dimension: usize) -> Result<(), Ca
         .add("stages[0].conditions", format!("[{low}, {high}]"))
         .add("output.points", format!("{{ {} }}", points.join(", ")));
     let done = texts::simulate_in(&drawn.text()?, &folder())?;
-    found.picture = Some(drawn::recorded(&done.record, "")?);
+    found.picture = Some(body_plots::recorded(&done.record, "")?);
     let values = &done.record.samples().last().ok_or("no step was taken")?.points;
     for (at, point) in POINTS.iter().zip(values) {
         found.drawn.extend([point.displacement[0] / (DRAWN * at[0]), point.stress[0] / STRESS]);

@@ -4,7 +4,7 @@
 //! upper block, which is the slave: everything has a closed form once the start is forgotten.
 
 use super::{ExpectedNumber, FileClaims};
-use crate::cases::written::{self, Folder};
+use crate::cases::run_files::{self, Folder};
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity_vary::SceneText;
 use serde_json::Value;
@@ -116,7 +116,7 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 fn plane(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let (files, cost) = written::bodies(&scene(false, RATES))?;
+    let (files, cost) = run_files::bodies(&scene(false, RATES))?;
     let ([w, _], [rate, _]) = (WIDTHS, RATES);
     let way = rate * DURATION;
     let s = Steady::new(way, rate, w / SPRING);
@@ -192,7 +192,7 @@ fn head(ledger: &mut Ledger, (files, cost): (&Folder, &Cost)) -> Result<(), Case
 /// The blocks drawn the other way, as they were in these files.
 fn backwards(ledger: &mut Ledger, forwards: &Folder, s: &Steady) -> Result<(), CaseError> {
     let taken = steps(forwards)?;
-    let (files, cost) = written::bodies(&scene(false, RATES.map(|rate| -rate)))?;
+    let (files, cost) = run_files::bodies(&scene(false, RATES.map(|rate| -rate)))?;
     ledger
         .claim("two blocks that slide steadily in the plane: steps taken one way, less those the other way")
         .count(taken.abs_diff(steps(&files)?), 0)
@@ -217,7 +217,7 @@ fn steps(files: &Folder) -> Result<u64, CaseError> {
 }
 
 fn space(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let (files, cost) = written::bodies(&scene(true, RATES))?;
+    let (files, cost) = run_files::bodies(&scene(true, RATES))?;
     let ([w, d], [x, z]) = (WIDTHS, RATES);
     let rate = x.hypot(z);
     let along = [x / rate, z / rate];
@@ -256,7 +256,7 @@ fn free(ledger: &mut Ledger) -> Result<(), CaseError> {
             "[{ set = \"upper.top\", x = { to = 2e-6 }, y = 0 }, { set = \"lower.bottom\", x = 0, y = 0 }]",
         )
         .text()?;
-    let (files, cost) = written::bodies(&text)?;
+    let (files, cost) = run_files::bodies(&text)?;
     let report: Value = serde_json::from_str(&files.text("report.json")?)?;
     let mean = |name: &str| report["results"][0][name].as_f64().ok_or_else(|| format!("no {name}"));
     let [width, _] = WIDTHS;

@@ -7,7 +7,7 @@
 
 use super::vtu::Fields;
 use super::{ExpectedNumber, FileClaims};
-use crate::cases::written::{Folder, WrittenRun};
+use crate::cases::run_files::{Folder, WrittenRun};
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity_vary::SceneText;
 

@@ -1,7 +1,7 @@
 //! Nodes and stresses of bodies in field files, in VTK's order.
 
 use super::vtu::Fields;
-use crate::cases::written::{self, Folder};
+use crate::cases::run_files::{self, Folder};
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use nalgebra::Vector3;
 use serde_json::Value;
@@ -128,7 +128,7 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut worst = [0.0_f64; 3];
     let (done, cost) = Cost::measure(|| -> Result<(), CaseError> {
         for (element, space) in ELEMENTS {
-            let (files, _) = written::bodies(&scene(element, space))?;
+            let (files, _) = run_files::bodies(&scene(element, space))?;
             let last = files.names("fields")?.pop().ok_or("no field file")?;
             let fields = Fields::read(&files.text(&format!("fields/{last}"))?)?;
             let found = [strays(&fields, &vtk)?, stresses(&fields, &vtk, space)?, point(&files, space)?];

@@ -2,7 +2,7 @@
 
 use super::vtu::Fields;
 use super::{Capability, CaseError, Evidence, Folder, Ledger};
-use crate::cases::written;
+use crate::cases::run_files;
 
 /// A quadrangle from x = 0 to 1 m and two triangles from there to x = 2 m, in the format 2.2 of Gmsh.
 const MESH: &str = r#"$MeshFormat
@@ -59,7 +59,7 @@ fn scene() -> String {
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     let beside = Folder::new()?;
     std::fs::write(beside.path().join("bar.msh"), MESH)?;
-    let (files, cost) = written::bodies_beside(&scene(), beside.path())?;
+    let (files, cost) = run_files::bodies_beside(&scene(), beside.path())?;
     let name = files.names("fields")?.into_iter().rfind(|n| n.starts_with("bodies")).ok_or("no fields")?;
     let fields = Fields::read(&files.text(&format!("fields/{name}"))?)?;
     let places: Vec<f64> = fields.array("Points")?.values.chunks_exact(3).map(|p| p[0]).collect();

@@ -7,7 +7,7 @@ mod mixed;
 mod states;
 pub(super) mod vtu;
 
-use crate::cases::written::{Folder, WrittenRun};
+use crate::cases::run_files::{Folder, WrittenRun};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use vtu::Fields;
 

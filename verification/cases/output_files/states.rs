@@ -4,7 +4,7 @@
 use super::contact::{HEIGHTS, NORMAL, RATES, WIDTHS, scene};
 use super::{Capability, CaseError, Cost, Evidence, Folder, Ledger, last};
 use crate::cases::output_files::vtu::Fields;
-use crate::cases::written;
+use crate::cases::run_files;
 use asperity_vary::SceneText;
 
 /// μ0, a, V_0 \[m/s\] and both b.
@@ -44,7 +44,7 @@ fn text() -> Result<String, CaseError> {
 
 /// See the module.
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let (files, cost) = written::bodies(&text()?)?;
+    let (files, cost) = run_files::bodies(&text()?)?;
     let [mu0, a, v0] = LAW;
     let rate = RATES[0];
     let steady = STATES.map(|b| -b * (rate / v0).ln());

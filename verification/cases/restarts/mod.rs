@@ -4,7 +4,7 @@ mod scenes;
 mod sliders;
 
 use super::programs;
-use super::written::Folder;
+use super::run_files::Folder;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use rayon::prelude::*;
 use scenes::InterruptedScene;

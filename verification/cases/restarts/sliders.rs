@@ -2,7 +2,7 @@
 
 use super::Parts;
 use crate::cases::programs;
-use crate::cases::written::Folder;
+use crate::cases::run_files::Folder;
 use crate::{CaseError, Cost};
 use asperity::checkpoint::{self, Pauses};
 use asperity::keep::{Keeper, Place};

@@ -1,8 +1,8 @@
 //! Numbers of a scene that are in files of columns.
 
 use super::{HEAD, square};
+use crate::cases::run_files::{self, Folder};
 use crate::cases::seas;
-use crate::cases::written::{self, Folder};
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity_plan::faults::{Plan, plan};
 use asperity_plan::reading::scene;
@@ -40,7 +40,7 @@ fn tables(ledger: &mut Ledger) -> Result<(), CaseError> {
         "# a test\ntime [d],stroke [mm],confining [MPa]\n0,0,0\n0.7,0.57,1.1\n3,-0.1,2.3\n",
     )?;
     let lines = |text: &str| -> Result<(Vec<String>, Cost), CaseError> {
-        let (files, cost) = written::bodies_beside(text, beside.path())?;
+        let (files, cost) = run_files::bodies_beside(text, beside.path())?;
         let both = files.text("points/p.csv")? + &files.text("forces/f.csv")?;
         Ok((both.lines().map(str::to_owned).collect(), cost))
     };

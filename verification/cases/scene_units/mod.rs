@@ -2,7 +2,7 @@
 
 mod files;
 
-use crate::cases::written::{self, Folder, WrittenRun};
+use crate::cases::run_files::{self, Folder, WrittenRun};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_vary::SceneText;
 use std::fmt::Write as _;
@@ -62,7 +62,7 @@ fn times(ledger: &mut Ledger) -> Result<(), CaseError> {
             );
         }
     }
-    let (files, cost) = written::bodies(&text)?;
+    let (files, cost) = run_files::bodies(&text)?;
     let table = files.table("points/p.csv")?;
     let ends: Vec<f64> = units
         .iter()
@@ -147,7 +147,7 @@ fn amounts(ledger: &mut Ledger) -> Result<(), CaseError> {
     let text = format!(
         "{bodies}[[stages]]\nname = \"all\"\nduration = {YEAR}\nsteps = 1\nconditions = [{conditions}]\n[output]\n{outputs}"
     );
-    let (files, cost) = written::bodies(&text)?;
+    let (files, cost) = run_files::bodies(&text)?;
     let (mut found, mut expected) = (Vec::new(), Vec::new());
     for (k, (asked, _, size)) in units.iter().enumerate() {
         let (value, due) = match asked {
@@ -180,7 +180,7 @@ fn overburden(ledger: &mut Ledger) -> Result<(), CaseError> {
         [[stages]]\nname = \"weight\"\nduration = 1\nsteps = 1\n\
         conditions = [{ set = \"b.left\", x = 0 }, { set = \"b.right\", x = 0 }, { set = \"b.bottom\", y = 0 }]\n\
         [output]\nforces.bottom = { set = \"b.bottom\" }\n";
-    let (files, cost) = written::bodies(text)?;
+    let (files, cost) = run_files::bodies(text)?;
     let area = 2e3;
     ledger
         .claim("force below 1 km of rock of 2.7 g/cm^3 over its area")

@@ -1,6 +1,6 @@
 //! BP1 with a characteristic slip distance of 16 mm: two events of each law against their limit in cell size and tolerance.
 
-use crate::cases::drawn;
+use crate::cases::body_plots;
 use crate::cases::seas::{self, CycleResults};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_vary::SceneText;
@@ -69,7 +69,7 @@ fn found(law: &Law, size: f64) -> Result<CycleResults, CaseError> {
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let scene = text(&LAWS[0], SIZE)?;
-    drawn::plot(
+    body_plots::plot(
         ledger,
         "Slip rate through time",
         &scene,

@@ -1,7 +1,7 @@
 //! The limit in cell size and tolerance of the two events of the case `seas_bp1_16mm`.
 
 use crate::cases::seas_bp1_16mm::{LAWS, Law, text};
-use crate::cases::{drawn, seas};
+use crate::cases::{body_plots, seas};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_ode::Method;
 
@@ -21,7 +21,7 @@ const TIGHT: f64 = 1e-6;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let scene = text(&LAWS[0], SIZES[0])?;
-    drawn::plot(
+    body_plots::plot(
         ledger,
         "Slip rate through time",
         &scene,

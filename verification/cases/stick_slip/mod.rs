@@ -4,7 +4,7 @@ pub(super) mod exponential;
 
 use super::texts::{self, BodyRun};
 use super::{fault_pressing, seas, slider as sliders};
-use crate::cases::drawn;
+use crate::cases::body_plots;
 use crate::ledger::Draft;
 use crate::{Capability, Case, CaseError, Evidence, Floor, Ledger, Plot, Series};
 use asperity::catalogue::Entry;
@@ -325,7 +325,7 @@ fn block(ledger: &mut Ledger) -> Result<(), CaseError> {
         .record();
     ledger.picture(
         "Mises stress after pressing",
-        drawn::recorded(&exact.record, "")?,
+        body_plots::recorded(&exact.record, "")?,
         "The block of the case.",
     );
     Ok(())

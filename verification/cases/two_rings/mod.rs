@@ -3,7 +3,7 @@
 mod exact;
 mod mesh;
 
-use crate::cases::drawn;
+use crate::cases::body_plots;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity::kinds;
 use asperity_output::bodies::Recorder;
@@ -72,7 +72,7 @@ fn simulate(measure: Measure, order: usize, fine: usize, exact: &Rings) -> Resul
         displacement: displacement(&record, u, exact),
         pressure: pressure(&record, &end.interfaces[0].normal_traction, exact, 0.0),
         inside: pressure(&record, &end.interfaces[0].normal_traction, exact, END),
-        picture: drawn::recorded(&record, "press")?,
+        picture: body_plots::recorded(&record, "press")?,
         cost,
     })
 }

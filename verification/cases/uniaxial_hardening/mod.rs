@@ -1,7 +1,7 @@
 //! Uniaxial stress: hardening, unloading and reversal; hardening at large strain.
 
 use super::body::{self, Body, Work};
-use crate::cases::drawn;
+use crate::cases::body_plots;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
@@ -242,7 +242,7 @@ fn large(ledger: &mut Ledger) -> Result<(), CaseError> {
         levels.push((1.0 / steps as f64, (force / exact - 1.0).abs()));
         last = cost.counts(&body.work);
         if steps == 10 {
-            drawn::displacement(ledger, "Cube stretched to lambda = 1.5", &body.mesh, &body.u, true)?;
+            body_plots::displacement(ledger, "Cube stretched to lambda = 1.5", &body.mesh, &body.u, true)?;
         }
     }
     // Each step replaces ln(1 + x) by x/(1 + x/2), which is x^3/12 smaller, with x up to 0.5/80.

@@ -3,7 +3,7 @@
 mod disc;
 
 use super::body::{self, Body, Work};
-use crate::cases::drawn;
+use crate::cases::body_plots;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
@@ -115,7 +115,7 @@ fn cube(ledger: &mut Ledger) -> Result<(), CaseError> {
         .because("as for the stress itself")
         .record();
     let body = stretched_body([1.0; 3], 10)?;
-    drawn::displacement(ledger, "Cube expanded to l = 1.3", &body.mesh, &body.u, true)?;
+    body_plots::displacement(ledger, "Cube expanded to l = 1.3", &body.mesh, &body.u, true)?;
     let (stress, spread, _) = stretched([1.0; 3], 80)?;
     let deviator = (0..3).map(|i| (stress[i] - found).abs()).chain((3..6).map(|i| stress[i].abs()));
     ledger

@@ -2,7 +2,7 @@
 
 use super::contact_invariance::bodies::{Change, Grid, Side};
 use super::texts::{BodyRun, simulate_in};
-use crate::cases::drawn;
+use crate::cases::body_plots;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_vary::Change::{self as Vary, With, Without};
 use asperity_vary::SceneText;
@@ -67,7 +67,7 @@ fn compare(ledger: &mut Ledger, folder: &Path) -> Result<(), CaseError> {
         if changes.is_empty() {
             ledger.picture(
                 name,
-                drawn::recorded(&implicit.record, "")?,
+                body_plots::recorded(&implicit.record, "")?,
                 "Mises stress after the first stage.",
             );
         }

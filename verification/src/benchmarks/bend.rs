@@ -3,7 +3,7 @@
 use super::entry::Entry;
 use super::independent::Results;
 use super::parts::{ComputedBenchmark, PER_PASCAL, Words, interpolated, reference};
-use super::rounded::digits;
+use super::rounding::digits;
 use crate::CaseError;
 use crate::cases::fault_bend;
 use asperity_reference::benchmark::{Place, Quantity};

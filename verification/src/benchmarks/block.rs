@@ -4,7 +4,7 @@ use super::entry::Entry;
 use super::independent::Results;
 use super::limit::{self, Limit};
 use super::parts::{ComputedBenchmark, PER_PASCAL, Words, interpolated, optional, reference};
-use super::rounded::digits;
+use super::rounding::digits;
 use crate::CaseError;
 use crate::cases::sandwich_state::{block, small_block};
 use crate::cases::seas;

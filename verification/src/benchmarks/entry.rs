@@ -1,6 +1,6 @@
 //! Results of a benchmark as a table that `asperity compare` reads.
 
-use super::rounded::digits;
+use super::rounding::digits;
 use asperity_reference::benchmark::Reference;
 use std::fmt::Write as _;
 

@@ -1,6 +1,6 @@
 //! Limits of values on successively halved meshes, with their uncertainty.
 
-use super::rounded::digits;
+use super::rounding::digits;
 use asperity_reference::benchmark::Place;
 
 /// Largest ratio of successive differences that is extrapolated, order 0.4. Extrapolation of slower sequences amplifies errors of

@@ -12,7 +12,7 @@ mod independent;
 pub mod limit;
 pub mod pages;
 mod parts;
-mod rounded;
+mod rounding;
 mod sandwich;
 
 use crate::CaseError;

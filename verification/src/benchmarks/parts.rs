@@ -1,7 +1,7 @@
 //! Common parts of the benchmarks.
 
 use super::entry::Entry;
-use super::rounded::digits;
+use super::rounding::digits;
 use asperity_reference::benchmark::reference::SCHEMA;
 use asperity_reference::benchmark::{Along, Place, Quantity, Reference};
 

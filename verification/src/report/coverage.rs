@@ -4,7 +4,7 @@ use super::ids::slug;
 use super::page::{Depth, escape, page, word};
 use super::provenance::Provenance;
 use super::read;
-use super::tested::Group;
+use super::test_files::Group;
 use crate::capability::Capability;
 use crate::case::Outcome;
 use crate::claim::{Evidence, Verdict};

@@ -3,7 +3,7 @@
 
 use super::figures;
 use super::page::escape;
-use crate::cases::drawn;
+use crate::cases::body_plots;
 use crate::ledger::Picture;
 use asperity_plan::reading::scene;
 use std::path::Path;
@@ -128,7 +128,7 @@ fn one(scene: &str, picture: Result<Picture, String>) -> String {
 
 /// Plot that a run of the program writes.
 fn plotted(path: &str, plot: &str, title: &str) -> Result<Picture, String> {
-    let svg = drawn::plot_of(&root().join(path), plot).map_err(|error| error.to_string())?;
+    let svg = body_plots::plot_of(&root().join(path), plot).map_err(|error| error.to_string())?;
     Ok(Picture { title: title.to_owned(), svg, caption: format!("Scene {path}.") })
 }
 
@@ -147,7 +147,7 @@ pub fn draw(path: &str, stage: &str) -> Result<Picture, String> {
     let text = std::fs::read_to_string(&file).map_err(|error| error.to_string())?;
     let folder = file.parent().unwrap_or(root());
     let scene = scene::read_in(&text, folder).map_err(|error| error.to_string())?;
-    let svg = drawn::mises(&scene, stage).map_err(|error| error.to_string())?;
+    let svg = body_plots::mises(&scene, stage).map_err(|error| error.to_string())?;
     let when = if stage.is_empty() { "the first stage".to_owned() } else { format!("stage “{stage}”") };
     let title = format!("Mises stress at the end of {when}");
     Ok(Picture { title, svg, caption: format!("Scene {path}.") })

@@ -4,6 +4,7 @@ mod case_page;
 mod claims;
 pub mod convergence;
 pub mod coverage;
+pub mod defects;
 pub mod fields;
 mod figures;
 pub mod history;
@@ -13,7 +14,6 @@ pub mod json;
 pub mod junit;
 pub mod mathml;
 pub mod page;
-pub mod planted;
 pub mod precision;
 pub mod provenance;
 pub mod read;
@@ -21,7 +21,7 @@ mod sheets;
 pub mod sources;
 pub mod subjects;
 mod tables;
-pub mod tested;
+pub mod test_files;
 pub mod words;
 
 use crate::case::Outcome;
@@ -58,15 +58,15 @@ pub enum ReportError {
 pub fn write(folder: &Path, outcomes: &[Outcome], run: &Provenance) -> Result<(), ReportError> {
     let (pages, sources) = (emptied(folder, "cases")?, emptied(folder, "sources")?);
     let releases = history::releases(&history::folder());
-    let groups = tested::groups();
+    let groups = test_files::groups();
     let numbers = numbers::all().map_err(ReportError::Numbers)?;
     put(&folder.join("report.json"), &text(&json::report(outcomes, run))?)?;
     put(&folder.join("index.html"), &index::whole(outcomes, &releases, run))?;
     put(&folder.join("coverage.html"), &coverage::whole(outcomes, (&groups, &numbers), run))?;
     put(&folder.join("precision.html"), &precision::whole(outcomes, run))?;
-    put(&folder.join("defects.html"), &planted::whole(&planted::Defects::read(), run))?;
+    put(&folder.join("defects.html"), &defects::whole(&defects::Defects::read(), run))?;
     put(&folder.join("history.html"), &history::whole(&releases, outcomes, run))?;
-    put(&folder.join("tests.html"), &tested::whole(&groups, run))?;
+    put(&folder.join("tests.html"), &test_files::whole(&groups, run))?;
     put(&folder.join("words.html"), &words::whole(run))?;
     for (k, outcome) in outcomes.iter().enumerate() {
         let name = outcome.case.name;

@@ -15,7 +15,7 @@ fn draws(case: &str) -> bool {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(case);
     let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let sources = files.filter(|path| path.extension().is_some_and(|e| e == "rs"));
-    let calls = ["drawn::", "drawn(", "ledger.plot(", "ledger.picture(", "ledger\n        .plot("];
+    let calls = ["body_plots::", "drawn(", "ledger.plot(", "ledger.picture(", "ledger\n        .plot("];
     sources.into_iter().any(|path| {
         let text = std::fs::read_to_string(path).unwrap();
         calls.iter().any(|call| text.contains(call))

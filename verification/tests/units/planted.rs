@@ -1,4 +1,4 @@
-use asperity_verification::report::planted::{Defects, Definition, Result, whole};
+use asperity_verification::report::defects::{Defects, Definition, Result, whole};
 use asperity_verification::report::provenance::Provenance;
 use serde_json::json;
 

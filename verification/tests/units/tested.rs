@@ -1,4 +1,4 @@
-use asperity_verification::report::tested::{checks, groups, tests};
+use asperity_verification::report::test_files::{checks, groups, tests};
 
 #[test]
 fn names_of_tests_are_read_as_sentences() {

@@ -3,7 +3,7 @@
 use super::end::End;
 use super::read::Source;
 use asperity_output::terminal::printing;
-use asperity_plan::reading::scene::near::nearest;
+use asperity_plan::reading::scene::suggestions::nearest;
 use asperity_reference::benchmark;
 use asperity_reference::cite::{self, Citations};
 use miette::miette;

@@ -4,7 +4,7 @@ use super::difference;
 use super::end::End;
 use asperity_output::figures;
 use asperity_output::terminal::printing;
-use asperity_plan::reading::scene::near::suggest;
+use asperity_plan::reading::scene::suggestions::suggest;
 use asperity_reference::benchmark::{self, Judgement, Reference, Submission, overlay};
 use clap::Args;
 use miette::IntoDiagnostic;

@@ -5,7 +5,7 @@ use super::status::{self, State};
 use asperity_output::figures::{FigureRequest, Format, Sheet};
 use asperity_output::terminal::printing::{self, out};
 use asperity_output::words::time as words;
-use asperity_plan::reading::scene::near::suggest;
+use asperity_plan::reading::scene::suggestions::suggest;
 use asperity_plan::reading::scene::units::Time;
 use clap::{Args, ValueEnum};
 use miette::{IntoDiagnostic, miette};

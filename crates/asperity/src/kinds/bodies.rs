@@ -5,14 +5,14 @@ pub mod events;
 mod outputs;
 mod passages;
 pub mod report;
-mod stand;
+mod resume_state;
 pub mod text;
 mod views;
 
 pub use outputs::{Bodies, Checkpoint, Outputs};
 pub use passages::Passage;
 pub use report::{InterfaceResult, RunReport, mean};
-pub use stand::ResumeState;
+pub use resume_state::ResumeState;
 
 use crate::kinds::balance::balance;
 use crate::kinds::stop::{self, Trials};
@@ -28,7 +28,7 @@ use asperity_run::report::{Outcome, Phases};
 use asperity_run::{Counts, ObserveError, Observer, Warning};
 use events::{Events, Moment};
 use outputs::Unkept;
-use stand::{RunWarning, StageResults, Work};
+use resume_state::{RunWarning, StageResults, Work};
 use std::time::Instant as Clock;
 
 /// Reason why a run could not be completed.

@@ -2,8 +2,8 @@
 //! `catalogues/CMTSOLUTION` are the examples with which ObsPy tests its readers, solutions of the Global CMT project.
 
 use crate::common::varied;
-use asperity::kinds::faults::located::locate;
-use asperity_output::formats::located::{Plane, SourceParameters, Spot, Tensor, cmtsolution, quakeml};
+use asperity::kinds::faults::catalogue_entries::locate;
+use asperity_output::formats::catalogues::{Plane, SourceParameters, Spot, Tensor, cmtsolution, quakeml};
 use asperity_vary::Change::{Add, With, Without};
 
 const NDK: &str = include_str!("../catalogues/events.ndk");

@@ -1,10 +1,10 @@
 //! Enforcement of the contact constraint: normal traction from the gap by a penalty, optionally about multipliers.
 
-mod unknown;
+mod unknowns;
 mod uzawa;
 
 use crate::measure::NormalPoint;
-pub(crate) use unknown::{Buffers, REGULAR, Unknowns};
+pub(crate) use unknowns::{Buffers, REGULAR, Unknowns};
 pub(crate) use uzawa::{Multipliers, tangential};
 
 /// Penalty: `f_n = E_n <-g_n>`.

@@ -1,6 +1,6 @@
 //! Distance that nodes may move before a search must be repeated.
 
-use super::saved::ValidityRange;
+use super::measure_state::ValidityRange;
 use crate::vector::{dot, sub};
 
 /// Range of validity of a search: its result holds while no node has moved by `radius` or more from `x`.

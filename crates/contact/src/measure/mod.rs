@@ -4,13 +4,13 @@
 //! two components in an orthonormal frame that is carried with the master surface. Only the frame is affected by rotation.
 
 mod bound;
-pub mod fixed;
+pub mod fixed_measure;
+pub mod measure_state;
 pub mod mortar;
 pub mod node_to_point;
-pub mod saved;
 
 use asperity_fem::term::Pattern;
-use saved::MeasureState;
+use measure_state::MeasureState;
 use std::fmt;
 
 /// Present geometry of all slave points.

@@ -7,7 +7,7 @@
 //! tractions follow from m, so that no traction is a small difference of large numbers. Processes change tractions, their
 //! rates and the law in the order of their phases, see [`crate::problem::Process`].
 
-mod first;
+mod first_instants;
 
 use crate::problem::{
     Components, Fault, Layout, PointTractions, ProcessRecord, Rates, Time, Tractions, Working,

@@ -1,12 +1,12 @@
 //! Bodies condensed onto the jumps of their faults: the tractions that slip and loads cause.
 
 use super::bodies::Bodies;
-use super::held::{self, PointJumps};
 use super::loads::Loads;
 use super::machine::Machine;
 use super::mirror::Mirror;
 use super::place::{Place, across};
 use super::point::{Initial, Point};
+use super::point_jumps::{self, PointJumps};
 use super::refusal::Refusal;
 use crate::operator::{Bearing, Forces, Matrix, PointComponent};
 use crate::problem::Loading;
@@ -214,7 +214,7 @@ impl<const D: usize, const C: usize> CondensedFault<'_, D, C> {
         let mut fixed = jumps.fixed(&constraints.fixed).map_err(oblique)?;
         self.free_along_slip(&fixed)?;
         let mut channels = constraints.channels.iter().map(on_jumps).collect::<Result<Vec<_>, _>>()?;
-        let creeping = held::creep(&self.at, &fixed, &channels, end)?;
+        let creeping = point_jumps::creep(&self.at, &fixed, &channels, end)?;
         let opening_held = |&k: &usize| C > 1 && fixed.binary_search(&(first[k] + C - 1)).is_ok();
         let supported = self.free.iter().map(opening_held).collect();
         fixed.extend(self.held());
@@ -239,7 +239,7 @@ impl<const D: usize, const C: usize> CondensedFault<'_, D, C> {
         let PointJumps { first, frames, tangents, .. } = &self.at;
         for &point in &self.free {
             if let Some(c) = (0..*tangents).find(|c| fixed.binary_search(&(first[point] + c)).is_ok()) {
-                return Err(Refusal::AlongSlip { point, component: held::most(&frames[point][c]) });
+                return Err(Refusal::AlongSlip { point, component: point_jumps::most(&frames[point][c]) });
             }
         }
         Ok(())

@@ -2,17 +2,17 @@
 
 mod bodies;
 mod condensed;
-mod displaced;
-mod held;
+mod displacements;
 mod loads;
 mod machine;
 mod mirror;
 pub mod patches;
 mod place;
 mod point;
-mod pressed;
+mod point_jumps;
+mod pressed_bodies;
 mod refusal;
-mod stressed;
+mod stresses;
 
 pub use bodies::{Bodies, DisplacementSum};
 pub use condensed::{Conditions, Surroundings, condense, least_bytes};
@@ -21,5 +21,5 @@ pub use machine::Spring;
 pub use mirror::Mirror;
 pub use place::{Place, across, unit};
 pub use point::{Initial, Point};
-pub use pressed::{PressedBodies, Pressing, press};
+pub use pressed_bodies::{PressedBodies, Pressing, press};
 pub use refusal::Refusal;

@@ -2,8 +2,9 @@
 
 mod blocks;
 mod both;
-mod checked;
+mod checked_operator;
 mod cluster;
+mod compression;
 mod crosses;
 mod dense;
 mod forces;
@@ -13,14 +14,14 @@ mod lattice;
 mod low_rank;
 mod planar;
 mod rows;
-mod sampled;
-mod stored;
+mod serialisation;
 mod toeplitz;
 mod tractions;
 
 pub use blocks::Sizes;
 pub use both::Both;
-pub use checked::{CheckedOperator, Errors};
+pub use checked_operator::{CheckedOperator, Errors};
+pub use compression::{Accuracy, Division, Entry};
 pub use dense::Dense;
 pub(crate) use forces::{Bearing, Matrix};
 pub use forces::{Forces, PointComponent};
@@ -28,14 +29,13 @@ pub use form::{Form, condensed_operator, dense};
 pub use hierarchical::{Geometry, Hierarchical, Tolerance};
 pub use lattice::Lattice;
 pub use planar::Planar;
-pub use sampled::{Accuracy, Division, Entry};
 pub use toeplitz::Toeplitz;
 pub use tractions::Tractions;
 
 use std::any::Any;
 
 /// Linear operator from slip to the tractions of all points of a fault. Slip and shear tractions of several components
-/// are stored component by component. Operators are written and read as boxes; see `stored`.
+/// are stored component by component. Operators are written and read as boxes; see `serialisation`.
 pub trait Operator: Any + Send + Sync + std::fmt::Debug {
     /// Number of points.
     fn points(&self) -> usize;

@@ -4,7 +4,7 @@
 //! through an [`Acting`], which has its working memory and what it remembers of the past. Statistics of a run are its
 //! [`Account`]. Energy that does not follow from pressures at points is a capability apart, [`Energetic`].
 
-use super::pressed::{Field, PointTractions};
+use super::point_tractions::{Field, PointTractions};
 use super::stage::{FaultState, Passage, ProcessRecord, Stretch, Time, Tractions};
 use asperity_friction::fault::FaultLaw;
 use std::any::Any;

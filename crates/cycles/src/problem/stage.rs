@@ -1,7 +1,7 @@
 //! Stages and steps as processes see them, and their saved states.
 
 use super::components::Components;
-use super::pressed::PointTractions;
+use super::point_tractions::PointTractions;
 use asperity_ode::Clock;
 use serde::{Deserialize, Serialize};
 

@@ -2,7 +2,7 @@
 
 use super::fault::Fault;
 use super::layout::Layout;
-use super::pressed::{Field, PointTractions};
+use super::point_tractions::{Field, PointTractions};
 use super::process::{Acting, Process};
 use super::stage::{FaultState, ProcessRecord, Rates, Time, Tractions};
 use asperity_friction::fault::FaultLaw;

@@ -4,9 +4,9 @@
 //! only the remainder is factored in each iteration.
 
 use super::dense_factor::{Cholesky, DenseFactor, Lu, PivotFailure, copied};
-use super::known::{RemainingEquations, Symmetry};
 use super::schur_complement::{Entry, ROUNDING, SchurComplement};
 use super::symmetric::SymmetricPart;
+use super::symmetry::{RemainingEquations, Symmetry};
 use crate::dof::Equations;
 use crate::error::FemError;
 use crate::multifrontal::{DirectError, Pivot};

@@ -1,6 +1,6 @@
 //! A sparse system solved by factorisation.
 
-use super::known::Symmetry;
+use super::symmetry::Symmetry;
 use crate::dof::Equations;
 use crate::error::FemError;
 use crate::multifrontal::{self, DirectError};

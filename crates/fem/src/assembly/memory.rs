@@ -3,7 +3,7 @@
 //! Factors and analyses follow from the next assembly. Two things do not: the scale of the last assembly, which decides what counts as
 //! rounding before the next, and the equations of a dense system that remained after eliminating the others.
 
-use super::known::RemainingEquations;
+use super::symmetry::RemainingEquations;
 use super::{Store, System};
 use crate::term::Linearized;
 use serde::{Deserialize, Serialize};

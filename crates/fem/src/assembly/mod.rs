@@ -4,12 +4,12 @@
 mod dense;
 mod dense_factor;
 mod direct;
-mod held;
+mod free_modes;
 mod iterative;
-mod known;
 mod memory;
 mod schur_complement;
 mod symmetric;
+mod symmetry;
 
 use crate::dof::Equations;
 use crate::error::FemError;
@@ -20,10 +20,10 @@ use direct::SparseStore;
 pub use direct::{Analysis, LowerTriangle};
 use iterative::IterativeStore;
 pub use iterative::{Iterative, NearNull};
-pub use known::Symmetry;
 pub use memory::Memory;
 use rayon::prelude::*;
 use std::convert::Infallible;
+pub use symmetry::Symmetry;
 
 /// Storage of the system's matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

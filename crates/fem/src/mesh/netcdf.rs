@@ -4,7 +4,7 @@
 //! The layout is that of the specification of the classic format: a header with lists of dimensions, attributes and variables, then
 //! the values of each variable at its offset, with the most significant byte first.
 
-pub mod gridded;
+pub mod gridded_variable;
 mod hdf5;
 
 pub use hdf5::Hdf5Error;

@@ -11,7 +11,7 @@ use super::special_actions::{SpecialActions, in_space};
 use super::springs::Springs;
 use super::sums::Sums;
 use super::surroundings::{FaultSurroundings, Mobility};
-use super::{Problem, StableStep, stable, stored};
+use super::{Problem, StableStep, elastic_energy, stable};
 use crate::error::SetUpError;
 use crate::{CellBlock, coordinates};
 use asperity_fem::block::lumped;
@@ -467,7 +467,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
     fn bodies(&mut self, sums: &Sums) -> (f64, f64) {
         let inelastic = self.works.inelastic;
         let others = inelastic.all.done - inelastic.viscous.done;
-        let linear = stored::Powers {
+        let linear = elastic_energy::Powers {
             displacement: sums.elastic - self.inelastic.along(),
             step: self.dt * (sums.internal[0] - self.inelastic.power()),
         };

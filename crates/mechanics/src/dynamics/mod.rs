@@ -16,6 +16,7 @@
 
 mod absorbing;
 mod budget;
+mod elastic_energy;
 mod explicit;
 mod fault;
 mod inelastic_cells;
@@ -30,7 +31,6 @@ mod special_actions;
 mod split;
 mod springs;
 mod stable_step;
-mod stored;
 mod sums;
 mod surroundings;
 mod ties;

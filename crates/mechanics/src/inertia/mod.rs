@@ -2,7 +2,7 @@
 
 mod energy;
 mod episode;
-mod given;
+mod prescribed_motion;
 mod scheme;
 mod term;
 

@@ -15,7 +15,7 @@
 //! The other terms are thus evaluated at the end of the step alone. Histories of plasticity, contact and friction exist only
 //! there; a force evaluated at an intermediate configuration would need histories of its own. r_n is a vector of this term.
 
-use super::given;
+use super::prescribed_motion;
 use super::scheme::Scheme;
 use asperity_fem::FemError;
 use asperity_fem::assembly::{Storage, Symmetry, System};
@@ -133,7 +133,7 @@ impl Inertia {
     pub fn wake(&mut self, time: f64) -> f64 {
         let left_out = self.mass.times(&self.now.a).into_iter().fold(0.0, |most: f64, f| most.max(f.abs()));
         self.now.a.fill(0.0);
-        given::rates(&self.constraints, time, time, &mut self.now.v, &mut self.now.a);
+        prescribed_motion::rates(&self.constraints, time, time, &mut self.now.v, &mut self.now.a);
         self.fastest = self.kinetic();
         self.reject();
         left_out
@@ -171,7 +171,7 @@ impl Inertia {
     pub fn start(&mut self, r: Vec<f64>, u: &[f64], time: f64) -> Result<f64, FemError> {
         let before = self.kinetic();
         self.now.u.copy_from_slice(u);
-        given::rates(&self.constraints, time, time, &mut self.now.v, &mut self.now.a);
+        prescribed_motion::rates(&self.constraints, time, time, &mut self.now.v, &mut self.now.a);
         self.join();
         self.balance(&r)?;
         self.held = r;
@@ -314,8 +314,8 @@ impl Inertia {
             next.v[k] = v + dt * ((1.0 - gamma) * a + gamma * next.a[k]);
         }
         let (between, during) = (at.time - force * dt, at.time - 0.5 * dt);
-        given::rates(&self.constraints, between, during, &mut next.v, &mut self.given);
-        given::rates(&self.constraints, at.time, during, &mut next.v, &mut next.a);
+        prescribed_motion::rates(&self.constraints, between, during, &mut next.v, &mut self.given);
+        prescribed_motion::rates(&self.constraints, at.time, during, &mut next.v, &mut next.a);
     }
 
     /// Acceleration at the intermediate time.

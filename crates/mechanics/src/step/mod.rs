@@ -4,12 +4,12 @@ mod anchor;
 mod augmented;
 pub mod implicit;
 mod line;
-mod saved;
 pub mod static_explicit;
 mod stepper;
+mod stepper_state;
 
-pub use saved::StepperState;
 pub use stepper::Stepper;
+pub use stepper_state::StepperState;
 
 use asperity_fem::FemError;
 use asperity_fem::assembly::System;

@@ -3,24 +3,24 @@
 mod bodies;
 mod condensed;
 mod full;
-mod moving;
 mod numbering;
-mod saved;
 mod springs;
+mod system_inertia;
+mod system_state;
 mod words;
 
 use self::bodies::Bodies;
 use self::condensed::CondensedBodies;
 use self::full::FullBodies;
 use self::numbering::Numbering;
-pub use self::saved::{Mismatch, SystemState};
 use self::springs::Springs;
+pub use self::system_state::{Mismatch, SystemState};
 use super::samples::ForeignLoads;
 use super::solver::{self, Analyses, Method};
 use super::step::implicit::Implicit;
 use super::step::static_explicit::StaticExplicit;
 use super::step::{AcceptedStep, Failure, State, StepLengths, Stepper};
-use super::{CellBlock, Path, PlannedInterface, Problem, Stage, ZoneResolution, declared};
+use super::{CellBlock, Path, PlannedInterface, Problem, Stage, ZoneResolution, contact_spec};
 use crate::error::SetUpError;
 use crate::inertia::InertialSystem;
 use crate::{Samples, SpringStart, SpringState};
@@ -366,7 +366,7 @@ fn interface<const D: usize>(
     unknowns: usize,
 ) -> Result<Interface<D>, SetUpError> {
     let (number, largest_rate) = (numbering.number.as_slice(), problem.largest_rate());
-    let spec = declared::spec(&problem.model, &problem.stepping, planned, number, largest_rate, unknowns);
+    let spec = contact_spec::spec(&problem.model, &problem.stepping, planned, number, largest_rate, unknowns);
     let mut interface = Interface::new(spec)?;
     interface.set_watch(planned.watch);
     if let Some(damping) = planned.damping {

@@ -2,7 +2,7 @@
 
 use super::colour::{INK, PAPER, Rgb};
 use super::figure::{Figure, Point};
-use crate::formats::located::Tensor;
+use crate::formats::catalogues::Tensor;
 use std::f64::consts::TAU;
 
 /// Number of strips of which the shaded part consists.
@@ -66,7 +66,7 @@ fn amplitude(Tensor([rr, tt, pp, rt, rp, tp]): &Tensor, east: f64, north: f64) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::formats::located::Plane;
+    use crate::formats::catalogues::Plane;
 
     fn tensor(strike: f64, dip: f64, rake: f64) -> Tensor {
         Tensor::from_plane(&Plane { strike, dip, rake }, 1.0)

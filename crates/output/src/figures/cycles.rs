@@ -4,7 +4,7 @@
 //! Each plot reads the rows of a table twice: for the ranges of its axes and for drawing. Memory does not grow with the number of
 //! rows.
 
-mod chosen;
+mod coupling;
 mod mapped_quantity;
 mod maps;
 mod portrait;

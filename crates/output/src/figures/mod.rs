@@ -10,7 +10,7 @@ mod colour;
 mod curves;
 mod cycles;
 mod diagram;
-mod drawn;
+mod diagram_figure;
 mod energy;
 mod faces;
 mod field;

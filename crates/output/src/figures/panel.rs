@@ -8,7 +8,7 @@ use super::legend::Entry;
 use super::paper::Paper;
 use super::style::Style;
 use super::title::title;
-use crate::formats::located::Tensor;
+use crate::formats::catalogues::Tensor;
 use crate::units::TIME;
 use serde::{Deserialize, Serialize};
 

@@ -7,7 +7,7 @@ use super::friction::Friction;
 use super::surfaces::SurfacePair;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Scene;
-use crate::shared::checks::of_model::{self, DrivenSurface, body_name, field_bytes, machines};
+use crate::shared::checks::model_checks::{self, DrivenSurface, body_name, field_bytes, machines};
 use crate::shared::checks::{Checks, Cost, InterfaceCheck, MachineCheck, WeakeningCheck, rates};
 use crate::shared::model::{self, Model};
 use crate::shared::resolution::{Coarsest, critical_slope};
@@ -28,7 +28,7 @@ pub(super) fn collect<const D: usize>(
     solver: &Solver,
 ) -> Result<Checks, Diagnostic> {
     let Assembly { scene, model, stages, interfaces, frictions, .. } = assembly;
-    let mut checks = of_model::checks(scene, model)?;
+    let mut checks = model_checks::checks(scene, model)?;
     let driven: Vec<DrivenSurface> =
         interfaces.iter().map(|i| driven(scene, model, i)).collect::<Result<_, _>>()?;
     let machines = stages.last().map_or_else(Vec::new, |stage| machines(stage, &driven));

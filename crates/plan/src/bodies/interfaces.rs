@@ -5,7 +5,7 @@ use super::friction::Friction;
 use super::penalty::{self, SofterCells};
 use super::surfaces::SurfacePair;
 use super::watch::{self, Resistance};
-use super::{PlannedInterface, cohesive, damping, pressed};
+use super::{PlannedInterface, cohesive, damping, initial_tractions};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Interface as InterfaceSpec, Measure, Scene, Sliding};
 use crate::shared::entry::Entry;
@@ -85,7 +85,7 @@ pub fn plan<const D: usize>(
         law,
         damping,
         blamed: penalty::blamed(name, &spec.enforcement, &softer),
-        pressed: pressed::initial_tractions(scene, model, own, &surfaces)?,
+        pressed: initial_tractions::initial_tractions(scene, model, own, &surfaces)?,
         watch: Watch { coarse_beyond: resolved.as_ref().and_then(|r| r.refused_beyond), ..watch },
         resolved,
         probes: scene.output.probes.get(name).map_or(0, |p| *p.get_ref()),

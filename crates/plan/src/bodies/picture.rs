@@ -2,7 +2,7 @@
 
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Scene;
-use crate::shared::checks::of_model::used;
+use crate::shared::checks::model_checks::used;
 use crate::shared::model::{self, Model, bounds};
 use asperity_fem::element::ElementKind;
 use asperity_fem::mesh::{Mesh, Side, face_kind, face_nodes};

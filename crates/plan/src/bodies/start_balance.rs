@@ -8,7 +8,7 @@ use crate::shared::initial_stress;
 use asperity_contact::{Enforcement, Interface, PointFields};
 use asperity_friction::law::{Law, Regime, Responses, Trials};
 use asperity_mechanics::coordinates::in_words;
-use asperity_mechanics::{CellBlock, Model, Stage, declared};
+use asperity_mechanics::{CellBlock, Model, Stage, contact_spec};
 use asperity_run::Warning;
 
 /// Ratio of the unbalanced forces to the largest initial stress on a face the size of the body, above which the body settles by more than mesh
@@ -137,7 +137,7 @@ fn pressed<const D: usize>(
     let Assembly { scene, model, stepping, .. } = assembly;
     let Some(pressed) = &planned.pressed else { return Ok(None) };
     let number: Vec<usize> = (0..model.dofs()).collect();
-    let mut declared = declared::spec(model, stepping, planned, &number, 0.0, 0);
+    let mut declared = contact_spec::spec(model, stepping, planned, &number, 0.0, 0);
     declared.enforcement = Enforcement::Penalty;
     if stage.frictionless.contains(&planned.name) {
         declared.law = None;

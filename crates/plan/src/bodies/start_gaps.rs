@@ -8,7 +8,7 @@ use crate::shared::entry::Entry;
 use asperity_contact::{Enforcement, Interface, PointFields};
 use asperity_fem::mesh::{MeshFace, Side};
 use asperity_fem::surface;
-use asperity_mechanics::{Model, Stage, bounds, declared};
+use asperity_mechanics::{Model, Stage, bounds, contact_spec};
 use asperity_run::Warning;
 use asperity_scene::lengths::brief;
 use std::collections::BTreeMap;
@@ -61,7 +61,7 @@ pub fn measure<const D: usize>(
     let Assembly { model, stepping, .. } = assembly;
     let Entry { spec, .. } = assembly.entry(planned);
     let number: Vec<usize> = (0..model.dofs()).collect();
-    let mut declared = declared::spec(model, stepping, planned, &number, 0.0, 0);
+    let mut declared = contact_spec::spec(model, stepping, planned, &number, 0.0, 0);
     // Positions of the sides depend neither on the law nor on the enforcement.
     (declared.enforcement, declared.law) = (Enforcement::Penalty, None);
     let built = Interface::new(declared).map_err(|e| {

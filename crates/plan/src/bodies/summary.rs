@@ -5,7 +5,7 @@ use super::assembly::Assembly;
 use super::path::{finite, full_because};
 use crate::reading::scene::model::{Formulation, Kinematics, Scene};
 use crate::shared::amounts;
-use crate::shared::held::ModelMemory;
+use crate::shared::memory::ModelMemory;
 use asperity_contact::TimeRule;
 use asperity_fem::nonlinear::Material;
 use asperity_mechanics::solver::{Solver, retained as retained_by};

@@ -5,7 +5,7 @@ use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::{Evolution, LawChoice, State};
 use crate::reading::scene::model::Scene;
 use crate::shared::model::Model;
-use crate::shared::{impedance, outrun};
+use crate::shared::{impedance, rate_bound};
 use asperity_contact::{Course, RateLimit, Watch};
 use asperity_fem::mesh::Side;
 use asperity_friction::evolution::{self, Front};
@@ -42,7 +42,7 @@ pub fn limits<const D: usize>(
     let [slave, master] = [&surfaces.slave, &surfaces.master].map(|surface| surface.sides);
     let speeds = [slave, master].map(|side| impedance::speeds(scene, model, side));
     let [of_slave, of_master] = speeds;
-    let bound = outrun::bound(of_slave?.into_iter().chain(of_master?));
+    let bound = rate_bound::bound(of_slave?.into_iter().chain(of_master?));
     // Under a law of a yield surface a slip rate in equilibrium is slip over the length of a step, however short.
     let waves: Option<f64> = (least_effect(laws).is_some() || scene.inertia().is_some()).then_some(bound);
     if scene.inertia().is_some() {

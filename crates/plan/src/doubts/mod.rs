@@ -5,15 +5,15 @@ mod damping;
 mod fluid;
 mod nucleation;
 mod pulse;
+mod rock_contrast;
 mod thresholds;
-mod unlike;
 
 pub use damping::damping;
 pub use fluid::{Fluid, fluid};
 pub use nucleation::nucleation;
 pub use pulse::{PulsePoint, pulse};
+pub use rock_contrast::unlike;
 pub use thresholds::thresholds;
-pub use unlike::unlike;
 
 use asperity_run::Warning;
 

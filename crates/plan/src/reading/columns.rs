@@ -5,7 +5,7 @@ pub(crate) mod unit;
 
 pub use crate::reading::wrong::Wrong;
 
-use asperity_scene::near::suggest;
+use asperity_scene::suggestions::suggest;
 use asperity_scene::units::{self, Dimension};
 
 /// Columns of a table. Its first line has their names, with units in brackets, such as `x [km]`.

@@ -2,7 +2,7 @@
 
 pub mod columns;
 pub mod diagnostic;
-pub mod missing;
+pub mod missing_file;
 pub mod scene;
 pub mod sniff;
 pub mod wrong;

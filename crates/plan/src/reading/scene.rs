@@ -1,8 +1,8 @@
 //! The scene language with the friction laws of this program.
 
 pub use asperity_scene::{
-    Entry, check, files, keys, kind, law, model, names, near, plausible, reader, settings, slider, units,
-    unprintable,
+    Entry, check, control_characters, files, keys, kind, law, model, names, plausibility, reader, settings,
+    slider, suggestions, units,
 };
 
 use crate::reading::columns::file::columns_of;

@@ -1,7 +1,7 @@
 //! A table of results: lines `quantity,at,value`, with remarks after `#`.
 
 use super::reference::{Quantity, Reference};
-use asperity_plan::reading::scene::near::suggest;
+use asperity_plan::reading::scene::suggestions::suggest;
 use std::fmt;
 
 /// Line of the names of the columns.

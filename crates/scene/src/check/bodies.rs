@@ -2,7 +2,7 @@
 
 use super::Checker;
 use crate::model::{Body, Formulation, Strain};
-use crate::near::suggest;
+use crate::suggestions::suggest;
 
 impl Checker<'_> {
     pub(super) fn bodies(&mut self) {

@@ -6,7 +6,7 @@ use super::starts::PresentLoads;
 use super::{AXES, Checker};
 use crate::diagnostic::Diagnostic;
 use crate::model::{Condition, Loading, Motion, Pace, RotationSpec, Spanned, Stage, TimeSeries};
-use crate::near::suggest;
+use crate::suggestions::suggest;
 use std::collections::BTreeMap;
 use std::ops::Range;
 

@@ -2,7 +2,7 @@
 
 use super::{AXES, Checker};
 use crate::model::{Body, Condition, Fault, PointSpec, SlipSpec, Spanned, Stage, Stepper};
-use crate::near::suggest;
+use crate::suggestions::suggest;
 use std::ops::Range;
 
 /// Largest fraction of the stable step.

@@ -7,7 +7,7 @@ use crate::model::{
     Along, Creep, CreepLoading, DampingSpec, EventSpec, Fault, Interface, Kinematics, Motion, Outside,
     ParameterProfiles, Profile, SlipSpec, Spanned, Station, Stepper,
 };
-use crate::near::suggest;
+use crate::suggestions::suggest;
 use crate::units::Angle;
 
 /// Kinds of law from which the slip rate cannot be computed.

@@ -5,7 +5,7 @@ use crate::model::{
     DepthTriangles, Fault, FaultLine, FaultRectangle, FaultTriangles, Kinematics, Medium, MediumKind,
     SpacingSpec, Spanned,
 };
-use crate::near::suggest;
+use crate::suggestions::suggest;
 use std::f64::consts::FRAC_PI_2;
 
 /// Largest number of cells of a rectangle: the operator of more exceeds any memory.

@@ -6,7 +6,7 @@ use crate::model::{
     BlockMesh, Body, FaultMesh, Kinematics, MeshSource, QuadrilateralMesh, SpacingSpec, Spanned,
 };
 use crate::names::ELEMENTS;
-use crate::near::suggest;
+use crate::suggestions::suggest;
 use crate::units::{self, Dimension, Length};
 use std::collections::BTreeMap;
 use std::ops::Range;

@@ -2,7 +2,7 @@
 
 use super::Checker;
 use crate::model::Spanned;
-use crate::near::suggest;
+use crate::suggestions::suggest;
 
 /// Largest number of probes of an interface, or of outputs of a stage. More are a typing error: each output is a file.
 const MOST_OUTPUTS: usize = 100_000;

@@ -1,9 +1,9 @@
 //! Geographical position and time of the events of a scene.
 
 use super::Checker;
+use crate::axes::{Axes, cross, size};
 use crate::model::{FaultTriangles, MediumKind, Place, Spanned};
 use crate::units::Angle;
-use crate::upright::{Axes, cross, size};
 use jiff::{SignedDuration, Timestamp};
 
 impl Checker<'_> {

@@ -2,7 +2,7 @@
 
 use super::Checker;
 use crate::model::{Fault, Motion, Scene, Spanned, Stage, Stepper};
-use crate::near::suggest;
+use crate::suggestions::suggest;
 
 /// The stage that presses bodies before their faults slide, if the scene has one.
 #[must_use]

@@ -3,10 +3,10 @@
 use super::path::{Path, Step};
 use super::row::{Key, Row, row_of};
 use super::tree::{Tree, properties, property};
-use super::{foreign, value};
+use super::{foreign_keys, value};
+use crate::key_default;
 use crate::kind::{Kind, OF_BODIES};
-use crate::near::{nearest, suggest};
-use crate::usual;
+use crate::suggestions::{nearest, suggest};
 use serde_json::Value;
 use std::cmp::Ordering;
 
@@ -222,8 +222,8 @@ pub fn documented() -> Vec<DocumentedDefault> {
         for place in below(&tree, kind, "", 0) {
             let Some((table, key)) = &place.table else { continue };
             let unit = row_of(&tree, table, key).unit;
-            let Some(default) = usual::entry(&place.schema["x-default"], &unit) else { continue };
-            let own = foreign::kinds(place.schema).unwrap_or_else(|| all.to_vec());
+            let Some(default) = key_default::entry(&place.schema["x-default"], &unit) else { continue };
+            let own = foreign_keys::kinds(place.schema).unwrap_or_else(|| all.to_vec());
             let kinds: Vec<Kind> = own.into_iter().filter(|kind| all.contains(kind)).collect();
             if kinds.is_empty() {
                 continue;

@@ -1,7 +1,7 @@
 //! Rows of the reference of keys: from the schema of scenes, like the tables of the book.
 
 mod find;
-mod foreign;
+mod foreign_keys;
 mod path;
 mod row;
 mod tree;
@@ -9,7 +9,7 @@ mod value;
 mod visit;
 
 pub use find::{DocumentedDefault, KeySearch, UnknownKey, check, documented, find};
-pub(crate) use foreign::{Run, refuse};
+pub(crate) use foreign_keys::{Run, refuse};
 pub use path::{Path, Step, written};
 pub use row::{Key, Row, roots, row};
 pub(crate) use tree::Tree;

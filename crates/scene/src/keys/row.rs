@@ -1,8 +1,8 @@
 //! Rows of the reference of keys.
 
-use super::foreign;
+use super::foreign_keys;
 use super::tree::{self, Tree};
-use crate::usual;
+use crate::key_default;
 use serde_json::Value;
 
 /// A row of the reference.
@@ -65,8 +65,8 @@ pub(super) fn row_of(tree: &Tree, table: &Value, key: &str) -> Row {
     let name = if tree.is_named(property) { ".NAME" } else { "" };
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
     let needed = table["required"].as_array().is_some_and(|all| all.iter().any(|one| one == key));
-    let default = usual::line(&property["x-default"], &unit);
-    let kinds = foreign::scope(property);
+    let default = key_default::line(&property["x-default"], &unit);
+    let kinds = foreign_keys::scope(property);
     Row { key: format!("{key}{name}"), unit, text, default, kinds, needed }
 }
 

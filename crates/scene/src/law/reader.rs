@@ -1,13 +1,13 @@
 //! Reading of the parameters of a law. All errors are collected.
 
 use super::choice::{Evolution, FORMS, Form, Heat, LawChoice, State, Strength};
-use super::given::{Quantity, scalar};
+use super::parameters::{Quantity, scalar};
 use super::table::Bound::{self, BelowReference, Finite, NotNegative, Positive};
 use super::table::{EvolutionRow, KindRow, Laws, OrderRow, ParameterRow};
 use crate::diagnostic::Diagnostic;
 use crate::model::{LawSpec, Spanned};
-use crate::near;
-use crate::several::Several;
+use crate::state_values::Several;
+use crate::suggestions;
 use std::ops::Range;
 
 /// Largest number of state variables of a law: those that a slider can hold.
@@ -377,7 +377,7 @@ impl<'a> Reader<'a> {
     }
 
     fn unknown<T>(&mut self, place: Range<usize>, name: &str, what: &str, known: &[&str]) -> Option<T> {
-        let help = near::suggest(name, "choices", known.iter().copied());
+        let help = suggestions::suggest(name, "choices", known.iter().copied());
         self.error(place, format!("there is no {what} `{name}`"), help);
         None
     }

@@ -3,13 +3,13 @@
 use super::stress::InitialStress;
 use super::trace::Trace;
 use crate::defaults;
-use crate::exact::{self, ExactList};
+use crate::exact_list::{self, ExactList};
+use crate::key_default::usual;
 use crate::kind::Kind;
 use crate::kinematics;
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
 use crate::units::{Density, Length, Pressure, Velocity, Viscosity};
-use crate::usual::usual;
 use schemars::JsonSchema;
 use serde::de::{
     self, Deserializer, MapAccess, SeqAccess, Visitor,
@@ -65,7 +65,7 @@ pub struct Plasticity {
     #[schemars(extend("x-with" = ["hardening", "power"]))]
     pub exponent: Option<Spanned<f64>>,
     /// Pairs (plastic strain \[-\], yield stress \[Pa\]).
-    #[serde(default, deserialize_with = "exact::optional_pairs")]
+    #[serde(default, deserialize_with = "exact_list::optional_pairs")]
     #[schemars(extend("x-with" = ["hardening", "table"]))]
     pub table: Option<Spanned<Vec<(f64, Pressure)>>>,
 }
@@ -293,13 +293,13 @@ impl Apex {
 #[serde(deny_unknown_fields)]
 pub struct QuadrilateralMesh {
     /// Corners anticlockwise from the lower left \[m\].
-    #[serde(deserialize_with = "exact::lists")]
+    #[serde(deserialize_with = "exact_list::lists")]
     pub corners: Spanned<[[Length; 2]; 4]>,
     /// Number of cells from left to right and from bottom to top.
-    #[serde(deserialize_with = "exact::list")]
+    #[serde(deserialize_with = "exact_list::list")]
     pub divisions: Spanned<[usize; 2]>,
     /// Ratio of the last cell size to the first in both directions; absent: 1 \[-\].
-    #[serde(default, deserialize_with = "exact::optional")]
+    #[serde(default, deserialize_with = "exact_list::optional")]
     pub grading: Option<Spanned<[f64; 2]>>,
     /// Name of the element, such as `"quad4"`.
     pub element: Spanned<String>,
@@ -320,10 +320,10 @@ pub struct FaultMesh {
     /// Thickness of the first cells across the fault; default: the smallest size along it \[m\].
     pub thickness: Option<Spanned<Length>>,
     /// Lower corner of the box \[m\].
-    #[serde(deserialize_with = "exact::list")]
+    #[serde(deserialize_with = "exact_list::list")]
     pub min: Spanned<[Length; 2]>,
     /// Upper corner of the box \[m\].
-    #[serde(deserialize_with = "exact::list")]
+    #[serde(deserialize_with = "exact_list::list")]
     pub max: Spanned<[Length; 2]>,
     /// Largest ratio of neighbouring sizes away from the fault \[-\].
     pub growth: Spanned<f64>,

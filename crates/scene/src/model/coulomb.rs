@@ -1,11 +1,11 @@
 //! Planes on which changes of Coulomb stress are resolved.
 
 use super::SurfaceSpec;
+use crate::key_default::usual;
 use crate::kind::Kind;
 use crate::kinematics;
 use crate::spanned::Spanned;
 use crate::units::{Angle, Length};
-use crate::usual::usual;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;

@@ -1,9 +1,9 @@
 //! Fluid that diffuses along a fault, as declared in a scene.
 
 use super::{Field, Flux, ParameterProfiles};
+use crate::key_default::usual;
 use crate::spanned::Spanned;
 use crate::units::{Length, Permeability, Time, Viscosity};
-use crate::usual::usual;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;

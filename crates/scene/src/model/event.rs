@@ -1,10 +1,10 @@
 //! Definition of events by thresholds of the slip rate.
 
 use crate::defaults;
+use crate::key_default::usual;
 use crate::kind::{self, Kind};
 use crate::spanned::Spanned;
 use crate::units::Velocity;
-use crate::usual::usual;
 use schemars::JsonSchema;
 use serde::Deserialize;
 

@@ -4,13 +4,13 @@ use super::{
     Diffusion, FaultLine, FaultRectangle, FaultTriangles, Fields, Flux, ForcedRupture, Heat, LawSpec, Patch,
     Pulse,
 };
-use crate::here::here;
+use crate::code_value::here;
+use crate::key_default::usual;
 use crate::kind::{self, Kind};
 use crate::kinematics;
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
 use crate::units::{Angle, Damping, Length, Pressure, Time, Velocity};
-use crate::usual::usual;
 use schemars::JsonSchema;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
@@ -75,7 +75,7 @@ pub struct Fault {
     pub creep: Option<Creep>,
     /// Direction of slip `[x, y, z]`, of any length; only its component along the fault counts.
     #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in the plane there is one direction of slip"))]
-    #[serde(default, deserialize_with = "crate::exact::optional")]
+    #[serde(default, deserialize_with = "crate::exact_list::optional")]
     pub rake: Option<Spanned<[f64; 3]>>,
     /// With `[place]`, instead of `rake`: azimuth of the motion of the plus side past the minus side \[rad\].
     #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in the plane there is one direction of slip"))]
@@ -275,7 +275,7 @@ pub struct Profile {
     /// Coordinate on which the parameter depends.
     pub along: Spanned<Along>,
     /// Pairs of position \[m\] and value in SI units, with ascending positions; linear in between, constant beyond.
-    #[serde(deserialize_with = "crate::exact::pairs")]
+    #[serde(deserialize_with = "crate::exact_list::pairs")]
     pub points: Spanned<Vec<(Length, f64)>>,
 }
 
@@ -310,7 +310,7 @@ pub struct Creep {
     pub loading: Option<Spanned<CreepLoading>>,
     /// Direction of the slip rate if the direction of slip may turn, of any length; absent: that of the fault.
     #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in the plane there is one direction of slip"))]
-    #[serde(default, deserialize_with = "crate::exact::optional")]
+    #[serde(default, deserialize_with = "crate::exact_list::optional")]
     pub rake: Option<Spanned<[f64; 3]>>,
 }
 

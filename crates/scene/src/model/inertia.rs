@@ -1,10 +1,10 @@
 //! Inertia of bodies as declared in a scene.
 
 use crate::defaults;
+use crate::key_default::usual;
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
 use crate::units::Velocity;
-use crate::usual::usual;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{self, Deserializer, MapAccess, Visitor, value::MapAccessDeserializer};

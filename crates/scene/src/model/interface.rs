@@ -1,9 +1,9 @@
 //! Interfaces as declared in a scene.
 
 use super::{DampingSpec, LawFields, LawSpec, UnderResolution};
+use crate::key_default::usual;
 use crate::spanned::Spanned;
 use crate::units::{Penalty, Penetration};
-use crate::usual::usual;
 use crate::{defaults, kind};
 use schemars::JsonSchema;
 use serde::Deserialize;

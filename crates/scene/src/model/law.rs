@@ -1,10 +1,10 @@
 //! Friction laws as declared in a scene.
 
+use crate::key_default::usual;
 use crate::kind;
-use crate::several::Several;
 use crate::spanned::Spanned;
+use crate::state_values::Several;
 use crate::units::{Length, Pressure, Velocity};
-use crate::usual::usual;
 use schemars::JsonSchema;
 use serde::Deserialize;
 

@@ -1,10 +1,10 @@
 //! Homogeneous rock without bodies around faults, and the geometry of faults in it.
 
 use super::{InterpolationSpec, SpacingSpec, Trace};
+use crate::key_default::usual;
 use crate::spanned::Spanned;
 use crate::units::{Angle, Length};
-use crate::usual::usual;
-use crate::{defaults, exact};
+use crate::{defaults, exact_list};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -47,11 +47,11 @@ pub struct FaultLine {
 #[serde(deny_unknown_fields)]
 pub struct FaultRectangle {
     /// First end of the upper edge, `[x, y, z]`, y up \[m\].
-    #[serde(deserialize_with = "exact::list")]
+    #[serde(deserialize_with = "exact_list::list")]
     pub from: Spanned<[Length; 3]>,
     /// Second end of the upper edge, at the same height. Seen from above, the fault dips to the right of the way from `from` to
     /// `to` \[m\].
-    #[serde(deserialize_with = "exact::list")]
+    #[serde(deserialize_with = "exact_list::list")]
     pub to: Spanned<[Length; 3]>,
     /// Dip, above 0 and at most 90 degrees \[rad\].
     #[schemars(extend("x-default" = usual(defaults::DIP)))]

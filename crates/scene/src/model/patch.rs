@@ -1,10 +1,10 @@
 //! Patches of a fault with parameters of their own.
 
 use super::Outside;
+use crate::key_default::usual;
 use crate::kind::Kind;
 use crate::spanned::Spanned;
 use crate::units::{Length, Pressure, Velocity};
-use crate::usual::usual;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;

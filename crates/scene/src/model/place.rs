@@ -1,9 +1,9 @@
 //! Geographical position and time of the events of a scene.
 
+use crate::key_default::usual;
 use crate::kinematics;
 use crate::spanned::Spanned;
 use crate::units::{Angle, Length};
-use crate::usual::usual;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -24,11 +24,11 @@ pub struct Place {
     pub strike: Spanned<Angle>,
     /// Direction that points up; default against `gravity` of the bodies, else y, `[0, 1, 0]`.
     #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in the plane y is up, and `strike` is the direction into the plane"))]
-    #[serde(default, deserialize_with = "crate::exact::optional")]
+    #[serde(default, deserialize_with = "crate::exact_list::optional")]
     pub up: Option<Spanned<[f64; 3]>>,
     /// Horizontal direction with the azimuth `strike`; default with x to its right, `[0, 0, -1]` if y is up.
     #[schemars(extend("x-kinematics" = kinematics::SPACE, "x-otherwise" = "in the plane y is up, and `strike` is the direction into the plane"))]
-    #[serde(default, deserialize_with = "crate::exact::optional")]
+    #[serde(default, deserialize_with = "crate::exact_list::optional")]
     pub along: Option<Spanned<[f64; 3]>>,
     /// Length of the fault out of the plane, for moments and magnitudes \[m\].
     #[schemars(extend("x-kinematics" = kinematics::PLANE))]

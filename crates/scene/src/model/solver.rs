@@ -1,8 +1,8 @@
 //! The table `[solver]`: solution of the linear systems of the steps.
 
 use super::Spanned;
+use crate::key_default::usual;
 use crate::units::Memory;
-use crate::usual::usual;
 use crate::{defaults, kind};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

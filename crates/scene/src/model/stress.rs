@@ -1,9 +1,9 @@
 //! Initial stress of a body.
 
+use crate::key_default::usual;
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
 use crate::units::{Gradient, Length, Pressure};
-use crate::usual::usual;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};

@@ -1,9 +1,9 @@
 //! Tables of a value over time, in a scene or in a file.
 
 use crate::defaults;
+use crate::key_default::usual;
 use crate::spanned::Spanned;
 use crate::units::{Dimension, Time};
-use crate::usual::usual;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::ops::Deref;

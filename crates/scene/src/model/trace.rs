@@ -1,6 +1,6 @@
 //! Traces of faults in the plane, in a scene or in a file.
 
-use crate::exact::ExactList;
+use crate::exact_list::ExactList;
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
 use crate::units::Length;

@@ -2,8 +2,8 @@
 
 use super::setting::Setting;
 use crate::keys::{self, Path, Step, UnknownKey, written};
-use crate::near::suggest;
 use crate::reader::is_slider;
+use crate::suggestions::suggest;
 use std::ops::Range;
 use toml_edit::{Document, Item};
 

@@ -2,10 +2,10 @@
 
 use super::course::Course;
 use crate::defaults;
+use crate::key_default::usual;
 use crate::model::{EventSpec, LawSpec, Spanned, TableOver};
 use crate::shape::{Either, shaped};
 use crate::units::{Damping, Dimension, Mass, Pressure, Spring, Time, Velocity};
-use crate::usual::usual;
 use asperity_run::Warning;
 use schemars::JsonSchema;
 use serde::Deserialize;

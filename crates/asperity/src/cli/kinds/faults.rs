@@ -118,9 +118,9 @@ fn write_located(path: &Path, plan: &Plan, report: &Report, hash: &str) -> miett
     }
     let events = report.located();
     let document =
-        asperity_output::formats::located::quakeml(&plan.title, hash, &events).into_diagnostic()?;
+        asperity_output::formats::catalogues::quakeml(&plan.title, hash, &events).into_diagnostic()?;
     atomic::write(&path.join("events.quakeml"), &document).into_diagnostic()?;
-    match asperity_output::formats::located::cmtsolution(&plan.title, &events) {
+    match asperity_output::formats::catalogues::cmtsolution(&plan.title, &events) {
         Some(text) => atomic::write(&path.join("CMTSOLUTION"), text.as_bytes()).into_diagnostic(),
         None => {
             let why = "moments need `length` in `[place]`, the length out of the plane";

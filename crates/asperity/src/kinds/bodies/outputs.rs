@@ -1,6 +1,6 @@
 //! Outputs of a run of bodies: its files and the data for its figures.
 
-use super::stand::ResumeState;
+use super::resume_state::ResumeState;
 use crate::checkpoint::{self, ResumeError};
 use crate::keep::{self, Place};
 use asperity_ode::Control;

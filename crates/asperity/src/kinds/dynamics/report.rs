@@ -10,7 +10,7 @@ use asperity_output::decimals::fixed;
 use asperity_plan::dynamics::Plan;
 use asperity_plan::faults::FaultView;
 use asperity_plan::shared::checks::Checks;
-use asperity_plan::shared::outrun;
+use asperity_plan::shared::rate_bound;
 use asperity_plan::shared::resolution::Resolution;
 use asperity_run::report::{Kind, Outcome, Phases, Stop};
 use asperity_run::{Counts, EnergyTable, Integration, Warning};
@@ -188,7 +188,7 @@ fn why<const D: usize>(plan: &Plan<D>, halt: &Halt, time: f64) -> String {
         Halt::Outrun { point, rate } => {
             let (fault, place) = at_point(plan, *point);
             let place = format!("point {point}, {place}");
-            outrun::reason(&format!("fault `{fault}`"), &place, time, [*rate, plan.fastest], true)
+            rate_bound::reason(&format!("fault `{fault}`"), &place, time, [*rate, plan.fastest], true)
         }
         Halt::Tension { point, traction, .. } => {
             let (fault, place) = at_point(plan, *point);

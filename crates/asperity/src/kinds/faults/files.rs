@@ -8,9 +8,9 @@ use super::rows::{Ends, Rows, Table};
 use super::snapshots::Snapshots;
 use super::source_time::SourceTimes;
 use super::{
-    collections, coulomb_tables, displacements, event_tables, fields, forces, largest, locking, moments,
-    profiles, receiver_rows, receiver_tables, sampled_rows, snapshots, source_time, stations, stress_files,
-    surface_profiles, surface_tables,
+    collections, coulomb_tables, displacements, event_tables, fields, forces, largest_slip_rate, locking,
+    moments, profiles, receiver_rows, receiver_tables, sampled_rows, snapshots, source_time, stations,
+    stress_files, surface_profiles, surface_tables,
 };
 use crate::checkpoint::{self, ResumeError};
 use asperity_cycles::{Faults, Moment};
@@ -28,7 +28,7 @@ use std::path::Path;
 pub const FILES: [OutputFile; 17] = [
     collections::EVENTS,
     displacements::COLLECTION,
-    largest::FILE,
+    largest_slip_rate::FILE,
     moments::FILE,
     forces::FILE,
     locking::FILE,
@@ -47,7 +47,7 @@ pub const FILES: [OutputFile; 17] = [
 
 /// All tables of a plan that grow during the run.
 fn all(plan: &Plan) -> Vec<Table<'_>> {
-    let mut all = vec![largest::table(plan), moments::table(plan), forces::table(plan)];
+    let mut all = vec![largest_slip_rate::table(plan), moments::table(plan), forces::table(plan)];
     all.extend(locking::table(plan));
     all.extend(profiles::tables(plan));
     all.extend(surface_profiles::tables(plan));

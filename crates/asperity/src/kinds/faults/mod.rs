@@ -1,5 +1,7 @@
 //! Faults over many earthquake cycles: the output of a run. The computation is in [`asperity_cycles`].
 
+pub mod catalogue_entries;
+pub mod checkpoint;
 mod collections;
 pub(crate) mod compass;
 mod compression;
@@ -16,11 +18,10 @@ mod forces;
 mod heats;
 pub mod identity;
 mod instants;
-mod largest;
-pub mod located;
+mod largest_slip_rate;
 mod locking;
 pub(crate) mod moments;
-mod not_finite;
+mod non_finite_point;
 mod openings;
 mod outputs;
 mod platform_files;
@@ -36,7 +37,6 @@ mod rows;
 mod rupture_length;
 mod sampled_end;
 mod sampled_rows;
-pub mod saved;
 pub(crate) mod shape;
 mod snapshots;
 mod source_time;
@@ -49,6 +49,7 @@ mod surface_figures;
 mod surface_profiles;
 mod surface_tables;
 
+pub use checkpoint::{Checkpoint, StoredRun};
 pub use collections::write as write_fields;
 pub use compression::Compression;
 pub use displacements::write as write_bodies;
@@ -63,5 +64,4 @@ pub use outputs::Outputs;
 pub use position::Position;
 pub(crate) use profiles::FILES as PROFILES;
 pub use report::Report;
-pub use saved::{Checkpoint, StoredRun};
 pub use stress_files::write as write_stresses;

@@ -1,8 +1,8 @@
 //! Outputs of a run of faults, with its energy sums.
 
+use super::checkpoint::{Checkpoint, StoredRun};
 use super::files::Files;
 use super::identity;
-use super::saved::{Checkpoint, StoredRun};
 use crate::checkpoint::{self, FILE, ResumeError};
 use crate::keep::{self, Place};
 use asperity_cycles::{Balance, FaultRun, Faults, Moment};

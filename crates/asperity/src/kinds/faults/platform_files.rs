@@ -2,7 +2,7 @@
 //! rupture times of the first event. They are made at the end of a run from its own files.
 
 use super::fields::reached;
-use super::{largest, receiver_rows};
+use super::{largest_slip_rate, receiver_rows};
 use super::{moments, stations};
 use asperity_cycles::{FaultRun, Rupture};
 use asperity_output::decimals::scientific;
@@ -43,7 +43,8 @@ pub(super) fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), Outpu
         let rows = table(&text, ',').filter_map(|row| off_fault(platform, &row)).collect();
         put(&format!("{name}.txt"), platform.submission.off_fault(location), rows)?;
     }
-    let (largest, rates) = (read(&out.join(largest::FILE.path))?, read(&out.join(moments::FILE.path))?);
+    let (largest, rates) =
+        (read(&out.join(largest_slip_rate::FILE.path))?, read(&out.join(moments::FILE.path))?);
     put("global.dat", platform.submission.global(), global(&largest, &rates))?;
     match run.events().first() {
         Some(event) => put("rupture.dat", platform.submission.rupture(), ruptured(platform, plan, event)),

@@ -1,10 +1,10 @@
 //! Report of a run of faults, `report.json`, and its events as CSV.
 
+use super::catalogue_entries::locate;
 use super::compression::Compression;
 use super::floors::{FloorUse, uses};
 use super::heats::{HeatedFault, heats};
-use super::located::locate;
-use super::not_finite;
+use super::non_finite_point;
 use super::openings::{OpenedFault, openings};
 use super::rupture_length::rupture_length;
 use super::sampled_end::{End, in_words};
@@ -16,10 +16,10 @@ use asperity_cycles::{
 use asperity_mechanics::coordinates;
 use asperity_ode::{Failure, Outcome as Finish};
 use asperity_output::decimals::fixed;
-use asperity_output::formats::located::{SourceParameters, magnitude};
+use asperity_output::formats::catalogues::{SourceParameters, magnitude};
 use asperity_plan::faults::{FaultView, Plan};
 use asperity_plan::shared::checks::Checks;
-use asperity_plan::shared::outrun;
+use asperity_plan::shared::rate_bound;
 use asperity_plan::shared::resolution::Resolution;
 use asperity_plan::shared::words::{length, time};
 use asperity_run::report::{Kind, Outcome, Phases, Stop};
@@ -219,9 +219,11 @@ fn why(plan: &Plan, run: &FaultRun, failure: &Failure) -> String {
         let place = format!("point {point}, {}", coordinates::in_words(&plan.points[point].at));
         let rates = [rate, plan.problem.settings.fastest];
         let radiates = plan.problem.fault.damping[point] > 0.0;
-        return outrun::reason(&format!("fault `{fault}`"), &place, run.at.seconds(), rates, radiates);
+        return rate_bound::reason(&format!("fault `{fault}`"), &place, run.at.seconds(), rates, radiates);
     }
-    if let Some(place) = not_finite::place(plan, &run.unknowns).filter(|_| *failure == Failure::NotFinite) {
+    if let Some(place) =
+        non_finite_point::place(plan, &run.unknowns).filter(|_| *failure == Failure::NotFinite)
+    {
         return format!("{reason}: {place}");
     }
     if let Some(point) = run.progress.opens {

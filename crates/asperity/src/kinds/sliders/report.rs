@@ -6,7 +6,7 @@ use asperity_cycles::slider::{Problem, SliderRun};
 use asperity_cycles::{Outrun, Thresholds};
 use asperity_ode::Outcome as Finish;
 use asperity_plan::shared::checks::Checks;
-use asperity_plan::shared::outrun;
+use asperity_plan::shared::rate_bound;
 use asperity_run::report::{Kind, Outcome, Phases, Stop};
 use asperity_run::{Counts, EnergyTable, Integration, Warning};
 use schemars::JsonSchema;
@@ -79,7 +79,8 @@ results!(Report, Kind::Sliders);
 fn outran(problem: &Problem, Outrun { point, rate }: Outrun, time: f64) -> Outcome {
     let (name, slider) = (problem.names[point].clone(), &problem.system.sliders()[point]);
     let bounded = slider.damping > 0.0 || slider.mass.is_some();
-    let reason = outrun::reason(&format!("`{name}`"), "its point", time, [rate, problem.fastest], bounded);
+    let reason =
+        rate_bound::reason(&format!("`{name}`"), "its point", time, [rate, problem.fastest], bounded);
     let kind = Stop::Outrun { surface: name, position: [0.0; 3], slip_rate: rate };
     Outcome::Stopped { stage: None, time, reason, kind }
 }

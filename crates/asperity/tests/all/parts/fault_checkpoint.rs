@@ -1,6 +1,6 @@
 use asperity::checkpoint::{FILE, ResumeError, parse, read, remove, write};
+use asperity::kinds::faults::checkpoint::*;
 use asperity::kinds::faults::position::Position;
-use asperity::kinds::faults::saved::*;
 use asperity_cycles::{Components, FaultRun, NextStep, Rupture, Sums, Thresholds};
 use asperity_run::ALL;
 use std::fs;

@@ -1,6 +1,6 @@
 use asperity_friction::Failure;
 use asperity_plan::reading::scene::model::{LawSpec, Spanned, here};
-use asperity_plan::shared::refused::*;
+use asperity_plan::shared::law_errors::*;
 
 #[test]
 fn a_refused_parameter_is_shown_at_its_key_with_its_range() {

@@ -4,7 +4,7 @@ use super::cell::{Sums, integrate};
 use super::dual::{Part, dualise};
 use super::sides::Sides;
 use crate::measure::Attachment;
-use crate::measure::fixed::FixedMeasure;
+use crate::measure::fixed_measure::FixedMeasure;
 use crate::spec::{Segment, SlavePoint, SurfaceNode};
 use crate::vector::{axpy, scaled, unit};
 use std::collections::BTreeMap;

@@ -23,7 +23,7 @@ use super::kernel::{Columns, Friction, Kernel};
 use super::local::Local;
 use super::track::{CHUNK, Place, Point, track};
 use crate::measure::bound::{Bound, fits};
-use crate::measure::saved::{MeasureState, PairingState};
+use crate::measure::measure_state::{MeasureState, PairingState};
 use crate::measure::{Attachment, Exit, Geometry, Measure, Slides, Tractions};
 use crate::search::project::{BORDER, depth, margins};
 use crate::search::smooth::MOST_SUPPORT;

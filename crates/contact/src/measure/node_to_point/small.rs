@@ -1,7 +1,7 @@
 //! Small sliding: every slave node keeps the point of the master surface that is closest in the reference configuration.
 
 use crate::measure::Attachment;
-use crate::measure::fixed::FixedMeasure;
+use crate::measure::fixed_measure::FixedMeasure;
 use crate::search::project::{Outcome, Projection};
 use crate::search::smooth::MOST_SUPPORT;
 use crate::search::surface::{Surface, Weights};

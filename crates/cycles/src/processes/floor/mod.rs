@@ -6,9 +6,9 @@
 //! continuous, so no unknown jumps. Its rate jumps, and the error control shortens steps that cross the floor. States
 //! with a memory of normal traction respond to the value that friction uses.
 
-mod below;
+mod floor_record;
 
-pub use below::{BODIES, FloorRecord, FloorSummary};
+pub use floor_record::{BODIES, FloorRecord, FloorSummary};
 
 use crate::problem::{Account, Acting, Field, Host, Phase, Process, ProcessRecord, Time, Tractions};
 

@@ -16,21 +16,21 @@
 //! The thickness h of a zone is that of a layer of uniform slip with the same rate of heating at its centre, `h = √(2π) w`.
 //! Each D is a sum of decaying modes, see [`modes`]; how they advance is described in [`memory`].
 
-mod heated;
+mod heat_record;
+mod heated_friction;
 mod memory;
 mod modes;
 mod quantities;
-mod warmed;
 mod zones;
 
+pub use heat_record::{HeatRecord, Warmest};
 pub use memory::{Memory, Surface, Windows};
 pub use modes::Modes;
 pub use quantities::{PRESSURE, TEMPERATURE};
-pub use warmed::{HeatRecord, Warmest};
 pub use zones::{Heat, Layer, Pressurisation, Zone};
 
 use crate::problem::{Account, Acting, Host, Phase, PointTractions, Process, ProcessRecord, Time};
-use heated::HeatedFriction;
+use heated_friction::HeatedFriction;
 use quantities::PRESSURE_RATE;
 
 impl Process for Heat {

@@ -1,10 +1,10 @@
 //! Openings of faults as a process: a function of normal tractions, without unknowns of its own.
 
 mod complementarity;
-mod opened;
+mod opening_record;
 
 pub use complementarity::{Crack, Opening};
-pub use opened::{OPENING, OpeningRecord, Widest};
+pub use opening_record::{OPENING, OpeningRecord, Widest};
 
 use crate::problem::{
     Account, Acting, Energetic, Field, Host, Phase, PointTractions, Process, ProcessRecord, Stretch, Time,

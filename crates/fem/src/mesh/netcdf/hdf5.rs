@@ -95,7 +95,7 @@ pub(super) fn values(file: &NcFile, name: &str, count: usize) -> Result<Vec<f64>
 
 #[cfg(test)]
 mod tests {
-    use super::super::{NetcdfError, gridded, rows};
+    use super::super::{NetcdfError, gridded_variable, rows};
 
     /// A synthetic plate with longitudes from 0 to 360 and depths below zero, written by the netCDF library with and without
     /// compression, and in the classic format.
@@ -121,11 +121,11 @@ mod tests {
 
     #[test]
     fn a_variable_of_netcdf_4_has_its_coordinates_and_units() {
-        let grid = gridded::variable(PLAIN, "z").unwrap();
+        let grid = gridded_variable::variable(PLAIN, "z").unwrap();
         let found: Vec<(&str, &str)> =
             grid.coordinates.iter().map(|c| (c.name.as_str(), c.unit.as_str())).collect();
         assert_eq!(found, [("lat", "degrees_north"), ("lon", "degrees_east")]);
-        let error = gridded::variable(PACKED, "a").unwrap_err();
+        let error = gridded_variable::variable(PACKED, "a").unwrap_err();
         assert!(matches!(error, NetcdfError::NoVariable { names, .. } if names.len() == 3));
     }
 

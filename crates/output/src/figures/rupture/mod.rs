@@ -3,12 +3,12 @@
 //! Each plot reads the profiles of slip rate from the first to the last. Memory does not grow with their number.
 
 mod arrivals;
+mod film_strips;
 mod isolines;
 mod slip;
 mod space_time;
-mod still;
+mod still_map;
 mod strip;
-mod successive;
 mod surface;
 
 pub use surface::Surface;
@@ -19,11 +19,11 @@ use super::paper::Paper;
 use crate::OutputError;
 use crate::stems;
 use crate::units::LENGTH;
+pub(super) use film_strips::{VelocityFrame, moment, velocities};
 use serde::{Deserialize, Serialize};
 pub(super) use slip::EventOnFault;
 use std::ops::Range;
-pub(super) use still::StillMap;
-pub(super) use successive::{VelocityFrame, moment, velocities};
+pub(super) use still_map::StillMap;
 
 /// Points of a fault as a figure shows them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

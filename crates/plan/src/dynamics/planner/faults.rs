@@ -1,12 +1,12 @@
 //! Faults between bodies with mass: their points, laws, initial tractions and pulses.
 
-use super::forced;
+use super::forced_rupture;
 use crate::faults::planner::{PlacedPoint, in_space, pulses, slides};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::Scene;
 use crate::shared::entry::Entry;
-use crate::shared::refused::refused;
+use crate::shared::law_errors::refused;
 use asperity_cycles::medium::across;
 use asperity_laws as laws;
 use asperity_mechanics::dynamics::{Fault, Pulse, Regularisation, SplitPoint, Tie};
@@ -57,7 +57,7 @@ pub(super) fn assemble<const D: usize>(
             .into_iter()
             .map(|(amplitude, rise)| Pulse { amplitude, rise })
             .collect(),
-        forced: forced::weakening(&named, placed)?,
+        forced: forced_rupture::weakening(&named, placed)?,
         onset: None,
         ties: locked.iter().map(tie).collect(),
     }))

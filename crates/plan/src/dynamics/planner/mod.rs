@@ -2,7 +2,7 @@
 
 mod doubts;
 mod faults;
-mod forced;
+mod forced_rupture;
 mod masses;
 mod outputs;
 mod rupture;
@@ -14,13 +14,13 @@ use super::plan::{AnyPlan, Plan};
 use crate::faults::planner::{self as of_faults, FaultFaces, PlacedPoint, Remarks};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Kinematics, Scene};
-use crate::shared::checks::of_model::{self, field_bytes};
+use crate::shared::checks::model_checks::{self, field_bytes};
 use crate::shared::checks::{Cost, rates};
 use crate::shared::entry::Entry;
-use crate::shared::held::ModelMemory;
 use crate::shared::loading::{Stage, courses};
+use crate::shared::memory::ModelMemory;
 use crate::shared::model::{self, Model, counts, cuts, forecast, locking, meshes};
-use crate::shared::{loading, outrun, views};
+use crate::shared::{loading, rate_bound, views};
 use asperity_mechanics::dynamics::{Problem, StableStep};
 use asperity_scene::defaults;
 use steps::StepChoice;
@@ -107,7 +107,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     remarks.notes.extend(outputs::notes(scene, counted.cadence.rows as f64 * counted.dt));
     let memory_bytes = ModelMemory::new(&model).in_steps(stable.highest.kept, model.dofs());
     forecast::fits(scene, memory_bytes)?;
-    let mut checks = of_model::checks(scene, &model)?;
+    let mut checks = model_checks::checks(scene, &model)?;
     checks.faults = of_faults::checks::faults(scene, &sliding, &faults, &resolution);
     of_faults::checks::prescribe(&mut checks.faults, &of_faults::checks::counted(scene, &locked));
     checks.cost = cost(&model, &counted, points.len(), memory_bytes);
@@ -128,7 +128,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         points,
         resolution,
         rupture_rate: scene.output.rupture_rate.as_ref().map_or(defaults::RUPTURED, |v| v.get_ref().0),
-        fastest: outrun::bound(sliding.iter().map(|p| p.medium.waves)),
+        fastest: rate_bound::bound(sliding.iter().map(|p| p.medium.waves)),
         receivers,
         epoch: outputs::epoch(scene)?,
         mesh: views::mesh_view(&model, false),

@@ -8,21 +8,21 @@ use super::super::sampling::Sampling;
 use super::super::stresses::BodyStresses;
 use super::cells::Cells;
 use super::history::LoadHistory;
-use super::placed::{PlacedPoint, components, in_space, slides};
+use super::placed_point::{PlacedPoint, components, in_space, slides};
 use super::pulses::{self, pulses};
 use super::remarks::Remarks;
 use super::{
-    asked, checks, diffusion, floor, heated, injection, pressing, radiation, sense, start_doubts, steady,
-    upright,
+    checks, diffusion, floor, heat, injection, pressing, radiation, requests, sense, start_doubts, steady,
+    up_direction,
 };
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::{Creep, Fault as Spec, Scene, SlipSpec, Station as Asking};
 use crate::shared::checks::{Checks, Cost, FaultCheck, rates};
 use crate::shared::entry::Entry;
-use crate::shared::refused::refused;
+use crate::shared::law_errors::refused;
 use crate::shared::resolution::Resolution;
-use crate::shared::{outrun, place, thresholds};
+use crate::shared::{place, rate_bound, thresholds};
 use asperity_cycles::diffusion::Diffusion;
 use asperity_cycles::heat::Heat;
 use asperity_cycles::medium::across;
@@ -124,7 +124,7 @@ impl<const D: usize> FaultSystem<D> {
         if turns(scene) {
             law = Box::new(VariableRake::new(law));
         }
-        let heat = heated::heat(scene, &placed, law.as_mut(), end);
+        let heat = heat::heat(scene, &placed, law.as_mut(), end);
         let heat_bytes = heat.as_ref().map_or(0, Heat::bytes);
         let pulses = pulses(&named, &placed, tangents(scene))?;
         let injection = injection::injection(scene, &placed, end, &mut remarks.warnings)?;
@@ -224,7 +224,7 @@ fn doubt<const D: usize>(
     let named = Entry::all(&scene.faults);
     warnings.extend(pressing::unused_rates(scene, placed));
     crate::doubts::add(warnings, start_doubts::check(scene, placed, fault));
-    warnings.extend(upright::above_ground(scene, placed)?);
+    warnings.extend(up_direction::above_ground(scene, placed)?);
     let amplitudes = fault.processes.each::<Pulse>().map(|p| p.amplitude.as_slice());
     crate::doubts::add(warnings, pulses::doubts(&named, amplitudes, &pulses::at_rest(fault)));
     crate::doubts::add(warnings, endless(scene, rate));
@@ -264,7 +264,7 @@ fn friction<const D: usize>(
     }
     let choices: Vec<LawChoice> = rest.iter().map(|p| p.law.clone()).collect();
     let law = laws::build_fault(&first.law, &choices).map_err(|e| refused(spec(first), &e))?;
-    law.ok_or_else(|| asked::another_law(spec(first)))
+    law.ok_or_else(|| requests::another_law(spec(first)))
 }
 
 /// Positions and areas of points, and the points of each fault that has some.
@@ -324,7 +324,7 @@ fn start<const D: usize>(placed: &[PlacedPoint<D>], fault: &Fault) -> Result<Vec
 fn integrator<const D: usize>(scene: &Scene) -> Result<(Method, f64), Diagnostic> {
     let time = &scene.time;
     let tolerance = time.log_rate_tolerance.as_ref().map(|t| *t.get_ref());
-    let usual = if D == 3 && !heated::any(scene) { IN_SPACE } else { IN_THE_PLANE };
+    let usual = if D == 3 && !heat::any(scene) { IN_SPACE } else { IN_THE_PLANE };
     let (method, default) = match &time.method {
         None => usual,
         Some(name) => match name.get_ref().parse::<Method>() {
@@ -341,7 +341,7 @@ fn integrator<const D: usize>(scene: &Scene) -> Result<(Method, f64), Diagnostic
             }
         },
     };
-    Ok((heated::method(scene, method)?, tolerance.unwrap_or(default)))
+    Ok((heat::method(scene, method)?, tolerance.unwrap_or(default)))
 }
 
 fn settings<const D: usize>(
@@ -360,7 +360,7 @@ fn settings<const D: usize>(
         rupture_rate: rupture_rate(scene, thresholds.on)?,
         most_events: events.and_then(|e| e.stop_after.as_ref()).map(|n| *n.get_ref()),
         most_steps: MOST_STEPS,
-        fastest: outrun::bound(placed.iter().map(|p| p.medium.waves)),
+        fastest: rate_bound::bound(placed.iter().map(|p| p.medium.waves)),
     })
 }
 
@@ -431,8 +431,8 @@ pub(crate) fn views<const D: usize>(
         for asked in asked.iter().flat_map(|a| a.get_ref()) {
             let Some(point) = nearest(asked.get_ref()) else { continue };
             let size = cells.size(spec, &placed[point])?;
-            if asked::distance(asked.get_ref(), &placed[point].point.place) > size {
-                return Err(asked::station(name, asked, &placed[first..last], point - first));
+            if requests::distance(asked.get_ref(), &placed[point].point.place) > size {
+                return Err(requests::station(name, asked, &placed[first..last], point - first));
             }
             let station = match asked.get_ref() {
                 Asking::Along(s) => Station::Along(*s),
@@ -444,7 +444,7 @@ pub(crate) fn views<const D: usize>(
             name: name.clone(),
             points: first..last,
             normal: floor::choice(spec),
-            heat: heated::view(spec, &placed[first..last]),
+            heat: heat::view(spec, &placed[first..last]),
             stations,
             faces: cells.faces(k, spec, &placed[first..last])?,
             outline: cells.outline(k),

@@ -1,7 +1,7 @@
 //! Loading by backslip: the points of a fault lag behind plates that move steadily.
 
 use super::history::LoadHistory;
-use super::placed::{PlacedPoint, components};
+use super::placed_point::{PlacedPoint, components};
 use crate::reading::scene::model::{Creep, Fault as Spec, Scene};
 use asperity_cycles::operator::Operator;
 use asperity_run::Warning;

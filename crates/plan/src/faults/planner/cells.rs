@@ -1,7 +1,7 @@
 //! Cells of faults, as needed by the output.
 
 use super::super::plan::{CellGrid, Outline};
-use super::placed::PlacedPoint;
+use super::placed_point::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Fault as Spec;
 

@@ -1,11 +1,11 @@
 //! Checks of faults: their points, and what profiles, patches and stations reach.
 
-use super::asked::lists;
 use super::patches::weight;
-use super::placed::{PlacedPoint, along};
+use super::placed_point::{PlacedPoint, along};
+use super::requests::lists;
 use crate::faults::{FaultView, Station};
 use crate::reading::scene::model::{Fault as Spec, Patch, Profile, Scene};
-use crate::shared::checks::of_model::{DrivenSurface, body_name};
+use crate::shared::checks::model_checks::{DrivenSurface, body_name};
 use crate::shared::checks::{FaultCheck, MachineCheck, PatchCheck, ProfileCheck, StationCheck};
 use crate::shared::resolution::{Ground, Resolution, critical_slope};
 

@@ -3,9 +3,9 @@
 
 use super::assemble::geometry;
 use super::condensation::{Condensation, HashedStiffness};
-use super::held::CondensationInput;
+use super::condensation_refusals::CondensationInput;
 use super::operator::OperatorSource;
-use super::placed::PlacedPoint;
+use super::placed_point::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Scene};
 use asperity_cycles::medium::{Bodies, Initial, Surroundings, condense};

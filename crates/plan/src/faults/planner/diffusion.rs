@@ -1,6 +1,6 @@
 //! Fluid that diffuses along faults: hydraulic properties at their points, and wells.
 
-use super::placed::{PlacedPoint, at};
+use super::placed_point::{PlacedPoint, at};
 use super::remarks::Remarks;
 use super::wells::{FluidReach, WellSpec};
 use crate::reading::diagnostic::Diagnostic;

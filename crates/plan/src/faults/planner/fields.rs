@@ -1,6 +1,6 @@
 //! Parameters of a fault from files, at its points.
 
-use super::placed::PlacedPoint;
+use super::placed_point::PlacedPoint;
 use super::remarks::Remarks;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::LawChoice;

@@ -1,7 +1,7 @@
 //! Choices for the normal tractions of a fault.
 
 use super::super::normal::NormalChoice;
-use super::placed::PlacedPoint;
+use super::placed_point::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Scene, Spanned};
 use crate::shared::entry::Entry;

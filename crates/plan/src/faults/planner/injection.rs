@@ -1,6 +1,6 @@
 //! Fluid injected into faults, whose pressure has a closed form.
 
-use super::placed::PlacedPoint;
+use super::placed_point::PlacedPoint;
 use super::wells::{FluidReach, WellSpec};
 use crate::doubts::Fluid;
 use crate::reading::diagnostic::Diagnostic;

@@ -1,33 +1,33 @@
 //! Plans a scene with faults: the problem to integrate and the method.
 
-mod apart;
-mod asked;
 mod assemble;
 mod backslip;
 mod bends;
-mod between_bodies;
+mod body_faults;
+mod body_samples;
 mod cells;
 pub(crate) mod checks;
 mod condensation;
+mod condensation_refusals;
 mod condensed;
 mod coulomb;
 pub mod cover;
 mod diffusion;
+mod fault_faces;
+mod fault_resolution;
 pub mod fields;
 mod floor;
-mod heated;
-mod held;
+mod heat;
 mod history;
 mod injection;
-mod loaded;
+mod junctions;
+mod loaded_bodies;
 mod medium;
-mod meet;
-mod meshed;
 mod mirror;
 mod operator;
 pub mod patches;
 mod place;
-mod placed;
+mod placed_point;
 mod plates;
 mod point;
 mod points;
@@ -37,27 +37,27 @@ mod pulses;
 mod radiation;
 mod receivers;
 mod remarks;
-mod resolved;
+mod requests;
 mod rock;
-mod sampled;
 mod sense;
+mod side_conditions;
+mod spacing;
 mod start_doubts;
 mod steady;
-mod untouched;
-mod upright;
+mod up_direction;
 mod weight;
 mod wells;
 
-pub(crate) use asked::nothing_slides;
 pub(crate) use assemble::views;
 pub(crate) use backslip::fastest as fastest_plates;
-pub(crate) use meshed::FaultFaces;
+pub(crate) use fault_faces::FaultFaces;
+pub(crate) use fault_resolution::resolved;
 pub use place::places;
-pub(crate) use placed::{PlacedPoint, in_space, slides};
+pub(crate) use placed_point::{PlacedPoint, in_space, slides};
 pub(crate) use points::all_points;
 pub(crate) use pulses::{doubts as pulse_doubts, pulses};
 pub(crate) use remarks::Remarks;
-pub(crate) use resolved::resolved;
+pub(crate) use requests::nothing_slides;
 
 use super::plan::Plan;
 use crate::reading::diagnostic::Diagnostic;
@@ -105,6 +105,6 @@ fn plan_of_kind(scene: &Scene, source: OperatorSource<'_>) -> Result<Plan, Diagn
 fn plan_in<const D: usize>(scene: &Scene, source: OperatorSource<'_>) -> Result<Plan, Diagnostic> {
     match &scene.medium {
         Some(medium) => rock::plan::<D>(scene, medium, source),
-        None => between_bodies::plan::<D>(scene, source),
+        None => body_faults::plan::<D>(scene, source),
     }
 }

@@ -1,8 +1,8 @@
 //! Parameters that vary along a fault: profiles, and then patches in the order of the scene.
 
-use super::asked::extent;
 use super::fields::PARAMETERS;
-use super::placed::{PlacedPoint, at};
+use super::placed_point::{PlacedPoint, at};
+use super::requests::extent;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::{

@@ -6,8 +6,8 @@
 //! `-F_w/(F_c + F_s)` times the creep rate.
 
 use super::condensed::CondensedBodies;
-use super::loaded::LoadedBodies;
-use super::placed::{FaultPoints, PlacedPoint, slides};
+use super::loaded_bodies::LoadedBodies;
+use super::placed_point::{FaultPoints, PlacedPoint, slides};
 use crate::reading::scene::model::{Creep, Fault as Spec, Scene};
 use crate::shared::entry::Entry;
 use crate::shared::model::Model;

@@ -2,9 +2,9 @@
 
 use super::fields::Fields;
 use super::medium::Medium;
-use super::placed::{PlacedPoint, components};
+use super::placed_point::{PlacedPoint, components};
 use super::prestress::ResolvedTractions;
-use super::{asked, floor, patches};
+use super::{floor, patches, requests};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::{DampingSpec, Fault as Spec};
@@ -99,7 +99,7 @@ fn different<const D: usize>(spec: &Spec, place: &Place<D>, law: &LawChoice) -> 
 pub(super) fn base_law(spec: &Spec) -> Result<LawChoice, Diagnostic> {
     let law = laws::choose(&spec.law).map_err(|errors| {
         let first = errors.into_iter().next();
-        first.unwrap_or_else(|| asked::incomplete(&spec.law))
+        first.unwrap_or_else(|| requests::incomplete(&spec.law))
     })?;
     patches::fit(spec, &law)?;
     Ok(law)

@@ -1,13 +1,13 @@
 //! Points of all faults between bodies, with the laws, the starts and the creep that the scene gives them.
 
-use super::apart::{self, Spacing};
 use super::fields::Fields;
 use super::medium::Media;
-use super::placed::PlacedPoint;
+use super::placed_point::PlacedPoint;
 use super::point::{FaultParameters, PointSurroundings, base_law, placed_at};
 use super::prestress::Prestress;
 use super::remarks::Remarks;
-use super::{asked, bends, meet, patches, place, untouched};
+use super::spacing::{self, Spacing};
+use super::{bends, junctions, patches, place, requests, side_conditions};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Creep, Fault as Spec, Scene};
 use crate::shared::entry::Entry;
@@ -25,7 +25,7 @@ pub(crate) fn all_points<const D: usize>(
     remarks: &mut Remarks,
 ) -> Result<Vec<PlacedPoint<D>>, Diagnostic> {
     let mut placed: Vec<PlacedPoint<D>> = Vec::new();
-    apart::check(scene, &apart::faces::cells(scene, model)?, Spacing::Apart)?;
+    spacing::check(scene, &spacing::faces::cells(scene, model)?, Spacing::Apart)?;
     remarks.notes.extend(meshes::notes(scene)?);
     remarks.notes.extend(cuts::notes(scene, &model.mesh));
     remarks.notes.extend(meshes::left_out(model));
@@ -36,8 +36,8 @@ pub(crate) fn all_points<const D: usize>(
     for fault in faults {
         remarks.notes.extend(bends::note(model, fault)?);
     }
-    untouched::check(scene, model, &placed)?;
-    remarks.notes.extend(meet::join(scene, model, &mut placed)?);
+    side_conditions::check(scene, model, &placed)?;
+    remarks.notes.extend(junctions::join(scene, model, &mut placed)?);
     Ok(placed)
 }
 
@@ -73,8 +73,8 @@ fn points_of<const D: usize>(
         placed.push(placed_at(&parameters, place, given)?);
     }
     parameters.fields.describe(&placed, remarks);
-    asked::creep(own, &placed)?;
-    asked::profiles(scene, own, &placed, &mut remarks.warnings)?;
+    requests::creep(own, &placed)?;
+    requests::profiles(scene, own, &placed, &mut remarks.warnings)?;
     remarks.warnings.extend(patches::covered(own, &placed)?);
     Ok(placed)
 }

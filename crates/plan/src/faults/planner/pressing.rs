@@ -5,8 +5,8 @@
 //! at `v_initial`, or at `rate`. What the stage holds stays held, or is drawn by a spring that takes over the force.
 
 use super::condensation::{Condensation, HashedStiffness};
-use super::held::CondensationInput;
-use super::placed::PlacedPoint;
+use super::condensation_refusals::CondensationInput;
+use super::placed_point::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::check;
 use crate::reading::scene::law::LawChoice;

@@ -1,6 +1,6 @@
 //! Shear tractions that are imposed on faults.
 
-use super::placed::PlacedPoint;
+use super::placed_point::PlacedPoint;
 use crate::doubts::PulsePoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Pulse as Asked};

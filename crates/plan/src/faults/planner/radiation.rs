@@ -1,7 +1,7 @@
 //! Damping that is far from that of radiation, or missing where friction weakens.
 
 use super::checks::weakens;
-use super::placed::PlacedPoint;
+use super::placed_point::PlacedPoint;
 use crate::reading::scene::model::{DampingSpec, Fault as Spec, Scene, Stepper};
 use asperity_run::Warning;
 

@@ -2,7 +2,7 @@
 
 use super::super::receivers::{Receiver, Receivers};
 use super::backslip::PlateRates;
-use super::held::CondensationInput;
+use super::condensation_refusals::CondensationInput;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Spanned;
 use crate::reading::scene::units::Length;

@@ -1,7 +1,7 @@
 //! Direction in which loads and creep drive faults, compared with the direction in which they should slip.
 
 use super::history::LoadHistory;
-use super::placed::{FaultPoints, PlacedPoint, slides};
+use super::placed_point::{FaultPoints, PlacedPoint, slides};
 use crate::reading::scene::model::{Fault as Spec, Scene};
 use crate::shared::entry::Entry;
 use asperity_run::Warning;

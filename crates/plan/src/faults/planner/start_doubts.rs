@@ -1,6 +1,6 @@
 //! Initial tractions compared with friction at the initial slip rate.
 
-use super::placed::PlacedPoint;
+use super::placed_point::PlacedPoint;
 use crate::reading::scene::model::{Fault as Spec, Scene, Spanned};
 use asperity_cycles::Fault;
 use asperity_friction::fault::FaultLaw;

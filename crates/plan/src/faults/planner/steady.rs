@@ -1,7 +1,7 @@
 //! Faults that start in equilibrium.
 
 use super::checks::weakens;
-use super::placed::PlacedPoint;
+use super::placed_point::PlacedPoint;
 use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::Scene;
 use asperity_cycles::{Fault, Loading, Problem};

@@ -7,8 +7,8 @@
 //! carries no weight.
 
 use super::cover::TOGETHER;
-use super::loaded::LoadedBodies;
-use super::placed::PlacedPoint;
+use super::loaded_bodies::LoadedBodies;
+use super::placed_point::PlacedPoint;
 use super::prestress::{ResolvedTractions, against, strays};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Scene, Spanned};

@@ -1,6 +1,6 @@
 //! Wells on faults: what flows from them, and doubts that all fluid shares.
 
-use super::placed::PlacedPoint;
+use super::placed_point::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Flux, Injection, Spanned, Well};
 use crate::reading::scene::units::{Length, Time};

@@ -2,7 +2,7 @@
 
 use super::{Columns, Wrong};
 use crate::reading::diagnostic::Diagnostic;
-use crate::reading::missing::{FileKind, unread};
+use crate::reading::missing_file::{FileKind, unread};
 use crate::reading::sniff::{self, Reader};
 use asperity_scene::files::Column;
 use asperity_scene::model::Spanned;

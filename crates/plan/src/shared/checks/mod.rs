@@ -2,7 +2,7 @@
 
 mod cost;
 mod fault;
-pub(crate) mod of_model;
+pub(crate) mod model_checks;
 pub mod rates;
 mod words;
 

@@ -1,7 +1,7 @@
 //! Fields in columns of text.
 
-use super::asked::{FieldRequest, Source, checked, coordinates_of};
 use super::axes::Axes;
+use super::field_request::{FieldRequest, Source, checked, coordinates_of};
 use super::region::Region;
 use super::samples::Samples;
 use crate::reading::columns::{Columns, Wrong};

@@ -3,7 +3,7 @@
 use crate::reading::columns::Columns;
 use crate::reading::columns::file::{bytes, refused};
 use crate::reading::diagnostic::Diagnostic;
-use crate::reading::missing::FileKind;
+use crate::reading::missing_file::FileKind;
 use crate::reading::sniff::{self, Reader};
 use asperity_fem::mesh::netcdf;
 use asperity_output::fields::vtu::reading;

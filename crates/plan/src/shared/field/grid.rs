@@ -1,7 +1,7 @@
 //! Fields on grids in netCDF.
 
-use super::asked::{FieldRequest, Source, checked};
 use super::axes::{Axes, Lists};
+use super::field_request::{FieldRequest, Source, checked};
 use super::lattice::Lattice;
 use super::region::Region;
 use crate::reading::columns::unit::FilePart;
@@ -9,8 +9,8 @@ use crate::reading::columns::{Wrong, unit};
 use crate::reading::scene::model::FieldInterpolation;
 use crate::reading::scene::units::{self, Dimension};
 use asperity_fem::mesh::netcdf::NetcdfError;
-use asperity_fem::mesh::netcdf::gridded::{self, Coordinate, GriddedVariable};
-use asperity_scene::near::suggest;
+use asperity_fem::mesh::netcdf::gridded_variable::{self, Coordinate, GriddedVariable};
+use asperity_scene::suggestions::suggest;
 
 /// Help for a grid that is not read.
 const FORM: &str = "a grid has a variable over one or two coordinates, such as `a(y, x)`, in the classic format or netCDF-4; `nccopy -k classic a.nc b.nc` writes the classic format";
@@ -21,7 +21,7 @@ pub(super) fn field<const D: usize>(
     bytes: &[u8],
     asked: &FieldRequest<'_>,
 ) -> Result<(Axes<D>, Source), Wrong> {
-    let grid = gridded::variable(bytes, asked.name).map_err(|error| match &error {
+    let grid = gridded_variable::variable(bytes, asked.name).map_err(|error| match &error {
         NetcdfError::NoVariable { name, names } => {
             Wrong::new(error.to_string(), suggest(name, "variables", names.iter().map(String::as_str)))
         }

@@ -1,9 +1,9 @@
 //! Values of a parameter at positions in a file, evaluated at points of the scene: columns of text, grids in netCDF, files of VTK.
 
-mod asked;
 mod axes;
 pub mod cells;
 mod columns;
+mod field_request;
 mod files;
 mod grid;
 pub mod lattice;
@@ -11,19 +11,19 @@ mod region;
 pub mod samples;
 mod vtk;
 
-pub(crate) use asked::{Bound, Parameter};
+pub(crate) use field_request::{Bound, Parameter};
 pub(crate) use files::Files;
 pub(crate) use region::{Region, Spot};
 
 use crate::reading::columns::file::refused;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Field as Given;
-use crate::reading::scene::plausible;
+use crate::reading::scene::plausibility;
 use crate::reading::scene::units::Dimension;
-use asked::{FieldRequest, Source};
 use asperity_mechanics::coordinates;
 use asperity_run::Warning;
 use axes::Axes;
+use field_request::{FieldRequest, Source};
 use files::Content;
 use std::ops::Range;
 use std::path::Path;
@@ -123,7 +123,7 @@ impl<const D: usize> Field<D> {
         let values = spots.iter().filter_map(|spot| self.found(spot));
         let unit = self.dimension.map_or("", Dimension::si);
         let implausible =
-            plausible::judge_file(&["faults", "fields", self.key], unit, values).map(|(message, help)| {
+            plausibility::judge_file(&["faults", "fields", self.key], unit, values).map(|(message, help)| {
                 let message = format!("`{}` of {region} from `{}`: {message}", self.key, self.file);
                 Warning::at(self.span.clone(), message, help)
             });

@@ -1,8 +1,8 @@
 //! Fields in files of VTK.
 
-use super::asked::{FieldRequest, Source, checked, coordinates_of};
 use super::axes::{Axes, Lists};
 use super::cells::{Cells, Rule, Simplex};
+use super::field_request::{FieldRequest, Source, checked, coordinates_of};
 use super::region::Region;
 use super::samples::Samples;
 use crate::reading::columns::unit::FilePart;
@@ -11,7 +11,7 @@ use crate::reading::scene::model::FieldInterpolation;
 use crate::reading::scene::units::{self, Dimension};
 use asperity_output::fields::vtu::Cell;
 use asperity_output::fields::vtu::reading::{self, Grid, NamedArray, VtuError};
-use asperity_scene::near::suggest;
+use asperity_scene::suggestions::suggest;
 
 /// Help for a file that is not read.
 const FORM: &str = "an unstructured grid of lines, triangles, quadrilaterals or points in a `.vtu` file, such as meshio, PyVista and ParaView write it, plain or with zlib";

@@ -2,7 +2,7 @@
 
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model as scene;
-use crate::reading::scene::near::suggest;
+use crate::reading::scene::suggestions::suggest;
 use asperity_fem::mesh::Mesh;
 use asperity_fem::mesh::split::{SplitError, Surface, split};
 use asperity_fem::surface::mean_normal;

@@ -6,7 +6,7 @@
 //! 1250 at 0.4999. With n cells across a bar the excess falls as 1/n². Mean stresses are wrong before displacements are: ten
 //! cells at ν = 0.45 bend 3 % too little, and stresses at the free end are tens of times too large.
 
-use super::unlocked::remedy;
+use super::locking_remedy::remedy;
 use super::{Model, material};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Formulation, Material, Scene};

@@ -2,7 +2,7 @@
 
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model as scene;
-use crate::reading::scene::near::suggest;
+use crate::reading::scene::suggestions::suggest;
 use asperity_fem::FemError;
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::material::hardening::Hardening;

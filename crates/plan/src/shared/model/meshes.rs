@@ -3,11 +3,11 @@
 use super::cuts::{self, Cuts};
 use crate::reading::columns::Wrong;
 use crate::reading::diagnostic::Diagnostic;
-use crate::reading::missing::{FileKind, unread};
+use crate::reading::missing_file::{FileKind, unread};
+use crate::reading::scene::control_characters::is_unprintable;
 use crate::reading::scene::model as scene;
-use crate::reading::scene::near::suggest;
+use crate::reading::scene::suggestions::suggest;
 use crate::reading::scene::units::{self, Dimension, Length};
-use crate::reading::scene::unprintable::is_unprintable;
 use crate::reading::sniff::{self, Reader};
 use asperity_fem::element::ElementKind;
 use asperity_fem::mesh::coarsening::{Coarsening, CoarseningError};

@@ -3,18 +3,18 @@
 pub(crate) mod cuts;
 pub mod forecast;
 pub mod locking;
+mod locking_remedy;
 pub mod materials;
 pub mod meshes;
 pub mod order;
 pub(crate) mod samples;
 pub(crate) mod sets;
 pub mod surfaces;
-mod unlocked;
 
 use self::forecast::Counts;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model as scene;
-use crate::reading::scene::near::suggest;
+use crate::reading::scene::suggestions::suggest;
 use crate::shared::entry::Entry;
 use crate::shared::{idealisation, initial_stress};
 use asperity_fem::block::{LinearBlock, von_mises};
@@ -148,7 +148,7 @@ fn cell_block<const D: usize>(
     let place = body.formulation.as_ref().map_or_else(|| body.material.span(), scene::Spanned::span);
     let dilates = !matches!(idealisation, Idealisation::PlaneStress | Idealisation::Antiplane);
     if dilates {
-        unlocked::admit(scene, Entry::new(name, body), mesh.blocks[block].kind)?;
+        locking_remedy::admit(scene, Entry::new(name, body), mesh.blocks[block].kind)?;
     }
     let formulation = match body.formulation.as_ref().map(|f| *f.get_ref()) {
         Some(scene::Formulation::BBar) => Formulation::BBar,

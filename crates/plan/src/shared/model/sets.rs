@@ -3,7 +3,7 @@
 use super::meshes::in_words;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Spanned;
-use crate::reading::scene::near::suggest;
+use crate::reading::scene::suggestions::suggest;
 use asperity_fem::mesh::{Side, nodes_of_sides};
 use asperity_mechanics::Model;
 

@@ -4,7 +4,7 @@ use super::meshes::bytes;
 pub(crate) use super::meshes::unit;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{DepthTriangles, FaultTriangles, Scene, Spanned};
-use crate::reading::scene::near::suggest;
+use crate::reading::scene::suggestions::suggest;
 use crate::reading::sniff::Reader;
 use asperity_fem::mesh::triangles::{TriangleError, Triangles};
 use asperity_fem::mesh::{Options, abaqus, gmsh, stl};

@@ -1,7 +1,7 @@
 //! Geographic position and epoch of the origin of a scene.
 
 use super::map::Map;
-use asperity_output::formats::located::Spot;
+use asperity_output::formats::catalogues::Spot;
 use jiff::{SignedDuration, Timestamp};
 use nalgebra::{Matrix3, Vector3};
 

@@ -9,7 +9,7 @@ pub(crate) use map::Map;
 
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{MediumKind, Scene};
-use asperity_scene::upright::Axes;
+use asperity_scene::axes::Axes;
 use jiff::Timestamp;
 
 /// Frame of a scene, if it has a `[place]`.

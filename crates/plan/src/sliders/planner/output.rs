@@ -2,8 +2,8 @@
 
 use super::Planner;
 use crate::reading::scene::model::Spanned;
-use crate::reading::scene::near;
 use crate::reading::scene::slider::{OutputSpec, SliderSelection};
+use crate::reading::scene::suggestions;
 use asperity_cycles::slider::Rows;
 use asperity_scene::defaults;
 
@@ -25,7 +25,8 @@ impl Planner {
                 let place = |name: &Spanned<String>| {
                     let found = names.iter().position(|n| n == name.get_ref());
                     found.or_else(|| {
-                        let help = near::suggest(name.get_ref(), "sliders", names.iter().map(String::as_str));
+                        let help =
+                            suggestions::suggest(name.get_ref(), "sliders", names.iter().map(String::as_str));
                         self.error(name.span(), format!("there is no slider `{}`", name.get_ref()), help)
                     })
                 };

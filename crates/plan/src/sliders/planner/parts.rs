@@ -4,9 +4,9 @@ use super::Planner;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::{LawSpec, Spanned};
-use crate::reading::scene::near;
 use crate::reading::scene::slider::{SliderScene, SliderSpec, SpringSpec};
-use crate::shared::refused::refused;
+use crate::reading::scene::suggestions;
+use crate::shared::law_errors::refused;
 use crate::sliders::Plan;
 use asperity_cycles::slider::stability;
 use asperity_friction::slider::{History, Slider, SliderLaw, Spring, System};
@@ -108,7 +108,7 @@ impl Planner {
         for (end, name) in ends.iter_mut().zip(between) {
             let found = names.iter().position(|n| n == name.get_ref());
             let Some(found) = found else {
-                let help = near::suggest(name.get_ref(), "sliders", names.iter().map(String::as_str));
+                let help = suggestions::suggest(name.get_ref(), "sliders", names.iter().map(String::as_str));
                 return self.error(name.span(), format!("there is no slider `{}`", name.get_ref()), help);
             };
             *end = found;

@@ -3,8 +3,8 @@
 use super::Planner;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{EventSpec, Spanned};
-use crate::reading::scene::near;
 use crate::reading::scene::slider::SliderTime;
+use crate::reading::scene::suggestions;
 use crate::reading::scene::units::Time;
 use asperity_cycles::Thresholds;
 use asperity_ode::Method;
@@ -55,7 +55,7 @@ impl Planner {
         let name = method.get_ref();
         let found = Method::from_str(name).ok();
         if found.is_none() {
-            let help = near::suggest(name, "methods", Method::ALL.map(Method::name));
+            let help = suggestions::suggest(name, "methods", Method::ALL.map(Method::name));
             self.error::<()>(method.span(), format!("there is no method `{name}`"), help);
         }
         found

@@ -2,7 +2,7 @@
 
 use super::super::super::coulomb::{Coulomb, CoulombMap};
 use super::super::coulomb::plane;
-use super::super::placed::PlacedPoint;
+use super::super::placed_point::PlacedPoint;
 use super::dislocations::Dislocations;
 use super::free_surface;
 use crate::reading::diagnostic::Diagnostic;

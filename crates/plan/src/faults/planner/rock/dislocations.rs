@@ -1,7 +1,7 @@
 //! Cells of faults as dislocations in elastic rock.
 
 use super::super::backslip::PlateRates;
-use super::super::placed::PlacedPoint;
+use super::super::placed_point::PlacedPoint;
 use asperity_cycles::medium::patches::Patches;
 use asperity_fem::material::elastic::Elastic;
 

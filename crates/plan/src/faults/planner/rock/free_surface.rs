@@ -2,7 +2,7 @@
 
 use super::super::super::free_surface::{FreeSurface, SurfaceAxes};
 use super::super::super::receivers::{Receiver, Receivers};
-use super::super::placed::{PlacedPoint, in_space};
+use super::super::placed_point::{PlacedPoint, in_space};
 use super::dislocations::{Dislocations, LaggingFaults};
 use super::receivers;
 use crate::reading::diagnostic::Diagnostic;
@@ -151,7 +151,7 @@ fn on_map(
 ) -> Result<(SurfaceAxes, Vec<[f64; 3]>), Diagnostic> {
     let spec = map.get_ref();
     let corners = x.map(|x| z.map(|z| frame.spot(&[x, 0.0, z])));
-    let range = |of: &dyn Fn(&asperity_output::formats::located::Spot) -> f64| {
+    let range = |of: &dyn Fn(&asperity_output::formats::catalogues::Spot) -> f64| {
         let all = || corners.iter().flatten().map(of);
         [all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max)]
     };

@@ -19,25 +19,25 @@ use super::super::free_surface::FreeSurface;
 use super::super::plan::Plan;
 use super::super::platform::Platform;
 use super::super::receivers::Receivers;
-use super::apart::{self, Spacing};
 use super::assemble::{SlidingFaults, SurroundingsView, geometry, plan_of, tangents};
 use super::backslip::{self, PlateRates};
+use super::fault_resolution::resolved;
 use super::fields::Fields;
 use super::history::LoadHistory;
 use super::medium::Medium;
 use super::operator::OperatorSource;
-use super::placed::{FaultPoints, PlacedPoint};
+use super::placed_point::{FaultPoints, PlacedPoint};
 use super::point::{FaultParameters, PointSurroundings, base_law, placed_at};
 use super::remarks::Remarks;
-use super::resolved::resolved;
-use super::{asked, patches, sense};
+use super::spacing::{self, Spacing};
+use super::{patches, requests, sense};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Medium as Rock, MediumKind, Scene, Spanned};
 use crate::shared::checks::Checks;
 use crate::shared::entry::Entry;
 use crate::shared::model::{forecast, materials};
 use crate::shared::resolution::Resolution;
-use crate::shared::{amounts, held, idealisation, resolution};
+use crate::shared::{amounts, idealisation, memory, resolution};
 use asperity_cycles::deficit;
 use asperity_cycles::kernel::Space;
 use asperity_cycles::medium::Place;
@@ -58,7 +58,7 @@ pub(super) fn plan<const D: usize>(
     rock: &Rock,
     source: OperatorSource<'_>,
 ) -> Result<Plan, Diagnostic> {
-    let [stage] = scene.stages.as_slice() else { return Err(asked::stages(scene)) };
+    let [stage] = scene.stages.as_slice() else { return Err(requests::stages(scene)) };
     let end = stage.duration.get_ref().0;
     let mut ground = Ground::<D>::read(scene, rock)?;
     let HeldOperator { operator, memory_bytes } = ground.operator(source)?;
@@ -77,7 +77,7 @@ pub(super) fn plan<const D: usize>(
         },
         dofs: 0,
         creeping: 0,
-        memory_bytes: held::without_bodies(memory_bytes),
+        memory_bytes: memory::without_bodies(memory_bytes),
         bodies: None,
         sampling: None,
         stresses: None,
@@ -128,7 +128,7 @@ impl<'s, const D: usize> Ground<'s, D> {
         let elastic = elastic(scene, rock)?;
         let tiling = tiling::<D>(scene, rock)?;
         let mut remarks = Remarks { warnings: scene.warnings.clone(), notes: backslip::notes(scene) };
-        apart::check(scene, &outlines::cells(&tiling), Spacing::ByCells)?;
+        spacing::check(scene, &outlines::cells(&tiling), Spacing::ByCells)?;
         let placed = placed(scene, rock, &elastic, &tiling, &mut remarks)?;
         let resolution = resolved(scene, &placed, &mut remarks.warnings)?;
         remarks.warnings.extend(triangles::tiny(scene, &tiling, &resolution));
@@ -233,7 +233,7 @@ fn placed<const D: usize>(
         };
         let placed: Vec<PlacedPoint<D>> = cells.map(of).collect::<Result<_, _>>()?;
         parameters.fields.describe(&placed, remarks);
-        asked::profiles(scene, own, &placed, &mut remarks.warnings)?;
+        requests::profiles(scene, own, &placed, &mut remarks.warnings)?;
         remarks.warnings.extend(patches::covered(own, &placed)?);
         all.extend(placed);
     }

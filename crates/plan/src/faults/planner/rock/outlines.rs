@@ -1,7 +1,7 @@
 //! Outlines of the cells of faults in rock, for distances between them.
 
 use super::super::super::plan::{CellGrid, Outline};
-use super::super::apart::cell::Cell;
+use super::super::spacing::cell::Cell;
 use super::tiling::{Cut, Tiling};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;

@@ -2,7 +2,7 @@
 
 use super::super::super::platform::Platform;
 use super::super::assemble::turns;
-use super::super::placed::{PlacedPoint, in_space, slides};
+use super::super::placed_point::{PlacedPoint, in_space, slides};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Scene, Spanned, Station};
 use asperity_cycles::medium::across;

@@ -1,7 +1,7 @@
 //! Positions in homogeneous rock whose motion is written.
 
 use super::super::super::receivers::{Receiver, Receivers};
-use super::super::placed::{PlacedPoint, in_space, slides};
+use super::super::placed_point::{PlacedPoint, in_space, slides};
 use super::dislocations::{Dislocations, LaggingFaults};
 use super::sites::{self, ReceiverPosition};
 use crate::reading::diagnostic::Diagnostic;

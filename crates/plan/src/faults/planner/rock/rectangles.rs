@@ -2,7 +2,7 @@
 
 use super::super::super::plan::CellGrid;
 use super::super::place::directions;
-use super::super::placed::in_space;
+use super::super::placed_point::in_space;
 use super::tiling::{Cut, buried, in_dimension};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, FaultRectangle};

@@ -2,7 +2,7 @@
 
 use super::super::super::plan::{CellGrid, Outline};
 use super::super::cells::Cells;
-use super::super::placed::PlacedPoint;
+use super::super::placed_point::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Fault as Spec;
 use asperity_cycles::kernel::Space;

@@ -2,7 +2,7 @@
 
 use super::super::super::plan::Outline;
 use super::super::place::directions;
-use super::super::placed::in_space;
+use super::super::placed_point::in_space;
 use super::depths;
 use super::tiling::{Cut, Tiling, buried, in_dimension};
 use crate::reading::diagnostic::Diagnostic;

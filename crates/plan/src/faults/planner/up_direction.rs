@@ -1,6 +1,6 @@
 //! Doubts about the direction up of a scene with a place on Earth.
 
-use super::placed::{PlacedPoint, in_space};
+use super::placed_point::{PlacedPoint, in_space};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Scene, Spanned};
 use crate::shared::model::Model;

@@ -9,26 +9,28 @@ use super::super::stresses::BodyStresses;
 use super::assemble::{SlidingFaults, SurroundingsView, plan_of, tangents};
 use super::backslip::{self, PlateRates};
 use super::condensation::{Condensation, HashedStiffness};
+use super::condensation_refusals::CondensationInput;
 use super::condensed::{self, CondensedBodies};
-use super::held::CondensationInput;
+use super::fault_faces::FaultFaces;
+use super::fault_resolution::resolved;
 use super::history::LoadHistory;
-use super::loaded::LoadedBodies;
-use super::meshed::FaultFaces;
+use super::loaded_bodies::LoadedBodies;
 use super::operator::OperatorSource;
-use super::placed::{FaultPoints, PlacedPoint};
+use super::placed_point::{FaultPoints, PlacedPoint};
 use super::points::all_points;
 use super::pressing;
 use super::remarks::Remarks;
-use super::resolved::resolved;
-use super::{asked, checks, coulomb, mirror, plates, receivers, sampled, sense, upright, weight};
+use super::{
+    body_samples, checks, coulomb, mirror, plates, receivers, requests, sense, up_direction, weight,
+};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Scene;
 use crate::shared::amounts;
 use crate::shared::checks::Checks;
-use crate::shared::checks::of_model::{self, machines};
+use crate::shared::checks::model_checks::{self, machines};
 use crate::shared::entry::Entry;
-use crate::shared::held::ModelMemory;
 use crate::shared::loading::{self, Stage};
+use crate::shared::memory::ModelMemory;
 use crate::shared::model::{self, Model, forecast, locking};
 use crate::shared::resolution::Resolution;
 use asperity_cycles::medium::{
@@ -92,19 +94,19 @@ impl<'s, const D: usize> Ground<'s, D> {
     fn read(scene: &'s Scene) -> Result<Self, Diagnostic> {
         let model = linear::<D>(scene)?;
         let (pressing, stage) =
-            parted(loading::stages(scene, &model)?).ok_or_else(|| asked::stages(scene))?;
+            parted(loading::stages(scene, &model)?).ok_or_else(|| requests::stages(scene))?;
         let mut remarks = Remarks { warnings: scene.warnings.clone(), notes: Vec::new() };
         remarks.warnings.extend(locking::doubts(scene, &model)?);
         let placed = all_points(scene, &model, &mut remarks)?;
         let points: Vec<Point<D>> = placed.iter().map(|p| p.point.clone()).collect();
         if points.iter().all(|p| p.creep.is_some()) {
-            return Err(asked::nothing_slides(&Entry::all(&scene.faults), &placed));
+            return Err(requests::nothing_slides(&Entry::all(&scene.faults), &placed));
         }
         // If weight or a stage before presses the bodies, normal tractions are known only once their equations are solved.
         let known = stage.weight.is_empty() && pressing.is_none();
         let resolution = known.then(|| resolved(scene, &placed, &mut remarks.warnings)).transpose()?;
-        let (checks, held) = (of_model::checks(scene, &model)?, ModelMemory::new(&model));
-        remarks.warnings.extend(upright::held_above(scene, &model));
+        let (checks, held) = (model_checks::checks(scene, &model)?, ModelMemory::new(&model));
+        remarks.warnings.extend(up_direction::held_above(scene, &model));
         Ok(Self { scene, model, pressing, stage, placed, points, resolution, checks, held, remarks })
     }
 
@@ -143,7 +145,7 @@ impl<'s, const D: usize> Ground<'s, D> {
         let PartedPoints { sliding, creeping, .. } = points;
         let known = self.resolution.take();
         let resolution = known.map_or_else(|| resolved(scene, &sliding, &mut self.remarks.warnings), Ok)?;
-        asked::opens(&Entry::all(&scene.faults), &sliding, opening.as_ref().map_or(&[], |o| o.points()))?;
+        requests::opens(&Entry::all(&scene.faults), &sliding, opening.as_ref().map_or(&[], |o| o.points()))?;
         let around = SurroundingsView {
             medium: "condensed onto the faults",
             dofs: self.model.dofs(),
@@ -211,7 +213,7 @@ impl<'s, const D: usize> Ground<'s, D> {
         sliding: &[PlacedPoint<D>],
     ) -> Result<Option<Sampling>, Diagnostic> {
         let areas = sliding.iter().map(|p| p.point.place.area).collect();
-        sampled::plan::<D>(self.scene, &self.stage, pressed, areas)
+        body_samples::plan::<D>(self.scene, &self.stage, pressed, areas)
     }
 }
 
@@ -271,7 +273,7 @@ const MIRRORED: &str =
 fn linear<const D: usize>(scene: &Scene) -> Result<Model<D>, Diagnostic> {
     let model = model::build::<D>(scene)?;
     match model.bodies.iter().find(|b| b.nonlinear.is_some()) {
-        Some(body) => Err(asked::not_linear(scene, &body.name)),
+        Some(body) => Err(requests::not_linear(scene, &body.name)),
         None => Ok(model),
     }
 }
@@ -326,7 +328,7 @@ fn conditions(scene: &Scene, stage: &Stage, components: usize) -> Conditions {
 
 /// True if displacements of whole bodies are needed during the run or at its end.
 fn displaced(scene: &Scene, stage: &Stage) -> bool {
-    shown(scene) || scene.output.coulomb.is_some() || sampled::asked(scene, stage)
+    shown(scene) || scene.output.coulomb.is_some() || body_samples::asked(scene, stage)
 }
 
 /// True if displacements of the bodies are written.

@@ -10,7 +10,7 @@
 //!
 //! with the two tangents as columns of T. The last term makes M unsymmetric in slip.
 
-use crate::measure::saved::MeasureState;
+use crate::measure::measure_state::MeasureState;
 use crate::measure::{Attachment, Exit, Geometry, Measure, NormalPoint, ShearPoint, Slides, Tractions};
 use crate::spec::SurfaceNode;
 use crate::vector::{axpy, dot, scaled, sub, unit};

@@ -8,7 +8,7 @@ use asperity::kinds::faults::{Files, Report};
 use asperity::{catalogue, kinds};
 use asperity_cycles::{Balance, FaultRun, Faults, Moment};
 use asperity_ode::{Control, Outcome};
-use asperity_output::formats::located::{cmtsolution, quakeml};
+use asperity_output::formats::catalogues::{cmtsolution, quakeml};
 use asperity_plan::dynamics::AnyPlan;
 use asperity_plan::faults::Plan;
 use asperity_plan::reading::scene;

@@ -4,7 +4,7 @@
 //! its normal their mean, as if the segments were one fault.
 
 use super::place::{branches, directions};
-use super::placed::PlacedPoint;
+use super::placed_point::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Scene};
 use crate::shared::entry::Entry;

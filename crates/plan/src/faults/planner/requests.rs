@@ -1,6 +1,6 @@
 //! Errors and warnings about creep, profiles, stations and other requests of a scene that its faults cannot satisfy.
 
-use super::placed::{PlacedPoint, at};
+use super::placed_point::{PlacedPoint, at};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{
     Along, Fault as Spec, LawSpec, ParameterProfiles, Profile, Scene, Spanned, Station,

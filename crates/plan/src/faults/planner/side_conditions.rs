@@ -3,7 +3,7 @@
 //! Sides of a fault that creeps or is locked may be held: that is how slip at depth is driven. A set that meets the fault in
 //! an edge or a node alone belongs to another side of a body.
 
-use super::placed::PlacedPoint;
+use super::placed_point::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Condition, Motion, Scene, Spanned};
 use crate::shared::model::{self, Model};

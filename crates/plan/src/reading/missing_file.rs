@@ -1,6 +1,6 @@
 //! Files that are missing where a scene looks for them.
 
-use asperity_scene::near::{closest, suggest};
+use asperity_scene::suggestions::{closest, suggest};
 use std::io;
 use std::path::Path;
 

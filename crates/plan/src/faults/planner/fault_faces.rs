@@ -1,7 +1,7 @@
 //! Faces of faults between bodies.
 
 use super::cells::Cells;
-use super::placed::PlacedPoint;
+use super::placed_point::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Fault as Spec;
 use crate::shared::model::{self, Model};

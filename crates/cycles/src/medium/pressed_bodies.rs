@@ -2,9 +2,9 @@
 //! joined, or free to slide past each other without friction.
 
 use super::condensed::{Conditions, in_plane, in_space, refused};
-use super::held::PointJumps;
 use super::place::Place;
 use super::point::{Initial, Point};
+use super::point_jumps::PointJumps;
 use super::refusal::Refusal;
 use asperity_fem::FemError;
 use asperity_fem::condense::{Condensation, CondensedBody, Stiffness};

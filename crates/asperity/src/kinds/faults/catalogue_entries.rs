@@ -1,7 +1,7 @@
 //! Simulated events in the form of catalogue entries, for scenes with a geographic frame.
 
 use asperity_cycles::Rupture;
-use asperity_output::formats::located::{SourceParameters, Tensor, magnitude};
+use asperity_output::formats::catalogues::{SourceParameters, Tensor, magnitude};
 use asperity_plan::faults::Plan;
 use asperity_plan::shared::place::Frame;
 use asperity_run::Event;

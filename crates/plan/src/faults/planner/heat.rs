@@ -1,7 +1,7 @@
 //! Frictional heat of faults.
 
 use super::super::plan::HeatView;
-use super::placed::PlacedPoint;
+use super::placed_point::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::{Fault as Spec, Heat as Given, Scene};

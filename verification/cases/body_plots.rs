@@ -1,7 +1,7 @@
 //! Pictures that cases draw of their own bodies and runs, by the product's plots.
 
 use super::programs;
-use super::written::Folder;
+use super::run_files::Folder;
 use crate::{CaseError, Ledger};
 use asperity::kinds;
 use asperity_fem::mesh::Mesh;

@@ -1,6 +1,6 @@
 //! Stresses that uniform slip of patches causes in homogeneous rock, from dislocations in closed form.
 
-use super::displaced::summed;
+use super::displacements::summed;
 use super::patches::{Patches, Tile, to_kernel};
 use asperity_fem::material::elastic::Elastic;
 use nalgebra::Matrix3;

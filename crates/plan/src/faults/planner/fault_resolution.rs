@@ -1,7 +1,7 @@
 //! Resolution of all faults of a scene.
 
 use super::floor;
-use super::placed::PlacedPoint;
+use super::placed_point::PlacedPoint;
 use crate::doubts;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Scene;

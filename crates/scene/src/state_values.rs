@@ -1,6 +1,6 @@
 //! A single value or a list with one value for each state variable.
 
-use crate::here::here;
+use crate::code_value::here;
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
 use serde::de::{Deserialize, Deserializer, Error, IntoDeserializer, SeqAccess, Visitor};
