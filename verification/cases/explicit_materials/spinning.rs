@@ -83,7 +83,9 @@ impl Spin {
         let direction = side(along);
         let right = side(up) - direction - 0.25 * TAU;
         self.shear = self.shear.max((right - TAU * (right / TAU).round()).abs());
-        if let Some(before) = std::mem::replace(&mut self.direction, Some(direction)) {
+        let before = self.direction;
+        self.direction = Some(direction);
+        if let Some(before) = before {
             let turn: f64 = direction - before;
             self.angle += turn - TAU * (turn / TAU).round();
         }

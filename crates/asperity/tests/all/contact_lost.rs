@@ -94,10 +94,10 @@ fn interfaces_that_nothing_presses_are_warned_of() {
     let report = kinds::bodies::run(&planned(DOUBLE_SHEAR), &mut Recorder::new()).unwrap();
     let found: Vec<&str> = report.warnings.iter().map(|w| w.message.as_str()).collect();
     for name in ["one", "other"] {
-        let own = |m: &&str| {
+        let own = |m: &str| {
             m.starts_with(&format!("interface `{name}` ")) && m.contains("at the end of every stage")
         };
-        assert!(found.iter().any(|m| own(&m)), "{name}: {found:?}");
+        assert!(found.iter().any(|m| own(m)), "{name}: {found:?}");
     }
 }
 

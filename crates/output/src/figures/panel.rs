@@ -94,7 +94,7 @@ impl EventPanel {
             .filter(|m| m.is_finite())
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), m| (lo.min(m), hi.max(m)));
         let range = (hi - lo).max(LEAST);
-        (lo <= hi).then(|| (0.5 * (lo + hi - range), range))
+        (lo <= hi).then_some((0.5 * (lo + hi - range), range))
     }
 
     /// Legend of the groups. One group needs no name: the title says what it is.
