@@ -74,6 +74,13 @@ fn counts(ledger: &mut Ledger, done: &WrittenRun, table: &Table) -> Result<(), C
     Ok(())
 }
 
+/// Ends of the slow events in the report \[s\].
+fn reported_ends(done: &WrittenRun) -> Result<Vec<f64>, CaseError> {
+    let report = serde_json::to_value(&done.report)?;
+    let entries = report["slow_events"].as_array().ok_or("no slow events in the report")?;
+    entries.iter().map(|e| Ok(e["end"].as_f64().ok_or("a slow event without an end")?)).collect()
+}
+
 /// Claims the slow events.
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     let done = WrittenRun::from_text(&scene())?;
@@ -107,14 +114,10 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
         .why_not_tighter("errors of steps add up by chance")
         .cost(&done.cost)
         .record();
-    let reported = serde_json::to_value(&done.report)?;
-    let entries = reported["slow_events"].as_array().ok_or("no slow events in the report")?;
-    let in_report = entries.iter().map(|e| e["end"].as_f64().ok_or("a slow event without an end"));
-    let in_report = in_report.collect::<Result<Vec<f64>, _>>()?;
     ledger
         .claim("the slow events: ends, in the table and in the report")
         .unit("s")
-        .values(&[of("end")?, in_report].concat())
+        .values(&[of("end")?, reported_ends(&done)?].concat())
         .equals_each(&ends.repeat(2))
         .absolute(2e-5)
         .evidence(Evidence::Exact, "the same curve, towards the rate of the plates")
