@@ -17,7 +17,7 @@
 //! };
 //!
 //! fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
-//!     let (stress, cost) = Cost::of(|| solve());
+//!     let (stress, cost) = Cost::measure(|| solve());
 //!     ledger.claim("mean normal stress, h = 1.25 mm").unit("MPa")
 //!         .value(stress?).equals(12.0).relative(1e-4)
 //!         .evidence(Evidence::Exact, "uniform field of a bar under prescribed ends")

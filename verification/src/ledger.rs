@@ -3,7 +3,7 @@
 //! ```
 //! # use asperity_verification::{Cost, Evidence, Ledger};
 //! # let mut ledger = Ledger::new(&[]);
-//! let (stress, cost) = Cost::of(|| 12.0004);
+//! let (stress, cost) = Cost::measure(|| 12.0004);
 //! ledger
 //!     .claim("mean normal stress, h = 1.25 mm")
 //!     .unit("MPa")
