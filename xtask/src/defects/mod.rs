@@ -101,6 +101,14 @@ fn list(root: &Path, defects: &[Defect]) -> Result<(), Failure> {
     Ok(())
 }
 
+/// What a run of the suite is for.
+struct Trial<'a> {
+    /// Defect among those of the build; `None` without one.
+    chosen: Option<&'a str>,
+    /// Folder of the report, which no other run has at the same time.
+    report: &'a str,
+}
+
 /// The copy of a tree in which defects are made, and where their results go.
 struct Workshop<'a> {
     root: &'a Path,
@@ -154,32 +162,22 @@ impl<'a> Workshop<'a> {
     fn without(&self, defects: &[&Defect]) -> Result<(), Failure> {
         announce("defects: the cases without a defect");
         let cases: BTreeSet<&String> = defects.iter().flat_map(|d| &d.expected).collect();
-        for case in cases {
+        two_at_a_time(cases.into_iter(), |case| {
             let mut outcome = Outcome::default();
-            self.suite(None, Some(case), &mut outcome)?;
+            self.suite(&Trial { chosen: None, report: case }, Some(case), &mut outcome)?;
             if outcome.is_noticed() || outcome.status != Status::Ran {
                 let reason = format!("the case `{case}` disagrees without a defect");
                 return Err(Failure::Defect { name: "none".into(), reason });
             }
-        }
-        Ok(())
+            Ok(())
+        })
     }
 
-    /// Verifies defects that are in the build, two at a time: cases use one thread for the most part.
+    /// Verifies defects that are in the build.
     fn each(&self, defects: &[&Defect]) -> Result<(), Failure> {
-        let queue = Mutex::new(defects.iter());
-        let next = || queue.lock().ok().and_then(|mut queue| queue.next().copied());
-        let work = || -> Result<(), Failure> {
-            while let Some(defect) = next() {
-                let outcome = self.verify(defect, Some(&defect.name))?;
-                self.keep(defect, outcome)?;
-            }
-            Ok(())
-        };
-        std::thread::scope(|scope| {
-            let other = scope.spawn(work);
-            let own = work();
-            own.and(other.join().unwrap_or(Ok(())))
+        two_at_a_time(defects.iter(), |defect| {
+            let outcome = self.verify(defect, Some(&defect.name))?;
+            self.keep(defect, outcome)
         })
     }
 
@@ -243,12 +241,13 @@ impl<'a> Workshop<'a> {
     /// Runs the cases that the defect names. If these do not detect it, the quick suite follows.
     fn verify(&self, defect: &Defect, chosen: Option<&str>) -> Result<Outcome, Failure> {
         let mut outcome = Outcome::default();
+        let trial = Trial { chosen, report: &defect.name };
         for case in &defect.expected {
-            self.suite(chosen, Some(case), &mut outcome)?;
+            self.suite(&trial, Some(case), &mut outcome)?;
             outcome.cases.push(case.clone());
         }
         if !outcome.is_noticed() && !self.choice.expected {
-            self.suite(chosen, None, &mut outcome)?;
+            self.suite(&trial, None, &mut outcome)?;
             outcome.cases.clear();
         }
         if self.choice.tests {
@@ -257,9 +256,9 @@ impl<'a> Workshop<'a> {
         Ok(outcome)
     }
 
-    /// Runs a case, or all quick ones, in the copy, with the defect that is `chosen` among those of the build.
-    fn suite(&self, chosen: Option<&str>, case: Option<&str>, outcome: &mut Outcome) -> Result<(), Failure> {
-        let report = self.place.join("report").join(chosen.unwrap_or("none"));
+    /// Runs a case, or all quick ones, in the copy.
+    fn suite(&self, trial: &Trial<'_>, case: Option<&str>, outcome: &mut Outcome) -> Result<(), Failure> {
+        let report = self.place.join("report").join(trial.report);
         let results = report.join("report.json");
         // A run that writes no report must not pass for the run before.
         if results.exists() {
@@ -268,7 +267,7 @@ impl<'a> Workshop<'a> {
         let mut suite = Command::new(self.place.join("build/release/asperity-verification"));
         suite.current_dir(self.place.join("tree")).arg("--out").arg(&report);
         suite.stdout(Stdio::null()).stderr(Stdio::null()).env_remove(together::VARIABLE);
-        if let Some(name) = chosen {
+        if let Some(name) = trial.chosen {
             suite.env(together::VARIABLE, name);
         }
         if let Some(case) = case {
@@ -280,6 +279,26 @@ impl<'a> Workshop<'a> {
         }
         outcome.add(&results)
     }
+}
+
+/// Does the work on all items, two at a time: cases use one thread for the most part. The first failure ends it.
+fn two_at_a_time<T: Send>(
+    items: impl Iterator<Item = T> + Send,
+    work: impl Fn(T) -> Result<(), Failure> + Sync,
+) -> Result<(), Failure> {
+    let queue = Mutex::new(items);
+    let next = || queue.lock().ok().and_then(|mut queue| queue.next());
+    let take = || -> Result<(), Failure> {
+        while let Some(item) = next() {
+            work(item)?;
+        }
+        Ok(())
+    };
+    std::thread::scope(|scope| {
+        let other = scope.spawn(take);
+        let own = take();
+        own.and(other.join().unwrap_or(Ok(())))
+    })
 }
 
 /// Names of the tests of the workspace that fail in the copy.
