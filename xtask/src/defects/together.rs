@@ -124,7 +124,7 @@ impl Source {
         let line = self.code[..keyword].iter().rev().take_while(|&&c| c != '\n');
         let line: String = line.collect::<Vec<_>>().into_iter().rev().collect();
         let signature: String = self.code[keyword..start].iter().collect();
-        let opaque = signature.split_once("->").is_some_and(|(_, result)| result.contains("impl "));
+        let opaque = result_of(&signature).contains("impl ");
         let constant = line.split_whitespace().any(|word| word == "const");
         Some((!opaque && !constant, start + 1..self.closing(start)))
     }
@@ -186,6 +186,20 @@ impl Source {
     }
 }
 
+/// What a signature says after its parameters, whose types may have arrows of their own.
+fn result_of(signature: &str) -> &str {
+    let mut depth = 0i32;
+    for (at, c) in signature.char_indices() {
+        match c {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth -= 1,
+            '-' if depth == 0 && signature[at..].starts_with("->") => return &signature[at..],
+            _ => {}
+        }
+    }
+    ""
+}
+
 /// The expression that is true if the environment names the defect.
 fn chosen(name: &str) -> String {
     format!(
@@ -199,7 +213,8 @@ mod tests {
     use super::{Change, Source, Within};
 
     const TEXT: &str = "const N: usize = 3;\nfn f(x: f64) -> f64 {\n    // fn g() {\n    2.0 * x\n}\n\
-        const fn c() -> u8 { 1 }\nfn i() -> impl Iterator<Item = u8> { 0..5 }\n";
+        const fn c() -> u8 { 1 }\nfn i() -> impl Iterator<Item = u8> { 0..5 }\n\
+        fn p(f: impl Fn() -> &dyn Fn(), g: impl Fn()) -> bool { true }\n";
 
     fn change(old: &str, new: &str) -> Change {
         Change { file: "a.rs".into(), old: old.into(), new: new.into() }
@@ -218,6 +233,13 @@ mod tests {
             lines.iter().map(|l| (l.name.as_str(), l.lines.clone())).collect::<Vec<_>>(),
             [("p", 2..6), ("q", 5..9)]
         );
+    }
+
+    #[test]
+    fn parameters_may_have_types_without_names() {
+        let source = Source::new(TEXT.into());
+        assert!(source.function(&change("{ true }", "")).is_none());
+        assert!(source.function(&change(" true ", "")).is_some());
     }
 
     #[test]
