@@ -23,7 +23,7 @@ use std::sync::Arc;
 /// Rounding of relative positions as a share of the scene's size. A gap or slip is a difference of averages over some tens of
 /// positions. Gaps up to it count as closed with f_n = 0. The tangent of such a point is that of a pressed one, so that
 /// Newton's method would cross a wider range of gaps only by many small steps.
-const TOUCH: f64 = 1e-14;
+pub const TOUCH: f64 = 1e-14;
 
 /// Tangential motion of all points, as components in the carried frame.
 #[derive(Clone, Debug, PartialEq)]

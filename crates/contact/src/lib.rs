@@ -27,7 +27,7 @@ pub mod watch;
 pub use asperity_fem::element::face::{self as shape, FaceKind as SegmentKind};
 pub use error::ContactError;
 pub use history::InterfaceState;
-pub use interface::Interface;
+pub use interface::{Interface, TOUCH};
 pub use observe::{Balance, PointFields, Work};
 pub use press::StartTraction;
 pub use spec::{

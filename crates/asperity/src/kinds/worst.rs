@@ -10,6 +10,7 @@ use asperity_output::bodies::view::InterfaceFields;
 use asperity_run::Warning;
 use asperity_scene::lengths::brief;
 use nalgebra::{DMatrix, SymmetricEigen};
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Largest principal strain admitted in small-strain theory \[-\]. The error is of the order of the strain itself, so that stress and area have
@@ -23,6 +24,9 @@ const SMALL_ROTATION: f64 = 0.05;
 /// some times as large, unless a cell is ten times flatter than its edges.
 const SAFE: f64 = 0.1;
 
+/// Fewest cells that are judged by one task: a few microseconds of work.
+const CELLS: usize = 1024;
+
 /// Slip over the size of the master faces from which a fixed pairing is wrong, because the node is then on another face.
 const SMALL_SLIDING: f64 = 1.0;
 
@@ -33,6 +37,13 @@ pub struct Largest {
     pub strain: f64,
     /// Largest rotation \[rad\].
     pub rotation: f64,
+}
+
+impl Largest {
+    /// The larger of each.
+    fn max(self, other: Self) -> Self {
+        Self { strain: self.strain.max(other.strain), rotation: self.rotation.max(other.rotation) }
+    }
 }
 
 /// Growth of displacements or tractions from which on a state is judged again: a strain in between is at most so much larger.
@@ -47,6 +58,9 @@ pub struct Worst {
     slid: Vec<f64>,
     /// Sizes of the state that was judged last: displacements \[m\], and tractions of interfaces \[Pa\].
     judged: [f64; 2],
+    /// Shortest distance of two corners of a cell of each block \[m\]; found when bodies are judged first.
+    #[serde(skip)]
+    shortest: Vec<f64>,
 }
 
 impl Worst {
@@ -84,9 +98,12 @@ impl Worst {
     /// Sees displacements of a model \[m\] at a time \[s\].
     pub fn judge<const D: usize>(&mut self, model: &Model<D>, time: f64, u: &[f64]) {
         self.bodies.resize(model.bodies.len(), Default::default());
+        if self.shortest.is_empty() {
+            self.shortest = model.mesh.blocks.iter().map(|cells| shortest_in_block(model, cells)).collect();
+        }
         for (body, (worst, at)) in model.bodies.iter().zip(&mut self.bodies) {
             for block in body.blocks.clone() {
-                let now = largest_in_block(model, block, u);
+                let now = largest_in_block(model, block, self.shortest[block], u);
                 if now.strain > worst.strain {
                     (worst.strain, at[0]) = (now.strain, time);
                 }
@@ -142,8 +159,9 @@ fn body_warning(body: &str, stage: &str, (largest, at): (Largest, [f64; 2]), you
 }
 
 /// Largest strain and rotation in the cells of a block, at their centres and between these and their corners, about where stresses are
-/// computed; zero if the block accounts for large deformation, and in cells that leave no doubt.
-pub fn largest_in_block<const D: usize>(model: &Model<D>, block: usize, u: &[f64]) -> Largest {
+/// computed; zero if the block accounts for large deformation, and in cells that leave no doubt. `shortest` is the shortest edge of its
+/// cells \[m\], or anything below.
+pub fn largest_in_block<const D: usize>(model: &Model<D>, block: usize, shortest: f64, u: &[f64]) -> Largest {
     let followed = matches!(&model.blocks.get(block), Some(CellBlock::Nonlinear(b)) if b.model().kinematics == Kinematics::UpdatedLagrangian);
     // Antiplane motion has one component, and its equation is linear for slopes of any size.
     if followed || model.idealisation == Idealisation::Antiplane {
@@ -151,40 +169,64 @@ pub fn largest_in_block<const D: usize>(model: &Model<D>, block: usize, u: &[f64
     }
     let cells = &model.mesh.blocks[block];
     let places = places(cells.kind);
-    let doubtful = |cell: &usize| stretched(model, cells, *cell, u) > SAFE * SMALL_STRAIN.min(SMALL_ROTATION);
-    let all =
-        (0..cells.len()).filter(doubtful).flat_map(|cell| places.iter().map(move |place| (cell, place)));
-    all.fold(Largest::default(), |largest, (cell, place)| {
-        let gradient = gradient(model, cells, (cell, *place), u);
-        let strain = 0.5 * (&gradient + gradient.transpose());
-        let spin = 0.5 * (&gradient - gradient.transpose());
-        let principal = SymmetricEigen::new(strain).eigenvalues.amax().max(hoop(model, cells, cell, u));
-        // In 3D each component of the rotation vector appears twice in the spin.
-        Largest {
-            strain: largest.strain.max(principal),
-            rotation: largest.rotation.max(spin.norm() / std::f64::consts::SQRT_2),
-        }
-    })
+    let limit = SAFE * SMALL_STRAIN.min(SMALL_ROTATION);
+    let doubtful = |cell: usize| {
+        let (range, hoop) = (range::<D>(cells, cell, u), hoop(model, cells, cell, u));
+        // Few cells have to be measured: most leave no doubt whatever their size.
+        hoop > limit || range > limit * shortest && range > limit * shortest_edge(model, cells, cell)
+    };
+    let of_cell = |cell: usize| {
+        let of_places = places.iter().map(|place| deformation(model, cells, (cell, *place), u));
+        of_places.fold(Largest::default(), Largest::max)
+    };
+    let all = (0..cells.len()).into_par_iter().with_min_len(CELLS).filter(|cell| doubtful(*cell));
+    all.map(of_cell).reduce(Largest::default, Largest::max)
 }
 
-/// Largest difference of a displacement within a cell over its shortest edge, and the hoop strain in axisymmetry.
-fn stretched<const D: usize>(model: &Model<D>, cells: &Cells, cell: usize, u: &[f64]) -> f64 {
-    let nodes = cells.cell(cell);
-    let corners = &nodes[..cells.kind.corners()];
-    let range = |c: usize| {
-        let values = nodes.iter().map(|&n| u[n * D + c]);
-        let (least, most) =
-            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
-        most - least
-    };
+/// Largest principal strain and rotation at natural coordinates of a cell.
+fn deformation<const D: usize>(
+    model: &Model<D>,
+    cells: &Cells,
+    place: (usize, [f64; 3]),
+    u: &[f64],
+) -> Largest {
+    let gradient = gradient(model, cells, place, u);
+    let strain = 0.5 * (&gradient + gradient.transpose());
+    let spin = 0.5 * (&gradient - gradient.transpose());
+    Largest {
+        strain: SymmetricEigen::new(strain).eigenvalues.amax().max(hoop(model, cells, place.0, u)),
+        // In 3D each component of the rotation vector appears twice in the spin.
+        rotation: spin.norm() / std::f64::consts::SQRT_2,
+    }
+}
+
+/// Largest difference of a component of displacement within a cell \[m\].
+fn range<const D: usize>(cells: &Cells, cell: usize, u: &[f64]) -> f64 {
+    let u = u.as_chunks::<D>().0;
+    let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
+    for &node in cells.cell(cell) {
+        for c in 0..D {
+            (low[c], high[c]) = (low[c].min(u[node][c]), high[c].max(u[node][c]));
+        }
+    }
+    low.iter().zip(high).fold(0.0, |largest, (low, high)| largest.max(high - low))
+}
+
+/// Shortest edge of the cells of a block \[m\].
+pub fn shortest_in_block<const D: usize>(model: &Model<D>, cells: &Cells) -> f64 {
+    let all = (0..cells.len()).into_par_iter().with_min_len(CELLS);
+    all.map(|cell| shortest_edge(model, cells, cell)).reduce(|| f64::INFINITY, f64::min)
+}
+
+/// Shortest distance of two corners of a cell \[m\].
+fn shortest_edge<const D: usize>(model: &Model<D>, cells: &Cells, cell: usize) -> f64 {
+    let corners = &cells.cell(cell)[..cells.kind.corners()];
     let square = |a: usize, b: usize| {
         let (a, b) = (&model.mesh.nodes[a], &model.mesh.nodes[b]);
         (0..D).map(|c| (a[c] - b[c]).powi(2)).sum::<f64>()
     };
     let pairs = corners.iter().enumerate().flat_map(|(k, &a)| corners[..k].iter().map(move |&b| (a, b)));
-    let shortest = pairs.map(|(a, b)| square(a, b)).fold(f64::INFINITY, f64::min).sqrt();
-    let largest = (0..D).map(range).fold(0.0, f64::max);
-    (largest / shortest).max(hoop(model, cells, cell, u))
+    pairs.map(|(a, b)| square(a, b)).fold(f64::INFINITY, f64::min).sqrt()
 }
 
 /// Magnitude of the hoop strain in axisymmetry.

@@ -344,7 +344,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
     fn load(&mut self, room: &mut Room) {
         let special = &self.special;
         let loaded = if self.loads.is_empty() && self.springs.is_empty() { 0 } else { special.all.len() };
-        room.clear(special.faulted, loaded);
+        room.clear(special.faulted.len(), loaded);
         self.loads.add(self.time, &mut room.external);
         let of = |place: usize, c: usize| self.u[special.all[place].node * self.components + c];
         self.springs.add(self.time, of, &mut room.external);
@@ -355,16 +355,44 @@ impl<'a, const D: usize> Explicit<'a, D> {
 
     /// Accelerations of the nodes of faults without the changes of tractions, with velocities and displacements there.
     fn free_accelerations(&self, room: &mut Room) {
+        match self.components {
+            1 => self.free_accelerations_of::<1>(room),
+            2 => self.free_accelerations_of::<2>(room),
+            _ => self.free_accelerations_of::<3>(room),
+        }
+    }
+
+    fn free_accelerations_of<const C: usize>(&self, room: &mut Room) {
         let Room { external, acceleration, before, displacement, .. } = room;
         let actions = self.actions(external);
-        let of_node = nodal_forces(&self.product, self.inelastic.forces(), self.components);
-        let (velocity, u, components) = (&self.velocity, &self.u, self.components);
-        let all = acceleration.par_iter_mut().zip(before).zip(displacement).enumerate();
-        all.with_min_len(NODES).for_each(|(place, ((acceleration, before), displacement))| {
-            let node = actions.nodes.all[place].node;
-            (*before, *displacement) = (vector(velocity, node, components), vector(u, node, components));
-            *acceleration = actions.acceleration(place, [&of_node(node), before, displacement]);
+        let nodes = &actions.nodes.faulted;
+        let values = acceleration.par_chunks_mut(NODES).zip(before.par_chunks_mut(NODES));
+        let tasks = values.zip(displacement.par_chunks_mut(NODES)).zip(nodes.par_chunks(NODES));
+        tasks.enumerate().for_each(|(task, (((acceleration, before), displacement), nodes))| {
+            // Nodes of faults lie apart in memory: loops that do nothing but read wait for many of them at once.
+            read_nodes::<C>(&self.velocity, nodes, before);
+            read_nodes::<C>(&self.u, nodes, displacement);
+            self.read_forces::<C>(nodes, acceleration);
+            for (own, acceleration) in acceleration.iter_mut().enumerate() {
+                let internal = *acceleration;
+                let place = task * NODES + own;
+                *acceleration = actions.acceleration(place, [&internal, &before[own], &displacement[own]]);
+            }
         });
+    }
+
+    /// Reads the forces of all cells on nodes \[N\].
+    fn read_forces<const C: usize>(&self, nodes: &[usize], forces: &mut [[f64; 3]]) {
+        for (force, &node) in forces.iter_mut().zip(nodes) {
+            *force = in_space(&self.product.force_of::<C>(node));
+        }
+        let others = self.inelastic.forces().as_chunks::<C>().0;
+        if others.is_empty() {
+            return;
+        }
+        for (force, &node) in forces.iter_mut().zip(nodes) {
+            force.iter_mut().zip(&others[node]).for_each(|(f, other)| *f += other);
+        }
     }
 
     /// Special nodes under these loads.
@@ -607,26 +635,10 @@ impl<'a, const D: usize> Explicit<'a, D> {
     }
 }
 
-/// Vector of a node from values of all degrees of freedom.
-fn vector(values: &[f64], node: usize, components: usize) -> [f64; 3] {
-    let at = node * components;
-    std::array::from_fn(|c| if c < components { values[at + c] } else { 0.0 })
-}
-
-/// Internal forces on nodes, of linear cells and of others \[N\].
-fn nodal_forces<'a>(
-    product: &'a MatrixFree,
-    others: &'a [f64],
-    components: usize,
-) -> impl Fn(usize) -> [f64; 3] + Sync + 'a {
-    move |node| {
-        let mut force = match components {
-            1 => in_space(&product.force_of::<1>(node)),
-            2 => in_space(&product.force_of::<2>(node)),
-            _ => product.force_of::<3>(node),
-        };
-        let others = others.get(node * components..(node + 1) * components).unwrap_or_default();
-        force.iter_mut().zip(others).for_each(|(f, other)| *f += other);
-        force
+/// Reads the vectors of nodes from values of all degrees of freedom.
+fn read_nodes<const C: usize>(values: &[f64], nodes: &[usize], vectors: &mut [[f64; 3]]) {
+    let values = values.as_chunks::<C>().0;
+    for (vector, &node) in vectors.iter_mut().zip(nodes) {
+        *vector = in_space(&values[node]);
     }
 }

@@ -10,8 +10,8 @@ use std::ops::Range;
 pub(super) struct SpecialNodes {
     /// Nodes.
     pub all: Vec<SpecialNode>,
-    /// Number of those of faults.
-    pub faulted: usize,
+    /// Nodes of the mesh of those of faults.
+    pub faulted: Vec<usize>,
 }
 
 impl SpecialNodes {
@@ -24,29 +24,28 @@ impl SpecialNodes {
         };
         let (faulted, mut others) = (ascending(faulted), ascending(others));
         others.retain(|node| faulted.binary_search(node).is_err());
-        Self { faulted: faulted.len(), all: faulted.into_iter().chain(others).map(special).collect() }
+        let all = faulted.iter().copied().chain(others).map(special).collect();
+        Self { all, faulted }
     }
 
     /// Place of a node, which must be special.
     pub fn find(&self, node: usize) -> usize {
-        let (faulted, others) = self.all.split_at(self.faulted);
-        let place = faulted.partition_point(|s| s.node < node);
-        if faulted.get(place).is_some_and(|s| s.node == node) {
-            return place;
-        }
-        self.faulted + others.partition_point(|s| s.node < node)
+        self.faulted.binary_search(&node).unwrap_or_else(|_| {
+            let others = &self.all[self.faulted.len()..];
+            self.faulted.len() + others.partition_point(|s| s.node < node)
+        })
     }
 
     /// Places of the first nodes from `node` on: of faults, and others.
     pub fn from(&self, node: usize) -> [usize; 2] {
-        let (faulted, others) = self.all.split_at(self.faulted);
-        let before = |nodes: &[SpecialNode]| nodes.partition_point(|s| s.node < node);
-        [before(faulted), self.faulted + before(others)]
+        let count = self.faulted.len();
+        let before = self.faulted.partition_point(|n| *n < node);
+        [before, count + self.all[count..].partition_point(|s| s.node < node)]
     }
 
     /// Places of the nodes before `end` from the `next` ones on, which move past them.
     pub fn until(&self, end: usize, next: &mut [usize; 2]) -> [Range<usize>; 2] {
-        let ends = [self.faulted, self.all.len()];
+        let ends = [self.faulted.len(), self.all.len()];
         std::array::from_fn(|list| {
             let start = next[list];
             let count = self.all[start..ends[list]].iter().take_while(|s| s.node < end).count();

@@ -1,12 +1,9 @@
 //! Warnings about the results of a run of bodies.
 
 use super::report::InterfaceResult;
+use asperity_contact::TOUCH;
 use asperity_mechanics::PlannedInterface;
 use asperity_run::Warning;
-
-/// Rounding of relative positions as a share of the size of the scene: gaps are differences of averages over some tens of
-/// positions.
-const TOUCH: f64 = 1e-14;
 
 /// Traction of a point that touches without load \[Pa\]: its penalty times the rounding of its gap in a scene of this size \[m\].
 #[must_use]

@@ -29,7 +29,7 @@ fn told(u: impl Fn(&[f64; 2]) -> [f64; 2]) -> (Largest, Vec<String>) {
     worst.see(&plan.problem, 0.5, &[], &|| u.clone(), false);
     worst.see(&plan.problem, 1.0, &[], &|| vec![0.0; u.len()], true);
     let told = worst.warnings(&plan.problem, "turn").into_iter().map(|w| w.message).collect();
-    (largest_in_block(&plan.problem.model, 0, &u), told)
+    (largest_in_block(&plan.problem.model, 0, 0.0, &u), told)
 }
 
 #[test]
