@@ -101,7 +101,7 @@ fn list(root: &Path, defects: &[Defect]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What a run of the suite is for.
+/// Defect of a run of the suite, and the folder of its report.
 struct Trial<'a> {
     /// Defect among those of the build; `None` without one.
     chosen: Option<&'a str>,

@@ -186,7 +186,7 @@ impl Source {
     }
 }
 
-/// What a signature says after its parameters, whose types may have arrows of their own.
+/// Result of a signature: what follows its parameters, whose types may have arrows of their own.
 fn result_of(signature: &str) -> &str {
     let mut depth = 0i32;
     for (at, c) in signature.char_indices() {
