@@ -16,7 +16,8 @@ const PRESSURE: f64 = 1e-3;
 /// End of the run: the wave has left, and a reflection would not have returned to the driven end.
 const END: f64 = 3.2;
 
-fn scene() -> String {
+/// The sheet pushed at one end, whose other end absorbs.
+fn scene(pushed: &str, absorbing: &str) -> String {
     let at = |k: i32| {
         format!(
             "[{:?}, {:?}]",
@@ -29,8 +30,8 @@ fn scene() -> String {
         "schema = 1\ntitle = \"sheet\"\nkinematics = \"plane-stress\"\n[materials.sheet]\nyoung = 1\npoisson = {POISSON:?}\ndensity = 1\n\
          [bodies.bar]\nmaterial = \"sheet\"\n\
          mesh.block = {{ min = [0, 0], max = [{LENGTH:?}, {HEIGHT:?}], divisions = [{CELLS}, 1], element = \"quad4\" }}\n\
-         [[stages]]\nname = \"push\"\nduration = {END:?}\nconditions = [{{ set = \"bar.left\", pressure = {{ table = [{}] }} }}, \
-         {{ set = \"bar.bottom\", y = 0 }}, {{ set = \"bar.top\", y = 0 }}, {{ set = \"bar.right\", absorbing = true }}]\n\
+         [[stages]]\nname = \"push\"\nduration = {END:?}\nconditions = [{{ set = \"bar.{pushed}\", pressure = {{ table = [{}] }} }}, \
+         {{ set = \"bar.bottom\", y = 0 }}, {{ set = \"bar.top\", y = 0 }}, {{ set = \"bar.{absorbing}\", absorbing = true }}]\n\
          [time]\nstepper = \"explicit\"\nviscosity = 0\n[output]\nsampling = {:?}\n",
         rows.join(", "),
         END / 32.0
@@ -38,12 +39,18 @@ fn scene() -> String {
 }
 
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let run = Waves::from_text(&scene())?;
+    end(ledger, "left", "right", "")?;
+    end(ledger, "right", "left", ", to the left")
+}
+
+/// Claims about the wave that leaves through an end; `way` distinguishes their names.
+fn end(ledger: &mut Ledger, pushed: &str, absorbing: &str, way: &str) -> Result<(), CaseError> {
+    let run = Waves::from_text(&scene(pushed, absorbing))?;
     let table = run.files.table("energy.csv")?;
     let speed = (1.0 / (1.0 - POISSON * POISSON)).sqrt();
     let wavenumber = TAU / speed * LENGTH / CELLS as f64;
     ledger
-        .claim("energy that an absorbing side takes from a compression wave in plane stress")
+        .claim(format!("energy that an absorbing side takes from a compression wave in plane stress{way}"))
         .unit("J/m")
         .value(last(&table.column("absorbed")?)?)
         .equals(HEIGHT * PRESSURE * PRESSURE * 3.0 / 8.0 / speed)
@@ -55,7 +62,7 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
         .record();
     let left = last(&table.column("kinetic")?)? + last(&table.column("elastic")?)?;
     ledger
-        .claim("energy left behind by that wave over the work of the load")
+        .claim(format!("energy left behind by that wave over the work of the load{way}"))
         .value(left / last(&table.column("loads")?)?)
         .at_most(wavenumber.powi(4))
         .evidence(Evidence::Exact, "dashpots of ρ c reflect nothing at normal incidence")

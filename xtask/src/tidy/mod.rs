@@ -17,6 +17,7 @@ mod sentences;
 mod source;
 mod text;
 mod tree;
+mod unbuilt_tests;
 mod variation;
 
 use crate::stage::Failure;
@@ -45,6 +46,7 @@ pub fn check(root: &Path) -> Result<Vec<Problem>, Failure> {
     found.extend(circles::check(&files));
     found.extend(defects::check(&files));
     found.extend(readers::check(&files));
+    found.extend(unbuilt_tests::check(&files));
     found.extend(variation::check(&files));
     found.sort();
     found.dedup();

@@ -9,6 +9,7 @@ use asperity_plan::faults::Plan;
 use asperity_plan::reading::scene;
 use asperity_plan::{ScenePlan, plan_scene};
 use asperity_run::Event;
+use asperity_scene::defaults;
 use asperity_vary::Change::{self, Add, With, WithOrSame, Without};
 use asperity_vary::SceneText;
 use asperity_vary::bp1::{AT_CREEP, BP1, sized};
@@ -51,6 +52,7 @@ fn faults_in_space_are_integrated_by_the_stabilised_method() {
     };
     let space = |changes: &[Change<'_>]| found(&varied(&varied(BP5, &COARSE), changes));
     assert_eq!(space(&[]), (Method::Stabilised, 1e-4));
+    assert_eq!(Method::Stabilised.name(), defaults::METHOD_IN_SPACE);
     assert_eq!(space(&[Add("time.log_rate_tolerance", "1e-6")]), (Method::Stabilised, 1e-6));
     assert_eq!(space(&[Add("time.method", "\"tsit5\"")]), (Method::Tsit5, 1e-5));
     assert_eq!(space(&[HEAT]), (Method::Tsit5, 1e-5));

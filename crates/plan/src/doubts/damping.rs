@@ -29,16 +29,3 @@ pub fn damping(
         Warning::at(place, message, help)
     })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_unit_that_is_left_out_is_told_of_and_a_factor_of_a_few_is_not() {
-        let doubt = |given: f64| damping("fault `main`", 0..1, given, [Some(4.6e6), None]).is_some();
-        assert!(doubt(5.0) && doubt(5e12));
-        assert!(!doubt(2e6) && !doubt(1e7) && !doubt(0.0));
-        assert!(damping("x", 0..1, 5.0, [None]).is_none());
-    }
-}

@@ -38,15 +38,3 @@ pub fn fluid(fault: &str, place: Range<usize>, of: Fluid) -> Option<Warning> {
         Warning::at(place, message, help)
     })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn fluid_past_both_ends_is_told_of() {
-        let of = |duration| Fluid { at: 1e3, ends: [0.0, 2e3], diffusivity: 0.1, duration };
-        assert!(fluid("main", 0..1, of(3e9)).is_some());
-        assert!(fluid("main", 0..1, of(9e6)).is_none());
-    }
-}

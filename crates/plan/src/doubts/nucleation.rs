@@ -21,14 +21,3 @@ pub fn nucleation(surface: &str, place: Range<usize>, length: f64, extent: f64) 
         Warning::at(place, message, "check the units of `l` or `d_c`, of `normal` and of `young`; or a longer surface")
     })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_length_beyond_the_surface_is_told_of() {
-        assert!(nucleation("fault `main`", 0..1, 300.0, 1.0).is_some());
-        assert!(nucleation("fault `main`", 0..1, 30.0, 1.0).is_none());
-    }
-}

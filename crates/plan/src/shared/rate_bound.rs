@@ -22,15 +22,3 @@ pub fn reason(surface: &str, place: &str, after: f64, [rate, most]: [f64; 2], ra
          the last state before it is kept; {remedy}"
     )
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_slowest_material_bounds_slip_and_any_rock_what_is_unknown() {
-        assert_eq!(bound([Some(3464.0), Some(2000.0)]), 2000.0);
-        assert_eq!(bound([Some(6000.0), None]), ANY_ROCK);
-        assert_eq!(bound([]), ANY_ROCK);
-    }
-}

@@ -15,7 +15,7 @@ const NAMES: [&str; 3] = ["x", "y", "z"];
 
 /// Known directions of a scene.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Compass<'a> {
+pub struct Compass<'a> {
     /// Direction up.
     pub up: Option<[f64; 3]>,
     /// Geographic position.
@@ -23,7 +23,7 @@ pub(crate) struct Compass<'a> {
 }
 
 /// View of a surface.
-pub(crate) enum View<'a> {
+pub enum View<'a> {
     /// From above, with north up.
     Map(&'a Frame),
     /// Along directions to the right and up, with their names.
@@ -73,7 +73,8 @@ impl<'a> View<'a> {
     }
 }
 
-fn unit(axis: usize) -> Vector3<f64> {
+/// Unit vector along an axis.
+pub fn unit(axis: usize) -> Vector3<f64> {
     Vector3::from_fn(|c, _| f64::from(u8::from(c == axis)))
 }
 
@@ -84,7 +85,7 @@ fn flat<'a>(axis: usize) -> View<'a> {
 }
 
 /// A map in the axes of the scene: where y points up, x points up the page and z to the right, as in maps of the ground.
-fn from_above<'a>(up: &Vector3<f64>) -> View<'a> {
+pub fn from_above<'a>(up: &Vector3<f64>) -> View<'a> {
     match (0..3).find(|&axis| up[axis] > 1.0 - STRAIGHT) {
         Some(axis) => {
             let axes = [(axis + 1) % 3, (axis + 2) % 3];
@@ -99,7 +100,7 @@ fn from_above<'a>(up: &Vector3<f64>) -> View<'a> {
 }
 
 /// A surface seen from its hanging wall: along strike to the right, and up dip.
-fn along_strike<'a>(normal: &Vector3<f64>, up: &Vector3<f64>, frame: Option<&Frame>) -> View<'a> {
+pub fn along_strike<'a>(normal: &Vector3<f64>, up: &Vector3<f64>, frame: Option<&Frame>) -> View<'a> {
     let hanging = if normal.dot(up) < -STRAIGHT { -normal } else { *normal };
     let mut strike = up.cross(&hanging).normalize();
     let mut rises = hanging.cross(&strike);
@@ -121,46 +122,4 @@ fn along_rake<'a>(points: &[PointView]) -> View<'a> {
     let across = first.across.unwrap_or_else(|| medium::across(&first.normal, &first.slides));
     let axes = [first.slides, across].map(Vector3::from);
     View::Along(axes, ["Along the rake".into(), "Across the rake".into()])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn axes(view: &View<'_>) -> ([[f64; 3]; 2], [String; 2]) {
-        match view {
-            View::Along(axes, labels) => (axes.map(|a| [a.x, a.y, a.z]), labels.clone()),
-            View::Map(_) => panic!("a map"),
-        }
-    }
-
-    fn close(found: [[f64; 3]; 2], expected: [[f64; 3]; 2]) {
-        let pairs = found.iter().flatten().zip(expected.iter().flatten());
-        assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-12), "{found:?} is not {expected:?}");
-    }
-
-    #[test]
-    fn a_dipping_surface_is_seen_from_its_hanging_wall_with_its_dip_to_the_right_of_strike() {
-        // East, north and up are x, y and z. The plane dips 70 degrees to the east: its strike is north.
-        let (sine, cosine) = 70_f64.to_radians().sin_cos();
-        for sign in [1.0, -1.0] {
-            let view = along_strike(&(sign * Vector3::new(sine, 0.0, cosine)), &Vector3::z(), None);
-            close(axes(&view).0, [[0.0, 1.0, 0.0], [-cosine, 0.0, sine]]);
-        }
-        for sign in [1.0, -1.0] {
-            let view = along_strike(&(sign * Vector3::new(0.8, 0.6, 0.0)), &Vector3::z(), None);
-            close(axes(&view).0, [[-0.6, 0.8, 0.0], [0.0, 0.0, 1.0]]);
-        }
-    }
-
-    #[test]
-    fn maps_are_right_handed_seen_from_above() {
-        for axis in 0..3 {
-            let View::Along([right, page], _) = from_above(&unit(axis)) else { panic!("a map") };
-            assert_eq!(right.cross(&page), unit(axis));
-        }
-        let up = Vector3::new(0.6, 0.8, 0.0);
-        let View::Along([right, page], _) = from_above(&up) else { panic!("a map") };
-        assert!((right.cross(&page) - up).norm() < 1e-12);
-    }
 }

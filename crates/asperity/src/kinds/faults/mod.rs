@@ -3,7 +3,7 @@
 pub mod catalogue_entries;
 pub mod checkpoint;
 mod collections;
-pub(crate) mod compass;
+pub mod compass;
 mod compression;
 mod coulomb_figures;
 mod coulomb_tables;

@@ -1,6 +1,7 @@
 //! Tests of single parts of the driver.
 
 mod benchmark;
+mod cell_distance;
 mod checkpoint_scene;
 mod cite;
 mod cite_benchmarks;
@@ -21,6 +22,7 @@ mod difference;
 mod dynamic_arrivals;
 mod fault_cadence;
 mod fault_checkpoint;
+mod fault_compass;
 mod fault_identity;
 mod fault_planner_cover;
 mod fault_planner_patches;
@@ -30,6 +32,7 @@ mod field_cells;
 mod field_lattice;
 mod forecast;
 mod model_order;
+mod plan_doubts;
 mod plan_penalty;
 mod refused;
 mod report_energy;

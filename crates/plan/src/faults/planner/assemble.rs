@@ -471,15 +471,3 @@ fn point_view<const D: usize>(p: &PlacedPoint<D>, creep: Option<&Creep>, turns: 
         plate: plate.filter(|rate| rate[0] != 0.0 || turns && rate[1] != 0.0),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::{IN_SPACE, IN_THE_PLANE};
-    use asperity_scene::defaults;
-
-    #[test]
-    fn the_default_methods_are_those_of_the_rows_of_the_key() {
-        assert_eq!(IN_THE_PLANE.0.name(), defaults::METHOD);
-        assert_eq!(IN_SPACE.0.name(), defaults::METHOD_IN_SPACE);
-    }
-}

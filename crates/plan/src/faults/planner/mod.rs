@@ -41,7 +41,7 @@ mod requests;
 mod rock;
 mod sense;
 mod side_conditions;
-mod spacing;
+pub mod spacing;
 mod start_doubts;
 mod steady;
 mod up_direction;

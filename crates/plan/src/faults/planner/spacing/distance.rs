@@ -3,16 +3,16 @@
 use nalgebra::Vector3;
 
 /// A position \[m\].
-pub(super) type Position = Vector3<f64>;
+pub type Position = Vector3<f64>;
 
 /// Two positions at which two cells are closest \[m\].
-pub(super) type Nearest = [Position; 2];
+pub type Nearest = [Position; 2];
 
 /// Share of a squared length below which it is rounding.
 const ROUNDING: f64 = 1e-24;
 
 /// Positions at which two cells are closest; each has two corners or more.
-pub(super) fn nearest(a: &[Position], b: &[Position]) -> Nearest {
+pub fn nearest(a: &[Position], b: &[Position]) -> Nearest {
     let edges = edges_of(a).flat_map(|one| edges_of(b).map(move |other| between_segments(&one, &other)));
     let above = a.iter().filter_map(|x| Some([*x, foot(x, b)?]));
     let below = b.iter().filter_map(|x| Some([foot(x, a)?, *x]));
@@ -73,43 +73,4 @@ fn pierced(a: &[Position], b: &[Position]) -> Option<Position> {
         // Strictly on both sides; what touches is found by feet and edges.
         (from * to < 0.0).then(|| foot(&(p + (q - p) * (from / (from - to))), b)).flatten()
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn at(x: f64, y: f64, z: f64) -> Position {
-        Vector3::new(x, y, z)
-    }
-
-    fn distance(a: &[Position], b: &[Position]) -> f64 {
-        let [p, q] = nearest(a, b);
-        (p - q).norm()
-    }
-
-    #[test]
-    fn distances_are_those_of_crossing_parallel_and_skew_segments() {
-        let one = [at(0.0, 0.0, 0.0), at(2.0, 0.0, 0.0)];
-        assert_eq!(distance(&one, &[at(1.0, -1.0, 0.0), at(1.0, 1.0, 0.0)]), 0.0);
-        assert_eq!(distance(&one, &[at(5.0, 1.0, 0.0), at(1.0, 1.0, 0.0)]), 1.0);
-        assert_eq!(distance(&one, &[at(1.0, -1.0, 3.0), at(1.0, 1.0, 3.0)]), 3.0);
-        assert_eq!(distance(&one, &[at(5.0, 4.0, 0.0), at(9.0, 4.0, 0.0)]), 5.0);
-        // One inside the other.
-        assert_eq!(distance(&one, &[at(0.5, 0.0, 0.0), at(1.5, 0.0, 0.0)]), 0.0);
-    }
-
-    #[test]
-    fn distances_are_those_of_triangles_and_rectangles() {
-        let triangle = [at(0.0, 0.0, 0.0), at(3.0, 0.0, 0.0), at(0.0, 3.0, 0.0)];
-        let above = [at(0.5, 0.5, 2.0), at(5.0, 0.5, 4.0), at(0.5, 5.0, 4.0)];
-        assert!((distance(&triangle, &above) - 2.0).abs() < 1e-12);
-        let through = [at(1.0, 1.0, -1.0), at(1.0, 1.0, 5.0), at(0.9, 1.0, 5.0)];
-        assert!(distance(&triangle, &through) < 1e-12);
-        let square = [at(4.0, 0.0, 0.0), at(5.0, 0.0, 0.0), at(5.0, 1.0, 0.0), at(4.0, 1.0, 0.0)];
-        assert!((distance(&triangle, &square) - 1.0).abs() < 1e-12);
-        // The plane of one passes beside the other.
-        let beside = [at(4.0, 4.0, -1.0), at(4.0, 4.0, 1.0), at(4.0, 9.0, 0.0)];
-        assert!((distance(&triangle, &beside) - (5.0 / 2.0_f64.sqrt())).abs() < 1e-12);
-    }
 }

@@ -4,7 +4,7 @@
 //! or branches is refused, also at corners that cells have in common.
 
 pub(super) mod cell;
-mod distance;
+pub mod distance;
 pub(super) mod faces;
 
 use crate::reading::diagnostic::Diagnostic;
