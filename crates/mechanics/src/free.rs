@@ -28,13 +28,24 @@ pub(crate) fn unsolved<const D: usize>(
     )
 }
 
-/// Describes a motion out of the model that contact and friction do not stop.
-pub(crate) fn adrift<const D: usize>(model: &Model<D>, node: usize, component: usize) -> String {
+/// Describes a motion out of the model that nothing stops, in a scene whose bodies touch or not.
+pub(crate) fn adrift<const D: usize>(
+    model: &Model<D>,
+    node: usize,
+    component: usize,
+    touches: bool,
+) -> String {
     let axis = AXES[model.idealisation.axis(component)];
     let body = model.bodies.iter().find(|b| b.nodes.contains(&node));
     let body = body.map_or(String::new(), |b| format!(" of body `{}`", b.name));
+    // Without contact a body moves so where it is at its limit load, or its cells are crushed.
+    let why = if touches {
+        "contact and friction do not hold it against the loads"
+    } else {
+        "the body yields or collapses under the loads"
+    };
     format!(
-        "nothing resists the motion in {axis} of the node at {}{body}: contact and friction do not hold it against the loads",
+        "nothing resists the motion in {axis} of the node at {}{body}: {why}",
         in_words(&model.mesh.nodes[node])
     )
 }

@@ -71,3 +71,4 @@ mod snapshot;
 mod solvers;
 mod split_sides;
 mod springs;
+mod surfaces;

@@ -25,7 +25,7 @@ impl<const D: usize> AssembledProblem<'_, D> {
             Failure::Adrift { dof } => {
                 self.multiplier_in_words(*dof, &self.numbering.nodes).unwrap_or_else(|| {
                     let (node, component) = self.node_of(*dof);
-                    free::adrift(&self.problem.model, node, component)
+                    free::adrift(&self.problem.model, node, component, !self.problem.interfaces.is_empty())
                 })
             }
         }

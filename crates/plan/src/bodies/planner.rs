@@ -43,6 +43,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     let samples = samples::find(scene, &assembly.model)?;
     let checks = checks::collect(&assembly, summary.memory_bytes, &solver)?;
     let events = events::plan(scene, &assembly.model, &assembly.interfaces)?;
+    stepping::resolvable(scene, assembly.model.scale)?;
     let control = stepping::control(scene, &assembly.stages);
     let Assembly { model, stages, stepping, interfaces, frictions, .. } = assembly;
     let thetas = frictions.iter().map(|f| f.as_ref().map_or_else(Vec::new, Friction::thetas)).collect();

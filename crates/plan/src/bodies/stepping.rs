@@ -3,7 +3,7 @@
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Rule, Scene, Spanned, Stepper};
 use crate::shared::loading::courses;
-use asperity_contact::TimeRule;
+use asperity_contact::{TOUCH, TimeRule};
 use asperity_friction::law::RateBounds;
 use asperity_mechanics::{Control, Stage, Stepping, timing};
 use asperity_output::bodies::FieldSchedule;
@@ -68,6 +68,25 @@ pub fn rule(scene: &Scene) -> Rule {
 fn evolves(scene: &Scene) -> bool {
     let mut kinds = scene.interfaces.values().filter_map(|i| i.law.as_ref()?.get_ref().kind.as_ref());
     kinds.any(|kind| kind.get_ref() == RATE_AND_STATE)
+}
+
+/// Checks that the tolerance of slip is no less than the rounding of positions in a scene of size `scale` \[m\].
+///
+/// # Errors
+/// [`Diagnostic`] at the tolerance.
+pub fn resolvable(scene: &Scene, scale: f64) -> Result<(), Diagnostic> {
+    let rounding = TOUCH * scale;
+    match scene.time.tolerance.as_ref().filter(|given| given.get_ref().0 < rounding) {
+        Some(given) => Err(Diagnostic::at(
+            given.span(),
+            format!(
+                "`tolerance` = {:e} m is less than the rounding of positions, {rounding:.1e} m here: no step is short enough",
+                given.get_ref().0
+            ),
+            "left out, 2e-5 of the largest travel of a stage is taken",
+        )),
+        None => Ok(()),
+    }
 }
 
 /// Step control of a scene with these stages.

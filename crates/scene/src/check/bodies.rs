@@ -1,7 +1,7 @@
 //! Bodies: their materials and the forces on them.
 
 use super::Checker;
-use crate::model::{Body, Formulation, Strain};
+use crate::model::{Body, Formulation, Kinematics, Strain};
 use crate::suggestions::suggest;
 
 impl Checker<'_> {
@@ -70,6 +70,14 @@ impl Checker<'_> {
                     gravity.span(),
                     "gravity must be finite",
                     "in m/s^2, such as `gravity = [0, -9.81]`",
+                );
+            }
+            let axial = *self.scene.kinematics.get_ref() == Kinematics::Axisymmetric;
+            if axial && gravity.get_ref().first().is_some_and(|radial| *radial != 0.0) {
+                self.error(
+                    gravity.span(),
+                    "gravity along x pulls towards the axis of revolution, or away from it: x is the radius",
+                    "weight acts along the axis here, such as `gravity = [0, \"-9.81 m/s^2\"]`",
                 );
             }
             for (_, material, _) in body.materials() {

@@ -185,7 +185,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Reports keys that bound steps by a quantity that no law of the scene has.
+    /// Reports keys that bound a quantity that no law of the scene has.
     fn without_law(&mut self) {
         let time = &self.scene.time;
         if self.scene.interfaces.is_empty() {
@@ -197,13 +197,14 @@ impl Checker<'_> {
             (key("zeta", time.zeta.as_ref()), "characteristic slip", &WITH_LENGTH[..]),
             (key("rate_change", time.rate_change.as_ref()), "slip rate", &WITH_RATE[..]),
             (key("friction_tolerance", time.friction_tolerance.as_ref()), "slip rate", &WITH_RATE[..]),
+            (key("slip_rate_limit", time.slip_rate_limit.as_ref()), "slip rate", &WITH_RATE[..]),
         ];
         for (given, what, owners) in keys {
             let Some((name, place)) = given.filter(|_| !kinds.iter().any(|k| owners.contains(k))) else {
                 continue;
             };
             let message =
-                format!("`{name}` bounds steps by the {what} of a law, and no law of the scene has one");
+                format!("`{name}` is a bound on the {what} of a law, and no law of the scene has one");
             self.warn(place, message, format!("remove `{name}`; laws with one are {}", owners.join(" and ")));
         }
     }

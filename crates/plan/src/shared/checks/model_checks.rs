@@ -7,6 +7,7 @@ use crate::shared::model::forecast::Counts;
 use crate::shared::model::{Model, bounds, counts, nodes};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
+use asperity_fem::mesh::{Side, face_nodes};
 use asperity_fem::surface;
 use asperity_mechanics::{Body, Stage};
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,9 +15,10 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Checks of the bodies of a model and of the sets that conditions, interfaces, faults and outputs use.
 ///
 /// # Errors
-/// [`Diagnostic`] at a set without faces.
+/// [`Diagnostic`] at a set without faces, at faces inside bodies or on an axis of revolution, and at an axis that is moved.
 pub(crate) fn checks<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Checks, Diagnostic> {
     let in_space = D == 3 || model.idealisation == Idealisation::Axisymmetric;
+    axis(scene, model)?;
     let bodies = model.bodies.iter().map(|body| body_check(model, body)).collect();
     Ok(Checks { in_space, bodies, sets: sets(scene, model)?, ..Checks::default() })
 }
@@ -109,6 +111,9 @@ fn sets<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<SetCheck>
                 "a set is a group of faces of cells: name it where the mesh is made, or take another",
             ));
         }
+        if SURFACES.iter().any(|use_of_surface| word.starts_with(use_of_surface)) {
+            outside(model, set, faces)?;
+        }
         let entry = found.entry(set.get_ref()).or_insert_with(|| SetCheck {
             set: set.get_ref().clone(),
             used: Vec::new(),
@@ -121,6 +126,66 @@ fn sets<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<SetCheck>
         }
     }
     Ok(found.into_values().collect())
+}
+
+/// Uses of sets as surfaces of bodies, by their first words in [`used`].
+const SURFACES: [&str; 4] = ["loaded", "absorbs waves", "interface", "fault"];
+
+/// Checks that faces are on the outside of bodies and have an area.
+fn outside<const D: usize>(
+    model: &Model<D>,
+    set: &Spanned<String>,
+    faces: &[Side],
+) -> Result<(), Diagnostic> {
+    let name = set.get_ref();
+    let mut sorted: Vec<Vec<usize>> = faces.iter().map(|side| face_nodes(&model.mesh, side)).collect();
+    sorted.iter_mut().for_each(|nodes| nodes.sort_unstable());
+    sorted.sort_unstable();
+    let inside = sorted.windows(2).filter(|pair| pair[0] == pair[1]).count();
+    if inside > 0 {
+        return Err(Diagnostic::at(
+            set.span(),
+            format!(
+                "`{name}` lies inside a body: {inside} of its faces have cells on both sides, and each would count twice"
+            ),
+            "take faces on the outside; `split` divides a body along faces inside it",
+        ));
+    }
+    let on_axis = |nodes: &Vec<usize>| nodes.iter().all(|&node| model.mesh.nodes[node][0] == 0.0);
+    if model.idealisation == Idealisation::Axisymmetric && sorted.iter().all(on_axis) && !faces.is_empty() {
+        return Err(Diagnostic::at(
+            set.span(),
+            format!("`{name}` lies on the axis of revolution, where faces have no area"),
+            "take faces away from the axis: the material itself holds what lies on it",
+        ));
+    }
+    Ok(())
+}
+
+/// Checks that no condition moves the axis of revolution away from itself.
+fn axis<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<(), Diagnostic> {
+    if model.idealisation != Idealisation::Axisymmetric {
+        return Ok(());
+    }
+    for condition in scene.stages.iter().flat_map(|stage| &stage.conditions).map(Spanned::get_ref) {
+        let (Some(set), Some(x)) = (&condition.set, &condition.x) else { continue };
+        let stays = match x.get_ref() {
+            Motion::Fixed(value) | Motion::To(value) => *value == 0.0,
+            Motion::Hold | Motion::Free => true,
+            Motion::Rate(_) | Motion::Table(_) | Motion::Spring { .. } | Motion::Rotate(_) => false,
+        };
+        if !stays && nodes(model, set)?.iter().any(|&node| model.mesh.nodes[node][0] == 0.0) {
+            return Err(Diagnostic::at(
+                x.span(),
+                format!(
+                    "`{}` has nodes on the axis of revolution, which cannot leave it: x is the radius",
+                    set.get_ref()
+                ),
+                "`x = 0` there, or a set without the axis",
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// Size of a number in memory \[bytes\].
