@@ -45,9 +45,9 @@ fn nothing_moves_or_loads_an_axis_of_revolution() {
     }
     let found = varied(&[Add("stages[0].conditions[2].pressure", "\"1 MPa\"")]);
     assert!(found.contains("where faces have no area"), "{found}");
-    let found = varied(&[Add("bodies.c.gravity", "[\"-9.81 m/s^2\", 0]")]);
+    let found = varied(&[Add("bodies.c.gravity", "[-9.81, 0]")]);
     assert!(found.contains("pulls towards the axis"), "{found}");
-    assert_eq!(varied(&[Add("bodies.c.gravity", "[0, \"-9.81 m/s^2\"]")]), "");
+    assert_eq!(varied(&[Add("bodies.c.gravity", "[0, -9.81]")]), "");
 }
 
 /// A square of four cells, whose middle line is named.

@@ -77,7 +77,7 @@ impl Checker<'_> {
                 self.error(
                     gravity.span(),
                     "gravity along x pulls towards the axis of revolution, or away from it: x is the radius",
-                    "weight acts along the axis here, such as `gravity = [0, \"-9.81 m/s^2\"]`",
+                    "in m/s^2 along the axis, such as `gravity = [0, -9.81]`",
                 );
             }
             for (_, material, _) in body.materials() {
