@@ -43,7 +43,8 @@ fn nothing_moves_or_loads_an_axis_of_revolution() {
         let found = varied(&[With(x, moved)]);
         assert!(found.contains("axis of revolution, which cannot leave it"), "{moved}: {found}");
     }
-    let found = varied(&[Add("stages[0].conditions[2].pressure", "\"1 MPa\"")]);
+    let pressed = "{ set = \"c.left\", pressure = \"1 MPa\" }";
+    let found = varied(&[With("stages[0].conditions[2]", pressed)]);
     assert!(found.contains("where faces have no area"), "{found}");
     let found = varied(&[Add("bodies.c.gravity", "[-9.81, 0]")]);
     assert!(found.contains("pulls towards the axis"), "{found}");
