@@ -213,7 +213,7 @@ fn range<const D: usize>(cells: &Cells, cell: usize, u: &[f64]) -> f64 {
 }
 
 /// Shortest edge of the cells of a block \[m\].
-pub fn shortest_in_block<const D: usize>(model: &Model<D>, cells: &Cells) -> f64 {
+fn shortest_in_block<const D: usize>(model: &Model<D>, cells: &Cells) -> f64 {
     let all = (0..cells.len()).into_par_iter().with_min_len(CELLS);
     all.map(|cell| shortest_edge(model, cells, cell)).reduce(|| f64::INFINITY, f64::min)
 }
