@@ -1,6 +1,6 @@
 //! Runs and their output files, read back as a user would.
 
-use crate::cases::seas;
+use crate::cases::{programs, seas};
 use crate::{CaseError, Cost};
 use asperity::checkpoint::Pauses;
 use asperity::keep::{Keeper, Place};
@@ -239,6 +239,21 @@ pub fn bodies_beside(text: &str, folder: &Path) -> Result<(Folder, Cost), CaseEr
         Ended::Completed => Ok((folder, cost)),
         other => Err(format!("the run did not come to its end: {other:?}").into()),
     }
+}
+
+/// Runs the program on a scene to its end. Its files are in the folder `out` of the one that is returned.
+///
+/// # Errors
+/// If the run fails.
+pub fn by_program(text: &str) -> Result<(Folder, Cost), CaseError> {
+    let folder = Folder::new()?;
+    let file = folder.path().join("scene.toml");
+    std::fs::write(&file, text)?;
+    let mut command = programs::asperity(&[])?;
+    command.args(["run", "--no-plots"]).arg(&file).arg("--out").arg(folder.path().join("out"));
+    let (done, cost) = Cost::measure(|| programs::finished(&mut command, &[0]));
+    done?;
+    Ok((folder, cost))
 }
 
 /// A run of bodies with mass and its files.

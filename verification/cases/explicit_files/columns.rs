@@ -83,6 +83,21 @@ fn front(ledger: &mut Ledger) -> Result<(), CaseError> {
         .covers(&[Capability::DynamicRupture, Capability::Outputs])
         .cost(&run.cost)
         .record();
+    // Both ends of the fault of each column, which is one metre wide, from the top down.
+    let places: Vec<f64> = (0..COLUMNS).flat_map(|k| [2.0 * k as f64 + 1.0, 2.0 * k as f64]).collect();
+    let zeros = [table.column("x")?, table.column("z")?].concat();
+    ledger
+        .claim("positions in the table of rupture times of these columns: x, y and z")
+        .unit("m")
+        .values(&[table.column("y")?, zeros].concat())
+        .equals_each(&[places, vec![0.0; 4 * COLUMNS]].concat())
+        .absolute(1e-9)
+        .evidence(Evidence::Exact, "the columns lie beside each other along y, and their faults at x = 0")
+        .because("rounding of decimals")
+        .why_not_tighter("there is nothing but rounding")
+        .covers(&[Capability::DynamicRupture, Capability::Outputs])
+        .cost(&run.cost)
+        .record();
     let ends = run.report.ruptures.iter().filter_map(|r| r.times).flatten().collect::<Vec<f64>>();
     ledger
         .claim("first and last rupture times in the report")
@@ -173,6 +188,19 @@ fn energy(ledger: &mut Ledger) -> Result<(), CaseError> {
         .because("four times the bound of slip rates on half the size of cells")
         .why_not_tighter("errors of slip rates cancel in part over their rise")
         .covers(&[Capability::Restarts, Capability::Outputs])
+        .cost(&parts.cost)
+        .record();
+    let slips = parts.files.table("slip_profiles.csv")?.numbers().pop().ok_or("no profile")?;
+    ledger
+        .claim("slip in the last profile of that run, after its time")
+        .unit("s and m")
+        .values(&slips)
+        .equals_each(&[vec![END], vec![slip; slips.len() - 1]].concat())
+        .relative(4.0 * 2e-3)
+        .evidence(Evidence::Exact, "twice the integral of the imposed traction")
+        .because("four times the bound of slip rates on half the size of cells")
+        .why_not_tighter("errors of slip rates cancel in part over their rise")
+        .covers(&[Capability::DynamicRupture, Capability::Outputs])
         .cost(&parts.cost)
         .record();
     let missing = table.column("missing")?.into_iter().map(f64::abs).fold(0.0, f64::max);

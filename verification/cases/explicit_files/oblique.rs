@@ -12,6 +12,8 @@ use std::fmt::Write as _;
 
 /// Length of a column in travel times of shear waves.
 const LENGTH: f64 = 2.0;
+/// Position of a receiver in the second part.
+const RECEIVER: f64 = 1.0;
 /// Cells along a column.
 const CELLS: usize = 80;
 /// Imposed traction, and largest velocity of the wave.
@@ -56,7 +58,7 @@ fn scene() -> Result<String, CaseError> {
          [[stages]]\nname = \"slip\"\nduration = {END:?}\nconditions = [{conditions}{{ set = \"a.left\", absorbing = true }}, \
          {{ set = \"b.right\", z = {{ table = [{}] }} }}]\n\
          [time]\nstepper = \"explicit\"\nviscosity = 0\n[output]\nsampling = {:?}\nprofiles = {ROWS}\n\
-         fields = {FIELDS}\nstations.f = [[0, 0.5, 1]]\n",
+         fields = {FIELDS}\nstations.f = [[0, 0.5, 1]]\nseismograms.S = {{ body = \"b\", at = [{RECEIVER:?}, 0.5, 1] }}\n",
         rows.join(", "),
         END / ROWS as f64
     ))
@@ -100,7 +102,71 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
         .covers(&[Capability::DynamicRupture, Capability::Outputs])
         .cost(&run.cost)
         .record();
-    vectors(ledger, &run, lag)
+    vectors(ledger, &run, lag)?;
+    received(ledger, &run, lag)
+}
+
+/// Velocity and displacement along y of a wave of the pulse that has run this way: half of the slip.
+fn released(way: f64, time: f64) -> [f64; 2] {
+    let [[slip, _], [rate, _]] = exact((time - way).max(0.0));
+    [0.5 * rate, 0.5 * slip]
+}
+
+/// The same at the receiver, which the wave passes on its way to the end and back from it.
+fn passed(time: f64) -> [f64; 2] {
+    let [out, back] = [RECEIVER, 2.0 * LENGTH - RECEIVER].map(|way| released(way, time));
+    [out[0] + back[0], out[1] + back[1]]
+}
+
+/// Motions of a receiver between the fault and the end, and of the end.
+fn received(ledger: &mut Ledger, run: &Waves, lag: f64) -> Result<(), CaseError> {
+    let table = run.files.table("seismograms/S.csv")?;
+    let times = table.column("time")?;
+    // The wave passes on its way to the fault, which reflects it as a free end would.
+    let ways = |t: f64| [t - (LENGTH - RECEIVER), t - (LENGTH + RECEIVER)];
+    // The longest way, from the fault to the end and back to the receiver.
+    let way = 2.0 - RECEIVER / LENGTH;
+    for (column, unit, scale, exact) in [
+        ("velocity_y", "m/s", 2.0 * TRACTION, (&|t| passed(t)[0]) as &dyn Fn(f64) -> f64),
+        ("displacement_y", "m", 2.0 * TRACTION, &|t| passed(t)[1]),
+        ("velocity_z", "m/s", WAVE, &|t| ways(t).map(velocity).iter().sum()),
+        ("displacement_z", "m", WAVE, &|t| ways(t).map(|t| motion(t.max(0.0))).iter().sum()),
+    ] {
+        let expected: Vec<f64> = times.iter().map(|t| exact(*t)).collect();
+        ledger
+            .claim(format!("slip that a wave turns out of its direction: {column} of a receiver"))
+            .unit(unit)
+            .norm("largest difference")
+            .values(&table.column(column)?)
+            .equals_each(&expected)
+            .absolute(way * lag * scale)
+            .evidence(Evidence::Exact, "half of the slip of the pulse a travel time later, and again from the end, which is free along y; the wave on its way to the fault, and back from it as from a free end")
+            .because("the shift of phase of the wave on its way; the pulse, which passes twice, grows in half of its duration")
+            .covers(&[Capability::Waves, Capability::Solid3d, Capability::Outputs])
+            .cost(&run.cost)
+            .record();
+    }
+    let time = END * PASSING as f64 / FIELDS as f64;
+    let fields = Fields::read(&run.files.text(&format!("fields/bodies_{PASSING:05}.vtu"))?)?;
+    let last = |name: &str| -> Result<f64, CaseError> {
+        let values = &fields.array(name)?.values;
+        Ok(values[values.len() - 2])
+    };
+    // The end is free along y, so that it moves twice as far as the wave.
+    let end = released(LENGTH, time).map(|value| 2.0 * value);
+    ledger
+        .claim("slip that a wave turns out of its direction: velocity and displacement of the end along y in the fields")
+        .unit("m/s and m")
+        .values(&[last("velocity")?, last("displacement")?])
+        .equals_each(&end)
+        .absolute(lag * TRACTION)
+        .evidence(Evidence::Exact, "twice the wave of the pulse, a travel time after it")
+        .because("the shift of phase of the wave on its way")
+        .why_not_tighter("the pulse has only begun to arrive")
+        .covers(&[Capability::Waves, Capability::Solid3d, Capability::Outputs])
+        .cost(&run.cost)
+        .record();
+    Ok(())
 }
 
 /// Exact slip and slip rate at the station, along y and z.

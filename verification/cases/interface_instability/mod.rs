@@ -250,6 +250,19 @@ fn dropping(ledger: &mut Ledger, system: &System) -> Result<(), CaseError> {
         .covers(&[Capability::InterfaceInstability])
         .cost(&done.cost)
         .record();
+    let whole = [Add("time.first_step", "500 s"), Add("time.max_step", "500 s")];
+    let leapt = attempt(&scene(system.bond(stiffness), &law, 500.0, &whole)?)?;
+    ledger
+        .claim("static-kinetic, first step as long as the stage: time of the instability over that at which the strength is reached")
+        .value(onset(&leapt)?.ok_or("it did not stop")? / yields)
+        .equals(1.0)
+        .relative(1e-3)
+        .evidence(Evidence::Exact, "t = mu_s f_n/(k V), however long the step that reaches it")
+        .because("normal tractions are uniform to some parts in ten thousand, and points share what one of them cannot hold")
+        .why_not_tighter("how uniform they are is known by its order only")
+        .covers(&[Capability::InterfaceInstability])
+        .cost(&leapt.cost)
+        .record();
     let Outcome::Stopped { reason, .. } = &done.report.outcome else { return Err("it did not stop".into()) };
     let words: Vec<&str> = reason.split_whitespace().collect();
     let slip =

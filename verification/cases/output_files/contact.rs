@@ -28,6 +28,10 @@ pub(super) const RATES: [f64; 2] = [2e-6, -1.5e-6];
 /// Duration: slip of the spring and the blocks by 8 um forgets the start by a factor of e, and 1.5 mm follow \[s\].
 const DURATION: f64 = 1000.0;
 
+/// Density of the blocks with inertia \[kg/m³\], and duration of their run \[s\].
+const DENSITY: f64 = 2700.0;
+const SHORT: f64 = 10.0;
+
 /// Friction under steady slip, `f_n a asinh(V/(2 V_0) exp(μ0/a))` \[Pa\].
 fn strength(rate: f64) -> f64 {
     let [mu0, a, v0] = LAW;
@@ -112,7 +116,69 @@ impl Steady {
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     plane(ledger)?;
     space(ledger)?;
+    inertial(ledger)?;
     free(ledger)
+}
+
+/// The blocks with inertia, which slide steadily from the start: their initial stress and velocity are those of steady sliding.
+fn inertial(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let ([w, _], [height, _], [rate, _]) = (WIDTHS, HEIGHTS, RATES);
+    let shear = strength(rate);
+    let stress = format!("[0, {:?}, {shear:?}]", -NORMAL);
+    let text = SceneText::new(&scene(false, RATES))
+        .with("bodies.upper.initial_stress", &stress)
+        .with("bodies.lower.initial_stress", &stress)
+        .add("bodies.upper.velocity", format!("[{rate:e}, 0]"))
+        .add("materials.upper.density", format!("{DENSITY:?}"))
+        .add("materials.lower.density", format!("{DENSITY:?}"))
+        .with("stages[0].duration", format!("{SHORT:?}"))
+        .with("stages[0].conditions[5].x", format!("{{ rate = {rate:e} }}"))
+        .add("time.inertia", "true")
+        .add("events", "{ above = 1e-3 }")
+        .text()?;
+    let (files, cost) = run_files::bodies(&text)?;
+    let kinetic = 0.5 * DENSITY * w * height * rate * rate;
+    let contact = 0.5 * (shear * shear + NORMAL * NORMAL) / PENALTY * w;
+    let work = shear * rate * w * SHORT;
+    let wanted: [ExpectedNumber<'_>; 8] = [
+        ("energy.csv", "time", SHORT),
+        ("energy.csv", "kinetic", kinetic),
+        ("energy.csv", "contact", contact),
+        ("energy.csv", "start", contact + kinetic),
+        ("energy.csv", "friction", work),
+        ("energy.csv", "motions", work),
+        ("largest_rates.csv", "time", SHORT),
+        ("largest_rates.csv", "largest slip_rate of joint", rate),
+    ];
+    all(ledger, (&files, &cost), "with inertia", &wanted)?;
+    let idle = [
+        "elastic",
+        "springs",
+        "plastic",
+        "viscous",
+        "numerical",
+        "absorbed",
+        "handover",
+        "loads",
+        "released",
+    ];
+    let parts = idle
+        .map(|part| super::last(&files, "energy.csv", part))
+        .into_iter()
+        .collect::<Result<Vec<_>, _>>()?;
+    let missing = super::last(&files, "energy.csv", "missing")?;
+    let sum = parts.iter().chain([&missing]).map(|part| part.abs()).sum::<f64>();
+    ledger
+        .claim("two blocks that slide steadily with inertia, at the end: parts of energy.csv that nothing feeds, over the work of friction")
+        .value(sum / work)
+        .at_most(1e-10)
+        .evidence(Evidence::Exact, "stresses stay those of the start, of which elastic energy is the change, and nothing else acts")
+        .because("Newton's method leaves 1e-11 of the forces, times the way of the block")
+        .why_not_tighter("what the last iteration leaves is chance")
+        .covers(&[Capability::Outputs, Capability::Inertia])
+        .cost(&cost)
+        .record();
+    Ok(())
 }
 
 fn plane(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -153,7 +219,9 @@ fn plane(ledger: &mut Ledger) -> Result<(), CaseError> {
         ("springs/upper_top_x.csv", "friction", s.shear / NORMAL),
     ];
     all(ledger, (&files, &cost), "in the plane", &spring)?;
-    let fields: [ExpectedNumber<'_>; 8] = [
+    let fields: [ExpectedNumber<'_>; 10] = [
+        ("fields/joint_*.vtu", "mean_normal_traction", NORMAL),
+        ("fields/joint_*.vtu", "mean_shear_traction", -s.shear),
         ("fields/joint_*.vtu", "slip", -s.slip),
         ("fields/joint_*.vtu", "relative_displacement", -s.relative),
         ("fields/joint_*.vtu", "slip_rate", -rate),
@@ -164,9 +232,44 @@ fn plane(ledger: &mut Ledger) -> Result<(), CaseError> {
         ("fields/joint_*.vtu", "status", 2.0),
     ];
     all(ledger, (&files, &cost), "in the plane", &fields)?;
+    clocks(ledger, (&files, &cost))?;
     report(ledger, (&files, &cost), &s, rate)?;
     head(ledger, (&files, &cost))?;
     backwards(ledger, &files, &s)
+}
+
+/// Times, stages and steps of the last rows, and numbers of profiles and fields that are whole or zero.
+fn clocks(ledger: &mut Ledger, (files, cost): (&Folder, &Cost)) -> Result<(), CaseError> {
+    let (mut found, mut expected) = (Vec::new(), Vec::new());
+    let taken = steps(files)? as f64;
+    for table in ["probes/joint.csv", "points/middle.csv", "forces/top.csv", "springs/upper_top_x.csv"] {
+        for (column, value) in [("time", DURATION), ("stage", 0.0), ("step", taken)] {
+            found.push(super::last(files, table, column)?);
+            expected.push(value);
+        }
+    }
+    let profile = [("time", DURATION), ("node", 2.0), ("z", 0.0), ("gap", 0.0), ("paired", 1.0)];
+    let fields = [("gap", 0.0), ("paired", 1.0)];
+    for (column, value) in profile {
+        found.push(super::last(files, "profiles/joint_*.csv", column)?);
+        expected.push(value);
+    }
+    for (column, value) in fields {
+        found.push(super::last(files, "fields/joint_*.vtu", column)?);
+        expected.push(value);
+    }
+    ledger
+        .claim("two blocks that slide steadily in the plane, at the end: time, stage and step of tables; node, gap and pairing of profiles and fields")
+        .values(&found)
+        .equals_each(&expected)
+        .absolute(1e-9)
+        .evidence(Evidence::Exact, "the duration of the only stage, number 0, and the steps of report.json; the last of three paired nodes of a closed joint")
+        .because("gaps are rounding of positions, far below a nanometre")
+        .why_not_tighter("all others are exact")
+        .covers(&[Capability::Outputs])
+        .cost(cost)
+        .record();
+    Ok(())
 }
 
 /// The position in the head of a column of a probe.
@@ -223,7 +326,18 @@ fn space(ledger: &mut Ledger) -> Result<(), CaseError> {
     let along = [x / rate, z / rate];
     let s = Steady::new(rate * DURATION, rate, 0.0);
     let mises = NORMAL.hypot(3.0_f64.sqrt() * s.shear);
-    let wanted: [ExpectedNumber<'_>; 19] = [
+    // The last of three components is that along z, and the last node is one of the top.
+    let wanted: [ExpectedNumber<'_>; 29] = [
+        ("profiles/joint_*.csv", "z", d),
+        ("profiles/joint_*.csv", "slip_x", s.slip * along[0]),
+        ("profiles/joint_*.csv", "slip_z", s.slip * along[1]),
+        ("profiles/joint_*.csv", "shear_traction_x", s.shear * along[0]),
+        ("profiles/joint_*.csv", "shear_traction_z", s.shear * along[1]),
+        ("fields/joint_*.vtu", "slip_vector", s.slip * along[1]),
+        ("fields/joint_*.vtu", "shear_traction_vector", s.shear * along[1]),
+        ("fields/bodies_*.vtu", "displacement", z * DURATION),
+        ("fields/joint_*.vtu", "mean_shear_traction", s.shear),
+        ("fields/joint_*.vtu", "mean_normal_traction", NORMAL),
         ("points/middle.csv", "mises", mises),
         ("fields/bodies_*.vtu", "mises", mises),
         ("probes/joint.csv", "relative_displacement", s.relative),

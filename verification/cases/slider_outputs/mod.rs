@@ -4,7 +4,7 @@ use super::slider::{self, Independent, MU0, V_REF};
 use super::slider_scene::{FRICTION, RATE, SLIP, STATE, TIME, files, plan, planned, text};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity::kinds::sliders::Report;
-use asperity_cycles::slider::{self as cycles, Problem};
+use asperity_cycles::slider::{self as cycles, Problem, Rows};
 use asperity_friction::evolution::definitions;
 use asperity_ode::Method;
 use asperity_vary::SceneText;
@@ -20,6 +20,9 @@ pub const CASE: Case = Case {
 
 /// Tolerance at which rows between steps are compared.
 const LOOSE: f64 = 1e-6;
+
+/// Change of ln V between rows, of which many lie in a step.
+const CHANGE: f64 = 0.005;
 
 /// a, L \[m\] and f_n \[Pa\] of all scenes.
 const A: f64 = 0.01;
@@ -499,6 +502,9 @@ fn between_steps(ledger: &mut Ledger) -> Result<(), CaseError> {
             .cost(&cost)
             .record();
     }
+    for method in [Method::Tsit5, Method::Dop853, Method::Radau5, Method::Switching] {
+        dense(ledger, method, &problem)?;
+    }
     for (method, order) in [(Method::Tsit5, 5.0), (Method::Dop853, 8.0)] {
         let steps = |tolerance: f64| -> Result<f64, CaseError> {
             Ok(slider::finish(&problem(method, tolerance)?)?.counts.steps as f64)
@@ -513,5 +519,38 @@ fn between_steps(ledger: &mut Ledger) -> Result<(), CaseError> {
             .why_not_tighter("the ratio falls below one where stability bounds the steps")
             .record();
     }
+    Ok(())
+}
+
+/// Claims on rows by the change of the slip rate, which the polynomial of a step gives.
+fn dense(
+    ledger: &mut Ledger,
+    method: Method,
+    problem: &dyn Fn(Method, f64) -> Result<Problem, CaseError>,
+) -> Result<(), CaseError> {
+    let by_change = Rows { change: Some(CHANGE), times: Vec::new(), interval: None, histories: None };
+    let drawn = Problem { output: by_change, ..problem(method, LOOSE)? };
+    let (rows, cost) = Cost::measure(|| files(&drawn));
+    let [mut rows, _] = rows?;
+    // Where the rate of the load has a corner there are two.
+    rows.dedup_by_key(|row| row[TIME]);
+    let times = rows.iter().map(|row| row[TIME]).collect();
+    let asked = Rows { change: None, times, interval: None, histories: None };
+    let [exact, _] = files(&Problem { output: asked, ..problem(Method::Radau5, 1e-13)? })?;
+    let apart = rows.iter().zip(&exact).map(|(row, exact)| (row[RATE] / exact[RATE]).ln().abs());
+    let steps = slider::finish(&problem(method, LOOSE)?)?.counts.steps;
+    if rows.len() != exact.len() || (rows.len() as u64) < 2 * steps {
+        return Err(format!("{} rows of {} times and {steps} steps", rows.len(), exact.len()).into());
+    }
+    ledger
+        .claim(format!("{}: ln of the slip rate in rows by its change, within steps, against a run at a tolerance of 1e-13", method.name()))
+        .norm("largest of all rows")
+        .value(apart.fold(0.0, f64::max))
+        .at_most(10.0 * LOOSE)
+        .evidence(Evidence::ConvergedSelf, "Radau IIA at a tolerance of 1e-13, by steps to the times of the rows")
+        .because("a tolerance a step, over some tens of steps, and the polynomial of a step may err by as much")
+        .why_not_tighter("how errors of steps add up is not known beforehand")
+        .cost(&cost)
+        .record();
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 use super::texts::{self, BodyRun};
 use super::{COLUMN, NORMAL, PRESSED, WIDTH};
+use crate::cases::run_files;
 use crate::{Capability, CaseError, Evidence, Ledger};
 use asperity::catalogue::Entry;
 use asperity_vary::SceneText;
@@ -184,6 +185,7 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
         .cost(&done.cost)
         .record();
     on_its_interface(ledger, &done, event)?;
+    catalogue(ledger)?;
     let fine = texts::simulate(&scene()?.text()?)?;
     let [event] = super::events(&fine)? else { return Err("not one event".into()) };
     ledger
@@ -197,6 +199,53 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
         .why_not_tighter("how many steps a tolerance takes is up to their control")
         .covers(&[Capability::InterfaceStates, Capability::Events])
         .cost(&fine.cost)
+        .record();
+    Ok(())
+}
+
+/// Claims about the same event in its file.
+fn catalogue(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let (files, cost) = run_files::by_program(&coarse()?.text()?)?;
+    let table = files.table("out/events.csv")?;
+    let of = |name: &str| -> Result<f64, CaseError> { Ok(*table.column(name)?.first().ok_or("no event")?) };
+    let (rise, fall) = ((PEAK / ON).ln() * GROWS, (PEAK / OFF).ln() * FALLS);
+    let onset = PRESSED + FAST + SLOW - rise;
+    let slip = of("mean_slip")?;
+    let ratios = [
+        of("onset")? / onset,
+        of("duration")? / (rise + fall),
+        of("end")? / (onset + rise + fall),
+        of("duration_above")? / ((PEAK / ON).ln() * (GROWS + FALLS)),
+        of("peak_rate")? / PEAK,
+        of("stress_drop")? / (A * NORMAL * (ON / OFF).ln()),
+        of("area")? / WIDTH,
+        of("largest_slip")? / slip,
+        of("moment")? / (SHEAR * WIDTH * slip),
+    ];
+    ledger
+        .claim("the same event in events.csv: onset, duration, end, time above the upper threshold, largest slip rate, stress drop, area, largest slip over the mean, and moment, over what they should be")
+        .values(&ratios)
+        .equals_each(&[1.0; 9])
+        .relative(1e-8)
+        .evidence(Evidence::Exact, "ramps of traction make ln V linear in time, and the whole bottom slips alike")
+        .because("as for onset and end")
+        .why_not_tighter("where the last iteration of Newton's method ends below its tolerance is chance")
+        .covers(&[Capability::InterfaceStates, Capability::Events, Capability::Outputs])
+        .cost(&cost)
+        .record();
+    let [x, y, z] = [of("x")?, of("y")?, of("z")?];
+    let off = [
+        usize::from(!(0.0..=WIDTH).contains(&x)),
+        usize::from(y != 0.0 || z != 0.0),
+        table.column("onset")?.len() - 1,
+    ];
+    ledger
+        .claim("the same event in events.csv: coordinates of its hypocentre that lie off the bottom, and further events")
+        .count(off.iter().sum::<usize>() as u64, 0)
+        .evidence(Evidence::Exact, "only the bottom of the column that is sheared slips")
+        .because("a count")
+        .covers(&[Capability::InterfaceStates, Capability::Events, Capability::Outputs])
+        .cost(&cost)
         .record();
     Ok(())
 }
