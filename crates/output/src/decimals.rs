@@ -11,6 +11,13 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
+/// Formats with a fixed number of decimals, or with an exponent where these would leave fewer than two digits.
+#[must_use]
+pub fn legible(value: f64, decimals: usize) -> String {
+    let least = 10.0_f64.powi(1 - i32::try_from(decimals).unwrap_or(i32::MAX));
+    if value == 0.0 || value.abs() >= least { fixed(value, decimals) } else { scientific(value, 3) }
+}
+
 /// Formats with a fixed number of decimals and an exponent.
 #[must_use]
 pub fn scientific(value: f64, decimals: usize) -> String {
@@ -42,6 +49,7 @@ mod tests {
         assert_eq!(fixed(-0.4, 0), "0");
         assert_eq!(fixed(f64::NEG_INFINITY, 2), "-inf");
         assert_eq!(scientific(-0.0, 3), "0.000e0");
+        assert_eq!([0.0, 0.001, -2.5e-6].map(|v| legible(v, 4)), ["0.0000", "0.0010", "-2.500e-6"]);
         assert_eq!(scientific(-1e-30, 1), "-1.0e-30");
         assert_eq!([shortest(-0.0), shortest_scientific(-0.0)], ["0", "0e0"]);
         assert_eq!([shortest(-0.25), shortest_scientific(-1e-30)], ["-0.25", "-1e-30"]);

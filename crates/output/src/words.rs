@@ -1,6 +1,6 @@
 //! Times as text.
 
-use crate::decimals::fixed;
+use crate::decimals::legible;
 
 /// A year \[s\].
 pub const YEAR: f64 = 365.25 * 86_400.0;
@@ -11,7 +11,7 @@ pub fn time(seconds: f64) -> String {
     if seconds.abs() >= 0.1 * YEAR {
         format!("{:.5} yr", seconds / YEAR)
     } else {
-        format!("{} s", fixed(seconds, 5))
+        format!("{} s", legible(seconds, 5))
     }
 }
 
@@ -33,7 +33,7 @@ mod tests {
 
     #[test]
     fn times_are_in_units_that_suit_them() {
-        assert_eq!(time(2.0 * YEAR), "2.00000 yr");
+        assert_eq!([2.0 * YEAR, 0.5, 2e-6].map(time), ["2.00000 yr", "0.50000 s", "2.000e-6 s"]);
         assert_eq!([3.2, 150.0, 7200.0, 1e6].map(about), ["3 s", "2.5 min", "2.0 h", "12 days"]);
     }
 }

@@ -2,7 +2,8 @@
 
 use asperity_plan::shared::sha256::sha256;
 
-/// Hash of the scene `text`, without the entries that `leave_out` removes, and of the hashes of its mesh files. The layout of the file has no effect.
+/// Hash of the scene `text`, without its title and the entries that `leave_out` removes, and of the hashes of its mesh files. The layout of the file
+/// has no effect.
 #[must_use]
 pub fn hash<'a>(
     text: &str,
@@ -10,6 +11,7 @@ pub fn hash<'a>(
     meshes: impl Iterator<Item = &'a str>,
 ) -> String {
     let table = toml::from_str::<toml::Table>(text).ok().map(|mut table| {
+        table.remove("title");
         leave_out(&mut table);
         table
     });
@@ -17,10 +19,4 @@ pub fn hash<'a>(
     // hashed.
     let scene = table.and_then(|table| serde_json::to_string(&table).ok()).unwrap_or_else(|| text.into());
     sha256(std::iter::once(scene.as_str()).chain(meshes.map(|mesh| mesh as &str)))
-}
-
-/// Hash of a scene of bodies: everything except its title.
-#[must_use]
-pub fn hash_of_bodies<'a>(text: &str, meshes: impl Iterator<Item = &'a str>) -> String {
-    hash(text, |scene| drop(scene.remove("title")), meshes)
 }

@@ -23,7 +23,13 @@ pub struct Pausing {
 
 /// Parses a duration in the notation of scenes.
 fn duration(text: &str) -> Result<Duration, String> {
-    let time = Time::deserialize(StrDeserializer::<serde::de::value::Error>::new(text));
-    let seconds = time.map_err(|e| e.to_string())?.0;
+    let seconds = match text.parse() {
+        // A number without a unit, which on a command line needs no quotes.
+        Ok(seconds) => seconds,
+        Err(_) => {
+            let time = Time::deserialize(StrDeserializer::<serde::de::value::Error>::new(text));
+            time.map_err(|e| e.to_string())?.0
+        }
+    };
     Duration::try_from_secs_f64(seconds).map_err(|e| e.to_string())
 }

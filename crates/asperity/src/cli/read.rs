@@ -238,7 +238,7 @@ impl Source {
         let physics = match &plan {
             RunPlan::Faults(_) => kinds::faults::physics(text, hashes),
             RunPlan::Bodies(_) | RunPlan::Sliders(_) | RunPlan::Dynamic(_) => {
-                checkpoint::scene::hash_of_bodies(text, hashes)
+                checkpoint::scene::hash(text, |_| (), hashes)
             }
         };
         let hash = sha256([text]);

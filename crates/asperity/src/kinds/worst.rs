@@ -56,6 +56,8 @@ pub struct Worst {
     bodies: Vec<(Largest, [f64; 2])>,
     /// Largest relative displacement of each interface \[m\].
     slid: Vec<f64>,
+    /// Largest rotation of a face of the master of each interface \[rad\].
+    turned: Vec<f64>,
     /// Sizes of the state that was judged last: displacements \[m\], and tractions of interfaces \[Pa\].
     judged: [f64; 2],
     /// Shortest distance of two corners of a cell of each block \[m\]; found when bodies are judged first.
@@ -92,7 +94,12 @@ impl Worst {
             return;
         }
         self.judged = [self.judged[0].max(size), self.judged[1].max(traction)];
-        self.judge(&problem.model, time, &u.unwrap_or_else(displacement));
+        let u = u.unwrap_or_else(displacement);
+        self.judge(&problem.model, time, &u);
+        self.turned.resize(problem.interfaces.len(), 0.0);
+        for (turned, interface) in self.turned.iter_mut().zip(&problem.interfaces) {
+            *turned = turned.max(largest_turn(&problem.model, &interface.master_faces, &u));
+        }
     }
 
     /// Sees displacements of a model \[m\] at a time \[s\].
@@ -120,7 +127,9 @@ impl Worst {
         let model = &problem.model;
         let interfaces = problem.interfaces.iter().zip(&self.slid);
         let dragged = interfaces.filter_map(|(i, slid)| dragged(model, i, stage, *slid));
-        self.body_warnings(model, stage).chain(dragged).collect()
+        let interfaces = problem.interfaces.iter().zip(&self.turned);
+        let turned = interfaces.filter_map(|(i, angle)| turned(model, i, stage, *angle));
+        self.body_warnings(model, stage).chain(dragged).chain(turned).collect()
     }
 
     /// Warnings about the bodies in a stage.
@@ -158,13 +167,17 @@ fn body_warning(body: &str, stage: &str, (largest, at): (Largest, [f64; 2]), you
     })
 }
 
+/// True if a block accounts for large deformation.
+fn is_followed<const D: usize>(model: &Model<D>, block: usize) -> bool {
+    matches!(&model.blocks.get(block), Some(CellBlock::Nonlinear(b)) if b.model().kinematics == Kinematics::UpdatedLagrangian)
+}
+
 /// Largest strain and rotation in the cells of a block, at their centres and between these and their corners, about where stresses are
 /// computed; zero if the block accounts for large deformation, and in cells that leave no doubt. `shortest` is the shortest edge of its
 /// cells \[m\], or anything below.
 pub fn largest_in_block<const D: usize>(model: &Model<D>, block: usize, shortest: f64, u: &[f64]) -> Largest {
-    let followed = matches!(&model.blocks.get(block), Some(CellBlock::Nonlinear(b)) if b.model().kinematics == Kinematics::UpdatedLagrangian);
     // Antiplane motion has one component, and its equation is linear for slopes of any size.
-    if followed || model.idealisation == Idealisation::Antiplane {
+    if is_followed(model, block) || model.idealisation == Idealisation::Antiplane {
         return Largest::default();
     }
     let cells = &model.mesh.blocks[block];
@@ -299,6 +312,58 @@ fn dragged<const D: usize>(
             "use `sliding = \"finite\"`; with \"small\" every node keeps the partner that it has at the start",
         )
     })
+}
+
+/// Warning about a side of a body of large deformation that turns, while the normals of its interface do not.
+fn turned<const D: usize>(
+    model: &Model<D>,
+    planned: &PlannedInterface,
+    stage: &str,
+    angle: f64,
+) -> Option<Warning> {
+    if planned.sliding == Sliding::Finite || planned.law.as_ref().is_some_and(|l| l.bonded()) {
+        return None;
+    }
+    // A body of small strain is warned of as a body.
+    let node = planned.master_faces.first()?.nodes[0];
+    let body = model.bodies.iter().find(|b| b.nodes.contains(&node))?;
+    (angle > SMALL_ROTATION && is_followed(model, body.blocks.start)).then(|| {
+        Warning::at(
+            0..0,
+            format!(
+                "the master of interface `{}` turns by {angle:.3} rad in stage `{stage}`, and the directions in which it presses and slides stay those of the start",
+                planned.name
+            ),
+            "use `sliding = \"finite\"`; with \"small\" pairs and directions are those of the start",
+        )
+    })
+}
+
+/// Largest rotation of the normals of faces under displacements `u` \[rad\].
+fn largest_turn<const D: usize>(model: &Model<D>, faces: &[MeshFace], u: &[f64]) -> f64 {
+    if model.idealisation.components() != D {
+        return 0.0;
+    }
+    let u = u.as_chunks::<D>().0;
+    let moved = |n: usize| -> [f64; D] { std::array::from_fn(|c| model.mesh.nodes[n][c] + u[n][c]) };
+    let of_face = |face: &MeshFace| {
+        let [before, after] = [normal(&|n| model.mesh.nodes[n], face), normal(&moved, face)];
+        let chord = before.iter().zip(&after).map(|(b, a)| (b - a).powi(2)).sum::<f64>().sqrt();
+        2.0 * (0.5 * chord).min(1.0).asin()
+    };
+    faces.iter().map(of_face).fold(0.0, f64::max)
+}
+
+/// Unit normal of a face through its first corners.
+fn normal<const D: usize>(at: &dyn Fn(usize) -> [f64; D], face: &MeshFace) -> Vec<f64> {
+    let edge = |k: usize| -> [f64; 3] {
+        let (from, to) = (at(face.nodes[0]), at(face.nodes[k]));
+        std::array::from_fn(|c| if c < D { to[c] - from[c] } else { 0.0 })
+    };
+    let (e, f) = (edge(1), if D == 3 { edge(2) } else { [0.0, 0.0, 1.0] });
+    let n = [e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]];
+    let length = n.iter().map(|c| c * c).sum::<f64>().sqrt();
+    n.iter().map(|c| c / length).collect()
 }
 
 /// Mean distance between the first two corners of faces \[m\].

@@ -195,6 +195,29 @@ fn a_side_dragged_off_its_partners_is_told_where_the_pairing_does_not_follow() {
 }
 
 #[test]
+fn a_side_that_turns_is_told_where_its_directions_do_not_follow() {
+    let scene = include_str!("../../../../verification/cases/contact_rotation/scene.toml");
+    let turned = |sliding: &str, by: &str| {
+        let text = varied(
+            scene,
+            &[
+                WithOrSame("interfaces.contact.sliding", sliding),
+                WithOrSame("stages[2].conditions[0].rotate.by", by),
+                WithOrSame("stages[2].conditions[1].rotate.by", by),
+            ],
+        );
+        found(&text).into_iter().filter(|w| w.contains("turns by")).collect::<Vec<_>>()
+    };
+    let told = turned("small", "6 deg");
+    assert!(
+        told.len() == 1 && told[0].contains("the master of interface `contact` turns by 0.1"),
+        "{told:?}"
+    );
+    assert_eq!(turned("small", "1 deg"), Vec::<String>::new());
+    assert_eq!(turned("finite", "6 deg"), Vec::<String>::new());
+}
+
+#[test]
 fn an_interface_that_never_closes_is_told() {
     let told = found(&file("far_apart.toml"));
     assert!(

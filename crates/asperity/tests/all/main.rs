@@ -44,6 +44,7 @@ mod laws;
 mod loads;
 mod located;
 mod medium;
+mod meetings;
 mod memory;
 mod mesh_files;
 mod meshes;

@@ -178,8 +178,13 @@ fn every_bad_mesh_is_refused_with_its_file_and_what_is_wrong_in_it() {
         ("bad_dangling_node_ref.msh", &["element ", "node 99999"]),
         ("bad_duplicate_nodes_unwelded.msh", &["hangs free", "of its nodes coincide"]),
         ("bad_nan_coordinate.msh", &["node ", "NaN"]),
+        ("bad_hanging_node.msh", &["nodes hang (1)", "[1.0, 0.5]", "edge of element 1"]),
+        ("bad_hanging_nodes_in_space.msh", &["nodes hang (3)", "edge of element 1"]),
+        ("bad_two_orders_at_a_face.msh", &["nodes hang (1)", "[1.0, 0.5]", "edge of element 2", "one order"]),
+        ("bad_doubled_nodes_of_one_cell.msh", &["hangs free", "2 of its nodes coincide"]),
     ] {
-        let text = scene("plane-strain", &body(file, ""), plane);
+        let kinematics = if file.contains("space") { "3d" } else { "plane-strain" };
+        let text = scene(kinematics, &body(file, ""), plane);
         let (message, place) = refused(&text);
         for part in parts.iter().chain(&[file]) {
             assert!(message.contains(part), "{file}: `{part}` is not in\n{message}");

@@ -110,6 +110,9 @@ const BETWEEN: &str = KINDS[2];
 const MASS: &str = KINDS[3];
 const SLIDERS: &str = KINDS[4];
 
+/// A patch of 800 m, a cell or two.
+const SMALL_PATCH: &str = r#"[{ box = { y = { from = "-10.4 km", to = "-9.6 km" } }, normal = "60 MPa" }]"#;
+
 const TRIALS: &[Trial] = &[
     ("implausible values", BODIES, With("interfaces.fault.law.mu0", "60"), "mu0` is 60"),
     ("implausible values", ROCK, With("faults.main.normal", "50"), "normal` is 50 Pa"),
@@ -165,6 +168,52 @@ const TRIALS: &[Trial] = &[
         MASS,
         WithOrSame("faults.main.patches[0].shear", "70 MPa"),
         "brings no point to its strength",
+    ),
+    (
+        "start against the loads",
+        ROCK,
+        With("faults.main.rate", "-5e-10 m/s"),
+        "drive fault `main` against `rate`",
+    ),
+    ("start against the loads", BETWEEN, With("faults.main.rate", "-1e-9 m/s"), "creeps against its `rate`"),
+    ("start against the loads", SLIDERS, With("load.rate", "-1 um/s"), "against its load point"),
+    ("unstable equilibrium at the start", ROCK, With("faults.main.rate", "1e-9 m/s"), "rounding decides"),
+    (
+        "unstable equilibrium at the start",
+        SLIDERS,
+        With("sliders.block.stiffness", "1.25 GPa/m"),
+        "rounding decides",
+    ),
+    (
+        "friction far beyond its law at the start",
+        ROCK,
+        Add("faults.main.shear", "500 MPa"),
+        "makes friction of",
+    ),
+    (
+        "friction far beyond its law at the start",
+        BETWEEN,
+        Add("faults.main.shear", "500 MPa"),
+        "makes friction of",
+    ),
+    (
+        "friction far beyond its law at the start",
+        MASS,
+        With("faults.main.shear", "130 MPa"),
+        "no friction holds it",
+    ),
+    ("patches on hardly any point", ROCK, Add("faults.main.patches", SMALL_PATCH), "too few for its shape"),
+    (
+        "patches on hardly any point",
+        BETWEEN,
+        Add("faults.main.patches", SMALL_PATCH),
+        "too few for its shape",
+    ),
+    (
+        "patches on hardly any point",
+        MASS,
+        With("faults.main.patches[0].box.y.from", "950 m"),
+        "too few for its shape",
     ),
     (
         "fluid beyond the ends",

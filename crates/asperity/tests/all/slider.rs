@@ -599,3 +599,26 @@ fn a_form_without_a_value_at_rest_ends_where_friction_does() {
         }
     }
 }
+
+/// Errors of a scene that is refused.
+fn refused(text: &str) -> String {
+    asperity_plan::sliders::planner::read(text).unwrap_err().to_string()
+}
+
+#[test]
+fn rows_at_intervals_are_as_many_as_a_table_can_have_and_few_in_a_step() {
+    let text = stable("\"1 um/s\"", "\"5 MPa\"", "");
+    let told = refused(&varied(&text, &[Add("output", "{ interval = 1e-9 }")]));
+    assert!(told.contains("3.0e11 rows"), "{told}");
+    // Steps of steady sliding would be as long as the run: rows are in memory until the end of their step.
+    let (run, rows) = completed(&varied(&text, &[Add("output", "{ interval = 1e-3 }")]));
+    assert!(run.counts.steps >= 300, "{} steps", run.counts.steps);
+    assert!(rows.len() >= 300_001, "{} rows", rows.len());
+}
+
+#[test]
+fn a_table_that_begins_after_the_run_is_refused() {
+    let late = r#"{ table = [["400 s", "5 MPa"], ["500 s", "6 MPa"]] }"#;
+    let told = refused(&stable("\"1 um/s\"", late, ""));
+    assert!(told.contains("the table of `normal` begins at 400.0 s, and the run ends at 300.0 s"), "{told}");
+}

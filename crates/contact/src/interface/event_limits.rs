@@ -9,8 +9,8 @@ use asperity_fem::term::Objection;
 use asperity_friction::Failure;
 use asperity_friction::law::Regime;
 
-/// A point that leaves rest counts as dropping if its traction falls by more than this share. The fall that follows the normal
-/// traction over a short step is smaller.
+/// A point that leaves rest counts as dropping if its traction lies below its strength at rest by more than this share. The fall
+/// that follows the normal traction over a short step is smaller.
 const DROP: f64 = 1e-3;
 /// Share of the area in contact that may let go within a step of a law whose strength drops at once. A partial failure is held
 /// by the rest of the area; a failure of more than half of it at once is not.
@@ -100,7 +100,7 @@ impl<const D: usize> Interface<D> {
             points.filter(|(_, (_, regime))| **regime == Regime::Slip).map(|(p, (s, _))| (p, s.d_trial));
         match self.watch.course {
             Course::Steady => None,
-            Course::Drop => (0..shear.points.len()).find(|&p| lets_go(shear, p)),
+            Course::Drop => self.dropped(shear).first().copied(),
             Course::State { .. } | Course::Branch { .. } => softest
                 .filter(|(_, d)| softens(*d))
                 .reduce(|a, b| if b.1 < a.1 { b } else { a })
@@ -162,12 +162,34 @@ impl<const D: usize> Interface<D> {
         }
     }
 
+    /// Points that leave rest in the trial state and whose strength drops, however long the step. Where a largest traction caps both
+    /// strengths, none drops.
+    fn dropped(&self, shear: &Shear) -> Vec<usize> {
+        let normal: Vec<f64> = self.contact.trial.iter().map(|c| c.traction).collect();
+        let coefficients = |states: &[f64]| {
+            let mut mu = vec![0.0; normal.len()];
+            shear.law.coefficient(&normal, &shear.trial.rate, states, &mut mu).map(|()| mu)
+        };
+        let at_rest = coefficients(&shear.committed.states);
+        let (Ok(before), Ok(after)) = (at_rest, coefficients(&shear.trial.states)) else {
+            return Vec::new();
+        };
+        let drops = |p: &usize| {
+            let (p, traction) = (*p, norm(&shear.trial.traction[*p]));
+            shear.committed.regime[p] == Regime::Stick
+                && shear.trial.regime[p] == Regime::Slip
+                && traction < before[p] * normal[p] * (1.0 - DROP)
+                && traction > after[p] * normal[p] * (1.0 - DROP)
+        };
+        (0..normal.len()).filter(drops).collect()
+    }
+
     /// Objects if more of the surface leaves rest within the step, with a drop of its traction, than the rest of it can hold.
     fn lets_go_at_once(&self, shear: &Shear) -> Option<Objection> {
         let area = |p: usize| self.fields.area[p];
         let held = |p: &usize| self.contact.committed[*p].closed && self.contact.trial[*p].closed;
         let closed: f64 = (0..self.slave.len()).filter(held).map(area).sum();
-        let gone: Vec<usize> = (0..self.slave.len()).filter(held).filter(|&p| lets_go(shear, p)).collect();
+        let gone: Vec<usize> = self.dropped(shear).into_iter().filter(held).collect();
         let share = gone.iter().map(|&p| area(p)).sum::<f64>() / closed;
         if share.is_nan() || share <= AT_ONCE + ROUNDING {
             return None;
@@ -231,12 +253,4 @@ impl<const D: usize> Interface<D> {
 /// True if the traction falls with slip. The slope is H/(E_t + H) with H < 0; it exceeds 1 if the spring is softer still.
 fn softens(slope: f64) -> bool {
     !(-ROUNDING..=1.0 + ROUNDING).contains(&slope)
-}
-
-/// True if a point leaves rest in the trial state and its traction drops.
-fn lets_go(shear: &Shear, p: usize) -> bool {
-    let (before, after) = (norm(&shear.committed.traction[p]), norm(&shear.trial.traction[p]));
-    shear.committed.regime[p] == Regime::Stick
-        && shear.trial.regime[p] == Regime::Slip
-        && after < before * (1.0 - DROP)
 }

@@ -29,6 +29,9 @@ pub const MOST_STEPS: usize = 20_000_000;
 /// twenty steps at a restart.
 pub const RESTART: u64 = 4096;
 
+/// Number of rows at intervals within a step that shortens steps to that many rows. The rows of a step are in memory until its end.
+const ROWS_A_STEP: f64 = 1000.0;
+
 /// The problem to integrate.
 #[derive(Clone, Debug)]
 pub struct Problem {
@@ -99,9 +102,15 @@ impl Problem {
             atol: self.system.scales().iter().map(|s| s * self.tolerance).collect(),
             first_step: self.first_step,
             begin_stiff: false,
-            largest_step: self.largest_step,
+            largest_step: self.resolved_step(),
             most_steps: self.most_steps,
         }
+    }
+
+    /// Largest step \[s\] with regard to the rows within it.
+    fn resolved_step(&self) -> Option<f64> {
+        let rows = self.output.interval.map(|interval| ROWS_A_STEP * interval);
+        [self.largest_step, rows].into_iter().flatten().min_by(f64::total_cmp)
     }
 
     /// Description of the dynamics.

@@ -59,6 +59,9 @@ const UNRESOLVED: f64 = 1e-26;
 /// Number of such steps in a row that stops the run; a single one may precede an event.
 const MOST_UNRESOLVED: u32 = 10;
 
+/// Number of rows after which the integration restarts, and can be interrupted: about a second of work.
+const ROWS_TO_RESTART: u64 = 100_000;
+
 /// Friction divided by a below which a slider has no friction. Steps would otherwise shrink towards zero.
 const SPENT: f64 = 1e-3;
 
@@ -242,6 +245,8 @@ struct Following<'a> {
     ended: bool,
     /// Accepted steps since the last restart.
     steps: u64,
+    /// Requested rows since the last restart.
+    rows: u64,
     /// Reason to stop: a slider runs away, or its friction is zero.
     senseless: Option<Failure>,
     /// The last state before a slider outran shear waves.
@@ -250,7 +255,17 @@ struct Following<'a> {
 
 impl<'a> Following<'a> {
     fn new(problem: &'a Problem, observer: &'a mut dyn Observer<Sliders>, run: SliderRun) -> Self {
-        Self { problem, observer, run, failure: None, ended: false, steps: 0, senseless: None, before: None }
+        Self {
+            problem,
+            observer,
+            run,
+            failure: None,
+            ended: false,
+            steps: 0,
+            rows: 0,
+            senseless: None,
+            before: None,
+        }
     }
 
     /// Integrates a piece from restart to restart; `jumped` is true if what rows show jumps at its start. Returns true if it reached
@@ -260,7 +275,7 @@ impl<'a> Following<'a> {
         loop {
             let (at, unknowns) = (self.run.at, self.run.unknowns.clone());
             let resumed = self.run.next_step.take();
-            self.steps = 0;
+            (self.steps, self.rows) = (0, 0);
             let mut sink = Running { piece, slips, state: self, paused: None };
             match resumed {
                 Some(NextStep { length, stiff }) => {
@@ -412,6 +427,7 @@ impl Running<'_, '_> {
         let problem = self.state.problem;
         let (end, mut ends_asked) = (step.end.seconds(), false);
         while let Some(time) = self.state.run.progress.due.next(&problem.output, end) {
+            self.state.rows += 1;
             let at = Clock::new(time, 0.0);
             let fraction = at.since(&step.start) / step.length();
             if time == end || fraction >= 1.0 {
@@ -588,7 +604,7 @@ impl Sink for Running<'_, '_> {
         if self.state.senseless.is_some() || self.state.failure.is_some() || self.state.ended {
             return Control::Stop;
         }
-        if self.state.steps < self.state.problem.restart {
+        if self.state.steps < self.state.problem.restart && self.state.rows < ROWS_TO_RESTART {
             return Control::Go;
         }
         self.paused = Some(NextStep { length: step.next_length(), stiff: step.next_stiff() });

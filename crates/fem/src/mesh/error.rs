@@ -332,6 +332,20 @@ pub enum MeshError {
         /// Number of such elements.
         count: usize,
     },
+    /// Nodes on edges of cells that do not have them.
+    #[error(
+        "nodes hang ({count}): the one at {at:?} m lies on an edge of element {element}, which does not have it, so that cells on \
+         both sides are not joined there. Cells that meet share all nodes of a face: mesh both sides alike and in one order, or name \
+         the faces on both sides when they are an interface"
+    )]
+    HangingNodes {
+        /// Position of one of them \[m\].
+        at: Vec<f64>,
+        /// Element with the edge.
+        element: u64,
+        /// Number of nodes.
+        count: usize,
+    },
     /// A part that touches another without being tied to it.
     #[error(
         "{free} hangs free: {pairs} of its nodes coincide with nodes of {other}, but the two share none, and no named face \

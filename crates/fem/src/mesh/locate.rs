@@ -41,6 +41,17 @@ pub fn locate<const D: usize>(mesh: &Mesh<D>, blocks: Range<usize>, x: &[f64; D]
     })
 }
 
+/// True if a cell, given by its block and number, contains a position \[m\], or has it on its boundary.
+pub(super) fn holds_position<const D: usize>(
+    mesh: &Mesh<D>,
+    (block, cell): (usize, usize),
+    x: &[f64; D],
+) -> bool {
+    let cells = &mesh.blocks[block];
+    let nodes: Vec<[f64; D]> = cells.cell(cell).iter().map(|&n| mesh.nodes[n]).collect();
+    natural(cells.kind, &nodes, x).is_some_and(|xi| holds(cells.kind, &xi))
+}
+
 /// True if a position lies in the box of some nodes, with room for curved sides.
 fn near<const D: usize>(nodes: &[[f64; D]], x: &[f64; D]) -> bool {
     let bounds = |c: usize| {

@@ -1,6 +1,7 @@
 //! Meshes: nodes, blocks of cells of one kind, and named sets of cell faces.
 
 pub mod abaqus;
+mod boundary;
 mod check;
 pub mod coarsening;
 pub mod curve;
@@ -10,6 +11,7 @@ pub mod fault;
 pub mod generate;
 pub mod gmsh;
 mod locate;
+mod meeting;
 pub mod netcdf;
 mod raw;
 pub mod sheet;
@@ -20,9 +22,11 @@ pub mod triangles;
 
 pub use error::{GroupName, Holder, MeshError, Part, Place};
 pub use locate::{Location, locate};
+pub use meeting::meeting;
 pub use raw::{GroupTag, Options, RawBlock, RawGroup, RawMesh, RawNode, RawSide, Shape, UnreadElements};
 
 use crate::element::{ElementKind, FaceKind};
+use boundary::boundary;
 use std::collections::BTreeMap;
 
 /// Cells of one kind.

@@ -52,6 +52,8 @@ pub struct AssembledProblem<'a, const D: usize> {
     state: State,
     /// Displacements of the mesh at the start of the present stage \[m\].
     begin: Vec<f64>,
+    /// Start of the stage \[s\].
+    started: f64,
     /// Areas of the points of each interface at the start \[m², m in two dimensions\].
     areas: Vec<Vec<f64>>,
     /// Loads of the present stage on the nodes of each requested set that do not belong to the set.
@@ -93,6 +95,7 @@ impl<'a, const D: usize> AssembledProblem<'a, D> {
             stepper: None,
             state: State { u: vec![0.0; unknowns], time: 0.0 },
             begin: Vec::new(),
+            started: 0.0,
             beside: Vec::new(),
         })
     }
@@ -112,7 +115,7 @@ impl<'a, const D: usize> AssembledProblem<'a, D> {
     fn begin_from(&mut self, stage: &Stage, u0: Vec<f64>, springs: &[SpringStart]) -> Result<(), SetUpError> {
         let problem = self.problem;
         let constraints = stage.constraints(&u0);
-        self.begin = u0;
+        (self.begin, self.started) = (u0, stage.start);
         let held_anew = self.fixed.as_ref() != Some(&stage.fixed);
         self.bodies.load(&constraints, held_anew)?;
         self.constraints = self.numbering.constraints(&constraints);
@@ -284,9 +287,13 @@ impl<'a, const D: usize> AssembledProblem<'a, D> {
         self.interfaces.iter().map(|i| i.points().largest_penetration()).fold(0.0, f64::max)
     }
 
-    /// Displacement of all degrees of freedom of the common mesh \[m\].
+    /// Displacement of all degrees of freedom of the common mesh \[m\]. Before the first step of a stage it is that of the stage before, whose
+    /// supports and loads may be others.
     #[must_use]
     pub fn displacement(&self) -> Vec<f64> {
+        if self.state.time <= self.started && !self.begin.is_empty() {
+            return self.begin.clone();
+        }
         self.bodies.displacement(&self.state.u, self.state.time)
     }
 

@@ -10,7 +10,7 @@ use crate::reading::scene::model::Scene;
 use crate::shared::checks::model_checks::{self, DrivenSurface, body_name, field_bytes, machines};
 use crate::shared::checks::{Checks, Cost, InterfaceCheck, MachineCheck, WeakeningCheck, rates};
 use crate::shared::model::{self, Model};
-use crate::shared::resolution::{Coarsest, critical_slope};
+use crate::shared::resolution::{Coarsest, Softening, critical_slope, softening};
 use asperity_fem::surface;
 use asperity_mechanics::solver::Solver;
 use asperity_scene::defaults;
@@ -113,5 +113,6 @@ fn machine(stiffness: f64, friction: Option<&Friction>, normal: Option<f64>) -> 
         stiffness,
         critical: normal.zip(slope).map(|(normal, slope)| normal * slope),
         critical_normal: slope.map(|slope| stiffness / slope),
+        softening: laws.iter().map(softening).max().unwrap_or(Softening::None),
     }
 }

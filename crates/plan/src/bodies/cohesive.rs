@@ -121,7 +121,7 @@ pub fn nucleation<const D: usize>(
     let (least, most) = crate::shared::model::bounds(&places);
     let extent = least.iter().zip(&most).map(|(a, b)| (b - a).powi(2)).sum::<f64>().sqrt();
     let place = spec.law.as_ref()?.span();
-    doubts::nucleation(&format!("interface `{}`", planned.name), place, length, extent)
+    doubts::nucleation(&format!("interface `{}`", planned.name), place, [length, extent], false)
 }
 
 /// Sine of the angle below which a surface counts as flat and two directions count as equal: rounding of coordinates.

@@ -1,4 +1,4 @@
-//! Pulses of shear traction that do nothing, or more than friction holds.
+//! Pulses of shear traction that do nothing, more than friction holds, or the opposite of what is meant.
 
 use crate::reading::scene::model::Pulse as Asked;
 use asperity_run::Warning;
@@ -19,16 +19,23 @@ pub struct PulsePoint {
     pub normal: f64,
     /// Direct effect times normal traction, a f_n \[Pa\]; `None` for a law with a strength at rest.
     pub direct: Option<f64>,
-    /// Traction that is missing to the strength at rest \[Pa\].
-    pub missing: Option<f64>,
+    /// Strength at rest, and shear traction \[Pa\]; `None` for a law that slips at every traction.
+    pub strength: Option<(f64, f64)>,
     /// Slip within the run at the initial rate, over the length over which friction changes, where nothing but the pulse makes slip fast.
     pub begins: Option<f64>,
 }
 
-/// A warning for a pulse that hardly changes slip rates, that brings no point to its strength, that no friction holds, or that acts on
-/// hardly any point.
+impl PulsePoint {
+    /// True if the pulse brings the point to its strength; `None` if it has none at rest.
+    fn fails(&self) -> Option<bool> {
+        self.strength.map(|(strength, shear)| (shear + self.amplitude).abs() >= strength)
+    }
+}
+
+/// A warning for a pulse that hardly changes slip rates, that brings no point to its strength, that no friction holds, that acts on
+/// hardly any point, that grows for longer than the run of this duration \[s\], or that acts against the slip.
 #[must_use]
-pub fn pulse(asked: &Asked, points: impl Iterator<Item = PulsePoint> + Clone) -> Option<Warning> {
+pub fn pulse(asked: &Asked, points: impl Iterator<Item = PulsePoint> + Clone, run: f64) -> Option<Warning> {
     let points = points.filter(|p| p.amplitude != 0.0);
     let over = |scale: &dyn Fn(&PulsePoint) -> Option<f64>| {
         let all = points.clone().filter_map(|p| Some(p.amplitude.abs() / scale(&p)?));
@@ -37,7 +44,7 @@ pub fn pulse(asked: &Asked, points: impl Iterator<Item = PulsePoint> + Clone) ->
     // ln V changes by the traction over a f_n at most.
     let effect = over(&|p| p.direct);
     let friction = over(&|p| Some(p.normal)).unwrap_or_default();
-    let fails = points.clone().filter_map(|p| Some(p.amplitude.abs() >= p.missing?)).reduce(|a, b| a || b);
+    let fails = points.clone().filter_map(|p| p.fails()).reduce(|a, b| a || b);
     let begins = points.clone().filter_map(|p| Some(p.begins? * (p.amplitude.abs() / p.direct?).exp()));
     let begins = begins.reduce(f64::max);
     let traction = asked.traction.get_ref().0;
@@ -66,6 +73,15 @@ pub fn pulse(asked: &Asked, points: impl Iterator<Item = PulsePoint> + Clone) ->
         let count = points.clone().count();
         let words = format!("the pulse acts on {count} of the points, too few for its shape");
         (asked.radius.span(), words, "check the unit of its `radius`; or take smaller cells")
+    } else if asked.duration.get_ref().0 > run {
+        let words = format!(
+            "the pulse grows for {:e} s, and the run ends after {run:e} s: it does not reach its traction",
+            asked.duration.get_ref().0
+        );
+        (asked.duration.span(), words, "a shorter `duration` of the pulse, or a longer stage")
+    } else if traction < 0.0 {
+        let words = format!("the pulse of {traction:e} Pa acts against the shear traction of the fault");
+        (at, words, "a positive `traction` adds to it, whatever its direction")
     } else {
         return None;
     };

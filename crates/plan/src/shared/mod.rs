@@ -20,5 +20,6 @@ pub mod ruptures;
 pub mod setup;
 pub mod sha256;
 pub mod thresholds;
+pub mod unbalance;
 pub mod views;
 pub mod words;

@@ -28,7 +28,14 @@ impl From<Problem> for Plan {
         let sliders = problem.names.iter().zip(against(&problem)).filter_map(of).collect();
         let thetas = vec![None; problem.names.len()];
         let step_seconds = Some(rates::slider_step(problem.method, problem.names.len()));
-        let cost = Cost { step_seconds, ..Cost::default() };
+        let cost = Cost { step_seconds, rows: rows(&problem), ..Cost::default() };
         Self { problem, warnings: Vec::new(), checks: Checks { sliders, cost, ..Checks::default() }, thetas }
     }
+}
+
+/// Number of rows at times, if no others are written.
+fn rows(problem: &Problem) -> Option<usize> {
+    let rows = &problem.output;
+    let regular = rows.interval.map_or(0, |interval| (problem.end / interval) as usize + 1);
+    rows.change.is_none().then_some(rows.times.len() + regular)
 }

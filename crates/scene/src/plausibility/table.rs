@@ -110,6 +110,7 @@ pub(super) const QUANTITIES: &[Quantity] = &[
         row(("velocities of bodies", "m/s"), &["velocity"], [0.0, 500.0], "\"1 m/s\""),
         RefusalBound::From(1e5),
     ),
+    row(("speeds of forced ruptures", "m/s"), &["forced_rupture.speed"], [100.0, 1e4], "\"2 km/s\""),
     row(("velocities", "m/s"), &[], [0.0, 100.0], "\"1 um/s\""),
     row(("densities of rock or metal", "kg/m3"), &[], [100.0, 30_000.0], "\"2700 kg/m^3\""),
     row(("dampings", "Pa s/m"), &[], [1e4, 1e8], "\"4.6 MPa s/m\""),

@@ -6,7 +6,7 @@ use super::tables::moments_of;
 use crate::report::results;
 use asperity_mechanics::coordinates;
 use asperity_mechanics::dynamics::Halt;
-use asperity_output::decimals::fixed;
+use asperity_output::decimals::legible;
 use asperity_plan::dynamics::Plan;
 use asperity_plan::faults::FaultView;
 use asperity_plan::shared::checks::Checks;
@@ -127,15 +127,15 @@ impl Report {
         let mut text = String::from("results\n");
         for r in &self.ruptures {
             let when = r.times.map_or("none ruptured".into(), |[first, last]| {
-                format!("{} ruptured from {} to {} s", r.points[1], fixed(first, 4), fixed(last, 4))
+                format!("{} ruptured from {} to {} s", r.points[1], legible(first, 4), legible(last, 4))
             });
             let _ = writeln!(
                 text,
                 "  fault {}: of {} points {when}; largest slip {} m, largest slip rate {} m/s, moment {:.4e}",
                 r.fault,
                 r.points[0],
-                fixed(r.largest_slip, 4),
-                fixed(r.peak_rate, 4),
+                legible(r.largest_slip, 4),
+                legible(r.peak_rate, 4),
                 r.moment
             );
         }

@@ -3,7 +3,7 @@
 use asperity_plan::faults::Plan;
 
 /// Hash of the physics of the scene `text` and of mesh files with these hashes. It leaves out the entries that only determine the extent of a run or
-/// the description of its events: `events.stop_after`, the duration of the last stage and `[place]`. The layout of the file has no effect. The effect
+/// the description of its events: title, `events.stop_after`, the duration of the last stage and `[place]`. The layout of the file has no effect. The effect
 /// of the duration on the loads so far is checked separately; see [`loads`].
 #[must_use]
 pub fn physics<'a>(text: &str, meshes: impl Iterator<Item = &'a str>) -> String {

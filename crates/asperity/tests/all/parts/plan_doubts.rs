@@ -20,8 +20,11 @@ fn damping_without_its_unit_is_doubtful_and_a_factor_of_a_few_is_not() {
 
 #[test]
 fn a_length_of_nucleation_beyond_the_surface_is_doubtful() {
-    assert!(nucleation("fault `main`", 0..1, 300.0, 1.0).is_some());
-    assert!(nucleation("fault `main`", 0..1, 30.0, 1.0).is_none());
+    assert!(nucleation("fault `main`", 0..1, [300.0, 1.0], false).is_some());
+    assert!(nucleation("fault `main`", 0..1, [30.0, 1.0], false).is_none());
+    // Rock drives a fault softly: where events are asked for, twice its size is too long.
+    assert!(nucleation("fault `main`", 0..1, [3.0, 1.0], true).is_some());
+    assert!(nucleation("fault `main`", 0..1, [1.5, 1.0], true).is_none());
 }
 
 #[test]

@@ -1,11 +1,11 @@
 //! Parts of a mesh that touch without being tied.
 //!
 //! Coincident nodes are not an error in themselves: a mesh split along an interface has them by design. The faces on both sides
-//! then have names, for otherwise no interface could be placed between them. A part hangs free if its nodes coincide with those
-//! of another part while one of the two has no named face there. Then no interface can be declared, and neither part holds the
-//! other.
+//! then have names, for otherwise no interface could be placed between them. A part hangs free if the corners of one of its faces
+//! coincide with nodes of another part, and this face or one of the other part there has no name. Then no interface can be
+//! declared, and neither part holds the other.
 
-use super::super::Mesh;
+use super::super::{Mesh, Side};
 use std::collections::BTreeMap;
 
 /// Distance of coincident nodes over the shortest edge there \[-\]: far above the rounding of written coordinates, far below
@@ -51,44 +51,93 @@ impl Roots {
     }
 }
 
-/// Shared nodes of two parts: pairs of coincident nodes, and those of them off the named faces of the lower and the upper part
-/// (numbered by their roots).
+/// The seam between two parts, the lower one first (numbered by their roots).
 #[derive(Default)]
-struct Common {
+struct Seam {
+    /// Coincident nodes.
     pairs: usize,
-    unnamed: usize,
-    unnamed_lower: usize,
-    unnamed_upper: usize,
+    /// Faces of each part whose corners coincide with nodes of the other part, and that have no name.
+    unnamed: [usize; 2],
 }
 
-/// The first part that hangs free against another. `named` is true for nodes on named faces.
-pub(crate) fn free_part<const D: usize>(mesh: &Mesh<D>, named: &[bool]) -> Option<Touch> {
+/// The seams of a mesh by the roots of their parts.
+type Seams = BTreeMap<[usize; 2], Seam>;
+
+/// Nodes with a coincident node of another part, each with the root of that part; ascending.
+#[derive(Default)]
+struct Partners(Vec<(usize, usize)>);
+
+impl Partners {
+    /// Roots of the parts that a node touches.
+    fn of(&self, node: usize) -> impl Iterator<Item = usize> {
+        let first = self.0.partition_point(|(n, _)| *n < node);
+        self.0[first..].iter().take_while(move |(n, _)| *n == node).map(|(_, root)| *root)
+    }
+
+    /// Roots of the parts that all corners of a face touch.
+    fn shared(&self, corners: &[usize]) -> Vec<usize> {
+        let (first, rest) = (corners[0], &corners[1..]);
+        self.of(first).filter(|root| rest.iter().all(|n| self.of(*n).any(|r| r == *root))).collect()
+    }
+}
+
+/// The first part that hangs free against another. Parts that touch at corners or edges alone are not tied there.
+pub(crate) fn free_part<const D: usize>(mesh: &Mesh<D>) -> Option<Touch> {
     let (root, parts) = parts(mesh);
     if parts.len() < 2 {
         return None;
     }
-    let mut common: BTreeMap<(usize, usize), Common> = BTreeMap::new();
+    let mut seams = Seams::new();
+    let mut partners = Partners::default();
     for_each_coincident(&mesh.nodes, &shortest_edges(mesh), |a, b| {
-        if root[a] == root[b] {
-            return;
+        if root[a] != root[b] {
+            seams.entry(pair(root[a], root[b])).or_default().pairs += 1;
+            partners.0.extend([(a, root[b]), (b, root[a])]);
         }
-        let (a, b) = if root[a] < root[b] { (a, b) } else { (b, a) };
-        let c = common.entry((root[a], root[b])).or_default();
-        c.pairs += 1;
-        c.unnamed += usize::from(!named[a] || !named[b]);
-        c.unnamed_lower += usize::from(!named[a]);
-        c.unnamed_upper += usize::from(!named[b]);
     });
-    // Fewer than D nodes cannot form a face: bodies may touch at a corner.
-    let ((lower, upper), c) = common.into_iter().find(|(_, c)| c.unnamed >= D)?;
+    partners.0.sort_unstable();
+    count_unnamed(mesh, &root, &partners, &mut seams);
+    let ([lower, upper], seam) = seams.into_iter().find(|(_, seam)| seam.unnamed != [0, 0])?;
     let (lower, upper) = (parts.get(&lower)?.clone(), parts.get(&upper)?.clone());
-    let lower_is_free = (c.unnamed_lower, upper.cells) > (c.unnamed_upper, lower.cells);
+    let lower_is_free = (seam.unnamed[0], upper.cells) > (seam.unnamed[1], lower.cells);
     let (free, other) = if lower_is_free { (lower, upper) } else { (upper, lower) };
-    Some(Touch { free, other, pairs: c.pairs })
+    Some(Touch { free, other, pairs: seam.pairs })
+}
+
+/// Two roots, the lower one first.
+fn pair(a: usize, b: usize) -> [usize; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// Counts the faces on seams that have no name.
+fn count_unnamed<const D: usize>(mesh: &Mesh<D>, root: &[usize], partners: &Partners, seams: &mut Seams) {
+    let mut named: Vec<Side> = mesh.side_sets.values().flatten().copied().collect();
+    named.sort_unstable();
+    let mut touches = vec![false; mesh.nodes.len()];
+    partners.0.iter().for_each(|(node, _)| touches[*node] = true);
+    for (b, block) in mesh.blocks.iter().enumerate() {
+        for cell in 0..block.len() {
+            let nodes = block.cell(cell);
+            for (f, face) in block.kind.faces().iter().enumerate() {
+                let corners = &face.nodes[..face.kind.corners()];
+                if corners.iter().any(|c| !touches[nodes[*c]]) {
+                    continue;
+                }
+                let corners: Vec<usize> = corners.iter().map(|c| nodes[*c]).collect();
+                let own = root[corners[0]];
+                if named.binary_search(&Side { block: b, cell, face: f }).is_ok() {
+                    continue;
+                }
+                for other in partners.shared(&corners) {
+                    seams.entry(pair(own, other)).or_default().unnamed[usize::from(own > other)] += 1;
+                }
+            }
+        }
+    }
 }
 
 /// The root of every node, and the parts by their roots.
-fn parts<const D: usize>(mesh: &Mesh<D>) -> (Vec<usize>, BTreeMap<usize, Extent>) {
+pub(super) fn parts<const D: usize>(mesh: &Mesh<D>) -> (Vec<usize>, BTreeMap<usize, Extent>) {
     let mut roots = Roots((0..mesh.nodes.len()).collect());
     for block in &mesh.blocks {
         for cell in 0..block.len() {

@@ -5,7 +5,7 @@ use super::{Options, RawBlock, RawMesh, RawNode};
 use crate::element::ElementKind;
 use crate::mesh::check::{self, Sense};
 use crate::mesh::error::{Holder, MeshError, Part};
-use crate::mesh::{Cells, Mesh, OmittedElements, nodes_of_sides};
+use crate::mesh::{Cells, Mesh, OmittedElements};
 use std::collections::BTreeMap;
 
 /// Largest distance from the plane z = 0 over the extent of the mesh \[-\] that counts as rounding by the program that wrote
@@ -373,7 +373,7 @@ fn copy<T: Clone>(sets: &mut BTreeMap<String, T>, name: &str, alias: &str) {
     }
 }
 
-/// Refuses parts of the cells that are asked for that hang free.
+/// Refuses parts of the cells that are asked for that hang free, and nodes that hang.
 fn check_parts<const D: usize>(
     mesh: &Mesh<D>,
     tags: &[Vec<u64>],
@@ -393,11 +393,10 @@ fn check_parts<const D: usize>(
 }
 
 fn free_parts<const D: usize>(mesh: &Mesh<D>, tags: &[Vec<u64>]) -> Result<(), MeshError> {
-    let mut named = vec![false; mesh.nodes.len()];
-    for sides in mesh.side_sets.values() {
-        nodes_of_sides(mesh, sides).into_iter().for_each(|n| named[n] = true);
+    if let Some(check::Hanging { at, cell: (block, cell), count }) = check::hanging(mesh) {
+        return Err(MeshError::HangingNodes { at: at.to_vec(), element: tags[block][cell], count });
     }
-    let Some(touch) = check::free_part(mesh, &named) else {
+    let Some(touch) = check::free_part(mesh) else {
         return Ok(());
     };
     let part = |extent: check::Extent| {

@@ -1,5 +1,6 @@
 //! Settings of runs with waves that are probably not intended.
 
+use super::forced_rupture;
 use super::steps::StepChoice;
 use crate::doubts::{self as shared, PulsePoint};
 use crate::faults::planner::{PlacedPoint, pulse_doubts};
@@ -10,6 +11,8 @@ use asperity_laws as laws;
 use asperity_mechanics::Stage;
 use asperity_mechanics::dynamics::Fault;
 use asperity_run::Warning;
+use asperity_scene::defaults;
+use std::ops::Range;
 
 /// Steps from which a run is taken for a slip of unit: a day at a thousand steps per second.
 const MANY: usize = 100_000_000;
@@ -19,6 +22,12 @@ const MOST: f64 = 0.5;
 
 /// Shear over normal traction that no fault has which should rupture: friction is a hundred times as large even where it is lowest.
 const TINY: f64 = 1e-4;
+
+/// Shear over normal traction beyond which no friction of rock holds a fault.
+const MOST_FRICTION: f64 = 1.0;
+
+/// Share of its points that a forced rupture should weaken within a run.
+const HALF: f64 = 0.5;
 
 /// Warns of very many steps, of faults that slip as a whole at once, and of faults that nothing moves.
 pub(super) fn check<const D: usize>(
@@ -35,6 +44,12 @@ pub(super) fn check<const D: usize>(
             "steps follow waves: give a duration of seconds, or use the stepper \"fault-ode\"",
         ));
     }
+    for (k, (name, spec)) in scene.faults.iter().enumerate() {
+        let own: Vec<&PlacedPoint<D>> = placed.iter().filter(|p| p.fault == k).collect();
+        all.extend(unheld(Entry::new(name, spec), &own));
+        all.extend(ruptured(scene, Entry::new(name, spec), &own));
+        all.extend(slow_front(Entry::new(name, spec), &own, *steps as f64 * dt));
+    }
     let mut pushed = stage.is_loaded() || !stage.motions.is_empty() || stage.has_loads();
     for (k, (name, spec)) in scene.faults.iter().enumerate() {
         let own: Vec<&PlacedPoint<D>> = placed.iter().filter(|p| p.fault == k).collect();
@@ -42,11 +57,13 @@ pub(super) fn check<const D: usize>(
             pushed = true;
             continue;
         };
-        pushed |= above > 0 || !spec.pulses.is_empty() || spec.forced_rupture.is_some();
+        let begins = above > 0 || !spec.pulses.is_empty() || spec.forced_rupture.is_some();
+        pushed |= begins;
         if above as f64 > MOST * own.len() as f64 {
             all.push(at_once(Entry::new(name, spec), above, own.len()));
         }
         all.extend(tiny(Entry::new(name, spec), &own));
+        all.extend(begins.then(|| undriven(Entry::new(name, spec), &own)).flatten());
     }
     if let (false, Some((_, first))) = (pushed, scene.faults.first_key_value()) {
         all.push(Warning::at(
@@ -83,28 +100,100 @@ pub(super) fn pulses<const D: usize>(
 ) -> Vec<Warning> {
     let named = Entry::all(&scene.faults);
     let of = |p: &PlacedPoint<D>| {
-        let (direct, missing, length) = match &p.law {
-            LawChoice::Rate { strength, .. } => (Some(strength.a * p.normal), None, None),
+        let (direct, length) = match &p.law {
+            LawChoice::Rate { strength, .. } => (Some(strength.a * p.normal), None),
             LawChoice::RateAndState { strength, states, .. } => {
-                let length = states.iter().map(|s| s.l).reduce(f64::min);
-                (Some(strength.a * p.normal), None, length)
+                (Some(strength.a * p.normal), states.iter().map(|s| s.l).reduce(f64::min))
             }
-            LawChoice::Yielding { own, .. } => {
-                let strength = own.first().map(|mu| mu * p.normal);
-                (None, strength.map(|s| s - p.shear.unwrap_or_default().abs()), None)
-            }
+            LawChoice::Yielding { .. } => (None, None),
         };
         let begins = length.map(|l| p.rate.abs() * duration / l);
-        PulsePoint { amplitude: 0.0, normal: p.normal, direct, missing, begins }
+        let strength = strength(p).map(|strength| (strength, p.shear.unwrap_or_default()));
+        PulsePoint { amplitude: 0.0, normal: p.normal, direct, strength, begins }
     };
     let pushed: Vec<PulsePoint> = placed.iter().map(of).collect();
-    pulse_doubts(&named, fault.pulses.iter().map(|p| p.amplitude.as_slice()), &pushed)
+    pulse_doubts(&named, fault.pulses.iter().map(|p| p.amplitude.as_slice()), &pushed, duration)
+}
+
+/// Position of the shear traction of a fault in the scene, or of its law without one.
+fn of_shear(spec: &Spec) -> Range<usize> {
+    spec.shear.as_ref().map_or_else(|| spec.law.span(), |s| s.span())
+}
+
+/// Warning about a fault that a shear traction loads which no friction holds.
+fn unheld<const D: usize>(Entry { name, spec }: Entry<'_, Spec>, own: &[&PlacedPoint<D>]) -> Option<Warning> {
+    let ratio = |p: &&PlacedPoint<D>| (p.shear.unwrap_or_default().abs() - cohesion(p)) / p.normal;
+    let largest = own.iter().filter(|p| p.normal > 0.0).map(ratio).reduce(f64::max)?;
+    (largest > MOST_FRICTION).then(|| {
+        Warning::at(
+            of_shear(spec),
+            format!("the shear traction of fault `{name}` is up to {largest:.2} times its normal traction at the start: no friction holds it"),
+            "check the units of `shear` and `normal`, and those of patches and profiles",
+        )
+    })
+}
+
+/// Warning about a fault that slips at the start as fast as one that has ruptured.
+fn ruptured<const D: usize>(
+    scene: &Scene,
+    Entry { name, spec }: Entry<'_, Spec>,
+    own: &[&PlacedPoint<D>],
+) -> Option<Warning> {
+    let limit = scene.output.rupture_rate.as_ref().map_or(defaults::RUPTURED, |v| v.get_ref().0);
+    let fastest = own.iter().map(|p| p.rate.abs()).reduce(f64::max)?;
+    (fastest >= limit).then(|| {
+        Warning::at(
+            spec.rate.span(),
+            format!("fault `{name}` slips at {fastest:e} m/s at the start, and a point has ruptured at {limit:e} m/s: its rupture times are zero"),
+            "a lower rate at the start, or a higher `rupture_rate`",
+        )
+    })
+}
+
+/// Warning about a forced rupture that weakens fewer than half of its points within the run of this duration \[s\].
+fn slow_front<const D: usize>(
+    Entry { name, spec }: Entry<'_, Spec>,
+    own: &[&PlacedPoint<D>],
+    run: f64,
+) -> Option<Warning> {
+    let forced = spec.forced_rupture.as_ref()?;
+    let arrivals = own.iter().map(|p| forced_rupture::arrival(forced, &p.point.place.at));
+    let arrivals: Vec<f64> = arrivals.filter(|at| at.is_finite()).collect();
+    let weakened = arrivals.iter().filter(|at| *at + forced.duration.get_ref().0 <= run).count();
+    ((weakened as f64) < HALF * arrivals.len() as f64).then(|| {
+        Warning::at(
+            forced.speed.span(),
+            format!(
+                "the forced rupture of fault `{name}` weakens {weakened} of the {} points within its radius before the run ends after {run:e} s",
+                arrivals.len()
+            ),
+            "check `speed`, its `duration` and that of the stage",
+        )
+    })
+}
+
+/// Warning about a fault whose shear traction lies below its residual strength at all points, so that no rupture spreads.
+fn undriven<const D: usize>(
+    Entry { name, spec }: Entry<'_, Spec>,
+    own: &[&PlacedPoint<D>],
+) -> Option<Warning> {
+    let driven = |p: &&PlacedPoint<D>| {
+        let shear = p.shear.unwrap_or_default().abs();
+        let residual = p.law.value("mu_k", laws::known()).map(|mu| mu * p.normal + cohesion(p));
+        residual.is_none_or(|residual| shear > residual) && above(p) == Some(0)
+    };
+    (!own.iter().any(driven)).then(|| {
+        Warning::at(
+            of_shear(spec),
+            format!("the shear traction of fault `{name}` lies below its residual strength, `mu_k` times `normal`, wherever the fault does not slip at once: no rupture spreads"),
+            "a rupture spreads where `shear` lies between `mu_k` and `mu_s` times `normal`",
+        )
+    })
 }
 
 fn at_once(Entry { name, spec }: Entry<'_, Spec>, above: usize, points: usize) -> Warning {
-    let place = spec.shear.as_ref().map_or_else(|| spec.law.span(), |s| s.span());
     Warning::at(
-        place,
+        of_shear(spec),
         format!("{above} of {points} points of fault `{name}` start above their strength and slip at once"),
         "a rupture spreads where `shear` is below `mu_s` times `normal` but in a patch",
     )
@@ -124,11 +213,19 @@ fn tiny<const D: usize>(Entry { name, spec }: Entry<'_, Spec>, own: &[&PlacedPoi
     })
 }
 
-/// One if a point starts above its strength; `None` for laws that slip at every traction. The first parameter of laws with an elastic
-/// domain is the coefficient at rest.
-fn above<const D: usize>(p: &PlacedPoint<D>) -> Option<usize> {
+/// Cohesion of a point \[Pa\].
+fn cohesion<const D: usize>(p: &PlacedPoint<D>) -> f64 {
+    p.law.value("cohesion", laws::known()).unwrap_or_default()
+}
+
+/// Strength of a point at rest \[Pa\]; `None` for laws that slip at every traction. The first parameter of laws with an elastic domain
+/// is the coefficient at rest.
+fn strength<const D: usize>(p: &PlacedPoint<D>) -> Option<f64> {
     let LawChoice::Yielding { own, .. } = &p.law else { return None };
-    let cohesion = p.law.value("cohesion", laws::known()).unwrap_or_default();
-    let strength = own.first()? * p.normal + cohesion;
-    Some(usize::from(p.shear.unwrap_or_default().abs() > strength))
+    Some(own.first()? * p.normal + cohesion(p))
+}
+
+/// One if a point starts above its strength; `None` for laws that slip at every traction.
+fn above<const D: usize>(p: &PlacedPoint<D>) -> Option<usize> {
+    Some(usize::from(p.shear.unwrap_or_default().abs() > strength(p)?))
 }

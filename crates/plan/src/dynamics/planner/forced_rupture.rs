@@ -42,7 +42,7 @@ pub(super) fn weakening<const D: usize>(
 }
 
 /// Time at which the front arrives at a position \[s\], `T = r/v + 0.081 R/v (1/(1 - (r/R)^2) - 1)` within R; infinite beyond.
-fn arrival<const D: usize>(asked: &ForcedRupture, at: &[f64; D]) -> f64 {
+pub(super) fn arrival<const D: usize>(asked: &ForcedRupture, at: &[f64; D]) -> f64 {
     let square: f64 = at.iter().zip(asked.centre.get_ref()).map(|(x, c)| (x - c.0).powi(2)).sum();
     let (distance, radius) = (square.sqrt(), asked.radius.get_ref().0);
     if distance >= radius {

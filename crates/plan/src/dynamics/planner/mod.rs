@@ -20,7 +20,7 @@ use crate::shared::entry::Entry;
 use crate::shared::loading::{Stage, courses};
 use crate::shared::memory::ModelMemory;
 use crate::shared::model::{self, Model, counts, cuts, forecast, locking, meshes};
-use crate::shared::{loading, rate_bound, views};
+use crate::shared::{loading, rate_bound, unbalance, views};
 use asperity_mechanics::dynamics::{Problem, StableStep};
 use asperity_scene::defaults;
 use steps::StepChoice;
@@ -97,6 +97,10 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     let stages = loading::stages(scene, &model)?;
     let mut remarks = Remarks { warnings: scene.warnings.clone(), notes: Vec::new() };
     remarks.warnings.extend(locking::doubts(scene, &model)?);
+    remarks.warnings.extend(model_checks::doubts(scene, &model));
+    if scene.faults.is_empty() {
+        remarks.warnings.extend(unbalance::waves(scene, &model, &stages[0]));
+    }
     let StepPlan { density, viscosity, stable, counted } = StepPlan::choose(scene, &model, &stages[0])?;
     let SplitPoints { sliding, locked } = SplitPoints::find(scene, &model, &mut remarks)?;
     crate::doubts::add(&mut remarks.warnings, doubts::check(scene, &sliding, &stages[0], &counted));
@@ -109,6 +113,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     forecast::fits(scene, memory_bytes)?;
     let mut checks = model_checks::checks(scene, &model)?;
     checks.faults = of_faults::checks::faults(scene, &sliding, &faults, &resolution);
+    crate::doubts::add(&mut remarks.warnings, of_faults::checks::small_patches(scene, &checks.faults));
     of_faults::checks::prescribe(&mut checks.faults, &of_faults::checks::counted(scene, &locked));
     checks.cost = cost(&model, &counted, points.len(), memory_bytes);
     let fault = faults::assemble(scene, &sliding, &locked)?;

@@ -174,6 +174,7 @@ pub(super) fn plan_of<const D: usize>(
     let mut checks = around.checks;
     checks.faults = checks::faults(scene, placed, &faults, &around.resolution);
     checks::prescribe(&mut checks.faults, &around.prescribed);
+    crate::doubts::add(&mut remarks.warnings, checks::small_patches(scene, &checks.faults));
     add_loads(&mut checks.faults, scene, &system, &around.machines);
     let memory_bytes = around.memory_bytes + system.heat_bytes + system.diffusion_bytes;
     let moved = problem.fault.operator.moved() + system.heat_bytes;
@@ -217,7 +218,7 @@ pub(super) fn plan_of<const D: usize>(
 /// Adds doubts of the start of faults, of their pulses and their damping under loads of this rate \[m/s\].
 fn doubt<const D: usize>(
     scene: &Scene,
-    FaultSystem { placed, problem: Problem { fault, .. }, .. }: &FaultSystem<D>,
+    FaultSystem { placed, problem: Problem { fault, settings, .. }, .. }: &FaultSystem<D>,
     rate: f64,
     warnings: &mut Vec<Warning>,
 ) -> Result<(), Diagnostic> {
@@ -226,7 +227,7 @@ fn doubt<const D: usize>(
     crate::doubts::add(warnings, start_doubts::check(scene, placed, fault));
     warnings.extend(up_direction::above_ground(scene, placed)?);
     let amplitudes = fault.processes.each::<Pulse>().map(|p| p.amplitude.as_slice());
-    crate::doubts::add(warnings, pulses::doubts(&named, amplitudes, &pulses::at_rest(fault)));
+    crate::doubts::add(warnings, pulses::doubts(&named, amplitudes, &pulses::at_rest(fault), settings.end));
     crate::doubts::add(warnings, endless(scene, rate));
     crate::doubts::add(warnings, radiation::doubts(scene, placed));
     Ok(())

@@ -107,6 +107,7 @@ impl<'s, const D: usize> Ground<'s, D> {
         let resolution = known.then(|| resolved(scene, &placed, &mut remarks.warnings)).transpose()?;
         let (checks, held) = (model_checks::checks(scene, &model)?, ModelMemory::new(&model));
         remarks.warnings.extend(up_direction::held_above(scene, &model));
+        remarks.warnings.extend(model_checks::doubts(scene, &model));
         Ok(Self { scene, model, pressing, stage, placed, points, resolution, checks, held, remarks })
     }
 

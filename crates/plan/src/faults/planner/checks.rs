@@ -7,7 +7,8 @@ use crate::faults::{FaultView, Station};
 use crate::reading::scene::model::{Fault as Spec, Patch, Profile, Scene};
 use crate::shared::checks::model_checks::{DrivenSurface, body_name};
 use crate::shared::checks::{FaultCheck, MachineCheck, PatchCheck, ProfileCheck, StationCheck};
-use crate::shared::resolution::{Ground, Resolution, critical_slope};
+use crate::shared::resolution::{Ground, Resolution, Softening, critical_slope, softening};
+use asperity_run::Warning;
 
 /// Number of points of each fault.
 pub(crate) fn counted<const D: usize>(scene: &Scene, placed: &[PlacedPoint<D>]) -> Vec<usize> {
@@ -63,7 +64,7 @@ fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
 /// True if friction at a point weakens with slip.
 pub(super) fn weakens<const D: usize>(p: &PlacedPoint<D>) -> bool {
     let ground = Ground { law: &p.law, normal: p.pressed(), modulus: p.medium.stiffness, in_space: D == 3 };
-    ground.lengths().is_some()
+    ground.lengths().is_some() || softening(&p.law) == Softening::Drop
 }
 
 /// Points of the profiles of a fault.
@@ -86,6 +87,28 @@ fn covers<const D: usize>(patch: &Patch, own: &[&PlacedPoint<D>]) -> PatchCheck 
         points: weights().filter(|w| *w == 1.0).count(),
         edge: weights().filter(|w| *w > 0.0 && *w < 1.0).count(),
     }
+}
+
+/// Points of a patch below which its shape is not resolved.
+const FEW: usize = 3;
+
+/// Warnings about patches that cover hardly any point.
+pub(crate) fn small_patches(scene: &Scene, checks: &[FaultCheck]) -> Vec<Warning> {
+    let small = |(k, (patch, PatchCheck { points, edge })): (usize, (&Patch, &PatchCheck))| {
+        let (_, place) = patch.values().into_iter().flatten().next()?;
+        let count = points + edge;
+        (count < FEW).then(|| {
+            Warning::at(
+                place,
+                format!("patch number {} covers {count} of the points, too few for its shape", k + 1),
+                "check the unit of its extent; or take smaller cells",
+            )
+        })
+    };
+    let of = |(spec, check): (&Spec, &FaultCheck)| -> Vec<Warning> {
+        spec.patches.iter().zip(&check.patches).enumerate().filter_map(small).collect()
+    };
+    scene.faults.values().zip(checks).flat_map(of).collect()
 }
 
 fn stations<const D: usize>(view: &FaultView, placed: &[PlacedPoint<D>]) -> Vec<StationCheck> {
@@ -141,5 +164,6 @@ pub(super) fn machine<const D: usize>(
         stiffness,
         critical: mean(&|p| Some(p.pressed() * critical_slope(&p.law)?)),
         critical_normal: slope.map(|slope| stiffness / slope),
+        softening: own().map(|p| softening(&p.law)).max().unwrap_or(Softening::None),
     }
 }

@@ -45,7 +45,8 @@ pub(crate) fn resolved<const D: usize>(
             let surface = format!("fault `{name}`");
             // Of a file without a unit, `triangles::tiny` says what is probably wrong.
             let unknown = spec.triangles.as_ref().is_some_and(|surface| surface.unit().is_none());
-            let doubt = doubts::nucleation(&surface, spec.law.span(), length, extent);
+            let rock = scene.medium.is_some() && scene.events.is_some();
+            let doubt = doubts::nucleation(&surface, spec.law.span(), [length, extent], rock);
             warnings.extend(doubt.filter(|_| !unknown));
             all.push(found);
         }

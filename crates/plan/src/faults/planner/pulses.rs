@@ -39,11 +39,12 @@ pub(crate) fn pulses<const D: usize>(
     Ok(all)
 }
 
-/// Doubts about each pulse, given all points; `pushed` has what counts of a point beside the amplitude.
+/// Doubts about each pulse of a run of this duration \[s\], given all points; `pushed` has what counts of a point beside the amplitude.
 pub(crate) fn doubts<'a>(
     named: &[Entry<'_, Spec>],
     amplitudes: impl Iterator<Item = &'a [f64]>,
     pushed: &[PulsePoint],
+    run: f64,
 ) -> Vec<Warning> {
     let asked = named.iter().flat_map(|fault| &fault.spec.pulses);
     let doubt = |(asked, amplitude): (&Asked, &[f64])| {
@@ -51,6 +52,7 @@ pub(crate) fn doubts<'a>(
         crate::doubts::pulse(
             asked,
             points.map(|(i, a)| PulsePoint { amplitude: *a, ..pushed[i % pushed.len()] }),
+            run,
         )
     };
     asked.zip(amplitudes).filter_map(doubt).collect()
@@ -62,7 +64,7 @@ pub(super) fn at_rest(fault: &Fault) -> Vec<PulsePoint> {
         amplitude: 0.0,
         normal: fault.normal[p],
         direct: Some(fault.law.scale(p) * fault.normal[p]),
-        missing: None,
+        strength: None,
         // Slip has the years of a cycle.
         begins: None,
     };

@@ -1,12 +1,14 @@
 //! Checks of a plan: sizes, counts of points and lengths of friction, by which a wrong unit or an empty set shows before a run.
 
 mod cost;
+mod double_loads;
 mod fault;
+mod meetings;
 pub(crate) mod model_checks;
 pub mod rates;
 mod words;
 
-use crate::shared::resolution::Coarsest;
+use crate::shared::resolution::{Coarsest, Softening};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -88,8 +90,10 @@ pub struct MachineCheck {
     pub stiffness: f64,
     /// Critical stiffness f_n (b - a)/L, in the mean over the area; absent if f_n is not known in advance \[Pa/m\].
     pub critical: Option<f64>,
-    /// Normal traction at which this stiffness is critical; absent if friction does not weaken \[Pa\].
+    /// Normal traction at which this stiffness is critical; absent if friction does not weaken with slip \[Pa\].
     pub critical_normal: Option<f64>,
+    /// How the strength falls where it falls most.
+    pub softening: Softening,
 }
 
 /// Points and lengths of an interface.

@@ -1,6 +1,7 @@
 //! Text of the checks.
 
 use super::{BodyCheck, Checks, FaultCheck, InterfaceCheck, MachineCheck, SetCheck, SliderCheck};
+use crate::shared::resolution::Softening;
 use asperity_scene::lengths::brief;
 use std::fmt::{self, Write as _};
 
@@ -63,11 +64,22 @@ impl SetCheck {
     }
 }
 
+/// Stability on a spring of a surface whose critical stiffness is not a number.
+fn stability(softening: Softening) -> &'static str {
+    match softening {
+        Softening::None => "friction does not weaken, so that steady sliding is stable on any spring",
+        Softening::Drop => "friction drops at once where slip begins, which no spring holds",
+        Softening::Unknown | Softening::Gradual => {
+            "the critical stiffness of its law is not known in advance"
+        }
+    }
+}
+
 impl MachineCheck {
     fn words(&self, of: &str) -> String {
         let k = format!("{of}: springs of {:.4e} Pa/m", self.stiffness);
         let Some(normal) = self.critical_normal else {
-            return format!("{k}; friction does not weaken, so that steady sliding is stable on any spring");
+            return format!("{k}; {}", stability(self.softening));
         };
         match self.critical {
             Some(critical) => {

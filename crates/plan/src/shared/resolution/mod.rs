@@ -3,7 +3,7 @@
 mod critical;
 mod ground;
 
-pub use critical::critical_slope;
+pub use critical::{Softening, critical_slope, softening};
 pub(crate) use ground::check;
 pub use ground::{Ground, GroundPoint, from_points, links, modulus, spacings};
 

@@ -20,11 +20,13 @@ impl Planner {
             Course::Constant(value) => Ok(History::Constant(si(value))),
             Course::Table(table) => {
                 self.order(table, course.span(), name)?;
+                self.begins(table.first().map(|e| e.get_ref().time.0), course.span(), name)?;
                 let entries = table.iter().map(Spanned::get_ref);
                 History::table(entries.map(|e| [e.time.0, si(&e.value)]).collect())
             }
             Course::File(table) => {
                 self.order_in_file(table, course.span(), name)?;
+                self.begins(table.first().map(|e| e.0), course.span(), name)?;
                 History::table(table.iter().map(|&(time, value)| [time, value]).collect())
             }
             Course::Sine { mean, amplitude, period, start } => {
@@ -63,6 +65,14 @@ impl Planner {
             }
         }
         Some(())
+    }
+
+    /// Checks that a table begins within the run.
+    fn begins(&mut self, first: Option<f64>, place: Range<usize>, name: &str) -> Option<()> {
+        let Some(first) = first.filter(|first| *first > 0.0 && *first >= self.end) else { return Some(()) };
+        let message =
+            format!("the table of `{name}` begins at {first:?} s, and the run ends at {:?} s", self.end);
+        self.error(place, message, "times in seconds from the start of the run, or a later `end`")
     }
 
     /// Checks that the times of a table in a file increase.

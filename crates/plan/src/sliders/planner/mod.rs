@@ -6,6 +6,7 @@ mod output;
 mod parts;
 mod settings;
 mod start;
+mod start_doubts;
 
 use crate::doubts;
 use crate::reading::columns::file::columns_of;
@@ -36,7 +37,7 @@ pub fn read(text: &str) -> Result<Plan, Diagnostics> {
 /// All errors of the scene, or the first one that prevents reading it.
 pub fn read_in(text: &str, folder: &Path) -> Result<(Plan, Vec<Spanned<String>>), Diagnostics> {
     let scene = reader::read_sliders_with(text, &mut |file, wanted| columns_of(folder, file, wanted))?;
-    let mut planner = Planner::default();
+    let mut planner = Planner { errors: Vec::new(), end: scene.time.end.get_ref().0 };
     let plan = planner.plan(&scene);
     let mut errors = planner.errors;
     errors.sort_by_key(|e| (e.span.is_empty(), e.span.start));
@@ -54,9 +55,10 @@ struct Parts {
 }
 
 /// Turns a scene into a plan and collects errors.
-#[derive(Default)]
 struct Planner {
     errors: Vec<Diagnostic>,
+    /// End of the run \[s\].
+    end: f64,
 }
 
 impl Planner {
@@ -115,6 +117,8 @@ impl Planner {
             let loading = plan.problem.system.segment(0.0).load().at(0.0).0.abs();
             plan.warnings.extend(doubts::thresholds(spec, limits, loading, false));
         }
+        let starts = start_doubts::starts(scene, &plan);
+        doubts::add(&mut plan.warnings, starts);
         self.runaways(scene, &mut plan);
         unresolved(scene, &mut plan);
         Some(plan)

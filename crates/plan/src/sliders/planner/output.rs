@@ -4,8 +4,13 @@ use super::Planner;
 use crate::reading::scene::model::Spanned;
 use crate::reading::scene::slider::{OutputSpec, SliderSelection};
 use crate::reading::scene::suggestions;
+use crate::reading::scene::units::Time;
+use crate::shared::words;
 use asperity_cycles::slider::Rows;
 use asperity_scene::defaults;
+
+/// Largest number of rows at intervals: several GB of a table.
+const MOST_ROWS: f64 = 1e8;
 
 impl Planner {
     pub(super) fn output(&mut self, spec: &OutputSpec, names: &[String], end: f64) -> Option<Rows> {
@@ -14,7 +19,7 @@ impl Planner {
             None => None,
         };
         let interval = match &spec.interval {
-            Some(dt) => Some(self.positive("interval", dt.get_ref().0, dt.span(), "\"10 s\"")?),
+            Some(dt) => Some(self.interval(dt, end)?),
             None => None,
         };
         let times = self.times(spec, end);
@@ -38,6 +43,25 @@ impl Planner {
         let by_change = times.is_empty() && interval.is_none();
         let change = change.or(by_change.then_some(defaults::SLIDER_CHANGE));
         Some(Rows { change, times, interval, histories })
+    }
+
+    /// The time between rows \[s\], if the run to `end` \[s\] has a sensible number of them.
+    fn interval(&mut self, spec: &Spanned<Time>, end: f64) -> Option<f64> {
+        let interval = self.positive("interval", spec.get_ref().0, spec.span(), "\"10 s\"")?;
+        let rows = end / interval;
+        if rows <= MOST_ROWS {
+            return Some(interval);
+        }
+        let message = format!(
+            "rows every {} of a run of {} are {rows:.1e} rows",
+            words::time(interval),
+            words::time(end)
+        );
+        let help = format!(
+            "at most {MOST_ROWS:.0e}, so `interval` from {:e} s; rows by `change` follow events as closely as wanted",
+            end / MOST_ROWS
+        );
+        self.error(spec.span(), message, help)
     }
 
     /// Requested times within the run, in order.

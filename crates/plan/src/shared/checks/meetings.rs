@@ -1,0 +1,52 @@
+//! Bodies that meet where nothing joins them.
+
+use super::model_checks::body_name;
+use crate::reading::scene::model::{Scene, Spanned};
+use crate::shared::model::{Model, bounds};
+use asperity_fem::mesh::meeting;
+use asperity_mechanics::Body;
+use asperity_run::Warning;
+use asperity_scene::lengths::brief;
+
+/// True if an interface or a fault of the scene joins two bodies.
+fn joined(scene: &Scene, names: [&str; 2]) -> bool {
+    let both = |a: &Spanned<String>, b: &Spanned<String>| {
+        let [a, b] = [a, b].map(body_name);
+        [[a.as_str(), b.as_str()], [b.as_str(), a.as_str()]].contains(&names)
+    };
+    scene.interfaces.values().any(|i| both(&i.slave, &i.master))
+        || scene.faults.values().any(|f| both(&f.minus, &f.plus))
+}
+
+/// True if the boxes of two bodies are apart.
+fn apart<const D: usize>(model: &Model<D>, bodies: [&Body<D>; 2]) -> bool {
+    let [one, other] = bodies.map(|body| bounds(&model.mesh.nodes[body.nodes.clone()]));
+    (0..D).any(|c| one.0[c] > other.1[c] || other.0[c] > one.1[c])
+}
+
+/// Warnings about bodies that touch or overlap, and do not feel each other.
+pub(crate) fn unjoined<const D: usize>(scene: &Scene, model: &Model<D>) -> Vec<Warning> {
+    let mut all = Vec::new();
+    for (k, one) in model.bodies.iter().enumerate() {
+        for other in &model.bodies[k + 1..] {
+            if joined(scene, [&one.name, &other.name]) || apart(model, [one, other]) {
+                continue;
+            }
+            let of = |a: &Body<D>, b: &Body<D>| meeting(&model.mesh, a.blocks.clone(), b.blocks.clone());
+            let faces = [of(one, other), of(other, one)].concat();
+            let (Some(first), Some(spec)) = (faces.first(), scene.bodies.get(&other.name)) else { continue };
+            all.push(Warning::at(
+                spec.material.span(),
+                format!(
+                    "bodies `{}` and `{}` meet at {} of their faces, such as at ({}), and no interface joins them: they do not feel each other",
+                    one.name,
+                    other.name,
+                    faces.len(),
+                    first.map(brief).join(", ")
+                ),
+                "an interface with the sides of both that meet; or put them apart",
+            ));
+        }
+    }
+    all
+}
