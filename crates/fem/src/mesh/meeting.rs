@@ -1,6 +1,8 @@
 //! Faces at which bodies meet: those of one that lie in or on cells of another.
 
-use super::{Mesh, Side, boundary, face_kind, face_nodes, locate::holds_position};
+use super::boundary::boundary;
+use super::locate::holds_position;
+use super::{Mesh, Side, face_kind, face_nodes};
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 use std::ops::Range;

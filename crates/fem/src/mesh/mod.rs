@@ -26,7 +26,6 @@ pub use meeting::meeting;
 pub use raw::{GroupTag, Options, RawBlock, RawGroup, RawMesh, RawNode, RawSide, Shape, UnreadElements};
 
 use crate::element::{ElementKind, FaceKind};
-use boundary::boundary;
 use std::collections::BTreeMap;
 
 /// Cells of one kind.

@@ -9,7 +9,7 @@ use super::{PlannedInterface, StartGap, coarse, cohesive, damping, overlaps};
 use crate::doubts as shared;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Interface, Scene};
-use crate::shared::checks::model_checks;
+use crate::shared::checks::meetings;
 use crate::shared::entry::Entry;
 use crate::shared::loading::{Stage, sizes};
 use crate::shared::model::locking;
@@ -31,7 +31,7 @@ pub fn gaps_and_warnings<const D: usize>(
     let Assembly { scene, model, stages, interfaces, frictions, .. } = assembly;
     let (mut starts, mut doubts) = (Vec::new(), sizes::doubts(scene, model, stages));
     doubts.extend(locking::doubts(scene, model)?);
-    doubts.extend(model_checks::doubts(scene, model));
+    doubts.extend(meetings::doubts(scene, model));
     doubts.extend(tolerance(scene, stages));
     let events = scene.events.as_ref();
     // Stages before the last press bodies.

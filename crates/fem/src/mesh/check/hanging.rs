@@ -4,7 +4,8 @@
 //! A face whose nodes no other cell has is one of the boundary. A node on it hangs if it lies within an edge of another face of
 //! the boundary. Where both have names, as on the sides of a crack that are meshed apart, nothing is amiss.
 
-use super::super::{Mesh, Side, boundary, face_kind, face_nodes};
+use super::super::boundary::boundary;
+use super::super::{Mesh, Side, face_kind, face_nodes};
 use super::parts::parts;
 use rstar::{AABB, RTree, primitives::GeomWithData};
 use std::collections::BTreeSet;

@@ -69,7 +69,7 @@ struct Partners(Vec<(usize, usize)>);
 
 impl Partners {
     /// Roots of the parts that a node touches.
-    fn of(&self, node: usize) -> impl Iterator<Item = usize> {
+    fn touched(&self, node: usize) -> impl Iterator<Item = usize> {
         let first = self.0.partition_point(|(n, _)| *n < node);
         self.0[first..].iter().take_while(move |(n, _)| *n == node).map(|(_, root)| *root)
     }
@@ -77,7 +77,7 @@ impl Partners {
     /// Roots of the parts that all corners of a face touch.
     fn shared(&self, corners: &[usize]) -> Vec<usize> {
         let (first, rest) = (corners[0], &corners[1..]);
-        self.of(first).filter(|root| rest.iter().all(|n| self.of(*n).any(|r| r == *root))).collect()
+        self.touched(first).filter(|root| rest.iter().all(|n| self.touched(*n).any(|r| r == *root))).collect()
     }
 }
 

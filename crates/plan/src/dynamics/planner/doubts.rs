@@ -116,7 +116,7 @@ pub(super) fn pulses<const D: usize>(
 }
 
 /// Position of the shear traction of a fault in the scene, or of its law without one.
-fn of_shear(spec: &Spec) -> Range<usize> {
+fn shear_place(spec: &Spec) -> Range<usize> {
     spec.shear.as_ref().map_or_else(|| spec.law.span(), |s| s.span())
 }
 
@@ -126,7 +126,7 @@ fn unheld<const D: usize>(Entry { name, spec }: Entry<'_, Spec>, own: &[&PlacedP
     let largest = own.iter().filter(|p| p.normal > 0.0).map(ratio).reduce(f64::max)?;
     (largest > MOST_FRICTION).then(|| {
         Warning::at(
-            of_shear(spec),
+            shear_place(spec),
             format!("the shear traction of fault `{name}` is up to {largest:.2} times its normal traction at the start: no friction holds it"),
             "check the units of `shear` and `normal`, and those of patches and profiles",
         )
@@ -184,7 +184,7 @@ fn undriven<const D: usize>(
     };
     (!own.iter().any(driven)).then(|| {
         Warning::at(
-            of_shear(spec),
+            shear_place(spec),
             format!("the shear traction of fault `{name}` lies below its residual strength, `mu_k` times `normal`, wherever the fault does not slip at once: no rupture spreads"),
             "a rupture spreads where `shear` lies between `mu_k` and `mu_s` times `normal`",
         )
@@ -193,7 +193,7 @@ fn undriven<const D: usize>(
 
 fn at_once(Entry { name, spec }: Entry<'_, Spec>, above: usize, points: usize) -> Warning {
     Warning::at(
-        of_shear(spec),
+        shear_place(spec),
         format!("{above} of {points} points of fault `{name}` start above their strength and slip at once"),
         "a rupture spreads where `shear` is below `mu_s` times `normal` but in a patch",
     )

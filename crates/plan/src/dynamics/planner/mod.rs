@@ -15,7 +15,7 @@ use crate::faults::planner::{self as of_faults, FaultFaces, PlacedPoint, Remarks
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Kinematics, Scene};
 use crate::shared::checks::model_checks::{self, field_bytes};
-use crate::shared::checks::{Cost, rates};
+use crate::shared::checks::{Cost, meetings, rates};
 use crate::shared::entry::Entry;
 use crate::shared::loading::{Stage, courses};
 use crate::shared::memory::ModelMemory;
@@ -97,7 +97,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     let stages = loading::stages(scene, &model)?;
     let mut remarks = Remarks { warnings: scene.warnings.clone(), notes: Vec::new() };
     remarks.warnings.extend(locking::doubts(scene, &model)?);
-    remarks.warnings.extend(model_checks::doubts(scene, &model));
+    remarks.warnings.extend(meetings::doubts(scene, &model));
     if scene.faults.is_empty() {
         remarks.warnings.extend(unbalance::waves(scene, &model, &stages[0]));
     }

@@ -26,8 +26,8 @@ use super::{
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Scene;
 use crate::shared::amounts;
-use crate::shared::checks::Checks;
 use crate::shared::checks::model_checks::{self, machines};
+use crate::shared::checks::{Checks, meetings};
 use crate::shared::entry::Entry;
 use crate::shared::loading::{self, Stage};
 use crate::shared::memory::ModelMemory;
@@ -107,7 +107,7 @@ impl<'s, const D: usize> Ground<'s, D> {
         let resolution = known.then(|| resolved(scene, &placed, &mut remarks.warnings)).transpose()?;
         let (checks, held) = (model_checks::checks(scene, &model)?, ModelMemory::new(&model));
         remarks.warnings.extend(up_direction::held_above(scene, &model));
-        remarks.warnings.extend(model_checks::doubts(scene, &model));
+        remarks.warnings.extend(meetings::doubts(scene, &model));
         Ok(Self { scene, model, pressing, stage, placed, points, resolution, checks, held, remarks })
     }
 

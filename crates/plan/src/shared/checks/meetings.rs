@@ -1,5 +1,6 @@
-//! Bodies that meet where nothing joins them.
+//! Bodies that meet where nothing joins them, and loads that meet on a face.
 
+use super::double_loads;
 use super::model_checks::body_name;
 use crate::reading::scene::model::{Scene, Spanned};
 use crate::shared::model::{Model, bounds};
@@ -24,8 +25,15 @@ fn apart<const D: usize>(model: &Model<D>, bodies: [&Body<D>; 2]) -> bool {
     (0..D).any(|c| one.0[c] > other.1[c] || other.0[c] > one.1[c])
 }
 
+/// Warnings about the bodies of a model and the loads on their sets.
+pub(crate) fn doubts<const D: usize>(scene: &Scene, model: &Model<D>) -> Vec<Warning> {
+    let mut all = unjoined(scene, model);
+    all.extend(double_loads::doubts(scene, model));
+    all
+}
+
 /// Warnings about bodies that touch or overlap, and do not feel each other.
-pub(crate) fn unjoined<const D: usize>(scene: &Scene, model: &Model<D>) -> Vec<Warning> {
+fn unjoined<const D: usize>(scene: &Scene, model: &Model<D>) -> Vec<Warning> {
     let mut all = Vec::new();
     for (k, one) in model.bodies.iter().enumerate() {
         for other in &model.bodies[k + 1..] {

@@ -3,7 +3,7 @@
 mod cost;
 mod double_loads;
 mod fault;
-mod meetings;
+pub(crate) mod meetings;
 pub(crate) mod model_checks;
 pub mod rates;
 mod words;
@@ -92,7 +92,7 @@ pub struct MachineCheck {
     pub critical: Option<f64>,
     /// Normal traction at which this stiffness is critical; absent if friction does not weaken with slip \[Pa\].
     pub critical_normal: Option<f64>,
-    /// How the strength falls where it falls most.
+    /// Fall of the strength where it falls most.
     pub softening: Softening,
 }
 

@@ -1,6 +1,6 @@
 //! Checks of bodies and of the sets that a scene uses.
 
-use super::{BodyCheck, Checks, SetCheck, double_loads, meetings};
+use super::{BodyCheck, Checks, SetCheck};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Condition, Motion, Scene, Spanned};
 use crate::shared::model::forecast::Counts;
@@ -10,7 +10,6 @@ use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::{Side, face_nodes};
 use asperity_fem::surface;
 use asperity_mechanics::{Body, Stage};
-use asperity_run::Warning;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Checks of the bodies of a model and of the sets that conditions, interfaces, faults and outputs use.
@@ -22,13 +21,6 @@ pub(crate) fn checks<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<
     axis(scene, model)?;
     let bodies = model.bodies.iter().map(|body| body_check(model, body)).collect();
     Ok(Checks { in_space, bodies, sets: sets(scene, model)?, ..Checks::default() })
-}
-
-/// Warnings about the bodies of a model and the sets that conditions use.
-pub(crate) fn doubts<const D: usize>(scene: &Scene, model: &Model<D>) -> Vec<Warning> {
-    let mut all = meetings::unjoined(scene, model);
-    all.extend(double_loads::doubts(scene, model));
-    all
 }
 
 fn body_check<const D: usize>(model: &Model<D>, body: &Body<D>) -> BodyCheck {

@@ -6,7 +6,7 @@ use asperity_friction::kind::{self, Weakening};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-/// How the strength of a surface falls once it slips, from the least to the worst for a spring that is to hold it.
+/// Fall of the strength of a surface once it slips, from the least to the worst for a spring that is to hold it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Softening {
@@ -20,7 +20,7 @@ pub enum Softening {
     Drop,
 }
 
-/// How the strength falls by a law.
+/// Fall of the strength by a law.
 #[must_use]
 pub fn softening(law: &LawChoice) -> Softening {
     let of_slope = |slope: f64| if slope > 0.0 { Softening::Gradual } else { Softening::None };
