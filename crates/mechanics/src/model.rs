@@ -236,8 +236,19 @@ impl<const D: usize> Model<D> {
     /// Unit normal of a face, outward of its body.
     #[must_use]
     pub fn face_normal(&self, face: &[usize]) -> Vec<f64> {
+        self.moved_face_normal(face, |_| [0.0; D])
+    }
+
+    /// Unit normal of a face whose nodes have moved by `displacement` \[m\].
+    #[must_use]
+    pub fn moved_face_normal(&self, face: &[usize], displacement: impl Fn(usize) -> [f64; D]) -> Vec<f64> {
+        let at = |k: usize| {
+            let (x, u) = (&self.mesh.nodes[face[k]], displacement(face[k]));
+            std::array::from_fn::<f64, D, _>(|c| x[c] + u[c])
+        };
         let edge = |a: usize, b: usize| -> Vec<f64> {
-            (0..D).map(|c| self.mesh.nodes[face[b]][c] - self.mesh.nodes[face[a]][c]).collect()
+            let (from, to) = (at(a), at(b));
+            (0..D).map(|c| to[c] - from[c]).collect()
         };
         let e = edge(0, 1);
         let n = if D == 2 {

@@ -1,7 +1,7 @@
 //! Runs of the program `asperity`, and the files that they write.
 
 use crate::cases::programs;
-use crate::cases::run_files::Folder;
+use crate::cases::run_files::{self, Folder};
 use crate::{CaseError, Cost};
 use asperity_vary::SceneText;
 use std::path::Path;
@@ -36,11 +36,7 @@ impl FluidRun {
     /// # Errors
     /// If the run fails, or a table cannot be read.
     pub fn from_scene(scene: &SceneText) -> Result<Self, CaseError> {
-        let folder = Folder::new()?;
-        let file = folder.path().join("scene.toml");
-        std::fs::write(&file, scene.clone().text()?)?;
-        let (done, cost) = Cost::measure(|| asperity(&file, &folder.path().join("out"), &[], &CODES[..1]));
-        done?;
+        let (folder, cost) = run_files::by_program(&scene.clone().text()?)?;
         let (mut positions, mut rows) = (Vec::new(), Vec::new());
         if folder.path().join("out/pressure_profiles.csv").exists() {
             let table = folder.table("out/pressure_profiles.csv")?;

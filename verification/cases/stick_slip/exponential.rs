@@ -163,6 +163,28 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
         .covers(&[Capability::InterfaceStates, Capability::Events])
         .cost(&done.cost)
         .record();
+    derived(ledger, &done, event);
+    on_its_interface(ledger, &done, event)?;
+    catalogue(ledger)?;
+    let fine = texts::simulate(&scene()?.text()?)?;
+    let [event] = super::events(&fine)? else { return Err("not one event".into()) };
+    ledger
+        .claim("an event under exponential growth: slip between its thresholds, by short steps")
+        .unit("m")
+        .value(event.mean_slip)
+        .equals(GROWS * (PEAK - ON) + FALLS * (PEAK - OFF))
+        .relative(4e-4)
+        .evidence(Evidence::Exact, "differences of slip rates over their rates of growth")
+        .because("the default bounds the error of slip of a step by 2e-5 of the largest motion that is given, 2e-10 m, over 1e4 steps")
+        .why_not_tighter("how many steps a tolerance takes is up to their control")
+        .covers(&[Capability::InterfaceStates, Capability::Events])
+        .cost(&fine.cost)
+        .record();
+    Ok(())
+}
+
+/// Claims about numbers that follow from rates, tractions and slip of the event.
+fn derived(ledger: &mut Ledger, done: &BodyRun, event: &Entry) {
     // The time above the upper threshold, and the drop of friction from one threshold to the other.
     let (above, drop) = ((PEAK / ON).ln() * (GROWS + FALLS), A * NORMAL * (ON / OFF).ln());
     let moment = SHEAR * event.area * event.mean_slip;
@@ -184,23 +206,6 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
         .covers(&[Capability::InterfaceStates, Capability::Events])
         .cost(&done.cost)
         .record();
-    on_its_interface(ledger, &done, event)?;
-    catalogue(ledger)?;
-    let fine = texts::simulate(&scene()?.text()?)?;
-    let [event] = super::events(&fine)? else { return Err("not one event".into()) };
-    ledger
-        .claim("an event under exponential growth: slip between its thresholds, by short steps")
-        .unit("m")
-        .value(event.mean_slip)
-        .equals(GROWS * (PEAK - ON) + FALLS * (PEAK - OFF))
-        .relative(4e-4)
-        .evidence(Evidence::Exact, "differences of slip rates over their rates of growth")
-        .because("the default bounds the error of slip of a step by 2e-5 of the largest motion that is given, 2e-10 m, over 1e4 steps")
-        .why_not_tighter("how many steps a tolerance takes is up to their control")
-        .covers(&[Capability::InterfaceStates, Capability::Events])
-        .cost(&fine.cost)
-        .record();
-    Ok(())
 }
 
 /// Claims about the same event in its file.

@@ -97,7 +97,8 @@ impl Worst {
         let u = u.unwrap_or_else(displacement);
         self.judge(&problem.model, time, &u);
         self.turned.resize(problem.interfaces.len(), 0.0);
-        for (turned, interface) in self.turned.iter_mut().zip(&problem.interfaces) {
+        let each = self.turned.iter_mut().zip(&problem.interfaces);
+        for (turned, interface) in each.filter(|(_, interface)| stays(interface)) {
             *turned = turned.max(largest_turn(&problem.model, &interface.master_faces, &u));
         }
     }
@@ -286,6 +287,11 @@ fn gradient<const D: usize>(
     jacobian.try_inverse().map_or_else(|| DMatrix::zeros(D, D), |inverse| natural * inverse)
 }
 
+/// True if an interface keeps the pairs and directions of its start, which matter where it is not bonded.
+fn stays(planned: &PlannedInterface) -> bool {
+    planned.sliding != Sliding::Finite && !planned.law.as_ref().is_some_and(|law| law.bonded())
+}
+
 /// Warning about a side that is dragged off the faces it was paired with.
 fn dragged<const D: usize>(
     model: &Model<D>,
@@ -293,7 +299,7 @@ fn dragged<const D: usize>(
     stage: &str,
     slid: f64,
 ) -> Option<Warning> {
-    if planned.sliding == Sliding::Finite || planned.law.as_ref().is_some_and(|l| l.bonded()) {
+    if !stays(planned) {
         return None;
     }
     let size = face_size(model, &planned.master_faces);
@@ -321,7 +327,7 @@ fn turned<const D: usize>(
     stage: &str,
     angle: f64,
 ) -> Option<Warning> {
-    if planned.sliding == Sliding::Finite || planned.law.as_ref().is_some_and(|l| l.bonded()) {
+    if !stays(planned) {
         return None;
     }
     // A body of small strain is warned of as a body.
@@ -345,25 +351,13 @@ fn largest_turn<const D: usize>(model: &Model<D>, faces: &[MeshFace], u: &[f64])
         return 0.0;
     }
     let u = u.as_chunks::<D>().0;
-    let moved = |n: usize| -> [f64; D] { std::array::from_fn(|c| model.mesh.nodes[n][c] + u[n][c]) };
     let of_face = |face: &MeshFace| {
-        let [before, after] = [normal(&|n| model.mesh.nodes[n], face), normal(&moved, face)];
+        let (before, after) =
+            (model.face_normal(&face.nodes), model.moved_face_normal(&face.nodes, |n| u[n]));
         let chord = before.iter().zip(&after).map(|(b, a)| (b - a).powi(2)).sum::<f64>().sqrt();
         2.0 * (0.5 * chord).min(1.0).asin()
     };
     faces.iter().map(of_face).fold(0.0, f64::max)
-}
-
-/// Unit normal of a face through its first corners.
-fn normal<const D: usize>(at: &dyn Fn(usize) -> [f64; D], face: &MeshFace) -> Vec<f64> {
-    let edge = |k: usize| -> [f64; 3] {
-        let (from, to) = (at(face.nodes[0]), at(face.nodes[k]));
-        std::array::from_fn(|c| if c < D { to[c] - from[c] } else { 0.0 })
-    };
-    let (e, f) = (edge(1), if D == 3 { edge(2) } else { [0.0, 0.0, 1.0] });
-    let n = [e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]];
-    let length = n.iter().map(|c| c * c).sum::<f64>().sqrt();
-    n.iter().map(|c| c / length).collect()
 }
 
 /// Mean distance between the first two corners of faces \[m\].

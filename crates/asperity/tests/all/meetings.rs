@@ -109,7 +109,10 @@ stepper = "implicit"
         }
     };
     let twice = told(r#"{ set = "B.top", pressure = "1 MPa" }, { set = "B.lid", pressure = "1 MPa" }"#);
-    assert!(twice.len() == 1 && twice[0].contains("`B.top` and `B.lid` share 1 faces"), "{twice:?}");
+    assert!(
+        twice.len() == 1 && twice[0].contains("`B.top` and `B.lid` have faces in common (1)"),
+        "{twice:?}"
+    );
     let one = r#"{ set = "B.top", pressure = "1 MPa" }, { set = "B.lid", traction = ["1 MPa", 0] }"#;
     assert_eq!(told(one), Vec::<String>::new());
 }

@@ -17,12 +17,14 @@ fn key<const D: usize>(mesh: &Mesh<D>, side: &Side) -> Key {
 
 /// Faces of cells in some blocks whose nodes no other cell in them has.
 pub(super) fn boundary<const D: usize>(mesh: &Mesh<D>, blocks: Range<usize>) -> Vec<Side> {
-    let of_block = |block: usize| -> Vec<Side> {
-        let (cells, faces) = (mesh.blocks[block].len(), mesh.blocks[block].kind.faces().len());
-        (0..cells).flat_map(|cell| (0..faces).map(move |face| Side { block, cell, face })).collect()
+    let of_cell = |block: usize, cell: usize| {
+        let faces = 0..mesh.blocks[block].kind.faces().len();
+        faces.map(move |face| Side { block, cell, face }).map(|side| (key(mesh, &side), side))
     };
-    let sides: Vec<Side> = blocks.flat_map(of_block).collect();
-    let mut keyed: Vec<(Key, Side)> = sides.into_par_iter().map(|side| (key(mesh, &side), side)).collect();
+    let of_block = |block: usize| {
+        (0..mesh.blocks[block].len()).into_par_iter().flat_map_iter(move |cell| of_cell(block, cell))
+    };
+    let mut keyed: Vec<(Key, Side)> = blocks.into_par_iter().flat_map(of_block).collect();
     keyed.par_sort_unstable();
     keyed.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() == 1).map(|same| same[0].1).collect()
 }

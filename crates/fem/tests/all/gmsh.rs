@@ -287,6 +287,13 @@ fn a_part_that_hangs_free_is_named_with_its_coincident_nodes() {
     assert!(read::<2>("bad_duplicate_nodes_unwelded.msh", &options).is_ok());
 }
 
+/// The rungs of a layer one cell wide join nodes of both walls of its trough, and are no faces of the seam.
+#[test]
+fn a_thin_layer_with_named_sides_does_not_hang_free() {
+    let mesh = good::<2>("good_2d_quad4_layer_in_a_trough.msh");
+    assert_eq!((mesh.side_sets["trough"].len(), mesh.side_sets["filling"].len()), (5, 5));
+}
+
 #[test]
 fn a_coordinate_that_is_no_number_names_the_node() {
     let error = read::<2>("bad_nan_coordinate.msh", &Options::default()).unwrap_err();

@@ -15,7 +15,7 @@ use asperity_cycles::{
 };
 use asperity_mechanics::coordinates;
 use asperity_ode::{Failure, Outcome as Finish};
-use asperity_output::decimals::fixed;
+use asperity_output::decimals::legible;
 use asperity_output::formats::catalogues::{SourceParameters, magnitude};
 use asperity_plan::faults::{FaultView, Plan};
 use asperity_plan::shared::checks::Checks;
@@ -270,13 +270,13 @@ fn in_a_line(number: usize, e: &Entry) -> String {
     };
     let interval = e.interval.map_or(String::new(), |i| format!(", {} after the one before", time(i)));
     format!(
-        "event {number} at {}{interval}: duration {}, {} of it above the threshold, peak {:.4} m/s, slip up to {}, stress drop {} MPa, nucleates {begin} `{}`",
+        "event {number} at {}{interval}: duration {}, {} of it above the threshold, peak {} m/s, slip up to {}, stress drop {} MPa, nucleates {begin} `{}`",
         time(e.onset),
         time(e.duration),
         time(e.duration_above),
-        e.peak_rate,
+        legible(e.peak_rate, 4),
         length(e.largest_slip),
-        fixed(e.stress_drop / 1e6, 3),
+        legible(e.stress_drop / 1e6, 3),
         e.surface
     )
 }

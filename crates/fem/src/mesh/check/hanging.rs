@@ -4,9 +4,8 @@
 //! A face whose nodes no other cell has is one of the boundary. A node on it hangs if it lies within an edge of another face of
 //! the boundary. Where both have names, as on the sides of a crack that are meshed apart, nothing is amiss.
 
-use super::super::boundary::boundary;
 use super::super::{Mesh, Side, face_kind, face_nodes};
-use super::parts::parts;
+use super::parts::Parts;
 use rstar::{AABB, RTree, primitives::GeomWithData};
 use std::collections::BTreeSet;
 
@@ -63,19 +62,21 @@ fn around<const D: usize>([a, b]: [&[f64; D]; 2]) -> AABB<[f64; D]> {
     AABB::from_corners(low, std::array::from_fn(|c| a[c].max(b[c]) + margin))
 }
 
-/// Nodes that hang on edges of cells of their own part; `None` if there are none.
-pub(crate) fn hanging<const D: usize>(mesh: &Mesh<D>) -> Option<Hanging<D>> {
+/// Nodes that hang on edges of cells of their own part, given the boundary of the mesh; `None` if there are none.
+pub(crate) fn hanging<const D: usize>(
+    mesh: &Mesh<D>,
+    Parts { root, .. }: &Parts,
+    boundary: &[Side],
+) -> Option<Hanging<D>> {
     let named: BTreeSet<Side> = mesh.side_sets.values().flatten().copied().collect();
-    let (bordering, open): (Vec<Side>, Vec<Side>) =
-        boundary(mesh, 0..mesh.blocks.len()).into_iter().partition(|side| named.contains(side));
+    let (bordering, open): (Vec<Side>, Vec<Side>) = boundary.iter().partition(|side| named.contains(side));
     if open.is_empty() {
         return None;
     }
     let on_named: BTreeSet<usize> = bordering.iter().flat_map(|side| face_nodes(mesh, side)).collect();
     let named_edges: BTreeSet<[usize; 2]> =
         bordering.iter().flat_map(|side| edges(mesh, side)).map(sorted).collect();
-    let all: Vec<Side> = bordering.into_iter().chain(open.iter().copied()).collect();
-    let (tree, (root, _)) = (tree(mesh, &all), parts(mesh));
+    let tree = tree(mesh, boundary);
     let mut found: BTreeSet<usize> = BTreeSet::new();
     let mut first = None;
     for side in &open {

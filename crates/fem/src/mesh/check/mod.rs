@@ -7,5 +7,5 @@ mod suggestion;
 
 pub(crate) use hanging::{Hanging, hanging};
 pub(crate) use jacobian::{Sense, least, sense};
-pub(crate) use parts::{Extent, free_part};
+pub(crate) use parts::{Extent, Parts, free_part};
 pub(crate) use suggestion::nearest;

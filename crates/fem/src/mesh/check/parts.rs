@@ -5,8 +5,8 @@
 //! coincide with nodes of another part, and this face or one of the other part there has no name. Then no interface can be
 //! declared, and neither part holds the other.
 
-use super::super::{Mesh, Side};
-use std::collections::BTreeMap;
+use super::super::{Mesh, Side, face_kind, face_nodes};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Distance of coincident nodes over the shortest edge there \[-\]: far above the rounding of written coordinates, far below
 /// any intended opening.
@@ -81,10 +81,11 @@ impl Partners {
     }
 }
 
-/// The first part that hangs free against another. Parts that touch at corners or edges alone are not tied there.
-pub(crate) fn free_part<const D: usize>(mesh: &Mesh<D>) -> Option<Touch> {
-    let (root, parts) = parts(mesh);
-    if parts.len() < 2 {
+/// The first part that hangs free against another, given the boundary of the mesh. Parts that touch at corners or edges alone are not
+/// tied there.
+pub(crate) fn free_part<const D: usize>(mesh: &Mesh<D>, parts: &Parts, boundary: &[Side]) -> Option<Touch> {
+    let Parts { root, extents } = parts;
+    if extents.len() < 2 {
         return None;
     }
     let mut seams = Seams::new();
@@ -96,9 +97,9 @@ pub(crate) fn free_part<const D: usize>(mesh: &Mesh<D>) -> Option<Touch> {
         }
     });
     partners.0.sort_unstable();
-    count_unnamed(mesh, &root, &partners, &mut seams);
+    count_unnamed((mesh, boundary), root, &partners, &mut seams);
     let ([lower, upper], seam) = seams.into_iter().find(|(_, seam)| seam.unnamed != [0, 0])?;
-    let (lower, upper) = (parts.get(&lower)?.clone(), parts.get(&upper)?.clone());
+    let (lower, upper) = (extents.get(&lower)?.clone(), extents.get(&upper)?.clone());
     let lower_is_free = (seam.unnamed[0], upper.cells) > (seam.unnamed[1], lower.cells);
     let (free, other) = if lower_is_free { (lower, upper) } else { (upper, lower) };
     Some(Touch { free, other, pairs: seam.pairs })
@@ -110,55 +111,56 @@ fn pair(a: usize, b: usize) -> [usize; 2] {
 }
 
 /// Counts the faces on seams that have no name.
-fn count_unnamed<const D: usize>(mesh: &Mesh<D>, root: &[usize], partners: &Partners, seams: &mut Seams) {
-    let mut named: Vec<Side> = mesh.side_sets.values().flatten().copied().collect();
-    named.sort_unstable();
-    let mut touches = vec![false; mesh.nodes.len()];
-    partners.0.iter().for_each(|(node, _)| touches[*node] = true);
-    for (b, block) in mesh.blocks.iter().enumerate() {
-        for cell in 0..block.len() {
-            let nodes = block.cell(cell);
-            for (f, face) in block.kind.faces().iter().enumerate() {
-                let corners = &face.nodes[..face.kind.corners()];
-                if corners.iter().any(|c| !touches[nodes[*c]]) {
-                    continue;
-                }
-                let corners: Vec<usize> = corners.iter().map(|c| nodes[*c]).collect();
-                let own = root[corners[0]];
-                if named.binary_search(&Side { block: b, cell, face: f }).is_ok() {
-                    continue;
-                }
-                for other in partners.shared(&corners) {
-                    seams.entry(pair(own, other)).or_default().unnamed[usize::from(own > other)] += 1;
-                }
-            }
+fn count_unnamed<const D: usize>(
+    (mesh, boundary): (&Mesh<D>, &[Side]),
+    root: &[usize],
+    partners: &Partners,
+    seams: &mut Seams,
+) {
+    let named: BTreeSet<&Side> = mesh.side_sets.values().flatten().collect();
+    for side in boundary.iter().filter(|side| !named.contains(side)) {
+        let mut corners = face_nodes(mesh, side);
+        corners.truncate(face_kind(mesh, side).corners());
+        let own = root[corners[0]];
+        for other in partners.shared(&corners) {
+            seams.entry(pair(own, other)).or_default().unnamed[usize::from(own > other)] += 1;
         }
     }
 }
 
-/// The root of every node, and the parts by their roots.
-pub(super) fn parts<const D: usize>(mesh: &Mesh<D>) -> (Vec<usize>, BTreeMap<usize, Extent>) {
-    let mut roots = Roots((0..mesh.nodes.len()).collect());
-    for block in &mesh.blocks {
-        for cell in 0..block.len() {
-            let nodes = block.cell(cell);
-            nodes[1..].iter().for_each(|&n| roots.join(nodes[0], n));
-        }
-    }
-    let mut parts: BTreeMap<usize, Extent> = BTreeMap::new();
-    for (b, block) in mesh.blocks.iter().enumerate() {
-        for cell in 0..block.len() {
-            let part = parts.entry(roots.find(block.cell(cell)[0])).or_default();
-            if part.cells == 0 {
-                part.first = (b, cell);
-            }
-            part.cells += 1;
-            if part.blocks.last() != Some(&b) {
-                part.blocks.push(b);
+/// Parts of a mesh.
+pub(crate) struct Parts {
+    /// The root of every node.
+    pub root: Vec<usize>,
+    /// The parts by their roots.
+    extents: BTreeMap<usize, Extent>,
+}
+
+impl Parts {
+    /// Finds the parts.
+    pub fn new<const D: usize>(mesh: &Mesh<D>) -> Self {
+        let mut roots = Roots((0..mesh.nodes.len()).collect());
+        for block in &mesh.blocks {
+            for cell in 0..block.len() {
+                let nodes = block.cell(cell);
+                nodes[1..].iter().for_each(|&n| roots.join(nodes[0], n));
             }
         }
+        let mut extents: BTreeMap<usize, Extent> = BTreeMap::new();
+        for (b, block) in mesh.blocks.iter().enumerate() {
+            for cell in 0..block.len() {
+                let part = extents.entry(roots.find(block.cell(cell)[0])).or_default();
+                if part.cells == 0 {
+                    part.first = (b, cell);
+                }
+                part.cells += 1;
+                if part.blocks.last() != Some(&b) {
+                    part.blocks.push(b);
+                }
+            }
+        }
+        Self { root: (0..mesh.nodes.len()).map(|n| roots.find(n)).collect(), extents }
     }
-    ((0..mesh.nodes.len()).map(|n| roots.find(n)).collect(), parts)
 }
 
 /// Shortest distance of each node to its neighbours in faces of cells \[m\].

@@ -3,6 +3,7 @@
 use super::sides::UNUSED;
 use super::{Options, RawBlock, RawMesh, RawNode};
 use crate::element::ElementKind;
+use crate::mesh::boundary::boundary;
 use crate::mesh::check::{self, Sense};
 use crate::mesh::error::{Holder, MeshError, Part};
 use crate::mesh::{Cells, Mesh, OmittedElements};
@@ -393,10 +394,11 @@ fn check_parts<const D: usize>(
 }
 
 fn free_parts<const D: usize>(mesh: &Mesh<D>, tags: &[Vec<u64>]) -> Result<(), MeshError> {
-    if let Some(check::Hanging { at, cell: (block, cell), count }) = check::hanging(mesh) {
+    let (parts, boundary) = (check::Parts::new(mesh), boundary(mesh, 0..mesh.blocks.len()));
+    if let Some(check::Hanging { at, cell: (block, cell), count }) = check::hanging(mesh, &parts, &boundary) {
         return Err(MeshError::HangingNodes { at: at.to_vec(), element: tags[block][cell], count });
     }
-    let Some(touch) = check::free_part(mesh) else {
+    let Some(touch) = check::free_part(mesh, &parts, &boundary) else {
         return Ok(());
     };
     let part = |extent: check::Extent| {

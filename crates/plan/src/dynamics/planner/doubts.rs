@@ -44,15 +44,12 @@ pub(super) fn check<const D: usize>(
             "steps follow waves: give a duration of seconds, or use the stepper \"fault-ode\"",
         ));
     }
+    let mut pushed = stage.is_loaded() || !stage.motions.is_empty() || stage.has_loads();
     for (k, (name, spec)) in scene.faults.iter().enumerate() {
         let own: Vec<&PlacedPoint<D>> = placed.iter().filter(|p| p.fault == k).collect();
         all.extend(unheld(Entry::new(name, spec), &own));
         all.extend(ruptured(scene, Entry::new(name, spec), &own));
         all.extend(slow_front(Entry::new(name, spec), &own, *steps as f64 * dt));
-    }
-    let mut pushed = stage.is_loaded() || !stage.motions.is_empty() || stage.has_loads();
-    for (k, (name, spec)) in scene.faults.iter().enumerate() {
-        let own: Vec<&PlacedPoint<D>> = placed.iter().filter(|p| p.fault == k).collect();
         let Some(above) = own.iter().map(|p| above(p)).sum::<Option<usize>>() else {
             pushed = true;
             continue;

@@ -49,7 +49,7 @@ fn doubt(load: &Load<'_>, other: &Load<'_>, common: usize, stage: &str) -> Warni
     Warning::at(
         load.place.clone(),
         format!(
-            "`{}` and `{}` share {common} faces, on which the {} of both adds up in stage `{stage}`",
+            "`{}` and `{}` have faces in common ({common}), where the {} of both adds up in stage `{stage}`",
             other.set.get_ref(),
             load.set.get_ref(),
             load.kind
