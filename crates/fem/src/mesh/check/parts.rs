@@ -1,9 +1,8 @@
 //! Parts of a mesh that touch without being tied.
 //!
 //! Coincident nodes are not an error in themselves: a mesh split along an interface has them by design. The faces on both sides
-//! then have names, for otherwise no interface could be placed between them. A part hangs free if the corners of one of its faces
-//! coincide with nodes of another part, and this face or one of the other part there has no name. Then no interface can be
-//! declared, and neither part holds the other.
+//! then have names, for otherwise no interface could be placed between them. A part hangs free if one of its faces coincides with
+//! one of another part, and one of the two has no name. Then no interface can be declared, and neither part holds the other.
 
 use super::super::{Mesh, Side, face_kind, face_nodes};
 use std::collections::{BTreeMap, BTreeSet};
@@ -33,10 +32,14 @@ pub(crate) struct Extent {
     pub blocks: Vec<usize>,
 }
 
-/// Union-find over nodes, the lowest node of a part being its root.
+/// Union-find over nodes, the lowest node of a set being its root.
 struct Roots(Vec<usize>);
 
 impl Roots {
+    fn new(nodes: usize) -> Self {
+        Self((0..nodes).collect())
+    }
+
     fn find(&mut self, mut a: usize) -> usize {
         while self.0[a] != a {
             self.0[a] = self.0[self.0[a]];
@@ -56,30 +59,12 @@ impl Roots {
 struct Seam {
     /// Coincident nodes.
     pairs: usize,
-    /// Faces of each part whose corners coincide with nodes of the other part, and that have no name.
+    /// Faces of each part that coincide with one of the other and have no name.
     unnamed: [usize; 2],
 }
 
 /// The seams of a mesh by the roots of their parts.
 type Seams = BTreeMap<[usize; 2], Seam>;
-
-/// Nodes with a coincident node of another part, each with the root of that part; ascending.
-#[derive(Default)]
-struct Partners(Vec<(usize, usize)>);
-
-impl Partners {
-    /// Roots of the parts that a node touches.
-    fn touched(&self, node: usize) -> impl Iterator<Item = usize> {
-        let first = self.0.partition_point(|(n, _)| *n < node);
-        self.0[first..].iter().take_while(move |(n, _)| *n == node).map(|(_, root)| *root)
-    }
-
-    /// Roots of the parts that all corners of a face touch.
-    fn shared(&self, corners: &[usize]) -> Vec<usize> {
-        let (first, rest) = (corners[0], &corners[1..]);
-        self.touched(first).filter(|root| rest.iter().all(|n| self.touched(*n).any(|r| r == *root))).collect()
-    }
-}
 
 /// The first part that hangs free against another, given the boundary of the mesh. Parts that touch at corners or edges alone are not
 /// tied there.
@@ -88,16 +73,14 @@ pub(crate) fn free_part<const D: usize>(mesh: &Mesh<D>, parts: &Parts, boundary:
     if extents.len() < 2 {
         return None;
     }
-    let mut seams = Seams::new();
-    let mut partners = Partners::default();
+    let (mut seams, mut places) = (Seams::new(), Roots::new(mesh.nodes.len()));
     for_each_coincident(&mesh.nodes, &shortest_edges(mesh), |a, b| {
         if root[a] != root[b] {
             seams.entry(pair(root[a], root[b])).or_default().pairs += 1;
-            partners.0.extend([(a, root[b]), (b, root[a])]);
+            places.join(a, b);
         }
     });
-    partners.0.sort_unstable();
-    count_unnamed((mesh, boundary), root, &partners, &mut seams);
+    count_unnamed((mesh, boundary), root, &mut places, &mut seams);
     let ([lower, upper], seam) = seams.into_iter().find(|(_, seam)| seam.unnamed != [0, 0])?;
     let (lower, upper) = (extents.get(&lower)?.clone(), extents.get(&upper)?.clone());
     let lower_is_free = (seam.unnamed[0], upper.cells) > (seam.unnamed[1], lower.cells);
@@ -110,20 +93,32 @@ fn pair(a: usize, b: usize) -> [usize; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// Counts the faces on seams that have no name.
+/// Counts the faces on seams that have no name: those at one place with a face of another part, where `places` has one root for nodes
+/// that coincide.
 fn count_unnamed<const D: usize>(
     (mesh, boundary): (&Mesh<D>, &[Side]),
     root: &[usize],
-    partners: &Partners,
+    places: &mut Roots,
     seams: &mut Seams,
 ) {
     let named: BTreeSet<&Side> = mesh.side_sets.values().flatten().collect();
-    for side in boundary.iter().filter(|side| !named.contains(side)) {
+    let mut placed: Vec<(Vec<usize>, usize, bool)> = Vec::new();
+    for side in boundary {
         let mut corners = face_nodes(mesh, side);
         corners.truncate(face_kind(mesh, side).corners());
         let own = root[corners[0]];
-        for other in partners.shared(&corners) {
-            seams.entry(pair(own, other)).or_default().unnamed[usize::from(own > other)] += 1;
+        corners.iter_mut().for_each(|n| *n = places.find(*n));
+        corners.sort_unstable();
+        placed.push((corners, own, named.contains(side)));
+    }
+    placed.sort_unstable();
+    for same in placed.chunk_by(|a, b| a.0 == b.0) {
+        for (k, (_, own, named)) in same.iter().enumerate() {
+            for (_, other, also_named) in same[..k].iter().filter(|face| face.1 != *own) {
+                let seam = seams.entry(pair(*own, *other)).or_default();
+                seam.unnamed[usize::from(own > other)] += usize::from(!named);
+                seam.unnamed[usize::from(other > own)] += usize::from(!also_named);
+            }
         }
     }
 }
@@ -139,7 +134,7 @@ pub(crate) struct Parts {
 impl Parts {
     /// Finds the parts.
     pub fn new<const D: usize>(mesh: &Mesh<D>) -> Self {
-        let mut roots = Roots((0..mesh.nodes.len()).collect());
+        let mut roots = Roots::new(mesh.nodes.len());
         for block in &mesh.blocks {
             for cell in 0..block.len() {
                 let nodes = block.cell(cell);
