@@ -114,7 +114,8 @@ fn count_unnamed<const D: usize>(
     placed.sort_unstable();
     for same in placed.chunk_by(|a, b| a.0 == b.0) {
         for (k, (_, own, named)) in same.iter().enumerate() {
-            for (_, other, also_named) in same[..k].iter().filter(|face| face.1 != *own) {
+            let before = &same[k.saturating_sub(MOST_PARTNERS)..k];
+            for (_, other, also_named) in before.iter().filter(|face| face.1 != *own) {
                 let seam = seams.entry(pair(*own, *other)).or_default();
                 seam.unnamed[usize::from(own > other)] += usize::from(!named);
                 seam.unnamed[usize::from(other > own)] += usize::from(!also_named);
@@ -181,8 +182,9 @@ fn distance<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
 }
 
-/// Largest number of nodes at one position with which a node is paired: some dozens meet in a mesh of cells that are all
-/// separate parts. If there are more, cells lie on top of each other; further pairs are not needed to find that some hang free.
+/// Largest number of nodes or faces at one position with which one is paired: some dozens of nodes meet in a mesh of cells that
+/// are all separate parts. If there are more, cells lie on top of each other; further pairs are not needed to find that some
+/// hang free.
 const MOST_PARTNERS: usize = 64;
 
 /// Visits every pair of coincident nodes once. Nodes are sorted into boxes slightly wider than the largest tolerance, so that
