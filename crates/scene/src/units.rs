@@ -6,6 +6,7 @@ use crate::shape::shaped;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::{self, Deserialize, Deserializer, Visitor};
 use std::borrow::Cow;
+use std::f64::consts::TAU;
 use std::fmt;
 
 /// Physical dimension of a unit.
@@ -390,20 +391,31 @@ impl Visitor<'_> for ValueVisitor {
     }
 
     fn visit_f64<E: de::Error>(self, value: f64) -> Result<f64, E> {
-        finite(value, self.0)
+        within_a_turn(finite(value, self.0)?, self.0)
     }
 
     fn visit_i64<E: de::Error>(self, value: i64) -> Result<f64, E> {
-        Ok(value as f64)
+        within_a_turn(value as f64, self.0)
     }
 
     fn visit_u64<E: de::Error>(self, value: u64) -> Result<f64, E> {
-        Ok(value as f64)
+        within_a_turn(value as f64, self.0)
     }
 
     fn visit_str<E: de::Error>(self, text: &str) -> Result<f64, E> {
         parse(text, self.0).map_err(E::custom)
     }
+}
+
+/// Checks that a number without a unit is no angle beyond a full turn, which is one in degrees.
+fn within_a_turn<E: de::Error>(value: f64, dimension: Dimension) -> Result<f64, E> {
+    if dimension == Dimension::Angle && value.abs() > TAU {
+        return Err(E::custom(format!(
+            "expected {}, found {value} (more than a full turn in rad; in degrees it is \"{value} deg\")",
+            dimension.expected()
+        )));
+    }
+    Ok(value)
 }
 
 /// Checks that a number is finite.

@@ -4,6 +4,7 @@
 use crate::common::varied;
 use asperity::kinds::faults::catalogue_entries::locate;
 use asperity_output::formats::catalogues::{Plane, SourceParameters, Spot, Tensor, cmtsolution, quakeml};
+use asperity_plan::reading::scene;
 use asperity_vary::Change::{Add, With, Without};
 
 const NDK: &str = include_str!("../catalogues/events.ndk");
@@ -305,6 +306,21 @@ latitude = "35 deg"
 longitude = "135 deg"
 strike = "70 deg"
 "#;
+
+#[test]
+fn degrees_without_a_unit_are_no_radians() {
+    let told = |latitude: &str| match scene::read(&STRIKE_SLIP.replace("\"35 deg\"", latitude)) {
+        Ok(_) => String::new(),
+        Err(errors) => errors.to_string(),
+    };
+    for latitude in ["35", "35.0", "-35"] {
+        let said = told(latitude);
+        assert!(said.contains("in degrees it is") && said.contains(latitude), "{latitude}: {said}");
+    }
+    // 35 degrees, and angles of less than a turn.
+    assert_eq!(told("0.610865"), "");
+    assert_eq!(told("0"), "");
+}
 
 #[test]
 fn a_strike_slip_event_in_a_half_space_is_published_as_one_below_the_ground() {

@@ -45,7 +45,7 @@ impl Columns {
             let record = record.map_err(|e| Wrong::new(uneven(&e), FORM))?;
             let line = record.position().map_or(0, csv::Position::line);
             match heads {
-                None => heads = Some(record.iter().map(head).collect::<Result<_, _>>()?),
+                None => heads = Some(named(&record)?),
                 Some(_) => rows.push((line, record.iter().map(str::to_string).collect())),
             }
         }
@@ -133,6 +133,15 @@ impl Columns {
         };
         self.rows.iter().map(cell).collect()
     }
+}
+
+/// Names and units of the columns, from the first row.
+fn named(row: &csv::StringRecord) -> Result<Vec<Head>, Wrong> {
+    let other = [(';', "semicolons"), ('\t', "tabs")];
+    if let (1, Some((_, name))) = (row.len(), other.iter().find(|(sign, _)| row[0].contains(*sign))) {
+        return Err(Wrong::new(format!("its columns are separated by {name}"), FORM));
+    }
+    row.iter().map(head).collect()
 }
 
 /// Name and unit of a column.

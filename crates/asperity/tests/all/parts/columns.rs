@@ -26,5 +26,7 @@ fn what_is_wrong_names_its_line_and_column() {
     assert_eq!(wrong("1,2\n3,4\n", "a", None), "its first line has `1` instead of the name of a column");
     assert_eq!(wrong("x [km]\n", "x", length), "it has no rows below the names of its columns");
     assert_eq!(wrong("", "x", length), "it is empty");
+    assert_eq!(wrong("x [km];a\n1;2\n", "x", length), "its columns are separated by semicolons");
+    assert_eq!(wrong("x [km]\ta\n1\t2\n", "x", length), "its columns are separated by tabs");
     assert!(wrong("x [MPa]\n1\n", "x", length).starts_with("the unit of its column `x`: expected a length"));
 }
