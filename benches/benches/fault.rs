@@ -2,8 +2,8 @@
 //! memory of each operator.
 #![allow(missing_docs)]
 
-use asperity_cycles::Equations;
 use asperity_cycles::operator::{Both, Form, Lattice, Operator, Planar, Toeplitz};
+use asperity_cycles::{Components, Equations};
 use asperity_ode::{Clock, Problem};
 use asperity_plan::faults::{Plan, plan_with};
 use asperity_plan::reading::scene;
@@ -29,7 +29,8 @@ fn products(c: &mut Criterion) {
             let mut shear = vec![0.0; n];
             group.throughput(Throughput::Bytes(plan.problem.fault.operator.bytes() as u64));
             group.bench_function(BenchmarkId::new(name, n), |b| {
-                b.iter(|| plan.problem.fault.operator.shear(&slip, &mut shear));
+                let operator = &plan.problem.fault.operator;
+                b.iter(|| operator.shear(Components::new(&slip, n), Components::new(&mut shear, n)));
             });
         }
     }
@@ -67,7 +68,7 @@ fn products_of_grids(c: &mut Criterion) {
             let mut shear = vec![0.0; n];
             group.throughput(Throughput::Bytes(operator.bytes() as u64));
             group.bench_function(BenchmarkId::new(name, rows), |b| {
-                b.iter(|| operator.shear(&slip, &mut shear));
+                b.iter(|| operator.shear(Components::new(&slip, n), Components::new(&mut shear, n)));
             });
         }
     }

@@ -4,8 +4,8 @@
 // A program for the terminal.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
-use asperity_cycles::Moment;
 use asperity_cycles::operator::Form;
+use asperity_cycles::{Components, Moment};
 use asperity_ode::Control;
 use asperity_plan::faults::{Plan, plan_with};
 use asperity_plan::reading::scene;
@@ -82,9 +82,10 @@ fn product(plan: &Plan) -> f64 {
     let (mut shear, mut normal) = (vec![0.0; slip.len()], vec![0.0; n]);
     let timed = (0..REPEATS).map(|_| {
         let start = Instant::now();
-        operator.shear(&slip, &mut shear);
+        let slip = Components::new(slip.as_slice(), n);
+        operator.shear(slip, Components::new(&mut shear, n));
         if operator.couples_normal() {
-            operator.normal(&slip, &mut normal);
+            operator.normal(slip, &mut normal);
         }
         start.elapsed().as_secs_f64()
     });

@@ -5,7 +5,7 @@
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 use asperity_benches::growth::{FILE, bent, power, squares, triangles};
-use asperity_cycles::Settings;
+use asperity_cycles::{Components, Settings};
 use asperity_plan::faults::{Plan, plan};
 use asperity_plan::reading::scene;
 use std::fs;
@@ -130,11 +130,12 @@ fn measured(plan: impl Fn() -> Result<Plan, String>) -> Result<Row, String> {
     let operator = problem.fault.operator.as_ref();
     let count = operator.points() * operator.components();
     let slip: Vec<f64> = (0..count).map(|k| (k as f64).sin()).collect();
-    let (mut shear, mut normal) = (vec![0.0; count], vec![0.0; operator.points()]);
+    let n = operator.points();
+    let (slip, mut shear, mut normal) = (Components::new(slip.as_slice(), n), vec![0.0; count], vec![0.0; n]);
     let product = mean(|| {
-        operator.shear(&slip, &mut shear);
+        operator.shear(slip, Components::new(&mut shear, n));
         if operator.couples_normal() {
-            operator.normal(&slip, &mut normal);
+            operator.normal(slip, &mut normal);
         }
         Ok(())
     })?;

@@ -7,12 +7,29 @@
 
 use crate::Failure;
 pub use crate::drive::Drive;
+use crate::points::{Components, PerPoint};
 use crate::sheet::Sheet;
-use crate::slider::{Line, SliderLaw};
+use crate::slider::{Forcing, Line, SliderLaw};
 
-/// Laws of the points of a fault. Slices hold one entry per point, and states are point-major; `first` is the number of the first point
-/// of the slices. If slip has more than one component, then m, slip rates and shear tractions hold the first components of all points,
-/// then the second.
+/// Unknowns of all points.
+#[derive(Clone, Copy, Debug)]
+pub struct Unknowns<'a> {
+    /// m = μ/a \[-\].
+    pub m: Components<&'a [f64]>,
+    /// State variables of the law.
+    pub states: PerPoint<&'a [f64]>,
+}
+
+/// Rates of change of the unknowns of all points.
+#[derive(Debug)]
+pub struct UnknownRates<'a> {
+    /// dm/dt \[1/s\].
+    pub m: Components<&'a mut [f64]>,
+    /// Rates of the state variables \[1/s\].
+    pub states: PerPoint<&'a mut [f64]>,
+}
+
+/// Laws of the points of a fault.
 pub trait FaultLaw: Send + Sync + std::fmt::Debug {
     /// Number of points.
     fn points(&self) -> usize;
@@ -26,18 +43,13 @@ pub trait FaultLaw: Send + Sync + std::fmt::Debug {
     fn states(&self) -> usize;
 
     /// Signed slip rates V \[m/s\] from m and the states.
-    fn slip_rates(&self, first: usize, m: &[f64], states: &[f64], rate: &mut [f64]);
+    fn slip_rates(&self, now: Unknowns<'_>, rate: Components<&mut [f64]>);
 
     /// Rates of change of m and of the states \[1/s\].
-    fn rates(
-        &self,
-        first: usize,
-        drive: Drive<'_>,
-        m: &[f64],
-        states: &[f64],
-        dm: &mut [f64],
-        ds: &mut [f64],
-    );
+    fn rates(&self, drive: Drive<'_>, now: Unknowns<'_>, rates: UnknownRates<'_>);
+
+    /// Rates of change of m and of the states of a point whose slip has one component, as [`SliderLaw::equations`].
+    fn point_rates(&self, point: usize, forcing: &Forcing, unknowns: &[f64], rates: &mut [f64]);
 
     /// a of a point \[-\]: μ = a m.
     fn scale(&self, point: usize) -> f64;
@@ -104,9 +116,15 @@ impl<L: SliderLaw> Points<L> {
         Self { sheet: None, ..Self::new(laws) }
     }
 
-    /// The sheet, for slices that hold all points.
-    fn sheet(&self, first: usize, count: usize) -> Option<&Sheet> {
-        self.sheet.as_ref().filter(|_| first == 0 && count == self.laws.len())
+    /// Visits the law of each point with its unknowns as those of a slider.
+    fn for_each(&self, now: Unknowns<'_>, mut visit: impl FnMut(usize, &L, &[f64])) {
+        let mut y = [0.0; MOST];
+        for (k, (law, m)) in self.laws.iter().zip(now.m.all()).enumerate() {
+            let states = now.states.at(k);
+            y[0] = *m;
+            y[1..=states.len()].copy_from_slice(states);
+            visit(k, law, &y[..=states.len()]);
+        }
     }
 }
 
@@ -122,46 +140,36 @@ impl<L: SliderLaw + Clone + 'static> FaultLaw for Points<L> {
         self.laws.first().map_or(0, |law| law.states())
     }
 
-    fn slip_rates(&self, first: usize, m: &[f64], states: &[f64], rate: &mut [f64]) {
-        if let Some(sheet) = self.sheet(first, m.len()) {
-            sheet.slip_rates(m, states, rate, |k| self.laws[k].slip(&[m[k], states[k]]).0.rate);
-            return;
-        }
-        let n = self.states();
-        let mut y = [0.0; MOST];
-        for (k, (law, rate)) in self.laws[first..].iter().zip(rate).enumerate() {
-            y[0] = m[k];
-            y[1..=n].copy_from_slice(&states[k * n..(k + 1) * n]);
-            *rate = law.slip(&y[..=n]).0.rate;
+    fn slip_rates(&self, now: Unknowns<'_>, mut rate: Components<&mut [f64]>) {
+        let rate = rate.all_mut();
+        match &self.sheet {
+            Some(sheet) => {
+                let (m, states) = (now.m.all(), now.states.all());
+                sheet.slip_rates(now, rate, |k| self.laws[k].slip(&[m[k], states[k]]).0.rate);
+            }
+            None => self.for_each(now, |k, law, y| rate[k] = law.slip(y).0.rate),
         }
     }
 
-    fn rates(
-        &self,
-        first: usize,
-        drive: Drive<'_>,
-        m: &[f64],
-        states: &[f64],
-        dm: &mut [f64],
-        ds: &mut [f64],
-    ) {
-        if let Some(sheet) = self.sheet(first, m.len()) {
-            sheet.rates(&drive, m, states, dm, ds, |k, dm, ds| {
+    fn rates(&self, drive: Drive<'_>, now: Unknowns<'_>, mut rates: UnknownRates<'_>) {
+        if let Some(sheet) = &self.sheet {
+            let (m, states) = (now.m.all(), now.states.all());
+            return sheet.rates(&drive, now, rates, |k| {
                 let mut dy = [0.0; 2];
-                self.laws[k].equations(&drive.forcing(k), &[m[k], states[k]], &mut dy);
-                [*dm, *ds] = dy;
+                self.laws[k].equations(&drive.forcing(k, 0), &[m[k], states[k]], &mut dy);
+                dy
             });
-            return;
         }
-        let n = self.states();
-        let (mut y, mut dy) = ([0.0; MOST], [0.0; MOST]);
-        for (k, (law, dm)) in self.laws[first..].iter().zip(dm).enumerate() {
-            y[0] = m[k];
-            y[1..=n].copy_from_slice(&states[k * n..(k + 1) * n]);
-            law.equations(&drive.forcing(k), &y[..=n], &mut dy[..=n]);
-            *dm = dy[0];
-            ds[k * n..(k + 1) * n].copy_from_slice(&dy[1..=n]);
-        }
+        let mut dy = [0.0; MOST];
+        self.for_each(now, |k, law, y| {
+            law.equations(&drive.forcing(k, 0), y, &mut dy[..y.len()]);
+            rates.m.all_mut()[k] = dy[0];
+            rates.states.at_mut(k).copy_from_slice(&dy[1..y.len()]);
+        });
+    }
+
+    fn point_rates(&self, point: usize, forcing: &Forcing, unknowns: &[f64], rates: &mut [f64]) {
+        self.laws[point].equations(forcing, unknowns, rates);
     }
 
     fn scale(&self, point: usize) -> f64 {
@@ -213,8 +221,9 @@ impl<L: SliderLaw + Clone + 'static> FaultLaw for Points<L> {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use super::{Drive, FaultLaw, Points};
+    use super::{Drive, FaultLaw, Points, UnknownRates, Unknowns};
     use crate::evolution::ageing::Ageing;
+    use crate::points::{Components, PerPoint};
     use crate::rate::RateLaw;
     use crate::strength::Parameters;
     use crate::strength::regularised::Regularised;
@@ -230,6 +239,20 @@ mod tests {
         (0..n).map(law).collect()
     }
 
+    fn unknowns<'a>(m: &'a [f64], states: &'a [f64]) -> Unknowns<'a> {
+        Unknowns { m: Components::new(m, m.len()), states: PerPoint::new(states, 1) }
+    }
+
+    /// V and the rates of m and of the states.
+    fn rates(law: &dyn FaultLaw, drive: Drive<'_>, now: Unknowns<'_>) -> [Vec<f64>; 3] {
+        let n = law.points();
+        let (mut v, mut dm, mut ds) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+        law.slip_rates(now, Components::new(&mut v, n));
+        let own = UnknownRates { m: Components::new(&mut dm, n), states: PerPoint::new(&mut ds, 1) };
+        law.rates(drive, now, own);
+        [v, dm, ds]
+    }
+
     #[test]
     fn rates_do_not_depend_on_the_number_of_threads() {
         let n = 9001;
@@ -237,20 +260,16 @@ mod tests {
         let m: Vec<f64> = (0..n).map(|k| 12.0 + 0.003 * k as f64).collect();
         let states = vec![7.0; n];
         let (normal, pull, damping) = (vec![5e7; n], vec![1e-2; n], vec![4.6e6; n]);
-        let drive = Drive { normal: &normal, normal_rate: None, shear_rate: &pull, damping: &damping };
+        let shear_rate = Components::new(pull.as_slice(), n);
+        let drive = Drive { normal: &normal, normal_rate: None, shear_rate, damping: &damping };
         let of = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            let (mut v, mut dm, mut ds) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
-            pool.install(|| {
-                law.slip_rates(0, &m, &states, &mut v);
-                law.rates(0, drive, &m, &states, &mut dm, &mut ds);
-            });
-            [v, dm, ds]
+            pool.install(|| rates(&law, drive, unknowns(&m, &states)))
         };
         assert_eq!(of(1), of(2));
         let each = Points::one_by_one(laws(n));
         let mut v = vec![0.0; n];
-        each.slip_rates(0, &m, &states, &mut v);
+        each.slip_rates(unknowns(&m, &states), Components::new(&mut v, n));
         for (a, b) in of(3)[0].iter().zip(&v) {
             assert!((a / b - 1.0).abs() < 1e-12, "{a} {b}");
         }
@@ -269,13 +288,9 @@ mod tests {
         let change = vec![-3e-3; n];
         for (normal_rate, damping) in [(None, 0.0), (Some(change.as_slice()), 4.6e6)] {
             let damping: Vec<f64> = (0..n).map(|k| damping * (1.0 + 0.01 * k as f64)).collect();
-            let drive = Drive { normal: &normal, normal_rate, shear_rate: &pull, damping: &damping };
-            let found = [&many as &dyn FaultLaw, &each].map(|law| {
-                let (mut v, mut dm, mut ds) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
-                law.slip_rates(0, &m, &states, &mut v);
-                law.rates(0, drive, &m, &states, &mut dm, &mut ds);
-                [v, dm, ds]
-            });
+            let shear_rate = Components::new(pull.as_slice(), n);
+            let drive = Drive { normal: &normal, normal_rate, shear_rate, damping: &damping };
+            let found = [&many as &dyn FaultLaw, &each].map(|law| rates(law, drive, unknowns(&m, &states)));
             for (a, b) in found[0].iter().zip(&found[1]) {
                 for (k, (a, b)) in a.iter().zip(b).enumerate() {
                     // Rounding of ln V, and of differences in the rates.

@@ -11,6 +11,7 @@ use crate::Failure;
 use crate::coulomb::Coulomb;
 use crate::evolution::{AT_REST, Evolution};
 use crate::law::{Law, Trials};
+use crate::points::PerPoint;
 use crate::rate::RateLaw;
 use crate::slider::SliderLaw as _;
 use crate::slip_weakening::SlipWeakening;
@@ -43,6 +44,15 @@ pub struct PointBalance {
     pub rate: f64,
 }
 
+/// Sliding of a point at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sliding {
+    /// Slip rate V > 0 \[m/s\].
+    pub rate: f64,
+    /// Friction coefficient μ \[-\].
+    pub friction: f64,
+}
+
 /// A law between surfaces with mass.
 pub trait Inertial: Law {
     /// Balances a point and advances its states by a step.
@@ -51,17 +61,17 @@ pub trait Inertial: Law {
     /// [`Failure`] of the point 0.
     fn push(&self, push: &Push, states: &mut [f64]) -> Result<PointBalance, Failure>;
 
-    /// Writes the states at the start; with a slip rate \[m/s\] and a friction coefficient, such that both hold.
+    /// Writes the states at the start; those of a point that slides agree with its friction.
     ///
     /// # Errors
     /// [`Failure`] where no state gives this coefficient.
-    fn start(&self, _at: Option<(f64, f64)>, states: &mut [f64]) -> Result<(), Failure> {
+    fn start(&self, _sliding: Option<Sliding>, states: &mut [f64]) -> Result<(), Failure> {
         self.initial(states);
         Ok(())
     }
 }
 
-/// Laws of the points of a fault between bodies with mass. Slices hold one entry per point, and states are point-major.
+/// Laws of the points of a fault between bodies with mass. Slices hold one entry per point.
 pub trait InertialFault: Send + Sync + std::fmt::Debug {
     /// Number of points.
     fn points(&self) -> usize;
@@ -76,13 +86,18 @@ pub trait InertialFault: Send + Sync + std::fmt::Debug {
     ///
     /// # Errors
     /// [`Failure`] with the number of the point.
-    fn start(&self, point: usize, at: Option<(f64, f64)>, states: &mut [f64]) -> Result<(), Failure>;
+    fn start(&self, point: usize, sliding: Option<Sliding>, states: &mut [f64]) -> Result<(), Failure>;
 
     /// Balances all points and advances their states by a step.
     ///
     /// # Errors
     /// [`Failure`] with the number of the point.
-    fn push(&self, pushes: &[Push], states: &mut [f64], answers: &mut [PointBalance]) -> Result<(), Failure>;
+    fn push(
+        &self,
+        pushes: &[Push],
+        states: PerPoint<&mut [f64]>,
+        answers: &mut [PointBalance],
+    ) -> Result<(), Failure>;
 }
 
 /// One law for each point, all of one kind.
@@ -102,15 +117,18 @@ impl<L: Inertial> InertialFault for InertialPoints<L> {
         self.0.first().is_some_and(Law::has_elastic_domain)
     }
 
-    fn start(&self, point: usize, at: Option<(f64, f64)>, states: &mut [f64]) -> Result<(), Failure> {
-        self.0[point].start(at, states).map_err(|f| f.at(point))
+    fn start(&self, point: usize, sliding: Option<Sliding>, states: &mut [f64]) -> Result<(), Failure> {
+        self.0[point].start(sliding, states).map_err(|f| f.at(point))
     }
 
-    fn push(&self, pushes: &[Push], states: &mut [f64], answers: &mut [PointBalance]) -> Result<(), Failure> {
-        let n = self.states();
+    fn push(
+        &self,
+        pushes: &[Push],
+        mut states: PerPoint<&mut [f64]>,
+        answers: &mut [PointBalance],
+    ) -> Result<(), Failure> {
         for (point, ((law, push), answer)) in self.0.iter().zip(pushes).zip(answers).enumerate() {
-            let own = &mut states[point * n..(point + 1) * n];
-            *answer = law.push(push, own).map_err(|f| f.at(point))?;
+            *answer = law.push(push, states.at_mut(point)).map_err(|f| f.at(point))?;
         }
         Ok(())
     }
@@ -129,22 +147,21 @@ impl<F: Form, E: Evolution> Inertial for RateLaw<F, E> {
             lag: None,
             near: Some(&[push.near]),
         };
-        self.balance_twice(&trials, states).map(|(traction, rate)| PointBalance { traction, rate })
+        self.balance_twice(&trials, states)
     }
 
-    fn start(&self, at: Option<(f64, f64)>, states: &mut [f64]) -> Result<(), Failure> {
+    fn start(&self, sliding: Option<Sliding>, states: &mut [f64]) -> Result<(), Failure> {
         self.initial(states);
-        match at {
-            Some((rate, mu)) if !states.is_empty() => self.states_for(rate, mu, states),
+        match sliding {
+            Some(Sliding { rate, friction }) if !states.is_empty() => self.states_for(rate, friction, states),
             _ => Ok(()),
         }
     }
 }
 
 impl<F: Form, E: Evolution> RateLaw<F, E> {
-    /// Balances a point at the end of a step and passes another step at the slip rate found. Returns traction \[Pa\] and slip rate
-    /// \[m/s\].
-    fn balance_twice(&self, trials: &Trials<'_>, states: &mut [f64]) -> Result<(f64, f64), Failure> {
+    /// Balances a point at the end of a step and passes another step at the slip rate found.
+    fn balance_twice(&self, trials: &Trials<'_>, states: &mut [f64]) -> Result<PointBalance, Failure> {
         let mut solver = self.solver();
         let (traction, rate, mu) = self.balanced(trials, states, &mut solver)?;
         let mut there = [0.0; MOST];
@@ -154,7 +171,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         solver.set_pace(None);
         let after = solver.after(there, trials.normal[0], trials.dt, log_rate);
         solver.keep(there, if rate > 0.0 { after.mu } else { 0.0 }, states);
-        Ok((traction, rate))
+        Ok(PointBalance { traction, rate })
     }
 }
 
@@ -212,10 +229,11 @@ fn finite(push: &Push) -> Result<(), Failure> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Inertial as _, InertialFault as _, InertialPoints, PointBalance, Push};
+    use super::{Inertial as _, InertialFault as _, InertialPoints, PointBalance, Push, Sliding};
     use crate::coulomb::Coulomb;
     use crate::evolution::ageing::Ageing;
     use crate::law::Law as _;
+    use crate::points::PerPoint;
     use crate::rate::RateLaw;
     use crate::slip_weakening::SlipWeakening;
     use crate::static_kinetic::StaticKinetic;
@@ -258,7 +276,7 @@ mod tests {
     fn tractions_of_rate_laws_are_friction_plus_the_share_of_the_masses() {
         let law = ageing();
         let mut states = [0.0];
-        law.start(Some((1e-12, 75.0 / 120.0)), &mut states).unwrap();
+        law.start(Some(Sliding { rate: 1e-12, friction: 75.0 / 120.0 }), &mut states).unwrap();
         let push = Push { normal: 120e6, trial: 75e6, impedance: 4e6, near: 0.0, dt: 1e-2, weakened: 0.0 };
         let answer = law.push(&push, &mut states.clone()).unwrap();
         assert!((answer.rate / 1e-12 - 1.0).abs() < 1e-6, "{answer:?}");
@@ -276,7 +294,7 @@ mod tests {
         let push = |trial| Push { normal: 120e6, trial, impedance: 4e6, near: 0.0, dt: 0.01, weakened: 0.0 };
         let mut states = [0.0, 0.2];
         let mut answers = [PointBalance { traction: 0.0, rate: 0.0 }; 2];
-        law.push(&[push(81e6), push(81e6)], &mut states, &mut answers).unwrap();
+        law.push(&[push(81e6), push(81e6)], PerPoint::new(&mut states, 1), &mut answers).unwrap();
         assert_eq!(answers[0], PointBalance { traction: 81e6, rate: 0.0 });
         let strength = 120e6 * 0.601;
         assert!((answers[1].traction / strength - 1.0).abs() < 1e-14);

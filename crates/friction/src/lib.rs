@@ -14,6 +14,7 @@ pub mod law;
 mod line;
 mod pace;
 pub mod point;
+pub mod points;
 pub mod pointwise;
 pub mod rake;
 pub mod rate;

@@ -13,7 +13,9 @@
 //! the equation of the slider by itself, since V(m) is odd and smooth there.
 
 use crate::Failure;
-use crate::fault::{Drive, FaultLaw};
+use crate::fault::{Drive, FaultLaw, UnknownRates, Unknowns};
+use crate::points::Components;
+use crate::slider::Forcing;
 use std::sync::{Mutex, PoisonError};
 
 /// Components of slip.
@@ -35,8 +37,8 @@ struct Scratch {
     speed: Vec<f64>,
     /// Rate of the driving traction along slip \[Pa/s\].
     along: Vec<f64>,
-    /// Unused states.
-    spare: Vec<f64>,
+    /// Unknowns of one point, and their rates.
+    point: [Vec<f64>; 2],
 }
 
 impl VariableRake {
@@ -45,7 +47,8 @@ impl VariableRake {
     pub fn new(law: Box<dyn FaultLaw>) -> Self {
         let zeros = |n: usize| vec![0.0; n];
         let (n, states) = (law.points(), law.states());
-        let scratch = Scratch { size: zeros(n), speed: zeros(n), along: zeros(n), spare: zeros(states) };
+        let point = [zeros(1 + states), zeros(1 + states)];
+        let scratch = Scratch { size: zeros(n), speed: zeros(n), along: zeros(n), point };
         Self { law, scratch: Mutex::new(scratch) }
     }
 }
@@ -78,55 +81,55 @@ impl FaultLaw for VariableRake {
         self.law.states()
     }
 
-    fn slip_rates(&self, first: usize, m: &[f64], states: &[f64], rate: &mut [f64]) {
+    fn slip_rates(&self, now: Unknowns<'_>, mut rate: Components<&mut [f64]>) {
         let mut scratch = self.scratch.lock().unwrap_or_else(PoisonError::into_inner);
         let Scratch { size: sizes, speed, .. } = &mut *scratch;
-        let n = m.len() / COMPONENTS;
-        let (x, y) = m.split_at(n);
+        let n = self.points();
+        let [x, y] = [now.m.component(0), now.m.component(1)];
         sizes.iter_mut().zip(x).zip(y).for_each(|((s, x), y)| *s = size(*x, *y));
-        self.law.slip_rates(first, &sizes[..n], states, &mut speed[..n]);
-        let (along, across) = rate.split_at_mut(n);
+        let sizes = Components::new(sizes.as_slice(), n);
+        self.law.slip_rates(Unknowns { m: sizes, ..now }, Components::new(speed, n));
+        let [along, across] = rate.pair_mut();
+        let sizes = sizes.all();
         for k in 0..n {
             let (s, v) = (sizes[k], speed[k]);
             (along[k], across[k]) = if s > 0.0 { (x[k] / s * v, y[k] / s * v) } else { (0.0, 0.0) };
         }
     }
 
-    fn rates(
-        &self,
-        first: usize,
-        drive: Drive<'_>,
-        m: &[f64],
-        states: &[f64],
-        dm: &mut [f64],
-        ds: &mut [f64],
-    ) {
+    fn rates(&self, drive: Drive<'_>, now: Unknowns<'_>, mut rates: UnknownRates<'_>) {
         let mut scratch = self.scratch.lock().unwrap_or_else(PoisonError::into_inner);
-        let Scratch { size: sizes, speed, along, spare } = &mut *scratch;
-        let n = m.len() / COMPONENTS;
-        let (x, y) = m.split_at(n);
-        let (pull_x, pull_y) = drive.shear_rate.split_at(n);
+        let Scratch { size: sizes, speed, along, point } = &mut *scratch;
+        let n = self.points();
+        let [x, y] = [now.m.component(0), now.m.component(1)];
+        let [pull_x, pull_y] = [drive.shear_rate.component(0), drive.shear_rate.component(1)];
         for k in 0..n {
             let s = size(x[k], y[k]);
             sizes[k] = s;
             // The first axis serves as the direction if nothing slides.
             along[k] = if s > 0.0 { (x[k] * pull_x[k] + y[k] * pull_y[k]) / s } else { pull_x[k] };
         }
-        let (dx, dy) = dm.split_at_mut(n);
-        self.law.rates(first, Drive { shear_rate: &along[..n], ..drive }, &sizes[..n], states, dx, ds);
-        self.law.slip_rates(first, &sizes[..n], states, &mut speed[..n]);
+        let line = Unknowns { m: Components::new(sizes.as_slice(), n), ..now };
+        let driven = Drive { shear_rate: Components::new(along.as_slice(), n), ..drive };
+        let [dx, dy] = rates.m.pair_mut();
+        self.law.rates(driven, line, UnknownRates { m: Components::new(dx, n), states: rates.states });
+        self.law.slip_rates(line, Components::new(speed, n));
         for k in 0..n {
-            let s = sizes[k];
+            let s = line.m.all()[k];
             if s > 0.0 {
-                let resistance =
-                    drive.normal[k] * self.law.scale(first + k) + drive.damping[k] * speed[k] / s;
+                let resistance = drive.normal[k] * self.law.scale(k) + drive.damping[k] * speed[k] / s;
                 (dx[k], dy[k]) = turned([x[k] / s, y[k] / s], [pull_x[k], pull_y[k]], dx[k], resistance);
             } else {
-                let drive = Drive { shear_rate: &pull_y[k..=k], ..drive.slice(k..k + 1) };
-                let states = &states[k * spare.len()..][..spare.len()];
-                self.law.rates(first + k, drive, &[0.0], states, &mut dy[k..=k], spare);
+                let [unknowns, rates] = point.each_mut();
+                unknowns[1..].copy_from_slice(now.states.at(k));
+                self.law.point_rates(k, &drive.forcing(k, 1), unknowns, rates);
+                dy[k] = rates[0];
             }
         }
+    }
+
+    fn point_rates(&self, point: usize, forcing: &Forcing, unknowns: &[f64], rates: &mut [f64]) {
+        self.law.point_rates(point, forcing, unknowns, rates);
     }
 
     fn scale(&self, point: usize) -> f64 {
@@ -179,7 +182,8 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::VariableRake;
     use crate::evolution::ageing::Ageing;
-    use crate::fault::{Drive, FaultLaw, Points};
+    use crate::fault::{Drive, FaultLaw, Points, UnknownRates, Unknowns};
+    use crate::points::{Components, PerPoint};
     use crate::rate::RateLaw;
     use crate::strength::Parameters;
     use crate::strength::regularised::Regularised;
@@ -193,6 +197,10 @@ mod tests {
             RateLaw::new(form, Ageing::new(0.015, 0.008, 1e-6).unwrap(), 1e-9, None).unwrap()
         };
         Box::new(Points::new((0..N).map(law).collect()))
+    }
+
+    fn unknowns<'a>(m: &'a [f64], states: &'a [f64]) -> Unknowns<'a> {
+        Unknowns { m: Components::new(m, N), states: PerPoint::new(states, 1) }
     }
 
     /// Unknowns, states, f_n, its rate and damping.
@@ -223,7 +231,7 @@ mod tests {
             Drive {
                 normal: &self.normal,
                 normal_rate: Some(&self.change),
-                shear_rate: &self.pull,
+                shear_rate: Components::new(&self.pull, N),
                 damping: &self.damping,
             }
         }
@@ -231,8 +239,10 @@ mod tests {
         /// Rates of m and of the states, and V.
         fn rates(&self, law: &dyn FaultLaw) -> [Vec<f64>; 3] {
             let (mut dm, mut ds, mut v) = (self.m.clone(), vec![0.0; N], self.m.clone());
-            law.rates(0, self.drive(), &self.m, &self.states, &mut dm, &mut ds);
-            law.slip_rates(0, &self.m, &self.states, &mut v);
+            let now = unknowns(&self.m, &self.states);
+            let rates = UnknownRates { m: Components::new(&mut dm, N), states: PerPoint::new(&mut ds, 1) };
+            law.rates(self.drive(), now, rates);
+            law.slip_rates(now, Components::new(&mut v, N));
             [dm, ds, v]
         }
     }
@@ -290,7 +300,7 @@ mod tests {
             let m: Vec<f64> = case.m.iter().zip(&dm).map(|(m, d)| m + time * d).collect();
             let states: Vec<f64> = case.states.iter().zip(&ds).map(|(s, d)| s + time * d).collect();
             let mut v = vec![0.0; 2 * N];
-            turning.slip_rates(0, &m, &states, &mut v);
+            turning.slip_rates(unknowns(&m, &states), Components::new(&mut v, N));
             let each = |i: usize| {
                 let p = i % N;
                 let normal = case.normal[p] + time * case.change[p];

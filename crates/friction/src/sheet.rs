@@ -5,6 +5,7 @@
 //! rest the equations of [`crate::slider`] are used, of which these are a special case.
 
 use crate::drive::Drive;
+use crate::fault::{UnknownRates, Unknowns};
 use crate::slider::Line;
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
@@ -88,7 +89,8 @@ impl Sheet {
     }
 
     /// Computes slip rates of all points \[m/s\]; `other` gives that of a point near rest.
-    pub fn slip_rates(&self, m: &[f64], s: &[f64], rate: &mut [f64], other: impl Fn(usize) -> f64) {
+    pub fn slip_rates(&self, now: Unknowns<'_>, rate: &mut [f64], other: impl Fn(usize) -> f64) {
+        let (m, s) = (now.m.all(), now.states.all());
         let of_task = |task: usize, rate: &mut [f64]| {
             let points = task * TASK * LANES..task * TASK * LANES + rate.len();
             let (m, s) = (&m[points.clone()], &s[points]);
@@ -102,16 +104,16 @@ impl Sheet {
         self.elsewhere(m, |k| rate[k] = other(k));
     }
 
-    /// Computes rates of m and of the states \[1/s\]; `other` writes those of a point near rest.
+    /// Computes rates of m and of the states \[1/s\]; `other` gives those of a point near rest.
     pub fn rates(
         &self,
         drive: &Drive<'_>,
-        m: &[f64],
-        s: &[f64],
-        dm: &mut [f64],
-        ds: &mut [f64],
-        mut other: impl FnMut(usize, &mut f64, &mut f64),
+        now: Unknowns<'_>,
+        mut rates: UnknownRates<'_>,
+        other: impl Fn(usize) -> [f64; 2],
     ) {
+        let (m, s) = (now.m.all(), now.states.all());
+        let (dm, ds) = (rates.m.all_mut(), rates.states.all_mut());
         let of_task = |task: usize, dm: &mut [f64], ds: &mut [f64]| {
             let points = task * TASK * LANES..task * TASK * LANES + dm.len();
             let (m, s, drive) = (&m[points.clone()], &s[points.clone()], drive.slice(points));
@@ -125,7 +127,7 @@ impl Sheet {
             let tasks = dm.chunks_mut(size).zip(ds.chunks_mut(size)).enumerate();
             tasks.for_each(|(task, (dm, ds))| of_task(task, dm, ds));
         }
-        self.elsewhere(m, |k| other(k, &mut dm[k], &mut ds[k]));
+        self.elsewhere(m, |k| [dm[k], ds[k]] = other(k));
     }
 
     fn worth_tasks(&self) -> bool {
@@ -184,9 +186,9 @@ impl WithSimd for Rates<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Drive { normal, shear_rate, damping, normal_rate, .. } = *self.drive;
+        let Drive { normal, shear_rate, damping, normal_rate } = *self.drive;
         let unknowns = self.m.chunks(LANES).zip(self.s.chunks(LANES));
-        let forcing = normal.chunks(LANES).zip(shear_rate.chunks(LANES)).zip(damping.chunks(LANES));
+        let forcing = normal.chunks(LANES).zip(shear_rate.all().chunks(LANES)).zip(damping.chunks(LANES));
         let rates = self.dm.chunks_mut(LANES).zip(self.ds.chunks_mut(LANES));
         let points = unknowns.zip(forcing).zip(rates).enumerate();
         for (lines, (g, (((m, s), ((normal, pull), damping)), (dm, ds)))) in self.lines.iter().zip(points) {

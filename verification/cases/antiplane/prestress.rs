@@ -2,7 +2,6 @@
 
 use crate::cases::seas;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
-use asperity_cycles::Layout;
 use asperity_plan::faults::Plan;
 
 use super::simulate;
@@ -101,9 +100,8 @@ stepper = "fault-ode"
 /// Normal and shear tractions of all points at the start \[Pa\].
 fn tractions(plan: &Plan) -> [Vec<f64>; 2] {
     let (fault, start) = (&plan.problem.fault, &plan.problem.start);
-    let layout = Layout::from_fault(fault);
-    let mut rates = vec![0.0; plan.points.len()];
-    fault.law.slip_rates(0, &start[layout.m()], &start[layout.states()], &mut rates);
+    let rates = fault.slip_rates(start);
+    let rates = rates.component(0);
     let shear = |p: usize| fault.normal[p] * fault.law.scale(p) * start[p] + fault.damping[p] * rates[p];
     [fault.normal.clone(), (0..plan.points.len()).map(shear).collect()]
 }

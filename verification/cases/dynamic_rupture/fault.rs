@@ -6,6 +6,7 @@ use crate::CaseError;
 use asperity_friction::evolution::ageing::Ageing;
 use asperity_friction::evolution::flash::{self, Weakening};
 use asperity_friction::inertial::{InertialFault, InertialPoints};
+use asperity_friction::points::Components;
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slip_weakening::SlipWeakening;
 use asperity_friction::strength::{self, regularised::Regularised};
@@ -33,8 +34,8 @@ pub(super) fn between(model: &Model<2>, p: &Parameters, spacing: f64) -> Result<
         points,
         law: law(p, &at)?,
         normal: vec![p.normal; n],
-        shear: at.iter().map(|x| shear(p, *x, spacing)).collect(),
-        rate: vec![rate; n],
+        shear: Components::new(at.iter().map(|x| shear(p, *x, spacing)).collect(), n),
+        rate: Components::new(vec![rate; n], n),
         opens: false,
         regularisation: None,
         pulses,

@@ -119,7 +119,7 @@ fn rupture_of(
     let (result, cost) = Cost::measure(|| {
         steps(&problem, |run| {
             pass(run, &mut before, &mut times);
-            history.push((run.time() - run.dt(), run.fault().rate[watched].abs()));
+            history.push((run.time() - run.dt(), run.fault().rate.size(watched)));
         })
     });
     let last = result?;
@@ -136,7 +136,7 @@ fn side_nodes(mesh: &Mesh<2>, side: &str) -> Vec<usize> {
 /// Notes where the slip rate has passed a front in the last step.
 fn pass(run: &Explicit<'_, 2>, before: &mut [f64], times: &mut [Vec<f64>; 2]) {
     let time = run.time() - run.dt();
-    for (k, (before, now)) in before.iter_mut().zip(&run.fault().rate).enumerate() {
+    for (k, (before, now)) in before.iter_mut().zip(run.fault().rate.all()).enumerate() {
         let now = now.abs();
         for (times, front) in times.iter_mut().zip([1e-3, 0.1]) {
             if times[k].is_nan() && now >= front {

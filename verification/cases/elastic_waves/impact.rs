@@ -7,6 +7,7 @@ use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
 use asperity_friction::coulomb::Coulomb;
 use asperity_friction::inertial::InertialPoints;
+use asperity_friction::points::Components;
 use asperity_mechanics::dynamics::{Fault, SplitPoint};
 
 /// Cells along a bar of 1 m.
@@ -44,8 +45,8 @@ fn collide() -> Result<Collision, CaseError> {
         points: vec![point(0), point(1)],
         law: Box::new(InertialPoints(vec![frictionless; 2])),
         normal: vec![0.0; 2],
-        shear: vec![0.0; 2],
-        rate: vec![0.0; 2],
+        shear: Components::new(vec![0.0; 2], 2),
+        rate: Components::new(vec![0.0; 2], 2),
         opens: true,
         regularisation: None,
         pulses: Vec::new(),

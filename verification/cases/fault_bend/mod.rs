@@ -116,12 +116,10 @@ pub(crate) fn statics_of(size: f64) -> Result<Tractions, CaseError> {
 }
 
 fn found(plan: &Plan) -> Tractions {
-    let n = plan.points.len();
     let along: Vec<f64> = plan.points.iter().map(|p| p.along).collect();
     let values: Vec<f64> = along.iter().map(|&s| slip(s)).collect();
-    let (mut shear, mut normal) = (vec![0.0; n], vec![0.0; n]);
-    plan.problem.fault.operator.shear(&values, &mut shear);
-    plan.problem.fault.operator.normal(&values, &mut normal);
+    let shear = plan.problem.fault.operator.shear_of(&values);
+    let normal = plan.problem.fault.operator.normal_of(&values);
     Tractions { along, shear, normal }
 }
 

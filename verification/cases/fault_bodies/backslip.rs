@@ -253,9 +253,8 @@ fn drift(plan: &Plan) -> Result<(f64, seas::CycleResults), CaseError> {
 fn curved(ledger: &mut Ledger) -> Result<(), CaseError> {
     let lagging = arc("creep = { rate = \"1e-9 m/s\", loading = \"backslip\" }", ["0", "0"])?;
     let n = lagging.points.len();
-    let (mut shear, mut normal) = (vec![0.0; n], vec![0.0; n]);
-    lagging.problem.fault.operator.shear(&vec![1e-9; n], &mut shear);
-    lagging.problem.fault.operator.normal(&vec![1e-9; n], &mut normal);
+    let shear = lagging.problem.fault.operator.shear_of(&vec![1e-9; n]);
+    let normal = lagging.problem.fault.operator.normal_of(&vec![1e-9; n]);
     let loads = lagging.problem.loading.rates(1.0, n, true);
     let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |m: f64, v| m.max(v.abs()));
     let left =

@@ -68,9 +68,8 @@ fn common(along: f64) -> bool {
 fn errors(plan: &Plan, dip: f64) -> [f64; 2] {
     let along: Vec<f64> = plan.points.iter().map(|p| p.at[0].hypot(p.at[1])).collect();
     let slip: Vec<f64> = along.iter().map(|&a| slip(a)).collect();
-    let mut found = [vec![0.0; slip.len()], vec![0.0; slip.len()]];
-    plan.problem.fault.operator.shear(&slip, &mut found[0]);
-    plan.problem.fault.operator.normal(&slip, &mut found[1]);
+    let operator = &plan.problem.fault.operator;
+    let found = [operator.shear_of(&slip), operator.normal_of(&slip)];
     let (mut worst, mut scale) = ([0.0_f64; 2], 0.0_f64);
     for p in (0..along.len()).filter(|&p| common(along[p])) {
         let wanted = tractions(dip, along[p]);

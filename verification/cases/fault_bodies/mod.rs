@@ -222,8 +222,7 @@ fn interaction(plan: &Plan) -> [f64; 2] {
     for p in own.clone() {
         slip[p] = bump(-plan.points[p].at[1]);
     }
-    let mut shear = vec![0.0; n];
-    plan.problem.fault.operator.shear(&slip, &mut shear);
+    let shear = plan.problem.fault.operator.shear_of(&slip);
     [(own, 0.0), (other, APART)].map(|(points, distance)| {
         let exact: Vec<f64> = points.clone().map(|p| screws(distance, -plan.points[p].at[1], bump)).collect();
         let largest = exact.iter().fold(0.0_f64, |m, t| m.max(t.abs()));
@@ -426,9 +425,8 @@ fn arc_errors(plan: &Plan) -> [f64; 2] {
     let n = plan.points.len();
     let angle = |p: usize| (-plan.points[p].at[1]).atan2(RADIUS - plan.points[p].at[0]);
     let slip: Vec<f64> = (0..n).map(|p| on_arc(angle(p) * RADIUS)).collect();
-    let (mut shear, mut normal) = (vec![0.0; n], vec![0.0; n]);
-    plan.problem.fault.operator.shear(&slip, &mut shear);
-    plan.problem.fault.operator.normal(&slip, &mut normal);
+    let shear = plan.problem.fault.operator.shear_of(&slip);
+    let normal = plan.problem.fault.operator.normal_of(&slip);
     let (mut worst, mut scale) = ([0.0_f64; 2], 0.0_f64);
     // At the surface and at the tip tractions are averages over half a length.
     for p in (0..n).filter(|&p| angle(p) * RADIUS > 1e3 && angle(p) * RADIUS < 15e3) {
@@ -444,9 +442,8 @@ fn overlay(ledger: &mut Ledger, plan: &Plan) {
     let n = plan.points.len();
     let angle = |p: usize| (-plan.points[p].at[1]).atan2(RADIUS - plan.points[p].at[0]);
     let slip: Vec<f64> = (0..n).map(|p| on_arc(angle(p) * RADIUS)).collect();
-    let (mut shear, mut normal) = (vec![0.0; n], vec![0.0; n]);
-    plan.problem.fault.operator.shear(&slip, &mut shear);
-    plan.problem.fault.operator.normal(&slip, &mut normal);
+    let shear = plan.problem.fault.operator.shear_of(&slip);
+    let normal = plan.problem.fault.operator.normal_of(&slip);
     let inside = |p: &usize| angle(*p) * RADIUS > 1e3 && angle(*p) * RADIUS < 15e3;
     let at = |value: &dyn Fn(usize) -> f64| -> Vec<(f64, f64)> {
         (0..n).filter(inside).map(|p| (angle(p).to_degrees(), value(p) / 1e6)).collect()

@@ -52,9 +52,8 @@ fn exact(y: f64) -> [f64; 2] {
 fn errors(plan: &Plan) -> ([f64; 2], [Vec<(f64, f64)>; 2]) {
     let n = plan.points.len();
     let given: Vec<f64> = plan.points.iter().map(|p| slip(p.at[1])).collect();
-    let (mut shear, mut normal) = (vec![0.0; n], vec![0.0; n]);
-    plan.problem.fault.operator.shear(&given, &mut shear);
-    plan.problem.fault.operator.normal(&given, &mut normal);
+    let shear = plan.problem.fault.operator.shear_of(&given);
+    let normal = plan.problem.fault.operator.normal_of(&given);
     let inner = (0..n).filter(|&p| plan.points[p].at[1].abs() <= INNER * A);
     let (mut off, mut largest, mut drawn) = ([0.0_f64; 2], [0.0_f64; 2], [Vec::new(), Vec::new()]);
     for p in inner {

@@ -72,13 +72,8 @@ fn slips(plan: &Plan) -> [(&'static str, Vec<f64>); 4] {
 
 /// Shear tractions of slip, or its normal tractions if `normal`.
 fn tractions(plan: &Plan, slip: &[f64], normal: bool) -> Vec<f64> {
-    let mut out = vec![0.0; slip.len()];
-    if normal {
-        plan.problem.fault.operator.normal(slip, &mut out);
-    } else {
-        plan.problem.fault.operator.shear(slip, &mut out);
-    }
-    out
+    let operator = &plan.problem.fault.operator;
+    if normal { operator.normal_of(slip) } else { operator.shear_of(slip) }
 }
 
 /// Draws normal tractions by the compressed operator on those by the dense one.

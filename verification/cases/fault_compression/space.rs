@@ -36,12 +36,7 @@ fn bent(form: Form) -> Result<Plan, CaseError> {
 /// Tractions of slip: shear, component by component, and normal.
 fn tractions(plan: &Plan, slip: &[f64]) -> Vec<f64> {
     let operator = &plan.problem.fault.operator;
-    let n = operator.points();
-    let mut all = vec![0.0; 3 * n];
-    let (shear, normal) = all.split_at_mut(2 * n);
-    operator.shear(slip, shear);
-    operator.normal(slip, normal);
-    all
+    [operator.shear_of(slip), operator.normal_of(slip)].concat()
 }
 
 /// Tractions of unit slip of each point in each component, and of uniform slip in the first.

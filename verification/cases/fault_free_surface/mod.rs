@@ -337,8 +337,7 @@ fn tractions(
     let bodies = Displacements::new(&view.nodes, displacement, size);
     let points: BTreeMap<usize, usize> = view.sides.iter().enumerate().map(|(p, s)| (s[0], p)).collect();
     let values: Vec<f64> = plan.points.iter().map(|p| slip(-p.at[1], p.at[2])).collect();
-    let mut shear = vec![0.0; values.len()];
-    plan.problem.fault.operator.shear(&values, &mut shear);
+    let shear = plan.problem.fault.operator.shear_of(&values);
     let faces = plan.faults.first().ok_or("no fault")?.faces.iter();
     let mut found = Vec::new();
     for face in faces {

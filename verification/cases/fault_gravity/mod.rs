@@ -2,7 +2,6 @@
 
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_cycles::Layout;
 use asperity_plan::faults::Plan;
 
 /// See the README.
@@ -107,14 +106,7 @@ fn shear(plan: &Plan, point: usize, rates: &[f64]) -> f64 {
 /// Largest errors of f_n and of τ_0 over the largest f_n. The surface point has no τ_0 from gravity, since its normal traction is
 /// the floor.
 fn errors(plan: &Plan, exact: impl Fn(f64) -> [f64; 2]) -> [f64; 2] {
-    let layout = Layout::from_fault(&plan.problem.fault);
-    let mut rates = vec![0.0; plan.points.len()];
-    plan.problem.fault.law.slip_rates(
-        0,
-        &plan.problem.start[layout.m()],
-        &plan.problem.start[layout.states()],
-        &mut rates,
-    );
+    let rates = plan.problem.fault.slip_rates(&plan.problem.start);
     let largest = plan.problem.fault.normal.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
     let mut worst = [0.0_f64; 2];
     for (p, point) in plan.points.iter().enumerate() {
@@ -122,7 +114,7 @@ fn errors(plan: &Plan, exact: impl Fn(f64) -> [f64; 2]) -> [f64; 2] {
         let [normal, along] = exact(depth);
         worst[0] = worst[0].max((plan.problem.fault.normal[p] - normal).abs() / largest);
         if depth > 0.0 {
-            worst[1] = worst[1].max((shear(plan, p, &rates) - along).abs() / largest);
+            worst[1] = worst[1].max((shear(plan, p, rates.component(0)) - along).abs() / largest);
         }
     }
     worst

@@ -155,14 +155,8 @@ fn column(dip: f64, length: f64, rake: [f64; 3], cells: usize) -> String {
 
 /// Changes of the shear or normal tractions of a plan with slip.
 fn changes(plan: &Plan, slip: &[f64], normal: bool) -> Vec<f64> {
-    let mut out = vec![0.0; slip.len()];
     let operator = &plan.problem.fault.operator;
-    if normal {
-        operator.normal(slip, &mut out)
-    } else {
-        operator.shear(slip, &mut out)
-    }
-    out
+    if normal { operator.normal_of(slip) } else { operator.shear_of(slip) }
 }
 
 /// Compares slip that is uniform along long rectangles with slip in the plane.
@@ -299,11 +293,11 @@ fn disc(ledger: &mut Ledger) -> Result<(), CaseError> {
         let inside: Vec<usize> =
             (0..n).filter(|&p| plan.points[p].at[1].hypot(plan.points[p].at[2]) < A).collect();
         let mut columns = Vec::new();
-        let (mut unit, mut traction) = (vec![0.0; 2 * n], vec![0.0; 2 * n]);
+        let mut unit = vec![0.0; 2 * n];
         let both: Vec<usize> = inside.iter().copied().chain(inside.iter().map(|p| n + p)).collect();
         for &p in &both {
             unit[p] = 1.0;
-            plan.problem.fault.operator.shear(&unit, &mut traction);
+            let traction = plan.problem.fault.operator.shear_of(&unit);
             unit[p] = 0.0;
             columns.push(DVector::from_iterator(both.len(), both.iter().map(|&q| traction[q])));
         }
@@ -367,7 +361,7 @@ fn plane(ledger: &mut Ledger) -> Result<(), CaseError> {
         let mut tractions = DMatrix::zeros(count, count);
         for (k, mut column) in tractions.column_iter_mut().enumerate() {
             let slip: Vec<f64> = (0..count).map(|j| f64::from(u8::from(j == k))).collect();
-            operator.shear(&slip, column.as_mut_slice());
+            column.copy_from_slice(&operator.shear_of(&slip));
         }
         tractions
     });

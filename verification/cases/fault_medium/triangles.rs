@@ -104,9 +104,8 @@ fn felt(plan: &Plan, parts: usize) -> Vec<f64> {
     let operator = &plan.problem.fault.operator;
     let n = operator.points();
     let slip = uniform_in_cells(n, parts);
-    let (mut shear, mut normal) = (vec![0.0; 2 * n], vec![0.0; n]);
-    operator.shear(&slip, &mut shear);
-    operator.normal(&slip, &mut normal);
+    let shear = operator.shear_of(&slip);
+    let normal = operator.normal_of(&slip);
     let other = parts * CELLS[0] * CELLS[1]..n;
     [&shear[..n], &shear[n..], &normal[..]].iter().flat_map(|all| all[other.clone()].to_vec()).collect()
 }

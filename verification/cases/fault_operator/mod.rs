@@ -67,15 +67,11 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 /// Matrix of the operator, column by column, of shear or of normal tractions.
 pub(crate) fn matrix(plan: &Plan, normal: bool) -> DMatrix<f64> {
     let n = plan.points.len();
-    let (mut unit, mut column) = (vec![0.0; n], vec![0.0; n]);
+    let (operator, mut unit) = (&plan.problem.fault.operator, vec![0.0; n]);
     let mut all = DMatrix::zeros(n, n);
     for k in 0..n {
         unit[k] = 1.0;
-        if normal {
-            plan.problem.fault.operator.normal(&unit, &mut column);
-        } else {
-            plan.problem.fault.operator.shear(&unit, &mut column);
-        }
+        let column = if normal { operator.normal_of(&unit) } else { operator.shear_of(&unit) };
         all.column_mut(k).copy_from_slice(&column);
         unit[k] = 0.0;
     }
@@ -257,11 +253,10 @@ fn plates(ledger: &mut Ledger) -> Result<(), CaseError> {
         let couples = plan.problem.fault.operator.couples_normal();
         let (mut shear, mut normal) = plan.problem.loading.rates(1.0, n, couples);
         let scale = shear.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-        let mut exerted = vec![0.0; n];
-        plan.problem.fault.operator.shear(&vec![1e-9; n], &mut exerted);
+        let exerted = plan.problem.fault.operator.shear_of(&vec![1e-9; n]);
         shear.iter_mut().zip(&exerted).for_each(|(s, e)| *s += e);
         if couples {
-            plan.problem.fault.operator.normal(&vec![1e-9; n], &mut exerted);
+            let exerted = plan.problem.fault.operator.normal_of(&vec![1e-9; n]);
             normal.iter_mut().zip(&exerted).for_each(|(s, e)| *s += e);
         }
         let largest = shear.iter().chain(&normal).fold(0.0_f64, |m, v| m.max(v.abs()));
@@ -326,11 +321,9 @@ fn slips() -> [Slips; 2] {
 
 /// Largest error of shear and of normal tractions over the largest shear traction.
 fn errors(plan: &Plan, dip: f64, slip: impl Fn(f64) -> f64 + Copy) -> [f64; 2] {
-    let n = plan.points.len();
     let values: Vec<f64> = plan.points.iter().map(|p| slip(p.along)).collect();
-    let (mut shear, mut normal) = (vec![0.0; n], vec![0.0; n]);
-    plan.problem.fault.operator.shear(&values, &mut shear);
-    plan.problem.fault.operator.normal(&values, &mut normal);
+    let shear = plan.problem.fault.operator.shear_of(&values);
+    let normal = plan.problem.fault.operator.normal_of(&values);
     let (mut worst, mut scale) = ([0.0_f64; 2], 0.0_f64);
     for (p, point) in plan.points.iter().enumerate().filter(|(_, p)| p.along > BELOW && p.along < DEEPEST) {
         let (t, f) = tractions(dip, slip, PIECE, DEEPEST, point.along);
@@ -343,9 +336,8 @@ fn errors(plan: &Plan, dip: f64, slip: impl Fn(f64) -> f64 + Copy) -> [f64; 2] {
 /// Draws the tractions of a slip on those of dislocations.
 fn overlay(ledger: &mut Ledger, plan: &Plan, dip: f64, (name, slip): Slips) {
     let values: Vec<f64> = plan.points.iter().map(|p| slip(p.along)).collect();
-    let mut found = [vec![0.0; values.len()], vec![0.0; values.len()]];
-    plan.problem.fault.operator.shear(&values, &mut found[0]);
-    plan.problem.fault.operator.normal(&values, &mut found[1]);
+    let operator = &plan.problem.fault.operator;
+    let found = [operator.shear_of(&values), operator.normal_of(&values)];
     let near = |p: &usize| plan.points[*p].along > BELOW && plan.points[*p].along < DEEPEST;
     let points: Vec<usize> = (0..values.len()).filter(near).collect();
     let exact = points.iter().map(|&p| tractions(dip, slip, PIECE, DEEPEST, plan.points[p].along));

@@ -50,8 +50,7 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
         let n = plans[0].points.len();
         let slip: Vec<f64> = (0..2 * n).map(|k| (1.7 * k as f64).sin()).collect();
         let [one, both] = plans.each_ref().map(|plan| {
-            let mut caused = vec![0.0; 2 * n];
-            plan.problem.fault.operator.shear(&slip, &mut caused);
+            let caused = plan.problem.fault.operator.shear_of(&slip);
             [plan.problem.loading.rates(1.0, n, false).0, caused]
         });
         let off = [0, 1].map(|k| {

@@ -193,10 +193,9 @@ fn both_directions(ledger: &mut Ledger) -> Result<(), CaseError> {
         (1.0 + (z / 1e3 + k as f64).sin()) * (y / 2e3 + k as f64).cos()
     };
     let slip: Vec<f64> = (0..2 * n).map(|i| wave(i / n, i % n)).collect();
-    let (mut found, mut along, mut across) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
-    free.problem.fault.operator.normal(&slip, &mut found);
-    first.problem.fault.operator.normal(&slip[..n], &mut along);
-    second.problem.fault.operator.normal(&slip[n..], &mut across);
+    let found = free.problem.fault.operator.normal_of(&slip);
+    let along = first.problem.fault.operator.normal_of(&slip[..n]);
+    let across = second.problem.fault.operator.normal_of(&slip[n..]);
     let size = |values: &[f64]| values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let off: Vec<f64> = (0..n).map(|p| found[p] - along[p] - across[p]).collect();
     ledger
@@ -295,8 +294,7 @@ fn error(ledger: &mut Ledger, part: f64, joined: bool) -> Result<(f64, Cost), Ca
         .iter()
         .map(|p| (-0.5 * (p.at[1].powi(2) + p.at[2].powi(2)) / WIDTH.powi(2)).exp())
         .collect();
-    let mut found = vec![0.0; slip.len()];
-    plan.problem.fault.operator.shear(&slip, &mut found);
+    let found = plan.problem.fault.operator.shear_of(&slip);
     let near = plan.points.iter().zip(&found).filter(|(p, _)| p.at[1].hypot(p.at[2]) < 2.5 * WIDTH);
     let errors = near.map(|(p, t)| (t - waves(p.at[1], p.at[2])).abs());
     let error = errors.fold(0.0, f64::max) / middle().abs();

@@ -32,12 +32,12 @@ impl Mode {
 /// The `count` softest modes, softest first.
 pub fn softest(plan: &Plan, count: usize) -> Result<Vec<Mode>, CaseError> {
     let n = plan.points.len();
-    let (mut unit, mut column) = (vec![0.0; n], vec![0.0; n]);
+    let mut unit = vec![0.0; n];
     let root: Vec<f64> = plan.points.iter().map(|p| p.area.sqrt()).collect();
     let mut matrix = DMatrix::zeros(n, n);
     for j in 0..n {
         unit[j] = 1.0;
-        plan.problem.fault.operator.shear(&unit, &mut column);
+        let column = plan.problem.fault.operator.shear_of(&unit);
         unit[j] = 0.0;
         for (i, (traction, r)) in column.iter().zip(&root).enumerate() {
             matrix[(i, j)] = -r * traction / root[j];

@@ -104,7 +104,7 @@ impl<'a> Fault<'a> {
                 }
             }
             Elastic::Body(operator, pull) => {
-                operator.shear(slip, &mut tractions);
+                tractions = operator.shear_of(slip);
                 tractions.iter_mut().zip(pull).for_each(|(t, pull)| *t += pull * time);
             }
         }

@@ -116,9 +116,8 @@ fn errors(plan: &Plan) -> [f64; 2] {
         (-0.5 * (x * x + y * y) / (WIDTH * WIDTH)).exp()
     };
     let slip: Vec<f64> = DIRECTION.iter().flat_map(|d| (0..n).map(move |p| d * gauss(p))).collect();
-    let (mut shear, mut normal) = (vec![0.0; 2 * n], vec![0.0; n]);
-    plan.problem.fault.operator.shear(&slip, &mut shear);
-    plan.problem.fault.operator.normal(&slip, &mut normal);
+    let shear = plan.problem.fault.operator.shear_of(&slip);
+    let normal = plan.problem.fault.operator.normal_of(&slip);
     let scale = waves([0.0, 0.0]).map(f64::abs).into_iter().fold(0.0, f64::max);
     let (mut worst, mut opening) = (0.0_f64, 0.0_f64);
     for p in 0..n {

@@ -1,7 +1,8 @@
 //! A law without friction coefficient: behind two fronts that run from the origin nothing resists, ahead of them nothing slips.
 
 use asperity_friction::Failure;
-use asperity_friction::inertial::{InertialFault, PointBalance, Push};
+use asperity_friction::inertial::{InertialFault, PointBalance, Push, Sliding};
+use asperity_friction::points::PerPoint;
 
 /// Both fronts, at ±v t. Its state is the time.
 #[derive(Debug)]
@@ -34,14 +35,20 @@ impl InertialFault for Front {
         true
     }
 
-    fn start(&self, _point: usize, _at: Option<(f64, f64)>, states: &mut [f64]) -> Result<(), Failure> {
+    fn start(&self, _point: usize, _sliding: Option<Sliding>, states: &mut [f64]) -> Result<(), Failure> {
         states[0] = 0.0;
         Ok(())
     }
 
     /// A point that the front has passed in part keeps the other part of the traction that holds it.
-    fn push(&self, pushes: &[Push], states: &mut [f64], answers: &mut [PointBalance]) -> Result<(), Failure> {
-        for (point, ((push, time), answer)) in pushes.iter().zip(states).zip(answers).enumerate() {
+    fn push(
+        &self,
+        pushes: &[Push],
+        mut times: PerPoint<&mut [f64]>,
+        answers: &mut [PointBalance],
+    ) -> Result<(), Failure> {
+        let times = times.all_mut();
+        for (point, ((push, time), answer)) in pushes.iter().zip(times).zip(answers).enumerate() {
             let released = self.passed(point, *time) * push.trial;
             *answer = PointBalance { traction: push.trial - released, rate: released / push.impedance };
             *time += push.dt;

@@ -5,6 +5,7 @@ use super::front::Front;
 use crate::{CaseError, Cost};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
+use asperity_friction::points::Components;
 use asperity_mechanics::dynamics::{Explicit, Fault, Problem, dashpots};
 
 pub(super) const ROCK: Rock = Rock { density: 2670.0, pressure: 6000.0, shear: 3464.0 };
@@ -72,8 +73,8 @@ fn fault(problem: &Problem<2>, spacing: f64) -> Result<Fault, CaseError> {
         points,
         law: Box::new(Front { at, speed: SPEED, spacing }),
         normal: vec![NORMAL; n],
-        shear: vec![DROP; n],
-        rate: vec![0.0; n],
+        shear: Components::new(vec![DROP; n], n),
+        rate: Components::new(vec![0.0; n], n),
         opens: false,
         regularisation: None,
         pulses: Vec::new(),
@@ -92,7 +93,7 @@ pub(super) fn grow(mode: Mode, spacing: f64) -> Result<Crack, CaseError> {
         let (time, wanted) = (run.time() - run.dt(), [EARLIER, 1.0].map(|share| share * HALF / SPEED));
         // The state at a time is known after the next step.
         if slips.len() < 2 && time >= wanted[slips.len()] - 1.5 * run.dt() {
-            slips.push((time, run.fault().slip.clone()));
+            slips.push((time, run.fault().slip.all().to_vec()));
         }
     };
     let (result, cost) = Cost::measure(|| steps(&problem, watch));

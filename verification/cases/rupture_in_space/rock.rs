@@ -10,6 +10,7 @@ use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::nodes_of_sides;
 use asperity_friction::inertial::InertialPoints;
+use asperity_friction::points::Components;
 use asperity_friction::slip_weakening::SlipWeakening;
 use asperity_mechanics::Model;
 use asperity_mechanics::dynamics::{Fault, Problem, SplitPoint, Tie, dashpots};
@@ -113,8 +114,8 @@ fn fault(model: &Model<3>, p: &Parameters, span: &Span) -> Result<(Fault, Vec<[f
         points,
         law: Box::new(InertialPoints(vec![law; n])),
         normal: vec![p.normal; n],
-        shear,
-        rate: vec![0.0; 2 * n],
+        shear: Components::new(shear, n),
+        rate: Components::new(vec![0.0; 2 * n], n),
         opens: false,
         regularisation: None,
         pulses: Vec::new(),

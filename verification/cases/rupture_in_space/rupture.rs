@@ -42,22 +42,26 @@ pub(crate) fn follow(
             pass(run, &mut before, &mut times);
             let state = run.fault();
             let value = |shares: &Vec<(usize, f64)>, of: &[f64]| shares.iter().map(|(k, w)| w * of[*k]).sum();
-            let now = watched.iter().map(|s| [value(s, &state.slip), value(s, &state.rate)]).collect();
+            let now = watched
+                .iter()
+                .map(|s| [value(s, state.slip.component(0)), value(s, state.rate.component(0))])
+                .collect();
             histories.push((run.time() - run.dt(), now));
         })
     });
     let last = result?;
     let cost = cost.count("cells", last.product().cells() as f64).count("steps", last.steps() as f64);
-    let slip = (0..n).map(|k| [last.fault().slip[k], last.fault().slip[n + k]]).collect();
+    let slip = &last.fault().slip;
+    let slip = (0..n).map(|k| [0, 1].map(|component| slip.component(component)[k])).collect();
     Ok(Rupture { at, times, histories, slip, budget: last.budget(), cost })
 }
 
 /// Notes where the slip rate has passed a front in the last step.
 fn pass(run: &Explicit<'_, 3>, before: &mut [f64], times: &mut [Vec<f64>; 2]) {
-    let (time, n) = (run.time() - run.dt(), before.len());
+    let time = run.time() - run.dt();
     let rate = &run.fault().rate;
     for (k, before) in before.iter_mut().enumerate() {
-        let now = rate[k].hypot(rate[n + k]);
+        let now = rate.size(k);
         for (times, (_, front)) in times.iter_mut().zip(FRONTS) {
             if times[k].is_nan() && now >= front {
                 times[k] = time - run.dt() * (now - front) / (now - *before);

@@ -250,9 +250,8 @@ fn one_slider(ledger: &mut Ledger) -> Result<(), CaseError> {
 /// the machine.
 fn slider(plan: &mut Plan) -> Result<Vec<f64>, CaseError> {
     let n = plan.points.len();
-    let (mut shear, mut normal) = (vec![0.0; n], vec![0.0; n]);
-    plan.problem.fault.operator.shear(&vec![1.0; n], &mut shear);
-    plan.problem.fault.operator.normal(&vec![1.0; n], &mut normal);
+    let shear = plan.problem.fault.operator.shear_of(&vec![1.0; n]);
+    let normal = plan.problem.fault.operator.normal_of(&vec![1.0; n]);
     let means = |response: &[f64]| -> Vec<f64> {
         let stiffness = mean(plan, response);
         (0..n * n).map(|k| stiffness * plan.points[k % n].area / FACE).collect()

@@ -44,7 +44,6 @@ fn found(
 struct Balance {
     first: Vec<f64>,
     load: Vec<f64>,
-    exerted: Vec<f64>,
     worst: f64,
 }
 
@@ -54,12 +53,7 @@ impl Balance {
         let rate = 1e-9;
         let first = (0..n)
             .map(|p| Self::strength(plan, p, plan.problem.start[p]) + plan.problem.fault.damping[p] * rate);
-        Self {
-            first: first.collect(),
-            load: plan.problem.loading.rates(1.0, n, false).0,
-            exerted: vec![0.0; n],
-            worst: 0.0,
-        }
+        Self { first: first.collect(), load: plan.problem.loading.rates(1.0, n, false).0, worst: 0.0 }
     }
 
     fn strength(plan: &Plan, p: usize, m: f64) -> f64 {
@@ -67,9 +61,9 @@ impl Balance {
     }
 
     fn look(&mut self, plan: &Plan, now: &Moment<'_>) {
-        plan.problem.fault.operator.shear(now.slip().all(), &mut self.exerted);
+        let exerted = plan.problem.fault.operator.shear_of(now.slip().all());
         for p in 0..self.first.len() {
-            let driving = self.first[p] + self.exerted[p] + self.load[p] * now.at.seconds();
+            let driving = self.first[p] + exerted[p] + self.load[p] * now.at.seconds();
             let resisting = Self::strength(plan, p, now.unknowns[p])
                 + plan.problem.fault.damping[p] * now.rate.component(0)[p];
             self.worst = self.worst.max((driving - resisting).abs() / plan.problem.fault.normal[p]);
@@ -143,8 +137,7 @@ fn screws(depth: f64) -> f64 {
 /// Stiffness against slip over the whole fault, which is most sensitive to the borders.
 fn half_space(ledger: &mut Ledger, plan: &Plan) {
     let slip: Vec<f64> = plan.points.iter().map(|p| long_slip(-p.at[1])).collect();
-    let mut found = vec![0.0; slip.len()];
-    let ((), cost) = Cost::measure(|| plan.problem.fault.operator.shear(&slip, &mut found));
+    let (found, cost) = Cost::measure(|| plan.problem.fault.operator.shear_of(&slip));
     let expected: Vec<f64> = plan.points.iter().map(|p| screws(-p.at[1])).collect();
     let largest = expected.iter().fold(0.0_f64, |m, t| m.max(t.abs()));
     let worst = expected.iter().zip(&found).fold(0.0_f64, |m, (e, f)| m.max((e - f).abs()));

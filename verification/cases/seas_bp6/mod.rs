@@ -89,14 +89,13 @@ impl InjectionResults {
 fn seen(plan: &Plan, share: f64) -> Result<InjectionResults, CaseError> {
     let mut out = InjectionResults { least: f64::INFINITY, ..InjectionResults::default() };
     let pressure = plan.problem.fault.processes.find::<Pressure>().ok_or("the scene injects nothing")?;
-    let mut exerted = vec![0.0; plan.points.len()];
     let found = seas::found(plan, &plan.problem.settings, |now| {
         out.peak = out.peak.max(now.largest);
         if now.at.seconds() <= OFF {
             out.slip[0] = now.slip().all().to_vec();
         }
         out.slip[1] = now.slip().all().to_vec();
-        out.imbalance = out.imbalance.max(imbalance(plan, now, &mut exerted));
+        out.imbalance = out.imbalance.max(imbalance(plan, now));
         let time = now.at.seconds();
         for p in 0..plan.points.len() {
             out.least = out.least.min(now.normal(p));
@@ -115,8 +114,8 @@ fn seen(plan: &Plan, share: f64) -> Result<InjectionResults, CaseError> {
 
 /// Largest difference between the traction that the bodies exert and the resistance of friction and damping, over the
 /// initial normal traction.
-fn imbalance(plan: &Plan, now: &Moment<'_>, exerted: &mut [f64]) -> f64 {
-    plan.problem.fault.operator.shear(now.slip().all(), exerted);
+fn imbalance(plan: &Plan, now: &Moment<'_>) -> f64 {
+    let exerted = plan.problem.fault.operator.shear_of(now.slip().all());
     let of = |p: usize| {
         let strength = now.normal(p) * plan.problem.fault.law.scale(p) * now.unknowns[p];
         (SHEAR + exerted[p] - strength - plan.problem.fault.damping[p] * now.rate.component(0)[p]).abs()

@@ -69,9 +69,9 @@ fn initial(plan: &Plan, p: usize) -> f64 {
 
 /// Largest error of the imposed traction at a moment \[Pa\]: friction and damping resist the initial traction, the imposed one and that
 /// of slip; within seconds the creep around the fault adds nothing.
-fn error(plan: &Plan, now: &Moment<'_>, caused: &mut [f64]) -> f64 {
+fn error(plan: &Plan, now: &Moment<'_>) -> f64 {
     let fault = &plan.problem.fault;
-    fault.operator.shear(now.slip().all(), caused);
+    let caused = fault.operator.shear_of(now.slip().all());
     let of = |p: usize| {
         let friction = now.normal(p) * fault.law.scale(p) * now.m().component(0)[p];
         let resistance = friction + fault.damping[p] * now.rate.component(0)[p];
@@ -90,11 +90,10 @@ fn run_of(plan: &Plan) -> Result<Run, CaseError> {
     let places: Vec<usize> = PLACES.iter().map(nearest).collect();
     let (mut largest, mut slip, mut first) = (vec![0.0_f64], Vec::new(), Vec::new());
     let (mut imposed, mut energy) = (0.0_f64, None);
-    let mut caused = vec![0.0; 2 * plan.points.len()];
     let found = seas::found(plan, &plan.problem.settings, |now| {
         balance.step(now);
         if now.at.seconds() < SEEN {
-            imposed = imposed.max(error(plan, now, &mut caused) / TRACTION);
+            imposed = imposed.max(error(plan, now) / TRACTION);
             first.push((now.at.seconds(), now.largest));
         }
         let event = now.events().len();

@@ -6,6 +6,7 @@ use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
 use asperity_friction::coulomb::Coulomb;
 use asperity_friction::inertial::InertialPoints;
+use asperity_friction::points::Components;
 use asperity_mechanics::dynamics::{Fault, Problem, Pulse, Regularisation};
 
 /// The stiffer rock lies above. The units of length, time and density are the radius of the imposed traction, the time in which its shear
@@ -72,8 +73,8 @@ fn fault(problem: &Problem<2>, delay: Option<Regularisation>) -> Result<Fault, C
         points,
         law: Box::new(InertialPoints(vec![Coulomb::new(MU, None)?; n])),
         normal: vec![NORMAL; n],
-        shear: vec![SHEAR; n],
-        rate: vec![RATE; n],
+        shear: Components::new(vec![SHEAR; n], n),
+        rate: Components::new(vec![RATE; n], n),
         opens: true,
         regularisation: delay,
         pulses: vec![Pulse { amplitude: at.iter().map(|x| traction * bump(*x, radius)).collect(), rise }],
@@ -91,7 +92,7 @@ pub(super) fn slip(spacing: f64, delay: Option<Regularisation>) -> Result<SlipRu
     let cost = cost.count("cells", last.product().cells() as f64).count("steps", last.steps() as f64);
     let at = nodes_on(&problem.model, "b0.top");
     let change = |v: &f64| (v - RATE) * STIFF.density * STIFF.shear / PULSE.0;
-    let changes = at.iter().zip(&last.fault().rate).map(|((_, x), v)| (*x, change(v))).collect();
+    let changes = at.iter().zip(last.fault().rate.all()).map(|((_, x), v)| (*x, change(v))).collect();
     Ok(SlipRun { spacing, changes, cost })
 }
 

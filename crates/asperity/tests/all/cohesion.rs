@@ -177,7 +177,7 @@ fn slip_rates(text: &str) -> Vec<f64> {
     while explicit.steps() <= plan.steps {
         explicit.step().unwrap();
     }
-    explicit.fault().rate.clone()
+    explicit.fault().rate.all().to_vec()
 }
 
 /// A fault that slides as a whole radiates plane waves, which carry G/(2 c_s) V on each side: V = 2 (τ - c - μ f_n)/(ρ c_s).

@@ -79,7 +79,7 @@ fn tractions_at_the_start_are_those_of_fault_patch_and_pulse() {
     for (p, view) in found.points.iter().enumerate() {
         let y = view.at[1];
         let patched = if y.abs() <= 1e3 { 81.6e6 } else { 70e6 };
-        assert_eq!((fault.normal[p], fault.shear[p]), (120e6, patched));
+        assert_eq!((fault.normal[p], fault.shear.component(0)[p]), (120e6, patched));
         let r = (y / 1e3).powi(2);
         let shape = if r < 1.0 { (r / (r - 1.0)).exp() } else { 0.0 };
         assert!((pulse.amplitude[p] - 2e6 * shape).abs() < 1e-6, "{y}");

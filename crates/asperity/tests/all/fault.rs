@@ -98,8 +98,7 @@ fn friction_balances_what_the_bodies_exert() {
     let first: Vec<f64> =
         (0..n).map(|p| strength(p, plan.problem.start[p]) + plan.problem.fault.damping[p] * PLATE).collect();
     let mut look = |now: &Moment<'_>| {
-        let mut exerted = vec![0.0; n];
-        plan.problem.fault.operator.shear(now.slip().all(), &mut exerted);
+        let exerted = plan.problem.fault.operator.shear_of(now.slip().all());
         for p in 0..n {
             let driving = first[p] + exerted[p] + shear_rate[p] * now.at.seconds();
             let resisting =
@@ -137,11 +136,9 @@ fn injected(flux: f64) -> Plan {
 fn under_fluid(tolerance: f64) -> (f64, f64) {
     let mut plan = injected(1.25e-6);
     plan.problem.settings.tolerance = tolerance;
-    let n = plan.points.len();
     let (mut worst, mut lowest) = (0.0_f64, f64::INFINITY);
-    let mut exerted = vec![0.0; n];
     let mut look = |now: &Moment<'_>| {
-        plan.problem.fault.operator.shear(now.slip().all(), &mut exerted);
+        let exerted = plan.problem.fault.operator.shear_of(now.slip().all());
         for (p, exerted) in exerted.iter().enumerate() {
             let normal = now.normal(p);
             lowest = lowest.min(normal);
@@ -202,13 +199,12 @@ fn parts_of_an_operator_of_two_components_make_the_product_with_the_whole_matrix
     let slip: Vec<f64> = (0..2 * n).map(|k| (k as f64).sin()).collect();
     let row = |i: usize| (0..2 * n).map(|j| entry(i, j) * slip[j]).sum::<f64>();
     let both = Both::new([part(0, 0, true), part(1, 1, true)], Some([part(0, 1, false), part(1, 0, false)]));
-    let (mut shear, mut normal) = (vec![0.0; 2 * n], vec![0.0; n]);
-    both.shear(&slip, &mut shear);
-    both.normal(&slip, &mut normal);
+    let shear = both.shear_of(&slip);
+    let normal = both.normal_of(&slip);
     for (i, found) in shear.iter().chain(&normal).enumerate() {
         assert!((found - row(i)).abs() < 1e-13, "{i}: {found} {}", row(i));
     }
-    for (j, found) in both.stiffness().iter().enumerate() {
+    for (j, found) in both.stiffness().all().iter().enumerate() {
         let sum: f64 = (0..3 * n).map(|i| entry(i, j).abs()).sum();
         assert!((found - sum).abs() < 1e-12, "{j}");
     }

@@ -188,11 +188,8 @@ fn responses(plan: &Plan) -> Vec<Vec<f64>> {
     let response = |&p: &usize| {
         let mut slip = vec![0.0; n];
         slip[p] = 1.0;
-        let (mut shear, mut normal) = (vec![0.0; n], vec![0.0; n]);
-        plan.problem.fault.operator.shear(&slip, &mut shear);
-        if plan.problem.fault.operator.couples_normal() {
-            plan.problem.fault.operator.normal(&slip, &mut normal);
-        }
+        let operator = &plan.problem.fault.operator;
+        let (shear, normal) = (operator.shear_of(&slip), operator.normal_of(&slip));
         order.iter().map(|&p| shear[p]).chain(order.iter().map(|&p| normal[p])).collect()
     };
     order.iter().map(response).collect()
@@ -517,9 +514,8 @@ fn a_listric_fault_of_few_vertices_is_that_of_many() {
         let length = plan.points[n - 1].along;
         let bump = |p: usize| (std::f64::consts::PI * plan.points[p].along / length).sin().powi(4);
         let slip: Vec<f64> = (0..n).map(bump).collect();
-        let (mut shear, mut normal) = (vec![0.0; n], vec![0.0; n]);
-        plan.problem.fault.operator.shear(&slip, &mut shear);
-        plan.problem.fault.operator.normal(&slip, &mut normal);
+        let shear = plan.problem.fault.operator.shear_of(&slip);
+        let normal = plan.problem.fault.operator.normal_of(&slip);
         let work = |t: &[f64]| (0..n).map(|p| plan.points[p].area * t[p] * slip[p]).sum::<f64>();
         (work(&shear), work(&normal), normal.iter().fold(0.0_f64, |l, v| l.max(v.abs())))
     };

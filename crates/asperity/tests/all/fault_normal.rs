@@ -87,14 +87,12 @@ fn followed(plan: &Plan, floor: f64) -> (FaultRun, Report, f64) {
     let (shear_rate, normal_rate) = plan.problem.loading.rates(1.0, n, couples);
     let first = first_resistance(&plan.problem, floor);
     let scale = plan.problem.fault.normal.iter().fold(0.0_f64, |l, f| l.max(*f));
-    let (mut shear, mut press, mut worst) = (vec![0.0; n], vec![0.0; n], 0.0_f64);
+    let mut worst = 0.0_f64;
     let mut balance = Balance::new(&plan.problem);
     let mut look = |now: &Moment<'_>| {
         balance.step(now);
-        plan.problem.fault.operator.shear(now.slip().all(), &mut shear);
-        if couples {
-            plan.problem.fault.operator.normal(now.slip().all(), &mut press);
-        }
+        let operator = &plan.problem.fault.operator;
+        let (shear, press) = (operator.shear_of(now.slip().all()), operator.normal_of(now.slip().all()));
         let time = now.at.seconds();
         for p in 0..n {
             let mut pressed = plan.problem.fault.normal[p] + press[p];
@@ -208,15 +206,8 @@ fn an_initial_stress_resolves_onto_the_fault_as_on_mohrs_circle() {
     // The normal points 30 degrees up from x.
     let (sine, cosine) = 60f64.to_radians().sin_cos();
     let expected = [-(mean + half * cosine + shear * sine), -half * sine + shear * cosine];
-    let layout = asperity_cycles::Layout::from_fault(&plan.problem.fault);
-    let mut rate = vec![0.0; plan.points.len()];
-    plan.problem.fault.law.slip_rates(
-        0,
-        &plan.problem.start[layout.m()],
-        &plan.problem.start[layout.states()],
-        &mut rate,
-    );
-    for (p, rate) in rate.iter().enumerate() {
+    let rate = plan.problem.fault.slip_rates(&plan.problem.start);
+    for (p, rate) in rate.all().iter().enumerate() {
         let normal = plan.problem.fault.normal[p];
         let traction = normal * plan.problem.fault.law.scale(p) * plan.problem.start[p]
             + plan.problem.fault.damping[p] * rate;
@@ -294,8 +285,7 @@ fn conditions_that_say_the_same_as_creep_count_once() {
     // Blocks that slip everywhere at the rate of the creep move rigidly.
     let n = plan.points.len();
     let (load, _) = plan.problem.loading.rates(1.0, n, false);
-    let mut slip = vec![0.0; n];
-    plan.problem.fault.operator.shear(&vec![1e-9; n], &mut slip);
+    let slip = plan.problem.fault.operator.shear_of(&vec![1e-9; n]);
     let size = slip.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let off = load.iter().zip(&slip).fold(0.0_f64, |m, (a, b)| m.max((a + b).abs()));
     assert!(off < 1e-9 * size, "{off:e} {size:e}");

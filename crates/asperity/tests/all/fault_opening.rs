@@ -38,10 +38,9 @@ struct RunResults {
 fn tractions(fault: &Fault, now: &Moment<'_>, by: &[f64], loads: &[Vec<f64>; 2]) -> [Vec<f64>; 2] {
     let opening = fault.processes.find::<Opening>().unwrap();
     let (time, n) = (now.at.seconds(), by.len());
-    let [mut shear, mut press] = [(); 2].map(|()| vec![0.0; n]);
-    fault.operator.shear(now.slip().all(), &mut shear);
+    let mut shear = fault.operator.shear_of(now.slip().all());
     opening.sheared(by, &mut shear);
-    fault.operator.normal(now.slip().all(), &mut press);
+    let mut press = fault.operator.normal_of(now.slip().all());
     opening.pressing(by, &mut press);
     let fluid = fault.processes.find::<Pressure>().map_or(vec![0.0; n], |f| f.at(time, n));
     for p in 0..n {

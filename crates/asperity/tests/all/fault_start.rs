@@ -214,11 +214,12 @@ sampling = "10 ms"
     for (p, point) in plan.points.iter().enumerate() {
         let share = (point.at[1] + 200.0) / 400.0;
         let (rate, theta) = (1e-6 + 2e-6 * share, 1e4 + 1.9e5 * share);
-        assert!((fault.rate[p] / rate - 1.0).abs() < 1e-12);
+        assert!((fault.rate.size(p) / rate - 1.0).abs() < 1e-12);
         // The regularised law: a asinh(V/(2 V*) exp((μ0 + b ln(V* θ/L))/a)).
         let level = (0.6 + 0.012 * (1e-6 * theta / 0.2_f64).ln()) / 0.008;
         let mu = 0.008 * ((rate / 2e-6).ln() + level + std::f64::consts::LN_2);
-        assert!((fault.shear[p] / (mu * 120e6) - 1.0).abs() < 1e-9, "{p}: {} {mu}", fault.shear[p]);
+        let shear = fault.shear.component(0)[p];
+        assert!((shear / (mu * 120e6) - 1.0).abs() < 1e-9, "{p}: {shear} {mu}");
     }
 }
 

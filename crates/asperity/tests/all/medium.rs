@@ -35,11 +35,7 @@ fn tractions(plan: &Plan) -> Vec<f64> {
         (1e-4 * (x + 2.0 * y - 3.0 * z) + (k / n) as f64).sin()
     };
     let slip: Vec<f64> = (0..parts * n).map(smooth).collect();
-    let (mut shear, mut normal) = (vec![0.0; parts * n], vec![0.0; n]);
-    operator.shear(&slip, &mut shear);
-    operator.normal(&slip, &mut normal);
-    shear.extend(normal);
-    shear
+    [operator.shear_of(&slip), operator.normal_of(&slip)].concat()
 }
 
 /// Largest difference of the tractions of points at the same positions, over the largest traction.
@@ -112,16 +108,9 @@ fn patches_give_bp5_the_tractions_of_its_description() {
         let p = plan.points.iter().position(|q| q == point).unwrap();
         let fault = &plan.problem.fault;
         let friction = fault.normal[p] * fault.law.scale(p) * plan.problem.start[p];
-        let mut rate = vec![0.0; 2 * plan.points.len()];
-        let n = plan.points.len();
-        let states = &plan.problem.start[2 * n..3 * n];
-        fault.law.slip_rates(0, &plan.problem.start[..2 * n], states, &mut rate);
-        (
-            1e-6 * (friction + fault.damping[p] * rate[p]),
-            fault.law.scale(p),
-            fault.law.length(p).unwrap(),
-            rate[p],
-        )
+        let rate = fault.slip_rates(&plan.problem.start).component(0)[p];
+        let (a, length) = (fault.law.scale(p), fault.law.length(p).unwrap());
+        (1e-6 * (friction + fault.damping[p] * rate), a, length, rate)
     };
     // The published initial tractions in MPa: core, rim and seed. Between core and rim a is linear.
     for ((y, z), traction, a, length, rate) in [

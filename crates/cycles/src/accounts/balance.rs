@@ -21,8 +21,8 @@
 use super::energy::{Energy, Mark};
 use super::moment::{Ends, Moment};
 use crate::problem::{
-    Account, Fault, Layout, Passage, PointTractions, Problem, Process, ProcessRecord, Stretch, Time, Way,
-    Working,
+    Account, Components, Fault, Layout, Passage, PointTractions, Problem, Process, ProcessRecord, Stretch,
+    Time, Way, Working,
 };
 use asperity_ode::Clock;
 use rayon::prelude::*;
@@ -84,12 +84,11 @@ impl<'a> Balance<'a> {
     pub fn new(problem: &'a Problem) -> Self {
         let fault = &problem.fault;
         let (n, layout) = (problem.areas.len(), Layout::from_fault(fault));
-        let mut rate = vec![0.0; layout.m().end];
-        fault.law.slip_rates(0, &problem.start[layout.m()], &problem.start[layout.states()], &mut rate);
+        let rate = fault.slip_rates(&problem.start);
         let pressed = fault.pressed(Clock::new(0.0, 0.0), &problem.start);
         let first = |i: usize| {
             let p = i % n;
-            pressed.normal[p] * fault.law.scale(p) * problem.start[i] + fault.damping[p] * rate[i]
+            pressed.normal[p] * fault.law.scale(p) * problem.start[i] + fault.damping[p] * rate.all()[i]
         };
         let traction = layout.m().map(first).collect();
         let energetic = || fault.processes.iter().filter_map(|process| process.energetic());
@@ -337,7 +336,8 @@ impl End<'_> {
 
 /// Elastic energy of `slip` in the bodies.
 fn elastic(problem: &Problem, slip: &[f64], traction: &mut [f64]) -> f64 {
-    problem.fault.operator.shear(slip, traction);
+    let n = problem.areas.len();
+    problem.fault.operator.shear(Components::new(slip, n), Components::new(&mut *traction, n));
     let areas = problem.areas.iter().cycle();
     let work = slip.iter().zip(&*traction).zip(areas).map(|((s, t), area)| -0.5 * area * s * t);
     work.sum()

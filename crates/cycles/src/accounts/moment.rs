@@ -88,7 +88,7 @@ impl<'a> Moment<'a> {
 
     /// States.
     #[must_use]
-    pub fn states(&self) -> PerPoint<'a> {
+    pub fn states(&self) -> PerPoint<&'a [f64]> {
         self.layout.states_of(self.unknowns)
     }
 

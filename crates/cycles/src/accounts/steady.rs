@@ -1,7 +1,7 @@
 //! Slip rates that take up constant loads.
 
 use crate::operator::Operator;
-use crate::problem::Problem;
+use crate::problem::{Components, Problem};
 
 /// Largest number of iterations of [`steady`] per unknown.
 const MOST_ITERATIONS: usize = 10;
@@ -30,7 +30,8 @@ pub fn steady(problem: &Problem) -> Option<Vec<f64>> {
         if square <= SMALL * SMALL * first {
             return Some(rate);
         }
-        operator.shear(&direction, &mut image);
+        let points = problem.areas.len();
+        operator.shear(Components::new(&direction, points), Components::new(&mut image, points));
         image.iter_mut().zip(&areas).for_each(|(i, a)| *i *= -a);
         let share = square / dot(&direction, &image);
         for p in 0..n {

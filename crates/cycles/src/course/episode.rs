@@ -96,12 +96,12 @@ impl RuptureStart {
         let friction: Vec<f64> = layout.m().map(|i| scale[i % n] * unknowns[i]).collect();
         let loading = layout.m().map(|i| friction[i] + fault.damping[i % n] * rate[i]).collect();
         let start = Start {
-            loading,
-            loading_rate: equations.loading().to_vec(),
-            friction,
+            loading: Components::new(loading, n),
+            loading_rate: Components::new(equations.loading().to_vec(), n),
+            friction: Components::new(friction, n),
             normal: pressed.normal.clone(),
-            rate,
-            states: unknowns[layout.states()].to_vec(),
+            rate: Components::new(rate, n),
+            states: layout.states_of(&unknowns).to_owned(),
         };
         Self { at: run.at, layout, unknowns, pressed, start, scale }
     }
@@ -111,21 +111,20 @@ impl RuptureStart {
         let (l, n) = (self.layout, self.layout.points());
         let mut y = self.unknowns.clone();
         for i in l.m() {
-            y[i] = shaken.shear[i] / (shaken.normal[i % n] * fault.law.scale(i % n));
+            y[i] = shaken.shear.all()[i] / (shaken.normal[i % n] * fault.law.scale(i % n));
         }
-        y[l.states()].copy_from_slice(shaken.states);
-        y[l.slip()].iter_mut().zip(shaken.slip).for_each(|(y, s)| *y += s);
+        y[l.states()].copy_from_slice(shaken.states.all());
+        y[l.slip()].iter_mut().zip(shaken.slip.all()).for_each(|(y, s)| *y += s);
         let changes = shaken.normal.iter().zip(&self.pressed.normal).map(|(b, a)| b - a);
         y[l.normal()].iter_mut().zip(changes).for_each(|(y, change)| *y += change);
         y
     }
 
     /// Energy that slip since the start has stored in the bodies, beside the work of the tractions at the start \[J\].
-    fn stored(&self, around: LoadedFault<'_, '_>, slip: &[f64]) -> f64 {
-        let mut traction = vec![0.0; slip.len()];
-        around.equations.fault().operator.shear(slip, &mut traction);
+    fn stored(&self, around: LoadedFault<'_, '_>, slip: Components<&[f64]>) -> f64 {
+        let traction = around.equations.fault().operator.shear_of(slip.all());
         let of = |((s, t), area): ((&f64, &f64), &f64)| -0.5 * area * s * t;
-        slip.iter().zip(&traction).zip(around.areas.iter().cycle()).map(of).sum()
+        slip.all().iter().zip(&traction).zip(around.areas.iter().cycle()).map(of).sum()
     }
 
     /// Writes the unknowns after the rupture, in equilibrium with its slip, and the errors.
@@ -136,22 +135,20 @@ impl RuptureStart {
             last.unknowns[l.slip()].iter().zip(&self.unknowns[l.slip()]).map(|(b, a)| b - a).collect();
         let from = self.at.seconds();
         let (shear_load, normal_load) = loading.change([from, from + last.time], n, !l.normal().is_empty());
-        let mut shear = vec![0.0; slip.len()];
-        fault.operator.shear(&slip, &mut shear);
+        let mut shear = fault.operator.shear_of(&slip);
         add(&mut shear, &shear_load);
-        add(&mut shear, &self.start.loading);
+        add(&mut shear, self.start.loading.all());
         let mut normal = self.start.normal.clone();
         unknowns.copy_from_slice(&last.unknowns);
         if !l.normal().is_empty() {
-            let mut change = vec![0.0; n];
-            fault.operator.normal(&slip, &mut change);
+            let mut change = fault.operator.normal_of(&slip);
             add(&mut change, &normal_load);
             add(&mut normal, &change);
             let held = &mut unknowns[l.normal()];
             held.copy_from_slice(&self.unknowns[l.normal()]);
             add(held, &change);
         }
-        let m = settled(fault, &shear, &normal, &unknowns[l.states()]);
+        let m = settled(fault, Components::new(&shear, n), &normal, l.states_of(unknowns));
         self.errors(fault, (&shear, &slip), last, record);
         unknowns[l.m()].copy_from_slice(&m);
     }
@@ -167,7 +164,7 @@ impl RuptureStart {
             .map(|(i, (s, v))| s - fault.damping[i % n] * v)
             .collect();
         let size = |values: &[f64], p: usize| Components::new(values, n).size(p);
-        let (off, drop) = (of(&last.shear, &balanced), of(&self.start.friction, &last.shear));
+        let (off, drop) = (of(&last.shear, &balanced), of(self.start.friction.all(), &last.shear));
         let most = |of: &dyn Fn(usize) -> f64| (0..n).map(of).fold(0.0, f64::max);
         record.drop = most(&|p| size(&drop, p));
         record.slip = most(&|p| size(slip, p));
@@ -241,16 +238,15 @@ impl<'a, 'f> Watch<'a, 'f> {
     ) -> Self {
         let start = &before.start;
         let n = before.layout.points();
-        let speed = Components::new(start.rate.as_slice(), n);
-        let radiated = |p: usize| around.equations.fault().damping[p] * speed.size(p) / before.scale[p];
+        let radiated = |p: usize| around.equations.fault().damping[p] * start.rate.size(p) / before.scale[p];
         let record = Episode {
             begin: before.at.seconds(),
             rate: follow.largest,
             radiation: (0..n).map(radiated).fold(0.0, f64::max),
             ..Episode::default()
         };
-        let (unknowns, rate, shear) = (before.unknowns.clone(), start.rate.clone(), start.friction.clone());
-        let last = Last { time: 0.0, unknowns, rate, shear };
+        let [rate, shear] = [&start.rate, &start.friction].map(|values| values.all().to_vec());
+        let last = Last { time: 0.0, unknowns: before.unknowns.clone(), rate, shear };
         let (since, largest, halted, outrun) = (None, 0.0, false, None);
         Self { before, around, follow, handover, last, record, since, largest, halted, outrun }
     }
@@ -261,7 +257,7 @@ impl<'a, 'f> Watch<'a, 'f> {
             self.first(&shaken);
             return Control::Go;
         }
-        self.outrun = self.follow.outrun(shaken.rate, self.around.fastest);
+        self.outrun = self.follow.outrun(shaken.rate.all(), self.around.fastest);
         if self.outrun.is_some() {
             return Control::Stop;
         }
@@ -278,7 +274,7 @@ impl<'a, 'f> Watch<'a, 'f> {
     fn first(&mut self, shaken: &Shaken<'_>) {
         let n = self.before.layout.points();
         let change: Vec<f64> =
-            shaken.shear.iter().zip(&self.before.start.friction).map(|(b, a)| b - a).collect();
+            shaken.shear.all().iter().zip(self.before.start.friction.all()).map(|(b, a)| b - a).collect();
         let change = Components::new(change, n);
         self.record.first = (0..n).map(|p| change.size(p) / self.before.scale[p]).fold(0.0, f64::max);
     }
@@ -287,8 +283,7 @@ impl<'a, 'f> Watch<'a, 'f> {
     fn over(&mut self, shaken: &Shaken<'_>) -> bool {
         self.largest = self.largest.max(shaken.kinetic);
         self.record.kinetic = if self.largest > 0.0 { shaken.kinetic / self.largest } else { 0.0 };
-        let speed = Components::new(shaken.rate, self.before.layout.points());
-        let fastest = (0..speed.points()).map(|p| speed.size(p)).fold(0.0, f64::max);
+        let fastest = (0..shaken.rate.points()).map(|p| shaken.rate.size(p)).fold(0.0, f64::max);
         self.since = if fastest < self.handover.below { self.since.or(Some(shaken.time)) } else { None };
         let rests = self.since.is_some_and(|since| shaken.time - since >= self.handover.quiet);
         let still = shaken.kinetic <= self.handover.kinetic * self.largest;
@@ -303,10 +298,10 @@ impl<'a, 'f> Watch<'a, 'f> {
             start: before.at.later(*time),
             length: shaken.time - time,
             unknowns: [old, &unknowns],
-            rate: [rate, shaken.rate],
+            rate: [rate, shaken.rate.all()],
         };
         let mean: Vec<f64> = unknowns.iter().zip(old).map(|(b, a)| (b - a) / stride.length).collect();
-        let rates = [rate, shaken.rate].map(|rate| with_slip(&mean, before.layout, rate));
+        let rates = [rate, shaken.rate.all()].map(|rate| with_slip(&mean, before.layout, rate));
         let (energy, record) = (shaken.energy, &mut self.record);
         let mut waves = |ended: bool| {
             if !(ended || over) {
@@ -320,13 +315,13 @@ impl<'a, 'f> Watch<'a, 'f> {
         let end = End {
             at,
             unknowns: &unknowns,
-            rate: shaken.rate,
+            rate: shaken.rate.all(),
             rates: Some(rates.each_ref().map(Vec::as_slice)),
         };
         let control = self.follow.pass(&stride, end, Some(&mut waves));
         self.record.steps += 1;
-        let (time, rate, shear) = (shaken.time, shaken.rate.to_vec(), shaken.shear.to_vec());
-        self.last = Last { time, unknowns, rate, shear };
+        let [rate, shear] = [shaken.rate, shaken.shear].map(|values| values.all().to_vec());
+        self.last = Last { time: shaken.time, unknowns, rate, shear };
         control
     }
 }

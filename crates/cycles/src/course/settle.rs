@@ -1,16 +1,22 @@
 //! Slip rates of faults that return to equilibrium: with given states, `τ = η V + f_n a m` at each point.
 
-use crate::problem::{Components, Fault};
+use crate::problem::{Components, Fault, PerPoint};
+use asperity_friction::fault::Unknowns;
 
 /// Halvings of m: they reach its rounding.
 const HALVINGS: usize = 80;
 
-/// m of all points, by components, at which friction and radiation damping balance the shear tractions `shear` \[Pa\] under
-/// the normal tractions `normal` \[Pa\]. m and V have the direction of the traction.
-pub(crate) fn settled(fault: &Fault, shear: &[f64], normal: &[f64], states: &[f64]) -> Vec<f64> {
+/// m of all points, component by component, at which friction and radiation damping balance the shear tractions `shear`
+/// \[Pa\] under the normal tractions `normal` \[Pa\]. m and V have the direction of the traction.
+pub(crate) fn settled(
+    fault: &Fault,
+    shear: Components<&[f64]>,
+    normal: &[f64],
+    states: PerPoint<&[f64]>,
+) -> Vec<f64> {
     let n = normal.len();
-    let traction = Components::new(shear, n);
-    let size: Vec<f64> = (0..n).map(|p| traction.size(p)).collect();
+    let size: Vec<f64> = (0..n).map(|p| shear.size(p)).collect();
+    let shear = shear.all();
     let stiff = |p: usize| normal[p] * fault.law.scale(p);
     let mut below = vec![0.0; n];
     let mut above: Vec<f64> = (0..n).map(|p| size[p] / stiff(p)).collect();
@@ -18,7 +24,8 @@ pub(crate) fn settled(fault: &Fault, shear: &[f64], normal: &[f64], states: &[f6
     for _ in 0..HALVINGS {
         let middle = |p: usize| 0.5 * (below[p] + above[p]);
         along(&mut m, shear, &size, middle);
-        fault.law.slip_rates(0, &m, states, &mut rate);
+        let now = Unknowns { m: Components::new(&m, n), states };
+        fault.law.slip_rates(now, Components::new(&mut rate, n));
         let rate = Components::new(rate.as_slice(), n);
         for p in 0..n {
             let middle = 0.5 * (below[p] + above[p]);
@@ -67,9 +74,11 @@ mod tests {
     fn friction_and_damping_balance_tractions_of_either_sign() {
         let fault = fault(3);
         let (shear, normal, states) = ([40e6, -26e6, 0.0], [50e6; 3], [1.0, 12.0, 5.0]);
-        let m = settled(&fault, &shear, &normal, &states);
+        let states = PerPoint::new(states.as_slice(), 1);
+        let m = settled(&fault, Components::new(&shear, 3), &normal, states);
         let mut rate = [0.0; 3];
-        fault.law.slip_rates(0, &m, &states, &mut rate);
+        let now = Unknowns { m: Components::new(&m, 3), states };
+        fault.law.slip_rates(now, Components::new(&mut rate, 3));
         for p in 0..3 {
             let held = fault.damping[p] * rate[p] + normal[p] * fault.law.scale(p) * m[p];
             assert!((held - shear[p]).abs() < 1e-6, "{p}: {held}");

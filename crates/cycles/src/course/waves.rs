@@ -3,6 +3,7 @@
 //! A rupture is a perturbation of the state at which it is handed over: bodies begin at rest and undeformed, and the
 //! tractions that load the fault are those of equilibrium, from which waves then take their part.
 
+use asperity_friction::points::{Components, PerPoint};
 use asperity_ode::Control;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -31,38 +32,37 @@ pub struct Dynamics<'a> {
     pub waves: &'a mut dyn Waves,
 }
 
-/// State of the faults at which a rupture begins. Slices of several components hold the first component of all points, then
-/// the second.
+/// State of the faults at which a rupture begins.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Start {
     /// Shear tractions in equilibrium, without radiation damping \[Pa\].
-    pub loading: Vec<f64>,
+    pub loading: Components<Vec<f64>>,
     /// Their rates under the loads alone \[Pa/s\].
-    pub loading_rate: Vec<f64>,
+    pub loading_rate: Components<Vec<f64>>,
     /// Friction \[Pa\].
-    pub friction: Vec<f64>,
+    pub friction: Components<Vec<f64>>,
     /// Normal tractions \[Pa\].
     pub normal: Vec<f64>,
     /// Slip rates \[m/s\].
-    pub rate: Vec<f64>,
-    /// State variables, point-major.
-    pub states: Vec<f64>,
+    pub rate: Components<Vec<f64>>,
+    /// State variables.
+    pub states: PerPoint<Vec<f64>>,
 }
 
 /// State of the faults at a step of a rupture.
 pub struct Shaken<'a> {
     /// Time since its start \[s\].
     pub time: f64,
-    /// Slip since its start, by components \[m\].
-    pub slip: &'a [f64],
-    /// Slip rates, by components \[m/s\].
-    pub rate: &'a [f64],
-    /// Shear tractions, by components \[Pa\].
-    pub shear: &'a [f64],
+    /// Slip since its start \[m\].
+    pub slip: Components<&'a [f64]>,
+    /// Slip rates \[m/s\].
+    pub rate: Components<&'a [f64]>,
+    /// Shear tractions \[Pa\].
+    pub shear: Components<&'a [f64]>,
     /// Normal tractions \[Pa\].
     pub normal: &'a [f64],
-    /// State variables, point-major.
-    pub states: &'a [f64],
+    /// State variables.
+    pub states: PerPoint<&'a [f64]>,
     /// Kinetic energy \[J; J per metre of thickness in the plane\].
     pub kinetic: f64,
     /// Energy that has left the fault since the start: that of the bodies, what they dissipated, and what was absorbed.

@@ -1,7 +1,7 @@
 //! The first instants after a process begins or ends to change tractions at an infinite rate.
 
 use super::Equations;
-use crate::problem::{PointTractions, Working};
+use crate::problem::{Components, PointTractions, Working};
 use asperity_friction::fault::Drive;
 use asperity_ode::Clock;
 
@@ -51,12 +51,11 @@ impl Equations<'_> {
 
     /// Rates of m and the states under these rates of f_n and of shear traction.
     fn response(&self, y: &[f64], normal: &[f64], rate: &[f64], shear: &[f64]) -> Vec<f64> {
-        let (m, states) = (self.layout.m(), self.layout.states());
-        let mut out = vec![0.0; states.end];
-        let drive =
-            Drive { normal, normal_rate: Some(rate), shear_rate: shear, damping: &self.fault.damping };
-        let (dm, ds) = out.split_at_mut(m.end);
-        self.fault.law.rates(0, drive, &y[m], &y[states], dm, ds);
+        let layout = self.layout;
+        let mut out = vec![0.0; layout.states().end];
+        let shear_rate = Components::new(shear, layout.points());
+        let drive = Drive { normal, normal_rate: Some(rate), shear_rate, damping: &self.fault.damping };
+        self.fault.law.rates(drive, layout.unknowns_of(y), layout.rates_of(&mut out));
         out
     }
 }

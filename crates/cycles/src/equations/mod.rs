@@ -170,13 +170,15 @@ impl<'a> Equations<'a> {
         working.see(at, y);
         working.slip_rates(y, rate);
         working.rates(at, y, rate, dy);
-        fault.operator.shear(rate, shear_rate);
-        add(shear_rate, &self.shear_load);
+        let slip_rate = Components::new(rate.as_slice(), l.points());
+        let mut shear_rate = Components::new(shear_rate.as_mut_slice(), l.points());
+        fault.operator.shear(slip_rate, shear_rate.view_mut());
+        add(shear_rate.all_mut(), &self.shear_load);
         dy[l.slip()].copy_from_slice(rate);
         if l.normal().is_empty() {
             normal_rate.fill(0.0);
         } else {
-            fault.operator.normal(rate, normal_rate);
+            fault.operator.normal(slip_rate, normal_rate);
             add(normal_rate, &self.normal_load);
             dy[l.normal()].copy_from_slice(normal_rate);
         }
@@ -185,7 +187,7 @@ impl<'a> Equations<'a> {
             normal.copy_from_slice(total);
         }
         let time = Time { at: at.seconds(), until: self.until };
-        let rates = Some(Rates { slip: rate, normal: normal_rate, shear: shear_rate });
+        let rates = Some(Rates { slip: slip_rate, normal: normal_rate, shear: shear_rate.view_mut() });
         if let Err(point) = working.act(time, without, &mut Tractions { normal, rates }) {
             self.unsettled.set(Some(point));
             dy.fill(f64::NAN);
@@ -201,12 +203,10 @@ impl<'a> Equations<'a> {
         let drive = Drive {
             normal,
             normal_rate: (!normal_rate.is_empty()).then_some(normal_rate),
-            shear_rate,
+            shear_rate: shear_rate.view(),
             damping: &fault.damping,
         };
-        let (dm, rest) = dy.split_at_mut(l.m().end);
-        let states = l.states();
-        working.law().rates(0, drive, &y[l.m()], &y[states.clone()], dm, &mut rest[..states.len()]);
+        working.law().rates(drive, l.unknowns_of(y), l.rates_of(dy));
     }
 }
 
@@ -239,7 +239,7 @@ impl Problem for Equations<'_> {
             let strength = pressed.normal[p] * scale;
             v * (norm * k / (strength + fault.damping[p] * v) + states)
         };
-        Some(fault.operator.stiffness().iter().enumerate().map(of).fold(working.relaxation(), f64::max))
+        Some(fault.operator.stiffness().all().iter().enumerate().map(of).fold(working.relaxation(), f64::max))
     }
 
     fn remembers(&self) -> bool {

@@ -1,6 +1,7 @@
 //! The operator of slip in two directions, composed of operators of one direction.
 
 use super::Operator;
+use asperity_friction::points::Components;
 use serde::{Deserialize, Serialize};
 use std::sync::{Mutex, PoisonError};
 
@@ -38,12 +39,12 @@ impl Both {
     /// on the first and the first on the second. All have the same number of points.
     #[must_use]
     pub fn new(along: [Box<dyn Operator>; 2], across: Option<[Box<dyn Operator>; 2]>) -> Self {
-        let mut stiffness = [along[0].stiffness(), along[1].stiffness()].concat();
+        let mut stiffness = [along[0].stiffness().all(), along[1].stiffness().all()].concat();
         let n = along[0].points();
         if let Some([by_second, by_first]) = &across {
             let (first, second) = stiffness.split_at_mut(n);
-            first.iter_mut().zip(by_first.stiffness()).for_each(|(sum, s)| *sum += s);
-            second.iter_mut().zip(by_second.stiffness()).for_each(|(sum, s)| *sum += s);
+            add(first, by_first.stiffness().all());
+            add(second, by_second.stiffness().all());
         }
         Self { along, across, stiffness, part: Mutex::new(vec![0.0; n]) }
     }
@@ -70,32 +71,31 @@ impl Operator for Both {
         self.along.iter().any(|o| o.couples_normal())
     }
 
-    fn shear(&self, slip: &[f64], shear: &mut [f64]) {
+    fn shear(&self, slip: Components<&[f64]>, mut shear: Components<&mut [f64]>) {
         let n = self.points();
-        let ((first, second), (to_first, to_second)) = (slip.split_at(n), shear.split_at_mut(n));
-        self.along[0].shear(first, to_first);
-        self.along[1].shear(second, to_second);
-        if let Some([by_second, by_first]) = &self.across {
-            let mut part = self.part.lock().unwrap_or_else(PoisonError::into_inner);
-            by_second.shear(second, &mut part);
-            add(to_first, &part);
-            by_first.shear(first, &mut part);
-            add(to_second, &part);
+        let slip = [0, 1].map(|component| Components::new(slip.component(component), n));
+        let mut shear = shear.pair_mut();
+        for ((operator, slip), shear) in self.along.iter().zip(slip).zip(&mut shear) {
+            operator.shear(slip, Components::new(*shear, n));
+        }
+        let mut part = self.part.lock().unwrap_or_else(PoisonError::into_inner);
+        for (to, operator) in self.across.iter().flatten().enumerate() {
+            operator.shear(slip[1 - to], Components::new(&mut part, n));
+            add(shear[to], &part);
         }
     }
 
-    fn normal(&self, slip: &[f64], normal: &mut [f64]) {
-        let (first, second) = slip.split_at(self.points());
+    fn normal(&self, slip: Components<&[f64]>, normal: &mut [f64]) {
         normal.fill(0.0);
         let mut part = self.part.lock().unwrap_or_else(PoisonError::into_inner);
-        for (operator, slip) in self.along.iter().zip([first, second]).filter(|(o, _)| o.couples_normal()) {
-            operator.normal(slip, &mut part);
+        for (component, operator) in self.along.iter().enumerate().filter(|(_, o)| o.couples_normal()) {
+            operator.normal(Components::new(slip.component(component), self.points()), &mut part);
             add(normal, &part);
         }
     }
 
-    fn stiffness(&self) -> &[f64] {
-        &self.stiffness
+    fn stiffness(&self) -> Components<&[f64]> {
+        Components::new(&self.stiffness, self.points())
     }
 
     fn bytes(&self) -> usize {

@@ -1,6 +1,7 @@
 //! An operator with its error, found from exact rows at some points.
 
 use super::Operator;
+use asperity_friction::points::Components;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -48,11 +49,7 @@ impl CheckedOperator {
         let points: Vec<usize> = (0..count).map(|k| (2 * k + 1) * n / (2 * count)).collect();
         let rows: Vec<[Vec<f64>; 3]> = points.par_iter().map(|&p| row(p)).collect();
         let error = |slip: &[f64]| {
-            let (mut shear, mut normal) = (vec![0.0; parts * n], vec![0.0; n]);
-            operator.shear(slip, &mut shear);
-            if operator.couples_normal() {
-                operator.normal(slip, &mut normal);
-            }
+            let (shear, normal) = (operator.shear_of(slip), operator.normal_of(slip));
             let (mut off, mut all) = (0.0, 0.0);
             for (&p, row) in points.iter().zip(&rows) {
                 let found = (0..parts).map(|c| shear[c * n + p]).chain([normal[p]]);
@@ -88,15 +85,15 @@ impl Operator for CheckedOperator {
         self.operator.couples_normal()
     }
 
-    fn shear(&self, slip: &[f64], shear: &mut [f64]) {
+    fn shear(&self, slip: Components<&[f64]>, shear: Components<&mut [f64]>) {
         self.operator.shear(slip, shear);
     }
 
-    fn normal(&self, slip: &[f64], normal: &mut [f64]) {
+    fn normal(&self, slip: Components<&[f64]>, normal: &mut [f64]) {
         self.operator.normal(slip, normal);
     }
 
-    fn stiffness(&self) -> &[f64] {
+    fn stiffness(&self) -> Components<&[f64]> {
         self.operator.stiffness()
     }
 

@@ -1,6 +1,7 @@
 //! The operator with all of its entries.
 
 use super::{Operator, columns};
+use asperity_friction::points::Components;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -83,13 +84,13 @@ impl Operator for Dense {
         self.normal.is_some()
     }
 
-    fn shear(&self, slip: &[f64], shear: &mut [f64]) {
-        self.product(&self.shear, slip, shear);
+    fn shear(&self, slip: Components<&[f64]>, mut shear: Components<&mut [f64]>) {
+        self.product(&self.shear, slip.all(), shear.all_mut());
     }
 
-    fn normal(&self, slip: &[f64], normal: &mut [f64]) {
+    fn normal(&self, slip: Components<&[f64]>, normal: &mut [f64]) {
         if let Some(matrix) = &self.normal {
-            self.product(matrix, slip, normal);
+            self.product(matrix, slip.all(), normal);
         }
     }
 
@@ -97,8 +98,8 @@ impl Operator for Dense {
         (self.shear.len() + self.normal.as_ref().map_or(0, Vec::len)) * size_of::<f64>()
     }
 
-    fn stiffness(&self) -> &[f64] {
-        &self.stiffness
+    fn stiffness(&self) -> Components<&[f64]> {
+        Components::new(&self.stiffness, self.points())
     }
 
     fn words(&self) -> String {

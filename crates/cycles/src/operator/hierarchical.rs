@@ -8,6 +8,7 @@ use super::blocks::{CompressedMatrix, Content, Part, Precision, Sizes};
 use super::cluster::{Cluster, Tree};
 use super::forces::{Forces, PointComponent};
 use super::low_rank::{GROUP, LowRank, low_rank};
+use asperity_friction::points::Components;
 use nalgebra::DMatrix;
 use pulp::Arch;
 use serde::{Deserialize, Serialize};
@@ -321,13 +322,13 @@ impl Operator for Hierarchical {
         self.normal.is_some()
     }
 
-    fn shear(&self, slip: &[f64], shear: &mut [f64]) {
-        self.tractions(&self.shear, slip, shear);
+    fn shear(&self, slip: Components<&[f64]>, mut shear: Components<&mut [f64]>) {
+        self.tractions(&self.shear, slip.all(), shear.all_mut());
     }
 
-    fn normal(&self, slip: &[f64], normal: &mut [f64]) {
+    fn normal(&self, slip: Components<&[f64]>, normal: &mut [f64]) {
         if let Some(matrix) = &self.normal {
-            self.tractions(matrix, slip, normal);
+            self.tractions(matrix, slip.all(), normal);
         }
     }
 
@@ -335,8 +336,8 @@ impl Operator for Hierarchical {
         self.sizes().iter().map(|s| s.bytes).sum()
     }
 
-    fn stiffness(&self) -> &[f64] {
-        &self.stiffness
+    fn stiffness(&self) -> Components<&[f64]> {
+        Components::new(&self.stiffness, self.points())
     }
 
     fn words(&self) -> String {
@@ -425,15 +426,9 @@ mod tests {
         let x = slip(n);
         let largest = 1.5 * 1.5 / 0.1;
         let bound = TOLERANCE * largest * x.iter().map(|v| v * v).sum::<f64>().sqrt();
-        let (mut a, mut b) = (vec![0.0; n], vec![0.0; n]);
         for normal in [false, true] {
-            if normal {
-                dense.normal(&x, &mut a);
-                compressed.normal(&x, &mut b);
-            } else {
-                dense.shear(&x, &mut a);
-                compressed.shear(&x, &mut b);
-            }
+            let [a, b] = [&dense as &dyn Operator, &compressed]
+                .map(|operator| if normal { operator.normal_of(&x) } else { operator.shear_of(&x) });
             let off = a.iter().zip(&b).zip(&example.areas).map(|((a, b), area)| (a - b) * area);
             let error = off.map(|v| v * v).sum::<f64>().sqrt();
             assert!(error <= bound, "normal {normal}: {error} above {bound}");
@@ -452,9 +447,7 @@ mod tests {
             let (mut off, mut all) = (0.0, 0.0);
             for q in 0..n {
                 let slip: Vec<f64> = (0..n).map(|p| f64::from(u8::from(p == q))).collect();
-                let (mut a, mut b) = (vec![0.0; n], vec![0.0; n]);
-                dense.normal(&slip, &mut a);
-                compressed.normal(&slip, &mut b);
+                let (a, b) = (dense.normal_of(&slip), compressed.normal_of(&slip));
                 for ((a, b), area) in a.iter().zip(&b).zip(&example.areas) {
                     off += ((a - b) * area).powi(2);
                     all += (a * area).powi(2);
@@ -474,14 +467,11 @@ mod tests {
         let x = slip(n);
         let product = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            let mut y = vec![0.0; 2 * n];
             pool.install(|| {
                 let operator = example.compressed(Tolerance::OfLargest(TOLERANCE));
                 assert!(operator.normal.as_ref().unwrap().tasks() > 1);
-                operator.shear(&x, &mut y[..n]);
-                operator.normal(&x, &mut y[n..]);
-            });
-            y
+                [operator.shear_of(&x), operator.normal_of(&x)]
+            })
         };
         assert!(product(1) == product(2));
     }

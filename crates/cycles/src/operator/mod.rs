@@ -32,10 +32,11 @@ pub use planar::Planar;
 pub use toeplitz::Toeplitz;
 pub use tractions::Tractions;
 
+use asperity_friction::points::Components;
 use std::any::Any;
 
-/// Linear operator from slip to the tractions of all points of a fault. Slip and shear tractions of several components
-/// are stored component by component. Operators are written and read as boxes; see `serialisation`.
+/// Linear operator from slip to the tractions of all points of a fault. Operators are written and read as boxes; see
+/// `serialisation`.
 pub trait Operator: Any + Send + Sync + std::fmt::Debug {
     /// Number of points.
     fn points(&self) -> usize;
@@ -49,14 +50,28 @@ pub trait Operator: Any + Send + Sync + std::fmt::Debug {
     fn couples_normal(&self) -> bool;
 
     /// Writes the driving shear tractions of `slip` \[m\] into `shear` \[Pa\]; from slip rates, the rates of the tractions.
-    fn shear(&self, slip: &[f64], shear: &mut [f64]);
+    fn shear(&self, slip: Components<&[f64]>, shear: Components<&mut [f64]>);
 
     /// Writes the changes of normal tractions, compression positive, if there are any.
-    fn normal(&self, slip: &[f64], normal: &mut [f64]);
+    fn normal(&self, slip: Components<&[f64]>, normal: &mut [f64]);
 
-    /// For slip of each point, component by component: sum of the magnitudes of the shear and normal tractions it
-    /// causes at all points \[Pa/m\]. With the slope of friction it bounds the rate of relaxation of a fault.
-    fn stiffness(&self) -> &[f64];
+    /// Driving shear tractions \[Pa\] of slip \[m\], both component by component.
+    fn shear_of(&self, slip: &[f64]) -> Vec<f64> {
+        let mut shear = vec![0.0; slip.len()];
+        self.shear(Components::new(slip, self.points()), Components::new(&mut shear, self.points()));
+        shear
+    }
+
+    /// Changes of normal tractions \[Pa\] of slip \[m\], component by component; zero if there are none.
+    fn normal_of(&self, slip: &[f64]) -> Vec<f64> {
+        let mut normal = vec![0.0; self.points()];
+        self.normal(Components::new(slip, self.points()), &mut normal);
+        normal
+    }
+
+    /// For slip of each point along each component: sum of the magnitudes of the shear and normal tractions it causes
+    /// at all points \[Pa/m\]. With the slope of friction it bounds the rate of relaxation of a fault.
+    fn stiffness(&self) -> Components<&[f64]>;
 
     /// Memory \[bytes\].
     fn bytes(&self) -> usize;

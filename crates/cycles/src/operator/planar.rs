@@ -13,6 +13,7 @@
 
 use super::rows::{C, Parts, Rows, fitting};
 use super::{Lattice, Operator};
+use asperity_friction::points::Components;
 use rayon::prelude::*;
 use rustfft::{Fft, FftPlanner};
 use serde::{Deserialize, Serialize};
@@ -243,7 +244,7 @@ impl Operator for Planar {
         false
     }
 
-    fn shear(&self, slip: &[f64], shear: &mut [f64]) {
+    fn shear(&self, slip: Components<&[f64]>, mut shear: Components<&mut [f64]>) {
         let (lattice, rows, components) = (&self.lattice, self.lattice.rows, self.components());
         let (points, length, frequencies) = (self.points(), self.rows.padded(), self.rows.frequencies());
         let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
@@ -251,7 +252,8 @@ impl Operator for Planar {
         padded.resize(rows * length, 0.0);
         transformed.resize(components * rows * frequencies, C::default());
         tractions.resize(components * rows * 2 * frequencies, 0.0);
-        let of_components = transformed.chunks_exact_mut(rows * frequencies).zip(slip.chunks_exact(points));
+        let of_components =
+            transformed.chunks_exact_mut(rows * frequencies).zip(slip.all().chunks_exact(points));
         of_components.for_each(|(out, slip)| self.rows.transform(lattice, slip, padded, out));
         if points < WORTH_TASKS {
             self.columns(transformed, 0, tractions);
@@ -259,17 +261,17 @@ impl Operator for Planar {
             let tasks = tractions.par_chunks_mut(FREQUENCIES * components * 2 * rows).enumerate();
             tasks.for_each(|(k, tractions)| self.columns(transformed, k * FREQUENCIES, tractions));
         }
-        for (component, shear) in shear.chunks_exact_mut(points).enumerate() {
+        for (component, shear) in shear.all_mut().chunks_exact_mut(points).enumerate() {
             let (of_frequency, first) = (components * 2 * rows, component * 2 * rows);
             let parts = Parts { values: tractions, of_frequency, first };
             self.rows.back(lattice, &parts, &mut transformed[..rows * frequencies], padded, shear);
         }
     }
 
-    fn normal(&self, _: &[f64], _: &mut [f64]) {}
+    fn normal(&self, _: Components<&[f64]>, _: &mut [f64]) {}
 
-    fn stiffness(&self) -> &[f64] {
-        &self.stiffness
+    fn stiffness(&self) -> Components<&[f64]> {
+        Components::new(&self.stiffness, self.points())
     }
 
     fn bytes(&self) -> usize {
@@ -332,9 +334,7 @@ mod tests {
     fn product(operator: &dyn Operator) -> Vec<f64> {
         let count = operator.points() * operator.components();
         let slip: Vec<f64> = (0..count).map(|k| (0.7 * k as f64).cos()).collect();
-        let mut shear = vec![0.0; count];
-        operator.shear(&slip, &mut shear);
-        shear
+        operator.shear_of(&slip)
     }
 
     #[test]
@@ -348,7 +348,7 @@ mod tests {
                 for (a, b) in found.iter().zip(&wanted) {
                     assert!((a - b).abs() <= 2e-15 * size, "{columns} x {rows}: {a} {b}");
                 }
-                for (a, b) in fast.stiffness().iter().zip(dense.stiffness()) {
+                for (a, b) in fast.stiffness().all().iter().zip(dense.stiffness().all()) {
                     assert!((a / b - 1.0).abs() < 1e-12, "{columns} x {rows}: {a} {b}");
                 }
             }

@@ -120,10 +120,8 @@ mod tests {
     fn said(operator: &dyn Operator) -> (Vec<f64>, String) {
         let count = operator.points() * operator.components();
         let slip: Vec<f64> = (0..count).map(|k| ((k * 7919) % 1000) as f64 / 1000.0 - 0.3).collect();
-        let (mut shear, mut normal) = (vec![0.0; count], vec![0.0; operator.points()]);
-        operator.shear(&slip, &mut shear);
-        operator.normal(&slip, &mut normal);
-        let all = [shear, normal, operator.stiffness().to_vec()].concat();
+        let (shear, normal) = (operator.shear_of(&slip), operator.normal_of(&slip));
+        let all = [&shear, &normal, operator.stiffness().all()].concat();
         let words = operator.words();
         (all, format!("{words} {:?} {} {}", operator.errors(), operator.bytes(), operator.couples_normal()))
     }

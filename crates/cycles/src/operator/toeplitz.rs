@@ -7,6 +7,7 @@
 
 use super::rows::{C, Parts, Rows};
 use super::{Lattice, Operator};
+use asperity_friction::points::Components;
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -260,18 +261,18 @@ impl Operator for Toeplitz {
         self.normal.is_some()
     }
 
-    fn shear(&self, slip: &[f64], shear: &mut [f64]) {
-        self.product(&self.shear, slip, shear);
+    fn shear(&self, slip: Components<&[f64]>, mut shear: Components<&mut [f64]>) {
+        self.product(&self.shear, slip.all(), shear.all_mut());
     }
 
-    fn normal(&self, slip: &[f64], normal: &mut [f64]) {
+    fn normal(&self, slip: Components<&[f64]>, normal: &mut [f64]) {
         if let Some(spectrum) = &self.normal {
-            self.product(spectrum, slip, normal);
+            self.product(spectrum, slip.all(), normal);
         }
     }
 
-    fn stiffness(&self) -> &[f64] {
-        &self.stiffness
+    fn stiffness(&self) -> Components<&[f64]> {
+        Components::new(&self.stiffness, self.points())
     }
 
     fn bytes(&self) -> usize {
@@ -326,17 +327,13 @@ mod tests {
             let (fast, dense) = both(columns, rows);
             let n = columns * rows;
             let slip: Vec<f64> = (0..n).map(|k| (0.7 * k as f64).cos()).collect();
-            let mut found = [vec![0.0; n], vec![0.0; n]];
-            let mut wanted = found.clone();
-            fast.shear(&slip, &mut found[0]);
-            fast.normal(&slip, &mut found[1]);
-            dense.shear(&slip, &mut wanted[0]);
-            dense.normal(&slip, &mut wanted[1]);
+            let found = [fast.shear_of(&slip), fast.normal_of(&slip)];
+            let wanted = [dense.shear_of(&slip), dense.normal_of(&slip)];
             let size = wanted.iter().flatten().fold(0.0, |m: f64, v| m.max(v.abs()));
             for (a, b) in found.iter().flatten().zip(wanted.iter().flatten()) {
                 assert!((a - b).abs() <= 1e-14 * size, "{columns} x {rows}: {a} {b}");
             }
-            for (a, b) in fast.stiffness().iter().zip(dense.stiffness()) {
+            for (a, b) in fast.stiffness().all().iter().zip(dense.stiffness().all()) {
                 assert!((a / b - 1.0).abs() < 1e-12, "{columns} x {rows}: {a} {b}");
             }
         }
@@ -367,8 +364,9 @@ mod tests {
             let fast = Toeplitz::new(lattice.clone(), &table, None);
             let mut found = vec![f64::NAN; slip.len()];
             // The second product must not see the first.
-            fast.shear(&wanted, &mut found);
-            fast.shear(&slip, &mut found);
+            for slip in [&wanted, &slip] {
+                fast.shear(Components::new(slip, slip.len()), Components::new(&mut found, slip.len()));
+            }
             let size = wanted.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
             for (a, b) in found.iter().zip(&wanted) {
                 assert!((a - b).abs() <= 1e-14 * size, "{behind}: {a} {b}");
@@ -384,9 +382,7 @@ mod tests {
         let slip: Vec<f64> = (0..520).map(|k| (0.7 * f64::from(k)).cos()).collect();
         let of = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            let mut shear = vec![0.0; slip.len()];
-            pool.install(|| fast.shear(&slip, &mut shear));
-            shear
+            pool.install(|| fast.shear_of(&slip))
         };
         assert_eq!(of(1), of(2));
         assert_eq!(of(1), of(3));

@@ -1,7 +1,8 @@
 //! Layout of the unknowns of a fault.
 
-use super::components::{Components, PerPoint};
 use super::fault::Fault;
+use asperity_friction::fault::{UnknownRates, Unknowns};
+use asperity_friction::points::{Components, PerPoint};
 use std::ops::Range;
 
 /// Layout of the unknowns.
@@ -47,20 +48,20 @@ impl Layout {
         self.components
     }
 
-    /// m of all points, component by component.
+    /// m of all points.
     #[must_use]
     pub fn m(&self) -> Range<usize> {
         0..self.points * self.components
     }
 
-    /// States, point-major.
+    /// States.
     #[must_use]
     pub fn states(&self) -> Range<usize> {
         let first = self.m().end;
         first..first + self.points * self.states
     }
 
-    /// Slip \[m\], component by component.
+    /// Slip \[m\].
     #[must_use]
     pub fn slip(&self) -> Range<usize> {
         let first = self.states().end;
@@ -95,7 +96,21 @@ impl Layout {
 
     /// States of these unknowns.
     #[must_use]
-    pub fn states_of<'a>(&self, unknowns: &'a [f64]) -> PerPoint<'a> {
+    pub fn states_of<'a>(&self, unknowns: &'a [f64]) -> PerPoint<&'a [f64]> {
         PerPoint::new(&unknowns[self.states()], self.states)
+    }
+
+    /// The unknowns of friction among these.
+    #[must_use]
+    pub fn unknowns_of<'a>(&self, unknowns: &'a [f64]) -> Unknowns<'a> {
+        Unknowns { m: self.m_of(unknowns), states: self.states_of(unknowns) }
+    }
+
+    /// The rates of the unknowns of friction among these, which begin with them.
+    #[must_use]
+    pub fn rates_of<'a>(&self, rates: &'a mut [f64]) -> UnknownRates<'a> {
+        let (m, rest) = rates.split_at_mut(self.m().end);
+        let states = &mut rest[..self.states().len()];
+        UnknownRates { m: Components::new(m, self.points), states: PerPoint::new(states, self.states) }
     }
 }

@@ -1,6 +1,5 @@
 //! The problem to integrate: faults with their processes and their medium, loads, initial values, and settings.
 
-mod components;
 mod error;
 mod fault;
 mod layout;
@@ -12,7 +11,7 @@ mod stage;
 mod way;
 mod working;
 
-pub use components::{Components, PerPoint};
+pub use asperity_friction::points::{Components, PerPoint};
 pub use error::RunError;
 pub use fault::Fault;
 pub use layout::Layout;

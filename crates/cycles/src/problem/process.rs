@@ -7,6 +7,7 @@
 use super::point_tractions::{Field, PointTractions};
 use super::stage::{FaultState, Passage, ProcessRecord, Stretch, Time, Tractions};
 use asperity_friction::fault::FaultLaw;
+use asperity_friction::points::Components;
 use std::any::Any;
 use std::fmt::Debug;
 
@@ -96,7 +97,7 @@ pub trait Acting: Debug + Send + Sync {
     }
 
     /// Writes the rates of its unknowns in the state last seen, given slip rates \[m/s\].
-    fn rates(&mut self, _now: &FaultState<'_>, _slip_rate: &[f64], _rates: &mut [f64]) {}
+    fn rates(&mut self, _now: &FaultState<'_>, _slip_rate: Components<&[f64]>, _rates: &mut [f64]) {}
 
     /// Changes tractions and their rates.
     ///

@@ -1,7 +1,8 @@
 //! Stages and steps as processes see them, and their saved states.
 
-use super::components::Components;
 use super::point_tractions::PointTractions;
+use asperity_friction::fault::Unknowns;
+use asperity_friction::points::Components;
 use asperity_ode::Clock;
 use serde::{Deserialize, Serialize};
 
@@ -10,10 +11,8 @@ use serde::{Deserialize, Serialize};
 pub struct FaultState<'a> {
     /// Time.
     pub at: Clock,
-    /// m, component by component.
-    pub m: &'a [f64],
-    /// States, point-major.
-    pub states: &'a [f64],
+    /// Unknowns of friction.
+    pub friction: Unknowns<'a>,
     /// Normal tractions of the bodies \[Pa\].
     pub normal: &'a [f64],
     /// Unknowns of the process.
@@ -41,12 +40,12 @@ pub struct Tractions<'a> {
 /// Rates of slip and of tractions.
 #[derive(Debug)]
 pub struct Rates<'a> {
-    /// Slip rates, component by component \[m/s\].
-    pub slip: &'a [f64],
+    /// Slip rates \[m/s\].
+    pub slip: Components<&'a [f64]>,
     /// Rates of normal tractions \[Pa/s\]; empty where they do not change.
     pub normal: &'a mut [f64],
-    /// Rates of shear tractions, component by component \[Pa/s\].
-    pub shear: &'a mut [f64],
+    /// Rates of shear tractions \[Pa/s\].
+    pub shear: Components<&'a mut [f64]>,
 }
 
 /// A step, for the energy of a process.

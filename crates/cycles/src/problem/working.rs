@@ -6,6 +6,7 @@ use super::point_tractions::{Field, PointTractions};
 use super::process::{Acting, Process};
 use super::stage::{FaultState, ProcessRecord, Rates, Time, Tractions};
 use asperity_friction::fault::FaultLaw;
+use asperity_friction::points::Components;
 use asperity_ode::Clock;
 use std::ops::Range;
 
@@ -61,12 +62,13 @@ impl<'a> Working<'a> {
     /// Slip rates in the state last seen \[m/s\].
     pub fn slip_rates(&self, unknowns: &[f64], rate: &mut [f64]) {
         let l = self.layout;
-        self.law().slip_rates(0, &unknowns[l.m()], &unknowns[l.states()], rate);
+        self.law().slip_rates(l.unknowns_of(unknowns), Components::new(rate, l.points()));
     }
 
     /// Writes the rates of the unknowns of processes in the state last seen, given slip rates \[m/s\].
     pub fn rates(&mut self, at: Clock, unknowns: &[f64], slip_rate: &[f64], rates: &mut [f64]) {
         let now = self.now(at, unknowns);
+        let slip_rate = Components::new(slip_rate, self.layout.points());
         for m in &mut self.all {
             let now = FaultState { own: &unknowns[m.own.clone()], ..now };
             m.acting.rates(&now, slip_rate, &mut rates[m.own.clone()]);
@@ -101,7 +103,8 @@ impl<'a> Working<'a> {
             rate.copy_from_slice(&rates[l.normal()]);
         }
         let mut shear = vec![0.0; l.m().end];
-        let by = Rates { slip: &rates[l.slip()], normal: &mut rate, shear: &mut shear };
+        let shear = Components::new(shear.as_mut_slice(), l.points());
+        let by = Rates { slip: l.slip_of(rates), normal: &mut rate, shear };
         let _ = self.act(time, None, &mut Tractions { normal: &mut normal, rates: Some(by) });
         PointTractions { normal: rate, fields: self.fields(|acting| acting.field_rates()) }
     }
@@ -141,9 +144,8 @@ impl<'a> Working<'a> {
     where
         'a: 'b,
     {
-        let (l, fault) = (self.layout, self.fault);
-        let (m, states) = (&unknowns[l.m()], &unknowns[l.states()]);
-        FaultState { at, m, states, normal: fault.total(unknowns), own: &[] }
+        let friction = self.layout.unknowns_of(unknowns);
+        FaultState { at, friction, normal: self.fault.total(unknowns), own: &[] }
     }
 }
 
@@ -155,6 +157,15 @@ impl Fault {
         let mut working = Working::new(self, &[]);
         working.see(at, unknowns);
         working.pressed(at, unknowns)
+    }
+
+    /// Slip rates of these unknowns \[m/s\], with the law before any process.
+    #[must_use]
+    pub fn slip_rates(&self, unknowns: &[f64]) -> Components<Vec<f64>> {
+        let layout = Layout::from_fault(self);
+        let mut rate = Components::new(vec![0.0; layout.m().len()], layout.points());
+        self.law.slip_rates(layout.unknowns_of(unknowns), rate.view_mut());
+        rate
     }
 
     /// Normal tractions of the bodies \[Pa\], before any process.

@@ -13,13 +13,8 @@ use asperity_fem::table::Table;
 #[must_use]
 pub fn deficit(operator: &dyn Operator, rates: &[f64], end: f64) -> Loading {
     let backwards: Vec<f64> = rates.iter().map(|rate| -rate).collect();
-    let mut shear = vec![0.0; rates.len()];
-    operator.shear(&backwards, &mut shear);
-    let mut normal = Vec::new();
-    if operator.couples_normal() {
-        normal.resize(operator.points(), 0.0);
-        operator.normal(&backwards, &mut normal);
-    }
+    let shear = operator.shear_of(&backwards);
+    let normal = if operator.couples_normal() { operator.normal_of(&backwards) } else { Vec::new() };
     let mut loading = Loading::new(operator.components());
     loading.add(Table::new(vec![0.0, end], vec![0.0, end]), shear, normal);
     loading

@@ -47,7 +47,7 @@ impl Process for Pulse {
 
 impl Acting for &Pulse {
     fn act(&mut self, time: Time, on: &mut Tractions<'_>) -> Result<(), usize> {
-        on.rates.iter_mut().for_each(|rates| self.load(time.at, rates.shear));
+        on.rates.iter_mut().for_each(|rates| self.load(time.at, rates.shear.all_mut()));
         Ok(())
     }
 }

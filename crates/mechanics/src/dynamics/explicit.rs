@@ -239,12 +239,11 @@ impl<'a, const D: usize> Explicit<'a, D> {
 
     /// Lets the nodes of the faults move at the slip rates of the start, without momentum in sum.
     fn slide(&mut self, fault: &Fault) {
-        let n = fault.points.len();
         for (point, (p, pair)) in fault.points.iter().zip(&self.pairs).enumerate() {
             for (c, e) in p.along.iter().enumerate() {
                 let inverse = pair.map(|k| self.special.all[k].along(e));
                 let both = inverse[0] + inverse[1];
-                let rate = if both > 0.0 { fault.rate[c * n + point] / both } else { 0.0 };
+                let rate = if both > 0.0 { fault.rate.component(c)[point] / both } else { 0.0 };
                 for ((&k, inverse), sign) in pair.iter().zip(inverse).zip([-1.0, 1.0]) {
                     let first = self.special.all[k].node * self.components;
                     let own = &mut self.velocity[first..first + self.components];

@@ -10,7 +10,8 @@ use super::surroundings::{FaultSurroundings, Mobility};
 use super::ties::{self, Tie};
 use super::{Onset, Pulse};
 use asperity_friction::Failure;
-use asperity_friction::inertial::{InertialFault, PointBalance, Push};
+use asperity_friction::inertial::{InertialFault, PointBalance, Push, Sliding};
+use asperity_friction::points::{Components, PerPoint};
 use serde::{Deserialize, Serialize};
 
 /// Relaxation of the normal traction that friction feels, `dσ̂/dt = -(|V| + V*)/L (σ̂ - σ)`. Between unlike rocks slip at a friction that
@@ -23,7 +24,7 @@ pub struct Regularisation {
     pub rate: f64,
 }
 
-/// All points of all faults. Slices of several components hold the first component of all points, then the second.
+/// All points of all faults.
 #[derive(Debug)]
 pub struct Fault {
     /// Points.
@@ -32,10 +33,10 @@ pub struct Fault {
     pub law: Box<dyn InertialFault>,
     /// Normal traction at the start \[Pa\].
     pub normal: Vec<f64>,
-    /// Shear traction at the start, by components \[Pa\].
-    pub shear: Vec<f64>,
-    /// Slip rate at the start, by components \[m/s\]; it sets the states of laws that have them.
-    pub rate: Vec<f64>,
+    /// Shear traction at the start \[Pa\].
+    pub shear: Components<Vec<f64>>,
+    /// Slip rate at the start \[m/s\]; it sets the states of laws that have them.
+    pub rate: Components<Vec<f64>>,
     /// True if sides may part; otherwise a run stops where they would.
     pub opens: bool,
     /// Relaxation of the normal traction, if it is declared.
@@ -77,18 +78,18 @@ struct Loads {
 /// State of the faults at a step tⁿ.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FaultState {
-    /// Slip, by components \[m\].
-    pub slip: Vec<f64>,
-    /// Slip rate, by components \[m/s\]: the mean of the half steps before and after.
-    pub rate: Vec<f64>,
-    /// Shear traction, by components \[Pa\].
-    pub shear: Vec<f64>,
+    /// Slip \[m\].
+    pub slip: Components<Vec<f64>>,
+    /// Slip rate \[m/s\]: the mean of the half steps before and after.
+    pub rate: Components<Vec<f64>>,
+    /// Shear traction \[Pa\].
+    pub shear: Components<Vec<f64>>,
     /// Normal traction \[Pa\].
     pub normal: Vec<f64>,
     /// Gap \[m\]; 0 where the sides touch.
     pub gap: Vec<f64>,
-    /// State variables half a step later, point-major.
-    pub states: Vec<f64>,
+    /// State variables half a step later.
+    pub states: PerPoint<Vec<f64>>,
     /// Normal traction that friction feels \[Pa\], if it is delayed.
     pub felt: Vec<f64>,
 }
@@ -116,12 +117,12 @@ impl Fault {
         let (n, states) = (self.points.len(), self.law.states());
         let friction = self.onset.as_ref().map_or(&self.shear, |onset| &onset.friction);
         let mut start = FaultState {
-            slip: vec![0.0; self.shear.len()],
+            slip: Components::new(vec![0.0; self.shear.all().len()], n),
             rate: self.rate.clone(),
             shear: friction.clone(),
             normal: self.normal.clone(),
             gap: self.points.iter().map(|p| p.gap).collect(),
-            states: vec![0.0; n * states],
+            states: PerPoint::new(vec![0.0; n * states], states),
             felt: if self.regularisation.is_some() { self.normal.clone() } else { Vec::new() },
         };
         if let Some(onset) = &self.onset {
@@ -129,9 +130,10 @@ impl Fault {
             return Ok(start);
         }
         for point in 0..n {
-            let (rate, shear) = (self.size(&self.rate, point), self.size(&self.shear, point));
-            let at = (rate > 0.0 && self.normal[point] > 0.0).then(|| (rate, shear / self.normal[point]));
-            self.law.start(point, at, &mut start.states[point * states..(point + 1) * states])?;
+            let (rate, normal) = (self.rate.size(point), self.normal[point]);
+            let friction = self.shear.size(point) / normal;
+            let sliding = (rate > 0.0 && normal > 0.0).then_some(Sliding { rate, friction });
+            self.law.start(point, sliding, start.states.at_mut(point))?;
         }
         if !self.law.has_elastic_domain() {
             self.first_half(dt, &mut start)?;
@@ -144,7 +146,7 @@ impl Fault {
         // A dashpot so strong that it imposes the slip rate.
         let pushes: Vec<Push> = (0..self.points.len())
             .map(|point| {
-                let rate = self.size(&self.rate, point);
+                let rate = self.rate.size(point);
                 let impedance = self.normal[point].max(1.0) * STIFF / rate.max(f64::MIN_POSITIVE);
                 let impedance = if rate > 0.0 { impedance } else { 1.0 };
                 let trial = if rate > 0.0 { impedance * rate } else { 0.0 };
@@ -159,13 +161,7 @@ impl Fault {
             })
             .collect();
         let mut answers = vec![PointBalance { traction: 0.0, rate: 0.0 }; pushes.len()];
-        self.law.push(&pushes, &mut start.states, &mut answers)
-    }
-
-    /// Magnitude of a vector given by components.
-    fn size(&self, values: &[f64], point: usize) -> f64 {
-        let n = self.points.len();
-        values[point..].iter().step_by(n).map(|v| v * v).sum::<f64>().sqrt()
+        self.law.push(&pushes, start.states.view_mut(), &mut answers)
     }
 
     /// Mobilities of the points between special nodes, of which `pairs` holds those of each point.
@@ -180,10 +176,11 @@ impl Fault {
     }
 
     /// Shear traction that loads a component of a point: initial and imposed \[Pa\].
-    fn loading(&self, entry: usize, loads: &Loads) -> f64 {
+    fn loading(&self, point: usize, component: usize, loads: &Loads) -> f64 {
+        let entry = component * self.points.len() + point;
         let imposed = self.pulses.iter().zip(&loads.growth).map(|(p, g)| g * p.amplitude[entry]);
-        let rate = self.onset.as_ref().map_or(0.0, |onset| onset.loading_rate[entry]);
-        self.shear[entry] + imposed.sum::<f64>() + rate * loads.time
+        let rate = self.onset.as_ref().map_or(0.0, |onset| onset.loading_rate.component(component)[point]);
+        self.shear.component(component)[point] + imposed.sum::<f64>() + rate * loads.time
     }
 
     /// Balances all points at tⁿ: adds the accelerations by the tractions and writes these into the state.
@@ -197,9 +194,8 @@ impl Fault {
         for point in 0..self.points.len() {
             state.normal[point] = self.closing(surroundings, point, state)?;
         }
-        let n = self.points.len();
         if surroundings.first && !self.law.has_elastic_domain() && self.onset.is_none() {
-            for point in 0..n {
+            for point in 0..self.points.len() {
                 self.press(surroundings, point, state);
             }
             return Ok(());
@@ -207,21 +203,22 @@ impl Fault {
         self.relax(surroundings.dt, state);
         let (pushes, trials) = self.pushes(surroundings, state, &loads);
         let mut answers = vec![PointBalance { traction: 0.0, rate: 0.0 }; pushes.len()];
-        self.law.push(&pushes, &mut state.states, &mut answers).map_err(BalanceFailure::Friction)?;
+        self.law.push(&pushes, state.states.view_mut(), &mut answers).map_err(BalanceFailure::Friction)?;
         for (point, (push, answer)) in pushes.iter().zip(&answers).enumerate() {
             let p = &self.points[point];
             let share = if push.trial > 0.0 { answer.traction / push.trial } else { 0.0 };
             self.press(surroundings, point, state);
             let mut force = [0.0; 3];
             for (c, e) in p.along.iter().enumerate() {
-                let entry = c * n + point;
+                let loading = self.loading(point, c, &loads);
+                let shear = &mut state.shear.component_mut(c)[point];
                 if surroundings.mobilities[point].along[c].is_none() {
                     // Conditions carry the traction: friction neither bounds it nor does it cause motion.
-                    state.shear[entry] = self.loading(entry, &loads);
+                    *shear = loading;
                     continue;
                 }
-                state.shear[entry] = share * trials[entry];
-                let change = p.area * (state.shear[entry] - self.loading(entry, &loads));
+                *shear = share * trials.component(c)[point];
+                let change = p.area * (*shear - loading);
                 force.iter_mut().zip(e).for_each(|(f, e)| *f -= change * e);
             }
             surroundings.push(surroundings.pairs[point], &force);
@@ -264,44 +261,43 @@ impl Fault {
     fn relax(&self, dt: f64, state: &mut FaultState) {
         let Some(Regularisation { length, rate }) = self.regularisation else { return };
         for point in 0..self.points.len() {
-            let passed = (self.size(&state.rate, point) + rate) * dt / length;
+            let passed = (state.rate.size(point) + rate) * dt / length;
             let normal = state.normal[point];
             state.felt[point] = normal + (state.felt[point] - normal) * (-passed).exp();
         }
     }
 
-    /// Drives of the points, and their trial tractions by components \[Pa\].
+    /// Drives of the points, and their trial tractions \[Pa\].
     fn pushes(
         &self,
         surroundings: &FaultSurroundings<'_>,
         state: &FaultState,
         loads: &Loads,
-    ) -> (Vec<Push>, Vec<f64>) {
+    ) -> (Vec<Push>, Components<Vec<f64>>) {
         let n = self.points.len();
         // The first step of a rate law reaches the first half step alone: velocities and states pass half a step.
         let first = surroundings.first && !self.law.has_elastic_domain();
         let reach =
             if self.law.has_elastic_domain() || first { surroundings.kick } else { 0.5 * surroundings.dt };
-        let mut trials = vec![0.0; self.shear.len()];
+        let mut trials = Components::new(vec![0.0; self.shear.all().len()], n);
         let pushes = (0..n).map(|point| {
             let p = &self.points[point];
             // A point that conditions hold in all directions of slip is not pushed, whatever its impedance.
             let mut impedance = 1.0;
             for (c, e) in p.along.iter().enumerate() {
                 let Some(mobility) = surroundings.mobilities[point].along[c] else { continue };
-                let entry = c * n + point;
                 impedance = 1.0 / (reach * mobility);
                 let rate = surroundings.jump(surroundings.velocity, point, e)
                     + reach * surroundings.jump(surroundings.acceleration, point, e);
-                trials[entry] = self.loading(entry, loads) + impedance * rate;
+                trials.component_mut(c)[point] = self.loading(point, c, loads) + impedance * rate;
             }
             let felt = if self.regularisation.is_some() { state.felt[point] } else { state.normal[point] };
             Push {
                 // Where the sides have parted there is no friction, whatever it remembers.
                 normal: if state.normal[point] > 0.0 { felt } else { 0.0 },
-                trial: self.size(&trials, point),
+                trial: trials.size(point),
                 impedance,
-                near: self.size(&state.rate, point),
+                near: state.rate.size(point),
                 dt: if first { surroundings.kick } else { surroundings.dt },
                 weakened: self.forced.get(point).map_or(0.0, |forced| forced.share(loads.time)),
             }
@@ -320,7 +316,6 @@ impl Fault {
         displacement: &[[f64; 3]],
         state: &mut FaultState,
     ) -> [[f64; 2]; 2] {
-        let n = self.points.len();
         let loads = self.loads(time);
         let (mut dissipated, mut freed) = ([0.0; 2], [0.0; 2]);
         for (point, p) in self.points.iter().enumerate() {
@@ -330,13 +325,13 @@ impl Fault {
                 freed[side] -= 0.5 * dt * p.area * self.normal[point] * opening;
             }
             for (c, e) in p.along.iter().enumerate() {
-                let entry = c * n + point;
                 let rates = [dot(&jumps[point][0], e), dot(&jumps[point][1], e)];
-                state.slip[entry] = dot(&displacement[point], e);
-                state.rate[entry] = 0.5 * (rates[0] + rates[1]);
+                state.slip.component_mut(c)[point] = dot(&displacement[point], e);
+                state.rate.component_mut(c)[point] = 0.5 * (rates[0] + rates[1]);
+                let (shear, loading) = (state.shear.component(c)[point], self.loading(point, c, &loads));
                 for (side, rate) in rates.iter().enumerate() {
-                    dissipated[side] += 0.5 * dt * p.area * state.shear[entry] * rate;
-                    freed[side] += 0.5 * dt * p.area * self.loading(entry, &loads) * rate;
+                    dissipated[side] += 0.5 * dt * p.area * shear * rate;
+                    freed[side] += 0.5 * dt * p.area * loading * rate;
                 }
             }
         }

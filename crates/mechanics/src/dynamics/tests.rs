@@ -10,6 +10,7 @@ use asperity_fem::mesh::generate::Grid;
 use asperity_fem::table::Table;
 use asperity_friction::coulomb::Coulomb;
 use asperity_friction::inertial::InertialPoints;
+use asperity_friction::points::Components;
 
 const DENSITY: f64 = 2700.0;
 
@@ -133,8 +134,8 @@ fn impact(h: f64, gap: f64) -> Problem<2> {
         points: vec![point(0), point(1)],
         law: Box::new(InertialPoints(vec![Coulomb::new(0.0, None).unwrap(); 2])),
         normal: vec![0.0; 2],
-        shear: vec![0.0; 2],
-        rate: vec![0.0; 2],
+        shear: Components::new(vec![0.0; 2], 2),
+        rate: Components::new(vec![0.0; 2], 2),
         opens: true,
         regularisation: None,
         pulses: Vec::new(),
@@ -285,8 +286,8 @@ fn tied_bars_move_as_one() {
         points: Vec::new(),
         law: Box::new(InertialPoints(Vec::<Coulomb>::new())),
         normal: Vec::new(),
-        shear: Vec::new(),
-        rate: Vec::new(),
+        shear: Components::default(),
+        rate: Components::default(),
         opens: false,
         regularisation: None,
         pulses: Vec::new(),

@@ -118,12 +118,7 @@ impl Coulomb {
 
 /// Shear tractions along the rakes and normal tractions of all points under a slip \[Pa\].
 fn tractions(operator: &dyn Operator, slip: &[f64]) -> [Vec<f64>; 2] {
-    let n = operator.points();
-    let (mut shear, mut normal) = (vec![0.0; slip.len()], vec![0.0; n]);
-    operator.shear(slip, &mut shear);
-    if operator.couples_normal() {
-        operator.normal(slip, &mut normal);
-    }
-    shear.truncate(n);
-    [shear, normal]
+    let mut shear = operator.shear_of(slip);
+    shear.truncate(operator.points());
+    [shear, operator.normal_of(slip)]
 }

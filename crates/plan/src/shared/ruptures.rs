@@ -113,9 +113,9 @@ impl<const D: usize> Waves for Bodies<D> {
             let fault = explicit.fault().clone();
             // States live at half steps; the first step begins at the start itself.
             let states: Vec<f64> = if time > 0.0 {
-                before.iter().zip(&fault.states).map(|(a, b)| 0.5 * (a + b)).collect()
+                before.all().iter().zip(fault.states.all()).map(|(a, b)| 0.5 * (a + b)).collect()
             } else {
-                before
+                before.all().to_vec()
             };
             let kinetic = explicit.kinetic();
             let mut energy = || {
@@ -124,11 +124,11 @@ impl<const D: usize> Waves for Bodies<D> {
             };
             let shaken = Shaken {
                 time,
-                slip: &fault.slip,
-                rate: &fault.rate,
-                shear: &fault.shear,
+                slip: fault.slip.view(),
+                rate: fault.rate.view(),
+                shear: fault.shear.view(),
                 normal: &fault.normal,
-                states: &states,
+                states: fault.states.with(&states),
                 kinetic,
                 energy: &mut energy,
             };

@@ -1,6 +1,6 @@
 //! Rupture times: when the slip rate of each point first reaches a threshold.
 
-use super::moment::size;
+use asperity_friction::points::Components;
 use asperity_output::OutputFile;
 use asperity_output::tables::column::{self, Column, Sign};
 use serde::{Deserialize, Serialize};
@@ -26,12 +26,11 @@ impl Arrivals {
         Self { times: vec![None; points], fastest: vec![0.0; points], before: (0.0, vec![0.0; points]) }
     }
 
-    /// Sees the slip rates at a time, by components. Between two steps the rate is taken as linear.
-    pub fn see(&mut self, time: f64, rates: &[f64], threshold: f64) {
-        let points = self.times.len();
+    /// Sees the slip rates at a time. Between two steps the rate is taken as linear.
+    pub fn see(&mut self, time: f64, rates: &Components<Vec<f64>>, threshold: f64) {
         let (earlier, old) = (self.before.0, &mut self.before.1);
         for (point, arrival) in self.times.iter_mut().enumerate() {
-            let (rate, was) = (size(rates, points, point), old[point]);
+            let (rate, was) = (rates.size(point), old[point]);
             if arrival.is_none() && rate >= threshold {
                 let share = if rate > was { ((threshold - was) / (rate - was)).max(0.0) } else { 1.0 };
                 *arrival = Some(earlier + share * (time - earlier));

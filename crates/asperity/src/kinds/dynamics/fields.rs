@@ -1,6 +1,7 @@
 //! Fields of bodies and faults as VTU files at equal intervals.
 
 use super::moment::Moment;
+use asperity_friction::points::Components;
 use asperity_mechanics::dynamics::FaultState;
 use asperity_output::fields::vtu::{Cell, Grid, PvdEntry, face_type, pvd};
 use asperity_output::fields::{COLLECTION, Data, FILES, Field, FieldTimes, Series};
@@ -62,7 +63,7 @@ fn body_fields<const D: usize>(plan: &Plan<D>) -> Series<'_, Motion> {
 }
 
 /// Values of a state of the fault.
-type Values = fn(&FaultState) -> &[f64];
+type Values = fn(&FaultState) -> &Components<Vec<f64>>;
 
 /// Slip, slip rate and tractions on a fault in space.
 fn fault_fields<'a, const D: usize>(plan: &'a Plan<D>, fault: &'a FaultView) -> Series<'a, FaultState> {
@@ -139,12 +140,15 @@ impl<'a> Fields<'a> {
     }
 }
 
-fn in_space<const D: usize>(plan: &Plan<D>, fault: &FaultView, values: &[f64]) -> Vec<[f64; 3]> {
-    let points = plan.points.len();
+fn in_space<const D: usize>(
+    plan: &Plan<D>,
+    fault: &FaultView,
+    values: &Components<Vec<f64>>,
+) -> Vec<[f64; 3]> {
     let one = |p: usize| {
         let view = &plan.points[p];
-        let second = view.across.map_or([0.0; 3], |e| e.map(|e| e * values[points + p]));
-        std::array::from_fn(|c| view.slides[c] * values[p] + second[c])
+        let second = view.across.map_or([0.0; 3], |e| e.map(|e| e * values.component(1)[p]));
+        std::array::from_fn(|c| view.slides[c] * values.component(0)[p] + second[c])
     };
     fault.points.clone().map(one).collect()
 }

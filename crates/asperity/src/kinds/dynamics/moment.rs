@@ -84,13 +84,3 @@ fn shown<'a, const D: usize>(plan: &Plan<D>, step: usize, now: &'a FaultState) -
 fn middle(values: &mut [f64], others: &[f64]) {
     values.iter_mut().zip(others).for_each(|(v, o)| *v = 0.5 * (*v + o));
 }
-
-/// Magnitude of a vector given by components at `points` points.
-pub(super) fn size(values: &[f64], points: usize, point: usize) -> f64 {
-    let mut components = values.iter().skip(point).step_by(points.max(1));
-    match (components.next(), components.next()) {
-        (Some(x), Some(y)) => x.hypot(*y),
-        (Some(x), None) => x.abs(),
-        _ => 0.0,
-    }
-}

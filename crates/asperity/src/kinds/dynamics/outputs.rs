@@ -33,7 +33,7 @@ pub struct Checkpoint {
 
 impl checkpoint::SavedState for Checkpoint {
     const OF: &'static str = "bodies with mass";
-    const VERSION: &'static str = "4";
+    const VERSION: &'static str = "5";
 }
 
 /// See the module.
@@ -121,7 +121,7 @@ impl<'a, const D: usize> keep::Outputs for Outputs<'a, D> {
             end,
             step: now.step as u64,
             step_length: end / self.plan.steps as f64,
-            largest_rate: now.fault.rate.iter().map(|rate| rate.abs()).reduce(f64::max),
+            largest_rate: now.fault.rate.all().iter().map(|rate| rate.abs()).reduce(f64::max),
             ..RunState::default()
         }
     }

@@ -1,6 +1,5 @@
 //! Report of a run of bodies with mass, `report.json`.
 
-use super::moment::size;
 use super::run::FinalState;
 use super::tables::moments_of;
 use crate::report::results;
@@ -208,7 +207,7 @@ fn rupture<const D: usize>(
 ) -> FaultRupture {
     let arrivals = &ended.arrivals;
     let points = fault.points.clone();
-    let slip = |p: usize| size(&ended.fault.slip, plan.points.len(), p);
+    let slip = |p: usize| ended.fault.slip.size(p);
     let ruptured: Vec<(usize, f64)> = points.clone().filter_map(|p| Some((p, arrivals.times[p]?))).collect();
     let first = ruptured.iter().min_by(|a, b| a.1.total_cmp(&b.1));
     let last = ruptured.iter().map(|r| r.1).reduce(f64::max);

@@ -1,7 +1,7 @@
 //! The loop over the steps of a run.
 
 use super::arrivals::Arrivals;
-use super::moment::{Moment, StepStart, size};
+use super::moment::{Moment, StepStart};
 use crate::kinds::worst::Worst;
 use asperity_mechanics::SetUpError;
 use asperity_mechanics::dynamics::{Budget, Explicit, ExplicitState, FaultState, Halt};
@@ -51,8 +51,8 @@ pub struct FinalState {
 
 /// Halt where a fault is faster than shear waves in the bodies, or its rate no number.
 fn outran<const D: usize>(plan: &Plan<D>, explicit: &Explicit<'_, D>) -> Option<Halt> {
-    let (points, rate) = (plan.points.len(), &explicit.fault().rate);
-    let speeds = (0..points).map(|point| (point, size(rate, points, point)));
+    let rate = &explicit.fault().rate;
+    let speeds = (0..plan.points.len()).map(|point| (point, rate.size(point)));
     let beyond = speeds.filter(|(_, rate)| *rate > plan.fastest || rate.is_nan());
     let (point, rate) = beyond.reduce(|a, b| if b.1 > a.1 { b } else { a })?;
     Some(Halt::Outrun { point, rate })

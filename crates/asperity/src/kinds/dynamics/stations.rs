@@ -30,16 +30,15 @@ fn opens<const D: usize>(plan: &Plan<D>) -> bool {
 
 /// Row of a station. A point at rest has the smallest slip rate that files show.
 fn row<const D: usize>(plan: &Plan<D>, now: &Moment<'_>, point: usize) -> String {
-    let points = plan.points.len();
-    let of = |values: &[f64]| -> Vec<f64> { values.iter().skip(point).step_by(points).copied().collect() };
-    let states = now.fault.states.len() / points;
-    let theta = plan.points[point].theta.filter(|_| states == 1);
-    let log_state = theta.map_or(f64::NAN, |theta| theta.log10(now.fault.states[point]));
+    let log_state = match (now.fault.states.view().at(point), plan.points[point].theta) {
+        ([state], Some(theta)) => theta.log10(*state),
+        _ => f64::NAN,
+    };
     let row = Row {
         time: now.time,
-        slip: of(&now.fault.slip),
-        rate: of(&now.fault.rate).into_iter().map(|v| v.abs().max(NO_RATE)).collect(),
-        shear: of(&now.fault.shear),
+        slip: now.fault.slip.at(point).collect(),
+        rate: now.fault.rate.at(point).map(|v| v.abs().max(NO_RATE)).collect(),
+        shear: now.fault.shear.at(point).collect(),
         log_state,
         normal: now.fault.normal[point],
         opening: opens(plan).then(|| now.fault.gap[point]),

@@ -1,10 +1,11 @@
 //! Tables that grow during a run: energies, moment rate, profiles, stations and seismograms.
 
-use super::moment::{Moment, size};
+use super::moment::Moment;
 use super::rows::{Course, Table};
 use super::{arrivals, seismograms, stations};
 use crate::kinds::faults::moments;
 use crate::kinds::faults::profile::{Profile, RATE, SLIP};
+use asperity_friction::points::Components;
 use asperity_mechanics::dynamics::Budget;
 use asperity_output::decimals::{scientific, shortest};
 use asperity_output::formats::seismogram;
@@ -74,18 +75,17 @@ fn moment_rates<const D: usize>(plan: &Plan<D>) -> Table<'_> {
 fn profiles<'a, const D: usize>(
     plan: &'a Plan<D>,
     profile: Profile,
-    values: for<'n> fn(&'n Moment<'_>) -> &'n [f64],
+    values: for<'n> fn(&'n Moment<'_>) -> &'n Components<Vec<f64>>,
     of: fn(f64) -> f64,
 ) -> Table<'a> {
-    let points = plan.points.len();
     let place = |p: &PointView| if D == 2 { shortest(p.along) } else { p.at.map(shortest).join(" ") };
     let columns = profile.columns(plan.points.iter().map(place));
     let row = move |now: &Moment<'_>| {
         let values = values(now);
-        if values.len() == points {
-            return line(now.time, values.iter().copied().map(of));
+        if values.components() == 1 {
+            return line(now.time, values.all().iter().copied().map(of));
         }
-        line(now.time, (0..points).map(|p| of(size(values, points, p))))
+        line(now.time, (0..values.points()).map(|p| of(values.size(p))))
     };
     Table::new(profile.0.path, columns, Course::Profiles, row)
 }
@@ -169,8 +169,7 @@ fn line(time: f64, values: impl Iterator<Item = f64>) -> String {
 }
 
 /// Rate and sum of ∫ G slip dA of each fault.
-pub(super) fn moments_of<const D: usize>(plan: &Plan<D>, values: &[f64]) -> Vec<f64> {
-    let of =
-        |p: usize| plan.points[p].shear_modulus * plan.points[p].area * size(values, plan.points.len(), p);
+pub(super) fn moments_of<const D: usize>(plan: &Plan<D>, values: &Components<Vec<f64>>) -> Vec<f64> {
+    let of = |p: usize| plan.points[p].shear_modulus * plan.points[p].area * values.size(p);
     plan.faults.iter().map(|f| f.points.clone().map(of).sum()).collect()
 }

@@ -10,12 +10,7 @@ pub(super) fn place(plan: &Plan, unknowns: &[f64]) -> Option<String> {
         return Some(format!("the state at {} is {}", describe_point(plan, at % points)?, unknowns[at]));
     }
     let slip = vec![1.0; points * operator.components()];
-    let mut shear = vec![0.0; slip.len()];
-    operator.shear(&slip, &mut shear);
-    let mut normal = vec![0.0; points];
-    if operator.couples_normal() {
-        operator.normal(&slip, &mut normal);
-    }
+    let (shear, normal) = (operator.shear_of(&slip), operator.normal_of(&slip));
     let at = shear.iter().chain(&normal).position(|v| !v.is_finite())?;
     let point = describe_point(plan, at % points)?;
     Some(format!(

@@ -7,7 +7,7 @@ pub mod written;
 
 use asperity::kinds;
 use asperity::kinds::bodies::RunReport;
-use asperity_cycles::{Fault, Layout, Problem};
+use asperity_cycles::{Fault, Problem};
 use asperity_friction::evolution::definitions;
 use asperity_output::bodies::Recorder;
 use asperity_output::bodies::view::BodyFields;
@@ -88,9 +88,7 @@ pub fn resistance(fault: &Fault, point: usize, normal: f64, [m, rate]: [f64; 2])
 /// Resistance of all points at the start, where normal tractions have a floor.
 pub fn first_resistance(problem: &Problem, floor: f64) -> Vec<f64> {
     let (fault, start) = (&problem.fault, &problem.start);
-    let layout = Layout::from_fault(fault);
-    let mut rate = vec![0.0; fault.normal.len()];
-    fault.law.slip_rates(0, &start[layout.m()], &start[layout.states()], &mut rate);
-    let at = |p: usize| resistance(fault, p, fault.normal[p].max(floor), [start[p], rate[p]]);
-    (0..rate.len()).map(at).collect()
+    let rate = fault.slip_rates(start);
+    let at = |p: usize| resistance(fault, p, fault.normal[p].max(floor), [start[p], rate.all()[p]]);
+    (0..fault.normal.len()).map(at).collect()
 }

@@ -3,7 +3,7 @@
 use super::memory::{Memory, Surface, Windows};
 use super::quantities::{PRESSURE, PRESSURE_RATE, TEMPERATURE};
 use super::zones::Heat;
-use crate::problem::{Acting, FaultState, Field, Host, ProcessRecord, Rates, Time, Tractions};
+use crate::problem::{Acting, Components, FaultState, Field, Host, ProcessRecord, Rates, Time, Tractions};
 use asperity_friction::fault::FaultLaw;
 use asperity_ode::Clock;
 
@@ -17,7 +17,7 @@ pub(super) struct HeatedFriction<'a> {
     surface: Surface,
     /// Present q of the heated points \[W/m²\].
     flux: Vec<f64>,
-    /// Slip rates, component by component \[m/s\].
+    /// Working memory of slip rates, component by component \[m/s\].
     rate: Vec<f64>,
     /// A copy of the law, if temperature affects it.
     law: Option<Box<dyn FaultLaw>>,
@@ -48,11 +48,10 @@ impl<'a> HeatedFriction<'a> {
     }
 
     /// Computes the heating `q = f_n a m·V` at these slip rates \[m/s\].
-    fn heating(&mut self, now: &FaultState<'_>, rate: &[f64]) {
+    fn heating(&mut self, now: &FaultState<'_>, rate: Components<&[f64]>) {
         let law = self.law.as_deref().unwrap_or(self.host.law);
-        let n = law.points();
         for (q, p) in self.flux.iter_mut().zip(self.heat.heated()) {
-            let work: f64 = (p..now.m.len()).step_by(n).map(|i| now.m[i] * rate[i]).sum();
+            let work: f64 = now.friction.m.at(p).zip(rate.at(p)).map(|(m, v)| m * v).sum();
             let least = self.host.processes.least(p);
             *q = (now.normal[p] - self.surface.pressure[p]).max(least) * law.scale(p) * work;
         }
@@ -61,11 +60,11 @@ impl<'a> HeatedFriction<'a> {
     /// Subtracts what damping takes of the driving traction as points become faster by heat, `η V (∂ln V/∂T) dT/dt`.
     fn soften(&self, rates: &mut Rates<'_>) {
         let Some(law) = &self.law else { return };
-        let n = law.points();
         for p in self.heat.heated() {
             let faster = law.log_rate_by_temperature(p) * self.surface.temperature_rate[p];
-            for i in (p..rates.slip.len()).step_by(n) {
-                rates.shear[i] -= self.host.damping[p] * rates.slip[i] * faster;
+            for component in 0..rates.slip.components() {
+                let slip_rate = rates.slip.component(component)[p];
+                rates.shear.component_mut(component)[p] -= self.host.damping[p] * slip_rate * faster;
             }
         }
     }
@@ -79,8 +78,10 @@ impl Acting for HeatedFriction<'_> {
         self.memory.values(self.heat, now.own, None, &self.windows, &mut self.surface);
         self.warm();
         let mut rate = std::mem::take(&mut self.rate);
-        self.law.as_deref().unwrap_or(self.host.law).slip_rates(0, now.m, now.states, &mut rate);
-        self.heating(now, &rate);
+        let points = self.host.law.points();
+        let law = self.law.as_deref().unwrap_or(self.host.law);
+        law.slip_rates(now.friction, Components::new(&mut rate, points));
+        self.heating(now, Components::new(&rate, points));
         self.rate = rate;
         self.memory.values(self.heat, now.own, Some(&self.flux), &self.windows, &mut self.surface);
         self.memory.rates(self.heat, now.own, &self.flux, &self.windows, &mut self.surface);
@@ -92,7 +93,7 @@ impl Acting for HeatedFriction<'_> {
     }
 
     /// Writes the heating of the heated points.
-    fn rates(&mut self, now: &FaultState<'_>, slip_rate: &[f64], rates: &mut [f64]) {
+    fn rates(&mut self, now: &FaultState<'_>, slip_rate: Components<&[f64]>, rates: &mut [f64]) {
         self.heating(now, slip_rate);
         self.memory.begin(now.at, &self.flux);
         rates.copy_from_slice(&self.flux);

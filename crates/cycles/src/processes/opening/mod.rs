@@ -89,7 +89,7 @@ impl Acting for Parting<'_> {
     fn act(&mut self, _: Time, on: &mut Tractions<'_>) -> Result<(), usize> {
         self.opening.solve(&mut self.crack, on.normal)?;
         if let Some(rates) = &mut on.rates {
-            self.opening.rates(&mut self.crack, rates.normal, rates.shear);
+            self.opening.rates(&mut self.crack, rates.normal, rates.shear.all_mut());
         }
         Ok(())
     }

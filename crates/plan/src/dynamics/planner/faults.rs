@@ -8,6 +8,7 @@ use crate::reading::scene::model::Scene;
 use crate::shared::entry::Entry;
 use crate::shared::law_errors::refused;
 use asperity_cycles::medium::across;
+use asperity_friction::points::Components;
 use asperity_laws as laws;
 use asperity_mechanics::dynamics::{Fault, Pulse, Regularisation, SplitPoint, Tie};
 
@@ -96,10 +97,10 @@ fn first_of<const D: usize>(
     components: usize,
     placed: &[PlacedPoint<D>],
     value: impl Fn(&PlacedPoint<D>) -> f64,
-) -> Vec<f64> {
+) -> Components<Vec<f64>> {
     let mut all = vec![0.0; components * placed.len()];
     all.iter_mut().zip(placed).for_each(|(all, p)| *all = value(p));
-    all
+    Components::new(all, placed.len())
 }
 
 /// A pair of nodes with its directions. In antiplane motion the one component of vectors stands first, and nothing moves along the

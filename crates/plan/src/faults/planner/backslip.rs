@@ -76,7 +76,7 @@ pub(super) fn doubts<const D: usize>(
         let [by_sides, by_deficit] = [force(&means[0]), force(&means[1])];
         let largest = own().map(|p| means[1][p].abs()).fold(0.0, f64::max);
         let rate = creep.rate.get_ref().0;
-        if largest <= NOTHING * rate.abs() * operator.stiffness()[own().next()?] {
+        if largest <= NOTHING * rate.abs() * operator.stiffness().component(0)[own().next()?] {
             return Some(Warning::at(
                 creep.rate.span(),
                 format!("backslip loads fault `{name}` with nothing: it cuts its bodies apart, and their sides are free to follow"),

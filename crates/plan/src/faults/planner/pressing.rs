@@ -170,14 +170,11 @@ pub(super) fn rests<const D: usize>(
     placed: &[PlacedPoint<D>],
     Problem { fault, start: unknowns, settings, .. }: &Problem,
 ) -> Result<(), Diagnostic> {
-    let layout = asperity_cycles::Layout::from_fault(fault);
     let pressed = placed.iter().any(|p| p.pressed_shear.is_some());
     let Some(stage) = check::pressing::stage(scene).filter(|_| pressed) else { return Ok(()) };
-    let mut rate = vec![0.0; layout.m().len()];
-    fault.law.slip_rates(0, &unknowns[layout.m()], &unknowns[layout.states()], &mut rate);
-    let n = placed.len();
-    let speed = |p: usize| rate[p].hypot(rate.get(n + p).copied().unwrap_or(0.0));
-    let fast = (0..n).max_by(|&a, &b| speed(a).total_cmp(&speed(b)));
+    let rate = fault.slip_rates(unknowns);
+    let speed = |p: usize| rate.size(p);
+    let fast = (0..placed.len()).max_by(|&a, &b| speed(a).total_cmp(&speed(b)));
     let Some(p) = fast.filter(|&p| speed(p) >= settings.thresholds.on || !speed(p).is_finite()) else {
         return Ok(());
     };

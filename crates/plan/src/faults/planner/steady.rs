@@ -27,9 +27,9 @@ fn is_balanced<const D: usize>(
     end: f64,
 ) -> bool {
     let (mut loads, _) = loading.rates(0.5 * first(loading, end), placed.len(), false);
-    let (mut rates, mut elastic) = (vec![0.0; loads.len()], vec![0.0; loads.len()]);
+    let mut rates = vec![0.0; loads.len()];
     rates.iter_mut().zip(placed).for_each(|(rate, point)| *rate = point.rate);
-    fault.operator.shear(&rates, &mut elastic);
+    let elastic = fault.operator.shear_of(&rates);
     let largest = |values: &[f64]| values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let size = largest(&loads);
     loads.iter_mut().zip(&elastic).for_each(|(load, own)| *load += own);
