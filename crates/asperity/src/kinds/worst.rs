@@ -1,5 +1,6 @@
 //! Warnings about results outside the assumptions of the model: strain, rotation and slip that are not small, and contacts that never closed.
 
+use super::cell_variation;
 use asperity_contact::Sliding;
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
@@ -63,6 +64,9 @@ pub struct Worst {
     /// Shortest distance of two corners of a cell of each block \[m\]; found when bodies are judged first.
     #[serde(skip)]
     shortest: Vec<f64>,
+    /// Displacements at the end of the stage \[m\].
+    #[serde(skip)]
+    end: Vec<f64>,
 }
 
 impl Worst {
@@ -101,6 +105,9 @@ impl Worst {
         for (turned, interface) in each.filter(|(_, interface)| stays(interface)) {
             *turned = turned.max(largest_turn(&problem.model, &interface.master_faces, &u));
         }
+        if last {
+            self.end = u;
+        }
     }
 
     /// Sees displacements of a model \[m\] at a time \[s\].
@@ -130,7 +137,9 @@ impl Worst {
         let dragged = interfaces.filter_map(|(i, slid)| dragged(model, i, stage, *slid));
         let interfaces = problem.interfaces.iter().zip(&self.turned);
         let turned = interfaces.filter_map(|(i, angle)| turned(model, i, stage, *angle));
-        self.body_warnings(model, stage).chain(dragged).chain(turned).collect()
+        let bent = model.bodies.iter().filter(|_| !self.end.is_empty());
+        let bent = bent.filter_map(|body| cell_variation::warning(model, body, stage, &self.end));
+        self.body_warnings(model, stage).chain(dragged).chain(turned).chain(bent).collect()
     }
 
     /// Warnings about the bodies in a stage.
@@ -169,7 +178,7 @@ fn body_warning(body: &str, stage: &str, (largest, at): (Largest, [f64; 2]), you
 }
 
 /// True if a block accounts for large deformation.
-fn is_followed<const D: usize>(model: &Model<D>, block: usize) -> bool {
+pub(super) fn is_followed<const D: usize>(model: &Model<D>, block: usize) -> bool {
     matches!(&model.blocks.get(block), Some(CellBlock::Nonlinear(b)) if b.model().kinematics == Kinematics::UpdatedLagrangian)
 }
 

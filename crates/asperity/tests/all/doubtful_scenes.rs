@@ -174,6 +174,50 @@ fn strain_beyond_a_few_per_cent_is_told_where_it_is_taken_as_small() {
     assert_eq!(found(&bar("finite", "400 mm")), Vec::<String>::new());
 }
 
+/// A bar of 10 m by 1 m held at one end, which bends by a shear traction at the other, or stretches by a normal one.
+fn cantilever(element: &str, divisions: [usize; 2], traction: [&str; 2]) -> String {
+    format!(
+        r#"
+schema = 1
+title = "a bar"
+kinematics = "plane-stress"
+[materials.rock]
+young = "10 GPa"
+poisson = 0.25
+[bodies.bar]
+mesh.block = {{ min = [0, 0], max = [10, 1], divisions = {divisions:?}, element = "{element}" }}
+material = "rock"
+[[stages]]
+name = "load"
+duration = 1
+conditions = [
+    {{ set = "bar.left", x = 0, y = 0 }},
+    {{ set = "bar.right", traction = {traction:?} }},
+]
+[time]
+stepper = "implicit"
+"#
+    )
+}
+
+#[test]
+fn a_bar_that_bends_within_its_cells_is_told() {
+    let (shear, pull) = (["0 Pa", "-1 kPa"], ["1 MPa", "0 Pa"]);
+    let bends = |told: &[String]| told.iter().any(|w| w.contains("body `bar` bends within its cells"));
+    for (element, divisions) in [("quad4", [10, 1]), ("quad4", [20, 2]), ("quad4", [5, 8]), ("tri3", [20, 2])]
+    {
+        let told = found(&cantilever(element, divisions, shear));
+        assert!(bends(&told), "{element} {divisions:?}: {told:?}");
+    }
+    for (element, divisions) in [("quad4", [40, 4]), ("quad8", [10, 1]), ("tri3", [60, 6])] {
+        let told = found(&cantilever(element, divisions, shear));
+        assert!(told.is_empty(), "{element} {divisions:?}: {told:?}");
+    }
+    // Without bending there is nothing to tell, however coarse the cells.
+    assert_eq!(found(&cantilever("quad4", [10, 1], pull)), Vec::<String>::new());
+    assert_eq!(found(&cantilever("tri3", [10, 1], pull)), Vec::<String>::new());
+}
+
 /// Two blocks with cells of 1 m; the second is driven past the first for 50 s.
 fn driven(sliding: &str, rate: &str) -> String {
     varied(
