@@ -215,6 +215,7 @@ const TRIALS: &[Trial] = &[
         With("faults.main.patches[0].box.y.from", "950 m"),
         "too few for its shape",
     ),
+    ("sides that return waves", MASS, With("stages[0].conditions", "[]"), "come back from the sides after"),
     (
         "fluid beyond the ends",
         ROCK,

@@ -7,9 +7,10 @@ use crate::faults::planner::{PlacedPoint, pulse_doubts};
 use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::{Fault as Spec, Scene};
 use crate::shared::entry::Entry;
+use crate::shared::model::Model;
 use asperity_laws as laws;
-use asperity_mechanics::Stage;
 use asperity_mechanics::dynamics::Fault;
+use asperity_mechanics::{Stage, bounds};
 use asperity_run::Warning;
 use asperity_scene::defaults;
 use std::ops::Range;
@@ -86,6 +87,37 @@ pub(super) fn unlike<const D: usize>(scene: &Scene, placed: &[PlacedPoint<D>], d
         if bare { shared::unlike(name, spec.law.span(), contrast, delays) } else { None }
     };
     scene.faults.iter().enumerate().filter_map(of).collect()
+}
+
+/// Warning about bodies whose sides all return the waves of a fault within the run of this duration \[s\]. `speed` is that of shear waves
+/// \[m/s\].
+pub(super) fn returned<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    placed: &[PlacedPoint<D>],
+    [speed, duration]: [f64; 2],
+) -> Option<Warning> {
+    let middle = &placed.get(placed.len() / 2)?.point.place;
+    let (min, max) = bounds(&model.mesh.nodes);
+    // To the side of the box of all bodies, along the normal and against it.
+    let distance = |sign: f64| {
+        let along = |c: usize| {
+            let n = sign * middle.normal[c];
+            let side = if n > 0.0 { max[c] } else { min[c] };
+            if n == 0.0 { f64::INFINITY } else { (side - middle.at[c]) / n }
+        };
+        (0..D).map(along).fold(f64::INFINITY, f64::min)
+    };
+    let back = 2.0 * distance(1.0).min(distance(-1.0)) / speed;
+    (back < duration).then(|| {
+        Warning::at(
+            scene.stages[0].duration.span(),
+            format!(
+                "no side absorbs waves: shear waves of the faults come back from the sides after {back:.3} s, and the stage lasts {duration:.3} s"
+            ),
+            "where rock goes on, list the side with `absorbing = true`; a wider model has the same effect",
+        )
+    })
 }
 
 /// Doubts about the pulses of a run of this duration \[s\].

@@ -118,9 +118,14 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     checks.cost = cost(&model, &counted, points.len(), memory_bytes);
     let fault = faults::assemble(scene, &sliding, &locked)?;
     remarks.warnings.extend(doubts::unlike(scene, &sliding, true));
+    let duration = counted.steps as f64 * counted.dt;
     if let Some(fault) = &fault {
-        let duration = counted.steps as f64 * counted.dt;
         crate::doubts::add(&mut remarks.warnings, doubts::pulses(scene, &sliding, fault, duration));
+    }
+    let fastest = rate_bound::bound(sliding.iter().map(|p| p.medium.waves));
+    let absorbing = masses::absorbing(scene, &model, &density)?;
+    if absorbing.is_empty() {
+        remarks.warnings.extend(doubts::returned(scene, &model, &sliding, [fastest, duration]));
     }
     Ok(Plan {
         title: scene.title.clone(),
@@ -133,7 +138,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         points,
         resolution,
         rupture_rate: scene.output.rupture_rate.as_ref().map_or(defaults::RUPTURED, |v| v.get_ref().0),
-        fastest: rate_bound::bound(sliding.iter().map(|p| p.medium.waves)),
+        fastest,
         receivers,
         epoch: outputs::epoch(scene)?,
         mesh: views::mesh_view(&model, false),
@@ -148,7 +153,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
             courant: counted.courant,
             viscosity,
             fault,
-            absorbing: masses::absorbing(scene, &model, &density)?,
+            absorbing,
             velocity: Vec::new(),
             stages,
             density,
