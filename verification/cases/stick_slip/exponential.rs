@@ -2,8 +2,8 @@
 
 use super::texts::{self, BodyRun};
 use super::{COLUMN, NORMAL, PRESSED, WIDTH};
-use crate::cases::run_files;
-use crate::{Capability, CaseError, Evidence, Ledger};
+use crate::cases::run_files::{self, Table};
+use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity::catalogue::Entry;
 use asperity_vary::SceneText;
 
@@ -210,7 +210,7 @@ fn derived(ledger: &mut Ledger, done: &BodyRun, event: &Entry) {
 
 /// Claims about the same event in its file.
 fn catalogue(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let (files, cost) = run_files::by_program(&coarse()?.text()?)?;
+    let (files, cost) = run_files::by_program(&twice()?.text()?)?;
     let table = files.table("out/events.csv")?;
     let of = |name: &str| -> Result<f64, CaseError> { Ok(*table.column(name)?.first().ok_or("no event")?) };
     let (rise, fall) = ((PEAK / ON).ln() * GROWS, (PEAK / OFF).ln() * FALLS);
@@ -242,15 +242,73 @@ fn catalogue(ledger: &mut Ledger) -> Result<(), CaseError> {
     let off = [
         usize::from(!(0.0..=WIDTH).contains(&x)),
         usize::from(y != 0.0 || z != 0.0),
-        table.column("onset")?.len() - 1,
+        table.column("onset")?.len().abs_diff(2),
     ];
     ledger
-        .claim("the same event in events.csv: coordinates of its hypocentre that lie off the bottom, and further events")
+        .claim("the same event in events.csv: coordinates of its hypocentre that lie off the bottom, and missing or further events")
         .count(off.iter().sum::<usize>() as u64, 0)
-        .evidence(Evidence::Exact, "only the bottom of the column that is sheared slips")
+        .evidence(Evidence::Exact, "only the bottom of the column that is sheared slips, twice")
         .because("a count")
         .covers(&[Capability::InterfaceStates, Capability::Events, Capability::Outputs])
         .cost(&cost)
+        .record();
+    second(ledger, &table, &cost)
+}
+
+/// Length of the interface out of the plane \[m\].
+const ACROSS: f64 = 2.0;
+/// Time from one peak of the slip rate to the next \[s\].
+const AGAIN: f64 = SLOW * GROWS / FALLS + SLOW;
+
+/// Scene of the coarse run whose traction grows and falls once more at the same pace, with a length out of the plane.
+fn twice() -> Result<SceneText, CaseError> {
+    let peak = MU0 + A * (PEAK / V_REF).ln();
+    let [low, first] = [peak - A * SLOW / FALLS, peak - A * SLOW / GROWS];
+    let turns = FAST + 2.0 * SLOW;
+    let rows = [(0.0, 0.0), (FAST, first), (FAST + SLOW, peak), (turns, low)];
+    let again = [(FAST + SLOW + AGAIN, peak), (turns + AGAIN, low)];
+    let rows: Vec<String> = rows
+        .into_iter()
+        .chain(again)
+        .map(|(time, friction)| format!("[{time:?}, {:?}]", friction * NORMAL))
+        .collect();
+    Ok(coarse()?
+        .with("stages[1].duration", format!("{:?}", turns + AGAIN))
+        .with("stages[1].conditions[0].traction", format!("[{{ table = [{}] }}, 0]", rows.join(", ")))
+        .add("place", format!("{{ epoch = \"2000-01-01T00:00:00Z\", latitude = 35.0, longitude = 20.0, strike = 0.5, length = {ACROSS:?} }}")))
+}
+
+/// Claims about the second of two events at a distance in time, in the table of events.
+fn second(ledger: &mut Ledger, table: &Table, cost: &Cost) -> Result<(), CaseError> {
+    let both = |name: &str| -> Result<[f64; 2], CaseError> {
+        let column = table.column(name)?;
+        Ok([*column.first().ok_or("no event")?, *column.last().ok_or("no event")?])
+    };
+    let interval: f64 = table.words("interval")?.last().ok_or("no event")?.parse()?;
+    let slips = both("mean_slip")?;
+    let sizes = slips.map(|slip| ((SHEAR * WIDTH * slip * ACROSS).log10() - 9.1) / 1.5);
+    let [first, last] = both("magnitude")?;
+    let [from, to] = both("rupture_length")?;
+    ledger
+        .claim("two such events in events.csv: interval and rupture_length over what they should be, and magnitude")
+        .values(&[interval / AGAIN, from / WIDTH, to / WIDTH, first / sizes[0], last / sizes[1]])
+        .equals_each(&[1.0; 5])
+        .relative(1e-8)
+        .evidence(Evidence::Exact, "the ramps of traction repeat after twelve seconds; the whole bottom slips; Mw = (log10 M0 - 9.1)/1.5 with M0 = G times width times slip times length")
+        .because("as for onset and end")
+        .why_not_tighter("where the last iteration of Newton's method ends below its tolerance is chance")
+        .covers(&[Capability::InterfaceStates, Capability::Events, Capability::Outputs])
+        .cost(cost)
+        .record();
+    let named = table.words("surface")?.iter().filter(|name| **name != "fault").count();
+    let placed = table.words("hypocentre_along")?.iter().filter(|word| !word.is_empty()).count();
+    ledger
+        .claim("two such events in events.csv: names in surface of other interfaces, and numbers in hypocentre_along")
+        .count((named + placed) as u64, 0)
+        .evidence(Evidence::Exact, "the interface that is sheared; there is no distance along interfaces")
+        .because("a count")
+        .covers(&[Capability::InterfaceStates, Capability::Events, Capability::Outputs])
+        .cost(cost)
         .record();
     Ok(())
 }
