@@ -88,7 +88,7 @@ impl Worst {
         // VTK's order: xx, yy, zz, xy, yz, xz.
         let wanted = [0.0, 0.0, 0.0, y, 0.0, z];
         let stress = &fields.array("stress")?.values;
-        let off = stress.chunks(6).flat_map(|cell| (0..6).map(|c| (cell[c] - wanted[c]) / size));
+        let off = stress.chunks(6).flat_map(|cell| (0..6).map(move |c| (cell[c] - wanted[c]) / size));
         self.stress = most(self.stress, off);
         // Axes of the scene as parts north, east and up.
         let origin = mechanism.offset([0.0; 3]);

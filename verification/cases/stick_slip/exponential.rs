@@ -275,7 +275,7 @@ fn twice() -> Result<SceneText, CaseError> {
     Ok(coarse()?
         .with("stages[1].duration", format!("{:?}", turns + AGAIN))
         .with("stages[1].conditions[0].traction", format!("[{{ table = [{}] }}, 0]", rows.join(", ")))
-        .add("place", format!("{{ epoch = \"2000-01-01T00:00:00Z\", latitude = 35.0, longitude = 20.0, strike = 0.5, length = {ACROSS:?} }}")))
+        .add("place", format!("{{ epoch = \"2000-01-01T00:00:00Z\", latitude = \"35 deg\", longitude = \"20 deg\", strike = \"30 deg\", length = {ACROSS:?} }}")))
 }
 
 /// Claims about the second of two events at a distance in time, in the table of events.
