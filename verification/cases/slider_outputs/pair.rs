@@ -1,8 +1,10 @@
-//! Two sliders on springs of their own, of which one is pressed by a course: names and ends of their events, and their histories.
+//! Two sliders on springs of their own, of which one is pressed by a course: names and ends of their events, and their histories; and the
+//! steps of a slider that becomes steady.
 
 use super::{NORMAL, law};
 use crate::cases::run_files::{self, Folder};
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
+use serde_json::Value;
 
 /// Names of the sliders and stiffnesses of their springs \[Pa/m\].
 const SLIDERS: [(&str, f64); 2] = [("soft", 1.25e9), ("stiff", 1.75e9)];
@@ -79,6 +81,40 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (number, (name, _)) in SLIDERS.iter().enumerate() {
         history(ledger, (&files, &cost), number, name)?;
     }
+    steps(ledger)
+}
+
+/// Lengths of steps of a slider that becomes steady, of which each has one row.
+fn steps(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let law = law("ageing", "0.005", "l = \"10 um\"");
+    let text = format!(
+        "schema = 1\ntitle = \"steps\"\nkinematics = \"spring-slider\"\n[load]\nrate = {LOAD:e}\n\
+         [sliders.block]\nnormal = {NORMAL:?}\nstiffness = 1.25e9\nstart = \"1.5 um/s\"\nlaw = {law}\n\
+         [time]\nend = 60.0\n[output]\nchange = 1\n"
+    );
+    let (files, cost) = run_files::by_program(&text)?;
+    let table = files.table("out/history/block.csv")?;
+    let times = table.column("time")?;
+    let apart: Vec<f64> =
+        std::iter::once(0.0).chain(times.windows(2).map(|pair| pair[1] - pair[0])).collect();
+    let report: Value = serde_json::from_str(&files.text("out/report.json")?)?;
+    let taken = report["counts"]["steps"].as_u64().ok_or("no number of steps")?;
+    if taken < 5 || times.len() as u64 != taken + 1 {
+        return Err(format!("{} rows of {taken} steps", times.len()).into());
+    }
+    ledger
+        .claim(
+            "history of a slider that becomes steady: step in all rows, of which each is the end of a step",
+        )
+        .unit("s")
+        .values(&table.column("step")?)
+        .equals_each(&apart)
+        .absolute(1e-12)
+        .evidence(Evidence::Exact, "the times of the rows, as many as steps in the report")
+        .because("rounding of times of a minute")
+        .why_not_tighter("all digits are written")
+        .cost(&cost)
+        .record();
     Ok(())
 }
 
