@@ -56,7 +56,7 @@ impl Mechanism {
             .with_or_same("stages[0].conditions[0].z.rate", rate(along))
             .with_or_same("stages[0].conditions[1].y.rate", rate(dips))
             .with_or_same("stages[0].conditions[1].z.rate", rate(-along))
-            .add("output.coulomb", stresses::asked());
+            .add("output", format!("{{ coulomb = {} }}", stresses::asked()));
         Ok(scene.text()?)
     }
 

@@ -183,21 +183,23 @@ fn exact(time: f64) -> [[f64; 2]; 2] {
     ]
 }
 
-/// Shear tractions of the station through time: friction along the slip rate in the same rows.
+/// Shear tractions of the station through time: friction along the slip rate in the same rows, whose signs are those of slip.
 fn tractions(ledger: &mut Ledger, run: &Waves) -> Result<(), CaseError> {
     let table = run.files.table("stations/f_000")?;
-    let columns =
-        ["slip_rate_2", "slip_rate_3", "shear_stress_2", "shear_stress_3"].map(|name| table.column(name));
-    let all: Vec<Vec<f64>> = columns.into_iter().collect::<Result<_, _>>()?;
+    let along = |name: &str| [2, 3].map(|c| table.column(&format!("{name}_{c}")));
+    let (slips, rates, shears) = (along("slip"), along("slip_rate"), along("shear_stress"));
+    let [slips, rates, shears] =
+        [slips, rates, shears].map(|both| both.into_iter().collect::<Result<Vec<_>, _>>());
+    let (slips, rates, shears) = (slips?, rates?, shears?);
     let (mut worst, mut across) = (0.0_f64, 0.0_f64);
     // Of the direction of the first half step nothing is known.
-    for k in 2..all[0].len() {
-        let rates = [0, 1].map(|c: usize| 10.0_f64.powf(all[c][k]));
-        let size = rates[0].hypot(rates[1]);
-        for c in 0..2 {
-            worst = worst.max((1e6 * all[2 + c][k] / FRICTION - rates[c] / size).abs());
+    for k in 2..slips[0].len() - 1 {
+        let way = |c: usize| 10.0_f64.powf(rates[c][k]) * (slips[c][k + 1] - slips[c][k - 1]).signum();
+        let size = way(0).hypot(way(1));
+        for (c, shears) in shears.iter().enumerate() {
+            worst = worst.max((1e6 * shears[k] / FRICTION - way(c) / size).abs());
         }
-        across = across.max(rates[1] / size);
+        across = across.max(way(1) / size);
     }
     if across < 0.5 {
         return Err("slip does not turn".into());
