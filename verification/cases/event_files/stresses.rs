@@ -43,6 +43,24 @@ fn planes() -> [[f64; 3]; 2] {
     [normal, [cl * cs + cd * sl * ss, cl * ss - cd * sl * cs, sl * sd]]
 }
 
+/// Shear traction along the slip of the planes and pressure on them, of these shear stresses in planes across x \[Pa\].
+fn resolved(mechanism: &Mechanism, [y, z]: [f64; 2]) -> [f64; 2] {
+    let origin = mechanism.offset([0.0; 3]);
+    // An axis of the scene as parts north, east and up.
+    let axis = |c: usize| {
+        let moved = mechanism.offset(std::array::from_fn(|k| f64::from(u8::from(k == c))));
+        [0, 1, 2].map(|k| moved[k] - origin[k])
+    };
+    let axes = [axis(0), axis(1), axis(2)];
+    let part = |way: &[f64; 3], c: usize| (0..3).map(|k| way[k] * axes[c][k]).sum::<f64>();
+    let on = |one: &[f64; 3], other: &[f64; 3]| {
+        y * (part(one, 0) * part(other, 1) + part(one, 1) * part(other, 0))
+            + z * (part(one, 0) * part(other, 2) + part(one, 2) * part(other, 0))
+    };
+    let [normal, along] = planes();
+    [on(&normal, &along), -on(&normal, &normal)]
+}
+
 /// Largest errors over all mechanisms.
 #[derive(Default)]
 pub(super) struct Worst {
@@ -90,21 +108,7 @@ impl Worst {
         let stress = &fields.array("stress")?.values;
         let off = stress.chunks(6).flat_map(|cell| (0..6).map(move |c| (cell[c] - wanted[c]) / size));
         self.stress = most(self.stress, off);
-        // Axes of the scene as parts north, east and up.
-        let origin = mechanism.offset([0.0; 3]);
-        let axis = |c: usize| {
-            let unit = std::array::from_fn(|k| f64::from(u8::from(k == c)));
-            let moved = mechanism.offset(unit);
-            [0, 1, 2].map(|k| moved[k] - origin[k])
-        };
-        let axes = [axis(0), axis(1), axis(2)];
-        let part = |way: &[f64; 3], c: usize| (0..3).map(|k| way[k] * axes[c][k]).sum::<f64>();
-        let on = |one: &[f64; 3], other: &[f64; 3]| {
-            y * (part(one, 0) * part(other, 1) + part(one, 1) * part(other, 0))
-                + z * (part(one, 0) * part(other, 2) + part(one, 2) * part(other, 0))
-        };
-        let [normal, along] = planes();
-        let (shear, pressed) = (on(&normal, &along), -on(&normal, &normal));
+        let [shear, pressed] = resolved(mechanism, [y, z]);
         for (name, wanted) in [
             ("shear_change", shear),
             ("normal_change", pressed),

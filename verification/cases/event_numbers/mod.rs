@@ -123,7 +123,7 @@ fn pairs(ledger: &mut Ledger) -> Result<(), CaseError> {
             .cost(&done.cost)
             .record();
     }
-    points::of_pairs(ledger, &done)?;
+    points::faults(ledger, &done)?;
     nucleates(ledger, &done)
 }
 

@@ -90,7 +90,7 @@ fn fastest(ledger: &mut Ledger, done: &WrittenRun, [from, to]: [f64; 2]) -> Resu
 }
 
 /// Faults of the points of an event beside a fault that creeps.
-pub(super) fn of_pairs(ledger: &mut Ledger, done: &WrittenRun) -> Result<(), CaseError> {
+pub(super) fn faults(ledger: &mut Ledger, done: &WrittenRun) -> Result<(), CaseError> {
     let table = done.files.table(TABLE)?;
     let names = table.words("fault")?;
     let heights = table.column("y")?;

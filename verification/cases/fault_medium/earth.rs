@@ -26,10 +26,32 @@ fn travelled(north: f64, east: f64) -> [f64; 2] {
     [foot - east * east * foot.tan() / (2.0 * along * across), longitude + east / (across * foot.cos())]
 }
 
+/// Largest errors of positions \[m\], of longitudes and latitudes over the third power of the arc from the origin, and of depths
+/// \[m\], in the columns of these six.
+fn errors(columns: &[Vec<f64>], wanted: &[[f64; 3]]) -> [f64; 3] {
+    let (sine, cosine) = STRIKE.to_radians().sin_cos();
+    let mut worst = [0.0_f64; 3];
+    for (k, &[x, y, z]) in wanted.iter().enumerate() {
+        let row = |c: usize| columns[c].get(k).copied().unwrap_or(f64::INFINITY);
+        // x points to the right of the strike, and -z along it.
+        let [north, east] = [-z * cosine - x * sine, -z * sine + x * cosine];
+        let [latitude, longitude] = travelled(north, east);
+        let off = [row(4).to_radians() - latitude, (row(3).to_radians() - longitude) * latitude.cos()];
+        let arc = north.hypot(east) / radii(latitude)[0];
+        let errors = [
+            (row(0) - x).abs().max((row(1) - y).abs()).max((row(2) - z).abs()),
+            off[0].hypot(off[1]) / (arc.powi(3) + DIGITS),
+            (row(5) + y).abs(),
+        ];
+        worst = std::array::from_fn(|c| worst[c].max(errors[c]));
+    }
+    worst
+}
+
 /// Claims the positions in a table of an event, and their longitudes, latitudes and depths.
 ///
 /// # Errors
-/// If the table has not these columns.
+/// If the table has not these columns, or other rows.
 pub(super) fn claims(
     ledger: &mut Ledger,
     done: &WrittenRun,
@@ -39,23 +61,10 @@ pub(super) fn claims(
     let table = done.files.table(file)?;
     let columns = ["x", "y", "z", "longitude", "latitude", "depth"].map(|name| table.column(name));
     let all: Vec<Vec<f64>> = columns.into_iter().collect::<Result<_, _>>()?;
-    let (sine, cosine) = STRIKE.to_radians().sin_cos();
-    let mut worst = if all[0].len() == wanted.len() { [0.0_f64; 3] } else { [f64::INFINITY; 3] };
-    for (k, &[x, y, z]) in wanted.iter().enumerate().take(all[0].len()) {
-        let [found_x, found_y, found_z, longitude, latitude, depth] =
-            [0, 1, 2, 3, 4, 5].map(|c: usize| all[c][k]);
-        // x points to the right of the strike, and -z along it.
-        let [north, east] = [-z * cosine - x * sine, -z * sine + x * cosine];
-        let place = travelled(north, east);
-        let off = [latitude.to_radians() - place[0], (longitude.to_radians() - place[1]) * place[0].cos()];
-        let arc = north.hypot(east) / radii(place[0])[0];
-        let errors = [
-            (found_x - x).abs().max((found_y - y).abs()).max((found_z - z).abs()),
-            off[0].hypot(off[1]) / (arc.powi(3) + DIGITS),
-            (depth + y).abs(),
-        ];
-        worst = std::array::from_fn(|c| worst[c].max(errors[c]));
+    if all[0].len() != wanted.len() {
+        return Err(format!("{file} has {} rows, and not {}", all[0].len(), wanted.len()).into());
     }
+    let worst = errors(&all, wanted);
     for (what, unit, value, bound, source, because) in [
         ("x, y and z", "m", worst[0], 1e-6, "positions of the scene", "rounding of kilometres"),
         (

@@ -156,6 +156,20 @@ fn in_the_plane(ledger: &mut Ledger) -> Result<(), CaseError> {
     through(ledger, &done)
 }
 
+/// Displacement of the surface towards the footwall and up, of reverse slip of one metre of the line.
+fn reversed(x: f64) -> [f64; 2] {
+    let (sine, cosine) = DIP.to_radians().sin_cos();
+    let source = Rectangle {
+        depth: WIDTH * sine,
+        dip: DIP.to_radians(),
+        size: [LENGTH, WIDTH],
+        slip: [0.0, 1.0, 0.0],
+        ratio: RATIO,
+    };
+    let [_, v, w] = source.surface(0.5 * LENGTH, WIDTH * cosine - x);
+    [v, w]
+}
+
 /// Profiles of the surface through the run: slip that lags behind plates, which move by half their rate on either side.
 fn through(ledger: &mut Ledger, done: &WrittenRun) -> Result<(), CaseError> {
     let tables = ["surface_profiles_x.csv", "surface_profiles_y.csv"].map(|name| done.files.table(name));
@@ -163,7 +177,7 @@ fn through(ledger: &mut Ledger, done: &WrittenRun) -> Result<(), CaseError> {
     let (along, up) = (along?, up?);
     let (positions, rows) = (along.head()[1..].to_vec(), [along.numbers(), up.numbers()]);
     let slips = done.files.table("slip_profiles.csv")?.numbers();
-    let (sine, cosine) = DIP.to_radians().sin_cos();
+    let way = [-DIP.to_radians().cos(), DIP.to_radians().sin()];
     let largest = slips.iter().fold(0.0_f64, |m, row| m.max(row[1].abs()));
     let same = rows.iter().all(|rows| rows.iter().map(|row| row[0]).eq(slips.iter().map(|row| row[0])));
     if !same || slips.len() < 5 || positions.len() != 30 {
@@ -172,18 +186,11 @@ fn through(ledger: &mut Ledger, done: &WrittenRun) -> Result<(), CaseError> {
     let mut worst = 0.0_f64;
     for (k, name) in positions.iter().enumerate() {
         let x: f64 = name.parse()?;
-        let source = Rectangle {
-            depth: WIDTH * sine,
-            dip: DIP.to_radians(),
-            size: [LENGTH, WIDTH],
-            slip: [0.0, 1.0, 0.0],
-            ratio: RATIO,
-        };
-        let [_, v, w] = source.surface(0.5 * LENGTH, WIDTH * cosine - x);
+        let [v, w] = reversed(x);
         for (row, slip) in slips.iter().enumerate() {
             let plates = PLATES * slip[0];
             let (lags, half) = (slip[1] - plates, 0.5 * plates * x.signum());
-            let wanted = [-v * lags - half * cosine, w * lags + half * sine];
+            let wanted = [half * way[0] - v * lags, half * way[1] + w * lags];
             for (rows, wanted) in rows.iter().zip(wanted) {
                 worst = worst.max((rows[row][k + 1] - wanted).abs() / largest);
             }
