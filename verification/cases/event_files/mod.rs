@@ -1,5 +1,7 @@
 //! Events in the seismological formats QuakeML and CMTSOLUTION, with moment tensors and geographic locations.
 
+mod stresses;
+
 use crate::cases::run_files::WrittenRun;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_vary::SceneText;
@@ -53,7 +55,8 @@ impl Mechanism {
             .with_or_same("stages[0].conditions[0].y.rate", rate(-dips))
             .with_or_same("stages[0].conditions[0].z.rate", rate(along))
             .with_or_same("stages[0].conditions[1].y.rate", rate(dips))
-            .with_or_same("stages[0].conditions[1].z.rate", rate(-along));
+            .with_or_same("stages[0].conditions[1].z.rate", rate(-along))
+            .add("output", format!("{{ coulomb = {} }}", stresses::asked()));
         Ok(scene.text()?)
     }
 
@@ -238,10 +241,11 @@ impl Worst {
 }
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let (mut worst, mut last) = (Worst::default(), None);
+    let (mut worst, mut stresses, mut last) = (Worst::default(), stresses::Worst::default(), None);
     for mechanism in &MECHANISMS {
         let done = WrittenRun::from_text(&mechanism.scene()?)?;
         worst.add(mechanism, &done)?;
+        stresses.add(mechanism, &done)?;
         last = Some(done.cost);
     }
     let cost = last.ok_or("no mechanism")?;
@@ -257,5 +261,6 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
             .cost(&cost)
             .record();
     }
+    stresses.claims(ledger, &cost);
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! Quantities derived from fault events, in output files: moment, area, slip, stress drop, hypocentre, magnitude.
 
 mod history;
+mod points;
 mod slow;
 
 use crate::cases::run_files::WrittenRun;
@@ -122,6 +123,7 @@ fn pairs(ledger: &mut Ledger) -> Result<(), CaseError> {
             .cost(&done.cost)
             .record();
     }
+    points::faults(ledger, &done)?;
     nucleates(ledger, &done)
 }
 
@@ -270,6 +272,7 @@ fn rupture(ledger: &mut Ledger) -> Result<(), CaseError> {
     rates(ledger, &done, (from, to))?;
     centroid(ledger, &done, (from, to))?;
     moment_rates(ledger, &done, &sums, to)?;
+    points::claims(ledger, &done, [from, to])?;
     rupture_times(ledger, &done, (from, to))
 }
 

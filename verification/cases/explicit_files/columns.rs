@@ -98,6 +98,16 @@ fn front(ledger: &mut Ledger) -> Result<(), CaseError> {
         .covers(&[Capability::DynamicRupture, Capability::Outputs])
         .cost(&run.cost)
         .record();
+    let wrong =
+        table.words("fault")?.iter().enumerate().filter(|(k, name)| **name != format!("f{}", k / 2)).count();
+    ledger
+        .claim("points in the table of rupture times of these columns with the name of another fault")
+        .count(wrong as u64, 0)
+        .evidence(Evidence::Exact, "two points for each column, in the order of the scene")
+        .because("a count")
+        .covers(&[Capability::DynamicRupture, Capability::Outputs])
+        .cost(&run.cost)
+        .record();
     let ends = run.report.ruptures.iter().filter_map(|r| r.times).flatten().collect::<Vec<f64>>();
     ledger
         .claim("first and last rupture times in the report")
@@ -155,6 +165,68 @@ fn order(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
+/// Further columns of the table of energies of a run whose fault slips by this much at the end \[m\].
+fn parts_of_energy(ledger: &mut Ledger, run: &Waves, slip: f64) -> Result<(), CaseError> {
+    let table = run.files.table("energy.csv")?;
+    let (times, steps, stages) = (table.column("time")?, table.column("step")?, table.column("stage")?);
+    // There are two steps for each time in which a wave passes a cell.
+    let each = 0.5 / LEVELS[1] as f64;
+    let at = |k: usize| END * k as f64 / ROWS as f64;
+    let wanted: Vec<f64> = (0..=ROWS).flat_map(|k| [at(k), (at(k) / each).round(), 0.0]).collect();
+    let found: Vec<f64> = times
+        .iter()
+        .zip(&steps)
+        .zip(&stages)
+        .flat_map(|((time, step), stage)| [*time, *step, *stage])
+        .collect();
+    ledger
+        .claim("time, step and stage in all rows of energy.csv of the run in parts")
+        .values(&found)
+        .equals_each(&wanted)
+        .absolute(1e-12)
+        .evidence(Evidence::Exact, "multiples of the interval, the steps that they take, and the only stage")
+        .because("rounding of sums of steps")
+        .why_not_tighter("times have fifteen digits")
+        .covers(&[Capability::DynamicRupture, Capability::Outputs])
+        .cost(&run.cost)
+        .record();
+    let n = 2000;
+    let weight = |k: usize| if k == 0 || k == n { 1.0 } else { 2.0 + 2.0 * (k % 2) as f64 };
+    let squares: f64 = (0..=n).map(|k| weight(k) * growth(END * k as f64 / n as f64, 1.0).powi(2)).sum();
+    let imposed = 2.0 * TRACTION * TRACTION * squares * END / (3.0 * n as f64);
+    ledger
+        .claim("energy released by initial and imposed tractions of the run in parts")
+        .unit("J/m")
+        .value(last(&table.column("released")?)?)
+        .equals(STRENGTH * slip + imposed)
+        .relative(4.0 * 2e-3)
+        .evidence(
+            Evidence::Exact,
+            "the strength, which is the initial traction, times slip, and the integral of A G times 2 A G",
+        )
+        .because("four times the bound of slip rates on half the size of cells")
+        .why_not_tighter("errors of slip rates cancel in part over their rise")
+        .covers(&[Capability::DynamicRupture, Capability::Outputs])
+        .cost(&run.cost)
+        .record();
+    let mut idle = 0.0_f64;
+    for part in ["contact", "springs", "plastic", "numerical", "handover", "start"] {
+        idle = table.column(part)?.iter().fold(idle, |m, value| m.max(value.abs()));
+    }
+    ledger
+        .claim("parts of energy.csv of the run in parts that nothing feeds: contact, springs, plastic, numerical, handover and start")
+        .unit("J/m")
+        .value(idle)
+        .at_most(1e-15)
+        .evidence(Evidence::Exact, "elastic bodies at rest at the start, without springs and contact")
+        .because("nothing adds to them")
+        .why_not_tighter("they are exact zeros")
+        .covers(&[Capability::DynamicRupture, Capability::Outputs])
+        .cost(&run.cost)
+        .record();
+    Ok(())
+}
+
 /// Energies of a run that is resumed at every step.
 fn energy(ledger: &mut Ledger) -> Result<(), CaseError> {
     let text = scene(&[TRACTION], LEVELS[1], END)?;
@@ -203,6 +275,7 @@ fn energy(ledger: &mut Ledger) -> Result<(), CaseError> {
         .covers(&[Capability::DynamicRupture, Capability::Outputs])
         .cost(&parts.cost)
         .record();
+    parts_of_energy(ledger, &parts, slip)?;
     let missing = table.column("missing")?.into_iter().map(f64::abs).fold(0.0, f64::max);
     ledger
         .claim("energy missing in the run in parts over the work of friction")

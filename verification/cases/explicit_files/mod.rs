@@ -6,6 +6,7 @@ mod delayed;
 mod loaded;
 mod oblique;
 mod partial;
+mod remembering;
 mod revived;
 mod sheet;
 
@@ -28,6 +29,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     loaded::claims(ledger)?;
     partial::claims(ledger)?;
     revived::claims(ledger)?;
+    remembering::claims(ledger)?;
     clamped::claims(ledger)
 }
 

@@ -19,6 +19,8 @@ const CELLS: usize = 80;
 /// Imposed traction, and largest velocity of the wave.
 const TRACTION: f64 = 0.1;
 const WAVE: f64 = 0.1;
+/// Coefficient of friction, under a normal traction of one.
+const FRICTION: f64 = 1e-9;
 /// End of the run: waves return from the ends of the column later.
 const END: f64 = 3.6;
 /// Intervals between rows, and between fields.
@@ -53,7 +55,7 @@ fn scene() -> Result<String, CaseError> {
          mesh.block = {{ min = [-{LENGTH:?}, 0, 0], max = [0, 1, 2], divisions = [{CELLS}, 1, 1], element = \"hex8\" }}\n\
          [bodies.b]\nmaterial = \"rock\"\n\
          mesh.block = {{ min = [0, 0, 0], max = [{LENGTH:?}, 1, 2], divisions = [{CELLS}, 1, 1], element = \"hex8\" }}\n\
-         [faults.f]\nminus = \"a.right\"\nplus = \"b.left\"\nslip = \"free\"\nrake = [0, 1, 0]\nlaw = {{ kind = \"coulomb\", mu = 1e-9 }}\n\
+         [faults.f]\nminus = \"a.right\"\nplus = \"b.left\"\nslip = \"free\"\nrake = [0, 1, 0]\nlaw = {{ kind = \"coulomb\", mu = {FRICTION:e} }}\n\
          normal = 1\nshear = 0\npulses = [{{ traction = {TRACTION:?}, centre = [0, 0.5, 1], radius = 1e4, duration = 1 }}]\n\
          [[stages]]\nname = \"slip\"\nduration = {END:?}\nconditions = [{conditions}{{ set = \"a.left\", absorbing = true }}, \
          {{ set = \"b.right\", z = {{ table = [{}] }} }}]\n\
@@ -103,6 +105,7 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
         .cost(&run.cost)
         .record();
     vectors(ledger, &run, lag)?;
+    tractions(ledger, &run)?;
     received(ledger, &run, lag)
 }
 
@@ -178,6 +181,41 @@ fn exact(time: f64) -> [[f64; 2]; 2] {
         [along, 2.0 * motion(time - LENGTH)],
         [2.0 * TRACTION * growth(time, 1.0), 2.0 * velocity(time - LENGTH)],
     ]
+}
+
+/// Shear tractions of the station through time: friction along the slip rate in the same rows, whose signs are those of slip.
+fn tractions(ledger: &mut Ledger, run: &Waves) -> Result<(), CaseError> {
+    let table = run.files.table("stations/f_000")?;
+    let along = |name: &str| [2, 3].map(|c| table.column(&format!("{name}_{c}")));
+    let (slips, rates, shears) = (along("slip"), along("slip_rate"), along("shear_stress"));
+    let [slips, rates, shears] =
+        [slips, rates, shears].map(|both| both.into_iter().collect::<Result<Vec<_>, _>>());
+    let (slips, rates, shears) = (slips?, rates?, shears?);
+    let (mut worst, mut across) = (0.0_f64, 0.0_f64);
+    // Of the direction of the first half step nothing is known.
+    for k in 2..slips[0].len() - 1 {
+        let way = |c: usize| 10.0_f64.powf(rates[c][k]) * (slips[c][k + 1] - slips[c][k - 1]).signum();
+        let size = way(0).hypot(way(1));
+        for (c, shears) in shears.iter().enumerate() {
+            worst = worst.max((1e6 * shears[k] / FRICTION - way(c) / size).abs());
+        }
+        across = across.max(way(1) / size);
+    }
+    if across < 0.5 {
+        return Err("slip does not turn".into());
+    }
+    let turn = 0.5 * run.report.step * TAU * 0.5;
+    ledger
+        .claim("slip that a wave turns out of its direction: shear_stress_2 and shear_stress_3 of the station in all rows, over friction, largest error")
+        .value(worst)
+        .at_most(turn)
+        .evidence(Evidence::Exact, "friction has the direction of the slip rate, whose components are in the same rows")
+        .because("friction is along the slip rate of a half step, the rows have the mean of two: half a step times the pace at which a wave of a period of 1 s and of half the slip rate turns it, 2 pi/2")
+        .why_not_tighter("slip turns fastest for a moment only")
+        .covers(&[Capability::DynamicRupture, Capability::Solid3d, Capability::Outputs])
+        .cost(&run.cost)
+        .record();
+    Ok(())
 }
 
 /// Vectors of slip and slip rate at the station, and in the fields while the wave passes.

@@ -71,6 +71,7 @@ fn in_space(ledger: &mut Ledger, wanted: &Reference) -> Result<(), CaseError> {
         .why_not_tighter("the last digit may be off by any part of a half")
         .cost(&done.cost)
         .record();
+    named(ledger, &done, wanted)?;
     let plane = done.plan.coulomb.as_ref().ok_or("the plan has no planes")?.plane;
     resolved(
         ledger,
@@ -102,6 +103,23 @@ fn in_space(ledger: &mut Ledger, wanted: &Reference) -> Result<(), CaseError> {
         .cost(&done.cost)
         .record();
     Ok(())
+}
+
+/// Names of the positions in space, and where they lie.
+fn named(ledger: &mut Ledger, done: &WrittenRun, wanted: &Reference) -> Result<(), CaseError> {
+    let file = "events/coulomb_points_000.csv";
+    let names = done.files.table(file)?;
+    let names = names.words("name")?;
+    let wrong = names.iter().enumerate().filter(|(k, name)| **name != format!("p{k}")).count();
+    ledger
+        .claim("names in the table of changes at positions in space that are not those of the scene, in its order")
+        .count((wrong + names.len().abs_diff(wanted.positions.len())) as u64, 0)
+        .evidence(Evidence::Exact, "names of the scene")
+        .because("a count")
+        .cost(&done.cost)
+        .record();
+    let positions: Vec<[f64; 3]> = wanted.positions.iter().map(|p| p.at).collect();
+    super::earth::claims(ledger, done, file, &positions)
 }
 
 /// Claims that the stresses in a table cause its changes on planes of this normal and direction of slip.
@@ -241,6 +259,19 @@ fn in_the_plane(ledger: &mut Ledger) -> Result<(), CaseError> {
             .cost(&done.cost)
             .record();
     }
+    let faults = done.files.table("events/coulomb_faults_000.csv")?;
+    let faults = faults.words("fault")?;
+    let wrong =
+        faults.iter().enumerate().filter(|(k, name)| **name != if *k == 0 { "main" } else { "other" });
+    ledger
+        .claim(
+            "cells in the table of changes on both faults with the name of the other fault, and missing ones",
+        )
+        .count((wrong.count() + faults.len().abs_diff(1 + CELLS)) as u64, 0)
+        .evidence(Evidence::Exact, "one cell of `main` and four of `other`, in the order of the scene")
+        .because("a count")
+        .cost(&done.cost)
+        .record();
     let in_space = |[x, y]: [f64; 2]| [x, y, 0.0];
     resolved(
         ledger,

@@ -2,6 +2,7 @@
 
 mod coulomb;
 mod depths;
+mod earth;
 mod fields;
 mod files;
 mod grids;
@@ -9,6 +10,7 @@ mod locking;
 mod receivers;
 mod surface;
 pub mod triangles;
+mod turning;
 
 use crate::cases::fault_operator::matrix;
 use crate::cases::{body_plots, dislocation, seas};

@@ -307,7 +307,7 @@ fn turned_event(ledger: &mut Ledger) -> Result<(), CaseError> {
         .why_not_tighter("an angle of hundred degrees would have four decimals")
         .cost(&done.cost)
         .record();
-    Ok(())
+    super::turning::claims(ledger, &done, turned)
 }
 
 /// Displacement over an event of one cell.
@@ -336,5 +336,10 @@ fn event(ledger: &mut Ledger) -> Result<(), CaseError> {
         .why_not_tighter("the last digit may be off by any part of a half")
         .cost(&done.cost)
         .record();
-    Ok(())
+    let mut places = Vec::new();
+    for name in table.words("name")? {
+        let (_, [x, z]) = PLACES.into_iter().find(|p| p.0 == name).ok_or("no such receiver")?;
+        places.push([x, 0.0, z]);
+    }
+    super::earth::claims(ledger, &done, "events/displacements_000.csv", &places)
 }

@@ -1,6 +1,6 @@
 //! Displacement of the free surface over an event of one cell, and the finite-fault model of the event.
 
-use super::receivers::{DIP, RAKE, RATIO, SIZE, STRIKE, hanging, okada, one_cell_event, scene};
+use super::receivers::{DIP, PLATES, RAKE, RATIO, SIZE, STRIKE, hanging, okada, one_cell_event, scene};
 use crate::cases::okada::Rectangle;
 use crate::cases::run_files::WrittenRun;
 use crate::{CaseError, Evidence, Ledger};
@@ -43,7 +43,38 @@ fn map(ledger: &mut Ledger, done: &WrittenRun, slip: f64) -> Result<(), CaseErro
         .why_not_tighter("the last digit may be off by any part of a half")
         .cost(&done.cost)
         .record();
-    Ok(())
+    along_axes(ledger, done, slip)
+}
+
+/// Positions of the map, and its displacements along the axes of the scene.
+fn along_axes(ledger: &mut Ledger, done: &WrittenRun, slip: f64) -> Result<(), CaseError> {
+    let file = "events/surface_000.csv";
+    // Spans of 14.4 and 12.5 km in equal parts of about a kilometre, along z first.
+    let places: Vec<[f64; 3]> = (0..15)
+        .flat_map(|i| {
+            (0..14).map(move |j| {
+                [-6300.0 + 14_400.0 / 14.0 * f64::from(i), 0.0, -7e3 + 12_500.0 / 13.0 * f64::from(j)]
+            })
+        })
+        .collect();
+    let table = done.files.table(file)?;
+    let mut worst = 0.0_f64;
+    for (axis, name) in ["displacement_x", "displacement_y", "displacement_z"].into_iter().enumerate() {
+        for (found, &[x, _, z]) in table.column(name)?.into_iter().zip(&places) {
+            let wanted = okada(hanging(done) * slip, RAKE, SIZE, [x, z])[axis];
+            worst = worst.max((found - wanted).abs() / slip);
+        }
+    }
+    ledger
+        .claim("displacement_x, displacement_y and displacement_z of a map of the surface over an event, over its slip, largest error")
+        .value(worst)
+        .at_most(1e-8)
+        .evidence(Evidence::Exact, "Okada 1985 for the slip of the one cell, at equal distances over the spans of the scene")
+        .because("slip and displacements have ten digits")
+        .why_not_tighter("the last digit may be off by any part of a half")
+        .cost(&done.cost)
+        .record();
+    super::earth::claims(ledger, done, file, &places)
 }
 
 /// Number after `NAME =` in the head of a model.
@@ -119,6 +150,58 @@ fn in_the_plane(ledger: &mut Ledger) -> Result<(), CaseError> {
         .at_most(6.4e-6)
         .evidence(Evidence::Exact, "Okada 1985 for reverse slip of a rectangle a hundred thousand times as long as wide")
         .because("the parts beyond the ends would add up to the width over pi times half the length")
+        .why_not_tighter("a longer rectangle loses digits in differences of large terms")
+        .cost(&done.cost)
+        .record();
+    through(ledger, &done)
+}
+
+/// Displacement of the surface towards the footwall and up, of reverse slip of one metre of the line.
+fn reversed(x: f64) -> [f64; 2] {
+    let (sine, cosine) = DIP.to_radians().sin_cos();
+    let source = Rectangle {
+        depth: WIDTH * sine,
+        dip: DIP.to_radians(),
+        size: [LENGTH, WIDTH],
+        slip: [0.0, 1.0, 0.0],
+        ratio: RATIO,
+    };
+    let [_, v, w] = source.surface(0.5 * LENGTH, WIDTH * cosine - x);
+    [v, w]
+}
+
+/// Profiles of the surface through the run: slip that lags behind plates, which move by half their rate on either side.
+fn through(ledger: &mut Ledger, done: &WrittenRun) -> Result<(), CaseError> {
+    let tables = ["surface_profiles_x.csv", "surface_profiles_y.csv"].map(|name| done.files.table(name));
+    let [along, up] = tables;
+    let (along, up) = (along?, up?);
+    let (positions, rows) = (along.head()[1..].to_vec(), [along.numbers(), up.numbers()]);
+    let slips = done.files.table("slip_profiles.csv")?.numbers();
+    let way = [-DIP.to_radians().cos(), DIP.to_radians().sin()];
+    let largest = slips.iter().fold(0.0_f64, |m, row| m.max(row[1].abs()));
+    let same = rows.iter().all(|rows| rows.iter().map(|row| row[0]).eq(slips.iter().map(|row| row[0])));
+    if !same || slips.len() < 5 || positions.len() != 30 {
+        return Err("the profiles of the surface have other times than those of slip, or few".into());
+    }
+    let mut worst = 0.0_f64;
+    for (k, name) in positions.iter().enumerate() {
+        let x: f64 = name.parse()?;
+        let [v, w] = reversed(x);
+        for (row, slip) in slips.iter().enumerate() {
+            let plates = PLATES * slip[0];
+            let (lags, half) = (slip[1] - plates, 0.5 * plates * x.signum());
+            let wanted = [half * way[0] - v * lags, half * way[1] + w * lags];
+            for (rows, wanted) in rows.iter().zip(wanted) {
+                worst = worst.max((rows[row][k + 1] - wanted).abs() / largest);
+            }
+        }
+    }
+    ledger
+        .claim("surface_profiles_x.csv and surface_profiles_y.csv beside a dipping fault in plane strain through an event, all rows, over the largest slip, largest error")
+        .value(worst)
+        .at_most(1e-5)
+        .evidence(Evidence::Exact, "Okada 1985 for slip less that of the plates, of a rectangle a hundred thousand times as long as wide, and half of the plates on either side")
+        .because("the parts beyond the ends would add up to the width over pi times half the length, 6.4e-6, and slip in profiles has seven digits")
         .why_not_tighter("a longer rectangle loses digits in differences of large terms")
         .cost(&done.cost)
         .record();

@@ -1,6 +1,7 @@
 //! Two blocks whose normal traction follows ramps: time open, and time and slip below the floor.
 
 use super::{A, PRESSED, YOUNG, block};
+use crate::cases::output_files::vtu::Fields;
 use crate::cases::run_files::WrittenRun;
 use crate::{Capability, CaseError, Evidence, Ledger};
 use asperity_run::report::Outcome;
@@ -14,6 +15,7 @@ const STEP: f64 = 0.5;
 /// Claims the use of openings and of floors.
 pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     open(ledger)?;
+    in_space(ledger)?;
     below(ledger)
 }
 
@@ -82,12 +84,14 @@ fn open(ledger: &mut Ledger) -> Result<(), CaseError> {
         ),
     ] {
         let peak = if end > 0.0 { END } else { top[0] };
-        let done = WrittenRun::from_text(&blocks(A, &fault, [&table(&corners, STEP), "0"], ""))?;
+        let station = format!("[output]\nstations.main = [{:?}]\n", 0.5 * HEIGHT);
+        let done = WrittenRun::from_text(&blocks(A, &fault, [&table(&corners, STEP), "0"], &station))?;
         if done.report.outcome != Outcome::Completed {
             return Err(format!("{:?}", done.report.outcome).into());
         }
         let found = done.report.openings.first().ok_or("no openings")?;
         let what = if end > 0.0 { "pulled apart" } else { "pulled apart and closed again" };
+        through(ledger, &done, what, &corners)?;
         ledger
             .claim(format!("blocks that are {what}: share of the time during which a point is open"))
             .value(found.time_share)
@@ -133,6 +137,104 @@ fn open(ledger: &mut Ledger) -> Result<(), CaseError> {
             .cost(&done.cost)
             .record();
     }
+    Ok(())
+}
+
+/// Way of the load at a time \[m\].
+fn way_at(corners: &[[f64; 2]], time: f64) -> f64 {
+    let k = (1..corners.len() - 1).find(|&k| time <= corners[k][0]).unwrap_or(corners.len() - 1);
+    let ([t0, u0], [t1, u1]) = (corners[k - 1], corners[k]);
+    u0 + (time - t0) / (t1 - t0) * (u1 - u0)
+}
+
+/// Openings in the file of a station and in the profiles, in all rows.
+fn through(
+    ledger: &mut Ledger,
+    done: &WrittenRun,
+    what: &str,
+    corners: &[[f64; 2]],
+) -> Result<(), CaseError> {
+    let closed = PRESSED * 2.0 * A / YOUNG;
+    let wanted = |time: f64| (way_at(corners, time) - closed).max(0.0) / closed;
+    let name = done.files.names("stations")?.pop().ok_or("no station")?;
+    let station = done.files.table(&format!("stations/{name}"))?;
+    let rows = station.column("t")?.into_iter().zip(station.column("opening")?);
+    let off = rows.map(|(time, found)| (found / closed - wanted(time)).abs()).fold(0.0, f64::max);
+    let profiles = done.files.table("opening_profiles.csv")?.numbers();
+    let each = |row: &Vec<f64>| -> f64 {
+        row[1..].iter().map(|found| (found / closed - wanted(row[0])).abs()).fold(0.0, f64::max)
+    };
+    let open = profiles.iter().filter(|row| wanted(row[0]) > 0.1).count();
+    let [first, last] = [profiles.first(), profiles.last()].map(|row| row.map_or(f64::NAN, |row| row[0]));
+    if open < 3 || (first, last) != (0.0, END) {
+        return Err(format!("{open} profiles of open points from {first} to {last} s").into());
+    }
+    for (place, off, bound, digits) in [
+        ("the file of a station", off, 1e-8, "ten"),
+        ("opening_profiles.csv, at all points", profiles.iter().map(each).fold(0.0, f64::max), 1e-6, "seven"),
+    ] {
+        ledger
+            .claim(format!("blocks that are {what}: opening in {place} through time, largest error over the way at which they part"))
+            .value(off)
+            .at_most(bound)
+            .evidence(Evidence::Exact, "way - f_n l/E where that is positive, at the times of the rows")
+            .because(format!("the file has {digits} digits"))
+            .why_not_tighter("the last digit may be off by any part of a half")
+            .covers(&[Capability::FaultCycles, Capability::Outputs])
+            .cost(&done.cost)
+            .record();
+    }
+    Ok(())
+}
+
+/// Blocks in space that are pulled apart at a steady rate: opening in all fields, at the times of the list of snapshots.
+fn in_space(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let body = |name: &str, from: f64| {
+        format!(
+            "[bodies.{name}]\nmaterial = \"rock\"\nmesh.block = {{ min = [{from:?}, 0, 0], max = [{:?}, 60, 40], divisions = [1, 1, 1], element = \"hex8\" }}\n",
+            from + SHORT
+        )
+    };
+    let closed = PRESSED * 2.0 * SHORT / YOUNG;
+    let rate = 4.0 * closed / END;
+    let text = format!(
+        "schema = 1\ntitle = \"two blocks in space\"\nkinematics = \"3d\"\n[materials.rock]\nyoung = {YOUNG:?}\npoisson = 0.0\ndensity = 2670.0\n{}{}\
+         [faults.main]\nminus = \"L.right\"\nplus = \"R.left\"\nrake = [0, 0, 1]\nnormal = {PRESSED:?}\nnormal_floor = \"10 kPa\"\nopening = true\n\
+         rate = \"1e-12 m/s\"\ndamping = \"radiation\"\n\
+         law = {{ kind = \"rate-and-state\", evolution = \"ageing\", mu0 = 0.6, a = 0.02, b = 0.015, l = \"0.1 m\", v_ref = \"1 um/s\", v_initial = \"1e-12 m/s\" }}\n\
+         [[stages]]\nname = \"pulled\"\nduration = {END:?}\n\
+         conditions = [{{ set = \"L.left\", x = 0, y = 0, z = 0 }}, {{ set = \"R.right\", x = {{ rate = {rate:e} }}, y = 0, z = 0 }}]\n\
+         [time]\nstepper = \"fault-ode\"\nmethod = \"stabilised\"\n",
+        body("L", -SHORT),
+        body("R", 0.0),
+    );
+    let done = WrittenRun::from_text(&text)?;
+    let list = done.files.table("snapshots.csv")?;
+    let (mut found, mut wanted) = (Vec::new(), Vec::new());
+    let mut times = list.column("time")?;
+    let mut names: Vec<String> =
+        list.words("snapshot")?.iter().map(|number| format!("main_{number:0>5}")).collect();
+    times.push(END);
+    names.push("main_end".into());
+    for (name, time) in names.iter().zip(&times) {
+        let fields = Fields::read(&done.files.text(&format!("fields/{name}.vtu"))?)?;
+        found.extend(fields.array("opening")?.values.iter().map(|opening| opening / closed));
+        wanted.extend([(rate * time / closed - 1.0).max(0.0); 4]);
+    }
+    if wanted.iter().filter(|opening| **opening > 0.1).count() < 12 {
+        return Err("fewer than three fields of open sides".into());
+    }
+    ledger
+        .claim("blocks in space that are pulled apart: opening in the fields at all points, at the times in snapshots.csv and at the end, over the way at which they part")
+        .values(&found)
+        .equals_each(&wanted)
+        .absolute(1e-8)
+        .evidence(Evidence::Exact, "V t - f_n l/E where that is positive")
+        .because("a patch test: rounding of the elimination; times have fifteen digits")
+        .why_not_tighter("the rounding of an elimination differs between processors")
+        .covers(&[Capability::FaultCycles, Capability::Solid3d, Capability::Outputs])
+        .cost(&done.cost)
+        .record();
     Ok(())
 }
 

@@ -185,6 +185,106 @@ fn through(ledger: &mut Ledger) -> Result<(), CaseError> {
         .covers(&[Capability::FaultCycles, Capability::PlaneStrain])
         .cost(&done.cost)
         .record();
+    spring_rows(ledger, &done)?;
+    point_rows(ledger, &done)?;
+    counted(ledger, &done)
+}
+
+/// Stiffness of the spring \[N/m per metre\], and rate of its load point \[m/s\].
+const SPRING: [f64; 2] = [2e9, -1e-6];
+
+/// Columns of the table of the spring in every row.
+fn spring_rows(ledger: &mut Ledger, done: &WrittenRun) -> Result<(), CaseError> {
+    let table = done.files.table("springs/B_top_y.csv")?;
+    let [times, drawn, moved] = ["time", "load_point", "displacement"].map(|name| table.column(name));
+    let (times, drawn, moved, forces) = (times?, drawn?, moved?, table.column("force")?);
+    let pressed = done.files.table("fault_forces.csv")?.column("normal_force of face")?;
+    let [stiffness, rate] = SPRING;
+    let largest = drawn.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+    let mut worst = [0.0_f64; 3];
+    for (k, friction) in table.column("friction")?.into_iter().enumerate() {
+        let off = [
+            (drawn[k] - rate * times[k]) / largest,
+            (moved[k] - (drawn[k] - forces[k] / stiffness)) / largest,
+            friction - forces[k].abs() / pressed[k],
+        ];
+        worst = std::array::from_fn(|c| worst[c].max(off[c].abs()));
+    }
+    ledger
+        .claim("spring of the block through an event, all rows: load_point, displacement over the largest way, and friction, largest errors")
+        .values(&worst)
+        .equals_each(&[0.0; 3])
+        .absolute(1e-9)
+        .evidence(Evidence::Exact, "V t; the load point less force over stiffness; the size of the force over the normal force of the face in its table")
+        .because("the normal force has ten digits, and the face hardly any shear force at the start")
+        .why_not_tighter("the last digit may be off by any part of a half")
+        .covers(&[Capability::FaultCycles, Capability::Outputs])
+        .cost(&done.cost)
+        .record();
+    Ok(())
+}
+
+/// Stresses of the sampled point: those of pressing in the first row, and those across the plane in every row.
+fn point_rows(ledger: &mut Ledger, done: &WrittenRun) -> Result<(), CaseError> {
+    let table = done.files.table("points/inside.csv")?;
+    let [xx, yy, zz] = ["stress_xx", "stress_yy", "stress_zz"].map(|name| table.column(name));
+    let (xx, yy, zz) = (xx?, yy?, zz?);
+    let [young, poisson] = ELASTIC;
+    let normal = young * PUSH / ((1.0 - poisson * poisson) * WIDTH);
+    let at = |column: &[f64]| column.first().map_or(f64::NAN, |stress| stress / normal);
+    ledger
+        .claim("the block before it slips: stress_xx, stress_yy and stress_zz of a point in the first row, over the pressure")
+        .values(&[at(&xx), at(&yy), at(&zz)])
+        .equals_each(&[-1.0, 0.0, -poisson])
+        .absolute(ROUNDING)
+        .evidence(Evidence::Exact, "uniaxial stress in plane strain, E/(1 - nu^2) times the shortening")
+        .because("elements contain uniform strain")
+        .why_not_tighter(super::PROCESSORS)
+        .covers(&[Capability::FaultCycles, Capability::Outputs])
+        .cost(&done.cost)
+        .record();
+    let sums = xx.iter().zip(&yy).map(|(xx, yy)| poisson * (xx + yy));
+    let off = sums.zip(&zz).map(|(sum, zz)| (sum - zz).abs()).fold(0.0, f64::max);
+    let share = yy.iter().fold(0.0_f64, |m, yy| m.max(yy.abs())) / normal;
+    if share < 0.01 {
+        return Err("stress_yy does not change".into());
+    }
+    ledger
+        .claim("the block through an event: stress_zz of a point against stress_xx and stress_yy in the same rows, largest error over the pressure")
+        .value(off / normal)
+        .at_most(ROUNDING)
+        .evidence(Evidence::Exact, "nu (stress_xx + stress_yy): no strain across the plane")
+        .because("all digits are written: rounding")
+        .why_not_tighter(super::PROCESSORS)
+        .covers(&[Capability::FaultCycles, Capability::Outputs])
+        .cost(&done.cost)
+        .record();
+    Ok(())
+}
+
+/// Stages, steps and times of the tables that every step has a row in.
+fn counted(ledger: &mut Ledger, done: &WrittenRun) -> Result<(), CaseError> {
+    let times = done.files.table("fault_forces.csv")?.column("time")?;
+    let report = serde_json::to_value(&done.report)?;
+    let taken = report["counts"]["steps"].as_f64().ok_or("no number of steps")?;
+    let mut wrong = 0;
+    for name in ["points/inside.csv", "forces/pressing.csv", "forces/under.csv", "springs/B_top_y.csv"] {
+        let table = done.files.table(name)?;
+        let steps = table.column("step")?;
+        let apart = table.column("time")?.iter().zip(&times).filter(|(found, time)| found != time).count();
+        wrong += table.column("stage")?.iter().filter(|stage| **stage != 1.0).count();
+        wrong += apart + steps.len().abs_diff(times.len());
+        wrong += steps.windows(2).filter(|pair| pair[1] <= pair[0]).count();
+        wrong += usize::from(steps.first() != Some(&0.0)) + usize::from(steps.last() != Some(&taken));
+    }
+    ledger
+        .claim("the block through an event: wrong stages, steps and times in the tables of points, forces and springs")
+        .count(wrong as u64, 0)
+        .evidence(Evidence::Exact, "the second stage, number 1; steps from 0 to that of the report, which grow; the times of fault_forces.csv")
+        .because("a count")
+        .covers(&[Capability::FaultCycles, Capability::Outputs])
+        .cost(&done.cost)
+        .record();
     Ok(())
 }
 

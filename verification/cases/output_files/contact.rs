@@ -14,19 +14,19 @@ pub(super) const WIDTHS: [f64; 2] = [0.4, 0.25];
 /// Heights of the upper block, the slave, and of the lower one \[m\].
 pub(super) const HEIGHTS: [f64; 2] = [0.3, 0.5];
 /// Their shear moduli \[Pa\], with a Poisson's ratio of 0.25.
-const MODULI: [f64; 2] = [8e9, 20e9];
+pub(super) const MODULI: [f64; 2] = [8e9, 20e9];
 /// Normal traction \[Pa\].
 pub(super) const NORMAL: f64 = 5e6;
 /// Tangential penalty \[Pa/m\].
-const PENALTY: f64 = 2e13;
+pub(super) const PENALTY: f64 = 2e13;
 /// μ0, a, and the slip rate V_0 of the law \[m/s\].
-const LAW: [f64; 3] = [0.6, 0.01, 1e-6];
+pub(super) const LAW: [f64; 3] = [0.6, 0.01, 1e-6];
 /// Stiffness of the spring \[N/m per metre of thickness\].
 const SPRING: f64 = 4e9;
 /// Rates along x, and along z in space \[m/s\].
 pub(super) const RATES: [f64; 2] = [2e-6, -1.5e-6];
 /// Duration: slip of the spring and the blocks by 8 um forgets the start by a factor of e, and 1.5 mm follow \[s\].
-const DURATION: f64 = 1000.0;
+pub(super) const DURATION: f64 = 1000.0;
 
 /// Density of the blocks with inertia \[kg/m³\], and duration of their run \[s\].
 const DENSITY: f64 = 2700.0;
@@ -88,22 +88,22 @@ pub(super) fn scene(space: bool, [x, z]: [f64; 2]) -> String {
 }
 
 /// Magnitudes at the end.
-struct Steady {
+pub(super) struct Steady {
     /// Friction \[Pa\].
-    shear: f64,
+    pub shear: f64,
     /// Displacement of the top over the path of the drawn end, beyond what the blocks bend \[m\].
     top: f64,
     /// Relative displacement of the blocks \[m\].
     relative: f64,
     /// Slip \[m\].
-    slip: f64,
+    pub slip: f64,
     /// Displacement of the middle of the upper block \[m\].
     middle: f64,
 }
 
 impl Steady {
     /// State after a way of the drawn end \[m\] at this rate \[m/s\]; `soft` is the compliance of a spring per traction \[m/Pa\].
-    fn new(way: f64, rate: f64, soft: f64) -> Self {
+    pub(super) fn new(way: f64, rate: f64, soft: f64) -> Self {
         let shear = strength(rate);
         let bent = [0, 1].map(|k| shear * HEIGHTS[k] / MODULI[k]);
         let top = way - shear * soft;
@@ -167,6 +167,7 @@ fn inertial(ledger: &mut Ledger) -> Result<(), CaseError> {
         .into_iter()
         .collect::<Result<Vec<_>, _>>()?;
     let missing = super::last(&files, "energy.csv", "missing")?;
+    counted(ledger, (&files, &cost))?;
     let sum = parts.iter().chain([&missing]).map(|part| part.abs()).sum::<f64>();
     ledger
         .claim("two blocks that slide steadily with inertia, at the end: parts of energy.csv that nothing feeds, over the work of friction")
@@ -177,6 +178,27 @@ fn inertial(ledger: &mut Ledger) -> Result<(), CaseError> {
         .why_not_tighter("what the last iteration leaves is chance")
         .covers(&[Capability::Outputs, Capability::Inertia])
         .cost(&cost)
+        .record();
+    Ok(())
+}
+
+/// Stages and steps of the last rows of tables that every step has a row in.
+fn counted(ledger: &mut Ledger, (files, cost): (&Folder, &Cost)) -> Result<(), CaseError> {
+    let mut found = Vec::new();
+    for table in ["energy.csv", "largest_rates.csv"] {
+        found.extend([super::last(files, table, "stage")?, super::last(files, table, "step")?]);
+    }
+    let taken = steps(files)? as f64;
+    ledger
+        .claim("two blocks that slide steadily with inertia, at the end: stage and step of energy.csv and largest_rates.csv")
+        .values(&found)
+        .equals_each(&[0.0, taken, 0.0, taken])
+        .absolute(1e-9)
+        .evidence(Evidence::Exact, "the only stage, number 0, and the steps of report.json")
+        .because("whole numbers")
+        .why_not_tighter("whole numbers are exact")
+        .covers(&[Capability::Outputs])
+        .cost(cost)
         .record();
     Ok(())
 }

@@ -26,6 +26,8 @@ const ANGLE: f64 = std::f64::consts::FRAC_PI_3;
 const STATES: [f64; 2] = [0.0105, 0.0045];
 /// Points in space.
 const POINTS: usize = 6;
+/// Duration of runs of which the start matters \[s\].
+const SHORT: f64 = 1e-3;
 /// Rate of the plates, and slip rate of the slow point \[m/s\].
 const PLATES: f64 = 2e-5;
 const SLOW: f64 = 4e-6;
@@ -108,6 +110,7 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     plane(ledger)?;
     space(ledger)?;
     heated(ledger)?;
+    cooled(ledger)?;
     two_states(ledger)?;
     deficit(ledger)?;
     moved(ledger)?;
@@ -238,6 +241,49 @@ fn heated(ledger: &mut Ledger) -> Result<(), CaseError> {
     claims.claim(ledger, (&done.files, &done.cost), &wanted)
 }
 
+/// Time after which the load of a warm fault becomes slow, and factor by which \[s\].
+const TURN: f64 = 100.0;
+const SLOWER: f64 = 100.0;
+
+/// The fault that warms its rock in an event, which ends after its load has become slow.
+fn cooled(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let [thickness, heat, _, capacity, _] = HEAT;
+    let zone = format!(
+        "{{ thickness = {thickness:?}, temperature = {COLD:?}, diffusivity = {heat:e}, capacity = {capacity:?} }}"
+    );
+    let way = 0.5 * RATE * TURN;
+    let drawn = |set: &str, sign: f64| {
+        let [turn, end] = [sign * way, sign * way * (1.0 + SLOWER.recip())];
+        format!(
+            "{{ set = \"{set}\", z = {{ table = [[0, 0], [{TURN:?}, {turn:e}], [{:?}, {end:e}]] }} }}",
+            2.0 * TURN
+        )
+    };
+    let text = SceneText::new(&scene(false))
+        .add("faults.main.heat", zone)
+        .with(
+            "stages[0].conditions",
+            format!("[{}, {}]", drawn("left.left", -1.0), drawn("right.right", 1.0)),
+        )
+        .with("stages[0].duration", 2.0 * TURN)
+        .add("events", format!("{{ above = {:e} }}", 0.5 * RATE))
+        .text()?;
+    let done = WrittenRun::from_text(&text)?;
+    let [temperature, _] = warmed(TURN);
+    let found = done.files.table("events.csv")?.only("largest_temperature")?;
+    ledger
+        .claim("a fault that slides steadily and warms its zone until its load becomes slow: largest_temperature in events.csv, above that at the start, over its value as the load turns")
+        .value((found - COLD) / (temperature - COLD))
+        .equals(1.0)
+        .absolute(5e-3)
+        .evidence(Evidence::Exact, "heat of a Gaussian zone under constant friction and slip rate")
+        .because("the fault slides on for a second of a hundred, in which the temperature would grow by half a per cent")
+        .covers(&[Capability::Outputs, Capability::FrictionalHeat, Capability::Events])
+        .cost(&done.cost)
+        .record();
+    Ok(())
+}
+
 /// A law with two states, of which the slip law makes -b ln(V/V_0) in steady slip.
 fn two_states(ledger: &mut Ledger) -> Result<(), CaseError> {
     let [a, _, mu0, v0, l] = LAW;
@@ -310,7 +356,7 @@ fn deficit(ledger: &mut Ledger) -> Result<(), CaseError> {
             format!("[{{ box = {{ y = {{ from = 1.5, to = 3 }} }}, rate = {SLOW:e} }}]"),
         )
         .with("stages[0].conditions", format!("[{held}]"))
-        .with("stages[0].duration", 1e-3)
+        .with("stages[0].duration", SHORT)
         .text()?;
     let done = WrittenRun::from_text(&text)?;
     // Areas of the points are a half, one and a half.
@@ -321,6 +367,7 @@ fn deficit(ledger: &mut Ledger) -> Result<(), CaseError> {
     let first = |file: &str, name: &str| -> Result<f64, CaseError> {
         Ok(*done.files.table(file)?.column(name)?.first().ok_or("no row")?)
     };
+    times(ledger, &done)?;
     for (column, found, exact) in [
         ("coupling", first("locking.csv", "coupling of main")?, sum / AREA),
         ("moment_deficit_rate", first("locking.csv", "moment_deficit_rate of main")?, MODULUS * PLATES * sum),
@@ -358,6 +405,30 @@ fn deficit(ledger: &mut Ledger) -> Result<(), CaseError> {
             .cost(&done.cost)
             .record();
     }
+    Ok(())
+}
+
+/// First and last times of the tables of a fault that plates load.
+fn times(ledger: &mut Ledger, done: &WrittenRun) -> Result<(), CaseError> {
+    let mut found = Vec::new();
+    for table in ["locking.csv", "coupling_profiles.csv"] {
+        let times = done.files.table(table)?.column("time")?;
+        found.extend([*times.first().ok_or("no row")?, *times.last().ok_or("no row")?]);
+    }
+    ledger
+        .claim(
+            "a fault that lags behind plates: first and last time in locking.csv and coupling_profiles.csv",
+        )
+        .unit("s")
+        .values(&found)
+        .equals_each(&[0.0, SHORT, 0.0, SHORT])
+        .absolute(1e-14)
+        .evidence(Evidence::Exact, "start and end of the only stage")
+        .because("times have fifteen digits")
+        .why_not_tighter("the last digit may be off by a half")
+        .covers(&[Capability::Outputs, Capability::FaultCycles])
+        .cost(&done.cost)
+        .record();
     Ok(())
 }
 

@@ -1,5 +1,6 @@
 //! Output files in formats of other communities: SEAS stations and VTK fields.
 
+mod axes;
 mod contact;
 mod faults;
 mod fields;
@@ -24,6 +25,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     stations(ledger)?;
     fields::claims(ledger)?;
     contact::claims(ledger)?;
+    axes::claims(ledger)?;
     faults::claims(ledger)?;
     states::claims(ledger)?;
     mixed::claims(ledger)

@@ -1,5 +1,7 @@
 //! Outputs of spring-slider runs: rows of histories, the catalogue, the plan.
 
+mod pair;
+
 use super::slider::{self, Independent, MU0, V_REF};
 use super::slider_scene::{FRICTION, RATE, SLIP, STATE, TIME, files, plan, planned, text};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
@@ -39,6 +41,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     strengthening(ledger)?;
     stiffness(ledger)?;
     drawn(ledger)?;
+    pair::claims(ledger)?;
     between_steps(ledger)
 }
 

@@ -2,8 +2,8 @@
 
 use super::texts::{self, BodyRun};
 use super::{COLUMN, NORMAL, PRESSED, WIDTH};
-use crate::cases::run_files;
-use crate::{Capability, CaseError, Evidence, Ledger};
+use crate::cases::run_files::{self, Table};
+use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity::catalogue::Entry;
 use asperity_vary::SceneText;
 
@@ -210,7 +210,7 @@ fn derived(ledger: &mut Ledger, done: &BodyRun, event: &Entry) {
 
 /// Claims about the same event in its file.
 fn catalogue(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let (files, cost) = run_files::by_program(&coarse()?.text()?)?;
+    let (files, cost) = run_files::by_program(&twice()?.text()?)?;
     let table = files.table("out/events.csv")?;
     let of = |name: &str| -> Result<f64, CaseError> { Ok(*table.column(name)?.first().ok_or("no event")?) };
     let (rise, fall) = ((PEAK / ON).ln() * GROWS, (PEAK / OFF).ln() * FALLS);
@@ -242,15 +242,66 @@ fn catalogue(ledger: &mut Ledger) -> Result<(), CaseError> {
     let off = [
         usize::from(!(0.0..=WIDTH).contains(&x)),
         usize::from(y != 0.0 || z != 0.0),
-        table.column("onset")?.len() - 1,
+        table.column("onset")?.len().abs_diff(2),
     ];
     ledger
-        .claim("the same event in events.csv: coordinates of its hypocentre that lie off the bottom, and further events")
+        .claim("the same event in events.csv: coordinates of its hypocentre that lie off the bottom, and missing or further events")
         .count(off.iter().sum::<usize>() as u64, 0)
-        .evidence(Evidence::Exact, "only the bottom of the column that is sheared slips")
+        .evidence(Evidence::Exact, "only the bottom of the column that is sheared slips, twice")
         .because("a count")
         .covers(&[Capability::InterfaceStates, Capability::Events, Capability::Outputs])
         .cost(&cost)
+        .record();
+    second(ledger, &table, &cost)
+}
+
+/// Time from one peak of the slip rate to the next \[s\].
+const AGAIN: f64 = SLOW * GROWS / FALLS + SLOW;
+
+/// Scene of the coarse run whose traction grows and falls once more at the same pace.
+fn twice() -> Result<SceneText, CaseError> {
+    let peak = MU0 + A * (PEAK / V_REF).ln();
+    let [low, first] = [peak - A * SLOW / FALLS, peak - A * SLOW / GROWS];
+    let turns = FAST + 2.0 * SLOW;
+    let rows = [(0.0, 0.0), (FAST, first), (FAST + SLOW, peak), (turns, low)];
+    let again = [(FAST + SLOW + AGAIN, peak), (turns + AGAIN, low)];
+    let rows: Vec<String> = rows
+        .into_iter()
+        .chain(again)
+        .map(|(time, friction)| format!("[{time:?}, {:?}]", friction * NORMAL))
+        .collect();
+    Ok(coarse()?
+        .with("stages[1].duration", format!("{:?}", turns + AGAIN))
+        .with("stages[1].conditions[0].traction", format!("[{{ table = [{}] }}, 0]", rows.join(", "))))
+}
+
+/// Claims about the second of two events at a distance in time, in the table of events.
+fn second(ledger: &mut Ledger, table: &Table, cost: &Cost) -> Result<(), CaseError> {
+    let interval: f64 = table.words("interval")?.last().ok_or("no event")?.parse()?;
+    ledger
+        .claim("two such events in events.csv: interval between their onsets")
+        .unit("s")
+        .value(interval)
+        .equals(AGAIN)
+        .relative(1e-8)
+        .evidence(Evidence::Exact, "the ramps of traction repeat after twelve seconds")
+        .because("as for onset and end")
+        .why_not_tighter("where the last iteration of Newton's method ends below its tolerance is chance")
+        .covers(&[Capability::InterfaceStates, Capability::Events, Capability::Outputs])
+        .cost(cost)
+        .record();
+    let named = table.words("surface")?.iter().filter(|name| **name != "fault").count();
+    let mut filled = 0;
+    for column in ["hypocentre_along", "magnitude", "rupture_length"] {
+        filled += table.words(column)?.iter().filter(|word| !word.is_empty()).count();
+    }
+    ledger
+        .claim("two such events in events.csv: names in surface of other interfaces, and numbers in hypocentre_along, magnitude and rupture_length")
+        .count((named + filled) as u64, 0)
+        .evidence(Evidence::Exact, "the interface that is sheared; those numbers are of faults, and interfaces have none")
+        .because("a count")
+        .covers(&[Capability::InterfaceStates, Capability::Events, Capability::Outputs])
+        .cost(cost)
         .record();
     Ok(())
 }
