@@ -175,7 +175,7 @@ impl Histories {
 fn columns(states: usize) -> Vec<Column> {
     let mut all = vec![
         column::time(),
-        Column::new("step", "s", Sign::None, "length of the step"),
+        Column::new("step", "s", Sign::None, "length of the step, or time since the row before within it"),
         Column::new("slip", "m", Sign::Slip, "slip since the start"),
         Column::new("slip_rate", "m/s", Sign::Slip, "slip rate"),
         Column::new("friction", "-", Sign::Slip, "shear over normal traction"),
