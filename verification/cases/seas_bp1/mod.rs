@@ -62,8 +62,8 @@ impl Balance {
 
     fn look(&mut self, plan: &Plan, now: &Moment<'_>) {
         let exerted = plan.problem.fault.operator.shear_of(now.slip().all());
-        for p in 0..self.first.len() {
-            let driving = self.first[p] + exerted[p] + self.load[p] * now.at.seconds();
+        for (p, exerted) in exerted.iter().enumerate() {
+            let driving = self.first[p] + exerted + self.load[p] * now.at.seconds();
             let resisting = Self::strength(plan, p, now.unknowns[p])
                 + plan.problem.fault.damping[p] * now.rate.component(0)[p];
             self.worst = self.worst.max((driving - resisting).abs() / plan.problem.fault.normal[p]);
