@@ -1,8 +1,26 @@
-//! Forcing of the points of a fault.
+//! Forcing, unknowns and rates of the points of a fault.
 
-use crate::points::Components;
+use crate::points::{Components, PerPoint};
 use crate::slider::Forcing;
 use std::ops::Range;
+
+/// Unknowns of all points.
+#[derive(Clone, Copy, Debug)]
+pub struct Unknowns<'a> {
+    /// m = μ/a \[-\].
+    pub m: Components<&'a [f64]>,
+    /// State variables of the law.
+    pub states: PerPoint<&'a [f64]>,
+}
+
+/// Rates of change of the unknowns of all points.
+#[derive(Debug)]
+pub struct UnknownRates<'a> {
+    /// dm/dt \[1/s\].
+    pub m: Components<&'a mut [f64]>,
+    /// Rates of the state variables \[1/s\].
+    pub states: PerPoint<&'a mut [f64]>,
+}
 
 /// Forcing of a slice of points at an instant.
 #[derive(Clone, Copy, Debug)]

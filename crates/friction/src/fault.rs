@@ -6,28 +6,10 @@
 //! springs of a slider.
 
 use crate::Failure;
-pub use crate::drive::Drive;
-use crate::points::{Components, PerPoint};
+pub use crate::drive::{Drive, UnknownRates, Unknowns};
+use crate::points::Components;
 use crate::sheet::Sheet;
 use crate::slider::{Forcing, Line, SliderLaw};
-
-/// Unknowns of all points.
-#[derive(Clone, Copy, Debug)]
-pub struct Unknowns<'a> {
-    /// m = μ/a \[-\].
-    pub m: Components<&'a [f64]>,
-    /// State variables of the law.
-    pub states: PerPoint<&'a [f64]>,
-}
-
-/// Rates of change of the unknowns of all points.
-#[derive(Debug)]
-pub struct UnknownRates<'a> {
-    /// dm/dt \[1/s\].
-    pub m: Components<&'a mut [f64]>,
-    /// Rates of the state variables \[1/s\].
-    pub states: PerPoint<&'a mut [f64]>,
-}
 
 /// Laws of the points of a fault.
 pub trait FaultLaw: Send + Sync + std::fmt::Debug {

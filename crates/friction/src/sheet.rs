@@ -4,8 +4,7 @@
 //! second one, see [`Line`]. They are evaluated for several points together, by a polynomial that the compiler vectorises. Near
 //! rest the equations of [`crate::slider`] are used, of which these are a special case.
 
-use crate::drive::Drive;
-use crate::fault::{UnknownRates, Unknowns};
+use crate::drive::{Drive, UnknownRates, Unknowns};
 use crate::slider::Line;
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;

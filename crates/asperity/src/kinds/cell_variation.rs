@@ -6,11 +6,10 @@
 //! cells, n across a bar, it is about 1.4/n² and the error 0.6/n² (ν = 0.3). In a cell of constant strain the change is that
 //! from the mean around its nodes (O. C. Zienkiewicz & J. Z. Zhu, Int. J. Numer. Methods Eng. 24 (1987) 337).
 
-use super::worst::is_followed;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::mesh::Cells;
-use asperity_fem::nonlinear::Material;
+use asperity_fem::nonlinear::{Kinematics, Material};
 use asperity_fem::quadrature::Point;
 use asperity_mechanics::{Body, CellBlock, Model};
 use asperity_run::Warning;
@@ -33,11 +32,11 @@ type Strain = [f64; 6];
 /// Energies of a body \[J; J per metre of thickness\].
 #[derive(Clone, Copy, Debug, Default)]
 struct Energies {
-    /// That of all strain.
+    /// Energy of all strain.
     all: f64,
-    /// That of the changes of strain within cells.
+    /// Energy of the changes of strain within cells.
     varied: f64,
-    /// That of strains that are rounding.
+    /// Energy of strains that are rounding.
     rounding: f64,
 }
 
@@ -78,6 +77,11 @@ pub(super) fn warning<const D: usize>(
             "use cells of second order, or at least four cells across what bends",
         )
     })
+}
+
+/// True if a block accounts for large deformation.
+pub(super) fn is_followed<const D: usize>(model: &Model<D>, block: usize) -> bool {
+    matches!(&model.blocks.get(block), Some(CellBlock::Nonlinear(b)) if b.model().kinematics == Kinematics::UpdatedLagrangian)
 }
 
 fn is_elastic<const D: usize>(model: &Model<D>, block: usize) -> bool {

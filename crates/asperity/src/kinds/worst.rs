@@ -1,12 +1,11 @@
 //! Warnings about results outside the assumptions of the model: strain, rotation and slip that are not small, and contacts that never closed.
 
-use super::cell_variation;
+use super::cell_variation::{self, is_followed};
 use asperity_contact::Sliding;
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::{Cells, MeshFace};
-use asperity_fem::nonlinear::Kinematics;
-use asperity_mechanics::{CellBlock, Model, Path, PlannedInterface, Problem};
+use asperity_mechanics::{Model, Path, PlannedInterface, Problem};
 use asperity_output::bodies::view::InterfaceFields;
 use asperity_run::Warning;
 use asperity_scene::lengths::brief;
@@ -175,11 +174,6 @@ fn body_warning(body: &str, stage: &str, (largest, at): (Largest, [f64; 2]), you
         );
         Warning::at(0..0, message, help)
     })
-}
-
-/// True if a block accounts for large deformation.
-pub(super) fn is_followed<const D: usize>(model: &Model<D>, block: usize) -> bool {
-    matches!(&model.blocks.get(block), Some(CellBlock::Nonlinear(b)) if b.model().kinematics == Kinematics::UpdatedLagrangian)
 }
 
 /// Largest strain and rotation in the cells of a block, at their centres and between these and their corners, about where stresses are

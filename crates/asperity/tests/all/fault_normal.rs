@@ -82,19 +82,18 @@ fn planned(text: &str) -> Result<Plan, Diagnostic> {
 /// bodies follow from slip and loads through the operator, and friction uses the larger of their normal traction and
 /// `floor`.
 fn followed(plan: &Plan, floor: f64) -> (FaultRun, Report, f64) {
-    let n = plan.points.len();
-    let couples = plan.problem.fault.operator.couples_normal();
-    let (shear_rate, normal_rate) = plan.problem.loading.rates(1.0, n, couples);
+    let operator = &plan.problem.fault.operator;
+    let couples = operator.couples_normal();
+    let (shear_rate, normal_rate) = plan.problem.loading.rates(1.0, operator.points(), couples);
     let first = first_resistance(&plan.problem, floor);
     let scale = plan.problem.fault.normal.iter().fold(0.0_f64, |l, f| l.max(*f));
     let mut worst = 0.0_f64;
     let mut balance = Balance::new(&plan.problem);
     let mut look = |now: &Moment<'_>| {
         balance.step(now);
-        let operator = &plan.problem.fault.operator;
         let (shear, press) = (operator.shear_of(now.slip().all()), operator.normal_of(now.slip().all()));
         let time = now.at.seconds();
-        for p in 0..n {
+        for p in 0..first.len() {
             let mut pressed = plan.problem.fault.normal[p] + press[p];
             if couples {
                 pressed += normal_rate[p] * time;

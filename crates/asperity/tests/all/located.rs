@@ -309,7 +309,7 @@ strike = "70 deg"
 
 #[test]
 fn degrees_without_a_unit_are_no_radians() {
-    let told = |latitude: &str| match scene::read(&STRIKE_SLIP.replace("\"35 deg\"", latitude)) {
+    let told = |latitude: &str| match scene::read(&varied(STRIKE_SLIP, &[With("place.latitude", latitude)])) {
         Ok(_) => String::new(),
         Err(errors) => errors.to_string(),
     };
