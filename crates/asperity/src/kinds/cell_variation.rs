@@ -6,28 +6,36 @@
 //! cells, n across a bar, it is about 1.4/n² and the error 0.6/n² (ν = 0.3). In a cell of constant strain the change is that
 //! from the mean around its nodes (O. C. Zienkiewicz & J. Z. Zhu, Int. J. Numer. Methods Eng. 24 (1987) 337).
 
+use super::cell_gradient::CellGradient;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::mesh::Cells;
 use asperity_fem::nonlinear::{Kinematics, Material};
 use asperity_fem::quadrature::Point;
-use asperity_mechanics::{Body, CellBlock, Model};
+use asperity_mechanics::{Body, CellBlock, Model, bounds};
 use asperity_run::Warning;
-use nalgebra::DMatrix;
 use rayon::prelude::*;
-use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 
 /// Share of the energy from which a body is warned of: that of a bar of three square cells of quad4 across.
 const LARGEST: f64 = 0.15;
 
 /// Cells of a block above which only some are measured, at equal distances.
-const MOST_CELLS: usize = 100_000;
+const MOST_CELLS: usize = 20_000;
 
 /// Strain over the rotation of the body below which it is rounding.
 const ROUNDING: f64 = 1e-8;
 
 /// Strain xx, yy, zz, xy, yz, zx (shear not doubled) \[-\].
 type Strain = [f64; 6];
+
+/// Strain at a point of quadrature.
+#[derive(Clone, Copy, Debug, Default)]
+struct PointStrain {
+    strain: Strain,
+    /// Volume of the point \[m^D; m³ about an axis\].
+    volume: f64,
+}
 
 /// Energies of a body \[J; J per metre of thickness\].
 #[derive(Clone, Copy, Debug, Default)]
@@ -61,8 +69,9 @@ pub(super) fn warning<const D: usize>(
     let moved = u[body.nodes.start * D..body.nodes.end * D].iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let still = ROUNDING * moved / extent(model, body);
     let blocks = body.blocks.clone().zip(&body.elastic);
-    let of_block =
-        |(block, elastic): (usize, &Elastic)| StrainedBlock { model, block, elastic, u }.energies(still);
+    let of_block = |(block, elastic): (usize, &Elastic)| {
+        StrainedBlock { model, body, block, elastic, u }.energies(still)
+    };
     let Energies { all, varied, rounding } = blocks.map(of_block).fold(Energies::default(), Energies::sum);
     (all > rounding && varied > LARGEST * all).then(|| {
         Warning::at(
@@ -93,17 +102,14 @@ fn is_elastic<const D: usize>(model: &Model<D>, block: usize) -> bool {
 
 /// Largest extent of a body along an axis \[m\].
 fn extent<const D: usize>(model: &Model<D>, body: &Body<D>) -> f64 {
-    let along = |c: usize| {
-        let x = model.mesh.nodes[body.nodes.clone()].iter().map(|x| x[c]);
-        let range = x.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
-        range[1] - range[0]
-    };
-    (0..D).map(along).fold(0.0, f64::max)
+    let (min, max) = bounds(&model.mesh.nodes[body.nodes.clone()]);
+    min.iter().zip(max).map(|(min, max)| max - min).fold(0.0, f64::max)
 }
 
-/// A block of cells under displacements.
+/// A block of cells of a body under displacements.
 struct StrainedBlock<'a, const D: usize> {
     model: &'a Model<D>,
+    body: &'a Body<D>,
     block: usize,
     elastic: &'a Elastic,
     u: &'a [f64],
@@ -117,76 +123,72 @@ impl<const D: usize> StrainedBlock<'_, D> {
     /// Energies of its cells, where strains of `still` are rounding.
     fn energies(&self, still: f64) -> Energies {
         let (cells, points) = (self.cells(), self.cells().kind.quadrature());
-        let means = if points.len() == 1 { self.means_at_nodes(&points[0]) } else { BTreeMap::new() };
-        let of_cell = |cell: usize| {
-            let at: Vec<_> = points.iter().map(|point| self.strain(cell, point)).collect();
-            let volume: f64 = at.iter().map(|(_, v)| v).sum();
-            let varied = match cells.kind.order() {
-                1 if means.is_empty() => {
-                    let mean = mean(&at);
-                    at.iter().map(|(e, v)| v * self.energy(&less(e, &mean))).sum()
+        let constant = points.len() == 1;
+        // Means around nodes need all cells.
+        let stride = if constant { 1 } else { cells.len().div_ceil(MOST_CELLS) };
+        let measured: Vec<usize> = (0..cells.len()).step_by(stride.max(1)).collect();
+        let strains = measured.par_iter().flat_map_iter(|cell| points.iter().map(|p| self.strain(*cell, p)));
+        let strains: Vec<PointStrain> = strains.collect();
+        let around = if constant { self.means_at_nodes(&strains) } else { Vec::new() };
+        let mut sum = Energies::default();
+        for (cell, at) in measured.iter().zip(strains.chunks(points.len())) {
+            let volume: f64 = at.iter().map(|p| p.volume).sum();
+            sum.all += at.iter().map(|p| p.volume * self.energy(&p.strain)).sum::<f64>();
+            sum.rounding += 0.5 * self.elastic.young() * still * still * volume;
+            sum.varied += match cells.kind.order() {
+                1 if constant => {
+                    let nodes = cells.cell(*cell);
+                    let off =
+                        |n: &usize| self.energy(&less(&around[n - self.body.nodes.start], &at[0].strain));
+                    volume * nodes.iter().map(off).sum::<f64>() / nodes.len() as f64
                 }
                 1 => {
-                    let nodes = cells.cell(cell).iter();
-                    let share = volume / cells.kind.nodes() as f64;
-                    nodes.map(|n| share * self.energy(&less(&at[0].0, &means[n]))).sum()
+                    let mean = mean(at);
+                    at.iter().map(|p| p.volume * self.energy(&less(&p.strain, &mean))).sum()
                 }
                 // Strain is linear within the others, as that of bending.
                 _ => 0.0,
             };
-            let all = at.iter().map(|(e, v)| v * self.energy(e)).sum();
-            Energies { all, varied, rounding: 0.5 * self.elastic.young() * still * still * volume }
-        };
-        let stride = if means.is_empty() { cells.len().div_ceil(MOST_CELLS).max(1) } else { 1 };
-        let measured: Vec<usize> = (0..cells.len()).step_by(stride).collect();
-        // Summed in the order of the cells, whatever the number of threads.
-        let each: Vec<Energies> = measured.par_iter().map(|cell| of_cell(*cell)).collect();
-        each.into_iter().fold(Energies::default(), Energies::sum)
-    }
-
-    /// Mean strain of the cells around each node, weighted by volume, of cells with one point.
-    fn means_at_nodes(&self, point: &Point) -> BTreeMap<usize, Strain> {
-        let mut around: BTreeMap<usize, Vec<(Strain, f64)>> = BTreeMap::new();
-        for cell in 0..self.cells().len() {
-            let own = self.strain(cell, point);
-            self.cells().cell(cell).iter().for_each(|n| around.entry(*n).or_default().push(own));
         }
-        around.into_iter().map(|(n, all)| (n, mean(&all))).collect()
+        sum
     }
 
-    /// Strain at a point of a cell, and the volume of the point \[m^D\]; that of Green and Lagrange where displacements are large.
-    fn strain(&self, cell: usize, point: &Point) -> (Strain, f64) {
-        let (model, nodes, shape) = (self.model, self.cells().cell(cell), self.cells().kind.shape(point.0));
-        let (mut jacobian, mut natural) = (DMatrix::<f64>::zeros(D, D), DMatrix::<f64>::zeros(D, D));
-        for (node, dn) in nodes.iter().zip(&shape.dn) {
-            for (i, m) in (0..D).flat_map(|i| (0..D).map(move |m| (i, m))) {
-                jacobian[(i, m)] += model.mesh.nodes[*node][i] * dn[m];
-                natural[(i, m)] += self.u[node * D + i] * dn[m];
+    /// Mean strain around each node of the body, weighted by volume, of cells with one point. Nodes of other blocks have none.
+    fn means_at_nodes(&self, strains: &[PointStrain]) -> Vec<Strain> {
+        let mut sums = vec![PointStrain::default(); self.body.nodes.len()];
+        for (cell, own) in strains.iter().enumerate() {
+            for node in self.cells().cell(cell) {
+                let sum = &mut sums[node - self.body.nodes.start];
+                sum.volume += own.volume;
+                sum.strain.iter_mut().zip(own.strain).for_each(|(sum, e)| *sum += own.volume * e);
             }
         }
-        // A cell whose Jacobian cannot be inverted is refused when the bodies are built.
-        let volume = jacobian.determinant();
-        let Some(inverse) = jacobian.try_inverse() else { return ([0.0; 6], 0.0) };
-        let gradient = natural * inverse;
+        sums.iter().map(|sum| sum.strain.map(|e| e / sum.volume)).collect()
+    }
+
+    /// Strain at a point of a cell, and its volume; that of Green and Lagrange where displacements are large.
+    fn strain(&self, cell: usize, point: &Point) -> PointStrain {
+        let (model, cells) = (self.model, self.cells());
+        let CellGradient { gradient, jacobian } = CellGradient::new(model, cells, cell, point.0, self.u);
         let mut strain = 0.5 * (&gradient + gradient.transpose());
         if is_followed(model, self.block) {
             strain += 0.5 * gradient.tr_mul(&gradient);
         }
         let entry = |i: usize, j: usize| if i < D && j < D { strain[(i, j)] } else { 0.0 };
         let mut all = [entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(2, 0)];
-        match model.idealisation {
-            Idealisation::PlaneStress => {
-                all[2] = -self.elastic.poisson() / (1.0 - self.elastic.poisson()) * (all[0] + all[1]);
-            }
-            Idealisation::Axisymmetric => {
-                let sum = |of: &dyn Fn(usize) -> f64| {
-                    nodes.iter().zip(&shape.n).map(|(k, n)| n * of(*k)).sum::<f64>()
-                };
-                all[2] = sum(&|node| self.u[node * D]) / sum(&|node| model.mesh.nodes[node][0]);
-            }
-            _ => {}
+        let mut volume = jacobian * point.1;
+        if model.idealisation == Idealisation::PlaneStress {
+            all[2] = -self.elastic.poisson() / (1.0 - self.elastic.poisson()) * (all[0] + all[1]);
+        } else if model.idealisation == Idealisation::Axisymmetric {
+            let n = cells.kind.shape(point.0).n;
+            let at = |of: &dyn Fn(usize) -> f64| -> f64 {
+                cells.cell(cell).iter().zip(&n).map(|(node, n)| n * of(*node)).sum()
+            };
+            let radius = at(&|node| model.mesh.nodes[node][0]);
+            all[2] = at(&|node| self.u[node * D]) / radius;
+            volume *= TAU * radius;
         }
-        (all, volume * point.1)
+        PointStrain { strain: all, volume }
     }
 
     /// Elastic energy of a strain per volume \[J/m³\].
@@ -198,10 +200,10 @@ impl<const D: usize> StrainedBlock<'_, D> {
     }
 }
 
-/// Mean of strains with their volumes.
-fn mean(all: &[(Strain, f64)]) -> Strain {
-    let volume: f64 = all.iter().map(|(_, v)| v).sum();
-    std::array::from_fn(|k| all.iter().map(|(e, v)| e[k] * v).sum::<f64>() / volume)
+/// Mean of the strains of points, weighted by volume.
+fn mean(all: &[PointStrain]) -> Strain {
+    let volume: f64 = all.iter().map(|p| p.volume).sum();
+    std::array::from_fn(|k| all.iter().map(|p| p.strain[k] * p.volume).sum::<f64>() / volume)
 }
 
 fn less(a: &Strain, b: &Strain) -> Strain {

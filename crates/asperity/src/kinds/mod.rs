@@ -2,6 +2,7 @@
 
 pub mod balance;
 pub mod bodies;
+mod cell_gradient;
 mod cell_variation;
 pub mod dynamics;
 pub mod faults;

@@ -1,5 +1,6 @@
 //! Warnings about results outside the assumptions of the model: strain, rotation and slip that are not small, and contacts that never closed.
 
+use super::cell_gradient::CellGradient;
 use super::cell_variation::{self, is_followed};
 use asperity_contact::Sliding;
 use asperity_fem::element::ElementKind;
@@ -9,7 +10,7 @@ use asperity_mechanics::{Model, Path, PlannedInterface, Problem};
 use asperity_output::bodies::view::InterfaceFields;
 use asperity_run::Warning;
 use asperity_scene::lengths::brief;
-use nalgebra::{DMatrix, SymmetricEigen};
+use nalgebra::SymmetricEigen;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -207,7 +208,7 @@ fn deformation<const D: usize>(
     place: (usize, [f64; 3]),
     u: &[f64],
 ) -> Largest {
-    let gradient = gradient(model, cells, place, u);
+    let CellGradient { gradient, .. } = CellGradient::new(model, cells, place.0, place.1, u);
     let strain = 0.5 * (&gradient + gradient.transpose());
     let spin = 0.5 * (&gradient - gradient.transpose());
     Largest {
@@ -267,27 +268,6 @@ fn places(kind: ElementKind) -> Vec<[f64; 3]> {
         std::array::from_fn(|c| corners.iter().map(|x| x[c]).sum::<f64>() / corners.len() as f64);
     let towards = |x: &[f64; 3]| std::array::from_fn(|c| middle[c] + TOWARDS * (x[c] - middle[c]));
     std::iter::once(middle).chain(corners.iter().map(towards)).collect()
-}
-
-/// Displacement gradient at natural coordinates of a cell.
-fn gradient<const D: usize>(
-    model: &Model<D>,
-    cells: &Cells,
-    (cell, at): (usize, [f64; 3]),
-    u: &[f64],
-) -> DMatrix<f64> {
-    let shape = cells.kind.shape(at);
-    let (mut jacobian, mut natural) = (DMatrix::<f64>::zeros(D, D), DMatrix::<f64>::zeros(D, D));
-    for (a, &node) in cells.cell(cell).iter().enumerate() {
-        for i in 0..D {
-            for m in 0..D {
-                jacobian[(i, m)] += model.mesh.nodes[node][i] * shape.dn[a][m];
-                natural[(i, m)] += u[node * D + i] * shape.dn[a][m];
-            }
-        }
-    }
-    // A cell whose Jacobian cannot be inverted is refused when the bodies are built.
-    jacobian.try_inverse().map_or_else(|| DMatrix::zeros(D, D), |inverse| natural * inverse)
 }
 
 /// True if an interface keeps the pairs and directions of its start, which matter where it is not bonded.

@@ -275,6 +275,28 @@ fn every_doubt_is_raised_in_each_of_its_kinds_and_not_without_its_cause() {
     assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), TRIALS.len(), wrong.join("\n"));
 }
 
+#[test]
+fn ruptures_with_mass_are_warned_of_sides_that_return_waves_too_soon() {
+    let changes = [
+        With("time.stepper", "auto"),
+        With("bodies.crust.mesh.fault.min", r#"["-20 km", "-80 km"]"#),
+        With("bodies.crust.mesh.fault.max", r#"["20 km", "0 km"]"#),
+    ];
+    // Loads of an absorbing side move it between ruptures alone.
+    let absorbs = With(
+        "stages[0].conditions",
+        r#"[{ set = "crust.left", z = { rate = "-0.5e-9 m/s" } }, { set = "crust.right", z = { rate = "0.5e-9 m/s" } }, { set = "crust.bottom", absorbing = true }]"#,
+    );
+    let told = |changes: &[Change<'_>]| {
+        let said = said(&scene_of_kind(BETWEEN).changed(changes).text().unwrap());
+        said.into_iter().filter(|s| s.contains("come back from the sides after 11.5")).count()
+    };
+    assert_eq!(told(&changes), 1);
+    // The sides 80 km away, and the cycles without mass.
+    assert_eq!(told(&changes[..1]) + told(&changes[1..]), 0);
+    assert_eq!(told(&[changes.as_slice(), &[absorbs]].concat()), 0);
+}
+
 /// Scenes whose slip outruns shear waves, by their kind of run, and what is said of where and of a remedy.
 fn runaways() -> Vec<(&'static str, String, [&'static str; 2])> {
     let of = |kind, changes: &[Change<'_>]| scene_of_kind(kind).changed(changes).text().unwrap();

@@ -8,6 +8,7 @@ use crate::reading::scene::law::LawChoice;
 use crate::reading::scene::model::{Fault as Spec, Scene};
 use crate::shared::entry::Entry;
 use crate::shared::model::Model;
+use crate::shared::words::time;
 use asperity_laws as laws;
 use asperity_mechanics::dynamics::Fault;
 use asperity_mechanics::{Stage, bounds};
@@ -89,13 +90,22 @@ pub(super) fn unlike<const D: usize>(scene: &Scene, placed: &[PlacedPoint<D>], d
     scene.faults.iter().enumerate().filter_map(of).collect()
 }
 
-/// Warning about bodies whose sides all return the waves of a fault within the run of this duration \[s\]. `speed` is that of shear waves
-/// \[m/s\].
+/// A time in which waves should not come back.
+pub(super) struct QuietTime {
+    /// Where the scene says so.
+    pub place: Range<usize>,
+    /// What lasts as long.
+    pub what: &'static str,
+    /// Duration \[s\].
+    pub duration: f64,
+}
+
+/// Warning about bodies whose sides all return the waves of a fault too soon. `speed` is that of shear waves \[m/s\].
 pub(super) fn returned<const D: usize>(
-    scene: &Scene,
     model: &Model<D>,
     placed: &[PlacedPoint<D>],
-    [speed, duration]: [f64; 2],
+    speed: f64,
+    QuietTime { place, what, duration }: QuietTime,
 ) -> Option<Warning> {
     let middle = &placed.get(placed.len() / 2)?.point.place;
     let (min, max) = bounds(&model.mesh.nodes);
@@ -111,11 +121,13 @@ pub(super) fn returned<const D: usize>(
     let back = 2.0 * distance(1.0).min(distance(-1.0)) / speed;
     (back < duration).then(|| {
         Warning::at(
-            scene.stages[0].duration.span(),
+            place,
             format!(
-                "no side absorbs waves: shear waves of the faults come back from the sides after {back:.3} s, and the stage lasts {duration:.3} s"
+                "no side absorbs waves: shear waves of the faults come back from the sides after {}, and {what} lasts {}",
+                time(back),
+                time(duration)
             ),
-            "where rock goes on, list the side with `absorbing = true`; a wider model has the same effect",
+            "give sides where rock goes on `absorbing = true` among the conditions; in a wider model waves come back later",
         )
     })
 }

@@ -125,7 +125,8 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     let fastest = rate_bound::bound(sliding.iter().map(|p| p.medium.waves));
     let absorbing = masses::absorbing(scene, &model, &density)?;
     if absorbing.is_empty() {
-        remarks.warnings.extend(doubts::returned(scene, &model, &sliding, [fastest, duration]));
+        let whole = doubts::QuietTime { place: scene.stages[0].duration.span(), what: "the stage", duration };
+        remarks.warnings.extend(doubts::returned(&model, &sliding, fastest, whole));
     }
     Ok(Plan {
         title: scene.title.clone(),

@@ -1,5 +1,6 @@
 //! Plans the bodies with mass that compute the ruptures of faults through cycles.
 
+use super::doubts::QuietTime;
 use super::faults::apart;
 use super::{doubts, faults, masses, steps};
 use crate::faults::Plan as Cycles;
@@ -63,6 +64,12 @@ fn bodies<const D: usize>(
     }
     let fault = faults::assemble(scene, &placed, &creeping)?;
     let absorbing = masses::absorbing(scene, &model, &density)?;
+    let mut warnings = doubts::unlike(scene, &placed, false);
+    if absorbing.is_empty() {
+        // A wave crosses the faults, and then they must be quiet.
+        let least = QuietTime { place: scene.time.stepper.span(), what: "a rupture", duration: 1.5 * quiet };
+        warnings.extend(doubts::returned(&model, &placed, impedance::slowest(&model, &density), least));
+    }
     let courant = steps::courant(scene);
     let duration = STEPS * courant * stable.step;
     let stages = loading::stages(scene, &model)?;
@@ -80,7 +87,7 @@ fn bodies<const D: usize>(
         stages: vec![stage],
         velocity: Vec::new(),
     };
-    Ok((Bodies { problem, stable }, quiet, loading, doubts::unlike(scene, &placed, false)))
+    Ok((Bodies { problem, stable }, quiet, loading, warnings))
 }
 
 fn components<const D: usize>(model: &Model<D>) -> usize {
