@@ -92,9 +92,9 @@ pub(super) fn unlike<const D: usize>(scene: &Scene, placed: &[PlacedPoint<D>], d
 
 /// A time in which waves should not come back.
 pub(super) struct QuietTime {
-    /// Where the scene says so.
+    /// Place in the scene that says so.
     pub place: Range<usize>,
-    /// What lasts as long.
+    /// Name of what lasts as long.
     pub what: &'static str,
     /// Duration \[s\].
     pub duration: f64,

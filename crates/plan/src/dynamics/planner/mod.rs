@@ -125,8 +125,12 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     let fastest = rate_bound::bound(sliding.iter().map(|p| p.medium.waves));
     let absorbing = masses::absorbing(scene, &model, &density)?;
     if absorbing.is_empty() {
-        let whole = doubts::QuietTime { place: scene.stages[0].duration.span(), what: "the stage", duration };
-        remarks.warnings.extend(doubts::returned(&model, &sliding, fastest, whole));
+        remarks.warnings.extend(doubts::returned(
+            &model,
+            &sliding,
+            fastest,
+            doubts::QuietTime { place: scene.stages[0].duration.span(), what: "the stage", duration },
+        ));
     }
     Ok(Plan {
         title: scene.title.clone(),

@@ -67,8 +67,12 @@ fn bodies<const D: usize>(
     let mut warnings = doubts::unlike(scene, &placed, false);
     if absorbing.is_empty() {
         // A wave crosses the faults, and then they must be quiet.
-        let least = QuietTime { place: scene.time.stepper.span(), what: "a rupture", duration: 1.5 * quiet };
-        warnings.extend(doubts::returned(&model, &placed, impedance::slowest(&model, &density), least));
+        warnings.extend(doubts::returned(
+            &model,
+            &placed,
+            impedance::slowest(&model, &density),
+            QuietTime { place: scene.time.stepper.span(), what: "a rupture", duration: 1.5 * quiet },
+        ));
     }
     let courant = steps::courant(scene);
     let duration = STEPS * courant * stable.step;
