@@ -29,7 +29,6 @@ pub fn all() -> Result<Vec<TermScene>, CaseError> {
     let fault: &[Term] = &[Bodies, Friction, Evolution, Faults];
     let fluid: &[Term] = &[Bodies, Friction, Evolution, Faults, Fluid];
     Ok(vec![
-        declared("elastic body", elastic(), &[Bodies], Some(0))?,
         declared("plastic body", plastic(), &[Bodies, History, Plasticity], Some(0))?,
         declared("viscous body", viscous(), &[Bodies, History, Viscosity], Some(0))?,
         declared("body with an iterative solver", iterative(), &[Bodies, IterativeSolver], Some(0))?,

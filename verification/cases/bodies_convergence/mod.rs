@@ -138,17 +138,11 @@ fn study<const D: usize>(
     let (space, formulation) = variant;
     let mean_pressure = formulation.dilatation(kind, space)? == Some(Dilatation::ConstantPressure);
     let sizes = match (D, kind.order()) {
-        (2, 1) => [16, 32, 64],
-        (2, _) => [8, 16, 32],
+        (2, 1) => [12, 24, 48],
+        (2, _) => [6, 12, 24],
         // With a mean pressure and no nodes inside their faces, these elements reach their order late.
-        (_, 2) if mean_pressure => {
-            if kind == ElementKind::Tet10 {
-                [6, 9, 13]
-            } else {
-                [7, 10, 15]
-            }
-        }
-        (_, 1) => [5, 8, 13],
+        (_, 2) if mean_pressure => [6, 9, 13],
+        (_, 1) => [5, 8, 12],
         _ => [4, 6, 9],
     };
     let at = |n: usize| {

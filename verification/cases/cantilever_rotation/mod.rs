@@ -85,8 +85,8 @@ fn roll(thickness: f64, cells: usize, steps: usize) -> Result<BendingResults, Ca
 }
 
 /// Cells along the beam and steps of the roll.
-const CELLS: usize = 80;
-const STEPS: usize = 144;
+const CELLS: usize = 60;
+const STEPS: usize = 120;
 
 fn rolled_up(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (mut levels, mut last, mut rest) = (Vec::new(), Cost::default(), Vec::new());
@@ -126,7 +126,7 @@ fn rolled_up(ledger: &mut Ledger) -> Result<(), CaseError> {
         .because("the body differs from the beam by the square of its surface strain")
         .cost(&last)
         .record();
-    // Each step rotates the end by 2 pi/144; cells have the length h.
+    // Each step rotates the end by 2 pi/120; cells have the length h.
     let (turn, h) = (TAU / STEPS as f64, 1.0 / CELLS as f64);
     let locked = TAU * TAU * h.powi(4) / (30.0 * 0.02 * 0.02);
     let bound = turn * turn / 8.0 + 2.0 * h * strain * strain + locked;

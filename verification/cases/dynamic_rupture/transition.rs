@@ -14,7 +14,7 @@ const NAME: &str = "tpv104_II";
 const TITLE: &str = "TPV104 in section, plane strain";
 
 /// Rock for the part of the fault on which the fast front dies.
-const PART: Span = Span { extent: [14e3, 8e3], end: 3.7 };
+const PART: Span = Span { extent: [11e3, 5e3], end: 3.7 };
 
 /// Places from the hypocentre \[m\].
 type Places<'a> = &'a [RangeInclusive<f64>];

@@ -22,7 +22,7 @@ const ANGLES: [f64; 3] = [30.0, 45.0, 60.0];
 const WIDTH: f64 = 16.0;
 
 /// Cells across the strip.
-const ACROSS: usize = 16;
+const ACROSS: usize = 12;
 
 #[derive(Clone, Copy, PartialEq)]
 enum Wave {

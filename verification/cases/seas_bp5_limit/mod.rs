@@ -1,6 +1,6 @@
 //! The SEAS benchmark BP5-QD in the half-space with finer cells, and the limit of its interval.
 
-use crate::cases::seas_bp5::{INTERACT_1KM, along_rake, claim, events, interval};
+use crate::cases::seas_bp5::{EVENTS, INTERACT_1KM, along_rake, claim, events, interval};
 use crate::{Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
 
 /// See the README.
@@ -20,7 +20,7 @@ const LIMIT: f64 = 238.3;
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut intervals = Vec::new();
     for (size, wanted) in GRIDS {
-        let (found, _) = events(&along_rake(&format!("{size} km"))?)?;
+        let (found, _) = events(&along_rake(&format!("{size} km"))?, EVENTS)?;
         claim(ledger, &format!("{size} km"), &found, wanted);
         intervals.push(interval(&found));
     }

@@ -17,7 +17,7 @@ pub const CASE: Case = Case {
 };
 
 /// Number of steps after which a setting has failed.
-const MOST_STEPS: usize = 60_000;
+const MOST_STEPS: usize = 30_000;
 /// Errors over the recurrence at which methods are compared.
 const TARGETS: [f64; 2] = [1e-8, 1e-10];
 /// Largest cost of the default in units of the best method: the loss from not knowing which method is best.

@@ -222,9 +222,9 @@ fn depth([x, y, _]: [f64; 3]) -> f64 {
 fn write(folder: &Path) -> Result<(), CaseError> {
     let [same, ..] = Change::all(false);
     let lower =
-        Grid { min: [-0.5, -1.0, 0.0], max: [5.5, 0.0, 0.0], cells: [96, 6, 0], sides: [Side::Flat, WAVE] };
+        Grid { min: [-0.5, -1.0, 0.0], max: [5.5, 0.0, 0.0], cells: [96, 4, 0], sides: [Side::Flat, WAVE] };
     let upper =
-        Grid { min: [0.0, 0.0, 0.0], max: [2.0, 1.0, 0.0], cells: [31, 6, 0], sides: [WAVE, Side::Flat] };
+        Grid { min: [0.0, 0.0, 0.0], max: [2.0, 1.0, 0.0], cells: [31, 4, 0], sides: [WAVE, Side::Flat] };
     std::fs::create_dir_all(folder)?;
     std::fs::write(folder.join("lower.msh"), lower.file(&same)?)?;
     std::fs::write(folder.join("upper.msh"), upper.file(&same)?)?;
