@@ -96,7 +96,7 @@ fn push(wave: &Wave, cells: u32) -> Result<Bar, CaseError> {
         exact,
         compression,
         dissipated,
-        imbalance: (budget.kinetic + stored + dissipated - budget.loads) / budget.loads,
+        imbalance: (budget.kinetic + stored + dissipated - budget.motions) / budget.motions,
         cost,
     })
 }

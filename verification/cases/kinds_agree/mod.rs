@@ -245,6 +245,7 @@ fn viscous(ledger: &mut Ledger, mass: &KindRun) -> Result<(), CaseError> {
     let (found, mut left) = (column("viscous")?, column("start")?);
     let parts = [
         ("loads", 1.0),
+        ("motions", 1.0),
         ("released", 1.0),
         ("kinetic", -1.0),
         ("elastic", -1.0),

@@ -1,7 +1,7 @@
 //! An event of an interface whose slip rate grows and falls exponentially, as shear traction follows ramps.
 
 use super::texts::{self, BodyRun};
-use super::{COLUMN, NORMAL, PRESSED, WIDTH};
+use super::{COLUMN, NORMAL, PRESSED, SHEAR, WIDTH};
 use crate::cases::run_files::{self, Table};
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity::catalogue::Entry;
@@ -11,8 +11,6 @@ use asperity_vary::SceneText;
 const MU0: f64 = 0.6;
 const A: f64 = 0.010;
 const V_REF: f64 = 1e-6;
-/// Shear modulus of column and base \[Pa\].
-const SHEAR: f64 = 4e9;
 /// Slip rates at which the event begins and ends, and the largest one \[m/s\].
 const ON: f64 = 1e-3;
 const OFF: f64 = 0.5e-3;

@@ -44,7 +44,9 @@ pub(super) const NORMAL: f64 = 1e7;
 /// Radiation damping of the column \[Pa s/m\].
 const DAMPING: f64 = 5e6;
 /// Compliance of the column and of its penalty \[m/Pa\]: 0.2 m of 4 GPa, and 1000 GPa/m.
-const COMPLIANCE: f64 = 0.2 / 4e9 + 1e-12;
+const COMPLIANCE: f64 = 0.2 / SHEAR + 1e-12;
+/// Shear modulus of column and base \[Pa\].
+const SHEAR: f64 = 4e9;
 /// Width of the column \[m\].
 pub(super) const WIDTH: f64 = 0.1;
 /// Duration of its pressing stage \[s\].
@@ -66,7 +68,9 @@ const CONDENSED: &str =
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     in_time(ledger)?;
     column_events(ledger, "the column's events", column(SPRINGS[1]))?;
-    column_events(ledger, "the column's events in space", in_space(column(SPRINGS[1] * DEPTH)))?;
+    let (done, wanted) =
+        column_events(ledger, "the column's events in space", in_space(column(SPRINGS[1] * DEPTH)))?;
+    magnitudes(ledger, &done, &wanted)?;
     exponential::claims(ledger)?;
     block(ledger)?;
     ruptures(ledger)?;
@@ -196,7 +200,11 @@ pub(super) fn events(done: &BodyRun) -> Result<&[Entry], CaseError> {
 }
 
 /// Stick-slip of the column beside that of the slider.
-fn column_events(ledger: &mut Ledger, name: &str, column: SceneText) -> Result<(), CaseError> {
+fn column_events(
+    ledger: &mut Ledger,
+    name: &str,
+    column: SceneText,
+) -> Result<(BodyRun, Vec<SliderEntry>), CaseError> {
     let scene = (2..6).rev().fold(column, |scene, stage| scene.without(&format!("stages[{stage}]")));
     let scene = scene
         .with("stages[1].duration", "6000 s")
@@ -214,7 +222,30 @@ fn column_events(ledger: &mut Ledger, name: &str, column: SceneText) -> Result<(
             .evidence(Evidence::SemiAnalytic, SLIDER)
             .because(because)
             .covers(&[Capability::InterfaceStates, Capability::Events])
-    })
+    })?;
+    Ok((done, wanted))
+}
+
+/// Claims moment magnitudes of the column's events in space.
+fn magnitudes(ledger: &mut Ledger, done: &BodyRun, wanted: &[SliderEntry]) -> Result<(), CaseError> {
+    let found: Option<Vec<f64>> = events(done)?.iter().map(|event| event.magnitude).collect();
+    let of = |slip: f64| (SHEAR * WIDTH * DEPTH * slip).log10() / 1.5 - 9.1 / 1.5;
+    let wanted: Vec<f64> = wanted.iter().filter_map(|event| event.slip).map(of).collect();
+    ledger
+        .claim("moment magnitudes of the column's events in space")
+        .values(&found.ok_or("an event in space has no magnitude")?)
+        .equals_each(&wanted)
+        .absolute(1e-4)
+        .evidence(
+            Evidence::SemiAnalytic,
+            "Mw = (log10 M0 - 9.1)/1.5 (IASPEI 2013) with G times the face times the slip of the slider",
+        )
+        .because("slip has a bound of 2e-4, which is 6e-5 of its logarithm over 1.5")
+        .why_not_tighter("the bound of slip is that of the claim on it")
+        .covers(&[Capability::InterfaceStates, Capability::Events])
+        .cost(&done.cost)
+        .record();
+    Ok(())
 }
 
 /// Bounds of the relative errors of events.

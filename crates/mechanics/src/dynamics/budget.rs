@@ -22,8 +22,10 @@ pub struct Budget {
     pub friction: f64,
     /// Carried away through absorbing sides.
     pub absorbed: f64,
-    /// Work of loads and prescribed motions.
+    /// Work of loads, and of springs.
     pub loads: f64,
+    /// Work of prescribed motions.
+    pub motions: f64,
     /// Work that the initial and imposed tractions of faults release.
     pub released: f64,
     /// Kinetic energy at the start.
@@ -35,7 +37,12 @@ impl Budget {
     #[must_use]
     pub fn energies(&self) -> Energies {
         Energies {
-            given: vec![("start", self.initial), ("loads", self.loads), ("released", self.released)],
+            given: vec![
+                ("start", self.initial),
+                ("loads", self.loads),
+                ("motions", self.motions),
+                ("released", self.released),
+            ],
             kept: vec![("kinetic", self.kinetic), ("elastic", self.elastic)],
             lost: vec![("viscous", self.viscous), ("friction", self.friction), ("absorbed", self.absorbed)],
             exchanged: 0.0,

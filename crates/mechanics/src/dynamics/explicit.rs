@@ -116,10 +116,18 @@ struct Works {
     friction: Work,
     absorbed: Work,
     loads: Work,
+    motions: Work,
     released: Work,
     inelastic: inelastic_cells::Works,
     /// uⁿ·K uⁿ of linear cells, twice their elastic energy.
     stored: f64,
+}
+
+impl Works {
+    /// Works that put energy in.
+    fn given(&self) -> [&Work; 3] {
+        [&self.loads, &self.motions, &self.released]
+    }
 }
 
 /// Bodies and faults in steps of equal length.
@@ -454,12 +462,14 @@ impl<'a, const D: usize> Explicit<'a, D> {
         let (half, first) = (0.5 * self.dt, self.steps == 0);
         let kinetic = 0.5 * sums.kinetic;
         let works = &mut self.works;
+        let had: f64 = works.given().map(|work| work.done).iter().sum();
         // There is no step before the first.
         let add = |work: &mut Work, [before, after]: [f64; 2]| {
             work.add(if first { 0.0 } else { before }, after);
         };
         add(&mut works.internal, sums.internal.map(|w| half * w));
         add(&mut works.loads, sums.loads.map(|w| half * w));
+        add(&mut works.motions, sums.motions.map(|w| half * w));
         add(&mut works.absorbed, sums.absorbed.map(|w| half * w));
         let [all, viscous] = self.inelastic.works(&self.velocity, half);
         add(&mut works.inelastic.all, all);
@@ -473,8 +483,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
         }
         let initial = if first { kinetic } else { self.budget.initial };
         let (elastic, viscous) = self.bodies(sums);
-        let put_in = self.works.loads.done + self.works.released.done;
-        let had = self.budget.loads + self.budget.released;
+        let put_in: f64 = self.works.given().map(|work| work.done).iter().sum();
         let at_start = if first { initial.max(0.0) + self.inelastic.released() } else { 0.0 };
         self.given += (put_in - had).max(0.0) + at_start;
         self.budget = Budget {
@@ -485,6 +494,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
             friction: self.works.friction.done,
             absorbed: self.works.absorbed.done,
             loads: self.works.loads.done,
+            motions: self.works.motions.done,
             released: self.works.released.done,
             initial,
         };
@@ -523,7 +533,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
 
     /// Work over the half step that begins now, which no balance counts yet \[J\].
     fn largest_change(&self) -> f64 {
-        self.works.loads.pending().abs() + self.works.released.pending().abs() + f64::MIN_POSITIVE
+        self.works.given().map(|work| work.pending().abs()).iter().sum::<f64>() + f64::MIN_POSITIVE
     }
 
     /// Time tⁿ of the displacements \[s\].

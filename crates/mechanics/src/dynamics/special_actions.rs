@@ -65,12 +65,15 @@ impl SpecialActions<'_> {
         let first = self.kick < self.dt;
         for c in 0..C {
             // What a prescribed motion exerts follows from the balance of the node; faults do not act along it.
-            let reaction =
-                if s.prescribed[c] { s.mass * acceleration[c] + internal[c] - drag[c] } else { external[c] };
+            let (given, force) = if s.prescribed[c] {
+                (&mut sums.motions, s.mass * acceleration[c] + internal[c] - drag[c])
+            } else {
+                (&mut sums.loads, external[c])
+            };
             let sides = [before[c], after[c]];
             for (side, v) in sides.iter().enumerate() {
+                given[side] += force * v;
                 sums.internal[side] += internal[c] * v;
-                sums.loads[side] += reaction * v;
                 sums.absorbed[side] -= drag[c] * v;
             }
             let prior = if first && !s.prescribed[c] { 2.0 * before[c] - after[c] } else { before[c] };

@@ -11,8 +11,10 @@ pub(super) struct Sums {
     pub elastic: f64,
     /// v·M v of the half step after.
     pub moving: f64,
-    /// Powers of loads and prescribed motions before and after.
+    /// Powers of loads before and after.
     pub loads: [f64; 2],
+    /// Powers of prescribed motions before and after.
+    pub motions: [f64; 2],
     /// Powers that dashpots absorb, before and after.
     pub absorbed: [f64; 2],
 }
@@ -26,6 +28,7 @@ impl Sums {
             elastic: self.elastic + other.elastic,
             moving: self.moving + other.moving,
             loads: both(self.loads, other.loads),
+            motions: both(self.motions, other.motions),
             absorbed: both(self.absorbed, other.absorbed),
         }
     }

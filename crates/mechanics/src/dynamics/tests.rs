@@ -244,7 +244,7 @@ fn works_of_loads_prescribed_motions_and_damping_close_the_balance() {
     let problem = Problem { viscosity: 0.2, ..problem(bar, stage) };
     let run = run(&problem, |_| ());
     let budget = run.budget();
-    assert!(budget.loads > 0.0 && budget.viscous > 0.0, "{budget:?}");
+    assert!(budget.loads > 0.0 && budget.motions > 0.0 && budget.viscous > 0.0, "{budget:?}");
     assert!(budget.energies().imbalance() < 1e-12, "{budget:?}");
     assert!((run.displacement()[0] - 1e-4).abs() < 1e-17);
 }

@@ -6,6 +6,7 @@ use crate::shared::impedance::radiated;
 use crate::shared::model::{self, Model};
 use crate::shared::thresholds;
 use asperity_cycles::Thresholds;
+use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::Side;
 use asperity_mechanics::PlannedInterface;
 use asperity_run::{Site, SlipPoints};
@@ -24,6 +25,8 @@ pub struct EventPlan {
     pub points: Vec<Range<usize>>,
     /// Name of each of them, position and shear modulus of each point.
     pub ground: Vec<(String, [f64; 3], f64)>,
+    /// True if moments are those of whole surfaces, not of a metre out of the plane.
+    pub whole: bool,
 }
 
 /// Plans the events that a scene asks for; `None` if it does not.
@@ -60,7 +63,8 @@ pub fn plan<const D: usize>(
     }
     let stop_after = asked.stop_after.as_ref().map(|n| *n.get_ref());
     let thresholds = thresholds::from_spec(Some(asked));
-    Ok(Some(EventPlan { thresholds, stop_after, interfaces: own, points, ground }))
+    let whole = matches!(model.idealisation, Idealisation::ThreeD | Idealisation::Axisymmetric);
+    Ok(Some(EventPlan { thresholds, stop_after, interfaces: own, points, ground, whole }))
 }
 
 /// Mean shear modulus of the cells behind some faces \[Pa\].

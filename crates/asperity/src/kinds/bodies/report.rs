@@ -7,6 +7,7 @@ use crate::report::{ForceResult, PointResult, SpringResult, results as common};
 use asperity_cycles::{Rupture, Thresholds};
 use asperity_mechanics::{PlannedInterface, Stage};
 use asperity_output::bodies::view::{InterfaceFields, Samples, StepRecord};
+use asperity_output::formats::catalogues::magnitude;
 use asperity_plan::bodies::{EventPlan, Plan, Sites, Summary};
 use asperity_plan::shared::checks::Checks;
 use asperity_plan::shared::{cohesive, views};
@@ -61,7 +62,11 @@ impl Events {
         let areas = plan.interfaces.iter().flat_map(|&i| areas[i].iter().copied()).collect();
         let sites = Sites { plan, areas };
         let entries = |source: usize, points: &Range<usize>| {
-            catalogue.ended(source).iter().map(|event| Entry::from_event(&sites, event, points)).collect()
+            let entry = |event| {
+                let entry = Entry::from_event(&sites, event, points);
+                Entry { magnitude: plan.whole.then(|| magnitude(entry.moment)), ..entry }
+            };
+            catalogue.ended(source).iter().map(entry).collect()
         };
         let under_way = |source: usize| catalogue.under_way(source).map(|e| e.onset.seconds());
         let of_interface = |(points, source): (&Range<usize>, usize)| FaultEvents {

@@ -33,7 +33,7 @@ pub struct Checkpoint {
 
 impl checkpoint::SavedState for Checkpoint {
     const OF: &'static str = "bodies with mass";
-    const VERSION: &'static str = "5";
+    const VERSION: &'static str = "6";
 }
 
 /// See the module.

@@ -12,6 +12,7 @@ fn hill(dt: f64) -> Events {
         interfaces: vec![0],
         points: std::iter::once(0..1).collect(),
         ground: Vec::new(),
+        whole: false,
     };
     let rate = |t: f64| 1e-6 * (if t <= 20.0 { t } else { 40.0 - t }).exp();
     let slip = |t: f64| if t <= 20.0 { rate(t) - 1e-6 } else { 2.0 * rate(20.0) - rate(t) - 1e-6 };
@@ -57,6 +58,7 @@ fn an_event_begins_at_the_point_that_passes_the_threshold() {
         interfaces: vec![0],
         points: std::iter::once(0..2).collect(),
         ground: Vec::new(),
+        whole: false,
     };
     let at = |t: f64| Moment {
         time: t,
