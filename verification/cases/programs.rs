@@ -8,14 +8,33 @@ use std::process::{Command, Output};
 
 /// First argument that makes the suite's program act as `asperity`.
 pub const NAME: &str = "asperity";
+/// First argument that makes it run the scenes of several folders, one after the other. The name of the folder of results in each
+/// follows, and the folders.
+pub const IN_FOLDERS: &str = "asperity-in-folders";
+/// Scene of such a folder.
+pub const SCENE: &str = "scene.toml";
 
 /// The command `asperity`, or the command `before` with `asperity` appended to its arguments.
 ///
 /// # Errors
 /// If the path of this program is not known.
 pub fn asperity(before: &[&str]) -> Result<Command, CaseError> {
+    acting_as(NAME, before)
+}
+
+/// Runs of the scenes of several folders in one process, `out` in each being that of results, after the command `before`.
+///
+/// # Errors
+/// If the path of this program is not known.
+pub fn in_folders(before: &[&str], out: &str, folders: &[PathBuf]) -> Result<Command, CaseError> {
+    let mut command = acting_as(IN_FOLDERS, before)?;
+    command.arg(out).args(folders);
+    Ok(command)
+}
+
+fn acting_as(name: &str, before: &[&str]) -> Result<Command, CaseError> {
     let program = std::env::current_exe()?;
-    let words = before.iter().map(OsStr::new).chain([program.as_os_str(), OsStr::new(NAME)]);
+    let words = before.iter().map(OsStr::new).chain([program.as_os_str(), OsStr::new(name)]);
     let mut words = words.collect::<Vec<_>>().into_iter();
     let mut command = Command::new(words.next().ok_or("no program")?);
     command.args(words);

@@ -10,6 +10,7 @@ use asperity_verification::supervise::{self, State};
 use asperity_verification::{Verdict, cases, cases::programs, numbers};
 use clap::Parser;
 use std::error::Error;
+use std::ffi::{OsStr, OsString};
 use std::io;
 use std::num::NonZeroUsize;
 use std::os::unix::process::parent_id;
@@ -50,7 +51,10 @@ fn main() -> ExitCode {
     // Cases that measure or interrupt a process start this program as `asperity`, so that they run the code built with them.
     let mut words = std::env::args_os().skip(1).peekable();
     if words.peek().is_some_and(|word| word == programs::NAME) {
-        return asperity(&Arguments::parse_from(words));
+        return ExitCode::from(asperity(&Arguments::parse_from(words)));
+    }
+    if words.next_if(|word| word == programs::IN_FOLDERS).is_some() {
+        return in_folders(words);
     }
     let options = Options::parse();
     let passes = match &options.state {
@@ -92,15 +96,30 @@ fn supervised(options: &Options) -> io::Result<bool> {
     Ok(status.success())
 }
 
-/// Executes a command of the `asperity` program.
-fn asperity(arguments: &Arguments) -> ExitCode {
+/// Executes a command of the `asperity` program. Returns its exit code.
+fn asperity(arguments: &Arguments) -> u8 {
     match cli::execute(arguments) {
-        Ok(end) => ExitCode::from(end.code()),
+        Ok(end) => end.code(),
         Err(error) => {
             printing::err(format_args!("error: {error:?}\n"));
-            ExitCode::FAILURE
+            1
         }
     }
+}
+
+/// Runs the scenes of folders until one fails. The name of the folder of results in each comes first.
+fn in_folders(mut words: impl Iterator<Item = OsString>) -> ExitCode {
+    let Some(out) = words.next() else { return ExitCode::FAILURE };
+    let mut codes = words.map(PathBuf::from).map(|folder| run_in_folder(&folder, &out));
+    ExitCode::from(codes.find(|&code| code != 0).unwrap_or(0))
+}
+
+/// Runs the scene of a folder. At the end of this function callgrind writes what it has counted, so that it has to stay one.
+#[inline(never)]
+fn run_in_folder(folder: &Path, out: &OsStr) -> u8 {
+    let (scene, out) = (folder.join(programs::SCENE), folder.join(out));
+    let words = ["asperity", "run", "--no-plots", "--out"].map(OsString::from);
+    asperity(&Arguments::parse_from(words.into_iter().chain([out.into(), scene.into()])))
 }
 
 /// Runs the cases, except those that ended an earlier process, which disagree. The file `path` says which ones run.

@@ -9,6 +9,11 @@ use std::process::{Command, Stdio};
 /// Instructions executed in the source files of the workspace: paths from its root, such as `crates/contact/src/shear.rs`.
 pub type Instructions = BTreeMap<String, u64>;
 
+/// Folder of the results under callgrind.
+pub const COUNTED: &str = "out";
+/// Folder of the results on this processor.
+pub const NATIVE: &str = "native";
+
 /// True if callgrind can be started.
 pub fn is_installed() -> bool {
     let version =
@@ -16,35 +21,29 @@ pub fn is_installed() -> bool {
     version.is_ok_and(|status| status.success())
 }
 
-/// Runs a scene under callgrind in a separate process. The report of the run is kept in `folder`.
+/// Runs the scenes of these folders one after the other in one process under callgrind, which translates the program once.
+/// Returns the counts of those that ran.
 ///
 /// # Errors
-/// If the run fails or its counts cannot be read.
-pub fn run(scene: &str, folder: &Path) -> Result<Instructions, CaseError> {
-    std::fs::create_dir_all(folder)?;
-    let (file, counts) = (folder.join("scene.toml"), folder.join("callgrind.out"));
-    std::fs::write(&file, scene)?;
+/// If a run fails.
+pub fn run(folder: &Path, scenes: &[PathBuf]) -> Result<Vec<Instructions>, CaseError> {
+    let counts = folder.join("callgrind.out");
     let out = format!("--callgrind-out-file={}", counts.display());
-    let tool = ["valgrind", "--tool=callgrind", "--compress-strings=no", "--compress-pos=no", &out];
-    let mut command = programs::asperity(&tool)?;
-    command.args(["run", "--no-plots"]).arg(file).arg("--out").arg(folder.join("out"));
+    let names = ["--compress-strings=no", "--compress-pos=no", "--dump-after=*run_in_folder*"];
+    let tool = [["valgrind", "--tool=callgrind"].as_slice(), &names, &[&out]].concat();
+    let mut command = programs::in_folders(&tool, COUNTED, scenes)?;
     programs::finished(command.env("RAYON_NUM_THREADS", "1"), &[0])?;
-    Ok(read(&std::fs::read_to_string(&counts)?))
+    let part = |k: usize| PathBuf::from(format!("{}.{k}", counts.display()));
+    (1..=scenes.len()).map(|k| Ok(read(&std::fs::read_to_string(part(k))?))).collect()
 }
 
-/// Runs the scene of `folder` on this processor with three threads. Returns the files that differ from those under callgrind.
+/// Runs the scenes of these folders on this processor with three threads.
 ///
 /// # Errors
-/// If the run fails.
-pub fn differing_from_native(folder: &Path) -> Result<Vec<PathBuf>, CaseError> {
-    let mut command = programs::asperity(&[])?;
-    command
-        .args(["run", "--no-plots"])
-        .arg(folder.join("scene.toml"))
-        .arg("--out")
-        .arg(folder.join("native"));
-    programs::finished(command.env("RAYON_NUM_THREADS", "3"), &[0])?;
-    programs::differing(&folder.join("out"), &folder.join("native"))
+/// If a run fails.
+pub fn run_native(scenes: &[PathBuf]) -> Result<(), CaseError> {
+    let mut command = programs::in_folders(&[], NATIVE, scenes)?;
+    programs::finished(command.env("RAYON_NUM_THREADS", "3"), &[0]).map(drop)
 }
 
 /// True if this processor has vectors of 512 bits, of which callgrind knows nothing: programs under it use 256.

@@ -4,14 +4,14 @@ mod callgrind;
 mod scenes;
 mod terms;
 
+use super::programs;
 use super::run_files::Folder;
 use crate::ledger::{Sheet, Table};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use callgrind::Instructions;
-use rayon::prelude::*;
+use callgrind::{COUNTED, Instructions, NATIVE};
 use scenes::TermScene;
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use terms::Term;
 
 /// See the README.
@@ -43,33 +43,36 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         ledger.not_covered("instructions by source file", "callgrind (valgrind) is not installed");
         return Ok(());
     }
-    let folder = Folder::new()?;
-    let runs: Vec<Result<MeasuredRun, CaseError>> = scenes
-        .into_par_iter()
-        .enumerate()
-        .map(|(i, scene)| measure(scene, &folder.path().join(i.to_string())))
-        .collect();
-    // The scenes that ran are judged even if another one failed.
-    for run in runs.iter().flatten() {
+    let measured = measure(scenes)?;
+    for run in &measured {
         claims(ledger, run);
         repeated(ledger, run);
     }
     if !callgrind::narrows_vectors() {
         ledger.not_covered("results under another vector width", "this processor has no vectors of 512 bits");
     }
-    let measured = runs.into_iter().collect::<Result<Vec<MeasuredRun>, CaseError>>()?;
     let names = crate_names(&measured);
     measured.iter().for_each(|run| ledger.sheet(sheet(run, &names)));
     crates(ledger, &measured, &names);
     Ok(())
 }
 
-fn measure(scene: TermScene, folder: &Path) -> Result<MeasuredRun, CaseError> {
-    let (instructions, cost) = Cost::measure(|| callgrind::run(&scene.text, folder));
-    let instructions = instructions.map_err(|e| format!("{}: {e}", scene.name))?;
-    let state = state_bytes(folder.join("out/report.json"))?;
-    let differing = callgrind::differing_from_native(folder)?;
-    Ok(MeasuredRun { scene, instructions, state, differing, cost })
+/// Runs all scenes under callgrind, and again on this processor.
+fn measure(scenes: Vec<TermScene>) -> Result<Vec<MeasuredRun>, CaseError> {
+    let folder = Folder::new()?;
+    let folders: Vec<PathBuf> = (0..scenes.len()).map(|k| folder.path().join(k.to_string())).collect();
+    for (scene, folder) in scenes.iter().zip(&folders) {
+        std::fs::create_dir_all(folder)?;
+        std::fs::write(folder.join(programs::SCENE), &scene.text)?;
+    }
+    let (counts, cost) = Cost::measure(|| callgrind::run(folder.path(), &folders));
+    callgrind::run_native(&folders)?;
+    let measured = |((scene, instructions), folder): ((TermScene, Instructions), &PathBuf)| {
+        let state = state_bytes(folder.join(COUNTED).join("report.json"))?;
+        let differing = programs::differing(&folder.join(COUNTED), &folder.join(NATIVE))?;
+        Ok(MeasuredRun { scene, instructions, state, differing, cost: cost.clone() })
+    };
+    scenes.into_iter().zip(counts?).zip(&folders).map(measured).collect()
 }
 
 /// Bytes of friction state in a report; none where bodies do not touch.
