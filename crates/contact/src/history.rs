@@ -29,7 +29,7 @@ pub struct InterfaceState {
     shear: Option<ShearState>,
     /// Multipliers that are unknowns of the system, at the last commit.
     unknowns: Vec<f64>,
-    /// Gaps at which points were bonded \[m\]; `None` for points without a partner.
+    /// Partings at which points were bonded \[m\]; `None` for points without a partner.
     tied: Option<Vec<Option<f64>>>,
     /// True if tractions of an initial stress still act.
     pressed: bool,

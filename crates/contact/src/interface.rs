@@ -71,8 +71,10 @@ pub struct Interface<const D: usize> {
     pub(crate) tangential_penalty: f64,
     pub(crate) multipliers: Option<Multipliers>,
     pub(crate) unknowns: Option<Box<Unknowns>>,
-    /// Gaps at which bonded points were tied \[m\]; `None` if points may separate.
+    /// Partings ([`Measure::partings`]) at which bonded points were tied \[m\]; `None` if points may separate.
     pub(crate) tied: Option<Vec<f64>>,
+    /// Partings at the geometry last measured; kept for bonded points alone.
+    parted: Vec<f64>,
     /// Normal tractions that the penalty acts about \[Pa\], if the interface was pressed before the first step.
     pub(crate) pressed: Option<Vec<f64>>,
     /// See [`Shear::touch`].
@@ -123,6 +125,7 @@ impl<const D: usize> Interface<D> {
             multipliers: Multipliers::from_enforcement(&spec.enforcement, n),
             unknowns: None,
             tied: None,
+            parted: Vec::new(),
             pressed: None,
             rate_floor: spec.rate_floor,
             rate_bounds: spec.rate_bounds,
@@ -223,15 +226,19 @@ impl<const D: usize> Interface<D> {
     /// Bonds the points at their present gaps if the law requires it, and releases them otherwise.
     fn tie(&mut self) {
         let bonded = self.shear.as_ref().is_some_and(|s| s.law.bonded());
-        self.tied = bonded.then(|| self.geometry.gap.clone());
+        self.measure.partings(&self.geometry, &mut self.parted);
+        self.tied = bonded.then(|| self.parted.clone());
     }
 
     /// Computes trial normal tractions at the geometry last measured.
     fn enforce(&mut self) {
+        if self.tied.is_some() {
+            self.measure.partings(&self.geometry, &mut self.parted);
+        }
         let (gap, out) = (&self.geometry.gap, &mut self.contact.trial);
         let multiplier = self.multipliers.as_ref().map(|m| m.normal.as_slice()).or(self.pressed.as_deref());
         match (&self.tied, multiplier) {
-            (Some(tied), _) => self.penalty.bonded(gap, tied, multiplier, out),
+            (Some(tied), _) => self.penalty.bonded(&self.parted, tied, multiplier, out),
             (None, Some(multiplier)) => self.penalty.augmented(gap, multiplier, out),
             (None, None) => self.penalty.enforce(gap, out),
         }
@@ -428,7 +435,13 @@ impl<const D: usize> Interface<D> {
         let (g, f) = (&self.geometry, &mut self.fields);
         f.gap.copy_from_slice(&g.gap);
         if let Some(tied) = &self.tied {
-            f.gap.iter_mut().zip(tied).filter(|(_, g0)| g0.is_finite()).for_each(|(g, g0)| *g -= g0);
+            self.measure.partings(g, &mut self.parted);
+            let moved = self.parted.iter().zip(tied).map(|(parted, start)| parted - start);
+            f.gap
+                .iter_mut()
+                .zip(moved)
+                .filter(|(_, moved)| moved.is_finite())
+                .for_each(|(g, moved)| *g = moved);
         }
         f.normal.copy_from_slice(&g.normal);
         self.measure.areas(&mut f.area);

@@ -218,6 +218,16 @@ impl Pattern {
         self.starts().windows(2).map(|w| &self.dofs()[w[0]..w[1]])
     }
 
+    /// Largest number of products of an entry and a displacement whose sum is the force along one degree of freedom.
+    #[must_use]
+    pub fn most_products(&self) -> usize {
+        let mut products = vec![0; self.dofs().iter().max().map_or(0, |last| last + 1)];
+        for block in self.blocks() {
+            block.iter().for_each(|&dof| products[dof] += block.len());
+        }
+        products.into_iter().max().unwrap_or(0)
+    }
+
     /// Number of values of a tangent with this pattern: the sum of the squares of the block sizes.
     #[must_use]
     pub fn values(&self) -> usize {

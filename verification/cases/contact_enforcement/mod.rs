@@ -2,6 +2,7 @@
 //! decades of the penalty.
 
 mod condition;
+mod tie;
 
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity::kinds;
@@ -202,6 +203,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         }
         ledger.plot(plot.axes(Axis::Log, Axis::Log).caption("Errors below 1e-16 are drawn there."));
     }
+    tie::claims(ledger)?;
     conditions(ledger)
 }
 

@@ -42,10 +42,11 @@ impl Penalty {
         }
     }
 
-    /// Computes the normal tractions of bonded points: `f_n = λ - E_n (g_n - g_0)` of either sign. g_0 is the gap at which a
-    /// point was tied \[m\]; it is infinite for points without a partner, which are free.
-    pub fn bonded(&self, gap: &[f64], tied: &[f64], multiplier: Option<&[f64]>, out: &mut [NormalPoint]) {
-        for (p, ((g, g0), o)) in gap.iter().zip(tied).zip(out).enumerate() {
+    /// Computes the normal tractions of bonded points: `f_n = λ - E_n (g_n - g_0)` of either sign, by the partings of both gaps
+    /// ([`crate::measure::Measure::partings`]). g_0 belongs to the gap at which a point was tied; it is infinite for points without
+    /// a partner, which are free.
+    pub fn bonded(&self, parted: &[f64], tied: &[f64], multiplier: Option<&[f64]>, out: &mut [NormalPoint]) {
+        for (p, ((g, g0), o)) in parted.iter().zip(tied).zip(out).enumerate() {
             *o = if g0.is_finite() {
                 let multiplier = multiplier.map_or(0.0, |m| m[p]);
                 let traction = multiplier - self.stiffness * (g - g0);

@@ -31,6 +31,8 @@ struct Pair<const D: usize> {
     normal: [f64; D],
     frame: [[f64; D]; 2],
     gap: f64,
+    /// Change n·w of the gap at the configuration last measured \[m\].
+    parted: f64,
     area: f64,
     /// Tangential components of the committed relative displacement \[m\].
     committed: [f64; 2],
@@ -82,6 +84,7 @@ impl<const D: usize> FixedMeasure<D> {
             normal,
             frame: fixed_frame(&normal),
             gap: dot(&normal, apart),
+            parted: 0.0,
             area: self.areas[point],
             committed: [0.0; 2],
             present: [0.0; 2],
@@ -169,11 +172,18 @@ impl<const D: usize> Measure<D> for FixedMeasure<D> {
             pair.present = [dot(&pair.frame[0], &w), dot(&pair.frame[1], &w)];
             let p = pair.point;
             out.paired[p] = true;
-            out.gap[p] = pair.gap + dot(&pair.normal, &w);
+            pair.parted = dot(&pair.normal, &w);
+            out.gap[p] = pair.gap + pair.parted;
             out.normal[p] = pair.normal;
             out.frame[p] = pair.frame;
             out.increment[p] = sub(&pair.present, &pair.committed);
         }
+    }
+
+    fn partings(&self, geometry: &Geometry<D>, out: &mut Vec<f64>) {
+        out.clear();
+        out.resize(geometry.gap.len(), f64::INFINITY);
+        self.pairs.iter().for_each(|pair| out[pair.point] = pair.parted);
     }
 
     fn spread(&self, force: &[[f64; D]], residual: &mut [f64]) {

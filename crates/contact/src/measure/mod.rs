@@ -133,6 +133,12 @@ pub trait Measure<const D: usize>: Send + Sync + fmt::Debug {
     /// Evaluates gaps, normals, frames and tangential increments at `u`.
     fn measure(&mut self, u: &[[f64; D]], out: &mut Geometry<D>);
 
+    /// Writes to `out` the gaps at the configuration last measured, whose differences are those of `geometry` \[m\]; infinite
+    /// without a partner. Gaps at the start, which may be large beside what they change by, are left out if they are constants.
+    fn partings(&self, geometry: &Geometry<D>, out: &mut Vec<f64>) {
+        out.clone_from(&geometry.gap);
+    }
+
     /// Adds the nodal residual of the tractions (force per area on the slave) at the configuration last measured.
     fn spread(&self, force: &[[f64; D]], residual: &mut [f64]);
 

@@ -34,6 +34,8 @@ pub enum Storage {
     Sparse,
 }
 
+/// Least number of products for which rounding of a force is stated: those of four quadrilaterals at a node.
+const FEWEST_PRODUCTS: usize = 32;
 /// Values scanned by one task.
 const CHUNK: usize = 1 << 16;
 
@@ -50,6 +52,8 @@ pub struct System {
     /// Values of one term, reused.
     buffer: Vec<f64>,
     largest_entry: f64,
+    /// Largest number of products of which a force of any term is the sum.
+    products: usize,
     /// Numeric factorisations so far; for the iterative method, preconditioners set up.
     pub factorisations: usize,
     /// Those of them that were LU of a symmetric matrix which is not positive definite.
@@ -96,6 +100,7 @@ impl System {
             factored: None,
             buffer: Vec::new(),
             largest_entry: 0.0,
+            products: 0,
             factorisations: 0,
             indefinite: 0,
             solves: 0,
@@ -144,10 +149,17 @@ impl System {
         &self.equations
     }
 
-    /// Largest entry of any term's tangent in the last assembly: the scale of rounding in the forces.
+    /// Largest entry of any term's tangent in the last assembly.
     #[must_use]
     pub fn largest_entry(&self) -> f64 {
         self.largest_entry
+    }
+
+    /// Rounding of the forces over the largest displacement: n products of the largest entry are added up with an error of at
+    /// most n u of each, u being half the spacing at one (Higham 2002, section 3.1).
+    #[must_use]
+    pub fn rounding(&self) -> f64 {
+        self.products.max(FEWEST_PRODUCTS) as f64 * (0.5 * f64::EPSILON) * self.largest_entry
     }
 
     /// Relative residual a solution may have: 0 for direct methods, whose residual is rounding.
@@ -249,6 +261,7 @@ impl System {
             let constant = constant_of(term);
             let tangent = constant.unwrap_or(&self.buffer);
             self.largest_entry = self.largest_entry.max(largest(tangent));
+            self.products = self.products.max(pattern_of(term).most_products());
             match &mut self.store {
                 Store::Dense(store) => {
                     store.add(&self.equations, pattern_of(term), tangent, constant.is_some());
@@ -286,6 +299,7 @@ impl System {
     fn begin(&mut self, patterns: &[&Pattern], constant: Vec<Option<PatternId>>) -> Result<(), FemError> {
         self.factored = None;
         self.largest_entry = 0.0;
+        self.products = 0;
         match &mut self.store {
             Store::Dense(store) => store.begin(constant),
             Store::Sparse(store) => {

@@ -29,8 +29,6 @@ const PAIRING: usize = 3;
 /// Number of times that a converged state is paired again because its pairing no longer fits its positions. A node between two
 /// segments may belong to either; a pairing that still changes afterwards is such a tie.
 const REPAIRS: usize = 2;
-/// Rounding of a force, which is a sum of some tens of products of stiffness and displacement.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// Largest relative change of the displacements in an iteration that ends with a residual at the level of rounding. A body that
 /// slides away without resistance moves by its whole displacement in each iteration, and rounding of its forces would pass for
 /// equilibrium. A solution moves by rounding times the condition number, which contact seldom raises above 1e10.
@@ -369,7 +367,7 @@ impl Implicit {
 
     /// Rounding of the forces at `u` \[N\].
     fn rounding(&self, u: &[f64]) -> f64 {
-        ROUNDING * self.system.largest_entry() * largest(u).max(self.position)
+        self.system.rounding() * largest(u).max(self.position)
     }
 
     /// Residual over the largest force; zero if no force exceeds rounding, as in bodies without loads.

@@ -55,7 +55,7 @@ pub struct Checkpoint {
 
 impl checkpoint::SavedState for Checkpoint {
     const OF: &'static str = "bodies";
-    const VERSION: &'static str = "5";
+    const VERSION: &'static str = "6";
 }
 
 /// See the module.
