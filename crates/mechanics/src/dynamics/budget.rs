@@ -13,10 +13,11 @@ pub struct Budget {
     pub time: f64,
     /// Kinetic energy.
     pub kinetic: f64,
-    /// Elastic energy of the displacements, without the work of the initial stress; in bodies with a history, all work of their
-    /// stresses beyond those at the start.
+    /// Elastic energy of the displacements, without the work of the initial stress.
     pub elastic: f64,
-    /// Dissipated by Kelvin-Voigt damping.
+    /// Dissipated by plastic flow.
+    pub plastic: f64,
+    /// Dissipated by Kelvin-Voigt damping, and by viscous flow.
     pub viscous: f64,
     /// Dissipated by friction, and work of normal tractions on openings.
     pub friction: f64,
@@ -44,7 +45,12 @@ impl Budget {
                 ("released", self.released),
             ],
             kept: vec![("kinetic", self.kinetic), ("elastic", self.elastic)],
-            lost: vec![("viscous", self.viscous), ("friction", self.friction), ("absorbed", self.absorbed)],
+            lost: vec![
+                ("plastic", self.plastic),
+                ("viscous", self.viscous),
+                ("friction", self.friction),
+                ("absorbed", self.absorbed),
+            ],
             exchanged: 0.0,
         }
     }

@@ -91,6 +91,7 @@ pub struct ExplicitState {
     fault: FaultState,
     histories: Vec<Vec<f64>>,
     works: Works,
+    /// With what flow has dissipated as elastic energy.
     budget: Budget,
     given: f64,
 }
@@ -490,6 +491,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
             time: self.time,
             kinetic,
             elastic,
+            plastic: 0.0,
             viscous,
             friction: self.works.friction.done,
             absorbed: self.works.absorbed.done,
@@ -598,7 +600,18 @@ impl<'a, const D: usize> Explicit<'a, D> {
     /// Energy a step before [`Explicit::time`].
     #[must_use]
     pub fn budget(&self) -> Budget {
-        self.budget
+        if self.steps == 0 {
+            return self.budget;
+        }
+        let works = self.works.inelastic;
+        let before = self.u.iter().zip(&self.velocity).map(|(u, v)| u - self.dt * v);
+        let flow = self.inelastic.flow(works.all.done - works.viscous.done, before);
+        Budget {
+            elastic: self.budget.elastic - (flow.plastic + flow.viscous),
+            plastic: flow.plastic,
+            viscous: self.budget.viscous + flow.viscous,
+            ..self.budget
+        }
     }
 
     /// Blocks with a history, in their present state.

@@ -16,6 +16,15 @@ pub(super) struct Works {
     pub viscous: Work,
 }
 
+/// Energy that flow has dissipated \[J\].
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Flow {
+    /// By plastic flow.
+    pub plastic: f64,
+    /// By viscous flow.
+    pub viscous: f64,
+}
+
 /// Cells with a history. Without any, all vectors are empty.
 pub(super) struct InelasticCells<const D: usize> {
     blocks: Vec<Block<D>>,
@@ -27,6 +36,8 @@ pub(super) struct InelasticCells<const D: usize> {
     way: Vec<f64>,
     /// Forces of the stress at the start, which whatever holds the bodies balances \[N\]; empty where nothing does.
     balanced: Vec<f64>,
+    /// Elastic energy of the stress at the start \[J\].
+    at_start: f64,
     /// Powers of all forces, and of those of viscosity, at the velocities before the present step \[W\].
     before: [f64; 2],
     /// Displacements times all forces \[J\].
@@ -48,6 +59,7 @@ impl<const D: usize> InelasticCells<D> {
             viscous: zeros(viscous),
             way: zeros(viscous),
             balanced: Vec::new(),
+            at_start: blocks.iter().map(Block::strain_energy).sum(),
             before: [0.0; 2],
             along: 0.0,
             blocks,
@@ -114,6 +126,25 @@ impl<const D: usize> InelasticCells<D> {
     pub fn works(&self, after: &[f64], half: f64) -> [[f64; 2]; 2] {
         let after = self.powers(after);
         [0, 1].map(|k| [half * self.before[k], half * after[k]])
+    }
+
+    /// Dissipation by flow: the part of the work of all forces but those of viscosity that is not kept as elastic energy.
+    /// `u` has the displacements of the present states \[m\]. Where both kinds of flow occur, each material's own count tells them apart.
+    pub fn flow(&self, work: f64, u: impl Iterator<Item = f64>) -> Flow {
+        let has = |of: fn(&Material) -> bool| self.blocks.iter().any(|b| of(&b.model().material));
+        let plastic = has(|m| matches!(m, Material::J2(_)));
+        let viscous = has(|m| matches!(m, Material::Maxwell(_)));
+        if !plastic && !viscous {
+            return Flow::default();
+        }
+        let held: f64 = self.balanced.iter().zip(u).map(|(f, u)| f * u).sum();
+        let kept = self.blocks.iter().map(Block::strain_energy).sum::<f64>() - self.at_start;
+        let lost = work + held - kept;
+        if !viscous {
+            return Flow { plastic: lost, viscous: 0.0 };
+        }
+        let plastic = self.blocks.iter().map(Block::plastic_work).sum::<f64>();
+        Flow { plastic, viscous: lost - plastic }
     }
 
     /// Takes the step.

@@ -120,7 +120,7 @@ impl<const D: usize> Waves for Bodies<D> {
             let kinetic = explicit.kinetic();
             let mut energy = || {
                 let b = explicit.budget();
-                b.kinetic + b.elastic + b.viscous + b.absorbed - b.loads - b.initial
+                b.kinetic + b.elastic + b.plastic + b.viscous + b.absorbed - b.loads - b.initial
             };
             let shaken = Shaken {
                 time,

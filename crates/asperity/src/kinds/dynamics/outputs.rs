@@ -33,7 +33,7 @@ pub struct Checkpoint {
 
 impl checkpoint::SavedState for Checkpoint {
     const OF: &'static str = "bodies with mass";
-    const VERSION: &'static str = "6";
+    const VERSION: &'static str = "7";
 }
 
 /// See the module.
