@@ -7,6 +7,7 @@ use asperity_output::formats::catalogues::SourceParameters;
 use asperity_output::tables::column::{self, Column, Sign};
 use asperity_output::tables::describe::FileParts;
 use asperity_output::{OutputError, OutputFile, atomic, stems};
+use asperity_plan::shared::words::time;
 use asperity_run::{Event, EventHead, SlipPoints};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -136,6 +137,12 @@ pub struct FaultEvents {
     pub events: Vec<Entry>,
     /// Onset of an event in progress at the end \[s\].
     pub under_way: Option<f64>,
+}
+
+/// An event that began at this time \[s\] and had not ended at the end of a run, in a line.
+#[must_use]
+pub fn unended(onset: f64) -> String {
+    format!("an event that began at {} had not ended: it is in no catalogue", time(onset))
 }
 
 /// The catalogue of all faults, interfaces or sliders.

@@ -100,6 +100,10 @@ fn read(path: &Path) -> Result<&'static Reference, String> {
 }
 
 fn judge(asked: &Comparison, reference: &'static Reference, path: &Path) -> miette::Result<End> {
+    if path.is_dir() {
+        let why = "is a directory, and a benchmark judges a table (CSV), whose form `--template` prints";
+        return Ok(End::Unreadable(format!("{} {why}", path.display())));
+    }
     let bytes = match std::fs::read(path) {
         Ok(bytes) => bytes,
         Err(error) => return Ok(End::Unreadable(format!("cannot read {}: {error}", path.display()))),

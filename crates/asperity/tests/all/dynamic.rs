@@ -179,6 +179,17 @@ fn a_fault_that_may_not_open_stops_the_run_where_its_sides_part() {
 }
 
 #[test]
+fn a_seismogram_on_the_cut_of_its_body_is_refused() {
+    let at = |x: &str| {
+        let text = varied(SCENE, &[With("output.seismograms.S1.at", &format!(r#"["{x}", "500 m"]"#))]);
+        dynamics::plan(&scene::read(&text).unwrap()).map(|_| ()).map_err(|e| e.to_string())
+    };
+    let refused = at("0 km").unwrap_err();
+    assert!(refused.contains("the seismogram `S1` at (0, 500) m lies on a fault"), "{refused}");
+    assert_eq!(at("1 m"), Ok(()));
+}
+
+#[test]
 fn velocities_of_seismograms_are_the_rates_of_their_displacements_at_the_same_time() {
     // With one step a sample, v at a step is exactly (u after - u before)/(2 dt).
     let folder = folder(&varied(SCENE, &[Add("time.courant", "0.9")]));

@@ -5,6 +5,7 @@ mod antiplane;
 mod apart;
 mod bodies;
 mod cae_files;
+mod careless_faults;
 mod checks;
 mod cite;
 mod cohesion;

@@ -195,8 +195,16 @@ impl Leg<'_, '_> {
             Events { catalogue: &mut run.catalogue, detectors: &mut run.progress.detectors, rupture_rate };
         let state = State { at: run.at, unknowns: &run.unknowns };
         let follow = Follow::new(self.equations, observer, state, events);
-        let mut pieces =
-            Pieces { follow, above, fastest, steps: 0, next_step: None, next: Next::End, outrun: None };
+        let mut pieces = Pieces {
+            follow,
+            above,
+            fastest,
+            steps: 0,
+            next_step: None,
+            next: Next::End,
+            outrun: None,
+            opens: None,
+        };
         if first && pieces.follow.begin(run.at, &run.unknowns) == Control::Stop {
             run.outcome = Outcome::Stopped;
             return pieces.follow.failure.map_or(Ok(Next::End), Err);
@@ -208,7 +216,7 @@ impl Leg<'_, '_> {
         let duration = Clock::new(self.end, 0.0).since(&run.at);
         let Solution { outcome, at, state, counts } =
             asperity_ode::integrate(self.equations, run.at, &run.unknowns, duration, &options, &mut pieces);
-        let Pieces { follow, next_step, next, outrun, .. } = pieces;
+        let Pieces { follow, next_step, next, outrun, opens, .. } = pieces;
         if let Some(failure) = follow.failure {
             return Err(failure);
         }
@@ -219,6 +227,11 @@ impl Leg<'_, '_> {
         if let Some((at, unknowns, outrun)) = outrun {
             (run.outcome, run.at, run.unknowns) = (Outcome::Failed { reason: Failure::Ends }, at, unknowns);
             run.progress.outrun = Some(outrun);
+            return Ok(Next::End);
+        }
+        if let Some((point, length)) = opens {
+            run.outcome = Outcome::Failed { reason: Failure::StepTooSmall { length } };
+            run.progress.opens = Some(point);
             return Ok(Next::End);
         }
         Ok(self.next(run, next))
@@ -245,7 +258,8 @@ impl Leg<'_, '_> {
                 if let Failure::TooManySteps { most } = reason {
                     *most = self.settings.most_steps;
                 }
-                let opens = self.equations.refused().or_else(|| nearly_open(self.equations, run));
+                let opens = self.equations.refused();
+                let opens = opens.or_else(|| nearly_open(self.equations, run.at, &run.unknowns));
                 run.progress.opens = opens;
             }
             Outcome::Stopped if !over => return next,
@@ -270,10 +284,14 @@ enum Next {
 /// become vanishingly short before f_n reaches zero.
 const NEARLY_OPEN: f64 = 1e-3;
 
+/// Length of a step that leads nowhere where a point is about to open \[s\]: at the speed of waves a point slips by less than a
+/// thousandth of an atom.
+const VANISHING: f64 = 1e-17;
+
 /// The point that is about to open, if any.
-fn nearly_open(equations: &Equations<'_>, run: &FaultRun) -> Option<usize> {
+fn nearly_open(equations: &Equations<'_>, at: Clock, unknowns: &[f64]) -> Option<usize> {
     let fault = equations.fault();
-    let pressed = equations.pressed(run.at, &run.unknowns);
+    let pressed = equations.pressed(at, unknowns);
     let share = |p: usize| pressed.normal[p] / fault.normal[p];
     let opens = |p: &usize| fault.processes.least(*p).is_infinite();
     let least = (0..fault.normal.len()).filter(opens).min_by(|&a, &b| share(a).total_cmp(&share(b)))?;
@@ -295,6 +313,8 @@ struct Pieces<'a, 'f> {
     next: Next,
     /// The last state before a point outran shear waves, and that point.
     outrun: Option<(Clock, Vec<f64>, Outrun)>,
+    /// A point that is about to open, and the length of the step to where it is \[s\].
+    opens: Option<(usize, f64)>,
 }
 
 impl Pieces<'_, '_> {
@@ -321,6 +341,12 @@ impl Sink for Pieces<'_, '_> {
         };
         if let Some(outrun) = self.follow.outrun(rate, self.fastest) {
             self.outrun = Some((step.start, step.start_state().to_vec(), outrun));
+            return Control::Stop;
+        }
+        if step.length() < VANISHING
+            && let Some(point) = nearly_open(equations, step.end, step.state)
+        {
+            self.opens = Some((point, step.length()));
             return Control::Stop;
         }
         let rates = step.start_rates().zip(step.rates).map(|(start, end)| [start, end]);

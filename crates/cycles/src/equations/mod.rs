@@ -139,24 +139,36 @@ impl<'a> Equations<'a> {
     }
 
     /// Tolerances of the unknowns for an error `tolerance` of ln V: the changes of m and of the states that move ln V
-    /// by it, that share of L for slip, that share of a f_n for normal traction, and those of the unknowns of processes.
+    /// by it, that share of L for slip, that share of a f_n for normal traction, or of a times its floor where that is more at the
+    /// start, and those of the unknowns of processes.
     #[must_use]
     pub fn tolerances(&self, tolerance: f64) -> Vec<f64> {
         let (l, law) = (self.layout, &self.fault.law);
         let mut all = vec![tolerance; l.size()];
-        for p in 0..l.points() {
+        for (p, normal) in self.pressed_at_start().into_iter().enumerate() {
             let states = l.states().start + p * law.states();
             all[states..states + law.states()].fill(tolerance * law.state_scale(p));
             for slip in l.slip().skip(p).step_by(l.points()) {
                 all[slip] = tolerance * law.length(p).unwrap_or(1.0);
             }
-            if let Some(normal) = all[l.normal()].get_mut(p) {
-                *normal = tolerance * law.scale(p) * self.fault.normal[p];
+            if let Some(own) = all[l.normal()].get_mut(p) {
+                *own = tolerance * law.scale(p) * normal;
             }
         }
         let own = all[l.processes()].iter_mut().zip(self.fault.scales());
         own.for_each(|(own, scale)| *own = tolerance * scale);
         all
+    }
+
+    /// Normal tractions at the start \[Pa\], or floors where these are larger.
+    fn pressed_at_start(&self) -> Vec<f64> {
+        let (l, normal) = (self.layout, &self.fault.normal);
+        let mut start = vec![0.0; l.size()];
+        if !l.normal().is_empty() {
+            start[l.normal()].copy_from_slice(normal);
+        }
+        let pressed = self.fault.pressed(Clock::new(0.0, 0.0), &start).normal;
+        normal.iter().zip(pressed).map(|(own, pressed)| own.max(pressed)).collect()
     }
 
     /// Evaluates the rates of the unknowns, without the processes that are sudden at `without` \[s\].

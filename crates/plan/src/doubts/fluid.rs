@@ -38,3 +38,28 @@ pub fn fluid(fault: &str, place: Range<usize>, of: Fluid) -> Option<Warning> {
         Warning::at(place, message, help)
     })
 }
+
+/// Fluid around a well.
+#[derive(Clone, Copy, Debug)]
+pub struct Spread {
+    /// Position of the well along the fault \[m\].
+    pub at: f64,
+    /// Diffusion length 2 √(D t) until the run ends \[m\].
+    pub length: f64,
+    /// Size of the cells there \[m\].
+    pub size: f64,
+}
+
+/// Warning about a well whose fluid stays within its cell; `pressed` says what the pressure of a cell is.
+#[must_use]
+pub fn narrow(fault: &str, place: Range<usize>, of: Spread, pressed: &str, help: &str) -> Option<Warning> {
+    (of.length < of.size).then(|| {
+        let message = format!(
+            "fluid from the well at {} of fault `{fault}` spreads over {} until the run ends, and cells there have {}: {pressed}",
+            brief(of.at),
+            brief(of.length),
+            brief(of.size)
+        );
+        Warning::at(place, message, help)
+    })
+}

@@ -9,11 +9,11 @@ mod rock_contrast;
 mod thresholds;
 
 pub use damping::damping;
-pub use fluid::{Fluid, fluid};
+pub use fluid::{Fluid, Spread, fluid, narrow};
 pub use nucleation::nucleation;
 pub use pulse::{PulsePoint, pulse};
 pub use rock_contrast::unlike;
-pub use thresholds::thresholds;
+pub use thresholds::{idle_wait, thresholds};
 
 use asperity_run::Warning;
 

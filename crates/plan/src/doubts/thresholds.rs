@@ -27,3 +27,11 @@ pub fn thresholds(asked: &EventSpec, limits: Thresholds, loading: f64, slow: boo
         Warning::at(place, message, help)
     })
 }
+
+/// Warning about a run that waits for events where friction `weakens` nowhere, so that none begins by itself.
+#[must_use]
+pub fn idle_wait(asked: &EventSpec, weakens: bool) -> Option<Warning> {
+    let wait = asked.stop_after.as_ref().filter(|_| !weakens)?;
+    let message = "`stop_after` waits for events, and friction weakens nowhere: no event begins by itself";
+    Some(Warning::at(wait.span(), message, "`a` below `b` where slip is to be unstable: are they exchanged?"))
+}

@@ -23,7 +23,7 @@ pub struct EventSpec {
     /// Slip rate below which a slow event ends \[m/s\].
     #[schemars(extend("x-kinds" = kind::FAULT_CYCLES, "x-default" = usual(defaults::SLOW_EVENT_ENDS).share_of("`slow_above`")))]
     pub slow_below: Option<Spanned<Velocity>>,
-    /// Number of events after which the run ends; with several sliders, events of the first by name.
+    /// Number of events after which the run ends; with several sliders, events of the first by name. A rupture with mass is computed to its end.
     pub stop_after: Option<Spanned<usize>>,
     /// `true` locates the extremes of the slip rate.
     #[schemars(extend("x-kinds" = [Kind::Sliders], "x-default" = usual(true), "x-instead" = "events of faults and interfaces have the largest rate of their steps"))]

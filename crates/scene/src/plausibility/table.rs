@@ -122,6 +122,7 @@ pub(super) const QUANTITIES: &[Quantity] = &[
     row(("lengths of slip over which friction changes", "m"), &["l", "d_c"], [1e-8, 10.0], "\"10 um\""),
     row(("sizes of cells", "m"), &["size", "spacing"], [1e-7, 1e7], "\"1 mm\""),
     row(("thicknesses of zones that slip", "m"), &["heat.thickness"], [1e-6, 1.0], "\"10 mm\""),
+    row(("lengths of faults along strike", "m"), &["place.length"], [100.0, 3e6], "\"50 km\""),
     row(("lengths and positions", "m"), &["points"], [0.0, EARTH], "\"10 km\""),
     row(("lengths and positions", "m"), &[], [0.0, EARTH], "\"10 km\""),
     row(("times", "s"), &[], [0.0, 1e17], "\"100 yr\""),

@@ -8,7 +8,7 @@ use super::non_finite_point;
 use super::openings::{OpenedFault, openings};
 use super::rupture_length::rupture_length;
 use super::sampled_end::{End, in_words};
-use crate::catalogue::{Entry, FaultEvents, slipped};
+use crate::catalogue::{Entry, FaultEvents, slipped, unended};
 use crate::report::{ForceResult, PointResult, SpringResult, results};
 use asperity_cycles::{
     Balance, Components, Episode, FaultRun, Layout, Mark, OPENING, Outrun, Rupture, Thresholds, steady,
@@ -281,6 +281,22 @@ fn in_a_line(number: usize, e: &Entry) -> String {
     )
 }
 
+/// Change of ln V by the tractions that return to equilibrium takes away or adds, from which what follows a rupture is doubtful.
+const JUMP: f64 = 1.0;
+
+/// Warnings about ruptures with mass after which tractions jump.
+fn jumps(ruptures: &[Episode]) -> impl Iterator<Item = Warning> {
+    ruptures.iter().filter(|rupture| rupture.unbalanced > JUMP).map(|rupture| {
+        let message = format!(
+            "when bodies lost their mass after the rupture of {}, tractions jumped by {:.1} a f_n, and ln V with them: what follows it is wrong by as much",
+            time(rupture.begin),
+            rupture.unbalanced
+        );
+        let help = "while bodies have mass, sides that absorb waves carry no load: put them farther away, or let the sides that carry loads move or rest";
+        Warning::at(0..0, message, help)
+    })
+}
+
 /// A rupture with mass and the errors of its hand-overs, as text.
 fn passage(rupture: &Episode) -> String {
     let Episode { begin, end, steps, radiation, unbalanced, unbalanced_drop, kinetic, .. } = rupture;
@@ -331,7 +347,10 @@ impl Report {
         let (heat, molten) = heats(plan, balance.account());
         Self {
             outcome: outcome(plan, run),
-            warnings: plan.warnings.iter().cloned().chain(molten).chain(unbalanced).collect(),
+            warnings: {
+                let found = molten.into_iter().chain(unbalanced).chain(jumps(&run.progress.episodes));
+                plan.warnings.iter().cloned().chain(found).collect()
+            },
             resolution: plan.resolution.clone(),
             checks: plan.checks.without_memory(),
             floors: uses(plan, balance.account()),
@@ -381,6 +400,9 @@ impl Report {
         let mut text = String::from("results\n");
         for (k, event) in self.events.iter().enumerate() {
             let _ = writeln!(text, "  {}", in_a_line(k + 1, event));
+        }
+        if let Some(onset) = self.under_way {
+            let _ = writeln!(text, "  {}", unended(onset));
         }
         for FaultEvents { surface, events, .. } in &self.faults {
             let intervals: Vec<f64> = events.iter().filter_map(|e| e.interval).collect();

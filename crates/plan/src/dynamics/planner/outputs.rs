@@ -1,6 +1,7 @@
 //! Stations on bodies and time zero.
 
 use super::super::plan::Receiver;
+use crate::faults::planner::PlacedPoint;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{PointSpec, Scene, Spanned};
 use crate::shared::model::{self, Model};
@@ -8,6 +9,10 @@ use asperity_fem::mesh::locate;
 use asperity_mechanics::coordinates::in_words;
 use asperity_output::formats::seismogram::SHORTEST;
 use jiff::Timestamp;
+use std::collections::BTreeSet;
+
+/// Share of a node of a cell that is rounding of the position in it.
+const NO_SHARE: f64 = 1e-9;
 
 /// Time zero of a scene that does not give it.
 const EPOCH: &str = "2000-01-01T00:00:00Z";
@@ -19,12 +24,16 @@ const EPOCH: &str = "2000-01-01T00:00:00Z";
 pub(super) fn receivers<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
+    sliding: &[PlacedPoint<D>],
 ) -> Result<Vec<Receiver>, Diagnostic> {
-    scene.output.seismograms.iter().map(|(name, spec)| receiver(model, name, spec)).collect()
+    let sides: Vec<[usize; 2]> =
+        sliding.iter().map(|p| &p.point.place).map(|place| [place.minus, place.plus]).collect();
+    scene.output.seismograms.iter().map(|(name, spec)| receiver(model, &sides, name, spec)).collect()
 }
 
 fn receiver<const D: usize>(
     model: &Model<D>,
+    sides: &[[usize; 2]],
     name: &str,
     spec: &Spanned<PointSpec>,
 ) -> Result<Receiver, Diagnostic> {
@@ -43,7 +52,18 @@ fn receiver<const D: usize>(
         )
     })?;
     let cells = &model.mesh.blocks[found.block];
-    let shares = cells.cell(found.cell).iter().copied().zip(cells.kind.shape(found.xi).n).collect();
+    let shares: Vec<(usize, f64)> =
+        cells.cell(found.cell).iter().copied().zip(cells.kind.shape(found.xi).n).collect();
+    // Of a cut through one body the name of the body does not tell the sides apart.
+    let cut = sides.iter().filter(|side| side.iter().all(|node| body.nodes.contains(node)));
+    let on_cut: BTreeSet<usize> = cut.flatten().copied().collect();
+    if shares.iter().all(|(node, share)| share.abs() <= NO_SHARE || on_cut.contains(node)) {
+        return Err(Diagnostic::at(
+            at.span(),
+            format!("the seismogram `{name}` at {} lies on a fault, whose sides move apart", in_words(&x)),
+            "a position on one of its sides",
+        ));
+    }
     Ok(Receiver { name: name.to_string(), at: position, shares })
 }
 

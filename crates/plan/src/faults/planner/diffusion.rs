@@ -3,6 +3,7 @@
 use super::placed_point::{PlacedPoint, at};
 use super::remarks::Remarks;
 use super::wells::{FluidReach, WellSpec};
+use crate::doubts::{self, Spread};
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{
     Diffusion as Given, DiffusionEnds, Hydraulic, ParameterProfiles, Scene, Well, field_dimension,
@@ -11,7 +12,6 @@ use crate::shared::entry::Entry;
 use crate::shared::field::{Bound, Field, Files, Parameter, Region, Spot};
 use asperity_cycles::diffusion::{Diffusion, Line, Source};
 use asperity_run::Warning;
-use asperity_scene::lengths::brief;
 
 /// Fluid along all faults in a run that ends at `end` \[s\].
 ///
@@ -118,16 +118,9 @@ fn narrow(
         let begin = well.flux.iter().find(|step| step.1 != 0.0).filter(|step| step.0 < end)?.0;
         let near = |k: &usize| (line.positions[*k] - well.at).abs();
         let k = (0..line.positions.len()).min_by(|a, b| near(a).total_cmp(&near(b)))?;
-        let spread = 2.0 * (line.mobility[k] / line.storage[k] * (end - begin)).sqrt();
-        let size = line.lengths[k];
-        (spread < size).then(|| {
-            let message = format!(
-                "fluid from the well at {} of fault `{name}` spreads over {} until the run ends, and cells there have {}: its pressure is the mean over them",
-                brief(well.at),
-                brief(spread),
-                brief(size)
-            );
-            Warning::at(spec.at.span(), message, "smaller cells; or check the units of `permeability`, `viscosity` and `storage`")
-        })
+        let length = 2.0 * (line.mobility[k] / line.storage[k] * (end - begin)).sqrt();
+        let spread = Spread { at: well.at, length, size: line.lengths[k] };
+        let help = "smaller cells; or check the units of `permeability`, `viscosity` and `storage`";
+        doubts::narrow(name, spec.at.span(), spread, "its pressure is the mean over them", help)
     })
 }

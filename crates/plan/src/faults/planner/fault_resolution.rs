@@ -1,10 +1,11 @@
 //! Resolution of all faults of a scene.
 
+use super::checks;
 use super::floor;
 use super::placed_point::PlacedPoint;
 use crate::doubts;
 use crate::reading::diagnostic::Diagnostic;
-use crate::reading::scene::model::Scene;
+use crate::reading::scene::model::{Fault, Scene};
 use crate::shared::entry::Entry;
 use crate::shared::resolution;
 use crate::shared::resolution::Resolution;
@@ -51,5 +52,10 @@ pub(crate) fn resolved<const D: usize>(
             all.push(found);
         }
     }
+    let started = |spec: &Fault| {
+        !spec.pulses.is_empty() || spec.injection.is_some() || spec.diffusion.is_some() || spec.heat.is_some()
+    };
+    let weakens = placed.iter().any(checks::weakens) || scene.faults.values().any(started);
+    warnings.extend(scene.events.as_ref().and_then(|asked| doubts::idle_wait(asked, weakens)));
     Ok(all)
 }

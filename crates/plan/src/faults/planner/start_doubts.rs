@@ -12,6 +12,9 @@ use std::ops::Range;
 /// any rate; a wrong unit, or a stress that hardly shears the fault, causes far larger differences.
 const FAR: f64 = 5.0;
 
+/// Friction that rock does not have at the start, beside a law of less: the shear and the normal traction may be exchanged.
+const MOST_FRICTION: f64 = 1.0;
+
 /// Source of the initial shear traction of a fault.
 fn source<'a>(scene: &'a Scene, spec: &'a Spec) -> (&'static str, Range<usize>) {
     if let Some(field) = &spec.fields.state {
@@ -60,7 +63,8 @@ pub(super) fn check<const D: usize>(scene: &Scene, placed: &[PlacedPoint<D>], fa
         let Ok(m) = law.at_rate(p, rate, &states) else { continue };
         let steady = law.scale(p) * m;
         let off = (found / steady).max(steady / found);
-        if off > FAR && worst[point.fault].as_ref().is_none_or(|w| off > w.0) {
+        let doubtful = off > FAR || found > MOST_FRICTION && steady <= MOST_FRICTION;
+        if doubtful && worst[point.fault].as_ref().is_none_or(|w| off > w.0) {
             worst[point.fault] = Some((off, found, steady, coordinates::in_words(&point.point.place.at)));
         }
     }
@@ -72,7 +76,7 @@ pub(super) fn check<const D: usize>(scene: &Scene, placed: &[PlacedPoint<D>], fa
             format!(
                 "{what} makes friction of {found:.3} on fault `{name}` at the start at {at}, where steady slip at `rate` has {steady:.3}: the state that this takes changes at once"
             ),
-            "check the unit of the shear and of the normal traction",
+            "check the units of the shear and of the normal traction, and whether they are exchanged",
         )
     })
     .collect()

@@ -17,6 +17,14 @@ impl<'a> FilePart<'a> {
     }
 }
 
+/// Names of coordinates on Earth, which are in degrees where nothing else is said.
+const ON_EARTH: [&str; 4] = ["longitude", "latitude", "lon", "lat"];
+
+/// A unit of this dimension that a user would write.
+fn usual(dimension: Dimension) -> &'static str {
+    if dimension == Dimension::Angle { "deg" } else { dimension.si() }
+}
+
 /// Unit of numbers of this dimension: that of the file, or the stated one where the file has none.
 ///
 /// # Errors
@@ -39,14 +47,15 @@ pub(crate) fn chosen<'a>(
     };
     let size = |unit: &str| {
         units::parse(&format!("1 {unit}"), dimension).map_err(|why| {
-            let help = format!("such as `{name} [{}]`", dimension.si());
+            let help = format!("such as `{name} [{}]`", usual(dimension));
             Wrong::new(format!("the unit of its {what} `{name}`: {why}"), help)
         })
     };
-    let Some(unit) = own.or(stated) else {
+    let degrees = (dimension == Dimension::Angle && ON_EARTH.contains(&name)).then_some("deg");
+    let Some(unit) = own.or(stated).or(degrees) else {
         return Err(Wrong::new(
             format!("its {what} `{name}` has no unit, and is {}", dimension.name()),
-            format!("the unit in brackets, such as `{name} [{}]`", dimension.si()),
+            format!("the unit in brackets, such as `{name} [{}]`", usual(dimension)),
         ));
     };
     let own_size = size(unit)?;

@@ -200,7 +200,12 @@ impl<const D: usize> Axes<D> {
 
     /// Reason why positions are no samples of this fault.
     pub fn explain(&self, error: &ScatterError) -> Wrong {
-        let message = format!("by {}, {error}", self.words());
+        let message = match error {
+            ScatterError::Few { positions: 1 } if self.names.len() == 1 => {
+                format!("by {}, it has one position", self.words())
+            }
+            _ => format!("by {}, {error}", self.words()),
+        };
         let help = match error {
             ScatterError::Few { .. } if self.names.len() > 1 => {
                 "give one coordinate alone where values vary along a line; `coordinates` names those that count"

@@ -116,6 +116,9 @@ impl Planner {
             // Of a load whose rate changes, that at the start.
             let loading = plan.problem.system.segment(0.0).load().at(0.0).0.abs();
             plan.warnings.extend(doubts::thresholds(spec, limits, loading, false));
+            let checks = &plan.checks.sliders;
+            let stable = checks.len() == plan.problem.names.len() && checks.iter().all(|c| c.critical == 0.0);
+            plan.warnings.extend(doubts::idle_wait(spec, !stable));
         }
         let starts = start_doubts::starts(scene, &plan);
         doubts::add(&mut plan.warnings, starts);

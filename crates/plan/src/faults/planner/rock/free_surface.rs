@@ -151,6 +151,9 @@ fn on_map(
 ) -> Result<(SurfaceAxes, Vec<[f64; 3]>), Diagnostic> {
     let spec = map.get_ref();
     let corners = x.map(|x| z.map(|z| frame.spot(&[x, 0.0, z])));
+    // Within half a turn of each other, also where longitudes change from 180 to -180 degrees.
+    let first = corners[0][0].longitude;
+    let unwrapped = |longitude: f64| longitude + 360.0 * ((first - longitude) / 360.0).round();
     let range = |of: &dyn Fn(&asperity_output::formats::catalogues::Spot) -> f64| {
         let all = || corners.iter().flatten().map(of);
         [all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max)]
@@ -159,7 +162,7 @@ fn on_map(
         extent.as_ref().map(|e| [e.get_ref().from, e.get_ref().to].map(|angle| angle.0.to_degrees()))
     };
     let latitude = degrees(&spec.latitude).unwrap_or_else(|| range(&|spot| spot.latitude));
-    let longitude = degrees(&spec.longitude).unwrap_or_else(|| range(&|spot| spot.longitude));
+    let longitude = degrees(&spec.longitude).unwrap_or_else(|| range(&|spot| unwrapped(spot.longitude)));
     let step = spec.spacing.get_ref().0 / DEGREE;
     let narrow = (0.5 * (latitude[0] + latitude[1])).to_radians().cos();
     let axes = [divided(map, longitude, step / narrow)?, divided(map, latitude, step)?];

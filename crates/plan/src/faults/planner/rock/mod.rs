@@ -128,7 +128,11 @@ impl<'s, const D: usize> Ground<'s, D> {
         let elastic = elastic(scene, rock)?;
         let tiling = tiling::<D>(scene, rock)?;
         let mut remarks = Remarks { warnings: scene.warnings.clone(), notes: backslip::notes(scene) };
-        spacing::check(scene, &outlines::cells(&tiling), Spacing::ByCells)?;
+        let cells = outlines::cells(&tiling);
+        spacing::check(scene, &cells, Spacing::ByCells)?;
+        if space(rock) == Space::Half {
+            remarks.warnings.extend(spacing::images(scene, &cells));
+        }
         let placed = placed(scene, rock, &elastic, &tiling, &mut remarks)?;
         let resolution = resolved(scene, &placed, &mut remarks.warnings)?;
         remarks.warnings.extend(triangles::tiny(scene, &tiling, &resolution));

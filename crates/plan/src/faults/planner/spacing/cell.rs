@@ -3,6 +3,7 @@
 use super::distance::{Position, edges_of};
 
 /// A cell of a fault.
+#[derive(Clone)]
 pub(crate) struct Cell {
     pub fault: usize,
     /// Ends of a segment, or corners of a plane convex polygon, one after another \[m\].
@@ -21,6 +22,12 @@ pub(crate) struct Cell {
 const TOGETHER: f64 = 1e-3;
 
 impl Cell {
+    /// Its image in the free surface y = 0.
+    pub fn image(&self) -> Self {
+        let corners = self.corners.iter().map(|x| Position::new(x[0], -x[1], x[2])).collect();
+        Self { corners, ..self.clone() }
+    }
+
     /// Mean position of the corners.
     pub fn centre(&self) -> Position {
         self.corners.iter().sum::<Position>() / self.corners.len() as f64

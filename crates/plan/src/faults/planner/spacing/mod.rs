@@ -10,6 +10,8 @@ pub(super) mod faces;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Fault as Spec, Scene};
 use asperity_mechanics::coordinates;
+use asperity_run::Warning;
+use asperity_scene::lengths::brief;
 use cell::Cell;
 use distance::{Nearest, Position, nearest};
 use std::f64::consts::PI;
@@ -76,6 +78,33 @@ pub(super) fn check(scene: &Scene, cells: &[Cell], spaced: Spacing) -> Result<()
         None => Ok(()),
         Some((pair, near)) => Err(refuse(pair, Fault::Near(length(&near)))),
     }
+}
+
+/// Warnings about faults below the free surface y = 0 that lie closer to their images in it than their cells are wide. Faults that reach the
+/// surface meet their images there.
+pub(super) fn images(scene: &Scene, cells: &[Cell]) -> Vec<Warning> {
+    let depth = |cell: &Cell| -cell.bounds()[1][1];
+    let near = |cell: &Cell| match between(cell, &cell.image(), Spacing::ByCells) {
+        Meeting::Near(near) => Some(length(&near)),
+        _ => None,
+    };
+    let doubt = |(k, (name, spec)): (usize, (&String, &Spec))| {
+        let own = || cells.iter().filter(|cell| cell.fault == k);
+        if own().any(|cell| depth(cell) <= cell.together(cell)) {
+            return None;
+        }
+        let found = own().filter_map(|cell| Some((near(cell)?, cell)));
+        let (distance, cell) = found.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let message = format!(
+            "fault `{name}` lies too close to the free surface: its cell at {} is {} wide and {} from its image there, and slip that is uniform over cells does \
+             not resolve the stress between them",
+            coordinates::in_words(&<[f64; 3]>::from(cell.centre())),
+            brief(cell.width),
+            brief(distance)
+        );
+        Some(Warning::at(spec.span(), message, "smaller cells, or a fault that reaches the surface"))
+    };
+    scene.faults.iter().enumerate().filter_map(doubt).collect()
 }
 
 fn length([p, q]: &Nearest) -> f64 {
