@@ -145,6 +145,8 @@ pub struct Closure {
     missing: f64,
     /// Largest part so far \[J\].
     largest: f64,
+    /// Largest energy that the time integration has added so far \[J\].
+    added: f64,
 }
 
 impl Closure {
@@ -152,6 +154,18 @@ impl Closure {
     pub fn note(&mut self, energies: &Energies) {
         self.missing = self.missing.max(energies.missing().abs());
         self.largest = self.largest.max(energies.largest());
+        self.added = self.added.max(-energies.part("numerical"));
+    }
+
+    /// Warning about steps that are too long for what moves: the time integration may dissipate energy, and adds hardly any.
+    #[must_use]
+    pub fn added(&self) -> Option<Warning> {
+        (self.added > DOUBTFUL * self.largest).then(|| {
+            let share = self.added / self.largest;
+            let message =
+                format!("the time integration has added {share:.2} of the largest energy: the steps are too long for what moves");
+            Warning::at(0..0, message, "take shorter steps, by `steps`, `max_step` or a smaller `tolerance`")
+        })
     }
 
     /// Budget at the end of a run, with the largest imbalance of all steps.

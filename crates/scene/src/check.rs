@@ -26,6 +26,7 @@ pub mod pressing;
 mod receivers;
 mod ruptures;
 mod solver;
+mod speeds;
 mod starts;
 mod stress;
 mod surface;

@@ -91,7 +91,7 @@ fn run_in<const D: usize>(
     let (mut from, mut outcome) = (from, Outcome::Completed);
     for index in first..plan.problem.stages.len() {
         let ended = run.stage(index, &mut system, observer, from.take())?;
-        run.end_of_stage(&plan.problem.stages[index], &system);
+        run.end_of_stage(&plan.problem.stages[index], &mut system);
         if let Some(early) = ended {
             run.show(index, &plan.problem.stages[index], &system, observer, true)?;
             outcome = early;
@@ -241,7 +241,7 @@ impl<const D: usize> Running<'_, D> {
         let displacement = || system.displacement();
         self.found.worst.see(
             &self.plan.problem,
-            system.time(),
+            (system.time(), system.begin()),
             &interface_fields(system),
             &displacement,
             last,
@@ -307,7 +307,8 @@ impl<const D: usize> Running<'_, D> {
     }
 
     /// Adds the results at the end of a stage.
-    fn end_of_stage(&mut self, stage: &Stage, system: &AssembledProblem<'_, D>) {
+    fn end_of_stage(&mut self, stage: &Stage, system: &mut AssembledProblem<'_, D>) {
+        let unstable = (system.is_stable() == Some(false)).then(|| doubts::unstable(&stage.name));
         let (plan, fields) = (self.plan, interface_fields(system));
         self.found.results.extend(report::results(stage, &fields, interface_names(plan)));
         let resolution = report::resolution(plan, stage, &fields);
@@ -317,7 +318,9 @@ impl<const D: usize> Running<'_, D> {
         self.found.springs.extend(report::springs(plan, stage, &samples));
         self.worst(system, true);
         let doubts = std::mem::take(&mut self.found.worst).warnings(&plan.problem, &stage.name);
-        self.found.warnings.extend(resolution.into_iter().chain(doubts).map(RunWarning::from));
+        self.found
+            .warnings
+            .extend(resolution.into_iter().chain(doubts).chain(unstable).map(RunWarning::from));
     }
 
     /// Present values at the points, sets and springs of the scene.
@@ -349,6 +352,7 @@ impl<const D: usize> Running<'_, D> {
                 "take shorter steps, a `spectral_radius` of 0.5 or less, or a softer penalty",
             )
         }));
+        warnings.extend(work.energy.added());
         let passages = passages::from_episodes(system.episodes());
         warnings.extend(passages::doubts(&passages));
         let events = plan.events.as_ref().zip(events);

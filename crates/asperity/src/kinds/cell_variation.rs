@@ -7,7 +7,7 @@
 //! from the mean around its nodes (O. C. Zienkiewicz & J. Z. Zhu, Int. J. Numer. Methods Eng. 24 (1987) 337).
 
 use super::cell_gradient::CellGradient;
-use asperity_fem::kinematics::Idealisation;
+use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::mesh::Cells;
 use asperity_fem::nonlinear::{Kinematics, Material};
@@ -25,6 +25,10 @@ const MOST_CELLS: usize = 20_000;
 
 /// Strain over the rotation of the body below which it is rounding.
 const ROUNDING: f64 = 1e-8;
+
+/// Strain that is rounding whatever moves, as of initial stress in balance with weight: that of stresses far above any strength, a
+/// tenth of Young's modulus, is smaller.
+const NO_STRAIN: f64 = 0.1 * f64::EPSILON;
 
 /// Strain xx, yy, zz, xy, yz, zx (shear not doubled) \[-\].
 type Strain = [f64; 6];
@@ -67,7 +71,7 @@ pub(super) fn warning<const D: usize>(
         return None;
     }
     let moved = u[body.nodes.start * D..body.nodes.end * D].iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-    let still = ROUNDING * moved / extent(model, body);
+    let still = (ROUNDING * moved / extent(model, body)).max(NO_STRAIN);
     let blocks = body.blocks.clone().zip(&body.elastic);
     let of_block = |(block, elastic): (usize, &Elastic)| {
         StrainedBlock { model, body, block, elastic, u }.energies(still)
@@ -128,7 +132,10 @@ impl<const D: usize> StrainedBlock<'_, D> {
         let stride = if constant { 1 } else { cells.len().div_ceil(MOST_CELLS) };
         let measured: Vec<usize> = (0..cells.len()).step_by(stride.max(1)).collect();
         let strains = measured.par_iter().flat_map_iter(|cell| points.iter().map(|p| self.strain(*cell, p)));
-        let strains: Vec<PointStrain> = strains.collect();
+        let mut strains: Vec<PointStrain> = strains.collect();
+        if self.averages() {
+            strains.chunks_mut(points.len()).for_each(average_dilatation);
+        }
         let around = if constant { self.means_at_nodes(&strains) } else { Vec::new() };
         let mut sum = Energies::default();
         for (cell, at) in measured.iter().zip(strains.chunks(points.len())) {
@@ -151,6 +158,16 @@ impl<const D: usize> StrainedBlock<'_, D> {
             };
         }
         sum
+    }
+
+    /// True if its cells resist only the mean of their dilatation.
+    fn averages(&self) -> bool {
+        let formulation = match &self.model.blocks.get(self.block) {
+            Some(CellBlock::Linear(block)) => block.formulation(),
+            Some(CellBlock::Nonlinear(block)) => block.model().formulation,
+            None => return false,
+        };
+        formulation == Formulation::BBar
     }
 
     /// Mean strain around each node of the body, weighted by volume, of cells with one point. Nodes of other blocks have none.
@@ -204,6 +221,16 @@ impl<const D: usize> StrainedBlock<'_, D> {
 fn mean(all: &[PointStrain]) -> Strain {
     let volume: f64 = all.iter().map(|p| p.volume).sum();
     std::array::from_fn(|k| all.iter().map(|p| p.strain[k] * p.volume).sum::<f64>() / volume)
+}
+
+/// Gives the points of a cell the mean of their dilatations.
+fn average_dilatation(all: &mut [PointStrain]) {
+    let mean = mean(all);
+    let trace = |e: &Strain| e[0] + e[1] + e[2];
+    for point in all {
+        let off = (trace(&mean) - trace(&point.strain)) / 3.0;
+        point.strain[..3].iter_mut().for_each(|e| *e += off);
+    }
 }
 
 fn less(a: &Strain, b: &Strain) -> Strain {

@@ -7,5 +7,6 @@ mod cell_variation;
 pub mod dynamics;
 pub mod faults;
 pub mod sliders;
+mod step_turn;
 mod stop;
 pub mod worst;

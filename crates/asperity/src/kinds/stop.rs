@@ -48,6 +48,12 @@ pub fn failed<const D: usize>(
             return unstable(system, stage, at, &reason);
         }
     }
+    if let (None, Some(interface), false) = (&free, system.cohesive(), failure.always()) {
+        reason += &format!(
+            "; points of interface `{interface}` that slide under cohesion lose it at once where they lift off, which no step of this stepper follows: \
+             `stepper = \"static-explicit\"` does"
+        );
+    }
     // Shorter steps may fail differently than the first; the motion that the first one found is reported.
     if let Some(free) = free {
         reason += &format!("; {free}");

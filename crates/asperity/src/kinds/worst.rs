@@ -2,6 +2,7 @@
 
 use super::cell_gradient::CellGradient;
 use super::cell_variation::{self, is_followed};
+use super::step_turn::StepTurn;
 use asperity_contact::Sliding;
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
@@ -67,15 +68,20 @@ pub struct Worst {
     /// Displacements at the end of the stage \[m\].
     #[serde(skip)]
     end: Vec<f64>,
+    /// Largest turn of each body in a step.
+    swung: Vec<StepTurn>,
+    /// Displacements at the end of the last step of the stage \[m\], where bodies account for large deformation.
+    before: Vec<f64>,
 }
 
 impl Worst {
     /// Sees the end of a step, with the slip and the tractions of the interfaces. `displacement` gives that of all degrees of freedom,
-    /// which costs a solution where bodies are condensed: then slip and tractions tell whether it is worth it.
+    /// which costs a solution where bodies are condensed: then slip and tractions tell whether it is worth it. `begin` has those at
+    /// the start of the stage \[m\].
     pub fn see<const D: usize>(
         &mut self,
         problem: &Problem<D>,
-        time: f64,
+        (time, begin): (f64, &[f64]),
         fields: &[InterfaceFields],
         displacement: &dyn Fn() -> Vec<f64>,
         last: bool,
@@ -91,6 +97,7 @@ impl Worst {
             (self.slid.iter().copied().fold(0.0, f64::max), None)
         } else {
             let u = displacement();
+            self.step(&problem.model, time, begin, &u);
             (largest(&mut u.iter().copied()), Some(u))
         };
         let grown = |now: f64, before: f64| now > GROWN * before;
@@ -108,6 +115,19 @@ impl Worst {
         if last {
             self.end = u;
         }
+    }
+
+    /// Notes how far bodies of large deformation have turned in the step to displacements `u` \[m\].
+    fn step<const D: usize>(&mut self, model: &Model<D>, time: f64, begin: &[f64], u: &[f64]) {
+        if !(0..model.blocks.len()).any(|block| is_followed(model, block)) {
+            return;
+        }
+        self.swung.resize(model.bodies.len(), StepTurn::default());
+        let before = if self.before.is_empty() { begin } else { &self.before };
+        for (body, turn) in model.bodies.iter().zip(&mut self.swung) {
+            turn.note((model, body), time, before, u);
+        }
+        self.before = u.to_vec();
     }
 
     /// Sees displacements of a model \[m\] at a time \[s\].
@@ -139,7 +159,9 @@ impl Worst {
         let turned = interfaces.filter_map(|(i, angle)| turned(model, i, stage, *angle));
         let bent = model.bodies.iter().filter(|_| !self.end.is_empty());
         let bent = bent.filter_map(|body| cell_variation::warning(model, body, stage, &self.end));
-        self.body_warnings(model, stage).chain(dragged).chain(turned).chain(bent).collect()
+        let swung = model.bodies.iter().zip(&self.swung);
+        let swung = swung.filter_map(|(body, turn)| turn.warning(&body.name, stage));
+        self.body_warnings(model, stage).chain(swung).chain(dragged).chain(turned).chain(bent).collect()
     }
 
     /// Warnings about the bodies in a stage.

@@ -218,6 +218,111 @@ fn a_bar_that_bends_within_its_cells_is_told() {
     assert_eq!(found(&cantilever("tri3", [10, 1], pull)), Vec::<String>::new());
 }
 
+#[test]
+fn rock_that_rests_under_its_weight_does_not_bend() {
+    let scene = r#"
+schema = 1
+title = "rock at rest"
+kinematics = "plane-strain"
+[materials.rock]
+young = "50 GPa"
+poisson = 0.25
+density = 2700
+[bodies.b]
+material = "rock"
+mesh.block = { min = [0, 0], max = ["1.3 km", "1 m"], divisions = [7, 9], element = "quad4" }
+gravity = [0, -9.81]
+initial_stress = { kind = "lithostatic", level = "1 m", k0 = 0.3333 }
+[[stages]]
+name = "rest"
+duration = 1
+conditions = [{ set = "b.left", x = 0 }, { set = "b.right", x = 0 }, { set = "b.bottom", y = 0 }]
+[time]
+stepper = "implicit"
+"#;
+    assert_eq!(found(scene), Vec::<String>::new());
+}
+
+/// A rod of 1 m and this height, of steel and large strain, held at one end, under tractions along and across it at the other.
+fn rod(height: &str, along: &str, across: &str) -> Vec<String> {
+    found(&format!(
+        r#"
+schema = 1
+title = "a rod"
+kinematics = "plane-stress"
+[materials.steel]
+young = "200 GPa"
+poisson = 0
+[bodies.rod]
+mesh.block = {{ min = [0, 0], max = [1, "{height}"], divisions = [20, 1], element = "quad8" }}
+material = "steel"
+strain = "finite"
+[[stages]]
+name = "load"
+duration = 1
+conditions = [
+    {{ set = "rod.left", x = 0, y = 0 }},
+    {{ set = "rod.right", traction = [{along}, {across}] }},
+]
+[time]
+stepper = "implicit"
+"#
+    ))
+}
+
+#[test]
+fn a_rod_beyond_its_load_of_buckling_is_told() {
+    // It buckles at π² E I/(4 L²) = 0.329 MN, a traction of 16.4 MPa.
+    let unstable = |told: &[String]| told.iter().any(|w| w.contains("ends in an unstable equilibrium"));
+    let straight = rod("20 mm", r#"{ to = "-25 MPa" }"#, "0");
+    assert!(unstable(&straight), "{straight:?}");
+    for load in ["-15 MPa", "200 MPa"] {
+        let told = rod("20 mm", &format!(r#"{{ to = "{load}" }}"#), "0");
+        assert!(!unstable(&told), "{load}: {told:?}");
+    }
+}
+
+#[test]
+fn a_rod_that_turns_far_within_a_step_is_told() {
+    let turns = |told: &[String]| told.iter().any(|w| w.contains("turns or stretches by"));
+    let at_once = rod("50 mm", "0", r#""60 MPa""#);
+    assert!(turns(&at_once), "{at_once:?}");
+    let grows = rod("50 mm", "0", r#"{ to = "60 MPa" }"#);
+    assert!(!turns(&grows), "{grows:?}");
+}
+
+#[test]
+fn steps_longer_than_a_vibration_that_add_energy_are_told() {
+    let beam = |steps: usize| {
+        found(&format!(
+            r#"
+schema = 1
+title = "a beam under a sudden load, of a period of 24.8 ms"
+kinematics = "plane-stress"
+[materials.steel]
+young = "200 GPa"
+poisson = 0
+density = 8000
+[bodies.beam]
+mesh.block = {{ min = [0, 0], max = [1, "50 mm"], divisions = [20, 2], element = "quad8" }}
+material = "steel"
+[[stages]]
+name = "load"
+duration = "100 ms"
+steps = {steps}
+conditions = [{{ set = "beam.left", x = 0, y = 0 }}, {{ set = "beam.right", traction = [0, "0.1 MPa"] }}]
+[time]
+stepper = "implicit"
+inertia = true
+"#
+        ))
+    };
+    let adds = |told: &[String]| told.iter().any(|w| w.contains("the time integration has added 0.9"));
+    let (coarse, fine) = (beam(3), beam(400));
+    assert!(adds(&coarse), "{coarse:?}");
+    assert_eq!(fine, Vec::<String>::new());
+}
+
 /// Two blocks with cells of 1 m; the second is driven past the first for 50 s.
 fn driven(sliding: &str, rate: &str) -> String {
     varied(

@@ -127,7 +127,22 @@ const TRIALS: &[Trial] = &[
     ),
     ("rates beyond waves", ROCK, With("faults.main.rate", "5e10"), "the speed of shear waves"),
     ("rates beyond waves", BETWEEN, With("faults.main.creep.rate", "4 km/s"), "the speed of shear waves"),
+    (
+        "rates beyond waves",
+        BODIES,
+        With("stages[1].conditions[1].y", r#"{ to = "-1000 km" }"#),
+        "sides reach the speed of shear waves",
+    ),
     ("rates beyond waves", MASS, Add("output.rupture_rate", "1e9"), "the speed of shear waves"),
+    (
+        "rates beyond waves",
+        MASS,
+        With(
+            "stages[0].conditions",
+            r#"[{ set = "A.left", absorbing = true }, { set = "A.right", x = { to = "20 km" } }]"#,
+        ),
+        "sides reach the speed of shear waves",
+    ),
     ("rates beyond waves", SLIDERS, With("load.rate", "1e9"), "the speed of shear waves"),
     (
         "damping far from radiation",

@@ -81,6 +81,12 @@ impl Maxwell {
         Ok(Self { bulk: elastic.bulk(), elements })
     }
 
+    /// Shortest relaxation time \[s\].
+    #[must_use]
+    pub fn shortest_time(&self) -> f64 {
+        self.elements.iter().map(|e| e.time).fold(f64::INFINITY, f64::min)
+    }
+
     /// Effective shear modulus in a step of length `dt`: Σ G φ \[Pa\].
     fn effective_shear(&self, dt: f64) -> f64 {
         self.elements.iter().map(|e| e.shear * mean_decay(dt / e.time)).sum()

@@ -22,7 +22,7 @@ pub mod triangles;
 
 pub use error::{GroupName, Holder, MeshError, Part, Place};
 pub use locate::{Location, locate};
-pub use meeting::meeting;
+pub use meeting::{cut, meeting};
 pub use raw::{GroupTag, Options, RawBlock, RawGroup, RawMesh, RawNode, RawSide, Shape, UnreadElements};
 
 use crate::element::{ElementKind, FaceKind};

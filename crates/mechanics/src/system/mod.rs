@@ -25,9 +25,10 @@ use crate::error::SetUpError;
 use crate::inertia::InertialSystem;
 use crate::{Samples, SpringStart, SpringState};
 use asperity_contact::{Interface, TimeRule};
-use asperity_fem::assembly::{Iterative, NearNull, Storage, System};
+use asperity_fem::assembly::{Iterative, NearNull, Storage, Symmetry, System};
 use asperity_fem::dof::Constraints;
-use asperity_fem::term::ForwardTerm;
+use asperity_fem::nonlinear::Kinematics;
+use asperity_fem::term::{ForwardTerm, Instant};
 use asperity_run::Operations;
 
 /// Terms, constraints, stepper and state of a problem.
@@ -243,6 +244,37 @@ impl<'a, const D: usize> AssembledProblem<'a, D> {
     #[must_use]
     pub fn time(&self) -> f64 {
         self.state.time
+    }
+
+    /// Displacements of the mesh at the start of the present stage \[m\].
+    #[must_use]
+    pub fn begin(&self) -> &[f64] {
+        &self.begin
+    }
+
+    /// True if the equilibrium of bodies that account for large deformation is stable: their rate tangent is positive definite (R. Hill, J.
+    /// Mech. Phys. Solids 6 (1958) 236). `None` where it is not known: with mass, with interfaces, and where systems are solved by
+    /// iteration.
+    pub fn is_stable(&mut self) -> Option<bool> {
+        let problem = self.problem;
+        let follows = |block: &CellBlock<D>| match block {
+            CellBlock::Linear(_) => false,
+            CellBlock::Nonlinear(block) => block.model().kinematics == Kinematics::UpdatedLagrangian,
+        };
+        let knows = problem.mass.is_none() && problem.interfaces.is_empty() && problem.path == Path::Full;
+        let direct = !matches!(problem.solver.method, Method::Iterative { .. });
+        if !(knows && direct && problem.model.blocks.iter().any(follows)) {
+            return None;
+        }
+        let mut system = self.linear_system().ok()?.with_symmetry(Symmetry::Positive);
+        let at = Instant { time: self.state.time, dt: self.state.time - self.started };
+        let mut terms = terms(self.bodies.as_mut(), &mut self.springs, &mut self.interfaces, None);
+        let mut unused = vec![0.0; self.state.u.len()];
+        let factored = system.factor_rate(&mut terms, |term, values| term.rate(at, values, &mut unused));
+        match factored.ok()? {
+            Ok(_) => Some(true),
+            Err(error) => error.pivot().map(|_| false),
+        }
     }
 
     /// Corrects the time for rounding \[s\].

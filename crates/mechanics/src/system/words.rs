@@ -1,7 +1,7 @@
 //! Descriptions of failed steps.
 
 use super::AssembledProblem;
-use crate::{Failure, free};
+use crate::{Failure, PlannedInterface, free};
 
 impl<const D: usize> AssembledProblem<'_, D> {
     /// Describes a failed step, with degrees of freedom given by body and position.
@@ -34,6 +34,16 @@ impl<const D: usize> AssembledProblem<'_, D> {
     /// Description of a penalty so large that it slows the iterations, if there is one.
     pub fn blamed(&self) -> Option<&str> {
         self.problem.interfaces.iter().find_map(|i| i.blamed.as_deref())
+    }
+
+    /// Name of an interface whose law has cohesion, if there is one and steps are implicit.
+    pub fn cohesive(&self) -> Option<&str> {
+        if self.problem.stepping.is_forward() {
+            return None;
+        }
+        let holds =
+            |i: &&PlannedInterface| i.law.as_ref().is_some_and(|law| !law.bonded() && law.cohesion(0) > 0.0);
+        self.problem.interfaces.iter().find(holds).map(|i| i.name.as_str())
     }
 
     /// Describes the traction that an unknown represents, if it is a multiplier.

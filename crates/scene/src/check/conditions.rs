@@ -104,6 +104,7 @@ impl Checker<'_> {
             for entry in &fresh {
                 let present = prescribed.start(entry, index == 0);
                 self.begins(stage, &entry.set, entry.axis, &entry.motion, &entry.place, present);
+                self.speed(stage, (&entry.set, entry.axis), &entry.motion, &entry.place, present);
                 prescribed.entries.insert((entry.set.clone(), entry.axis), entry.clone());
             }
             self.loads_begin(stage, &mut loaded);

@@ -17,7 +17,7 @@ use table::{Quantity, RefusalBound, quantity};
 use toml_edit::{Document, Value};
 
 /// Speed that shear waves exceed in no rock of the crust or the upper mantle \[m/s\] (PREM; Dziewonski & Anderson 1981).
-const ANY_ROCK: f64 = 5e3;
+pub(crate) const ANY_ROCK: f64 = 5e3;
 
 /// Facts about a scene beside its values.
 #[derive(Clone, Copy, Debug)]

@@ -42,3 +42,16 @@ pub fn never_pressed(
     sorted.sort_unstable_by_key(|interface| &interface.name);
     sorted.into_iter().filter_map(doubt).collect()
 }
+
+/// Warning about a stage that ends in an unstable equilibrium.
+pub fn unstable(stage: &str) -> Warning {
+    let message = format!(
+        "stage `{stage}` ends in an unstable equilibrium: the stiffness of its bodies is not positive definite, as beyond buckling or \
+         collapse, and what they would do instead depends on the least disturbance"
+    );
+    Warning::at(
+        0..0,
+        message,
+        "less load, a displacement in the place of a load, shorter steps that follow the other branch, or `inertia`",
+    )
+}

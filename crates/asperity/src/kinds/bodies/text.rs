@@ -2,6 +2,7 @@
 
 use super::passages::Passage;
 use super::report::RunReport;
+use crate::catalogue::unended;
 use asperity_output::decimals::fixed;
 
 impl RunReport {
@@ -45,6 +46,12 @@ fn summary(report: &RunReport) -> String {
             triple(&f.value),
             f.unit
         ));
+    }
+    if let Some(events) = &report.events {
+        text.push_str(&format!("  {} events of interfaces\n", events.all.len()));
+        if let Some(onset) = events.under_way {
+            text.push_str(&format!("  {}\n", unended(onset)));
+        }
     }
     if let Some(energy) = &report.energy {
         text.push_str(&format!("  {}\n", energy.text()));

@@ -26,8 +26,8 @@ fn told(u: impl Fn(&[f64; 2]) -> [f64; 2]) -> (Largest, Vec<String>) {
     let u: Vec<f64> = plan.problem.model.mesh.nodes.iter().flat_map(u).collect();
     let mut worst = Worst::default();
     // The state is at its worst in the middle of the stage, and at rest at its end.
-    worst.see(&plan.problem, 0.5, &[], &|| u.clone(), false);
-    worst.see(&plan.problem, 1.0, &[], &|| vec![0.0; u.len()], true);
+    worst.see(&plan.problem, (0.5, &[]), &[], &|| u.clone(), false);
+    worst.see(&plan.problem, (1.0, &[]), &[], &|| vec![0.0; u.len()], true);
     let told = worst.warnings(&plan.problem, "turn").into_iter().map(|w| w.message).collect();
     (largest_in_block(&plan.problem.model, 0, 0.0, &u), told)
 }

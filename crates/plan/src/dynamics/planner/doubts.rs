@@ -9,9 +9,10 @@ use crate::reading::scene::model::{Fault as Spec, Scene};
 use crate::shared::entry::Entry;
 use crate::shared::model::Model;
 use crate::shared::words::time;
+use asperity_fem::nonlinear::Material;
 use asperity_laws as laws;
 use asperity_mechanics::dynamics::Fault;
-use asperity_mechanics::{Stage, bounds};
+use asperity_mechanics::{CellBlock, Stage, bounds};
 use asperity_run::Warning;
 use asperity_scene::defaults;
 use std::ops::Range;
@@ -27,6 +28,9 @@ const TINY: f64 = 1e-4;
 
 /// Shear over normal traction beyond which no friction of rock holds a fault.
 const MOST_FRICTION: f64 = 1.0;
+
+/// Time of the viscosity of steps over a relaxation time of rock, beyond which they are one: their effects have this ratio.
+const OUTDAMPED: f64 = 0.02;
 
 /// Share of its points that a forced rupture should weaken within a run.
 const HALF: f64 = 0.5;
@@ -269,4 +273,31 @@ fn strength<const D: usize>(p: &PlacedPoint<D>) -> Option<f64> {
 /// One if a point starts above its strength; `None` for laws that slip at every traction.
 fn above<const D: usize>(p: &PlacedPoint<D>) -> Option<usize> {
     Some(usize::from(p.shear.unwrap_or_default().abs() > strength(p)?))
+}
+
+/// Warns of cells that relax about as fast as the viscosity of steps acts in them, which is added to theirs.
+pub(super) fn outdamped<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    viscosity: f64,
+    dt: f64,
+) -> Option<Warning> {
+    let time_of = |block: &CellBlock<D>| match block {
+        CellBlock::Nonlinear(block) => match &block.model().material {
+            Material::Maxwell(maxwell) => Some(maxwell.shortest_time()),
+            _ => None,
+        },
+        CellBlock::Linear(_) => None,
+    };
+    let relaxes = model.blocks.iter().filter_map(time_of).reduce(f64::min)?;
+    let damps = viscosity * dt;
+    (damps > OUTDAMPED * relaxes).then(|| {
+        let place = scene.time.viscosity.as_ref().map_or(scene.time.stepper.span(), |v| v.span());
+        let message = format!(
+            "stress relaxes within {}, and the viscosity of steps, of a time of {}, is added to that of the rock",
+            time(relaxes),
+            time(damps)
+        );
+        Warning::at(place, message, "`viscosity = 0` in `[time]`, or smaller cells: steps are then shorter")
+    })
 }

@@ -104,10 +104,11 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     let StepPlan { density, viscosity, stable, counted } = StepPlan::choose(scene, &model, &stages[0])?;
     let SplitPoints { sliding, locked } = SplitPoints::find(scene, &model, &mut remarks)?;
     crate::doubts::add(&mut remarks.warnings, doubts::check(scene, &sliding, &stages[0], &counted));
+    remarks.warnings.extend(doubts::outdamped(scene, &model, viscosity, counted.dt));
     remarks.warnings.extend(courses::passed_over(&scene.stages[0], counted.dt, courses::WAVES));
     let resolution = of_faults::resolved(scene, &sliding, &mut remarks.warnings)?;
     let (faults, points) = of_faults::views(scene, &FaultFaces { model: &model }, &sliding, D == 3)?;
-    let receivers = outputs::receivers(scene, &model)?;
+    let receivers = outputs::receivers(scene, &model, &sliding)?;
     remarks.notes.extend(outputs::notes(scene, counted.cadence.rows as f64 * counted.dt));
     let memory_bytes = ModelMemory::new(&model).in_steps(stable.highest.kept, model.dofs());
     forecast::fits(scene, memory_bytes)?;

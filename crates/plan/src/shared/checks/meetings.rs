@@ -1,13 +1,14 @@
-//! Bodies that meet where nothing joins them, and loads that meet on a face.
+//! Bodies that meet where nothing joins them, bodies that are cut, and loads that meet on a face.
 
 use super::double_loads;
 use super::model_checks::body_name;
-use crate::reading::scene::model::{Scene, Spanned};
+use crate::reading::scene::model::{MeshSource, Scene, Spanned};
 use crate::shared::model::{Model, bounds};
-use asperity_fem::mesh::meeting;
+use asperity_fem::mesh::{Side, cut, meeting};
 use asperity_mechanics::Body;
 use asperity_run::Warning;
 use asperity_scene::lengths::brief;
+use std::collections::BTreeSet;
 
 /// True if an interface or a fault of the scene joins two bodies.
 fn joined(scene: &Scene, names: [&str; 2]) -> bool {
@@ -28,6 +29,7 @@ fn apart<const D: usize>(model: &Model<D>, bodies: [&Body<D>; 2]) -> bool {
 /// Warnings about the bodies of a model and the loads on their sets.
 pub(crate) fn doubts<const D: usize>(scene: &Scene, model: &Model<D>) -> Vec<Warning> {
     let mut all = unjoined(scene, model);
+    all.extend(cuts(scene, model));
     all.extend(double_loads::doubts(scene, model));
     all
 }
@@ -57,4 +59,37 @@ fn unjoined<const D: usize>(scene: &Scene, model: &Model<D>) -> Vec<Warning> {
         }
     }
     all
+}
+
+/// Faces of which a scene says what happens there: those of interfaces, faults and conditions.
+fn known_faces<const D: usize>(scene: &Scene, model: &Model<D>) -> BTreeSet<Side> {
+    let interfaces = scene.interfaces.values().flat_map(|i| [&i.slave, &i.master]);
+    let faults = scene.faults.values().flat_map(|f| [&f.minus, &f.plus]);
+    let conditions = scene.stages.iter().flat_map(|stage| &stage.conditions);
+    let sets = interfaces.chain(faults).chain(conditions.filter_map(|c| c.get_ref().set.as_ref()));
+    sets.filter_map(|set| model.mesh.side_sets.get(set.get_ref())).flatten().copied().collect()
+}
+
+/// Warnings about bodies of a mesh that has a cut, whose sides do not feel each other.
+fn cuts<const D: usize>(scene: &Scene, model: &Model<D>) -> Vec<Warning> {
+    let known = known_faces(scene, model);
+    let doubt = |body: &Body<D>| {
+        let spec = scene.bodies.get(&body.name)?;
+        if matches!(spec.mesh, MeshSource::Block(_) | MeshSource::Quadrilateral(_)) {
+            return None;
+        }
+        let faces = cut(&model.mesh, body.blocks.clone(), &known);
+        let first = faces.first()?;
+        Some(Warning::at(
+            spec.material.span(),
+            format!(
+                "body `{}` is cut along {} of its faces, such as at ({}), and no interface joins them: they do not feel each other",
+                body.name,
+                faces.len(),
+                first.map(brief).join(", ")
+            ),
+            "an interface with both sides of the cut; or a mesh without it. A crack that stays open may stay",
+        ))
+    };
+    model.bodies.iter().filter_map(doubt).collect()
 }
