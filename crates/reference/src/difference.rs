@@ -48,7 +48,7 @@ pub struct Difference {
     pub name: String,
     /// Largest difference; infinite where a number is missing on one side or texts differ.
     pub largest: f64,
-    /// Largest difference over the largest value of the column \[-\].
+    /// Largest difference over the largest value of the column, or of its vector \[-\].
     pub relative: f64,
     /// Row of the largest difference, from 1.
     pub row: usize,
@@ -267,19 +267,39 @@ fn differences(a: &Table, b: &Table, places: &[Option<Place>], same: bool) -> Ve
             let counted = same || name != COUNT;
             named(name, places.iter().filter(|_| counted), a, b)
         }
-        (Column::Numbers(a), Column::Numbers(b)) => measured(name, places, a, b),
+        (Column::Numbers(one), Column::Numbers(other)) => {
+            measured(name, places, [one, other], largest(&[a, b], name))
+        }
         (Column::Texts(a), Column::Texts(b)) => named(name, places.iter(), a, b),
         _ => Some(other(name, 0)),
     };
     columns.filter_map(difference).collect()
 }
 
-/// Difference of measured values, if there is one.
-fn measured(name: &str, places: &[Option<Place>], a: &[f64], b: &[f64]) -> Option<Difference> {
+/// Name of a vector of which a column has a component.
+fn vector(name: &str) -> Option<&str> {
+    ["_x", "_y", "_z"].iter().find_map(|axis| name.strip_suffix(axis))
+}
+
+/// Largest size of the values of a column, or of all components of its vector: one that vanishes by symmetry is rounding of the others.
+fn largest(tables: &[&Table], name: &str) -> f64 {
+    let beside = |other: &str| other == name || vector(name).is_some_and(|own| vector(other) == Some(own));
+    let columns =
+        tables.iter().flat_map(|t| t.names.iter().zip(&t.columns)).filter(|(other, _)| beside(other));
+    let sizes = columns.map(|(_, column)| match column {
+        Column::Numbers(values) => {
+            values.iter().filter(|v| v.is_finite()).fold(0.0_f64, |most, v| most.max(v.abs()))
+        }
+        Column::Texts(_) => 0.0,
+    });
+    sizes.fold(0.0, f64::max)
+}
+
+/// Difference of measured values, if there is one; relative to `size`.
+fn measured(name: &str, places: &[Option<Place>], [a, b]: [&[f64]; 2], size: f64) -> Option<Difference> {
     let pairs = places.iter().zip(b).enumerate();
     let each = pairs.filter_map(|(row, (place, b))| Some((row, apart(place.as_ref()?.value(a), *b))));
     let (row, largest) = each.reduce(|most, next| if next.1 > most.1 { next } else { most })?;
-    let size = a.iter().chain(b).filter(|v| v.is_finite()).fold(0.0_f64, |most, v| most.max(v.abs()));
     let difference =
         || Difference { name: name.into(), largest, relative: largest / size, row: row + 1, exact: false };
     (largest > 0.0).then(difference)

@@ -43,6 +43,12 @@ pub fn failed<const D: usize>(
     let mut reason = words;
     if !failure.always() {
         reason += &format!("; the step was halved to {dt:.3e} s without success");
+        if let Some(interface) = system.lifting() {
+            reason += &format!(
+                "; a point of interface `{interface}` at which radiation carries more than contact presses loses all of it where it lifts off: \
+                 `stepper = \"auto\"`, or inertia from the start, follows that"
+            );
+        }
         if let Some(at) = weakest(system).or_else(|| fastest(system).filter(|_| fast)) {
             let reason = format!("{}: no equilibrium near the last one was found: {reason}", at.interface);
             return unstable(system, stage, at, &reason);

@@ -346,6 +346,17 @@ pub enum MeshError {
         /// Number of nodes.
         count: usize,
     },
+    /// Elements that lie over each other.
+    #[error(
+        "elements {} and {} lie over each other: they have a face in common, at node {at:?} m, and are on the same side of it. Each would \
+         have its stiffness and weight there: leave one of them out", .elements[0], .elements[1]
+    )]
+    Overlapping {
+        /// Both elements.
+        elements: [u64; 2],
+        /// Position of a common node \[m\].
+        at: Vec<f64>,
+    },
     /// A part that touches another without being tied to it.
     #[error(
         "{free} hangs free: {pairs} of its nodes coincide with nodes of {other}, but the two share none, and no named face \

@@ -49,12 +49,22 @@ pub fn meeting<const D: usize>(mesh: &Mesh<D>, one: Range<usize>, other: Range<u
     boundary(mesh, one).iter().filter_map(|side| centre_within(mesh, side, &tree)).collect()
 }
 
-/// Centres of the faces on the boundary of these blocks, less those of `known`, that lie on another cell at this boundary \[m\]: the
-/// sides of a cut.
+/// Cells of a mesh up to which all are searched for what lies over them; of more, those at the boundary.
+const ALL_CELLS: usize = 200_000;
+
+/// Centres of the faces on the boundary of these blocks, less those of `known`, that lie in or on another cell \[m\]: the sides of a
+/// cut, and parts that lie over each other.
 #[must_use]
 pub fn cut<const D: usize>(mesh: &Mesh<D>, blocks: Range<usize>, known: &BTreeSet<Side>) -> Vec<[f64; D]> {
-    let sides: Vec<Side> = boundary(mesh, blocks).into_iter().filter(|side| !known.contains(side)).collect();
-    let cells: BTreeSet<(usize, usize)> = sides.iter().map(|side| (side.block, side.cell)).collect();
-    let tree = tree(mesh, cells.into_iter());
+    let sides: Vec<Side> =
+        boundary(mesh, blocks.clone()).into_iter().filter(|side| !known.contains(side)).collect();
+    if sides.is_empty() {
+        return Vec::new();
+    }
+    let all =
+        || blocks.clone().flat_map(|block| (0..mesh.blocks[block].len()).map(move |cell| (block, cell)));
+    let bordering = || sides.iter().map(|side| (side.block, side.cell)).collect::<BTreeSet<_>>();
+    let tree =
+        if all().count() <= ALL_CELLS { tree(mesh, all()) } else { tree(mesh, bordering().into_iter()) };
     sides.iter().filter_map(|side| centre_within(mesh, side, &tree)).collect()
 }

@@ -169,3 +169,39 @@ fn sets_of_sets_are_bounded_by_the_file() {
     let error = abaqus::parse(text.as_bytes()).unwrap_err().to_string();
     assert!(error.contains("sets of sets grow beyond all measure of the file"), "{error}");
 }
+
+#[test]
+fn elements_that_lie_over_each_other_are_refused() {
+    // A square twice, its nodes turned; a triangle over a half of it; a square over an edge that two have.
+    for (more, elements) in [
+        ("21, 3, 6, 5, 2", "elements 20 and 21"),
+        ("*Element, type=cax3, elset=East\n21, 2, 3, 6", "elements 20 and 21"),
+        (
+            "*Node\n7, 1.5, 0.\n8, 1.5, 1.\n*Element, type=cax4, elset=East\n21, 2, 7, 8, 5",
+            "elements 10 and 20",
+        ),
+    ] {
+        let told = changed("20, 2, 3, 6, 5", &format!("20, 2, 3, 6, 5\n{more}"));
+        assert!(told.starts_with(elements) && told.contains("lie over each other"), "{told}");
+    }
+}
+
+#[test]
+fn the_middle_of_a_line_of_three_nodes_is_its_second() {
+    let text = "*Node
+1, 0, 0
+2, 1, 0
+3, 1, 1
+4, 0, 1
+5, 0.5, 0
+6, 1, 0.5
+7, 0.5, 1
+8, 0, 0.5
+*Element, type=CPS8, elset=All
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*Element, type=T3D3, elset=Right
+2, 2, 6, 3
+";
+    let mesh: Mesh<2> = read(text).unwrap();
+    is(face_measure(&mesh, &mesh.side_sets["Right"]), 1.0, "the right side");
+}

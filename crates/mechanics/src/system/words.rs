@@ -2,6 +2,7 @@
 
 use super::AssembledProblem;
 use crate::{Failure, PlannedInterface, free};
+use asperity_contact::Interface;
 
 impl<const D: usize> AssembledProblem<'_, D> {
     /// Describes a failed step, with degrees of freedom given by body and position.
@@ -44,6 +45,18 @@ impl<const D: usize> AssembledProblem<'_, D> {
         let holds =
             |i: &&PlannedInterface| i.law.as_ref().is_some_and(|law| !law.bonded() && law.cohesion(0) > 0.0);
         self.problem.interfaces.iter().find(holds).map(|i| i.name.as_str())
+    }
+
+    /// Name of a damped interface with a closed point at which radiation carries more than contact presses, if there is one: once it opens
+    /// it radiates no more.
+    pub fn lifting(&self) -> Option<&str> {
+        let carries = |(planned, interface): &(&PlannedInterface, &Interface<D>)| {
+            let (points, damping) = (interface.points(), planned.damping.unwrap_or(0.0));
+            let mut each = points.normal_traction.iter().zip(&points.slip_rate);
+            each.any(|(normal, rate)| *normal > 0.0 && damping * rate.abs() > *normal)
+        };
+        let mut each = self.problem.interfaces.iter().zip(&self.interfaces);
+        each.find(carries).map(|(planned, _)| planned.name.as_str())
     }
 
     /// Describes the traction that an unknown represents, if it is a multiplier.

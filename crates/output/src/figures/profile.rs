@@ -29,6 +29,9 @@ pub struct Tractions {
     axis: String,
     /// First and last coordinate \[m\].
     ends: (f64, f64),
+    /// True if tractions are means over the nodes at each coordinate.
+    #[serde(default)]
+    mean: bool,
     stages: Vec<EndProfile>,
 }
 
@@ -70,7 +73,9 @@ impl Tractions {
             Some(EndProfile { name: end.name.clone(), time: end.time, along, normal, shear })
         };
         let stages: Vec<EndProfile> = ends.iter().filter_map(one).collect();
+        let mean = stages.first().is_some_and(|end| end.along.len() < places.len());
         (!stages.is_empty()).then(|| Self {
+            mean,
             file: format!("{stem}_tractions"),
             title: scene.into(),
             name: mesh.name.clone(),
@@ -96,9 +101,9 @@ impl Tractions {
         let (lo, hi) = self.ends;
         let (stress, length) = (STRESS.choose(largest), LENGTH.choose(lo.abs().max(hi.abs())));
         let label = format!("{} [{}]", self.axis, length.name);
+        let what = if self.mean { format!("Mean traction at each {}", self.axis) } else { "Traction".into() };
         let x = Axis::exact([lo / length.factor, hi / length.factor], label);
-        let y =
-            Axis::linear(values().map(|v| v / stress.factor), 0.05, format!("Traction [{}]", stress.name));
+        let y = Axis::linear(values().map(|v| v / stress.factor), 0.05, format!("{what} [{}]", stress.name));
         let entries: Vec<Entry> = curves.iter().map(|curve| curve.entry.clone()).collect();
         let mut page = FramedFigure::new(paper, x, y, &entries);
         let FramedFigure { figure, frame, .. } = &mut page;

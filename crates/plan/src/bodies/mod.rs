@@ -8,6 +8,7 @@ mod damping;
 mod doubts;
 mod enforcement;
 mod events;
+mod force_notes;
 mod friction;
 mod inertia;
 mod initial_tractions;

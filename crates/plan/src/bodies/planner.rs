@@ -4,8 +4,8 @@
 use super::assembly::Assembly;
 use super::friction::Friction;
 use super::{
-    AnyPlan, Plan, StartGap, checks, doubts, events, inertia, linear_solver, path, restraint, start_balance,
-    stepping, summary,
+    AnyPlan, Plan, StartGap, checks, doubts, events, force_notes, inertia, linear_solver, path, restraint,
+    start_balance, stepping, summary,
 };
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::Scene;
@@ -93,6 +93,7 @@ impl Findings {
         remarks.extend(followed);
         remarks.extend(cuts::notes(scene, &model.mesh));
         remarks.extend(meshes::left_out(model));
+        remarks.extend(force_notes::notes(scene, model, interfaces));
         remarks.extend(assembly.laws().flat_map(|f| f.notes.iter().cloned()));
         let (start_gaps, mut doubts) = doubts::gaps_and_warnings(assembly)?;
         let (balance, unbalanced) = start_balance::remarks_and_warning(assembly)?;

@@ -25,6 +25,14 @@ fn the_largest_difference_is_that_of_the_column_over_its_largest_value() {
 }
 
 #[test]
+fn a_component_is_measured_by_its_whole_vector() {
+    let (found, _) =
+        columns("t,force_x,force_z,v_z\n0,4,1e-9,1e-9\n", "t,force_x,force_z,v_z\n0,4,-1e-9,-1e-9\n");
+    let relative: Vec<(&str, f64)> = found.iter().map(|d| (d.name.as_str(), d.relative)).collect();
+    assert_eq!(relative, [("force_z", 5e-10), ("v_z", 2.0)]);
+}
+
+#[test]
 fn rows_at_other_times_are_interpolated() {
     let (found, overlap) = columns("time [s],v\n0,0\n2,4\n", "time [s],v\n0,0\n1,2\n2,4\n");
     assert!(overlap.interpolated && found.is_empty(), "{found:?}");

@@ -33,9 +33,13 @@ pub(super) fn shape(kind: &str) -> Option<Shape> {
     ElementKind::ALL.into_iter().find(numbered).map(Shape::Cell)
 }
 
-/// Position of each node, in the order of VTK, in the order of Abaqus; empty if both agree. They differ only for the hexahedron
-/// of 27 nodes: Abaqus puts the centre before the faces, and those in the order S1 to S6.
+/// Position of each node, in the order of VTK, in the order of Abaqus; empty if both agree. They differ for lines of three nodes, of
+/// which the second is the middle, and for the hexahedron of 27 nodes: Abaqus puts the centre before the faces, and those in the
+/// order S1 to S6.
 pub(super) fn order(shape: Shape) -> &'static [usize] {
+    if shape == Shape::Line3 {
+        return &[0, 2, 1];
+    }
     shape.element().map_or(&[], |element| element.definition().abaqus.order)
 }
 

@@ -3,10 +3,10 @@
 use super::sides::UNUSED;
 use super::{Options, RawBlock, RawMesh, RawNode};
 use crate::element::ElementKind;
-use crate::mesh::boundary::boundary;
+use crate::mesh::boundary::single;
 use crate::mesh::check::{self, Sense};
 use crate::mesh::error::{Holder, MeshError, Part};
-use crate::mesh::{Cells, Mesh, OmittedElements};
+use crate::mesh::{Cells, Mesh, OmittedElements, face_nodes};
 use std::collections::BTreeMap;
 
 /// Largest distance from the plane z = 0 over the extent of the mesh \[-\] that counts as rounding by the program that wrote
@@ -134,7 +134,13 @@ impl RawMesh {
     fn check_dimension<const D: usize>(&self) -> Result<(), MeshError> {
         let found = self.dimension();
         if self.blocks.iter().all(|b| b.tags.is_empty()) {
-            return Err(MeshError::NoElements);
+            return Err(self.unread.first().map_or(MeshError::NoElements, |unread| {
+                MeshError::UnsupportedKind {
+                    section: unread.section.clone(),
+                    place: unread.place,
+                    kind: unread.kind.clone(),
+                }
+            }));
         }
         if found != D {
             return Err(MeshError::Dimension { found, wanted: D });
@@ -394,7 +400,12 @@ fn check_parts<const D: usize>(
 }
 
 fn free_parts<const D: usize>(mesh: &Mesh<D>, tags: &[Vec<u64>]) -> Result<(), MeshError> {
-    let (parts, boundary) = (check::Parts::new(mesh), boundary(mesh, 0..mesh.blocks.len()));
+    let boundary = single(mesh).map_err(|sides| {
+        let [one, other] = sides.map(|side| tags[side.block][side.cell]);
+        let at = mesh.nodes[face_nodes(mesh, &sides[0])[0]].to_vec();
+        MeshError::Overlapping { elements: [one, other], at }
+    })?;
+    let parts = check::Parts::new(mesh);
     if let Some(check::Hanging { at, cell: (block, cell), count }) = check::hanging(mesh, &parts, &boundary) {
         return Err(MeshError::HangingNodes { at: at.to_vec(), element: tags[block][cell], count });
     }

@@ -83,12 +83,12 @@ fn cuts<const D: usize>(scene: &Scene, model: &Model<D>) -> Vec<Warning> {
         Some(Warning::at(
             spec.material.span(),
             format!(
-                "body `{}` is cut along {} of its faces, such as at ({}), and no interface joins them: they do not feel each other",
+                "body `{}` is cut or lies over itself along {} of its faces, such as at ({}), and no interface joins them: they do not feel each other",
                 body.name,
                 faces.len(),
                 first.map(brief).join(", ")
             ),
-            "an interface with both sides of the cut; or a mesh without it. A crack that stays open may stay",
+            "an interface with both sides of the cut; or a mesh without it, whose parts do not overlap. A crack that stays open may stay",
         ))
     };
     model.bodies.iter().filter_map(doubt).collect()
