@@ -45,7 +45,7 @@ pub fn failed<const D: usize>(
         reason += &format!("; the step was halved to {dt:.3e} s without success");
         if let Some(interface) = system.lifting() {
             reason += &format!(
-                "; a point of interface `{interface}` at which radiation carries more than contact presses loses all of it where it lifts off: \
+                "; points of interface `{interface}` slip as fast as in an event while others are open, and one that lifts off radiates no more, at once: \
                  `stepper = \"auto\"`, or inertia from the start, follows that"
             );
         }

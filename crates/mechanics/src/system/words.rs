@@ -4,6 +4,9 @@ use super::AssembledProblem;
 use crate::{Failure, PlannedInterface, free};
 use asperity_contact::Interface;
 
+/// Share of the mean normal traction that radiation carries where slip is that of an event.
+const RADIATED: f64 = 0.1;
+
 impl<const D: usize> AssembledProblem<'_, D> {
     /// Describes a failed step, with degrees of freedom given by body and position.
     #[must_use]
@@ -47,16 +50,18 @@ impl<const D: usize> AssembledProblem<'_, D> {
         self.problem.interfaces.iter().find(holds).map(|i| i.name.as_str())
     }
 
-    /// Name of a damped interface with a closed point at which radiation carries more than contact presses, if there is one: once it opens
-    /// it radiates no more.
+    /// Name of a damped interface that radiates a tenth of its mean normal traction or more at a point, while another is open, if there
+    /// is one: where a point opens it radiates no more.
     pub fn lifting(&self) -> Option<&str> {
-        let carries = |(planned, interface): &(&PlannedInterface, &Interface<D>)| {
+        let lifts = |(planned, interface): &(&PlannedInterface, &Interface<D>)| {
             let (points, damping) = (interface.points(), planned.damping.unwrap_or(0.0));
-            let mut each = points.normal_traction.iter().zip(&points.slip_rate);
-            each.any(|(normal, rate)| *normal > 0.0 && damping * rate.abs() > *normal)
+            let normal = &points.normal_traction;
+            let mean = normal.iter().sum::<f64>() / normal.len() as f64;
+            let fastest = points.slip_rate.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
+            damping * fastest > RADIATED * mean && normal.iter().any(|f| *f <= 0.0)
         };
         let mut each = self.problem.interfaces.iter().zip(&self.interfaces);
-        each.find(carries).map(|(planned, _)| planned.name.as_str())
+        each.find(lifts).map(|(planned, _)| planned.name.as_str())
     }
 
     /// Describes the traction that an unknown represents, if it is a multiplier.

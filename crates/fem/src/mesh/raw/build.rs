@@ -134,13 +134,14 @@ impl RawMesh {
     fn check_dimension<const D: usize>(&self) -> Result<(), MeshError> {
         let found = self.dimension();
         if self.blocks.iter().all(|b| b.tags.is_empty()) {
-            return Err(self.unread.first().map_or(MeshError::NoElements, |unread| {
-                MeshError::UnsupportedKind {
+            return Err(self.unread.iter().max_by_key(|unread| unread.dimension).map_or(
+                MeshError::NoElements,
+                |unread| MeshError::UnsupportedKind {
                     section: unread.section.clone(),
                     place: unread.place,
                     kind: unread.kind.clone(),
-                }
-            }));
+                },
+            ));
         }
         if found != D {
             return Err(MeshError::Dimension { found, wanted: D });
@@ -401,9 +402,10 @@ fn check_parts<const D: usize>(
 
 fn free_parts<const D: usize>(mesh: &Mesh<D>, tags: &[Vec<u64>]) -> Result<(), MeshError> {
     let boundary = single(mesh).map_err(|sides| {
-        let [one, other] = sides.map(|side| tags[side.block][side.cell]);
+        let mut elements = sides.map(|side| tags[side.block][side.cell]);
+        elements.sort_unstable();
         let at = mesh.nodes[face_nodes(mesh, &sides[0])[0]].to_vec();
-        MeshError::Overlapping { elements: [one, other], at }
+        MeshError::Overlapping { elements, at }
     })?;
     let parts = check::Parts::new(mesh);
     if let Some(check::Hanging { at, cell: (block, cell), count }) = check::hanging(mesh, &parts, &boundary) {
