@@ -5,6 +5,7 @@
 //! drops it. Capabilities beyond the residual are separate traits, so that a stepper asks for exactly what it uses.
 
 use std::fmt;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The step a trial state belongs to.
@@ -95,6 +96,8 @@ pub trait Term {
 pub struct Pattern {
     blocks: Blocks,
     id: PatternId,
+    /// See [`Pattern::most_products`]; counted when it is asked for first.
+    products: OnceLock<usize>,
 }
 
 /// Identity of a pattern. Only a new pattern has a new one, and a clone keeps it, so that a factorisation that remembers it cannot be used
@@ -172,7 +175,7 @@ impl Pattern {
     /// Makes a pattern, and its identity.
     #[must_use]
     pub fn new(blocks: Blocks) -> Self {
-        Self { blocks, id: PatternId::mint() }
+        Self { blocks, id: PatternId::mint(), products: OnceLock::new() }
     }
 
     /// Makes a pattern of blocks given one after another.
@@ -221,11 +224,13 @@ impl Pattern {
     /// Largest number of products of an entry and a displacement whose sum is the force along one degree of freedom.
     #[must_use]
     pub fn most_products(&self) -> usize {
-        let mut products = vec![0; self.dofs().iter().max().map_or(0, |last| last + 1)];
-        for block in self.blocks() {
-            block.iter().for_each(|&dof| products[dof] += block.len());
-        }
-        products.into_iter().max().unwrap_or(0)
+        *self.products.get_or_init(|| {
+            let mut products = vec![0; self.dofs().iter().max().map_or(0, |last| last + 1)];
+            for block in self.blocks() {
+                block.iter().for_each(|&dof| products[dof] += block.len());
+            }
+            products.into_iter().max().unwrap_or(0)
+        })
     }
 
     /// Number of values of a tangent with this pattern: the sum of the squares of the block sizes.

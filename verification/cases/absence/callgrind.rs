@@ -22,7 +22,7 @@ pub fn is_installed() -> bool {
 }
 
 /// Runs the scenes of these folders one after the other in one process under callgrind, which translates the program once.
-/// Returns the counts of those that ran.
+/// Returns their counts.
 ///
 /// # Errors
 /// If a run fails.

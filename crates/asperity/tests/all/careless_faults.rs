@@ -1,5 +1,6 @@
 //! Scenes of faults that careless users wrote: each runs as it should, or says what is wrong.
 
+use crate::sister_checks::MEDIUM;
 use asperity::kinds::faults::Report;
 use asperity_cycles::Balance;
 use asperity_plan::faults::Plan;
@@ -8,35 +9,6 @@ use asperity_plan::{ScenePlan, plan_scene};
 use asperity_run::report::Outcome;
 use asperity_vary::Change::{self, Add, With, WithOrSame, Without};
 use asperity_vary::SceneText;
-
-/// A fault in rock of 24 km, antiplane, that reaches the surface.
-const ROCK: &str = r#"
-schema = 1
-title = "a fault in rock"
-kinematics = "antiplane"
-[materials.rock]
-young = "75 GPa"
-poisson = 0.25
-density = 2700
-[medium]
-kind = "half-space"
-material = "rock"
-[faults.main]
-line = { trace = [[0, 0], [0, "-24 km"]], spacing = "500 m" }
-law = { kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, a = 0.010, b = 0.015, l = "40 mm", v_ref = "1 um/s", v_initial = "1e-9 m/s" }
-profiles.a = { along = "distance", points = [["15 km", 0.010], ["18 km", 0.025]] }
-normal = "50 MPa"
-rate = "1e-9 m/s"
-damping = "radiation"
-creep = { rate = "1e-9 m/s" }
-[[stages]]
-name = "cycles"
-duration = "300 yr"
-[time]
-stepper = "fault-ode"
-[events]
-above = "1e-3 m/s"
-"#;
 
 /// A fault of 2 km between weak and free rock, pressed by weight, that reaches the surface.
 const WEIGHT: &str = r#"
@@ -66,8 +38,17 @@ conditions = [{ set = "crust.left", x = 0 }, { set = "crust.right", x = 0 }, { s
 stepper = "fault-ode"
 "#;
 
-fn planned(scene: &str, changes: &[Change<'_>]) -> Plan {
-    let text = SceneText::new(scene).changed(changes).text().unwrap();
+/// A fault in rock of 24 km, with an event after some 170 years.
+fn rock() -> SceneText {
+    SceneText::new(MEDIUM).changed(&[
+        With("materials.rock.young", "75 GPa"),
+        With("faults.main.line.trace", r#"[[0, 0], [0, "-24 km"]]"#),
+        With("faults.main.rate", "1e-9 m/s"),
+    ])
+}
+
+fn planned(scene: SceneText, changes: &[Change<'_>]) -> Plan {
+    let text = scene.changed(changes).text().unwrap();
     let read = scene::read(&text).unwrap_or_else(|e| panic!("{e}\n{text}"));
     match plan_scene(&read).unwrap_or_else(|e| panic!("{e}\n{text}")) {
         ScenePlan::Faults(plan) => *plan,
@@ -75,7 +56,7 @@ fn planned(scene: &str, changes: &[Change<'_>]) -> Plan {
     }
 }
 
-fn report(scene: &str, changes: &[Change<'_>]) -> Report {
+fn report(scene: SceneText, changes: &[Change<'_>]) -> Report {
     let plan = planned(scene, changes);
     let out = plan.problem.run(&plan.problem.settings, &mut ()).unwrap();
     Report::new(&plan, &out, &mut Balance::new(&plan.problem))
@@ -83,10 +64,10 @@ fn report(scene: &str, changes: &[Change<'_>]) -> Report {
 
 #[test]
 fn an_event_that_has_not_ended_is_told() {
-    let whole = report(ROCK, &[]).text();
+    let whole = report(rock(), &[]).text();
     assert!(!whole.contains("had not ended"), "{whole}");
-    let onset = report(ROCK, &[Add("events.stop_after", "1")]).events[0].onset;
-    let cut = report(ROCK, &[With("stages[0].duration", &format!("{:e}", onset + 60.0))]).text();
+    let onset = report(rock(), &[Add("events.stop_after", "1")]).events[0].onset;
+    let cut = report(rock(), &[With("stages[0].duration", &format!("{:e}", onset + 60.0))]).text();
     assert!(cut.contains("an event that began at ") && cut.contains(" had not ended"), "{cut}");
 }
 
@@ -94,7 +75,7 @@ fn an_event_that_has_not_ended_is_told() {
 fn a_floor_at_a_free_surface_that_nothing_presses_is_what_friction_uses() {
     // Rounding decides whether the traction at the surface is above zero: with some of these spacings it was not.
     for spacing in ["200 m", "250 m", "300 m", "500 m"] {
-        let found = report(WEIGHT, &[WithOrSame("bodies.crust.mesh.fault.spacing", spacing)]);
+        let found = report(SceneText::new(WEIGHT), &[WithOrSame("bodies.crust.mesh.fault.spacing", spacing)]);
         assert_eq!(found.outcome, Outcome::Completed, "{spacing}");
     }
 }
@@ -109,7 +90,7 @@ fn fluid_that_lifts_a_fault_at_once_ends_the_run() {
         With("kinematics", "plane-strain"),
         Without("faults.main.creep"),
     ];
-    let found = report(ROCK, &changes);
+    let found = report(rock(), &changes);
     let reason = found.outcome.reason().unwrap_or_default();
     assert!(reason.contains("falls to zero"), "{reason}");
     assert!(found.counts.steps < 100_000, "{}", found.counts.steps);
@@ -136,7 +117,7 @@ fn a_map_across_the_date_line_lies_around_its_origin() {
             Add("output", r#"{ surface = { spacing = "4 km" } }"#),
             Add("place", &place),
         ];
-        let plan = planned(ROCK, &changes);
+        let plan = planned(rock(), &changes);
         let positions = plan.free_surface.unwrap().positions;
         assert!(positions.len() > 50, "{longitude}: {}", positions.len());
         assert!(positions.iter().flatten().all(|x| x.abs() < 60e3), "{longitude}");

@@ -31,6 +31,9 @@ use asperity_fem::nonlinear::Kinematics;
 use asperity_fem::term::{ForwardTerm, Instant};
 use asperity_run::Operations;
 
+/// Degrees of freedom up to which stability is judged. It takes a second factor beside that of the stepper: half a gigabyte in space.
+const JUDGED: usize = 50_000;
+
 /// Terms, constraints, stepper and state of a problem.
 pub struct AssembledProblem<'a, const D: usize> {
     problem: &'a Problem<D>,
@@ -253,8 +256,8 @@ impl<'a, const D: usize> AssembledProblem<'a, D> {
     }
 
     /// True if the equilibrium of bodies that account for large deformation is stable: their rate tangent is positive definite (R. Hill, J.
-    /// Mech. Phys. Solids 6 (1958) 236). `None` where it is not known: with mass, with interfaces, and where systems are solved by
-    /// iteration.
+    /// Mech. Phys. Solids 6 (1958) 236). `None` where it is not judged: with mass, with interfaces, in large systems, and where systems
+    /// are solved by iteration.
     pub fn is_stable(&mut self) -> Option<bool> {
         let problem = self.problem;
         let follows = |block: &CellBlock<D>| match block {
@@ -262,7 +265,8 @@ impl<'a, const D: usize> AssembledProblem<'a, D> {
             CellBlock::Nonlinear(block) => block.model().kinematics == Kinematics::UpdatedLagrangian,
         };
         let knows = problem.mass.is_none() && problem.interfaces.is_empty() && problem.path == Path::Full;
-        let direct = !matches!(problem.solver.method, Method::Iterative { .. });
+        let direct =
+            !matches!(problem.solver.method, Method::Iterative { .. }) && self.state.u.len() <= JUDGED;
         if !(knows && direct && problem.model.blocks.iter().any(follows)) {
             return None;
         }

@@ -281,7 +281,7 @@ fn in_a_line(number: usize, e: &Entry) -> String {
     )
 }
 
-/// Change of ln V by the tractions that return to equilibrium takes away or adds, from which what follows a rupture is doubtful.
+/// Change of ln V on return to equilibrium from which what follows a rupture is doubtful.
 const JUMP: f64 = 1.0;
 
 /// Warnings about ruptures with mass after which tractions jump.
