@@ -11,7 +11,6 @@ use crate::Failure;
 use crate::coulomb::Coulomb;
 use crate::evolution::{AT_REST, Evolution};
 use crate::law::{Law, Trials};
-use crate::points::PerPoint;
 use crate::rate::RateLaw;
 use crate::slider::SliderLaw as _;
 use crate::slip_weakening::SlipWeakening;
@@ -71,7 +70,7 @@ pub trait Inertial: Law {
     }
 }
 
-/// Laws of the points of a fault between bodies with mass. Slices hold one entry per point.
+/// Laws of the points of a fault between bodies with mass.
 pub trait InertialFault: Send + Sync + std::fmt::Debug {
     /// Number of points.
     fn points(&self) -> usize;
@@ -88,16 +87,11 @@ pub trait InertialFault: Send + Sync + std::fmt::Debug {
     /// [`Failure`] with the number of the point.
     fn start(&self, point: usize, sliding: Option<Sliding>, states: &mut [f64]) -> Result<(), Failure>;
 
-    /// Balances all points and advances their states by a step.
+    /// Balances a point and advances its states by a step, as [`Inertial::push`].
     ///
     /// # Errors
     /// [`Failure`] with the number of the point.
-    fn push(
-        &self,
-        pushes: &[Push],
-        states: PerPoint<&mut [f64]>,
-        answers: &mut [PointBalance],
-    ) -> Result<(), Failure>;
+    fn push(&self, point: usize, push: &Push, states: &mut [f64]) -> Result<PointBalance, Failure>;
 }
 
 /// One law for each point, all of one kind.
@@ -121,16 +115,8 @@ impl<L: Inertial> InertialFault for InertialPoints<L> {
         self.0[point].start(sliding, states).map_err(|f| f.at(point))
     }
 
-    fn push(
-        &self,
-        pushes: &[Push],
-        mut states: PerPoint<&mut [f64]>,
-        answers: &mut [PointBalance],
-    ) -> Result<(), Failure> {
-        for (point, ((law, push), answer)) in self.0.iter().zip(pushes).zip(answers).enumerate() {
-            *answer = law.push(push, states.at_mut(point)).map_err(|f| f.at(point))?;
-        }
-        Ok(())
+    fn push(&self, point: usize, push: &Push, states: &mut [f64]) -> Result<PointBalance, Failure> {
+        self.0[point].push(push, states).map_err(|f| f.at(point))
     }
 }
 
@@ -233,7 +219,6 @@ mod tests {
     use crate::coulomb::Coulomb;
     use crate::evolution::ageing::Ageing;
     use crate::law::Law as _;
-    use crate::points::PerPoint;
     use crate::rate::RateLaw;
     use crate::slip_weakening::SlipWeakening;
     use crate::static_kinetic::StaticKinetic;
@@ -292,13 +277,13 @@ mod tests {
     fn slip_weakens_the_next_step_and_points_below_their_strength_rest() {
         let law = InertialPoints(vec![SlipWeakening::new(0.677, 0.525, 0.4, None).unwrap(); 2]);
         let push = |trial| Push { normal: 120e6, trial, impedance: 4e6, near: 0.0, dt: 0.01, weakened: 0.0 };
-        let mut states = [0.0, 0.2];
-        let mut answers = [PointBalance { traction: 0.0, rate: 0.0 }; 2];
-        law.push(&[push(81e6), push(81e6)], PerPoint::new(&mut states, 1), &mut answers).unwrap();
-        assert_eq!(answers[0], PointBalance { traction: 81e6, rate: 0.0 });
+        let (mut at_rest, mut sliding) = ([0.0], [0.2]);
+        let held = law.push(0, &push(81e6), &mut at_rest).unwrap();
+        assert_eq!(held, PointBalance { traction: 81e6, rate: 0.0 });
+        let answer = law.push(1, &push(81e6), &mut sliding).unwrap();
         let strength = 120e6 * 0.601;
-        assert!((answers[1].traction / strength - 1.0).abs() < 1e-14);
-        assert!((states[1] - 0.2 - (81e6 - strength) / 4e6 * 0.01).abs() < 1e-14);
+        assert!((answer.traction / strength - 1.0).abs() < 1e-14);
+        assert!((sliding[0] - 0.2 - (81e6 - strength) / 4e6 * 0.01).abs() < 1e-14);
     }
 
     #[test]

@@ -2,7 +2,6 @@
 
 use asperity_friction::Failure;
 use asperity_friction::inertial::{InertialFault, PointBalance, Push, Sliding};
-use asperity_friction::points::PerPoint;
 
 /// Both fronts, at ±v t. Its state is the time.
 #[derive(Debug)]
@@ -41,18 +40,9 @@ impl InertialFault for Front {
     }
 
     /// A point that the front has passed in part keeps the other part of the traction that holds it.
-    fn push(
-        &self,
-        pushes: &[Push],
-        mut times: PerPoint<&mut [f64]>,
-        answers: &mut [PointBalance],
-    ) -> Result<(), Failure> {
-        let times = times.all_mut();
-        for (point, ((push, time), answer)) in pushes.iter().zip(times).zip(answers).enumerate() {
-            let released = self.passed(point, *time) * push.trial;
-            *answer = PointBalance { traction: push.trial - released, rate: released / push.impedance };
-            *time += push.dt;
-        }
-        Ok(())
+    fn push(&self, point: usize, push: &Push, time: &mut [f64]) -> Result<PointBalance, Failure> {
+        let released = self.passed(point, time[0]) * push.trial;
+        time[0] += push.dt;
+        Ok(PointBalance { traction: push.trial - released, rate: released / push.impedance })
     }
 }

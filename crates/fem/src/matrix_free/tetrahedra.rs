@@ -7,6 +7,7 @@
 use super::product::WIDE;
 use super::simplex;
 use crate::mesh::Mesh;
+use pulp::bytemuck::{cast_slice, cast_slice_mut};
 use pulp::{Simd, WithSimd};
 
 /// Components of a vector, then zero.
@@ -127,31 +128,29 @@ impl Tetrahedra<'_> {
     /// Components of the displacements of a node of each cell.
     #[inline(always)]
     fn gather<S: Simd>(&self, simd: S, cells: &[[u16; 4]], node: usize) -> [S::f64s; 4] {
-        let mut quads = [[0.0; 4]; WIDE];
-        for lane in 0..S::F64_LANES {
-            quads[lane] = self.u[cells[lane][node] as usize];
+        let mut by_cells = [simd.splat_f64s(0.0); 4];
+        let quads = cast_slice_mut::<S::f64s, Quad>(&mut by_cells);
+        for (quad, cell) in quads.iter_mut().zip(cells) {
+            *quad = self.u[cell[node] as usize];
         }
-        let (x, _) = S::as_simd_f64s(quads.as_flattened());
-        simd.deinterleave_shfl_f64s([x[0], x[1], x[2], x[3]])
+        simd.deinterleave_shfl_f64s(by_cells)
     }
 
     /// Adds the forces on the nodes of each cell, cell by cell: sums do not depend on how many numbers a vector has.
     #[inline(always)]
     fn scatter<S: Simd>(&mut self, simd: S, cells: &[[u16; 4]], forces: [[S::f64s; 3]; 4]) {
-        let mut quads = [[[0.0; 4]; WIDE]; 4];
-        for (quads, [x, y, z]) in quads.iter_mut().zip(forces) {
-            let by_cells = simd.interleave_shfl_f64s([x, y, z, simd.splat_f64s(0.0)]);
-            let (all, _) = S::as_mut_simd_f64s(quads.as_flattened_mut());
-            for (to, from) in all.iter_mut().zip(by_cells) {
-                *to = from;
-            }
+        let none = simd.splat_f64s(0.0);
+        let mut by_cells = [[none; 4]; 4];
+        for (by_cells, [x, y, z]) in by_cells.iter_mut().zip(forces) {
+            *by_cells = simd.interleave_shfl_f64s([x, y, z, none]);
         }
-        for (lane, nodes) in cells.iter().enumerate() {
-            for (quads, &node) in quads.iter().zip(nodes) {
+        let [first, second, third, fourth] = by_cells.each_ref().map(|v| cast_slice::<S::f64s, Quad>(v));
+        let quads = first.iter().zip(second).zip(third.iter().zip(fourth));
+        for (nodes, ((first, second), (third, fourth))) in cells.iter().zip(quads) {
+            for (&node, quad) in nodes.iter().zip([first, second, third, fourth]) {
                 let force = &mut self.forces[node as usize];
-                for c in 0..4 {
-                    force[c] += quads[lane][c];
-                }
+                // All four are read before any is written, so that one instruction adds them.
+                *force = [force[0] + quad[0], force[1] + quad[1], force[2] + quad[2], force[3] + quad[3]];
             }
         }
     }

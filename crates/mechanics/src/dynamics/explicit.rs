@@ -1,7 +1,8 @@
 //! Steps of explicit dynamics.
 
 use super::budget::{Budget, Work};
-use super::fault::{BalanceFailure, Fault, FaultState};
+use super::fault::{BalanceFailure, Fault};
+use super::fault_state::FaultState;
 use super::inelastic_cells::{self, InelasticCells};
 use super::loads::Loads;
 use super::motion::Motion;
@@ -10,7 +11,7 @@ use super::room::Room;
 use super::special_actions::{SpecialActions, in_space};
 use super::springs::Springs;
 use super::sums::Sums;
-use super::surroundings::{FaultSurroundings, Mobility};
+use super::surroundings::{FaultSurroundings, Mobility, NODES, PointsAtNodes};
 use super::{Problem, StableStep, elastic_energy, stable};
 use crate::error::SetUpError;
 use crate::{CellBlock, coordinates};
@@ -22,9 +23,6 @@ use asperity_fem::term::{Instant, Refusal};
 use asperity_friction::Failure;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-
-/// Nodes of faults of one task: few, so that both threads of a small fault have some, and enough to pay for one.
-const NODES: usize = 256;
 
 /// Largest energy of the bodies over all that was put in. In a stable scheme at nine tenths of the stable step it is below 1/(1 - 0.9²) = 5.3:
 /// displacement alone may hold so much more than the balance counts.
@@ -145,6 +143,8 @@ pub struct Explicit<'a, const D: usize> {
     special: SpecialNodes,
     /// Special nodes of each point of the faults.
     pairs: Vec<[usize; 2]>,
+    /// Points of the faults at each of their nodes.
+    at_nodes: PointsAtNodes,
     /// Mobilities of each point of the faults.
     mobilities: Vec<Mobility>,
     /// Special nodes of each tie of the faults.
@@ -194,6 +194,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
             mass,
             special: SpecialNodes::default(),
             pairs: Vec::new(),
+            at_nodes: PointsAtNodes::default(),
             mobilities: Vec::new(),
             tied: Vec::new(),
             constraints: Constraints::default(),
@@ -301,6 +302,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
         });
         self.pairs =
             problem.fault.iter().flat_map(|f| &f.points).map(|p| [find(p.minus), find(p.plus)]).collect();
+        self.at_nodes = PointsAtNodes::new(self.special.faulted.len(), &self.pairs);
         self.tied =
             problem.fault.iter().flat_map(|f| &f.ties).map(|t| [find(t.minus), find(t.plus)]).collect();
         self.mobilities =
@@ -420,6 +422,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
             velocity: &room.before,
             displacement: &room.displacement,
             pairs: &self.pairs,
+            at_nodes: &self.at_nodes,
             mobilities: &self.mobilities,
             tied: &self.tied,
             components: self.components,
@@ -428,7 +431,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
             kick: self.kick(),
             first: self.steps == 0,
         };
-        match fault.balance(&mut surroundings, &mut state) {
+        match fault.balance(&mut surroundings, &mut room.forces, &mut state) {
             Ok(()) => Ok(Some(state)),
             Err(BalanceFailure::Friction(f)) => Err(Halt::Friction { time, reason: self.placed(&f) }),
             Err(BalanceFailure::Tension(t)) => {
@@ -441,10 +444,10 @@ impl<'a, const D: usize> Explicit<'a, D> {
     fn move_all(&mut self, room: &mut Room) -> Sums {
         let (mut u, mut velocity) = (std::mem::take(&mut self.u), std::mem::take(&mut self.velocity));
         let actions = self.actions(&room.external);
-        let sides = actions.nodes.all.iter().zip(&room.before).zip(&room.acceleration);
-        for (after, ((s, before), acceleration)) in room.after.iter_mut().zip(sides) {
-            *after = actions.after(s, before, acceleration);
-        }
+        let sides = actions.nodes.all.par_iter().zip(&room.before).zip(&room.acceleration);
+        let moved = room.after.par_iter_mut().zip(sides).with_min_len(NODES);
+        moved
+            .for_each(|(after, ((s, before), acceleration))| *after = actions.after(s, before, acceleration));
         let motion = Motion {
             product: &self.product,
             history: self.inelastic.forces(),
@@ -477,8 +480,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
         add(&mut works.inelastic.viscous, viscous);
         if let (Some(state), Some(fault)) = (fault, &self.problem.fault) {
             self.fault = state;
-            let (jumps, apart) = (room.velocity_jumps(&self.pairs), room.jumps(&self.pairs));
-            let [friction, released] = fault.record(self.time, self.dt, &jumps, &apart, &mut self.fault);
+            let [friction, released] = fault.record([self.time, self.dt], room, &self.pairs, &mut self.fault);
             add(&mut works.friction, friction);
             add(&mut works.released, released);
         }

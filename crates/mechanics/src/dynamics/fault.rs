@@ -4,15 +4,18 @@
 //! The normal traction is the closing one where it presses, otherwise none. Friction bounds the shear traction
 //! ([`asperity_friction::inertial`]). Tractions act in addition to the initial state, which is in balance: bodies feel the difference.
 
+use super::fault_state::FaultState;
 use super::nodes::{SpecialNode, dot};
+use super::parts::{Part, RecordPart, parts, record_parts};
+use super::room::Room;
 use super::split::SplitPoint;
-use super::surroundings::{FaultSurroundings, Mobility};
+use super::surroundings::{FaultSurroundings, Mobility, PointForces};
 use super::ties::{self, Tie};
 use super::{Onset, Pulse};
 use asperity_friction::Failure;
-use asperity_friction::inertial::{InertialFault, PointBalance, Push, Sliding};
+use asperity_friction::inertial::{InertialFault, Push, Sliding};
 use asperity_friction::points::{Components, PerPoint};
-use serde::{Deserialize, Serialize};
+use rayon::prelude::*;
 
 /// Relaxation of the normal traction that friction feels, `dσ̂/dt = -(|V| + V*)/L (σ̂ - σ)`. Between unlike rocks slip at a friction that
 /// follows the normal traction at once is ill-posed (Cochard & Rice 2000; Prakash & Clifton 1993 observed the delay).
@@ -75,25 +78,6 @@ struct Loads {
     growth: Vec<f64>,
 }
 
-/// State of the faults at a step tⁿ.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct FaultState {
-    /// Slip \[m\].
-    pub slip: Components<Vec<f64>>,
-    /// Slip rate \[m/s\]: the mean of the half steps before and after.
-    pub rate: Components<Vec<f64>>,
-    /// Shear traction \[Pa\].
-    pub shear: Components<Vec<f64>>,
-    /// Normal traction \[Pa\].
-    pub normal: Vec<f64>,
-    /// Gap \[m\]; 0 where the sides touch.
-    pub gap: Vec<f64>,
-    /// State variables half a step later.
-    pub states: PerPoint<Vec<f64>>,
-    /// Normal traction that friction feels \[Pa\], if it is delayed.
-    pub felt: Vec<f64>,
-}
-
 /// A point where the sides would part and may not.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Tension {
@@ -143,25 +127,23 @@ impl Fault {
 
     /// Passes the first half step at the slip rates of the start.
     fn first_half(&self, dt: f64, start: &mut FaultState) -> Result<(), Failure> {
-        // A dashpot so strong that it imposes the slip rate.
-        let pushes: Vec<Push> = (0..self.points.len())
-            .map(|point| {
-                let rate = self.rate.size(point);
-                let impedance = self.normal[point].max(1.0) * STIFF / rate.max(f64::MIN_POSITIVE);
-                let impedance = if rate > 0.0 { impedance } else { 1.0 };
-                let trial = if rate > 0.0 { impedance * rate } else { 0.0 };
-                Push {
-                    normal: start.normal[point],
-                    trial,
-                    impedance,
-                    near: rate,
-                    dt: 0.5 * dt,
-                    weakened: 0.0,
-                }
-            })
-            .collect();
-        let mut answers = vec![PointBalance { traction: 0.0, rate: 0.0 }; pushes.len()];
-        self.law.push(&pushes, start.states.view_mut(), &mut answers)
+        for point in 0..self.points.len() {
+            // A dashpot so strong that it imposes the slip rate.
+            let rate = self.rate.size(point);
+            let impedance = self.normal[point].max(1.0) * STIFF / rate.max(f64::MIN_POSITIVE);
+            let impedance = if rate > 0.0 { impedance } else { 1.0 };
+            let trial = if rate > 0.0 { impedance * rate } else { 0.0 };
+            let push = Push {
+                normal: start.normal[point],
+                trial,
+                impedance,
+                near: rate,
+                dt: 0.5 * dt,
+                weakened: 0.0,
+            };
+            self.law.push(point, &push, start.states.at_mut(point))?;
+        }
+        Ok(())
     }
 
     /// Mobilities of the points between special nodes, of which `pairs` holds those of each point.
@@ -183,152 +165,178 @@ impl Fault {
         self.shear.component(component)[point] + imposed.sum::<f64>() + rate * loads.time
     }
 
-    /// Balances all points at tⁿ: adds the accelerations by the tractions and writes these into the state.
+    /// Balances all points at tⁿ: adds the accelerations by the tractions, whose forces are written into `forces`, and writes the
+    /// tractions into the state.
     pub(super) fn balance(
         &self,
         surroundings: &mut FaultSurroundings<'_>,
+        forces: &mut Vec<PointForces>,
         state: &mut FaultState,
     ) -> Result<(), BalanceFailure> {
-        let loads = self.loads(surroundings.time);
         ties::hold(surroundings, surroundings.tied, surroundings.components);
-        for point in 0..self.points.len() {
-            state.normal[point] = self.closing(surroundings, point, state)?;
-        }
-        if surroundings.first && !self.law.has_elastic_domain() && self.onset.is_none() {
-            for point in 0..self.points.len() {
-                self.press(surroundings, point, state);
-            }
-            return Ok(());
-        }
-        self.relax(surroundings.dt, state);
-        let (pushes, trials) = self.pushes(surroundings, state, &loads);
-        let mut answers = vec![PointBalance { traction: 0.0, rate: 0.0 }; pushes.len()];
-        self.law.push(&pushes, state.states.view_mut(), &mut answers).map_err(BalanceFailure::Friction)?;
-        for (point, (push, answer)) in pushes.iter().zip(&answers).enumerate() {
+        let (loads, around) = (self.loads(surroundings.time), &*surroundings);
+        forces.resize(self.points.len(), PointForces::default());
+        let tasks = parts(state, forces).into_par_iter();
+        let balanced: Vec<_> = tasks.map(|part| self.balance_part(around, &loads, part)).collect();
+        // The failure with the lowest number of a point, on any number of threads.
+        balanced.into_iter().collect::<Result<(), _>>()?;
+        surroundings.push_all(forces);
+        Ok(())
+    }
+
+    /// Balances the points of a task.
+    fn balance_part(
+        &self,
+        around: &FaultSurroundings<'_>,
+        loads: &Loads,
+        mut part: Part<'_>,
+    ) -> Result<(), BalanceFailure> {
+        for own in 0..part.normal.len() {
+            let point = part.first + own;
             let p = &self.points[point];
-            let share = if push.trial > 0.0 { answer.traction / push.trial } else { 0.0 };
-            self.press(surroundings, point, state);
-            let mut force = [0.0; 3];
-            for (c, e) in p.along.iter().enumerate() {
-                let loading = self.loading(point, c, &loads);
-                let shear = &mut state.shear.component_mut(c)[point];
-                if surroundings.mobilities[point].along[c].is_none() {
-                    // Conditions carry the traction: friction neither bounds it nor does it cause motion.
-                    *shear = loading;
-                    continue;
-                }
-                *shear = share * trials.component(c)[point];
-                let change = p.area * (*shear - loading);
-                force.iter_mut().zip(e).for_each(|(f, e)| *f -= change * e);
+            (part.gap[own], part.normal[own]) = self.closing(around, point)?;
+            let pressed = p.area * (part.normal[own] - self.normal[point]);
+            part.forces[own] = PointForces { normal: p.normal.map(|n| pressed * n), shear: [0.0; 3] };
+            if around.first && !self.law.has_elastic_domain() && self.onset.is_none() {
+                continue;
             }
-            surroundings.push(surroundings.pairs[point], &force);
+            self.relax(around.dt, own, &mut part);
+            part.forces[own].shear = self.shear_force(around, loads, own, &mut part)?;
         }
         Ok(())
     }
 
-    /// Adds the accelerations by the change of the normal traction of a point.
-    fn press(&self, surroundings: &mut FaultSurroundings<'_>, point: usize, state: &FaultState) {
-        let pressed = self.points[point].area * (state.normal[point] - self.normal[point]);
-        surroundings.push(surroundings.pairs[point], &self.points[point].normal.map(|n| pressed * n));
+    /// Shear traction that friction admits at a point of a task; returns its force on the plus side \[N\].
+    fn shear_force(
+        &self,
+        around: &FaultSurroundings<'_>,
+        loads: &Loads,
+        own: usize,
+        part: &mut Part<'_>,
+    ) -> Result<[f64; 3], BalanceFailure> {
+        let point = part.first + own;
+        let p = &self.points[point];
+        let (push, trial) = self.push(around, loads, own, part);
+        let answer = self.law.push(point, &push, part.states_of(own)).map_err(BalanceFailure::Friction)?;
+        let share = if push.trial > 0.0 { answer.traction / push.trial } else { 0.0 };
+        let mut force = [0.0; 3];
+        for (c, e) in p.along.iter().enumerate() {
+            let loading = self.loading(point, c, loads);
+            let shear = &mut part.shear[c][own];
+            if around.mobilities[point].along[c].is_none() {
+                // Conditions carry the traction: friction neither bounds it nor does it cause motion.
+                *shear = loading;
+                continue;
+            }
+            *shear = share * trial[c];
+            let change = p.area * (*shear - loading);
+            force.iter_mut().zip(e).for_each(|(f, e)| *f -= change * e);
+        }
+        Ok(force)
     }
 
-    /// Normal traction that closes the gap by the end of the step, if it presses \[Pa\].
-    fn closing(
-        &self,
-        surroundings: &FaultSurroundings<'_>,
-        point: usize,
-        state: &mut FaultState,
-    ) -> Result<f64, BalanceFailure> {
+    /// Gap of a point \[m\], and the normal traction that closes it by the end of the step, if it presses \[Pa\].
+    fn closing(&self, around: &FaultSurroundings<'_>, point: usize) -> Result<(f64, f64), BalanceFailure> {
         let p = &self.points[point];
-        let mobility = surroundings.mobilities[point].normal;
-        let gap = p.gap + surroundings.jump(surroundings.displacement, point, &p.normal);
-        state.gap[point] = gap;
+        let mobility = around.mobilities[point].normal;
+        let gap = p.gap + around.jump(around.displacement, point, &p.normal);
         if mobility == 0.0 {
             // In antiplane motion nothing moves along the normal.
-            return Ok(self.normal[point]);
+            return Ok((gap, self.normal[point]));
         }
-        let velocity = surroundings.jump(surroundings.velocity, point, &p.normal);
-        let acceleration = surroundings.jump(surroundings.acceleration, point, &p.normal);
-        let (dt, kick) = (surroundings.dt, surroundings.kick);
+        let velocity = around.jump(around.velocity, point, &p.normal);
+        let acceleration = around.jump(around.acceleration, point, &p.normal);
+        let (dt, kick) = (around.dt, around.kick);
         let traction = self.normal[point] - (velocity + gap / dt + kick * acceleration) / (kick * mobility);
         if traction >= 0.0 {
-            return Ok(traction);
+            return Ok((gap, traction));
         }
-        if self.opens { Ok(0.0) } else { Err(BalanceFailure::Tension(Tension { point, traction })) }
+        if self.opens { Ok((gap, 0.0)) } else { Err(BalanceFailure::Tension(Tension { point, traction })) }
     }
 
-    /// Relaxes the normal traction that friction feels over a step at the last slip rates.
-    fn relax(&self, dt: f64, state: &mut FaultState) {
+    /// Relaxes the normal traction that friction feels at a point of a task over a step at the last slip rate.
+    fn relax(&self, dt: f64, own: usize, part: &mut Part<'_>) {
         let Some(Regularisation { length, rate }) = self.regularisation else { return };
-        for point in 0..self.points.len() {
-            let passed = (state.rate.size(point) + rate) * dt / length;
-            let normal = state.normal[point];
-            state.felt[point] = normal + (state.felt[point] - normal) * (-passed).exp();
-        }
+        let passed = (part.rate.size(part.first + own) + rate) * dt / length;
+        let normal = part.normal[own];
+        part.felt[own] = normal + (part.felt[own] - normal) * (-passed).exp();
     }
 
-    /// Drives of the points, and their trial tractions \[Pa\].
-    fn pushes(
+    /// Drive of a point of a task, and its trial tractions \[Pa\].
+    fn push(
         &self,
-        surroundings: &FaultSurroundings<'_>,
-        state: &FaultState,
+        around: &FaultSurroundings<'_>,
         loads: &Loads,
-    ) -> (Vec<Push>, Components<Vec<f64>>) {
-        let n = self.points.len();
+        own: usize,
+        part: &Part<'_>,
+    ) -> (Push, [f64; 2]) {
+        let point = part.first + own;
         // The first step of a rate law reaches the first half step alone: velocities and states pass half a step.
-        let first = surroundings.first && !self.law.has_elastic_domain();
-        let reach =
-            if self.law.has_elastic_domain() || first { surroundings.kick } else { 0.5 * surroundings.dt };
-        let mut trials = Components::new(vec![0.0; self.shear.all().len()], n);
-        let pushes = (0..n).map(|point| {
-            let p = &self.points[point];
-            // A point that conditions hold in all directions of slip is not pushed, whatever its impedance.
-            let mut impedance = 1.0;
-            for (c, e) in p.along.iter().enumerate() {
-                let Some(mobility) = surroundings.mobilities[point].along[c] else { continue };
-                impedance = 1.0 / (reach * mobility);
-                let rate = surroundings.jump(surroundings.velocity, point, e)
-                    + reach * surroundings.jump(surroundings.acceleration, point, e);
-                trials.component_mut(c)[point] = self.loading(point, c, loads) + impedance * rate;
-            }
-            let felt = if self.regularisation.is_some() { state.felt[point] } else { state.normal[point] };
-            Push {
-                // Where the sides have parted there is no friction, whatever it remembers.
-                normal: if state.normal[point] > 0.0 { felt } else { 0.0 },
-                trial: trials.size(point),
-                impedance,
-                near: state.rate.size(point),
-                dt: if first { surroundings.kick } else { surroundings.dt },
-                weakened: self.forced.get(point).map_or(0.0, |forced| forced.share(loads.time)),
-            }
-        });
-        (pushes.collect(), trials)
+        let first = around.first && !self.law.has_elastic_domain();
+        let reach = if self.law.has_elastic_domain() || first { around.kick } else { 0.5 * around.dt };
+        let along = &self.points[point].along;
+        // A point that conditions hold in all directions of slip is not pushed, whatever its impedance.
+        let (mut impedance, mut trial) = (1.0, [0.0; 2]);
+        for (c, e) in along.iter().enumerate() {
+            let Some(mobility) = around.mobilities[point].along[c] else { continue };
+            impedance = 1.0 / (reach * mobility);
+            let rate =
+                around.jump(around.velocity, point, e) + reach * around.jump(around.acceleration, point, e);
+            trial[c] = self.loading(point, c, loads) + impedance * rate;
+        }
+        let normal = part.normal[own];
+        let felt = if self.regularisation.is_some() { part.felt[own] } else { normal };
+        let push = Push {
+            // Where the sides have parted there is no friction, whatever it remembers.
+            normal: if normal > 0.0 { felt } else { 0.0 },
+            trial: Components::new(&trial[..along.len()], 1).size(0),
+            impedance,
+            near: part.rate.size(point),
+            dt: if first { around.kick } else { around.dt },
+            weakened: self.forced.get(point).map_or(0.0, |forced| forced.share(loads.time)),
+        };
+        (push, trial)
     }
 
-    /// Writes slip and slip rates at tⁿ. Returns the works of the tractions over both half steps: dissipated, and released from the initial
-    /// and imposed tractions. `jumps` holds for each point the velocities of the plus side
-    /// relative to the minus side before and after \[m/s\], `displacement` the relative displacement at tⁿ \[m\].
+    /// Writes slip and slip rates at tⁿ of points between these pairs of nodes. Returns the works of the tractions over both half
+    /// steps: dissipated, and released from the initial and imposed tractions.
     pub(super) fn record(
         &self,
-        time: f64,
-        dt: f64,
-        jumps: &[[[f64; 3]; 2]],
-        displacement: &[[f64; 3]],
+        [time, dt]: [f64; 2],
+        room: &Room,
+        pairs: &[[usize; 2]],
         state: &mut FaultState,
     ) -> [[f64; 2]; 2] {
         let loads = self.loads(time);
+        let tasks = record_parts(state).into_par_iter();
+        let works: Vec<_> = tasks.map(|part| self.record_part(dt, &loads, (room, pairs), part)).collect();
+        let add = |a: [f64; 2], b: [f64; 2]| [a[0] + b[0], a[1] + b[1]];
+        works.into_iter().fold([[0.0; 2]; 2], |sum, w| [add(sum[0], w[0]), add(sum[1], w[1])])
+    }
+
+    /// Records the points of a task.
+    fn record_part(
+        &self,
+        dt: f64,
+        loads: &Loads,
+        (room, pairs): (&Room, &[[usize; 2]]),
+        part: RecordPart<'_>,
+    ) -> [[f64; 2]; 2] {
         let (mut dissipated, mut freed) = ([0.0; 2], [0.0; 2]);
-        for (point, p) in self.points.iter().enumerate() {
-            for (side, jump) in jumps[point].iter().enumerate() {
+        for own in 0..part.slip[0].len() {
+            let point = part.first + own;
+            let (p, jumps) = (&self.points[point], room.velocity_jumps(pairs[point]));
+            for (side, jump) in jumps.iter().enumerate() {
                 let opening = dot(jump, &p.normal);
-                dissipated[side] -= 0.5 * dt * p.area * state.normal[point] * opening;
+                dissipated[side] -= 0.5 * dt * p.area * part.normal[point] * opening;
                 freed[side] -= 0.5 * dt * p.area * self.normal[point] * opening;
             }
+            let apart = room.jump(pairs[point]);
             for (c, e) in p.along.iter().enumerate() {
-                let rates = [dot(&jumps[point][0], e), dot(&jumps[point][1], e)];
-                state.slip.component_mut(c)[point] = dot(&displacement[point], e);
-                state.rate.component_mut(c)[point] = 0.5 * (rates[0] + rates[1]);
-                let (shear, loading) = (state.shear.component(c)[point], self.loading(point, c, &loads));
+                let rates = jumps.map(|jump| dot(&jump, e));
+                part.slip[c][own] = dot(&apart, e);
+                part.rate[c][own] = 0.5 * (rates[0] + rates[1]);
+                let (shear, loading) = (part.shear.component(c)[point], self.loading(point, c, loads));
                 for (side, rate) in rates.iter().enumerate() {
                     dissipated[side] += 0.5 * dt * p.area * shear * rate;
                     freed[side] += 0.5 * dt * p.area * loading * rate;

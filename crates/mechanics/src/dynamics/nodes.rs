@@ -63,18 +63,18 @@ pub(super) struct SpecialNode {
     /// Lumped mass \[kg, or kg/m\].
     pub mass: f64,
     /// Dashpot, if its side is absorbing.
-    pub damping: Option<[[f64; 3]; 3]>,
+    damping: Option<Columns>,
     /// Components with a prescribed motion.
     pub prescribed: [bool; 3],
     /// (M + Δt/2 C)⁻¹, without prescribed components \[1/kg\].
-    pub inverse: [[f64; 3]; 3],
+    inverse: Columns,
 }
 
 impl SpecialNode {
     /// A node with its mass; nothing is prescribed yet.
     pub fn new(node: usize, mass: f64, dashpot: Option<&Dashpot>) -> Self {
-        let damping = dashpot.map(|d| d.damping);
-        Self { node, mass, damping, prescribed: [false; 3], inverse: [[0.0; 3]; 3] }
+        let damping = dashpot.map(|d| columns(|i, j| d.damping[i][j]));
+        Self { node, mass, damping, prescribed: [false; 3], inverse: Columns::default() }
     }
 
     /// Computes the inverse mass for steps of length `dt`.
@@ -83,26 +83,22 @@ impl SpecialNode {
         let free = |c: usize| c < components && !self.prescribed[c];
         let matrix = SMatrix::<f64, 3, 3>::from_fn(|i, j| {
             let mass = if i == j { self.mass } else { 0.0 };
-            if free(i) && free(j) { mass + 0.5 * dt * damping[i][j] } else { f64::from(u8::from(i == j)) }
+            if free(i) && free(j) { mass + 0.5 * dt * damping[j][i] } else { f64::from(u8::from(i == j)) }
         });
         // Symmetric and positive: masses are, and dashpots take energy.
         let inverse = matrix.try_inverse().unwrap_or_else(|| matrix.map(|_| f64::NAN));
-        for i in 0..3 {
-            for j in 0..3 {
-                self.inverse[i][j] = if free(i) && free(j) { inverse[(i, j)] } else { 0.0 };
-            }
-        }
+        self.inverse = columns(|i, j| if free(i) && free(j) { inverse[(i, j)] } else { 0.0 });
     }
 
     /// Acceleration that a force causes \[m/s²\].
     pub fn accelerated(&self, force: &[f64; 3]) -> [f64; 3] {
-        std::array::from_fn(|i| self.inverse[i].iter().zip(force).map(|(m, f)| m * f).sum())
+        product(&self.inverse, force)
     }
 
     /// Force of the dashpot at a velocity \[N\].
     pub fn drag(&self, velocity: &[f64; 3]) -> [f64; 3] {
         let Some(damping) = &self.damping else { return [0.0; 3] };
-        std::array::from_fn(|i| -damping[i].iter().zip(velocity).map(|(c, v)| c * v).sum::<f64>())
+        product(damping, velocity).map(|f| -f)
     }
 
     /// Inverse mass along a unit vector \[1/kg\].
@@ -110,6 +106,23 @@ impl SpecialNode {
         let image = self.accelerated(e);
         dot(e, &image)
     }
+}
+
+/// Columns of a matrix, each with a zero at its end: as many numbers as a vector of the processor has.
+type Columns = [[f64; 4]; 3];
+
+fn columns(entry: impl Fn(usize, usize) -> f64) -> Columns {
+    std::array::from_fn(|j| std::array::from_fn(|i| if i < 3 { entry(i, j) } else { 0.0 }))
+}
+
+/// Product of a matrix and a vector.
+#[inline(always)]
+fn product(matrix: &Columns, vector: &[f64; 3]) -> [f64; 3] {
+    let mut sums = [0.0; 4];
+    for (column, x) in matrix.iter().zip(vector) {
+        sums.iter_mut().zip(column).for_each(|(sum, entry)| *sum += entry * x);
+    }
+    [sums[0], sums[1], sums[2]]
 }
 
 /// Scalar product.

@@ -1,5 +1,7 @@
 //! Values at the special nodes in a step. They are kept from step to step: to ask for memory would cost more than to fill it.
 
+use super::surroundings::PointForces;
+
 /// See the module. Loads are those of all special nodes, all else is at the nodes of faults.
 #[derive(Debug, Default)]
 pub(super) struct Room {
@@ -13,12 +15,14 @@ pub(super) struct Room {
     pub after: Vec<[f64; 3]>,
     /// Displacements \[m\].
     pub displacement: Vec<[f64; 3]>,
+    /// Forces of the tractions at the points of faults.
+    pub forces: Vec<PointForces>,
 }
 
 impl Room {
     /// Room for so many nodes of faults, and for loads of so many special nodes, which are zero.
     pub fn clear(&mut self, faulted: usize, loaded: usize) {
-        let Self { acceleration, external, before, after, displacement } = self;
+        let Self { acceleration, external, before, after, displacement, .. } = self;
         for values in [acceleration, before, after, displacement] {
             values.resize(faulted, [0.0; 3]);
         }
@@ -26,14 +30,14 @@ impl Room {
         external.resize(loaded, [0.0; 3]);
     }
 
-    /// Jumps of the velocities half a step before and after, from the first node of each pair to the second.
-    pub fn velocity_jumps(&self, pairs: &[[usize; 2]]) -> Vec<[[f64; 3]; 2]> {
-        pairs.iter().map(|&pair| [jump(&self.before, pair), jump(&self.after, pair)]).collect()
+    /// Jumps of the velocities half a step before and after, from the first node of a pair to the second.
+    pub fn velocity_jumps(&self, pair: [usize; 2]) -> [[f64; 3]; 2] {
+        [jump(&self.before, pair), jump(&self.after, pair)]
     }
 
-    /// Jumps of the displacements.
-    pub fn jumps(&self, pairs: &[[usize; 2]]) -> Vec<[f64; 3]> {
-        pairs.iter().map(|&pair| jump(&self.displacement, pair)).collect()
+    /// Jump of the displacements.
+    pub fn jump(&self, pair: [usize; 2]) -> [f64; 3] {
+        jump(&self.displacement, pair)
     }
 }
 

@@ -2,6 +2,10 @@
 
 use super::nodes::{SpecialNode, dot};
 use super::split::SplitPoint;
+use rayon::prelude::*;
+
+/// Nodes of faults of one task: few, so that both threads of a small fault have some, and enough to pay for one.
+pub(super) const NODES: usize = 256;
 
 /// Mobility over that of free nodes below which a point is held: the square of the rounding of unit vectors is far below, absorbing sides far above.
 const HELD: f64 = 1e-12;
@@ -19,6 +23,8 @@ pub(super) struct FaultSurroundings<'a> {
     pub pairs: &'a [[usize; 2]],
     /// Mobilities of each point.
     pub mobilities: &'a [Mobility],
+    /// Points at each node.
+    pub at_nodes: &'a PointsAtNodes,
     /// Special nodes of each tie.
     pub tied: &'a [[usize; 2]],
     /// Number of components of displacements.
@@ -38,12 +44,63 @@ impl FaultSurroundings<'_> {
         dot(&values[plus], e) - dot(&values[minus], e)
     }
 
+    /// Adds the accelerations by the forces at all points, point by point at each node.
+    pub fn push_all(&mut self, forces: &[PointForces]) {
+        let (nodes, at_nodes) = (self.nodes, self.at_nodes);
+        let tasks = self.acceleration.par_chunks_mut(NODES).enumerate();
+        tasks.for_each(|(task, accelerations)| {
+            for (own, acceleration) in accelerations.iter_mut().enumerate() {
+                let node = task * NODES + own;
+                for &(point, sign) in at_nodes.at(node) {
+                    for force in [&forces[point].normal, &forces[point].shear] {
+                        let caused = nodes[node].accelerated(&force.map(|f| sign * f));
+                        acceleration.iter_mut().zip(caused).for_each(|(a, c)| *a += c);
+                    }
+                }
+            }
+        });
+    }
+
     /// Adds the accelerations by a force on the plus node of a pair, and its reaction \[N\].
     pub fn push(&mut self, pair: [usize; 2], force: &[f64; 3]) {
         for (&node, sign) in pair.iter().zip([-1.0, 1.0]) {
             let caused = self.nodes[node].accelerated(&force.map(|f| sign * f));
             self.acceleration[node].iter_mut().zip(caused).for_each(|(a, c)| *a += c);
         }
+    }
+}
+
+/// Forces of the changes of tractions at a point, on its plus side \[N\].
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct PointForces {
+    pub normal: [f64; 3],
+    pub shear: [f64; 3],
+}
+
+/// Points of faults at each node of faults, with the sign of their forces there.
+#[derive(Debug, Default)]
+pub(super) struct PointsAtNodes {
+    /// Start of the points of each node; one more than there are nodes.
+    starts: Vec<usize>,
+    points: Vec<(usize, f64)>,
+}
+
+impl PointsAtNodes {
+    /// Points between these pairs of so many nodes.
+    pub fn new(nodes: usize, pairs: &[[usize; 2]]) -> Self {
+        let sides = pairs
+            .iter()
+            .enumerate()
+            .flat_map(|(point, [minus, plus])| [(*minus, (point, -1.0)), (*plus, (point, 1.0))]);
+        let mut sides: Vec<(usize, (usize, f64))> = sides.collect();
+        sides.sort_by_key(|(node, _)| *node);
+        let starts = (0..=nodes).map(|node| sides.partition_point(|(n, _)| *n < node)).collect();
+        Self { starts, points: sides.into_iter().map(|(_, side)| side).collect() }
+    }
+
+    /// Points at a node, ascending.
+    fn at(&self, node: usize) -> &[(usize, f64)] {
+        &self.points[self.starts[node]..self.starts[node + 1]]
     }
 }
 

@@ -15,6 +15,7 @@ use asperity_output::{OutputError, OutputFile};
 use asperity_plan::dynamics::Plan;
 use asperity_plan::faults::PointView;
 use asperity_plan::faults::cadence::log_rate;
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -161,11 +162,15 @@ impl<'a> Tables<'a> {
     }
 }
 
+/// Row of values, which all threads write: profiles have one for each point of the faults.
 fn line(time: f64, values: impl Iterator<Item = f64>) -> String {
-    let mut text = shortest(time);
-    values.for_each(|v| text.extend([",", &scientific(v, DECIMALS)]));
-    text.push('\n');
-    text
+    const VALUES: usize = 1024;
+    let values: Vec<f64> = values.collect();
+    let part = |values: &[f64]| -> String {
+        values.iter().flat_map(|&v| [",".into(), scientific(v, DECIMALS)]).collect()
+    };
+    let parts: Vec<String> = values.par_chunks(VALUES).map(part).collect();
+    format!("{}{}\n", shortest(time), parts.concat())
 }
 
 /// Rate and sum of ∫ G slip dA of each fault.

@@ -74,11 +74,16 @@ pub fn build<const D: usize>(scene: &scene::Scene) -> Result<Model<D>, Diagnosti
     Ok(model)
 }
 
-/// The mesh of a body: one of a file is ordered for explicit steps.
+/// The mesh of a body, ordered for explicit steps if it is used in these.
 fn numbered<const D: usize>(scene: &scene::Scene, body: &scene::Body, mesh: Mesh<D>) -> Mesh<D> {
-    let of_file = matches!(body.mesh, scene::MeshSource::Gmsh(_) | scene::MeshSource::Abaqus(_));
-    let in_steps = *scene.time.stepper.get_ref() == scene::Stepper::Explicit;
-    if of_file && in_steps { order::along_curve(mesh) } else { mesh }
+    if *scene.time.stepper.get_ref() != scene::Stepper::Explicit {
+        return mesh;
+    }
+    match body.mesh {
+        scene::MeshSource::Gmsh(_) | scene::MeshSource::Abaqus(_) => order::along_curve(mesh),
+        scene::MeshSource::Block(_) => order::along_lines(mesh),
+        _ => mesh,
+    }
 }
 
 /// The material of a block of a body, with its name.

@@ -1,7 +1,8 @@
-//! Order of the nodes and cells of a mesh along a curve that fills space, so that what lies close together has close numbers.
+//! Order of the nodes and cells of a mesh for explicit steps.
 //!
 //! Mesh generators number nodes line by line, surface by surface and then at random. Explicit steps read displacements of the
-//! nodes of each cell, and wait for memory if these are scattered over it.
+//! nodes of each cell, and wait for memory if these are scattered over it: nodes of a file follow a curve that fills space, so that
+//! what lies close together has close numbers. Nodes of grids follow their longest lines.
 
 use asperity_fem::mesh::{Cells, Mesh, Side};
 use asperity_mechanics::bounds;
@@ -13,21 +14,35 @@ const BITS: u32 = 21;
 /// coordinates, the highest of each axis first. Nodes at the same position stay in their order.
 pub fn along_curve<const D: usize>(mesh: Mesh<D>) -> Mesh<D> {
     let curve = Curve::through(&mesh.nodes);
-    let (nodes, number) = sorted(mesh.nodes.len(), |n| curve.key(&mesh.nodes[n]));
-    let mut cells = Vec::new();
-    let blocks = mesh.blocks.iter().map(|block| {
-        let centre = |cell: usize| -> [f64; D] {
-            let own = block.cell(cell);
-            std::array::from_fn(|c| own.iter().map(|&n| mesh.nodes[n][c]).sum::<f64>() / own.len() as f64)
-        };
-        let (order, moved) = sorted(block.len(), |cell| curve.key(&centre(cell)));
-        cells.push(moved);
-        let connectivity =
-            order.iter().flat_map(|&cell| block.cell(cell).iter().map(|&n| number[n])).collect();
-        Cells { kind: block.kind, connectivity }
+    let nodes = sorted(mesh.nodes.len(), |n| curve.key(&mesh.nodes[n]));
+    let centre = |own: &[usize]| -> [f64; D] {
+        std::array::from_fn(|c| own.iter().map(|&n| mesh.nodes[n][c]).sum::<f64>() / own.len() as f64)
+    };
+    let cells = mesh.blocks.iter().map(|b| sorted(b.len(), |cell| curve.key(&centre(b.cell(cell)))));
+    let cells = cells.collect();
+    renumbered(mesh, nodes, cells)
+}
+
+/// The same mesh of a rectangular grid with its nodes in lines along the axis that has most, then along that which has most of the
+/// others; a mesh of another form stays as it is. Steps follow lines, and each takes time of its own. A fault through a body is then,
+/// as a rule, one range of nodes.
+pub fn along_lines<const D: usize>(mesh: Mesh<D>) -> Mesh<D> {
+    let Some(lines) = Lines::through(&mesh.nodes) else { return mesh };
+    let nodes = sorted(mesh.nodes.len(), |n| lines.key(&mesh.nodes[n]));
+    let first = |own: &[usize]| own.iter().map(|&n| nodes.places[n]).min();
+    let cells = mesh.blocks.iter().map(|b| sorted(b.len(), |cell| first(b.cell(cell)))).collect();
+    renumbered(mesh, nodes, cells)
+}
+
+/// The same mesh with nodes, and cells of each block, in these orders.
+fn renumbered<const D: usize>(mesh: Mesh<D>, nodes: Order, cells: Vec<Order>) -> Mesh<D> {
+    let number = &nodes.places;
+    let blocks = mesh.blocks.iter().zip(&cells).map(|(block, cells)| {
+        let all = cells.entries.iter().flat_map(|&cell| block.cell(cell));
+        Cells { kind: block.kind, connectivity: all.map(|&n| number[n]).collect() }
     });
     let blocks = blocks.collect();
-    let side = |s: Side| Side { cell: cells[s.block][s.cell], ..s };
+    let side = |s: Side| Side { cell: cells[s.block].places[s.cell], ..s };
     let sides = |(name, set): (String, Vec<Side>)| (name, set.into_iter().map(side).collect());
     let named = |(name, set): (String, Vec<usize>)| {
         let mut set: Vec<usize> = set.into_iter().map(|n| number[n]).collect();
@@ -35,12 +50,42 @@ pub fn along_curve<const D: usize>(mesh: Mesh<D>) -> Mesh<D> {
         (name, set)
     };
     Mesh {
-        nodes: nodes.iter().map(|&n| mesh.nodes[n]).collect(),
+        nodes: nodes.entries.iter().map(|&n| mesh.nodes[n]).collect(),
         blocks,
         side_sets: mesh.side_sets.into_iter().map(sides).collect(),
         cell_sets: mesh.cell_sets,
         node_sets: mesh.node_sets.into_iter().map(named).collect(),
         left_out: mesh.left_out,
+    }
+}
+
+/// Lines of a rectangular grid.
+struct Lines<const D: usize> {
+    /// Positions along each axis, ascending \[m\].
+    positions: [Vec<f64>; D],
+    /// Axes, the one with most positions last.
+    axes: [usize; D],
+}
+
+impl<const D: usize> Lines<D> {
+    /// Lines through all nodes, if a node lies where any of them cross.
+    fn through(nodes: &[[f64; D]]) -> Option<Self> {
+        let positions: [Vec<f64>; D] = std::array::from_fn(|axis| {
+            let mut all: Vec<f64> = nodes.iter().map(|x| x[axis]).collect();
+            all.sort_unstable_by(f64::total_cmp);
+            all.dedup();
+            all
+        });
+        let mut axes = std::array::from_fn(|axis| axis);
+        axes.sort_by_key(|&axis| positions[axis].len());
+        let crossings: usize = positions.iter().map(Vec::len).product();
+        (crossings == nodes.len()).then_some(Self { positions, axes })
+    }
+
+    /// Number of a position in lines along the last axis.
+    fn key(&self, x: &[f64; D]) -> usize {
+        let number = |axis: usize| self.positions[axis].partition_point(|p| *p < x[axis]);
+        self.axes.iter().fold(0, |key, &axis| key * self.positions[axis].len() + number(axis))
     }
 }
 
@@ -67,10 +112,15 @@ impl<const D: usize> Curve<D> {
 }
 
 /// Entries in the order of their keys, and the place of each.
-fn sorted(count: usize, key: impl Fn(usize) -> u64) -> (Vec<usize>, Vec<usize>) {
-    let mut order: Vec<usize> = (0..count).collect();
-    order.sort_by_cached_key(|&k| (key(k), k));
+struct Order {
+    entries: Vec<usize>,
+    places: Vec<usize>,
+}
+
+fn sorted<K: Ord>(count: usize, key: impl Fn(usize) -> K) -> Order {
+    let mut entries: Vec<usize> = (0..count).collect();
+    entries.sort_by_cached_key(|&k| (key(k), k));
     let mut places = vec![0; count];
-    order.iter().enumerate().for_each(|(place, &k)| places[k] = place);
-    (order, places)
+    entries.iter().enumerate().for_each(|(place, &k)| places[k] = place);
+    Order { entries, places }
 }
