@@ -11,6 +11,7 @@ use asperity_fem::table::Table;
 use asperity_friction::coulomb::Coulomb;
 use asperity_friction::inertial::InertialPoints;
 use asperity_friction::points::Components;
+use asperity_friction::slip_weakening::SlipWeakening;
 
 const DENSITY: f64 = 2700.0;
 
@@ -347,4 +348,50 @@ fn elastic_energy_of_damped_bodies_is_that_of_their_displacements() {
         assert!(found.viscous >= 0.0 && found.energies().imbalance() <= 1e-12, "{found:?}");
     });
     assert!(most > 0.0);
+}
+
+#[test]
+fn points_of_a_large_fault_slip_by_their_own_friction_in_the_first_step() {
+    // 601 points, which no task takes alone. No wave has run from one to another yet.
+    let (h, rows, normal, shear) = (0.01, 600, 10e6, 6e6);
+    let model = bars(&[[0.0, 0.02], [0.02, 0.04]], rows, h, Idealisation::PlaneStress);
+    let (points, half) = (rows + 1, model.mesh.nodes.len() / 2);
+    let area = |j: usize| if j == 0 || j == rows { 0.5 * h } else { h };
+    let point = |j: usize| SplitPoint {
+        minus: 3 * j + 2,
+        plus: half + 3 * j,
+        area: area(j),
+        normal: [1.0, 0.0, 0.0],
+        along: vec![[0.0, 1.0, 0.0]],
+        gap: 0.0,
+    };
+    let friction = |j: usize| 0.3 + 0.4 * j as f64 / points as f64;
+    let law = |j: usize| SlipWeakening::new(friction(j), 0.1, 1.0, None).unwrap();
+    let fault = Fault {
+        points: (0..points).map(point).collect(),
+        law: Box::new(InertialPoints((0..points).map(law).collect())),
+        normal: vec![normal; points],
+        shear: Components::new(vec![shear; points], points),
+        rate: Components::new(vec![0.0; points], points),
+        opens: false,
+        regularisation: None,
+        pulses: Vec::new(),
+        forced: Vec::new(),
+        onset: None,
+        ties: Vec::new(),
+    };
+    let problem = Problem { fault: Some(fault), ..problem(model, Stage::free("go", 1e-3)) };
+    let mut explicit = Explicit::new(&problem).unwrap();
+    explicit.begin_stage(0).unwrap();
+    explicit.step().unwrap();
+    let (dt, state) = (explicit.dt(), explicit.fault());
+    for j in 0..points {
+        // The first half step moves a column of ρ h/2 on each side.
+        let strength = friction(j) * normal;
+        let after = 0.5 * dt * (shear - strength).max(0.0) * 4.0 / (DENSITY * h);
+        let close = |found: f64, expected: f64| (found - expected).abs() <= 1e-12 * expected.abs();
+        assert!(close(state.shear.component(0)[j], strength.min(shear)), "{j}");
+        assert!(close(state.rate.component(0)[j], 0.5 * after), "{j}");
+        assert!(close(state.states.view().at(j)[0], after * dt), "{j}");
+    }
 }

@@ -24,8 +24,8 @@ pub fn along_curve<const D: usize>(mesh: Mesh<D>) -> Mesh<D> {
 }
 
 /// The same mesh of a rectangular grid with its nodes in lines along the axis that has most, then along that which has most of the
-/// others; a mesh of another form stays as it is. Steps follow lines, and each takes time of its own. A fault through a body is then,
-/// as a rule, one range of nodes.
+/// others; a mesh of another form stays as it is. The ends of a line fill no vector and take as long as many of its other nodes. A
+/// fault across the axis that has fewest nodes is then one range of them.
 pub fn along_lines<const D: usize>(mesh: Mesh<D>) -> Mesh<D> {
     let Some(lines) = Lines::through(&mesh.nodes) else { return mesh };
     let nodes = sorted(mesh.nodes.len(), |n| lines.key(&mesh.nodes[n]));
