@@ -8,7 +8,7 @@ use crate::average::Averaging;
 use crate::build::{build_measure, check};
 use crate::enforce::{Multipliers, Penalty, Unknowns, tangential};
 use crate::error::ContactError;
-use crate::measure::{Attachment, Geometry, Measure, NormalPoint, Slides, Tractions};
+use crate::measure::{Attachment, Geometry, Measure, NormalPoint, ShearPoint, Slides, Tractions};
 use crate::observe::{Balance, PointFields, Work};
 use crate::shear::{PreviousStep, Shear, TwoStep};
 use crate::spec::{Enforcement, InterfaceSpec, SlavePoint, SurfaceNode, TimeRule};
@@ -636,6 +636,16 @@ impl<const D: usize> Linearized for Interface<D> {
         } else {
             self.measure.tangent(&self.geometry, self.tractions(), values);
         }
+    }
+
+    /// Without the changes of shear tractions with normal tractions, which make the tangent unsymmetric.
+    fn symmetric_tangent(&mut self, values: &mut [f64]) {
+        let uncoupled = |s: &Shear| -> Vec<ShearPoint> {
+            s.points.iter().map(|point| ShearPoint { d_normal: 0.0, ..*point }).collect()
+        };
+        let shear = self.shear.as_ref().map(uncoupled);
+        let tractions = Tractions { shear: shear.as_deref(), ..self.tractions() };
+        self.measure.tangent(&self.geometry, tractions, values);
     }
 
     fn augmented(&mut self) -> Option<&mut dyn Augmented> {

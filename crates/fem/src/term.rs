@@ -248,6 +248,12 @@ pub trait Linearized: Term {
     /// Writes the tangent at the state of the last residual: for each block of the pattern its entries row by row.
     fn tangent(&mut self, values: &mut [f64]);
 
+    /// Writes a symmetric matrix near the tangent in the same order, from which an unsymmetric system is preconditioned. It resists
+    /// no motion that the tangent does not resist.
+    fn symmetric_tangent(&mut self, values: &mut [f64]) {
+        self.tangent(values);
+    }
+
     /// The tangent, where it is the same at every state and in every step, as [`Linearized::tangent`] writes it. A system of
     /// such terms alone is factored once.
     fn constant_tangent(&self) -> Option<&[f64]> {

@@ -30,6 +30,8 @@ pub enum Method {
     Dense,
     /// Sparse factorisation.
     Sparse,
+    /// The same where the matrix is symmetric; where it is not, GMRES preconditioned by the Cholesky factor of a symmetric matrix near it.
+    Preconditioned,
     /// Conjugate gradients preconditioned with smoothed aggregation.
     Iterative {
         /// Relative residual at which a solution is accepted.

@@ -171,6 +171,13 @@ const SPACE: [Change<'_>; 12] = [
     With("output.points.inside.at", r#"["0.9 m", "-0.2 m", "0.3 m"]"#),
 ];
 
+/// All degrees of freedom in a system that is so large that GMRES solves it.
+const ITERATED: [Change<'_>; 3] = [
+    With("bodies.slab.mesh.block.divisions", "[14, 6, 10]"),
+    Add("time.path", "full"),
+    With("stages[1].conditions[0].x", r#"{ to = "0.1 m" }"#),
+];
+
 /// Interrupts a run before its trial number `left`.
 struct Interruption {
     kept: Keeper<Outputs>,
@@ -377,6 +384,7 @@ fn runs_in_space_resume_bit_for_bit() {
         ("space, uzawa, plastic", vec![&SPACE, &[UZAWA, PLASTIC]]),
         ("space, forward", vec![&SPACE, &FORWARD]),
         ("space, off the end", vec![&SPACE, &[OFF]]),
+        ("space, iterated", vec![&SPACE, &ITERATED]),
         ("space, forward, mortar, ageing, small", vec![&SPACE, &FORWARD, &SMALL, &[MORTAR, AGEING]]),
     ]);
 }

@@ -228,6 +228,79 @@ fn stages_without_friction_are_factored_symmetrically_on_both_paths() {
     assert_eq!(sticking.counts.operations.indefinite, 0);
 }
 
+/// Two blocks in space, the upper one pressed and pushed until it slides, with all degrees of freedom in the system.
+fn pushed_blocks(strain: &str, push: &str, solver: &str) -> String {
+    let block = |z: usize| {
+        format!(
+            "mesh.block = {{ min = [0, 0, {z}], max = [2, 2, {}], divisions = [9, 9, 5], element = \"hex8\" }}\n\
+             material = \"m\"\nstrain = \"{strain}\"",
+            z + 1
+        )
+    };
+    format!(
+        r#"
+schema = 1
+title = "two blocks in space"
+kinematics = "3d"
+[materials.m]
+young = "10 GPa"
+poisson = 0.3
+[bodies.A]
+{}
+[bodies.B]
+{}
+[interfaces.joint]
+slave = "B.back"
+master = "A.front"
+measure = "node-to-point"
+sliding = "small"
+enforcement = {{ kind = "penalty", normal = "100 E/h", tangential = "100 E/h" }}
+law = {{ kind = "coulomb", mu = 0.6 }}
+[[stages]]
+name = "push"
+duration = 1
+steps = 3
+conditions = [{{ set = "A.back", x = 0, y = 0, z = 0 }}, {push}]
+[time]
+stepper = "implicit"
+path = "full"
+[solver]
+{solver}
+"#,
+        block(0),
+        block(1),
+    )
+}
+
+#[test]
+fn large_unsymmetric_systems_are_iterated_to_the_solution_of_lu() {
+    let push = "{ set = \"B.front\", z = { to = \"-2 mm\" }, x = { to = \"8 mm\" }, y = { to = \"2 mm\" } }";
+    for strain in ["small", "finite"] {
+        let (direct, exact) = simulate(&pushed_blocks(strain, push, "method = \"direct\""));
+        let (iterated, found) = simulate(&pushed_blocks(strain, push, ""));
+        assert!(direct.plan.solver.contains("(LU)"), "{}", direct.plan.solver);
+        assert!(iterated.plan.solver.starts_with("GMRES"), "{}", iterated.plan.solver);
+        let [direct, iterated] = [direct, iterated].map(|report| report.counts.operations);
+        assert_eq!((direct.linear_iterations, direct.factorisations), (0, direct.iterations));
+        // A factor serves a step, or two where it slips.
+        assert!(
+            iterated.factorisations <= 6 && iterated.factorisations < direct.factorisations,
+            "{iterated:?}"
+        );
+        assert!(iterated.linear_iterations > iterated.solves, "{iterated:?}");
+        // Newton's method ends at 1e-11 of the largest force, which a condition number of 1e3 to 1e4 lets through.
+        agree(&all(&exact), &all(&found), 1e-7);
+    }
+}
+
+#[test]
+fn a_body_that_iterations_find_free_is_named_with_its_motion() {
+    let lift = "{ set = \"B.left\", x = 0 }, { set = \"B.bottom\", y = 0 }, \
+                { set = \"B.front\", traction = [0, 0, { to = 1e3 }] }";
+    let (_, _, reason) = stopped(&pushed_blocks("small", lift, ""));
+    assert!(reason.contains("body `B` can translate along z"), "{reason}");
+}
+
 #[test]
 fn a_body_that_open_contact_lets_go_is_named_with_its_motion() {
     // Pulled upwards, the joint opens: nothing holds B vertically. With friction the matrix is factored by LU.

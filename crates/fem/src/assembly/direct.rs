@@ -117,14 +117,15 @@ impl SparseStore {
         symmetry: Symmetry,
     ) -> Result<(), FemError> {
         let exact: Vec<PatternId> = patterns.iter().map(|p| p.id()).collect();
-        if self.symbolic.is_some() && exact == self.ids {
+        if self.map.is_some() && exact == self.ids {
             return Ok(());
         }
         self.forget();
         let part = if symmetry == Symmetry::General { Part::Whole } else { Part::Lower };
         let map = ScatterMap::new(patterns, equations, part);
-        self.symbolic = Some(match symmetry {
-            Symmetry::General => SymbolicFactors::Lu(map.analyse_lu()?),
+        self.symbolic = match symmetry {
+            // Analysed when it is first factored.
+            Symmetry::General => None,
             Symmetry::Symmetric | Symmetry::Positive => {
                 let fits = |a: &&Analysis| a.equations == *equations && a.ids == ids(patterns);
                 let symbolic = match self.analysis.as_ref().filter(fits) {
@@ -132,9 +133,9 @@ impl SparseStore {
                     None => map.analyse_cholesky()?,
                 };
                 symbolic.admit(self.memory)?;
-                SymbolicFactors::Cholesky(symbolic)
+                Some(SymbolicFactors::Cholesky(symbolic))
             }
-        });
+        };
         self.map = Some(map);
         self.ids = exact;
         Ok(())
@@ -170,10 +171,14 @@ impl SparseStore {
 
     /// Factors the matrix; returns true if LU had to replace Cholesky.
     pub fn factor(&mut self, symmetry: Symmetry) -> Result<bool, FemError> {
-        let (Some(map), Some(symbolic)) = (&self.map, &self.symbolic) else {
-            return Err(FemError::Factorisation("the pattern was not analysed".into()));
+        let Some(map) = &self.map else {
+            return Err(FemError::Factorisation("there is no matrix to factor".into()));
         };
-        let factor = match symbolic {
+        let symbolic = match self.symbolic.take() {
+            Some(symbolic) => symbolic,
+            None => SymbolicFactors::Lu(map.analyse_lu()?),
+        };
+        let factor = match self.symbolic.insert(symbolic) {
             SymbolicFactors::Lu(symbolic) => map.lu(symbolic)?,
             SymbolicFactors::Cholesky(symbolic) => {
                 let factor = match self.stale.take() {
@@ -196,6 +201,14 @@ impl SparseStore {
         };
         self.factor = Some(factor);
         Ok(false)
+    }
+
+    /// Analysis of the Cholesky factor.
+    pub fn cholesky(&self) -> Option<&multifrontal::SymbolicCholesky> {
+        match &self.symbolic {
+            Some(SymbolicFactors::Cholesky(symbolic)) => Some(symbolic),
+            _ => None,
+        }
     }
 
     /// Solves in place; false without a factor.

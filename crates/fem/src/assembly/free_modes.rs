@@ -40,6 +40,9 @@ impl System {
         match &self.store {
             Store::Dense(store) => Some(SymmetricPart::from_dense(&store.matrix())),
             Store::Sparse(store) => store.map.as_ref().map(|map| SymmetricPart::from_sparse(map.matrix())),
+            Store::Preconditioned(store) => {
+                store.exact().map.as_ref().map(|map| SymmetricPart::from_sparse(map.matrix()))
+            }
             Store::Iterative(_) => None,
         }
     }

@@ -29,7 +29,7 @@ impl System {
             factored: constant && self.is_factored(terms.iter().map(|t| t.pattern())),
             left: match &self.store {
                 Store::Dense(store) => store.left(),
-                Store::Sparse(_) | Store::Iterative(_) => None,
+                Store::Sparse(_) | Store::Preconditioned(_) | Store::Iterative(_) => None,
             },
         }
     }

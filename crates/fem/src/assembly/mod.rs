@@ -1,5 +1,5 @@
 //! The linear system of a step: tangents of all terms on the free degrees of freedom and its solution: dense, sparse by a
-//! factorisation, or by conjugate gradients.
+//! factorisation, or by iterations (conjugate gradients, or GMRES where it is unsymmetric).
 
 mod dense;
 mod dense_factor;
@@ -7,6 +7,7 @@ mod direct;
 mod free_modes;
 mod iterative;
 mod memory;
+mod preconditioned;
 mod schur_complement;
 mod symmetric;
 mod symmetry;
@@ -21,6 +22,7 @@ pub use direct::{Analysis, LowerTriangle};
 use iterative::IterativeStore;
 pub use iterative::{Iterative, NearNull};
 pub use memory::Memory;
+use preconditioned::PreconditionedStore;
 use rayon::prelude::*;
 use std::convert::Infallible;
 pub use symmetry::Symmetry;
@@ -32,6 +34,8 @@ pub enum Storage {
     Dense,
     /// Compressed columns: systems of all degrees of freedom.
     Sparse,
+    /// The same, for systems so large that LU is avoided: unsymmetric ones are solved by GMRES, preconditioned by a Cholesky factor.
+    Preconditioned,
 }
 
 /// Least number of products for which rounding of a force is stated: those of four quadrilaterals at a node.
@@ -68,6 +72,7 @@ pub struct System {
 enum Store {
     Dense(Box<DenseStore>),
     Sparse(Box<SparseStore>),
+    Preconditioned(Box<PreconditionedStore>),
     Iterative(Box<IterativeStore>),
 }
 
@@ -78,6 +83,9 @@ impl System {
         let store = match storage {
             Storage::Dense => Store::Dense(Box::new(DenseStore::new(equations.free.len()))),
             Storage::Sparse => Store::Sparse(Box::default()),
+            Storage::Preconditioned => {
+                Store::Preconditioned(Box::new(PreconditionedStore::new(usize::MAX, None)))
+            }
         };
         Self::with_store(equations, Symmetry::General, store)
     }
@@ -123,8 +131,17 @@ impl System {
         }
         self.symmetry = symmetry;
         self.factored = None;
-        if let Store::Sparse(store) = &mut self.store {
-            store.forget();
+        match &mut self.store {
+            Store::Sparse(store) => store.forget(),
+            Store::Preconditioned(store) => store.forget(),
+            Store::Dense(_) | Store::Iterative(_) => {}
+        }
+    }
+
+    /// Begins a step, whose solution depends on none before it.
+    pub fn begin_step(&mut self) {
+        if let Store::Preconditioned(store) = &mut self.store {
+            store.begin_step();
         }
     }
 
@@ -132,8 +149,10 @@ impl System {
     /// analysis made beforehand is used where it fits.
     #[must_use]
     pub fn prepared(mut self, memory: usize, analysis: Option<Analysis>) -> Self {
-        if let Store::Sparse(store) = &mut self.store {
-            store.prepare(memory, analysis);
+        match &mut self.store {
+            Store::Sparse(store) => store.prepare(memory, analysis),
+            Store::Preconditioned(store) => **store = PreconditionedStore::new(memory, analysis),
+            Store::Dense(_) | Store::Iterative(_) => {}
         }
         self
     }
@@ -182,7 +201,8 @@ impl System {
         pattern_of: impl Fn(&T) -> &Pattern,
         values_of: impl FnMut(&mut T, &mut [f64]) -> Result<(), E>,
     ) -> Result<Result<(), FemError>, E> {
-        let outcome = self.assemble(terms, pattern_of, |_| None, true, values_of)?;
+        let none = |_: &mut T, _: &mut [f64]| {};
+        let outcome = self.assemble(terms, pattern_of, |_| None, true, values_of, none)?;
         Ok(outcome.map(|_| ()))
     }
 
@@ -201,6 +221,7 @@ impl System {
                 t.tangent(values);
                 Ok(())
             },
+            |t, values| t.symmetric_tangent(values),
         );
         match outcome {
             Ok(result) => result,
@@ -224,6 +245,7 @@ impl System {
             |t| t.constant_tangent(),
             true,
             |t, values| values_of(&mut **t, values),
+            |t, values| t.symmetric_tangent(values),
         )
     }
 
@@ -236,6 +258,7 @@ impl System {
         constant_of: impl Fn(&T) -> Option<&[f64]>,
         always: bool,
         mut values_of: impl FnMut(&mut T, &mut [f64]) -> Result<(), E>,
+        near_of: impl Fn(&mut T, &mut [f64]),
     ) -> Result<Result<bool, FemError>, E> {
         let keep =
             terms.iter().all(|t| constant_of(t).is_some()) && self.is_factored(terms.iter().map(&pattern_of));
@@ -267,6 +290,21 @@ impl System {
                     store.add(&self.equations, pattern_of(term), tangent, constant.is_some());
                 }
                 Store::Sparse(store) => offset = store.add(offset, tangent),
+                Store::Preconditioned(store) => {
+                    let next = store.add(offset, tangent);
+                    if store.is_due() {
+                        let near = match constant {
+                            Some(constant) => constant,
+                            None => {
+                                near_of(term, &mut self.buffer);
+                                symmetrise(pattern_of(term), &mut self.buffer);
+                                &self.buffer
+                            }
+                        };
+                        store.add_near(offset, near);
+                    }
+                    offset = next;
+                }
                 Store::Iterative(_) => own.push(match constant {
                     Some(_) => None,
                     None => Some(std::mem::take(&mut self.buffer)),
@@ -276,7 +314,6 @@ impl System {
         if keep {
             return Ok(Ok(false));
         }
-        self.factorisations += 1;
         let outcome = match &mut self.store {
             Store::Iterative(store) => {
                 let patterns: Vec<&Pattern> = terms.iter().map(&pattern_of).collect();
@@ -284,15 +321,16 @@ impl System {
                     Some(own) => own.as_slice(),
                     None => constant_of(t).unwrap_or_default(),
                 });
-                store.set(&patterns, &tangents.collect::<Vec<_>>(), &self.equations)
+                store.set(&patterns, &tangents.collect::<Vec<_>>(), &self.equations).map(|()| 1)
             }
             _ => self.finish(),
         };
         let outcome = outcome.map_err(|e| self.in_degrees_of_freedom(e));
-        if outcome.is_ok() {
+        if let Ok(made) = outcome {
+            self.factorisations += made;
             self.factored = Some(terms.iter().map(|t| pattern_of(t).id()).collect());
         }
-        Ok(outcome.map(|()| true))
+        Ok(outcome.map(|_| true))
     }
 
     /// Prepares an assembly of these patterns; `constant` has the identities of those whose terms are.
@@ -306,21 +344,23 @@ impl System {
                 store.renew(patterns, &self.equations, self.symmetry)?;
                 store.clear();
             }
+            Store::Preconditioned(store) => store.begin(patterns, &self.equations, self.symmetry)?,
             Store::Iterative(_) => {}
         }
         Ok(())
     }
 
-    /// Factors what was assembled.
-    fn finish(&mut self) -> Result<(), FemError> {
+    /// Factors what was assembled. Returns the number of factorisations.
+    fn finish(&mut self) -> Result<usize, FemError> {
         self.check_held()?;
-        let indefinite = match &mut self.store {
-            Store::Dense(store) => store.factor(self.symmetry)?,
-            Store::Sparse(store) => store.factor(self.symmetry)?,
-            Store::Iterative(_) => false,
+        let (made, indefinite) = match &mut self.store {
+            Store::Dense(store) => (1, store.factor(self.symmetry)?),
+            Store::Sparse(store) => (1, store.factor(self.symmetry)?),
+            Store::Preconditioned(store) => store.factor()?,
+            Store::Iterative(_) => (0, false),
         };
         self.indefinite += usize::from(indefinite);
-        Ok(())
+        Ok(made)
     }
 
     /// Degrees of freedom that nothing holds can be named before the factorisation: a column without entries, and in a symmetric matrix a
@@ -329,6 +369,7 @@ impl System {
         let (diagonal, unheld) = match &self.store {
             Store::Dense(store) => (store.diagonal(), store.empty_column()),
             Store::Sparse(store) => (store.diagonal(), store.empty_column()),
+            Store::Preconditioned(store) => (store.exact().diagonal(), store.exact().empty_column()),
             Store::Iterative(_) => return Ok(()),
         };
         let unheld = match self.symmetry {
@@ -366,9 +407,17 @@ impl System {
     pub fn solve(&mut self, rhs: &mut [f64]) -> Result<(), FemError> {
         let size = |v: &[f64]| v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         let load = size(rhs);
-        let solved = match &self.store {
+        let solved = match &mut self.store {
             Store::Dense(store) => store.solve(rhs),
             Store::Sparse(store) => store.solve(rhs),
+            Store::Preconditioned(store) => match store.solve(rhs)? {
+                None => false,
+                Some((outcome, made)) => {
+                    self.iterations += outcome.map_or(0, |outcome| outcome.report().iterations);
+                    self.factorisations += made;
+                    true
+                }
+            },
             Store::Iterative(store) => match store.solve(rhs) {
                 None => false,
                 Some(outcome) => {
@@ -401,4 +450,20 @@ fn largest(values: &[f64]) -> f64 {
         .par_chunks(CHUNK)
         .map(|part| part.iter().fold(0.0_f64, |m, v| m.max(v.abs())))
         .reduce(|| 0.0, f64::max)
+}
+
+/// Replaces each block of a pattern by its symmetric part.
+fn symmetrise(pattern: &Pattern, values: &mut [f64]) {
+    let mut rest = values;
+    for block in pattern.blocks() {
+        let n = block.len();
+        let (own, after) = std::mem::take(&mut rest).split_at_mut(n * n);
+        for i in 0..n {
+            for j in 0..i {
+                let mean = 0.5 * (own[i * n + j] + own[j * n + i]);
+                (own[i * n + j], own[j * n + i]) = (mean, mean);
+            }
+        }
+        rest = after;
+    }
 }

@@ -8,6 +8,7 @@ pub mod block_jacobi;
 pub mod cg;
 pub mod csr;
 pub mod dense;
+pub mod gmres;
 pub mod matrix;
 pub mod near_null;
 pub mod smoothed_aggregation;

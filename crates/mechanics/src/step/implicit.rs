@@ -164,6 +164,7 @@ impl Implicit {
         let mut u = self.predict(state, dt);
         constraints.impose(at.time, &mut u);
         self.residuals.clear();
+        self.system.begin_step();
         let solved = self.augmented(terms, &mut u, at, counts);
         let stands = solved.and_then(|solved| {
             unopposed(terms)?;
@@ -434,7 +435,6 @@ impl Implicit {
         rhs.iter_mut().for_each(|r| *r = -*r);
         let solved = self.system.factor_tangent(terms).and_then(|anew| {
             counts.tangents += usize::from(anew);
-            counts.factorisations += usize::from(anew);
             self.system.solve(&mut rhs)
         });
         counts.solves += 1;

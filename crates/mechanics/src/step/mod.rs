@@ -108,17 +108,20 @@ fn accurate<T: Term + ?Sized>(terms: &mut [&mut T], bound: f64) -> Result<f64, F
 /// Operations of a linear system before a step.
 #[derive(Clone, Copy)]
 struct SystemCounts {
+    factorisations: usize,
     indefinite: usize,
     iterations: usize,
 }
 
 impl SystemCounts {
     fn from_system(system: &System) -> Self {
-        Self { indefinite: system.indefinite, iterations: system.iterations }
+        let System { factorisations, indefinite, iterations, .. } = *system;
+        Self { factorisations, indefinite, iterations }
     }
 
     /// Adds the operations performed since.
     fn count(self, system: &System, counts: &mut Operations) {
+        counts.factorisations += system.factorisations - self.factorisations;
         counts.indefinite += system.indefinite - self.indefinite;
         counts.linear_iterations += system.iterations - self.iterations;
     }

@@ -203,7 +203,6 @@ impl StaticExplicit {
         rhs.iter_mut().for_each(|r| *r = -*r);
         let solved = factored.and_then(|anew| {
             counts.tangents += usize::from(anew);
-            counts.factorisations += usize::from(anew);
             system.solve(&mut rhs)
         });
         counts.iterations += 1;

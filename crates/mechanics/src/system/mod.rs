@@ -208,12 +208,14 @@ impl<'a, const D: usize> AssembledProblem<'a, D> {
                 System::iterative(equations, Iterative { near_null, tolerance, most_iterations })
             }
             Method::Dense => System::new(equations, Storage::Dense),
-            Method::Sparse => {
+            Method::Sparse | Method::Preconditioned => {
                 let analysis = match &solver.prepared {
                     Analyses::System(analysis) => Some(analysis.clone()),
                     _ => None,
                 };
-                System::new(equations, Storage::Sparse).prepared(solver.memory, analysis)
+                let iterates = solver.method == Method::Preconditioned;
+                let storage = if iterates { Storage::Preconditioned } else { Storage::Sparse };
+                System::new(equations, storage).prepared(solver.memory, analysis)
             }
         })
     }

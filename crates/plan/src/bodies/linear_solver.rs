@@ -18,6 +18,8 @@ const HIERARCHY: usize = 4;
 /// Number of degrees of freedom up to which a plan analyses the system of generated blocks, which takes a second in 3D. For larger systems memory is
 /// estimated from counts, and the run does the analysis.
 const ANALYSED: usize = 50_000;
+/// Operations of a Cholesky factorisation above which LU, several times as many, is avoided: a tenth of a second.
+const AVOIDED: f64 = 1e8;
 /// Memory of LU over that of Cholesky with the same pattern: both triangles, without the fill due to pivoting.
 const UNSYMMETRIC: usize = 2;
 
@@ -132,6 +134,12 @@ impl<const D: usize> Choice<'_, D> {
                 (Analyses::System(analysis), bytes)
             }
         };
+        if unsymmetric.is_some() && self.avoids_lu(&prepared) {
+            let bytes = bytes + self.matrix();
+            if bytes <= self.memory() {
+                return Ok(self.preconditioned(prepared, bytes));
+            }
+        }
         let bytes = if unsymmetric.is_some() { UNSYMMETRIC } else { 1 } * bytes;
         if bytes <= self.memory() {
             return Ok(self.direct(prepared, bytes));
@@ -142,6 +150,39 @@ impl<const D: usize> Choice<'_, D> {
         }
         let what = format!("the factorisation of {} degrees of freedom", self.model.dofs());
         Err(self.too_much(&what, bytes, unsymmetric.is_none()))
+    }
+
+    /// True if LU of an unsymmetric matrix takes so long that iterations with a Cholesky factor are better, and can take its place.
+    fn avoids_lu(&self, prepared: &Analyses) -> bool {
+        let large = match prepared {
+            Analyses::System(analysis) => analysis.symbolic().operations() > AVOIDED,
+            _ => true,
+        };
+        let definite = self.interfaces.iter().all(|i| i.unknowns == 0);
+        let asked = self.scene.solver.method() == Asked::Direct;
+        large && definite && !asked && !self.stepping.is_forward()
+    }
+
+    /// Memory of the matrix \[bytes\].
+    fn matrix(&self) -> usize {
+        forecast::matrix_bytes(&counts(&self.model.mesh), self.model.idealisation.components())
+    }
+
+    fn preconditioned(&self, prepared: Analyses, bytes: usize) -> Solver {
+        let operations = match &prepared {
+            Analyses::System(analysis) => Some(analysis.symbolic().operations()),
+            _ => None,
+        };
+        Solver {
+            method: Method::Preconditioned,
+            memory: self.memory(),
+            prepared,
+            bytes,
+            operations,
+            why:
+                "GMRES with a Cholesky factor of each step; LU, where the matrix is unsymmetric, takes longer"
+                    .into(),
+        }
     }
 
     /// True if the iterative method is a remedy when factors do not fit into memory.
@@ -221,8 +262,7 @@ impl<const D: usize> Choice<'_, D> {
                 "use `method = \"direct\"`, or leave it out",
             ));
         }
-        let matrix = forecast::matrix_bytes(&counts(&self.model.mesh), self.model.idealisation.components());
-        let bytes = HIERARCHY * matrix;
+        let bytes = HIERARCHY * self.matrix();
         if bytes > self.memory() {
             let what = format!("the iterative solution of {} degrees of freedom", self.model.dofs());
             return Err(self.too_much(&what, bytes, false));
