@@ -232,7 +232,7 @@ fn stages_without_friction_are_factored_symmetrically_on_both_paths() {
 fn pushed_blocks(strain: &str, push: &str, solver: &str) -> String {
     let block = |z: usize| {
         format!(
-            "mesh.block = {{ min = [0, 0, {z}], max = [2, 2, {}], divisions = [9, 9, 5], element = \"hex8\" }}\n\
+            "mesh.block = {{ min = [0, 0, {z}], max = [2, 2, {}], divisions = [10, 10, 5], element = \"hex8\" }}\n\
              material = \"m\"\nstrain = \"{strain}\"",
             z + 1
         )
