@@ -638,8 +638,12 @@ impl<const D: usize> Linearized for Interface<D> {
         }
     }
 
-    /// Without the changes of shear tractions with normal tractions, which make the tangent unsymmetric.
+    /// Without the changes of shear tractions with normal tractions, which make the tangent unsymmetric. Nothing symmetric and positive
+    /// is near that of multipliers that are unknowns.
     fn symmetric_tangent(&mut self, values: &mut [f64]) {
+        if self.unknowns.is_some() {
+            return self.mixed_tangent(values);
+        }
         let uncoupled = |s: &Shear| -> Vec<ShearPoint> {
             s.points.iter().map(|point| ShearPoint { d_normal: 0.0, ..*point }).collect()
         };

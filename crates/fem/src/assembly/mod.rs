@@ -201,8 +201,7 @@ impl System {
         pattern_of: impl Fn(&T) -> &Pattern,
         values_of: impl FnMut(&mut T, &mut [f64]) -> Result<(), E>,
     ) -> Result<Result<(), FemError>, E> {
-        let none = |_: &mut T, _: &mut [f64]| {};
-        let outcome = self.assemble(terms, pattern_of, |_| None, true, values_of, none)?;
+        let outcome = self.assemble(terms, pattern_of, |_| None, true, values_of, |_, _| {})?;
         Ok(outcome.map(|_| ()))
     }
 
@@ -245,12 +244,13 @@ impl System {
             |t| t.constant_tangent(),
             true,
             |t, values| values_of(&mut **t, values),
-            |t, values| t.symmetric_tangent(values),
+            |_, _| {},
         )
     }
 
     /// Assembles and factors, unless the values of all terms are constant and factored. With `always`, `values_of` is called
-    /// for constant terms as well.
+    /// for constant terms as well. `near_of` replaces the values of a term by those from which a system is preconditioned; their
+    /// symmetric part is taken.
     fn assemble<T, E>(
         &mut self,
         terms: &mut [T],
@@ -291,24 +291,19 @@ impl System {
                 }
                 Store::Sparse(store) => offset = store.add(offset, tangent),
                 Store::Preconditioned(store) => {
-                    let next = store.add(offset, tangent);
-                    if store.is_due() {
-                        let near = match constant {
-                            Some(constant) => constant,
-                            None => {
-                                near_of(term, &mut self.buffer);
-                                symmetrise(pattern_of(term), &mut self.buffer);
-                                &self.buffer
-                            }
-                        };
-                        store.add_near(offset, near);
+                    let first = offset;
+                    offset = store.add(first, tangent);
+                    if let Some(constant) = constant.filter(|_| store.is_due()) {
+                        store.add_near(first, constant);
+                    } else if store.is_due() {
+                        near_of(term, &mut self.buffer);
+                        symmetrise(pattern_of(term), &mut self.buffer);
+                        store.add_near(first, &self.buffer);
                     }
-                    offset = next;
                 }
-                Store::Iterative(_) => own.push(match constant {
-                    Some(_) => None,
-                    None => Some(std::mem::take(&mut self.buffer)),
-                }),
+                Store::Iterative(_) => {
+                    own.push(constant.is_none().then(|| std::mem::take(&mut self.buffer)));
+                }
             }
         }
         if keep {
