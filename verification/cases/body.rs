@@ -290,18 +290,8 @@ impl<const D: usize> Body<D> {
 
     fn factor(&mut self, values: &[f64]) -> Result<(), CaseError> {
         self.work.factorisations += 1;
-        let outcome: Result<_, std::convert::Infallible> = self.system.factor(
-            &mut [&self.pattern],
-            |pattern| pattern,
-            |_, out| {
-                out.copy_from_slice(values);
-                Ok(())
-            },
-        );
-        match outcome {
-            Ok(result) => Ok(result?),
-            Err(never) => match never {},
-        }
+        self.system.factor_tangent(&mut [&mut Tangent { pattern: &self.pattern, values }])?;
+        Ok(())
     }
 
     /// Rate tangents of the committed state and the constant forces of a step.
@@ -404,4 +394,34 @@ pub fn points(mesh: &Mesh<2>, idealisation: Idealisation) -> Vec<[f64; 2]> {
         [at(0), at(1)]
     };
     (0..cells.len()).flat_map(|cell| rule.iter().map(move |(xi, _)| place(cell, *xi))).collect()
+}
+
+/// A tangent that is given.
+struct Tangent<'a> {
+    pattern: &'a Pattern,
+    values: &'a [f64],
+}
+
+impl Term for Tangent<'_> {
+    fn name(&self) -> &'static str {
+        "tangent"
+    }
+
+    fn residual(&mut self, _u: &[f64], _at: Instant, _r: &mut [f64]) -> Result<(), Refusal> {
+        Ok(())
+    }
+
+    fn accept(&mut self) {}
+
+    fn reject(&mut self) {}
+}
+
+impl Linearized for Tangent<'_> {
+    fn pattern(&self) -> &Pattern {
+        self.pattern
+    }
+
+    fn tangent(&mut self, values: &mut [f64]) {
+        values.copy_from_slice(self.values);
+    }
 }

@@ -15,6 +15,7 @@ use crate::spec::{Enforcement, InterfaceSpec, SlavePoint, SurfaceNode, TimeRule}
 use crate::status::{Status, label};
 use crate::vector::{add, axpy, dot, moment, norm, scaled, sub};
 use crate::watch::Watch;
+use asperity_fem::relative::RelativeDisplacements;
 use asperity_fem::term::{Augmented, Instant, Linearized, Objection, Pattern, Refusal, Term};
 use asperity_friction::Failure;
 use asperity_friction::law::{Law, RateBounds};
@@ -650,6 +651,10 @@ impl<const D: usize> Linearized for Interface<D> {
         let shear = self.shear.as_ref().map(uncoupled);
         let tractions = Tractions { shear: shear.as_deref(), ..self.tractions() };
         self.measure.tangent(&self.geometry, tractions, values);
+    }
+
+    fn relative(&self) -> Option<&RelativeDisplacements> {
+        if self.unknowns.is_some() { None } else { self.measure.relative() }
     }
 
     fn augmented(&mut self) -> Option<&mut dyn Augmented> {

@@ -12,10 +12,11 @@ use crate::dof::{Channel, Constraints, Equations};
 use crate::error::FemError;
 use crate::multifrontal::{Cholesky, DirectError, SymbolicCholesky};
 use crate::ordering::Ordering;
+use crate::product::multiply_symmetric;
 use crate::sparse::{Part, ScatterMap, lower_pattern};
 use crate::table::Table;
 use crate::term::{ForwardTerm, Instant, Linearized, Pattern, Refusal, Term};
-use faer::MatMut;
+use faer::{MatMut, MatRef};
 pub use loaded_body::{LoadedBody, Remainder};
 use std::sync::Arc;
 
@@ -92,6 +93,23 @@ impl Analysis {
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.symbolic.bytes() + self.retained.len().pow(2) * size_of::<f64>()
+    }
+
+    /// Memory of what it leaves, the factor and the condensed stiffness \[bytes\].
+    #[must_use]
+    pub fn kept(&self) -> usize {
+        (self.symbolic.stored() + self.retained.len().pow(2)) * size_of::<f64>()
+    }
+
+    /// Peak memory of condensing bodies one after another \[bytes\].
+    #[must_use]
+    pub fn bytes_of_all(analyses: &[Self]) -> usize {
+        let (mut peak, mut kept) = (0, 0);
+        for analysis in analyses {
+            peak = peak.max(kept + analysis.bytes());
+            kept += analysis.kept();
+        }
+        peak
     }
 }
 
@@ -221,6 +239,8 @@ pub struct CondensedBody {
     pattern: Pattern,
     /// Retained displacements of the last residual.
     local: Vec<f64>,
+    /// Forces that they cause \[N\], reused.
+    forces: Vec<f64>,
 }
 
 impl CondensedBody {
@@ -228,8 +248,8 @@ impl CondensedBody {
     #[must_use]
     pub fn new(name: String, reduction: Reduction, system: &[usize]) -> Self {
         let pattern = Pattern::from_blocks([system]);
-        let local = vec![0.0; system.len()];
-        Self { name, reduction, loads: Vec::new(), pattern, local }
+        let (local, forces) = (vec![0.0; system.len()], vec![0.0; system.len()]);
+        Self { name, reduction, loads: Vec::new(), pattern, local, forces }
     }
 
     /// Sets the loads, given in body numbering; each takes half a solve.
@@ -347,9 +367,9 @@ impl Term for CondensedBody {
             *local = u[dof];
         }
         let m = self.local.len();
-        for (row, &dof) in self.reduction.schur.chunks_exact(m.max(1)).zip(self.pattern.dofs()) {
-            r[dof] += row.iter().zip(&self.local).map(|(s, u)| s * u).sum::<f64>();
-        }
+        let schur = MatRef::from_column_major_slice(&self.reduction.schur, m, m);
+        multiply_symmetric(schur, &self.local, &mut self.forces);
+        self.pattern.dofs().iter().zip(&self.forces).for_each(|(&dof, force)| r[dof] += force);
         for load in &self.loads {
             let alpha = load.amplitude.value(at.time);
             for (&dof, h) in self.pattern.dofs().iter().zip(&load.retained) {

@@ -4,6 +4,7 @@
 //! copies: committed and trial. A residual writes the trial copy only; [`Term::accept`] commits it and [`Term::reject`]
 //! drops it. Capabilities beyond the residual are separate traits, so that a stepper asks for exactly what it uses.
 
+use crate::relative::RelativeDisplacements;
 use std::fmt;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -257,6 +258,12 @@ pub trait Linearized: Term {
     /// The tangent, where it is the same at every state and in every step, as [`Linearized::tangent`] writes it. A system of
     /// such terms alone is factored once.
     fn constant_tangent(&self) -> Option<&[f64]> {
+        None
+    }
+
+    /// Relative displacements of pairs, where each block of the tangent is `s_k s_j M` with the weights s of one pair and a matrix M
+    /// over its components.
+    fn relative(&self) -> Option<&RelativeDisplacements> {
         None
     }
 

@@ -28,6 +28,8 @@ pub struct Solver {
 pub enum Method {
     /// Dense factorisation of the condensed system.
     Dense,
+    /// Compliance of the pairs of the condensed system: a dense factor of some iterations, GMRES with it in the others.
+    Flexibility,
     /// Sparse factorisation.
     Sparse,
     /// The same where the matrix is symmetric; where it is not, GMRES preconditioned by the Cholesky factor of a symmetric matrix near it.

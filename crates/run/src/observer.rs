@@ -1,5 +1,6 @@
 //! Observers of a run.
 
+use crate::Interrupt;
 use asperity_ode::Control;
 
 /// Failure of an observer, such as a file that cannot be written.
@@ -48,6 +49,11 @@ pub trait Observer<K: Kind> {
         _stand: &mut dyn FnMut() -> K::ResumeState,
     ) -> Result<Option<&'static str>, ObserveError> {
         Ok(None)
+    }
+
+    /// Returns what the next step asks between its iterations, if it takes long.
+    fn interrupt(&self) -> Interrupt {
+        Interrupt::default()
     }
 
     /// Receives the last good state of a run that cannot continue; [`Observer::step`] has already received it.
@@ -114,6 +120,11 @@ impl<K: Kind> Observer<K> for Observers<'_, K> {
             reason = reason.or(own);
         }
         Ok(reason)
+    }
+
+    fn interrupt(&self) -> Interrupt {
+        let all: Vec<Interrupt> = self.0.iter().map(|o| o.interrupt()).collect();
+        Interrupt::new(move || all.iter().any(Interrupt::acts))
     }
 
     fn end(&mut self, moment: &K::Moment<'_>) -> Result<(), ObserveError> {

@@ -8,7 +8,7 @@ use crate::checkpoint::{self, Pauses, ResumeError, SavedState};
 use asperity_ode::Control;
 use asperity_output::OutputError;
 use asperity_output::terminal::progress::{Progress, RunState};
-use asperity_run::{Kind, ObserveError, Observer};
+use asperity_run::{Interrupt, Kind, ObserveError, Observer};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -107,6 +107,9 @@ pub trait Outputs: Sized {
     fn draws(&self) -> bool;
 }
 
+/// Wall time of a step below which its end is awaited: little is lost by that, and nothing has to be repeated.
+const SHORT: Duration = Duration::from_secs(5);
+
 /// Observer that keeps a run in its directory.
 pub struct Keeper<O> {
     out: PathBuf,
@@ -116,6 +119,8 @@ pub struct Keeper<O> {
     pauses: Pauses,
     /// True if a step has been tried since the run began or was resumed.
     moved: bool,
+    /// True if a step has been accepted since then.
+    advanced: bool,
     /// Instant of the last checkpoint, and the time that writing it took.
     written: (Instant, Duration),
     interrupted: Option<&'static str>,
@@ -150,6 +155,7 @@ impl<O: Outputs> Keeper<O> {
             progress: Progress::unseen(place.out),
             pauses: place.pauses,
             moved: false,
+            advanced: false,
             written: (Instant::now(), Duration::ZERO),
             interrupted: None,
         }
@@ -209,7 +215,7 @@ impl<O: Outputs> Observer<O::Kind> for Keeper<O> {
     }
 
     fn step(&mut self, moment: &<O::Kind as Kind>::Moment<'_>) -> Result<Control, ObserveError> {
-        self.moved = true;
+        (self.moved, self.advanced) = (true, true);
         let control = self.outputs.step(moment)?;
         let [time, end] = self.outputs.times(moment);
         self.progress.show(time / end, || self.outputs.now(moment));
@@ -236,6 +242,11 @@ impl<O: Outputs> Observer<O::Kind> for Keeper<O> {
             self.save_since(begun, &saved)?;
         }
         Ok(self.interrupted)
+    }
+
+    fn interrupt(&self) -> Interrupt {
+        let (pauses, advanced, begun) = (self.pauses.clone(), self.advanced, Instant::now());
+        Interrupt::new(move || begun.elapsed() >= SHORT && pauses.reason(advanced).is_some())
     }
 
     fn end(&mut self, moment: &<O::Kind as Kind>::Moment<'_>) -> Result<(), ObserveError> {

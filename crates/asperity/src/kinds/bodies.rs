@@ -145,6 +145,7 @@ impl<const D: usize> Running<'_, D> {
             let moment = self.moment(system);
             system.set_bound(here.length.bound(dt));
             system.set_inertia_bound(here.length.inertia_bound(dt));
+            system.set_interrupt(observer.interrupt());
             let trial = system.step(dt, here.length.smallest(), &mut self.work.counts);
             self.phases.steps += clock.elapsed().as_secs_f64();
             let ended = match trial {
@@ -153,6 +154,8 @@ impl<const D: usize> Running<'_, D> {
                     self.show(index, stage, system, observer, false)?;
                     self.events(moment, system).or_else(|| self.outruns(&here, system, &before, accepted.cut))
                 }
+                // The observer is asked again, which gives the reason.
+                Err(Failure::Interrupted) => None,
                 Err(failure) => self.rejected(&mut here, system, &failure, dt),
             };
             if ended.is_some() {

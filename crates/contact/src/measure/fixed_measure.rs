@@ -14,6 +14,7 @@ use crate::measure::measure_state::MeasureState;
 use crate::measure::{Attachment, Exit, Geometry, Measure, NormalPoint, ShearPoint, Slides, Tractions};
 use crate::spec::SurfaceNode;
 use crate::vector::{axpy, dot, scaled, sub, unit};
+use asperity_fem::relative::RelativeDisplacements;
 use asperity_fem::term::Pattern;
 use asperity_fem::vector::tangent;
 
@@ -46,10 +47,8 @@ pub struct FixedMeasure<const D: usize> {
     pairs: Vec<Pair<D>>,
     /// Interface nodes of all pairs. Each pair lists its slave nodes first.
     nodes: Vec<usize>,
-    /// Weights s_k of the nodes.
-    signs: Vec<f64>,
-    /// First degrees of freedom of the nodes.
-    dofs: Vec<usize>,
+    /// The nodes' first degrees of freedom and weights s_k.
+    relative: RelativeDisplacements,
     areas: Vec<f64>,
     pattern: Pattern,
     collocated: bool,
@@ -61,8 +60,11 @@ impl<const D: usize> FixedMeasure<D> {
         Self {
             pairs: Vec::new(),
             nodes: Vec::new(),
-            signs: Vec::new(),
-            dofs: Vec::new(),
+            relative: RelativeDisplacements {
+                components: D,
+                starts: vec![0],
+                ..RelativeDisplacements::default()
+            },
             areas,
             pattern: Pattern::default(),
             collocated,
@@ -75,7 +77,8 @@ impl<const D: usize> FixedMeasure<D> {
         let from = self.nodes.len();
         let split = from + through.iter().filter(|a| a.slave).count();
         self.nodes.extend(through.iter().map(|a| a.node));
-        self.signs.extend(through.iter().map(|a| a.weight));
+        self.relative.weights.extend(through.iter().map(|a| a.weight));
+        self.relative.starts.push(self.nodes.len());
         self.pairs.push(Pair {
             point,
             from,
@@ -93,11 +96,11 @@ impl<const D: usize> FixedMeasure<D> {
 
     /// Builds the pattern once all points are paired.
     pub(super) fn finish(&mut self, nodes: &[SurfaceNode<D>]) {
-        self.dofs = self.nodes.iter().map(|&n| nodes[n].dof).collect();
+        self.relative.dofs = self.nodes.iter().map(|&n| nodes[n].dof).collect();
         let blocks: Vec<Vec<usize>> = self
             .pairs
             .iter()
-            .map(|p| self.dofs[p.from..p.to].iter().flat_map(|&d| d..d + D).collect())
+            .map(|p| self.relative.dofs[p.from..p.to].iter().flat_map(|&d| d..d + D).collect())
             .collect();
         self.pattern = Pattern::from_blocks(blocks.iter().map(Vec::as_slice));
     }
@@ -155,6 +158,10 @@ impl<const D: usize> Measure<D> for FixedMeasure<D> {
         &self.pattern
     }
 
+    fn relative(&self) -> Option<&RelativeDisplacements> {
+        Some(&self.relative)
+    }
+
     fn block_points(&self, out: &mut Vec<usize>) {
         out.extend(self.pairs.iter().map(|pair| pair.point));
     }
@@ -167,7 +174,7 @@ impl<const D: usize> Measure<D> for FixedMeasure<D> {
         for pair in &mut self.pairs {
             let mut w = [0.0; D];
             for k in pair.from..pair.to {
-                axpy(&mut w, self.signs[k], &u[self.nodes[k]]);
+                axpy(&mut w, self.relative.weights[k], &u[self.nodes[k]]);
             }
             pair.present = [dot(&pair.frame[0], &w), dot(&pair.frame[1], &w)];
             let p = pair.point;
@@ -190,8 +197,8 @@ impl<const D: usize> Measure<D> for FixedMeasure<D> {
         for pair in &self.pairs {
             let f = &force[pair.point];
             for k in pair.from..pair.to {
-                let c = -pair.area * self.signs[k];
-                for (r, fi) in residual[self.dofs[k]..self.dofs[k] + D].iter_mut().zip(f) {
+                let c = -pair.area * self.relative.weights[k];
+                for (r, fi) in residual[self.relative.dofs[k]..self.relative.dofs[k] + D].iter_mut().zip(f) {
                     *r += c * fi;
                 }
             }
@@ -211,7 +218,7 @@ impl<const D: usize> Measure<D> for FixedMeasure<D> {
             }
             let shear = tractions.shear.map(|s| &s[pair.point]);
             let m = point_matrix(&pair.normal, &pair.frame, contact, shear, tractions.stiffness);
-            let signs = &self.signs[pair.from..pair.to];
+            let signs = &self.relative.weights[pair.from..pair.to];
             let mut rows = block.chunks_exact_mut(n * D);
             for sk in signs {
                 for mi in &m {
@@ -231,7 +238,7 @@ impl<const D: usize> Measure<D> for FixedMeasure<D> {
         for pair in &self.pairs {
             let mut w = [0.0; D];
             for k in pair.from..pair.to {
-                axpy(&mut w, self.signs[k], &du[self.nodes[k]]);
+                axpy(&mut w, self.relative.weights[k], &du[self.nodes[k]]);
             }
             out.gap[pair.point] = dot(&pair.normal, &w);
             out.increment[pair.point] = [dot(&pair.frame[0], &w), dot(&pair.frame[1], &w)];
@@ -256,7 +263,11 @@ impl<const D: usize> Measure<D> for FixedMeasure<D> {
         if let Ok(i) = self.pairs.binary_search_by_key(&p, |pair| pair.point) {
             let pair = &self.pairs[i];
             for k in pair.from..pair.to {
-                out.push(Attachment { node: self.nodes[k], weight: self.signs[k], slave: k < pair.split });
+                out.push(Attachment {
+                    node: self.nodes[k],
+                    weight: self.relative.weights[k],
+                    slave: k < pair.split,
+                });
             }
         }
     }

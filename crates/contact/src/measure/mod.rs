@@ -9,6 +9,7 @@ pub mod measure_state;
 pub mod mortar;
 pub mod node_to_point;
 
+use asperity_fem::relative::RelativeDisplacements;
 use asperity_fem::term::Pattern;
 use measure_state::MeasureState;
 use std::fmt;
@@ -122,6 +123,11 @@ pub struct Attachment {
 pub trait Measure<const D: usize>: Send + Sync + fmt::Debug {
     /// Blocks of degrees of freedom, one for each paired point.
     fn pattern(&self) -> &Pattern;
+
+    /// Relative displacements through which points act, if nodes and weights are fixed.
+    fn relative(&self) -> Option<&RelativeDisplacements> {
+        None
+    }
 
     /// Adds the slave point of each block of the pattern to `out`.
     fn block_points(&self, out: &mut Vec<usize>);

@@ -75,6 +75,9 @@ impl DenseStore {
 
     /// Equations left over.
     pub fn left(&self) -> Option<RemainingEquations> {
+        if self.remembered.is_some() {
+            return self.remembered.clone();
+        }
         let (eliminated, made_of) = (self.eliminated.as_ref()?, self.made_of.as_ref()?);
         let constant = made_of.iter().map(Option::is_some).collect();
         Some(RemainingEquations { constant, equations: eliminated.rest().to_vec() })

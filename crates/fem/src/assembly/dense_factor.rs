@@ -8,6 +8,7 @@ use faer::linalg::cholesky::llt::factor::{self as llt, LltError};
 use faer::linalg::lu::partial_pivoting::{factor as lu, solve as lu_solve};
 use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
 use faer::perm::Perm;
+use faer::traits::ComplexField;
 use faer::{Mat, MatMut, MatRef, Par};
 
 /// Factors of a matrix.
@@ -83,18 +84,18 @@ impl Cholesky {
 
 /// `P K = L U` with partial pivoting.
 #[derive(Debug)]
-pub(super) struct Lu {
+pub(super) struct Lu<T = f64> {
     /// U, and L below the diagonal.
-    both: Mat<f64>,
+    both: Mat<T>,
     rows: Perm<usize>,
 }
 
-impl Lu {
+impl<T: ComplexField> Lu<T> {
     /// Factors a matrix.
-    pub fn new(mut matrix: Mat<f64>) -> Self {
+    pub fn new(mut matrix: Mat<T>) -> Self {
         let n = matrix.nrows();
         let (mut forward, mut inverse) = (vec![0; n], vec![0; n]);
-        let request = lu::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, Default::default());
+        let request = lu::lu_in_place_scratch::<usize, T>(n, n, Par::Seq, Default::default());
         let mut memory = MemBuffer::new(request);
         let stack = MemStack::new(&mut memory);
         lu::lu_in_place(matrix.as_mut(), &mut forward, &mut inverse, Par::Seq, stack, Default::default());
@@ -102,8 +103,8 @@ impl Lu {
     }
 
     /// Solves in place.
-    pub fn solve(&self, rhs: &mut [f64]) {
-        let request = lu_solve::solve_in_place_scratch::<usize, f64>(rhs.len(), 1, Par::Seq);
+    pub fn solve(&self, rhs: &mut [T]) {
+        let request = lu_solve::solve_in_place_scratch::<usize, T>(rhs.len(), 1, Par::Seq);
         let mut memory = MemBuffer::new(request);
         let (both, stack) = (self.both.as_ref(), MemStack::new(&mut memory));
         lu_solve::solve_in_place(both, both, self.rows.as_ref(), column(rhs), Par::Seq, stack);
@@ -111,7 +112,7 @@ impl Lu {
 }
 
 /// Values as a matrix of one column.
-pub(super) fn column(values: &mut [f64]) -> MatMut<'_, f64> {
+pub(super) fn column<T>(values: &mut [T]) -> MatMut<'_, T> {
     let n = values.len();
     MatMut::from_column_major_slice_mut(values, n, 1)
 }

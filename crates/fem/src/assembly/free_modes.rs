@@ -36,9 +36,10 @@ impl System {
     }
 
     /// Lower triangle of the symmetric part of the matrix.
-    fn lower(&self) -> Option<SymmetricPart> {
+    pub(super) fn lower(&self) -> Option<SymmetricPart> {
         match &self.store {
             Store::Dense(store) => Some(SymmetricPart::from_dense(&store.matrix())),
+            Store::Flexibility(store) => Some(SymmetricPart::from_dense(&store.matrix()?)),
             Store::Sparse(store) => store.map.as_ref().map(|map| SymmetricPart::from_sparse(map.matrix())),
             Store::Preconditioned(store) => {
                 store.exact().map.as_ref().map(|map| SymmetricPart::from_sparse(map.matrix()))

@@ -1,8 +1,10 @@
 //! Memory of earlier assemblies of a system, as values, for a run that is resumed.
 //!
-//! Factors and analyses follow from the next assembly. Two things do not: the scale of the last assembly, which decides what counts as
-//! rounding before the next, and the equations of a dense system that remained after eliminating the others.
+//! Factors and analyses follow from the next assembly. Three things do not: the scale of the last assembly, which decides what counts as
+//! rounding before the next, the equations of a dense system that remained after eliminating the others, and the pairs whose factor
+//! preconditions those of later steps.
 
+use super::flexibility::FactorMemory;
 use super::symmetry::RemainingEquations;
 use super::{Store, System};
 use crate::term::Linearized;
@@ -17,6 +19,8 @@ pub struct Memory {
     pub(super) factored: bool,
     /// Remaining equations of a dense system, if others were eliminated.
     pub(super) left: Option<RemainingEquations>,
+    /// Origin of the factor of tractions between pairs.
+    pub(super) pairs: Option<FactorMemory>,
 }
 
 impl System {
@@ -29,7 +33,11 @@ impl System {
             factored: constant && self.is_factored(terms.iter().map(|t| t.pattern())),
             left: match &self.store {
                 Store::Dense(store) => store.left(),
-                Store::Sparse(_) | Store::Preconditioned(_) | Store::Iterative(_) => None,
+                _ => None,
+            },
+            pairs: match &self.store {
+                Store::Flexibility(store) => store.memory(),
+                _ => None,
             },
         }
     }
@@ -41,6 +49,12 @@ impl System {
             let fits = left.equations.iter().all(|&e| e < self.equations.free.len());
             match &mut self.store {
                 Store::Dense(store) if fits => store.remember(left.clone()),
+                _ => return false,
+            }
+        }
+        if let Some(pairs) = &memory.pairs {
+            match &mut self.store {
+                Store::Flexibility(store) => store.remember(pairs.clone()),
                 _ => return false,
             }
         }

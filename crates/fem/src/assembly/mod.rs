@@ -4,6 +4,7 @@
 mod dense;
 mod dense_factor;
 mod direct;
+mod flexibility;
 mod free_modes;
 mod iterative;
 mod memory;
@@ -19,6 +20,7 @@ use crate::term::{ForwardTerm, Linearized, Pattern, PatternId};
 use dense::DenseStore;
 use direct::SparseStore;
 pub use direct::{Analysis, LowerTriangle};
+use flexibility::{FlexibilityStore, Part};
 use iterative::IterativeStore;
 pub use iterative::{Iterative, NearNull};
 pub use memory::Memory;
@@ -32,6 +34,8 @@ pub use symmetry::Symmetry;
 pub enum Storage {
     /// Dense: condensed systems.
     Dense,
+    /// Compliance of pairs: large condensed systems of constant terms and fixed pairs.
+    Flexibility,
     /// Compressed columns: systems of all degrees of freedom.
     Sparse,
     /// The same, for systems so large that LU is avoided: unsymmetric ones are solved by GMRES, preconditioned by a Cholesky factor.
@@ -71,6 +75,7 @@ pub struct System {
 #[derive(Debug)]
 enum Store {
     Dense(Box<DenseStore>),
+    Flexibility(Box<FlexibilityStore>),
     Sparse(Box<SparseStore>),
     Preconditioned(Box<PreconditionedStore>),
     Iterative(Box<IterativeStore>),
@@ -82,6 +87,7 @@ impl System {
     pub fn new(equations: Equations, storage: Storage) -> Self {
         let store = match storage {
             Storage::Dense => Store::Dense(Box::new(DenseStore::new(equations.free.len()))),
+            Storage::Flexibility => Store::Flexibility(Box::default()),
             Storage::Sparse => Store::Sparse(Box::default()),
             Storage::Preconditioned => {
                 Store::Preconditioned(Box::new(PreconditionedStore::new(usize::MAX, None)))
@@ -134,14 +140,16 @@ impl System {
         match &mut self.store {
             Store::Sparse(store) => store.forget(),
             Store::Preconditioned(store) => store.forget(),
-            Store::Dense(_) | Store::Iterative(_) => {}
+            Store::Dense(_) | Store::Flexibility(_) | Store::Iterative(_) => {}
         }
     }
 
     /// Begins a step, whose solution depends on none before it.
     pub fn begin_step(&mut self) {
-        if let Store::Preconditioned(store) = &mut self.store {
-            store.begin_step();
+        match &mut self.store {
+            Store::Preconditioned(store) => store.begin_step(),
+            Store::Flexibility(store) => store.begin_step(),
+            Store::Dense(_) | Store::Sparse(_) | Store::Iterative(_) => {}
         }
     }
 
@@ -152,7 +160,7 @@ impl System {
         match &mut self.store {
             Store::Sparse(store) => store.prepare(memory, analysis),
             Store::Preconditioned(store) => **store = PreconditionedStore::new(memory, analysis),
-            Store::Dense(_) | Store::Iterative(_) => {}
+            Store::Dense(_) | Store::Flexibility(_) | Store::Iterative(_) => {}
         }
         self
     }
@@ -190,31 +198,14 @@ impl System {
         }
     }
 
-    /// Assembles what `values_of` writes for each term (a consistent or a rate tangent) and factors it.
-    ///
-    /// # Errors
-    /// [`FemError::Unheld`] when the matrix is singular, or not positive definite where it must be; whatever `values_of`
-    /// refuses.
-    pub fn factor<T, E>(
-        &mut self,
-        terms: &mut [T],
-        pattern_of: impl Fn(&T) -> &Pattern,
-        values_of: impl FnMut(&mut T, &mut [f64]) -> Result<(), E>,
-    ) -> Result<Result<(), FemError>, E> {
-        let outcome = self.assemble(terms, pattern_of, |_| None, true, values_of, |_, _| {})?;
-        Ok(outcome.map(|_| ()))
-    }
-
     /// Assembles and factors the consistent tangents of `terms` at the state of their last residual. Returns false when all of
     /// them are constant and there is a factor already.
     ///
     /// # Errors
-    /// As [`System::factor`].
+    /// [`FemError::Unheld`] when the matrix is singular, or not positive definite where it must be.
     pub fn factor_tangent(&mut self, terms: &mut [&mut dyn Linearized]) -> Result<bool, FemError> {
         let outcome: Result<_, Infallible> = self.assemble(
             terms,
-            |t| t.pattern(),
-            |t| t.constant_tangent(),
             false,
             |t, values| {
                 t.tangent(values);
@@ -232,48 +223,37 @@ impl System {
     /// when all of them are constant and there is a factor already.
     ///
     /// # Errors
-    /// As [`System::factor`].
+    /// As [`System::factor_tangent`]; whatever `values_of` refuses.
     pub fn factor_rate<E>(
         &mut self,
         terms: &mut [&mut dyn ForwardTerm],
         mut values_of: impl FnMut(&mut dyn ForwardTerm, &mut [f64]) -> Result<(), E>,
     ) -> Result<Result<bool, FemError>, E> {
-        self.assemble(
-            terms,
-            |t| t.pattern(),
-            |t| t.constant_tangent(),
-            true,
-            |t, values| values_of(&mut **t, values),
-            |_, _| {},
-        )
+        self.assemble(terms, true, |t, values| values_of(t, values), |_, _| {})
     }
 
     /// Assembles and factors, unless the values of all terms are constant and factored. With `always`, `values_of` is called
     /// for constant terms as well. `near_of` replaces the values of a term by those from which a system is preconditioned; their
     /// symmetric part is taken.
-    fn assemble<T, E>(
+    fn assemble<T: Linearized + ?Sized, E>(
         &mut self,
-        terms: &mut [T],
-        pattern_of: impl Fn(&T) -> &Pattern,
-        constant_of: impl Fn(&T) -> Option<&[f64]>,
+        terms: &mut [&mut T],
         always: bool,
         mut values_of: impl FnMut(&mut T, &mut [f64]) -> Result<(), E>,
         near_of: impl Fn(&mut T, &mut [f64]),
     ) -> Result<Result<bool, FemError>, E> {
-        let keep =
-            terms.iter().all(|t| constant_of(t).is_some()) && self.is_factored(terms.iter().map(&pattern_of));
+        let keep = terms.iter().all(|t| t.constant_tangent().is_some())
+            && self.is_factored(terms.iter().map(|t| t.pattern()));
         if !keep {
-            let patterns: Vec<&Pattern> = terms.iter().map(&pattern_of).collect();
-            let constant = terms.iter().map(|t| constant_of(t).map(|_| pattern_of(t).id()));
-            if let Err(error) = self.begin(&patterns, constant.collect()) {
+            if let Err(error) = self.begin(terms) {
                 return Ok(Err(error));
             }
         }
         let mut own: Vec<Option<Vec<f64>>> = Vec::new();
         let mut offset = 0;
         for term in &mut *terms {
-            let values = pattern_of(term).values();
-            if always || constant_of(term).is_none() {
+            let values = term.pattern().values();
+            if always || term.constant_tangent().is_none() {
                 self.buffer.clear();
                 self.buffer.resize(values, 0.0);
                 values_of(term, &mut self.buffer)?;
@@ -281,13 +261,16 @@ impl System {
             if keep {
                 continue;
             }
-            let constant = constant_of(term);
+            let constant = term.constant_tangent();
             let tangent = constant.unwrap_or(&self.buffer);
             self.largest_entry = self.largest_entry.max(largest(tangent));
-            self.products = self.products.max(pattern_of(term).most_products());
+            self.products = self.products.max(term.pattern().most_products());
             match &mut self.store {
                 Store::Dense(store) => {
-                    store.add(&self.equations, pattern_of(term), tangent, constant.is_some());
+                    store.add(&self.equations, term.pattern(), tangent, constant.is_some());
+                }
+                Store::Flexibility(store) => {
+                    store.add(&self.equations, term.pattern(), tangent, term.relative());
                 }
                 Store::Sparse(store) => offset = store.add(offset, tangent),
                 Store::Preconditioned(store) => {
@@ -297,7 +280,7 @@ impl System {
                         store.add_near(first, constant);
                     } else if store.is_due() {
                         near_of(term, &mut self.buffer);
-                        symmetrise(pattern_of(term), &mut self.buffer);
+                        symmetrise(term.pattern(), &mut self.buffer);
                         store.add_near(first, &self.buffer);
                     }
                 }
@@ -311,10 +294,10 @@ impl System {
         }
         let outcome = match &mut self.store {
             Store::Iterative(store) => {
-                let patterns: Vec<&Pattern> = terms.iter().map(&pattern_of).collect();
+                let patterns: Vec<&Pattern> = terms.iter().map(|t| t.pattern()).collect();
                 let tangents = terms.iter().zip(&own).map(|(t, own)| match own {
                     Some(own) => own.as_slice(),
-                    None => constant_of(t).unwrap_or_default(),
+                    None => t.constant_tangent().unwrap_or_default(),
                 });
                 store.set(&patterns, &tangents.collect::<Vec<_>>(), &self.equations).map(|()| 1)
             }
@@ -323,23 +306,35 @@ impl System {
         let outcome = outcome.map_err(|e| self.in_degrees_of_freedom(e));
         if let Ok(made) = outcome {
             self.factorisations += made;
-            self.factored = Some(terms.iter().map(|t| pattern_of(t).id()).collect());
+            self.factored = Some(terms.iter().map(|t| t.pattern().id()).collect());
         }
         Ok(outcome.map(|_| true))
     }
 
-    /// Prepares an assembly of these patterns; `constant` has the identities of those whose terms are.
-    fn begin(&mut self, patterns: &[&Pattern], constant: Vec<Option<PatternId>>) -> Result<(), FemError> {
+    /// Prepares an assembly of these terms.
+    fn begin<T: Linearized + ?Sized>(&mut self, terms: &[&mut T]) -> Result<(), FemError> {
         self.factored = None;
         self.largest_entry = 0.0;
         self.products = 0;
+        let patterns: Vec<&Pattern> = terms.iter().map(|t| t.pattern()).collect();
         match &mut self.store {
-            Store::Dense(store) => store.begin(constant),
+            Store::Dense(store) => {
+                let constant = terms.iter().map(|t| t.constant_tangent().map(|_| t.pattern().id()));
+                store.begin(constant.collect());
+            }
+            Store::Flexibility(store) => {
+                let part = |t: &&mut T| match (t.constant_tangent(), t.relative()) {
+                    (Some(_), _) => Part::Constant(t.pattern().id()),
+                    (None, Some(_)) => Part::Pairs(t.pattern().id()),
+                    (None, None) => Part::Changing,
+                };
+                store.begin(&patterns, terms.iter().map(part).collect(), &self.equations);
+            }
             Store::Sparse(store) => {
-                store.renew(patterns, &self.equations, self.symmetry)?;
+                store.renew(&patterns, &self.equations, self.symmetry)?;
                 store.clear();
             }
-            Store::Preconditioned(store) => store.begin(patterns, &self.equations, self.symmetry)?,
+            Store::Preconditioned(store) => store.begin(&patterns, &self.equations, self.symmetry)?,
             Store::Iterative(_) => {}
         }
         Ok(())
@@ -350,6 +345,7 @@ impl System {
         self.check_held()?;
         let (made, indefinite) = match &mut self.store {
             Store::Dense(store) => (1, store.factor(self.symmetry)?),
+            Store::Flexibility(store) => (store.factor()?, false),
             Store::Sparse(store) => (1, store.factor(self.symmetry)?),
             Store::Preconditioned(store) => store.factor()?,
             Store::Iterative(_) => (0, false),
@@ -365,7 +361,8 @@ impl System {
             Store::Dense(store) => (store.diagonal(), store.empty_column()),
             Store::Sparse(store) => (store.diagonal(), store.empty_column()),
             Store::Preconditioned(store) => (store.exact().diagonal(), store.exact().empty_column()),
-            Store::Iterative(_) => return Ok(()),
+            // Pairs may hold what is not held otherwise: the solution tells.
+            Store::Flexibility(_) | Store::Iterative(_) => return Ok(()),
         };
         let unheld = match self.symmetry {
             Symmetry::General => unheld,
@@ -405,6 +402,14 @@ impl System {
         let solved = match &mut self.store {
             Store::Dense(store) => store.solve(rhs),
             Store::Sparse(store) => store.solve(rhs),
+            Store::Flexibility(store) => match store.solve(rhs) {
+                None => false,
+                Some((outcome, made)) => {
+                    self.iterations += outcome.map_or(0, |outcome| outcome.report().iterations);
+                    self.factorisations += made;
+                    true
+                }
+            },
             Store::Preconditioned(store) => match store.solve(rhs)? {
                 None => false,
                 Some((outcome, made)) => {
@@ -429,7 +434,12 @@ impl System {
         }
         self.solves += 1;
         let pivot = match rhs.iter().position(|x| !x.is_finite()) {
-            Some(k) => Pivot { equation: k, pivot: 0.0, diagonal: 0.0 },
+            // Tractions that are not finite spread over all that they act on.
+            Some(k) => {
+                let pairs = matches!(self.store, Store::Flexibility(_));
+                let found = if pairs { self.lower().and_then(|lower| lower.singular()) } else { None };
+                found.unwrap_or(Pivot { equation: k, pivot: 0.0, diagonal: 0.0 })
+            }
             None => match self.suspect(size(rhs), load) {
                 Some(pivot) => pivot,
                 None => return Ok(()),

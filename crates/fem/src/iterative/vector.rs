@@ -1,6 +1,7 @@
 //! Vectors of node blocks. Every reduction is divided into pieces of a fixed size and summed in order: the same bits for any
 //! number of threads.
 
+use crate::product;
 use rayon::prelude::*;
 
 /// Node blocks treated by one task.
@@ -12,7 +13,7 @@ pub fn dot<const B: usize>(x: &[[f64; B]], y: &[[f64; B]]) -> f64 {
     let parts: Vec<f64> = x
         .par_chunks(CHUNK)
         .zip(y.par_chunks(CHUNK))
-        .map(|(x, y)| x.as_flattened().iter().zip(y.as_flattened()).map(|(x, y)| x * y).sum())
+        .map(|(x, y)| product::dot(x.as_flattened(), y.as_flattened()))
         .collect();
     parts.iter().sum()
 }

@@ -8,11 +8,13 @@ use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::mesh::generate::{Block, Grading};
 use asperity_fem::mesh::{Mesh, nodes_of_sides};
+use asperity_fem::relative::RelativeDisplacements;
 use asperity_fem::scatter::CellForces;
 use asperity_fem::sparse::{Part, ScatterMap};
 use asperity_fem::term::{Instant, Linearized, Pattern, Refusal, Term};
 
-const STORAGES: [Storage; 3] = [Storage::Dense, Storage::Sparse, Storage::Preconditioned];
+const STORAGES: [Storage; 4] =
+    [Storage::Dense, Storage::Flexibility, Storage::Sparse, Storage::Preconditioned];
 
 fn mesh(n: usize) -> Mesh<2> {
     let kind = ElementKind::Quad9;
@@ -250,6 +252,211 @@ fn all_systems_solve_alike_whichever_pairs_close_and_open() {
     );
 }
 
+/// Pairs of a node of one block and three of another, with friction on the closed ones.
+struct Touching {
+    pattern: Pattern,
+    relative: RelativeDisplacements,
+    closed: Vec<bool>,
+    /// Stiffness along and across \[N/m\].
+    stiffness: [f64; 2],
+}
+
+impl Touching {
+    /// Pairs of node `k` of the first nodes with nodes `k`, `k + 1` and `k + 2` of the second.
+    fn new(first: &[usize], second: &[usize], stiffness: [f64; 2]) -> Self {
+        let nodes = |k: usize| [first[k], second[k], second[k + 1], second[k + 2]];
+        let pairs = second.len() - 2;
+        let blocks: Vec<Vec<usize>> =
+            (0..pairs).map(|k| nodes(k).iter().flat_map(|n| [2 * n, 2 * n + 1]).collect()).collect();
+        let relative = RelativeDisplacements {
+            components: 2,
+            starts: (0..=pairs).map(|k| 4 * k).collect(),
+            dofs: (0..pairs).flat_map(nodes).map(|n| 2 * n).collect(),
+            weights: [1.0, -0.5, -0.25, -0.25].repeat(pairs),
+        };
+        let pattern = Pattern::from_blocks(blocks.iter().map(Vec::as_slice));
+        Self { pattern, relative, closed: vec![false; pairs], stiffness }
+    }
+}
+
+impl Term for Touching {
+    fn name(&self) -> &str {
+        "touching"
+    }
+
+    fn residual(&mut self, _u: &[f64], _at: Instant, _r: &mut [f64]) -> Result<(), Refusal> {
+        Ok(())
+    }
+
+    fn accept(&mut self) {}
+
+    fn reject(&mut self) {}
+}
+
+impl Linearized for Touching {
+    fn pattern(&self) -> &Pattern {
+        &self.pattern
+    }
+
+    fn tangent(&mut self, values: &mut [f64]) {
+        values.fill(0.0);
+        let [along, across] = self.stiffness;
+        let m = [[along, 0.4 * across], [0.0, across]];
+        for (k, block) in values.chunks_exact_mut(64).enumerate().filter(|(k, _)| self.closed[*k]) {
+            for (i, row) in block.chunks_exact_mut(8).enumerate() {
+                let weight = |i: usize| self.relative.weights[4 * k + i / 2];
+                row.iter_mut().enumerate().for_each(|(j, v)| *v = weight(i) * weight(j) * m[i % 2][j % 2]);
+            }
+        }
+    }
+
+    fn relative(&self) -> Option<&RelativeDisplacements> {
+        Some(&self.relative)
+    }
+}
+
+/// Two blocks side by side, with these divisions each, and the nodes of the sides that face each other.
+fn two_blocks(divisions: [usize; 2]) -> (Mesh<2>, [Vec<usize>; 2]) {
+    let block = |x: f64| {
+        let kind = ElementKind::Quad9;
+        let (min, max) = ([x, 0.0], [x + 1.0, 1.0]);
+        Block { min, max, divisions, grading: [Grading::Uniform; 2], kind }.mesh().unwrap()
+    };
+    let mut mesh = block(0.0);
+    mesh.append(block(1.0), "second");
+    let nodes = |set: &str| nodes_of_sides(&mesh, &mesh.side_sets[set]);
+    let facing = [nodes("right"), nodes("second.left")];
+    (mesh, facing)
+}
+
+fn system_of(mesh: &Mesh<2>, held: &[&str], storage: Storage) -> System {
+    let nodes = held.iter().flat_map(|set| nodes_of_sides(mesh, &mesh.side_sets[*set]));
+    let mut fixed: Vec<usize> = nodes.flat_map(|n| [2 * n, 2 * n + 1]).collect();
+    fixed.sort_unstable();
+    System::new(Constraints { fixed, channels: Vec::new() }.equations(2 * mesh.nodes.len()), storage)
+}
+
+fn linear(mesh: &Mesh<2>, block: usize) -> LinearBlock<2> {
+    let material = Elastic::new(3e9, 0.2).unwrap();
+    LinearBlock::new(mesh, block, &material, Idealisation::from_dimension(2), Formulation::Standard).unwrap()
+}
+
+/// Largest error of a solution over the largest value of what is expected.
+fn error(found: &[f64], expected: &[f64]) -> f64 {
+    let size = expected.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    found.iter().zip(expected).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / size
+}
+
+fn solution(system: &mut System, terms: &mut [&mut dyn Linearized]) -> Vec<f64> {
+    let n = system.equations().free.len();
+    system.factor_tangent(terms).unwrap();
+    let mut x: Vec<f64> = (0..n).map(|k| ((k * 31) % 17) as f64 - 8.0).collect();
+    system.solve(&mut x).unwrap();
+    x
+}
+
+#[test]
+fn tractions_between_bodies_that_are_held_or_float_are_those_of_lu() {
+    let (mesh, [right, left]) = two_blocks([3, 5]);
+    let (mut first, mut second) = (linear(&mesh, 0), linear(&mesh, 1));
+    let mut contact = Touching::new(&right, &left, [3e11, 1e11]);
+    for held in [&["left", "second.right"][..], &["left"]] {
+        let mut pairs = system_of(&mesh, held, Storage::Flexibility);
+        for closed in [0..9, 2..5, 0..4, 0..9] {
+            contact.closed.iter_mut().enumerate().for_each(|(k, is)| *is = closed.contains(&k));
+            let mut terms: [&mut dyn Linearized; 3] = [&mut first, &mut second, &mut contact];
+            let expected = solution(&mut system_of(&mesh, held, Storage::Sparse), &mut terms);
+            let found = solution(&mut pairs, &mut terms);
+            // Rounding times the condition number of the blocks, 1e4, and the ratio of the stiffness of the pairs to theirs, 100.
+            assert!(error(&found, &expected) < 1e-9, "{held:?} {closed:?}: {:e}", error(&found, &expected));
+        }
+        assert_eq!((pairs.factorisations, pairs.iterations), (4, 0));
+        contact.closed.fill(false);
+        let n = pairs.equations().free.len();
+        let open = pairs
+            .factor_tangent(&mut [&mut first, &mut second, &mut contact])
+            .and_then(|_| pairs.solve(&mut vec![1.0; n]));
+        let floats = held.len() == 1;
+        assert_eq!(open.is_err_and(|error| error.is_singular()), floats);
+    }
+}
+
+/// Product of the sum of the tangents with `x`.
+fn product(terms: &mut [&mut dyn Linearized], equations: &Equations, x: &[f64]) -> Vec<f64> {
+    let mut u = vec![0.0; equations.number.len()];
+    equations.spread(x, &mut u);
+    let mut forces = vec![0.0; u.len()];
+    for term in terms {
+        let mut values = vec![0.0; term.pattern().values()];
+        term.tangent(&mut values);
+        let mut rows = values.as_slice();
+        for block in term.pattern().blocks() {
+            for &dof in block {
+                let (row, rest) = rows.split_at(block.len());
+                forces[dof] += row.iter().zip(block).map(|(k, &d)| k * u[d]).sum::<f64>();
+                rows = rest;
+            }
+        }
+    }
+    equations.gather(&forces)
+}
+
+/// Newton's method for a linear system: the solution after so many iterations.
+fn iterated(
+    system: &mut System,
+    terms: &mut [&mut dyn Linearized],
+    load: &[f64],
+    iterations: usize,
+) -> Vec<f64> {
+    let mut x = vec![0.0; load.len()];
+    system.begin_step();
+    for _ in 0..iterations {
+        let ax = product(terms, system.equations(), &x);
+        let mut rest: Vec<f64> = load.iter().zip(ax).map(|(b, ax)| b - ax).collect();
+        system.factor_tangent(terms).unwrap();
+        system.solve(&mut rest).unwrap();
+        x.iter_mut().zip(rest).for_each(|(x, dx)| *x += dx);
+    }
+    x
+}
+
+#[test]
+fn a_factor_of_many_pairs_serves_while_few_change_and_a_resumed_system_goes_on_with_it() {
+    let (mesh, [right, left]) = two_blocks([1, 130]);
+    let (mut first, mut second) = (linear(&mesh, 0), linear(&mesh, 1));
+    let mut contact = Touching::new(&right, &left, [3e11, 1e11]);
+    let held = ["left", "second.right"];
+    let mut pairs = system_of(&mesh, &held, Storage::Flexibility);
+    let load: Vec<f64> = (0..pairs.equations().free.len()).map(|k| ((k * 31) % 17) as f64 - 8.0).collect();
+    let mut resumed: Option<System> = None;
+    for (step, open) in [0..0, 3..5, 100..105, 0..0, 7..8].into_iter().enumerate() {
+        contact.closed.iter_mut().enumerate().for_each(|(k, is)| *is = !open.contains(&k));
+        let mut terms: [&mut dyn Linearized; 3] = [&mut first, &mut second, &mut contact];
+        let expected = solution(&mut system_of(&mesh, &held, Storage::Sparse), &mut terms);
+        let found = iterated(&mut pairs, &mut terms, &load, 4);
+        // The first iteration leaves 1 % of the load, the others the square of what the one before gained: rounding in the end.
+        assert!(error(&found, &expected) < 1e-9, "{open:?}: {:e}", error(&found, &expected));
+        if let Some(resumed) = &mut resumed {
+            assert_eq!(iterated(resumed, &mut terms, &load, 4), found, "step {step}");
+        } else if step == 1 {
+            let mut other = system_of(&mesh, &held, Storage::Flexibility);
+            assert!(other.restore(&pairs.memory(&terms), &mut terms));
+            resumed = Some(other);
+        }
+    }
+    // Twenty solutions.
+    let made = pairs.factorisations;
+    assert!(made <= 4 && pairs.iterations > 0, "{made} {}", pairs.iterations);
+    // All slip at once: what iterations cost beyond the first solution makes another factor, which serves again.
+    contact.closed.fill(true);
+    contact.stiffness = [3e11, 1e7];
+    for _ in 0..6 {
+        contact.stiffness[1] *= 1.01;
+        iterated(&mut pairs, &mut [&mut first, &mut second, &mut contact], &load, 2);
+    }
+    assert!((1..=3).contains(&(pairs.factorisations - made)), "{}", pairs.factorisations - made);
+}
+
 #[test]
 fn an_unsymmetric_system_is_solved_by_lu_where_no_positive_one_is_near() {
     let mesh = mesh(6);
@@ -379,7 +586,7 @@ fn a_symmetric_matrix_with_a_negative_mode_is_solved_by_lu_and_counted() {
     // A spring with negative stiffness at the last degree of freedom, stiffer than the body: one negative eigenvalue.
     let dof = 2 * mesh.nodes.len() - 1;
     let mut away = Spring::new(dof, -3e10);
-    for storage in STORAGES {
+    for storage in [Storage::Dense, Storage::Sparse, Storage::Preconditioned] {
         let mut solve = |symmetry, stiffness: f64| {
             away.stiffness = stiffness;
             let mut system = System::new(clamped(&mesh), storage).with_symmetry(symmetry);

@@ -18,7 +18,7 @@ use asperity_fem::FemError;
 use asperity_fem::assembly::{Symmetry, System};
 use asperity_fem::dof::Constraints;
 use asperity_fem::term::{Instant, Linearized, PatternId};
-use asperity_run::Operations;
+use asperity_run::{Interrupt, Operations};
 
 /// Residual over the largest force at which an iteration has converged. Rounding leaves 1e-14 to 1e-12 (the condensed stiffness
 /// acts on displacements some hundred times the elastic ones). A Newton step below this bound squares it.
@@ -72,6 +72,10 @@ pub struct Implicit {
     bound: f64,
     /// Residual over the largest force at each iteration of the current step \[-\].
     residuals: Vec<f64>,
+    /// What steps ask between iterations.
+    interrupt: Interrupt,
+    /// Values before a step that was interrupted.
+    before: Option<StepperState>,
 }
 
 impl Implicit {
@@ -90,7 +94,14 @@ impl Implicit {
             last: None,
             bound: f64::INFINITY,
             residuals: Vec::new(),
+            interrupt: Interrupt::default(),
+            before: None,
         }
+    }
+
+    /// Sets what steps ask between iterations.
+    pub fn set_interrupt(&mut self, interrupt: Interrupt) {
+        self.interrupt = interrupt;
     }
 
     /// Sets the largest error of friction coefficients with which a step is accepted \[-\].
@@ -135,7 +146,9 @@ impl Implicit {
 
     /// Values kept between steps.
     pub(super) fn save(&self, terms: &[&mut dyn Linearized]) -> StepperState {
-        StepperState { last: self.last.clone(), left: Vec::new(), system: self.system.memory(terms) }
+        let present =
+            || StepperState { last: self.last.clone(), left: Vec::new(), system: self.system.memory(terms) };
+        self.before.clone().unwrap_or_else(present)
     }
 
     /// Restores the values kept by a stepper of the same system. Returns true if they fit.
@@ -161,6 +174,8 @@ impl Implicit {
         counts: &mut Operations,
     ) -> Result<AcceptedStep, Failure> {
         let at = Instant { time: state.time + dt, dt };
+        self.before = None;
+        let before = self.save(terms);
         let mut u = self.predict(state, dt);
         constraints.impose(at.time, &mut u);
         self.residuals.clear();
@@ -195,6 +210,9 @@ impl Implicit {
                     term.reject();
                 }
                 self.last = None;
+                if why == Failure::Interrupted {
+                    self.before = Some(before);
+                }
                 Err(why)
             }
         }
@@ -267,6 +285,9 @@ impl Implicit {
             self.residuals.push(norm / self.scale());
             if self.has_converged(norm, u, &progress, iteration >= usize::from(pairing > 0)) {
                 return Ok((iteration, self.ratio(norm, u)));
+            }
+            if self.interrupt.acts() {
+                return Err(Failure::Interrupted);
             }
             progress.note(norm, u);
             if progress.gives_up_trust() && norm > progress.best {
@@ -459,20 +480,25 @@ impl Implicit {
     ) -> Result<f64, Failure> {
         let along = &direction.along;
         let (start, slope) = (self.norm()?, work(&self.balance.r, along));
-        let full = self.trial(terms, &moved(u, along, 1.0), along, at, counts);
+        let reached = moved(u, along, 1.0);
+        let full = self.trial(terms, &reached, along, at, counts);
         let lower = full.norm <= start * (1.0 - DECREASE);
         let taken = trusted && (lower || full.norm <= NONMONOTONE * start);
-        let length = if direction.free && full.slope < 0.0 && !lower {
+        let strides = direction.free && full.slope < 0.0 && !lower;
+        let whole = taken || full.slope.abs() <= 0.5 * slope.abs() || slope < 0.0 && full.slope < 0.0;
+        if !strides && (whole || slope >= 0.0 && lower) {
+            // The terms answered there last.
+            *u = reached;
+            std::mem::swap(&mut self.balance, &mut self.trial);
+            return Ok(1.0);
+        }
+        let length = if strides {
             self.stride(terms, u, along, full.slope, at, counts)
-        } else if taken || full.slope.abs() <= 0.5 * slope.abs() || slope < 0.0 && full.slope < 0.0 {
-            1.0
         } else if slope < 0.0 {
             let (from, to) = (line::End { at: 0.0, slope }, line::End { at: 1.0, slope: full.slope });
             line::root(from, to, !trusted, |s| {
                 self.trial(terms, &moved(u, along, s), along, at, counts).slope
             })
-        } else if lower {
-            1.0
         } else {
             self.backtrack(terms, u, along, at, counts)?
         };

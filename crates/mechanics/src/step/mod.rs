@@ -60,6 +60,8 @@ pub enum Failure {
         /// Estimated error \[-\].
         error: f64,
     },
+    /// The step was given up on request. The same step from the same state may follow.
+    Interrupted,
     /// The equations of the step hold, but a term objects to their solution.
     Objected(Objection),
 }
@@ -72,7 +74,7 @@ impl Failure {
             Self::Unsolved { always, .. } => *always,
             Self::Violated(_) => true,
             Self::Objected(objection) => !objection.shorter,
-            Self::Refused(_) | Self::Inaccurate { .. } | Self::Adrift { .. } => false,
+            Self::Refused(_) | Self::Inaccurate { .. } | Self::Adrift { .. } | Self::Interrupted => false,
         }
     }
 

@@ -6,7 +6,7 @@ use super::{AcceptedStep, Failure, State, StepLengths, StepperState};
 use asperity_fem::assembly::{Symmetry, System};
 use asperity_fem::dof::Constraints;
 use asperity_fem::term::{ForwardTerm, Linearized};
-use asperity_run::Operations;
+use asperity_run::{Interrupt, Operations};
 
 /// A stepper of either kind.
 pub trait Stepper {
@@ -31,6 +31,9 @@ pub trait Stepper {
 
     /// Sets the largest error of friction coefficients with which a step is accepted \[-\].
     fn set_bound(&mut self, bound: f64);
+
+    /// Sets what steps of several iterations ask between these.
+    fn set_interrupt(&mut self, interrupt: Interrupt);
 
     /// Linear system, for its counts.
     fn system(&self) -> &System;
@@ -73,6 +76,10 @@ impl Stepper for Implicit {
         Implicit::set_bound(self, bound);
     }
 
+    fn set_interrupt(&mut self, interrupt: Interrupt) {
+        Implicit::set_interrupt(self, interrupt);
+    }
+
     fn system(&self) -> &System {
         Implicit::system(self)
     }
@@ -112,6 +119,9 @@ impl Stepper for StaticExplicit {
     fn set_bound(&mut self, bound: f64) {
         StaticExplicit::set_bound(self, bound);
     }
+
+    // A forward step is one solution of a system or two, and its correction seldom more.
+    fn set_interrupt(&mut self, _interrupt: Interrupt) {}
 
     fn system(&self) -> &System {
         StaticExplicit::system(self)

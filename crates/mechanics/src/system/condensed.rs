@@ -103,9 +103,9 @@ fn condense<const D: usize>(
                 Analysis::new(&[&stiffness.pattern], dofs.len(), &kept, &fixed).map_err(told)?
             }
         };
-        let bytes = analysis.bytes();
+        let kept = analysis.kept();
         let reduction = Condensation::prepared(&stiffness, analysis).factor(left).map_err(told)?;
-        left = left.saturating_sub(bytes);
+        left = left.saturating_sub(kept);
         let system: Vec<usize> = (first..first + retained.len()).collect();
         first += retained.len();
         terms.push(CondensedBody::new(format!("body `{}`", body.name), reduction, &system));

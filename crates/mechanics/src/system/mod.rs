@@ -29,7 +29,7 @@ use asperity_fem::assembly::{Iterative, NearNull, Storage, Symmetry, System};
 use asperity_fem::dof::Constraints;
 use asperity_fem::nonlinear::Kinematics;
 use asperity_fem::term::{ForwardTerm, Instant};
-use asperity_run::Operations;
+use asperity_run::{Interrupt, Operations};
 
 /// Degrees of freedom up to which stability is judged. It takes a second factor beside that of the stepper: half a gigabyte in space.
 const JUDGED: usize = 50_000;
@@ -208,6 +208,7 @@ impl<'a, const D: usize> AssembledProblem<'a, D> {
                 System::iterative(equations, Iterative { near_null, tolerance, most_iterations })
             }
             Method::Dense => System::new(equations, Storage::Dense),
+            Method::Flexibility => System::new(equations, Storage::Flexibility),
             Method::Sparse | Method::Preconditioned => {
                 let analysis = match &solver.prepared {
                     Analyses::System(analysis) => Some(analysis.clone()),
@@ -242,6 +243,13 @@ impl<'a, const D: usize> AssembledProblem<'a, D> {
     pub fn set_bound(&mut self, bound: f64) {
         if let Some(stepper) = &mut self.stepper {
             stepper.set_bound(bound);
+        }
+    }
+
+    /// Sets what steps of several iterations ask between these.
+    pub fn set_interrupt(&mut self, interrupt: Interrupt) {
+        if let Some(stepper) = &mut self.stepper {
+            stepper.set_interrupt(interrupt);
         }
     }
 

@@ -17,6 +17,7 @@ impl<const D: usize> AssembledProblem<'_, D> {
                 format!("friction coefficients are off by some {error:.1e} at the end of the step")
             }
             Failure::Objected(objection) => objection.to_string(),
+            Failure::Interrupted => "the step was interrupted".into(),
             Failure::Unsolved { error, .. } => {
                 let nodes = &self.numbering.nodes;
                 if let Some(pivot) = error.pivot()

@@ -5,6 +5,7 @@ use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Method as Asked, Scene, Spanned};
 use crate::shared::amounts::{memory, size};
 use crate::shared::model::{counts, forecast};
+use asperity_contact::Sliding;
 use asperity_fem::assembly::{LowerTriangle, Symmetry};
 use asperity_fem::dof::{Constraints, Equations};
 use asperity_fem::term::Pattern;
@@ -16,10 +17,14 @@ use asperity_scene::defaults;
 /// Memory of the iterative method over that of its matrix; 2.5 to 3.8 in the benchmark.
 const HIERARCHY: usize = 4;
 /// Number of degrees of freedom up to which a plan analyses the system of generated blocks, which takes a second in 3D. For larger systems memory is
-/// estimated from counts, and the run does the analysis.
+/// estimated from counts, and the run does the analysis, unless the estimate is so near what is allowed that it does not decide.
 const ANALYSED: usize = 50_000;
 /// Operations of a Cholesky factorisation above which LU, several times as many, is avoided: a tenth of a second.
 const AVOIDED: f64 = 1e8;
+/// Products with the compliance of pairs, its factor and the bodies in an iteration of Newton's method.
+const PRODUCTS: usize = 8;
+/// Operations of a factorisation in the time in which a product reads a value.
+const WAIT: f64 = 4.5;
 /// Memory of LU over that of Cholesky with the same pattern: both triangles, without the fill due to pivoting.
 const UNSYMMETRIC: usize = 2;
 
@@ -56,9 +61,16 @@ impl<const D: usize> Choice<'_, D> {
         self.stages.iter().find(general)
     }
 
-    /// Bytes estimated from counts alone, if the model is large and the counts are sufficient.
+    /// Bytes estimated from counts alone, if the model is large and the estimate decides whether they are allowed.
     fn counted(&self, bytes: impl Fn(&Scene) -> Option<usize>) -> Option<usize> {
-        if self.model.dofs() <= ANALYSED { None } else { bytes(self.scene) }
+        if self.model.dofs() <= ANALYSED {
+            return None;
+        }
+        let memory = self.memory() as f64;
+        bytes(self.scene).filter(|&bytes| {
+            let sure = forecast::SURE * bytes as f64;
+            sure > memory || bytes as f64 <= forecast::SURE * memory
+        })
     }
 
     /// Memory for condensing the bodies onto `retained`, without the interface.
@@ -77,35 +89,48 @@ impl<const D: usize> Choice<'_, D> {
             let refused = |e: FemError| self.or_full(Diagnostic::body(&body.name, place(), e.to_string()));
             analyses.push(analysis.map_err(refused)?);
         }
-        let bytes = analyses.iter().map(condense::Analysis::bytes).sum();
+        let bytes = condense::Analysis::bytes_of_all(&analyses);
         Ok((Analyses::Bodies(analyses), bytes))
     }
 
     fn condensed(&self) -> Result<Solver, Diagnostic> {
         let retained = retained(self.model, self.interfaces, self.stages);
         let (prepared, bodies) = self.condensations(&retained)?;
-        let mut kept = retained.iter().map(Vec::len).sum::<usize>();
-        kept += self.interfaces.iter().map(|i| i.unknowns).sum::<usize>();
-        // The interface matrix, its factor, and the copy made for a term.
-        let dense = 3 * kept * kept * size_of::<f64>();
-        let bytes = bodies + dense;
+        let unknowns = self.interfaces.iter().map(|i| i.unknowns).sum::<usize>();
+        let kept = retained.iter().map(Vec::len).sum::<usize>() + unknowns;
+        let friction = self.unsymmetric().is_some();
+        let operations = (kept as f64).powi(3) / if friction { 1.5 } else { 3.0 };
+        let (method, dense, operations, why) = if self.has_pairs() && operations > AVOIDED {
+            let points = self.interfaces.iter().map(|i| i.slave.len()).sum::<usize>();
+            let components = points * self.model.idealisation.components();
+            let of_bodies = retained.iter().map(|r| r.len().pow(2)).sum::<usize>();
+            let widest = retained.iter().map(Vec::len).max().unwrap_or(0);
+            // Compliance and factor; of each body the sum of constant terms, and its factor.
+            let values = 2 * components.pow(2) + 2 * of_bodies + widest * components;
+            let read = PRODUCTS * (2 * components.pow(2) + of_bodies);
+            let why = format!(
+                "GMRES with a dense LU factor of an earlier step, for the tractions at {points} points; bodies by Cholesky factors"
+            );
+            (Method::Flexibility, values, WAIT * read as f64, why)
+        } else {
+            let interface = if friction { "LU where friction acts" } else { "Cholesky factors" };
+            let why = format!("direct: bodies by Cholesky factors, the interface by dense {interface}");
+            // The interface matrix, its factor, and the copy made for a term.
+            (Method::Dense, 3 * kept * kept, operations, why)
+        };
+        let bytes = bodies + dense * size_of::<f64>();
         if bytes > self.memory() {
             let what = format!("condensing the bodies onto {kept} degrees of freedom");
             let refused = self.too_much(&what, bytes, false);
             return Err(self.or_full(refused));
         }
-        let why = match self.unsymmetric() {
-            None => "bodies by Cholesky factors, the interface by dense Cholesky factors",
-            Some(_) => "bodies by Cholesky factors, the interface by dense LU where friction acts",
-        };
-        Ok(Solver {
-            method: Method::Dense,
-            memory: self.memory(),
-            prepared,
-            bytes,
-            operations: Some((kept as f64).powi(3) / if self.unsymmetric().is_some() { 1.5 } else { 3.0 }),
-            why: format!("direct: {why}"),
-        })
+        Ok(Solver { method, memory: self.memory(), prepared, bytes, operations: Some(operations), why })
+    }
+
+    /// True if contact acts through the relative displacements of pairs alone, whose tractions can be solved for.
+    fn has_pairs(&self) -> bool {
+        let fixed = |i: &PlannedInterface| i.sliding == Sliding::Small && i.unknowns == 0;
+        self.interfaces.iter().all(fixed) && self.scene.solver.method() != Asked::Direct
     }
 
     /// A refusal of the condensation that names the full system where that is solved.

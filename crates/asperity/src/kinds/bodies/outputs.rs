@@ -55,7 +55,7 @@ pub struct Checkpoint {
 
 impl checkpoint::SavedState for Checkpoint {
     const OF: &'static str = "bodies";
-    const VERSION: &'static str = "6";
+    const VERSION: &'static str = "7";
 }
 
 /// See the module.
