@@ -244,10 +244,8 @@ impl System {
     ) -> Result<Result<bool, FemError>, E> {
         let keep = terms.iter().all(|t| t.constant_tangent().is_some())
             && self.is_factored(terms.iter().map(|t| t.pattern()));
-        if !keep {
-            if let Err(error) = self.begin(terms) {
-                return Ok(Err(error));
-            }
+        if !keep && let Err(error) = self.begin(terms) {
+            return Ok(Err(error));
         }
         let mut own: Vec<Option<Vec<f64>>> = Vec::new();
         let mut offset = 0;
