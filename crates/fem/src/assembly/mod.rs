@@ -244,7 +244,7 @@ impl System {
     ) -> Result<Result<bool, FemError>, E> {
         let keep = terms.iter().all(|t| t.constant_tangent().is_some())
             && self.is_factored(terms.iter().map(|t| t.pattern()));
-        if !keep && let Err(error) = self.begin(terms) {
+        if !keep && let Err(error) = self.begin(terms, always) {
             return Ok(Err(error));
         }
         let mut own: Vec<Option<Vec<f64>>> = Vec::new();
@@ -309,8 +309,8 @@ impl System {
         Ok(outcome.map(|_| true))
     }
 
-    /// Prepares an assembly of these terms.
-    fn begin<T: Linearized + ?Sized>(&mut self, terms: &[&mut T]) -> Result<(), FemError> {
+    /// Prepares an assembly of these terms; `exact` if nothing corrects what a solution leaves.
+    fn begin<T: Linearized + ?Sized>(&mut self, terms: &[&mut T], exact: bool) -> Result<(), FemError> {
         self.factored = None;
         self.largest_entry = 0.0;
         self.products = 0;
@@ -326,7 +326,7 @@ impl System {
                     (None, Some(_)) => Part::Pairs(t.pattern().id()),
                     (None, None) => Part::Changing,
                 };
-                store.begin(&patterns, terms.iter().map(part).collect(), &self.equations);
+                store.begin(&patterns, terms.iter().map(part).collect(), &self.equations, exact);
             }
             Store::Sparse(store) => {
                 store.renew(&patterns, &self.equations, self.symmetry)?;

@@ -238,6 +238,7 @@ impl Implicit {
         counts: &mut Operations,
     ) -> Result<Correction, Failure> {
         self.residuals.clear();
+        self.system.begin_step();
         prepare(terms, u)?;
         self.evaluate(terms, u, at, counts)?;
         let left = self.ratio(self.norm()?, u);

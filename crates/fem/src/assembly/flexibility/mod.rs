@@ -63,6 +63,8 @@ pub(super) struct FlexibilityStore {
     remembered: Option<FactorMemory>,
     /// Norm of the last load of the present step \[N\].
     last_load: Option<f64>,
+    /// True if nothing corrects what a solution of the next matrix leaves.
+    exact: bool,
 }
 
 /// LU of `1 + D F` over the components of pairs that were closed.
@@ -87,6 +89,7 @@ enum Factors {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct FactorMemory {
     stiffness: Vec<f64>,
+    exact: bool,
     fresh: Option<f64>,
     excess: f64,
 }
@@ -105,8 +108,9 @@ impl FlexibilityStore {
         (GAIN * gain.powi(2)).clamp(least, most)
     }
 
-    /// Prepares an assembly of terms with these patterns.
-    pub fn begin(&mut self, patterns: &[&Pattern], parts: Vec<Part>, equations: &Equations) {
+    /// Prepares an assembly of terms with these patterns. The matrix is to be factored itself if nothing corrects its solutions.
+    pub fn begin(&mut self, patterns: &[&Pattern], parts: Vec<Part>, equations: &Equations, exact: bool) {
+        self.exact = exact;
         self.stiffness.clear();
         if parts == self.made_of && self.compliance.is_some() && !parts.contains(&Part::Changing) {
             return;
@@ -145,29 +149,29 @@ impl FlexibilityStore {
         if let Some(groups) = self.groups.take() {
             let compliance = Compliance::new(groups, std::mem::take(&mut self.rows))?;
             self.stiffness.set_springs(&compliance.springs);
-            if let Some(FactorMemory { stiffness, fresh, excess }) = self.remembered.take() {
+            if let Some(FactorMemory { stiffness, exact, fresh, excess }) = self.remembered.take() {
                 let remembered = self.stiffness.with_values(stiffness);
-                let factor = remembered.map(|d| TractionFactor {
+                self.factor = remembered.map(|d| TractionFactor {
                     fresh,
                     excess,
-                    ..TractionFactor::new(d, &compliance)
+                    ..TractionFactor::new(d, &compliance, exact)
                 });
-                self.factor = factor;
             }
             self.compliance = Some(compliance);
         }
         let Some(compliance) = &self.compliance else { return Ok(0) };
         self.stiffness.set_springs(&compliance.springs);
-        if self.factor.as_ref().is_some_and(|factor| factor.made_of == self.stiffness) {
+        let closed = self.stiffness.closed().len();
+        let exact = self.exact || closed <= FACTORED;
+        let serves = |factor: &TractionFactor| match exact {
+            true => factor.is_of(&self.stiffness),
+            false => factor.made_of == self.stiffness || !factor.is_worn(),
+        };
+        if self.factor.as_ref().is_some_and(serves) {
             return Ok(0);
         }
-        let closed = self.stiffness.closed();
-        let worn = self.factor.as_ref().is_none_or(TractionFactor::is_worn);
-        if closed.len() > FACTORED && !worn {
-            return Ok(0);
-        }
-        self.factor = Some(TractionFactor::new(self.stiffness.clone(), compliance));
-        Ok(usize::from(!closed.is_empty()))
+        self.factor = Some(TractionFactor::new(self.stiffness.clone(), compliance, exact));
+        Ok(usize::from(closed > 0))
     }
 
     /// The matrix.
@@ -179,8 +183,9 @@ impl FlexibilityStore {
     /// From what the factor follows.
     pub fn memory(&self) -> Option<FactorMemory> {
         let of_factor = |factor: &TractionFactor| {
-            let TractionFactor { made_of, fresh, excess, .. } = factor;
-            FactorMemory { stiffness: made_of.values().to_vec(), fresh: *fresh, excess: *excess }
+            let TractionFactor { made_of, fresh, excess, lu, .. } = factor;
+            let exact = matches!(lu, Factors::Exact(_));
+            FactorMemory { stiffness: made_of.values().to_vec(), exact, fresh: *fresh, excess: *excess }
         };
         self.remembered.clone().or_else(|| self.factor.as_ref().map(of_factor))
     }
@@ -217,7 +222,7 @@ impl FlexibilityStore {
             outcome = Some(found);
             if !found.converged() {
                 forces = undisturbed;
-                *factor = TractionFactor::exact(stiffness.clone(), compliance);
+                *factor = TractionFactor::new(stiffness.clone(), compliance, true);
                 factor.solve(&mut forces);
                 made = 1;
             }
@@ -230,19 +235,13 @@ impl FlexibilityStore {
 }
 
 impl TractionFactor {
-    /// A factor that solves few components exactly, and preconditions many.
-    fn new(made_of: PairStiffness, compliance: &Compliance) -> Self {
-        let closed = made_of.closed();
-        if closed.len() <= FACTORED {
-            return Self::exact(made_of, compliance);
-        }
-        let lu = Factors::Rounded(Lu::new(made_of.system(&compliance.matrix, &closed, |v| v as f32)));
-        Self { made_of, closed, lu, fresh: None, excess: 0.0 }
-    }
-
-    fn exact(made_of: PairStiffness, compliance: &Compliance) -> Self {
-        let closed = made_of.closed();
-        let lu = Factors::Exact(Lu::new(made_of.system(&compliance.matrix, &closed, |v| v)));
+    /// A factor that solves the system, or one in single precision that preconditions it.
+    fn new(made_of: PairStiffness, compliance: &Compliance, exact: bool) -> Self {
+        let (closed, flexibility) = (made_of.closed(), &compliance.matrix);
+        let lu = match exact {
+            true => Factors::Exact(Lu::new(made_of.system(flexibility, &closed, |v| v))),
+            false => Factors::Rounded(Lu::new(made_of.system(flexibility, &closed, |v| v as f32))),
+        };
         Self { made_of, closed, lu, fresh: None, excess: 0.0 }
     }
 
