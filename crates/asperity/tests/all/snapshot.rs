@@ -16,10 +16,10 @@ fn the_plan_of_the_sandwich_reads_as_before() {
       physics   linear elasticity, small strain, plane strain (2 bodies, 1920 cells)
       physics   interface `fault`: node-to-point penalty contact, 41 slave nodes against 56 master faces, rate friction with 0 state variables a point
       path      condensed: bodies are linear and sliding is small, so each is factored once and only the interface is solved
-      solver    direct: bodies by Cholesky factors, the interface by dense LU where friction acts; about 4.6 MiB of the 8.0 GiB allowed
+      solver    direct: bodies by Cholesky factors, the interface by dense LU where friction acts; about 3.9 MiB of the 8.0 GiB allowed
       stepper   implicit: Newton with line search, backward Euler in slip, steps adapted to the error of slip
       start     interface `fault`: gaps from 0 m to 0 m at the 41 of 41 slave nodes that face the master, 0 without partner; 5.0000e-2 of 5.0000e-2 m face it
-      size      4116 degrees of freedom, 196 in each step's system, 0 bytes of friction state, about 46 MB
+      size      4116 degrees of freedom, 196 in each step's system, 0 bytes of friction state, about 45 MB
     ");
 }
 

@@ -230,9 +230,13 @@ fn stages_without_friction_are_factored_symmetrically_on_both_paths() {
 
 /// Two blocks in space, the upper one pressed and pushed until it slides, with all degrees of freedom in the system.
 fn pushed_blocks(strain: &str, push: &str, solver: &str) -> String {
+    blocks_in_space([10, 10, 5], "full", strain, push, solver)
+}
+
+fn blocks_in_space(divisions: [usize; 3], path: &str, strain: &str, push: &str, solver: &str) -> String {
     let block = |z: usize| {
         format!(
-            "mesh.block = {{ min = [0, 0, {z}], max = [2, 2, {}], divisions = [10, 10, 5], element = \"hex8\" }}\n\
+            "mesh.block = {{ min = [0, 0, {z}], max = [2, 2, {}], divisions = {divisions:?}, element = \"hex8\" }}\n\
              material = \"m\"\nstrain = \"{strain}\"",
             z + 1
         )
@@ -263,7 +267,7 @@ steps = 3
 conditions = [{{ set = "A.back", x = 0, y = 0, z = 0 }}, {push}]
 [time]
 stepper = "implicit"
-path = "full"
+path = "{path}"
 [solver]
 {solver}
 "#,
@@ -294,11 +298,34 @@ fn large_unsymmetric_systems_are_iterated_to_the_solution_of_lu() {
 }
 
 #[test]
+fn tractions_of_many_pairs_are_those_of_dense_factors() {
+    // Held by what moves it, and by contact alone.
+    let moved = "{ set = \"B.front\", z = { to = \"-2 mm\" }, x = { to = \"8 mm\" }, y = { to = \"2 mm\" } }";
+    let loaded = "{ set = \"B.front\", traction = [{ to = 1e6 }, { to = 2e5 }, { to = -4e6 }] }";
+    for (push, divisions) in [(moved, [14, 14, 2]), (loaded, [14, 14, 2]), (loaded, [10, 10, 3])] {
+        let text = |solver: &str| blocks_in_space(divisions, "condensed", "small", push, solver);
+        let (direct, exact) = simulate(&text("method = \"direct\""));
+        let (pairs, found) = simulate(&text(""));
+        assert!(direct.plan.solver.contains("dense LU where friction acts"), "{}", direct.plan.solver);
+        assert!(pairs.plan.solver.starts_with("GMRES with a dense LU factor"), "{}", pairs.plan.solver);
+        let [direct, pairs] = [direct, pairs].map(|report| report.counts.operations);
+        // Few components are factored in each iteration.
+        let iterates = divisions[0] == 14;
+        assert_eq!(pairs.linear_iterations > 0, iterates, "{pairs:?}");
+        assert!(pairs.iterations <= direct.iterations + 4, "{pairs:?} {direct:?}");
+        // Newton's method ends at 1e-11 of the largest force, which a condition number of 1e3 to 1e4 lets through.
+        agree(&all(&exact), &all(&found), 1e-7);
+    }
+}
+
+#[test]
 fn a_body_that_iterations_find_free_is_named_with_its_motion() {
     let lift = "{ set = \"B.left\", x = 0 }, { set = \"B.bottom\", y = 0 }, \
                 { set = \"B.front\", traction = [0, 0, { to = 1e3 }] }";
-    let (_, _, reason) = stopped(&pushed_blocks("small", lift, ""));
-    assert!(reason.contains("body `B` can translate along z"), "{reason}");
+    for (divisions, path) in [([10, 10, 5], "full"), ([10, 10, 2], "condensed")] {
+        let (_, _, reason) = stopped(&blocks_in_space(divisions, path, "small", lift, ""));
+        assert!(reason.contains("body `B` can translate along z"), "{path}: {reason}");
+    }
 }
 
 #[test]
