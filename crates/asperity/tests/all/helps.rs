@@ -2,6 +2,7 @@
 
 use crate::common::varied;
 use asperity_plan::ScenePlan;
+use asperity_plan::bodies;
 use asperity_plan::reading::diagnostic::Diagnostic;
 use asperity_plan::reading::scene;
 use asperity_run::Warning;
@@ -185,7 +186,7 @@ fn remedies_of_locking_end_its_warning() {
 
 #[test]
 fn a_condensation_beyond_its_memory_leads_to_the_full_system() {
-    let scene = varied(
+    let open = varied(
         &in_plane(),
         &[
             // A thin body has many points of contact and small factors.
@@ -199,12 +200,16 @@ fn a_condensation_beyond_its_memory_leads_to_the_full_system() {
             Add("solver", "{ memory = \"2.5 MB\" }"),
         ],
     );
-    let error = planned(&scene).err().unwrap_or_else(|| panic!("accepted"));
+    let plan = bodies::plan(&scene::read(&open).unwrap()).unwrap_or_else(|e| panic!("{}", e.message));
+    let path = &plan.summary().path;
+    assert_eq!(path, "full: condensed bodies need more memory than is allowed");
+    let asked = varied(&open, &[Add("time.path", "\"condensed\"")]);
+    let error = planned(&asked).err().unwrap_or_else(|| panic!("accepted"));
     let help = error.help.unwrap();
     assert!(
         help.starts_with("use `path = \"full\"` in `[time]`, or raise `memory`"),
         "{}: {help}",
         error.message
     );
-    planned(&varied(&scene, &[Add("time.path", "\"full\"")])).unwrap_or_else(|e| panic!("{}", e.message));
+    planned(&varied(&open, &[Add("time.path", "\"full\"")])).unwrap_or_else(|e| panic!("{}", e.message));
 }

@@ -2,7 +2,7 @@
 
 use super::assembly::Assembly;
 use crate::reading::diagnostic::Diagnostic;
-use crate::reading::scene::model::{Method as Asked, Scene, Spanned};
+use crate::reading::scene::model::{Method as Asked, Path as PathChoice, Scene, Spanned};
 use crate::shared::amounts::{memory, size};
 use crate::shared::model::{counts, forecast};
 use asperity_contact::Sliding;
@@ -28,16 +28,22 @@ const WAIT: f64 = 4.5;
 /// Memory of LU over that of Cholesky with the same pattern: both triangles, without the fill due to pivoting.
 const UNSYMMETRIC: usize = 2;
 
-/// Chooses the linear solver.
+/// Chooses the linear solver, on this path or, if the scene leaves it open and memory does not suffice for condensation, on the full
+/// one.
 ///
 /// # Errors
 /// [`Diagnostic`] if the method cannot be used for the scene, or takes more memory than is allowed.
-pub fn choose<const D: usize>(assembly: &Assembly<'_, D>, path: Path) -> Result<Solver, Diagnostic> {
+pub fn choose<const D: usize>(assembly: &Assembly<'_, D>, path: Path) -> Result<(Path, Solver), Diagnostic> {
     let Assembly { scene, model, interfaces, stages, stepping, .. } = assembly;
     let choice = Choice { scene, model, interfaces, stages, stepping };
+    let full = || choice.full().map(|solver| (Path::Full, solver));
     match path {
-        Path::Condensed => choice.condensed(),
-        Path::Full => choice.full(),
+        Path::Full => full(),
+        Path::Condensed => match choice.condensed() {
+            Ok(solver) => Ok((Path::Condensed, solver)),
+            Err(refused) if scene.time.path == PathChoice::Auto => full().map_err(|_| refused),
+            Err(refused) => Err(choice.or_full(refused)),
+        },
     }
 }
 
@@ -86,7 +92,7 @@ impl<const D: usize> Choice<'_, D> {
             let analysis =
                 condense::Analysis::new(&[&pattern], dofs.len(), &local(retained, dofs), &local(fixed, dofs));
             let place = || self.scene.bodies[&body.name].material.span();
-            let refused = |e: FemError| self.or_full(Diagnostic::body(&body.name, place(), e.to_string()));
+            let refused = |e: FemError| Diagnostic::body(&body.name, place(), e.to_string());
             analyses.push(analysis.map_err(refused)?);
         }
         let bytes = condense::Analysis::bytes_of_all(&analyses);
@@ -121,8 +127,7 @@ impl<const D: usize> Choice<'_, D> {
         let bytes = bodies + dense * size_of::<f64>();
         if bytes > self.memory() {
             let what = format!("condensing the bodies onto {kept} degrees of freedom");
-            let refused = self.too_much(&what, bytes, false);
-            return Err(self.or_full(refused));
+            return Err(self.too_much(&what, bytes, false));
         }
         Ok(Solver { method, memory: self.memory(), prepared, bytes, operations: Some(operations), why })
     }

@@ -67,6 +67,7 @@ pub fn full_because<const D: usize>(
         (_, Some(why)) => why,
         _ if interfaces.is_empty() => "there is no interface to condense onto".into(),
         _ if scene.solver.method() == Method::Iterative => "the iterative method does not condense".into(),
+        _ if !finite(interfaces) => "condensed bodies need more memory than is allowed".into(),
         _ => format!("the sides of finite sliding have more than {WIDEST} degrees of freedom"),
     };
     format!("full: {why}")

@@ -32,7 +32,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     let path = path::choose(&assembly)?;
     let mass = inertia::mass(scene, &assembly.model, assembly.largest_rate())?;
     let Findings { remarks, start_gaps, doubts } = Findings::new(&assembly, mass.as_ref())?;
-    let solver = linear_solver::choose(&assembly, path)?;
+    let (path, solver) = linear_solver::choose(&assembly, path)?;
     let mut summary = summary::summarise(&assembly, path, &solver, remarks);
     forecast::fits(scene, summary.memory_bytes)?;
     summary.start_gaps = start_gaps;
