@@ -72,7 +72,7 @@ pub struct Implicit {
     bound: f64,
     /// Residual over the largest force at each iteration of the current step \[-\].
     residuals: Vec<f64>,
-    /// What steps ask between iterations.
+    /// Question of steps between iterations.
     interrupt: Interrupt,
     /// Values before a step that was interrupted.
     before: Option<StepperState>,

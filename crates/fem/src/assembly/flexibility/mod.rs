@@ -37,7 +37,7 @@ const FACTORISATION_RATE: f64 = 12.0;
 /// Iterations allowed beside those that a factorisation is worth.
 const FEWEST: usize = 20;
 
-/// What a term is to the system.
+/// Part of a term in the system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
     /// Constant.
