@@ -16,12 +16,6 @@ pub struct RelativeDisplacements {
 }
 
 impl RelativeDisplacements {
-    /// Number of pairs.
-    #[must_use]
-    pub fn pairs(&self) -> usize {
-        self.starts.len().saturating_sub(1)
-    }
-
     /// Takes the matrix M of each pair from blocks `s_k s_j M` over its nodes, one pair after another, into `out`.
     pub(crate) fn reduce(&self, values: &[f64], out: &mut Vec<f64>) {
         let components = self.components;

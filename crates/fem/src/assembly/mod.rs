@@ -20,6 +20,7 @@ use crate::term::{ForwardTerm, Linearized, Pattern, PatternId};
 use dense::DenseStore;
 use direct::SparseStore;
 pub use direct::{Analysis, LowerTriangle};
+pub use flexibility::FACTORED as FACTORED_COMPONENTS;
 use flexibility::{FlexibilityStore, Part};
 use iterative::IterativeStore;
 pub use iterative::{Iterative, NearNull};

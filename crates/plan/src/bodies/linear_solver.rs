@@ -6,7 +6,7 @@ use crate::reading::scene::model::{Method as Asked, Path as PathChoice, Scene, S
 use crate::shared::amounts::{memory, size};
 use crate::shared::model::{counts, forecast};
 use asperity_contact::Sliding;
-use asperity_fem::assembly::{LowerTriangle, Symmetry};
+use asperity_fem::assembly::{FACTORED_COMPONENTS, LowerTriangle, Symmetry};
 use asperity_fem::dof::{Constraints, Equations};
 use asperity_fem::term::Pattern;
 use asperity_fem::{FemError, condense};
@@ -114,9 +114,12 @@ impl<const D: usize> Choice<'_, D> {
             // Compliance and factor; of each body the sum of constant terms, and its factor.
             let values = 2 * components.pow(2) + 2 * of_bodies + widest * components;
             let read = PRODUCTS * (2 * components.pow(2) + of_bodies);
-            let why = format!(
-                "GMRES with a dense LU factor of an earlier step, for the tractions at {points} points; bodies by Cholesky factors"
-            );
+            let how = if components > FACTORED_COMPONENTS {
+                "GMRES with a dense LU factor of an earlier step"
+            } else {
+                "direct: dense LU"
+            };
+            let why = format!("{how} for the tractions at {points} points, bodies by Cholesky factors");
             (Method::Flexibility, values, WAIT * read as f64, why)
         } else {
             let interface = if friction { "LU where friction acts" } else { "Cholesky factors" };

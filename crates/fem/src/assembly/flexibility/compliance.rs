@@ -14,8 +14,9 @@ use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, Mat, Par};
 use rayon::prelude::*;
 
-/// Pivot over diagonal entry below which a body counts as floating there. Springs where it does not float are taken away exactly
-/// as well; bodies that are held stay far above, by the square of their size in elements at most.
+/// Pivot over diagonal entry below which a body counts as floating there. Pivots of bodies that float are rounding, 1e-16 to 1e-12, and
+/// those of a block that is held are some per cent. A slender body between them gets a spring that it does not need, and that is
+/// taken away exactly too.
 const FLOATING: f64 = 1e-7;
 /// Most springs of a body: its rigid motions, and one for each of as many parts that hinge.
 const MOST_SPRINGS: usize = 24;
@@ -174,7 +175,7 @@ impl Compliance {
         }
     }
 
-    /// The matrix of the whole system, for pairs of stiffness `D` written block by block, of which `multiply` is the product.
+    /// The matrix of the whole system, `S + Bᵀ D B`. `multiply` writes the product of D with relative displacements.
     pub fn system(&self, multiply: impl Fn(&[f64], &mut [f64])) -> Mat<f64> {
         let n = self.bodies.iter().map(|body| body.equations.len()).sum();
         let mut all = Mat::zeros(n, n);

@@ -25,12 +25,13 @@ use pair_stiffness::PairStiffness;
 use serde::{Deserialize, Serialize};
 
 /// Components of closed pairs up to which each matrix is factored, in some milliseconds.
-const FACTORED: usize = 500;
-/// Residual over the load up to which a solution is exact enough, at least and at most.
+pub const FACTORED: usize = 500;
+/// Bounds of the residual over the load of nodes. Below the first, iterations cost more than they save Newton's method; above the
+/// second its directions lead nowhere.
 const FORCING: [f64; 2] = [1e-5, 1e-2];
-/// Most that a solution leaves of the forces between pairs.
+/// Largest residual over the forces between pairs that are to be balanced.
 const MOST_LEFT: f64 = 1e-2;
-/// Factor of the square of the last reduction of the load in its next.
+/// Ratio of a residual to the square of the last reduction of the load: the value of Eisenstat and Walker.
 const GAIN: f64 = 0.9;
 /// Rate of operations in a factorisation over that in a product, which waits for memory.
 const FACTORISATION_RATE: f64 = 12.0;
@@ -100,8 +101,8 @@ impl FlexibilityStore {
         self.last_load = None;
     }
 
-    /// Residual over the load that a solution for this load may leave: no less than Newton's method will see the next load differ from what
-    /// this one promises (Eisenstat and Walker 1996, choice 2).
+    /// Residual over the load that a solution may leave. The next load differs from its linear prediction by about the square of the
+    /// last reduction, and a more exact solution would be wasted (Eisenstat and Walker 1996, choice 2).
     fn forcing(&mut self, load: f64) -> f64 {
         let [least, most] = FORCING;
         let gain = self.last_load.replace(load).map_or(1.0, |last| load / last);
