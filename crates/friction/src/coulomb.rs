@@ -110,6 +110,10 @@ impl Law for Coulomb {
 
     fn initial(&self, _states: &mut [f64]) {}
 
+    fn slippery(&self) -> bool {
+        self.mu == 0.0 && self.cohesion == 0.0
+    }
+
     fn cohesion(&self, _point: usize) -> f64 {
         self.cohesion
     }

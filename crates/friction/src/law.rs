@@ -293,6 +293,11 @@ pub trait Law: Send + Sync + std::fmt::Debug {
         false
     }
 
+    /// True if the law carries no shear traction at all, whatever presses the surface.
+    fn slippery(&self) -> bool {
+        false
+    }
+
     /// Shear traction that a closed point of the surface carries at no normal traction \[Pa\].
     fn cohesion(&self, _point: usize) -> f64 {
         0.0

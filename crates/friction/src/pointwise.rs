@@ -50,6 +50,10 @@ impl<L: Law> Law for PointwiseLaw<L> {
         self.laws.iter().all(Law::bonded)
     }
 
+    fn slippery(&self) -> bool {
+        self.laws.iter().all(Law::slippery)
+    }
+
     fn cohesion(&self, point: usize) -> f64 {
         self.laws[point].cohesion(0)
     }

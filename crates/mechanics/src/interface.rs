@@ -2,6 +2,7 @@
 
 use super::enforcement::PlannedEnforcement;
 use super::initial_tractions::InitialTractions;
+use super::stage::Stage;
 use super::zone_resolution::ZoneResolution;
 use asperity_contact::{Sliding, Watch};
 use asperity_fem::mesh::MeshFace;
@@ -57,6 +58,14 @@ pub struct PlannedInterface {
     pub watch: Watch,
     /// Number of probe positions.
     pub probes: usize,
+}
+
+impl PlannedInterface {
+    /// True if something resists tangential motion in a stage: a bond, or friction of a law that has some.
+    #[must_use]
+    pub fn rubs(&self, stage: &Stage) -> bool {
+        self.law.as_ref().is_some_and(|law| !law.slippery()) && !stage.frictionless.contains(&self.name)
+    }
 }
 
 /// Mesh nodes of an interface, ascending.

@@ -44,6 +44,7 @@ mod law_tables;
 mod laws;
 mod loads;
 mod located;
+mod mechanisms;
 mod medium;
 mod meetings;
 mod memory;

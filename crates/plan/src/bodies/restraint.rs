@@ -25,7 +25,7 @@ pub fn check<const D: usize>(
         Err(loose) => {
             let Motion { body, stage, motion, together, .. } = &loose;
             if !together.is_empty() {
-                return Err(as_one(scene, model, &loose));
+                return Err(joined(scene, model, &loose));
             }
             let (what, name) = (part(model, &loose), &model.bodies[*body].name);
             Err(Diagnostic::at(
@@ -37,21 +37,23 @@ pub fn check<const D: usize>(
     }
 }
 
-/// Error for bodies that contact joins, and that move as one.
-fn as_one<const D: usize>(scene: &Scene, model: &Model<D>, loose: &Motion) -> Diagnostic {
-    let Motion { body, stage, motion, .. } = loose;
+/// Error for bodies that contact joins, and that move together.
+fn joined<const D: usize>(scene: &Scene, model: &Model<D>, loose: &Motion) -> Diagnostic {
+    let Motion { body, stage, motion, as_one, .. } = loose;
     let name = &model.bodies[*body].name;
-    Diagnostic::at(
-        scene.bodies[name].material.span(),
+    let what = if *as_one {
+        format!("as one in stage `{stage}`: nothing holds their {motion}, which contact only passes on")
+    } else {
+        let first = part(model, loose);
         format!(
-            "{} are free to move as one in stage `{stage}`: nothing holds their {motion}, which contact only passes on",
-            names(model, loose)
-        ),
-        remedy(model, name, motion),
-    )
+            "together in stage `{stage}`: contact passes the {motion} of {first} on, and nothing holds it"
+        )
+    };
+    let message = format!("{} are free to move {what}", names(model, loose));
+    Diagnostic::at(scene.bodies[name].material.span(), message, remedy(model, name, motion))
 }
 
-/// Names of bodies that move as one.
+/// Names of bodies that move together.
 fn names<const D: usize>(model: &Model<D>, loose: &Motion) -> String {
     let names: Vec<String> = loose.together.iter().map(|&b| format!("`{}`", model.bodies[b].name)).collect();
     match &names[..] {
