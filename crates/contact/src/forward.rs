@@ -284,6 +284,7 @@ impl<const D: usize> Interface<D> {
     /// Linearised increments of gap and tangential displacement from the committed state for the system increment `du`.
     pub fn slides(&mut self, du: &[f64]) -> &Slides {
         self.measure.measure(&self.u.committed, &mut self.geometry);
+        self.count_gaps();
         Self::gather(&self.nodes, du, &mut self.du);
         self.measure.slides(&self.geometry, &self.du, &mut self.slides);
         &self.slides
@@ -297,7 +298,7 @@ impl<const D: usize> Interface<D> {
         let mut best: Option<(f64, &'static str, usize)> = None;
         let rest = self.penalty.stiffness * self.penalty.closure;
         for (p, c) in self.contact.committed.iter().enumerate() {
-            let (gap, dg) = (self.geometry.gap[p], self.slides.gap[p]);
+            let (gap, dg) = (self.gap(p), self.slides.gap[p]);
             let found = if c.closed {
                 let df = -c.stiffness * dg;
                 (df < 0.0 && c.traction > rest).then(|| (c.traction / -df, "r5"))

@@ -3,6 +3,7 @@
 mod augmented;
 mod event_limits;
 mod mixed;
+mod start;
 
 use crate::average::Averaging;
 use crate::build::{build_measure, check};
@@ -11,6 +12,7 @@ use crate::error::ContactError;
 use crate::measure::{Attachment, Geometry, Measure, NormalPoint, ShearPoint, Slides, Tractions};
 use crate::observe::{Balance, PointFields, Work};
 use crate::shear::{PreviousStep, Shear, TwoStep};
+use crate::shift::GapShift;
 use crate::spec::{Enforcement, InterfaceSpec, SlavePoint, SurfaceNode, TimeRule};
 use crate::status::{Status, label};
 use crate::vector::{add, axpy, dot, moment, norm, scaled, sub};
@@ -78,6 +80,8 @@ pub struct Interface<const D: usize> {
     parted: Vec<f64>,
     /// Normal tractions that the penalty acts about \[Pa\], if the interface was pressed before the first step.
     pub(crate) pressed: Option<Vec<f64>>,
+    /// Start gaps other than those of the meshes, if there are any.
+    pub(crate) shift: Option<GapShift>,
     /// See [`Shear::touch`].
     touch: [f64; 2],
     pub(crate) rate_floor: f64,
@@ -128,6 +132,7 @@ impl<const D: usize> Interface<D> {
             tied: None,
             parted: Vec::new(),
             pressed: None,
+            shift: None,
             rate_floor: spec.rate_floor,
             rate_bounds: spec.rate_bounds,
             label_rate: spec.label_rate,
@@ -237,6 +242,10 @@ impl<const D: usize> Interface<D> {
             self.measure.partings(&self.geometry, &mut self.parted);
         }
         let (gap, out) = (&self.geometry.gap, &mut self.contact.trial);
+        let gap = self
+            .shift
+            .as_mut()
+            .map_or(gap.as_slice(), |shift| shift.count(self.measure.as_ref(), &self.geometry));
         let multiplier = self.multipliers.as_ref().map(|m| m.normal.as_slice()).or(self.pressed.as_deref());
         match (&self.tied, multiplier) {
             (Some(tied), _) => self.penalty.bonded(&self.parted, tied, multiplier, out),
@@ -434,7 +443,9 @@ impl<const D: usize> Interface<D> {
     /// Recomputes the committed fields. The geometry must be that of the committed displacements.
     pub(crate) fn refresh(&mut self) {
         let (g, f) = (&self.geometry, &mut self.fields);
-        f.gap.copy_from_slice(&g.gap);
+        f.gap.copy_from_slice(
+            self.shift.as_mut().map_or(&g.gap, |shift| shift.count(self.measure.as_ref(), g)),
+        );
         if let Some(tied) = &self.tied {
             self.measure.partings(g, &mut self.parted);
             let moved = self.parted.iter().zip(tied).map(|(parted, start)| parted - start);

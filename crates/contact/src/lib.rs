@@ -19,6 +19,7 @@ pub mod observe;
 mod press;
 pub mod search;
 mod shear;
+mod shift;
 mod spec;
 mod status;
 mod vector;

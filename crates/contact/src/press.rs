@@ -35,7 +35,7 @@ impl<const D: usize> Interface<D> {
         let mut pressed = vec![0.0; self.slave.len()];
         let mut attachments: Vec<Attachment> = Vec::new();
         for (p, start) in starts.iter().enumerate() {
-            let gap = self.geometry.gap[p];
+            let gap = self.gap(p);
             if !self.geometry.paired[p] || gap.is_nan() || gap.abs() > reach {
                 continue;
             }

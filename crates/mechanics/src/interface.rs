@@ -52,6 +52,8 @@ pub struct PlannedInterface {
     pub blamed: Option<String>,
     /// Tractions of the initial stress, if its bodies have one.
     pub pressed: Option<InitialTractions>,
+    /// Lengths by which the gaps of its points are less than those of the meshes \[m\]; `None` if they start as meshed.
+    pub shift: Option<Vec<f64>>,
     /// Resolution of the cohesive zone by its points, if friction weakens with slip.
     pub resolved: Option<ZoneResolution>,
     /// Conditions that steps must meet.

@@ -27,6 +27,7 @@ mod receivers;
 mod ruptures;
 mod solver;
 mod speeds;
+mod start_gaps;
 mod starts;
 mod stress;
 mod surface;

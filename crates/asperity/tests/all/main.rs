@@ -1,6 +1,7 @@
 //! Tests of the driver, in one binary: each binary would link all crates, which takes longer than to run most tests.
 #![allow(clippy::unwrap_used)]
 
+mod adjusted_gaps;
 mod antiplane;
 mod apart;
 mod bodies;

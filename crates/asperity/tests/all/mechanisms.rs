@@ -4,7 +4,7 @@
 use crate::common::varied;
 use asperity_plan::bodies;
 use asperity_plan::reading::scene;
-use asperity_vary::Change::{Add, Push};
+use asperity_vary::Change::{Add, Push, With};
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -226,4 +226,43 @@ fn rings_that_slide_together_along_a_shaft_are_named() {
     assert!(message.as_ref().is_some_and(|m| m.starts_with(both)), "{message:?}");
     let text = varied(RINGS, &[Push("stages[0].conditions", "{ set = \"outer.bottom\", y = 0 }")]);
     assert_eq!(refusal(&text), None);
+}
+
+/// A cylinder pressed onto a plane without friction.
+const CYLINDER: &str = r#"
+schema = 1
+title = "a cylinder on a plane"
+kinematics = "plane-strain"
+[materials.steel]
+young = "200 GPa"
+poisson = 0.3
+[bodies.cylinder]
+material = "steel"
+mesh.block = { min = [-0.4, 0], max = [0.4, 0.5], divisions = [8, 2], element = "quad9", curves.bottom = { kind = "circle", radius = 1, apex = { x = 0 } } }
+[bodies.plane]
+material = "steel"
+mesh.block = { min = [-1, -1], max = [1, 0], divisions = [4, 2], element = "quad9" }
+[interfaces.skin]
+slave = "cylinder.bottom"
+master = "plane.top"
+measure = "node-to-point"
+sliding = "finite"
+enforcement = { kind = "augmented-lagrangian", normal = "1 E/h" }
+[[stages]]
+name = "press"
+duration = 1
+conditions = [{ set = "plane.bottom", x = 0, y = 0 }, { set = "cylinder.top", pressure = "1 MPa" }]
+[time]
+stepper = "implicit"
+"#;
+
+#[test]
+fn a_round_body_is_free_along_a_plane_whichever_is_the_slave() {
+    let exchanged =
+        [With("interfaces.skin.slave", "plane.top"), With("interfaces.skin.master", "cylinder.bottom")];
+    for changes in [&[][..], &exchanged] {
+        let message = refusal(&varied(CYLINDER, changes));
+        let words = "body `cylinder` is free to move in stage `press`: nothing holds its translation in x";
+        assert_eq!(message.as_deref(), Some(words));
+    }
 }

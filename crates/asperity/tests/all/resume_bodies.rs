@@ -382,6 +382,20 @@ fn implicit_runs_of_elastic_bodies_resume_bit_for_bit() {
     ]);
 }
 
+/// Blocks that lie apart in their meshes start at the gap that the scene sets, before and after an interruption.
+#[test]
+fn runs_with_start_gaps_of_the_scene_resume_bit_for_bit() {
+    let contact = Add("interfaces.contact.adjust", "to-contact");
+    let clearance = Add("interfaces.contact.clearance", "0.2 mm");
+    resume(&[
+        ("adjusted", vec![&[SLANTED, contact]]),
+        ("adjusted, small mortar, ageing", vec![&SMALL, &[SLANTED, MORTAR, AGEING, contact]]),
+        ("clearance, mortar, multipliers as unknowns", vec![&[SLANTED, MORTAR, UNKNOWNS, clearance]]),
+        ("clearance, uzawa", vec![&[SLANTED, UZAWA, clearance]]),
+        ("clearance, forward", vec![&FORWARD, &[clearance]]),
+    ]);
+}
+
 #[test]
 fn implicit_runs_with_states_of_friction_resume_bit_for_bit() {
     resume(&[

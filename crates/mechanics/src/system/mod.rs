@@ -425,6 +425,9 @@ fn interface<const D: usize>(
     if let Some(damping) = planned.damping {
         interface.set_damping(damping);
     }
+    if let Some(by) = &planned.shift {
+        interface.shift(by);
+    }
     if let Some(pressed) = &planned.pressed {
         interface.press(&pressed.starts(), pressed.reach);
     }

@@ -1,5 +1,6 @@
 //! Plans of runs, as data, and their construction from scenes.
 
+mod adjustment;
 mod assembly;
 mod checks;
 mod coarse;

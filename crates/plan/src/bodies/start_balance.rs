@@ -81,6 +81,9 @@ fn pressed<const D: usize>(
         let slave = &scene.interfaces[&planned.name].slave;
         Diagnostic::at(slave.span(), e.to_string(), "see `slave` and `master`")
     })?;
+    if let Some(by) = &planned.shift {
+        built.shift(by);
+    }
     built.press(&pressed.starts(), pressed.reach);
     built.exert(r);
     Ok(Some(Start::from_points(planned, law.as_deref(), built.points())))

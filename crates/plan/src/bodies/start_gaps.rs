@@ -27,6 +27,8 @@ pub struct MeasuredGaps {
 
 /// A point that faces the master.
 pub struct FacingPoint {
+    /// Number of the slave point.
+    pub point: usize,
     /// Gap \[m\].
     pub gap: f64,
     pub area: f64,
@@ -64,15 +66,19 @@ pub fn measure<const D: usize>(
     let mut declared = contact_spec::spec(model, stepping, planned, &number, 0.0, 0);
     // Positions of the sides depend neither on the law nor on the enforcement.
     (declared.enforcement, declared.law) = (Enforcement::Penalty, None);
-    let built = Interface::new(declared).map_err(|e| {
+    let mut built = Interface::new(declared).map_err(|e| {
         Diagnostic::at(
             spec.slave.span(),
             e.to_string(),
             "slave and master are sides that look at each other: are they the right ones, in the right unit of length?",
         )
     })?;
+    if let Some(by) = &planned.shift {
+        built.shift(by);
+    }
     let points = built.points();
     let normals = slave_normals(model, planned);
+    let rounding = ROUNDING * model.scale;
     let mut start = StartGap {
         interface: planned.name.clone(),
         points: planned.slave.len(),
@@ -80,18 +86,19 @@ pub fn measure<const D: usize>(
         gap: [f64::INFINITY, f64::NEG_INFINITY],
         slave_area: surface::areas(&model.mesh, slave, model.idealisation).values().sum(),
         area_unit: if model.idealisation.weight(&[0.0; D]) == 1.0 && D == 2 { "m" } else { "m^2" },
+        adjusted: planned.shift.iter().flatten().filter(|by| by.abs() > rounding).count(),
+        adjustment: planned.shift.iter().flatten().fold(0.0, |most: f64, by| most.max(by.abs())),
         ..StartGap::default()
     };
     let mut facing = Vec::new();
     for (p, (node, _)) in planned.slave.iter().enumerate() {
         if points.gap[p].is_finite() && looks_at(&normals[node], points, p) {
             start.facing += 1;
-            facing.push(FacingPoint { gap: points.gap[p], area: points.area[p] });
+            facing.push(FacingPoint { point: p, gap: points.gap[p], area: points.area[p] });
             start.gap = [start.gap[0].min(points.gap[p]), start.gap[1].max(points.gap[p])];
             start.facing_area += points.area[p];
         }
     }
-    let rounding = ROUNDING * model.scale;
     start.gap = start.gap.map(|g| if start.facing == 0 || g.abs() <= rounding { 0.0 } else { g });
     refuse(model, planned, spec, &start, points).map_or(Ok(MeasuredGaps { start, facing }), Err)
 }

@@ -44,6 +44,7 @@ impl Checker<'_> {
                 _ => {}
             }
             self.damping(name, interface);
+            self.start_gaps(name, interface);
             self.law_fields(name, interface);
             if let Some(key) = interface.under_resolved.as_ref().filter(|_| interface.law.is_none()) {
                 self.error(

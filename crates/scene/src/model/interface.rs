@@ -3,7 +3,7 @@
 use super::{DampingSpec, LawFields, LawSpec, UnderResolution};
 use crate::key_default::usual;
 use crate::spanned::Spanned;
-use crate::units::{Penalty, Penetration};
+use crate::units::{Length, Penalty, Penetration};
 use crate::{defaults, kind};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -24,6 +24,10 @@ pub struct Interface {
     pub sliding: Spanned<Sliding>,
     /// Smoothing of the master surface: `"cubic"`, with `"node-to-point"` only; absent: none.
     pub smoothing: Option<Spanned<Smoothing>>,
+    /// Start gaps: `"to-contact"`, where gaps and overlaps of the meshes count as none; absent: as meshed.
+    pub adjust: Option<Spanned<Adjust>>,
+    /// Gap at which all points start instead of the gaps of the meshes; absent: as meshed \[m\].
+    pub clearance: Option<Spanned<Length>>,
     /// Enforcement of contact: `{ kind = .., normal = .., tangential = .. }`; `tangential` if and only if there is a law.
     pub enforcement: Enforcement,
     /// A [friction law](laws.md) or a bond; absent: frictionless.
@@ -84,6 +88,14 @@ pub enum Sliding {
 pub enum Smoothing {
     /// Cubic patches that share a tangent plane at their nodes.
     Cubic,
+}
+
+/// Adjustments of start gaps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Adjust {
+    /// Slave points start in contact without stress.
+    ToContact,
 }
 
 /// Enforcement of the contact constraint.
