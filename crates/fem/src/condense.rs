@@ -7,6 +7,7 @@
 //! from any other term; interior displacements are recovered only on request.
 
 mod loaded_body;
+mod works;
 
 use crate::dof::{Channel, Constraints, Equations};
 use crate::error::FemError;
@@ -19,6 +20,7 @@ use crate::term::{ForwardTerm, Instant, Linearized, Pattern, Refusal, Term};
 use faer::{MatMut, MatRef};
 pub use loaded_body::{LoadedBody, Remainder};
 use std::sync::Arc;
+pub use works::ChannelWorks;
 
 /// A linear body before condensation: its stiffness as dense cell blocks.
 #[derive(Clone, Debug)]

@@ -12,6 +12,12 @@ pub struct ExternalForces {
 }
 
 impl ExternalForces {
+    /// The channels.
+    #[must_use]
+    pub fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
     /// The forces of these channels.
     #[must_use]
     pub fn new(channels: Vec<Channel>) -> Self {

@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 const DOUBTFUL: f64 = 0.05;
 
 /// Energy budget as reports have it, of every kind of run: what was given is kept, lost or missing.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct EnergyTable {
     /// J; J/m of thickness in plane strain and antiplane motion; J/m² for spring-sliders.
     pub unit: &'static str,
@@ -22,7 +22,7 @@ pub struct EnergyTable {
     pub given: BTreeMap<&'static str, f64>,
     /// Energy given minus energy kept and lost, at the end.
     pub missing: f64,
-    /// Missing energy over the largest part \[-\]: the largest of all steps of bodies with inertia, otherwise that at the end.
+    /// Missing energy over the largest part \[-\]: the largest of all steps of bodies and their interfaces, otherwise that at the end.
     pub imbalance: f64,
     /// Sum over steps of the size of the work on openings, which closing returns; it counts as a part.
     #[serde(skip_serializing_if = "Option::is_none")]

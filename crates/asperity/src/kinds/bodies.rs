@@ -232,9 +232,7 @@ impl<const D: usize> Running<'_, D> {
         };
         here.length.accepted(accepted.dt, accepted.cut, figures);
         self.record(here, system, accepted);
-        if let Some(energy) = system.energy() {
-            self.work.energy.note(&energy.energies());
-        }
+        self.work.energy.note(&system.energies());
         self.worst(system, false);
         (here.rejected, here.free) = (0, None);
     }
@@ -348,8 +346,9 @@ impl<const D: usize> Running<'_, D> {
             warnings.extend(doubts::never_pressed(&problem.interfaces, problem.model.scale, &results));
         }
         let unit = shared::energy_unit(plan.problem.model.idealisation);
-        let energy = system.energy().map(|energy| work.energy.table(unit, &energy.energies()));
-        warnings.extend(energy.as_ref().and_then(|energy| {
+        let energy = work.energy.table(unit, &system.energies());
+        // Without inertia a step in which much closes or yields misses energy, but no force.
+        warnings.extend(plan.problem.mass.as_ref().and_then(|_| {
             energy.doubt(
                 "points of contact may open and close in every other step",
                 "take shorter steps, a `spectral_radius` of 0.5 or less, or a softer penalty",
@@ -454,7 +453,7 @@ impl<const D: usize> Running<'_, D> {
             end_time,
             interfaces: &interfaces,
             samples: &samples,
-            energy: system.energy().map(|energy| energy.energies()),
+            energy: Some(system.energies()),
             fields: &|| views::body_fields(self.plan, system.blocks(), &system.displacement()),
         };
         if stopped {
@@ -479,5 +478,7 @@ fn interface_names<const D: usize>(plan: &Plan<D>) -> impl Iterator<Item = Strin
 
 /// Present state of the interfaces.
 fn interface_fields<const D: usize>(system: &AssembledProblem<'_, D>) -> Vec<InterfaceFields> {
-    system.interfaces().iter().map(views::interface_fields).collect()
+    let energies = system.interface_energies();
+    let each = system.interfaces().iter().enumerate();
+    each.map(|(k, interface)| views::interface_fields(interface, energies.get(k))).collect()
 }

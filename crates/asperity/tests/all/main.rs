@@ -24,6 +24,7 @@ mod documents;
 mod doubtful_scenes;
 mod dynamic;
 mod ends;
+mod energy_budget;
 mod enforcement;
 mod fault;
 mod fault_fluid;

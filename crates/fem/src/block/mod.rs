@@ -197,6 +197,18 @@ impl<const D: usize> LinearBlock<D> {
         (taken(pattern), taken(stiffness))
     }
 
+    /// Adds the internal forces of the displacements `u`, without initial stress \[N, or N/m of thickness\].
+    pub fn add_forces(&self, u: &[f64], forces: &mut [f64]) {
+        let mut offset = 0;
+        for block in self.cell_dofs().blocks() {
+            let n = block.len();
+            for (row, &dof) in self.stiffness()[offset..offset + n * n].chunks_exact(n).zip(block) {
+                forces[dof] += row.iter().zip(block).map(|(k, &other)| k * u[other]).sum::<f64>();
+            }
+            offset += n * n;
+        }
+    }
+
     /// Elastic energy of the displacements `u`, without initial stress \[J, or J/m of thickness\].
     #[must_use]
     pub fn strain_energy(&self, u: &[f64]) -> f64 {

@@ -1,20 +1,18 @@
-//! Bodies with mass: inertia as a term, and the energy budget. A problem without inertia has neither.
+//! Bodies with mass: inertia as a term, and its part in the energy budget. A problem without inertia has neither.
 
-mod energy;
 mod episode;
 mod prescribed_motion;
 mod scheme;
 mod term;
 
-pub use energy::Energy;
 pub use episode::{Episode, Handover};
 
-use crate::{CellBlock, Model, PlannedInterface, SpringState};
+use crate::energy::{self, Accounts, Energy, InterfaceEnergy, Phase, StepWorks, Sums, View};
+use crate::{Model, SpringState};
 use asperity_contact::Interface;
-use asperity_fem::dof::{Channel, Constraints};
+use asperity_fem::dof::Constraints;
 use asperity_fem::term::ForwardTerm;
 use asperity_fem::{FemError, mass};
-use energy::Shears;
 use episode::Regime;
 use serde::{Deserialize, Serialize};
 use term::{Inertia, TermState};
@@ -41,55 +39,19 @@ pub struct MassState {
     term: TermState,
     regime: Regime,
     episodes: Vec<Episode>,
-    energy: Energy,
-    viscous_rate: f64,
+    sums: Sums,
     phase: Phase,
-}
-
-/// Progress of a run into its present stage.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-enum Phase {
-    /// The first stage has not begun.
-    First,
-    /// A later stage has not begun.
-    Between,
-    /// The stage has begun.
-    Within,
-}
-
-/// Parts of a system on which the budget depends.
-pub struct View<'a, const D: usize> {
-    /// Blocks in their present state.
-    pub blocks: &'a [CellBlock<D>],
-    /// Interfaces as planned.
-    pub planned: &'a [PlannedInterface],
-    /// Interfaces in their present state.
-    pub interfaces: &'a [Interface<D>],
-    /// Springs of load points.
-    pub springs: &'a [SpringState],
-    /// Displacement \[m\].
-    pub u: &'a [f64],
-    /// Time \[s\].
-    pub time: f64,
 }
 
 /// Inertia of a system and its energy budget.
 #[derive(Debug)]
 pub struct InertialSystem<const D: usize> {
     term: Inertia,
-    energy: Energy,
-    /// Loads of the present stage.
-    loads: Vec<Channel>,
-    /// Shear tractions before the step.
-    shears: Shears<D>,
-    /// Springs before the step.
-    springs: Vec<SpringState>,
+    accounts: Accounts<D>,
     handover: Option<Handover>,
     regime: Regime,
     /// Passages with inertia so far, the present one last.
     episodes: Vec<Episode>,
-    /// Rate of viscous dissipation at the last accepted state \[W\].
-    viscous_rate: f64,
     phase: Phase,
 }
 
@@ -100,14 +62,10 @@ impl<const D: usize> InertialSystem<D> {
         let mass = mass::consistent(&model.mesh, &given.density, model.idealisation);
         Self {
             term: Inertia::new(mass, given.radius, given.velocity.clone()),
-            springs: Vec::new(),
             handover: given.handover,
             regime: Regime::first(given.handover.as_ref()),
             episodes: Vec::new(),
-            energy: Energy::default(),
-            loads: Vec::new(),
-            shears: Vec::new(),
-            viscous_rate: 0.0,
+            accounts: Accounts::default(),
             phase: Phase::First,
         }
     }
@@ -129,11 +87,9 @@ impl<const D: usize> InertialSystem<D> {
 
     /// Applies the conditions of a stage, with the sets of degrees of freedom that move as one. It begins with its first step.
     pub fn begin_stage(&mut self, constraints: &Constraints, groups: Vec<Vec<usize>>) {
-        self.loads = constraints.channels.iter().filter(|c| !c.forces.is_empty()).cloned().collect();
+        self.accounts.set_loads(&constraints.channels);
         self.term.set_constraints(constraints.clone(), groups);
-        if self.phase == Phase::Within {
-            self.phase = Phase::Between;
-        }
+        self.phase = self.phase.at_conditions();
     }
 
     /// True if the accelerations at the start of the stage are known.
@@ -142,8 +98,7 @@ impl<const D: usize> InertialSystem<D> {
         self.phase == Phase::Within
     }
 
-    /// Begins a stage with the forces of all other terms. What prescribed velocities change at once is work of the motions, and
-    /// tractions that a change of laws removes count as friction.
+    /// Begins a stage with the forces of all other terms. What prescribed velocities change at once is work of the motions.
     ///
     /// # Errors
     /// If the mass matrix cannot be factored.
@@ -154,23 +109,13 @@ impl<const D: usize> InertialSystem<D> {
         } else {
             self.term.start(r, at.u, at.time)?
         };
-        let contact = energy::contact_energy(at.planned, at.interfaces);
-        self.viscous_rate = energy::viscous_rate(at.blocks);
         if self.phase == Phase::First {
-            let [strain, plastic] = energy::body_energy(at.blocks, at.u);
-            let kinetic = self.kinetic();
-            let springs = energy::spring_energy(at.springs);
-            let start = kinetic + strain + contact + springs;
-            self.energy = Energy { kinetic, strain, contact, springs, plastic, start, ..Energy::default() };
+            self.accounts.open(self.kinetic(), at);
         } else {
-            self.energy.motions += change;
-            self.energy.kinetic += change;
-            self.energy.friction += self.energy.contact - contact;
-            self.energy.contact = contact;
-            // New springs are stretched by what held their sets.
-            let springs = energy::spring_energy(at.springs);
-            self.energy.motions += springs - self.energy.springs;
-            self.energy.springs = springs;
+            self.accounts.renew(at);
+            let energy = &mut self.accounts.sums.energy;
+            energy.motions += change;
+            energy.kinetic += change;
         }
         self.phase = Phase::Within;
         Ok(())
@@ -178,26 +123,20 @@ impl<const D: usize> InertialSystem<D> {
 
     /// Keeps what the budget needs of the state before a step.
     pub fn note(&mut self, interfaces: &[Interface<D>], springs: Vec<SpringState>) {
-        (self.shears, self.springs) = (energy::shears(interfaces), springs);
+        self.accounts.note(interfaces, springs);
     }
 
     /// Adds an accepted step of length `dt` to the budget; `total` is the residual of the whole system.
     pub fn settle(&mut self, total: &[f64], dt: f64, at: &View<'_, D>) {
         let works =
             if self.rests() { self.term.settle_at_rest(total, at.u, dt) } else { self.term.settle(total) };
-        let (viscous_rate, kinetic) = (energy::viscous_rate(at.blocks), self.kinetic());
-        let energy = &mut self.energy;
-        [energy.strain, energy.plastic] = energy::body_energy(at.blocks, at.u);
+        let loads = energy::by_loads(self.accounts.loads(), at.time, dt, self.term.moved());
+        self.accounts.settle(StepWorks { loads, motions: works.motions }, dt, at);
+        let kinetic = self.kinetic();
+        let energy = &mut self.accounts.sums.energy;
         energy.kinetic = kinetic;
-        energy.contact = energy::contact_energy(at.planned, at.interfaces);
-        energy.viscous += 0.5 * dt * (self.viscous_rate + viscous_rate);
-        energy.friction += energy::by_friction(&self.shears, at.interfaces);
         energy.numerical += works.numerical;
         energy.handover -= works.unbalanced;
-        energy.motions += works.motions + energy::by_load_points(&self.springs, at.springs);
-        energy.springs = energy::spring_energy(at.springs);
-        energy.loads += energy::by_loads(&self.loads, at.time, dt, self.term.moved());
-        self.viscous_rate = viscous_rate;
         match (self.episodes.last_mut(), self.regime) {
             // Forces are out of balance where the first step to a state of equilibrium begins.
             (Some(episode), Regime::Equilibrium) => episode.lost -= works.unbalanced,
@@ -220,16 +159,16 @@ impl<const D: usize> InertialSystem<D> {
             (Regime::Equilibrium, Regime::Inertia { .. }) => {
                 let left_out = self.term.wake(time) / self.term.largest_held();
                 let kinetic = self.term.kinetic();
-                self.energy.kinetic = kinetic;
-                self.energy.handover -= kinetic;
+                self.accounts.sums.energy.kinetic = kinetic;
+                self.accounts.sums.energy.handover -= kinetic;
                 self.episodes.push(Episode { begin: time, left_out, ..Episode::default() });
                 true
             }
             (Regime::Inertia { .. }, Regime::Equilibrium) => {
                 let lost = self.term.kinetic();
                 self.term.rest();
-                self.energy.kinetic = 0.0;
-                self.energy.handover += lost;
+                self.accounts.sums.energy.kinetic = 0.0;
+                self.accounts.sums.energy.handover += lost;
                 if let Some(episode) = self.episodes.last_mut() {
                     (episode.end, episode.lost) = (Some(time), lost);
                 }
@@ -254,7 +193,13 @@ impl<const D: usize> InertialSystem<D> {
     /// Energy budget at the last accepted state.
     #[must_use]
     pub fn energy(&self) -> Energy {
-        self.energy
+        self.accounts.sums.energy
+    }
+
+    /// Energies of each interface; empty before the first step.
+    #[must_use]
+    pub fn interfaces(&self) -> &[InterfaceEnergy] {
+        &self.accounts.sums.interfaces
     }
 
     /// Velocities at the last accepted state \[m/s\].
@@ -283,14 +228,14 @@ impl<const D: usize> InertialSystem<D> {
     /// State between two steps.
     #[must_use]
     pub fn save(&self) -> MassState {
-        let Self { energy, viscous_rate, phase, regime, .. } = *self;
+        let Self { phase, regime, .. } = *self;
         let (term, episodes) = (self.term.save(), self.episodes.clone());
-        MassState { term, regime, episodes, energy, viscous_rate, phase }
+        MassState { term, regime, episodes, sums: self.accounts.sums.clone(), phase }
     }
 
     /// Restores a saved state with the displacements `u`. Returns false if it does not fit.
     pub fn restore(&mut self, saved: &MassState, u: &[f64]) -> bool {
-        (self.energy, self.viscous_rate, self.phase) = (saved.energy, saved.viscous_rate, saved.phase);
+        (self.accounts.sums, self.phase) = (saved.sums.clone(), saved.phase);
         (self.regime, self.episodes) = (saved.regime, saved.episodes.clone());
         self.term.restore(&saved.term, u)
     }

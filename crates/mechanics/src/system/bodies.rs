@@ -1,6 +1,7 @@
 //! The bodies of a system during a run, condensed or not.
 
 use crate::CellBlock;
+use crate::energy::{BodyEnergy, BodyWorks};
 use crate::error::SetUpError;
 use asperity_fem::dof::Constraints;
 use asperity_fem::term::ForwardTerm;
@@ -31,6 +32,12 @@ pub trait Bodies<const D: usize> {
 
     /// Displacement of all degrees of freedom of the mesh, from those of the system and the time \[s\].
     fn displacement(&self, u: &[f64], time: f64) -> Vec<f64>;
+
+    /// Energies of the accepted state, with displacements `u` of the system \[m\] at `time` \[s\].
+    fn energies(&self, u: &[f64], time: f64) -> BodyEnergy;
+
+    /// Works in a step between two states, given by the displacements of the system \[m\] and the times \[s\].
+    fn works(&self, from: (&[f64], f64), to: (&[f64], f64)) -> BodyWorks;
 
     /// Blocks of the mesh in their present state.
     fn blocks(&self) -> &[CellBlock<D>];

@@ -1,11 +1,12 @@
 //! Bodies condensed onto the degrees of freedom of their interfaces.
 
 use super::bodies::{Bodies, BodiesState};
+use crate::energy::{BodyEnergy, BodyWorks, linear_forces};
 use crate::error::SetUpError;
 use crate::solver::{self, Analyses};
-use crate::{CellBlock, Problem, free};
+use crate::{Body, CellBlock, Problem, free};
 use asperity_fem::FemError;
-use asperity_fem::condense::{Analysis, Condensation, CondensedBody};
+use asperity_fem::condense::{Analysis, ChannelWorks, Condensation, CondensedBody};
 use asperity_fem::dof::{Channel, Constraints};
 use asperity_fem::term::ForwardTerm;
 use asperity_run::Operations;
@@ -15,6 +16,8 @@ pub struct CondensedBodies<'a, const D: usize> {
     problem: &'a Problem<D>,
     retained: Vec<Vec<usize>>,
     terms: Vec<CondensedBody>,
+    /// Works of the channels of each body.
+    works: Vec<ChannelWorks>,
     factorisations: usize,
     solves: usize,
 }
@@ -23,7 +26,7 @@ impl<'a, const D: usize> CondensedBodies<'a, D> {
     /// Takes the bodies of a problem, with the degrees of freedom that each retains.
     #[must_use]
     pub fn new(problem: &'a Problem<D>, retained: Vec<Vec<usize>>) -> Self {
-        Self { problem, retained, terms: Vec::new(), factorisations: 0, solves: 0 }
+        Self { problem, retained, terms: Vec::new(), works: Vec::new(), factorisations: 0, solves: 0 }
     }
 
     fn solves(&self) -> usize {
@@ -41,6 +44,9 @@ impl<const D: usize> Bodies<D> for CondensedBodies<'_, D> {
         for (body, term) in self.problem.model.bodies.iter().zip(&mut self.terms) {
             term.set_channels(local_channels(constraints, body.dofs.clone()));
         }
+        let bodies = self.problem.model.bodies.iter().zip(&self.terms);
+        self.works =
+            bodies.map(|(body, term)| channel_works(self.problem, body, term, constraints)).collect();
         Ok(())
     }
 
@@ -50,6 +56,23 @@ impl<const D: usize> Bodies<D> for CondensedBodies<'_, D> {
 
     fn displacement(&self, u: &[f64], time: f64) -> Vec<f64> {
         self.terms.iter().flat_map(|b| b.recover(u, time)).collect()
+    }
+
+    fn energies(&self, u: &[f64], time: f64) -> BodyEnergy {
+        let each = self.works.iter().zip(&self.terms);
+        BodyEnergy {
+            stored: each.map(|(works, body)| works.elastic(body, (u, time))).sum(),
+            ..BodyEnergy::default()
+        }
+    }
+
+    fn works(&self, from: (&[f64], f64), to: (&[f64], f64)) -> BodyWorks {
+        let mut sum = BodyWorks::default();
+        for (works, body) in self.works.iter().zip(&self.terms) {
+            let [loads, motions] = works.works(body, from, to);
+            sum = BodyWorks { loads: sum.loads + loads, motions: sum.motions + motions };
+        }
+        sum
     }
 
     fn blocks(&self) -> &[CellBlock<D>] {
@@ -111,6 +134,21 @@ fn condense<const D: usize>(
         terms.push(CondensedBody::new(format!("body `{}`", body.name), reduction, &system));
     }
     Ok(terms)
+}
+
+/// Works of the channels of one body.
+fn channel_works<const D: usize>(
+    problem: &Problem<D>,
+    body: &Body<D>,
+    term: &CondensedBody,
+    constraints: &Constraints,
+) -> ChannelWorks {
+    let internal = |own: &[f64]| {
+        let mut all = vec![0.0; problem.model.dofs()];
+        all[body.dofs.clone()].copy_from_slice(own);
+        linear_forces(&problem.model.blocks[body.blocks.clone()], &all)[body.dofs.clone()].to_vec()
+    };
+    ChannelWorks::new(term, &local_channels(constraints, body.dofs.clone()), internal)
 }
 
 /// Channels of one body in its own numbering.

@@ -1,6 +1,7 @@
 //! Bodies with all their degrees of freedom in the system.
 
 use super::bodies::{Bodies, BodiesState};
+use crate::energy::{self, BodyEnergy, BodyWorks};
 use crate::error::SetUpError;
 use crate::{CellBlock, Model};
 use asperity_fem::dof::Constraints;
@@ -36,6 +37,16 @@ impl<const D: usize> Bodies<D> for FullBodies<D> {
 
     fn displacement(&self, u: &[f64], _time: f64) -> Vec<f64> {
         u[..self.dofs].to_vec()
+    }
+
+    fn energies(&self, u: &[f64], _time: f64) -> BodyEnergy {
+        energy::body_energy(&self.blocks, u)
+    }
+
+    fn works(&self, from: (&[f64], f64), to: (&[f64], f64)) -> BodyWorks {
+        let moved: Vec<f64> = from.0.iter().zip(to.0).map(|(from, to)| to - from).collect();
+        let loads = energy::by_loads(self.loads.channels(), to.1, to.1 - from.1, &moved);
+        BodyWorks { loads, motions: 0.0 }
     }
 
     fn blocks(&self) -> &[CellBlock<D>] {

@@ -5,6 +5,7 @@ mod condensed;
 mod full;
 mod numbering;
 mod springs;
+mod system_energy;
 mod system_inertia;
 mod system_state;
 mod words;
@@ -21,6 +22,7 @@ use super::step::implicit::Implicit;
 use super::step::static_explicit::StaticExplicit;
 use super::step::{AcceptedStep, Failure, State, StepLengths, Stepper};
 use super::{CellBlock, Path, PlannedInterface, Problem, Stage, ZoneResolution, contact_spec};
+use crate::energy::StaticBudget;
 use crate::error::SetUpError;
 use crate::inertia::InertialSystem;
 use crate::{Samples, SpringStart, SpringState};
@@ -41,9 +43,13 @@ pub struct AssembledProblem<'a, const D: usize> {
     interfaces: Vec<Interface<D>>,
     /// Inertia, if the bodies have mass.
     moving: Option<InertialSystem<D>>,
+    /// Energy budget, if they have none.
+    budget: StaticBudget<D>,
     numbering: Numbering,
     /// Constraints of the present stage, in system numbering.
     constraints: Constraints,
+    /// The same in mesh numbering, with the loads.
+    conditions: Constraints,
     /// Fixed degrees of freedom of the present stage, in mesh numbering.
     fixed: Option<Vec<usize>>,
     /// Degrees of freedom of the system that move as one in the present stage.
@@ -90,8 +96,10 @@ impl<'a, const D: usize> AssembledProblem<'a, D> {
             areas: interfaces.iter().map(|i| i.points().area.clone()).collect(),
             interfaces,
             moving: problem.mass.as_ref().map(|mass| InertialSystem::new(model, mass)),
+            budget: StaticBudget::new(),
             numbering,
             constraints: Constraints::default(),
+            conditions: Constraints::default(),
             fixed: None,
             groups: Vec::new(),
             springs: None,
@@ -128,6 +136,8 @@ impl<'a, const D: usize> AssembledProblem<'a, D> {
         if let Some(moving) = &mut self.moving {
             moving.begin_stage(&constraints, self.pulled.clone());
         }
+        self.budget.begin_stage(&self.constraints.fixed);
+        self.conditions = constraints;
         let number = |dofs: &Vec<usize>| dofs.iter().map(|&d| self.numbering.number[d]).collect();
         let groups: Vec<Vec<usize>> = self.pulled.iter().map(number).collect();
         if held_anew || groups != self.groups {

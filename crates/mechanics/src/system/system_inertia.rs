@@ -1,46 +1,9 @@
 //! Inertia of a system between its steps.
 
-use super::{AssembledProblem, springs, terms};
-use crate::inertia::{Energy, Episode, InertialSystem, View};
-use crate::step::{Balance, Failure};
-use asperity_fem::term::Instant;
-use asperity_run::Operations;
-
-/// Length of the step in which the forces at the start of a stage are evaluated, over that of its first step. Bodies relax and
-/// surfaces slip by this share of what they do in the first step, which is far below the error of the step.
-const INSTANT: f64 = 1e-6;
+use super::AssembledProblem;
+use crate::inertia::{Episode, InertialSystem};
 
 impl<const D: usize> AssembledProblem<'_, D> {
-    /// Prepares bodies with mass for a step of length `dt`. Before the first step of a stage this finds their accelerations from
-    /// the forces under the conditions of the stage.
-    pub(super) fn start_moving(&mut self, dt: f64, counts: &mut Operations) -> Result<(), Failure> {
-        let Some(moving) = &mut self.moving else { return Ok(()) };
-        let pulled = springs::now(self.springs.as_ref(), &self.state);
-        moving.note(&self.interfaces, pulled.clone());
-        if moving.has_begun() {
-            return Ok(());
-        }
-        let (u, time) = (&self.state.u, self.state.time);
-        let mut others = terms(self.bodies.as_mut(), &mut self.springs, &mut self.interfaces, None);
-        let mut balance = Balance::default();
-        let evaluated = balance.evaluate(&mut others, u, Instant { time, dt: INSTANT * dt }, counts);
-        others.iter_mut().for_each(|term| term.reject());
-        evaluated?;
-        let (planned, interfaces) = (self.problem.interfaces.as_slice(), self.interfaces.as_slice());
-        let at = View { blocks: self.bodies.blocks(), planned, interfaces, springs: &pulled, u, time };
-        moving.start(balance.r, &at).map_err(|error| Failure::Unsolved { error, always: true })
-    }
-
-    /// Adds an accepted step of length `dt` to the energy budget.
-    pub(super) fn settle(&mut self, dt: f64) {
-        let (Some(moving), Some(stepper)) = (&mut self.moving, &self.stepper) else { return };
-        let springs = springs::now(self.springs.as_ref(), &self.state);
-        let (planned, interfaces) = (self.problem.interfaces.as_slice(), self.interfaces.as_slice());
-        let (u, time) = (self.state.u.as_slice(), self.state.time);
-        let at = View { blocks: self.bodies.blocks(), planned, interfaces, springs: &springs, u, time };
-        moving.settle(stepper.residual(), dt, &at);
-    }
-
     /// Gives bodies inertia where slip has become fast, and takes it from them where it has become slow.
     pub(super) fn hand_over(&mut self) {
         if self.problem.mass.as_ref().is_none_or(|mass| mass.handover.is_none()) {
@@ -57,12 +20,6 @@ impl<const D: usize> AssembledProblem<'_, D> {
     #[must_use]
     pub fn episodes(&self) -> &[Episode] {
         self.moving.as_ref().map_or(&[], InertialSystem::episodes)
-    }
-
-    /// Energy budget of bodies with mass.
-    #[must_use]
-    pub fn energy(&self) -> Option<Energy> {
-        Some(self.moving.as_ref()?.energy())
     }
 
     /// Velocity of all degrees of freedom of bodies with mass \[m/s\].

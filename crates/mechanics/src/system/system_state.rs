@@ -4,6 +4,7 @@
 use super::bodies::BodiesState;
 use super::springs::Springs;
 use super::{AssembledProblem, terms};
+use crate::energy::StaticState;
 use crate::inertia::{InertialSystem, MassState};
 use crate::step::StepperState;
 use crate::{SpringStart, Stage};
@@ -28,6 +29,9 @@ pub struct SystemState {
     /// Inertia, if the bodies have mass.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     mass: Option<MassState>,
+    /// Energy budget, if they have none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    energy: Option<StaticState>,
     /// Springs at the start of the present stage, in its order.
     springs: Vec<SpringStart>,
 }
@@ -122,6 +126,7 @@ impl<const D: usize> AssembledProblem<'_, D> {
             interfaces,
             stepper,
             mass: self.moving.as_ref().map(InertialSystem::save),
+            energy: self.moving.is_none().then(|| self.budget.save()),
             springs: self.springs.as_ref().map_or_else(Vec::new, Springs::starts),
         }
     }
@@ -159,9 +164,9 @@ impl<const D: usize> AssembledProblem<'_, D> {
         if !self.bodies.restore(&saved.bodies) {
             return Err(Mismatch::Bodies);
         }
-        let fits = match (&mut self.moving, &saved.mass) {
-            (Some(moving), Some(mass)) => moving.restore(mass, &self.state.u),
-            (None, None) => true,
+        let fits = match (&mut self.moving, &saved.mass, &saved.energy) {
+            (Some(moving), Some(mass), _) => moving.restore(mass, &self.state.u),
+            (None, None, Some(energy)) => self.budget.restore(energy, self.numbering.dofs, &self.interfaces),
             _ => false,
         };
         if !fits {

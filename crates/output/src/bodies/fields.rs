@@ -50,6 +50,7 @@ pub(super) fn interface_series(
         &quantity::MEAN_NORMAL_TRACTION,
         &quantity::MEAN_SHEAR_TRACTION,
         &quantity::FRICTION,
+        &quantity::FRICTION_WORK,
         &quantity::STATUS,
         &quantity::AREA,
     ] {

@@ -8,7 +8,7 @@
 use super::record::{check_interfaces, check_probes, check_samples};
 use super::sample_sites::SampleSites;
 use super::schedule::{FieldSchedule, OutputIntervals};
-use super::view::{BodyFields, InterfaceFields, Setup, SpringValues, StepView, Writer};
+use super::view::{BodyFields, InterfaceFields, Setup, SpringValues, StepRecord, StepView, Writer};
 use super::{fields, tables};
 use crate::atomic;
 use crate::error::OutputError;
@@ -212,7 +212,9 @@ impl Files {
             file.push(row(force))?;
         }
         if let (Some(file), Some(energy)) = (&mut self.energy, &view.energy) {
-            file.push(energy::row(view.record.time, view.record.stage, view.record.step, energy))?;
+            let StepRecord { time, stage, step, .. } = *view.record;
+            let friction: Vec<f64> = view.interfaces.iter().map(|fields| fields.dissipated).collect();
+            file.push(energy::row(time, stage, step, energy, &friction))?;
         }
         if let Some(file) = &mut self.rates {
             let largest = |fields: &InterfaceFields| {
@@ -242,7 +244,11 @@ impl Files {
             .collect();
         let (points, forces, springs) = (setup.points.clone(), setup.forces.clone(), setup.springs.clone());
         all.extend(SampleSites { points, forces, springs, unit: setup.force_unit }.tables());
-        all.extend(setup.energy_unit.map(|unit| FileParts::new(energy::FILE.path, energy::columns(unit))));
+        if let Some(unit) = setup.energy_unit {
+            let names = setup.interfaces.iter().map(|mesh| mesh.name.as_str());
+            let columns = energy::columns(unit).into_iter().chain(energy::friction_columns(unit, names));
+            all.push(FileParts::new(energy::FILE.path, columns.collect()));
+        }
         if !setup.eventful.is_empty() {
             let eventful = setup.eventful.iter().filter_map(|&i| setup.interfaces.get(i));
             let columns = tables::rate_columns(eventful.map(|mesh| mesh.name.as_str()));

@@ -90,6 +90,13 @@ pub(super) const MEAN_SHEAR_TRACTION: Quantity = Quantity::new(
     "shear traction averaged around the node",
     |f, i| f.mean_shear_traction[i],
 );
+pub(super) const FRICTION_WORK: Quantity = Quantity::new(
+    "friction_work",
+    "J/m2",
+    Sign::Size,
+    "energy per area that friction has dissipated since the start",
+    |f, i| f.friction_work[i],
+);
 pub(super) const STATUS: Quantity =
     Quantity::new("status", "0 open 1 stick 2 slip", Sign::None, "state of contact", |f, i| {
         f64::from(f.status[i])

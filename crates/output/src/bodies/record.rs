@@ -147,7 +147,7 @@ impl Recorder {
         &self.samples
     }
 
-    /// An energy by its name after each accepted step of bodies with inertia; `None` without inertia, or if there is none of this name.
+    /// An energy by its name after each accepted step; `None` if there is none of this name.
     #[must_use]
     pub fn energy(&self, name: &str) -> Option<Vec<f64>> {
         let own = ENERGIES.iter().position(|energy| *energy == name)?;

@@ -18,7 +18,7 @@ pub(super) const RATES: OutputFile =
     OutputFile::new("largest_rates.csv", "largest slip rate of each interface with events, at every step");
 
 /// Columns of a profile.
-const PROFILE: [&Quantity; 11] = [
+const PROFILE: [&Quantity; 12] = [
     &quantity::GAP,
     &quantity::NORMAL_TRACTION,
     &quantity::SHEAR_TRACTION,
@@ -28,6 +28,7 @@ const PROFILE: [&Quantity; 11] = [
     &quantity::FRICTION,
     &quantity::MEAN_NORMAL_TRACTION,
     &quantity::MEAN_SHEAR_TRACTION,
+    &quantity::FRICTION_WORK,
     &quantity::STATUS,
     &quantity::PAIRED,
 ];

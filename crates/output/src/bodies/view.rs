@@ -111,6 +111,11 @@ pub struct InterfaceFields {
     /// overlap of the two sides.
     #[serde(deserialize_with = "numbers::or_nan")]
     pub area: Vec<f64>,
+    /// Energy per area that friction has dissipated since the start \[J/m²\].
+    #[serde(deserialize_with = "numbers::or_nan")]
+    pub friction_work: Vec<f64>,
+    /// Energy that friction has dissipated since the start \[J, or J/m of thickness\].
+    pub dissipated: f64,
     /// State variables of the law, each with one value per node; empty if no law with states acts.
     pub states: Vec<Vec<f64>>,
 }
@@ -275,7 +280,7 @@ pub struct StepView<'a> {
     pub interfaces: &'a [InterfaceFields],
     /// Points and forces, in the order of [`Setup::points`] and [`Setup::forces`].
     pub samples: &'a Samples,
-    /// Energy budget, if the bodies have inertia.
+    /// Energy budget.
     pub energy: Option<Energies>,
     /// Recovers the fields of the bodies; on the condensed path this costs a solve.
     pub fields: &'a dyn Fn() -> BodyFields,

@@ -1,4 +1,4 @@
-//! Energy budget of bodies with inertia over time.
+//! Energy budget of bodies over time.
 
 use super::chart::Measure;
 use super::sheet::{Curves, Points};
@@ -8,7 +8,7 @@ use crate::tables::energy::ENERGIES;
 /// Part that is not drawn: a constant.
 const START: &str = "start";
 
-/// The budget; `None` if the bodies have no inertia. Parts that stay zero are omitted.
+/// The budget; `None` without steps. Parts that stay zero are omitted.
 pub(super) fn budget(recorder: &Recorder) -> Option<Curves> {
     let curve = |name: &str| {
         let energy = recorder.energy(name)?;

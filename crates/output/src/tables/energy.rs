@@ -9,7 +9,7 @@ use asperity_run::Energies;
 pub const FILE: OutputFile = OutputFile::new("energy.csv", "energy budget over time");
 
 /// Energies in the order of the columns of files, in every kind of run.
-pub const ENERGIES: [&str; 14] = [
+pub const ENERGIES: [&str; 15] = [
     "kinetic",
     "elastic",
     "contact",
@@ -20,6 +20,7 @@ pub const ENERGIES: [&str; 14] = [
     "numerical",
     "absorbed",
     "handover",
+    "unbalanced",
     "start",
     "loads",
     "motions",
@@ -34,10 +35,22 @@ pub fn columns(unit: &'static str) -> Vec<Column> {
     when().into_iter().chain(ENERGIES.map(part)).chain([missing]).collect()
 }
 
-/// Row of an energy budget.
+/// Columns of what the friction of each interface has dissipated, in this unit.
+pub fn friction_columns<'a>(
+    unit: &'static str,
+    names: impl Iterator<Item = &'a str>,
+) -> impl Iterator<Item = Column> {
+    let own = move |name: &str| {
+        Column::new("friction", unit, Sign::None, "energy that friction dissipated").for_part(name)
+    };
+    names.map(own)
+}
+
+/// Row of an energy budget, with what the friction of each interface has dissipated.
 #[must_use]
-pub fn row(time: f64, stage: usize, step: usize, energies: &Energies) -> String {
+pub fn row(time: f64, stage: usize, step: usize, energies: &Energies, friction: &[f64]) -> String {
     let mut values = ENERGIES.map(|name| energies.part(name)).to_vec();
     values.push(energies.missing());
+    values.extend(friction);
     history_row(time, stage, step, &values)
 }

@@ -107,6 +107,8 @@ pub(crate) fn fields_at(setup: &Setup, time: f64, spoil: Option<f64>) -> Interfa
         friction: per(&mu),
         status: vec![if since > 0.0 { 2 } else { 1 }; mesh.positions.len()],
         area: mesh.areas.clone(),
+        friction_work: per(&|s| sigma(s) * mu(s) * slip(s)),
+        dissipated: since.max(0.0),
         states: vec![per(&mu); mesh.states],
     }
 }

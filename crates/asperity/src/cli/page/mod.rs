@@ -45,7 +45,8 @@ pub fn page(folder: &Path, report: &Value, texts: &Texts<'_>) -> String {
         section("Warnings", &warnings(report)),
         section("Pictures", &pictures(folder)),
         section("Events", &events(folder)),
-        section("Energy", &energy(report)),
+        section("Energy", &value_at(report, "energy")),
+        section("Balance of contact forces", &value_at(report, "balance")),
         section("Costs", &costs(report)),
         section("Plan and checks", &plan),
         section("Scene", &folded(SCENE, texts.scene)),
@@ -134,11 +135,6 @@ fn events(folder: &Path) -> String {
 /// A field of a table: numbers with few digits.
 fn cell(field: &str) -> String {
     field.parse().map_or_else(|_| field.to_owned(), elements::number)
-}
-
-/// Energy budget, with its unit.
-fn energy(report: &Value) -> String {
-    ["energy", "balance"].into_iter().map(|key| value_at(report, key)).collect()
 }
 
 /// Counts, which do not differ from run to run, and times and memory, which do.

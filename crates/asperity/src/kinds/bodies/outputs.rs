@@ -55,7 +55,7 @@ pub struct Checkpoint {
 
 impl checkpoint::SavedState for Checkpoint {
     const OF: &'static str = "bodies";
-    const VERSION: &'static str = "7";
+    const VERSION: &'static str = "8";
 }
 
 /// See the module.

@@ -38,6 +38,8 @@ pub struct InterfaceResult {
     pub friction: [f64; 2],
     /// Number of open, sticking and slipping points.
     pub status: [usize; 3],
+    /// Energy that friction has dissipated since the start of the run \[J, or J/m of thickness\].
+    pub friction_work: f64,
 }
 
 /// Events of interfaces.
@@ -108,9 +110,8 @@ pub struct RunReport {
     pub events: Option<Events>,
     /// Balance of contact forces at the end.
     pub balance: Vec<InterfaceBalance>,
-    /// Energy budget at the end, if the bodies have inertia.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub energy: Option<EnergyTable>,
+    /// Energy budget at the end.
+    pub energy: EnergyTable,
     /// Passages from equilibrium to inertia and back, if the stepper is "auto".
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub passages: Vec<Passage>,
@@ -156,6 +157,7 @@ pub(crate) fn results(
         slip_rate: range(&f.slip_rate),
         friction: range(&f.friction),
         status: [0, 1, 2].map(|s| f.status.iter().filter(|&&x| x == s).count()),
+        friction_work: f.dissipated,
     };
     fields.iter().zip(interfaces).map(of).collect()
 }

@@ -34,7 +34,7 @@ pub(super) struct Work {
     /// Rejected trials.
     pub rejected: usize,
     pub steps: Vec<StepRecord>,
-    /// Closure of the energy budget, if the bodies have inertia.
+    /// Closure of the energy budget.
     #[serde(default)]
     pub energy: Closure,
 }

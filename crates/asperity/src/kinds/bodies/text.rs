@@ -53,9 +53,7 @@ fn summary(report: &RunReport) -> String {
             text.push_str(&format!("  {}\n", unended(onset)));
         }
     }
-    if let Some(energy) = &report.energy {
-        text.push_str(&format!("  {}\n", energy.text()));
-    }
+    text.push_str(&format!("  {}\n", report.energy.text()));
     if !report.passages.is_empty() {
         let most = |of: fn(&Passage) -> f64| report.passages.iter().map(of).fold(0.0, f64::max);
         text.push_str(&format!(

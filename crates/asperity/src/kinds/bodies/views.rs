@@ -3,7 +3,7 @@
 use asperity_contact::{Interface, PointFields, Status};
 use asperity_fem::block::von_mises;
 use asperity_laws::Theta;
-use asperity_mechanics::{CellBlock, PlannedInterface};
+use asperity_mechanics::{CellBlock, InterfaceEnergy, PlannedInterface};
 use asperity_output::bodies::view::{BodyFields, InterfaceFields, InterfaceMesh, LogTheta, Setup};
 use asperity_plan::bodies::Plan;
 use asperity_plan::shared::views::{self, padded};
@@ -28,7 +28,7 @@ pub fn setup<const D: usize>(plan: &Plan<D>, areas: &[Vec<f64>]) -> Setup {
         forces: plan.problem.samples.forces.iter().map(views::force_mark).collect(),
         springs: views::spring_marks(&plan.problem.stages),
         force_unit: views::force_unit(plan.problem.model.idealisation),
-        energy_unit: plan.problem.mass.as_ref().map(|_| views::energy_unit(plan.problem.model.idealisation)),
+        energy_unit: Some(views::energy_unit(plan.problem.model.idealisation)),
         eventful: plan.events.as_ref().map_or_else(Vec::new, |events| events.interfaces.clone()),
     }
 }
@@ -95,11 +95,14 @@ fn mean_shear<const D: usize>(p: &PointFields<D>) -> Vec<f64> {
     each.map(|(t, e)| if D == 2 { inner(t, e) } else { inner(t, t).sqrt() }).collect()
 }
 
-/// State of an interface. In two dimensions tangential quantities are measured along the first tangent (-n_y, n_x), with n the outward normal of the
+/// State of an interface, with its energies once the run has begun. In two dimensions tangential quantities are measured along the first tangent (-n_y, n_x), with n the outward normal of the
 /// master. In three dimensions they are magnitudes, given in addition to vectors, because the tangents to which components refer depend on the
 /// contact measure.
 #[must_use]
-pub fn interface_fields<const D: usize>(interface: &Interface<D>) -> InterfaceFields {
+pub fn interface_fields<const D: usize>(
+    interface: &Interface<D>,
+    energy: Option<&InterfaceEnergy>,
+) -> InterfaceFields {
     let p = interface.points();
     let length = |v: &[f64; D]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
     let tangential = |vectors: &[[f64; D]], along: &[f64]| -> Vec<f64> {
@@ -129,6 +132,8 @@ pub fn interface_fields<const D: usize>(interface: &Interface<D>) -> InterfaceFi
             })
             .collect(),
         area: p.area.clone(),
+        friction_work: energy.map_or_else(|| vec![0.0; p.area.len()], |energy| energy.per_area.clone()),
+        dissipated: energy.map_or(0.0, |energy| energy.friction),
         states: (0..p.states_per_point)
             .map(|k| p.states.iter().skip(k).step_by(p.states_per_point).copied().collect())
             .collect(),

@@ -57,7 +57,7 @@ pub fn tables<const D: usize>(plan: &Plan<D>) -> Vec<FileParts<Column>> {
 fn energies<const D: usize>(plan: &Plan<D>) -> Table<'_> {
     let columns = energy::columns(if plan.per_length { "J/m" } else { "J" });
     let row = |now: &Moment<'_>| {
-        let row = |budget: &Budget| energy::row(now.time, 0, now.step, &budget.energies());
+        let row = |budget: &Budget| energy::row(now.time, 0, now.step, &budget.energies(), &[]);
         now.budget.as_ref().map_or(String::new(), row)
     };
     Table::new(energy::FILE.path, columns, Course::Rows, row)
