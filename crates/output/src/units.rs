@@ -73,6 +73,17 @@ pub(crate) const ENERGY: Units = Units(&[
     unit("EJ", 1e18),
 ]);
 
+/// Energies per area.
+pub(crate) const ENERGY_PER_AREA: Units = Units(&[
+    unit("nJ/m²", NANO),
+    unit("µJ/m²", MICRO),
+    unit("mJ/m²", MILLI),
+    unit("J/m²", 1.0),
+    unit("kJ/m²", 1e3),
+    unit("MJ/m²", 1e6),
+    unit("GJ/m²", 1e9),
+]);
+
 /// Energies per length out of the plane.
 pub(crate) const ENERGY_PER_LENGTH: Units = Units(&[
     unit("nJ/m", NANO),

@@ -15,6 +15,9 @@ pub enum Template {
     Lab,
     /// A block pressed on a base and pushed across it.
     Contact,
+    /// A block pressed on a plate and drawn along it, in space.
+    #[value(name = "contact-3d")]
+    Contact3d,
     /// A block on a spring.
     Sliders,
     /// Earthquake cycles of a strike-slip fault in two dimensions.
@@ -34,6 +37,7 @@ impl Template {
         match self {
             Self::Lab => "lab",
             Self::Contact => "contact",
+            Self::Contact3d => "contact-3d",
             Self::Sliders => "sliders",
             Self::Cycles2d => "cycles-2d",
             Self::Cycles3d => "cycles-3d",
@@ -47,6 +51,7 @@ impl Template {
         match self {
             Self::Lab => include_str!("../../templates/lab.toml"),
             Self::Contact => include_str!("../../templates/contact.toml"),
+            Self::Contact3d => include_str!("../../templates/contact-3d.toml"),
             Self::Sliders => include_str!("../../templates/sliders.toml"),
             Self::Cycles2d => include_str!("../../templates/cycles-2d.toml"),
             Self::Cycles3d => include_str!("../../templates/cycles-3d.toml"),

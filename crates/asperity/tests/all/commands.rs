@@ -56,7 +56,7 @@ fn every_template_is_sound_and_none_replaces_a_file() {
 #[test]
 fn the_fast_templates_run_to_their_ends() {
     let folder = tempfile::tempdir().unwrap();
-    for name in ["sliders", "contact", "cycles-2d", "cycles-3d", "subduction"] {
+    for name in ["sliders", "contact", "contact-3d", "cycles-2d", "cycles-3d", "subduction"] {
         assert!(asperity(folder.path(), &["new", name]).status.success());
         let run = asperity(folder.path(), &["run", &format!("{name}.toml"), "--no-plots"]);
         assert!(run.status.success(), "{name}: {}", text(&run.stderr));

@@ -8,7 +8,8 @@ use asperity_plan::reading::scene;
 use std::path::{Path, PathBuf};
 
 /// Pages with commands, in the order of reading.
-const PAGES: [&str; 2] = ["docs/src/tutorial.md", "docs/src/spring-slider-howto.md"];
+const PAGES: [&str; 3] =
+    ["docs/src/tutorial.md", "docs/src/contact-3d-howto.md", "docs/src/spring-slider-howto.md"];
 /// Change of a count that depends on rounding.
 const COUNTS: f64 = 0.05;
 /// Change of a result that depends on rounding.

@@ -21,7 +21,7 @@ material = "steel"
 mesh.block = { min = [0, "-10 mm"], max = ["60 mm", 0], size = "5 mm", element = "quad4" }
 [bodies.block]
 material = "steel"
-mesh.block = { min = ["20 mm", 0], max = ["40 mm", "10 mm"], size = "4 mm", element = "quad4" }
+mesh.block = { min = ["20 mm", 0], max = ["40 mm", "10 mm"], divisions = [6, 3], element = "quad4" }
 [interfaces.joint]
 slave = "block.bottom"
 master = "plate.top"
@@ -59,6 +59,11 @@ const SPACE: &[Change<'_>] = &[
     With("bodies.block.mesh.block.min", r#"["20 mm", 0, 0]"#),
     With("bodies.block.mesh.block.max", r#"["40 mm", "10 mm", "10 mm"]"#),
     With("bodies.block.mesh.block.element", "hex8"),
+    With("bodies.block.mesh.block.divisions", "[6, 3, 3]"),
+    Add("stages[0].conditions[0].z", "0"),
+    Add("stages[0].conditions[2].z", "0"),
+    Add("stages[1].conditions[0].z", "0"),
+    Add("stages[1].conditions[2].z", "0"),
 ];
 const MORTAR: Change<'_> = With("interfaces.joint.measure", "mortar");
 const FINITE: Change<'_> = With("interfaces.joint.sliding", "finite");
@@ -75,35 +80,82 @@ fn a_block_that_slides_dissipates_friction_times_pressure_times_area_times_way()
     let plane: &[Change<'_>] = &[];
     for (space, area) in [(plane, 0.02), (SPACE, 0.02 * 0.01)] {
         for own in [&[][..], &[MORTAR], &[FINITE], &[MORTAR, FINITE], &[FULL], &[PLASTIC, FINITE]] {
-            let scene = varied(&varied(SLIDE, space), own);
-            let (report, record) = simulate(&scene);
+            let (report, record) = simulate(&changed(&[space, own]));
             let friction = part(&report, "friction");
-            // Points begin to slip up to the shear of the block behind its drawn side, 0.1 um of 1 mm.
-            close(friction, MU * PRESSURE * area * SLID, 1e-3);
+            // Points begin to slip after the shear of the block behind its drawn side, some 0.1 um of 1 mm.
+            // Points of a mortar interface that slides far change their areas and tractions in each step.
+            let bound = if own == [MORTAR, FINITE] { 3e-3 } else { 1e-4 };
+            close(friction, MU * PRESSURE * area * SLID, bound);
             assert_eq!(report.results[1].friction_work, friction);
             let end = &record.stage_ends()[1].interfaces[0];
             let sum: f64 = end.friction_work.iter().zip(&end.area).map(|(work, area)| work * area).sum();
-            // Areas of mortar interfaces follow the overlap, and the sum has the last ones.
-            close(sum, friction, 1e-6);
-            // One step of 20 has the way on which points begin to slip; the rest is uniform.
-            assert!(report.energy.imbalance < 1e-3, "{own:?} {:?}", report.energy);
+            // Areas of mortar interfaces follow the overlap, and this sum has the last ones.
+            close(sum, friction, bound);
+            // The first of 20 steps has the way on which all points begin to slip: its works miss half of what it dissipates.
+            let first = friction / 20.0;
+            let missing = -report.energy.missing;
+            assert!(missing > 0.2 * first && missing < 0.51 * first, "{missing:e} {first:e}");
         }
     }
 }
 
 #[test]
+fn a_way_and_back_dissipates_twice_although_slip_turns_within_a_step() {
+    let back = r#"{ table = [[0, 0], [0.5, "1 mm"], [1, 0]] }"#;
+    let (report, record) = simulate(&varied(SLIDE, &[With("stages[1].conditions[2].x", back)]));
+    close(part(&report, "friction"), 2.0 * MU * PRESSURE * 0.02 * SLID, 1e-3);
+    let friction = record.energy("friction").unwrap();
+    assert!(friction.windows(2).all(|pair| pair[1] >= pair[0]), "{friction:?}");
+}
+
+/// The sliding block with changes.
+fn changed(changes: &[&[Change<'_>]]) -> String {
+    let parts = changes.iter().filter(|part| !part.is_empty());
+    parts.fold(SLIDE.to_string(), |scene, part| varied(&scene, part))
+}
+
+#[test]
+fn a_sleeve_that_slides_on_a_shaft_dissipates_friction_on_its_whole_round() {
+    let round = [
+        With("kinematics", "axisymmetric"),
+        With("bodies.plate.mesh.block.min", r#"[0, 0]"#),
+        With("bodies.plate.mesh.block.max", r#"["10 mm", "60 mm"]"#),
+        With("bodies.block.mesh.block.min", r#"["10 mm", "20 mm"]"#),
+        With("bodies.block.mesh.block.max", r#"["20 mm", "40 mm"]"#),
+        With("bodies.block.mesh.block.divisions", "[3, 6]"),
+        With("interfaces.joint.slave", "block.left"),
+        With("interfaces.joint.master", "plate.right"),
+        With(
+            "stages[0].conditions",
+            r#"[{ set = "plate.bottom", y = 0 }, { set = "block.right", pressure = { to = "1 MPa" } }, { set = "block.top", y = 0 }]"#,
+        ),
+        With(
+            "stages[1].conditions",
+            r#"[{ set = "plate.bottom", y = 0 }, { set = "block.right", pressure = "1 MPa" }, { set = "block.top", y = { to = "1 mm" } }]"#,
+        ),
+    ];
+    let (report, record) = simulate(&varied(SLIDE, &round));
+    let pressed = &record.stage_ends()[0].interfaces[0];
+    let area: f64 = pressed.area.iter().sum();
+    close(area, std::f64::consts::TAU * 0.01 * 0.02, 1e-9);
+    // Friction that pulls the sleeve lengthens it, which changes its grip once.
+    let slid = &record.stage_ends()[1].interfaces[0];
+    let normal: f64 = slid.area.iter().zip(&slid.normal_traction).map(|(a, f)| a * f).sum();
+    close(part(&report, "friction"), MU * normal * SLID, 2e-3);
+    assert_eq!(report.energy.unit, "J");
+}
+
+#[test]
 fn both_paths_have_one_budget() {
     for own in [&[][..], &[MORTAR]] {
-        let (condensed, full) =
-            (simulate(&varied(SLIDE, own)).0, simulate(&varied(&varied(SLIDE, own), &[FULL])).0);
-        assert_ne!(condensed.plan, full.plan);
+        let (condensed, full) = (simulate(&changed(&[own])).0, simulate(&changed(&[own, &[FULL]])).0);
         for name in ["elastic", "contact", "friction", "loads", "motions"] {
             close(part(&condensed, name), part(&full, name), 1e-6);
         }
         // The side drawn in the second stage was held in the first: nothing jumps.
         for report in [condensed, full] {
             assert!(
-                part(&report, "unbalanced").abs() < 1e-6 * part(&report, "motions"),
+                part(&report, "unbalanced").abs() < 1e-9 * part(&report, "motions"),
                 "{:?}",
                 report.energy
             );
@@ -113,26 +165,24 @@ fn both_paths_have_one_budget() {
 
 #[test]
 fn a_support_that_goes_loses_what_it_held_on_both_paths() {
-    // The block is pressed by its upper side, which the second stage lets go.
+    // The block is pressed by its upper side, which a load takes over and leaves at once.
     let press =
         r#"[{ set = "plate.bottom", x = 0, y = 0 }, { set = "block.top", x = 0, y = { to = "-1 um" } }]"#;
-    let away = r#"[{ set = "plate.bottom", x = 0, y = 0 }, { set = "block.top", x = 0 }]"#;
-    let still = With("stages[1].conditions", away);
-    let changes = [With("stages[0].conditions", press), still];
+    let less = r#"[{ set = "plate.bottom", x = 0, y = 0 }, { set = "block.top", x = 0, y = "free", pressure = "1 kPa" }]"#;
+    let changes = [
+        With("stages[0].conditions", press),
+        With("stages[1].conditions", less),
+        Change::Without("interfaces.joint.law"),
+        Change::Without("interfaces.joint.enforcement.tangential"),
+    ];
     for own in [&[][..], &[FULL]] {
-        let scene = varied(&varied(SLIDE, &changes), own);
-        let (report, record) = simulate(&scene);
-        let (start, end) = (energy_at(&record, 3), &report.energy);
-        assert!(start.0 > 0.0 && part(&report, "elastic") < 1e-3 * start.0, "{end:?}");
-        // The penalties and the bodies lose all they had.
-        close(part(&report, "unbalanced"), start.0 + start.1, 1e-2);
-        assert!(end.imbalance < 1e-2, "{end:?}");
+        let (report, record) = simulate(&changed(&[&changes, own]));
+        let held: f64 = ["elastic", "contact"].into_iter().map(|name| record.energy(name).unwrap()[3]).sum();
+        assert!(held > 0.0 && part(&report, "elastic") < 1e-3 * held, "{:?}", report.energy);
+        // The load does next to no work on the way back: bodies lose what they had.
+        close(part(&report, "unbalanced"), held, 1e-2);
+        assert!(report.energy.imbalance < 1e-6, "{:?}", report.energy);
     }
-}
-
-/// Elastic energy of bodies and penalties after a step.
-fn energy_at(record: &asperity_output::bodies::Recorder, step: usize) -> (f64, f64) {
-    (record.energy("elastic").unwrap()[step], record.energy("contact").unwrap()[step])
 }
 
 const YOUNG: f64 = 200e9;
@@ -169,8 +219,8 @@ fn a_bar_that_yields_dissipates_its_yield_stress_times_its_plastic_strain() {
     let elastic = YIELD / YOUNG;
     let exact = [0.5 * YIELD * elastic, YIELD * (STRAIN - elastic), YIELD * (STRAIN - 0.5 * elastic)]
         .map(|w| 0.1 * w);
-    for stepper in ["implicit", "static-explicit"] {
-        let (report, _) = simulate(&varied(STRETCH, &[With("time.stepper", stepper)]));
+    for scene in [STRETCH.to_string(), varied(STRETCH, &[With("time.stepper", "static-explicit")])] {
+        let (report, _) = simulate(&scene);
         for (name, exact) in ["elastic", "plastic", "motions"].into_iter().zip(exact) {
             // The bar yields at the end of the second of eight steps.
             close(part(&report, name), exact, 1e-6);
@@ -184,7 +234,7 @@ fn a_bar_that_yields_dissipates_its_yield_stress_times_its_plastic_strain() {
 fn what_a_budget_misses_falls_with_the_square_of_the_steps() {
     let harden = With(
         "materials.steel.plasticity",
-        r#"{ hardening = "swift", yield = "200 MPa", strain = 1e-3, exponent = 0.2 }"#,
+        r#"{ hardening = "power", yield = "200 MPa", strain = 1e-3, exponent = 0.2 }"#,
     );
     let missed = |steps: &str| {
         simulate(&varied(STRETCH, &[harden, With("stages[0].steps", steps)])).0.energy.missing.abs()

@@ -40,6 +40,7 @@ mod figures;
 mod helps;
 mod inputs;
 mod instability;
+mod interface_maps;
 mod interface_signs;
 mod key_tables;
 mod law_tables;

@@ -16,9 +16,6 @@ use crate::dof::Channel;
 use crate::product::multiply_symmetric;
 use faer::MatRef;
 
-/// Displacements of the system and time \[s\] of a state.
-pub type At<'a> = (&'a [f64], f64);
-
 /// Products of the channels of a condensed body, each of which has loads or motions.
 #[derive(Clone, Debug, Default)]
 pub struct ChannelWorks {
@@ -50,9 +47,9 @@ impl ChannelWorks {
         }
     }
 
-    /// Elastic energy \[J\].
+    /// Elastic energy \[J\] in a state, given by the displacements of the system \[m\] and the time \[s\].
     #[must_use]
-    pub fn elastic(&self, body: &CondensedBody, at: At<'_>) -> f64 {
+    pub fn elastic(&self, body: &CondensedBody, at: (&[f64], f64)) -> f64 {
         let n = self.loads.len();
         let local: Vec<f64> = body.pattern.dofs().iter().map(|&dof| at.0[dof]).collect();
         let amplitudes = amplitudes(body, at.1);
@@ -69,7 +66,7 @@ impl ChannelWorks {
 
     /// Works of the loads, and of the motions of the interior, from one state to another by the trapezoidal rule \[J\].
     #[must_use]
-    pub fn works(&self, body: &CondensedBody, from: At<'_>, to: At<'_>) -> [f64; 2] {
+    pub fn works(&self, body: &CondensedBody, from: (&[f64], f64), to: (&[f64], f64)) -> [f64; 2] {
         let n = self.loads.len();
         let combined = |a: f64, b: f64| -> Vec<f64> {
             body.pattern.dofs().iter().map(|&dof| a * from.0[dof] + b * to.0[dof]).collect()

@@ -7,6 +7,10 @@ use asperity_contact::Interface;
 use asperity_fem::dof::Channel;
 use serde::{Deserialize, Serialize};
 
+/// Cosine of the angle between traction and slip beyond which slip has turned: some 25 degrees, farther than slip turns in a step
+/// that follows its path.
+const ALONG: f64 = 0.9;
+
 /// Parts of a system on which the budget depends.
 pub struct View<'a, const D: usize> {
     /// Energies of the bodies.
@@ -121,6 +125,22 @@ impl<const D: usize> Accounts<D> {
     /// Keeps what the budget needs of the state before a step.
     pub fn note(&mut self, interfaces: &[Interface<D>], springs: Vec<SpringState>) {
         (self.shears, self.springs) = (parts::shears(interfaces), springs);
+    }
+
+    /// Takes the tractions after the step for those before it at points that begin to slip, or turn, within it: they slip when their
+    /// traction has become the strength. `slid` tells which points slipped before.
+    pub fn begin_to_slip(&mut self, slid: &[Vec<bool>], interfaces: &[Interface<D>]) {
+        for ((before, slid), interface) in self.shears.iter_mut().zip(slid).zip(interfaces) {
+            let f = interface.points();
+            let dot = |a: &[f64; D], b: &[f64; D]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            for (p, traction) in before.iter_mut().enumerate() {
+                let slip = &f.slip_increment[p];
+                let size = (dot(traction, traction) * dot(slip, slip)).sqrt();
+                if !slid[p] || dot(traction, slip) < ALONG * size {
+                    *traction = f.shear[p];
+                }
+            }
+        }
     }
 
     /// Adds an accepted step of length `dt`.

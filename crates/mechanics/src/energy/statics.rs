@@ -4,14 +4,16 @@
 //! freedom it is the work of the motions. Elsewhere r is what is out of balance: supports that a stage removes and loads that act
 //! at once, the tolerance of Newton's method, and the drift of static-explicit steps. What such forces do is lost, since nothing
 //! moves fast in the model. The rule errs in the third order of a step, and thus in the second of a run, where forces are curved in
-//! the displacements, and once in the second order where a point closes, slips or yields within a step.
+//! the displacements, and once in the second order where a point closes or yields within a step. A point that begins to slip within
+//! a step dissipates its strength times its slip, as its law does, whereas the works of this step are those of the rule: they miss
+//! half of it.
 
 use super::accounts::{Accounts, InterfaceEnergy, StepWorks, Sums, View};
 use super::budget::Energy;
 use super::parts;
 use super::phase::Phase;
 use crate::CellBlock;
-use asperity_contact::Interface;
+use asperity_contact::{Interface, Status};
 use asperity_fem::dof::Constraints;
 use serde::{Deserialize, Serialize};
 
@@ -54,6 +56,8 @@ pub struct StaticBudget<const D: usize> {
     held: Vec<f64>,
     /// Displacements of the system before the step \[m\].
     before: Vec<f64>,
+    /// Points of each interface that slipped in the step before.
+    slid: Vec<Vec<bool>>,
     phase: Phase,
 }
 
@@ -61,8 +65,8 @@ impl<const D: usize> StaticBudget<D> {
     /// Budget of a run that has not begun.
     #[must_use]
     pub fn new() -> Self {
-        let (fixed, held, before) = (Vec::new(), Vec::new(), Vec::new());
-        Self { accounts: Accounts::default(), fixed, held, before, phase: Phase::First }
+        let (fixed, held, before, slid) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { accounts: Accounts::default(), fixed, held, before, slid, phase: Phase::First }
     }
 
     /// Applies the conditions of a stage, with its prescribed degrees of freedom of the system. It begins with its first step.
@@ -116,6 +120,8 @@ impl<const D: usize> StaticBudget<D> {
     pub fn note(&mut self, u: &[f64], interfaces: &[Interface<D>], springs: Vec<crate::SpringState>) {
         self.before.clear();
         self.before.extend_from_slice(u);
+        let slips = |i: &Interface<D>| i.points().status.iter().map(|s| *s == Status::Slip).collect();
+        self.slid = interfaces.iter().map(slips).collect();
         self.accounts.note(interfaces, springs);
     }
 
@@ -133,6 +139,7 @@ impl<const D: usize> StaticBudget<D> {
         let all: f64 = (0..held.len()).map(work).sum();
         self.accounts.sums.energy.unbalanced += reactions - all;
         let works = StepWorks { loads: works.loads, motions: works.motions + reactions };
+        self.accounts.begin_to_slip(&self.slid, at.interfaces);
         self.accounts.settle(works, dt, at);
         let dofs = self.held.len();
         self.held.copy_from_slice(&total[..dofs]);

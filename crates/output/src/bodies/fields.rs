@@ -13,9 +13,7 @@ pub(super) fn body_series(mesh: &MeshView, plastic: bool) -> Series<'static, Bod
     let body: Vec<i64> = mesh.cell_body.iter().map(|&body| body as i64).collect();
     let mises = || Field::scalar("mises", "Pa", Sign::Size, "equivalent stress of von Mises");
     let series = Series::new(FILES.named("bodies_*"), FieldTimes::Intervals, || grid)
-        .with(Field::vector("displacement", "m", Sign::Axis, "displacement"), |f: &BodyFields| {
-            Data::from(&f.displacement)
-        })
+        .with(displacement(), |f: &BodyFields| Data::from(&f.displacement))
         .with(mises(), |f| Data::from(&f.node_mises))
         .with(Field::tensor("stress", "Pa", Sign::Tension, "stress").in_cells(), |f| {
             Data::from(&f.cell_stress)
@@ -31,14 +29,22 @@ pub(super) fn body_series(mesh: &MeshView, plastic: bool) -> Series<'static, Bod
     series.with(strain.in_cells(), |f| Data::from(&f.cell_plastic_strain))
 }
 
-/// Fields of an interface of this stem, between bodies of this dimension.
+/// The slave side of an interface in a state.
+pub(super) struct SlaveSide {
+    pub fields: InterfaceFields,
+    /// Displacement of its nodes \[m\].
+    pub displacement: Vec<[f64; 3]>,
+}
+
+/// Fields of the slave side of an interface of this stem, between bodies of this dimension.
 pub(super) fn interface_series(
     stem: &str,
     mesh: &InterfaceMesh,
     dimension: usize,
-) -> Series<'static, InterfaceFields> {
-    let grid = grid(mesh, dimension);
-    let mut series = Series::new(FILES.named(&format!("{stem}_*")), FieldTimes::Intervals, || grid);
+) -> Series<'static, SlaveSide> {
+    let grid = grid(&mesh.positions, &mesh.faces, dimension);
+    let mut series = Series::new(FILES.named(&format!("{stem}_*")), FieldTimes::Intervals, || grid)
+        .with(displacement(), |side: &SlaveSide| Data::from(&side.displacement));
     for quantity in [
         &quantity::GAP,
         &quantity::PAIRED,
@@ -54,13 +60,14 @@ pub(super) fn interface_series(
         &quantity::STATUS,
         &quantity::AREA,
     ] {
-        series = series.with(quantity.field(), |f| quantity.data(f));
+        series = series.with(quantity.field(), |side| quantity.data(&side.fields));
     }
     if mesh.in_space {
         series = series
-            .with(Field::vector("slip_vector", "m", Sign::Vector, "slip of the slave past the master"), |f| {
-                Data::from(&f.slip_vector)
-            })
+            .with(
+                Field::vector("slip_vector", "m", Sign::Vector, "slip of the slave past the master"),
+                |side| Data::from(&side.fields.slip_vector),
+            )
             .with(
                 Field::vector(
                     "shear_traction_vector",
@@ -68,34 +75,54 @@ pub(super) fn interface_series(
                     Sign::Vector,
                     "shear traction of the slave side",
                 ),
-                |f| Data::from(&f.shear_vector),
+                |side| Data::from(&side.fields.shear_vector),
             );
     }
     for k in 0..mesh.states {
         let field = Field::scalar(format!("state_{}", k + 1), "", Sign::None, quantity::STATE);
-        series =
-            series.with(field, move |f| Data::from(f.nodes().map(|i| f.state(k, i)).collect::<Vec<_>>()));
+        series = series.with(field, move |side| {
+            let f = &side.fields;
+            Data::from(f.nodes().map(|i| f.state(k, i)).collect::<Vec<_>>())
+        });
     }
     series
 }
 
-/// The slave side as VTK cells; vertices if it has no faces.
-fn grid(mesh: &InterfaceMesh, dimension: usize) -> Grid {
-    // VTK cell types: 1 vertex, 3 line, 4 polyline, 5 triangle, 7 polygon, 9 quadrilateral.
+/// Displacement of the master side of an interface, as files beside those of the slave side.
+pub(super) fn master_series(
+    stem: &str,
+    mesh: &InterfaceMesh,
+    (dimension, nodes): (usize, &[[f64; 3]]),
+) -> Series<'static, Vec<[f64; 3]>> {
+    let places: Vec<[f64; 3]> = mesh.master_nodes.iter().filter_map(|&n| nodes.get(n).copied()).collect();
+    let grid = grid(&places, &mesh.master_faces, dimension);
+    Series::new(FILES.named(&format!("{stem}_*")), FieldTimes::Intervals, || grid)
+        .with(displacement(), |moved: &Vec<[f64; 3]>| Data::from(moved))
+}
+
+fn displacement() -> Field {
+    Field::vector("displacement", "m", Sign::Axis, "displacement")
+}
+
+/// Faces of a surface as VTK cells; vertices if it has none.
+fn grid(places: &[[f64; 3]], faces: &[Vec<usize>], dimension: usize) -> Grid {
+    // VTK cell types: 1 vertex, 3 line, 21 line with its middle; triangles 5 and 22 with middles, quadrilaterals 9, 23 and 28.
     let kind = |nodes: usize| match (dimension, nodes) {
         (_, 1) => 1,
         (_, 2) => 3,
-        (2, _) => 4,
+        (2, _) => 21,
         (_, 3) => 5,
         (_, 4) => 9,
-        _ => 7,
+        (_, 6) => 22,
+        (_, 8) => 23,
+        _ => 28,
     };
-    let cells: Vec<Cell> = if mesh.faces.is_empty() {
-        (0..mesh.positions.len()).map(|node| Cell::new(1, vec![node])).collect()
+    let cells: Vec<Cell> = if faces.is_empty() {
+        (0..places.len()).map(|node| Cell::new(1, vec![node])).collect()
     } else {
-        mesh.faces.iter().map(|face| Cell::new(kind(face.len()), face.clone())).collect()
+        faces.iter().map(|face| Cell::new(kind(face.len()), face.clone())).collect()
     };
-    Grid::new(&mesh.positions, &cells)
+    Grid::new(places, &cells)
 }
 
 /// Checks that fields have a value for each node or cell.

@@ -5,6 +5,7 @@
 //! forces/left.csv  springs/block.top.y.csv
 //! ```
 
+use super::fields::SlaveSide;
 use super::record::{check_interfaces, check_probes, check_samples};
 use super::sample_sites::SampleSites;
 use super::schedule::{FieldSchedule, OutputIntervals};
@@ -56,7 +57,9 @@ pub struct Files {
 struct Part {
     /// Stem of its file names.
     stem: String,
-    fields: Series<'static, InterfaceFields>,
+    fields: Series<'static, SlaveSide>,
+    /// Displacement of its master side.
+    master: Series<'static, Vec<[f64; 3]>>,
     probes: Option<GrowingTable>,
 }
 
@@ -159,17 +162,25 @@ impl Files {
         self.field_number += 1;
         self.written[1] = Some(view.record.time);
         let (number, time, mesh) = (self.field_number, view.record.time, &self.setup.mesh);
-        let mut entries = Vec::with_capacity(1 + self.interfaces.len());
-        let shown = (view.fields)();
-        fields::check(mesh, &shown)?;
-        let plastic = !shown.cell_plastic_strain.is_empty();
+        let mut entries = Vec::with_capacity(1 + 2 * self.interfaces.len());
+        let shown_bodies = (view.fields)();
+        fields::check(mesh, &shown_bodies)?;
+        let plastic = !shown_bodies.cell_plastic_strain.is_empty();
         let bodies = self.bodies.get_or_insert_with(|| fields::body_series(mesh, plastic));
-        bodies.write(&self.out, number, time, &shown)?;
+        bodies.write(&self.out, number, time, &shown_bodies)?;
         entries.push(PvdEntry { time, part: 0, name: "bodies".to_string(), file: bodies.file(number) });
         for (i, (part, shown)) in self.interfaces.iter().zip(view.interfaces).enumerate() {
             let name = self.setup.interfaces[i].name.clone();
-            part.fields.write(&self.out, number, time, shown)?;
-            entries.push(PvdEntry { time, part: i + 1, name, file: part.fields.file(number) });
+            let moved =
+                |nodes: &[usize]| nodes.iter().map(|&n| shown_bodies.displacement[n]).collect::<Vec<_>>();
+            let mesh = &self.setup.interfaces[i];
+            let side = SlaveSide { fields: shown.clone(), displacement: moved(&mesh.nodes) };
+            part.fields.write(&self.out, number, time, &side)?;
+            let file = part.fields.file(number);
+            entries.push(PvdEntry { time, part: 2 * i + 1, name: name.clone(), file });
+            part.master.write(&self.out, number, time, &moved(&mesh.master_nodes))?;
+            let (name, file) = (format!("{name}, master"), part.master.file(number));
+            entries.push(PvdEntry { time, part: 2 * i + 2, name, file });
         }
         self.collection.extend(entries);
         atomic::write(&self.out.join(COLLECTION.path), &pvd(&self.collection))
@@ -262,7 +273,7 @@ impl Files {
     pub fn fields(&self) -> Vec<FileParts<Field>> {
         // There are none of interfaces without those of bodies.
         let Some(bodies) = &self.bodies else { return Vec::new() };
-        let interfaces = self.interfaces.iter().map(|part| part.fields.fields());
+        let interfaces = self.interfaces.iter().flat_map(|part| [part.fields.fields(), part.master.fields()]);
         std::iter::once(bodies.fields()).chain(interfaces).collect()
     }
 
@@ -355,14 +366,21 @@ impl Writer for Files {
         self.collection.clear();
         (self.field_number, self.profile_number) = (0, 0);
         self.written = [None; 2];
-        let stems = stems(setup.interfaces.iter().map(|mesh| mesh.name.as_str()));
+        let masters: Vec<String> =
+            setup.interfaces.iter().map(|mesh| format!("master_{}", mesh.name)).collect();
+        let names = setup.interfaces.iter().map(|mesh| mesh.name.as_str());
+        let mut slaves = stems(names.chain(masters.iter().map(String::as_str)));
+        let masters = slaves.split_off(setup.interfaces.len());
         let dimension = setup.mesh.dimension;
-        self.interfaces = stems
+        let place = (dimension, setup.mesh.nodes.as_slice());
+        self.interfaces = slaves
             .into_iter()
+            .zip(masters)
             .zip(&setup.interfaces)
-            .map(|(stem, mesh)| {
+            .map(|((stem, master), mesh)| {
                 let fields = fields::interface_series(&stem, mesh, dimension);
-                Part { stem, fields, probes: None }
+                let master = fields::master_series(&master, mesh, place);
+                Part { stem, fields, master, probes: None }
             })
             .collect();
         let bytes = match self.resumed.take() {

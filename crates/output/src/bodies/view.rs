@@ -39,6 +39,12 @@ pub struct LogTheta {
 /// Constant data of an interface. Written once.
 #[derive(Clone, Debug, Default)]
 pub struct InterfaceMesh {
+    /// Number of each slave node in the common mesh.
+    pub nodes: Vec<usize>,
+    /// Numbers of the master nodes in the common mesh, ascending.
+    pub master_nodes: Vec<usize>,
+    /// Master faces, as lists of positions in the list of master nodes.
+    pub master_faces: Vec<Vec<usize>>,
     /// Name in the scene.
     pub name: String,
     /// Reference positions of the slave nodes \[m\].

@@ -82,7 +82,7 @@ impl VisibleMesh {
 
     /// A frame around it at one scale in both directions, within `room`.
     pub(super) fn frame(&self, room: Point) -> Option<Frame> {
-        Some(around((0.0, 0.0), self.extent()?, room).0)
+        Some(around((0.0, 0.0), self.extent()?, room, ["x", "y"]).0)
     }
 
     /// An image of values over a frame, in the colours from zero to `hi`.
@@ -149,15 +149,21 @@ pub(super) const MARGINS: Point = (AT.0 + 150.0, AT.1 + 62.0);
 const AT: Point = (96.0, 40.0);
 
 /// Frame around a map within `room`, and the unit of its axes.
-fn around(at: Point, (lo, hi): (Point, Point), room: Point) -> (Frame, Unit) {
+fn around(at: Point, (lo, hi): (Point, Point), room: Point, axes: [&str; 2]) -> (Frame, Unit) {
     let (width, height) = (hi.0 - lo.0, hi.1 - lo.1);
     let scale = (room.0 / width).min(room.1 / height);
     let length = LENGTH.choose([lo.0, lo.1, hi.0, hi.1].iter().fold(0.0, |most, v| most.max(v.abs())));
     let frame = Frame {
         at,
         size: (width * scale, height * scale),
-        x: Axis::exact([lo.0 / length.factor, hi.0 / length.factor], format!("x [{}]", length.name)),
-        y: Axis::exact([lo.1 / length.factor, hi.1 / length.factor], format!("y [{}]", length.name)),
+        x: Axis::exact(
+            [lo.0 / length.factor, hi.0 / length.factor],
+            format!("{} [{}]", axes[0], length.name),
+        ),
+        y: Axis::exact(
+            [lo.1 / length.factor, hi.1 / length.factor],
+            format!("{} [{}]", axes[1], length.name),
+        ),
     };
     (frame, length)
 }
@@ -165,30 +171,72 @@ fn around(at: Point, (lo, hi): (Point, Point), room: Point) -> (Frame, Unit) {
 impl Field<'_> {
     fn draw(&self, title: Option<MapTitle<'_>>, room: Point) -> Option<Figure> {
         let visible = self.visible;
-        let (frame, length) = around(AT, visible.extent()?, room);
-        let colours = Colours::from_values(visible, self.values, self.units);
+        let panel = Panel::new(visible, AT, room, ["x", "y"])?;
+        let frame = &panel.frame;
         let below = (frame.size.1 + 62.0).max(BAR + 20.0);
         let mut figure = Figure::new(frame.at.0 + frame.size.0.max(180.0) + 150.0, frame.at.1 + below);
         if let Some(MapTitle { scene, when }) = title {
-            super::title::title(&mut figure, &frame, scene, &format!("{when}{}", visible.side()));
+            super::title::title(&mut figure, frame, scene, &format!("{when}{}", visible.side()));
         }
-        figure.image(map(visible, self.values, &colours, &frame));
-        for line in &visible.outline {
-            let at = |&node: &usize| {
-                let (x, y) = visible.places[node];
-                frame.point(x / length.factor, y / length.factor)
-            };
-            figure.line(line.iter().map(at).collect(), 1.0, INK);
-        }
-        frame.draw(&mut figure);
+        panel.draw(&mut figure, self.values, self.quantity, self.units);
+        Some(figure)
+    }
+}
+
+/// A surface on the page, in a frame at one scale in both directions.
+pub(super) struct Panel<'a> {
+    visible: &'a VisibleMesh,
+    pub frame: Frame,
+    /// Unit of its axes.
+    length: Unit,
+}
+
+impl<'a> Panel<'a> {
+    /// A panel at a place, of at most a size, with the names of its axes; `None` if there is nothing of a finite extent.
+    pub(super) fn new(visible: &'a VisibleMesh, at: Point, room: Point, axes: [&str; 2]) -> Option<Self> {
+        let (frame, length) = around(at, visible.extent()?, room, axes);
+        Some(Self { visible, frame, length })
+    }
+
+    /// Triangles of the surface.
+    pub(super) fn triangles(&self) -> &[[Corner; 3]] {
+        &self.visible.triangles
+    }
+
+    /// Position of a corner in an image of this many columns and rows over the frame.
+    pub(super) fn pixel(&self, corner: &Corner, (columns, rows): (usize, usize)) -> Point {
+        let place = |axis: &Axis, value: f64| axis.place(value / self.length.factor);
+        let mean =
+            |read: &dyn Fn(usize) -> f64| corner.iter().map(|&n| read(n)).sum::<f64>() / corner.len() as f64;
+        let (x, y) = (mean(&|n| self.visible.places[n].0), mean(&|n| self.visible.places[n].1));
+        let Frame { x: across, y: up, .. } = &self.frame;
+        (place(across, x) * columns as f64, (1.0 - place(up, y)) * rows as f64)
+    }
+
+    /// Draws values at the nodes in colours, with their bar.
+    pub(super) fn draw(&self, figure: &mut Figure, values: &[f64], quantity: &str, units: Units) {
+        let colours = Colours::from_values(self.visible, values, units);
+        figure.image(map(self.visible, values, &colours, &self.frame));
+        self.outline(figure);
         let unit = colours.unit;
         let bar = Bar {
             range: (colours.lo / unit.factor, colours.hi / unit.factor),
             above: colours.above.map(|above| format!("max {:.1}", above / unit.factor)),
-            label: format!("{} [{}]", self.quantity, unit.name),
+            label: format!("{quantity} [{}]", unit.name),
         };
-        bar.draw(&mut figure, &frame);
-        Some(figure)
+        bar.draw(figure, &self.frame);
+    }
+
+    /// Draws the outline and the frame.
+    pub(super) fn outline(&self, figure: &mut Figure) {
+        for line in &self.visible.outline {
+            let at = |&node: &usize| {
+                let (x, y) = self.visible.places[node];
+                self.frame.point(x / self.length.factor, y / self.length.factor)
+            };
+            figure.line(line.iter().map(at).collect(), 1.0, INK);
+        }
+        self.frame.draw(figure);
     }
 }
 
@@ -221,7 +269,8 @@ impl Colours {
             return Self { unit: units.choose(1.0), lo: 0.0, hi: 1.0, above: None };
         };
         let covered = sorted[((sorted.len() - 1) as f64 * COVERED) as usize];
-        let (hi, above) = if most > FAR_ABOVE * covered { (covered, Some(most)) } else { (most, None) };
+        let far = covered >= 0.0 && most > FAR_ABOVE * covered;
+        let (hi, above) = if far { (covered, Some(most)) } else { (most, None) };
         // A uniform field gets a colour bar around its value, without negative numbers where there is none.
         let room =
             if hi - lo <= FLAT * hi.abs() { if hi == 0.0 { 1.0 } else { 0.1 * hi.abs() } } else { 0.0 };

@@ -1,5 +1,5 @@
 //! Plots of a finished or stopped run, each as SVG and PNG under `plots/`: the Mises field at the ends of stages, histories at
-//! the probes, and tractions along the interfaces.
+//! the probes, and tractions along the interfaces, or maps over those in space.
 //!
 //! A plot is first built as a list of shapes (`figure::Figure`). One painter writes it as SVG, another as PNG.
 
@@ -7,6 +7,7 @@ mod axes;
 mod ball;
 mod chart;
 mod colour;
+mod contact_map;
 mod curves;
 mod cycles;
 mod diagram;
@@ -26,6 +27,7 @@ mod png;
 mod profile;
 mod rupture;
 mod sheet;
+mod six_digits;
 mod sketch;
 mod springs;
 mod stretched_axis;
@@ -35,6 +37,7 @@ mod title;
 mod width;
 
 pub use chart::{Chart, Measure};
+pub use contact_map::ContactMap;
 pub use curves::Histories;
 pub use cycles::{Line, MappedQuantity, Portrait};
 pub use diagram::{Diagram, FailedSetting, Scale, Series, Slope};
@@ -46,8 +49,9 @@ pub use profile::Tractions;
 pub use rupture::{Line as RuptureLine, Shape as RuptureShape, Surface};
 pub use sheet::{
     Curves, EventFault, EventOnset, Fault, FaultCycles, FigureRequest, Format, Ground, Mises, Plot, Points,
-    Sheet, SheetError, Still, Stills, Velocities, short,
+    Sheet, SheetError, Still, Stills, Velocities,
 };
+pub use six_digits::short;
 pub use sketch::Sketch;
 pub use springs::curves as springs_curves;
 pub use style::STYLES;
@@ -56,6 +60,7 @@ use crate::bodies::Recorder;
 use crate::bodies::view::MeshView;
 use crate::names::stems;
 use crate::{OutputError, atomic};
+use contact_map::FlatSurface;
 use figure::Figure;
 use paper::Paper;
 use std::path::{Path, PathBuf};
@@ -158,10 +163,31 @@ pub fn sheet(recorder: &Recorder) -> Sheet {
     let names = stems(setup.interfaces.iter().map(|mesh| mesh.name.as_str()));
     for (i, (stem, mesh)) in names.iter().zip(&setup.interfaces).enumerate() {
         sheet.plots.extend(Histories::from_recorder(recorder, stem, i).map(Plot::Histories));
-        let tractions = Tractions::from_ends(&setup.title, stem, mesh, i, recorder.stage_ends());
-        sheet.plots.extend(tractions.map(Plot::Tractions));
+        if mesh.in_space {
+            maps(&mut sheet, recorder, stem, i);
+        } else {
+            let tractions = Tractions::from_ends(&setup.title, stem, mesh, i, recorder.stage_ends());
+            sheet.plots.extend(tractions.map(Plot::Tractions));
+        }
     }
     sheet.plots.extend(energy::budget(recorder).map(Plot::Curves));
     sheet.plots.push(Plot::Curves(springs::friction(recorder)));
     sheet
+}
+
+/// Adds the maps over an interface in space, of this number, at the ends of stages.
+fn maps(sheet: &mut Sheet, recorder: &Recorder, stem: &str, number: usize) {
+    let setup = recorder.setup();
+    let Some(interface) = setup.interfaces.get(number) else { return };
+    let Some(surface) = FlatSurface::from_interface(interface) else { return };
+    let mesh = sheet.mesh(surface.mesh.clone());
+    let stages = stems(setup.stages.iter().map(|(name, _)| name.as_str()));
+    for end in recorder.stage_ends() {
+        let Some(((_, time), stage)) = setup.stages.get(end.stage).zip(stages.get(end.stage)) else {
+            continue;
+        };
+        let file = format!("{stem}_map_{}_{stage}", end.stage + 1);
+        let map = ContactMap::new(file, &interface.name, end, number, (&surface, mesh), end.time < *time);
+        sheet.plots.extend(map.map(Plot::Contact));
+    }
 }

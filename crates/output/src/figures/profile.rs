@@ -1,4 +1,4 @@
-//! Tractions along an interface at the ends of stages.
+//! Tractions along an interface in the plane at the ends of stages.
 
 use super::axes::Axis;
 use super::colour::viridis;
@@ -13,9 +13,6 @@ use crate::numbers;
 use crate::units::{LENGTH, STRESS};
 use serde::{Deserialize, Serialize};
 
-/// Nodes closer than this fraction of the extent of the interface count as one position: they lie on the same line across it.
-const SAME_LINE: f64 = 1e-6;
-
 /// Tractions along an interface.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Tractions {
@@ -29,9 +26,6 @@ pub struct Tractions {
     axis: String,
     /// First and last coordinate \[m\].
     ends: (f64, f64),
-    /// True if tractions are means over the nodes at each coordinate.
-    #[serde(default)]
-    mean: bool,
     stages: Vec<EndProfile>,
 }
 
@@ -54,8 +48,7 @@ struct EndProfile {
 }
 
 impl Tractions {
-    /// Tractions along the longest extent of an interface of this number, averaged across it by area. `None` if it is a point or no
-    /// stage has ended.
+    /// Tractions along the longest extent of an interface of this number. `None` if it is a point or no stage has ended.
     pub(super) fn from_ends(
         scene: &str,
         stem: &str,
@@ -67,15 +60,13 @@ impl Tractions {
         let places: Vec<f64> = mesh.positions.iter().map(|p| p[axis]).collect();
         let one = |end: &StageEnd| {
             let fields = end.interfaces.get(interface)?;
-            let average = |values| averaged(&places, &mesh.areas, values).into_iter().unzip();
-            let (along, normal) = average(&fields.mean_normal_traction);
-            let (_, shear): (Vec<f64>, _) = average(&fields.mean_shear_traction);
+            let along = sorted(&places, &places);
+            let normal = sorted(&places, &fields.mean_normal_traction);
+            let shear = sorted(&places, &fields.mean_shear_traction);
             Some(EndProfile { name: end.name.clone(), time: end.time, along, normal, shear })
         };
         let stages: Vec<EndProfile> = ends.iter().filter_map(one).collect();
-        let mean = stages.first().is_some_and(|end| end.along.len() < places.len());
         (!stages.is_empty()).then(|| Self {
-            mean,
             file: format!("{stem}_tractions"),
             title: scene.into(),
             name: mesh.name.clone(),
@@ -101,9 +92,9 @@ impl Tractions {
         let (lo, hi) = self.ends;
         let (stress, length) = (STRESS.choose(largest), LENGTH.choose(lo.abs().max(hi.abs())));
         let label = format!("{} [{}]", self.axis, length.name);
-        let what = if self.mean { format!("Mean traction at each {}", self.axis) } else { "Traction".into() };
         let x = Axis::exact([lo / length.factor, hi / length.factor], label);
-        let y = Axis::linear(values().map(|v| v / stress.factor), 0.05, format!("{what} [{}]", stress.name));
+        let y =
+            Axis::linear(values().map(|v| v / stress.factor), 0.05, format!("Traction [{}]", stress.name));
         let entries: Vec<Entry> = curves.iter().map(|curve| curve.entry.clone()).collect();
         let mut page = FramedFigure::new(paper, x, y, &entries);
         let FramedFigure { figure, frame, .. } = &mut page;
@@ -155,27 +146,9 @@ fn bounds(values: &[f64]) -> (f64, f64) {
     values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), &x| (lo.min(x), hi.max(x)))
 }
 
-/// Values sorted by position. Values at the same position are replaced by their mean, weighted by area.
-fn averaged(places: &[f64], areas: &[f64], values: &[f64]) -> Vec<(f64, f64)> {
+/// Values sorted by position.
+fn sorted(places: &[f64], values: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..places.len()).collect();
     order.sort_by(|&a, &b| places[a].total_cmp(&places[b]));
-    let (Some(&first), Some(&last)) = (order.first(), order.last()) else { return Vec::new() };
-    let near = SAME_LINE * (places[last] - places[first]);
-    let mean = |group: &[usize]| {
-        let weight = |i: usize| if areas[i] > 0.0 { areas[i] } else { 1.0 };
-        let total: f64 = group.iter().map(|&i| weight(i)).sum();
-        (places[group[0]], group.iter().map(|&i| weight(i) * values[i]).sum::<f64>() / total)
-    };
-    order.chunk_by(|&a, &b| places[b] - places[a] <= near).map(mean).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn nodes_at_one_place_count_by_their_area() {
-        let found = averaged(&[1.0, 0.0, 0.0], &[1.0, 1.0, 3.0], &[7.0, 4.0, 8.0]);
-        assert_eq!(found, [(0.0, 7.0), (1.0, 7.0)]);
-    }
+    order.into_iter().map(|k| values[k]).collect()
 }

@@ -56,6 +56,9 @@ pub(crate) fn setup(layers: usize) -> Setup {
     };
     let fault = InterfaceMesh {
         in_space: false,
+        nodes: (0..positions.len()).collect(),
+        master_nodes: vec![0, 1],
+        master_faces: vec![vec![0, 1]],
         name: "fault".into(),
         labels: Vec::new(),
         areas: vec![H; positions.len()],

@@ -24,10 +24,12 @@ pub struct InterfaceResult {
     pub interface: String,
     /// Stage.
     pub stage: String,
-    /// Normal traction averaged over the area \[Pa\].
+    /// Normal traction averaged over the area that is closed \[Pa\]; 0 if all is open.
     pub mean_normal_traction: f64,
-    /// Shear traction averaged over the area \[Pa\].
+    /// Shear traction averaged over the area that is closed \[Pa\].
     pub mean_shear_traction: f64,
+    /// Area that is closed \[m², or m per metre of thickness\].
+    pub closed_area: f64,
     /// Normal traction at the slave node closest to the centre \[Pa\].
     pub mid_normal_traction: f64,
     /// Smallest and largest slip \[m\].
@@ -147,17 +149,21 @@ pub(crate) fn results(
     fields: &[InterfaceFields],
     interfaces: impl Iterator<Item = String>,
 ) -> Vec<InterfaceResult> {
-    let of = |(f, interface): (&InterfaceFields, String)| InterfaceResult {
-        interface,
-        stage: stage.name.clone(),
-        mean_normal_traction: mean(&f.normal_traction, &f.area),
-        mean_shear_traction: mean(&f.shear_traction, &f.area),
-        mid_normal_traction: f.normal_traction.get(f.area.len() / 2).copied().unwrap_or(0.0),
-        slip: range(&f.slip),
-        slip_rate: range(&f.slip_rate),
-        friction: range(&f.friction),
-        status: [0, 1, 2].map(|s| f.status.iter().filter(|&&x| x == s).count()),
-        friction_work: f.dissipated,
+    let of = |(f, interface): (&InterfaceFields, String)| {
+        let closed = closed_areas(f);
+        InterfaceResult {
+            interface,
+            stage: stage.name.clone(),
+            mean_normal_traction: mean(&f.normal_traction, &closed),
+            mean_shear_traction: mean(&f.shear_traction, &closed),
+            closed_area: closed.iter().sum(),
+            mid_normal_traction: f.normal_traction.get(f.area.len() / 2).copied().unwrap_or(0.0),
+            slip: range(&f.slip),
+            slip_rate: range(&f.slip_rate),
+            friction: range(&f.friction),
+            status: [0, 1, 2].map(|s| f.status.iter().filter(|&&x| x == s).count()),
+            friction_work: f.dissipated,
+        }
     };
     fields.iter().zip(interfaces).map(of).collect()
 }
@@ -210,6 +216,11 @@ pub(crate) fn springs<const D: usize>(plan: &Plan<D>, stage: &Stage, samples: &S
         unit: views::force_unit(plan.problem.model.idealisation).to_string(),
     };
     pulling.map(of).collect()
+}
+
+/// Areas of the points that are closed; 0 for those that are open.
+fn closed_areas(f: &InterfaceFields) -> Vec<f64> {
+    f.area.iter().zip(&f.status).map(|(area, status)| if *status == 0 { 0.0 } else { *area }).collect()
 }
 
 /// Area-weighted mean; 0 if the area is zero.

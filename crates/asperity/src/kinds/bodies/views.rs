@@ -2,6 +2,7 @@
 
 use asperity_contact::{Interface, PointFields, Status};
 use asperity_fem::block::von_mises;
+use asperity_fem::mesh::MeshFace;
 use asperity_laws::Theta;
 use asperity_mechanics::{CellBlock, InterfaceEnergy, PlannedInterface};
 use asperity_output::bodies::view::{BodyFields, InterfaceFields, InterfaceMesh, LogTheta, Setup};
@@ -42,8 +43,15 @@ fn interface_mesh<const D: usize>(
     let nodes: Vec<usize> = planned.slave.iter().map(|s| s.0).collect();
     let local = |n: &usize| nodes.partition_point(|m| m < n);
     let positions: Vec<[f64; 3]> = nodes.iter().map(|&n| padded(&plan.problem.model.mesh.nodes[n])).collect();
+    let mut master_nodes: Vec<usize> =
+        planned.master_faces.iter().flat_map(|face| &face.nodes).copied().collect();
+    master_nodes.sort_unstable();
+    master_nodes.dedup();
+    let own = |face: &MeshFace| face.nodes.iter().map(|n| master_nodes.partition_point(|m| m < n)).collect();
     InterfaceMesh {
         name: planned.name.clone(),
+        master_faces: planned.master_faces.iter().map(own).collect(),
+        master_nodes,
         labels: Vec::new(),
         areas: areas.to_vec(),
         // The face at a tip has a node that is not a point of the interface.
@@ -59,6 +67,7 @@ fn interface_mesh<const D: usize>(
         theta: thetas.iter().map(log_theta).collect(),
         in_space: D == 3,
         positions,
+        nodes,
     }
 }
 

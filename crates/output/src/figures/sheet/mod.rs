@@ -12,6 +12,7 @@ pub use event::EventOnset;
 pub use request::{FigureRequest, Format};
 pub use stills::{Still, Stills};
 
+use super::contact_map::ContactMap;
 use super::curves::Histories;
 use super::cycles::{Cycles, Line, Portrait};
 use super::field::{self, MapTitle, VisibleMesh};
@@ -88,6 +89,8 @@ pub enum Plot {
     Histories(Histories),
     /// Tractions along an interface.
     Tractions(Tractions),
+    /// Maps over an interface in space.
+    Contact(ContactMap),
 }
 
 /// Faults through earthquake cycles, from the tables of the run.
@@ -192,12 +195,6 @@ pub struct Mises {
     pub values: Vec<f64>,
 }
 
-/// A value with six digits, more than colours show.
-#[must_use]
-pub fn short(value: f64) -> f64 {
-    format!("{value:.5e}").parse().unwrap_or(value)
-}
-
 type NamedFigures = Vec<(String, Figure)>;
 
 impl Sheet {
@@ -262,6 +259,7 @@ impl Sheet {
             Plot::Mises(shown) => {
                 self.meshes.get(shown.mesh).is_some_and(|m| m.nodes() == shown.values.len())
             }
+            Plot::Contact(map) => self.meshes.get(map.mesh).is_some_and(|m| map.fits(m.nodes())),
             _ => true,
         })
     }
@@ -409,6 +407,10 @@ impl Sheet {
             Plot::Mises(shown) => one(&shown.file, self.mises(shown, request, paper)),
             Plot::Histories(histories) => histories.figures(paper, request.window),
             Plot::Tractions(tractions) => one(&tractions.file, tractions.figure(paper, request.window)),
+            Plot::Contact(map) => {
+                let mesh = self.meshes.get(map.mesh).filter(|_| request.shows(map.time));
+                one(&map.file, mesh.and_then(|mesh| map.figure(&self.title, mesh)))
+            }
         })
     }
 
