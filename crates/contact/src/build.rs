@@ -63,9 +63,6 @@ fn check_segments<const D: usize>(
         if spec.smoothing.is_some() {
             return Err(ContactError::SmoothingOnSecondOrder { name: name(), kind: s.kind });
         }
-        if spec.sliding == Sliding::Finite && spec.measure != MeasureKind::NodeToPoint {
-            return Err(ContactError::FiniteOnSecondOrder { name: name(), kind: s.kind });
-        }
     }
     Ok(())
 }
@@ -119,13 +116,12 @@ pub(crate) fn build_measure<const D: usize>(
     };
     Ok(match (&spec.measure, spec.sliding) {
         (MeasureKind::Mortar { faces, axisymmetric }, Sliding::Small) => {
-            let master = spec.master.clone();
             let (measure, examined) =
-                mortar::small(&nodes, &spec.slave, faces, master, *axisymmetric, spec.fixed_normal);
+                mortar::small(&nodes, &spec.slave, faces, &spec.master, *axisymmetric, spec.fixed_normal);
             (Box::new(measure), examined)
         }
         (MeasureKind::Mortar { faces, axisymmetric }, Sliding::Finite) => {
-            mortar::finite(&nodes, &spec.slave, faces, spec.master.clone(), *axisymmetric)
+            mortar::finite(&nodes, &spec.slave, faces, &spec.master, *axisymmetric)
         }
         (MeasureKind::NodeToPoint, Sliding::Small) => {
             let (measure, projections) = small(&nodes, &spec.slave, &surface, spec.fixed_normal);

@@ -21,17 +21,6 @@ pub enum ContactError {
         /// "slave" or "master".
         side: &'static str,
     },
-    /// Mortar in finite sliding on a segment kind that does not support it.
-    #[error(
-        "interface {name}: mortar in finite sliding does not exist on {kind} segments (it exists on seg2 in two dimensions, \
-         tri3 and quad4 in three; sliding = \"small\" and node-to-point exist on all segments)"
-    )]
-    FiniteOnSecondOrder {
-        /// Interface.
-        name: String,
-        /// Segment kind found.
-        kind: SegmentKind,
-    },
     /// Smoothing requested with mortar.
     #[error(
         "interface {name}: smoothing is a property of node-to-point; mortar integrates over the facets themselves"

@@ -5,7 +5,7 @@ mod event_limits;
 mod mixed;
 mod start;
 
-use crate::average::Averaging;
+use crate::average::averages;
 use crate::build::{build_measure, check};
 use crate::enforce::{Multipliers, Penalty, Unknowns, tangential};
 use crate::error::ContactError;
@@ -104,7 +104,8 @@ pub struct Interface<const D: usize> {
     pub(crate) du: Vec<[f64; D]>,
     pub(crate) slides: Slides,
     pub(crate) fields: PointFields<D>,
-    averaging: Averaging,
+    /// Buffer for shares of tractions in averages.
+    shares: Vec<(usize, f64)>,
     pub(crate) work: Work,
     /// Limits on the steps.
     pub(crate) watch: Watch,
@@ -151,7 +152,7 @@ impl<const D: usize> Interface<D> {
             du: vec![[0.0; D]; spec.nodes.len()],
             slides: Slides { gap: vec![0.0; n], increment: vec![[0.0; 2]; n] },
             fields: PointFields::new(n),
-            averaging: Averaging::new(&spec.measure, &spec.slave, spec.nodes.len()),
+            shares: Vec::new(),
             work: Work { searches: 1, projections, ..Work::default() },
             watch: Watch::default(),
             soft: None,
@@ -474,12 +475,11 @@ impl<const D: usize> Interface<D> {
         }
         self.refresh_shear();
         let f = &mut self.fields;
-        self.averaging.apply(
+        averages(
             self.measure.as_ref(),
-            &f.normal_traction,
-            &f.shear,
-            &mut f.mean_normal,
-            &mut f.mean_shear,
+            (&f.normal_traction, &f.shear),
+            (&mut f.mean_normal, &mut f.mean_shear),
+            &mut self.shares,
         );
     }
 

@@ -23,7 +23,7 @@ type Variant = (&'static str, &'static [Change<'static>], Capability);
 const MORTAR: Change<'_> = With("interfaces.contact.measure", "mortar");
 const SMOOTHED: Change<'_> = Add("interfaces.contact.smoothing", "cubic");
 
-const PLANE_VARIANTS: [Variant; 4] = [
+const PLANE_VARIANTS: &[Variant] = &[
     ("flat segments", &[], Capability::PenaltyContact2d),
     (
         "quadratic segments",
@@ -32,9 +32,18 @@ const PLANE_VARIANTS: [Variant; 4] = [
     ),
     ("smoothed segments", &[SMOOTHED], Capability::PenaltyContact2d),
     ("mortar", &[MORTAR], Capability::Mortar),
+    (
+        "mortar, quad8 on tri6",
+        &[
+            MORTAR,
+            With("bodies.lower.mesh.block.element", "tri6"),
+            With("bodies.upper.mesh.block.element", "quad8"),
+        ],
+        Capability::Mortar,
+    ),
 ];
 
-const SOLID_VARIANTS: [Variant; 4] = [
+const SOLID_VARIANTS: &[Variant] = &[
     ("bilinear segments", &[], Capability::PenaltyContact3d),
     (
         "biquadratic segments",
@@ -43,6 +52,19 @@ const SOLID_VARIANTS: [Variant; 4] = [
     ),
     ("smoothed segments", &[SMOOTHED], Capability::PenaltyContact3d),
     ("mortar", &[MORTAR], Capability::Mortar),
+    ("mortar, tet10 on hex27", &TET10_ON_HEX27, Capability::Mortar),
+    ("mortar, hex20 on tet10", &HEX20_ON_TET10, Capability::Mortar),
+];
+
+const TET10_ON_HEX27: [Change<'_>; 3] = [
+    MORTAR,
+    With("bodies.lower.mesh.block.element", "hex27"),
+    With("bodies.upper.mesh.block.element", "tet10"),
+];
+const HEX20_ON_TET10: [Change<'_>; 3] = [
+    MORTAR,
+    With("bodies.lower.mesh.block.element", "tet10"),
+    With("bodies.upper.mesh.block.element", "hex20"),
 ];
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -51,7 +73,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         (PLANE, [0.0, 0.0, 1.0], PLANE_VARIANTS, "in the plane"),
         (SOLID, [1.0, 2.0, 3.0], SOLID_VARIANTS, "in space"),
     ] {
-        for (name, changes, capability) in variants {
+        for &(name, changes, capability) in variants {
             let done = simulate(&SceneText::new(text).changed(changes).text()?)?;
             let what = format!("{name}, {space}");
             rows.push(total_form(ledger, &what, &done, axis, capability)?);

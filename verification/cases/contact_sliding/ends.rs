@@ -10,11 +10,25 @@ const SCENE: &str = include_str!("ends.toml");
 /// Travel \[m\].
 const TRAVEL: f64 = 2.2;
 /// Other surface descriptions of the lower body: name and changes to the scene.
-const SURFACES: [(&str, &[Change<'_>]); 2] = [
-    ("node-to-point on smoothed facets", &[Add("interfaces.contact.smoothing", "cubic")]),
+const SURFACES: [(&str, &[Change<'_>], Capability); 3] = [
+    (
+        "node-to-point on smoothed facets",
+        &[Add("interfaces.contact.smoothing", "cubic")],
+        Capability::PenaltyContact2d,
+    ),
+    (
+        "mortar on cells of second order",
+        &[
+            With("interfaces.contact.measure", "mortar"),
+            With("bodies.lower.mesh.block.element", "quad8"),
+            With("bodies.upper.mesh.block.element", "tri6"),
+        ],
+        Capability::Mortar,
+    ),
     (
         "node-to-point on cells of second order",
         &[With("bodies.lower.mesh.block.element", "quad9"), With("bodies.upper.mesh.block.element", "quad9")],
+        Capability::PenaltyContact2d,
     ),
 ];
 
@@ -63,10 +77,10 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
             smooth.report.counts.rejected.to_string(),
         ]);
     }
-    for (name, changes) in SURFACES {
+    for (name, changes, capability) in SURFACES {
         let smooth = simulate(&with_friction(SCENE, "contact", 0.0).changed(changes).text()?)?;
         let rough = simulate(&SceneText::new(SCENE).changed(changes).text()?)?;
-        returns(ledger, name, &smooth, &rough, Capability::PenaltyContact2d)?;
+        returns(ledger, name, &smooth, &rough, capability)?;
     }
     ledger.table(
         "a cycle past the end and back; node-to-point loses and finds single nodes at the end with the energy of their springs",

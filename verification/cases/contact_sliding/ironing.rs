@@ -19,7 +19,7 @@ struct Variant {
     covers: &'static [Capability],
 }
 
-const VARIANTS: [Variant; 4] = [
+const VARIANTS: [Variant; 5] = [
     Variant {
         name: "flat facets, node-to-point",
         changes: &[],
@@ -55,6 +55,20 @@ const VARIANTS: [Variant; 4] = [
              seen by the load",
         )),
         covers: &[Capability::Mortar, Capability::FiniteSliding],
+    },
+    Variant {
+        name: "quadratic arcs on second-order cells, mortar",
+        changes: &[
+            With("interfaces.contact.measure", "mortar"),
+            With("bodies.slab.mesh.block.element", "quad9"),
+            With("bodies.die.mesh.gmsh.file", "die9.msh"),
+        ],
+        bound: Some((
+            0.015,
+            "weights of nodes that come and go begin at zero, and arcs have no corners: what remains is how the slab gives way at \
+             corners and in the middle of its elements, of which eight lie under the die",
+        )),
+        covers: &[Capability::Mortar, Capability::FiniteSliding, Capability::Quadrilaterals],
     },
 ];
 

@@ -50,6 +50,8 @@ pub struct FixedMeasure<const D: usize> {
     /// The nodes' first degrees of freedom and weights s_k.
     relative: RelativeDisplacements,
     areas: Vec<f64>,
+    /// Shares of the tractions of points in the mean around each point.
+    averages: Vec<Vec<(usize, f64)>>,
     pattern: Pattern,
     collocated: bool,
 }
@@ -65,10 +67,16 @@ impl<const D: usize> FixedMeasure<D> {
                 starts: vec![0],
                 ..RelativeDisplacements::default()
             },
+            averages: vec![Vec::new(); areas.len()],
             areas,
             pattern: Pattern::default(),
             collocated,
         }
+    }
+
+    /// Sets the shares of the tractions of points in the mean around a point, as in [`Measure::averages`].
+    pub(super) fn average(&mut self, point: usize, shares: Vec<(usize, f64)>) {
+        self.averages[point] = shares;
     }
 
     /// Pairs slave point `point` (ascending from call to call) through these nodes, those of the slave before those of the master.
@@ -256,6 +264,10 @@ impl<const D: usize> Measure<D> for FixedMeasure<D> {
     }
 
     fn revert(&mut self) {}
+
+    fn averages(&self, p: usize, out: &mut Vec<(usize, f64)>) {
+        out.clone_from(&self.averages[p]);
+    }
 
     fn attachments(&self, p: usize, out: &mut Vec<Attachment>) {
         out.clear();

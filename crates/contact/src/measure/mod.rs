@@ -169,6 +169,12 @@ pub trait Measure<const D: usize>: Send + Sync + fmt::Debug {
     /// if it is unpaired.
     fn attachments(&self, p: usize, out: &mut Vec<Attachment>);
 
+    /// Writes to `out` (cleared first) points, with the shares of their tractions in the mean around point `p`; none if tractions are
+    /// values at points. A point may appear several times.
+    fn averages(&self, _p: usize, out: &mut Vec<(usize, f64)>) {
+        out.clear();
+    }
+
     /// Writes the tributary areas of the points at the configuration last measured \[m², m in two dimensions\].
     fn areas(&self, out: &mut [f64]);
 

@@ -132,11 +132,8 @@ fn slave_points<const D: usize>(
 
 /// Mortar in the place of node-to-point where slave nodes need areas, and the beginning of the alternative to it.
 fn instead(spec: &InterfaceSpec, other: &str) -> String {
-    // In finite sliding, mortar has no faces of second order either.
-    let finite = *spec.sliding.get_ref() == Sliding::Finite;
-    let small = if finite { " with `sliding = \"small\"`" } else { "" };
     let flat = if spec.smoothing.is_some() { " without `smoothing`" } else { "" };
-    format!("use `measure = \"mortar\"`{small}{flat}, or {other}")
+    format!("use `measure = \"mortar\"`{flat}, or {other}")
 }
 
 /// Checks that the contact measure supports the faces of both sides.
@@ -157,30 +154,14 @@ fn check_faces<const D: usize>(
             "faces of second order are curved already: leave `smoothing` out",
         ));
     }
-    if *spec.measure.get_ref() == Measure::Mortar {
-        if let Some(smoothing) = &spec.smoothing {
-            return Err(Diagnostic::at(
-                smoothing.span(),
-                "smoothing is a property of node-to-point; mortar integrates over the facets themselves",
-                "leave `smoothing` out",
-            ));
-        }
-        if *spec.sliding.get_ref() == Sliding::Finite
-            && let Some(side) = slave.iter().chain(master).find(|s| !linear(s))
-        {
-            let element = model.mesh.blocks[side.block].kind.name();
-            return Err(Diagnostic::at(
-                spec.sliding.span(),
-                format!(
-                    "finite sliding of a mortar interface needs faces of first order, but it has faces of {element}"
-                ),
-                if model.tributary_areas(slave).is_ok() {
-                    "use elements of first order there, `sliding = \"small\"`, or `measure = \"node-to-point\"`"
-                } else {
-                    "use elements of first order there (hex8 with `formulation = \"b-bar\"` does not lock), or `sliding = \"small\"`"
-                },
-            ));
-        }
+    if let Some(smoothing) = &spec.smoothing
+        && *spec.measure.get_ref() == Measure::Mortar
+    {
+        return Err(Diagnostic::at(
+            smoothing.span(),
+            "smoothing is a property of node-to-point; mortar integrates over the facets themselves",
+            "leave `smoothing` out",
+        ));
     }
     let both = slave.iter().filter(|s| master.contains(s)).count();
     if both > 0 {

@@ -5,16 +5,21 @@
 //! the adjacent cells, column by column of the block. The change of the force is then distributed to the nodes once.
 
 use super::cell::{Sums, integrate};
+use super::centre::movers;
+use super::facet::{Facet, NODES};
 use super::local::{Change, Traction};
-use super::overlap::{self, BOTH, Derivatives, NODES};
+use super::overlap::{self, Derivatives, Gradient, MOST};
 use super::scalar::Dual;
 use super::state::{Cell, MortarMeasure, Point};
 use crate::measure::Tractions;
 use crate::vector::{axpy, scaled};
 use std::sync::PoisonError;
 
-/// Number of variables in a cell of the plane: two coordinates of the two nodes of two facets.
-const LINES: usize = 8;
+/// Number of variables in a cell of the plane: two coordinates of the nodes of two lines of first order.
+const STRAIGHT: usize = 8;
+
+/// Most variables in a cell of the plane, with lines of three nodes.
+const CURVED: usize = 12;
 
 /// Blocks of one piece of the work order.
 struct Blocks<'a, const D: usize> {
@@ -53,13 +58,18 @@ impl<const D: usize> MortarMeasure<D> {
         slides.fill([0.0; D]);
         let closed = |p: usize| tractions.normal[p].closed;
         let mut blocks = Blocks { piece: from, start: start(from), values, slides: &mut slides };
-        let mut slopes = [[[[0.0; 3]; BOTH]; BOTH]; NODES];
+        let mut slopes = Derivatives::zero();
         for &f in self.order.facets(from) {
             let points = &self.sides.facets[f].weighting.points;
             if points.iter().any(|&p| self.order.piece(p) == from && closed(p)) {
                 for c in self.cells_of(f) {
                     let overlaps = if D == 2 {
-                        self.slopes_of_lines(c, &mut slopes)
+                        let linear = self.facets(c).iter().all(|facet| facet.face.kind.first_order());
+                        if linear {
+                            self.slopes_of_lines::<STRAIGHT>(c, &mut slopes)
+                        } else {
+                            self.slopes_of_lines::<CURVED>(c, &mut slopes)
+                        }
                     } else {
                         self.slopes_of_faces(c, &mut slopes)
                     };
@@ -76,49 +86,32 @@ impl<const D: usize> MortarMeasure<D> {
         }
     }
 
-    /// Computes the derivatives of the weights of a cell in the plane, by row; those of the master without their sign. Returns
-    /// false if the facets do not overlap.
-    fn slopes_of_lines(&self, c: &Cell, out: &mut Derivatives) -> bool {
-        let (facet, master) = (&self.sides.facets[c.facet], &self.sides.master[c.master]);
-        let (s, m) = (facet.nodes.len(), master.nodes.len());
-        let (own, other) = self.gather(c);
-        let mut sums = Sums::<Dual<LINES>, NODES>::zero();
-        let (x, y) = (seeded::<D, LINES>(&own, 0), seeded::<D, LINES>(&other, s * D));
+    /// Computes the derivatives of the integrals of a cell in the plane. Returns false if the facets do not overlap.
+    fn slopes_of_lines<const M: usize>(&self, c: &Cell, out: &mut Derivatives) -> bool {
+        let [slave, master] = self.facets(c);
+        let ((own, s), (other, m)) = (self.gather(slave), self.gather(master));
+        let mut sums = Sums::<Dual<M>, NODES>::zero();
+        let (x, y) = (seeded::<D, M>(&own, 0), seeded::<D, M>(&other, s * D));
         let rule = self.sides.rule(c.facet, c.master);
-        if !integrate(self.sides.frozen(c.facet), &x[..s], master.kind, &y[..m], rule, &mut sums) {
+        if !integrate(self.sides.frozen(c.facet), &x[..s], master, &y[..m], rule, &mut sums) {
             return false;
         }
-        for (row, (own, other)) in out.iter_mut().zip(sums.own.iter().zip(&sums.other)) {
-            let numbers = own[..s].iter().chain(&other[..m]);
-            for (number, k) in numbers.zip((0..s).chain(NODES..NODES + m)) {
-                for (d, j) in number.d.chunks_exact(D).zip((0..s).chain(NODES..NODES + m)) {
-                    row[k][j][..D].copy_from_slice(d);
-                }
+        let put = |number: &Dual<M>, to: &mut Gradient| {
+            for (d, j) in number.d.chunks_exact(D).zip((0..s).chain(MOST..MOST + m)) {
+                to[j][..D].copy_from_slice(d);
+            }
+        };
+        for (numbers, rows) in [(&sums.own, &mut out.own), (&sums.other, &mut out.other)] {
+            for (numbers, row) in numbers.iter().zip(rows) {
+                numbers.iter().zip(row).for_each(|(number, to)| put(number, to));
             }
         }
         true
     }
 
-    /// Computes the derivatives of the weights of a cell in space, in the layout of [`MortarMeasure::slopes_of_lines`].
+    /// Computes the derivatives of the integrals of a cell in space. Returns false if the facets do not overlap.
     fn slopes_of_faces(&self, c: &Cell, out: &mut Derivatives) -> bool {
-        let overlaps = self.in_space(c, |facets| {
-            let mut raw = [[[[0.0; 3]; BOTH]; BOTH]; NODES];
-            overlap::derivatives(facets, &mut raw).then_some(raw)
-        });
-        let Some(raw) = overlaps else { return false };
-        let weighting = &self.sides.facets[c.facet].weighting;
-        for (a, row) in out.iter_mut().enumerate().take(weighting.points.len()) {
-            row.as_flattened_mut().fill([0.0; 3]);
-            for (b, from) in raw.iter().enumerate() {
-                let share = weighting.coefficient(a, b);
-                if share != 0.0 {
-                    let (to, from) =
-                        (row.as_flattened_mut().as_flattened_mut(), from.as_flattened().as_flattened());
-                    to.iter_mut().zip(from).for_each(|(t, v)| *t += share * v);
-                }
-            }
-        }
-        true
+        self.in_space(c, |facets| overlap::derivatives(facets, out))
     }
 
     /// Adds the contribution of a cell's changing overlap to the blocks of those of its points that belong to the piece.
@@ -129,28 +122,31 @@ impl<const D: usize> MortarMeasure<D> {
         tractions: &Tractions<'_>,
         blocks: &mut Blocks<'_, D>,
     ) {
-        let (facet, master) = (&self.sides.facets[c.facet], &self.sides.master[c.master]);
-        let (s, m) = (facet.nodes.len(), master.nodes.len());
-        let (own, other) = self.gather(c);
-        for (a, &p) in facet.weighting.points.iter().enumerate() {
+        let [slave, master] = self.facets(c);
+        let n = slave.face.nodes.len() + master.face.nodes.len();
+        let weighting = &self.sides.facets[c.facet].weighting;
+        for (a, &p) in weighting.points.iter().enumerate() {
             let traction = traction_of(tractions, p);
             if !traction.normal.closed || self.order.piece(p) != blocks.piece {
                 continue;
             }
             let local = &self.locals[p];
-            let arm = |slot: usize| {
-                if slot >= NODES {
-                    return other[slot - NODES];
+            let (mine, others) = self.places[c.table + a * n..][..n].split_at(slave.face.nodes.len());
+            let (columns, count) = columns([slave, master], [mine, others]);
+            let force = local.force(&traction);
+            let mut changes =
+                WeightChanges { point: &self.points[p], force, columns: &columns[..count], blocks };
+            weighting.sum(a, |share, b| {
+                for ((&node, &place), slope) in slave.face.nodes.iter().zip(mine).zip(&slopes.own[b]) {
+                    // Distance from the mean, since the slave's weights change the area too.
+                    let mut arm = self.x[node];
+                    axpy(&mut arm, -1.0, &local.d);
+                    changes.add(place, share, &arm, slope);
                 }
-                // Distance from the mean, since the slave's weights change the area too.
-                let mut arm = own[slot];
-                axpy(&mut arm, -1.0, &local.d);
-                arm
-            };
-            let places = &self.places[c.table + a * (s + m)..][..s + m];
-            // Slots of the slave's nodes, followed by those of the master.
-            let nodes = (0..s).chain(NODES..NODES + m).zip(places.iter().copied());
-            add_weight_changes(&self.points[p], &slopes[a], &local.force(&traction), nodes, arm, blocks);
+                for ((&node, &place), slope) in master.face.nodes.iter().zip(others).zip(&slopes.other[b]) {
+                    changes.add(place, -share, &self.x[node], slope);
+                }
+            });
         }
     }
 
@@ -183,31 +179,49 @@ impl<const D: usize> MortarMeasure<D> {
     }
 }
 
-/// Adds the changes of a point's weights to its block. `nodes` are the slots of a cell's nodes with their places in the block; `arm`
-/// is the lever of the weight of a slot in the averaged distance.
-#[inline]
-fn add_weight_changes<const D: usize>(
-    point: &Point,
-    slopes: &[[[f64; 3]; BOTH]; BOTH],
-    force: &[f64; D],
-    nodes: impl Iterator<Item = (usize, usize)> + Clone,
-    arm: impl Fn(usize) -> [f64; D],
-    blocks: &mut Blocks<'_, D>,
-) {
-    let (block, slides) = blocks.point_block(point);
-    let size = slides.len();
-    let share = point.area.recip();
-    for (k, place) in nodes.clone() {
-        let sign = if k < NODES { 1.0 } else { -1.0 };
-        let arm = arm(k);
+/// Slot of a node or middle in a gradient, place in a point's block of a node that moves it, and the node's share.
+type Column = (usize, usize, f64);
+
+/// Most columns of a cell: of two faces with eight nodes and their middle, which moves with all of them.
+const MOST_COLUMNS: usize = 2 * (8 + 8);
+
+/// Computes the columns of a cell, from the `places` of the nodes of both faces. Also returns their number.
+fn columns(facets: [&Facet; 2], places: [&[usize]; 2]) -> ([Column; MOST_COLUMNS], usize) {
+    let (mut out, mut count) = ([(0, 0, 0.0); MOST_COLUMNS], 0);
+    for (side, (facet, places)) in facets.into_iter().zip(places).enumerate() {
+        for (slot, _) in facet.movers().enumerate() {
+            for (node, share) in movers(facet.face.kind, slot) {
+                out[count] = (side * MOST + slot, places[node], share);
+                count += 1;
+            }
+        }
+    }
+    (out, count)
+}
+
+/// Block of a point to which the changes of its weights are added.
+struct WeightChanges<'a, 'b, const D: usize> {
+    point: &'a Point,
+    force: [f64; D],
+    columns: &'a [Column],
+    blocks: &'a mut Blocks<'b, D>,
+}
+
+impl<const D: usize> WeightChanges<'_, '_, D> {
+    /// Adds the change of the weight of the node at `place` of the block, which is `sign` times this slope (of either sign, and less where a function is shared); `arm` is its lever in the
+    /// averaged distance.
+    #[inline]
+    fn add(&mut self, place: usize, sign: f64, arm: &[f64; D], slope: &Gradient) {
+        let (block, slides) = self.blocks.point_block(self.point);
+        let (size, share) = (slides.len(), self.point.area.recip());
         let rows = &mut block[place * D * size..(place * D + D) * size];
-        for (j, column) in nodes.clone() {
-            let dw: [f64; D] = std::array::from_fn(|l| sign * slopes[k][j][l]);
-            for (row, f) in rows.chunks_exact_mut(size).zip(force) {
+        for &(slot, column, moved) in self.columns {
+            let dw: [f64; D] = std::array::from_fn(|l| sign * moved * slope[slot][l]);
+            for (row, f) in rows.chunks_exact_mut(size).zip(&self.force) {
                 axpy_at(row, column * D, -f, &dw);
             }
             for (slide, dw) in slides[column * D..column * D + D].iter_mut().zip(&dw) {
-                axpy(slide, share * dw, &arm);
+                axpy(slide, share * dw, arm);
             }
         }
     }
@@ -228,7 +242,7 @@ pub(super) fn traction_of<'a>(tractions: &Tractions<'a>, p: usize) -> Traction<'
 }
 
 /// Positions whose coordinates are the variables numbered from `first`.
-fn seeded<const D: usize, const M: usize>(x: &[[f64; D]; NODES], first: usize) -> [[Dual<M>; D]; NODES] {
+fn seeded<const D: usize, const M: usize>(x: &[[f64; D]; MOST], first: usize) -> [[Dual<M>; D]; MOST] {
     std::array::from_fn(|k| {
         std::array::from_fn(|i| {
             let mut d = [0.0; M];

@@ -16,18 +16,19 @@
 //! Computer Methods in Applied Mechanics and Engineering 193, 4891-4913.
 
 use super::cell::{Sums, integrate};
+use super::facet::{Facet, NODES, node_at};
 use super::local::{Change, Local};
 use super::order::{CHUNK, WorkOrder};
-use super::overlap::{self, NODES};
+use super::overlap;
 use super::scalar::Dual;
-use super::sides::{AdjacentFacet, Sides, node_at};
+use super::sides::{AdjacentFace, Sides, SlaveFacet};
 use super::small::FACED;
 use super::state::{Cell, MortarMeasure, Point};
 use crate::measure::bound::{Bound, fits};
 use crate::measure::fixed_measure::fixed_frame;
 use crate::measure::measure_state::{MeasureState, MortarPointState};
 use crate::measure::{Attachment, Exit, Geometry, Measure, Slides, Tractions};
-use crate::shape::shape;
+use crate::shape::{MOST_NODES, shape};
 use crate::spec::{Segment, SlavePoint, SurfaceNode};
 use crate::vector::{add, axpy, cross, dot, norm, perpendicular, scaled, solve_tangential};
 use asperity_fem::term::Pattern;
@@ -39,11 +40,11 @@ pub fn finite<const D: usize>(
     nodes: &[SurfaceNode<D>],
     slave: &[SlavePoint],
     faces: &[Segment],
-    master: Vec<Segment>,
+    master: &[Segment],
     axisymmetric: bool,
 ) -> (Box<dyn Measure<D>>, u64) {
     let x: Vec<[f64; D]> = nodes.iter().map(|n| n.position).collect();
-    let sides = Sides::new(faces, slave, master, &x, axisymmetric);
+    let sides = Sides::new(faces, slave, master, &mut x.clone(), axisymmetric);
     let dofs = nodes.iter().map(|n| n.dof).collect();
     let (measure, examined) = MortarMeasure::<D>::new(sides, dofs, x);
     (Box::new(measure), examined)
@@ -58,8 +59,8 @@ impl<const D: usize> MortarMeasure<D> {
             .collect();
         let order = WorkOrder::new(&sides, &reference);
         let mut measure = Self {
+            x: sides.centres.extended(&reference),
             sides,
-            x: reference.clone(),
             reference,
             dofs,
             points,
@@ -86,15 +87,24 @@ impl<const D: usize> MortarMeasure<D> {
         for ((x, r), u) in self.x.iter_mut().zip(&self.reference).zip(u) {
             *x = add(r, u);
         }
+        self.sides.centres.follow(&mut self.x);
     }
 
-    /// Positions of a cell's nodes, slave then master.
+    /// Facets of a cell, slave then master.
     #[inline]
-    pub(super) fn gather(&self, c: &Cell) -> ([[f64; D]; NODES], [[f64; D]; NODES]) {
-        let (mut own, mut other) = ([[0.0; D]; NODES], [[0.0; D]; NODES]);
-        own.iter_mut().zip(&self.sides.facets[c.facet].nodes).for_each(|(x, &n)| *x = self.x[n]);
-        other.iter_mut().zip(&self.sides.master[c.master].nodes).for_each(|(x, &n)| *x = self.x[n]);
-        (own, other)
+    pub(super) fn facets(&self, c: &Cell) -> [&Facet; 2] {
+        [&self.sides.facets[c.facet].facet, &self.sides.master[c.master]]
+    }
+
+    /// Positions of the nodes of a facet's face, and of its middle if that is a corner, with their number.
+    #[inline]
+    pub(super) fn gather(&self, facet: &Facet) -> ([[f64; D]; MOST_NODES], usize) {
+        let (mut out, mut count) = ([[0.0; D]; MOST_NODES], 0);
+        for (x, n) in out.iter_mut().zip(facet.movers()) {
+            *x = self.x[n];
+            count += 1;
+        }
+        (out, count)
     }
 
     /// Computes the rows of D and M at the present positions. Cells are integrated one by one; each point then sums over its
@@ -122,62 +132,67 @@ impl<const D: usize> MortarMeasure<D> {
         }
         let mut rest = out;
         for c in &self.cells[from..to] {
-            let facet = &self.sides.facets[c.facet];
-            let n = facet.nodes.len() + self.sides.master[c.master].nodes.len();
-            let (mine, tail) = rest.split_at_mut(facet.weighting.points.len() * n);
+            let [s, m] = self.facets(c).map(|facet| facet.face.nodes.len());
+            let (mine, tail) = rest.split_at_mut(self.sides.facets[c.facet].weighting.points.len() * (s + m));
             rest = tail;
             if D == 2 { self.integrate_lines(c, mine) } else { self.integrate_faces(c, mine) }
         }
     }
 
-    /// Computes the rows of a cell in the plane: those of the slave's nodes, followed by those of the master's with opposite
+    /// Computes the rows of a cell in the plane: those of the nodes of the slave's face, followed by those of the master's with opposite
     /// sign.
     fn integrate_lines(&self, c: &Cell, mine: &mut [f64]) {
-        let (own, other) = self.gather(c);
-        let (facet, master) = (&self.sides.facets[c.facet], &self.sides.master[c.master]);
-        let (s, m) = (facet.nodes.len(), master.nodes.len());
+        let [slave, master] = self.facets(c);
+        let ((own, s), (other, m)) = (self.gather(slave), self.gather(master));
+        mine.fill(0.0);
         let (rule, frozen) = (self.sides.rule(c.facet, c.master), self.sides.frozen(c.facet));
         let mut sums = Sums::<f64, NODES>::zero();
-        if !integrate(frozen, &own[..s], master.kind, &other[..m], rule, &mut sums) {
-            mine.fill(0.0);
+        if !integrate(frozen, &own[..s], master, &other[..m], rule, &mut sums) {
             return;
         }
-        for (row, (o, m)) in mine.chunks_exact_mut(s + m).zip(sums.own.iter().zip(&sums.other)) {
-            let (left, right) = row.split_at_mut(s);
-            left.copy_from_slice(&o[..s]);
-            right.iter_mut().zip(m).for_each(|(r, v)| *r = -v);
+        self.add_rows(c.facet, s, mine, |b| [&sums.own[b], &sums.other[b]]);
+    }
+
+    /// Adds to the rows of a facet's points those of its corners.
+    fn add_rows<'a>(
+        &self,
+        facet: usize,
+        own: usize,
+        mine: &mut [f64],
+        corner: impl Fn(usize) -> [&'a [f64]; 2],
+    ) {
+        let weighting = &self.sides.facets[facet].weighting;
+        let n = mine.len() / weighting.points.len();
+        for (a, row) in mine.chunks_exact_mut(n).enumerate() {
+            let (left, right) = row.split_at_mut(own);
+            weighting.sum(a, |share, b| {
+                let [own, other] = corner(b);
+                left.iter_mut().zip(own).for_each(|(l, v)| *l += share * v);
+                right.iter_mut().zip(other).for_each(|(r, v)| *r -= share * v);
+            });
         }
     }
 
     /// Computes the rows of a cell in space, in the layout of [`MortarMeasure::integrate_lines`].
     fn integrate_faces(&self, c: &Cell, mine: &mut [f64]) {
         mine.fill(0.0);
-        let facet = &self.sides.facets[c.facet];
-        let (s, n) = (facet.nodes.len(), facet.nodes.len() + self.sides.master[c.master].nodes.len());
+        let s = self.facets(c)[0].face.nodes.len();
         let Some(values) = self.in_space(c, overlap::integrals) else { return };
-        for (a, row) in mine.chunks_exact_mut(n).enumerate() {
-            let (left, right) = row.split_at_mut(s);
-            for (b, v) in values.iter().enumerate() {
-                let share = facet.weighting.coefficient(a, b);
-                left.iter_mut().zip(v).for_each(|(l, v)| *l += share * v);
-                right.iter_mut().zip(&v[NODES..]).for_each(|(r, v)| *r -= share * v);
-            }
-        }
+        self.add_rows(c.facet, s, mine, |b| [&values.own[b], &values.other[b]]);
     }
 
     /// Applies `work` to the facets of a cell in space.
-    pub(super) fn in_space<R>(&self, c: &Cell, work: impl Fn(&overlap::Facets<'_>) -> R) -> R {
-        let (facet, master) = (&self.sides.facets[c.facet], &self.sides.master[c.master]);
-        let (own, other) = self.gather(c);
-        let mut reference = [[0.0; D]; NODES];
+    pub(super) fn in_space<R>(&self, c: &Cell, work: impl FnOnce(&overlap::Facets<'_>) -> R) -> R {
+        let [slave, master] = self.facets(c);
+        let ((own, s), (other, m)) = (self.gather(slave), self.gather(master));
+        let mut reference = [[0.0; 3]; MOST_NODES];
         let frozen = self.sides.frozen(c.facet);
-        reference.iter_mut().zip(frozen.reference).for_each(|(to, x)| *to = *x);
-        let [own, other, reference] = [own, other, reference].map(|x| x.map(three));
-        let (s, m) = (facet.nodes.len(), master.nodes.len());
+        reference.iter_mut().zip(frozen.reference).for_each(|(to, x)| *to = three(*x));
+        let [own, other] = [own, other].map(|x| x.map(three));
         work(&overlap::Facets {
-            slave: overlap::Side { kind: facet.kind, x: &own[..s] },
-            reference: &reference[..s],
-            master: overlap::Side { kind: master.kind, x: &other[..m] },
+            slave: overlap::Side { facet: slave, x: &own[..s] },
+            reference: &reference[..frozen.reference.len()],
+            master: overlap::Side { facet: master, x: &other[..m] },
             rule: self.sides.rule(c.facet, c.master),
         })
     }
@@ -192,12 +207,10 @@ impl<const D: usize> MortarMeasure<D> {
         point.weights.fill(0.0);
         point.area = 0.0;
         for b in &self.sides.beside[p] {
-            let facet = &self.sides.facets[b.facet];
-            let s = facet.nodes.len();
-            let Some(a) = facet.weighting.points.iter().position(|&q| q == p) else { continue };
+            let s = self.sides.facets[b.facet].facet.face.nodes.len();
             for c in self.cells_of(b.facet) {
-                let n = s + self.sides.master[c.master].nodes.len();
-                let from = c.table + a * n;
+                let n = s + self.sides.master[c.master].face.nodes.len();
+                let from = c.table + b.row * n;
                 let row = &integrals[from..from + n];
                 self.places[from..from + n].iter().zip(row).for_each(|(&at, w)| point.weights[at] += w);
                 row[..s].iter().for_each(|w| point.area += w);
@@ -224,7 +237,7 @@ impl<const D: usize> MortarMeasure<D> {
             axpy(&mut d, share * w, &self.x[n]);
             axpy(&mut v, then - share * w, &self.x[n]);
         }
-        let e = self.sides.bases(self.sides.beside[p][0], &self.x);
+        let e = self.sides.bases(self.sides.around[p][0], &self.x);
         let material = point.along.map(|[a, b]| add(&scaled(&e[0], a), &scaled(&e[1], b)));
         Local::new(&self.sides.normal_sum(p, &self.x), material, d, v)
     }
@@ -232,10 +245,10 @@ impl<const D: usize> MortarMeasure<D> {
     /// Computes δn and δframe for a unit displacement along axis `i` of `node`, one of the slave nodes of point `p`.
     pub(super) fn turn(&self, p: usize, node: usize, i: usize, out: &mut Change<D>) {
         let (mut normals, mut material) = ([0.0; D], [[0.0; D]; 2]);
-        for (k, b) in self.sides.beside[p].iter().enumerate() {
-            let facet = &self.sides.facets[b.facet];
-            let Some(l) = facet.nodes.iter().position(|&n| n == node) else { continue };
-            let s = shape(facet.kind, node_at(facet.kind, b.local));
+        for (k, b) in self.sides.around[p].iter().enumerate() {
+            let face = &self.sides.faces[b.face];
+            let Some(l) = face.nodes.iter().position(|&n| n == node) else { continue };
+            let s = shape(face.kind, node_at(face.kind, b.local));
             let slopes = [s.first[0][l], s.first[1][l]];
             let mut unit = [0.0; D];
             unit[i] = 1.0;
@@ -257,34 +270,35 @@ impl<const D: usize> MortarMeasure<D> {
 
     /// Adds to `slides` the contribution of the changing overlap of a cell.
     fn overlap_slide(&self, c: &Cell, du: &[[f64; D]], out: &mut Slides) {
-        let (facet, master) = (&self.sides.facets[c.facet], &self.sides.master[c.master]);
-        let (s, m) = (facet.nodes.len(), master.nodes.len());
-        let (own, other) = self.gather(c);
-        let moved = |x: &[[f64; D]; NODES], nodes: &[usize]| {
-            let mut out = x.map(|p| p.map(|v| Dual { v, d: [0.0] }));
-            for (o, &n) in out.iter_mut().zip(nodes) {
-                for i in 0..D {
-                    o[i].d[0] = du[n][i];
-                }
+        let [slave, master] = self.facets(c);
+        let moved = |facet: &Facet| -> [[Dual<1>; D]; MOST_NODES] {
+            let mut out = self.gather(facet).0.map(|p| p.map(|v| Dual { v, d: [0.0] }));
+            for (o, n) in out.iter_mut().zip(facet.movers()) {
+                let by = self.sides.centres.mean(n, du);
+                o.iter_mut().zip(by).for_each(|(o, by)| o.d[0] = by);
             }
             out
         };
-        let (x, y) = (moved(&own, &facet.nodes), moved(&other, &master.nodes));
-        let mut sums = Sums::<Dual<1>, NODES>::zero();
-        let rule = self.sides.rule(c.facet, c.master);
-        if !integrate(self.sides.frozen(c.facet), &x[..s], master.kind, &y[..m], rule, &mut sums) {
+        let (x, y) = (moved(slave), moved(master));
+        let mut sums = Sums::<Dual<1>, MOST_NODES>::zero();
+        let (rule, frozen) = (self.sides.rule(c.facet, c.master), self.sides.frozen(c.facet));
+        let (s, m) = (slave.movers().count(), master.movers().count());
+        if !integrate(frozen, &x[..s], master, &y[..m], rule, &mut sums) {
             return;
         }
-        for (a, &p) in facet.weighting.points.iter().enumerate().filter(|(_, p)| self.points[**p].faces()) {
+        let weighting = &self.sides.facets[c.facet].weighting;
+        for (a, &p) in weighting.points.iter().enumerate().filter(|(_, p)| self.points[**p].faces()) {
             let local = &self.locals[p];
             let mut dp = [0.0; D];
-            for (w, x) in sums.own[a][..s].iter().zip(&own) {
-                axpy(&mut dp, w.d[0], x);
-                axpy(&mut dp, -w.d[0], &local.d);
-            }
-            for (w, x) in sums.other[a][..m].iter().zip(&other) {
-                axpy(&mut dp, -w.d[0], x);
-            }
+            weighting.sum(a, |share, b| {
+                for (w, &n) in sums.own[b].iter().zip(&slave.face.nodes) {
+                    axpy(&mut dp, share * w.d[0], &self.x[n]);
+                    axpy(&mut dp, -share * w.d[0], &local.d);
+                }
+                for (w, &n) in sums.other[b].iter().zip(&master.face.nodes) {
+                    axpy(&mut dp, -share * w.d[0], &self.x[n]);
+                }
+            });
             let dd = scaled(&dp, self.points[p].area.recip());
             out.gap[p] += dot(&local.n, &dd);
             for j in 0..2 {
@@ -295,10 +309,10 @@ impl<const D: usize> MortarMeasure<D> {
 }
 
 impl<const D: usize> MortarMeasure<D> {
-    /// True if all nodes of a pair of facets are in the blocks of the pair's points.
+    /// True if all nodes of the faces of a pair of facets are in the blocks of the pair's points.
     fn beside_blocks(&self, [facet, master]: &[usize; 2], points: &[MortarPointState]) -> bool {
         let (own, other) = (&self.sides.facets[*facet], &self.sides.master[*master]);
-        let mut nodes = own.nodes.iter().chain(&other.nodes);
+        let mut nodes = own.facet.face.nodes.iter().chain(&other.face.nodes);
         nodes.all(|n| own.weighting.points.iter().all(|&p| points[p].nodes.contains(n)))
     }
 }
@@ -323,9 +337,9 @@ fn three<const D: usize>(x: [f64; D]) -> [f64; 3] {
     std::array::from_fn(|i| x.get(i).copied().unwrap_or(0.0))
 }
 
-/// Components of the small-sliding frame's vectors in the base vectors of the first facet adjacent to point `p`.
+/// Components of the small-sliding frame's vectors in the base vectors of the first face adjacent to point `p`.
 fn along<const D: usize>(sides: &Sides<D>, p: usize, x: &[[f64; D]]) -> [[f64; 2]; 2] {
-    let first: AdjacentFacet = sides.beside[p][0];
+    let first: AdjacentFace = sides.around[p][0];
     let e = sides.bases(first, x);
     let normals = sides.normal_sum(p, x);
     let frame = fixed_frame(&scaled(&normals, -norm(&normals).recip()));
@@ -431,6 +445,23 @@ impl<const D: usize> Measure<D> for MortarMeasure<D> {
         }
     }
 
+    fn averages(&self, p: usize, out: &mut Vec<(usize, f64)>) {
+        out.clear();
+        let point = &self.points[p];
+        if !point.faces() {
+            return;
+        }
+        for b in &self.sides.beside[p] {
+            let SlaveFacet { facet, weighting, .. } = &self.sides.facets[b.facet];
+            for c in self.cells_of(b.facet) {
+                let s = facet.face.nodes.len();
+                let from = c.table + b.row * (s + self.sides.master[c.master].face.nodes.len());
+                let with_corners = facet.with_corners(&self.integrals[from..from + s]);
+                weighting.add_shares(&with_corners, |q, w| out.push((q, w / point.area)));
+            }
+        }
+    }
+
     fn attachments(&self, p: usize, out: &mut Vec<Attachment>) {
         out.clear();
         let point = &self.points[p];
@@ -476,7 +507,7 @@ impl<const D: usize> Measure<D> for MortarMeasure<D> {
         let MeasureState::Mortar { points, pairs, proved } = saved else { return false };
         let (facets, masters) = (self.sides.facets.len(), self.sides.master.len());
         let exist = |p: &MortarPointState| {
-            p.nodes.iter().all(|&n| n < self.x.len())
+            p.nodes.iter().all(|&n| n < self.reference.len())
                 && p.then.len() == p.nodes.len()
                 && p.slaves <= p.nodes.len()
         };

@@ -1,7 +1,7 @@
 //! Segment-to-segment measures (mortar): the gap averaged to slave nodes over the overlap of the facets.
 //!
 //! Let ψ_A be the weighting of slave point A (a partition of unity, see `weighting` and, for small sliding, `dual`), and N_B
-//! and N_γ the shape functions of slave and master facets. With integrals over the part of the slave surface that faces the
+//! and N_γ the shape functions of slave and master faces. With integrals over the part of the slave surface that faces the
 //! master,
 //!
 //! `a_A = ∫ψ_A`, `D_AB = ∫ψ_A N_B`, `M_Aγ = ∫ψ_A N_γ`, `d_A = (Σ_B D_AB x_B - Σ_γ M_Aγ x_γ)/a_A`, `g_A = n_A·d_A`,
@@ -19,13 +19,16 @@
 
 mod blocks;
 mod cell;
+mod centre;
 mod clip;
 mod dual;
+mod facet;
 mod finite;
 mod local;
 mod order;
 mod overlap;
 mod pairing;
+mod plane_face;
 mod polygon;
 mod rule;
 mod scalar;
@@ -36,4 +39,3 @@ mod weighting;
 
 pub use finite::finite;
 pub use small::small;
-pub(crate) use weighting::node_values;

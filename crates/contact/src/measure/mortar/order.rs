@@ -18,7 +18,7 @@ impl WorkOrder {
     /// Orders the points by repeated bisection across their largest extent, with the interface's nodes at positions `x`.
     pub(super) fn new<const D: usize>(sides: &Sides<D>, x: &[[f64; D]]) -> Self {
         let place: Vec<[f64; D]> =
-            sides.beside.iter().map(|b| x[sides.facets[b[0].facet].nodes[b[0].local]]).collect();
+            sides.around.iter().map(|b| x[sides.faces[b[0].face].nodes[b[0].local]]).collect();
         let mut points: Vec<usize> = (0..place.len()).collect();
         bisect(&mut points, &place);
         let mut piece = vec![0; points.len()];

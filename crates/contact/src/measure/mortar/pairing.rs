@@ -36,7 +36,7 @@ impl<const D: usize> MortarMeasure<D> {
     fn rebuild(&mut self, pairs: &[[usize; 2]]) {
         for p in 0..self.points.len() {
             let mut slaves: Vec<usize> =
-                self.sides.beside[p].iter().flat_map(|b| self.sides.facets[b.facet].nodes.clone()).collect();
+                self.sides.around[p].iter().flat_map(|b| self.sides.faces[b.face].nodes.clone()).collect();
             slaves.sort_unstable();
             slaves.dedup();
             let point = &mut self.points[p];
@@ -48,7 +48,7 @@ impl<const D: usize> MortarMeasure<D> {
                 pairs[first..].iter().take_while(|c| c[0] == b.facet).map(|c| c[1])
             });
             let mut masters: Vec<usize> =
-                from.flat_map(|m| self.sides.master[m].nodes.iter().copied()).collect();
+                from.flat_map(|m| self.sides.master[m].face.nodes.iter().copied()).collect();
             masters.extend(kept.iter().map(|k| k.0));
             masters.sort_unstable();
             masters.dedup();
@@ -78,7 +78,7 @@ impl<const D: usize> MortarMeasure<D> {
             let (own, other) = (&self.sides.facets[facet], &self.sides.master[master]);
             for &p in &own.weighting.points {
                 let block = &self.points[p].nodes;
-                for n in own.nodes.iter().chain(&other.nodes) {
+                for n in own.facet.face.nodes.iter().chain(&other.face.nodes) {
                     // By construction, every node of a cell is in the blocks of its points.
                     self.places.extend(block.iter().position(|m| m == n));
                 }
@@ -117,6 +117,7 @@ mod tests {
     use super::*;
     use crate::SegmentKind;
     use crate::measure::mortar::cell::{Sums, integrate};
+    use crate::measure::mortar::facet::Facet;
     use crate::measure::mortar::sides::Sides;
     use crate::shape::MOST_NODES;
     use crate::spec::{Segment, SlavePoint};
@@ -168,7 +169,7 @@ mod tests {
         nodes.sort_unstable();
         nodes.dedup();
         let points: Vec<SlavePoint> = nodes.iter().map(|&node| SlavePoint { node, area: 1.0 }).collect();
-        let sides = Sides::new(&slave, &points, master, &reference, false);
+        let sides = Sides::new(&slave, &points, &master, &mut reference.clone(), false);
         let dofs = (0..reference.len()).map(|k| D * k).collect();
         let (mut measure, _) = MortarMeasure::<D>::new(sides, dofs, reference.clone());
         let radius = measure.found.iter().fold(f64::INFINITY, |least, f| least.min(f.free));
@@ -182,11 +183,12 @@ mod tests {
         assert!(measure.bound.holds(&measure.x));
         measure.pair(&mut 0);
         for c in &measure.cells {
-            let at = |nodes: &[usize]| nodes.iter().map(|&k| measure.x[k]).collect::<Vec<_>>();
-            let (own, master) = (at(&measure.sides.facets[c.facet].nodes), &measure.sides.master[c.master]);
+            let at = |facet: &Facet| facet.movers().map(|k| measure.x[k]).collect::<Vec<_>>();
+            let [slave, master] = measure.facets(c);
+            let own = at(slave);
             let mut sums = Sums::<f64, MOST_NODES>::zero();
             let (frozen, rule) = (measure.sides.frozen(c.facet), measure.sides.rule(c.facet, c.master));
-            let overlap = integrate(frozen, &own, master.kind, &at(&master.nodes), rule, &mut sums);
+            let overlap = integrate(frozen, &own, master, &at(master), rule, &mut sums);
             assert!(!overlap || known.contains(&[c.facet, c.master]), "{:?}", [c.facet, c.master]);
         }
     }

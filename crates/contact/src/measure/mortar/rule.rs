@@ -1,8 +1,7 @@
 //! Quadrature on the pieces of an overlap.
 
+use super::facet::Facet;
 use crate::SegmentKind;
-use crate::shape::shape;
-use crate::vector::{axpy, cross, dot, norm};
 use asperity_fem::quadrature::{triangle_1, triangle_3, triangle_6};
 
 /// Most Gauss points in one direction. Faces so distorted that the product of shape functions needs more are integrated to
@@ -96,16 +95,27 @@ fn legendre(n: usize) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// Number of Gauss points in one direction for the product of shape functions (and the radius) of a facet of this kind with one
-/// of kind `other`. It is exact if the shape functions are polynomials in the plane.
-pub(super) fn points(kind: SegmentKind, other: SegmentKind, distortion: f64) -> usize {
+/// Functions with which those of faces are multiplied.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Rows {
+    /// Those of the corners of a facet.
+    Corners,
+    /// Those of its face.
+    Face,
+}
+
+/// Number of Gauss points in one direction for the products of functions of a facet's corners, or of its face (times the radius), with
+/// those of its face and of that of the `other` facet. It is exact if these are polynomials in the plane and the face is flat.
+pub(super) fn points(facet: &Facet, rows: Rows, other: &Facet) -> usize {
     let degree = |k: SegmentKind| match k {
         SegmentKind::Seg2 | SegmentKind::Tri3 => 1,
         SegmentKind::Seg3 | SegmentKind::Tri6 | SegmentKind::Quad4 => 2,
         SegmentKind::Quad8 => 3,
         SegmentKind::Quad9 => 4,
     };
-    let of_products = degree(kind) + degree(other).max(degree(kind));
+    let distortion = facet.distortion.max(other.distortion);
+    let of_rows = if rows == Rows::Corners { facet.kind } else { facet.face.kind };
+    let of_products = degree(of_rows) + degree(other.face.kind).max(degree(facet.face.kind));
     // 2n - 1 on lines, where the radius of a body of revolution adds one degree; 2n - 2 on triangles.
     let n = (of_products + 3) / 2;
     if distortion < REGULAR {
@@ -123,29 +133,4 @@ pub(super) fn points(kind: SegmentKind, other: SegmentKind, distortion: f64) -> 
     )]
     let more = more.min(MOST as f64).ceil() as usize;
     (n + more).min(MOST)
-}
-
-/// Largest relative deviation of the Jacobian from its mean at the corners of a facet with nodes `x`. It is 0 on lines and on
-/// triangles with straight edges and centred mid-nodes.
-pub(super) fn distortion<const D: usize>(kind: SegmentKind, x: &[[f64; D]]) -> f64 {
-    let corners: &[[f64; 2]] = match kind {
-        SegmentKind::Seg2 | SegmentKind::Tri3 => return 0.0,
-        SegmentKind::Seg3 => &[[-1.0, 0.0], [1.0, 0.0]],
-        SegmentKind::Tri6 => &[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]],
-        SegmentKind::Quad4 | SegmentKind::Quad8 | SegmentKind::Quad9 => {
-            &[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
-        }
-    };
-    let jacobian = |xi: &[f64; 2]| {
-        let s = shape(kind, *xi);
-        let mut e = [[0.0; D]; 2];
-        for (k, xk) in x.iter().enumerate() {
-            axpy(&mut e[0], s.first[0][k], xk);
-            axpy(&mut e[1], s.first[1][k], xk);
-        }
-        if D == 2 { dot(&e[0], &e[0]).sqrt() } else { norm(&cross(&e[0], &e[1])) }
-    };
-    let (low, high) =
-        corners.iter().map(jacobian).fold((f64::INFINITY, 0.0f64), |(l, h), j| (l.min(j), h.max(j)));
-    (high - low) / (high + low)
 }

@@ -2,7 +2,9 @@
 //! overlap.
 
 use super::cell::ReferenceFacet;
-use super::rule::{self, Rule, Rules};
+use super::centre::Centres;
+use super::facet::{Facet, facets, middle, node_at};
+use super::rule::{self, Rows, Rule, Rules};
 use super::weighting::Weighting;
 use crate::SegmentKind;
 use crate::search::tree::{Aabb, Tree};
@@ -19,112 +21,150 @@ const MARGIN: f64 = 0.25;
 
 /// A slave facet.
 #[derive(Clone, Debug)]
-pub(super) struct Facet {
-    pub kind: SegmentKind,
-    pub nodes: Vec<usize>,
+pub(super) struct SlaveFacet {
+    pub facet: Facet,
     pub weighting: Weighting,
-    /// Start of its nodes among the reference positions.
-    from: usize,
-    distortion: f64,
+    /// Number of its face.
+    pub face: usize,
 }
 
-/// A slave facet adjacent to a slave point: the facet and the local number of the point's node in it.
+/// A slave face, with the reference positions of its nodes.
+#[derive(Clone, Debug)]
+pub(super) struct SlaveFace<const D: usize> {
+    pub kind: SegmentKind,
+    pub nodes: Vec<usize>,
+    /// Slave points of its nodes.
+    pub points: Vec<Option<usize>>,
+    reference: Vec<[f64; D]>,
+}
+
+/// A facet on which the function of a slave point does not vanish, and the row of the point in its weighting.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AdjacentFacet {
     pub facet: usize,
+    pub row: usize,
+}
+
+/// A face adjacent to a slave point, and the local number of the point's node in it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct AdjacentFace {
+    pub face: usize,
     pub local: usize,
 }
 
 /// Both surfaces of an interface.
 #[derive(Clone, Debug)]
 pub(super) struct Sides<const D: usize> {
-    pub facets: Vec<Facet>,
-    pub master: Vec<Segment>,
+    pub facets: Vec<SlaveFacet>,
+    pub master: Vec<Facet>,
+    /// Faces that are divided into the slave facets.
+    pub faces: Vec<SlaveFace<D>>,
     /// Facets adjacent to each slave point.
     pub beside: Vec<Vec<AdjacentFacet>>,
+    /// Faces adjacent to each slave point.
+    pub around: Vec<Vec<AdjacentFace>>,
     pub axisymmetric: bool,
-    reference: Vec<[f64; D]>,
-    distortion: Vec<f64>,
+    pub centres: Centres,
     rules: Rules,
     boxes: Vec<Aabb<D>>,
     tree: Tree<D>,
 }
 
 impl<const D: usize> Sides<D> {
-    /// Collects the facets at reference `positions` of the interface's nodes. Facets without a slave point are left out.
+    /// Collects the facets at reference `positions` of the interface's nodes, to which the middles of faces of eight nodes are added.
+    /// Facets without a slave point are left out.
     pub(super) fn new(
-        faces: &[Segment],
+        slave_faces: &[Segment],
         slave: &[SlavePoint],
-        master: Vec<Segment>,
-        positions: &[[f64; D]],
+        master: &[Segment],
+        positions: &mut Vec<[f64; D]>,
         axisymmetric: bool,
     ) -> Self {
         let mut point_of = vec![None; positions.len()];
         for (p, s) in slave.iter().enumerate() {
             point_of[s.node] = Some(p);
         }
-        let mut beside = vec![Vec::new(); slave.len()];
-        let (mut facets, mut reference) = (Vec::new(), Vec::new());
-        for face in faces {
-            if face.nodes.iter().all(|&n| point_of[n].is_none()) {
-                continue;
-            }
-            for (local, &n) in face.nodes.iter().enumerate() {
-                if let Some(p) = point_of[n] {
-                    beside[p].push(AdjacentFacet { facet: facets.len(), local });
-                }
-            }
-            let x: Vec<[f64; D]> = face.nodes.iter().map(|&n| positions[n]).collect();
-            facets.push(Facet {
-                kind: face.kind,
-                nodes: face.nodes.clone(),
-                weighting: Weighting::new(face.kind, |k| point_of[face.nodes[k]]),
-                from: reference.len(),
-                distortion: rule::distortion(face.kind, &x),
-            });
-            reference.extend(x);
-        }
-        let distortion = master
-            .iter()
-            .map(|m| rule::distortion(m.kind, &m.nodes.iter().map(|&n| positions[n]).collect::<Vec<_>>()))
-            .collect();
+        let mut centres = Centres::new(positions.len());
+        let mut divided = |face: &Segment, positions: &mut Vec<[f64; D]>| {
+            let middle = centres.add(face, positions);
+            facets(face, middle, positions)
+        };
+        let master: Vec<Facet> = master.iter().flat_map(|m| divided(m, positions)).collect();
         let boxes: Vec<_> = master.iter().map(|m| box_of(&m.nodes, positions)).collect();
         let tree = Tree::build(&boxes);
-        let rules = Rules::new();
-        Self { facets, master, beside, axisymmetric, reference, distortion, rules, boxes, tree }
+        let mut sides = Self {
+            facets: Vec::new(),
+            master,
+            faces: Vec::new(),
+            beside: vec![Vec::new(); slave.len()],
+            around: vec![Vec::new(); slave.len()],
+            axisymmetric,
+            centres,
+            rules: Rules::new(),
+            boxes,
+            tree,
+        };
+        for face in slave_faces {
+            if face.nodes.iter().any(|&n| point_of[n].is_some()) {
+                sides.add_face(face, positions, &point_of);
+            }
+        }
+        sides
+    }
+
+    /// Adds a slave face with its facets.
+    fn add_face(&mut self, face: &Segment, positions: &mut Vec<[f64; D]>, point_of: &[Option<usize>]) {
+        let number = self.faces.len();
+        for (local, &n) in face.nodes.iter().enumerate() {
+            if let Some(p) = point_of[n] {
+                self.around[p].push(AdjacentFace { face: number, local });
+            }
+        }
+        let middle = self.centres.add(face, positions);
+        for facet in facets(face, middle, positions) {
+            let weighting = Weighting::new(face, facet.corners, |n| point_of[n]);
+            if !weighting.points.is_empty() {
+                for (row, &p) in weighting.points.iter().enumerate() {
+                    self.beside[p].push(AdjacentFacet { facet: self.facets.len(), row });
+                }
+                self.facets.push(SlaveFacet { facet, weighting, face: number });
+            }
+        }
+        let reference = face.nodes.iter().map(|&n| positions[n]).collect();
+        let points = face.nodes.iter().map(|&n| point_of[n]).collect();
+        self.faces.push(SlaveFace { kind: face.kind, nodes: face.nodes.clone(), points, reference });
     }
 
     /// Constant data of slave facet `f`.
     #[inline]
     pub(super) fn frozen(&self, f: usize) -> ReferenceFacet<'_, D> {
-        let facet = &self.facets[f];
-        ReferenceFacet {
-            kind: facet.kind,
-            weighting: &facet.weighting,
-            reference: &self.reference[facet.from..facet.from + facet.nodes.len()],
-            axisymmetric: self.axisymmetric,
-        }
+        let SlaveFacet { facet, face, .. } = &self.facets[f];
+        ReferenceFacet { facet, reference: &self.faces[*face].reference, axisymmetric: self.axisymmetric }
     }
 
     /// Quadrature rule for slave facet `f` with master facet `m`, chosen in the reference configuration.
     #[inline]
     pub(super) fn rule(&self, f: usize, m: usize) -> &Rule {
-        let distortion = self.facets[f].distortion.max(self.distortion[m]);
-        self.rules.rule(rule::points(self.facets[f].kind, self.master[m].kind, distortion))
+        self.rules.rule(rule::points(&self.facets[f].facet, Rows::Corners, &self.master[m]))
     }
 
-    /// Base vectors of facet `b.facet` at the node of a slave point.
+    /// Quadrature rule for the functions of the face of slave facet `f`.
+    pub(super) fn rule_of_face(&self, f: usize, m: usize) -> &Rule {
+        self.rules.rule(rule::points(&self.facets[f].facet, Rows::Face, &self.master[m]))
+    }
+
+    /// Base vectors of face `b.face` at the node of a slave point.
     #[inline]
-    pub(super) fn bases(&self, b: AdjacentFacet, x: &[[f64; D]]) -> [[f64; D]; 2] {
-        let facet = &self.facets[b.facet];
-        bases(facet.kind, &facet.nodes, x, node_at(facet.kind, b.local))
+    pub(super) fn bases(&self, b: AdjacentFace, x: &[[f64; D]]) -> [[f64; D]; 2] {
+        let face = &self.faces[b.face];
+        bases(face.kind, &face.nodes, x, node_at(face.kind, b.local))
     }
 
-    /// Sum of the outward normals of the facets adjacent to slave point `p`, each weighted with its Jacobian there.
+    /// Sum of the outward normals of the faces adjacent to slave point `p`, each weighted with its Jacobian there.
     #[inline]
     pub(super) fn normal_sum(&self, p: usize, x: &[[f64; D]]) -> [f64; D] {
         let mut sum = [0.0; D];
-        for b in &self.beside[p] {
+        for b in &self.around[p] {
             axpy(&mut sum, 1.0, &perpendicular(&self.bases(*b, x)));
         }
         sum
@@ -144,7 +184,7 @@ impl<const D: usize> Sides<D> {
             if self.axisymmetric {
                 area *= std::f64::consts::TAU * high[0];
             }
-            frozen.weighting.points.iter().for_each(|&p| out[p] += area);
+            self.facets[f].weighting.points.iter().for_each(|&p| out[p] += area);
         }
         out
     }
@@ -180,10 +220,10 @@ impl<const D: usize> Sides<D> {
     /// facet.
     pub(super) fn candidates(&self, f: usize, x: &[[f64; D]], out: &mut Vec<usize>, count: &mut u64) -> f64 {
         out.clear();
-        let facet = &self.facets[f];
+        let facet = &self.facets[f].facet;
         let n = facet_normal(facet.kind, &facet.nodes, x);
         let mut middle = [0.0; D];
-        #[expect(clippy::cast_precision_loss, reason = "at most nine nodes")]
+        #[expect(clippy::cast_precision_loss, reason = "at most four nodes")]
         let share = 1.0 / facet.nodes.len() as f64;
         facet.nodes.iter().for_each(|&k| axpy(&mut middle, share, &x[k]));
         let mut own = box_of(&facet.nodes, x);
@@ -238,10 +278,6 @@ fn turning<const D: usize>(kind: SegmentKind, nodes: &[usize], x: &[[f64; D]]) -
     8.0 * (norm(&e[0]) + norm(&e[1])) / norm(&perpendicular(&e))
 }
 
-fn middle(kind: SegmentKind) -> [f64; 2] {
-    if matches!(kind, SegmentKind::Tri3 | SegmentKind::Tri6) { [1.0 / 3.0; 2] } else { [0.0; 2] }
-}
-
 /// Base vectors at natural coordinates `xi`.
 #[inline]
 pub(super) fn bases<const D: usize>(
@@ -257,26 +293,4 @@ pub(super) fn bases<const D: usize>(
         axpy(&mut e[1], s.first[1][k], &x[n]);
     }
     e
-}
-
-/// Natural coordinates of local node `k`.
-pub(super) fn node_at(kind: SegmentKind, k: usize) -> [f64; 2] {
-    const LINE: [[f64; 2]; 3] = [[-1.0, 0.0], [1.0, 0.0], [0.0, 0.0]];
-    const TRIANGLE: [[f64; 2]; 6] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
-    const SQUARE: [[f64; 2]; 9] = [
-        [-1.0, -1.0],
-        [1.0, -1.0],
-        [1.0, 1.0],
-        [-1.0, 1.0],
-        [0.0, -1.0],
-        [1.0, 0.0],
-        [0.0, 1.0],
-        [-1.0, 0.0],
-        [0.0, 0.0],
-    ];
-    match kind {
-        SegmentKind::Seg2 | SegmentKind::Seg3 => LINE[k],
-        SegmentKind::Tri3 | SegmentKind::Tri6 => TRIANGLE[k],
-        SegmentKind::Quad4 | SegmentKind::Quad8 | SegmentKind::Quad9 => SQUARE[k],
-    }
 }

@@ -1,10 +1,13 @@
 //! Small sliding with the overlap of the reference configuration.
 
 use super::cell::{Sums, integrate};
-use super::dual::{Part, dualise};
-use super::sides::Sides;
+use super::dual::{Part, area, dualise_face, dualise_facet, has_duals};
+use super::facet::{Facet, NODES, parts as parts_of};
+use super::rule::Rule;
+use super::sides::{Sides, SlaveFace, SlaveFacet};
 use crate::measure::Attachment;
 use crate::measure::fixed_measure::FixedMeasure;
+use crate::shape::MOST_NODES;
 use crate::spec::{Segment, SlavePoint, SurfaceNode};
 use crate::vector::{axpy, scaled, unit};
 use std::collections::BTreeMap;
@@ -19,9 +22,28 @@ struct Row {
     area: f64,
     slave: BTreeMap<usize, f64>,
     master: BTreeMap<usize, f64>,
+    /// Integrals of the products of its function with those of points.
+    points: BTreeMap<usize, f64>,
 }
 
 impl Row {
+    /// Adds a share of the integrals with the functions of both faces.
+    fn add(&mut self, share: f64, [own, other]: [&Vec<usize>; 2], [with_own, with_other]: [&[f64]; 2]) {
+        for (&n, w) in own.iter().zip(with_own) {
+            self.area += share * w;
+            *self.slave.entry(n).or_default() += share * w;
+        }
+        for (&n, w) in other.iter().zip(with_other) {
+            *self.master.entry(n).or_default() += share * w;
+        }
+    }
+
+    /// Adds a share of the integrals with the functions of points.
+    fn add_points(&mut self, share: f64, slave: &SlaveFacet, with_face: &[f64]) {
+        let with_corners = slave.facet.with_corners(with_face);
+        slave.weighting.add_shares(&with_corners, |q, w| *self.points.entry(q).or_default() += share * w);
+    }
+
     /// Nodes through which the point acts. One that belongs to both sides (the tip of a split surface) acts with the difference of
     /// its weights.
     fn through(&self) -> Vec<Attachment> {
@@ -43,12 +65,12 @@ pub fn small<const D: usize>(
     nodes: &[SurfaceNode<D>],
     slave: &[SlavePoint],
     faces: &[Segment],
-    master: Vec<Segment>,
+    master: &[Segment],
     axisymmetric: bool,
     fixed_normal: Option<[f64; D]>,
 ) -> (FixedMeasure<D>, u64) {
-    let x: Vec<[f64; D]> = nodes.iter().map(|n| n.position).collect();
-    let sides = Sides::new(faces, slave, master, &x, axisymmetric);
+    let mut x: Vec<[f64; D]> = nodes.iter().map(|n| n.position).collect();
+    let sides = Sides::new(faces, slave, master, &mut x, axisymmetric);
     let mut examined = 0;
     let rows = rows(&sides, slave.len(), &x, &mut examined);
     let whole = sides.whole_areas(slave.len());
@@ -58,6 +80,8 @@ pub fn small<const D: usize>(
     for (p, row) in rows.iter().enumerate().filter(|(p, _)| paired(*p)) {
         let normal = fixed_normal.unwrap_or_else(|| scaled(&sides.normal_sum(p, &x), -1.0));
         let through = row.through();
+        let share = row.area.recip();
+        measure.average(p, row.points.iter().map(|(&q, w)| (q, share * w)).collect());
         let mut apart = [0.0; D];
         through.iter().for_each(|a| axpy(&mut apart, a.weight, &x[a.node]));
         measure.pair(p, &through, unit(&normal), &apart);
@@ -68,34 +92,98 @@ pub fn small<const D: usize>(
 
 fn rows<const D: usize>(sides: &Sides<D>, points: usize, x: &[[f64; D]], examined: &mut u64) -> Vec<Row> {
     let mut rows = vec![Row::default(); points];
-    let mut candidates = Vec::new();
-    let mut parts: Vec<Part> = Vec::new();
-    for (f, facet) in sides.facets.iter().enumerate() {
-        let own: Vec<[f64; D]> = facet.nodes.iter().map(|&n| x[n]).collect();
-        sides.candidates(f, x, &mut candidates, examined);
-        parts.clear();
-        for &m in &candidates {
-            let s = &sides.master[m];
-            let other: Vec<[f64; D]> = s.nodes.iter().map(|&n| x[n]).collect();
-            let mut sums = Sums::zero();
-            if integrate(sides.frozen(f), &own, s.kind, &other, sides.rule(f, m), &mut sums) {
-                parts.push((m, sums));
-            }
+    let mut facets = 0;
+    for face in &sides.faces {
+        let first = facets;
+        facets +=
+            sides.facets[first..].iter().take_while(|slave| slave.face == sides.facets[first].face).count();
+        let mut pairs = Vec::new();
+        for f in first..facets {
+            let mut candidates = Vec::new();
+            sides.candidates(f, x, &mut candidates, examined);
+            pairs.extend(candidates.into_iter().map(|m| [f, m]));
         }
-        let Some(&(m, _)) = parts.first() else { continue };
-        dualise(sides.frozen(f), &own, sides.rule(f, m), &mut parts);
-        for (m, sums) in &parts {
-            for (a, &p) in facet.weighting.points.iter().enumerate() {
-                let row = &mut rows[p];
-                for (&n, w) in facet.nodes.iter().zip(&sums.own[a]) {
-                    row.area += w;
-                    *row.slave.entry(n).or_default() += w;
-                }
-                for (&n, w) in sides.master[*m].nodes.iter().zip(&sums.other[a]) {
-                    *row.master.entry(n).or_default() += w;
-                }
-            }
+        let overlaps = Overlaps { sides, x, pairs };
+        if !(has_duals(face.kind) && overlaps.add_dual_face(face, first, &mut rows)) {
+            (first..facets).for_each(|f| overlaps.add_facet(f, &mut rows));
         }
     }
     rows
+}
+
+/// Pairs of the facets of a slave face with master facets that may overlap them.
+struct Overlaps<'a, const D: usize> {
+    sides: &'a Sides<D>,
+    x: &'a [[f64; D]],
+    pairs: Vec<[usize; 2]>,
+}
+
+impl<const D: usize> Overlaps<'_, D> {
+    /// Positions of the nodes of a facet's face, and of its middle if that is a corner.
+    fn positions(&self, facet: &Facet) -> Vec<[f64; D]> {
+        facet.movers().map(|n| self.x[n]).collect()
+    }
+
+    /// Integrals of these pairs, by a rule for each.
+    fn integrals<'a, const R: usize>(
+        &self,
+        pairs: impl Iterator<Item = &'a [usize; 2]>,
+        rule: impl Fn(usize, usize) -> &'a Rule,
+    ) -> Vec<Part<R>> {
+        let mut out = Vec::new();
+        for &[f, m] in pairs {
+            let master = &self.sides.master[m];
+            let own = self.positions(&self.sides.facets[f].facet);
+            let mut sums = Sums::zero();
+            if integrate(self.sides.frozen(f), &own, master, &self.positions(master), rule(f, m), &mut sums) {
+                out.push(([f, m], sums));
+            }
+        }
+        out
+    }
+
+    /// Area of a facet in the quadrature of its first overlap.
+    fn area(&self, [f, m]: [usize; 2]) -> f64 {
+        let own = self.positions(&self.sides.facets[f].facet);
+        area(self.sides.frozen(f), &own, self.sides.rule(f, m))
+    }
+
+    /// Adds the dual functions of a face whose first facet is `first`. Returns false if it has none.
+    fn add_dual_face(&self, face: &SlaveFace<D>, first: usize, rows: &mut [Row]) -> bool {
+        let sides = self.sides;
+        let points: Vec<usize> = face.points.iter().copied().flatten().collect();
+        let mut parts = self.integrals::<MOST_NODES>(self.pairs.iter(), |f, m| sides.rule_of_face(f, m));
+        let Some(&(pair, _)) = parts.first().filter(|_| points.len() == face.nodes.len()) else {
+            return false;
+        };
+        let facets = first..first + parts_of(face.kind).len();
+        let whole = facets.map(|f| self.area([f, pair[1]])).sum();
+        let Some(areas) = dualise_face(points.len(), whole, &mut parts) else { return false };
+        for (a, &p) in points.iter().enumerate() {
+            *rows[p].points.entry(p).or_default() += areas[a];
+            for ([_, m], sums) in &parts {
+                rows[p].add(1.0, [&face.nodes, &sides.master[*m].face.nodes], [&sums.own[a], &sums.other[a]]);
+            }
+        }
+        true
+    }
+
+    /// Adds the functions of the corners of facet `f`, or their duals.
+    fn add_facet(&self, f: usize, rows: &mut [Row]) {
+        let slave = &self.sides.facets[f];
+        let SlaveFacet { facet, weighting, .. } = slave;
+        let pairs = self.pairs.iter().filter(|pair| pair[0] == f);
+        let mut parts = self.integrals::<NODES>(pairs, |f, m| self.sides.rule(f, m));
+        let Some(&(pair, _)) = parts.first() else { return };
+        if weighting.whole {
+            dualise_facet(facet, self.area(pair), &mut parts);
+        }
+        for ([_, m], sums) in &parts {
+            let (own, other) = (&facet.face.nodes, &self.sides.master[*m].face.nodes);
+            for (a, &p) in weighting.points.iter().enumerate() {
+                weighting.sum(a, |share, b| rows[p].add(share, [own, other], [&sums.own[b], &sums.other[b]]));
+                weighting.sum(a, |share, b| rows[p].add_points(share, slave, &sums.own[b]));
+            }
+        }
+    }
 }

@@ -9,7 +9,7 @@ use std::sync::{Mutex, PoisonError};
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct Point {
-    /// Nodes of its block: those of the adjacent slave facets, followed by those of nearby master facets.
+    /// Nodes of its block: those of the adjacent slave faces, followed by those of nearby master faces.
     pub(super) nodes: Vec<usize>,
     /// Number of slave nodes among them.
     pub(super) slaves: usize,
@@ -28,7 +28,7 @@ pub(super) struct Point {
     pub(super) at: usize,
     /// Start of its columns among those of its piece.
     pub(super) column: usize,
-    /// Components of the frame's material vectors in the base vectors of the first facet adjacent to the point.
+    /// Components of the frame's material vectors in the base vectors of the first face adjacent to the point.
     pub(super) along: [[f64; 2]; 2],
 }
 
@@ -37,8 +37,8 @@ pub(super) struct Point {
 pub(super) struct Cell {
     pub(super) facet: usize,
     pub(super) master: usize,
-    /// Start of its table in `places`: for each point of the facet, the positions of slave and master nodes in the point's
-    /// block.
+    /// Start of its table in `places`: for each point of the facet, the positions of the nodes of slave and master face in the
+    /// point's block.
     pub(super) table: usize,
 }
 
@@ -50,6 +50,7 @@ pub(super) struct MortarMeasure<const D: usize> {
     pub(super) dofs: Vec<usize>,
     pub(super) points: Vec<Point>,
     pub(super) locals: Vec<Local<D>>,
+    /// Present positions of the nodes, and of the middles of faces of eight nodes.
     pub(super) x: Vec<[f64; D]>,
     /// Cells, sorted by facet.
     pub(super) cells: Vec<Cell>,

@@ -1,0 +1,238 @@
+//! A face in the plane of a slave facet: natural coordinates of positions, functions there, and the ratio of areas.
+//!
+//! With y = X(xi): `δxi = X'^-1 (δy - Σ N_k δx_k)`. Faces of first order are bilinear, which saves most of the work.
+
+use super::facet::{Facet, NODES, middle};
+use crate::SegmentKind;
+use crate::shape::{MOST_NODES, Shape, shape};
+use crate::vector::{add, axpy, cross, dot, norm, sub};
+
+/// Most Newton iterations for natural coordinates, as in `cell`.
+const ITERATIONS: usize = 30;
+/// Step in natural coordinates below which the iteration has converged, as in `cell`.
+const CONVERGED: f64 = 1e-15;
+
+/// Functions and their slopes in the natural coordinates of a face.
+pub(super) type Functions<const F: usize> = ([f64; F], [[f64; F]; 2]);
+
+/// A face of first order: `X = a + b ξ + c η + d ξ η`.
+#[derive(Clone, Copy, Debug)]
+struct Bilinear<const L: usize> {
+    a: [f64; L],
+    b: [f64; L],
+    c: [f64; L],
+    d: [f64; L],
+}
+
+impl<const L: usize> Bilinear<L> {
+    fn new(kind: SegmentKind, x: &[[f64; L]]) -> Self {
+        if kind == SegmentKind::Tri3 {
+            return Self { a: x[0], b: sub(&x[1], &x[0]), c: sub(&x[2], &x[0]), d: [0.0; L] };
+        }
+        let mix = |s: [f64; 4]| -> [f64; L] {
+            std::array::from_fn(|i| {
+                0.25 * (s[0] * x[0][i] + s[1] * x[1][i] + s[2] * x[2][i] + s[3] * x[3][i])
+            })
+        };
+        Self {
+            a: mix([1.0; 4]),
+            b: mix([-1.0, 1.0, 1.0, -1.0]),
+            c: mix([-1.0, -1.0, 1.0, 1.0]),
+            d: mix([1.0, -1.0, 1.0, -1.0]),
+        }
+    }
+
+    /// Base vectors at ξ.
+    #[inline]
+    fn base(&self, xi: &[f64; 2]) -> [[f64; L]; 2] {
+        [
+            std::array::from_fn(|i| self.b[i] + self.d[i] * xi[1]),
+            std::array::from_fn(|i| self.c[i] + self.d[i] * xi[0]),
+        ]
+    }
+}
+
+/// Inverse of the matrix whose columns are the base vectors.
+#[inline]
+fn inverse([e, f]: &[[f64; 2]; 2]) -> [[f64; 2]; 2] {
+    let share = (e[0] * f[1] - e[1] * f[0]).recip();
+    [[f[1] * share, -f[0] * share], [-e[1] * share, e[0] * share]]
+}
+
+/// A face in the plane.
+pub(super) struct PlaneFace<'a> {
+    facet: &'a Facet,
+    x: &'a [[f64; 2]],
+    bilinear: Option<Bilinear<2>>,
+}
+
+/// A position in the plane, seen from a face.
+pub(super) struct Position<const F: usize> {
+    /// Natural coordinates.
+    xi: [f64; 2],
+    /// Functions of the face.
+    pub functions: Functions<F>,
+    /// Base vectors in the plane, and the inverse X'^-1.
+    pub base: [[f64; 2]; 2],
+    pub inverse: [[f64; 2]; 2],
+    /// Shape of a face that is not bilinear.
+    shape: Option<Shape>,
+}
+
+impl<'a> PlaneFace<'a> {
+    /// Makes the face of a facet with its nodes at `x`; `linear` if it is of first order and to be treated so.
+    pub(super) fn new(facet: &'a Facet, x: &'a [[f64; 2]], linear: bool) -> Self {
+        Self { facet, x, bilinear: linear.then(|| Bilinear::new(facet.kind, x)) }
+    }
+
+    /// Finds the natural coordinates of a position by Newton's method.
+    #[inline]
+    pub(super) fn locate<const F: usize>(&self, y: &[f64; 2]) -> Position<F> {
+        let Some(map) = &self.bilinear else { return self.locate_curved(y) };
+        let mut xi = middle(self.facet.kind);
+        for _ in 0..ITERATIONS {
+            let inverse = inverse(&map.base(&xi));
+            let off: [f64; 2] = std::array::from_fn(|i| {
+                y[i] - map.a[i] - map.b[i] * xi[0] - (map.c[i] + map.d[i] * xi[0]) * xi[1]
+            });
+            let step = [dot(&inverse[0], &off), dot(&inverse[1], &off)];
+            xi = [xi[0] + step[0], xi[1] + step[1]];
+            if converged(&step, &xi) {
+                break;
+            }
+        }
+        let base = map.base(&xi);
+        let functions = bilinear_functions(self.facet.kind, &xi);
+        Position { xi, functions, base, inverse: inverse(&base), shape: None }
+    }
+
+    fn locate_curved<const F: usize>(&self, y: &[f64; 2]) -> Position<F> {
+        let face = &self.facet.face;
+        let mut xi = face.at(&middle(self.facet.kind));
+        for _ in 0..ITERATIONS {
+            let s = shape(face.kind, xi);
+            let mut off = *y;
+            self.x.iter().zip(&s.value).for_each(|(x, n)| axpy(&mut off, -n, x));
+            let inverse = inverse(&self.base(&s));
+            let step = [dot(&inverse[0], &off), dot(&inverse[1], &off)];
+            xi = [xi[0] + step[0], xi[1] + step[1]];
+            if converged(&step, &xi) {
+                break;
+            }
+        }
+        let s = shape(face.kind, xi);
+        let base = self.base(&s);
+        let cut = |v: &[f64; MOST_NODES]| std::array::from_fn(|k| v[k]);
+        let functions = (cut(&s.value), [cut(&s.first[0]), cut(&s.first[1])]);
+        Position { xi, functions, base, inverse: inverse(&base), shape: Some(s) }
+    }
+
+    fn base(&self, s: &Shape) -> [[f64; 2]; 2] {
+        let mut e = [[0.0; 2]; 2];
+        for (k, x) in self.x.iter().enumerate() {
+            e.iter_mut().zip(&s.first).for_each(|(e, s)| axpy(e, s[k], x));
+        }
+        e
+    }
+
+    /// Functions of the corners of the facet at a position.
+    #[inline]
+    pub(super) fn corners<const F: usize>(&self, at: &Position<F>) -> Functions<NODES> {
+        if at.shape.is_none() {
+            let cut = |v: &[f64; F]| std::array::from_fn(|k| v[k]);
+            let (values, [first, second]) = &at.functions;
+            return (cut(values), [cut(first), cut(second)]);
+        }
+        let face = &self.facet.face;
+        let (values, slopes) = linear_functions(self.facet.kind, &face.facet_coordinates(&at.xi));
+        let turned: [[f64; 2]; NODES] = std::array::from_fn(|k| face.slopes([slopes[0][k], slopes[1][k]]));
+        (values, std::array::from_fn(|m| std::array::from_fn(|k| turned[k][m])))
+    }
+}
+
+#[inline]
+fn converged(step: &[f64; 2], xi: &[f64; 2]) -> bool {
+    step[0].abs().max(step[1].abs()) <= CONVERGED * (1.0 + xi[0].abs().max(xi[1].abs()))
+}
+
+/// Shape functions of a face of first order.
+#[inline]
+fn linear_functions(kind: SegmentKind, xi: &[f64; 2]) -> Functions<NODES> {
+    let [x, y] = *xi;
+    if kind == SegmentKind::Tri3 {
+        return ([1.0 - x - y, x, y, 0.0], [[-1.0, 1.0, 0.0, 0.0], [-1.0, 0.0, 1.0, 0.0]]);
+    }
+    let (l, r, b, t) = (0.5 * (1.0 - x), 0.5 * (1.0 + x), 0.5 * (1.0 - y), 0.5 * (1.0 + y));
+    (
+        [l * b, r * b, r * t, l * t],
+        [[-0.5 * b, 0.5 * b, 0.5 * t, -0.5 * t], [-0.5 * l, -0.5 * r, 0.5 * r, 0.5 * l]],
+    )
+}
+
+#[inline]
+fn bilinear_functions<const F: usize>(kind: SegmentKind, xi: &[f64; 2]) -> Functions<F> {
+    let (values, [first, second]) = linear_functions(kind, xi);
+    let padded = |v: [f64; NODES]| std::array::from_fn(|k| if k < NODES { v[k] } else { 0.0 });
+    (padded(values), [padded(first), padded(second)])
+}
+
+/// Ratio of the reference area of a face to its area in the plane.
+pub(super) struct Density<'a> {
+    /// Reference positions of the nodes.
+    x: &'a [[f64; 3]],
+    /// Products e_1 × e_2 in the reference configuration and in the plane: constant part, slopes in ξ and η.
+    bilinear: Option<([[f64; 3]; 3], [f64; 3])>,
+}
+
+#[inline]
+fn flat(a: &[f64; 2], b: &[f64; 2]) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+impl<'a> Density<'a> {
+    pub(super) fn new(face: &PlaneFace<'_>, reference: &'a [[f64; 3]]) -> Self {
+        let bilinear = face.bilinear.as_ref().map(|p| {
+            let r = Bilinear::new(face.facet.kind, reference);
+            (
+                [cross(&r.b, &r.c), cross(&r.b, &r.d), cross(&r.d, &r.c)],
+                [flat(&p.b, &p.c), flat(&p.b, &p.d), flat(&p.d, &p.c)],
+            )
+        });
+        Self { x: reference, bilinear }
+    }
+
+    /// Density and its slopes at a position of the face, and the Jacobian of the plane.
+    #[inline]
+    pub(super) fn at<const F: usize>(&self, face: &PlaneFace<'_>, at: &Position<F>) -> (f64, [f64; 2], f64) {
+        let (v, by, p, plane) = match (&self.bilinear, &at.shape) {
+            (Some((v, p)), _) => {
+                let xi = &at.xi;
+                let product = std::array::from_fn(|i| v[0][i] + v[1][i] * xi[0] + v[2][i] * xi[1]);
+                (product, [v[1], v[2]], p[0] + p[1] * xi[0] + p[2] * xi[1], [p[1], p[2]])
+            }
+            (None, Some(s)) => {
+                let (e, second) = bases(s, self.x);
+                let by = |m: usize| add(&cross(&second[m], &e[1]), &cross(&e[0], &second[m + 1]));
+                let (f, bent) = bases(s, face.x);
+                let plane = |m: usize| flat(&bent[m], &f[1]) + flat(&f[0], &bent[m + 1]);
+                (cross(&e[0], &e[1]), [by(0), by(1)], flat(&f[0], &f[1]), [plane(0), plane(1)])
+            }
+            // A face that is not bilinear is located by its shape.
+            (None, None) => ([f64::NAN; 3], [[f64::NAN; 3]; 2], f64::NAN, [f64::NAN; 2]),
+        };
+        let r = norm(&v);
+        let density = r / p;
+        let slope = |m: usize| (dot(&v, &by[m]) / r - density * plane[m]) / p;
+        (density, [slope(0), slope(1)], p)
+    }
+}
+
+/// Base vectors of a face with nodes at `x`, and their slopes (11, 12, 22).
+fn bases<const L: usize>(s: &Shape, x: &[[f64; L]]) -> ([[f64; L]; 2], [[f64; L]; 3]) {
+    let (mut e, mut second) = ([[0.0; L]; 2], [[0.0; L]; 3]);
+    for (k, x) in x.iter().enumerate() {
+        e.iter_mut().zip(&s.first).for_each(|(e, s)| axpy(e, s[k], x));
+        second.iter_mut().zip(&s.second).for_each(|(e, s)| axpy(e, s[k], x));
+    }
+    (e, second)
+}
