@@ -9,6 +9,10 @@ use std::fmt::Write as _;
 /// Imbalance above which a run warns: forces and speeds then err by some per cent.
 const DOUBTFUL: f64 = 0.05;
 
+/// Share of the largest part below which a line of text leaves a part out: sums over thousands of points and steps, each rounded
+/// to 1e-16, leave this much of parts that are zero.
+const ROUNDING: f64 = 1e-12;
+
 /// Energy budget as reports have it, of every kind of run: what was given is kept, lost or missing.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct EnergyTable {
@@ -105,18 +109,20 @@ impl EnergyTable {
             .unwrap_or(0.0)
     }
 
-    /// The budget in a line, without parts that are zero.
+    /// The budget in a line, without parts that are zero or rounding of the others.
     #[must_use]
     pub fn text(&self) -> String {
         let mut text = format!("energy [{}]:", self.unit);
-        if [&self.given, &self.kept, &self.lost].iter().all(|parts| parts.values().all(|value| *value == 0.0))
-        {
+        let all = [&self.given, &self.kept, &self.lost];
+        let largest =
+            all.iter().flat_map(|parts| parts.values()).fold(0.0_f64, |l, value| l.max(value.abs()));
+        if largest == 0.0 {
             return text + " none was given, kept or lost";
         }
         for (name, parts) in [("given", &self.given), ("kept", &self.kept), ("lost", &self.lost)] {
             let parts: Vec<String> = parts
                 .iter()
-                .filter(|part| *part.1 != 0.0)
+                .filter(|part| part.1.abs() > ROUNDING * largest)
                 .map(|(name, value)| format!("{name} {value:.6e}"))
                 .collect();
             if !parts.is_empty() {

@@ -210,11 +210,11 @@ fn parts_of_energy(ledger: &mut Ledger, run: &Waves, slip: f64) -> Result<(), Ca
         .cost(&run.cost)
         .record();
     let mut idle = 0.0_f64;
-    for part in ["contact", "springs", "plastic", "numerical", "handover", "start"] {
+    for part in ["contact", "springs", "plastic", "numerical", "handover", "unbalanced", "start"] {
         idle = table.column(part)?.iter().fold(idle, |m, value| m.max(value.abs()));
     }
     ledger
-        .claim("parts of energy.csv of the run in parts that nothing feeds: contact, springs, plastic, numerical, handover and start")
+        .claim("parts of energy.csv of the run in parts that nothing feeds: contact, springs, plastic, numerical, handover, unbalanced and start")
         .unit("J/m")
         .value(idle)
         .at_most(1e-15)

@@ -89,7 +89,7 @@ impl Impact {
     }
 
     fn imbalance(&self) -> f64 {
-        self.done.report.energy.as_ref().map_or(f64::NAN, |e| e.imbalance)
+        self.done.report.energy.imbalance
     }
 }
 

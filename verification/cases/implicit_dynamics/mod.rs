@@ -40,7 +40,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 /// Largest energy that the budget of a run misses, over its largest part.
 fn imbalance(done: &BodyRun) -> f64 {
-    done.report.energy.as_ref().map_or(f64::NAN, |energy| energy.imbalance)
+    done.report.energy.imbalance
 }
 
 /// Displacement along x of a point of the scene after each step [m].

@@ -113,7 +113,7 @@ fn stresses(ledger: &mut Ledger, done: &BodyRun, wave: &Wave, curves: &[Vec<(f64
     ledger
         .claim("energy that plastic flow dissipates")
         .unit("J/m")
-        .value(done.report.energy.as_ref().map_or(f64::NAN, |e| e.part("plastic")))
+        .value(done.report.energy.part("plastic"))
         .equals(wave.work() * volume)
         .relative(0.01)
         .evidence(Evidence::Exact, "(Y + H e/2) e of the volume behind the front")

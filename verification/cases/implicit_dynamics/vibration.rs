@@ -152,11 +152,8 @@ fn budget(ledger: &mut Ledger) -> Result<(), CaseError> {
             .cost(&done.cost)
             .record();
         if radius == 1.0 {
-            let lost = done
-                .report
-                .energy
-                .as_ref()
-                .map_or(f64::NAN, |e| (e.part("numerical") / e.part("start")).abs());
+            let energy = &done.report.energy;
+            let lost = (energy.part("numerical") / energy.part("start")).abs();
             ledger
                 .claim("energy that the method dissipates with spectral radius 1, over that at the start")
                 .value(lost)

@@ -159,6 +159,7 @@ fn inertial(ledger: &mut Ledger) -> Result<(), CaseError> {
         "numerical",
         "absorbed",
         "handover",
+        "unbalanced",
         "loads",
         "released",
     ];

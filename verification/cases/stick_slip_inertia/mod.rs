@@ -171,7 +171,7 @@ pub(super) fn energies(
         .record();
     ledger
         .claim("largest part of the energy budget that is missing, over its largest part")
-        .value(done.report.energy.as_ref().map_or(f64::NAN, |e| e.imbalance))
+        .value(done.report.energy.imbalance)
         .at_most(bounds[1])
         .evidence(Evidence::Exact, "conservation of energy")
         .because(missing)

@@ -1,5 +1,7 @@
 //! Uniaxial stress: hardening, unloading and reversal; hardening at large strain.
 
+mod budget;
+
 use super::body::{self, Body, Work};
 use crate::cases::body_plots;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
@@ -61,7 +63,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     }
     ledger.plot(plot.caption("Exact curves; the program's points lie on them to rounding."));
     slope(ledger, &curves[0].law)?;
-    large(ledger)
+    large(ledger)?;
+    budget::run(ledger)
 }
 
 /// A hardening curve, and the yield stress at a plastic strain written once more.

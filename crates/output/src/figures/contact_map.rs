@@ -128,7 +128,7 @@ fn flat_kind(nodes: usize) -> Option<u8> {
 
 /// Area of a face along each axis, by the ring of its corners.
 fn area(place: &[[f64; 3]], face: &[usize]) -> [f64; 3] {
-    let corners = &face[..if face.len() % 3 == 0 && face.len() < 9 { 3 } else { 4 }];
+    let corners = &face[..if face.len().is_multiple_of(3) && face.len() < 9 { 3 } else { 4 }];
     let mut sum = [0.0; 3];
     for (k, &node) in corners.iter().enumerate() {
         let (a, b) = (place[node], place[corners[(k + 1) % corners.len()]]);

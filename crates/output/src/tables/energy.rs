@@ -35,22 +35,24 @@ pub fn columns(unit: &'static str) -> Vec<Column> {
     when().into_iter().chain(ENERGIES.map(part)).chain([missing]).collect()
 }
 
-/// Columns of what the friction of each interface has dissipated, in this unit.
+/// Columns of what the friction of each interface has dissipated, in this unit, if there are several: that of a single one is the
+/// part of the budget.
 pub fn friction_columns<'a>(
     unit: &'static str,
-    names: impl Iterator<Item = &'a str>,
+    names: impl ExactSizeIterator<Item = &'a str>,
 ) -> impl Iterator<Item = Column> {
+    let shown = if names.len() > 1 { names.len() } else { 0 };
     let own = move |name: &str| {
         Column::new("friction", unit, Sign::None, "energy that friction dissipated").for_part(name)
     };
-    names.map(own)
+    names.take(shown).map(own)
 }
 
-/// Row of an energy budget, with what the friction of each interface has dissipated.
+/// Row of an energy budget, with what the friction of each interface has dissipated if there are several.
 #[must_use]
 pub fn row(time: f64, stage: usize, step: usize, energies: &Energies, friction: &[f64]) -> String {
     let mut values = ENERGIES.map(|name| energies.part(name)).to_vec();
     values.push(energies.missing());
-    values.extend(friction);
+    values.extend(friction.iter().filter(|_| friction.len() > 1));
     history_row(time, stage, step, &values)
 }

@@ -44,7 +44,8 @@ fn a_run_leaves_fields_tables_and_plots_and_no_temporary_file() {
         play(&setup(layers), 200, None, &mut Multi::new(vec![&mut recorder, &mut files])).unwrap();
         assert_eq!(figures::draw_all(&out.join("plots"), &recorder).unwrap().len(), 14);
         assert_eq!(names(&out), ["fields", "fields.pvd", "plots", "probes", "profiles"]);
-        assert_eq!(names(&out.join("fields")).len(), 2 * 2 * 2);
+        // Bodies, and slave and master of the interface, at two times of each stage.
+        assert_eq!(names(&out.join("fields")).len(), 3 * 2 * 2);
         assert_eq!(names(&out.join("profiles")).len(), 20);
         assert_eq!(
             names(&out.join("plots"))
@@ -147,9 +148,9 @@ fn a_stopped_run_keeps_what_it_had() {
     assert!(play(&full, 25, None, &mut stopping).is_err());
     assert_eq!(rows(&out.join("probes/fault.csv")).1.len(), 30);
     // One stage of two intervals and a fifth of the next.
-    assert_eq!(names(&out.join("fields")).len(), 2 * 2);
+    assert_eq!(names(&out.join("fields")).len(), 3 * 2);
     assert_eq!(names(&out.join("profiles")).len(), 12);
-    assert_eq!(fs::read_to_string(out.join("fields.pvd")).unwrap().matches("<DataSet").count(), 4);
+    assert_eq!(fs::read_to_string(out.join("fields.pvd")).unwrap().matches("<DataSet").count(), 6);
 }
 
 /// Fails after a number of steps.

@@ -21,8 +21,12 @@ pub fn never_pressed(
     let doubt = |interface: &PlannedInterface| {
         let own = || results.iter().filter(|r| r.interface == interface.name);
         let floor = rounding(interface, scale);
-        let idle =
-            |r: &InterfaceResult| r.mean_normal_traction.abs().max(r.mean_shear_traction.abs()) <= floor;
+        // Means over all points: a few that touch press nothing.
+        let idle = |r: &InterfaceResult| {
+            let [open, stick, slip] = r.status.map(|points| points as f64);
+            let traction = r.mean_normal_traction.abs().max(r.mean_shear_traction.abs());
+            traction * (stick + slip) <= floor * (open + stick + slip)
+        };
         // Tractions of a bond may cancel.
         let bonded = interface.law.as_ref().is_some_and(|law| law.bonded());
         let what = if own().all(|r| r.status[1] + r.status[2] == 0) {
