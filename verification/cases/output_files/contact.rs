@@ -349,8 +349,11 @@ fn space(ledger: &mut Ledger) -> Result<(), CaseError> {
     let along = [x / rate, z / rate];
     let s = Steady::new(rate * DURATION, rate, 0.0);
     let mises = NORMAL.hypot(3.0_f64.sqrt() * s.shear);
+    let below = s.shear * HEIGHTS[1] / MODULI[1];
     // The last of three components is that along z, and the last node is one of the top.
-    let wanted: [ExpectedNumber<'_>; 29] = [
+    let wanted: [ExpectedNumber<'_>; 31] = [
+        ("fields/joint_*.vtu", "displacement", (below + s.relative) * along[1]),
+        ("fields/master_joint_*.vtu", "displacement", below * along[1]),
         ("profiles/joint_*.csv", "z", d),
         ("profiles/joint_*.csv", "slip_x", s.slip * along[0]),
         ("profiles/joint_*.csv", "slip_z", s.slip * along[1]),
