@@ -7,6 +7,7 @@
 
 use super::clip::{Polygon, twice_area};
 use super::facet::{Facet, NODES, middle};
+use super::plane_face::settled;
 use super::rule::Rule;
 use super::scalar::Scalar;
 use crate::SegmentKind;
@@ -260,7 +261,7 @@ fn locate<T: Scalar, const D: usize>(facet: &Facet, x: &[[T; 2]], y: &[T; 2]) ->
     let target = [y[0].value(), y[1].value()];
     let kind = facet.face.kind;
     let mut xi = facet.face.at(&middle(facet.kind));
-    let mut inverse = [[f64::NAN; 2]; 2];
+    let (mut inverse, mut last) = ([[f64::NAN; 2]; 2], [f64::NAN; 2]);
     for _ in 0..ITERATIONS {
         let s = shape(kind, xi);
         let mut off = target;
@@ -279,11 +280,14 @@ fn locate<T: Scalar, const D: usize>(facet: &Facet, x: &[[T; 2]], y: &[T; 2]) ->
             let det = e[0][0] * e[1][1] - e[0][1] * e[1][0];
             [[e[1][1] / det, -e[1][0] / det], [-e[0][1] / det, e[0][0] / det]]
         };
-        let step = [dot(&inverse[0], &off), dot(&inverse[1], &off)];
-        xi = [xi[0] + step[0], xi[1] + step[1]];
-        if step[0].abs().max(step[1].abs()) <= CONVERGED * (1.0 + xi[0].abs().max(xi[1].abs())) {
+        last = [dot(&inverse[0], &off), dot(&inverse[1], &off)];
+        xi = [xi[0] + last[0], xi[1] + last[1]];
+        if last[0].abs().max(last[1].abs()) <= CONVERGED * (1.0 + xi[0].abs().max(xi[1].abs())) {
             break;
         }
+    }
+    if !kind.first_order() {
+        xi = settled(last, xi);
     }
     let s = shape(kind, xi);
     let mut off = *y;

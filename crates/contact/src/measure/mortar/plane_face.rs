@@ -12,6 +12,10 @@ const ITERATIONS: usize = 30;
 /// Step in natural coordinates below which the iteration has converged, as in `cell`.
 const CONVERGED: f64 = 1e-15;
 
+/// Largest last step in natural coordinates. Steps of Newton's method square, so that a larger one is none towards a solution, and
+/// rounding is far below it.
+const SETTLED: f64 = 1e-9;
+
 /// Functions and their slopes in the natural coordinates of a face.
 pub(super) type Functions<const F: usize> = ([f64; F], [[f64; F]; 2]);
 
@@ -109,17 +113,19 @@ impl<'a> PlaneFace<'a> {
     fn locate_curved<const F: usize>(&self, y: &[f64; 2]) -> Position<F> {
         let face = &self.facet.face;
         let mut xi = face.at(&middle(self.facet.kind));
+        let mut last = [f64::NAN; 2];
         for _ in 0..ITERATIONS {
             let s = shape(face.kind, xi);
             let mut off = *y;
             self.x.iter().zip(&s.value).for_each(|(x, n)| axpy(&mut off, -n, x));
             let inverse = inverse(&self.base(&s));
-            let step = [dot(&inverse[0], &off), dot(&inverse[1], &off)];
-            xi = [xi[0] + step[0], xi[1] + step[1]];
-            if converged(&step, &xi) {
+            last = [dot(&inverse[0], &off), dot(&inverse[1], &off)];
+            xi = [xi[0] + last[0], xi[1] + last[1]];
+            if converged(&last, &xi) {
                 break;
             }
         }
+        let xi = settled(last, xi);
         let s = shape(face.kind, xi);
         let base = self.base(&s);
         let cut = |v: &[f64; MOST_NODES]| std::array::from_fn(|k| v[k]);
@@ -148,6 +154,12 @@ impl<'a> PlaneFace<'a> {
         let turned: [[f64; 2]; NODES] = std::array::from_fn(|k| face.slopes([slopes[0][k], slopes[1][k]]));
         (values, std::array::from_fn(|m| std::array::from_fn(|k| turned[k][m])))
     }
+}
+
+/// Natural coordinates after the last step, not a number if the iteration has not found any: the projection of the face folds there.
+pub(super) fn settled(last: [f64; 2], xi: [f64; 2]) -> [f64; 2] {
+    let small = last.iter().all(|step| step.abs() < SETTLED);
+    if small { xi } else { [f64::NAN; 2] }
 }
 
 #[inline]
@@ -235,4 +247,23 @@ fn bases<const L: usize>(s: &Shape, x: &[[f64; L]]) -> ([[f64; L]; 2], [[f64; L]
         second.iter_mut().zip(&s.second).for_each(|(e, s)| axpy(e, s[k], x));
     }
     (e, second)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::mortar::facet::{facets, node_at};
+    use crate::spec::Segment;
+
+    #[test]
+    fn positions_that_a_folded_face_does_not_reach_have_no_coordinates() {
+        let face = Segment { kind: SegmentKind::Quad9, nodes: (0..9).collect() };
+        // x = 1 - ξ², which is 1 at most.
+        let folded: Vec<[f64; 2]> =
+            (0..9).map(|k| node_at(face.kind, k)).map(|[xi, eta]| [1.0 - xi * xi, eta]).collect();
+        let facet = facets(&face, None, &folded).remove(0);
+        let plane = PlaneFace::new(&facet, &folded, false);
+        let at = |x: f64| plane.locate::<9>(&[x, -0.5]).functions.0[0];
+        assert!(at(2.0).is_nan() && at(0.5).is_finite());
+    }
 }

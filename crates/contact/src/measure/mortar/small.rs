@@ -74,7 +74,8 @@ pub fn small<const D: usize>(
     let mut examined = 0;
     let rows = rows(&sides, slave.len(), &x, &mut examined);
     let whole = sides.whole_areas(slave.len());
-    let paired = |p: usize| rows[p].area > FACED * whole[p];
+    // A NaN area must not make the point count as unpaired.
+    let paired = |p: usize| rows[p].area > FACED * whole[p] || rows[p].area.is_nan();
     let areas = (0..slave.len()).map(|p| if paired(p) { rows[p].area } else { 0.0 }).collect();
     let mut measure = FixedMeasure::new(areas, false);
     for (p, row) in rows.iter().enumerate().filter(|(p, _)| paired(*p)) {
