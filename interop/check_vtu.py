@@ -28,7 +28,13 @@ BODY_POINTS = {"displacement": 3, "mises": 1}
 BODY_CELLS = {"stress": 6, "mises": 1, "body": 1}
 INTERFACE_POINTS = dict.fromkeys(
     ["gap", "slip", "relative_displacement", "slip_rate", "normal_traction", "shear_traction", "friction", "status", "paired"], 1
-) | {"area": 1, "mean_normal_traction": 1, "mean_shear_traction": 1}
+) | {"displacement": 3, "area": 1, "friction_work": 1, "mean_normal_traction": 1, "mean_shear_traction": 1}
+# Arrays at points and at cells of each kind of part: bodies, the slave and the master side of an interface.
+PARTS = {
+    "bodies": (BODY_POINTS, BODY_CELLS),
+    "slave": (INTERFACE_POINTS, {}),
+    "master": ({"displacement": 3}, {}),
+}
 PROFILE = {
     "gap [m]": "gap",
     "slip [m]": "slip",
@@ -39,6 +45,7 @@ PROFILE = {
     "friction [-]": "friction",
     "mean_normal_traction [Pa]": "mean_normal_traction",
     "mean_shear_traction [Pa]": "mean_shear_traction",
+    "friction_work [J/m2]": "friction_work",
     "paired [0 no 1 yes]": "paired",
 }
 
@@ -68,9 +75,9 @@ def check_arrays(where, found, expected, count):
             expect(name != "gap" or (finite == meant).all(), f"{where}: gap has a value without a partner")
 
 
-def check_field(path, time, is_body):
+def check_field(path, time, part):
     """Checks one `.vtu` with both readers; returns VTK's grid."""
-    points, cells = (BODY_POINTS, BODY_CELLS) if is_body else (INTERFACE_POINTS, {})
+    points, cells = PARTS[part]
     grid = pyvista.read(path)
     expect(grid.n_points > 0 and grid.n_cells > 0, f"{path}: empty in VTK")
     check_arrays(f"{path} (VTK, points)", dict(grid.point_data), points, grid.n_points)
@@ -85,7 +92,7 @@ def check_field(path, time, is_body):
         same = name in mesh.point_data and np.array_equal(mesh.point_data[name], grid.point_data[name], equal_nan=True)
         expect(same, f"{path}: {name} differs between the readers")
     expect(grid.cell_connectivity.max() < grid.n_points, f"{path}: a cell names a point that does not exist")
-    if is_body:
+    if part == "bodies":
         sizes = grid.compute_cell_sizes(length=False)
         size = sizes["Volume"] if grid.bounds[5] > grid.bounds[4] else sizes["Area"]
         expect((size > 0).all(), f"{path}: cells without size or turned inside out")
@@ -100,6 +107,28 @@ def check_mises(path, grid):
     given = np.asarray(grid.cell_data["mises"])
     scale = max(given.max(), mises.max())
     expect((mises <= given + 1e-9 * scale).all(), f"{path}: Mises stress below that of the mean stress")
+
+
+def kind_of(name):
+    if name == "bodies":
+        return name
+    return "master" if name.endswith(", master") else "slave"
+
+
+def check_sides(grids):
+    """Checks that each interface has both sides at each time, and that a node which both have moves with its body."""
+    for name, time in grids:
+        if kind_of(name) == "slave":
+            expect((f"{name}, master", time) in grids, f"fields.pvd: {name} has no master side at {time}")
+    for (name, time), grid in grids.items():
+        bodies = grids.get(("bodies", time))
+        if kind_of(name) == "bodies" or bodies is None:
+            continue
+        # Sides that touch have nodes at one place: one of these must move alike.
+        for point, moved in zip(grid.points, np.asarray(grid.point_data["displacement"])):
+            at = np.asarray(bodies.point_data["displacement"])[(bodies.points == point).all(axis=1)]
+            if not expect((at == moved).all(axis=1).any(), f"{name} at {time}: {point} moves unlike its body"):
+                break
 
 
 def check_collection(out):
@@ -119,7 +148,7 @@ def check_collection(out):
         path, time = out / entry.get("file"), float(entry.get("timestep"))
         if expect(path.is_file(), f"{path} is missing"):
             try:
-                grids[entry.get("name"), time] = check_field(path, time, is_body=entry.get("part") == "0")
+                grids[entry.get("name"), time] = check_field(path, time, kind_of(entry.get("name")))
             except (Exception, SystemExit) as error:  # meshio exits the program if it cannot read a file.
                 expect(False, f"{path}: {type(error).__name__}: {error}")
     on_disk = {path.relative_to(out).as_posix() for path in (out / "fields").glob("*")}
@@ -179,6 +208,7 @@ def check(out):
     grids, compared, plots = {}, 0, 0
     try:
         grids = check_collection(out)
+        check_sides(grids)
         compared = check_tables(out, grids)
         plots = check_plots(out)
     except (Exception, SystemExit) as error:  # meshio exits the program if it cannot read a file.
@@ -193,14 +223,22 @@ def last_number_changed(text):
     return ",".join([*before, str(float(last) + 1.0)]) + "\n"
 
 
+def positions_for_displacements(text):
+    """Lets the displacements of a side name the bytes of its points, which are as many."""
+    points = re.search(r'Name="Points"[^>]*offset="(\d+)"', text)[1]
+    return re.sub(r'(Name="displacement"[^>]*offset=)"\d+"', rf'\1"{points}"', text)
+
+
 def damages(out):
     """Files of the directory, each with a way to damage it; no text removes the file."""
     field = sorted((out / "fields").glob("*.vtu"))[0]
+    master = sorted((out / "fields").glob("master_*.vtu"))[0]
     profile = sorted((out / "profiles").glob("*.csv"))[-1]
     plot = sorted((out / "plots").glob("*.png"))[0]
     yield field, "half of the file", lambda text: text[: len(text) // 2]
     yield field, "an array of another name", lambda text: text.replace('Name="mises"', 'Name="misses"', 1)
     yield field, "a cell too many", lambda text: re.sub(r'NumberOfCells="(\d+)"', lambda m: f'NumberOfCells="{int(m[1]) + 1}"', text)
+    yield master, "positions for displacements", positions_for_displacements
     yield out / "fields.pvd", "another time", lambda text: text.replace('timestep="', 'timestep="9', 1)
     yield profile, "another number", last_number_changed
     yield plot, "its absence", None
