@@ -8,6 +8,7 @@ use crate::search::surface::Surface;
 use crate::spec::{InterfaceSpec, MeasureKind, Segment, Sliding, Smoothing, SurfaceNode};
 use crate::vector::{norm, sub};
 use asperity_fem::origin;
+use std::any::Any;
 
 /// Checks that a specification is consistent.
 pub(crate) fn check<const D: usize>(spec: &InterfaceSpec<D>) -> Result<(), ContactError> {
@@ -104,10 +105,36 @@ fn relative<const D: usize>(spec: &InterfaceSpec<D>) -> Vec<SurfaceNode<D>> {
     spec.nodes.iter().map(|n| SurfaceNode { position: sub(&n.position, &origin), ..*n }).collect()
 }
 
+/// A measure, and the number of projections made to pair it.
+type Built<const D: usize> = Result<(Box<dyn Measure<D>>, u64), ContactError>;
+
 /// Builds the measure of a specification. Also returns the number of projections made to pair it.
-pub(crate) fn build_measure<const D: usize>(
-    spec: &InterfaceSpec<D>,
-) -> Result<(Box<dyn Measure<D>>, u64), ContactError> {
+///
+/// Measures are kernels. Since these functions are not generic, measures are compiled with this crate, as one unit; otherwise the crates that use them
+/// would compile them, divided into units whose functions do not see each other (2 to 10 times slower).
+pub(crate) fn build_measure<const D: usize>(spec: &InterfaceSpec<D>) -> Built<D> {
+    let any = spec as &dyn Any;
+    let plane = || any.downcast_ref().and_then(|spec| in_dimension(measure_in_plane(spec)));
+    let space = || any.downcast_ref().and_then(|spec| in_dimension(measure_in_space(spec)));
+    // Segments, whose kinds have been checked, exist in two and three dimensions.
+    plane().or_else(space).expect("two or three dimensions")
+}
+
+fn measure_in_plane(spec: &InterfaceSpec<2>) -> Built<2> {
+    measure(spec)
+}
+
+fn measure_in_space(spec: &InterfaceSpec<3>) -> Built<3> {
+    measure(spec)
+}
+
+/// A measure in `E` dimensions as one in `D`, which are the same.
+fn in_dimension<const E: usize, const D: usize>(built: Built<E>) -> Option<Built<D>> {
+    let any: Box<dyn Any> = Box::new(built);
+    any.downcast().ok().map(|built| *built)
+}
+
+fn measure<const D: usize>(spec: &InterfaceSpec<D>) -> Built<D> {
     let nodes = relative(spec);
     let positions: Vec<[f64; D]> = nodes.iter().map(|n| n.position).collect();
     let surface = match spec.smoothing {
