@@ -15,7 +15,8 @@ const CELLS: usize = 256;
 /// See the module.
 #[derive(Clone, Debug, Default)]
 pub struct Gather {
-    /// Entries of the result with contributions, ascending.
+    /// Entries of the result with contributions: those of each task in the order of their first contributions. Values of dense blocks
+    /// are then read in order, while the entries of a task stay in the cache.
     entries: Vec<u32>,
     /// First contribution of each of them; one element more than the number of entries.
     starts: Vec<u32>,
@@ -33,24 +34,30 @@ impl Gather {
     /// dropped.
     #[must_use]
     pub fn new(places: &[usize], length: usize) -> Self {
-        let mut count = vec![0_u32; length + 1];
-        for &place in places.iter().filter(|&&p| p < length) {
-            count[place + 1] += 1;
-        }
-        let mut entries = Vec::new();
-        let mut starts = vec![0];
-        for k in 0..length {
-            if count[k + 1] > 0 {
-                entries.push(index(k));
-                starts.push(count[k] + count[k + 1]);
+        let placed = || places.iter().enumerate().filter(|(_, p)| **p < length);
+        let (mut count, mut first) = (vec![0_u32; length], vec![0_u32; length]);
+        for (value, &place) in placed() {
+            if count[place] == 0 {
+                first[place] = index(value);
             }
-            count[k + 1] += count[k];
+            count[place] += 1;
         }
-        let mut sources = vec![0; count[length] as usize];
-        for (value, &place) in places.iter().enumerate().filter(|(_, p)| **p < length) {
-            let next = &mut count[place];
-            sources[*next as usize] = index(value);
-            *next += 1;
+        let mut entries: Vec<u32> = (0..length).filter(|k| count[*k] > 0).map(index).collect();
+        for task in entries.chunk_by_mut(|a, b| *a as usize / ENTRIES == *b as usize / ENTRIES) {
+            task.sort_unstable_by_key(|e| first[*e as usize]);
+        }
+        // Entries then hold the place of their next contribution.
+        let (mut next, mut starts, mut end) = (first, Vec::with_capacity(entries.len() + 1), 0);
+        for &entry in &entries {
+            starts.push(end);
+            next[entry as usize] = end;
+            end += count[entry as usize];
+        }
+        starts.push(end);
+        let mut sources = vec![0; end as usize];
+        for (value, &place) in placed() {
+            sources[next[place] as usize] = index(value);
+            next[place] += 1;
         }
         Self { entries, starts, sources }
     }
@@ -62,10 +69,12 @@ impl Gather {
             let from = self.entries.partition_point(|&e| (e as usize) < first);
             let to = self.entries.partition_point(|&e| (e as usize) < first + part.len());
             for (entry, range) in self.entries[from..to].iter().zip(self.starts[from..=to].windows(2)) {
-                let sum = &mut part[*entry as usize - first];
+                let to = &mut part[*entry as usize - first];
+                let mut sum = *to;
                 for &source in &self.sources[range[0] as usize..range[1] as usize] {
-                    *sum += values[source as usize];
+                    sum += values[source as usize];
                 }
+                *to = sum;
             }
         });
     }

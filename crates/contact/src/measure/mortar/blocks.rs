@@ -1,42 +1,41 @@
 //! The tangent of mortar contact in finite sliding, block by block.
 //!
 //! The force of a point on node k is `w_k f` with w its weights. They change with the overlap; f changes with the averaged
-//! distance, which depends on the overlap and on the nodes. The change of the distance with the overlap is first summed over
-//! the adjacent cells, column by column of the block. The change of the force is then distributed to the nodes once.
+//! distance, which depends on the overlap and on the nodes. The changes of the weights with the overlap are first summed over the
+//! adjacent cells, column by column of the block. Both parts of the change of force are then written at once.
 
 use super::cell::{Sums, integrate};
 use super::centre::movers;
 use super::facet::{Facet, NODES};
 use super::local::{Change, Traction};
-use super::overlap::{self, Derivatives, Gradient, MOST};
+use super::overlap::{self, Derivatives, MOST, Products};
 use super::scalar::Dual;
 use super::state::{Cell, MortarMeasure, Point};
 use crate::measure::Tractions;
-use crate::vector::{axpy, scaled};
-use std::sync::PoisonError;
+use crate::vector::{axpy, sub};
 
-/// Number of variables in a cell of the plane: two coordinates of the nodes of two lines of first order.
-const STRAIGHT: usize = 8;
-
-/// Most variables in a cell of the plane, with lines of three nodes.
+/// Number of variables in a cell of the plane: two coordinates of the nodes of two lines of three nodes.
 const CURVED: usize = 12;
 
-/// Blocks of one piece of the work order.
-struct Blocks<'a, const D: usize> {
-    piece: usize,
-    /// Start of the first block among all values.
-    start: usize,
-    values: &'a mut [f64],
-    /// Changes of each point's averaged distance with the overlap, by column.
-    slides: &'a mut [[f64; D]],
+/// Buffers of a piece of the work order.
+#[derive(Debug, Default)]
+pub(super) struct Buffers<const D: usize> {
+    /// Slopes of the weights of each point with respect to the columns of its block, row by row.
+    weights: Vec<f64>,
+    /// Changes of a point's averaged distance, then of its force, with the columns: a row for each axis.
+    changes: Vec<f64>,
+    /// Changes of its normal and frame with the columns of slave nodes.
+    pub turns: Vec<Change<D>>,
 }
 
-impl<const D: usize> Blocks<'_, D> {
-    /// Block of a point of the piece, and the changes of its averaged distance.
-    #[inline]
-    fn point_block(&mut self, point: &Point) -> (&mut [f64], &mut [[f64; D]]) {
-        let (at, size) = (point.at - self.start, point.nodes.len() * D);
-        (&mut self.values[at..at + size * size], &mut self.slides[point.column..point.column + size])
+impl<const D: usize> Buffers<D> {
+    /// Makes buffers for this many slopes in a piece and columns of a point.
+    pub(super) fn new(slopes: usize, columns: usize) -> Self {
+        Self {
+            weights: Vec::with_capacity(slopes),
+            changes: Vec::with_capacity(D * columns),
+            turns: Vec::with_capacity(columns),
+        }
     }
 }
 
@@ -53,145 +52,209 @@ impl<const D: usize> MortarMeasure<D> {
             );
             return;
         }
-        values.fill(0.0);
-        let mut slides = self.scratch[from].0.lock().unwrap_or_else(PoisonError::into_inner);
-        slides.fill([0.0; D]);
-        let closed = |p: usize| tractions.normal[p].closed;
-        let mut blocks = Blocks { piece: from, start: start(from), values, slides: &mut slides };
-        let mut slopes = Derivatives::zero();
-        for &f in self.order.facets(from) {
-            let points = &self.sides.facets[f].weighting.points;
-            if points.iter().any(|&p| self.order.piece(p) == from && closed(p)) {
-                for c in self.cells_of(f) {
-                    let overlaps = if D == 2 {
-                        let linear = self.facets(c).iter().all(|facet| facet.face.kind.first_order());
-                        if linear {
-                            self.slopes_of_lines::<STRAIGHT>(c, &mut slopes)
-                        } else {
-                            self.slopes_of_lines::<CURVED>(c, &mut slopes)
-                        }
-                    } else {
-                        self.slopes_of_faces(c, &mut slopes)
-                    };
-                    if overlaps {
-                        self.overlap_tangent(c, &slopes, tractions, &mut blocks);
-                    }
-                }
-            }
-        }
+        let mut buffers = self.buffers.take();
+        self.sum_slopes(from, |p| tractions.normal[p].closed, &mut buffers.weights);
+        let mut blocks = values;
         for &p in self.order.points(from) {
-            if closed(p) {
-                self.point_tangent(p, &traction_of(tractions, p), &mut blocks);
+            let point = &self.points[p];
+            let size = point.nodes.len() * D;
+            let (block, rest) = blocks.split_at_mut(size * size);
+            blocks = rest;
+            let traction = traction_of(tractions, p);
+            if !traction.normal.closed {
+                block.fill(0.0);
+                continue;
+            }
+            let weights = &buffers.weights[point.slopes..][..slopes::<D>(point)];
+            self.distance_changes(p, weights, &mut buffers.changes);
+            self.turns(p, &mut buffers.turns);
+            self.force_changes(p, &traction, &buffers.turns, &mut buffers.changes);
+            write(point, &self.locals[p].force(&traction), weights, &buffers.changes, block);
+        }
+        self.buffers.keep(buffers);
+    }
+
+    /// Sums the slopes of the weights of the closed points of a piece over their cells.
+    fn sum_slopes(&self, piece: usize, closed: impl Fn(usize) -> bool, out: &mut Vec<f64>) {
+        out.clear();
+        out.resize(self.order.points(piece).iter().map(|&p| slopes::<D>(&self.points[p])).sum(), 0.0);
+        let wanted = |p: usize| self.order.piece(p) == piece && closed(p);
+        let (mut linear, mut general) = (Derivatives::<NODES>::zero(), Derivatives::<MOST>::zero());
+        for &f in self.order.facets(piece) {
+            if !self.sides.facets[f].weighting.points.iter().any(|&p| wanted(p)) {
+                continue;
+            }
+            for c in self.cells_of(f) {
+                if self.linear(c) {
+                    if self.linear_slopes(c, &mut linear) {
+                        self.add_slopes(c, &linear, wanted, out);
+                    }
+                } else if self.general_slopes(c, &mut general) {
+                    self.add_slopes(c, &general, wanted, out);
+                }
             }
         }
     }
 
+    /// Computes the derivatives of the integrals of a cell between faces of first order. Returns false if they do not overlap.
+    fn linear_slopes(&self, c: &Cell, out: &mut Derivatives<NODES>) -> bool {
+        if D == 2 {
+            let Some(lines) = self.lines(c) else { return false };
+            lines.derivatives(&self.sides.rule(c.facet, c.master).line, out);
+            return true;
+        }
+        self.in_space(c, |facets| overlap::derivatives::<NODES>(facets, out))
+    }
+
+    /// Computes the derivatives of the integrals of a cell. Returns false if the facets do not overlap.
+    fn general_slopes(&self, c: &Cell, out: &mut Derivatives<MOST>) -> bool {
+        if D == 2 {
+            return self.slopes_of_lines(c, out);
+        }
+        self.in_space(c, |facets| overlap::derivatives::<MOST>(facets, out))
+    }
+
     /// Computes the derivatives of the integrals of a cell in the plane. Returns false if the facets do not overlap.
-    fn slopes_of_lines<const M: usize>(&self, c: &Cell, out: &mut Derivatives) -> bool {
+    fn slopes_of_lines(&self, c: &Cell, out: &mut Derivatives<MOST>) -> bool {
         let [slave, master] = self.facets(c);
         let ((own, s), (other, m)) = (self.gather(slave), self.gather(master));
-        let mut sums = Sums::<Dual<M>, NODES>::zero();
-        let (x, y) = (seeded::<D, M>(&own, 0), seeded::<D, M>(&other, s * D));
+        let mut sums = Sums::<Dual<CURVED>, NODES>::zero();
+        let (x, y) = (seeded(&own, 0), seeded(&other, s * D));
         let rule = self.sides.rule(c.facet, c.master);
         if !integrate(self.sides.frozen(c.facet), &x[..s], master, &y[..m], rule, &mut sums) {
             return false;
         }
-        let put = |number: &Dual<M>, to: &mut Gradient| {
-            for (d, j) in number.d.chunks_exact(D).zip((0..s).chain(MOST..MOST + m)) {
-                to[j][..D].copy_from_slice(d);
-            }
-        };
-        for (numbers, rows) in [(&sums.own, &mut out.own), (&sums.other, &mut out.other)] {
-            for (numbers, row) in numbers.iter().zip(rows) {
-                numbers.iter().zip(row).for_each(|(number, to)| put(number, to));
+        let places = (0..s).map(|j| (0, j)).chain((0..m).map(|j| (1, j)));
+        for (variable, (side, j)) in places.enumerate() {
+            for (l, to) in out.by[side][j][..D].iter_mut().enumerate() {
+                let slope = |number: &Dual<CURVED>| number.d[variable * D + l];
+                for (b, (own, other)) in sums.own.iter().zip(&sums.other).enumerate() {
+                    to.own[b].iter_mut().zip(own).for_each(|(to, number)| *to = slope(number));
+                    to.other[b].iter_mut().zip(other).for_each(|(to, number)| *to = slope(number));
+                }
             }
         }
         true
     }
 
-    /// Computes the derivatives of the integrals of a cell in space. Returns false if the facets do not overlap.
-    fn slopes_of_faces(&self, c: &Cell, out: &mut Derivatives) -> bool {
-        self.in_space(c, |facets| overlap::derivatives(facets, out))
-    }
-
-    /// Adds the contribution of a cell's changing overlap to the blocks of those of its points that belong to the piece.
-    fn overlap_tangent(
+    /// Adds the derivatives of the integrals of a cell to the slopes of the weights of those of its points that are wanted.
+    fn add_slopes<const F: usize>(
         &self,
         c: &Cell,
-        slopes: &Derivatives,
-        tractions: &Tractions<'_>,
-        blocks: &mut Blocks<'_, D>,
+        derivatives: &Derivatives<F>,
+        wanted: impl Fn(usize) -> bool,
+        out: &mut [f64],
     ) {
         let [slave, master] = self.facets(c);
-        let n = slave.face.nodes.len() + master.face.nodes.len();
+        let (s, m) = (slave.face.nodes.len(), master.face.nodes.len());
         let weighting = &self.sides.facets[c.facet].weighting;
-        for (a, &p) in weighting.points.iter().enumerate() {
-            let traction = traction_of(tractions, p);
-            if !traction.normal.closed || self.order.piece(p) != blocks.piece {
-                continue;
-            }
-            let local = &self.locals[p];
-            let (mine, others) = self.places[c.table + a * n..][..n].split_at(slave.face.nodes.len());
-            let (columns, count) = columns([slave, master], [mine, others]);
-            let force = local.force(&traction);
-            let mut changes =
-                WeightChanges { point: &self.points[p], force, columns: &columns[..count], blocks };
+        for (a, &p) in weighting.points.iter().enumerate().filter(|(_, p)| wanted(**p)) {
+            let point = &self.points[p];
+            let (own, other) = self.places[c.table + a * (s + m)..][..s + m].split_at(s);
+            let (columns, count) = columns([slave, master], [own, other]);
+            let rows = &mut out[point.slopes..][..slopes::<D>(point)];
+            let size = point.nodes.len() * D;
+            let columns = &columns[..count];
             weighting.sum(a, |share, b| {
-                for ((&node, &place), slope) in slave.face.nodes.iter().zip(mine).zip(&slopes.own[b]) {
-                    // Distance from the mean, since the slave's weights change the area too.
-                    let mut arm = self.x[node];
-                    axpy(&mut arm, -1.0, &local.d);
-                    changes.add(place, share, &arm, slope);
+                for (k, &place) in own.iter().enumerate() {
+                    let row = &mut rows[place * size..][..size];
+                    add_row::<D, F>(row, columns, derivatives, |by| share * by.own[b][k]);
                 }
-                for ((&node, &place), slope) in master.face.nodes.iter().zip(others).zip(&slopes.other[b]) {
-                    changes.add(place, -share, &self.x[node], slope);
+                for (k, &place) in other.iter().enumerate() {
+                    let shared = (place < point.slaves).then_some(point.nodes.len());
+                    for place in [Some(place), shared].into_iter().flatten() {
+                        let row = &mut rows[place * size..][..size];
+                        add_row::<D, F>(row, columns, derivatives, |by| -share * by.other[b][k]);
+                    }
                 }
             });
         }
     }
 
-    /// Adds to a point's block the motion of its nodes at fixed weights and the change of its averaged distance.
-    fn point_tangent(&self, p: usize, traction: &Traction<'_>, blocks: &mut Blocks<'_, D>) {
+    /// Computes the changes of a point's averaged distance with its weights, a row for each axis.
+    fn distance_changes(&self, p: usize, weights: &[f64], out: &mut Vec<f64>) {
         let (point, local) = (&self.points[p], &self.locals[p]);
-        let (block, slides) = blocks.point_block(point);
-        let size = slides.len();
-        for (k, &node) in point.nodes.iter().enumerate() {
-            let now = point.weights[k] / point.area;
-            for i in 0..D {
-                let mut change = Change::none();
-                if k < point.slaves {
-                    self.turn(p, node, i, &mut change);
-                }
-                let column = k * D + i;
-                change.d = slides[column];
-                change.v = scaled(&slides[column], -1.0);
-                change.d[i] += now;
-                change.v[i] += point.then[k] - now;
-                slides[column] = local.force_change(traction, &change);
+        let (size, share) = (point.nodes.len() * D, point.area.recip());
+        out.clear();
+        out.resize(D * size, 0.0);
+        let mut add = |arm: &[f64; D], slopes: &[f64]| {
+            for (to, arm) in out.chunks_exact_mut(size).zip(arm) {
+                let c = share * arm;
+                to.iter_mut().zip(slopes).for_each(|(to, slope)| *to += c * slope);
             }
+        };
+        // The weights of both sides are equal in sum, so that positions may be relative to any point. Those of the slave change the
+        // area, by which the distance is divided.
+        let origin = self.x[point.nodes[0]];
+        for (k, (&node, slopes)) in point.nodes.iter().zip(weights.chunks_exact(size)).enumerate() {
+            let mut arm = sub(&self.x[node], &origin);
+            if k < point.slaves {
+                axpy(&mut arm, -1.0, &local.d);
+            }
+            add(&arm, slopes);
         }
-        // Subtract weight times δf for every node, row by row.
-        for (k, &w) in point.weights.iter().enumerate().filter(|(_, w)| **w != 0.0) {
-            for (i, row) in block[k * D * size..(k + 1) * D * size].chunks_exact_mut(size).enumerate() {
-                row.iter_mut().zip(slides.iter()).for_each(|(r, df)| *r -= w * df[i]);
+        add(&local.d, &weights[point.nodes.len() * size..]);
+    }
+
+    /// Computes the changes of a point's force from those of its averaged distance, which they replace, and of its frame.
+    fn force_changes(&self, p: usize, traction: &Traction<'_>, turns: &[Change<D>], changes: &mut [f64]) {
+        let (point, local) = (&self.points[p], &self.locals[p]);
+        let size = point.nodes.len() * D;
+        for (k, (w, then)) in point.weights.iter().zip(&point.then).enumerate() {
+            let now = w / point.area;
+            for i in 0..D {
+                let column = k * D + i;
+                let mut change = turns.get(column).copied().unwrap_or_else(Change::none);
+                change.d = std::array::from_fn(|j| changes[j * size + column]);
+                change.v = change.d.map(|d| -d);
+                change.d[i] += now;
+                change.v[i] += then - now;
+                let df = local.force_change(traction, &change);
+                df.iter().enumerate().for_each(|(j, df)| changes[j * size + column] = *df);
             }
         }
     }
 }
 
-/// Slot of a node or middle in a gradient, place in a point's block of a node that moves it, and the node's share.
-type Column = (usize, usize, f64);
+/// Number of the slopes of a point's weights: a row for each node, and one for what nodes of the slave carry as nodes of the master
+/// (the tip of a split surface).
+pub(super) fn slopes<const D: usize>(point: &Point) -> usize {
+    let n = point.nodes.len();
+    (n + 1) * n * D
+}
+
+/// Writes the block of a point with force `f` on its nodes: `-δw_k f - w_k δf`.
+fn write<const D: usize>(
+    point: &Point,
+    force: &[f64; D],
+    weights: &[f64],
+    changes: &[f64],
+    block: &mut [f64],
+) {
+    let size = point.nodes.len() * D;
+    let nodes = point.weights.iter().zip(weights.chunks_exact(size));
+    for ((w, slopes), rows) in nodes.zip(block.chunks_exact_mut(D * size)) {
+        for ((row, f), df) in rows.chunks_exact_mut(size).zip(force).zip(changes.chunks_exact(size)) {
+            for ((to, slope), df) in row.iter_mut().zip(slopes).zip(df) {
+                *to = -(f * slope + w * df);
+            }
+        }
+    }
+}
+
+/// Side and slot of a node or middle in a gradient, place in a point's block of a node that moves it, and the node's share.
+type Column = (usize, usize, usize, f64);
 
 /// Most columns of a cell: of two faces with eight nodes and their middle, which moves with all of them.
 const MOST_COLUMNS: usize = 2 * (8 + 8);
 
 /// Computes the columns of a cell, from the `places` of the nodes of both faces. Also returns their number.
 fn columns(facets: [&Facet; 2], places: [&[usize]; 2]) -> ([Column; MOST_COLUMNS], usize) {
-    let (mut out, mut count) = ([(0, 0, 0.0); MOST_COLUMNS], 0);
+    let (mut out, mut count) = ([(0, 0, 0, 0.0); MOST_COLUMNS], 0);
     for (side, (facet, places)) in facets.into_iter().zip(places).enumerate() {
         for (slot, _) in facet.movers().enumerate() {
             for (node, share) in movers(facet.face.kind, slot) {
-                out[count] = (side * MOST + slot, places[node], share);
+                out[count] = (side, slot, places[node], share);
                 count += 1;
             }
         }
@@ -199,38 +262,19 @@ fn columns(facets: [&Facet; 2], places: [&[usize]; 2]) -> ([Column; MOST_COLUMNS
     (out, count)
 }
 
-/// Block of a point to which the changes of its weights are added.
-struct WeightChanges<'a, 'b, const D: usize> {
-    point: &'a Point,
-    force: [f64; D],
-    columns: &'a [Column],
-    blocks: &'a mut Blocks<'b, D>,
-}
-
-impl<const D: usize> WeightChanges<'_, '_, D> {
-    /// Adds the change of the weight of the node at `place` of the block, which is `sign` times this slope (of either sign, and less where a function is shared); `arm` is its lever in the
-    /// averaged distance.
-    #[inline]
-    fn add(&mut self, place: usize, sign: f64, arm: &[f64; D], slope: &Gradient) {
-        let (block, slides) = self.blocks.point_block(self.point);
-        let (size, share) = (slides.len(), self.point.area.recip());
-        let rows = &mut block[place * D * size..(place * D + D) * size];
-        for &(slot, column, moved) in self.columns {
-            let dw: [f64; D] = std::array::from_fn(|l| sign * moved * slope[slot][l]);
-            for (row, f) in rows.chunks_exact_mut(size).zip(&self.force) {
-                axpy_at(row, column * D, -f, &dw);
-            }
-            for (slide, dw) in slides[column * D..column * D + D].iter_mut().zip(&dw) {
-                axpy(slide, share * dw, arm);
-            }
-        }
-    }
-}
-
-/// `row[at + l] += c v_l`.
+/// Adds a slope of the derivatives to a row of a block.
 #[inline]
-fn axpy_at<const D: usize>(row: &mut [f64], at: usize, c: f64, v: &[f64; D]) {
-    row[at..at + D].iter_mut().zip(v).for_each(|(r, v)| *r += c * v);
+fn add_row<const D: usize, const F: usize>(
+    row: &mut [f64],
+    columns: &[Column],
+    derivatives: &Derivatives<F>,
+    slope: impl Fn(&Products<F>) -> f64,
+) {
+    for &(side, slot, column, moved) in columns {
+        let by = &derivatives.by[side][slot];
+        let to = &mut row[column * D..column * D + D];
+        to.iter_mut().zip(by).for_each(|(to, by)| *to += moved * slope(by));
+    }
 }
 
 pub(super) fn traction_of<'a>(tractions: &Tractions<'a>, p: usize) -> Traction<'a> {

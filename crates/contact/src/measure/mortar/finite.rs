@@ -19,11 +19,12 @@ use super::cell::{Sums, integrate};
 use super::facet::{Facet, NODES, node_at};
 use super::local::{Change, Local};
 use super::order::{CHUNK, WorkOrder};
-use super::overlap;
+use super::overlap::{self, Integrals, MOST};
 use super::scalar::Dual;
-use super::sides::{AdjacentFace, Sides, SlaveFacet};
+use super::sides::{AdjacentFace, Sides, SlaveFacet, bases_of};
 use super::small::FACED;
-use super::state::{Cell, MortarMeasure, Point};
+use super::state::{Cell, MortarMeasure, Point, Pool};
+use super::straight::Lines;
 use crate::measure::bound::{Bound, fits};
 use crate::measure::fixed_measure::fixed_frame;
 use crate::measure::measure_state::{MeasureState, MortarPointState};
@@ -71,7 +72,7 @@ impl<const D: usize> MortarMeasure<D> {
             integrals: Vec::new(),
             order,
             pattern: Pattern::default(),
-            scratch: Vec::new(),
+            buffers: Pool::default(),
             found: Vec::new(),
             bound: Bound::default(),
         };
@@ -135,22 +136,51 @@ impl<const D: usize> MortarMeasure<D> {
             let [s, m] = self.facets(c).map(|facet| facet.face.nodes.len());
             let (mine, tail) = rest.split_at_mut(self.sides.facets[c.facet].weighting.points.len() * (s + m));
             rest = tail;
-            if D == 2 { self.integrate_lines(c, mine) } else { self.integrate_faces(c, mine) }
+            self.integrate_cell(c, mine);
         }
     }
 
-    /// Computes the rows of a cell in the plane: those of the nodes of the slave's face, followed by those of the master's with opposite
-    /// sign.
-    fn integrate_lines(&self, c: &Cell, mine: &mut [f64]) {
+    /// Computes the rows of a cell: those of the nodes of the slave's face, followed by those of the master's with opposite sign.
+    fn integrate_cell(&self, c: &Cell, mine: &mut [f64]) {
+        mine.fill(0.0);
+        let Some(values) = self.integrals(c) else { return };
+        self.add_rows(c.facet, self.facets(c)[0].face.nodes.len(), mine, |b| {
+            [&values.own[b], &values.other[b]]
+        });
+    }
+
+    /// Integrals over a cell; `None` if the facets do not overlap.
+    fn integrals(&self, c: &Cell) -> Option<Integrals> {
+        match (D == 2, self.linear(c)) {
+            (true, true) => {
+                self.lines(c).map(|lines| lines.integrals(&self.sides.rule(c.facet, c.master).line))
+            }
+            (true, false) => self.integrals_on_lines(c),
+            (false, true) => self.in_space(c, overlap::integrals::<NODES>),
+            (false, false) => self.in_space(c, overlap::integrals::<MOST>),
+        }
+    }
+
+    /// Integrals over a cell in the plane.
+    fn integrals_on_lines(&self, c: &Cell) -> Option<Integrals> {
         let [slave, master] = self.facets(c);
         let ((own, s), (other, m)) = (self.gather(slave), self.gather(master));
-        mine.fill(0.0);
         let (rule, frozen) = (self.sides.rule(c.facet, c.master), self.sides.frozen(c.facet));
-        let mut sums = Sums::<f64, NODES>::zero();
-        if !integrate(frozen, &own[..s], master, &other[..m], rule, &mut sums) {
-            return;
-        }
-        self.add_rows(c.facet, s, mine, |b| [&sums.own[b], &sums.other[b]]);
+        let mut sums = Sums::<f64, MOST>::zero();
+        let overlaps = integrate(frozen, &own[..s], master, &other[..m], rule, &mut sums);
+        overlaps.then_some(Integrals { own: sums.own, other: sums.other })
+    }
+
+    /// True if both faces of a cell are of first order, and thus their own facets.
+    pub(super) fn linear(&self, c: &Cell) -> bool {
+        self.facets(c).iter().all(|facet| facet.face.kind.first_order())
+    }
+
+    /// Lines of first order in the plane; `None` if they do not overlap.
+    pub(super) fn lines(&self, c: &Cell) -> Option<Lines<'_, D>> {
+        let [x, y] = self.facets(c).map(|facet| [0, 1].map(|k| self.x[facet.nodes[k]]));
+        let frozen = self.sides.frozen(c.facet);
+        Lines::new(x, y, frozen.reference, frozen.axisymmetric)
     }
 
     /// Adds to the rows of a facet's points those of its corners.
@@ -171,14 +201,6 @@ impl<const D: usize> MortarMeasure<D> {
                 right.iter_mut().zip(other).for_each(|(r, v)| *r -= share * v);
             });
         }
-    }
-
-    /// Computes the rows of a cell in space, in the layout of [`MortarMeasure::integrate_lines`].
-    fn integrate_faces(&self, c: &Cell, mine: &mut [f64]) {
-        mine.fill(0.0);
-        let s = self.facets(c)[0].face.nodes.len();
-        let Some(values) = self.in_space(c, overlap::integrals) else { return };
-        self.add_rows(c.facet, s, mine, |b| [&values.own[b], &values.other[b]]);
     }
 
     /// Applies `work` to the facets of a cell in space.
@@ -242,30 +264,43 @@ impl<const D: usize> MortarMeasure<D> {
         Local::new(&self.sides.normal_sum(p, &self.x), material, d, v)
     }
 
-    /// Computes δn and δframe for a unit displacement along axis `i` of `node`, one of the slave nodes of point `p`.
-    pub(super) fn turn(&self, p: usize, node: usize, i: usize, out: &mut Change<D>) {
-        let (mut normals, mut material) = ([0.0; D], [[0.0; D]; 2]);
+    /// Computes δn and δframe for unit displacements of the slave nodes of point `p`, axis by axis.
+    pub(super) fn turns(&self, p: usize, out: &mut Vec<Change<D>>) {
+        let (point, local) = (&self.points[p], &self.locals[p]);
+        out.clear();
+        out.resize(point.slaves * D, Change::none());
+        // Changes of the sum of normals and of the material vectors, in the place of those of the normal and frame that follow from them.
         for (k, b) in self.sides.around[p].iter().enumerate() {
             let face = &self.sides.faces[b.face];
-            let Some(l) = face.nodes.iter().position(|&n| n == node) else { continue };
             let s = shape(face.kind, node_at(face.kind, b.local));
-            let slopes = [s.first[0][l], s.first[1][l]];
-            let mut unit = [0.0; D];
-            unit[i] = 1.0;
-            if D == 2 {
-                axpy(&mut normals, slopes[0], &perpendicular(&[unit, unit]));
-            } else {
-                let e = self.sides.bases(*b, &self.x);
-                axpy(&mut normals, slopes[0], &cross(&unit, &e[1]));
-                axpy(&mut normals, slopes[1], &cross(&e[0], &unit));
-            }
-            if k == 0 {
-                for (m, [a, b]) in material.iter_mut().zip(&self.points[p].along) {
-                    m[i] = a * slopes[0] + b * slopes[1];
+            let e = bases_of(&s, &face.nodes, &self.x);
+            for (l, node) in face.nodes.iter().enumerate() {
+                // Nodes of adjacent faces come first in the block.
+                let Some(place) = point.nodes[..point.slaves].iter().position(|n| n == node) else {
+                    continue;
+                };
+                let slopes = [s.first[0][l], s.first[1][l]];
+                for (i, change) in out[place * D..(place + 1) * D].iter_mut().enumerate() {
+                    let mut unit = [0.0; D];
+                    unit[i] = 1.0;
+                    if D == 2 {
+                        axpy(&mut change.n, slopes[0], &perpendicular(&[unit, unit]));
+                    } else {
+                        axpy(&mut change.n, slopes[0], &cross(&unit, &e[1]));
+                        axpy(&mut change.n, slopes[1], &cross(&e[0], &unit));
+                    }
+                    if k == 0 {
+                        for (m, [a, b]) in change.frame.iter_mut().zip(&point.along) {
+                            m[i] = a * slopes[0] + b * slopes[1];
+                        }
+                    }
                 }
             }
         }
-        self.locals[p].turn(&normals, &material, out);
+        for change in out {
+            let (normals, material) = (change.n, change.frame);
+            local.turn(&normals, &material, change);
+        }
     }
 
     /// Adds to `slides` the contribution of the changing overlap of a cell.
@@ -400,6 +435,7 @@ impl<const D: usize> Measure<D> for MortarMeasure<D> {
     }
 
     fn slides(&self, _geometry: &Geometry<D>, du: &[[f64; D]], out: &mut Slides) {
+        let mut buffers = self.buffers.take();
         for (p, point) in self.points.iter().enumerate() {
             out.gap[p] = 0.0;
             out.increment[p] = [0.0; 2];
@@ -407,15 +443,15 @@ impl<const D: usize> Measure<D> for MortarMeasure<D> {
                 continue;
             }
             let local = &self.locals[p];
-            for (k, (&n, w)) in point.nodes.iter().zip(&point.weights).enumerate() {
+            for (&n, w) in point.nodes.iter().zip(&point.weights) {
                 out.gap[p] += w / point.area * dot(&local.n, &du[n]);
-                for i in (0..D).filter(|_| k < point.slaves) {
-                    let mut change = Change::none();
-                    self.turn(p, n, i, &mut change);
-                    out.gap[p] += du[n][i] * dot(&change.n, &local.d);
-                }
+            }
+            self.turns(p, &mut buffers.turns);
+            for (&n, turns) in point.nodes.iter().zip(buffers.turns.chunks_exact(D)) {
+                turns.iter().zip(&du[n]).for_each(|(turn, du)| out.gap[p] += du * dot(&turn.n, &local.d));
             }
         }
+        self.buffers.keep(buffers);
         for c in &self.cells {
             self.overlap_slide(c, du, out);
         }

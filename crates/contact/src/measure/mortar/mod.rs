@@ -35,6 +35,7 @@ mod scalar;
 mod sides;
 mod small;
 mod state;
+mod straight;
 mod weighting;
 
 pub use finite::finite;

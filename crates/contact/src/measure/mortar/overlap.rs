@@ -12,12 +12,13 @@
 
 use super::clip::twice_area;
 use super::facet::{Facet, NODES};
-use super::plane_face::{Density, Functions, PlaneFace};
-use super::polygon::{Corner, Crossing, Polygon};
+use super::plane_face::{Density, Functions, PlaneFace, area_slopes};
+use super::polygon::{Crossing, Polygon};
 use super::rule::Rule;
 use crate::SegmentKind;
 use crate::shape::MOST_NODES;
 use crate::vector::{axpy, cross, dot, norm, scaled, sub, unit};
+use pulp::{Arch, Simd, WithSimd};
 
 /// Most nodes of a face, its middle included.
 pub(super) const MOST: usize = MOST_NODES;
@@ -25,50 +26,48 @@ pub(super) const MOST: usize = MOST_NODES;
 /// Number of slots for the nodes of both faces, the slave's first.
 pub(super) const BOTH: usize = 2 * MOST;
 
-/// Products of functions b of the slave facet's corners: with the functions of the slave's face, `own` in all, and with the `F`
-/// functions of the master's face. If faces are of first order (`F` = [`NODES`]), products of two functions b and k of the slave are
-/// stored once.
+/// Products of functions b of the slave facet's corners with the `F` functions of the slave's face and with those of the master's.
 #[derive(Clone, Copy, Debug)]
-struct Products<const O: usize, const F: usize> {
-    own: [f64; O],
-    other: [[f64; F]; NODES],
+pub(super) struct Products<const F: usize> {
+    pub own: [[f64; F]; NODES],
+    pub other: [[f64; F]; NODES],
 }
 
-/// Number of products of two of four functions.
-const LINEAR: usize = NODES * (NODES + 1) / 2;
+/// Gauss points that are evaluated together, so that their slopes are added to each sum at once.
+const GROUP: usize = 3;
 
-/// Number of products of four functions with those of a face.
-const GENERAL: usize = NODES * MOST;
+// The loops are plain, so that they are compiled into their callers and thus for their instructions.
+impl<const F: usize> Products<F> {
+    const ZERO: Self = Self { own: [[0.0; F]; NODES], other: [[0.0; F]; NODES] };
 
-impl<const O: usize, const F: usize> Products<O, F> {
-    const ZERO: Self = Self { own: [0.0; O], other: [[0.0; F]; NODES] };
-
-    /// Index of the product of slave functions b and k.
-    #[inline]
-    fn place(b: usize, k: usize) -> usize {
-        if F > NODES {
-            return b * F + k;
-        }
-        let (low, high) = (b.min(k), b.max(k));
-        low * (2 * NODES + 1 - low) / 2 + high - low
-    }
-
-    /// First slave function k whose product with b is stored with b.
-    #[inline]
-    fn first(b: usize) -> usize {
-        if F > NODES { 0 } else { b }
-    }
-
-    #[inline]
+    #[inline(always)]
     fn add(&mut self, c: f64, by: &Self) {
-        self.own.iter_mut().zip(&by.own).for_each(|(t, b)| *t += c * b);
-        self.add_other(c, &by.other);
+        for (to, by) in [(&mut self.own, &by.own), (&mut self.other, &by.other)] {
+            for (t, b) in to.as_flattened_mut().iter_mut().zip(by.as_flattened()) {
+                *t += c * b;
+            }
+        }
     }
 
-    #[inline]
-    fn add_other(&mut self, c: f64, by: &[[f64; F]; NODES]) {
-        let (to, by) = (self.other.as_flattened_mut(), by.as_flattened());
-        to.iter_mut().zip(by).for_each(|(t, b)| *t += c * b);
+    /// Adds c times the products of each point of a group.
+    #[inline(always)]
+    fn add_group(&mut self, c: [f64; GROUP], by: [&Self; GROUP]) {
+        let [p, q, r] = by;
+        add_group(&mut self.own, c, [&p.own, &q.own, &r.own]);
+        add_group(&mut self.other, c, [&p.other, &q.other, &r.other]);
+    }
+}
+
+#[inline(always)]
+fn add_group<const F: usize>(
+    to: &mut [[f64; F]; NODES],
+    c: [f64; GROUP],
+    [p, q, r]: [&[[f64; F]; NODES]; GROUP],
+) {
+    for (b, to) in to.iter_mut().enumerate() {
+        for (k, to) in to.iter_mut().enumerate() {
+            *to += c[0] * p[b][k] + c[1] * q[b][k] + c[2] * r[b][k];
+        }
     }
 }
 
@@ -117,11 +116,13 @@ struct Faces<'a> {
 const CENTROID: usize = Polygon::MOST;
 
 /// Slopes of the integrals in the plane with respect to corners of the polygon and to nodes of the faces, along both axes.
-struct Slopes<const O: usize, const F: usize> {
+struct Slopes<const F: usize> {
     /// Slopes with respect to corners of the polygon. The last is the centroid, used if it is the apex of the fan.
-    corners: [[Products<O, F>; 2]; CENTROID + 1],
-    own: [[Products<O, F>; 2]; F],
-    other: [[Products<O, F>; 2]; F],
+    corners: [[Products<F>; 2]; CENTROID + 1],
+    own: [[Products<F>; 2]; F],
+    other: [[Products<F>; 2]; F],
+    /// Integrals over the area in the plane, of themselves and times both natural coordinates, if faces are of first order.
+    moments: [Products<F>; 3],
 }
 
 /// The facets of a cell and their quadrature rule.
@@ -134,13 +135,6 @@ pub(super) struct Facets<'a> {
     pub rule: &'a Rule,
 }
 
-impl Facets<'_> {
-    /// True if both faces are of first order, and thus their own facets.
-    fn linear(&self) -> bool {
-        [self.slave, self.master].iter().all(|side| side.facet.face.kind.first_order())
-    }
-}
-
 /// Integrals over the overlap for functions b of the slave's corners: ∫ λ_b N_k for nodes of the slave's face, and ∫ λ_b N_γ for
 /// those of the master's.
 #[derive(Clone, Copy, Debug)]
@@ -149,44 +143,69 @@ pub(super) struct Integrals {
     pub other: [[f64; MOST]; NODES],
 }
 
-/// Derivatives of one integral with respect to node (the slave's first, its middle included) and axis.
-pub(super) type Gradient = [[f64; 3]; BOTH];
-
-/// Derivatives of the integrals.
-#[derive(Clone, Debug)]
-pub(super) struct Derivatives {
-    pub own: [[Gradient; MOST]; NODES],
-    pub other: [[Gradient; MOST]; NODES],
+impl Integrals {
+    pub(super) fn zero() -> Self {
+        Self { own: [[0.0; MOST]; NODES], other: [[0.0; MOST]; NODES] }
+    }
 }
 
-impl Derivatives {
+/// Derivatives of the integrals between faces of at most `F` nodes.
+#[derive(Clone, Debug)]
+pub(super) struct Derivatives<const F: usize> {
+    /// Derivatives with respect to the nodes of the slave's face (its middle included) and to those of the master's, along each axis.
+    pub by: [[[Products<F>; 3]; F]; 2],
+}
+
+impl<const F: usize> Derivatives<F> {
     /// Derivatives of integrals that are constant.
     pub(super) fn zero() -> Self {
-        let zero = [[[[0.0; 3]; BOTH]; MOST]; NODES];
-        Self { own: zero, other: zero }
+        Self { by: [[[Products::ZERO; 3]; F]; 2] }
     }
 }
 
-/// Integrates the overlap of a slave facet with a master facet; `None` if they do not overlap.
-pub(super) fn integrals(facets: &Facets<'_>) -> Option<Integrals> {
+/// Integrates the overlap of a slave facet with a master facet of faces of at most `F` nodes; `None` if they do not overlap.
+pub(super) fn integrals<const F: usize>(facets: &Facets<'_>) -> Option<Integrals> {
     let pair = Pair::new(facets)?;
-    Some(if facets.linear() {
-        pair.integrals::<LINEAR, NODES>(facets.rule)
-    } else {
-        pair.integrals::<GENERAL, MOST>(facets.rule)
-    })
+    Some(Arch::new().dispatch(Values::<F> { pair: &pair, rule: facets.rule }))
 }
 
-/// Computes the derivatives of these integrals for the functions of both faces; others are not written. Returns false if the facets do
+/// Computes the derivatives of these integrals with respect to the nodes of both faces; others are not written. Returns false if the facets do
 /// not overlap.
-pub(super) fn derivatives(facets: &Facets<'_>, out: &mut Derivatives) -> bool {
+pub(super) fn derivatives<const F: usize>(facets: &Facets<'_>, out: &mut Derivatives<F>) -> bool {
     let Some(pair) = Pair::new(facets) else { return false };
-    if facets.linear() {
-        pair.derivatives::<LINEAR, NODES>(facets.rule, out);
-    } else {
-        pair.derivatives::<GENERAL, MOST>(facets.rule, out);
-    }
+    Arch::new().dispatch(Differentiation::<F> { pair: &pair, rule: facets.rule, out });
     true
+}
+
+/// Evaluation of the integrals, compiled for each set of instructions. Without fused operations all give the same bits.
+struct Values<'a, const F: usize> {
+    pair: &'a Pair<'a>,
+    rule: &'a Rule,
+}
+
+impl<const F: usize> WithSimd for Values<'_, F> {
+    type Output = Integrals;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Integrals {
+        self.pair.integrals::<F>(self.rule)
+    }
+}
+
+/// Differentiation of the integrals, as [`Values`].
+struct Differentiation<'a, const F: usize> {
+    pair: &'a Pair<'a>,
+    rule: &'a Rule,
+    out: &'a mut Derivatives<F>,
+}
+
+impl<const F: usize> WithSimd for Differentiation<'_, F> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.pair.derivatives::<F>(self.rule, self.out);
+    }
 }
 
 /// A triangle of the fan: its corners, their positions, and twice its area.
@@ -203,7 +222,8 @@ struct Point<const F: usize> {
     /// Functions of both faces.
     own: Functions<F>,
     other: Functions<F>,
-    /// Base vectors of the slave's face in the plane.
+    /// Natural coordinates and base vectors of the slave's face in the plane.
+    xi: [f64; 2],
     base: [[f64; 2]; 2],
     inverse: [[f64; 2]; 2],
     other_inverse: [[f64; 2]; 2],
@@ -276,6 +296,7 @@ impl<'a> Pair<'a> {
     }
 
     /// Faces in the plane; `linear` if both are of first order.
+    #[inline(always)]
     fn faces(&self, linear: bool) -> Faces<'_> {
         let [s, m] = self.sides.map(|side| side.facet.face.nodes.len());
         let own = PlaneFace::new(self.sides[0].facet, &self.flat[..s], linear);
@@ -284,27 +305,37 @@ impl<'a> Pair<'a> {
         Faces { own, other, density }
     }
 
-    fn integrals<const O: usize, const F: usize>(&self, rule: &Rule) -> Integrals {
-        let mut sums = Products::<O, F>::ZERO;
+    #[inline(always)]
+    fn integrals<const F: usize>(&self, rule: &Rule) -> Integrals {
+        let mut sums = Products::<F>::ZERO;
         let faces = self.faces(F == NODES);
         for triangle in self.triangles(rule) {
             faces.triangle(&triangle, rule, &mut sums);
         }
-        let mut out = Integrals { own: [[0.0; MOST]; NODES], other: [[0.0; MOST]; NODES] };
+        let mut out = Integrals::zero();
         for b in 0..NODES {
-            (0..F).for_each(|k| out.own[b][k] = sums.own[Products::<O, F>::place(b, k)]);
+            out.own[b][..F].copy_from_slice(&sums.own[b]);
             out.other[b][..F].copy_from_slice(&sums.other[b]);
         }
         out
     }
 
-    fn derivatives<const O: usize, const F: usize>(&self, rule: &Rule, out: &mut Derivatives) {
-        let zero = [Products::<O, F>::ZERO; 2];
-        let mut slopes = Slopes { corners: [zero; CENTROID + 1], own: [zero; F], other: [zero; F] };
+    #[inline(always)]
+    fn derivatives<const F: usize>(&self, rule: &Rule, out: &mut Derivatives<F>) {
+        let zero = [Products::<F>::ZERO; 2];
+        let mut slopes = Slopes {
+            corners: [zero; CENTROID + 1],
+            own: [zero; F],
+            other: [zero; F],
+            moments: [Products::ZERO; 3],
+        };
         let faces = self.faces(F == NODES);
         let nodes = self.sides.map(|side| side.facet.face.nodes.len());
         for triangle in self.triangles(rule) {
             faces.sloped_triangle(&triangle, rule, nodes, &mut slopes);
+        }
+        if F == NODES {
+            faces.add_area_slopes(&mut slopes);
         }
         if rule.centred {
             self.hand_on_centroid(&mut slopes.corners);
@@ -314,6 +345,7 @@ impl<'a> Pair<'a> {
     }
 
     /// Triangles of the overlap that are not negligible, in a fan about the centroid or else about the first corner.
+    #[inline(always)]
     fn triangles(&self, rule: &Rule) -> impl Iterator<Item = Triangle> {
         let corners = self.polygon.corners;
         let centroid = if rule.centred { self.polygon.centroid() } else { [0.0; 2] };
@@ -329,32 +361,35 @@ impl<'a> Pair<'a> {
     }
 
     /// Passes the slopes with respect to the centroid on to the corners.
-    fn hand_on_centroid<const O: usize, const F: usize>(
-        &self,
-        corners: &mut [[Products<O, F>; 2]; CENTROID + 1],
-    ) {
+    #[inline(always)]
+    fn hand_on_centroid<const F: usize>(&self, corners: &mut [[Products<F>; 2]; CENTROID + 1]) {
         let (corners, centroid) = corners.split_at_mut(CENTROID);
         for (to, slope) in corners.iter_mut().zip(self.polygon.centroid_slopes()) {
             for (m, to) in to.iter_mut().enumerate() {
-                (0..2).for_each(|i| to.add(slope[i][m], &centroid[0][i]));
+                for i in 0..2 {
+                    to.add(slope[i][m], &centroid[0][i]);
+                }
             }
         }
     }
 
     /// Passes the slopes with respect to corners on to the nodes on which they depend.
-    fn hand_on<const O: usize, const F: usize>(&self, slopes: &mut Slopes<O, F>) {
-        let Slopes { corners, own, other } = slopes;
+    #[inline(always)]
+    fn hand_on<const F: usize>(&self, slopes: &mut Slopes<F>) {
+        let Slopes { corners, own, other, .. } = slopes;
         for (corner, by) in self.polygon.at[..self.polygon.corners].iter().zip(corners.iter()) {
-            let mut add = |v: usize, m: usize, c: f64, by: &Products<O, F>| {
-                let node = if v < MOST { &mut own[v] } else { &mut other[v - MOST] };
-                node[m].add(c, by);
-            };
-            match corner {
-                Corner { of: Crossing::None(v), .. } => (0..2).for_each(|m| add(*v, m, 1.0, &by[m])),
-                Corner { of: Crossing::Of(lines), .. } => {
+            match &corner.of {
+                Crossing::None(v) => {
+                    let node = if *v < MOST { &mut own[*v] } else { &mut other[v - MOST] };
+                    node[0].add(1.0, &by[0]);
+                    node[1].add(1.0, &by[1]);
+                }
+                Crossing::Of(lines) => {
                     for (v, c) in corner.slopes(lines, &self.flat) {
-                        for (c, by) in c.iter().zip(by) {
-                            (0..2).for_each(|m| add(v, m, c[m], by));
+                        let node = if v < MOST { &mut own[v] } else { &mut other[v - MOST] };
+                        for m in 0..2 {
+                            node[m].add(c[0][m], &by[0]);
+                            node[m].add(c[1][m], &by[1]);
                         }
                     }
                 }
@@ -363,42 +398,34 @@ impl<'a> Pair<'a> {
     }
 
     /// Converts motions in the plane to motions in space.
-    fn spread<const O: usize, const F: usize>(&self, slopes: &Slopes<O, F>, out: &mut Derivatives) {
+    #[inline(always)]
+    fn spread<const F: usize>(&self, slopes: &Slopes<F>, out: &mut Derivatives<F>) {
         let origin = self.sides[0].corner(0);
-        let mut height = [0.0; BOTH];
-        for (side, h) in self.sides.iter().zip(height.chunks_exact_mut(MOST)) {
-            h.iter_mut().zip(side.x).for_each(|(h, x)| *h = dot(&self.normal, &sub(x, origin)));
+        let mut tilted = [Products::<F>::ZERO; 2];
+        for ((to, nodes), side) in out.by.iter_mut().zip([&slopes.own, &slopes.other]).zip(&self.sides) {
+            for ((to, by), x) in to.iter_mut().zip(nodes).zip(side.x) {
+                let height = dot(&self.normal, &sub(x, origin));
+                for (m, by) in by.iter().enumerate() {
+                    tilted[m].add(height, by);
+                }
+                for (l, to) in to.iter_mut().enumerate() {
+                    *to = Products::ZERO;
+                    to.add(self.base[0][l], &by[0]);
+                    to.add(self.base[1][l], &by[1]);
+                }
+            }
         }
-        let slots = [0..self.sides[0].x.len(), MOST..MOST + self.sides[1].x.len()];
-        let slots = || slots.iter().cloned().flatten();
-        let tilts = self.tilts();
-        let gradient = |of: &dyn Fn(&Products<O, F>) -> f64, to: &mut Gradient| {
-            let mut tilted = [0.0; 2];
-            for n in slots() {
-                let node = if n < MOST { &slopes.own[n] } else { &slopes.other[n - MOST] };
-                let by = [of(&node[0]), of(&node[1])];
-                (0..2).for_each(|m| tilted[m] += height[n] * by[m]);
-                to[n] = scaled(&self.base[0], by[0]);
-                axpy(&mut to[n], by[1], &self.base[1]);
-            }
-            for (&corner, tilt) in self.sides[0].facet.corners.iter().zip(&tilts) {
-                axpy(&mut to[corner], -tilted[0], &tilt[0]);
-                axpy(&mut to[corner], -tilted[1], &tilt[1]);
-            }
-        };
-        let [own, other] = self.sides.map(|side| side.facet.face.nodes.len());
-        for b in 0..self.sides[0].facet.nodes.len() {
-            for k in 0..own {
-                let place = Products::<O, F>::place(b, k);
-                gradient(&|p| p.own[place], &mut out.own[b][k]);
-            }
-            for k in 0..other {
-                gradient(&|p| p.other[b][k], &mut out.other[b][k]);
+        for (&corner, tilts) in self.sides[0].facet.corners.iter().zip(&self.tilts()) {
+            for (tilted, tilt) in tilted.iter().zip(tilts) {
+                for (to, tilt) in out.by[0][corner].iter_mut().zip(tilt) {
+                    to.add(-tilt, tilted);
+                }
             }
         }
     }
 
     /// Derivatives of `b_m·δn` with respect to the positions of the slave's corners.
+    #[inline(always)]
     fn tilts(&self) -> [[[f64; 3]; 2]; NODES] {
         let share = self.length.recip();
         let mut out = [[[0.0; 3]; 2]; NODES];
@@ -420,7 +447,7 @@ impl<'a> Pair<'a> {
 
 impl Faces<'_> {
     /// Evaluates the faces at a position in the plane.
-    #[inline]
+    #[inline(always)]
     fn point<const F: usize>(&self, y: &[f64; 2]) -> Point<F> {
         let (own, other) = (self.own.locate::<F>(y), self.other.locate::<F>(y));
         let corners = self.own.corners(&own);
@@ -429,6 +456,7 @@ impl Faces<'_> {
             corners,
             own: own.functions,
             other: other.functions,
+            xi: own.xi,
             base: own.base,
             inverse: own.inverse,
             other_inverse: other.inverse,
@@ -438,50 +466,84 @@ impl Faces<'_> {
         }
     }
 
-    fn triangle<const O: usize, const F: usize>(&self, t: &Triangle, rule: &Rule, sums: &mut Products<O, F>) {
+    /// Adds the slopes of the integrals with the area element, which are linear in natural coordinates.
+    #[inline(always)]
+    fn add_area_slopes<const F: usize>(&self, slopes: &mut Slopes<F>) {
+        let Some([here, right, up]) = self.own.area_slopes() else { return };
+        for (n, to) in slopes.own.iter_mut().enumerate().take(NODES) {
+            for (m, to) in to.iter_mut().enumerate() {
+                let by = [here[n][m], right[n][m] - here[n][m], up[n][m] - here[n][m]];
+                for (moment, c) in slopes.moments.iter().zip(by) {
+                    to.add(-c, moment);
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn triangle<const F: usize>(&self, t: &Triangle, rule: &Rule, sums: &mut Products<F>) {
         for (share, weight) in &rule.triangle {
             let g = self.point::<F>(&mean(&t.at, share));
             let w = t.double * weight * g.density;
             for b in 0..NODES {
                 let wb = w * g.corners.0[b];
-                for k in Products::<O, F>::first(b)..F {
-                    sums.own[Products::<O, F>::place(b, k)] += wb * g.own.0[k];
+                for k in 0..F {
+                    sums.own[b][k] += wb * g.own.0[k];
+                    sums.other[b][k] += wb * g.other.0[k];
                 }
-                (0..F).for_each(|k| sums.other[b][k] += wb * g.other.0[k]);
             }
         }
     }
 
     /// Adds the slopes of the integrals over a triangle, for faces of these numbers of nodes.
-    fn sloped_triangle<const O: usize, const F: usize>(
+    #[inline(always)]
+    fn sloped_triangle<const F: usize>(
         &self,
         t: &Triangle,
         rule: &Rule,
         [own, other]: [usize; 2],
-        slopes: &mut Slopes<O, F>,
+        slopes: &mut Slopes<F>,
     ) {
         let mut sums = Products::ZERO;
-        for (share, weight) in &rule.triangle {
-            let g = self.point::<F>(&mean(&t.at, share));
-            let w = t.double * weight;
-            let (values, by_own, by_other) = products(&g, w);
-            sums.add(1.0, &values);
+        for group in rule.triangle.chunks(GROUP) {
+            // Groups are filled with points without weight.
+            let last = |i: usize| group.get(i).copied().unwrap_or((group[0].0, 0.0));
+            let [(p_share, p_weight), (q_share, q_weight), (r_share, r_weight)] =
+                [group[0], last(1), last(2)];
+            let p = self.point::<F>(&mean(&t.at, &p_share));
+            let q = self.point::<F>(&mean(&t.at, &q_share));
+            let r = self.point::<F>(&mean(&t.at, &r_share));
+            let at_p = products(&p, t.double * p_weight);
+            let at_q = products(&q, t.double * q_weight);
+            let at_r = products(&r, t.double * r_weight);
+            let values = [&at_p.values, &at_q.values, &at_r.values];
+            sums.add_group([1.0; GROUP], values);
             for m in 0..2 {
-                for (c, s) in t.corners.iter().zip(share) {
+                let by_own = [&at_p.by_own[m], &at_q.by_own[m], &at_r.by_own[m]];
+                let by_other = [&at_p.by_other[m], &at_q.by_other[m], &at_r.by_other[m]];
+                for (i, c) in t.corners.iter().enumerate() {
                     let to = &mut slopes.corners[*c][m];
-                    to.add(*s, &by_own[m]);
-                    to.add_other(*s, &by_other[m]);
+                    let shares = [p_share[i], q_share[i], r_share[i]];
+                    to.add_group(shares, by_own);
+                    add_group(&mut to.other, shares, by_other);
+                }
+                for (n, to) in slopes.own.iter_mut().enumerate().take(own) {
+                    to[m].add_group([-p.own.0[n], -q.own.0[n], -r.own.0[n]], by_own);
+                    if F > NODES {
+                        let turned = |g: &Point<F>| -area_slopes(&g.own.1, &g.base, n)[m] / g.plane;
+                        to[m].add_group([turned(&p), turned(&q), turned(&r)], values);
+                    }
+                }
+                for (n, to) in slopes.other.iter_mut().enumerate().take(other) {
+                    add_group(&mut to[m].other, [-p.other.0[n], -q.other.0[n], -r.other.0[n]], by_other);
                 }
             }
-            for (n, to) in slopes.own.iter_mut().enumerate().take(own) {
-                let turned = g.area_slopes(n);
-                for ((to, by), turned) in to.iter_mut().zip(&by_own).zip(&turned) {
-                    to.add(-g.own.0[n], by);
-                    to.add(-turned / g.plane, &values);
+            if F == NODES {
+                let shares = [p.plane.recip(), q.plane.recip(), r.plane.recip()];
+                slopes.moments[0].add_group(shares, values);
+                for (m, to) in slopes.moments[1..].iter_mut().enumerate() {
+                    to.add_group([shares[0] * p.xi[m], shares[1] * q.xi[m], shares[2] * r.xi[m]], values);
                 }
-            }
-            for (n, to) in slopes.other.iter_mut().enumerate().take(other) {
-                (0..2).for_each(|m| to[m].add_other(-g.other.0[n], &by_other[m]));
             }
         }
         // The area of the triangle scales the whole contribution.
@@ -493,31 +555,28 @@ impl Faces<'_> {
     }
 }
 
-impl<const F: usize> Point<F> {
-    /// Change of the area element with slave node `n` in the plane.
-    #[inline]
-    fn area_slopes(&self, n: usize) -> [f64; 2] {
-        let ([s, t], [e, f]) = (&self.own.1, &self.base);
-        [s[n] * f[1] - t[n] * e[1], t[n] * e[0] - s[n] * f[0]]
-    }
-}
-
-#[inline]
+#[inline(always)]
 fn mean(corners: &[[f64; 2]; 3], share: &[f64; 3]) -> [f64; 2] {
     std::array::from_fn(|i| share[0] * corners[0][i] + share[1] * corners[1][i] + share[2] * corners[2][i])
 }
 
-/// Products at a Gauss point, times its weight, and their slopes with respect to its position: through the natural coordinates of
-/// the slave, and through those of the master.
-type PointProducts<const O: usize, const F: usize> =
-    (Products<O, F>, [Products<O, F>; 2], [[[f64; F]; NODES]; 2]);
+/// Products at a Gauss point, times its weight.
+struct PointProducts<const F: usize> {
+    values: Products<F>,
+    /// Slopes with respect to the position of the point, through the natural coordinates of the slave.
+    by_own: [Products<F>; 2],
+    /// Slopes of the products with functions of the master, through its natural coordinates.
+    by_other: [[[f64; F]; NODES]; 2],
+}
 
 /// Products of all pairs of functions at a Gauss point.
-#[inline]
-fn products<const O: usize, const F: usize>(g: &Point<F>, w: f64) -> PointProducts<O, F> {
-    let mut values = Products::<O, F>::ZERO;
-    let mut by_own = [values; 2];
-    let mut by_other = [[[0.0; F]; NODES]; 2];
+#[inline(always)]
+fn products<const F: usize>(g: &Point<F>, w: f64) -> PointProducts<F> {
+    let mut out = PointProducts {
+        values: Products::ZERO,
+        by_own: [Products::ZERO; 2],
+        by_other: [[[0.0; F]; NODES]; 2],
+    };
     let wd = w * g.density;
     let (weights, own, other) = (&g.corners.0, &g.own.0, &g.other.0);
     for i in 0..2 {
@@ -527,26 +586,24 @@ fn products<const O: usize, const F: usize>(g: &Point<F>, w: f64) -> PointProduc
         let other_by: [f64; F] = along(&g.other.1, &g.other_inverse, i, wd);
         for b in 0..NODES {
             let first = dense * weights[b] + weights_by[b];
-            for k in Products::<O, F>::first(b)..F {
-                by_own[i].own[Products::<O, F>::place(b, k)] = first * own[k] + weights[b] * own_by[k];
-            }
             for k in 0..F {
-                by_own[i].other[b][k] = first * other[k];
-                by_other[i][b][k] = weights[b] * other_by[k];
+                out.by_own[i].own[b][k] = first * own[k] + weights[b] * own_by[k];
+                out.by_own[i].other[b][k] = first * other[k];
+                out.by_other[i][b][k] = weights[b] * other_by[k];
             }
         }
     }
-    for (b, weight) in weights.iter().enumerate() {
-        for (k, own) in own.iter().enumerate().skip(Products::<O, F>::first(b)) {
-            values.own[Products::<O, F>::place(b, k)] = wd * weight * own;
+    for b in 0..NODES {
+        for k in 0..F {
+            out.values.own[b][k] = wd * weights[b] * own[k];
+            out.values.other[b][k] = wd * weights[b] * other[k];
         }
-        values.other[b].iter_mut().zip(other).for_each(|(to, other)| *to = wd * weight * other);
     }
-    (values, by_own, by_other)
+    out
 }
 
 /// Slopes of functions along axis `i` of the plane, times `c`.
-#[inline]
+#[inline(always)]
 fn along<const F: usize>(slopes: &[[f64; F]; 2], inverse: &[[f64; 2]; 2], i: usize, c: f64) -> [f64; F] {
     std::array::from_fn(|k| c * (slopes[0][k] * inverse[0][i] + slopes[1][k] * inverse[1][i]))
 }

@@ -1,7 +1,8 @@
 //! Search for facets that may overlap in finite sliding, and the blocks that result.
 
+use super::blocks::{Buffers, slopes};
 use super::order::CHUNK;
-use super::state::{Cell, MortarMeasure, Scratch, SearchResult};
+use super::state::{Cell, MortarMeasure, Pool, SearchResult};
 use asperity_fem::term::Pattern;
 use rayon::prelude::*;
 
@@ -86,20 +87,20 @@ impl<const D: usize> MortarMeasure<D> {
         }
         self.first.resize(self.sides.facets.len() + 1, self.cells.len());
         self.integrals.resize(self.places.len(), 0.0);
-        let mut at = 0;
-        for &p in self.order.all() {
-            self.points[p].at = at;
-            at += (self.points[p].nodes.len() * D).pow(2);
-        }
-        self.scratch.clear();
+        let (mut at, mut largest, mut widest) = (0, 0, 0);
         for piece in 0..self.order.pieces() {
-            let mut columns = 0;
+            let mut of_piece = 0;
             for &p in self.order.points(piece) {
-                self.points[p].column = columns;
-                columns += self.points[p].nodes.len() * D;
+                let point = &mut self.points[p];
+                (point.at, point.slopes) = (at, of_piece);
+                at += (point.nodes.len() * D).pow(2);
+                of_piece += slopes::<D>(point);
+                widest = widest.max(point.nodes.len() * D);
             }
-            self.scratch.push(Scratch::new(columns));
+            largest = largest.max(of_piece);
         }
+        let buffers = rayon::current_num_threads().min(self.order.pieces());
+        self.buffers = Pool::new((0..buffers).map(|_| Buffers::new(largest, widest)).collect());
         let dofs = &self.dofs;
         let blocks: Vec<Vec<usize>> = self
             .order

@@ -63,17 +63,28 @@ fn inverse([e, f]: &[[f64; 2]; 2]) -> [[f64; 2]; 2] {
     [[f[1] * share, -f[0] * share], [-e[1] * share, e[0] * share]]
 }
 
+/// Change of the area element with node `n` of a face in the plane, from the slopes of its functions and its base vectors.
+#[inline(always)]
+pub(super) fn area_slopes<const F: usize>(
+    [s, t]: &[[f64; F]; 2],
+    [e, f]: &[[f64; 2]; 2],
+    n: usize,
+) -> [f64; 2] {
+    [s[n] * f[1] - t[n] * e[1], t[n] * e[0] - s[n] * f[0]]
+}
+
 /// A face in the plane.
 pub(super) struct PlaneFace<'a> {
     facet: &'a Facet,
     x: &'a [[f64; 2]],
-    bilinear: Option<Bilinear<2>>,
+    /// Its map if it is treated as one of first order, and the inverse of the derivative in the middle of the facet.
+    bilinear: Option<(Bilinear<2>, [[f64; 2]; 2])>,
 }
 
 /// A position in the plane, seen from a face.
 pub(super) struct Position<const F: usize> {
     /// Natural coordinates.
-    xi: [f64; 2],
+    pub xi: [f64; 2],
     /// Functions of the face.
     pub functions: Functions<F>,
     /// Base vectors in the plane, and the inverse X'^-1.
@@ -86,30 +97,48 @@ pub(super) struct Position<const F: usize> {
 impl<'a> PlaneFace<'a> {
     /// Makes the face of a facet with its nodes at `x`; `linear` if it is of first order and to be treated so.
     pub(super) fn new(facet: &'a Facet, x: &'a [[f64; 2]], linear: bool) -> Self {
-        Self { facet, x, bilinear: linear.then(|| Bilinear::new(facet.kind, x)) }
+        let bilinear = linear.then(|| {
+            let map = Bilinear::new(facet.kind, x);
+            (map, inverse(&map.base(&middle(facet.kind))))
+        });
+        Self { facet, x, bilinear }
+    }
+
+    /// Changes of the area element with each node at the natural coordinates (0, 0), (1, 0) and (0, 1), between which it is linear;
+    /// `None` if the face is not treated as one of first order.
+    #[inline(always)]
+    pub(super) fn area_slopes(&self) -> Option<[[[f64; 2]; NODES]; 3]> {
+        let (map, _) = self.bilinear.as_ref()?;
+        Some([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|xi| {
+            let (slopes, base) = (linear_functions(self.facet.kind, &xi).1, map.base(&xi));
+            std::array::from_fn(|n| area_slopes(&slopes, &base, n))
+        }))
     }
 
     /// Finds the natural coordinates of a position by Newton's method.
-    #[inline]
+    #[inline(always)]
     pub(super) fn locate<const F: usize>(&self, y: &[f64; 2]) -> Position<F> {
-        let Some(map) = &self.bilinear else { return self.locate_curved(y) };
+        let Some((map, mut inverted)) = self.bilinear else { return self.locate_curved(y) };
         let mut xi = middle(self.facet.kind);
         for _ in 0..ITERATIONS {
-            let inverse = inverse(&map.base(&xi));
             let off: [f64; 2] = std::array::from_fn(|i| {
                 y[i] - map.a[i] - map.b[i] * xi[0] - (map.c[i] + map.d[i] * xi[0]) * xi[1]
             });
-            let step = [dot(&inverse[0], &off), dot(&inverse[1], &off)];
+            let step = [dot(&inverted[0], &off), dot(&inverted[1], &off)];
             xi = [xi[0] + step[0], xi[1] + step[1]];
-            if converged(&step, &xi) {
+            // A step leaves the product of its components, so that the next is known.
+            let left = map.d.map(|d| d * step[0] * step[1]);
+            let done = converged(&[dot(&inverted[0], &left), dot(&inverted[1], &left)], &xi);
+            inverted = inverse(&map.base(&xi));
+            if done {
                 break;
             }
         }
-        let base = map.base(&xi);
         let functions = bilinear_functions(self.facet.kind, &xi);
-        Position { xi, functions, base, inverse: inverse(&base), shape: None }
+        Position { xi, functions, base: map.base(&xi), inverse: inverted, shape: None }
     }
 
+    #[inline(never)]
     fn locate_curved<const F: usize>(&self, y: &[f64; 2]) -> Position<F> {
         let face = &self.facet.face;
         let mut xi = face.at(&middle(self.facet.kind));
@@ -142,7 +171,7 @@ impl<'a> PlaneFace<'a> {
     }
 
     /// Functions of the corners of the facet at a position.
-    #[inline]
+    #[inline(always)]
     pub(super) fn corners<const F: usize>(&self, at: &Position<F>) -> Functions<NODES> {
         if at.shape.is_none() {
             let cut = |v: &[f64; F]| std::array::from_fn(|k| v[k]);
@@ -203,7 +232,7 @@ fn flat(a: &[f64; 2], b: &[f64; 2]) -> f64 {
 
 impl<'a> Density<'a> {
     pub(super) fn new(face: &PlaneFace<'_>, reference: &'a [[f64; 3]]) -> Self {
-        let bilinear = face.bilinear.as_ref().map(|p| {
+        let bilinear = face.bilinear.as_ref().map(|(p, _)| {
             let r = Bilinear::new(face.facet.kind, reference);
             (
                 [cross(&r.b, &r.c), cross(&r.b, &r.d), cross(&r.d, &r.c)],
@@ -214,7 +243,7 @@ impl<'a> Density<'a> {
     }
 
     /// Density and its slopes at a position of the face, and the Jacobian of the plane.
-    #[inline]
+    #[inline(always)]
     pub(super) fn at<const F: usize>(&self, face: &PlaneFace<'_>, at: &Position<F>) -> (f64, [f64; 2], f64) {
         let (v, by, p, plane) = match (&self.bilinear, &at.shape) {
             (Some((v, p)), _) => {

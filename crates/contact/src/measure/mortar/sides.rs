@@ -8,7 +8,7 @@ use super::rule::{self, Rows, Rule, Rules};
 use super::weighting::Weighting;
 use crate::SegmentKind;
 use crate::search::tree::{Aabb, Tree};
-use crate::shape::{MOST_NODES, shape};
+use crate::shape::{MOST_NODES, Shape, shape};
 use crate::spec::{Segment, SlavePoint};
 use crate::vector::{axpy, dot, norm, perpendicular, scaled, sub};
 
@@ -280,13 +280,13 @@ fn turning<const D: usize>(kind: SegmentKind, nodes: &[usize], x: &[[f64; D]]) -
 
 /// Base vectors at natural coordinates `xi`.
 #[inline]
-pub(super) fn bases<const D: usize>(
-    kind: SegmentKind,
-    nodes: &[usize],
-    x: &[[f64; D]],
-    xi: [f64; 2],
-) -> [[f64; D]; 2] {
-    let s = shape(kind, xi);
+fn bases<const D: usize>(kind: SegmentKind, nodes: &[usize], x: &[[f64; D]], xi: [f64; 2]) -> [[f64; D]; 2] {
+    bases_of(&shape(kind, xi), nodes, x)
+}
+
+/// Base vectors of a face whose functions have these slopes.
+#[inline]
+pub(super) fn bases_of<const D: usize>(s: &Shape, nodes: &[usize], x: &[[f64; D]]) -> [[f64; D]; 2] {
     let mut e = [[0.0; D]; 2];
     for (k, &n) in nodes.iter().enumerate().take(MOST_NODES) {
         axpy(&mut e[0], s.first[0][k], &x[n]);

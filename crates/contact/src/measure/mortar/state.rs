@@ -1,5 +1,6 @@
 //! Data of the mortar measure of finite sliding.
 
+use super::blocks::Buffers;
 use super::local::Local;
 use super::order::WorkOrder;
 use super::sides::Sides;
@@ -26,8 +27,8 @@ pub(super) struct Point {
     pub(super) fresh: bool,
     /// Start of its block among the values of the tangent.
     pub(super) at: usize,
-    /// Start of its columns among those of its piece.
-    pub(super) column: usize,
+    /// Start of the slopes of its weights among those of its piece.
+    pub(super) slopes: usize,
     /// Components of the frame's material vectors in the base vectors of the first face adjacent to the point.
     pub(super) along: [[f64; 2]; 2],
 }
@@ -62,28 +63,37 @@ pub(super) struct MortarMeasure<const D: usize> {
     /// Points in the order of their blocks.
     pub(super) order: WorkOrder,
     pub(super) pattern: Pattern,
-    /// Contributions to the tangent for each piece.
-    pub(super) scratch: Vec<Scratch<D>>,
+    pub(super) buffers: Pool<D>,
     /// Results of the search, in pieces of the slave facets.
     pub(super) found: Vec<SearchResult>,
     /// Range in which the result of the last search holds.
     pub(super) bound: Bound<D>,
 }
 
-/// Buffer of a piece. Only one thread uses it at a time.
-#[derive(Debug)]
-pub(super) struct Scratch<const D: usize>(pub(super) Mutex<Vec<[f64; D]>>);
+/// Buffers for pieces of the work order, as many as threads have needed at once.
+#[derive(Debug, Default)]
+pub(super) struct Pool<const D: usize>(Mutex<Vec<Buffers<D>>>);
 
-impl<const D: usize> Scratch<D> {
-    /// Makes a buffer of this number of columns.
-    pub(super) fn new(columns: usize) -> Self {
-        Self(Mutex::new(vec![[0.0; D]; columns]))
+impl<const D: usize> Pool<D> {
+    /// Makes these buffers.
+    pub(super) fn new(buffers: Vec<Buffers<D>>) -> Self {
+        Self(Mutex::new(buffers))
+    }
+
+    /// Takes a buffer, or makes one.
+    pub(super) fn take(&self) -> Buffers<D> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default()
+    }
+
+    /// Keeps a buffer for later.
+    pub(super) fn keep(&self, buffers: Buffers<D>) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(buffers);
     }
 }
 
-impl<const D: usize> Clone for Scratch<D> {
+impl<const D: usize> Clone for Pool<D> {
     fn clone(&self) -> Self {
-        Self::new(self.0.lock().unwrap_or_else(PoisonError::into_inner).len())
+        Self::default()
     }
 }
 
