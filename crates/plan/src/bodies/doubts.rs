@@ -5,7 +5,7 @@ use super::friction::Friction;
 use super::penalty::{self, SofterCells};
 use super::start_gaps::{self, StartContact};
 use super::surfaces::SurfacePair;
-use super::{PlannedInterface, StartGap, coarse, cohesive, damping, overlaps};
+use super::{PlannedInterface, StartGap, coarse, cohesive, damping, overlaps, rim};
 use crate::doubts as shared;
 use crate::reading::diagnostic::Diagnostic;
 use crate::reading::scene::model::{Interface, Scene};
@@ -57,6 +57,7 @@ fn examine<const D: usize>(
     let mut measured = start_gaps::measure(assembly, planned, surfaces.slave.sides)?;
     let softer = SofterCells::from_sides(model, &surfaces);
     doubts.extend(penalty::doubts(name, &spec.enforcement, &softer));
+    doubts.extend(rim::doubt(planned, spec, &measured));
     measured.start.overlap_traction = overlaps::traction(model, &measured, planned, &softer);
     let size = surfaces.slave.cell_size(model);
     let contact = StartContact { spec, planned, start: &measured.start, size };

@@ -21,6 +21,7 @@ pub mod penalty;
 mod picture;
 mod planner;
 pub mod restraint;
+mod rim;
 mod start_balance;
 mod start_gap;
 mod start_gaps;

@@ -593,10 +593,12 @@ fn products<const F: usize>(g: &Point<F>, w: f64) -> PointProducts<F> {
             }
         }
     }
-    for b in 0..NODES {
-        for k in 0..F {
-            out.values.own[b][k] = wd * weights[b] * own[k];
-            out.values.other[b][k] = wd * weights[b] * other[k];
+    for (weight, (to_own, to_other)) in
+        weights.iter().zip(out.values.own.iter_mut().zip(&mut out.values.other))
+    {
+        let w = wd * weight;
+        for ((to, to_other), (own, other)) in to_own.iter_mut().zip(to_other).zip(own.iter().zip(other)) {
+            (*to, *to_other) = (w * own, w * other);
         }
     }
     out
