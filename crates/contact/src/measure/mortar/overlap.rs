@@ -1,10 +1,11 @@
 //! Overlap of two facets in space, with the derivatives of its integrals with respect to the positions of all nodes.
 //!
 //! The integrals are those of `cell`: products of the functions of the slave facet's corners with those of both faces, in the plane
-//! of the slave. Between faces of first order there are 26, since faces and facets are the same. A corner of the common polygon is a node of either facet or the
-//! intersection of two edges; a Gauss point is a mean of three corners. Each Gauss point thus contributes to few numbers. These
-//! are the slopes with respect to the corners of its triangle and, for motion of the facets at a fixed position, with respect
-//! to the nodes of both facets. The slopes of corners are then passed on to nodes. A rigid motion in the plane changes no
+//! of the slave. A corner of the common polygon is a node of either facet or the intersection of two edges; a Gauss point is a mean
+//! of three corners. Each Gauss point thus contributes to few numbers. These are the slopes with respect to the corners of its
+//! triangle and, for motion of the facets at a fixed position, with respect to the nodes of both facets. The slopes of corners are
+//! then passed on to nodes. Changes of the area element are linear in the natural coordinates of a face of first order, so that
+//! moments of the integrals give them. A rigid motion in the plane changes no
 //! integral, so of the motion of the plane itself only its tilt remains.
 //!
 //! Natural coordinates and functions are those of `plane_face`. Points of the plane are `b_m·(x - o)`. A tilt δn moves them by
