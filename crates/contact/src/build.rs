@@ -106,13 +106,13 @@ fn relative<const D: usize>(spec: &InterfaceSpec<D>) -> Vec<SurfaceNode<D>> {
 }
 
 /// A measure, and the number of projections made to pair it.
-type Built<const D: usize> = Result<(Box<dyn Measure<D>>, u64), ContactError>;
+type MeasureResult<const D: usize> = Result<(Box<dyn Measure<D>>, u64), ContactError>;
 
 /// Builds the measure of a specification. Also returns the number of projections made to pair it.
 ///
 /// Measures are kernels. Since these functions are not generic, measures are compiled with this crate, as one unit; otherwise the crates that use them
 /// would compile them, divided into units whose functions do not see each other (2 to 10 times slower).
-pub(crate) fn build_measure<const D: usize>(spec: &InterfaceSpec<D>) -> Built<D> {
+pub(crate) fn build_measure<const D: usize>(spec: &InterfaceSpec<D>) -> MeasureResult<D> {
     let any = spec as &dyn Any;
     let plane = || any.downcast_ref().and_then(|spec| in_dimension(measure_in_plane(spec)));
     let space = || any.downcast_ref().and_then(|spec| in_dimension(measure_in_space(spec)));
@@ -120,21 +120,21 @@ pub(crate) fn build_measure<const D: usize>(spec: &InterfaceSpec<D>) -> Built<D>
     plane().or_else(space).expect("two or three dimensions")
 }
 
-fn measure_in_plane(spec: &InterfaceSpec<2>) -> Built<2> {
+fn measure_in_plane(spec: &InterfaceSpec<2>) -> MeasureResult<2> {
     measure(spec)
 }
 
-fn measure_in_space(spec: &InterfaceSpec<3>) -> Built<3> {
+fn measure_in_space(spec: &InterfaceSpec<3>) -> MeasureResult<3> {
     measure(spec)
 }
 
 /// A measure in `E` dimensions as one in `D`, which are the same.
-fn in_dimension<const E: usize, const D: usize>(built: Built<E>) -> Option<Built<D>> {
+fn in_dimension<const E: usize, const D: usize>(built: MeasureResult<E>) -> Option<MeasureResult<D>> {
     let any: Box<dyn Any> = Box::new(built);
     any.downcast().ok().map(|built| *built)
 }
 
-fn measure<const D: usize>(spec: &InterfaceSpec<D>) -> Built<D> {
+fn measure<const D: usize>(spec: &InterfaceSpec<D>) -> MeasureResult<D> {
     let nodes = relative(spec);
     let positions: Vec<[f64; D]> = nodes.iter().map(|n| n.position).collect();
     let surface = match spec.smoothing {

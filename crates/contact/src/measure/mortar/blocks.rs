@@ -17,28 +17,6 @@ use crate::vector::{axpy, sub};
 /// Number of variables in a cell of the plane: two coordinates of the nodes of two lines of three nodes.
 const CURVED: usize = 12;
 
-/// Buffers of a piece of the work order.
-#[derive(Debug, Default)]
-pub(super) struct Buffers<const D: usize> {
-    /// Slopes of the weights of each point with respect to the columns of its block, row by row.
-    weights: Vec<f64>,
-    /// Changes of a point's averaged distance, then of its force, with the columns: a row for each axis.
-    changes: Vec<f64>,
-    /// Changes of its normal and frame with the columns of slave nodes.
-    pub turns: Vec<Change<D>>,
-}
-
-impl<const D: usize> Buffers<D> {
-    /// Makes buffers for this many slopes in a piece and columns of a point.
-    pub(super) fn new(slopes: usize, columns: usize) -> Self {
-        Self {
-            weights: Vec::with_capacity(slopes),
-            changes: Vec::with_capacity(D * columns),
-            turns: Vec::with_capacity(columns),
-        }
-    }
-}
-
 impl<const D: usize> MortarMeasure<D> {
     /// Writes the blocks of the pieces `from..to` of the work order.
     pub(super) fn blocks(&self, from: usize, to: usize, tractions: &Tractions<'_>, values: &mut [f64]) {

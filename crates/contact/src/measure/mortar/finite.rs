@@ -15,6 +15,7 @@
 //! Puso, M. A. and Laursen, T. A. (2004b), A mortar segment-to-segment frictional contact method for large deformations,
 //! Computer Methods in Applied Mechanics and Engineering 193, 4891-4913.
 
+use super::buffers::Pool;
 use super::cell::{Sums, integrate};
 use super::facet::{Facet, NODES, node_at};
 use super::local::{Change, Local};
@@ -23,7 +24,7 @@ use super::overlap::{self, Integrals, MOST};
 use super::scalar::Dual;
 use super::sides::{AdjacentFace, Sides, SlaveFacet, bases_of};
 use super::small::FACED;
-use super::state::{Cell, MortarMeasure, Point, Pool};
+use super::state::{Cell, MortarMeasure, Point};
 use super::straight::Lines;
 use crate::measure::bound::{Bound, fits};
 use crate::measure::fixed_measure::fixed_frame;

@@ -18,6 +18,7 @@
 //! Computer Methods in Applied Mechanics and Engineering 193, 601-629.
 
 mod blocks;
+mod buffers;
 mod cell;
 mod centre;
 mod clip;

@@ -233,6 +233,14 @@ struct Point<const F: usize> {
     plane: f64,
 }
 
+/// Points of a triangle that are evaluated together.
+struct Group<const F: usize> {
+    /// Barycentric coordinates.
+    shares: [[f64; 3]; GROUP],
+    points: [Point<F>; GROUP],
+    products: [PointProducts<F>; GROUP],
+}
+
 /// Product of two sides of a triangle, or of the diagonals of a quadrilateral.
 fn normal_product(side: &Side<'_>) -> [f64; 3] {
     let [p, q] = spans(side);
@@ -496,55 +504,37 @@ impl Faces<'_> {
         }
     }
 
+    /// Evaluates a group of points, filled with points without weight.
+    #[inline(always)]
+    fn group<const F: usize>(&self, t: &Triangle, points: &[([f64; 3], f64)]) -> Group<F> {
+        let at = |i: usize| points.get(i).copied().unwrap_or((points[0].0, 0.0));
+        let [(p, of_p), (q, of_q), (r, of_r)] = [at(0), at(1), at(2)];
+        let points: [Point<F>; GROUP] =
+            [self.point(&mean(&t.at, &p)), self.point(&mean(&t.at, &q)), self.point(&mean(&t.at, &r))];
+        let products = [
+            products(&points[0], t.double * of_p),
+            products(&points[1], t.double * of_q),
+            products(&points[2], t.double * of_r),
+        ];
+        Group { shares: [p, q, r], points, products }
+    }
+
     /// Adds the slopes of the integrals over a triangle, for faces of these numbers of nodes.
     #[inline(always)]
     fn sloped_triangle<const F: usize>(
         &self,
         t: &Triangle,
         rule: &Rule,
-        [own, other]: [usize; 2],
+        nodes: [usize; 2],
         slopes: &mut Slopes<F>,
     ) {
         let mut sums = Products::ZERO;
-        for group in rule.triangle.chunks(GROUP) {
-            // Groups are filled with points without weight.
-            let last = |i: usize| group.get(i).copied().unwrap_or((group[0].0, 0.0));
-            let [(p_share, p_weight), (q_share, q_weight), (r_share, r_weight)] =
-                [group[0], last(1), last(2)];
-            let p = self.point::<F>(&mean(&t.at, &p_share));
-            let q = self.point::<F>(&mean(&t.at, &q_share));
-            let r = self.point::<F>(&mean(&t.at, &r_share));
-            let at_p = products(&p, t.double * p_weight);
-            let at_q = products(&q, t.double * q_weight);
-            let at_r = products(&r, t.double * r_weight);
-            let values = [&at_p.values, &at_q.values, &at_r.values];
-            sums.add_group([1.0; GROUP], values);
-            for m in 0..2 {
-                let by_own = [&at_p.by_own[m], &at_q.by_own[m], &at_r.by_own[m]];
-                let by_other = [&at_p.by_other[m], &at_q.by_other[m], &at_r.by_other[m]];
-                for (i, c) in t.corners.iter().enumerate() {
-                    let to = &mut slopes.corners[*c][m];
-                    let shares = [p_share[i], q_share[i], r_share[i]];
-                    to.add_group(shares, by_own);
-                    add_group(&mut to.other, shares, by_other);
-                }
-                for (n, to) in slopes.own.iter_mut().enumerate().take(own) {
-                    to[m].add_group([-p.own.0[n], -q.own.0[n], -r.own.0[n]], by_own);
-                    if F > NODES {
-                        let turned = |g: &Point<F>| -area_slopes(&g.own.1, &g.base, n)[m] / g.plane;
-                        to[m].add_group([turned(&p), turned(&q), turned(&r)], values);
-                    }
-                }
-                for (n, to) in slopes.other.iter_mut().enumerate().take(other) {
-                    add_group(&mut to[m].other, [-p.other.0[n], -q.other.0[n], -r.other.0[n]], by_other);
-                }
-            }
+        for points in rule.triangle.chunks(GROUP) {
+            let group = self.group::<F>(t, points);
+            sums.add_group([1.0; GROUP], group.values());
+            group.add_slopes(t, nodes, slopes);
             if F == NODES {
-                let shares = [p.plane.recip(), q.plane.recip(), r.plane.recip()];
-                slopes.moments[0].add_group(shares, values);
-                for (m, to) in slopes.moments[1..].iter_mut().enumerate() {
-                    to.add_group([shares[0] * p.xi[m], shares[1] * q.xi[m], shares[2] * r.xi[m]], values);
-                }
+                group.add_moments(&mut slopes.moments);
             }
         }
         // The area of the triangle scales the whole contribution.
@@ -552,6 +542,52 @@ impl Faces<'_> {
             let (p, q) = (&t.at[(i + 1) % 3], &t.at[(i + 2) % 3]);
             slopes.corners[*c][0].add((p[1] - q[1]) / t.double, &sums);
             slopes.corners[*c][1].add((q[0] - p[0]) / t.double, &sums);
+        }
+    }
+}
+
+impl<const F: usize> Group<F> {
+    #[inline(always)]
+    fn values(&self) -> [&Products<F>; GROUP] {
+        let [p, q, r] = &self.products;
+        [&p.values, &q.values, &r.values]
+    }
+
+    /// Adds the slopes with respect to the corners of the triangle and to the nodes of both faces.
+    #[inline(always)]
+    fn add_slopes(&self, t: &Triangle, [own, other]: [usize; 2], slopes: &mut Slopes<F>) {
+        let [p, q, r] = &self.points;
+        let [at_p, at_q, at_r] = &self.products;
+        for m in 0..2 {
+            let by_own = [&at_p.by_own[m], &at_q.by_own[m], &at_r.by_own[m]];
+            let by_other = [&at_p.by_other[m], &at_q.by_other[m], &at_r.by_other[m]];
+            for (i, c) in t.corners.iter().enumerate() {
+                let to = &mut slopes.corners[*c][m];
+                let shares = [self.shares[0][i], self.shares[1][i], self.shares[2][i]];
+                to.add_group(shares, by_own);
+                add_group(&mut to.other, shares, by_other);
+            }
+            for (n, to) in slopes.own.iter_mut().enumerate().take(own) {
+                to[m].add_group([-p.own.0[n], -q.own.0[n], -r.own.0[n]], by_own);
+                if F > NODES {
+                    let turned = |g: &Point<F>| -area_slopes(&g.own.1, &g.base, n)[m] / g.plane;
+                    to[m].add_group([turned(p), turned(q), turned(r)], self.values());
+                }
+            }
+            for (n, to) in slopes.other.iter_mut().enumerate().take(other) {
+                add_group(&mut to[m].other, [-p.other.0[n], -q.other.0[n], -r.other.0[n]], by_other);
+            }
+        }
+    }
+
+    /// Adds the integrals over the area in the plane, of themselves and times both natural coordinates.
+    #[inline(always)]
+    fn add_moments(&self, moments: &mut [Products<F>; 3]) {
+        let [p, q, r] = &self.points;
+        let shares = [p.plane.recip(), q.plane.recip(), r.plane.recip()];
+        moments[0].add_group(shares, self.values());
+        for (m, to) in moments[1..].iter_mut().enumerate() {
+            to.add_group([shares[0] * p.xi[m], shares[1] * q.xi[m], shares[2] * r.xi[m]], self.values());
         }
     }
 }

@@ -1,8 +1,9 @@
 //! Search for facets that may overlap in finite sliding, and the blocks that result.
 
-use super::blocks::{Buffers, slopes};
+use super::blocks::slopes;
+use super::buffers::{Buffers, Pool};
 use super::order::CHUNK;
-use super::state::{Cell, MortarMeasure, Pool, SearchResult};
+use super::state::{Cell, MortarMeasure, SearchResult};
 use asperity_fem::term::Pattern;
 use rayon::prelude::*;
 

@@ -1,12 +1,11 @@
 //! Data of the mortar measure of finite sliding.
 
-use super::blocks::Buffers;
+use super::buffers::Pool;
 use super::local::Local;
 use super::order::WorkOrder;
 use super::sides::Sides;
 use crate::measure::bound::Bound;
 use asperity_fem::term::Pattern;
-use std::sync::{Mutex, PoisonError};
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct Point {
@@ -68,33 +67,6 @@ pub(super) struct MortarMeasure<const D: usize> {
     pub(super) found: Vec<SearchResult>,
     /// Range in which the result of the last search holds.
     pub(super) bound: Bound<D>,
-}
-
-/// Buffers for pieces of the work order, as many as threads have needed at once.
-#[derive(Debug, Default)]
-pub(super) struct Pool<const D: usize>(Mutex<Vec<Buffers<D>>>);
-
-impl<const D: usize> Pool<D> {
-    /// Makes these buffers.
-    pub(super) fn new(buffers: Vec<Buffers<D>>) -> Self {
-        Self(Mutex::new(buffers))
-    }
-
-    /// Takes a buffer, or makes one.
-    pub(super) fn take(&self) -> Buffers<D> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default()
-    }
-
-    /// Keeps a buffer for later.
-    pub(super) fn keep(&self, buffers: Buffers<D>) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(buffers);
-    }
-}
-
-impl<const D: usize> Clone for Pool<D> {
-    fn clone(&self) -> Self {
-        Self::default()
-    }
 }
 
 /// Result of the search for a piece of the slave facets.
