@@ -110,8 +110,8 @@ type MeasureResult<const D: usize> = Result<(Box<dyn Measure<D>>, u64), ContactE
 
 /// Builds the measure of a specification. Also returns the number of projections made to pair it.
 ///
-/// Measures are kernels. Since these functions are not generic, measures are compiled with this crate, as one unit; otherwise the crates that use them
-/// would compile them, divided into units whose functions do not see each other (2 to 10 times slower).
+/// The functions below it are not generic, so that measures, which are kernels, are compiled with this crate as one unit. Crates
+/// that use generic code compile it themselves, in units whose functions do not see each other: 2 to 10 times slower.
 pub(crate) fn build_measure<const D: usize>(spec: &InterfaceSpec<D>) -> MeasureResult<D> {
     let any = spec as &dyn Any;
     let plane = || any.downcast_ref().and_then(|spec| in_dimension(measure_in_plane(spec)));

@@ -302,6 +302,43 @@ fn tangent_is_the_derivative_of_the_residual() {
     }
 }
 
+/// Two sides that part at a tip, whose nodes belong to both and are no slave points, after a first step.
+fn parting<const D: usize>(
+    x: &[[f64; D]],
+    slave: &[usize],
+    sides: [Vec<Segment>; 2],
+) -> (Interface<D>, Vec<f64>) {
+    let [faces, master] = sides;
+    let mut spec = spec(x, slave, master, Sliding::Finite, coulomb());
+    spec.measure = MeasureKind::Mortar { faces, axisymmetric: false };
+    let by = |along: f64, down: f64| {
+        let mut by = [0.0; D];
+        (by[0], by[D - 1]) = (along, -down);
+        vec![by; slave.len()]
+    };
+    let [first, second] = [by(0.01, 0.02), by(0.06, 0.03)].map(|moves| moved(&spec, 0.0, &moves, 5e-3, 3));
+    let mut interface = Interface::new(spec).unwrap();
+    interface.prepare(&first).unwrap();
+    residual(&mut interface, &first);
+    interface.accept();
+    interface.prepare(&second).unwrap();
+    (interface, second)
+}
+
+#[test]
+fn tangent_is_the_derivative_of_the_residual_at_a_tip_that_both_sides_have() {
+    let line = |nodes: [usize; 2]| Segment { kind: SegmentKind::Seg2, nodes: nodes.to_vec() };
+    let x = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [1.1, 0.0], [2.3, 0.0]];
+    let sides = [vec![line([0, 1]), line([1, 2])], vec![line([4, 3]), line([3, 0])]];
+    let (mut interface, u) = parting(&x, &[1, 2], sides);
+    assert_taylor(&mut interface, &u, 13);
+    let face = |nodes: [usize; 4]| Segment { kind: SegmentKind::Quad4, nodes: nodes.to_vec() };
+    let x: Vec<[f64; 3]> = x.iter().flat_map(|p| [[p[0], 0.0, 0.0], [p[0], 1.0, 0.0]]).collect();
+    let sides = [vec![face([0, 1, 3, 2]), face([2, 3, 5, 4])], vec![face([0, 6, 7, 1]), face([6, 8, 9, 7])]];
+    let (mut interface, u) = parting(&x, &[2, 3, 4, 5], sides);
+    assert_taylor(&mut interface, &u, 14);
+}
+
 #[test]
 fn the_scenes_contain_open_stick_and_slip() {
     for sliding in [Sliding::Small, Sliding::Finite] {

@@ -10,8 +10,8 @@ use asperity_mechanics::Measure;
 use asperity_run::Warning;
 use std::collections::BTreeSet;
 
-/// Share of the area that faces the master above which such nodes are reported. With n faces across the master it is about 2/n in the
-/// plane.
+/// Share of the area that faces the master above which such nodes are reported: most of what carries is then not known to face.
+/// With n faces across the master it is about 2/n in the plane, so that four are enough.
 const SHARE: f64 = 0.5;
 
 /// Warning about nodes that count area beyond the master.

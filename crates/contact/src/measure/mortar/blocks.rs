@@ -30,8 +30,13 @@ impl<const D: usize> MortarMeasure<D> {
             );
             return;
         }
+        let closed = |p: usize| tractions.normal[p].closed;
+        if !self.order.points(from).iter().any(|&p| closed(p)) {
+            values.fill(0.0);
+            return;
+        }
         let mut buffers = self.buffers.take();
-        self.sum_slopes(from, |p| tractions.normal[p].closed, &mut buffers.weights);
+        self.sum_slopes(from, closed, &mut buffers.weights);
         let mut blocks = values;
         for &p in self.order.points(from) {
             let point = &self.points[p];

@@ -170,8 +170,8 @@ pub(super) fn integrals<const F: usize>(facets: &Facets<'_>) -> Option<Integrals
     Some(Arch::new().dispatch(Values::<F> { pair: &pair, rule: facets.rule }))
 }
 
-/// Computes the derivatives of these integrals with respect to the nodes of both faces; others are not written. Returns false if the facets do
-/// not overlap.
+/// Computes the derivatives of these integrals with respect to the nodes of both faces; others are not written. Returns false if
+/// the facets do not overlap.
 pub(super) fn derivatives<const F: usize>(facets: &Facets<'_>, out: &mut Derivatives<F>) -> bool {
     let Some(pair) = Pair::new(facets) else { return false };
     Arch::new().dispatch(Differentiation::<F> { pair: &pair, rule: facets.rule, out });

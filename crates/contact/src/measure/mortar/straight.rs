@@ -17,8 +17,9 @@ pub(super) struct Lines<'a, const D: usize> {
     /// Ends of the slave and of the master.
     x: [[f64; D]; 2],
     y: [[f64; D]; 2],
-    /// Reference ends of the slave.
+    /// Reference ends of the slave, and its reference length.
     reference: &'a [[f64; D]],
+    reference_length: f64,
     /// Length of the slave, and unit vectors along and normal to it.
     length: f64,
     along: [f64; D],
@@ -50,7 +51,8 @@ impl<'a, const D: usize> Lines<'a, D> {
         if to - from <= SLIVER {
             return None;
         }
-        Some(Self { x, y, reference, length, along, normal, kappa, from, to, axisymmetric })
+        let reference_length = norm(&sub(&reference[1], &reference[0]));
+        Some(Self { x, y, reference, reference_length, length, along, normal, kappa, from, to, axisymmetric })
     }
 
     /// Functions of the slave and of the master, and the reference length, at u.
@@ -58,7 +60,7 @@ impl<'a, const D: usize> Lines<'a, D> {
     fn at(&self, u: f64) -> ([f64; 2], [f64; 2], f64) {
         let [first, last] = self.kappa;
         let s = (u - first) / (last - first);
-        let mut density = norm(&sub(&self.reference[1], &self.reference[0]));
+        let mut density = self.reference_length;
         if self.axisymmetric {
             density *= std::f64::consts::TAU * ((1.0 - u) * self.reference[0][0] + u * self.reference[1][0]);
         }
